@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "layout/agents.hpp"
+#include "layout/outline.hpp"
+
+namespace bch::baselines {
+
+/// Where an agent b is, seen from an agent a, in x87 extended precision: 64 bits of mantissa, so off by less
+/// than 1e-17 of the distances involved, where the kernels' slack is 1e-6 of them.
+struct ExactPlacement {
+  long double cosine, sine, x, y;
+};
+
+ExactPlacement exact_placement(const Agents& agents, std::uint32_t a, std::uint32_t b);
+
+/// What is true of two outlines, whatever discs say: every segment against every segment, in long double.
+class Oracle {
+ public:
+  Oracle(const Outline& a, const Outline& b, const ExactPlacement& b_in_a);
+
+  /// The outlines have a point in common.
+  bool cross() const;
+
+  /// A contour of one lies inside the other. For outlines that do not cross.
+  bool nested() const;
+
+  /// Smallest distance between points of the outlines, metres; 0 where they cross.
+  long double distance() const;
+
+ private:
+  struct Point {
+    long double x, y;
+  };
+  using Contour = std::vector<Point>;
+
+  static bool segments_meet(Point a, Point b, Point p, Point q);
+  static long double distance(Point p, Point a, Point b);
+  static bool inside(Point p, const std::vector<Contour>& contours);
+
+  std::vector<Contour> a_, b_;
+};
+
+}  // namespace bch::baselines

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <cstddef>
+
+#include "kernel/arguments.hpp"
+#include "kernel/implementation.hpp"
+#include "layout/agents.hpp"
+
+namespace bch::kernel {
+
+/// The work of one task: answers pairs begin .. end, each 0 or 1. Writes nothing but their codes, so that
+/// ranges may run at the same time. Preconditions: everything was validated; `agents` holds what `arguments`
+/// points to.
+void answer(const Implementation& implementation, const Arguments& arguments, const Agents& agents,
+            std::size_t begin, std::size_t end) noexcept;
+
+}  // namespace bch::kernel

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <cstdint>
+
+namespace bch {
+struct Pair;
+struct ShapeSetView;
+}  // namespace bch
+
+namespace bch::kernel {
+
+/// What a pair kernel reads and writes: plain pointers only, because every inline function that an ISA's
+/// object shares with other objects might be the copy that the linker keeps, compiled for a processor that is
+/// not there.
+struct Arguments {
+  const ShapeSetView* shapes;
+  const std::uint32_t* agent_shape;
+  const double* agent_x;
+  const double* agent_y;
+  const double* agent_heading;
+  const std::uint8_t* agent_level;  ///< null: the last level
+  const Pair* pairs;
+  std::uint8_t* codes;
+  bool mark_near_misses;  ///< write near_miss where it applies, else apart
+};
+
+/// What a kernel says of a pair.
+enum Code : std::uint8_t {
+  apart = 0,      ///< no discs of the cuts overlap, and the root discs do not either
+  overlap = 1,    ///< discs of the cuts overlap
+  near_miss = 2,  ///< the root discs overlap, the cuts do not: one might contain the other
+};
+
+}  // namespace bch::kernel

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include "kernel/pair_kernel.hpp"
+
+namespace bch::kernel {
+namespace {
+
+struct Avx2Lanes : Lanes<xsimd::avx2> {
+  static std::uint32_t bits(xsimd::batch_bool<float, xsimd::avx2> hits) noexcept {
+    return static_cast<std::uint32_t>(_mm256_movemask_ps(hits));
+  }
+};
+
+}  // namespace
+
+void run_avx2(const Arguments& arguments, std::size_t begin, std::size_t end) noexcept {
+  PairKernel<Avx2Lanes>::run(arguments, begin, end);
+}
+
+}  // namespace bch::kernel

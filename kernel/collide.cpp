@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include "kernel/collide.hpp"
+
+#include <oneapi/tbb/blocked_range.h>
+#include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/parallel_reduce.h>
+
+#include <algorithm>
+#include <stdexcept>
+#include <string>
+
+#include "kernel/answer.hpp"
+#include "kernel/arguments.hpp"
+#include "kernel/validation.hpp"
+
+namespace bch {
+namespace {
+
+using Range = tbb::blocked_range<std::size_t>;
+
+/// Pairs a task: enough to hide its cost, few enough to balance two pairs of cores over a small crowd.
+constexpr std::size_t grain = 2048;
+
+/// The lowest index in [0, count) for which `bad` holds, or count.
+template <class Predicate>
+std::size_t first_bad(std::size_t count, Predicate bad) {
+  return tbb::parallel_reduce(
+      Range(0, count, grain), count,
+      [&](const Range& range, std::size_t found) {
+        for (std::size_t i = range.begin(); i < range.end() && i < found; ++i)
+          if (bad(i)) return i;
+        return found;
+      },
+      [](std::size_t a, std::size_t b) { return std::min(a, b); });
+}
+
+[[noreturn]] void reject_pair(const ShapeSet& shapes, const Agents& agents, std::span<const Pair> pairs,
+                              std::size_t i) {
+  const std::string place = "pair " + std::to_string(i) + ": ";
+  for (const std::uint32_t agent : {pairs[i].first, pairs[i].second}) {
+    if (agent >= agents.size())
+      throw std::invalid_argument(place + "agent " + std::to_string(agent) + " of " +
+                                  std::to_string(agents.size()));
+    if (kernel::is_valid(shapes, agents, agent)) continue;
+    try {
+      kernel::reject(shapes, agents, agent);
+    } catch (const std::invalid_argument& error) {
+      throw std::invalid_argument(place + error.what());
+    }
+  }
+  throw std::logic_error(place + "rejected without a reason");
+}
+
+void require_valid(const ShapeSet& shapes, const Agents& agents, std::span<const Pair> pairs) {
+  const auto bad = [&](std::size_t i) {
+    const auto [a, b] = pairs[i];
+    return a >= agents.size() || b >= agents.size() || !kernel::is_valid(shapes, agents, a) ||
+           !kernel::is_valid(shapes, agents, b);
+  };
+  const std::size_t i = first_bad(pairs.size(), bad);
+  if (i < pairs.size()) reject_pair(shapes, agents, pairs, i);
+}
+
+}  // namespace
+
+void validate(const ShapeSet& shapes, const Agents& agents) {
+  kernel::require_sizes(agents);
+  const std::size_t i =
+      first_bad(agents.size(), [&](std::size_t k) { return !kernel::is_valid(shapes, agents, k); });
+  if (i < agents.size()) kernel::reject(shapes, agents, i);
+}
+
+void collide(const ShapeSet& shapes, const Agents& agents, std::span<const Pair> pairs,
+             std::span<std::uint8_t> hits, const QueryOptions& options) {
+  const bool solid = options.semantics == Semantics::solid;
+  if (hits.size() != pairs.size())
+    throw std::invalid_argument("collide: " + std::to_string(pairs.size()) + " pairs but " +
+                                std::to_string(hits.size()) + " hits");
+  if (solid && !shapes.solid())
+    throw std::invalid_argument("collide: the shape set was not planned for solid semantics");
+  const kernel::Implementation& implementation =
+      options.implementation ? *options.implementation : kernel::best_implementation();
+  if (!implementation.supported())
+    throw std::invalid_argument("collide: this processor does not run '" + std::string(implementation.name) +
+                                "'");
+  kernel::require_sizes(agents);
+  require_valid(shapes, agents, pairs);
+
+  const ShapeSetView view = shapes.view();
+  const kernel::Arguments arguments{
+      &view,           agents.shape.data(),   agents.x.data(),
+      agents.y.data(), agents.heading.data(), agents.level.empty() ? nullptr : agents.level.data(),
+      pairs.data(),    hits.data(),           solid};
+  tbb::parallel_for(Range(0, pairs.size(), grain), [&](const Range& range) {
+    kernel::answer(implementation, arguments, agents, range.begin(), range.end());
+  });
+}
+
+}  // namespace bch

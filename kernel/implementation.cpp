@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include "kernel/implementation.hpp"
+
+#include <algorithm>
+#include <cstdlib>
+#include <stdexcept>
+#include <string>
+
+#include "kernel/arguments.hpp"
+
+namespace bch::kernel {
+
+void run_scalar(const Arguments&, std::size_t, std::size_t) noexcept;
+void run_sse2(const Arguments&, std::size_t, std::size_t) noexcept;
+void run_avx2(const Arguments&, std::size_t, std::size_t) noexcept;
+void run_avx512(const Arguments&, std::size_t, std::size_t) noexcept;
+
+namespace {
+
+// The compiler's test asks the operating system too, whether it saves the wide registers; xsimd 8.1's does
+// not.
+constexpr Implementation table[] = {
+    {"avx512", 16, []() noexcept { return __builtin_cpu_supports("avx512f") != 0; }, run_avx512},
+    {"avx2", 8, []() noexcept { return __builtin_cpu_supports("avx2") != 0; }, run_avx2},
+    {"sse2", 4, []() noexcept { return true; }, run_sse2},
+    {"scalar", 1, []() noexcept { return true; }, run_scalar},
+};
+
+const Implementation& choose() {
+  if (const char* name = std::getenv("BCH_ISA")) return implementation(name);
+  return *std::find_if(std::begin(table), std::end(table),
+                       [](const Implementation& row) { return row.supported(); });
+}
+
+}  // namespace
+
+std::span<const Implementation> implementations() noexcept {
+  return table;
+}
+
+const Implementation& best_implementation() {
+  static const Implementation& best = choose();
+  return best;
+}
+
+const Implementation& implementation(std::string_view name) {
+  std::string known;
+  for (const Implementation& row : table) {
+    if (name != row.name) {
+      known += known.empty() ? row.name : std::string(", ") + row.name;
+      continue;
+    }
+    if (!row.supported())
+      throw std::invalid_argument("this processor does not run the implementation '" + std::string(name) +
+                                  "'");
+    return row;
+  }
+  throw std::invalid_argument("no implementation '" + std::string(name) + "' (known: " + known + ")");
+}
+
+}  // namespace bch::kernel

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <string_view>
+
+namespace bch::kernel {
+
+struct Arguments;
+
+/// One compilation of the pair kernel.
+struct Implementation {
+  const char* name;  ///< "avx512", "avx2", "sse2" or "scalar"
+  unsigned width;    ///< floats side by side
+  bool (*supported)() noexcept;
+  /// Writes the codes of pairs begin .. end; see Arguments. Needs no scratch beyond 192 KiB of stack.
+  void (*run)(const Arguments& arguments, std::size_t begin, std::size_t end) noexcept;
+};
+
+/// All that were compiled, the best first; the last one runs everywhere.
+std::span<const Implementation> implementations() noexcept;
+
+/// The first that this processor and its operating system support. The environment variable BCH_ISA, read
+/// once, may name another; throws std::invalid_argument if that one is unknown or not supported.
+const Implementation& best_implementation();
+
+/// Errors: throws std::invalid_argument naming the known ones on an unknown name, or one this processor does
+/// not run.
+const Implementation& implementation(std::string_view name);
+
+}  // namespace bch::kernel

@@ -1,0 +1,255 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "kernel/arguments.hpp"
+#include "kernel/lanes.hpp"
+#include "layout/heading.hpp"
+#include "layout/pair.hpp"
+#include "layout/shape_set_view.hpp"
+
+namespace bch::kernel {
+
+/// The pair query, written once. `Simd` is a Lanes<Arch> with bits(). Every float operation that decides an
+/// answer is one of those listed in layout/rounding.hpp, in that order, so that all instantiations and the
+/// scalar reference agree bit for bit.
+///
+/// Pairs are answered in chunks. Stage 1 places B in A's frame and tests the root discs, lane = pair. Stage 2
+/// walks the trees of the pairs left, in rounds: each round tests one pair of blocks, 8 x 8 discs, for every
+/// open pair, so that the cache misses and the latencies of many pairs overlap and no branch depends on an
+/// answer.
+template <class Simd>
+class PairKernel {
+ public:
+  static void run(const Arguments& arguments, std::size_t begin, std::size_t end) noexcept {
+    PairKernel kernel(arguments);
+    for (; begin < end; begin += kernel.size_) {
+      kernel.size_ = end - begin < chunk ? static_cast<std::uint32_t>(end - begin) : chunk;
+      kernel.gather(begin);
+      kernel.place();
+      kernel.test_roots(begin);
+      kernel.walk(begin);
+    }
+  }
+
+ private:
+  using Float = typename Simd::Float;
+  using Double = typename Simd::Double;
+  static constexpr std::uint32_t chunk = 256;
+  /// Every test descends on one side at least, and neither side has more levels than this.
+  static constexpr std::uint32_t most_frames = 2 * most_wide_levels;
+
+  /// Two blocks whose discs overlap at the set bits (8 i + j: disc i of A, disc j of B), none of which was
+  /// followed yet.
+  struct Frame {
+    std::uint32_t a, b;
+    std::uint64_t open;
+  };
+
+  explicit PairKernel(const Arguments& arguments) noexcept : in_(arguments), shapes_(*arguments.shapes) {}
+
+  /// Stage 1a, scalar: what the chunk's pairs need, side by side. The lower index is A, so that the order
+  /// within a pair does not matter.
+  void gather(std::size_t begin) noexcept {
+    const std::uint32_t levels = shapes_.level_count;
+    for (std::uint32_t k = 0; k < size_; ++k) {
+      const Pair pair = in_.pairs[begin + k];
+      const bool swap = pair.second < pair.first;
+      const std::uint32_t a = swap ? pair.second : pair.first, b = swap ? pair.first : pair.second;
+      const std::uint32_t level_a = in_.agent_level ? in_.agent_level[a] : levels - 1;
+      const std::uint32_t level_b = in_.agent_level ? in_.agent_level[b] : levels - 1;
+      root_a_[k] = in_.agent_shape[a] * levels + level_a;
+      root_b_[k] = in_.agent_shape[b] * levels + level_b;
+      dx_[k] = static_cast<float>(in_.agent_x[b] - in_.agent_x[a]);
+      dy_[k] = static_cast<float>(in_.agent_y[b] - in_.agent_y[a]);
+      heading_[k] = in_.agent_heading[a];
+      heading_[chunk + k] = in_.agent_heading[b];
+    }
+    // Whole registers are computed; the lanes beyond the last pair repeat it.
+    for (std::uint32_t k = size_; k % Simd::width != 0; ++k) {
+      root_a_[k] = root_a_[size_ - 1], root_b_[k] = root_b_[size_ - 1];
+      dx_[k] = dx_[size_ - 1], dy_[k] = dy_[size_ - 1];
+      heading_[k] = heading_[size_ - 1], heading_[chunk + k] = heading_[chunk + size_ - 1];
+    }
+  }
+
+  /// Stage 1b: unit vectors of the headings, then B's rotation and position in A's frame.
+  void place() noexcept {
+    rotate(heading_, cosine_, sine_);
+    rotate(heading_ + chunk, cosine_ + chunk, sine_ + chunk);
+    for (std::uint32_t k = 0; k < size_; k += Simd::width) {
+      const Float ca = Simd::load(cosine_ + k), sa = Simd::load(sine_ + k);
+      const Float cb = Simd::load(cosine_ + chunk + k), sb = Simd::load(sine_ + chunk + k);
+      const Float dx = Simd::load(dx_ + k), dy = Simd::load(dy_ + k);
+      Simd::store(c_ + k, ca * cb + sa * sb);
+      Simd::store(s_ + k, ca * sb - sa * cb);
+      Simd::store(tx_ + k, ca * dx + sa * dy);
+      Simd::store(ty_ + k, ca * dy - sa * dx);
+    }
+  }
+
+  /// layout/heading.cpp, in lanes.
+  void rotate(const double* heading, float* cosine, float* sine) noexcept {
+    namespace h = heading_constants;
+    alignas(64) double c_out[chunk], s_out[chunk];
+    const auto round_to_integer = [](Double x) {
+      return (x + Double(h::round_to_integer)) - Double(h::round_to_integer);
+    };
+    constexpr std::uint32_t width = sizeof(Double) / sizeof(double);
+    for (std::uint32_t k = 0; k < size_; k += width) {
+      const Double angle = Simd::load(heading + k);
+      const Double quarters = round_to_integer(angle * Double(h::two_over_pi));
+      Double r = angle - quarters * Double(h::half_pi[0]);
+      r = r - quarters * Double(h::half_pi[1]);
+      r = r - quarters * Double(h::half_pi[2]);
+      r = r - quarters * Double(h::half_pi[3]);
+      const Double square = r * r;
+      Double s(h::sine[0]), c(h::cosine[0]);
+      for (int i = 1; i < 5; ++i) s = s * square + Double(h::sine[i]), c = c * square + Double(h::cosine[i]);
+      s = s * square * r + r;
+      c = c * square + Double(1.0);
+      const Double left = quarters - Double(4.0) * round_to_integer(quarters * Double(0.25));
+      const Double turn_c = Double(1.0) - xsimd::abs(left);
+      const Double turn_s = left * (Double(2.0) - xsimd::abs(left));
+      Simd::store(c_out + k, c * turn_c - s * turn_s);
+      Simd::store(s_out + k, s * turn_c + c * turn_s);
+    }
+    for (std::uint32_t k = 0; k < size_; ++k)
+      cosine[k] = static_cast<float>(c_out[k]), sine[k] = static_cast<float>(s_out[k]);
+    for (std::uint32_t k = size_; k % Simd::width != 0; ++k)
+      cosine[k] = cosine[size_ - 1], sine[k] = sine[size_ - 1];
+  }
+
+  /// Stage 1c: root disc against root disc. Pairs that this does not decide become open.
+  void test_roots(std::size_t begin) noexcept {
+    alignas(64) float a_x[chunk], a_y[chunk], a_r[chunk], b_x[chunk], b_y[chunk], b_r[chunk];
+    const std::uint32_t padded = (size_ + Simd::width - 1) / Simd::width * Simd::width;
+    for (std::uint32_t k = 0; k < padded; ++k) {
+      const std::uint32_t a = root_a_[k], b = root_b_[k];
+      a_x[k] = shapes_.root_x[a], a_y[k] = shapes_.root_y[a], a_r[k] = shapes_.root_radius[a];
+      b_x[k] = shapes_.root_x[b], b_y[k] = shapes_.root_y[b], b_r[k] = shapes_.root_radius[b];
+    }
+    open_count_ = 0;
+    std::uint8_t* __restrict codes = in_.codes + begin;
+    for (std::uint32_t k = 0; k < size_; k += Simd::width) {
+      const Float c = Simd::load(c_ + k), s = Simd::load(s_ + k), tx = Simd::load(tx_ + k),
+                  ty = Simd::load(ty_ + k);
+      const Float bx = Simd::load(b_x + k), by = Simd::load(b_y + k);
+      const std::uint32_t hits = overlaps(tx + (c * bx - s * by), ty + (s * bx + c * by), Simd::load(b_r + k),
+                                          Simd::load(a_x + k), Simd::load(a_y + k), Simd::load(a_r + k));
+      const std::uint32_t lanes = size_ - k < Simd::width ? size_ - k : Simd::width;
+      for (std::uint32_t lane = 0; lane < lanes; ++lane) open_root(k + lane, hits >> lane & 1, codes);
+    }
+  }
+
+  void open_root(std::uint32_t k, std::uint32_t hit, std::uint8_t* __restrict codes) noexcept {
+    const std::uint32_t a = root_a_[k], b = root_b_[k];
+    const std::uint32_t decided = shapes_.root_is_single[a] & shapes_.root_is_single[b];
+    codes[k] = static_cast<std::uint8_t>(hit * (decided ? overlap : near_miss));
+    a_[k] = shapes_.root_block[a];
+    b_[k] = shapes_.root_block[b];
+    allowed_[k] = ~std::uint64_t{0};
+    depth_[k] = 0;
+    open_[open_count_] = static_cast<std::uint16_t>(k);
+    open_count_ += hit & (decided ^ 1);
+  }
+
+  static std::uint32_t overlaps(Float bx, Float by, Float br, Float ax, Float ay, Float ar) noexcept {
+    const Float x = bx - ax, y = by - ay, r = ar + br;
+    return Simd::bits(x * x + y * y <= r * r);
+  }
+
+  /// Stage 2.
+  void walk(std::size_t begin) noexcept {
+    std::uint8_t* __restrict codes = in_.codes + begin;
+    while (open_count_ > 0) {
+      std::uint32_t still_open = 0;
+      for (std::uint32_t k = 0; k < open_count_; ++k) {
+        const std::uint32_t pair = open_[k];
+        const std::uint64_t hits = test_blocks(pair) & allowed_[pair];
+        const bool hit = (hits & leaf_bits(a_[pair], b_[pair])) != 0;
+        codes[pair] = hit ? static_cast<std::uint8_t>(overlap) : codes[pair];
+        const bool more = descend(pair, hits);
+        open_[still_open] = static_cast<std::uint16_t>(pair);
+        still_open += more & !hit;
+      }
+      open_count_ = still_open;
+    }
+    if (!in_.mark_near_misses)
+      for (std::uint32_t k = 0; k < size_; ++k) codes[k] = codes[k] & overlap;
+  }
+
+  /// All discs of one block against all of another.
+  std::uint64_t test_blocks(std::uint32_t pair) const noexcept {
+    constexpr unsigned parts = Simd::width < block_width ? block_width / Simd::width : 1;
+    constexpr unsigned rows = Simd::width > block_width ? Simd::width / block_width : 1;
+    const std::size_t a = std::size_t{a_[pair]} * block_width, b = std::size_t{b_[pair]} * block_width;
+    const float *ax = shapes_.x + a, *ay = shapes_.y + a, *ar = shapes_.radius + a;
+    const float *bx = shapes_.x + b, *by = shapes_.y + b, *br = shapes_.radius + b;
+    const Float c(c_[pair]), s(s_[pair]), tx(tx_[pair]), ty(ty_[pair]);
+    std::uint64_t bits = 0;
+    for (unsigned part = 0; part < parts; ++part) {
+      const Float x = Simd::columns(bx, part), y = Simd::columns(by, part), r = Simd::columns(br, part);
+      const Float px = tx + (c * x - s * y), py = ty + (s * x + c * y);
+      for (unsigned row = 0; row < block_width; row += rows)
+        bits |= static_cast<std::uint64_t>(
+                    overlaps(px, py, r, Simd::row(ax, row), Simd::row(ay, row), Simd::row(ar, row)))
+                << (row * block_width + part * Simd::width);
+    }
+    return bits;
+  }
+
+  static constexpr std::uint64_t every_row = 0x0101010101010101;
+
+  /// Where both discs belong to the cut. (Padding never hits.)
+  std::uint64_t leaf_bits(std::uint32_t a, std::uint32_t b) const noexcept {
+    const unsigned inner_a = shapes_.inner_count[a], inner_b = shapes_.inner_count[b];
+    const std::uint64_t rows = ~std::uint64_t{0} << 4 * inner_a
+                                                 << 4 * inner_a;  // in two steps: 64 is too far for one
+    const std::uint64_t columns = (0xff << inner_b & 0xff) * every_row;
+    return rows & columns;
+  }
+
+  /// Keeps the hits for later, takes the next open one, and names the pair of blocks to test: the children of
+  /// the two discs, or where one is a disc of the cut, its own block again with only that disc allowed.
+  /// False: nothing is left.
+  bool descend(std::uint32_t pair, std::uint64_t hits) noexcept {
+    std::uint32_t depth = depth_[pair];
+    frames_[depth][pair] = {a_[pair], b_[pair], hits};
+    depth += hits != 0;
+    if (depth == 0) return false;
+
+    Frame& top = frames_[depth - 1][pair];
+    const auto bit = static_cast<unsigned>(__builtin_ctzll(top.open));
+    top.open &= top.open - 1;
+    const unsigned i = bit / block_width, j = bit % block_width;
+    const bool inner_a = i < shapes_.inner_count[top.a], inner_b = j < shapes_.inner_count[top.b];
+    a_[pair] = inner_a ? shapes_.first_child[top.a] + i : top.a;
+    b_[pair] = inner_b ? shapes_.first_child[top.b] + j : top.b;
+    allowed_[pair] = (inner_a ? ~std::uint64_t{0} : std::uint64_t{0xff} << (i * block_width)) &
+                     (inner_b ? ~std::uint64_t{0} : every_row << j);
+    depth_[pair] = static_cast<std::uint8_t>(depth - (top.open == 0));
+    return true;
+  }
+
+  const Arguments& in_;
+  const ShapeSetView shapes_;
+  std::uint32_t size_ = 0;
+  std::uint32_t open_count_ = 0;
+  alignas(64) double heading_[2 * chunk];
+  alignas(64) float cosine_[2 * chunk], sine_[2 * chunk];
+  alignas(64) float dx_[chunk], dy_[chunk];
+  alignas(64) float c_[chunk], s_[chunk], tx_[chunk], ty_[chunk];
+  std::uint32_t root_a_[chunk], root_b_[chunk];
+  std::uint32_t a_[chunk], b_[chunk];
+  std::uint64_t allowed_[chunk];
+  std::uint8_t depth_[chunk];
+  std::uint16_t open_[chunk];
+  Frame frames_[most_frames][chunk];
+};
+
+}  // namespace bch::kernel

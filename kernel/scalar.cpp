@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include "kernel/pair_kernel.hpp"
+
+namespace bch::kernel {
+namespace {
+
+struct ScalarLanes : Lanes<Scalar> {
+  static std::uint32_t bits(bool hit) noexcept { return hit; }
+};
+
+}  // namespace
+
+void run_scalar(const Arguments& arguments, std::size_t begin, std::size_t end) noexcept {
+  PairKernel<ScalarLanes>::run(arguments, begin, end);
+}
+
+}  // namespace bch::kernel

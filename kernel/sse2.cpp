@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include "kernel/pair_kernel.hpp"
+
+namespace bch::kernel {
+namespace {
+
+struct Sse2Lanes : Lanes<xsimd::sse2> {
+  static std::uint32_t bits(xsimd::batch_bool<float, xsimd::sse2> hits) noexcept {
+    return static_cast<std::uint32_t>(_mm_movemask_ps(hits));
+  }
+};
+
+}  // namespace
+
+void run_sse2(const Arguments& arguments, std::size_t begin, std::size_t end) noexcept {
+  PairKernel<Sse2Lanes>::run(arguments, begin, end);
+}
+
+}  // namespace bch::kernel

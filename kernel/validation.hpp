@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+
+#include "layout/agents.hpp"
+#include "layout/rounding.hpp"
+#include "layout/shape_set.hpp"
+
+namespace bch::kernel {
+
+/// Whether an agent may be asked about; NaN is not.
+inline bool is_valid(const ShapeSet& shapes, const Agents& agents, std::size_t i) noexcept {
+  return agents.shape[i] < shapes.shape_count() &&
+         (agents.level.empty() || agents.level[i] < shapes.level_count()) &&
+         std::abs(agents.x[i]) <= rounding::largest_position &&
+         std::abs(agents.y[i]) <= rounding::largest_position &&
+         std::abs(agents.heading[i]) <= rounding::largest_heading;
+}
+
+/// Throws std::invalid_argument where the spans differ in length, or there are more than 2^32 - 1 agents.
+void require_sizes(const Agents& agents);
+
+/// Throws std::invalid_argument saying what is wrong with an agent for which is_valid() is false.
+[[noreturn]] void reject(const ShapeSet& shapes, const Agents& agents, std::size_t i);
+
+}  // namespace bch::kernel

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "layout/pair.hpp"
+
+namespace bch {
+
+/// A crowd as a simulator holds it: one entry an agent in each span; nothing is copied.
+/// Units: metres and radians, counter-clockwise, on the ground plane; |x|, |y| <= 1e9 m and |heading| <= 1e9
+/// rad.
+struct Agents {
+  std::span<const std::uint32_t> shape;  ///< index into the ShapeSet
+  std::span<const double> x;
+  std::span<const double> y;
+  std::span<const double> heading;
+  std::span<const std::uint8_t> level = {};  ///< index into the set's depths; empty: the last level for all
+
+  std::size_t size() const noexcept { return shape.size(); }
+};
+
+}  // namespace bch

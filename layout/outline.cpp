@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include "layout/outline.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+#include "layout/rounding.hpp"
+
+namespace bch {
+
+double reach(std::span<const Vec2> points) {
+  double square = 0;
+  for (const Vec2& p : points) {
+    const double x = p.x, y = p.y;
+    square = std::max(square, x * x + y * y);
+  }
+  return std::sqrt(square) * (1 + 0x1p-50);
+}
+
+double area(const Outline& outline) {
+  double twice = 0;
+  for (std::size_t c = 0; c < outline.contours(); ++c) {
+    const auto points = outline.contour(c);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const Vec2 a = points[i], b = points[(i + 1) % points.size()];
+      twice += static_cast<double>(a.x) * static_cast<double>(b.y) -
+               static_cast<double>(a.y) * static_cast<double>(b.x);
+    }
+  }
+  return 0.5 * twice;
+}
+
+void validate(const Outline& outline) {
+  const auto& begin = outline.contour_begin;
+  if (begin.size() < 2 || begin.front() != 0 || begin.back() != outline.points.size())
+    throw std::invalid_argument("outline: contour offsets do not fit " +
+                                std::to_string(outline.points.size()) + " points");
+  for (std::size_t c = 0; c + 1 < begin.size(); ++c)
+    if (begin[c] >= begin[c + 1])
+      throw std::invalid_argument("outline: contour " + std::to_string(c) + " is empty");
+  for (std::size_t i = 0; i < outline.points.size(); ++i)
+    if (!std::isfinite(outline.points[i].x) || !std::isfinite(outline.points[i].y))
+      throw std::invalid_argument("outline: point " + std::to_string(i) + " is not finite");
+  if (!std::isfinite(outline.grid_step) || outline.grid_step < 0)
+    throw std::invalid_argument("outline: grid step " + std::to_string(outline.grid_step));
+  const double size = reach(outline.points);
+  if (size < rounding::smallest_reach || size > rounding::largest_reach)
+    throw std::invalid_argument("outline: reach " + std::to_string(size) + " m is outside 1e-6 to 1e6 m");
+}
+
+}  // namespace bch

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <bit>
+#include <cstdint>
+
+/// How far discs are enlarged so that a query in float never misses what the exact outlines hit.
+///
+/// Notation. u = 2^-24, the unit roundoff of float. A shape's *reach* P is the largest distance of its points
+/// from its origin, so every disc centre c and every tight radius r of it has |c| <= P and r <= P. For shapes
+/// A and B at relative position d, S = P_A + P_B. First-order terms only; 2^-10 relative is added at the end
+/// for all higher ones.
+///
+/// The query (every kernel and the reference, same operations, same order; no contraction):
+///
+///     d      = float(position_B - position_A)                                 difference in double
+///     (c, s) = (cA cB + sA sB, cA sB - sA cB)                                 rotation of B relative to A
+///     t      = (cA dx + sA dy, cA dy - sA dx)                                 position of B in A's frame
+///     p      = (t.x + (c x - s y), t.y + (s x + c y))                         a disc centre of B in A's
+///     frame hit   <=>  (p.x - a.x)^2 + (p.y - a.y)^2 <= (r_A + r_B)^2
+///
+/// Errors against the same formula in exact arithmetic with the exact headings, as lengths (norms):
+///
+///     heading unit vectors, rounded to float              0.71 u each         sqrt(2) u/2: components at
+///     most 1 (c, s): two of those, and 2 u a component           4.3 u               1.42 u + 2 sqrt(2) u
+///     rotating a centre of B by it                        7.1 u P_B           4.3 u + 2 sqrt(2) u
+///     d to float, and t                                   4.6 u |d|           u + 0.71 u + 2 sqrt(2) u
+///     the sum p                                           u (|d| + P_B)
+///     the difference p - a                                u D                 D = distance of the centres
+///     squares and their sum                               u D                 2 u of the square
+///     r_A + r_B and its square                            1.5 u (r_A + r_B)
+///
+/// At a hit D <= r_A + r_B <= S, hence |d| <= D + |a| + |b| <= 2 S, and all of it together stays below
+///
+///     7.1 u P_B + 9.2 u S + u (2 S + P_B) + 2 u S + 1.5 u S  <=  23 u S. (1)
+///
+/// No miss: two outlines that meet have tight discs with D <= r_A + r_B, exactly. Published radii add 23 u P
+/// each, so by (1) the float test accepts. Two more sources belong to the shape and are added beside: a
+/// segment that was halved is off by 2 * 0.71 u P (each midpoint is rounded), and an outline on a grid is off
+/// by `outline_grid_steps` of its step.
+///
+/// Nesting: a pruning disc (centre C, radius R) holds the cut discs below it. If the float test accepts
+/// leaves, then D <= r_A + r_B + 23 u S by (1), so the pruning discs' centres have D' <= (R_A - n_A) + (R_B -
+/// n_B) + 23 u S, where n is the slack in R. With D' <= 3 S, and R_A + R_B <= 6 S (else the test is far from
+/// its limit), the same sum for that pair is at most 7.1 + 9.2 + 4 + 6 + 9 = 36 u S. n = 59 u P would do:
+/// then the float test of every ancestor accepts, so pruning changes no answer.
+///
+/// Underflow: radii are at least 26 u P >= 1e-12 m (P >= smallest_reach), so (r_A + r_B)^2 >= 1e-24, while
+/// what a square loses below FLT_MIN, flushed to zero or not, is under 1e-37. Overflow: |d| <= 2e9 m (limits
+/// below), squared 4e18.
+namespace bch::rounding {
+
+constexpr double unit_roundoff = 0x1p-24;
+
+/// Added to every published radius, times the shape's reach: (1), halving, higher orders.
+constexpr double query_margin = 25.5 * unit_roundoff;
+/// Added to every pruning radius beyond what it holds, times the shape's reach.
+constexpr double nesting_margin = 64 * unit_roundoff;
+/// Snapping moves a vertex by sqrt(1/2) grid steps, and rounding a crossing to the grid by as much
+/// again: 1.42.
+constexpr double outline_grid_steps = 1.5;
+
+/// The documented domain; beyond it the library throws.
+constexpr double smallest_reach = 1e-6;   // metres
+constexpr double largest_reach = 1e6;     // metres
+constexpr double largest_position = 1e9;  // metres
+constexpr double largest_heading = 1e9;   // radians
+
+/// The smallest float that is not below a finite value >= 0.
+inline float round_up(double value) {
+  const float nearest = static_cast<float>(value);
+  if (static_cast<double>(nearest) >= value) return nearest;
+  return std::bit_cast<float>(std::bit_cast<std::uint32_t>(nearest) + 1);
+}
+
+}  // namespace bch::rounding

@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include "layout/wide_tree.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <span>
+
+#include "layout/rounding.hpp"
+
+namespace bch {
+namespace {
+
+/// A run of the cut's discs, and where it is a subtree of the binary tree, that subtree's root.
+struct Group {
+  std::uint32_t begin, end;  ///< in the list of cut discs
+  std::uint32_t node;        ///< of the hierarchy; used by subtree grouping only
+
+  std::uint32_t size() const { return end - begin; }
+};
+
+class Flattener {
+ public:
+  Flattener(const Hierarchy& hierarchy, std::uint32_t depth)
+      : hierarchy_(hierarchy), cut_(cut(hierarchy, depth)) {}
+
+  WideTree flatten() {
+    if (auto tree = grow(&Flattener::subtrees)) return std::move(*tree);
+    return std::move(*grow(&Flattener::even_runs));
+  }
+
+ private:
+  using Groups = std::vector<Group>;
+
+  /// Breadth first, so that the blocks below one block stand side by side. Empty where the tree would be too
+  /// deep.
+  std::optional<WideTree> grow(Groups (Flattener::*split)(const Group&) const) {
+    WideTree tree;
+    tree.is_single = cut_.size() == 1;
+    const Group all{0, static_cast<std::uint32_t>(cut_.size()), 0};
+    tree.root = tree.is_single ? disc(0) : enclosing(all);
+
+    std::vector<Group> level = {all};
+    for (std::uint32_t depth = 0; !level.empty(); ++depth) {
+      if (depth == most_wide_levels) return std::nullopt;
+      std::vector<Group> next;
+      const auto next_block = static_cast<std::uint32_t>(tree.blocks.size() + level.size());
+      for (const Group& group : level) {
+        const Groups parts = group.size() == 1 ? Groups{group} : (this->*split)(group);
+        tree.blocks.push_back(block(parts, next_block + static_cast<std::uint32_t>(next.size())));
+        for (const Group& part : parts)
+          if (part.size() > 1) next.push_back(part);
+      }
+      level = std::move(next);
+    }
+    return tree;
+  }
+
+  WideBlock block(const Groups& parts, std::uint32_t first_child) const {
+    WideBlock block;
+    block.first_child = first_child;
+    std::uint32_t lane = 0;
+    const auto put = [&](const Disc& disc) {
+      block.x[lane] = disc.x, block.y[lane] = disc.y, block.radius[lane] = disc.radius;
+      ++lane;
+    };
+    for (const Group& part : parts)
+      if (part.size() > 1) put(enclosing(part));
+    block.inner_count = static_cast<std::uint8_t>(lane);
+    for (const Group& part : parts)
+      if (part.size() == 1) put(disc(part.begin));
+    return block;
+  }
+
+  /// The binary node's descendants, largest first expanded.
+  Groups subtrees(const Group& group) const {
+    Groups parts = children(group);
+    while (parts.size() < block_width) {
+      auto largest = parts.end();
+      for (auto part = parts.begin(); part != parts.end(); ++part)
+        if (part->size() > 1 && (largest == parts.end() || radius(*part) > radius(*largest))) largest = part;
+      if (largest == parts.end()) break;
+      const Groups expanded = children(*largest);
+      *largest = expanded[0];
+      parts.insert(largest + 1, expanded[1]);
+    }
+    return parts;
+  }
+
+  Groups children(const Group& group) const {
+    const std::uint32_t second = hierarchy_.nodes[group.node].second_child;
+    const auto middle = std::lower_bound(cut_.begin() + group.begin, cut_.begin() + group.end, second);
+    const auto split = static_cast<std::uint32_t>(middle - cut_.begin());
+    return {{group.begin, split, group.node + 1}, {split, group.end, second}};
+  }
+
+  float radius(const Group& group) const { return hierarchy_.nodes[group.node].disc.radius; }
+
+  Groups even_runs(const Group& group) const {
+    Groups parts;
+    const std::uint32_t count = std::min(group.size(), block_width);
+    for (std::uint32_t i = 0; i < count; ++i) {
+      const auto at = [&](std::uint64_t k) {
+        return static_cast<std::uint32_t>(group.begin + k * group.size() / count);
+      };
+      parts.push_back({at(i), at(i + 1), 0});
+    }
+    return parts;
+  }
+
+  const Disc& disc(std::uint32_t i) const { return hierarchy_.nodes[cut_[i]].disc; }
+
+  /// A disc about the middle of the centres' extent, or about the binary node's centre, whichever is smaller.
+  Disc enclosing(const Group& group) const {
+    const Disc& node = hierarchy_.nodes[group.node].disc;
+    float low_x = HUGE_VALF, low_y = HUGE_VALF, high_x = -HUGE_VALF, high_y = -HUGE_VALF;
+    for (std::uint32_t i = group.begin; i < group.end; ++i) {
+      low_x = std::min(low_x, disc(i).x), high_x = std::max(high_x, disc(i).x);
+      low_y = std::min(low_y, disc(i).y), high_y = std::max(high_y, disc(i).y);
+    }
+    const Disc about_node = enclosing(group, {node.x, node.y});
+    const Disc about_middle = enclosing(group, {0.5f * (low_x + high_x), 0.5f * (low_y + high_y)});
+    return about_node.radius <= about_middle.radius ? about_node : about_middle;
+  }
+
+  Disc enclosing(const Group& group, Vec2 centre) const {
+    double radius = 0;
+    for (std::uint32_t i = group.begin; i < group.end; ++i) {
+      const double x = static_cast<double>(disc(i).x) - static_cast<double>(centre.x);
+      const double y = static_cast<double>(disc(i).y) - static_cast<double>(centre.y);
+      radius = std::max(radius, std::sqrt(x * x + y * y) + static_cast<double>(disc(i).radius));
+    }
+    return {centre.x, centre.y,
+            rounding::round_up(radius * (1 + 0x1p-50) + rounding::nesting_margin * hierarchy_.reach)};
+  }
+
+  const Hierarchy& hierarchy_;
+  std::vector<std::uint32_t> cut_;
+};
+
+}  // namespace
+
+WideTree wide_tree(const Hierarchy& hierarchy, std::uint32_t depth) {
+  return Flattener(hierarchy, depth).flatten();
+}
+
+}  // namespace bch
