@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include "layout/import.hpp"
+
+#include <new>
+
+#include "layout/import_clips.hpp"
+#include "layout/import_mesh.hpp"
+#include "layout/import_scene.hpp"
+#include "layout/import_units.hpp"
+
+namespace bch {
+namespace {
+
+using namespace import_detail;
+
+/// The joints of the bones and the joints above them; cameras and helpers go. The bones are renumbered.
+std::vector<Joint> carrying_joints(const std::vector<Joint>& joints, std::vector<Bone>& bones) {
+  std::vector<bool> carries(joints.size());
+  for (const Bone& bone : bones) carries[bone.joint] = true;
+  for (std::size_t j = joints.size(); j-- > 0;)
+    if (carries[j] && joints[j].parent >= 0) carries[static_cast<std::size_t>(joints[j].parent)] = true;
+
+  std::vector<std::uint32_t> new_index(joints.size());
+  std::vector<Joint> kept;
+  for (std::size_t j = 0; j < joints.size(); ++j) {
+    if (!carries[j]) continue;
+    new_index[j] = static_cast<std::uint32_t>(kept.size());
+    kept.push_back(joints[j]);
+    std::int32_t& parent = kept.back().parent;
+    if (parent >= 0) parent = static_cast<std::int32_t>(new_index[static_cast<std::size_t>(parent)]);
+  }
+  for (Bone& bone : bones) bone.joint = new_index[bone.joint];
+  return kept;
+}
+
+ImportedCharacter import_checked(const std::filesystem::path& path, const ImportOptions& options) {
+  ImportedCharacter result;
+  auto& [character, report] = result;
+  const SceneFile file(path, options);
+  report.format = file.format;
+  character.name = one_line(path.stem().string());
+
+  const NodeList nodes = read_nodes(file);
+  const std::vector<bool> bone_is_skin = read_meshes(file, nodes, character, report);
+  weld_vertices(character, report);
+  character.joints = carrying_joints(nodes.joints, character.bones);
+  validate(character);
+
+  const Direction up = settle_frame(file, declared_frame(file), options, character, report);
+  add_own_clips(file, nodes, character, report);
+  for (const std::filesystem::path& clip_file : options.clip_files)
+    add_clips_of(clip_file, options, up, character, report);
+  character.root_joint = find_root_joint(character, bone_is_skin);
+  validate(character);
+  check_poses(file, character);
+
+  report.vertices = character.vertices.size();
+  report.triangles = character.triangles.size();
+  report.bones = character.bones.size();
+  report.height = rest_height(character);
+  return result;
+}
+
+}  // namespace
+
+ImportedCharacter import_character(const std::filesystem::path& file, const ImportOptions& options) {
+  try {
+    return import_checked(file, options);
+  } catch (const ImportError&) {
+    throw;
+  } catch (const std::bad_alloc&) {
+    reject(file, "needs more memory than there is");
+  } catch (const std::exception& error) {
+    // Also what validate() and the skinning find; a further line of defence.
+    reject(file, error.what());
+  }
+}
+
+}  // namespace bch

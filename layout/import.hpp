@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "layout/character.hpp"
+
+namespace bch {
+
+/// A file that does not become a character. The message is one line: the file, a colon, the reason.
+class ImportError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+enum class UpAxis : std::uint8_t { x, y, z };
+
+struct ImportOptions {
+  std::optional<UpAxis> up;                       ///< instead of what the file says or what is guessed
+  std::optional<float> scale;                     ///< metres per unit of the file, likewise
+  std::vector<std::filesystem::path> clip_files;  ///< whose clips follow those of the file, in this order
+};
+
+struct ClipReport {
+  std::string name;
+  float seconds = 0;
+  std::size_t channels = 0;          ///< that move a joint of the character
+  std::size_t channels_in_file = 0;  ///< the rest moves cameras, helpers, joints that carry nothing
+};
+
+struct ImportReport {
+  std::string format;        ///< what read the file
+  std::size_t meshes = 0;    ///< instances that brought triangles
+  std::size_t vertices = 0;  ///< different in position or influences
+  std::size_t triangles = 0;
+  std::size_t dropped_faces = 0;     ///< points, lines, faces that name a vertex that is not there
+  std::size_t dropped_vertices = 0;  ///< used by no triangle
+  std::size_t bones = 0;
+  float height = 0;  ///< of the rest pose, metres
+  std::vector<ClipReport> clips;
+  std::vector<std::string> notes;  ///< a sentence for every conversion, guess and repair
+};
+
+struct ImportedCharacter {
+  Character character;
+  ImportReport report;
+};
+
+/// Reads any format that assimp reads (glTF 2, FBX, Collada, IQM, MD5, OBJ, PLY, STL ...).
+/// Meshes:  all of the scene, instances included; polygons are cut into triangles; vertices equal in position
+/// and
+///          influences become one; weights are normalised, and any number of them is kept. A vertex without
+///          weights in a mesh with bones follows the bones of the nearest vertex that has some.
+/// Frame:   to_ground leads to metres, z up, and never mirrors. Where a format does not say its unit or up
+/// axis
+///          they are guessed from the rest pose, and a note says so.
+/// Joints:  the nodes that carry vertices, and the nodes above them.
+/// Clips of other files are matched by joint name, any namespace ("mixamorig:") aside. Such a clip gives
+///          the rotations of all joints it knows and the position of the topmost, scaled by the ratio of the
+///          two skeletons' bone lengths, whatever their units; the other bones keep the character's lengths.
+///          Its joints must be turned as the character's are: motion is not fitted to a different skeleton.
+/// Returns: a character that validate() accepts; the same for the same files.
+/// Errors:  throws ImportError.
+ImportedCharacter import_character(const std::filesystem::path& file, const ImportOptions& options = {});
+
+}  // namespace bch

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "layout/import_scene.hpp"
+#include "layout/import_units.hpp"
+
+// Private to the importer: aiAnimation -> Clip.
+
+namespace bch::import_detail {
+
+struct SourceChannel {
+  std::string node;
+  Channel motion;  ///< its joint is not set yet
+};
+
+struct SourceClip {
+  std::string name;
+  float seconds = 0;
+  std::vector<SourceChannel> channels;
+};
+
+/// The animations of a file with times in seconds from 0, in order; quaternions of norm 1.
+std::vector<SourceClip> read_clips(const SceneFile& file, std::vector<std::string>& notes);
+
+/// Adds the character's own clips: channels belong to the joints of their name.
+void add_own_clips(const SceneFile& file, const NodeList& nodes, Character& character, ImportReport& report);
+
+/// Adds the clips of another file, in the way that import_character() documents.
+/// `up` is the direction taken for up in the character's own file.
+void add_clips_of(const std::filesystem::path& clip_file, const ImportOptions& options, Direction up,
+                  Character& character, ImportReport& report);
+
+/// The joint whose point on the ground is a shape's origin: see the source.
+std::int32_t find_root_joint(const Character& character, const std::vector<bool>& bone_is_skin);
+
+}  // namespace bch::import_detail
