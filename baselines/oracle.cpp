@@ -44,18 +44,17 @@ Oracle::Oracle(const Outline& a, const Outline& b, const ExactPlacement& place) 
 }
 
 bool Oracle::segments_meet(Point a, Point b, Point p, Point q) {
+  // Boxes first: they settle most pairs, and collinear segments, which pass every test below.
+  if (std::max(a.x, b.x) < std::min(p.x, q.x) || std::max(p.x, q.x) < std::min(a.x, b.x) ||
+      std::max(a.y, b.y) < std::min(p.y, q.y) || std::max(p.y, q.y) < std::min(a.y, b.y))
+    return false;
   const auto side = [](Point from, Point to, Point of) {
     return (to.x - from.x) * (of.y - from.y) - (to.y - from.y) * (of.x - from.x);
   };
   const long double p_side = side(a, b, p), q_side = side(a, b, q), a_side = side(p, q, a),
                     b_side = side(p, q, b);
-  if ((p_side > 0 && q_side > 0) || (p_side < 0 && q_side < 0) || (a_side > 0 && b_side > 0) ||
-      (a_side < 0 && b_side < 0))
-    return false;
-  // Collinear segments pass every test above; their boxes decide. (For others the boxes meet anyway.)
-  return std::max(std::min(a.x, b.x), std::min(p.x, q.x)) <=
-             std::min(std::max(a.x, b.x), std::max(p.x, q.x)) &&
-         std::max(std::min(a.y, b.y), std::min(p.y, q.y)) <= std::min(std::max(a.y, b.y), std::max(p.y, q.y));
+  return !((p_side > 0 && q_side > 0) || (p_side < 0 && q_side < 0) || (a_side > 0 && b_side > 0) ||
+           (a_side < 0 && b_side < 0));
 }
 
 long double Oracle::distance(Point p, Point a, Point b) {

@@ -16,7 +16,7 @@
 namespace bch {
 namespace {
 
-constexpr std::size_t most_nodes = std::size_t{1} << 24;
+constexpr std::size_t most_nodes = std::size_t{1} << 22;
 
 /// An element on its way down, with the doubled coordinates of the point that decides its side.
 struct Item {
@@ -141,7 +141,7 @@ class Builder {
 
   void add_node(Open open) {
     if (hierarchy_.nodes.size() >= most_nodes)
-      throw std::length_error("hierarchy: more than 2^24 nodes at a threshold of " +
+      throw std::length_error("hierarchy: more than 2^22 nodes at a threshold of " +
                               std::to_string(rules_.threshold) + " m");
     const auto index = static_cast<std::uint32_t>(hierarchy_.nodes.size());
     if (open.second_child_of) hierarchy_.nodes[*open.second_child_of].second_child = index;

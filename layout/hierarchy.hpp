@@ -54,7 +54,7 @@ enum class SplitRule {
 /// the other axis is tried, then the segments are halved by count. A lone segment longer than twice the
 /// threshold is halved; a node whose smallest enclosing disc has a radius below the threshold is a leaf, as
 /// is a lone segment. Units:   metres; the threshold is positive and finite. Errors:  throws
-/// std::invalid_argument on a bad outline or threshold, std::length_error beyond 2^24 nodes.
+/// std::invalid_argument on a bad outline or threshold, std::length_error beyond 2^22 nodes.
 Hierarchy contour_hierarchy(const Outline& outline, float threshold, SplitRule rule = SplitRule::centroid);
 
 /// The paper's hierarchy over all projected triangles: the plane goes through the mean of the vertices, a

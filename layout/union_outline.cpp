@@ -102,44 +102,85 @@ bool covered(const Paths& contours, IntPoint p) {
   return false;
 }
 
+using Edge = std::pair<IntPoint, IntPoint>;
+
+bool before(const IntPoint& a, const IntPoint& b) {
+  return a.X != b.X ? a.X < b.X : a.Y < b.Y;
+}
+
 /// Edges that the union cannot show as area: the longest edge of a triangle thinner than the rounding of
 /// crossings, and the edges at a vertex that the union lost (a tip whose sides were rounded together).
-Paths whisker_candidates(const std::vector<Triangle>& triangles, const Paths& contours) {
+std::vector<Edge> whisker_candidates(const std::vector<Triangle>& triangles, const Paths& contours) {
   constexpr double thin = 4;  // grid steps
-  Paths edges;
+  std::vector<Edge> edges;
+  const auto add = [&](IntPoint a, IntPoint b) { edges.push_back(before(a, b) ? Edge{a, b} : Edge{b, a}); };
   for (const Triangle& t : triangles) {
     int longest = 0;
     for (int k = 1; k < 3; ++k)
       if (length(t[k], t[(k + 1) % 3]) > length(t[longest], t[(longest + 1) % 3])) longest = k;
     const double base = length(t[longest], t[(longest + 1) % 3]);
     if (base == 0) continue;
-    if (std::abs(static_cast<double>(twice_area(t))) <= thin * base)
-      edges.push_back({t[longest], t[(longest + 1) % 3]});
+    if (std::abs(static_cast<double>(twice_area(t))) <= thin * base) add(t[longest], t[(longest + 1) % 3]);
+    if (twice_area(t) == 0) continue;
     for (int k = 0; k < 3; ++k) {
       if (covered(contours, t[k])) continue;
-      edges.push_back({t[k], t[(k + 1) % 3]});
-      edges.push_back({t[k], t[(k + 2) % 3]});
+      add(t[k], t[(k + 1) % 3]);
+      add(t[k], t[(k + 2) % 3]);
     }
   }
+  const auto less = [](const Edge& a, const Edge& b) {
+    return a.first == b.first ? before(a.second, b.second) : before(a.first, b.first);
+  };
+  std::sort(edges.begin(), edges.end(), less);
+  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
   return edges;
 }
 
-/// The parts of the edges outside the contours, each as a contour that goes there and back.
-Paths whiskers(const Paths& edges, const Paths& contours) {
-  ClipperLib::Clipper clipper;
-  for (const Path& edge : edges) clipper.AddPath(edge, ClipperLib::ptSubject, false);
-  clipper.AddPaths(contours, ClipperLib::ptClip, true);
-  ClipperLib::PolyTree tree;
-  clipper.Execute(ClipperLib::ctDifference, tree, ClipperLib::pftNonZero, ClipperLib::pftNonZero);
-  Paths open;
-  ClipperLib::OpenPathsFromPolyTree(tree, open);
-  for (Path& path : open)
-    for (std::size_t i = path.size() - 1; i-- > 1;) path.push_back(path[i]);
-  return open;
+double cross(IntPoint a, IntPoint b, IntPoint p) {
+  return static_cast<double>((b.X - a.X) * (p.Y - a.Y) - (b.Y - a.Y) * (p.X - a.X));
 }
 
-bool before(const IntPoint& a, const IntPoint& b) {
-  return a.X != b.X ? a.X < b.X : a.Y < b.Y;
+/// Where along an edge (0 to 1) the contours cross or touch it, in order, with both ends.
+std::vector<double> crossings(const Edge& edge, const Paths& contours) {
+  const auto [a, b] = edge;
+  const double square = length(a, b) * length(a, b);
+  std::vector<double> at = {0, 1};
+  for (const Path& contour : contours)
+    for (std::size_t i = 0; i < contour.size(); ++i) {
+      const IntPoint p = contour[i], q = contour[(i + 1) % contour.size()];
+      const double p_side = cross(a, b, p), q_side = cross(a, b, q);
+      if (p_side == 0)
+        at.push_back(static_cast<double>((p.X - a.X) * (b.X - a.X) + (p.Y - a.Y) * (b.Y - a.Y)) / square);
+      if ((p_side < 0) != (q_side < 0)) at.push_back(cross(p, q, a) / (cross(p, q, a) - cross(p, q, b)));
+    }
+  std::erase_if(at, [](double t) { return !(t >= 0 && t <= 1); });
+  std::sort(at.begin(), at.end());
+  return at;
+}
+
+/// The parts of the edges outside the contours, each as a contour that goes there and back. (Clipper could
+/// clip open paths, but it loses some that run along x.)
+Paths whiskers(const std::vector<Edge>& edges, const Paths& contours) {
+  Paths lines;
+  for (const Edge& edge : edges) {
+    const auto [a, b] = edge;
+    const auto point = [a = a, b = b](double t) {
+      const auto on_grid = [t](ClipperLib::cInt from, ClipperLib::cInt to) {
+        return from + static_cast<ClipperLib::cInt>(std::floor(t * static_cast<double>(to - from) + 0.5));
+      };
+      return IntPoint(on_grid(a.X, b.X), on_grid(a.Y, b.Y));
+    };
+    const std::vector<double> at = crossings(edge, contours);
+    std::size_t begin = 0;  // of the part outside that is being followed
+    for (std::size_t i = 0; i + 1 < at.size(); ++i) {
+      const bool outside = !covered(contours, point(0.5 * (at[i] + at[i + 1])));
+      if (!outside) begin = i + 1;
+      const bool last = i + 2 == at.size() || covered(contours, point(0.5 * (at[i + 1] + at[i + 2])));
+      if (outside && last && !(point(at[begin]) == point(at[i + 1])))
+        lines.push_back({point(at[begin]), point(at[i + 1])});
+    }
+  }
+  return lines;
 }
 
 }  // namespace
@@ -148,7 +189,7 @@ Outline union_outline(std::span<const Eigen::Vector3f> positions,
                       std::span<const std::array<std::uint32_t, 3>> triangles) {
   const SnappedMesh mesh = snap(positions, triangles);
   Paths contours = outer_contours(mesh.triangles);
-  const Paths edges = whisker_candidates(mesh.triangles, contours);
+  const std::vector<Edge> edges = whisker_candidates(mesh.triangles, contours);
   if (!edges.empty()) {
     const Paths lines = whiskers(edges, contours);
     contours.insert(contours.end(), lines.begin(), lines.end());
