@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include "layout/shape_set.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+#include "layout/wide_tree.hpp"
+#include "tests/scenes.hpp"
+
+namespace bch {
+namespace {
+
+bool holds(const Disc& outer, const Disc& inner) {
+  return std::hypot(static_cast<double>(outer.x) - static_cast<double>(inner.x),
+                    static_cast<double>(outer.y) - static_cast<double>(inner.y)) +
+             static_cast<double>(inner.radius) <=
+         static_cast<double>(outer.radius);
+}
+
+/// Walks a wide tree: the cut's discs that it reaches, and its height in blocks. Every disc must be held by
+/// all above it.
+class Walk {
+ public:
+  explicit Walk(const WideTree& tree) : tree_(tree) { visit(0, {tree.root}, 1); }
+  std::vector<Disc> discs;
+  std::uint32_t levels = 0;
+
+ private:
+  void visit(std::uint32_t index, const std::vector<Disc>& above, std::uint32_t level) {
+    levels = std::max(levels, level);
+    const WideBlock& block = tree_.blocks.at(index);
+    for (std::uint32_t lane = 0; lane < block_width; ++lane) {
+      const Disc disc{block.x[lane], block.y[lane], block.radius[lane]};
+      if (std::isinf(disc.x)) {
+        EXPECT_GE(lane, block.inner_count);
+        EXPECT_EQ(disc.radius, 0);
+        continue;
+      }
+      if (lane < block.inner_count) {
+        std::vector<Disc> chain = above;
+        chain.push_back(disc);
+        visit(block.first_child + lane, chain, level + 1);
+        continue;
+      }
+      discs.push_back(disc);
+      if (tree_.is_single) continue;
+      for (const Disc& outer : above) EXPECT_TRUE(holds(outer, disc));
+    }
+  }
+
+  const WideTree& tree_;
+};
+
+void expect_same_discs(std::vector<Disc> reached, const Hierarchy& hierarchy, std::uint32_t depth) {
+  std::vector<Disc> expected;
+  for (const std::uint32_t node : cut(hierarchy, depth)) expected.push_back(hierarchy.nodes[node].disc);
+  const auto less = [](const Disc& a, const Disc& b) {
+    return std::tie(a.x, a.y, a.radius) < std::tie(b.x, b.y, b.radius);
+  };
+  std::sort(reached.begin(), reached.end(), less);
+  std::sort(expected.begin(), expected.end(), less);
+  EXPECT_EQ(reached, expected);
+}
+
+TEST(WideTree, HoldsTheCutAndNothingElse) {
+  for (const Shape& shape : test::synthetic_shapes(21, 32))
+    for (std::uint32_t depth = 0; depth <= height(shape.hierarchy) + 1; ++depth) {
+      const WideTree tree = wide_tree(shape.hierarchy, depth);
+      const Walk walk(tree);
+      EXPECT_EQ(tree.is_single, walk.discs.size() == 1);
+      expect_same_discs(walk.discs, shape.hierarchy, depth);
+      EXPECT_LE(walk.levels, most_wide_levels);
+    }
+}
+
+/// A binary tree in which every first child is a leaf: as deep as it has leaves.
+Hierarchy comb(std::uint32_t leaves) {
+  Hierarchy hierarchy;
+  hierarchy.reach = leaves * 0.01;
+  for (std::uint32_t i = 0; i + 1 < leaves; ++i) {
+    const float x = 0.01f * static_cast<float>(i);
+    HierarchyNode inner, leaf;
+    inner.disc = {x, 0, 1 + 0.01f * static_cast<float>(leaves)};
+    inner.bound = 2 * inner.disc.radius;
+    inner.second_child = static_cast<std::uint32_t>(hierarchy.nodes.size()) + 2;
+    leaf.disc = {x, 0, 0.02f};
+    leaf.bound = 0.02f;
+    hierarchy.nodes.push_back(inner);
+    hierarchy.nodes.push_back(leaf);
+  }
+  HierarchyNode last;
+  last.disc = {0.01f * static_cast<float>(leaves), 0, 0.02f};
+  last.bound = 0.02f;
+  hierarchy.nodes.push_back(last);
+  return hierarchy;
+}
+
+TEST(WideTree, StaysShallowWhateverTheBinaryTree) {
+  for (const std::uint32_t leaves : {2u, 8u, 9u, 100u, 113u, 5000u}) {
+    const Hierarchy hierarchy = comb(leaves);
+    const Walk walk(wide_tree(hierarchy, all_depths));
+    EXPECT_LE(walk.levels, most_wide_levels) << leaves;
+    expect_same_discs(walk.discs, hierarchy, all_depths);
+  }
+}
+
+TEST(ShapeSet, LevelsFollowThePlan) {
+  const std::vector<Shape> shapes = test::synthetic_shapes(22, 6);
+  const ShapeSet set(shapes, {{0, 2, all_depths}, false});
+  EXPECT_EQ(set.shape_count(), 6u);
+  EXPECT_EQ(set.level_count(), 3u);
+  EXPECT_FALSE(set.solid());
+  const ShapeSetView view = set.view();
+  for (std::uint32_t s = 0; s < 6; ++s) {
+    const Disc& root = shapes[s].hierarchy.nodes[0].disc;
+    EXPECT_TRUE(view.root_is_single[3 * s]);
+    EXPECT_EQ((Disc{view.root_x[3 * s], view.root_y[3 * s], view.root_radius[3 * s]}), root);
+    EXPECT_GE(view.root_radius[3 * s + 2], root.radius);
+  }
+  EXPECT_EQ(reinterpret_cast<std::uintptr_t>(view.x) % 64, 0u);
+  EXPECT_EQ(reinterpret_cast<std::uintptr_t>(view.radius) % 64, 0u);
+}
+
+TEST(ShapeSet, BuildsOnlyWhatThePlanNames) {
+  const std::vector<Shape> shapes = test::synthetic_shapes(23, 64);
+  const auto bytes = [&](std::vector<std::uint32_t> depths, bool solid) {
+    return ShapeSet(shapes, {std::move(depths), solid}).bytes() / 64;
+  };
+  EXPECT_LE(bytes({0}, false), 21u);  // root disc 12, block 4, flag 1, reach 4
+  EXPECT_LT(bytes({3}, false), bytes({6}, false));
+  EXPECT_LT(bytes({6}, false), bytes({all_depths}, false));
+  EXPECT_LT(bytes({all_depths}, false), bytes({all_depths}, true));
+  EXPECT_TRUE(ShapeSet(std::vector<Shape>{{{}, fixed_cylinder(1)}}).roots_only());
+}
+
+TEST(ShapeSet, RejectsBadPlansAndShapes) {
+  const std::vector<Shape> shapes = test::synthetic_shapes(24, 2);
+  EXPECT_THROW(ShapeSet(shapes, {{}, false}), std::invalid_argument);
+  EXPECT_THROW(ShapeSet(shapes, {{3, 3}, false}), std::invalid_argument);
+  EXPECT_THROW(ShapeSet(shapes, {{all_depths, 0}, false}), std::invalid_argument);
+  std::vector<Shape> broken = shapes;
+  broken[1].hierarchy.nodes.clear();
+  EXPECT_THROW(ShapeSet{broken}, std::invalid_argument);
+  EXPECT_THROW(ShapeSet(std::vector<Shape>{{{}, fixed_cylinder(1)}}, {{0}, true}), std::invalid_argument);
+}
+
+TEST(ShapeSet, MayBeEmpty) {
+  const ShapeSet set(std::span<const Shape>{});
+  EXPECT_EQ(set.shape_count(), 0u);
+}
+
+}  // namespace
+}  // namespace bch
