@@ -23,6 +23,8 @@ class Skinner {
   /// std::domain_error on a position that is not finite.
   std::span<const Eigen::Vector3f> pose(PoseTime at);
 
+  const Character& character() const noexcept { return *character_; }
+
  private:
   const Character* character_;
   std::vector<const Channel*> channel_of_joint_;

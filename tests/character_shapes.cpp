@@ -8,8 +8,7 @@
 
 #include <cstdlib>
 
-#include "layout/skinning.hpp"
-#include "layout/union_outline.hpp"
+#include "layout/pose_shape.hpp"
 
 namespace bch::test {
 
@@ -24,10 +23,7 @@ std::vector<Shape> pose_shapes(const Character& character, std::uint32_t poses) 
   std::vector<Shape> shapes(times.size());
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, times.size()), [&](const auto& range) {
     Skinner skinner(character);
-    for (std::size_t i = range.begin(); i < range.end(); ++i) {
-      shapes[i].outline = union_outline(skinner.pose(times[i]), character.triangles);
-      shapes[i].hierarchy = contour_hierarchy(shapes[i].outline, 0.01f);
-    }
+    for (std::size_t i = range.begin(); i < range.end(); ++i) shapes[i] = pose_shape(skinner, times[i]);
   });
   return shapes;
 }
