@@ -41,19 +41,19 @@ void add_clips(Character& character, const Manner& m) {
   const auto add = [&](const char* name, int seconds, Travel travel, const Motion& motion) {
     character.clips.push_back(bake(character, m.joints, name, seconds, travel, motion));
   };
-  add("walk", 24, Travel::by_feet, walking(m, {0.92, 1.0}));
+  add("walk", 24, Travel::by_feet, walking(m, {0.98, 1.0}));
   add("walk slow", 12, Travel::by_feet, walking(m, {0.75, 0.82}));
   add("walk fast", 16, Travel::by_feet, walking(m, {1.05, 1.14}));
-  add("walk curve left", 12, Travel::by_feet, walking(m, {0.88, 0.92, 0.45}));
-  add("walk curve right", 12, Travel::by_feet, walking(m, {0.88, 0.92, -0.45}));
+  add("walk curve left", 12, Travel::by_feet, walking(m, {0.85, 0.92, 0.45}));
+  add("walk curve right", 12, Travel::by_feet, walking(m, {0.85, 0.92, -0.45}));
   add("turn left", 10, Travel::authored, turning(m, 1));
   add("turn right", 10, Travel::authored, turning(m, -1));
   add("side-step left", 12, Travel::authored, side_stepping(m, 1));
   add("side-step right", 12, Travel::authored, side_stepping(m, -1));
   add("idle shift", 14, Travel::authored, idling(m, Idle::shift));
   add("idle look around", 10, Travel::authored, idling(m, Idle::look_around));
-  add("idle akimbo", 14, Travel::authored, idling(m, Idle::akimbo));
-  add("idle arms crossed", 8, Travel::authored, idling(m, Idle::arms_crossed));
+  add("idle akimbo", 15, Travel::authored, idling(m, Idle::akimbo));
+  add("idle arms crossed", 7, Travel::authored, idling(m, Idle::arms_crossed));
   add("idle phone", 14, Travel::authored, idling(m, Idle::phone));
   add("idle wave", 12, Travel::authored, idling(m, Idle::wave));
   add("idle talk", 14, Travel::authored, idling(m, Idle::talk));
@@ -66,7 +66,7 @@ Character default_male() {
   const BodyShape shape = male_shape();
   const JointPositions joints = joint_positions(shape);
   Character character = at_rest("default male", shape, joints);
-  add_clips(character, {joints, shape.stature, 1.06, 1.0, 0.25, 1.0, 0.27, 1.25});
+  add_clips(character, {joints, shape.stature, 1.06, 1.04, 0.27, 1.0, 0.27, 1.25});
   return character;
 }
 
@@ -74,7 +74,7 @@ Character default_female() {
   const BodyShape shape = female_shape();
   const JointPositions joints = joint_positions(shape);
   Character character = at_rest("default female", shape, joints);
-  add_clips(character, {joints, shape.stature, 0.96, 1.06, 0.19, 1.0, 0.20, 0.9});
+  add_clips(character, {joints, shape.stature, 0.96, 1.10, 0.19, 1.0, 0.20, 0.9});
   return character;
 }
 

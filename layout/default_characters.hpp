@@ -10,10 +10,13 @@ namespace bch {
 /// Two people that need no file: a man of 1.88 m and a woman of 1.74 m, each one closed skin of about 2 850
 /// triangles with 27 joints and 212 s of walking, turning, side-stepping and idling. They stand in for the
 /// two characters of the paper's table 1 and were tuned to its statistics: the smallest disc around a pose
-/// seen from above has a mean radius of 0.42 m (man) and 0.34 m (woman), both with a deviation of about 0.05
-/// m. Units: metres, z up, facing +x at rest. The same bits at each call. Takes tens of milliseconds. Source:
-/// body and motion from published tables (see body_shape.hpp, walking.cpp, stepping.cpp, idling.cpp); paper:
-/// Stuvel et al., "Hierarchical structures for collision checking between virtual characters", CAVW 25, 2014.
+/// seen from above has a mean radius of 0.42 m (man) and 0.34 m (woman) and a deviation of about 0.05 m.
+///
+/// Units: metres, z up, facing +x at rest. The same bits at each call. Takes tens of milliseconds.
+///
+/// Source: body and motion after published measures (see body_shape.hpp, walking.cpp, stepping.cpp,
+/// idling.cpp); the paper is Stuvel et al., "Hierarchical structures for collision checking between virtual
+/// characters", Computer Animation and Virtual Worlds 25, 2014.
 Character default_male();
 Character default_female();
 

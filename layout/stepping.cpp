@@ -59,7 +59,7 @@ double load(const Rhythm& rhythm, std::size_t foot, double seconds) {
   const double middle = 0.04 + 0.5 * rhythm.step + (foot == rhythm.leader ? 0 : 0.5 * rhythm.period);
   double distance = std::abs(t - middle);
   distance = std::min(distance, rhythm.period - distance);
-  return 0.2 + 0.8 * ease(0.15 * rhythm.period, 0.36 * rhythm.period, distance);
+  return 0.3 + 0.7 * ease(0.15 * rhythm.period, 0.36 * rhythm.period, distance);
 }
 
 /// Puts the pelvis over the feet and the feet where they belong.
@@ -127,7 +127,7 @@ Motion turning(const Manner& manner, double direction) {
 
 Motion side_stepping(const Manner& manner, double direction) {
   return [manner, direction](double seconds) {
-    const double length = 0.19 * manner.stature * manner.stride;
+    const double length = 0.175 * manner.stature * manner.stride;
     const Rhythm rhythm{1.3, 0.5, direction > 0 ? 0u : 1u};
     const double half = 0.5 * manner.foot_spacing;
     const Feet feet = feet_at(rhythm, seconds, [&](double k, std::size_t f) {
