@@ -2,7 +2,6 @@
 // Copyright (c) 2026 the bch authors
 
 #include <algorithm>
-#include <cmath>
 
 #include "layout/import_clips.hpp"
 
@@ -65,17 +64,12 @@ double travel(const Character& character, std::size_t joint, double metres_per_u
 std::int32_t find_root_joint(const Character& character, const std::vector<bool>& bone_is_skin) {
   const Trunk trunk = find_trunk(character, bone_is_skin);
   if (trunk.joints.empty()) return -1;
-  const std::vector<Eigen::Affine3d> to_file = rest_to_file(character.joints);
-  const double unit = std::cbrt(std::abs(character.to_ground.linear().cast<double>().determinant()));
+  const std::vector<double> scales = metres_above(character);
 
   std::size_t root = trunk.ancestor;
   bool moves = false;
   for (const std::size_t joint : trunk.joints) {
-    const std::int32_t parent = character.joints[joint].parent;
-    const double scale =
-        parent < 0 ? 1.0
-                   : std::cbrt(std::abs(to_file[static_cast<std::size_t>(parent)].linear().determinant()));
-    const double way = travel(character, joint, unit * scale);
+    const double way = travel(character, joint, scales[joint]);
     if (way > travel_of_clip || (way > travel_of_noise && !moves)) {
       root = joint;
       moves = true;

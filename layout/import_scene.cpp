@@ -37,6 +37,7 @@ void set_up(Assimp::Importer& importer, const ImportOptions& options) {
 std::string reason_of_failure(const Assimp::Importer& importer) {
   const std::string reason = one_line(importer.GetErrorString());
   if (reason.find("bad_alloc") != std::string::npos) return "needs more memory than there is";
+  if (reason.find("No suitable reader") != std::string::npos) return "damaged, or of no known format";
   return reason.empty() ? "cannot be read" : reason;
 }
 

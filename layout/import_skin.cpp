@@ -126,7 +126,7 @@ InfluenceLists read_influences(const SceneFile& file, const NodeList& nodes, con
   if (gaps > 0) {
     fill_gaps(mesh, lists);
     report.notes.push_back(count(gaps, "vertex", "vertices") + " of " + mesh_name +
-                           " without weights follow the nearest that have some");
+                           " without weights took those of the nearest that has some");
   }
   return lists;
 }

@@ -149,7 +149,31 @@ float choose_scale(const SceneFile& file, const DeclaredFrame& declared, const I
   return scale;
 }
 
+/// A pose is relative to its root joint, so it does not show how far a clip takes the root.
+void check_ways(const SceneFile& file, const Character& character) {
+  const std::vector<double> scales = metres_above(character);
+  for (const Clip& clip : character.clips)
+    for (const Channel& channel : clip.channels)
+      for (const auto& key : channel.positions)
+        if (!(key.value.cast<double>().norm() * scales[channel.joint] <= static_cast<double>(farthest)))
+          file.reject("clip '" + clip.name + "' takes joint '" + character.joints[channel.joint].name +
+                      "' absurdly far away");
+}
+
 }  // namespace
+
+std::vector<double> metres_above(const Character& character) {
+  const auto scale_of = [](const Eigen::Affine3d& transform) {
+    return std::cbrt(std::abs(transform.linear().determinant()));
+  };
+  const double unit = scale_of(character.to_ground.cast<double>());
+  const std::vector<Eigen::Affine3d> to_file = rest_to_file(character.joints);
+  std::vector<double> scales;
+  for (const Joint& joint : character.joints)
+    scales.push_back(joint.parent < 0 ? unit
+                                      : unit * scale_of(to_file[static_cast<std::size_t>(joint.parent)]));
+  return scales;
+}
 
 DeclaredFrame declared_frame(const SceneFile& file) {
   if (file.is_fbx()) return declared_by_fbx(file);
@@ -193,6 +217,7 @@ Direction settle_frame(const SceneFile& file, const DeclaredFrame& declared, con
 }
 
 void check_poses(const SceneFile& file, const Character& character) {
+  check_ways(file, character);
   Skinner skinner(character);
   const auto check = [&](PoseTime at, const std::string& name) {
     std::span<const Eigen::Vector3f> positions;

@@ -37,6 +37,9 @@ Eigen::Matrix3f upright(Direction up);
 Direction settle_frame(const SceneFile& file, const DeclaredFrame& declared, const ImportOptions& options,
                        Character& character, ImportReport& report);
 
+/// For every joint: how many metres one unit of its position keys is, at rest.
+std::vector<double> metres_above(const Character& character);
+
 /// Errors: throws ImportError if a pose leaves the range of 1000 km or is not finite.
 void check_poses(const SceneFile& file, const Character& character);
 

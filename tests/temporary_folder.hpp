@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <stdexcept>
+#include <string>
+
+namespace bch {
+
+/// A folder of its own for each object and process, removed with all it holds.
+class TemporaryFolder {
+ public:
+  TemporaryFolder() {
+    static int number = 0;
+    path_ = std::filesystem::temp_directory_path() /
+            ("bch_test_" + std::to_string(getpid()) + "_" + std::to_string(number++));
+    std::filesystem::create_directory(path_);
+  }
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+  ~TemporaryFolder() {
+    std::error_code ignored;
+    std::filesystem::remove_all(path_, ignored);
+  }
+
+  const std::filesystem::path& path() const { return path_; }
+
+  /// Returns: the path of the file, now holding these bytes.
+  std::filesystem::path write(const std::string& name, const std::string& bytes) const {
+    std::ofstream stream(path_ / name, std::ios::binary);
+    stream << bytes;
+    if (!stream.flush()) throw std::runtime_error("cannot write " + (path_ / name).string());
+    return path_ / name;
+  }
+
+ private:
+  std::filesystem::path path_;
+};
+
+}  // namespace bch
