@@ -34,7 +34,7 @@ std::string tetrahedron_obj(float width, float depth, float height, int up) {
   std::string text;
   for (const auto& corner : corners) {
     text += "v";
-    for (const float coordinate : corner) text += " " + std::to_string(coordinate);
+    for (const float coordinate : corner) text.append(" ").append(std::to_string(coordinate));
     text += "\n";
   }
   return text + "f 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n";
