@@ -41,6 +41,8 @@ ImportedCharacter import_checked(const std::filesystem::path& path, const Import
   const SceneFile file(path, options);
   report.format = file.format;
   character.name = one_line(path.stem().string());
+  if (file.format == "Inter-Quake Model Importer")
+    report.notes.push_back("of this format the rest pose alone is read, without bones and clips");
 
   const NodeList nodes = read_nodes(file);
   const std::vector<bool> bone_is_skin = read_meshes(file, nodes, character, report);

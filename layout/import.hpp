@@ -23,6 +23,8 @@ class ImportError : public std::runtime_error {
 
 enum class UpAxis : std::uint8_t { x, y, z };
 
+/// What the caller knows better. Collada is in metres for `scale`, as assimp applies a Collada file's own
+/// unit.
 struct ImportOptions {
   std::optional<UpAxis> up;                       ///< instead of what the file says or what is guessed
   std::optional<float> scale;                     ///< metres per unit of the file, likewise
@@ -54,19 +56,19 @@ struct ImportedCharacter {
   ImportReport report;
 };
 
-/// Reads any format that assimp reads (glTF 2, FBX, Collada, IQM, MD5, OBJ, PLY, STL ...).
-/// Meshes:  all of the scene, instances included; polygons are cut into triangles; vertices equal in position
-/// and
-///          influences become one; weights are normalised, and any number of them is kept. A vertex without
-///          weights in a mesh with bones follows the bones of the nearest vertex that has some.
-/// Frame:   to_ground leads to metres, z up, and never mirrors. Where a format does not say its unit or up
-/// axis
-///          they are guessed from the rest pose, and a note says so.
-/// Joints:  the nodes that carry vertices, and the nodes above them.
-/// Clips of other files are matched by joint name, any namespace ("mixamorig:") aside. Such a clip gives
-///          the rotations of all joints it knows and the position of the topmost, scaled by the ratio of the
-///          two skeletons' bone lengths, whatever their units; the other bones keep the character's lengths.
-///          Its joints must be turned as the character's are: motion is not fitted to a different skeleton.
+/// Reads any format that assimp reads: glTF 2, FBX, Collada, MD5, OBJ, PLY, STL and more. Of some, IQM among
+/// them, assimp reads the rest pose alone.
+/// Meshes:  all of the scene, instances included. Polygons are cut into triangles; vertices equal in position
+///          and influences become one; weights are normalised, and any number of them is kept. A vertex
+///          without weights in a mesh with bones takes those of the nearest vertex that has some.
+/// Frame:   to_ground leads to metres, z up, and never mirrors. Where neither file nor format tells the unit
+///          or the up axis, they are guessed from the rest pose, and a note says so.
+/// Joints:  the nodes that carry vertices, and the nodes above them. root_joint is the joint with which clips
+///          walk, in most skeletons the hips; -1 without bones.
+/// Clips:   those of other files are matched by joint name, any namespace ("mixamorig:") aside. They give the
+///          rotations of all joints they know, and the position of the topmost, scaled by the ratio of the
+///          skeletons' bone lengths, whatever their units; other joints keep the character's own lengths.
+///          A skeleton whose joints are turned otherwise is refused: motion is not fitted to it.
 /// Returns: a character that validate() accepts; the same for the same files.
 /// Errors:  throws ImportError.
 ImportedCharacter import_character(const std::filesystem::path& file, const ImportOptions& options = {});

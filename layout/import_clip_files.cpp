@@ -56,6 +56,7 @@ struct Pairing {
   std::vector<std::uint32_t> joint_of_node;  ///< or none
   std::vector<Eigen::Affine3d> joint_to_file, node_to_file;
   std::vector<Eigen::Vector3d> node_offset;  ///< a node's position under its parent while the clip plays
+  std::vector<bool> in_motion;               ///< nodes that have a channel or stand below one that has
 
   Pairing(const Character& character, const NodeList& nodes, const SourceClip& clip)
       : joint_to_file(rest_to_file(character.joints)), node_to_file(rest_to_file(nodes.joints)) {
@@ -64,11 +65,18 @@ struct Pairing {
       joint_of_node.push_back(names.find(node.name));
       node_offset.push_back(node.rest.translation().cast<double>());
     }
-    // Some formats (md5anim) hold the skeleton's measures in the keys alone.
-    for (const SourceChannel& channel : clip.channels)
-      if (const auto node = nodes.by_name.find(channel.node);
-          node != nodes.by_name.end() && !channel.motion.positions.empty())
+    in_motion.resize(nodes.joints.size());
+    for (const SourceChannel& channel : clip.channels) {
+      const auto node = nodes.by_name.find(channel.node);
+      if (node == nodes.by_name.end()) continue;
+      in_motion[node->second] = true;
+      // Some formats (md5anim) hold the skeleton's measures in the keys alone.
+      if (!channel.motion.positions.empty())
         node_offset[node->second] = channel.motion.positions.front().value.cast<double>();
+    }
+    for (std::size_t n = 0; n < nodes.joints.size(); ++n)
+      if (nodes.joints[n].parent >= 0 && in_motion[static_cast<std::size_t>(nodes.joints[n].parent)])
+        in_motion[n] = true;
   }
 };
 
@@ -77,8 +85,9 @@ struct Comparison {
   std::optional<double> size_ratio;  ///< median of bone lengths, character over clip, in units of the files
 };
 
-/// Compares the bones whose both ends are in both skeletons. A bone's direction in its upper joint's frame
-/// does not depend on the pose, so it tells whether the joints of two skeletons are turned alike.
+/// Compares the bones whose both ends are in both skeletons, below what the clip moves: above, files differ
+/// in how they turn and scale a whole skeleton. A bone's direction in its upper joint's frame does not depend
+/// on the pose, so it tells whether the joints of two skeletons are turned alike.
 Comparison compare(const Character& character, const NodeList& nodes, const Pairing& pairing) {
   double agreement = 0;
   double total = 0;
@@ -86,6 +95,7 @@ Comparison compare(const Character& character, const NodeList& nodes, const Pair
   for (std::size_t n = 0; n < nodes.joints.size(); ++n) {
     const std::int32_t parent = nodes.joints[n].parent;
     if (parent < 0 || pairing.joint_of_node[n] == none) continue;
+    if (!pairing.in_motion[static_cast<std::size_t>(parent)]) continue;
     const std::uint32_t upper = pairing.joint_of_node[static_cast<std::size_t>(parent)];
     const Joint& joint = character.joints[pairing.joint_of_node[n]];
     if (upper == none || joint.parent != static_cast<std::int32_t>(upper)) continue;

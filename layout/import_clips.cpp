@@ -165,6 +165,7 @@ void add_own_clips(const SceneFile& file, const NodeList& nodes, Character& char
     std::size_t unknown = 0;
     for (SourceChannel& channel : source.channels) {
       const auto joint = joint_by_name.find(channel.node);
+      note_if_shared(nodes, channel.node, report);
       if (joint != joint_by_name.end()) {
         channel.motion.joint = joint->second;
         clip.channels.push_back(std::move(channel.motion));

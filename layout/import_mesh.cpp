@@ -4,7 +4,9 @@
 #include "layout/import_mesh.hpp"
 
 #include <algorithm>
-#include <cmath>
+#include <compare>
+#include <numeric>
+#include <span>
 
 namespace bch::import_detail {
 namespace {
@@ -118,6 +120,48 @@ class MeshAppender {
   }
 };
 
+std::span<const Influence> influences_of(const Character& c, std::uint32_t vertex) {
+  return std::span(c.influences)
+      .subspan(c.influence_begin[vertex], c.influence_begin[vertex + 1] - c.influence_begin[vertex]);
+}
+
+/// Values are finite, so this is a total order but for the two zeros, which are equal positions.
+std::weak_ordering order(float a, float b) {
+  return a < b   ? std::weak_ordering::less
+         : b < a ? std::weak_ordering::greater
+                 : std::weak_ordering::equivalent;
+}
+
+/// By position, then by influences.
+std::weak_ordering compare_vertices(const Character& c, std::uint32_t a, std::uint32_t b) {
+  for (int axis = 0; axis < 3; ++axis)
+    if (const auto result = order(c.vertices[a][axis], c.vertices[b][axis]); result != 0) return result;
+  const std::span<const Influence> of_a = influences_of(c, a);
+  const std::span<const Influence> of_b = influences_of(c, b);
+  return std::lexicographical_compare_three_way(
+      of_a.begin(), of_a.end(), of_b.begin(), of_b.end(),
+      [](const Influence& x, const Influence& y) -> std::weak_ordering {
+        if (x.bone != y.bone) return x.bone <=> y.bone;
+        return order(x.weight, y.weight);
+      });
+}
+
+/// For every vertex the first of those that are equal to it.
+std::vector<std::uint32_t> find_equals(const Character& c) {
+  std::vector<std::uint32_t> sorted(c.vertices.size());
+  std::iota(sorted.begin(), sorted.end(), 0u);
+  std::sort(sorted.begin(), sorted.end(), [&](std::uint32_t a, std::uint32_t b) {
+    const std::weak_ordering result = compare_vertices(c, a, b);
+    return result != 0 ? result < 0 : a < b;
+  });
+  std::vector<std::uint32_t> first_equal(sorted.size());
+  for (std::size_t i = 0; i < sorted.size(); ++i) {
+    const bool repeats = i > 0 && compare_vertices(c, sorted[i - 1], sorted[i]) == 0;
+    first_equal[sorted[i]] = repeats ? first_equal[sorted[i - 1]] : sorted[i];
+  }
+  return first_equal;
+}
+
 }  // namespace
 
 std::uint32_t BoneTable::add(std::uint32_t joint, const Eigen::Affine3f& inverse_bind) {
@@ -146,63 +190,27 @@ std::vector<bool> read_meshes(const SceneFile& file, const NodeList& nodes, Char
 }
 
 void weld_vertices(Character& character, ImportReport& report) {
-  const auto influences = [&](std::uint32_t v) {
-    return std::pair(character.influences.begin() + character.influence_begin[v],
-                     character.influences.begin() + character.influence_begin[v + 1]);
-  };
-  const auto compare = [&](std::uint32_t a, std::uint32_t b) -> std::weak_ordering {
-    for (int axis = 0; axis < 3; ++axis)
-      if (character.vertices[a][axis] != character.vertices[b][axis])
-        return character.vertices[a][axis] < character.vertices[b][axis] ? std::weak_ordering::less
-                                                                         : std::weak_ordering::greater;
-    const auto [a_begin, a_end] = influences(a);
-    const auto [b_begin, b_end] = influences(b);
-    return std::lexicographical_compare_three_way(
-        a_begin, a_end, b_begin, b_end, [](const Influence& x, const Influence& y) -> std::weak_ordering {
-          if (x.bone != y.bone) return x.bone <=> y.bone;
-          if (x.weight != y.weight)
-            return x.weight < y.weight ? std::weak_ordering::less : std::weak_ordering::greater;
-          return std::weak_ordering::equivalent;
-        });
-  };
-
-  const std::size_t total = character.vertices.size();
-  std::vector<std::uint32_t> order(total);
-  for (std::uint32_t v = 0; v < total; ++v) order[v] = v;
-  std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
-    const std::weak_ordering ordering = compare(a, b);
-    return ordering != 0 ? ordering < 0 : a < b;
-  });
-  std::vector<std::uint32_t> first_equal(total);
-  for (std::size_t i = 0; i < total; ++i)
-    first_equal[order[i]] =
-        i > 0 && compare(order[i - 1], order[i]) == 0 ? first_equal[order[i - 1]] : order[i];
-
+  const std::vector<std::uint32_t> first_equal = find_equals(character);
   constexpr std::uint32_t none = 0xffffffff;
-  std::vector<std::uint32_t> new_index(total, none);
-  std::vector<std::uint32_t> kept;
-  std::vector<bool> used(total);
+  std::vector<std::uint32_t> new_index(character.vertices.size(), none);
+  std::vector<bool> used(character.vertices.size());
+  Character welded;
+  welded.influence_begin = {0};
   for (auto& triangle : character.triangles) {
     for (std::uint32_t& vertex : triangle) {
       used[vertex] = true;
       const std::uint32_t original = first_equal[vertex];
       if (new_index[original] == none) {
-        new_index[original] = static_cast<std::uint32_t>(kept.size());
-        kept.push_back(original);
+        new_index[original] = static_cast<std::uint32_t>(welded.vertices.size());
+        welded.vertices.push_back(character.vertices[original]);
+        const std::span<const Influence> influences = influences_of(character, original);
+        welded.influences.insert(welded.influences.end(), influences.begin(), influences.end());
+        welded.influence_begin.push_back(static_cast<std::uint32_t>(welded.influences.size()));
       }
       vertex = new_index[original];
     }
   }
   report.dropped_vertices += static_cast<std::size_t>(std::count(used.begin(), used.end(), false));
-
-  Character welded;
-  welded.influence_begin = {0};
-  for (const std::uint32_t v : kept) {
-    welded.vertices.push_back(character.vertices[v]);
-    const auto [begin, end] = influences(v);
-    welded.influences.insert(welded.influences.end(), begin, end);
-    welded.influence_begin.push_back(static_cast<std::uint32_t>(welded.influences.size()));
-  }
   character.vertices = std::move(welded.vertices);
   character.influences = std::move(welded.influences);
   character.influence_begin = std::move(welded.influence_begin);

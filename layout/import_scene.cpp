@@ -116,7 +116,7 @@ NodeList read_nodes(const SceneFile& file) {
     // are applied here, so they must not be applied twice.
     if (parent < 0 && file.is_fbx()) joint.rest.setIdentity();
     const auto index = static_cast<std::uint32_t>(list.nodes.size());
-    list.by_name.try_emplace(joint.name, index);
+    if (!list.by_name.try_emplace(joint.name, index).second) list.shared_names.insert(joint.name);
     list.joints.push_back(std::move(joint));
     list.nodes.push_back(node);
 
@@ -125,6 +125,13 @@ NodeList read_nodes(const SceneFile& file) {
       stack.push_back({node->mChildren[c - 1], static_cast<std::int32_t>(index)});
   }
   return list;
+}
+
+void note_if_shared(const NodeList& nodes, const std::string& name, ImportReport& report) {
+  if (!nodes.shared_names.contains(name)) return;
+  const std::string note = "several nodes are named '" + one_line(name) + "': bones and clips take the first";
+  if (std::find(report.notes.begin(), report.notes.end(), note) == report.notes.end())
+    report.notes.push_back(note);
 }
 
 std::vector<Eigen::Affine3d> rest_to_file(const std::vector<Joint>& joints) {

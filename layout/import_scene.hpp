@@ -9,6 +9,7 @@
 #include <assimp/Importer.hpp>
 #include <cstdint>
 #include <filesystem>
+#include <set>
 #include <string>
 #include <unordered_map>
 #include <vector>
@@ -51,9 +52,13 @@ struct NodeList {
   std::vector<Joint> joints;
   std::vector<const aiNode*> nodes;
   std::unordered_map<std::string, std::uint32_t> by_name;  ///< the first of that name
+  std::set<std::string> shared_names;                      ///< of more than one node
 };
 
 NodeList read_nodes(const SceneFile& file);
+
+/// Bones and clips know their node by its name alone: says so once if several nodes have this one.
+void note_if_shared(const NodeList& nodes, const std::string& name, ImportReport& report);
 
 /// Errors: throws ImportError naming `what` if the matrix is not finite or not affine.
 Eigen::Affine3f read_matrix(const SceneFile& file, const aiMatrix4x4& matrix, const std::string& what);

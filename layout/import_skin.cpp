@@ -109,6 +109,7 @@ InfluenceLists read_influences(const SceneFile& file, const NodeList& nodes, con
     if (bone == nullptr || (bone->mNumWeights > 0 && bone->mWeights == nullptr))
       file.reject("bone " + std::to_string(b) + " of " + mesh_name + " is missing");
     read_bone(file, nodes, *bone, mesh_name, bones, lists);
+    note_if_shared(nodes, to_string(bone->mName), report);
   }
 
   std::size_t gaps = 0;

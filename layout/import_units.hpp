@@ -32,8 +32,8 @@ DeclaredFrame declared_frame(const SceneFile& file);
 Eigen::Matrix3f upright(Direction up);
 
 /// Sets the transform to the ground from the options, else from the declaration, else from the rest pose.
-/// Returns: the direction taken for up. Errors: throws ImportError on an option that is not a positive
-/// number.
+/// Returns: the direction taken for up.
+/// Errors:  throws ImportError on an option that is not a positive number.
 Direction settle_frame(const SceneFile& file, const DeclaredFrame& declared, const ImportOptions& options,
                        Character& character, ImportReport& report);
 

@@ -84,10 +84,11 @@ GltfFile SkinnedStrip::file() const {
                 ",\"attributes\":{" + attributes + "},\"indices\":" + gltf.add(indices, "SCALAR") + "}]}]");
   gltf.add_json("\"skins\":[{\"joints\":[1,2],\"inverseBindMatrices\":" + gltf.add(inverse_binds, "MAT4") +
                 "}]");
-  gltf.add_json("\"nodes\":[{\"name\":\"body\",\"mesh\":0,\"skin\":0},{\"name\":\"" + hips +
+  gltf.add_json("\"nodes\":[{\"name\":\"body\",\"mesh\":0,\"skin\":0},{" + hips_turn + "\"name\":\"" + hips +
                 "\",\"children\":[2],\"translation\":[0,1,0]},{\"name\":\"" + head + "\"," + head_place +
-                "},{\"name\":\"camera\",\"translation\":[9,9,9]}]");
-  gltf.add_json("\"scenes\":[{\"nodes\":[0,1,3]}],\"scene\":0");
+                "},{\"name\":\"camera\",\"translation\":[9,9,9]},{" + armature +
+                "\"name\":\"armature\",\"children\":[1]}]");
+  gltf.add_json("\"scenes\":[{\"nodes\":[0,4,3]}],\"scene\":0");
   const std::string input = gltf.add(times, "SCALAR");
   gltf.add_json("\"animations\":[{\"name\":\"walk\",\"samplers\":[{\"input\":" + input + ",\"output\":" +
                 gltf.add(way, "VEC3") + "},{\"input\":" + input + ",\"output\":" + gltf.add(turns, "VEC4") +

@@ -49,6 +49,8 @@ struct SkinnedStrip {
   std::vector<float> turns = {0, 0, 0, 1, 0, 0.38268343f, 0, 0.92387953f, 0, 0.70710678f, 0, 0.70710678f};
   std::string hips = "hips";
   std::string head = "head";
+  std::string armature;   ///< members of the node above the hips, such as "\"scale\":[1,1,1],"
+  std::string hips_turn;  ///< members of the hips, such as "\"rotation\":[0,0,0,1],"
   std::string head_place = "\"translation\":[0,0.5,0]";
   int mode = 4;  ///< of the primitive: triangles
 

@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <bit>
+#include <cmath>
 
 #include "gltf_file.hpp"
 #include "layout/import.hpp"
@@ -42,7 +44,7 @@ class ImportFormats : public testing::Test {
       const auto pose_a = skinner_a.pose({a, share * character.clips[a].seconds});
       const auto pose_b = skinner_b.pose({b, share * character.clips[b].seconds});
       for (std::size_t v = 0; v < pose_a.size(); ++v)
-        EXPECT_TRUE(pose_a[v].isApprox(pose_b[v], 1e-5f)) << "vertex " << v << " at " << share;
+        EXPECT_LT((pose_a[v] - pose_b[v]).norm(), 1e-5f) << "vertex " << v << " at " << share;
     }
   }
 
@@ -204,6 +206,36 @@ TEST_F(ImportFormats, Md5WithItsMotionInAnotherFile) {
   EXPECT_NEAR(std::abs(top_y), 0.508f, 1e-4f);
 }
 
+TEST_F(ImportFormats, IqmGivesItsRestPose) {
+  std::string bytes = "INTERQUAKEMODEL";
+  bytes.push_back('\0');
+  const auto add = [&](const std::vector<std::uint32_t>& words) {
+    for (const std::uint32_t word : words)
+      for (int shift = 0; shift < 32; shift += 8) bytes.push_back(static_cast<char>(word >> shift & 0xff));
+  };
+  constexpr std::uint32_t header = 124;
+  constexpr std::uint32_t text = header;
+  constexpr std::uint32_t mesh = text + 4;
+  constexpr std::uint32_t arrays = mesh + 24;
+  constexpr std::uint32_t triangles = arrays + 20;
+  constexpr std::uint32_t positions = triangles + 24;
+  constexpr std::uint32_t size = positions + 48;
+  add({2, size, 0, 4, text, 1, mesh, 1, 4, arrays, 2, triangles, 0});
+  add(std::vector<std::uint32_t>(14, 0));
+  add({0});                      // an empty name
+  add({0, 0, 0, 4, 0, 2});       // one mesh of four vertices and two triangles
+  add({0, 0, 7, 3, positions});  // floats, three a vertex
+  add({0, 1, 3, 0, 3, 2});
+  for (const float coordinate : {0.0f, 0.0f, 0.0f, 20.0f, 0.0f, 0.0f, 0.0f, 0.0f, 72.0f, 20.0f, 0.0f, 72.0f})
+    add({std::bit_cast<std::uint32_t>(coordinate)});
+
+  const auto [character, report] = import_character(folder.write("post.iqm", bytes));
+  EXPECT_EQ(report.triangles, 2u);
+  EXPECT_NEAR(report.height, 1.8288f, 1e-5f);
+  EXPECT_EQ(character.root_joint, -1);
+  EXPECT_TRUE(has_note(report, "rest pose alone"));
+}
+
 std::string bvh(const std::string& root, const std::string& child, const std::string& offset) {
   return "HIERARCHY\nROOT " + root +
          "\n{\n\tOFFSET 0 0 0\n\tCHANNELS 6 Xposition Yposition Zposition Zrotation Xrotation "
@@ -242,6 +274,23 @@ TEST_F(ImportFormats, ClipsMatchThroughNamespaces) {
     EXPECT_EQ(report.clips.at(1).channels, 2u) << prefix;
     expect_equal_clips(character, 0, 1);
   }
+}
+
+/// As modelling tools write it: an armature that turns z up to y up and centimetres to metres.
+TEST_F(ImportFormats, ClipUnderATurnedAndScaledArmatureMovesAlike) {
+  SkinnedStrip source;
+  source.armature = "\"rotation\":[-0.70710678,0,0,0.70710678],\"scale\":[0.01,0.01,0.01],";
+  source.hips_turn = "\"rotation\":[0.70710678,0,0,0.70710678],";
+  source.head_place = "\"translation\":[0,50,0]";
+  for (std::size_t key = 0; key < source.way.size(); key += 3) {
+    const float up = source.way[key + 1];
+    source.way[key] *= 100;
+    source.way[key + 1] = -100 * source.way[key + 2];
+    source.way[key + 2] = 100 * up;
+  }
+  const auto [character, report] = strip_with(folder.write("blend.gltf", source.text()));
+  expect_equal_clips(character, 0, 1);
+  EXPECT_TRUE(end_of_way(character, 1).isApprox(Eigen::Vector3f(3, 1, 0), 1e-5f));
 }
 
 TEST_F(ImportFormats, ClipOfATallerSkeletonIsScaledAndLimbsKeepTheirLength) {

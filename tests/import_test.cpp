@@ -209,8 +209,15 @@ TEST_F(Import, RepairsTheOrderOfKeysAndTheNormOfRotations) {
   for (const float time : {0.0f, 0.6f, 1.4f, 2.0f}) {
     const auto pose = skinner.pose({0, time});
     const auto wanted = expected.pose({0, time});
-    for (std::size_t v = 0; v < pose.size(); ++v) EXPECT_TRUE(pose[v].isApprox(wanted[v], 1e-5f));
+    for (std::size_t v = 0; v < pose.size(); ++v) EXPECT_LT((pose[v] - wanted[v]).norm(), 1e-5f);
   }
+}
+
+TEST_F(Import, SaysThatNodesShareAName) {
+  SkinnedStrip strip;
+  EXPECT_FALSE(has_note(import("strip.gltf", strip.text()).report, "several nodes"));
+  strip.head = "body";  // as the node of the mesh
+  EXPECT_TRUE(has_note(import("strip.gltf", strip.text()).report, "several nodes are named 'body'"));
 }
 
 TEST_F(Import, EveryInstanceOfAMeshCounts) {

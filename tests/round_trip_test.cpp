@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <cmath>
+#include <cstdlib>
 #include <filesystem>
 #include <numbers>
 
@@ -190,6 +191,13 @@ TEST(RoundTrip, KeepsSeveralBonesOfOneJoint) {
     merged.influence_begin.push_back(static_cast<std::uint32_t>(merged.influences.size()));
   }
   expect_round_trip(merged, ".glb");
+}
+
+TEST(RoundTrip, RealCharacter) {
+  const char* data = std::getenv("BCH_TEST_DATA");
+  if (data == nullptr) GTEST_SKIP() << "BCH_TEST_DATA is not set: no real files to read";
+  const std::filesystem::path folder = std::filesystem::path(data) / "characters";
+  expect_round_trip(import_character(folder / "generic_man_cmu.glb").character, ".glb");
 }
 
 }  // namespace
