@@ -89,11 +89,17 @@ GltfFile SkinnedStrip::file() const {
                 "},{\"name\":\"camera\",\"translation\":[9,9,9]},{" + armature +
                 "\"name\":\"armature\",\"children\":[1]}]");
   gltf.add_json("\"scenes\":[{\"nodes\":[0,4,3]}],\"scene\":0");
-  const std::string input = gltf.add(times, "SCALAR");
-  gltf.add_json("\"animations\":[{\"name\":\"walk\",\"samplers\":[{\"input\":" + input + ",\"output\":" +
-                gltf.add(way, "VEC3") + "},{\"input\":" + input + ",\"output\":" + gltf.add(turns, "VEC4") +
-                "}],\"channels\":[{\"sampler\":0,\"target\":{\"node\":1,\"path\":\"translation\"}},"
-                "{\"sampler\":1,\"target\":{\"node\":2,\"path\":\"rotation\"}}]}]");
+  const std::string input = "{\"input\":" + gltf.add(times, "SCALAR") + ",\"output\":";
+  std::string samplers = input + gltf.add(way, "VEC3") + "}," + input + gltf.add(turns, "VEC4") + "}";
+  std::string channels =
+      "{\"sampler\":0,\"target\":{\"node\":1,\"path\":\"translation\"}},"
+      "{\"sampler\":1,\"target\":{\"node\":2,\"path\":\"rotation\"}}";
+  if (!sway.empty()) {
+    samplers += "," + input + gltf.add(sway, "VEC3") + "}";
+    channels += ",{\"sampler\":2,\"target\":{\"node\":4,\"path\":\"translation\"}}";
+  }
+  gltf.add_json("\"animations\":[{\"name\":\"walk\",\"samplers\":[" + samplers + "],\"channels\":[" +
+                channels + "]}]");
   return gltf;
 }
 

@@ -47,6 +47,7 @@ struct SkinnedStrip {
   std::vector<float> times = {0, 1, 2};
   std::vector<float> way = {0, 1, 0, 1, 1, 0, 3, 1, 0};
   std::vector<float> turns = {0, 0, 0, 1, 0, 0.38268343f, 0, 0.92387953f, 0, 0.70710678f, 0, 0.70710678f};
+  std::vector<float> sway;  ///< positions of the node above the hips, as many as times
   std::string hips = "hips";
   std::string head = "head";
   std::string armature;   ///< members of the node above the hips, such as "\"scale\":[1,1,1],"

@@ -213,6 +213,41 @@ TEST_F(Import, RepairsTheOrderOfKeysAndTheNormOfRotations) {
   }
 }
 
+TEST_F(Import, MovesAClipThatStartsBeforeZero) {
+  SkinnedStrip strip;
+  const Character good = import("good.gltf", strip.text()).character;
+  strip.times = {-1, 0, 1};
+  const auto [character, report] = import("early.gltf", strip.text());
+  EXPECT_TRUE(has_note(report, "starts before time 0")) << all_notes(report);
+  EXPECT_EQ(character.clips.at(0).seconds, 2.0f);
+  Skinner skinner(character);
+  Skinner expected(good);
+  for (const float time : {0.0f, 0.6f, 1.4f, 2.0f}) {
+    const auto pose = skinner.pose({0, time});
+    const auto wanted = expected.pose({0, time});
+    for (std::size_t v = 0; v < pose.size(); ++v) EXPECT_LT((pose[v] - wanted[v]).norm(), 1e-5f);
+  }
+}
+
+TEST_F(Import, RootIsTheJointThatWalks) {
+  const auto root = [&](const SkinnedStrip& strip) {
+    const Character c = import("strip.gltf", strip.text()).character;
+    return c.joints.at(static_cast<std::size_t>(c.root_joint)).name;
+  };
+  SkinnedStrip strip;
+  EXPECT_EQ(root(strip), "hips");
+  // The armature sways while the hips walk away from it.
+  strip.sway = {0, 0, 0, 0.1f, 0, 0, 0, 0, 0};
+  EXPECT_EQ(root(strip), "hips");
+  // The armature walks, and the hips sway in it.
+  std::swap(strip.sway, strip.way);
+  EXPECT_EQ(root(strip), "armature");
+  // Nothing leaves its place: the lowest joint that carries all vertices.
+  strip.sway.clear();
+  strip.way.assign(9, 0);
+  EXPECT_EQ(root(strip), "hips");
+}
+
 TEST_F(Import, SaysThatNodesShareAName) {
   SkinnedStrip strip;
   EXPECT_FALSE(has_note(import("strip.gltf", strip.text()).report, "several nodes"));
