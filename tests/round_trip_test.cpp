@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <numbers>
 
+#include "layout/default_characters.hpp"
 #include "layout/import.hpp"
 #include "layout/skinning.hpp"
 #include "scene_export.hpp"
@@ -191,6 +192,11 @@ TEST(RoundTrip, KeepsSeveralBonesOfOneJoint) {
     merged.influence_begin.push_back(static_cast<std::uint32_t>(merged.influences.size()));
   }
   expect_round_trip(merged, ".glb");
+}
+
+TEST(RoundTrip, DefaultCharacters) {
+  expect_round_trip(default_male(), ".glb");
+  expect_round_trip(default_female(), ".glb");
 }
 
 TEST(RoundTrip, RealCharacter) {
