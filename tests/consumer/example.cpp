@@ -14,7 +14,7 @@ int main() {
   const bch::ShapeSet set(shapes);
 
   const std::vector<std::uint32_t> shape = {0, 1, 2, 0};                                 // your simulator's arrays
-  const std::vector<double> x = {0, 0.3, 5, 5.6}, y = {0, 0.2, 5, 5}, heading = {0, 1.5, 3, 0};
+  const std::vector<double> x = {0, 0.3, 5, 5.5}, y = {0, 0.2, 5, 5}, heading = {0, 1.5, 3, 0};
   const bch::Agents agents{shape, x, y, heading};
   const std::vector<bch::Pair> pairs = bch::candidate_pairs(set, agents);
   std::vector<std::uint8_t> hits(pairs.size());
