@@ -15,12 +15,14 @@ template <class Arch>
 struct Lanes {
   using Float = xsimd::batch<float, Arch>;
   using Double = xsimd::batch<double, Arch>;
+  using Mask = xsimd::batch_bool<float, Arch>;
   static constexpr unsigned width = Float::size;
 
   static Float load(const float* p) noexcept { return Float::load_unaligned(p); }
   static Double load(const double* p) noexcept { return Double::load_unaligned(p); }
   static void store(float* p, Float v) noexcept { v.store_unaligned(p); }
   static void store(double* p, Double v) noexcept { v.store_unaligned(p); }
+  static Float select(Mask mask, Float yes, Float no) noexcept { return xsimd::select(mask, yes, no); }
   static Float row(const float* eight, unsigned i) noexcept { return Float(eight[i]); }
   static Float columns(const float* eight, unsigned part) noexcept {
     return Float::load_unaligned(eight + part * width);
@@ -34,12 +36,14 @@ template <>
 struct Lanes<Scalar> {
   using Float = float;
   using Double = double;
+  using Mask = bool;
   static constexpr unsigned width = 1;
 
   static Float load(const float* p) noexcept { return *p; }
   static Double load(const double* p) noexcept { return *p; }
   static void store(float* p, Float v) noexcept { *p = v; }
   static void store(double* p, Double v) noexcept { *p = v; }
+  static Float select(Mask mask, Float yes, Float no) noexcept { return mask ? yes : no; }
   static Float row(const float* eight, unsigned i) noexcept { return eight[i]; }
   static Float columns(const float* eight, unsigned part) noexcept { return eight[part]; }
 };

@@ -19,9 +19,9 @@ namespace bch::kernel {
 /// scalar reference agree bit for bit.
 ///
 /// Pairs are answered in chunks. Stage 1 places B in A's frame and tests the root discs, lane = pair. Stage 2
-/// walks the trees of the pairs left, in rounds: each round tests one pair of blocks, 8 x 8 discs, for every
-/// open pair, so that the cache misses and the latencies of many pairs overlap and no branch depends on an
-/// answer.
+/// parts pairs by their supports in fixed directions, lane = direction. Stage 3 walks the trees of the pairs
+/// left, in rounds: each round tests one pair of blocks, 8 x 8 discs, for every open pair, so that the cache
+/// misses and the latencies of many pairs overlap and no branch depends on an answer.
 template <class Simd>
 class PairKernel {
  public:
@@ -32,6 +32,7 @@ class PairKernel {
       kernel.gather(begin);
       kernel.place();
       kernel.test_roots(begin);
+      if (kernel.shapes_.support && kernel.open_count_ > 0) kernel.reject_by_supports(begin);
       kernel.walk(begin);
     }
   }
@@ -39,6 +40,7 @@ class PairKernel {
  private:
   using Float = typename Simd::Float;
   using Double = typename Simd::Double;
+  using Mask = typename Simd::Mask;
   static constexpr std::uint32_t chunk = 256;
   /// Every test descends on one side at least, and neither side has more levels than this.
   static constexpr std::uint32_t most_frames = 2 * most_wide_levels;
@@ -158,12 +160,77 @@ class PairKernel {
     open_count_ += hit & (decided ^ 1);
   }
 
+  /// Stage 2: apart where a line parts the two cuts. See layout/supports.hpp.
+  void reject_by_supports(std::size_t begin) noexcept {
+    place_directions();
+    std::uint8_t* __restrict codes = in_.codes + begin;
+    std::uint32_t still_open = 0;
+    for (std::uint32_t k = 0; k < open_count_; ++k) {
+      const std::uint32_t pair = open_[k];
+      const bool parted = parted_by_supports(pair);
+      codes[pair] = parted ? static_cast<std::uint8_t>(apart) : codes[pair];
+      open_[still_open] = static_cast<std::uint16_t>(pair);
+      still_open += !parted;
+    }
+    open_count_ = still_open;
+  }
+
+  /// Against A's direction k stands B's direction k * D + psi, with D the angle between directions and psi =
+  /// pi - (B's turn in A's frame). psi = (offset + share) * D with 0 <= share <= 1, and a support between two
+  /// directions is at most lower * (that of the one below) + upper * (that of the one above), the height of
+  /// the corner of two supporting lines.
+  void place_directions() noexcept {
+    static_assert(support_directions == 16);
+    constexpr float tan_1 = 0.41421356f, tan_3 = 2.41421356f, cot_1 = 2.41421356f,
+                    one_over_sin_1 = 2.61312593f;
+    constexpr float cos_1 = 0.92387953f, cos_2 = 0.70710678f, cos_3 = 0.38268343f;
+    alignas(64) float offset[chunk];
+    const Float zero(0.0f);
+    for (std::uint32_t k = 0; k < size_; k += Simd::width) {
+      const Float x = zero - Simd::load(c_ + k), y = Simd::load(s_ + k);
+      const Float ax = xsimd::abs(x), ay = xsimd::abs(y);
+      const auto past_1 = Float(tan_1) * ax < ay, past_2 = ax < ay, past_3 = Float(tan_3) * ax < ay;
+      const auto among = [&](float at_0, float at_1, float at_2, float at_3) {
+        return Simd::select(
+            past_3, Float(at_3),
+            Simd::select(past_2, Float(at_2), Simd::select(past_1, Float(at_1), Float(at_0))));
+      };
+      const Float cosine = among(1, cos_1, cos_2, cos_3), sine = among(0, cos_3, cos_2, cos_1);
+      const Float rest_cosine = ax * cosine + ay * sine, rest_sine = ay * cosine - ax * sine;
+      const Float near = rest_cosine - Float(cot_1) * rest_sine, far = Float(one_over_sin_1) * rest_sine;
+      // No operator on masks: in xsimd 8.1, != is wrong with SSE2 (it compares as floats, and a full mask is
+      // a NaN) and ^ with AVX-512.
+      const Mask left = x < zero, below = y < zero;
+      const auto by_quadrant = [&](Float first, Float second, Float third, Float fourth) {
+        return Simd::select(left, Simd::select(below, third, second), Simd::select(below, fourth, first));
+      };
+      const Float up = among(0, 1, 2, 3);
+      Simd::store(offset + k, by_quadrant(up, Float(7.0f) - up, Float(8.0f) + up, Float(15.0f) - up));
+      Simd::store(lower_ + k, by_quadrant(near, far, near, far));
+      Simd::store(upper_ + k, by_quadrant(far, near, far, near));
+    }
+    for (std::uint32_t k = 0; k < size_; ++k) offset_[k] = static_cast<std::uint8_t>(offset[k]);
+  }
+
+  bool parted_by_supports(std::uint32_t pair) const noexcept {
+    const float* a = shapes_.support + std::size_t{root_a_[pair]} * support_stride;
+    const float* b = shapes_.support + std::size_t{root_b_[pair]} * support_stride + offset_[pair];
+    const Float tx(tx_[pair]), ty(ty_[pair]), lower(lower_[pair]), upper(upper_[pair]);
+    std::uint32_t parted = 0;
+    for (unsigned k = 0; k < support_directions; k += Simd::width) {
+      const Float distance = tx * Simd::load(direction_x + k) + ty * Simd::load(direction_y + k);
+      const Float reach = Simd::load(a + k) + (lower * Simd::load(b + k) + upper * Simd::load(b + k + 1));
+      parted |= Simd::bits(reach < distance);
+    }
+    return parted != 0;
+  }
+
   static std::uint32_t overlaps(Float bx, Float by, Float br, Float ax, Float ay, Float ar) noexcept {
     const Float x = bx - ax, y = by - ay, r = ar + br;
     return Simd::bits(x * x + y * y <= r * r);
   }
 
-  /// Stage 2.
+  /// Stage 3.
   void walk(std::size_t begin) noexcept {
     std::uint8_t* __restrict codes = in_.codes + begin;
     while (open_count_ > 0) {
@@ -236,6 +303,12 @@ class PairKernel {
     return true;
   }
 
+  static constexpr float c1 = 0.92387953f, c2 = 0.70710678f, c3 = 0.38268343f;
+  alignas(64) static constexpr float direction_x[] = {1,  c1,  c2,  c3,  0, -c3, -c2, -c1,
+                                                      -1, -c1, -c2, -c3, 0, c3,  c2,  c1};
+  alignas(64) static constexpr float direction_y[] = {0, c3,  c2,  c1,  1,  c1,  c2,  c3,
+                                                      0, -c3, -c2, -c1, -1, -c1, -c2, -c3};
+
   const Arguments& in_;
   const ShapeSetView shapes_;
   std::uint32_t size_ = 0;
@@ -245,6 +318,8 @@ class PairKernel {
   alignas(64) float dx_[chunk], dy_[chunk];
   alignas(64) float c_[chunk], s_[chunk], tx_[chunk], ty_[chunk];
   std::uint32_t root_a_[chunk], root_b_[chunk];
+  std::uint8_t offset_[chunk];
+  alignas(64) float lower_[chunk], upper_[chunk];
   std::uint32_t a_[chunk], b_[chunk];
   std::uint64_t allowed_[chunk];
   std::uint8_t depth_[chunk];

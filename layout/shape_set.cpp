@@ -10,6 +10,7 @@
 
 #include "layout/enclosing_disc.hpp"
 #include "layout/rounding.hpp"
+#include "layout/supports.hpp"
 #include "layout/wide_tree.hpp"
 
 namespace bch {
@@ -40,18 +41,18 @@ ShapeSet::ShapeSet(std::span<const Shape> shapes, const ShapeSetPlan& plan) : de
     if (hierarchy.nodes.empty())
       throw std::invalid_argument("shape set: shape " + std::to_string(s) + " has no nodes");
     reach_.push_back(rounding::round_up(hierarchy.reach));
-    for (const std::uint32_t depth : plan.depths) add_level(hierarchy, depth);
+    for (const std::uint32_t depth : plan.depths) add_level(hierarchy, depth, plan.shortcuts);
     if (plan.solid) add_outline(outline);
   }
   // Single discs need blocks only to meet those that are not.
   if (std::all_of(root_is_single_.begin(), root_is_single_.end(),
                   [](std::uint8_t single) { return single != 0; })) {
-    x_ = {}, y_ = {}, radius_ = {}, first_child_ = {}, inner_count_ = {};
+    x_ = {}, y_ = {}, radius_ = {}, first_child_ = {}, inner_count_ = {}, support_ = {};
     std::fill(root_block_.begin(), root_block_.end(), 0);
   }
 }
 
-void ShapeSet::add_level(const Hierarchy& hierarchy, std::uint32_t depth) {
+void ShapeSet::add_level(const Hierarchy& hierarchy, std::uint32_t depth, bool shortcuts) {
   const WideTree tree = wide_tree(hierarchy, depth);
   const std::size_t base = inner_count_.size();
   if (base + tree.blocks.size() > std::numeric_limits<std::uint32_t>::max() / block_width)
@@ -61,6 +62,12 @@ void ShapeSet::add_level(const Hierarchy& hierarchy, std::uint32_t depth) {
   root_radius_.push_back(tree.root.radius);
   root_block_.push_back(static_cast<std::uint32_t>(base));
   root_is_single_.push_back(tree.is_single ? 1 : 0);
+  if (shortcuts) {
+    std::vector<Disc> discs;
+    for (const std::uint32_t node : cut(hierarchy, depth)) discs.push_back(hierarchy.nodes[node].disc);
+    const Supports heights = supports(discs, hierarchy.reach);
+    support_.insert(support_.end(), heights.begin(), heights.end());
+  }
   for (const WideBlock& block : tree.blocks) {
     x_.insert(x_.end(), block.x.begin(), block.x.end());
     y_.insert(y_.end(), block.y.begin(), block.y.end());
@@ -83,17 +90,30 @@ void ShapeSet::add_outline(const Outline& outline) {
 }
 
 ShapeSetView ShapeSet::view() const noexcept {
-  return {shape_count(),       level_count(),          root_x_.data(),         root_y_.data(),
-          root_radius_.data(), root_block_.data(),     root_is_single_.data(), x_.data(),
-          y_.data(),           radius_.data(),         first_child_.data(),    inner_count_.data(),
-          reach_.data(),       shape_contours_.data(), contour_points_.data(), contour_disc_.data(),
-          points_.data()};
+  return {.shape_count = shape_count(),
+          .level_count = level_count(),
+          .root_x = root_x_.data(),
+          .root_y = root_y_.data(),
+          .root_radius = root_radius_.data(),
+          .root_block = root_block_.data(),
+          .root_is_single = root_is_single_.data(),
+          .support = support_.empty() ? nullptr : support_.data(),
+          .x = x_.data(),
+          .y = y_.data(),
+          .radius = radius_.data(),
+          .first_child = first_child_.data(),
+          .inner_count = inner_count_.data(),
+          .reach = reach_.data(),
+          .shape_contours = shape_contours_.data(),
+          .contour_points = contour_points_.data(),
+          .contour_disc = contour_disc_.data(),
+          .points = points_.data()};
 }
 
 std::size_t ShapeSet::bytes() const noexcept {
   const auto total = [](const auto&... vectors) { return (bytes_of(vectors) + ...); };
-  return total(root_x_, root_y_, root_radius_, root_block_, root_is_single_, x_, y_, radius_, first_child_,
-               inner_count_, reach_, shape_contours_, contour_points_, contour_disc_, points_);
+  return total(root_x_, root_y_, root_radius_, root_block_, root_is_single_, support_, x_, y_, radius_,
+               first_child_, inner_count_, reach_, shape_contours_, contour_points_, contour_disc_, points_);
 }
 
 }  // namespace bch

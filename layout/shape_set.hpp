@@ -27,6 +27,9 @@ struct ShapeSetPlan {
   std::vector<std::uint32_t> depths = {all_depths};
   /// Keep what the solid semantics needs (the outlines, to see one shape inside another).
   bool solid = false;
+  /// Keep what lets a query skip most traversals: supports. They change no answer; a set that answers few
+  /// queries does without.
+  bool shortcuts = true;
 };
 
 /// The flat form of many shapes for batch queries: structure of arrays, aligned to cache lines, immutable.
@@ -51,13 +54,14 @@ class ShapeSet {
   std::size_t bytes() const noexcept;
 
  private:
-  void add_level(const Hierarchy& hierarchy, std::uint32_t depth);
+  void add_level(const Hierarchy& hierarchy, std::uint32_t depth, bool shortcuts);
   void add_outline(const Outline& outline);
 
   std::vector<std::uint32_t> depths_;
   AlignedVector<float> root_x_, root_y_, root_radius_;
   AlignedVector<std::uint32_t> root_block_;
   AlignedVector<std::uint8_t> root_is_single_;
+  AlignedVector<float> support_;
   AlignedVector<float> x_, y_, radius_;
   AlignedVector<std::uint32_t> first_child_;
   AlignedVector<std::uint8_t> inner_count_;

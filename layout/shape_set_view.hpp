@@ -14,6 +14,10 @@ constexpr std::uint32_t block_width = 8;
 /// Longest way, in blocks, from a root block to a leaf; what kernels size their stacks by.
 constexpr std::uint32_t most_wide_levels = 16;
 
+/// Directions of supports, and the floats that a set's supports take; see supports.hpp.
+constexpr std::uint32_t support_directions = 16;
+constexpr std::uint32_t support_stride = 2 * support_directions + 1;
+
 /// The nodes of all shapes and levels as plain pointers: what kernels read. Valid while the set lives.
 /// Roots:    index shape * level_count + level.
 /// Blocks:   block b's discs are x, y, radius[8 b .. 8 b + 7]; see WideBlock.
@@ -28,6 +32,7 @@ struct ShapeSetView {
   const float* root_radius;
   const std::uint32_t* root_block;     ///< global block index
   const std::uint8_t* root_is_single;  ///< the cut is the root disc alone
+  const float* support;                ///< support_stride floats a root; null without the plan's shortcuts
 
   const float* x;
   const float* y;

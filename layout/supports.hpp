@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <array>
+#include <span>
+
+#include "layout/disc.hpp"
+#include "layout/shape_set_view.hpp"
+
+namespace bch {
+
+/// Support heights, the largest extent of a set of discs along each of support_directions directions:
+/// direction k is at angle k * 2 pi / support_directions. Stored twice over and one more, so that a turned
+/// set is an offset into the same array.
+///
+/// Two sets are apart when along some direction the sum of their supports is less than the distance of their
+/// origins. Between two directions a support is at most that of the corner where the two supporting lines
+/// meet; rounding.hpp says how much the heights are enlarged so that the float test never parts discs that
+/// the float test of discs lets overlap.
+using Supports = std::array<float, support_stride>;
+
+/// `reach` as in rounding.hpp, metres.
+Supports supports(std::span<const Disc> discs, double reach);
+
+}  // namespace bch
