@@ -19,9 +19,10 @@ namespace bch::kernel {
 /// scalar reference agree bit for bit.
 ///
 /// Pairs are answered in chunks. Stage 1 places B in A's frame and tests the root discs, lane = pair. Stage 2
-/// parts pairs by their supports in fixed directions, lane = direction. Stage 3 walks the trees of the pairs
-/// left, in rounds: each round tests one pair of blocks, 8 x 8 discs, for every open pair, so that the cache
-/// misses and the latencies of many pairs overlap and no branch depends on an answer.
+/// parts pairs by their supports in fixed directions, lane = direction. Stage 3 accepts pairs whose inscribed
+/// discs overlap. Stage 4 walks the trees of the pairs left, in rounds: each round tests one pair of blocks,
+/// 8 x 8 discs, for every open pair, so that the cache misses and the latencies of many pairs overlap and no
+/// branch depends on an answer.
 template <class Simd>
 class PairKernel {
  public:
@@ -33,6 +34,7 @@ class PairKernel {
       kernel.place();
       kernel.test_roots(begin);
       if (kernel.shapes_.support && kernel.open_count_ > 0) kernel.reject_by_supports(begin);
+      if (kernel.shapes_.inscribed_x && kernel.open_count_ > 0) kernel.accept_by_inscribed_discs(begin);
       kernel.walk(begin);
     }
   }
@@ -64,8 +66,10 @@ class PairKernel {
       const std::uint32_t a = swap ? pair.second : pair.first, b = swap ? pair.first : pair.second;
       const std::uint32_t level_a = in_.agent_level ? in_.agent_level[a] : levels - 1;
       const std::uint32_t level_b = in_.agent_level ? in_.agent_level[b] : levels - 1;
-      root_a_[k] = in_.agent_shape[a] * levels + level_a;
-      root_b_[k] = in_.agent_shape[b] * levels + level_b;
+      shape_a_[k] = in_.agent_shape[a];
+      shape_b_[k] = in_.agent_shape[b];
+      root_a_[k] = shape_a_[k] * levels + level_a;
+      root_b_[k] = shape_b_[k] * levels + level_b;
       dx_[k] = static_cast<float>(in_.agent_x[b] - in_.agent_x[a]);
       dy_[k] = static_cast<float>(in_.agent_y[b] - in_.agent_y[a]);
       heading_[k] = in_.agent_heading[a];
@@ -230,14 +234,62 @@ class PairKernel {
     return Simd::bits(x * x + y * y <= r * r);
   }
 
-  /// Stage 3.
+  /// Stage 3: a hit where discs inside the outlines overlap, and in boundary semantics neither can hold the
+  /// other. See layout/interior.hpp.
+  void accept_by_inscribed_discs(std::size_t begin) noexcept {
+    std::uint8_t* __restrict codes = in_.codes + begin;
+    std::uint32_t still_open = 0;
+    for (std::uint32_t k = 0; k < open_count_; ++k) {
+      const std::uint32_t pair = open_[k];
+      const std::uint32_t a = shape_a_[pair], b = shape_b_[pair];
+      const bool meet = outer_product(pair, inscribed(a), inscribed(b)) != 0;
+      const bool accepted = meet & (in_.mark_near_misses | cannot_nest(pair, a, b));
+      codes[pair] = accepted ? static_cast<std::uint8_t>(overlap) : codes[pair];
+      open_[still_open] = static_cast<std::uint16_t>(pair);
+      still_open += !accepted;
+    }
+    open_count_ = still_open;
+  }
+
+  /// Both contours have a point beyond the other's supports.
+  bool cannot_nest(std::uint32_t pair, std::uint32_t a, std::uint32_t b) const noexcept {
+    const float c = c_[pair], s = s_[pair], tx = tx_[pair], ty = ty_[pair];
+    const unsigned nearer = upper_[pair] > lower_[pair];
+    const unsigned turn = (offset_[pair] + support_directions / 2 + nearer) % support_directions;
+    const unsigned back = (support_directions - turn) % support_directions;
+    // The float arithmetic is off by less than 40 u S.
+    const float slack = 4e-6f * (shapes_.reach[a] + shapes_.reach[b]);
+    return sticks_out(b, turn, c, s, tx, ty, root_a_[pair], slack) &
+           sticks_out(a, back, c, -s, -(c * tx + s * ty), -(c * ty - s * tx), root_b_[pair], slack);
+  }
+
+  /// Whether a farthest point of a shape, placed in another's frame by a rotation (c, s) and a translation t,
+  /// is beyond one of the other's supports. Its direction k + turn is the one that points most nearly along
+  /// the other's direction k.
+  bool sticks_out(std::uint32_t shape, unsigned turn, float c, float s, float tx, float ty,
+                  std::uint32_t other_root, float slack) const noexcept {
+    const float* x = shapes_.extreme_x + std::size_t{shape} * extreme_stride + turn;
+    const float* y = shapes_.extreme_y + std::size_t{shape} * extreme_stride + turn;
+    const float* support = shapes_.support + std::size_t{other_root} * support_stride;
+    std::uint32_t out = 0;
+    for (unsigned k = 0; k < support_directions; k += Simd::width) {
+      const Float ux = Simd::load(direction_x + k), uy = Simd::load(direction_y + k);
+      const Float turned_x = Float(c) * ux + Float(s) * uy, turned_y = Float(c) * uy - Float(s) * ux;
+      const Float along =
+          (Float(tx) * ux + Float(ty) * uy) + (Simd::load(x + k) * turned_x + Simd::load(y + k) * turned_y);
+      out |= Simd::bits(Simd::load(support + k) + Float(slack) < along);
+    }
+    return out != 0;
+  }
+
+  /// Stage 4.
   void walk(std::size_t begin) noexcept {
     std::uint8_t* __restrict codes = in_.codes + begin;
     while (open_count_ > 0) {
       std::uint32_t still_open = 0;
       for (std::uint32_t k = 0; k < open_count_; ++k) {
         const std::uint32_t pair = open_[k];
-        const std::uint64_t hits = test_blocks(pair) & allowed_[pair];
+        const std::uint64_t hits = outer_product(pair, block(a_[pair]), block(b_[pair])) & allowed_[pair];
         const bool hit = (hits & leaf_bits(a_[pair], b_[pair])) != 0;
         codes[pair] = hit ? static_cast<std::uint8_t>(overlap) : codes[pair];
         const bool more = descend(pair, hits);
@@ -250,21 +302,32 @@ class PairKernel {
       for (std::uint32_t k = 0; k < size_; ++k) codes[k] = codes[k] & overlap;
   }
 
-  /// All discs of one block against all of another.
-  std::uint64_t test_blocks(std::uint32_t pair) const noexcept {
+  /// Eight discs.
+  struct Discs {
+    const float *x, *y, *radius;
+  };
+  Discs block(std::uint32_t index) const noexcept {
+    const std::size_t at = std::size_t{index} * block_width;
+    return {shapes_.x + at, shapes_.y + at, shapes_.radius + at};
+  }
+  Discs inscribed(std::uint32_t shape) const noexcept {
+    const std::size_t at = std::size_t{shape} * block_width;
+    return {shapes_.inscribed_x + at, shapes_.inscribed_y + at, shapes_.inscribed_radius + at};
+  }
+
+  /// All discs of one agent's eight against all of the other's: bit 8 i + j for disc i of A and j of B.
+  std::uint64_t outer_product(std::uint32_t pair, Discs a, Discs b) const noexcept {
     constexpr unsigned parts = Simd::width < block_width ? block_width / Simd::width : 1;
     constexpr unsigned rows = Simd::width > block_width ? Simd::width / block_width : 1;
-    const std::size_t a = std::size_t{a_[pair]} * block_width, b = std::size_t{b_[pair]} * block_width;
-    const float *ax = shapes_.x + a, *ay = shapes_.y + a, *ar = shapes_.radius + a;
-    const float *bx = shapes_.x + b, *by = shapes_.y + b, *br = shapes_.radius + b;
     const Float c(c_[pair]), s(s_[pair]), tx(tx_[pair]), ty(ty_[pair]);
     std::uint64_t bits = 0;
     for (unsigned part = 0; part < parts; ++part) {
-      const Float x = Simd::columns(bx, part), y = Simd::columns(by, part), r = Simd::columns(br, part);
+      const Float x = Simd::columns(b.x, part), y = Simd::columns(b.y, part),
+                  r = Simd::columns(b.radius, part);
       const Float px = tx + (c * x - s * y), py = ty + (s * x + c * y);
       for (unsigned row = 0; row < block_width; row += rows)
         bits |= static_cast<std::uint64_t>(
-                    overlaps(px, py, r, Simd::row(ax, row), Simd::row(ay, row), Simd::row(ar, row)))
+                    overlaps(px, py, r, Simd::row(a.x, row), Simd::row(a.y, row), Simd::row(a.radius, row)))
                 << (row * block_width + part * Simd::width);
     }
     return bits;
@@ -317,6 +380,7 @@ class PairKernel {
   alignas(64) float cosine_[2 * chunk], sine_[2 * chunk];
   alignas(64) float dx_[chunk], dy_[chunk];
   alignas(64) float c_[chunk], s_[chunk], tx_[chunk], ty_[chunk];
+  std::uint32_t shape_a_[chunk], shape_b_[chunk];
   std::uint32_t root_a_[chunk], root_b_[chunk];
   std::uint8_t offset_[chunk];
   alignas(64) float lower_[chunk], upper_[chunk];

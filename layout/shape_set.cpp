@@ -9,6 +9,7 @@
 #include <string>
 
 #include "layout/enclosing_disc.hpp"
+#include "layout/interior.hpp"
 #include "layout/rounding.hpp"
 #include "layout/supports.hpp"
 #include "layout/wide_tree.hpp"
@@ -43,11 +44,13 @@ ShapeSet::ShapeSet(std::span<const Shape> shapes, const ShapeSetPlan& plan) : de
     reach_.push_back(rounding::round_up(hierarchy.reach));
     for (const std::uint32_t depth : plan.depths) add_level(hierarchy, depth, plan.shortcuts);
     if (plan.solid) add_outline(outline);
+    if (plan.shortcuts && plan.depths.back() > 0) add_interior(outline, hierarchy.reach);
   }
   // Single discs need blocks only to meet those that are not.
   if (std::all_of(root_is_single_.begin(), root_is_single_.end(),
                   [](std::uint8_t single) { return single != 0; })) {
     x_ = {}, y_ = {}, radius_ = {}, first_child_ = {}, inner_count_ = {}, support_ = {};
+    inscribed_x_ = {}, inscribed_y_ = {}, inscribed_radius_ = {}, extreme_x_ = {}, extreme_y_ = {};
     std::fill(root_block_.begin(), root_block_.end(), 0);
   }
 }
@@ -77,6 +80,21 @@ void ShapeSet::add_level(const Hierarchy& hierarchy, std::uint32_t depth, bool s
   }
 }
 
+/// A shape without an outline has no inscribed discs: padding, which overlaps nothing.
+void ShapeSet::add_interior(const Outline& outline, double reach) {
+  Interior inside{};
+  inside.x.fill(std::numeric_limits<float>::infinity());
+  if (outline.contours() > 0) {
+    validate(outline);
+    inside = interior(outline, reach);
+  }
+  inscribed_x_.insert(inscribed_x_.end(), inside.x.begin(), inside.x.end());
+  inscribed_y_.insert(inscribed_y_.end(), inside.y.begin(), inside.y.end());
+  inscribed_radius_.insert(inscribed_radius_.end(), inside.radius.begin(), inside.radius.end());
+  extreme_x_.insert(extreme_x_.end(), inside.extreme_x.begin(), inside.extreme_x.end());
+  extreme_y_.insert(extreme_y_.end(), inside.extreme_y.begin(), inside.extreme_y.end());
+}
+
 void ShapeSet::add_outline(const Outline& outline) {
   validate(outline);
   for (std::size_t c = 0; c < outline.contours(); ++c) {
@@ -104,6 +122,11 @@ ShapeSetView ShapeSet::view() const noexcept {
           .first_child = first_child_.data(),
           .inner_count = inner_count_.data(),
           .reach = reach_.data(),
+          .inscribed_x = inscribed_x_.empty() ? nullptr : inscribed_x_.data(),
+          .inscribed_y = inscribed_y_.data(),
+          .inscribed_radius = inscribed_radius_.data(),
+          .extreme_x = extreme_x_.data(),
+          .extreme_y = extreme_y_.data(),
           .shape_contours = shape_contours_.data(),
           .contour_points = contour_points_.data(),
           .contour_disc = contour_disc_.data(),
@@ -113,7 +136,8 @@ ShapeSetView ShapeSet::view() const noexcept {
 std::size_t ShapeSet::bytes() const noexcept {
   const auto total = [](const auto&... vectors) { return (bytes_of(vectors) + ...); };
   return total(root_x_, root_y_, root_radius_, root_block_, root_is_single_, support_, x_, y_, radius_,
-               first_child_, inner_count_, reach_, shape_contours_, contour_points_, contour_disc_, points_);
+               first_child_, inner_count_, reach_, inscribed_x_, inscribed_y_, inscribed_radius_, extreme_x_,
+               extreme_y_, shape_contours_, contour_points_, contour_disc_, points_);
 }
 
 }  // namespace bch

@@ -27,8 +27,8 @@ struct ShapeSetPlan {
   std::vector<std::uint32_t> depths = {all_depths};
   /// Keep what the solid semantics needs (the outlines, to see one shape inside another).
   bool solid = false;
-  /// Keep what lets a query skip most traversals: supports. They change no answer; a set that answers few
-  /// queries does without.
+  /// Keep what lets a query skip most traversals: supports and, of shapes with an outline, inscribed discs.
+  /// They change no answer; a set that answers few queries does without.
   bool shortcuts = true;
 };
 
@@ -55,6 +55,7 @@ class ShapeSet {
 
  private:
   void add_level(const Hierarchy& hierarchy, std::uint32_t depth, bool shortcuts);
+  void add_interior(const Outline& outline, double reach);
   void add_outline(const Outline& outline);
 
   std::vector<std::uint32_t> depths_;
@@ -66,6 +67,7 @@ class ShapeSet {
   AlignedVector<std::uint32_t> first_child_;
   AlignedVector<std::uint8_t> inner_count_;
   AlignedVector<float> reach_;
+  AlignedVector<float> inscribed_x_, inscribed_y_, inscribed_radius_, extreme_x_, extreme_y_;
   AlignedVector<std::uint32_t> shape_contours_, contour_points_;
   AlignedVector<Disc> contour_disc_;
   AlignedVector<Vec2> points_;

@@ -18,6 +18,9 @@ constexpr std::uint32_t most_wide_levels = 16;
 constexpr std::uint32_t support_directions = 16;
 constexpr std::uint32_t support_stride = 2 * support_directions + 1;
 
+/// Floats that the farthest points along those directions take; see interior.hpp.
+constexpr std::uint32_t extreme_stride = 2 * support_directions;
+
 /// The nodes of all shapes and levels as plain pointers: what kernels read. Valid while the set lives.
 /// Roots:    index shape * level_count + level.
 /// Blocks:   block b's discs are x, y, radius[8 b .. 8 b + 7]; see WideBlock.
@@ -41,6 +44,13 @@ struct ShapeSetView {
   const std::uint8_t* inner_count;
 
   const float* reach;  ///< per shape, metres, rounded up
+
+  // Per shape; see interior.hpp. Null without the plan's shortcuts.
+  const float* inscribed_x;  ///< block_width a shape, like the next two
+  const float* inscribed_y;
+  const float* inscribed_radius;
+  const float* extreme_x;  ///< extreme_stride a shape, like the next
+  const float* extreme_y;
 
   const std::uint32_t* shape_contours;
   const std::uint32_t* contour_points;
