@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include "bench/characters.hpp"
+
+#include <algorithm>
+
+#include "bench/exit_codes.hpp"
+#include "bench/guarded_import.hpp"
+#include "layout/default_characters.hpp"
+#include "layout/skinning.hpp"
+
+namespace bch::cli {
+namespace {
+
+constexpr std::string_view built_in_prefix = "default:";
+
+float rest_height(const Character& character) {
+  Skinner skinner(character);
+  const auto positions = skinner.pose({});
+  const auto lower = [](const auto& a, const auto& b) { return a.z() < b.z(); };
+  const auto [low, high] = std::minmax_element(positions.begin(), positions.end(), lower);
+  return high->z() - low->z();
+}
+
+ImportReport describe(const Character& character) {
+  ImportReport report;
+  report.format = "built in";
+  report.meshes = 1;
+  report.vertices = character.vertices.size();
+  report.triangles = character.triangles.size();
+  report.bones = character.bones.size();
+  report.height = rest_height(character);
+  for (const Clip& clip : character.clips)
+    report.clips.push_back({clip.name, clip.seconds, clip.channels.size(), clip.channels.size()});
+  return report;
+}
+
+LoadedCharacter built_in(const std::string& source, const ImportOptions& options) {
+  if (options.up || options.scale || !options.clip_files.empty())
+    throw UsageError(source + ": --clips, --up and --scale are for character files");
+  const std::string_view name = std::string_view(source).substr(built_in_prefix.size());
+  if (name != "male" && name != "female")
+    throw UsageError(source + ": the built-in characters are default:male and default:female");
+  LoadedCharacter loaded{source, name == "male" ? default_male() : default_female(), {}};
+  loaded.report = describe(loaded.character);
+  return loaded;
+}
+
+}  // namespace
+
+LoadedCharacter load_character(const std::string& source, const ImportOptions& options) {
+  if (source.starts_with(built_in_prefix)) return built_in(source, options);
+  ImportedCharacter imported = guarded_import(source, options);
+  return {source, std::move(imported.character), std::move(imported.report)};
+}
+
+std::vector<LoadedCharacter> load_characters(std::span<const std::string> sources,
+                                             const ImportOptions& options) {
+  std::vector<LoadedCharacter> loaded;
+  for (const std::string& source : sources) loaded.push_back(load_character(source, options));
+  return loaded;
+}
+
+}  // namespace bch::cli

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "layout/import.hpp"
+
+namespace bch::cli {
+
+/// Help for whatever takes a character.
+constexpr const char* character_help =
+    "Character file (glTF, FBX, Collada ...), or default:male, default:female";
+
+struct LoadedCharacter {
+  std::string source;  ///< as the user named it
+  Character character;
+  ImportReport report;
+};
+
+/// Errors: throws UsageError on a built-in character with import options or an unknown "default:" name,
+///         InputError and ImportError on a bad file.
+LoadedCharacter load_character(const std::string& source, const ImportOptions& options);
+
+std::vector<LoadedCharacter> load_characters(std::span<const std::string> sources,
+                                             const ImportOptions& options);
+
+}  // namespace bch::cli

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <functional>
+
+namespace bch::cli {
+
+/// Adds a subcommand to the program. Returns: what runs it once the command line was read.
+/// Errors: the returned function throws UsageError, InputError, ImportError, anything else for a fault.
+std::function<void()> add_inspect_command(CLI::App& program);
+
+}  // namespace bch::cli

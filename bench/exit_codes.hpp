@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <stdexcept>
+
+namespace bch::cli {
+
+enum ExitCode : int {
+  exit_success = 0,
+  exit_usage = 2,      ///< the command line makes no sense
+  exit_bad_input = 3,  ///< a file cannot be read, believed or written
+  exit_internal = 4,   ///< a fault of the program, or no memory left
+  exit_signal = 128,   ///< plus the signal's number: 130 for an interrupt
+};
+
+/// What leads to exit_usage. The message is one line.
+class UsageError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// What leads to exit_bad_input. The message is one line that names the file.
+class InputError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+}  // namespace bch::cli

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "bench/commands.hpp"
+#include "bench/exit_codes.hpp"
+#include "bench/inspection.hpp"
+#include "bench/options.hpp"
+#include "bench/output.hpp"
+#include "bench/text.hpp"
+#include "bench/threads.hpp"
+
+namespace bch::cli {
+namespace {
+
+struct InspectOptions {
+  std::string character;
+  ShapeOptions shapes;
+  std::optional<std::uint32_t> shape;
+  std::optional<std::string> clip;
+  std::optional<double> time;
+  std::uint32_t threads = 0;
+  std::string json, svg;
+
+  bool names_a_shape() const { return shape || clip; }
+};
+
+void require_consistent(const InspectOptions& options) {
+  if (options.clip.has_value() != options.time.has_value())
+    throw UsageError("--clip and --time belong together");
+  if (options.shape && options.clip) throw UsageError("--shape and --clip: name a shape by one of them");
+  if (!options.svg.empty() && !options.names_a_shape())
+    throw UsageError("--svg: which shape? Add --shape, or --clip and --time");
+  require_writable(options.json);
+  require_writable(options.svg);
+}
+
+ShapeSource at_time(const LoadedCharacter& from, const std::string& name, double seconds) {
+  const auto& clips = from.character.clips;
+  for (std::uint32_t i = 0; i < clips.size(); ++i) {
+    if (clips[i].name != name) continue;
+    if (!(seconds >= 0 && seconds <= static_cast<double>(clips[i].seconds)))
+      throw InputError(fmt::format("{}: clip '{}' lasts {} s and has no time {} s", from.source, name,
+                                   clips[i].seconds, seconds));
+    return {0, {i, static_cast<float>(seconds)}};
+  }
+  throw InputError(fmt::format("{}: has no clip '{}' ({})", from.source, name,
+                               clips.empty()
+                                   ? std::string("nor any other")
+                                   : counted(clips.size(), "clip") + ", see bch inspect without --clip"));
+}
+
+ShapeSource at_index(const LoadedCharacter& from, std::span<const ShapeSource> sources, std::uint32_t index) {
+  if (index >= sources.size())
+    throw InputError(
+        fmt::format("{}: has no shape {}, only 0 to {}", from.source, index, sources.size() - 1));
+  return sources[index];
+}
+
+void write_json(const std::string& file, const nlohmann::ordered_json& json) {
+  if (file.empty()) return;
+  write_file(file, json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
+}
+
+void inspect_shape(const InspectOptions& options, const LoadedCharacter& from, const ShapeSource& source) {
+  const BuiltShapes built = build_shapes({&from, 1}, {&source, 1}, options.shapes.threshold);
+  const ShapeFacts facts = examine(built.shapes.front(), source, options.shape);
+  write_json(options.json, {{"character", json_of(from)}, {"shape", json_of(from, facts)}});
+  if (!options.svg.empty()) write_file(options.svg, draw_depths(from, facts));
+  write_standard_output(text_of(from) + text_of(from, facts));
+}
+
+void inspect_table(const InspectOptions& options, const LoadedCharacter& from,
+                   std::span<const ShapeSource> sources) {
+  const BuiltShapes built = build_shapes({&from, 1}, sources, options.shapes.threshold);
+  const ShapeTable table{sources, built.shapes};
+  write_json(options.json, {{"character", json_of(from)}, {"shapes", json_of(from, table)}});
+  write_standard_output(text_of(from) + text_of(from, table));
+}
+
+void run_inspect(const InspectOptions& options) {
+  require_consistent(options);
+  const LoadedCharacter from = load_character(options.character, options.shapes.import_options());
+  const Threads threads(options.threads);
+  const auto sources = list_shapes({&from, 1}, options.shapes.poses);
+  if (options.clip)
+    inspect_shape(options, from, at_time(from, *options.clip, *options.time));
+  else if (options.shape)
+    inspect_shape(options, from, at_index(from, sources, *options.shape));
+  else
+    inspect_table(options, from, sources);
+}
+
+}  // namespace
+
+std::function<void()> add_inspect_command(CLI::App& program) {
+  const auto options = std::make_shared<InspectOptions>();
+  CLI::App& command = *program.add_subcommand("inspect", "Show what a character file holds, and its shapes");
+  command.footer(
+      "A file is refused if reading it crashes or takes more than 4 GiB or 60 s.\n"
+      "Example: bch inspect default:male --clip walk --time 1.5 --svg walk.svg");
+  command.add_option("FILE", options->character, character_help)->type_name("")->required();
+  command.add_option("--shape", options->shape, "Show this shape of the table in detail")->type_name("INDEX");
+  command.add_option("--clip", options->clip, "Show this clip, at --time, in detail")->type_name("NAME");
+  command.add_option("--time", options->time, "Seconds from the start of --clip")
+      ->type_name("SECONDS")
+      ->check(number_between(0, 1e9));
+  options->shapes.add_to(command);
+  command.add_option("--threads", options->threads, "Threads [all that the machine has]")
+      ->type_name("N")
+      ->check(number_between(1, 1024));
+  command.add_option("--json", options->json, "Write the same, and all points of a shape's outline")
+      ->type_name("FILE");
+  command.add_option("--svg", options->svg, "Draw the shape: a panel for each depth of its hierarchy")
+      ->type_name("FILE");
+  return [options] { run_inspect(*options); };
+}
+
+}  // namespace bch::cli

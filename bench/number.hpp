@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <charconv>
+#include <optional>
+#include <string_view>
+
+namespace bch::cli {
+
+/// The whole text as a number in decimal or scientific notation, whatever the locale; "inf" and "nan" are
+/// numbers here, which callers have to reject by range. Returns: nothing for anything else.
+inline std::optional<double> parse_number(std::string_view text) {
+  // from_chars knows no plus sign, which people and spreadsheets write.
+  if (text.size() > 1 && text[0] == '+' && text[1] != '-') text.remove_prefix(1);
+  double value = 0;
+  const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || stop != text.data() + text.size()) return std::nullopt;
+  return value;
+}
+
+}  // namespace bch::cli

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include "bench/options.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <stdexcept>
+
+#include "bench/exit_codes.hpp"
+#include "bench/number.hpp"
+
+namespace bch::cli {
+
+CLI::Validator number_between(double low, double high) {
+  const auto check = [low, high](const std::string& text) -> std::string {
+    const auto value = parse_number(text);
+    if (value && *value >= low && *value <= high) return {};
+    return fmt::format("'{}' is not a number from {} to {}", text, low, high);
+  };
+  return CLI::Validator(check, "", "number");
+}
+
+CLI::Validator one_of(std::vector<std::string> words) {
+  const auto check = [words = std::move(words)](const std::string& text) -> std::string {
+    if (std::find(words.begin(), words.end(), text) != words.end()) return {};
+    return fmt::format("'{}' is not one of {}", text, fmt::join(words, ", "));
+  };
+  return CLI::Validator(check, "", "word");
+}
+
+std::uint32_t parse_depth(const std::string& option, const std::string& text) {
+  if (text == "all") return all_depths;
+  std::uint32_t depth = 0;
+  const char* end = text.data() + text.size();
+  const auto [stop, error] = std::from_chars(text.data(), end, depth);
+  if (error != std::errc() || stop != end || depth == all_depths)
+    throw UsageError(fmt::format("{}: '{}' is neither a depth (0, 1, 2 ...) nor 'all'", option, text));
+  return depth;
+}
+
+void ShapeOptions::add_to(CLI::App& command) {
+  command.add_option("--clips", clips, "Add the clips of this file, matched by bone name (repeatable)")
+      ->type_name("FILE")
+      ->allow_extra_args(false);
+  command.add_option("--up", up, "Up axis of the file [what the file says or looks like]")
+      ->type_name("x|y|z")
+      ->check(one_of({"x", "y", "z"}));
+  command.add_option("--scale", scale, "Metres per unit of the file [what the file says or looks like]")
+      ->type_name("METRES")
+      ->check(number_between(1e-9, 1e9));
+  command.add_option("--poses", poses, "Poses of a character, spread evenly over its clips [100]")
+      ->type_name("N")
+      ->check(number_between(1, 1e6));
+  command.add_option("--threshold", threshold, "A node with a smaller radius is not divided [0.01 m]")
+      ->type_name("METRES")
+      ->check(number_between(1e-4, 100));
+}
+
+ImportOptions ShapeOptions::import_options() const {
+  ImportOptions options;
+  if (!up.empty()) options.up = static_cast<UpAxis>(up[0] - 'x');
+  if (scale > 0) options.scale = static_cast<float>(scale);
+  options.clip_files.assign(clips.begin(), clips.end());
+  return options;
+}
+
+void AnswerOptions::add_to(CLI::App& command) {
+  command.add_option("--depths", depths, "Levels of detail: cut depths, ascending [0,3,6,all]")
+      ->type_name("LIST");
+  command
+      .add_option("--semantics", semantics,
+                  "boundary: outlines cross; solid: or one contains the other [boundary]")
+      ->type_name("NAME")
+      ->check(one_of({"boundary", "solid"}));
+  command.add_option("--threads", threads, "Threads [all that the machine has]")
+      ->type_name("N")
+      ->check(number_between(1, 1024));
+  command.add_option("--isa", isa, "Kernel: avx512, avx2, sse2 or scalar [the best that runs here]")
+      ->type_name("NAME");
+}
+
+std::vector<std::uint32_t> AnswerOptions::cut_depths() const {
+  std::vector<std::uint32_t> list;
+  for (std::size_t begin = 0; begin <= depths.size();) {
+    const std::size_t end = std::min(depths.find(',', begin), depths.size());
+    const std::uint32_t depth = parse_depth("--depths", depths.substr(begin, end - begin));
+    if (!list.empty() && depth <= list.back())
+      throw UsageError(fmt::format("--depths: '{}' does not ascend", depths));
+    list.push_back(depth);
+    begin = end + 1;
+  }
+  if (list.size() > 32) throw UsageError("--depths: more than 32 levels");
+  return list;
+}
+
+QueryOptions AnswerOptions::query_options() const {
+  try {
+    return {semantics == "solid" ? Semantics::solid : Semantics::boundary,
+            isa.empty() ? &kernel::best_implementation() : &kernel::implementation(isa)};
+  } catch (const std::invalid_argument& error) {
+    throw UsageError(
+        fmt::format("{}: {}", isa.empty() ? "environment variable BCH_ISA" : "--isa", error.what()));
+  }
+}
+
+}  // namespace bch::cli

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "kernel/collide.hpp"
+#include "layout/import.hpp"
+
+namespace bch::cli {
+
+/// Which poses of which characters, and their hierarchies: the same options in every command.
+struct ShapeOptions {
+  std::vector<std::string> clips;
+  std::string up;
+  double scale = 0;  ///< 0: what the file says
+  std::uint32_t poses = 100;
+  double threshold = 0.01;
+
+  void add_to(CLI::App& command);
+  ImportOptions import_options() const;
+};
+
+/// How pairs are answered.
+struct AnswerOptions {
+  std::string depths = "0,3,6,all";
+  std::string semantics = "boundary";
+  std::string isa;
+  std::uint32_t threads = 0;  ///< 0: all
+
+  void add_to(CLI::App& command);
+  /// Errors of all: throw UsageError naming the option and the value.
+  std::vector<std::uint32_t> cut_depths() const;
+  QueryOptions query_options() const;
+};
+
+/// A number, or "all". Errors: throws UsageError naming the option.
+std::uint32_t parse_depth(const std::string& option, const std::string& text);
+
+/// Rejects every other word.
+CLI::Validator one_of(std::vector<std::string> words);
+
+/// Rejects what is not a finite number in [low, high], NaN included.
+CLI::Validator number_between(double low, double high);
+
+}  // namespace bch::cli

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include "bench/output.hpp"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+
+#include "bench/exit_codes.hpp"
+#include "bench/interrupt.hpp"
+
+namespace bch::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+[[noreturn]] void reject(const std::string& destination, int error) {
+  throw InputError(destination + ": cannot be written: " + std::strerror(error));
+}
+
+/// Returns: 0 or the error.
+int write_all(int descriptor, std::string_view text) {
+  while (!text.empty()) {
+    const ssize_t written = write(descriptor, text.data(), text.size());
+    if (written < 0 && errno == EINTR) continue;
+    if (written < 0) return errno;
+    text.remove_prefix(static_cast<std::size_t>(written));
+  }
+  return 0;
+}
+
+/// Writes and closes. Returns: 0 or the error.
+int write_and_close(int descriptor, std::string_view text) {
+  int error = write_all(descriptor, text);
+  if (close(descriptor) != 0 && error == 0) error = errno;
+  return error;
+}
+
+bool is_special(const fs::path& path) {
+  std::error_code none;
+  const fs::file_status status = fs::status(path, none);
+  return fs::exists(status) && !fs::is_regular_file(status);
+}
+
+/// Where a symbolic link leads, so that the link stays and its target is replaced.
+fs::path resolved(const std::string& file) {
+  std::error_code failed;
+  const fs::path target = fs::canonical(file, failed);
+  return failed ? fs::path(file) : target;
+}
+
+fs::path folder_of(const fs::path& path) {
+  return path.has_parent_path() ? path.parent_path() : fs::path(".");
+}
+
+}  // namespace
+
+void write_standard_output(std::string_view text) {
+  if (const int error = write_all(STDOUT_FILENO, text)) reject("standard output", error);
+}
+
+void write_file(const std::string& file, std::string_view text) {
+  const fs::path target = resolved(file);
+  if (is_special(target)) {
+    const int descriptor = open(target.c_str(), O_WRONLY | O_CLOEXEC);
+    if (descriptor < 0) reject(file, errno);
+    if (const int error = write_and_close(descriptor, text)) reject(file, error);
+    return;
+  }
+  const fs::path temporary = target.string() + ".bch-" + std::to_string(getpid());
+  const RemovedOnSignal guard(temporary);
+  const int descriptor = open(temporary.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+  if (descriptor < 0) reject(file, errno);
+  int error = write_and_close(descriptor, text);
+  if (error == 0 && rename(temporary.c_str(), target.c_str()) != 0) error = errno;
+  if (error == 0) return;
+  unlink(temporary.c_str());
+  reject(file, error);
+}
+
+void require_writable(const std::string& file) {
+  if (file.empty()) return;
+  const fs::path target = resolved(file);
+  std::error_code none;
+  if (fs::is_directory(target, none)) reject(file, EISDIR);
+  if (access(is_special(target) ? target.c_str() : folder_of(target).c_str(), W_OK) != 0) reject(file, errno);
+}
+
+}  // namespace bch::cli

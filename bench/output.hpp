@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace bch::cli {
+
+/// Errors of both: throw InputError naming the destination and the reason.
+
+void write_standard_output(std::string_view text);
+
+/// The file holds all of the text or is left as it was: the text goes to a new file beside it that is
+/// renamed. What is not a regular file (a device, a pipe) is written to directly.
+void write_file(const std::string& file, std::string_view text);
+
+/// Says early what write_file() would say after the work was done: no such folder, or one that cannot be
+/// written to. An empty name is no file and fine.
+void require_writable(const std::string& file);
+
+}  // namespace bch::cli

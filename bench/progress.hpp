@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <cstddef>
+#include <mutex>
+#include <string>
+
+namespace bch::cli {
+
+/// A bar on standard error for work of more than a second; only on a terminal. Gone when the work ends.
+class Progress {
+ public:
+  Progress(std::string what, std::size_t total);
+  ~Progress();
+  Progress(const Progress&) = delete;
+  Progress& operator=(const Progress&) = delete;
+
+  /// One more of the total is done. From any thread.
+  void advance();
+
+ private:
+  void draw(std::size_t done);
+
+  using Clock = std::chrono::steady_clock;
+  std::string what_;
+  std::size_t total_;
+  bool terminal_;
+  bool drawn_ = false;
+  Clock::time_point next_;
+  std::atomic<std::size_t> done_{0};
+  std::mutex drawing_;
+};
+
+}  // namespace bch::cli
