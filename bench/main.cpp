@@ -47,6 +47,7 @@ int run(int argc, char** argv) {
   program.get_formatter()->column_width(24);
   const std::pair<const char*, std::function<void()>> commands[] = {
       {"inspect", add_inspect_command(program)},
+      {"query", add_query_command(program)},
   };
   try {
     program.parse(argc, argv);
@@ -59,7 +60,7 @@ int run(int argc, char** argv) {
   } catch (const CLI::RequiredError& error) {
     const std::string word = argc > 1 ? argv[1] : "";
     if (program.get_subcommands().empty() && !word.empty() && word[0] != '-')
-      throw UsageError("no command '" + word + "' (inspect)");
+      throw UsageError("no command '" + word + "' (inspect, query)");
     throw UsageError(one_line(error.what()) + more_help);
   } catch (const CLI::ParseError& error) {
     throw UsageError(one_line(error.what()) + more_help);

@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include "bench/csv_input.hpp"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <cstring>
+#include <string_view>
+
+// The reader's own thread gains nothing here, and a program without threads may still fork.
+#define CSV_IO_NO_THREAD
+#include <libfccp/csv.h>
+
+#include "bench/exit_codes.hpp"
+#include "bench/number.hpp"
+#include "layout/rounding.hpp"
+
+namespace bch::cli {
+namespace {
+
+template <unsigned columns>
+using Reader = io::CSVReader<columns, io::trim_chars<' ', '\t'>, io::double_quote_escape<',', '"'>,
+                             io::throw_on_overflow, io::empty_line_comment>;
+
+/// A place in a file, for messages.
+struct Place {
+  const std::string& file;
+  unsigned line;
+
+  [[noreturn]] void reject(const char* column, std::string_view value, const std::string& reason) const {
+    throw InputError(fmt::format("{}:{}: {} '{}' {}", file, line, column, value, reason));
+  }
+};
+
+double number_within(const Place& place, const char* column, std::string_view text, double limit) {
+  const auto value = parse_number(text);
+  if (!value) place.reject(column, text, "is not a number");
+  if (!(*value >= -limit && *value <= limit))
+    place.reject(column, text, fmt::format("is not within +-{:g}", limit));
+  return *value;
+}
+
+std::uint32_t index_below(const Place& place, const char* column, std::string_view text,
+                          std::uint32_t bound) {
+  std::uint32_t value = 0;
+  const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error == std::errc::invalid_argument || stop != text.data() + text.size())
+    place.reject(column, text, "is not a whole number");
+  if (error != std::errc() || value >= bound)
+    place.reject(column, text, fmt::format("is not one of 0 to {}", bound - 1));
+  return value;
+}
+
+/// Runs a reader; what it finds wrong becomes an InputError in this program's words.
+template <class Body>
+void with_csv_errors(const std::string& file, const Body& body) {
+  try {
+    body();
+  } catch (const io::error::can_not_open_file& e) {
+    throw InputError(fmt::format("{}: cannot be opened: {}", file, std::strerror(e.errno_value)));
+  } catch (const io::error::header_missing&) {
+    throw InputError(file + ": is empty or cannot be read");
+  } catch (const io::error::missing_column_in_header& e) {
+    throw InputError(fmt::format("{}:1: has no column '{}'", file, e.column_name));
+  } catch (const io::error::extra_column_in_header& e) {
+    throw InputError(fmt::format("{}:1: column '{}' is not known", file, e.column_name));
+  } catch (const io::error::duplicated_column_in_header& e) {
+    throw InputError(fmt::format("{}:1: column '{}' is there twice", file, e.column_name));
+  } catch (const io::error::too_few_columns& e) {
+    throw InputError(fmt::format("{}:{}: has fewer values than the header has columns", file, e.file_line));
+  } catch (const io::error::too_many_columns& e) {
+    throw InputError(fmt::format("{}:{}: has more values than the header has columns", file, e.file_line));
+  } catch (const io::error::escaped_string_not_closed& e) {
+    throw InputError(fmt::format("{}:{}: a quote is not closed", file, e.file_line));
+  } catch (const io::error::line_length_limit_exceeded& e) {
+    throw InputError(fmt::format("{}:{}: the line is too long", file, e.file_line));
+  }
+}
+
+void add_agent(const Place& place, AgentTable& table, const char* id, std::uint32_t shape, double x, double y,
+               double heading) {
+  if (*id == '\0') place.reject("id", id, "is empty");
+  if (!table.index_of.emplace(id, static_cast<std::uint32_t>(table.id.size())).second)
+    place.reject("id", id, "is there twice");
+  table.id.emplace_back(id);
+  table.shape.push_back(shape);
+  table.x.push_back(x);
+  table.y.push_back(y);
+  table.heading.push_back(heading);
+}
+
+}  // namespace
+
+AgentTable read_agents(const std::string& file, std::uint32_t shapes, std::uint32_t levels) {
+  AgentTable table;
+  with_csv_errors(file, [&] {
+    Reader<6> reader(file);
+    reader.read_header(io::ignore_missing_column, "id", "shape", "x", "y", "heading", "level");
+    for (const char* required : {"id", "shape", "x", "y", "heading"})
+      if (!reader.has_column(required))
+        throw InputError(fmt::format("{}:1: has no column '{}'", file, required));
+    const bool has_level = reader.has_column("level");
+    char *id = nullptr, *shape = nullptr, *x = nullptr, *y = nullptr, *heading = nullptr, *level = nullptr;
+    while (reader.read_row(id, shape, x, y, heading, level)) {
+      const Place place{file, reader.get_file_line()};
+      add_agent(place, table, id, index_below(place, "shape", shape, shapes),
+                number_within(place, "x", x, rounding::largest_position),
+                number_within(place, "y", y, rounding::largest_position),
+                number_within(place, "heading", heading, rounding::largest_heading));
+      if (has_level)
+        table.level.push_back(static_cast<std::uint8_t>(index_below(place, "level", level, levels)));
+    }
+  });
+  return table;
+}
+
+std::vector<Pair> read_pairs(const std::string& file, const AgentTable& agents) {
+  std::vector<Pair> pairs;
+  with_csv_errors(file, [&] {
+    Reader<2> reader(file);
+    reader.read_header(io::ignore_no_column, "first", "second");
+    char *first = nullptr, *second = nullptr;
+    while (reader.read_row(first, second)) {
+      const Place place{file, reader.get_file_line()};
+      const auto index = [&](const char* column, const char* id) {
+        const auto found = agents.index_of.find(id);
+        if (found == agents.index_of.end()) place.reject(column, id, "is not the id of an agent");
+        return found->second;
+      };
+      const std::uint32_t a = index("first", first);
+      pairs.push_back({a, index("second", second)});
+    }
+  });
+  return pairs;
+}
+
+std::string csv_field(const std::string& text) {
+  if (text.find_first_of(",\"") == std::string::npos) return text;
+  std::string quoted = "\"";
+  for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return quoted + "\"";
+}
+
+}  // namespace bch::cli
