@@ -46,6 +46,7 @@ int run(int argc, char** argv) {
   program.require_subcommand(1);
   program.get_formatter()->column_width(24);
   const std::pair<const char*, std::function<void()>> commands[] = {
+      {"crowd", add_crowd_command(program)},
       {"inspect", add_inspect_command(program)},
       {"query", add_query_command(program)},
   };
@@ -60,7 +61,7 @@ int run(int argc, char** argv) {
   } catch (const CLI::RequiredError& error) {
     const std::string word = argc > 1 ? argv[1] : "";
     if (program.get_subcommands().empty() && !word.empty() && word[0] != '-')
-      throw UsageError("no command '" + word + "' (inspect, query)");
+      throw UsageError("no command '" + word + "' (crowd, inspect, query)");
     throw UsageError(one_line(error.what()) + more_help);
   } catch (const CLI::ParseError& error) {
     throw UsageError(one_line(error.what()) + more_help);

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include "bench/crowd_answers.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <iterator>
+#include <tuple>
+
+#include "bench/progress.hpp"
+#include "kernel/broad_phase.hpp"
+
+namespace bch::cli {
+namespace {
+
+constexpr std::uint32_t most_runs = 15;
+constexpr std::uint32_t least_runs = 3;
+constexpr double enough_seconds = 0.5;  ///< for one level, once there were least_runs
+
+bool before(Pair a, Pair b) {
+  return std::tie(a.first, a.second) < std::tie(b.first, b.second);
+}
+
+double median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+/// Runs the batch until the time is known, the first time unmeasured.
+void answer_level(const ShapeSet& set, const Agents& agents, std::span<const Pair> pairs,
+                  const QueryOptions& options, LevelAnswers& level) {
+  using Clock = std::chrono::steady_clock;
+  collide(set, agents, pairs, level.hits, options);
+  std::vector<double> seconds;
+  double total = 0;
+  while (seconds.size() < least_runs || (seconds.size() < most_runs && total < enough_seconds)) {
+    const auto begin = Clock::now();
+    collide(set, agents, pairs, level.hits, options);
+    seconds.push_back(std::chrono::duration<double>(Clock::now() - begin).count());
+    total += seconds.back();
+  }
+  level.runs = static_cast<std::uint32_t>(seconds.size());
+  if (!pairs.empty()) level.nanoseconds_per_pair = 1e9 * median(seconds) / static_cast<double>(pairs.size());
+}
+
+double mean_discs(std::span<const Shape> shapes, std::uint32_t depth) {
+  std::size_t discs = 0;
+  for (const Shape& shape : shapes) discs += cut(shape.hierarchy, depth).size();
+  return static_cast<double>(discs) / static_cast<double>(shapes.size());
+}
+
+}  // namespace
+
+std::vector<Pair> candidates_of_all_levels(const ShapeSet& shapes, const Crowd& crowd) {
+  std::vector<Pair> all;
+  for (std::uint32_t level = 0; level < shapes.level_count(); ++level) {
+    const std::vector<std::uint8_t> levels(crowd.size(), static_cast<std::uint8_t>(level));
+    const std::vector<Pair> some = candidate_pairs(shapes, crowd.at_level(levels));
+    std::vector<Pair> both;
+    std::set_union(all.begin(), all.end(), some.begin(), some.end(), std::back_inserter(both), before);
+    all = std::move(both);
+  }
+  return all;
+}
+
+CrowdAnswers answer_crowd(std::span<const Shape> shapes, const ShapeSet& set, const Crowd& crowd,
+                          const QueryOptions& options) {
+  CrowdAnswers answers;
+  answers.pairs = candidates_of_all_levels(set, crowd);
+  answers.levels.resize(set.level_count());
+  Progress progress("answering levels", set.level_count());
+  for (std::uint32_t k = 0; k < set.level_count(); ++k) {
+    LevelAnswers& level = answers.levels[k];
+    level.depth = set.depths()[k];
+    level.discs = mean_discs(shapes, level.depth);
+    level.hits.resize(answers.pairs.size());
+    const std::vector<std::uint8_t> levels(crowd.size(), static_cast<std::uint8_t>(k));
+    answer_level(set, crowd.at_level(levels), answers.pairs, options, level);
+    const auto& single = answers.levels.front().hits;
+    for (std::size_t i = 0; i < level.hits.size(); ++i) {
+      level.hit_count += level.hits[i];
+      level.cleared += static_cast<std::uint64_t>(single[i] != 0 && level.hits[i] == 0);
+    }
+    progress.advance();
+  }
+  return answers;
+}
+
+}  // namespace bch::cli

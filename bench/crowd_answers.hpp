@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "bench/crowd.hpp"
+#include "kernel/collide.hpp"
+
+namespace bch::cli {
+
+/// What the pairs say at one level of detail.
+struct LevelAnswers {
+  std::uint32_t depth = 0;
+  double discs = 0;  ///< of a shape, mean
+  std::vector<std::uint8_t> hits;
+  std::uint64_t hit_count = 0;
+  std::uint64_t cleared = 0;        ///< pairs that the single cylinder hits and this level does not
+  double nanoseconds_per_pair = 0;  ///< median of the runs
+  std::uint32_t runs = 0;
+};
+
+struct CrowdAnswers {
+  std::vector<Pair> pairs;           ///< every pair that can collide at any level, sorted
+  std::vector<LevelAnswers> levels;  ///< as in the shape set
+
+  const LevelAnswers& finest() const { return levels.back(); }
+};
+
+/// Pairs that can collide at some level. The single cylinder's are not enough: the discs of a deeper cut
+/// stick out of it, so an agent's root disc depends on its level.
+std::vector<Pair> candidates_of_all_levels(const ShapeSet& shapes, const Crowd& crowd);
+
+/// Answers all candidates at every level, one batch call a level, and takes the time of it.
+/// Precondition: level 0 of the set is depth 0.
+CrowdAnswers answer_crowd(std::span<const Shape> shapes, const ShapeSet& set, const Crowd& crowd,
+                          const QueryOptions& options);
+
+}  // namespace bch::cli

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <memory>
+
+#include "bench/commands.hpp"
+#include "bench/crowd_picture.hpp"
+#include "bench/crowd_report.hpp"
+#include "bench/exit_codes.hpp"
+#include "bench/output.hpp"
+#include "bench/text.hpp"
+#include "bench/threads.hpp"
+
+namespace bch::cli {
+namespace {
+
+constexpr std::uint32_t preferred_picture_depth = 6;
+
+/// The levels asked for, and the single cylinder, which all others are compared with.
+std::vector<std::uint32_t> crowd_depths(const AnswerOptions& options) {
+  std::vector<std::uint32_t> depths = options.cut_depths();
+  if (depths.front() != 0) depths.insert(depths.begin(), 0);
+  return depths;
+}
+
+std::uint32_t picture_level(const CrowdOptions& options, const std::vector<std::uint32_t>& depths) {
+  const std::uint32_t depth =
+      options.svg_depth.empty() ? preferred_picture_depth : parse_depth("--svg-depth", options.svg_depth);
+  const auto found = std::find(depths.begin(), depths.end(), depth);
+  if (found != depths.end()) return static_cast<std::uint32_t>(found - depths.begin());
+  if (!options.svg_depth.empty())
+    throw UsageError(fmt::format("--svg-depth: {} is not one of --depths", options.svg_depth));
+  return static_cast<std::uint32_t>(depths.size() - 1);
+}
+
+void write_files(const CrowdRun& run, std::uint32_t level) {
+  const CrowdOptions& options = run.options;
+  if (!options.json.empty()) {
+    using Json = nlohmann::ordered_json;
+    write_file(options.json, json_report(run).dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+  }
+  if (!options.csv.empty()) write_file(options.csv, csv_report(run));
+  if (!options.svg.empty())
+    write_file(options.svg, draw_crowd({run.built.shapes, run.crowd, run.answers, level, options.density}));
+}
+
+void run_crowd(const CrowdOptions& options) {
+  const std::vector<std::uint32_t> depths = crowd_depths(options.answer);
+  const std::uint32_t level = picture_level(options, depths);
+  const QueryOptions query = options.answer.query_options();
+  for (const std::string& file : {options.json, options.csv, options.svg}) require_writable(file);
+
+  // Before there are threads: see guarded_import().
+  const auto characters = load_characters(options.characters, options.shapes.import_options());
+  const Threads threads(options.answer.threads);
+  const auto sources = list_shapes(characters, options.shapes.poses);
+  const BuiltShapes built = build_shapes(characters, sources, options.shapes.threshold);
+  const ShapeSet set(built.shapes, {depths, query.semantics == Semantics::solid});
+  const Crowd crowd = place_crowd(options.agents, options.density, set.shape_count(), options.seed);
+  const CrowdAnswers answers = answer_crowd(built.shapes, set, crowd, query);
+
+  const CrowdRun run{options,      characters, built, set, crowd, answers, query.implementation->name,
+                     threads.count};
+  write_files(run, level);
+  write_standard_output(text_report(run));
+}
+
+}  // namespace
+
+std::function<void()> add_crowd_command(CLI::App& program) {
+  const auto options = std::make_shared<CrowdOptions>();
+  CLI::App& command = *program.add_subcommand("crowd", "Place a random crowd and find its collisions");
+  command.footer("Example: bch crowd --agents 2000 --density 1 --svg crowd.svg");
+  command.add_option("--agents", options->agents, "How many agents [10000]")
+      ->type_name("N")
+      ->check(number_between(1, 1e7));
+  command.add_option("--density", options->density, "Agents per square metre [3]")
+      ->type_name("N")
+      ->check(number_between(1e-4, 100));
+  command.add_option("--seed", options->seed, "Chooses positions, headings and shapes [1]")
+      ->type_name("N")
+      ->check(number_between(0, 0x1p64 - 2048));
+  command.add_option("--character", options->characters, std::string(character_help) + " [the last two]")
+      ->type_name("FILE")
+      ->allow_extra_args(false);
+  options->shapes.add_to(command);
+  options->answer.add_to(command);
+  command.add_option("--json", options->json, "Write the table and the options as JSON")->type_name("FILE");
+  command.add_option("--csv", options->csv, "Write the pairs that collide at the last of --depths")
+      ->type_name("FILE");
+  command.add_option("--svg", options->svg, "Draw the middle of the crowd from above")->type_name("FILE");
+  command
+      .add_option("--svg-depth", options->svg_depth,
+                  "Draw the discs of this one of --depths [6, else the last]")
+      ->type_name("DEPTH");
+  return [options] { run_crowd(*options); };
+}
+
+}  // namespace bch::cli
