@@ -21,8 +21,8 @@ struct LoadedCharacter {
   ImportReport report;
 };
 
-/// Errors: throws UsageError on a built-in character with import options or an unknown "default:" name,
-///         InputError and ImportError on a bad file.
+/// Errors:  throws UsageError on a built-in character with import options or an unknown "default:" name,
+///          InputError and ImportError on a bad file.
 LoadedCharacter load_character(const std::string& source, const ImportOptions& options);
 
 std::vector<LoadedCharacter> load_characters(std::span<const std::string> sources,

@@ -24,7 +24,8 @@ struct AgentTable {
 };
 
 /// Both take any order of columns, spaces around values, quotes as spreadsheets write them, empty lines,
-/// either kind of line ending. Errors: throw InputError naming file, line and value.
+/// either kind of line ending.
+/// Errors:  throw InputError naming file, line and value.
 
 /// Columns id,shape,x,y,heading[,level]. An id is any text, unique; shapes are below `shapes`, levels below
 /// `levels`, the rest within the limits of collide().

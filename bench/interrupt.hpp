@@ -14,7 +14,7 @@ void clean_up_on_signals();
 /// The file that such a signal removes, while this lives. One at a time.
 class RemovedOnSignal {
  public:
-  /// Errors: throws std::length_error on a path beyond PATH_MAX.
+  /// Errors:  throws std::length_error on a path beyond PATH_MAX.
   explicit RemovedOnSignal(const std::filesystem::path& path);
   ~RemovedOnSignal();
   RemovedOnSignal(const RemovedOnSignal&) = delete;

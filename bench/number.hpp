@@ -10,7 +10,8 @@
 namespace bch::cli {
 
 /// The whole text as a number in decimal or scientific notation, whatever the locale; "inf" and "nan" are
-/// numbers here, which callers have to reject by range. Returns: nothing for anything else.
+/// numbers here, which callers have to reject by range.
+/// Returns: nothing for anything else.
 inline std::optional<double> parse_number(std::string_view text) {
   // from_chars knows no plus sign, which people and spreadsheets write.
   if (text.size() > 1 && text[0] == '+' && text[1] != '-') text.remove_prefix(1);

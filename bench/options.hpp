@@ -38,7 +38,8 @@ struct AnswerOptions {
   QueryOptions query_options() const;
 };
 
-/// A number, or "all". Errors: throws UsageError naming the option.
+/// A number, or "all".
+/// Errors:  throws UsageError naming the option.
 std::uint32_t parse_depth(const std::string& option, const std::string& text);
 
 /// Rejects every other word.

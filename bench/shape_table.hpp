@@ -32,7 +32,7 @@ struct BuiltShapes {
 };
 
 /// Builds contour hierarchies, in parallel, with a progress bar.
-/// Errors: throws InputError naming the character, clip and time of a pose that has no outline.
+/// Errors:  throws InputError naming the character, clip and time of a pose that has no outline.
 BuiltShapes build_shapes(std::span<const LoadedCharacter> characters, std::span<const ShapeSource> sources,
                          double threshold);
 

@@ -12,8 +12,8 @@
 namespace bch::kernel {
 
 /// The work of one task: answers pairs begin .. end, each 0 or 1. Writes nothing but their codes, so that
-/// ranges may run at the same time. Preconditions: everything was validated; `agents` holds what `arguments`
-/// points to.
+/// ranges may run at the same time.
+/// Preconditions: everything was validated; `agents` holds what `arguments` points to.
 void answer(const Implementation& implementation, const Arguments& arguments, const Agents& agents,
             std::size_t begin, std::size_t end) noexcept;
 

@@ -24,16 +24,18 @@ struct QueryOptions {
 };
 
 /// Answers each pair: 1 where the two agents collide at their levels, touching included, else 0.
+///
 /// Never a miss: agents whose outlines meet collide, at every level. A false positive beyond the discs' own
-/// sizes needs a gap below 4 um per metre of the two shapes' reach (rounding.hpp). The same bits on every
-/// processor, for any number of threads, any split of the batch and either order within a pair. Only the
-/// difference of positions counts: far from the origin the answer is that of the same placement at the
-/// origin. Shapes:  hits.size() == pairs.size(); an agent may be paired with itself (it collides). Errors:
-/// throws std::invalid_argument, before hits is touched, on sizes that differ, an index out of range, a
-/// position
-///          or heading that is not finite or beyond the limits, solid semantics on a set that was not planned
-///          for it, an implementation that this processor does not run; the message names the agent or pair
-///          and the value.
+/// sizes needs a gap below 4 um per metre of the two shapes' reach (rounding.hpp).
+/// The same bits on every processor, for any number of threads, any split of the batch and either order within
+/// a pair. Only the difference of positions counts: far from the origin the answer is that of the same
+/// placement at the origin.
+///
+/// Shapes:  hits.size() == pairs.size(); an agent may be paired with itself (it collides).
+/// Errors:  throws std::invalid_argument, before hits is touched, on sizes that differ, an index out of
+///          range, a position or heading that is not finite or beyond the limits, solid semantics on a set
+///          that was not planned for it, an implementation that this processor does not run; the message
+///          names the agent or pair and the value.
 /// Threads: runs in the caller's TBB arena.
 void collide(const ShapeSet& shapes, const Agents& agents, std::span<const Pair> pairs,
              std::span<std::uint8_t> hits, const QueryOptions& options = {});

@@ -27,8 +27,8 @@ std::span<const Implementation> implementations() noexcept;
 /// once, may name another; throws std::invalid_argument if that one is unknown or not supported.
 const Implementation& best_implementation();
 
-/// Errors: throws std::invalid_argument naming the known ones on an unknown name, or one this processor does
-/// not run.
+/// Errors:  throws std::invalid_argument naming the known ones on an unknown name, or one this processor does
+///          not run.
 const Implementation& implementation(std::string_view name);
 
 }  // namespace bch::kernel

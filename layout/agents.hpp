@@ -11,8 +11,8 @@
 namespace bch {
 
 /// A crowd as a simulator holds it: one entry an agent in each span; nothing is copied.
-/// Units: metres and radians, counter-clockwise, on the ground plane; |x|, |y| <= 1e9 m and |heading| <= 1e9
-/// rad.
+/// Units:   metres and radians, counter-clockwise, on the ground plane; |x|, |y| <= 1e9 m and |heading| <=
+///          1e9 rad.
 struct Agents {
   std::span<const std::uint32_t> shape;  ///< index into the ShapeSet
   std::span<const double> x;

@@ -63,11 +63,11 @@ inline constexpr std::size_t arm_hole_bottom = 8, arm_hole_top = 10;
 inline constexpr std::size_t arm_hole_front = 3, arm_hole_back = 7;
 
 /// A man of 1.88 m and a woman of 1.74 m.
-/// Source: lengths of segments are the fractions of the stature by R. Drillis, R. Contini, "Body segment
-/// parameters", NYU TR 1166.03, 1966, as reprinted in D. A. Winter, "Biomechanics and Motor Control of Human
-/// Movement". Breadths and depths are drawn by hand, of the size that C. C. Gordon et al., "2012
-/// Anthropometric Survey of U.S. Army Personnel" (ANSUR II), NATICK/TR-15/007, reports for tall men and
-/// women.
+/// Source:  lengths of segments are the fractions of the stature by R. Drillis, R. Contini, "Body segment
+///          parameters", NYU TR 1166.03, 1966, as reprinted in D. A. Winter, "Biomechanics and Motor Control
+///          of Human Movement". Breadths and depths are drawn by hand, of the size that C. C. Gordon et al.,
+///          "2012 Anthropometric Survey of U.S. Army Personnel" (ANSUR II), NATICK/TR-15/007, reports for
+///          tall men and women.
 BodyShape male_shape();
 BodyShape female_shape();
 

@@ -50,7 +50,7 @@ struct BodySurface {
 BodySurface mirrored(const BodySurface& left);
 
 /// Evens out the vertices with a softness by Taubin's two steps, which do not shrink the body.
-/// Source: G. Taubin, "A signal processing approach to fair surface design", SIGGRAPH 1995.
+/// Source:  G. Taubin, "A signal processing approach to fair surface design", SIGGRAPH 1995.
 void smooth(BodySurface& surface, int rounds);
 
 /// Neighbours of each vertex along the edges of the faces, in ascending order.

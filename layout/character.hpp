@@ -70,7 +70,7 @@ struct Character {
 };
 
 /// Checks every promise above: indices, order of joints and keys, finite values, unit quaternions, weights.
-/// Errors: throws std::invalid_argument naming the character, the place and the value.
+/// Errors:  throws std::invalid_argument naming the character, the place and the value.
 void validate(const Character& character);
 
 /// A pose of a character: a time in one of its clips, or the rest pose.

@@ -17,9 +17,10 @@ struct EnclosingDisc {
 };
 
 /// The smallest disc that holds the points, up to the rounding of its centre to float: every point is within
-/// `radius` of `centre`. Shapes:  at least one point; any order, duplicates and collinear points allowed.
+/// `radius` of `centre`.
+/// Shapes:  at least one point; any order, duplicates and collinear points allowed.
 /// Source:  pivoting on the farthest point, after B. Gaertner, "Fast and robust smallest enclosing balls",
-/// ESA 1999.
+///          ESA 1999.
 EnclosingDisc smallest_enclosing_disc(std::span<const Vec2> points);
 
 }  // namespace bch

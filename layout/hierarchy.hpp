@@ -35,8 +35,8 @@ struct HierarchyNode {
 static_assert(sizeof(HierarchyNode) == 28);
 
 /// A bounding cylinder hierarchy of one shape: a binary tree of discs on the ground.
-/// Source: Stuvel, Magnenat-Thalmann, Thalmann, Egges, van der Stappen, "Hierarchical structures for
-/// collision checking between virtual characters", Computer Animation and Virtual Worlds 25, 2014.
+/// Source:  Stuvel, Magnenat-Thalmann, Thalmann, Egges, van der Stappen, "Hierarchical structures for
+///          collision checking between virtual characters", Computer Animation and Virtual Worlds 25, 2014.
 struct Hierarchy {
   std::vector<HierarchyNode> nodes;   ///< the root first; never empty
   std::vector<Element> elements;      ///< in the order of the leaves
@@ -53,13 +53,15 @@ enum class SplitRule {
 /// The paper's contour hierarchy. A segment goes to the side of its midpoint; where one side would stay empty
 /// the other axis is tried, then the segments are halved by count. A lone segment longer than twice the
 /// threshold is halved; a node whose smallest enclosing disc has a radius below the threshold is a leaf, as
-/// is a lone segment. Units:   metres; the threshold is positive and finite. Errors:  throws
-/// std::invalid_argument on a bad outline or threshold, std::length_error beyond 2^22 nodes.
+/// is a lone segment.
+/// Units:   metres; the threshold is positive and finite.
+/// Errors:  throws std::invalid_argument on a bad outline or threshold, std::length_error beyond 2^22 nodes.
 Hierarchy contour_hierarchy(const Outline& outline, float threshold, SplitRule rule = SplitRule::centroid);
 
 /// The paper's hierarchy over all projected triangles: the plane goes through the mean of the vertices, a
-/// triangle goes to the side of its centroid and is never cut; one triangle is a leaf. Errors:  throws
-/// std::invalid_argument on no triangles, an index out of range, or a reach outside rounding.hpp's domain.
+/// triangle goes to the side of its centroid and is never cut; one triangle is a leaf.
+/// Errors:  throws std::invalid_argument on no triangles, an index out of range, or a reach outside
+///          rounding.hpp's domain.
 Hierarchy projected_hierarchy(std::span<const Vec2> vertices,
                               std::span<const std::array<std::uint32_t, 3>> triangles);
 

@@ -67,8 +67,8 @@ struct ImportedCharacter {
 ///          walk, in most skeletons the hips; -1 without bones.
 /// Clips:   those of other files are matched by joint name, any namespace ("mixamorig:") aside. They give the
 ///          rotations of all joints they know, and the position of the topmost, scaled by the ratio of the
-///          skeletons' bone lengths, whatever their units; other joints keep the character's own lengths.
-///          A skeleton whose joints are turned otherwise is refused: motion is not fitted to it.
+///          skeletons' bone lengths, whatever their units; other joints keep the character's own lengths. A
+///          skeleton whose joints are turned otherwise is refused: motion is not fitted to it.
 /// Returns: a character that validate() accepts; the same for the same files.
 /// Errors:  throws ImportError.
 ImportedCharacter import_character(const std::filesystem::path& file, const ImportOptions& options = {});

@@ -39,7 +39,7 @@ struct SceneFile {
   const aiScene* scene = nullptr;
   std::string format;
 
-  /// Errors: throws ImportError if the file cannot be read as a scene with a root node.
+  /// Errors:  throws ImportError if the file cannot be read as a scene with a root node.
   SceneFile(const std::filesystem::path& file, const ImportOptions& options);
 
   bool is_fbx() const { return format == "Autodesk FBX Importer"; }
@@ -60,7 +60,7 @@ NodeList read_nodes(const SceneFile& file);
 /// Bones and clips know their node by its name alone: says so once if several nodes have this one.
 void note_if_shared(const NodeList& nodes, const std::string& name, ImportReport& report);
 
-/// Errors: throws ImportError naming `what` if the matrix is not finite or not affine.
+/// Errors:  throws ImportError naming `what` if the matrix is not finite or not affine.
 Eigen::Affine3f read_matrix(const SceneFile& file, const aiMatrix4x4& matrix, const std::string& what);
 
 /// Every joint's transform at rest into the frame of the file.

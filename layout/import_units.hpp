@@ -40,7 +40,7 @@ Direction settle_frame(const SceneFile& file, const DeclaredFrame& declared, con
 /// For every joint: how many metres one unit of its position keys is, at rest.
 std::vector<double> metres_above(const Character& character);
 
-/// Errors: throws ImportError if a pose leaves the range of 1000 km or is not finite.
+/// Errors:  throws ImportError if a pose leaves the range of 1000 km or is not finite.
 void check_poses(const SceneFile& file, const Character& character);
 
 /// Of the rest pose, in metres, once the frame is settled.

@@ -27,8 +27,8 @@ struct Interior {
 /// Inscribed discs are chosen one after the other, each to add the most area to the union of the discs chosen
 /// so far, all of them dilated by a quarter of the enclosing radius: what matters is not to fill the contour
 /// but to be near anything that may come in (72 % of colliding pairs are accepted without the dilation, 83 %
-/// with it, by the prototype's measurement). Preconditions: validate(outline) does not throw. `reach` is that
-/// of the shape, metres.
+/// with it, by the prototype's measurement).
+/// Preconditions: validate(outline) does not throw. `reach` is that of the shape, metres.
 Interior interior(const Outline& outline, double reach);
 
 }  // namespace bch

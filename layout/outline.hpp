@@ -34,8 +34,8 @@ double reach(std::span<const Vec2> points);
 double area(const Outline& outline);
 
 /// Checks the promises that hierarchies rely on: at least one contour, offsets in order, finite points, reach
-/// within the limits of rounding.hpp. Errors: throws std::invalid_argument naming the contour or point and
-/// the value.
+/// within the limits of rounding.hpp.
+/// Errors:  throws std::invalid_argument naming the contour or point and the value.
 void validate(const Outline& outline);
 
 }  // namespace bch

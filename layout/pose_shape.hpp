@@ -10,7 +10,8 @@ namespace bch {
 
 /// The whole way from a pose to a shape: skinning, the outline of the union of its triangles, the contour
 /// hierarchy that splits at the centroid. `threshold`, in metres, is the radius below which a disc is not
-/// divided. Errors: as Skinner::pose(), union_outline() and contour_hierarchy() throw.
+/// divided.
+/// Errors:  as Skinner::pose(), union_outline() and contour_hierarchy() throw.
 Shape pose_shape(Skinner& skinner, PoseTime at, float threshold = 0.01f);
 
 }  // namespace bch

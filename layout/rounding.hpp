@@ -15,26 +15,26 @@
 ///
 /// The query (every kernel and the reference, same operations, same order; no contraction):
 ///
-///     d      = float(position_B - position_A)                                 difference in double
-///     (c, s) = (cA cB + sA sB, cA sB - sA cB)                                 rotation of B relative to A
-///     t      = (cA dx + sA dy, cA dy - sA dx)                                 position of B in A's frame
-///     p      = (t.x + (c x - s y), t.y + (s x + c y))                         a disc centre of B in A's
-///     frame hit   <=>  (p.x - a.x)^2 + (p.y - a.y)^2 <= (r_A + r_B)^2
+///     d      = float(position_B - position_A)                   the difference in double
+///     (c, s) = (cA cB + sA sB, cA sB - sA cB)                   rotation of B relative to A
+///     t      = (cA dx + sA dy, cA dy - sA dx)                   position of B in A's frame
+///     p      = (t.x + (c x - s y), t.y + (s x + c y))           a disc centre of B in A's frame
+///     hit   <=>  (p.x - a.x)^2 + (p.y - a.y)^2 <= (r_A + r_B)^2
 ///
 /// Errors against the same formula in exact arithmetic with the exact headings, as lengths (norms):
 ///
-///     heading unit vectors, rounded to float              0.71 u each         sqrt(2) u/2: components at
-///     most 1 (c, s): two of those, and 2 u a component           4.3 u               1.42 u + 2 sqrt(2) u
-///     rotating a centre of B by it                        7.1 u P_B           4.3 u + 2 sqrt(2) u
-///     d to float, and t                                   4.6 u |d|           u + 0.71 u + 2 sqrt(2) u
-///     the sum p                                           u (|d| + P_B)
-///     the difference p - a                                u D                 D = distance of the centres
-///     squares and their sum                               u D                 2 u of the square
-///     r_A + r_B and its square                            1.5 u (r_A + r_B)
+///     heading unit vectors, to float          0.71 u each            sqrt(2) u/2: components are at most 1
+///     (c, s): two of those and 2 u a part     4.3 u                  1.42 u + 2 sqrt(2) u
+///     rotating a centre of B by it            7.1 u P_B              4.3 u + 2 sqrt(2) u
+///     d to float, and t                       4.6 u |d|              u + 0.71 u + 2 sqrt(2) u
+///     the sum p                               u (|d| + P_B)
+///     the difference p - a                    u D                    D = distance of the centres
+///     squares and their sum                   u D                    2 u of the square
+///     r_A + r_B and its square                1.5 u (r_A + r_B)
 ///
 /// At a hit D <= r_A + r_B <= S, hence |d| <= D + |a| + |b| <= 2 S, and all of it together stays below
 ///
-///     7.1 u P_B + 9.2 u S + u (2 S + P_B) + 2 u S + 1.5 u S  <=  23 u S. (1)
+///     7.1 u P_B + 9.2 u S + u (2 S + P_B) + 2 u S + 1.5 u S  <=  23 u S                (1)
 ///
 /// No miss: two outlines that meet have tight discs with D <= r_A + r_B, exactly. Published radii add 23 u P
 /// each, so by (1) the float test accepts. Two more sources belong to the shape and are added beside: a

@@ -35,10 +35,9 @@ struct ShapeSetPlan {
 /// The flat form of many shapes for batch queries: structure of arrays, aligned to cache lines, immutable.
 class ShapeSet {
  public:
-  /// Errors: throws std::invalid_argument on a plan without depths or with depths out of order, on a shape
-  /// without nodes
-  ///         (naming it), and with a solid plan on an outline that validate() rejects; std::length_error
-  ///         beyond 2^32 blocks.
+  /// Errors:  throws std::invalid_argument on a plan without depths or with depths out of order, on a shape
+  ///          without nodes (naming it), and with a solid plan on an outline that validate() rejects;
+  ///          std::length_error beyond 2^32 blocks.
   explicit ShapeSet(std::span<const Shape> shapes, const ShapeSetPlan& plan = {});
 
   ShapeSet(ShapeSet&&) noexcept = default;

@@ -22,10 +22,10 @@ constexpr std::uint32_t support_stride = 2 * support_directions + 1;
 constexpr std::uint32_t extreme_stride = 2 * support_directions;
 
 /// The nodes of all shapes and levels as plain pointers: what kernels read. Valid while the set lives.
-/// Roots:    index shape * level_count + level.
-/// Blocks:   block b's discs are x, y, radius[8 b .. 8 b + 7]; see WideBlock.
+/// Roots:   index shape * level_count + level.
+/// Blocks:  block b's discs are x, y, radius[8 b .. 8 b + 7]; see WideBlock.
 /// Contours: shape s has contours shape_contours[s] .. shape_contours[s + 1]; contour c has points
-///           contour_points[c] .. contour_points[c + 1]. Null without the solid plan.
+///          contour_points[c] .. contour_points[c + 1]. Null without the solid plan.
 struct ShapeSetView {
   std::uint32_t shape_count;
   std::uint32_t level_count;

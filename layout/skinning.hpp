@@ -17,10 +17,12 @@ class Skinner {
   explicit Skinner(const Character& character);
 
   /// Linear blend skinning at a time of a clip, keys interpolated (rotations spherically), times clamped to
-  /// the first and last key. Returns: one position a vertex, in metres, z up, relative to the root joint's
-  /// point on the ground: a clip that walks away leaves its shape where it is, while its yaw stays. Valid
-  /// until the next call. Errors: throws std::invalid_argument on a clip or a time that is not there,
-  /// std::domain_error on a position that is not finite.
+  /// the first and last key.
+  /// Returns: one position a vertex, in metres, z up, relative to the root joint's point on the ground: a
+  ///          clip that walks away leaves its shape where it is, while its yaw stays. Valid until the next
+  ///          call.
+  /// Errors:  throws std::invalid_argument on a clip or a time that is not there, std::domain_error on a
+  ///          position that is not finite.
   std::span<const Eigen::Vector3f> pose(PoseTime at);
 
   const Character& character() const noexcept { return *character_; }
