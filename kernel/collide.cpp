@@ -53,13 +53,16 @@ std::size_t first_bad(std::size_t count, Predicate bad) {
   throw std::logic_error(place + "rejected without a reason");
 }
 
+/// Only agents that pairs name have to be valid. Where there are fewer agents than pairs name, looking at each once, in order, is
+/// cheaper; a bad one then still has to be named by a pair.
 void require_valid(const ShapeSet& shapes, const Agents& agents, std::span<const Pair> pairs) {
-  const auto bad = [&](std::size_t i) {
-    const auto [a, b] = pairs[i];
-    return a >= agents.size() || b >= agents.size() || !kernel::is_valid(shapes, agents, a) ||
-           !kernel::is_valid(shapes, agents, b);
-  };
-  const std::size_t i = first_bad(pairs.size(), bad);
+  const auto is_bad = [&](std::size_t i) { return !kernel::is_valid(shapes, agents, i); };
+  const bool all_agents_are_valid =
+      agents.size() <= 2 * pairs.size() && first_bad(agents.size(), is_bad) == agents.size();
+  const std::size_t i = first_bad(pairs.size(), [&](std::size_t k) {
+    const auto [a, b] = pairs[k];
+    return a >= agents.size() || b >= agents.size() || (!all_agents_are_valid && (is_bad(a) || is_bad(b)));
+  });
   if (i < pairs.size()) reject_pair(shapes, agents, pairs, i);
 }
 

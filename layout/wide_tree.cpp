@@ -74,14 +74,15 @@ class Flattener {
     return block;
   }
 
-  /// The binary node's descendants, largest first expanded.
+  /// The binary node's descendants, the one with most of the cut's discs expanded first. What fits into one block stays whole,
+  /// and a whole group that fits becomes its discs.
   Groups subtrees(const Group& group) const {
     Groups parts = children(group);
+    const std::uint32_t enough = group.size() <= block_width ? 1 : block_width;
     while (parts.size() < block_width) {
-      auto largest = parts.end();
-      for (auto part = parts.begin(); part != parts.end(); ++part)
-        if (part->size() > 1 && (largest == parts.end() || radius(*part) > radius(*largest))) largest = part;
-      if (largest == parts.end()) break;
+      const auto largest = std::max_element(
+          parts.begin(), parts.end(), [](const Group& a, const Group& b) { return a.size() < b.size(); });
+      if (largest->size() <= enough) break;
       const Groups expanded = children(*largest);
       *largest = expanded[0];
       parts.insert(largest + 1, expanded[1]);
@@ -95,8 +96,6 @@ class Flattener {
     const auto split = static_cast<std::uint32_t>(middle - cut_.begin());
     return {{group.begin, split, group.node + 1}, {split, group.end, second}};
   }
-
-  float radius(const Group& group) const { return hierarchy_.nodes[group.node].disc.radius; }
 
   Groups even_runs(const Group& group) const {
     Groups parts;

@@ -39,9 +39,9 @@ struct WideTree {
   std::vector<WideBlock> blocks;
 };
 
-/// Collapses the binary tree above a cut: a block's discs come from expanding its node's largest disc until
-/// there are eight. Where that would need more than most_wide_levels, the cut's discs are grouped evenly in
-/// their order instead.
+/// Collapses the binary tree above a cut: a block's discs come from expanding its node's descendant with most
+/// discs until there are eight, or all fit into one block each. Where that would need more than
+/// most_wide_levels, the cut's discs are grouped evenly in their order instead.
 WideTree wide_tree(const Hierarchy& hierarchy, std::uint32_t depth);
 
 }  // namespace bch

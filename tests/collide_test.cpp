@@ -189,6 +189,19 @@ TEST_F(Differential, NoOutlineCrossingIsMissed) {
   EXPECT_GT(crossings, scene.pairs.size() / 2);
 }
 
+/// Supports and inscribed discs decide pairs early, and nothing else.
+TEST_F(Differential, ShortcutsChangeNoAnswer) {
+  const ShapeSet plain(shapes, {plan.depths, true, false});
+  EXPECT_LT(plain.bytes(), set.bytes());
+  PairScene scene = random_scene(random, set, 100'000);
+  make_tangent(random, scene, [&](const Agents& agents, Pair pair) {
+    return reference.boundary(agents, pair, Method::depth_first);
+  });
+  for (const Semantics semantics : {Semantics::boundary, Semantics::solid})
+    EXPECT_EQ(answers(plain, scene.crowd.agents(), scene.pairs, semantics, kernel::best_implementation()),
+              answers(set, scene.crowd.agents(), scene.pairs, semantics, kernel::best_implementation()));
+}
+
 TEST(Solid, AShapeInsideAnotherIsFoundEverywhere) {
   Random random(5);
   const Outline big = test::star(random, 80, 0.35, 0.5);
@@ -286,6 +299,17 @@ TEST_F(BadInput, NamesTheAgentOrPairAndTheValue) {
   crowd.x[1] = 0;
   crowd.heading[1] = std::numeric_limits<double>::infinity();
   expect_rejected("heading inf");
+}
+
+TEST_F(BadInput, AnAgentThatNoPairNamesMayBeAnything) {
+  crowd.add(99, std::numeric_limits<double>::quiet_NaN(), 0, 0, 7);
+  for (const std::size_t count : {1u, 2u, 50u}) {
+    pairs.assign(count, {0, 1});
+    std::vector<std::uint8_t> hits(count);
+    EXPECT_NO_THROW(collide(set, crowd.agents(), pairs, hits)) << count;
+    pairs.push_back({2, 1});
+    expect_rejected("pair " + std::to_string(count) + ": agent 2: shape 99 of 2");
+  }
 }
 
 TEST_F(BadInput, SizesThatDifferAndSolidWithoutAPlan) {
