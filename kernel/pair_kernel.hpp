@@ -156,10 +156,6 @@ class PairKernel {
     const std::uint32_t a = root_a_[k], b = root_b_[k];
     const std::uint32_t decided = shapes_.root_is_single[a] & shapes_.root_is_single[b];
     codes[k] = static_cast<std::uint8_t>(hit * (decided ? overlap : near_miss));
-    a_[k] = shapes_.root_block[a];
-    b_[k] = shapes_.root_block[b];
-    allowed_[k] = ~std::uint64_t{0};
-    depth_[k] = 0;
     open_[open_count_] = static_cast<std::uint16_t>(k);
     open_count_ += hit & (decided ^ 1);
   }
@@ -171,10 +167,10 @@ class PairKernel {
     std::uint32_t still_open = 0;
     for (std::uint32_t k = 0; k < open_count_; ++k) {
       const std::uint32_t pair = open_[k];
-      const bool parted = parted_by_supports(pair);
-      codes[pair] = parted ? static_cast<std::uint8_t>(apart) : codes[pair];
+      const std::uint32_t parted = parted_by_supports(pair);
+      codes[pair] = static_cast<std::uint8_t>(near_miss * (parted ^ 1));
       open_[still_open] = static_cast<std::uint16_t>(pair);
-      still_open += !parted;
+      still_open += parted ^ 1;
     }
     open_count_ = still_open;
   }
@@ -216,7 +212,7 @@ class PairKernel {
     for (std::uint32_t k = 0; k < size_; ++k) offset_[k] = static_cast<std::uint8_t>(offset[k]);
   }
 
-  bool parted_by_supports(std::uint32_t pair) const noexcept {
+  std::uint32_t parted_by_supports(std::uint32_t pair) const noexcept {
     const float* a = shapes_.support + std::size_t{root_a_[pair]} * support_stride;
     const float* b = shapes_.support + std::size_t{root_b_[pair]} * support_stride + offset_[pair];
     const Float tx(tx_[pair]), ty(ty_[pair]), lower(lower_[pair]), upper(upper_[pair]);
@@ -243,10 +239,10 @@ class PairKernel {
       const std::uint32_t pair = open_[k];
       const std::uint32_t a = shape_a_[pair], b = shape_b_[pair];
       const bool meet = outer_product(pair, inscribed(a), inscribed(b)) != 0;
-      const bool accepted = meet & (in_.mark_near_misses | cannot_nest(pair, a, b));
-      codes[pair] = accepted ? static_cast<std::uint8_t>(overlap) : codes[pair];
+      const std::uint32_t accepted = meet & (in_.mark_near_misses || cannot_nest(pair, a, b));
+      codes[pair] = static_cast<std::uint8_t>(near_miss - accepted);
       open_[still_open] = static_cast<std::uint16_t>(pair);
-      still_open += !accepted;
+      still_open += accepted ^ 1;
     }
     open_count_ = still_open;
   }
@@ -285,16 +281,23 @@ class PairKernel {
   /// Stage 4.
   void walk(std::size_t begin) noexcept {
     std::uint8_t* __restrict codes = in_.codes + begin;
+    for (std::uint32_t k = 0; k < open_count_; ++k) {
+      const std::uint32_t pair = open_[k];
+      a_[pair] = shapes_.root_block[root_a_[pair]];
+      b_[pair] = shapes_.root_block[root_b_[pair]];
+      allowed_[pair] = ~std::uint64_t{0};
+      depth_[pair] = 0;
+    }
     while (open_count_ > 0) {
       std::uint32_t still_open = 0;
       for (std::uint32_t k = 0; k < open_count_; ++k) {
         const std::uint32_t pair = open_[k];
         const std::uint64_t hits = outer_product(pair, block(a_[pair]), block(b_[pair])) & allowed_[pair];
-        const bool hit = (hits & leaf_bits(a_[pair], b_[pair])) != 0;
-        codes[pair] = hit ? static_cast<std::uint8_t>(overlap) : codes[pair];
+        const std::uint32_t hit = (hits & leaf_bits(a_[pair], b_[pair])) != 0;
+        codes[pair] = static_cast<std::uint8_t>(near_miss - hit);
         const bool more = descend(pair, hits);
         open_[still_open] = static_cast<std::uint16_t>(pair);
-        still_open += more & !hit;
+        still_open += more & (hit ^ 1);
       }
       open_count_ = still_open;
     }
@@ -351,10 +354,11 @@ class PairKernel {
     std::uint32_t depth = depth_[pair];
     frames_[depth][pair] = {a_[pair], b_[pair], hits};
     depth += hits != 0;
-    if (depth == 0) return false;
+    const bool any = depth != 0;
 
-    Frame& top = frames_[depth - 1][pair];
-    const auto bit = static_cast<unsigned>(__builtin_ctzll(top.open));
+    // Where nothing is left, what follows computes something that is never used, which beats a branch.
+    Frame& top = frames_[depth - any][pair];
+    const auto bit = static_cast<unsigned>(__builtin_ctzll(top.open | std::uint64_t{1} << 63));
     top.open &= top.open - 1;
     const unsigned i = bit / block_width, j = bit % block_width;
     const bool inner_a = i < shapes_.inner_count[top.a], inner_b = j < shapes_.inner_count[top.b];
@@ -363,7 +367,7 @@ class PairKernel {
     allowed_[pair] = (inner_a ? ~std::uint64_t{0} : std::uint64_t{0xff} << (i * block_width)) &
                      (inner_b ? ~std::uint64_t{0} : every_row << j);
     depth_[pair] = static_cast<std::uint8_t>(depth - (top.open == 0));
-    return true;
+    return any;
   }
 
   static constexpr float c1 = 0.92387953f, c2 = 0.70710678f, c3 = 0.38268343f;
