@@ -35,6 +35,7 @@ class Reference {
  private:
   struct Level {
     std::uint32_t depth;
+    std::uint32_t height;  ///< of the whole hierarchy
     std::vector<Disc> discs;
   };
   const Level& level(const Agents& agents, std::uint32_t agent) const;

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <cstdint>
+
+namespace bch::baselines {
+
+/// What a query did, for counters.
+struct TestCounts {
+  std::uint64_t nodes = 0;   ///< pairs of discs, boxes or other volumes tested
+  std::uint64_t leaves = 0;  ///< pairs of triangles or segments tested
+};
+
+/// Counts nothing, and costs nothing.
+struct NoCounts {
+  void node() const noexcept {}
+  void leaf() const noexcept {}
+};
+
+struct AddCounts {
+  TestCounts& counts;
+  void node() const noexcept { ++counts.nodes; }
+  void leaf() const noexcept { ++counts.leaves; }
+};
+
+}  // namespace bch::baselines

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+#include "baselines/built.hpp"
+#include "baselines/disc_tree.hpp"
+#include "baselines/kind_rows.hpp"
+
+// Structures of discs: the contour hierarchy, one cylinder, and the hierarchy over projected triangles.
+
+namespace bch::baselines {
+namespace {
+
+struct ContourHierarchy {
+  std::vector<HierarchyNode> nodes;
+  std::uint32_t height;
+
+  std::size_t bytes() const { return nodes.size() * sizeof(HierarchyNode); }
+
+  template <class Counts>
+  static bool meet(const ContourHierarchy& a, const ContourHierarchy& b, const Agents& agents, Pair pair,
+                   std::uint32_t max_depth, Counts counts) {
+    return any_ends_overlap(float_placement(agents, pair), {a.nodes.data(), max_depth, a.height},
+                            {b.nodes.data(), max_depth, b.height}, counts,
+                            [](std::uint32_t, std::uint32_t) { return true; });
+  }
+};
+
+struct Cylinder {
+  Disc disc;
+
+  std::size_t bytes() const { return sizeof(Disc); }
+
+  template <class Counts>
+  static bool meet(const Cylinder& a, const Cylinder& b, const Agents& agents, Pair pair, std::uint32_t,
+                   Counts counts) {
+    counts.node();
+    return discs_overlap(float_placement(agents, pair), a.disc, a.disc.radius, b.disc, b.disc.radius);
+  }
+};
+
+const Hierarchy& checked_hierarchy(const Body& body) {
+  if (body.shape.hierarchy.nodes.empty()) throw std::invalid_argument("a hierarchy without nodes");
+  return body.shape.hierarchy;
+}
+
+}  // namespace
+
+std::unique_ptr<Structure> build_reference(std::span<const Body> bodies, const BuildOptions&) {
+  return build_models<ContourHierarchy>(bodies, [](const Body& body) -> ContourHierarchy {
+    const Hierarchy& hierarchy = checked_hierarchy(body);
+    return {hierarchy.nodes, height(hierarchy)};
+  });
+}
+
+std::unique_ptr<Structure> build_single(std::span<const Body> bodies, const BuildOptions&) {
+  return build_models<Cylinder>(
+      bodies, [](const Body& body) -> Cylinder { return {checked_hierarchy(body).nodes[0].disc}; });
+}
+
+std::unique_ptr<Structure> build_fixed(std::span<const Body> bodies, const BuildOptions& options) {
+  const Disc disc = fixed_cylinder(options.fixed_radius).nodes[0].disc;
+  return build_models<Cylinder>(bodies, [&](const Body&) -> Cylinder { return {disc}; });
+}
+
+}  // namespace bch::baselines

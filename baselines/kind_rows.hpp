@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <memory>
+#include <span>
+
+#include "baselines/structure.hpp"
+
+/// The builders behind the rows of kinds().
+namespace bch::baselines {
+
+using Build = std::unique_ptr<Structure>(std::span<const Body> bodies, const BuildOptions& options);
+
+Build build_reference, build_single, build_fixed, build_bch_projected;
+
+/// The rows of the Flexible Collision Library; none where the build did not find it.
+std::span<const Kind> fcl_kinds();
+
+}  // namespace bch::baselines

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include "baselines/placement.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "layout/heading.hpp"
+
+namespace bch::baselines {
+namespace {
+
+double without_dust(double value) {
+  return std::abs(value) < 0x1p-100 ? 0.0 : value;
+}
+
+}  // namespace
+
+FloatPlacement float_placement(const Agents& agents, Pair pair) noexcept {
+  const auto [a, b] = std::minmax(pair.first, pair.second);
+  const UnitVector u = unit_vector(agents.heading[a]);
+  const UnitVector v = unit_vector(agents.heading[b]);
+  const float dx = static_cast<float>(agents.x[b] - agents.x[a]);
+  const float dy = static_cast<float>(agents.y[b] - agents.y[a]);
+  return {u.cosine * v.cosine + u.sine * v.sine, u.cosine * v.sine - u.sine * v.cosine,
+          u.cosine * dx + u.sine * dy, u.cosine * dy - u.sine * dx};
+}
+
+Placement placement(const Agents& agents, Pair pair) noexcept {
+  const auto [a, b] = std::minmax(pair.first, pair.second);
+  const Rotation u = rotation(agents.heading[a]);
+  const Rotation v = rotation(agents.heading[b]);
+  const double dx = agents.x[b] - agents.x[a];
+  const double dy = agents.y[b] - agents.y[a];
+  return {without_dust(u.cosine * v.cosine + u.sine * v.sine),
+          without_dust(u.cosine * v.sine - u.sine * v.cosine), without_dust(u.cosine * dx + u.sine * dy),
+          without_dust(u.cosine * dy - u.sine * dx)};
+}
+
+}  // namespace bch::baselines

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include "layout/agents.hpp"
+#include "layout/disc.hpp"
+
+namespace bch::baselines {
+
+/// Where the agent of the larger index stands, seen from the other one: in float, with the operations that
+/// layout/rounding.hpp lists. What tests of discs use.
+struct FloatPlacement {
+  float cosine, sine, x, y;
+};
+
+FloatPlacement float_placement(const Agents& agents, Pair pair) noexcept;
+
+/// A point of the ground plane in double.
+struct Point2 {
+  double x = 0, y = 0;
+};
+
+/// The same in double: what tests of triangles and segments use. A point of the second shape is placed by
+/// place() and rounded to double there; those doubles, beside the floats of the first shape, ARE the input of
+/// the exact tests: each has one right answer for them, however the structures arrive at it. Against exact
+/// arithmetic with the exact headings a placed point is off by 6e-10 of its distance from its agent, which is
+/// the error of layout/heading.hpp, and by 4 units in the last place of the distance between the agents.
+struct Placement {
+  double cosine = 1, sine = 0, x = 0, y = 0;
+
+  Point2 place(double at_x, double at_y) const noexcept {
+    return {x + (cosine * at_x - sine * at_y), y + (sine * at_x + cosine * at_y)};
+  }
+  Point2 place(Vec2 p) const noexcept { return place(static_cast<double>(p.x), static_cast<double>(p.y)); }
+};
+
+/// Parts below 2^-100 become zero. Then every coordinate of a placed point is a multiple of 2^-301 (a float
+/// is one of 2^-149), and no product of three of them underflows in the exact tests.
+Placement placement(const Agents& agents, Pair pair) noexcept;
+
+}  // namespace bch::baselines

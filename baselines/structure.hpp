@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "baselines/counts.hpp"
+#include "layout/agents.hpp"
+#include "layout/shape_set.hpp"
+
+/// One interface over all structures that answer "do these two collide?", for benchmarks, experiments and
+/// tests to walk: build a kind over bodies, then ask it about the very agents and pairs that bch::collide()
+/// takes.
+namespace bch::baselines {
+
+/// A character in a pose, in every form that some structure is built from.
+struct Body {
+  std::vector<Eigen::Vector3f> positions;  ///< as Skinner::pose() gives them
+  std::span<const std::array<std::uint32_t, 3>> triangles =
+      {};       ///< the character's; read while building only
+  Shape shape;  ///< outline and contour hierarchy
+};
+
+/// What a structure answers exactly at all depths, touching included.
+enum class Truth : std::uint8_t {
+  none,        ///< an approximation of its own
+  mesh,        ///< the triangles have a point in common, in space
+  outline,     ///< the outlines have a point in common, on the ground
+  projection,  ///< the triangles seen from above have a point in common
+};
+
+struct BuildOptions {
+  float fixed_radius = 0.25f;       ///< metres, of the kind "fixed": half of a person's shoulders
+  bool projected_triangles = true;  ///< the kind "bch_projected" tests triangles; else leaf discs alone
+};
+
+/// Many shapes in one structure. Immutable: any number of threads may ask.
+/// Agents:  agents.shape indexes the bodies it was built from; agents.level is not read, as every query says
+///          how deep it goes.
+/// Depth:   a node at depth max_depth counts as a leaf, and there the overlap of the volumes is the answer:
+///          the paper's maximum recursion depth for cylinders, the analogue for boxes. all_depths: no limit.
+/// Order:   the answer does not depend on the order within a pair.
+class Structure {
+ public:
+  virtual ~Structure() = default;
+
+  /// Answers each pair: 1 where the two collide, else 0. An agent paired with itself collides.
+  /// Shapes: hits.size() == pairs.size(). Errors: throws std::invalid_argument, before hits is touched, on
+  /// sizes that differ, an index out of range, a position or heading that is not finite or beyond the limits
+  /// of rounding.hpp, naming the pair or agent and the value.
+  void query(const Agents& agents, std::span<const Pair> pairs, std::span<std::uint8_t> hits,
+             std::uint32_t max_depth = all_depths) const;
+
+  /// One pair, unchecked: what the other form promises to check is a precondition.
+  virtual bool query(const Agents& agents, Pair pair, std::uint32_t max_depth = all_depths) const = 0;
+
+  /// The same, adding to the counts.
+  virtual bool query(const Agents& agents, Pair pair, std::uint32_t max_depth, TestCounts& counts) const = 0;
+
+  /// Memory of one shape: nodes and what leaves hold.
+  virtual std::size_t bytes(std::uint32_t shape) const = 0;
+
+  virtual std::uint32_t shape_count() const = 0;
+
+ private:
+  virtual void answer(const Agents& agents, std::span<const Pair> pairs, std::span<std::uint8_t> hits,
+                      std::uint32_t max_depth) const = 0;
+};
+
+struct Kind {
+  std::string_view name;
+  std::string_view summary;
+  Truth exact;                 ///< what the answer at all depths equals
+  bool never_misses_outlines;  ///< at every depth, true wherever the outlines have a point in common
+  bool has_depth;              ///< max_depth is looked at
+  /// Errors: throws std::invalid_argument naming the body and the value: no triangles, an index out of range,
+  /// a coordinate that is not finite or beyond the limits of rounding.hpp, an outline or hierarchy without
+  /// points or nodes where the kind needs one; a radius that is not positive.
+  std::unique_ptr<Structure> (*build)(std::span<const Body> bodies, const BuildOptions& options);
+};
+
+/// Every kind that this build has, in the order of reports:
+///   reference        the paper's contour hierarchy, depth first, scalar; boundary semantics
+///   single           the root disc of each contour hierarchy
+///   fixed            one disc for every pose, around the agent's position
+///   bch_projected    hierarchy of discs over all triangles seen from above
+///   obb_full         tree of oriented boxes over the triangles
+///   obb_contour      the same over the outline's segments
+///   obb_contour_2d   rectangles instead of boxes over the outline's segments
+///   obb_projected    boxes over all triangles seen from above
+///   fcl_obb_full, fcl_obbrss_full, fcl_obb_contour, fcl_obbrss_contour
+///                    the Flexible Collision Library's trees over triangles, and over outlines as vertical
+///                    walls; only where the build found FCL
+std::span<const Kind> kinds();
+
+/// Errors: throws std::invalid_argument naming the kinds that there are.
+const Kind& kind(std::string_view name);
+
+}  // namespace bch::baselines
