@@ -7,6 +7,7 @@
 
 #include "baselines/built.hpp"
 #include "baselines/disc_tree.hpp"
+#include "baselines/exact_tests.hpp"
 #include "baselines/kind_rows.hpp"
 
 // Structures of discs: the contour hierarchy, one cylinder, and the hierarchy over projected triangles.
@@ -25,7 +26,34 @@ struct ContourHierarchy {
                    std::uint32_t max_depth, Counts counts) {
     return any_ends_overlap(float_placement(agents, pair), {a.nodes.data(), max_depth, a.height},
                             {b.nodes.data(), max_depth, b.height}, counts,
-                            [](std::uint32_t, std::uint32_t) { return true; });
+                            [](const NodePair&) { return true; });
+  }
+};
+
+/// Discs over all triangles seen from above, which leaves test exactly, or leave at their discs.
+struct ProjectedHierarchy {
+  std::vector<HierarchyNode> nodes;
+  std::vector<Element> triangles;  ///< empty: discs alone
+  std::uint32_t height;
+
+  std::size_t bytes() const {
+    return nodes.size() * sizeof(HierarchyNode) + triangles.size() * sizeof(Element);
+  }
+
+  template <class Counts>
+  static bool meet(const ProjectedHierarchy& a, const ProjectedHierarchy& b, const Agents& agents, Pair pair,
+                   std::uint32_t max_depth, Counts counts) {
+    const Placement place = placement(agents, pair);
+    const auto accept = [&](const NodePair& at) {
+      if (at.depth_a == max_depth || at.depth_b == max_depth || a.triangles.empty()) return true;
+      counts.leaf();
+      const Element &s = a.triangles[a.nodes[at.a].element_begin],
+                    &t = b.triangles[b.nodes[at.b].element_begin];
+      return triangles_meet(Triangle2{exact(s.a), exact(s.b), exact(s.c)},
+                            Triangle2{place.place(t.a), place.place(t.b), place.place(t.c)});
+    };
+    return any_ends_overlap(float_placement(agents, pair), {a.nodes.data(), max_depth, a.height},
+                            {b.nodes.data(), max_depth, b.height}, counts, accept);
   }
 };
 
@@ -59,6 +87,17 @@ std::unique_ptr<Structure> build_reference(std::span<const Body> bodies, const B
 std::unique_ptr<Structure> build_single(std::span<const Body> bodies, const BuildOptions&) {
   return build_models<Cylinder>(
       bodies, [](const Body& body) -> Cylinder { return {checked_hierarchy(body).nodes[0].disc}; });
+}
+
+std::unique_ptr<Structure> build_bch_projected(std::span<const Body> bodies, const BuildOptions& options) {
+  return build_models<ProjectedHierarchy>(bodies, [&](const Body& body) -> ProjectedHierarchy {
+    std::vector<Vec2> vertices;
+    for (const Eigen::Vector3f& p : body.positions) vertices.push_back({p.x(), p.y()});
+    Hierarchy hierarchy = projected_hierarchy(vertices, body.triangles);
+    const std::uint32_t levels = height(hierarchy);
+    if (!options.projected_triangles) hierarchy.elements.clear();
+    return {std::move(hierarchy.nodes), std::move(hierarchy.elements), levels};
+  });
 }
 
 std::unique_ptr<Structure> build_fixed(std::span<const Body> bodies, const BuildOptions& options) {

@@ -37,7 +37,7 @@ struct DiscTree {
   }
 };
 
-/// Walks both trees depth first, descending into the larger disc. True as soon as accept(a, b) is true of two
+/// Walks both trees depth first, descending into the larger disc. True as soon as accept(pair) is true of two
 /// ends whose discs overlap.
 template <class Counts, class Accept>
 bool any_ends_overlap(const FloatPlacement& place, const DiscTree& a, const DiscTree& b, Counts counts,
@@ -52,7 +52,7 @@ bool any_ends_overlap(const FloatPlacement& place, const DiscTree& a, const Disc
     counts.node();
     if (!discs_overlap(place, node_a.disc, radius_a, node_b.disc, radius_b)) continue;
     if (end_a && end_b) {
-      if (accept(at.a, at.b)) return true;
+      if (accept(at)) return true;
     } else if (end_b || (!end_a && radius_a >= radius_b)) {
       open.push({node_a.second_child, at.b, at.depth_a + 1, at.depth_b});
       open.push({at.a + 1, at.b, at.depth_a + 1, at.depth_b});

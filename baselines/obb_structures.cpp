@@ -3,25 +3,30 @@
 
 #include <utility>
 
+#include "baselines/box_traversal.hpp"
 #include "baselines/built.hpp"
 #include "baselines/exact_tests.hpp"
 #include "baselines/kind_rows.hpp"
 #include "baselines/obb_overlap.hpp"
-#include "baselines/traversal_stack.hpp"
+#include "baselines/rectangle_tree.hpp"
 
 // Trees of oriented boxes over three kinds of facets, with the exact test of each kind in the leaves.
 
 namespace bch::baselines {
 namespace {
 
+Vec2 ground(const Eigen::Vector3f& p) {
+  return {p.x(), p.y()};
+}
+
 /// Triangles in space.
 struct SolidTriangles {
   static bool meet(const Facet& a, const Facet& b, const Placement& at) noexcept {
     Triangle3 s, t;
     for (std::size_t i = 0; i < 3; ++i) {
-      s[i] = {static_cast<double>(a[i].x()), static_cast<double>(a[i].y()), static_cast<double>(a[i].z())};
-      const Point2 p = at.place(static_cast<double>(b[i].x()), static_cast<double>(b[i].y()));
-      t[i] = {p.x, p.y, static_cast<double>(b[i].z())};
+      const Point2 p = exact(ground(a[i])), q = at.place(ground(b[i]));
+      s[i] = {p.x, p.y, static_cast<double>(a[i].z())};
+      t[i] = {q.x, q.y, static_cast<double>(b[i].z())};
     }
     return triangles_meet(s, t);
   }
@@ -32,8 +37,8 @@ struct FlatTriangles {
   static bool meet(const Facet& a, const Facet& b, const Placement& at) noexcept {
     Triangle2 s, t;
     for (std::size_t i = 0; i < 3; ++i) {
-      s[i] = {static_cast<double>(a[i].x()), static_cast<double>(a[i].y())};
-      t[i] = at.place(static_cast<double>(b[i].x()), static_cast<double>(b[i].y()));
+      s[i] = exact(ground(a[i]));
+      t[i] = at.place(ground(b[i]));
     }
     return triangles_meet(s, t);
   }
@@ -42,13 +47,8 @@ struct FlatTriangles {
 /// Segments of the outline.
 struct OutlineSegments {
   static bool meet(const Facet& a, const Facet& b, const Placement& at) noexcept {
-    const auto fixed = [](const Eigen::Vector3f& p) {
-      return Point2{static_cast<double>(p.x()), static_cast<double>(p.y())};
-    };
-    const auto placed = [&](const Eigen::Vector3f& p) {
-      return at.place(static_cast<double>(p.x()), static_cast<double>(p.y()));
-    };
-    return segments_meet({fixed(a[0]), fixed(a[1])}, {placed(b[0]), placed(b[1])});
+    return segments_meet({exact(ground(a[0])), exact(ground(a[1]))},
+                         {at.place(ground(b[0])), at.place(ground(b[1]))});
   }
 };
 
@@ -62,36 +62,46 @@ struct ObbModel {
   static bool meet(const ObbModel& a, const ObbModel& b, const Agents& agents, Pair pair,
                    std::uint32_t max_depth, Counts counts) {
     const Placement at = placement(agents, pair);
-    TraversalStack open(std::size_t{a.tree.height} + b.tree.height + 1);
-    open.push({0, 0, 0, 0});
-    PlacedBox placed;
-    std::uint32_t placed_node = 0xffffffff;
-    while (!open.empty()) {
-      const NodePair visit = open.pop();
-      const ObbNode &node_a = a.tree.nodes[visit.a], &node_b = b.tree.nodes[visit.b];
-      if (visit.b != placed_node) {
-        placed = place(at, node_b);
-        placed_node = visit.b;
-      }
-      counts.node();
-      if (!boxes_overlap(node_a, placed)) continue;
-      const bool cut_a = visit.depth_a == max_depth, cut_b = visit.depth_b == max_depth;
-      const bool end_a = cut_a || node_a.is_leaf(), end_b = cut_b || node_b.is_leaf();
-      if (end_a && end_b) {
-        if (cut_a || cut_b) return true;
-        counts.leaf();
-        if (Facets::meet(a.tree.facets[node_a.facet()], b.tree.facets[node_b.facet()], at)) return true;
-      } else if (end_b || (!end_a && node_a.half[0] >= node_b.half[0])) {
-        open.push({node_a.link, visit.b, visit.depth_a + 1, visit.depth_b});
-        open.push({visit.a + 1, visit.b, visit.depth_a + 1, visit.depth_b});
-      } else {
-        open.push({visit.a, node_b.link, visit.depth_a, visit.depth_b + 1});
-        open.push({visit.a, visit.b + 1, visit.depth_a, visit.depth_b + 1});
-      }
-    }
-    return false;
+    const BoxTree<ObbNode> tree_a{a.tree.nodes.data(), a.tree.height},
+        tree_b{b.tree.nodes.data(), b.tree.height};
+    return any_facets_meet(at, tree_a, tree_b, max_depth, counts, [&](std::uint32_t p, std::uint32_t q) {
+      return Facets::meet(a.tree.facets[p], b.tree.facets[q], at);
+    });
   }
 };
+
+struct RectangleModel {
+  RectangleTree tree;
+
+  std::size_t bytes() const { return tree.bytes(); }
+
+  template <class Counts>
+  static bool meet(const RectangleModel& a, const RectangleModel& b, const Agents& agents, Pair pair,
+                   std::uint32_t max_depth, Counts counts) {
+    const Placement at = placement(agents, pair);
+    const BoxTree<RectangleNode> tree_a{a.tree.nodes.data(), a.tree.height},
+        tree_b{b.tree.nodes.data(), b.tree.height};
+    return any_facets_meet(at, tree_a, tree_b, max_depth, counts, [&](std::uint32_t p, std::uint32_t q) {
+      const auto &s = a.tree.segments[p], &t = b.tree.segments[q];
+      return segments_meet({exact(s.a), exact(s.b)}, {at.place(t.a), at.place(t.b)});
+    });
+  }
+};
+
+ObbTree contour_tree(const Body& body) {
+  const Outline& outline = body.shape.outline;
+  validate(outline);
+  std::vector<Facet> facets;
+  for (std::size_t c = 0; c < outline.contours(); ++c) {
+    const auto points = outline.contour(c);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const Vec2 p = points[i], q = points[(i + 1) % points.size()];
+      facets.push_back(
+          {Eigen::Vector3f(p.x, p.y, 0), Eigen::Vector3f(q.x, q.y, 0), Eigen::Vector3f(q.x, q.y, 0)});
+    }
+  }
+  return build_obb_tree(std::move(facets));
+}
 
 }  // namespace
 
@@ -102,20 +112,13 @@ std::unique_ptr<Structure> build_obb_full(std::span<const Body> bodies, const Bu
 }
 
 std::unique_ptr<Structure> build_obb_contour(std::span<const Body> bodies, const BuildOptions&) {
-  return build_models<ObbModel<OutlineSegments>>(bodies, [](const Body& body) -> ObbModel<OutlineSegments> {
-    const Outline& outline = body.shape.outline;
-    validate(outline);
-    std::vector<Facet> facets;
-    for (std::size_t c = 0; c < outline.contours(); ++c) {
-      const auto points = outline.contour(c);
-      for (std::size_t i = 0; i < points.size(); ++i) {
-        const Vec2 p = points[i], q = points[(i + 1) % points.size()];
-        facets.push_back(
-            {Eigen::Vector3f(p.x, p.y, 0), Eigen::Vector3f(q.x, q.y, 0), Eigen::Vector3f(q.x, q.y, 0)});
-      }
-    }
-    return {build_obb_tree(std::move(facets))};
-  });
+  return build_models<ObbModel<OutlineSegments>>(
+      bodies, [](const Body& body) -> ObbModel<OutlineSegments> { return {contour_tree(body)}; });
+}
+
+std::unique_ptr<Structure> build_obb_contour_2d(std::span<const Body> bodies, const BuildOptions&) {
+  return build_models<RectangleModel>(
+      bodies, [](const Body& body) -> RectangleModel { return {RectangleTree(contour_tree(body))}; });
 }
 
 std::unique_ptr<Structure> build_obb_projected(std::span<const Body> bodies, const BuildOptions&) {

@@ -21,6 +21,10 @@ struct Point2 {
   double x = 0, y = 0;
 };
 
+inline Point2 exact(Vec2 p) noexcept {
+  return {static_cast<double>(p.x), static_cast<double>(p.y)};
+}
+
 /// The same in double: what tests of triangles and segments use. A point of the second shape is placed by
 /// place() and rounded to double there; those doubles, beside the floats of the first shape, ARE the input of
 /// the exact tests: each has one right answer for them, however the structures arrive at it. Against exact

@@ -45,7 +45,7 @@ bool Reference::boundary(const Agents& agents, Pair pair, Method method) const {
     return DiscTree{shapes_[agents.shape[agent]].hierarchy.nodes.data(), at.depth, at.height};
   };
   return any_ends_overlap(place, tree(a, level_a), tree(b, level_b), NoCounts{},
-                          [](std::uint32_t, std::uint32_t) { return true; });
+                          [](const NodePair&) { return true; });
 }
 
 bool Reference::solid(const Agents& agents, Pair pair, Method method) const {

@@ -19,8 +19,12 @@ constexpr Kind own_kinds[] = {
     {"reference", "cylinders over the outline, depth first", Truth::none, true, true, build_reference},
     {"single", "one cylinder a pose", Truth::none, true, false, build_single},
     {"fixed", "one cylinder for all poses", Truth::none, false, false, build_fixed},
+    {"bch_projected", "cylinders over the triangles seen from above", Truth::projection, false, true,
+     build_bch_projected},
     {"obb_full", "oriented boxes over the triangles", Truth::mesh, false, true, build_obb_full},
     {"obb_contour", "oriented boxes over the outline", Truth::outline, true, true, build_obb_contour},
+    {"obb_contour_2d", "oriented rectangles over the outline", Truth::outline, true, true,
+     build_obb_contour_2d},
     {"obb_projected", "oriented boxes over the triangles seen from above", Truth::projection, false, true,
      build_obb_projected},
 };
