@@ -23,10 +23,9 @@ namespace bch::baselines {
 
 /// A character in a pose, in every form that some structure is built from.
 struct Body {
-  std::vector<Eigen::Vector3f> positions;  ///< as Skinner::pose() gives them
-  std::span<const std::array<std::uint32_t, 3>> triangles =
-      {};       ///< the character's; read while building only
-  Shape shape;  ///< outline and contour hierarchy
+  std::vector<Eigen::Vector3f> positions;               ///< as Skinner::pose() gives them
+  std::vector<std::array<std::uint32_t, 3>> triangles;  ///< the character's
+  Shape shape;                                          ///< outline and contour hierarchy
 };
 
 /// What a structure answers exactly at all depths, touching included.

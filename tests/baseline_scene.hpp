@@ -16,7 +16,7 @@
 
 namespace bch::test {
 
-/// Poses spread over each character's clips. The characters must outlive them.
+/// Poses spread over each character's clips.
 std::vector<baselines::Body> posed_bodies(const std::vector<Character>& characters, std::uint32_t poses);
 
 /// Answers of one structure to all pairs.
