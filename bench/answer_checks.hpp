@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <string>
+
+#include "baselines/structure.hpp"
+#include "bench/scene.hpp"
+
+/// What answers must hold before they are worth timing. Each function says what is wrong; empty: nothing.
+namespace bch::bench {
+
+/// The kernel: the same bits as brute force over all discs, on every pair.
+std::string wrong_kernel(Scene& scene, const Workload& workload, Semantics semantics, const Hits& hits);
+
+/// A structure, by what its row of baselines::kinds() says of it:
+///   exact                  equal to the first other kind of the same truth
+///   mesh, projection       outlines or meshes that meet are seen by what projects them
+///   never_misses_outlines  1 wherever the outlines meet
+///   reference              the same bits as brute force over all discs
+std::string wrong_structure(Scene& scene, const Workload& workload, const baselines::Kind& kind,
+                            const Hits& hits);
+
+}  // namespace bch::bench

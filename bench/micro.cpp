@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include "bench/micro.hpp"
+
+#include <benchmark/benchmark.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdio>
+#include <exception>
+
+#include "bench/exit_codes.hpp"
+#include "bench/scene_options.hpp"
+
+namespace {
+
+constexpr const char* description =
+    "Microbenchmarks of collision queries and of construction. Times are nanoseconds a pair; every answer "
+    "is\n"
+    "checked before it is timed. Made on first use, so that a narrow --benchmark_filter starts soon.";
+constexpr const char* footer =
+    "Google Benchmark's own options work too: --benchmark_filter=<regex>, --benchmark_list_tests=true,\n"
+    "--benchmark_min_time=<seconds>, --benchmark_out=<file> ...";
+
+int run(int argc, char** argv) {
+  CLI::App program(description, "bch_micro");
+  program.footer(footer);
+  program.allow_extras();
+  bch::bench::SceneOptions options;
+  bch::bench::add_options(program, options);
+  CLI11_PARSE(program, argc, argv);
+
+  std::vector<std::string> rest = program.remaining();
+  std::vector<char*> arguments{argv[0]};
+  for (std::string& word : rest) arguments.push_back(word.data());
+  int count = static_cast<int>(arguments.size());
+  benchmark::Initialize(&count, arguments.data());
+  if (benchmark::ReportUnrecognizedArguments(count, arguments.data())) return bch::cli::exit_usage;
+
+  bch::bench::Scene scene(options);
+  bch::bench::register_collide_benchmarks(scene);
+  bch::bench::register_build_benchmarks(scene);
+  benchmark::RunSpecifiedBenchmarks();
+  benchmark::Shutdown();
+  return bch::cli::exit_success;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return run(argc, argv);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "bch_micro: %s\n", error.what());
+    return bch::cli::exit_bad_input;
+  }
+}

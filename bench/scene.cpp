@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include "bench/scene.hpp"
+
+#include <stdexcept>
+#include <utility>
+
+#include "baselines/reference.hpp"
+#include "layout/skinning.hpp"
+
+namespace bch::bench {
+namespace {
+
+constexpr double threshold = 0.01;  ///< metres
+constexpr std::uint32_t paper_cases = 500;
+
+}  // namespace
+
+Scene::Scene(SceneOptions options) : options_(std::move(options)) {}
+
+const std::vector<cli::LoadedCharacter>& Scene::characters() {
+  if (characters_.empty()) characters_ = cli::load_characters(options_.characters, {});
+  return characters_;
+}
+
+const std::vector<cli::ShapeSource>& Scene::sources() {
+  if (sources_.empty()) sources_ = cli::list_shapes(characters(), options_.poses);
+  return sources_;
+}
+
+const std::vector<Shape>& Scene::shapes() {
+  if (shapes_.empty()) shapes_ = cli::build_shapes(characters(), sources(), threshold).shapes;
+  return shapes_;
+}
+
+const std::vector<baselines::Body>& Scene::bodies() {
+  if (!bodies_.empty()) return bodies_;
+  for (std::size_t i = 0; i < shapes().size(); ++i) {
+    const auto [index, at] = sources()[i];
+    const Character& character = characters()[index].character;
+    Skinner skinner(character);
+    const auto positions = skinner.pose(at);
+    bodies_.push_back({{positions.begin(), positions.end()}, character.triangles, shapes()[i]});
+  }
+  return bodies_;
+}
+
+const ShapeSet& Scene::set(Semantics semantics) {
+  const auto found = sets_.find(semantics);
+  if (found != sets_.end()) return found->second;
+  return sets_.emplace(semantics, ShapeSet(shapes(), {.solid = semantics == Semantics::solid})).first->second;
+}
+
+const baselines::Structure& Scene::structure(std::string_view kind) {
+  const auto found = structures_.find(kind);
+  if (found != structures_.end()) return *found->second;
+  return *structures_.emplace(kind, baselines::kind(kind).build(bodies(), {})).first->second;
+}
+
+const Workload& Scene::workload(std::string_view name) {
+  const auto found = workloads_.find(name);
+  if (found != workloads_.end()) return found->second;
+  const auto make = [&]() -> Workload {
+    if (name == "colliding" || name == "near_miss")
+      return random_pairs(shapes(), structure("obb_full"), structure("single"), name == "colliding",
+                          options_.sizes.pairs);
+    if (name == "crowd") return crowd_pairs(set(Semantics::boundary), options_.sizes.agents);
+    if (name == "paper500" || name == "paper500_cached")
+      return repeated(workload("colliding"), paper_cases, options_.sizes.pairs, name == "paper500_cached");
+    throw std::invalid_argument("no workload '" + std::string(name) + "'");
+  };
+  return workloads_.emplace(name, make()).first->second;
+}
+
+const Hits& Scene::hits(std::string_view kind, const Workload& workload) {
+  Hits& hits = hits_[std::string(kind) + '/' + workload.name];
+  if (!hits.empty()) return hits;
+  hits.resize(workload.pairs.size());
+  structure(kind).query(workload.agents(), workload.pairs, hits);
+  return hits;
+}
+
+const Hits& Scene::expected(Semantics semantics, const Workload& workload) {
+  const bool solid = semantics == Semantics::solid;
+  Hits& hits = hits_[(solid ? "*solid/" : "*boundary/") + workload.name];
+  if (!hits.empty()) return hits;
+  const baselines::Reference reference(shapes(), {.solid = solid});
+  const Agents agents = workload.agents();
+  for (const Pair pair : workload.pairs)
+    hits.push_back(solid ? reference.solid(agents, pair, baselines::Method::brute_force)
+                         : reference.boundary(agents, pair, baselines::Method::brute_force));
+  return hits;
+}
+
+}  // namespace bch::bench

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "baselines/structure.hpp"
+#include "bench/characters.hpp"
+#include "bench/shape_table.hpp"
+#include "bench/workload.hpp"
+#include "kernel/collide.hpp"
+#include "layout/shape_set.hpp"
+
+namespace bch::bench {
+
+struct SceneOptions {
+  std::vector<std::string> characters = {"default:male", "default:female"};  ///< as load_character() takes
+  std::uint32_t poses = 100;                                                 ///< of a character
+  WorkloadSizes sizes;
+};
+
+/// Everything that benchmarks measure on, each made when it is first asked for and kept: a benchmark that the
+/// filter leaves out costs nothing. Shapes are contour hierarchies with a threshold of 1 cm. For one thread.
+class Scene {
+ public:
+  explicit Scene(SceneOptions options);
+
+  const std::vector<cli::LoadedCharacter>& characters();
+  const std::vector<cli::ShapeSource>& sources();
+  const std::vector<Shape>& shapes();
+  const std::vector<baselines::Body>& bodies();
+  /// The finest level alone, planned for nothing but these semantics.
+  const ShapeSet& set(Semantics semantics);
+  const baselines::Structure& structure(std::string_view kind);
+  /// Errors: throws std::invalid_argument on a name that workload_names() does not have.
+  const Workload& workload(std::string_view name);
+
+  /// A kind's answers, at all depths.
+  const Hits& hits(std::string_view kind, const Workload& workload);
+  /// What the kernel must answer, pair by pair and disc by disc: baselines::Reference by brute force.
+  const Hits& expected(Semantics semantics, const Workload& workload);
+
+ private:
+  SceneOptions options_;
+  std::vector<cli::LoadedCharacter> characters_;
+  std::vector<cli::ShapeSource> sources_;
+  std::vector<Shape> shapes_;
+  std::vector<baselines::Body> bodies_;
+  std::map<Semantics, ShapeSet> sets_;
+  std::map<std::string, std::unique_ptr<baselines::Structure>, std::less<>> structures_;
+  std::map<std::string, Workload, std::less<>> workloads_;
+  std::map<std::string, Hits> hits_;
+};
+
+}  // namespace bch::bench

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+#include "bench/scene.hpp"
+
+namespace bch::bench {
+
+/// The options by which a command line chooses what to measure on. Characters given replace the built-in
+/// ones.
+void add_options(CLI::App& program, SceneOptions& options);
+
+}  // namespace bch::bench
