@@ -9,25 +9,10 @@
 #include "baselines/exact_tests.hpp"
 #include "baselines/kind_rows.hpp"
 
-// Structures of discs: the contour hierarchy, one cylinder, and the hierarchy over projected triangles.
+// Structures of discs but for the contour hierarchy: one cylinder, and the hierarchy over projected triangles.
 
 namespace bch::baselines {
 namespace {
-
-struct ContourHierarchy {
-  std::vector<HierarchyNode> nodes;
-  std::uint32_t height;
-
-  std::size_t bytes() const { return nodes.size() * sizeof(HierarchyNode); }
-
-  template <class Counts>
-  static bool meet(const ContourHierarchy& a, const ContourHierarchy& b, const Agents& agents, Pair pair,
-                   std::uint32_t max_depth, Counts counts) {
-    return any_ends_overlap(float_placement(agents, pair), {a.nodes.data(), max_depth, a.height},
-                            {b.nodes.data(), max_depth, b.height}, counts,
-                            [](const NodePair&) { return true; });
-  }
-};
 
 /// Discs over all triangles seen from above, which leaves test exactly, or leave at their discs.
 struct ProjectedHierarchy {
@@ -75,13 +60,6 @@ const Hierarchy& checked_hierarchy(const Body& body) {
 }
 
 }  // namespace
-
-std::unique_ptr<Structure> build_reference(std::span<const Body> bodies, const BuildOptions&) {
-  return build_models<ContourHierarchy>(bodies, [](const Body& body) -> ContourHierarchy {
-    const Hierarchy& hierarchy = checked_hierarchy(body);
-    return {hierarchy.nodes, height(hierarchy)};
-  });
-}
 
 std::unique_ptr<Structure> build_single(std::span<const Body> bodies, const BuildOptions&) {
   return build_models<Cylinder>(
