@@ -6,9 +6,10 @@
 #include <benchmark/benchmark.h>
 
 #include <CLI/CLI.hpp>
-#include <algorithm>
 #include <cstdio>
 #include <exception>
+#include <string>
+#include <vector>
 
 #include "bench/exit_codes.hpp"
 #include "bench/scene_options.hpp"
@@ -28,7 +29,12 @@ int run(int argc, char** argv) {
   program.footer(footer);
   program.allow_extras();
   bch::bench::SceneOptions options;
-  bch::bench::add_options(program, options);
+  program
+      .add_option("--character", options.characters,
+                  std::string(bch::cli::character_help) + " (repeatable) [default:male and default:female]")
+      ->type_name("FILE")
+      ->allow_extra_args(false);
+  bch::bench::add_size_options(program, options);
   CLI11_PARSE(program, argc, argv);
 
   std::vector<std::string> rest = program.remaining();

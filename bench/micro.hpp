@@ -12,7 +12,7 @@ namespace bch::bench {
 /// baselines::kinds(), which have boundary semantics and one thread. Threads are those of TBB, inside one
 /// call. Before the time is taken the answers are checked; a benchmark whose answers are wrong is skipped
 /// with an error. Counters:
-///   ns_per_pair      median over the calls, wall clock
+///   ns_per_pair      median over the calls; see Stopwatch
 ///   hits             pairs that collide
 ///   false_positives  hits of pairs whose meshes do not intersect
 ///   tests_per_pair   volumes, triangles and segments tested, where the structure counts them

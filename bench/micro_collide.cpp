@@ -23,10 +23,10 @@ std::string_view name_of(Semantics semantics) {
 /// Times calls of `query`, each answering all pairs. The median over calls forgives what other programs do
 /// to some of them; Google Benchmark's own mean stands beside it.
 template <class Query>
-void time_calls(benchmark::State& state, const Workload& workload, Query query) {
+void time_calls(benchmark::State& state, const Workload& workload, int threads, Query query) {
   std::vector<double> nanoseconds;
   for ([[maybe_unused]] auto _ : state) {
-    const Stopwatch watch;
+    const Stopwatch watch(threads);
     query();
     benchmark::ClobberMemory();
     nanoseconds.push_back(watch.nanoseconds());
@@ -59,7 +59,7 @@ void run_kernel(benchmark::State& state, Scene& scene, std::string_view workload
   query();
   if (const auto wrong = wrong_kernel(scene, workload, options.semantics, hits); !wrong.empty())
     return state.SkipWithError(wrong.c_str());
-  time_calls(state, workload, query);
+  time_calls(state, workload, threads, query);
   count_hits(state, scene, workload, hits);
   state.counters["bytes_per_shape"] = static_cast<double>(set.bytes()) / set.shape_count();
 }
@@ -73,7 +73,7 @@ void run_structure(benchmark::State& state, Scene& scene, std::string_view workl
   query();
   if (const auto wrong = wrong_structure(scene, workload, kind, hits); !wrong.empty())
     return state.SkipWithError(wrong.c_str());
-  time_calls(state, workload, query);
+  time_calls(state, workload, 1, query);
   count_hits(state, scene, workload, hits);
 
   baselines::TestCounts counts;

@@ -14,6 +14,7 @@ namespace {
 
 constexpr double threshold = 0.01;  ///< metres
 constexpr std::uint32_t paper_cases = 500;
+constexpr std::uint64_t colliding_seed = 31, near_miss_seed = 32, no_hit_seed = 33;
 
 }  // namespace
 
@@ -61,16 +62,30 @@ const baselines::Structure& Scene::structure(std::string_view kind) {
 const Workload& Scene::workload(std::string_view name) {
   const auto found = workloads_.find(name);
   if (found != workloads_.end()) return found->second;
-  const auto make = [&]() -> Workload {
-    if (name == "colliding" || name == "near_miss")
-      return random_pairs(shapes(), structure("obb_full"), structure("single"), name == "colliding",
-                          options_.sizes.pairs);
-    if (name == "crowd") return crowd_pairs(set(Semantics::boundary), options_.sizes.agents);
-    if (name == "paper500" || name == "paper500_cached")
-      return repeated(workload("colliding"), paper_cases, options_.sizes.pairs, name == "paper500_cached");
-    throw std::invalid_argument("no workload '" + std::string(name) + "'");
-  };
-  return workloads_.emplace(name, make()).first->second;
+  return workloads_.emplace(name, make_workload(name)).first->second;
+}
+
+Workload Scene::make_workload(std::string_view name) {
+  if (name == "colliding" || name == "near_miss") {
+    const bool colliding = name == "colliding";
+    const auto &meshes = structure("obb_full"), &roots = structure("single");
+    return random_pairs(name, colliding ? colliding_seed : near_miss_seed, shapes(), options_.sizes.pairs,
+                        [&](const Agents& agents, Pair pair) {
+                          return roots.query(agents, pair) && meshes.query(agents, pair) == colliding;
+                        });
+  }
+  if (name == "no_hit") {
+    const auto &discs = structure("reference"), &roots = structure("single");
+    return random_pairs(name, no_hit_seed, shapes(), options_.sizes.pairs,
+                        [&](const Agents& agents, Pair pair) {
+                          return roots.query(agents, pair) && !discs.query(agents, pair);
+                        });
+  }
+  if (name == "crowd") return crowd_pairs(set(Semantics::boundary), options_.sizes.agents);
+  if (name == "paper500" || name == "paper500_cached")
+    return repeated(name, workload("colliding"), paper_cases, options_.sizes.pairs,
+                    name == "paper500_cached");
+  throw std::invalid_argument("no workload '" + std::string(name) + "'");
 }
 
 const Hits& Scene::hits(std::string_view kind, const Workload& workload) {

@@ -47,6 +47,8 @@ class Scene {
   const Hits& expected(Semantics semantics, const Workload& workload);
 
  private:
+  Workload make_workload(std::string_view name);
+
   SceneOptions options_;
   std::vector<cli::LoadedCharacter> characters_;
   std::vector<cli::ShapeSource> sources_;

@@ -5,12 +5,7 @@
 
 namespace bch::bench {
 
-void add_options(CLI::App& program, SceneOptions& options) {
-  program
-      .add_option("--character", options.characters,
-                  std::string(cli::character_help) + " (repeatable) [default:male and default:female]")
-      ->type_name("FILE")
-      ->allow_extra_args(false);
+void add_size_options(CLI::App& program, SceneOptions& options) {
   program.add_option("--poses", options.poses, "Poses of a character [100]")
       ->type_name("N")
       ->check(CLI::Range(1u, 100'000u));

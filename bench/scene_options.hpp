@@ -9,8 +9,7 @@
 
 namespace bch::bench {
 
-/// The options by which a command line chooses what to measure on. Characters given replace the built-in
-/// ones.
-void add_options(CLI::App& program, SceneOptions& options);
+/// The options by which a command line chooses how much to measure on.
+void add_size_options(CLI::App& program, SceneOptions& options);
 
 }  // namespace bch::bench

@@ -14,10 +14,11 @@
 namespace bch::bench {
 namespace {
 
-constexpr std::string_view names[] = {"colliding", "near_miss", "crowd", "paper500", "paper500_cached"};
+constexpr std::string_view names[] = {"colliding", "near_miss", "no_hit",
+                                      "crowd",     "paper500",  "paper500_cached"};
 constexpr double agents_per_square_metre = 3;
 constexpr double world = 100;  ///< metres: where pairs with agents of their own stand
-constexpr std::uint64_t colliding_seed = 31, near_miss_seed = 32, crowd_seed = 33;
+constexpr std::uint64_t crowd_seed = 34;
 
 struct Point {
   double x, y;
@@ -68,17 +69,16 @@ std::span<const std::string_view> workload_names() {
   return names;
 }
 
-Workload random_pairs(std::span<const Shape> shapes, const baselines::Structure& obb_full,
-                      const baselines::Structure& single, bool colliding, std::uint32_t pairs) {
-  Workload workload{std::string(names[colliding ? 0 : 1]), {}, {}};
+Workload random_pairs(std::string_view name, std::uint64_t seed, std::span<const Shape> shapes,
+                      std::uint32_t pairs, const std::function<bool(const Agents&, Pair)>& wanted) {
+  Workload workload{std::string(name), {}, {}};
   workload.crowd.side = world;
-  cli::Random random(colliding ? colliding_seed : near_miss_seed);
+  cli::Random random(seed);
   while (workload.pairs.size() < pairs) {
     const auto agent = static_cast<std::uint32_t>(workload.crowd.size());
     const Pair pair{agent, agent + 1};
     add_candidate(random, shapes, workload.crowd);
-    const Agents agents = workload.agents();
-    if (single.query(agents, pair) && obb_full.query(agents, pair) == colliding)
+    if (wanted(workload.agents(), pair))
       workload.pairs.push_back(pair);
     else
       resize(workload.crowd, agent);
@@ -93,8 +93,9 @@ Workload crowd_pairs(const ShapeSet& set, std::uint32_t agents) {
   return workload;
 }
 
-Workload repeated(const Workload& from, std::uint32_t cases, std::uint32_t pairs, bool cached) {
-  Workload workload{std::string(names[cached ? 4 : 3]), from.crowd, {}};
+Workload repeated(std::string_view name, const Workload& from, std::uint32_t cases, std::uint32_t pairs,
+                  bool cached) {
+  Workload workload{std::string(name), from.crowd, {}};
   cases = std::min(cases, static_cast<std::uint32_t>(from.pairs.size()));
   const std::uint32_t times = std::max(1u, pairs / cases);
   for (std::uint32_t i = 0; i < cases * times; ++i)

@@ -4,12 +4,12 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "baselines/structure.hpp"
 #include "bench/crowd.hpp"
 #include "layout/shape_set.hpp"
 
@@ -34,6 +34,7 @@ struct WorkloadSizes {
 /// In the order of reports:
 ///   colliding     distinct pairs whose meshes intersect
 ///   near_miss     distinct pairs whose root discs overlap while the meshes do not intersect
+///   no_hit        distinct pairs whose root discs overlap while their contour hierarchies do not
 ///   crowd         the broad phase's pairs of a crowd at 3 agents per square metre
 ///   paper500      the paper's protocol: 500 colliding cases in sequence, over and over
 ///   paper500_cached  the same cases, each repeated before the next
@@ -42,15 +43,16 @@ struct WorkloadSizes {
 std::span<const std::string_view> workload_names();
 
 /// Pairs with agents of their own, shapes and headings at random, the second root disc's centre anywhere in
-/// the disc about the first one's centre in which the two overlap. The same for the same shapes everywhere.
-/// Preconditions: the structures are the kinds "obb_full" and "single" over these shapes.
-Workload random_pairs(std::span<const Shape> shapes, const baselines::Structure& obb_full,
-                      const baselines::Structure& single, bool colliding, std::uint32_t pairs);
+/// the disc about the first one's centre in which the two overlap; those that are wanted. The same for the
+/// same shapes and seed everywhere.
+Workload random_pairs(std::string_view name, std::uint64_t seed, std::span<const Shape> shapes,
+                      std::uint32_t pairs, const std::function<bool(const Agents&, Pair)>& wanted);
 
 Workload crowd_pairs(const ShapeSet& set, std::uint32_t agents);
 
 /// The first `cases` pairs of a workload, `pairs` in all. Cached: each over and over, then the next; else the
 /// cases in sequence, over and over.
-Workload repeated(const Workload& from, std::uint32_t cases, std::uint32_t pairs, bool cached);
+Workload repeated(std::string_view name, const Workload& from, std::uint32_t cases, std::uint32_t pairs,
+                  bool cached);
 
 }  // namespace bch::bench

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <memory>
+#include <stdexcept>
+
+#include "bench/answer_checks.hpp"
+#include "bench/ratios.hpp"
+#include "bench/stopwatch.hpp"
+
+namespace bch::bench {
+namespace {
+
+constexpr double shortest_run = 1e7;  ///< nanoseconds
+
+double time_run(const std::function<void()>& call, int threads) {
+  const Stopwatch watch(threads);
+  std::uint32_t calls = 0;
+  do {
+    call();
+    ++calls;
+  } while (watch.nanoseconds() < shortest_run);
+  return watch.nanoseconds() / calls;
+}
+
+void require_right(const std::string& name, const Workload& workload, const std::string& wrong) {
+  if (!wrong.empty()) throw std::runtime_error(fmt::format("{} on {}: {}", name, workload.name, wrong));
+}
+
+}  // namespace
+
+void race(std::vector<Contender>& contenders, std::uint32_t runs, int threads) {
+  std::vector<std::vector<double>> times(contenders.size());
+  for (const Contender& contender : contenders) contender.call();  // caches, page faults
+  for (std::uint32_t run = 0; run < runs; ++run)
+    for (std::size_t i = 0; i < contenders.size(); ++i)
+      times[i].push_back(time_run(contenders[i].call, threads));
+  for (std::size_t i = 0; i < contenders.size(); ++i) contenders[i].nanoseconds = median(times[i]);
+}
+
+std::string verdict(double ratio, double needed) {
+  if (ratio >= needed) return fmt::format("PASS (needs {:g})", needed);
+  return fmt::format("needs {:g}: {:.0f} % short", needed, 100 * (1 - ratio / needed));
+}
+
+bool has_kind(std::string_view kind) {
+  const auto kinds = baselines::kinds();
+  return std::any_of(kinds.begin(), kinds.end(),
+                     [&](const baselines::Kind& row) { return row.name == kind; });
+}
+
+Contender kernel_contender(Scene& scene, const Workload& workload, Semantics semantics,
+                           const kernel::Implementation& implementation) {
+  const auto hits = std::make_shared<Hits>(workload.pairs.size());
+  const auto call = [&set = scene.set(semantics), &workload, hits,
+                     options = QueryOptions{semantics, &implementation}] {
+    collide(set, workload.agents(), workload.pairs, *hits, options);
+  };
+  call();
+  require_right(implementation.name, workload, wrong_kernel(scene, workload, semantics, *hits));
+  return {implementation.name, call};
+}
+
+Contender structure_contender(Scene& scene, const Workload& workload, std::string_view kind) {
+  const auto hits = std::make_shared<Hits>(workload.pairs.size());
+  const auto call = [&structure = scene.structure(kind), &workload, hits] {
+    structure.query(workload.agents(), workload.pairs, *hits);
+  };
+  call();
+  require_right(std::string(kind), workload, wrong_structure(scene, workload, baselines::kind(kind), *hits));
+  return {std::string(kind), call};
+}
+
+}  // namespace bch::bench

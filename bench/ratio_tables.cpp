@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include <fmt/format.h>
+#include <oneapi/tbb/info.h>
+#include <oneapi/tbb/task_arena.h>
+
+#include <algorithm>
+#include <cstdio>
+
+#include "bench/ratios.hpp"
+#include "bench/text.hpp"
+
+namespace bch::bench {
+namespace {
+
+struct Requirement {
+  std::string_view workload;
+  Semantics semantics;
+  double avx512, avx2, sse2;  ///< times the reference
+  double aim;                 ///< for avx512
+
+  double needed(std::string_view implementation) const {
+    return implementation == "avx512" ? avx512 : implementation == "avx2" ? avx2 : sse2;
+  }
+};
+
+constexpr Requirement requirements[] = {
+    {"colliding", Semantics::boundary, 20, 14, 9, 40}, {"colliding", Semantics::solid, 24, 15, 10, 50},
+    {"near_miss", Semantics::boundary, 10, 7, 5, 20},  {"near_miss", Semantics::solid, 10, 7, 5, 20},
+    {"no_hit", Semantics::boundary, 10, 7, 5, 20},     {"no_hit", Semantics::solid, 10, 7, 5, 20},
+    {"crowd", Semantics::boundary, 16, 11, 8, 30},     {"crowd", Semantics::solid, 16, 11, 8, 30},
+};
+
+/// The wide ones; the scalar one is there for processors without any of them, and nothing is asked of it.
+std::vector<const kernel::Implementation*> wide_implementations() {
+  std::vector<const kernel::Implementation*> wide;
+  for (const kernel::Implementation& implementation : kernel::implementations())
+    if (implementation.supported() && implementation.width > 1) wide.push_back(&implementation);
+  return wide;
+}
+
+void print_row(const Requirement& row, const Workload& workload, std::span<const Contender> contenders,
+               std::uint64_t hits) {
+  const auto pairs = static_cast<double>(workload.pairs.size());
+  const double reference = contenders[0].nanoseconds;
+  fmt::print("{}, {}: {} pairs, {} hits; reference {:.1f} ns\n", row.workload,
+             row.semantics == Semantics::solid ? "solid" : "boundary", cli::grouped(workload.pairs.size()),
+             cli::grouped(hits), reference / pairs);
+  for (const Contender& contender : contenders.subspan(1)) {
+    const double ratio = reference / contender.nanoseconds;
+    const std::string aim = contender.name == "avx512" ? fmt::format(", aim {:g}", row.aim) : "";
+    fmt::print("  {:8}{:6.1f} ns{:7.1f} x   {}{}\n", contender.name, contender.nanoseconds / pairs, ratio,
+               verdict(ratio, row.needed(contender.name)), aim);
+  }
+  std::fflush(stdout);
+}
+
+std::string per_call(const Workload& workload) {
+  return fmt::format("{}, {} pairs", workload.name, cli::grouped(workload.pairs.size()));
+}
+
+/// The pairs in calls of `size`, those left over aside.
+Contender in_batches(const ShapeSet& set, const Workload& workload, Hits& hits, std::size_t size) {
+  return {fmt::format("batches of {}", size), [&set, &workload, &hits, size] {
+            const std::span<const Pair> pairs = workload.pairs;
+            for (std::size_t i = 0; i + size <= pairs.size(); i += size)
+              collide(set, workload.agents(), pairs.subspan(i, size), std::span(hits).subspan(i, size));
+          }};
+}
+
+}  // namespace
+
+void print_kernel_ratios(Scene& scene, std::uint32_t runs) {
+  for (const Requirement& row : requirements) {
+    const Workload& workload = scene.workload(row.workload);
+    std::vector<Contender> contenders = {structure_contender(scene, workload, "reference")};
+    for (const auto* implementation : wide_implementations())
+      contenders.push_back(kernel_contender(scene, workload, row.semantics, *implementation));
+    race(contenders, runs, 1);
+    const Hits& hits = scene.expected(row.semantics, workload);
+    print_row(row, workload, contenders, static_cast<std::uint64_t>(std::count(hits.begin(), hits.end(), 1)));
+  }
+}
+
+void print_peer_ratios(Scene& scene, std::uint32_t runs) {
+  const Workload& workload = scene.workload("colliding");
+  constexpr std::pair<std::string_view, double> peers[] = {{"fcl_obb_contour", 200}, {"obb_contour_2d", 40}};
+  std::vector<Contender> contenders = {
+      kernel_contender(scene, workload, Semantics::boundary, kernel::best_implementation())};
+  for (const auto& [peer, needed] : peers)
+    if (has_kind(peer)) contenders.push_back(structure_contender(scene, workload, peer));
+  race(contenders, runs, 1);
+  const auto pairs = static_cast<double>(workload.pairs.size());
+  fmt::print("against boxes on the same outlines: {}, boundary; {} {:.1f} ns\n", per_call(workload),
+             contenders[0].name, contenders[0].nanoseconds / pairs);
+  for (const auto& [peer, needed] : peers) {
+    const auto found = std::find_if(contenders.begin(), contenders.end(),
+                                    [name = peer](const Contender& one) { return one.name == name; });
+    if (found == contenders.end()) {
+      fmt::print("  {:16} not in this build\n", peer);
+      continue;
+    }
+    const double ratio = found->nanoseconds / contenders[0].nanoseconds;
+    fmt::print("  {:16}{:8.1f} ns{:7.1f} x   {}\n", peer, found->nanoseconds / pairs, ratio,
+               verdict(ratio, needed));
+  }
+}
+
+void print_call_ratios(Scene& scene, std::uint32_t runs) {
+  const ShapeSet& set = scene.set(Semantics::boundary);
+  Workload many = crowd_pairs(set, 50'000);
+  many.pairs.resize(std::min<std::size_t>(many.pairs.size(), 100'000));
+  Hits hits(many.pairs.size());
+  tbb::task_arena one(1), two(2);
+  const auto call = [&] { collide(set, many.agents(), many.pairs, hits); };
+  std::vector<Contender> threads = {{"1 thread", [&] { one.execute(call); }},
+                                    {"2 threads", [&] { two.execute(call); }}};
+  race(threads, runs, 2);
+  const double gain = threads[0].nanoseconds / threads[1].nanoseconds;
+  fmt::print("2 threads over 1: {}: {:.2f} x   {}\n", per_call(many), gain, verdict(gain, 1.9));
+
+  const Workload& workload = scene.workload("colliding");
+  hits.resize(std::max(hits.size(), workload.pairs.size()));
+  const std::size_t small = std::min<std::size_t>(16, workload.pairs.size());
+  const std::size_t large = std::min<std::size_t>(512, workload.pairs.size());
+  std::vector<Contender> batches = {in_batches(set, workload, hits, small),
+                                    in_batches(set, workload, hits, large)};
+  race(batches, runs, 1);
+  const auto each = [&](std::size_t i, std::size_t size) {
+    return batches[i].nanoseconds / static_cast<double>(workload.pairs.size() / size * size);
+  };
+  const double cost = each(0, small) / each(1, large);
+  fmt::print(
+      "a pair in batches of 16 over 512: {}: {:.1f} ns over {:.1f}: {:.2f} x   {}\n", workload.name,
+      each(0, small), each(1, large), cost,
+      cost <= 1.5 ? "PASS (at most 1.5)" : fmt::format("at most 1.5: {:.0f} % over", 100 * (cost / 1.5 - 1)));
+}
+
+}  // namespace bch::bench

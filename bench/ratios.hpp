@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "bench/scene.hpp"
+
+namespace bch::bench {
+
+/// Something to be timed beside others.
+struct Contender {
+  std::string name;
+  std::function<void()> call;
+  double nanoseconds = 0;  ///< of a call: the result
+};
+
+/// Times all of them in turn, `runs` times over, and takes each one's median: what slows the machine down
+/// for a while slows all of them, and ratios stay. A run of a contender takes 10 ms at least.
+/// Threads: see Stopwatch.
+void race(std::vector<Contender>& contenders, std::uint32_t runs, int threads);
+
+/// "PASS", or by how much a ratio misses what it needs: "needs 20: 19 % short".
+std::string verdict(double ratio, double needed);
+
+/// A contender that asks a kernel's implementation for all pairs of a workload, by one thread; its answers
+/// were compared. Errors of both: throw std::runtime_error on wrong answers.
+Contender kernel_contender(Scene& scene, const Workload& workload, Semantics semantics,
+                           const kernel::Implementation& implementation);
+Contender structure_contender(Scene& scene, const Workload& workload, std::string_view kind);
+
+/// Whether this build has the kind.
+bool has_kind(std::string_view kind);
+
+/// The tables. Each prints to standard output.
+void print_kernel_ratios(Scene& scene, std::uint32_t runs);
+void print_peer_ratios(Scene& scene, std::uint32_t runs);
+void print_call_ratios(Scene& scene, std::uint32_t runs);
+void print_paper_table(Scene& scene, std::uint32_t runs);
+
+}  // namespace bch::bench

@@ -1,0 +1,33 @@
+# The benchmark programs start, find their own answers right, and name what they must. Nothing is timed.
+set(sizes --poses=2 --pairs=200 --agents=300)
+
+execute_process(COMMAND ${MICRO} ${sizes} --benchmark_min_time=0.0001 OUTPUT_VARIABLE output ERROR_VARIABLE output
+  RESULT_VARIABLE code)
+if(NOT code EQUAL 0 OR output MATCHES "ERROR OCCURRED")
+  message(FATAL_ERROR "bch_micro: ${code}\n${output}")
+endif()
+foreach(workload colliding near_miss no_hit crowd paper500 paper500_cached)
+  foreach(rest sse2/boundary/threads:1 scalar/solid/threads:1 reference/boundary/threads:1 obb_full/boundary/threads:1)
+    if(NOT output MATCHES "collide/${workload}/${rest} [^\n]*false_positives=[^\n]*ns_per_pair=")
+      message(FATAL_ERROR "bch_micro: no collide/${workload}/${rest}\n${output}")
+    endif()
+  endforeach()
+endforeach()
+foreach(stage skinning outline hierarchy shape_set single)
+  if(NOT output MATCHES "build/${stage} ")
+    message(FATAL_ERROR "bch_micro: no build/${stage}\n${output}")
+  endif()
+endforeach()
+
+execute_process(COMMAND ${RATIOS} ${sizes} --runs=1 OUTPUT_VARIABLE output ERROR_VARIABLE output RESULT_VARIABLE code)
+if(NOT code EQUAL 0 OR NOT output MATCHES "colliding, solid: 200 pairs" OR NOT output MATCHES "OBB tree, outline \\| 4630")
+  message(FATAL_ERROR "bch_ratios: ${code}\n${output}")
+endif()
+
+foreach(program ${MICRO} ${RATIOS})
+  execute_process(COMMAND ${program} --character=absent.glb OUTPUT_VARIABLE output ERROR_VARIABLE output
+    RESULT_VARIABLE code TIMEOUT 600)
+  if(NOT output MATCHES "absent.glb")
+    message(FATAL_ERROR "${program} does not name the file it cannot read: ${code}\n${output}")
+  endif()
+endforeach()
