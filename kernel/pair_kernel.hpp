@@ -8,8 +8,7 @@
 
 #include "kernel/arguments.hpp"
 #include "kernel/lanes.hpp"
-#include "layout/heading.hpp"
-#include "layout/pair.hpp"
+#include "kernel/placements.hpp"
 #include "layout/shape_set_view.hpp"
 
 namespace bch::kernel {
@@ -30,8 +29,7 @@ class PairKernel {
     PairKernel kernel(arguments);
     for (; begin < end; begin += kernel.size_) {
       kernel.size_ = end - begin < chunk ? static_cast<std::uint32_t>(end - begin) : chunk;
-      kernel.gather(begin);
-      kernel.place();
+      kernel.at_.place(arguments, begin, kernel.size_);
       kernel.test_roots(begin);
       if (kernel.shapes_.support && kernel.open_count_ > 0) kernel.reject_by_supports(begin);
       if (kernel.shapes_.inscribed_x && kernel.open_count_ > 0) kernel.accept_by_inscribed_discs(begin);
@@ -41,9 +39,8 @@ class PairKernel {
 
  private:
   using Float = typename Simd::Float;
-  using Double = typename Simd::Double;
   using Mask = typename Simd::Mask;
-  static constexpr std::uint32_t chunk = 256;
+  static constexpr std::uint32_t chunk = Placements<Simd>::chunk;
   /// Every test descends on one side at least, and neither side has more levels than this.
   static constexpr std::uint32_t most_frames = 2 * most_wide_levels;
 
@@ -56,94 +53,20 @@ class PairKernel {
 
   explicit PairKernel(const Arguments& arguments) noexcept : in_(arguments), shapes_(*arguments.shapes) {}
 
-  /// Stage 1a, scalar: what the chunk's pairs need, side by side. The lower index is A, so that the order
-  /// within a pair does not matter.
-  void gather(std::size_t begin) noexcept {
-    const std::uint32_t levels = shapes_.level_count;
-    for (std::uint32_t k = 0; k < size_; ++k) {
-      const Pair pair = in_.pairs[begin + k];
-      const bool swap = pair.second < pair.first;
-      const std::uint32_t a = swap ? pair.second : pair.first, b = swap ? pair.first : pair.second;
-      const std::uint32_t level_a = in_.agent_level ? in_.agent_level[a] : levels - 1;
-      const std::uint32_t level_b = in_.agent_level ? in_.agent_level[b] : levels - 1;
-      shape_a_[k] = in_.agent_shape[a];
-      shape_b_[k] = in_.agent_shape[b];
-      root_a_[k] = shape_a_[k] * levels + level_a;
-      root_b_[k] = shape_b_[k] * levels + level_b;
-      dx_[k] = static_cast<float>(in_.agent_x[b] - in_.agent_x[a]);
-      dy_[k] = static_cast<float>(in_.agent_y[b] - in_.agent_y[a]);
-      heading_[k] = in_.agent_heading[a];
-      heading_[chunk + k] = in_.agent_heading[b];
-    }
-    // Whole registers are computed; the lanes beyond the last pair repeat it.
-    for (std::uint32_t k = size_; k % Simd::width != 0; ++k) {
-      root_a_[k] = root_a_[size_ - 1], root_b_[k] = root_b_[size_ - 1];
-      dx_[k] = dx_[size_ - 1], dy_[k] = dy_[size_ - 1];
-      heading_[k] = heading_[size_ - 1], heading_[chunk + k] = heading_[chunk + size_ - 1];
-    }
-  }
-
-  /// Stage 1b: unit vectors of the headings, then B's rotation and position in A's frame.
-  void place() noexcept {
-    rotate(heading_, cosine_, sine_);
-    rotate(heading_ + chunk, cosine_ + chunk, sine_ + chunk);
-    for (std::uint32_t k = 0; k < size_; k += Simd::width) {
-      const Float ca = Simd::load(cosine_ + k), sa = Simd::load(sine_ + k);
-      const Float cb = Simd::load(cosine_ + chunk + k), sb = Simd::load(sine_ + chunk + k);
-      const Float dx = Simd::load(dx_ + k), dy = Simd::load(dy_ + k);
-      Simd::store(c_ + k, ca * cb + sa * sb);
-      Simd::store(s_ + k, ca * sb - sa * cb);
-      Simd::store(tx_ + k, ca * dx + sa * dy);
-      Simd::store(ty_ + k, ca * dy - sa * dx);
-    }
-  }
-
-  /// layout/heading.cpp, in lanes.
-  void rotate(const double* heading, float* cosine, float* sine) noexcept {
-    namespace h = heading_constants;
-    alignas(64) double c_out[chunk], s_out[chunk];
-    const auto round_to_integer = [](Double x) {
-      return (x + Double(h::round_to_integer)) - Double(h::round_to_integer);
-    };
-    constexpr std::uint32_t width = sizeof(Double) / sizeof(double);
-    for (std::uint32_t k = 0; k < size_; k += width) {
-      const Double angle = Simd::load(heading + k);
-      const Double quarters = round_to_integer(angle * Double(h::two_over_pi));
-      Double r = angle - quarters * Double(h::half_pi[0]);
-      r = r - quarters * Double(h::half_pi[1]);
-      r = r - quarters * Double(h::half_pi[2]);
-      r = r - quarters * Double(h::half_pi[3]);
-      const Double square = r * r;
-      Double s(h::sine[0]), c(h::cosine[0]);
-      for (int i = 1; i < 5; ++i) s = s * square + Double(h::sine[i]), c = c * square + Double(h::cosine[i]);
-      s = s * square * r + r;
-      c = c * square + Double(1.0);
-      const Double left = quarters - Double(4.0) * round_to_integer(quarters * Double(0.25));
-      const Double turn_c = Double(1.0) - xsimd::abs(left);
-      const Double turn_s = left * (Double(2.0) - xsimd::abs(left));
-      Simd::store(c_out + k, c * turn_c - s * turn_s);
-      Simd::store(s_out + k, s * turn_c + c * turn_s);
-    }
-    for (std::uint32_t k = 0; k < size_; ++k)
-      cosine[k] = static_cast<float>(c_out[k]), sine[k] = static_cast<float>(s_out[k]);
-    for (std::uint32_t k = size_; k % Simd::width != 0; ++k)
-      cosine[k] = cosine[size_ - 1], sine[k] = sine[size_ - 1];
-  }
-
-  /// Stage 1c: root disc against root disc. Pairs that this does not decide become open.
+  /// Stage 1, after placing: root disc against root disc. Pairs that this does not decide become open.
   void test_roots(std::size_t begin) noexcept {
     alignas(64) float a_x[chunk], a_y[chunk], a_r[chunk], b_x[chunk], b_y[chunk], b_r[chunk];
     const std::uint32_t padded = (size_ + Simd::width - 1) / Simd::width * Simd::width;
     for (std::uint32_t k = 0; k < padded; ++k) {
-      const std::uint32_t a = root_a_[k], b = root_b_[k];
+      const std::uint32_t a = at_.root_a[k], b = at_.root_b[k];
       a_x[k] = shapes_.root_x[a], a_y[k] = shapes_.root_y[a], a_r[k] = shapes_.root_radius[a];
       b_x[k] = shapes_.root_x[b], b_y[k] = shapes_.root_y[b], b_r[k] = shapes_.root_radius[b];
     }
     open_count_ = 0;
     std::uint8_t* __restrict codes = in_.codes + begin;
     for (std::uint32_t k = 0; k < size_; k += Simd::width) {
-      const Float c = Simd::load(c_ + k), s = Simd::load(s_ + k), tx = Simd::load(tx_ + k),
-                  ty = Simd::load(ty_ + k);
+      const Float c = Simd::load(at_.c + k), s = Simd::load(at_.s + k), tx = Simd::load(at_.tx + k),
+                  ty = Simd::load(at_.ty + k);
       const Float bx = Simd::load(b_x + k), by = Simd::load(b_y + k);
       const std::uint32_t hits = overlaps(tx + (c * bx - s * by), ty + (s * bx + c * by), Simd::load(b_r + k),
                                           Simd::load(a_x + k), Simd::load(a_y + k), Simd::load(a_r + k));
@@ -153,7 +76,7 @@ class PairKernel {
   }
 
   void open_root(std::uint32_t k, std::uint32_t hit, std::uint8_t* __restrict codes) noexcept {
-    const std::uint32_t a = root_a_[k], b = root_b_[k];
+    const std::uint32_t a = at_.root_a[k], b = at_.root_b[k];
     const std::uint32_t decided = shapes_.root_is_single[a] & shapes_.root_is_single[b];
     codes[k] = static_cast<std::uint8_t>(hit * (decided ? overlap : near_miss));
     open_[open_count_] = static_cast<std::uint16_t>(k);
@@ -187,7 +110,7 @@ class PairKernel {
     alignas(64) float offset[chunk];
     const Float zero(0.0f);
     for (std::uint32_t k = 0; k < size_; k += Simd::width) {
-      const Float x = zero - Simd::load(c_ + k), y = Simd::load(s_ + k);
+      const Float x = zero - Simd::load(at_.c + k), y = Simd::load(at_.s + k);
       const Float ax = xsimd::abs(x), ay = xsimd::abs(y);
       const auto past_1 = Float(tan_1) * ax < ay, past_2 = ax < ay, past_3 = Float(tan_3) * ax < ay;
       const auto among = [&](float at_0, float at_1, float at_2, float at_3) {
@@ -213,9 +136,9 @@ class PairKernel {
   }
 
   std::uint32_t parted_by_supports(std::uint32_t pair) const noexcept {
-    const float* a = shapes_.support + std::size_t{root_a_[pair]} * support_stride;
-    const float* b = shapes_.support + std::size_t{root_b_[pair]} * support_stride + offset_[pair];
-    const Float tx(tx_[pair]), ty(ty_[pair]), lower(lower_[pair]), upper(upper_[pair]);
+    const float* a = shapes_.support + std::size_t{at_.root_a[pair]} * support_stride;
+    const float* b = shapes_.support + std::size_t{at_.root_b[pair]} * support_stride + offset_[pair];
+    const Float tx(at_.tx[pair]), ty(at_.ty[pair]), lower(lower_[pair]), upper(upper_[pair]);
     std::uint32_t parted = 0;
     for (unsigned k = 0; k < support_directions; k += Simd::width) {
       const Float distance = tx * Simd::load(direction_x + k) + ty * Simd::load(direction_y + k);
@@ -237,7 +160,7 @@ class PairKernel {
     std::uint32_t still_open = 0;
     for (std::uint32_t k = 0; k < open_count_; ++k) {
       const std::uint32_t pair = open_[k];
-      const std::uint32_t a = shape_a_[pair], b = shape_b_[pair];
+      const std::uint32_t a = at_.shape_a[pair], b = at_.shape_b[pair];
       const bool meet = outer_product(pair, inscribed(a), inscribed(b)) != 0;
       const std::uint32_t accepted = meet & (in_.mark_near_misses || cannot_nest(pair, a, b));
       codes[pair] = static_cast<std::uint8_t>(near_miss - accepted);
@@ -249,14 +172,14 @@ class PairKernel {
 
   /// Both contours have a point beyond the other's supports.
   bool cannot_nest(std::uint32_t pair, std::uint32_t a, std::uint32_t b) const noexcept {
-    const float c = c_[pair], s = s_[pair], tx = tx_[pair], ty = ty_[pair];
+    const float c = at_.c[pair], s = at_.s[pair], tx = at_.tx[pair], ty = at_.ty[pair];
     const unsigned nearer = upper_[pair] > lower_[pair];
     const unsigned turn = (offset_[pair] + support_directions / 2 + nearer) % support_directions;
     const unsigned back = (support_directions - turn) % support_directions;
     // The float arithmetic is off by less than 40 u S.
     const float slack = 4e-6f * (shapes_.reach[a] + shapes_.reach[b]);
-    return sticks_out(b, turn, c, s, tx, ty, root_a_[pair], slack) &
-           sticks_out(a, back, c, -s, -(c * tx + s * ty), -(c * ty - s * tx), root_b_[pair], slack);
+    return sticks_out(b, turn, c, s, tx, ty, at_.root_a[pair], slack) &
+           sticks_out(a, back, c, -s, -(c * tx + s * ty), -(c * ty - s * tx), at_.root_b[pair], slack);
   }
 
   /// Whether a farthest point of a shape, placed in another's frame by a rotation (c, s) and a translation t,
@@ -283,8 +206,8 @@ class PairKernel {
     std::uint8_t* __restrict codes = in_.codes + begin;
     for (std::uint32_t k = 0; k < open_count_; ++k) {
       const std::uint32_t pair = open_[k];
-      a_[pair] = shapes_.root_block[root_a_[pair]];
-      b_[pair] = shapes_.root_block[root_b_[pair]];
+      a_[pair] = shapes_.root_block[at_.root_a[pair]];
+      b_[pair] = shapes_.root_block[at_.root_b[pair]];
       allowed_[pair] = ~std::uint64_t{0};
       depth_[pair] = 0;
     }
@@ -322,7 +245,7 @@ class PairKernel {
   std::uint64_t outer_product(std::uint32_t pair, Discs a, Discs b) const noexcept {
     constexpr unsigned parts = Simd::width < block_width ? block_width / Simd::width : 1;
     constexpr unsigned rows = Simd::width > block_width ? Simd::width / block_width : 1;
-    const Float c(c_[pair]), s(s_[pair]), tx(tx_[pair]), ty(ty_[pair]);
+    const Float c(at_.c[pair]), s(at_.s[pair]), tx(at_.tx[pair]), ty(at_.ty[pair]);
     std::uint64_t bits = 0;
     for (unsigned part = 0; part < parts; ++part) {
       const Float x = Simd::columns(b.x, part), y = Simd::columns(b.y, part),
@@ -380,12 +303,7 @@ class PairKernel {
   const ShapeSetView shapes_;
   std::uint32_t size_ = 0;
   std::uint32_t open_count_ = 0;
-  alignas(64) double heading_[2 * chunk];
-  alignas(64) float cosine_[2 * chunk], sine_[2 * chunk];
-  alignas(64) float dx_[chunk], dy_[chunk];
-  alignas(64) float c_[chunk], s_[chunk], tx_[chunk], ty_[chunk];
-  std::uint32_t shape_a_[chunk], shape_b_[chunk];
-  std::uint32_t root_a_[chunk], root_b_[chunk];
+  Placements<Simd> at_;
   std::uint8_t offset_[chunk];
   alignas(64) float lower_[chunk], upper_[chunk];
   std::uint32_t a_[chunk], b_[chunk];
