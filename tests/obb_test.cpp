@@ -172,6 +172,28 @@ std::vector<Facet> block(const Eigen::Vector3f& half, const Eigen::Quaternionf& 
   return facets;
 }
 
+/// Blocks of one direction in space, corner to corner: all nine products of edges are noise or normals, and
+/// the noise must not separate them.
+TEST(BoxOverlap, ParallelEdgesDoNotSeparate) {
+  Random random(2005);
+  for (int i = 0; i < 20'000; ++i) {
+    const auto side = [&] { return static_cast<float>(random.uniform(0.1, 1)); };
+    const Eigen::Vector3f half_a(side(), side(), side()), half_b(side(), side(), side());
+    const Eigen::Quaternionf tilt(Eigen::AngleAxisf(static_cast<float>(random.uniform(-pi, pi)),
+                                                    Eigen::Vector3f(side(), side(), side()).normalized()));
+    const double turn = random.uniform(-pi, pi);
+    const Eigen::Quaternionf back(Eigen::AngleAxisf(static_cast<float>(-turn), Eigen::Vector3f::UnitZ()));
+    // B's corner at A's opposite one. Heights cannot be moved by a placement, so B is built where it stands.
+    std::vector<Facet> facets_a = block(half_a, tilt), facets_b = block(half_b, tilt);
+    const Eigen::Vector3f offset = facets_a[7][0] - facets_b[0][0];
+    for (Facet& facet : facets_b)
+      for (Eigen::Vector3f& p : facet) p = back * (p + 0.9999999f * offset);
+    const ObbTree a = build_obb_tree(facets_a), b = build_obb_tree(facets_b);
+    const Placement at{std::cos(turn), std::sin(turn), 0, 0};
+    ASSERT_TRUE(boxes_overlap(a.nodes[0], place(at, b.nodes[0]))) << "case " << i;
+  }
+}
+
 /// A ridge along x below a ridge along y, a millimetre apart or into each other: only the product of those
 /// two edges separates them.
 TEST(BoxOverlap, FindsWhatOnlyAProductOfEdgesSeparates) {
