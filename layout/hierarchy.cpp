@@ -258,6 +258,9 @@ Hierarchy projected_hierarchy(std::span<const Vec2> vertices,
     };
     items.push_back({e, static_cast<std::uint32_t>(t), mean(0), mean(1), 1});
   }
+  for (std::size_t v = 0; v < vertices.size(); ++v)
+    if (!std::isfinite(vertices[v].x) || !std::isfinite(vertices[v].y))
+      throw std::invalid_argument("hierarchy: vertex " + std::to_string(v) + " is not finite");
   const double size = reach(vertices);
   require_reach(size);
   return Builder(std::move(items), {0, false, plane_through_vertex_mean}, size, 0).build();

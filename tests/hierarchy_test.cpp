@@ -129,6 +129,9 @@ TEST(ProjectedHierarchy, HasOneLeafATriangle) {
   EXPECT_THROW(projected_hierarchy(vertices, {}), std::invalid_argument);
   triangles[3][1] = 120;
   EXPECT_THROW(projected_hierarchy(vertices, triangles), std::invalid_argument);
+  triangles[3][1] = 0;
+  vertices[60].y = std::numeric_limits<float>::quiet_NaN();
+  EXPECT_THROW(projected_hierarchy(vertices, triangles), std::invalid_argument);
 }
 
 TEST(FixedCylinder, IsOneDiscAboutTheAgent) {
