@@ -26,14 +26,15 @@ constexpr std::size_t grain = 2048;
 /// The lowest index in [0, count) for which `bad` holds, or count.
 template <class Predicate>
 std::size_t first_bad(std::size_t count, Predicate bad) {
-  return tbb::parallel_reduce(
-      Range(0, count, grain), count,
-      [&](const Range& range, std::size_t found) {
-        for (std::size_t i = range.begin(); i < range.end() && i < found; ++i)
-          if (bad(i)) return i;
-        return found;
-      },
-      [](std::size_t a, std::size_t b) { return std::min(a, b); });
+  const auto search = [&](const Range& range, std::size_t found) {
+    for (std::size_t i = range.begin(); i < range.end() && i < found; ++i)
+      if (bad(i)) return i;
+    return found;
+  };
+  const Range all(0, count, grain);
+  if (count <= grain) return search(all, count);
+  return tbb::parallel_reduce(all, count, search,
+                              [](std::size_t a, std::size_t b) { return std::min(a, b); });
 }
 
 [[noreturn]] void reject_pair(const ShapeSet& shapes, const Agents& agents, std::span<const Pair> pairs,
@@ -96,9 +97,12 @@ void collide(const ShapeSet& shapes, const Agents& agents, std::span<const Pair>
       &view,           agents.shape.data(),   agents.x.data(),
       agents.y.data(), agents.heading.data(), agents.level.empty() ? nullptr : agents.level.data(),
       pairs.data(),    hits.data(),           solid};
-  tbb::parallel_for(Range(0, pairs.size(), grain), [&](const Range& range) {
+  const auto answer = [&](const Range& range) {
     kernel::answer(implementation, arguments, agents, range.begin(), range.end());
-  });
+  };
+  const Range all(0, pairs.size(), grain);
+  // A task costs more than a small batch.
+  pairs.size() <= grain ? answer(all) : tbb::parallel_for(all, answer);
 }
 
 }  // namespace bch
