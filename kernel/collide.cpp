@@ -23,10 +23,12 @@ using Range = tbb::blocked_range<std::size_t>;
 /// Pairs a task: enough to hide its cost, few enough to balance two pairs of cores over a small crowd.
 constexpr std::size_t grain = 2048;
 
-/// The lowest index in [0, count) for which `bad` holds, or count.
-template <class Predicate>
-std::size_t first_bad(std::size_t count, Predicate bad) {
+/// The lowest index in [0, count) for which `bad` holds, or count. `all_good(begin, end)` says quickly where there is
+/// nothing to find.
+template <class AllGood, class Bad>
+std::size_t first_bad(std::size_t count, AllGood all_good, Bad bad) {
   const auto search = [&](const Range& range, std::size_t found) {
+    if (range.begin() >= found || all_good(range.begin(), range.end())) return found;
     for (std::size_t i = range.begin(); i < range.end() && i < found; ++i)
       if (bad(i)) return i;
     return found;
@@ -35,6 +37,19 @@ std::size_t first_bad(std::size_t count, Predicate bad) {
   if (count <= grain) return search(all, count);
   return tbb::parallel_reduce(all, count, search,
                               [](std::size_t a, std::size_t b) { return std::min(a, b); });
+}
+
+std::size_t first_bad_agent(const ShapeSet& shapes, const Agents& agents) {
+  return first_bad(
+      agents.size(),
+      [&](std::size_t begin, std::size_t end) { return kernel::are_valid(shapes, agents, begin, end); },
+      [&](std::size_t i) { return !kernel::is_valid(shapes, agents, i); });
+}
+
+bool indices_are_below(std::span<const Pair> pairs, std::size_t agents) {
+  std::size_t bad = 0;
+  for (const Pair& pair : pairs) bad += (pair.first >= agents) | (pair.second >= agents);
+  return bad == 0;
 }
 
 [[noreturn]] void reject_pair(const ShapeSet& shapes, const Agents& agents, std::span<const Pair> pairs,
@@ -54,16 +69,20 @@ std::size_t first_bad(std::size_t count, Predicate bad) {
   throw std::logic_error(place + "rejected without a reason");
 }
 
-/// Only agents that pairs name have to be valid. Where there are fewer agents than pairs name, looking at each once, in order, is
-/// cheaper; a bad one then still has to be named by a pair.
+/// Only agents that pairs name have to be valid. Where there are fewer agents than pairs name, looking at all of
+/// them, in order, is cheaper; a bad one then still has to be named by a pair.
 void require_valid(const ShapeSet& shapes, const Agents& agents, std::span<const Pair> pairs) {
-  const auto is_bad = [&](std::size_t i) { return !kernel::is_valid(shapes, agents, i); };
   const bool all_agents_are_valid =
-      agents.size() <= 2 * pairs.size() && first_bad(agents.size(), is_bad) == agents.size();
-  const std::size_t i = first_bad(pairs.size(), [&](std::size_t k) {
-    const auto [a, b] = pairs[k];
-    return a >= agents.size() || b >= agents.size() || (!all_agents_are_valid && (is_bad(a) || is_bad(b)));
-  });
+      agents.size() <= 2 * pairs.size() && first_bad_agent(shapes, agents) == agents.size();
+  const auto is_bad = [&](std::uint32_t i) {
+    return i >= agents.size() || !kernel::is_valid(shapes, agents, i);
+  };
+  const std::size_t i = first_bad(
+      pairs.size(),
+      [&](std::size_t begin, std::size_t end) {
+        return all_agents_are_valid && indices_are_below(pairs.subspan(begin, end - begin), agents.size());
+      },
+      [&](std::size_t k) { return is_bad(pairs[k].first) || is_bad(pairs[k].second); });
   if (i < pairs.size()) reject_pair(shapes, agents, pairs, i);
 }
 
@@ -71,8 +90,7 @@ void require_valid(const ShapeSet& shapes, const Agents& agents, std::span<const
 
 void validate(const ShapeSet& shapes, const Agents& agents) {
   kernel::require_sizes(agents);
-  const std::size_t i =
-      first_bad(agents.size(), [&](std::size_t k) { return !kernel::is_valid(shapes, agents, k); });
+  const std::size_t i = first_bad_agent(shapes, agents);
   if (i < agents.size()) kernel::reject(shapes, agents, i);
 }
 
