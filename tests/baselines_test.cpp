@@ -11,11 +11,10 @@
 #include "baselines/placement.hpp"
 #include "baselines/reference.hpp"
 #include "kernel/collide.hpp"
-#include "layout/default_characters.hpp"
-#include "layout/import.hpp"
 #include "tests/baseline_scene.hpp"
 #include "tests/brute_force.hpp"
 #include "tests/character_shapes.hpp"
+#include "tests/test_characters.hpp"
 
 // Every structure against every other, and a share of the answers against brute force. 1 of `brute_share`
 // placements goes to the brute force over triangles; outlines are small enough to check always.
@@ -183,37 +182,27 @@ class Suite {
   std::size_t fcl_differences_ = 0, placement_differences_ = 0;
 };
 
-std::vector<Character> default_characters() {
-  return {default_male(), default_female()};
-}
-
-std::vector<Character> real_characters(const std::filesystem::path& data) {
-  return {import_character(data / "characters" / "rocketbox_male_2847_cmu.glb").character,
-          import_character(data / "characters" / "rocketbox_female_2841_cmu.glb").character,
-          import_character(data / "characters" / "generic_man_cmu.glb").character};
-}
-
 TEST(DefaultCharacters, RandomPlacements) {
-  const auto characters = default_characters();
+  const auto characters = test::default_characters();
   Suite(characters, 16).check_random(1996, 160'000);
 }
 
 TEST(DefaultCharacters, TouchingPlacements) {
-  const auto characters = default_characters();
+  const auto characters = test::default_characters();
   Suite(characters, 16).check_touching(1997, 40'000);
 }
 
 TEST(RealCharacters, RandomPlacements) {
   const auto data = test::test_data();
   if (!data) GTEST_SKIP() << "BCH_TEST_DATA is not set: no real characters to test with";
-  const auto characters = real_characters(*data);
+  const auto characters = test::real_characters(*data);
   Suite(characters, 10).check_random(2012, 60'000);
 }
 
 TEST(RealCharacters, TouchingPlacements) {
   const auto data = test::test_data();
   if (!data) GTEST_SKIP() << "BCH_TEST_DATA is not set: no real characters to test with";
-  const auto characters = real_characters(*data);
+  const auto characters = test::real_characters(*data);
   Suite(characters, 10).check_touching(2014, 15'000);
 }
 

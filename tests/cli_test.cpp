@@ -10,6 +10,7 @@
 
 #include "kernel/implementation.hpp"
 #include "program_run.hpp"
+#include "tests/character_shapes.hpp"
 
 namespace bch::test {
 namespace {
@@ -98,8 +99,8 @@ std::vector<BadFile> bad_files() {
   using namespace std::string_literals;
   // A header that promises more than there is.
   std::string glb = "glTF\2\0\0\0\0\x10\0\0\x80\0\0\0JSON{\"asset\""s;
-  if (const char* data = std::getenv("BCH_TEST_DATA"))
-    glb = read_text(std::filesystem::path(data) / "characters/rocketbox_male_2847_cmu.glb").substr(0, 100000);
+  if (const auto data = test::test_data())
+    glb = read_text(*data / "characters/rocketbox_male_2847_cmu.glb").substr(0, 100000);
   return {{"empty.glb", ""},
           {"truncated.glb", glb},
           {"text.glb", "This is a letter, not a character.\n"},
@@ -119,9 +120,9 @@ TEST(Cli, BadCharacterFilesGiveThreeAndOneLine) {
 }
 
 TEST(Cli, FilesThatCrashTheImporterGiveThree) {
-  const char* data = std::getenv("BCH_TEST_DATA");
+  const auto data = test::test_data();
   if (!data) GTEST_SKIP() << "BCH_TEST_DATA is not set";
-  const std::string nasty = std::string(data) + "/nasty/";
+  const std::string nasty = data->string() + "/nasty/";
   for (const char* name : {"OverflowingTriangleIndex.md5mesh", "OverflowingVertexIndex.md5mesh",
                            "OverflowingWeightIndex.md5mesh", "InvalidMeshOffset.iqm"})
     expect_failure(bch({"inspect", nasty + name}), 3, {name});

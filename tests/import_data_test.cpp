@@ -10,6 +10,7 @@
 
 #include "layout/import.hpp"
 #include "layout/skinning.hpp"
+#include "tests/character_shapes.hpp"
 
 // Real files, found through the environment variable BCH_TEST_DATA; what they hold is written in the
 // SOURCES.md files beside them.
@@ -22,9 +23,9 @@ class ImportData : public testing::Test {
   std::filesystem::path data;
 
   void SetUp() override {
-    const char* folder = std::getenv("BCH_TEST_DATA");
-    if (folder == nullptr) GTEST_SKIP() << "BCH_TEST_DATA is not set: no real files to read";
-    data = folder;
+    const auto folder = test::test_data();
+    if (!folder) GTEST_SKIP() << "BCH_TEST_DATA is not set: no real files to read";
+    data = *folder;
     ASSERT_TRUE(std::filesystem::is_directory(data)) << data;
   }
 

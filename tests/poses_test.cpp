@@ -11,28 +11,18 @@
 #include "baselines/reference.hpp"
 #include "kernel/collide.hpp"
 #include "layout/default_characters.hpp"
-#include "layout/import.hpp"
 #include "layout/skinning.hpp"
 #include "layout/union_outline.hpp"
 #include "tests/character_shapes.hpp"
 #include "tests/hierarchy_checks.hpp"
 #include "tests/outline_checks.hpp"
 #include "tests/scenes.hpp"
+#include "tests/test_characters.hpp"
 
 // The whole way from a character to answers, on all default poses and on real characters.
 
 namespace bch {
 namespace {
-
-std::vector<Character> default_characters() {
-  return {default_male(), default_female()};
-}
-
-std::vector<Character> real_characters(const std::filesystem::path& data) {
-  return {import_character(data / "characters" / "rocketbox_male_2847_cmu.glb").character,
-          import_character(data / "characters" / "rocketbox_female_2841_cmu.glb").character,
-          import_character(data / "characters" / "generic_man_cmu.glb").character};
-}
 
 /// Two outlines in a relative placement bisected to where they begin to cross: no kernel may miss the
 /// crossing.
@@ -78,13 +68,13 @@ void expect_no_crossing_missed(const std::vector<Character>& characters, std::ui
 }
 
 TEST(DefaultPoses, NoOutlineCrossingIsMissed) {
-  expect_no_crossing_missed(default_characters(), 100, 2000);
+  expect_no_crossing_missed(test::default_characters(), 100, 2000);
 }
 
 TEST(RealPoses, NoOutlineCrossingIsMissed) {
   const auto data = test::test_data();
   if (!data) GTEST_SKIP() << "BCH_TEST_DATA is not set: no real characters to test with";
-  expect_no_crossing_missed(real_characters(*data), 50, 2000);
+  expect_no_crossing_missed(test::real_characters(*data), 50, 2000);
 }
 
 /// Outline against sampling, hierarchy against the mesh, for some poses.
@@ -117,13 +107,13 @@ void expect_sound_poses(const std::vector<Character>& characters, std::uint32_t 
 }
 
 TEST(DefaultPoses, OutlinesAndHierarchiesAreSound) {
-  expect_sound_poses(default_characters(), 6);
+  expect_sound_poses(test::default_characters(), 6);
 }
 
 TEST(RealPoses, OutlinesAndHierarchiesAreSound) {
   const auto data = test::test_data();
   if (!data) GTEST_SKIP() << "BCH_TEST_DATA is not set: no real characters to test with";
-  expect_sound_poses(real_characters(*data), 6);
+  expect_sound_poses(test::real_characters(*data), 6);
 }
 
 /// A pose shrunk to 0.3 inside the largest disc that fits into another pose: solid finds it, boundary alone

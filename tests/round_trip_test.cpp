@@ -13,6 +13,7 @@
 #include "layout/import.hpp"
 #include "layout/skinning.hpp"
 #include "scene_export.hpp"
+#include "tests/character_shapes.hpp"
 
 namespace bch {
 namespace {
@@ -200,9 +201,9 @@ TEST(RoundTrip, DefaultCharacters) {
 }
 
 TEST(RoundTrip, RealCharacter) {
-  const char* data = std::getenv("BCH_TEST_DATA");
-  if (data == nullptr) GTEST_SKIP() << "BCH_TEST_DATA is not set: no real files to read";
-  const std::filesystem::path folder = std::filesystem::path(data) / "characters";
+  const auto data = test::test_data();
+  if (!data) GTEST_SKIP() << "BCH_TEST_DATA is not set: no real files to read";
+  const std::filesystem::path folder = *data / "characters";
   expect_round_trip(import_character(folder / "generic_man_cmu.glb").character, ".glb");
 }
 

@@ -10,10 +10,11 @@ int main() {
   const bch::Character man = bch::default_male();
   bch::Skinner skinner(man);
   std::vector<bch::Shape> shapes;
-  for (const bch::PoseTime& time : bch::sample_poses(man, 3)) shapes.push_back(bch::pose_shape(skinner, time));
+  for (const bch::PoseTime& time : bch::sample_poses(man, 3))
+    shapes.push_back(bch::pose_shape(skinner, time));
   const bch::ShapeSet set(shapes);
 
-  const std::vector<std::uint32_t> shape = {0, 1, 2, 0};                                 // your simulator's arrays
+  const std::vector<std::uint32_t> shape = {0, 1, 2, 0};  // your simulator's arrays
   const std::vector<double> x = {0, 0.3, 5, 5.5}, y = {0, 0.2, 5, 5}, heading = {0, 1.5, 3, 0};
   const bch::Agents agents{shape, x, y, heading};
   const std::vector<bch::Pair> pairs = bch::candidate_pairs(set, agents);
