@@ -21,7 +21,7 @@ struct Contender {
 
 /// Times all of them in turn, `runs` times over, and takes each one's median: what slows the machine down
 /// for a while slows all of them, and ratios stay. A run of a contender takes 10 ms at least.
-/// Threads: see Stopwatch.
+/// Threads: each call runs in an arena of that many, whose time Stopwatch takes.
 void race(std::vector<Contender>& contenders, std::uint32_t runs, int threads);
 
 /// "PASS", or by how much a ratio misses what it needs: "needs 20: 19 % short".
