@@ -15,6 +15,8 @@ void answer(const Implementation& implementation, const Arguments& arguments, co
     if (arguments.codes[i] == near_miss)
       arguments.codes[i] =
           one_contains_other(*arguments.shapes, agents, arguments.pairs[i]) ? overlap : apart;
+    else
+      arguments.codes[i] &= overlap;
 }
 
 }  // namespace bch::kernel

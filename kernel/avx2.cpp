@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
+#include "kernel/agent_check.hpp"
 #include "kernel/pair_kernel.hpp"
 
 namespace bch::kernel {
@@ -13,6 +14,10 @@ struct Avx2Lanes : Lanes<xsimd::avx2> {
 };
 
 }  // namespace
+
+bool check_avx2(const Arguments& arguments, std::size_t begin, std::size_t end) noexcept {
+  return AgentCheck<Avx2Lanes>::passes(arguments, begin, end);
+}
 
 void run_avx2(const Arguments& arguments, std::size_t begin, std::size_t end) noexcept {
   PairKernel<Avx2Lanes>::run(arguments, begin, end);

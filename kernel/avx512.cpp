@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
+#include "kernel/agent_check.hpp"
 #include "kernel/pair_kernel.hpp"
 
 namespace bch::kernel {
@@ -8,9 +9,12 @@ namespace {
 
 /// Two rows of a block's outer product fit into one register.
 struct Avx512Lanes : Lanes<xsimd::avx512f> {
-  static Float row(const float* eight, unsigned i) noexcept {
-    constexpr __mmask16 upper = 0xff00;
-    return _mm512_mask_blend_ps(upper, _mm512_set1_ps(eight[i]), _mm512_set1_ps(eight[i + 1]));
+  static Float eight(const float* p) noexcept { return columns(p, 0); }
+  static Float row(Float eight, unsigned i) noexcept {
+    const auto k = static_cast<int>(i);
+    return _mm512_permutexvar_ps(
+        _mm512_setr_epi32(k, k, k, k, k, k, k, k, k + 1, k + 1, k + 1, k + 1, k + 1, k + 1, k + 1, k + 1),
+        eight);
   }
   static Float columns(const float* eight, unsigned) noexcept {
     return _mm512_castpd_ps(_mm512_broadcast_f64x4(_mm256_castps_pd(_mm256_loadu_ps(eight))));
@@ -19,6 +23,10 @@ struct Avx512Lanes : Lanes<xsimd::avx512f> {
 };
 
 }  // namespace
+
+bool check_avx512(const Arguments& arguments, std::size_t begin, std::size_t end) noexcept {
+  return AgentCheck<Avx512Lanes>::passes(arguments, begin, end);
+}
 
 void run_avx512(const Arguments& arguments, std::size_t begin, std::size_t end) noexcept {
   PairKernel<Avx512Lanes>::run(arguments, begin, end);

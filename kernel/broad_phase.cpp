@@ -100,11 +100,11 @@ class Grid {
       for (std::size_t i = range.begin(); i < range.end(); ++i) {
         const std::uint32_t level = agents.level.empty() ? shapes.level_count - 1 : agents.level[i];
         const std::size_t root = std::size_t{agents.shape[i]} * shapes.level_count + level;
-        const double x = shapes.root_x[root], y = shapes.root_y[root];
+        const double x = shapes.roots[root].x, y = shapes.roots[root].y;
         const Rotation turn = rotation(agents.heading[i]);
         roots_[i] = {agents.x[i], agents.y[i], turn.cosine * x - turn.sine * y,
                      turn.sine * x + turn.cosine * y,
-                     static_cast<double>(shapes.root_radius[root]) +
+                     static_cast<double>(shapes.roots[root].radius) +
                          rounding::nesting_margin * static_cast<double>(shapes.reach[agents.shape[i]])};
       }
     });

@@ -39,10 +39,25 @@ std::size_t first_bad(std::size_t count, AllGood all_good, Bad bad) {
                               [](std::size_t a, std::size_t b) { return std::min(a, b); });
 }
 
-std::size_t first_bad_agent(const ShapeSet& shapes, const Agents& agents) {
+kernel::Arguments arguments_for(const ShapeSetView& view, const Agents& agents) {
+  return {.shapes = &view,
+          .agent_shape = agents.shape.data(),
+          .agent_x = agents.x.data(),
+          .agent_y = agents.y.data(),
+          .agent_heading = agents.heading.data(),
+          .agent_level = agents.level.empty() ? nullptr : agents.level.data(),
+          .pairs = nullptr,
+          .codes = nullptr,
+          .mark_near_misses = false};
+}
+
+std::size_t first_bad_agent(const kernel::Implementation& implementation, const ShapeSet& shapes,
+                            const Agents& agents) {
+  const ShapeSetView view = shapes.view();
+  const kernel::Arguments arguments = arguments_for(view, agents);
   return first_bad(
       agents.size(),
-      [&](std::size_t begin, std::size_t end) { return kernel::are_valid(shapes, agents, begin, end); },
+      [&](std::size_t begin, std::size_t end) { return implementation.check(arguments, begin, end); },
       [&](std::size_t i) { return !kernel::is_valid(shapes, agents, i); });
 }
 
@@ -71,9 +86,10 @@ bool indices_are_below(std::span<const Pair> pairs, std::size_t agents) {
 
 /// Only agents that pairs name have to be valid. Where there are fewer agents than pairs name, looking at all of
 /// them, in order, is cheaper; a bad one then still has to be named by a pair.
-void require_valid(const ShapeSet& shapes, const Agents& agents, std::span<const Pair> pairs) {
+void require_valid(const kernel::Implementation& implementation, const ShapeSet& shapes, const Agents& agents,
+                   std::span<const Pair> pairs) {
   const bool all_agents_are_valid =
-      agents.size() <= 2 * pairs.size() && first_bad_agent(shapes, agents) == agents.size();
+      agents.size() <= 2 * pairs.size() && first_bad_agent(implementation, shapes, agents) == agents.size();
   const auto is_bad = [&](std::uint32_t i) {
     return i >= agents.size() || !kernel::is_valid(shapes, agents, i);
   };
@@ -90,7 +106,7 @@ void require_valid(const ShapeSet& shapes, const Agents& agents, std::span<const
 
 void validate(const ShapeSet& shapes, const Agents& agents) {
   kernel::require_sizes(agents);
-  const std::size_t i = first_bad_agent(shapes, agents);
+  const std::size_t i = first_bad_agent(kernel::best_implementation(), shapes, agents);
   if (i < agents.size()) kernel::reject(shapes, agents, i);
 }
 
@@ -108,13 +124,13 @@ void collide(const ShapeSet& shapes, const Agents& agents, std::span<const Pair>
     throw std::invalid_argument("collide: this processor does not run '" + std::string(implementation.name) +
                                 "'");
   kernel::require_sizes(agents);
-  require_valid(shapes, agents, pairs);
+  require_valid(implementation, shapes, agents, pairs);
 
   const ShapeSetView view = shapes.view();
-  const kernel::Arguments arguments{
-      &view,           agents.shape.data(),   agents.x.data(),
-      agents.y.data(), agents.heading.data(), agents.level.empty() ? nullptr : agents.level.data(),
-      pairs.data(),    hits.data(),           solid};
+  kernel::Arguments arguments = arguments_for(view, agents);
+  arguments.pairs = pairs.data();
+  arguments.codes = hits.data();
+  arguments.mark_near_misses = solid;
   const auto answer = [&](const Range& range) {
     kernel::answer(implementation, arguments, agents, range.begin(), range.end());
   };

@@ -12,9 +12,13 @@
 
 namespace bch::kernel {
 
+bool check_scalar(const Arguments&, std::size_t, std::size_t) noexcept;
 void run_scalar(const Arguments&, std::size_t, std::size_t) noexcept;
+bool check_sse2(const Arguments&, std::size_t, std::size_t) noexcept;
 void run_sse2(const Arguments&, std::size_t, std::size_t) noexcept;
+bool check_avx2(const Arguments&, std::size_t, std::size_t) noexcept;
 void run_avx2(const Arguments&, std::size_t, std::size_t) noexcept;
+bool check_avx512(const Arguments&, std::size_t, std::size_t) noexcept;
 void run_avx512(const Arguments&, std::size_t, std::size_t) noexcept;
 
 namespace {
@@ -22,10 +26,11 @@ namespace {
 // The compiler's test asks the operating system too, whether it saves the wide registers; xsimd 8.1's does
 // not.
 constexpr Implementation table[] = {
-    {"avx512", 16, []() noexcept { return __builtin_cpu_supports("avx512f") != 0; }, run_avx512},
-    {"avx2", 8, []() noexcept { return __builtin_cpu_supports("avx2") != 0; }, run_avx2},
-    {"sse2", 4, []() noexcept { return true; }, run_sse2},
-    {"scalar", 1, []() noexcept { return true; }, run_scalar},
+    {"avx512", 16, []() noexcept { return __builtin_cpu_supports("avx512f") != 0; }, check_avx512,
+     run_avx512},
+    {"avx2", 8, []() noexcept { return __builtin_cpu_supports("avx2") != 0; }, check_avx2, run_avx2},
+    {"sse2", 4, []() noexcept { return true; }, check_sse2, run_sse2},
+    {"scalar", 1, []() noexcept { return true; }, check_scalar, run_scalar},
 };
 
 const Implementation& choose() {

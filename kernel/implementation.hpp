@@ -16,6 +16,8 @@ struct Implementation {
   const char* name;  ///< "avx512", "avx2", "sse2" or "scalar"
   unsigned width;    ///< floats side by side
   bool (*supported)() noexcept;
+  /// Whether agents begin .. end are valid, as collide() asks of them.
+  bool (*check)(const Arguments& arguments, std::size_t begin, std::size_t end) noexcept;
   /// Writes the codes of pairs begin .. end; see Arguments. Needs no scratch beyond 192 KiB of stack.
   void (*run)(const Arguments& arguments, std::size_t begin, std::size_t end) noexcept;
 };

@@ -23,6 +23,7 @@ struct Lanes {
   static void store(float* p, Float v) noexcept { v.store_unaligned(p); }
   static void store(double* p, Double v) noexcept { v.store_unaligned(p); }
   static Float select(Mask mask, Float yes, Float no) noexcept { return xsimd::select(mask, yes, no); }
+  static const float* eight(const float* p) noexcept { return p; }
   static Float row(const float* eight, unsigned i) noexcept { return Float(eight[i]); }
   static Float columns(const float* eight, unsigned part) noexcept {
     return Float::load_unaligned(eight + part * width);
@@ -44,6 +45,7 @@ struct Lanes<Scalar> {
   static void store(float* p, Float v) noexcept { *p = v; }
   static void store(double* p, Double v) noexcept { *p = v; }
   static Float select(Mask mask, Float yes, Float no) noexcept { return mask ? yes : no; }
+  static const float* eight(const float* p) noexcept { return p; }
   static Float row(const float* eight, unsigned i) noexcept { return eight[i]; }
   static Float columns(const float* eight, unsigned part) noexcept { return eight[part]; }
 };

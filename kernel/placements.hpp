@@ -7,6 +7,7 @@
 #include <cstdint>
 
 #include "kernel/arguments.hpp"
+#include "kernel/block_test.hpp"
 #include "kernel/lanes.hpp"
 #include "layout/heading.hpp"
 #include "layout/pair.hpp"
@@ -19,15 +20,20 @@ template <class Simd>
 class Placements {
  public:
   static constexpr std::uint32_t chunk = 256;
+  static constexpr std::uint32_t padding = 16;  ///< lanes of the widest register
 
   /// Places `size` pairs from `begin` on, at most a chunk.
-  void place(const Arguments& in, std::size_t begin, std::uint32_t size) noexcept {
-    size_ = size;
+  void place(const Arguments& in, std::size_t begin, std::uint32_t count) noexcept {
+    size = count;
     gather(in, begin);
     turn();
   }
 
-  // Whole registers are computed: lanes beyond the last pair repeat it.
+  Transform transform(std::uint32_t pair) const noexcept { return {c[pair], s[pair], tx[pair], ty[pair]}; }
+
+  std::uint32_t size = 0;
+
+  // Up to the next multiple of the padding, lanes beyond the last pair repeat it.
   alignas(64) float c[chunk], s[chunk], tx[chunk], ty[chunk];  ///< as in layout/rounding.hpp
   std::uint32_t shape_a[chunk], shape_b[chunk];
   std::uint32_t root_a[chunk], root_b[chunk];  ///< shape * level_count + level
@@ -40,7 +46,7 @@ class Placements {
   /// does not matter.
   void gather(const Arguments& in, std::size_t begin) noexcept {
     const std::uint32_t levels = in.shapes->level_count;
-    for (std::uint32_t k = 0; k < size_; ++k) {
+    for (std::uint32_t k = 0; k < size; ++k) {
       const Pair pair = in.pairs[begin + k];
       const bool swap = pair.second < pair.first;
       const std::uint32_t a = swap ? pair.second : pair.first, b = swap ? pair.first : pair.second;
@@ -55,10 +61,11 @@ class Placements {
       heading_[k] = in.agent_heading[a];
       heading_[chunk + k] = in.agent_heading[b];
     }
-    for (std::uint32_t k = size_; k % Simd::width != 0; ++k) {
-      root_a[k] = root_a[size_ - 1], root_b[k] = root_b[size_ - 1];
-      dx_[k] = dx_[size_ - 1], dy_[k] = dy_[size_ - 1];
-      heading_[k] = heading_[size_ - 1], heading_[chunk + k] = heading_[chunk + size_ - 1];
+    for (std::uint32_t k = size; k % padding != 0; ++k) {
+      shape_a[k] = shape_a[size - 1], shape_b[k] = shape_b[size - 1];
+      root_a[k] = root_a[size - 1], root_b[k] = root_b[size - 1];
+      dx_[k] = dx_[size - 1], dy_[k] = dy_[size - 1];
+      heading_[k] = heading_[size - 1], heading_[chunk + k] = heading_[chunk + size - 1];
     }
   }
 
@@ -66,7 +73,7 @@ class Placements {
   void turn() noexcept {
     rotate(heading_, cosine_, sine_);
     rotate(heading_ + chunk, cosine_ + chunk, sine_ + chunk);
-    for (std::uint32_t k = 0; k < size_; k += Simd::width) {
+    for (std::uint32_t k = 0; k < size; k += Simd::width) {
       const Float ca = Simd::load(cosine_ + k), sa = Simd::load(sine_ + k);
       const Float cb = Simd::load(cosine_ + chunk + k), sb = Simd::load(sine_ + chunk + k);
       const Float dx = Simd::load(dx_ + k), dy = Simd::load(dy_ + k);
@@ -85,7 +92,7 @@ class Placements {
       return (x + Double(h::round_to_integer)) - Double(h::round_to_integer);
     };
     constexpr std::uint32_t width = sizeof(Double) / sizeof(double);
-    for (std::uint32_t k = 0; k < size_; k += width) {
+    for (std::uint32_t k = 0; k < size; k += width) {
       const Double angle = Simd::load(heading + k);
       const Double quarters = round_to_integer(angle * Double(h::two_over_pi));
       Double r = angle - quarters * Double(h::half_pi[0]);
@@ -104,13 +111,12 @@ class Placements {
       Simd::store(c_out + k, cosines * turn_c - sines * turn_s);
       Simd::store(s_out + k, sines * turn_c + cosines * turn_s);
     }
-    for (std::uint32_t k = 0; k < size_; ++k)
+    for (std::uint32_t k = 0; k < size; ++k)
       cosine[k] = static_cast<float>(c_out[k]), sine[k] = static_cast<float>(s_out[k]);
-    for (std::uint32_t k = size_; k % Simd::width != 0; ++k)
-      cosine[k] = cosine[size_ - 1], sine[k] = sine[size_ - 1];
+    for (std::uint32_t k = size; k % padding != 0; ++k)
+      cosine[k] = cosine[size - 1], sine[k] = sine[size - 1];
   }
 
-  std::uint32_t size_ = 0;
   alignas(64) double heading_[2 * chunk];
   alignas(64) float cosine_[2 * chunk], sine_[2 * chunk];
   alignas(64) float dx_[chunk], dy_[chunk];

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
+#include "kernel/agent_check.hpp"
 #include "kernel/pair_kernel.hpp"
 
 namespace bch::kernel {
@@ -11,6 +12,10 @@ struct ScalarLanes : Lanes<Scalar> {
 };
 
 }  // namespace
+
+bool check_scalar(const Arguments& arguments, std::size_t begin, std::size_t end) noexcept {
+  return AgentCheck<ScalarLanes>::passes(arguments, begin, end);
+}
 
 void run_scalar(const Arguments& arguments, std::size_t begin, std::size_t end) noexcept {
   PairKernel<ScalarLanes>::run(arguments, begin, end);

@@ -9,33 +9,6 @@
 #include <string>
 
 namespace bch::kernel {
-namespace {
-
-std::size_t count_beyond(const double* values, std::size_t count, double limit) {
-  std::size_t beyond = 0;
-  for (std::size_t i = 0; i < count; ++i) beyond += !(std::abs(values[i]) <= limit);
-  return beyond;
-}
-
-template <class Index>
-std::size_t count_from(const Index* values, std::size_t count, std::uint32_t limit) {
-  std::size_t from = 0;
-  for (std::size_t i = 0; i < count; ++i) from += values[i] >= limit;
-  return from;
-}
-
-}  // namespace
-
-bool are_valid(const ShapeSet& shapes, const Agents& agents, std::size_t begin, std::size_t end) noexcept {
-  const std::size_t count = end - begin;
-  std::size_t bad = count_from(agents.shape.data() + begin, count, shapes.shape_count()) +
-                    count_beyond(agents.x.data() + begin, count, rounding::largest_position) +
-                    count_beyond(agents.y.data() + begin, count, rounding::largest_position) +
-                    count_beyond(agents.heading.data() + begin, count, rounding::largest_heading);
-  if (!agents.level.empty()) bad += count_from(agents.level.data() + begin, count, shapes.level_count());
-  return bad == 0;
-}
-
 void require_sizes(const Agents& agents) {
   const std::size_t size = agents.size();
   const auto require = [size](std::size_t other, const char* name, bool optional) {

@@ -21,9 +21,6 @@ inline bool is_valid(const ShapeSet& shapes, const Agents& agents, std::size_t i
          std::abs(agents.heading[i]) <= rounding::largest_heading;
 }
 
-/// The same of agents begin .. end at once, array by array, which compilers turn into SIMD.
-bool are_valid(const ShapeSet& shapes, const Agents& agents, std::size_t begin, std::size_t end) noexcept;
-
 /// Throws std::invalid_argument where the spans differ in length, or there are more than 2^32 - 1 agents.
 void require_sizes(const Agents& agents);
 

@@ -129,7 +129,7 @@ Contour largest_contour(const Outline& outline) {
 
 void set_extremes(Contour contour, Interior& result) {
   for (std::uint32_t k = 0; k < extreme_stride; ++k) {
-    const Rotation direction = rotation(2 * std::numbers::pi * (k % support_directions) / support_directions);
+    const Rotation direction = rotation(2 * std::numbers::pi * (k % extreme_directions) / extreme_directions);
     const auto along = [&](Vec2 p) {
       return direction.cosine * static_cast<double>(p.x) + direction.sine * static_cast<double>(p.y);
     };

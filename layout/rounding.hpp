@@ -49,10 +49,10 @@
 ///
 /// Supports part two shapes when t.u > h_A + a h_B + b h_B' for a direction u of A, where h_B and h_B' are
 /// B's supports on either side of -u and a, b >= 0 follow from the rotation. t and its product with u,
-/// rounded, are off by 9.2 u S + 6 u |t|, with |t| <= 2 S where it matters; a and b by 30 u each (the
-/// rotation's 4.3 u through a quotient by sin 22.5), times a support of at most 2 P; the sums by 6 u S. That
-/// is below 21 + 120 + 6 = 147 u S. Discs that the float test accepts are at most 23 u S apart, so supports
-/// enlarged by 170 u P each never part them.
+/// rounded, are off by 9.2 u S + 6 u |t|, with |t| <= 2 S where it matters; a and b by 59 u each (the
+/// rotation's 4.3 u and what the sector's own rotation adds, 11.5 u together, through a quotient by sin 11.25),
+/// times a support of at most 2 P; the sums by 6 u S. That is below 21 + 236 + 6 = 263 u S. Discs that the float
+/// test accepts are at most 23 u S apart, so supports enlarged by 286 u P each never part them.
 ///
 /// Underflow: radii are at least 26 u P >= 1e-12 m (P >= smallest_reach), so (r_A + r_B)^2 >= 1e-24, while
 /// what a square loses below FLT_MIN, flushed to zero or not, is under 1e-37. Overflow: |d| <= 2e9 m (limits
@@ -66,7 +66,7 @@ constexpr double query_margin = 25.5 * unit_roundoff;
 /// Added to every pruning radius beyond what it holds, times the shape's reach.
 constexpr double nesting_margin = 64 * unit_roundoff;
 /// Added to every support, times the shape's reach.
-constexpr double support_margin = 192 * unit_roundoff;
+constexpr double support_margin = 320 * unit_roundoff;
 /// Snapping moves a vertex by sqrt(1/2) grid steps, and rounding a crossing to the grid by as much
 /// again: 1.42.
 constexpr double outline_grid_steps = 1.5;

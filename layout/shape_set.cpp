@@ -4,11 +4,13 @@
 #include "layout/shape_set.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <limits>
 #include <stdexcept>
 #include <string>
 
 #include "layout/enclosing_disc.hpp"
+#include "layout/enclosure.hpp"
 #include "layout/interior.hpp"
 #include "layout/rounding.hpp"
 #include "layout/supports.hpp"
@@ -47,52 +49,63 @@ ShapeSet::ShapeSet(std::span<const Shape> shapes, const ShapeSetPlan& plan) : de
     if (plan.shortcuts && plan.depths.back() > 0) add_interior(outline, hierarchy.reach);
   }
   // Single discs need blocks only to meet those that are not.
-  if (std::all_of(root_is_single_.begin(), root_is_single_.end(),
-                  [](std::uint8_t single) { return single != 0; })) {
-    x_ = {}, y_ = {}, radius_ = {}, first_child_ = {}, inner_count_ = {}, support_ = {};
-    inscribed_x_ = {}, inscribed_y_ = {}, inscribed_radius_ = {}, extreme_x_ = {}, extreme_y_ = {};
-    std::fill(root_block_.begin(), root_block_.end(), 0);
+  if (std::all_of(roots_.begin(), roots_.end(), [](const Root& root) { return root.is_single == 1; })) {
+    trees_ = {}, nodes_ = {}, support_ = {}, inscribed_ = {}, extremes_ = {}, enclosures_ = {};
+  } else {
+    nodes_.resize(nodes_.size() + block_floats);  // kernels read a window's "children", and forget them
   }
 }
 
 void ShapeSet::add_level(const Hierarchy& hierarchy, std::uint32_t depth, bool shortcuts) {
   const WideTree tree = wide_tree(hierarchy, depth);
-  const std::size_t base = inner_count_.size();
-  if (base + tree.blocks.size() > std::numeric_limits<std::uint32_t>::max() / block_width)
-    throw std::length_error("shape set: more than 2^29 blocks");
-  root_x_.push_back(tree.root.x);
-  root_y_.push_back(tree.root.y);
-  root_radius_.push_back(tree.root.radius);
-  root_block_.push_back(static_cast<std::uint32_t>(base));
-  root_is_single_.push_back(tree.is_single ? 1 : 0);
+  const std::size_t first_block = (nodes_.size() + 15) / 16 * 16, count = tree.discs.size();
+  const std::size_t first_disc = first_block + tree.blocks.size() * block_floats;
+  if (first_disc + 3 * count + block_floats >= leaf_window)
+    throw std::length_error("shape set: more than 2^31 numbers in nodes");
+  const auto name = [&](std::uint32_t local) {
+    return static_cast<std::uint32_t>(local & leaf_window ? local + first_disc
+                                                          : first_block + local * block_floats);
+  };
+  roots_.push_back({tree.root.x, tree.root.y, tree.root.radius, tree.is_single});
+  has_single_discs_ |= tree.is_single;
+  trees_.push_back({name(tree.top), static_cast<std::uint32_t>(count)});
+
+  nodes_.resize(first_block);
+  for (const WideTree::Block& block : tree.blocks) {
+    for (const float* field : {block.discs.x, block.discs.y, block.discs.radius})
+      nodes_.insert(nodes_.end(), field, field + block_width);
+    for (const std::uint32_t child : block.child) nodes_.push_back(std::bit_cast<float>(name(child)));
+  }
+  for (const Disc& disc : tree.discs) nodes_.push_back(disc.x);
+  for (const Disc& disc : tree.discs) nodes_.push_back(disc.y);
+  for (const Disc& disc : tree.discs) nodes_.push_back(disc.radius);
   if (shortcuts) {
     std::vector<Disc> discs;
     for (const std::uint32_t node : cut(hierarchy, depth)) discs.push_back(hierarchy.nodes[node].disc);
     const Supports heights = supports(discs, hierarchy.reach);
     support_.insert(support_.end(), heights.begin(), heights.end());
   }
-  for (const WideBlock& block : tree.blocks) {
-    x_.insert(x_.end(), block.x.begin(), block.x.end());
-    y_.insert(y_.end(), block.y.begin(), block.y.end());
-    radius_.insert(radius_.end(), block.radius.begin(), block.radius.end());
-    first_child_.push_back(static_cast<std::uint32_t>(base) + block.first_child);
-    inner_count_.push_back(block.inner_count);
-  }
 }
 
 /// A shape without an outline has no inscribed discs: padding, which overlaps nothing.
 void ShapeSet::add_interior(const Outline& outline, double reach) {
+  constexpr float infinity = std::numeric_limits<float>::infinity();
   Interior inside{};
-  inside.x.fill(std::numeric_limits<float>::infinity());
+  Enclosure around{0, 0, infinity, -infinity};
+  inside.x.fill(infinity);
   if (outline.contours() > 0) {
     validate(outline);
     inside = interior(outline, reach);
+    around = enclosure(outline, reach);
   }
-  inscribed_x_.insert(inscribed_x_.end(), inside.x.begin(), inside.x.end());
-  inscribed_y_.insert(inscribed_y_.end(), inside.y.begin(), inside.y.end());
-  inscribed_radius_.insert(inscribed_radius_.end(), inside.radius.begin(), inside.radius.end());
-  extreme_x_.insert(extreme_x_.end(), inside.extreme_x.begin(), inside.extreme_x.end());
-  extreme_y_.insert(extreme_y_.end(), inside.extreme_y.begin(), inside.extreme_y.end());
+  enclosures_.push_back(around);
+  DiscBlock& discs = inscribed_.emplace_back();
+  std::copy(inside.x.begin(), inside.x.end(), discs.x);
+  std::copy(inside.y.begin(), inside.y.end(), discs.y);
+  std::copy(inside.radius.begin(), inside.radius.end(), discs.radius);
+  Extremes& extremes = extremes_.emplace_back();
+  std::copy(inside.extreme_x.begin(), inside.extreme_x.end(), extremes.x);
+  std::copy(inside.extreme_y.begin(), inside.extreme_y.end(), extremes.y);
 }
 
 void ShapeSet::add_outline(const Outline& outline) {
@@ -110,23 +123,15 @@ void ShapeSet::add_outline(const Outline& outline) {
 ShapeSetView ShapeSet::view() const noexcept {
   return {.shape_count = shape_count(),
           .level_count = level_count(),
-          .root_x = root_x_.data(),
-          .root_y = root_y_.data(),
-          .root_radius = root_radius_.data(),
-          .root_block = root_block_.data(),
-          .root_is_single = root_is_single_.data(),
-          .support = support_.empty() ? nullptr : support_.data(),
-          .x = x_.data(),
-          .y = y_.data(),
-          .radius = radius_.data(),
-          .first_child = first_child_.data(),
-          .inner_count = inner_count_.data(),
+          .has_single_discs = has_single_discs_,
+          .roots = roots_.data(),
+          .trees = trees_.data(),
+          .nodes = nodes_.data(),
           .reach = reach_.data(),
-          .inscribed_x = inscribed_x_.empty() ? nullptr : inscribed_x_.data(),
-          .inscribed_y = inscribed_y_.data(),
-          .inscribed_radius = inscribed_radius_.data(),
-          .extreme_x = extreme_x_.data(),
-          .extreme_y = extreme_y_.data(),
+          .support = support_.empty() ? nullptr : support_.data(),
+          .inscribed = inscribed_.empty() ? nullptr : inscribed_.data(),
+          .extremes = extremes_.data(),
+          .enclosures = enclosures_.data(),
           .shape_contours = shape_contours_.data(),
           .contour_points = contour_points_.data(),
           .contour_disc = contour_disc_.data(),
@@ -135,9 +140,8 @@ ShapeSetView ShapeSet::view() const noexcept {
 
 std::size_t ShapeSet::bytes() const noexcept {
   const auto total = [](const auto&... vectors) { return (bytes_of(vectors) + ...); };
-  return total(root_x_, root_y_, root_radius_, root_block_, root_is_single_, support_, x_, y_, radius_,
-               first_child_, inner_count_, reach_, inscribed_x_, inscribed_y_, inscribed_radius_, extreme_x_,
-               extreme_y_, shape_contours_, contour_points_, contour_disc_, points_);
+  return total(roots_, trees_, nodes_, reach_, support_, inscribed_, extremes_, enclosures_, shape_contours_,
+               contour_points_, contour_disc_, points_);
 }
 
 }  // namespace bch

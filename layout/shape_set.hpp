@@ -37,7 +37,7 @@ class ShapeSet {
  public:
   /// Errors:  throws std::invalid_argument on a plan without depths or with depths out of order, on a shape
   ///          without nodes (naming it), and with a solid plan on an outline that validate() rejects;
-  ///          std::length_error beyond 2^32 blocks.
+  ///          std::length_error beyond 2^31 numbers in nodes.
   explicit ShapeSet(std::span<const Shape> shapes, const ShapeSetPlan& plan = {});
 
   ShapeSet(ShapeSet&&) noexcept = default;
@@ -49,7 +49,7 @@ class ShapeSet {
   std::span<const std::uint32_t> depths() const noexcept { return depths_; }
   bool solid() const noexcept { return !shape_contours_.empty(); }
   /// Every cut is a single disc: there are roots and nothing else.
-  bool roots_only() const noexcept { return inner_count_.empty(); }
+  bool roots_only() const noexcept { return trees_.empty(); }
   std::size_t bytes() const noexcept;
 
  private:
@@ -58,15 +58,15 @@ class ShapeSet {
   void add_outline(const Outline& outline);
 
   std::vector<std::uint32_t> depths_;
-  AlignedVector<float> root_x_, root_y_, root_radius_;
-  AlignedVector<std::uint32_t> root_block_;
-  AlignedVector<std::uint8_t> root_is_single_;
-  AlignedVector<float> support_;
-  AlignedVector<float> x_, y_, radius_;
-  AlignedVector<std::uint32_t> first_child_;
-  AlignedVector<std::uint8_t> inner_count_;
+  AlignedVector<Root> roots_;
+  AlignedVector<Tree> trees_;
+  AlignedVector<float> nodes_;
   AlignedVector<float> reach_;
-  AlignedVector<float> inscribed_x_, inscribed_y_, inscribed_radius_, extreme_x_, extreme_y_;
+  bool has_single_discs_ = false;
+  AlignedVector<float> support_;
+  AlignedVector<DiscBlock> inscribed_;
+  AlignedVector<Extremes> extremes_;
+  AlignedVector<Enclosure> enclosures_;
   AlignedVector<std::uint32_t> shape_contours_, contour_points_;
   AlignedVector<Disc> contour_disc_;
   AlignedVector<Vec2> points_;

@@ -15,42 +15,69 @@ constexpr std::uint32_t block_width = 8;
 constexpr std::uint32_t most_wide_levels = 16;
 
 /// Directions of supports, and the floats that a set's supports take; see supports.hpp.
-constexpr std::uint32_t support_directions = 16;
-constexpr std::uint32_t support_stride = 2 * support_directions + 1;
+constexpr std::uint32_t support_directions = 32;
+constexpr std::uint32_t support_stride = 2 * support_directions;
 
-/// Floats that the farthest points along those directions take; see interior.hpp.
-constexpr std::uint32_t extreme_stride = 2 * support_directions;
+/// Floats that the farthest points along every other one of them take; see interior.hpp.
+constexpr std::uint32_t extreme_directions = support_directions / 2;
+constexpr std::uint32_t extreme_stride = 2 * extreme_directions;
+
+/// Eight discs side by side; what is left over is padding that overlaps nothing: infinitely far away. (A negative
+/// radius would hit, because the sum of radii is squared.)
+struct DiscBlock {
+  float x[block_width], y[block_width], radius[block_width];
+};
+
+/// A node is named by where its discs begin among ShapeSetView::nodes. With this bit it is a leaf window: eight discs of
+/// the cut, one after the other, anywhere. Without, it is a block: eight discs that enclose what is below them, and
+/// then the names of the eight nodes below, by their bits.
+constexpr std::uint32_t leaf_window = 0x80000000;
+constexpr std::uint32_t block_floats = 4 * block_width;
+
+/// Where a level of a shape begins.
+struct Root {
+  float x, y, radius;
+  std::uint32_t is_single;  ///< the cut is this disc alone
+};
+static_assert(sizeof(Root) == 16);
+
+/// Where the tree of a level begins.
+struct Tree {
+  std::uint32_t top;     ///< node
+  std::uint32_t stride;  ///< from a cut disc's x to its y, and from there to its radius
+};
+
+/// Farthest points of a contour; see interior.hpp.
+struct Extremes {
+  float x[extreme_stride], y[extreme_stride];
+};
+
+/// Of all of a shape's contours; see enclosure.hpp.
+struct Enclosure {
+  float x, y;          ///< centre of the smallest enclosing disc
+  float outer_square;  ///< of its radius, rounded up
+  float inner_square;  ///< of its radius, rounded down; minus infinity where there are several contours
+};
 
 /// The nodes of all shapes and levels as plain pointers: what kernels read. Valid while the set lives.
 /// Roots:   index shape * level_count + level.
-/// Blocks:  block b's discs are x, y, radius[8 b .. 8 b + 7]; see WideBlock.
 /// Contours: shape s has contours shape_contours[s] .. shape_contours[s + 1]; contour c has points
 ///          contour_points[c] .. contour_points[c + 1]. Null without the solid plan.
 struct ShapeSetView {
   std::uint32_t shape_count;
   std::uint32_t level_count;
+  bool has_single_discs;  ///< some cut is a single disc
 
-  const float* root_x;
-  const float* root_y;
-  const float* root_radius;
-  const std::uint32_t* root_block;     ///< global block index
-  const std::uint8_t* root_is_single;  ///< the cut is the root disc alone
-  const float* support;                ///< support_stride floats a root; null without the plan's shortcuts
-
-  const float* x;
-  const float* y;
-  const float* radius;
-  const std::uint32_t* first_child;  ///< global block index
-  const std::uint8_t* inner_count;
-
+  const Root* roots;
+  const Tree* trees;   ///< like roots; this and the next null where every level is a single disc
+  const float* nodes;  ///< per level its blocks, then all x, all y, all radii of the cut
   const float* reach;  ///< per shape, metres, rounded up
 
-  // Per shape; see interior.hpp. Null without the plan's shortcuts.
-  const float* inscribed_x;  ///< block_width a shape, like the next two
-  const float* inscribed_y;
-  const float* inscribed_radius;
-  const float* extreme_x;  ///< extreme_stride a shape, like the next
-  const float* extreme_y;
+  // Null without the plan's shortcuts.
+  const float* support;        ///< support_stride floats a root
+  const DiscBlock* inscribed;  ///< per shape; see interior.hpp, like the next
+  const Extremes* extremes;
+  const Enclosure* enclosures;  ///< per shape
 
   const std::uint32_t* shape_contours;
   const std::uint32_t* contour_points;

@@ -21,10 +21,9 @@ Supports supports(std::span<const Disc> discs, double reach) {
                                       direction.sine * static_cast<double>(disc.y) +
                                       static_cast<double>(disc.radius));
     largest += rounding::support_margin * reach;
-    heights[k] = static_cast<float>(largest);
+    const std::uint32_t at = k % 2 * support_directions + k / 2;
+    heights[at] = heights[at + support_directions / 2] = static_cast<float>(largest);
   }
-  for (std::uint32_t k = support_directions; k < support_stride; ++k)
-    heights[k] = heights[k - support_directions];
   return heights;
 }
 

@@ -12,8 +12,8 @@
 namespace bch {
 
 /// Support heights, the largest extent of a set of discs along each of support_directions directions:
-/// direction k is at angle k * 2 pi / support_directions. Stored twice over and one more, so that a turned
-/// set is an offset into the same array.
+/// direction k is at angle k * 2 pi / support_directions. First all even directions, then all odd ones, each
+/// twice over, so that a turned set is an offset into the same array and half of the directions is one load.
 ///
 /// Two sets are apart when along some direction the sum of their supports is less than the distance of their
 /// origins. Between two directions a support is at most that of the corner where the two supporting lines

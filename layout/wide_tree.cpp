@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <span>
 
@@ -34,55 +35,63 @@ class Flattener {
  private:
   using Groups = std::vector<Group>;
 
-  /// Breadth first, so that the blocks below one block stand side by side. Empty where the tree would be too
-  /// deep.
+  /// Breadth first. Empty where the tree would be too deep.
   std::optional<WideTree> grow(Groups (Flattener::*split)(const Group&) const) {
     WideTree tree;
+    for (std::uint32_t i = 0; i < cut_.size(); ++i) tree.discs.push_back(disc(i));
+    tree.discs.resize(std::max<std::size_t>(cut_.size(), block_width), padding);
     tree.is_single = cut_.size() == 1;
     const Group all{0, static_cast<std::uint32_t>(cut_.size()), 0};
     tree.root = tree.is_single ? disc(0) : enclosing(all);
+    tree.top = is_window(all) ? window(all) : 0;
 
-    std::vector<Group> level = {all};
-    for (std::uint32_t depth = 0; !level.empty(); ++depth) {
+    std::vector<Group> level;
+    if (!is_window(all)) level.push_back(all);
+    for (std::uint32_t depth = 1; !level.empty(); ++depth) {
       if (depth == most_wide_levels) return std::nullopt;
       std::vector<Group> next;
       const auto next_block = static_cast<std::uint32_t>(tree.blocks.size() + level.size());
       for (const Group& group : level) {
-        const Groups parts = group.size() == 1 ? Groups{group} : (this->*split)(group);
-        tree.blocks.push_back(block(parts, next_block + static_cast<std::uint32_t>(next.size())));
-        for (const Group& part : parts)
-          if (part.size() > 1) next.push_back(part);
+        const Groups parts = (this->*split)(group);
+        WideTree::Block& block = tree.blocks.emplace_back();
+        for (std::uint32_t lane = 0; lane < block_width; ++lane) {
+          const Disc around = lane < parts.size() ? enclosing(parts[lane]) : padding;
+          block.discs.x[lane] = around.x, block.discs.y[lane] = around.y,
+          block.discs.radius[lane] = around.radius;
+          if (lane >= parts.size()) continue;
+          if (is_window(parts[lane])) {
+            block.child[lane] = window(parts[lane]);
+          } else {
+            block.child[lane] = next_block + static_cast<std::uint32_t>(next.size());
+            next.push_back(parts[lane]);
+          }
+        }
       }
       level = std::move(next);
     }
     return tree;
   }
 
-  WideBlock block(const Groups& parts, std::uint32_t first_child) const {
-    WideBlock block;
-    block.first_child = first_child;
-    std::uint32_t lane = 0;
-    const auto put = [&](const Disc& disc) {
-      block.x[lane] = disc.x, block.y[lane] = disc.y, block.radius[lane] = disc.radius;
-      ++lane;
-    };
-    for (const Group& part : parts)
-      if (part.size() > 1) put(enclosing(part));
-    block.inner_count = static_cast<std::uint8_t>(lane);
-    for (const Group& part : parts)
-      if (part.size() == 1) put(disc(part.begin));
-    return block;
+  static constexpr Disc padding{std::numeric_limits<float>::infinity(), 0, 0};
+
+  static bool is_window(const Group& group) { return group.size() <= block_width; }
+
+  std::uint32_t window(const Group& group) const {
+    const auto count = static_cast<std::uint32_t>(cut_.size());
+    return leaf_window + std::min(group.begin, count < block_width ? 0 : count - block_width);
   }
 
-  /// The binary node's descendants, the one with most of the cut's discs expanded first. What fits into one block stays whole,
-  /// and a whole group that fits becomes its discs.
+  /// The binary node's descendants, the one with most of the cut's discs expanded first. What fits into one window stays whole.
   Groups subtrees(const Group& group) const {
     Groups parts = children(group);
-    const std::uint32_t enough = group.size() <= block_width ? 1 : block_width;
     while (parts.size() < block_width) {
+      const auto worth = [&](const Group& g) {
+        if (g.size() == 1) return 0.0;
+        return static_cast<double>(enclosing(g).radius) * g.size();
+      };
       const auto largest = std::max_element(
-          parts.begin(), parts.end(), [](const Group& a, const Group& b) { return a.size() < b.size(); });
-      if (largest->size() <= enough) break;
+          parts.begin(), parts.end(), [&](const Group& a, const Group& b) { return worth(a) < worth(b); });
+      if (worth(*largest) == 0) break;
       const Groups expanded = children(*largest);
       *largest = expanded[0];
       parts.insert(largest + 1, expanded[1]);

@@ -38,11 +38,11 @@ std::vector<Pair> brute_force(const Agents& agents) {
   const auto offset = [&](std::size_t i, bool y) {
     const std::size_t root = agents.shape[i] * std::size_t{3} + agents.level[i];
     const Rotation r = rotation(agents.heading[i]);
-    const double cx = view.root_x[root], cy = view.root_y[root];
+    const double cx = view.roots[root].x, cy = view.roots[root].y;
     return y ? r.sine * cx + r.cosine * cy : r.cosine * cx - r.sine * cy;
   };
   const auto radius = [&](std::size_t i) {
-    return static_cast<double>(view.root_radius[agents.shape[i] * std::size_t{3} + agents.level[i]]) +
+    return static_cast<double>(view.roots[agents.shape[i] * std::size_t{3} + agents.level[i]].radius) +
            rounding::nesting_margin * static_cast<double>(view.reach[agents.shape[i]]);
   };
   for (std::uint32_t i = 0; i < agents.size(); ++i)

@@ -247,7 +247,7 @@ TEST(Levels, TheSingleCylinderNeedsNoBlocks) {
 TEST(Collide, TouchingCountsAndAnAgentMeetsItself) {
   const std::vector<Shape> shapes = {{{}, fixed_cylinder(0.25f)}};
   const ShapeSet set(shapes);
-  const float radius = set.view().root_radius[0];
+  const float radius = set.view().roots[0].radius;
   test::Crowd crowd;
   crowd.add(0, 0, 0, 0, 0);
   crowd.add(0, 2 * static_cast<double>(radius), 0, 0, 0);

@@ -22,38 +22,47 @@ bool holds(const Disc& outer, const Disc& inner) {
          static_cast<double>(outer.radius);
 }
 
-/// Walks a wide tree: the cut's discs that it reaches, and its height in blocks. Every disc must be held by
-/// all above it.
+/// Walks a wide tree: its height in blocks and windows, and the discs that it reaches, which are those of a window
+/// that all discs above hold (a window may show neighbours of its group as well).
 class Walk {
  public:
-  explicit Walk(const WideTree& tree) : tree_(tree) { visit(0, {tree.root}, 1); }
+  explicit Walk(const WideTree& tree) : tree_(tree), reached_(tree.discs.size()) {
+    visit(tree.top, {tree.root}, 1);
+    for (std::size_t i = 0; i < reached_.size(); ++i)
+      if (reached_[i]) discs.push_back(tree.discs[i]);
+  }
   std::vector<Disc> discs;
   std::uint32_t levels = 0;
 
  private:
-  void visit(std::uint32_t index, const std::vector<Disc>& above, std::uint32_t level) {
+  void visit(std::uint32_t node, const std::vector<Disc>& above, std::uint32_t level) {
     levels = std::max(levels, level);
-    const WideBlock& block = tree_.blocks.at(index);
+    if (node & leaf_window) return reach(node & ~leaf_window, above);
+    const auto& [around, child] = tree_.blocks.at(node);
     for (std::uint32_t lane = 0; lane < block_width; ++lane) {
-      const Disc disc{block.x[lane], block.y[lane], block.radius[lane]};
+      const Disc disc{around.x[lane], around.y[lane], around.radius[lane]};
       if (std::isinf(disc.x)) {
-        EXPECT_GE(lane, block.inner_count);
         EXPECT_EQ(disc.radius, 0);
         continue;
       }
-      if (lane < block.inner_count) {
-        std::vector<Disc> chain = above;
-        chain.push_back(disc);
-        visit(block.first_child + lane, chain, level + 1);
-        continue;
-      }
-      discs.push_back(disc);
-      if (tree_.is_single) continue;
-      for (const Disc& outer : above) EXPECT_TRUE(holds(outer, disc));
+      std::vector<Disc> chain = above;
+      chain.push_back(disc);
+      visit(child[lane], chain, level + 1);
+    }
+  }
+
+  void reach(std::uint32_t first, const std::vector<Disc>& above) {
+    ASSERT_LE(first + block_width, tree_.discs.size());
+    for (std::uint32_t i = first; i < first + block_width; ++i) {
+      const Disc& disc = tree_.discs[i];
+      const bool held = tree_.is_single || std::all_of(above.begin(), above.end(),
+                                                       [&](const Disc& outer) { return holds(outer, disc); });
+      if (!std::isinf(disc.x) && held) reached_[i] = true;
     }
   }
 
   const WideTree& tree_;
+  std::vector<bool> reached_;
 };
 
 void expect_same_discs(std::vector<Disc> reached, const Hierarchy& hierarchy, std::uint32_t depth) {
@@ -118,12 +127,12 @@ TEST(ShapeSet, LevelsFollowThePlan) {
   const ShapeSetView view = set.view();
   for (std::uint32_t s = 0; s < 6; ++s) {
     const Disc& root = shapes[s].hierarchy.nodes[0].disc;
-    EXPECT_TRUE(view.root_is_single[3 * s]);
-    EXPECT_EQ((Disc{view.root_x[3 * s], view.root_y[3 * s], view.root_radius[3 * s]}), root);
-    EXPECT_GE(view.root_radius[3 * s + 2], root.radius);
+    EXPECT_TRUE(view.roots[3 * s].is_single);
+    EXPECT_EQ((Disc{view.roots[3 * s].x, view.roots[3 * s].y, view.roots[3 * s].radius}), root);
+    EXPECT_GE(view.roots[3 * s + 2].radius, root.radius);
   }
-  EXPECT_EQ(reinterpret_cast<std::uintptr_t>(view.x) % 64, 0u);
-  EXPECT_EQ(reinterpret_cast<std::uintptr_t>(view.radius) % 64, 0u);
+  EXPECT_EQ(reinterpret_cast<std::uintptr_t>(view.roots) % 64, 0u);
+  EXPECT_EQ(reinterpret_cast<std::uintptr_t>(view.nodes) % 64, 0u);
 }
 
 TEST(ShapeSet, BuildsOnlyWhatThePlanNames) {
@@ -131,7 +140,7 @@ TEST(ShapeSet, BuildsOnlyWhatThePlanNames) {
   const auto bytes = [&](std::vector<std::uint32_t> depths, bool solid) {
     return ShapeSet(shapes, {std::move(depths), solid}).bytes() / 64;
   };
-  EXPECT_LE(bytes({0}, false), 21u);  // root disc 12, block 4, flag 1, reach 4
+  EXPECT_LE(bytes({0}, false), 20u);  // root 16, reach 4
   EXPECT_LT(bytes({3}, false), bytes({6}, false));
   EXPECT_LT(bytes({6}, false), bytes({all_depths}, false));
   EXPECT_LT(bytes({all_depths}, false), bytes({all_depths}, true));

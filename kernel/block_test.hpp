@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "layout/shape_set_view.hpp"
+
+namespace bch::kernel {
+
+/// From B's frame into A's: a rotation (c, s), then a translation. See layout/rounding.hpp.
+struct Transform {
+  float c, s, tx, ty;
+};
+
+/// Bits of the lanes in which discs a and b overlap, touching included.
+template <class Simd, class Float = typename Simd::Float>
+std::uint32_t overlaps(Float bx, Float by, Float br, Float ax, Float ay, Float ar) noexcept {
+  const Float x = bx - ax, y = by - ay, r = ar + br;
+  return Simd::bits(x * x + y * y <= r * r);
+}
+
+/// Where eight discs stand: x, and `stride` floats further each y and radius.
+struct Discs {
+  const float* x;
+  std::size_t stride;
+};
+
+/// All of A's eight discs against all of B's: bit 8 i + j for disc i of A and j of B. Always inlined: passing
+/// it to a function takes longer than the test.
+template <class Simd>
+[[gnu::always_inline]] inline std::uint64_t overlapping_discs(const Transform& b_in_a, Discs a,
+                                                              Discs b) noexcept {
+  using Float = typename Simd::Float;
+  constexpr unsigned parts = Simd::width < block_width ? block_width / Simd::width : 1;
+  constexpr unsigned rows = Simd::width > block_width ? Simd::width / block_width : 1;
+  const Float c(b_in_a.c), s(b_in_a.s), tx(b_in_a.tx), ty(b_in_a.ty);
+  const auto ax = Simd::eight(a.x), ay = Simd::eight(a.x + a.stride), ar = Simd::eight(a.x + 2 * a.stride);
+  std::uint64_t bits = 0;
+  for (unsigned part = 0; part < parts; ++part) {
+    const Float x = Simd::columns(b.x, part), y = Simd::columns(b.x + b.stride, part),
+                r = Simd::columns(b.x + 2 * b.stride, part);
+    const Float px = tx + (c * x - s * y), py = ty + (s * x + c * y);
+#pragma GCC unroll 8
+    for (unsigned row = 0; row < block_width; row += rows)
+      bits |= static_cast<std::uint64_t>(
+                  overlaps<Simd>(px, py, r, Simd::row(ax, row), Simd::row(ay, row), Simd::row(ar, row)))
+              << (row * block_width + part * Simd::width);
+  }
+  return bits;
+}
+
+}  // namespace bch::kernel

@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "kernel/arguments.hpp"
+#include "kernel/block_test.hpp"
+#include "layout/shape_set_view.hpp"
+
+namespace bch::kernel {
+
+/// The last stage of the pair kernel: walks the trees of the pairs that nothing quicker decided, in rounds. Each
+/// round tests one pair of blocks for every open pair, so that cache misses and latencies of many pairs overlap
+/// and no branch depends on an answer. Most pairs end after a few rounds; those that do not wait for company,
+/// because a round over three pairs takes as long as one over thirty.
+template <class Simd>
+class Walk {
+ public:
+  /// `add` needs room; `run(below)` makes it.
+  static constexpr std::uint32_t capacity = 512;
+
+  Walk(const ShapeSetView& shapes, std::uint8_t* codes) noexcept : shapes_(shapes), codes_(codes) {
+    for (std::uint32_t k = 0; k < capacity; ++k) slots_[k] = static_cast<std::uint16_t>(k);
+  }
+
+  /// `pair` is where the answer goes in codes, `miss` what it is unless a walk finds an overlap.
+  void add(std::size_t pair, std::uint8_t miss, const Transform& b_in_a, std::uint32_t root_a,
+           std::uint32_t root_b) noexcept {
+    const Tree a = shapes_.trees[root_a], b = shapes_.trees[root_b];
+    const std::uint32_t slot = slots_[size_++];
+    open_[slot] = {b_in_a, a.top, b.top, a.stride, b.stride, pair, 0};
+    frames_[slot][0] = {0, 0, 0};
+    codes_[pair] = miss;
+  }
+
+  /// Rounds, until at most so many pairs are open.
+  void run(std::uint32_t enough) noexcept {
+    while (size_ > enough) round();
+  }
+
+ private:
+  /// Every test descends on one side at least, and neither side has more levels than this.
+  static constexpr std::uint32_t most_frames = 2 * most_wide_levels;
+  static constexpr std::uint64_t first_column = 0x0101010101010101;
+
+  /// A pair being walked, with the two nodes to test next.
+  struct Open {
+    Transform b_in_a;
+    std::uint32_t a, b;
+    std::uint32_t stride_a, stride_b;  ///< of the cut's discs
+    std::size_t pair;
+    std::uint32_t top;  ///< frame
+  };
+
+  /// Two nodes whose discs overlap at the set bits (8 i + j: disc i of A, disc j of B), none of which was
+  /// followed yet.
+  struct Frame {
+    std::uint32_t a, b;
+    std::uint64_t open;
+  };
+
+  /// One test for every open pair, then one step for every pair: apart, because the processor looks ahead over a
+  /// few of either, but hardly over one of both.
+  void round() noexcept {
+    test();
+    step();
+  }
+
+  [[gnu::noinline]] void test() noexcept {
+    const float* const nodes = shapes_.nodes;
+    for (std::uint32_t k = 0; k < size_; ++k) {
+      const Open& at = open_[slots_[k]];
+      hits_[k] = overlapping_discs<Simd>(at.b_in_a, discs(nodes, at.a, at.stride_a),
+                                         discs(nodes, at.b, at.stride_b));
+    }
+  }
+
+  // Masks, not conditions: GCC makes branches of those, and no processor can predict these.
+  static std::uint32_t all_if_leaf(std::uint32_t node) noexcept { return -(node / leaf_window); }
+  static std::uint64_t wide(std::uint32_t mask) noexcept { return mask | std::uint64_t{mask} << 32; }
+
+  static Discs discs(const float* nodes, std::uint32_t node, std::uint32_t stride) noexcept {
+    return {nodes + (node & ~leaf_window), block_width + (all_if_leaf(node) & (stride - block_width))};
+  }
+
+  static std::uint32_t child(const float* nodes, std::uint32_t node, unsigned lane) noexcept {
+    std::uint32_t name;
+    __builtin_memcpy(&name, nodes + node + 3 * block_width + lane, sizeof name);
+    return name;
+  }
+
+  /// Answers where leaves overlap; else keeps the hits for later, takes the next open one, and names the nodes to
+  /// test: the children of the two discs, or a leaf window again and the other's child. What is computed for a pair
+  /// that is done is never used, which beats a branch that no processor can predict. The slots of pairs that are
+  /// done end up behind the others.
+  [[gnu::noinline]] void step() noexcept {
+    const float* const nodes = shapes_.nodes;
+    std::uint8_t* const codes = codes_;
+    const std::uint32_t size = size_;
+    std::uint32_t left = 0;
+    for (std::uint32_t k = 0; k < size; ++k) {
+      const std::uint16_t slot = slots_[k];
+      Open& at = open_[slot];
+      const std::uint64_t hits = hits_[k];
+      const std::uint32_t hit = hits != 0, found = (at.a & at.b) / leaf_window & hit;
+      codes[at.pair] = static_cast<std::uint8_t>(codes[at.pair] | found);
+
+      Frame* const frames = frames_[slot];
+      frames[at.top + 1] = {at.a, at.b, hits};
+      const std::uint32_t top_index = at.top + hit;
+      Frame& top = frames[top_index];
+      const std::uint64_t open = top.open;
+      std::uint64_t rest = open & (open - 1);
+      const auto bit = static_cast<unsigned>(__builtin_ctzll(open | std::uint64_t{1} << 63));
+      const unsigned i = bit / block_width, j = bit % block_width;
+      if ((top.a | top.b) < leaf_window) [[likely]] {
+        at.a = child(nodes, top.a, i);
+        at.b = child(nodes, top.b, j);
+      } else {
+        at.a = top.a, at.b = top.b;
+        // All of a window's discs are tested at once: its other hits on the same child are settled with this one.
+        if (top.a < leaf_window) at.a = child(nodes, top.a, i), rest &= ~(std::uint64_t{0xff} << (bit - j));
+        if (top.b < leaf_window) at.b = child(nodes, top.b, j), rest &= ~(first_column << j);
+      }
+      top.open = rest;
+      at.top = top_index - (rest == 0);
+      slots_[k] = slots_[left];
+      slots_[left] = slot;
+      left += (open != 0) & (found ^ 1);
+    }
+    size_ = left;
+  }
+
+  const ShapeSetView& shapes_;
+  std::uint8_t* const codes_;
+  std::uint32_t size_ = 0;
+  std::uint16_t slots_[capacity];  ///< a permutation: first those of open pairs, then free ones
+  Open open_[capacity];
+  std::uint64_t hits_[capacity];
+  Frame frames_[capacity][most_frames + 2];
+};
+
+}  // namespace bch::kernel
