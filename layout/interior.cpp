@@ -5,12 +5,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 #include <numbers>
 #include <span>
-#include <vector>
 
-#include "layout/enclosing_disc.hpp"
 #include "layout/heading.hpp"
 #include "layout/rounding.hpp"
 
@@ -19,122 +18,57 @@ namespace {
 
 using Contour = std::span<const Vec2>;
 
-/// Calls visit(ax, ay, bx, by) for every segment.
-template <class Visit>
-void for_each_segment(Contour contour, Visit visit) {
-  for (std::size_t i = 0; i < contour.size(); ++i) {
-    const Vec2 a = contour[i], b = contour[i + 1 < contour.size() ? i + 1 : 0];
-    visit(static_cast<double>(a.x), static_cast<double>(a.y), static_cast<double>(b.x),
-          static_cast<double>(b.y));
-  }
-}
+/// Of the coverage's raster. It holds the contour's longer side with the dilation on either side.
+constexpr float dilation = DiscCoverage::cells / 12.0f;
+constexpr double longer_side = DiscCoverage::cells - 2 * static_cast<double>(dilation);
 
-/// Distance to the contour where (x, y) is inside it, else 0.
-double depth_inside(Contour contour, double x, double y) {
-  bool inside = false;
-  double square = HUGE_VAL;
-  for_each_segment(contour, [&](double ax, double ay, double bx, double by) {
-    const double dx = bx - ax, dy = by - ay, px = x - ax, py = y - ay;
-    if ((ay > y) != (by > y)) inside ^= (dx * py - dy * px > 0) == (by > ay);
-    const double length = dx * dx + dy * dy;
-    const double t = length > 0 ? std::clamp((px * dx + py * dy) / length, 0.0, 1.0) : 0.0;
-    square = std::min(square, (px - t * dx) * (px - t * dx) + (py - t * dy) * (py - t * dy));
-  });
-  return inside ? std::sqrt(square) : 0;
-}
-
-/// A raster over the dilated contour, and the discs inside it that are centred on raster points.
-class Coverage {
- public:
-  Coverage(Contour contour, const EnclosingDisc& around)
-      : dilation_(0.25 * around.radius),
-        step_(2 * (around.radius + dilation_) / raster),
-        x_(static_cast<double>(around.centre.x) - around.radius - dilation_),
-        y_(static_cast<double>(around.centre.y) - around.radius - dilation_),
-        covered_(raster * raster) {
-    for (int j = 0; j < raster; ++j)
-      for (int i = 0; i < raster; ++i) {
-        // Centres are floats, as they will be stored.
-        const auto x = static_cast<float>(x_ + (i + 0.5) * step_),
-                   y = static_cast<float>(y_ + (j + 0.5) * step_);
-        const double depth = depth_inside(contour, x, y);
-        if (depth > 0) candidates_.push_back({x, y, depth, raster * raster});
-      }
-  }
-
-  struct Candidate {
-    float x, y;
-    double depth;
-    int gain;  ///< raster points that it would add, at most
-  };
-
-  /// The disc that adds the most; its points count as covered from now on. Gains only shrink as others are
-  /// chosen, so a candidate whose old gain does not beat the best new one needs no look.
-  Candidate choose() {
-    Candidate* best = nullptr;
-    int best_gain = -1;
-    std::sort(candidates_.begin(), candidates_.end(),
-              [](const Candidate& a, const Candidate& b) { return a.gain > b.gain; });
-    for (Candidate& candidate : candidates_) {
-      if (candidate.gain <= best_gain) break;
-      candidate.gain = 0;
-      visit_new_points(candidate, [&](std::size_t) { ++candidate.gain; });
-      if (candidate.gain > best_gain) best = &candidate, best_gain = candidate.gain;
-    }
-    visit_new_points(*best, [&](std::size_t point) { covered_[point] = true; });
-    return *best;
-  }
-
-  bool empty() const { return candidates_.empty(); }
-
- private:
-  static constexpr int raster = 48;
-
-  template <class Visit>
-  void visit_new_points(const Candidate& c, Visit visit) {
-    const double radius = c.depth + dilation_;
-    const double cx = (static_cast<double>(c.x) - x_) / step_ - 0.5,
-                 cy = (static_cast<double>(c.y) - y_) / step_ - 0.5;
-    const double r = radius / step_;
-    const int j0 = std::max(0, static_cast<int>(std::ceil(cy - r))),
-              j1 = std::min(raster - 1, static_cast<int>(std::floor(cy + r)));
-    for (int j = j0; j <= j1; ++j) {
-      const double half = std::sqrt(std::max(0.0, r * r - (j - cy) * (j - cy)));
-      const int i0 = std::max(0, static_cast<int>(std::ceil(cx - half))),
-                i1 = std::min(raster - 1, static_cast<int>(std::floor(cx + half)));
-      for (int i = i0; i <= i1; ++i) {
-        const auto point = static_cast<std::size_t>(j * raster + i);
-        if (!covered_[point]) visit(point);
-      }
-    }
-  }
-
-  double dilation_, step_, x_, y_;
-  std::vector<std::uint8_t> covered_;
-  std::vector<Candidate> candidates_;
-};
+/// A candidate with less than this share of its estimated radius is not sound.
+constexpr double least_share = 0.5;
 
 double twice_area(Contour contour) {
   double sum = 0;
-  for_each_segment(contour, [&](double ax, double ay, double bx, double by) { sum += ax * by - ay * bx; });
+  for (std::size_t i = 0, before = contour.size() - 1; i < contour.size(); before = i++)
+    sum += static_cast<double>(contour[before].x) * static_cast<double>(contour[i].y) -
+           static_cast<double>(contour[before].y) * static_cast<double>(contour[i].x);
   return sum;
 }
 
 Contour largest_contour(const Outline& outline) {
   Contour largest = outline.contour(0);
+  if (outline.contours() == 1) return largest;
+  double most = twice_area(largest);
   for (std::size_t c = 1; c < outline.contours(); ++c)
-    if (twice_area(outline.contour(c)) > twice_area(largest)) largest = outline.contour(c);
+    if (const double area = twice_area(outline.contour(c)); area > most)
+      most = area, largest = outline.contour(c);
   return largest;
 }
 
+/// Opposite directions have the same line, so half of them suffice. A tie goes to the first point.
 void set_extremes(Contour contour, Interior& result) {
+  constexpr std::uint32_t lines = extreme_directions / 2;
+  alignas(64) double cosine[lines], sine[lines], least[lines], most[lines];
+  alignas(64) std::int64_t lowest[lines] = {}, highest[lines] = {};
+  for (std::uint32_t k = 0; k < lines; ++k) {
+    const Rotation direction = rotation(2 * std::numbers::pi * k / extreme_directions);
+    cosine[k] = direction.cosine, sine[k] = direction.sine;
+    least[k] = std::numeric_limits<double>::infinity(), most[k] = -least[k];
+  }
+  std::int64_t index = 0;
+  for (const Vec2 point : contour) {
+    const double x = static_cast<double>(point.x), y = static_cast<double>(point.y);
+    for (std::uint32_t k = 0; k < lines; ++k) {
+      const double along = cosine[k] * x + sine[k] * y;
+      lowest[k] = along < least[k] ? index : lowest[k];
+      least[k] = along < least[k] ? along : least[k];
+      highest[k] = most[k] < along ? index : highest[k];
+      most[k] = most[k] < along ? along : most[k];
+    }
+    ++index;
+  }
   for (std::uint32_t k = 0; k < extreme_stride; ++k) {
-    const Rotation direction = rotation(2 * std::numbers::pi * (k % extreme_directions) / extreme_directions);
-    const auto along = [&](Vec2 p) {
-      return direction.cosine * static_cast<double>(p.x) + direction.sine * static_cast<double>(p.y);
-    };
-    const Vec2 farthest = *std::max_element(contour.begin(), contour.end(),
-                                            [&](Vec2 a, Vec2 b) { return along(a) < along(b); });
+    const std::uint32_t direction = k % extreme_directions;
+    const Vec2 farthest =
+        contour[static_cast<std::size_t>(direction < lines ? highest[direction] : lowest[direction - lines])];
     result.extreme_x[k] = farthest.x;
     result.extreme_y[k] = farthest.y;
   }
@@ -142,25 +76,114 @@ void set_extremes(Contour contour, Interior& result) {
 
 }  // namespace
 
-Interior interior(const Outline& outline, double reach) {
+InteriorBuilder::Frame InteriorBuilder::frame(Contour contour) {
+  Vec2 low = contour[0], high = contour[0];
+  for (const Vec2 p : contour) {
+    low = {std::min(low.x, p.x), std::min(low.y, p.y)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y)};
+  }
+  const double left = static_cast<double>(low.x), right = static_cast<double>(high.x),
+               bottom = static_cast<double>(low.y), top = static_cast<double>(high.y);
+  const double cell = std::max(right - left, top - bottom) / longer_side;
+  constexpr double half = 0.5 * DiscCoverage::cells;
+  return {0.5 * (left + right) - half * cell, 0.5 * (bottom + top) - half * cell, cell};
+}
+
+void InteriorBuilder::to_cells(Contour contour) {
+  const double over = 1 / frame_.cell;
+  x_.resize(contour.size());
+  y_.resize(contour.size());
+  for (std::size_t i = 0; i < contour.size(); ++i) {
+    x_[i] = static_cast<float>((static_cast<double>(contour[i].x) - frame_.x) * over);
+    y_[i] = static_cast<float>((static_cast<double>(contour[i].y) - frame_.y) * over);
+  }
+}
+
+/// Takes the best of the candidates that are left, each moved away from the contour as far as it grows.
+/// Returns whether all are about as large as they were taken for.
+bool InteriorBuilder::choose(Contour contour, std::uint32_t count) {
+  chosen_.count = count;
+  for (std::uint32_t k = 0; k < count; ++k) {
+    const std::uint32_t disc = coverage_.choose();
+    chosen_.x[k] = candidates_.x[disc];
+    chosen_.y[k] = candidates_.y[disc];
+  }
+  Touches nearest;
+  nearest_touches(x_, y_, chosen_, nearest);
+  samples_.largest_discs(nearest, x_, y_, chosen_);
+  stored_.count = count;
+  for (std::uint32_t k = 0; k < count; ++k) {
+    stored_.x[k] = static_cast<float>(frame_.x + static_cast<double>(chosen_.x[k]) * frame_.cell);
+    stored_.y[k] = static_cast<float>(frame_.y + static_cast<double>(chosen_.y[k]) * frame_.cell);
+  }
+  measure_depths(contour, stored_, depths_);
+  bool all_sound = true;
+  for (std::uint32_t k = 0; k < count; ++k) all_sound &= is_sound(chosen_, k, frame_.cell);
+  return all_sound;
+}
+
+bool InteriorBuilder::is_sound(const CandidateDiscs& discs, std::uint32_t k, double unit) const {
+  return depths_.winding[k] > 0 &&
+         depths_.distance[k] > least_share * static_cast<double>(discs.radius[k]) * unit;
+}
+
+/// Candidates that are not sound give way to points of a grid, and all get the radii that they really have:
+/// a contour with whiskers, or with corners closer than the samples, is worth it. Returns how many there are.
+std::uint32_t InteriorBuilder::offer_measured() {
+  constexpr std::uint32_t row = 8;
+  constexpr float spacing = static_cast<float>(longer_side) / row;
+  static_assert(row * row == most_touches);
+  CandidateDiscs sound, grid;
+  const auto keep = [&](const CandidateDiscs& discs, std::uint32_t k) {
+    sound.x[sound.count] = discs.x[k], sound.y[sound.count] = discs.y[k];
+    sound.radius[sound.count++] = static_cast<float>(depths_.distance[k]);
+  };
+  estimate_depths(x_, y_, candidates_, depths_);
+  for (std::uint32_t k = 0; k < most_touches; ++k) {
+    if (is_sound(candidates_, k, 1)) {
+      keep(candidates_, k);
+      continue;
+    }
+    grid.x[grid.count] = dilation + spacing * (static_cast<float>(k % row) + 0.5f);
+    grid.y[grid.count] = dilation + spacing * (static_cast<float>(k / row) + 0.5f);
+    grid.radius[grid.count++] = 0;
+  }
+  estimate_depths(x_, y_, grid, depths_);
+  for (std::uint32_t k = 0; k < grid.count; ++k)
+    if (is_sound(grid, k, 1)) keep(grid, k);
+  candidates_ = sound;
+  coverage_.offer(candidates_, dilation);
+  return candidates_.count;
+}
+
+Interior InteriorBuilder::build(const Outline& outline, double reach) {
   const Contour contour = largest_contour(outline);
-  const EnclosingDisc around = smallest_enclosing_disc(contour);
   Interior result;
   result.x.fill(std::numeric_limits<float>::infinity());
   result.y.fill(0);
   result.radius.fill(0);
   set_extremes(contour, result);
 
-  Coverage coverage(contour, around);
-  if (coverage.empty()) return result;
-  for (std::uint32_t k = 0; k < block_width; ++k) {
-    const auto disc = coverage.choose();
-    const double radius = disc.depth * (1 - 0x1p-23) - rounding::query_margin * reach;
-    if (!(radius > 0)) continue;
-    result.x[k] = disc.x, result.y[k] = disc.y;
-    result.radius[k] = static_cast<float>(radius);
+  frame_ = frame(contour);
+  if (!(frame_.cell > 0)) return result;
+  to_cells(contour);
+  samples_.take(x_, y_);
+  samples_.largest_discs(samples_.touches(), {}, {}, candidates_);
+  coverage_.offer(candidates_, dilation);
+  if (!choose(contour, block_width)) choose(contour, std::min(block_width, offer_measured()));
+
+  std::uint32_t discs = 0;
+  for (std::uint32_t k = 0; k < chosen_.count; ++k) {
+    const double radius = depths_.distance[k] * (1 - 0x1p-23) - rounding::query_margin * reach;
+    if (!(depths_.winding[k] > 0 && radius > 0)) continue;
+    result.x[discs] = stored_.x[k], result.y[discs] = stored_.y[k];
+    result.radius[discs++] = static_cast<float>(radius);
   }
   return result;
+}
+
+Interior interior(const Outline& outline, double reach) {
+  return InteriorBuilder().build(outline, reach);
 }
 
 }  // namespace bch

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include "layout/tangent_discs.hpp"
+
+#include <cassert>
+#include <cmath>
+#include <cstddef>
+
+namespace bch {
+namespace {
+
+/// Lengths of the edges that end at each corner, and their sum.
+double edge_lengths(std::span<const float> x, std::span<const float> y, std::vector<float>& length) {
+  const std::size_t n = x.size();
+  length.resize(n);
+  const auto between = [&](std::size_t i, std::size_t j) {
+    const float dx = x[j] - x[i], dy = y[j] - y[i];
+    return std::sqrt(dx * dx + dy * dy);
+  };
+  length[0] = between(n - 1, 0);
+  for (std::size_t i = 1; i < n; ++i) length[i] = between(i - 1, i);
+  double sum = 0;
+  for (const float l : length) sum += static_cast<double>(l);
+  return sum;
+}
+
+using HalfCurvatures = std::array<float, most_touches>;
+/// Holds off the radius 1 / 0 of a touch that has no point on its inner side.
+constexpr float smallest_curvature = 0x1p-6f;
+/// Of a square distance: what is nearer than coordinates are rounded tells nothing about a tangent disc.
+constexpr float blur = 0x1p-16f;
+
+/// A disc that touches at q with the centre q + r n holds a point q + w unless 2 r (n w) <= w^2.
+void keep_out(std::span<const float> x, std::span<const float> y, const Touches& touches,
+              HalfCurvatures& least) {
+  alignas(64) HalfCurvatures curvature = least;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    for (std::uint32_t k = 0; k < touches.count; ++k) {
+      const float wx = x[i] - touches.x[k], wy = y[i] - touches.y[k];
+      const float needed = (touches.normal_x[k] * wx + touches.normal_y[k] * wy) / (wx * wx + wy * wy + blur);
+      curvature[k] = curvature[k] < needed ? needed : curvature[k];
+    }
+  }
+  least = curvature;
+}
+
+}  // namespace
+
+void ContourSamples::take(std::span<const float> x, std::span<const float> y) {
+  const double step = edge_lengths(x, y, length_) / count;
+  assert(step > 0);
+  double next = 0.5 * step, end = 0;
+  std::uint32_t taken = 0;
+  for (std::size_t i = 0, before = x.size() - 1; i < x.size(); before = i++) {
+    const double begin = end;
+    end += static_cast<double>(length_[i]);
+    if (next >= end) continue;
+    const float dx = x[i] - x[before], dy = y[i] - y[before], one_over_length = 1 / length_[i];
+    for (; next < end && taken < count; next += step, ++taken) {
+      const float along = static_cast<float>(next - begin) * one_over_length;
+      x_[taken] = x[before] + along * dx;
+      y_[taken] = y[before] + along * dy;
+      touches_.normal_x[taken / 2] = -dy * one_over_length;
+      touches_.normal_y[taken / 2] = dx * one_over_length;
+    }
+  }
+  // Rounding may leave the last one out.
+  for (; taken < count; ++taken) x_[taken] = x_[taken - 1], y_[taken] = y_[taken - 1];
+  // A pair of samples shares a touch: the second one's place and normal.
+  for (std::uint32_t k = 0; k < most_touches; ++k)
+    touches_.x[k] = x_[2 * k + 1], touches_.y[k] = y_[2 * k + 1];
+  touches_.count = most_touches;
+}
+
+void ContourSamples::largest_discs(const Touches& touches, std::span<const float> corner_x,
+                                   std::span<const float> corner_y, CandidateDiscs& discs) const {
+  HalfCurvatures least;
+  least.fill(0.5f * smallest_curvature);
+  keep_out(x_, y_, touches, least);
+  keep_out(corner_x, corner_y, touches, least);
+  discs.count = touches.count;
+  for (std::uint32_t k = 0; k < touches.count; ++k) {
+    const float radius = 0.5f / least[k];
+    discs.radius[k] = radius;
+    discs.x[k] = touches.x[k] + radius * touches.normal_x[k];
+    discs.y[k] = touches.y[k] + radius * touches.normal_y[k];
+  }
+}
+
+}  // namespace bch
