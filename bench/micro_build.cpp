@@ -7,6 +7,7 @@
 #include <string>
 
 #include "bench/micro.hpp"
+#include "layout/interior.hpp"
 #include "layout/skinning.hpp"
 #include "layout/union_outline.hpp"
 
@@ -66,6 +67,18 @@ void build_hierarchy(benchmark::State& state, Scene& scene) {
   });
 }
 
+void build_interior(benchmark::State& state, Scene& scene) {
+  const auto& shapes = scene.shapes();
+  InteriorBuilder builder;
+  const auto build = [&](std::size_t i) {
+    return builder.build(shapes[i].outline, shapes[i].hierarchy.reach);
+  };
+  for (std::size_t i = 0; i < shapes.size(); ++i)
+    if (build(i).radius != interior(shapes[i].outline, shapes[i].hierarchy.reach).radius)
+      return state.SkipWithError("inscribed discs depend on what was built before");
+  time_poses(state, scene, [&](std::size_t i) { benchmark::DoNotOptimize(build(i)); });
+}
+
 /// A set of one shape: the wide tree, supports and inscribed discs.
 void build_shape_set(benchmark::State& state, Scene& scene) {
   const std::span<const Shape> shapes = scene.shapes();
@@ -91,9 +104,8 @@ struct Stage {
 };
 
 constexpr Stage stages[] = {
-    {"build/skinning", build_skinning},
-    {"build/outline", build_outline},
-    {"build/hierarchy", build_hierarchy},
+    {"build/skinning", build_skinning},   {"build/outline", build_outline},
+    {"build/hierarchy", build_hierarchy}, {"build/interior", build_interior},
     {"build/shape_set", build_shape_set},
 };
 
