@@ -57,7 +57,8 @@ std::vector<Pair> candidates_of_all_levels(const ShapeSet& shapes, const Crowd& 
   std::vector<Pair> all;
   for (std::uint32_t level = 0; level < shapes.level_count(); ++level) {
     const std::vector<std::uint8_t> levels(crowd.size(), static_cast<std::uint8_t>(level));
-    const std::vector<Pair> some = candidate_pairs(shapes, crowd.at_level(levels));
+    std::vector<Pair> some = candidate_pairs(shapes, crowd.at_level(levels));
+    std::sort(some.begin(), some.end(), before);
     std::vector<Pair> both;
     std::set_union(all.begin(), all.end(), some.begin(), some.end(), std::back_inserter(both), before);
     all = std::move(both);

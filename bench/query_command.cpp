@@ -3,8 +3,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <iterator>
 #include <memory>
+#include <tuple>
 #include <unordered_map>
 
 #include "bench/commands.hpp"
@@ -36,6 +38,14 @@ std::vector<ShapeSource> keep_used(std::span<const ShapeSource> sources, AgentTa
     shape = entry->second;
   }
   return used;
+}
+
+/// All pairs that can collide, in the order of the agents' lines.
+std::vector<Pair> pairs_in_order(const ShapeSet& set, const Agents& agents) {
+  std::vector<Pair> pairs = candidate_pairs(set, agents);
+  std::sort(pairs.begin(), pairs.end(),
+            [](Pair a, Pair b) { return std::tie(a.first, a.second) < std::tie(b.first, b.second); });
+  return pairs;
 }
 
 std::string answers_csv(const AgentTable& table, std::span<const Pair> pairs,
@@ -70,7 +80,7 @@ void run_query(const QueryCommandOptions& options) {
   const auto used = keep_used(sources, table);
   const BuiltShapes built = build_shapes({&from, 1}, used, options.shapes.threshold);
   const ShapeSet set(built.shapes, {depths, query.semantics == Semantics::solid});
-  if (options.all_pairs) pairs = candidate_pairs(set, table.agents());
+  if (options.all_pairs) pairs = pairs_in_order(set, table.agents());
   std::vector<std::uint8_t> hits(pairs.size());
   collide(set, table.agents(), pairs, hits, query);
   write_standard_output(answers_csv(table, pairs, hits, options.all_pairs));

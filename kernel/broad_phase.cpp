@@ -5,152 +5,178 @@
 
 #include <oneapi/tbb/blocked_range.h>
 #include <oneapi/tbb/parallel_for.h>
-#include <oneapi/tbb/parallel_sort.h>
+#include <oneapi/tbb/parallel_reduce.h>
 
 #include <algorithm>
-#include <cmath>
+#include <array>
+#include <bit>
 #include <cstdint>
-#include <tuple>
 
 #include "kernel/collide.hpp"
-#include "layout/heading.hpp"
-#include "layout/rounding.hpp"
+#include "kernel/crowd_grid.hpp"
+#include "kernel/radix_sort.hpp"
+#include "kernel/sorted_discs.hpp"
 
 namespace bch {
 namespace {
 
+using kernel::CrowdBounds;
+using kernel::CrowdGrid;
+using kernel::GridDisc;
+using kernel::PairList;
+using kernel::SortedDiscs;
 using Range = tbb::blocked_range<std::size_t>;
-constexpr std::size_t grain = 1024;
 
-/// An agent's root disc in the world. The offset stays apart from the position, because far from the origin
-/// their sum would lose what their differences keep.
-struct Root {
-  double x, y;                ///< the agent's position
-  double offset_x, offset_y;  ///< of the disc's centre, turned by the heading
-  double radius;              ///< with the slack of a pruning disc, which covers the float test's rounding
-};
+constexpr std::size_t grain = 2048;        ///< agents a task
+constexpr std::size_t block_discs = 1024;  ///< whose pairs a task finds
 
-bool can_overlap(const Root& a, const Root& b) {
-  const double x = (b.x - a.x) + (b.offset_x - a.offset_x);
-  const double y = (b.y - a.y) + (b.offset_y - a.offset_y);
-  const double r = a.radius + b.radius;
-  return x * x + y * y <= r * r;
+CrowdBounds bounds(const ShapeSetView& shapes, const Agents& agents) {
+  return tbb::parallel_reduce(
+      Range(0, agents.size(), grain), CrowdBounds(),
+      [&](const Range& range, CrowdBounds all) {
+        all.add(kernel::bounds(shapes, agents, range.begin(), range.end()));
+        return all;
+      },
+      [](CrowdBounds a, const CrowdBounds& b) {
+        a.add(b);
+        return a;
+      });
 }
-
-struct Cell {
-  std::int64_t row, column;
-  friend bool operator<(const Cell& a, const Cell& b) {
-    return std::tie(a.row, a.column) < std::tie(b.row, b.column);
-  }
-};
-
-struct Entry {
-  Cell cell;
-  std::uint32_t agent;
-};
-
-/// The agents sorted by cell, row after row: three neighbouring cells of a row are one run of entries.
-class Grid {
- public:
-  Grid(const ShapeSet& shapes, const Agents& agents) : roots_(agents.size()), entries_(agents.size()) {
-    place_roots(shapes.view(), agents);
-    double largest = 0;
-    for (const Root& root : roots_) largest = std::max(largest, root.radius);
-    // The slack covers the rounding of world coordinates up to 1e9 m (1.2e-7 m) and of the division.
-    const double size = 2 * largest * (1 + 0x1p-10) + 1e-6;
-    tbb::parallel_for(Range(0, roots_.size(), grain), [&](const Range& range) {
-      for (std::size_t i = range.begin(); i < range.end(); ++i) {
-        const Root& root = roots_[i];
-        const auto index = [size](double at) { return static_cast<std::int64_t>(std::floor(at / size)); };
-        entries_[i] = {{index(root.y + root.offset_y), index(root.x + root.offset_x)},
-                       static_cast<std::uint32_t>(i)};
-      }
-    });
-    tbb::parallel_sort(entries_.begin(), entries_.end(), [](const Entry& a, const Entry& b) {
-      return a.cell < b.cell || (!(b.cell < a.cell) && a.agent < b.agent);
-    });
-  }
-
-  std::size_t size() const { return entries_.size(); }
-
-  /// Calls visit(agent, higher) for every candidate pair whose lower index is the agent of an entry in the
-  /// range; all pairs of one agent in a row.
-  template <class Visit>
-  void visit_pairs(const Range& range, Visit visit) const {
-    auto window = first_windows(entries_[range.begin()].cell);
-    for (std::size_t i = range.begin(); i < range.end(); ++i) {
-      const Entry& entry = entries_[i];
-      for (int k = 0; k < 3; ++k) {
-        const Cell from{entry.cell.row + k - 1, entry.cell.column - 1};
-        while (window[k] != entries_.end() && window[k]->cell < from) ++window[k];
-        for (auto other = window[k];
-             other != entries_.end() && other->cell.row == from.row && other->cell.column <= from.column + 2;
-             ++other)
-          if (other->agent > entry.agent && can_overlap(roots_[entry.agent], roots_[other->agent]))
-            visit(entry.agent, other->agent);
-      }
-    }
-  }
-
- private:
-  using Iterator = std::vector<Entry>::const_iterator;
-
-  void place_roots(const ShapeSetView& shapes, const Agents& agents) {
-    tbb::parallel_for(Range(0, roots_.size(), grain), [&](const Range& range) {
-      for (std::size_t i = range.begin(); i < range.end(); ++i) {
-        const std::uint32_t level = agents.level.empty() ? shapes.level_count - 1 : agents.level[i];
-        const std::size_t root = std::size_t{agents.shape[i]} * shapes.level_count + level;
-        const double x = shapes.roots[root].x, y = shapes.roots[root].y;
-        const Rotation turn = rotation(agents.heading[i]);
-        roots_[i] = {agents.x[i], agents.y[i], turn.cosine * x - turn.sine * y,
-                     turn.sine * x + turn.cosine * y,
-                     static_cast<double>(shapes.roots[root].radius) +
-                         rounding::nesting_margin * static_cast<double>(shapes.reach[agents.shape[i]])};
-      }
-    });
-  }
-
-  /// Where the runs of the three rows around a cell begin.
-  std::array<Iterator, 3> first_windows(Cell cell) const {
-    std::array<Iterator, 3> window;
-    for (int k = 0; k < 3; ++k)
-      window[k] = std::lower_bound(entries_.begin(), entries_.end(), Cell{cell.row + k - 1, cell.column - 1},
-                                   [](const Entry& entry, const Cell& from) { return entry.cell < from; });
-    return window;
-  }
-
-  std::vector<Root> roots_;
-  std::vector<Entry> entries_;
-};
 
 }  // namespace
 
-std::vector<Pair> candidate_pairs(const ShapeSet& shapes, const Agents& agents) {
+/// What find() computes, stage by stage.
+struct BroadPhase::Scratch {
+  std::vector<GridDisc> placed;
+  kernel::RadixSort<GridDisc> radix_sort;
+  SortedDiscs discs;
+  /// Discs of a class.
+  std::array<std::size_t, CrowdGrid::most_classes + 1> class_begin;
+  std::vector<PairList> found;           ///< by block
+  std::vector<std::size_t> found_begin;  ///< among all
+  std::vector<Pair> pairs;
+
+  void sort_discs(const CrowdGrid& grid, const ShapeSetView& shapes, const Agents& agents);
+  void find_in_block(const CrowdGrid& grid, std::size_t begin, std::size_t end, PairList& list) const;
+  void find_in_class(const CrowdGrid& grid, std::uint32_t size_class, std::size_t begin, std::size_t end,
+                     PairList& list) const;
+  void find_larger(const CrowdGrid& grid, std::uint32_t size_class, std::size_t begin, std::size_t end,
+                   PairList& list) const;
+  void gather_pairs(std::size_t blocks);
+};
+
+void BroadPhase::Scratch::sort_discs(const CrowdGrid& grid, const ShapeSetView& shapes,
+                                     const Agents& agents) {
+  const Range all(0, agents.size(), grain);
+  placed.resize(agents.size());
+  tbb::parallel_for(all, [&](const Range& range) {
+    grid.place(shapes, agents, range.begin(), range.end(), placed.data());
+  });
+  const std::uint32_t classes = grid.class_count();
+  radix_sort.sort(placed, static_cast<unsigned>(std::bit_width(grid.end_cell(classes - 1))),
+                  [](const GridDisc& disc) { return disc.cell; });
+  discs.resize(agents.size());
+  tbb::parallel_for(all, [&](const Range& range) {
+    for (std::size_t i = range.begin(); i < range.end(); ++i) discs.set(i, placed[i]);
+  });
+  class_begin[0] = 0;
+  for (std::uint32_t c = 0; c < classes; ++c)
+    class_begin[c + 1] = discs.first_from(grid.end_cell(c), class_begin[c], discs.size());
+}
+
+/// The pairs of discs begin .. end with later ones of their class and with all of coarser classes.
+void BroadPhase::Scratch::find_in_block(const CrowdGrid& grid, std::size_t begin, std::size_t end,
+                                        PairList& list) const {
+  list.clear();
+  for (std::uint32_t c = 0; c < grid.class_count(); ++c) {
+    const std::size_t from = std::max(begin, class_begin[c]), to = std::min(end, class_begin[c + 1]);
+    if (from >= to) continue;
+    find_in_class(grid, c, from, to, list);
+    find_larger(grid, c, from, to, list);
+  }
+}
+
+/// Half of the neighbourhood, so that each pair is seen once: the rest of a cell and the one beside it are a
+/// run of discs, and so are the three cells above. Both runs only move forward.
+void BroadPhase::Scratch::find_in_class(const CrowdGrid& grid, std::uint32_t size_class, std::size_t begin,
+                                        std::size_t end, PairList& list) const {
+  const std::size_t class_end = class_begin[size_class + 1];
+  const std::uint64_t up = grid.stride(size_class);
+  const auto skip_below = [&](std::uint64_t cell, std::size_t i) {
+    while (i < class_end && discs.cell(i) < cell) ++i;
+    return i;
+  };
+  std::size_t beside_end = begin;
+  std::size_t above = discs.first_from(discs.cell(begin) + up - 1, begin, class_end), above_end = above;
+  for (std::size_t i = begin; i < end;) {
+    const std::uint64_t here = discs.cell(i);
+    beside_end = skip_below(here + 2, beside_end);
+    above = skip_below(here + up - 1, above);
+    above_end = skip_below(here + up + 2, std::max(above, above_end));
+    for (; i < end && discs.cell(i) == here; ++i) {
+      list.add_overlapping(discs, i, i + 1, beside_end);
+      list.add_overlapping(discs, i, above, above_end);
+    }
+  }
+}
+
+/// All nine cells about a disc, in the grid of every coarser class.
+void BroadPhase::Scratch::find_larger(const CrowdGrid& grid, std::uint32_t size_class, std::size_t begin,
+                                      std::size_t end, PairList& list) const {
+  for (std::uint32_t c = 0; c < size_class; ++c) {
+    if (class_begin[c] == class_begin[c + 1]) continue;
+    for (std::size_t i = begin; i < end;) {
+      const std::uint64_t here = discs.cell(i);
+      const std::size_t cell_end = discs.first_from(here + 1, i, end);
+      const std::uint64_t middle = grid.coarser(here, size_class, c), up = grid.stride(c);
+      for (const std::uint64_t row : {middle - up, middle, middle + up}) {
+        const std::size_t from = discs.first_from(row - 1, class_begin[c], class_begin[c + 1]);
+        const std::size_t to = discs.first_from(row + 2, from, class_begin[c + 1]);
+        for (std::size_t k = i; from < to && k < cell_end; ++k) list.add_overlapping(discs, k, from, to);
+      }
+      i = cell_end;
+    }
+  }
+}
+
+void BroadPhase::Scratch::gather_pairs(std::size_t blocks) {
+  found_begin.assign(blocks + 1, 0);
+  for (std::size_t b = 0; b < blocks; ++b) found_begin[b + 1] = found_begin[b] + found[b].pairs().size();
+  pairs.resize(found_begin[blocks]);
+  tbb::parallel_for(std::size_t{0}, blocks, [&](std::size_t b) {
+    const std::span<const Pair> list = found[b].pairs();
+    std::transform(list.begin(), list.end(), pairs.begin() + static_cast<std::ptrdiff_t>(found_begin[b]),
+                   [](Pair pair) {
+                     return Pair{std::min(pair.first, pair.second), std::max(pair.first, pair.second)};
+                   });
+  });
+}
+
+BroadPhase::BroadPhase() : scratch_(std::make_unique<Scratch>()) {}
+BroadPhase::BroadPhase(BroadPhase&&) noexcept = default;
+BroadPhase& BroadPhase::operator=(BroadPhase&&) noexcept = default;
+BroadPhase::~BroadPhase() = default;
+
+std::span<const Pair> BroadPhase::find(const ShapeSet& shapes, const Agents& agents) {
   validate(shapes, agents);
   if (agents.size() == 0) return {};
-  const Grid grid(shapes, agents);
+  Scratch& scratch = *scratch_;
+  const CrowdGrid grid(bounds(shapes.view(), agents));
+  scratch.sort_discs(grid, shapes.view(), agents);
+  const std::size_t blocks = (agents.size() + block_discs - 1) / block_discs;
+  if (scratch.found.size() < blocks) scratch.found.resize(blocks);
+  tbb::parallel_for(std::size_t{0}, blocks, [&](std::size_t b) {
+    const std::size_t begin = b * block_discs, end = std::min(begin + block_discs, agents.size());
+    scratch.find_in_block(grid, begin, end, scratch.found[b]);
+  });
+  scratch.gather_pairs(blocks);
+  return scratch.pairs;
+}
 
-  // Two passes, counting and filling: every agent's pairs have their place before any is written.
-  std::vector<std::size_t> begin(agents.size() + 1);
-  tbb::parallel_for(Range(0, grid.size(), grain), [&](const Range& range) {
-    grid.visit_pairs(range, [&](std::uint32_t agent, std::uint32_t) { ++begin[agent + 1]; });
-  });
-  for (std::size_t i = 1; i < begin.size(); ++i) begin[i] += begin[i - 1];
-
-  std::vector<Pair> pairs(begin.back());
-  std::vector<std::size_t> next(begin.begin(), begin.end() - 1);
-  tbb::parallel_for(Range(0, grid.size(), grain), [&](const Range& range) {
-    grid.visit_pairs(range, [&](std::uint32_t agent, std::uint32_t other) {
-      pairs[next[agent]++] = {agent, other};
-    });
-  });
-  tbb::parallel_for(Range(0, agents.size(), grain), [&](const Range& range) {
-    for (std::size_t i = range.begin(); i < range.end(); ++i)
-      std::sort(pairs.begin() + static_cast<std::ptrdiff_t>(begin[i]),
-                pairs.begin() + static_cast<std::ptrdiff_t>(begin[i + 1]),
-                [](const Pair& a, const Pair& b) { return a.second < b.second; });
-  });
-  return pairs;
+std::vector<Pair> candidate_pairs(const ShapeSet& shapes, const Agents& agents) {
+  BroadPhase broad_phase;
+  const std::span<const Pair> pairs = broad_phase.find(shapes, agents);
+  return {pairs.begin(), pairs.end()};
 }
 
 }  // namespace bch

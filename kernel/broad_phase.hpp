@@ -3,6 +3,8 @@
 
 #pragma once
 
+#include <memory>
+#include <span>
 #include <vector>
 
 #include "layout/agents.hpp"
@@ -10,12 +12,34 @@
 
 namespace bch {
 
-/// Every pair of agents whose root discs, at the agents' levels, can overlap: once each, first < second,
-/// sorted by first, then second. No pair that collide() answers with 1 is left out; few others than those
-/// whose root discs overlap are in. A uniform grid of the largest root's diameter: meant for agents of like
-/// size. The same for any number of threads.
-/// Errors:  throws std::invalid_argument like validate(shapes, agents).
-/// Threads: runs in the caller's TBB arena.
+/// Finds the pairs that are worth asking collide() about, and keeps its memory from call to call. One that
+/// was moved from can only be assigned to or destroyed.
+class BroadPhase {
+ public:
+  BroadPhase();
+  BroadPhase(BroadPhase&&) noexcept;
+  BroadPhase& operator=(BroadPhase&&) noexcept;
+  ~BroadPhase();
+
+  /// Every pair of agents whose root discs, at the agents' levels, can overlap: once each, first < second. No
+  /// pair that collide() answers with 1 is left out; the only others are those whose root discs miss each
+  /// other by a few millionths of their radii.
+  /// Order:   by place: along the rows of a grid, so that who reads agents in the order of the pairs finds
+  ///          most of them in a cache, wherever they lie in memory. The same for any number of threads.
+  /// Sizes:   radii within a factor of four share a grid, others have grids of their own: a few large agents
+  ///          do not slow down many small ones. A cell is no smaller than 2^-30 of the crowd's extent.
+  /// Memory:  the pairs are valid until the next call. 72 bytes an agent and up to 24 a pair are kept; a call
+  ///          like an earlier one allocates nothing.
+  /// Errors:  throws std::invalid_argument like validate(shapes, agents).
+  /// Threads: runs in the caller's TBB arena; one call at a time.
+  std::span<const Pair> find(const ShapeSet& shapes, const Agents& agents);
+
+ private:
+  struct Scratch;
+  std::unique_ptr<Scratch> scratch_;
+};
+
+/// The pairs of BroadPhase::find(), with memory that is given back.
 std::vector<Pair> candidate_pairs(const ShapeSet& shapes, const Agents& agents);
 
 }  // namespace bch

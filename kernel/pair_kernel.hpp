@@ -9,7 +9,7 @@
 #include "kernel/arguments.hpp"
 #include "kernel/block_test.hpp"
 #include "kernel/lanes.hpp"
-#include "kernel/pair_list.hpp"
+#include "kernel/chunk_pairs.hpp"
 #include "kernel/placements.hpp"
 #include "kernel/record_fields.hpp"
 #include "kernel/separation_test.hpp"
@@ -40,7 +40,7 @@ class PairKernel {
  private:
   using Float = typename Simd::Float;
   static constexpr std::uint32_t chunk = Placements<Simd>::chunk;
-  using List = PairList<chunk>;
+  using List = ChunkPairs<chunk>;
   /// Of the sum of squared enclosing radii: pairs nearer than that probably collide. By measurement.
   static constexpr float near_square = 0.845f;
 

@@ -9,7 +9,7 @@ namespace bch::kernel {
 
 /// Some of a chunk's pairs.
 template <std::uint32_t capacity>
-struct PairList {
+struct ChunkPairs {
   std::uint32_t size = 0;
   std::uint16_t pair[capacity];
 
@@ -18,7 +18,7 @@ struct PairList {
     size += wanted;
   }
 
-  void move_all(PairList& to) noexcept {
+  void move_all(ChunkPairs& to) noexcept {
     for (std::uint32_t k = 0; k < size; ++k) to.pair[to.size + k] = pair[k];
     to.size += size;
     size = 0;
@@ -26,7 +26,7 @@ struct PairList {
 
   /// Moves the pairs that pass a test to another list. No branch depends on an answer.
   template <class Test>
-  void move_if(PairList& to, Test passes) noexcept {
+  void move_if(ChunkPairs& to, Test passes) noexcept {
     std::uint32_t kept = 0, moved = to.size;
     for (std::uint32_t k = 0; k < size; ++k) {
       const std::uint16_t each = pair[k];

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include <gtest/gtest.h>
+#include <oneapi/tbb/global_control.h>
+#include <oneapi/tbb/task_arena.h>
+
+#include <atomic>
+#include <cstdlib>
+#include <new>
+#include <vector>
+
+#include "kernel/broad_phase.hpp"
+#include "kernel/collide.hpp"
+#include "tests/scenes.hpp"
+
+// Every way to operator new of this program is counted. What TBB's scheduler allocates does not go through
+// it.
+
+namespace {
+
+std::atomic<std::size_t> allocations{0};
+
+void* allocate(std::size_t size, std::size_t alignment) {
+  ++allocations;
+  void* memory = std::aligned_alloc(alignment, (size + alignment) / alignment * alignment);
+  if (memory == nullptr) throw std::bad_alloc();
+  return memory;
+}
+
+}  // namespace
+
+void* operator new(std::size_t size) {
+  return allocate(size, __STDCPP_DEFAULT_NEW_ALIGNMENT__);
+}
+void* operator new(std::size_t size, std::align_val_t alignment) {
+  return allocate(size, static_cast<std::size_t>(alignment));
+}
+void operator delete(void* memory) noexcept {
+  std::free(memory);
+}
+void operator delete(void* memory, std::size_t) noexcept {
+  std::free(memory);
+}
+void operator delete(void* memory, std::align_val_t) noexcept {
+  std::free(memory);
+}
+void operator delete(void* memory, std::size_t, std::align_val_t) noexcept {
+  std::free(memory);
+}
+
+namespace bch {
+namespace {
+
+class Allocations : public testing::TestWithParam<int> {
+ protected:
+  Allocations() {
+    test::Random random(52);
+    for (int i = 0; i < 30'000; ++i)
+      crowd.add(random.below(16), random.uniform(0, 300), random.uniform(0, 300), random.uniform(-4, 4),
+                static_cast<std::uint8_t>(random.below(3)));
+  }
+
+  /// Of later calls, the first being over.
+  template <class Call>
+  std::size_t count(Call call) {
+    return arena.execute([&] {
+      call();
+      const std::size_t before = allocations;
+      for (int i = 0; i < 5; ++i) call();
+      return allocations - before;
+    });
+  }
+
+  const tbb::global_control allow{tbb::global_control::max_allowed_parallelism, 4};
+  tbb::task_arena arena{GetParam()};
+  const ShapeSet set{test::synthetic_shapes(51, 16), {{0, 3, all_depths}, true}};
+  test::Crowd crowd;
+};
+
+TEST_P(Allocations, BroadPhaseKeepsItsMemory) {
+  BroadPhase broad_phase;
+  std::size_t pairs = 0;
+  EXPECT_EQ(count([&] { pairs = broad_phase.find(set, crowd.agents()).size(); }), 0u);
+  EXPECT_GT(pairs, 20'000u);
+  EXPECT_GT(count([&] { candidate_pairs(set, crowd.agents()); }), 0u);  // they are really counted
+}
+
+TEST_P(Allocations, CollideNeedsNone) {
+  const std::vector<Pair> pairs = candidate_pairs(set, crowd.agents());
+  std::vector<std::uint8_t> hits(pairs.size());
+  for (const Semantics semantics : {Semantics::boundary, Semantics::solid})
+    EXPECT_EQ(count([&] { collide(set, crowd.agents(), pairs, hits, {semantics}); }), 0u);
+}
+
+INSTANTIATE_TEST_SUITE_P(Threads, Allocations, testing::Values(1, 2, 4));
+
+}  // namespace
+}  // namespace bch
