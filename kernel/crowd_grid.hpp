@@ -34,7 +34,7 @@ CrowdBounds bounds(const ShapeSetView& shapes, const Agents& agents, std::size_t
 struct GridDisc {
   std::uint64_t cell;
   std::uint32_t x, y;
-  float radius;  ///< rounded up
+  float radius;  ///< enlarged, see CrowdGrid
   std::uint32_t agent;
 };
 
@@ -45,9 +45,9 @@ struct GridDisc {
 ///
 /// Rounding. A unit is 2^-29 of class 0's cell. With E the crowd's extent, a centre relative to the crowd's
 /// corner is off by less than 2^-50 E from rounding and by sqrt(2) units from dropping their fractions; the
-/// overlap test in float by less than 2^-21 of the radii. So radii become (1 + 2^-20) (radius + 2^-50 E + 2
-/// units), and no overlap is missed. A cell's width exceeds the diameter of its discs by 2^-10, which is more
-/// than all that: a unit is at most 2^-17 of any class's cell.
+/// overlap test in float, radii's rounding included, by less than 2^-21 of them. So radii become
+/// (1 + 2^-20) (radius + 2^-50 E + 2 units), and no overlap is missed. A cell's width exceeds the diameter of
+/// its discs by 2^-10, which is more than all that: a unit is at most 2^-17 of any class's cell.
 class CrowdGrid {
  public:
   static constexpr std::uint32_t most_classes = 7;
