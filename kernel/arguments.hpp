@@ -25,6 +25,7 @@ struct Arguments {
   const Pair* pairs;
   std::uint8_t* codes;
   bool mark_near_misses;  ///< write near_miss where it applies, else apart
+  bool prefetch = false;  ///< agents before they are needed: there are more than a near cache holds
 };
 
 /// What a kernel says of a pair.

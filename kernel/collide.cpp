@@ -23,6 +23,9 @@ using Range = tbb::blocked_range<std::size_t>;
 /// Pairs a task: enough to hide its cost, few enough to balance two pairs of cores over a small crowd.
 constexpr std::size_t grain = 2048;
 
+/// From here on agents are prefetched: 3 MB of them. Below, that costs 1 % (and 13 % for single cylinders).
+constexpr std::size_t many_agents = 100'000;
+
 /// The lowest index in [0, count) for which `bad` holds, or count. `all_good(begin, end)` says quickly where there is
 /// nothing to find.
 template <class AllGood, class Bad>
@@ -48,7 +51,8 @@ kernel::Arguments arguments_for(const ShapeSetView& view, const Agents& agents) 
           .agent_level = agents.level.empty() ? nullptr : agents.level.data(),
           .pairs = nullptr,
           .codes = nullptr,
-          .mark_near_misses = false};
+          .mark_near_misses = false,
+          .prefetch = false};
 }
 
 std::size_t first_bad_agent(const kernel::Implementation& implementation, const ShapeSet& shapes,
@@ -131,6 +135,7 @@ void collide(const ShapeSet& shapes, const Agents& agents, std::span<const Pair>
   arguments.pairs = pairs.data();
   arguments.codes = hits.data();
   arguments.mark_near_misses = solid;
+  arguments.prefetch = agents.size() >= many_agents;
   const auto answer = [&](const Range& range) {
     kernel::answer(implementation, arguments, agents, range.begin(), range.end());
   };

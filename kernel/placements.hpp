@@ -39,6 +39,8 @@ class Placements {
   std::uint32_t root_a[chunk], root_b[chunk];  ///< shape * level_count + level
 
  private:
+  static constexpr std::uint32_t pairs_ahead = 32;  ///< that agents are prefetched
+
   using Float = typename Simd::Float;
   using Double = typename Simd::Double;
 
@@ -47,6 +49,18 @@ class Placements {
   void gather(const Arguments& in, std::size_t begin) noexcept {
     const std::uint32_t levels = in.shapes->level_count;
     for (std::uint32_t k = 0; k < size; ++k) {
+      // Not a function of its own: GCC 12 drops the call of one that only prefetches.
+      if (in.prefetch && k + pairs_ahead < size) {
+        const Pair next = in.pairs[begin + k + pairs_ahead];
+        const std::uint32_t both[] = {next.first, next.second};
+        for (const std::uint32_t i : both) {
+          __builtin_prefetch(in.agent_shape + i);
+          __builtin_prefetch(in.agent_x + i);
+          __builtin_prefetch(in.agent_y + i);
+          __builtin_prefetch(in.agent_heading + i);
+          if (in.agent_level) __builtin_prefetch(in.agent_level + i);
+        }
+      }
       const Pair pair = in.pairs[begin + k];
       const bool swap = pair.second < pair.first;
       const std::uint32_t a = swap ? pair.second : pair.first, b = swap ? pair.first : pair.second;

@@ -223,6 +223,26 @@ TEST(BroadPhase, OrderIsByPlace) {
   EXPECT_LT(jumps, pairs.size() / 100);
 }
 
+/// So many agents that collide() fetches them ahead: the answers are those of small crowds of two.
+TEST(BroadPhase, AnswersOfALargeCrowdAreThoseOfItsPairs) {
+  const test::Crowd crowd = crowd_in(900, 900, 120'000, 24);
+  const auto pairs = candidate_pairs(set, crowd.agents());
+  std::vector<std::uint8_t> hits(pairs.size());
+  collide(set, crowd.agents(), pairs, hits);
+  std::size_t found = 0;
+  for (std::size_t k = 0; k < pairs.size(); k += 16) {
+    test::Crowd two;
+    for (const std::uint32_t i : {pairs[k].first, pairs[k].second})
+      two.add(crowd.shape[i], crowd.x[i], crowd.y[i], crowd.heading[i], crowd.level[i]);
+    const Pair pair{0, 1};
+    std::uint8_t hit = 2;
+    collide(set, two.agents(), {&pair, 1}, {&hit, 1});
+    ASSERT_EQ(hits[k], hit) << pairs[k].first << ", " << pairs[k].second;
+    found += hit;
+  }
+  EXPECT_GT(found, 1000u);
+}
+
 TEST(BroadPhase, AnyNumberOfThreads) {
   const test::Crowd crowd = crowd_in(60, 60, 9000, 8);
   const auto expected = candidate_pairs(set, crowd.agents());
