@@ -49,6 +49,11 @@ std::string verdict(double ratio, double needed) {
   return fmt::format("needs {:g}: {:.0f} % short", needed, 100 * (1 - ratio / needed));
 }
 
+std::string verdict_at_most(double value, double most) {
+  if (value <= most) return fmt::format("PASS (at most {:g})", most);
+  return fmt::format("at most {:g}: {:.0f} % over", most, 100 * (value / most - 1));
+}
+
 bool has_kind(std::string_view kind) {
   const auto kinds = baselines::kinds();
   return std::any_of(kinds.begin(), kinds.end(),

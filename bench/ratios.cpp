@@ -35,6 +35,7 @@ void print_tables(Scene& scene, std::uint32_t runs) {
   print_kernel_ratios(scene, runs);
   print_peer_ratios(scene, runs);
   print_call_ratios(scene, runs);
+  print_crowd_ratios(scene, runs);
   print_paper_table(scene, runs);
   fmt::print("\n");
 }

@@ -26,6 +26,8 @@ void race(std::vector<Contender>& contenders, std::uint32_t runs, int threads);
 
 /// "PASS", or by how much a ratio misses what it needs: "needs 20: 19 % short".
 std::string verdict(double ratio, double needed);
+/// The same of what must not be more: "at most 1.5: 8 % over".
+std::string verdict_at_most(double value, double most);
 
 /// A contender that asks a kernel's implementation for all pairs of a workload, by one thread; its answers
 /// were compared. Errors of both: throw std::runtime_error on wrong answers.
@@ -40,6 +42,7 @@ bool has_kind(std::string_view kind);
 void print_kernel_ratios(Scene& scene, std::uint32_t runs);
 void print_peer_ratios(Scene& scene, std::uint32_t runs);
 void print_call_ratios(Scene& scene, std::uint32_t runs);
+void print_crowd_ratios(Scene& scene, std::uint32_t runs);
 void print_paper_table(Scene& scene, std::uint32_t runs);
 
 }  // namespace bch::bench
