@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <cstdint>
+
+/// Exact predicates over points of the outline's grid.
+///
+/// Bounds. Coordinates are at most 2^23 in magnitude, so those of a difference of points are at most 2^24, and
+/// a cross or dot product of two differences at most 2 * 2^48 = 2^49: far from the limits of int64, and exact
+/// as a double. Fractions have such products as terms. Two of them cross-multiplied are below 2^98, and a
+/// coordinate of the point at a fraction, multiplied out (twice 2^24 * 2^49 + 2^24 * 2^49, and a carry), below
+/// 2^76: far from the limits of 128 bits.
+namespace bch {
+
+__extension__ using Wide = __int128;
+
+/// Steps of the grid.
+struct GridPoint {
+  std::int32_t x = 0, y = 0;
+  friend bool operator==(GridPoint, GridPoint) = default;
+};
+
+struct GridVector {
+  std::int64_t x, y;
+};
+
+inline GridVector operator-(GridPoint a, GridPoint b) {
+  return {std::int64_t{a.x} - b.x, std::int64_t{a.y} - b.y};
+}
+inline std::int64_t cross(GridVector a, GridVector b) {
+  return a.x * b.y - a.y * b.x;
+}
+inline std::int64_t dot(GridVector a, GridVector b) {
+  return a.x * b.x + a.y * b.y;
+}
+
+/// Of the lower x, or of the same and the lower y.
+inline bool lexicographically_less(GridPoint a, GridPoint b) {
+  return a.x != b.x ? a.x < b.x : a.y < b.y;
+}
+
+inline bool same_direction(GridVector a, GridVector b) {
+  return cross(a, b) == 0 && dot(a, b) > 0;
+}
+
+/// Whether a comes before b when both are swept counter-clockwise from `start`; its own direction comes last.
+inline bool swept_before(GridVector start, GridVector a, GridVector b) {
+  const auto quarter = [start](GridVector v) {  // (0, 180), 180, (180, 360), 360 degrees
+    const std::int64_t side = cross(start, v);
+    if (side != 0) return side > 0 ? 0 : 2;
+    return dot(start, v) < 0 ? 1 : 3;
+  };
+  const int of_a = quarter(a), of_b = quarter(b);
+  return of_a != of_b ? of_a < of_b : cross(a, b) > 0;
+}
+
+/// Part of the way along a segment: numerator / denominator in 0 to 1, denominator > 0.
+struct Fraction {
+  std::int64_t numerator = 0, denominator = 1;
+  double value = 0;  ///< the quotient, correctly rounded
+
+  Fraction() = default;
+  Fraction(std::int64_t n, std::int64_t d)
+      : numerator(n), denominator(d), value(static_cast<double>(n) / static_cast<double>(d)) {}
+};
+
+/// -1, 0 or 1 for a < b, a == b, a > b. Correct rounding is monotonic: quotients that differ are in the order of
+/// the fractions; only equal ones need the exact products.
+inline int compare(const Fraction& a, const Fraction& b) {
+  if (a.value != b.value) return a.value < b.value ? -1 : 1;
+  const Wide left = Wide{a.numerator} * b.denominator, right = Wide{b.numerator} * a.denominator;
+  return (left > right) - (left < right);
+}
+
+/// A place on a line between grid points.
+struct Place {
+  GridPoint from, to;
+  Fraction at;
+
+  GridVector direction() const { return to - from; }
+};
+
+/// The sign of the place's x less `x`, and of its y less `y`.
+int compare_x(const Place& place, std::int32_t x);
+int compare_y(const Place& place, std::int32_t y);
+
+/// The grid point next to a place, a half rounded up: the same from whichever lines the place is described.
+GridPoint rounded(const Place& place);
+
+}  // namespace bch

@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include "layout/outline_builder.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "layout/grid_snap.hpp"
+#include "layout/outline_candidates.hpp"
+#include "layout/outline_topology.hpp"
+#include "layout/outline_walk.hpp"
+#include "layout/outline_winding.hpp"
+
+namespace bch {
+namespace {
+
+constexpr GridPoint beyond{std::numeric_limits<std::int32_t>::max(), 0};
+
+GridPoint first_of(GridPoint a, GridPoint b) {
+  return lexicographically_less(b, a) ? b : a;
+}
+
+}  // namespace
+
+/// What is known of the mesh, and the scratch of a pose.
+struct OutlineBuilder::State {
+  State(std::span<const std::array<std::uint32_t, 3>> triangles, std::size_t vertex_count,
+        std::span<const Eigen::Vector3f> bind_pose)
+      : vertices(vertex_count),
+        topology(outline_topology(triangles, vertex_count, bind_pose)),
+        points(topology.used.size()),
+        candidates(topology),
+        walk(topology, candidates),
+        leftmost(topology.island_vertex.size()) {
+    outside.reserve(leftmost.size());
+  }
+
+  void walk_all();
+  void find_outside();
+  bool covered(GridPoint point, std::size_t first_contour) const;
+  std::span<const Stretch> contour(std::size_t i) const {
+    return std::span(stretches).subspan(contour_begin[i], contour_begin[i + 1] - contour_begin[i]);
+  }
+  void walk_from(GridPoint start) {
+    walk.walk(start, stretches);
+    contour_begin.push_back(stretches.size());
+  }
+  void write(double step, Outline& outline) const;
+
+  std::size_t vertices;
+  OutlineTopology topology;
+  std::vector<GridPoint> points;
+  OutlineCandidates candidates;
+  OutlineWalk walk;
+  std::vector<Stretch> stretches;
+  std::vector<std::size_t> contour_begin;
+  std::vector<std::uint32_t> outside;  ///< islands to walk around, unless they touch each other
+  std::vector<GridPoint> leftmost;     ///< of an island's candidates
+};
+
+/// Finds all contours. An island is connected and no contour crosses it, so unless a contour has come along
+/// it, it is as a whole inside or outside, and any of its vertices tells. Of pieces that touch, the one with
+/// the leftmost vertex comes first.
+void OutlineBuilder::State::walk_all() {
+  stretches.clear();
+  contour_begin.assign(1, 0);
+  walk.begin_pose();
+  GridPoint start = beyond;
+  for (const Segment& segment : candidates.segments())
+    start = first_of(start, first_of(segment.a, segment.b));
+  walk_from(start);
+
+  find_outside();
+  for (const std::uint32_t island : outside)
+    if (!walk.touched(island) && !covered(leftmost[island], 1)) walk_from(leftmost[island]);
+}
+
+/// Fills outside, in the order of the islands' leftmost vertices.
+void OutlineBuilder::State::find_outside() {
+  outside.clear();
+  for (std::uint32_t island = 0; island < leftmost.size(); ++island)
+    if (!walk.touched(island) && !covered(points[topology.island_vertex[island]], 0))
+      outside.push_back(island);
+  if (outside.empty()) return;
+
+  std::fill(leftmost.begin(), leftmost.end(), beyond);
+  const std::span<const Segment> segments = candidates.segments();
+  for (std::size_t i = 0; i < segments.size(); ++i) {
+    GridPoint& first = leftmost[topology.island[candidates.vertex(i)]];
+    first = first_of(first, first_of(segments[i].a, segments[i].b));
+  }
+  // Islands without candidates are points, or see other islands named for the edges they share.
+  std::erase_if(outside, [&](std::uint32_t island) { return leftmost[island] == beyond; });
+  std::sort(outside.begin(), outside.end(), [&](std::uint32_t a, std::uint32_t b) {
+    return lexicographically_less(leftmost[a], leftmost[b]);
+  });
+}
+
+bool OutlineBuilder::State::covered(GridPoint point, std::size_t first_contour) const {
+  for (std::size_t c = first_contour; c + 1 < contour_begin.size(); ++c)
+    if (covers(contour(c), point)) return true;
+  return false;
+}
+
+/// Writes corners, that is, where a stretch has another direction than the one before; corners that are
+/// rounded to one point are one.
+void OutlineBuilder::State::write(double step, Outline& outline) const {
+  outline.points.clear();
+  outline.contour_begin.assign(1, 0);
+  outline.grid_step = static_cast<float>(step);
+  for (std::size_t c = 0; c + 1 < contour_begin.size(); ++c) {
+    const std::span<const Stretch> around = contour(c);
+    GridPoint last = around[0].rounded_begin;
+    const auto add = [&](GridPoint p) {
+      outline.points.push_back({static_cast<float>(p.x * step), static_cast<float>(p.y * step)});
+    };
+    add(last);
+    for (std::size_t i = 1; i < around.size(); ++i) {
+      const GridPoint p = around[i].rounded_begin;
+      if (p == last || same_direction(around[i - 1].begin.direction(), around[i].begin.direction())) continue;
+      add(last = p);
+    }
+    if (last == around[0].rounded_begin) outline.points.pop_back();
+    outline.contour_begin.push_back(static_cast<std::uint32_t>(outline.points.size()));
+  }
+}
+
+OutlineBuilder::OutlineBuilder(std::span<const std::array<std::uint32_t, 3>> triangles, std::size_t vertices,
+                               std::span<const Eigen::Vector3f> bind_pose)
+    : state_(std::make_unique<State>(triangles, vertices, bind_pose)) {}
+
+OutlineBuilder::OutlineBuilder(OutlineBuilder&&) noexcept = default;
+OutlineBuilder& OutlineBuilder::operator=(OutlineBuilder&&) noexcept = default;
+OutlineBuilder::~OutlineBuilder() = default;
+
+void OutlineBuilder::build(std::span<const Eigen::Vector3f> positions, Outline& outline) {
+  State& s = *state_;
+  if (positions.size() != s.vertices)
+    throw std::invalid_argument("outline: " + std::to_string(positions.size()) + " positions for " +
+                                std::to_string(s.vertices) + " vertices");
+  const double step = snap_to_grid(positions, s.topology.used, s.points);
+  s.candidates.find(s.topology, s.points);
+  if (s.candidates.segments().empty())
+    throw std::invalid_argument("outline: every triangle is a point when seen from above");
+  s.walk_all();
+  s.write(step, outline);
+}
+
+}  // namespace bch

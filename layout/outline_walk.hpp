@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "layout/grid_geometry.hpp"
+#include "layout/outline_candidates.hpp"
+
+namespace bch {
+
+/// A straight piece of a contour: it begins at `begin` and goes on in the direction of begin.to, until where
+/// the contour's next stretch begins.
+struct Stretch {
+  Place begin;
+  GridPoint rounded_begin;
+};
+
+/// Walks around connected pieces of the union, counter-clockwise along the candidates.
+///
+/// The unbounded face is always to the right. A walk leaves the stretch it is on where the first candidate
+/// sticks out to the right, or at the stretch's end; of all candidates there it takes the first one
+/// counter-clockwise from where it came, which bounds the same face. A whisker is walked to its tip and back,
+/// and a vertex where pieces only touch is passed once for each of them.
+///
+/// A walk ends: "the next stretch" is a one-to-one map of the finitely many directed pieces into which the
+/// candidates cut each other, so the first piece must come again, and it is the first that comes again.
+class OutlineWalk {
+ public:
+  /// Both must outlive this and not change between begin_pose() and the last walk().
+  OutlineWalk(const OutlineTopology& topology, OutlineCandidates& candidates);
+
+  void begin_pose();
+
+  /// Appends the stretches of the contour through a vertex that is the lexicographically smallest of its
+  /// connected piece of the union, starting there.
+  /// Errors:  throws std::logic_error should the walk be longer than any face's boundary can be.
+  void walk(GridPoint start, std::vector<Stretch>& contour);
+
+  /// Whether a contour has come along a candidate of this island.
+  bool touched(std::uint32_t island) const { return touched_[island] != 0; }
+
+ private:
+  struct Turn {
+    Place to;
+    std::uint32_t segment;
+    bool found;
+  };
+
+  void find_near(const Place& here, GridPoint rounded_here);
+  Turn first_crossing(const Place& here) const;
+  Turn first_direction(GridPoint at, GridVector back) const;
+  void follow(const Turn& turn, std::vector<Stretch>& contour);
+
+  const OutlineTopology* topology_;
+  OutlineCandidates* candidates_;
+  std::span<const Segment> segments_;
+  // Candidates that the current stretch may meet, of these the ones that lead to its right, and those that may
+  // touch its end; as many as the counts say.
+  std::vector<std::uint32_t> near_, crossing_, ending_;
+  std::size_t crossing_count_ = 0, ending_count_ = 0;
+  std::vector<std::uint8_t> touched_;
+};
+
+}  // namespace bch

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace bch::test {
+
+struct IntegerPoint {
+  std::int64_t x, y;
+  friend bool operator==(const IntegerPoint&, const IntegerPoint&) = default;
+};
+using IntegerTriangle = std::array<IntegerPoint, 3>;
+using IntegerContour = std::vector<IntegerPoint>;
+
+/// What OutlineBuilder promises, from the definition and in cubic time: all edges of all triangles are cut at
+/// each other, in exact fractions, and the contours are the boundaries of the arrangement's unbounded face. (A
+/// triangle's edges bound it, so this face is that of the triangles' union.) Coordinates are at most 2^23.
+std::vector<IntegerContour> arrangement_outline(const std::vector<IntegerTriangle>& triangles);
+
+}  // namespace bch::test
