@@ -20,8 +20,9 @@ namespace bch::bench {
 /// The scene must outlive the benchmarks.
 void register_collide_benchmarks(Scene& scene);
 
-/// build/<stage>: skinning, outline, hierarchy and interior of a pose, and its share of a shape set;
-/// build/<kind>: a structure over it. An iteration builds one pose; they take turns.
+/// build/<stage>: skinning, outline, hierarchy and interior of a pose, and its share of a shape set; build/<kind>: a
+/// structure over it. An iteration builds one pose; they take turns. build/outline/subdivided/<n>: outlines with
+/// every triangle cut into four, n times over; the counter `triangles` says into how many.
 void register_build_benchmarks(Scene& scene);
 
 }  // namespace bch::bench

@@ -6,10 +6,11 @@
 #include <algorithm>
 #include <string>
 
+#include "bench/fine_mesh.hpp"
 #include "bench/micro.hpp"
 #include "layout/interior.hpp"
+#include "layout/outline_builder.hpp"
 #include "layout/skinning.hpp"
-#include "layout/union_outline.hpp"
 
 namespace bch::bench {
 namespace {
@@ -50,12 +51,54 @@ void build_skinning(benchmark::State& state, Scene& scene) {
 }
 
 void build_outline(benchmark::State& state, Scene& scene) {
+  std::vector<OutlineBuilder> builders;
+  for (const auto& [source, character, report] : scene.characters())
+    builders.emplace_back(character.triangles, character.vertices.size(), character.vertices);
   const auto& bodies = scene.bodies();
-  if (union_outline(bodies[0].positions, bodies[0].triangles).points != bodies[0].shape.outline.points)
-    return state.SkipWithError("an outline differs from the same outline before");
+  const auto& sources = scene.sources();
+  Outline outline;
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    builders[sources[i].character].build(bodies[i].positions, outline);
+    if (outline.points != bodies[i].shape.outline.points)
+      return state.SkipWithError("an outline differs from the same outline before");
+  }
   time_poses(state, scene, [&](std::size_t i) {
-    benchmark::DoNotOptimize(union_outline(bodies[i].positions, bodies[i].triangles));
+    builders[sources[i].character].build(bodies[i].positions, outline);
+    benchmark::DoNotOptimize(outline.points.data());
   });
+}
+
+/// The outlines of the same poses with every triangle cut into four, as often as the argument says. The
+/// outlines are the same but for rounding, so this shows how time grows with the number of triangles.
+void build_finer_outline(benchmark::State& state, Scene& scene) {
+  const auto& bodies = scene.bodies();
+  const auto& sources = scene.sources();
+  constexpr std::size_t most = 10;  // poses of a character: the finest of all would take gigabytes
+  std::vector<OutlineBuilder> builders;
+  std::vector<std::pair<std::size_t, std::vector<Eigen::Vector3f>>> poses;
+  std::size_t triangles = 0;
+  for (std::size_t c = 0; c < scene.characters().size(); ++c) {
+    const Character& character = scene.characters()[c].character;
+    const FineMesh mesh(character.triangles, character.vertices.size(), state.range(0));
+    builders.emplace_back(mesh.triangles(), mesh.vertices(), mesh.finer(character.vertices));
+    triangles += mesh.triangles().size();
+    std::size_t taken = 0;
+    for (std::size_t i = 0; i < bodies.size() && taken < most; ++i) {
+      if (sources[i].character != c) continue;
+      poses.emplace_back(c, mesh.finer(bodies[i].positions));
+      ++taken;
+    }
+  }
+  Outline outline;
+  std::size_t i = 0;
+  for ([[maybe_unused]] auto _ : state) {
+    const auto& [character, positions] = poses[i];
+    builders[character].build(positions, outline);
+    benchmark::DoNotOptimize(outline.points.data());
+    i = i + 1 == poses.size() ? 0 : i + 1;
+  }
+  state.SetItemsProcessed(state.iterations());
+  state.counters["triangles"] = static_cast<double>(triangles) / static_cast<double>(builders.size());
 }
 
 void build_hierarchy(benchmark::State& state, Scene& scene) {
@@ -116,6 +159,10 @@ void register_build_benchmarks(Scene& scene) {
     benchmark::RegisterBenchmark(stage.name, [&scene, run = stage.run](benchmark::State& state) {
       run(state, scene);
     })->Unit(benchmark::kMicrosecond);
+  benchmark::RegisterBenchmark("build/outline/subdivided",
+                               [&scene](benchmark::State& state) { build_finer_outline(state, scene); })
+      ->DenseRange(0, 3)
+      ->Unit(benchmark::kMicrosecond);
   for (const baselines::Kind& kind : baselines::kinds())
     benchmark::RegisterBenchmark(("build/" + std::string(kind.name)).c_str(), [&scene, &kind](
                                                                                   benchmark::State& state) {
