@@ -4,10 +4,10 @@
 #include "layout/box_tree.hpp"
 
 #include <algorithm>
+#include <array>
 #include <bit>
-#include <cstring>
 #include <limits>
-#include <numeric>
+#include <utility>
 
 namespace bch {
 namespace {
@@ -15,26 +15,24 @@ namespace {
 constexpr std::int16_t lowest = std::numeric_limits<std::int16_t>::min();
 constexpr std::int16_t highest = std::numeric_limits<std::int16_t>::max();
 
-template <std::size_t width>
-std::int16_t smallest(const std::int16_t (&values)[width]) {
-  std::int16_t result = highest;
-  for (const std::int16_t value : values) result = std::min(result, value);
-  return result;
-}
-
-template <std::size_t width>
-std::int16_t largest(const std::int16_t (&values)[width]) {
-  std::int16_t result = lowest;
-  for (const std::int16_t value : values) result = std::max(result, value);
-  return result;
-}
-
 }  // namespace
+
+CoarseBox BoxTree::Block::around() const {
+  const auto smaller = [](Lanes a, Lanes b) -> Lanes { return a < b ? a : b; };
+  const auto larger = [](Lanes a, Lanes b) -> Lanes { return a > b ? a : b; };
+  const Lanes x0 = smaller(min_x[0], min_x[1]), y0 = smaller(min_y[0], min_y[1]);
+  const Lanes x1 = larger(max_x[0], max_x[1]), y1 = larger(max_y[0], max_y[1]);
+  CoarseBox box(x0[0], y0[0], x1[0], y1[0]);
+  for (std::size_t i = 1; i < width / 2; ++i)
+    box = {std::min(box.min_x, x0[i]), std::min(box.min_y, y0[i]), std::max(box.max_x, x1[i]),
+           std::max(box.max_y, y1[i])};
+  return box;
+}
 
 void BoxTree::reserve(std::size_t segments) {
   lay_out(segments);
   blocks_.reserve(level_begin_.back());
-  open_.resize(segments + top_blocks + width);
+  open_.resize(2 * (segments / width + top_blocks + width));
 }
 
 /// Sets the levels' places.
@@ -58,11 +56,8 @@ void BoxTree::assign(std::span<const Segment> segments) {
   pad(segments.size(), 0);
   for (std::size_t level = 1; level + 1 < level_begin_.size(); ++level) {
     const std::size_t below = level_begin_[level - 1], count = level_begin_[level] - below;
-    for (std::size_t i = 0; i < count; ++i) {
-      const Block& block = blocks_[below + i];
-      blocks_[level_begin_[level] + i / width].set(i % width, {smallest(block.min_x), smallest(block.min_y),
-                                                               largest(block.max_x), largest(block.max_y)});
-    }
+    for (std::size_t i = 0; i < count; ++i)
+      blocks_[level_begin_[level] + i / width].set(i % width, blocks_[below + i].around());
     pad(count, level_begin_[level]);
   }
 }
@@ -78,13 +73,13 @@ void BoxTree::pad(std::size_t count, std::size_t first_block) {
 std::uint32_t* BoxTree::append_meeting(const Block& block, const CoarseBox& box, std::uint32_t first,
                                        std::uint32_t* found) {
   static_assert(std::endian::native == std::endian::little);
-  alignas(width) std::uint8_t apart[width];
-  for (std::size_t i = 0; i < width; ++i)
-    apart[i] = (block.min_x[i] > box.max_x) | (box.min_x > block.max_x[i]) | (block.min_y[i] > box.max_y) |
-               (box.min_y > block.max_y[i]);
-  std::uint64_t low, high;
-  std::memcpy(&low, apart, 8);
-  std::memcpy(&high, apart + 8, 8);
+  const auto apart = [&](int half) -> Lanes {
+    return (block.min_x[half] > box.max_x) | (block.min_y[half] > box.max_y) |
+           (block.max_x[half] < box.min_x) | (block.max_y[half] < box.min_y);
+  };
+  // A byte for each box, 1 where it is apart: even numbers from one half, odd ones from the other.
+  const Lanes bytes = (apart(0) & 0x0001) | (apart(1) & 0x0100);
+  const auto [low, high] = std::bit_cast<std::array<std::uint64_t, 2>>(bytes);
   // The highest byte of a product: the sum of eight bytes, or their lowest bits next to each other.
   constexpr std::uint64_t sum = 0x0101010101010101, gather = 0x0102040810204080;
   const std::uint64_t count = width - ((low + high) * sum >> 56);
@@ -100,17 +95,17 @@ std::uint32_t* BoxTree::append_meeting(const Block& block, const CoarseBox& box,
 
 std::size_t BoxTree::find_meeting(const CoarseBox& box, std::uint32_t* found) {
   std::size_t level = level_begin_.size() - 2;
-  std::uint32_t* open = open_.data();
+  std::uint32_t *open = open_.data(), *next = open + open_.size() / 2;
   std::size_t count = level_begin_[level + 1] - level_begin_[level];
-  std::iota(open, open + count, 0u);
+  for (std::uint32_t i = 0; i < count; ++i) open[i] = i;
   for (;; --level) {
     const Block* blocks = blocks_.data() + level_begin_[level];
-    std::uint32_t* end = found;
+    std::uint32_t *const begin = level == 0 ? found : next, *end = begin;
     for (std::size_t i = 0; i < count; ++i)
       end = append_meeting(blocks[open[i]], box, open[i] * static_cast<std::uint32_t>(width), end);
-    count = static_cast<std::size_t>(end - found);
+    count = static_cast<std::size_t>(end - begin);
     if (level == 0) return count;
-    std::copy(found, end, open);
+    std::swap(open, next);
   }
 }
 

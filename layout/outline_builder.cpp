@@ -24,6 +24,18 @@ GridPoint first_of(GridPoint a, GridPoint b) {
   return lexicographically_less(b, a) ? b : a;
 }
 
+/// The lexicographically smallest end. One coordinate after the other: comparing points would branch for each.
+GridPoint leftmost_end(std::span<const Segment> segments) {
+  GridPoint end = beyond;
+  for (const auto& [a, b] : segments) end.x = std::min(end.x, std::min(a.x, b.x));
+  end.y = std::numeric_limits<std::int32_t>::max();
+  for (const auto& [a, b] : segments) {
+    if (a.x == end.x) end.y = std::min(end.y, a.y);
+    if (b.x == end.x) end.y = std::min(end.y, b.y);
+  }
+  return end;
+}
+
 }  // namespace
 
 /// What is known of the mesh, and the scratch of a pose.
@@ -69,10 +81,7 @@ void OutlineBuilder::State::walk_all() {
   stretches.clear();
   contour_begin.assign(1, 0);
   walk.begin_pose();
-  GridPoint start = beyond;
-  for (const Segment& segment : candidates.segments())
-    start = first_of(start, first_of(segment.a, segment.b));
-  walk_from(start);
+  walk_from(leftmost_end(candidates.segments()));
 
   find_outside();
   for (const std::uint32_t island : outside)

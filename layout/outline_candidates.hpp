@@ -31,7 +31,7 @@ class OutlineCandidates {
   void add(std::span<const GridPoint> points, std::uint32_t a, std::uint32_t b);
   void add_uses(std::span<const GridPoint> points, std::span<const OutlineTopology::EdgeUse> uses);
 
-  std::vector<std::int8_t> sides_;     ///< of each triangle
+  std::vector<std::uint8_t> sides_;    ///< of each triangle
   std::vector<std::uint32_t> chosen_;  ///< manifold edges
   std::vector<Segment> segments_;      ///< and room for one more, as in the next
   std::vector<std::uint32_t> vertices_;

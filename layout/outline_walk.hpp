@@ -44,16 +44,10 @@ class OutlineWalk {
   bool touched(std::uint32_t island) const { return touched_[island] != 0; }
 
  private:
-  struct Turn {
-    Place to;
-    std::uint32_t segment;
-    bool found;
-  };
-
   void find_near(const Place& here, GridPoint rounded_here);
-  Turn first_crossing(const Place& here) const;
-  Turn first_direction(GridPoint at, GridVector back) const;
-  void follow(const Turn& turn, std::vector<Stretch>& contour);
+  bool take_first_crossing(const Place& here, Stretch& next);
+  void take_first_direction(GridPoint at, GridVector back, Stretch& next);
+  void touch(std::uint32_t segment);
 
   const OutlineTopology* topology_;
   OutlineCandidates* candidates_;

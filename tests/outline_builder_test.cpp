@@ -5,20 +5,53 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
+#include <cstdlib>
 #include <limits>
-#include <numeric>
+#include <new>
+#include <utility>
 #include <vector>
 
+#include "layout/default_characters.hpp"
+#include "layout/skinning.hpp"
 #include "layout/union_outline.hpp"
 #include "tests/outline_arrangement.hpp"
 #include "tests/outline_checks.hpp"
 #include "tests/outline_soups.hpp"
 
+namespace {
+
+std::size_t allocations = 0;
+
+}  // namespace
+
+// Counted, so that a test can say that there are none. Inlined, they would look mismatched to GCC.
+[[gnu::noinline]] void* operator new(std::size_t size) {
+  ++allocations;
+  if (void* memory = std::malloc(size)) return memory;
+  throw std::bad_alloc();
+}
+[[gnu::noinline]] void* operator new(std::size_t size, std::align_val_t alignment) {
+  ++allocations;
+  const auto step = static_cast<std::size_t>(alignment);
+  if (void* memory = std::aligned_alloc(step, (size + step - 1) / step * step)) return memory;
+  throw std::bad_alloc();
+}
+[[gnu::noinline]] void operator delete(void* memory) noexcept {
+  std::free(memory);
+}
+[[gnu::noinline]] void operator delete(void* memory, std::size_t) noexcept {
+  std::free(memory);
+}
+[[gnu::noinline]] void operator delete(void* memory, std::align_val_t) noexcept {
+  std::free(memory);
+}
+[[gnu::noinline]] void operator delete(void* memory, std::size_t, std::align_val_t) noexcept {
+  std::free(memory);
+}
+
 namespace bch {
 namespace {
 
-using test::IntegerContour;
 using test::Soup;
 
 Outline build(const Soup& soup, std::span<const Eigen::Vector3f> bind_pose = {}) {
@@ -129,6 +162,23 @@ TEST(OutlineBuilder, RejectsBadInput) {
   EXPECT_THROW(OutlineBuilder(good.triangles, 3, bad), std::invalid_argument);
   OutlineBuilder builder(good.triangles, 3);
   EXPECT_THROW(builder.build(two, outline), std::invalid_argument);
+}
+
+TEST(OutlineBuilder, AllocatesNothingTheSecondTime) {
+  const Character man = default_male();
+  Skinner skinner(man);
+  OutlineBuilder builder(man.triangles, man.vertices.size(), man.vertices);
+  Outline outline;
+  for (const bool second : {false, true})
+    for (const PoseTime& time : sample_poses(man, 10)) {
+      const auto positions = skinner.pose(time);
+      const std::size_t before = allocations;
+      builder.build(positions, outline);
+      if (second) {
+        EXPECT_EQ(allocations, before);
+      }
+    }
+  EXPECT_GT(allocations, 0u);
 }
 
 TEST(OutlineBuilder, EqualsTheArrangementOfAllEdges) {
