@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "layout/default_characters.hpp"
+#include "layout/grid_geometry.hpp"
 #include "layout/skinning.hpp"
 #include "layout/union_outline.hpp"
 #include "tests/outline_arrangement.hpp"
@@ -162,6 +163,16 @@ TEST(OutlineBuilder, RejectsBadInput) {
   EXPECT_THROW(OutlineBuilder(good.triangles, 3, bad), std::invalid_argument);
   OutlineBuilder builder(good.triangles, 3);
   EXPECT_THROW(builder.build(two, outline), std::invalid_argument);
+}
+
+TEST(Fraction, IsComparedExactly) {
+  constexpr std::int64_t large = std::int64_t{1} << 49;
+  const Fraction smaller(large - 3, large - 2), larger(large - 2, large - 1);
+  ASSERT_EQ(smaller.value, larger.value);
+  EXPECT_EQ(compare(smaller, larger), -1);
+  EXPECT_EQ(compare(larger, smaller), 1);
+  EXPECT_EQ(compare(Fraction(1, 3), Fraction(large / 3, large / 3 * 3)), 0);
+  EXPECT_EQ(compare(Fraction(0, 1), larger), -1);
 }
 
 TEST(OutlineBuilder, AllocatesNothingTheSecondTime) {
