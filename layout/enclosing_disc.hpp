@@ -19,8 +19,7 @@ struct EnclosingDisc {
 /// The smallest disc that holds the points, up to the rounding of its centre to float: every point is within
 /// `radius` of `centre`.
 /// Shapes:  at least one point; any order, duplicates and collinear points allowed.
-/// Source:  pivoting on the farthest point, after B. Gaertner, "Fast and robust smallest enclosing balls",
-///          ESA 1999.
+/// Source:  see disc_pivoting.hpp; for many sets at once, see enclosing_discs.hpp.
 EnclosingDisc smallest_enclosing_disc(std::span<const Vec2> points);
 
 }  // namespace bch

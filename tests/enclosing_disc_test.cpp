@@ -9,6 +9,8 @@
 #include <cmath>
 #include <vector>
 
+#include "bench/welzl.hpp"
+#include "layout/enclosing_discs.hpp"
 #include "tests/scenes.hpp"
 
 namespace bch {
@@ -87,6 +89,66 @@ TEST(EnclosingDisc, CocircularPointsOnTheGrid) {
                         static_cast<float>(std::round(1000 * std::sin(angle)))});
     }
     expect_smallest(points);
+  }
+}
+
+/// Sets of every size and kind: on a line, on a circle, few distinct points, anywhere.
+struct PointSets {
+  std::vector<Vec2> points;
+  std::vector<PointRange> ranges;
+
+  std::vector<Vec2> set(std::size_t i) const {
+    return {points.begin() + ranges[i].begin, points.begin() + ranges[i].end};
+  }
+};
+PointSets random_sets(test::Random& random, double scale) {
+  PointSets sets;
+  for (std::uint32_t i = 0; i < 3000; ++i) {
+    const std::uint32_t begin = static_cast<std::uint32_t>(sets.points.size()),
+                        size = 1 + random.below(i % 50 == 0 ? 300 : 12);
+    for (std::uint32_t k = 0; k < size; ++k) {
+      double x = random.uniform(-1, 1), y = random.uniform(-1, 1);
+      if (i % 4 == 0) y = 0.5 * x;
+      if (i % 4 == 1) x = std::cos(4 * x), y = std::sqrt(1 - x * x);
+      if (i % 4 == 2) x = std::round(2 * x), y = std::round(2 * y);
+      sets.points.push_back({static_cast<float>(scale * x), static_cast<float>(scale * y)});
+    }
+    sets.ranges.push_back({begin, begin + size});
+  }
+  return sets;
+}
+
+TEST(EnclosingDiscs, HoldTheirPointsAndAreAsSmallAsWelzls) {
+  test::Random random(3);
+  bench::Welzl welzl;
+  for (const double scale : {1e-6, 1.0, 1e6}) {
+    const PointSets sets = random_sets(random, scale);
+    std::vector<SolvedDisc> discs(sets.ranges.size());
+    EnclosingDiscs().solve(sets.points, sets.ranges, discs);
+    for (std::size_t i = 0; i < discs.size(); ++i) {
+      const std::vector<Vec2> points = sets.set(i);
+      const double radius = std::sqrt(discs[i].square_radius);
+      EXPECT_DOUBLE_EQ(radius, radius_about(discs[i].centre.x, discs[i].centre.y, points));
+      const double smallest = std::sqrt(welzl(points).square_radius);
+      ASSERT_LE(radius, (1 + 1e-6) * smallest + 0x1p-24 * reach(points)) << points.size() << " points";
+      EXPECT_NEAR(radius, smallest_enclosing_disc(points).radius, 0x1p-24 * reach(points));
+    }
+  }
+}
+
+TEST(EnclosingDiscs, AreTheSameBitsOnEveryInstructionSet) {
+  test::Random random(4);
+  const PointSets sets = random_sets(random, 1);
+  std::vector<SolvedDisc> expected(sets.ranges.size());
+  EnclosingDiscs(disc_implementations().back()).solve(sets.points, sets.ranges, expected);
+  for (const DiscImplementation& implementation : disc_implementations()) {
+    if (!implementation.supported()) continue;
+    std::vector<SolvedDisc> discs(sets.ranges.size());
+    EnclosingDiscs(implementation).solve(sets.points, sets.ranges, discs);
+    for (std::size_t i = 0; i < discs.size(); ++i) {
+      ASSERT_EQ(discs[i].centre, expected[i].centre) << implementation.name << ", set " << i;
+      ASSERT_EQ(discs[i].square_radius, expected[i].square_radius) << implementation.name << ", set " << i;
+    }
   }
 }
 

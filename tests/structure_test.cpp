@@ -48,7 +48,7 @@ std::vector<fs::path> objects() {
 
 bool is_wide(const fs::path& object) {
   const std::string name = object.filename().string();
-  return name.starts_with("avx");
+  return name.find("avx") != std::string::npos;
 }
 
 /// Each source file's includes, as written.
@@ -87,7 +87,8 @@ TEST(Layers, NothingLooksUp) {
 TEST(Layers, LibrariesStayInTheirRooms) {
   expect_no_include("layout", "assimp/", "^import");
   expect_no_include("layout", "polyclipping/");
-  expect_no_include("layout", "xsimd/|oneapi/tbb|tbb/");
+  expect_no_include("layout", "xsimd/", "^(cut|disc)_lanes");
+  expect_no_include("layout", "oneapi/tbb|tbb/");
   expect_no_include("kernel", "assimp/|Eigen/|polyclipping/");
   expect_no_include("kernel", "xsimd/", "^lanes");
   expect_no_include("baselines", "assimp/|xsimd/|oneapi/tbb|tbb/");
@@ -127,7 +128,7 @@ TEST(Objects, NoCodeForWideRegistersCanReplaceOtherCode) {
     EXPECT_TRUE(here.empty()) << object << ": " << *here.begin();
 #endif
   }
-  EXPECT_EQ(wide, 2u);
+  EXPECT_EQ(wide, 4u);
 }
 
 TEST(Objects, NothingThatComputesAnAnswerFusesMultiplyAndAdd) {

@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <xsimd/xsimd.hpp>
+
+#include "layout/disc_sets.hpp"
+
+namespace bch {
+
+/// Smallest enclosing discs of many point sets, one set a lane: disc_pivoting.hpp's algorithm without its
+/// branches, which are coin tosses. A lane's operations do not depend on the width nor on its neighbours, so
+/// that every instruction set gives the same bits. `Local` is a type of the including file alone, so that no
+/// other file can share what was compiled for its registers.
+template <class Arch, class Local>
+class DiscLanes {
+ public:
+  static void solve(const DiscSets& job) noexcept {
+    std::size_t i = 0;
+    for (; i < job.small_count; i += width) Block(job, i, job.small_count).solve_small();
+    for (i = job.small_count; i < job.count; i += width) Block(job, i, job.count).solve_large();
+  }
+
+ private:
+  using Batch = xsimd::batch<double, Arch>;
+  using Mask = typename Batch::batch_bool_type;
+  static constexpr std::size_t width = Batch::size;
+
+  struct Point {
+    Batch x, y;
+  };
+  /// The points on the boundary, the second and third the same where there are two, and their disc.
+  struct Basis {
+    Point a, b, c;
+    Point centre;
+    Batch square_radius;
+    Mask is_pair;
+  };
+
+  static Batch select(const Mask& where, const Batch& yes, const Batch& no) {
+    return xsimd::select(where, yes, no);
+  }
+  static Point select(const Mask& where, const Point& yes, const Point& no) {
+    return {select(where, yes.x, no.x), select(where, yes.y, no.y)};
+  }
+  static Batch square_distance(const Point& a, const Point& b) {
+    const Batch x = a.x - b.x, y = a.y - b.y;
+    return x * x + y * y;
+  }
+  static Point middle(const Point& a, const Point& b) {
+    return {Batch(0.5) * (a.x + b.x), Batch(0.5) * (a.y + b.y)};
+  }
+
+  /// Of a triangle: the longest side's disc unless it is acute.
+  static Basis basis(const Point& a, const Point& b, const Point& c) {
+    const Batch ab = square_distance(a, b), bc = square_distance(b, c), ca = square_distance(c, a);
+    const Batch bx = b.x - a.x, by = b.y - a.y, cx = c.x - a.x, cy = c.y - a.y;
+    const Batch scale = Batch(0.5) / (bx * cy - by * cx);
+    const Point offset{(cy * ab - by * ca) * scale, (bx * ca - cx * ab) * scale};
+    Basis result{a, b, c, {a.x + offset.x, a.y + offset.y}, offset.x * offset.x + offset.y * offset.y, {}};
+    const Mask beside_ca = ca >= ab + bc, beside_bc = bc >= ab + ca, beside_ab = ab >= bc + ca;
+    const auto drop = [&](const Mask& where, const Point& from, const Point& to, const Batch& square) {
+      result.a = select(where, from, result.a);
+      result.b = select(where, to, result.b);
+      result.c = select(where, to, result.c);
+      result.centre = select(where, middle(from, to), result.centre);
+      result.square_radius = select(where, Batch(0.25) * square, result.square_radius);
+    };
+    drop(beside_ca, c, a, ca);
+    drop(beside_bc, b, c, bc);
+    drop(beside_ab, a, b, ab);
+    result.is_pair = beside_ca | beside_bc | beside_ab;
+    return result;
+  }
+
+  static Basis pivot(const Basis& old, const Point& q) {
+    const Batch a = square_distance(old.a, q), b = square_distance(old.b, q), c = square_distance(old.c, q);
+    const Mask b_far = b > a, c_far = c > xsimd::max(a, b);
+    const Point far = select(c_far, old.c, select(b_far, old.b, old.a));
+    const Point next = select(c_far, old.a, select(b_far, old.c, old.b));
+    const Point last = select(c_far, old.b, select(b_far, old.a, old.c));
+    const Batch x = old.centre.x - far.x, y = old.centre.y - far.y;
+    const auto side = [&](const Point& p) { return x * (p.y - far.y) - y * (p.x - far.x); };
+    const Point beyond = select(side(q) * side(next) <= Batch(0.0), next, last);
+    return basis(q, select(old.is_pair, old.a, far), select(old.is_pair, old.b, beyond));
+  }
+
+  /// As many sets as there are lanes, point after point; sets with fewer points than others repeat their
+  /// last.
+  class Block {
+   public:
+    Block(const DiscSets& job, std::size_t begin, std::size_t end) : job_(job), begin_(begin), end_(end) {
+      const Vec2* first[width];
+      std::size_t last[width];
+      for (std::size_t lane = 0; lane < width; ++lane) {
+        const PointRange range = job.sets[job.order[set(lane)]];
+        first[lane] = job.points + range.begin;
+        last[lane] = range.end - range.begin - 1;
+      }
+      count_ = last[width - 1] + 1;
+      for (std::size_t k = 0; k <= count_; ++k)
+        for (std::size_t lane = 0; lane < width; ++lane) {
+          const Vec2 p = first[lane][k < last[lane] ? k : last[lane]];
+          job.scratch[2 * k * width + lane] = static_cast<double>(p.x);
+          job.scratch[(2 * k + 1) * width + lane] = static_cast<double>(p.y);
+        }
+    }
+
+    /// Up to four points. A smallest disc is that of two or three of the points, and the largest of theirs.
+    void solve_small() const {
+      const auto at = [&](std::size_t k) { return point(k < count_ ? k : count_ - 1); };
+      const Point a = at(0), b = at(1), c = at(2), d = at(3);
+      Basis best = basis(a, b, c);
+      const auto offer = [&](const Basis& other) {
+        const Mask larger = other.square_radius > best.square_radius;
+        best.centre = select(larger, other.centre, best.centre);
+        best.square_radius = select(larger, other.square_radius, best.square_radius);
+      };
+      offer(basis(a, b, d));
+      offer(basis(a, c, d));
+      offer(basis(b, c, d));
+      store(best.centre);
+    }
+
+    void solve_large() const {
+      const Point a = farthest(point(0)).point, b = farthest(a).point;
+      const Batch ab = square_distance(a, b);
+      Basis now{a, b, b, middle(a, b), Batch(0.25) * ab, ab >= Batch(0.0)};
+      Point best = now.centre;
+      Batch least(HUGE_VAL);
+      Mask open = now.is_pair;
+      for (int i = 0; i < most_disc_pivots; ++i) {
+        const Farthest q = farthest(now.centre);
+        const Mask better = open & (q.square < least);
+        best = select(better, now.centre, best);
+        least = select(better, q.square, least);
+        open = open & (q.square > now.square_radius * Batch(disc_slack));
+        if (!xsimd::any(open)) break;
+        const Basis next = pivot(now, q.point);
+        open = open & (next.square_radius > now.square_radius);
+        now.a = select(open, next.a, now.a);
+        now.b = select(open, next.b, now.b);
+        now.c = select(open, next.c, now.c);
+        now.centre = select(open, next.centre, now.centre);
+        now.square_radius = select(open, next.square_radius, now.square_radius);
+        now.is_pair = (open & next.is_pair) | (now.is_pair & !open);
+      }
+      store(best);
+    }
+
+   private:
+    struct Farthest {
+      Point point;
+      Batch square;
+    };
+
+    /// Which set is in a lane; the last one is also in those that are left over.
+    std::size_t set(std::size_t lane) const { return begin_ + lane < end_ ? begin_ + lane : end_ - 1; }
+
+    Point point(std::size_t k) const {
+      return {Batch::load_unaligned(job_.scratch + 2 * k * width),
+              Batch::load_unaligned(job_.scratch + (2 * k + 1) * width)};
+    }
+
+    static void keep_farther(Farthest& best, const Point& p, const Batch& square) {
+      best.point = select(square > best.square, p, best.point);
+      best.square = xsimd::max(best.square, square);
+    }
+
+    /// In two chains, because each waits for its last comparison.
+    Farthest farthest(const Point& from) const {
+      Farthest even{point(0), square_distance(point(0), from)}, odd = even;
+      for (std::size_t k = 1; k < count_; k += 2) {
+        const Point p = point(k), q = point(k + 1);
+        keep_farther(odd, p, square_distance(p, from));
+        keep_farther(even, q, square_distance(q, from));
+      }
+      keep_farther(odd, even.point, even.square);
+      return odd;
+    }
+
+    /// Rounds the centre to float and reaches for every point from there.
+    void store(const Point& exact) const {
+      alignas(64) double x[width], y[width], square[width];
+      exact.x.store_aligned(x);
+      exact.y.store_aligned(y);
+      Vec2 centre[width];
+      for (std::size_t lane = 0; lane < width; ++lane) {
+        centre[lane].x = static_cast<float>(x[lane]), centre[lane].y = static_cast<float>(y[lane]);
+        x[lane] = static_cast<double>(centre[lane].x), y[lane] = static_cast<double>(centre[lane].y);
+      }
+      const Point from{Batch::load_aligned(x), Batch::load_aligned(y)};
+      Batch largest(0.0);
+      for (std::size_t k = 0; k < count_; ++k) largest = xsimd::max(largest, square_distance(point(k), from));
+      largest.store_aligned(square);
+      for (std::size_t lane = 0; lane < width; ++lane)
+        job_.discs[job_.order[set(lane)]] = {centre[lane], square[lane]};
+    }
+
+    const DiscSets& job_;
+    std::size_t begin_, end_;
+    std::size_t count_ = 0;
+  };
+};
+
+}  // namespace bch
