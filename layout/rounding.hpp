@@ -77,11 +77,11 @@ constexpr double largest_reach = 1e6;     // metres
 constexpr double largest_position = 1e9;  // metres
 constexpr double largest_heading = 1e9;   // radians
 
-/// The smallest float that is not below a finite value >= 0.
+/// The smallest float that is not below a finite value >= 0. Without a branch, which would be a coin toss.
 inline float round_up(double value) {
   const float nearest = static_cast<float>(value);
-  if (static_cast<double>(nearest) >= value) return nearest;
-  return std::bit_cast<float>(std::bit_cast<std::uint32_t>(nearest) + 1);
+  return std::bit_cast<float>(std::bit_cast<std::uint32_t>(nearest) +
+                              std::uint32_t{static_cast<double>(nearest) < value});
 }
 
 }  // namespace bch::rounding

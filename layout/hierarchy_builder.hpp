@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "layout/enclosing_discs.hpp"
+#include "layout/hierarchy.hpp"
+#include "layout/hierarchy_bounds.hpp"
+#include "layout/hierarchy_split.hpp"
+
+namespace bch {
+
+/// Builds one hierarchy after the other and reuses its memory and theirs: once both have seen the largest,
+/// nothing is allocated. Not for two threads at a time.
+class HierarchyBuilder {
+ public:
+  /// As contour_hierarchy() documents. After an exception the hierarchy has no nodes.
+  void contour(const Outline& outline, float threshold, SplitRule rule, Hierarchy& hierarchy);
+
+  /// As projected_hierarchy() documents. After an exception the hierarchy has no nodes.
+  void projected(std::span<const Vec2> vertices, std::span<const std::array<std::uint32_t, 3>> triangles,
+                 Hierarchy& hierarchy);
+
+ private:
+  /// A node still to be made: items of the order.
+  struct Open {
+    std::uint32_t begin, end;
+    std::uint32_t second_child_of;  ///< the node to be told this one's index, if it is not the next
+  };
+  /// A segment's node whose second half, from its centre to this end, is still to be made.
+  struct Half {
+    std::uint32_t node;
+    Vec2 end;
+  };
+  /// A node of several items, whose disc is solved once the order of all items is final.
+  struct Unsolved {
+    std::uint32_t node;
+    std::uint32_t begin, end;  ///< of the order
+  };
+
+  void begin(double reach, double margin, double threshold);
+  void add_segment(Vec2 a, Vec2 b);
+  void add_triangle(const Element& triangle);
+  void grow(bool through_centre);
+  void add_node(Open open, bool through_centre);
+  void add_halves(Vec2 a, Vec2 b, std::uint32_t source);
+  std::uint32_t add_node();
+  void add_element(const Element& element, std::uint32_t source);
+  bool is_leaf(std::span<const std::uint32_t> order, const SplitMeasure& box);
+  void gather_points(std::span<const std::uint32_t> order);
+  void solve_discs();
+  void publish(Hierarchy& hierarchy);
+
+  double margin_ = 0, threshold_ = 0;
+  double sure_square_diagonal_ = 0;   ///< a node whose box has a shorter one is a leaf
+  double longest_square_length_ = 0;  ///< of a segment that is not halved
+
+  std::vector<SplitItem> items_;
+  std::vector<Element> item_elements_;
+  std::vector<std::uint32_t> order_, scratch_;
+  std::vector<Open> open_;
+  std::array<Half, 256> halves_;  ///< lengths span fewer binary orders of magnitude
+
+  std::uint32_t node_count_ = 0, element_count_ = 0;
+  HierarchyArrays nodes_;
+  std::vector<Element> elements_;
+  std::vector<std::uint32_t> sources_;
+  std::vector<Unsolved> unsolved_;
+
+  /// Of the gathered items, in order; a point that ends one and begins the next stands once.
+  std::vector<Vec2> points_;
+  std::vector<std::uint32_t> first_point_, last_point_;  ///< per gathered item
+  std::vector<PointRange> sets_;
+  std::vector<SolvedDisc> discs_;
+  EnclosingDiscs solver_;
+};
+
+/// Throws std::invalid_argument on a reach outside rounding.hpp's domain.
+void require_reach(double reach);
+
+}  // namespace bch
