@@ -13,7 +13,6 @@
 #include "layout/enclosure.hpp"
 #include "layout/interior.hpp"
 #include "layout/rounding.hpp"
-#include "layout/supports.hpp"
 #include "layout/wide_tree.hpp"
 
 namespace bch {
@@ -39,14 +38,24 @@ ShapeSet::ShapeSet(std::span<const Shape> shapes, const ShapeSetPlan& plan) : de
   if (shapes.size() * plan.depths.size() > std::numeric_limits<std::uint32_t>::max())
     throw std::length_error("shape set: more than 2^32 roots");
   if (plan.solid) shape_contours_.push_back(0), contour_points_.push_back(0);
+  Flattener flattener;
+  WideTree tree;
+  InteriorBuilder interiors;
   for (std::size_t s = 0; s < shapes.size(); ++s) {
     const auto& [outline, hierarchy] = shapes[s];
     if (hierarchy.nodes.empty())
       throw std::invalid_argument("shape set: shape " + std::to_string(s) + " has no nodes");
     reach_.push_back(rounding::round_up(hierarchy.reach));
-    for (const std::uint32_t depth : plan.depths) add_level(hierarchy, depth, plan.shortcuts);
+    flattener.begin(hierarchy);
+    for (const std::uint32_t depth : plan.depths) {
+      flattener.flatten(depth, tree);
+      add_level(tree);
+      if (!plan.shortcuts) continue;
+      const Supports heights = flattener.supports();
+      support_.insert(support_.end(), heights.begin(), heights.end());
+    }
     if (plan.solid) add_outline(outline);
-    if (plan.shortcuts && plan.depths.back() > 0) add_interior(outline, hierarchy.reach);
+    if (plan.shortcuts && plan.depths.back() > 0) add_interior(outline, hierarchy.reach, interiors);
   }
   // Single discs need blocks only to meet those that are not.
   if (std::all_of(roots_.begin(), roots_.end(), [](const Root& root) { return root.is_single == 1; })) {
@@ -56,9 +65,8 @@ ShapeSet::ShapeSet(std::span<const Shape> shapes, const ShapeSetPlan& plan) : de
   }
 }
 
-void ShapeSet::add_level(const Hierarchy& hierarchy, std::uint32_t depth, bool shortcuts) {
-  const WideTree tree = wide_tree(hierarchy, depth);
-  const std::size_t first_block = (nodes_.size() + 15) / 16 * 16, count = tree.discs.size();
+void ShapeSet::add_level(const WideTree& tree) {
+  const std::size_t first_block = (nodes_.size() + 15) / 16 * 16, count = tree.x.size();
   const std::size_t first_disc = first_block + tree.blocks.size() * block_floats;
   if (first_disc + 3 * count + block_floats >= leaf_window)
     throw std::length_error("shape set: more than 2^31 numbers in nodes");
@@ -76,26 +84,19 @@ void ShapeSet::add_level(const Hierarchy& hierarchy, std::uint32_t depth, bool s
       nodes_.insert(nodes_.end(), field, field + block_width);
     for (const std::uint32_t child : block.child) nodes_.push_back(std::bit_cast<float>(name(child)));
   }
-  for (const Disc& disc : tree.discs) nodes_.push_back(disc.x);
-  for (const Disc& disc : tree.discs) nodes_.push_back(disc.y);
-  for (const Disc& disc : tree.discs) nodes_.push_back(disc.radius);
-  if (shortcuts) {
-    std::vector<Disc> discs;
-    for (const std::uint32_t node : cut(hierarchy, depth)) discs.push_back(hierarchy.nodes[node].disc);
-    const Supports heights = supports(discs, hierarchy.reach);
-    support_.insert(support_.end(), heights.begin(), heights.end());
-  }
+  for (const std::vector<float>* field : {&tree.x, &tree.y, &tree.radius})
+    nodes_.insert(nodes_.end(), field->begin(), field->end());
 }
 
 /// A shape without an outline has no inscribed discs: padding, which overlaps nothing.
-void ShapeSet::add_interior(const Outline& outline, double reach) {
+void ShapeSet::add_interior(const Outline& outline, double reach, InteriorBuilder& builder) {
   constexpr float infinity = std::numeric_limits<float>::infinity();
   Interior inside{};
   Enclosure around{0, 0, infinity, -infinity};
   inside.x.fill(infinity);
   if (outline.contours() > 0) {
     validate(outline);
-    inside = interior(outline, reach);
+    inside = builder.build(outline, reach);
     around = enclosure(outline, reach);
   }
   enclosures_.push_back(around);

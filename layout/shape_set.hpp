@@ -15,6 +15,9 @@
 
 namespace bch {
 
+class InteriorBuilder;
+struct WideTree;
+
 /// One pose of a character.
 struct Shape {
   Outline outline;
@@ -53,8 +56,8 @@ class ShapeSet {
   std::size_t bytes() const noexcept;
 
  private:
-  void add_level(const Hierarchy& hierarchy, std::uint32_t depth, bool shortcuts);
-  void add_interior(const Outline& outline, double reach);
+  void add_level(const WideTree& tree);
+  void add_interior(const Outline& outline, double reach, InteriorBuilder& builder);
   void add_outline(const Outline& outline);
 
   std::vector<std::uint32_t> depths_;

@@ -3,28 +3,50 @@
 
 #include "layout/supports.hpp"
 
-#include <algorithm>
 #include <numbers>
+#include <vector>
 
+#include "layout/cut_lanes.hpp"
 #include "layout/heading.hpp"
 #include "layout/rounding.hpp"
 
 namespace bch {
+namespace {
 
-Supports supports(std::span<const Disc> discs, double reach) {
+struct Directions {
+  std::array<float, support_directions> cosine, sine;
+
+  Directions() {
+    for (std::uint32_t k = 0; k < support_directions; ++k) {
+      const Rotation direction = rotation(2 * std::numbers::pi * k / support_directions);
+      cosine[k] = static_cast<float>(direction.cosine);
+      sine[k] = static_cast<float>(direction.sine);
+    }
+  }
+};
+
+}  // namespace
+
+/// In float, which is off by 0.71 u of the reach for the direction, 1.42 u for the products, u and 2 u for
+/// the sums: 5.2 u, of the 34 u that rounding.hpp's margin has above what it derives.
+Supports supports(const float* x, const float* y, const float* radius, std::uint32_t count, double reach) {
+  static const Directions directions;
+  std::array<float, support_directions> largest;
+  CutLanes<xsimd::sse2>::heights({x, y, radius, count}, directions.cosine.data(), directions.sine.data(),
+                                 largest.data());
   Supports heights;
   for (std::uint32_t k = 0; k < support_directions; ++k) {
-    const Rotation direction = rotation(2 * std::numbers::pi * k / support_directions);
-    double largest = -3 * reach;
-    for (const Disc& disc : discs)
-      largest = std::max(largest, direction.cosine * static_cast<double>(disc.x) +
-                                      direction.sine * static_cast<double>(disc.y) +
-                                      static_cast<double>(disc.radius));
-    largest += rounding::support_margin * reach;
     const std::uint32_t at = k % 2 * support_directions + k / 2;
-    heights[at] = heights[at + support_directions / 2] = static_cast<float>(largest);
+    heights[at] = heights[at + support_directions / 2] =
+        static_cast<float>(static_cast<double>(largest[k]) + rounding::support_margin * reach);
   }
   return heights;
+}
+
+Supports supports(std::span<const Disc> discs, double reach) {
+  std::vector<float> x, y, radius;
+  for (const Disc& disc : discs) x.push_back(disc.x), y.push_back(disc.y), radius.push_back(disc.radius);
+  return supports(x.data(), y.data(), radius.data(), static_cast<std::uint32_t>(discs.size()), reach);
 }
 
 }  // namespace bch

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <span>
 
 #include "layout/disc.hpp"
@@ -23,5 +24,8 @@ using Supports = std::array<float, support_stride>;
 
 /// `reach` as in rounding.hpp, metres.
 Supports supports(std::span<const Disc> discs, double reach);
+
+/// Of one disc or more in arrays.
+Supports supports(const float* x, const float* y, const float* radius, std::uint32_t count, double reach);
 
 }  // namespace bch

@@ -4,154 +4,168 @@
 #include "layout/wide_tree.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
-#include <optional>
-#include <span>
+#include <utility>
 
+#include "layout/cut_lanes.hpp"
 #include "layout/rounding.hpp"
 
 namespace bch {
 namespace {
 
-/// A run of the cut's discs, and where it is a subtree of the binary tree, that subtree's root.
-struct Group {
-  std::uint32_t begin, end;  ///< in the list of cut discs
-  std::uint32_t node;        ///< of the hierarchy; used by subtree grouping only
+using Lanes = CutLanes<xsimd::sse2>;
 
-  std::uint32_t size() const { return end - begin; }
-};
+/// Discs that may be read beyond a run's.
+constexpr std::size_t padding = 16;
 
-class Flattener {
- public:
-  Flattener(const Hierarchy& hierarchy, std::uint32_t depth)
-      : hierarchy_(hierarchy), cut_(cut(hierarchy, depth)) {}
-
-  WideTree flatten() {
-    if (auto tree = grow(&Flattener::subtrees)) return std::move(*tree);
-    return std::move(*grow(&Flattener::even_runs));
-  }
-
- private:
-  using Groups = std::vector<Group>;
-
-  /// Breadth first. Empty where the tree would be too deep.
-  std::optional<WideTree> grow(Groups (Flattener::*split)(const Group&) const) {
-    WideTree tree;
-    for (std::uint32_t i = 0; i < cut_.size(); ++i) tree.discs.push_back(disc(i));
-    tree.discs.resize(std::max<std::size_t>(cut_.size(), block_width), padding);
-    tree.is_single = cut_.size() == 1;
-    const Group all{0, static_cast<std::uint32_t>(cut_.size()), 0};
-    tree.root = tree.is_single ? disc(0) : enclosing(all);
-    tree.top = is_window(all) ? window(all) : 0;
-
-    std::vector<Group> level;
-    if (!is_window(all)) level.push_back(all);
-    for (std::uint32_t depth = 1; !level.empty(); ++depth) {
-      if (depth == most_wide_levels) return std::nullopt;
-      std::vector<Group> next;
-      const auto next_block = static_cast<std::uint32_t>(tree.blocks.size() + level.size());
-      for (const Group& group : level) {
-        const Groups parts = (this->*split)(group);
-        WideTree::Block& block = tree.blocks.emplace_back();
-        for (std::uint32_t lane = 0; lane < block_width; ++lane) {
-          const Disc around = lane < parts.size() ? enclosing(parts[lane]) : padding;
-          block.discs.x[lane] = around.x, block.discs.y[lane] = around.y,
-          block.discs.radius[lane] = around.radius;
-          if (lane >= parts.size()) continue;
-          if (is_window(parts[lane])) {
-            block.child[lane] = window(parts[lane]);
-          } else {
-            block.child[lane] = next_block + static_cast<std::uint32_t>(next.size());
-            next.push_back(parts[lane]);
-          }
-        }
-      }
-      level = std::move(next);
-    }
-    return tree;
-  }
-
-  static constexpr Disc padding{std::numeric_limits<float>::infinity(), 0, 0};
-
-  static bool is_window(const Group& group) { return group.size() <= block_width; }
-
-  std::uint32_t window(const Group& group) const {
-    const auto count = static_cast<std::uint32_t>(cut_.size());
-    return leaf_window + std::min(group.begin, count < block_width ? 0 : count - block_width);
-  }
-
-  /// The binary node's descendants, the one with most of the cut's discs expanded first. What fits into one window stays whole.
-  Groups subtrees(const Group& group) const {
-    Groups parts = children(group);
-    while (parts.size() < block_width) {
-      const auto worth = [&](const Group& g) {
-        if (g.size() == 1) return 0.0;
-        return static_cast<double>(enclosing(g).radius) * g.size();
-      };
-      const auto largest = std::max_element(
-          parts.begin(), parts.end(), [&](const Group& a, const Group& b) { return worth(a) < worth(b); });
-      if (worth(*largest) == 0) break;
-      const Groups expanded = children(*largest);
-      *largest = expanded[0];
-      parts.insert(largest + 1, expanded[1]);
-    }
-    return parts;
-  }
-
-  Groups children(const Group& group) const {
-    const std::uint32_t second = hierarchy_.nodes[group.node].second_child;
-    const auto middle = std::lower_bound(cut_.begin() + group.begin, cut_.begin() + group.end, second);
-    const auto split = static_cast<std::uint32_t>(middle - cut_.begin());
-    return {{group.begin, split, group.node + 1}, {split, group.end, second}};
-  }
-
-  Groups even_runs(const Group& group) const {
-    Groups parts;
-    const std::uint32_t count = std::min(group.size(), block_width);
-    for (std::uint32_t i = 0; i < count; ++i) {
-      const auto at = [&](std::uint64_t k) {
-        return static_cast<std::uint32_t>(group.begin + k * group.size() / count);
-      };
-      parts.push_back({at(i), at(i + 1), 0});
-    }
-    return parts;
-  }
-
-  const Disc& disc(std::uint32_t i) const { return hierarchy_.nodes[cut_[i]].disc; }
-
-  /// A disc about the middle of the centres' extent, or about the binary node's centre, whichever is smaller.
-  Disc enclosing(const Group& group) const {
-    const Disc& node = hierarchy_.nodes[group.node].disc;
-    float low_x = HUGE_VALF, low_y = HUGE_VALF, high_x = -HUGE_VALF, high_y = -HUGE_VALF;
-    for (std::uint32_t i = group.begin; i < group.end; ++i) {
-      low_x = std::min(low_x, disc(i).x), high_x = std::max(high_x, disc(i).x);
-      low_y = std::min(low_y, disc(i).y), high_y = std::max(high_y, disc(i).y);
-    }
-    const Disc about_node = enclosing(group, {node.x, node.y});
-    const Disc about_middle = enclosing(group, {0.5f * (low_x + high_x), 0.5f * (low_y + high_y)});
-    return about_node.radius <= about_middle.radius ? about_node : about_middle;
-  }
-
-  Disc enclosing(const Group& group, Vec2 centre) const {
-    double radius = 0;
-    for (std::uint32_t i = group.begin; i < group.end; ++i) {
-      const double x = static_cast<double>(disc(i).x) - static_cast<double>(centre.x);
-      const double y = static_cast<double>(disc(i).y) - static_cast<double>(centre.y);
-      radius = std::max(radius, std::sqrt(x * x + y * y) + static_cast<double>(disc(i).radius));
-    }
-    return {centre.x, centre.y,
-            rounding::round_up(radius * (1 + 0x1p-50) + rounding::nesting_margin * hierarchy_.reach)};
-  }
-
-  const Hierarchy& hierarchy_;
-  std::vector<std::uint32_t> cut_;
-};
+constexpr WideTree::Block empty_block = [] {
+  WideTree::Block block{};
+  for (float& x : block.discs.x) x = std::numeric_limits<float>::infinity();
+  return block;
+}();
 
 }  // namespace
 
+void Flattener::begin(const Hierarchy& hierarchy) {
+  hierarchy_ = &hierarchy;
+  const std::size_t count = hierarchy.nodes.size();
+  position_.resize(count);
+  for (auto* array : {&x_, &y_, &radius_}) array->resize(std::max(array->size(), count + padding));
+}
+
+void Flattener::cut(std::uint32_t depth) {
+  const auto& nodes = hierarchy_->nodes;
+  count_ = 0;
+  const auto visit = [&](std::uint32_t node, bool is_cut) {
+    const Disc& disc = nodes[node].disc;
+    position_[node] = count_;
+    x_[count_] = disc.x, y_[count_] = disc.y, radius_[count_] = disc.radius;
+    count_ += is_cut;
+  };
+  if (depth == all_depths) {
+    for (std::uint32_t i = 0; i < nodes.size(); ++i) visit(i, nodes[i].is_leaf());
+    return;
+  }
+  open_.assign(1, {0, depth});
+  while (!open_.empty()) {
+    auto [node, left] = open_.back();
+    open_.pop_back();
+    for (; left > 0 && !nodes[node].is_leaf(); ++node) {
+      visit(node, false);
+      open_.push_back({nodes[node].second_child, --left});
+    }
+    visit(node, true);
+  }
+}
+
+void Flattener::flatten(std::uint32_t depth, WideTree& tree) {
+  cut(depth);
+  tree.is_single = count_ == 1;
+  const std::uint32_t padded = std::max(count_, block_width);
+  std::fill(x_.begin() + count_, x_.begin() + padded, std::numeric_limits<float>::infinity());
+  std::fill(y_.begin() + count_, y_.begin() + padded, 0.0f);
+  std::fill(radius_.begin() + count_, radius_.begin() + padded, 0.0f);
+  tree.x.assign(x_.begin(), x_.begin() + padded);
+  tree.y.assign(y_.begin(), y_.begin() + padded);
+  tree.radius.assign(radius_.begin(), radius_.begin() + padded);
+  if (!grow(&Flattener::subtrees, tree)) grow(&Flattener::even_runs, tree);
+}
+
+/// Breadth first. False where the tree would be too deep.
+bool Flattener::grow(Split split, WideTree& tree) {
+  const Group all{0, count_, 0};
+  tree.root = tree.is_single ? Disc{x_[0], y_[0], radius_[0]} : enclosing(all);
+  tree.top = is_window(all) ? window(all) : 0;
+  tree.blocks.clear();
+  level_.clear();
+  if (!is_window(all)) level_.push_back(all);
+  for (std::uint32_t depth = 1; !level_.empty(); ++depth) {
+    if (depth == most_wide_levels) return false;
+    next_.clear();
+    const auto next_block = static_cast<std::uint32_t>(tree.blocks.size() + level_.size());
+    for (const Group& group : level_) {
+      const Parts parts = (this->*split)(group);
+      WideTree::Block& block = tree.blocks.emplace_back(empty_block);
+      for (std::uint32_t i = 0; i < parts.count; ++i) {
+        const Disc around = enclosing(parts.group[i]);
+        block.discs.x[i] = around.x, block.discs.y[i] = around.y, block.discs.radius[i] = around.radius;
+        block.child[i] = is_window(parts.group[i]) ? window(parts.group[i])
+                                                   : next_block + static_cast<std::uint32_t>(next_.size());
+        if (!is_window(parts.group[i])) next_.push_back(parts.group[i]);
+      }
+    }
+    std::swap(level_, next_);
+  }
+  return true;
+}
+
+std::uint32_t Flattener::window(const Group& group) const {
+  return leaf_window + std::min(group.begin, count_ < block_width ? 0 : count_ - block_width);
+}
+
+/// Of expanding a group.
+double Flattener::worth(const Group& group) const {
+  if (group.size() == 1) return 0;
+  return static_cast<double>(hierarchy_->nodes[group.node].disc.radius) * group.size();
+}
+
+Flattener::Parts Flattener::subtrees(const Group& group) const {
+  Parts parts;
+  parts.group[parts.count++] = group;
+  while (parts.count < block_width) {
+    std::uint32_t best = 0;
+    for (std::uint32_t i = 1; i < parts.count; ++i)
+      best = worth(parts.group[i]) > worth(parts.group[best]) ? i : best;
+    if (parts.group[best].size() == 1) break;
+    expand(parts, best);
+  }
+  return parts;
+}
+
+/// Replaces a group by those of its node's children.
+void Flattener::expand(Parts& parts, std::uint32_t index) const {
+  for (std::uint32_t i = parts.count++; i > index + 1; --i) parts.group[i] = parts.group[i - 1];
+  Group& first = parts.group[index];
+  const std::uint32_t second = hierarchy_->nodes[first.node].second_child;
+  parts.group[index + 1] = {position_[second], first.end, second};
+  first = {first.begin, position_[second], first.node + 1};
+}
+
+Flattener::Parts Flattener::even_runs(const Group& group) const {
+  Parts parts;
+  parts.count = std::min(group.size(), block_width);
+  const auto at = [&](std::uint64_t k) {
+    return static_cast<std::uint32_t>(group.begin + k * group.size() / parts.count);
+  };
+  for (std::uint32_t i = 0; i < parts.count; ++i) parts.group[i] = {at(i), at(i + 1), 0};
+  return parts;
+}
+
+/// A disc about the middle of the centres' extent, or about the binary node's centre, whichever is smaller.
+Disc Flattener::enclosing(const Group& group) const {
+  const DiscRun run{x_.data() + group.begin, y_.data() + group.begin, radius_.data() + group.begin,
+                    group.size()};
+  const Disc& node = hierarchy_->nodes[group.node].disc;
+  const auto [low, high] = Lanes::extent(run);
+  const Vec2 centre[2] = {{node.x, node.y}, {0.5f * (low.x + high.x), 0.5f * (low.y + high.y)}};
+  float radius[2];
+  Lanes::radii(run, centre, radius);
+  const int smaller = radius[0] <= radius[1] ? 0 : 1;
+  return {centre[smaller].x, centre[smaller].y,
+          rounding::round_up(static_cast<double>(radius[smaller]) * (1 + 0x1p-21) +
+                             rounding::nesting_margin * hierarchy_->reach)};
+}
+
+Supports Flattener::supports() const {
+  return bch::supports(x_.data(), y_.data(), radius_.data(), count_, hierarchy_->reach);
+}
+
 WideTree wide_tree(const Hierarchy& hierarchy, std::uint32_t depth) {
-  return Flattener(hierarchy, depth).flatten();
+  WideTree tree;
+  Flattener flattener;
+  flattener.begin(hierarchy);
+  flattener.flatten(depth, tree);
+  return tree;
 }
 
 }  // namespace bch

@@ -26,10 +26,10 @@ bool holds(const Disc& outer, const Disc& inner) {
 /// that all discs above hold (a window may show neighbours of its group as well).
 class Walk {
  public:
-  explicit Walk(const WideTree& tree) : tree_(tree), reached_(tree.discs.size()) {
+  explicit Walk(const WideTree& tree) : tree_(tree), reached_(tree.x.size()) {
     visit(tree.top, {tree.root}, 1);
     for (std::size_t i = 0; i < reached_.size(); ++i)
-      if (reached_[i]) discs.push_back(tree.discs[i]);
+      if (reached_[i]) discs.push_back({tree.x[i], tree.y[i], tree.radius[i]});
   }
   std::vector<Disc> discs;
   std::uint32_t levels = 0;
@@ -52,9 +52,9 @@ class Walk {
   }
 
   void reach(std::uint32_t first, const std::vector<Disc>& above) {
-    ASSERT_LE(first + block_width, tree_.discs.size());
+    ASSERT_LE(first + block_width, tree_.x.size());
     for (std::uint32_t i = first; i < first + block_width; ++i) {
-      const Disc& disc = tree_.discs[i];
+      const Disc disc{tree_.x[i], tree_.y[i], tree_.radius[i]};
       const bool held = tree_.is_single || std::all_of(above.begin(), above.end(),
                                                        [&](const Disc& outer) { return holds(outer, disc); });
       if (!std::isinf(disc.x) && held) reached_[i] = true;

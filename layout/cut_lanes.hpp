@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <xsimd/xsimd.hpp>
+
+#include "layout/disc.hpp"
+#include "layout/shape_set_view.hpp"
+
+namespace bch {
+
+/// Discs side by side; whole registers may be read from `count` - 1 on.
+struct DiscRun {
+  const float *x, *y, *radius;
+  std::uint32_t count;
+};
+
+struct Extent {
+  Vec2 low, high;
+};
+
+/// Loops over a cut's discs.
+template <class Arch>
+class CutLanes {
+ public:
+  /// Of the discs' centres.
+  static Extent extent(const DiscRun& run) noexcept {
+    Batch low_x(infinity), low_y(infinity), high_x(-infinity), high_y(-infinity);
+    for_each(run, [&](const Batch& x, const Batch& y, const Batch&, const Mask& there) {
+      low_x = xsimd::min(low_x, xsimd::select(there, x, low_x));
+      low_y = xsimd::min(low_y, xsimd::select(there, y, low_y));
+      high_x = xsimd::max(high_x, xsimd::select(there, x, high_x));
+      high_y = xsimd::max(high_y, xsimd::select(there, y, high_y));
+    });
+    return {{-largest(-low_x), -largest(-low_y)}, {largest(high_x), largest(high_y)}};
+  }
+
+  /// Radii of the discs about two centres that hold a run, to 5 units in the last place.
+  static void radii(const DiscRun& run, const Vec2 (&about)[2], float (&radius)[2]) noexcept {
+    const Batch a_x(about[0].x), a_y(about[0].y), b_x(about[1].x), b_y(about[1].y);
+    Batch a(0.0f), b(0.0f);
+    for_each(run, [&](const Batch& x, const Batch& y, const Batch& r, const Mask& there) {
+      const auto reach = [&](const Batch& dx, const Batch& dy) {
+        return xsimd::select(there, xsimd::sqrt(dx * dx + dy * dy) + r, Batch(0.0f));
+      };
+      a = xsimd::max(a, reach(x - a_x, y - a_y));
+      b = xsimd::max(b, reach(x - b_x, y - b_y));
+    });
+    radius[0] = largest(a);
+    radius[1] = largest(b);
+  }
+
+  /// The run's extents along support_directions directions, to 6 units in the last place of its reach.
+  static void heights(const DiscRun& run, const float* cosine, const float* sine, float* height) noexcept {
+    constexpr std::size_t parts = support_directions / Batch::size;
+    Batch c[parts], s[parts], h[parts];
+    for (std::size_t k = 0; k < parts; ++k) {
+      c[k] = Batch::load_unaligned(cosine + k * Batch::size);
+      s[k] = Batch::load_unaligned(sine + k * Batch::size);
+      h[k] = Batch(-infinity);
+    }
+    for (std::uint32_t i = 0; i < run.count; ++i) {
+      const Batch x(run.x[i]), y(run.y[i]), r(run.radius[i]);
+      for (std::size_t k = 0; k < parts; ++k) h[k] = xsimd::max(h[k], c[k] * x + s[k] * y + r);
+    }
+    for (std::size_t k = 0; k < parts; ++k) h[k].store_unaligned(height + k * Batch::size);
+  }
+
+ private:
+  using Batch = xsimd::batch<float, Arch>;
+  using Mask = typename Batch::batch_bool_type;
+  static constexpr float infinity = std::numeric_limits<float>::infinity();
+
+  template <class Visit>
+  static void for_each(const DiscRun& run, Visit visit) {
+    alignas(64) float lane[Batch::size];
+    for (std::size_t i = 0; i < Batch::size; ++i) lane[i] = static_cast<float>(i);
+    const Batch index = Batch::load_aligned(lane);
+    for (std::uint32_t i = 0; i < run.count; i += Batch::size)
+      visit(Batch::load_unaligned(run.x + i), Batch::load_unaligned(run.y + i),
+            Batch::load_unaligned(run.radius + i), index < Batch(static_cast<float>(run.count - i)));
+  }
+
+  static float largest(const Batch& values) {
+    alignas(64) float value[Batch::size];
+    values.store_aligned(value);
+    for (std::size_t i = 1; i < Batch::size; ++i) value[0] = value[i] > value[0] ? value[i] : value[0];
+    return value[0];
+  }
+};
+
+}  // namespace bch
