@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include "layout/hierarchy_builder.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include "layout/rounding.hpp"
+#include "layout/wide_tree.hpp"
+#include "tests/allocation_count.hpp"
+#include "tests/character_shapes.hpp"
+#include "tests/hierarchy_checks.hpp"
+#include "tests/reference_hierarchy.hpp"
+#include "tests/scenes.hpp"
+#include "tests/test_characters.hpp"
+
+namespace bch {
+namespace {
+
+void expect_as_reference(const Outline& outline, float threshold) {
+  HierarchyBuilder builder;
+  Hierarchy hierarchy;
+  for (const SplitRule rule : {SplitRule::centroid, SplitRule::centre}) {
+    builder.contour(outline, threshold, rule, hierarchy);
+    test::expect_same_tree(hierarchy, test::reference_hierarchy(outline, threshold, rule));
+    test::expect_sound(hierarchy);
+  }
+}
+
+void expect_poses_as_reference(const std::vector<Character>& characters, std::uint32_t poses) {
+  for (const Character& character : characters)
+    for (const Shape& shape : test::pose_shapes(character, poses)) expect_as_reference(shape.outline, 0.01f);
+}
+
+TEST(HierarchyBuilder, EqualsTheReferenceOnManyShapes) {
+  for (const Shape& shape : test::synthetic_shapes(31, 120))
+    for (const float threshold : {0.003f, 0.01f, 0.2f}) expect_as_reference(shape.outline, threshold);
+}
+
+TEST(HierarchyBuilder, EqualsTheReferenceOnDefaultPoses) {
+  expect_poses_as_reference(test::default_characters(), 100);
+}
+
+TEST(HierarchyBuilder, EqualsTheReferenceOnRealPoses) {
+  const auto data = test::test_data();
+  if (!data) GTEST_SKIP() << "BCH_TEST_DATA is not set: no real characters to test with";
+  expect_poses_as_reference(test::real_characters(*data), 30);
+}
+
+/// Points of a kind: on a line, on a circle, few distinct ones, anywhere; a power of two keeps them exact.
+Outline outline_of(test::Random& random, int kind, double scale) {
+  Outline outline;
+  const std::uint32_t count = 1 + random.below(60);
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const double x = random.uniform(-1, 1), angle = random.uniform(-4, 4);
+    const double y = kind == 0 ? 0.5 * x : random.uniform(-1, 1);
+    Vec2 p{static_cast<float>(x * scale), static_cast<float>(y * scale)};
+    if (kind == 1)
+      p = {static_cast<float>(std::cos(angle) * scale), static_cast<float>(std::sin(angle) * scale)};
+    if (kind == 2) p = {static_cast<float>(std::round(x) * scale), static_cast<float>(std::round(y) * scale)};
+    outline.points.push_back(p);
+  }
+  outline.points.push_back({static_cast<float>(0.75 * scale), 0});
+  outline.contour_begin.push_back(count + 1);
+  return outline;
+}
+
+TEST(HierarchyBuilder, EqualsTheReferenceOnDegenerateOutlines) {
+  test::Random random(32);
+  for (const double scale : {0x1p-19, 1.0, 0x1p19})
+    for (int kind = 0; kind < 4; ++kind)
+      for (int i = 0; i < 40; ++i)
+        expect_as_reference(outline_of(random, kind, scale),
+                            static_cast<float>(scale * random.uniform(0.01, 0.5)));
+}
+
+TEST(HierarchyBuilder, LeavesNothingHalfDone) {
+  HierarchyBuilder builder;
+  Hierarchy hierarchy;
+  const Outline outline = test::synthetic_shapes(33, 1)[0].outline;
+  builder.contour(outline, 0.01f, SplitRule::centroid, hierarchy);
+  EXPECT_THROW(builder.contour(outline, 1e-8f, SplitRule::centroid, hierarchy), std::length_error);
+  EXPECT_TRUE(hierarchy.nodes.empty());
+  builder.contour(outline, 0.01f, SplitRule::centroid, hierarchy);
+  test::expect_same_tree(hierarchy, test::reference_hierarchy(outline, 0.01f, SplitRule::centroid));
+  EXPECT_THROW(
+      builder.contour(outline, std::numeric_limits<float>::quiet_NaN(), SplitRule::centroid, hierarchy),
+      std::invalid_argument);
+  EXPECT_TRUE(hierarchy.nodes.empty());
+}
+
+/// On average: single ones may be 40 % larger.
+TEST(HierarchyBuilder, BoundsAreCloseToTheTightest) {
+  double ratios = 0;
+  std::size_t count = 0;
+  for (const Shape& shape : test::synthetic_shapes(37, 120)) {
+    const Hierarchy tightest = test::reference_hierarchy(shape.outline, 0.01f, SplitRule::centroid);
+    const Hierarchy hierarchy = contour_hierarchy(shape.outline, 0.01f);
+    ASSERT_EQ(hierarchy.nodes.size(), tightest.nodes.size());
+    for (std::size_t i = 0; i < hierarchy.nodes.size(); ++i) {
+      const HierarchyNode& node = hierarchy.nodes[i];
+      if (node.is_leaf()) continue;
+      ratios += static_cast<double>(node.bound) / static_cast<double>(tightest.nodes[i].bound);
+      ++count;
+    }
+  }
+  EXPECT_LT(ratios / static_cast<double>(count), 1.01);
+}
+
+/// Hierarchies and their levels; twice, and a second time without allocating.
+TEST(HierarchyBuilder, ReusesItsMemory) {
+  const std::vector<Shape> shapes = test::synthetic_shapes(34, 64);
+  HierarchyBuilder builder;
+  Flattener flattener;
+  Hierarchy hierarchy;
+  WideTree tree;
+  std::size_t before = 0;
+  for (int round = 0; round < 2; ++round) {
+    before = test::allocation_count();
+    for (const Shape& shape : shapes) {
+      builder.contour(shape.outline, 0.01f, SplitRule::centroid, hierarchy);
+      flattener.begin(hierarchy);
+      for (const std::uint32_t depth : {0u, 3u, 6u, all_depths}) {
+        flattener.flatten(depth, tree);
+        EXPECT_GE(flattener.supports()[0], -1e6f);
+      }
+    }
+  }
+  EXPECT_GT(before, 0u);
+  EXPECT_EQ(test::allocation_count(), before);
+}
+
+TEST(Flattener, EqualsAFreshOne) {
+  Flattener flattener;
+  WideTree tree;
+  for (const Shape& shape : test::synthetic_shapes(35, 32)) {
+    flattener.begin(shape.hierarchy);
+    for (const std::uint32_t depth : {all_depths, 0u, 6u, 3u}) {
+      flattener.flatten(depth, tree);
+      const WideTree fresh = wide_tree(shape.hierarchy, depth);
+      EXPECT_EQ(tree.root, fresh.root);
+      EXPECT_EQ(tree.is_single, fresh.is_single);
+      ASSERT_EQ(tree.blocks.size(), fresh.blocks.size());
+      for (std::size_t i = 0; i < tree.blocks.size(); ++i) {
+        EXPECT_EQ(tree.blocks[i].x, fresh.blocks[i].x);
+        EXPECT_EQ(tree.blocks[i].y, fresh.blocks[i].y);
+        EXPECT_EQ(tree.blocks[i].radius, fresh.blocks[i].radius);
+      }
+    }
+  }
+}
+
+/// Against the definition in double: rounding takes at most 8 of the margin's 192 units.
+TEST(Flattener, SupportsAreThoseOfTheCut) {
+  Flattener flattener;
+  WideTree tree;
+  for (const Shape& shape : test::synthetic_shapes(36, 32)) {
+    flattener.begin(shape.hierarchy);
+    for (const std::uint32_t depth : {0u, 3u, 6u, all_depths}) {
+      flattener.flatten(depth, tree);
+      const Supports heights = flattener.supports();
+      for (std::uint32_t k = 0; k < support_stride; ++k) {
+        const double angle = 2 * std::acos(-1.0) * k / support_directions;
+        double largest = -HUGE_VAL;
+        for (const std::uint32_t node : cut(shape.hierarchy, depth)) {
+          const Disc& disc = shape.hierarchy.nodes[node].disc;
+          largest = std::max(largest, std::cos(angle) * static_cast<double>(disc.x) +
+                                          std::sin(angle) * static_cast<double>(disc.y) +
+                                          static_cast<double>(disc.radius));
+        }
+        const double unit = rounding::unit_roundoff * shape.hierarchy.reach;
+        EXPECT_NEAR(static_cast<double>(heights[k]), largest + 192 * unit, 10 * unit) << "direction " << k;
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace bch
