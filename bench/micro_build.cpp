@@ -8,9 +8,12 @@
 
 #include "bench/fine_mesh.hpp"
 #include "bench/micro.hpp"
+#include "bench/welzl.hpp"
+#include "layout/hierarchy_builder.hpp"
 #include "layout/interior.hpp"
 #include "layout/outline_builder.hpp"
 #include "layout/skinning.hpp"
+#include "layout/wide_tree.hpp"
 
 namespace bch::bench {
 namespace {
@@ -103,10 +106,73 @@ void build_finer_outline(benchmark::State& state, Scene& scene) {
 
 void build_hierarchy(benchmark::State& state, Scene& scene) {
   const auto& shapes = scene.shapes();
-  if (contour_hierarchy(shapes[0].outline, threshold).nodes.size() != shapes[0].hierarchy.nodes.size())
+  HierarchyBuilder builder;
+  Hierarchy hierarchy;
+  builder.contour(shapes[0].outline, threshold, SplitRule::centroid, hierarchy);
+  if (hierarchy.nodes.size() != shapes[0].hierarchy.nodes.size())
     return state.SkipWithError("a hierarchy differs from the same hierarchy before");
   time_poses(state, scene, [&](std::size_t i) {
-    benchmark::DoNotOptimize(contour_hierarchy(shapes[i].outline, threshold));
+    builder.contour(shapes[i].outline, threshold, SplitRule::centroid, hierarchy);
+    benchmark::DoNotOptimize(hierarchy.nodes.data());
+  });
+}
+
+/// The points of every node that holds more than one segment or piece of one.
+struct NodePoints {
+  std::vector<Vec2> points;
+  std::vector<PointRange> nodes;
+};
+std::vector<NodePoints> node_points(Scene& scene) {
+  std::vector<NodePoints> all;
+  for (const Shape& shape : scene.shapes()) {
+    NodePoints& of_shape = all.emplace_back();
+    auto& [points, nodes] = of_shape;
+    for (const HierarchyNode& node : shape.hierarchy.nodes) {
+      if (node.element_end - node.element_begin < 2) continue;
+      const auto begin = static_cast<std::uint32_t>(points.size());
+      for (std::uint32_t e = node.element_begin; e < node.element_end; ++e) {
+        const auto& [a, b, c] = shape.hierarchy.elements[e];
+        if (points.size() == begin || !(points.back() == a)) points.push_back(a);
+        points.push_back(b);
+      }
+      nodes.push_back({begin, static_cast<std::uint32_t>(points.size())});
+    }
+  }
+  return all;
+}
+
+/// The nodes' smallest enclosing discs alone; then the same by the textbook's algorithm.
+void build_discs(benchmark::State& state, Scene& scene) {
+  const std::vector<NodePoints> all = node_points(scene);
+  EnclosingDiscs solver;
+  std::vector<SolvedDisc> discs;
+  time_poses(state, scene, [&](std::size_t i) {
+    discs.resize(all[i].nodes.size());
+    solver.solve(all[i].points, all[i].nodes, discs);
+    benchmark::DoNotOptimize(discs.data());
+  });
+}
+void build_discs_by_welzl(benchmark::State& state, Scene& scene) {
+  const std::vector<NodePoints> all = node_points(scene);
+  Welzl solver;
+  time_poses(state, scene, [&](std::size_t i) {
+    for (const auto [begin, end] : all[i].nodes)
+      benchmark::DoNotOptimize(solver(std::span(all[i].points).subspan(begin, end - begin)));
+  });
+}
+
+/// The wide trees and supports of four levels.
+void build_levels(benchmark::State& state, Scene& scene) {
+  const std::span<const Shape> shapes = scene.shapes();
+  Flattener flattener;
+  WideTree tree;
+  time_poses(state, scene, [&](std::size_t i) {
+    flattener.begin(shapes[i].hierarchy);
+    for (const std::uint32_t depth : {0u, 3u, 6u, all_depths}) {
+      flattener.flatten(depth, tree);
+      benchmark::DoNotOptimize(tree.blocks.data());
+      benchmark::DoNotOptimize(flattener.supports());
+    }
   });
 }
 
@@ -149,6 +215,12 @@ struct Stage {
 constexpr Stage stages[] = {
     {"build/skinning", build_skinning},   {"build/outline", build_outline},
     {"build/hierarchy", build_hierarchy}, {"build/interior", build_interior},
+    {"build/skinning", build_skinning},
+    {"build/outline", build_outline},
+    {"build/hierarchy", build_hierarchy},
+    {"build/discs", build_discs},
+    {"build/discs_by_welzl", build_discs_by_welzl},
+    {"build/levels", build_levels},
     {"build/shape_set", build_shape_set},
 };
 
