@@ -38,15 +38,20 @@ template <class Simd>
   constexpr unsigned rows = Simd::width > block_width ? Simd::width / block_width : 1;
   const Float c(b_in_a.c), s(b_in_a.s), tx(b_in_a.tx), ty(b_in_a.ty);
   const auto ax = Simd::eight(a.x), ay = Simd::eight(a.x + a.stride), ar = Simd::eight(a.x + 2 * a.stride);
-  std::uint64_t bits = 0;
-  for (unsigned part = 0; part < parts; ++part) {
-    const Float x = Simd::columns(b.x, part), y = Simd::columns(b.x + b.stride, part),
-                r = Simd::columns(b.x + 2 * b.stride, part);
-    const Float px = tx + (c * x - s * y), py = ty + (s * x + c * y);
+  Float px[parts], py[parts], r[parts];
 #pragma GCC unroll 8
-    for (unsigned row = 0; row < block_width; row += rows)
-      bits |= static_cast<std::uint64_t>(
-                  overlaps<Simd>(px, py, r, Simd::row(ax, row), Simd::row(ay, row), Simd::row(ar, row)))
+  for (unsigned part = 0; part < parts; ++part) {
+    const Float x = Simd::columns(b.x, part), y = Simd::columns(b.x + b.stride, part);
+    px[part] = tx + (c * x - s * y), py[part] = ty + (s * x + c * y);
+    r[part] = Simd::columns(b.x + 2 * b.stride, part);
+  }
+  std::uint64_t bits = 0;
+#pragma GCC unroll 8
+  for (unsigned row = 0; row < block_width; row += rows) {
+    const Float row_x = Simd::row(ax, row), row_y = Simd::row(ay, row), row_r = Simd::row(ar, row);
+#pragma GCC unroll 8
+    for (unsigned part = 0; part < parts; ++part)
+      bits |= std::uint64_t{overlaps<Simd>(px[part], py[part], r[part], row_x, row_y, row_r)}
               << (row * block_width + part * Simd::width);
   }
   return bits;

@@ -8,8 +8,8 @@
 
 #include "kernel/arguments.hpp"
 #include "kernel/block_test.hpp"
-#include "kernel/lanes.hpp"
 #include "kernel/chunk_pairs.hpp"
+#include "kernel/lanes.hpp"
 #include "kernel/placements.hpp"
 #include "kernel/record_fields.hpp"
 #include "kernel/separation_test.hpp"
@@ -120,10 +120,13 @@ class PairKernel {
     measure_distances();
     parted_.size = meeting_.size = 0;
     open_.move_if(parted_, [&](std::uint32_t pair) { return separation_.apart(pair, 0); });
+    if (shapes_.inscribed != nullptr) {
+      accept_by_inscribed_discs(open_);
+      accept_by_inscribed_discs(near_);
+    }
+    near_.move_if(parted_, [&](std::uint32_t pair) { return separation_.apart(pair, 0); });
     near_.move_all(open_);
-    if (shapes_.inscribed != nullptr) accept_by_inscribed_discs();
-    open_.move_if(
-        parted_, [&](std::uint32_t pair) { return separation_.apart(pair, 0) | separation_.apart(pair, 1); });
+    open_.move_if(parted_, [&](std::uint32_t pair) { return separation_.apart(pair, 1); });
     for (std::uint32_t k = 0; k < parted_.size; ++k) codes_[parted_.pair[k]] = apart;
     for (std::uint32_t k = 0; k < meeting_.size; ++k) codes_[meeting_.pair[k]] = overlap;
   }
@@ -166,17 +169,19 @@ class PairKernel {
 
   /// Where discs inside the outlines overlap, the outlines meet; in boundary semantics that counts only where
   /// neither can hold the other. See layout/interior.hpp.
-  void accept_by_inscribed_discs() noexcept {
-    open_.move_if(meeting_, [&](std::uint32_t pair) {
+  void accept_by_inscribed_discs(List& pairs) noexcept {
+    candidates_.size = nestable_.size = 0;
+    List& met = in_.mark_near_misses ? meeting_ : candidates_;
+    pairs.move_if(met, [&](std::uint32_t pair) {
       return static_cast<std::uint32_t>(overlapping_discs<Simd>(at_.transform(pair),
                                                                 inscribed(at_.shape_a[pair]),
                                                                 inscribed(at_.shape_b[pair])) != 0);
     });
     if (in_.mark_near_misses) return;
-    nestable_.size = 0;
-    meeting_.move_if(nestable_, [&](std::uint32_t pair) { return may_nest(pair); });
+    candidates_.move_if(nestable_, [&](std::uint32_t pair) { return may_nest(pair); });
+    candidates_.move_all(meeting_);
     nestable_.move_if(meeting_, [&](std::uint32_t pair) { return separation_.contours_stick_out(pair); });
-    nestable_.move_all(open_);
+    nestable_.move_all(pairs);
   }
 
   Discs inscribed(std::uint32_t shape) const noexcept { return {shapes_.inscribed[shape].x, block_width}; }
@@ -189,7 +194,7 @@ class PairKernel {
   SeparationTest<Simd> separation_;
   RecordFields<Simd, chunk> of_a_, of_b_;
   std::uint32_t open_bits_[chunk / Simd::width], may_nest_[chunk / Simd::width];  ///< a register's pairs each
-  List open_, near_, parted_, meeting_, nestable_;
+  List open_, near_, parted_, meeting_, candidates_, nestable_;
   Walk<Simd> walk_;
 };
 

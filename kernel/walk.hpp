@@ -22,14 +22,14 @@ class Walk {
   /// `add` needs room; `run(below)` makes it.
   static constexpr std::uint32_t capacity = 512;
 
-  Walk(const ShapeSetView& shapes, std::uint8_t* codes) noexcept : shapes_(shapes), codes_(codes) {
-    for (std::uint32_t k = 0; k < capacity; ++k) slots_[k] = static_cast<std::uint16_t>(k);
-  }
+  Walk(const ShapeSetView& shapes, std::uint8_t* codes) noexcept : shapes_(shapes), codes_(codes) {}
 
   /// `pair` is where the answer goes in codes, `miss` what it is unless a walk finds an overlap.
   void add(std::size_t pair, std::uint8_t miss, const Transform& b_in_a, std::uint32_t root_a,
            std::uint32_t root_b) noexcept {
     const Tree a = shapes_.trees[root_a], b = shapes_.trees[root_b];
+    // Slots are numbered when they are first needed, because small batches need few.
+    if (size_ == numbered_) slots_[size_] = static_cast<std::uint16_t>(numbered_++);
     const std::uint32_t slot = slots_[size_++];
     open_[slot] = {b_in_a, a.top, b.top, a.stride, b.stride, pair, 0};
     frames_[slot][0] = {0, 0, 0};
@@ -136,7 +136,7 @@ class Walk {
 
   const ShapeSetView& shapes_;
   std::uint8_t* const codes_;
-  std::uint32_t size_ = 0;
+  std::uint32_t size_ = 0, numbered_ = 0;
   std::uint16_t slots_[capacity];  ///< a permutation: first those of open pairs, then free ones
   Open open_[capacity];
   std::uint64_t hits_[capacity];
