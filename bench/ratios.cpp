@@ -27,7 +27,7 @@ double load_average() {
   return getloadavg(&load, 1) == 1 ? load : 0;
 }
 
-void print_tables(Scene& scene, std::uint32_t runs) {
+void print_tables(Scene& scene, std::uint32_t runs, std::uint32_t most_shapes) {
   std::string names;
   for (const auto& character : scene.characters()) names += (names.empty() ? "" : ", ") + character.source;
   fmt::print("# {}: {} shapes, medians of {} runs, load {:.1f}\n", names, scene.shapes().size(), runs,
@@ -36,6 +36,7 @@ void print_tables(Scene& scene, std::uint32_t runs) {
   print_peer_ratios(scene, runs);
   print_call_ratios(scene, runs);
   print_crowd_ratios(scene, runs);
+  print_shape_count_ratios(scene, runs, most_shapes);
   print_paper_table(scene, runs);
   fmt::print("\n");
 }
@@ -44,7 +45,7 @@ int run(int argc, char** argv) {
   CLI::App program(description, "bch_ratios");
   SceneOptions options;
   std::vector<std::string> files;
-  std::uint32_t runs = 9;
+  std::uint32_t runs = 9, most_shapes = 50'000;
   program
       .add_option("--character", files,
                   "Character file (repeatable): all of them make a second scene, beside the built-in ones")
@@ -54,6 +55,7 @@ int run(int argc, char** argv) {
   program.add_option("--runs", runs, "Runs of which the medians are taken [9]")
       ->type_name("N")
       ->check(CLI::Range(1u, 1000u));
+  program.add_option("--shapes", most_shapes, "Leave out rows of more shapes [50000]")->type_name("N");
   CLI11_PARSE(program, argc, argv);
 
   Scene built_in(options);
@@ -62,8 +64,8 @@ int run(int argc, char** argv) {
   // Before anything else, because a bad file should not cost minutes, and an import wants a process without
   // threads.
   if (!files.empty()) given.characters();
-  print_tables(built_in, runs);
-  if (!files.empty()) print_tables(given, runs);
+  print_tables(built_in, runs, most_shapes);
+  if (!files.empty()) print_tables(given, runs, most_shapes);
   return bch::cli::exit_success;
 }
 
