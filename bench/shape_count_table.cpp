@@ -18,8 +18,8 @@ namespace bch::bench {
 namespace {
 
 constexpr std::uint32_t few = 200;
-constexpr std::uint32_t agents = 50'000;
-constexpr float threshold = 0.01f;  ///< metres
+constexpr std::uint32_t agents = 10'000;  ///< of the crowd workload
+constexpr float threshold = 0.01f;        ///< metres
 
 struct Row {
   std::uint32_t shapes;
@@ -46,7 +46,7 @@ std::vector<Shape> stretched(std::span<const Shape> shapes, std::uint32_t count)
   return copies;
 }
 
-/// A crowd of many shapes, every hundredth pair of it compared with brute force.
+/// The crowd workload of many shapes, every hundredth pair of it compared with the reference.
 struct ManyShapes {
   ManyShapes(std::span<const Shape> scene, std::uint32_t count) {
     const std::vector<Shape> shapes = stretched(scene, count);

@@ -19,9 +19,9 @@ foreach(stage skinning outline hierarchy interior shape_set single)
   endif()
 endforeach()
 
-execute_process(COMMAND ${RATIOS} ${sizes} --runs=1 OUTPUT_VARIABLE output ERROR_VARIABLE output RESULT_VARIABLE code)
+execute_process(COMMAND ${RATIOS} ${sizes} --runs=1 --shapes=5000 OUTPUT_VARIABLE output ERROR_VARIABLE output RESULT_VARIABLE code)
 if(NOT code EQUAL 0 OR NOT output MATCHES "colliding, solid: 200 pairs" OR NOT output MATCHES "OBB tree, outline \\| 4630" OR
-    NOT output MATCHES "an agent of a crowd of 1 000 000")
+    NOT output MATCHES "an agent of a crowd of 1 000 000" OR NOT output MATCHES "a pair among 5 000 shapes")
   message(FATAL_ERROR "bch_ratios: ${code}\n${output}")
 endif()
 
