@@ -18,7 +18,7 @@ struct Implementation {
   bool (*supported)() noexcept;
   /// Whether agents begin .. end are valid, as collide() asks of them.
   bool (*check)(const Arguments& arguments, std::size_t begin, std::size_t end) noexcept;
-  /// Writes the codes of pairs begin .. end; see Arguments. Needs no scratch beyond 192 KiB of stack.
+  /// Writes the codes of pairs begin .. end; see Arguments. Needs 256 KiB of stack and no other memory.
   void (*run)(const Arguments& arguments, std::size_t begin, std::size_t end) noexcept;
 };
 

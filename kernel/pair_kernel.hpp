@@ -29,6 +29,7 @@ template <class Simd>
 class PairKernel {
  public:
   static void run(const Arguments& arguments, std::size_t begin, std::size_t end) noexcept {
+    static_assert(sizeof(PairKernel) <= 256 * 1024, "what implementation.hpp promises");
     PairKernel kernel(arguments);
     for (; begin < end; begin += chunk) {
       kernel.answer_chunk(begin, end - begin < chunk ? static_cast<std::uint32_t>(end - begin) : chunk);

@@ -12,7 +12,7 @@ namespace bch {
 /// Discs of a block.
 constexpr std::uint32_t block_width = 8;
 /// Longest way, in blocks, from a root block to a leaf; what kernels size their stacks by.
-constexpr std::uint32_t most_wide_levels = 16;
+constexpr std::uint32_t most_wide_levels = 10;
 
 /// Directions of supports, and the floats that a set's supports take; see supports.hpp.
 constexpr std::uint32_t support_directions = 32;
