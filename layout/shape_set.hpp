@@ -5,18 +5,15 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
-#include "layout/aligned_vector.hpp"
 #include "layout/hierarchy.hpp"
 #include "layout/outline.hpp"
-#include "layout/shape_set_view.hpp"
+#include "layout/shape_arrays.hpp"
 
 namespace bch {
-
-class InteriorBuilder;
-struct WideTree;
 
 /// One pose of a character.
 struct Shape {
@@ -35,44 +32,35 @@ struct ShapeSetPlan {
   bool shortcuts = true;
 };
 
-/// The flat form of many shapes for batch queries: structure of arrays, aligned to cache lines, immutable.
+/// The flat form of many shapes for batch queries: structure of arrays, aligned to cache lines, immutable. One that was
+/// moved from can only be assigned to or destroyed.
 class ShapeSet {
  public:
   /// Errors:  throws std::invalid_argument on a plan without depths or with depths out of order, on a shape
   ///          without nodes (naming it), and with a solid plan on an outline that validate() rejects;
   ///          std::length_error beyond 2^31 numbers in nodes.
   explicit ShapeSet(std::span<const Shape> shapes, const ShapeSetPlan& plan = {});
+  /// Stands on arrays that live as long as `memory`, a mapped file say.
+  /// Precondition: validate(arrays) does not throw.
+  ShapeSet(const ShapeArrays& arrays, std::shared_ptr<const void> memory);
 
   ShapeSet(ShapeSet&&) noexcept = default;
   ShapeSet& operator=(ShapeSet&&) noexcept = default;
 
   ShapeSetView view() const noexcept;
-  std::uint32_t shape_count() const noexcept { return static_cast<std::uint32_t>(reach_.size()); }
-  std::uint32_t level_count() const noexcept { return static_cast<std::uint32_t>(depths_.size()); }
-  std::span<const std::uint32_t> depths() const noexcept { return depths_; }
-  bool solid() const noexcept { return !shape_contours_.empty(); }
+  const ShapeArrays& arrays() const noexcept { return arrays_; }
+  std::uint32_t shape_count() const noexcept { return static_cast<std::uint32_t>(arrays_.reach.size()); }
+  std::uint32_t level_count() const noexcept { return static_cast<std::uint32_t>(arrays_.depths.size()); }
+  std::span<const std::uint32_t> depths() const noexcept { return arrays_.depths; }
+  bool solid() const noexcept { return !arrays_.shape_contours.empty(); }
   /// Every cut is a single disc: there are roots and nothing else.
-  bool roots_only() const noexcept { return trees_.empty(); }
+  bool roots_only() const noexcept { return arrays_.trees.empty(); }
   std::size_t bytes() const noexcept;
 
  private:
-  void add_level(const WideTree& tree);
-  void add_interior(const Outline& outline, double reach, InteriorBuilder& builder);
-  void add_outline(const Outline& outline);
-
-  std::vector<std::uint32_t> depths_;
-  AlignedVector<Root> roots_;
-  AlignedVector<Tree> trees_;
-  AlignedVector<float> nodes_;
-  AlignedVector<float> reach_;
-  bool has_single_discs_ = false;
-  AlignedVector<float> support_;
-  AlignedVector<DiscBlock> inscribed_;
-  AlignedVector<Extremes> extremes_;
-  AlignedVector<Enclosure> enclosures_;
-  AlignedVector<std::uint32_t> shape_contours_, contour_points_;
-  AlignedVector<Disc> contour_disc_;
-  AlignedVector<Vec2> points_;
+  ShapeArrays arrays_;
+  std::shared_ptr<const void> memory_;
+  bool has_single_discs_;
 };
 
 }  // namespace bch
