@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include "layout/baked_file.hpp"
+
+#include <cstring>
+#include <string_view>
+#include <type_traits>
+#include <utility>
+
+#include "layout/baked_format.hpp"
+#include "layout/baked_validation.hpp"
+#include "layout/file_bytes.hpp"
+
+namespace bch {
+namespace {
+
+using baked::Preamble;
+using baked::SectionEntry;
+
+/// Reads a file's bytes from the front to the back; every number is checked before it is used.
+class Reader {
+ public:
+  Reader(std::span<const std::byte> bytes, const std::string& name) : bytes_(bytes), name_(name) {}
+
+  baked::Arrays read() {
+    read_preamble();
+    baked::Arrays arrays{};
+    std::uint64_t offset = sizeof(Preamble) + baked::zeros_after(sizeof(Preamble));
+    baked::for_each_section(arrays, [&](baked::Section section, const char* what, auto& span) {
+      using Element = std::remove_reference_t<decltype(span[0])>;
+      const auto number = static_cast<std::uint32_t>(section);
+      offset = check(number, what, preamble_.entries[number], sizeof(Element), offset);
+      span = {reinterpret_cast<Element*>(bytes_.data() + preamble_.entries[number].offset),
+              static_cast<std::size_t>(preamble_.entries[number].count)};
+    });
+    if (offset != bytes_.size())
+      reject(std::to_string(bytes_.size() - offset) + " bytes follow the last section");
+    try {
+      baked::validate(arrays);
+    } catch (const std::invalid_argument& error) {
+      reject(error.what());
+    }
+    return arrays;
+  }
+
+ private:
+  [[noreturn]] void reject(const std::string& what) const { throw BakedFileError(name_ + ": " + what); }
+
+  void read_preamble() {
+    const auto& header = preamble_.header;
+    if (bytes_.size() < sizeof preamble_)
+      reject(std::to_string(bytes_.size()) + " bytes are too few for a baked file");
+    if (reinterpret_cast<std::uintptr_t>(bytes_.data()) % baked::alignment != 0)
+      reject("does not begin on a cache line of memory");
+    std::memcpy(&preamble_, bytes_.data(), sizeof preamble_);
+    if (header.magic != baked::magic) reject("not a baked file: it begins differently");
+    if (header.byte_order == baked::other_byte_order)
+      reject("was baked on a machine of the other byte order; bake it on this one");
+    if (header.byte_order != baked::byte_order)
+      reject("header: no byte order is " + std::to_string(header.byte_order));
+    if (header.version != baked::version)
+      reject("header: version " + std::to_string(header.version) + ", and only " +
+             std::to_string(baked::version) + " is known; bake it anew");
+    if (header.file_size != bytes_.size())
+      reject("header: the file should have " + std::to_string(header.file_size) + " bytes and has " +
+             std::to_string(bytes_.size()));
+    if (header.checksum != baked::checksum(preamble_)) reject("header: wrong checksum");
+    if (header.section_count != baked::section_count)
+      reject("header: " + std::to_string(header.section_count) + " sections, not " +
+             std::to_string(baked::section_count));
+    for (const std::uint32_t zero : header.zero)
+      if (zero != 0) reject("header: " + std::to_string(zero) + " where there has to be 0");
+    const auto rest = bytes_.subspan(sizeof preamble_, baked::zeros_after(sizeof preamble_));
+    for (const std::byte byte : rest)
+      if (byte != std::byte{0}) reject("header: no zeros after it");
+  }
+
+  /// Returns: where the next section begins.
+  std::uint64_t check(std::uint32_t number, const char* name, const SectionEntry& entry,
+                      std::size_t element_size, std::uint64_t offset) const {
+    const std::string where = std::string("section ") + name + ": ";
+    if (entry.section != number) reject(where + "its number is " + std::to_string(entry.section));
+    if (entry.element_size != element_size)
+      reject(where + "elements of " + std::to_string(entry.element_size) + " bytes, not " +
+             std::to_string(element_size));
+    if (entry.offset != offset)
+      reject(where + "begins at " + std::to_string(entry.offset) + ", not at " + std::to_string(offset));
+    const std::uint64_t room = bytes_.size() - offset;
+    if (entry.count > room / element_size)
+      reject(where + std::to_string(entry.count) + " elements do not fit into the file");
+    const std::uint64_t size = entry.count * element_size, zeros = baked::zeros_after(size);
+    if (zeros > room - size) reject(where + "the file ends before its zeros do");
+    const auto section = bytes_.subspan(offset, size + zeros);
+    if (entry.checksum != baked::checksum(section)) reject(where + "wrong checksum");
+    for (const std::byte byte : section.subspan(size))
+      if (byte != std::byte{0}) reject(where + "no zeros after it");
+    return offset + size + zeros;
+  }
+
+  std::span<const std::byte> bytes_;
+  const std::string& name_;
+  Preamble preamble_;
+};
+
+ShapeOrigins origins_of(const baked::Arrays& arrays) {
+  ShapeOrigins origins{arrays.settings[0].threshold, {}, {arrays.origins.begin(), arrays.origins.end()}};
+  const std::string_view names(arrays.names.data(), arrays.names.size());
+  for (std::size_t i = 0; i + 1 < arrays.name_begin.size(); ++i)
+    origins.names.emplace_back(
+        names.substr(arrays.name_begin[i], arrays.name_begin[i + 1] - arrays.name_begin[i]));
+  return origins;
+}
+
+}  // namespace
+
+BakedShapes load_baked(const std::filesystem::path& file, FileAccess access) {
+  FileBytes from;
+  try {
+    from = access == FileAccess::map ? map_file(file) : read_file(file);
+  } catch (const std::runtime_error& error) {
+    throw BakedFileError(error.what());
+  }
+  return load_baked(from.bytes, file.string(), std::move(from.memory));
+}
+
+BakedShapes load_baked(std::span<const std::byte> bytes, const std::string& name,
+                       std::shared_ptr<const void> memory) {
+  const baked::Arrays arrays = Reader(bytes, name).read();
+  return {ShapeSet(arrays.shapes, std::move(memory)), origins_of(arrays)};
+}
+
+}  // namespace bch

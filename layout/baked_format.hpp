@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "layout/shape_arrays.hpp"
+#include "layout/shape_origins.hpp"
+
+/// The baked file: a shape set as it lies in memory.
+///
+/// Numbers have the byte order and the representation of the machine that wrote the file: IEEE 754 floats, two's
+/// complement, no padding inside records. A file is
+///
+///     FileHeader                        64 bytes
+///     SectionEntry[section_count]       32 bytes each
+///     section 0, section 1, ...         each at the next multiple of 64 bytes; zeros up to there
+///
+/// and ends with the zeros after its last section. There is one entry for each Section, in the order of their numbers,
+/// also for those without elements. Everything is determined but the sections' content: an entry's offset is where
+/// the section before it, with its zeros, ends.
+///
+/// Checksums are XXH3, 64 bits, seed 0. That of a section covers its zeros. The header's covers the header, with 0 for
+/// the checksum itself, and the entries. So every bit of a file is covered.
+///
+/// What sections hold. S shapes, L levels, R = S * L roots, index shape * L + level; "or 0" where the set was built
+/// without. Records are those of shape_set_view.hpp, field after field, each 4 bytes:
+///
+///     depths          u32         L       cut depths, ascending; 0xffffffff are the leaves. 1 to 255 of them
+///     roots           Root        R       a level's disc: encloses its cut, or is it, where is_single is 1
+///     trees           Tree        R or 0  where a level's nodes are; 0 where every cut is a single disc
+///     nodes           f32         any     see below
+///     reach           f32         S       metres from the origin to the farthest point, 1e-6 to 1e6
+///     support         f32         64 R or 0  supports.hpp
+///     inscribed       DiscBlock   S or 0  interior.hpp; this and the next two where there are supports
+///     extremes        Extremes    S or 0  interior.hpp
+///     enclosures      Enclosure   S or 0  enclosure.hpp
+///     shape_contours  u32         S + 1 or 0  shape s has contours [s] to [s + 1]
+///     contour_points  u32         C + 1 or 0  contour c has points [c] to [c + 1], at least one
+///     contour_disc    Disc        C       the smallest enclosing disc
+///     points          Vec2        any     metres
+///     settings        Settings    1
+///     origins         ShapeOrigin S or 0  what each shape shows
+///     name_begin      u32         N + 1   name n is bytes [n] to [n + 1] of names
+///     names           u8          any     UTF-8
+///
+/// Nodes. A node's name is the index of its first float, with bit 31 set for a leaf window. A block is 32 floats: x, y and
+/// radius of eight discs, eight and eight, and the names of the eight nodes below them as u32. A disc whose x is
+/// plus infinity is padding, and the name with it has no meaning. A level's blocks lie one behind the other in
+/// breadth-first order, first Tree::top: those children that are blocks are the second, the third and so on. After the
+/// last come Tree::stride x, as many y and as many radii: the cut's discs, padding up to eight. A window is eight
+/// consecutive discs of these, named by the first one's x. Where top is a window, it is at the first disc. Levels
+/// lie in the order of roots, with at most 15 levels of blocks each. At least 32 floats follow the last one.
+namespace bch::baked {
+
+/// A byte that is no text, so that nobody takes it for some; then line ends that a transfer as text would change.
+constexpr std::array<std::uint8_t, 8> magic{0x89, 'B', 'C', 'H', '\r', '\n', 0x1a, '\n'};
+constexpr std::uint32_t byte_order = 0x01020304;
+constexpr std::uint32_t other_byte_order = 0x04030201;
+constexpr std::uint32_t version = 1;
+constexpr std::size_t alignment = 64;
+
+struct FileHeader {
+  std::array<std::uint8_t, 8> magic;
+  std::uint32_t byte_order;
+  std::uint32_t version;
+  std::uint64_t file_size;  ///< bytes
+  std::uint32_t section_count;
+  std::uint32_t zero[7];
+  std::uint64_t checksum;
+};
+static_assert(sizeof(FileHeader) == 64);
+
+enum class Section : std::uint32_t {
+  depths,
+  roots,
+  trees,
+  nodes,
+  reach,
+  support,
+  inscribed,
+  extremes,
+  enclosures,
+  shape_contours,
+  contour_points,
+  contour_disc,
+  points,
+  settings,
+  origins,
+  name_begin,
+  names,
+  count,
+};
+constexpr std::uint32_t section_count = static_cast<std::uint32_t>(Section::count);
+
+struct SectionEntry {
+  std::uint32_t section;       ///< its number
+  std::uint32_t element_size;  ///< bytes
+  std::uint64_t offset;        ///< from the start of the file
+  std::uint64_t count;         ///< elements
+  std::uint64_t checksum;
+};
+static_assert(sizeof(SectionEntry) == 32);
+
+struct Settings {
+  double threshold;  ///< metres
+};
+
+struct Preamble {
+  FileHeader header;
+  SectionEntry entries[section_count];
+};
+static_assert(sizeof(Preamble) == sizeof(FileHeader) + section_count * sizeof(SectionEntry));
+
+/// All sections of a file.
+struct Arrays {
+  ShapeArrays shapes;
+  std::span<const Settings> settings;
+  std::span<const ShapeOrigin> origins;
+  std::span<const std::uint32_t> name_begin;
+  std::span<const char> names;
+};
+
+/// Calls visit(Section, name, span) for every section, in order.
+template <class Visit>
+void for_each_section(Arrays& arrays, Visit visit) {
+  visit(Section::depths, "depths", arrays.shapes.depths);
+  visit(Section::roots, "roots", arrays.shapes.roots);
+  visit(Section::trees, "trees", arrays.shapes.trees);
+  visit(Section::nodes, "nodes", arrays.shapes.nodes);
+  visit(Section::reach, "reach", arrays.shapes.reach);
+  visit(Section::support, "support", arrays.shapes.support);
+  visit(Section::inscribed, "inscribed", arrays.shapes.inscribed);
+  visit(Section::extremes, "extremes", arrays.shapes.extremes);
+  visit(Section::enclosures, "enclosures", arrays.shapes.enclosures);
+  visit(Section::shape_contours, "shape_contours", arrays.shapes.shape_contours);
+  visit(Section::contour_points, "contour_points", arrays.shapes.contour_points);
+  visit(Section::contour_disc, "contour_disc", arrays.shapes.contour_disc);
+  visit(Section::points, "points", arrays.shapes.points);
+  visit(Section::settings, "settings", arrays.settings);
+  visit(Section::origins, "origins", arrays.origins);
+  visit(Section::name_begin, "name_begin", arrays.name_begin);
+  visit(Section::names, "names", arrays.names);
+}
+
+/// Of a file's first bytes.
+std::uint64_t checksum(Preamble preamble);
+std::uint64_t checksum(std::span<const std::byte> section_with_zeros);
+/// The same of bytes that are followed by `zeros` bytes of 0, fewer than `alignment`.
+std::uint64_t checksum(std::span<const std::byte> section, std::size_t zeros);
+
+/// How many zeros follow.
+constexpr std::size_t zeros_after(std::uint64_t size) {
+  return static_cast<std::size_t>(-size % alignment);
+}
+
+}  // namespace bch::baked

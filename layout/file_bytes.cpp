@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include "layout/file_bytes.hpp"
+
+#include <fcntl.h>
+#include <sys/mman.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <new>
+#include <stdexcept>
+#include <string>
+
+namespace bch {
+namespace {
+
+constexpr std::align_val_t cache_line{64};
+constexpr std::size_t most_at_once = std::size_t{1} << 30;  ///< bytes; Linux reads no more than 2 GiB
+
+/// An open regular file.
+class OpenFile {
+ public:
+  explicit OpenFile(const std::filesystem::path& file)
+      // A pipe must not wait for a writer.
+      : file_(file), descriptor_(open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK)) {
+    if (descriptor_ < 0) reject(std::strerror(errno));
+    struct stat status;
+    int error = fstat(descriptor_, &status) != 0 ? errno : 0;
+    if (error == 0 && !S_ISREG(status.st_mode)) error = S_ISDIR(status.st_mode) ? EISDIR : ESPIPE;
+    if (error == 0) {
+      size_ = static_cast<std::size_t>(status.st_size);
+      return;
+    }
+    close(descriptor_);
+    reject(error == ESPIPE ? "not a regular file" : std::strerror(error));
+  }
+  ~OpenFile() { close(descriptor_); }
+  OpenFile(const OpenFile&) = delete;
+  OpenFile& operator=(const OpenFile&) = delete;
+
+  int descriptor() const noexcept { return descriptor_; }
+  /// When it was opened.
+  std::size_t size() const noexcept { return size_; }
+  [[noreturn]] void reject(const std::string& reason) const {
+    throw std::runtime_error(file_.string() + ": cannot be read: " + reason);
+  }
+
+ private:
+  const std::filesystem::path& file_;
+  const int descriptor_;
+  std::size_t size_ = 0;
+};
+
+}  // namespace
+
+FileBytes read_file(const std::filesystem::path& file) {
+  const OpenFile from(file);
+  const std::shared_ptr<void> memory(::operator new(from.size(), cache_line),
+                                     [](void* bytes) { ::operator delete(bytes, cache_line); });
+  auto* const bytes = static_cast<std::byte*>(memory.get());
+  for (std::size_t done = 0; done < from.size();) {
+    const ssize_t got = read(from.descriptor(), bytes + done, std::min(from.size() - done, most_at_once));
+    if (got < 0 && errno == EINTR) continue;
+    if (got < 0) from.reject(std::strerror(errno));
+    if (got == 0)
+      from.reject("it shrank from " + std::to_string(from.size()) + " to " + std::to_string(done) +
+                  " bytes meanwhile");
+    done += static_cast<std::size_t>(got);
+  }
+  return {{bytes, from.size()}, memory};
+}
+
+FileBytes map_file(const std::filesystem::path& file) {
+  const OpenFile from(file);
+  if (from.size() == 0) return {};
+  void* const bytes = mmap(nullptr, from.size(), PROT_READ, MAP_PRIVATE | MAP_POPULATE, from.descriptor(), 0);
+  if (bytes == MAP_FAILED) from.reject(std::strerror(errno));
+  return {{static_cast<const std::byte*>(bytes), from.size()},
+          std::shared_ptr<const void>(bytes, [size = from.size()](void* at) { munmap(at, size); })};
+}
+
+}  // namespace bch

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <memory>
+#include <span>
+
+namespace bch {
+
+/// A file's bytes, from a cache line on, as long as `memory` lives.
+struct FileBytes {
+  std::span<const std::byte> bytes;
+  std::shared_ptr<const void> memory;
+};
+
+/// Both are for regular files.
+/// Errors:  throw std::runtime_error naming the file and the reason; read_file() also on one that ends sooner than its
+///          size promised; std::bad_alloc.
+
+FileBytes read_file(const std::filesystem::path& file);
+
+/// Without a copy: pages come from the file cache. While `memory` lives nobody may write to the file or make it
+/// shorter: bytes that were checked would change, and reading those that are gone ends the process by SIGBUS. No
+/// kind of mapping prevents that. To replace the file (write another, rename it over this) is fine: the mapping
+/// keeps the old one.
+FileBytes map_file(const std::filesystem::path& file);
+
+}  // namespace bch

@@ -1,0 +1,217 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <functional>
+#include <limits>
+
+#include "kernel/broad_phase.hpp"
+#include "kernel/collide.hpp"
+#include "layout/shape_validation.hpp"
+#include "tests/baked_bytes.hpp"
+#include "tests/scenes.hpp"
+
+// Baked files whose checksums are right and whose content is not.
+
+namespace bch::test {
+namespace {
+
+using baked::Section;
+
+constexpr float infinity = std::numeric_limits<float>::infinity();
+constexpr float nan = std::numeric_limits<float>::quiet_NaN();
+
+BakedBytes sound_bytes() {
+  return BakedBytes(ShapeSet(few_shapes(), {.depths = {0, 3, all_depths}, .solid = true}), origins_of(3));
+}
+
+struct Crime {
+  const char* error;
+  std::function<void(BakedBytes&)> commit;
+};
+
+/// The finest level of the first shape: a tree of several blocks.
+constexpr std::size_t deep_root = 2;
+
+std::span<float> top_block(BakedBytes& bytes) {
+  return bytes.section<float>(Section::nodes)
+      .subspan(bytes.section<Tree>(Section::trees)[deep_root].top, block_floats);
+}
+
+void set_child(BakedBytes& bytes, std::uint32_t lane, std::uint32_t name) {
+  top_block(bytes)[3 * block_width + lane] = std::bit_cast<float>(name);
+}
+
+/// The first name of a window that is followed.
+float& first_window(BakedBytes& bytes) {
+  for (float* block = top_block(bytes).data();; block += block_floats)
+    for (std::uint32_t lane = 0; lane < block_width; ++lane)
+      if (block[lane] != infinity &&
+          std::bit_cast<std::uint32_t>(block[3 * block_width + lane]) >= leaf_window)
+        return block[3 * block_width + lane];
+}
+
+std::vector<Crime> crimes() {
+  const auto top = [](BakedBytes& b) -> std::uint32_t {
+    return b.section<Tree>(Section::trees)[deep_root].top;
+  };
+  const auto floats = [](Section section, std::size_t at, float value) {
+    return [=](BakedBytes& b) { b.section<float>(section)[at] = value; };
+  };
+  const auto word = [](Section section, std::size_t at, std::uint32_t value) {
+    return [=](BakedBytes& b) { b.section<std::uint32_t>(section)[at] = value; };
+  };
+  return {
+      {"depths 2: 0 does not ascend", word(Section::depths, 2, 0)},
+      {"nodes", [=](BakedBytes& b) { set_child(b, 0, top(b)); }},
+      {"", [=](BakedBytes& b) { set_child(b, 0, 0x7fffffe0); }},
+      {"", [=](BakedBytes& b) { set_child(b, 0, top(b) + 2 * block_floats); }},
+      {"", [=](BakedBytes& b) { set_child(b, 0, top(b) + 1); }},
+      {"windows at 0", [=](BakedBytes& b) { first_window(b) = std::bit_cast<float>(leaf_window); }},
+      {"to 2147483647", [=](BakedBytes& b) { first_window(b) = std::bit_cast<float>(~0u); }},
+      {"trees 2", [=](BakedBytes& b) { b.section<Tree>(Section::trees)[2].stride = ~0u; }},
+      {"trees 2", [=](BakedBytes& b) { b.section<Tree>(Section::trees)[2].stride = 7; }},
+      {"trees 2", [=](BakedBytes& b) { b.section<Tree>(Section::trees)[2].stride -= 1; }},
+      {"trees 2", [=](BakedBytes& b) { b.section<Tree>(Section::trees)[2].top = 0; }},
+      {"", [=](BakedBytes& b) { b.section<Tree>(Section::trees)[2].top = 0x7fffffff; }},
+      {"", [=](BakedBytes& b) { b.section<Tree>(Section::trees)[2].top = ~0u; }},
+      {"", [=](BakedBytes& b) { b.section<Tree>(Section::trees)[2].top |= leaf_window; }},
+      {"holds a disc that is none", [](BakedBytes& b) { top_block(b)[0] = nan; }},
+      {"holds a disc that is none", [](BakedBytes& b) { top_block(b)[0] = -infinity; }},
+      {"holds a disc that is none", [](BakedBytes& b) { top_block(b)[block_width] = infinity; }},
+      {"holds a disc that is none", [](BakedBytes& b) { top_block(b)[2 * block_width] = -0.1f; }},
+      {"holds a disc that is none", [](BakedBytes& b) { top_block(b)[2 * block_width] = infinity; }},
+      {"roots 0", floats(Section::roots, 2, -1.0f)},
+      {"roots 1", floats(Section::roots, 4, nan)},
+      {"roots 1", [](BakedBytes& b) { b.section<Root>(Section::roots)[1].is_single = 2; }},
+      {"reach 0", floats(Section::reach, 0, 0.0f)},
+      {"reach 2", floats(Section::reach, 2, nan)},
+      {"reach 1", floats(Section::reach, 1, 1e7f)},
+      {"support 70", floats(Section::support, 70, nan)},
+      {"inscribed 1", [](BakedBytes& b) { b.section<DiscBlock>(Section::inscribed)[1].radius[3] = nan; }},
+      {"extremes 2", [](BakedBytes& b) { b.section<Extremes>(Section::extremes)[2].y[31] = infinity; }},
+      {"enclosures 1", [](BakedBytes& b) { b.section<Enclosure>(Section::enclosures)[1].outer_square = -1; }},
+      {"enclosures 1",
+       [](BakedBytes& b) { b.section<Enclosure>(Section::enclosures)[1].inner_square = nan; }},
+      {"shape_contours 0", word(Section::shape_contours, 0, 1)},
+      {"shape_contours 2", word(Section::shape_contours, 2, 0)},
+      {"shape_contours 3", word(Section::shape_contours, 3, 1000)},
+      {"contour_points 2", word(Section::contour_points, 2, 1)},
+      {"contour_points", word(Section::contour_points, 4, ~0u)},
+      {"contour_points 1", word(Section::contour_points, 1, 0)},
+      {"contour_disc 3", [](BakedBytes& b) { b.section<Disc>(Section::contour_disc)[3].radius = -1; }},
+      {"points 5", [](BakedBytes& b) { b.section<Vec2>(Section::points)[5].y = nan; }},
+      {"threshold", [](BakedBytes& b) { b.section<baked::Settings>(Section::settings)[0].threshold = -1; }},
+      {"origins 1: character",
+       [](BakedBytes& b) { b.section<ShapeOrigin>(Section::origins)[1].character = 4; }},
+      {"origins 2: clip", [](BakedBytes& b) { b.section<ShapeOrigin>(Section::origins)[2].clip = 4; }},
+      {"origins 0: time", [](BakedBytes& b) { b.section<ShapeOrigin>(Section::origins)[0].seconds = nan; }},
+      {"name_begin 2", word(Section::name_begin, 2, 1)},
+      {"name_begin 4", word(Section::name_begin, 4, 1000)},
+  };
+}
+
+TEST(BakedContent, IsCheckedBeyondChecksums) {
+  const std::vector<Crime> all = crimes();
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    BakedBytes bytes = sound_bytes();
+    all[i].commit(bytes);
+    bytes.seal();
+    const std::string error = bytes.error();
+    EXPECT_TRUE(error.starts_with("file: ")) << i << ": " << error;
+    EXPECT_NE(error.find(all[i].error), std::string::npos)
+        << i << ": no '" << all[i].error << "' in: " << error;
+  }
+}
+
+TEST(BakedContent, TestsATreeOfSeveralBlocks) {
+  BakedBytes bytes = sound_bytes();
+  ASSERT_LT(bytes.section<Tree>(Section::trees)[deep_root].top, leaf_window);
+  EXPECT_LT(std::bit_cast<std::uint32_t>(top_block(bytes)[3 * block_width]), leaf_window);
+}
+
+/// A tree in which only the first disc of every block is not padding.
+std::vector<float> chain(std::uint32_t blocks) {
+  std::vector<float> nodes;
+  for (std::uint32_t i = 1; i <= blocks; ++i) {
+    nodes.resize(i * block_floats);
+    float* block = nodes.data() + (i - 1) * block_floats;
+    std::fill(block + 1, block + block_width, infinity);
+    block[3 * block_width] = std::bit_cast<float>(i * block_floats + (i == blocks ? leaf_window : 0));
+  }
+  nodes.resize(nodes.size() + 3 * block_width + block_floats);
+  return nodes;
+}
+
+TEST(BakedContent, TreesAreNoDeeperThanStacks) {
+  const std::vector<std::uint32_t> depths{all_depths};
+  const std::vector<Root> roots{{0, 0, 1, 0}};
+  const std::vector<Tree> trees{{0, block_width}};
+  const std::vector<float> reach{1};
+  ShapeArrays arrays{};
+  arrays.depths = depths, arrays.roots = roots, arrays.trees = trees, arrays.reach = reach;
+  for (std::uint32_t blocks = 1; blocks < 2 * most_wide_levels; ++blocks) {
+    const std::vector<float> nodes = chain(blocks);
+    arrays.nodes = nodes;
+    if (blocks < most_wide_levels)
+      EXPECT_NO_THROW(validate(arrays)) << blocks;
+    else
+      EXPECT_THROW(validate(arrays), std::invalid_argument) << blocks;
+  }
+}
+
+/// Everything that follows the set's links.
+void query(const ShapeSet& set, std::uint64_t seed) {
+  Random random(seed);
+  Crowd crowd;
+  for (int i = 0; i < 60; ++i)
+    crowd.add(random.below(set.shape_count()), random.uniform(0, 2), random.uniform(0, 2),
+              random.uniform(0, 6), static_cast<std::uint8_t>(random.below(set.level_count())));
+  std::vector<Pair> pairs = candidate_pairs(set, crowd.agents());
+  for (std::uint32_t i = 1; i < 60; ++i) pairs.push_back({0, i});
+  std::vector<std::uint8_t> hits(pairs.size());
+  for (const Semantics semantics : {Semantics::boundary, Semantics::solid})
+    for (const kernel::Implementation& row : kernel::implementations())
+      if (row.supported() && (semantics == Semantics::boundary || set.solid()))
+        collide(set, crowd.agents(), pairs, hits, {semantics, &row});
+}
+
+/// Whatever gets through gives wrong answers at worst.
+TEST(BakedContent, AnythingThatLoadsCanBeQueried) {
+  Random random(75);
+  const BakedBytes sound = sound_bytes();
+  const std::uint32_t words[] = {0, 1, 0x80000000, ~0u, 0x7f800000, 0x7fc00000, 0xff800000, 0x4b000000};
+  int loaded = 0, refused = 0;
+  for (int i = 0; i < 20'000; ++i) {
+    BakedBytes bytes = sound;
+    const auto section = static_cast<Section>(random.below(static_cast<std::uint32_t>(Section::names)));
+    const auto content = bytes.section<std::uint32_t>(section);
+    const std::size_t size = content.size() * bytes.entry(section).element_size / 4;
+    std::uint32_t& word = content.data()[random.below(static_cast<std::uint32_t>(size))];
+    switch (random.below(3)) {
+      case 0:
+        word ^= 1u << random.below(32);
+        break;
+      case 1:
+        word = words[random.below(std::size(words))];
+        break;
+      default:
+        word += random.below(129) - 64;
+    }
+    bytes.seal();
+    try {
+      const BakedShapes shapes = bytes.load();
+      ++loaded;
+      query(shapes.set, random.next());
+    } catch (const BakedFileError&) {
+      ++refused;
+    }
+  }
+  EXPECT_GT(loaded, 1000);
+  EXPECT_GT(refused, 1000);
+}
+
+}  // namespace
+}  // namespace bch::test

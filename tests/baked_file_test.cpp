@@ -1,0 +1,235 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include "layout/baked_file.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <filesystem>
+
+#include "kernel/collide.hpp"
+#include "layout/baked_image.hpp"
+#include "tests/baked_bytes.hpp"
+#include "tests/scenes.hpp"
+#include "tests/temporary_folder.hpp"
+
+namespace bch::test {
+namespace {
+
+using baked::Section;
+
+const ShapeSetPlan full_plan{.depths = {0, 3, all_depths}, .solid = true, .shortcuts = true};
+
+void expect_same(const ShapeArrays& loaded, const ShapeArrays& expected) {
+  baked::Arrays a{loaded, {}, {}, {}, {}}, b{expected, {}, {}, {}, {}};
+  std::vector<std::span<const std::byte>> sections;
+  baked::for_each_section(
+      a, [&](Section, const char*, const auto& span) { sections.push_back(std::as_bytes(span)); });
+  baked::for_each_section(b, [&](Section section, const char* name, const auto& span) {
+    const auto bytes = sections[static_cast<std::size_t>(section)];
+    ASSERT_EQ(bytes.size(), span.size_bytes()) << name;
+    if (!bytes.empty()) {
+      EXPECT_EQ(std::memcmp(bytes.data(), span.data(), bytes.size()), 0) << name;
+      EXPECT_EQ(reinterpret_cast<std::uintptr_t>(bytes.data()) % 64, 0u) << name;
+    }
+  });
+}
+
+std::vector<std::uint8_t> answers(const ShapeSet& set, Semantics semantics) {
+  Random random(72);
+  const PairScene scene = random_scene(random, set, 4000);
+  std::vector<std::uint8_t> hits(scene.pairs.size());
+  collide(set, scene.crowd.agents(), scene.pairs, hits, {semantics, nullptr});
+  return hits;
+}
+
+TEST(BakedFile, ComesBackAsItWas) {
+  const TemporaryFolder folder;
+  for (const std::vector<std::uint32_t>& depths :
+       {std::vector<std::uint32_t>{0}, {all_depths}, {0, 3, all_depths}, {1, 2}})
+    for (const bool solid : {false, true})
+      for (const bool shortcuts : {false, true}) {
+        const std::vector<Shape> shapes = synthetic_shapes(73, 40);
+        const ShapeSet set(shapes, {depths, solid, shortcuts});
+        const ShapeOrigins origins = origins_of(shapes.size());
+        const auto file = folder.write("shapes.bch", BakedBytes(set, origins).text());
+        for (const FileAccess access : {FileAccess::read, FileAccess::map}) {
+          const BakedShapes loaded = load_baked(file, access);
+          expect_same(loaded.set.arrays(), set.arrays());
+          EXPECT_EQ(loaded.origins, origins);
+          EXPECT_EQ(answers(loaded.set, Semantics::boundary), answers(set, Semantics::boundary));
+          if (solid) {
+            EXPECT_EQ(answers(loaded.set, Semantics::solid), answers(set, Semantics::solid));
+          }
+        }
+      }
+}
+
+TEST(BakedFile, MayHaveNoShapesAndNoOrigins) {
+  const ShapeSet none(std::span<const Shape>{}, full_plan);
+  EXPECT_EQ(BakedBytes(none, {}).load().set.shape_count(), 0u);
+  const ShapeSet set(few_shapes(), full_plan);
+  EXPECT_EQ(BakedBytes(set, {}).load().set.shape_count(), 3u);
+}
+
+TEST(BakedFile, OutlivesItsName) {
+  const TemporaryFolder folder;
+  const ShapeSet set(few_shapes(), full_plan);
+  const auto file = folder.write("shapes.bch", BakedBytes(set, {}).text());
+  const BakedShapes loaded = load_baked(file, FileAccess::map);
+  std::filesystem::remove(file);
+  EXPECT_EQ(answers(loaded.set, Semantics::solid), answers(set, Semantics::solid));
+}
+
+TEST(BakedFile, ImageRefusesWhatNobodyCouldLoad) {
+  const ShapeSet set(few_shapes(), full_plan);
+  EXPECT_THROW(BakedImage(set, origins_of(2)), std::invalid_argument);
+  ShapeOrigins origins = origins_of(3);
+  origins.names.resize(1);
+  EXPECT_THROW(BakedImage(set, origins), std::invalid_argument);
+}
+
+class SpoiledFile : public testing::Test {
+ protected:
+  BakedBytes bytes{ShapeSet(few_shapes(), full_plan), origins_of(3)};
+
+  void expect_error(const std::string& words) {
+    const std::string error = bytes.error();
+    EXPECT_TRUE(error.starts_with("file: ")) << error;
+    EXPECT_NE(error.find(words), std::string::npos) << "no '" << words << "' in: " << error;
+  }
+};
+
+TEST_F(SpoiledFile, IsSoundBefore) {
+  EXPECT_EQ(bytes.error(), "");
+  bytes.seal();
+  EXPECT_EQ(bytes.error(), "");
+}
+
+TEST_F(SpoiledFile, TruncatedAtEveryByte) {
+  for (std::size_t size = 0; size < bytes.size(); ++size)
+    EXPECT_THROW(bytes.load_first(size), BakedFileError) << size;
+}
+
+/// The header agrees with the size, so that the sections have to be looked at.
+TEST_F(SpoiledFile, TruncatedWithAHeaderThatAgrees) {
+  for (std::size_t size = sizeof(baked::Preamble); size < bytes.size(); ++size) {
+    bytes.preamble().header.file_size = size;
+    bytes.seal_header();
+    EXPECT_THROW(bytes.load_first(size), BakedFileError) << size;
+  }
+}
+
+TEST_F(SpoiledFile, TruncatedOnDisk) {
+  const TemporaryFolder folder;
+  const std::string text = bytes.text();
+  for (const std::size_t size :
+       {std::size_t{0}, std::size_t{1}, std::size_t{64}, std::size_t{4096}, text.size() - 1}) {
+    const auto file = folder.write("short.bch", text.substr(0, size));
+    EXPECT_THROW(load_baked(file, FileAccess::read), BakedFileError);
+    EXPECT_THROW(load_baked(file, FileAccess::map), BakedFileError);
+  }
+  EXPECT_THROW(load_baked(folder.write("long.bch", text + std::string(64, '\0'))), BakedFileError);
+}
+
+TEST_F(SpoiledFile, EveryBitOfTheHeader) {
+  for (std::size_t bit = 0; bit < 8 * (sizeof(baked::Preamble) + 32); ++bit) {
+    const std::byte mask{static_cast<unsigned char>(1u << bit % 8)};
+    bytes[bit / 8] ^= mask;
+    EXPECT_NE(bytes.error(), "") << bit;
+    bytes[bit / 8] ^= mask;
+  }
+}
+
+TEST_F(SpoiledFile, RandomBits) {
+  Random random(74);
+  const auto bits = static_cast<std::uint32_t>(8 * bytes.size());
+  for (int i = 0; i < 100'000; ++i) {
+    const std::uint32_t bit = random.below(bits);
+    const std::byte mask{static_cast<unsigned char>(1u << bit % 8)};
+    bytes[bit / 8] ^= mask;
+    ASSERT_NE(bytes.error(), "") << bit;
+    bytes[bit / 8] ^= mask;
+  }
+}
+
+TEST_F(SpoiledFile, SaysWhatIsWrongWithTheHeader) {
+  auto& header = bytes.preamble().header;
+  const auto sound = header;
+  const auto with = [&](auto change, const char* words) {
+    change();
+    bytes.seal_header();
+    expect_error(words);
+    header = sound;
+  };
+  with([&] { header.magic[1] = 'b'; }, "not a baked file");
+  with([&] { header.version = 2; }, "version 2");
+  with([&] { header.byte_order = baked::other_byte_order; }, "byte order");
+  with([&] { header.byte_order = 7; }, "byte order");
+  with([&] { header.file_size = ~std::uint64_t{0}; }, "18446744073709551615 bytes");
+  with([&] { header.section_count = 18; }, "18 sections");
+  with([&] { header.zero[6] = 1; }, "where there has to be 0");
+}
+
+TEST_F(SpoiledFile, SizesThatOverflow) {
+  for (std::uint32_t i = 0; i < baked::section_count; ++i) {
+    auto& entry = bytes.preamble().entries[i];
+    const auto sound = entry;
+    const std::uint64_t size = entry.element_size;
+    for (const std::uint64_t count :
+         {~std::uint64_t{0}, ~std::uint64_t{0} / size, ~std::uint64_t{0} / size + 1,
+          ~std::uint64_t{0} / size - 63, std::uint64_t{1} << 63, bytes.size() / size + 1,
+          (bytes.size() - entry.offset) / size + 1, sound.count + (std::uint64_t{1} << 32)}) {
+      entry.count = count;
+      bytes.seal_header();
+      EXPECT_NE(bytes.error(), "") << i << ' ' << count;
+    }
+    entry = sound;
+    for (const std::uint64_t offset : {~std::uint64_t{0}, ~std::uint64_t{63}, std::uint64_t{0}, bytes.size(),
+                                       sound.offset + 64, sound.offset + 1, sound.offset - 64}) {
+      entry.offset = offset;
+      bytes.seal_header();
+      EXPECT_NE(bytes.error(), "") << i << ' ' << offset;
+    }
+    entry = sound;
+    for (const std::uint32_t element : {0u, 1u + entry.element_size, ~0u}) {
+      entry.element_size = element;
+      bytes.seal_header();
+      EXPECT_NE(bytes.error(), "") << i << ' ' << element;
+    }
+    entry = sound;
+  }
+  bytes.seal_header();
+  EXPECT_EQ(bytes.error(), "");
+}
+
+TEST_F(SpoiledFile, ZerosThatAreNone) {
+  const auto& names = bytes.entry(Section::names);
+  bytes[names.offset + names.count] = std::byte{1};
+  bytes.seal();
+  expect_error("section names: no zeros");
+}
+
+TEST(BakedFile, FilesThatAreNone) {
+  const TemporaryFolder folder;
+  EXPECT_THROW(load_baked(folder.path() / "missing.bch"), BakedFileError);
+  EXPECT_THROW(load_baked(folder.path()), BakedFileError);
+  EXPECT_THROW(load_baked("/dev/null"), BakedFileError);
+  EXPECT_THROW(load_baked(folder.write("text.bch", std::string(9999, 'x'))), BakedFileError);
+}
+
+/// Such files of the system promise a page and hold a line: as if they had been cut meanwhile.
+TEST(BakedFile, FileThatShrinksWhileItIsRead) {
+  const std::filesystem::path file = "/sys/kernel/mm/transparent_hugepage/enabled";
+  if (!std::filesystem::exists(file)) GTEST_SKIP() << file;
+  try {
+    load_baked(file);
+    ADD_FAILURE() << "loaded";
+  } catch (const BakedFileError& error) {
+    EXPECT_NE(std::string(error.what()).find("shrank from 4096"), std::string::npos) << error.what();
+  }
+}
+
+}  // namespace
+}  // namespace bch::test
