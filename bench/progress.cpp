@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <cstdint>
 #include <cstdio>
 
 namespace bch::cli {
@@ -15,13 +16,18 @@ constexpr std::chrono::milliseconds first_after{1000};
 constexpr std::chrono::milliseconds again_after{100};
 constexpr std::size_t bar_width = 32;
 
+std::string time_text(double seconds) {
+  const auto whole = static_cast<std::uint64_t>(seconds + 0.5);
+  return whole < 60 ? fmt::format("{} s", whole) : fmt::format("{} min {} s", whole / 60, whole % 60);
+}
+
 }  // namespace
 
 Progress::Progress(std::string what, std::size_t total)
     : what_(std::move(what)),
       total_(total),
       terminal_(isatty(STDERR_FILENO) == 1),
-      next_(Clock::now() + first_after) {}
+      next_(begin_ + first_after) {}
 
 Progress::~Progress() {
   if (drawn_) std::fputs("\r\033[K", stderr);
@@ -39,8 +45,10 @@ void Progress::advance() {
 
 void Progress::draw(std::size_t done) {
   const std::size_t filled = total_ == 0 ? bar_width : done * bar_width / total_;
-  fmt::print(stderr, "\r{} [{:#<{}}{:.<{}}] {} of {}\033[K", what_, "", filled, "", bar_width - filled, done,
-             total_);
+  const double seconds = std::chrono::duration<double>(Clock::now() - begin_).count();
+  const double rate = static_cast<double>(done) / seconds;
+  fmt::print(stderr, "\r{} [{:#<{}}{:.<{}}] {} of {}, {:.3g}/s, {} left\033[K", what_, "", filled, "",
+             bar_width - filled, done, total_, rate, time_text(static_cast<double>(total_ - done) / rate));
   std::fflush(stderr);
   drawn_ = true;
 }

@@ -11,7 +11,8 @@
 
 namespace bch::cli {
 
-/// A bar on standard error for work of more than a second; only on a terminal. Gone when the work ends.
+/// A bar on standard error for work of more than a second, with the rate and the time left at that rate; only on a
+/// terminal. Gone when the work ends.
 class Progress {
  public:
   Progress(std::string what, std::size_t total);
@@ -30,7 +31,7 @@ class Progress {
   std::size_t total_;
   bool terminal_;
   bool drawn_ = false;
-  Clock::time_point next_;
+  Clock::time_point begin_ = Clock::now(), next_;
   std::atomic<std::size_t> done_{0};
   std::mutex drawing_;
 };
