@@ -33,9 +33,14 @@ int write_all(int descriptor, std::string_view text) {
   return 0;
 }
 
-/// Writes and closes. Returns: 0 or the error.
-int write_and_close(int descriptor, std::string_view text) {
-  int error = write_all(descriptor, text);
+int write_all(int descriptor, std::span<const std::string_view> parts) {
+  for (const std::string_view part : parts)
+    if (const int error = write_all(descriptor, part)) return error;
+  return 0;
+}
+
+/// Closes after `error`, which is 0 for none. Returns: 0 or the first error.
+int close_after(int error, int descriptor) {
   if (close(descriptor) != 0 && error == 0) error = errno;
   return error;
 }
@@ -64,18 +69,25 @@ void write_standard_output(std::string_view text) {
 }
 
 void write_file(const std::string& file, std::string_view text) {
+  write_file(file, {&text, 1});
+}
+
+void write_file(const std::string& file, std::span<const std::string_view> parts) {
   const fs::path target = resolved(file);
   if (is_special(target)) {
     const int descriptor = open(target.c_str(), O_WRONLY | O_CLOEXEC);
     if (descriptor < 0) reject(file, errno);
-    if (const int error = write_and_close(descriptor, text)) reject(file, error);
+    if (const int error = close_after(write_all(descriptor, parts), descriptor)) reject(file, error);
     return;
   }
   const fs::path temporary = target.string() + ".bch-" + std::to_string(getpid());
   const RemovedOnSignal guard(temporary);
   const int descriptor = open(temporary.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
   if (descriptor < 0) reject(file, errno);
-  int error = write_and_close(descriptor, text);
+  int error = write_all(descriptor, parts);
+  // On the disk before it has the name: a crash must not leave a file of zeros there.
+  if (error == 0 && fsync(descriptor) != 0) error = errno;
+  error = close_after(error, descriptor);
   if (error == 0 && rename(temporary.c_str(), target.c_str()) != 0) error = errno;
   if (error == 0) return;
   unlink(temporary.c_str());

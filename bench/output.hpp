@@ -3,18 +3,21 @@
 
 #pragma once
 
+#include <span>
 #include <string>
 #include <string_view>
 
 namespace bch::cli {
 
-/// Errors of both: throw InputError naming the destination and the reason.
+/// Errors of all: throw InputError naming the destination and the reason.
 
 void write_standard_output(std::string_view text);
 
 /// The file holds all of the text or is left as it was: the text goes to a new file beside it that is
-/// renamed. What is not a regular file (a device, a pipe) is written to directly.
+/// renamed once it is on the disk. What is not a regular file (a device, a pipe) is written to directly.
 void write_file(const std::string& file, std::string_view text);
+/// The same for parts that follow each other.
+void write_file(const std::string& file, std::span<const std::string_view> parts);
 
 /// Says early what write_file() would say after the work was done: no such folder, or one that cannot be
 /// written to. An empty name is no file and fine.
