@@ -15,6 +15,10 @@ namespace bch::cli {
 constexpr const char* character_help =
     "Character file (glTF, FBX, Collada ...), or default:male, default:female";
 
+/// Help for what takes a baked file as well.
+constexpr const char* character_or_baked_help =
+    "Character file, default:male, default:female, or a baked file, NAME.bch";
+
 struct LoadedCharacter {
   std::string source;  ///< as the user named it
   Character character;

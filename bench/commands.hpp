@@ -10,7 +10,8 @@ namespace bch::cli {
 
 /// Adds a subcommand to the program.
 /// Returns: what runs it once the command line was read.
-/// Errors:  the returned function throws UsageError, InputError, ImportError, anything else for a fault.
+/// Errors:  the returned function throws UsageError, InputError, ImportError, BakedFileError, anything else for a fault.
+std::function<void()> add_bake_command(CLI::App& program);
 std::function<void()> add_crowd_command(CLI::App& program);
 std::function<void()> add_inspect_command(CLI::App& program);
 std::function<void()> add_query_command(CLI::App& program);

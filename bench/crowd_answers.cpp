@@ -8,6 +8,7 @@
 #include <iterator>
 #include <tuple>
 
+#include "bench/baked_report.hpp"
 #include "bench/progress.hpp"
 #include "kernel/broad_phase.hpp"
 
@@ -45,10 +46,10 @@ void answer_level(const ShapeSet& set, const Agents& agents, std::span<const Pai
   if (!pairs.empty()) level.nanoseconds_per_pair = 1e9 * median(seconds) / static_cast<double>(pairs.size());
 }
 
-double mean_discs(std::span<const Shape> shapes, std::uint32_t depth) {
+double mean_discs(const ShapeSet& set, std::uint32_t level) {
   std::size_t discs = 0;
-  for (const Shape& shape : shapes) discs += cut(shape.hierarchy, depth).size();
-  return static_cast<double>(discs) / static_cast<double>(shapes.size());
+  for (std::uint32_t s = 0; s < set.shape_count(); ++s) discs += disc_count(set, s, level);
+  return static_cast<double>(discs) / static_cast<double>(set.shape_count());
 }
 
 }  // namespace
@@ -66,8 +67,7 @@ std::vector<Pair> candidates_of_all_levels(const ShapeSet& shapes, const Crowd& 
   return all;
 }
 
-CrowdAnswers answer_crowd(std::span<const Shape> shapes, const ShapeSet& set, const Crowd& crowd,
-                          const QueryOptions& options) {
+CrowdAnswers answer_crowd(const ShapeSet& set, const Crowd& crowd, const QueryOptions& options) {
   CrowdAnswers answers;
   answers.pairs = candidates_of_all_levels(set, crowd);
   answers.levels.resize(set.level_count());
@@ -75,7 +75,7 @@ CrowdAnswers answer_crowd(std::span<const Shape> shapes, const ShapeSet& set, co
   for (std::uint32_t k = 0; k < set.level_count(); ++k) {
     LevelAnswers& level = answers.levels[k];
     level.depth = set.depths()[k];
-    level.discs = mean_discs(shapes, level.depth);
+    level.discs = mean_discs(set, k);
     level.hits.resize(answers.pairs.size());
     const std::vector<std::uint8_t> levels(crowd.size(), static_cast<std::uint8_t>(k));
     answer_level(set, crowd.at_level(levels), answers.pairs, options, level);

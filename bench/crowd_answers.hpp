@@ -36,7 +36,6 @@ std::vector<Pair> candidates_of_all_levels(const ShapeSet& shapes, const Crowd& 
 
 /// Answers all candidates at every level, one batch call a level, and takes the time of it.
 /// Precondition: level 0 of the set is depth 0.
-CrowdAnswers answer_crowd(std::span<const Shape> shapes, const ShapeSet& set, const Crowd& crowd,
-                          const QueryOptions& options);
+CrowdAnswers answer_crowd(const ShapeSet& set, const Crowd& crowd, const QueryOptions& options);
 
 }  // namespace bch::cli

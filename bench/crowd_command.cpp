@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <memory>
 
+#include "bench/baked_report.hpp"
 #include "bench/commands.hpp"
 #include "bench/crowd_picture.hpp"
 #include "bench/crowd_report.hpp"
@@ -47,10 +48,23 @@ void write_files(const CrowdRun& run, std::uint32_t level) {
     write_file(options.svg, draw_crowd({run.built.shapes, run.crowd, run.answers, level, options.density}));
 }
 
-void run_crowd(const CrowdOptions& options) {
+/// Answers and reports, once there are shapes.
+void run_crowd(const CrowdOptions& options, std::span<const LoadedCharacter> characters,
+               const BuiltShapes& built, double threshold, const ShapeSet& set, std::uint32_t level,
+               unsigned threads) {
+  const QueryOptions query = options.answer.query_options();
+  const Crowd crowd = place_crowd(options.agents, options.density, set.shape_count(), options.seed);
+  const CrowdAnswers answers = answer_crowd(set, crowd, query);
+  const CrowdRun run{options, characters, threshold, built, set, crowd, answers, query.implementation->name,
+                     threads};
+  write_files(run, level);
+  write_standard_output(text_report(run));
+}
+
+void run_crowd_of_characters(const CrowdOptions& options) {
   const std::vector<std::uint32_t> depths = crowd_depths(options.answer);
   const std::uint32_t level = picture_level(options, depths);
-  const QueryOptions query = options.answer.query_options();
+  const bool solid = options.answer.query_options().semantics == Semantics::solid;
   for (const std::string& file : {options.json, options.csv, options.svg}) require_writable(file);
 
   // Before there are threads: see guarded_import().
@@ -58,14 +72,28 @@ void run_crowd(const CrowdOptions& options) {
   const Threads threads(options.answer.threads);
   const auto sources = list_shapes(characters, options.shapes.poses);
   const BuiltShapes built = build_shapes(characters, sources, options.shapes.threshold);
-  const ShapeSet set(built.shapes, {depths, query.semantics == Semantics::solid});
-  const Crowd crowd = place_crowd(options.agents, options.density, set.shape_count(), options.seed);
-  const CrowdAnswers answers = answer_crowd(built.shapes, set, crowd, query);
+  const ShapeSet set(built.shapes, {depths, solid});
+  run_crowd(options, characters, built, options.shapes.threshold, set, level, threads.count);
+}
 
-  const CrowdRun run{options,      characters, built, set, crowd, answers, query.implementation->name,
-                     threads.count};
-  write_files(run, level);
-  write_standard_output(text_report(run));
+void run_baked_crowd(const CrowdOptions& options) {
+  const bool solid = options.answer.query_options().semantics == Semantics::solid;
+  for (const std::string& file : {options.json, options.csv}) require_writable(file);
+  const std::string& file = options.characters.front();
+  const BakedShapes baked = load_baked_for(file, solid);
+  if (baked.set.shape_count() == 0 || baked.set.depths().front() != 0)
+    throw InputError(file + ": has no shapes at depth 0, the single cylinder that others are compared with");
+  const Threads threads(options.answer.threads);
+  run_crowd(options, {}, {}, baked.origins.threshold, baked.set, 0, threads.count);
+}
+
+void run_crowd(const CLI::App& command, const CrowdOptions& options) {
+  if (std::none_of(options.characters.begin(), options.characters.end(), is_baked))
+    return run_crowd_of_characters(options);
+  if (options.characters.size() > 1) throw UsageError("--character: a baked file stands alone");
+  require_absent(command, settled_by_baking, options.characters.front() + " has settled that");
+  require_absent(command, {"--svg", "--svg-depth"}, "a baked file has no hierarchies to draw");
+  run_baked_crowd(options);
 }
 
 }  // namespace
@@ -83,7 +111,9 @@ std::function<void()> add_crowd_command(CLI::App& program) {
   command.add_option("--seed", options->seed, "Chooses positions, headings and shapes [1]")
       ->type_name("N")
       ->check(number_between(0, 0x1p64 - 2048));
-  command.add_option("--character", options->characters, std::string(character_help) + " [the last two]")
+  command
+      .add_option("--character", options->characters,
+                  std::string(character_or_baked_help) + " [the last two]")
       ->type_name("FILE")
       ->allow_extra_args(false);
   options->shapes.add_to(command);
@@ -96,7 +126,7 @@ std::function<void()> add_crowd_command(CLI::App& program) {
       .add_option("--svg-depth", options->svg_depth,
                   "Draw the discs of this one of --depths [6, else the last]")
       ->type_name("DEPTH");
-  return [options] { run_crowd(*options); };
+  return [options, &command] { run_crowd(command, *options); };
 }
 
 }  // namespace bch::cli

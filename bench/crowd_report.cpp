@@ -39,14 +39,16 @@ std::string facts(const CrowdRun& run) {
   const auto line = [](const char* what, const std::string& text) {
     return fmt::format("{:<12}{}\n", what, text);
   };
-  return line("characters", names) +
+  const bool baked = run.characters.empty();
+  const double outline = run.built.outline_seconds, hierarchy = run.built.hierarchy_seconds;
+  return line(baked ? "baked" : "characters", baked ? run.options.characters.front() : names) +
          line("shapes", fmt::format("{} in contour hierarchies down to {:g} mm, {:.1f} kB each",
-                                    counted(run.set.shape_count(), "pose"),
-                                    run.options.shapes.threshold * 1e3, bytes_per_shape(run) / 1e3)) +
-         line("build",
-              fmt::format("{} a shape and thread: outline {}, hierarchy {}",
-                          time_text(run.built.outline_seconds + run.built.hierarchy_seconds),
-                          time_text(run.built.outline_seconds), time_text(run.built.hierarchy_seconds))) +
+                                    counted(run.set.shape_count(), "pose"), run.threshold * 1e3,
+                                    bytes_per_shape(run) / 1e3)) +
+         (baked ? std::string()
+                : line("build", fmt::format("{} a shape and thread: outline {}, hierarchy {}",
+                                            time_text(outline + hierarchy), time_text(outline),
+                                            time_text(hierarchy)))) +
          line("agents",
               fmt::format("{} on {:.1f} m x {:.1f} m, {:g} per m2, seed {}", grouped(run.crowd.size()),
                           run.crowd.side, run.crowd.side, run.options.density, run.options.seed)) +
@@ -75,16 +77,19 @@ std::string conclusion(const CrowdRun& run) {
                      100 * share_cleared(run, finest));
 }
 
-nlohmann::ordered_json options_json(const CrowdOptions& o) {
-  nlohmann::ordered_json json{{"characters", o.characters}, {"clips", o.shapes.clips}};
+/// A baked file has settled what concerns shapes.
+nlohmann::ordered_json options_json(const CrowdRun& run) {
+  const CrowdOptions& o = run.options;
+  nlohmann::ordered_json json{{"characters", o.characters}};
+  if (!run.characters.empty()) json["clips"] = o.shapes.clips;
   if (!o.shapes.up.empty()) json["up"] = o.shapes.up;
   if (o.shapes.scale > 0) json["scale"] = o.shapes.scale;
-  json["poses"] = o.shapes.poses;
-  json["threshold_m"] = o.shapes.threshold;
+  if (!run.characters.empty()) json["poses"] = o.shapes.poses;
+  json["threshold_m"] = run.threshold;
   json["agents"] = o.agents;
   json["density_per_m2"] = o.density;
   json["seed"] = o.seed;
-  json["depths"] = o.answer.depths;
+  if (!run.characters.empty()) json["depths"] = o.answer.depths;
   json["semantics"] = o.answer.semantics;
   return json;
 }
@@ -103,15 +108,16 @@ std::string text_report(const CrowdRun& run) {
 }
 
 nlohmann::ordered_json json_report(const CrowdRun& run) {
-  nlohmann::ordered_json json{{"program", "bch " BCH_VERSION}, {"options", options_json(run.options)}};
+  nlohmann::ordered_json json{{"program", "bch " BCH_VERSION}, {"options", options_json(run)}};
   for (const LoadedCharacter& character : run.characters)
     json["characters"].push_back({{"source", character.source},
                                   {"triangles", character.report.triangles},
                                   {"height_m", shortest(character.report.height)}});
-  json["shapes"] = {{"count", run.set.shape_count()},
-                    {"bytes_per_shape", bytes_per_shape(run)},
-                    {"outline_seconds", run.built.outline_seconds},
-                    {"hierarchy_seconds", run.built.hierarchy_seconds}};
+  json["shapes"] = {{"count", run.set.shape_count()}, {"bytes_per_shape", bytes_per_shape(run)}};
+  if (!run.characters.empty()) {
+    json["shapes"]["outline_seconds"] = run.built.outline_seconds;
+    json["shapes"]["hierarchy_seconds"] = run.built.hierarchy_seconds;
+  }
   json["crowd"] = {{"agents", run.crowd.size()},
                    {"side_m", run.crowd.side},
                    {"area_m2", run.crowd.side * run.crowd.side},

@@ -26,8 +26,9 @@ struct CrowdOptions {
 /// Everything that a run of `bch crowd` knows in the end.
 struct CrowdRun {
   const CrowdOptions& options;
-  std::span<const LoadedCharacter> characters;
-  const BuiltShapes& built;
+  std::span<const LoadedCharacter> characters;  ///< none: the shapes were baked
+  double threshold;                             ///< of all hierarchies, metres
+  const BuiltShapes& built;                     ///< empty likewise
   const ShapeSet& set;
   const Crowd& crowd;
   const CrowdAnswers& answers;

@@ -5,6 +5,7 @@
 
 #include <memory>
 
+#include "bench/baked_report.hpp"
 #include "bench/commands.hpp"
 #include "bench/exit_codes.hpp"
 #include "bench/inspection.hpp"
@@ -81,8 +82,20 @@ void inspect_table(const InspectOptions& options, const LoadedCharacter& from,
   write_standard_output(text_of(from) + text_of(from, table));
 }
 
-void run_inspect(const InspectOptions& options) {
+void inspect_baked(const InspectOptions& options) {
+  const BakedShapes baked = load_baked(options.character);
+  write_json(options.json, json_of(options.character, baked));
+  write_standard_output(text_of(options.character, baked) + table_text(baked));
+}
+
+void run_inspect(const CLI::App& command, const InspectOptions& options) {
   require_consistent(options);
+  if (is_baked(options.character)) {
+    require_absent(command, {"--clips", "--up", "--scale", "--poses", "--threshold"},
+                   options.character + " has settled that");
+    require_absent(command, {"--shape", "--clip", "--svg"}, "a baked file has no hierarchies to show");
+    return inspect_baked(options);
+  }
   const LoadedCharacter from = load_character(options.character, options.shapes.import_options());
   const Threads threads(options.threads);
   const auto sources = list_shapes({&from, 1}, options.shapes.poses);
@@ -98,11 +111,12 @@ void run_inspect(const InspectOptions& options) {
 
 std::function<void()> add_inspect_command(CLI::App& program) {
   const auto options = std::make_shared<InspectOptions>();
-  CLI::App& command = *program.add_subcommand("inspect", "Show what a character file holds, and its shapes");
+  CLI::App& command =
+      *program.add_subcommand("inspect", "Show what a character or baked file holds, and its shapes");
   command.footer(
       "A file is refused if reading it crashes or takes more than 4 GiB or 60 s.\n"
       "Example: bch inspect default:male --clip walk --time 1.5 --svg walk.svg");
-  command.add_option("FILE", options->character, character_help)->type_name("")->required();
+  command.add_option("FILE", options->character, character_or_baked_help)->type_name("")->required();
   command.add_option("--shape", options->shape, "Show this shape of the table in detail")->type_name("INDEX");
   command.add_option("--clip", options->clip, "Show this clip, at --time, in detail")->type_name("NAME");
   command.add_option("--time", options->time, "Seconds from the start of --clip")
@@ -116,7 +130,7 @@ std::function<void()> add_inspect_command(CLI::App& program) {
       ->type_name("FILE");
   command.add_option("--svg", options->svg, "Draw the shape: a panel for each depth of its hierarchy")
       ->type_name("FILE");
-  return [options] { run_inspect(*options); };
+  return [options, &command] { run_inspect(command, *options); };
 }
 
 }  // namespace bch::cli

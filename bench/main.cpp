@@ -10,6 +10,7 @@
 #include "bench/exit_codes.hpp"
 #include "bench/interrupt.hpp"
 #include "bench/output.hpp"
+#include "layout/baked_file.hpp"
 #include "layout/import.hpp"
 
 namespace {
@@ -46,6 +47,7 @@ int run(int argc, char** argv) {
   program.require_subcommand(1);
   program.get_formatter()->column_width(24);
   const std::pair<const char*, std::function<void()>> commands[] = {
+      {"bake", add_bake_command(program)},
       {"crowd", add_crowd_command(program)},
       {"inspect", add_inspect_command(program)},
       {"query", add_query_command(program)},
@@ -61,7 +63,7 @@ int run(int argc, char** argv) {
   } catch (const CLI::RequiredError& error) {
     const std::string word = argc > 1 ? argv[1] : "";
     if (program.get_subcommands().empty() && !word.empty() && word[0] != '-')
-      throw UsageError("no command '" + word + "' (crowd, inspect, query)");
+      throw UsageError("no command '" + word + "' (bake, crowd, inspect, query)");
     throw UsageError(one_line(error.what()) + more_help);
   } catch (const CLI::ParseError& error) {
     throw UsageError(one_line(error.what()) + more_help);
@@ -82,6 +84,8 @@ int main(int argc, char** argv) {
   } catch (const InputError& error) {
     return report(exit_bad_input, error.what());
   } catch (const bch::ImportError& error) {
+    return report(exit_bad_input, error.what());
+  } catch (const bch::BakedFileError& error) {
     return report(exit_bad_input, error.what());
   } catch (const std::bad_alloc&) {
     return report(exit_internal, "not enough memory");

@@ -31,6 +31,12 @@ CLI::Validator one_of(std::vector<std::string> words) {
   return CLI::Validator(check, "", "word");
 }
 
+void require_absent(const CLI::App& command, std::initializer_list<const char*> options,
+                    const std::string& reason) {
+  for (const char* option : options)
+    if (command.count(option) > 0) throw UsageError(fmt::format("{}: {}", option, reason));
+}
+
 std::uint32_t parse_depth(const std::string& option, const std::string& text) {
   if (text == "all") return all_depths;
   std::uint32_t depth = 0;
@@ -67,7 +73,7 @@ ImportOptions ShapeOptions::import_options() const {
   return options;
 }
 
-void AnswerOptions::add_to(CLI::App& command) {
+void AnswerOptions::add_levels_to(CLI::App& command) {
   command.add_option("--depths", depths, "Levels of detail: cut depths, ascending [0,3,6,all]")
       ->type_name("LIST");
   command
@@ -78,6 +84,10 @@ void AnswerOptions::add_to(CLI::App& command) {
   command.add_option("--threads", threads, "Threads [all that the machine has]")
       ->type_name("N")
       ->check(number_between(1, 1024));
+}
+
+void AnswerOptions::add_to(CLI::App& command) {
+  add_levels_to(command);
   command.add_option("--isa", isa, "Kernel: avx512, avx2, sse2 or scalar [the best that runs here]")
       ->type_name("NAME");
 }

@@ -5,6 +5,7 @@
 
 #include <CLI/CLI.hpp>
 #include <cstdint>
+#include <initializer_list>
 #include <string>
 #include <vector>
 
@@ -25,6 +26,10 @@ struct ShapeOptions {
   ImportOptions import_options() const;
 };
 
+/// Options that say nothing to a command that was given a baked file.
+constexpr std::initializer_list<const char*> settled_by_baking = {"--clips", "--up",        "--scale",
+                                                                  "--poses", "--threshold", "--depths"};
+
 /// How pairs are answered.
 struct AnswerOptions {
   std::string depths = "0,3,6,all";
@@ -33,6 +38,8 @@ struct AnswerOptions {
   std::uint32_t threads = 0;  ///< 0: all
 
   void add_to(CLI::App& command);
+  /// All but the kernel.
+  void add_levels_to(CLI::App& command);
   /// Errors of all: throw UsageError naming the option and the value.
   std::vector<std::uint32_t> cut_depths() const;
   QueryOptions query_options() const;
@@ -41,6 +48,10 @@ struct AnswerOptions {
 /// A number, or "all".
 /// Errors:  throws UsageError naming the option.
 std::uint32_t parse_depth(const std::string& option, const std::string& text);
+
+/// Errors:  throws UsageError naming the option and the reason if one of them was given.
+void require_absent(const CLI::App& command, std::initializer_list<const char*> options,
+                    const std::string& reason);
 
 /// Rejects every other word.
 CLI::Validator one_of(std::vector<std::string> words);

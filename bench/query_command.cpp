@@ -9,6 +9,7 @@
 #include <tuple>
 #include <unordered_map>
 
+#include "bench/baked_report.hpp"
 #include "bench/commands.hpp"
 #include "bench/csv_input.hpp"
 #include "bench/exit_codes.hpp"
@@ -59,31 +60,59 @@ std::string answers_csv(const AgentTable& table, std::span<const Pair> pairs,
   return out;
 }
 
-void run_query(const QueryCommandOptions& options) {
+/// What there is to answer.
+struct Question {
+  AgentTable table;
+  std::vector<Pair> pairs;
+};
+
+/// Files first, so that a wrong value does not wait for shapes to be built.
+Question read_question(const QueryCommandOptions& options, std::size_t shapes, std::size_t levels) {
+  Question question{
+      read_agents(options.agents, static_cast<std::uint32_t>(shapes), static_cast<std::uint32_t>(levels)),
+      {}};
+  if (!options.all_pairs) question.pairs = read_pairs(options.pairs, question.table);
+  return question;
+}
+
+void answer(const QueryCommandOptions& options, const ShapeSet& set, Question& question) {
+  auto& [table, pairs] = question;
+  if (options.all_pairs) pairs = pairs_in_order(set, table.agents());
+  std::vector<std::uint8_t> hits(pairs.size());
+  collide(set, table.agents(), pairs, hits, options.answer.query_options());
+  write_standard_output(answers_csv(table, pairs, hits, options.all_pairs));
+}
+
+void query_character(const QueryCommandOptions& options) {
+  std::vector<std::uint32_t> depths = options.answer.cut_depths();
+  const bool solid = options.answer.query_options().semantics == Semantics::solid;
+  const LoadedCharacter from = load_character(options.character, options.shapes.import_options());
+  const auto sources = list_shapes({&from, 1}, options.shapes.poses);
+  Question question = read_question(options, sources.size(), depths.size());
+  // Agents without a level use the last one: the others need not be there.
+  if (question.table.level.empty()) depths.erase(depths.begin(), depths.end() - 1);
+
+  const Threads threads(options.answer.threads);
+  const auto used = keep_used(sources, question.table);
+  const BuiltShapes built = build_shapes({&from, 1}, used, options.shapes.threshold);
+  answer(options, ShapeSet(built.shapes, {depths, solid}), question);
+}
+
+void query_baked(const QueryCommandOptions& options) {
+  const bool solid = options.answer.query_options().semantics == Semantics::solid;
+  const BakedShapes baked = load_baked_for(options.character, solid);
+  Question question = read_question(options, baked.set.shape_count(), baked.set.level_count());
+  const Threads threads(options.answer.threads);
+  answer(options, baked.set, question);
+}
+
+void run_query(const CLI::App& command, const QueryCommandOptions& options) {
   if (options.all_pairs == !options.pairs.empty())
     throw UsageError(options.all_pairs ? "PAIRS.csv and --all-pairs: name one of them"
                                        : "PAIRS.csv or --all-pairs is missing");
-  std::vector<std::uint32_t> depths = options.answer.cut_depths();
-  const QueryOptions query = options.answer.query_options();
-
-  // Files first, so that a wrong value does not wait for shapes to be built.
-  const LoadedCharacter from = load_character(options.character, options.shapes.import_options());
-  const auto sources = list_shapes({&from, 1}, options.shapes.poses);
-  AgentTable table = read_agents(options.agents, static_cast<std::uint32_t>(sources.size()),
-                                 static_cast<std::uint32_t>(depths.size()));
-  std::vector<Pair> pairs;
-  if (!options.all_pairs) pairs = read_pairs(options.pairs, table);
-  // Agents without a level use the last one: the others need not be there.
-  if (table.level.empty()) depths.erase(depths.begin(), depths.end() - 1);
-
-  const Threads threads(options.answer.threads);
-  const auto used = keep_used(sources, table);
-  const BuiltShapes built = build_shapes({&from, 1}, used, options.shapes.threshold);
-  const ShapeSet set(built.shapes, {depths, query.semantics == Semantics::solid});
-  if (options.all_pairs) pairs = pairs_in_order(set, table.agents());
-  std::vector<std::uint8_t> hits(pairs.size());
-  collide(set, table.agents(), pairs, hits, query);
-  write_standard_output(answers_csv(table, pairs, hits, options.all_pairs));
+  if (!is_baked(options.character)) return query_character(options);
+  require_absent(command, settled_by_baking, options.character + " has settled that");
+  query_baked(options);
 }
 
 }  // namespace
@@ -97,7 +126,7 @@ std::function<void()> add_query_command(CLI::App& program) {
       "metres, heading is in radians, level an index into --depths (without that column: the last).\n"
       "Writes first,second,hit: a line for each line of PAIRS.csv, in that order; hit is 0 or 1.\n"
       "Example: bch query default:female agents.csv pairs.csv > answers.csv");
-  command.add_option("SHAPES", options->character, character_help)->type_name("")->required();
+  command.add_option("SHAPES", options->character, character_or_baked_help)->type_name("")->required();
   command.add_option("AGENTS.csv", options->agents, "Columns id,shape,x,y,heading[,level]")
       ->type_name("")
       ->required();
@@ -106,7 +135,7 @@ std::function<void()> add_query_command(CLI::App& program) {
                    "Instead of PAIRS.csv: find and write all pairs that collide");
   options->shapes.add_to(command);
   options->answer.add_to(command);
-  return [options] { run_query(*options); };
+  return [options, &command] { run_query(command, *options); };
 }
 
 }  // namespace bch::cli

@@ -8,6 +8,7 @@
 #include <oneapi/tbb/parallel_for.h>
 
 #include <chrono>
+#include <cmath>
 #include <stdexcept>
 
 #include "bench/exit_codes.hpp"
@@ -18,19 +19,46 @@
 namespace bch::cli {
 namespace {
 
+constexpr double most_shapes = 1e7;
+
 using Clock = std::chrono::steady_clock;
 
 double seconds_between(Clock::time_point begin, Clock::time_point end) {
   return std::chrono::duration<double>(end - begin).count();
 }
 
-struct Timing {
-  double outline = 0;
-  double hierarchy = 0;
-};
+}  // namespace
 
-Timing build(const LoadedCharacter& from, Skinner& skinner, PoseTime at, double threshold, Shape& shape) {
+std::vector<ShapeSource> list_shapes(std::span<const LoadedCharacter> characters, std::uint32_t poses) {
+  std::vector<ShapeSource> sources;
+  for (std::uint32_t c = 0; c < characters.size(); ++c)
+    for (const PoseTime at : sample_poses(characters[c].character, poses)) sources.push_back({c, at});
+  return sources;
+}
+
+std::vector<ShapeSource> list_shapes_at_rate(std::span<const LoadedCharacter> characters, double rate) {
+  std::vector<ShapeSource> sources;
+  for (std::uint32_t c = 0; c < characters.size(); ++c) {
+    const auto& clips = characters[c].character.clips;
+    if (clips.empty()) sources.push_back({c, {}});
+    for (std::uint32_t k = 0; k < clips.size(); ++k) {
+      const double poses = std::max(1.0, std::floor(static_cast<double>(clips[k].seconds) * rate));
+      if (static_cast<double>(sources.size()) + poses > most_shapes)
+        throw InputError(
+            fmt::format("{}: more than {} poses at {} a second", characters[c].source, most_shapes, rate));
+      for (double i = 0; i < poses; ++i) sources.push_back({c, {k, static_cast<float>(i / rate)}});
+    }
+  }
+  return sources;
+}
+
+std::string clip_name(const LoadedCharacter& character, PoseTime at) {
+  return at.clip == PoseTime::rest ? "rest pose" : character.character.clips[at.clip].name;
+}
+
+ShapeTiming build_shape(const LoadedCharacter& from, PoseTime at, double threshold, Shape& shape) {
   try {
+    Skinner skinner(from.character);  // costs nothing beside the rest
     const auto begin = Clock::now();
     shape.outline = union_outline(skinner.pose(at), from.character.triangles);
     const auto middle = Clock::now();
@@ -44,36 +72,21 @@ Timing build(const LoadedCharacter& from, Skinner& skinner, PoseTime at, double 
   }
 }
 
-}  // namespace
-
-std::vector<ShapeSource> list_shapes(std::span<const LoadedCharacter> characters, std::uint32_t poses) {
-  std::vector<ShapeSource> sources;
-  for (std::uint32_t c = 0; c < characters.size(); ++c)
-    for (const PoseTime at : sample_poses(characters[c].character, poses)) sources.push_back({c, at});
-  return sources;
-}
-
-std::string clip_name(const LoadedCharacter& character, PoseTime at) {
-  return at.clip == PoseTime::rest ? "rest pose" : character.character.clips[at.clip].name;
-}
-
 BuiltShapes build_shapes(std::span<const LoadedCharacter> characters, std::span<const ShapeSource> sources,
                          double threshold) {
   BuiltShapes built;
   built.shapes.resize(sources.size());
-  std::vector<Timing> timings(sources.size());
+  std::vector<ShapeTiming> timings(sources.size());
   Progress progress("building shapes", sources.size());
 
-  // Tens of milliseconds a shape: a task each balances best, and its own skinner costs nothing beside.
+  // A task each balances best.
   tbb::parallel_for(std::size_t{0}, sources.size(), [&](std::size_t i) {
-    const LoadedCharacter& from = characters[sources[i].character];
-    Skinner skinner(from.character);
-    timings[i] = build(from, skinner, sources[i].at, threshold, built.shapes[i]);
+    timings[i] = build_shape(characters[sources[i].character], sources[i].at, threshold, built.shapes[i]);
     progress.advance();
   });
 
   const double count = std::max(1.0, static_cast<double>(sources.size()));
-  for (const Timing& timing : timings) {
+  for (const ShapeTiming& timing : timings) {
     built.outline_seconds += timing.outline / count;
     built.hierarchy_seconds += timing.hierarchy / count;
   }

@@ -22,8 +22,21 @@ struct ShapeSource {
 /// The poses of all characters, one character after the other, as every command numbers them.
 std::vector<ShapeSource> list_shapes(std::span<const LoadedCharacter> characters, std::uint32_t poses);
 
+/// The same at so many poses a second: of every clip those at 0, 1 / rate ... before its end, one at least.
+/// Errors:  throws InputError beyond 1e7 poses.
+std::vector<ShapeSource> list_shapes_at_rate(std::span<const LoadedCharacter> characters, double rate);
+
 /// "walk", or "rest pose".
 std::string clip_name(const LoadedCharacter& character, PoseTime at);
+
+struct ShapeTiming {
+  double outline = 0;    ///< seconds: skinning and outline
+  double hierarchy = 0;  ///< seconds
+};
+
+/// Builds the contour hierarchy of one pose.
+/// Errors:  throws InputError naming the character, clip and time of a pose that has no outline.
+ShapeTiming build_shape(const LoadedCharacter& from, PoseTime at, double threshold, Shape& shape);
 
 struct BuiltShapes {
   std::vector<Shape> shapes;     ///< one a source
@@ -32,7 +45,7 @@ struct BuiltShapes {
 };
 
 /// Builds contour hierarchies, in parallel, with a progress bar.
-/// Errors:  throws InputError naming the character, clip and time of a pose that has no outline.
+/// Errors:  as build_shape() throws.
 BuiltShapes build_shapes(std::span<const LoadedCharacter> characters, std::span<const ShapeSource> sources,
                          double threshold);
 

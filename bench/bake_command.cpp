@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "bench/baked_report.hpp"
+#include "bench/baking.hpp"
+#include "bench/commands.hpp"
+#include "bench/exit_codes.hpp"
+#include "bench/options.hpp"
+#include "bench/output.hpp"
+#include "bench/threads.hpp"
+#include "layout/baked_image.hpp"
+
+namespace bch::cli {
+namespace {
+
+struct BakeOptions {
+  std::vector<std::string> characters;
+  std::string output;
+  double rate = 0;  ///< poses a second; 0: a number of them
+  ShapeOptions shapes;
+  AnswerOptions answer;
+};
+
+void write_image(const std::string& file, const BakedImage& image) {
+  std::vector<std::string_view> parts;
+  for (const auto part : image.parts())
+    parts.emplace_back(reinterpret_cast<const char*>(part.data()), part.size());
+  write_file(file, parts);
+}
+
+void run_bake(const BakeOptions& options) {
+  const ShapeSetPlan plan{options.answer.cut_depths(), options.answer.semantics == "solid"};
+  require_writable(options.output);
+  // Before there are threads: see guarded_import().
+  const auto characters = load_characters(options.characters, options.shapes.import_options());
+  const Threads threads(options.answer.threads);
+  const auto sources = options.rate > 0 ? list_shapes_at_rate(characters, options.rate)
+                                        : list_shapes(characters, options.shapes.poses);
+  const BakedShapes baked{bake_shapes(characters, sources, options.shapes.threshold, plan),
+                          origins_of(characters, sources, options.shapes.threshold)};
+  write_image(options.output, BakedImage(baked.set, baked.origins));
+  write_standard_output(text_of(options.output, baked));
+}
+
+}  // namespace
+
+std::function<void()> add_bake_command(CLI::App& program) {
+  const auto options = std::make_shared<BakeOptions>();
+  CLI::App& command =
+      *program.add_subcommand("bake", "Build shapes once, into a file that queries load at once");
+  command.footer(
+      "The other commands take the file in place of a character; it holds no more than queries need.\n"
+      "With --semantics solid it answers both semantics, else only boundary.\n"
+      "Example: bch bake man.glb woman.glb --rate 30 --depths 0,all -o people.bch");
+  command.add_option("FILE", options->characters, character_help)->type_name("")->required();
+  command.add_option("-o,--output", options->output, "The file to write, NAME.bch")
+      ->type_name("FILE")
+      ->required();
+  options->shapes.add_to(command);
+  command.add_option("--rate", options->rate, "Instead of --poses: so many poses a second, of every clip")
+      ->type_name("N")
+      ->check(number_between(1e-3, 1e4))
+      ->excludes("--poses");
+  options->answer.add_levels_to(command);
+  return [options] { run_bake(*options); };
+}
+
+}  // namespace bch::cli

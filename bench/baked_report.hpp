@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "layout/baked_file.hpp"
+
+namespace bch::cli {
+
+/// By its name: what ends in ".bch".
+bool is_baked(const std::string& file);
+
+/// For one that has to answer in some semantics.
+/// Errors:  throws BakedFileError; InputError where solid semantics is asked of a set that was baked without.
+BakedShapes load_baked_for(const std::string& file, bool solid);
+
+/// What a person wants to know of a baked file.
+std::string text_of(const std::string& file, const BakedShapes& baked);
+/// A line a shape.
+std::string table_text(const BakedShapes& baked);
+/// Both.
+nlohmann::ordered_json json_of(const std::string& file, const BakedShapes& baked);
+
+/// Discs of a shape's cut.
+std::uint32_t disc_count(const ShapeSet& set, std::uint32_t shape, std::uint32_t level);
+
+}  // namespace bch::cli

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include "bench/baking.hpp"
+
+#include <oneapi/tbb/enumerable_thread_specific.h>
+#include <oneapi/tbb/parallel_pipeline.h>
+#include <oneapi/tbb/task_arena.h>
+
+#include <memory>
+#include <utility>
+
+#include "bench/progress.hpp"
+#include "layout/shape_set_builder.hpp"
+
+namespace bch::cli {
+namespace {
+
+/// Shapes that are built or wait for one before them, a thread: enough that a slow pose holds up nobody.
+constexpr std::size_t shapes_in_flight = 16;
+
+/// What a thread keeps from shape to shape.
+struct Workshop {
+  explicit Workshop(const ShapeSetPlan& plan) : flattener(plan) {}
+  ShapeFlattener flattener;
+  Shape shape;
+};
+
+}  // namespace
+
+ShapeSet bake_shapes(std::span<const LoadedCharacter> characters, std::span<const ShapeSource> sources,
+                     double threshold, const ShapeSetPlan& plan) {
+  ShapeSetBuilder builder(plan);
+  Progress progress("baking shapes", sources.size());
+  tbb::enumerable_thread_specific<Workshop> workshops([&] { return Workshop(plan); });
+  std::size_t next = 0;
+  using Flat = std::shared_ptr<FlatShape>;
+  const auto take = [&](tbb::flow_control& flow) -> std::size_t {
+    if (next == sources.size()) flow.stop();
+    return next++;
+  };
+  const auto build = [&](std::size_t i) -> Flat {
+    Workshop& workshop = workshops.local();
+    const auto& [character, at] = sources[i];
+    build_shape(characters[character], at, threshold, workshop.shape);
+    const auto flat = std::make_shared<FlatShape>();
+    workshop.flattener.flatten(workshop.shape, i, *flat);
+    return flat;
+  };
+  // In the order of the sources, which is why the bytes do not depend on who built what.
+  const auto add = [&](const Flat& flat) {
+    builder.add(*flat);
+    progress.advance();
+  };
+  const auto threads = static_cast<std::size_t>(tbb::this_task_arena::max_concurrency());
+  tbb::parallel_pipeline(shapes_in_flight * threads,
+                         tbb::make_filter<void, std::size_t>(tbb::filter_mode::serial_in_order, take) &
+                             tbb::make_filter<std::size_t, Flat>(tbb::filter_mode::parallel, build) &
+                             tbb::make_filter<Flat, void>(tbb::filter_mode::serial_in_order, add));
+  return std::move(builder).finish();
+}
+
+ShapeOrigins origins_of(std::span<const LoadedCharacter> characters, std::span<const ShapeSource> sources,
+                        double threshold) {
+  ShapeOrigins origins{threshold, {}, {}};
+  std::vector<std::uint32_t> first_name;  // of a character: its own, then those of its clips
+  for (const LoadedCharacter& character : characters) {
+    first_name.push_back(static_cast<std::uint32_t>(origins.names.size()));
+    origins.names.push_back(character.source.substr(character.source.find_last_of('/') + 1));
+    for (const Clip& clip : character.character.clips) origins.names.push_back(clip.name);
+  }
+  for (const auto& [character, at] : sources) {
+    const std::uint32_t name = first_name[character];
+    origins.origins.push_back(
+        {name, at.clip == PoseTime::rest ? ShapeOrigin::rest_pose : name + 1 + at.clip, at.seconds});
+  }
+  return origins;
+}
+
+}  // namespace bch::cli
