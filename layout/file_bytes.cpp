@@ -18,7 +18,7 @@
 namespace bch {
 namespace {
 
-constexpr std::align_val_t cache_line{64};
+constexpr std::align_val_t large_page{std::size_t{2} << 20};
 constexpr std::size_t most_at_once = std::size_t{1} << 30;  ///< bytes; Linux reads no more than 2 GiB
 
 /// An open regular file.
@@ -59,8 +59,10 @@ class OpenFile {
 
 FileBytes read_file(const std::filesystem::path& file) {
   const OpenFile from(file);
-  const std::shared_ptr<void> memory(::operator new(from.size(), cache_line),
-                                     [](void* bytes) { ::operator delete(bytes, cache_line); });
+  const std::shared_ptr<void> memory(::operator new(from.size(), large_page),
+                                     [](void* bytes) { ::operator delete(bytes, large_page); });
+  // Advice: without large pages it only takes longer.
+  madvise(memory.get(), from.size(), MADV_HUGEPAGE);
   auto* const bytes = static_cast<std::byte*>(memory.get());
   for (std::size_t done = 0; done < from.size();) {
     const ssize_t got = read(from.descriptor(), bytes + done, std::min(from.size() - done, most_at_once));

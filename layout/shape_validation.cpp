@@ -30,19 +30,28 @@ void require_size(const char* array, std::uint64_t size, std::uint64_t expected)
                                 " where there have to be " + std::to_string(expected));
 }
 
-/// Integers, so that loops over many become vectors: a float below a positive limit, by magnitude or with its sign.
+/// The top bit of the result says so: a float whose magnitude is above a positive limit, or that is negative or above it.
+/// Plain integer operations, so that loops over many become vectors; NaN is above everything.
 std::uint32_t beyond(float value, float limit) {
-  return (std::bit_cast<std::uint32_t>(value) & 0x7fffffff) > std::bit_cast<std::uint32_t>(limit);
+  return std::bit_cast<std::uint32_t>(limit) - (std::bit_cast<std::uint32_t>(value) & 0x7fffffff);
 }
 std::uint32_t negative_or_beyond(float value, float limit) {
-  return std::bit_cast<std::uint32_t>(value) > std::bit_cast<std::uint32_t>(limit);
+  const auto bits = std::bit_cast<std::uint32_t>(value);
+  return (std::bit_cast<std::uint32_t>(limit) - bits) | bits;
 }
+constexpr std::uint32_t top_bit = 0x80000000;
 
 bool is_length(float value) {
-  return beyond(value, largest_length) == 0;
+  return (beyond(value, largest_length) & top_bit) == 0;
 }
 bool is_radius(float value) {
-  return negative_or_beyond(value, largest_length) == 0;
+  return (negative_or_beyond(value, largest_length) & top_bit) == 0;
+}
+
+/// All bits or none.
+std::uint32_t is_padding(float x) {
+  return -static_cast<std::uint32_t>(std::bit_cast<std::uint32_t>(x) ==
+                                     std::bit_cast<std::uint32_t>(infinity));
 }
 
 /// Calls `good` for each, and names the first that is not. Returns so soon only where all are.
@@ -59,7 +68,7 @@ void require_all(const char* array, std::span<const Record> records, const char*
 void require_lengths(const char* array, std::span<const float> values) {
   std::uint32_t bad = 0;
   for (const float value : values) bad |= beyond(value, largest_length);
-  if (bad == 0) return;
+  if ((bad & top_bit) == 0) return;
   require_all(array, values, "not a length", is_length);
 }
 
@@ -68,11 +77,10 @@ void require_discs(const char* array, std::size_t place, const float* x, std::si
                    std::size_t stride) {
   const float *y = x + stride, *radius = x + 2 * stride;
   std::uint32_t bad = 0;
-  for (std::size_t i = 0; i < count; ++i)
-    bad |= beyond(x[i], largest_length) & static_cast<std::uint32_t>(x[i] != infinity);
+  for (std::size_t i = 0; i < count; ++i) bad |= beyond(x[i], largest_length) & ~is_padding(x[i]);
   for (std::size_t i = 0; i < count; ++i) bad |= beyond(y[i], largest_length);
   for (std::size_t i = 0; i < count; ++i) bad |= negative_or_beyond(radius[i], largest_length);
-  if (bad != 0) reject(array, place, "holds a disc that is none");
+  if ((bad & top_bit) != 0) reject(array, place, "holds a disc that is none");
 }
 
 void require_sizes(const ShapeArrays& a) {
@@ -109,39 +117,51 @@ void require_roots(const ShapeArrays& a) {
               [](const Root& root) { return root.is_single == 1; });
 }
 
-/// What the blocks of a level refer to.
-struct Blocks {
-  std::uint64_t end;                                            ///< one past their last float
-  std::uint32_t least_window = ~0u, most_window = leaf_window;  ///< names
+/// The windows that a level's nodes name, lane by lane. As signed numbers names of windows are negative, the first the
+/// least, and those of blocks are not.
+struct Windows {
+  static constexpr std::int32_t none = 0;
+  std::int32_t least[block_width] = {}, most[block_width];
+
+  Windows() { std::fill_n(most, block_width, std::numeric_limits<std::int32_t>::min()); }
+  /// One name in every lane.
+  explicit Windows(std::uint32_t name) {
+    std::fill_n(least, block_width, static_cast<std::int32_t>(name));
+    std::fill_n(most, block_width, static_cast<std::int32_t>(name));
+  }
 };
 
 /// One block's children that are blocks have to be the next ones in breadth-first order.
 /// Returns: where the one after those begins.
-std::uint64_t check_block(const ShapeArrays& a, std::uint64_t block, std::uint64_t next, Blocks& seen) {
+std::uint64_t check_block(const ShapeArrays& a, std::uint64_t block, std::uint64_t next, Windows& windows) {
   const float* x = a.nodes.data() + block;
   const float* names = x + 3 * block_width;
   require_discs("nodes", block, x, block_width, block_width);
-  std::uint32_t inner = 0, least = seen.least_window, most = seen.most_window;
+  std::uint32_t any_block = 0;
+#pragma GCC unroll 1  // else GCC 12 unrolls it first, and then makes no vectors
   for (std::uint32_t i = 0; i < block_width; ++i) {
     const auto name = std::bit_cast<std::uint32_t>(names[i]);
-    const std::uint32_t is_disc = static_cast<std::uint32_t>(x[i] != infinity),
-                        is_window = name / leaf_window;
-    inner |= (is_disc & (is_window ^ 1)) << i;
-    const std::uint32_t followed = -(is_disc & is_window);
-    least = std::min(least, name | ~followed);
-    most = std::max(most, name & followed);
+    const std::uint32_t disc = ~is_padding(x[i]);
+    const std::uint32_t window = disc & static_cast<std::uint32_t>(static_cast<std::int32_t>(name) >> 31);
+    any_block |= disc & ~name;
+    const auto named = static_cast<std::int32_t>(name & window);
+    const auto or_first = static_cast<std::int32_t>((name & window) | (~window & leaf_window));
+    windows.least[i] = std::min(windows.least[i], named);
+    windows.most[i] = std::max(windows.most[i], or_first);
   }
-  seen.least_window = least, seen.most_window = most;
-  for (; inner != 0; inner &= inner - 1, next += block_floats) {
-    const auto name = std::bit_cast<std::uint32_t>(names[std::countr_zero(inner)]);
+  if ((any_block & top_bit) == 0) return next;
+  for (std::uint32_t i = 0; i < block_width; ++i) {
+    const auto name = std::bit_cast<std::uint32_t>(names[i]);
+    if (x[i] == infinity || name >= leaf_window) continue;
     if (name != next) reject("nodes", block, "child " + std::to_string(name) + " is not the next block");
+    next += block_floats;
   }
   return next;
 }
 
 /// Where a level's first node is a block: the blocks from there on, as far as they name each other.
-Blocks check_blocks(const ShapeArrays& a, std::uint64_t top) {
-  Blocks seen{};
+/// Returns: one past their last float.
+std::uint64_t check_blocks(const ShapeArrays& a, std::uint64_t top, Windows& windows) {
   std::uint64_t next = top + block_floats, level_end = next;
   for (std::uint64_t block = top, levels = 1; block < next; block += block_floats) {
     if (block == level_end) {
@@ -150,10 +170,21 @@ Blocks check_blocks(const ShapeArrays& a, std::uint64_t top) {
       if (++levels == most_wide_levels) reject("nodes", block, "the tree has too many levels");
     }
     if (block + block_floats > a.nodes.size()) reject("nodes", block, "the block ends beyond the array");
-    next = check_block(a, block, next, seen);
+    next = check_block(a, block, next, windows);
   }
-  seen.end = next;
-  return seen;
+  return next;
+}
+
+/// All windows within count discs, of which the first is named so.
+void require_within(const Windows& windows, std::size_t root, std::uint64_t first, std::uint64_t count) {
+  const std::int32_t least = *std::min_element(windows.least, windows.least + block_width);
+  const std::int32_t most = *std::max_element(windows.most, windows.most + block_width);
+  if (least == Windows::none) return;
+  const std::uint64_t from = static_cast<std::uint32_t>(least) & ~leaf_window,
+                      to = static_cast<std::uint32_t>(most) & ~leaf_window;
+  if (from < first || to + block_width > first + count)
+    reject("trees", root,
+           "windows at " + std::to_string(from) + " to " + std::to_string(to) + " are not among its discs");
 }
 
 /// Returns: one past the level's last float.
@@ -161,18 +192,12 @@ std::uint64_t check_tree(const ShapeArrays& a, std::size_t root, std::uint64_t b
   const auto [top, stride] = a.trees[root];
   const std::uint64_t first = top & ~leaf_window;
   if (first < begin) reject("trees", root, "begins at " + std::to_string(first) + ", in another tree");
-  Blocks blocks{first, top | leaf_window, top | leaf_window};
-  if (top < leaf_window) blocks = check_blocks(a, top);
-  const std::uint64_t discs = blocks.end, end = discs + 3 * std::uint64_t{stride};
+  Windows windows = top < leaf_window ? Windows() : Windows(top);
+  const std::uint64_t discs = top < leaf_window ? check_blocks(a, top, windows) : first;
+  const std::uint64_t end = discs + 3 * std::uint64_t{stride};
   if (stride < block_width || end + block_floats > a.nodes.size())
     reject("trees", root, std::to_string(stride) + " discs do not fit");
-  if (blocks.most_window != leaf_window || top >= leaf_window) {
-    const std::uint64_t least = blocks.least_window & ~leaf_window, most = blocks.most_window & ~leaf_window;
-    if (least < discs || most + block_width > discs + stride)
-      reject(
-          "trees", root,
-          "windows at " + std::to_string(least) + " to " + std::to_string(most) + " are not among its discs");
-  }
+  require_within(windows, root, discs, stride);
   require_discs("nodes", discs, a.nodes.data() + discs, stride, stride);
   return end;
 }
@@ -185,12 +210,13 @@ void require_shortcuts(const ShapeArrays& a) {
     std::uint32_t bad = 0;
     for (const float x : extremes.x) bad |= beyond(x, largest_length);
     for (const float y : extremes.y) bad |= beyond(y, largest_length);
-    if (bad != 0) reject("extremes", s, "not a point");
+    if ((bad & top_bit) != 0) reject("extremes", s, "not a point");
   }
   // A shape without an outline may nest with any, one of several contours in any.
   require_all("enclosures", a.enclosures, "no disc", [](const Enclosure& e) {
-    const bool outer = e.outer_square == infinity || negative_or_beyond(e.outer_square, largest_square) == 0;
-    const bool inner = e.inner_square == -infinity || beyond(e.inner_square, largest_square) == 0;
+    const bool outer =
+        e.outer_square == infinity || (negative_or_beyond(e.outer_square, largest_square) & top_bit) == 0;
+    const bool inner = e.inner_square == -infinity || (beyond(e.inner_square, largest_square) & top_bit) == 0;
     return is_length(e.x) & is_length(e.y) & outer & inner;
   });
 }

@@ -184,7 +184,7 @@ TEST(BakedContent, AnythingThatLoadsCanBeQueried) {
   const BakedBytes sound = sound_bytes();
   const std::uint32_t words[] = {0, 1, 0x80000000, ~0u, 0x7f800000, 0x7fc00000, 0xff800000, 0x4b000000};
   int loaded = 0, refused = 0;
-  for (int i = 0; i < 20'000; ++i) {
+  for (int i = 0; i < 8'000; ++i) {
     BakedBytes bytes = sound;
     const auto section = static_cast<Section>(random.below(static_cast<std::uint32_t>(Section::names)));
     const auto content = bytes.section<std::uint32_t>(section);
@@ -209,8 +209,8 @@ TEST(BakedContent, AnythingThatLoadsCanBeQueried) {
       ++refused;
     }
   }
-  EXPECT_GT(loaded, 1000);
-  EXPECT_GT(refused, 1000);
+  EXPECT_GT(loaded, 400);
+  EXPECT_GT(refused, 400);
 }
 
 }  // namespace
