@@ -3,90 +3,94 @@
 
 #include "layout/hierarchy_bounds.hpp"
 
+#include <emmintrin.h>
+
 #include <algorithm>
-#include <cmath>
 
 #include "layout/rounding.hpp"
 
 namespace bch {
 namespace {
 
-/// Parents and subtrees' ends. Backwards and without branches: what a leaf writes for a first child that it
-/// does not have is overwritten by the node's true parent, which stands further ahead.
-void link(HierarchyArrays& arrays, std::uint32_t count) {
-  auto& parent = arrays.parent;
-  for (std::uint32_t i = count; i-- > 0;) {
-    const std::uint32_t second = arrays.second_child[i];
-    parent[i + 1] = i;
-    parent[second] = i;
-    arrays.end[i] = second == 0 ? i + 1 : arrays.end[second];
+/// Radii with their margin, two at a time.
+void set_radii(HierarchyArrays& arrays, std::uint32_t count, double margin) {
+  const __m128d outward = _mm_set1_pd(1 + 0x1p-50), added = _mm_set1_pd(margin);
+  for (std::uint32_t i = 0; i < count; i += 2) {
+    const __m128d root = _mm_sqrt_pd(_mm_loadu_pd(&arrays.square_radius[i]));
+    const __m128d exact = _mm_add_pd(_mm_mul_pd(root, outward), added);
+    const __m128 nearest = _mm_cvtpd_ps(exact);
+    // As rounding::round_up(): a comparison that holds is -1.
+    const __m128 below = _mm_castpd_ps(_mm_cmplt_pd(_mm_cvtps_pd(nearest), exact));
+    const __m128i step = _mm_castps_si128(_mm_shuffle_ps(below, below, _MM_SHUFFLE(2, 0, 2, 0)));
+    const __m128i radius = _mm_sub_epi32(_mm_castps_si128(nearest), step);
+    _mm_storel_epi64(reinterpret_cast<__m128i*>(&arrays.radius[i]), radius);
+    _mm_storel_epi64(reinterpret_cast<__m128i*>(&arrays.bound[i]), radius);
   }
-  // One past the last node stands above the root.
-  parent[0] = parent[count] = count;
-  arrays.centre[count] = arrays.centre[0];
 }
 
-float square_distance(Vec2 a, Vec2 b) {
-  const float x = b.x - a.x, y = b.y - a.y;
-  return x * x + y * y;
+__m128 load(const Vec2& low, const Vec2& high) {
+  return _mm_castpd_ps(_mm_loadh_pd(_mm_load_sd(reinterpret_cast<const double*>(&low)),
+                                    reinterpret_cast<const double*>(&high)));
 }
 
-/// In a loop of its own, which compilers vectorise.
-template <class Value>
-void take_roots(Value* values, std::uint32_t count) {
-  for (std::uint32_t i = 0; i < count; ++i) values[i] = std::sqrt(values[i]);
-}
-
-/// Children's discs and grandchildren's bounds: a bound grows by 0.3 % over the tightest, where children's
-/// bounds alone would make it 2 %. Each step rounds outward: its terms in float are off by 5 u.
-void set_bounds(HierarchyArrays& arrays, std::uint32_t count) {
-  constexpr float outward = 1 + 0x1p-21f;
-  auto& [centre, square, second, begin, radius, bound, to_parent, to_grandparent, end, parent] = arrays;
-  for (std::uint32_t i = 0; i < count; ++i) {
-    to_parent[i] = square_distance(centre[i], centre[parent[i]]);
-    to_grandparent[i] = square_distance(centre[i], centre[parent[parent[i]]]);
-  }
-  take_roots(to_parent.data(), count);
-  take_roots(to_grandparent.data(), count);
-  std::copy_n(radius.begin(), count, bound.begin());
-  bound[count] = 0;
-  const auto raise = [&](std::uint32_t node, float needed) {
-    bound[node] = std::max(bound[node], needed * outward);
+/// From every node to its parent and its grandparent, two nodes at a time.
+void set_distances(HierarchyArrays& arrays, std::uint32_t count) {
+  const Vec2* const centre = arrays.centre.data();
+  const std::uint32_t* const parent = arrays.parent.data();
+  const auto squares = [&](std::uint32_t i) {
+    const std::uint32_t above = parent[i];
+    const __m128 d = _mm_sub_ps(load(centre[above], centre[parent[above]]), load(centre[i], centre[i]));
+    return _mm_mul_ps(d, d);
   };
-  for (std::uint32_t i = count; i-- > 0;) {
-    raise(parent[i], to_parent[i] + radius[i]);
-    raise(parent[parent[i]], to_grandparent[i] + bound[i]);
+  for (std::uint32_t i = 0; i < count; i += 2) {
+    const __m128 a = squares(i), b = squares(i + 1);
+    const __m128 sum = _mm_add_ps(_mm_shuffle_ps(a, b, _MM_SHUFFLE(2, 0, 2, 0)),
+                                  _mm_shuffle_ps(a, b, _MM_SHUFFLE(3, 1, 3, 1)));
+    _mm_storeu_ps(&arrays.distance[2 * std::size_t{i}], _mm_sqrt_ps(sum));
   }
 }
 
 }  // namespace
 
 void HierarchyArrays::resize(std::size_t nodes) {
-  centre.resize(nodes), square_radius.resize(nodes), second_child.resize(nodes), element_begin.resize(nodes);
-  radius.resize(nodes), bound.resize(nodes), to_parent.resize(nodes), to_grandparent.resize(nodes);
-  end.resize(nodes), parent.resize(nodes);
+  centre.resize(nodes), square_radius.resize(nodes);
+  second_child.resize(nodes), element_begin.resize(nodes), parent.resize(nodes);
+  radius.resize(nodes), bound.resize(nodes), distance.resize(2 * nodes);
 }
 
+/// Bounds from children's discs and grandchildren's bounds: 0.3 % over the tightest, where children's bounds alone
+/// would make it 2 %. Each step rounds outward: its terms in float are off by 5 u. Backwards, so that a node's bound is
+/// final when it is its turn.
 void publish_nodes(HierarchyArrays& arrays, std::uint32_t count, double margin, Hierarchy& hierarchy) {
-  if (arrays.centre.size() == count) arrays.resize(count + 1);
-  take_roots(arrays.square_radius.data(), count);
-  for (std::uint32_t i = 0; i < count; ++i)
-    arrays.radius[i] = rounding::round_up(arrays.square_radius[i] * (1 + 0x1p-50) + margin);
-  link(arrays, count);
-  set_bounds(arrays, count);
+  constexpr float outward = 1 + 0x1p-21f;
+  if (arrays.centre.size() < count + 2) arrays.resize(count + 2);
+  // One past the last node stands above the root; loops over pairs may read the next.
+  arrays.parent[0] = arrays.parent[count] = arrays.parent[count + 1] = count;
+  arrays.centre[count] = arrays.centre[0];
   arrays.element_begin[count] = static_cast<std::uint32_t>(hierarchy.elements.size());
+  set_radii(arrays, count, margin);
+  set_distances(arrays, count);
+
   const double slack = rounding::nesting_margin * hierarchy.reach;
   hierarchy.nodes.resize(count);
-  for (std::uint32_t i = 0; i < count; ++i) {
-    const float radius = arrays.radius[i];
-    const float bound = rounding::round_up(static_cast<double>(arrays.bound[i]) + slack);
+  HierarchyNode* const nodes = hierarchy.nodes.data();
+  const std::uint32_t* const parent = arrays.parent.data();
+  const std::uint32_t* const element_begin = arrays.element_begin.data();
+  const float* const distance = arrays.distance.data();
+  float* const bounds = arrays.bound.data();
+  const auto raise = [&](std::uint32_t node, float needed) {
+    bounds[node] = std::max(bounds[node], needed * outward);
+  };
+  for (std::uint32_t i = count; i-- > 0;) {
+    const float radius = arrays.radius[i], below = bounds[i];
+    raise(parent[i], distance[2 * std::size_t{i}] + radius);
+    raise(parent[parent[i]], distance[2 * std::size_t{i} + 1] + below);
+    const float bound = rounding::round_up(static_cast<double>(below) + slack);
+    const Vec2 centre = arrays.centre[i];
     // A leaf prunes nothing: its bound is its disc, so that a traversal may test bounds throughout.
     const std::uint32_t second = arrays.second_child[i];
-    hierarchy.nodes[i] = {{arrays.centre[i].x, arrays.centre[i].y, radius},
-                          second == 0 ? radius : bound,
-                          second,
-                          arrays.element_begin[i],
-                          arrays.element_begin[arrays.end[i]]};
+    const std::uint32_t* const end = second == 0 ? &element_begin[i + 1] : &nodes[second].element_end;
+    nodes[i] = {{centre.x, centre.y, radius}, second == 0 ? radius : bound, second, element_begin[i], *end};
   }
 }
 

@@ -15,11 +15,11 @@ namespace bch {
 struct HierarchyArrays {
   std::vector<Vec2> centre;
   std::vector<double> square_radius;  ///< of the smallest disc about that very centre
-  std::vector<std::uint32_t> second_child, element_begin;
+  std::vector<std::uint32_t> second_child, element_begin, parent;
 
   // Scratch of publish_nodes().
-  std::vector<float> radius, bound, to_parent, to_grandparent;
-  std::vector<std::uint32_t> end, parent;
+  std::vector<float> radius, bound;
+  std::vector<float> distance;  ///< to the parent and to its parent, in turn
 
   void resize(std::size_t nodes);
 };

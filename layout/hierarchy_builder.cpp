@@ -41,6 +41,11 @@ double square_distance(Vec2 a, Vec2 b) {
   return x * x + y * y;
 }
 
+Vec2 middle_of(Vec2 a, Vec2 b) {
+  return {static_cast<float>(0.5 * (widened(a.x) + widened(b.x))),
+          static_cast<float>(0.5 * (widened(a.y) + widened(b.y)))};
+}
+
 }  // namespace
 
 void require_reach(double reach) {
@@ -96,6 +101,8 @@ void HierarchyBuilder::begin(double reach, double margin, double threshold) {
   longest_square_length_ = largest_square(2 * threshold);
   items_.clear();
   item_elements_.clear();
+  halvings_.clear();
+  even_halves_.begin(2 * threshold, reach);
   unsolved_.clear();
   node_count_ = element_count_ = 0;
 }
@@ -104,8 +111,8 @@ void HierarchyBuilder::add_segment(Vec2 a, Vec2 b) {
   SplitItem item;
   item.weight = std::sqrt(square_distance(a, b));
   const auto set = [&](int axis, float at_a, float at_b) {
-    item.low[axis] = std::min(at_a, at_b);
-    item.high[axis] = std::max(at_a, at_b);
+    item.box[axis] = std::min(at_a, at_b);
+    item.box[2 + axis] = -std::max(at_a, at_b);
     item.middle[axis] = 0.5 * (widened(at_a) + widened(at_b));
     item.moment[axis] = item.weight * item.middle[axis];
   };
@@ -113,6 +120,7 @@ void HierarchyBuilder::add_segment(Vec2 a, Vec2 b) {
   set(1, a.y, b.y);
   items_.push_back(item);
   item_elements_.push_back({a, b, b});
+  halvings_.push_back(static_cast<std::uint8_t>(even_halves_.halvings(item.weight)));
 }
 
 void HierarchyBuilder::add_triangle(const Element& triangle) {
@@ -120,8 +128,8 @@ void HierarchyBuilder::add_triangle(const Element& triangle) {
   SplitItem item;
   item.weight = 3;
   const auto set = [&](int axis, float at_a, float at_b, float at_c) {
-    item.low[axis] = std::min({at_a, at_b, at_c});
-    item.high[axis] = std::max({at_a, at_b, at_c});
+    item.box[axis] = std::min({at_a, at_b, at_c});
+    item.box[2 + axis] = -std::max({at_a, at_b, at_c});
     item.moment[axis] = widened(at_a) + widened(at_b) + widened(at_c);
     item.middle[axis] = item.moment[axis] / 3;
   };
@@ -131,39 +139,61 @@ void HierarchyBuilder::add_triangle(const Element& triangle) {
   item_elements_.push_back(triangle);
 }
 
-/// First the tree, depth first, whose shape needs few discs, then the other discs, then what follows from
-/// both.
-void HierarchyBuilder::grow(bool through_centre) {
-  order_.resize(items_.size());
-  scratch_.resize(items_.size());
-  std::iota(order_.begin(), order_.end(), 0);
-  open_.assign(1, {0, static_cast<std::uint32_t>(items_.size()), none});
-  while (!open_.empty()) {
-    const Open open = open_.back();
-    open_.pop_back();
-    if (open.second_child_of != none) nodes_.second_child[open.second_child_of] = node_count_;
-    add_node(open, through_centre);
+/// Room for more, which need not all be used.
+inline void HierarchyBuilder::reserve(std::uint32_t nodes, std::uint32_t elements) {
+  if (node_count_ + nodes > nodes_.centre.size() || element_count_ + elements > elements_.size()) [[unlikely]]
+    enlarge(nodes, elements);
+}
+
+void HierarchyBuilder::enlarge(std::uint32_t nodes, std::uint32_t elements) {
+  if (node_count_ + nodes > nodes_.centre.size()) {
+    if (node_count_ + nodes > most_nodes)
+      throw std::length_error("hierarchy: more than 2^22 nodes at a threshold of " +
+                              std::to_string(threshold_) + " m");
+    nodes_.resize(std::min(most_nodes, 2 * std::size_t{node_count_} + nodes + 256));
   }
+  if (element_count_ + elements > elements_.size()) {
+    elements_.resize(2 * elements_.size() + elements + 256);
+    sources_.resize(elements_.size());
+  }
+}
+
+/// First the tree, depth first, whose shape needs few discs, then the other discs.
+void HierarchyBuilder::grow(bool through_centre) {
+  const std::size_t count = items_.size();
+  order_.resize(count);
+  scratch_.resize(std::max(scratch_.size(), count));
+  open_.resize(std::max(open_.size(), count + 1));
+  std::iota(order_.begin(), order_.end(), 0);
+  Open* top = open_.data();
+  *top++ = {0, static_cast<std::uint32_t>(count), none, measure(items_, order_)};
+  while (top != open_.data()) {
+    const Open& open = *--top;
+    const std::uint32_t node = node_count_;
+    if (!add_node(open)) continue;
+    const auto [begin, end, parent, whole] = open;
+    divide(items_, std::span(order_).subspan(begin, end - begin), whole, through_centre, scratch_.data(),
+           division_);
+    const auto middle = begin + static_cast<std::uint32_t>(division_.first_count);
+    *top++ = {middle, end, node, division_.side[1]};
+    *top++ = {begin, middle, node, division_.side[0]};
+  }
+  even_halves_.write(item_elements_, nodes_, elements_, sources_);
   solve_discs();
 }
 
-void HierarchyBuilder::add_node(Open open, bool through_centre) {
-  const std::span order = std::span(order_).subspan(open.begin, open.end - open.begin);
+/// False for a leaf and for what is complete already.
+bool HierarchyBuilder::add_node(const Open& open) {
+  if (open.parent != none && open.parent + 1 != node_count_) nodes_.second_child[open.parent] = node_count_;
+  const std::span<const std::uint32_t> order = std::span(order_).subspan(open.begin, open.end - open.begin);
   if (order.size() == 1 && threshold_ > 0) {
-    const Element& segment = item_elements_[order[0]];
-    return add_halves(segment.a, segment.b, order[0]);
+    add_lone_segment(order[0], open.parent);
+    return false;
   }
-  const std::uint32_t node = add_node();
-  unsolved_.push_back({node, open.begin, open.end});
-  const SplitMeasure box = measure(items_, order);
-  if (order.size() == 1 || is_leaf(order, box)) {
-    for (const std::uint32_t item : order) add_element(item_elements_[item], item);
-    return;
-  }
-  const auto middle =
-      open.begin + static_cast<std::uint32_t>(divide(items_, order, box, through_centre, scratch_));
-  open_.push_back({middle, open.end, node});
-  open_.push_back({open.begin, middle, none});
+  unsolved_.push_back({add_node(open.parent), open.begin, open.end});
+  if (order.size() > 1 && !is_leaf(order, open.measure)) return true;
+  for (const std::uint32_t item : order) add_element(item_elements_[item], item);
+  return false;
 }
 
 /// The disc about a box holds its node's, whose diameter is at least the box's longer side: the disc itself
@@ -173,76 +203,83 @@ bool HierarchyBuilder::is_leaf(std::span<const std::uint32_t> order, const Split
   if (0.5 * std::max(x, y) >= threshold_) return false;
   if (x * x + y * y < sure_square_diagonal_) return true;
   gather_points(order);
-  return smallest_enclosing_disc(points_).radius < threshold_;
+  return smallest_enclosing_disc(std::span(points_).first(point_count_)).radius < threshold_;
 }
 
 /// A lone segment and, below, what it is halved into. The midpoint that divides it is its disc's centre.
-void HierarchyBuilder::add_halves(Vec2 a, Vec2 b, std::uint32_t source) {
+void HierarchyBuilder::add_lone_segment(std::uint32_t source, std::uint32_t parent) {
+  const int halvings = halvings_[source];
+  if (halvings == EvenHalves::uneven)
+    return add_halves(item_elements_[source].a, item_elements_[source].b, source, parent);
+  reserve(EvenHalves::nodes(halvings), EvenHalves::elements(halvings));
+  nodes_.parent[node_count_] = parent;
+  even_halves_.add(halvings, node_count_, element_count_, source);
+  node_count_ += EvenHalves::nodes(halvings);
+  element_count_ += EvenHalves::elements(halvings);
+}
+
+/// The same where halves are not to be halved equally often.
+void HierarchyBuilder::add_halves(Vec2 a, Vec2 b, std::uint32_t source, std::uint32_t parent) {
   std::size_t open_count = 0;
   for (;;) {
-    const std::uint32_t node = add_node();
-    const Vec2 middle{static_cast<float>(0.5 * (widened(a.x) + widened(b.x))),
-                      static_cast<float>(0.5 * (widened(a.y) + widened(b.y)))};
+    const std::uint32_t node = add_node(parent);
+    const Vec2 middle = middle_of(a, b);
     nodes_.centre[node] = middle;
     nodes_.square_radius[node] = std::max(square_distance(a, middle), square_distance(b, middle));
     if (square_distance(a, b) > longest_square_length_ && !(middle == a) && !(middle == b)) {
       halves_[open_count++] = {node, b};
       b = middle;
+      parent = node;
       continue;
     }
     add_element({a, b, b}, source);
     if (open_count == 0) return;
     const Half& half = halves_[--open_count];
-    nodes_.second_child[half.node] = node_count_;
-    a = nodes_.centre[half.node];
+    parent = half.node;
+    nodes_.second_child[parent] = node_count_;
+    a = nodes_.centre[parent];
     b = half.end;
   }
 }
 
-std::uint32_t HierarchyBuilder::add_node() {
-  if (node_count_ == nodes_.centre.size()) {
-    if (node_count_ == most_nodes)
-      throw std::length_error("hierarchy: more than 2^22 nodes at a threshold of " +
-                              std::to_string(threshold_) + " m");
-    nodes_.resize(std::min(most_nodes, 2 * std::size_t{node_count_} + 256));
-  }
+std::uint32_t HierarchyBuilder::add_node(std::uint32_t parent) {
+  reserve(1, 0);
   nodes_.second_child[node_count_] = 0;
   nodes_.element_begin[node_count_] = element_count_;
+  nodes_.parent[node_count_] = parent;
   return node_count_++;
 }
 
 void HierarchyBuilder::add_element(const Element& element, std::uint32_t source) {
-  if (element_count_ == elements_.size()) {
-    elements_.resize(2 * elements_.size() + 256);
-    sources_.resize(elements_.size());
-  }
+  reserve(0, 1);
   elements_[element_count_] = element;
   sources_[element_count_++] = source;
 }
 
+/// Triangles' points, or segments', which c repeats.
 void HierarchyBuilder::gather_points(std::span<const std::uint32_t> order) {
-  points_.resize(3 * order.size());
-  last_point_.resize(order.size());
-  first_point_.resize(order.size());
-  std::uint32_t count = 0;
-  for (std::size_t k = 0; k < order.size(); ++k) {
+  const std::size_t count = order.size();
+  points_.resize(std::max(points_.size(), 3 * count));
+  first_point_.resize(std::max(first_point_.size(), count));
+  last_point_.resize(std::max(last_point_.size(), count));
+  point_count_ = 0;
+  for (std::size_t k = 0; k < count; ++k) {
     const auto& [a, b, c] = item_elements_[order[k]];
-    first_point_[k] = count;
-    points_[count++] = a;
-    points_[count] = b;
-    count += !(b == c);
-    points_[count] = c;
-    last_point_[k] = count;
-    count += k + 1 == order.size() || !(c == item_elements_[order[k + 1]].a);
+    first_point_[k] = point_count_;
+    points_[point_count_++] = a;
+    points_[point_count_] = b;
+    point_count_ += !(b == c);
+    points_[point_count_] = c;
+    last_point_[k] = point_count_;
+    point_count_ += k + 1 == count || !(c == item_elements_[order[k + 1]].a);
   }
-  points_.resize(count);
 }
 
 void HierarchyBuilder::solve_discs() {
   gather_points(order_);
-  sets_.clear();
-  for (const Unsolved& node : unsolved_)
-    sets_.push_back({first_point_[node.begin], last_point_[node.end - 1] + 1});
+  sets_.resize(unsolved_.size());
+  for (std::size_t i = 0; i < sets_.size(); ++i)
+    sets_[i] = {first_point_[unsolved_[i].begin], last_point_[unsolved_[i].end - 1] + 1};
   discs_.resize(sets_.size());
   solver_.solve(points_, sets_, discs_);
   for (std::size_t i = 0; i < discs_.size(); ++i) {

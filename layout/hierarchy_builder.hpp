@@ -12,6 +12,7 @@
 #include "layout/enclosing_discs.hpp"
 #include "layout/hierarchy.hpp"
 #include "layout/hierarchy_bounds.hpp"
+#include "layout/hierarchy_halves.hpp"
 #include "layout/hierarchy_split.hpp"
 
 namespace bch {
@@ -31,9 +32,10 @@ class HierarchyBuilder {
   /// A node still to be made: items of the order.
   struct Open {
     std::uint32_t begin, end;
-    std::uint32_t second_child_of;  ///< the node to be told this one's index, if it is not the next
+    std::uint32_t parent;
+    SplitMeasure measure;
   };
-  /// A segment's node whose second half, from its centre to this end, is still to be made.
+  /// What remains of a segment on its way down: the half from a node's centre to this end.
   struct Half {
     std::uint32_t node;
     Vec2 end;
@@ -48,10 +50,13 @@ class HierarchyBuilder {
   void add_segment(Vec2 a, Vec2 b);
   void add_triangle(const Element& triangle);
   void grow(bool through_centre);
-  void add_node(Open open, bool through_centre);
-  void add_halves(Vec2 a, Vec2 b, std::uint32_t source);
-  std::uint32_t add_node();
+  bool add_node(const Open& open);
+  void add_lone_segment(std::uint32_t source, std::uint32_t parent);
+  void add_halves(Vec2 a, Vec2 b, std::uint32_t source, std::uint32_t parent);
+  std::uint32_t add_node(std::uint32_t parent);
   void add_element(const Element& element, std::uint32_t source);
+  void reserve(std::uint32_t nodes, std::uint32_t elements);
+  void enlarge(std::uint32_t nodes, std::uint32_t elements);
   bool is_leaf(std::span<const std::uint32_t> order, const SplitMeasure& box);
   void gather_points(std::span<const std::uint32_t> order);
   void solve_discs();
@@ -63,8 +68,11 @@ class HierarchyBuilder {
 
   std::vector<SplitItem> items_;
   std::vector<Element> item_elements_;
+  std::vector<std::uint8_t> halvings_;  ///< per segment: of EvenHalves
   std::vector<std::uint32_t> order_, scratch_;
   std::vector<Open> open_;
+  Division division_;
+  EvenHalves even_halves_;
   std::array<Half, 256> halves_;  ///< lengths span fewer binary orders of magnitude
 
   std::uint32_t node_count_ = 0, element_count_ = 0;
@@ -75,6 +83,7 @@ class HierarchyBuilder {
 
   /// Of the gathered items, in order; a point that ends one and begins the next stands once.
   std::vector<Vec2> points_;
+  std::uint32_t point_count_ = 0;
   std::vector<std::uint32_t> first_point_, last_point_;  ///< per gathered item
   std::vector<PointRange> sets_;
   std::vector<SolvedDisc> discs_;

@@ -3,10 +3,38 @@
 
 #include "layout/hierarchy_split.hpp"
 
+#include <emmintrin.h>
+
 #include <algorithm>
+#include <limits>
 
 namespace bch {
 namespace {
+
+/// A SplitMeasure while it grows, in registers of every x86-64 processor.
+class Sum {
+ public:
+  /// Takes an item in where `here` has all bits set; elsewhere it has none, and nothing changes: zeros are added and
+  /// infinities compared.
+  void add(const SplitItem& item, __m128d here) {
+    const __m128 at = _mm_castpd_ps(here), box = _mm_loadu_ps(item.box);
+    box_ = _mm_min_ps(box_, _mm_or_ps(_mm_and_ps(at, box), _mm_andnot_ps(at, _mm_set1_ps(infinity))));
+    moment_ = _mm_add_pd(moment_, _mm_and_pd(here, _mm_loadu_pd(item.moment)));
+    weight_ = _mm_add_sd(weight_, _mm_and_pd(here, _mm_load_sd(&item.weight)));
+  }
+
+  void store(SplitMeasure& measure) const {
+    _mm_storeu_ps(measure.box, box_);
+    _mm_storeu_pd(measure.moment, moment_);
+    _mm_store_sd(&measure.weight, weight_);
+  }
+
+ private:
+  static constexpr float infinity = std::numeric_limits<float>::infinity();
+
+  __m128 box_ = _mm_set1_ps(infinity);
+  __m128d moment_ = _mm_setzero_pd(), weight_ = _mm_setzero_pd();
+};
 
 double centroid(std::span<const SplitItem> items, ItemOrder order, const SplitMeasure& measure, int axis) {
   if (measure.weight > 0) return measure.moment[axis] / measure.weight;
@@ -15,51 +43,52 @@ double centroid(std::span<const SplitItem> items, ItemOrder order, const SplitMe
   return sum / static_cast<double>(order.size());
 }
 
-/// Stable, and without a branch on an item's side: every item is written to both sides.
-std::size_t partition(std::span<const SplitItem> items, ItemOrder order, int axis, double plane,
-                      std::uint32_t* second) {
+/// Stable, and without a branch on an item's side: every item is written to both sides and offered to both sums.
+void partition(std::span<const SplitItem> items, ItemOrder order, int axis, double plane,
+               std::uint32_t* second, Division& division) {
+  const __m128d limit = _mm_set1_pd(plane);
+  Sum before_sum, after_sum;
   std::size_t first_count = 0, second_count = 0;
-  for (const std::uint32_t item : order) {
-    const bool before = items[item].middle[axis] < plane;
-    order[first_count] = item;
-    second[second_count] = item;
-    first_count += before;
-    second_count += !before;
+  for (const std::uint32_t i : order) {
+    const SplitItem& item = items[i];
+    const __m128d middle = _mm_set1_pd(item.middle[axis]), before = _mm_cmplt_pd(middle, limit);
+    before_sum.add(item, before);
+    after_sum.add(item, _mm_cmpge_pd(middle, limit));
+    const std::size_t is_before = static_cast<std::size_t>(_mm_movemask_pd(before)) & 1;
+    order[first_count] = i;
+    second[second_count] = i;
+    first_count += is_before;
+    second_count += 1 - is_before;
   }
-  std::copy_n(second, second_count, order.begin() + static_cast<std::ptrdiff_t>(first_count));
-  return first_count;
+  for (std::size_t k = 0; k < second_count; ++k) order[first_count + k] = second[k];
+  before_sum.store(division.side[0]);
+  after_sum.store(division.side[1]);
+  division.first_count = first_count;
 }
 
 }  // namespace
 
 SplitMeasure measure(std::span<const SplitItem> items, std::span<const std::uint32_t> order) {
-  const SplitItem& first = items[order[0]];
-  SplitMeasure result{{first.low[0], first.low[1]}, {first.high[0], first.high[1]}};
-  for (const std::uint32_t i : order) {
-    const SplitItem& item = items[i];
-    for (int axis = 0; axis < 2; ++axis) {
-      result.low[axis] = std::min(result.low[axis], item.low[axis]);
-      result.high[axis] = std::max(result.high[axis], item.high[axis]);
-      result.moment[axis] += item.moment[axis];
-    }
-    result.weight += item.weight;
-  }
+  const __m128d here = _mm_cmpeq_pd(_mm_setzero_pd(), _mm_setzero_pd());
+  Sum sum;
+  for (const std::uint32_t i : order) sum.add(items[i], here);
+  SplitMeasure result;
+  sum.store(result);
   return result;
 }
 
-std::size_t divide(std::span<const SplitItem> items, ItemOrder order, const SplitMeasure& measure,
-                   bool through_centre, std::vector<std::uint32_t>& scratch) {
-  if (scratch.size() < order.size()) scratch.resize(order.size());
-  const int longer = measure.longer_axis();
+void divide(std::span<const SplitItem> items, ItemOrder order, const SplitMeasure& whole, bool through_centre,
+            std::uint32_t* scratch, Division& division) {
+  const int longer = whole.longer_axis();
   for (const int axis : {longer, 1 - longer}) {
     const double plane =
-        through_centre
-            ? 0.5 * (static_cast<double>(measure.low[axis]) + static_cast<double>(measure.high[axis]))
-            : centroid(items, order, measure, axis);
-    const std::size_t first = partition(items, order, axis, plane, scratch.data());
-    if (first != 0 && first != order.size()) return first;
+        through_centre ? 0.5 * (whole.low(axis) + whole.high(axis)) : centroid(items, order, whole, axis);
+    partition(items, order, axis, plane, scratch, division);
+    if (division.first_count != 0 && division.first_count != order.size()) return;
   }
-  return order.size() / 2;
+  division.first_count = order.size() / 2;
+  division.side[0] = measure(items, order.first(division.first_count));
+  division.side[1] = measure(items, order.subspan(division.first_count));
 }
 
 }  // namespace bch

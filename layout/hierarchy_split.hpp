@@ -6,25 +6,26 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
-#include <vector>
 
 namespace bch {
 
 /// What an element, a segment or a triangle, counts for while nodes are divided. Axis 0 is x, 1 is y.
 struct SplitItem {
-  float low[2], high[2];  ///< its box
-  double middle[2];       ///< the point that decides its side
+  float box[4];      ///< low x, low y, -high x, -high y: one minimum grows it
   double moment[2];  ///< what it adds to its node's centroid, which is the sum of these over that of weights
   double weight;
+  double middle[2];  ///< the point that decides its side
 };
 
 /// The box and centroid of a node's items.
 struct SplitMeasure {
-  float low[2], high[2];
-  double moment[2] = {0, 0};
-  double weight = 0;
+  float box[4];  ///< as SplitItem::box
+  double moment[2];
+  double weight;
 
-  double extent(int axis) const { return static_cast<double>(high[axis]) - static_cast<double>(low[axis]); }
+  double low(int axis) const { return static_cast<double>(box[axis]); }
+  double high(int axis) const { return -static_cast<double>(box[2 + axis]); }
+  double extent(int axis) const { return high(axis) - low(axis); }
   int longer_axis() const { return extent(0) >= extent(1) ? 0 : 1; }
 };
 
@@ -34,11 +35,17 @@ using ItemOrder = std::span<std::uint32_t>;
 /// One pass, the sums in order. At least one item.
 SplitMeasure measure(std::span<const SplitItem> items, std::span<const std::uint32_t> order);
 
+struct Division {
+  std::size_t first_count;
+  SplitMeasure side[2];  ///< as measure() has them
+};
+
 /// Reorders a node's items, two at least, so that those before a plane come first and both sides keep their
 /// order; neither side is empty. The plane's normal is the longer axis, or the other one where that would
-/// leave a side empty; where both would, the items are halved by count. Returns the size of the first side.
+/// leave a side empty; where both would, the items are halved by count.
 /// `through_centre`: the plane halves the extent instead of passing through the centroid.
-std::size_t divide(std::span<const SplitItem> items, ItemOrder order, const SplitMeasure& measure,
-                   bool through_centre, std::vector<std::uint32_t>& scratch);
+/// `scratch`: room for as many.
+void divide(std::span<const SplitItem> items, ItemOrder order, const SplitMeasure& measure,
+            bool through_centre, std::uint32_t* scratch, Division& division);
 
 }  // namespace bch
