@@ -3,6 +3,8 @@
 
 #pragma once
 
+#include <emmintrin.h>
+
 #include <cstddef>
 #include <cstdint>
 #include <xsimd/xsimd.hpp>
@@ -101,15 +103,18 @@ class DiscLanes {
         last[lane] = range.end - range.begin - 1;
       }
       count_ = last[width - 1] + 1;
-      for (std::size_t k = 0; k <= count_; ++k)
-        for (std::size_t lane = 0; lane < width; ++lane) {
-          const Vec2 p = first[lane][k < last[lane] ? k : last[lane]];
-          job.scratch[2 * k * width + lane] = static_cast<double>(p.x);
-          job.scratch[(2 * k + 1) * width + lane] = static_cast<double>(p.y);
-        }
+      // Sets come by size: up to the first one's last point, all have one.
+      std::size_t k = 0;
+      for (; k <= last[0]; ++k)
+        for (std::size_t lane = 0; lane < width; lane += 2)
+          put(k, lane, first[lane] + k, first[lane + 1] + k);
+      for (; k <= count_; ++k)
+        for (std::size_t lane = 0; lane < width; lane += 2)
+          put(k, lane, first[lane] + (k < last[lane] ? k : last[lane]),
+              first[lane + 1] + (k < last[lane + 1] ? k : last[lane + 1]));
     }
 
-    /// Up to four points. A smallest disc is that of two or three of the points, and the largest of theirs.
+    /// Up to three points, or four. A smallest disc is that of two or three of the points, and the largest of theirs.
     void solve_small() const {
       const auto at = [&](std::size_t k) { return point(k < count_ ? k : count_ - 1); };
       const Point a = at(0), b = at(1), c = at(2), d = at(3);
@@ -119,9 +124,11 @@ class DiscLanes {
         best.centre = select(larger, other.centre, best.centre);
         best.square_radius = select(larger, other.square_radius, best.square_radius);
       };
-      offer(basis(a, b, d));
-      offer(basis(a, c, d));
-      offer(basis(b, c, d));
+      if (count_ > 3) {
+        offer(basis(a, b, d));
+        offer(basis(a, c, d));
+        offer(basis(b, c, d));
+      }
       store(best.centre);
     }
 
@@ -159,6 +166,17 @@ class DiscLanes {
 
     /// Which set is in a lane; the last one is also in those that are left over.
     std::size_t set(std::size_t lane) const { return begin_ + lane < end_ ? begin_ + lane : end_ - 1; }
+
+    /// Points k of two neighbouring lanes.
+    void put(std::size_t k, std::size_t lane, const Vec2* p, const Vec2* q) const {
+      const __m128d both =
+          _mm_loadh_pd(_mm_load_sd(reinterpret_cast<const double*>(p)), reinterpret_cast<const double*>(q));
+      const __m128 bits = _mm_castpd_ps(both);
+      const __m128 x = _mm_shuffle_ps(bits, bits, _MM_SHUFFLE(2, 0, 2, 0)),
+                   y = _mm_shuffle_ps(bits, bits, _MM_SHUFFLE(3, 1, 3, 1));
+      _mm_storeu_pd(job_.scratch + 2 * k * width + lane, _mm_cvtps_pd(x));
+      _mm_storeu_pd(job_.scratch + (2 * k + 1) * width + lane, _mm_cvtps_pd(y));
+    }
 
     Point point(std::size_t k) const {
       return {Batch::load_unaligned(job_.scratch + 2 * k * width),
