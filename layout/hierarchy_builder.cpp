@@ -168,15 +168,23 @@ void HierarchyBuilder::grow(bool through_centre) {
   Open* top = open_.data();
   *top++ = {0, static_cast<std::uint32_t>(count), none, measure(items_, order_)};
   while (top != open_.data()) {
-    const Open& open = *--top;
     const std::uint32_t node = node_count_;
-    if (!add_node(open)) continue;
-    const auto [begin, end, parent, whole] = open;
-    divide(items_, std::span(order_).subspan(begin, end - begin), whole, through_centre, scratch_.data(),
-           division_);
-    const auto middle = begin + static_cast<std::uint32_t>(division_.first_count);
-    *top++ = {middle, end, node, division_.side[1]};
-    *top++ = {begin, middle, node, division_.side[0]};
+    if (!add_node(*--top)) continue;
+    const auto [begin, end, parent, whole] = *top;
+    const ItemOrder order = std::span(order_).subspan(begin, end - begin);
+    if (order.size() == 2 && threshold_ > 0) {
+      divide_pair(items_, order, whole, through_centre);
+      add_lone_segment(order[0], node);
+      nodes_.second_child[node] = node_count_;
+      add_lone_segment(order[1], node);
+      continue;
+    }
+    const auto middle =
+        begin + static_cast<std::uint32_t>(divide(items_, order, whole, through_centre, scratch_.data(),
+                                                  top[1].measure, top[0].measure));
+    top[0].begin = middle, top[0].end = end, top[0].parent = node;
+    top[1].begin = begin, top[1].end = middle, top[1].parent = node;
+    top += 2;
   }
   even_halves_.write(item_elements_, nodes_, elements_, sources_);
   solve_discs();
@@ -262,17 +270,23 @@ void HierarchyBuilder::gather_points(std::span<const std::uint32_t> order) {
   points_.resize(std::max(points_.size(), 3 * count));
   first_point_.resize(std::max(first_point_.size(), count));
   last_point_.resize(std::max(last_point_.size(), count));
-  point_count_ = 0;
+  Vec2* const points = points_.data();
+  std::uint32_t *const first = first_point_.data(), *const last = last_point_.data();
+  const Element* const elements = item_elements_.data();
+  std::uint32_t at = 0;
+  const Vec2* next = &elements[order[0]].a;
   for (std::size_t k = 0; k < count; ++k) {
-    const auto& [a, b, c] = item_elements_[order[k]];
-    first_point_[k] = point_count_;
-    points_[point_count_++] = a;
-    points_[point_count_] = b;
-    point_count_ += !(b == c);
-    points_[point_count_] = c;
-    last_point_[k] = point_count_;
-    point_count_ += k + 1 == count || !(c == item_elements_[order[k + 1]].a);
+    const auto& [a, b, c] = elements[order[k]];
+    next = k + 1 < count ? &elements[order[k + 1]].a : next;
+    first[k] = at;
+    points[at++] = a;
+    points[at] = b;
+    at += !(b == c);
+    points[at] = c;
+    last[k] = at;
+    at += (k + 1 == count) | !(c == *next);
   }
+  point_count_ = at;
 }
 
 void HierarchyBuilder::solve_discs() {

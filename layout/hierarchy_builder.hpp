@@ -71,7 +71,6 @@ class HierarchyBuilder {
   std::vector<std::uint8_t> halvings_;  ///< per segment: of EvenHalves
   std::vector<std::uint32_t> order_, scratch_;
   std::vector<Open> open_;
-  Division division_;
   EvenHalves even_halves_;
   std::array<Half, 256> halves_;  ///< lengths span fewer binary orders of magnitude
 

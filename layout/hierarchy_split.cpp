@@ -43,27 +43,34 @@ double centroid(std::span<const SplitItem> items, ItemOrder order, const SplitMe
   return sum / static_cast<double>(order.size());
 }
 
+double plane(std::span<const SplitItem> items, ItemOrder order, const SplitMeasure& whole,
+             bool through_centre, int axis) {
+  return through_centre ? 0.5 * (whole.low(axis) + whole.high(axis)) : centroid(items, order, whole, axis);
+}
+
 /// Stable, and without a branch on an item's side: every item is written to both sides and offered to both sums.
-void partition(std::span<const SplitItem> items, ItemOrder order, int axis, double plane,
-               std::uint32_t* second, Division& division) {
+std::size_t partition(const SplitItem* items, ItemOrder order, int axis, double plane, std::uint32_t* second,
+                      SplitMeasure& before_plane, SplitMeasure& after_plane) {
   const __m128d limit = _mm_set1_pd(plane);
   Sum before_sum, after_sum;
-  std::size_t first_count = 0, second_count = 0;
+  std::uint32_t* first = order.data();
+  std::uint32_t* const second_begin = second;
   for (const std::uint32_t i : order) {
     const SplitItem& item = items[i];
     const __m128d middle = _mm_set1_pd(item.middle[axis]), before = _mm_cmplt_pd(middle, limit);
     before_sum.add(item, before);
     after_sum.add(item, _mm_cmpge_pd(middle, limit));
-    const std::size_t is_before = static_cast<std::size_t>(_mm_movemask_pd(before)) & 1;
-    order[first_count] = i;
-    second[second_count] = i;
-    first_count += is_before;
-    second_count += 1 - is_before;
+    const int is_before = _mm_movemask_pd(before) & 1;
+    *first = i;
+    *second = i;
+    first += is_before;
+    second += 1 - is_before;
   }
-  for (std::size_t k = 0; k < second_count; ++k) order[first_count + k] = second[k];
-  before_sum.store(division.side[0]);
-  after_sum.store(division.side[1]);
-  division.first_count = first_count;
+  before_sum.store(before_plane);
+  after_sum.store(after_plane);
+  const std::size_t first_count = static_cast<std::size_t>(first - order.data());
+  for (const std::uint32_t* i = second_begin; i != second; ++i) *first++ = *i;
+  return first_count;
 }
 
 }  // namespace
@@ -77,18 +84,32 @@ SplitMeasure measure(std::span<const SplitItem> items, std::span<const std::uint
   return result;
 }
 
-void divide(std::span<const SplitItem> items, ItemOrder order, const SplitMeasure& whole, bool through_centre,
-            std::uint32_t* scratch, Division& division) {
+std::size_t divide(std::span<const SplitItem> items, ItemOrder order, const SplitMeasure& whole,
+                   bool through_centre, std::uint32_t* scratch, SplitMeasure& first, SplitMeasure& second) {
   const int longer = whole.longer_axis();
   for (const int axis : {longer, 1 - longer}) {
-    const double plane =
-        through_centre ? 0.5 * (whole.low(axis) + whole.high(axis)) : centroid(items, order, whole, axis);
-    partition(items, order, axis, plane, scratch, division);
-    if (division.first_count != 0 && division.first_count != order.size()) return;
+    const double at = plane(items, order, whole, through_centre, axis);
+    const std::size_t count = partition(items.data(), order, axis, at, scratch, first, second);
+    if (count != 0 && count != order.size()) return count;
   }
-  division.first_count = order.size() / 2;
-  division.side[0] = measure(items, order.first(division.first_count));
-  division.side[1] = measure(items, order.subspan(division.first_count));
+  const std::size_t half = order.size() / 2;
+  first = measure(items, order.first(half));
+  second = measure(items, order.subspan(half));
+  return half;
+}
+
+void divide_pair(std::span<const SplitItem> items, ItemOrder order, const SplitMeasure& whole,
+                 bool through_centre) {
+  const int longer = whole.longer_axis();
+  const SplitItem &a = items[order[0]], &b = items[order[1]];
+  for (const int axis : {longer, 1 - longer}) {
+    const double at = plane(items, order, whole, through_centre, axis);
+    const bool is_a_before = a.middle[axis] < at, is_b_before = b.middle[axis] < at;
+    if (is_a_before == is_b_before) continue;
+    const std::uint32_t first = order[is_b_before], second = order[is_a_before];
+    order[0] = first, order[1] = second;
+    return;
+  }
 }
 
 }  // namespace bch

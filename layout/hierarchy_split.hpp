@@ -10,7 +10,7 @@
 namespace bch {
 
 /// What an element, a segment or a triangle, counts for while nodes are divided. Axis 0 is x, 1 is y.
-struct SplitItem {
+struct alignas(64) SplitItem {
   float box[4];      ///< low x, low y, -high x, -high y: one minimum grows it
   double moment[2];  ///< what it adds to its node's centroid, which is the sum of these over that of weights
   double weight;
@@ -35,17 +35,17 @@ using ItemOrder = std::span<std::uint32_t>;
 /// One pass, the sums in order. At least one item.
 SplitMeasure measure(std::span<const SplitItem> items, std::span<const std::uint32_t> order);
 
-struct Division {
-  std::size_t first_count;
-  SplitMeasure side[2];  ///< as measure() has them
-};
-
 /// Reorders a node's items, two at least, so that those before a plane come first and both sides keep their
 /// order; neither side is empty. The plane's normal is the longer axis, or the other one where that would
-/// leave a side empty; where both would, the items are halved by count.
+/// leave a side empty; where both would, the items are halved by count. Returns the size of the first side and
+/// both sides' measures.
 /// `through_centre`: the plane halves the extent instead of passing through the centroid.
 /// `scratch`: room for as many.
-void divide(std::span<const SplitItem> items, ItemOrder order, const SplitMeasure& measure,
-            bool through_centre, std::uint32_t* scratch, Division& division);
+std::size_t divide(std::span<const SplitItem> items, ItemOrder order, const SplitMeasure& whole,
+                   bool through_centre, std::uint32_t* scratch, SplitMeasure& first, SplitMeasure& second);
+
+/// The same for two items, without the measures.
+void divide_pair(std::span<const SplitItem> items, ItemOrder order, const SplitMeasure& whole,
+                 bool through_centre);
 
 }  // namespace bch

@@ -34,16 +34,21 @@ void Flattener::begin(const Hierarchy& hierarchy) {
 }
 
 void Flattener::cut(std::uint32_t depth) {
-  const auto& nodes = hierarchy_->nodes;
-  count_ = 0;
+  // In local variables, because a member's last store would have to be waited for at every node.
+  const HierarchyNode* const nodes = hierarchy_->nodes.data();
+  std::uint32_t* const position = position_.data();
+  float *const x = x_.data(), *const y = y_.data(), *const radius = radius_.data();
+  std::uint32_t count = 0;
   const auto visit = [&](std::uint32_t node, bool is_cut) {
-    const Disc& disc = nodes[node].disc;
-    position_[node] = count_;
-    x_[count_] = disc.x, y_[count_] = disc.y, radius_[count_] = disc.radius;
-    count_ += is_cut;
+    const Disc disc = nodes[node].disc;
+    position[node] = count;
+    x[count] = disc.x, y[count] = disc.y, radius[count] = disc.radius;
+    count += is_cut;
   };
   if (depth == all_depths) {
-    for (std::uint32_t i = 0; i < nodes.size(); ++i) visit(i, nodes[i].is_leaf());
+    const auto all = static_cast<std::uint32_t>(hierarchy_->nodes.size());
+    for (std::uint32_t i = 0; i < all; ++i) visit(i, nodes[i].is_leaf());
+    count_ = count;
     return;
   }
   open_.assign(1, {0, depth});
@@ -51,11 +56,12 @@ void Flattener::cut(std::uint32_t depth) {
     auto [node, left] = open_.back();
     open_.pop_back();
     for (; left > 0 && !nodes[node].is_leaf(); ++node) {
-      visit(node, false);
+      position[node] = count;
       open_.push_back({nodes[node].second_child, --left});
     }
     visit(node, true);
   }
+  count_ = count;
 }
 
 void Flattener::flatten(std::uint32_t depth, WideTree& tree) {
