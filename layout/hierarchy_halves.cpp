@@ -63,10 +63,10 @@ void write_piece(const Rows& rows, Vec2 a, __m128d wide_a, Vec2 b, __m128d wide_
 
 }  // namespace
 
-/// A midpoint is off by sqrt(2) u of the reach, so a piece's end by 2 sqrt(2) u, its length by twice that, and lengths are
-/// rounded in double: 8 u. Pieces longer than that have midpoints apart from their ends.
+/// A midpoint is off by sqrt(2) u of the reach, so a piece's end by 2 sqrt(2) u and its length by 5.7 u; lengths are rounded
+/// in double. Of a piece that is surely long 10 u remain, so that its midpoint is neither end, which takes 2.9 u.
 void EvenHalves::begin(double longest, double reach) {
-  const double slack = 8 * rounding::unit_roundoff * reach;
+  const double slack = 16 * rounding::unit_roundoff * reach;
   surely_short_ = longest - slack;
   surely_long_ = longest + slack;
   for (auto& of_a_kind : segments_) of_a_kind.clear();

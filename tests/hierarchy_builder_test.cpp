@@ -80,6 +80,26 @@ TEST(HierarchyBuilder, EqualsTheReferenceOnDegenerateOutlines) {
                             static_cast<float>(scale * random.uniform(0.01, 0.5)));
 }
 
+/// Segments about as long as decides how often they are halved, away from the origin, where midpoints are rounded.
+TEST(HierarchyBuilder, EqualsTheReferenceWhereRoundingDecidesOnHalves) {
+  test::Random random(38);
+  const auto near = [&](double value) {
+    return static_cast<float>(value + random.uniform(-4, 4) * rounding::unit_roundoff);
+  };
+  for (int i = 0; i < 4000; ++i) {
+    const double threshold = i % 2 == 0 ? 0.01 : 1e-7, angle = random.uniform(-4, 4);
+    const double length = 2 * static_cast<double>(static_cast<float>(threshold)) * (1u << random.below(5));
+    const double x = random.uniform(-0.7, 0.7), y = random.uniform(-0.7, 0.7);
+    Outline outline;
+    outline.points = {{near(x), near(y)},
+                      {near(x + length * std::cos(angle)), near(y + length * std::sin(angle))},
+                      {near(x + 0.3), near(y + 0.1)}};
+    if (i % 2 != 0) outline.points.pop_back();
+    outline.contour_begin.push_back(static_cast<std::uint32_t>(outline.points.size()));
+    expect_as_reference(outline, static_cast<float>(threshold));
+  }
+}
+
 TEST(HierarchyBuilder, LeavesNothingHalfDone) {
   HierarchyBuilder builder;
   Hierarchy hierarchy;
