@@ -162,6 +162,21 @@ TEST(BakedContent, TreesAreNoDeeperThanStacks) {
   }
 }
 
+TEST(BakedContent, ALevelHasAWindowOfDiscsAtLeast) {
+  const std::vector<std::uint32_t> depths{all_depths};
+  const std::vector<Root> roots{{0, 0, 1, 0}};
+  std::vector<Tree> trees{{0, block_width}};
+  const std::vector<float> reach{1};
+  std::vector<float> nodes = chain(1);
+  nodes[0] = infinity;  // so that no window is named
+  ShapeArrays arrays{};
+  arrays.depths = depths, arrays.roots = roots, arrays.trees = trees, arrays.reach = reach,
+  arrays.nodes = nodes;
+  EXPECT_NO_THROW(validate(arrays));
+  trees[0].stride = block_width - 1;
+  EXPECT_THROW(validate(arrays), std::invalid_argument);
+}
+
 /// Everything that follows the set's links.
 void query(const ShapeSet& set, std::uint64_t seed) {
   Random random(seed);

@@ -204,6 +204,20 @@ TEST_F(SpoiledFile, SizesThatOverflow) {
   EXPECT_EQ(bytes.error(), "");
 }
 
+/// Times the elements' size they are the right size again.
+TEST_F(SpoiledFile, SizesThatAreRightModulo64Bits) {
+  for (baked::SectionEntry& entry : bytes.preamble().entries) {
+    const std::uint32_t power = entry.element_size & -entry.element_size;
+    if (power == 1) continue;
+    const auto sound = entry;
+    entry.count += ~std::uint64_t{0} / power + 1;
+    ASSERT_EQ(entry.count * entry.element_size, sound.count * entry.element_size);
+    bytes.seal_header();
+    expect_error("do not fit into the file");
+    entry = sound;
+  }
+}
+
 TEST_F(SpoiledFile, ZerosThatAreNone) {
   const auto& names = bytes.entry(Section::names);
   bytes[names.offset + names.count] = std::byte{1};
