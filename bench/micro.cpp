@@ -17,9 +17,9 @@
 namespace {
 
 constexpr const char* description =
-    "Microbenchmarks of collision queries and of construction. Times are nanoseconds a pair; every answer "
-    "is\n"
-    "checked before it is timed. Made on first use, so that a narrow --benchmark_filter starts soon.";
+    "Microbenchmarks of collision queries, of construction and of loading. Times are nanoseconds a pair;\n"
+    "every answer is checked before it is timed. Made on first use, so that a narrow --benchmark_filter\n"
+    "starts soon.";
 constexpr const char* footer =
     "Google Benchmark's own options work too: --benchmark_filter=<regex>, --benchmark_list_tests=true,\n"
     "--benchmark_min_time=<seconds>, --benchmark_out=<file> ...";
@@ -47,6 +47,7 @@ int run(int argc, char** argv) {
   bch::bench::Scene scene(options);
   bch::bench::register_collide_benchmarks(scene);
   bch::bench::register_build_benchmarks(scene);
+  bch::bench::register_load_benchmarks(scene);
   benchmark::RunSpecifiedBenchmarks();
   benchmark::Shutdown();
   return bch::cli::exit_success;

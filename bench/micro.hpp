@@ -25,4 +25,8 @@ void register_collide_benchmarks(Scene& scene);
 /// every triangle cut into four, n times over; the counter `triangles` says into how many.
 void register_build_benchmarks(Scene& scene);
 
+/// load/map and load/read: a baked file of the scene's poses, in the file cache, by either way. load/<part>_alone: what
+/// that consists of; mapping includes its end.
+void register_load_benchmarks(Scene& scene);
+
 }  // namespace bch::bench

@@ -19,6 +19,12 @@ foreach(stage skinning outline hierarchy interior shape_set single)
   endif()
 endforeach()
 
+foreach(part map read map_alone checksum_alone validation_alone)
+  if(NOT output MATCHES "load/${part} ")
+    message(FATAL_ERROR "bch_micro: no load/${part}\n${output}")
+  endif()
+endforeach()
+
 execute_process(COMMAND ${RATIOS} ${sizes} --runs=1 --shapes=5000 OUTPUT_VARIABLE output ERROR_VARIABLE output RESULT_VARIABLE code)
 if(NOT code EQUAL 0 OR NOT output MATCHES "colliding, solid: 200 pairs" OR NOT output MATCHES "OBB tree, outline \\| 4630" OR
     NOT output MATCHES "an agent of a crowd of 1 000 000" OR NOT output MATCHES "a pair among 5 000 shapes")
