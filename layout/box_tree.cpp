@@ -3,11 +3,9 @@
 
 #include "layout/box_tree.hpp"
 
-#include <algorithm>
-#include <array>
-#include <bit>
+#include <emmintrin.h>
+
 #include <limits>
-#include <utility>
 
 namespace bch {
 namespace {
@@ -15,98 +13,115 @@ namespace {
 constexpr std::int16_t lowest = std::numeric_limits<std::int16_t>::min();
 constexpr std::int16_t highest = std::numeric_limits<std::int16_t>::max();
 
-}  // namespace
+struct CellBox {
+  std::int16_t min_x, min_y, max_x, max_y;
+};
 
-CoarseBox BoxTree::Block::around() const {
-  const auto smaller = [](Lanes a, Lanes b) -> Lanes { return a < b ? a : b; };
-  const auto larger = [](Lanes a, Lanes b) -> Lanes { return a > b ? a : b; };
-  const Lanes x0 = smaller(min_x[0], min_x[1]), y0 = smaller(min_y[0], min_y[1]);
-  const Lanes x1 = larger(max_x[0], max_x[1]), y1 = larger(max_y[0], max_y[1]);
-  CoarseBox box(x0[0], y0[0], x1[0], y1[0]);
-  for (std::size_t i = 1; i < width / 2; ++i)
-    box = {std::min(box.min_x, x0[i]), std::min(box.min_y, y0[i]), std::max(box.max_x, x1[i]),
-           std::max(box.max_y, y1[i])};
-  return box;
+void set(BoxBlock& block, std::size_t number, const CellBox& box) {
+  block.min_x[number] = box.min_x, block.min_y[number] = box.min_y;
+  block.max_x[number] = box.max_x, block.max_y[number] = box.max_y;
 }
+
+/// Eight pairs (x, y) of cells, from four times two of them in every other lane of 32 bits.
+struct Eight {
+  __m128i x, y;
+
+  Eight(__m128i p, __m128i q, __m128i r, __m128i s) {
+    const auto even_lanes = [](__m128i v, __m128i w) {
+      return _mm_castps_si128(
+          _mm_shuffle_ps(_mm_castsi128_ps(v), _mm_castsi128_ps(w), _MM_SHUFFLE(2, 0, 2, 0)));
+    };
+    const __m128i low = even_lanes(p, q), high = even_lanes(r, s);
+    x = _mm_packs_epi32(_mm_srai_epi32(_mm_slli_epi32(low, 16), 16),
+                        _mm_srai_epi32(_mm_slli_epi32(high, 16), 16));
+    y = _mm_packs_epi32(_mm_srai_epi32(low, 16), _mm_srai_epi32(high, 16));
+  }
+};
+
+/// The boxes of eight segments, from number `first` of the block.
+void set_eight(BoxBlock& block, std::size_t first, const Segment* segments) {
+  __m128i smaller[4], larger[4];  // of two segments' ends, each twice
+  for (int i = 0; i < 4; ++i) {
+    const auto cells = [segments](int s) {
+      return _mm_srai_epi32(_mm_loadu_si128(reinterpret_cast<const __m128i*>(segments + s)), cell_bits);
+    };
+    const __m128i ends = _mm_packs_epi32(cells(2 * i), cells(2 * i + 1));
+    const __m128i others = _mm_shuffle_epi32(ends, _MM_SHUFFLE(2, 3, 0, 1));
+    smaller[i] = _mm_min_epi16(ends, others);
+    larger[i] = _mm_max_epi16(ends, others);
+  }
+  const Eight low(smaller[0], smaller[1], smaller[2], smaller[3]);
+  const Eight high(larger[0], larger[1], larger[2], larger[3]);
+  const auto store = [first](std::int16_t* cells, __m128i eight) {
+    _mm_store_si128(reinterpret_cast<__m128i*>(cells + first), eight);
+  };
+  store(block.min_x, low.x), store(block.min_y, low.y);
+  store(block.max_x, high.x), store(block.max_y, high.y);
+}
+
+template <class Choose>
+std::int16_t fold(const std::int16_t* cells, Choose choose) {
+  const auto* halves = reinterpret_cast<const __m128i*>(cells);
+  __m128i all = choose(_mm_load_si128(halves), _mm_load_si128(halves + 1));
+  all = choose(all, _mm_shuffle_epi32(all, _MM_SHUFFLE(1, 0, 3, 2)));
+  all = choose(all, _mm_shuffle_epi32(all, _MM_SHUFFLE(2, 3, 0, 1)));
+  all = choose(all, _mm_srli_epi32(all, 16));
+  return static_cast<std::int16_t>(_mm_cvtsi128_si32(all));
+}
+
+CellBox around(const BoxBlock& block) {
+  const auto smallest = [](__m128i a, __m128i b) { return _mm_min_epi16(a, b); };
+  const auto largest = [](__m128i a, __m128i b) { return _mm_max_epi16(a, b); };
+  return {fold(block.min_x, smallest), fold(block.min_y, smallest), fold(block.max_x, largest),
+          fold(block.max_y, largest)};
+}
+
+}  // namespace
 
 void BoxTree::reserve(std::size_t segments) {
   lay_out(segments);
   blocks_.reserve(level_begin_.back());
-  open_.resize(2 * (segments / width + top_blocks + width));
 }
 
-/// Sets the levels' places.
+/// Sets the levels' places. What is left of the last level's last group are blocks that meet nothing.
 void BoxTree::lay_out(std::size_t segments) {
   level_begin_.assign(1, 0);
   std::size_t blocks = segments;
   do {
-    blocks = (blocks + width - 1) / width;
+    blocks = (blocks + boxes_per_block - 1) / boxes_per_block;
     level_begin_.push_back(level_begin_.back() + blocks);
   } while (blocks > top_blocks);
+  level_begin_.back() += (top_group - blocks % top_group) % top_group;
 }
 
-void BoxTree::assign(std::span<const Segment> segments) {
-  lay_out(segments.size());
+void BoxTree::assign(const Segment* segments, std::size_t count) {
+  lay_out(count);
   blocks_.resize(level_begin_.back());
-  for (std::size_t i = 0; i < segments.size(); ++i) {
-    const auto [a, b] = segments[i];
-    const CoarseBox box({std::min(a.x, b.x), std::min(a.y, b.y)}, {std::max(a.x, b.x), std::max(a.y, b.y)});
-    blocks_[i / width].set(i % width, box);
-  }
-  pad(segments.size(), 0);
+  std::size_t blocks = (count + boxes_per_block - 1) / boxes_per_block;
+  for (std::size_t b = 0; b < blocks; ++b)
+    for (const std::size_t half : {0, 8}) set_eight(blocks_[b], half, segments + boxes_per_block * b + half);
+  pad(count, 0);
   for (std::size_t level = 1; level + 1 < level_begin_.size(); ++level) {
-    const std::size_t below = level_begin_[level - 1], count = level_begin_[level] - below;
-    for (std::size_t i = 0; i < count; ++i)
-      blocks_[level_begin_[level] + i / width].set(i % width, blocks_[below + i].around());
-    pad(count, level_begin_[level]);
+    const std::size_t below = level_begin_[level - 1], here = level_begin_[level];
+    for (std::size_t i = 0; i < blocks; ++i)
+      set(blocks_[here + i / boxes_per_block], i % boxes_per_block, around(blocks_[below + i]));
+    pad(blocks, level);
+    blocks = (blocks + boxes_per_block - 1) / boxes_per_block;
   }
 }
 
-/// Fills the last block of a level of `count` boxes with boxes that meet nothing.
-void BoxTree::pad(std::size_t count, std::size_t first_block) {
-  for (std::size_t i = count; i % width != 0; ++i)
-    blocks_[first_block + i / width].set(i % width, {highest, highest, lowest, lowest});
+/// Fills the blocks of a level up to the next with boxes that meet nothing, from number `count` on.
+void BoxTree::pad(std::size_t count, std::size_t level) {
+  const std::size_t begin = level_begin_[level], end = level_begin_[level + 1];
+  for (std::size_t i = count; i < boxes_per_block * (end - begin); ++i)
+    set(blocks_[begin + i / boxes_per_block], i % boxes_per_block, {highest, highest, lowest, lowest});
 }
 
-/// Appends the numbers of the block's boxes that meet the box, counted from `first`. How many there are is hard
-/// to predict, so a few are written in any case; what is not a number is overwritten by the next.
-std::uint32_t* BoxTree::append_meeting(const Block& block, const CoarseBox& box, std::uint32_t first,
-                                       std::uint32_t* found) {
-  static_assert(std::endian::native == std::endian::little);
-  const auto apart = [&](int half) -> Lanes {
-    return (block.min_x[half] > box.max_x) | (block.min_y[half] > box.max_y) |
-           (block.max_x[half] < box.min_x) | (block.max_y[half] < box.min_y);
-  };
-  // A byte for each box, 1 where it is apart: even numbers from one half, odd ones from the other.
-  const Lanes bytes = (apart(0) & 0x0001) | (apart(1) & 0x0100);
-  const auto [low, high] = std::bit_cast<std::array<std::uint64_t, 2>>(bytes);
-  // The highest byte of a product: the sum of eight bytes, or their lowest bits next to each other.
-  constexpr std::uint64_t sum = 0x0101010101010101, gather = 0x0102040810204080;
-  const std::uint64_t count = width - ((low + high) * sum >> 56);
-  std::uint64_t open = ~(low * gather >> 56 | high * gather >> 56 << 8);
-
-  constexpr std::uint64_t written_in_any_case = 4;
-  for (std::uint64_t i = 0; i < written_in_any_case; ++i, open &= open - 1)
-    found[i] = first + static_cast<std::uint32_t>(std::countr_zero(open));
-  for (std::uint64_t i = written_in_any_case; i < count; ++i, open &= open - 1)
-    found[i] = first + static_cast<std::uint32_t>(std::countr_zero(open));
-  return found + count;
-}
-
-std::size_t BoxTree::find_meeting(const CoarseBox& box, std::uint32_t* found) {
-  std::size_t level = level_begin_.size() - 2;
-  std::uint32_t *open = open_.data(), *next = open + open_.size() / 2;
-  std::size_t count = level_begin_[level + 1] - level_begin_[level];
-  for (std::uint32_t i = 0; i < count; ++i) open[i] = i;
-  for (;; --level) {
-    const Block* blocks = blocks_.data() + level_begin_[level];
-    std::uint32_t *const begin = level == 0 ? found : next, *end = begin;
-    for (std::size_t i = 0; i < count; ++i)
-      end = append_meeting(blocks[open[i]], box, open[i] * static_cast<std::uint32_t>(width), end);
-    count = static_cast<std::size_t>(end - begin);
-    if (level == 0) return count;
-    std::swap(open, next);
-  }
+void BoxTree::describe(SegmentSearch& search) const {
+  search.blocks = blocks_.data();
+  search.level_begin = level_begin_.data();
+  search.top = level_begin_.size() - 2;
+  search.top_groups = (level_begin_.back() - level_begin_[search.top]) / top_group;
 }
 
 }  // namespace bch

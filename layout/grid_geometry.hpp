@@ -45,17 +45,6 @@ inline bool same_direction(GridVector a, GridVector b) {
   return cross(a, b) == 0 && dot(a, b) > 0;
 }
 
-/// Whether a comes before b when both are swept counter-clockwise from `start`; its own direction comes last.
-inline bool swept_before(GridVector start, GridVector a, GridVector b) {
-  const auto quarter = [start](GridVector v) {  // (0, 180), 180, (180, 360), 360 degrees
-    const std::int64_t side = cross(start, v);
-    if (side != 0) return side > 0 ? 0 : 2;
-    return dot(start, v) < 0 ? 1 : 3;
-  };
-  const int of_a = quarter(a), of_b = quarter(b);
-  return of_a != of_b ? of_a < of_b : cross(a, b) > 0;
-}
-
 /// Part of the way along a segment: numerator / denominator in 0 to 1, denominator > 0.
 struct Fraction {
   std::int64_t numerator = 0, denominator = 1;
@@ -63,7 +52,8 @@ struct Fraction {
 
   Fraction() = default;
   Fraction(std::int64_t n, std::int64_t d)
-      : numerator(n), denominator(d), value(static_cast<double>(n) / static_cast<double>(d)) {}
+      : Fraction(n, d, static_cast<double>(n) / static_cast<double>(d)) {}
+  Fraction(std::int64_t n, std::int64_t d, double quotient) : numerator(n), denominator(d), value(quotient) {}
 };
 
 /// -1, 0 or 1 for a < b, a == b, a > b. Correct rounding is monotonic: quotients that differ are in the order of

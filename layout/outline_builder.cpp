@@ -11,6 +11,7 @@
 
 #include "layout/grid_snap.hpp"
 #include "layout/outline_candidates.hpp"
+#include "layout/outline_implementation.hpp"
 #include "layout/outline_topology.hpp"
 #include "layout/outline_walk.hpp"
 #include "layout/outline_winding.hpp"
@@ -41,12 +42,12 @@ GridPoint leftmost_end(std::span<const Segment> segments) {
 /// What is known of the mesh, and the scratch of a pose.
 struct OutlineBuilder::State {
   State(std::span<const std::array<std::uint32_t, 3>> triangles, std::size_t vertex_count,
-        std::span<const Eigen::Vector3f> bind_pose)
+        std::span<const Eigen::Vector3f> bind_pose, const OutlineImplementation& implementation)
       : vertices(vertex_count),
         topology(outline_topology(triangles, vertex_count, bind_pose)),
         points(topology.used.size()),
-        candidates(topology),
-        walk(topology, candidates),
+        candidates(topology, implementation),
+        walk(topology, candidates, implementation),
         leftmost(topology.island_vertex.size()) {
     outside.reserve(leftmost.size());
   }
@@ -140,7 +141,12 @@ void OutlineBuilder::State::write(double step, Outline& outline) const {
 
 OutlineBuilder::OutlineBuilder(std::span<const std::array<std::uint32_t, 3>> triangles, std::size_t vertices,
                                std::span<const Eigen::Vector3f> bind_pose)
-    : state_(std::make_unique<State>(triangles, vertices, bind_pose)) {}
+    : OutlineBuilder(triangles, vertices, bind_pose, best_outline_implementation()) {}
+
+OutlineBuilder::OutlineBuilder(std::span<const std::array<std::uint32_t, 3>> triangles, std::size_t vertices,
+                               std::span<const Eigen::Vector3f> bind_pose,
+                               const OutlineImplementation& implementation)
+    : state_(std::make_unique<State>(triangles, vertices, bind_pose, implementation)) {}
 
 OutlineBuilder::OutlineBuilder(OutlineBuilder&&) noexcept = default;
 OutlineBuilder& OutlineBuilder::operator=(OutlineBuilder&&) noexcept = default;

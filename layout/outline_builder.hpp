@@ -13,6 +13,8 @@
 
 namespace bch {
 
+struct OutlineImplementation;
+
 /// Finds the outline of one mesh in pose after pose: the boundary of the unbounded face of the closed union
 /// of its triangles, seen from above.
 ///
@@ -34,6 +36,9 @@ class OutlineBuilder {
   ///          length or with a position that is not finite. Vertices that no triangle uses do not count.
   OutlineBuilder(std::span<const std::array<std::uint32_t, 3>> triangles, std::size_t vertices,
                  std::span<const Eigen::Vector3f> bind_pose = {});
+  /// The same with a given implementation instead of the best, which this processor has to support.
+  OutlineBuilder(std::span<const std::array<std::uint32_t, 3>> triangles, std::size_t vertices,
+                 std::span<const Eigen::Vector3f> bind_pose, const OutlineImplementation& implementation);
   OutlineBuilder(OutlineBuilder&&) noexcept;
   OutlineBuilder& operator=(OutlineBuilder&&) noexcept;
   ~OutlineBuilder();

@@ -3,7 +3,7 @@
 
 #include "layout/outline_candidates.hpp"
 
-#include <bit>
+#include <algorithm>
 
 namespace bch {
 namespace {
@@ -11,26 +11,6 @@ namespace {
 using ManifoldEdge = OutlineTopology::ManifoldEdge;
 
 constexpr std::uint8_t counter_clockwise = 1, clockwise = 2;
-
-/// A point's coordinates in a register; GCC's and Clang's vector types are in any target's
-/// baseline.
-using Pair [[gnu::vector_size(8)]] = std::int32_t;
-using WidePair [[gnu::vector_size(16)]] = double;
-
-/// Which way each triangle's corners go round; 0 where they are on a line. The products of the determinant are
-/// exact in double (grid_geometry.hpp), so they need not be subtracted to be compared.
-void find_sides(std::span<const std::array<std::uint32_t, 3>> triangles, const GridPoint* points,
-                std::uint8_t* sides) {
-  const auto load = [points](std::uint32_t v) { return std::bit_cast<Pair>(points[v]); };
-  for (std::size_t t = 0; t < triangles.size(); ++t) {
-    const auto& [a, b, c] = triangles[t];
-    const WidePair u = __builtin_convertvector(load(b) - load(a), WidePair);
-    const WidePair v = __builtin_convertvector(load(c) - load(a), WidePair);
-    const WidePair products = u * __builtin_shufflevector(v, v, 1, 0);
-    sides[t] = static_cast<std::uint8_t>((products[0] > products[1] ? counter_clockwise : 0) |
-                                         (products[0] < products[1] ? clockwise : 0));
-  }
-}
 
 /// Writes the numbers of the edges that do not have a triangle on either side. Without a branch: one that is
 /// not accepted is overwritten by the next.
@@ -45,16 +25,20 @@ std::size_t choose(std::span<const ManifoldEdge> edges, const std::uint8_t* side
 
 }  // namespace
 
-OutlineCandidates::OutlineCandidates(const OutlineTopology& topology)
-    : sides_(topology.triangles.size()),
+OutlineCandidates::OutlineCandidates(const OutlineTopology& topology,
+                                     const OutlineImplementation& implementation)
+    : implementation_(&implementation),
+      triangles_(topology.triangles),
       chosen_(topology.manifold.size() + 1),
-      segments_(topology.manifold.size() + topology.uses.size() + 1),
+      segments_(topology.manifold.size() + topology.uses.size() + boxes_per_block),
       vertices_(segments_.size()) {
+  while (triangles_.size() % 4 != 0) triangles_.push_back({0, 0, 0});
+  sides_.resize(triangles_.size());
   boxes_.reserve(segments_.size());
 }
 
 void OutlineCandidates::find(const OutlineTopology& topology, std::span<const GridPoint> points) {
-  find_sides(topology.triangles, points.data(), sides_.data());
+  implementation_->find_sides(triangles_.data()->data(), triangles_.size(), points.data(), sides_.data());
   count_ = 0;
   const std::size_t chosen = choose(topology.manifold, sides_.data(), chosen_.data());
   for (std::size_t i = 0; i < chosen; ++i) {
@@ -64,7 +48,10 @@ void OutlineCandidates::find(const OutlineTopology& topology, std::span<const Gr
   const auto& begin = topology.uses_begin;
   for (std::size_t e = 0; e + 1 < begin.size(); ++e)
     add_uses(points, std::span(topology.uses).subspan(begin[e], begin[e + 1] - begin[e]));
-  boxes_.assign(segments());
+  if (count_ == 0) return;
+  std::fill_n(segments_.begin() + static_cast<std::ptrdiff_t>(count_), boxes_per_block - 1,
+              segments_[count_ - 1]);
+  boxes_.assign(segments_.data(), count_);
 }
 
 void OutlineCandidates::add(std::span<const GridPoint> points, std::uint32_t a, std::uint32_t b) {

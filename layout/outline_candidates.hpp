@@ -3,12 +3,14 @@
 
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
 
 #include "layout/box_tree.hpp"
 #include "layout/grid_geometry.hpp"
+#include "layout/outline_implementation.hpp"
 #include "layout/outline_topology.hpp"
 
 namespace bch {
@@ -18,22 +20,24 @@ namespace bch {
 /// none); any further piece of the union may be among them without harm.
 class OutlineCandidates {
  public:
-  explicit OutlineCandidates(const OutlineTopology& topology);
+  OutlineCandidates(const OutlineTopology& topology, const OutlineImplementation& implementation);
 
   /// Finds those of the pose in which vertex i is at points[i]. Allocates nothing.
   void find(const OutlineTopology& topology, std::span<const GridPoint> points);
 
   std::span<const Segment> segments() const { return {segments_.data(), count_}; }  ///< none is a point
   std::uint32_t vertex(std::size_t segment) const { return vertices_[segment]; }    ///< at the segment's a
-  BoxTree& boxes() { return boxes_; }
+  const BoxTree& boxes() const { return boxes_; }
 
  private:
   void add(std::span<const GridPoint> points, std::uint32_t a, std::uint32_t b);
   void add_uses(std::span<const GridPoint> points, std::span<const OutlineTopology::EdgeUse> uses);
 
-  std::vector<std::uint8_t> sides_;    ///< of each triangle
-  std::vector<std::uint32_t> chosen_;  ///< manifold edges
-  std::vector<Segment> segments_;      ///< and room for one more, as in the next
+  const OutlineImplementation* implementation_;
+  std::vector<std::array<std::uint32_t, 3>> triangles_;  ///< and points up to a multiple of four
+  std::vector<std::uint8_t> sides_;                      ///< of each triangle
+  std::vector<std::uint32_t> chosen_;                    ///< manifold edges
+  std::vector<Segment> segments_;                        ///< and room for a block more, as in the next
   std::vector<std::uint32_t> vertices_;
   std::size_t count_ = 0;
   BoxTree boxes_;

@@ -4,6 +4,8 @@
 #include "layout/outline_walk.hpp"
 
 #include <algorithm>
+#include <bit>
+#include <cmath>
 #include <stdexcept>
 #include <string>
 
@@ -14,42 +16,55 @@ namespace {
 /// polygons by a sequence of translations", 1988), with alpha(n) <= 4 for any n that fits a computer.
 constexpr std::size_t most_stretches_per_segment = 256;
 
-/// Where a segment with one end on the right of a line and the other not meets it. With O the line's start, D
-/// its direction, r and l these ends and D' = r - l: at D' x (l - O) / D x (l - r) of the line, and at
-/// D x (l - O) / D x (l - r) of the way from l to r.
-struct Crossing {
-  Crossing(const Place& line, const Segment& segment) {
-    const auto [a, b] = segment;
-    const std::int64_t side_a = cross(line.direction(), a - line.from),
-                       side_b = cross(line.direction(), b - line.from);
-    left = side_a < 0 ? b : a, right = side_a < 0 ? a : b;
-    from_left = std::max(side_a, side_b);
-    whole = from_left - std::min(side_a, side_b);
-    along = cross(way(), left - line.from);
-  }
-  GridVector way() const { return right - left; }
+/// The coordinates of a cell that steps are in.
+std::int16_t cell(std::int32_t steps) {
+  return static_cast<std::int16_t>(steps >> cell_bits);
+}
 
-  GridPoint left, right;
-  std::int64_t from_left, along, whole;
+/// A direction and where it comes in a sweep counter-clockwise from another; the other's own comes last.
+struct Swept {
+  GridVector direction;
+  int quarter;  ///< (0, 180), 180, (180, 360), 360 degrees
+
+  Swept(GridVector start, GridVector v) : direction(v) {
+    const std::int64_t side = cross(start, v);
+    const int on_line = dot(start, v) < 0 ? 1 : 3;
+    quarter = side > 0 ? 0 : side < 0 ? 2 : on_line;
+  }
+  bool before(const Swept& other) const {
+    return (quarter < other.quarter) | ((quarter == other.quarter) & (cross(direction, other.direction) > 0));
+  }
 };
 
 }  // namespace
 
-OutlineWalk::OutlineWalk(const OutlineTopology& topology, OutlineCandidates& candidates)
+OutlineWalk::OutlineWalk(const OutlineTopology& topology, const OutlineCandidates& candidates,
+                         const OutlineImplementation& implementation)
     : topology_(&topology),
       candidates_(&candidates),
-      near_(topology.manifold.size() + topology.uses.size() + BoxTree::width),
-      crossing_(near_.size()),
-      ending_(near_.size()),
+      implementation_(&implementation),
+      near_(topology.manifold.size() + topology.uses.size() + boxes_per_block),
+      side_a_(near_.size()),
+      side_b_(near_.size()),
+      along_(near_.size()),
+      at_(near_.size()),
+      crossing_(near_.size() / 64 + 1),
+      ending_(near_.size() / 64 + 1),
       touched_(topology.island_vertex.size()) {}
 
 void OutlineWalk::begin_pose() {
-  segments_ = candidates_->segments();
+  candidates_->boxes().describe(search_);
+  search_.segments = candidates_->segments().data();
+  search_.near = near_.data();
+  search_.side_a = side_a_.data(), search_.side_b = side_b_.data();
+  search_.along = along_.data(), search_.at = at_.data();
+  search_.crossing = crossing_.data(), search_.ending = ending_.data();
   std::fill(touched_.begin(), touched_.end(), std::uint8_t{0});
 }
 
 void OutlineWalk::walk(GridPoint start, std::vector<Stretch>& contour) {
-  const std::size_t first = contour.size(), most = first + most_stretches_per_segment * segments_.size();
+  const std::size_t first = contour.size(),
+                    most = first + most_stretches_per_segment * candidates_->segments().size();
   find_near({start, start, {}}, start);
   take_first_direction(start, {-1, 0}, contour.emplace_back());
   while (contour.size() <= most) {
@@ -67,73 +82,77 @@ void OutlineWalk::walk(GridPoint start, std::vector<Stretch>& contour) {
                          std::to_string(start.y) + ") on the grid does not return");
 }
 
-/// Collects candidates near the way from a place to the end of its line. Most are neither crossing nor ending,
-/// and there is no telling which: the lists are written without a branch.
+/// Looks at the candidates near the way from a place to the end of its line.
 void OutlineWalk::find_near(const Place& here, GridPoint rounded_here) {
   const GridPoint from = rounded_here, to = here.to;
-  const CoarseBox box({std::min(from.x - 1, to.x), std::min(from.y - 1, to.y)},
-                      {std::max(from.x + 1, to.x), std::max(from.y + 1, to.y)});
-  const std::size_t count = candidates_->boxes().find_meeting(box, near_.data());
-  const std::uint32_t* near = near_.data();
-  std::uint32_t *crossing = crossing_.data(), *ending = ending_.data();
-  const Segment* segments = segments_.data();
-  const GridVector way = here.direction();
-  for (std::size_t i = 0; i < count; ++i) {
-    const auto [a, b] = segments[near[i]];
-    const GridVector from_a = here.from - a, from_b = here.from - b, to_a = a - to, to_b = b - to;
-    const std::int64_t side_a = cross(from_a, way), side_b = cross(from_b, way);
-    *crossing = near[i];
-    crossing += (side_a < 0) != (side_b < 0);
-    *ending = near[i];
-    ending += (to_a.x * to_b.x <= 0) & (to_a.y * to_b.y <= 0);
-  }
-  crossing_count_ = static_cast<std::size_t>(crossing - crossing_.data());
-  ending_count_ = static_cast<std::size_t>(ending - ending_.data());
+  near_count_ =
+      implementation_->find_near(search_, {here.from, to, here.at.value, cell(std::min(from.x - 1, to.x)),
+                                           cell(std::min(from.y - 1, to.y)), cell(std::max(from.x + 1, to.x)),
+                                           cell(std::max(from.y + 1, to.y))});
+}
+
+/// Calls each(i) where bit i of those found is set, in order.
+template <class Each>
+void OutlineWalk::for_each(const std::vector<std::uint64_t>& bits, Each each) const {
+  for (std::size_t word = 0; 64 * word < near_count_; ++word)
+    for (std::uint64_t open = bits[word]; open != 0; open &= open - 1)
+      each(64 * word + static_cast<std::size_t>(std::countr_zero(open)));
 }
 
 /// Fills `next` with the first way to the right after `here` and before the end of its line, if there is one.
 bool OutlineWalk::take_first_crossing(const Place& here, Stretch& next) {
-  constexpr std::uint32_t none = 0xffffffff;
-  std::uint32_t first = none;
+  constexpr std::size_t none = ~std::size_t{0};
+  std::size_t first = none;
   Fraction nearest;
-  for (std::size_t i = 0; i < crossing_count_; ++i) {
-    const Crossing crossing(here, segments_[crossing_[i]]);
-    if (crossing.along <= 0 || crossing.along >= crossing.whole) continue;
-    const Fraction at(crossing.along, crossing.whole);
-    if (compare(at, here.at) <= 0) continue;
+  const auto left = [&](std::size_t i) {
+    const auto [a, b] = search_.segments[near_[i]];
+    return side_a_[i] < 0 ? b : a;
+  };
+  const auto right = [&](std::size_t i) {
+    const auto [a, b] = search_.segments[near_[i]];
+    return side_a_[i] < 0 ? a : b;
+  };
+  const auto whole = [&](std::size_t i) {
+    return static_cast<std::int64_t>(std::abs(side_a_[i] - side_b_[i]));
+  };
+  for_each(crossing_, [&](std::size_t i) {
+    const Fraction at(static_cast<std::int64_t>(along_[i]), whole(i), at_[i]);
+    if (compare(at, here.at) <= 0) return;
     const int order = first != none ? compare(at, nearest) : -1;
-    if (order > 0) continue;
-    if (order == 0 && cross(crossing.way(), Crossing(here, segments_[first]).way()) <= 0) continue;
+    if (order > 0) return;
+    if (order == 0 && cross(right(i) - left(i), right(first) - left(first)) <= 0) return;
     nearest = at;
-    first = crossing_[i];
-  }
+    first = i;
+  });
   if (first == none) return false;
-  const Crossing crossing(here, segments_[first]);
-  next.begin.from = crossing.left;
-  next.begin.to = crossing.right;
-  next.begin.at = {crossing.from_left, crossing.whole};
+  next.begin.from = left(first);
+  next.begin.to = right(first);
+  next.begin.at = {static_cast<std::int64_t>(std::max(side_a_[first], side_b_[first])), whole(first)};
   next.rounded_begin = rounded(next.begin);
-  touch(first);
+  touch(near_[first]);
   return true;
 }
 
 /// Fills `next` with the first way counter-clockwise from `back` of all that candidates offer from a grid point.
 void OutlineWalk::take_first_direction(GridPoint at, GridVector back, Stretch& next) {
-  GridPoint first = at;
+  Swept first(back, back);
+  GridPoint to = at;
   std::uint32_t first_segment = 0;
   const auto consider = [&](GridPoint end, std::uint32_t segment) {
-    if (end == at || (!(first == at) && !swept_before(back, end - at, first - at))) return;
-    first = end;
-    first_segment = segment;
+    const Swept other(back, end - at);
+    const bool better = (to == at) | other.before(first);
+    first = better ? other : first;
+    to = better ? end : to;
+    first_segment = better ? segment : first_segment;
   };
-  for (std::size_t i = 0; i < ending_count_; ++i) {
-    const auto [a, b] = segments_[ending_[i]];
-    if (cross(b - a, at - a) != 0) continue;
-    consider(a, ending_[i]);
-    consider(b, ending_[i]);
-  }
+  for_each(ending_, [&](std::size_t i) {
+    const auto [a, b] = search_.segments[near_[i]];
+    const bool from_a = a == at;
+    consider(from_a ? b : a, near_[i]);
+    if (!from_a && !(b == at)) consider(b, near_[i]);
+  });
   next.begin.from = next.rounded_begin = at;
-  next.begin.to = first;
+  next.begin.to = to;
   next.begin.at = {};
   touch(first_segment);
 }

@@ -31,7 +31,8 @@ struct Stretch {
 class OutlineWalk {
  public:
   /// Both must outlive this and not change between begin_pose() and the last walk().
-  OutlineWalk(const OutlineTopology& topology, OutlineCandidates& candidates);
+  OutlineWalk(const OutlineTopology& topology, const OutlineCandidates& candidates,
+              const OutlineImplementation& implementation);
 
   void begin_pose();
 
@@ -45,17 +46,20 @@ class OutlineWalk {
 
  private:
   void find_near(const Place& here, GridPoint rounded_here);
+  template <class Each>
+  void for_each(const std::vector<std::uint64_t>& bits, Each each) const;
   bool take_first_crossing(const Place& here, Stretch& next);
   void take_first_direction(GridPoint at, GridVector back, Stretch& next);
   void touch(std::uint32_t segment);
 
   const OutlineTopology* topology_;
-  OutlineCandidates* candidates_;
-  std::span<const Segment> segments_;
-  // Candidates that the current stretch may meet, of these the ones that lead to its right, and those that may
-  // touch its end; as many as the counts say.
-  std::vector<std::uint32_t> near_, crossing_, ending_;
-  std::size_t crossing_count_ = 0, ending_count_ = 0;
+  const OutlineCandidates* candidates_;
+  const OutlineImplementation* implementation_;
+  std::vector<std::uint32_t> near_;
+  std::vector<double> side_a_, side_b_, along_, at_;
+  std::vector<std::uint64_t> crossing_, ending_;
+  SegmentSearch search_;        ///< with results in the arrays above
+  std::size_t near_count_ = 0;  ///< candidates that the current stretch may meet
   std::vector<std::uint8_t> touched_;
 };
 

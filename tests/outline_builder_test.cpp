@@ -13,6 +13,7 @@
 
 #include "layout/default_characters.hpp"
 #include "layout/grid_geometry.hpp"
+#include "layout/outline_implementation.hpp"
 #include "layout/skinning.hpp"
 #include "layout/union_outline.hpp"
 #include "tests/outline_arrangement.hpp"
@@ -54,6 +55,13 @@ namespace bch {
 namespace {
 
 using test::Soup;
+
+std::vector<const OutlineImplementation*> supported_implementations() {
+  std::vector<const OutlineImplementation*> supported;
+  for (const OutlineImplementation& row : outline_implementations())
+    if (row.supported()) supported.push_back(&row);
+  return supported;
+}
 
 Outline build(const Soup& soup, std::span<const Eigen::Vector3f> bind_pose = {}) {
   Outline outline;
@@ -194,13 +202,15 @@ TEST(OutlineBuilder, AllocatesNothingTheSecondTime) {
 
 TEST(OutlineBuilder, EqualsTheArrangementOfAllEdges) {
   test::Random random(2014);
+  const auto implementations = supported_implementations();
   int compared = 0;
   Outline outline;
   for (int i = 0; i < 10000; ++i) {
     const Soup any = test::random_soup(random);
     const bool bind_pose = random.below(2) == 0;
     OutlineBuilder builder(any.triangles, any.positions.size(),
-                           bind_pose ? std::span(any.positions) : std::span<const Eigen::Vector3f>());
+                           bind_pose ? std::span(any.positions) : std::span<const Eigen::Vector3f>(),
+                           *implementations[static_cast<std::size_t>(i) % implementations.size()]);
     try {
       builder.build(any.positions, outline);
     } catch (const std::invalid_argument&) {
@@ -211,6 +221,27 @@ TEST(OutlineBuilder, EqualsTheArrangementOfAllEdges) {
         << "soup " << i;
   }
   EXPECT_GT(compared, 9900);
+}
+
+TEST(OutlineBuilder, GivesTheSameBitsOnEveryInstructionSet) {
+  const auto implementations = supported_implementations();
+  ASSERT_STREQ(implementations.back()->name, "sse2");
+  for (const Character& character : {default_male(), default_female()}) {
+    Skinner skinner(character);
+    std::vector<OutlineBuilder> builders;
+    for (const OutlineImplementation* row : implementations)
+      builders.emplace_back(character.triangles, character.vertices.size(), character.vertices, *row);
+    for (const PoseTime& time : sample_poses(character, 50)) {
+      const auto positions = skinner.pose(time);
+      const Outline expected = union_outline(positions, character.triangles);
+      for (OutlineBuilder& builder : builders) {
+        Outline outline;
+        builder.build(positions, outline);
+        ASSERT_EQ(outline.points, expected.points);
+        ASSERT_EQ(outline.contour_begin, expected.contour_begin);
+      }
+    }
+  }
 }
 
 /// The same union, made of the same triangles in another order, turned over, numbered otherwise, some twice.

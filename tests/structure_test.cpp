@@ -129,7 +129,7 @@ TEST(Objects, NoCodeForWideRegistersCanReplaceOtherCode) {
     EXPECT_TRUE(here.empty()) << object << ": " << *here.begin();
 #endif
   }
-  EXPECT_EQ(wide, 4u);
+  EXPECT_EQ(wide, 5u);
 }
 
 TEST(Objects, NothingThatComputesAnAnswerFusesMultiplyAndAdd) {

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "layout/segment_search.hpp"
+
+namespace bch {
+
+/// The two loops of an outline that take most of its time, several triangles or segments a register.
+/// Everything is exact (grid_geometry.hpp), so that every instruction set gives the same bits; the quotient is
+/// rounded correctly on each. `Registers` is a type of the including file alone, so that no other file can
+/// share what was compiled for its registers.
+template <class Registers>
+class OutlineLanes {
+ public:
+  /// Which way the corners of triangles go round: bit 0 for counter-clockwise, bit 1 for clockwise, none where
+  /// they are on a line. `count` is a multiple of four.
+  static void find_sides(const std::uint32_t* corners, std::size_t count, const GridPoint* points,
+                         std::uint8_t* sides) noexcept {
+    for (std::size_t t = 0; t < count; t += 4) {
+      const auto turns = Registers::turns(corners + 3 * t, points);
+      // Four bits spread to the lowest bits of four bytes.
+      constexpr std::uint32_t spread = 0x00204081, lowest = 0x01010101;
+      const std::uint32_t bytes = (turns.left * spread & lowest) | (turns.right * spread & lowest) << 1;
+      __builtin_memcpy(sides + t, &bytes, sizeof bytes);
+    }
+  }
+
+  /// Finds the candidates whose boxes meet that of the way and says of each whether its line crosses the way's
+  /// from left to right further on than way.at (or equally far, as far as doubles tell) and before its end,
+  /// and whether it touches its end. With O the start of the way, D its direction and (a, b) the candidate:
+  /// side_a = D x (a - O), side_b = D x (b - O); their difference is the denominator, `along` the numerator
+  /// and `at` the quotient of where on the way it is crossed.
+  /// Returns: how many are near.
+  static std::size_t find_near(const SegmentSearch& job, const SearchedWay& way) noexcept {
+    const std::size_t count = static_cast<std::size_t>(find_meeting(job, way) - job.near);
+    for (std::size_t i = 0; i < width; ++i) job.near[count + i] = 0;  // what fills the last register
+    const Line line(way);
+    for (std::size_t word = 0, i = 0; i < count; ++word) {
+      std::uint64_t crossing = 0, ending = 0;
+      const std::size_t begin = i, end = begin + 64 < count ? begin + 64 : count;
+      for (; i < end; i += width) {
+        const Found found = line.test(job, i);
+        crossing |= found.crossing << (i - begin);
+        ending |= found.ending << (i - begin);
+      }
+      const std::uint64_t valid = ~std::uint64_t{0} >> (64 - (end - begin));
+      job.crossing[word] = crossing & valid;
+      job.ending[word] = ending & valid;
+    }
+    return count;
+  }
+
+ private:
+  using Doubles = typename Registers::Doubles;
+  using Cells = typename Registers::Cells;
+  static constexpr std::size_t width = Registers::width;
+
+  struct Found {
+    std::uint64_t crossing, ending;
+  };
+
+  static std::uint32_t* find_meeting(const SegmentSearch& job, const SearchedWay& way) noexcept {
+    const Cells box = Registers::cells(way);
+    const BoxBlock* top = job.blocks + job.level_begin[job.top];
+    std::uint32_t* found = job.near;
+    for (std::size_t group = 0; group < job.top_groups; ++group, top += 4) {
+      std::uint64_t open = 0;
+      for (int i = 0; i < 4; ++i) open |= std::uint64_t{Registers::meeting(top[i], box)} << 16 * i;
+      for (; open != 0; open &= open - 1) {
+        const std::size_t child = 64 * group + static_cast<std::size_t>(__builtin_ctzll(open));
+        if (job.top == 0)
+          *found++ = static_cast<std::uint32_t>(child);
+        else
+          found = descend(job, box, job.top - 1, child, found);
+      }
+    }
+    return found;
+  }
+
+  /// Appends the segments below a block that meet the box. How many there are is hard to predict, so a few are
+  /// written in any case; what is not a number is overwritten by the next.
+  static std::uint32_t* descend(const SegmentSearch& job, const Cells& box, std::size_t level,
+                                std::size_t block, std::uint32_t* found) noexcept {
+    std::uint32_t open = Registers::meeting(job.blocks[job.level_begin[level] + block], box);
+    const std::size_t first = block * boxes_per_block;
+    if (level != 0) {
+      for (; open != 0; open &= open - 1)
+        found = descend(job, box, level - 1, first + static_cast<std::size_t>(__builtin_ctz(open)), found);
+      return found;
+    }
+    constexpr std::uint32_t written_in_any_case = 3, no_more = 1u << 31;
+    const std::uint32_t count = Registers::bits(open);
+    open |= no_more;
+    for (std::uint32_t i = 0; i < written_in_any_case; ++i, open &= open - 1)
+      found[i] =
+          static_cast<std::uint32_t>(first) + static_cast<std::uint32_t>(__builtin_ctz(open | no_more));
+    for (std::uint32_t i = written_in_any_case; i < count; ++i, open &= open - 1)
+      found[i] = static_cast<std::uint32_t>(first) + static_cast<std::uint32_t>(__builtin_ctz(open));
+    return found + count;
+  }
+
+  /// The way in every lane.
+  struct Line {
+    Doubles from_x, from_y, to_x, to_y, way_x, way_y, at;
+
+    explicit Line(const SearchedWay& way) noexcept
+        : from_x(Registers::all(way.from.x)),
+          from_y(Registers::all(way.from.y)),
+          to_x(Registers::all(way.to.x)),
+          to_y(Registers::all(way.to.y)),
+          way_x(to_x - from_x),
+          way_y(to_y - from_y),
+          at(Registers::all(way.at)) {}
+
+    Found test(const SegmentSearch& job, std::size_t i) const noexcept {
+      const auto ends = Registers::load(job.segments, job.near + i);
+      const Doubles ax = ends.ax - from_x, ay = ends.ay - from_y, bx = ends.bx - from_x,
+                    by = ends.by - from_y;
+      const Doubles side_a = way_x * ay - way_y * ax, side_b = way_x * by - way_y * bx;
+      const auto a_right = side_a < 0, b_right = side_b < 0;
+      const Doubles turn = bx * ay - by * ax, difference = side_a - side_b;
+      const Doubles along = a_right ? -turn : turn, whole = a_right ? -difference : difference;
+      const Doubles quotient = along / whole;
+      const auto crossing = (a_right ^ b_right) & (along > 0) & (along < whole) & (quotient >= at);
+      Registers::store(job.side_a + i, side_a);
+      Registers::store(job.side_b + i, side_b);
+      Registers::store(job.along + i, along);
+      Registers::store(job.at + i, quotient);
+
+      const Doubles cx = ends.ax - to_x, cy = ends.ay - to_y, dx = ends.bx - to_x, dy = ends.by - to_y;
+      const auto ending = (cx * dy == cy * dx) & (cx * dx + cy * dy <= 0);
+      return {Registers::bits_of(crossing), Registers::bits_of(ending)};
+    }
+  };
+};
+
+}  // namespace bch
