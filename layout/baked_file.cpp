@@ -18,6 +18,9 @@ namespace {
 using baked::Preamble;
 using baked::SectionEntry;
 
+/// Where the first section begins.
+constexpr std::size_t preamble_end = sizeof(Preamble) + baked::zeros_after(sizeof(Preamble));
+
 /// Reads a file's bytes from the front to the back; every number is checked before it is used.
 class Reader {
  public:
@@ -26,7 +29,7 @@ class Reader {
   baked::Arrays read() {
     read_preamble();
     baked::Arrays arrays{};
-    std::uint64_t offset = sizeof(Preamble) + baked::zeros_after(sizeof(Preamble));
+    std::uint64_t offset = preamble_end;
     baked::for_each_section(arrays, [&](baked::Section section, const char* what, auto& span) {
       using Element = std::remove_reference_t<decltype(span[0])>;
       const auto number = static_cast<std::uint32_t>(section);
@@ -49,7 +52,7 @@ class Reader {
 
   void read_preamble() {
     const auto& header = preamble_.header;
-    if (bytes_.size() < sizeof preamble_)
+    if (bytes_.size() < preamble_end)
       reject(std::to_string(bytes_.size()) + " bytes are too few for a baked file");
     if (reinterpret_cast<std::uintptr_t>(bytes_.data()) % baked::alignment != 0)
       reject("does not begin on a cache line of memory");
@@ -71,8 +74,7 @@ class Reader {
              std::to_string(baked::section_count));
     for (const std::uint32_t zero : header.zero)
       if (zero != 0) reject("header: " + std::to_string(zero) + " where there has to be 0");
-    const auto rest = bytes_.subspan(sizeof preamble_, baked::zeros_after(sizeof preamble_));
-    for (const std::byte byte : rest)
+    for (const std::byte byte : bytes_.subspan(sizeof preamble_, preamble_end - sizeof preamble_))
       if (byte != std::byte{0}) reject("header: no zeros after it");
   }
 
