@@ -215,13 +215,8 @@ struct Stage {
 constexpr Stage stages[] = {
     {"build/skinning", build_skinning},   {"build/outline", build_outline},
     {"build/hierarchy", build_hierarchy}, {"build/interior", build_interior},
-    {"build/skinning", build_skinning},
-    {"build/outline", build_outline},
-    {"build/hierarchy", build_hierarchy},
-    {"build/discs", build_discs},
-    {"build/discs_by_welzl", build_discs_by_welzl},
-    {"build/levels", build_levels},
-    {"build/shape_set", build_shape_set},
+    {"build/discs", build_discs},         {"build/discs_by_welzl", build_discs_by_welzl},
+    {"build/levels", build_levels},       {"build/shape_set", build_shape_set},
 };
 
 }  // namespace

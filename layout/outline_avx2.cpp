@@ -72,8 +72,8 @@ struct Avx2 {
     const __m256i v = _mm256_sub_epi32(gather(corners, points, 2), a);
     const __m256i plus = _mm256_mul_epi32(u, _mm256_srli_epi64(v, 32));
     const __m256i minus = _mm256_mul_epi32(_mm256_srli_epi64(u, 32), v);
-    const auto negative = [](__m256i v) {
-      return static_cast<std::uint32_t>(_mm256_movemask_pd(_mm256_castsi256_pd(v)));
+    const auto negative = [](__m256i words) {
+      return static_cast<std::uint32_t>(_mm256_movemask_pd(_mm256_castsi256_pd(words)));
     };
     return {negative(_mm256_sub_epi64(minus, plus)), negative(_mm256_sub_epi64(plus, minus))};
   }
