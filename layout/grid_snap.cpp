@@ -3,9 +3,12 @@
 
 #include "layout/grid_snap.hpp"
 
+#include <emmintrin.h>
+
 #include <algorithm>
-#include <bit>
 #include <cmath>
+#include <iterator>
+#include <limits>
 #include <stdexcept>
 #include <string>
 
@@ -16,14 +19,30 @@ namespace {
 
 constexpr int grid_bits = 23;
 
-/// The largest |x| or |y|. Bits of a float without its sign are in the order of the values, with infinities
-/// and NaN above all: one maximum looks for those as well.
+/// (x, y) of two vertices. A position's height is next to them, and a vector need not have 16 bytes left.
+__m128 two_positions(const Eigen::Vector3f& p, const Eigen::Vector3f& q) {
+  const __m128 first = _mm_castpd_ps(_mm_load_sd(reinterpret_cast<const double*>(p.data())));
+  return _mm_loadh_pi(first, reinterpret_cast<const __m64*>(q.data()));
+}
+
+/// The largest |x| or |y|, or NaN if there is one. In several chains, because each waits for its last maximum.
 float largest_coordinate(std::span<const Eigen::Vector3f> positions, std::span<const std::uint32_t> used) {
-  std::uint32_t largest = 0;
-  for (const std::uint32_t v : used)
-    for (const float coordinate : {positions[v].x(), positions[v].y()})
-      largest = std::max(largest, std::bit_cast<std::uint32_t>(coordinate) & 0x7fffffffu);
-  return std::bit_cast<float>(largest);
+  const __m128 magnitude = _mm_castsi128_ps(_mm_set1_epi32(0x7fffffff));
+  __m128 largest[2] = {_mm_setzero_ps(), _mm_setzero_ps()}, not_a_number = _mm_setzero_ps();
+  const auto offer = [&](std::size_t i, std::size_t j, std::size_t k, std::size_t l) {
+    const __m128 first = two_positions(positions[used[i]], positions[used[j]]);
+    const __m128 second = two_positions(positions[used[k]], positions[used[l]]);
+    not_a_number = _mm_or_ps(not_a_number, _mm_cmpunord_ps(first, second));
+    largest[0] = _mm_max_ps(largest[0], _mm_and_ps(first, magnitude));
+    largest[1] = _mm_max_ps(largest[1], _mm_and_ps(second, magnitude));
+  };
+  std::size_t i = 0;
+  for (; i + 3 < used.size(); i += 4) offer(i, i + 1, i + 2, i + 3);
+  for (; i < used.size(); ++i) offer(i, i, i, i);
+  if (_mm_movemask_ps(not_a_number) != 0) return std::numeric_limits<float>::quiet_NaN();
+  alignas(16) float lanes[4];
+  _mm_store_ps(lanes, _mm_max_ps(largest[0], largest[1]));
+  return *std::max_element(std::begin(lanes), std::end(lanes));
 }
 
 [[noreturn]] void reject(std::span<const Eigen::Vector3f> positions, std::span<const std::uint32_t> used,
@@ -44,16 +63,15 @@ double snap_to_grid(std::span<const Eigen::Vector3f> positions, std::span<const 
     reject(positions, used, reach);
 
   const double step = std::ldexp(1.0, std::ilogb(reach) + 1 - grid_bits), steps_per_metre = 1 / step;
-  // Adding 1.5 * 2^52 leaves no bit for fractions, so the sum is rounded to an integer (a half to even), whose
-  // low half is that of the sum's bits.
-  const auto to_grid = [steps_per_metre](float metres) {
-    const double shifted = static_cast<double>(metres) * steps_per_metre + 0x1.8p52;
-    return static_cast<std::int32_t>(std::bit_cast<std::int64_t>(shifted));
+  // At least 8 and a power of two, so that the products are exact; the conversion rounds halves to even.
+  const __m128 scale = _mm_set1_ps(static_cast<float>(steps_per_metre));
+  const auto snapped = [&](std::size_t i, std::size_t j) {
+    return _mm_cvtps_epi32(_mm_mul_ps(two_positions(positions[used[i]], positions[used[j]]), scale));
   };
-  for (std::size_t i = 0; i < used.size(); ++i) {
-    const Eigen::Vector3f& p = positions[used[i]];
-    points[i] = {to_grid(p.x()), to_grid(p.y())};
-  }
+  const std::size_t last = used.size() - 1;
+  for (std::size_t i = 0; i < last; i += 2)
+    _mm_storeu_si128(reinterpret_cast<__m128i*>(&points[i]), snapped(i, i + 1));
+  _mm_storel_epi64(reinterpret_cast<__m128i*>(&points[last]), snapped(last, last));
   return step;
 }
 
