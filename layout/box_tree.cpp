@@ -5,6 +5,7 @@
 
 #include <emmintrin.h>
 
+#include <algorithm>
 #include <limits>
 
 namespace bch {
@@ -76,52 +77,40 @@ CellBox around(const BoxBlock& block) {
           fold(block.max_y, largest)};
 }
 
+/// Sets boxes that meet nothing from that number on.
+void clear_from(std::size_t begin, AlignedVector<BoxBlock>& blocks) {
+  for (std::size_t i = begin; i < boxes_per_block * blocks.size(); ++i)
+    set(blocks[i / boxes_per_block], i % boxes_per_block, {highest, highest, lowest, lowest});
+}
+
+std::size_t divided(std::size_t count, std::size_t by) {
+  return (count + by - 1) / by;
+}
+
 }  // namespace
 
 void BoxTree::reserve(std::size_t segments) {
-  lay_out(segments);
-  blocks_.reserve(level_begin_.back());
-}
-
-/// Sets the levels' places. What is left of the last level's last group are blocks that meet nothing.
-void BoxTree::lay_out(std::size_t segments) {
-  level_begin_.assign(1, 0);
-  std::size_t blocks = segments;
-  do {
-    blocks = (blocks + boxes_per_block - 1) / boxes_per_block;
-    level_begin_.push_back(level_begin_.back() + blocks);
-  } while (blocks > top_blocks);
-  level_begin_.back() += (top_group - blocks % top_group) % top_group;
+  const std::size_t blocks = divided(segments, boxes_per_block);
+  blocks_.reserve(blocks);
+  groups_.reserve(divided(blocks, boxes_per_block) + groups_in_a_word);
 }
 
 void BoxTree::assign(const Segment* segments, std::size_t count) {
-  lay_out(count);
-  blocks_.resize(level_begin_.back());
-  std::size_t blocks = (count + boxes_per_block - 1) / boxes_per_block;
+  const std::size_t blocks = divided(count, boxes_per_block);
+  blocks_.resize(blocks);
   for (std::size_t b = 0; b < blocks; ++b)
     for (const std::size_t half : {0, 8}) set_eight(blocks_[b], half, segments + boxes_per_block * b + half);
-  pad(count, 0);
-  for (std::size_t level = 1; level + 1 < level_begin_.size(); ++level) {
-    const std::size_t below = level_begin_[level - 1], here = level_begin_[level];
-    for (std::size_t i = 0; i < blocks; ++i)
-      set(blocks_[here + i / boxes_per_block], i % boxes_per_block, around(blocks_[below + i]));
-    pad(blocks, level);
-    blocks = (blocks + boxes_per_block - 1) / boxes_per_block;
-  }
-}
-
-/// Fills the blocks of a level up to the next with boxes that meet nothing, from number `count` on.
-void BoxTree::pad(std::size_t count, std::size_t level) {
-  const std::size_t begin = level_begin_[level], end = level_begin_[level + 1];
-  for (std::size_t i = count; i < boxes_per_block * (end - begin); ++i)
-    set(blocks_[begin + i / boxes_per_block], i % boxes_per_block, {highest, highest, lowest, lowest});
+  clear_from(count, blocks_);
+  groups_.resize(groups_in_a_word * divided(blocks, groups_in_a_word * boxes_per_block));
+  for (std::size_t b = 0; b < blocks; ++b)
+    set(groups_[b / boxes_per_block], b % boxes_per_block, around(blocks_[b]));
+  clear_from(blocks, groups_);
 }
 
 void BoxTree::describe(SegmentSearch& search) const {
   search.blocks = blocks_.data();
-  search.level_begin = level_begin_.data();
-  search.top = level_begin_.size() - 2;
-  search.top_groups = (level_begin_.back() - level_begin_[search.top]) / top_group;
+  search.groups = groups_.data();
+  search.group_count = divided(blocks_.size(), boxes_per_block);
 }
 
 }  // namespace bch

@@ -11,12 +11,19 @@ namespace {
 struct Avx2 {
   using Doubles = __m256d;
   static constexpr std::size_t width = 4;
+  static constexpr std::size_t bits_per_box = 2;
 
   struct Ends {
     Doubles ax, ay, bx, by;
   };
   struct Cells {
     __m256i min_x, min_y, max_x, max_y;
+
+    explicit Cells(const SearchedWay& way)
+        : min_x(_mm256_set1_epi16(way.min_x)),
+          min_y(_mm256_set1_epi16(way.min_y)),
+          max_x(_mm256_set1_epi16(way.max_x)),
+          max_y(_mm256_set1_epi16(way.max_y)) {}
   };
   struct Turns {
     std::uint32_t left, right;
@@ -41,22 +48,15 @@ struct Avx2 {
             _mm256_cvtepi32_pd(_mm_unpackhi_epi64(b_low, b_high))};
   }
 
-  static Cells cells(const SearchedWay& way) {
-    return {_mm256_set1_epi16(way.min_x), _mm256_set1_epi16(way.min_y), _mm256_set1_epi16(way.max_x),
-            _mm256_set1_epi16(way.max_y)};
-  }
   static std::uint32_t meeting(const BoxBlock& block, const Cells& box) {
     const auto load = [](const std::int16_t* cells) { return _mm256_load_si256((const __m256i*)cells); };
     const __m256i apart = _mm256_or_si256(_mm256_or_si256(_mm256_cmpgt_epi16(load(block.min_x), box.max_x),
                                                           _mm256_cmpgt_epi16(load(block.min_y), box.max_y)),
                                           _mm256_or_si256(_mm256_cmpgt_epi16(box.min_x, load(block.max_x)),
                                                           _mm256_cmpgt_epi16(box.min_y, load(block.max_y))));
-    const __m128i bytes = _mm_packs_epi16(_mm256_castsi256_si128(apart), _mm256_extracti128_si256(apart, 1));
-    return static_cast<std::uint32_t>(_mm_movemask_epi8(bytes)) ^ 0xffff;
+    return ~static_cast<std::uint32_t>(_mm256_movemask_epi8(apart)) & 0x55555555;
   }
-  static std::uint32_t bits(std::uint32_t word) {
-    return static_cast<std::uint32_t>(__builtin_popcount(word));
-  }
+  static std::size_t boxes(std::uint32_t bits) { return static_cast<std::size_t>(__builtin_popcount(bits)); }
 
   /// Corner k of four triangles.
   static __m256i gather(const std::uint32_t* corners, const GridPoint* points, int k) {
@@ -72,8 +72,8 @@ struct Avx2 {
     const __m256i v = _mm256_sub_epi32(gather(corners, points, 2), a);
     const __m256i plus = _mm256_mul_epi32(u, _mm256_srli_epi64(v, 32));
     const __m256i minus = _mm256_mul_epi32(_mm256_srli_epi64(u, 32), v);
-    const auto negative = [](__m256i words) {
-      return static_cast<std::uint32_t>(_mm256_movemask_pd(_mm256_castsi256_pd(words)));
+    const auto negative = [](__m256i turn) {
+      return static_cast<std::uint32_t>(_mm256_movemask_pd(_mm256_castsi256_pd(turn)));
     };
     return {negative(_mm256_sub_epi64(minus, plus)), negative(_mm256_sub_epi64(plus, minus))};
   }

@@ -4,6 +4,7 @@
 #include "layout/outline_candidates.hpp"
 
 #include <algorithm>
+#include <bit>
 
 namespace bch {
 namespace {
@@ -37,10 +38,19 @@ OutlineCandidates::OutlineCandidates(const OutlineTopology& topology,
   boxes_.reserve(segments_.size());
 }
 
+/// A point that goes through memory is best moved as one value. An edge that is a point is overwritten by the
+/// next.
+inline void OutlineCandidates::add(std::span<const GridPoint> points, std::uint32_t a, std::uint32_t b) {
+  const auto from = std::bit_cast<std::uint64_t>(points[a]), to = std::bit_cast<std::uint64_t>(points[b]);
+  segments_[count_] = {std::bit_cast<GridPoint>(from), std::bit_cast<GridPoint>(to)};
+  vertices_[count_] = a;
+  count_ += from != to;
+}
+
 void OutlineCandidates::find(const OutlineTopology& topology, std::span<const GridPoint> points) {
   implementation_->find_sides(triangles_.data()->data(), triangles_.size(), points.data(), sides_.data());
-  count_ = 0;
   const std::size_t chosen = choose(topology.manifold, sides_.data(), chosen_.data());
+  count_ = 0;
   for (std::size_t i = 0; i < chosen; ++i) {
     const ManifoldEdge& edge = topology.manifold[chosen_[i]];
     add(points, edge.a, edge.b);
@@ -52,12 +62,6 @@ void OutlineCandidates::find(const OutlineTopology& topology, std::span<const Gr
   std::fill_n(segments_.begin() + static_cast<std::ptrdiff_t>(count_), boxes_per_block - 1,
               segments_[count_ - 1]);
   boxes_.assign(segments_.data(), count_);
-}
-
-void OutlineCandidates::add(std::span<const GridPoint> points, std::uint32_t a, std::uint32_t b) {
-  segments_[count_] = {points[a], points[b]};
-  vertices_[count_] = a;
-  count_ += !(points[a] == points[b]);
 }
 
 /// Where welded vertices are apart, each use is an edge of its own.

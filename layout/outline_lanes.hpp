@@ -37,8 +37,7 @@ class OutlineLanes {
   /// and `at` the quotient of where on the way it is crossed.
   /// Returns: how many are near.
   static std::size_t find_near(const SegmentSearch& job, const SearchedWay& way) noexcept {
-    const std::size_t count = static_cast<std::size_t>(find_meeting(job, way) - job.near);
-    for (std::size_t i = 0; i < width; ++i) job.near[count + i] = 0;  // what fills the last register
+    const std::size_t count = find_meeting(job, way);
     const Line line(way);
     for (std::size_t word = 0, i = 0; i < count; ++word) {
       std::uint64_t crossing = 0, ending = 0;
@@ -59,49 +58,49 @@ class OutlineLanes {
   using Doubles = typename Registers::Doubles;
   using Cells = typename Registers::Cells;
   static constexpr std::size_t width = Registers::width;
+  static constexpr std::size_t bits_per_box = Registers::bits_per_box;
+  static constexpr std::size_t bits_per_block = bits_per_box * boxes_per_block;
+  static constexpr std::size_t groups_together = 64 / bits_per_block;
 
   struct Found {
     std::uint64_t crossing, ending;
   };
 
-  static std::uint32_t* find_meeting(const SegmentSearch& job, const SearchedWay& way) noexcept {
-    const Cells box = Registers::cells(way);
-    const BoxBlock* top = job.blocks + job.level_begin[job.top];
-    std::uint32_t* found = job.near;
-    for (std::size_t group = 0; group < job.top_groups; ++group, top += 4) {
+  /// Writes the segments whose boxes meet that of the way, and zeros to fill a register.
+  /// Returns: how many.
+  static std::size_t find_meeting(const SegmentSearch& job, const SearchedWay& way) noexcept {
+    const Cells box(way);
+    std::uint32_t* end = job.near;
+    for (std::size_t group = 0; group < job.group_count; group += groups_together) {
       std::uint64_t open = 0;
-      for (int i = 0; i < 4; ++i) open |= std::uint64_t{Registers::meeting(top[i], box)} << 16 * i;
+      for (std::size_t i = 0; i < groups_together; ++i)
+        open |= std::uint64_t{Registers::meeting(job.groups[group + i], box)} << bits_per_block * i;
+      const BoxBlock* blocks = job.blocks + boxes_per_block * group;
       for (; open != 0; open &= open - 1) {
-        const std::size_t child = 64 * group + static_cast<std::size_t>(__builtin_ctzll(open));
-        if (job.top == 0)
-          *found++ = static_cast<std::uint32_t>(child);
-        else
-          found = descend(job, box, job.top - 1, child, found);
+        const std::size_t block = static_cast<std::size_t>(__builtin_ctzll(open)) / bits_per_box;
+        end = append(Registers::meeting(blocks[block], box),
+                     boxes_per_block * (boxes_per_block * group + block), end);
       }
     }
-    return found;
+    for (std::size_t i = 0; i < width; ++i) end[i] = 0;
+    return static_cast<std::size_t>(end - job.near);
   }
 
-  /// Appends the segments below a block that meet the box. How many there are is hard to predict, so a few are
-  /// written in any case; what is not a number is overwritten by the next.
-  static std::uint32_t* descend(const SegmentSearch& job, const Cells& box, std::size_t level,
-                                std::size_t block, std::uint32_t* found) noexcept {
-    std::uint32_t open = Registers::meeting(job.blocks[job.level_begin[level] + block], box);
-    const std::size_t first = block * boxes_per_block;
-    if (level != 0) {
-      for (; open != 0; open &= open - 1)
-        found = descend(job, box, level - 1, first + static_cast<std::size_t>(__builtin_ctz(open)), found);
-      return found;
-    }
-    constexpr std::uint32_t written_in_any_case = 3, no_more = 1u << 31;
-    const std::uint32_t count = Registers::bits(open);
-    open |= no_more;
-    for (std::uint32_t i = 0; i < written_in_any_case; ++i, open &= open - 1)
-      found[i] =
-          static_cast<std::uint32_t>(first) + static_cast<std::uint32_t>(__builtin_ctz(open | no_more));
-    for (std::uint32_t i = written_in_any_case; i < count; ++i, open &= open - 1)
-      found[i] = static_cast<std::uint32_t>(first) + static_cast<std::uint32_t>(__builtin_ctz(open));
-    return found + count;
+  /// Appends the numbers of a block's boxes whose bits are set, counted from `first`. How many there are is
+  /// hard to predict, so a few are written in any case; what is not a number is overwritten by the next.
+  static std::uint32_t* append(std::uint32_t open, std::size_t first, std::uint32_t* end) noexcept {
+    constexpr std::size_t written_in_any_case = 3;
+    constexpr std::uint64_t none = std::uint64_t{1} << 63;
+    const std::size_t count = Registers::boxes(open);
+    std::uint64_t left = open | none;
+    const auto take = [&] {
+      const auto bit = static_cast<std::size_t>(__builtin_ctzll(left | none));
+      left &= left - 1;
+      return static_cast<std::uint32_t>(first + bit / bits_per_box);
+    };
+    for (std::size_t i = 0; i < written_in_any_case; ++i) end[i] = take();
+    for (std::size_t i = written_in_any_case; i < count; ++i) end[i] = take();
+    return end + count;
   }
 
   /// The way in every lane.
@@ -109,10 +108,10 @@ class OutlineLanes {
     Doubles from_x, from_y, to_x, to_y, way_x, way_y, at;
 
     explicit Line(const SearchedWay& way) noexcept
-        : from_x(Registers::all(way.from.x)),
-          from_y(Registers::all(way.from.y)),
-          to_x(Registers::all(way.to.x)),
-          to_y(Registers::all(way.to.y)),
+        : from_x(Registers::all(way.from_x)),
+          from_y(Registers::all(way.from_y)),
+          to_x(Registers::all(way.to_x)),
+          to_y(Registers::all(way.to_y)),
           way_x(to_x - from_x),
           way_y(to_y - from_y),
           at(Registers::all(way.at)) {}

@@ -11,12 +11,19 @@ namespace {
 struct Sse2 {
   using Doubles = __m128d;
   static constexpr std::size_t width = 2;
+  static constexpr std::size_t bits_per_box = 1;
 
   struct Ends {
     Doubles ax, ay, bx, by;
   };
   struct Cells {
     __m128i min_x, min_y, max_x, max_y;
+
+    explicit Cells(const SearchedWay& way)
+        : min_x(_mm_set1_epi16(way.min_x)),
+          min_y(_mm_set1_epi16(way.min_y)),
+          max_x(_mm_set1_epi16(way.max_x)),
+          max_y(_mm_set1_epi16(way.max_y)) {}
   };
   struct Turns {
     std::uint32_t left, right;
@@ -40,10 +47,6 @@ struct Sse2 {
             _mm_cvtepi32_pd(high_half(b))};
   }
 
-  static Cells cells(const SearchedWay& way) {
-    return {_mm_set1_epi16(way.min_x), _mm_set1_epi16(way.min_y), _mm_set1_epi16(way.max_x),
-            _mm_set1_epi16(way.max_y)};
-  }
   static std::uint32_t meeting(const BoxBlock& block, const Cells& box) {
     const auto apart = [&](int half) {
       const auto load = [half](const std::int16_t* cells) {
@@ -56,12 +59,11 @@ struct Sse2 {
     };
     return static_cast<std::uint32_t>(_mm_movemask_epi8(_mm_packs_epi16(apart(0), apart(1)))) ^ 0xffff;
   }
-  /// Of 16: sums of bits in pairs, of pairs and so on.
-  static std::uint32_t bits(std::uint32_t word) {
-    word -= word >> 1 & 0x5555;
-    word = (word & 0x3333) + (word >> 2 & 0x3333);
-    word = (word + (word >> 4)) & 0x0f0f;
-    return (word + (word >> 8)) & 0x1f;
+  static std::size_t boxes(std::uint32_t bits) {
+    bits -= bits >> 1 & 0x5555;
+    bits = (bits & 0x3333) + (bits >> 2 & 0x3333);
+    bits = (bits + (bits >> 4)) & 0x0f0f;
+    return (bits + (bits >> 8)) & 0x1f;
   }
 
   static __m128i gather(const GridPoint* points, std::uint32_t v, std::uint32_t w) {

@@ -21,21 +21,6 @@ std::int16_t cell(std::int32_t steps) {
   return static_cast<std::int16_t>(steps >> cell_bits);
 }
 
-/// A direction and where it comes in a sweep counter-clockwise from another; the other's own comes last.
-struct Swept {
-  GridVector direction;
-  int quarter;  ///< (0, 180), 180, (180, 360), 360 degrees
-
-  Swept(GridVector start, GridVector v) : direction(v) {
-    const std::int64_t side = cross(start, v);
-    const int on_line = dot(start, v) < 0 ? 1 : 3;
-    quarter = side > 0 ? 0 : side < 0 ? 2 : on_line;
-  }
-  bool before(const Swept& other) const {
-    return (quarter < other.quarter) | ((quarter == other.quarter) & (cross(direction, other.direction) > 0));
-  }
-};
-
 }  // namespace
 
 OutlineWalk::OutlineWalk(const OutlineTopology& topology, const OutlineCandidates& candidates,
@@ -65,17 +50,17 @@ void OutlineWalk::begin_pose() {
 void OutlineWalk::walk(GridPoint start, std::vector<Stretch>& contour) {
   const std::size_t first = contour.size(),
                     most = first + most_stretches_per_segment * candidates_->segments().size();
-  find_near({start, start, {}}, start);
-  take_first_direction(start, {-1, 0}, contour.emplace_back());
+  const Place arriving{{start.x - 1, start.y}, start, {}};
+  find_near(arriving, start);
+  take_first_direction(arriving, contour.emplace_back());
   while (contour.size() <= most) {
     contour.emplace_back();  // filled in place: copies would wait for what has just been written in parts
     const Stretch& now = contour[contour.size() - 2];
     Stretch& next = contour.back();
     find_near(now.begin, now.rounded_begin);
     if (take_first_crossing(now.begin, next)) continue;
-    const GridPoint end = now.begin.to;
-    take_first_direction(end, now.begin.from - end, next);
-    if (end == start && same_direction(next.begin.direction(), contour[first].begin.direction()))
+    take_first_direction(now.begin, next);
+    if (now.begin.to == start && same_direction(next.begin.direction(), contour[first].begin.direction()))
       return contour.pop_back();
   }
   throw std::logic_error("outline: the walk from (" + std::to_string(start.x) + ", " +
@@ -85,10 +70,10 @@ void OutlineWalk::walk(GridPoint start, std::vector<Stretch>& contour) {
 /// Looks at the candidates near the way from a place to the end of its line.
 void OutlineWalk::find_near(const Place& here, GridPoint rounded_here) {
   const GridPoint from = rounded_here, to = here.to;
-  near_count_ =
-      implementation_->find_near(search_, {here.from, to, here.at.value, cell(std::min(from.x - 1, to.x)),
-                                           cell(std::min(from.y - 1, to.y)), cell(std::max(from.x + 1, to.x)),
-                                           cell(std::max(from.y + 1, to.y))});
+  near_count_ = implementation_->find_near(
+      search_,
+      {here.from.x, here.from.y, to.x, to.y, here.at.value, cell(std::min(from.x - 1, to.x)),
+       cell(std::min(from.y - 1, to.y)), cell(std::max(from.x + 1, to.x)), cell(std::max(from.y + 1, to.y))});
 }
 
 /// Calls each(i) where bit i of those found is set, in order.
@@ -133,26 +118,29 @@ bool OutlineWalk::take_first_crossing(const Place& here, Stretch& next) {
   return true;
 }
 
-/// Fills `next` with the first way counter-clockwise from `back` of all that candidates offer from a grid point.
-void OutlineWalk::take_first_direction(GridPoint at, GridVector back, Stretch& next) {
-  Swept first(back, back);
-  GridPoint to = at;
+/// Fills `next` with the first way counter-clockwise from where `here` comes from, of all that candidates offer
+/// from the end of its line: to the right of the line, straight on, to its left, and last back.
+void OutlineWalk::take_first_direction(const Place& here, Stretch& next) {
+  const GridPoint at = here.to;
+  const GridVector way = here.direction();
+  GridVector first{0, 0};
+  int first_part = 4;
   std::uint32_t first_segment = 0;
-  const auto consider = [&](GridPoint end, std::uint32_t segment) {
-    const Swept other(back, end - at);
-    const bool better = (to == at) | other.before(first);
-    first = better ? other : first;
-    to = better ? end : to;
-    first_segment = better ? segment : first_segment;
+  const auto consider = [&](GridPoint end, double side, std::uint32_t segment) {
+    const GridVector other = end - at;
+    const int on_line = dot(way, other) > 0 ? 1 : 3;
+    const int part = side < 0 ? 0 : side > 0 ? 2 : on_line;
+    if (part > first_part || (part == first_part && cross(other, first) <= 0)) return;
+    first = other, first_part = part;
+    first_segment = segment;
+    next.begin.to = end;
   };
   for_each(ending_, [&](std::size_t i) {
     const auto [a, b] = search_.segments[near_[i]];
-    const bool from_a = a == at;
-    consider(from_a ? b : a, near_[i]);
-    if (!from_a && !(b == at)) consider(b, near_[i]);
+    if (!(a == at)) consider(a, side_a_[i], near_[i]);
+    if (!(b == at)) consider(b, side_b_[i], near_[i]);
   });
   next.begin.from = next.rounded_begin = at;
-  next.begin.to = to;
   next.begin.at = {};
   touch(first_segment);
 }

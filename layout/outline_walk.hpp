@@ -49,7 +49,7 @@ class OutlineWalk {
   template <class Each>
   void for_each(const std::vector<std::uint64_t>& bits, Each each) const;
   bool take_first_crossing(const Place& here, Stretch& next);
-  void take_first_direction(GridPoint at, GridVector back, Stretch& next);
+  void take_first_direction(const Place& here, Stretch& next);
   void touch(std::uint32_t segment);
 
   const OutlineTopology* topology_;

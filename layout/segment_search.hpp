@@ -26,12 +26,14 @@ struct alignas(64) BoxBlock {
   std::int16_t max_x[boxes_per_block], max_y[boxes_per_block];
 };
 
-/// A hierarchy of boxes (BoxTree), the candidates that they are around, and room for what is found.
+/// At most so many groups are looked at together: the bits of their boxes fit a word.
+constexpr std::size_t groups_in_a_word = 4;
+
+/// Two levels of boxes (BoxTree), the candidates that they are around, and room for what is found.
 struct SegmentSearch {
-  const BoxBlock* blocks;
-  const std::size_t* level_begin;  ///< first block of each level, the segments' own level first
-  std::size_t top;                 ///< the last level, all of whose blocks are looked at
-  std::size_t top_groups;          ///< of four blocks
+  const BoxBlock* blocks;  ///< around segments
+  const BoxBlock* groups;  ///< around blocks; empty ones follow up to a multiple of groups_in_a_word
+  std::size_t group_count;
   const Segment* segments;
 
   std::uint32_t* near;  ///< segments; for each the following
@@ -42,7 +44,7 @@ struct SegmentSearch {
 
 /// The rest of a line from the place at `at` of it; the box is around it.
 struct SearchedWay {
-  GridPoint from, to;
+  std::int32_t from_x, from_y, to_x, to_y;
   double at;
   std::int16_t min_x, min_y, max_x, max_y;
 };
