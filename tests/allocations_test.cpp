@@ -5,52 +5,12 @@
 #include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/task_arena.h>
 
-#include <atomic>
-#include <cstdlib>
-#include <new>
 #include <vector>
 
 #include "kernel/broad_phase.hpp"
 #include "kernel/collide.hpp"
+#include "tests/allocation_count.hpp"
 #include "tests/scenes.hpp"
-
-// Every way to operator new of this program is counted. What TBB's scheduler allocates does not go through
-// it.
-
-namespace {
-
-std::atomic<std::size_t> allocations{0};
-
-void* allocate(std::size_t size, std::size_t alignment) {
-  ++allocations;
-  void* memory = std::aligned_alloc(alignment, (size + alignment) / alignment * alignment);
-  if (memory == nullptr) throw std::bad_alloc();
-  return memory;
-}
-
-}  // namespace
-
-void* operator new(std::size_t size) {
-  return allocate(size, __STDCPP_DEFAULT_NEW_ALIGNMENT__);
-}
-void* operator new(std::size_t size, std::align_val_t alignment) {
-  return allocate(size, static_cast<std::size_t>(alignment));
-}
-void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
-  return allocate(size, __STDCPP_DEFAULT_NEW_ALIGNMENT__);
-}
-void operator delete(void* memory) noexcept {
-  std::free(memory);
-}
-void operator delete(void* memory, std::size_t) noexcept {
-  std::free(memory);
-}
-void operator delete(void* memory, std::align_val_t) noexcept {
-  std::free(memory);
-}
-void operator delete(void* memory, std::size_t, std::align_val_t) noexcept {
-  std::free(memory);
-}
 
 namespace bch {
 namespace {
@@ -69,9 +29,9 @@ class Allocations : public testing::TestWithParam<int> {
   std::size_t count(Call call) {
     return arena.execute([&] {
       call();
-      const std::size_t before = allocations;
+      const std::size_t before = test::allocation_count();
       for (int i = 0; i < 5; ++i) call();
-      return allocations - before;
+      return test::allocation_count() - before;
     });
   }
 
