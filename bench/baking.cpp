@@ -21,9 +21,8 @@ constexpr std::size_t shapes_in_flight = 16;
 
 /// What a thread keeps from shape to shape.
 struct Workshop {
-  explicit Workshop(const ShapeSetPlan& plan) : flattener(plan) {}
+  ShapeMaker maker;
   ShapeFlattener flattener;
-  Shape shape;
 };
 
 }  // namespace
@@ -32,7 +31,9 @@ ShapeSet bake_shapes(std::span<const LoadedCharacter> characters, std::span<cons
                      double threshold, const ShapeSetPlan& plan) {
   ShapeSetBuilder builder(plan);
   Progress progress("baking shapes", sources.size());
-  tbb::enumerable_thread_specific<Workshop> workshops([&] { return Workshop(plan); });
+  tbb::enumerable_thread_specific<Workshop> workshops([&] {
+    return Workshop{ShapeMaker(characters, threshold), ShapeFlattener(plan)};
+  });
   std::size_t next = 0;
   using Flat = std::shared_ptr<FlatShape>;
   const auto take = [&](tbb::flow_control& flow) -> std::size_t {
@@ -41,10 +42,9 @@ ShapeSet bake_shapes(std::span<const LoadedCharacter> characters, std::span<cons
   };
   const auto build = [&](std::size_t i) -> Flat {
     Workshop& workshop = workshops.local();
-    const auto& [character, at] = sources[i];
-    build_shape(characters[character], at, threshold, workshop.shape);
+    const Shape& shape = workshop.maker.make(sources[i]);
     const auto flat = std::make_shared<FlatShape>();
-    workshop.flattener.flatten(workshop.shape, i, *flat);
+    workshop.flattener.flatten(shape, i, *flat);
     return flat;
   };
   // In the order of the sources, which is why the bytes do not depend on who built what.

@@ -11,7 +11,7 @@ namespace bch::cli {
 
 /// A set of all sources' shapes, built in parallel, with a progress bar. No more shapes than threads work on are in
 /// memory beside the set. The same bytes for any number of threads.
-/// Errors:  as build_shape() throws.
+/// Errors:  as ShapeMaker throws.
 ShapeSet bake_shapes(std::span<const LoadedCharacter> characters, std::span<const ShapeSource> sources,
                      double threshold, const ShapeSetPlan& plan);
 

@@ -4,7 +4,7 @@
 #include "bench/shape_table.hpp"
 
 #include <fmt/format.h>
-#include <oneapi/tbb/blocked_range.h>
+#include <oneapi/tbb/enumerable_thread_specific.h>
 #include <oneapi/tbb/parallel_for.h>
 
 #include <chrono>
@@ -13,8 +13,6 @@
 
 #include "bench/exit_codes.hpp"
 #include "bench/progress.hpp"
-#include "layout/skinning.hpp"
-#include "layout/union_outline.hpp"
 
 namespace bch::cli {
 namespace {
@@ -56,19 +54,25 @@ std::string clip_name(const LoadedCharacter& character, PoseTime at) {
   return at.clip == PoseTime::rest ? "rest pose" : character.character.clips[at.clip].name;
 }
 
-ShapeTiming build_shape(const LoadedCharacter& from, PoseTime at, double threshold, Shape& shape) {
+ShapeMaker::ShapeMaker(std::span<const LoadedCharacter> characters, double threshold)
+    : characters_(characters), threshold_(threshold), shapers_(characters.size()) {}
+
+const Shape& ShapeMaker::make(const ShapeSource& source) {
+  const LoadedCharacter& from = characters_[source.character];
+  auto& shaper = shapers_[source.character];
   try {
-    Skinner skinner(from.character);  // costs nothing beside the rest
+    if (!shaper) shaper.emplace(from.character, static_cast<float>(threshold_));
     const auto begin = Clock::now();
-    shape.outline = union_outline(skinner.pose(at), from.character.triangles);
+    shaper->make_outline(source.at);
     const auto middle = Clock::now();
-    shape.hierarchy = contour_hierarchy(shape.outline, static_cast<float>(threshold));
-    return {seconds_between(begin, middle), seconds_between(middle, Clock::now())};
+    const Shape& shape = shaper->make_hierarchy();
+    timing_ = {seconds_between(begin, middle), seconds_between(middle, Clock::now())};
+    return shape;
   } catch (const std::logic_error& error) {
     // Out of the domain: a pose kilometres wide, say. domain_error, invalid_argument and length_error are all
     // logic errors.
-    throw InputError(
-        fmt::format("{}: {} at {} s: {}", from.source, clip_name(from, at), at.seconds, error.what()));
+    throw InputError(fmt::format("{}: {} at {} s: {}", from.source, clip_name(from, source.at),
+                                 source.at.seconds, error.what()));
   }
 }
 
@@ -79,9 +83,12 @@ BuiltShapes build_shapes(std::span<const LoadedCharacter> characters, std::span<
   std::vector<ShapeTiming> timings(sources.size());
   Progress progress("building shapes", sources.size());
 
-  // A task each balances best.
+  // Learning a mesh takes as long as tens of shapes, so that a thread keeps what it learned.
+  tbb::enumerable_thread_specific<ShapeMaker> makers([&] { return ShapeMaker(characters, threshold); });
   tbb::parallel_for(std::size_t{0}, sources.size(), [&](std::size_t i) {
-    timings[i] = build_shape(characters[sources[i].character], sources[i].at, threshold, built.shapes[i]);
+    ShapeMaker& maker = makers.local();
+    built.shapes[i] = maker.make(sources[i]);
+    timings[i] = maker.timing();
     progress.advance();
   });
 

@@ -4,11 +4,13 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "bench/characters.hpp"
+#include "layout/pose_shape.hpp"
 #include "layout/shape_set.hpp"
 
 namespace bch::cli {
@@ -34,9 +36,24 @@ struct ShapeTiming {
   double hierarchy = 0;  ///< seconds
 };
 
-/// Builds the contour hierarchy of one pose.
-/// Errors:  throws InputError naming the character, clip and time of a pose that has no outline.
-ShapeTiming build_shape(const LoadedCharacter& from, PoseTime at, double threshold, Shape& shape);
+/// Makes shapes of the characters, contour hierarchies, one after the other; learns a character's mesh when it is first asked
+/// for it. Not for two threads at a time. The characters must outlive it.
+class ShapeMaker {
+ public:
+  ShapeMaker(std::span<const LoadedCharacter> characters, double threshold);
+
+  /// Returns: the shape, until the next call.
+  /// Errors:  throws InputError naming the character, clip and time of a pose that has no outline.
+  const Shape& make(const ShapeSource& source);
+  /// What the last shape took.
+  const ShapeTiming& timing() const { return timing_; }
+
+ private:
+  std::span<const LoadedCharacter> characters_;
+  double threshold_;
+  std::vector<std::optional<PoseShaper>> shapers_;
+  ShapeTiming timing_;
+};
 
 struct BuiltShapes {
   std::vector<Shape> shapes;     ///< one a source
@@ -45,7 +62,7 @@ struct BuiltShapes {
 };
 
 /// Builds contour hierarchies, in parallel, with a progress bar.
-/// Errors:  as build_shape() throws.
+/// Errors:  as ShapeMaker throws.
 BuiltShapes build_shapes(std::span<const LoadedCharacter> characters, std::span<const ShapeSource> sources,
                          double threshold);
 

@@ -15,4 +15,24 @@ Shape pose_shape(Skinner& skinner, PoseTime at, float threshold) {
   return {std::move(outline), std::move(hierarchy)};
 }
 
+PoseShaper::PoseShaper(const Character& character, float threshold)
+    : threshold_(threshold),
+      skinner_(character),
+      outline_builder_(character.triangles, character.vertices.size(), character.vertices) {}
+
+const Shape& PoseShaper::shape(PoseTime at) {
+  make_outline(at);
+  return make_hierarchy();
+}
+
+const Outline& PoseShaper::make_outline(PoseTime at) {
+  outline_builder_.build(skinner_.pose(at), shape_.outline);
+  return shape_.outline;
+}
+
+const Shape& PoseShaper::make_hierarchy() {
+  hierarchy_builder_.contour(shape_.outline, threshold_, SplitRule::centroid, shape_.hierarchy);
+  return shape_;
+}
+
 }  // namespace bch

@@ -3,6 +3,8 @@
 
 #pragma once
 
+#include "layout/hierarchy_builder.hpp"
+#include "layout/outline_builder.hpp"
 #include "layout/shape_set.hpp"
 #include "layout/skinning.hpp"
 
@@ -10,8 +12,33 @@ namespace bch {
 
 /// The whole way from a pose to a shape: skinning, the outline of the union of its triangles, the contour
 /// hierarchy that splits at the centroid. `threshold`, in metres, is the radius below which a disc is not
-/// divided.
+/// divided. PoseShaper makes the same shapes many times faster where there are several of a character.
 /// Errors:  as Skinner::pose(), union_outline() and contour_hierarchy() throw.
 Shape pose_shape(Skinner& skinner, PoseTime at, float threshold = 0.01f);
+
+/// Makes shapes of one character in pose after pose. Learns its mesh when it is made and keeps its memory:
+/// nothing is allocated for a pose once the largest shape has been made. Not for two threads at a time.
+class PoseShaper {
+ public:
+  /// The character must outlive this and must be valid (see validate()); the threshold is that of
+  /// pose_shape().
+  explicit PoseShaper(const Character& character, float threshold = 0.01f);
+
+  /// Returns: the shape that pose_shape() makes, until the next call.
+  /// Errors:  as pose_shape(); the shape made before is lost.
+  const Shape& shape(PoseTime at);
+
+  /// shape() in two steps, for who needs the outline alone or takes the time of each: make_outline() is about
+  /// a pose, make_hierarchy() about the outline made last.
+  const Outline& make_outline(PoseTime at);
+  const Shape& make_hierarchy();
+
+ private:
+  float threshold_;
+  Skinner skinner_;
+  OutlineBuilder outline_builder_;
+  HierarchyBuilder hierarchy_builder_;
+  Shape shape_;
+};
 
 }  // namespace bch

@@ -22,8 +22,8 @@ std::vector<Shape> pose_shapes(const Character& character, std::uint32_t poses) 
   const std::vector<PoseTime> times = sample_poses(character, poses);
   std::vector<Shape> shapes(times.size());
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, times.size()), [&](const auto& range) {
-    Skinner skinner(character);
-    for (std::size_t i = range.begin(); i < range.end(); ++i) shapes[i] = pose_shape(skinner, times[i]);
+    PoseShaper shaper(character);
+    for (std::size_t i = range.begin(); i < range.end(); ++i) shapes[i] = shaper.shape(times[i]);
   });
   return shapes;
 }

@@ -8,10 +8,9 @@
 
 int main() {
   const bch::Character man = bch::default_male();
-  bch::Skinner skinner(man);
+  bch::PoseShaper shaper(man);
   std::vector<bch::Shape> shapes;
-  for (const bch::PoseTime& time : bch::sample_poses(man, 3))
-    shapes.push_back(bch::pose_shape(skinner, time));
+  for (const bch::PoseTime& time : bch::sample_poses(man, 3)) shapes.push_back(shaper.shape(time));
   const bch::ShapeSet set(shapes);
 
   const std::vector<std::uint32_t> shape = {0, 1, 2, 0};  // your simulator's arrays
