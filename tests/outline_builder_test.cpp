@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstdlib>
 #include <limits>
 #include <new>
@@ -221,6 +222,30 @@ TEST(OutlineBuilder, EqualsTheArrangementOfAllEdges) {
         << "soup " << i;
   }
   EXPECT_GT(compared, 9900);
+}
+
+/// More candidates than any word of bits holds, all of them at one point: tip after tip, and the centre between.
+TEST(OutlineBuilder, AStarIsWalkedTipByTip) {
+  for (const OutlineImplementation* row : supported_implementations())
+    for (const std::size_t tips : {3, 16, 17, 63, 64, 65, 300, 1100, 5000}) {
+      Soup star{{{0, 0, 0}}, {}};
+      for (std::uint32_t i = 0; i < tips; ++i) {
+        const double angle = 6.283185307179586 * (i + 0.25) / static_cast<double>(tips);
+        star.positions.emplace_back(static_cast<float>(std::cos(angle)), static_cast<float>(std::sin(angle)),
+                                    0.0f);
+        star.triangles.push_back({0, i + 1, i + 1});
+      }
+      Outline outline;
+      OutlineBuilder(star.triangles, star.positions.size(), {}, *row).build(star.positions, outline);
+      ASSERT_EQ(outline.contours(), 1u) << row->name << ' ' << tips;
+      ASSERT_EQ(outline.points.size(), 2 * tips) << row->name;
+      for (std::size_t i = 0; i < tips; ++i) {
+        const Vec2 tip = outline.points[2 * i], next = outline.points[(2 * i + 2) % (2 * tips)];
+        ASSERT_EQ(outline.points[2 * i + 1], (Vec2{0, 0})) << row->name << ' ' << tips;
+        ASSERT_GT(double{tip.x} * double{next.y} - double{tip.y} * double{next.x}, 0)
+            << row->name << ' ' << tips;
+      }
+    }
 }
 
 TEST(OutlineBuilder, GivesTheSameBitsOnEveryInstructionSet) {
