@@ -19,10 +19,12 @@ namespace {
 
 constexpr int grid_bits = 23;
 
-/// (x, y) of two vertices. A position's height is next to them, and a vector need not have 16 bytes left.
+/// (x, y) of two vertices. Eight bytes of each: behind the last vertex there need not be more than its height.
 __m128 two_positions(const Eigen::Vector3f& p, const Eigen::Vector3f& q) {
-  const __m128 first = _mm_castpd_ps(_mm_load_sd(reinterpret_cast<const double*>(p.data())));
-  return _mm_loadh_pi(first, reinterpret_cast<const __m64*>(q.data()));
+  const auto load = [](const Eigen::Vector3f& position) {
+    return _mm_castsi128_ps(_mm_loadl_epi64(reinterpret_cast<const __m128i*>(position.data())));
+  };
+  return _mm_movelh_ps(load(p), load(q));
 }
 
 /// The largest |x| or |y|, or NaN if there is one. In several chains, because each waits for its last maximum.
