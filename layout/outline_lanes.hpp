@@ -47,9 +47,8 @@ class OutlineLanes {
         crossing |= found.crossing << (i - begin);
         ending |= found.ending << (i - begin);
       }
-      const std::uint64_t valid = ~std::uint64_t{0} >> (64 - (end - begin));
-      job.crossing[word] = crossing & valid;
-      job.ending[word] = ending & valid;
+      job.crossing[word] = crossing;
+      job.ending[word] = ending;
     }
     return count;
   }
@@ -66,7 +65,8 @@ class OutlineLanes {
     std::uint64_t crossing, ending;
   };
 
-  /// Writes the segments whose boxes meet that of the way, and zeros to fill a register.
+  /// Writes the segments whose boxes meet that of the way, and zeros to fill a register: one candidate more, or
+  /// one twice, does no harm.
   /// Returns: how many.
   static std::size_t find_meeting(const SegmentSearch& job, const SearchedWay& way) noexcept {
     const Cells box(way);
