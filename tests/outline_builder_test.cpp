@@ -174,6 +174,22 @@ TEST(OutlineBuilder, RejectsBadInput) {
   EXPECT_THROW(builder.build(two, outline), std::invalid_argument);
 }
 
+TEST(OutlineBuilder, RejectsWhatIsNotFiniteWhereverItIs) {
+  const Soup good =
+      soup({{{{0, 0}, {1, 0}, {0, 1}}}, {{{2, 0}, {3, 0}, {2, 1}}}, {{{4, 0}, {5, 0}, {4, 1}}}});
+  OutlineBuilder builder(good.triangles, good.positions.size());
+  Outline outline;
+  constexpr float nan = std::numeric_limits<float>::quiet_NaN(), inf = std::numeric_limits<float>::infinity();
+  for (std::size_t v = 0; v < good.positions.size(); ++v)
+    for (const int axis : {0, 1})
+      for (const float bad : {nan, -nan, inf, -inf}) {
+        std::vector<Eigen::Vector3f> positions = good.positions;
+        positions[v][axis] = bad;
+        EXPECT_THROW(builder.build(positions, outline), std::invalid_argument)
+            << v << ' ' << axis << ' ' << bad;
+      }
+}
+
 TEST(Fraction, IsComparedExactly) {
   constexpr std::int64_t large = std::int64_t{1} << 49;
   const Fraction smaller(large - 3, large - 2), larger(large - 2, large - 1);
