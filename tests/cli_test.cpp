@@ -133,8 +133,9 @@ TEST(Cli, FilesThatCrashTheImporterGiveThree) {
   const auto data = test::test_data();
   if (!data) GTEST_SKIP() << "BCH_TEST_DATA is not set";
   const std::string nasty = data->string() + "/nasty/";
-  for (const char* name : {"OverflowingTriangleIndex.md5mesh", "OverflowingVertexIndex.md5mesh",
-                           "OverflowingWeightIndex.md5mesh", "InvalidMeshOffset.iqm"})
+  for (const char* name :
+       {"OverflowingTriangleIndex.md5mesh", "OverflowingVertexIndex.md5mesh",
+        "OverflowingWeightIndex.md5mesh", "InvalidMeshOffset.iqm", "InvalidBoneIndex.md5mesh"})
     expect_failure(bch({"inspect", nasty + name}), 3, {name});
 }
 
