@@ -31,12 +31,11 @@ Placement placement(const Agents& agents, std::uint32_t of, std::uint32_t in) {
 }
 
 /// By the parity of the edges to the right of p. Whiskers are walked there and back and cancel.
-bool inside(const ShapeSetView& shapes, std::uint32_t contour, Point p) {
+bool inside(const Vec2* points, const Contour& contour, Point p) {
   bool odd = false;
-  const std::uint32_t begin = shapes.contour_points[contour], end = shapes.contour_points[contour + 1];
-  for (std::uint32_t i = begin, before = end - 1; i < end; before = i++) {
-    const double ax = shapes.points[before].x, ay = shapes.points[before].y;
-    const double bx = shapes.points[i].x, by = shapes.points[i].y;
+  for (std::uint32_t i = contour.begin, before = contour.end - 1; i < contour.end; before = i++) {
+    const double ax = points[before].x, ay = points[before].y;
+    const double bx = points[i].x, by = points[i].y;
     if ((ay > p.y) == (by > p.y)) continue;
     const double side = (bx - ax) * (p.y - ay) - (by - ay) * (p.x - ax);
     odd ^= (by > ay) == (side > 0);
@@ -59,14 +58,13 @@ bool contains_contour_of(const ShapeSetView& shapes, std::uint32_t outer_shape, 
   // The discs' centres and radii are rounded to float, 2 u of the reach each.
   const double slack = 1e-6 * (static_cast<double>(shapes.reach[outer_shape]) +
                                static_cast<double>(shapes.reach[inner_shape]));
-  for (std::uint32_t i = shapes.shape_contours[inner_shape]; i < shapes.shape_contours[inner_shape + 1];
-       ++i) {
-    const Disc& disc = shapes.contour_disc[i];
-    const Point centre = place({disc.x, disc.y});
-    for (std::uint32_t o = shapes.shape_contours[outer_shape]; o < shapes.shape_contours[outer_shape + 1];
-         ++o)
-      if (may_be_inside(shapes.contour_disc[o], disc, centre, slack) &&
-          inside(shapes, o, place(shapes.points[shapes.contour_points[i]])))
+  const ContourRange outer = shapes.shape_contours[outer_shape], inner = shapes.shape_contours[inner_shape];
+  for (std::uint32_t i = inner.begin; i < inner.end; ++i) {
+    const Contour& within = shapes.contours[i];
+    const Point centre = place({within.disc.x, within.disc.y});
+    for (std::uint32_t o = outer.begin; o < outer.end; ++o)
+      if (may_be_inside(shapes.contours[o].disc, within.disc, centre, slack) &&
+          inside(shapes.points, shapes.contours[o], place(shapes.points[within.begin])))
         return true;
   }
   return false;

@@ -27,10 +27,12 @@ std::size_t root_of(const ShapeSetView& shapes, const Agents& agents, std::size_
   return std::size_t{agents.shape[i]} * shapes.level_count + level;
 }
 
-/// With the slack of a pruning disc, which covers the rounding of collide().
-double pruning_radius(const ShapeSetView& shapes, std::size_t root, std::uint32_t shape) {
-  return static_cast<double>(shapes.roots[root].radius) +
-         rounding::nesting_margin * static_cast<double>(shapes.reach[shape]);
+/// With the slack of a pruning disc, which covers the rounding of collide(). A root holds the shape, whose reach is
+/// therefore at most that of the root.
+double pruning_radius(const Root& root) {
+  const double radius = root.radius;
+  const double reach = std::abs(static_cast<double>(root.x)) + std::abs(static_cast<double>(root.y)) + radius;
+  return radius + rounding::nesting_margin * reach;
 }
 
 }  // namespace
@@ -50,7 +52,7 @@ CrowdBounds bounds(const ShapeSetView& shapes, const Agents& agents, std::size_t
   CrowdBounds all;
   for (std::size_t i = begin; i < end; ++i) {
     const std::size_t root = root_of(shapes, agents, i);
-    const double radius = pruning_radius(shapes, root, agents.shape[i]);
+    const double radius = pruning_radius(shapes.roots[root]);
     const double offset = std::abs(static_cast<double>(shapes.roots[root].x)) +
                           std::abs(static_cast<double>(shapes.roots[root].y));
     all.add({agents.x[i], agents.x[i], agents.y[i], agents.y[i], offset, radius, radius});
@@ -96,7 +98,7 @@ void CrowdGrid::place(const ShapeSetView& shapes, const Agents& agents, std::siz
     // it.
     const auto at_x = static_cast<std::uint64_t>(((agents.x[i] - corner_x_) + offset_x) * units_);
     const auto at_y = static_cast<std::uint64_t>(((agents.y[i] - corner_y_) + offset_y) * units_);
-    const double radius = pruning_radius(shapes, root, agents.shape[i]);
+    const double radius = pruning_radius(shapes.roots[root]);
     std::uint32_t c = class_count_ - 1;
     while (radius > classes_[c].most_radius) --c;
     const std::uint32_t shift = cell_bits - class_bits * c;

@@ -56,7 +56,7 @@ class PairKernel {
     at_.place(in_, begin, size);
     codes_ = in_.codes + begin;
     open_.size = near_.size = 0;
-    if (shapes_.support == nullptr || shapes_.has_single_discs) {
+    if (shapes_.support == nullptr || !shapes_.rows_in_order) {
       test_roots();
     } else {
       for (std::uint32_t k = 0; k < size; k += Simd::width) open_bits_[k / Simd::width] = ~std::uint32_t{0};
@@ -75,6 +75,9 @@ class PairKernel {
   void test_roots() noexcept {
     of_a_.load(shapes_.roots, at_.root_a, at_.size);
     of_b_.load(shapes_.roots, at_.root_b, at_.size);
+    __builtin_memcpy(row_a_, of_a_.fourth, sizeof row_a_);
+    __builtin_memcpy(row_b_, of_b_.fourth, sizeof row_b_);
+    separation_.use_rows(row_a_, row_b_);
     for (std::uint32_t k = 0; k < at_.size; k += Simd::width) {
       const auto [x, y] = b_in_a(k);
       const std::uint32_t hits =
@@ -91,7 +94,7 @@ class PairKernel {
   }
 
   std::uint32_t both_are_single(std::uint32_t k) const noexcept {
-    return shapes_.roots[at_.root_a[k]].is_single & shapes_.roots[at_.root_b[k]].is_single;
+    return (row_a_[k] | row_b_[k]) == single_disc;
   }
 
   struct Point {
@@ -194,6 +197,7 @@ class PairKernel {
   Placements<Simd> at_;
   SeparationTest<Simd> separation_;
   RecordFields<Simd, chunk> of_a_, of_b_;
+  std::uint32_t row_a_[chunk], row_b_[chunk];  ///< of the roots' supports; set by test_roots()
   std::uint32_t open_bits_[chunk / Simd::width], may_nest_[chunk / Simd::width];  ///< a register's pairs each
   List open_, near_, parted_, meeting_, candidates_, nestable_;
   Walk<Simd> walk_;

@@ -21,7 +21,15 @@ template <class Simd>
 class SeparationTest {
  public:
   SeparationTest(const ShapeSetView& shapes, const Placements<Simd>& at) noexcept
-      : shapes_(shapes), at_(at) {}
+      : shapes_(shapes), at_(at), rows_(shapes.support), row_a_(at.root_a), row_b_(at.root_b) {
+    // Where rows are in order; see ShapeSetView.
+    if (shapes.support != nullptr) rows_ += support_stride;
+  }
+
+  /// Where they are not.
+  void use_rows(const std::uint32_t* a, const std::uint32_t* b) noexcept {
+    rows_ = shapes_.support, row_a_ = a, row_b_ = b;
+  }
 
   /// For all pairs of the chunk, lane = pair: offset, lower, upper.
   void place_directions() noexcept {
@@ -61,8 +69,8 @@ class SeparationTest {
   /// By A's even directions or by its odd ones.
   std::uint32_t apart(std::uint32_t pair, unsigned odd) const noexcept {
     const unsigned offset = offset_[pair] + odd;
-    const float* a = supports(at_.root_a[pair]) + odd * half;
-    const float* b = supports(at_.root_b[pair]);
+    const float* a = supports(row_a_[pair]) + odd * half;
+    const float* b = supports(row_b_[pair]);
     const float* below = b + offset % 2 * half + offset / 2;
     const float* above = b + (offset + 1) % 2 * half + (offset + 1) / 2;
     const Float tx(at_.tx[pair]), ty(at_.ty[pair]), lower(lower_[pair]), upper(upper_[pair]);
@@ -83,26 +91,26 @@ class SeparationTest {
     const unsigned back = (extreme_directions - turn) % extreme_directions;
     // The float arithmetic is off by less than 40 u S.
     const float slack = 4e-6f * (shapes_.reach[a] + shapes_.reach[b]);
-    return sticks_out(b, turn, c, s, tx, ty, at_.root_a[pair], slack) &
-           sticks_out(a, back, c, -s, -(c * tx + s * ty), -(c * ty - s * tx), at_.root_b[pair], slack);
+    return sticks_out(b, turn, c, s, tx, ty, row_a_[pair], slack) &
+           sticks_out(a, back, c, -s, -(c * tx + s * ty), -(c * ty - s * tx), row_b_[pair], slack);
   }
 
  private:
   using Float = typename Simd::Float;
   using Mask = typename Simd::Mask;
 
-  const float* supports(std::uint32_t root) const noexcept {
-    return shapes_.support + std::size_t{root} * support_stride;
+  const float* supports(std::uint32_t row) const noexcept {
+    return rows_ + std::size_t{row} * support_stride;
   }
 
   /// Whether a farthest point of a shape, placed in another's frame by a rotation (c, s) and a translation t,
   /// is beyond one of the other's supports. Its direction k + turn is the one that points most nearly along
   /// the other's direction k.
   std::uint32_t sticks_out(std::uint32_t shape, unsigned turn, float c, float s, float tx, float ty,
-                           std::uint32_t other_root, float slack) const noexcept {
+                           std::uint32_t other_row, float slack) const noexcept {
     const float* x = shapes_.extremes[shape].x + turn;
     const float* y = shapes_.extremes[shape].y + turn;
-    const float* support = supports(other_root);
+    const float* support = supports(other_row);
     std::uint32_t out = 0;
     for (unsigned k = 0; k < extreme_directions; k += Simd::width) {
       const Float ux = Simd::load(direction_x[0] + k), uy = Simd::load(direction_y[0] + k);
@@ -128,6 +136,8 @@ class SeparationTest {
 
   const ShapeSetView& shapes_;
   const Placements<Simd>& at_;
+  const float* rows_;
+  const std::uint32_t *row_a_, *row_b_;  ///< per pair
   std::uint8_t offset_[Placements<Simd>::chunk];
   alignas(64) float lower_[Placements<Simd>::chunk], upper_[Placements<Simd>::chunk];
 };

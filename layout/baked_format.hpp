@@ -31,17 +31,16 @@
 /// without. Records are those of shape_set_view.hpp, field after field, each 4 bytes:
 ///
 ///     depths          u32         L       cut depths, ascending; 0xffffffff are the leaves. 1 to 255 of them
-///     roots           Root        R       a level's disc: encloses its cut, or is it, where is_single is 1
+///     roots           Root        R       a level's disc: encloses its cut, or is it, where row is 0; else 1, 2, ...
 ///     trees           Tree        R or 0  where a level's nodes are; 0 where every cut is a single disc
 ///     nodes           f32         any     see below
-///     reach           f32         S       metres from the origin to the farthest point, 1e-6 to 1e6
-///     support         f32         64 R or 0  supports.hpp
-///     inscribed       DiscBlock   S or 0  interior.hpp; this and the next two where there are supports
-///     extremes        Extremes    S or 0  interior.hpp
-///     enclosures      Enclosure   S or 0  enclosure.hpp
-///     shape_contours  u32         S + 1 or 0  shape s has contours [s] to [s + 1]
-///     contour_points  u32         C + 1 or 0  contour c has points [c] to [c + 1], at least one
-///     contour_disc    Disc        C       the smallest enclosing disc
+///     reach           f32         S or 0  metres from the origin to the farthest point, 1e-6 to 1e6; like trees
+///     support         f32         any     rows of 64, supports.hpp: row 0 plus infinity, the others of roots; or none
+///     enclosures      Enclosure   S or 0  enclosure.hpp; where there are supports
+///     inscribed       DiscBlock   S or 0  interior.hpp; only where there are supports
+///     extremes        Extremes    S or 0  interior.hpp; where there are inscribed discs
+///     shape_contours  ContourRange  S or 0  one behind the other; 0 where there are no trees
+///     contours        Contour     any     its points, one at least, behind those of the contour before
 ///     points          Vec2        any     metres
 ///     settings        Settings    1
 ///     origins         ShapeOrigin S or 0  what each shape shows
@@ -61,7 +60,7 @@ namespace bch::baked {
 constexpr std::array<std::uint8_t, 8> magic{0x89, 'B', 'C', 'H', '\r', '\n', 0x1a, '\n'};
 constexpr std::uint32_t byte_order = 0x01020304;
 constexpr std::uint32_t other_byte_order = 0x04030201;
-constexpr std::uint32_t version = 1;
+constexpr std::uint32_t version = 2;
 constexpr std::size_t alignment = 64;
 
 struct FileHeader {
@@ -82,12 +81,11 @@ enum class Section : std::uint32_t {
   nodes,
   reach,
   support,
+  enclosures,
   inscribed,
   extremes,
-  enclosures,
   shape_contours,
-  contour_points,
-  contour_disc,
+  contours,
   points,
   settings,
   origins,
@@ -134,12 +132,11 @@ void for_each_section(Arrays& arrays, Visit visit) {
   visit(Section::nodes, "nodes", arrays.shapes.nodes);
   visit(Section::reach, "reach", arrays.shapes.reach);
   visit(Section::support, "support", arrays.shapes.support);
+  visit(Section::enclosures, "enclosures", arrays.shapes.enclosures);
   visit(Section::inscribed, "inscribed", arrays.shapes.inscribed);
   visit(Section::extremes, "extremes", arrays.shapes.extremes);
-  visit(Section::enclosures, "enclosures", arrays.shapes.enclosures);
   visit(Section::shape_contours, "shape_contours", arrays.shapes.shape_contours);
-  visit(Section::contour_points, "contour_points", arrays.shapes.contour_points);
-  visit(Section::contour_disc, "contour_disc", arrays.shapes.contour_disc);
+  visit(Section::contours, "contours", arrays.shapes.contours);
   visit(Section::points, "points", arrays.shapes.points);
   visit(Section::settings, "settings", arrays.settings);
   visit(Section::origins, "origins", arrays.origins);

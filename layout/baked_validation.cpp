@@ -52,7 +52,7 @@ void require_origins(std::span<const ShapeOrigin> origins, std::size_t shapes, s
 void validate(const Arrays& arrays) {
   bch::validate(arrays.shapes);
   require_settings(arrays.settings);
-  require_origins(arrays.origins, arrays.shapes.reach.size(),
+  require_origins(arrays.origins, arrays.shapes.shape_count(),
                   require_names(arrays.name_begin, arrays.names.size()));
 }
 

@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 
@@ -18,12 +19,14 @@ struct ShapeArrays {
   std::span<const Root> roots;
   std::span<const Tree> trees;
   std::span<const float> nodes, reach, support;
+  std::span<const Enclosure> enclosures;
   std::span<const DiscBlock> inscribed;
   std::span<const Extremes> extremes;
-  std::span<const Enclosure> enclosures;
-  std::span<const std::uint32_t> shape_contours, contour_points;
-  std::span<const Disc> contour_disc;
+  std::span<const ContourRange> shape_contours;
+  std::span<const Contour> contours;
   std::span<const Vec2> points;
+
+  std::size_t shape_count() const noexcept { return depths.empty() ? 0 : roots.size() / depths.size(); }
 };
 
 }  // namespace bch

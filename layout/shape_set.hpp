@@ -21,24 +21,33 @@ struct Shape {
   Hierarchy hierarchy;
 };
 
+/// What lets a query skip traversals. No answer depends on it; a set that answers few queries does with less.
+enum class Shortcuts {
+  none,
+  supports,  ///< tell most pairs apart that do not collide
+  all,       ///< and, of shapes with an outline, inscribed discs, which tell most pairs that do
+};
+
 /// What a scene will use of its shapes; nothing else is built or stored.
 struct ShapeSetPlan {
   /// The levels of detail: cut depths, ascending. Level k of every shape is its cut at depths[k].
   std::vector<std::uint32_t> depths = {all_depths};
   /// Keep what the solid semantics needs (the outlines, to see one shape inside another).
   bool solid = false;
-  /// Keep what lets a query skip most traversals: supports and, of shapes with an outline, inscribed discs.
-  /// They change no answer; a set that answers few queries does without.
-  bool shortcuts = true;
+  Shortcuts shortcuts = Shortcuts::all;
+  friend bool operator==(const ShapeSetPlan&, const ShapeSetPlan&) = default;
 };
+
+/// Errors:  throws std::invalid_argument on a plan without depths, with more than 255, or with depths out of order.
+void validate(const ShapeSetPlan& plan);
 
 /// The flat form of many shapes for batch queries: structure of arrays, aligned to cache lines, immutable. One that was
 /// moved from can only be assigned to or destroyed.
 class ShapeSet {
  public:
-  /// Errors:  throws std::invalid_argument on a plan without depths or with depths out of order, on a shape
-  ///          without nodes (naming it), and with a solid plan on an outline that validate() rejects;
-  ///          std::length_error beyond 2^31 numbers in nodes.
+  /// Errors:  throws std::invalid_argument on a plan that validate() rejects, on a shape without nodes (naming
+  ///          it), and with a solid plan on an outline that validate() rejects; std::length_error beyond 2^31
+  ///          numbers in nodes.
   explicit ShapeSet(std::span<const Shape> shapes, const ShapeSetPlan& plan = {});
   /// Stands on arrays that live as long as `memory`, a mapped file say.
   /// Precondition: validate(arrays) does not throw.
@@ -49,18 +58,22 @@ class ShapeSet {
 
   ShapeSetView view() const noexcept;
   const ShapeArrays& arrays() const noexcept { return arrays_; }
-  std::uint32_t shape_count() const noexcept { return static_cast<std::uint32_t>(arrays_.reach.size()); }
+  std::uint32_t shape_count() const noexcept { return static_cast<std::uint32_t>(arrays_.shape_count()); }
   std::uint32_t level_count() const noexcept { return static_cast<std::uint32_t>(arrays_.depths.size()); }
   std::span<const std::uint32_t> depths() const noexcept { return arrays_.depths; }
-  bool solid() const noexcept { return !arrays_.shape_contours.empty(); }
+  /// Solid semantics can be asked. Single discs need no outlines for it: those that do not overlap cannot hold each
+  /// other's outlines.
+  bool solid() const noexcept { return roots_only() || !arrays_.shape_contours.empty(); }
   /// Every cut is a single disc: there are roots and nothing else.
   bool roots_only() const noexcept { return arrays_.trees.empty(); }
+  /// What is stored: of roots alone no more than the depths.
+  ShapeSetPlan plan() const;
   std::size_t bytes() const noexcept;
 
  private:
   ShapeArrays arrays_;
   std::shared_ptr<const void> memory_;
-  bool has_single_discs_;
+  bool rows_in_order_;
 };
 
 }  // namespace bch

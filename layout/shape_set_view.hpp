@@ -37,8 +37,9 @@ constexpr std::uint32_t block_floats = 4 * block_width;
 /// Where a level of a shape begins.
 struct Root {
   float x, y, radius;
-  std::uint32_t is_single;  ///< the cut is this disc alone
+  std::uint32_t row;  ///< of its supports, from 1 on; single_disc: the cut is this disc alone, which has none
 };
+constexpr std::uint32_t single_disc = 0;
 static_assert(sizeof(Root) == 16);
 
 /// Where the tree of a level begins.
@@ -59,29 +60,40 @@ struct Enclosure {
   float inner_square;  ///< of its radius, rounded down; minus infinity where there are several contours
 };
 
+/// A closed polygon of an outline.
+struct Contour {
+  Disc disc;                 ///< the smallest enclosing one
+  std::uint32_t begin, end;  ///< its points
+};
+static_assert(sizeof(Contour) == 20);
+
+/// The contours of a shape.
+struct ContourRange {
+  std::uint32_t begin, end;
+};
+
 /// The nodes of all shapes and levels as plain pointers: what kernels read. Valid while the set lives.
 /// Roots:   index shape * level_count + level.
-/// Contours: shape s has contours shape_contours[s] .. shape_contours[s + 1]; contour c has points
-///          contour_points[c] .. contour_points[c + 1]. Null without the solid plan.
 struct ShapeSetView {
   std::uint32_t shape_count;
   std::uint32_t level_count;
-  bool has_single_discs;  ///< some cut is a single disc
+  bool rows_in_order;  ///< no cut is a single disc, and the row of root r is r + 1
 
   const Root* roots;
   const Tree* trees;   ///< like roots; this and the next null where every level is a single disc
   const float* nodes;  ///< per level its blocks, then all x, all y, all radii of the cut
-  const float* reach;  ///< per shape, metres, rounded up
+  const float* reach;  ///< per shape, metres, rounded up; null like the trees
 
-  // Null without the plan's shortcuts.
-  const float* support;        ///< support_stride floats a root
+  // Null where the plan has no supports.
+  const float* support;         ///< rows of support_stride floats; row 0 is infinite and parts nothing
+  const Enclosure* enclosures;  ///< per shape
+  // Null where the plan has no inscribed discs.
   const DiscBlock* inscribed;  ///< per shape; see interior.hpp, like the next
   const Extremes* extremes;
-  const Enclosure* enclosures;  ///< per shape
 
-  const std::uint32_t* shape_contours;
-  const std::uint32_t* contour_points;
-  const Disc* contour_disc;  ///< smallest enclosing disc of a contour
+  // Null without the solid plan, and like the trees.
+  const ContourRange* shape_contours;  ///< per shape
+  const Contour* contours;
   const Vec2* points;
 };
 

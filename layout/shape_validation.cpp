@@ -65,11 +65,13 @@ void require_all(const char* array, std::span<const Record> records, const char*
   reject(array, static_cast<std::size_t>(found - records.begin()), what);
 }
 
-void require_lengths(const char* array, std::span<const float> values) {
+/// From row 1 on.
+void require_supports(std::span<const float> support) {
   std::uint32_t bad = 0;
-  for (const float value : values) bad |= beyond(value, largest_length);
+  for (std::size_t i = support_stride; i < support.size(); ++i) bad |= beyond(support[i], largest_length);
   if ((bad & top_bit) == 0) return;
-  require_all(array, values, "not a length", is_length);
+  for (std::size_t i = support_stride; i < support.size(); ++i)
+    if (!is_length(support[i])) reject("support", i, "not a length");
 }
 
 /// Eight or more discs, x, y and radius each in a run of its own. A disc at infinity is padding.
@@ -88,20 +90,38 @@ void require_sizes(const ShapeArrays& a) {
     throw std::invalid_argument("depths: " + std::to_string(a.depths.size()) + ", not 1 to 255");
   for (std::size_t i = 1; i < a.depths.size(); ++i)
     if (a.depths[i] <= a.depths[i - 1]) reject("depths", i, std::to_string(a.depths[i]) + " does not ascend");
-  const std::uint64_t shapes = a.reach.size(), roots = shapes * a.depths.size();
-  if (shapes > std::numeric_limits<std::uint32_t>::max() || roots > std::numeric_limits<std::uint32_t>::max())
-    throw std::invalid_argument("reach: " + std::to_string(shapes) + ", too many shapes");
+  const std::uint64_t shapes = a.shape_count(), roots = shapes * a.depths.size();
+  if (roots > std::numeric_limits<std::uint32_t>::max())
+    throw std::invalid_argument("roots: " + std::to_string(roots) + ", too many");
   require_size("roots", a.roots.size(), roots);
-  const bool roots_only = a.trees.empty(), shortcuts = !a.support.empty();
+  const bool roots_only = a.trees.empty(), supports = !a.support.empty(), inscribed = !a.inscribed.empty();
   require_size("trees", a.trees.size(), roots_only ? 0 : roots);
-  if (roots_only) require_size("nodes", a.nodes.size(), 0);
+  require_size("reach", a.reach.size(), roots_only ? 0 : shapes);
+  if (roots_only) {
+    require_size("nodes", a.nodes.size(), 0);
+    require_size("support", a.support.size(), 0);
+    require_size("shape_contours", a.shape_contours.size(), 0);
+  }
   if (a.nodes.size() >= leaf_window)
     throw std::invalid_argument("nodes: " + std::to_string(a.nodes.size()) + ", not below 2^31");
-  if (roots_only) require_size("support", a.support.size(), 0);
-  if (shortcuts) require_size("support", a.support.size(), roots * support_stride);
-  require_size("inscribed", a.inscribed.size(), shortcuts ? shapes : 0);
-  require_size("extremes", a.extremes.size(), shortcuts ? shapes : 0);
-  require_size("enclosures", a.enclosures.size(), shortcuts ? shapes : 0);
+  require_size("enclosures", a.enclosures.size(), supports ? shapes : 0);
+  require_size("inscribed", a.inscribed.size(), supports && inscribed ? shapes : 0);
+  require_size("extremes", a.extremes.size(), inscribed ? shapes : 0);
+}
+
+/// Rows of supports are numbered in the order of roots.
+void require_rows(const ShapeArrays& a) {
+  std::uint64_t rows = 1;
+  for (std::size_t i = 0; i < a.roots.size(); ++i) {
+    if (a.roots[i].row == single_disc) continue;
+    if (a.trees.empty()) reject("roots", i, "not a single disc, without a tree");
+    if (a.roots[i].row != rows++)
+      reject("roots", i, "row " + std::to_string(a.roots[i].row) + " is not the next");
+  }
+  if (a.support.empty()) return;
+  require_size("support", a.support.size(), rows * support_stride);
+  require_all("support", a.support.first(support_stride), "not infinite",
+              [](float height) { return height == infinity; });
 }
 
 void require_roots(const ShapeArrays& a) {
@@ -110,11 +130,9 @@ void require_roots(const ShapeArrays& a) {
            static_cast<double>(reach) <= rounding::largest_reach;
   });
   require_all("roots", a.roots, "no disc", [](const Root& root) {
-    return is_length(root.x) & is_length(root.y) & is_radius(root.radius) & (root.is_single <= 1);
+    return is_length(root.x) & is_length(root.y) & is_radius(root.radius);
   });
-  if (!a.trees.empty()) return;
-  require_all("roots", a.roots, "not single, without a tree",
-              [](const Root& root) { return root.is_single == 1; });
+  require_rows(a);
 }
 
 /// The windows that a level's nodes name, lane by lane. As signed numbers names of windows are negative, the first the
@@ -203,7 +221,7 @@ std::uint64_t check_tree(const ShapeArrays& a, std::size_t root, std::uint64_t b
 }
 
 void require_shortcuts(const ShapeArrays& a) {
-  require_lengths("support", a.support);
+  require_supports(a.support);
   for (std::size_t s = 0; s < a.inscribed.size(); ++s) {
     require_discs("inscribed", s, a.inscribed[s].x, block_width, block_width);
     const Extremes& extremes = a.extremes[s];
@@ -221,30 +239,29 @@ void require_shortcuts(const ShapeArrays& a) {
   });
 }
 
-/// Offsets of runs that fill a list: from 0 to its size.
-void require_offsets(const char* array, std::span<const std::uint32_t> offsets, std::uint64_t runs,
-                     std::uint64_t end, bool may_be_empty) {
-  require_size(array, offsets.size(), runs + 1);
-  if (offsets.front() != 0) reject(array, 0, std::to_string(offsets.front()) + " is not 0");
-  for (std::size_t i = 1; i < offsets.size(); ++i)
-    if (offsets[i] < offsets[i - 1] + std::uint64_t{!may_be_empty})
-      reject(array, i, std::to_string(offsets[i]) + " does not ascend");
-  if (offsets.back() != end)
-    reject(array, offsets.size() - 1,
-           std::to_string(offsets.back()) + " is not the end, " + std::to_string(end));
+/// Runs that follow each other and fill a list.
+template <class Run>
+void require_runs(const char* array, std::span<const Run> runs, std::uint64_t end, bool may_be_empty) {
+  std::uint64_t next = 0;
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    if (runs[i].begin != next)
+      reject(array, i, "begins at " + std::to_string(runs[i].begin) + ", not " + std::to_string(next));
+    if (runs[i].end < next + std::uint64_t{!may_be_empty})
+      reject(array, i, "ends at " + std::to_string(runs[i].end) + " where it begins, or before");
+    next = runs[i].end;
+  }
+  if (next != end)
+    throw std::invalid_argument(std::string(array) + ": " + std::to_string(next) + " is not the end, " +
+                                std::to_string(end));
 }
 
 void require_outlines(const ShapeArrays& a) {
-  if (a.shape_contours.empty()) {
-    require_size("contour_points", a.contour_points.size(), 0);
-    require_size("contour_disc", a.contour_disc.size(), 0);
-    require_size("points", a.points.size(), 0);
-    return;
-  }
-  require_offsets("shape_contours", a.shape_contours, a.reach.size(), a.contour_disc.size(), true);
-  require_offsets("contour_points", a.contour_points, a.contour_disc.size(), a.points.size(), false);
-  require_all("contour_disc", a.contour_disc, "no disc",
-              [](const Disc& d) { return is_length(d.x) & is_length(d.y) & is_radius(d.radius); });
+  if (!a.shape_contours.empty()) require_size("shape_contours", a.shape_contours.size(), a.shape_count());
+  require_runs("shape_contours", a.shape_contours, a.contours.size(), true);
+  require_runs("contours", a.contours, a.points.size(), false);
+  require_all("contours", a.contours, "no disc", [](const Contour& c) {
+    return is_length(c.disc.x) & is_length(c.disc.y) & is_radius(c.disc.radius);
+  });
   require_all("points", a.points, "no point", [](const Vec2& p) { return is_length(p.x) & is_length(p.y); });
 }
 

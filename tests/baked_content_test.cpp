@@ -85,7 +85,9 @@ std::vector<Crime> crimes() {
       {"holds a disc that is none", [](BakedBytes& b) { top_block(b)[2 * block_width] = infinity; }},
       {"roots 0", floats(Section::roots, 2, -1.0f)},
       {"roots 1", floats(Section::roots, 4, nan)},
-      {"roots 1", [](BakedBytes& b) { b.section<Root>(Section::roots)[1].is_single = 2; }},
+      {"roots 1", [](BakedBytes& b) { b.section<Root>(Section::roots)[1].row = 2; }},
+      {"roots 4: row 3", [](BakedBytes& b) { b.section<Root>(Section::roots)[2].row = single_disc; }},
+      {"support 3", floats(Section::support, 3, 1.0f)},
       {"reach 0", floats(Section::reach, 0, 0.0f)},
       {"reach 2", floats(Section::reach, 2, nan)},
       {"reach 1", floats(Section::reach, 1, 1e7f)},
@@ -96,12 +98,13 @@ std::vector<Crime> crimes() {
       {"enclosures 1",
        [](BakedBytes& b) { b.section<Enclosure>(Section::enclosures)[1].inner_square = nan; }},
       {"shape_contours 0", word(Section::shape_contours, 0, 1)},
-      {"shape_contours 2", word(Section::shape_contours, 2, 0)},
-      {"shape_contours 3", word(Section::shape_contours, 3, 1000)},
-      {"contour_points 2", word(Section::contour_points, 2, 1)},
-      {"contour_points", word(Section::contour_points, 4, ~0u)},
-      {"contour_points 1", word(Section::contour_points, 1, 0)},
-      {"contour_disc 3", [](BakedBytes& b) { b.section<Disc>(Section::contour_disc)[3].radius = -1; }},
+      {"shape_contours 2", word(Section::shape_contours, 4, 0)},
+      {"shape_contours 1: ends", word(Section::shape_contours, 3, 0)},
+      {"shape_contours: 1000", word(Section::shape_contours, 5, 1000)},
+      {"contours 2", [](BakedBytes& b) { b.section<Contour>(Section::contours)[2].begin = 1; }},
+      {"contours: 4294967295", [](BakedBytes& b) { b.section<Contour>(Section::contours)[3].end = ~0u; }},
+      {"contours 1", [](BakedBytes& b) { b.section<Contour>(Section::contours)[1].end = 0; }},
+      {"contours 3", [](BakedBytes& b) { b.section<Contour>(Section::contours)[3].disc.radius = -1; }},
       {"points 5", [](BakedBytes& b) { b.section<Vec2>(Section::points)[5].y = nan; }},
       {"threshold", [](BakedBytes& b) { b.section<baked::Settings>(Section::settings)[0].threshold = -1; }},
       {"origins 1: character",
@@ -147,7 +150,7 @@ std::vector<float> chain(std::uint32_t blocks) {
 
 TEST(BakedContent, TreesAreNoDeeperThanStacks) {
   const std::vector<std::uint32_t> depths{all_depths};
-  const std::vector<Root> roots{{0, 0, 1, 0}};
+  const std::vector<Root> roots{{0, 0, 1, 1}};
   const std::vector<Tree> trees{{0, block_width}};
   const std::vector<float> reach{1};
   ShapeArrays arrays{};
@@ -164,7 +167,7 @@ TEST(BakedContent, TreesAreNoDeeperThanStacks) {
 
 TEST(BakedContent, ALevelHasAWindowOfDiscsAtLeast) {
   const std::vector<std::uint32_t> depths{all_depths};
-  const std::vector<Root> roots{{0, 0, 1, 0}};
+  const std::vector<Root> roots{{0, 0, 1, 1}};
   std::vector<Tree> trees{{0, block_width}};
   const std::vector<float> reach{1};
   std::vector<float> nodes = chain(1);

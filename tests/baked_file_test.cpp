@@ -19,7 +19,7 @@ namespace {
 
 using baked::Section;
 
-const ShapeSetPlan full_plan{.depths = {0, 3, all_depths}, .solid = true, .shortcuts = true};
+const ShapeSetPlan full_plan{.depths = {0, 3, all_depths}, .solid = true, .shortcuts = Shortcuts::all};
 
 void expect_same(const ShapeArrays& loaded, const ShapeArrays& expected) {
   baked::Arrays a{loaded, {}, {}, {}, {}}, b{expected, {}, {}, {}, {}};
@@ -49,7 +49,7 @@ TEST(BakedFile, ComesBackAsItWas) {
   for (const std::vector<std::uint32_t>& depths :
        {std::vector<std::uint32_t>{0}, {all_depths}, {0, 3, all_depths}, {1, 2}})
     for (const bool solid : {false, true})
-      for (const bool shortcuts : {false, true}) {
+      for (const Shortcuts shortcuts : {Shortcuts::none, Shortcuts::supports, Shortcuts::all}) {
         const std::vector<Shape> shapes = synthetic_shapes(73, 40);
         const ShapeSet set(shapes, {depths, solid, shortcuts});
         const ShapeOrigins origins = origins_of(shapes.size());
@@ -164,7 +164,7 @@ TEST_F(SpoiledFile, SaysWhatIsWrongWithTheHeader) {
     header = sound;
   };
   with([&] { header.magic[1] = 'b'; }, "not a baked file");
-  with([&] { header.version = 2; }, "version 2");
+  with([&] { header.version = 1; }, "version 1");
   with([&] { header.byte_order = baked::other_byte_order; }, "byte order");
   with([&] { header.byte_order = 7; }, "byte order");
   with([&] { header.file_size = ~std::uint64_t{0}; }, "18446744073709551615 bytes");

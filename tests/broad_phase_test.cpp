@@ -61,10 +61,9 @@ std::vector<Root> roots(const ShapeSet& of, const Agents& agents) {
   for (std::size_t i = 0; i < agents.size(); ++i) {
     const std::size_t root = std::size_t{agents.shape[i]} * of.level_count() + agents.level[i];
     const Rotation r = rotation(agents.heading[i]);
-    const double x = view.roots[root].x, y = view.roots[root].y;
+    const double x = view.roots[root].x, y = view.roots[root].y, radius = view.roots[root].radius;
     all.push_back({r.cosine * x - r.sine * y, r.sine * x + r.cosine * y,
-                   static_cast<double>(view.roots[root].radius) +
-                       rounding::nesting_margin * static_cast<double>(view.reach[agents.shape[i]])});
+                   radius + rounding::nesting_margin * (std::abs(x) + std::abs(y) + radius)});
   }
   return all;
 }

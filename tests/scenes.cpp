@@ -127,11 +127,16 @@ void Crowd::add(std::uint32_t shape_index, double at_x, double at_y, double at_h
 
 PairScene random_scene(Random& random, const ShapeSet& shapes, std::uint32_t pairs) {
   const ShapeSetView view = shapes.view();
+  const auto extent = [&](std::uint32_t shape) {
+    const Root& root = view.roots[(shape + 1) * view.level_count - 1];
+    return std::hypot(static_cast<double>(root.x), static_cast<double>(root.y)) +
+           static_cast<double>(root.radius);
+  };
   PairScene scene;
   for (std::uint32_t i = 0; i < pairs; ++i) {
     const std::uint32_t a = random.below(shapes.shape_count()), b = random.below(shapes.shape_count());
     const auto level = [&] { return static_cast<std::uint8_t>(random.below(shapes.level_count())); };
-    const double far = static_cast<double>(view.reach[a]) + static_cast<double>(view.reach[b]);
+    const double far = extent(a) + extent(b);
     const double angle = random.uniform(-pi, pi), distance = far * random.uniform(0, 1.1);
     const double x = on_grid(random.uniform(-50, 50), 0x1p-20), y = on_grid(random.uniform(-50, 50), 0x1p-20);
     scene.crowd.add(a, x, y, random.uniform(-10, 10), level());

@@ -127,7 +127,7 @@ TEST(ShapeSet, LevelsFollowThePlan) {
   const ShapeSetView view = set.view();
   for (std::uint32_t s = 0; s < 6; ++s) {
     const Disc& root = shapes[s].hierarchy.nodes[0].disc;
-    EXPECT_TRUE(view.roots[3 * s].is_single);
+    EXPECT_EQ(view.roots[3 * s].row, single_disc);
     EXPECT_EQ((Disc{view.roots[3 * s].x, view.roots[3 * s].y, view.roots[3 * s].radius}), root);
     EXPECT_GE(view.roots[3 * s + 2].radius, root.radius);
   }
@@ -140,7 +140,8 @@ TEST(ShapeSet, BuildsOnlyWhatThePlanNames) {
   const auto bytes = [&](std::vector<std::uint32_t> depths, bool solid) {
     return ShapeSet(shapes, {std::move(depths), solid}).bytes() / 64;
   };
-  EXPECT_LE(bytes({0}, false), 20u);  // root 16, reach 4
+  EXPECT_EQ(bytes({0}, false), 16u);
+  EXPECT_EQ(bytes({0}, true), 16u);
   EXPECT_LT(bytes({3}, false), bytes({6}, false));
   EXPECT_LT(bytes({6}, false), bytes({all_depths}, false));
   EXPECT_LT(bytes({all_depths}, false), bytes({all_depths}, true));

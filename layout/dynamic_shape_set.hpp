@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "layout/shape_set.hpp"
+#include "layout/shape_storage.hpp"
+
+namespace bch {
+
+/// A set whose shapes are replaced while it lives, for characters whose poses are new in every frame. Queries take
+/// set() like any other, and answer as for a set that was built from the present shapes.
+///
+/// A shape has a place of its own. One that outgrows it gets another, half as large again as it needs, behind all
+/// others, and leaves the old one empty. So after some frames every place is large enough and nothing is allocated any
+/// more; all places together take at most 4.5 times what the largest shapes need. One that was moved from can only be
+/// assigned to or destroyed.
+class DynamicShapeSet {
+ public:
+  /// A copy of a set, with its plan. In a set of single discs every shape stays one.
+  explicit DynamicShapeSet(const ShapeSet& start);
+
+  /// The present shapes.
+  const ShapeSet& set() const noexcept { return set_; }
+
+  /// Replaces a shape by one that was made flat with set().plan(), where that fits into its place. Threads may replace
+  /// different shapes at the same time, while no query runs. Allocates nothing.
+  /// Returns: whether it fitted. If not, the shape is the one before.
+  /// Errors:  throws std::out_of_range on an index out of range, std::invalid_argument on a shape of another plan.
+  bool try_replace(std::uint32_t shape, const FlatShape& flat);
+
+  /// Replaces a shape, if need be in a new place. For one thread alone: arrays may move, and views of set() from before
+  /// are void then.
+  /// Errors:  as try_replace(); std::length_error as ShapeSet. The shape is then the one before.
+  void replace(std::uint32_t shape, const FlatShape& flat);
+
+ private:
+  struct Place {
+    ShapeExtent begin, size;
+  };
+
+  void find_places();
+  Place place_of(std::uint32_t shape, const ShapeExtent& end) const;
+  void require(std::uint32_t shape, const FlatShape& flat) const;
+  void move(std::uint32_t shape, const ShapeExtent& size);
+
+  ShapeSetPlan plan_;
+  ShapeStorage storage_;
+  std::vector<Place> places_;  ///< per shape
+  ShapeExtent end_;            ///< of all places
+  ShapeSet set_;               ///< stands on storage_
+};
+
+}  // namespace bch

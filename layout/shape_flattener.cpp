@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include "layout/shape_flattener.hpp"
+
+#include <limits>
+#include <stdexcept>
+#include <string>
+
+#include "layout/enclosing_disc.hpp"
+#include "layout/enclosure.hpp"
+#include "layout/rounding.hpp"
+
+namespace bch {
+
+ShapeFlattener::ShapeFlattener(const ShapeSetPlan& plan) : plan_(plan) {
+  validate(plan);
+}
+
+void ShapeFlattener::flatten(const Shape& shape, std::size_t index, FlatShape& flat) {
+  if (shape.hierarchy.nodes.empty())
+    throw std::invalid_argument("shape set: shape " + std::to_string(index) + " has no nodes");
+  flat.plan = plan_;
+  flat.reach = shape.hierarchy.reach;
+  add_levels(shape.hierarchy, flat);
+  if (plan_.solid) add_outline(shape.outline, flat);
+  if (plan_.shortcuts != Shortcuts::none && plan_.depths.back() > 0) add_interior(shape, flat);
+}
+
+void ShapeFlattener::add_levels(const Hierarchy& hierarchy, FlatShape& flat) {
+  flat.levels.resize(plan_.depths.size());
+  flat.supports.clear();
+  flattener_.begin(hierarchy);
+  for (std::size_t k = 0; k < plan_.depths.size(); ++k) {
+    flattener_.flatten(plan_.depths[k], flat.levels[k]);
+    if (plan_.shortcuts != Shortcuts::none && !flat.levels[k].is_single)
+      flat.supports.push_back(flattener_.supports());
+  }
+}
+
+/// A shape without an outline has no inscribed discs: padding, which overlaps nothing.
+void ShapeFlattener::add_interior(const Shape& shape, FlatShape& flat) {
+  constexpr float infinity = std::numeric_limits<float>::infinity();
+  flat.interior = {};
+  flat.enclosure = {0, 0, infinity, -infinity};
+  flat.interior.x.fill(infinity);
+  if (shape.outline.contours() == 0) return;
+  validate(shape.outline);
+  flat.enclosure = enclosure(shape.outline, shape.hierarchy.reach);
+  if (plan_.shortcuts == Shortcuts::all)
+    flat.interior = interiors_.build(shape.outline, shape.hierarchy.reach);
+}
+
+void ShapeFlattener::add_outline(const Outline& outline, FlatShape& flat) {
+  validate(outline);
+  flat.outline = outline;
+  flat.contour_disc.clear();
+  for (std::size_t c = 0; c < outline.contours(); ++c) {
+    const EnclosingDisc disc = smallest_enclosing_disc(outline.contour(c));
+    flat.contour_disc.push_back({disc.centre.x, disc.centre.y, rounding::round_up(disc.radius)});
+  }
+}
+
+}  // namespace bch

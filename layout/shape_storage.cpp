@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include "layout/shape_storage.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <limits>
+#include <stdexcept>
+
+#include "layout/rounding.hpp"
+
+namespace bch {
+namespace {
+
+/// Blocks begin on cache lines; windows do not care.
+std::size_t level_begin(const WideTree& tree, std::size_t after) {
+  return tree.blocks.empty() ? after : next_line(after);
+}
+
+std::size_t level_size(const WideTree& tree) {
+  return tree.blocks.size() * block_floats + 3 * tree.x.size();
+}
+
+void require_numbers(std::size_t count, const char* what) {
+  if (count > std::numeric_limits<std::uint32_t>::max())
+    throw std::length_error(std::string("shape set: more than 2^32 ") + what);
+}
+
+}  // namespace
+
+ShapeExtent extent_of(const FlatShape& flat) {
+  ShapeExtent extent;
+  for (const WideTree& tree : flat.levels) {
+    extent.nodes = level_begin(tree, extent.nodes) + level_size(tree);
+    extent.rows += !tree.is_single;
+  }
+  extent.contours = flat.contour_disc.size();
+  extent.points = flat.outline.points.size();
+  return extent;
+}
+
+ShapeArrays ShapeStorage::arrays() const {
+  return {.depths = depths,
+          .roots = roots,
+          .trees = trees,
+          .nodes = nodes,
+          .reach = reach,
+          .support = support,
+          .enclosures = enclosures,
+          .inscribed = inscribed,
+          .extremes = extremes,
+          .shape_contours = shape_contours,
+          .contours = contours,
+          .points = points};
+}
+
+ShapeStorage copy_of(const ShapeArrays& arrays) {
+  ShapeStorage copy;
+  const auto assign = [](auto& to, const auto& from) { to.assign(from.begin(), from.end()); };
+  assign(copy.depths, arrays.depths);
+  assign(copy.roots, arrays.roots);
+  assign(copy.trees, arrays.trees);
+  assign(copy.nodes, arrays.nodes);
+  assign(copy.reach, arrays.reach);
+  assign(copy.support, arrays.support);
+  assign(copy.enclosures, arrays.enclosures);
+  assign(copy.inscribed, arrays.inscribed);
+  assign(copy.extremes, arrays.extremes);
+  assign(copy.shape_contours, arrays.shape_contours);
+  assign(copy.contours, arrays.contours);
+  assign(copy.points, arrays.points);
+  return copy;
+}
+
+void ShapeStorage::resize(const ShapeSetPlan& plan, std::size_t shapes) {
+  const std::size_t levels = plan.depths.size();
+  require_numbers(shapes * levels, "roots");
+  roots.resize(shapes * levels);
+  if (plan.depths.back() == 0) return;
+  trees.resize(shapes * levels);
+  reach.resize(shapes);
+  if (plan.shortcuts != Shortcuts::none) enclosures.resize(shapes);
+  if (plan.shortcuts == Shortcuts::all) inscribed.resize(shapes), extremes.resize(shapes);
+  if (plan.solid) shape_contours.resize(shapes);
+}
+
+void ShapeStorage::make_room(const ShapeExtent& at, const ShapeExtent& size) {
+  // Kernels read a window's "children", and forget them.
+  const std::size_t last_node = at.nodes + size.nodes + block_floats;
+  if (last_node >= leaf_window) throw std::length_error("shape set: more than 2^31 numbers in nodes");
+  require_numbers(at.rows + size.rows, "rows of supports");
+  require_numbers(at.points + size.points, "points");
+  if (!trees.empty()) nodes.resize(last_node);
+  if (!enclosures.empty()) {
+    if (support.empty()) support.assign(support_stride, std::numeric_limits<float>::infinity());
+    support.resize((at.rows + size.rows) * support_stride);
+  }
+  if (!shape_contours.empty()) {
+    contours.resize(at.contours + size.contours);
+    points.resize(at.points + size.points);
+  }
+}
+
+void ShapeStorage::put(std::size_t shape, const FlatShape& flat, const ShapeExtent& at) {
+  const std::size_t first_root = shape * depths.size();
+  std::size_t node = at.nodes, row = at.rows;
+  for (std::size_t k = 0; k < flat.levels.size(); ++k) {
+    const WideTree& tree = flat.levels[k];
+    const auto named = static_cast<std::uint32_t>(tree.is_single ? single_disc : row++);
+    roots[first_root + k] = {tree.root.x, tree.root.y, tree.root.radius, named};
+    if (trees.empty()) continue;
+    node = level_begin(tree, node);
+    put_level(first_root + k, tree, node);
+    node += level_size(tree);
+  }
+  if (!reach.empty()) reach[shape] = rounding::round_up(flat.reach);
+  if (!enclosures.empty()) {
+    enclosures[shape] = flat.enclosure;
+    std::copy(flat.supports.begin(), flat.supports.end(),
+              reinterpret_cast<Supports*>(support.data() + at.rows * support_stride));
+  }
+  if (!inscribed.empty()) put_interior(shape, flat);
+  if (!shape_contours.empty()) put_outline(shape, flat, at);
+}
+
+void ShapeStorage::put_level(std::size_t root, const WideTree& tree, std::size_t node) {
+  const std::size_t first_disc = node + tree.blocks.size() * block_floats;
+  const auto name = [&](std::uint32_t local) {
+    return static_cast<std::uint32_t>(local & leaf_window ? local + first_disc : node + local * block_floats);
+  };
+  trees[root] = {name(tree.top), static_cast<std::uint32_t>(tree.x.size())};
+  float* out = nodes.data() + node;
+  for (const WideTree::Block& block : tree.blocks) {
+    for (const float* field : {block.discs.x, block.discs.y, block.discs.radius})
+      out = std::copy_n(field, block_width, out);
+    out = std::transform(block.child, block.child + block_width, out,
+                         [&](std::uint32_t child) { return std::bit_cast<float>(name(child)); });
+  }
+  for (const std::vector<float>* field : {&tree.x, &tree.y, &tree.radius})
+    out = std::copy(field->begin(), field->end(), out);
+}
+
+void ShapeStorage::put_interior(std::size_t shape, const FlatShape& flat) {
+  const Interior& inside = flat.interior;
+  std::copy(inside.x.begin(), inside.x.end(), inscribed[shape].x);
+  std::copy(inside.y.begin(), inside.y.end(), inscribed[shape].y);
+  std::copy(inside.radius.begin(), inside.radius.end(), inscribed[shape].radius);
+  std::copy(inside.extreme_x.begin(), inside.extreme_x.end(), extremes[shape].x);
+  std::copy(inside.extreme_y.begin(), inside.extreme_y.end(), extremes[shape].y);
+}
+
+void ShapeStorage::put_outline(std::size_t shape, const FlatShape& flat, const ShapeExtent& at) {
+  const auto contour = static_cast<std::uint32_t>(at.contours), point = static_cast<std::uint32_t>(at.points);
+  const std::size_t count = flat.contour_disc.size();
+  shape_contours[shape] = {contour, contour + static_cast<std::uint32_t>(count)};
+  const auto& begin = flat.outline.contour_begin;
+  for (std::size_t c = 0; c < count; ++c)
+    contours[contour + c] = {flat.contour_disc[c], point + begin[c], point + begin[c + 1]};
+  std::copy(flat.outline.points.begin(), flat.outline.points.end(), points.begin() + point);
+}
+
+}  // namespace bch

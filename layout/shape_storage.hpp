@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "layout/aligned_vector.hpp"
+#include "layout/shape_arrays.hpp"
+#include "layout/shape_flattener.hpp"
+
+namespace bch {
+
+/// Of the parts of a shape that have no fixed size: how many elements, or where the first one is.
+struct ShapeExtent {
+  std::size_t nodes = 0;  ///< floats; a shape begins at a multiple of 16, a cache line
+  std::size_t rows = 0;   ///< of supports
+  std::size_t contours = 0, points = 0;
+};
+
+ShapeExtent extent_of(const FlatShape& flat);
+
+/// Where the next shape begins.
+constexpr std::size_t next_line(std::size_t floats) {
+  return (floats + 15) / 16 * 16;
+}
+
+/// The arrays of a set, owned.
+struct ShapeStorage {
+  AlignedVector<std::uint32_t> depths;
+  AlignedVector<Root> roots;
+  AlignedVector<Tree> trees;
+  AlignedVector<float> nodes, reach, support;
+  AlignedVector<Enclosure> enclosures;
+  AlignedVector<DiscBlock> inscribed;
+  AlignedVector<Extremes> extremes;
+  AlignedVector<ContourRange> shape_contours;
+  AlignedVector<Contour> contours;
+  AlignedVector<Vec2> points;
+
+  ShapeArrays arrays() const;
+
+  /// Makes the arrays with elements of a fixed size large enough for so many shapes, as far as the plan has them.
+  void resize(const ShapeSetPlan& plan, std::size_t shapes);
+  /// Makes the others end with such an extent behind this place.
+  /// Errors:  throws std::length_error beyond 2^31 floats of nodes or 2^32 of the others.
+  void make_room(const ShapeExtent& at, const ShapeExtent& size);
+  /// Writes a shape; there has to be room. Of arrays without elements nothing is written. Different shapes may be
+  /// written at the same time.
+  void put(std::size_t shape, const FlatShape& flat, const ShapeExtent& at);
+
+ private:
+  void put_level(std::size_t root, const WideTree& tree, std::size_t node);
+  void put_interior(std::size_t shape, const FlatShape& flat);
+  void put_outline(std::size_t shape, const FlatShape& flat, const ShapeExtent& at);
+};
+
+ShapeStorage copy_of(const ShapeArrays& arrays);
+
+}  // namespace bch
