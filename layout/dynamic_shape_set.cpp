@@ -16,8 +16,9 @@ bool fits(const ShapeExtent& part, const ShapeExtent& whole) {
          part.points <= whole.points;
 }
 
-std::size_t with_room(std::size_t count) {
-  return count + count / 2;
+/// For what outgrew its place.
+std::size_t with_room(std::size_t needed, std::size_t had) {
+  return needed <= had ? had : needed + needed / 2;
 }
 
 bool has_single_disc(const FlatShape& flat) {
@@ -98,8 +99,9 @@ void DynamicShapeSet::replace(std::uint32_t shape, const FlatShape& flat) {
 }
 
 void DynamicShapeSet::move(std::uint32_t shape, const ShapeExtent& size) {
-  const ShapeExtent room{next_line(with_room(size.nodes)), plan_.depths.size(), with_room(size.contours),
-                         with_room(size.points)};
+  const ShapeExtent& had = places_[shape].size;
+  const ShapeExtent room{next_line(with_room(size.nodes, had.nodes)), plan_.depths.size(),
+                         with_room(size.contours, had.contours), with_room(size.points, had.points)};
   storage_.make_room(end_, room);
   places_[shape] = {end_, room};
   end_ = {end_.nodes + room.nodes, end_.rows + room.rows, end_.contours + room.contours,

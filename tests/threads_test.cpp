@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "kernel/answer.hpp"
-#include "layout/shape_set.hpp"
+#include "layout/dynamic_shape_set.hpp"
 #include "tests/scenes.hpp"
 
 // The functions that tasks run, on plain threads, where ThreadSanitizer sees every access. (It takes what
@@ -69,6 +69,24 @@ TEST_F(Threads, ASetIsReadWhileAnotherIsBuilt) {
   EXPECT_EQ(first, expected);
   EXPECT_EQ(second, expected);
   EXPECT_GT(bytes, 0u);
+}
+
+TEST_F(Threads, DifferentShapesAreReplacedAtTheSameTime) {
+  DynamicShapeSet dynamic(set);
+  std::vector<std::thread> running;
+  for (std::uint32_t t = 0; t < 4; ++t)
+    running.emplace_back([&, t] {
+      ShapeFlattener flattener(set.plan());
+      FlatShape flat;
+      for (std::uint32_t shape = t; shape < set.shape_count(); shape += 4) {
+        flattener.flatten(shapes[shape], shape, flat);
+        EXPECT_TRUE(dynamic.try_replace(shape, flat));
+      }
+    });
+  for (std::thread& thread : running) thread.join();
+  const auto expected = answers(kernel::best_implementation(), 1);
+  set = ShapeSet(dynamic.set().arrays(), nullptr);
+  EXPECT_EQ(answers(kernel::best_implementation(), 1), expected);
 }
 
 }  // namespace

@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include "layout/dynamic_shape_set.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <ostream>
+#include <string>
+
+#include "kernel/broad_phase.hpp"
+#include "kernel/collide.hpp"
+#include "tests/allocation_count.hpp"
+#include "tests/scenes.hpp"
+
+namespace bch {
+
+/// In the names of tests.
+static void PrintTo(const ShapeSetPlan& plan, std::ostream* out) {
+  for (const std::uint32_t depth : plan.depths)
+    *out << (depth == all_depths ? "all" : std::to_string(depth)) << "_";
+  *out << (plan.solid ? "solid_" : "") << "shortcuts_" << static_cast<int>(plan.shortcuts);
+}
+
+namespace {
+
+using test::PairScene;
+using test::Random;
+
+/// All that queries can say about a scene, on every instruction set.
+std::vector<std::vector<std::uint8_t>> answers(const ShapeSet& set, const PairScene& scene, bool solid) {
+  std::vector<std::vector<std::uint8_t>> all;
+  for (const Semantics semantics : {Semantics::boundary, Semantics::solid})
+    for (const kernel::Implementation& row : kernel::implementations()) {
+      if (!row.supported() || (semantics == Semantics::solid && !solid)) continue;
+      collide(set, scene.crowd.agents(), scene.pairs, all.emplace_back(scene.pairs.size()),
+              {semantics, &row});
+    }
+  return all;
+}
+
+FlatShape flat(const Shape& shape, const ShapeSetPlan& plan) {
+  FlatShape made;
+  ShapeFlattener(plan).flatten(shape, 0, made);
+  return made;
+}
+
+class DynamicShapes : public testing::TestWithParam<ShapeSetPlan> {
+ protected:
+  Random random{81};
+  std::vector<Shape> pool = test::synthetic_shapes(82, 60);
+  std::vector<Shape> present{pool.begin(), pool.begin() + 12};
+  ShapeSet start{present, GetParam()};
+  DynamicShapeSet dynamic{start};
+
+  void replace(std::uint32_t shape, const Shape& by) {
+    dynamic.replace(shape, flat(by, GetParam()));
+    present[shape] = by;
+  }
+
+  void expect_as_if_built_anew() {
+    const ShapeSet anew(present, GetParam());
+    const PairScene scene = random_scene(random, anew, 3'000);
+    const bool solid = GetParam().solid;
+    EXPECT_EQ(answers(dynamic.set(), scene, solid), answers(anew, scene, solid));
+    const Agents agents = scene.crowd.agents();
+    EXPECT_EQ(candidate_pairs(dynamic.set(), agents), candidate_pairs(anew, agents));
+  }
+};
+
+TEST_P(DynamicShapes, StartLikeTheSet) {
+  expect_as_if_built_anew();
+}
+
+TEST_P(DynamicShapes, AnswerAsIfBuiltAnew) {
+  for (int round = 0; round < 20; ++round) {
+    for (int i = 0; i < 5; ++i) replace(random.below(12), pool[random.below(60)]);
+    expect_as_if_built_anew();
+  }
+}
+
+/// Single discs come and go.
+TEST_P(DynamicShapes, MayBecomeSingleDiscs) {
+  Shape disc = pool[20];
+  disc.hierarchy.nodes.resize(1);
+  disc.hierarchy.nodes[0].second_child = 0;
+  for (int round = 0; round < 6; ++round) {
+    for (std::uint32_t shape = 0; shape < 12; ++shape)
+      replace(shape, random.below(3) == 0 ? disc : pool[random.below(60)]);
+    expect_as_if_built_anew();
+  }
+  for (std::uint32_t shape = 0; shape < 12; ++shape) replace(shape, disc);
+  expect_as_if_built_anew();
+  for (std::uint32_t shape = 0; shape < 12; ++shape) replace(shape, pool[shape]);
+  expect_as_if_built_anew();
+}
+
+TEST_P(DynamicShapes, TouchNoOther) {
+  const ShapeSetView before = dynamic.set().view();
+  const auto largest = std::max_element(present.begin(), present.end(), [](const Shape& a, const Shape& b) {
+    return a.hierarchy.nodes.size() < b.hierarchy.nodes.size();
+  });
+  const auto index = static_cast<std::uint32_t>(largest - present.begin());
+  Shape smaller = *largest;
+  ASSERT_TRUE(dynamic.try_replace(index, flat(smaller, GetParam())));
+  EXPECT_EQ(dynamic.set().view().nodes, before.nodes);
+  expect_as_if_built_anew();
+}
+
+TEST_P(DynamicShapes, NothingIsAllocatedOncePlacesAreLargeEnough) {
+  std::vector<FlatShape> flats;
+  for (const Shape& shape : pool) flats.push_back(flat(shape, GetParam()));
+  for (std::uint32_t shape = 0; shape < 12; ++shape)
+    for (const FlatShape& any : flats) dynamic.replace(shape, any);
+  const std::size_t bytes = dynamic.set().bytes();
+  const std::size_t count = test::allocation_count();
+  for (std::uint32_t shape = 0; shape < 12; ++shape)
+    for (const FlatShape& any : flats) EXPECT_TRUE(dynamic.try_replace(shape, any));
+  EXPECT_EQ(test::allocation_count(), count);
+  EXPECT_EQ(dynamic.set().bytes(), bytes);
+}
+
+INSTANTIATE_TEST_SUITE_P(Plans, DynamicShapes,
+                         testing::Values(ShapeSetPlan{}, ShapeSetPlan{{0}, false, Shortcuts::none},
+                                         ShapeSetPlan{{0, 3, all_depths}, true, Shortcuts::all},
+                                         ShapeSetPlan{{2, 5}, true, Shortcuts::supports},
+                                         ShapeSetPlan{{0, 6}, false, Shortcuts::none}));
+
+TEST(DynamicShapeSet, WhatDoesNotFitIsNotReplaced) {
+  const std::vector<Shape> pool = test::synthetic_shapes(83, 40);
+  const auto by_size = [](const Shape& a, const Shape& b) {
+    return a.hierarchy.nodes.size() < b.hierarchy.nodes.size();
+  };
+  const Shape small = *std::min_element(pool.begin(), pool.end(), by_size),
+              large = *std::max_element(pool.begin(), pool.end(), by_size);
+  const std::vector<Shape> present = {small, large, small};
+  const ShapeSet start(present);
+  DynamicShapeSet dynamic(start);
+  Random random(84);
+  const PairScene scene = random_scene(random, start, 1'000);
+  EXPECT_FALSE(dynamic.try_replace(0, flat(large, {})));
+  EXPECT_EQ(answers(dynamic.set(), scene, false), answers(start, scene, false));
+  dynamic.replace(0, flat(large, {}));
+  EXPECT_TRUE(dynamic.try_replace(0, flat(large, {})));
+  EXPECT_TRUE(dynamic.try_replace(0, flat(small, {})));
+  EXPECT_EQ(answers(dynamic.set(), scene, false), answers(start, scene, false));
+}
+
+TEST(DynamicShapeSet, RejectsOtherPlansAndShapesThatAreNotThere) {
+  const std::vector<Shape> shapes = test::synthetic_shapes(85, 2);
+  DynamicShapeSet dynamic(ShapeSet(shapes, {{0, all_depths}, true}));
+  EXPECT_THROW(dynamic.replace(2, flat(shapes[0], dynamic.set().plan())), std::out_of_range);
+  EXPECT_THROW(dynamic.replace(0, flat(shapes[0], {{0, all_depths}, false})), std::invalid_argument);
+  EXPECT_THROW(dynamic.replace(0, flat(shapes[0], {{all_depths}, true})), std::invalid_argument);
+  EXPECT_THROW(dynamic.try_replace(0, flat(shapes[0], {{0, all_depths}, true, Shortcuts::supports})),
+               std::invalid_argument);
+  DynamicShapeSet discs(ShapeSet(std::vector<Shape>{{{}, fixed_cylinder(1)}}));
+  EXPECT_THROW(discs.replace(0, flat(shapes[0], {})), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace bch
