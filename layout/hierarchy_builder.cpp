@@ -53,8 +53,8 @@ void require_reach(double reach) {
     throw std::invalid_argument("hierarchy: reach " + std::to_string(reach) + " m is outside 1e-6 to 1e6 m");
 }
 
-void HierarchyBuilder::contour(const Outline& outline, float threshold, SplitRule rule,
-                               Hierarchy& hierarchy) {
+void HierarchyBuilder::contour(const Outline& outline, float threshold, SplitRule rule, Hierarchy& hierarchy,
+                               std::uint32_t deepest) {
   hierarchy.nodes.clear();
   validate(outline);
   if (!(threshold > 0) || !std::isfinite(threshold))
@@ -67,7 +67,7 @@ void HierarchyBuilder::contour(const Outline& outline, float threshold, SplitRul
     for (std::size_t i = 0; i + 1 < points.size(); ++i) add_segment(points[i], points[i + 1]);
     add_segment(points.back(), points.front());
   }
-  grow(rule == SplitRule::centre);
+  grow(rule == SplitRule::centre, deepest);
   publish(hierarchy);
 }
 
@@ -88,7 +88,7 @@ void HierarchyBuilder::projected(std::span<const Vec2> vertices,
   require_reach(hierarchy.reach);
   begin(hierarchy.reach, 0, 0);
   for (const auto& [a, b, c] : triangles) add_triangle({vertices[a], vertices[b], vertices[c]});
-  grow(false);
+  grow(false, all_depths);
   publish(hierarchy);
 }
 
@@ -159,31 +159,31 @@ void HierarchyBuilder::enlarge(std::uint32_t nodes, std::uint32_t elements) {
 }
 
 /// First the tree, depth first, whose shape needs few discs, then the other discs.
-void HierarchyBuilder::grow(bool through_centre) {
+void HierarchyBuilder::grow(bool through_centre, std::uint32_t deepest) {
   const std::size_t count = items_.size();
   order_.resize(count);
   scratch_.resize(std::max(scratch_.size(), count));
   open_.resize(std::max(open_.size(), count + 1));
   std::iota(order_.begin(), order_.end(), 0);
   Open* top = open_.data();
-  *top++ = {0, static_cast<std::uint32_t>(count), none, measure(items_, order_)};
+  *top++ = {0, static_cast<std::uint32_t>(count), none, deepest, measure(items_, order_)};
   while (top != open_.data()) {
     const std::uint32_t node = node_count_;
     if (!add_node(*--top)) continue;
-    const auto [begin, end, parent, whole] = *top;
+    const auto [begin, end, parent, below, whole] = *top;
     const ItemOrder order = std::span(order_).subspan(begin, end - begin);
     if (order.size() == 2 && threshold_ > 0) {
       divide_pair(items_, order, whole, through_centre);
-      add_lone_segment(order[0], node);
+      add_lone_segment(order[0], node, below - 1);
       nodes_.second_child[node] = node_count_;
-      add_lone_segment(order[1], node);
+      add_lone_segment(order[1], node, below - 1);
       continue;
     }
     const auto middle =
         begin + static_cast<std::uint32_t>(divide(items_, order, whole, through_centre, scratch_.data(),
                                                   top[1].measure, top[0].measure));
-    top[0].begin = middle, top[0].end = end, top[0].parent = node;
-    top[1].begin = begin, top[1].end = middle, top[1].parent = node;
+    top[0].begin = middle, top[0].end = end, top[0].parent = node, top[0].below = below - 1;
+    top[1].begin = begin, top[1].end = middle, top[1].parent = node, top[1].below = below - 1;
     top += 2;
   }
   even_halves_.write(item_elements_, nodes_, elements_, sources_);
@@ -195,11 +195,11 @@ bool HierarchyBuilder::add_node(const Open& open) {
   if (open.parent != none && open.parent + 1 != node_count_) nodes_.second_child[open.parent] = node_count_;
   const std::span<const std::uint32_t> order = std::span(order_).subspan(open.begin, open.end - open.begin);
   if (order.size() == 1 && threshold_ > 0) {
-    add_lone_segment(order[0], open.parent);
+    add_lone_segment(order[0], open.parent, open.below);
     return false;
   }
   unsolved_.push_back({add_node(open.parent), open.begin, open.end});
-  if (order.size() > 1 && !is_leaf(order, open.measure)) return true;
+  if (order.size() > 1 && open.below > 0 && !is_leaf(order, open.measure)) return true;
   for (const std::uint32_t item : order) add_element(item_elements_[item], item);
   return false;
 }
@@ -215,10 +215,10 @@ bool HierarchyBuilder::is_leaf(std::span<const std::uint32_t> order, const Split
 }
 
 /// A lone segment and, below, what it is halved into. The midpoint that divides it is its disc's centre.
-void HierarchyBuilder::add_lone_segment(std::uint32_t source, std::uint32_t parent) {
-  const int halvings = halvings_[source];
-  if (halvings == EvenHalves::uneven)
-    return add_halves(item_elements_[source].a, item_elements_[source].b, source, parent);
+void HierarchyBuilder::add_lone_segment(std::uint32_t source, std::uint32_t parent, std::uint32_t below) {
+  if (halvings_[source] == EvenHalves::uneven)
+    return add_halves(item_elements_[source].a, item_elements_[source].b, source, parent, below);
+  const int halvings = static_cast<int>(std::min<std::uint32_t>(halvings_[source], below));
   reserve(EvenHalves::nodes(halvings), EvenHalves::elements(halvings));
   nodes_.parent[node_count_] = parent;
   even_halves_.add(halvings, node_count_, element_count_, source);
@@ -227,15 +227,16 @@ void HierarchyBuilder::add_lone_segment(std::uint32_t source, std::uint32_t pare
 }
 
 /// The same where halves are not to be halved equally often.
-void HierarchyBuilder::add_halves(Vec2 a, Vec2 b, std::uint32_t source, std::uint32_t parent) {
+void HierarchyBuilder::add_halves(Vec2 a, Vec2 b, std::uint32_t source, std::uint32_t parent,
+                                  std::uint32_t below) {
   std::size_t open_count = 0;
   for (;;) {
     const std::uint32_t node = add_node(parent);
     const Vec2 middle = middle_of(a, b);
     nodes_.centre[node] = middle;
     nodes_.square_radius[node] = std::max(square_distance(a, middle), square_distance(b, middle));
-    if (square_distance(a, b) > longest_square_length_ && !(middle == a) && !(middle == b)) {
-      halves_[open_count++] = {node, b};
+    if (below > 0 && square_distance(a, b) > longest_square_length_ && !(middle == a) && !(middle == b)) {
+      halves_[open_count++] = {node, --below, b};
       b = middle;
       parent = node;
       continue;
@@ -244,6 +245,7 @@ void HierarchyBuilder::add_halves(Vec2 a, Vec2 b, std::uint32_t source, std::uin
     if (open_count == 0) return;
     const Half& half = halves_[--open_count];
     parent = half.node;
+    below = half.below;
     nodes_.second_child[parent] = node_count_;
     a = nodes_.centre[parent];
     b = half.end;

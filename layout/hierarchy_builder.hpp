@@ -22,7 +22,9 @@ namespace bch {
 class HierarchyBuilder {
  public:
   /// As contour_hierarchy() documents. After an exception the hierarchy has no nodes.
-  void contour(const Outline& outline, float threshold, SplitRule rule, Hierarchy& hierarchy);
+  /// `deepest`: nodes there are leaves. Cuts down to there are the same; bounds, which hold what is below, are not.
+  void contour(const Outline& outline, float threshold, SplitRule rule, Hierarchy& hierarchy,
+               std::uint32_t deepest = all_depths);
 
   /// As projected_hierarchy() documents. After an exception the hierarchy has no nodes.
   void projected(std::span<const Vec2> vertices, std::span<const std::array<std::uint32_t, 3>> triangles,
@@ -33,11 +35,13 @@ class HierarchyBuilder {
   struct Open {
     std::uint32_t begin, end;
     std::uint32_t parent;
+    std::uint32_t below;  ///< levels that may follow
     SplitMeasure measure;
   };
   /// What remains of a segment on its way down: the half from a node's centre to this end.
   struct Half {
     std::uint32_t node;
+    std::uint32_t below;
     Vec2 end;
   };
   /// A node of several items, whose disc is solved once the order of all items is final.
@@ -49,10 +53,10 @@ class HierarchyBuilder {
   void begin(double reach, double margin, double threshold);
   void add_segment(Vec2 a, Vec2 b);
   void add_triangle(const Element& triangle);
-  void grow(bool through_centre);
+  void grow(bool through_centre, std::uint32_t deepest);
   bool add_node(const Open& open);
-  void add_lone_segment(std::uint32_t source, std::uint32_t parent);
-  void add_halves(Vec2 a, Vec2 b, std::uint32_t source, std::uint32_t parent);
+  void add_lone_segment(std::uint32_t source, std::uint32_t parent, std::uint32_t below);
+  void add_halves(Vec2 a, Vec2 b, std::uint32_t source, std::uint32_t parent, std::uint32_t below);
   std::uint32_t add_node(std::uint32_t parent);
   void add_element(const Element& element, std::uint32_t source);
   void reserve(std::uint32_t nodes, std::uint32_t elements);

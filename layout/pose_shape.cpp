@@ -15,8 +15,9 @@ Shape pose_shape(Skinner& skinner, PoseTime at, float threshold) {
   return {std::move(outline), std::move(hierarchy)};
 }
 
-PoseShaper::PoseShaper(const Character& character, float threshold)
+PoseShaper::PoseShaper(const Character& character, float threshold, std::uint32_t deepest)
     : threshold_(threshold),
+      deepest_(deepest),
       skinner_(character),
       outline_builder_(character.triangles, character.vertices.size(), character.vertices) {}
 
@@ -31,7 +32,7 @@ const Outline& PoseShaper::make_outline(PoseTime at) {
 }
 
 const Shape& PoseShaper::make_hierarchy() {
-  hierarchy_builder_.contour(shape_.outline, threshold_, SplitRule::centroid, shape_.hierarchy);
+  hierarchy_builder_.contour(shape_.outline, threshold_, SplitRule::centroid, shape_.hierarchy, deepest_);
   return shape_;
 }
 

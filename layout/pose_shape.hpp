@@ -21,10 +21,11 @@ Shape pose_shape(Skinner& skinner, PoseTime at, float threshold = 0.01f);
 class PoseShaper {
  public:
   /// The character must outlive this and must be valid (see validate()); the threshold is that of
-  /// pose_shape().
-  explicit PoseShaper(const Character& character, float threshold = 0.01f);
+  /// pose_shape(). `deepest`: of a plan's depths; hierarchies end there.
+  explicit PoseShaper(const Character& character, float threshold = 0.01f,
+                      std::uint32_t deepest = all_depths);
 
-  /// Returns: the shape that pose_shape() makes, until the next call.
+  /// Returns: the shape that pose_shape() makes, down to the deepest depth, until the next call.
   /// Errors:  as pose_shape(); the shape made before is lost.
   const Shape& shape(PoseTime at);
 
@@ -35,6 +36,7 @@ class PoseShaper {
 
  private:
   float threshold_;
+  std::uint32_t deepest_;
   Skinner skinner_;
   OutlineBuilder outline_builder_;
   HierarchyBuilder hierarchy_builder_;

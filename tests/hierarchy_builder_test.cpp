@@ -100,6 +100,28 @@ TEST(HierarchyBuilder, EqualsTheReferenceWhereRoundingDecidesOnHalves) {
   }
 }
 
+/// Every disc of every cut, bit for bit.
+TEST(HierarchyBuilder, EndsAtTheDeepestDepth) {
+  HierarchyBuilder builder;
+  Hierarchy whole, limited;
+  const auto discs = [](const Hierarchy& hierarchy, std::uint32_t depth) {
+    std::vector<Disc> all;
+    for (const std::uint32_t node : cut(hierarchy, depth)) all.push_back(hierarchy.nodes[node].disc);
+    return all;
+  };
+  for (const Shape& shape : test::synthetic_shapes(36, 60))
+    for (const float threshold : {0.0005f, 0.01f}) {
+      builder.contour(shape.outline, threshold, SplitRule::centroid, whole);
+      for (std::uint32_t deepest = 0; deepest < height(whole) + 2; ++deepest) {
+        builder.contour(shape.outline, threshold, SplitRule::centroid, limited, deepest);
+        EXPECT_EQ(height(limited), std::min(deepest, height(whole)));
+        EXPECT_EQ(limited.reach, whole.reach);
+        for (std::uint32_t depth = 0; depth <= deepest; ++depth)
+          ASSERT_EQ(discs(limited, depth), discs(whole, depth)) << depth << " of " << deepest;
+      }
+    }
+}
+
 TEST(HierarchyBuilder, LeavesNothingHalfDone) {
   HierarchyBuilder builder;
   Hierarchy hierarchy;
