@@ -25,7 +25,7 @@ const std::vector<cli::LoadedCharacter>& Scene::characters() {
   return characters_;
 }
 
-const std::vector<cli::ShapeSource>& Scene::sources() {
+const std::vector<ShapeSource>& Scene::sources() {
   if (sources_.empty()) sources_ = cli::list_shapes(characters(), options_.poses);
   return sources_;
 }

@@ -32,7 +32,7 @@ class Scene {
   explicit Scene(SceneOptions options);
 
   const std::vector<cli::LoadedCharacter>& characters();
-  const std::vector<cli::ShapeSource>& sources();
+  const std::vector<ShapeSource>& sources();
   const std::vector<Shape>& shapes();
   const std::vector<baselines::Body>& bodies();
   /// The finest level alone, planned for nothing but these semantics.
@@ -51,7 +51,7 @@ class Scene {
 
   SceneOptions options_;
   std::vector<cli::LoadedCharacter> characters_;
-  std::vector<cli::ShapeSource> sources_;
+  std::vector<ShapeSource> sources_;
   std::vector<Shape> shapes_;
   std::vector<baselines::Body> bodies_;
   std::map<Semantics, ShapeSet> sets_;

@@ -11,17 +11,13 @@
 
 #include "bench/characters.hpp"
 #include "layout/pose_shape.hpp"
+#include "layout/scene_plan.hpp"
 #include "layout/shape_set.hpp"
 
 namespace bch::cli {
 
-/// Where a shape comes from. Its index in the table is the number by which files and tables name it.
-struct ShapeSource {
-  std::uint32_t character = 0;
-  PoseTime at;
-};
-
-/// The poses of all characters, one character after the other, as every command numbers them.
+/// The poses of all characters, one character after the other, as every command numbers them: a source's index is the
+/// number by which files and tables name its shape.
 std::vector<ShapeSource> list_shapes(std::span<const LoadedCharacter> characters, std::uint32_t poses);
 
 /// The same at so many poses a second: of every clip those at 0, 1 / rate ... before its end, one at least.

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include "layout/scene_plan.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <stdexcept>
+#include <string>
+#include <tuple>
+
+namespace bch {
+namespace {
+
+constexpr std::size_t most_levels = 255;
+
+// By measurement (bch_ratios): what the shortcuts of a shape take to build, over what they save of a pair of a crowd.
+constexpr double pairs_for_supports = 400, pairs_for_inscribed = 4000;
+
+[[noreturn]] void reject(std::size_t agent, const std::string& what) {
+  throw std::invalid_argument("scene plan: agent " + std::to_string(agent) + ": " + what);
+}
+
+void require(const SceneUse& use) {
+  if (!(use.pose_step >= 0) || !std::isfinite(use.pose_step))
+    throw std::invalid_argument("scene plan: a pose step of " + std::to_string(use.pose_step) + " s");
+  if (!(use.pairs_per_shape >= 0))
+    throw std::invalid_argument("scene plan: " + std::to_string(use.pairs_per_shape) + " pairs a shape");
+}
+
+/// Numbers the different shapes of a scene.
+class Shapes {
+ public:
+  explicit Shapes(float pose_step) : step_(static_cast<double>(pose_step)) {}
+
+  std::uint32_t number(ShapeSource source) {
+    if (step_ > 0)
+      source.at.seconds =
+          static_cast<float>(std::round(static_cast<double>(source.at.seconds) / step_) * step_);
+    const auto [found, is_new] =
+        numbers_.try_emplace({source.character, source.at.clip, source.at.seconds}, list.size());
+    if (is_new) list.push_back(source);
+    return static_cast<std::uint32_t>(found->second);
+  }
+
+  std::vector<ShapeSource> list;
+
+ private:
+  double step_;
+  std::map<std::tuple<std::uint32_t, std::uint32_t, float>, std::size_t> numbers_;
+};
+
+std::vector<std::uint32_t> depths_of(std::span<const SceneAgent> agents, const SceneUse& use) {
+  std::vector<std::uint32_t> depths;
+  for (const SceneAgent& agent : agents) depths.push_back(use.depth ? use.depth(agent.distance) : all_depths);
+  return depths;
+}
+
+std::vector<std::uint32_t> different(std::vector<std::uint32_t> depths) {
+  std::sort(depths.begin(), depths.end());
+  depths.erase(std::unique(depths.begin(), depths.end()), depths.end());
+  if (depths.empty()) depths.push_back(all_depths);
+  if (depths.size() > most_levels)
+    throw std::invalid_argument("scene plan: " + std::to_string(depths.size()) +
+                                " different depths, more than 255");
+  return depths;
+}
+
+}  // namespace
+
+ScenePlan plan_scene(std::span<const SceneAgent> agents, const SceneUse& use) {
+  require(use);
+  for (std::size_t i = 0; i < agents.size(); ++i) {
+    if (!(agents[i].distance >= 0) || !std::isfinite(agents[i].distance))
+      reject(i, "a distance of " + std::to_string(agents[i].distance) + " m");
+    if (!std::isfinite(agents[i].shows.at.seconds))
+      reject(i, "at " + std::to_string(agents[i].shows.at.seconds) + " s");
+  }
+  const std::vector<std::uint32_t> depths = depths_of(agents, use);
+  ScenePlan plan;
+  plan.set.depths = different(depths);
+  plan.set.solid = use.solid;
+  plan.set.shortcuts = worthwhile_shortcuts(use.pairs_per_shape);
+  Shapes shapes(use.pose_step);
+  for (std::size_t i = 0; i < agents.size(); ++i) {
+    plan.agent_shape.push_back(shapes.number(agents[i].shows));
+    const auto level = std::lower_bound(plan.set.depths.begin(), plan.set.depths.end(), depths[i]);
+    plan.agent_level.push_back(static_cast<std::uint8_t>(level - plan.set.depths.begin()));
+  }
+  plan.shapes = std::move(shapes.list);
+  return plan;
+}
+
+Shortcuts worthwhile_shortcuts(double pairs_per_shape) {
+  if (pairs_per_shape >= pairs_for_inscribed) return Shortcuts::all;
+  return pairs_per_shape >= pairs_for_supports ? Shortcuts::supports : Shortcuts::none;
+}
+
+}  // namespace bch

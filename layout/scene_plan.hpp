@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "layout/character.hpp"
+#include "layout/shape_set.hpp"
+
+namespace bch {
+
+/// What a shape shows.
+struct ShapeSource {
+  std::uint32_t character = 0;  ///< index in a list that the scene has
+  PoseTime at;
+};
+
+/// An agent as a plan sees it.
+struct SceneAgent {
+  ShapeSource shows;
+  double distance = 0;  ///< metres, from who looks
+};
+
+/// What will be asked of a scene.
+struct SceneUse {
+  /// The solid semantics, too.
+  bool solid = false;
+  /// Level of detail: the cut depth of agents at a distance, all_depths where it does not matter. None: all_depths.
+  std::function<std::uint32_t(double metres)> depth = {};
+  /// Seconds: times within a clip are rounded to multiples of it, so that agents share shapes; 0: only those do that
+  /// show the very same.
+  float pose_step = 0;
+  /// About how many pairs a shape will be in before it is given up; few where each lives for one frame.
+  double pairs_per_shape = std::numeric_limits<double>::infinity();
+};
+
+/// What to build for a scene, each shape once, and what its agents ask for.
+struct ScenePlan {
+  ShapeSetPlan set;
+  std::vector<ShapeSource> shapes;         ///< in the order in which agents first show them
+  std::vector<std::uint32_t> agent_shape;  ///< one an agent: Agents::shape
+  std::vector<std::uint8_t> agent_level;   ///< one an agent: Agents::level
+};
+
+/// Errors:  throws std::invalid_argument on a distance that is negative or not finite, naming the agent, a time that is
+///          not finite, a pose step that is negative or not finite, a number of pairs that is negative or NaN, and
+///          on more than 255 different depths.
+ScenePlan plan_scene(std::span<const SceneAgent> agents, const SceneUse& use = {});
+
+/// The shortcuts that pay for themselves where a shape is in so many pairs.
+Shortcuts worthwhile_shortcuts(double pairs_per_shape);
+
+}  // namespace bch

@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include "layout/scene_plan.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "kernel/collide.hpp"
+#include "layout/pose_shape.hpp"
+#include "tests/scenes.hpp"
+#include "tests/test_characters.hpp"
+
+namespace bch {
+namespace {
+
+constexpr float nan = std::numeric_limits<float>::quiet_NaN();
+
+/// The nearer the finer.
+std::uint32_t depth_at(double metres) {
+  return metres < 5 ? all_depths : metres < 10 ? 6 : metres < 20 ? 3 : 0;
+}
+
+/// Agents in a few poses of a clip, up to 30 m away.
+std::vector<SceneAgent> walkers(std::uint32_t count, test::Random& random) {
+  std::vector<SceneAgent> agents;
+  for (std::uint32_t i = 0; i < count; ++i)
+    agents.push_back(
+        {{random.below(2), {0, 0.125f * static_cast<float>(random.below(6))}}, random.uniform(0, 30)});
+  return agents;
+}
+
+TEST(ScenePlan, NamesEveryShapeOnce) {
+  test::Random random(91);
+  const std::vector<SceneAgent> agents = walkers(300, random);
+  const ScenePlan plan = plan_scene(agents);
+  EXPECT_EQ(plan.shapes.size(), 12u);
+  ASSERT_EQ(plan.agent_shape.size(), 300u);
+  for (std::size_t i = 0; i < agents.size(); ++i) {
+    const ShapeSource& shape = plan.shapes.at(plan.agent_shape[i]);
+    EXPECT_EQ(shape.character, agents[i].shows.character);
+    EXPECT_EQ(shape.at.clip, agents[i].shows.at.clip);
+    EXPECT_EQ(shape.at.seconds, agents[i].shows.at.seconds);
+  }
+}
+
+TEST(ScenePlan, SharesShapesWithinThePoseStep) {
+  std::vector<SceneAgent> agents;
+  for (int i = 0; i < 1000; ++i) agents.push_back({{0, {0, 0.01f * static_cast<float>(i)}}, 0});
+  EXPECT_EQ(plan_scene(agents).shapes.size(), 1000u);
+  const ScenePlan plan = plan_scene(agents, {.pose_step = 0.5f});
+  EXPECT_EQ(plan.shapes.size(), 21u);
+  for (std::size_t i = 0; i < agents.size(); ++i)
+    EXPECT_LE(std::abs(plan.shapes[plan.agent_shape[i]].at.seconds - agents[i].shows.at.seconds), 0.2501f);
+}
+
+TEST(ScenePlan, HasTheDepthsThatAgentsAskFor) {
+  test::Random random(92);
+  const std::vector<SceneAgent> agents = walkers(300, random);
+  const ScenePlan plan = plan_scene(agents, {.depth = depth_at});
+  EXPECT_EQ(plan.set.depths, (std::vector<std::uint32_t>{0, 3, 6, all_depths}));
+  for (std::size_t i = 0; i < agents.size(); ++i)
+    EXPECT_EQ(plan.set.depths.at(plan.agent_level[i]), depth_at(agents[i].distance));
+  EXPECT_EQ(plan_scene(agents, {.depth = [](double) { return 0u; }}).set.depths,
+            std::vector<std::uint32_t>{0});
+  EXPECT_EQ(plan_scene(agents).set.depths, std::vector<std::uint32_t>{all_depths});
+  EXPECT_EQ(plan_scene({}).set.depths, std::vector<std::uint32_t>{all_depths});
+}
+
+TEST(ScenePlan, HasTheShortcutsThatPay) {
+  EXPECT_EQ(plan_scene({}).set.shortcuts, Shortcuts::all);
+  EXPECT_EQ(plan_scene({}, {.pairs_per_shape = 6}).set.shortcuts, Shortcuts::none);
+  EXPECT_LT(worthwhile_shortcuts(1000), Shortcuts::all);
+  EXPECT_TRUE(plan_scene({}, {.solid = true}).set.solid);
+}
+
+/// A set by the plan answers like one with everything.
+TEST(ScenePlan, ChangesNoAnswer) {
+  test::Random random(93);
+  const std::vector<SceneAgent> agents = walkers(400, random);
+  const std::vector<Character> characters = test::default_characters();
+  std::vector<PoseShaper> shapers(characters.begin(), characters.end());
+  std::vector<double> x, y, heading;
+  std::vector<Pair> pairs;
+  for (std::uint32_t i = 0; i < agents.size(); ++i) {
+    x.push_back(random.uniform(0, 8)), y.push_back(random.uniform(0, 8)),
+        heading.push_back(random.uniform(0, 6));
+    for (std::uint32_t j = 0; j < i; ++j) pairs.push_back({j, i});
+  }
+  const auto hits = [&](const ScenePlan& plan, const ShapeSetPlan& set_plan) {
+    std::vector<Shape> shapes;
+    for (const ShapeSource& source : plan.shapes)
+      shapes.push_back(shapers[source.character].shape(source.at));
+    std::vector<std::uint8_t> answers(pairs.size());
+    collide(ShapeSet(shapes, set_plan), {plan.agent_shape, x, y, heading, plan.agent_level}, pairs, answers,
+            {set_plan.solid ? Semantics::solid : Semantics::boundary});
+    return answers;
+  };
+  for (const bool solid : {false, true})
+    for (const double many : {6.0, 600.0, 1e9}) {
+      const ScenePlan plan = plan_scene(agents, {.solid = solid, .depth = depth_at, .pairs_per_shape = many});
+      const auto answers = hits(plan, plan.set);
+      EXPECT_EQ(answers, hits(plan, {.depths = plan.set.depths, .solid = solid}));
+      EXPECT_GT(std::count(answers.begin(), answers.end(), 1), 300);
+    }
+}
+
+TEST(ScenePlan, RejectsWhatIsNoNumber) {
+  const auto plan = [](const SceneAgent& agent) { return plan_scene(std::vector<SceneAgent>{{}, agent}); };
+  EXPECT_THROW(plan({{}, -1}), std::invalid_argument);
+  EXPECT_THROW(plan({{}, std::numeric_limits<double>::infinity()}), std::invalid_argument);
+  EXPECT_THROW(plan({{0, {0, nan}}, 0}), std::invalid_argument);
+  EXPECT_THROW(plan_scene({}, {.pose_step = -1}), std::invalid_argument);
+  EXPECT_THROW(plan_scene({}, {.pose_step = nan}), std::invalid_argument);
+  EXPECT_THROW(plan_scene({}, {.pairs_per_shape = static_cast<double>(nan)}), std::invalid_argument);
+  const std::vector<SceneAgent> many(300);
+  std::uint32_t next = 0;
+  EXPECT_THROW(plan_scene(many, {.depth = [&](double) { return next++; }}), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace bch
