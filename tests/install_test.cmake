@@ -1,18 +1,13 @@
 # Installs the build given by BUILD into a fresh folder WORK, builds the projects outside against it, and runs them.
 # Usage: cmake -DBUILD=... -DTESTS=... -DWORK=... -DCOMPILER=... -DFLAGS=... -P install_test.cmake
-function(run)
-  execute_process(COMMAND ${ARGV} RESULT_VARIABLE result OUTPUT_VARIABLE output ERROR_VARIABLE output)
-  if(NOT result EQUAL 0)
-    message(FATAL_ERROR "${ARGV}\n${output}")
-  endif()
-  set(output "${output}" PARENT_SCOPE)
-endfunction()
+include(${CMAKE_CURRENT_LIST_DIR}/run.cmake)
 
 file(REMOVE_RECURSE ${WORK})
 run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${WORK}/prefix)
 foreach(project consumer kernel_consumer)
   run(${CMAKE_COMMAND} -S ${TESTS}/${project} -B ${WORK}/${project} -G Ninja -DCMAKE_PREFIX_PATH=${WORK}/prefix
-    -DCMAKE_BUILD_TYPE=Release "-DCMAKE_CXX_FLAGS=${FLAGS}" -DCMAKE_CXX_COMPILER=${COMPILER})
+    -DCMAKE_BUILD_TYPE=Release "-DCMAKE_CXX_FLAGS=${FLAGS}" -DCMAKE_CXX_COMPILER=${COMPILER}
+    -DCMAKE_EXE_LINKER_FLAGS=-Wl,--no-as-needed)  # ldd is to show what is linked, used or not
   run(${CMAKE_COMMAND} --build ${WORK}/${project})
 endforeach()
 run(${WORK}/consumer/example)
