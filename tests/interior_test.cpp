@@ -5,39 +5,17 @@
 
 #include <gtest/gtest.h>
 
-#include <atomic>
 #include <cmath>
-#include <cstdlib>
-#include <new>
 #include <numbers>
 
 #include "layout/heading.hpp"
 #include "layout/rounding.hpp"
 #include "layout/supports.hpp"
+#include "tests/allocation_count.hpp"
 #include "tests/character_shapes.hpp"
 #include "tests/outline_checks.hpp"
 #include "tests/scenes.hpp"
 #include "tests/test_characters.hpp"
-
-namespace {
-std::atomic<std::size_t> allocations = 0;
-}
-
-// Not inlined: GCC would take free() for the wrong partner of new.
-__attribute__((noinline)) void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
-  ++allocations;
-  return std::malloc(size);
-}
-__attribute__((noinline)) void* operator new(std::size_t size) {
-  if (void* memory = operator new(size, std::nothrow)) return memory;
-  throw std::bad_alloc();
-}
-__attribute__((noinline)) void operator delete(void* memory) noexcept {
-  std::free(memory);
-}
-__attribute__((noinline)) void operator delete(void* memory, std::size_t) noexcept {
-  std::free(memory);
-}
 
 namespace bch {
 namespace {
@@ -196,11 +174,11 @@ TEST(Interior, WhatWasBuiltBeforeChangesNothingAndMemoryIsReused) {
   InteriorBuilder builder;
   for (const Shape& shape : shapes) builder.build(shape.outline, shape.hierarchy.reach);
   for (const Shape& shape : shapes) {
-    const std::size_t before = allocations;
+    const std::size_t before = test::allocation_count();
     const Interior again = builder.build(shape.outline, shape.hierarchy.reach);
-    EXPECT_EQ(allocations, before);
+    EXPECT_EQ(test::allocation_count(), before);
     const Interior fresh = interior(shape.outline, shape.hierarchy.reach);
-    EXPECT_GT(allocations, before);
+    EXPECT_GT(test::allocation_count(), before);
     EXPECT_EQ(again.x, fresh.x);
     EXPECT_EQ(again.y, fresh.y);
     EXPECT_EQ(again.radius, fresh.radius);

@@ -6,9 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstdlib>
 #include <limits>
-#include <new>
 #include <utility>
 #include <vector>
 
@@ -17,40 +15,10 @@
 #include "layout/outline_implementation.hpp"
 #include "layout/skinning.hpp"
 #include "layout/union_outline.hpp"
+#include "tests/allocation_count.hpp"
 #include "tests/outline_arrangement.hpp"
 #include "tests/outline_checks.hpp"
 #include "tests/outline_soups.hpp"
-
-namespace {
-
-std::size_t allocations = 0;
-
-}  // namespace
-
-// Counted, so that a test can say that there are none. Inlined, they would look mismatched to GCC.
-[[gnu::noinline]] void* operator new(std::size_t size) {
-  ++allocations;
-  if (void* memory = std::malloc(size)) return memory;
-  throw std::bad_alloc();
-}
-[[gnu::noinline]] void* operator new(std::size_t size, std::align_val_t alignment) {
-  ++allocations;
-  const auto step = static_cast<std::size_t>(alignment);
-  if (void* memory = std::aligned_alloc(step, (size + step - 1) / step * step)) return memory;
-  throw std::bad_alloc();
-}
-[[gnu::noinline]] void operator delete(void* memory) noexcept {
-  std::free(memory);
-}
-[[gnu::noinline]] void operator delete(void* memory, std::size_t) noexcept {
-  std::free(memory);
-}
-[[gnu::noinline]] void operator delete(void* memory, std::align_val_t) noexcept {
-  std::free(memory);
-}
-[[gnu::noinline]] void operator delete(void* memory, std::size_t, std::align_val_t) noexcept {
-  std::free(memory);
-}
 
 namespace bch {
 namespace {
@@ -208,13 +176,13 @@ TEST(OutlineBuilder, AllocatesNothingTheSecondTime) {
   for (const bool second : {false, true})
     for (const PoseTime& time : sample_poses(man, 10)) {
       const auto positions = skinner.pose(time);
-      const std::size_t before = allocations;
+      const std::size_t before = test::allocation_count();
       builder.build(positions, outline);
       if (second) {
-        EXPECT_EQ(allocations, before);
+        EXPECT_EQ(test::allocation_count(), before);
       }
     }
-  EXPECT_GT(allocations, 0u);
+  EXPECT_GT(test::allocation_count(), 0u);
 }
 
 TEST(OutlineBuilder, EqualsTheArrangementOfAllEdges) {
