@@ -7,13 +7,13 @@
 
 #include <limits>
 
+#include "tests/scenes.hpp"
+
 namespace bch {
 namespace {
 
 TEST(Enclosure, HoldsTheOutlineAndNoMore) {
-  Outline square;
-  square.points = {{1, 1}, {3, 1}, {3, 3}, {1, 3}};
-  square.contour_begin.push_back(4);
+  const Outline square = test::polygon({{1, 1}, {3, 1}, {3, 3}, {1, 3}});
   const Enclosure around = enclosure(square, 4.25);
   EXPECT_EQ(around.x, 2);
   EXPECT_EQ(around.y, 2);

@@ -17,13 +17,7 @@
 namespace bch {
 namespace {
 
-Outline polygon(std::vector<Vec2> points) {
-  Outline outline;
-  outline.contour_begin.push_back(static_cast<std::uint32_t>(points.size()));
-  outline.points = std::move(points);
-  outline.grid_step = 0x1p-20f;
-  return outline;
-}
+using test::polygon;
 
 TEST(ContourHierarchy, KeepsItsPromisesOnManyShapes) {
   for (const Shape& shape : test::synthetic_shapes(11, 80))

@@ -20,6 +20,8 @@
 namespace bch {
 namespace {
 
+using test::polygon;
+
 TEST(Supports, AreExtentsOfTheDiscsEnlarged) {
   const std::vector<Disc> discs = {{1, 0, 0.5f}, {-0.25f, 0.5f, 0.125f}};
   const Supports heights = supports(discs, 1.5);
@@ -41,11 +43,8 @@ using Contour = std::span<const Vec2>;
 
 Contour largest_contour(const Outline& outline) {
   const auto area_of = [&](std::size_t c) {
-    Outline alone;
     const Contour points = outline.contour(c);
-    alone.points.assign(points.begin(), points.end());
-    alone.contour_begin.push_back(static_cast<std::uint32_t>(points.size()));
-    return area(alone);
+    return area(polygon({points.begin(), points.end()}));
   };
   std::size_t largest = 0;
   for (std::size_t c = 1; c < outline.contours(); ++c)
@@ -101,14 +100,6 @@ Outline scaled(Outline outline, double factor, double x = 0, double y = 0) {
   return outline;
 }
 
-Outline closed(std::vector<Vec2> points) {
-  Outline outline;
-  outline.contour_begin.push_back(static_cast<std::uint32_t>(points.size()));
-  outline.points = std::move(points);
-  outline.grid_step = 0x1p-22f;
-  return outline;
-}
-
 TEST(Interior, DiscsAreInsideTheLargestContour) {
   InteriorBuilder builder;
   int discs = 0;
@@ -150,23 +141,23 @@ TEST(Interior, DiscsAreInsideContoursOfAnySize) {
 
 /// A whisker's outer side looks like room for a large disc.
 TEST(Interior, WhiskersAndPinchesCostNoDiscs) {
-  const Outline whisker = closed({{0, 0}, {1, 0}, {1, 1}, {5, 6}, {1, 1}, {0, 1}, {-4, 0.5f}, {0, 1}});
+  const Outline whisker = polygon({{0, 0}, {1, 0}, {1, 1}, {5, 6}, {1, 1}, {0, 1}, {-4, 0.5f}, {0, 1}});
   EXPECT_EQ(expect_inside(whisker), 8);
   EXPECT_GT(interior(whisker, 8).radius[0], 0.4f);
-  const Outline pinch = closed({{0, 0}, {1, 0}, {1, 1}, {2, 1}, {2, 3}, {1, 3}, {1, 1}, {0, 1}});
+  const Outline pinch = polygon({{0, 0}, {1, 0}, {1, 1}, {2, 1}, {2, 3}, {1, 3}, {1, 1}, {0, 1}});
   EXPECT_EQ(expect_inside(pinch), 8);
   const Outline repeated =
-      closed({{0, 0}, {0, 0}, {0.25f, 0}, {0.5f, 0}, {1, 0}, {1, 0}, {1, 1}, {0.5f, 1}, {0, 1}, {0, 1}});
+      polygon({{0, 0}, {0, 0}, {0.25f, 0}, {0.5f, 0}, {1, 0}, {1, 0}, {1, 1}, {0.5f, 1}, {0, 1}, {0, 1}});
   EXPECT_EQ(expect_inside(repeated), 8);
 }
 
 TEST(Interior, WhatHasNoRoomHasNone) {
-  EXPECT_EQ(expect_inside(closed({{0, 0}, {1, 0}})), 0);
-  EXPECT_EQ(expect_inside(closed({{0, 0}, {1, 1}, {3, 3}, {2, 2}})), 0);
-  EXPECT_EQ(expect_inside(closed({{1, 1}})), 0);
-  EXPECT_EQ(expect_inside(closed({{1, 1}, {1, 1}, {1, 1}})), 0);
-  EXPECT_EQ(expect_inside(closed({{0, 0}, {1, 0}, {1, 0x1p-20f}, {0, 0x1p-20f}})), 0);  // below the rounding
-  EXPECT_GT(expect_inside(closed({{0, 0}, {1, 0}, {1, 0x1p-5f}, {0, 0x1p-5f}})), 0);
+  EXPECT_EQ(expect_inside(polygon({{0, 0}, {1, 0}})), 0);
+  EXPECT_EQ(expect_inside(polygon({{0, 0}, {1, 1}, {3, 3}, {2, 2}})), 0);
+  EXPECT_EQ(expect_inside(polygon({{1, 1}})), 0);
+  EXPECT_EQ(expect_inside(polygon({{1, 1}, {1, 1}, {1, 1}})), 0);
+  EXPECT_EQ(expect_inside(polygon({{0, 0}, {1, 0}, {1, 0x1p-20f}, {0, 0x1p-20f}})), 0);  // below the rounding
+  EXPECT_GT(expect_inside(polygon({{0, 0}, {1, 0}, {1, 0x1p-5f}, {0, 0x1p-5f}})), 0);
 }
 
 TEST(Interior, WhatWasBuiltBeforeChangesNothingAndMemoryIsReused) {

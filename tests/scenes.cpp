@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 namespace bch::test {
 namespace {
@@ -55,6 +56,14 @@ double Random::uniform(double low, double high) {
 
 std::uint32_t Random::below(std::uint32_t bound) {
   return static_cast<std::uint32_t>((next() >> 32) * bound >> 32);
+}
+
+Outline polygon(std::vector<Vec2> points) {
+  Outline outline;
+  outline.contour_begin.push_back(static_cast<std::uint32_t>(points.size()));
+  outline.points = std::move(points);
+  outline.grid_step = 0x1p-20f;
+  return outline;
 }
 
 Outline star(Random& random, std::uint32_t corners, double inner, double outer, double x, double y) {

@@ -24,6 +24,9 @@ class Random {
   std::uint64_t state_;
 };
 
+/// One contour.
+Outline polygon(std::vector<Vec2> points);
+
 /// A star-shaped polygon on the outline grid, counter-clockwise around (x, y).
 Outline star(Random& random, std::uint32_t corners, double inner, double outer, double x = 0, double y = 0);
 
