@@ -11,6 +11,7 @@
 #include "kernel/implementation.hpp"
 #include "program_run.hpp"
 #include "tests/character_shapes.hpp"
+#include "tests/temporary_folder.hpp"
 
 namespace bch::test {
 namespace {
@@ -120,7 +121,7 @@ std::vector<BadFile> bad_files() {
 }
 
 TEST(Cli, BadCharacterFilesGiveThreeAndOneLine) {
-  const Folder folder;
+  const TemporaryFolder folder;
   for (const BadFile& bad : bad_files()) {
     SCOPED_TRACE(bad.name);
     expect_failure(bch({"inspect", folder.write(bad.name, bad.content)}), 3, {bad.name});
@@ -146,7 +147,7 @@ TEST(Cli, ChoicesThatTheFileDoesNotHaveGiveThree) {
 }
 
 TEST(Cli, InspectTellsEverythingOfAShape) {
-  const Folder folder;
+  const TemporaryFolder folder;
   const std::string json_file = folder.file("shape.json"), svg_file = folder.file("shape.svg");
   const Ending run =
       bch({"inspect", folder.write("box.obj", box), "--shape", "0", "--json", json_file, "--svg", svg_file},
@@ -172,7 +173,7 @@ TEST(Cli, InspectTellsEverythingOfAShape) {
 }
 
 TEST(Cli, InspectListsTheSampledShapes) {
-  const Folder folder;
+  const TemporaryFolder folder;
   const std::string json_file = folder.file("table.json");
   const Ending run = bch({"inspect", "default:female", "--poses", "4", "--json", json_file});
   ASSERT_EQ(run.code, 0) << run.err;
@@ -183,7 +184,7 @@ TEST(Cli, InspectListsTheSampledShapes) {
 }
 
 TEST(Cli, QueryAnswersInTheOrderOfThePairs) {
-  const Folder folder;
+  const TemporaryFolder folder;
   const std::string shapes = folder.write("box.obj", box), agents = folder.write("agents.csv", four_agents);
   const std::string pairs =
       folder.write("pairs.csv", "second,first\r\na,b\r\n\r\nc,a\r\n \"d,e\" ,a\r\na,a\r\n");
@@ -194,7 +195,7 @@ TEST(Cli, QueryAnswersInTheOrderOfThePairs) {
 }
 
 TEST(Cli, QueryTakesALevelForEachAgent) {
-  const Folder folder;
+  const TemporaryFolder folder;
   const std::string shapes = folder.write("box.obj", box);
   const std::string pairs = folder.write("pairs.csv", "first,second\na,b\na,c\n");
   const std::string agents =
@@ -218,7 +219,7 @@ std::string lattice(int side) {
 }
 
 TEST(Cli, AllPairsEqualsExplicitPairs) {
-  const Folder folder;
+  const TemporaryFolder folder;
   constexpr int side = 9;
   const std::string shapes = folder.write("box.obj", box), agents = folder.write("agents.csv", lattice(side));
   std::string every = "first,second\n";
@@ -238,7 +239,7 @@ TEST(Cli, AllPairsEqualsExplicitPairs) {
 }
 
 TEST(Cli, BadAgentsNameFileLineAndValue) {
-  const Folder folder;
+  const TemporaryFolder folder;
   const std::string shapes = folder.write("box.obj", box);
   const std::string pairs = folder.write("pairs.csv", "first,second\n");
   const std::string header = "id,shape,x,y,heading\na,0,0,0,0\n";
@@ -273,7 +274,7 @@ TEST(Cli, BadAgentsNameFileLineAndValue) {
 }
 
 TEST(Cli, BadPairsNameFileLineAndValue) {
-  const Folder folder;
+  const TemporaryFolder folder;
   const std::string shapes = folder.write("box.obj", box), agents = folder.write("agents.csv", four_agents);
   const std::pair<std::string, std::string> cases[] = {
       {"first\na\n", "pairs.csv:1: has no column 'second'"},
@@ -293,7 +294,7 @@ struct CrowdAnswer {
   friend bool operator==(const CrowdAnswer&, const CrowdAnswer&) = default;
 };
 
-CrowdAnswer small_crowd(const Folder& folder, const Arguments& more) {
+CrowdAnswer small_crowd(const TemporaryFolder& folder, const Arguments& more) {
   const std::string json_file = folder.file("crowd.json"), csv_file = folder.file("crowd.csv");
   const Ending run =
       bch({"crowd", "--agents", "200", "--poses", "5", "--json", json_file, "--csv", csv_file}, more);
@@ -306,7 +307,7 @@ CrowdAnswer small_crowd(const Folder& folder, const Arguments& more) {
 }
 
 TEST(Cli, CrowdGivesTheSameAnswersEverywhere) {
-  const Folder folder;
+  const TemporaryFolder folder;
   const CrowdAnswer first = small_crowd(folder, {"--threads", "1"});
   ASSERT_EQ(first.hits.size(), 4u);
   EXPECT_GT(first.hits[0], first.hits[3]);
@@ -321,7 +322,7 @@ TEST(Cli, CrowdGivesTheSameAnswersEverywhere) {
 }
 
 TEST(Cli, CrowdDrawsAPicture) {
-  const Folder folder;
+  const TemporaryFolder folder;
   const std::string svg_file = folder.file("crowd.svg");
   const Ending run = bch({"crowd", "--agents", "200", "--poses", "5", "--svg", svg_file});
   ASSERT_EQ(run.code, 0) << run.err;
@@ -352,7 +353,7 @@ std::string mixed_agents(int side, int shapes, int levels) {
 }
 
 TEST(Cli, BakedShapesAnswerLikeTheirCharacter) {
-  const Folder folder;
+  const TemporaryFolder folder;
   const std::string baked = folder.file("female.bch"),
                     agents = folder.write("agents.csv", mixed_agents(9, 5, 3));
   const Arguments how{"--poses", "5", "--depths", "0,4,all", "--semantics", "solid"};
@@ -370,7 +371,7 @@ TEST(Cli, BakedShapesAnswerLikeTheirCharacter) {
 }
 
 TEST(Cli, BakedCrowdIsTheCrowdOfItsCharacters) {
-  const Folder folder;
+  const TemporaryFolder folder;
   const std::string baked = folder.file("two.bch"), json_file = folder.file("crowd.json");
   ASSERT_EQ(bch({"bake", "default:male", "default:female", "--poses", "5", "-o", baked}).code, 0);
   const auto report = [&](const Arguments& source) {
@@ -385,7 +386,7 @@ TEST(Cli, BakedCrowdIsTheCrowdOfItsCharacters) {
 }
 
 TEST(Cli, InspectDescribesABakedFile) {
-  const Folder folder;
+  const TemporaryFolder folder;
   const std::string baked = folder.file("male.bch"), json_file = folder.file("male.json");
   ASSERT_EQ(
       bch({"bake", "default:male", "--rate", "0.1", "--threshold", "0.02", "--depths", "3", "-o", baked})
@@ -407,7 +408,7 @@ TEST(Cli, InspectDescribesABakedFile) {
 }
 
 TEST(Cli, BakedBytesDoNotDependOnThreads) {
-  const Folder folder;
+  const TemporaryFolder folder;
   const auto bake = [&](const char* threads) {
     const std::string file = folder.file("shapes.bch");
     EXPECT_EQ(bch({"bake", "default:male", "--poses", "40", "--threads", threads, "-o", file}).code, 0);
@@ -419,7 +420,7 @@ TEST(Cli, BakedBytesDoNotDependOnThreads) {
 }
 
 TEST(Cli, BadBakedFilesGiveThreeAndOneLine) {
-  const Folder folder;
+  const TemporaryFolder folder;
   const std::string baked = folder.file("male.bch");
   ASSERT_EQ(bch({"bake", "default:male", "--poses", "1", "-o", baked}).code, 0);
   const std::string text = read_text(baked);
@@ -443,7 +444,7 @@ TEST(Cli, BadBakedFilesGiveThreeAndOneLine) {
 }
 
 TEST(Cli, BakingLeavesAllOrNothing) {
-  const Folder folder;
+  const TemporaryFolder folder;
   const std::string file = folder.file("a.bch");
   expect_failure(bch({"bake", "default:male", "--poses", "1", "-o", "/dev/full"}), 3, {"/dev/full"});
   expect_failure(bch({"bake", "default:male", "--poses", "1", "-o", "/nowhere/a.bch"}), 3,
@@ -457,7 +458,7 @@ TEST(Cli, BakingLeavesAllOrNothing) {
 }
 
 TEST(Cli, InterruptLeavesNoFile) {
-  const Folder folder;
+  const TemporaryFolder folder;
   const Ending run =
       bch({"crowd", "--poses", "20000", "--json", folder.file("a.json"), "--svg", folder.file("a.svg")}, {},
           {"", std::chrono::milliseconds(400)});
@@ -468,7 +469,7 @@ TEST(Cli, InterruptLeavesNoFile) {
 }
 
 TEST(Cli, FilesAreReplacedAndDevicesWrittenTo) {
-  const Folder folder;
+  const TemporaryFolder folder;
   const std::string json_file = folder.write("a.json", "old");
   const Arguments crowd{"crowd", "--agents", "20", "--poses", "1", "--json", json_file, "--csv", "/dev/null"};
   EXPECT_EQ(bch(crowd).code, 0);

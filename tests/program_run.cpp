@@ -12,8 +12,9 @@
 #include <cstdlib>
 #include <fstream>
 #include <sstream>
-#include <stdexcept>
 #include <thread>
+
+#include "tests/temporary_folder.hpp"
 
 namespace bch::test {
 namespace {
@@ -42,22 +43,6 @@ void redirect(int descriptor, const fs::path& file) {
 
 }  // namespace
 
-Folder::Folder() {
-  std::string name = (fs::temp_directory_path() / "bch_cli_XXXXXX").string();
-  if (!mkdtemp(name.data())) throw std::runtime_error("no temporary folder");
-  path_ = name;
-}
-
-Folder::~Folder() {
-  std::error_code ignored;
-  fs::remove_all(path_, ignored);
-}
-
-std::string Folder::write(const std::string& name, const std::string& text) const {
-  std::ofstream(path_ / name, std::ios::binary) << text;
-  return (path_ / name).string();
-}
-
 std::string read_text(const fs::path& file) {
   std::ostringstream text;
   text << std::ifstream(file, std::ios::binary).rdbuf();
@@ -66,9 +51,9 @@ std::string read_text(const fs::path& file) {
 
 Ending run_program(const std::string& program, const std::vector<std::string>& arguments,
                    const Streams& streams) {
-  const Folder folder;
-  const fs::path out = streams.out.empty() ? folder.path() / "out" : fs::path(streams.out);
-  const fs::path err = folder.path() / "err";
+  const TemporaryFolder folder;
+  const fs::path out = streams.out.empty() ? folder.file("out") : fs::path(streams.out);
+  const fs::path err = folder.file("err");
   const pid_t child = fork();
   if (child == 0) become(program, arguments, out, err);
   if (streams.interrupt_after.count() > 0) {

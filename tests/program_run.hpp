@@ -10,23 +10,6 @@
 
 namespace bch::test {
 
-/// A temporary folder that goes with its content.
-class Folder {
- public:
-  Folder();
-  ~Folder();
-  Folder(const Folder&) = delete;
-  Folder& operator=(const Folder&) = delete;
-
-  const std::filesystem::path& path() const { return path_; }
-  std::string file(const std::string& name) const { return (path_ / name).string(); }
-  /// Returns: the new file's path.
-  std::string write(const std::string& name, const std::string& text) const;
-
- private:
-  std::filesystem::path path_;
-};
-
 std::string read_text(const std::filesystem::path& file);
 
 /// What a program said and how it ended.

@@ -2,7 +2,6 @@
 // Copyright (c) 2026 the bch authors
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <cmath>
 #include <cstdlib>
@@ -14,6 +13,7 @@
 #include "layout/skinning.hpp"
 #include "scene_export.hpp"
 #include "tests/character_shapes.hpp"
+#include "tests/temporary_folder.hpp"
 
 namespace bch {
 namespace {
@@ -110,12 +110,10 @@ float largest_difference(const Character& a, const Character& b, PoseTime at) {
 /// Writes a character, reads it back, and compares every corner of every triangle at several times.
 void expect_round_trip(const Character& original, const std::string& extension) {
   validate(original);
-  const std::filesystem::path file =
-      std::filesystem::temp_directory_path() / ("bch_round_trip_" + std::to_string(getpid()) + extension);
+  const TemporaryFolder folder;
+  const std::filesystem::path file = folder.file("character" + extension);
   write_with_assimp(original, file);
   const Character back = import_character(file).character;
-  std::filesystem::remove(file);
-  std::filesystem::remove(std::filesystem::path(file).replace_extension(".bin"));
 
   EXPECT_EQ(back.vertices.size(), original.vertices.size());
   ASSERT_EQ(back.triangles.size(), original.triangles.size());

@@ -3,7 +3,7 @@
 
 #pragma once
 
-#include <unistd.h>
+#include <stdlib.h>
 
 #include <filesystem>
 #include <fstream>
@@ -12,14 +12,13 @@
 
 namespace bch {
 
-/// A folder of its own for each object and process, removed with all it holds.
+/// A folder of its own for each object, removed with all it holds.
 class TemporaryFolder {
  public:
   TemporaryFolder() {
-    static int number = 0;
-    path_ = std::filesystem::temp_directory_path() /
-            ("bch_test_" + std::to_string(getpid()) + "_" + std::to_string(number++));
-    std::filesystem::create_directory(path_);
+    std::string name = (std::filesystem::temp_directory_path() / "bch_test_XXXXXX").string();
+    if (!mkdtemp(name.data())) throw std::runtime_error("cannot make a folder like " + name);
+    path_ = name;
   }
   TemporaryFolder(const TemporaryFolder&) = delete;
   TemporaryFolder& operator=(const TemporaryFolder&) = delete;
@@ -29,6 +28,7 @@ class TemporaryFolder {
   }
 
   const std::filesystem::path& path() const { return path_; }
+  std::filesystem::path file(const std::string& name) const { return path_ / name; }
 
   /// Returns: the path of the file, now holding these bytes.
   std::filesystem::path write(const std::string& name, const std::string& bytes) const {
