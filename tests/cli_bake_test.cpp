@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "tests/bch_run.hpp"
+#include "tests/temporary_folder.hpp"
+
+// `bch bake`, and the other commands on the files that it writes.
+
+namespace bch::test {
+namespace {
+
+/// A row for each agent of a lattice, in one of so many shapes and levels.
+std::string mixed_agents(int side, int shapes, int levels) {
+  std::ostringstream csv;
+  csv << "id,shape,x,y,heading,level\n";
+  for (int i = 0; i < side * side; ++i)
+    csv << i << ',' << i % shapes << ',' << 0.43 * (i % side) << ',' << 0.41 * (i / side) << ',' << 0.7 * i
+        << ',' << i % levels << '\n';
+  return csv.str();
+}
+
+TEST(Cli, BakedShapesAnswerLikeTheirCharacter) {
+  const TemporaryFolder folder;
+  const std::string baked = folder.file("female.bch"),
+                    agents = folder.write("agents.csv", mixed_agents(9, 5, 3));
+  const Arguments how{"--poses", "5", "--depths", "0,4,all", "--semantics", "solid"};
+  const Ending bake = bch({"bake", "default:female", "-o", baked}, how);
+  ASSERT_EQ(bake.code, 0) << bake.err;
+  EXPECT_EQ(bake.err, "");
+  EXPECT_NE(bake.out.find("0, 4, all"), std::string::npos) << bake.out;
+  const Ending expected = bch({"query", "default:female", agents, "--all-pairs"}, how);
+  for (const Arguments& semantics : {Arguments{}, Arguments{"--semantics", "solid"}}) {
+    const Ending run = bch({"query", baked, agents, "--all-pairs"}, semantics);
+    EXPECT_EQ(run.code, 0) << run.err;
+    EXPECT_EQ(run.out, expected.out);
+  }
+  EXPECT_GT(lines(expected.out), 20u);
+}
+
+TEST(Cli, BakedCrowdIsTheCrowdOfItsCharacters) {
+  const TemporaryFolder folder;
+  const std::string baked = folder.file("two.bch"), json_file = folder.file("crowd.json");
+  ASSERT_EQ(bch({"bake", "default:male", "default:female", "--poses", "5", "-o", baked}).code, 0);
+  const auto report = [&](const Arguments& source) {
+    const Ending run = bch({"crowd", "--agents", "200", "--json", json_file}, source);
+    EXPECT_EQ(run.code, 0) << run.err;
+    auto levels = nlohmann::json::parse(read_text(json_file))["levels"];
+    for (auto& level : levels) level.erase("nanoseconds_per_pair"), level.erase("runs");
+    return levels;
+  };
+  EXPECT_EQ(report({"--character", baked}), report({"--poses", "5"}));
+  expect_failure(bch({"crowd", "--character", baked, "--semantics", "solid"}), 3, {"two.bch: ", "solid"});
+}
+
+TEST(Cli, InspectDescribesABakedFile) {
+  const TemporaryFolder folder;
+  const std::string baked = folder.file("male.bch"), json_file = folder.file("male.json");
+  ASSERT_EQ(
+      bch({"bake", "default:male", "--rate", "0.1", "--threshold", "0.02", "--depths", "3", "-o", baked})
+          .code,
+      0);
+  const Ending run = bch({"inspect", baked, "--json", json_file});
+  ASSERT_EQ(run.code, 0) << run.err;
+  EXPECT_NE(run.out.find("20 mm"), std::string::npos) << run.out;
+  EXPECT_NE(run.out.find("walk slow"), std::string::npos) << run.out;
+  const auto json = nlohmann::json::parse(read_text(json_file));
+  EXPECT_EQ(json["depths"], nlohmann::json({"3"}));
+  EXPECT_EQ(json["threshold_m"], 0.02);
+  EXPECT_EQ(json["solid"], false);
+  ASSERT_EQ(json["shapes"].size(), json["shape_count"]);
+  EXPECT_EQ(json["shapes"][0]["character"], "default:male");
+  EXPECT_EQ(json["shapes"][0]["clip"], "walk");
+  EXPECT_EQ(json["shapes"][1]["seconds"], 10);
+  EXPECT_EQ(json["shapes"][0]["discs"], 8);
+}
+
+TEST(Cli, BakedBytesDoNotDependOnThreads) {
+  const TemporaryFolder folder;
+  const auto bake = [&](const char* threads) {
+    const std::string file = folder.file("shapes.bch");
+    EXPECT_EQ(bch({"bake", "default:male", "--poses", "40", "--threads", threads, "-o", file}).code, 0);
+    return read_text(file);
+  };
+  const std::string one = bake("1");
+  EXPECT_FALSE(one.empty());
+  for (const char* threads : {"2", "3", "8"}) EXPECT_EQ(bake(threads), one) << threads;
+}
+
+TEST(Cli, BadBakedFilesGiveThreeAndOneLine) {
+  const TemporaryFolder folder;
+  const std::string baked = folder.file("male.bch");
+  ASSERT_EQ(bch({"bake", "default:male", "--poses", "1", "-o", baked}).code, 0);
+  const std::string text = read_text(baked);
+  std::string flipped = text;
+  flipped[text.size() / 2] ^= 4;
+  std::string newer = text;
+  newer[12] = 2;
+  const std::pair<std::string, const char*> cases[] = {{"", "too few"},
+                                                       {text.substr(0, 3000), "3000"},
+                                                       {flipped, "wrong checksum"},
+                                                       {newer, "version 2"},
+                                                       {std::string(5000, 'x'), "not a baked file"}};
+  const std::string agents = folder.write("agents.csv", four_agents);
+  for (const auto& [content, word] : cases) {
+    const std::string bad = folder.write("bad.bch", content);
+    expect_failure(bch({"inspect", bad}), 3, {"bad.bch: ", word});
+    expect_failure(bch({"crowd", "--character", bad}), 3, {"bad.bch: ", word});
+    expect_failure(bch({"query", bad, agents, "--all-pairs"}), 3, {"bad.bch: ", word});
+  }
+  expect_failure(bch({"inspect", folder.file("missing.bch")}), 3, {"missing.bch: "});
+}
+
+TEST(Cli, BakingLeavesAllOrNothing) {
+  const TemporaryFolder folder;
+  const std::string file = folder.file("a.bch");
+  expect_failure(bch({"bake", "default:male", "--poses", "1", "-o", "/dev/full"}), 3, {"/dev/full"});
+  expect_failure(bch({"bake", "default:male", "--poses", "1", "-o", "/nowhere/a.bch"}), 3,
+                 {"/nowhere/a.bch"});
+  const Ending run = bch({"bake", "default:male", "--poses", "200000", "-o", file}, {},
+                         {"", std::chrono::milliseconds(400)});
+  EXPECT_EQ(run.code, 130);
+  EXPECT_EQ(run.out, "");
+  EXPECT_EQ(run.err, "bch: interrupted\n");
+  EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
+}
+
+}  // namespace
+}  // namespace bch::test

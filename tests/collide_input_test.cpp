@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "kernel/collide.hpp"
+#include "tests/scenes.hpp"
+
+// What collide() refuses, and that it does nothing then.
+
+namespace bch {
+namespace {
+
+class BadInput : public testing::Test {
+ protected:
+  std::vector<Shape> shapes = test::synthetic_shapes(1, 2);
+  ShapeSet set{shapes};
+  test::Crowd crowd;
+  std::vector<Pair> pairs = {{0, 1}};
+
+  void SetUp() override {
+    crowd.add(0, 0, 0, 0, 0);
+    crowd.add(1, 1, 0, 0, 0);
+  }
+
+  void expect_rejected(const std::string& message, const QueryOptions& options = {}) {
+    std::vector<std::uint8_t> hits(pairs.size(), 42);
+    try {
+      collide(set, crowd.agents(), pairs, hits, options);
+      FAIL() << "accepted; expected: " << message;
+    } catch (const std::invalid_argument& error) {
+      EXPECT_NE(std::string(error.what()).find(message), std::string::npos) << error.what();
+    }
+    for (const std::uint8_t hit : hits) EXPECT_EQ(hit, 42);
+  }
+};
+
+TEST_F(BadInput, NamesTheAgentOrPairAndTheValue) {
+  pairs.push_back({0, 2});
+  expect_rejected("pair 1: agent 2 of 2");
+  pairs = {{0, 0}, {1, 0}};
+  crowd.shape[1] = 2;
+  expect_rejected("pair 1: agent 1: shape 2 of 2");
+  crowd.shape[1] = 1;
+  crowd.level[1] = 1;
+  expect_rejected("pair 1: agent 1: level 1 of 1");
+  crowd.level[1] = 0;
+  crowd.x[1] = std::numeric_limits<double>::quiet_NaN();
+  expect_rejected("pair 1: agent 1: position (nan, 0)");
+  crowd.x[1] = -2e9;
+  expect_rejected("position (-2e+09, 0)");
+  crowd.x[1] = 0;
+  crowd.heading[1] = std::numeric_limits<double>::infinity();
+  expect_rejected("heading inf");
+}
+
+TEST_F(BadInput, AnAgentThatNoPairNamesMayBeAnything) {
+  crowd.add(99, std::numeric_limits<double>::quiet_NaN(), 0, 0, 7);
+  for (const std::size_t count : {1u, 2u, 50u}) {
+    pairs.assign(count, {0, 1});
+    std::vector<std::uint8_t> hits(count);
+    EXPECT_NO_THROW(collide(set, crowd.agents(), pairs, hits)) << count;
+    pairs.push_back({2, 1});
+    expect_rejected("pair " + std::to_string(count) + ": agent 2: shape 99 of 2");
+  }
+}
+
+TEST_F(BadInput, SizesThatDifferAndSolidWithoutAPlan) {
+  expect_rejected("not planned for solid", {Semantics::solid});
+  crowd.y.pop_back();
+  expect_rejected("2 shapes but 1 values of y");
+  crowd.y.push_back(0);
+  std::vector<std::uint8_t> hits(2);
+  EXPECT_THROW(collide(set, crowd.agents(), pairs, hits), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace bch
