@@ -23,9 +23,9 @@ namespace {
 
 using test::Soup;
 
-Outline build(const Soup& soup, std::span<const Eigen::Vector3f> bind_pose = {}) {
+Outline build(const Soup& soup) {
   Outline outline;
-  OutlineBuilder(soup.triangles, soup.positions.size(), bind_pose).build(soup.positions, outline);
+  OutlineBuilder(soup.triangles, soup.positions.size()).build(soup.positions, outline);
   return outline;
 }
 
