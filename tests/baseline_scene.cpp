@@ -40,11 +40,10 @@ std::vector<baselines::Body> posed_bodies(const std::vector<Character>& characte
   std::vector<baselines::Body> bodies;
   for (const Character& character : characters) {
     Skinner skinner(character);
+    PoseShaper shaper(character);
     for (const PoseTime& time : sample_poses(character, poses)) {
-      baselines::Body body{{}, character.triangles, pose_shape(skinner, time)};
       const auto positions = skinner.pose(time);
-      body.positions.assign(positions.begin(), positions.end());
-      bodies.push_back(std::move(body));
+      bodies.push_back({{positions.begin(), positions.end()}, character.triangles, shaper.shape(time)});
     }
   }
   return bodies;
