@@ -66,7 +66,7 @@ ShapeOrigins origins_of(std::span<const LoadedCharacter> characters, std::span<c
   std::vector<std::uint32_t> first_name;  // of a character: its own, then those of its clips
   for (const LoadedCharacter& character : characters) {
     first_name.push_back(static_cast<std::uint32_t>(origins.names.size()));
-    origins.names.push_back(character.source.substr(character.source.find_last_of('/') + 1));
+    origins.names.push_back(file_name(character));
     for (const Clip& clip : character.character.clips) origins.names.push_back(clip.name);
   }
   for (const auto& [character, at] : sources) {

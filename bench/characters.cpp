@@ -49,6 +49,10 @@ LoadedCharacter built_in(const std::string& source, const ImportOptions& options
 
 }  // namespace
 
+std::string file_name(const LoadedCharacter& character) {
+  return character.source.substr(character.source.find_last_of('/') + 1);
+}
+
 LoadedCharacter load_character(const std::string& source, const ImportOptions& options) {
   if (source.starts_with(built_in_prefix)) return built_in(source, options);
   ImportedCharacter imported = guarded_import(source, options);

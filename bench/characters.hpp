@@ -25,6 +25,9 @@ struct LoadedCharacter {
   ImportReport report;
 };
 
+/// Without its folders.
+std::string file_name(const LoadedCharacter& character);
+
 /// Errors:  throws UsageError on a built-in character with import options or an unknown "default:" name,
 ///          InputError and ImportError on a bad file.
 LoadedCharacter load_character(const std::string& source, const ImportOptions& options);

@@ -13,10 +13,6 @@
 namespace bch::cli {
 namespace {
 
-std::string file_name(const LoadedCharacter& character) {
-  return character.source.substr(character.source.find_last_of('/') + 1);
-}
-
 std::string time_text(double seconds) {
   return seconds < 1e-3 ? fmt::format("{:.0f} us", seconds * 1e6) : fmt::format("{:.1f} ms", seconds * 1e3);
 }
