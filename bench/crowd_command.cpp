@@ -39,10 +39,7 @@ std::uint32_t picture_level(const CrowdOptions& options, const std::vector<std::
 
 void write_files(const CrowdRun& run, std::uint32_t level) {
   const CrowdOptions& options = run.options;
-  if (!options.json.empty()) {
-    using Json = nlohmann::ordered_json;
-    write_file(options.json, json_report(run).dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
-  }
+  write_json(options.json, json_report(run));
   if (!options.csv.empty()) write_file(options.csv, csv_report(run));
   if (!options.svg.empty())
     write_file(options.svg, draw_crowd({run.built.shapes, run.crowd, run.answers, level, options.density}));

@@ -61,11 +61,6 @@ ShapeSource at_index(const LoadedCharacter& from, std::span<const ShapeSource> s
   return sources[index];
 }
 
-void write_json(const std::string& file, const nlohmann::ordered_json& json) {
-  if (file.empty()) return;
-  write_file(file, json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
-}
-
 void inspect_shape(const InspectOptions& options, const LoadedCharacter& from, const ShapeSource& source) {
   const BuiltShapes built = build_shapes({&from, 1}, {&source, 1}, options.shapes.threshold);
   const ShapeFacts facts = examine(built.shapes.front(), source, options.shape);

@@ -9,6 +9,7 @@
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
+#include <nlohmann/json.hpp>
 
 #include "bench/exit_codes.hpp"
 #include "bench/interrupt.hpp"
@@ -92,6 +93,11 @@ void write_file(const std::string& file, std::span<const std::string_view> parts
   if (error == 0) return;
   unlink(temporary.c_str());
   reject(file, error);
+}
+
+void write_json(const std::string& file, const nlohmann::ordered_json& json) {
+  if (file.empty()) return;
+  write_file(file, json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
 }
 
 void require_writable(const std::string& file) {

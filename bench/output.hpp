@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <nlohmann/json_fwd.hpp>
 #include <span>
 #include <string>
 #include <string_view>
@@ -18,6 +19,8 @@ void write_standard_output(std::string_view text);
 void write_file(const std::string& file, std::string_view text);
 /// The same for parts that follow each other.
 void write_file(const std::string& file, std::span<const std::string_view> parts);
+/// An empty name is no file: nothing is written. Bytes of names that are not UTF-8 are replaced.
+void write_json(const std::string& file, const nlohmann::ordered_json& json);
 
 /// Says early what write_file() would say after the work was done: no such folder, or one that cannot be
 /// written to. An empty name is no file and fine.
