@@ -9,6 +9,7 @@
 #include <tuple>
 
 #include "bench/baked_report.hpp"
+#include "bench/median.hpp"
 #include "bench/progress.hpp"
 #include "kernel/broad_phase.hpp"
 
@@ -21,12 +22,6 @@ constexpr double enough_seconds = 0.5;  ///< for one level, once there were leas
 
 bool before(Pair a, Pair b) {
   return std::tie(a.first, a.second) < std::tie(b.first, b.second);
-}
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 /// Runs the batch until the time is known, the first time unmeasured.

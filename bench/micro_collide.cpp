@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "bench/answer_checks.hpp"
+#include "bench/median.hpp"
 #include "bench/micro.hpp"
 #include "bench/stopwatch.hpp"
 
@@ -32,7 +33,7 @@ void time_calls(benchmark::State& state, const Workload& workload, int threads, 
     nanoseconds.push_back(watch.nanoseconds());
   }
   const auto pairs = static_cast<double>(workload.pairs.size());
-  if (!nanoseconds.empty()) state.counters["ns_per_pair"] = median(nanoseconds) / pairs;
+  if (!nanoseconds.empty()) state.counters["ns_per_pair"] = cli::median(nanoseconds) / pairs;
   state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(workload.pairs.size()));
 }
 

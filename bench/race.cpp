@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "bench/answer_checks.hpp"
+#include "bench/median.hpp"
 #include "bench/ratios.hpp"
 #include "bench/stopwatch.hpp"
 
@@ -41,7 +42,7 @@ void race(std::vector<Contender>& contenders, std::uint32_t runs, int threads) {
   for (std::uint32_t run = 0; run < runs; ++run)
     for (std::size_t i = 0; i < contenders.size(); ++i)
       times[i].push_back(time_run(contenders[i].call, threads));
-  for (std::size_t i = 0; i < contenders.size(); ++i) contenders[i].nanoseconds = median(times[i]);
+  for (std::size_t i = 0; i < contenders.size(); ++i) contenders[i].nanoseconds = cli::median(times[i]);
 }
 
 std::string verdict(double ratio, double needed) {

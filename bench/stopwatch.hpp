@@ -5,10 +5,7 @@
 
 #include <time.h>
 
-#include <algorithm>
-#include <cstddef>
 #include <cstdint>
-#include <vector>
 
 namespace bch::bench {
 
@@ -31,12 +28,5 @@ class Stopwatch {
   clockid_t clock_;
   std::int64_t begin_ = now();
 };
-
-/// Precondition: not empty. Of an even number of values, the greater of the two in the middle.
-inline double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 }  // namespace bch::bench
