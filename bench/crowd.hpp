@@ -17,6 +17,7 @@ struct Crowd {
   std::vector<double> x, y, heading;
 
   std::size_t size() const { return shape.size(); }
+  Agents agents() const { return {shape, x, y, heading}; }
   /// All at one level.
   Agents at_level(const std::vector<std::uint8_t>& level) const { return {shape, x, y, heading, level}; }
 };

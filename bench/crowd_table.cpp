@@ -27,20 +27,18 @@ class Steps {
   }
 
   void find() {
-    for (const cli::Crowd& crowd : crowds_) broad_phase_.find(set_, agents(crowd));
+    for (const cli::Crowd& crowd : crowds_) broad_phase_.find(set_, crowd.agents());
   }
 
   void find_and_answer() {
     for (const cli::Crowd& crowd : crowds_) {
-      const std::span<const Pair> pairs = broad_phase_.find(set_, agents(crowd));
+      const std::span<const Pair> pairs = broad_phase_.find(set_, crowd.agents());
       hits_.resize(pairs.size());
-      collide(set_, agents(crowd), pairs, hits_);
+      collide(set_, crowd.agents(), pairs, hits_);
     }
   }
 
  private:
-  static Agents agents(const cli::Crowd& crowd) { return {crowd.shape, crowd.x, crowd.y, crowd.heading}; }
-
   const ShapeSet& set_;
   std::vector<cli::Crowd> crowds_;
   BroadPhase broad_phase_;

@@ -23,7 +23,7 @@ struct Workload {
   cli::Crowd crowd;
   std::vector<Pair> pairs;
 
-  Agents agents() const { return {crowd.shape, crowd.x, crowd.y, crowd.heading}; }
+  Agents agents() const { return crowd.agents(); }
 };
 
 struct WorkloadSizes {
