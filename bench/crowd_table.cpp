@@ -49,17 +49,16 @@ class Steps {
 
 void print_crowd_ratios(Scene& scene, std::uint32_t runs) {
   const ShapeSet& set = scene.set(Semantics::boundary);
-  tbb::task_arena arena(2);
   constexpr std::uint32_t small_crowds = 20;
   Steps small(set, few, small_crowds);
   const PeakMemory memory;
   Steps large(set, many, 1);
-  arena.execute([&] { large.find_and_answer(); });
+  tbb::task_arena(2).execute([&] { large.find_and_answer(); });
   const double mebibytes = static_cast<double>(memory.bytes()) / (1024 * 1024);
 
-  std::vector<Contender> steps = {{"small", [&] { arena.execute([&] { small.find_and_answer(); }); }},
-                                  {"large", [&] { arena.execute([&] { large.find_and_answer(); }); }},
-                                  {"large, pairs", [&] { arena.execute([&] { large.find(); }); }}};
+  std::vector<Contender> steps = {{"small", [&] { small.find_and_answer(); }},
+                                  {"large", [&] { large.find_and_answer(); }},
+                                  {"large, pairs", [&] { large.find(); }}};
   race(steps, runs, 2);
   const double of_few = steps[0].nanoseconds / (few * small_crowds);
   const double of_many = steps[1].nanoseconds / many, pairs = steps[2].nanoseconds / many;
