@@ -6,7 +6,6 @@
 #include <oneapi/tbb/info.h>
 #include <oneapi/tbb/task_arena.h>
 
-#include <algorithm>
 #include <vector>
 
 #include "bench/answer_checks.hpp"
