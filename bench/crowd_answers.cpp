@@ -47,8 +47,8 @@ double mean_discs(const ShapeSet& set, std::uint32_t level) {
   return static_cast<double>(discs) / static_cast<double>(set.shape_count());
 }
 
-}  // namespace
-
+/// Pairs that can collide at some level. The single cylinder's are not enough: the discs of a deeper cut
+/// stick out of it, so an agent's root disc depends on its level.
 std::vector<Pair> candidates_of_all_levels(const ShapeSet& shapes, const Crowd& crowd) {
   std::vector<Pair> all;
   for (std::uint32_t level = 0; level < shapes.level_count(); ++level) {
@@ -61,6 +61,8 @@ std::vector<Pair> candidates_of_all_levels(const ShapeSet& shapes, const Crowd& 
   }
   return all;
 }
+
+}  // namespace
 
 CrowdAnswers answer_crowd(const ShapeSet& set, const Crowd& crowd, const QueryOptions& options) {
   CrowdAnswers answers;

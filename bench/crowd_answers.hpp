@@ -30,10 +30,6 @@ struct CrowdAnswers {
   const LevelAnswers& finest() const { return levels.back(); }
 };
 
-/// Pairs that can collide at some level. The single cylinder's are not enough: the discs of a deeper cut
-/// stick out of it, so an agent's root disc depends on its level.
-std::vector<Pair> candidates_of_all_levels(const ShapeSet& shapes, const Crowd& crowd);
-
 /// Answers all candidates at every level, one batch call a level, and takes the time of it.
 /// Precondition: level 0 of the set is depth 0.
 CrowdAnswers answer_crowd(const ShapeSet& set, const Crowd& crowd, const QueryOptions& options);
