@@ -88,7 +88,7 @@ void run_crowd(const CLI::App& command, const CrowdOptions& options) {
   if (std::none_of(options.characters.begin(), options.characters.end(), is_baked))
     return run_crowd_of_characters(options);
   if (options.characters.size() > 1) throw UsageError("--character: a baked file stands alone");
-  require_absent(command, settled_by_baking, options.characters.front() + " has settled that");
+  require_unsettled(command, options.characters.front());
   require_absent(command, {"--svg", "--svg-depth"}, "a baked file has no hierarchies to draw");
   run_baked_crowd(options);
 }

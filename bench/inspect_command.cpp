@@ -86,8 +86,7 @@ void inspect_baked(const InspectOptions& options) {
 void run_inspect(const CLI::App& command, const InspectOptions& options) {
   require_consistent(options);
   if (is_baked(options.character)) {
-    require_absent(command, {"--clips", "--up", "--scale", "--poses", "--threshold"},
-                   options.character + " has settled that");
+    require_unsettled(command, options.character);
     require_absent(command, {"--shape", "--clip", "--svg"}, "a baked file has no hierarchies to show");
     return inspect_baked(options);
   }
@@ -118,9 +117,7 @@ std::function<void()> add_inspect_command(CLI::App& program) {
       ->type_name("SECONDS")
       ->check(number_between(0, 1e9));
   options->shapes.add_to(command);
-  command.add_option("--threads", options->threads, "Threads [all that the machine has]")
-      ->type_name("N")
-      ->check(number_between(1, 1024));
+  add_threads_option(command, options->threads);
   command.add_option("--json", options->json, "Write the same, and all points of a shape's outline")
       ->type_name("FILE");
   command.add_option("--svg", options->svg, "Draw the shape: a panel for each depth of its hierarchy")

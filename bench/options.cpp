@@ -13,6 +13,18 @@
 #include "bench/number.hpp"
 
 namespace bch::cli {
+namespace {
+
+/// Rejects every other word.
+CLI::Validator one_of(std::vector<std::string> words) {
+  const auto check = [words = std::move(words)](const std::string& text) -> std::string {
+    if (std::find(words.begin(), words.end(), text) != words.end()) return {};
+    return fmt::format("'{}' is not one of {}", text, fmt::join(words, ", "));
+  };
+  return CLI::Validator(check, "", "word");
+}
+
+}  // namespace
 
 CLI::Validator number_between(double low, double high) {
   const auto check = [low, high](const std::string& text) -> std::string {
@@ -23,18 +35,22 @@ CLI::Validator number_between(double low, double high) {
   return CLI::Validator(check, "", "number");
 }
 
-CLI::Validator one_of(std::vector<std::string> words) {
-  const auto check = [words = std::move(words)](const std::string& text) -> std::string {
-    if (std::find(words.begin(), words.end(), text) != words.end()) return {};
-    return fmt::format("'{}' is not one of {}", text, fmt::join(words, ", "));
-  };
-  return CLI::Validator(check, "", "word");
-}
-
 void require_absent(const CLI::App& command, std::initializer_list<const char*> options,
                     const std::string& reason) {
   for (const char* option : options)
     if (command.count(option) > 0) throw UsageError(fmt::format("{}: {}", option, reason));
+}
+
+void require_unsettled(const CLI::App& command, const std::string& baked_file) {
+  for (const char* option : {"--clips", "--up", "--scale", "--poses", "--threshold", "--depths"})
+    if (command.get_option_no_throw(option) != nullptr)
+      require_absent(command, {option}, baked_file + " has settled that");
+}
+
+void add_threads_option(CLI::App& command, std::uint32_t& threads) {
+  command.add_option("--threads", threads, "Threads [all that the machine has]")
+      ->type_name("N")
+      ->check(number_between(1, 1024));
 }
 
 std::uint32_t parse_depth(const std::string& option, const std::string& text) {
@@ -81,9 +97,7 @@ void AnswerOptions::add_levels_to(CLI::App& command) {
                   "boundary: outlines cross; solid: or one contains the other [boundary]")
       ->type_name("NAME")
       ->check(one_of({"boundary", "solid"}));
-  command.add_option("--threads", threads, "Threads [all that the machine has]")
-      ->type_name("N")
-      ->check(number_between(1, 1024));
+  add_threads_option(command, threads);
 }
 
 void AnswerOptions::add_to(CLI::App& command) {

@@ -26,10 +26,6 @@ struct ShapeOptions {
   ImportOptions import_options() const;
 };
 
-/// Options that say nothing to a command that was given a baked file.
-constexpr std::initializer_list<const char*> settled_by_baking = {"--clips", "--up",        "--scale",
-                                                                  "--poses", "--threshold", "--depths"};
-
 /// How pairs are answered.
 struct AnswerOptions {
   std::string depths = "0,3,6,all";
@@ -52,9 +48,11 @@ std::uint32_t parse_depth(const std::string& option, const std::string& text);
 /// Errors:  throws UsageError naming the option and the reason if one of them was given.
 void require_absent(const CLI::App& command, std::initializer_list<const char*> options,
                     const std::string& reason);
+/// The same for the options of shapes and levels, those of them that the command has, which say nothing to a
+/// baked file.
+void require_unsettled(const CLI::App& command, const std::string& baked_file);
 
-/// Rejects every other word.
-CLI::Validator one_of(std::vector<std::string> words);
+void add_threads_option(CLI::App& command, std::uint32_t& threads);
 
 /// Rejects what is not a finite number in [low, high], NaN included.
 CLI::Validator number_between(double low, double high);

@@ -111,7 +111,7 @@ void run_query(const CLI::App& command, const QueryCommandOptions& options) {
     throw UsageError(options.all_pairs ? "PAIRS.csv and --all-pairs: name one of them"
                                        : "PAIRS.csv or --all-pairs is missing");
   if (!is_baked(options.character)) return query_character(options);
-  require_absent(command, settled_by_baking, options.character + " has settled that");
+  require_unsettled(command, options.character);
   query_baked(options);
 }
 
