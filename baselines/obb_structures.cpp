@@ -52,17 +52,26 @@ struct OutlineSegments {
   }
 };
 
-template <class Facets>
-struct ObbModel {
-  ObbTree tree;
+/// The same, as the tree of rectangles holds them.
+struct FlatSegments {
+  static bool meet(const RectangleTree::Segment& a, const RectangleTree::Segment& b,
+                   const Placement& at) noexcept {
+    return segments_meet({exact(a.a), exact(a.b)}, {at.place(b.a), at.place(b.b)});
+  }
+};
+
+template <class Tree, class Facets>
+struct BoxModel {
+  Tree tree;
 
   std::size_t bytes() const { return tree.bytes(); }
 
   template <class Counts>
-  static bool meet(const ObbModel& a, const ObbModel& b, const Agents& agents, Pair pair,
+  static bool meet(const BoxModel& a, const BoxModel& b, const Agents& agents, Pair pair,
                    std::uint32_t max_depth, Counts counts) {
+    using Node = typename decltype(Tree::nodes)::value_type;
     const Placement at = placement(agents, pair);
-    const BoxTree<ObbNode> tree_a{a.tree.nodes.data(), a.tree.height},
+    const BoxTree<Node> tree_a{a.tree.nodes.data(), a.tree.height},
         tree_b{b.tree.nodes.data(), b.tree.height};
     return any_facets_meet(at, tree_a, tree_b, max_depth, counts, [&](std::uint32_t p, std::uint32_t q) {
       return Facets::meet(a.tree.facets[p], b.tree.facets[q], at);
@@ -70,23 +79,9 @@ struct ObbModel {
   }
 };
 
-struct RectangleModel {
-  RectangleTree tree;
-
-  std::size_t bytes() const { return tree.bytes(); }
-
-  template <class Counts>
-  static bool meet(const RectangleModel& a, const RectangleModel& b, const Agents& agents, Pair pair,
-                   std::uint32_t max_depth, Counts counts) {
-    const Placement at = placement(agents, pair);
-    const BoxTree<RectangleNode> tree_a{a.tree.nodes.data(), a.tree.height},
-        tree_b{b.tree.nodes.data(), b.tree.height};
-    return any_facets_meet(at, tree_a, tree_b, max_depth, counts, [&](std::uint32_t p, std::uint32_t q) {
-      const auto &s = a.tree.segments[p], &t = b.tree.segments[q];
-      return segments_meet({exact(s.a), exact(s.b)}, {at.place(t.a), at.place(t.b)});
-    });
-  }
-};
+template <class Facets>
+using ObbModel = BoxModel<ObbTree, Facets>;
+using RectangleModel = BoxModel<RectangleTree, FlatSegments>;
 
 ObbTree contour_tree(const Body& body) {
   const Outline& outline = body.shape.outline;

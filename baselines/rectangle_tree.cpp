@@ -30,7 +30,7 @@ RectangleTree::RectangleTree(const ObbTree& flat) : height(flat.height) {
   nodes.resize(flat.nodes.size());
   std::transform(flat.nodes.begin(), flat.nodes.end(), nodes.begin(), flatten);
   for (const Facet& facet : flat.facets)
-    segments.push_back({{facet[0].x(), facet[0].y()}, {facet[1].x(), facet[1].y()}});
+    facets.push_back({{facet[0].x(), facet[0].y()}, {facet[1].x(), facet[1].y()}});
 }
 
 }  // namespace bch::baselines

@@ -34,15 +34,13 @@ struct RectangleTree {
     Vec2 a, b;
   };
   std::vector<RectangleNode> nodes;
-  std::vector<Segment> segments;
+  std::vector<Segment> facets;  ///< in the order of the leaves
   std::uint32_t height = 0;
 
   /// Of a tree over segments at z = 0.
   explicit RectangleTree(const ObbTree& flat);
 
-  std::size_t bytes() const {
-    return nodes.size() * sizeof(RectangleNode) + segments.size() * sizeof(Segment);
-  }
+  std::size_t bytes() const { return nodes.size() * sizeof(RectangleNode) + facets.size() * sizeof(Segment); }
 };
 
 /// A rectangle of the second shape in the first shape's frame.
