@@ -53,7 +53,7 @@
 /// breadth-first order, first Tree::top: those children that are blocks are the second, the third and so on. After the
 /// last come Tree::stride x, as many y and as many radii: the cut's discs, padding up to eight. A window is eight
 /// consecutive discs of these, named by the first one's x. Where top is a window, it is at the first disc. Levels
-/// lie in the order of roots, with at most 15 levels of blocks each. At least 32 floats follow the last one.
+/// lie in the order of roots, with at most 9 levels of blocks each. At least 32 floats follow the last one.
 namespace bch::baked {
 
 /// A byte that is no text, so that nobody takes it for some; then line ends that a transfer as text would change.
