@@ -9,6 +9,7 @@
 #include <string>
 
 namespace bch::kernel {
+
 void require_sizes(const Agents& agents) {
   const std::size_t size = agents.size();
   const auto require = [size](std::size_t other, const char* name, bool optional) {
