@@ -3,8 +3,6 @@
 
 #include "tests/baked_bytes.hpp"
 
-#include <algorithm>
-
 #include "layout/baked_image.hpp"
 #include "tests/scenes.hpp"
 

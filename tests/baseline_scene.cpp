@@ -3,9 +3,10 @@
 
 #include "tests/baseline_scene.hpp"
 
-#include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <ios>
+#include <numbers>
 #include <sstream>
 #include <stdexcept>
 

@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <cmath>
 #include <polyclipping/clipper.hpp>
-#include <vector>
 
 namespace bch::test {
 namespace {

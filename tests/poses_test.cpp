@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "baselines/oracle.hpp"
 #include "baselines/reference.hpp"

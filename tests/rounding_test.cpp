@@ -6,7 +6,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 
 #include "kernel/collide.hpp"
 #include "layout/enclosing_disc.hpp"

@@ -3,7 +3,6 @@
 
 #include "tests/scenes.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <utility>
