@@ -23,7 +23,7 @@ class Steps {
  public:
   Steps(const ShapeSet& set, std::uint32_t agents, std::uint32_t crowds) : set_(set) {
     for (std::uint32_t i = 0; i < crowds; ++i)
-      crowds_.push_back(cli::place_crowd(agents, 3, set.shape_count(), 34 + i));
+      crowds_.push_back(cli::place_crowd(agents, agents_per_square_metre, set.shape_count(), crowd_seed + i));
   }
 
   void find() {

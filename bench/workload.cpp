@@ -16,9 +16,7 @@ namespace {
 
 constexpr std::string_view names[] = {"colliding", "near_miss", "no_hit",
                                       "crowd",     "paper500",  "paper500_cached"};
-constexpr double agents_per_square_metre = 3;
 constexpr double world = 100;  ///< metres: where pairs with agents of their own stand
-constexpr std::uint64_t crowd_seed = 34;
 
 struct Point {
   double x, y;

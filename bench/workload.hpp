@@ -48,6 +48,10 @@ std::span<const std::string_view> workload_names();
 Workload random_pairs(std::string_view name, std::uint64_t seed, std::span<const Shape> shapes,
                       std::uint32_t pairs, const std::function<bool(const Agents&, Pair)>& wanted);
 
+/// Of the crowd, and of others that are measured beside it.
+constexpr double agents_per_square_metre = 3;
+constexpr std::uint64_t crowd_seed = 34;
+
 Workload crowd_pairs(const ShapeSet& set, std::uint32_t agents);
 
 /// The first `cases` pairs of a workload, `pairs` in all. Cached: each over and over, then the next; else the
