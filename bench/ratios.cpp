@@ -7,8 +7,10 @@
 #include <stdlib.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdio>
 #include <exception>
+#include <functional>
 
 #include "bench/exit_codes.hpp"
 #include "bench/scene_options.hpp"
@@ -27,45 +29,78 @@ double load_average() {
   return getloadavg(&load, 1) == 1 ? load : 0;
 }
 
-void print_tables(Scene& scene, std::uint32_t runs, std::uint32_t most_shapes) {
+struct Options {
+  std::uint32_t runs = 9, most_shapes = 50'000;
+  std::vector<std::string> tables;  ///< none: all
+};
+
+struct Table {
+  const char* name;
+  std::function<void(Scene&, const Options&)> print;
+};
+
+const std::vector<Table>& tables() {
+  static const std::vector<Table> all = {
+      {"kernel", [](Scene& scene, const Options& o) { print_kernel_ratios(scene, o.runs); }},
+      {"peers", [](Scene& scene, const Options& o) { print_peer_ratios(scene, o.runs); }},
+      {"calls", [](Scene& scene, const Options& o) { print_call_ratios(scene, o.runs); }},
+      {"crowd", [](Scene& scene, const Options& o) { print_crowd_ratios(scene, o.runs); }},
+      {"shapes",
+       [](Scene& scene, const Options& o) { print_shape_count_ratios(scene, o.runs, o.most_shapes); }},
+      {"plans", [](Scene& scene, const Options& o) { print_plan_table(scene, o.runs); }},
+      {"paper", [](Scene& scene, const Options& o) { print_paper_table(scene, o.runs); }},
+  };
+  return all;
+}
+
+std::vector<std::string> table_names() {
+  std::vector<std::string> names;
+  for (const Table& table : tables()) names.push_back(table.name);
+  return names;
+}
+
+void print_tables(Scene& scene, const Options& options) {
   std::string names;
   for (const auto& character : scene.characters()) names += (names.empty() ? "" : ", ") + character.source;
-  fmt::print("# {}: {} shapes, medians of {} runs, load {:.1f}\n", names, scene.shapes().size(), runs,
+  fmt::print("# {}: {} shapes, medians of {} runs, load {:.1f}\n", names, scene.shapes().size(), options.runs,
              load_average());
-  print_kernel_ratios(scene, runs);
-  print_peer_ratios(scene, runs);
-  print_call_ratios(scene, runs);
-  print_crowd_ratios(scene, runs);
-  print_shape_count_ratios(scene, runs, most_shapes);
-  print_paper_table(scene, runs);
+  const auto& wanted = options.tables;
+  for (const Table& table : tables())
+    if (wanted.empty() || std::find(wanted.begin(), wanted.end(), table.name) != wanted.end())
+      table.print(scene, options);
   fmt::print("\n");
 }
 
 int run(int argc, char** argv) {
   CLI::App program(description, "bch_ratios");
-  SceneOptions options;
+  SceneOptions scene;
+  Options options;
   std::vector<std::string> files;
-  std::uint32_t runs = 9, most_shapes = 50'000;
   program
       .add_option("--character", files,
                   "Character file (repeatable): all of them make a second scene, beside the built-in ones")
       ->type_name("FILE")
       ->allow_extra_args(false);
-  add_size_options(program, options);
-  program.add_option("--runs", runs, "Runs of which the medians are taken [9]")
+  add_size_options(program, scene);
+  program.add_option("--runs", options.runs, "Runs of which the medians are taken [9]")
       ->type_name("N")
       ->check(CLI::Range(1u, 1000u));
-  program.add_option("--shapes", most_shapes, "Leave out rows of more shapes [50000]")->type_name("N");
+  program.add_option("--shapes", options.most_shapes, "Leave out rows of more shapes [50000]")
+      ->type_name("N");
+  program.add_option("--table", options.tables, "One table alone (repeatable) [all]")
+      ->type_name("NAME")
+      ->allow_extra_args(false)
+      ->check(CLI::IsMember(table_names()));
   CLI11_PARSE(program, argc, argv);
 
-  Scene built_in(options);
-  options.characters = files;
-  Scene given(options);
+  Scene built_in(scene);
+  scene.characters = files;
+  Scene given(scene);
   // Before anything else, because a bad file should not cost minutes, and an import wants a process without
   // threads.
   if (!files.empty()) given.characters();
-  print_tables(built_in, runs, most_shapes);
-  if (!files.empty()) print_tables(given, runs, most_shapes);
+  print_tables(built_in, options);
+  if (!files.empty()) print_tables(given, options);
   return bch::cli::exit_success;
 }
 

@@ -44,6 +44,7 @@ void print_peer_ratios(Scene& scene, std::uint32_t runs);
 void print_call_ratios(Scene& scene, std::uint32_t runs);
 void print_crowd_ratios(Scene& scene, std::uint32_t runs);
 void print_shape_count_ratios(Scene& scene, std::uint32_t runs, std::uint32_t most_shapes);
+void print_plan_table(Scene& scene, std::uint32_t runs);
 void print_paper_table(Scene& scene, std::uint32_t runs);
 
 }  // namespace bch::bench

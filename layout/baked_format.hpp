@@ -36,9 +36,9 @@
 ///     nodes           f32         any     see below
 ///     reach           f32         S or 0  metres from the origin to the farthest point, 1e-6 to 1e6; like trees
 ///     support         f32         any     rows of 64, supports.hpp: row 0 plus infinity, the others of roots; or none
-///     enclosures      Enclosure   S or 0  enclosure.hpp; where there are supports
-///     inscribed       DiscBlock   S or 0  interior.hpp; only where there are supports
-///     extremes        Extremes    S or 0  interior.hpp; where there are inscribed discs
+///     enclosures      Enclosure   S or 0  enclosure.hpp; this and the next two where there are supports
+///     inscribed       DiscBlock   S or 0  interior.hpp
+///     extremes        Extremes    S or 0  interior.hpp
 ///     shape_contours  ContourRange  S or 0  one behind the other; 0 where there are no trees
 ///     contours        Contour     any     its points, one at least, behind those of the contour before
 ///     points          Vec2        any     metres

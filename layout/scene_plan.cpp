@@ -15,9 +15,6 @@ namespace {
 
 constexpr std::size_t most_levels = 255;
 
-// By measurement (bch_ratios): what the shortcuts of a shape take to build, over what they save of a pair of a crowd.
-constexpr double pairs_for_supports = 400, pairs_for_inscribed = 4000;
-
 [[noreturn]] void reject(std::size_t agent, const std::string& what) {
   throw std::invalid_argument("scene plan: agent " + std::to_string(agent) + ": " + what);
 }
@@ -81,7 +78,7 @@ ScenePlan plan_scene(std::span<const SceneAgent> agents, const SceneUse& use) {
   ScenePlan plan;
   plan.set.depths = different(depths);
   plan.set.solid = use.solid;
-  plan.set.shortcuts = worthwhile_shortcuts(use.pairs_per_shape);
+  plan.set.shortcuts = use.pairs_per_shape >= pairs_for_shortcuts;
   Shapes shapes(use.pose_step);
   for (std::size_t i = 0; i < agents.size(); ++i) {
     plan.agent_shape.push_back(shapes.number(agents[i].shows));
@@ -90,11 +87,6 @@ ScenePlan plan_scene(std::span<const SceneAgent> agents, const SceneUse& use) {
   }
   plan.shapes = std::move(shapes.list);
   return plan;
-}
-
-Shortcuts worthwhile_shortcuts(double pairs_per_shape) {
-  if (pairs_per_shape >= pairs_for_inscribed) return Shortcuts::all;
-  return pairs_per_shape >= pairs_for_supports ? Shortcuts::supports : Shortcuts::none;
 }
 
 }  // namespace bch

@@ -26,6 +26,9 @@ struct SceneAgent {
   double distance = 0;  ///< metres, from who looks
 };
 
+/// By measurement (`bch_ratios --table plans`): what shortcuts take to build, over what they save of a pair of a crowd.
+constexpr double pairs_for_shortcuts = 500;
+
 /// What will be asked of a scene.
 struct SceneUse {
   /// The solid semantics, too.
@@ -35,7 +38,8 @@ struct SceneUse {
   /// Seconds: times within a clip are rounded to multiples of it, so that agents share shapes; 0: only those do that
   /// show the very same.
   float pose_step = 0;
-  /// About how many pairs a shape will be in before it is given up; few where each lives for one frame.
+  /// About how many pairs a shape will be in before it is given up; few where each lives for one frame. From
+  /// pairs_for_shortcuts on it gets shortcuts.
   double pairs_per_shape = std::numeric_limits<double>::infinity();
 };
 
@@ -51,8 +55,5 @@ struct ScenePlan {
 ///          not finite, a pose step that is negative or not finite, a number of pairs that is negative or NaN, and
 ///          on more than 255 different depths.
 ScenePlan plan_scene(std::span<const SceneAgent> agents, const SceneUse& use = {});
-
-/// The shortcuts that pay for themselves where a shape is in so many pairs.
-Shortcuts worthwhile_shortcuts(double pairs_per_shape);
 
 }  // namespace bch

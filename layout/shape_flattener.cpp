@@ -24,7 +24,7 @@ void ShapeFlattener::flatten(const Shape& shape, std::size_t index, FlatShape& f
   flat.reach = shape.hierarchy.reach;
   add_levels(shape.hierarchy, flat);
   if (plan_.solid) add_outline(shape.outline, flat);
-  if (plan_.shortcuts != Shortcuts::none && plan_.depths.back() > 0) add_interior(shape, flat);
+  if (plan_.shortcuts && plan_.depths.back() > 0) add_interior(shape, flat);
 }
 
 void ShapeFlattener::add_levels(const Hierarchy& hierarchy, FlatShape& flat) {
@@ -33,8 +33,7 @@ void ShapeFlattener::add_levels(const Hierarchy& hierarchy, FlatShape& flat) {
   flattener_.begin(hierarchy);
   for (std::size_t k = 0; k < plan_.depths.size(); ++k) {
     flattener_.flatten(plan_.depths[k], flat.levels[k]);
-    if (plan_.shortcuts != Shortcuts::none && !flat.levels[k].is_single)
-      flat.supports.push_back(flattener_.supports());
+    if (plan_.shortcuts && !flat.levels[k].is_single) flat.supports.push_back(flattener_.supports());
   }
 }
 
@@ -47,8 +46,7 @@ void ShapeFlattener::add_interior(const Shape& shape, FlatShape& flat) {
   if (shape.outline.contours() == 0) return;
   validate(shape.outline);
   flat.enclosure = enclosure(shape.outline, shape.hierarchy.reach);
-  if (plan_.shortcuts == Shortcuts::all)
-    flat.interior = interiors_.build(shape.outline, shape.hierarchy.reach);
+  flat.interior = interiors_.build(shape.outline, shape.hierarchy.reach);
 }
 
 void ShapeFlattener::add_outline(const Outline& outline, FlatShape& flat) {

@@ -17,11 +17,12 @@ namespace bch {
 struct FlatShape {
   ShapeSetPlan plan;
   double reach = 0;
-  std::vector<WideTree> levels;    ///< one a depth
-  std::vector<Supports> supports;  ///< of the levels that are more than a disc, where the plan has any
-  Enclosure enclosure;             ///< likewise
-  Interior interior;               ///< where the plan has inscribed discs
-  Outline outline;                 ///< this and the next only with a solid plan
+  std::vector<WideTree> levels;  ///< one a depth
+  std::vector<Supports>
+      supports;         ///< of the levels that are more than a disc; only with the plan's shortcuts
+  Enclosure enclosure;  ///< likewise, as the next
+  Interior interior;
+  Outline outline;  ///< this and the next only with a solid plan
   std::vector<Disc> contour_disc;
 };
 

@@ -54,7 +54,7 @@ ShapeSetView ShapeSet::view() const noexcept {
           .reach = arrays_.reach.data(),
           .support = arrays_.support.empty() ? nullptr : arrays_.support.data(),
           .enclosures = arrays_.enclosures.data(),
-          .inscribed = arrays_.inscribed.empty() ? nullptr : arrays_.inscribed.data(),
+          .inscribed = arrays_.inscribed.data(),
           .extremes = arrays_.extremes.data(),
           .shape_contours = arrays_.shape_contours.data(),
           .contours = arrays_.contours.data(),
@@ -64,9 +64,7 @@ ShapeSetView ShapeSet::view() const noexcept {
 ShapeSetPlan ShapeSet::plan() const {
   return {.depths = {arrays_.depths.begin(), arrays_.depths.end()},
           .solid = !arrays_.shape_contours.empty(),
-          .shortcuts = arrays_.support.empty()     ? Shortcuts::none
-                       : arrays_.inscribed.empty() ? Shortcuts::supports
-                                                   : Shortcuts::all};
+          .shortcuts = !arrays_.support.empty()};
 }
 
 std::size_t ShapeSet::bytes() const noexcept {

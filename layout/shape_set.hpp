@@ -21,20 +21,15 @@ struct Shape {
   Hierarchy hierarchy;
 };
 
-/// What lets a query skip traversals. No answer depends on it; a set that answers few queries does with less.
-enum class Shortcuts {
-  none,
-  supports,  ///< tell most pairs apart that do not collide
-  all,       ///< and, of shapes with an outline, inscribed discs, which tell most pairs that do
-};
-
 /// What a scene will use of its shapes; nothing else is built or stored.
 struct ShapeSetPlan {
   /// The levels of detail: cut depths, ascending. Level k of every shape is its cut at depths[k].
   std::vector<std::uint32_t> depths = {all_depths};
   /// Keep what the solid semantics needs (the outlines, to see one shape inside another).
   bool solid = false;
-  Shortcuts shortcuts = Shortcuts::all;
+  /// Keep what lets a query skip most traversals: supports and, of shapes with an outline, inscribed discs. They
+  /// change no answer; a set that answers few queries does without.
+  bool shortcuts = true;
   friend bool operator==(const ShapeSetPlan&, const ShapeSetPlan&) = default;
 };
 

@@ -84,11 +84,10 @@ struct ShapeSetView {
   const float* nodes;  ///< per level its blocks, then all x, all y, all radii of the cut
   const float* reach;  ///< per shape, metres, rounded up; null like the trees
 
-  // Null where the plan has no supports.
+  // Null without the plan's shortcuts.
   const float* support;         ///< rows of support_stride floats; row 0 is infinite and parts nothing
   const Enclosure* enclosures;  ///< per shape
-  // Null where the plan has no inscribed discs.
-  const DiscBlock* inscribed;  ///< per shape; see interior.hpp, like the next
+  const DiscBlock* inscribed;   ///< per shape; see interior.hpp, like the next
   const Extremes* extremes;
 
   // Null without the solid plan, and like the trees.

@@ -80,8 +80,7 @@ void ShapeStorage::resize(const ShapeSetPlan& plan, std::size_t shapes) {
   if (plan.depths.back() == 0) return;
   trees.resize(shapes * levels);
   reach.resize(shapes);
-  if (plan.shortcuts != Shortcuts::none) enclosures.resize(shapes);
-  if (plan.shortcuts == Shortcuts::all) inscribed.resize(shapes), extremes.resize(shapes);
+  if (plan.shortcuts) enclosures.resize(shapes), inscribed.resize(shapes), extremes.resize(shapes);
   if (plan.solid) shape_contours.resize(shapes);
 }
 
@@ -115,12 +114,7 @@ void ShapeStorage::put(std::size_t shape, const FlatShape& flat, const ShapeExte
     node += level_size(tree);
   }
   if (!reach.empty()) reach[shape] = rounding::round_up(flat.reach);
-  if (!enclosures.empty()) {
-    enclosures[shape] = flat.enclosure;
-    std::copy(flat.supports.begin(), flat.supports.end(),
-              reinterpret_cast<Supports*>(support.data() + at.rows * support_stride));
-  }
-  if (!inscribed.empty()) put_interior(shape, flat);
+  if (!enclosures.empty()) put_shortcuts(shape, flat, at);
   if (!shape_contours.empty()) put_outline(shape, flat, at);
 }
 
@@ -141,7 +135,10 @@ void ShapeStorage::put_level(std::size_t root, const WideTree& tree, std::size_t
     out = std::copy(field->begin(), field->end(), out);
 }
 
-void ShapeStorage::put_interior(std::size_t shape, const FlatShape& flat) {
+void ShapeStorage::put_shortcuts(std::size_t shape, const FlatShape& flat, const ShapeExtent& at) {
+  float* row = support.data() + at.rows * support_stride;
+  for (const Supports& heights : flat.supports) row = std::copy(heights.begin(), heights.end(), row);
+  enclosures[shape] = flat.enclosure;
   const Interior& inside = flat.interior;
   std::copy(inside.x.begin(), inside.x.end(), inscribed[shape].x);
   std::copy(inside.y.begin(), inside.y.end(), inscribed[shape].y);

@@ -52,7 +52,7 @@ struct ShapeStorage {
 
  private:
   void put_level(std::size_t root, const WideTree& tree, std::size_t node);
-  void put_interior(std::size_t shape, const FlatShape& flat);
+  void put_shortcuts(std::size_t shape, const FlatShape& flat, const ShapeExtent& at);
   void put_outline(std::size_t shape, const FlatShape& flat, const ShapeExtent& at);
 };
 

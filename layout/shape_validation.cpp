@@ -94,7 +94,7 @@ void require_sizes(const ShapeArrays& a) {
   if (roots > std::numeric_limits<std::uint32_t>::max())
     throw std::invalid_argument("roots: " + std::to_string(roots) + ", too many");
   require_size("roots", a.roots.size(), roots);
-  const bool roots_only = a.trees.empty(), supports = !a.support.empty(), inscribed = !a.inscribed.empty();
+  const bool roots_only = a.trees.empty(), shortcuts = !a.support.empty();
   require_size("trees", a.trees.size(), roots_only ? 0 : roots);
   require_size("reach", a.reach.size(), roots_only ? 0 : shapes);
   if (roots_only) {
@@ -104,9 +104,9 @@ void require_sizes(const ShapeArrays& a) {
   }
   if (a.nodes.size() >= leaf_window)
     throw std::invalid_argument("nodes: " + std::to_string(a.nodes.size()) + ", not below 2^31");
-  require_size("enclosures", a.enclosures.size(), supports ? shapes : 0);
-  require_size("inscribed", a.inscribed.size(), supports && inscribed ? shapes : 0);
-  require_size("extremes", a.extremes.size(), inscribed ? shapes : 0);
+  require_size("enclosures", a.enclosures.size(), shortcuts ? shapes : 0);
+  require_size("inscribed", a.inscribed.size(), shortcuts ? shapes : 0);
+  require_size("extremes", a.extremes.size(), shortcuts ? shapes : 0);
 }
 
 /// Rows of supports are numbered in the order of roots.

@@ -20,7 +20,7 @@ namespace bch {
 static void PrintTo(const ShapeSetPlan& plan, std::ostream* out) {
   for (const std::uint32_t depth : plan.depths)
     *out << (depth == all_depths ? "all" : std::to_string(depth)) << "_";
-  *out << (plan.solid ? "solid_" : "") << "shortcuts_" << static_cast<int>(plan.shortcuts);
+  *out << (plan.solid ? "solid_" : "") << (plan.shortcuts ? "shortcuts" : "plain");
 }
 
 namespace {
@@ -122,10 +122,9 @@ TEST_P(DynamicShapes, NothingIsAllocatedOncePlacesAreLargeEnough) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Plans, DynamicShapes,
-                         testing::Values(ShapeSetPlan{}, ShapeSetPlan{{0}, false, Shortcuts::none},
-                                         ShapeSetPlan{{0, 3, all_depths}, true, Shortcuts::all},
-                                         ShapeSetPlan{{2, 5}, true, Shortcuts::supports},
-                                         ShapeSetPlan{{0, 6}, false, Shortcuts::none}));
+                         testing::Values(ShapeSetPlan{}, ShapeSetPlan{{0}, false, false},
+                                         ShapeSetPlan{{0, 3, all_depths}, true, true},
+                                         ShapeSetPlan{{2, 5}, true}, ShapeSetPlan{{0, 6}, false, false}));
 
 TEST(DynamicShapeSet, WhatDoesNotFitIsNotReplaced) {
   const std::vector<Shape> pool = test::synthetic_shapes(83, 40);
@@ -153,7 +152,7 @@ TEST(DynamicShapeSet, RejectsOtherPlansAndShapesThatAreNotThere) {
   EXPECT_THROW(dynamic.replace(2, flat(shapes[0], dynamic.set().plan())), std::out_of_range);
   EXPECT_THROW(dynamic.replace(0, flat(shapes[0], {{0, all_depths}, false})), std::invalid_argument);
   EXPECT_THROW(dynamic.replace(0, flat(shapes[0], {{all_depths}, true})), std::invalid_argument);
-  EXPECT_THROW(dynamic.try_replace(0, flat(shapes[0], {{0, all_depths}, true, Shortcuts::supports})),
+  EXPECT_THROW(dynamic.try_replace(0, flat(shapes[0], {{0, all_depths}, true, false})),
                std::invalid_argument);
   DynamicShapeSet discs(ShapeSet(std::vector<Shape>{{{}, fixed_cylinder(1)}}));
   EXPECT_THROW(discs.replace(0, flat(shapes[0], {})), std::invalid_argument);

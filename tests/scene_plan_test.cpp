@@ -71,9 +71,8 @@ TEST(ScenePlan, HasTheDepthsThatAgentsAskFor) {
 }
 
 TEST(ScenePlan, HasTheShortcutsThatPay) {
-  EXPECT_EQ(plan_scene({}).set.shortcuts, Shortcuts::all);
-  EXPECT_EQ(plan_scene({}, {.pairs_per_shape = 6}).set.shortcuts, Shortcuts::none);
-  EXPECT_LT(worthwhile_shortcuts(1000), Shortcuts::all);
+  EXPECT_TRUE(plan_scene({}).set.shortcuts);
+  EXPECT_FALSE(plan_scene({}, {.pairs_per_shape = 6}).set.shortcuts);
   EXPECT_TRUE(plan_scene({}, {.solid = true}).set.solid);
 }
 
@@ -100,7 +99,7 @@ TEST(ScenePlan, ChangesNoAnswer) {
     return answers;
   };
   for (const bool solid : {false, true})
-    for (const double many : {6.0, 600.0, 1e9}) {
+    for (const double many : {6.0, 1e9}) {
       const ScenePlan plan = plan_scene(agents, {.solid = solid, .depth = depth_at, .pairs_per_shape = many});
       const auto answers = hits(plan, plan.set);
       EXPECT_EQ(answers, hits(plan, {.depths = plan.set.depths, .solid = solid}));
