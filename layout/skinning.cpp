@@ -6,52 +6,35 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "layout/rotation_blend.hpp"
+
 namespace bch {
 namespace {
 
-template <class Value, class Blend>
-Value interpolate(const std::vector<Key<Value>>& keys, float seconds, Blend blend) {
+/// Where in its list a clip's time is. The channels of a clip mostly have the same times, so that the last one's
+/// place is tried first.
+template <class Value>
+std::size_t key_after(const std::vector<Key<Value>>& keys, float seconds, std::size_t guess) {
+  if (guess > 0 && guess < keys.size() && keys[guess - 1].time <= seconds && seconds < keys[guess].time)
+    return guess;
   const auto after = std::upper_bound(keys.begin(), keys.end(), seconds,
                                       [](float time, const Key<Value>& key) { return time < key.time; });
-  if (after == keys.begin()) return keys.front().value;
-  if (after == keys.end()) return keys.back().value;
-  const Key<Value>& before = *(after - 1);
-  return blend(before.value, after->value, (seconds - before.time) / (after->time - before.time));
+  return static_cast<std::size_t>(after - keys.begin());
 }
 
-Eigen::Vector3f interpolate(const std::vector<Key<Eigen::Vector3f>>& keys, float seconds) {
-  return interpolate(keys, seconds, [](const Eigen::Vector3f& a, const Eigen::Vector3f& b, float t) {
-    return Eigen::Vector3f(a + t * (b - a));
+/// blend(a, b, t) is between two keys.
+template <class Value, class Blend>
+auto interpolate(const std::vector<Key<Value>>& keys, float seconds, std::size_t& guess, Blend blend) {
+  const std::size_t after = guess = key_after(keys, seconds, guess);
+  const Key<Value>&a = keys[after == 0 ? 0 : after - 1], &b = keys[after == keys.size() ? after - 1 : after];
+  return blend(a.value, b.value, &a == &b ? 0 : (seconds - a.time) / (b.time - a.time));
+}
+
+Eigen::Vector3d interpolate(const std::vector<Key<Eigen::Vector3f>>& keys, float seconds,
+                            std::size_t& guess) {
+  return interpolate(keys, seconds, guess, [](const Eigen::Vector3f& a, const Eigen::Vector3f& b, float t) {
+    return Eigen::Vector3d((a + t * (b - a)).cast<double>());
   });
-}
-
-Eigen::Quaternionf interpolate(const std::vector<Key<Eigen::Quaternionf>>& keys, float seconds) {
-  return interpolate(keys, seconds, [](const Eigen::Quaternionf& a, const Eigen::Quaternionf& b, float t) {
-    return a.slerp(t, b);
-  });
-}
-
-/// The joint relative to its parent. Only the parts that the channel animates replace those of the rest
-/// transform.
-Eigen::Affine3d local_transform(const Joint& joint, const Channel* channel, float seconds) {
-  if (channel == nullptr) return joint.rest.cast<double>();
-  Eigen::Vector3f position = joint.rest.translation();
-  Eigen::Matrix3f rotation_scale = joint.rest.linear();
-  if (!channel->rotations.empty() || !channel->scales.empty()) {
-    Eigen::Matrix3f rotation;
-    Eigen::Matrix3f scaling;
-    joint.rest.computeRotationScaling(&rotation, &scaling);
-    if (!channel->rotations.empty())
-      rotation = interpolate(channel->rotations, seconds).normalized().toRotationMatrix();
-    if (!channel->scales.empty()) scaling = interpolate(channel->scales, seconds).asDiagonal();
-    rotation_scale = rotation * scaling;
-  }
-  if (!channel->positions.empty()) position = interpolate(channel->positions, seconds);
-
-  Eigen::Affine3d local = Eigen::Affine3d::Identity();
-  local.linear() = rotation_scale.cast<double>();
-  local.translation() = position.cast<double>();
-  return local;
 }
 
 }  // namespace
@@ -59,9 +42,45 @@ Eigen::Affine3d local_transform(const Joint& joint, const Channel* channel, floa
 Skinner::Skinner(const Character& character)
     : character_(&character),
       channel_of_joint_(character.joints.size()),
+      to_ground_(character.to_ground),
       joint_to_world_(character.joints.size()),
-      bone_to_shape_(character.bones.size()),
-      positions_(character.vertices.size()) {}
+      blend_(character),
+      positions_(character.vertices.size()) {
+  for (const Joint& joint : character.joints) {
+    Eigen::Matrix3f rotation, scaling;
+    joint.rest.computeRotationScaling(&rotation, &scaling);
+    rest_.push_back({AffineRows(joint.rest), AffineRows(Eigen::Affine3f(rotation)),
+                     AffineRows(Eigen::Affine3f(scaling))});
+  }
+  for (const std::uint32_t bone : blend_.bones()) {
+    joint_of_bone_.push_back(character.bones[bone].joint);
+    inverse_bind_.emplace_back(character.bones[bone].inverse_bind);
+  }
+  bone_to_shape_.resize(inverse_bind_.size());
+}
+
+/// The joint relative to its parent. Only the parts that the channel animates replace those of the rest
+/// transform. `guess`: where keys of this time were last.
+AffineRows Skinner::local_transform(std::size_t joint, float seconds, std::size_t& guess) const {
+  const auto& [rest, rest_rotation, rest_scaling] = rest_[joint];
+  const Channel* const channel = channel_of_joint_[joint];
+  if (channel == nullptr) return rest;
+  AffineRows local = rest;
+  if (!channel->rotations.empty() || !channel->scales.empty()) {
+    AffineRows rotation = rest_rotation, scaling = rest_scaling;
+    if (!channel->rotations.empty())
+      rotation = AffineRows(interpolate(channel->rotations, seconds, guess, slerp).toRotationMatrix());
+    if (!channel->scales.empty())
+      scaling = AffineRows(interpolate(channel->scales, seconds, guess).asDiagonal().toDenseMatrix());
+    local = rotation * scaling;
+    for (int i = 0; i < 3; ++i) local.row[i][3] = rest.row[i][3];
+  }
+  if (!channel->positions.empty()) {
+    const Eigen::Vector3d position = interpolate(channel->positions, seconds, guess);
+    for (int i = 0; i < 3; ++i) local.row[i][3] = position[i];
+  }
+  return local;
+}
 
 void Skinner::place_joints(PoseTime at) {
   std::fill(channel_of_joint_.begin(), channel_of_joint_.end(), nullptr);
@@ -69,25 +88,26 @@ void Skinner::place_joints(PoseTime at) {
     for (const Channel& channel : character_->clips[at.clip].channels)
       channel_of_joint_[channel.joint] = &channel;
 
-  const Eigen::Affine3d to_ground = character_->to_ground.cast<double>();
+  std::size_t guess = 0;
   for (std::size_t j = 0; j < joint_to_world_.size(); ++j) {
-    const Joint& joint = character_->joints[j];
-    const Eigen::Affine3d& parent = joint.parent < 0 ? to_ground : joint_to_world_[joint.parent];
-    joint_to_world_[j] = parent * local_transform(joint, channel_of_joint_[j], at.seconds);
+    const std::int32_t parent = character_->joints[j].parent;
+    joint_to_world_[j] = (parent < 0 ? to_ground_ : joint_to_world_[static_cast<std::size_t>(parent)]) *
+                         local_transform(j, at.seconds, guess);
   }
 }
 
 /// The root's way is taken out in double and before the vertices are touched: a pose metres away from the
 /// file's origin would otherwise lose bits that the same pose at the origin keeps.
 void Skinner::place_bones() {
-  Eigen::Vector3d origin = Eigen::Vector3d::Zero();
-  if (character_->root_joint >= 0) origin = joint_to_world_[character_->root_joint].translation();
-  origin.z() = 0;
+  double origin[2] = {};
+  if (character_->root_joint >= 0) {
+    const AffineRows& root = joint_to_world_[static_cast<std::size_t>(character_->root_joint)];
+    for (int i = 0; i < 2; ++i) origin[i] = root.row[i][3];
+  }
   for (std::size_t b = 0; b < bone_to_shape_.size(); ++b) {
-    const Bone& bone = character_->bones[b];
-    Eigen::Affine3d to_shape = joint_to_world_[bone.joint];
-    to_shape.translation() -= origin;
-    bone_to_shape_[b] = (to_shape * bone.inverse_bind.cast<double>()).cast<float>();
+    AffineRows to_shape = joint_to_world_[joint_of_bone_[b]];
+    for (int i = 0; i < 2; ++i) to_shape.row[i][3] -= origin[i];
+    bone_to_shape_[b] = to_shape * inverse_bind_[b];
   }
 }
 
@@ -103,15 +123,9 @@ std::span<const Eigen::Vector3f> Skinner::pose(PoseTime at) {
   place_joints(at);
   place_bones();
 
-  for (std::size_t v = 0; v < c.vertices.size(); ++v) {
-    Eigen::Vector3f sum = Eigen::Vector3f::Zero();
-    for (std::uint32_t i = c.influence_begin[v]; i < c.influence_begin[v + 1]; ++i)
-      sum += c.influences[i].weight * (bone_to_shape_[c.influences[i].bone] * c.vertices[v]);
-    if (!sum.allFinite())
-      throw std::domain_error("character '" + c.name + "': posed vertex " + std::to_string(v) +
-                              " is not finite");
-    positions_[v] = sum;
-  }
+  if (const auto vertex = blend_.blend(bone_to_shape_, positions_))
+    throw std::domain_error("character '" + c.name + "': posed vertex " + std::to_string(*vertex) +
+                            " is not finite");
 
   if (c.root_joint < 0) {
     Eigen::AlignedBox3f box;

@@ -6,7 +6,9 @@
 #include <span>
 #include <vector>
 
+#include "layout/affine_rows.hpp"
 #include "layout/character.hpp"
+#include "layout/vertex_blend.hpp"
 
 namespace bch {
 
@@ -28,14 +30,25 @@ class Skinner {
   const Character& character() const noexcept { return *character_; }
 
  private:
-  const Character* character_;
-  std::vector<const Channel*> channel_of_joint_;
-  std::vector<Eigen::Affine3d> joint_to_world_;
-  std::vector<Eigen::Affine3f> bone_to_shape_;
-  std::vector<Eigen::Vector3f> positions_;
+  /// A joint relative to its parent where no clip moves it, and its linear part's factors.
+  struct Rest {
+    AffineRows whole, rotation, scaling;
+  };
 
+  AffineRows local_transform(std::size_t joint, float seconds, std::size_t& guess) const;
   void place_joints(PoseTime at);
   void place_bones();
+
+  const Character* character_;
+  std::vector<Rest> rest_;
+  std::vector<const Channel*> channel_of_joint_;
+  AffineRows to_ground_;
+  std::vector<AffineRows> joint_to_world_;
+  VertexBlend blend_;
+  // Of the bones that move a vertex.
+  std::vector<std::uint32_t> joint_of_bone_;
+  std::vector<AffineRows> inverse_bind_, bone_to_shape_;
+  std::vector<Eigen::Vector3f> positions_;
 };
 
 }  // namespace bch

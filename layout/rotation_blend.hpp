@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <Eigen/Geometry>
+
+namespace bch {
+
+/// The rotation a share t of the shorter way from a to b, at constant speed; 0 <= t <= 1. By multiplications and
+/// square roots alone, so that it is the same everywhere: the trigonometry of a maths library is not.
+/// Returns: a unit quaternion, to 1e-9.
+Eigen::Quaterniond slerp(const Eigen::Quaternionf& a, const Eigen::Quaternionf& b, float t);
+
+}  // namespace bch
