@@ -6,7 +6,7 @@
 #include <array>
 #include <span>
 
-#include "layout/disc.hpp"
+#include "layout/interior_implementation.hpp"
 #include "layout/tangent_discs.hpp"
 
 namespace bch {
@@ -19,15 +19,16 @@ struct ContourDepths {
 };
 
 /// Depths of the discs' centres, exact but for the rounding of double.
-void measure_depths(std::span<const Vec2> contour, const CandidateDiscs& discs, ContourDepths& depths);
+void measure_depths(const InteriorLoops& loops, std::span<const Vec2> contour, const CandidateDiscs& discs,
+                    ContourDepths& depths);
 
 /// The same in float, at half the cost.
-void estimate_depths(std::span<const float> contour_x, std::span<const float> contour_y,
-                     const CandidateDiscs& discs, ContourDepths& depths);
+void estimate_depths(const InteriorLoops& loops, const ContourPoints& contour, const CandidateDiscs& discs,
+                     ContourDepths& depths);
 
 /// The point of a contour nearest to each disc's centre, and the unit vector from there to the centre; both
 /// in float, and the vector is 0 for a centre on the contour.
-void nearest_touches(std::span<const float> contour_x, std::span<const float> contour_y,
-                     const CandidateDiscs& discs, Touches& touches);
+void nearest_touches(const InteriorLoops& loops, const ContourPoints& contour, const CandidateDiscs& discs,
+                     Touches& touches);
 
 }  // namespace bch

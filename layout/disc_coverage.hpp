@@ -14,10 +14,10 @@ namespace bch {
 /// them dilated. Area is counted on a raster of 32 x 32 unit cells from the origin, a bit each.
 class DiscCoverage {
  public:
-  static constexpr std::uint32_t cells = 32;
+  static constexpr std::uint32_t cells = raster_rows;
 
   /// Begins anew with these discs to choose from, in units of a cell.
-  void offer(const CandidateDiscs& discs, float dilation);
+  void offer(const InteriorLoops& loops, const CandidateDiscs& discs, float dilation);
   /// The best of the discs that are left; they have to be one at least. It is covered and gone from then on.
   std::uint32_t choose();
 
@@ -27,6 +27,7 @@ class DiscCoverage {
 
   static std::int32_t promise(std::uint32_t disc, int gain);
 
+  const InteriorLoops* loops_ = nullptr;
   alignas(64) std::array<Mask, most_touches> mask_;
   alignas(64) Mask covered_;
   /// The cells that a disc would add, at most: gains only shrink as others are chosen. In the low bits the

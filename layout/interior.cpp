@@ -4,6 +4,7 @@
 #include "layout/interior.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -43,38 +44,37 @@ Contour largest_contour(const Outline& outline) {
   return largest;
 }
 
-/// Opposite directions have the same line, so half of them suffice. A tie goes to the first point.
-void set_extremes(Contour contour, Interior& result) {
-  constexpr std::uint32_t lines = extreme_directions / 2;
-  alignas(64) double cosine[lines], sine[lines], least[lines], most[lines];
-  alignas(64) std::int64_t lowest[lines] = {}, highest[lines] = {};
-  for (std::uint32_t k = 0; k < lines; ++k) {
-    const Rotation direction = rotation(2 * std::numbers::pi * k / extreme_directions);
-    cosine[k] = direction.cosine, sine[k] = direction.sine;
-    least[k] = std::numeric_limits<double>::infinity(), most[k] = -least[k];
-  }
-  std::int64_t index = 0;
-  for (const Vec2 point : contour) {
-    const double x = static_cast<double>(point.x), y = static_cast<double>(point.y);
-    for (std::uint32_t k = 0; k < lines; ++k) {
-      const double along = cosine[k] * x + sine[k] * y;
-      lowest[k] = along < least[k] ? index : lowest[k];
-      least[k] = along < least[k] ? along : least[k];
-      highest[k] = most[k] < along ? index : highest[k];
-      most[k] = most[k] < along ? along : most[k];
+/// Opposite directions have the same line, so half of them suffice.
+struct Lines {
+  alignas(64) std::array<double, contour_lines> cosine, sine;
+
+  Lines() {
+    static_assert(2 * contour_lines == extreme_directions);
+    for (std::uint32_t k = 0; k < contour_lines; ++k) {
+      const Rotation direction = rotation(2 * std::numbers::pi * k / extreme_directions);
+      cosine[k] = direction.cosine, sine[k] = direction.sine;
     }
-    ++index;
   }
+};
+
+void set_extremes(const InteriorLoops& loops, Contour contour, Interior& result) {
+  static const Lines lines;
+  alignas(64) std::array<double, extreme_directions> farthest;
+  loops.find_extremes(contour.data(), contour.size(),
+                      {lines.cosine.data(), lines.sine.data(), &farthest[contour_lines], &farthest[0]});
   for (std::uint32_t k = 0; k < extreme_stride; ++k) {
-    const std::uint32_t direction = k % extreme_directions;
-    const Vec2 farthest =
-        contour[static_cast<std::size_t>(direction < lines ? highest[direction] : lowest[direction - lines])];
-    result.extreme_x[k] = farthest.x;
-    result.extreme_y[k] = farthest.y;
+    const Vec2 point = contour[static_cast<std::size_t>(farthest[k % extreme_directions])];
+    result.extreme_x[k] = point.x;
+    result.extreme_y[k] = point.y;
   }
 }
 
 }  // namespace
+
+InteriorBuilder::InteriorBuilder() : InteriorBuilder(best_interior_implementation()) {}
+
+InteriorBuilder::InteriorBuilder(const InteriorImplementation& implementation)
+    : loops_(&implementation.loops) {}
 
 InteriorBuilder::Frame InteriorBuilder::frame(Contour contour) {
   Vec2 low = contour[0], high = contour[0];
@@ -108,15 +108,14 @@ bool InteriorBuilder::choose(Contour contour, std::uint32_t count) {
     chosen_.x[k] = candidates_.x[disc];
     chosen_.y[k] = candidates_.y[disc];
   }
-  Touches nearest;
-  nearest_touches(x_, y_, chosen_, nearest);
-  samples_.largest_discs(nearest, x_, y_, chosen_);
+  nearest_touches(*loops_, corners(), chosen_, nearest_);
+  samples_.largest_discs(*loops_, nearest_, corners(), chosen_);
   stored_.count = count;
   for (std::uint32_t k = 0; k < count; ++k) {
     stored_.x[k] = static_cast<float>(frame_.x + static_cast<double>(chosen_.x[k]) * frame_.cell);
     stored_.y[k] = static_cast<float>(frame_.y + static_cast<double>(chosen_.y[k]) * frame_.cell);
   }
-  measure_depths(contour, stored_, depths_);
+  measure_depths(*loops_, contour, stored_, depths_);
   bool all_sound = true;
   for (std::uint32_t k = 0; k < count; ++k) all_sound &= is_sound(chosen_, k, frame_.cell);
   return all_sound;
@@ -138,7 +137,7 @@ std::uint32_t InteriorBuilder::offer_measured() {
     sound.x[sound.count] = discs.x[k], sound.y[sound.count] = discs.y[k];
     sound.radius[sound.count++] = static_cast<float>(depths_.distance[k]);
   };
-  estimate_depths(x_, y_, candidates_, depths_);
+  estimate_depths(*loops_, corners(), candidates_, depths_);
   for (std::uint32_t k = 0; k < most_touches; ++k) {
     if (is_sound(candidates_, k, 1)) {
       keep(candidates_, k);
@@ -148,11 +147,11 @@ std::uint32_t InteriorBuilder::offer_measured() {
     grid.y[grid.count] = dilation + spacing * (static_cast<float>(k / row) + 0.5f);
     grid.radius[grid.count++] = 0;
   }
-  estimate_depths(x_, y_, grid, depths_);
+  estimate_depths(*loops_, corners(), grid, depths_);
   for (std::uint32_t k = 0; k < grid.count; ++k)
     if (is_sound(grid, k, 1)) keep(grid, k);
   candidates_ = sound;
-  coverage_.offer(candidates_, dilation);
+  coverage_.offer(*loops_, candidates_, dilation);
   return candidates_.count;
 }
 
@@ -162,14 +161,14 @@ Interior InteriorBuilder::build(const Outline& outline, double reach) {
   result.x.fill(std::numeric_limits<float>::infinity());
   result.y.fill(0);
   result.radius.fill(0);
-  set_extremes(contour, result);
+  set_extremes(*loops_, contour, result);
 
   frame_ = frame(contour);
   if (!(frame_.cell > 0)) return result;
   to_cells(contour);
   samples_.take(x_, y_);
-  samples_.largest_discs(samples_.touches(), {}, {}, candidates_);
-  coverage_.offer(candidates_, dilation);
+  samples_.largest_discs(*loops_, samples_.touches(), {}, candidates_);
+  coverage_.offer(*loops_, candidates_, dilation);
   if (!choose(contour, block_width)) choose(contour, std::min(block_width, offer_measured()));
 
   std::uint32_t discs = 0;

@@ -46,6 +46,11 @@ struct Interior {
 /// open pair, which cost more than the walks that they save (0.7 ns a pair for a percent).
 class InteriorBuilder {
  public:
+  /// With the best loops that this processor supports.
+  InteriorBuilder();
+  /// With given ones, which this processor has to support.
+  explicit InteriorBuilder(const InteriorImplementation& implementation);
+
   /// Shapes:  validate(outline) does not throw; contours are counter-clockwise. `reach` is that of the shape,
   ///          metres. Where no disc fits that is larger than the rounding there is none; slivers some 60
   ///          times as long as wide may have fewer than fit.
@@ -65,10 +70,14 @@ class InteriorBuilder {
   bool is_sound(const CandidateDiscs& discs, std::uint32_t k, double unit) const;
   std::uint32_t offer_measured();
 
+  ContourPoints corners() const { return {x_.data(), y_.data(), x_.size()}; }
+
+  const InteriorLoops* loops_;
   Frame frame_;
   std::vector<float> x_, y_;  ///< the contour's points, in cells
   ContourSamples samples_;
   CandidateDiscs candidates_, chosen_;  ///< in cells
+  Touches nearest_;                     ///< of the chosen ones
   DiscCoverage coverage_;
   CandidateDiscs stored_;  ///< the chosen centres in metres, as floats
   ContourDepths depths_;   ///< of the last discs looked at

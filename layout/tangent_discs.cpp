@@ -25,25 +25,8 @@ double edge_lengths(std::span<const float> x, std::span<const float> y, std::vec
   return sum;
 }
 
-using HalfCurvatures = std::array<float, most_touches>;
 /// Holds off the radius 1 / 0 of a touch that has no point on its inner side.
 constexpr float smallest_curvature = 0x1p-6f;
-/// Of a square distance: what is nearer than coordinates are rounded tells nothing about a tangent disc.
-constexpr float blur = 0x1p-16f;
-
-/// A disc that touches at q with the centre q + r n holds a point q + w unless 2 r (n w) <= w^2.
-void keep_out(std::span<const float> x, std::span<const float> y, const Touches& touches,
-              HalfCurvatures& least) {
-  alignas(64) HalfCurvatures curvature = least;
-  for (std::size_t i = 0; i < x.size(); ++i) {
-    for (std::uint32_t k = 0; k < touches.count; ++k) {
-      const float wx = x[i] - touches.x[k], wy = y[i] - touches.y[k];
-      const float needed = (touches.normal_x[k] * wx + touches.normal_y[k] * wy) / (wx * wx + wy * wy + blur);
-      curvature[k] = curvature[k] < needed ? needed : curvature[k];
-    }
-  }
-  least = curvature;
-}
 
 }  // namespace
 
@@ -73,15 +56,17 @@ void ContourSamples::take(std::span<const float> x, std::span<const float> y) {
   touches_.count = most_touches;
 }
 
-void ContourSamples::largest_discs(const Touches& touches, std::span<const float> corner_x,
-                                   std::span<const float> corner_y, CandidateDiscs& discs) const {
-  HalfCurvatures least;
-  least.fill(0.5f * smallest_curvature);
-  keep_out(x_, y_, touches, least);
-  keep_out(corner_x, corner_y, touches, least);
+void ContourSamples::largest_discs(const InteriorLoops& loops, const Touches& touches,
+                                   const ContourPoints& corners, CandidateDiscs& discs) const {
+  const TouchLanes lanes{touches.x.data(), touches.y.data(), touches.normal_x.data(), touches.normal_y.data(),
+                         touches.count};
+  alignas(64) std::array<float, most_touches> half_curvature;
+  half_curvature.fill(0.5f * smallest_curvature);
+  loops.keep_out({x_.data(), y_.data(), count}, lanes, half_curvature.data());
+  loops.keep_out(corners, lanes, half_curvature.data());
   discs.count = touches.count;
   for (std::uint32_t k = 0; k < touches.count; ++k) {
-    const float radius = 0.5f / least[k];
+    const float radius = 0.5f / half_curvature[k];
     discs.radius[k] = radius;
     discs.x[k] = touches.x[k] + radius * touches.normal_x[k];
     discs.y[k] = touches.y[k] + radius * touches.normal_y[k];

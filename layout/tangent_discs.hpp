@@ -9,19 +9,20 @@
 #include <vector>
 
 #include "layout/disc.hpp"
+#include "layout/interior_implementation.hpp"
 
 namespace bch {
 
 /// Points where a disc is to touch a contour, and the unit normals there that point inward.
 constexpr std::uint32_t most_touches = 64;
 struct Touches {
-  alignas(64) std::array<float, most_touches> x, y, normal_x, normal_y;
+  alignas(64) std::array<float, most_touches> x{}, y{}, normal_x{}, normal_y{};
   std::uint32_t count = 0;
 };
 
 /// Discs as arrays, room for one a touch.
 struct CandidateDiscs {
-  alignas(64) std::array<float, most_touches> x, y, radius;
+  alignas(64) std::array<float, most_touches> x{}, y{}, radius{};
   std::uint32_t count = 0;
 };
 
@@ -40,7 +41,7 @@ class ContourSamples {
   /// whoever uses them has to look.
   /// Source:  the closed form of J. Ma, S. W. Bae, S. Choi, "3D medial axis point approximation using nearest
   ///          neighbors and the normal field", The Visual Computer 28, 2012.
-  void largest_discs(const Touches& touches, std::span<const float> corner_x, std::span<const float> corner_y,
+  void largest_discs(const InteriorLoops& loops, const Touches& touches, const ContourPoints& corners,
                      CandidateDiscs& discs) const;
 
  private:

@@ -215,8 +215,32 @@ TEST(Interior, DiscsOfPeopleWhoMeetOverlap) {
   EXPECT_GE(overlapping, 2520);
 }
 
+/// People, contours with whiskers, for which candidates are measured once more, and such as have no room.
+TEST(Interior, EveryInstructionSetGivesTheSameBits) {
+  std::vector<Shape> shapes = test::synthetic_shapes(53, 48);
+  for (const Character& character : test::default_characters())
+    for (Shape& shape : test::pose_shapes(character, 12)) shapes.push_back(std::move(shape));
+  for (const Outline& outline : {closed({{0, 0}, {1, 0}, {1, 1}, {5, 6}, {1, 1}, {0, 1}, {-4, 0.5f}, {0, 1}}),
+                                 closed({{0, 0}, {1, 0}}), closed({{1, 1}})})
+    shapes.emplace_back().outline = outline;
+  InteriorBuilder plain(interior_implementations().back());
+  for (const InteriorImplementation& implementation : interior_implementations()) {
+    if (!implementation.supported()) continue;
+    InteriorBuilder builder(implementation);
+    for (const Shape& shape : shapes) {
+      const Interior found = builder.build(shape.outline, reach(shape.outline.points));
+      const Interior expected = plain.build(shape.outline, reach(shape.outline.points));
+      ASSERT_EQ(found.x, expected.x) << implementation.name;
+      ASSERT_EQ(found.y, expected.y) << implementation.name;
+      ASSERT_EQ(found.radius, expected.radius) << implementation.name;
+      ASSERT_EQ(found.extreme_x, expected.extreme_x) << implementation.name;
+      ASSERT_EQ(found.extreme_y, expected.extreme_y) << implementation.name;
+    }
+  }
+}
+
 /// Against counting cell by cell, without shortcuts.
-TEST(DiscCoverage, ChoosesWhatAddsMost) {
+void expect_best_choices(const InteriorLoops& loops) {
   constexpr int cells = DiscCoverage::cells;
   test::Random random(9);
   CandidateDiscs discs;
@@ -227,7 +251,7 @@ TEST(DiscCoverage, ChoosesWhatAddsMost) {
     discs.radius[k] = static_cast<float>(random.uniform(0, k % 8 == 0 ? 30 : 6));
   }
   DiscCoverage coverage;
-  coverage.offer(discs, 0.5f);
+  coverage.offer(loops, discs, 0.5f);
   std::vector<bool> covered(cells * cells), chosen(discs.count);
   const auto new_cells = [&](std::uint32_t k, bool cover) {
     int count = 0;
@@ -252,6 +276,13 @@ TEST(DiscCoverage, ChoosesWhatAddsMost) {
         ASSERT_LE(new_cells(k, false), added);
       }
     new_cells(disc, true);
+  }
+}
+
+TEST(DiscCoverage, ChoosesWhatAddsMost) {
+  for (const InteriorImplementation& implementation : interior_implementations()) {
+    SCOPED_TRACE(implementation.name);
+    if (implementation.supported()) expect_best_choices(implementation.loops);
   }
 }
 
