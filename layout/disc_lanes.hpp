@@ -129,9 +129,15 @@ class DiscLanes {
         offer(basis(a, c, d));
         offer(basis(b, c, d));
       }
-      store(best.centre);
+      const Point centre{rounded(best.centre.x), rounded(best.centre.y)};
+      Batch largest(0.0);
+      for (std::size_t k = 0; k < count_; ++k)
+        largest = xsimd::max(largest, square_distance(point(k), centre));
+      store(centre, largest);
     }
 
+    /// Farthest points are those from the centre as a float, so that the last look at them gives the radius too. Which
+    /// of two is the farthest may then be decided by rounding; whether one is outside is asked of the exact disc.
     void solve_large() const {
       const Point a = farthest(point(0)).point, b = farthest(a).point;
       const Batch ab = square_distance(a, b);
@@ -140,11 +146,12 @@ class DiscLanes {
       Batch least(HUGE_VAL);
       Mask open = now.is_pair;
       for (int i = 0; i < most_disc_pivots; ++i) {
-        const Farthest q = farthest(now.centre);
+        const Point centre{rounded(now.centre.x), rounded(now.centre.y)};
+        const Farthest q = farthest(centre);
         const Mask better = open & (q.square < least);
-        best = select(better, now.centre, best);
+        best = select(better, centre, best);
         least = select(better, q.square, least);
-        open = open & (q.square > now.square_radius * Batch(disc_slack));
+        open = open & (square_distance(q.point, now.centre) > now.square_radius * Batch(disc_slack));
         if (!xsimd::any(open)) break;
         const Basis next = pivot(now, q.point);
         open = open & (next.square_radius > now.square_radius);
@@ -155,7 +162,7 @@ class DiscLanes {
         now.square_radius = select(open, next.square_radius, now.square_radius);
         now.is_pair = (open & next.is_pair) | (now.is_pair & !open);
       }
-      store(best);
+      store(best, least);
     }
 
    private:
@@ -200,22 +207,23 @@ class DiscLanes {
       return odd;
     }
 
-    /// Rounds the centre to float and reaches for every point from there.
-    void store(const Point& exact) const {
+    /// To the 24 bits of a float's significand.
+    /// Source:  T. J. Dekker, "A floating-point technique for extending the available precision", Numerische
+    ///          Mathematik 18, 1971.
+    static Batch rounded(const Batch& value) {
+      const Batch scaled = value * Batch(0x1p29 + 1);
+      return scaled - (scaled - value);
+    }
+
+    /// The centre's coordinates are floats.
+    void store(const Point& centre, const Batch& square_radius) const {
       alignas(64) double x[width], y[width], square[width];
-      exact.x.store_aligned(x);
-      exact.y.store_aligned(y);
-      Vec2 centre[width];
-      for (std::size_t lane = 0; lane < width; ++lane) {
-        centre[lane].x = static_cast<float>(x[lane]), centre[lane].y = static_cast<float>(y[lane]);
-        x[lane] = static_cast<double>(centre[lane].x), y[lane] = static_cast<double>(centre[lane].y);
-      }
-      const Point from{Batch::load_aligned(x), Batch::load_aligned(y)};
-      Batch largest(0.0);
-      for (std::size_t k = 0; k < count_; ++k) largest = xsimd::max(largest, square_distance(point(k), from));
-      largest.store_aligned(square);
+      centre.x.store_aligned(x);
+      centre.y.store_aligned(y);
+      square_radius.store_aligned(square);
       for (std::size_t lane = 0; lane < width; ++lane)
-        job_.discs[job_.order[set(lane)]] = {centre[lane], square[lane]};
+        job_.discs[job_.order[set(lane)]] = {{static_cast<float>(x[lane]), static_cast<float>(y[lane])},
+                                             square[lane]};
     }
 
     const DiscSets& job_;
