@@ -20,9 +20,10 @@ namespace bch::bench {
 /// The scene must outlive the benchmarks.
 void register_collide_benchmarks(Scene& scene);
 
-/// build/<stage>: skinning, outline, hierarchy and interior of a pose, and its share of a shape set; build/<kind>: a
-/// structure over it. An iteration builds one pose; they take turns. build/outline/subdivided/<n>: outlines with
-/// every triangle cut into four, n times over; the counter `triangles` says into how many.
+/// build/<stage>: a stage of construction (build_stages.hpp) on the scene's characters; build/<stage>/<triangles>: on the
+/// built-in man with fewer and with more triangles. build/discs, build/discs_by_welzl, build/shape_set: the hierarchy's
+/// discs alone, and a set of one shape. build/<kind>: a structure over it, the single cylinder among them as in the
+/// paper's figure 3. An iteration builds one pose; they take turns. What stages make is checked before.
 void register_build_benchmarks(Scene& scene);
 
 /// load/map and load/read: a baked file of the scene's poses, in the file cache, by either way. load/<part>_alone: what

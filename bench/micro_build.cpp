@@ -4,21 +4,19 @@
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
+#include <deque>
+#include <memory>
+#include <span>
+#include <stdexcept>
 #include <string>
+#include <utility>
 
-#include "bench/fine_mesh.hpp"
+#include "bench/build_stages.hpp"
 #include "bench/micro.hpp"
 #include "bench/welzl.hpp"
-#include "layout/hierarchy_builder.hpp"
-#include "layout/interior.hpp"
-#include "layout/outline_builder.hpp"
-#include "layout/skinning.hpp"
-#include "layout/wide_tree.hpp"
 
 namespace bch::bench {
 namespace {
-
-constexpr float threshold = 0.01f;  ///< metres
 
 /// Builds pose after pose, over and over: build(i) is about shape i of the scene.
 template <class Build>
@@ -33,88 +31,71 @@ void time_poses(benchmark::State& state, Scene& scene, Build build) {
   state.SetLabel(std::to_string(count) + " poses in turn");
 }
 
-/// One a character, for what allocates the first time and never again.
-std::vector<Skinner> skinners(Scene& scene) {
-  std::vector<Skinner> all;
-  for (const auto& loaded : scene.characters()) all.emplace_back(loaded.character);
-  return all;
-}
-
-void build_skinning(benchmark::State& state, Scene& scene) {
-  std::vector<Skinner> all = skinners(scene);
-  const auto& sources = scene.sources();
-  for (std::size_t i = 0; i < sources.size(); ++i) {
-    const auto positions = all[sources[i].character].pose(sources[i].at);
-    if (!std::equal(positions.begin(), positions.end(), scene.bodies()[i].positions.begin()))
-      return state.SkipWithError("a pose differs from the same pose before");
-  }
-  time_poses(state, scene, [&](std::size_t i) {
-    benchmark::DoNotOptimize(all[sources[i].character].pose(sources[i].at).data());
-  });
-}
-
-void build_outline(benchmark::State& state, Scene& scene) {
-  std::vector<OutlineBuilder> builders;
-  for (const auto& [source, character, report] : scene.characters())
-    builders.emplace_back(character.triangles, character.vertices.size(), character.vertices);
-  const auto& bodies = scene.bodies();
-  const auto& sources = scene.sources();
-  Outline outline;
-  for (std::size_t i = 0; i < bodies.size(); ++i) {
-    builders[sources[i].character].build(bodies[i].positions, outline);
-    if (outline.points != bodies[i].shape.outline.points)
-      return state.SkipWithError("an outline differs from the same outline before");
-  }
-  time_poses(state, scene, [&](std::size_t i) {
-    builders[sources[i].character].build(bodies[i].positions, outline);
-    benchmark::DoNotOptimize(outline.points.data());
-  });
-}
-
-/// The outlines of the same poses with every triangle cut into four, as often as the argument says. The
-/// outlines are the same but for rounding, so this shows how time grows with the number of triangles.
-void build_finer_outline(benchmark::State& state, Scene& scene) {
-  const auto& bodies = scene.bodies();
-  const auto& sources = scene.sources();
-  constexpr std::size_t most = 10;  // poses of a character: the finest of all would take gigabytes
-  std::vector<OutlineBuilder> builders;
-  std::vector<std::pair<std::size_t, std::vector<Eigen::Vector3f>>> poses;
-  std::size_t triangles = 0;
-  for (std::size_t c = 0; c < scene.characters().size(); ++c) {
-    const Character& character = scene.characters()[c].character;
-    const FineMesh mesh(character.triangles, character.vertices.size(), state.range(0));
-    builders.emplace_back(mesh.triangles(), mesh.vertices(), mesh.finer(character.vertices));
-    triangles += mesh.triangles().size();
-    std::size_t taken = 0;
-    for (std::size_t i = 0; i < bodies.size() && taken < most; ++i) {
-      if (sources[i].character != c) continue;
-      poses.emplace_back(c, mesh.finer(bodies[i].positions));
-      ++taken;
-    }
-  }
-  Outline outline;
+/// Times one stage over all poses of the characters in turn.
+void time_stage(benchmark::State& state, std::span<BuildStages> characters, const BuildStage& stage) {
+  std::vector<std::pair<BuildStages*, std::size_t>> poses;
+  for (BuildStages& character : characters)
+    for (std::size_t pose = 0; pose < character.poses(); ++pose) poses.emplace_back(&character, pose);
   std::size_t i = 0;
   for ([[maybe_unused]] auto _ : state) {
-    const auto& [character, positions] = poses[i];
-    builders[character].build(positions, outline);
-    benchmark::DoNotOptimize(outline.points.data());
+    const auto [character, pose] = poses[i];
+    (character->*stage.build)(pose);
     i = i + 1 == poses.size() ? 0 : i + 1;
   }
   state.SetItemsProcessed(state.iterations());
-  state.counters["triangles"] = static_cast<double>(triangles) / static_cast<double>(builders.size());
+  state.SetLabel(std::to_string(poses.size()) + " poses in turn");
 }
 
-void build_hierarchy(benchmark::State& state, Scene& scene) {
-  const auto& shapes = scene.shapes();
-  HierarchyBuilder builder;
-  Hierarchy hierarchy;
-  builder.contour(shapes[0].outline, threshold, SplitRule::centroid, hierarchy);
-  if (hierarchy.nodes.size() != shapes[0].hierarchy.nodes.size())
-    return state.SkipWithError("a hierarchy differs from the same hierarchy before");
-  time_poses(state, scene, [&](std::size_t i) {
-    builder.contour(shapes[i].outline, threshold, SplitRule::centroid, hierarchy);
-    benchmark::DoNotOptimize(hierarchy.nodes.data());
-  });
+/// Stages made when they are first asked for, and kept until others are.
+class KeptStages {
+ public:
+  /// `key`: what the characters are told apart by.
+  template <class Make>
+  std::span<BuildStages> get(std::size_t key, Make make) {
+    if (key != key_ || stages_.empty()) {
+      stages_.clear();
+      characters_.clear();
+      make(characters_, stages_);
+      key_ = key;
+    }
+    return stages_;
+  }
+
+ private:
+  std::size_t key_ = 0;
+  std::deque<Character> characters_;
+  std::vector<BuildStages> stages_;
+};
+
+void register_stages(Scene& scene) {
+  const auto kept = std::make_shared<KeptStages>();
+  const auto add = [&](const std::string& name, const BuildStage& stage, auto get) {
+    benchmark::RegisterBenchmark(name.c_str(), [&stage, get](benchmark::State& state) {
+      try {
+        time_stage(state, get(), stage);
+      } catch (const std::runtime_error& error) {
+        state.SkipWithError(error.what());
+      }
+    })->Unit(benchmark::kMicrosecond);
+  };
+  const auto men = std::make_shared<const MenInDetail>();
+  for (const BuildStage& stage : build_stages)
+    add("build/" + std::string(stage.name), stage, [&scene, kept] {
+      return kept->get(0, [&scene](auto&, auto& stages) {
+        for (const auto& loaded : scene.characters())
+          stages.emplace_back(loaded.character, scene.poses(), build_implementations().front());
+      });
+    });
+  for (std::size_t i = 0; i < men->count(); ++i)
+    for (const BuildStage& stage : build_stages)
+      add("build/" + std::string(stage.name) + "/" + std::to_string(men->triangles(i)), stage,
+          [&scene, kept, men, i] {
+            return kept->get(i + 1, [&](auto& characters, auto& stages) {
+              const Character& man = characters.emplace_back(men->make(i));
+              stages.emplace_back(man, std::min(scene.poses(), men->poses(i)),
+                                  build_implementations().front());
+            });
+          });
 }
 
 /// The points of every node that holds more than one segment or piece of one.
@@ -161,33 +142,6 @@ void build_discs_by_welzl(benchmark::State& state, Scene& scene) {
   });
 }
 
-/// The wide trees and supports of four levels.
-void build_levels(benchmark::State& state, Scene& scene) {
-  const std::span<const Shape> shapes = scene.shapes();
-  Flattener flattener;
-  WideTree tree;
-  time_poses(state, scene, [&](std::size_t i) {
-    flattener.begin(shapes[i].hierarchy);
-    for (const std::uint32_t depth : {0u, 3u, 6u, all_depths}) {
-      flattener.flatten(depth, tree);
-      benchmark::DoNotOptimize(tree.blocks.data());
-      benchmark::DoNotOptimize(flattener.supports());
-    }
-  });
-}
-
-void build_interior(benchmark::State& state, Scene& scene) {
-  const auto& shapes = scene.shapes();
-  InteriorBuilder builder;
-  const auto build = [&](std::size_t i) {
-    return builder.build(shapes[i].outline, shapes[i].hierarchy.reach);
-  };
-  for (std::size_t i = 0; i < shapes.size(); ++i)
-    if (build(i).radius != interior(shapes[i].outline, shapes[i].hierarchy.reach).radius)
-      return state.SkipWithError("inscribed discs depend on what was built before");
-  time_poses(state, scene, [&](std::size_t i) { benchmark::DoNotOptimize(build(i)); });
-}
-
 /// A set of one shape: the wide tree, supports and inscribed discs.
 void build_shape_set(benchmark::State& state, Scene& scene) {
   const std::span<const Shape> shapes = scene.shapes();
@@ -207,32 +161,26 @@ void build_structure(benchmark::State& state, Scene& scene, const baselines::Kin
   state.counters["bytes_per_shape"] = static_cast<double>(bytes) / static_cast<double>(state.iterations());
 }
 
-struct Stage {
-  const char* name;
-  void (*run)(benchmark::State& state, Scene& scene);
-};
-
-constexpr Stage stages[] = {
-    {"build/skinning", build_skinning},   {"build/outline", build_outline},
-    {"build/hierarchy", build_hierarchy}, {"build/interior", build_interior},
-    {"build/discs", build_discs},         {"build/discs_by_welzl", build_discs_by_welzl},
-    {"build/levels", build_levels},       {"build/shape_set", build_shape_set},
-};
+/// As the paper calls it.
+std::string name_of(const baselines::Kind& kind) {
+  return kind.name == "single" ? "single_cylinder" : std::string(kind.name);
+}
 
 }  // namespace
 
 void register_build_benchmarks(Scene& scene) {
-  for (const Stage& stage : stages)
-    benchmark::RegisterBenchmark(stage.name, [&scene, run = stage.run](benchmark::State& state) {
-      run(state, scene);
+  register_stages(scene);
+  constexpr std::pair<const char*, void (*)(benchmark::State&, Scene&)> parts[] = {
+      {"build/discs", build_discs},
+      {"build/discs_by_welzl", build_discs_by_welzl},
+      {"build/shape_set", build_shape_set}};
+  for (const auto& [name, run] : parts)
+    benchmark::RegisterBenchmark(name, [&scene, part = run](benchmark::State& state) {
+      part(state, scene);
     })->Unit(benchmark::kMicrosecond);
-  benchmark::RegisterBenchmark("build/outline/subdivided",
-                               [&scene](benchmark::State& state) { build_finer_outline(state, scene); })
-      ->DenseRange(0, 3)
-      ->Unit(benchmark::kMicrosecond);
   for (const baselines::Kind& kind : baselines::kinds())
-    benchmark::RegisterBenchmark(("build/" + std::string(kind.name)).c_str(), [&scene, &kind](
-                                                                                  benchmark::State& state) {
+    benchmark::RegisterBenchmark(("build/" + name_of(kind)).c_str(), [&scene,
+                                                                      &kind](benchmark::State& state) {
       build_structure(state, scene, kind);
     })->Unit(benchmark::kMicrosecond);
 }

@@ -31,6 +31,7 @@ class Scene {
   explicit Scene(SceneOptions options);
 
   const std::vector<cli::LoadedCharacter>& characters();
+  std::uint32_t poses() const { return options_.poses; }  ///< of a character
   const std::vector<ShapeSource>& sources();
   const std::vector<Shape>& shapes();
   const std::vector<baselines::Body>& bodies();

@@ -21,6 +21,10 @@ namespace bch {
 /// nothing is allocated. Not for two threads at a time.
 class HierarchyBuilder {
  public:
+  HierarchyBuilder() = default;
+  /// With a given implementation of the discs, which this processor has to support.
+  explicit HierarchyBuilder(const DiscImplementation& implementation) : solver_(implementation) {}
+
   /// As contour_hierarchy() documents. After an exception the hierarchy has no nodes.
   /// `deepest`: nodes there are leaves. Cuts down to there are the same; bounds, which hold what is below, are not.
   void contour(const Outline& outline, float threshold, SplitRule rule, Hierarchy& hierarchy,

@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include "bench/build_stages.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "bench/mesh_detail.hpp"
+#include "bench/welzl.hpp"
+#include "layout/default_characters.hpp"
+#include "layout/outline_implementation.hpp"
+#include "layout/union_outline.hpp"
+
+namespace bch::bench {
+namespace {
+
+constexpr float threshold = 0.01f;  ///< metres
+constexpr std::uint32_t depths[] = {0, 3, 6, all_depths};
+
+/// Keeps what was computed.
+template <class Value>
+void use(const Value& value) {
+  asm volatile("" : : "r"(&value) : "memory");
+}
+
+void solve_by_welzl(const DiscSets& sets) noexcept {
+  static thread_local Welzl welzl;
+  for (std::size_t i = 0; i < sets.count; ++i) {
+    const std::span points(sets.points + sets.sets[i].begin, sets.points + sets.sets[i].end);
+    const Welzl::Circle circle = welzl(points);
+    const Vec2 centre{static_cast<float>(circle.x), static_cast<float>(circle.y)};
+    double square = 0;
+    for (const Vec2 p : points) {
+      const double x = static_cast<double>(p.x) - static_cast<double>(centre.x),
+                   y = static_cast<double>(p.y) - static_cast<double>(centre.y);
+      square = std::max(square, x * x + y * y);
+    }
+    sets.discs[i] = {centre, square};
+  }
+}
+
+const DiscImplementation& by_welzl() {
+  static const DiscImplementation row{"welzl", []() noexcept { return true; }, solve_by_welzl};
+  return row;
+}
+
+/// The row of a name, or else the best: not every stage is compiled for every set.
+template <class Rows>
+const auto* row_for(const Rows& rows, std::string_view name) {
+  const auto named =
+      std::find_if(rows.begin(), rows.end(), [&](const auto& row) { return row.name == name; });
+  return named != rows.end() ? &*named : &rows.front();
+}
+
+void require(bool right, std::string_view stage, std::size_t pose) {
+  if (!right)
+    throw std::runtime_error(
+        fmt::format("construction: stage {} makes something else of pose {}", stage, pose));
+}
+
+bool same(const Hierarchy& a, const Hierarchy& b, float tolerance) {
+  return std::equal(a.nodes.begin(), a.nodes.end(), b.nodes.begin(), b.nodes.end(),
+                    [=](const HierarchyNode& x, const HierarchyNode& y) {
+                      return x.second_child == y.second_child && x.element_begin == y.element_begin &&
+                             x.element_end == y.element_end &&
+                             std::abs(x.disc.radius - y.disc.radius) <= tolerance;
+                    });
+}
+
+bool same(const WideTree& a, const WideTree& b) {
+  const auto same_radii = [](const WideTree::Block& x, const WideTree::Block& y) {
+    return std::equal(std::begin(x.discs.radius), std::end(x.discs.radius), std::begin(y.discs.radius));
+  };
+  return a.x == b.x && a.y == b.y && a.radius == b.radius &&
+         std::equal(a.blocks.begin(), a.blocks.end(), b.blocks.begin(), b.blocks.end(), same_radii);
+}
+
+}  // namespace
+
+std::vector<BuildImplementation> build_implementations() {
+  std::vector<BuildImplementation> all;
+  for (const DiscImplementation& discs : disc_implementations())
+    if (discs.supported())
+      all.push_back({discs.name, row_for(outline_implementations(), discs.name), &discs,
+                     row_for(interior_implementations(), discs.name)});
+  return all;
+}
+
+BuildStages::BuildStages(const Character& character, std::uint32_t poses,
+                         const BuildImplementation& implementation)
+    : character_(character),
+      times_(sample_poses(character, poses)),
+      positions_(times_.size()),
+      outlines_(times_.size()),
+      hierarchies_(times_.size()),
+      skinner_(character),
+      outline_builder_(character.triangles, character.vertices.size(), character.vertices,
+                       *implementation.outline),
+      hierarchy_builder_(*implementation.discs),
+      welzl_builder_(by_welzl()),
+      interior_builder_(*implementation.interior) {
+  for (std::size_t pose = 0; pose < times_.size(); ++pose) make_and_check(pose);
+}
+
+void BuildStages::make_and_check(std::size_t pose) {
+  const auto positions = skinner_.pose(times_[pose]);
+  positions_[pose].assign(positions.begin(), positions.end());
+  outline(pose);
+  outlines_[pose] = outline_;
+  const Outline expected = union_outline(positions_[pose], character_.triangles);
+  require(outline_.points == expected.points && outline_.contour_begin == expected.contour_begin, "outline",
+          pose);
+  hierarchy(pose);
+  hierarchies_[pose] = hierarchy_;
+  require(same(hierarchy_, contour_hierarchy(outline_, threshold), 0), "hierarchy", pose);
+  hierarchy_welzl(pose);
+  require(same(hierarchy_, hierarchies_[pose], 1e-6f), "hierarchy_welzl", pose);
+  levels(pose);
+  require(same(tree_, wide_tree(hierarchies_[pose], depths[std::size(depths) - 1])), "levels", pose);
+  interior(pose);
+  require(interior_.radius == bch::interior(outlines_[pose], hierarchies_[pose].reach).radius, "interior",
+          pose);
+  all(pose);
+  require(outline_.points == expected.points && same(hierarchy_, hierarchies_[pose], 0), "all", pose);
+}
+
+void BuildStages::skin(std::size_t pose) {
+  use(skinner_.pose(times_[pose]));
+}
+
+void BuildStages::outline(std::size_t pose) {
+  outline_builder_.build(positions_[pose], outline_);
+}
+
+void BuildStages::hierarchy(std::size_t pose) {
+  hierarchy_builder_.contour(outlines_[pose], threshold, SplitRule::centroid, hierarchy_);
+}
+
+void BuildStages::hierarchy_welzl(std::size_t pose) {
+  welzl_builder_.contour(outlines_[pose], threshold, SplitRule::centroid, hierarchy_);
+}
+
+void BuildStages::levels(std::size_t pose) {
+  flatten(hierarchies_[pose]);
+}
+
+void BuildStages::interior(std::size_t pose) {
+  interior_ = interior_builder_.build(outlines_[pose], hierarchies_[pose].reach);
+  use(interior_);
+}
+
+void BuildStages::all(std::size_t pose) {
+  outline_builder_.build(skinner_.pose(times_[pose]), outline_);
+  hierarchy_builder_.contour(outline_, threshold, SplitRule::centroid, hierarchy_);
+  flatten(hierarchy_);
+  interior_ = interior_builder_.build(outline_, hierarchy_.reach);
+  use(interior_);
+}
+
+void BuildStages::flatten(const Hierarchy& hierarchy) {
+  flattener_.begin(hierarchy);
+  for (const std::uint32_t depth : depths) {
+    flattener_.flatten(depth, tree_);
+    supports_ = flattener_.supports();
+    use(supports_);
+  }
+}
+
+MenInDetail::MenInDetail() : man_(default_male()), coarse_(coarser(man_, 1'000)) {}
+
+Character MenInDetail::make(std::size_t i) const {
+  return finer(base(i), times(i));
+}
+
+std::uint32_t MenInDetail::poses(std::size_t i) const {
+  return static_cast<std::uint32_t>(std::clamp<std::size_t>(1'000'000 / triangles(i), 10, 100));
+}
+
+}  // namespace bch::bench

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+#include <vector>
+
+#include "layout/enclosing_discs.hpp"
+#include "layout/hierarchy_builder.hpp"
+#include "layout/interior.hpp"
+#include "layout/outline_builder.hpp"
+#include "layout/skinning.hpp"
+#include "layout/wide_tree.hpp"
+
+namespace bch::bench {
+
+/// The compilations of all stages that one instruction set would choose.
+struct BuildImplementation {
+  std::string_view name;
+  const OutlineImplementation* outline;
+  const DiscImplementation* discs;
+  const InteriorImplementation* interior;
+};
+
+/// Those that run here, the best first.
+std::vector<BuildImplementation> build_implementations();
+
+/// A character's way from poses to all that a set stores of shapes, stage by stage: each is made from what the one
+/// before it made of the same pose, with memory that is used again. Everything is checked when it is made first.
+class BuildStages {
+ public:
+  /// The character must outlive this.
+  /// Errors: throws std::runtime_error where a stage makes something else than the slower way to it.
+  BuildStages(const Character& character, std::uint32_t poses, const BuildImplementation& implementation);
+
+  std::size_t poses() const { return times_.size(); }
+
+  void skin(std::size_t pose);
+  void outline(std::size_t pose);
+  void hierarchy(std::size_t pose);
+  /// The same with every disc by Welzl's algorithm as textbooks have it.
+  void hierarchy_welzl(std::size_t pose);
+  /// Wide trees and supports of four levels.
+  void levels(std::size_t pose);
+  void interior(std::size_t pose);
+  /// From the pose to levels and inscribed discs.
+  void all(std::size_t pose);
+
+ private:
+  void make_and_check(std::size_t pose);
+  void flatten(const Hierarchy& hierarchy);
+
+  const Character& character_;
+  std::vector<PoseTime> times_;
+  std::vector<std::vector<Eigen::Vector3f>> positions_;
+  std::vector<Outline> outlines_;
+  std::vector<Hierarchy> hierarchies_;
+
+  Skinner skinner_;
+  OutlineBuilder outline_builder_;
+  HierarchyBuilder hierarchy_builder_, welzl_builder_;
+  Flattener flattener_;
+  InteriorBuilder interior_builder_;
+
+  // What was made last.
+  Outline outline_;
+  Hierarchy hierarchy_;
+  WideTree tree_;
+  Supports supports_;
+  Interior interior_;
+};
+
+struct BuildStage {
+  const char* name;
+  void (BuildStages::*build)(std::size_t pose);
+};
+constexpr BuildStage build_stages[] = {
+    {"skin", &BuildStages::skin},
+    {"outline", &BuildStages::outline},
+    {"hierarchy", &BuildStages::hierarchy},
+    {"hierarchy_welzl", &BuildStages::hierarchy_welzl},
+    {"levels", &BuildStages::levels},
+    {"interior", &BuildStages::interior},
+    {"all", &BuildStages::all},
+};
+
+/// The built-in man with fewer triangles and with more, from 1 000 to beyond 100 000.
+class MenInDetail {
+ public:
+  MenInDetail();
+
+  std::size_t count() const { return 8; }
+  std::size_t triangles(std::size_t i) const { return base(i).triangles.size() << 2 * times(i); }
+  Character make(std::size_t i) const;
+  /// So many that their memory stays below a gigabyte, and are different.
+  std::uint32_t poses(std::size_t i) const;
+
+ private:
+  const Character& base(std::size_t i) const { return i % 2 == 0 ? coarse_ : man_; }
+  static int times(std::size_t i) { return static_cast<int>(i / 2); }
+
+  Character man_, coarse_;
+};
+
+}  // namespace bch::bench

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <cstdint>
+
+#include "layout/character.hpp"
+
+namespace bch::bench {
+
+/// The character with every triangle cut into four at the middles of its edges, `times` over. A middle moves with
+/// the bones of both ends.
+Character finer(const Character& character, int times);
+
+/// The character with its vertices merged by the cells of a grid, and without the triangles that this closes: the
+/// finest grid that leaves no more triangles than `most`.
+Character coarser(const Character& character, std::size_t most);
+
+}  // namespace bch::bench
