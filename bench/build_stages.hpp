@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -37,6 +38,8 @@ class BuildStages {
   BuildStages(const Character& character, std::uint32_t poses, const BuildImplementation& implementation);
 
   std::size_t poses() const { return times_.size(); }
+  std::span<const Eigen::Vector3f> positions_of(std::size_t pose) const { return positions_[pose]; }
+  const Outline& outline_of(std::size_t pose) const { return outlines_[pose]; }
 
   void skin(std::size_t pose);
   void outline(std::size_t pose);

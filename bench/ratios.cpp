@@ -48,15 +48,21 @@ const std::vector<Table>& tables() {
       {"shapes",
        [](Scene& scene, const Options& o) { print_shape_count_ratios(scene, o.runs, o.most_shapes); }},
       {"plans", [](Scene& scene, const Options& o) { print_plan_table(scene, o.runs); }},
+      {"construction", [](Scene& scene, const Options& o) { print_build_ratios(scene, o.runs); }},
       {"paper", [](Scene& scene, const Options& o) { print_paper_table(scene, o.runs); }},
   };
   return all;
 }
 
 std::vector<std::string> table_names() {
-  std::vector<std::string> names;
+  std::vector<std::string> names = {"growth"};  // of no scene
   for (const Table& table : tables()) names.push_back(table.name);
   return names;
+}
+
+bool wants(const Options& options, const std::string& table) {
+  return options.tables.empty() ||
+         std::find(options.tables.begin(), options.tables.end(), table) != options.tables.end();
 }
 
 void print_tables(Scene& scene, const Options& options) {
@@ -64,10 +70,8 @@ void print_tables(Scene& scene, const Options& options) {
   for (const auto& character : scene.characters()) names += (names.empty() ? "" : ", ") + character.source;
   fmt::print("# {}: {} shapes, medians of {} runs, load {:.1f}\n", names, scene.shapes().size(), options.runs,
              load_average());
-  const auto& wanted = options.tables;
   for (const Table& table : tables())
-    if (wanted.empty() || std::find(wanted.begin(), wanted.end(), table.name) != wanted.end())
-      table.print(scene, options);
+    if (wants(options, table.name)) table.print(scene, options);
   fmt::print("\n");
 }
 
@@ -100,6 +104,7 @@ int run(int argc, char** argv) {
   // threads.
   if (!files.empty()) given.characters();
   print_tables(built_in, options);
+  if (wants(options, "growth")) print_build_growth(scene.poses, options.runs);
   if (!files.empty()) print_tables(given, options);
   return bch::cli::exit_success;
 }

@@ -45,6 +45,9 @@ void print_call_ratios(Scene& scene, std::uint32_t runs);
 void print_crowd_ratios(Scene& scene, std::uint32_t runs);
 void print_shape_count_ratios(Scene& scene, std::uint32_t runs, std::uint32_t most_shapes);
 void print_plan_table(Scene& scene, std::uint32_t runs);
+/// Construction: every stage by every instruction set, beside what is asked; and how it grows with triangles.
+void print_build_ratios(Scene& scene, std::uint32_t runs);
+void print_build_growth(std::uint32_t poses, std::uint32_t runs);
 void print_paper_table(Scene& scene, std::uint32_t runs);
 
 }  // namespace bch::bench

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include "bench/clipper_union.hpp"
+
+// Compiled in place of clipper_union.cpp where there is no libpolyclipping.
+
+namespace bch::bench {
+
+double clipper_union_area(std::span<const Eigen::Vector3f>, std::span<const std::array<std::uint32_t, 3>>,
+                          double) {
+  return -1;
+}
+
+}  // namespace bch::bench

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstdint>
+#include <span>
+
+namespace bch::bench {
+
+/// The area of the union of a pose's triangles, seen from above and rounded to steps of a grid, as libpolyclipping has
+/// it; negative where the build found no libpolyclipping.
+/// Units:   metres.
+double clipper_union_area(std::span<const Eigen::Vector3f> positions,
+                          std::span<const std::array<std::uint32_t, 3>> triangles, double step);
+
+}  // namespace bch::bench
