@@ -162,8 +162,8 @@ OutlineTopology outline_topology(Triangles triangles, std::size_t vertices, Posi
   sort_by_place(edges);
   for (const Edge& edge : edges) {
     if (manifold(edge.uses)) {
-      topology.manifold.push_back(
-          {edge.uses[0].a, edge.uses[0].b, edge.uses[0].triangle, edge.uses[1].triangle});
+      topology.manifold.push_back({edge.uses[0].a, edge.uses[0].b});
+      topology.manifold_triangles.push_back({edge.uses[0].triangle, edge.uses[1].triangle});
       continue;
     }
     topology.uses_begin.push_back(static_cast<std::uint32_t>(topology.uses.size()));

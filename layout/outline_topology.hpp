@@ -14,10 +14,13 @@ namespace bch {
 /// What a mesh's connectivity says about outlines in every pose. Vertices are numbered anew, in the order of
 /// their old numbers and without those that no triangle uses.
 struct OutlineTopology {
-  /// An edge of two triangles that use it in opposite directions.
+  /// An edge of two triangles that use it in opposite directions, and in an array beside it these triangles: a pose
+  /// reads all of the latter and few of the former.
   struct ManifoldEdge {
     std::uint32_t a, b;
-    std::uint32_t first, second;  ///< triangles
+  };
+  struct EdgeTriangles {
+    std::uint32_t first, second;
   };
   /// One triangle's use of any other edge.
   struct EdgeUse {
@@ -29,6 +32,7 @@ struct OutlineTopology {
   std::vector<std::uint32_t> used;  ///< old number of each vertex
   std::vector<std::array<std::uint32_t, 3>> triangles;
   std::vector<ManifoldEdge> manifold;
+  std::vector<EdgeTriangles> manifold_triangles;
   std::vector<EdgeUse> uses;              ///< edge after edge
   std::vector<std::uint32_t> uses_begin;  ///< of each edge that is not manifold, and the end
   std::vector<std::uint32_t> island;      ///< of each vertex: parts that share no vertex have different ones
