@@ -6,6 +6,7 @@
 #include <emmintrin.h>
 
 #include <algorithm>
+#include <bit>
 
 #include "layout/rounding.hpp"
 
@@ -87,10 +88,19 @@ void publish_nodes(HierarchyArrays& arrays, std::uint32_t count, double margin, 
     raise(parent[parent[i]], distance[2 * std::size_t{i} + 1] + below);
     const float bound = rounding::round_up(static_cast<double>(below) + slack);
     const Vec2 centre = arrays.centre[i];
-    // A leaf prunes nothing: its bound is its disc, so that a traversal may test bounds throughout.
+    // A leaf prunes nothing: its bound is its disc, so that a traversal may test bounds throughout. Chosen by bits,
+    // because whether a node is a leaf is a coin toss.
     const std::uint32_t second = arrays.second_child[i];
-    const std::uint32_t* const end = second == 0 ? &element_begin[i + 1] : &nodes[second].element_end;
-    nodes[i] = {{centre.x, centre.y, radius}, second == 0 ? radius : bound, second, element_begin[i], *end};
+    const std::uint32_t inner = second == 0 ? 0 : ~std::uint32_t{0};
+    const auto choose = [inner](std::uint32_t of_inner, std::uint32_t of_leaf) {
+      return (of_inner & inner) | (of_leaf & ~inner);
+    };
+    nodes[i] = {{centre.x, centre.y, radius},
+                std::bit_cast<float>(
+                    choose(std::bit_cast<std::uint32_t>(bound), std::bit_cast<std::uint32_t>(radius))),
+                second,
+                element_begin[i],
+                choose(nodes[second].element_end, element_begin[i + 1])};
   }
 }
 

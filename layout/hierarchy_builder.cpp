@@ -286,7 +286,7 @@ void HierarchyBuilder::gather_points(std::span<const std::uint32_t> order) {
     at += !(b == c);
     points[at] = c;
     last[k] = at;
-    at += (k + 1 == count) | !(c == *next);
+    at += (k + 1 == count) | (std::bit_cast<std::uint64_t>(c) != std::bit_cast<std::uint64_t>(*next));
   }
   point_count_ = at;
 }
