@@ -62,8 +62,9 @@ VertexBlend::VertexBlend(const Character& character) : vertex_(character.vertice
   const auto& begin = character.influence_begin;
   std::iota(vertex_.begin(), vertex_.end(), 0);
   const auto count = [&](std::uint32_t v) { return begin[v + 1] - begin[v]; };
-  std::stable_sort(vertex_.begin(), vertex_.end(),
-                   [&](std::uint32_t v, std::uint32_t w) { return count(v) < count(w); });
+  std::sort(vertex_.begin(), vertex_.end(), [&](std::uint32_t v, std::uint32_t w) {
+    return count(v) != count(w) ? count(v) < count(w) : v < w;
+  });
 
   for (const Influence& influence : character.influences) bones_.push_back(influence.bone);
   std::sort(bones_.begin(), bones_.end());
