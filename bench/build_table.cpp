@@ -11,6 +11,7 @@
 
 #include "bench/build_stages.hpp"
 #include "bench/clipper_union.hpp"
+#include "bench/median.hpp"
 #include "bench/ratios.hpp"
 #include "bench/stopwatch.hpp"
 #include "bench/text.hpp"
@@ -87,9 +88,9 @@ void print_clipper_ratio(const Character& character, const BuildStages& stages, 
     if (!(area <= ours * (1 + 1e-4) && area >= 0.9 * ours))
       throw std::runtime_error("construction: the outline has another area than libpolyclipping's union");
   }
-  const double ratio = median(times) / microseconds;
+  const double ratio = cli::median(times) / microseconds;
   fmt::print("  libpolyclipping's union of all triangles: {:.0f} us over {:.1f}: {:.0f} x   {}\n",
-             median(times), microseconds, ratio, verdict(ratio, times_clipper));
+             cli::median(times), microseconds, ratio, verdict(ratio, times_clipper));
 }
 
 void print_character(const Character& character, std::uint32_t poses, std::uint32_t runs) {

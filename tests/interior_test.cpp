@@ -220,8 +220,9 @@ TEST(Interior, EveryInstructionSetGivesTheSameBits) {
   std::vector<Shape> shapes = test::synthetic_shapes(53, 48);
   for (const Character& character : test::default_characters())
     for (Shape& shape : test::pose_shapes(character, 12)) shapes.push_back(std::move(shape));
-  for (const Outline& outline : {closed({{0, 0}, {1, 0}, {1, 1}, {5, 6}, {1, 1}, {0, 1}, {-4, 0.5f}, {0, 1}}),
-                                 closed({{0, 0}, {1, 0}}), closed({{1, 1}})})
+  for (const Outline& outline :
+       {polygon({{0, 0}, {1, 0}, {1, 1}, {5, 6}, {1, 1}, {0, 1}, {-4, 0.5f}, {0, 1}}),
+        polygon({{0, 0}, {1, 0}}), polygon({{1, 1}})})
     shapes.emplace_back().outline = outline;
   InteriorBuilder plain(interior_implementations().back());
   for (const InteriorImplementation& implementation : interior_implementations()) {
