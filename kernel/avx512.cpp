@@ -7,16 +7,19 @@
 namespace bch::kernel {
 namespace {
 
-/// Two rows of a block's outer product fit into one register.
+/// Several rows of a block's outer product fit into one register: two of eight, four of four.
 struct Avx512Lanes : Lanes<xsimd::avx512f> {
-  static Float eight(const float* p) noexcept { return columns(p, 0); }
+  static Float eight(const float* p) noexcept { return columns<8>(p, 0); }
+  template <unsigned count>
   static Float row(Float eight, unsigned i) noexcept {
-    const auto k = static_cast<int>(i);
-    return _mm512_permutexvar_ps(
-        _mm512_setr_epi32(k, k, k, k, k, k, k, k, k + 1, k + 1, k + 1, k + 1, k + 1, k + 1, k + 1, k + 1),
-        eight);
+    const auto k = [i](unsigned lane) { return static_cast<int>(i + lane / count); };
+    return _mm512_permutexvar_ps(_mm512_setr_epi32(k(0), k(1), k(2), k(3), k(4), k(5), k(6), k(7), k(8), k(9),
+                                                   k(10), k(11), k(12), k(13), k(14), k(15)),
+                                 eight);
   }
+  template <unsigned count>
   static Float columns(const float* eight, unsigned) noexcept {
+    if constexpr (count == 4) return _mm512_broadcast_f32x4(_mm_loadu_ps(eight));
     return _mm512_castpd_ps(_mm512_broadcast_f64x4(_mm256_castps_pd(_mm256_loadu_ps(eight))));
   }
   static std::uint32_t bits(xsimd::batch_bool<float, xsimd::avx512f> hits) noexcept { return hits.data; }

@@ -28,31 +28,33 @@ struct Discs {
   std::size_t stride;
 };
 
-/// All of A's eight discs against all of B's: bit 8 i + j for disc i of A and j of B. Always inlined: passing
-/// it to a function takes longer than the test.
-template <class Simd>
+/// The first `count` of A's discs against those of B, four or all eight: bit count * i + j for disc i of A and j of B.
+/// Always inlined: passing it to a function takes longer than the test.
+template <class Simd, unsigned count = block_width>
 [[gnu::always_inline]] inline std::uint64_t overlapping_discs(const Transform& b_in_a, Discs a,
                                                               Discs b) noexcept {
   using Float = typename Simd::Float;
-  constexpr unsigned parts = Simd::width < block_width ? block_width / Simd::width : 1;
-  constexpr unsigned rows = Simd::width > block_width ? Simd::width / block_width : 1;
+  constexpr unsigned parts = Simd::width < count ? count / Simd::width : 1;
+  constexpr unsigned rows = Simd::width > count ? Simd::width / count : 1;
   const Float c(b_in_a.c), s(b_in_a.s), tx(b_in_a.tx), ty(b_in_a.ty);
   const auto ax = Simd::eight(a.x), ay = Simd::eight(a.x + a.stride), ar = Simd::eight(a.x + 2 * a.stride);
   Float px[parts], py[parts], r[parts];
 #pragma GCC unroll 8
   for (unsigned part = 0; part < parts; ++part) {
-    const Float x = Simd::columns(b.x, part), y = Simd::columns(b.x + b.stride, part);
+    const Float x = Simd::template columns<count>(b.x, part),
+                y = Simd::template columns<count>(b.x + b.stride, part);
     px[part] = tx + (c * x - s * y), py[part] = ty + (s * x + c * y);
-    r[part] = Simd::columns(b.x + 2 * b.stride, part);
+    r[part] = Simd::template columns<count>(b.x + 2 * b.stride, part);
   }
   std::uint64_t bits = 0;
 #pragma GCC unroll 8
-  for (unsigned row = 0; row < block_width; row += rows) {
-    const Float row_x = Simd::row(ax, row), row_y = Simd::row(ay, row), row_r = Simd::row(ar, row);
+  for (unsigned row = 0; row < count; row += rows) {
+    const Float row_x = Simd::template row<count>(ax, row), row_y = Simd::template row<count>(ay, row),
+                row_r = Simd::template row<count>(ar, row);
 #pragma GCC unroll 8
     for (unsigned part = 0; part < parts; ++part)
       bits |= std::uint64_t{overlaps<Simd>(px[part], py[part], r[part], row_x, row_y, row_r)}
-              << (row * block_width + part * Simd::width);
+              << (row * count + part * Simd::width);
   }
   return bits;
 }

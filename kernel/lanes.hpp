@@ -24,7 +24,12 @@ struct Lanes {
   static void store(double* p, Double v) noexcept { v.store_unaligned(p); }
   static Float select(Mask mask, Float yes, Float no) noexcept { return xsimd::select(mask, yes, no); }
   static const float* eight(const float* p) noexcept { return p; }
-  static Float row(const float* eight, unsigned i) noexcept { return Float(eight[i]); }
+  template <unsigned count>
+  static Float row(const float* eight, unsigned i) noexcept {
+    static_assert(width <= count, "or else a row of its own");
+    return Float(eight[i]);
+  }
+  template <unsigned count>
   static Float columns(const float* eight, unsigned part) noexcept {
     return Float::load_unaligned(eight + part * width);
   }
@@ -46,8 +51,14 @@ struct Lanes<Scalar> {
   static void store(double* p, Double v) noexcept { *p = v; }
   static Float select(Mask mask, Float yes, Float no) noexcept { return mask ? yes : no; }
   static const float* eight(const float* p) noexcept { return p; }
-  static Float row(const float* eight, unsigned i) noexcept { return eight[i]; }
-  static Float columns(const float* eight, unsigned part) noexcept { return eight[part]; }
+  template <unsigned count>
+  static Float row(const float* eight, unsigned i) noexcept {
+    return eight[i];
+  }
+  template <unsigned count>
+  static Float columns(const float* eight, unsigned part) noexcept {
+    return eight[part];
+  }
 };
 
 }  // namespace bch::kernel

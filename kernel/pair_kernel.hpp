@@ -124,10 +124,7 @@ class PairKernel {
     measure_distances();
     parted_.size = meeting_.size = 0;
     open_.move_if(parted_, [&](std::uint32_t pair) { return separation_.apart(pair, 0); });
-    if (shapes_.inscribed != nullptr) {
-      accept_by_inscribed_discs(open_);
-      accept_by_inscribed_discs(near_);
-    }
+    if (shapes_.inscribed != nullptr) accept_by_inscribed_discs();
     near_.move_if(parted_, [&](std::uint32_t pair) { return separation_.apart(pair, 0); });
     near_.move_all(open_);
     open_.move_if(parted_, [&](std::uint32_t pair) { return separation_.apart(pair, 1); });
@@ -173,19 +170,23 @@ class PairKernel {
 
   /// Where discs inside the outlines overlap, the outlines meet; in boundary semantics that counts only where
   /// neither can hold the other. See layout/interior.hpp.
-  void accept_by_inscribed_discs(List& pairs) noexcept {
-    candidates_.size = nestable_.size = 0;
-    List& met = in_.mark_near_misses ? meeting_ : candidates_;
-    pairs.move_if(met, [&](std::uint32_t pair) {
-      return static_cast<std::uint32_t>(overlapping_discs<Simd>(at_.transform(pair),
-                                                                inscribed(at_.shape_a[pair]),
-                                                                inscribed(at_.shape_b[pair])) != 0);
-    });
+  void accept_by_inscribed_discs() noexcept {
+    nestable_.size = 0;
+    near_.move_if(meeting_,
+                  [&](std::uint32_t pair) { return inscribed_discs_overlap<block_width / 2>(pair); });
+    near_.move_if(meeting_, [&](std::uint32_t pair) { return inscribed_discs_overlap<block_width>(pair); });
+    open_.move_if(meeting_, [&](std::uint32_t pair) { return inscribed_discs_overlap<block_width>(pair); });
     if (in_.mark_near_misses) return;
-    candidates_.move_if(nestable_, [&](std::uint32_t pair) { return may_nest(pair); });
-    candidates_.move_all(meeting_);
+    meeting_.move_if(nestable_, [&](std::uint32_t pair) { return may_nest(pair); });
     nestable_.move_if(meeting_, [&](std::uint32_t pair) { return separation_.contours_stick_out(pair); });
-    nestable_.move_all(pairs);
+    nestable_.move_all(open_);
+  }
+
+  /// By the first `count` discs of either.
+  template <unsigned count>
+  std::uint32_t inscribed_discs_overlap(std::uint32_t pair) const noexcept {
+    return overlapping_discs<Simd, count>(at_.transform(pair), inscribed(at_.shape_a[pair]),
+                                          inscribed(at_.shape_b[pair])) != 0;
   }
 
   Discs inscribed(std::uint32_t shape) const noexcept { return {shapes_.inscribed[shape].x, block_width}; }
@@ -199,7 +200,7 @@ class PairKernel {
   RecordFields<Simd, chunk> of_a_, of_b_;
   std::uint32_t row_a_[chunk], row_b_[chunk];  ///< of the roots' supports; set by test_roots()
   std::uint32_t open_bits_[chunk / Simd::width], may_nest_[chunk / Simd::width];  ///< a register's pairs each
-  List open_, near_, parted_, meeting_, candidates_, nestable_;
+  List open_, near_, parted_, meeting_, nestable_;
   Walk<Simd> walk_;
 };
 
