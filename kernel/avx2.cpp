@@ -19,6 +19,7 @@ struct Avx2Lanes : Lanes<xsimd::avx2> {
     if constexpr (count == width) return load(eight);
     return _mm256_broadcast_ps(reinterpret_cast<const __m128*>(eight));
   }
+  static void store_rounded(float* p, Double v) noexcept { _mm_storeu_ps(p, _mm256_cvtpd_ps(v)); }
   static std::uint32_t bits(xsimd::batch_bool<float, xsimd::avx2> hits) noexcept {
     return static_cast<std::uint32_t>(_mm256_movemask_ps(hits));
   }

@@ -22,6 +22,7 @@ struct Avx512Lanes : Lanes<xsimd::avx512f> {
     if constexpr (count == 4) return _mm512_broadcast_f32x4(_mm_loadu_ps(eight));
     return _mm512_castpd_ps(_mm512_broadcast_f64x4(_mm256_castps_pd(_mm256_loadu_ps(eight))));
   }
+  static void store_rounded(float* p, Double v) noexcept { _mm256_storeu_ps(p, _mm512_cvtpd_ps(v)); }
   static std::uint32_t bits(xsimd::batch_bool<float, xsimd::avx512f> hits) noexcept { return hits.data; }
 };
 

@@ -25,7 +25,11 @@ class Placements {
   /// Places `size` pairs from `begin` on, at most a chunk.
   void place(const Arguments& in, std::size_t begin, std::uint32_t count) noexcept {
     size = count;
-    gather(in, begin);
+    in.prefetch ? gather<true>(in, begin) : gather<false>(in, begin);
+    find_roots(in, begin);
+    repeat_last();
+    rotate(heading_, cosine_, sine_);
+    rotate(heading_ + chunk, cosine_ + chunk, sine_ + chunk);
     turn();
   }
 
@@ -43,38 +47,60 @@ class Placements {
 
   using Float = typename Simd::Float;
   using Double = typename Simd::Double;
+  static constexpr std::uint32_t doubles = sizeof(Double) / sizeof(double);  ///< a register
 
-  /// Scalar: what the chunk's pairs need, side by side. The lower index is A, so that the order within a pair
-  /// does not matter.
+  /// Scalar: what the chunk's pairs need, side by side.
+  template <bool prefetch>
   void gather(const Arguments& in, std::size_t begin) noexcept {
-    const std::uint32_t levels = in.shapes->level_count;
-    for (std::uint32_t k = 0; k < size; ++k) {
+    // What this writes might be these pointers, for all the compiler knows of `in`.
+    const Pair* const pairs = in.pairs + begin;
+    const std::uint32_t* const shape = in.agent_shape;
+    const double *const x = in.agent_x, *const y = in.agent_y, *const heading = in.agent_heading;
+    const std::uint32_t count = size;
+    for (std::uint32_t k = 0; k < count; ++k) {
       // Not a function of its own: GCC 12 drops the call of one that only prefetches.
-      if (in.prefetch && k + pairs_ahead < size) {
-        const Pair next = in.pairs[begin + k + pairs_ahead];
+      if (prefetch && k + pairs_ahead < count) {
+        const Pair next = pairs[k + pairs_ahead];
         const std::uint32_t both[] = {next.first, next.second};
         for (const std::uint32_t i : both) {
-          __builtin_prefetch(in.agent_shape + i);
-          __builtin_prefetch(in.agent_x + i);
-          __builtin_prefetch(in.agent_y + i);
-          __builtin_prefetch(in.agent_heading + i);
+          __builtin_prefetch(shape + i);
+          __builtin_prefetch(x + i);
+          __builtin_prefetch(y + i);
+          __builtin_prefetch(heading + i);
           if (in.agent_level) __builtin_prefetch(in.agent_level + i);
         }
       }
-      const Pair pair = in.pairs[begin + k];
-      const bool swap = pair.second < pair.first;
-      const std::uint32_t a = swap ? pair.second : pair.first, b = swap ? pair.first : pair.second;
-      const std::uint32_t level_a = in.agent_level ? in.agent_level[a] : levels - 1;
-      const std::uint32_t level_b = in.agent_level ? in.agent_level[b] : levels - 1;
-      shape_a[k] = in.agent_shape[a];
-      shape_b[k] = in.agent_shape[b];
-      root_a[k] = shape_a[k] * levels + level_a;
-      root_b[k] = shape_b[k] * levels + level_b;
-      dx_[k] = static_cast<float>(in.agent_x[b] - in.agent_x[a]);
-      dy_[k] = static_cast<float>(in.agent_y[b] - in.agent_y[a]);
-      heading_[k] = in.agent_heading[a];
-      heading_[chunk + k] = in.agent_heading[b];
+      const auto [a, b] = ordered(pairs[k]);
+      shape_a[k] = shape[a];
+      shape_b[k] = shape[b];
+      dx_[k] = x[b] - x[a];
+      dy_[k] = y[b] - y[a];
+      heading_[k] = heading[a];
+      heading_[chunk + k] = heading[b];
     }
+  }
+
+  /// The lower index is A, so that the order within a pair does not matter.
+  static Pair ordered(Pair pair) noexcept {
+    const bool swap = pair.second < pair.first;
+    return {swap ? pair.second : pair.first, swap ? pair.first : pair.second};
+  }
+
+  void find_roots(const Arguments& in, std::size_t begin) noexcept {
+    const std::uint32_t levels = in.shapes->level_count, count = size;
+    for (std::uint32_t k = 0; k < count; ++k) {
+      root_a[k] = shape_a[k] * levels + levels - 1;
+      root_b[k] = shape_b[k] * levels + levels - 1;
+    }
+    if (!in.agent_level) return;
+    for (std::uint32_t k = 0; k < count; ++k) {
+      const auto [a, b] = ordered(in.pairs[begin + k]);
+      root_a[k] -= levels - 1 - in.agent_level[a];
+      root_b[k] -= levels - 1 - in.agent_level[b];
+    }
+  }
+
+  void repeat_last() noexcept {
     for (std::uint32_t k = size; k % padding != 0; ++k) {
       shape_a[k] = shape_a[size - 1], shape_b[k] = shape_b[size - 1];
       root_a[k] = root_a[size - 1], root_b[k] = root_b[size - 1];
@@ -83,30 +109,14 @@ class Placements {
     }
   }
 
-  /// Unit vectors of the headings, then B's rotation and position in A's frame.
-  void turn() noexcept {
-    rotate(heading_, cosine_, sine_);
-    rotate(heading_ + chunk, cosine_ + chunk, sine_ + chunk);
-    for (std::uint32_t k = 0; k < size; k += Simd::width) {
-      const Float ca = Simd::load(cosine_ + k), sa = Simd::load(sine_ + k);
-      const Float cb = Simd::load(cosine_ + chunk + k), sb = Simd::load(sine_ + chunk + k);
-      const Float dx = Simd::load(dx_ + k), dy = Simd::load(dy_ + k);
-      Simd::store(c + k, ca * cb + sa * sb);
-      Simd::store(s + k, ca * sb - sa * cb);
-      Simd::store(tx + k, ca * dx + sa * dy);
-      Simd::store(ty + k, ca * dy - sa * dx);
-    }
-  }
-
   /// layout/heading.cpp, in lanes.
-  void rotate(const double* heading, float* cosine, float* sine) noexcept {
+  void rotate(const double* heading, float* cosine, float* sine) const noexcept {
     namespace h = heading_constants;
-    alignas(64) double c_out[chunk], s_out[chunk];
+    alignas(64) float quarter[chunk];
     const auto round_to_integer = [](Double x) {
       return (x + Double(h::round_to_integer)) - Double(h::round_to_integer);
     };
-    constexpr std::uint32_t width = sizeof(Double) / sizeof(double);
-    for (std::uint32_t k = 0; k < size; k += width) {
+    for (std::uint32_t k = 0; k < whole_registers(); k += doubles) {
       const Double angle = Simd::load(heading + k);
       const Double quarters = round_to_integer(angle * Double(h::two_over_pi));
       Double r = angle - quarters * Double(h::half_pi[0]);
@@ -117,23 +127,43 @@ class Placements {
       Double sines(h::sine[0]), cosines(h::cosine[0]);
       for (int i = 1; i < 5; ++i)
         sines = sines * square + Double(h::sine[i]), cosines = cosines * square + Double(h::cosine[i]);
-      sines = sines * square * r + r;
-      cosines = cosines * square + Double(1.0);
-      const Double left = quarters - Double(4.0) * round_to_integer(quarters * Double(0.25));
-      const Double turn_c = Double(1.0) - xsimd::abs(left);
-      const Double turn_s = left * (Double(2.0) - xsimd::abs(left));
-      Simd::store(c_out + k, cosines * turn_c - sines * turn_s);
-      Simd::store(s_out + k, sines * turn_c + cosines * turn_s);
+      Simd::store_rounded(sine + k, sines * square * r + r);
+      Simd::store_rounded(cosine + k, cosines * square + Double(1.0));
+      Simd::store_rounded(quarter + k, quarters - Double(4.0) * round_to_integer(quarters * Double(0.25)));
     }
-    for (std::uint32_t k = 0; k < size; ++k)
-      cosine[k] = static_cast<float>(c_out[k]), sine[k] = static_cast<float>(s_out[k]);
-    for (std::uint32_t k = size; k % padding != 0; ++k)
-      cosine[k] = cosine[size - 1], sine[k] = sine[size - 1];
+    // The quarters that remain turn by 0 and +-1: rounded before or after, that is the same.
+    for (std::uint32_t k = 0; k < size; k += Simd::width) {
+      const Float ck = Simd::load(cosine + k), sk = Simd::load(sine + k), left = Simd::load(quarter + k);
+      const Float turn_c = Float(1.0f) - xsimd::abs(left), turn_s = left * (Float(2.0f) - xsimd::abs(left));
+      Simd::store(cosine + k, ck * turn_c - sk * turn_s);
+      Simd::store(sine + k, sk * turn_c + ck * turn_s);
+    }
   }
 
-  alignas(64) double heading_[2 * chunk];
+  /// B's rotation and position in A's frame.
+  void turn() noexcept {
+    for (std::uint32_t k = 0; k < whole_registers(); k += doubles) {
+      Simd::store_rounded(tx + k, Simd::load(dx_ + k));
+      Simd::store_rounded(ty + k, Simd::load(dy_ + k));
+    }
+    for (std::uint32_t k = 0; k < size; k += Simd::width) {
+      const Float ca = Simd::load(cosine_ + k), sa = Simd::load(sine_ + k);
+      const Float cb = Simd::load(cosine_ + chunk + k), sb = Simd::load(sine_ + chunk + k);
+      const Float dx = Simd::load(tx + k), dy = Simd::load(ty + k);
+      Simd::store(c + k, ca * cb + sa * sb);
+      Simd::store(s + k, ca * sb - sa * cb);
+      Simd::store(tx + k, ca * dx + sa * dy);
+      Simd::store(ty + k, ca * dy - sa * dx);
+    }
+  }
+
+  /// Pairs, filled up to whole registers of floats.
+  std::uint32_t whole_registers() const noexcept {
+    return (size + Simd::width - 1) / Simd::width * Simd::width;
+  }
+
+  alignas(64) double heading_[2 * chunk], dx_[chunk], dy_[chunk];
   alignas(64) float cosine_[2 * chunk], sine_[2 * chunk];
-  alignas(64) float dx_[chunk], dy_[chunk];
 };
 
 }  // namespace bch::kernel

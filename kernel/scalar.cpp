@@ -8,6 +8,7 @@ namespace bch::kernel {
 namespace {
 
 struct ScalarLanes : Lanes<Scalar> {
+  static void store_rounded(float* p, double v) noexcept { *p = static_cast<float>(v); }
   static std::uint32_t bits(bool hit) noexcept { return hit; }
 };
 

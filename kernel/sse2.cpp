@@ -8,6 +8,9 @@ namespace bch::kernel {
 namespace {
 
 struct Sse2Lanes : Lanes<xsimd::sse2> {
+  static void store_rounded(float* p, Double v) noexcept {
+    _mm_storel_epi64(reinterpret_cast<__m128i*>(p), _mm_castps_si128(_mm_cvtpd_ps(v)));
+  }
   static std::uint32_t bits(xsimd::batch_bool<float, xsimd::sse2> hits) noexcept {
     return static_cast<std::uint32_t>(_mm_movemask_ps(hits));
   }
