@@ -26,24 +26,6 @@ constexpr double longer_side = DiscCoverage::cells - 2 * static_cast<double>(dil
 /// A candidate with less than this share of its estimated radius is not sound.
 constexpr double least_share = 0.5;
 
-double twice_area(Contour contour) {
-  double sum = 0;
-  for (std::size_t i = 0, before = contour.size() - 1; i < contour.size(); before = i++)
-    sum += static_cast<double>(contour[before].x) * static_cast<double>(contour[i].y) -
-           static_cast<double>(contour[before].y) * static_cast<double>(contour[i].x);
-  return sum;
-}
-
-Contour largest_contour(const Outline& outline) {
-  Contour largest = outline.contour(0);
-  if (outline.contours() == 1) return largest;
-  double most = twice_area(largest);
-  for (std::size_t c = 1; c < outline.contours(); ++c)
-    if (const double area = twice_area(outline.contour(c)); area > most)
-      most = area, largest = outline.contour(c);
-  return largest;
-}
-
 /// Opposite directions have the same line, so half of them suffice.
 struct Lines {
   alignas(64) std::array<double, contour_lines> cosine, sine;

@@ -11,6 +11,17 @@
 #include "layout/rounding.hpp"
 
 namespace bch {
+namespace {
+
+double twice_area(std::span<const Vec2> contour) {
+  double sum = 0;
+  for (std::size_t i = 0, before = contour.size() - 1; i < contour.size(); before = i++)
+    sum += static_cast<double>(contour[before].x) * static_cast<double>(contour[i].y) -
+           static_cast<double>(contour[before].y) * static_cast<double>(contour[i].x);
+  return sum;
+}
+
+}  // namespace
 
 double reach(std::span<const Vec2> points) {
   double square = 0;
@@ -32,6 +43,16 @@ double area(const Outline& outline) {
     }
   }
   return 0.5 * twice;
+}
+
+std::span<const Vec2> largest_contour(const Outline& outline) {
+  std::span<const Vec2> largest = outline.contour(0);
+  if (outline.contours() == 1) return largest;
+  double most = twice_area(largest);
+  for (std::size_t c = 1; c < outline.contours(); ++c)
+    if (const double size = twice_area(outline.contour(c)); size > most)
+      most = size, largest = outline.contour(c);
+  return largest;
 }
 
 void validate(const Outline& outline) {

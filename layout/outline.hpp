@@ -33,6 +33,10 @@ double reach(std::span<const Vec2> points);
 /// Area inside the contours, square metres.
 double area(const Outline& outline);
 
+/// The contour with the largest area, the first of several.
+/// Precondition: there is one.
+std::span<const Vec2> largest_contour(const Outline& outline);
+
 /// Checks the promises that hierarchies rely on: at least one contour, offsets in order, finite points, reach
 /// within the limits of rounding.hpp.
 /// Errors:  throws std::invalid_argument naming the contour or point and the value.

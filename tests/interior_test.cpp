@@ -41,7 +41,7 @@ TEST(Supports, AreExtentsOfTheDiscsEnlarged) {
 
 using Contour = std::span<const Vec2>;
 
-Contour largest_contour(const Outline& outline) {
+Contour contour_of_most_area(const Outline& outline) {
   const auto area_of = [&](std::size_t c) {
     const Contour points = outline.contour(c);
     return area(polygon({points.begin(), points.end()}));
@@ -71,7 +71,7 @@ long double depth(Contour contour, float at_x, float at_y) {
 
 /// How many there are; each is inside by what rounding.hpp asks for and not by much more.
 int expect_inside(const Outline& outline, double reach, const Interior& found) {
-  const Contour contour = largest_contour(outline);
+  const Contour contour = contour_of_most_area(outline);
   const long double margin = rounding::query_margin * reach;
   int discs = 0;
   for (std::uint32_t k = 0; k < block_width; ++k) {
