@@ -65,8 +65,8 @@ std::size_t first_bad_agent(const kernel::Implementation& implementation, const 
       [&](std::size_t i) { return !kernel::is_valid(shapes, agents, i); });
 }
 
-bool indices_are_below(std::span<const Pair> pairs, std::size_t agents) {
-  std::size_t bad = 0;
+bool indices_are_below(std::span<const Pair> pairs, std::uint32_t agents) {
+  std::uint32_t bad = 0;
   for (const Pair& pair : pairs) bad += (pair.first >= agents) | (pair.second >= agents);
   return bad == 0;
 }
@@ -100,7 +100,8 @@ void require_valid(const kernel::Implementation& implementation, const ShapeSet&
   const std::size_t i = first_bad(
       pairs.size(),
       [&](std::size_t begin, std::size_t end) {
-        return all_agents_are_valid && indices_are_below(pairs.subspan(begin, end - begin), agents.size());
+        return all_agents_are_valid && indices_are_below(pairs.subspan(begin, end - begin),
+                                                         static_cast<std::uint32_t>(agents.size()));
       },
       [&](std::size_t k) { return is_bad(pairs[k].first) || is_bad(pairs[k].second); });
   if (i < pairs.size()) reject_pair(shapes, agents, pairs, i);
