@@ -19,7 +19,23 @@ struct Avx2Lanes : Lanes<xsimd::avx2> {
     if constexpr (count == width) return load(eight);
     return _mm256_broadcast_ps(reinterpret_cast<const __m128*>(eight));
   }
-  static void store_rounded(float* p, Double v) noexcept { _mm_storeu_ps(p, _mm256_cvtpd_ps(v)); }
+  static void load_records(const float* table, const std::uint32_t* index, Float (&field)[4]) noexcept {
+    const auto record = [=](std::size_t i) { return _mm_load_ps(table + std::size_t{4} * index[i]); };
+    __m256 r[4];
+#pragma GCC unroll 4
+    for (std::size_t i = 0; i < 4; ++i) r[i] = _mm256_set_m128(record(i + 4), record(i));
+    const __m256d low01 = _mm256_castps_pd(_mm256_unpacklo_ps(r[0], r[1])),
+                  low23 = _mm256_castps_pd(_mm256_unpacklo_ps(r[2], r[3])),
+                  high01 = _mm256_castps_pd(_mm256_unpackhi_ps(r[0], r[1])),
+                  high23 = _mm256_castps_pd(_mm256_unpackhi_ps(r[2], r[3]));
+    field[0] = _mm256_castpd_ps(_mm256_unpacklo_pd(low01, low23));
+    field[1] = _mm256_castpd_ps(_mm256_unpackhi_pd(low01, low23));
+    field[2] = _mm256_castpd_ps(_mm256_unpacklo_pd(high01, high23));
+    field[3] = _mm256_castpd_ps(_mm256_unpackhi_pd(high01, high23));
+  }
+  static void store_rounded(float* p, Double v) noexcept {
+    _mm_storeu_ps(p, _mm256_cvtpd_ps(v));
+  }
   static std::uint32_t bits(xsimd::batch_bool<float, xsimd::avx2> hits) noexcept {
     return static_cast<std::uint32_t>(_mm256_movemask_ps(hits));
   }

@@ -22,8 +22,38 @@ struct Avx512Lanes : Lanes<xsimd::avx512f> {
     if constexpr (count == 4) return _mm512_broadcast_f32x4(_mm_loadu_ps(eight));
     return _mm512_castpd_ps(_mm512_broadcast_f64x4(_mm256_castps_pd(_mm256_loadu_ps(eight))));
   }
-  static void store_rounded(float* p, Double v) noexcept { _mm256_storeu_ps(p, _mm512_cvtpd_ps(v)); }
-  static std::uint32_t bits(xsimd::batch_bool<float, xsimd::avx512f> hits) noexcept { return hits.data; }
+  static std::uint32_t write_set(std::uint32_t bits, std::uint32_t first, std::uint16_t* to) noexcept {
+    const __m512i lanes = _mm512_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
+    const __m512i all = _mm512_add_epi32(lanes, _mm512_set1_epi32(static_cast<int>(first)));
+    const __m512i set = _mm512_maskz_compress_epi32(static_cast<__mmask16>(bits), all);
+    _mm256_storeu_si256(reinterpret_cast<__m256i*>(to), _mm512_cvtepi32_epi16(set));
+    return static_cast<std::uint32_t>(__builtin_popcount(bits));
+  }
+  static void load_records(const float* table, const std::uint32_t* index, Float (&field)[4]) noexcept {
+    const auto record = [=](std::size_t i) { return _mm_load_ps(table + std::size_t{4} * index[i]); };
+    __m512 r[4];
+#pragma GCC unroll 4
+    for (std::size_t i = 0; i < 4; ++i) {
+      r[i] = _mm512_castps128_ps512(record(i));
+      r[i] = _mm512_insertf32x4(r[i], record(i + 4), 1);
+      r[i] = _mm512_insertf32x4(r[i], record(i + 8), 2);
+      r[i] = _mm512_insertf32x4(r[i], record(i + 12), 3);
+    }
+    const __m512d low01 = _mm512_castps_pd(_mm512_unpacklo_ps(r[0], r[1])),
+                  low23 = _mm512_castps_pd(_mm512_unpacklo_ps(r[2], r[3])),
+                  high01 = _mm512_castps_pd(_mm512_unpackhi_ps(r[0], r[1])),
+                  high23 = _mm512_castps_pd(_mm512_unpackhi_ps(r[2], r[3]));
+    field[0] = _mm512_castpd_ps(_mm512_unpacklo_pd(low01, low23));
+    field[1] = _mm512_castpd_ps(_mm512_unpackhi_pd(low01, low23));
+    field[2] = _mm512_castpd_ps(_mm512_unpacklo_pd(high01, high23));
+    field[3] = _mm512_castpd_ps(_mm512_unpackhi_pd(high01, high23));
+  }
+  static void store_rounded(float* p, Double v) noexcept {
+    _mm256_storeu_ps(p, _mm512_cvtpd_ps(v));
+  }
+  static std::uint32_t bits(xsimd::batch_bool<float, xsimd::avx512f> hits) noexcept {
+    return hits.data;
+  }
 };
 
 }  // namespace

@@ -10,12 +10,20 @@ namespace bch::kernel {
 /// Some of a chunk's pairs.
 template <std::uint32_t capacity>
 struct ChunkPairs {
+  static constexpr std::uint32_t padding = 16;  ///< lanes of the widest register
+
   std::uint32_t size = 0;
-  std::uint16_t pair[capacity];
+  std::uint16_t pair[capacity + padding];
 
   void add_if(bool wanted, std::uint32_t which) noexcept {
     pair[size] = static_cast<std::uint16_t>(which);
     size += wanted;
+  }
+
+  /// Those of the pairs from `first` on whose bits are set.
+  template <class Simd>
+  void add(std::uint32_t bits, std::uint32_t first) noexcept {
+    size += Simd::write_set(bits, first, pair + size);
   }
 
   void move_all(ChunkPairs& to) noexcept {
@@ -24,7 +32,19 @@ struct ChunkPairs {
     size = 0;
   }
 
-  /// Moves the pairs that pass a test to another list. No branch depends on an answer.
+  /// Forgets the pairs that pass a test. No branch depends on an answer, here and below.
+  template <class Test>
+  void drop_if(Test passes) noexcept {
+    std::uint32_t kept = 0;
+    for (std::uint32_t k = 0; k < size; ++k) {
+      const std::uint16_t each = pair[k];
+      pair[kept] = each;
+      kept += passes(each) ^ 1;
+    }
+    size = kept;
+  }
+
+  /// Moves the pairs that pass a test to another list.
   template <class Test>
   void move_if(ChunkPairs& to, Test passes) noexcept {
     std::uint32_t kept = 0, moved = to.size;

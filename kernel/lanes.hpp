@@ -3,14 +3,24 @@
 
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <xsimd/xsimd.hpp>
 
 namespace bch::kernel {
 
+/// Of the sets of four bits: the numbers of those that are set, 16 bits each from the lowest, and how many. (Here, because
+/// members of a template would be data that objects share.)
+constexpr std::uint64_t numbers_of_set[] = {
+    0x0, 0x0,      0x1,      0x1'0000,      0x2,      0x2'0000,      0x2'0001,      0x2'0001'0000,
+    0x3, 0x3'0000, 0x3'0001, 0x3'0001'0000, 0x3'0002, 0x3'0002'0000, 0x3'0002'0001, 0x3'0002'0001'0000};
+constexpr std::uint64_t counts_of_set = 0x4332'3221'3221'2110;
+
 /// What the pair kernel needs of an instruction set beyond arithmetic. Eight is the width of a block: `row`
 /// gives part of an outer product's left side (disc i, or discs i and i + 1 where two rows fit), `columns`
-/// the matching right side. Each instruction set's file adds bits(), for which xsimd 8.1 has no name.
+/// the matching right side. Each instruction set's file adds what xsimd 8.1 has no name for: bits() of a mask,
+/// store_rounded() of doubles as floats, and load_records(), which picks records of four floats from a table and
+/// gives field after field, lane = record.
 template <class Arch>
 struct Lanes {
   using Float = xsimd::batch<float, Arch>;
@@ -23,6 +33,18 @@ struct Lanes {
   static void store(float* p, Float v) noexcept { v.store_unaligned(p); }
   static void store(double* p, Double v) noexcept { v.store_unaligned(p); }
   static Float select(Mask mask, Float yes, Float no) noexcept { return xsimd::select(mask, yes, no); }
+  /// first + i for every set bit i, in order; a register's lanes of numbers may be written.
+  /// Returns: how many.
+  static std::uint32_t write_set(std::uint32_t bits, std::uint32_t first, std::uint16_t* to) noexcept {
+    std::uint32_t count = 0;
+    for (std::uint32_t i = 0; i < width; i += 4) {
+      const std::uint32_t four = bits >> i & 15;
+      const std::uint64_t numbers = numbers_of_set[four] + 0x1'0001'0001'0001 * (first + i);
+      __builtin_memcpy(to + count, &numbers, sizeof numbers);
+      count += static_cast<std::uint32_t>(counts_of_set >> 4 * four & 15);
+    }
+    return count;
+  }
   static const float* eight(const float* p) noexcept { return p; }
   template <unsigned count>
   static Float row(const float* eight, unsigned i) noexcept {
@@ -50,6 +72,13 @@ struct Lanes<Scalar> {
   static void store(float* p, Float v) noexcept { *p = v; }
   static void store(double* p, Double v) noexcept { *p = v; }
   static Float select(Mask mask, Float yes, Float no) noexcept { return mask ? yes : no; }
+  static void load_records(const float* table, const std::uint32_t* index, Float (&field)[4]) noexcept {
+    for (std::size_t i = 0; i < 4; ++i) field[i] = table[std::size_t{4} * *index + i];
+  }
+  static std::uint32_t write_set(std::uint32_t bits, std::uint32_t first, std::uint16_t* to) noexcept {
+    *to = static_cast<std::uint16_t>(first);
+    return bits & 1;
+  }
   static const float* eight(const float* p) noexcept { return p; }
   template <unsigned count>
   static Float row(const float* eight, unsigned i) noexcept {

@@ -11,7 +11,7 @@
 #include "kernel/chunk_pairs.hpp"
 #include "kernel/lanes.hpp"
 #include "kernel/placements.hpp"
-#include "kernel/record_fields.hpp"
+#include "kernel/profile_test.hpp"
 #include "kernel/separation_test.hpp"
 #include "kernel/walk.hpp"
 #include "layout/shape_set_view.hpp"
@@ -22,9 +22,9 @@ namespace bch::kernel {
 /// answer is one of those listed in layout/rounding.hpp, in that order, so that all instantiations and the
 /// scalar reference agree bit for bit; what only saves work is conservative.
 ///
-/// Pairs are answered in chunks, stage by stage, and each stage leaves fewer of them open: place B in A's frame;
-/// part pairs by their supports; accept pairs whose inscribed discs overlap; walk the trees of the rest. Pairs that
-/// stand near each other will probably collide and skip the parting until the inscribed discs have failed.
+/// Pairs are answered in chunks, stage by stage, and each stage leaves fewer of them open: place B in A's frame; decide by
+/// profiles along the line of the centres, and tell which of the rest will probably collide; part the others by their
+/// supports; accept pairs whose inscribed discs overlap; walk the trees of what is left.
 template <class Simd>
 class PairKernel {
  public:
@@ -42,14 +42,13 @@ class PairKernel {
   using Float = typename Simd::Float;
   static constexpr std::uint32_t chunk = Placements<Simd>::chunk;
   using List = ChunkPairs<chunk>;
-  /// Of the sum of squared enclosing radii: pairs nearer than that probably collide. By measurement.
-  static constexpr float near_square = 0.845f;
 
   explicit PairKernel(const Arguments& arguments) noexcept
       : in_(arguments),
         shapes_(*arguments.shapes),
         miss_(arguments.mark_near_misses ? near_miss : apart),
         separation_(shapes_, at_),
+        profiles_(shapes_, at_),
         walk_(shapes_, arguments.codes) {}
 
   void answer_chunk(std::size_t begin, std::uint32_t size) noexcept {
@@ -60,6 +59,7 @@ class PairKernel {
       test_roots();
     } else {
       for (std::uint32_t k = 0; k < size; k += Simd::width) open_bits_[k / Simd::width] = ~std::uint32_t{0};
+      __builtin_memset(codes_, overlap, size);
     }
     if (shapes_.support == nullptr)
       open_all();
@@ -73,20 +73,21 @@ class PairKernel {
 
   /// Root disc against root disc, lane = pair. Where both cuts are single discs, that is the answer.
   void test_roots() noexcept {
-    of_a_.load(shapes_.roots, at_.root_a, at_.size);
-    of_b_.load(shapes_.roots, at_.root_b, at_.size);
-    __builtin_memcpy(row_a_, of_a_.fourth, sizeof row_a_);
-    __builtin_memcpy(row_b_, of_b_.fourth, sizeof row_b_);
     separation_.use_rows(row_a_, row_b_);
     for (std::uint32_t k = 0; k < at_.size; k += Simd::width) {
-      const auto [x, y] = b_in_a(k);
-      const std::uint32_t hits =
-          overlaps<Simd>(x, y, Simd::load(of_b_.third + k), Simd::load(of_a_.first + k),
-                         Simd::load(of_a_.second + k), Simd::load(of_a_.third + k));
+      Float a[4], b[4];
+      Simd::load_records(&shapes_.roots->x, at_.root_a + k, a);
+      Simd::load_records(&shapes_.roots->x, at_.root_b + k, b);
+      Simd::store(reinterpret_cast<float*>(row_a_ + k), a[3]);
+      Simd::store(reinterpret_cast<float*>(row_b_ + k), b[3]);
+      const Float c = Simd::load(at_.c + k), s = Simd::load(at_.s + k);
+      const Float x = Simd::load(at_.tx + k) + (c * b[0] - s * b[1]),
+                  y = Simd::load(at_.ty + k) + (s * b[0] + c * b[1]);
+      const std::uint32_t hits = overlaps<Simd>(x, y, b[2], a[0], a[1], a[2]);
       std::uint32_t open = 0;
       for (std::uint32_t lane = 0; lane < lanes(k); ++lane) {
         const std::uint32_t hit = hits >> lane & 1, decided = both_are_single(k + lane);
-        codes_[k + lane] = static_cast<std::uint8_t>(hit * (decided * overlap + (decided ^ 1) * miss_));
+        codes_[k + lane] = static_cast<std::uint8_t>(hit * overlap);
         open |= (hit & (decided ^ 1)) << lane;
       }
       open_bits_[k / Simd::width] = open;
@@ -95,16 +96,6 @@ class PairKernel {
 
   std::uint32_t both_are_single(std::uint32_t k) const noexcept {
     return (row_a_[k] | row_b_[k]) == single_disc;
-  }
-
-  struct Point {
-    Float x, y;
-  };
-  /// The centres of B's discs.
-  Point b_in_a(std::uint32_t k) const noexcept {
-    const Float c = Simd::load(at_.c + k), s = Simd::load(at_.s + k);
-    const Float x = Simd::load(of_b_.first + k), y = Simd::load(of_b_.second + k);
-    return {Simd::load(at_.tx + k) + (c * x - s * y), Simd::load(at_.ty + k) + (s * x + c * y)};
   }
 
   /// A set of single discs is done by now.
@@ -119,38 +110,32 @@ class PairKernel {
       open_.add_if(open_bits_[k / Simd::width] >> k % Simd::width & 1, k);
   }
 
+  /// Leaves the pairs open that only a walk can decide. Those that are not parted have the code for it by now.
   void take_shortcuts() noexcept {
+    compare_profiles();
     separation_.place_directions();
-    measure_distances();
-    parted_.size = meeting_.size = 0;
     open_.move_if(parted_, [&](std::uint32_t pair) { return separation_.apart(pair, 0); });
-    if (shapes_.inscribed != nullptr) accept_by_inscribed_discs();
-    near_.move_if(parted_, [&](std::uint32_t pair) { return separation_.apart(pair, 0); });
+    near_.move_if(met_, [&](std::uint32_t pair) { return inscribed_discs_overlap<block_width / 2>(pair); });
     near_.move_all(open_);
+    open_.move_if(met_, [&](std::uint32_t pair) { return inscribed_discs_overlap<block_width>(pair); });
     open_.move_if(parted_, [&](std::uint32_t pair) { return separation_.apart(pair, 1); });
+    if (!in_.mark_near_misses) reopen_what_may_nest();
     for (std::uint32_t k = 0; k < parted_.size; ++k) codes_[parted_.pair[k]] = apart;
-    for (std::uint32_t k = 0; k < meeting_.size; ++k) codes_[meeting_.pair[k]] = overlap;
   }
 
-  /// Which pairs stand so near each other that they probably collide, and where one may hold the other; lane =
-  /// pair.
-  void measure_distances() noexcept {
-    of_a_.load(shapes_.enclosures, at_.shape_a, at_.size);
-    of_b_.load(shapes_.enclosures, at_.shape_b, at_.size);
+  /// Lists pairs as parted, as met where they may nest besides, or as open, by whether they will probably collide.
+  void compare_profiles() noexcept {
+    profiles_.look();
+    parted_.size = met_.size = 0;
     for (std::uint32_t k = 0; k < at_.size; k += Simd::width) {
-      const auto [bx, by] = b_in_a(k);
-      const Float x = bx - Simd::load(of_a_.first + k), y = by - Simd::load(of_a_.second + k);
-      const Float square = x * x + y * y;
-      const Float a_outer = Simd::load(of_a_.third + k), a_inner = Simd::load(of_a_.fourth + k);
-      const Float b_outer = Simd::load(of_b_.third + k), b_inner = Simd::load(of_b_.fourth + k);
-      may_nest_[k / Simd::width] =
-          Simd::bits(square <= a_outer - b_inner) | Simd::bits(square <= b_outer - a_inner);
-      const std::uint32_t near = Simd::bits(square < Float(near_square) * (a_outer + b_outer));
-      const std::uint32_t all = open_bits_[k / Simd::width];
-      for (std::uint32_t lane = 0; lane < lanes(k); ++lane) {
-        near_.add_if((all & near) >> lane & 1, k + lane);
-        open_.add_if((all & ~near) >> lane & 1, k + lane);
-      }
+      const auto answers = profiles_.answers(k);
+      const std::uint32_t all = open_bits_[k / Simd::width] & ((std::uint32_t{1} << lanes(k)) - 1);
+      const std::uint32_t open = all & ~(answers.apart | answers.meet);
+      may_nest_[k / Simd::width] = answers.may_nest;
+      parted_.template add<Simd>(all & answers.apart, k);
+      met_.template add<Simd>(all & answers.meet & answers.may_nest, k);
+      near_.template add<Simd>(open & answers.near, k);
+      open_.template add<Simd>(open & ~answers.near, k);
     }
   }
 
@@ -168,21 +153,14 @@ class PairKernel {
     return may_nest_[pair / Simd::width] >> pair % Simd::width & 1;
   }
 
-  /// Where discs inside the outlines overlap, the outlines meet; in boundary semantics that counts only where
-  /// neither can hold the other. See layout/interior.hpp.
-  void accept_by_inscribed_discs() noexcept {
-    nestable_.size = 0;
-    near_.move_if(meeting_,
-                  [&](std::uint32_t pair) { return inscribed_discs_overlap<block_width / 2>(pair); });
-    near_.move_if(meeting_, [&](std::uint32_t pair) { return inscribed_discs_overlap<block_width>(pair); });
-    open_.move_if(meeting_, [&](std::uint32_t pair) { return inscribed_discs_overlap<block_width>(pair); });
-    if (in_.mark_near_misses) return;
-    meeting_.move_if(nestable_, [&](std::uint32_t pair) { return may_nest(pair); });
-    nestable_.move_if(meeting_, [&](std::uint32_t pair) { return separation_.contours_stick_out(pair); });
-    nestable_.move_all(open_);
+  /// Where areas meet, outlines cross unless one holds the other, which boundary semantics does not count.
+  void reopen_what_may_nest() noexcept {
+    met_.drop_if([&](std::uint32_t pair) { return may_nest(pair) ^ 1; });
+    met_.drop_if([&](std::uint32_t pair) { return separation_.contours_stick_out(pair); });
+    met_.move_all(open_);
   }
 
-  /// By the first `count` discs of either.
+  /// Whether the areas meet, by the first `count` discs of either. See layout/interior.hpp.
   template <unsigned count>
   std::uint32_t inscribed_discs_overlap(std::uint32_t pair) const noexcept {
     return overlapping_discs<Simd, count>(at_.transform(pair), inscribed(at_.shape_a[pair]),
@@ -197,10 +175,10 @@ class PairKernel {
   std::uint8_t* codes_ = nullptr;  ///< of the chunk
   Placements<Simd> at_;
   SeparationTest<Simd> separation_;
-  RecordFields<Simd, chunk> of_a_, of_b_;
-  std::uint32_t row_a_[chunk], row_b_[chunk];  ///< of the roots' supports; set by test_roots()
+  ProfileTest<Simd> profiles_;
+  alignas(64) std::uint32_t row_a_[chunk], row_b_[chunk];  ///< of the roots' supports; set by test_roots()
   std::uint32_t open_bits_[chunk / Simd::width], may_nest_[chunk / Simd::width];  ///< a register's pairs each
-  List open_, near_, parted_, meeting_, nestable_;
+  List open_, near_, parted_, met_;
   Walk<Simd> walk_;
 };
 

@@ -35,6 +35,11 @@ class Placements {
 
   Transform transform(std::uint32_t pair) const noexcept { return {c[pair], s[pair], tx[pair], ty[pair]}; }
 
+  /// The size, filled up to whole registers of floats.
+  std::uint32_t whole_registers() const noexcept {
+    return (size + Simd::width - 1) / Simd::width * Simd::width;
+  }
+
   std::uint32_t size = 0;
 
   // Up to the next multiple of the padding, lanes beyond the last pair repeat it.
@@ -155,11 +160,6 @@ class Placements {
       Simd::store(tx + k, ca * dx + sa * dy);
       Simd::store(ty + k, ca * dy - sa * dx);
     }
-  }
-
-  /// Pairs, filled up to whole registers of floats.
-  std::uint32_t whole_registers() const noexcept {
-    return (size + Simd::width - 1) / Simd::width * Simd::width;
   }
 
   alignas(64) double heading_[2 * chunk], dx_[chunk], dy_[chunk];

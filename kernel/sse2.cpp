@@ -8,6 +8,12 @@ namespace bch::kernel {
 namespace {
 
 struct Sse2Lanes : Lanes<xsimd::sse2> {
+  static void load_records(const float* table, const std::uint32_t* index, Float (&field)[4]) noexcept {
+    const auto record = [=](std::size_t i) { return _mm_load_ps(table + std::size_t{4} * index[i]); };
+    __m128 r0 = record(0), r1 = record(1), r2 = record(2), r3 = record(3);
+    _MM_TRANSPOSE4_PS(r0, r1, r2, r3);
+    field[0] = r0, field[1] = r1, field[2] = r2, field[3] = r3;
+  }
   static void store_rounded(float* p, Double v) noexcept {
     _mm_storel_epi64(reinterpret_cast<__m128i*>(p), _mm_castps_si128(_mm_cvtpd_ps(v)));
   }

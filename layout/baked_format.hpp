@@ -36,9 +36,9 @@
 ///     nodes           f32         any     see below
 ///     reach           f32         S or 0  metres from the origin to the farthest point, 1e-6 to 1e6; like trees
 ///     support         f32         any     rows of 64, supports.hpp: row 0 plus infinity, the others of roots; or none
-///     enclosures      Enclosure   S or 0  enclosure.hpp; this and the next two where there are supports
-///     inscribed       DiscBlock   S or 0  interior.hpp
+///     inscribed       DiscBlock   S or 0  interior.hpp; this and the next two where there are supports
 ///     extremes        Extremes    S or 0  interior.hpp
+///     profiles        Profile     R or 0  profile.hpp
 ///     shape_contours  ContourRange  S or 0  one behind the other; 0 where there are no trees
 ///     contours        Contour     any     its points, one at least, behind those of the contour before
 ///     points          Vec2        any     metres
@@ -81,9 +81,9 @@ enum class Section : std::uint32_t {
   nodes,
   reach,
   support,
-  enclosures,
   inscribed,
   extremes,
+  profiles,
   shape_contours,
   contours,
   points,
@@ -132,9 +132,9 @@ void for_each_section(Arrays& arrays, Visit visit) {
   visit(Section::nodes, "nodes", arrays.shapes.nodes);
   visit(Section::reach, "reach", arrays.shapes.reach);
   visit(Section::support, "support", arrays.shapes.support);
-  visit(Section::enclosures, "enclosures", arrays.shapes.enclosures);
   visit(Section::inscribed, "inscribed", arrays.shapes.inscribed);
   visit(Section::extremes, "extremes", arrays.shapes.extremes);
+  visit(Section::profiles, "profiles", arrays.shapes.profiles);
   visit(Section::shape_contours, "shape_contours", arrays.shapes.shape_contours);
   visit(Section::contours, "contours", arrays.shapes.contours);
   visit(Section::points, "points", arrays.shapes.points);

@@ -19,9 +19,9 @@ struct ShapeArrays {
   std::span<const Root> roots;
   std::span<const Tree> trees;
   std::span<const float> nodes, reach, support;
-  std::span<const Enclosure> enclosures;
   std::span<const DiscBlock> inscribed;
   std::span<const Extremes> extremes;
+  std::span<const Profile> profiles;
   std::span<const ContourRange> shape_contours;
   std::span<const Contour> contours;
   std::span<const Vec2> points;

@@ -8,7 +8,7 @@
 #include <string>
 
 #include "layout/enclosing_disc.hpp"
-#include "layout/enclosure.hpp"
+#include "layout/profile.hpp"
 #include "layout/rounding.hpp"
 
 namespace bch {
@@ -22,31 +22,36 @@ void ShapeFlattener::flatten(const Shape& shape, std::size_t index, FlatShape& f
     throw std::invalid_argument("shape set: shape " + std::to_string(index) + " has no nodes");
   flat.plan = plan_;
   flat.reach = shape.hierarchy.reach;
-  add_levels(shape.hierarchy, flat);
+  add_levels(shape, flat);
   if (plan_.solid) add_outline(shape.outline, flat);
-  if (plan_.shortcuts && plan_.depths.back() > 0) add_interior(shape, flat);
 }
 
-void ShapeFlattener::add_levels(const Hierarchy& hierarchy, FlatShape& flat) {
+void ShapeFlattener::add_levels(const Shape& shape, FlatShape& flat) {
+  const bool shortcuts = plan_.shortcuts && plan_.depths.back() > 0;
   flat.levels.resize(plan_.depths.size());
+  flat.profiles.resize(shortcuts ? plan_.depths.size() : 0);
   flat.supports.clear();
-  flattener_.begin(hierarchy);
+  const Profile inside = shortcuts ? add_interior(shape, flat) : Profile{};
+  flattener_.begin(shape.hierarchy);
   for (std::size_t k = 0; k < plan_.depths.size(); ++k) {
     flattener_.flatten(plan_.depths[k], flat.levels[k]);
-    if (plan_.shortcuts && !flat.levels[k].is_single) flat.supports.push_back(flattener_.supports());
+    if (!shortcuts) continue;
+    if (!flat.levels[k].is_single) flat.supports.push_back(flattener_.supports());
+    flat.profiles[k] = inside;
+    flattener_.set_outer(flat.profiles[k]);
   }
 }
 
 /// A shape without an outline has no inscribed discs: padding, which overlaps nothing.
-void ShapeFlattener::add_interior(const Shape& shape, FlatShape& flat) {
-  constexpr float infinity = std::numeric_limits<float>::infinity();
+/// Returns: the profile of what is the same in every cut.
+Profile ShapeFlattener::add_interior(const Shape& shape, FlatShape& flat) {
   flat.interior = {};
-  flat.enclosure = {0, 0, infinity, -infinity};
-  flat.interior.x.fill(infinity);
-  if (shape.outline.contours() == 0) return;
-  validate(shape.outline);
-  flat.enclosure = enclosure(shape.outline, shape.hierarchy.reach);
-  flat.interior = interiors_.build(shape.outline, shape.hierarchy.reach);
+  flat.interior.x.fill(std::numeric_limits<float>::infinity());
+  if (shape.outline.contours() > 0) {
+    validate(shape.outline);
+    flat.interior = interiors_.build(shape.outline, shape.hierarchy.reach);
+  }
+  return profile(shape.outline, flat.interior, shape.hierarchy.reach);
 }
 
 void ShapeFlattener::add_outline(const Outline& outline, FlatShape& flat) {

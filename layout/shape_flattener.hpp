@@ -19,8 +19,8 @@ struct FlatShape {
   double reach = 0;
   std::vector<WideTree> levels;  ///< one a depth
   std::vector<Supports>
-      supports;         ///< of the levels that are more than a disc; only with the plan's shortcuts
-  Enclosure enclosure;  ///< likewise, as the next
+      supports;                   ///< of the levels that are more than a disc; only with the plan's shortcuts
+  std::vector<Profile> profiles;  ///< one a depth, likewise, as the next
   Interior interior;
   Outline outline;  ///< this and the next only with a solid plan
   std::vector<Disc> contour_disc;
@@ -37,8 +37,8 @@ class ShapeFlattener {
   void flatten(const Shape& shape, std::size_t index, FlatShape& flat);
 
  private:
-  void add_levels(const Hierarchy& hierarchy, FlatShape& flat);
-  void add_interior(const Shape& shape, FlatShape& flat);
+  void add_levels(const Shape& shape, FlatShape& flat);
+  Profile add_interior(const Shape& shape, FlatShape& flat);
   static void add_outline(const Outline& outline, FlatShape& flat);
 
   ShapeSetPlan plan_;

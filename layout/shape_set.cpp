@@ -53,9 +53,9 @@ ShapeSetView ShapeSet::view() const noexcept {
           .nodes = arrays_.nodes.data(),
           .reach = arrays_.reach.data(),
           .support = arrays_.support.empty() ? nullptr : arrays_.support.data(),
-          .enclosures = arrays_.enclosures.data(),
           .inscribed = arrays_.inscribed.data(),
           .extremes = arrays_.extremes.data(),
+          .profiles = arrays_.profiles.data(),
           .shape_contours = arrays_.shape_contours.data(),
           .contours = arrays_.contours.data(),
           .points = arrays_.points.data()};
@@ -69,9 +69,8 @@ ShapeSetPlan ShapeSet::plan() const {
 
 std::size_t ShapeSet::bytes() const noexcept {
   const auto total = [](const auto&... spans) { return (spans.size_bytes() + ...); };
-  return total(arrays_.roots, arrays_.trees, arrays_.nodes, arrays_.reach, arrays_.support,
-               arrays_.enclosures, arrays_.inscribed, arrays_.extremes, arrays_.shape_contours,
-               arrays_.contours, arrays_.points);
+  return total(arrays_.roots, arrays_.trees, arrays_.nodes, arrays_.reach, arrays_.support, arrays_.inscribed,
+               arrays_.extremes, arrays_.profiles, arrays_.shape_contours, arrays_.contours, arrays_.points);
 }
 
 }  // namespace bch

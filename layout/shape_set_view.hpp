@@ -53,12 +53,23 @@ struct Extremes {
   float x[extreme_stride], y[extreme_stride];
 };
 
-/// Of all of a shape's contours; see enclosure.hpp.
-struct Enclosure {
-  float x, y;          ///< centre of the smallest enclosing disc
-  float outer_square;  ///< of its radius, rounded up
-  float inner_square;  ///< of its radius, rounded down; minus infinity where there are several contours
+/// Sectors of a profile, and what lies in one; see profile.hpp. Metres from the profile's centre, rounded so that it
+/// decides nothing wrongly.
+constexpr std::uint32_t profile_sectors = 32;
+struct Sector {
+  float inner;   ///< the largest contour's inside goes on to there
+  float outer;   ///< no disc of the cut extends farther
+  float extent;  ///< the contour extends so far at least, in the opposite direction
+  float unused;
 };
+
+/// A level of a shape along lines from a centre: a record, and then as large a record for each sector.
+struct Profile {
+  float x, y;  ///< the centre
+  float unused[2];
+  Sector sectors[profile_sectors];
+};
+static_assert(sizeof(Profile) == (1 + profile_sectors) * sizeof(Sector) && sizeof(Sector) == 16);
 
 /// A closed polygon of an outline.
 struct Contour {
@@ -85,10 +96,10 @@ struct ShapeSetView {
   const float* reach;  ///< per shape, metres, rounded up; null like the trees
 
   // Null without the plan's shortcuts.
-  const float* support;         ///< rows of support_stride floats; row 0 is infinite and parts nothing
-  const Enclosure* enclosures;  ///< per shape
-  const DiscBlock* inscribed;   ///< per shape; see interior.hpp, like the next
+  const float* support;        ///< rows of support_stride floats; row 0 is infinite and parts nothing
+  const DiscBlock* inscribed;  ///< per shape; see interior.hpp, like the next
   const Extremes* extremes;
+  const Profile* profiles;  ///< like roots
 
   // Null without the solid plan, and like the trees.
   const ContourRange* shape_contours;  ///< per shape

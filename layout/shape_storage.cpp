@@ -47,9 +47,9 @@ ShapeArrays ShapeStorage::arrays() const {
           .nodes = nodes,
           .reach = reach,
           .support = support,
-          .enclosures = enclosures,
           .inscribed = inscribed,
           .extremes = extremes,
+          .profiles = profiles,
           .shape_contours = shape_contours,
           .contours = contours,
           .points = points};
@@ -64,9 +64,9 @@ ShapeStorage copy_of(const ShapeArrays& arrays) {
   assign(copy.nodes, arrays.nodes);
   assign(copy.reach, arrays.reach);
   assign(copy.support, arrays.support);
-  assign(copy.enclosures, arrays.enclosures);
   assign(copy.inscribed, arrays.inscribed);
   assign(copy.extremes, arrays.extremes);
+  assign(copy.profiles, arrays.profiles);
   assign(copy.shape_contours, arrays.shape_contours);
   assign(copy.contours, arrays.contours);
   assign(copy.points, arrays.points);
@@ -80,7 +80,7 @@ void ShapeStorage::resize(const ShapeSetPlan& plan, std::size_t shapes) {
   if (plan.depths.back() == 0) return;
   trees.resize(shapes * levels);
   reach.resize(shapes);
-  if (plan.shortcuts) enclosures.resize(shapes), inscribed.resize(shapes), extremes.resize(shapes);
+  if (plan.shortcuts) inscribed.resize(shapes), extremes.resize(shapes), profiles.resize(shapes * levels);
   if (plan.solid) shape_contours.resize(shapes);
 }
 
@@ -91,7 +91,7 @@ void ShapeStorage::make_room(const ShapeExtent& at, const ShapeExtent& size) {
   require_numbers(at.rows + size.rows, "rows of supports");
   require_numbers(at.points + size.points, "points");
   if (!trees.empty()) nodes.resize(last_node);
-  if (!enclosures.empty()) {
+  if (!profiles.empty()) {
     if (support.empty()) support.assign(support_stride, std::numeric_limits<float>::infinity());
     support.resize((at.rows + size.rows) * support_stride);
   }
@@ -114,7 +114,7 @@ void ShapeStorage::put(std::size_t shape, const FlatShape& flat, const ShapeExte
     node += level_size(tree);
   }
   if (!reach.empty()) reach[shape] = rounding::round_up(flat.reach);
-  if (!enclosures.empty()) put_shortcuts(shape, flat, at);
+  if (!profiles.empty()) put_shortcuts(shape, flat, at);
   if (!shape_contours.empty()) put_outline(shape, flat, at);
 }
 
@@ -138,7 +138,8 @@ void ShapeStorage::put_level(std::size_t root, const WideTree& tree, std::size_t
 void ShapeStorage::put_shortcuts(std::size_t shape, const FlatShape& flat, const ShapeExtent& at) {
   float* row = support.data() + at.rows * support_stride;
   for (const Supports& heights : flat.supports) row = std::copy(heights.begin(), heights.end(), row);
-  enclosures[shape] = flat.enclosure;
+  std::copy(flat.profiles.begin(), flat.profiles.end(),
+            profiles.begin() + static_cast<std::ptrdiff_t>(shape * depths.size()));
   const Interior& inside = flat.interior;
   std::copy(inside.x.begin(), inside.x.end(), inscribed[shape].x);
   std::copy(inside.y.begin(), inside.y.end(), inscribed[shape].y);

@@ -32,9 +32,9 @@ struct ShapeStorage {
   AlignedVector<Root> roots;
   AlignedVector<Tree> trees;
   AlignedVector<float> nodes, reach, support;
-  AlignedVector<Enclosure> enclosures;
   AlignedVector<DiscBlock> inscribed;
   AlignedVector<Extremes> extremes;
+  AlignedVector<Profile> profiles;
   AlignedVector<ContourRange> shape_contours;
   AlignedVector<Contour> contours;
   AlignedVector<Vec2> points;

@@ -16,8 +16,6 @@ namespace {
 
 /// Of coordinates, radii and supports, metres: a few reaches, as pruning discs and supports stick out.
 constexpr float largest_length = 1e7f;
-/// Of lengths' squares.
-constexpr float largest_square = 1e14f;
 constexpr float infinity = std::numeric_limits<float>::infinity();
 
 [[noreturn]] void reject(const char* array, std::size_t place, const std::string& what) {
@@ -104,9 +102,9 @@ void require_sizes(const ShapeArrays& a) {
   }
   if (a.nodes.size() >= leaf_window)
     throw std::invalid_argument("nodes: " + std::to_string(a.nodes.size()) + ", not below 2^31");
-  require_size("enclosures", a.enclosures.size(), shortcuts ? shapes : 0);
   require_size("inscribed", a.inscribed.size(), shortcuts ? shapes : 0);
   require_size("extremes", a.extremes.size(), shortcuts ? shapes : 0);
+  require_size("profiles", a.profiles.size(), shortcuts ? roots : 0);
 }
 
 /// Rows of supports are numbered in the order of roots.
@@ -230,12 +228,13 @@ void require_shortcuts(const ShapeArrays& a) {
     for (const float y : extremes.y) bad |= beyond(y, largest_length);
     if ((bad & top_bit) != 0) reject("extremes", s, "not a point");
   }
-  // A shape without an outline may nest with any, one of several contours in any.
-  require_all("enclosures", a.enclosures, "no disc", [](const Enclosure& e) {
-    const bool outer =
-        e.outer_square == infinity || (negative_or_beyond(e.outer_square, largest_square) & top_bit) == 0;
-    const bool inner = e.inner_square == -infinity || (beyond(e.inner_square, largest_square) & top_bit) == 0;
-    return is_length(e.x) & is_length(e.y) & outer & inner;
+  // Minus infinity is what nothing is known of.
+  const auto is_length_or_none = [](float value) { return (value == -infinity) | is_length(value); };
+  require_all("profiles", a.profiles, "no profile", [&](const Profile& profile) {
+    bool good = is_length(profile.x) & is_length(profile.y);
+    for (const Sector& sector : profile.sectors)
+      good &= is_length_or_none(sector.inner) & is_length(sector.outer) & is_length_or_none(sector.extent);
+    return good;
   });
 }
 

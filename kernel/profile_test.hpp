@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "kernel/placements.hpp"
+#include "kernel/record_fields.hpp"
+#include "layout/shape_set_view.hpp"
+
+namespace bch::kernel {
+
+/// What two profiles (layout/profile.hpp) say along the line of their centres; lane = pair.
+template <class Simd>
+class ProfileTest {
+ public:
+  /// Of a register's pairs.
+  struct Answers {
+    std::uint32_t apart = 0;     ///< a line parts the cuts
+    std::uint32_t meet = 0;      ///< areas of the largest contours meet
+    std::uint32_t may_nest = 0;  ///< a contour of one may lie inside one of the other
+    std::uint32_t near = 0;      ///< they will probably collide
+  };
+
+  ProfileTest(const ShapeSetView& shapes, const Placements<Simd>& at) noexcept : shapes_(shapes), at_(at) {}
+
+  /// Of all pairs of the chunk: the line of the centres, and what either shape looks like along it.
+  void look() noexcept {
+    const float* const records = &shapes_.profiles->x;
+    const std::uint32_t count = at_.whole_registers();
+    for (std::uint32_t k = 0; k < count; ++k) {
+      record_a_[k] = at_.root_a[k] * records_each;
+      record_b_[k] = at_.root_b[k] * records_each;
+    }
+    of_a_.load(records, record_a_, count);
+    of_b_.load(records, record_b_, count);
+    find_sectors();
+    for (std::uint32_t k = 0; k < count; ++k) {
+      record_a_[k] +=
+          1 + static_cast<std::uint32_t>(static_cast<std::int32_t>(sector_a_[k])) % profile_sectors;
+      record_b_[k] +=
+          1 + static_cast<std::uint32_t>(static_cast<std::int32_t>(sector_b_[k])) % profile_sectors;
+    }
+    of_a_.load(records, record_a_, count);
+    of_b_.load(records, record_b_, count);
+  }
+
+  /// Of the pairs from k on, after look().
+  Answers answers(std::uint32_t k) const noexcept {
+    const Float distance = Simd::load(distance_ + k);
+    const Float outer_a = field(of_a_, 1, k), outer_b = field(of_b_, 1, k);
+    const Float inner = field(of_a_, 0, k) + field(of_b_, 0, k), outer = outer_a + outer_b;
+    return {.apart = Simd::bits(outer < distance),
+            .meet = Simd::bits(distance <= inner),
+            .may_nest = Simd::bits(distance <= outer_a - field(of_b_, 2, k)) |
+                        Simd::bits(distance <= outer_b - field(of_a_, 2, k)),
+            .near = Simd::bits(distance < inner + Float(near_share) * (outer - inner))};
+  }
+
+ private:
+  using Float = typename Simd::Float;
+  static constexpr std::uint32_t chunk = Placements<Simd>::chunk;
+  using Fields = RecordFields<Simd, chunk>;
+  static constexpr std::uint32_t records_each = sizeof(Profile) / sizeof(Sector);
+  /// Of the way from where areas meet to where cuts are apart: pairs nearer than that probably collide. By measurement.
+  static constexpr float near_share = 0.6f;
+
+  static Float field(const Fields& of, std::uint32_t i, std::uint32_t k) noexcept {
+    return Simd::load(of.field[i] + k);
+  }
+
+  void find_sectors() noexcept {
+    for (std::uint32_t k = 0; k < at_.size; k += Simd::width) {
+      const Float c = Simd::load(at_.c + k), s = Simd::load(at_.s + k), zero(0.0f);
+      const Float bx = field(of_b_, 0, k), by = field(of_b_, 1, k);
+      const Float x = (Simd::load(at_.tx + k) + (c * bx - s * by)) - field(of_a_, 0, k);
+      const Float y = (Simd::load(at_.ty + k) + (s * bx + c * by)) - field(of_a_, 1, k);
+      Simd::store(distance_ + k, xsimd::sqrt(x * x + y * y));
+      Simd::store(sector_a_ + k, sector(x, y));
+      Simd::store(sector_b_ + k, sector(zero - (c * x + s * y), s * x - c * y));
+    }
+  }
+
+  /// Where a direction lies among the sectors; after the last one comes the first again. Zero has any.
+  static Float sector(Float x, Float y) noexcept {
+    constexpr float quadrant = profile_sectors / 4, not_zero = 1e-30f;
+    const Float zero(0.0f), ax = xsimd::abs(x), ay = xsimd::abs(y);
+    const Float share = Float(quadrant) * ay / (ax + ay + Float(not_zero));
+    const Float half = Simd::select(x < zero, Float(2 * quadrant) - share, share);
+    return Simd::select(y < zero, Float(4 * quadrant) - half, half);
+  }
+
+  const ShapeSetView& shapes_;
+  const Placements<Simd>& at_;
+  alignas(64) std::uint32_t record_a_[chunk], record_b_[chunk];
+  alignas(64) float distance_[chunk], sector_a_[chunk], sector_b_[chunk];
+  Fields of_a_, of_b_;
+};
+
+}  // namespace bch::kernel
