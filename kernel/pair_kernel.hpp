@@ -22,9 +22,9 @@ namespace bch::kernel {
 /// answer is one of those listed in layout/rounding.hpp, in that order, so that all instantiations and the
 /// scalar reference agree bit for bit; what only saves work is conservative.
 ///
-/// Pairs are answered in chunks, stage by stage, and each stage leaves fewer of them open: place B in A's frame; decide by
-/// profiles along the line of the centres, and tell which of the rest will probably collide; part the others by their
-/// supports; accept pairs whose inscribed discs overlap; walk the trees of what is left.
+/// Pairs are answered in chunks, stage by stage, and each stage leaves fewer of them open: place B in A's frame;
+/// decide by profiles along the line of the centres, and tell which of the rest will probably collide; part the
+/// others by their supports; accept pairs whose inscribed discs overlap; walk the trees of what is left.
 template <class Simd>
 class PairKernel {
  public:

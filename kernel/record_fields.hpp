@@ -7,7 +7,8 @@
 
 namespace bch::kernel {
 
-/// Records of four floats, picked from a table by index, field by field: what lanes that stand for pairs need of tables.
+/// Records of four floats, picked from a table by index, field by field: what lanes that stand for pairs need
+/// of tables.
 template <class Simd, std::uint32_t capacity>
 struct RecordFields {
   alignas(64) float field[4][capacity];

@@ -15,8 +15,8 @@
 /// Rounding, in the terms of rounding.hpp. The line of centres D that a query computes in float is within 40 u S of the
 /// exact one; B's turn, D seen from B, and the sector are off by another 20 u, which is 40 u P_A and 40 u P_B across.
 ///
-/// inner: a disc of `margin` about each point of the sector, out to there, touches no contour. So the point that both have
-/// still belongs to both when B is moved by 40 u S and lies 40 u P beside its line. Sums and comparison: 6 u S.
+/// inner: a disc of `margin` about each point of the sector, out to there, touches no contour. So the point that both
+/// have still belongs to both when B is moved by 40 u S and lies 40 u P beside its line. Sums and comparison: 6 u S.
 /// outer: the same error along and across the line, and the 23 u S by which discs that the test accepts may be apart:
 /// 23 + 40 + 40 + 6 < 110 u S, where supports are enlarged by 320 u P.
 /// extent: the same without the 23 u S, on top of what outer has to spare.
@@ -169,8 +169,8 @@ float extent(const Interior& interior, Point centre, std::uint32_t k, double rea
   return most > 0 ? static_cast<float>(most - margin * reach) : -infinity;
 }
 
-/// The farthest that anything extends to in a sector: to the corner of the supporting lines of either end, where the corner
-/// is in the sector.
+/// The farthest that anything extends to in a sector: to the corner of the supporting lines of either end, where the
+/// corner is in the sector.
 double farthest(std::uint32_t k, double right, double left) {
   const double cosine = dot(boundaries().at[k], boundaries().at[k + 1]);
   if (right < left * cosine || left < right * cosine) return std::max(right, left);
