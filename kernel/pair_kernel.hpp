@@ -125,7 +125,7 @@ class PairKernel {
 
   /// Lists pairs as parted, as met where they may nest besides, or as open, by whether they will probably collide.
   void compare_profiles() noexcept {
-    profiles_.look();
+    shapes_.rows_in_order ? profiles_.look(nullptr, nullptr) : profiles_.look(row_a_, row_b_);
     parted_.size = met_.size = 0;
     for (std::uint32_t k = 0; k < at_.size; k += Simd::width) {
       const auto answers = profiles_.answers(k);

@@ -26,13 +26,14 @@ class ProfileTest {
 
   ProfileTest(const ShapeSetView& shapes, const Placements<Simd>& at) noexcept : shapes_(shapes), at_(at) {}
 
-  /// Of all pairs of the chunk: the line of the centres, and what either shape looks like along it.
-  void look() noexcept {
+  /// Of all pairs of the chunk: the line of the centres, and what either shape looks like along it. `row_a`, `row_b`: of
+  /// the roots; null where they are in order.
+  void look(const std::uint32_t* row_a, const std::uint32_t* row_b) noexcept {
     const float* const records = &shapes_.profiles->x;
     const std::uint32_t count = at_.whole_registers();
     for (std::uint32_t k = 0; k < count; ++k) {
-      record_a_[k] = at_.root_a[k] * records_each;
-      record_b_[k] = at_.root_b[k] * records_each;
+      record_a_[k] = at_.shape_a[k] * records_each;
+      record_b_[k] = at_.shape_b[k] * records_each;
     }
     of_a_.load(records, record_a_, count);
     of_b_.load(records, record_b_, count);
@@ -45,6 +46,9 @@ class ProfileTest {
     }
     of_a_.load(records, record_a_, count);
     of_b_.load(records, record_b_, count);
+    if (row_a == nullptr) return;
+    choose_outer(of_a_, row_a, count);
+    choose_outer(of_b_, row_b, count);
   }
 
   /// Of the pairs from k on, after look().
@@ -69,6 +73,14 @@ class ProfileTest {
 
   static Float field(const Fields& of, std::uint32_t i, std::uint32_t k) noexcept {
     return Simd::load(of.field[i] + k);
+  }
+
+  /// Of the pair's level. A single disc has been tested, and nothing is said of it.
+  static void choose_outer(Fields& of, const std::uint32_t* row, std::uint32_t count) noexcept {
+    for (std::uint32_t k = 0; k < count; ++k) {
+      const float shallow = row[k] == no_supports ? of.field[3][k] : __builtin_inff();
+      of.field[1][k] = row[k] >= first_row ? of.field[1][k] : shallow;
+    }
   }
 
   void find_sectors() noexcept {

@@ -23,7 +23,7 @@ class SeparationTest {
   SeparationTest(const ShapeSetView& shapes, const Placements<Simd>& at) noexcept
       : shapes_(shapes), at_(at), rows_(shapes.support), row_a_(at.root_a), row_b_(at.root_b) {
     // Where rows are in order; see ShapeSetView.
-    if (shapes.support != nullptr) rows_ += support_stride;
+    if (shapes.support != nullptr) rows_ += std::size_t{first_row} * support_stride;
   }
 
   /// Where they are not.

@@ -31,14 +31,14 @@
 /// without. Records are those of shape_set_view.hpp, field after field, each 4 bytes:
 ///
 ///     depths          u32         L       cut depths, ascending; 0xffffffff are the leaves. 1 to 255 of them
-///     roots           Root        R       a level's disc: encloses its cut, or is it, where row is 0; else 1, 2, ...
+///     roots           Root        R       a level's disc: encloses its cut, or is it, where row is 0; see below
 ///     trees           Tree        R or 0  where a level's nodes are; 0 where every cut is a single disc
 ///     nodes           f32         any     see below
 ///     reach           f32         S or 0  metres from the origin to the farthest point, 1e-6 to 1e6; like trees
-///     support         f32         any     rows of 64, supports.hpp: row 0 plus infinity, the others of roots; or none
+///     support         f32         any     rows of 64, supports.hpp; or none. Rows 0 and 1 are plus infinity
 ///     inscribed       DiscBlock   S or 0  interior.hpp; this and the next two where there are supports
 ///     extremes        Extremes    S or 0  interior.hpp
-///     profiles        Profile     R or 0  profile.hpp
+///     profiles        Profile     S or 0  profile.hpp
 ///     shape_contours  ContourRange  S or 0  one behind the other; 0 where there are no trees
 ///     contours        Contour     any     its points, one at least, behind those of the contour before
 ///     points          Vec2        any     metres
@@ -46,6 +46,9 @@
 ///     origins         ShapeOrigin S or 0  what each shape shows
 ///     name_begin      u32         N + 1   name n is bytes [n] to [n + 1] of names
 ///     names           u8          any     UTF-8
+///
+/// Rows. Root::row is 0 where the level's cut is a single disc; else 1, but for a shape's last level, which has the row
+/// after that of the shape before, from 2 on.
 ///
 /// Nodes. A node's name is the index of its first float, with bit 31 set for a leaf window. A block is 32 floats: x, y and
 /// radius of eight discs, eight and eight, and the names of the eight nodes below them as u32. A disc whose x is

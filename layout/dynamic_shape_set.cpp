@@ -21,6 +21,11 @@ std::size_t with_room(std::size_t needed, std::size_t had) {
   return needed <= had ? had : needed + needed / 2;
 }
 
+bool has_more_than_a_disc(const FlatShape& flat) {
+  return std::any_of(flat.levels.begin(), flat.levels.end(),
+                     [](const WideTree& tree) { return !tree.is_single; });
+}
+
 bool has_single_disc(const FlatShape& flat) {
   return std::any_of(flat.levels.begin(), flat.levels.end(),
                      [](const WideTree& tree) { return tree.is_single; });
@@ -41,9 +46,9 @@ void DynamicShapeSet::find_places() {
     std::fill(places_.begin(), places_.end(), Place{{}, {any, any, any, any}});
     return;
   }
-  end_ = {next_line(storage_.nodes.size() - block_floats), 1, storage_.contours.size(),
+  end_ = {next_line(storage_.nodes.size() - block_floats), first_row, storage_.contours.size(),
           storage_.points.size()};
-  for (const Root& root : storage_.roots) end_.rows += root.row != single_disc;
+  for (const Root& root : storage_.roots) end_.rows += root.row >= first_row;
   ShapeExtent end = end_;
   for (std::uint32_t shape = set_.shape_count(); shape-- > 0; end = places_[shape].begin)
     places_[shape] = place_of(shape, end);
@@ -54,8 +59,7 @@ DynamicShapeSet::Place DynamicShapeSet::place_of(std::uint32_t shape, const Shap
   const std::size_t levels = storage_.depths.size();
   ShapeExtent begin = end;
   begin.nodes = next_line(storage_.trees[shape * levels].top & ~leaf_window);
-  for (std::size_t k = 0; k < levels; ++k)
-    begin.rows -= storage_.roots[shape * levels + k].row != single_disc;
+  for (std::size_t k = 0; k < levels; ++k) begin.rows -= storage_.roots[shape * levels + k].row >= first_row;
   if (plan_.solid) {
     begin.contours = storage_.shape_contours[shape].begin;
     if (begin.contours < end.contours) begin.points = storage_.contours[begin.contours].begin;
@@ -69,7 +73,7 @@ void DynamicShapeSet::require(std::uint32_t shape, const FlatShape& flat) const 
     throw std::out_of_range("dynamic shape set: shape " + std::to_string(shape) + " of " +
                             std::to_string(places_.size()));
   if (set_.roots_only()) {
-    if (flat.plan.depths != plan_.depths || extent_of(flat).rows > 0)
+    if (flat.plan.depths != plan_.depths || has_more_than_a_disc(flat))
       throw std::invalid_argument("dynamic shape set: it has single discs alone, and the shape has more");
   } else if (flat.plan != plan_) {
     throw std::invalid_argument("dynamic shape set: the shape was made flat with another plan");
@@ -100,7 +104,7 @@ void DynamicShapeSet::replace(std::uint32_t shape, const FlatShape& flat) {
 
 void DynamicShapeSet::move(std::uint32_t shape, const ShapeExtent& size) {
   const ShapeExtent& had = places_[shape].size;
-  const ShapeExtent room{next_line(with_room(size.nodes, had.nodes)), plan_.depths.size(),
+  const ShapeExtent room{next_line(with_room(size.nodes, had.nodes)), 1,
                          with_room(size.contours, had.contours), with_room(size.points, had.points)};
   storage_.make_room(end_, room);
   places_[shape] = {end_, room};

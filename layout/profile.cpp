@@ -181,7 +181,7 @@ double farthest(std::uint32_t k, double right, double left) {
 
 Profile profile(const Outline& outline, const Interior& interior, double reach) {
   Profile result{};
-  for (Sector& each : result.sectors) each = {-infinity, infinity, -infinity, 0};
+  for (Sector& each : result.sectors) each = {-infinity, infinity, -infinity, infinity};
   if (outline.contours() == 0) return result;
   const Polygon contour = largest_contour(outline);
   const Point exact = centroid(contour);
@@ -195,8 +195,8 @@ Profile profile(const Outline& outline, const Interior& interior, double reach) 
   return result;
 }
 
-void set_outer(Profile& profile, const float* x, const float* y, const float* radius, std::uint32_t count,
-               double reach) {
+Outer outer(const Profile& profile, const float* x, const float* y, const float* radius, std::uint32_t count,
+            double reach) {
   std::array<float, profile_sectors> heights;
   CutLanes<xsimd::sse2>::heights({x, y, radius, count}, boundaries().cosine.data(), boundaries().sine.data(),
                                  heights.data());
@@ -204,9 +204,10 @@ void set_outer(Profile& profile, const float* x, const float* y, const float* ra
   const auto height = [&](std::uint32_t k) {
     return static_cast<double>(heights[k % profile_sectors]) - dot(centre, boundaries().at[k]);
   };
+  Outer result;
   for (std::uint32_t k = 0; k < profile_sectors; ++k)
-    profile.sectors[k].outer =
-        static_cast<float>(farthest(k, height(k), height(k + 1)) + rounding::support_margin * reach);
+    result[k] = static_cast<float>(farthest(k, height(k), height(k + 1)) + rounding::support_margin * reach);
+  return result;
 }
 
 }  // namespace bch

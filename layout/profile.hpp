@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <array>
 #include <cstdint>
 
 #include "layout/interior.hpp"
@@ -22,14 +23,15 @@ namespace bch {
 /// a centre that of the largest contour's area. B looks along the same line from the other end, so its extent is
 /// kept with the sector opposite to it.
 ///
-/// Returns: the profile of an outline, `outer` left at infinity; without an outline, or where it has no room about the
+/// Returns: the profile of an outline, both `outer` left at infinity; without an outline, or where it has no room about the
 ///          centre, `inner` is minus infinity, and so is `extent` of several contours, of which nothing is known.
 /// Preconditions: validate(outline) does not throw, or it has no contours; `interior` is that of the outline, `reach`
 ///          that of the shape, metres.
 Profile profile(const Outline& outline, const Interior& interior, double reach);
 
-/// Sets `outer` to what one disc or more of a cut, in arrays, extend to.
-void set_outer(Profile& profile, const float* x, const float* y, const float* radius, std::uint32_t count,
-               double reach);
+/// How far one disc or more of a cut, in arrays, extend from a profile's centre, sector by sector.
+using Outer = std::array<float, profile_sectors>;
+Outer outer(const Profile& profile, const float* x, const float* y, const float* radius, std::uint32_t count,
+            double reach);
 
 }  // namespace bch

@@ -3,6 +3,7 @@
 
 #include "layout/shape_flattener.hpp"
 
+#include <algorithm>
 #include <limits>
 #include <stdexcept>
 #include <string>
@@ -12,6 +13,11 @@
 #include "layout/rounding.hpp"
 
 namespace bch {
+namespace {
+
+constexpr float infinity = std::numeric_limits<float>::infinity();
+
+}  // namespace
 
 ShapeFlattener::ShapeFlattener(const ShapeSetPlan& plan) : plan_(plan) {
   validate(plan);
@@ -28,30 +34,38 @@ void ShapeFlattener::flatten(const Shape& shape, std::size_t index, FlatShape& f
 
 void ShapeFlattener::add_levels(const Shape& shape, FlatShape& flat) {
   const bool shortcuts = plan_.shortcuts && plan_.depths.back() > 0;
+  if (shortcuts) add_interior(shape, flat);
   flat.levels.resize(plan_.depths.size());
-  flat.profiles.resize(shortcuts ? plan_.depths.size() : 0);
-  flat.supports.clear();
-  const Profile inside = shortcuts ? add_interior(shape, flat) : Profile{};
   flattener_.begin(shape.hierarchy);
   for (std::size_t k = 0; k < plan_.depths.size(); ++k) {
     flattener_.flatten(plan_.depths[k], flat.levels[k]);
-    if (!shortcuts) continue;
-    if (!flat.levels[k].is_single) flat.supports.push_back(flattener_.supports());
-    flat.profiles[k] = inside;
-    flattener_.set_outer(flat.profiles[k]);
+    if (shortcuts) add_shortcuts(k, flat);
   }
 }
 
 /// A shape without an outline has no inscribed discs: padding, which overlaps nothing.
-/// Returns: the profile of what is the same in every cut.
-Profile ShapeFlattener::add_interior(const Shape& shape, FlatShape& flat) {
+void ShapeFlattener::add_interior(const Shape& shape, FlatShape& flat) {
   flat.interior = {};
-  flat.interior.x.fill(std::numeric_limits<float>::infinity());
+  flat.interior.x.fill(infinity);
   if (shape.outline.contours() > 0) {
     validate(shape.outline);
     flat.interior = interiors_.build(shape.outline, shape.hierarchy.reach);
   }
-  return profile(shape.outline, flat.interior, shape.hierarchy.reach);
+  flat.profile = profile(shape.outline, flat.interior, shape.hierarchy.reach);
+  for (Sector& sector : flat.profile.sectors) sector.shallow_outer = 0;
+}
+
+/// Of the level that was made flat last. Of single discs nobody asks.
+void ShapeFlattener::add_shortcuts(std::size_t level, FlatShape& flat) const {
+  const bool deepest = level + 1 == plan_.depths.size();
+  if (flat.levels[level].is_single && !deepest) return;
+  const Outer outer = flattener_.outer(flat.profile);
+  if (deepest) flat.supports = flattener_.supports();
+  for (std::uint32_t k = 0; k < profile_sectors; ++k) {
+    Sector& sector = flat.profile.sectors[k];
+    float& limit = deepest ? sector.outer : sector.shallow_outer;
+    limit = deepest ? outer[k] : std::max(limit, outer[k]);
+  }
 }
 
 void ShapeFlattener::add_outline(const Outline& outline, FlatShape& flat) {

@@ -18,9 +18,8 @@ struct FlatShape {
   ShapeSetPlan plan;
   double reach = 0;
   std::vector<WideTree> levels;  ///< one a depth
-  std::vector<Supports>
-      supports;                   ///< of the levels that are more than a disc; only with the plan's shortcuts
-  std::vector<Profile> profiles;  ///< one a depth, likewise, as the next
+  Supports supports;  ///< of the deepest level; this and the next two only with the plan's shortcuts
+  Profile profile;
   Interior interior;
   Outline outline;  ///< this and the next only with a solid plan
   std::vector<Disc> contour_disc;
@@ -38,7 +37,8 @@ class ShapeFlattener {
 
  private:
   void add_levels(const Shape& shape, FlatShape& flat);
-  Profile add_interior(const Shape& shape, FlatShape& flat);
+  void add_interior(const Shape& shape, FlatShape& flat);
+  void add_shortcuts(std::size_t level, FlatShape& flat) const;
   static void add_outline(const Outline& outline, FlatShape& flat);
 
   ShapeSetPlan plan_;

@@ -14,7 +14,7 @@ namespace {
 
 bool rows_in_order(std::span<const Root> roots) {
   bool in_order = true;
-  for (std::size_t i = 0; i < roots.size(); ++i) in_order &= roots[i].row == i + 1;
+  for (std::size_t i = 0; i < roots.size(); ++i) in_order &= roots[i].row == first_row + i;
   return in_order;
 }
 

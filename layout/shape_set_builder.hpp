@@ -22,7 +22,7 @@ class ShapeSetBuilder {
   ShapeSetPlan plan_;
   ShapeStorage storage_;
   std::size_t shapes_ = 0;
-  ShapeExtent end_{.rows = 1};  ///< row 0 is every single disc's
+  ShapeExtent end_{.rows = first_row};
 };
 
 }  // namespace bch

@@ -37,9 +37,11 @@ constexpr std::uint32_t block_floats = 4 * block_width;
 /// Where a level of a shape begins.
 struct Root {
   float x, y, radius;
-  std::uint32_t row;  ///< of its supports, from 1 on; single_disc: the cut is this disc alone, which has none
+  std::uint32_t row;  ///< of its supports, or one of the next two
 };
-constexpr std::uint32_t single_disc = 0;
+constexpr std::uint32_t single_disc = 0;  ///< the cut is the root disc alone
+constexpr std::uint32_t no_supports = 1;  ///< it is more, at another level than the deepest
+constexpr std::uint32_t first_row = 2;
 static_assert(sizeof(Root) == 16);
 
 /// Where the tree of a level begins.
@@ -57,13 +59,13 @@ struct Extremes {
 /// decides nothing wrongly.
 constexpr std::uint32_t profile_sectors = 32;
 struct Sector {
-  float inner;   ///< the largest contour's inside goes on to there
-  float outer;   ///< no disc of the cut extends farther
-  float extent;  ///< the contour extends so far at least, in the opposite direction
-  float unused;
+  float inner;          ///< the largest contour's inside goes on to there
+  float outer;          ///< no disc of the deepest level's cut extends farther
+  float extent;         ///< the contour extends so far at least, in the opposite direction
+  float shallow_outer;  ///< like outer, of all levels that are more than a disc and not the deepest
 };
 
-/// A level of a shape along lines from a centre: a record, and then as large a record for each sector.
+/// A shape along lines from a centre: a record, and then as large a record for each sector.
 struct Profile {
   float x, y;  ///< the centre
   float unused[2];
@@ -88,7 +90,7 @@ struct ContourRange {
 struct ShapeSetView {
   std::uint32_t shape_count;
   std::uint32_t level_count;
-  bool rows_in_order;  ///< no cut is a single disc, and the row of root r is r + 1
+  bool rows_in_order;  ///< root r has row first_row + r: one level, and no cut is a single disc
 
   const Root* roots;
   const Tree* trees;   ///< like roots; this and the next null where every level is a single disc
@@ -96,10 +98,10 @@ struct ShapeSetView {
   const float* reach;  ///< per shape, metres, rounded up; null like the trees
 
   // Null without the plan's shortcuts.
-  const float* support;        ///< rows of support_stride floats; row 0 is infinite and parts nothing
+  const float* support;        ///< rows of support_stride floats; those before first_row are infinite
   const DiscBlock* inscribed;  ///< per shape; see interior.hpp, like the next
   const Extremes* extremes;
-  const Profile* profiles;  ///< like roots
+  const Profile* profiles;  ///< per shape
 
   // Null without the solid plan, and like the trees.
   const ContourRange* shape_contours;  ///< per shape

@@ -33,8 +33,8 @@ ShapeExtent extent_of(const FlatShape& flat) {
   ShapeExtent extent;
   for (const WideTree& tree : flat.levels) {
     extent.nodes = level_begin(tree, extent.nodes) + level_size(tree);
-    extent.rows += !tree.is_single;
   }
+  extent.rows = !flat.levels.back().is_single;
   extent.contours = flat.contour_disc.size();
   extent.points = flat.outline.points.size();
   return extent;
@@ -80,7 +80,7 @@ void ShapeStorage::resize(const ShapeSetPlan& plan, std::size_t shapes) {
   if (plan.depths.back() == 0) return;
   trees.resize(shapes * levels);
   reach.resize(shapes);
-  if (plan.shortcuts) inscribed.resize(shapes), extremes.resize(shapes), profiles.resize(shapes * levels);
+  if (plan.shortcuts) inscribed.resize(shapes), extremes.resize(shapes), profiles.resize(shapes);
   if (plan.solid) shape_contours.resize(shapes);
 }
 
@@ -92,7 +92,7 @@ void ShapeStorage::make_room(const ShapeExtent& at, const ShapeExtent& size) {
   require_numbers(at.points + size.points, "points");
   if (!trees.empty()) nodes.resize(last_node);
   if (!profiles.empty()) {
-    if (support.empty()) support.assign(support_stride, std::numeric_limits<float>::infinity());
+    if (support.empty()) support.assign(first_row * support_stride, std::numeric_limits<float>::infinity());
     support.resize((at.rows + size.rows) * support_stride);
   }
   if (!shape_contours.empty()) {
@@ -103,11 +103,12 @@ void ShapeStorage::make_room(const ShapeExtent& at, const ShapeExtent& size) {
 
 void ShapeStorage::put(std::size_t shape, const FlatShape& flat, const ShapeExtent& at) {
   const std::size_t first_root = shape * depths.size();
-  std::size_t node = at.nodes, row = at.rows;
+  std::size_t node = at.nodes;
   for (std::size_t k = 0; k < flat.levels.size(); ++k) {
     const WideTree& tree = flat.levels[k];
-    const auto named = static_cast<std::uint32_t>(tree.is_single ? single_disc : row++);
-    roots[first_root + k] = {tree.root.x, tree.root.y, tree.root.radius, named};
+    const bool deepest = k + 1 == flat.levels.size();
+    const std::size_t row = tree.is_single ? single_disc : deepest ? at.rows : no_supports;
+    roots[first_root + k] = {tree.root.x, tree.root.y, tree.root.radius, static_cast<std::uint32_t>(row)};
     if (trees.empty()) continue;
     node = level_begin(tree, node);
     put_level(first_root + k, tree, node);
@@ -136,10 +137,9 @@ void ShapeStorage::put_level(std::size_t root, const WideTree& tree, std::size_t
 }
 
 void ShapeStorage::put_shortcuts(std::size_t shape, const FlatShape& flat, const ShapeExtent& at) {
-  float* row = support.data() + at.rows * support_stride;
-  for (const Supports& heights : flat.supports) row = std::copy(heights.begin(), heights.end(), row);
-  std::copy(flat.profiles.begin(), flat.profiles.end(),
-            profiles.begin() + static_cast<std::ptrdiff_t>(shape * depths.size()));
+  if (!flat.levels.back().is_single)
+    std::copy(flat.supports.begin(), flat.supports.end(), support.data() + at.rows * support_stride);
+  profiles[shape] = flat.profile;
   const Interior& inside = flat.interior;
   std::copy(inside.x.begin(), inside.x.end(), inscribed[shape].x);
   std::copy(inside.y.begin(), inside.y.end(), inscribed[shape].y);

@@ -63,12 +63,13 @@ void require_all(const char* array, std::span<const Record> records, const char*
   reject(array, static_cast<std::size_t>(found - records.begin()), what);
 }
 
-/// From row 1 on.
+/// From the first row on.
 void require_supports(std::span<const float> support) {
   std::uint32_t bad = 0;
-  for (std::size_t i = support_stride; i < support.size(); ++i) bad |= beyond(support[i], largest_length);
+  for (std::size_t i = first_row * support_stride; i < support.size(); ++i)
+    bad |= beyond(support[i], largest_length);
   if ((bad & top_bit) == 0) return;
-  for (std::size_t i = support_stride; i < support.size(); ++i)
+  for (std::size_t i = first_row * support_stride; i < support.size(); ++i)
     if (!is_length(support[i])) reject("support", i, "not a length");
 }
 
@@ -104,21 +105,24 @@ void require_sizes(const ShapeArrays& a) {
     throw std::invalid_argument("nodes: " + std::to_string(a.nodes.size()) + ", not below 2^31");
   require_size("inscribed", a.inscribed.size(), shortcuts ? shapes : 0);
   require_size("extremes", a.extremes.size(), shortcuts ? shapes : 0);
-  require_size("profiles", a.profiles.size(), shortcuts ? roots : 0);
+  require_size("profiles", a.profiles.size(), shortcuts ? shapes : 0);
 }
 
-/// Rows of supports are numbered in the order of roots.
+/// Rows of supports are numbered in the order of shapes, whose deepest levels have them.
 void require_rows(const ShapeArrays& a) {
-  std::uint64_t rows = 1;
+  const std::size_t levels = a.depths.size();
+  std::uint64_t rows = first_row;
   for (std::size_t i = 0; i < a.roots.size(); ++i) {
     if (a.roots[i].row == single_disc) continue;
     if (a.trees.empty()) reject("roots", i, "not a single disc, without a tree");
-    if (a.roots[i].row != rows++)
+    const bool deepest = i % levels + 1 == levels;
+    if (a.roots[i].row != (deepest ? rows : no_supports))
       reject("roots", i, "row " + std::to_string(a.roots[i].row) + " is not the next");
+    rows += deepest;
   }
   if (a.support.empty()) return;
   require_size("support", a.support.size(), rows * support_stride);
-  require_all("support", a.support.first(support_stride), "not infinite",
+  require_all("support", a.support.first(first_row * support_stride), "not infinite",
               [](float height) { return height == infinity; });
 }
 
@@ -233,7 +237,8 @@ void require_shortcuts(const ShapeArrays& a) {
   require_all("profiles", a.profiles, "no profile", [&](const Profile& profile) {
     bool good = is_length(profile.x) & is_length(profile.y);
     for (const Sector& sector : profile.sectors)
-      good &= is_length_or_none(sector.inner) & is_length(sector.outer) & is_length_or_none(sector.extent);
+      good &= is_length_or_none(sector.inner) & is_length(sector.outer) & is_length_or_none(sector.extent) &
+              is_length(sector.shallow_outer);
     return good;
   });
 }

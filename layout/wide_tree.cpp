@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "layout/cut_lanes.hpp"
-#include "layout/profile.hpp"
 #include "layout/rounding.hpp"
 
 namespace bch {
@@ -167,8 +166,8 @@ Supports Flattener::supports() const {
   return bch::supports(x_.data(), y_.data(), radius_.data(), count_, hierarchy_->reach);
 }
 
-void Flattener::set_outer(Profile& profile) const {
-  bch::set_outer(profile, x_.data(), y_.data(), radius_.data(), count_, hierarchy_->reach);
+Outer Flattener::outer(const Profile& profile) const {
+  return bch::outer(profile, x_.data(), y_.data(), radius_.data(), count_, hierarchy_->reach);
 }
 
 WideTree wide_tree(const Hierarchy& hierarchy, std::uint32_t depth) {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "layout/hierarchy.hpp"
+#include "layout/profile.hpp"
 #include "layout/shape_set_view.hpp"
 #include "layout/supports.hpp"
 
@@ -45,7 +46,7 @@ class Flattener {
   void flatten(std::uint32_t depth, WideTree& tree);
   /// Of the current cut's discs.
   Supports supports() const;
-  void set_outer(Profile& profile) const;
+  Outer outer(const Profile& profile) const;
 
  private:
   /// A run of the cut's discs, and where it is a subtree of the binary tree, that subtree's root.

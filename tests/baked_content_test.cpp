@@ -86,7 +86,7 @@ std::vector<Crime> crimes() {
       {"roots 0", floats(Section::roots, 2, -1.0f)},
       {"roots 1", floats(Section::roots, 4, nan)},
       {"roots 1", [](BakedBytes& b) { b.section<Root>(Section::roots)[1].row = 2; }},
-      {"roots 4: row 3", [](BakedBytes& b) { b.section<Root>(Section::roots)[2].row = single_disc; }},
+      {"roots 5: row 3", [](BakedBytes& b) { b.section<Root>(Section::roots)[2].row = single_disc; }},
       {"support 3", floats(Section::support, 3, 1.0f)},
       {"reach 0", floats(Section::reach, 0, 0.0f)},
       {"reach 2", floats(Section::reach, 2, nan)},
@@ -153,7 +153,7 @@ std::vector<float> chain(std::uint32_t blocks) {
 
 TEST(BakedContent, TreesAreNoDeeperThanStacks) {
   const std::vector<std::uint32_t> depths{all_depths};
-  const std::vector<Root> roots{{0, 0, 1, 1}};
+  const std::vector<Root> roots{{0, 0, 1, first_row}};
   const std::vector<Tree> trees{{0, block_width}};
   const std::vector<float> reach{1};
   ShapeArrays arrays{};
@@ -170,7 +170,7 @@ TEST(BakedContent, TreesAreNoDeeperThanStacks) {
 
 TEST(BakedContent, ALevelHasAWindowOfDiscsAtLeast) {
   const std::vector<std::uint32_t> depths{all_depths};
-  const std::vector<Root> roots{{0, 0, 1, 1}};
+  const std::vector<Root> roots{{0, 0, 1, first_row}};
   std::vector<Tree> trees{{0, block_width}};
   const std::vector<float> reach{1};
   std::vector<float> nodes = chain(1);

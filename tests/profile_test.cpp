@@ -76,7 +76,8 @@ Profile profile_of(const Shape& shape) {
   }
   const auto count = static_cast<std::uint32_t>(x.size());
   x.resize(count + 4), y.resize(count + 4), radius.resize(count + 4);
-  set_outer(result, x.data(), y.data(), radius.data(), count, reach);
+  const Outer found = outer(result, x.data(), y.data(), radius.data(), count, reach);
+  for (std::uint32_t k = 0; k < profile_sectors; ++k) result.sectors[k].outer = found[k];
   return result;
 }
 
