@@ -9,6 +9,7 @@
 
 #include "kernel/broad_phase.hpp"
 #include "kernel/collide.hpp"
+#include "kernel/collide_all.hpp"
 #include "tests/allocation_count.hpp"
 #include "tests/scenes.hpp"
 
@@ -54,6 +55,13 @@ TEST_P(Allocations, CollideNeedsNone) {
   std::vector<std::uint8_t> hits(pairs.size());
   for (const Semantics semantics : {Semantics::boundary, Semantics::solid})
     EXPECT_EQ(count([&] { collide(set, crowd.agents(), pairs, hits, {semantics}); }), 0u);
+}
+
+TEST_P(Allocations, CollideAllKeepsItsMemory) {
+  CrowdCollider collider;
+  std::size_t neighbours = 0;
+  EXPECT_EQ(count([&] { neighbours = collider.collide_all(set, crowd.agents()).neighbours.size(); }), 0u);
+  EXPECT_GT(neighbours, 20'000u);
 }
 
 INSTANTIATE_TEST_SUITE_P(Threads, Allocations, testing::Values(1, 2, 4));

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "kernel/answer.hpp"
+#include "kernel/neighbour_rows.hpp"
 #include "layout/dynamic_shape_set.hpp"
 #include "tests/scenes.hpp"
 
@@ -87,6 +88,28 @@ TEST_F(Threads, DifferentShapesAreReplacedAtTheSameTime) {
   const auto expected = answers(kernel::best_implementation(), 1);
   set = ShapeSet(dynamic.set().arrays(), nullptr);
   EXPECT_EQ(answers(kernel::best_implementation(), 1), expected);
+}
+
+TEST_F(Threads, RowsOfNeighboursAreFilledAtTheSameTime) {
+  std::vector<Pair> pairs;
+  for (std::uint32_t i = 0; i < 200; ++i)
+    for (std::uint32_t j = i + 1; j < 200; ++j) pairs.push_back({i, j});
+  const std::vector<std::uint8_t> hits(pairs.size(), 1);
+  std::vector<std::uint64_t> begin(201);
+  std::vector<std::uint32_t> neighbours(200 * 199);
+  const kernel::NeighbourRows rows{pairs, hits, begin, neighbours};
+  const auto in_parts = [](std::size_t count, auto work) {
+    std::vector<std::thread> running;
+    for (std::size_t t = 0; t < 4; ++t)
+      running.emplace_back([=] { work(count * t / 4, count * (t + 1) / 4); });
+    for (std::thread& thread : running) thread.join();
+  };
+  in_parts(pairs.size(), [&](std::size_t first, std::size_t last) { rows.count(first, last); });
+  EXPECT_EQ(rows.place(), neighbours.size());
+  in_parts(pairs.size(), [&](std::size_t first, std::size_t last) { rows.fill(first, last); });
+  in_parts(200, [&](std::size_t first, std::size_t last) { rows.sort(first, last); });
+  for (std::uint32_t i = 0; i < 200; ++i)
+    for (std::uint32_t k = 0; k < 199; ++k) ASSERT_EQ(neighbours[begin[i] + k], k + (k >= i)) << i;
 }
 
 }  // namespace

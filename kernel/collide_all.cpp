@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include "kernel/collide_all.hpp"
+
+#include <oneapi/tbb/blocked_range.h>
+#include <oneapi/tbb/parallel_for.h>
+
+#include <vector>
+
+#include "kernel/broad_phase.hpp"
+#include "kernel/neighbour_rows.hpp"
+
+namespace bch {
+namespace {
+
+constexpr std::size_t grain = 4096;  ///< pairs or agents a task
+
+template <class Work>
+void for_ranges(std::size_t count, Work work) {
+  using Range = tbb::blocked_range<std::size_t>;
+  tbb::parallel_for(Range(0, count, grain), [&](const Range& range) { work(range.begin(), range.end()); });
+}
+
+}  // namespace
+
+struct CrowdCollider::Scratch {
+  BroadPhase broad_phase;
+  std::vector<std::uint8_t> hits;
+  std::vector<std::uint64_t> begin;
+  std::vector<std::uint32_t> neighbours;
+};
+
+CrowdCollider::CrowdCollider() : scratch_(std::make_unique<Scratch>()) {}
+CrowdCollider::CrowdCollider(CrowdCollider&&) noexcept = default;
+CrowdCollider& CrowdCollider::operator=(CrowdCollider&&) noexcept = default;
+CrowdCollider::~CrowdCollider() = default;
+
+CollidingNeighbours CrowdCollider::collide_all(const ShapeSet& shapes, const Agents& agents,
+                                               const QueryOptions& options) {
+  auto& [broad_phase, hits, begin, neighbours] = *scratch_;
+  const std::span<const Pair> pairs = broad_phase.find(shapes, agents);
+  hits.resize(pairs.size());
+  collide(shapes, agents, pairs, hits, options);
+
+  begin.assign(agents.size() + 1, 0);
+  kernel::NeighbourRows rows{pairs, hits, begin, {}};
+  for_ranges(pairs.size(), [&](std::size_t first, std::size_t last) { rows.count(first, last); });
+  neighbours.resize(rows.place());
+  rows.neighbours = neighbours;
+  for_ranges(pairs.size(), [&](std::size_t first, std::size_t last) { rows.fill(first, last); });
+  for_ranges(agents.size(), [&](std::size_t first, std::size_t last) { rows.sort(first, last); });
+  return {begin, neighbours};
+}
+
+}  // namespace bch
