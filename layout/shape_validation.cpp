@@ -9,6 +9,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "layout/cut_discs.hpp"
 #include "layout/rounding.hpp"
 
 namespace bch {
@@ -157,6 +158,7 @@ std::uint64_t check_block(const ShapeArrays& a, std::uint64_t block, std::uint64
   const float* x = a.nodes.data() + block;
   const float* names = x + 3 * block_width;
   require_discs("nodes", block, x, block_width, block_width);
+  if (x[0] == infinity) reject("nodes", block, "begins with padding");
   std::uint32_t any_block = 0;
 #pragma GCC unroll 1  // else GCC 12 unrolls it first, and then makes no vectors
   for (std::uint32_t i = 0; i < block_width; ++i) {
@@ -218,6 +220,8 @@ std::uint64_t check_tree(const ShapeArrays& a, std::size_t root, std::uint64_t b
   if (stride < block_width || end + block_floats > a.nodes.size())
     reject("trees", root, std::to_string(stride) + " discs do not fit");
   require_within(windows, root, discs, stride);
+  if (first_disc(a.nodes.data(), top) != discs)
+    reject("trees", root, "the first window is not at the first disc");
   require_discs("nodes", discs, a.nodes.data() + discs, stride, stride);
   return end;
 }

@@ -71,6 +71,12 @@ std::vector<Crime> crimes() {
       {"", [=](BakedBytes& b) { set_child(b, 0, top(b) + 1); }},
       {"windows at 0", [=](BakedBytes& b) { first_window(b) = std::bit_cast<float>(leaf_window); }},
       {"to 2147483647", [=](BakedBytes& b) { first_window(b) = std::bit_cast<float>(~0u); }},
+      {"trees 2: the first window",
+       [](BakedBytes& b) {
+         float& name = first_window(b);
+         name = std::bit_cast<float>(std::bit_cast<std::uint32_t>(name) + 1);
+       }},
+      {"begins with padding", [](BakedBytes& b) { top_block(b)[0] = infinity; }},
       {"trees 2", [=](BakedBytes& b) { b.section<Tree>(Section::trees)[2].stride = ~0u; }},
       {"trees 2", [=](BakedBytes& b) { b.section<Tree>(Section::trees)[2].stride = 7; }},
       {"trees 2", [=](BakedBytes& b) { b.section<Tree>(Section::trees)[2].stride -= 1; }},
@@ -173,8 +179,7 @@ TEST(BakedContent, ALevelHasAWindowOfDiscsAtLeast) {
   const std::vector<Root> roots{{0, 0, 1, first_row}};
   std::vector<Tree> trees{{0, block_width}};
   const std::vector<float> reach{1};
-  std::vector<float> nodes = chain(1);
-  nodes[0] = infinity;  // so that no window is named
+  const std::vector<float> nodes = chain(1);
   ShapeArrays arrays{};
   arrays.depths = depths, arrays.roots = roots, arrays.trees = trees, arrays.reach = reach,
   arrays.nodes = nodes;
