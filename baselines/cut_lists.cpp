@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include "baselines/cut_lists.hpp"
+
+namespace bch::baselines {
+
+CutLists::CutLists(std::span<const Shape> shapes, const ShapeSetPlan& plan)
+    : level_count_(plan.depths.size()) {
+  for (const Shape& shape : shapes)
+    for (const std::uint32_t depth : plan.depths) {
+      std::vector<Disc>& list = lists_.emplace_back();
+      for (const std::uint32_t node : cut(shape.hierarchy, depth))
+        list.push_back(shape.hierarchy.nodes[node].disc);
+    }
+}
+
+std::span<const Disc> CutLists::of(const Agents& agents, std::uint32_t agent) const {
+  const std::size_t level = agents.level.empty() ? level_count_ - 1 : agents.level[agent];
+  return lists_[agents.shape[agent] * level_count_ + level];
+}
+
+}  // namespace bch::baselines
