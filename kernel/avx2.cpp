@@ -2,6 +2,7 @@
 // Copyright (c) 2026 the bch authors
 
 #include "kernel/agent_check.hpp"
+#include "kernel/contact_kernel.hpp"
 #include "kernel/pair_kernel.hpp"
 
 namespace bch::kernel {
@@ -49,6 +50,16 @@ bool check_avx2(const Arguments& arguments, std::size_t begin, std::size_t end) 
 
 void run_avx2(const Arguments& arguments, std::size_t begin, std::size_t end) noexcept {
   PairKernel<Avx2Lanes>::run(arguments, begin, end);
+}
+
+void count_contacts_avx2(const Arguments& arguments, std::size_t begin, std::size_t end,
+                         std::uint64_t* counts) noexcept {
+  ContactKernel<Avx2Lanes>::count(arguments, begin, end, counts);
+}
+
+void fill_contacts_avx2(const Arguments& arguments, std::size_t begin, std::size_t end,
+                        const std::uint64_t* offsets, Contact* contacts) noexcept {
+  ContactKernel<Avx2Lanes>::fill(arguments, begin, end, offsets, contacts);
 }
 
 }  // namespace bch::kernel

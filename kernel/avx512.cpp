@@ -2,6 +2,7 @@
 // Copyright (c) 2026 the bch authors
 
 #include "kernel/agent_check.hpp"
+#include "kernel/contact_kernel.hpp"
 #include "kernel/pair_kernel.hpp"
 
 namespace bch::kernel {
@@ -64,6 +65,16 @@ bool check_avx512(const Arguments& arguments, std::size_t begin, std::size_t end
 
 void run_avx512(const Arguments& arguments, std::size_t begin, std::size_t end) noexcept {
   PairKernel<Avx512Lanes>::run(arguments, begin, end);
+}
+
+void count_contacts_avx512(const Arguments& arguments, std::size_t begin, std::size_t end,
+                           std::uint64_t* counts) noexcept {
+  ContactKernel<Avx512Lanes>::count(arguments, begin, end, counts);
+}
+
+void fill_contacts_avx512(const Arguments& arguments, std::size_t begin, std::size_t end,
+                          const std::uint64_t* offsets, Contact* contacts) noexcept {
+  ContactKernel<Avx512Lanes>::fill(arguments, begin, end, offsets, contacts);
 }
 
 }  // namespace bch::kernel

@@ -4,14 +4,19 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <string_view>
+
+namespace bch {
+struct Contact;
+}
 
 namespace bch::kernel {
 
 struct Arguments;
 
-/// One compilation of the pair kernel.
+/// One compilation of the kernels.
 struct Implementation {
   const char* name;  ///< "avx512", "avx2", "sse2" or "scalar"
   unsigned width;    ///< floats side by side
@@ -20,6 +25,12 @@ struct Implementation {
   bool (*check)(const Arguments& arguments, std::size_t begin, std::size_t end) noexcept;
   /// Writes the codes of pairs begin .. end; see Arguments. Needs 256 KiB of stack and no other memory.
   void (*run)(const Arguments& arguments, std::size_t begin, std::size_t end) noexcept;
+  /// How many contacts each of pairs begin .. end has, to counts[begin] .. counts[end].
+  void (*count_contacts)(const Arguments& arguments, std::size_t begin, std::size_t end,
+                         std::uint64_t* counts) noexcept;
+  /// Those of pair i to contacts[offsets[i]] .. contacts[offsets[i + 1]].
+  void (*fill_contacts)(const Arguments& arguments, std::size_t begin, std::size_t end,
+                        const std::uint64_t* offsets, Contact* contacts) noexcept;
 };
 
 /// All that were compiled, the best first; the last one runs everywhere.

@@ -2,6 +2,7 @@
 // Copyright (c) 2026 the bch authors
 
 #include "kernel/agent_check.hpp"
+#include "kernel/contact_kernel.hpp"
 #include "kernel/pair_kernel.hpp"
 
 namespace bch::kernel {
@@ -20,6 +21,16 @@ bool check_scalar(const Arguments& arguments, std::size_t begin, std::size_t end
 
 void run_scalar(const Arguments& arguments, std::size_t begin, std::size_t end) noexcept {
   PairKernel<ScalarLanes>::run(arguments, begin, end);
+}
+
+void count_contacts_scalar(const Arguments& arguments, std::size_t begin, std::size_t end,
+                           std::uint64_t* counts) noexcept {
+  ContactKernel<ScalarLanes>::count(arguments, begin, end, counts);
+}
+
+void fill_contacts_scalar(const Arguments& arguments, std::size_t begin, std::size_t end,
+                          const std::uint64_t* offsets, Contact* contacts) noexcept {
+  ContactKernel<ScalarLanes>::fill(arguments, begin, end, offsets, contacts);
 }
 
 }  // namespace bch::kernel

@@ -2,6 +2,7 @@
 // Copyright (c) 2026 the bch authors
 
 #include "kernel/agent_check.hpp"
+#include "kernel/contact_kernel.hpp"
 #include "kernel/pair_kernel.hpp"
 
 namespace bch::kernel {
@@ -30,6 +31,16 @@ bool check_sse2(const Arguments& arguments, std::size_t begin, std::size_t end) 
 
 void run_sse2(const Arguments& arguments, std::size_t begin, std::size_t end) noexcept {
   PairKernel<Sse2Lanes>::run(arguments, begin, end);
+}
+
+void count_contacts_sse2(const Arguments& arguments, std::size_t begin, std::size_t end,
+                         std::uint64_t* counts) noexcept {
+  ContactKernel<Sse2Lanes>::count(arguments, begin, end, counts);
+}
+
+void fill_contacts_sse2(const Arguments& arguments, std::size_t begin, std::size_t end,
+                        const std::uint64_t* offsets, Contact* contacts) noexcept {
+  ContactKernel<Sse2Lanes>::fill(arguments, begin, end, offsets, contacts);
 }
 
 }  // namespace bch::kernel

@@ -10,6 +10,7 @@
 #include "kernel/broad_phase.hpp"
 #include "kernel/collide.hpp"
 #include "kernel/collide_all.hpp"
+#include "kernel/contacts.hpp"
 #include "tests/allocation_count.hpp"
 #include "tests/scenes.hpp"
 
@@ -62,6 +63,13 @@ TEST_P(Allocations, CollideAllKeepsItsMemory) {
   std::size_t neighbours = 0;
   EXPECT_EQ(count([&] { neighbours = collider.collide_all(set, crowd.agents()).neighbours.size(); }), 0u);
   EXPECT_GT(neighbours, 20'000u);
+}
+
+TEST_P(Allocations, ContactsNeedTheirTableAlone) {
+  const std::vector<Pair> pairs = candidate_pairs(set, crowd.agents());
+  ContactTable table;
+  EXPECT_EQ(count([&] { contacts(set, crowd.agents(), pairs, table); }), 0u);
+  EXPECT_GT(table.contacts.size(), pairs.size());
 }
 
 INSTANTIATE_TEST_SUITE_P(Threads, Allocations, testing::Values(1, 2, 4));

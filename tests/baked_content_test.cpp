@@ -9,6 +9,7 @@
 
 #include "kernel/broad_phase.hpp"
 #include "kernel/collide.hpp"
+#include "kernel/contacts.hpp"
 #include "layout/shape_validation.hpp"
 #include "tests/baked_bytes.hpp"
 #include "tests/scenes.hpp"
@@ -202,6 +203,9 @@ void query(const ShapeSet& set, std::uint64_t seed) {
     for (const kernel::Implementation& row : kernel::implementations())
       if (row.supported() && (semantics == Semantics::boundary || set.solid()))
         collide(set, crowd.agents(), pairs, hits, {semantics, &row});
+  ContactTable table;
+  for (const kernel::Implementation& row : kernel::implementations())
+    if (row.supported()) contacts(set, crowd.agents(), std::span(pairs).last(20), table, {&row});
 }
 
 /// Whatever gets through gives wrong answers at worst.

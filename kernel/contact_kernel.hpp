@@ -1,0 +1,205 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "kernel/arguments.hpp"
+#include "kernel/block_test.hpp"
+#include "kernel/contact.hpp"
+#include "kernel/lanes.hpp"
+#include "kernel/placements.hpp"
+#include "layout/cut_discs.hpp"
+#include "layout/shape_set_view.hpp"
+
+namespace bch::kernel {
+
+/// All pairs of overlapping cut discs, one pair of agents after the other. Rows are discs of a pair's first agent,
+/// columns those of its second. Row windows are visited from left to right and, for each, the column windows, so that
+/// contacts come in order but for the eight rows of a window, which are counted before they are placed. A window shows
+/// some of its neighbours' discs: what an earlier window has shown is masked, so that no contact is named twice, and as
+/// windows begin in ascending order that is one comparison.
+///
+/// Blocks prune as in the pair kernel's walk, and with its slack (layout/rounding.hpp): that loses no contact.
+template <class Simd>
+class ContactKernel {
+ public:
+  static void count(const Arguments& in, std::size_t begin, std::size_t end, std::uint64_t* counts) noexcept {
+    for_pairs(in, begin, end, [=](ContactKernel& kernel, std::size_t pair) {
+      std::uint64_t sum = 0;
+      kernel.for_row_windows([&](std::uint32_t rows, std::uint64_t mask) {
+        kernel.for_column_windows(rows, mask, [&](std::uint32_t, std::uint64_t hits) {
+          sum += static_cast<std::uint64_t>(__builtin_popcountll(hits));
+        });
+      });
+      counts[pair] = sum;
+    });
+  }
+
+  static void fill(const Arguments& in, std::size_t begin, std::size_t end, const std::uint64_t* offsets,
+                   Contact* contacts) noexcept {
+    for_pairs(in, begin, end, [=](ContactKernel& kernel, std::size_t pair) {
+      Contact* out = contacts + offsets[pair];
+      if (offsets[pair + 1] == offsets[pair]) return;
+      kernel.for_row_windows(
+          [&](std::uint32_t rows, std::uint64_t mask) { out = kernel.place_rows(rows, mask, out); });
+    });
+  }
+
+ private:
+  static constexpr std::uint64_t first_column = 0x0101010101010101, row = 0xff;
+
+  explicit ContactKernel(const Arguments& in) noexcept : in_(in), shapes_(*in.shapes) {}
+
+  template <class Use>
+  static void for_pairs(const Arguments& in, std::size_t begin, std::size_t end, Use use) noexcept {
+    ContactKernel kernel(in);
+    for (; begin < end; begin += kernel.at_.size) {
+      const std::size_t left = end - begin;
+      kernel.at_.place(
+          in, begin,
+          left < Placements<Simd>::chunk ? static_cast<std::uint32_t>(left) : Placements<Simd>::chunk);
+      for (std::uint32_t k = 0; k < kernel.at_.size; ++k) {
+        kernel.look_at(begin, k);
+        use(kernel, begin + k);
+      }
+    }
+  }
+
+  /// The lower index is A; see Placements.
+  void look_at(std::size_t begin, std::uint32_t k) noexcept {
+    const Pair pair = in_.pairs[begin + k];
+    swapped_ = pair.second < pair.first;
+    b_in_a_ = at_.transform(k);
+    const std::uint32_t rows = swapped_ ? at_.root_b[k] : at_.root_a[k];
+    const std::uint32_t columns = swapped_ ? at_.root_a[k] : at_.root_b[k];
+    if (shapes_.trees == nullptr) return look_at_single_discs(shapes_.roots[rows], shapes_.roots[columns]);
+    nodes_ = shapes_.nodes;
+    rows_ = shapes_.trees[rows], columns_ = shapes_.trees[columns];
+    first_row_ = first_disc(nodes_, rows_.top), first_column_ = first_disc(nodes_, columns_.top);
+  }
+
+  /// Windows of our own, because the set has none.
+  void look_at_single_discs(const Root& row_disc, const Root& column_disc) noexcept {
+    for (DiscBlock& single : singles_)
+      for (unsigned i = 0; i < block_width; ++i)
+        single.x[i] = __builtin_inff(), single.y[i] = single.radius[i] = 0;
+    singles_[0].x[0] = row_disc.x, singles_[0].y[0] = row_disc.y, singles_[0].radius[0] = row_disc.radius;
+    singles_[1].x[0] = column_disc.x, singles_[1].y[0] = column_disc.y,
+    singles_[1].radius[0] = column_disc.radius;
+    nodes_ = singles_[0].x;
+    first_row_ = 0, first_column_ = sizeof(DiscBlock) / sizeof(float);
+    rows_ = {leaf_window | first_row_, block_width}, columns_ = {leaf_window | first_column_, block_width};
+  }
+
+  /// Calls use(window, mask of its rows that no earlier window had).
+  template <class Use>
+  void for_row_windows(Use use) const noexcept {
+    std::uint32_t next = 0;
+    visit_rows(rows_.top, next, use);
+  }
+
+  template <class Use>
+  void visit_rows(std::uint32_t node, std::uint32_t& next, Use& use) const noexcept {
+    if (node >= leaf_window) {
+      const std::uint32_t seen = seen_lanes(node, next);
+      if (seen < block_width) use(node, ~std::uint64_t{0} << (seen * block_width));
+      return;
+    }
+    const std::uint64_t hits = overlaps_of(node, columns_.top);
+    for (unsigned i = 0; i < block_width; ++i)
+      if (hits >> (i * block_width) & row) visit_rows(child(node, i), next, use);
+  }
+
+  /// Calls use(window, hits) for each window with discs that overlap those of a row window.
+  template <class Use>
+  void for_column_windows(std::uint32_t rows, std::uint64_t mask, Use use) const noexcept {
+    std::uint32_t next = 0;
+    visit_columns(rows, mask, columns_.top, next, use);
+  }
+
+  template <class Use>
+  void visit_columns(std::uint32_t rows, std::uint64_t mask, std::uint32_t node, std::uint32_t& next,
+                     Use& use) const noexcept {
+    std::uint64_t hits = overlaps_of(rows, node) & mask;
+    if (node >= leaf_window) {
+      hits &= (row << seen_lanes(node, next) & row) * first_column;
+      if (hits != 0) use(node, hits);
+      return;
+    }
+    for (unsigned j = 0; j < block_width; ++j)
+      if (hits & first_column << j) visit_columns(rows, mask, child(node, j), next, use);
+  }
+
+  /// How many of a window's discs an earlier window had, which ended before `next`.
+  static std::uint32_t seen_lanes(std::uint32_t window, std::uint32_t& next) noexcept {
+    const std::uint32_t seen = next > window ? next - window : 0;
+    next = window + block_width > next ? window + block_width : next;
+    return seen < block_width ? seen : block_width;
+  }
+
+  /// Returns: one past the last that was placed.
+  Contact* place_rows(std::uint32_t rows, std::uint64_t mask, Contact* out) const noexcept {
+    std::uint32_t count[block_width] = {};
+    for_column_windows(rows, mask, [&](std::uint32_t, std::uint64_t hits) {
+      for (unsigned i = 0; i < block_width; ++i)
+        count[i] += static_cast<std::uint32_t>(__builtin_popcountll(hits >> (i * block_width) & row));
+    });
+    Contact* end[block_width];
+    for (unsigned i = 0; i < block_width; ++i) end[i] = out, out += count[i];
+    const std::uint32_t first = (rows & ~leaf_window) - first_row_;
+    for_column_windows(rows, mask, [&](std::uint32_t columns, std::uint64_t hits) {
+      for (; hits != 0; hits &= hits - 1) {
+        const auto bit = static_cast<unsigned>(__builtin_ctzll(hits));
+        *end[bit / block_width]++ = {first + bit / block_width,
+                                     (columns & ~leaf_window) - first_column_ + bit % block_width};
+      }
+    });
+    return out;
+  }
+
+  /// Bit 8 i + j: disc i of a node of the rows, disc j of one of the columns.
+  std::uint64_t overlaps_of(std::uint32_t rows, std::uint32_t columns) const noexcept {
+    const Discs of_rows = discs(rows, rows_.stride), of_columns = discs(columns, columns_.stride);
+    if (!swapped_) return overlapping_discs<Simd>(b_in_a_, of_rows, of_columns);
+    return transposed(overlapping_discs<Simd>(b_in_a_, of_columns, of_rows));
+  }
+
+  Discs discs(std::uint32_t node, std::uint32_t stride) const noexcept {
+    return {nodes_ + (node & ~leaf_window), node >= leaf_window ? stride : block_width};
+  }
+
+  std::uint32_t child(std::uint32_t node, unsigned lane) const noexcept {
+    std::uint32_t name;
+    __builtin_memcpy(&name, nodes_ + node + 3 * block_width + lane, sizeof name);
+    return name;
+  }
+
+  /// Of a matrix of 8 x 8 bits. Source: Warren, Hacker's Delight, 7-3.
+  static std::uint64_t transposed(std::uint64_t m) noexcept {
+    const auto exchange = [&m](std::uint64_t bits, unsigned shift) {
+      const std::uint64_t both = (m ^ m >> shift) & bits;
+      m ^= both ^ both << shift;
+    };
+    exchange(0x00aa00aa00aa00aa, 7);
+    exchange(0x0000cccc0000cccc, 14);
+    exchange(0x00000000f0f0f0f0, 28);
+    return m;
+  }
+
+  const Arguments& in_;
+  const ShapeSetView shapes_;
+  Placements<Simd> at_;
+
+  // Of the pair that is looked at.
+  bool swapped_;  ///< the first agent is B
+  Transform b_in_a_;
+  const float* nodes_;
+  Tree rows_, columns_;
+  std::uint32_t first_row_, first_column_;  ///< where their discs begin
+  DiscBlock singles_[2];
+};
+
+}  // namespace bch::kernel
