@@ -20,10 +20,13 @@ class CutLists {
 
   /// Of the agent's shape at its level.
   std::span<const Disc> of(const Agents& agents, std::uint32_t agent) const;
+  /// Metres, not below the reach that layout/rounding.hpp speaks of.
+  float reach(const Agents& agents, std::uint32_t agent) const;
 
  private:
   std::size_t level_count_;
   std::vector<std::vector<Disc>> lists_;  ///< shape * level_count_ + level
+  std::vector<float> reach_;              ///< per shape, rounded up
 };
 
 }  // namespace bch::baselines
