@@ -10,7 +10,8 @@
 
 namespace bch {
 struct Contact;
-}
+struct CutDiscs;
+}  // namespace bch
 
 namespace bch::kernel {
 
@@ -31,6 +32,9 @@ struct Implementation {
   /// Those of pair i to contacts[offsets[i]] .. contacts[offsets[i + 1]].
   void (*fill_contacts)(const Arguments& arguments, std::size_t begin, std::size_t end,
                         const std::uint64_t* offsets, Contact* contacts) noexcept;
+  /// The interval that discs take along each of so many axes: of c . axis - r the least, of c . axis + r the largest.
+  void (*extents)(const CutDiscs& discs, const float* axis_x, const float* axis_y, std::uint32_t axes,
+                  float* low, float* high) noexcept;
 };
 
 /// All that were compiled, the best first; the last one runs everywhere.

@@ -3,6 +3,7 @@
 
 #include "kernel/agent_check.hpp"
 #include "kernel/contact_kernel.hpp"
+#include "kernel/extent_kernel.hpp"
 #include "kernel/pair_kernel.hpp"
 
 namespace bch::kernel {
@@ -31,6 +32,11 @@ void count_contacts_scalar(const Arguments& arguments, std::size_t begin, std::s
 void fill_contacts_scalar(const Arguments& arguments, std::size_t begin, std::size_t end,
                           const std::uint64_t* offsets, Contact* contacts) noexcept {
   ContactKernel<ScalarLanes>::fill(arguments, begin, end, offsets, contacts);
+}
+
+void extents_scalar(const CutDiscs& discs, const float* axis_x, const float* axis_y, std::uint32_t axes,
+                    float* low, float* high) noexcept {
+  ExtentKernel<ScalarLanes>::run(discs, axis_x, axis_y, axes, low, high);
 }
 
 }  // namespace bch::kernel

@@ -11,6 +11,7 @@
 #include "kernel/collide.hpp"
 #include "kernel/collide_all.hpp"
 #include "kernel/contacts.hpp"
+#include "kernel/separation.hpp"
 #include "tests/allocation_count.hpp"
 #include "tests/scenes.hpp"
 
@@ -70,6 +71,14 @@ TEST_P(Allocations, ContactsNeedTheirTableAlone) {
   ContactTable table;
   EXPECT_EQ(count([&] { contacts(set, crowd.agents(), pairs, table); }), 0u);
   EXPECT_GT(table.contacts.size(), pairs.size());
+}
+
+TEST_P(Allocations, SeparationNeedsNone) {
+  const std::vector<Pair> pairs = candidate_pairs(set, crowd.agents());
+  const std::vector<Vec2> directions(pairs.size(), Vec2{1, 2});
+  std::vector<Separation> ways(pairs.size());
+  EXPECT_EQ(count([&] { separation(set, crowd.agents(), pairs, 16, ways); }), 0u);
+  EXPECT_EQ(count([&] { separation_along(set, crowd.agents(), pairs, directions, ways); }), 0u);
 }
 
 INSTANTIATE_TEST_SUITE_P(Threads, Allocations, testing::Values(1, 2, 4));

@@ -10,6 +10,7 @@
 #include "kernel/broad_phase.hpp"
 #include "kernel/collide.hpp"
 #include "kernel/contacts.hpp"
+#include "kernel/separation.hpp"
 #include "layout/shape_validation.hpp"
 #include "tests/baked_bytes.hpp"
 #include "tests/scenes.hpp"
@@ -203,9 +204,14 @@ void query(const ShapeSet& set, std::uint64_t seed) {
     for (const kernel::Implementation& row : kernel::implementations())
       if (row.supported() && (semantics == Semantics::boundary || set.solid()))
         collide(set, crowd.agents(), pairs, hits, {semantics, &row});
+  const auto some = std::span(pairs).last(20);
   ContactTable table;
+  std::vector<Separation> ways(some.size());
   for (const kernel::Implementation& row : kernel::implementations())
-    if (row.supported()) contacts(set, crowd.agents(), std::span(pairs).last(20), table, {&row});
+    if (row.supported()) {
+      contacts(set, crowd.agents(), some, table, {&row});
+      separation(set, crowd.agents(), some, 8, ways, {&row});
+    }
 }
 
 /// Whatever gets through gives wrong answers at worst.
