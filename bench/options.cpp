@@ -13,9 +13,6 @@
 #include "bench/number.hpp"
 
 namespace bch::cli {
-namespace {
-
-/// Rejects every other word.
 CLI::Validator one_of(std::vector<std::string> words) {
   const auto check = [words = std::move(words)](const std::string& text) -> std::string {
     if (std::find(words.begin(), words.end(), text) != words.end()) return {};
@@ -23,8 +20,6 @@ CLI::Validator one_of(std::vector<std::string> words) {
   };
   return CLI::Validator(check, "", "word");
 }
-
-}  // namespace
 
 CLI::Validator number_between(double low, double high) {
   const auto check = [low, high](const std::string& text) -> std::string {

@@ -54,6 +54,9 @@ void require_unsettled(const CLI::App& command, const std::string& baked_file);
 
 void add_threads_option(CLI::App& command, std::uint32_t& threads);
 
+/// Rejects every other word.
+CLI::Validator one_of(std::vector<std::string> words);
+
 /// Rejects what is not a finite number in [low, high], NaN included.
 CLI::Validator number_between(double low, double high);
 

@@ -3,21 +3,23 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <iterator>
+#include <cmath>
 #include <memory>
-#include <tuple>
+#include <optional>
 #include <unordered_map>
 
 #include "bench/baked_report.hpp"
 #include "bench/commands.hpp"
 #include "bench/csv_input.hpp"
 #include "bench/exit_codes.hpp"
+#include "bench/number.hpp"
 #include "bench/options.hpp"
 #include "bench/output.hpp"
+#include "bench/query_answers.hpp"
 #include "bench/shape_table.hpp"
 #include "bench/threads.hpp"
-#include "kernel/broad_phase.hpp"
+#include "kernel/collide_all.hpp"
+#include "kernel/separation.hpp"
 
 namespace bch::cli {
 namespace {
@@ -25,9 +27,27 @@ namespace {
 struct QueryCommandOptions {
   std::string character, agents, pairs;
   bool all_pairs = false;
+  std::string what = query_kinds().front().name;
+  std::uint32_t directions = 16;
+  std::string direction;  ///< empty: the best of many
   ShapeOptions shapes;
   AnswerOptions answer;
+
+  /// Errors:  throws UsageError.
+  std::optional<Vec2> only_direction() const;
 };
+
+std::optional<Vec2> QueryCommandOptions::only_direction() const {
+  if (direction.empty()) return std::nullopt;
+  const std::size_t comma = direction.find(',');
+  const auto part = [](const std::string& text) { return parse_number(text).value_or(HUGE_VAL); };
+  const auto x = static_cast<float>(part(direction.substr(0, comma)));
+  const auto y =
+      static_cast<float>(comma == std::string::npos ? HUGE_VAL : part(direction.substr(comma + 1)));
+  if (!std::isfinite(x) || !std::isfinite(y) || (x == 0 && y == 0))
+    throw UsageError(fmt::format("--direction: '{}' is not X,Y with a length", direction));
+  return Vec2{x, y};
+}
 
 /// Renumbers the agents' shapes to those in use. Returns: where these come from; no other is built.
 std::vector<ShapeSource> keep_used(std::span<const ShapeSource> sources, AgentTable& table) {
@@ -41,23 +61,15 @@ std::vector<ShapeSource> keep_used(std::span<const ShapeSource> sources, AgentTa
   return used;
 }
 
-/// All pairs that can collide, in the order of the agents' lines.
-std::vector<Pair> pairs_in_order(const ShapeSet& set, const Agents& agents) {
-  std::vector<Pair> pairs = candidate_pairs(set, agents);
-  std::sort(pairs.begin(), pairs.end(),
-            [](Pair a, Pair b) { return std::tie(a.first, a.second) < std::tie(b.first, b.second); });
+/// All pairs that collide, in the order of the agents' lines.
+std::vector<Pair> colliding_pairs(const ShapeSet& set, const Agents& agents, const QueryOptions& options) {
+  CrowdCollider collider;
+  const CollidingNeighbours rows = collider.collide_all(set, agents, options);
+  std::vector<Pair> pairs;
+  for (std::uint32_t i = 0; i < agents.size(); ++i)
+    for (const std::uint32_t j : rows.of(i))
+      if (i < j) pairs.push_back({i, j});
   return pairs;
-}
-
-std::string answers_csv(const AgentTable& table, std::span<const Pair> pairs,
-                        std::span<const std::uint8_t> hits, bool hits_only) {
-  std::string out = "first,second,hit\n";
-  for (std::size_t i = 0; i < pairs.size(); ++i) {
-    if (hits_only && hits[i] == 0) continue;
-    fmt::format_to(std::back_inserter(out), "{},{},{:d}\n", csv_field(table.id[pairs[i].first]),
-                   csv_field(table.id[pairs[i].second]), hits[i]);
-  }
-  return out;
 }
 
 /// What there is to answer.
@@ -77,10 +89,11 @@ Question read_question(const QueryCommandOptions& options, std::size_t shapes, s
 
 void answer(const QueryCommandOptions& options, const ShapeSet& set, Question& question) {
   auto& [table, pairs] = question;
-  if (options.all_pairs) pairs = pairs_in_order(set, table.agents());
-  std::vector<std::uint8_t> hits(pairs.size());
-  collide(set, table.agents(), pairs, hits, options.answer.query_options());
-  write_standard_output(answers_csv(table, pairs, hits, options.all_pairs));
+  const QueryOptions how = options.answer.query_options();
+  if (options.all_pairs) pairs = colliding_pairs(set, table.agents(), how);
+  const QueryKind& kind = query_kind(options.what);
+  write_standard_output(fmt::format("first,second,{}\n", kind.columns) +
+                        kind.rows({set, table, pairs, how, options.directions, options.only_direction()}));
 }
 
 void query_character(const QueryCommandOptions& options) {
@@ -110,6 +123,12 @@ void run_query(const CLI::App& command, const QueryCommandOptions& options) {
   if (options.all_pairs == !options.pairs.empty())
     throw UsageError(options.all_pairs ? "PAIRS.csv and --all-pairs: name one of them"
                                        : "PAIRS.csv or --all-pairs is missing");
+  if (options.what != "separation")
+    require_absent(command, {"--directions", "--direction"}, "belongs to --what separation");
+  if (!options.direction.empty()) require_absent(command, {"--directions"}, "--direction names the only one");
+  if (options.directions % 2 != 0)
+    throw UsageError(fmt::format("--directions: '{}' is odd", options.directions));
+  options.only_direction();
   if (!is_baked(options.character)) return query_character(options);
   require_unsettled(command, options.character);
   query_baked(options);
@@ -124,15 +143,26 @@ std::function<void()> add_query_command(CLI::App& program) {
       "In AGENTS.csv an id is any text, shape the number that bch inspect gives it with the same --poses, x "
       "and y are\n"
       "metres, heading is in radians, level an index into --depths (without that column: the last).\n"
-      "Writes first,second,hit: a line for each line of PAIRS.csv, in that order; hit is 0 or 1.\n"
-      "Example: bch query default:female agents.csv pairs.csv > answers.csv");
+      "Writes a line for each line of PAIRS.csv, in that order, or what --what says:\n" +
+      query_help() + "Example: bch query default:female agents.csv pairs.csv > answers.csv");
   command.add_option("SHAPES", options->character, character_or_baked_help)->type_name("")->required();
   command.add_option("AGENTS.csv", options->agents, "Columns id,shape,x,y,heading[,level]")
       ->type_name("")
       ->required();
   command.add_option("PAIRS.csv", options->pairs, "Columns first,second: ids of agents")->type_name("");
-  command.add_flag("--all-pairs", options->all_pairs,
-                   "Instead of PAIRS.csv: find and write all pairs that collide");
+  command.add_flag("--all-pairs", options->all_pairs, "Instead of PAIRS.csv: all pairs that collide");
+  std::vector<std::string> names;
+  for (const QueryKind& kind : query_kinds()) names.emplace_back(kind.name);
+  command.add_option("--what", options->what, fmt::format("{} [{}]", fmt::join(names, ", "), names.front()))
+      ->type_name("NAME")
+      ->check(one_of(names));
+  command
+      .add_option("--directions", options->directions,
+                  "Of a separation: along the best of so many, evenly spread, an even number [16]")
+      ->type_name("N")
+      ->check(number_between(2, most_directions));
+  command.add_option("--direction", options->direction, "Of a separation: along this one instead")
+      ->type_name("X,Y");
   options->shapes.add_to(command);
   options->answer.add_to(command);
   return [options, &command] { run_query(command, *options); };

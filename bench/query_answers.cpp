@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include "bench/query_answers.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iterator>
+#include <vector>
+
+#include "kernel/contacts.hpp"
+#include "kernel/separation.hpp"
+
+namespace bch::cli {
+namespace {
+
+/// The two ids that begin each line.
+std::string ids(const QueryInput& input, std::size_t pair) {
+  const auto [first, second] = input.pairs[pair];
+  return csv_field(input.table.id[first]) + "," + csv_field(input.table.id[second]);
+}
+
+std::string collide_rows(const QueryInput& input) {
+  std::vector<std::uint8_t> hits(input.pairs.size());
+  collide(input.set, input.table.agents(), input.pairs, hits, input.options);
+  std::string out;
+  for (std::size_t i = 0; i < hits.size(); ++i)
+    fmt::format_to(std::back_inserter(out), "{},{:d}\n", ids(input, i), hits[i]);
+  return out;
+}
+
+std::string contact_rows(const QueryInput& input) {
+  ContactTable table;
+  contacts(input.set, input.table.agents(), input.pairs, table, {input.options.implementation});
+  std::string out;
+  for (std::size_t i = 0; i < input.pairs.size(); ++i)
+    for (const Contact& contact : table.of(i))
+      fmt::format_to(std::back_inserter(out), "{},{},{}\n", ids(input, i), contact.first, contact.second);
+  return out;
+}
+
+std::string separation_rows(const QueryInput& input) {
+  std::vector<Separation> ways(input.pairs.size());
+  const Agents agents = input.table.agents();
+  const SeparationOptions options{input.options.implementation};
+  if (input.direction) {
+    const std::vector<Vec2> along(input.pairs.size(), *input.direction);
+    separation_along(input.set, agents, input.pairs, along, ways, options);
+  } else {
+    separation(input.set, agents, input.pairs, input.directions, ways, options);
+  }
+  std::string out;
+  for (std::size_t i = 0; i < ways.size(); ++i)
+    fmt::format_to(std::back_inserter(out), "{},{},{},{}\n", ids(input, i), ways[i].depth, ways[i].x,
+                   ways[i].y);
+  return out;
+}
+
+constexpr QueryKind kinds[] = {
+    {"collide", "hit", "1 where the agents collide, else 0", collide_rows},
+    {"contacts", "first_disc,second_disc",
+     "a line for each two discs that overlap, by their\n"
+     "               numbers in the agents' cuts, from 0 on, depth first",
+     contact_rows},
+    {"separation", "depth,x,y",
+     "how far, in metres, and where to, as a unit vector, the first agent\n"
+     "               has to move until a line parts the two; 0 where one does",
+     separation_rows},
+};
+
+}  // namespace
+
+std::span<const QueryKind> query_kinds() {
+  return kinds;
+}
+
+const QueryKind& query_kind(const std::string& name) {
+  return *std::find_if(std::begin(kinds), std::end(kinds),
+                       [&](const QueryKind& kind) { return kind.name == name; });
+}
+
+std::string query_help() {
+  std::string text;
+  for (const QueryKind& kind : kinds)
+    text += fmt::format("  {:<11} first,second,{}: {}\n", kind.name, kind.columns, kind.help);
+  return text;
+}
+
+}  // namespace bch::cli
