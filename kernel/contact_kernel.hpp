@@ -17,10 +17,13 @@
 namespace bch::kernel {
 
 /// All pairs of overlapping cut discs, one pair of agents after the other. Rows are discs of a pair's first agent,
-/// columns those of its second. Row windows are visited from left to right and, for each, the column windows, so that
-/// contacts come in order but for the eight rows of a window, which are counted before they are placed. A window shows
-/// some of its neighbours' discs: what an earlier window has shown is masked, so that no contact is named twice, and as
-/// windows begin in ascending order that is one comparison.
+/// columns those of its second. Row windows are visited from left to right, each with the column nodes that the blocks
+/// above it left to it, so that contacts come in order but for the eight rows of a window, which are counted before they
+/// are placed.
+///
+/// No contact is named twice, although windows show some of their neighbours' discs. Of a row window only its own rows
+/// count: up to where the next window begins; but the last eight, where windows are moved back, are taken together at
+/// the end. A column counts in the first visited window that shows it.
 ///
 /// Blocks prune as in the pair kernel's walk, and with its slack (layout/rounding.hpp): that loses no contact.
 template <class Simd>
@@ -29,8 +32,8 @@ class ContactKernel {
   static void count(const Arguments& in, std::size_t begin, std::size_t end, std::uint64_t* counts) noexcept {
     for_pairs(in, begin, end, [=](ContactKernel& kernel, std::size_t pair) {
       std::uint64_t sum = 0;
-      kernel.for_row_windows([&](std::uint32_t rows, std::uint64_t mask) {
-        kernel.for_column_windows(rows, mask, [&](std::uint32_t, std::uint64_t hits) {
+      kernel.for_row_windows([&](std::uint32_t rows, std::uint64_t mask, const Nodes& columns) {
+        kernel.for_column_windows(rows, mask, columns, [&](std::uint32_t, std::uint64_t hits) {
           sum += static_cast<std::uint64_t>(__builtin_popcountll(hits));
         });
       });
@@ -43,13 +46,21 @@ class ContactKernel {
     for_pairs(in, begin, end, [=](ContactKernel& kernel, std::size_t pair) {
       Contact* out = contacts + offsets[pair];
       if (offsets[pair + 1] == offsets[pair]) return;
-      kernel.for_row_windows(
-          [&](std::uint32_t rows, std::uint64_t mask) { out = kernel.place_rows(rows, mask, out); });
+      kernel.for_row_windows([&](std::uint32_t rows, std::uint64_t mask, const Nodes& columns) {
+        out = kernel.place_rows(rows, mask, columns, out);
+      });
     });
   }
 
  private:
   static constexpr std::uint64_t first_column = 0x0101010101010101, row = 0xff;
+
+  /// Of the columns, from left to right.
+  struct Nodes {
+    static constexpr std::uint32_t capacity = 32;
+    std::uint32_t size = 0;
+    std::uint32_t node[capacity];
+  };
 
   explicit ContactKernel(const Arguments& in) noexcept : in_(in), shapes_(*in.shapes) {}
 
@@ -94,30 +105,67 @@ class ContactKernel {
     rows_ = {leaf_window | first_row_, block_width}, columns_ = {leaf_window | first_column_, block_width};
   }
 
-  /// Calls use(window, mask of its rows that no earlier window had).
+  /// Calls use(window, mask of its own rows, nodes above the columns that may overlap them).
   template <class Use>
   void for_row_windows(Use use) const noexcept {
-    std::uint32_t next = 0;
-    visit_rows(rows_.top, next, use);
+    Nodes columns;
+    columns.node[columns.size++] = columns_.top;
+    visit_rows(rows_.top, last_rows() + block_width, columns, use);
+    use(last_rows() | leaf_window, ~std::uint64_t{0}, columns);
   }
 
+  /// Where the last eight begin.
+  std::uint32_t last_rows() const noexcept { return first_row_ + rows_.stride - block_width; }
+
+  /// `end`: where the node to the right begins.
   template <class Use>
-  void visit_rows(std::uint32_t node, std::uint32_t& next, Use& use) const noexcept {
+  void visit_rows(std::uint32_t node, std::uint32_t end, const Nodes& columns, Use& use) const noexcept {
     if (node >= leaf_window) {
-      const std::uint32_t seen = seen_lanes(node, next);
-      if (seen < block_width) use(node, ~std::uint64_t{0} << (seen * block_width));
+      const std::uint32_t begin = node & ~leaf_window;
+      const std::uint32_t stop = end < last_rows() ? end : last_rows();
+      if (begin < stop) use(node, rows_below(stop - begin), columns);
       return;
     }
-    const std::uint64_t hits = overlaps_of(node, columns_.top);
-    for (unsigned i = 0; i < block_width; ++i)
-      if (hits >> (i * block_width) & row) visit_rows(child(node, i), next, use);
+    std::uint64_t hits[Nodes::capacity];
+    for (std::uint32_t k = 0; k < columns.size; ++k) hits[k] = overlaps_of(node, columns.node[k]);
+    for (unsigned i = 0; i < block_width; ++i) {
+      Nodes below;
+      const bool fits = children_of_hits(columns, hits, i, below);
+      if (below.size == 0) continue;
+      const bool is_last = i + 1 == block_width || nodes_[node + i + 1] == __builtin_inff();
+      const std::uint32_t child_end = is_last ? end : first_disc(nodes_, child(node, i + 1));
+      // Nodes higher up are above the same columns.
+      visit_rows(child(node, i), child_end, fits ? below : columns, use);
+    }
   }
 
-  /// Calls use(window, hits) for each window with discs that overlap those of a row window.
+  static std::uint64_t rows_below(std::uint32_t lanes) noexcept {
+    return lanes < block_width ? (std::uint64_t{1} << (lanes * block_width)) - 1 : ~std::uint64_t{0};
+  }
+
+  /// The children of column nodes that disc i of a row block overlaps; a window stays itself.
+  /// Returns: whether there is room for them.
+  bool children_of_hits(const Nodes& columns, const std::uint64_t* hits, unsigned i,
+                        Nodes& below) const noexcept {
+    for (std::uint32_t k = 0; k < columns.size; ++k) {
+      std::uint64_t of_disc = hits[k] >> (i * block_width) & row;
+      const bool is_window = columns.node[k] >= leaf_window;
+      if (is_window && of_disc != 0) of_disc = 1;
+      for (; of_disc != 0; of_disc &= of_disc - 1) {
+        if (below.size == Nodes::capacity) return false;
+        const auto j = static_cast<unsigned>(__builtin_ctzll(of_disc));
+        below.node[below.size++] = is_window ? columns.node[k] : child(columns.node[k], j);
+      }
+    }
+    return true;
+  }
+
+  /// Calls use(window, hits) for each window of columns with discs that overlap those of a row window.
   template <class Use>
-  void for_column_windows(std::uint32_t rows, std::uint64_t mask, Use use) const noexcept {
+  void for_column_windows(std::uint32_t rows, std::uint64_t mask, const Nodes& columns,
+                          Use use) const noexcept {
     std::uint32_t next = 0;
-    visit_columns(rows, mask, columns_.top, next, use);
+    for (std::uint32_t k = 0; k < columns.size; ++k) visit_columns(rows, mask, columns.node[k], next, use);
   }
 
   template <class Use>
@@ -133,7 +181,7 @@ class ContactKernel {
       if (hits & first_column << j) visit_columns(rows, mask, child(node, j), next, use);
   }
 
-  /// How many of a window's discs an earlier window had, which ended before `next`.
+  /// How many of a window's discs an earlier window has shown, which ended before `next`.
   static std::uint32_t seen_lanes(std::uint32_t window, std::uint32_t& next) noexcept {
     const std::uint32_t seen = next > window ? next - window : 0;
     next = window + block_width > next ? window + block_width : next;
@@ -141,22 +189,31 @@ class ContactKernel {
   }
 
   /// Returns: one past the last that was placed.
-  Contact* place_rows(std::uint32_t rows, std::uint64_t mask, Contact* out) const noexcept {
-    std::uint32_t count[block_width] = {};
-    for_column_windows(rows, mask, [&](std::uint32_t, std::uint64_t hits) {
+  Contact* place_rows(std::uint32_t rows, std::uint64_t mask, const Nodes& columns,
+                      Contact* out) const noexcept {
+    constexpr std::uint32_t most_kept = 16;
+    std::uint32_t count[block_width] = {}, windows = 0, kept[most_kept];
+    std::uint64_t kept_hits[most_kept];
+    for_column_windows(rows, mask, columns, [&](std::uint32_t window, std::uint64_t hits) {
       for (unsigned i = 0; i < block_width; ++i)
         count[i] += static_cast<std::uint32_t>(__builtin_popcountll(hits >> (i * block_width) & row));
+      if (windows < most_kept) kept[windows] = window, kept_hits[windows] = hits;
+      ++windows;
     });
     Contact* end[block_width];
     for (unsigned i = 0; i < block_width; ++i) end[i] = out, out += count[i];
     const std::uint32_t first = (rows & ~leaf_window) - first_row_;
-    for_column_windows(rows, mask, [&](std::uint32_t columns, std::uint64_t hits) {
+    const auto place = [&](std::uint32_t window, std::uint64_t hits) {
       for (; hits != 0; hits &= hits - 1) {
         const auto bit = static_cast<unsigned>(__builtin_ctzll(hits));
         *end[bit / block_width]++ = {first + bit / block_width,
-                                     (columns & ~leaf_window) - first_column_ + bit % block_width};
+                                     (window & ~leaf_window) - first_column_ + bit % block_width};
       }
-    });
+    };
+    if (windows > most_kept)
+      for_column_windows(rows, mask, columns, place);
+    else
+      for (std::uint32_t k = 0; k < windows; ++k) place(kept[k], kept_hits[k]);
     return out;
   }
 
