@@ -15,6 +15,8 @@
 #include "baselines/contact_reference.hpp"
 #include "baselines/reference.hpp"
 #include "kernel/collide.hpp"
+#include "layout/default_characters.hpp"
+#include "tests/character_shapes.hpp"
 #include "tests/scenes.hpp"
 
 namespace bch {
@@ -85,6 +87,13 @@ TEST_F(Contacts, EqualBruteForce) {
 
 TEST_F(Contacts, EqualBruteForceNearTangency) {
   for (int i = 0; i < 4; ++i) expect_brute_force(tangent_scene(25'000), "near tangent");
+}
+
+TEST_F(Contacts, OfPeople) {
+  shapes = test::pose_shapes(default_female(), 20);
+  set = ShapeSet(shapes, plan);
+  cuts = CutLists(shapes, plan);
+  expect_brute_force(random_scene(random, set, 5'000), "people");
 }
 
 TEST_F(Contacts, OfSingleDiscs) {

@@ -18,6 +18,8 @@
 #include "baselines/reference.hpp"
 #include "baselines/separation_reference.hpp"
 #include "kernel/collide.hpp"
+#include "layout/default_characters.hpp"
+#include "tests/character_shapes.hpp"
 #include "tests/scenes.hpp"
 
 namespace bch {
@@ -121,6 +123,15 @@ TEST_F(SeparationTest, EqualsTheReference) {
     if (i >= 4) test::move_away(scene, 1e7, -8e8);
     expect_reference(scene, counts[i], i % 2 == 0 ? "random" : "near tangent");
   }
+}
+
+TEST_F(SeparationTest, OfPeople) {
+  shapes = test::pose_shapes(default_male(), 20);
+  set = ShapeSet(shapes, plan);
+  cuts = CutLists(shapes, plan);
+  const PairScene scene = random_scene(random, set, 10'000);
+  expect_reference(scene, 32, "people");
+  EXPECT_EQ(collisions(moved(scene, best_of(32, set, scene)), Semantics::solid), 0u);
 }
 
 TEST_F(SeparationTest, NothingOverlapsAfterwards) {
