@@ -29,10 +29,10 @@ struct Discs {
 };
 
 /// The first `count` of A's discs against those of B, four or all eight: bit count * i + j for disc i of A and j of B.
-/// Always inlined: passing it to a function takes longer than the test.
+/// `slack` is added to the sums of radii. Always inlined: passing it to a function takes longer than the test.
 template <class Simd, unsigned count = block_width>
-[[gnu::always_inline]] inline std::uint64_t overlapping_discs(const Transform& b_in_a, Discs a,
-                                                              Discs b) noexcept {
+[[gnu::always_inline]] inline std::uint64_t overlapping_discs(const Transform& b_in_a, Discs a, Discs b,
+                                                              float slack = 0) noexcept {
   using Float = typename Simd::Float;
   constexpr unsigned parts = Simd::width < count ? count / Simd::width : 1;
   constexpr unsigned rows = Simd::width > count ? Simd::width / count : 1;
@@ -44,7 +44,7 @@ template <class Simd, unsigned count = block_width>
     const Float x = Simd::template columns<count>(b.x, part),
                 y = Simd::template columns<count>(b.x + b.stride, part);
     px[part] = tx + (c * x - s * y), py[part] = ty + (s * x + c * y);
-    r[part] = Simd::template columns<count>(b.x + 2 * b.stride, part);
+    r[part] = Simd::template columns<count>(b.x + 2 * b.stride, part) + Float(slack);
   }
   std::uint64_t bits = 0;
 #pragma GCC unroll 8

@@ -12,6 +12,7 @@
 #include "kernel/lanes.hpp"
 #include "kernel/placements.hpp"
 #include "layout/cut_discs.hpp"
+#include "layout/rounding.hpp"
 #include "layout/shape_set_view.hpp"
 
 namespace bch::kernel {
@@ -88,6 +89,7 @@ class ContactKernel {
     const std::uint32_t columns = swapped_ ? at_.root_a[k] : at_.root_b[k];
     if (shapes_.trees == nullptr) return look_at_single_discs(shapes_.roots[rows], shapes_.roots[columns]);
     nodes_ = shapes_.nodes;
+    slack_ = rounding::nesting_slack * (shapes_.reach[at_.shape_a[k]] + shapes_.reach[at_.shape_b[k]]);
     rows_ = shapes_.trees[rows], columns_ = shapes_.trees[columns];
     first_row_ = first_disc(nodes_, rows_.top), first_column_ = first_disc(nodes_, columns_.top);
   }
@@ -220,8 +222,9 @@ class ContactKernel {
   /// Bit 8 i + j: disc i of a node of the rows, disc j of one of the columns.
   std::uint64_t overlaps_of(std::uint32_t rows, std::uint32_t columns) const noexcept {
     const Discs of_rows = discs(rows, rows_.stride), of_columns = discs(columns, columns_.stride);
-    if (!swapped_) return overlapping_discs<Simd>(b_in_a_, of_rows, of_columns);
-    return transposed(overlapping_discs<Simd>(b_in_a_, of_columns, of_rows));
+    const float slack = (rows & columns) >= leaf_window ? 0 : slack_;
+    if (!swapped_) return overlapping_discs<Simd>(b_in_a_, of_rows, of_columns, slack);
+    return transposed(overlapping_discs<Simd>(b_in_a_, of_columns, of_rows, slack));
   }
 
   Discs discs(std::uint32_t node, std::uint32_t stride) const noexcept {
@@ -253,6 +256,7 @@ class ContactKernel {
   // Of the pair that is looked at.
   bool swapped_;  ///< the first agent is B
   Transform b_in_a_;
+  float slack_ = 0;  ///< of tests with a node that is not a leaf
   const float* nodes_;
   Tree rows_, columns_;
   std::uint32_t first_row_, first_column_;  ///< where their discs begin

@@ -14,6 +14,7 @@
 #include "kernel/profile_test.hpp"
 #include "kernel/separation_test.hpp"
 #include "kernel/walk.hpp"
+#include "layout/rounding.hpp"
 #include "layout/shape_set_view.hpp"
 
 namespace bch::kernel {
@@ -67,7 +68,8 @@ class PairKernel {
       take_shortcuts();
     for (std::uint32_t k = 0; k < open_.size; ++k) {
       const std::uint32_t pair = open_.pair[k];
-      walk_.add(begin + pair, miss(pair), at_.transform(pair), at_.root_a[pair], at_.root_b[pair]);
+      walk_.add(begin + pair, miss(pair), at_.transform(pair), at_.root_a[pair], at_.root_b[pair],
+                shapes_.reach[at_.shape_a[pair]] + shapes_.reach[at_.shape_b[pair]]);
     }
   }
 
@@ -84,9 +86,14 @@ class PairKernel {
       const Float x = Simd::load(at_.tx + k) + (c * b[0] - s * b[1]),
                   y = Simd::load(at_.ty + k) + (s * b[0] + c * b[1]);
       const std::uint32_t hits = overlaps<Simd>(x, y, b[2], a[0], a[1], a[2]);
+      // Roots hold their shapes, whose reaches are therefore at most theirs.
+      const Float reach =
+          (xsimd::abs(a[0]) + xsimd::abs(a[1]) + a[2]) + (xsimd::abs(b[0]) + xsimd::abs(b[1]) + b[2]);
+      const std::uint32_t near =
+          overlaps<Simd>(x, y, b[2] + Float(rounding::nesting_slack) * reach, a[0], a[1], a[2]);
       std::uint32_t open = 0;
       for (std::uint32_t lane = 0; lane < lanes(k); ++lane) {
-        const std::uint32_t hit = hits >> lane & 1, decided = both_are_single(k + lane);
+        const std::uint32_t decided = both_are_single(k + lane), hit = (decided ? hits : near) >> lane & 1;
         codes_[k + lane] = static_cast<std::uint8_t>(hit * overlap);
         open |= (hit & (decided ^ 1)) << lane;
       }

@@ -8,6 +8,7 @@
 
 #include "kernel/arguments.hpp"
 #include "kernel/block_test.hpp"
+#include "layout/rounding.hpp"
 #include "layout/shape_set_view.hpp"
 
 namespace bch::kernel {
@@ -25,13 +26,14 @@ class Walk {
   Walk(const ShapeSetView& shapes, std::uint8_t* codes) noexcept : shapes_(shapes), codes_(codes) {}
 
   /// `pair` is where the answer goes in codes, `miss` what it is unless a walk finds an overlap.
+  /// `reach`: of the two shapes together.
   void add(std::size_t pair, std::uint8_t miss, const Transform& b_in_a, std::uint32_t root_a,
-           std::uint32_t root_b) noexcept {
+           std::uint32_t root_b, float reach) noexcept {
     const Tree a = shapes_.trees[root_a], b = shapes_.trees[root_b];
     // Slots are numbered when they are first needed, because small batches need few.
     if (size_ == numbered_) slots_[size_] = static_cast<std::uint16_t>(numbered_++);
     const std::uint32_t slot = slots_[size_++];
-    open_[slot] = {b_in_a, a.top, b.top, a.stride, b.stride, pair, 0};
+    open_[slot] = {b_in_a, a.top, b.top, a.stride, b.stride, rounding::nesting_slack * reach, 0, pair};
     frames_[slot][0] = {0, 0, 0};
     codes_[pair] = miss;
   }
@@ -51,8 +53,9 @@ class Walk {
     Transform b_in_a;
     std::uint32_t a, b;
     std::uint32_t stride_a, stride_b;  ///< of the cut's discs
+    float slack;                       ///< of tests with a node that is not a leaf; see layout/rounding.hpp
+    std::uint32_t top;                 ///< frame
     std::size_t pair;
-    std::uint32_t top;  ///< frame
   };
 
   /// Two nodes whose discs overlap at the set bits (8 i + j: disc i of A, disc j of B), none of which was
@@ -73,14 +76,22 @@ class Walk {
     const float* const nodes = shapes_.nodes;
     for (std::uint32_t k = 0; k < size_; ++k) {
       const Open& at = open_[slots_[k]];
-      hits_[k] = overlapping_discs<Simd>(at.b_in_a, discs(nodes, at.a, at.stride_a),
-                                         discs(nodes, at.b, at.stride_b));
+      hits_[k] =
+          overlapping_discs<Simd>(at.b_in_a, discs(nodes, at.a, at.stride_a), discs(nodes, at.b, at.stride_b),
+                                  unless_leaves(at.slack, at.a & at.b));
     }
   }
 
   // Masks, not conditions: GCC makes branches of those, and no processor can predict these.
   static std::uint32_t all_if_leaf(std::uint32_t node) noexcept { return -(node / leaf_window); }
   static std::uint64_t wide(std::uint32_t mask) noexcept { return mask | std::uint64_t{mask} << 32; }
+  static float unless_leaves(float slack, std::uint32_t both) noexcept {
+    std::uint32_t bits;
+    __builtin_memcpy(&bits, &slack, sizeof bits);
+    bits &= both / leaf_window - 1;
+    __builtin_memcpy(&slack, &bits, sizeof bits);
+    return slack;
+  }
 
   static Discs discs(const float* nodes, std::uint32_t node, std::uint32_t stride) noexcept {
     return {nodes + (node & ~leaf_window), block_width + (all_if_leaf(node) & (stride - block_width))};

@@ -45,7 +45,9 @@
 /// leaves, then D <= r_A + r_B + 23 u S by (1), so the pruning discs' centres have D' <= (R_A - n_A) + (R_B -
 /// n_B) + 23 u S, where n is the slack in R. With D' <= 3 S, and R_A + R_B <= 6 S (else the test is far from
 /// its limit), the same sum for that pair is at most 7.1 + 9.2 + 4 + 6 + 9 = 36 u S. n = 59 u P would do:
-/// then the float test of every ancestor accepts, so pruning changes no answer.
+/// then the float test of every ancestor accepts, so pruning changes no answer. Where a pruning disc meets a leaf of a
+/// much larger shape, n in P alone falls short of an error in S: so tests in which a pruning disc takes part add
+/// nesting_slack S to the sum of the radii besides.
 ///
 /// Supports part two shapes when t.u > h_A + a h_B + b h_B' for a direction u of A, where h_B and h_B' are
 /// B's supports on either side of -u and a, b >= 0 follow from the rotation. t and its product with u,
@@ -65,6 +67,8 @@ constexpr double unit_roundoff = 0x1p-24;
 constexpr double query_margin = 25.5 * unit_roundoff;
 /// Added to every pruning radius beyond what it holds, times the shape's reach.
 constexpr double nesting_margin = 64 * unit_roundoff;
+/// Added by queries to a sum of radii one of which is a pruning one, times the sum of the shapes' reaches.
+constexpr float nesting_slack = 0x1p-18f;
 /// Added to every support, times the shape's reach.
 constexpr double support_margin = 320 * unit_roundoff;
 /// Snapping moves a vertex by sqrt(1/2) grid steps, and rounding a crossing to the grid by as much

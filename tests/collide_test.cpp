@@ -84,6 +84,28 @@ TEST_F(Differential, NearTangentPairs) {
   }
 }
 
+/// Rounding grows with the larger of two shapes, and pruning has to allow for that in the discs of the smaller one.
+TEST(Sizes, AnAntMeetsAnElephant) {
+  Random random(20142);
+  std::vector<Shape> shapes;
+  for (int i = 0; i < 12; ++i) {
+    const double size = i % 2 == 0 ? 0.02 : 20;
+    Shape& shape = shapes.emplace_back();
+    shape.outline = test::star(random, 60, 0.6 * size, size);
+    shape.hierarchy = contour_hierarchy(shape.outline, static_cast<float>(0.02 * size));
+  }
+  const ShapeSetPlan levels{.depths = {0, 3, all_depths}, .solid = true};
+  const ShapeSet set(shapes, levels);
+  const Reference reference(shapes, levels);
+  for (int i = 0; i < 2; ++i) {
+    PairScene scene = random_scene(random, set, 5'000);
+    make_tangent(random, scene, [&](const Agents& agents, Pair pair) {
+      return reference.boundary(agents, pair, Method::brute_force);
+    });
+    expect_equal_to_brute_force(set, reference, scene, "sizes " + std::to_string(i));
+  }
+}
+
 TEST_F(Differential, FarFromTheOriginTheAnswerIsTheSame) {
   for (int i = 0; i < 8; ++i) {
     PairScene scene = random_scene(random, set, 25'000);
