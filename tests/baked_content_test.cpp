@@ -60,10 +60,11 @@ std::vector<Crime> crimes() {
     return b.section<Tree>(Section::trees)[deep_root].top;
   };
   const auto floats = [](Section section, std::size_t at, float value) {
-    return [=](BakedBytes& b) { b.section<float>(section)[at] = value; };
+    return [=](BakedBytes& b) { b.section<float>(section).data()[at] = value; };
   };
   const auto word = [](Section section, std::size_t at, std::uint32_t value) {
-    return [=](BakedBytes& b) { b.section<std::uint32_t>(section)[at] = value; };
+    // Of the section's bytes, whatever its elements are.
+    return [=](BakedBytes& b) { b.section<std::uint32_t>(section).data()[at] = value; };
   };
   return {
       {"depths 2: 0 does not ascend", word(Section::depths, 2, 0)},
