@@ -2,13 +2,18 @@
 // Copyright (c) 2026 the bch authors
 
 #include "baselines/kind_rows.hpp"
+#include "baselines/outline_distances.hpp"
 
-// Compiled in place of fcl_structures.cpp where there is no FCL.
+// Compiled in place of fcl_structures.cpp and fcl_distances.cpp where there is no FCL.
 
 namespace bch::baselines {
 
 std::span<const Kind> fcl_kinds() {
   return {};
+}
+
+std::unique_ptr<OutlineDistances> fcl_outline_distances(std::span<const Body>) {
+  return nullptr;
 }
 
 }  // namespace bch::baselines

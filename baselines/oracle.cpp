@@ -64,6 +64,15 @@ long double Oracle::distance(Point p, Point a, Point b) {
   return std::hypot(p.x - a.x - t * dx, p.y - a.y - t * dy);
 }
 
+/// When p, moving by t (x, y), is on a segment. Not if they are parallel: then it meets the end of a neighbour.
+long double Oracle::arrival(Point p, long double x, long double y, Point a, Point b) {
+  const long double dx = b.x - a.x, dy = b.y - a.y, across = x * dy - y * dx;
+  if (across == 0) return HUGE_VALL;
+  const long double t = ((a.x - p.x) * dy - (a.y - p.y) * dx) / across;
+  const long double along = ((a.x - p.x) * y - (a.y - p.y) * x) / across;
+  return t >= 0 && t <= 1 && along >= 0 && along <= 1 ? t : HUGE_VALL;
+}
+
 /// By the winding number: the kernels count parity, and the two agree because contours do not contain each
 /// other.
 bool Oracle::inside(Point p, const std::vector<Contour>& contours) {
@@ -89,6 +98,18 @@ bool Oracle::nested() const {
                        [&](const Contour& contour) { return inside(contour[0], outer); });
   };
   return any_inside(a_, b_) || any_inside(b_, a_);
+}
+
+long double Oracle::contact_time(long double x, long double y) const {
+  if (cross()) return 0;
+  long double first = HUGE_VALL;
+  any_segment(a_, [&](Point a, Point b) {
+    return any_segment(b_, [&](Point p, Point q) {
+      first = std::min({first, arrival(a, x, y, p, q), arrival(p, -x, -y, a, b)});
+      return false;
+    });
+  });
+  return first;
 }
 
 long double Oracle::distance() const {

@@ -30,6 +30,10 @@ class Oracle {
   /// A contour of one lies inside the other. For outlines that do not cross.
   bool nested() const;
 
+  /// The least t in [0, 1] at which the outlines have a point in common if a has moved by t (x, y), in its own
+  /// frame; or infinity. Every corner on its way against every segment.
+  long double contact_time(long double x, long double y) const;
+
   /// Smallest distance between points of the outlines, metres; 0 where they cross.
   long double distance() const;
 
@@ -41,6 +45,7 @@ class Oracle {
 
   static bool segments_meet(Point a, Point b, Point p, Point q);
   static long double distance(Point p, Point a, Point b);
+  static long double arrival(Point p, long double x, long double y, Point a, Point b);
   static bool inside(Point p, const std::vector<Contour>& contours);
 
   std::vector<Contour> a_, b_;

@@ -20,6 +20,11 @@ namespace bch::bench {
 /// The scene must outlive the benchmarks.
 void register_collide_benchmarks(Scene& scene);
 
+/// clearance/<workload>/<implementation|reference>/threads:<n> and contact_time/...: distances up to 0.5 m with their
+/// directions, and first contacts while all agents walk 1.3 m/s for half a second. The reference is the scalar search
+/// with the same pruning. Counters as above, and `within`: pairs within the limit, or that touch in time.
+void register_distance_benchmarks(Scene& scene);
+
 /// build/<stage>: a stage of construction (build_stages.hpp) on the scene's characters; build/<stage>/<triangles>: on the
 /// built-in man with fewer and with more triangles. build/discs, build/discs_by_welzl, build/shape_set: the hierarchy's
 /// discs alone, and a set of one shape. build/<kind>: a structure over a pose's triangles or its shape; beside them

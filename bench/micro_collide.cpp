@@ -3,37 +3,18 @@
 
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
-#include <oneapi/tbb/info.h>
 #include <oneapi/tbb/task_arena.h>
-
-#include <vector>
 
 #include "bench/answer_checks.hpp"
 #include "bench/median.hpp"
 #include "bench/micro.hpp"
-#include "bench/stopwatch.hpp"
+#include "bench/micro_timing.hpp"
 
 namespace bch::bench {
 namespace {
 
 std::string_view name_of(Semantics semantics) {
   return semantics == Semantics::solid ? "solid" : "boundary";
-}
-
-/// Times calls of `query`, each answering all pairs. The median over calls forgives what other programs do
-/// to some of them; Google Benchmark's own mean stands beside it.
-template <class Query>
-void time_calls(benchmark::State& state, const Workload& workload, int threads, Query query) {
-  std::vector<double> nanoseconds;
-  for ([[maybe_unused]] auto _ : state) {
-    const Stopwatch watch(threads);
-    query();
-    benchmark::ClobberMemory();
-    nanoseconds.push_back(watch.nanoseconds());
-  }
-  const auto pairs = static_cast<double>(workload.pairs.size());
-  if (!nanoseconds.empty()) state.counters["ns_per_pair"] = cli::median(nanoseconds) / pairs;
-  state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(workload.pairs.size()));
 }
 
 void count_hits(benchmark::State& state, Scene& scene, const Workload& workload, const Hits& hits) {
@@ -84,15 +65,6 @@ void run_structure(benchmark::State& state, Scene& scene, std::string_view workl
   std::size_t bytes = 0;
   for (std::uint32_t shape = 0; shape < structure.shape_count(); ++shape) bytes += structure.bytes(shape);
   state.counters["bytes_per_shape"] = static_cast<double>(bytes) / structure.shape_count();
-}
-
-/// Powers of two, and all that the machine has.
-std::vector<int> thread_counts() {
-  const int most = tbb::info::default_concurrency();
-  std::vector<int> counts;
-  for (int n = 1; n < most; n *= 2) counts.push_back(n);
-  counts.push_back(most);
-  return counts;
 }
 
 void register_kernel(Scene& scene, std::string_view workload, const kernel::Implementation& implementation) {

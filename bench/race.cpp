@@ -30,10 +30,6 @@ double time_run(const std::function<void()>& call, int threads) {
   return watch.nanoseconds() / calls;
 }
 
-void require_right(const std::string& name, const Workload& workload, const std::string& wrong) {
-  if (!wrong.empty()) throw std::runtime_error(fmt::format("{} on {}: {}", name, workload.name, wrong));
-}
-
 }  // namespace
 
 void race(std::vector<Contender>& contenders, std::uint32_t runs, int threads) {
@@ -53,6 +49,10 @@ std::string verdict(double ratio, double needed) {
 std::string verdict_at_most(double value, double most) {
   if (value <= most) return fmt::format("PASS (at most {:g})", most);
   return fmt::format("at most {:g}: {:.0f} % over", most, 100 * (value / most - 1));
+}
+
+void require_right(const std::string& name, const Workload& workload, const std::string& wrong) {
+  if (!wrong.empty()) throw std::runtime_error(fmt::format("{} on {}: {}", name, workload.name, wrong));
 }
 
 bool has_kind(std::string_view kind) {

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -35,6 +36,19 @@ Contender kernel_contender(Scene& scene, const Workload& workload, Semantics sem
                            const kernel::Implementation& implementation);
 Contender structure_contender(Scene& scene, const Workload& workload, std::string_view kind);
 
+/// Throws std::runtime_error if something is wrong.
+void require_right(const std::string& name, const Workload& workload, const std::string& wrong);
+
+/// The same for clearance(), with directions, and contact_time(), and for the scalar searches with the same pruning.
+Contender clearance_contender(Scene& scene, const Workload& workload,
+                              const kernel::Implementation& implementation);
+Contender scalar_clearance_contender(Scene& scene, const Workload& workload);
+/// FCL's distances of the outlines; none in a build without FCL.
+std::optional<Contender> fcl_distance_contender(Scene& scene, const Workload& workload);
+Contender contact_time_contender(Scene& scene, const Workload& workload,
+                                 const kernel::Implementation& implementation);
+Contender scalar_contact_time_contender(Scene& scene, const Workload& workload);
+
 /// Whether this build has the kind.
 bool has_kind(std::string_view kind);
 
@@ -43,6 +57,7 @@ void print_kernel_ratios(Scene& scene, std::uint32_t runs);
 void print_peer_ratios(Scene& scene, std::uint32_t runs);
 void print_call_ratios(Scene& scene, std::uint32_t runs);
 void print_crowd_ratios(Scene& scene, std::uint32_t runs);
+void print_distance_ratios(Scene& scene, std::uint32_t runs);
 void print_shape_count_ratios(Scene& scene, std::uint32_t runs, std::uint32_t most_shapes);
 void print_plan_table(Scene& scene, std::uint32_t runs);
 /// Construction: every stage by every instruction set, beside what is asked; and how it grows with triangles.

@@ -2,7 +2,9 @@
 // Copyright (c) 2026 the bch authors
 
 #include "kernel/agent_check.hpp"
+#include "kernel/clearance_kernel.hpp"
 #include "kernel/contact_kernel.hpp"
+#include "kernel/contact_time_kernel.hpp"
 #include "kernel/extent_kernel.hpp"
 #include "kernel/pair_kernel.hpp"
 
@@ -41,6 +43,11 @@ struct Avx2Lanes : Lanes<xsimd::avx2> {
   static std::uint32_t bits(xsimd::batch_bool<float, xsimd::avx2> hits) noexcept {
     return static_cast<std::uint32_t>(_mm256_movemask_ps(hits));
   }
+  static float least(Float values) noexcept {
+    const __m128 fours = _mm_min_ps(_mm256_castps256_ps128(values), _mm256_extractf128_ps(values, 1));
+    const __m128 pairs = _mm_min_ps(fours, _mm_movehl_ps(fours, fours));
+    return _mm_cvtss_f32(_mm_min_ss(pairs, _mm_shuffle_ps(pairs, pairs, 1)));
+  }
 };
 
 }  // namespace
@@ -66,6 +73,14 @@ void fill_contacts_avx2(const Arguments& arguments, std::size_t begin, std::size
 void extents_avx2(const CutDiscs& discs, const float* axis_x, const float* axis_y, std::uint32_t axes,
                   float* low, float* high) noexcept {
   ExtentKernel<Avx2Lanes>::run(discs, axis_x, axis_y, axes, low, high);
+}
+
+void clearance_avx2(const ClearanceArguments& arguments, std::size_t begin, std::size_t end) noexcept {
+  ClearanceKernel<Avx2Lanes>::run(arguments, begin, end);
+}
+
+void contact_time_avx2(const ContactTimeArguments& arguments, std::size_t begin, std::size_t end) noexcept {
+  ContactTimeKernel<Avx2Lanes>::run(arguments, begin, end);
 }
 
 }  // namespace bch::kernel

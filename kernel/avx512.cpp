@@ -2,7 +2,9 @@
 // Copyright (c) 2026 the bch authors
 
 #include "kernel/agent_check.hpp"
+#include "kernel/clearance_kernel.hpp"
 #include "kernel/contact_kernel.hpp"
+#include "kernel/contact_time_kernel.hpp"
 #include "kernel/extent_kernel.hpp"
 #include "kernel/pair_kernel.hpp"
 
@@ -56,6 +58,9 @@ struct Avx512Lanes : Lanes<xsimd::avx512f> {
   static std::uint32_t bits(xsimd::batch_bool<float, xsimd::avx512f> hits) noexcept {
     return hits.data;
   }
+  static float least(Float values) noexcept {
+    return _mm512_reduce_min_ps(values);
+  }
 };
 
 }  // namespace
@@ -81,6 +86,14 @@ void fill_contacts_avx512(const Arguments& arguments, std::size_t begin, std::si
 void extents_avx512(const CutDiscs& discs, const float* axis_x, const float* axis_y, std::uint32_t axes,
                     float* low, float* high) noexcept {
   ExtentKernel<Avx512Lanes>::run(discs, axis_x, axis_y, axes, low, high);
+}
+
+void clearance_avx512(const ClearanceArguments& arguments, std::size_t begin, std::size_t end) noexcept {
+  ClearanceKernel<Avx512Lanes>::run(arguments, begin, end);
+}
+
+void contact_time_avx512(const ContactTimeArguments& arguments, std::size_t begin, std::size_t end) noexcept {
+  ContactTimeKernel<Avx512Lanes>::run(arguments, begin, end);
 }
 
 }  // namespace bch::kernel

@@ -16,6 +16,8 @@ struct CutDiscs;
 namespace bch::kernel {
 
 struct Arguments;
+struct ClearanceArguments;
+struct ContactTimeArguments;
 
 /// One compilation of the kernels.
 struct Implementation {
@@ -35,6 +37,10 @@ struct Implementation {
   /// The interval that discs take along each of so many axes: of c . axis - r the least, of c . axis + r the largest.
   void (*extents)(const CutDiscs& discs, const float* axis_x, const float* axis_y, std::uint32_t axes,
                   float* low, float* high) noexcept;
+  /// Writes the nearest discs of pairs begin .. end, with as much stack as run(); see ClearanceArguments.
+  void (*clearance)(const ClearanceArguments& arguments, std::size_t begin, std::size_t end) noexcept;
+  /// Writes the times of contact of those pairs begin .. end that do not overlap now; see ContactTimeArguments.
+  void (*contact_time)(const ContactTimeArguments& arguments, std::size_t begin, std::size_t end) noexcept;
 };
 
 /// All that were compiled, the best first; the last one runs everywhere.

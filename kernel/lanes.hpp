@@ -19,8 +19,8 @@ constexpr std::uint64_t counts_of_set = 0x4332'3221'3221'2110;
 /// What the pair kernel needs of an instruction set beyond arithmetic. Eight is the width of a block: `row`
 /// gives part of an outer product's left side (disc i, or discs i and i + 1 where two rows fit), `columns`
 /// the matching right side. Each instruction set's file adds what xsimd 8.1 has no name for: bits() of a mask,
-/// store_rounded() of doubles as floats, and load_records(), which picks records of four floats from a table and
-/// gives field after field, lane = record.
+/// least() of a register's lanes, store_rounded() of doubles as floats, and load_records(), which picks records of four
+/// floats from a table and gives field after field, lane = record.
 template <class Arch>
 struct Lanes {
   using Float = xsimd::batch<float, Arch>;

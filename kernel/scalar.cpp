@@ -2,7 +2,9 @@
 // Copyright (c) 2026 the bch authors
 
 #include "kernel/agent_check.hpp"
+#include "kernel/clearance_kernel.hpp"
 #include "kernel/contact_kernel.hpp"
+#include "kernel/contact_time_kernel.hpp"
 #include "kernel/extent_kernel.hpp"
 #include "kernel/pair_kernel.hpp"
 
@@ -12,6 +14,7 @@ namespace {
 struct ScalarLanes : Lanes<Scalar> {
   static void store_rounded(float* p, double v) noexcept { *p = static_cast<float>(v); }
   static std::uint32_t bits(bool hit) noexcept { return hit; }
+  static float least(float values) noexcept { return values; }
 };
 
 }  // namespace
@@ -37,6 +40,14 @@ void fill_contacts_scalar(const Arguments& arguments, std::size_t begin, std::si
 void extents_scalar(const CutDiscs& discs, const float* axis_x, const float* axis_y, std::uint32_t axes,
                     float* low, float* high) noexcept {
   ExtentKernel<ScalarLanes>::run(discs, axis_x, axis_y, axes, low, high);
+}
+
+void clearance_scalar(const ClearanceArguments& arguments, std::size_t begin, std::size_t end) noexcept {
+  ClearanceKernel<ScalarLanes>::run(arguments, begin, end);
+}
+
+void contact_time_scalar(const ContactTimeArguments& arguments, std::size_t begin, std::size_t end) noexcept {
+  ContactTimeKernel<ScalarLanes>::run(arguments, begin, end);
 }
 
 }  // namespace bch::kernel

@@ -2,7 +2,9 @@
 // Copyright (c) 2026 the bch authors
 
 #include "kernel/agent_check.hpp"
+#include "kernel/clearance_kernel.hpp"
 #include "kernel/contact_kernel.hpp"
+#include "kernel/contact_time_kernel.hpp"
 #include "kernel/extent_kernel.hpp"
 #include "kernel/pair_kernel.hpp"
 
@@ -21,6 +23,10 @@ struct Sse2Lanes : Lanes<xsimd::sse2> {
   }
   static std::uint32_t bits(xsimd::batch_bool<float, xsimd::sse2> hits) noexcept {
     return static_cast<std::uint32_t>(_mm_movemask_ps(hits));
+  }
+  static float least(Float values) noexcept {
+    const __m128 pairs = _mm_min_ps(values, _mm_movehl_ps(values, values));
+    return _mm_cvtss_f32(_mm_min_ss(pairs, _mm_shuffle_ps(pairs, pairs, 1)));
   }
 };
 
@@ -47,6 +53,14 @@ void fill_contacts_sse2(const Arguments& arguments, std::size_t begin, std::size
 void extents_sse2(const CutDiscs& discs, const float* axis_x, const float* axis_y, std::uint32_t axes,
                   float* low, float* high) noexcept {
   ExtentKernel<Sse2Lanes>::run(discs, axis_x, axis_y, axes, low, high);
+}
+
+void clearance_sse2(const ClearanceArguments& arguments, std::size_t begin, std::size_t end) noexcept {
+  ClearanceKernel<Sse2Lanes>::run(arguments, begin, end);
+}
+
+void contact_time_sse2(const ContactTimeArguments& arguments, std::size_t begin, std::size_t end) noexcept {
+  ContactTimeKernel<Sse2Lanes>::run(arguments, begin, end);
 }
 
 }  // namespace bch::kernel

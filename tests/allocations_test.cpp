@@ -8,8 +8,10 @@
 #include <vector>
 
 #include "kernel/broad_phase.hpp"
+#include "kernel/clearance.hpp"
 #include "kernel/collide.hpp"
 #include "kernel/collide_all.hpp"
+#include "kernel/contact_time.hpp"
 #include "kernel/contacts.hpp"
 #include "kernel/separation.hpp"
 #include "tests/allocation_count.hpp"
@@ -79,6 +81,16 @@ TEST_P(Allocations, SeparationNeedsNone) {
   std::vector<Separation> ways(pairs.size());
   EXPECT_EQ(count([&] { separation(set, crowd.agents(), pairs, 16, ways); }), 0u);
   EXPECT_EQ(count([&] { separation_along(set, crowd.agents(), pairs, directions, ways); }), 0u);
+}
+
+TEST_P(Allocations, DistancesAndTimesNeedNone) {
+  const std::vector<Pair> pairs = candidate_pairs(set, crowd.agents());
+  std::vector<float> values(pairs.size());
+  std::vector<Vec2> directions(pairs.size());
+  std::vector<CutNodes> nodes(pairs.size());
+  const std::vector<double> way(pairs.size(), 0.5);
+  EXPECT_EQ(count([&] { clearance(set, crowd.agents(), pairs, {values, directions, nodes}, {0.5}); }), 0u);
+  EXPECT_EQ(count([&] { contact_time(set, crowd.agents(), pairs, {way, way}, values); }), 0u);
 }
 
 INSTANTIATE_TEST_SUITE_P(Threads, Allocations, testing::Values(1, 2, 4));

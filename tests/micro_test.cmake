@@ -13,6 +13,13 @@ foreach(workload colliding near_miss no_hit crowd paper500 paper500_cached)
     endif()
   endforeach()
 endforeach()
+foreach(query clearance contact_time)
+  foreach(rest near_miss/sse2/threads:1 crowd/scalar/threads:1 crowd/reference/threads:1)
+    if(NOT output MATCHES "${query}/${rest} [^\n]*ns_per_pair=[^\n]*within=")
+      message(FATAL_ERROR "bch_micro: no ${query}/${rest}\n${output}")
+    endif()
+  endforeach()
+endforeach()
 foreach(stage skin outline hierarchy hierarchy_welzl levels interior all skin/2864 all/183296 shape_set obb_full single_cylinder)
   if(NOT output MATCHES "build/${stage} ")
     message(FATAL_ERROR "bch_micro: no build/${stage}\n${output}")
@@ -28,7 +35,8 @@ endforeach()
 execute_process(COMMAND ${RATIOS} ${sizes} --runs=1 --shapes=5000 OUTPUT_VARIABLE output ERROR_VARIABLE output RESULT_VARIABLE code)
 if(NOT code EQUAL 0 OR NOT output MATCHES "colliding, solid: 200 pairs" OR NOT output MATCHES "OBB tree, outline \\| 4630" OR
     NOT output MATCHES "an agent of a crowd of 1 000 000" OR NOT output MATCHES "a pair among 5 000 shapes" OR NOT output MATCHES "sse2 [^\n]*at most 90" OR
-    NOT output MATCHES "hierarchy over the same builder" OR NOT output MATCHES "183 296 ")
+    NOT output MATCHES "hierarchy over the same builder" OR NOT output MATCHES "183 296 " OR
+    NOT output MATCHES "plan of a scene" OR NOT output MATCHES "clearance within 0.5 m, near_miss" OR NOT output MATCHES "time of contact within 0.5 s, crowd")
   message(FATAL_ERROR "bch_ratios: ${code}\n${output}")
 endif()
 

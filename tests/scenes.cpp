@@ -79,6 +79,12 @@ Outline star(Random& random, std::uint32_t corners, double inner, double outer, 
   return outline;
 }
 
+Outline needle() {
+  const auto length = static_cast<float>(on_grid(0.4, grid)), half = static_cast<float>(4 * grid);
+  return {
+      .points = {{-length, -half}, {length, 0}, {-length, half}}, .contour_begin = {0, 3}, .grid_step = grid};
+}
+
 void append(Outline& outline, const Outline& more) {
   for (std::size_t c = 0; c < more.contours(); ++c) {
     const auto contour = more.contour(c);

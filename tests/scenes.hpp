@@ -30,6 +30,9 @@ Outline polygon(std::vector<Vec2> points);
 /// A star-shaped polygon on the outline grid, counter-clockwise around (x, y).
 Outline star(Random& random, std::uint32_t corners, double inner, double outer, double x = 0, double y = 0);
 
+/// A sliver from x = -0.4 to a tip at x = 0.4: ahead of the tip its leaf discs reach as far as it does itself.
+Outline needle();
+
 /// Appends the contours of one outline to another.
 void append(Outline& outline, const Outline& more);
 

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "baselines/cut_tree.hpp"
+#include "baselines/reference.hpp"
+
+namespace bch::baselines {
+
+/// What clearance() answers for a pair.
+struct Clearance {
+  float distance;  ///< metres; infinite beyond the limit, and the rest is as clearance() says
+  Vec2 direction;
+  std::uint32_t first, second;  ///< of the cuts
+};
+
+/// Clearances pair by pair and disc by disc, written apart from the kernel, which has to give the same bits.
+class ClearanceReference {
+ public:
+  ClearanceReference(std::span<const Shape> shapes, const ShapeSetPlan& plan) : trees_(shapes, plan) {}
+
+  /// Not for two threads at a time. `depth_first` goes to the nearer child first and leaves out what is farther than
+  /// the nearest so far.
+  Clearance query(const Agents& agents, Pair pair, double max_distance, Method method);
+
+ private:
+  CutTrees trees_;
+  std::vector<OpenPair> open_;
+};
+
+}  // namespace bch::baselines

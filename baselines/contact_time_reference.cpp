@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include "baselines/contact_time_reference.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "layout/heading.hpp"
+
+namespace bch::baselines {
+namespace {
+
+constexpr float never = std::numeric_limits<float>::infinity();
+
+/// A's way relative to B, in A's frame.
+struct Way {
+  float x, y;
+};
+
+/// When two discs of the cuts touch; kernel/contact_time_measure.hpp says why so.
+float contact(const Step& at, Way way) noexcept {
+  if (at.x * at.x + at.y * at.y <= at.radius_sum * at.radius_sum) return 0;
+  const double x = at.x, y = at.y, vx = way.x, vy = way.y;
+  const double square = x * x + y * y;
+  const double radius = static_cast<double>(at.radius_sum) + 0x1p-20 * std::sqrt(square);
+  const double towards = x * vx + y * vy, aside = x * vy - y * vx;
+  const double under_root = radius * radius * (vx * vx + vy * vy) - aside * aside;
+  if (towards <= 0 || under_root < 0) return never;
+  const double left = square - radius * radius;
+  if (left <= 0) return 0;
+  const double time = left / (towards + std::sqrt(under_root)) * (1 - 0x1p-22);
+  return time <= 1 ? static_cast<float>(time) : never;
+}
+
+/// A time before which nothing below two discs touches, or never: by how far the moving disc's front has to go, and
+/// by how near it comes until `most`.
+float earliest(const Step& at, Way way, float slack, float most) noexcept {
+  const double x = at.x, y = at.y, vx = way.x, vy = way.y;
+  const double radius =
+      static_cast<double>(at.radius_sum) + static_cast<double>(slack) + 0x1p-17 * (std::abs(x) + std::abs(y));
+  const double square = vx * vx + vy * vy, towards = x * vx + y * vy;
+  const double nearest = square > 0 ? std::clamp(towards / square, 0.0, static_cast<double>(most)) : 0;
+  const double left_x = x - nearest * vx, left_y = y - nearest * vy;
+  if (left_x * left_x + left_y * left_y > radius * radius) return never;
+  if (!(square > 0)) return 0;
+  const double length = std::sqrt(square);
+  return static_cast<float>(std::max(0.0, (towards / length - radius) / length * (1 - 0x1p-20)));
+}
+
+}  // namespace
+
+float ContactTimeReference::query(const Agents& agents, Pair pair, double x, double y, Method method) {
+  const auto [first, second] = std::minmax(pair.first, pair.second);
+  const CutTrees::Tree &a = trees_.tree(agents, first), &b = trees_.tree(agents, second);
+  const FloatPlacement place = float_placement(agents, pair);
+  const UnitVector heading = unit_vector(agents.heading[first]);
+  const double sign = pair.first <= pair.second ? 1 : -1;
+  const auto dx = static_cast<float>(sign * x), dy = static_cast<float>(sign * y);
+  const Way way{heading.cosine * dx + heading.sine * dy, heading.cosine * dy - heading.sine * dx};
+  float soonest = never;
+  if (method == Method::brute_force) {
+    for (const Disc& p : a.discs)
+      for (const Disc& q : b.discs) soonest = std::min(soonest, contact(step(place, p, q), way));
+    return soonest;
+  }
+  const float slack = 0x1p-17f * (a.reach + b.reach);
+  const auto most = [&] { return std::min(soonest, 1.0f); };
+  search(
+      place, a.nodes.data(), b.nodes.data(), open_,
+      [&](const Step& at) { return earliest(at, way, slack, most()); }, most,
+      [&](std::uint32_t, std::uint32_t, const Step& at) { soonest = std::min(soonest, contact(at, way)); });
+  return soonest;
+}
+
+}  // namespace bch::baselines

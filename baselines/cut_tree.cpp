@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include "baselines/cut_tree.hpp"
+
+#include "layout/rounding.hpp"
+
+namespace bch::baselines {
+namespace {
+
+using Node = CutTrees::Node;
+
+/// Appends what a hierarchy has below a node, down to a depth.
+void add(const Hierarchy& hierarchy, std::uint32_t node, std::uint32_t depth, CutTrees::Tree& tree) {
+  const HierarchyNode& at = hierarchy.nodes[node];
+  if (depth == 0 || at.is_leaf()) {
+    const auto index = static_cast<std::uint32_t>(tree.discs.size());
+    tree.nodes.push_back({at.disc.x, at.disc.y, at.disc.radius, Node::is_leaf + index});
+    tree.discs.push_back(at.disc);
+    return;
+  }
+  const std::size_t here = tree.nodes.size();
+  tree.nodes.push_back({at.disc.x, at.disc.y, at.bound, 0});
+  add(hierarchy, node + 1, depth - 1, tree);
+  tree.nodes[here].link = static_cast<std::uint32_t>(tree.nodes.size());
+  add(hierarchy, at.second_child, depth - 1, tree);
+}
+
+}  // namespace
+
+CutTrees::CutTrees(std::span<const Shape> shapes, const ShapeSetPlan& plan)
+    : level_count_(static_cast<std::uint32_t>(plan.depths.size())) {
+  for (const Shape& shape : shapes)
+    for (const std::uint32_t depth : plan.depths) {
+      Tree& tree = trees_.emplace_back();
+      tree.reach = rounding::round_up(shape.hierarchy.reach);
+      add(shape.hierarchy, 0, depth, tree);
+    }
+}
+
+const CutTrees::Tree& CutTrees::tree(const Agents& agents, std::uint32_t agent) const {
+  const std::uint32_t level = agents.level.empty() ? level_count_ - 1 : agents.level[agent];
+  return trees_[std::size_t{agents.shape[agent]} * level_count_ + level];
+}
+
+}  // namespace bch::baselines

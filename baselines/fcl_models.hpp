@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <fcl/geometry/bvh/BVH_model.h>
+
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "baselines/placement.hpp"
+#include "layout/outline.hpp"
+#include "layout/rounding.hpp"
+
+// What all queries of the Flexible Collision Library are asked about.
+
+namespace bch::baselines {
+
+/// The second agent, seen from the one with the lower index.
+inline fcl::Transform3d fcl_transform(const Agents& agents, Pair pair) {
+  const Placement at = placement(agents, pair);
+  fcl::Transform3d there = fcl::Transform3d::Identity();
+  there.linear() << at.cosine, -at.sine, 0, at.sine, at.cosine, 0, 0, 0, 1;
+  there.translation() << at.x, at.y, 0;
+  return there;
+}
+
+template <class Volume>
+std::shared_ptr<fcl::BVHModel<Volume>> fcl_mesh(const std::vector<fcl::Vector3d>& vertices,
+                                                const std::vector<fcl::Triangle>& triangles) {
+  if (triangles.empty()) throw std::invalid_argument("no triangles");
+  for (std::size_t i = 0; i < vertices.size(); ++i)
+    if (!(vertices[i].norm() <= rounding::largest_reach))
+      throw std::invalid_argument("vertex " + std::to_string(i) + ": (" + std::to_string(vertices[i].x()) +
+                                  ", " + std::to_string(vertices[i].y()) + ", " +
+                                  std::to_string(vertices[i].z()) + ")");
+  auto mesh = std::make_shared<fcl::BVHModel<Volume>>();
+  mesh->beginModel(static_cast<int>(triangles.size()), static_cast<int>(vertices.size()));
+  mesh->addSubModel(vertices, triangles);
+  mesh->endModel();
+  return mesh;
+}
+
+/// Each segment becomes a wall of two triangles, 1 m high: walls meet exactly where segments do.
+template <class Volume>
+std::shared_ptr<fcl::BVHModel<Volume>> fcl_walls(const Outline& outline) {
+  validate(outline);
+  std::vector<fcl::Vector3d> vertices;
+  std::vector<fcl::Triangle> triangles;
+  for (const Vec2& p : outline.points)
+    for (const double z : {0.0, 1.0})
+      vertices.emplace_back(static_cast<double>(p.x), static_cast<double>(p.y), z);
+  for (std::size_t c = 0; c < outline.contours(); ++c) {
+    const std::size_t begin = outline.contour_begin[c], count = outline.contour(c).size();
+    for (std::size_t i = 0; i < count; ++i) {
+      const std::size_t from = 2 * (begin + i), to = 2 * (begin + (i + 1) % count);
+      triangles.emplace_back(from, to, from + 1);
+      triangles.emplace_back(to, to + 1, from + 1);
+    }
+  }
+  return fcl_mesh<Volume>(vertices, triangles);
+}
+
+}  // namespace bch::baselines

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include <fmt/format.h>
+
+#include <cstdio>
+
+#include "bench/distance_answers.hpp"
+#include "bench/ratios.hpp"
+#include "bench/text.hpp"
+
+namespace bch::bench {
+namespace {
+
+constexpr double most_times_collide = 4, needed_over_scalar = 10, needed_over_fcl = 50;
+
+/// A query of kernels, and what it is compared with.
+struct Query {
+  std::string name;
+  std::function<Contender(const Workload&, const kernel::Implementation&)> kernel;
+  std::function<Contender(const Workload&)> scalar;
+};
+
+double per_pair(const Contender& contender, const Workload& workload) {
+  return contender.nanoseconds / static_cast<double>(workload.pairs.size());
+}
+
+void print_over_collide(Scene& scene, const Query& query, std::uint32_t runs) {
+  const kernel::Implementation& best = kernel::best_implementation();
+  const Workload& crowd = scene.workload("crowd");
+  std::vector<Contender> both = {kernel_contender(scene, crowd, Semantics::boundary, best),
+                                 query.kernel(crowd, best)};
+  race(both, runs, 1);
+  const double times = both[1].nanoseconds / both[0].nanoseconds;
+  fmt::print("{}, crowd, {}: {} pairs, {:.1f} ns over collide's {:.1f}: {:.2f} x   {}\n", query.name,
+             best.name, cli::grouped(crowd.pairs.size()), per_pair(both[1], crowd), per_pair(both[0], crowd),
+             times, verdict_at_most(times, most_times_collide));
+}
+
+void print_over_scalar(Scene& scene, const Query& query, std::uint32_t runs) {
+  const Workload& near_miss = scene.workload("near_miss");
+  std::vector<Contender> contenders = {query.scalar(near_miss)};
+  for (const kernel::Implementation& implementation : kernel::implementations())
+    if (implementation.supported()) contenders.push_back(query.kernel(near_miss, implementation));
+  race(contenders, runs, 1);
+  fmt::print("{}, near_miss: {} pairs; scalar search {:.1f} ns\n", query.name,
+             cli::grouped(near_miss.pairs.size()), per_pair(contenders[0], near_miss));
+  for (const Contender& contender : std::span(contenders).subspan(1)) {
+    const double ratio = contenders[0].nanoseconds / contender.nanoseconds;
+    fmt::print("  {:8}{:6.1f} ns{:7.1f} x   {}\n", contender.name, per_pair(contender, near_miss), ratio,
+               &contender == &contenders[1] ? verdict(ratio, needed_over_scalar) : "");
+  }
+  std::fflush(stdout);
+}
+
+void print_over_fcl(Scene& scene, std::uint32_t runs) {
+  const Workload& near_miss = scene.workload("near_miss");
+  const kernel::Implementation& best = kernel::best_implementation();
+  std::vector<Contender> both = {clearance_contender(scene, near_miss, best)};
+  if (auto fcl = fcl_distance_contender(scene, near_miss)) both.push_back(std::move(*fcl));
+  if (both.size() < 2) {
+    fmt::print("clearance over FCL's distance of outlines: not in this build\n");
+    return;
+  }
+  race(both, runs, 1);
+  const double ratio = both[1].nanoseconds / both[0].nanoseconds;
+  fmt::print(
+      "clearance over FCL's distance of outlines, near_miss, {}: {:.1f} ns over {:.1f}: {:.1f} x   {}\n",
+      best.name, per_pair(both[1], near_miss), per_pair(both[0], near_miss), ratio,
+      verdict(ratio, needed_over_fcl));
+}
+
+}  // namespace
+
+void print_distance_ratios(Scene& scene, std::uint32_t runs) {
+  const Query queries[] = {
+      {fmt::format("clearance within {:g} m", clearance_limit),
+       [&](const Workload& workload, const kernel::Implementation& implementation) {
+         return clearance_contender(scene, workload, implementation);
+       },
+       [&](const Workload& workload) { return scalar_clearance_contender(scene, workload); }},
+      {fmt::format("time of contact within {:g} s", walking_time),
+       [&](const Workload& workload, const kernel::Implementation& implementation) {
+         return contact_time_contender(scene, workload, implementation);
+       },
+       [&](const Workload& workload) { return scalar_contact_time_contender(scene, workload); }}};
+  for (const Query& query : queries) {
+    print_over_collide(scene, query, runs);
+    print_over_scalar(scene, query, runs);
+  }
+  print_over_fcl(scene, runs);
+}
+
+}  // namespace bch::bench

@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include "kernel/clearance.hpp"
+
+#include <oneapi/tbb/blocked_range.h>
+#include <oneapi/tbb/parallel_for.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+#include "kernel/clearance_arguments.hpp"
+#include "kernel/pair_validation.hpp"
+#include "layout/heading.hpp"
+
+namespace bch {
+namespace {
+
+using kernel::ClearanceArguments;
+using kernel::NearestDiscs;
+using Range = tbb::blocked_range<std::size_t>;
+
+/// Pairs a task.
+constexpr std::size_t grain = 1024;
+
+constexpr float largest_limit = 1e10f;  ///< beyond the distance of any two agents
+
+/// The largest float that is not above max_distance.
+float limit_of(double max_distance) {
+  const float nearest = static_cast<float>(std::min(max_distance, static_cast<double>(largest_limit)));
+  return static_cast<double>(nearest) > max_distance ? std::nextafter(nearest, -1.0f) : nearest;
+}
+
+/// Where a cut's discs begin among the nodes: behind the blocks, which stand in breadth-first order.
+std::uint32_t first_disc(const ShapeSetView& shapes, std::size_t root) {
+  if (shapes.trees == nullptr) return 0;
+  const std::uint32_t top = shapes.trees[root].top;
+  if (top >= leaf_window) return top & ~leaf_window;
+  std::uint32_t end = top + block_floats;
+  for (std::uint32_t block = top; block < end; block += block_floats) {
+    const float* const x = shapes.nodes + block;
+    for (std::uint32_t i = 0; i < block_width; ++i)
+      if (std::isfinite(x[i]) && std::bit_cast<std::uint32_t>(x[3 * block_width + i]) < leaf_window)
+        end += block_floats;
+  }
+  return end;
+}
+
+CutNodes cut_nodes(const ShapeSetView& shapes, const Agents& agents, Pair pair, const NearestDiscs& nearest) {
+  if (nearest.a == kernel::no_node) return no_cut_nodes;
+  const auto index = [&](std::uint32_t agent, std::uint32_t node) {
+    const std::uint32_t level = agents.level.empty() ? shapes.level_count - 1 : agents.level[agent];
+    return node - first_disc(shapes, std::size_t{agents.shape[agent]} * shapes.level_count + level);
+  };
+  const auto [a, b] = std::minmax(pair.first, pair.second);
+  const CutNodes nodes{index(a, nearest.a), index(b, nearest.b)};
+  return pair.second < pair.first ? CutNodes{nodes.second, nodes.first} : nodes;
+}
+
+/// In double, where squares do not underflow.
+Vec2 direction(const Agents& agents, Pair pair, const NearestDiscs& nearest) {
+  if (nearest.a == kernel::no_node) return {0, 0};
+  const double x = nearest.x, y = nearest.y, length = std::sqrt(x * x + y * y);
+  const double sign = pair.second < pair.first ? -1 : 1;
+  if (length == 0) return {static_cast<float>(sign), 0};
+  const UnitVector to = unit_vector(agents.heading[std::min(pair.first, pair.second)]);
+  const double c = to.cosine, s = to.sine, world_x = c * x - s * y, world_y = s * x + c * y;
+  const double scale = sign / std::sqrt(world_x * world_x + world_y * world_y);
+  return {static_cast<float>(scale * world_x), static_cast<float>(scale * world_y)};
+}
+
+/// The work of one task.
+void answer(const kernel::Implementation& implementation, ClearanceArguments arguments, const Agents& agents,
+            std::span<const Pair> pairs, const ClearanceAnswers& answers) noexcept {
+  NearestDiscs nearest[grain];
+  arguments.in.pairs = pairs.data();
+  arguments.nearest = nearest;
+  implementation.clearance(arguments, 0, pairs.size());
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    const bool found = nearest[i].a != kernel::no_node;
+    answers.distance[i] = found ? nearest[i].distance : std::numeric_limits<float>::infinity();
+    if (!answers.direction.empty()) answers.direction[i] = direction(agents, pairs[i], nearest[i]);
+    if (!answers.nodes.empty())
+      answers.nodes[i] = cut_nodes(*arguments.in.shapes, agents, pairs[i], nearest[i]);
+  }
+}
+
+void require_answers(const ClearanceAnswers& answers, std::size_t pairs) {
+  const auto require = [pairs](std::size_t size, const char* name, bool optional) {
+    if (size == pairs || (optional && size == 0)) return;
+    throw std::invalid_argument("clearance: " + std::to_string(pairs) + " pairs but " + std::to_string(size) +
+                                " " + name);
+  };
+  require(answers.distance.size(), "distances", false);
+  require(answers.direction.size(), "directions", true);
+  require(answers.nodes.size(), "nodes", true);
+}
+
+}  // namespace
+
+void clearance(const ShapeSet& shapes, const Agents& agents, std::span<const Pair> pairs,
+               const ClearanceAnswers& answers, const ClearanceOptions& options) {
+  require_answers(answers, pairs.size());
+  if (!(options.max_distance >= 0))
+    throw std::invalid_argument("clearance: a max_distance of " + std::to_string(options.max_distance) +
+                                " m");
+  const kernel::Implementation& implementation = kernel::chosen(options.implementation, "clearance");
+  kernel::require_valid(implementation, shapes, agents, pairs);
+
+  const ShapeSetView view = shapes.view();
+  ClearanceArguments arguments{kernel::arguments_for(view, agents, {}), limit_of(options.max_distance),
+                               nullptr};
+  const auto part = [](auto span, std::size_t begin, std::size_t size) {
+    return span.empty() ? span : span.subspan(begin, size);
+  };
+  const auto answer_range = [&](const Range& range) {
+    for (std::size_t i = range.begin(); i < range.end(); i += grain) {
+      const std::size_t size = std::min(grain, range.end() - i);
+      answer(
+          implementation, arguments, agents, pairs.subspan(i, size),
+          {part(answers.distance, i, size), part(answers.direction, i, size), part(answers.nodes, i, size)});
+    }
+  };
+  const Range all(0, pairs.size(), grain);
+  pairs.size() <= grain ? answer_range(all) : tbb::parallel_for(all, answer_range);
+}
+
+}  // namespace bch

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "kernel/clearance_arguments.hpp"
+#include "kernel/clearance_measure.hpp"
+#include "kernel/lanes.hpp"
+#include "kernel/nearest_search.hpp"
+#include "kernel/placements.hpp"
+#include "kernel/record_fields.hpp"
+
+namespace bch::kernel {
+
+/// The nearest discs of every pair. Chunk by chunk: places B in A's frame, bounds the gap by the root discs, one
+/// pair a lane, and walks the trees of the pairs that may be within the limit.
+template <class Simd>
+class ClearanceKernel {
+ public:
+  static void run(const ClearanceArguments& arguments, std::size_t begin, std::size_t end) noexcept {
+    static_assert(sizeof(ClearanceKernel) <= 256 * 1024, "what implementation.hpp promises");
+    ClearanceKernel kernel(arguments);
+    for (; begin < end; begin += chunk)
+      kernel.answer_chunk(begin, end - begin < chunk ? static_cast<std::uint32_t>(end - begin) : chunk);
+  }
+
+ private:
+  using Float = typename Simd::Float;
+  using Measure = ClearanceMeasure<Simd>;
+  using Search = NearestSearch<Simd, Measure>;
+  static constexpr std::uint32_t chunk = Placements<Simd>::chunk;
+
+  explicit ClearanceKernel(const ClearanceArguments& arguments) noexcept
+      : arguments_(arguments), shapes_(*arguments.in.shapes), search_(shapes_.nodes) {}
+
+  void answer_chunk(std::size_t begin, std::uint32_t size) noexcept {
+    at_.place(arguments_.in, begin, size);
+    of_a_.load(&shapes_.roots->x, at_.root_a, at_.whole_registers());
+    of_b_.load(&shapes_.roots->x, at_.root_b, at_.whole_registers());
+    NearestDiscs* const nearest = arguments_.nearest + begin;
+    if (shapes_.trees == nullptr) return answer_roots(nearest);
+    for (std::uint32_t k = 0; k < size; k += Simd::width) bound_roots(k);
+    for (std::uint32_t pair = 0; pair < size; ++pair) {
+      const Measure measure(arguments_.limit, reach(pair));
+      nearest[pair] = measure.nearest();
+      if (!(root_bound_[pair] <= arguments_.limit)) continue;
+      searched_[search_.size()] = pair;
+      search_.add(at_.transform(pair), shapes_.trees[at_.root_a[pair]], shapes_.trees[at_.root_b[pair]],
+                  measure);
+      if (search_.size() == Search::capacity) answer_searched(nearest);
+    }
+    answer_searched(nearest);
+  }
+
+  void answer_searched(NearestDiscs* nearest) noexcept {
+    search_.run();
+    for (std::uint32_t k = 0; k < search_.size(); ++k) nearest[searched_[k]] = search_.measure(k).nearest();
+    search_.clear();
+  }
+
+  float reach(std::uint32_t pair) const noexcept {
+    return shapes_.reach[at_.shape_a[pair]] + shapes_.reach[at_.shape_b[pair]];
+  }
+
+  struct Step {
+    Float x, y, r;
+  };
+  /// From root disc to root disc, lane = pair.
+  Step between_roots(std::uint32_t k) const noexcept {
+    const Float c = Simd::load(at_.c + k), s = Simd::load(at_.s + k);
+    const Float x = Simd::load(of_b_.field[0] + k), y = Simd::load(of_b_.field[1] + k);
+    return {Simd::load(at_.tx + k) + (c * x - s * y) - Simd::load(of_a_.field[0] + k),
+            Simd::load(at_.ty + k) + (s * x + c * y) - Simd::load(of_a_.field[1] + k),
+            Simd::load(of_a_.field[2] + k) + Simd::load(of_b_.field[2] + k)};
+  }
+
+  void bound_roots(std::uint32_t k) noexcept {
+    const auto [x, y, r] = between_roots(k);
+    alignas(64) float reaches[Simd::width];
+    for (std::uint32_t lane = 0; lane < Simd::width; ++lane) reaches[lane] = reach(k + lane);
+    Simd::store(root_bound_ + k, Measure::bound(x, y, r, Simd::load(reaches)));
+  }
+
+  /// Where every cut is a single disc.
+  void answer_roots(NearestDiscs* nearest) noexcept {
+    alignas(64) float gap[chunk], x_of[chunk], y_of[chunk];
+    for (std::uint32_t k = 0; k < at_.size; k += Simd::width) {
+      const auto [x, y, r] = between_roots(k);
+      Simd::store(gap + k, Measure::gap(x, y, r));
+      Simd::store(x_of + k, x);
+      Simd::store(y_of + k, y);
+    }
+    for (std::uint32_t k = 0; k < at_.size; ++k) {
+      const bool within = gap[k] <= arguments_.limit;
+      nearest[k] = {gap[k], within ? 0 : no_node, within ? 0 : no_node, x_of[k], y_of[k]};
+    }
+  }
+
+  const ClearanceArguments& arguments_;
+  const ShapeSetView shapes_;
+  Placements<Simd> at_;
+  RecordFields<Simd, chunk> of_a_, of_b_;
+  alignas(64) float root_bound_[chunk];
+  std::uint32_t searched_[Search::capacity];  ///< pairs of the chunk
+  Search search_;
+};
+
+}  // namespace bch::kernel

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <cstdint>
+
+#include "kernel/clearance_arguments.hpp"
+#include "kernel/disc_pairs.hpp"
+#include "kernel/lanes.hpp"
+
+namespace bch::kernel {
+
+/// The gap between two discs, in float:
+///
+///     v = sqrt(x^2 + y^2) * near - (r_A + r_B)            near = 1 - 2^-20
+///
+/// with (x, y) and the notation of layout/rounding.hpp. D is the distance of the exact centres, so |d| <= D + S.
+///
+/// Never too large. sqrt(x^2 + y^2) is off by 8.1 u P_B + 5.6 u |d| for the placement and the sum p, and u D each
+/// for the difference, for the squares and their sum, and for the root: 13.7 u S + 8.6 u D. The product adds u D,
+/// the sum of radii u S, the last difference u D or u S. That is 15.7 u S, of which published radii have 23 to
+/// spare, and 10.6 u D, for which `near` takes off 16.
+///
+/// Bounds. A disc (C, R) that holds a cut's disc (c, r) has D' - R <= D - r, and its own v', with `nearer` = 1 -
+/// 2^-18 in place of near, exceeds D' - (R_A + R_B) by 17.7 u S + 7.6 u D for the distance (D' <= D + 2 S), and 9 u
+/// S + 4 u D for what follows (R_A + R_B <= D' + S, or v' is below any v); v falls short of D - (r_A + r_B) by 15.7
+/// u S + 26.6 u D. All together: 42.4 u S, for which `slack` = 64 u S is taken off beside, and 38.2 u D, for which
+/// nearer takes 64. So v' <= v, and leaving out what is above the best never loses a tie.
+template <class Simd>
+class ClearanceMeasure {
+ public:
+  using Float = typename Simd::Float;
+
+  /// `reach` is S, metres.
+  ClearanceMeasure(float limit, float reach) noexcept : slack_(slack_per_reach * reach) {
+    set({limit, no_node, no_node, 0, 0});
+  }
+  ClearanceMeasure() = default;
+
+  const NearestDiscs& nearest() const noexcept { return nearest_; }
+  float best() const noexcept { return nearest_.distance; }
+
+  Float bound(Float x, Float y, Float r) const noexcept { return gap(x, y, r + Float(slack_), nearer); }
+  static Float bound(Float x, Float y, Float r, Float reach) noexcept {
+    return gap(x, y, r + Float(slack_per_reach) * reach, nearer);
+  }
+
+  /// Without roots, for a block or a window. v <= best means sqrt(x^2 + y^2) <= (r + best + u |best|) (1 + 19 u); the
+  /// slack, 8 u |best|, and a factor 1 - 128 u on the square have room for that and for the rounding here.
+  typename Simd::Mask may_improve(Float x, Float y, Float r) const noexcept {
+    const Float sum = r + Float(most_);
+    return (x * x + y * y) * Float(1 - 0x1p-17f) <= sum * sum;
+  }
+
+  void meet(const Transform& at, Discs a, Discs b, std::uint32_t first_a, std::uint32_t first_b) noexcept {
+    alignas(64) float gaps[block_pairs];
+    Float least(far_beyond);
+    visit_disc_pairs<Simd>(at, a, b, [&](unsigned k, Float x, Float y, Float r) {
+      const Float value = gap(x, y, r, near);
+      Simd::store(gaps + k, value);
+      least = xsimd::min(least, value);
+    });
+    take(at, a, b, first_a, first_b, gaps, Simd::least(least));
+  }
+
+  /// Of one register's pairs of single discs.
+  static Float gap(Float x, Float y, Float r) noexcept { return gap(x, y, r, near); }
+
+ private:
+  static constexpr float slack_per_reach = 0x1p-18f;
+  static constexpr float near = 1 - 0x1p-20f, nearer = 1 - 0x1p-18f;
+
+  static Float gap(Float x, Float y, Float r, float factor) noexcept {
+    const Float square = x * x + y * y;
+    // Of padding it is infinite or NaN.
+    return Simd::select(square <= Float(far_beyond), xsimd::sqrt(square) * Float(factor) - r,
+                        Float(far_beyond));
+  }
+
+  /// The first of the least, if it is less than the best or comes before it.
+  void take(const Transform& at, Discs a, Discs b, std::uint32_t first_a, std::uint32_t first_b,
+            const float* gaps, float least) noexcept {
+    if (!(least <= nearest_.distance)) return;
+    const unsigned k = first_within<Simd>(gaps, least);
+    const unsigned i = k / block_width, j = k % block_width;
+    const std::uint32_t node_a = first_a + i, node_b = first_b + j;
+    if (least == nearest_.distance && (nearest_.a < node_a || (nearest_.a == node_a && nearest_.b <= node_b)))
+      return;
+    const float bx = b.x[j], by = b.x[b.stride + j];
+    set({least, node_a, node_b, at.tx + (at.c * bx - at.s * by) - a.x[i],
+         at.ty + (at.s * bx + at.c * by) - a.x[a.stride + i]});
+  }
+
+  void set(const NearestDiscs& nearest) noexcept {
+    nearest_ = nearest;
+    most_ = nearest.distance + 0x1p-21f * __builtin_fabsf(nearest.distance) + slack_;
+  }
+
+  NearestDiscs nearest_;
+  float slack_;
+  float most_;  ///< what is compared with instead of the best
+};
+
+}  // namespace bch::kernel

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include "kernel/arguments.hpp"
+
+namespace bch::kernel {
+
+/// As Arguments, which says why plain pointers. Of a pair the agent with the lower index is A.
+struct ContactTimeArguments {
+  Arguments in;        ///< with codes: pairs that overlap now, which are left alone
+  const float *x, *y;  ///< per pair: how far A moves relative to B, in A's frame, metres
+  float* time;         ///< per pair; infinite: none
+};
+
+}  // namespace bch::kernel

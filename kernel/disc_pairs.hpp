@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <cstdint>
+
+#include "kernel/block_test.hpp"
+#include "layout/shape_set_view.hpp"
+
+namespace bch::kernel {
+
+/// Pairs of discs of two blocks.
+constexpr unsigned block_pairs = block_width * block_width;
+
+/// All of A's eight discs with all of B's, pair 8 i + j for disc i of A and j of B: calls visit(k, x, y, r) for
+/// every register, whose lanes are the pairs from k on. (x, y) leads from A's disc to B's in A's frame, r is the sum
+/// of radii; the operations are those of layout/rounding.hpp. Padding gives infinities and NaN.
+template <class Simd, class Visit>
+[[gnu::always_inline]] inline void visit_disc_pairs(const Transform& b_in_a, Discs a, Discs b,
+                                                    Visit visit) noexcept {
+  using Float = typename Simd::Float;
+  constexpr unsigned parts = Simd::width < block_width ? block_width / Simd::width : 1;
+  constexpr unsigned rows = Simd::width > block_width ? Simd::width / block_width : 1;
+  const Float c(b_in_a.c), s(b_in_a.s), tx(b_in_a.tx), ty(b_in_a.ty);
+  const auto ax = Simd::eight(a.x), ay = Simd::eight(a.x + a.stride), ar = Simd::eight(a.x + 2 * a.stride);
+  Float px[parts], py[parts], r[parts];
+#pragma GCC unroll 8
+  for (unsigned part = 0; part < parts; ++part) {
+    const Float x = Simd::template columns<block_width>(b.x, part),
+                y = Simd::template columns<block_width>(b.x + b.stride, part);
+    px[part] = tx + (c * x - s * y), py[part] = ty + (s * x + c * y);
+    r[part] = Simd::template columns<block_width>(b.x + 2 * b.stride, part);
+  }
+#pragma GCC unroll 8
+  for (unsigned row = 0; row < block_width; row += rows) {
+    const Float row_x = Simd::template row<block_width>(ax, row),
+                row_y = Simd::template row<block_width>(ay, row),
+                row_r = Simd::template row<block_width>(ar, row);
+#pragma GCC unroll 8
+    for (unsigned part = 0; part < parts; ++part)
+      visit(row * block_width + part * Simd::width, px[part] - row_x, py[part] - row_y, row_r + r[part]);
+  }
+}
+
+/// The pairs whose values are at most so much.
+template <class Simd>
+std::uint64_t all_within(const float* values, float most) noexcept {
+  using Float = typename Simd::Float;
+  std::uint64_t bits = 0;
+#pragma GCC unroll 16
+  for (unsigned k = 0; k < block_pairs; k += Simd::width)
+    bits |= std::uint64_t{Simd::bits(Simd::load(values + k) <= Float(most))} << k;
+  return bits;
+}
+
+/// The first of them. Precondition: there is one.
+template <class Simd>
+unsigned first_within(const float* values, float most) noexcept {
+  return static_cast<unsigned>(__builtin_ctzll(all_within<Simd>(values, most)));
+}
+
+}  // namespace bch::kernel

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <cstdint>
+
+#include "kernel/block_test.hpp"
+#include "kernel/clearance_arguments.hpp"
+#include "kernel/disc_pairs.hpp"
+#include "kernel/lanes.hpp"
+#include "layout/shape_set_view.hpp"
+
+namespace bch::kernel {
+
+/// Two nodes, not both windows, and the bounds of their pairs of discs; of those that were taken, far_beyond.
+struct NodePairBounds {
+  alignas(64) float bound[block_pairs];
+  std::uint32_t a, b;
+};
+
+/// Branch and bound over two trees: the least value of all pairs of cut discs. `Measure` says what a value is:
+///
+///     Float bound(Float x, Float y, Float r)   of two discs as visit_disc_pairs() gives them, lane by lane: not above
+///                                              the value of any disc below the one with any disc below the other,
+///                                              unless that is above best(); far_beyond for padding
+///     float best()                             values above it are of no interest; only ever decreases
+///     void meet(at, a, b, first_a, first_b)    takes the values of two leaf windows, named by where they begin
+///
+/// Of the pairs of a block the one with the least bound goes first, and what is above the best by then is left out.
+template <class Simd, class Measure>
+class NearestWalk {
+ public:
+  explicit NearestWalk(const float* nodes) noexcept : nodes_(nodes) {}
+
+  void run(const Transform& at, const Tree& a, const Tree& b, Measure& measure) noexcept {
+    if ((a.top & b.top) < leaf_window) return run(at, a.top, b.top, a.stride, b.stride, measure);
+    meet(at, a.top, b.top, a.stride, b.stride, measure);
+  }
+
+  /// All below two nodes that are not both windows.
+  void run(const Transform& at, std::uint32_t a, std::uint32_t b, std::uint32_t stride_a,
+           std::uint32_t stride_b, Measure& measure) noexcept {
+    NodePairBounds* top = frames_;
+    bound(at, a, b, stride_a, stride_b, measure, *top);
+    for (;;) {
+      if (!take_least(*top, measure.best(), a, b)) {
+        if (top == frames_) return;
+        --top;
+      } else if ((a & b) >= leaf_window) {
+        meet(at, a, b, stride_a, stride_b, measure);
+      } else {
+        bound(at, a, b, stride_a, stride_b, measure, *++top);
+      }
+    }
+  }
+
+  /// Two windows.
+  void meet(const Transform& at, std::uint32_t a, std::uint32_t b, std::uint32_t stride_a,
+            std::uint32_t stride_b, Measure& measure) const noexcept {
+    measure.meet(at, discs(a, stride_a), discs(b, stride_b), a & ~leaf_window, b & ~leaf_window);
+  }
+
+  void bound(const Transform& at, std::uint32_t a, std::uint32_t b, std::uint32_t stride_a,
+             std::uint32_t stride_b, const Measure& measure, NodePairBounds& frame) const noexcept {
+    frame.a = a, frame.b = b;
+    visit_disc_pairs<Simd>(
+        at, discs(a, stride_a), discs(b, stride_b),
+        [&](unsigned k, Float x, Float y, Float r) { Simd::store(frame.bound + k, measure.bound(x, y, r)); });
+  }
+
+  /// The children below the least bound, unless that is above `best`.
+  bool take_least(NodePairBounds& frame, float best, std::uint32_t& a, std::uint32_t& b) const noexcept {
+    const float least = Simd::least(least_of(frame.bound));
+    const unsigned k = first_within<Simd>(frame.bound, least), i = k / block_width, j = k % block_width;
+    a = child(frame.a, i), b = child(frame.b, j);
+    frame.bound[k] = far_beyond;
+    // All of a window's discs are tested at once: its other pairs with the same child are settled with this one.
+    if (frame.a >= leaf_window)
+      for (unsigned other = j; other < block_pairs; other += block_width) frame.bound[other] = far_beyond;
+    if (frame.b >= leaf_window)
+      for (unsigned other = 0; other < block_width; ++other)
+        frame.bound[i * block_width + other] = far_beyond;
+    return least <= best;
+  }
+
+  Discs discs(std::uint32_t node, std::uint32_t stride) const noexcept {
+    return {nodes_ + (node & ~leaf_window), node < leaf_window ? block_width : stride};
+  }
+
+  /// Of a window, itself.
+  std::uint32_t child(std::uint32_t node, unsigned lane) const noexcept {
+    if (node >= leaf_window) return node;
+    std::uint32_t name;
+    __builtin_memcpy(&name, nodes_ + node + 3 * block_width + lane, sizeof name);
+    return name;
+  }
+
+ private:
+  using Float = typename Simd::Float;
+  /// Every step descends on one side at least, and neither side has more levels than this.
+  static constexpr std::uint32_t most_frames = 2 * most_wide_levels;
+
+  /// Per lane.
+  static Float least_of(const float* bound) noexcept {
+    Float least = Simd::load(bound);
+#pragma GCC unroll 16
+    for (unsigned k = Simd::width; k < block_pairs; k += Simd::width)
+      least = xsimd::min(least, Simd::load(bound + k));
+    return least;
+  }
+
+  const float* nodes_;
+  NodePairBounds frames_[most_frames + 1];
+};
+
+}  // namespace bch::kernel
