@@ -7,8 +7,8 @@
 
 namespace bch::kernel {
 
-/// Some of a chunk's pairs.
-template <std::uint32_t capacity>
+/// Some of a chunk's pairs. (`Simd` also keeps instruction sets from sharing a function.)
+template <class Simd, std::uint32_t capacity>
 struct ChunkPairs {
   static constexpr std::uint32_t padding = 16;  ///< lanes of the widest register
 
@@ -21,7 +21,6 @@ struct ChunkPairs {
   }
 
   /// Those of the pairs from `first` on whose bits are set.
-  template <class Simd>
   void add(std::uint32_t bits, std::uint32_t first) noexcept {
     size += Simd::write_set(bits, first, pair + size);
   }

@@ -42,7 +42,7 @@ class PairKernel {
  private:
   using Float = typename Simd::Float;
   static constexpr std::uint32_t chunk = Placements<Simd>::chunk;
-  using List = ChunkPairs<chunk>;
+  using List = ChunkPairs<Simd, chunk>;
 
   explicit PairKernel(const Arguments& arguments) noexcept
       : in_(arguments),
@@ -139,10 +139,10 @@ class PairKernel {
       const std::uint32_t all = open_bits_[k / Simd::width] & ((std::uint32_t{1} << lanes(k)) - 1);
       const std::uint32_t open = all & ~(answers.apart | answers.meet);
       may_nest_[k / Simd::width] = answers.may_nest;
-      parted_.template add<Simd>(all & answers.apart, k);
-      met_.template add<Simd>(all & answers.meet & answers.may_nest, k);
-      near_.template add<Simd>(open & answers.near, k);
-      open_.template add<Simd>(open & ~answers.near, k);
+      parted_.add(all & answers.apart, k);
+      met_.add(all & answers.meet & answers.may_nest, k);
+      near_.add(open & answers.near, k);
+      open_.add(open & ~answers.near, k);
     }
   }
 

@@ -25,7 +25,6 @@ class SortedDiscs {
 
   std::size_t size() const noexcept { return cell_.size(); }
   std::uint64_t cell(std::size_t i) const noexcept { return cell_[i]; }
-  std::uint32_t agent(std::size_t i) const noexcept { return agent_[i]; }
 
   void resize(std::size_t size) {
     cell_.resize(size);
