@@ -32,7 +32,7 @@ ShapeSet bake_shapes(std::span<const LoadedCharacter> characters, std::span<cons
   ShapeSetBuilder builder(plan);
   Progress progress("baking shapes", sources.size());
   tbb::enumerable_thread_specific<Workshop> workshops([&] {
-    return Workshop{ShapeMaker(characters, threshold), ShapeFlattener(plan)};
+    return Workshop{ShapeMaker(characters, threshold, plan.depths.back()), ShapeFlattener(plan)};
   });
   std::size_t next = 0;
   using Flat = std::shared_ptr<FlatShape>;

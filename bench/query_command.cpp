@@ -107,7 +107,7 @@ void query_character(const QueryCommandOptions& options) {
 
   const Threads threads(options.answer.threads);
   const auto used = keep_used(sources, question.table);
-  const BuiltShapes built = build_shapes({&from, 1}, used, options.shapes.threshold);
+  const BuiltShapes built = build_shapes({&from, 1}, used, options.shapes.threshold, depths.back());
   answer(options, ShapeSet(built.shapes, {depths, solid}), question);
 }
 

@@ -54,14 +54,14 @@ std::string clip_name(const LoadedCharacter& character, PoseTime at) {
   return at.clip == PoseTime::rest ? "rest pose" : character.character.clips[at.clip].name;
 }
 
-ShapeMaker::ShapeMaker(std::span<const LoadedCharacter> characters, double threshold)
-    : characters_(characters), threshold_(threshold), shapers_(characters.size()) {}
+ShapeMaker::ShapeMaker(std::span<const LoadedCharacter> characters, double threshold, std::uint32_t deepest)
+    : characters_(characters), threshold_(threshold), deepest_(deepest), shapers_(characters.size()) {}
 
 const Shape& ShapeMaker::make(const ShapeSource& source) {
   const LoadedCharacter& from = characters_[source.character];
   auto& shaper = shapers_[source.character];
   try {
-    if (!shaper) shaper.emplace(from.character, static_cast<float>(threshold_));
+    if (!shaper) shaper.emplace(from.character, static_cast<float>(threshold_), deepest_);
     const auto begin = Clock::now();
     shaper->make_outline(source.at);
     const auto middle = Clock::now();
@@ -77,14 +77,15 @@ const Shape& ShapeMaker::make(const ShapeSource& source) {
 }
 
 BuiltShapes build_shapes(std::span<const LoadedCharacter> characters, std::span<const ShapeSource> sources,
-                         double threshold) {
+                         double threshold, std::uint32_t deepest) {
   BuiltShapes built;
   built.shapes.resize(sources.size());
   std::vector<ShapeTiming> timings(sources.size());
   Progress progress("building shapes", sources.size());
 
   // Learning a mesh takes as long as tens of shapes, so that a thread keeps what it learned.
-  tbb::enumerable_thread_specific<ShapeMaker> makers([&] { return ShapeMaker(characters, threshold); });
+  tbb::enumerable_thread_specific<ShapeMaker> makers(
+      [&] { return ShapeMaker(characters, threshold, deepest); });
   tbb::parallel_for(std::size_t{0}, sources.size(), [&](std::size_t i) {
     ShapeMaker& maker = makers.local();
     built.shapes[i] = maker.make(sources[i]);

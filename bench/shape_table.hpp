@@ -36,7 +36,8 @@ struct ShapeTiming {
 /// for it. Not for two threads at a time. The characters must outlive it.
 class ShapeMaker {
  public:
-  ShapeMaker(std::span<const LoadedCharacter> characters, double threshold);
+  /// Hierarchies end at the deepest depth that is asked for.
+  ShapeMaker(std::span<const LoadedCharacter> characters, double threshold, std::uint32_t deepest);
 
   /// Returns: the shape, until the next call.
   /// Errors:  throws InputError naming the character, clip and time of a pose that has no outline.
@@ -47,6 +48,7 @@ class ShapeMaker {
  private:
   std::span<const LoadedCharacter> characters_;
   double threshold_;
+  std::uint32_t deepest_;
   std::vector<std::optional<PoseShaper>> shapers_;
   ShapeTiming timing_;
 };
@@ -60,6 +62,6 @@ struct BuiltShapes {
 /// Builds contour hierarchies, in parallel, with a progress bar.
 /// Errors:  as ShapeMaker throws.
 BuiltShapes build_shapes(std::span<const LoadedCharacter> characters, std::span<const ShapeSource> sources,
-                         double threshold);
+                         double threshold, std::uint32_t deepest = all_depths);
 
 }  // namespace bch::cli
