@@ -3,6 +3,8 @@
 
 #pragma once
 
+#include <filesystem>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
@@ -19,6 +21,8 @@ Ending bch(Arguments arguments, const Arguments& more = {}, const Streams& strea
 void expect_failure(const Ending& run, int code, const Arguments& words);
 
 std::size_t lines(const std::string& text);
+
+nlohmann::json read_json(const std::filesystem::path& file);
 
 /// A person-sized box, 0.5 m x 0.3 m on the ground, y up.
 constexpr const char* box =

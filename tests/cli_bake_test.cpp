@@ -49,7 +49,7 @@ TEST(Cli, BakedCrowdIsTheCrowdOfItsCharacters) {
   const auto report = [&](const Arguments& source) {
     const Ending run = bch({"crowd", "--agents", "200", "--json", json_file}, source);
     EXPECT_EQ(run.code, 0) << run.err;
-    auto levels = nlohmann::json::parse(read_text(json_file))["levels"];
+    auto levels = read_json(json_file)["levels"];
     for (auto& level : levels) level.erase("nanoseconds_per_pair"), level.erase("runs");
     return levels;
   };
@@ -68,7 +68,7 @@ TEST(Cli, InspectDescribesABakedFile) {
   ASSERT_EQ(run.code, 0) << run.err;
   EXPECT_NE(run.out.find("20 mm"), std::string::npos) << run.out;
   EXPECT_NE(run.out.find("walk slow"), std::string::npos) << run.out;
-  const auto json = nlohmann::json::parse(read_text(json_file));
+  const auto json = read_json(json_file);
   EXPECT_EQ(json["depths"], nlohmann::json({"3"}));
   EXPECT_EQ(json["threshold_m"], 0.02);
   EXPECT_EQ(json["solid"], false);

@@ -28,7 +28,7 @@ CrowdAnswer small_crowd(const TemporaryFolder& folder, const Arguments& more) {
   EXPECT_EQ(run.code, 0) << run.err;
   EXPECT_EQ(run.err, "");
   CrowdAnswer answer{{}, read_text(csv_file)};
-  const auto json = nlohmann::json::parse(read_text(json_file));
+  const auto json = read_json(json_file);
   for (const auto& level : json["levels"]) answer.hits.push_back(level["hits"]);
   return answer;
 }

@@ -122,7 +122,7 @@ TEST(Cli, InspectTellsEverythingOfAShape) {
           as_metres);
   ASSERT_EQ(run.code, 0) << run.err;
   EXPECT_NE(run.out.find("12 triangles"), std::string::npos) << run.out;
-  const auto json = nlohmann::json::parse(read_text(json_file));
+  const auto json = read_json(json_file);
   EXPECT_EQ(json["character"]["triangles"], 12);
   EXPECT_NEAR(json["character"]["height_m"].get<double>(), 1.8, 1e-6);
   const auto& shape = json["shape"];
@@ -145,7 +145,7 @@ TEST(Cli, InspectListsTheSampledShapes) {
   const std::string json_file = folder.file("table.json");
   const Ending run = bch({"inspect", "default:female", "--poses", "4", "--json", json_file});
   ASSERT_EQ(run.code, 0) << run.err;
-  const auto json = nlohmann::json::parse(read_text(json_file));
+  const auto json = read_json(json_file);
   ASSERT_EQ(json["shapes"].size(), 4u);
   EXPECT_EQ(json["shapes"][3]["shape"], 3);
   EXPECT_EQ(json["character"]["clip_seconds"], 212);
