@@ -54,26 +54,30 @@ class CutLanes {
     radius[1] = largest(b);
   }
 
-  /// The run's extents along support_directions directions, to 6 units in the last place of its reach.
+  /// The run's extents along support_directions directions, to 6 units in the last place of its reach. Those of the
+  /// first quadrant are given; the others are these turned by a quarter, a half and three quarters, so that they
+  /// share products.
   static void heights(const DiscRun& run, const float* cosine, const float* sine, float* height) noexcept {
-    constexpr std::size_t parts = support_directions / Batch::size;
-    Batch c[parts], s[parts], h[parts];
-    for (std::size_t k = 0; k < parts; ++k) {
-      c[k] = Batch::load_unaligned(cosine + k * Batch::size);
-      s[k] = Batch::load_unaligned(sine + k * Batch::size);
-      h[k] = Batch(-infinity);
+    for (std::size_t k = 0; k < quadrant; k += Batch::size) {
+      const Batch c = Batch::load_unaligned(cosine + k), s = Batch::load_unaligned(sine + k);
+      Batch h[4] = {Batch(-infinity), Batch(-infinity), Batch(-infinity), Batch(-infinity)};
+      for (std::uint32_t i = 0; i < run.count; ++i) {
+        const Batch x(run.x[i]), y(run.y[i]), r(run.radius[i]);
+        const Batch along = c * x + s * y, across = c * y - s * x;
+        h[0] = xsimd::max(h[0], r + along);
+        h[1] = xsimd::max(h[1], r + across);
+        h[2] = xsimd::max(h[2], r - along);
+        h[3] = xsimd::max(h[3], r - across);
+      }
+      for (std::size_t turn = 0; turn < 4; ++turn) h[turn].store_unaligned(height + turn * quadrant + k);
     }
-    for (std::uint32_t i = 0; i < run.count; ++i) {
-      const Batch x(run.x[i]), y(run.y[i]), r(run.radius[i]);
-      for (std::size_t k = 0; k < parts; ++k) h[k] = xsimd::max(h[k], c[k] * x + s[k] * y + r);
-    }
-    for (std::size_t k = 0; k < parts; ++k) h[k].store_unaligned(height + k * Batch::size);
   }
 
  private:
   using Batch = xsimd::batch<float, Arch>;
   using Mask = typename Batch::batch_bool_type;
   static constexpr float infinity = std::numeric_limits<float>::infinity();
+  static constexpr std::size_t quadrant = support_directions / 4;
 
   template <class Visit>
   static void for_each(const DiscRun& run, Visit visit) {

@@ -43,21 +43,30 @@ Point minus(Vec2 p, Point q) {
   return {static_cast<double>(p.x) - q.x, static_cast<double>(p.y) - q.y};
 }
 
+constexpr std::uint32_t quadrant = profile_sectors / 4;
+
 /// Unit vectors between sectors: the one before sector k, and after the last one the first again.
 struct Boundaries {
   std::array<Point, profile_sectors + 1> at;
-  std::array<float, profile_sectors> cosine, sine;
+  std::array<double, profile_sectors + 1> x, y;
+  std::array<float, quadrant> cosine, sine;  ///< of the first quadrant
+  /// Of the angle of sector k, and one over the square of its sine.
+  std::array<double, profile_sectors> gap_cosine, over_square_sine;
 
   Boundaries() {
-    constexpr std::uint32_t quadrant = profile_sectors / 4;
-    for (std::uint32_t k = 0; k < profile_sectors; ++k) {
-      const double y = k % quadrant, x = quadrant - y, length = std::sqrt(x * x + y * y);
-      const Point turned[] = {{x, y}, {-y, x}, {-x, -y}, {y, -x}};
-      const Point& p = turned[k / quadrant];
+    for (std::uint32_t k = 0; k <= profile_sectors; ++k) {
+      const double b = k % quadrant, a = quadrant - b, length = std::sqrt(a * a + b * b);
+      const Point turned[] = {{a, b}, {-b, a}, {-a, -b}, {b, -a}};
+      const Point& p = turned[k / quadrant % 4];
       at[k] = {p.x / length, p.y / length};
-      cosine[k] = static_cast<float>(at[k].x), sine[k] = static_cast<float>(at[k].y);
+      x[k] = at[k].x, y[k] = at[k].y;
     }
-    at[profile_sectors] = at[0];
+    for (std::uint32_t k = 0; k < quadrant; ++k)
+      cosine[k] = static_cast<float>(at[k].x), sine[k] = static_cast<float>(at[k].y);
+    for (std::uint32_t k = 0; k < profile_sectors; ++k) {
+      gap_cosine[k] = dot(at[k], at[k + 1]);
+      over_square_sine[k] = 1 / (1 - gap_cosine[k] * gap_cosine[k]);
+    }
   }
 };
 
@@ -67,7 +76,6 @@ const Boundaries& boundaries() {
 }
 
 std::uint32_t sector(Point p) {
-  constexpr std::uint32_t quadrant = profile_sectors / 4;
   const double sum = std::abs(p.x) + std::abs(p.y), share = sum > 0 ? quadrant * std::abs(p.y) / sum : 0;
   const double half = p.x < 0 ? 2 * quadrant - share : share;
   return static_cast<std::uint32_t>(p.y < 0 ? 4 * quadrant - half : half) % profile_sectors;
@@ -106,34 +114,40 @@ struct Segment {
     foot = square > 0 ? -dot(a, along) / square : 0;
   }
 
-  /// Square of the origin's distance to what lies in a sector made wider by `wider` on either side.
-  double square_distance_in(std::uint32_t k, double wider) const {
-    const Point right = boundaries().at[k], left = boundaries().at[k + 1];
+  /// Square of the origin's distance.
+  double square_distance() const { return square_distance_in({}); }
+
+  /// The same of what lies between two boundaries, each moved out by `wider`.
+  double square_distance_in(Point right, Point left, double wider) const {
     Clip clip;
     clip.keep_positive(cross(right, a) + wider, cross(right, b) + wider);
     clip.keep_positive(cross(a, left) + wider, cross(b, left) + wider);
     if (clip.from > clip.to) return infinity;
-    const double s = std::clamp(foot, clip.from, clip.to);
-    const Point nearest{a.x + s * along.x, a.y + s * along.y};
-    return dot(nearest, nearest);
+    return square_distance_in(clip);
+  }
+
+ private:
+  double square_distance_in(const Clip& clip) const {
+    const double share = std::clamp(foot, clip.from, clip.to);
+    const Point there{a.x + share * along.x, a.y + share * along.y};
+    return dot(there, there);
   }
 };
 
 /// How far the contour's inside goes on from the centre, sector by sector.
 class Inside {
  public:
-  Inside(Polygon contour, Point centre, double reach) : wider_(margin * reach) {
+  Inside(Polygon contour, Point centre, double reach) : to_(boundaries()), wider_(margin * reach) {
     square_.fill(infinity);
     bool inside = false;
-    Point a = minus(contour.back(), centre);
-    std::uint32_t sector_a = sector(a);
+    Corner a = corner(minus(contour.back(), centre));
     for (const Vec2 point : contour) {
-      const Point b = minus(point, centre);
-      const std::uint32_t sector_b = sector(b);
-      const bool left = cross(a, b) >= 0;
-      inside ^= (a.y > 0) != (b.y > 0) && left == (b.y > a.y);
-      limit({a, b}, left ? sector_a : sector_b, left ? sector_b : sector_a);
-      a = b, sector_a = sector_b;
+      const Corner b = corner(minus(point, centre));
+      const bool left = cross(a.at, b.at) >= 0;
+      inside ^= (a.at.y > 0) != (b.at.y > 0) && left == (b.at.y > a.at.y);
+      const std::uint32_t first = left ? a.sector : b.sector, last = left ? b.sector : a.sector;
+      limit({a.at, b.at}, first, last, a.is_near || b.is_near);
+      a = b;
     }
     // A contour so near would be wide of the neighbours of its sectors.
     const double nearest = *std::min_element(square_.begin(), square_.end());
@@ -146,35 +160,51 @@ class Inside {
   }
 
  private:
-  /// By a segment, in the sectors that it crosses, counter-clockwise, and their neighbours.
-  void limit(const Segment& segment, std::uint32_t first, std::uint32_t last) {
+  struct Corner {
+    Point at;
+    std::uint32_t sector;
+    bool is_near;  ///< a neighbour of its sector, made wider
+  };
+  Corner corner(Point p) const {
+    const std::uint32_t k = sector(p);
+    return {p, k, std::min(cross(to_.at[k], p), cross(p, to_.at[k + 1])) <= wider_};
+  }
+
+  /// By a segment, in the sectors that it crosses, counter-clockwise, and their neighbours. Most segments lie in one; and
+  /// in most of several there is a nearer one, whatever part of this one lies there.
+  void limit(const Segment& segment, std::uint32_t first, std::uint32_t last, bool is_near) {
+    const double least = segment.square_distance();
+    if (first == last && !is_near) {
+      square_[first] = std::min(square_[first], least);
+      return;
+    }
     const std::uint32_t end = (last + 2) % profile_sectors;
     for (std::uint32_t k = (first + profile_sectors - 1) % profile_sectors; k != end;
          k = (k + 1) % profile_sectors)
-      square_[k] = std::min(square_[k], segment.square_distance_in(k, wider_));
+      if (least < square_[k])
+        square_[k] = std::min(square_[k], segment.square_distance_in(to_.at[k], to_.at[k + 1], wider_));
   }
 
+  const Boundaries& to_;
   double wider_;
   std::array<double, profile_sectors> square_;  ///< of distances
 };
 
-/// The least that the contour extends to in a direction opposite to a sector: its farthest points do at either end, and
-/// what is positive there is no less between.
-float extent(const Interior& interior, Point centre, std::uint32_t k, double reach) {
-  double most = 0;
+/// The least that the contour extends to in directions opposite to each sector: its farthest points do at either end,
+/// and what is positive there is no less between.
+std::array<double, profile_sectors> extents(const Interior& interior, Point centre) {
+  const Boundaries& to = boundaries();
+  std::array<double, profile_sectors> most{};
   for (std::uint32_t i = 0; i < extreme_directions; ++i) {
     const Point p = minus({interior.extreme_x[i], interior.extreme_y[i]}, centre);
-    most = std::max(most, -std::max(dot(p, boundaries().at[k]), dot(p, boundaries().at[k + 1])));
+    std::array<double, profile_sectors + 1> behind;
+    for (std::uint32_t k = 0; k <= profile_sectors; ++k) behind[k] = -(p.x * to.x[k] + p.y * to.y[k]);
+    for (std::uint32_t k = 0; k < profile_sectors; ++k) {
+      const double both = behind[k] < behind[k + 1] ? behind[k] : behind[k + 1];
+      most[k] = most[k] < both ? both : most[k];
+    }
   }
-  return most > 0 ? static_cast<float>(most - margin * reach) : -infinity;
-}
-
-/// The farthest that anything extends to in a sector: to the corner of the supporting lines of either end, where the
-/// corner is in the sector.
-double farthest(std::uint32_t k, double right, double left) {
-  const double cosine = dot(boundaries().at[k], boundaries().at[k + 1]);
-  if (right < left * cosine || left < right * cosine) return std::max(right, left);
-  return std::sqrt((right * right + left * left - 2 * right * left * cosine) / (1 - cosine * cosine));
+  return most;
 }
 
 }  // namespace
@@ -188,25 +218,34 @@ Profile profile(const Outline& outline, const Interior& interior, double reach) 
   result.x = static_cast<float>(exact.x), result.y = static_cast<float>(exact.y);
   const Point centre = minus({result.x, result.y}, {0, 0});
   const Inside inside(contour, centre, reach);
-  for (std::uint32_t k = 0; k < profile_sectors; ++k) {
-    result.sectors[k].inner = inside.inner(k);
-    if (outline.contours() == 1) result.sectors[k].extent = extent(interior, centre, k, reach);
-  }
+  for (std::uint32_t k = 0; k < profile_sectors; ++k) result.sectors[k].inner = inside.inner(k);
+  if (outline.contours() > 1) return result;
+  const auto behind = extents(interior, centre);
+  for (std::uint32_t k = 0; k < profile_sectors; ++k)
+    if (behind[k] > 0) result.sectors[k].extent = static_cast<float>(behind[k] - margin * reach);
   return result;
 }
 
 Outer outer(const Profile& profile, const float* x, const float* y, const float* radius, std::uint32_t count,
             double reach) {
+  const Boundaries& to = boundaries();
   std::array<float, profile_sectors> heights;
-  CutLanes<xsimd::sse2>::heights({x, y, radius, count}, boundaries().cosine.data(), boundaries().sine.data(),
-                                 heights.data());
-  const Point centre{profile.x, profile.y};
-  const auto height = [&](std::uint32_t k) {
-    return static_cast<double>(heights[k % profile_sectors]) - dot(centre, boundaries().at[k]);
-  };
-  Outer result;
+  CutLanes<xsimd::sse2>::heights({x, y, radius, count}, to.cosine.data(), to.sine.data(), heights.data());
+  const auto centre_x = static_cast<double>(profile.x), centre_y = static_cast<double>(profile.y);
+  std::array<double, profile_sectors + 1> height;
   for (std::uint32_t k = 0; k < profile_sectors; ++k)
-    result[k] = static_cast<float>(farthest(k, height(k), height(k + 1)) + rounding::support_margin * reach);
+    height[k] = static_cast<double>(heights[k]) - (centre_x * to.x[k] + centre_y * to.y[k]);
+  height[profile_sectors] = height[0];
+  // To the corner of the supporting lines of either end, where it is in the sector. Without a branch.
+  Outer result;
+  for (std::uint32_t k = 0; k < profile_sectors; ++k) {
+    const double right = height[k], left = height[k + 1], cosine = to.gap_cosine[k];
+    const double corner =
+        std::sqrt((right * right + left * left - 2 * right * left * cosine) * to.over_square_sine[k]);
+    const double larger = right < left ? left : right, smaller = right < left ? right : left;
+    const double farthest = smaller < larger * cosine ? larger : corner;
+    result[k] = static_cast<float>(farthest + rounding::support_margin * reach);
+  }
   return result;
 }
 

@@ -13,11 +13,12 @@
 namespace bch {
 namespace {
 
+/// Of the first quadrant.
 struct Directions {
-  std::array<float, support_directions> cosine, sine;
+  std::array<float, support_directions / 4> cosine, sine;
 
   Directions() {
-    for (std::uint32_t k = 0; k < support_directions; ++k) {
+    for (std::uint32_t k = 0; k < cosine.size(); ++k) {
       const Rotation direction = rotation(2 * std::numbers::pi * k / support_directions);
       cosine[k] = static_cast<float>(direction.cosine);
       sine[k] = static_cast<float>(direction.sine);
