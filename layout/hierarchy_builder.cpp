@@ -53,13 +53,17 @@ void require_reach(double reach) {
     throw std::invalid_argument("hierarchy: reach " + std::to_string(reach) + " m is outside 1e-6 to 1e6 m");
 }
 
+void require_threshold(float threshold) {
+  if (!(threshold > 0) || !std::isfinite(threshold))
+    throw std::invalid_argument("hierarchy: threshold " + std::to_string(threshold) +
+                                " m is not positive and finite");
+}
+
 void HierarchyBuilder::contour(const Outline& outline, float threshold, SplitRule rule, Hierarchy& hierarchy,
                                std::uint32_t deepest) {
   hierarchy.nodes.clear();
   validate(outline);
-  if (!(threshold > 0) || !std::isfinite(threshold))
-    throw std::invalid_argument("hierarchy: threshold " + std::to_string(threshold) +
-                                " m is not positive and finite");
+  require_threshold(threshold);
   hierarchy.reach = reach(outline.points);
   begin(hierarchy.reach, rounding::outline_grid_steps * widened(outline.grid_step), widened(threshold));
   for (std::size_t c = 0; c < outline.contours(); ++c) {
@@ -89,6 +93,18 @@ void HierarchyBuilder::projected(std::span<const Vec2> vertices,
   begin(hierarchy.reach, 0, 0);
   for (const auto& [a, b, c] : triangles) add_triangle({vertices[a], vertices[b], vertices[c]});
   grow(false, all_depths);
+  publish(hierarchy);
+}
+
+void HierarchyBuilder::root(std::span<const Vec2> points, float grid_step, Hierarchy& hierarchy) {
+  hierarchy.nodes.clear();
+  if (points.empty()) throw std::invalid_argument("hierarchy: no points");
+  hierarchy.reach = reach(points);
+  require_reach(hierarchy.reach);
+  begin(hierarchy.reach, rounding::outline_grid_steps * widened(grid_step), 0);
+  unsolved_.push_back({add_node(none), 0, 0});
+  sets_.assign(1, {0, static_cast<std::uint32_t>(points.size())});
+  solve(points);
   publish(hierarchy);
 }
 
@@ -296,8 +312,13 @@ void HierarchyBuilder::solve_discs() {
   sets_.resize(unsolved_.size());
   for (std::size_t i = 0; i < sets_.size(); ++i)
     sets_[i] = {first_point_[unsolved_[i].begin], last_point_[unsolved_[i].end - 1] + 1};
+  solve(points_);
+}
+
+/// The sets, which are those of the unsolved nodes.
+void HierarchyBuilder::solve(std::span<const Vec2> points) {
   discs_.resize(sets_.size());
-  solver_.solve(points_, sets_, discs_);
+  solver_.solve(points, sets_, discs_);
   for (std::size_t i = 0; i < discs_.size(); ++i) {
     nodes_.centre[unsolved_[i].node] = discs_[i].centre;
     nodes_.square_radius[unsolved_[i].node] = discs_[i].square_radius;

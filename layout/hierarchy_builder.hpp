@@ -30,6 +30,11 @@ class HierarchyBuilder {
   void contour(const Outline& outline, float threshold, SplitRule rule, Hierarchy& hierarchy,
                std::uint32_t deepest = all_depths);
 
+  /// The root of contour() alone, without elements, for an outline with these points on its convex hull and no others there
+  /// that decide the disc around it or its reach. After an exception the hierarchy has no nodes.
+  /// Errors:  throws std::invalid_argument on no points or a reach outside rounding.hpp's domain.
+  void root(std::span<const Vec2> points, float grid_step, Hierarchy& hierarchy);
+
   /// As projected_hierarchy() documents. After an exception the hierarchy has no nodes.
   void projected(std::span<const Vec2> vertices, std::span<const std::array<std::uint32_t, 3>> triangles,
                  Hierarchy& hierarchy);
@@ -68,6 +73,7 @@ class HierarchyBuilder {
   bool is_leaf(std::span<const std::uint32_t> order, const SplitMeasure& box);
   void gather_points(std::span<const std::uint32_t> order);
   void solve_discs();
+  void solve(std::span<const Vec2> points);
   void publish(Hierarchy& hierarchy);
 
   double margin_ = 0, threshold_ = 0;
@@ -99,5 +105,7 @@ class HierarchyBuilder {
 
 /// Throws std::invalid_argument on a reach outside rounding.hpp's domain.
 void require_reach(double reach);
+/// Throws std::invalid_argument unless the threshold is positive and finite.
+void require_threshold(float threshold);
 
 }  // namespace bch

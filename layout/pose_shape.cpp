@@ -3,6 +3,7 @@
 
 #include "layout/pose_shape.hpp"
 
+#include <cassert>
 #include <utility>
 
 #include "layout/union_outline.hpp"
@@ -15,19 +16,30 @@ Shape pose_shape(Skinner& skinner, PoseTime at, float threshold) {
   return {std::move(outline), std::move(hierarchy)};
 }
 
-PoseShaper::PoseShaper(const Character& character, float threshold, std::uint32_t deepest)
-    : threshold_(threshold),
-      deepest_(deepest),
-      skinner_(character),
-      outline_builder_(character.triangles, character.vertices.size(), character.vertices) {}
+PoseShaper::PoseShaper(const Character& character, float threshold, std::uint32_t deepest, bool outlines)
+    : threshold_(threshold), deepest_(deepest), skinner_(character) {
+  if (deepest == 0 && !outlines)
+    extremes_.emplace(character.triangles, character.vertices.size());
+  else
+    outline_builder_.emplace(character.triangles, character.vertices.size(), character.vertices);
+}
 
 const Shape& PoseShaper::shape(PoseTime at) {
+  if (extremes_) return make_root(at);
   make_outline(at);
   return make_hierarchy();
 }
 
+const Shape& PoseShaper::make_root(PoseTime at) {
+  require_threshold(threshold_);
+  extremes_->find(skinner_.pose(at));
+  hierarchy_builder_.root(extremes_->points(), extremes_->grid_step(), shape_.hierarchy);
+  return shape_;
+}
+
 const Outline& PoseShaper::make_outline(PoseTime at) {
-  outline_builder_.build(skinner_.pose(at), shape_.outline);
+  assert(outline_builder_);
+  outline_builder_->build(skinner_.pose(at), shape_.outline);
   return shape_.outline;
 }
 

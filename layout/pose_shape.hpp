@@ -3,6 +3,9 @@
 
 #pragma once
 
+#include <optional>
+
+#include "layout/extreme_vertices.hpp"
 #include "layout/hierarchy_builder.hpp"
 #include "layout/outline_builder.hpp"
 #include "layout/shape_set.hpp"
@@ -21,9 +24,11 @@ Shape pose_shape(Skinner& skinner, PoseTime at, float threshold = 0.01f);
 class PoseShaper {
  public:
   /// The character must outlive this and must be valid (see validate()); the threshold is that of
-  /// pose_shape(). `deepest`: of a plan's depths; hierarchies end there.
-  explicit PoseShaper(const Character& character, float threshold = 0.01f,
-                      std::uint32_t deepest = all_depths);
+  /// pose_shape(). `deepest`: of a plan's depths; hierarchies end there. `outlines`: whether anybody looks at them, as
+  /// the solid semantics does. Where nobody does, depth 0 takes the outermost vertices alone, a fifth of the time, and
+  /// shapes have neither outlines nor elements; see ExtremeVertices for what is the same.
+  explicit PoseShaper(const Character& character, float threshold = 0.01f, std::uint32_t deepest = all_depths,
+                      bool outlines = true);
 
   /// Returns: the shape that pose_shape() makes, down to the deepest depth, until the next call.
   /// Errors:  as pose_shape(); the shape made before is lost.
@@ -31,14 +36,18 @@ class PoseShaper {
 
   /// shape() in two steps, for who needs the outline alone or takes the time of each: make_outline() is about
   /// a pose, make_hierarchy() about the outline made last.
+  /// Preconditions: the shaper makes outlines.
   const Outline& make_outline(PoseTime at);
   const Shape& make_hierarchy();
 
  private:
+  const Shape& make_root(PoseTime at);
+
   float threshold_;
   std::uint32_t deepest_;
   Skinner skinner_;
-  OutlineBuilder outline_builder_;
+  std::optional<OutlineBuilder> outline_builder_;  ///< this or the next
+  std::optional<ExtremeVertices> extremes_;
   HierarchyBuilder hierarchy_builder_;
   Shape shape_;
 };

@@ -45,9 +45,29 @@ TEST(PoseShaper, MakesTheShapesThatAreMadeOneByOne) {
   for (const Character& character : test::real_characters(*data)) expect_as_one_by_one(character, 0.01f);
 }
 
-TEST(PoseShaper, AllocatesNothingTheSecondTime) {
+/// Depth 0 without an outline: the same disc, bit for bit.
+void expect_root_as_with_outline(const Character& character, std::uint32_t poses) {
+  PoseShaper with(character, 0.01f, 0), without(character, 0.01f, 0, false);
+  for (const PoseTime& time : sample_poses(character, poses)) {
+    const Hierarchy &expected = with.shape(time).hierarchy, &root = without.shape(time).hierarchy;
+    ASSERT_EQ(root.nodes.size(), 1u);
+    EXPECT_EQ(root.nodes[0].disc, expected.nodes[0].disc);
+    EXPECT_EQ(root.nodes[0].bound, expected.nodes[0].bound);
+    EXPECT_TRUE(root.nodes[0].is_leaf());
+    EXPECT_EQ(root.reach, expected.reach);
+  }
+}
+
+TEST(PoseShaper, NeedsNoOutlineForTheRootAlone) {
+  for (const Character& character : test::default_characters()) expect_root_as_with_outline(character, 200);
+  const auto data = test::test_data();
+  if (!data) return;
+  for (const Character& character : test::real_characters(*data)) expect_root_as_with_outline(character, 50);
+}
+
+void expect_no_allocations_the_second_time(std::uint32_t deepest, bool outlines) {
   const Character woman = default_female();
-  PoseShaper shaper(woman);
+  PoseShaper shaper(woman, 0.01f, deepest, outlines);
   const std::vector<PoseTime> times = sample_poses(woman, 20);
   const std::size_t before = test::allocation_count();
   for (const PoseTime& time : times) shaper.shape(time);
@@ -57,9 +77,15 @@ TEST(PoseShaper, AllocatesNothingTheSecondTime) {
   EXPECT_EQ(test::allocation_count(), first);
 }
 
+TEST(PoseShaper, AllocatesNothingTheSecondTime) {
+  expect_no_allocations_the_second_time(all_depths, true);
+  expect_no_allocations_the_second_time(0, false);
+}
+
 TEST(PoseShaper, RejectsWhatItsPartsReject) {
   const Character man = default_male();
   EXPECT_THROW(PoseShaper(man, -1.0f).shape({PoseTime::rest, 0}), std::invalid_argument);
+  EXPECT_THROW(PoseShaper(man, -1.0f, 0, false).shape({PoseTime::rest, 0}), std::invalid_argument);
   PoseShaper shaper(man);
   EXPECT_THROW(shaper.shape({static_cast<std::uint32_t>(man.clips.size()), 0}), std::invalid_argument);
   Skinner skinner(man);

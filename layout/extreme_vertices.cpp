@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include "layout/extreme_vertices.hpp"
+
+#include <emmintrin.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "layout/grid_snap.hpp"
+
+namespace bch {
+namespace {
+
+/// Vertices whose squares fill a register.
+constexpr std::size_t block = 4;
+/// A square, in float of coordinates that float holds, is off by less than this share of it.
+constexpr double slack = 0x1p-20;
+
+/// The squares of four points' distances.
+__m128 squares_of(const GridPoint* points, __m128 from) {
+  const auto two = [&](const GridPoint* first) {
+    const __m128i steps = _mm_loadu_si128(reinterpret_cast<const __m128i*>(first));
+    const __m128 way = _mm_sub_ps(_mm_cvtepi32_ps(steps), from);
+    return _mm_mul_ps(way, way);
+  };
+  const __m128 low = two(points), high = two(points + 2);
+  return _mm_add_ps(_mm_shuffle_ps(low, high, _MM_SHUFFLE(2, 0, 2, 0)),
+                    _mm_shuffle_ps(low, high, _MM_SHUFFLE(3, 1, 3, 1)));
+}
+
+double squared_distance(GridPoint a, GridPoint b) {
+  const GridVector way = b - a;
+  return static_cast<double>(dot(way, way));
+}
+
+}  // namespace
+
+ExtremeVertices::ExtremeVertices(std::span<const std::array<std::uint32_t, 3>> triangles,
+                                 std::size_t vertices) {
+  std::vector<bool> is_used(vertices);
+  for (const auto& triangle : triangles)
+    for (const std::uint32_t vertex : triangle) is_used[vertex] = true;
+  for (std::uint32_t v = 0; v < vertices; ++v)
+    if (is_used[v]) used_.push_back(v);
+  grid_.resize((used_.size() + block - 1) / block * block);
+  for (auto* squares : {&from_origin_, &from_first_, &from_middle_}) squares->resize(grid_.size());
+}
+
+/// The disc's radius R is at least half of any two vertices' distance. For any point at m from its centre, some vertex is
+/// at least sqrt(R^2 + m^2) away, so the farthest one bounds m, and the vertices on the disc's boundary are at least R - m
+/// away. All others may be left out, but those as far from the origin as the first, as far as floats tell.
+void ExtremeVertices::find(std::span<const Eigen::Vector3f> positions) {
+  step_ = snap_to_grid(positions, used_, std::span(grid_).first(used_.size()));
+  std::fill(grid_.begin() + static_cast<std::ptrdiff_t>(used_.size()), grid_.end(), grid_[used_.size() - 1]);
+  const std::size_t first = farthest_from({0, 0}, from_origin_);
+  const GridPoint a = grid_[first];
+  const GridPoint b = grid_[farthest_from({static_cast<float>(a.x), static_cast<float>(a.y)}, from_first_)];
+  const Vec2 middle{0.5f * static_cast<float>(a.x + b.x), 0.5f * static_cast<float>(a.y + b.y)};
+  const std::size_t last = farthest_from(middle, from_middle_);
+
+  const double at_least = 0.25 * squared_distance(a, b) * (1 - slack);
+  const double at_most = static_cast<double>(from_middle_[last]) * (1 + slack);
+  const double nearest = std::sqrt(at_least) - std::sqrt(std::max(0.0, at_most - at_least));
+  keep(static_cast<float>((1 - slack) * (nearest > 0 ? nearest * nearest : 0)),
+       static_cast<float>((1 - slack) * static_cast<double>(from_origin_[first])));
+}
+
+/// Which is the farthest, as far as floats tell.
+std::size_t ExtremeVertices::farthest_from(Vec2 point, std::vector<float>& squares) const {
+  const __m128 from = _mm_setr_ps(point.x, point.y, point.x, point.y);
+  __m128 largest = _mm_setzero_ps();
+  for (std::size_t i = 0; i < grid_.size(); i += block) {
+    const __m128 four = squares_of(&grid_[i], from);
+    _mm_storeu_ps(&squares[i], four);
+    largest = _mm_max_ps(largest, four);
+  }
+  alignas(16) float lanes[block];
+  _mm_store_ps(lanes, largest);
+  const float most = *std::max_element(lanes, lanes + block);
+  const __m128 sought = _mm_set1_ps(most);
+  std::size_t i = 0;
+  while (_mm_movemask_ps(_mm_cmpeq_ps(_mm_loadu_ps(&squares[i]), sought)) == 0) i += block;
+  while (squares[i] != most) ++i;
+  return i;
+}
+
+/// Those that are as far as that from the middle or from the origin.
+void ExtremeVertices::keep(float from_middle, float from_origin) {
+  points_.clear();
+  const __m128 middle = _mm_set1_ps(from_middle), origin = _mm_set1_ps(from_origin);
+  for (std::size_t i = 0; i < grid_.size(); i += block) {
+    const __m128 far = _mm_or_ps(_mm_cmpge_ps(_mm_loadu_ps(&from_middle_[i]), middle),
+                                 _mm_cmpge_ps(_mm_loadu_ps(&from_origin_[i]), origin));
+    const int bits = _mm_movemask_ps(far);
+    if (bits == 0) continue;
+    for (std::size_t k = 0; k < block; ++k)
+      if ((bits >> k & 1) != 0)
+        points_.push_back(
+            {static_cast<float>(grid_[i + k].x * step_), static_cast<float>(grid_[i + k].y * step_)});
+  }
+}
+
+}  // namespace bch
