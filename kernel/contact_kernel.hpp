@@ -11,6 +11,7 @@
 #include "kernel/contact.hpp"
 #include "kernel/lanes.hpp"
 #include "kernel/placements.hpp"
+#include "kernel/tree_nodes.hpp"
 #include "layout/cut_discs.hpp"
 #include "layout/rounding.hpp"
 #include "layout/shape_set_view.hpp"
@@ -221,20 +222,15 @@ class ContactKernel {
 
   /// Bit 8 i + j: disc i of a node of the rows, disc j of one of the columns.
   std::uint64_t overlaps_of(std::uint32_t rows, std::uint32_t columns) const noexcept {
-    const Discs of_rows = discs(rows, rows_.stride), of_columns = discs(columns, columns_.stride);
+    const Discs of_rows = TreeNodes<Simd>::discs(nodes_, rows, rows_.stride),
+                of_columns = TreeNodes<Simd>::discs(nodes_, columns, columns_.stride);
     const float slack = (rows & columns) >= leaf_window ? 0 : slack_;
     if (!swapped_) return overlapping_discs<Simd>(b_in_a_, of_rows, of_columns, slack);
     return transposed(overlapping_discs<Simd>(b_in_a_, of_columns, of_rows, slack));
   }
 
-  Discs discs(std::uint32_t node, std::uint32_t stride) const noexcept {
-    return {nodes_ + (node & ~leaf_window), node >= leaf_window ? stride : block_width};
-  }
-
   std::uint32_t child(std::uint32_t node, unsigned lane) const noexcept {
-    std::uint32_t name;
-    __builtin_memcpy(&name, nodes_ + node + 3 * block_width + lane, sizeof name);
-    return name;
+    return TreeNodes<Simd>::child(nodes_, node, lane);
   }
 
   /// Of a matrix of 8 x 8 bits. Source: Warren, Hacker's Delight, 7-3.

@@ -9,6 +9,7 @@
 #include "kernel/clearance_arguments.hpp"
 #include "kernel/disc_pairs.hpp"
 #include "kernel/lanes.hpp"
+#include "kernel/tree_nodes.hpp"
 #include "layout/shape_set_view.hpp"
 
 namespace bch::kernel {
@@ -85,15 +86,12 @@ class NearestWalk {
   }
 
   Discs discs(std::uint32_t node, std::uint32_t stride) const noexcept {
-    return {nodes_ + (node & ~leaf_window), node < leaf_window ? block_width : stride};
+    return TreeNodes<Simd>::discs(nodes_, node, stride);
   }
 
   /// Of a window, itself.
   std::uint32_t child(std::uint32_t node, unsigned lane) const noexcept {
-    if (node >= leaf_window) return node;
-    std::uint32_t name;
-    __builtin_memcpy(&name, nodes_ + node + 3 * block_width + lane, sizeof name);
-    return name;
+    return node >= leaf_window ? node : TreeNodes<Simd>::child(nodes_, node, lane);
   }
 
  private:

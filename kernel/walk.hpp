@@ -8,6 +8,7 @@
 
 #include "kernel/arguments.hpp"
 #include "kernel/block_test.hpp"
+#include "kernel/tree_nodes.hpp"
 #include "layout/rounding.hpp"
 #include "layout/shape_set_view.hpp"
 
@@ -44,6 +45,7 @@ class Walk {
   }
 
  private:
+  using Nodes = TreeNodes<Simd>;
   /// Every test descends on one side at least, and neither side has more levels than this.
   static constexpr std::uint32_t most_frames = 2 * most_wide_levels;
   static constexpr std::uint64_t first_column = 0x0101010101010101;
@@ -77,31 +79,19 @@ class Walk {
     const float* const nodes = shapes_.nodes;
     for (std::uint32_t k = 0; k < size_; ++k) {
       const Open& at = open_[slots_[k]];
-      hits_[k] =
-          overlapping_discs<Simd>(at.b_in_a, discs(nodes, at.a, at.stride_a), discs(nodes, at.b, at.stride_b),
-                                  unless_leaves(at.slack, at.a & at.b));
+      hits_[k] = overlapping_discs<Simd>(at.b_in_a, Nodes::discs(nodes, at.a, at.stride_a),
+                                         Nodes::discs(nodes, at.b, at.stride_b),
+                                         unless_leaves(at.slack, at.a & at.b));
     }
   }
 
-  // Masks, not conditions: GCC makes branches of those, and no processor can predict these.
-  static std::uint32_t all_if_leaf(std::uint32_t node) noexcept { return -(node / leaf_window); }
-  static std::uint64_t wide(std::uint32_t mask) noexcept { return mask | std::uint64_t{mask} << 32; }
+  /// By a mask, as TreeNodes::discs().
   static float unless_leaves(float slack, std::uint32_t both) noexcept {
     std::uint32_t bits;
     __builtin_memcpy(&bits, &slack, sizeof bits);
     bits &= both / leaf_window - 1;
     __builtin_memcpy(&slack, &bits, sizeof bits);
     return slack;
-  }
-
-  static Discs discs(const float* nodes, std::uint32_t node, std::uint32_t stride) noexcept {
-    return {nodes + (node & ~leaf_window), block_width + (all_if_leaf(node) & (stride - block_width))};
-  }
-
-  static std::uint32_t child(const float* nodes, std::uint32_t node, unsigned lane) noexcept {
-    std::uint32_t name;
-    __builtin_memcpy(&name, nodes + node + 3 * block_width + lane, sizeof name);
-    return name;
   }
 
   /// Answers where leaves overlap; else keeps the hits for later, takes the next open one, and names the nodes to
@@ -129,13 +119,14 @@ class Walk {
       const auto bit = static_cast<unsigned>(__builtin_ctzll(open | std::uint64_t{1} << 63));
       const unsigned i = bit / block_width, j = bit % block_width;
       if ((top.a | top.b) < leaf_window) [[likely]] {
-        at.a = child(nodes, top.a, i);
-        at.b = child(nodes, top.b, j);
+        at.a = Nodes::child(nodes, top.a, i);
+        at.b = Nodes::child(nodes, top.b, j);
       } else {
         at.a = top.a, at.b = top.b;
         // All of a window's discs are tested at once: its other hits on the same child are settled with this one.
-        if (top.a < leaf_window) at.a = child(nodes, top.a, i), rest &= ~(std::uint64_t{0xff} << (bit - j));
-        if (top.b < leaf_window) at.b = child(nodes, top.b, j), rest &= ~(first_column << j);
+        if (top.a < leaf_window)
+          at.a = Nodes::child(nodes, top.a, i), rest &= ~(std::uint64_t{0xff} << (bit - j));
+        if (top.b < leaf_window) at.b = Nodes::child(nodes, top.b, j), rest &= ~(first_column << j);
       }
       top.open = rest;
       at.top = top_index - (rest == 0);

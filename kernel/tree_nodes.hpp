@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <cstdint>
+
+#include "kernel/block_test.hpp"
+#include "layout/shape_set_view.hpp"
+
+namespace bch::kernel {
+
+/// What a node's name leads to among ShapeSetView::nodes. (`Simd` keeps instruction sets from sharing a function.)
+template <class Simd>
+struct TreeNodes {
+  /// Masks, not conditions: GCC makes branches of those, and no processor can predict which nodes are leaves.
+  static std::uint32_t all_if_leaf(std::uint32_t node) noexcept { return -(node / leaf_window); }
+
+  /// `stride`: that of the node's tree.
+  static Discs discs(const float* nodes, std::uint32_t node, std::uint32_t stride) noexcept {
+    return {nodes + (node & ~leaf_window), block_width + (all_if_leaf(node) & (stride - block_width))};
+  }
+
+  /// Below a disc of a block.
+  static std::uint32_t child(const float* nodes, std::uint32_t block, unsigned lane) noexcept {
+    std::uint32_t name;
+    __builtin_memcpy(&name, nodes + block + 3 * block_width + lane, sizeof name);
+    return name;
+  }
+};
+
+}  // namespace bch::kernel
