@@ -7,6 +7,7 @@
 
 #include <charconv>
 #include <cstring>
+#include <initializer_list>
 #include <string_view>
 
 // The reader's own thread gains nothing here, and a program without threads may still fork.
@@ -23,6 +24,9 @@ namespace {
 template <unsigned columns>
 using Reader = io::CSVReader<columns, io::trim_chars<' ', '\t'>, io::double_quote_escape<',', '"'>,
                              io::throw_on_overflow, io::empty_line_comment>;
+
+/// Two agents' ways apart are within contact_time()'s limit.
+constexpr double largest_way = rounding::largest_position / 2;
 
 /// A place in a file, for messages.
 struct Place {
@@ -93,17 +97,22 @@ void add_agent(const Place& place, AgentTable& table, const char* id, std::uint3
 
 }  // namespace
 
-AgentTable read_agents(const std::string& file, std::uint32_t shapes, std::uint32_t levels) {
+AgentTable read_agents(const std::string& file, std::uint32_t shapes, std::uint32_t levels, bool moving) {
   AgentTable table;
   with_csv_errors(file, [&] {
-    Reader<6> reader(file);
-    reader.read_header(io::ignore_missing_column, "id", "shape", "x", "y", "heading", "level");
-    for (const char* required : {"id", "shape", "x", "y", "heading"})
-      if (!reader.has_column(required))
-        throw InputError(fmt::format("{}:1: has no column '{}'", file, required));
+    Reader<8> reader(file);
+    reader.read_header(io::ignore_missing_column, "id", "shape", "x", "y", "heading", "level", "dx", "dy");
+    const auto require_columns = [&](std::initializer_list<const char*> names) {
+      for (const char* name : names)
+        if (!reader.has_column(name)) throw InputError(fmt::format("{}:1: has no column '{}'", file, name));
+    };
+    require_columns({"id", "shape", "x", "y", "heading"});
     const bool has_level = reader.has_column("level");
-    char *id = nullptr, *shape = nullptr, *x = nullptr, *y = nullptr, *heading = nullptr, *level = nullptr;
-    while (reader.read_row(id, shape, x, y, heading, level)) {
+    const bool has_way = moving || reader.has_column("dx") || reader.has_column("dy");
+    if (has_way) require_columns({"dx", "dy"});
+    char *id = nullptr, *shape = nullptr, *x = nullptr, *y = nullptr, *heading = nullptr, *level = nullptr,
+         *dx = nullptr, *dy = nullptr;
+    while (reader.read_row(id, shape, x, y, heading, level, dx, dy)) {
       const Place place{file, reader.get_file_line()};
       add_agent(place, table, id, index_below(place, "shape", shape, shapes),
                 number_within(place, "x", x, rounding::largest_position),
@@ -111,6 +120,9 @@ AgentTable read_agents(const std::string& file, std::uint32_t shapes, std::uint3
                 number_within(place, "heading", heading, rounding::largest_heading));
       if (has_level)
         table.level.push_back(static_cast<std::uint8_t>(index_below(place, "level", level, levels)));
+      if (!has_way) continue;
+      table.dx.push_back(number_within(place, "dx", dx, largest_way));
+      table.dy.push_back(number_within(place, "dy", dy, largest_way));
     }
   });
   return table;

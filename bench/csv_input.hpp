@@ -19,6 +19,7 @@ struct AgentTable {
   std::vector<std::uint32_t> shape;
   std::vector<double> x, y, heading;
   std::vector<std::uint8_t> level;  ///< empty without that column
+  std::vector<double> dx, dy;       ///< how far an agent moves, metres; empty without these columns
 
   Agents agents() const { return {shape, x, y, heading, level}; }
 };
@@ -27,9 +28,10 @@ struct AgentTable {
 /// either kind of line ending.
 /// Errors:  throw InputError naming file, line and value.
 
-/// Columns id,shape,x,y,heading[,level]. An id is any text, unique; shapes are below `shapes`, levels below
-/// `levels`, the rest within the limits of collide().
-AgentTable read_agents(const std::string& file, std::uint32_t shapes, std::uint32_t levels);
+/// Columns id,shape,x,y,heading[,level][,dx,dy]. An id is any text, unique; shapes are below `shapes`, levels below
+/// `levels`, the rest within the limits of collide() and, for every two agents, of contact_time().
+/// `moving`: dx and dy have to be there.
+AgentTable read_agents(const std::string& file, std::uint32_t shapes, std::uint32_t levels, bool moving);
 
 /// Columns first,second: ids of agents.
 std::vector<Pair> read_pairs(const std::string& file, const AgentTable& agents);

@@ -9,6 +9,8 @@
 #include <iterator>
 #include <vector>
 
+#include "kernel/clearance.hpp"
+#include "kernel/contact_time.hpp"
 #include "kernel/contacts.hpp"
 #include "kernel/separation.hpp"
 
@@ -57,8 +59,43 @@ std::string separation_rows(const QueryInput& input) {
   return out;
 }
 
+std::string clearance_rows(const QueryInput& input) {
+  std::vector<float> distance(input.pairs.size());
+  std::vector<Vec2> direction(input.pairs.size());
+  clearance(input.set, input.table.agents(), input.pairs, {distance, direction},
+            {input.max_distance, input.options.implementation});
+  std::string out;
+  for (std::size_t i = 0; i < distance.size(); ++i)
+    fmt::format_to(std::back_inserter(out), "{},{},{},{}\n", ids(input, i), distance[i], direction[i].x,
+                   direction[i].y);
+  return out;
+}
+
+std::string contact_time_rows(const QueryInput& input) {
+  std::vector<double> x, y;
+  for (const auto [first, second] : input.pairs) {
+    x.push_back(input.table.dx[first] - input.table.dx[second]);
+    y.push_back(input.table.dy[first] - input.table.dy[second]);
+  }
+  std::vector<float> time(input.pairs.size());
+  contact_time(input.set, input.table.agents(), input.pairs, {x, y}, time, {input.options.implementation});
+  std::string out;
+  for (std::size_t i = 0; i < time.size(); ++i)
+    fmt::format_to(std::back_inserter(out), "{},{}\n", ids(input, i), time[i]);
+  return out;
+}
+
 constexpr QueryKind kinds[] = {
     {"collide", "hit", "1 where the agents collide, else 0", collide_rows},
+    {"clearance", "distance,x,y",
+     "the least gap, in metres, of a disc of each, below 0 where they\n"
+     "               overlap, and the unit vector from the first one's to the second's; inf,0,0\n"
+     "               beyond --max-distance",
+     clearance_rows},
+    {"contact-time", "time",
+     "from 0 to 1, when the agents touch first while each moves by its dx\n"
+     "               and dy; inf: they do not",
+     contact_time_rows, true},
     {"contacts", "first_disc,second_disc",
      "a line for each two discs that overlap, by their\n"
      "               numbers in the agents' cuts, from 0 on, depth first",
@@ -83,7 +120,7 @@ const QueryKind& query_kind(const std::string& name) {
 std::string query_help() {
   std::string text;
   for (const QueryKind& kind : kinds)
-    text += fmt::format("  {:<11} first,second,{}: {}\n", kind.name, kind.columns, kind.help);
+    text += fmt::format("  {:<12} first,second,{}: {}\n", kind.name, kind.columns, kind.help);
   return text;
 }
 

@@ -21,6 +21,7 @@ struct QueryInput {
   QueryOptions options;
   std::uint32_t directions;       ///< of a separation
   std::optional<Vec2> direction;  ///< of a separation: the only one
+  double max_distance;            ///< of a clearance
 };
 
 /// One of the questions that --what names.
@@ -30,6 +31,7 @@ struct QueryKind {
   const char* help;     ///< what they are, in the words of --help
   /// The answer as CSV, without the header, in the order of the pairs.
   std::string (*rows)(const QueryInput& input);
+  bool moving = false;  ///< asks how agents move
 };
 
 /// All of them; the first is the default.

@@ -20,6 +20,7 @@
 #include "bench/threads.hpp"
 #include "kernel/collide_all.hpp"
 #include "kernel/separation.hpp"
+#include "layout/rounding.hpp"
 
 namespace bch::cli {
 namespace {
@@ -30,6 +31,7 @@ struct QueryCommandOptions {
   std::string what = query_kinds().front().name;
   std::uint32_t directions = 16;
   std::string direction;  ///< empty: the best of many
+  double max_distance = HUGE_VAL;
   ShapeOptions shapes;
   AnswerOptions answer;
 
@@ -80,9 +82,9 @@ struct Question {
 
 /// Files first, so that a wrong value does not wait for shapes to be built.
 Question read_question(const QueryCommandOptions& options, std::size_t shapes, std::size_t levels) {
-  Question question{
-      read_agents(options.agents, static_cast<std::uint32_t>(shapes), static_cast<std::uint32_t>(levels)),
-      {}};
+  Question question{read_agents(options.agents, static_cast<std::uint32_t>(shapes),
+                                static_cast<std::uint32_t>(levels), query_kind(options.what).moving),
+                    {}};
   if (!options.all_pairs) question.pairs = read_pairs(options.pairs, question.table);
   return question;
 }
@@ -93,7 +95,8 @@ void answer(const QueryCommandOptions& options, const ShapeSet& set, Question& q
   if (options.all_pairs) pairs = colliding_pairs(set, table.agents(), how);
   const QueryKind& kind = query_kind(options.what);
   write_standard_output(fmt::format("first,second,{}\n", kind.columns) +
-                        kind.rows({set, table, pairs, how, options.directions, options.only_direction()}));
+                        kind.rows({set, table, pairs, how, options.directions, options.only_direction(),
+                                   options.max_distance}));
 }
 
 void query_character(const QueryCommandOptions& options) {
@@ -125,6 +128,9 @@ void run_query(const CLI::App& command, const QueryCommandOptions& options) {
                                        : "PAIRS.csv or --all-pairs is missing");
   if (options.what != "separation")
     require_absent(command, {"--directions", "--direction"}, "belongs to --what separation");
+  if (options.what != "clearance") require_absent(command, {"--max-distance"}, "belongs to --what clearance");
+  if (query_kind(options.what).moving)
+    require_absent(command, {"--all-pairs"}, "agents that collide now touch at once");
   if (!options.direction.empty()) require_absent(command, {"--directions"}, "--direction names the only one");
   if (options.directions % 2 != 0)
     throw UsageError(fmt::format("--directions: '{}' is odd", options.directions));
@@ -142,11 +148,13 @@ std::function<void()> add_query_command(CLI::App& program) {
   command.footer(
       "In AGENTS.csv an id is any text, shape the number that bch inspect gives it with the same --poses, x "
       "and y are\n"
-      "metres, heading is in radians, level an index into --depths (without that column: the last).\n"
+      "metres, heading is in radians, level an index into --depths (without that column: the last), dx and "
+      "dy\n"
+      "say how far the agent moves, in metres, without turning.\n"
       "Writes a line for each line of PAIRS.csv, in that order, or what --what says:\n" +
       query_help() + "Example: bch query default:female agents.csv pairs.csv > answers.csv");
   command.add_option("SHAPES", options->character, character_or_baked_help)->type_name("")->required();
-  command.add_option("AGENTS.csv", options->agents, "Columns id,shape,x,y,heading[,level]")
+  command.add_option("AGENTS.csv", options->agents, "Columns id,shape,x,y,heading[,level][,dx,dy]")
       ->type_name("")
       ->required();
   command.add_option("PAIRS.csv", options->pairs, "Columns first,second: ids of agents")->type_name("");
@@ -163,6 +171,11 @@ std::function<void()> add_query_command(CLI::App& program) {
       ->check(number_between(2, most_directions));
   command.add_option("--direction", options->direction, "Of a separation: along this one instead")
       ->type_name("X,Y");
+  command
+      .add_option("--max-distance", options->max_distance,
+                  "Of a clearance, metres: pairs farther apart are only told to be so [no limit]")
+      ->type_name("M")
+      ->check(number_between(0, 2 * rounding::largest_position));
   options->shapes.add_to(command);
   options->answer.add_to(command);
   return [options, &command] { run_query(command, *options); };

@@ -63,9 +63,10 @@ class QueryWhat : public testing::Test {
 
   const TemporaryFolder folder;
   const std::string shapes = folder.write("box.obj", box);
-  /// b overlaps a by 0.1 m, c stands 0.05 m beside a, d is far away.
-  const std::string agents =
-      folder.write("agents.csv", "id,shape,x,y,heading\na,0,0,0,0\nb,0,0.4,0,0\nc,0,0,0.35,0\nd,0,9,9,1\n");
+  /// b overlaps a by 0.1 m, c stands 0.05 m beside a, d is far away. a and c approach by 0.2 m, d follows a.
+  const std::string agents = folder.write("agents.csv",
+                                          "id,shape,x,y,heading,dx,dy\na,0,0,0,0,0,0.15\nb,0,0.4,0,0,1,0\n"
+                                          "c,0,0,0.35,0,0,-0.05\nd,0,9,9,1,0,0.15\n");
   const std::string pairs = folder.write("pairs.csv", "first,second\nb,a\na,c\na,d\n");
 };
 
@@ -111,6 +112,55 @@ TEST_F(QueryWhat, ContactsAreALineEach) {
             (Rows{{"b", "a", "0", "0"}, {"a", "c", "0", "0"}}));
 }
 
+TEST_F(QueryWhat, ClearanceSaysHowFarAndWhichWay) {
+  const std::string header = "first,second,distance,x,y";
+  const Rows all = rows("clearance", header, {pairs});
+  ASSERT_EQ(all.size(), 3u);
+  EXPECT_EQ(all[0][0], "b");
+  EXPECT_LT(number(all[0][2]), 0);
+  EXPECT_LE(number(all[1][2]), 0.05);
+  EXPECT_NEAR(number(all[1][2]), 0.05, 0.025);  // the discs' sizes
+  EXPECT_NEAR(number(all[1][3]), 0, 0.4);
+  EXPECT_NEAR(number(all[1][4]), 1, 0.1);
+  EXPECT_NEAR(number(all[2][2]), 12.2, 0.1);
+  EXPECT_NEAR(number(all[2][3]), 0.7, 0.03);
+  const Rows near = rows("clearance", header, {pairs, "--max-distance", "0.5"});
+  EXPECT_EQ(near, (Rows{all[0], all[1], {"a", "d", "inf", "0", "0"}}));
+  const Rows touching = rows("clearance", header, {pairs, "--max-distance", "0"});
+  EXPECT_EQ(touching, (Rows{all[0], {"a", "c", "inf", "0", "0"}, {"a", "d", "inf", "0", "0"}}));
+  EXPECT_EQ(rows("clearance", header, {"--all-pairs"}).size(), 1u);
+}
+
+TEST_F(QueryWhat, ContactTimeSaysWhenTheyTouch) {
+  const Rows all = rows("contact-time", "first,second,time", {pairs});
+  ASSERT_EQ(all.size(), 3u);
+  EXPECT_EQ(all[0], (std::vector<std::string>{"b", "a", "0"}));
+  EXPECT_LE(number(all[1][2]), 0.25);
+  EXPECT_NEAR(number(all[1][2]), 0.25, 0.125);  // the discs' sizes
+  EXPECT_EQ(all[2], (std::vector<std::string>{"a", "d", "inf"}));
+}
+
+TEST_F(QueryWhat, WaysAreCheckedLikeTheRest) {
+  const std::string header = "id,shape,x,y,heading,dx,dy\n";
+  const std::pair<std::string, std::string> cases[] = {
+      {"id,shape,x,y,heading\na,0,0,0,0\n", "ways.csv:1: has no column 'dx'"},
+      {"id,shape,x,y,heading,dx\na,0,0,0,0,1\n", "ways.csv:1: has no column 'dy'"},
+      {header + "a,0,0,0,0,1\n", "ways.csv:2: has fewer values"},
+      {header + "a,0,0,0,0,1,\n", "ways.csv:2: dy ''"},
+      {header + "a,0,0,0,0,nan,0\n", "ways.csv:2: dx 'nan'"},
+      {header + "a,0,0,0,0,1,1\nb,0,0,0,0,0,-6e8\n", "ways.csv:3: dy '-6e8'"},
+  };
+  for (const auto& [text, words] : cases) {
+    const std::string file = folder.write("ways.csv", text);
+    const Ending ending = run_program(BCH_PROGRAM, {"query", shapes, file, pairs, "--what", "contact-time"});
+    EXPECT_EQ(ending.code, 3) << ending.err;
+    EXPECT_EQ(ending.out, "");
+    EXPECT_NE(ending.err.find(words), std::string::npos) << ending.err;
+  }
+  const std::string half = folder.write("ways.csv", cases[1].first);
+  EXPECT_EQ(run_program(BCH_PROGRAM, {"query", shapes, half, pairs}).code, 3);
+}
+
 TEST_F(QueryWhat, AllPairsAreThoseThatCollide) {
   EXPECT_EQ(rows("collide", "first,second,hit", {"--all-pairs"}), (Rows{{"a", "b", "1"}}));
   const Rows ways = rows("separation", "first,second,depth,x,y", {"--all-pairs"});
@@ -121,7 +171,7 @@ TEST_F(QueryWhat, AllPairsAreThoseThatCollide) {
 }
 
 TEST_F(QueryWhat, EveryKernelWritesTheSame) {
-  for (const char* what : {"collide", "contacts", "separation"})
+  for (const char* what : {"collide", "clearance", "contact-time", "contacts", "separation"})
     for (const kernel::Implementation& row : kernel::implementations())
       if (row.supported()) {
         EXPECT_EQ(run(what, {pairs, "--isa", row.name}).out, run(what, {pairs}).out) << what;
@@ -133,6 +183,9 @@ TEST_F(QueryWhat, WrongWordsGiveTwo) {
       {{"--what", "depth"}, "depth"},
       {{"--what", "contacts", "--directions", "4"}, "--directions"},
       {{"--direction", "1,0"}, "--direction"},
+      {{"--max-distance", "1"}, "--max-distance"},
+      {{"--what", "clearance", "--max-distance", "-1"}, "--max-distance"},
+      {{"--what", "clearance", "--max-distance", "nan"}, "--max-distance"},
       {{"--what", "separation", "--directions", "0"}, "--directions"},
       {{"--what", "separation", "--directions", "5"}, "5"},
       {{"--what", "separation", "--directions", "300"}, "300"},
@@ -143,12 +196,15 @@ TEST_F(QueryWhat, WrongWordsGiveTwo) {
       {{"--what", "separation", "--direction", "1,2,3"}, "1,2,3"},
   };
   for (const auto& [more, word] : cases) expect_usage_error(more, word);
+  const Ending all = run("contact-time", {"--all-pairs"});
+  EXPECT_EQ(all.code, 2);
+  EXPECT_NE(all.err.find("--all-pairs"), std::string::npos) << all.err;
 }
 
 TEST_F(QueryWhat, HelpNamesEveryColumn) {
   const Ending help = run_program(BCH_PROGRAM, {"query", "--help"});
-  for (const char* columns :
-       {"first,second,hit", "first,second,first_disc,second_disc", "first,second,depth,x,y"})
+  for (const char* columns : {"first,second,hit", "first,second,distance,x,y", "first,second,time",
+                              "first,second,first_disc,second_disc", "first,second,depth,x,y", "[,dx,dy]"})
     EXPECT_NE(help.out.find(columns), std::string::npos) << columns;
   std::istringstream lines(help.out);
   for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 120u) << line;
