@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+namespace bch::baselines {
+
+/// IEEE binary128, 113 bits: sums and products of a few doubles come out exact or off by 2^-112 of the result. Slow;
+/// for the truth about what float and double decide. Only the compiler's own arithmetic, no library.
+__extension__ using Quad = __float128;
+
+/// Correct to 2^-110. Precondition: value >= 0.
+Quad square_root(Quad value) noexcept;
+
+struct QuadVector {
+  Quad x = 0, y = 0;
+
+  friend QuadVector operator+(QuadVector a, QuadVector b) noexcept { return {a.x + b.x, a.y + b.y}; }
+  friend QuadVector operator-(QuadVector a, QuadVector b) noexcept { return {a.x - b.x, a.y - b.y}; }
+};
+
+inline Quad square(QuadVector v) noexcept {
+  return v.x * v.x + v.y * v.y;
+}
+
+/// Cosine and sine of an angle, |angle| <= 1e9 rad, each correct to 2^-105.
+QuadVector quad_rotation(double angle) noexcept;
+
+/// v turned by a rotation.
+inline QuadVector turned(QuadVector rotation, QuadVector v) noexcept {
+  return {rotation.x * v.x - rotation.y * v.y, rotation.y * v.x + rotation.x * v.y};
+}
+/// v turned back by it.
+inline QuadVector turned_back(QuadVector rotation, QuadVector v) noexcept {
+  return {rotation.x * v.x + rotation.y * v.y, rotation.x * v.y - rotation.y * v.x};
+}
+
+}  // namespace bch::baselines
