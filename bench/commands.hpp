@@ -15,5 +15,6 @@ std::function<void()> add_bake_command(CLI::App& program);
 std::function<void()> add_crowd_command(CLI::App& program);
 std::function<void()> add_inspect_command(CLI::App& program);
 std::function<void()> add_query_command(CLI::App& program);
+std::function<void()> add_stability_command(CLI::App& program);
 
 }  // namespace bch::cli
