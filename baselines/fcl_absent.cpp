@@ -2,7 +2,7 @@
 // Copyright (c) 2026 the bch authors
 
 #include "baselines/kind_rows.hpp"
-#include "baselines/outline_distances.hpp"
+#include "baselines/pair_distances.hpp"
 
 // Compiled in place of fcl_structures.cpp and fcl_distances.cpp where there is no FCL.
 
@@ -12,7 +12,11 @@ std::span<const Kind> fcl_kinds() {
   return {};
 }
 
-std::unique_ptr<OutlineDistances> fcl_outline_distances(std::span<const Body>) {
+std::unique_ptr<PairDistances> fcl_outline_distances(std::span<const Body>) {
+  return nullptr;
+}
+
+std::unique_ptr<PairDistances> fcl_mesh_distances(std::span<const Body>) {
   return nullptr;
 }
 

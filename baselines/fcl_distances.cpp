@@ -5,35 +5,44 @@
 #include <fcl/narrowphase/distance.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "baselines/fcl_models.hpp"
-#include "baselines/outline_distances.hpp"
+#include "baselines/pair_distances.hpp"
 
 namespace bch::baselines {
 namespace {
 
-class FclDistances final : public OutlineDistances {
+using Model = fcl::BVHModel<fcl::OBBRSSd>;
+
+class FclDistances final : public PairDistances {
  public:
-  explicit FclDistances(std::span<const Body> bodies) {
-    for (const Body& body : bodies) walls_.push_back(fcl_walls<fcl::OBBRSSd>(body.shape.outline));
-  }
+  explicit FclDistances(std::vector<std::shared_ptr<Model>> models) : models_(std::move(models)) {}
 
   double query(const Agents& agents, Pair pair) const override {
     const auto [a, b] = std::minmax(pair.first, pair.second);
     const fcl::DistanceRequestd request;
     fcl::DistanceResultd result;
-    return fcl::distance(walls_[agents.shape[a]].get(), fcl::Transform3d::Identity(),
-                         walls_[agents.shape[b]].get(), fcl_transform(agents, pair), request, result);
+    return fcl::distance(models_[agents.shape[a]].get(), fcl::Transform3d::Identity(),
+                         models_[agents.shape[b]].get(), fcl_transform(agents, pair), request, result);
   }
 
  private:
-  std::vector<std::shared_ptr<fcl::BVHModel<fcl::OBBRSSd>>> walls_;
+  std::vector<std::shared_ptr<Model>> models_;
 };
 
 }  // namespace
 
-std::unique_ptr<OutlineDistances> fcl_outline_distances(std::span<const Body> bodies) {
-  return std::make_unique<FclDistances>(bodies);
+std::unique_ptr<PairDistances> fcl_outline_distances(std::span<const Body> bodies) {
+  std::vector<std::shared_ptr<Model>> walls;
+  for (const Body& body : bodies) walls.push_back(fcl_walls<fcl::OBBRSSd>(body.shape.outline));
+  return std::make_unique<FclDistances>(std::move(walls));
+}
+
+std::unique_ptr<PairDistances> fcl_mesh_distances(std::span<const Body> bodies) {
+  std::vector<std::shared_ptr<Model>> meshes;
+  for (const Body& body : bodies) meshes.push_back(fcl_triangles<fcl::OBBRSSd>(body));
+  return std::make_unique<FclDistances>(std::move(meshes));
 }
 
 }  // namespace bch::baselines

@@ -10,7 +10,9 @@
 #include <string>
 #include <vector>
 
+#include "baselines/obb_tree.hpp"
 #include "baselines/placement.hpp"
+#include "baselines/structure.hpp"
 #include "layout/outline.hpp"
 #include "layout/rounding.hpp"
 
@@ -41,6 +43,17 @@ std::shared_ptr<fcl::BVHModel<Volume>> fcl_mesh(const std::vector<fcl::Vector3d>
   mesh->addSubModel(vertices, triangles);
   mesh->endModel();
   return mesh;
+}
+
+/// A body's triangles in space.
+template <class Volume>
+std::shared_ptr<fcl::BVHModel<Volume>> fcl_triangles(const Body& body) {
+  triangle_facets(body.positions, body.triangles);  // for its complaints
+  std::vector<fcl::Vector3d> vertices;
+  std::vector<fcl::Triangle> triangles;
+  for (const Eigen::Vector3f& p : body.positions) vertices.push_back(p.cast<double>());
+  for (const auto& [a, b, c] : body.triangles) triangles.emplace_back(a, b, c);
+  return fcl_mesh<Volume>(vertices, triangles);
 }
 
 /// Each segment becomes a wall of two triangles, 1 m high: walls meet exactly where segments do.

@@ -11,7 +11,6 @@
 #include "baselines/built.hpp"
 #include "baselines/fcl_models.hpp"
 #include "baselines/kind_rows.hpp"
-#include "baselines/obb_tree.hpp"
 
 // The Flexible Collision Library's trees (J. Pan, S. Chitta, D. Manocha, "FCL: a general purpose library for
 // collision and proximity queries", ICRA 2012), asked for a yes or no as collide() does by default: no
@@ -59,14 +58,8 @@ struct FclModel {
 
 template <class Volume>
 std::unique_ptr<Structure> build_full(std::span<const Body> bodies, const BuildOptions&) {
-  return build_models<FclModel<Volume>>(bodies, [](const Body& body) {
-    triangle_facets(body.positions, body.triangles);  // for its complaints
-    std::vector<fcl::Vector3d> vertices;
-    std::vector<fcl::Triangle> triangles;
-    for (const Eigen::Vector3f& p : body.positions) vertices.push_back(p.cast<double>());
-    for (const auto& [a, b, c] : body.triangles) triangles.emplace_back(a, b, c);
-    return FclModel<Volume>{fcl_mesh<Volume>(vertices, triangles)};
-  });
+  return build_models<FclModel<Volume>>(
+      bodies, [](const Body& body) { return FclModel<Volume>{fcl_triangles<Volume>(body)}; });
 }
 
 template <class Volume>

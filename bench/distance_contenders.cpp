@@ -5,7 +5,7 @@
 
 #include "baselines/clearance_reference.hpp"
 #include "baselines/contact_time_reference.hpp"
-#include "baselines/outline_distances.hpp"
+#include "baselines/pair_distances.hpp"
 #include "bench/distance_answers.hpp"
 #include "bench/ratios.hpp"
 
@@ -39,7 +39,7 @@ Contender scalar_clearance_contender(Scene& scene, const Workload& workload) {
 }
 
 std::optional<Contender> fcl_distance_contender(Scene& scene, const Workload& workload) {
-  const std::shared_ptr<const baselines::OutlineDistances> fcl =
+  const std::shared_ptr<const baselines::PairDistances> fcl =
       baselines::fcl_outline_distances(scene.bodies());
   if (fcl == nullptr) return std::nullopt;
   const auto distances = std::make_shared<std::vector<double>>(workload.pairs.size());

@@ -47,9 +47,9 @@ int run(int argc, char** argv) {
   program.require_subcommand(1);
   program.get_formatter()->column_width(24);
   const std::pair<const char*, std::function<void()>> commands[] = {
-      {"bake", add_bake_command(program)},           {"crowd", add_crowd_command(program)},
-      {"inspect", add_inspect_command(program)},     {"query", add_query_command(program)},
-      {"stability", add_stability_command(program)},
+      {"bake", add_bake_command(program)},       {"crowd", add_crowd_command(program)},
+      {"inspect", add_inspect_command(program)}, {"query", add_query_command(program)},
+      {"report", add_report_command(program)},   {"stability", add_stability_command(program)},
   };
   try {
     program.parse(argc, argv);
@@ -62,7 +62,7 @@ int run(int argc, char** argv) {
   } catch (const CLI::RequiredError& error) {
     const std::string word = argc > 1 ? argv[1] : "";
     if (program.get_subcommands().empty() && !word.empty() && word[0] != '-')
-      throw UsageError("no command '" + word + "' (bake, crowd, inspect, query, stability)");
+      throw UsageError("no command '" + word + "' (bake, crowd, inspect, query, report, stability)");
     throw UsageError(one_line(error.what()) + more_help);
   } catch (const CLI::ParseError& error) {
     throw UsageError(one_line(error.what()) + more_help);

@@ -10,7 +10,7 @@
 
 #include "bench/answer_checks.hpp"
 #include "bench/median.hpp"
-#include "bench/ratios.hpp"
+#include "bench/race.hpp"
 #include "bench/stopwatch.hpp"
 
 namespace bch::bench {
@@ -33,22 +33,13 @@ double time_run(const std::function<void()>& call, int threads) {
 }  // namespace
 
 void race(std::vector<Contender>& contenders, std::uint32_t runs, int threads) {
-  std::vector<std::vector<double>> times(contenders.size());
-  for (const Contender& contender : contenders) contender.call();  // caches, page faults
+  for (Contender& contender : contenders) {
+    contender.runs.clear();
+    contender.call();  // caches, page faults
+  }
   for (std::uint32_t run = 0; run < runs; ++run)
-    for (std::size_t i = 0; i < contenders.size(); ++i)
-      times[i].push_back(time_run(contenders[i].call, threads));
-  for (std::size_t i = 0; i < contenders.size(); ++i) contenders[i].nanoseconds = cli::median(times[i]);
-}
-
-std::string verdict(double ratio, double needed) {
-  if (ratio >= needed) return fmt::format("PASS (needs {:g})", needed);
-  return fmt::format("needs {:g}: {:.0f} % short", needed, 100 * (1 - ratio / needed));
-}
-
-std::string verdict_at_most(double value, double most) {
-  if (value <= most) return fmt::format("PASS (at most {:g})", most);
-  return fmt::format("at most {:g}: {:.0f} % over", most, 100 * (value / most - 1));
+    for (Contender& contender : contenders) contender.runs.push_back(time_run(contender.call, threads));
+  for (Contender& contender : contenders) contender.nanoseconds = cli::median(contender.runs);
 }
 
 void require_right(const std::string& name, const Workload& workload, const std::string& wrong) {

@@ -112,6 +112,20 @@ int run(int argc, char** argv) {
 
 }  // namespace
 
+namespace bch::bench {
+
+std::string verdict(double ratio, double needed) {
+  if (ratio >= needed) return fmt::format("PASS (needs {:g})", needed);
+  return fmt::format("needs {:g}: {:.0f} % short", needed, 100 * (1 - ratio / needed));
+}
+
+std::string verdict_at_most(double value, double most) {
+  if (value <= most) return fmt::format("PASS (at most {:g})", most);
+  return fmt::format("at most {:g}: {:.0f} % over", most, 100 * (value / most - 1));
+}
+
+}  // namespace bch::bench
+
 int main(int argc, char** argv) {
   try {
     return run(argc, argv);

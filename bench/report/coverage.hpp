@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <span>
+
+#include "layout/disc.hpp"
+#include "layout/outline.hpp"
+
+namespace bch::report {
+
+/// Of the grid that areas are counted on: 6.25 megapixels per square metre, where the paper has more than 6.
+constexpr double pixel = 0.0004;  // metres
+
+/// Areas by counting the pixels whose centres are covered, square metres.
+struct Coverage {
+  double discs = 0;    ///< by some disc
+  double filled = 0;   ///< by some disc or the inside of the outline
+  double outline = 0;  ///< by the inside of the outline
+};
+
+Coverage rasterise(const Outline& outline, std::span<const Disc> discs);
+
+}  // namespace bch::report

@@ -1,0 +1,18 @@
+# One picture of errors against times: `pairs` is "crowd" or "near miss", `error` a column, `fronts` the table of its front.
+load "style.gp"
+set logscale x
+set xlabel pairs." pair, one thread (ns)"
+set ylabel error
+set yrange [0:*]
+set bmargin screen 0.36
+set format x "%.0f"
+kinds = '"BCH outline in the batch kernel" "BCH outline" "BCH projected" "OBB outline" "OBB outline in 2D" "OBB full mesh" "OBB projected"'
+names = '"BCH batch kernel" "BCH pair by pair" "BCH projected" "OBB outline" "OBB outline in 2D" "OBB full mesh" "OBB projected"'
+time = pairs." (ns/pair)"
+of(kind) = strcol("structure") eq kind ? column(error) : NaN
+begins(kind) = strcol("structure")[1:strlen(kind)] eq kind ? column(error) : NaN
+plot fronts using (strcol("pairs") eq pairs ? column("ns/pair") : NaN):(column(error)) with fsteps linestyle 8 dashtype 2 title "front", \
+  for [i=1:words(kinds)] 'error_time.csv' using (column(time)):(of(word(kinds, i))) with points linestyle i title word(names, i), \
+  'error_time.csv' using (column(time)):(begins("FCL")) with points linecolor rgb "#777777" pointtype 2 pointsize 0.7 title "FCL", \
+  'error_time.csv' using (column(time)):(begins("single")) with points linecolor rgb "#000000" pointtype 1 pointsize 1 linewidth 2 title "single cylinder", \
+  'error_time.csv' using (column(time)):(begins("fixed")) with points linecolor rgb "#000000" pointtype 3 pointsize 0.9 title "fixed cylinders"

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include "bench/report/experiment.hpp"
+
+#include <utility>
+
+namespace bch::report {
+
+Run::Run(bench::Scene& scene, const Sizes& sizes, std::uint64_t seed, Write write, Done done)
+    : scene_(scene),
+      sizes_(sizes),
+      seed_(seed),
+      contestants_(scene),
+      write_(std::move(write)),
+      done_(std::move(done)) {}
+
+const baselines::PairDistances* Run::distances() {
+  if (!distances_) distances_ = baselines::fcl_mesh_distances(scene_.bodies());
+  return distances_.get();
+}
+
+std::span<const Experiment> experiments() {
+  static const Experiment all[] = {error_time_experiment, distance_experiment};
+  return all;
+}
+
+}  // namespace bch::report

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "baselines/pair_distances.hpp"
+#include "bench/report/contestants.hpp"
+#include "bench/report/table.hpp"
+#include "bench/scene.hpp"
+
+namespace bch::report {
+
+/// How much is measured.
+struct Sizes {
+  std::uint32_t poses = 100;      ///< of a character
+  std::uint32_t pairs = 20'000;   ///< of a workload
+  std::uint32_t agents = 10'000;  ///< of the crowd
+  std::uint32_t cases = 500;      ///< of people who slide at each other
+  std::uint32_t runs = 9;         ///< of what is timed
+  std::uint32_t people = 1'000;   ///< that are packed
+  std::uint32_t packings = 3;
+};
+constexpr Sizes full_sizes;
+constexpr Sizes quick_sizes{20, 2'000, 2'000, 100, 3, 200, 2};
+
+/// What an experiment runs on and hands its tables to.
+class Run {
+ public:
+  using Write = std::function<void(const std::string& name, const Table& table)>;
+  using Done = std::function<void(double share)>;
+
+  Run(bench::Scene& scene, const Sizes& sizes, std::uint64_t seed, Write write, Done done);
+
+  bench::Scene& scene() { return scene_; }
+  const Sizes& sizes() const { return sizes_; }
+  std::uint64_t seed() const { return seed_; }
+  Contestants& contestants() { return contestants_; }
+
+  /// Between the bodies in space; null in a build without FCL.
+  const baselines::PairDistances* distances();
+
+  /// Hands a table over: NAME.csv.
+  void write(const std::string& name, const Table& table) const { write_(name, table); }
+  /// Tells which share of this experiment is behind.
+  void done(double share) const { done_(share); }
+
+ private:
+  bench::Scene& scene_;
+  Sizes sizes_;
+  std::uint64_t seed_;
+  Contestants contestants_;
+  std::unique_ptr<baselines::PairDistances> distances_;
+  Write write_;
+  Done done_;
+};
+
+/// The tables of an experiment, as they were read back.
+using Results = std::function<const Table&(std::string_view name)>;
+
+/// A picture: NAME.gp draws NAME.svg from the CSV files beside it.
+struct Chart {
+  std::string_view name;
+  std::string_view shows;  ///< a sentence
+};
+
+struct Experiment {
+  std::string_view name;
+  std::string_view title;
+  std::string_view method;  ///< what was done, in HTML
+  double seconds;           ///< that the full run takes, roughly: the unit of the progress bar
+  bool needs_distances;     ///< cannot do without FCL
+  void (*run)(Run& run);
+  std::vector<std::string_view> tables;  ///< that the page shows; others are files only
+  std::vector<Chart> charts;
+  /// Sentences in HTML, with numbers from the tables and from nowhere else.
+  std::string (*findings)(const Results& results);
+};
+
+/// In the order of the page.
+std::span<const Experiment> experiments();
+
+extern const Experiment construction_experiment, query_time_experiment, distance_experiment, depth_experiment,
+    volume_experiment, threshold_experiment, mesh_detail_experiment, error_time_experiment,
+    density_experiment;
+
+}  // namespace bch::report

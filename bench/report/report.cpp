@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include "bench/report/report.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "bench/output.hpp"
+#include "bench/progress.hpp"
+#include "bench/report/provenance.hpp"
+
+namespace bch::report {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+bool wants(const Options& options, const Experiment& experiment) {
+  const auto& names = options.experiments;
+  return names.empty() || std::find(names.begin(), names.end(), experiment.name) != names.end();
+}
+
+std::vector<const Experiment*> wanted(const Options& options) {
+  std::vector<const Experiment*> these;
+  for (const Experiment& experiment : experiments())
+    if (wants(options, experiment)) these.push_back(&experiment);
+  return these;
+}
+
+/// What was run, on what, by what.
+Table facts_of(const Options& options) {
+  Table table({"what", "value"});
+  for (const auto& [what, value] : provenance()) table.add({what, value});
+  table.add({"command", options.command});
+  std::string characters;
+  for (const std::string& one : options.characters) characters += (characters.empty() ? "" : ", ") + one;
+  table.add({"characters", characters});
+  table.add({"seed", options.seed});
+  const Sizes& sizes = options.sizes;
+  table.add({"poses of a character", sizes.poses});
+  table.add({"pairs of a workload", sizes.pairs});
+  table.add({"agents of the crowd", sizes.agents});
+  table.add({"cases of people who slide", sizes.cases});
+  table.add({"runs of what is timed", sizes.runs});
+  table.add({"people who are packed", sizes.people});
+  table.add({"packings", sizes.packings});
+  return table;
+}
+
+Json json_of(const Table& table) {
+  Json rows = Json::array();
+  for (std::size_t i = 0; i < table.rows().size(); ++i) {
+    Json& row = rows.emplace_back(Json::object());
+    for (const std::string& column : table.columns()) {
+      const std::string& cell = table.text(i, column);
+      try {
+        const double number = table.number(i, column);
+        row[column] = std::isnan(number) ? Json() : Json(number);
+      } catch (const std::out_of_range&) {
+        row[column] = cell;
+      }
+    }
+  }
+  return rows;
+}
+
+Json json_of(const Experiment& experiment, const Table& facts) {
+  Json json{{"experiment", experiment.name}, {"title", experiment.title}};
+  for (const auto& row : facts.rows()) json["run"][row[0]] = row[1];
+  return json;
+}
+
+}  // namespace
+
+void run_report(const Options& options) {
+  std::filesystem::create_directories(options.folder);
+  const Table facts = facts_of(options);
+  cli::write_file(options.folder / "run.csv", csv_of(facts));
+  bench::Scene scene({options.characters, options.sizes.poses, {options.sizes.pairs, options.sizes.agents}});
+  scene.characters();  // a bad file should not cost minutes, and an import wants a process without threads
+
+  const auto these = wanted(options);
+  double total = 0;
+  for (const Experiment* experiment : these) total += experiment->seconds;
+  cli::Progress progress("report", static_cast<std::size_t>(total));
+  double before = 0;
+  std::size_t shown = 0;
+  for (const Experiment* experiment : these) {
+    Json json = json_of(*experiment, facts);
+    const auto write = [&](const std::string& name, const Table& table) {
+      cli::write_file(options.folder / (name + ".csv"), csv_of(table));
+      json["tables"][name] = json_of(table);
+    };
+    const auto done = [&](double share) {
+      for (const double now = before + share * experiment->seconds; static_cast<double>(shown + 1) <= now;
+           ++shown)
+        progress.advance();
+    };
+    Run run(scene, options.sizes, options.seed, write, done);
+    if (!experiment->needs_distances || run.distances() != nullptr) experiment->run(run);
+    done(1);
+    before += experiment->seconds;
+    cli::write_json(options.folder / (std::string(experiment->name) + ".json"), json);
+  }
+  make_page(options.folder);
+}
+
+}  // namespace bch::report

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include "bench/report/slide.hpp"
+
+#include <oneapi/tbb/parallel_for.h>
+
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "bench/random.hpp"
+#include "kernel/contact_time.hpp"
+
+namespace bch::report {
+namespace {
+
+constexpr double step = 0.001, resolution = 1e-6;  // metres
+constexpr double never = std::numeric_limits<double>::quiet_NaN();
+
+/// A pair of agents that stands anywhere on the way.
+struct PairOfCase {
+  std::array<std::uint32_t, 2> shape;
+  std::array<double, 2> x, y{0, 0}, heading;
+
+  PairOfCase(const Agents& agents, Pair pair)
+      : shape{agents.shape[pair.first], agents.shape[pair.second]},
+        x{agents.x[pair.first], 0},
+        heading{agents.heading[pair.first], agents.heading[pair.second]} {}
+
+  Agents at(double place) {
+    x[0] = place;
+    return {shape, x, y, heading};
+  }
+};
+
+}  // namespace
+
+SlideCases::SlideCases(std::span<const Shape> shapes, std::uint32_t cases, std::uint64_t seed) {
+  cli::Random random(seed);
+  const auto count = static_cast<std::uint32_t>(shapes.size());
+  for (std::uint32_t i = 0; i < cases; ++i) {
+    double reach = 0;
+    for (int agent = 0; agent < 2; ++agent) {
+      crowd_.shape.push_back(random.below(count));
+      crowd_.heading.push_back(random.uniform(2 * std::numbers::pi));
+      crowd_.y.push_back(0);
+      reach += shapes[crowd_.shape.back()].hierarchy.reach;
+    }
+    from_.push_back(-1.5 * reach - 0.1);
+    crowd_.x.insert(crowd_.x.end(), {from_.back(), 0});
+    pairs_.push_back({2 * i, 2 * i + 1});
+  }
+}
+
+std::vector<double> SlideCases::contacts(const ShapeSet& set) const {
+  // From one side to the other.
+  std::vector<double> x(size()), y(size(), 0);
+  for (std::size_t i = 0; i < size(); ++i) x[i] = -2 * from_[i];
+  std::vector<float> times(size());
+  contact_time(set, agents(), pairs_, {x, y}, times);
+  std::vector<double> places(size());
+  for (std::size_t i = 0; i < size(); ++i)
+    places[i] = std::isinf(times[i]) ? never : from_[i] + static_cast<double>(times[i]) * x[i];
+  return places;
+}
+
+std::vector<double> SlideCases::contacts(const baselines::Structure& structure,
+                                         std::uint32_t max_depth) const {
+  std::vector<double> places(size());
+  tbb::parallel_for(std::size_t{0}, size(),
+                    [&](std::size_t i) { places[i] = contact(structure, max_depth, i); });
+  return places;
+}
+
+double SlideCases::contact(const baselines::Structure& structure, std::uint32_t max_depth,
+                           std::size_t of) const {
+  PairOfCase pair(agents(), pairs_[of]);
+  const auto meet = [&](double place) { return structure.query(pair.at(place), {0, 1}, max_depth); };
+  for (double place = from_[of]; place < -from_[of]; place += step) {
+    if (!meet(place)) continue;
+    double apart = place - step;
+    while (place - apart > resolution) (meet(0.5 * (apart + place)) ? place : apart) = 0.5 * (apart + place);
+    return place;
+  }
+  return never;
+}
+
+std::vector<double> SlideCases::distances(const baselines::PairDistances& bodies,
+                                          std::span<const double> places) const {
+  std::vector<double> centimetres(size(), never);
+  tbb::parallel_for(std::size_t{0}, size(), [&](std::size_t i) {
+    if (std::isnan(places[i])) return;
+    PairOfCase pair(agents(), pairs_[i]);
+    centimetres[i] = 100 * std::max(0.0, bodies.query(pair.at(places[i]), {0, 1}));
+  });
+  return centimetres;
+}
+
+std::vector<double> known(std::span<const double> values) {
+  std::vector<double> numbers;
+  for (const double value : values)
+    if (!std::isnan(value)) numbers.push_back(value);
+  return numbers;
+}
+
+}  // namespace bch::report

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "bench/race.hpp"
+#include "bench/report/slide.hpp"
+#include "bench/report/statistics.hpp"
+#include "kernel/collide.hpp"
+
+namespace bch::report {
+
+constexpr std::string_view kernel_name = "BCH outline in the batch kernel";
+
+/// Whatever answers pairs, be it a structure down to some depth or a kernel over a set.
+struct Subject {
+  std::function<void(const bench::Workload&, bench::Hits&)> answer;
+  std::function<std::vector<double>(const SlideCases&)> contacts;
+};
+
+/// What is referred to must outlive the subject.
+Subject subject_of(const baselines::Structure& structure, std::uint32_t max_depth = all_depths);
+Subject subject_of(const ShapeSet& set, Semantics semantics = Semantics::boundary,
+                   const kernel::Implementation& implementation = kernel::best_implementation());
+
+bench::Hits answers(const Subject& subject, const bench::Workload& workload);
+std::size_t count_hits(const Subject& subject, const bench::Workload& workload);
+
+/// Nanoseconds a pair of each, all of them timed in turn.
+std::vector<Quartiles> times(std::span<const Subject> subjects, const bench::Workload& workload,
+                             std::uint32_t runs, int threads = 1);
+
+/// Errors:  throws std::logic_error naming the workload where the two answer some pair differently.
+void require_same(const Subject& a, const Subject& b, const bench::Workload& workload);
+
+}  // namespace bch::report

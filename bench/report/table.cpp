@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include "bench/report/table.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <fstream>
+#include <limits>
+#include <stdexcept>
+
+#include "bench/csv_input.hpp"
+#include "bench/exit_codes.hpp"
+#include "bench/number.hpp"
+
+namespace bch::report {
+namespace {
+
+std::string csv_line(const std::vector<std::string>& cells) {
+  std::string line;
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    if (i > 0) line += ',';
+    line += cli::csv_field(cells[i]);
+  }
+  line += '\n';
+  return line;
+}
+
+std::vector<std::string> split(const std::string& line) {
+  std::vector<std::string> cells(1);
+  bool quoted = false;
+  for (std::size_t i = 0; i < line.size(); ++i) {
+    if (line[i] == '"' && quoted && i + 1 < line.size() && line[i + 1] == '"')
+      cells.back() += line[++i];
+    else if (line[i] == '"')
+      quoted = !quoted;
+    else if (line[i] == ',' && !quoted)
+      cells.emplace_back();
+    else
+      cells.back() += line[i];
+  }
+  return cells;
+}
+
+}  // namespace
+
+Cell::Cell(double number) : text(std::isnan(number) ? std::string() : fmt::format("{}", number)) {}
+
+void Table::add(const std::vector<Cell>& cells) {
+  if (cells.size() != columns_.size())
+    throw std::logic_error(fmt::format("{} cells for {} columns", cells.size(), columns_.size()));
+  auto& row = rows_.emplace_back();
+  for (const Cell& cell : cells) row.push_back(cell.text);
+}
+
+std::size_t Table::column(std::string_view name) const {
+  for (std::size_t i = 0; i < columns_.size(); ++i)
+    if (columns_[i] == name) return i;
+  throw std::out_of_range("no column '" + std::string(name) + "'");
+}
+
+const std::string& Table::text(std::size_t row, std::string_view name) const {
+  return rows_.at(row)[column(name)];
+}
+
+double Table::number(std::size_t row, std::string_view name) const {
+  const std::string& cell = text(row, name);
+  if (cell.empty()) return std::numeric_limits<double>::quiet_NaN();
+  const auto value = cli::parse_number(cell);
+  if (!value) throw std::out_of_range("'" + cell + "' is no number");
+  return *value;
+}
+
+std::size_t Table::row(std::initializer_list<Where> where) const {
+  for (std::size_t i = 0; i < rows_.size(); ++i) {
+    bool all = true;
+    for (const Where& one : where) all = all && text(i, one.column) == one.text;
+    if (all) return i;
+  }
+  std::string wanted;
+  for (const Where& one : where) wanted += " " + std::string(one.column) + " '" + std::string(one.text) + "'";
+  throw std::out_of_range("no row with" + wanted);
+}
+
+std::string csv_of(const Table& table) {
+  std::string text = csv_line(table.columns());
+  for (const auto& row : table.rows()) text += csv_line(row);
+  return text;
+}
+
+Table read_table(const std::filesystem::path& file) {
+  std::ifstream stream(file);
+  std::string line;
+  if (!std::getline(stream, line)) throw cli::InputError(file.string() + ": cannot be read");
+  Table table(split(line));
+  for (std::size_t number = 2; std::getline(stream, line); ++number) {
+    const std::vector<std::string> cells = split(line);
+    if (cells.size() != table.columns().size())
+      throw cli::InputError(fmt::format("{}:{}: {} values for {} columns", file.string(), number,
+                                        cells.size(), table.columns().size()));
+    table.add(std::vector<Cell>(cells.begin(), cells.end()));
+  }
+  return table;
+}
+
+}  // namespace bch::report

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <concepts>
+#include <filesystem>
+#include <initializer_list>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace bch::report {
+
+/// A text, or a number in as many digits as tell it from every other double; NaN is an empty cell.
+struct Cell {
+  std::string text;
+
+  Cell(std::string words) : text(std::move(words)) {}
+  Cell(std::string_view words) : text(words) {}
+  Cell(const char* words) : text(words) {}
+  Cell(double number);
+  template <std::integral Integer>
+  Cell(Integer number) : text(std::to_string(number)) {}
+};
+
+/// What a CSV file holds: the only way from an experiment to the page. Columns of numbers name their unit.
+class Table {
+ public:
+  explicit Table(std::vector<std::string> columns) : columns_(std::move(columns)) {}
+
+  /// Shapes: as many cells as columns, else throws std::logic_error.
+  void add(std::initializer_list<Cell> cells) { add(std::vector<Cell>(cells)); }
+  void add(const std::vector<Cell>& cells);
+
+  const std::vector<std::string>& columns() const { return columns_; }
+  const std::vector<std::vector<std::string>>& rows() const { return rows_; }
+
+  /// Errors of all: throw std::out_of_range naming the column or the value that there is not.
+  std::size_t column(std::string_view name) const;
+  const std::string& text(std::size_t row, std::string_view column) const;
+  /// NaN for an empty cell.
+  double number(std::size_t row, std::string_view column) const;
+  /// The first row that has these texts in these columns.
+  struct Where {
+    std::string_view column, text;
+  };
+  std::size_t row(std::initializer_list<Where> where) const;
+  double number(std::initializer_list<Where> where, std::string_view column) const {
+    return number(row(where), column);
+  }
+
+ private:
+  std::vector<std::string> columns_;
+  std::vector<std::vector<std::string>> rows_;
+};
+
+std::string csv_of(const Table& table);
+
+/// Errors:  throws cli::InputError naming the file, and the line of a row that is shorter or longer than the header.
+Table read_table(const std::filesystem::path& file);
+
+}  // namespace bch::report

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace bch::report {
+
+/// Three digits that count, from 1 000 on all before the point: "0.0123", "4.57", "12 346"; "–" for NaN.
+std::string brief(double number);
+
+/// Text as HTML.
+std::string escaped(std::string_view text);
+
+/// A CSV cell as the page's tables show it: numbers by brief(), texts escaped.
+std::string shown(std::string_view cell);
+
+}  // namespace bch::report

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "bench/characters.hpp"
+#include "bench/commands.hpp"
+#include "bench/exit_codes.hpp"
+#include "bench/options.hpp"
+#include "bench/output.hpp"
+#include "bench/report/report.hpp"
+
+namespace bch::cli {
+namespace {
+
+struct ReportOptions {
+  report::Options report;
+  std::vector<std::string> characters;
+  bool quick = false, page = false;
+};
+
+std::vector<std::string> experiment_names() {
+  std::vector<std::string> names;
+  for (const report::Experiment& experiment : report::experiments()) names.emplace_back(experiment.name);
+  return names;
+}
+
+/// An argument as a shell takes it.
+std::string quoted(const std::string& argument) {
+  if (!argument.empty() && argument.find_first_of(" '\"\\$&;()<>|*?#~") == std::string::npos) return argument;
+  std::string text = "'";
+  for (const char c : argument) text += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  text += '\'';
+  return text;
+}
+
+std::string command_of(const ReportOptions& options) {
+  std::string text = "bch report --out " + quoted(options.report.folder.string());
+  if (options.quick) text += " --quick";
+  if (options.report.seed != 1) text += fmt::format(" --seed {}", options.report.seed);
+  for (const std::string& file : options.characters) text += " --character " + quoted(file);
+  for (const std::string& name : options.report.experiments) text += " --experiment " + name;
+  return text;
+}
+
+void run_report(const CLI::App& command, ReportOptions& options) {
+  const std::filesystem::path page = options.report.folder / "report.html";
+  if (options.page) {
+    require_absent(command, {"--quick", "--seed", "--character", "--experiment"}, "--page measures nothing");
+    report::make_page(options.report.folder);
+  } else {
+    std::error_code ignored;  // the next line has words for it
+    std::filesystem::create_directories(options.report.folder, ignored);
+    require_writable(page);
+    if (!options.characters.empty()) options.report.characters = options.characters;
+    if (options.quick) options.report.sizes = report::quick_sizes;
+    options.report.command = command_of(options);
+    report::run_report(options.report);
+  }
+  write_standard_output(page.string() + "\n");
+}
+
+}  // namespace
+
+std::function<void()> add_report_command(CLI::App& program) {
+  const auto options = std::make_shared<ReportOptions>();
+  CLI::App& command =
+      *program.add_subcommand("report", "Run the paper's experiments, and write a page about them");
+  command.footer(
+      "Writes DIR/report.html, one page with all charts and tables, and the tables as CSV and JSON files.\n"
+      "Charts need gnuplot. On two cores all takes about 20 minutes, 2 with --quick.\n"
+      "Example: bch report --out report --quick");
+  command.add_option("--out", options->report.folder, "Folder for the page and its tables")
+      ->type_name("DIR")
+      ->required();
+  command.add_flag("--quick", options->quick, "Fewer poses, pairs, cases and runs");
+  command.add_option("--character", options->characters, std::string(character_help) + " [the last two]")
+      ->type_name("FILE")
+      ->allow_extra_args(false);
+  command.add_option("--experiment", options->report.experiments, "One experiment alone (repeatable) [all]")
+      ->type_name("NAME")
+      ->allow_extra_args(false)
+      ->check(one_of(experiment_names()));
+  command.add_option("--seed", options->report.seed, "Chooses cases, packings and resamples [1]")
+      ->type_name("N")
+      ->check(number_between(0, 0x1p64 - 2048));
+  command.add_flag("--page", options->page, "Measure nothing: make the page again from the tables in DIR");
+  return [options, &command] { run_report(command, *options); };
+}
+
+}  // namespace bch::cli
