@@ -60,7 +60,7 @@ class Scale {
     if (!axis_.logarithmic) {
       const double step = nice_step(axis_.high - axis_.low);
       for (double t = std::ceil(axis_.low / step - 1e-9); t * step <= axis_.high * (1 + 1e-9); ++t)
-        at.push_back(t * step);
+        at.push_back(t * step + 0.0);  // no minus zero
       return at;
     }
     if (axis_.zero) at.push_back(0);
@@ -119,7 +119,7 @@ class PanelPainter {
     svg_.open_group("", "level");
     svg_.line({at_, row}, {at_ + width, row});
     svg_.close_group();
-    svg_.text({at_ + 6, row - 6}, "tick", panel_.line_name);
+    svg_.text({at_ + 6, row < top + 24 ? row + 16 : row - 6}, "tick", panel_.line_name);
   }
 
   void paint_series(const ChartSeries& series, std::size_t index) {

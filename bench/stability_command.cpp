@@ -13,6 +13,7 @@
 #include "bench/options.hpp"
 #include "bench/output.hpp"
 #include "bench/stability_report.hpp"
+#include "bench/stiff_report.hpp"
 #include "bench/threads.hpp"
 
 namespace bch::cli {
@@ -22,7 +23,7 @@ namespace fs = std::filesystem;
 
 struct StabilityOptions {
   std::uint32_t pairs = 2000;
-  bool quick = false;
+  bool quick = false, stiff = false;
   std::uint64_t seed = 1;
   std::uint32_t threads = 0;
   std::string out, csv, json;
@@ -49,20 +50,41 @@ void require_promises(std::span<const bench::StabilityRow> rows) {
   }
 }
 
+/// Files of one half of the command; `name` is that of its CSV in the folder.
+void write_tables(const StabilityOptions& options, const char* name, const std::string& csv,
+                  const nlohmann::ordered_json& json) {
+  if (!options.csv.empty()) write_file(options.csv, csv);
+  if (!options.out.empty()) write_file((fs::path(options.out) / name).string(), csv);
+  write_json(options.json, json);
+}
+
+void run_cases(const StabilityOptions& options) {
+  const auto rows = bench::stability_rows(options.quick ? 200 : options.pairs, options.seed);
+  write_tables(options, "stability.csv", csv_of(rows), {{"stability", json_of(rows)}});
+  if (!options.out.empty()) write_pictures(options.out, rows);
+  write_standard_output(text_of(rows));
+  require_promises(rows);
+}
+
+void run_stiff(const StabilityOptions& options) {
+  const bench::StiffReport report = bench::stiff_contact(
+      options.quick ? bench::StiffOptions{.seconds = 2, .people = 40, .bounces = 25, .slides = 25}
+                    : bench::StiffOptions{});
+  write_tables(options, "stiff_contact.csv", csv_of(report), {{"stiff_contact", json_of(report)}});
+  if (!options.out.empty()) {
+    write_file((fs::path(options.out) / "stiff_contact_steps.svg").string(), draw_steps(report));
+    write_file((fs::path(options.out) / "stiff_contact_errors.svg").string(), draw_errors(report));
+  }
+  write_standard_output(text_of(report));
+}
+
 void run_stability(const CLI::App& command, const StabilityOptions& options) {
   if (options.quick) require_absent(command, {"--pairs"}, "--quick chooses them");
+  if (options.stiff) require_absent(command, {"--pairs", "--seed"}, "belongs to the cases, not to --stiff");
   for (const std::string& file : {options.csv, options.json}) require_writable(file);
   make_folder(options.out);
   const Threads threads(options.threads);
-  const auto rows = bench::stability_rows(options.quick ? 200 : options.pairs, options.seed);
-  if (!options.csv.empty()) write_file(options.csv, csv_of(rows));
-  write_json(options.json, {{"stability", json_of(rows)}});
-  if (!options.out.empty()) {
-    write_file((fs::path(options.out) / "stability.csv").string(), csv_of(rows));
-    write_pictures(options.out, rows);
-  }
-  write_standard_output(text_of(rows));
-  require_promises(rows);
+  options.stiff ? run_stiff(options) : run_cases(options);
 }
 
 }  // namespace
@@ -77,11 +99,14 @@ std::function<void()> add_stability_command(CLI::App& program) {
       "float, half of all magnitudes; and pairs whose outlines are. Plain tests have positions, headings and "
       "discs\n"
       "in the world's coordinates. Fails if bch misses anything or hits beyond its documented gap.\n"
+      "With --stiff instead: depths as springs of penalty forces, how large a time step may be and what it "
+      "costs.\n"
       "Example: bch stability --out stability");
   command.add_option("--pairs", options->pairs, "Pairs of every row [2000]")
       ->type_name("N")
       ->check(number_between(20, 1e7));
-  command.add_flag("--quick", options->quick, "200 pairs of every row");
+  command.add_flag("--quick", options->quick, "200 pairs of every row; less of --stiff, too");
+  command.add_flag("--stiff", options->stiff, "Agents that are driven into each other, which takes minutes");
   command.add_option("--seed", options->seed, "Chooses shapes and placements [1]")
       ->type_name("N")
       ->check(number_between(0, 0x1p64 - 2048));

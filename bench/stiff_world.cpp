@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include "bench/stiff_world.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "layout/cut_discs.hpp"
+#include "layout/default_characters.hpp"
+#include "layout/heading.hpp"
+#include "layout/pose_shape.hpp"
+
+namespace bch::bench {
+namespace {
+
+constexpr float wall_length = 10, wall_thickness = 0.4f;
+
+Shape wall() {
+  const float x = wall_length / 2, y = wall_thickness / 2;
+  Outline outline;
+  outline.points = {{-x, -y}, {x, -y}, {x, y}, {-x, y}};
+  outline.contour_begin.push_back(4);
+  return {outline, contour_hierarchy(outline, 0.02f)};
+}
+
+ShapeSet make_shapes() {
+  std::vector<Shape> shapes;
+  for (const Character& character : {default_male(), default_female()}) {
+    PoseShaper shaper(character);
+    for (const PoseTime& time : sample_poses(character, people_shapes / 2))
+      shapes.push_back(shaper.shape(time));
+  }
+  shapes.push_back(wall());
+  return ShapeSet(shapes, {.depths = {std::begin(stiff_depths), std::end(stiff_depths)}});
+}
+
+/// The discs of an agent's cut in the world.
+class WorldDiscs {
+ public:
+  WorldDiscs(const Agents& agents, std::uint32_t agent, std::uint32_t level)
+      : discs_(cut_discs(stiff_shapes().view(), agents.shape[agent] * stiff_shapes().level_count() + level)),
+        turn_(rotation(agents.heading[agent])),
+        x_(agents.x[agent]),
+        y_(agents.y[agent]) {}
+
+  Ground centre(std::uint32_t i) const {
+    const double x = static_cast<double>(discs_.x[i]), y = static_cast<double>(discs_.y[i]);
+    return {x_ + (turn_.cosine * x - turn_.sine * y), y_ + (turn_.sine * x + turn_.cosine * y)};
+  }
+  double radius(std::uint32_t i) const { return static_cast<double>(discs_.radius[i]); }
+
+ private:
+  CutDiscs discs_;
+  Rotation turn_;
+  double x_, y_;
+};
+
+/// A person's single disc has its centre where it stands in every direction; a wall has it on its axis, as near as can be.
+Ground core(const Agents& agents, std::uint32_t agent, Ground near) {
+  if (agents.shape[agent] < people_shapes) return WorldDiscs(agents, agent, 0).centre(0);
+  const Rotation turn = rotation(agents.heading[agent]);
+  const double most = static_cast<double>(wall_length - wall_thickness) / 2;
+  const double along = std::clamp(
+      (near.x - agents.x[agent]) * turn.cosine + (near.y - agents.y[agent]) * turn.sine, -most, most);
+  return {agents.x[agent] + along * turn.cosine, agents.y[agent] + along * turn.sine};
+}
+
+/// From the second to the first: the way that the first has to go.
+Vec2 line_of_centres(const Agents& agents, Pair pair) {
+  const Ground a = core(agents, pair.first, {}), b = core(agents, pair.second, a);
+  const double x = a.x - b.x, y = a.y - b.y;
+  if (x == 0 && y == 0) return {1, 0};
+  return {static_cast<float>(x), static_cast<float>(y)};
+}
+
+}  // namespace
+
+const ShapeSet& stiff_shapes() {
+  static const ShapeSet shapes = make_shapes();
+  return shapes;
+}
+
+Separation Depths::deepest(const Agents& agents, Pair pair, std::span<const Contact> contacts) const {
+  const WorldDiscs a(agents, pair.first, agents.level[pair.first]),
+      b(agents, pair.second, agents.level[pair.second]);
+  double depth = -1, x = 1, y = 0;
+  for (const Contact& contact : contacts) {
+    const Ground p = a.centre(contact.first), q = b.centre(contact.second);
+    const double dx = p.x - q.x, dy = p.y - q.y, distance = std::sqrt(dx * dx + dy * dy);
+    const double overlap = a.radius(contact.first) + b.radius(contact.second) - distance;
+    if (overlap > depth && distance > 0) depth = overlap, x = dx / distance, y = dy / distance;
+  }
+  return {static_cast<float>(std::max(depth, 0.0)), static_cast<float>(x), static_cast<float>(y)};
+}
+
+std::span<const Pair> Depths::pairs(const Agents& agents) {
+  if (measure_ == DepthMeasure::centres) {
+    pairs_ = candidate_pairs(stiff_shapes(), agents);
+    return pairs_;
+  }
+  const CollidingNeighbours rows = collider_.collide_all(stiff_shapes(), agents);
+  pairs_.clear();
+  for (std::uint32_t i = 0; i < agents.size(); ++i)
+    for (const std::uint32_t j : rows.of(i))
+      if (i < j) pairs_.push_back({i, j});
+  return pairs_;
+}
+
+std::span<const Separation> Depths::of(const Agents& agents, std::span<const Pair> pairs) {
+  constexpr std::uint32_t directions = 32;
+  found_.resize(pairs.size());
+  switch (measure_) {
+    case DepthMeasure::separation:
+      separation(stiff_shapes(), agents, pairs, directions, found_);
+      break;
+    case DepthMeasure::discs:
+      contacts(stiff_shapes(), agents, pairs, table_);
+      for (std::size_t i = 0; i < pairs.size(); ++i) found_[i] = deepest(agents, pairs[i], table_.of(i));
+      break;
+    case DepthMeasure::centres:
+      lines_.clear();
+      for (const Pair pair : pairs) lines_.push_back(line_of_centres(agents, pair));
+      separation_along(stiff_shapes(), agents, pairs, lines_, found_);
+  }
+  return found_;
+}
+
+void StiffWorld::add_person(std::uint32_t shape, std::uint8_t level, Ground at, double heading,
+                            Ground velocity) {
+  shape_.push_back(shape), level_.push_back(level), heading_.push_back(heading);
+  x_.push_back(at.x), y_.push_back(at.y);
+  velocity_.push_back(velocity);
+}
+
+void StiffWorld::add_wall(Ground at, double heading) {
+  shape_.push_back(wall_of_10_m), level_.push_back(finest_level), heading_.push_back(heading);
+  x_.push_back(at.x), y_.push_back(at.y);
+}
+
+void StiffWorld::press(Pair pair, const Separation& by) {
+  if (pair.first >= people()) return;  // walls do not push each other
+  const double depth = static_cast<double>(by.depth), x = static_cast<double>(by.x),
+               y = static_cast<double>(by.y);
+  deepest_ = std::max(deepest_, depth);
+  const bool wall = pair.second >= people();
+  const Ground v = velocity_[pair.first], w = wall ? Ground{} : velocity_[pair.second];
+  const double sliding = (w.x - v.x) * -y + (w.y - v.y) * x;
+  const double along = stiff::stiffness * depth, across = free_ ? 0 : stiff::friction * depth * sliding;
+  const Ground force{along * x - across * y, along * y + across * x};
+  force_[pair.first].x += force.x, force_[pair.first].y += force.y;
+  if (!wall) force_[pair.second].x -= force.x, force_[pair.second].y -= force.y;
+}
+
+void StiffWorld::step(double seconds, std::span<const Ground> goal) {
+  force_.assign(people(), {});
+  deepest_ = 0;
+  const auto pairs = depths_.pairs(agents());
+  const auto depths = depths_.of(agents(), pairs);
+  for (std::size_t i = 0; i < pairs.size(); ++i) press(pairs[i], depths[i]);
+  for (std::size_t i = 0; i < people(); ++i) {
+    Ground& v = velocity_[i];
+    Ground pull;
+    if (!free_)
+      pull = {(stiff::wanted_speed * goal[i].x - v.x) / stiff::relaxation,
+              (stiff::wanted_speed * goal[i].y - v.y) / stiff::relaxation};
+    v.x += seconds * (force_[i].x / stiff::mass + pull.x);
+    v.y += seconds * (force_[i].y / stiff::mass + pull.y);
+    x_[i] += seconds * v.x;
+    y_[i] += seconds * v.y;
+  }
+}
+
+double StiffWorld::fastest() const {
+  double most = 0;
+  for (const Ground v : velocity_) most = std::max(most, v.x * v.x + v.y * v.y);
+  return std::sqrt(most);
+}
+
+double StiffWorld::mean_square() const {
+  double sum = 0;
+  for (const Ground v : velocity_) sum += v.x * v.x + v.y * v.y;
+  return sum / static_cast<double>(people());
+}
+
+}  // namespace bch::bench
