@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "layout/disc_pivoting.hpp"
 #include "layout/grid_snap.hpp"
 
 namespace bch {
@@ -17,6 +18,10 @@ namespace {
 constexpr std::size_t block = 4;
 /// A square, in float of coordinates that float holds, is off by less than this share of it.
 constexpr double slack = 0x1p-20;
+/// Looks for a farthest vertex end when it is no farther than that square over the disc's, which leaves a tenth of its
+/// radius; more would take longer than the few vertices that they leave out.
+constexpr double near_enough = 1.01;
+constexpr int most_looks = 4;
 
 /// The squares of four points' distances.
 __m128 squares_of(const GridPoint* points, __m128 from) {
@@ -30,11 +35,6 @@ __m128 squares_of(const GridPoint* points, __m128 from) {
                     _mm_shuffle_ps(low, high, _MM_SHUFFLE(3, 1, 3, 1)));
 }
 
-double squared_distance(GridPoint a, GridPoint b) {
-  const GridVector way = b - a;
-  return static_cast<double>(dot(way, way));
-}
-
 }  // namespace
 
 ExtremeVertices::ExtremeVertices(std::span<const std::array<std::uint32_t, 3>> triangles,
@@ -45,31 +45,35 @@ ExtremeVertices::ExtremeVertices(std::span<const std::array<std::uint32_t, 3>> t
   for (std::uint32_t v = 0; v < vertices; ++v)
     if (is_used[v]) used_.push_back(v);
   grid_.resize((used_.size() + block - 1) / block * block);
-  for (auto* squares : {&from_origin_, &from_first_, &from_middle_}) squares->resize(grid_.size());
+  for (auto* squares : {&from_origin_, &from_middle_}) squares->resize(grid_.size());
 }
 
-/// The disc's radius R is at least half of any two vertices' distance. For any point at m from its centre, some vertex is
-/// at least sqrt(R^2 + m^2) away, so the farthest one bounds m, and the vertices on the disc's boundary are at least R - m
-/// away. All others may be left out, but those as far from the origin as the first, as far as floats tell.
+/// The disc's radius R is at least that of the disc around any of the vertices. For any point at m from its centre, some
+/// vertex is at least sqrt(R^2 + m^2) away, so the farthest one bounds m, and the vertices on the disc's boundary are at
+/// least R - m away. All others may be left out, but those as far from the origin as the first, as far as floats tell.
 void ExtremeVertices::find(std::span<const Eigen::Vector3f> positions) {
   step_ = snap_to_grid(positions, used_, std::span(grid_).first(used_.size()));
   std::fill(grid_.begin() + static_cast<std::ptrdiff_t>(used_.size()), grid_.end(), grid_[used_.size() - 1]);
-  const std::size_t first = farthest_from({0, 0}, from_origin_);
-  const GridPoint a = grid_[first];
-  const GridPoint b = grid_[farthest_from({static_cast<float>(a.x), static_cast<float>(a.y)}, from_first_)];
-  const Vec2 middle{0.5f * static_cast<float>(a.x + b.x), 0.5f * static_cast<float>(a.y + b.y)};
-  const std::size_t last = farthest_from(middle, from_middle_);
-
-  const double at_least = 0.25 * squared_distance(a, b) * (1 - slack);
-  const double at_most = static_cast<double>(from_middle_[last]) * (1 + slack);
+  const std::size_t first = farthest_from(0, 0, from_origin_);
+  const auto point = [&](std::size_t i) { return pivoting::Point{1.0 * grid_[i].x, 1.0 * grid_[i].y}; };
+  const pivoting::Point a = point(first), b = point(farthest_from(a.x, a.y, from_middle_));
+  pivoting::Basis now = pivoting::basis(a, b);
+  double at_most = 0;
+  for (int look = 0; look < most_looks; ++look) {
+    const std::size_t last = farthest_from(now.centre.x, now.centre.y, from_middle_);
+    at_most = (1 + slack) * static_cast<double>(from_middle_[last]);
+    if (at_most <= near_enough * now.square_radius) break;
+    now = pivoting::pivot(now, point(last));
+  }
+  const double at_least = (1 - slack) * now.square_radius;
   const double nearest = std::sqrt(at_least) - std::sqrt(std::max(0.0, at_most - at_least));
   keep(static_cast<float>((1 - slack) * (nearest > 0 ? nearest * nearest : 0)),
        static_cast<float>((1 - slack) * static_cast<double>(from_origin_[first])));
 }
 
 /// Which is the farthest, as far as floats tell.
-std::size_t ExtremeVertices::farthest_from(Vec2 point, std::vector<float>& squares) const {
-  const __m128 from = _mm_setr_ps(point.x, point.y, point.x, point.y);
+std::size_t ExtremeVertices::farthest_from(double x, double y, std::vector<float>& squares) const {
+  const __m128 half = _mm_cvtpd_ps(_mm_setr_pd(x, y)), from = _mm_movelh_ps(half, half);
   __m128 largest = _mm_setzero_ps();
   for (std::size_t i = 0; i < grid_.size(); i += block) {
     const __m128 four = squares_of(&grid_[i], from);

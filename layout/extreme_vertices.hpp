@@ -33,13 +33,13 @@ class ExtremeVertices {
   float grid_step() const { return static_cast<float>(step_); }
 
  private:
-  std::size_t farthest_from(Vec2 point, std::vector<float>& squares) const;
+  std::size_t farthest_from(double x, double y, std::vector<float>& squares) const;
   void keep(float from_middle, float from_origin);
 
   std::vector<std::uint32_t> used_;
   std::vector<GridPoint> grid_;  ///< up to whole blocks filled with the last vertex
   /// Squares of the vertices' distances, in steps of the grid.
-  std::vector<float> from_origin_, from_first_, from_middle_;
+  std::vector<float> from_origin_, from_middle_;
   std::vector<Vec2> points_;
   double step_ = 0;
 };

@@ -25,7 +25,7 @@ class PoseShaper {
  public:
   /// The character must outlive this and must be valid (see validate()); the threshold is that of
   /// pose_shape(). `deepest`: of a plan's depths; hierarchies end there. `outlines`: whether anybody looks at them, as
-  /// the solid semantics does. Where nobody does, depth 0 takes the outermost vertices alone, a fifth of the time, and
+  /// the solid semantics does. Where nobody does, depth 0 takes the outermost vertices alone, a third of the time, and
   /// shapes have neither outlines nor elements; see ExtremeVertices for what is the same.
   explicit PoseShaper(const Character& character, float threshold = 0.01f, std::uint32_t deepest = all_depths,
                       bool outlines = true);
