@@ -125,24 +125,25 @@ void HierarchyBuilder::begin(double reach, double margin, double threshold) {
 
 void HierarchyBuilder::add_segment(Vec2 a, Vec2 b) {
   SplitItem item;
-  item.weight = std::sqrt(square_distance(a, b));
+  const double length = std::sqrt(square_distance(a, b));
+  item.weight[0] = item.weight[1] = length;
   const auto set = [&](int axis, float at_a, float at_b) {
     item.box[axis] = std::min(at_a, at_b);
     item.box[2 + axis] = -std::max(at_a, at_b);
     item.middle[axis] = 0.5 * (widened(at_a) + widened(at_b));
-    item.moment[axis] = item.weight * item.middle[axis];
+    item.moment[axis] = length * item.middle[axis];
   };
   set(0, a.x, b.x);
   set(1, a.y, b.y);
   items_.push_back(item);
   item_elements_.push_back({a, b, b});
-  halvings_.push_back(static_cast<std::uint8_t>(even_halves_.halvings(item.weight)));
+  halvings_.push_back(static_cast<std::uint8_t>(even_halves_.halvings(length)));
 }
 
 void HierarchyBuilder::add_triangle(const Element& triangle) {
   const auto& [a, b, c] = triangle;
   SplitItem item;
-  item.weight = 3;
+  item.weight[0] = item.weight[1] = 3;
   const auto set = [&](int axis, float at_a, float at_b, float at_c) {
     item.box[axis] = std::min({at_a, at_b, at_c});
     item.box[2 + axis] = -std::max({at_a, at_b, at_c});

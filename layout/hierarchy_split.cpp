@@ -11,29 +11,35 @@
 namespace bch {
 namespace {
 
-/// A SplitMeasure while it grows, in registers of every x86-64 processor.
-class Sum {
+constexpr float infinity = std::numeric_limits<float>::infinity();
+
+/// Boxes and moments of both sides of a plane while they grow, in registers of every x86-64 processor. Which side an item
+/// is on is a mask, all bits of a lane or none: on the other side zeros are added, and a minimum is taken with NaN, which
+/// leaves what comes second.
+class Sums {
  public:
-  /// Takes an item in where `here` has all bits set; elsewhere it has none, and nothing changes: zeros are added and
-  /// infinities compared.
-  void add(const SplitItem& item, __m128d here) {
-    const __m128 at = _mm_castpd_ps(here), box = _mm_loadu_ps(item.box);
-    box_ = _mm_min_ps(box_, _mm_or_ps(_mm_and_ps(at, box), _mm_andnot_ps(at, _mm_set1_ps(infinity))));
-    moment_ = _mm_add_pd(moment_, _mm_and_pd(here, _mm_loadu_pd(item.moment)));
-    weight_ = _mm_add_sd(weight_, _mm_and_pd(here, _mm_load_sd(&item.weight)));
+  void add(const SplitItem& item, __m128d before, __m128d after) {
+    const __m128 box = _mm_loadu_ps(item.box);
+    const __m128d moment = _mm_loadu_pd(item.moment);
+    box_[0] = _mm_min_ps(_mm_or_ps(_mm_castpd_ps(after), box), box_[0]);
+    box_[1] = _mm_min_ps(_mm_or_ps(_mm_castpd_ps(before), box), box_[1]);
+    moment_[0] = _mm_add_pd(moment_[0], _mm_and_pd(before, moment));
+    moment_[1] = _mm_add_pd(moment_[1], _mm_and_pd(after, moment));
+    weight_ = _mm_add_pd(weight_, _mm_and_pd(_mm_unpacklo_pd(before, after), _mm_loadu_pd(item.weight)));
   }
 
-  void store(SplitMeasure& measure) const {
-    _mm_storeu_ps(measure.box, box_);
-    _mm_storeu_pd(measure.moment, moment_);
-    _mm_store_sd(&measure.weight, weight_);
+  void store(SplitMeasure& before, SplitMeasure& after) const {
+    _mm_storeu_ps(before.box, box_[0]);
+    _mm_storeu_ps(after.box, box_[1]);
+    _mm_storeu_pd(before.moment, moment_[0]);
+    _mm_storeu_pd(after.moment, moment_[1]);
+    _mm_storel_pd(&before.weight, weight_);
+    _mm_storeh_pd(&after.weight, weight_);
   }
 
  private:
-  static constexpr float infinity = std::numeric_limits<float>::infinity();
-
-  __m128 box_ = _mm_set1_ps(infinity);
-  __m128d moment_ = _mm_setzero_pd(), weight_ = _mm_setzero_pd();
+  __m128 box_[2] = {_mm_set1_ps(infinity), _mm_set1_ps(infinity)};
+  __m128d moment_[2] = {_mm_setzero_pd(), _mm_setzero_pd()}, weight_ = _mm_setzero_pd();
 };
 
 double centroid(std::span<const SplitItem> items, ItemOrder order, const SplitMeasure& measure, int axis) {
@@ -52,22 +58,20 @@ double plane(std::span<const SplitItem> items, ItemOrder order, const SplitMeasu
 std::size_t partition(const SplitItem* items, ItemOrder order, int axis, double plane, std::uint32_t* second,
                       SplitMeasure& before_plane, SplitMeasure& after_plane) {
   const __m128d limit = _mm_set1_pd(plane);
-  Sum before_sum, after_sum;
+  Sums sums;
   std::uint32_t* first = order.data();
   std::uint32_t* const second_begin = second;
   for (const std::uint32_t i : order) {
     const SplitItem& item = items[i];
     const __m128d middle = _mm_set1_pd(item.middle[axis]), before = _mm_cmplt_pd(middle, limit);
-    before_sum.add(item, before);
-    after_sum.add(item, _mm_cmpge_pd(middle, limit));
+    sums.add(item, before, _mm_cmpge_pd(middle, limit));
     const int is_before = _mm_movemask_pd(before) & 1;
     *first = i;
     *second = i;
     first += is_before;
     second += 1 - is_before;
   }
-  before_sum.store(before_plane);
-  after_sum.store(after_plane);
+  sums.store(before_plane, after_plane);
   const std::size_t first_count = static_cast<std::size_t>(first - order.data());
   for (const std::uint32_t* i = second_begin; i != second; ++i) *first++ = *i;
   return first_count;
@@ -76,11 +80,11 @@ std::size_t partition(const SplitItem* items, ItemOrder order, int axis, double 
 }  // namespace
 
 SplitMeasure measure(std::span<const SplitItem> items, std::span<const std::uint32_t> order) {
-  const __m128d here = _mm_cmpeq_pd(_mm_setzero_pd(), _mm_setzero_pd());
-  Sum sum;
-  for (const std::uint32_t i : order) sum.add(items[i], here);
-  SplitMeasure result;
-  sum.store(result);
+  const __m128d none = _mm_setzero_pd(), all = _mm_cmpeq_pd(none, none);
+  Sums sums;
+  for (const std::uint32_t i : order) sums.add(items[i], all, none);
+  SplitMeasure result, empty;
+  sums.store(result, empty);
   return result;
 }
 

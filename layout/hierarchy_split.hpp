@@ -13,7 +13,7 @@ namespace bch {
 struct alignas(64) SplitItem {
   float box[4];      ///< low x, low y, -high x, -high y: one minimum grows it
   double moment[2];  ///< what it adds to its node's centroid, which is the sum of these over that of weights
-  double weight;
+  double weight[2];  ///< twice the same: one for either side of a plane
   double middle[2];  ///< the point that decides its side
 };
 

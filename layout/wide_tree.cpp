@@ -117,11 +117,11 @@ double Flattener::worth(const Group& group) const {
 
 Flattener::Parts Flattener::subtrees(const Group& group) const {
   Parts parts;
-  parts.group[parts.count++] = group;
+  parts.group[0] = group, parts.worth[0] = worth(group);
+  parts.count = 1;
   while (parts.count < block_width) {
     std::uint32_t best = 0;
-    for (std::uint32_t i = 1; i < parts.count; ++i)
-      best = worth(parts.group[i]) > worth(parts.group[best]) ? i : best;
+    for (std::uint32_t i = 1; i < parts.count; ++i) best = parts.worth[i] > parts.worth[best] ? i : best;
     if (parts.group[best].size() == 1) break;
     expand(parts, best);
   }
@@ -130,11 +130,13 @@ Flattener::Parts Flattener::subtrees(const Group& group) const {
 
 /// Replaces a group by those of its node's children.
 void Flattener::expand(Parts& parts, std::uint32_t index) const {
-  for (std::uint32_t i = parts.count++; i > index + 1; --i) parts.group[i] = parts.group[i - 1];
-  Group& first = parts.group[index];
+  for (std::uint32_t i = parts.count++; i > index + 1; --i)
+    parts.group[i] = parts.group[i - 1], parts.worth[i] = parts.worth[i - 1];
+  Group &first = parts.group[index], &other = parts.group[index + 1];
   const std::uint32_t second = hierarchy_->nodes[first.node].second_child;
-  parts.group[index + 1] = {position_[second], first.end, second};
+  other = {position_[second], first.end, second};
   first = {first.begin, position_[second], first.node + 1};
+  parts.worth[index] = worth(first), parts.worth[index + 1] = worth(other);
 }
 
 Flattener::Parts Flattener::even_runs(const Group& group) const {

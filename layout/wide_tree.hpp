@@ -60,6 +60,7 @@ class Flattener {
   /// What becomes one block.
   struct Parts {
     std::array<Group, block_width> group;
+    std::array<double, block_width> worth;  ///< of expanding each; subtree grouping only
     std::uint32_t count = 0;
   };
   /// A node whose part of the cut is to be found so many levels below, or sooner.
