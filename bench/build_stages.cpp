@@ -90,6 +90,13 @@ std::vector<BuildImplementation> build_implementations() {
   return all;
 }
 
+BuildImplementation chosen_build_implementation() {
+  const std::vector<BuildImplementation> all = build_implementations();
+  return *std::find_if(all.begin(), all.end(), [](const BuildImplementation& row) {
+    return row.interior == &best_interior_implementation();
+  });
+}
+
 BuildStages::BuildStages(const Character& character, std::uint32_t poses,
                          const BuildImplementation& implementation)
     : character_(character),

@@ -28,6 +28,8 @@ struct BuildImplementation {
 
 /// Those that run here, the best first.
 std::vector<BuildImplementation> build_implementations();
+/// The one of them that builders take by themselves.
+BuildImplementation chosen_build_implementation();
 
 /// A character's way from poses to all that a set stores of shapes, stage by stage: each is made from what the one
 /// before it made of the same pose, with memory that is used again. Everything is checked when it is made first.

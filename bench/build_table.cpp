@@ -131,7 +131,7 @@ void print_build_growth(std::uint32_t poses, std::uint32_t runs) {
   for (std::size_t i = 0; i < men.count(); ++i) {
     const Character man = men.make(i);
     std::vector<BuildStages> one;
-    one.emplace_back(man, std::min(poses, men.poses(i)), build_implementations().front());
+    one.emplace_back(man, std::min(poses, men.poses(i)), chosen_build_implementation());
     const StageTimes times = time_stages(one, runs)[0];
     const auto n = static_cast<double>(men.triangles(i));
     const double growth = time_of(times, "all") / (n * std::log(n));

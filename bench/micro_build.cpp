@@ -85,7 +85,7 @@ void register_stages(Scene& scene) {
     add("build/" + std::string(stage.name), stage, [&scene, kept] {
       return kept->get(0, [&scene](auto&, auto& stages) {
         for (const auto& loaded : scene.characters())
-          stages.emplace_back(loaded.character, scene.poses(), build_implementations().front());
+          stages.emplace_back(loaded.character, scene.poses(), chosen_build_implementation());
       });
     });
   for (std::size_t i = 0; i < men->count(); ++i)
@@ -94,8 +94,7 @@ void register_stages(Scene& scene) {
           [&scene, kept, men, i] {
             return kept->get(i + 1, [&](auto& characters, auto& stages) {
               const Character& man = characters.emplace_back(men->make(i));
-              stages.emplace_back(man, std::min(scene.poses(), men->poses(i)),
-                                  build_implementations().front());
+              stages.emplace_back(man, std::min(scene.poses(), men->poses(i)), chosen_build_implementation());
             });
           });
 }

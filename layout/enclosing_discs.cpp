@@ -4,7 +4,8 @@
 #include "layout/enclosing_discs.hpp"
 
 #include <algorithm>
-#include <iterator>
+
+#include "layout/construction_implementation.hpp"
 
 namespace bch {
 
@@ -22,8 +23,7 @@ constexpr DiscImplementation table[] = {
 };
 
 const DiscImplementation& best_implementation() {
-  static const DiscImplementation& best = *std::find_if(
-      std::begin(table), std::end(table), [](const DiscImplementation& row) { return row.supported(); });
+  static const DiscImplementation& best = best_for_construction(table);
   return best;
 }
 

@@ -3,8 +3,7 @@
 
 #include "layout/interior_implementation.hpp"
 
-#include <algorithm>
-#include <iterator>
+#include "layout/construction_implementation.hpp"
 
 namespace bch {
 
@@ -26,8 +25,7 @@ std::span<const InteriorImplementation> interior_implementations() noexcept {
 }
 
 const InteriorImplementation& best_interior_implementation() noexcept {
-  static const InteriorImplementation& best = *std::find_if(
-      std::begin(table), std::end(table), [](const InteriorImplementation& row) { return row.supported(); });
+  static const InteriorImplementation& best = best_for_construction(table);
   return best;
 }
 

@@ -63,7 +63,7 @@ struct InteriorImplementation {
 /// All that were compiled, the best first; the last one runs everywhere.
 std::span<const InteriorImplementation> interior_implementations() noexcept;
 
-/// The first that this processor supports.
+/// The fastest for construction that this processor supports.
 const InteriorImplementation& best_interior_implementation() noexcept;
 
 }  // namespace bch
