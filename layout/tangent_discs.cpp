@@ -3,6 +3,7 @@
 
 #include "layout/tangent_discs.hpp"
 
+#include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <cstddef>
@@ -30,26 +31,30 @@ constexpr float smallest_curvature = 0x1p-6f;
 
 }  // namespace
 
+/// First which edge each sample is on, then all samples in a straight loop: how many an edge has is a coin toss.
 void ContourSamples::take(std::span<const float> x, std::span<const float> y) {
   const double step = edge_lengths(x, y, length_) / count;
   assert(step > 0);
-  double next = 0.5 * step, end = 0;
-  std::uint32_t taken = 0;
-  for (std::size_t i = 0, before = x.size() - 1; i < x.size(); before = i++) {
-    const double begin = end;
+  std::array<std::uint32_t, count + 1>
+      edge{};  // the last that begins before a sample and after the one before it
+  begin_.resize(length_.size());
+  double end = 0;
+  for (std::uint32_t i = 0; i < length_.size(); ++i) {
+    edge[std::min(static_cast<std::uint32_t>(end / step + 0.5), count)] = i;
+    begin_[i] = end;
     end += static_cast<double>(length_[i]);
-    if (next >= end) continue;
-    const float dx = x[i] - x[before], dy = y[i] - y[before], one_over_length = 1 / length_[i];
-    for (; next < end && taken < count; next += step, ++taken) {
-      const float along = static_cast<float>(next - begin) * one_over_length;
-      x_[taken] = x[before] + along * dx;
-      y_[taken] = y[before] + along * dy;
-      touches_.normal_x[taken / 2] = -dy * one_over_length;
-      touches_.normal_y[taken / 2] = dx * one_over_length;
-    }
   }
-  // Rounding may leave the last one out.
-  for (; taken < count; ++taken) x_[taken] = x_[taken - 1], y_[taken] = y_[taken - 1];
+  std::uint32_t at = 0;
+  for (std::uint32_t k = 0; k < count; ++k) {
+    at = std::max(at, edge[k]);
+    const std::size_t before = (at == 0 ? length_.size() : at) - 1;
+    const float dx = x[at] - x[before], dy = y[at] - y[before], one_over_length = 1 / length_[at];
+    const float along = static_cast<float>((k + 0.5) * step - begin_[at]) * one_over_length;
+    x_[k] = x[before] + along * dx;
+    y_[k] = y[before] + along * dy;
+    touches_.normal_x[k / 2] = -dy * one_over_length;
+    touches_.normal_y[k / 2] = dx * one_over_length;
+  }
   // A pair of samples shares a touch: the second one's place and normal.
   for (std::uint32_t k = 0; k < most_touches; ++k)
     touches_.x[k] = x_[2 * k + 1], touches_.y[k] = y_[2 * k + 1];

@@ -48,7 +48,8 @@ class ContourSamples {
   static constexpr std::uint32_t count = 2 * most_touches;
   alignas(64) std::array<float, count> x_, y_;
   Touches touches_;
-  std::vector<float> length_;
+  std::vector<float> length_;  ///< of the edge that ends at each corner
+  std::vector<double> begin_;  ///< of the same edges, along the contour
 };
 
 }  // namespace bch
