@@ -3,17 +3,15 @@
 
 #include "kernel/clearance.hpp"
 
-#include <oneapi/tbb/blocked_range.h>
-#include <oneapi/tbb/parallel_for.h>
-
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <stdexcept>
 #include <string>
 
 #include "kernel/clearance_arguments.hpp"
+#include "kernel/pair_ranges.hpp"
 #include "kernel/pair_validation.hpp"
+#include "layout/cut_discs.hpp"
 #include "layout/heading.hpp"
 
 namespace bch {
@@ -21,7 +19,6 @@ namespace {
 
 using kernel::ClearanceArguments;
 using kernel::NearestDiscs;
-using Range = tbb::blocked_range<std::size_t>;
 
 /// Pairs a task.
 constexpr std::size_t grain = 1024;
@@ -34,26 +31,13 @@ float limit_of(double max_distance) {
   return static_cast<double>(nearest) > max_distance ? std::nextafter(nearest, -1.0f) : nearest;
 }
 
-/// Where a cut's discs begin among the nodes: behind the blocks, which stand in breadth-first order.
-std::uint32_t first_disc(const ShapeSetView& shapes, std::size_t root) {
-  if (shapes.trees == nullptr) return 0;
-  const std::uint32_t top = shapes.trees[root].top;
-  if (top >= leaf_window) return top & ~leaf_window;
-  std::uint32_t end = top + block_floats;
-  for (std::uint32_t block = top; block < end; block += block_floats) {
-    const float* const x = shapes.nodes + block;
-    for (std::uint32_t i = 0; i < block_width; ++i)
-      if (std::isfinite(x[i]) && std::bit_cast<std::uint32_t>(x[3 * block_width + i]) < leaf_window)
-        end += block_floats;
-  }
-  return end;
-}
-
 CutNodes cut_nodes(const ShapeSetView& shapes, const Agents& agents, Pair pair, const NearestDiscs& nearest) {
   if (nearest.a == kernel::no_node) return no_cut_nodes;
   const auto index = [&](std::uint32_t agent, std::uint32_t node) {
     const std::uint32_t level = agents.level.empty() ? shapes.level_count - 1 : agents.level[agent];
-    return node - first_disc(shapes, std::size_t{agents.shape[agent]} * shapes.level_count + level);
+    if (shapes.trees == nullptr) return node;
+    return node - first_disc(shapes.nodes,
+                             shapes.trees[std::size_t{agents.shape[agent]} * shapes.level_count + level].top);
   };
   const auto [a, b] = std::minmax(pair.first, pair.second);
   const CutNodes nodes{index(a, nearest.a), index(b, nearest.b)};
@@ -116,16 +100,11 @@ void clearance(const ShapeSet& shapes, const Agents& agents, std::span<const Pai
   const auto part = [](auto span, std::size_t begin, std::size_t size) {
     return span.empty() ? span : span.subspan(begin, size);
   };
-  const auto answer_range = [&](const Range& range) {
-    for (std::size_t i = range.begin(); i < range.end(); i += grain) {
-      const std::size_t size = std::min(grain, range.end() - i);
-      answer(
-          implementation, arguments, agents, pairs.subspan(i, size),
-          {part(answers.distance, i, size), part(answers.direction, i, size), part(answers.nodes, i, size)});
-    }
-  };
-  const Range all(0, pairs.size(), grain);
-  pairs.size() <= grain ? answer_range(all) : tbb::parallel_for(all, answer_range);
+  kernel::for_pair_ranges(pairs.size(), grain, [&](std::size_t begin, std::size_t size) {
+    answer(implementation, arguments, agents, pairs.subspan(begin, size),
+           {part(answers.distance, begin, size), part(answers.direction, begin, size),
+            part(answers.nodes, begin, size)});
+  });
 }
 
 }  // namespace bch

@@ -52,16 +52,7 @@ class ExtentKernel {
         most[k] = xsimd::max(most[k], centre + r);
       }
     }
-    for (std::uint32_t k = 0; k < axes; ++k) low[k] = smallest(least[k]), high[k] = -smallest(-most[k]);
-  }
-
-  /// Of a register's lanes.
-  static float smallest(Float values) noexcept {
-    alignas(64) float lane[Simd::width];
-    Simd::store(lane, values);
-    float least = lane[0];
-    for (unsigned i = 1; i < Simd::width; ++i) least = lane[i] < least ? lane[i] : least;
-    return least;
+    for (std::uint32_t k = 0; k < axes; ++k) low[k] = Simd::least(least[k]), high[k] = -Simd::least(-most[k]);
   }
 
   static void one_by_one(const CutDiscs& discs, float ex, float ey, float& low, float& high) noexcept {

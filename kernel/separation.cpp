@@ -3,9 +3,6 @@
 
 #include "kernel/separation.hpp"
 
-#include <oneapi/tbb/blocked_range.h>
-#include <oneapi/tbb/parallel_for.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -14,6 +11,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "kernel/pair_ranges.hpp"
 #include "kernel/pair_validation.hpp"
 #include "layout/cut_discs.hpp"
 #include "layout/heading.hpp"
@@ -90,12 +88,6 @@ Separation Query::answer(Pair pair, const Axes& axes, bool both_ways, const Exte
   return {depth > 0 ? rounding::round_up(depth) : 0.0f, static_cast<float>(x), static_cast<float>(y)};
 }
 
-template <class Work>
-void for_pairs(std::size_t pairs, Work work) {
-  using Range = tbb::blocked_range<std::size_t>;
-  tbb::parallel_for(Range(0, pairs, grain), [&](const Range& range) { work(range.begin(), range.end()); });
-}
-
 Query checked_query(const ShapeSet& shapes, const Agents& agents, std::span<const Pair> pairs,
                     std::span<Separation> out, const SeparationOptions& options) {
   if (out.size() != pairs.size())
@@ -141,11 +133,11 @@ void separation_along(const ShapeSet& shapes, const Agents& agents, std::span<co
                       const SeparationOptions& options) {
   const Query query = checked_query(shapes, agents, pairs, out, options);
   require_directions(directions, pairs.size());
-  for_pairs(pairs.size(), [&](std::size_t begin, std::size_t end) {
+  kernel::for_pair_ranges(pairs.size(), grain, [&](std::size_t begin, std::size_t size) {
     Axes axis;
     Extents a, b;
     axis.count = 1;
-    for (std::size_t i = begin; i < end; ++i) {
+    for (std::size_t i = begin; i < begin + size; ++i) {
       const auto [low, high] = std::minmax(pairs[i].first, pairs[i].second);
       const double x = directions[i].x, y = directions[i].y;
       const double length = std::sqrt(x * x + y * y) * (pairs[i].second < pairs[i].first ? -1 : 1);
@@ -161,10 +153,10 @@ void separation(const ShapeSet& shapes, const Agents& agents, std::span<const Pa
                 std::uint32_t directions, std::span<Separation> out, const SeparationOptions& options) {
   const Query query = checked_query(shapes, agents, pairs, out, options);
   const Axes axes = spread_axes(directions);
-  for_pairs(pairs.size(), [&](std::size_t begin, std::size_t end) {
+  kernel::for_pair_ranges(pairs.size(), grain, [&](std::size_t begin, std::size_t size) {
     Extents a, b;
     std::size_t measured = agents.size();
-    for (std::size_t i = begin; i < end; ++i) {
+    for (std::size_t i = begin; i < begin + size; ++i) {
       const auto [low, high] = std::minmax(pairs[i].first, pairs[i].second);
       // Pairs often come agent by agent.
       if (measured != low) query.measure(low, axes, a);
