@@ -3,9 +3,6 @@
 
 #include "kernel/contact_time.hpp"
 
-#include <oneapi/tbb/blocked_range.h>
-#include <oneapi/tbb/parallel_for.h>
-
 #include <algorithm>
 #include <cmath>
 #include <sstream>
@@ -13,6 +10,7 @@
 #include <string>
 
 #include "kernel/contact_time_arguments.hpp"
+#include "kernel/pair_ranges.hpp"
 #include "kernel/pair_validation.hpp"
 #include "layout/heading.hpp"
 #include "layout/rounding.hpp"
@@ -21,7 +19,6 @@ namespace bch {
 namespace {
 
 using kernel::ContactTimeArguments;
-using Range = tbb::blocked_range<std::size_t>;
 
 /// Pairs a task.
 constexpr std::size_t grain = 1024;
@@ -31,22 +28,29 @@ void answer(const kernel::Implementation& implementation, ContactTimeArguments a
             const Agents& agents, std::span<const Pair> pairs, const double* x, const double* y,
             float* times) noexcept {
   std::uint8_t codes[grain];
-  float in_a_x[grain], in_a_y[grain];
   arguments.in.pairs = pairs.data();
   arguments.in.codes = codes;
   implementation.run(arguments.in, 0, pairs.size());
-  for (std::size_t i = 0; i < pairs.size(); ++i) {
+
+  Pair open[grain];
+  std::uint32_t which[grain];
+  float in_a_x[grain], in_a_y[grain], found[grain];
+  std::size_t count = 0;
+  for (std::uint32_t i = 0; i < pairs.size(); ++i) {
     times[i] = 0;
     if (codes[i] != kernel::apart) continue;
     const auto [first, second] = pairs[i];
     const double sign = second < first ? -1 : 1;
     const auto dx = static_cast<float>(sign * x[i]), dy = static_cast<float>(sign * y[i]);
     const UnitVector to = unit_vector(agents.heading[std::min(first, second)]);
-    in_a_x[i] = to.cosine * dx + to.sine * dy;
-    in_a_y[i] = to.cosine * dy - to.sine * dx;
+    in_a_x[count] = to.cosine * dx + to.sine * dy;
+    in_a_y[count] = to.cosine * dy - to.sine * dx;
+    open[count] = pairs[i], which[count++] = i;
   }
-  arguments.x = in_a_x, arguments.y = in_a_y, arguments.time = times;
-  implementation.contact_time(arguments, 0, pairs.size());
+  arguments.in.pairs = open;
+  arguments.x = in_a_x, arguments.y = in_a_y, arguments.time = found;
+  implementation.contact_time(arguments, 0, count);
+  for (std::size_t k = 0; k < count; ++k) times[which[k]] = found[k];
 }
 
 void require_sizes(const Displacements& displacements, std::size_t times, std::size_t pairs) {
@@ -83,13 +87,10 @@ void contact_time(const ShapeSet& shapes, const Agents& agents, std::span<const 
 
   const ShapeSetView view = shapes.view();
   ContactTimeArguments arguments{kernel::arguments_for(view, agents, {}), nullptr, nullptr, nullptr};
-  const auto answer_range = [&](const Range& range) {
-    for (std::size_t i = range.begin(); i < range.end(); i += grain)
-      answer(implementation, arguments, agents, pairs.subspan(i, std::min(grain, range.end() - i)),
-             displacements.x.data() + i, displacements.y.data() + i, times.data() + i);
-  };
-  const Range all(0, pairs.size(), grain);
-  pairs.size() <= grain ? answer_range(all) : tbb::parallel_for(all, answer_range);
+  kernel::for_pair_ranges(pairs.size(), grain, [&](std::size_t begin, std::size_t size) {
+    answer(implementation, arguments, agents, pairs.subspan(begin, size), displacements.x.data() + begin,
+           displacements.y.data() + begin, times.data() + begin);
+  });
 }
 
 }  // namespace bch

@@ -26,10 +26,11 @@ namespace bch::kernel {
 /// |v|, so those come nearer by the square of that, and overlap at the start.) The arithmetic in double is off by
 /// 1e-15, the last product takes off 4 u for that and for the rounding to float.
 ///
-/// Bounds. At T the centres of discs (C, R') that hold the two are within R'_A + R'_B + 16 u D, and 12 u D more at
-/// the best time, if T is not above that: rounding brings 20 u S and 4 u D beside, and D <= D' + 2 S. A radius
-/// enlarged by `slack` = 128 u S and 128 u (|x| + |y|) has room for the 84 u S and 32 u D', and for 20 u D' of what
-/// is computed from it.
+/// Bounds are the times at which discs (C, R') that hold the two touch, enlarged. At T the centres are within R'_A +
+/// R'_B + 16 u D, and rounding brings 20 u S and 4 u D beside, with D <= D' + 2 S: `slack` = 128 u S and 128 u (|x| +
+/// |y|) have room for those 60 u S + 20 u D', and for what follows. The distances along the way and aside are off by 4 u
+/// D' each. That and 3 u of the squares make the root smaller by less than a radius enlarged by 8 u D' does, and the
+/// difference later by 4 u D' + u R'. Times are shortened by 16 u, for the 3 u of 1 / |v| and the product's.
 template <class Simd>
 class ContactTimeMeasure {
  public:
@@ -38,34 +39,38 @@ class ContactTimeMeasure {
   /// v, and S in metres.
   ContactTimeMeasure(float x, float y, float reach) noexcept : x_(x), y_(y), slack_(0x1p-17f * reach) {
     const float square = x * x + y * y;
-    // A way shorter than that is none, which the slack covers: bounds are then those of discs at rest.
+    // Of a way shorter than that all bounds are 0.
     if (square < 1e-30f) return;
-    per_square_ = 1 / square;
     per_length_ = (1 - 0x1p-20f) / __builtin_sqrtf(square);
   }
 
   float time() const noexcept { return time_; }
   float best() const noexcept { return time_ < 1 ? time_ : 1; }
 
-  /// The time at which the discs' front and back would meet if both were as wide as the world; far_beyond where the
-  /// discs stay apart until the best time.
+  /// When the discs touch first; far_beyond where they do not.
   Float bound(Float x, Float y, Float r) const noexcept {
     const Float radius = enlarged(x, y, r);
-    const Float time = ((x * Float(x_) + y * Float(y_)) * Float(per_length_) - radius) * Float(per_length_);
-    return Simd::select(meet_by(x, y, radius, best()), xsimd::max(time, Float(0.0f)), Float(far_beyond));
+    const Float along = (x * Float(x_) + y * Float(y_)) * Float(per_length_);
+    const Float aside = (x * Float(y_) - y * Float(x_)) * Float(per_length_);
+    const Float left = radius * radius - aside * aside, zero(0.0f), never(far_beyond);
+    const Float half = xsimd::sqrt(xsimd::max(left, zero));
+    const Float time = xsimd::max((along - half) * Float(per_length_), zero);
+    return Simd::select(left >= zero, Simd::select(along + half >= zero, time, never), never);
   }
 
+  /// The discs with the least bound first, which leaves out most others.
   void meet(const Transform& at, Discs a, Discs b, std::uint32_t, std::uint32_t) noexcept {
-    std::uint64_t open = 0;
-    visit_disc_pairs<Simd>(at, a, b, [&](unsigned k, Float x, Float y, Float r) {
-      open |= std::uint64_t{Simd::bits(meet_by(x, y, enlarged(x, y, r), best()))} << k;
-    });
+    alignas(64) float bounds[block_pairs];
+    visit_disc_pairs<Simd>(
+        at, a, b, [&](unsigned k, Float x, Float y, Float r) { Simd::store(bounds + k, bound(x, y, r)); });
+    const float least = least_value<Simd>(bounds);
+    if (!(least <= best())) return;
+    const unsigned first = first_within<Simd>(bounds, least);
+    take(at, a, b, first);
+    std::uint64_t open = all_within<Simd>(bounds, best()) & ~(std::uint64_t{1} << first);
     for (; open != 0; open &= open - 1) {
       const auto k = static_cast<unsigned>(__builtin_ctzll(open));
-      const unsigned i = k / block_width, j = k % block_width;
-      const float bx = b.x[j], by = b.x[b.stride + j];
-      take(at.tx + (at.c * bx - at.s * by) - a.x[i], at.ty + (at.s * bx + at.c * by) - a.x[a.stride + i],
-           a.x[2 * a.stride + i] + b.x[2 * b.stride + j]);
+      if (bounds[k] <= best()) take(at, a, b, k);
     }
   }
 
@@ -83,20 +88,20 @@ class ContactTimeMeasure {
   }
 
  private:
+  /// Of a pair of visit_disc_pairs(), by its operations.
+  void take(const Transform& at, Discs a, Discs b, unsigned pair) noexcept {
+    const unsigned i = pair / block_width, j = pair % block_width;
+    const float bx = b.x[j], by = b.x[b.stride + j];
+    take(at.tx + (at.c * bx - at.s * by) - a.x[i], at.ty + (at.s * bx + at.c * by) - a.x[a.stride + i],
+         a.x[2 * a.stride + i] + b.x[2 * b.stride + j]);
+  }
+
   Float enlarged(Float x, Float y, Float r) const noexcept {
     return r + Float(slack_) + Float(0x1p-17f) * (xsimd::abs(x) + xsimd::abs(y));
   }
 
-  /// Whether A's disc sweeps over B's in times up to t: by the place on its way that is nearest to B's.
-  typename Simd::Mask meet_by(Float x, Float y, Float radius, float t) const noexcept {
-    const Float towards = (x * Float(x_) + y * Float(y_)) * Float(per_square_);
-    const Float nearest = xsimd::min(xsimd::max(towards, Float(0.0f)), Float(t));
-    const Float left_x = x - nearest * Float(x_), left_y = y - nearest * Float(y_);
-    return left_x * left_x + left_y * left_y <= radius * radius;
-  }
-
   float x_ = 0, y_ = 0, slack_ = 0;
-  float per_square_ = 0, per_length_ = 0;
+  float per_length_ = 0;
   float time_ = __builtin_inff();
 };
 

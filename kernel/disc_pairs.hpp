@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include "kernel/block_test.hpp"
+#include "kernel/lanes.hpp"
 #include "layout/shape_set_view.hpp"
 
 namespace bch::kernel {
@@ -41,6 +42,16 @@ template <class Simd, class Visit>
     for (unsigned part = 0; part < parts; ++part)
       visit(row * block_width + part * Simd::width, px[part] - row_x, py[part] - row_y, row_r + r[part]);
   }
+}
+
+/// Of the pairs' values.
+template <class Simd>
+float least_value(const float* values) noexcept {
+  auto least = Simd::load(values);
+#pragma GCC unroll 16
+  for (unsigned k = Simd::width; k < block_pairs; k += Simd::width)
+    least = xsimd::min(least, Simd::load(values + k));
+  return Simd::least(least);
 }
 
 /// The pairs whose values are at most so much.

@@ -72,7 +72,7 @@ class NearestWalk {
 
   /// The children below the least bound, unless that is above `best`.
   bool take_least(NodePairBounds& frame, float best, std::uint32_t& a, std::uint32_t& b) const noexcept {
-    const float least = Simd::least(least_of(frame.bound));
+    const float least = least_value<Simd>(frame.bound);
     const unsigned k = first_within<Simd>(frame.bound, least), i = k / block_width, j = k % block_width;
     a = child(frame.a, i), b = child(frame.b, j);
     frame.bound[k] = far_beyond;
@@ -98,15 +98,6 @@ class NearestWalk {
   using Float = typename Simd::Float;
   /// Every step descends on one side at least, and neither side has more levels than this.
   static constexpr std::uint32_t most_frames = 2 * most_wide_levels;
-
-  /// Per lane.
-  static Float least_of(const float* bound) noexcept {
-    Float least = Simd::load(bound);
-#pragma GCC unroll 16
-    for (unsigned k = Simd::width; k < block_pairs; k += Simd::width)
-      least = xsimd::min(least, Simd::load(bound + k));
-    return least;
-  }
 
   const float* nodes_;
   NodePairBounds frames_[most_frames + 1];

@@ -68,18 +68,20 @@ class SeparationTest {
 
   /// By A's even directions or by its odd ones.
   std::uint32_t apart(std::uint32_t pair, unsigned odd) const noexcept {
-    const unsigned offset = offset_[pair] + odd;
-    const float* a = supports(row_a_[pair]) + odd * half;
-    const float* b = supports(row_b_[pair]);
-    const float* below = b + offset % 2 * half + offset / 2;
-    const float* above = b + (offset + 1) % 2 * half + (offset + 1) / 2;
-    const Float tx(at_.tx[pair]), ty(at_.ty[pair]), lower(lower_[pair]), upper(upper_[pair]);
     std::uint32_t parted = 0;
-    for (unsigned k = 0; k < support_directions / 2; k += Simd::width) {
-      const Float distance = tx * Simd::load(direction_x[odd] + k) + ty * Simd::load(direction_y[odd] + k);
-      const Float reach = Simd::load(a + k) + (lower * Simd::load(below + k) + upper * Simd::load(above + k));
-      parted |= Simd::bits(reach < distance);
-    }
+    look_along(pair, odd,
+               [&](unsigned, Float distance, Float reach) { parted |= Simd::bits(reach < distance); });
+    return parted != 0;
+  }
+
+  /// The same all the while that A moves by (x, y), with `slack` to spare.
+  std::uint32_t apart_on_the_way(std::uint32_t pair, unsigned odd, float x, float y,
+                                 float slack) const noexcept {
+    std::uint32_t parted = 0;
+    look_along(pair, odd, [&](unsigned k, Float distance, Float reach) {
+      const Float way = xsimd::max(along(x, y, odd, k), Float(0.0f));
+      parted |= Simd::bits(reach < distance - way - Float(slack));
+    });
     return parted != 0;
   }
 
@@ -101,6 +103,25 @@ class SeparationTest {
 
   const float* supports(std::uint32_t row) const noexcept {
     return rows_ + std::size_t{row} * support_stride;
+  }
+
+  /// Calls visit(k, distance, reach) for every register: along A's directions from k on, how far B is and how far the
+  /// two extend together.
+  template <class Visit>
+  [[gnu::always_inline]] void look_along(std::uint32_t pair, unsigned odd, Visit visit) const noexcept {
+    const unsigned offset = offset_[pair] + odd;
+    const float* a = supports(row_a_[pair]) + odd * half;
+    const float* b = supports(row_b_[pair]);
+    const float* below = b + offset % 2 * half + offset / 2;
+    const float* above = b + (offset + 1) % 2 * half + (offset + 1) / 2;
+    const Float lower(lower_[pair]), upper(upper_[pair]);
+    for (unsigned k = 0; k < support_directions / 2; k += Simd::width)
+      visit(k, along(at_.tx[pair], at_.ty[pair], odd, k),
+            Simd::load(a + k) + (lower * Simd::load(below + k) + upper * Simd::load(above + k)));
+  }
+
+  static Float along(float x, float y, unsigned odd, unsigned k) noexcept {
+    return Float(x) * Simd::load(direction_x[odd] + k) + Float(y) * Simd::load(direction_y[odd] + k);
   }
 
   /// Whether a farthest point of a shape, placed in another's frame by a rotation (c, s) and a translation t,
