@@ -64,6 +64,18 @@ class ClearanceMeasure {
     take(at, a, b, first_a, first_b, gaps, Simd::least(least));
   }
 
+  /// The same of the pairs at the set bits, one after the other: for few.
+  void meet_at(std::uint64_t bits, const Transform& at, Discs a, Discs b, std::uint32_t first_a,
+               std::uint32_t first_b) noexcept {
+    for (; bits != 0; bits &= bits - 1) {
+      const auto k = static_cast<unsigned>(__builtin_ctzll(bits));
+      const unsigned i = k / block_width, j = k % block_width;
+      const auto [x, y] = step(at, a, b, i, j);
+      const float radius_sum = a.x[2 * a.stride + i] + b.x[2 * b.stride + j];
+      offer({__builtin_sqrtf(x * x + y * y) * near - radius_sum, first_a + i, first_b + j, x, y});
+    }
+  }
+
   /// Of one register's pairs of single discs.
   static Float gap(Float x, Float y, Float r) noexcept { return gap(x, y, r, near); }
 
@@ -78,18 +90,29 @@ class ClearanceMeasure {
                         Float(far_beyond));
   }
 
-  /// The first of the least, if it is less than the best or comes before it.
+  struct Step {
+    float x, y;
+  };
+  /// From disc i of A to disc j of B, by the operations of visit_disc_pairs().
+  static Step step(const Transform& at, Discs a, Discs b, unsigned i, unsigned j) noexcept {
+    const float bx = b.x[j], by = b.x[b.stride + j];
+    return {at.tx + (at.c * bx - at.s * by) - a.x[i], at.ty + (at.s * bx + at.c * by) - a.x[a.stride + i]};
+  }
+
+  /// The first of the least.
   void take(const Transform& at, Discs a, Discs b, std::uint32_t first_a, std::uint32_t first_b,
             const float* gaps, float least) noexcept {
     if (!(least <= nearest_.distance)) return;
     const unsigned k = first_within<Simd>(gaps, least);
     const unsigned i = k / block_width, j = k % block_width;
-    const std::uint32_t node_a = first_a + i, node_b = first_b + j;
-    if (least == nearest_.distance && (nearest_.a < node_a || (nearest_.a == node_a && nearest_.b <= node_b)))
-      return;
-    const float bx = b.x[j], by = b.x[b.stride + j];
-    set({least, node_a, node_b, at.tx + (at.c * bx - at.s * by) - a.x[i],
-         at.ty + (at.s * bx + at.c * by) - a.x[a.stride + i]});
+    const auto [x, y] = step(at, a, b, i, j);
+    offer({least, first_a + i, first_b + j, x, y});
+  }
+
+  /// Takes what is less than the best or comes before it.
+  void offer(const NearestDiscs& other) noexcept {
+    const bool before = other.a < nearest_.a || (other.a == nearest_.a && other.b < nearest_.b);
+    if (other.distance < nearest_.distance || (other.distance == nearest_.distance && before)) set(other);
   }
 
   void set(const NearestDiscs& nearest) noexcept {

@@ -135,27 +135,28 @@ class NearestSearch {
   void expand_inner() noexcept {
     while (inner_.size != 0) {
       const Step step = inner_.step[--inner_.size];
-      std::uint64_t improving = 0;
-      visit_improving(step, [&](unsigned k, std::uint32_t bits) { improving |= std::uint64_t{bits} << k; });
-      add_children(step, improving);
+      add_children(step, improving(step));
     }
   }
 
   /// Few windows improve on the best, and those at once, which spares many of the next ones.
   void take_window(const Step& step) noexcept {
-    std::uint32_t any = 0;
-    visit_improving(step, [&](unsigned, std::uint32_t bits) { any |= bits; });
-    if (any != 0) meet(step);
+    const std::uint64_t bits = improving(step);
+    if (bits == 0) return;
+    Searched& pair = pairs_[step.pair];
+    pair.measure.meet_at(bits, pair.at, walk_.discs(step.a, pair.stride_a),
+                         walk_.discs(step.b, pair.stride_b), step.a & ~leaf_window, step.b & ~leaf_window);
   }
 
-  /// Calls visit(k, bits) for every register: the bits of the pairs from k on that may improve.
-  template <class Visit>
-  [[gnu::always_inline]] void visit_improving(const Step& step, Visit visit) const noexcept {
+  /// The bits of the pairs of discs that may improve on the best.
+  [[gnu::always_inline]] std::uint64_t improving(const Step& step) const noexcept {
     const Searched& pair = pairs_[step.pair];
+    std::uint64_t bits = 0;
     visit_disc_pairs<Simd>(pair.at, walk_.discs(step.a, pair.stride_a), walk_.discs(step.b, pair.stride_b),
                            [&](unsigned k, Float x, Float y, Float r) {
-                             visit(k, Simd::bits(pair.measure.may_improve(x, y, r)));
+                             bits |= std::uint64_t{Simd::bits(pair.measure.may_improve(x, y, r))} << k;
                            });
+    return bits;
   }
 
   void meet(const Step& step) noexcept {
