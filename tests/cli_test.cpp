@@ -20,7 +20,8 @@ TEST(Cli, HelpAndVersionGoToStandardOutput) {
                                      {"bake", "--help"},
                                      {"crowd", "--help"},
                                      {"inspect", "--help"},
-                                     {"query", "--help"}}) {
+                                     {"query", "--help"},
+                                     {"report", "--help"}}) {
     const Ending run = bch(arguments);
     EXPECT_EQ(run.code, 0);
     EXPECT_EQ(run.err, "");
@@ -60,6 +61,9 @@ TEST(Cli, UsageErrorsGiveTwo) {
       {{"inspect", "default:male", "--svg", "x.svg"}, "--svg"},
       {{"query", "default:male", "agents.csv"}, "PAIRS.csv"},
       {{"query", "default:male", "a.csv", "p.csv", "--all-pairs"}, "--all-pairs"},
+      {{"report"}, "--out"},
+      {{"report", "--out", "x", "--experiment", "guess"}, "guess"},
+      {{"report", "--out", "x", "--page", "--quick"}, "--quick"},
   };
   for (const auto& [arguments, word] : cases) expect_failure(bch(arguments), 2, {word});
 }
@@ -67,6 +71,7 @@ TEST(Cli, UsageErrorsGiveTwo) {
 TEST(Cli, OutputThatCannotBeWrittenIsReported) {
   expect_failure(bch({"--version"}, {}, {"/dev/full", {}}), 3, {"standard output"});
   expect_failure(bch({"crowd", "--json", "/nowhere/crowd.json"}), 3, {"/nowhere/crowd.json"});
+  expect_failure(bch({"report", "--out", "/dev/null/report"}), 3, {"/dev/null/report"});
 }
 
 struct BadFile {

@@ -21,7 +21,9 @@ const baselines::PairDistances* Run::distances() {
 }
 
 std::span<const Experiment> experiments() {
-  static const Experiment all[] = {error_time_experiment, distance_experiment};
+  static const Experiment all[] = {error_time_experiment, construction_experiment, query_time_experiment,
+                                   distance_experiment,   depth_experiment,        volume_experiment,
+                                   density_experiment};
   return all;
 }
 

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <mutex>
 #include <nlohmann/json.hpp>
 
 #include "bench/output.hpp"
@@ -92,7 +93,9 @@ void run_report(const Options& options) {
       cli::write_file(options.folder / (name + ".csv"), csv_of(table));
       json["tables"][name] = json_of(table);
     };
+    std::mutex counting;  // experiments tell from any thread
     const auto done = [&](double share) {
+      const std::lock_guard lock(counting);
       for (const double now = before + share * experiment->seconds; static_cast<double>(shown + 1) <= now;
            ++shown)
         progress.advance();

@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include <fmt/format.h>
+
+#include "bench/build_stages.hpp"
+#include "bench/report/experiment.hpp"
+#include "bench/report/statistics.hpp"
+#include "bench/report/words.hpp"
+#include "bench/stopwatch.hpp"
+#include "layout/enclosing_disc.hpp"
+#include "layout/outline_builder.hpp"
+
+// Construction time: figure 3, left, of the paper.
+
+namespace bch::report {
+namespace {
+
+constexpr int repeats = 3;
+
+/// Microseconds that something takes with each pose: the median of a few times, so that one interruption does not count.
+template <class Build>
+std::vector<double> time_each(std::size_t poses, Build build) {
+  std::vector<double> microseconds;
+  for (std::size_t pose = 0; pose < poses; ++pose) {
+    std::vector<double> taken;
+    for (int i = 0; i < repeats; ++i) {
+      const bench::Stopwatch watch(1);
+      build(pose);
+      taken.push_back(watch.nanoseconds() / 1000);
+    }
+    microseconds.push_back(quartiles(taken).median);
+  }
+  return microseconds;
+}
+
+void add(Table& table, std::string_view structure, std::string_view from,
+         const std::vector<double>& microseconds) {
+  const Quartiles spread = quartiles(microseconds);
+  table.add({structure, from, spread.median, spread.low, spread.high, microseconds.size()});
+}
+
+/// The disc around a pose's vertices: what a single cylinder takes without an outline.
+std::vector<double> time_single(const std::vector<baselines::Body>& bodies) {
+  std::vector<Vec2> points;
+  float sum = 0;
+  return time_each(bodies.size(), [&](std::size_t i) {
+    points.clear();
+    for (const Eigen::Vector3f& p : bodies[i].positions) points.push_back({p.x(), p.y()});
+    sum += smallest_enclosing_disc(points).centre.x;
+    __asm__ volatile("" : : "g"(&sum) : "memory");  // the disc is needed
+  });
+}
+
+std::vector<double> time_hierarchies(const std::vector<baselines::Body>& bodies, SplitRule rule) {
+  HierarchyBuilder builder;
+  Hierarchy hierarchy;
+  return time_each(bodies.size(),
+                   [&](std::size_t i) { builder.contour(bodies[i].shape.outline, 0.01f, rule, hierarchy); });
+}
+
+void add_structures(Run& run, Table& table) {
+  const auto& bodies = run.scene().bodies();
+  add(table, "single cylinder", "vertices", time_single(bodies));
+  add(table, "BCH outline", "outline", time_hierarchies(bodies, SplitRule::centroid));
+  add(table, "BCH outline by centre", "outline", time_hierarchies(bodies, SplitRule::centre));
+  for (const Contestant& contestant : contestants()) {
+    if (contestant.kind == "single" || contestant.kind == "reference") continue;
+    const baselines::Kind& kind = baselines::kind(contestant.kind);
+    const bool outlined = kind.exact == baselines::Truth::outline;
+    const baselines::BuildOptions options{.fixed_radius = contestant.fixed_radius};
+    add(table, contestant.name,
+        contestant.kind == "fixed" ? "nothing"
+        : outlined                 ? "outline"
+                                   : "triangles",
+        time_each(bodies.size(),
+                  [&](std::size_t i) { kind.build(std::span(bodies).subspan(i, 1), options); }));
+  }
+}
+
+/// Of all characters.
+void add_stages(Run& run, Table& table) {
+  constexpr std::string_view stages[] = {"skin", "outline", "hierarchy", "levels", "interior", "all"};
+  for (const std::string_view name : stages) {
+    std::vector<double> all;
+    for (const auto& loaded : run.scene().characters()) {
+      bench::BuildStages build(loaded.character, run.sizes().poses, bench::build_implementations().front());
+      for (const bench::BuildStage& stage : bench::build_stages) {
+        if (stage.name != name) continue;
+        const auto times = time_each(build.poses(), [&](std::size_t i) { (build.*stage.build)(i); });
+        all.insert(all.end(), times.begin(), times.end());
+      }
+    }
+    add(table, name, "the stage before", all);
+  }
+}
+
+void run_experiment(Run& run) {
+  Table table(
+      {"structure", "made from", "median (us)", "lower quartile (us)", "upper quartile (us)", "poses"});
+  add_structures(run, table);
+  run.write("construction", table);
+  run.done(0.8);
+  Table stages({"stage", "made from", "median (us)", "lower quartile (us)", "upper quartile (us)", "poses"});
+  add_stages(run, stages);
+  run.write("construction_stages", stages);
+}
+
+std::string findings(const Results& results) {
+  const Table &table = results("construction"), &stages = results("construction_stages");
+  const auto time = [&](std::string_view structure) {
+    return table.number({{"structure", structure}}, "median (us)");
+  };
+  const double outline = stages.number({{"stage", "outline"}}, "median (us)");
+  const double hierarchy = stages.number({{"stage", "hierarchy"}}, "median (us)");
+  return fmt::format(
+      "<p>From posed vertices to the hierarchy a pose takes {} us, {} of them for the outline; the OBB tree "
+      "over the same "
+      "outline {} us besides it, the one over the full mesh {} us, {} times as long. The whole way, with "
+      "skinning, levels "
+      "and inscribed discs, takes {} us, so that a new pose for every frame is affordable, where the paper "
+      "had construction as "
+      "a preprocessing step. The paper shows its times in a chart without figures, so there are none beside "
+      "ours.</p>",
+      brief(outline + hierarchy), brief(outline), brief(time("OBB outline")), brief(time("OBB full mesh")),
+      brief(time("OBB full mesh") / (outline + hierarchy)),
+      brief(stages.number({{"stage", "all"}}, "median (us)")));
+}
+
+}  // namespace
+
+const Experiment construction_experiment{
+    "construction",
+    "Construction time",
+    "Figure 3, left. Every pose of every character is made into every structure, by one thread: a median of "
+    "three times for a "
+    "pose, then median and quartiles over the poses. Structures over an outline need it first; the stages of "
+    "our way "
+    "from a clip's keys to a flat shape stand in the second table.",
+    20,
+    false,
+    run_experiment,
+    {"construction", "construction_stages"},
+    {{"construction",
+      "Time to build a structure of one pose, without the outline where it is made from one: medians; bars "
+      "are quartiles over poses."},
+     {"construction_stages",
+      "The stages from keys of a clip to a flat shape with levels and inscribed discs, likewise."}},
+    findings};
+
+}  // namespace bch::report

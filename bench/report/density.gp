@@ -1,0 +1,10 @@
+load "style.gp"
+set output "density.svg"
+set bmargin screen 0.15
+set lmargin screen 0.32
+unset key
+set xlabel "densest crowd without overlap (people per square metre)"
+set xrange [0:*]
+set yrange [*:*] reverse
+set offsets 0, graph 0.05, 0.6, 0.6
+plot 'density.csv' using (column("densest (people/m2)")):0:(column("95 % low")):(column("95 % high")):ytic(strcol("structure")) with xerrorbars linestyle 2 pointsize 1

@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include <fmt/format.h>
+
+#include "bench/report/experiment.hpp"
+#include "bench/report/subject.hpp"
+#include "bench/report/words.hpp"
+#include "bench/text.hpp"
+
+// What the maximum recursion depth costs and gives: figure 6, right, of the paper.
+
+namespace bch::report {
+namespace {
+
+constexpr std::uint32_t deepest = 12;
+constexpr double paper_critical_depth = 9, critical = 1.01;
+
+std::vector<std::uint32_t> depths() {
+  std::vector<std::uint32_t> list;
+  for (std::uint32_t depth = 0; depth <= deepest; ++depth) list.push_back(depth);
+  list.push_back(all_depths);
+  return list;
+}
+
+/// A structure that can be asked at every depth.
+struct Series {
+  std::string name;
+  std::vector<Subject> at;  ///< in the order of depths()
+  std::vector<std::vector<double>> distances = {};
+};
+
+/// The first depth from which on the mean is within a hundredth of that without limit.
+std::uint32_t critical_depth(const std::vector<Estimate>& means) {
+  std::size_t first = means.size() - 1;
+  while (first > 0 && means[first - 1].mean <= critical * means.back().mean) --first;
+  return static_cast<std::uint32_t>(first);
+}
+
+void add_series(const Run& run, const Series& series, std::span<const Quartiles> colliding,
+                std::span<const Quartiles> near, Table& table, Table& critical_depths) {
+  std::vector<Estimate> means;
+  for (std::size_t i = 0; i < series.at.size(); ++i) {
+    const std::vector<double> found = known(series.distances[i]);
+    const Estimate& mean = means.emplace_back(estimate(found, run.seed()));
+    const Quartiles spread = quartiles(found);
+    table.add({series.name, cli::depth_name(depths()[i]), mean.mean, mean.low, mean.high, spread.low,
+               spread.median, spread.high, colliding[i].median, colliding[i].low, colliding[i].high,
+               near[i].median, near[i].low, near[i].high});
+  }
+  critical_depths.add({series.name, series.name == kernel_name ? Cell(paper_critical_depth) : Cell(""),
+                       critical_depth(means), means.back().mean});
+}
+
+void run_experiment(Run& run) {
+  std::vector<ShapeSet> sets;
+  for (const std::uint32_t depth : depths()) sets.emplace_back(run.scene().shapes(), ShapeSetPlan{{depth}});
+  std::vector<Series> all = {{std::string(kernel_name), {}}, {"OBB outline", {}}, {"OBB full mesh", {}}};
+  for (const ShapeSet& set : sets) all[0].at.push_back(subject_of(set));
+  for (std::size_t k = 1; k < all.size(); ++k)
+    for (const std::uint32_t depth : depths())
+      all[k].at.push_back(subject_of(run.contestants().structure(all[k].name), depth));
+
+  const SlideCases cases(run.scene().shapes(), run.sizes().cases, run.seed());
+  Table summary({"structure", "depth", "mean (cm)", "mean (95 % low)", "mean (95 % high)",
+                 "lower quartile (cm)", "median (cm)", "upper quartile (cm)", "colliding (ns/pair)",
+                 "colliding (25 %)", "colliding (75 %)", "near miss (ns/pair)", "near miss (25 %)",
+                 "near miss (75 %)"});
+  Table critical_depths({"structure", "paper", "critical depth", "mean without limit (cm)"});
+  Table each({"case", "depth", "distance (cm)"});
+  double done = 0;
+  for (Series& series : all) {
+    for (const Subject& subject : series.at)
+      series.distances.push_back(cases.distances(*run.distances(), subject.contacts(cases)));
+    add_series(run, series, times(series.at, run.scene().workload("colliding"), run.sizes().runs),
+               times(series.at, run.scene().workload("near_miss"), run.sizes().runs), summary,
+               critical_depths);
+    run.done(++done / static_cast<double>(all.size()));
+  }
+  for (std::size_t i = 0; i < cases.size(); ++i)
+    for (std::uint32_t depth = 0; depth <= deepest; ++depth) each.add({i, depth, all[0].distances[depth][i]});
+  run.write("depth", summary);
+  run.write("depth_critical", critical_depths);
+  run.write("depth_cases", each);
+}
+
+std::string findings(const Results& results) {
+  const Table &table = results("depth"), &critical_depths = results("depth_critical");
+  const std::size_t kernel = critical_depths.row({{"structure", kernel_name}});
+  const std::string depth = critical_depths.text(kernel, "critical depth");
+  const auto at = [&](std::string_view d, std::string_view column) {
+    return brief(table.number({{"structure", kernel_name}, {"depth", d}}, column));
+  };
+  return fmt::format(
+      "<p>The critical depth, from which on the mean distance is within 1 % of that without limit ({} cm), "
+      "is {} (the paper: "
+      "{}): no deeper level is worth building for it. At depth 0 it is {} cm, at 3 {} cm, at 6 {} cm. In the "
+      "batch kernel a "
+      "colliding pair costs {} ns at depth 3, {} ns at depth 6 and {} ns without limit, so depth saves "
+      "memory "
+      "rather than time.</p>",
+      brief(critical_depths.number(kernel, "mean without limit (cm)")), depth,
+      brief(critical_depths.number(kernel, "paper")), at("0", "mean (cm)"), at("3", "mean (cm)"),
+      at("6", "mean (cm)"), at("3", "colliding (ns/pair)"), at("6", "colliding (ns/pair)"),
+      at("all", "colliding (ns/pair)"));
+}
+
+}  // namespace
+
+const Experiment depth_experiment{
+    "depth",
+    "Depth",
+    "Figure 6, right. The same people slide at each other while hierarchies are cut at a maximum recursion "
+    "depth; then how long a "
+    "pair takes there. Boxes are cut likewise: a box at that depth counts as a leaf.",
+    45,
+    true,
+    run_experiment,
+    {"depth_critical", "depth"},
+    {{"depth",
+      "Distance at detection against depth: a thin line for every case, the median thick, its quartiles "
+      "dashed; cylinders "
+      "over the outline."},
+     {"depth_time", "Time of a pair against depth; bars are quartiles."}},
+    findings};
+
+}  // namespace bch::report

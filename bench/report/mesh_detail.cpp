@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include <fmt/format.h>
+
+#include "bench/build_stages.hpp"
+#include "bench/mesh_detail.hpp"
+#include "bench/report/experiment.hpp"
+#include "bench/report/subject.hpp"
+#include "bench/report/words.hpp"
+#include "bench/stopwatch.hpp"
+#include "layout/default_characters.hpp"
+
+// Does an OBB tree over the full mesh get slower with the mesh? The paper suspects so.
+
+namespace bch::report {
+namespace {
+
+constexpr std::size_t few_triangles = 716;  // a quarter of the man's
+constexpr std::uint32_t most_poses = 40;    // memory: tens of megabytes a hundred bodies
+
+struct Measured {
+  double build_tree, build_hierarchy;  // microseconds a pose
+  Quartiles tree[2], kernel[2], plain[2];
+};
+
+/// Poses, their bodies, and pairs of them; the meshes decide which collide.
+class Detailed {
+ public:
+  Detailed(const Character& character, std::uint32_t poses) {
+    Skinner skinner(character);
+    PoseShaper shaper(character);
+    for (const PoseTime& at : sample_poses(character, poses)) {
+      const auto positions = skinner.pose(at);
+      const bench::Stopwatch watch(1);
+      const Shape& shape = shaper.shape(at);
+      hierarchy_.push_back(watch.nanoseconds() / 1000);
+      bodies_.push_back({{positions.begin(), positions.end()}, character.triangles, shape});
+    }
+    const bench::Stopwatch watch(1);
+    tree_ = baselines::kind("obb_full").build(bodies_, {});
+    tree_microseconds_ = watch.nanoseconds() / 1000 / static_cast<double>(bodies_.size());
+    plain_ = baselines::kind("reference").build(bodies_, {});
+    for (const baselines::Body& body : bodies_) shapes_.push_back(body.shape);
+  }
+
+  Measured measure(std::uint32_t pairs, std::uint32_t runs) const {
+    Measured measured{tree_microseconds_, quartiles(hierarchy_).median, {}, {}, {}};
+    const ShapeSet set(shapes_);
+    const auto roots = baselines::kind("single").build(bodies_, {});
+    for (const bool colliding : {true, false}) {
+      const bench::Workload workload =
+          bench::random_pairs(colliding ? "colliding" : "near_miss", colliding ? 31 : 32, shapes_, pairs,
+                              [&](const Agents& agents, Pair pair) {
+                                return roots->query(agents, pair) && tree_->query(agents, pair) == colliding;
+                              });
+      const Subject subjects[] = {subject_of(*tree_), subject_of(set), subject_of(*plain_)};
+      require_same(subjects[1], subjects[2], workload);
+      const std::vector<Quartiles> taken = times(subjects, workload, runs);
+      const int i = colliding ? 0 : 1;
+      measured.tree[i] = taken[0], measured.kernel[i] = taken[1], measured.plain[i] = taken[2];
+    }
+    return measured;
+  }
+
+ private:
+  std::vector<baselines::Body> bodies_;
+  std::vector<Shape> shapes_;
+  std::unique_ptr<baselines::Structure> tree_, plain_;
+  std::vector<double> hierarchy_;
+  double tree_microseconds_ = 0;
+};
+
+void run_experiment(Run& run) {
+  Table table({"triangles", "structure", "build (us)", "colliding (ns/pair)", "colliding (25 %)",
+               "colliding (75 %)", "near miss (ns/pair)", "near miss (25 %)", "near miss (75 %)"});
+  const Character man = default_male();
+  const Character characters[] = {bench::coarser(man, few_triangles), man, bench::finer(man, 1),
+                                  bench::finer(man, 2)};
+  double done = 0;
+  for (const Character& character : characters) {
+    const Detailed detailed(character, std::min(run.sizes().poses, most_poses));
+    const Measured measured = detailed.measure(run.sizes().pairs / 4, run.sizes().runs);
+    const auto add = [&](std::string_view name, double build, const Quartiles(&taken)[2]) {
+      table.add({character.triangles.size(), name, build, taken[0].median, taken[0].low, taken[0].high,
+                 taken[1].median, taken[1].low, taken[1].high});
+    };
+    add("OBB full mesh", measured.build_tree, measured.tree);
+    add(kernel_name, measured.build_hierarchy, measured.kernel);
+    add("BCH outline", measured.build_hierarchy, measured.plain);
+    run.done(++done / static_cast<double>(std::size(characters)));
+  }
+  run.write("mesh_detail", table);
+}
+
+std::string findings(const Results& results) {
+  const Table& table = results("mesh_detail");
+  const std::string &few = table.text(0, "triangles"),
+                    &many = table.text(table.rows().size() - 1, "triangles");
+  const auto of = [&](std::string_view triangles, std::string_view structure, std::string_view column) {
+    return table.number({{"triangles", triangles}, {"structure", structure}}, column);
+  };
+  const auto growth = [&](std::string_view structure, std::string_view column) {
+    return brief(of(many, structure, column) / of(few, structure, column));
+  };
+  return fmt::format(
+      "<p>From {} to {} triangles a near miss of OBB trees over full meshes takes {} times as long, a "
+      "colliding pair {} times; "
+      "of the outline's cylinders, in the batch kernel, {} and {} times. What the paper suspects is so for "
+      "near misses, which "
+      "have to be followed to the triangles. At {} triangles a tree takes {} us to build, outline and "
+      "hierarchy {} us.</p>",
+      brief(table.number(0, "triangles")), brief(table.number(table.rows().size() - 1, "triangles")),
+      growth("OBB full mesh", "near miss (ns/pair)"), growth("OBB full mesh", "colliding (ns/pair)"),
+      growth(kernel_name, "near miss (ns/pair)"), growth(kernel_name, "colliding (ns/pair)"),
+      brief(table.number(table.rows().size() - 1, "triangles")),
+      brief(of(many, "OBB full mesh", "build (us)")), brief(of(many, kernel_name, "build (us)")));
+}
+
+}  // namespace
+
+const Experiment mesh_detail_experiment{
+    "mesh_detail",
+    "Mesh detail",
+    "The built-in man with his vertices merged by a grid, as he is, and with every triangle cut into four, "
+    "once and twice. Cutting "
+    "adds triangles and no form, so outlines stay the same; trees over all triangles grow.",
+    60,
+    false,
+    run_experiment,
+    {"mesh_detail"},
+    {{"mesh_detail", "Time of a pair against the number of triangles, one thread; bars are quartiles."},
+     {"mesh_detail_build", "Time to build a pose's structure; the outline's hierarchy with the outline."}},
+    findings};
+
+}  // namespace bch::report

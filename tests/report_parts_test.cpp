@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "bench/report/coverage.hpp"
+#include "bench/report/front.hpp"
+#include "bench/report/packing.hpp"
+#include "bench/report/slide.hpp"
+#include "bench/report/statistics.hpp"
+#include "bench/report/words.hpp"
+#include "layout/default_characters.hpp"
+#include "layout/pose_shape.hpp"
+#include "tests/temporary_folder.hpp"
+
+// What experiments are made of.
+
+namespace bch::report {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+TEST(ReportParts, TablesComeBackAsTheyWere) {
+  Table table({"name, with a comma", "number (m)"});
+  table.add({"a \"quoted\" word, and more", 0.1});
+  table.add({"", std::nan("")});
+  table.add({"x", 1.0 / 3});
+  const TemporaryFolder folder;
+  const Table read = read_table(folder.write("t.csv", csv_of(table)));
+  EXPECT_EQ(read.columns(), table.columns());
+  EXPECT_EQ(read.rows(), table.rows());
+  EXPECT_EQ(read.number({{"name, with a comma", "x"}}, "number (m)"), 1.0 / 3);
+  EXPECT_TRUE(std::isnan(read.number(1, "number (m)")));
+  EXPECT_THROW(read.number({{"name, with a comma", "y"}}, "number (m)"), std::out_of_range);
+  EXPECT_THROW(table.add({"too few"}), std::logic_error);
+}
+
+TEST(ReportParts, NumbersAreShownInThreeDigits) {
+  EXPECT_EQ(brief(12345.6), "12 346");
+  EXPECT_EQ(brief(-1234), "-1 234");
+  EXPECT_EQ(brief(456.7), "457");
+  EXPECT_EQ(brief(45.67), "45.7");
+  EXPECT_EQ(brief(4.567), "4.57");
+  EXPECT_EQ(brief(0.012345), "0.0123");
+  EXPECT_EQ(brief(20), "20");
+  EXPECT_EQ(brief(0), "0");
+  EXPECT_EQ(shown("<b> & c"), "&lt;b&gt; &amp; c");
+}
+
+TEST(ReportParts, QuartilesAreInterpolated) {
+  const Quartiles q = quartiles({4, 1, 2, 3});
+  EXPECT_DOUBLE_EQ(q.low, 1.75);
+  EXPECT_DOUBLE_EQ(q.median, 2.5);
+  EXPECT_DOUBLE_EQ(q.high, 3.25);
+}
+
+TEST(ReportParts, BootstrapIsAsWideAsTheNormalInterval) {
+  std::vector<double> values;
+  for (int i = 0; i < 400; ++i) values.push_back(i % 20);
+  const Estimate e = estimate(values, 5);
+  EXPECT_DOUBLE_EQ(e.mean, 9.5);
+  EXPECT_NEAR(e.deviation, 5.773, 0.01);
+  EXPECT_NEAR(e.low, 9.5 - 1.96 * e.deviation / 20, 0.08);
+  EXPECT_NEAR(e.high, 9.5 + 1.96 * e.deviation / 20, 0.08);
+  EXPECT_EQ(estimate(values, 5).low, e.low);
+}
+
+TEST(ReportParts, SharesHaveWilsonsInterval) {
+  const Estimate tenth = share(1, 10);  // 0.0179 to 0.4042: a figure of many textbooks
+  EXPECT_NEAR(tenth.low, 0.0179, 1e-4);
+  EXPECT_NEAR(tenth.high, 0.4042, 1e-4);
+  EXPECT_EQ(share(0, 10).low, 0);
+  EXPECT_GT(share(0, 10).high, 0.2);
+}
+
+TEST(ReportParts, FrontHasWhatNothingBeats) {
+  Table points({"structure", "depth", "threshold (cm)", "semantics", "error", "missed collisions (%)",
+                "crowd (ns/pair)", "near miss (ns/pair)"});
+  points.add({"exact and slow", "all", "", "boundary", 0, 0, 90, 100});
+  points.add({"beaten", "all", "", "boundary", 5, 0, 91, 101});
+  points.add({"fast", "0", "", "boundary", 20, 0, 2, 3});
+  points.add({"fast and missing", "0", "", "boundary", 1, 2, 1, 1});
+  points.add({"as good and slower", "0", "", "boundary", 20, 0, 3, 4});
+  points.add({"good", "6", "1", "solid", 6, 0, 10, 101});
+  points.add({"not known", "6", "1", "solid", std::nan(""), 0, 1, 1});
+  const Table best = front(points, "error");
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < best.rows().size(); ++i)
+    names.push_back(best.text(i, "pairs") + " " + best.text(i, "structure"));
+  EXPECT_EQ(names, (std::vector<std::string>{"crowd exact and slow", "crowd good", "crowd fast",
+                                             "near miss exact and slow", "near miss fast"}));
+}
+
+Outline square(float half) {
+  return {{{-half, -half}, {half, -half}, {half, half}, {-half, half}}, {0, 4}, 0x1p-20f};
+}
+
+TEST(ReportParts, RasterCountsAreas) {
+  const std::vector<Disc> discs = {{0.3f, 0.1f, 0.4f}};
+  const Coverage alone = rasterise({}, discs), both = rasterise(square(0.25f), discs);
+  EXPECT_NEAR(alone.discs, pi * 0.16, 1e-4);
+  EXPECT_EQ(alone.outline, 0);
+  EXPECT_NEAR(both.outline, 0.25, 1e-4);
+  EXPECT_EQ(both.discs, alone.discs);
+  EXPECT_GT(both.filled, both.discs);
+  EXPECT_LT(both.filled, both.discs + both.outline);
+  // Beside each other they add up.
+  const Coverage apart = rasterise(square(0.25f), std::vector<Disc>{{2, 0, 0.4f}});
+  EXPECT_NEAR(apart.filled, pi * 0.16 + 0.25, 2e-4);
+}
+
+TEST(ReportParts, PackingIsDenseAndWithinTheHexagonalBound) {
+  std::vector<Shape> discs(1);
+  discs[0].hierarchy = fixed_cylinder(0.25f);
+  const double densest = densest_packing(ShapeSet(discs, {{0}}), 40, 3);
+  EXPECT_GT(densest, 0.75 / (pi * 0.0625));
+  EXPECT_LT(densest, 0.9069 / (pi * 0.0625));
+}
+
+TEST(ReportParts, SlidesEndWhereStructuresSayAndStepsFindThePlaceOfContactTime) {
+  const Character man = default_male();
+  Skinner skinner(man);
+  PoseShaper shaper(man);
+  std::vector<baselines::Body> bodies;
+  std::vector<Shape> shapes;
+  for (const PoseTime& at : sample_poses(man, 6)) {
+    const auto positions = skinner.pose(at);
+    shapes.push_back(shaper.shape(at));
+    bodies.push_back({{positions.begin(), positions.end()}, man.triangles, shapes.back()});
+  }
+  const SlideCases cases(shapes, 12, 9);
+  const auto plain = baselines::kind("reference").build(bodies, {});
+  for (const std::uint32_t depth : {0u, 4u, all_depths}) {
+    const auto by_time = cases.contacts(ShapeSet(shapes, {{depth}})),
+               by_steps = cases.contacts(*plain, depth);
+    for (std::size_t i = 0; i < cases.size(); ++i)
+      EXPECT_NEAR(by_time[i], by_steps[i], 5e-6) << depth << ' ' << i;
+  }
+  const auto distances = baselines::fcl_mesh_distances(bodies);
+  if (!distances) GTEST_SKIP() << "no FCL";
+  const auto full = baselines::kind("obb_full").build(bodies, {});
+  const auto places = cases.contacts(*full, all_depths);
+  for (const double centimetres : cases.distances(*distances, places)) EXPECT_LT(centimetres, 1e-4);
+  // A centimetre earlier they are apart, by no more than that.
+  std::vector<double> earlier = places;
+  for (double& place : earlier) place -= 0.01;
+  for (const double centimetres : cases.distances(*distances, earlier)) {
+    EXPECT_GT(centimetres, 0);
+    EXPECT_LT(centimetres, 1.0001);
+  }
+}
+
+}  // namespace
+}  // namespace bch::report

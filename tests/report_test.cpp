@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include "bench/report/report.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <numbers>
+
+#include "bench/exit_codes.hpp"
+#include "tests/program_run.hpp"
+#include "tests/temporary_folder.hpp"
+
+// The experiments at their smallest: the page has what the tables have, and what is not a time is the same again.
+
+namespace bch::report {
+namespace {
+
+constexpr Sizes smallest{2, 60, 80, 6, 1, 10, 1};
+
+void run_into(const TemporaryFolder& folder) {
+  Options options;
+  options.folder = folder.path();
+  options.sizes = smallest;
+  options.command = "bch report --out \"here\" & there";
+  run_report(options);
+}
+
+/// The cells of the rows of a page's table, markup taken away.
+std::vector<std::vector<std::string>> rows_of(const std::string& page, const std::string& name) {
+  const auto between = [](const std::string& text, std::size_t& at, const std::string& open,
+                          const std::string& close) {
+    const std::size_t begin = text.find(open, at);
+    if (begin == std::string::npos) return at = begin, std::string();
+    const std::size_t inside = text.find('>', begin) + 1, end = text.find(close, inside);
+    at = end + close.size();
+    return text.substr(inside, end - inside);
+  };
+  std::size_t at = page.find("<table id=\"" + name + "\">");
+  EXPECT_NE(at, std::string::npos) << name;
+  if (at == std::string::npos) return {};
+  const std::string table = page.substr(at, page.find("</table>", at) - at);
+  std::vector<std::vector<std::string>> rows;
+  at = table.find("<tbody>");
+  for (std::string row = between(table, at, "<tr", "</tr>"); at != std::string::npos;
+       row = between(table, at, "<tr", "</tr>")) {
+    auto& cells = rows.emplace_back();
+    std::size_t in_row = 0;
+    for (std::string cell = between(row, in_row, "<td", "</td>"); in_row != std::string::npos;
+         cell = between(row, in_row, "<td", "</td>"))
+      cells.push_back(cell);
+  }
+  return rows;
+}
+
+std::string replaced(std::string text, const std::string& from, const std::string& to) {
+  for (std::size_t at = 0; (at = text.find(from, at)) != std::string::npos; at += to.size())
+    text.replace(at, from.size(), to);
+  return text;
+}
+
+/// A number of the page stands for that of the table in three digits.
+void expect_shows(const std::string& shown, const std::string& cell) {
+  char* end = nullptr;
+  const double number = std::strtod(cell.c_str(), &end);
+  if (cell.empty() || *end != '\0') {
+    EXPECT_EQ(replaced(replaced(shown, "&amp;", "&"), "&quot;", "\""), cell);
+    return;
+  }
+  EXPECT_NEAR(std::stod(replaced(shown, " ", "")), number, 0.0051 * std::abs(number) + 1e-300) << shown;
+}
+
+void expect_page_shows_tables(const TemporaryFolder& folder) {
+  const std::string page = test::read_text(folder.file("report.html"));
+  std::vector<std::string> names = {"run"};
+  for (const Experiment& experiment : experiments())
+    names.insert(names.end(), experiment.tables.begin(), experiment.tables.end());
+  for (const std::string& name : names) {
+    SCOPED_TRACE(name);
+    const Table table = read_table(folder.file(name + ".csv"));
+    const auto rows = rows_of(page, name);
+    ASSERT_EQ(rows.size(), table.rows().size());
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      ASSERT_EQ(rows[i].size(), table.columns().size());
+      for (std::size_t k = 0; k < rows[i].size(); ++k) expect_shows(rows[i][k], table.rows()[i][k]);
+    }
+  }
+}
+
+/// Whether a column holds times, which differ from run to run, or what was chosen by them.
+bool is_time(const std::string& column) {
+  for (const char* word : {"(ns", "ns/pair", "(us)", "(25 %)", "(75 %)"})
+    if (column.find(word) != std::string::npos) return true;
+  return false;
+}
+
+void expect_same_but_times(const TemporaryFolder& a, const TemporaryFolder& b) {
+  std::size_t compared = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(a.path())) {
+    const std::string file = entry.path().filename();
+    const bool front = file == "error_time_distance.csv" || file == "error_time_false.csv" ||
+                       file == "error_time_excess.csv";
+    if (entry.path().extension() != ".csv" || file == "run.csv" || front) continue;
+    SCOPED_TRACE(file);
+    const Table one = read_table(a.file(file)), other = read_table(b.file(file));
+    ASSERT_EQ(one.columns(), other.columns());
+    ASSERT_EQ(one.rows().size(), other.rows().size());
+    for (std::size_t i = 0; i < one.rows().size(); ++i)
+      for (const std::string& column : one.columns()) {
+        if (is_time(column)) continue;
+        EXPECT_EQ(one.text(i, column), other.text(i, column)) << column;
+        ++compared;
+      }
+  }
+  EXPECT_GT(compared, 1000u);
+}
+
+TEST(Report, PageShowsTablesAndTablesAreTheSameAgain) {
+  const TemporaryFolder first, second;
+  run_into(first);
+  run_into(second);
+  expect_page_shows_tables(first);
+  expect_same_but_times(first, second);
+  const auto json = nlohmann::json::parse(test::read_text(first.file("volume.json")));
+  EXPECT_EQ(json["run"]["seed"], "1");
+  EXPECT_EQ(json["run"]["command"], "bch report --out \"here\" & there");
+  EXPECT_EQ(json["tables"]["volume_radii"].size(), 2u);
+
+  // Sentences come from the tables as well.
+  Table changed({"character", "paper, mean (m)", "paper, deviation (m)", "mean (m)", "mean (95 % low)",
+                 "mean (95 % high)", "median (m)", "standard deviation (m)", "poses"});
+  const Table radii = read_table(first.file("volume_radii.csv"));
+  for (const auto& row : radii.rows()) {
+    std::vector<Cell> cells(row.begin(), row.end());
+    cells[3] = 7.654;
+    changed.add(cells);
+  }
+  first.write("volume_radii.csv", csv_of(changed));
+  make_page(first.path());
+  expect_page_shows_tables(first);
+  EXPECT_NE(test::read_text(first.file("report.html")).find("radius is 7.65 m on average"),
+            std::string::npos);
+}
+
+TEST(Report, PageOfAFolderWithoutTablesSaysSo) {
+  const TemporaryFolder folder;
+  EXPECT_THROW(make_page(folder.path()), cli::InputError);
+  folder.write("run.csv", "what,value\ncommand,none\n");
+  make_page(folder.path());
+  EXPECT_NE(test::read_text(folder.file("report.html")).find("Not in this run."), std::string::npos);
+  folder.write("volume_radii.csv", "character,mean (m)\nsomebody,1\n");
+  EXPECT_THROW(make_page(folder.path()), cli::InputError);
+  folder.write("volume_radii.csv", "character,mean (m)\nsomebody\n");
+  EXPECT_THROW(make_page(folder.path()), cli::InputError);
+}
+
+}  // namespace
+}  // namespace bch::report
