@@ -31,10 +31,10 @@ struct Series {
 };
 
 /// The first depth from which on the mean is within a hundredth of that without limit.
-std::uint32_t critical_depth(const std::vector<Estimate>& means) {
+std::string critical_depth(const std::vector<Estimate>& means) {
   std::size_t first = means.size() - 1;
   while (first > 0 && means[first - 1].mean <= critical * means.back().mean) --first;
-  return static_cast<std::uint32_t>(first);
+  return cli::depth_name(depths()[first]);
 }
 
 void add_series(const Run& run, const Series& series, std::span<const Quartiles> colliding,

@@ -1,6 +1,6 @@
 load "style.gp"
 set output "depth.svg"
-set bmargin screen 0.2
+set bmargin screen 0.26
 set xlabel "maximum recursion depth"
 set ylabel "distance of the meshes at detection (cm)"
 set xrange [0:12]
@@ -10,7 +10,7 @@ kernel = "BCH outline in the batch kernel"
 at(x) = strcol("structure") eq kernel && strcol("depth") ne "all" ? column(x) : NaN
 cases = system("tail -n 1 depth_cases.csv | cut -d, -f1") + 1
 shown = cases > 150 ? 150 : cases
-plot for [i=0:shown-1] 'depth_cases.csv' every 1::(i*13+1)::(i*13+13) using 2:3 with lines linewidth 0.5 linecolor rgb "#c6d9e8" notitle, \
+plot for [i=0:shown-1] 'depth_cases.csv' every 1::(i*13)::(i*13+12) using 2:3 with lines linewidth 0.5 linecolor rgb "#c6d9e8" notitle, \
   NaN with lines linewidth 1 linecolor rgb "#c6d9e8" title sprintf("a case (%d of %d)", shown, cases), \
   'depth.csv' using (column("depth")):(at("median (cm)")) with lines linewidth 4 linecolor rgb "#000000" title "median", \
   'depth.csv' using (column("depth")):(at("lower quartile (cm)")) with lines linewidth 1.6 dashtype 2 linecolor rgb "#000000" title "quartiles", \

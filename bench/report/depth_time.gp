@@ -1,6 +1,6 @@
 load "style.gp"
 set output "depth_time.svg"
-set bmargin screen 0.25
+set bmargin screen 0.31
 set xlabel "maximum recursion depth"
 set ylabel "time of a pair, one thread (ns)"
 set xrange [-0.5:12.5]

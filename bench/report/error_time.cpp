@@ -169,7 +169,9 @@ void run_experiment(Run& run) {
 
 /// "X at depth D", with its threshold.
 std::string name_of(const Table& table, std::size_t row) {
-  std::string name = fmt::format("{} at depth {}", table.text(row, "structure"), table.text(row, "depth"));
+  const std::string& depth = table.text(row, "depth");
+  std::string name = table.text(row, "structure");
+  name += depth == "all" ? std::string(" to all depths") : " to depth " + depth;
   const std::string& threshold = table.text(row, "threshold (cm)");
   return threshold.empty() ? name : name + fmt::format(" with leaves of {} cm", threshold);
 }

@@ -1,6 +1,6 @@
 load "style.gp"
 set output "mesh_detail.svg"
-set bmargin screen 0.28
+set bmargin screen 0.32
 set logscale xy
 set format "%.0f"
 set xrange [500:70000]

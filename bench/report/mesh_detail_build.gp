@@ -1,6 +1,6 @@
 load "style.gp"
 set output "mesh_detail_build.svg"
-set bmargin screen 0.22
+set bmargin screen 0.25
 set logscale xy
 set format "%.0f"
 set xrange [500:70000]

@@ -6,6 +6,7 @@
 #include <map>
 
 #include "bench/exit_codes.hpp"
+#include "bench/number.hpp"
 #include "bench/output.hpp"
 #include "bench/report/chart.hpp"
 #include "bench/report/page_style.hpp"
@@ -38,7 +39,7 @@ class Folder {
 };
 
 bool is_number(std::string_view cell) {
-  return !cell.empty() && shown(cell) != escaped(cell);
+  return cli::parse_number(cell).has_value();
 }
 
 std::string html_of(const Table& table, std::string_view name) {

@@ -19,7 +19,7 @@ p, nav { max-width: 46em; }
 pre { background: #f3f3f3; padding: 10px 14px; overflow-x: auto; }
 nav ol { padding-left: 1.6em; columns: 2; }
 a { color: #0b5394; }
-.figures { display: grid; grid-template-columns: repeat(auto-fit, minmax(min(520px, 100%), 1fr)); gap: 20px 32px; }
+.figures { display: grid; grid-template-columns: repeat(auto-fill, minmax(min(520px, 100%), 1fr)); gap: 20px 32px; }
 figure { margin: 12px 0; break-inside: avoid; }
 figure svg { display: block; width: 100%; height: auto; }
 figcaption { color: #4a4a4a; font-size: 14px; }

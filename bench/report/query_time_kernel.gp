@@ -3,6 +3,7 @@ set output "query_time_kernel.svg"
 set style data histogram
 set style histogram clustered gap 1
 set style fill solid 0.8 border -1
+set bmargin screen 0.25
 set ylabel "time of a pair, one thread (ns)"
 set xlabel "pairs"
 set logscale y

@@ -2,6 +2,7 @@
 # differ in lightness, a mark of its own for each.
 set terminal svg size 600,470 dynamic font "Helvetica,Arial,sans-serif,14" background rgb "white"
 set datafile separator comma
+set datafile columnheaders
 set encoding utf8
 set border 3 linecolor rgb "#444444"
 set tics nomirror textcolor rgb "#222222"

@@ -1,6 +1,6 @@
 load "style.gp"
 set output "threshold_cost.svg"
-set bmargin screen 0.24
+set bmargin screen 0.28
 set logscale xy
 set xtics (0.25, 0.5, 1, 2, 4, 8)
 set ytics (0.1, 0.2, 0.5, 1, 2, 5, 10)
