@@ -56,8 +56,10 @@ struct ImportedCharacter {
   ImportReport report;
 };
 
-/// Reads any format that assimp reads: glTF 2, FBX, Collada, MD5, OBJ, PLY, STL and more. Of some, IQM among
-/// them, assimp reads the rest pose alone.
+/// Reads glTF 2, FBX, Collada, MD5, IQM, OBJ, PLY and STL, and clips of these and of BVH. Of IQM, assimp reads the
+/// rest pose alone.
+/// Files:   up to 1 GiB. A file may name others that lie in the same folder, such as a glTF file's buffer; no
+///          further one is read, wherever a link or a path leads.
 /// Meshes:  all of the scene, instances included. Polygons are cut into triangles; vertices equal in position
 ///          and influences become one; weights are normalised, and any number of them is kept. A vertex
 ///          without weights in a mesh with bones takes those of the nearest vertex that has some.

@@ -11,6 +11,8 @@
 #include <cmath>
 #include <new>
 
+#include "layout/import_files.hpp"
+
 namespace bch::import_detail {
 namespace {
 
@@ -23,10 +25,15 @@ void check_readable(const std::filesystem::path& file) {
   if (std::filesystem::is_directory(status)) reject(file, "is a directory");
   // A pipe or a device could block for ever.
   if (!std::filesystem::is_regular_file(status)) reject(file, "is not a regular file");
-  if (std::filesystem::file_size(file, error) == 0 && !error) reject(file, "empty file");
+  const std::uintmax_t size = std::filesystem::file_size(file, error);
+  if (error) reject(file, error.message());
+  if (size == 0) reject(file, "empty file");
+  if (size > largest_file) reject(file, "larger than " + count(largest_file >> 30, "GiB", "GiB"));
 }
 
-void set_up(Assimp::Importer& importer, const ImportOptions& options) {
+void set_up(Assimp::Importer& importer, const std::filesystem::path& file, const ImportOptions& options) {
+  keep_supported_formats(importer);
+  importer.SetIOHandler(new FileAndSiblings(file));  // which the importer owns from here on
   // Otherwise a joint becomes a chain of helper nodes, and channels no longer carry its name.
   importer.SetPropertyBool(AI_CONFIG_IMPORT_FBX_PRESERVE_PIVOTS, false);
   // A file with a skeleton alone (BVH) would get a made-up mesh of pyramids.
@@ -71,7 +78,7 @@ std::string to_string(const aiString& text) {
 
 SceneFile::SceneFile(const std::filesystem::path& file, const ImportOptions& options) : path(file) {
   check_readable(file);
-  set_up(importer, options);
+  set_up(importer, file, options);
   // Nothing else of assimp's post-processing: joining vertices merges them without regard to their weights,
   // and each further step is a further place to fail on a damaged file.
   scene = importer.ReadFile(file.string(), aiProcess_Triangulate);

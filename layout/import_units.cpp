@@ -27,7 +27,6 @@ struct Format {
   const char* scale_source;
 };
 constexpr Format formats[] = {
-    {"glTF Importer", true, 1.0f, "glTF"},
     {"glTF2 Importer", true, 1.0f, "glTF"},
     {"Collada Importer", true, 1.0f, "Collada, converted to metres as the file declares"},
     {"Doom 3 / MD5 Mesh Importer", true, {}, ""},

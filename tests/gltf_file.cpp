@@ -64,6 +64,10 @@ std::string GltfFile::text() const {
   return json("\"uri\":\"data:application/octet-stream;base64," + base64(buffer_) + "\",");
 }
 
+std::string GltfFile::text(const std::string& buffer_uri) const {
+  return json("\"uri\":\"" + buffer_uri + "\",");
+}
+
 std::string GltfFile::binary() const {
   std::string text = json("");
   text.resize((text.size() + 3) / 4 * 4, ' ');

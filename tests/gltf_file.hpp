@@ -20,8 +20,10 @@ class GltfFile {
   /// Adds members of the top-level object, such as "\"nodes\":[{}]".
   void add_json(const std::string& members) { members_.push_back(members); }
 
-  std::string text() const;    ///< .gltf with the buffer inside
-  std::string binary() const;  ///< .glb
+  std::string text() const;                               ///< .gltf with the buffer inside
+  std::string binary() const;                             ///< .glb
+  std::string text(const std::string& buffer_uri) const;  ///< .gltf with the buffer in another file
+  const std::string& buffer() const { return buffer_; }
 
  private:
   std::string buffer_;

@@ -56,7 +56,7 @@ TEST_F(ImportFaults, FilesThatAreNone) {
   expect_error(folder.path() / "missing.glb", "no such file");
   expect_error(folder.path(), "is a directory");
   expect_error("empty.glb", "", "empty file");
-  expect_error("text.glb", "This is\nnot a model.\n", "damaged, or of no known format");
+  expect_error("text.glb", "This is\nnot a model.\n", "Invalid binary glTF file");
   expect_error("text.gltf", "This is\nnot a model.\n", "");
   expect_error("unknown.zzz", "This is\nnot a model.\n", "damaged, or of no known format");
 }

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include "layout/import_files.hpp"
+
+#include <assimp/BaseImporter.h>
+#include <assimp/importerdesc.h>
+
+#include <algorithm>
+#include <cstring>
+#include <memory>
+#include <string_view>
+#include <system_error>
+
+namespace bch::import_detail {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::string_view supported[] = {
+    "glTF2 Importer",
+    "Autodesk FBX Importer",
+    "Collada Importer",
+    "Doom 3 / MD5 Mesh Importer",
+    "Inter-Quake Model Importer",
+    "BVH Importer (MoCap)",
+    "Wavefront Object Importer",
+    "Stanford Polygon Library (PLY) Importer",
+    "Stereolithography (STL) Importer",
+};
+
+bool is_supported(const Assimp::Importer& importer, std::size_t index) {
+  const aiImporterDesc* const description = importer.GetImporterInfo(index);
+  return description != nullptr && std::find(std::begin(supported), std::end(supported),
+                                             std::string_view(description->mName)) != std::end(supported);
+}
+
+}  // namespace
+
+FileAndSiblings::FileAndSiblings(const fs::path& file)
+    : file_(fs::canonical(file)), folder_(fs::canonical(fs::absolute(file).parent_path())) {}
+
+bool FileAndSiblings::allows(const char* path) const {
+  std::error_code error;
+  const fs::path target = fs::canonical(path, error);
+  if (error || (target != file_ && target.parent_path() != folder_)) return false;
+  return fs::is_regular_file(target, error) && fs::file_size(target, error) <= largest_file && !error;
+}
+
+bool FileAndSiblings::Exists(const char* path) const {
+  return path != nullptr && allows(path) && DefaultIOSystem::Exists(path);
+}
+
+Assimp::IOStream* FileAndSiblings::Open(const char* path, const char* mode) {
+  const bool reads = mode != nullptr && mode[0] == 'r' && std::strchr(mode, '+') == nullptr;
+  return reads && path != nullptr && allows(path) ? DefaultIOSystem::Open(path, mode) : nullptr;
+}
+
+void keep_supported_formats(Assimp::Importer& importer) {
+  for (std::size_t i = importer.GetImporterCount(); i-- > 0;) {
+    if (is_supported(importer, i)) continue;
+    const std::unique_ptr<Assimp::BaseImporter> reader(importer.GetImporter(i));
+    importer.UnregisterLoader(reader.get());
+  }
+}
+
+}  // namespace bch::import_detail
