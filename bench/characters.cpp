@@ -62,7 +62,15 @@ LoadedCharacter load_character(const std::string& source, const ImportOptions& o
 std::vector<LoadedCharacter> load_characters(std::span<const std::string> sources,
                                              const ImportOptions& options) {
   std::vector<LoadedCharacter> loaded;
-  for (const std::string& source : sources) loaded.push_back(load_character(source, options));
+  std::vector<std::string> errors;
+  for (const std::string& source : sources) try {
+      loaded.push_back(load_character(source, options));
+    } catch (const InputError& error) {
+      errors.push_back(error.what());
+    } catch (const ImportError& error) {
+      errors.push_back(error.what());
+    }
+  if (!errors.empty()) throw InputErrors(std::move(errors));
   return loaded;
 }
 

@@ -32,6 +32,8 @@ std::string file_name(const LoadedCharacter& character);
 ///          InputError and ImportError on a bad file.
 LoadedCharacter load_character(const std::string& source, const ImportOptions& options);
 
+/// All of them: a bad file does not keep the next from being read.
+/// Errors:  throws InputErrors of all bad files, and UsageError.
 std::vector<LoadedCharacter> load_characters(std::span<const std::string> sources,
                                              const ImportOptions& options);
 

@@ -4,6 +4,9 @@
 #pragma once
 
 #include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
 
 namespace bch::cli {
 
@@ -25,6 +28,21 @@ class UsageError : public std::runtime_error {
 class InputError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
+};
+
+/// The same of one or more files: a line each.
+class InputErrors : public std::runtime_error {
+ public:
+  explicit InputErrors(std::vector<std::string> each)
+      : std::runtime_error(joined(each)), lines(std::move(each)) {}
+  std::vector<std::string> lines;
+
+ private:
+  static std::string joined(const std::vector<std::string>& each) {
+    std::string all;
+    for (const std::string& line : each) all += (all.empty() ? "" : "; ") + line;
+    return all;
+  }
 };
 
 }  // namespace bch::cli

@@ -5,6 +5,7 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <poll.h>
 #include <signal.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
@@ -12,63 +13,175 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <cstring>
+#include <optional>
 #include <stdexcept>
+#include <string_view>
 
+#include "bench/character_bytes.hpp"
 #include "bench/exit_codes.hpp"
 
 namespace bch::cli {
 namespace {
 
-constexpr rlim_t seconds_limit = 60;
-constexpr rlim_t memory_limit = rlim_t{4} << 30;
+using Clock = std::chrono::steady_clock;
+
+/// How the child's words begin.
+enum Answer : char { character = 'c', import_error = 'e', no_memory = 'm' };
 
 void limit(decltype(RLIMIT_CPU) resource, rlim_t value) {
   const rlimit both{value, value};
   setrlimit(resource, &both);
 }
 
-[[noreturn]] void try_import(const std::string& file, const ImportOptions& options) {
-  prctl(PR_SET_PDEATHSIG, SIGKILL);
-  for (const int number : {SIGINT, SIGTERM, SIGHUP}) signal(number, SIG_DFL);
+void set_limits(const ImportLimits& limits) {
   limit(RLIMIT_CORE, 0);
-  limit(RLIMIT_CPU, seconds_limit);
+  limit(RLIMIT_FSIZE, 0);  // it has nothing to write
+  // The parent counts the time; this is for a child whose parent is stopped.
+  limit(RLIMIT_CPU, static_cast<rlim_t>(limits.time.count() / 1000 + 1));
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)  // whose shadow memory alone is larger
-  limit(RLIMIT_AS, memory_limit);
+  limit(RLIMIT_AS, limits.memory);
 #endif
+}
+
+std::string answer(const std::function<ImportedCharacter()>& read) {
+  try {
+    return char{character} + to_bytes(read());
+  } catch (const std::bad_alloc&) {
+    return {char{no_memory}};
+  } catch (const std::exception& error) {
+    const std::string_view reason = error.what();
+    const bool memory = reason.find("needs more memory") != std::string_view::npos;
+    return memory ? std::string{char{no_memory}} : char{import_error} + std::string(reason);
+  }
+}
+
+[[noreturn]] void run_child(const std::function<ImportedCharacter()>& read, const ImportLimits& limits,
+                            int to) {
+  prctl(PR_SET_PDEATHSIG, SIGKILL);
+  // Nobody's handlers: not this program's, nor a sanitizer's.
+  for (const int number : {SIGINT, SIGTERM, SIGHUP, SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT})
+    signal(number, SIG_DFL);
   // The parent speaks for both.
   const int nowhere = open("/dev/null", O_WRONLY | O_CLOEXEC);
   dup2(nowhere, STDOUT_FILENO);
   dup2(nowhere, STDERR_FILENO);
-  try {
-    import_character(file, options);
-  } catch (const std::exception& error) {
-    // What memory was missing here would be missing there, but the parent has no limit to stop at.
-    const bool memory = std::string_view(error.what()).find("needs more memory") != std::string_view::npos;
-    _exit(memory ? 1 : 0);
+  set_limits(limits);
+  const std::string bytes = answer(read);
+  for (std::size_t done = 0; done < bytes.size();) {
+    const ssize_t written = write(to, bytes.data() + done, bytes.size() - done);
+    if (written < 0 && errno == EINTR) continue;
+    if (written < 0) _exit(1);
+    done += static_cast<std::size_t>(written);
   }
-  _exit(0);
+  _exit(0);  // without destructors: a damaged heap must not undo the answer
 }
 
-std::string reason(int status) {
-  if (WIFEXITED(status))
-    return fmt::format("reading it takes more than {} GiB of memory", memory_limit >> 30);
-  if (WTERMSIG(status) == SIGXCPU || WTERMSIG(status) == SIGKILL)
-    return fmt::format("reading it takes more than {} seconds", seconds_limit);
-  return fmt::format("malformed: the importer crashes on it (signal {})", WTERMSIG(status));
+/// A child, ended and waited for at the latest when this goes.
+class Child {
+ public:
+  Child(const std::function<ImportedCharacter()>& read, const ImportLimits& limits) {
+    int ends[2];
+    if (pipe2(ends, O_CLOEXEC) != 0) fail("no pipe");
+    pid_ = fork();
+    if (pid_ == 0) {
+      close(ends[0]);
+      run_child(read, limits, ends[1]);
+    }
+    const int error = errno;
+    from_ = ends[0];
+    close(ends[1]);
+    if (pid_ > 0) return;
+    close(from_);
+    errno = error;
+    fail("no child process");
+  }
+  ~Child() {
+    close(from_);
+    if (pid_ <= 0) return;
+    kill(pid_, SIGKILL);
+    wait();
+  }
+  Child(const Child&) = delete;
+  Child& operator=(const Child&) = delete;
+
+  /// All that it says until it ends, or the first bytes beyond `most`; nothing when the time is over.
+  std::optional<std::string> listen(Clock::time_point until, std::size_t most) const {
+    std::string bytes;
+    char part[1 << 16];
+    while (true) {
+      const auto left = std::chrono::ceil<std::chrono::milliseconds>(until - Clock::now()).count();
+      pollfd waiting{from_, POLLIN, 0};
+      const int ready = left > 0 ? poll(&waiting, 1, static_cast<int>(left)) : 0;
+      if (ready == 0) return std::nullopt;
+      const ssize_t got = ready < 0 ? -1 : ::read(from_, part, sizeof part);
+      if (got < 0 && errno == EINTR) continue;
+      if (got < 0) fail("the importing process was lost");
+      if (got == 0) return bytes;
+      bytes.append(part, static_cast<std::size_t>(got));
+      if (bytes.size() > most) return bytes;
+    }
+  }
+
+  int wait() {
+    int status = 0;
+    while (waitpid(pid_, &status, 0) < 0)
+      if (errno != EINTR) fail("the importing process was lost");
+    pid_ = 0;
+    return status;
+  }
+
+ private:
+  pid_t pid_ = 0;
+  int from_ = -1;
+
+  [[noreturn]] static void fail(const char* what) {
+    throw std::runtime_error(fmt::format("{}: {}", what, std::strerror(errno)));
+  }
+};
+
+std::string seconds(const ImportLimits& limits) {
+  return fmt::format("reading it takes more than {:g} seconds",
+                     static_cast<double>(limits.time.count()) / 1000);
+}
+
+std::string gibibytes(const ImportLimits& limits) {
+  return fmt::format("reading it takes more than {:g} GiB of memory",
+                     static_cast<double>(limits.memory) / static_cast<double>(1 << 30));
 }
 
 }  // namespace
 
-ImportedCharacter guarded_import(const std::string& file, const ImportOptions& options) {
-  const pid_t child = fork();
-  if (child == 0) try_import(file, options);
-  if (child > 0) {
-    int status = 0;
-    while (waitpid(child, &status, 0) < 0)
-      if (errno != EINTR) throw std::runtime_error("the importing process was lost");
-    if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) throw InputError(file + ": " + reason(status));
+ImportedCharacter guarded_import(const std::string& file, const std::function<ImportedCharacter()>& read,
+                                 const ImportLimits& limits) {
+  const auto reject = [&](const std::string& reason) -> void { throw InputError(file + ": " + reason); };
+  Child child(read, limits);
+  const std::optional<std::string> words = child.listen(Clock::now() + limits.time, limits.memory);
+  if (!words) reject(seconds(limits));
+  if (words->size() > limits.memory) reject(gibibytes(limits));
+  const int status = child.wait();
+  if (WIFSIGNALED(status) && WTERMSIG(status) == SIGXCPU) reject(seconds(limits));
+  if (WIFSIGNALED(status))
+    reject(fmt::format("malformed: the importer crashes on it (signal {})", WTERMSIG(status)));
+  if (WEXITSTATUS(status) != 0 || words->empty()) reject("malformed: the importer gives up on it");
+  switch (words->front()) {
+    case no_memory:
+      reject(gibibytes(limits));
+      break;
+    case import_error:
+      throw ImportError(words->substr(1));
+    default:
+      break;
   }
-  return import_character(file, options);
+  try {
+    return imported_from(std::span(*words).subspan(1));
+  } catch (const std::invalid_argument& error) {
+    throw InputError(fmt::format("{}: malformed: {}", file, error.what()));
+  }
+}
+
+ImportedCharacter guarded_import(const std::string& file, const ImportOptions& options) {
+  return guarded_import(file, [&] { return import_character(file, options); });
 }
 
 }  // namespace bch::cli

@@ -108,7 +108,7 @@ std::function<void()> add_inspect_command(CLI::App& program) {
   CLI::App& command =
       *program.add_subcommand("inspect", "Show what a character or baked file holds, and its shapes");
   command.footer(
-      "A file is refused if reading it crashes or takes more than 4 GiB or 60 s.\n"
+      "A file is refused if reading it crashes or takes more than 2 GiB or 60 s.\n"
       "Example: bch inspect default:male --clip walk --time 1.5 --svg walk.svg");
   command.add_option("FILE", options->character, character_or_baked_help)->type_name("")->required();
   command.add_option("--shape", options->shape, "Show this shape of the table in detail")->type_name("INDEX");

@@ -82,6 +82,9 @@ int main(int argc, char** argv) {
     return report(exit_usage, error.what());
   } catch (const InputError& error) {
     return report(exit_bad_input, error.what());
+  } catch (const InputErrors& errors) {
+    for (const std::string& line : errors.lines) report(exit_bad_input, line);
+    return exit_bad_input;
   } catch (const bch::ImportError& error) {
     return report(exit_bad_input, error.what());
   } catch (const bch::BakedFileError& error) {

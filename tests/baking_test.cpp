@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include "bench/baking.hpp"
+
+#include <gtest/gtest.h>
+#include <oneapi/tbb/global_control.h>
+#include <oneapi/tbb/task_arena.h>
+
+#include <string>
+
+#include "bench/exit_codes.hpp"
+#include "layout/baked_image.hpp"
+#include "layout/default_characters.hpp"
+
+// A task that throws in the midst of a batch.
+
+namespace bch::cli {
+namespace {
+
+/// A man whose clip "vanish" ends in a point, which has no outline.
+LoadedCharacter vanishing_man() {
+  LoadedCharacter man{"man.glb", default_male(), {}};
+  Clip clip{"vanish", 1, {{}}};
+  clip.channels[0].scales = {{0, Eigen::Vector3f::Ones()}, {1, Eigen::Vector3f::Zero()}};
+  man.character.clips = {clip};
+  validate(man.character);
+  return man;
+}
+
+std::vector<ShapeSource> sources(std::size_t count, std::size_t bad) {
+  std::vector<ShapeSource> list(count, ShapeSource{0, {0, 0.25f}});
+  if (bad < count) list[bad].at.seconds = 1;
+  return list;
+}
+
+class Baking : public testing::TestWithParam<int> {
+ protected:
+  const tbb::global_control allow{tbb::global_control::max_allowed_parallelism, 4};
+  tbb::task_arena arena{GetParam()};
+  const std::vector<LoadedCharacter> characters{vanishing_man()};
+
+  template <class Call>
+  void expect_vanished(Call call) {
+    try {
+      arena.execute(call);
+      ADD_FAILURE() << "baked a point";
+    } catch (const InputError& error) {
+      EXPECT_TRUE(std::string(error.what()).starts_with("man.glb: vanish at 1 s: ")) << error.what();
+    }
+  }
+};
+
+TEST_P(Baking, ATaskThatThrowsEndsTheBatchAndNothingElse) {
+  for (const std::size_t bad : {0u, 1u, 150u, 299u}) {
+    expect_vanished([&] { bake_shapes(characters, sources(300, bad), 0.01, {}); });
+    expect_vanished([&] { build_shapes(characters, sources(300, bad), 0.01); });
+  }
+  const ShapeSet set = arena.execute([&] { return bake_shapes(characters, sources(300, 300), 0.01, {}); });
+  EXPECT_EQ(set.shape_count(), 300u);
+}
+
+INSTANTIATE_TEST_SUITE_P(Threads, Baking, testing::Values(1, 2, 4));
+
+}  // namespace
+}  // namespace bch::cli
