@@ -4,18 +4,47 @@
 #include "tests/allocation_count.hpp"
 
 #include <atomic>
+#include <cstdint>
 #include <cstdlib>
 #include <new>
 
 namespace {
 
+using bch::test::Failing;
+
 std::atomic<std::size_t> count = 0;
+std::atomic<std::size_t> live = 0;
+std::atomic<Failing> failing = Failing::none;
+std::atomic<std::int64_t> until_failure = 0;
+std::atomic<std::size_t> failures = 0;
+
+/// Counts a call. Returns: whether it has to fail.
+bool fails() {
+  ++count;
+  const Failing mode = failing;
+  if (mode == Failing::none) return false;
+  const std::int64_t left = until_failure--;
+  const bool now = mode == Failing::one ? left == 0 : left <= 0;
+  failures += now ? 1 : 0;
+  return now;
+}
+
+void* try_allocate(std::size_t size, std::size_t alignment) {
+  if (fails()) return nullptr;
+  const std::size_t whole = (size + alignment - 1) / alignment * alignment;
+  void* const memory = std::aligned_alloc(alignment, whole > 0 ? whole : alignment);
+  live += memory != nullptr ? 1 : 0;
+  return memory;
+}
 
 void* allocate(std::size_t size, std::size_t alignment) {
-  ++count;
-  const std::size_t whole = (size + alignment - 1) / alignment * alignment;
-  if (void* memory = std::aligned_alloc(alignment, whole > 0 ? whole : alignment)) return memory;
+  if (void* memory = try_allocate(size, alignment)) return memory;
   throw std::bad_alloc();
+}
+
+void release(void* memory) {
+  live -= memory != nullptr ? 1 : 0;
+  std::free(memory);
 }
 
 }  // namespace
@@ -27,26 +56,41 @@ void* operator new(std::size_t size, std::align_val_t alignment) {
   return allocate(size, static_cast<std::size_t>(alignment));
 }
 void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
-  ++count;
-  return std::malloc(size > 0 ? size : 1);
+  return try_allocate(size, alignof(std::max_align_t));
 }
 void operator delete(void* memory) noexcept {
-  std::free(memory);
+  release(memory);
 }
 void operator delete(void* memory, std::size_t) noexcept {
-  std::free(memory);
+  release(memory);
 }
 void operator delete(void* memory, std::align_val_t) noexcept {
-  std::free(memory);
+  release(memory);
 }
 void operator delete(void* memory, std::size_t, std::align_val_t) noexcept {
-  std::free(memory);
+  release(memory);
 }
 
 namespace bch::test {
 
 std::size_t allocation_count() {
   return count;
+}
+
+std::size_t live_allocations() {
+  return live;
+}
+
+void fail_allocations(Failing mode, std::size_t after) {
+  failing = Failing::none;
+  until_failure = static_cast<std::int64_t>(after);
+  failures = 0;
+  failing = mode;
+}
+
+std::size_t stop_failing_allocations() {
+  failing = Failing::none;
+  return failures;
 }
 
 }  // namespace bch::test
