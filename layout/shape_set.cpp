@@ -45,20 +45,22 @@ ShapeSet::ShapeSet(const ShapeArrays& arrays, std::shared_ptr<const void> memory
     : arrays_(arrays), memory_(std::move(memory)), rows_in_order_(rows_in_order(arrays.roots)) {}
 
 ShapeSetView ShapeSet::view() const noexcept {
+  // An empty section of a file has an address as well.
+  const auto or_null = [](const auto& array) { return array.empty() ? nullptr : array.data(); };
   return {.shape_count = shape_count(),
           .level_count = level_count(),
           .rows_in_order = rows_in_order_,
-          .roots = arrays_.roots.data(),
-          .trees = arrays_.trees.data(),
-          .nodes = arrays_.nodes.data(),
-          .reach = arrays_.reach.data(),
-          .support = arrays_.support.empty() ? nullptr : arrays_.support.data(),
-          .inscribed = arrays_.inscribed.data(),
-          .extremes = arrays_.extremes.data(),
-          .profiles = arrays_.profiles.data(),
-          .shape_contours = arrays_.shape_contours.data(),
-          .contours = arrays_.contours.data(),
-          .points = arrays_.points.data()};
+          .roots = or_null(arrays_.roots),
+          .trees = or_null(arrays_.trees),
+          .nodes = or_null(arrays_.nodes),
+          .reach = or_null(arrays_.reach),
+          .support = or_null(arrays_.support),
+          .inscribed = or_null(arrays_.inscribed),
+          .extremes = or_null(arrays_.extremes),
+          .profiles = or_null(arrays_.profiles),
+          .shape_contours = or_null(arrays_.shape_contours),
+          .contours = or_null(arrays_.contours),
+          .points = or_null(arrays_.points)};
 }
 
 ShapeSetPlan ShapeSet::plan() const {

@@ -8,7 +8,11 @@
 #include <cstring>
 #include <filesystem>
 
+#include "kernel/clearance.hpp"
 #include "kernel/collide.hpp"
+#include "kernel/contact_time.hpp"
+#include "kernel/contacts.hpp"
+#include "kernel/separation.hpp"
 #include "layout/baked_image.hpp"
 #include "tests/baked_bytes.hpp"
 #include "tests/scenes.hpp"
@@ -44,6 +48,32 @@ std::vector<std::uint8_t> answers(const ShapeSet& set, Semantics semantics) {
   return hits;
 }
 
+/// The queries for collision response.
+void expect_same_measures(const ShapeSet& loaded, const ShapeSet& expected) {
+  Random random(74);
+  const PairScene scene = random_scene(random, expected, 300);
+  const Agents agents = scene.crowd.agents();
+  const std::vector<double> way(scene.pairs.size(), 0.5);
+  ContactTable table[2];
+  std::vector<Separation> ways[2];
+  std::vector<float> distances[2], times[2];
+  std::vector<Vec2> directions(scene.pairs.size());
+  for (int i = 0; i < 2; ++i) {
+    const ShapeSet& set = i == 0 ? loaded : expected;
+    ways[i].resize(scene.pairs.size()), distances[i].resize(scene.pairs.size()),
+        times[i].resize(scene.pairs.size());
+    contacts(set, agents, scene.pairs, table[i]);
+    separation(set, agents, scene.pairs, 8, ways[i]);
+    clearance(set, agents, scene.pairs, {distances[i], directions});
+    contact_time(set, agents, scene.pairs, {way, way}, times[i]);
+  }
+  EXPECT_EQ(table[0].begin, table[1].begin);
+  EXPECT_TRUE(table[0].contacts == table[1].contacts);
+  EXPECT_EQ(ways[0], ways[1]);
+  EXPECT_EQ(distances[0], distances[1]);
+  EXPECT_EQ(times[0], times[1]);
+}
+
 TEST(BakedFile, ComesBackAsItWas) {
   const TemporaryFolder folder;
   for (const std::vector<std::uint32_t>& depths :
@@ -59,6 +89,7 @@ TEST(BakedFile, ComesBackAsItWas) {
           expect_same(loaded.set.arrays(), set.arrays());
           EXPECT_EQ(loaded.origins, origins);
           EXPECT_EQ(answers(loaded.set, Semantics::boundary), answers(set, Semantics::boundary));
+          expect_same_measures(loaded.set, set);
           if (solid) {
             EXPECT_EQ(answers(loaded.set, Semantics::solid), answers(set, Semantics::solid));
           }
