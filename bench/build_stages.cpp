@@ -126,11 +126,11 @@ void BuildStages::make_and_check(std::size_t pose) {
   require(same(hierarchy_, contour_hierarchy(outline_, threshold), 0), "hierarchy", pose);
   hierarchy_welzl(pose);
   require(same(hierarchy_, hierarchies_[pose], 1e-6f), "hierarchy_welzl", pose);
-  levels(pose);
-  require(same(tree_, wide_tree(hierarchies_[pose], depths[std::size(depths) - 1])), "levels", pose);
   interior(pose);
   require(interior_.radius == bch::interior(outlines_[pose], hierarchies_[pose].reach).radius, "interior",
           pose);
+  levels(pose);
+  require(same(tree_, wide_tree(hierarchies_[pose], depths[std::size(depths) - 1])), "levels", pose);
   all(pose);
   require(outline_.points == expected.points && same(hierarchy_, hierarchies_[pose], 0), "all", pose);
 }
@@ -156,25 +156,32 @@ void BuildStages::levels(std::size_t pose) {
 }
 
 void BuildStages::interior(std::size_t pose) {
-  interior_ = interior_builder_.build(outlines_[pose], hierarchies_[pose].reach);
-  use(interior_);
+  look_inside(outlines_[pose], hierarchies_[pose].reach);
 }
 
 void BuildStages::all(std::size_t pose) {
   outline_builder_.build(skinner_.pose(times_[pose]), outline_);
   hierarchy_builder_.contour(outline_, threshold, SplitRule::centroid, hierarchy_);
+  look_inside(outline_, hierarchy_.reach);
   flatten(hierarchy_);
-  interior_ = interior_builder_.build(outline_, hierarchy_.reach);
-  use(interior_);
+}
+
+void BuildStages::look_inside(const Outline& outline, double reach) {
+  interior_ = interior_builder_.build(outline, reach);
+  profile_ = profile(outline, interior_, reach);
+  use(profile_);
 }
 
 void BuildStages::flatten(const Hierarchy& hierarchy) {
   flattener_.begin(hierarchy);
   for (const std::uint32_t depth : depths) {
     flattener_.flatten(depth, tree_);
-    supports_ = flattener_.supports();
-    use(supports_);
+    if (tree_.is_single) continue;
+    outer_ = flattener_.outer(profile_);
+    use(outer_);
   }
+  supports_ = flattener_.supports();
+  use(supports_);
 }
 
 MenInDetail::MenInDetail() : man_(default_male()), coarse_(coarser(man_, 1'000)) {}

@@ -13,6 +13,7 @@
 #include "layout/hierarchy_builder.hpp"
 #include "layout/interior.hpp"
 #include "layout/outline_builder.hpp"
+#include "layout/profile.hpp"
 #include "layout/skinning.hpp"
 #include "layout/wide_tree.hpp"
 
@@ -48,14 +49,16 @@ class BuildStages {
   void hierarchy(std::size_t pose);
   /// The same with every disc by Welzl's algorithm as textbooks have it.
   void hierarchy_welzl(std::size_t pose);
-  /// Wide trees and supports of four levels.
+  /// Wide trees of four levels, how far they extend from the last profile's centre, and supports of the deepest.
   void levels(std::size_t pose);
+  /// Inscribed discs and the profile.
   void interior(std::size_t pose);
-  /// From the pose to levels and inscribed discs.
+  /// From the pose to all of these.
   void all(std::size_t pose);
 
  private:
   void make_and_check(std::size_t pose);
+  void look_inside(const Outline& outline, double reach);
   void flatten(const Hierarchy& hierarchy);
 
   const Character& character_;
@@ -74,8 +77,10 @@ class BuildStages {
   Outline outline_;
   Hierarchy hierarchy_;
   WideTree tree_;
-  Supports supports_;
   Interior interior_;
+  Profile profile_;
+  Supports supports_;
+  Outer outer_;
 };
 
 struct BuildStage {
