@@ -7,7 +7,6 @@
 #include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/task_arena.h>
 
-#include <bit>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -16,62 +15,28 @@
 
 #include "baselines/clearance_reference.hpp"
 #include "baselines/oracle.hpp"
-#include "baselines/reference.hpp"
 #include "kernel/collide.hpp"
-#include "tests/scenes.hpp"
+#include "tests/clearances.hpp"
+#include "tests/differential.hpp"
 
 namespace bch {
 namespace {
 
 using baselines::ClearanceReference;
 using baselines::Method;
+using test::answers;
+using test::Answers;
 using test::PairScene;
 using test::Random;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 const ShapeSetPlan plan{{0, 3, 6, all_depths}};
 
-struct Answers {
-  std::vector<float> distance;
-  std::vector<Vec2> direction;
-  std::vector<CutNodes> nodes;
-
-  explicit Answers(std::size_t size = 0) : distance(size), direction(size), nodes(size) {}
-  ClearanceAnswers spans() { return {distance, direction, nodes}; }
-  /// Bits, not values: -0 is not 0.
-  bool same(std::size_t i, const Answers& other, std::size_t k) const {
-    const auto bits = [](float value) { return std::bit_cast<std::uint32_t>(value); };
-    return bits(distance[i]) == bits(other.distance[k]) &&
-           bits(direction[i].x) == bits(other.direction[k].x) &&
-           bits(direction[i].y) == bits(other.direction[k].y) && nodes[i] == other.nodes[k];
-  }
-};
-
-Answers answers(const ShapeSet& set, const Agents& agents, std::span<const Pair> pairs, double max_distance,
-                const kernel::Implementation* implementation = nullptr) {
-  Answers all(pairs.size());
-  clearance(set, agents, pairs, all.spans(), {max_distance, implementation});
-  return all;
-}
-
-class ClearanceDifferential : public testing::Test {
+class ClearanceDifferential : public test::Differential {
  protected:
-  static constexpr std::uint64_t seed = 2601;
-  std::vector<Shape> shapes = test::synthetic_shapes(seed, 40);
-  ShapeSet set{shapes, plan};
+  ClearanceDifferential() : Differential(2601, plan) {}
+
   ClearanceReference reference{shapes, plan};
-  baselines::Reference discs{shapes, plan};
-  Random random{seed + 1};
-
-  void SetUp() override { RecordProperty("seed", std::to_string(seed)); }
-
-  PairScene tangent_scene(std::uint32_t pairs) {
-    PairScene scene = random_scene(random, set, pairs);
-    make_tangent(random, scene, [&](const Agents& agents, Pair pair) {
-      return discs.boundary(agents, pair, Method::depth_first);
-    });
-    return scene;
-  }
 
   Answers expected(const PairScene& scene, double max_distance, Method method) {
     Answers all;
@@ -292,77 +257,6 @@ TEST_F(ClearanceDifferential, DirectionsAreUnitVectorsAlongWhichDiscsPart) {
       EXPECT_NEAR(after.distance[0] - all.distance[i], 0.001, 1e-5) << i;
     }
   }
-}
-
-TEST(Clearance, OfSingleDiscs) {
-  const std::vector<Shape> shapes = {{{}, fixed_cylinder(0.25f)}, {{}, fixed_cylinder(0.5f)}};
-  for (const ShapeSetPlan& levels : {ShapeSetPlan{{0}}, ShapeSetPlan{}}) {
-    const ShapeSet set(shapes, levels);
-    test::Crowd crowd;
-    crowd.add(0, 1, 1, 0.7, 0);
-    crowd.add(1, 4, 5, 2, 0);
-    crowd.add(1, 1, 1, 3, 0);
-    const std::vector<Pair> pairs = {{0, 1}, {1, 0}, {0, 2}, {2, 0}, {0, 0}};
-    const auto of = answers(set, crowd.agents(), pairs, infinity);
-    EXPECT_NEAR(of.distance[0], 4.25, 1e-5);
-    EXPECT_NEAR(of.direction[0].x, 0.6, 1e-6);
-    EXPECT_NEAR(of.direction[0].y, 0.8, 1e-6);
-    EXPECT_EQ(of.direction[1], (Vec2{-of.direction[0].x, -of.direction[0].y}));
-    EXPECT_NEAR(of.distance[2], -0.75, 1e-5);
-    EXPECT_EQ(of.direction[2], (Vec2{1, 0}));  // coincident centres
-    EXPECT_EQ(of.direction[3], (Vec2{-1, 0}));
-    EXPECT_NEAR(of.distance[4], -0.5, 1e-5);  // an agent and itself
-    EXPECT_EQ(of.direction[4], (Vec2{1, 0}));
-    EXPECT_EQ(of.nodes[4], (CutNodes{0, 0}));
-    const auto limited = answers(set, crowd.agents(), pairs, 4);
-    EXPECT_EQ(limited.distance[0], std::numeric_limits<float>::infinity());
-    EXPECT_EQ(limited.direction[0], (Vec2{0, 0}));
-    EXPECT_EQ(limited.nodes[0], no_cut_nodes);
-    const auto touching = answers(set, crowd.agents(), pairs, 0);
-    EXPECT_EQ(touching.distance[2], of.distance[2]);
-    EXPECT_EQ(touching.distance[0], std::numeric_limits<float>::infinity());
-  }
-}
-
-TEST(Clearance, AnswersThatAreNotAskedForChangeNoOthers) {
-  const ShapeSet set(test::synthetic_shapes(6, 8), plan);
-  Random random(7);
-  const PairScene scene = random_scene(random, set, 3'000);
-  const Answers all = answers(set, scene.crowd.agents(), scene.pairs, 0.5);
-  std::vector<float> distance(scene.pairs.size());
-  clearance(set, scene.crowd.agents(), scene.pairs, {distance, {}, {}}, {0.5});
-  EXPECT_EQ(distance, all.distance);
-}
-
-TEST(Clearance, RejectsBadInputBeforeAnythingIsWritten) {
-  const ShapeSet set(test::synthetic_shapes(1, 2));
-  test::Crowd crowd;
-  crowd.add(0, 0, 0, 0, 0);
-  crowd.add(1, 1, 0, 0, 0);
-  std::vector<Pair> pairs = {{0, 1}};
-  const auto expect_rejected = [&](const std::string& message, double max_distance,
-                                   std::size_t directions = 1) {
-    Answers all(1);
-    all.distance[0] = 42;
-    try {
-      clearance(set, crowd.agents(), pairs, {all.distance, std::span(all.direction).first(directions), {}},
-                {max_distance});
-      if (message.empty()) return;
-      FAIL() << "accepted; expected: " << message;
-    } catch (const std::invalid_argument& error) {
-      EXPECT_NE(std::string(error.what()).find(message), std::string::npos) << error.what();
-    }
-    EXPECT_EQ(all.distance[0], 42);
-  };
-  expect_rejected("max_distance of nan", std::nan(""));
-  expect_rejected("max_distance of -0.5", -0.5);
-  crowd.x[1] = std::nan("");
-  expect_rejected("pair 0: agent 1: position (nan, 0)", 1);
-  crowd.x[1] = 1;
-  pairs = {{0, 2}};
-  expect_rejected("pair 0: agent 2 of 2", 1);
-  pairs = {{0, 1}, {1, 0}};
-  expect_rejected("2 pairs but 1 distances", 1);
 }
 
 }  // namespace

@@ -13,7 +13,7 @@
 
 #include "baselines/oracle.hpp"
 #include "baselines/reference.hpp"
-#include "tests/scenes.hpp"
+#include "tests/differential.hpp"
 
 namespace bch {
 namespace {
@@ -56,15 +56,11 @@ void expect_equal_to_brute_force(const ShapeSet& set, const Reference& reference
   }
 }
 
-class Differential : public testing::Test {
+class Differential : public test::Differential {
  protected:
-  static constexpr std::uint64_t seed = 20141;
-  std::vector<Shape> shapes = test::synthetic_shapes(seed, 40);
-  ShapeSet set{shapes, plan};
-  Reference reference{shapes, plan};
-  Random random{seed + 1};
+  Differential() : test::Differential(20141, plan) {}
 
-  void SetUp() override { RecordProperty("seed", std::to_string(seed)); }
+  const Reference& reference = discs;
 };
 
 TEST_F(Differential, RandomPairs) {
@@ -76,10 +72,7 @@ TEST_F(Differential, RandomPairs) {
 
 TEST_F(Differential, NearTangentPairs) {
   for (int i = 0; i < 16; ++i) {
-    PairScene scene = random_scene(random, set, 25'000);
-    make_tangent(random, scene, [&](const Agents& agents, Pair pair) {
-      return reference.boundary(agents, pair, Method::depth_first);
-    });
+    PairScene scene = tangent_scene(25'000);
     expect_equal_to_brute_force(set, reference, scene, "near tangent " + std::to_string(i));
   }
 }
@@ -120,10 +113,7 @@ TEST_F(Differential, FarFromTheOriginTheAnswerIsTheSame) {
 }
 
 TEST_F(Differential, TheDepthFirstTraversalEqualsBruteForce) {
-  PairScene scene = random_scene(random, set, 50'000);
-  make_tangent(random, scene, [&](const Agents& agents, Pair pair) {
-    return reference.boundary(agents, pair, Method::depth_first);
-  });
+  PairScene scene = tangent_scene(50'000);
   for (const Pair& pair : scene.pairs)
     ASSERT_EQ(reference.boundary(scene.crowd.agents(), pair, Method::depth_first),
               reference.boundary(scene.crowd.agents(), pair, Method::brute_force));
@@ -173,10 +163,7 @@ TEST_F(Differential, AnyNumberOfThreads) {
 }
 
 TEST_F(Differential, TheOrderWithinAPairDoesNotMatter) {
-  PairScene scene = random_scene(random, set, 50'000);
-  make_tangent(random, scene, [&](const Agents& agents, Pair pair) {
-    return reference.boundary(agents, pair, Method::depth_first);
-  });
+  PairScene scene = tangent_scene(50'000);
   const auto hits =
       answers(set, scene.crowd.agents(), scene.pairs, Semantics::boundary, kernel::best_implementation());
   for (Pair& pair : scene.pairs) std::swap(pair.first, pair.second);
@@ -214,10 +201,7 @@ TEST_F(Differential, NoOutlineCrossingIsMissed) {
 TEST_F(Differential, ShortcutsChangeNoAnswer) {
   const ShapeSet plain(shapes, {plan.depths, true, false});
   EXPECT_LT(plain.bytes(), set.bytes());
-  PairScene scene = random_scene(random, set, 100'000);
-  make_tangent(random, scene, [&](const Agents& agents, Pair pair) {
-    return reference.boundary(agents, pair, Method::depth_first);
-  });
+  PairScene scene = tangent_scene(100'000);
   for (const Semantics semantics : {Semantics::boundary, Semantics::solid})
     EXPECT_EQ(answers(plain, scene.crowd.agents(), scene.pairs, semantics, kernel::best_implementation()),
               answers(set, scene.crowd.agents(), scene.pairs, semantics, kernel::best_implementation()));

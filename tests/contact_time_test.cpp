@@ -17,7 +17,7 @@
 #include "baselines/oracle.hpp"
 #include "kernel/clearance.hpp"
 #include "kernel/collide.hpp"
-#include "tests/scenes.hpp"
+#include "tests/differential.hpp"
 
 namespace bch {
 namespace {
@@ -43,15 +43,11 @@ std::vector<float> times(const ShapeSet& set, const Motion& motion,
   return all;
 }
 
-class ContactTimeDifferential : public testing::Test {
+class ContactTimeDifferential : public test::Differential {
  protected:
-  static constexpr std::uint64_t seed = 2602;
-  std::vector<Shape> shapes = test::synthetic_shapes(seed, 40);
-  ShapeSet set{shapes, plan};
-  ContactTimeReference reference{shapes, plan};
-  Random random{seed + 1};
+  ContactTimeDifferential() : Differential(2602, plan) {}
 
-  void SetUp() override { RecordProperty("seed", std::to_string(seed)); }
+  ContactTimeReference reference{shapes, plan};
 
   /// Ways of random lengths up to `longest`, half of them about towards the other agent.
   Motion moving(PairScene scene, double longest) {

@@ -11,40 +11,25 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <stdexcept>
-#include <string>
 
 #include "baselines/oracle.hpp"
-#include "baselines/reference.hpp"
 #include "baselines/separation_reference.hpp"
 #include "kernel/collide.hpp"
 #include "layout/default_characters.hpp"
 #include "tests/character_shapes.hpp"
-#include "tests/scenes.hpp"
+#include "tests/differential.hpp"
+#include "tests/separations.hpp"
 
 namespace bch {
 namespace {
 
 using baselines::CutLists;
+using test::along;
+using test::best_of;
 using test::PairScene;
 using test::Random;
 
 const ShapeSetPlan plan{{0, 3, 6, all_depths}, true};
-
-std::vector<Separation> best_of(
-    std::uint32_t k, const ShapeSet& set, const PairScene& scene,
-    const kernel::Implementation& implementation = kernel::best_implementation()) {
-  std::vector<Separation> found(scene.pairs.size(), {-1, -1, -1});
-  separation(set, scene.crowd.agents(), scene.pairs, k, found, {&implementation});
-  return found;
-}
-
-std::vector<Separation> along(std::span<const Vec2> directions, const ShapeSet& set, const PairScene& scene,
-                              const kernel::Implementation& implementation = kernel::best_implementation()) {
-  std::vector<Separation> found(scene.pairs.size(), {-1, -1, -1});
-  separation_along(set, scene.crowd.agents(), scene.pairs, directions, found, {&implementation});
-  return found;
-}
 
 /// Of every length and way.
 std::vector<Vec2> random_directions(Random& random, std::size_t count) {
@@ -67,21 +52,11 @@ PairScene moved(PairScene scene, std::span<const Separation> by, double further 
   return scene;
 }
 
-class SeparationTest : public testing::Test {
+class SeparationTest : public test::Differential {
  protected:
-  std::vector<Shape> shapes = test::synthetic_shapes(91, 40);
-  ShapeSet set{shapes, plan};
-  CutLists cuts{shapes, plan};
-  baselines::Reference reference{shapes, plan};
-  Random random{92};
+  SeparationTest() : Differential(91, plan) {}
 
-  PairScene tangent_scene(std::uint32_t pairs) {
-    PairScene scene = random_scene(random, set, pairs);
-    make_tangent(random, scene, [&](const Agents& agents, Pair pair) {
-      return reference.boundary(agents, pair, baselines::Method::depth_first);
-    });
-    return scene;
-  }
+  CutLists cuts{shapes, plan};
 
   void expect_reference(const PairScene& scene, std::uint32_t k, const char* what) {
     const Agents agents = scene.crowd.agents();
@@ -262,90 +237,6 @@ TEST_F(SeparationTest, OfSingleDiscs) {
     const auto [depth, x, y] = baselines::separation(lists, scene.crowd.agents(), scene.pairs[i], 12);
     ASSERT_EQ(found[i], (Separation{depth, x, y}));
   }
-}
-
-/// Two discs of radius 0.25 m.
-class TwoDiscs : public testing::Test {
- protected:
-  TwoDiscs() {
-    scene.crowd.add(0, 0, 0, 0, 0);
-    scene.crowd.add(0, 0, 0, 0, 0);
-    scene.pairs = {{0, 1}};
-  }
-
-  const std::vector<Shape> shapes = {{{}, fixed_cylinder(0.25f)}};
-  const ShapeSet set{shapes};
-  PairScene scene;
-
-  void expect(const Separation& found, double depth, float x, float y) const {
-    EXPECT_NEAR(static_cast<double>(found.depth), depth, 4e-6 * (1 + depth));
-    EXPECT_GE(static_cast<double>(found.depth), depth);
-    EXPECT_NEAR(found.x, x, 1e-7f);
-    EXPECT_NEAR(found.y, y, 1e-7f);
-  }
-};
-
-TEST_F(TwoDiscs, AreMovedApart) {
-  scene.crowd.x[1] = 0.4;
-  expect(best_of(4, set, scene)[0], 0.1, -1, 0);
-  expect(along(std::vector<Vec2>{{3, 0}}, set, scene)[0], 0.9, 1, 0);
-  expect(along(std::vector<Vec2>{{0, 1e-30f}}, set, scene)[0], 0.5, 0, 1);
-  scene.crowd.x[1] = 1e9;
-  EXPECT_EQ(best_of(4, set, scene)[0].depth, 0);
-  EXPECT_EQ(along(std::vector<Vec2>{{-2, 0}}, set, scene)[0], (Separation{0, -1, 0}));
-  expect(along(std::vector<Vec2>{{2, 0}}, set, scene)[0], 1e9, 1, 0);
-}
-
-TEST_F(TwoDiscs, InOnePlaceMoveByTheFirstDirection) {
-  for (const Pair pair : {Pair{0, 1}, {1, 1}, {0, 0}}) {
-    scene.pairs = {pair};
-    expect(best_of(8, set, scene)[0], 0.5, 1, 0);
-  }
-  scene.pairs = {{1, 0}};
-  expect(best_of(8, set, scene)[0], 0.5, -1, 0);
-}
-
-class BadSeparation : public TwoDiscs {
- protected:
-  template <class Call>
-  void expect_rejected(const std::string& message, Call call) {
-    std::vector<Separation> out(scene.pairs.size(), {7, 7, 7});
-    try {
-      call(out);
-      FAIL() << "accepted; expected: " << message;
-    } catch (const std::invalid_argument& error) {
-      EXPECT_NE(std::string(error.what()).find(message), std::string::npos) << error.what();
-    }
-    for (const Separation& each : out) EXPECT_EQ(each, (Separation{7, 7, 7}));
-  }
-};
-
-TEST_F(BadSeparation, DirectionsAreNamed) {
-  scene.pairs = {{0, 1}, {1, 0}};
-  const float nan = std::numeric_limits<float>::quiet_NaN(),
-              infinity = std::numeric_limits<float>::infinity();
-  for (const Vec2 bad : {Vec2{0, 0}, Vec2{-0.0f, 0}, Vec2{nan, 1}, Vec2{1, infinity}})
-    expect_rejected("pair 1: direction (", [&](std::span<Separation> out) {
-      separation_along(set, scene.crowd.agents(), scene.pairs, std::vector<Vec2>{{1, 0}, bad}, out);
-    });
-  expect_rejected("2 pairs but 1 directions", [&](std::span<Separation> out) {
-    separation_along(set, scene.crowd.agents(), scene.pairs, std::vector<Vec2>{{1, 0}}, out);
-  });
-  for (const std::uint32_t k : {0u, 1u, 3u, 255u, 258u, ~0u})
-    expect_rejected(std::to_string(k) + " directions are not", [&](std::span<Separation> out) {
-      separation(set, scene.crowd.agents(), scene.pairs, k, out);
-    });
-  EXPECT_EQ(best_of(most_directions, set, scene).size(), 2u);
-}
-
-TEST_F(BadSeparation, AgentsAndSizesAreNamed) {
-  expect_rejected("room for 0", [&](std::span<Separation> out) {
-    separation(set, scene.crowd.agents(), scene.pairs, 4, out.first(0));
-  });
-  scene.crowd.y[1] = std::numeric_limits<double>::quiet_NaN();
-  expect_rejected("pair 0: agent 1: position (0, nan)", [&](std::span<Separation> out) {
-    separation(set, scene.crowd.agents(), scene.pairs, 4, out);
-  });
 }
 
 TEST_F(SeparationTest, BatchesOfEverySizeAndAnyNumberOfThreads) {
