@@ -47,6 +47,7 @@ int run(int argc, char** argv) {
   bch::bench::Scene scene(options);
   bch::bench::register_collide_benchmarks(scene);
   bch::bench::register_distance_benchmarks(scene);
+  bch::bench::register_response_benchmarks(scene);
   bch::bench::register_build_benchmarks(scene);
   bch::bench::register_load_benchmarks(scene);
   benchmark::RunSpecifiedBenchmarks();

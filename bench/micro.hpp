@@ -25,6 +25,10 @@ void register_collide_benchmarks(Scene& scene);
 /// with the same pruning. Counters as above, and `within`: pairs within the limit, or that touch in time.
 void register_distance_benchmarks(Scene& scene);
 
+/// contacts/<workload>/<implementation|reference>/threads:<n> and separation/..., of colliding pairs and of the crowd's;
+/// collide_all/crowd/<implementation>/threads:<n>, of a pair that its broad phase finds. The reference is brute force.
+void register_response_benchmarks(Scene& scene);
+
 /// build/<stage>: a stage of construction (build_stages.hpp) on the scene's characters; build/<stage>/<triangles>: on the
 /// built-in man with fewer and with more triangles. build/discs, build/discs_by_welzl, build/shape_set: the hierarchy's
 /// discs alone, and a set of one shape. build/<kind>: a structure over a pose's triangles or its shape; beside them

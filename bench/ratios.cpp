@@ -46,6 +46,7 @@ const std::vector<Table>& tables() {
       {"calls", [](Scene& scene, const Options& o) { print_call_ratios(scene, o.runs); }},
       {"crowd", [](Scene& scene, const Options& o) { print_crowd_ratios(scene, o.runs); }},
       {"distances", [](Scene& scene, const Options& o) { print_distance_ratios(scene, o.runs); }},
+      {"responses", [](Scene& scene, const Options& o) { print_response_ratios(scene, o.runs); }},
       {"shapes",
        [](Scene& scene, const Options& o) { print_shape_count_ratios(scene, o.runs, o.most_shapes); }},
       {"plans", [](Scene& scene, const Options& o) { print_plan_table(scene, o.runs); }},

@@ -34,6 +34,7 @@ void print_peer_ratios(Scene& scene, std::uint32_t runs);
 void print_call_ratios(Scene& scene, std::uint32_t runs);
 void print_crowd_ratios(Scene& scene, std::uint32_t runs);
 void print_distance_ratios(Scene& scene, std::uint32_t runs);
+void print_response_ratios(Scene& scene, std::uint32_t runs);
 void print_shape_count_ratios(Scene& scene, std::uint32_t runs, std::uint32_t most_shapes);
 void print_plan_table(Scene& scene, std::uint32_t runs);
 /// Construction: every stage by every instruction set, beside what is asked; and how it grows with triangles.
