@@ -20,8 +20,8 @@ using cli::Random;
 
 constexpr double pi = std::numbers::pi;
 constexpr DepthMeasure measures[] = {DepthMeasure::separation, DepthMeasure::discs, DepthMeasure::centres};
-constexpr double tried_steps[] = {1e-3,  2e-3,  3e-3,  4e-3,  6e-3,  8e-3,  10e-3, 12e-3,
-                                  16e-3, 20e-3, 24e-3, 28e-3, 32e-3, 36e-3, 40e-3, 48e-3};
+constexpr double tried_steps[] = {2e-3,  3e-3,  4e-3,  6e-3,  8e-3,  10e-3, 12e-3, 16e-3,
+                                  20e-3, 24e-3, 28e-3, 32e-3, 36e-3, 40e-3, 48e-3};
 
 double between(Random& random, double low, double high) {
   return low + random.uniform(high - low);

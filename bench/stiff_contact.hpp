@@ -64,9 +64,9 @@ struct SlideRow {
 };
 
 struct StiffOptions {
-  double seconds = 6;          ///< of every simulation
+  double seconds = 4;          ///< of every simulation
   std::uint32_t people = 200;  ///< at the door; 0: no door
-  std::uint32_t bounces = 200, slides = 200;
+  std::uint32_t bounces = 100, slides = 100;
 };
 
 struct StiffReport {

@@ -53,7 +53,7 @@ std::string text_of(const StiffReport& report) {
   for (const StiffRow& row : report.rows)
     fmt::format_to(std::back_inserter(out), "{:<16} {:>5}  {:<15} {:>7.1f} ms {:>17} {:>15}\n", row.scene,
                    row.depth, name_of(row.measure), row.bound * 1e3,
-                   row.largest_step > 0 ? fmt::format("{:.0f} ms", row.largest_step * 1e3) : "below 1 ms",
+                   row.largest_step > 0 ? fmt::format("{:.0f} ms", row.largest_step * 1e3) : "below 2 ms",
                    row.jitter > 0 ? fmt::format("{:.2f} mm/s", row.jitter * 1e3) : "-");
   out +=
       "\nTwo agents bounce at 1 m/s          depth at the beginning     energy created\n"
