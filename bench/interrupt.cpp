@@ -44,6 +44,8 @@ void clean_up_on_signals() {
     sigfillset(&action.sa_mask);
     sigaction(number, &action, nullptr);
   }
+  // A file beyond the user's limit is an error of write() then, like a full disk.
+  signal(SIGXFSZ, SIG_IGN);
 }
 
 RemovedOnSignal::RemovedOnSignal(const std::filesystem::path& path) {

@@ -8,7 +8,7 @@
 namespace bch::cli {
 
 /// From now on SIGINT, SIGTERM and SIGHUP end the program at once, whatever it is doing, with exit code 128 +
-/// signal, after the file under construction is removed. Signals that were ignored at the start stay ignored.
+/// signal, after the file under construction is removed. Signals that were ignored at the start stay ignored. SIGXFSZ is ignored.
 void clean_up_on_signals();
 
 /// The file that such a signal removes, while this lives. One at a time.

@@ -2,6 +2,7 @@
 // Copyright (c) 2026 the bch authors
 
 #include <gtest/gtest.h>
+#include <signal.h>
 
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -113,6 +114,36 @@ TEST(Cli, BadBakedFilesGiveThreeAndOneLine) {
     expect_failure(bch({"query", bad, agents, "--all-pairs"}), 3, {"bad.bch: ", word});
   }
   expect_failure(bch({"inspect", folder.file("missing.bch")}), 3, {"missing.bch: "});
+}
+
+/// A disk that is full, as far as this program may fill it.
+TEST(Cli, FilesThatDoNotFitLeaveNothing) {
+  const TemporaryFolder folder;
+  Streams small;
+  small.largest_file = 8192;
+  const std::string baked = folder.file("a.bch"), json = folder.write("a.json", "old");
+  expect_failure(bch({"bake", "default:male", "--poses", "20", "-o", baked}, {}, small), 3,
+                 {baked, "too large"});
+  expect_failure(bch({"crowd", "--poses", "2", "--agents", "300", "--svg", json}, {}, small), 3,
+                 {json, "too large"});
+  EXPECT_EQ(read_text(json), "old");
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 1);
+}
+
+/// Whenever it comes: the file is whole, or not there.
+TEST(Cli, InterruptsWhileBakingLeaveAllOrNothing) {
+  const TemporaryFolder folder;
+  const std::string file = folder.file("a.bch");
+  for (const int milliseconds : {1, 5, 20, 40, 80, 160, 320}) {
+    const Ending run = bch({"bake", "default:male", "--poses", "100", "-o", file}, {},
+                           {"", std::chrono::milliseconds(milliseconds)});
+    if (std::filesystem::exists(file))
+      EXPECT_EQ(bch({"inspect", file}).code, 0) << milliseconds;
+    else
+      EXPECT_TRUE(run.code == 130 || run.code == -SIGINT) << run.code << " after " << milliseconds << " ms";
+    std::filesystem::remove(file);
+    EXPECT_TRUE(std::filesystem::is_empty(folder.path())) << milliseconds;
+  }
 }
 
 TEST(Cli, BakingLeavesAllOrNothing) {

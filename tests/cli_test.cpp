@@ -103,6 +103,23 @@ TEST(Cli, BadCharacterFilesGiveThreeAndOneLine) {
   expect_failure(bch({"crowd", "--character", folder.file("missing.glb")}), 3, {"missing.glb: "});
 }
 
+TEST(Cli, EveryBadFileOfSeveralIsNamed) {
+  const TemporaryFolder folder;
+  const std::string first = folder.write("first.glb", "no model"),
+                    second = folder.write("second.obj", "v 0 0 0\n");
+  const std::string file = folder.file("a.bch");
+  const Ending bake = bch({"bake", first, "default:male", second, "--poses", "1", "-o", file});
+  const Ending crowd = bch({"crowd", "--character", first, "--character", second});
+  for (const Ending& run : {bake, crowd}) {
+    EXPECT_EQ(run.code, 3);
+    EXPECT_EQ(run.out, "");
+    EXPECT_EQ(lines(run.err), 2u) << run.err;
+    EXPECT_NE(run.err.find("bch: " + first + ": "), std::string::npos) << run.err;
+    EXPECT_NE(run.err.find("\nbch: " + second + ": "), std::string::npos) << run.err;
+  }
+  EXPECT_FALSE(std::filesystem::exists(file));
+}
+
 TEST(Cli, FilesThatCrashTheImporterGiveThree) {
   const auto data = test::test_data();
   if (!data) GTEST_SKIP() << "BCH_TEST_DATA is not set";

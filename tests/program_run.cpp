@@ -5,6 +5,7 @@
 
 #include <fcntl.h>
 #include <signal.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -26,11 +27,13 @@ void redirect(int descriptor, const fs::path& file) {
 }
 
 [[noreturn]] void become(const std::string& program, const std::vector<std::string>& arguments,
-                         const fs::path& out, const fs::path& err) {
+                         const fs::path& out, const fs::path& err, std::size_t largest_file) {
   redirect(STDOUT_FILENO, out);
   redirect(STDERR_FILENO, err);
   // Test runners in the background may ignore it, which children inherit.
   signal(SIGINT, SIG_DFL);
+  const rlimit size{largest_file, largest_file};
+  if (largest_file > 0) setrlimit(RLIMIT_FSIZE, &size);
   // assimp leaks on malformed files, which a sanitized program would report in the midst of its own words.
   setenv("ASAN_OPTIONS", "detect_leaks=0", 0);
   std::vector<char*> argv{const_cast<char*>(program.c_str())};
@@ -54,7 +57,7 @@ Ending run_program(const std::string& program, const std::vector<std::string>& a
   const fs::path out = streams.out.empty() ? folder.file("out") : fs::path(streams.out);
   const fs::path err = folder.file("err");
   const pid_t child = fork();
-  if (child == 0) become(program, arguments, out, err);
+  if (child == 0) become(program, arguments, out, err, streams.largest_file);
   if (streams.interrupt_after.count() > 0) {
     std::this_thread::sleep_for(streams.interrupt_after);
     kill(child, SIGINT);

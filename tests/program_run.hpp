@@ -21,6 +21,7 @@ struct Ending {
 struct Streams {
   std::string out;                               ///< where standard output goes; empty: into the Ending
   std::chrono::milliseconds interrupt_after{0};  ///< send SIGINT then; 0: never
+  std::size_t largest_file = 0;                  ///< bytes: none that it writes may be larger; 0: no limit
 };
 
 Ending run_program(const std::string& program, const std::vector<std::string>& arguments,
