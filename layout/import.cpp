@@ -35,12 +35,13 @@ std::vector<Joint> carrying_joints(const std::vector<Joint>& joints, std::vector
   return kept;
 }
 
-ImportedCharacter import_checked(const std::filesystem::path& path, const ImportOptions& options) {
+}  // namespace
+
+ImportedCharacter import_detail::character_of(const SceneFile& file, const ImportOptions& options) {
   ImportedCharacter result;
   auto& [character, report] = result;
-  const SceneFile file(path, options);
   report.format = file.format;
-  character.name = one_line(path.stem().string());
+  character.name = one_line(file.path.stem().string());
   if (file.format == "Inter-Quake Model Importer")
     report.notes.push_back("of this format the rest pose alone is read, without bones and clips");
 
@@ -65,11 +66,9 @@ ImportedCharacter import_checked(const std::filesystem::path& path, const Import
   return result;
 }
 
-}  // namespace
-
 ImportedCharacter import_character(const std::filesystem::path& file, const ImportOptions& options) {
   try {
-    return import_checked(file, options);
+    return character_of(SceneFile(file, options), options);
   } catch (const ImportError&) {
     throw;
   } catch (const std::bad_alloc&) {

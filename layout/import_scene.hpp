@@ -41,11 +41,18 @@ struct SceneFile {
 
   /// Errors:  throws ImportError if the file cannot be read as a scene with a root node.
   SceneFile(const std::filesystem::path& file, const ImportOptions& options);
+  /// A scene that somebody else owns, as if a reader of this name had found it in the file.
+  SceneFile(const std::filesystem::path& file, const aiScene& scene_there, const std::string& reader)
+      : path(file), scene(&scene_there), format(reader) {}
 
   bool is_fbx() const { return format == "Autodesk FBX Importer"; }
 
   [[noreturn]] void reject(const std::string& reason) const { import_detail::reject(path, reason); }
 };
+
+/// All of import_character() but reading the file.
+/// Errors:  throws ImportError, and what validate() and the skinning throw.
+ImportedCharacter character_of(const SceneFile& file, const ImportOptions& options);
 
 /// The nodes of a scene, parents first.
 struct NodeList {

@@ -86,7 +86,8 @@ class Arrangement {
   std::vector<IntegerContour> contours() {
     std::vector<IntegerContour> result;
     std::vector<Face> faces;
-    for (const auto& [point, ways] : darts_) {  // in lexicographic order
+    for (const auto& dart : darts_) {  // in lexicographic order
+      const auto& point = dart.first;
       if (reached_.contains(point)) continue;
       reach_all_from(point);
       if (std::any_of(faces.begin(), faces.end(), [&](const Face& face) { return inside(face, point); }))

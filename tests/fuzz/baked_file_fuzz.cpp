@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+// A baked file made in bad faith: it is refused, or else every query on it ends.
+
+#include <vector>
+
+#include "kernel/clearance.hpp"
+#include "kernel/collide.hpp"
+#include "kernel/collide_all.hpp"
+#include "kernel/contact_time.hpp"
+#include "kernel/contacts.hpp"
+#include "kernel/separation.hpp"
+#include "layout/aligned_vector.hpp"
+#include "layout/baked_file.hpp"
+#include "layout/baked_format.hpp"
+#include "tests/fuzz/target.hpp"
+#include "tests/scenes.hpp"
+
+namespace bch::fuzz {
+namespace {
+
+using Image = AlignedVector<std::byte>;
+
+/// Makes the checksums of all sections that lie inside right, and the header's: else nothing but a good file
+/// would ever pass them.
+void seal(Image& image) {
+  baked::Preamble preamble;
+  if (image.size() < sizeof preamble) return;
+  std::memcpy(&preamble, image.data(), sizeof preamble);
+  for (baked::SectionEntry& entry : preamble.entries) {
+    if (entry.element_size > 4096 || entry.count > image.size() || entry.offset > image.size()) continue;
+    const std::size_t size = entry.count * entry.element_size;
+    const std::size_t whole = size + baked::zeros_after(size);
+    if (whole > image.size() - entry.offset) continue;
+    entry.checksum = baked::checksum(std::span<const std::byte>(image).subspan(entry.offset, whole));
+  }
+  preamble.header.checksum = 0;
+  preamble.header.checksum = baked::checksum(preamble);
+  std::memcpy(image.data(), &preamble, sizeof preamble);
+}
+
+void query(const ShapeSet& set, const kernel::Implementation& implementation) {
+  test::Crowd crowd;
+  for (std::uint32_t s = 0; s < std::min(set.shape_count(), 6u); ++s)
+    for (std::uint32_t level = 0; level < std::min(set.level_count(), 4u); ++level)
+      crowd.add(s, 0.1 * level, 0.05 * s, 0.7 * level, static_cast<std::uint8_t>(level));
+  const Agents agents = crowd.agents();
+  std::vector<Pair> pairs;
+  for (std::uint32_t a = 0; a < agents.size(); ++a)
+    for (std::uint32_t b = 0; b <= a; ++b) pairs.push_back({a, b});
+
+  std::vector<std::uint8_t> hits(pairs.size());
+  collide(set, agents, pairs, hits, {Semantics::boundary, &implementation});
+  if (set.solid()) collide(set, agents, pairs, hits, {Semantics::solid, &implementation});
+  CrowdCollider().collide_all(set, agents, {Semantics::boundary, &implementation});
+  ContactTable table;
+  contacts(set, agents, pairs, table, {&implementation});
+  std::vector<Separation> ways(pairs.size());
+  separation(set, agents, pairs, 4, ways, {&implementation});
+  std::vector<float> values(pairs.size());
+  std::vector<Vec2> directions(pairs.size());
+  std::vector<CutNodes> nodes(pairs.size());
+  clearance(set, agents, pairs, {values, directions, nodes}, {.implementation = &implementation});
+  const std::vector<double> way(pairs.size(), 0.5);
+  contact_time(set, agents, pairs, {way, way}, values, {.implementation = &implementation});
+}
+
+}  // namespace
+}  // namespace bch::fuzz
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using namespace bch;
+  fuzz::Bytes bytes(data, size);
+  const auto mode = bytes.take<std::uint8_t>();
+  const auto rest = std::as_bytes(bytes.rest());
+  fuzz::Image image(rest.begin(), rest.end());
+  image.shrink_to_fit();
+  if (mode % 2 == 1) fuzz::seal(image);
+  try {
+    const BakedShapes baked = load_baked(image, "file", nullptr);
+    const auto all = kernel::implementations();
+    const kernel::Implementation& implementation = all[mode / 2 % all.size()];
+    if (implementation.supported()) fuzz::query(baked.set, implementation);
+  } catch (const BakedFileError&) {
+  }
+  return 0;
+}

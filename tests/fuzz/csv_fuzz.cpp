@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+// Tables of agents and pairs: each is refused with an InputError of one line, or every value is in range.
+
+#include <sys/mman.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <string>
+
+#include "bench/csv_input.hpp"
+#include "bench/exit_codes.hpp"
+#include "layout/rounding.hpp"
+#include "tests/fuzz/target.hpp"
+
+namespace bch::fuzz {
+namespace {
+
+/// A file without a folder.
+class MemoryFile {
+ public:
+  explicit MemoryFile(const std::string& text) : descriptor_(memfd_create("table", 0)) {
+    require(descriptor_ >= 0, "a file in memory can be made");
+    require(write(descriptor_, text.data(), text.size()) == static_cast<ssize_t>(text.size()),
+            "a file in memory can be written");
+  }
+  ~MemoryFile() { close(descriptor_); }
+  MemoryFile(const MemoryFile&) = delete;
+  MemoryFile& operator=(const MemoryFile&) = delete;
+  std::string path() const { return "/proc/self/fd/" + std::to_string(descriptor_); }
+
+ private:
+  int descriptor_;
+};
+
+void check(const cli::AgentTable& table, std::uint32_t shapes, std::uint32_t levels) {
+  const std::size_t count = table.id.size();
+  require(table.shape.size() == count && table.x.size() == count && table.y.size() == count &&
+              table.heading.size() == count && (table.level.empty() || table.level.size() == count),
+          "columns are of one length");
+  require(table.dx.size() == table.dy.size() && (table.dx.empty() || table.dx.size() == count),
+          "ways are of all agents or of none");
+  for (std::size_t i = 0; i < table.dx.size(); ++i)
+    require(std::isfinite(table.dx[i]) && std::isfinite(table.dy[i]), "ways are finite");
+  require(table.index_of.size() == count, "ids differ");
+  for (std::size_t i = 0; i < count; ++i) {
+    require(table.shape[i] < shapes, "shapes are in range");
+    require(std::abs(table.x[i]) <= rounding::largest_position &&
+                std::abs(table.y[i]) <= rounding::largest_position,
+            "positions are in range");
+    require(std::abs(table.heading[i]) <= rounding::largest_heading, "headings are in range");
+    if (!table.level.empty()) require(table.level[i] < levels, "levels are in range");
+    require(!cli::csv_field(table.id[i]).empty(), "ids are not empty");
+  }
+}
+
+}  // namespace
+}  // namespace bch::fuzz
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using namespace bch;
+  fuzz::Bytes bytes(data, size);
+  const std::uint32_t shapes = 1 + bytes.below(8), levels = 1 + bytes.below(4);
+  const bool moving = bytes.below(2) == 1;
+  const fuzz::MemoryFile agents(bytes.text());
+  const std::span<const std::uint8_t> rest = bytes.rest();
+  const fuzz::MemoryFile pairs(std::string(rest.begin(), rest.end()));
+  try {
+    const cli::AgentTable table = cli::read_agents(agents.path(), shapes, levels, moving);
+    fuzz::check(table, shapes, levels);
+    for (const auto& [a, b] : cli::read_pairs(pairs.path(), table))
+      fuzz::require(a < table.id.size() && b < table.id.size(), "pairs are of agents");
+  } catch (const cli::InputError& error) {
+    fuzz::require(*error.what() != '\0', "errors say something");
+  }
+  return 0;
+}

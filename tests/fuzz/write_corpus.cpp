@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include "layout/baked_image.hpp"
+#include "tests/baked_bytes.hpp"
+#include "tests/scenes.hpp"
+
+namespace bch::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Numbers the inputs of one target.
+class Folder {
+ public:
+  Folder(const fs::path& corpus, const char* target) : path_(corpus / target) {
+    fs::create_directories(path_);
+  }
+
+  void add(const std::string& bytes) {
+    std::ofstream stream(path_ / ("seed" + std::to_string(count_++)), std::ios::binary);
+    stream.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  }
+
+ private:
+  fs::path path_;
+  int count_ = 0;
+};
+
+void add_images(Folder folder) {
+  Random random(1);
+  const std::vector<Shape> shapes{contour_shape(star(random, 5, 0.2, 0.4), 0.1f),
+                                  contour_shape(star(random, 12, 0.1, 0.4), 0.02f)};
+  const ShapeSetPlan plans[] = {{{0}}, {{all_depths}, true, false}, {{0, 1, all_depths}, true, true}};
+  for (const ShapeSetPlan& plan : plans)
+    for (const char mode : {'\0', '\1', '\3', '\5', '\7'})
+      folder.add(mode + BakedBytes(ShapeSet(shapes, plan), origins_of(shapes.size())).text());
+}
+
+void add_tables(Folder folder) {
+  const std::string head("\3\2\0", 3), moving("\3\2\1", 3), end(1, '\0'),
+      pairs = "first,second\nana,b\nb,\"c,d\"\n";
+  folder.add(head + "id,shape,x,y,heading\nana,0,0,0,0\nb,1,+1.5,-2e-3,3.14\n\"c,d\",2,1e9,-1e9,1e9\n" + end +
+             pairs);
+  folder.add(head + "id,x,y,shape,level,heading\n 7 ,1,2,0,1,0\r\n" + end + "second,first\n7,7\n");
+  folder.add(head + "id,shape,x,y,heading\nana,9,nan,inf,1e400\n" + end + "first\n");
+  folder.add(head + "id,shape,x,y,heading,level\n\"a\"\"b\",0,0,0,0,0\n\n");
+  folder.add(moving + "id,shape,x,y,heading,dx,dy\na,0,0,0,0,0.5,-1e9\nb,0,1,1,0,,0\n");
+}
+
+void add_lines(Folder folder) {
+  const char* const lines[] = {
+      "bake man.glb woman.glb --poses 200 --threshold 0.02 --depths 0,3,all --semantics solid",
+      "bake a --clips b --clips c --up z --scale 1e-2 --threads 4 --isa sse2",
+      "bake --depths 3,2 a --isa none --poses -1 --threshold nan", "bake --help", "-- bake --up=w a"};
+  for (std::string line : lines) {
+    for (char& c : line)
+      if (c == ' ') c = '\0';
+    folder.add(line);
+  }
+}
+
+void add_noise(Folder folder, std::uint64_t seed) {
+  Random random(seed);
+  for (const std::uint32_t size : {40u, 150u, 300u, 600u, 1200u}) {
+    std::string bytes;
+    while (bytes.size() < size) bytes += static_cast<char>(random.below(256));
+    folder.add(bytes);
+  }
+}
+
+}  // namespace
+}  // namespace bch::test
+
+int main(int argc, char** argv) {
+  using namespace bch::test;
+  if (argc != 2) return std::puts("usage: write_corpus FOLDER"), 2;
+  add_images({argv[1], "baked_file"});
+  add_tables({argv[1], "csv"});
+  add_lines({argv[1], "options"});
+  std::uint64_t seed = 10;
+  for (const char* target : {"scene", "outline", "hierarchy", "collide"})
+    add_noise({argv[1], target}, ++seed);
+}
