@@ -28,11 +28,16 @@ struct Discs {
   std::size_t stride;
 };
 
+template <class Simd, unsigned count>
+std::uint64_t overlaps_called(const Transform& b_in_a, Discs a, Discs b, float slack) noexcept;
+
 /// The first `count` of A's discs against those of B, four or all eight: bit count * i + j for disc i of A and j of B.
-/// `slack` is added to the sums of radii. Always inlined: passing it to a function takes longer than the test.
-template <class Simd, unsigned count = block_width>
+/// `slack` is added to the sums of radii. Inlined: passing it to a function takes longer than the test, but not one lane
+/// at a time, when copies of it would fill the object.
+template <class Simd, unsigned count = block_width, bool called = Simd::width == 1>
 [[gnu::always_inline]] inline std::uint64_t overlapping_discs(const Transform& b_in_a, Discs a, Discs b,
                                                               float slack = 0) noexcept {
+  if constexpr (called) return overlaps_called<Simd, count>(b_in_a, a, b, slack);
   using Float = typename Simd::Float;
   constexpr unsigned parts = Simd::width < count ? count / Simd::width : 1;
   constexpr unsigned rows = Simd::width > count ? Simd::width / count : 1;
@@ -57,6 +62,12 @@ template <class Simd, unsigned count = block_width>
               << (row * count + part * Simd::width);
   }
   return bits;
+}
+
+template <class Simd, unsigned count>
+[[gnu::noinline]] std::uint64_t overlaps_called(const Transform& b_in_a, Discs a, Discs b,
+                                                float slack) noexcept {
+  return overlapping_discs<Simd, count, false>(b_in_a, a, b, slack);
 }
 
 }  // namespace bch::kernel

@@ -14,12 +14,17 @@ namespace bch::kernel {
 /// Pairs of discs of two blocks.
 constexpr unsigned block_pairs = block_width * block_width;
 
+template <class Simd, class Visit>
+void visit_pairs_called(const Transform& b_in_a, Discs a, Discs b, Visit visit) noexcept;
+
 /// All of A's eight discs with all of B's, pair 8 i + j for disc i of A and j of B: calls visit(k, x, y, r) for
 /// every register, whose lanes are the pairs from k on. (x, y) leads from A's disc to B's in A's frame, r is the sum
-/// of radii; the operations are those of layout/rounding.hpp. Padding gives infinities and NaN.
-template <class Simd, class Visit>
+/// of radii; the operations are those of layout/rounding.hpp. Padding gives infinities and NaN. One lane at a
+/// time, copies of it would fill the object.
+template <class Simd, bool called = Simd::width == 1, class Visit>
 [[gnu::always_inline]] inline void visit_disc_pairs(const Transform& b_in_a, Discs a, Discs b,
                                                     Visit visit) noexcept {
+  if constexpr (called) return visit_pairs_called<Simd>(b_in_a, a, b, visit);
   using Float = typename Simd::Float;
   constexpr unsigned parts = Simd::width < block_width ? block_width / Simd::width : 1;
   constexpr unsigned rows = Simd::width > block_width ? Simd::width / block_width : 1;
@@ -52,6 +57,11 @@ float least_value(const float* values) noexcept {
   for (unsigned k = Simd::width; k < block_pairs; k += Simd::width)
     least = xsimd::min(least, Simd::load(values + k));
   return Simd::least(least);
+}
+
+template <class Simd, class Visit>
+[[gnu::noinline]] void visit_pairs_called(const Transform& b_in_a, Discs a, Discs b, Visit visit) noexcept {
+  visit_disc_pairs<Simd, false>(b_in_a, a, b, visit);
 }
 
 /// The pairs whose values are at most so much.
