@@ -16,6 +16,7 @@
 #include "kernel/crowd_grid.hpp"
 #include "kernel/radix_sort.hpp"
 #include "kernel/sorted_discs.hpp"
+#include "kernel/standard_floats.hpp"
 
 namespace bch {
 namespace {
@@ -34,6 +35,7 @@ CrowdBounds bounds(const ShapeSetView& shapes, const Agents& agents) {
   return tbb::parallel_reduce(
       Range(0, agents.size(), grain), CrowdBounds(),
       [&](const Range& range, CrowdBounds all) {
+        const kernel::StandardFloats floats;
         all.add(kernel::bounds(shapes, agents, range.begin(), range.end()));
         return all;
       },
@@ -70,6 +72,7 @@ void BroadPhase::Scratch::sort_discs(const CrowdGrid& grid, const ShapeSetView& 
   const Range all(0, agents.size(), grain);
   placed.resize(agents.size());
   tbb::parallel_for(all, [&](const Range& range) {
+    const kernel::StandardFloats floats;
     grid.place(shapes, agents, range.begin(), range.end(), placed.data());
   });
   const std::uint32_t classes = grid.class_count();
@@ -77,6 +80,7 @@ void BroadPhase::Scratch::sort_discs(const CrowdGrid& grid, const ShapeSetView& 
                   [](const GridDisc& disc) { return disc.cell; });
   discs.resize(agents.size());
   tbb::parallel_for(all, [&](const Range& range) {
+    const kernel::StandardFloats floats;
     for (std::size_t i = range.begin(); i < range.end(); ++i) discs.set(i, placed[i]);
   });
   class_begin[0] = 0;
@@ -158,6 +162,7 @@ BroadPhase& BroadPhase::operator=(BroadPhase&&) noexcept = default;
 BroadPhase::~BroadPhase() = default;
 
 std::span<const Pair> BroadPhase::find(const ShapeSet& shapes, const Agents& agents) {
+  const kernel::StandardFloats floats;
   validate(shapes, agents);
   if (agents.size() == 0) return {};
   Scratch& scratch = *scratch_;
@@ -166,6 +171,7 @@ std::span<const Pair> BroadPhase::find(const ShapeSet& shapes, const Agents& age
   const std::size_t blocks = (agents.size() + block_discs - 1) / block_discs;
   if (scratch.found.size() < blocks) scratch.found.resize(blocks);
   tbb::parallel_for(std::size_t{0}, blocks, [&](std::size_t b) {
+    const kernel::StandardFloats floats_of_task;
     const std::size_t begin = b * block_discs, end = std::min(begin + block_discs, agents.size());
     scratch.find_in_block(grid, begin, end, scratch.found[b]);
   });

@@ -11,6 +11,7 @@
 #include "kernel/clearance_arguments.hpp"
 #include "kernel/pair_ranges.hpp"
 #include "kernel/pair_validation.hpp"
+#include "kernel/standard_floats.hpp"
 #include "layout/cut_discs.hpp"
 #include "layout/heading.hpp"
 
@@ -87,6 +88,7 @@ void require_answers(const ClearanceAnswers& answers, std::size_t pairs) {
 
 void clearance(const ShapeSet& shapes, const Agents& agents, std::span<const Pair> pairs,
                const ClearanceAnswers& answers, const ClearanceOptions& options) {
+  const kernel::StandardFloats floats;
   require_answers(answers, pairs.size());
   if (!(options.max_distance >= 0))
     throw std::invalid_argument("clearance: a max_distance of " + std::to_string(options.max_distance) +

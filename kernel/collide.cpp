@@ -11,11 +11,13 @@
 
 #include "kernel/answer.hpp"
 #include "kernel/pair_validation.hpp"
+#include "kernel/standard_floats.hpp"
 
 namespace bch {
 
 void collide(const ShapeSet& shapes, const Agents& agents, std::span<const Pair> pairs,
              std::span<std::uint8_t> hits, const QueryOptions& options) {
+  const kernel::StandardFloats floats;
   const bool solid = options.semantics == Semantics::solid;
   if (hits.size() != pairs.size())
     throw std::invalid_argument("collide: " + std::to_string(pairs.size()) + " pairs but " +
@@ -31,6 +33,7 @@ void collide(const ShapeSet& shapes, const Agents& agents, std::span<const Pair>
   arguments.mark_near_misses = solid;
   using Range = tbb::blocked_range<std::size_t>;
   const auto answer = [&](const Range& range) {
+    const kernel::StandardFloats floats_of_task;
     kernel::answer(implementation, arguments, agents, range.begin(), range.end());
   };
   const Range all(0, pairs.size(), kernel::pairs_per_task);

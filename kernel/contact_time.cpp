@@ -12,6 +12,7 @@
 #include "kernel/contact_time_arguments.hpp"
 #include "kernel/pair_ranges.hpp"
 #include "kernel/pair_validation.hpp"
+#include "kernel/standard_floats.hpp"
 #include "layout/heading.hpp"
 #include "layout/rounding.hpp"
 
@@ -80,6 +81,7 @@ void require_valid(const Displacements& displacements) {
 void contact_time(const ShapeSet& shapes, const Agents& agents, std::span<const Pair> pairs,
                   const Displacements& displacements, std::span<float> times,
                   const ContactTimeOptions& options) {
+  const kernel::StandardFloats floats;
   require_sizes(displacements, times.size(), pairs.size());
   const kernel::Implementation& implementation = kernel::chosen(options.implementation, "contact_time");
   kernel::require_valid(implementation, shapes, agents, pairs);

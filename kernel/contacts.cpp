@@ -7,6 +7,7 @@
 #include <oneapi/tbb/parallel_for.h>
 
 #include "kernel/pair_validation.hpp"
+#include "kernel/standard_floats.hpp"
 
 namespace bch {
 namespace {
@@ -19,6 +20,7 @@ void find_contacts(const kernel::Implementation& implementation, const kernel::A
   const Range all(0, pairs, grain);
   table.begin.resize(pairs + 1);
   tbb::parallel_for(all, [&](const Range& range) {
+    const kernel::StandardFloats floats;
     implementation.count_contacts(arguments, range.begin(), range.end(), table.begin.data());
   });
   std::uint64_t end = 0;
@@ -30,6 +32,7 @@ void find_contacts(const kernel::Implementation& implementation, const kernel::A
   table.begin[pairs] = end;
   table.contacts.resize(end);
   tbb::parallel_for(all, [&](const Range& range) {
+    const kernel::StandardFloats floats;
     implementation.fill_contacts(arguments, range.begin(), range.end(), table.begin.data(),
                                  table.contacts.data());
   });
@@ -39,6 +42,7 @@ void find_contacts(const kernel::Implementation& implementation, const kernel::A
 
 void contacts(const ShapeSet& shapes, const Agents& agents, std::span<const Pair> pairs, ContactTable& table,
               const ContactOptions& options) {
+  const kernel::StandardFloats floats;
   const kernel::Implementation& implementation = kernel::chosen(options.implementation, "contacts");
   kernel::require_valid(implementation, shapes, agents, pairs);
   const ShapeSetView view = shapes.view();

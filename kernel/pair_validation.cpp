@@ -11,6 +11,7 @@
 #include <string>
 
 #include "kernel/collide.hpp"
+#include "kernel/standard_floats.hpp"
 #include "kernel/validation.hpp"
 
 namespace bch {
@@ -27,6 +28,7 @@ constexpr std::size_t many_agents = 100'000;
 template <class AllGood, class Bad>
 std::size_t first_bad(std::size_t count, AllGood all_good, Bad bad) {
   const auto search = [&](const Range& range, std::size_t found) {
+    const StandardFloats floats;
     if (range.begin() >= found || all_good(range.begin(), range.end())) return found;
     for (std::size_t i = range.begin(); i < range.end() && i < found; ++i)
       if (bad(i)) return i;

@@ -13,6 +13,7 @@
 
 #include "kernel/pair_ranges.hpp"
 #include "kernel/pair_validation.hpp"
+#include "kernel/standard_floats.hpp"
 #include "layout/cut_discs.hpp"
 #include "layout/heading.hpp"
 #include "layout/rounding.hpp"
@@ -131,6 +132,7 @@ Axes spread_axes(std::uint32_t directions) {
 void separation_along(const ShapeSet& shapes, const Agents& agents, std::span<const Pair> pairs,
                       std::span<const Vec2> directions, std::span<Separation> out,
                       const SeparationOptions& options) {
+  const kernel::StandardFloats floats;
   const Query query = checked_query(shapes, agents, pairs, out, options);
   require_directions(directions, pairs.size());
   kernel::for_pair_ranges(pairs.size(), grain, [&](std::size_t begin, std::size_t size) {
@@ -151,6 +153,7 @@ void separation_along(const ShapeSet& shapes, const Agents& agents, std::span<co
 
 void separation(const ShapeSet& shapes, const Agents& agents, std::span<const Pair> pairs,
                 std::uint32_t directions, std::span<Separation> out, const SeparationOptions& options) {
+  const kernel::StandardFloats floats;
   const Query query = checked_query(shapes, agents, pairs, out, options);
   const Axes axes = spread_axes(directions);
   kernel::for_pair_ranges(pairs.size(), grain, [&](std::size_t begin, std::size_t size) {
