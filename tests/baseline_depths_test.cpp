@@ -54,8 +54,8 @@ double largest_radius(const Hierarchy& hierarchy, std::uint32_t depth) {
 }
 
 TEST_F(Depths, ExactHitsStayHitsAtEveryDepth) {
-  std::printf("seed 31, 20000 placements\n");
   const PairScene scene = test::placements(31, bodies, 20'000);
+  std::printf("seed 31, %zu placements\n", scene.pairs.size());
   for (const baselines::Kind& kind : baselines::kinds()) {
     const auto structure = kind.build(bodies, {});
     const auto deepest = hits(*structure, scene);
@@ -82,7 +82,7 @@ TEST_F(Depths, ExactHitsStayHitsAtEveryDepth) {
 /// Two overlapping discs hold outlines within twice the sum of their radii.
 TEST_F(Depths, FalsePositivesAreWithinTheDiscsOfTheirDepth) {
   const PairScene scene = test::placements(32, bodies, 6'000);
-  std::printf("seed 32, 6000 placements\n");
+  std::printf("seed 32, %zu placements\n", scene.pairs.size());
   const auto reference = baselines::kind("reference").build(bodies, {});
   const auto crossing = hits(*baselines::kind("obb_contour").build(bodies, {}), scene);
   for (const std::uint32_t depth : {0u, 2u, 4u, 6u, all_depths}) {
@@ -106,7 +106,7 @@ TEST_F(Depths, FalsePositivesAreWithinTheDiscsOfTheirDepth) {
 
 TEST_F(Depths, ASmallerThresholdHasFalsePositivesWithinItsOwnDiscs) {
   const PairScene scene = test::placements(33, bodies, 6'000);
-  std::printf("seed 33, 6000 placements\n");
+  std::printf("seed 33, %zu placements\n", scene.pairs.size());
   const auto crossing = hits(*baselines::kind("obb_contour_2d").build(bodies, {}), scene);
   for (const float threshold : {0.08f, 0.04f, 0.02f, 0.01f, 0.005f, 0.0025f}) {
     std::vector<Body> finer = bodies;
@@ -127,7 +127,7 @@ TEST_F(Depths, ASmallerThresholdHasFalsePositivesWithinItsOwnDiscs) {
 
 TEST_F(Depths, DiscsAloneCoverTheTrianglesTheyStandFor) {
   const PairScene scene = test::placements(34, bodies, 20'000);
-  std::printf("seed 34, 20000 placements\n");
+  std::printf("seed 34, %zu placements\n", scene.pairs.size());
   const baselines::Kind& kind = baselines::kind("bch_projected");
   const auto exact = kind.build(bodies, {}), discs = kind.build(bodies, {.projected_triangles = false});
   EXPECT_LT(discs->bytes(0), exact->bytes(0));
