@@ -80,11 +80,13 @@ std::string findings(const Results& results) {
       "the outline "
       "are exact seen from above, so their {} cm are the price of leaving out height, a leg that passes "
       "under an arm. Discs "
-      "with leaves of 1 cm add {} cm to that; in the paper they add 1 cm. Our people are other meshes in "
+      "with leaves of 1 cm add {} cm to that; in the paper {} cm. Our people are other meshes in "
       "other motions, and "
       "they slide at each other by their roots.</p>",
       words_of(table, "single cylinder"), words_of(table, "BCH outline"), words_of(table, "OBB outline"),
-      words_of(table, "OBB full mesh"), brief(outline), brief(discs - outline));
+      words_of(table, "OBB full mesh"), brief(outline), brief(discs - outline),
+      brief(table.number({{"structure", "BCH outline"}}, "paper (cm)") -
+            table.number({{"structure", "OBB outline"}}, "paper (cm)")));
 }
 
 }  // namespace
