@@ -79,7 +79,7 @@ std::size_t Table::row(std::initializer_list<Where> where) const {
     if (all) return i;
   }
   std::string wanted;
-  for (const Where& one : where) wanted += " " + std::string(one.column) + " '" + std::string(one.text) + "'";
+  for (const Where& one : where) wanted += fmt::format(" {} '{}'", one.column, one.text);
   throw std::out_of_range("no row with" + wanted);
 }
 

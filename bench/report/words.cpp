@@ -17,7 +17,8 @@ std::string brief(double number) {
   if (std::isnan(number)) return "–";
   const double size = std::abs(number);
   if (size >= 1000)
-    return (number < 0 ? "-" : "") + cli::grouped(static_cast<std::uint64_t>(std::llround(size)));
+    return fmt::format("{}{}", number < 0 ? "-" : "",
+                       cli::grouped(static_cast<std::uint64_t>(std::llround(size))));
   if (size >= 100 || number == 0) return fmt::format("{:.0f}", number);
   const int digits = size >= 10 ? 1 : size >= 1 ? 2 : 2 - static_cast<int>(std::floor(std::log10(size)));
   std::string text = fmt::format("{:.{}f}", number, std::min(digits, 8));
