@@ -43,7 +43,7 @@ ImportedCharacter import_detail::character_of(const SceneFile& file, const Impor
   report.format = file.format;
   character.name = one_line(file.path.stem().string());
   if (file.format == "Inter-Quake Model Importer")
-    report.notes.push_back("of this format the rest pose alone is read, without bones and clips");
+    report.notes.emplace_back("of this format the rest pose alone is read, without bones and clips");
 
   const NodeList nodes = read_nodes(file);
   const std::vector<bool> bone_is_skin = read_meshes(file, nodes, character, report);

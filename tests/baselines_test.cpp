@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cinttypes>
 #include <cstdio>
 #include <string>
 
@@ -43,14 +44,14 @@ class Suite {
 
   void check_random(std::uint64_t seed, std::uint32_t pairs) {
     scene_ = test::placements(seed, bodies_, pairs);
-    check("random placements, seed " + std::to_string(seed));
+    check("random", seed);
   }
 
   void check_touching(std::uint64_t seed, std::uint32_t pairs) {
     scene_ = test::placements(seed, bodies_, pairs);
     test::slide_to_contact(seed, scene_,
                            {&of("obb_full"), &of("obb_contour"), &of("obb_projected"), &of("reference")});
-    check("touching placements, seed " + std::to_string(seed));
+    check("touching", seed);
   }
 
  private:
@@ -60,7 +61,7 @@ class Suite {
     return *std::find_if(all_.begin(), all_.end(), [&](const auto& a) { return a.kind->name == name; });
   }
 
-  void check(const std::string& what) {
+  void check(const char* kind, std::uint64_t seed) {
     for (test::Answers& one : all_) {
       one.hits.assign(scene_.pairs.size(), 77);
       one.structure->query(scene_.crowd.agents(), scene_.pairs, one.hits);
@@ -69,7 +70,7 @@ class Suite {
     check_triangles();
     check_peers();
     check_levels();
-    std::printf("%s: %zu placements", what.c_str(), scene_.pairs.size());
+    std::printf("%s placements, seed %" PRIu64 ": %zu", kind, seed, scene_.pairs.size());
     for (const test::Answers& one : all_)
       std::printf(", %s %td", std::string(one.kind->name).c_str(),
                   std::count(one.hits.begin(), one.hits.end(), 1));
