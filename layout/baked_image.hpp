@@ -26,7 +26,6 @@ class BakedImage {
 
   /// Whoever writes them one after the other has written the file.
   std::span<const std::span<const std::byte>> parts() const noexcept { return parts_; }
-  std::uint64_t bytes() const noexcept { return preamble_.header.file_size; }
 
  private:
   void add_names(const std::vector<std::string>& names);

@@ -63,7 +63,7 @@ std::vector<std::uint32_t> welded(Positions positions, std::size_t vertices) {
   return weld;
 }
 
-/// All uses of an edge, with the edge's welded ends in order.
+/// An edge: all triangles' uses of it, and where it is.
 struct Edge {
   std::span<EdgeUse> uses;
   Eigen::Vector3f middle;
