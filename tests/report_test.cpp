@@ -18,7 +18,7 @@
 namespace bch::report {
 namespace {
 
-constexpr Sizes smallest{2, 60, 80, 6, 1, 10, 1};
+constexpr Sizes smallest{2, 60, 80, 6, 1, 10, 1, 4, 0.1};
 
 void run_into(const TemporaryFolder& folder) {
   Options options;

@@ -23,7 +23,8 @@ const baselines::PairDistances* Run::distances() {
 std::span<const Experiment> experiments() {
   static const Experiment all[] = {error_time_experiment, construction_experiment, query_time_experiment,
                                    distance_experiment,   depth_experiment,        volume_experiment,
-                                   threshold_experiment,  mesh_detail_experiment,  density_experiment};
+                                   threshold_experiment,  mesh_detail_experiment,  density_experiment,
+                                   stability_experiment};
   return all;
 }
 

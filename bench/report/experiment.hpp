@@ -26,9 +26,11 @@ struct Sizes {
   std::uint32_t runs = 9;         ///< of what is timed
   std::uint32_t people = 1'000;   ///< that are packed
   std::uint32_t packings = 3;
+  std::uint32_t contacts = 400;  ///< that are near, of a row of the stability tables
+  double pressed = 4;            ///< seconds of penalty forces
 };
 constexpr Sizes full_sizes;
-constexpr Sizes quick_sizes{20, 2'000, 2'000, 100, 3, 200, 2};
+constexpr Sizes quick_sizes{20, 2'000, 2'000, 100, 3, 200, 2, 40, 1};
 
 /// What an experiment runs on and hands its tables to.
 class Run {
@@ -88,6 +90,6 @@ std::span<const Experiment> experiments();
 
 extern const Experiment construction_experiment, query_time_experiment, distance_experiment, depth_experiment,
     volume_experiment, threshold_experiment, mesh_detail_experiment, error_time_experiment,
-    density_experiment;
+    density_experiment, stability_experiment;
 
 }  // namespace bch::report
