@@ -47,6 +47,9 @@ TEST(ReportParts, NumbersAreShownInThreeDigits) {
   EXPECT_EQ(brief(0.012345), "0.0123");
   EXPECT_EQ(brief(20), "20");
   EXPECT_EQ(brief(0), "0");
+  EXPECT_EQ(brief(1.1711490269966849e-07), "1.17e-07");
+  EXPECT_EQ(brief(-0.00012345), "-0.000123");
+  EXPECT_EQ(brief(1e300), "1e+300");
   EXPECT_EQ(shown("<b> & c"), "&lt;b&gt; &amp; c");
 }
 

@@ -16,12 +16,13 @@ namespace bch::report {
 std::string brief(double number) {
   if (std::isnan(number)) return "–";
   const double size = std::abs(number);
+  if (size >= 1e9 || (size < 1e-4 && size > 0)) return fmt::format("{:.3g}", number);
   if (size >= 1000)
     return fmt::format("{}{}", number < 0 ? "-" : "",
                        cli::grouped(static_cast<std::uint64_t>(std::llround(size))));
   if (size >= 100 || number == 0) return fmt::format("{:.0f}", number);
   const int digits = size >= 10 ? 1 : size >= 1 ? 2 : 2 - static_cast<int>(std::floor(std::log10(size)));
-  std::string text = fmt::format("{:.{}f}", number, std::min(digits, 8));
+  std::string text = fmt::format("{:.{}f}", number, digits);
   while (text.back() == '0') text.pop_back();
   if (text.back() == '.') text.pop_back();
   return text;

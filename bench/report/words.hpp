@@ -8,7 +8,7 @@
 
 namespace bch::report {
 
-/// Three digits that count, from 1 000 on all before the point: "0.0123", "4.57", "12 346"; "–" for NaN.
+/// Three digits that count, from 1 000 on all before the point: "0.0123", "4.57", "12 346", "1.2e-07"; "–" for NaN.
 std::string brief(double number);
 
 /// Text as HTML.
