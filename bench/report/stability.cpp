@@ -31,7 +31,7 @@ void add_family(const bench::StabilityFamily& family, const std::vector<bench::S
   for (const bench::StabilityRow& row : rows) {
     if (row.family != family.name) continue;
     if (!row.refused.empty()) {
-      refused.add({family.title, row.value, row.refused});
+      refused.add({fmt::format("{}: {}", family.title, row.value), row.refused});
       continue;
     }
     const auto missed = [&](const bench::Errors& errors) { return percent(errors.misses, row.meeting); };
@@ -53,7 +53,7 @@ void add_rows(Run& run) {
                "double: false hits (%)", "bch: false hits (%)", "float: largest error (um/m)",
                "double: largest error (um/m)", "bch: largest error (um/m)", "outlines that meet",
                "outlines missed by bch"});
-  Table refused({"case", "value", "exception"});
+  Table refused({"case", "exception"});
   for (const bench::StabilityFamily& family : bench::stability_families())
     add_family(family, rows, table, refused);
   run.write("stability", table);
