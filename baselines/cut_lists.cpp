@@ -22,8 +22,7 @@ CutLists::CutLists(std::span<const Shape> shapes, const ShapeSetPlan& plan)
 }
 
 std::span<const Disc> CutLists::of(const Agents& agents, std::uint32_t agent) const {
-  const std::size_t level = agents.level.empty() ? level_count_ - 1 : agents.level[agent];
-  return lists_[agents.shape[agent] * level_count_ + level];
+  return lists_[agents.root(agent, level_count_)];
 }
 
 float CutLists::reach(const Agents& agents, std::uint32_t agent) const {

@@ -39,8 +39,7 @@ CutTrees::CutTrees(std::span<const Shape> shapes, const ShapeSetPlan& plan)
 }
 
 const CutTrees::Tree& CutTrees::tree(const Agents& agents, std::uint32_t agent) const {
-  const std::uint32_t level = agents.level.empty() ? level_count_ - 1 : agents.level[agent];
-  return trees_[std::size_t{agents.shape[agent]} * level_count_ + level];
+  return trees_[agents.root(agent, level_count_)];
 }
 
 }  // namespace bch::baselines

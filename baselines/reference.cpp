@@ -32,8 +32,7 @@ Reference::Reference(std::span<const Shape> shapes, const ShapeSetPlan& plan)
 }
 
 const Reference::Level& Reference::level(const Agents& agents, std::uint32_t agent) const {
-  const std::uint32_t index = agents.level.empty() ? level_count_ - 1 : agents.level[agent];
-  return levels_[std::size_t{agents.shape[agent]} * level_count_ + index];
+  return levels_[agents.root(agent, level_count_)];
 }
 
 bool Reference::boundary(const Agents& agents, Pair pair, Method method) const {

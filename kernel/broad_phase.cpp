@@ -17,6 +17,7 @@
 #include "kernel/radix_sort.hpp"
 #include "kernel/sorted_discs.hpp"
 #include "kernel/standard_floats.hpp"
+#include "kernel/task_ranges.hpp"
 
 namespace bch {
 namespace {
@@ -69,19 +70,16 @@ struct BroadPhase::Scratch {
 
 void BroadPhase::Scratch::sort_discs(const CrowdGrid& grid, const ShapeSetView& shapes,
                                      const Agents& agents) {
-  const Range all(0, agents.size(), grain);
   placed.resize(agents.size());
-  tbb::parallel_for(all, [&](const Range& range) {
-    const kernel::StandardFloats floats;
-    grid.place(shapes, agents, range.begin(), range.end(), placed.data());
+  kernel::for_ranges(agents.size(), grain, [&](std::size_t begin, std::size_t end) {
+    grid.place(shapes, agents, begin, end, placed.data());
   });
   const std::uint32_t classes = grid.class_count();
   radix_sort.sort(placed, static_cast<unsigned>(std::bit_width(grid.end_cell(classes - 1))),
                   [](const GridDisc& disc) { return disc.cell; });
   discs.resize(agents.size());
-  tbb::parallel_for(all, [&](const Range& range) {
-    const kernel::StandardFloats floats;
-    for (std::size_t i = range.begin(); i < range.end(); ++i) discs.set(i, placed[i]);
+  kernel::for_ranges(agents.size(), grain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) discs.set(i, placed[i]);
   });
   class_begin[0] = 0;
   for (std::uint32_t c = 0; c < classes; ++c)
@@ -170,10 +168,11 @@ std::span<const Pair> BroadPhase::find(const ShapeSet& shapes, const Agents& age
   scratch.sort_discs(grid, shapes.view(), agents);
   const std::size_t blocks = (agents.size() + block_discs - 1) / block_discs;
   if (scratch.found.size() < blocks) scratch.found.resize(blocks);
-  tbb::parallel_for(std::size_t{0}, blocks, [&](std::size_t b) {
-    const kernel::StandardFloats floats_of_task;
-    const std::size_t begin = b * block_discs, end = std::min(begin + block_discs, agents.size());
-    scratch.find_in_block(grid, begin, end, scratch.found[b]);
+  kernel::for_ranges(blocks, 1, [&](std::size_t first, std::size_t last) {
+    for (std::size_t b = first; b < last; ++b) {
+      const std::size_t begin = b * block_discs, end = std::min(begin + block_discs, agents.size());
+      scratch.find_in_block(grid, begin, end, scratch.found[b]);
+    }
   });
   scratch.gather_pairs(blocks);
   return scratch.pairs;

@@ -9,9 +9,9 @@
 #include <string>
 
 #include "kernel/clearance_arguments.hpp"
-#include "kernel/pair_ranges.hpp"
 #include "kernel/pair_validation.hpp"
 #include "kernel/standard_floats.hpp"
+#include "kernel/task_ranges.hpp"
 #include "layout/cut_discs.hpp"
 #include "layout/heading.hpp"
 
@@ -35,10 +35,8 @@ float limit_of(double max_distance) {
 CutNodes cut_nodes(const ShapeSetView& shapes, const Agents& agents, Pair pair, const NearestDiscs& nearest) {
   if (nearest.a == kernel::no_node) return no_cut_nodes;
   const auto index = [&](std::uint32_t agent, std::uint32_t node) {
-    const std::uint32_t level = agents.level.empty() ? shapes.level_count - 1 : agents.level[agent];
     if (shapes.trees == nullptr) return node;
-    return node - first_disc(shapes.nodes,
-                             shapes.trees[std::size_t{agents.shape[agent]} * shapes.level_count + level].top);
+    return node - first_disc(shapes.nodes, shapes.trees[agents.root(agent, shapes.level_count)].top);
   };
   const auto [a, b] = std::minmax(pair.first, pair.second);
   const CutNodes nodes{index(a, nearest.a), index(b, nearest.b)};

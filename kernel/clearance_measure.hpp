@@ -69,10 +69,9 @@ class ClearanceMeasure {
                std::uint32_t first_b) noexcept {
     for (; bits != 0; bits &= bits - 1) {
       const auto k = static_cast<unsigned>(__builtin_ctzll(bits));
-      const unsigned i = k / block_width, j = k % block_width;
-      const auto [x, y] = step(at, a, b, i, j);
-      const float radius_sum = a.x[2 * a.stride + i] + b.x[2 * b.stride + j];
-      offer({__builtin_sqrtf(x * x + y * y) * near - radius_sum, first_a + i, first_b + j, x, y});
+      const auto [x, y, r] = disc_pair<Simd>(at, a, b, k);
+      offer({__builtin_sqrtf(x * x + y * y) * near - r, first_a + k / block_width, first_b + k % block_width,
+             x, y});
     }
   }
 
@@ -90,23 +89,13 @@ class ClearanceMeasure {
                         Float(far_beyond));
   }
 
-  struct Step {
-    float x, y;
-  };
-  /// From disc i of A to disc j of B, by the operations of visit_disc_pairs().
-  static Step step(const Transform& at, Discs a, Discs b, unsigned i, unsigned j) noexcept {
-    const float bx = b.x[j], by = b.x[b.stride + j];
-    return {at.tx + (at.c * bx - at.s * by) - a.x[i], at.ty + (at.s * bx + at.c * by) - a.x[a.stride + i]};
-  }
-
   /// The first of the least.
   void take(const Transform& at, Discs a, Discs b, std::uint32_t first_a, std::uint32_t first_b,
             const float* gaps, float least) noexcept {
     if (!(least <= nearest_.distance)) return;
     const unsigned k = first_within<Simd>(gaps, least);
-    const unsigned i = k / block_width, j = k % block_width;
-    const auto [x, y] = step(at, a, b, i, j);
-    offer({least, first_a + i, first_b + j, x, y});
+    const DiscPair pair = disc_pair<Simd>(at, a, b, k);
+    offer({least, first_a + k / block_width, first_b + k % block_width, pair.x, pair.y});
   }
 
   /// Takes what is less than the best or comes before it.

@@ -3,15 +3,13 @@
 
 #include "kernel/collide.hpp"
 
-#include <oneapi/tbb/blocked_range.h>
-#include <oneapi/tbb/parallel_for.h>
-
 #include <stdexcept>
 #include <string>
 
 #include "kernel/answer.hpp"
 #include "kernel/pair_validation.hpp"
 #include "kernel/standard_floats.hpp"
+#include "kernel/task_ranges.hpp"
 
 namespace bch {
 
@@ -31,14 +29,9 @@ void collide(const ShapeSet& shapes, const Agents& agents, std::span<const Pair>
   kernel::Arguments arguments = kernel::arguments_for(view, agents, pairs);
   arguments.codes = hits.data();
   arguments.mark_near_misses = solid;
-  using Range = tbb::blocked_range<std::size_t>;
-  const auto answer = [&](const Range& range) {
-    const kernel::StandardFloats floats_of_task;
-    kernel::answer(implementation, arguments, agents, range.begin(), range.end());
-  };
-  const Range all(0, pairs.size(), kernel::pairs_per_task);
-  // A task costs more than a small batch.
-  pairs.size() <= kernel::pairs_per_task ? answer(all) : tbb::parallel_for(all, answer);
+  kernel::for_ranges(pairs.size(), kernel::pairs_per_task, [&](std::size_t begin, std::size_t end) {
+    kernel::answer(implementation, arguments, agents, begin, end);
+  });
 }
 
 }  // namespace bch

@@ -3,24 +3,16 @@
 
 #include "kernel/collide_all.hpp"
 
-#include <oneapi/tbb/blocked_range.h>
-#include <oneapi/tbb/parallel_for.h>
-
 #include <vector>
 
 #include "kernel/broad_phase.hpp"
 #include "kernel/neighbour_rows.hpp"
+#include "kernel/task_ranges.hpp"
 
 namespace bch {
 namespace {
 
 constexpr std::size_t grain = 4096;  ///< pairs or agents a task
-
-template <class Work>
-void for_ranges(std::size_t count, Work work) {
-  using Range = tbb::blocked_range<std::size_t>;
-  tbb::parallel_for(Range(0, count, grain), [&](const Range& range) { work(range.begin(), range.end()); });
-}
 
 }  // namespace
 
@@ -45,11 +37,14 @@ CollidingNeighbours CrowdCollider::collide_all(const ShapeSet& shapes, const Age
 
   begin.assign(agents.size() + 1, 0);
   kernel::NeighbourRows rows{pairs, hits, begin, {}};
-  for_ranges(pairs.size(), [&](std::size_t first, std::size_t last) { rows.count(first, last); });
+  kernel::for_ranges(pairs.size(), grain,
+                     [&](std::size_t first, std::size_t last) { rows.count(first, last); });
   neighbours.resize(rows.place());
   rows.neighbours = neighbours;
-  for_ranges(pairs.size(), [&](std::size_t first, std::size_t last) { rows.fill(first, last); });
-  for_ranges(agents.size(), [&](std::size_t first, std::size_t last) { rows.sort(first, last); });
+  kernel::for_ranges(pairs.size(), grain,
+                     [&](std::size_t first, std::size_t last) { rows.fill(first, last); });
+  kernel::for_ranges(agents.size(), grain,
+                     [&](std::size_t first, std::size_t last) { rows.sort(first, last); });
   return {begin, neighbours};
 }
 

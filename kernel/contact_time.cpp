@@ -10,9 +10,9 @@
 #include <string>
 
 #include "kernel/contact_time_arguments.hpp"
-#include "kernel/pair_ranges.hpp"
 #include "kernel/pair_validation.hpp"
 #include "kernel/standard_floats.hpp"
+#include "kernel/task_ranges.hpp"
 #include "layout/heading.hpp"
 #include "layout/rounding.hpp"
 

@@ -66,11 +66,11 @@ class ContactTimeMeasure {
     const float least = least_value<Simd>(bounds);
     if (!(least <= best())) return;
     const unsigned first = first_within<Simd>(bounds, least);
-    take(at, a, b, first);
+    take(disc_pair<Simd>(at, a, b, first));
     std::uint64_t open = all_within<Simd>(bounds, best()) & ~(std::uint64_t{1} << first);
     for (; open != 0; open &= open - 1) {
       const auto k = static_cast<unsigned>(__builtin_ctzll(open));
-      if (bounds[k] <= best()) take(at, a, b, k);
+      if (bounds[k] <= best()) take(disc_pair<Simd>(at, a, b, k));
     }
   }
 
@@ -88,13 +88,7 @@ class ContactTimeMeasure {
   }
 
  private:
-  /// Of a pair of visit_disc_pairs(), by its operations.
-  void take(const Transform& at, Discs a, Discs b, unsigned pair) noexcept {
-    const unsigned i = pair / block_width, j = pair % block_width;
-    const float bx = b.x[j], by = b.x[b.stride + j];
-    take(at.tx + (at.c * bx - at.s * by) - a.x[i], at.ty + (at.s * bx + at.c * by) - a.x[a.stride + i],
-         a.x[2 * a.stride + i] + b.x[2 * b.stride + j]);
-  }
+  void take(const DiscPair& pair) noexcept { take(pair.x, pair.y, pair.r); }
 
   Float enlarged(Float x, Float y, Float r) const noexcept {
     return r + Float(slack_) + Float(0x1p-17f) * (xsimd::abs(x) + xsimd::abs(y));

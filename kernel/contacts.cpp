@@ -3,11 +3,9 @@
 
 #include "kernel/contacts.hpp"
 
-#include <oneapi/tbb/blocked_range.h>
-#include <oneapi/tbb/parallel_for.h>
-
 #include "kernel/pair_validation.hpp"
 #include "kernel/standard_floats.hpp"
+#include "kernel/task_ranges.hpp"
 
 namespace bch {
 namespace {
@@ -16,12 +14,9 @@ constexpr std::size_t grain = 256;  ///< pairs a task; each may have thousands o
 
 void find_contacts(const kernel::Implementation& implementation, const kernel::Arguments& arguments,
                    std::size_t pairs, ContactTable& table) {
-  using Range = tbb::blocked_range<std::size_t>;
-  const Range all(0, pairs, grain);
   table.begin.resize(pairs + 1);
-  tbb::parallel_for(all, [&](const Range& range) {
-    const kernel::StandardFloats floats;
-    implementation.count_contacts(arguments, range.begin(), range.end(), table.begin.data());
+  kernel::for_ranges(pairs, grain, [&](std::size_t begin, std::size_t end) {
+    implementation.count_contacts(arguments, begin, end, table.begin.data());
   });
   std::uint64_t end = 0;
   for (std::size_t i = 0; i < pairs; ++i) {
@@ -31,10 +26,8 @@ void find_contacts(const kernel::Implementation& implementation, const kernel::A
   }
   table.begin[pairs] = end;
   table.contacts.resize(end);
-  tbb::parallel_for(all, [&](const Range& range) {
-    const kernel::StandardFloats floats;
-    implementation.fill_contacts(arguments, range.begin(), range.end(), table.begin.data(),
-                                 table.contacts.data());
+  kernel::for_ranges(pairs, grain, [&](std::size_t begin, std::size_t end_of_range) {
+    implementation.fill_contacts(arguments, begin, end_of_range, table.begin.data(), table.contacts.data());
   });
 }
 

@@ -22,11 +22,6 @@ constexpr double radius_of_cell = 0.5 * (1 - 0x1p-10);
 /// Rounding of a centre relative to the crowd's corner, of the crowd's extent.
 constexpr double centre_rounding = 0x1p-50;
 
-std::size_t root_of(const ShapeSetView& shapes, const Agents& agents, std::size_t i) {
-  const std::uint32_t level = agents.level.empty() ? shapes.level_count - 1 : agents.level[i];
-  return std::size_t{agents.shape[i]} * shapes.level_count + level;
-}
-
 /// With the slack of a pruning disc, which covers the rounding of collide(). A root holds the shape, whose reach is
 /// therefore at most that of the root.
 double pruning_radius(const Root& root) {
@@ -51,7 +46,7 @@ CrowdBounds bounds(const ShapeSetView& shapes, const Agents& agents, std::size_t
                    std::size_t end) noexcept {
   CrowdBounds all;
   for (std::size_t i = begin; i < end; ++i) {
-    const std::size_t root = root_of(shapes, agents, i);
+    const std::size_t root = agents.root(i, shapes.level_count);
     const double radius = pruning_radius(shapes.roots[root]);
     const double offset = std::abs(static_cast<double>(shapes.roots[root].x)) +
                           std::abs(static_cast<double>(shapes.roots[root].y));
@@ -90,7 +85,7 @@ CrowdGrid::CrowdGrid(const CrowdBounds& crowd) noexcept {
 void CrowdGrid::place(const ShapeSetView& shapes, const Agents& agents, std::size_t begin, std::size_t end,
                       GridDisc* discs) const noexcept {
   for (std::size_t i = begin; i < end; ++i) {
-    const std::size_t root = root_of(shapes, agents, i);
+    const std::size_t root = agents.root(i, shapes.level_count);
     const auto x = static_cast<double>(shapes.roots[root].x), y = static_cast<double>(shapes.roots[root].y);
     const Rotation turn = rotation(agents.heading[i]);
     const double offset_x = turn.cosine * x - turn.sine * y, offset_y = turn.sine * x + turn.cosine * y;

@@ -49,6 +49,19 @@ template <class Simd, bool called = Simd::width == 1, class Visit>
   }
 }
 
+/// One of those pairs, by the same operations.
+struct DiscPair {
+  float x, y, r;
+};
+template <class Simd>
+DiscPair disc_pair(const Transform& b_in_a, Discs a, Discs b, unsigned pair) noexcept {
+  const unsigned i = pair / block_width, j = pair % block_width;
+  const float x = b.x[j], y = b.x[b.stride + j];
+  return {b_in_a.tx + (b_in_a.c * x - b_in_a.s * y) - a.x[i],
+          b_in_a.ty + (b_in_a.s * x + b_in_a.c * y) - a.x[a.stride + i],
+          a.x[2 * a.stride + i] + b.x[2 * b.stride + j]};
+}
+
 /// Of the pairs' values.
 template <class Simd>
 float least_value(const float* values) noexcept {

@@ -11,9 +11,9 @@
 #include <stdexcept>
 #include <string>
 
-#include "kernel/pair_ranges.hpp"
 #include "kernel/pair_validation.hpp"
 #include "kernel/standard_floats.hpp"
+#include "kernel/task_ranges.hpp"
 #include "layout/cut_discs.hpp"
 #include "layout/heading.hpp"
 #include "layout/rounding.hpp"
@@ -55,9 +55,8 @@ struct Query {
 };
 
 void Query::measure(std::uint32_t agent, const Axes& axes, Extents& extents) const noexcept {
-  const std::uint32_t level = agents.level.empty() ? shapes.level_count - 1 : agents.level[agent];
-  const std::uint32_t shape = agents.shape[agent];
-  const CutDiscs discs = cut_discs(shapes, shape * shapes.level_count + level);
+  const CutDiscs discs =
+      cut_discs(shapes, static_cast<std::uint32_t>(agents.root(agent, shapes.level_count)));
   const Rotation turn = rotation(agents.heading[agent]);
   float x[most_axes], y[most_axes];
   for (std::uint32_t i = 0; i < axes.count; ++i) {
@@ -66,8 +65,9 @@ void Query::measure(std::uint32_t agent, const Axes& axes, Extents& extents) con
   }
   implementation.extents(discs, x, y, axes.count, extents.low, extents.high);
   // A set of single discs has no reaches.
-  extents.reach = static_cast<double>(
-      discs.count == 1 ? std::abs(discs.x[0]) + std::abs(discs.y[0]) + discs.radius[0] : shapes.reach[shape]);
+  extents.reach =
+      static_cast<double>(discs.count == 1 ? std::abs(discs.x[0]) + std::abs(discs.y[0]) + discs.radius[0]
+                                           : shapes.reach[agents.shape[agent]]);
 }
 
 /// `a` belongs to the lower index, whatever the pair's order: so that both orders agree.
