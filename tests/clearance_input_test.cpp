@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "tests/clearances.hpp"
+#include "tests/differential.hpp"
 #include "tests/scenes.hpp"
 
 // What clearance() says of input at the edges of what is allowed, and beyond.
@@ -19,11 +20,11 @@ namespace {
 
 using test::answers;
 using test::Answers;
+using test::four_levels;
 using test::PairScene;
 using test::Random;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-const ShapeSetPlan plan{{0, 3, 6, all_depths}};
 
 TEST(Clearance, OfSingleDiscs) {
   const std::vector<Shape> shapes = {{{}, fixed_cylinder(0.25f)}, {{}, fixed_cylinder(0.5f)}};
@@ -56,7 +57,7 @@ TEST(Clearance, OfSingleDiscs) {
 }
 
 TEST(Clearance, AnswersThatAreNotAskedForChangeNoOthers) {
-  const ShapeSet set(test::synthetic_shapes(6, 8), plan);
+  const ShapeSet set(test::synthetic_shapes(6, 8), four_levels);
   Random random(7);
   const PairScene scene = random_scene(random, set, 3'000);
   const Answers all = answers(set, scene.crowd.agents(), scene.pairs, 0.5);

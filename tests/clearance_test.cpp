@@ -26,17 +26,17 @@ using baselines::ClearanceReference;
 using baselines::Method;
 using test::answers;
 using test::Answers;
+using test::four_levels;
 using test::PairScene;
 using test::Random;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-const ShapeSetPlan plan{{0, 3, 6, all_depths}};
 
 class ClearanceDifferential : public test::Differential {
  protected:
-  ClearanceDifferential() : Differential(2601, plan) {}
+  ClearanceDifferential() : Differential(2601, four_levels) {}
 
-  ClearanceReference reference{shapes, plan};
+  ClearanceReference reference{shapes, four_levels};
 
   Answers expected(const PairScene& scene, double max_distance, Method method) {
     Answers all;

@@ -24,11 +24,11 @@ namespace {
 
 using baselines::ContactTimeReference;
 using baselines::Method;
+using test::four_levels;
 using test::PairScene;
 using test::Random;
 
 constexpr float never = std::numeric_limits<float>::infinity();
-const ShapeSetPlan plan{{0, 3, 6, all_depths}};
 
 /// Pairs that move.
 struct Motion : PairScene {
@@ -45,9 +45,9 @@ std::vector<float> times(const ShapeSet& set, const Motion& motion,
 
 class ContactTimeDifferential : public test::Differential {
  protected:
-  ContactTimeDifferential() : Differential(2602, plan) {}
+  ContactTimeDifferential() : Differential(2602, four_levels) {}
 
-  ContactTimeReference reference{shapes, plan};
+  ContactTimeReference reference{shapes, four_levels};
 
   /// Ways of random lengths up to `longest`, half of them about towards the other agent.
   Motion moving(PairScene scene, double longest) {

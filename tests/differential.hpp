@@ -14,6 +14,9 @@
 
 namespace bch::test {
 
+/// Of sets for distance queries.
+inline const ShapeSetPlan four_levels{{0, 3, 6, all_depths}};
+
 /// What a comparison of kernels with references begins with: shapes of many kinds, and pairs of them.
 class Differential : public testing::Test {
  protected:
