@@ -105,9 +105,7 @@ std::function<void()> add_crowd_command(CLI::App& program) {
   command.add_option("--density", options->density, "Agents per square metre [3]")
       ->type_name("N")
       ->check(number_between(1e-4, 100));
-  command.add_option("--seed", options->seed, "Chooses positions, headings and shapes [1]")
-      ->type_name("N")
-      ->check(number_between(0, 0x1p64 - 2048));
+  add_seed_option(command, options->seed, "positions, headings and shapes");
   command
       .add_option("--character", options->characters,
                   std::string(character_or_baked_help) + " [the last two]")

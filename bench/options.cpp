@@ -42,6 +42,12 @@ void require_unsettled(const CLI::App& command, const std::string& baked_file) {
       require_absent(command, {option}, baked_file + " has settled that");
 }
 
+void add_seed_option(CLI::App& command, std::uint64_t& seed, const std::string& what) {
+  command.add_option("--seed", seed, "Chooses " + what + " [1]")
+      ->type_name("N")
+      ->check(number_between(0, 0x1p64 - 2048));
+}
+
 void add_threads_option(CLI::App& command, std::uint32_t& threads) {
   command.add_option("--threads", threads, "Threads [all that the machine has]")
       ->type_name("N")

@@ -53,6 +53,8 @@ void require_absent(const CLI::App& command, std::initializer_list<const char*> 
 void require_unsettled(const CLI::App& command, const std::string& baked_file);
 
 void add_threads_option(CLI::App& command, std::uint32_t& threads);
+/// --seed, which chooses `what`.
+void add_seed_option(CLI::App& command, std::uint64_t& seed, const std::string& what);
 
 /// Rejects every other word.
 CLI::Validator one_of(std::vector<std::string> words);

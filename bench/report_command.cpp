@@ -83,9 +83,7 @@ std::function<void()> add_report_command(CLI::App& program) {
       ->type_name("NAME")
       ->allow_extra_args(false)
       ->check(one_of(experiment_names()));
-  command.add_option("--seed", options->report.seed, "Chooses cases, packings and resamples [1]")
-      ->type_name("N")
-      ->check(number_between(0, 0x1p64 - 2048));
+  add_seed_option(command, options->report.seed, "cases, packings and resamples");
   command.add_flag("--page", options->page, "Measure nothing: make the page again from the tables in DIR");
   return [options, &command] { run_report(command, *options); };
 }

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <oneapi/tbb/parallel_for.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -210,6 +211,10 @@ Setups extreme_setups() {
   return setups;
 }
 
+double percent(std::uint64_t part, std::uint64_t whole) {
+  return whole == 0 ? 0 : 100 * static_cast<double>(part) / static_cast<double>(whole);
+}
+
 struct FamilySetups {
   StabilityFamily family;
   Setups (*setups)();
@@ -252,6 +257,18 @@ std::vector<StabilityRow> stability_rows(std::uint32_t pairs, std::uint64_t seed
     rows[i] = run_setup(work[i].first, work[i].second, pairs, seed + i);
   });
   return rows;
+}
+
+double missed(const StabilityRow& row, const Errors& errors) {
+  return percent(errors.misses, row.meeting);
+}
+
+double falsely_hit(const StabilityRow& row, const Errors& errors) {
+  return percent(errors.false_positives, row.pairs - row.meeting);
+}
+
+double largest_error(const Errors& errors) {
+  return std::max(errors.gap_per_reach, errors.miss_per_reach);
 }
 
 std::string broken_promise(const StabilityRow& row) {

@@ -107,9 +107,7 @@ std::function<void()> add_stability_command(CLI::App& program) {
       ->check(number_between(20, 1e7));
   command.add_flag("--quick", options->quick, "200 pairs of every row; less of --stiff, too");
   command.add_flag("--stiff", options->stiff, "Agents that are driven into each other, which takes minutes");
-  command.add_option("--seed", options->seed, "Chooses shapes and placements [1]")
-      ->type_name("N")
-      ->check(number_between(0, 0x1p64 - 2048));
+  add_seed_option(command, options->seed, "shapes and placements");
   add_threads_option(command, options->threads);
   command.add_option("--csv", options->csv, "Write the table as CSV")->type_name("FILE");
   command.add_option("--json", options->json, "Write the table as JSON")->type_name("FILE");

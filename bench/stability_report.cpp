@@ -10,11 +10,15 @@
 #include <nlohmann/json.hpp>
 
 #include "bench/chart.hpp"
+#include "bench/csv_input.hpp"
 
 namespace bch::cli {
 namespace {
 
 using bench::Errors;
+using bench::falsely_hit;
+using bench::largest_error;
+using bench::missed;
 using bench::StabilityFamily;
 using bench::StabilityRow;
 
@@ -26,19 +30,9 @@ constexpr Test tests[] = {{"plain float", "float", &StabilityRow::plain_float},
                           {"plain double", "double", &StabilityRow::plain_double},
                           {"bch", "bch", &StabilityRow::ours}};
 
-double percent(std::uint64_t part, std::uint64_t whole) {
-  return whole == 0 ? 0 : 100 * static_cast<double>(part) / static_cast<double>(whole);
-}
-double missed(const StabilityRow& row, const Errors& errors) {
-  return percent(errors.misses, row.meeting);
-}
-double falsely_hit(const StabilityRow& row, const Errors& errors) {
-  return percent(errors.false_positives, row.pairs - row.meeting);
-}
-
 std::string errors_text(const StabilityRow& row, const Errors& errors) {
   return fmt::format(" | {:>6.2f} {:>6.2f} {:>8.1e}", missed(row, errors), falsely_hit(row, errors),
-                     std::max(errors.gap_per_reach, errors.miss_per_reach));
+                     largest_error(errors));
 }
 
 std::string line(const StabilityRow& row) {
@@ -54,13 +48,6 @@ std::vector<const StabilityRow*> of_family(const StabilityFamily& family,
   for (const StabilityRow& row : rows)
     if (row.family == family.name) found.push_back(&row);
   return found;
-}
-
-/// A field for CSV, whatever is in it.
-std::string quoted(const std::string& text) {
-  std::string out = "\"";
-  for (const char c : text) out += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return out + "\"";
 }
 
 ChartPanel panel(const StabilityFamily& family, std::span<const StabilityRow* const> rows, const char* title,
@@ -107,15 +94,15 @@ std::string csv_of(std::span<const StabilityRow> rows) {
       out += fmt::format(",{}_{}", test.key, column);
   out += ",outlines,outlines_meeting,outline_misses,refused\n";
   for (const StabilityRow& row : rows) {
-    fmt::format_to(std::back_inserter(out), "{},{},{},{},{}", row.family, quoted(row.value), row.conditioning,
-                   row.pairs, row.meeting);
+    fmt::format_to(std::back_inserter(out), "{},{},{},{},{}", row.family, csv_field(row.value),
+                   row.conditioning, row.pairs, row.meeting);
     for (const Test& test : tests) {
       const Errors& e = row.*test.errors;
       fmt::format_to(std::back_inserter(out), ",{},{},{},{},{},{}", e.misses, e.false_positives,
                      e.deepest_miss, e.largest_gap, e.miss_per_reach, e.gap_per_reach);
     }
     fmt::format_to(std::back_inserter(out), ",{},{},{},{}\n", row.outlines, row.outlines_meeting,
-                   row.outline_misses, quoted(row.refused));
+                   row.outline_misses, csv_field(row.refused));
   }
   return out;
 }
@@ -153,9 +140,8 @@ std::string draw(const StabilityFamily& family, std::span<const StabilityRow> ro
   std::vector<ChartPanel> panels = {
       panel(family, inside, "Missed contacts, % of those that meet", false, missed),
       panel(family, inside, "False hits, % of those that do not", false, falsely_hit),
-      panel(
-          family, inside, "Largest error, metres per metre of reach", true,
-          [](const StabilityRow&, const Errors& e) { return std::max(e.gap_per_reach, e.miss_per_reach); })};
+      panel(family, inside, "Largest error, metres per metre of reach", true,
+            [](const StabilityRow&, const Errors& e) { return largest_error(e); })};
   panels.back().line = bench::promised_gap;
   panels.back().line_name = "bch's bound, of gaps alone";
   return draw_chart(family.title, panels);

@@ -8,30 +8,13 @@
 #include <cmath>
 #include <iterator>
 
+#include "bench/text.hpp"
+
 namespace bch::cli {
 namespace {
 
 /// Pixels; nearer points of a curve look like one.
 constexpr double visible_step = 0.45;
-
-std::string escaped(std::string_view text) {
-  std::string out;
-  for (const char c : text) {
-    if (c == '&')
-      out += "&amp;";
-    else if (c == '<')
-      out += "&lt;";
-    else if (c == '>')
-      out += "&gt;";
-    else if (c == '"')
-      out += "&quot;";
-    else if (static_cast<unsigned char>(c) < ' ')
-      out += ' ';
-    else
-      out += c;
-  }
-  return out;
-}
 
 /// One decimal, none where it is zero.
 std::string number(double value) {

@@ -24,6 +24,24 @@ inline std::string grouped(std::uint64_t number) {
   return text;
 }
 
+/// As text of HTML or SVG, control characters as spaces.
+inline std::string escaped(std::string_view text) {
+  std::string markup;
+  for (const char c : text) {
+    if (c == '&')
+      markup += "&amp;";
+    else if (c == '<')
+      markup += "&lt;";
+    else if (c == '>')
+      markup += "&gt;";
+    else if (c == '"')
+      markup += "&quot;";
+    else
+      markup += static_cast<unsigned char>(c) < ' ' ? ' ' : c;
+  }
+  return markup;
+}
+
 inline std::string depth_name(std::uint32_t depth) {
   return depth == all_depths ? "all" : fmt::format("{}", depth);
 }

@@ -106,9 +106,8 @@ std::string findings(const Results& results) {
   return fmt::format(
       "<p>From {} to {} triangles a near miss of OBB trees over full meshes takes {} times as long, a "
       "colliding pair {} times; "
-      "of the outline's cylinders, in the batch kernel, {} and {} times. What the paper suspects is so for "
-      "near misses, which "
-      "have to be followed to the triangles. At {} triangles a tree takes {} us to build, outline and "
+      "of the outline's cylinders, in the batch kernel, {} and {} times. The paper only suspects what "
+      "detail costs. At {} triangles a tree takes {} us to build, outline and "
       "hierarchy {} us.</p>",
       brief(table.number(0, "triangles")), brief(table.number(table.rows().size() - 1, "triangles")),
       growth("OBB full mesh", "near miss (ns/pair)"), growth("OBB full mesh", "colliding (ns/pair)"),

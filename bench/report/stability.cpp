@@ -18,12 +18,8 @@ namespace {
 
 constexpr double millimetres = 1000, milliseconds = 1000;
 
-double percent(std::uint64_t part, std::uint64_t whole) {
-  return whole == 0 ? 0 : 100 * static_cast<double>(part) / static_cast<double>(whole);
-}
-
-double error(const bench::Errors& errors) {
-  return 1e6 * std::max(errors.gap_per_reach, errors.miss_per_reach);
+double micrometres(const bench::Errors& errors) {
+  return 1e6 * bench::largest_error(errors);
 }
 
 void add_family(const bench::StabilityFamily& family, const std::vector<bench::StabilityRow>& rows,
@@ -34,15 +30,12 @@ void add_family(const bench::StabilityFamily& family, const std::vector<bench::S
       refused.add({fmt::format("{}: {}", family.title, row.value), row.refused});
       continue;
     }
-    const auto missed = [&](const bench::Errors& errors) { return percent(errors.misses, row.meeting); };
-    const auto false_hits = [&](const bench::Errors& errors) {
-      return percent(errors.false_positives, row.pairs - row.meeting);
-    };
     table.add({family.name, family.title, row.value, row.conditioning, row.pairs, row.meeting,
-               missed(row.plain_float), missed(row.plain_double), missed(row.ours),
-               false_hits(row.plain_float), false_hits(row.plain_double), false_hits(row.ours),
-               error(row.plain_float), error(row.plain_double), error(row.ours), row.outlines_meeting,
-               row.outline_misses});
+               bench::missed(row, row.plain_float), bench::missed(row, row.plain_double),
+               bench::missed(row, row.ours), bench::falsely_hit(row, row.plain_float),
+               bench::falsely_hit(row, row.plain_double), bench::falsely_hit(row, row.ours),
+               micrometres(row.plain_float), micrometres(row.plain_double), micrometres(row.ours),
+               row.outlines_meeting, row.outline_misses});
   }
 }
 

@@ -28,23 +28,6 @@ std::string brief(double number) {
   return text;
 }
 
-std::string escaped(std::string_view text) {
-  std::string html;
-  for (const char c : text) {
-    if (c == '<')
-      html += "&lt;";
-    else if (c == '>')
-      html += "&gt;";
-    else if (c == '&')
-      html += "&amp;";
-    else if (c == '"')
-      html += "&quot;";
-    else
-      html += c;
-  }
-  return html;
-}
-
 std::string shown(std::string_view cell) {
   const auto number = cli::parse_number(cell);
   return number ? brief(*number) : escaped(cell);

@@ -6,13 +6,14 @@
 #include <string>
 #include <string_view>
 
+#include "bench/text.hpp"
+
 namespace bch::report {
 
 /// Three digits that count, from 1 000 on all before the point: "0.0123", "4.57", "12 346", "1.2e-07"; "–" for NaN.
 std::string brief(double number);
 
-/// Text as HTML.
-std::string escaped(std::string_view text);
+using cli::escaped;
 
 /// A CSV cell as the page's tables show it: numbers by brief(), texts escaped.
 std::string shown(std::string_view cell);
