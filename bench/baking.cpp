@@ -7,8 +7,8 @@
 #include <oneapi/tbb/parallel_pipeline.h>
 #include <oneapi/tbb/task_arena.h>
 
-#include <memory>
 #include <utility>
+#include <vector>
 
 #include "bench/progress.hpp"
 #include "layout/shape_set_builder.hpp"
@@ -34,29 +34,29 @@ ShapeSet bake_shapes(std::span<const LoadedCharacter> characters, std::span<cons
   tbb::enumerable_thread_specific<Workshop> workshops([&] {
     return Workshop{ShapeMaker(characters, threshold, plan.depths.back()), ShapeFlattener(plan)};
   });
+  // Shape i waits in place i % n. They leave in order and no more than n are on their way, so that the place is free
+  // again. Indices alone go from stage to stage: the pipeline never destroys what it holds when a stage throws.
+  const auto threads = static_cast<std::size_t>(tbb::this_task_arena::max_concurrency());
+  std::vector<FlatShape> places(shapes_in_flight * threads);
   std::size_t next = 0;
-  using Flat = std::shared_ptr<FlatShape>;
   const auto take = [&](tbb::flow_control& flow) -> std::size_t {
     if (next == sources.size()) flow.stop();
     return next++;
   };
-  const auto build = [&](std::size_t i) -> Flat {
+  const auto build = [&](std::size_t i) -> std::size_t {
     Workshop& workshop = workshops.local();
-    const Shape& shape = workshop.maker.make(sources[i]);
-    const auto flat = std::make_shared<FlatShape>();
-    workshop.flattener.flatten(shape, i, *flat);
-    return flat;
+    workshop.flattener.flatten(workshop.maker.make(sources[i]), i, places[i % places.size()]);
+    return i;
   };
   // In the order of the sources, which is why the bytes do not depend on who built what.
-  const auto add = [&](const Flat& flat) {
-    builder.add(*flat);
+  const auto add = [&](std::size_t i) {
+    builder.add(places[i % places.size()]);
     progress.advance();
   };
-  const auto threads = static_cast<std::size_t>(tbb::this_task_arena::max_concurrency());
-  tbb::parallel_pipeline(shapes_in_flight * threads,
+  tbb::parallel_pipeline(places.size(),
                          tbb::make_filter<void, std::size_t>(tbb::filter_mode::serial_in_order, take) &
-                             tbb::make_filter<std::size_t, Flat>(tbb::filter_mode::parallel, build) &
-                             tbb::make_filter<Flat, void>(tbb::filter_mode::serial_in_order, add));
+                             tbb::make_filter<std::size_t, std::size_t>(tbb::filter_mode::parallel, build) &
+                             tbb::make_filter<std::size_t, void>(tbb::filter_mode::serial_in_order, add));
   return std::move(builder).finish();
 }
 
