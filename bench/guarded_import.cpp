@@ -39,7 +39,7 @@ void set_limits(const ImportLimits& limits) {
   limit(RLIMIT_FSIZE, 0);  // it has nothing to write
   // The parent counts the time; this is for a child whose parent is stopped.
   limit(RLIMIT_CPU, static_cast<rlim_t>(limits.time.count() / 1000 + 1));
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)  // whose shadow memory alone is larger
+#ifndef BCH_SANITIZED  // whose shadow memory alone is larger
   limit(RLIMIT_AS, limits.memory);
 #endif
 }
