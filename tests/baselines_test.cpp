@@ -76,10 +76,11 @@ class Suite {
                   std::count(one.hits.begin(), one.hits.end(), 1));
     std::printf("; FCL differs in %zu, long double in %zu\n", fcl_differences_, placement_differences_);
     if (test::replaying()) return;
+    // Of the pairs that touch, a quarter was slid to the contact of each of these, and about half of that quarter hits.
     for (const std::string_view name : {"obb_full", "obb_contour", "obb_projected"}) {
       const auto count = std::count(hits(name).begin(), hits(name).end(), 1);
-      EXPECT_GT(count, std::ssize(hits(name)) / 8) << name;
-      EXPECT_LT(count, std::ssize(hits(name)) * 7 / 8) << name;
+      EXPECT_GT(count, std::ssize(hits(name)) / 10) << name;
+      EXPECT_LT(count, std::ssize(hits(name)) * 9 / 10) << name;
     }
   }
 
