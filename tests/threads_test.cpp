@@ -3,16 +3,24 @@
 
 #include <gtest/gtest.h>
 
+#include <optional>
+#include <span>
 #include <thread>
 #include <vector>
 
 #include "kernel/answer.hpp"
+#include "kernel/broad_phase.hpp"
+#include "kernel/clearance.hpp"
+#include "kernel/collide_all.hpp"
+#include "kernel/contact_time.hpp"
+#include "kernel/contacts.hpp"
 #include "kernel/neighbour_rows.hpp"
+#include "kernel/separation.hpp"
 #include "layout/dynamic_shape_set.hpp"
+#include "tests/clearances.hpp"
 #include "tests/scenes.hpp"
 
-// The functions that tasks run, on plain threads, where ThreadSanitizer sees every access. (It takes what
-// passes through an uninstrumented TBB for races, so collide() itself cannot be watched.)
+// For ThreadSanitizer: the functions that tasks run, and whole calls, which then run on tests/plain_threads.
 
 namespace bch {
 namespace {
@@ -22,7 +30,7 @@ class Threads : public testing::Test {
   std::vector<Shape> shapes = test::synthetic_shapes(41, 16);
   ShapeSet set{shapes, {{0, 3, all_depths}, true}};
   test::Random random{42};
-  test::PairScene scene = random_scene(random, set, 6'001);
+  test::PairScene scene = random_scene(random, set, 4'999);
   Agents agents = scene.crowd.agents();
 
   std::vector<std::uint8_t> answers(const kernel::Implementation& implementation, unsigned threads) {
@@ -70,6 +78,71 @@ TEST_F(Threads, ASetIsReadWhileAnotherIsBuilt) {
   EXPECT_EQ(first, expected);
   EXPECT_EQ(second, expected);
   EXPECT_GT(bytes, 0u);
+}
+
+/// All that can be asked of a scene, in calls that share nothing but the shapes and the agents.
+struct Everything {
+  std::vector<std::uint8_t> boundary, solid;
+  test::Answers clearances;
+  std::vector<float> times;
+  std::vector<Separation> best, along;
+  ContactTable contacts;
+  std::vector<Pair> candidates;
+  std::vector<std::uint64_t> begin;
+  std::vector<std::uint32_t> neighbours;
+
+  Everything(const ShapeSet& set, const test::PairScene& scene)
+      : boundary(scene.pairs.size()),
+        solid(boundary),
+        times(boundary.size()),
+        best(boundary.size()),
+        along(best) {
+    const Agents agents = scene.crowd.agents();
+    const std::span<const Pair> pairs = scene.pairs;
+    const std::vector<double> way(pairs.size(), 0.5);
+    const std::vector<Vec2> directions(pairs.size(), Vec2{0.6f, 0.8f});
+    collide(set, agents, pairs, boundary);
+    collide(set, agents, pairs, solid, {Semantics::solid});
+    clearances = test::answers(set, agents, pairs, 0.5);
+    contact_time(set, agents, pairs, {way, way}, times);
+    separation(set, agents, pairs, 8, best);
+    separation_along(set, agents, pairs, directions, along);
+    bch::contacts(set, agents, pairs, contacts);
+    candidates = candidate_pairs(set, agents);
+    CrowdCollider collider;
+    const CollidingNeighbours all = collider.collide_all(set, agents);
+    begin.assign(all.begin.begin(), all.begin.end());
+    neighbours.assign(all.neighbours.begin(), all.neighbours.end());
+  }
+
+  void expect_same(const Everything& other) const {
+    EXPECT_EQ(boundary, other.boundary);
+    EXPECT_EQ(solid, other.solid);
+    for (std::size_t i = 0; i < boundary.size(); ++i)
+      EXPECT_TRUE(clearances.same(i, other.clearances, i)) << i;
+    EXPECT_EQ(times, other.times);
+    EXPECT_EQ(best, other.best);
+    EXPECT_EQ(along, other.along);
+    EXPECT_EQ(contacts.begin, other.contacts.begin);
+    EXPECT_EQ(contacts.contacts, other.contacts.contacts);
+    EXPECT_EQ(candidates, other.candidates);
+    EXPECT_EQ(begin, other.begin);
+    EXPECT_EQ(neighbours, other.neighbours);
+  }
+};
+
+TEST_F(Threads, EveryQueryRunsWhileOthersRunAndASetIsBuilt) {
+  const Everything alone(set, scene);
+  EXPECT_GT(alone.neighbours.size(), scene.pairs.size() / 2);
+  std::optional<Everything> first, second;
+  std::thread reader([&] { first.emplace(set, scene); });
+  std::thread other_reader([&] { second.emplace(set, scene); });
+  std::thread builder([&] { EXPECT_GT(ShapeSet(shapes, {{0, 3, all_depths}, true}).bytes(), 0u); });
+  reader.join();
+  other_reader.join();
+  builder.join();
+  alone.expect_same(*first);
+  alone.expect_same(*second);
 }
 
 TEST_F(Threads, DifferentShapesAreReplacedAtTheSameTime) {
