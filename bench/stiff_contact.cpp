@@ -149,10 +149,11 @@ Bounce bounce(DepthMeasure measure, std::uint8_t level, Random& random) {
   constexpr double step = 1e-3, half_speed = 0.5;
   StiffWorld world(measure, true);
   const double aside = between(random, -0.15, 0.15);
-  world.add_person(random.below(people_shapes), level, {-0.7, aside}, random.uniform(2 * pi),
-                   {half_speed, 0});
-  world.add_person(random.below(people_shapes), level, {0.7, -aside}, random.uniform(2 * pi),
-                   {-half_speed, 0});
+  for (const double side : {-1.0, 1.0}) {
+    const double heading = random.uniform(2 * pi);
+    world.add_person(random.below(people_shapes), level, {0.7 * side, -aside * side}, heading,
+                     {-half_speed * side, 0});
+  }
   const double before = world.mean_square();
   Bounce found;
   int free_steps = 0;

@@ -70,8 +70,8 @@ class AllocationFaults : public testing::Test {
   AllocationFaults() {
     test::Random random(91);
     for (int i = 0; i < 300; ++i)
-      crowd.add(random.below(3), random.uniform(0, 8), random.uniform(0, 8), random.uniform(-4, 4),
-                static_cast<std::uint8_t>(random.below(3)));
+      crowd.add({random.below(3), random.uniform(0, 8), random.uniform(0, 8), random.uniform(-4, 4),
+                 static_cast<std::uint8_t>(random.below(3))});
   }
 
   /// On this thread alone, so that the allocations come in one order; and by two.

@@ -25,8 +25,8 @@ class Allocations : public testing::TestWithParam<int> {
   Allocations() {
     test::Random random(52);
     for (int i = 0; i < 30'000; ++i)
-      crowd.add(random.below(16), random.uniform(0, 300), random.uniform(0, 300), random.uniform(-4, 4),
-                static_cast<std::uint8_t>(random.below(3)));
+      crowd.add({random.below(16), random.uniform(0, 300), random.uniform(0, 300), random.uniform(-4, 4),
+                 static_cast<std::uint8_t>(random.below(3))});
   }
 
   /// Some tasks' worth: each pair takes microseconds.

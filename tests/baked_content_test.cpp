@@ -196,8 +196,8 @@ void query(const ShapeSet& set, std::uint64_t seed) {
   Random random(seed);
   Crowd crowd;
   for (int i = 0; i < 60; ++i)
-    crowd.add(random.below(set.shape_count()), random.uniform(0, 2), random.uniform(0, 2),
-              random.uniform(0, 6), static_cast<std::uint8_t>(random.below(set.level_count())));
+    crowd.add({random.below(set.shape_count()), random.uniform(0, 2), random.uniform(0, 2),
+               random.uniform(0, 6), static_cast<std::uint8_t>(random.below(set.level_count()))});
   std::vector<Pair> pairs = candidate_pairs(set, crowd.agents());
   for (std::uint32_t i = 1; i < 60; ++i) pairs.push_back({0, i});
   std::vector<std::uint8_t> hits(pairs.size());

@@ -29,7 +29,7 @@ PairScene replayed_scene(const std::string& line, std::size_t bodies) {
     std::uint32_t shape = 0;
     if (!(text >> shape) || shape >= bodies) throw std::invalid_argument("BCH_REPLAY: no such shape");
     const double x = next_number(text), y = next_number(text), heading = next_number(text);
-    scene.crowd.add(shape, x, y, heading, 0);
+    scene.crowd.add({shape, x, y, heading, 0});
   }
   scene.pairs = {{0, 1}};
   return scene;
@@ -74,9 +74,9 @@ PairScene placements(std::uint64_t seed, const std::vector<baselines::Body>& bod
     const double angle = random.uniform(-std::numbers::pi, std::numbers::pi);
     const double distance = (radius(a) + radius(b)) * random.uniform(0.1, 1.1);
     const double x = random.uniform(-50, 50), y = random.uniform(-50, 50);
-    scene.crowd.add(a, x, y, random.uniform(-10, 10), 0);
-    scene.crowd.add(b, x + distance * std::cos(angle), y + distance * std::sin(angle),
-                    random.uniform(-10, 10), 0);
+    scene.crowd.add({a, x, y, random.uniform(-10, 10), 0});
+    scene.crowd.add(
+        {b, x + distance * std::cos(angle), y + distance * std::sin(angle), random.uniform(-10, 10), 0});
     scene.pairs.push_back(random.below(2) == 0 ? Pair{2 * i, 2 * i + 1} : Pair{2 * i + 1, 2 * i});
   }
   return scene;

@@ -29,15 +29,15 @@ test::Crowd crowd_in(double width, double height, std::uint32_t agents, std::uin
   test::Random random(seed);
   test::Crowd crowd;
   for (std::uint32_t i = 0; i < agents; ++i)
-    crowd.add(random.below(of.shape_count()), x + random.uniform(0, width), y + random.uniform(0, height),
-              random.uniform(-4, 4), static_cast<std::uint8_t>(random.below(of.level_count())));
+    crowd.add({random.below(of.shape_count()), x + random.uniform(0, width), y + random.uniform(0, height),
+               random.uniform(-4, 4), static_cast<std::uint8_t>(random.below(of.level_count()))});
   return crowd;
 }
 
 void append(test::Crowd& crowd, const test::Crowd& more) {
   const Agents agents = more.agents();
   for (std::size_t i = 0; i < agents.size(); ++i)
-    crowd.add(agents.shape[i], agents.x[i], agents.y[i], agents.heading[i], agents.level[i]);
+    crowd.add({agents.shape[i], agents.x[i], agents.y[i], agents.heading[i], agents.level[i]});
 }
 
 bool before(Pair a, Pair b) {
@@ -232,7 +232,7 @@ TEST(BroadPhase, AnswersOfALargeCrowdAreThoseOfItsPairs) {
   for (std::size_t k = 0; k < pairs.size(); k += 16) {
     test::Crowd two;
     for (const std::uint32_t i : {pairs[k].first, pairs[k].second})
-      two.add(crowd.shape[i], crowd.x[i], crowd.y[i], crowd.heading[i], crowd.level[i]);
+      two.add({crowd.shape[i], crowd.x[i], crowd.y[i], crowd.heading[i], crowd.level[i]});
     const Pair pair{0, 1};
     std::uint8_t hit = 2;
     collide(set, two.agents(), {&pair, 1}, {&hit, 1});
@@ -267,9 +267,9 @@ TEST(BroadPhase, OneObjectServesManyCrowds) {
 TEST(BroadPhase, NoAgentsAndBadOnes) {
   test::Crowd crowd;
   EXPECT_TRUE(candidate_pairs(set, crowd.agents()).empty());
-  crowd.add(0, 0, 0, 0, 0);
+  crowd.add({0, 0, 0, 0, 0});
   EXPECT_TRUE(candidate_pairs(set, crowd.agents()).empty());
-  crowd.add(0, std::numeric_limits<double>::quiet_NaN(), 0, 0, 0);
+  crowd.add({0, std::numeric_limits<double>::quiet_NaN(), 0, 0, 0});
   EXPECT_THROW(candidate_pairs(set, crowd.agents()), std::invalid_argument);
   crowd.x[1] = 0;
   crowd.shape[1] = set.shape_count();

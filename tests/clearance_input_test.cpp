@@ -31,9 +31,9 @@ TEST(Clearance, OfSingleDiscs) {
   for (const ShapeSetPlan& levels : {ShapeSetPlan{{0}}, ShapeSetPlan{}}) {
     const ShapeSet set(shapes, levels);
     test::Crowd crowd;
-    crowd.add(0, 1, 1, 0.7, 0);
-    crowd.add(1, 4, 5, 2, 0);
-    crowd.add(1, 1, 1, 3, 0);
+    crowd.add({0, 1, 1, 0.7, 0});
+    crowd.add({1, 4, 5, 2, 0});
+    crowd.add({1, 1, 1, 3, 0});
     const std::vector<Pair> pairs = {{0, 1}, {1, 0}, {0, 2}, {2, 0}, {0, 0}};
     const auto of = answers(set, crowd.agents(), pairs, infinity);
     EXPECT_NEAR(of.distance[0], 4.25, 1e-5);
@@ -69,8 +69,8 @@ TEST(Clearance, AnswersThatAreNotAskedForChangeNoOthers) {
 TEST(Clearance, RejectsBadInputBeforeAnythingIsWritten) {
   const ShapeSet set(test::synthetic_shapes(1, 2));
   test::Crowd crowd;
-  crowd.add(0, 0, 0, 0, 0);
-  crowd.add(1, 1, 0, 0, 0);
+  crowd.add({0, 0, 0, 0, 0});
+  crowd.add({1, 1, 0, 0, 0});
   std::vector<Pair> pairs = {{0, 1}};
   const auto expect_rejected = [&](const std::string& message, double max_distance,
                                    std::size_t directions = 1) {

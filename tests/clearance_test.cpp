@@ -102,8 +102,8 @@ TEST_F(ClearanceDifferential, OfEqualGapsTheFirstCounts) {
     const double quarter = 1.5707963267948966 * random.below(4);
     const auto at = [&] { return 0.25 * (static_cast<int>(random.below(9)) - 4); };
     const auto level = static_cast<std::uint8_t>(random.below(4));
-    scene.crowd.add(shape, at(), at(), quarter, level);
-    scene.crowd.add(shape, at(), at(), quarter, level);
+    scene.crowd.add({shape, at(), at(), quarter, level});
+    scene.crowd.add({shape, at(), at(), quarter, level});
     scene.pairs.push_back({2 * i, 2 * i + 1});
   }
   expect_equal_to_brute_force(scene, infinity, "equal gaps");
@@ -221,9 +221,9 @@ TEST(Clearance, OfTipsIsTheDistanceOfTheOutlinesLessTheMargin) {
   for (std::uint32_t i = 0; i < 4'000; ++i) {
     const double angle = random.uniform(-4, 4), length = 0.8 + std::pow(10, random.uniform(-6, 3));
     const double x = random.uniform(-50, 50), y = random.uniform(-50, 50);
-    scene.crowd.add(0, x, y, angle, 0);
-    scene.crowd.add(0, x + length * std::cos(angle), y + length * std::sin(angle), angle + std::numbers::pi,
-                    0);
+    scene.crowd.add({0, x, y, angle, 0});
+    scene.crowd.add(
+        {0, x + length * std::cos(angle), y + length * std::sin(angle), angle + std::numbers::pi, 0});
     scene.pairs.push_back({2 * i, 2 * i + 1});
     exact.push_back(baselines::Oracle(shapes[0].outline, shapes[0].outline,
                                       baselines::exact_placement(scene.crowd.agents(), 2 * i, 2 * i + 1))
@@ -247,7 +247,8 @@ TEST_F(ClearanceDifferential, DirectionsAreUnitVectorsAlongWhichDiscsPart) {
     test::Crowd moved;
     for (const std::uint32_t agent : {scene.pairs[i].first, scene.pairs[i].second}) {
       const test::Crowd& crowd = scene.crowd;
-      moved.add(crowd.shape[agent], crowd.x[agent], crowd.y[agent], crowd.heading[agent], crowd.level[agent]);
+      moved.add(
+          {crowd.shape[agent], crowd.x[agent], crowd.y[agent], crowd.heading[agent], crowd.level[agent]});
     }
     moved.x[1] += 0.001 * x, moved.y[1] += 0.001 * y;
     const std::vector<Pair> pair = {{0, 1}};

@@ -43,8 +43,8 @@ class CollideAll : public testing::Test {
     test::Random random(seed);
     test::Crowd crowd;
     for (std::uint32_t i = 0; i < agents; ++i)
-      crowd.add(random.below(set.shape_count()), random.uniform(0, side), random.uniform(0, side),
-                random.uniform(-4, 4), static_cast<std::uint8_t>(random.below(set.level_count())));
+      crowd.add({random.below(set.shape_count()), random.uniform(0, side), random.uniform(0, side),
+                 random.uniform(-4, 4), static_cast<std::uint8_t>(random.below(set.level_count()))});
     return crowd;
   }
 

@@ -23,8 +23,8 @@ class BadInput : public testing::Test {
   std::vector<Pair> pairs = {{0, 1}};
 
   void SetUp() override {
-    crowd.add(0, 0, 0, 0, 0);
-    crowd.add(1, 1, 0, 0, 0);
+    crowd.add({0, 0, 0, 0, 0});
+    crowd.add({1, 1, 0, 0, 0});
   }
 
   void expect_rejected(const std::string& message, const QueryOptions& options = {}) {
@@ -59,7 +59,7 @@ TEST_F(BadInput, NamesTheAgentOrPairAndTheValue) {
 }
 
 TEST_F(BadInput, AnAgentThatNoPairNamesMayBeAnything) {
-  crowd.add(99, std::numeric_limits<double>::quiet_NaN(), 0, 0, 7);
+  crowd.add({99, std::numeric_limits<double>::quiet_NaN(), 0, 0, 7});
   for (const std::size_t count : {1u, 2u, 50u}) {
     pairs.assign(count, {0, 1});
     std::vector<std::uint8_t> hits(count);

@@ -219,8 +219,8 @@ TEST(Solid, AShapeInsideAnotherIsFoundEverywhere) {
   for (std::uint32_t i = 0; i < 4000; ++i) {
     const double r = random.uniform(0, 0.2),
                  angle = random.uniform(-3, 3);  // the small one never leaves the big one
-    scene.crowd.add(0, 3, 4, random.uniform(-3, 3), 0);
-    scene.crowd.add(1, 3 + r * std::cos(angle), 4 + r * std::sin(angle), random.uniform(-3, 3), 0);
+    scene.crowd.add({0, 3, 4, random.uniform(-3, 3), 0});
+    scene.crowd.add({1, 3 + r * std::cos(angle), 4 + r * std::sin(angle), random.uniform(-3, 3), 0});
     scene.pairs.push_back({2 * i, 2 * i + 1});
   }
   for (const auto& implementation : kernel::implementations()) {
@@ -254,9 +254,9 @@ TEST(Collide, TouchingCountsAndAnAgentMeetsItself) {
   const ShapeSet set(shapes);
   const float radius = set.view().roots[0].radius;
   test::Crowd crowd;
-  crowd.add(0, 0, 0, 0, 0);
-  crowd.add(0, 2 * static_cast<double>(radius), 0, 0, 0);
-  crowd.add(0, -2 * static_cast<double>(std::nextafter(radius, 1.0f)), 0, 0, 0);
+  crowd.add({0, 0, 0, 0, 0});
+  crowd.add({0, 2 * static_cast<double>(radius), 0, 0, 0});
+  crowd.add({0, -2 * static_cast<double>(std::nextafter(radius, 1.0f)), 0, 0, 0});
   const std::vector<Pair> pairs = {{0, 1}, {0, 2}, {1, 2}, {1, 1}};
   std::vector<std::uint8_t> hits(4);
   collide(set, crowd.agents(), pairs, hits);

@@ -222,9 +222,9 @@ TEST(ContactTime, OfTipsIsThatOfTheOutlinesLessTheMargin) {
   for (std::uint32_t i = 0; i < 4'000; ++i) {
     const double angle = random.uniform(-4, 4), length = 0.8 + std::pow(10, random.uniform(-6, 3));
     const double x = random.uniform(-50, 50), y = random.uniform(-50, 50), way = random.uniform(0.5, 2);
-    motion.crowd.add(0, x, y, angle, 0);
-    motion.crowd.add(0, x + length * std::cos(angle), y + length * std::sin(angle), angle + std::numbers::pi,
-                     0);
+    motion.crowd.add({0, x, y, angle, 0});
+    motion.crowd.add(
+        {0, x + length * std::cos(angle), y + length * std::sin(angle), angle + std::numbers::pi, 0});
     motion.pairs.push_back({2 * i, 2 * i + 1});
     motion.x.push_back(way * length * std::cos(angle));
     motion.y.push_back(way * length * std::sin(angle));
@@ -252,8 +252,8 @@ TEST_F(ContactTimeDifferential, IsWhenDiscsTouch) {
     test::Crowd crowd = {};
     const auto [first, second] = motion.pairs[i];
     for (const std::uint32_t agent : {first, second})
-      crowd.add(motion.crowd.shape[agent], motion.crowd.x[agent], motion.crowd.y[agent],
-                motion.crowd.heading[agent], motion.crowd.level[agent]);
+      crowd.add({motion.crowd.shape[agent], motion.crowd.x[agent], motion.crowd.y[agent],
+                 motion.crowd.heading[agent], motion.crowd.level[agent]});
     crowd.x[0] += t * motion.x[i], crowd.y[0] += t * motion.y[i];
     const std::vector<Pair> pair = {{0, 1}};
     std::vector<float> distance(1);
@@ -277,8 +277,8 @@ TEST(ContactTime, OfSingleDiscs) {
   for (const ShapeSetPlan& levels : {ShapeSetPlan{{0}}, ShapeSetPlan{}}) {
     const ShapeSet set(shapes, levels);
     Motion motion;
-    motion.crowd.add(0, 0, 0, 1, 0);
-    motion.crowd.add(0, 2.5, 0, 2, 0);
+    motion.crowd.add({0, 0, 0, 1, 0});
+    motion.crowd.add({0, 2.5, 0, 2, 0});
     motion.pairs = {{0, 1}, {0, 1}, {1, 0}, {0, 1}, {0, 0}, {0, 1}, {0, 1}};
     motion.x = {4, -4, -4, 1.9, 1, 0, 4};
     motion.y = {0, 0, 0, 0, 0, 0, 1};
@@ -296,8 +296,8 @@ TEST(ContactTime, OfSingleDiscs) {
 TEST(ContactTime, RejectsBadInputBeforeAnythingIsWritten) {
   const ShapeSet set(test::synthetic_shapes(1, 2));
   Motion motion;
-  motion.crowd.add(0, 0, 0, 0, 0);
-  motion.crowd.add(1, 1, 0, 0, 0);
+  motion.crowd.add({0, 0, 0, 0, 0});
+  motion.crowd.add({1, 1, 0, 0, 0});
   motion.pairs = {{0, 1}};
   motion.x = {1}, motion.y = {0};
   const auto expect_rejected = [&](const std::string& message) {

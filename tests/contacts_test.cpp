@@ -136,8 +136,8 @@ TEST_F(Contacts, OfCoincidentAgentsAndOfAnAgentWithItself) {
   for (std::uint32_t shape = 0; shape < set.shape_count(); ++shape)
     for (std::uint8_t level = 0; level < set.level_count(); ++level) {
       const auto agent = static_cast<std::uint32_t>(crowd.x.size());
-      crowd.add(shape, 1, 2, 3, level);
-      crowd.add(shape, 1, 2, 3, level);
+      crowd.add({shape, 1, 2, 3, level});
+      crowd.add({shape, 1, 2, 3, level});
       pairs.insert(pairs.end(), {{agent, agent}, {agent + 1, agent}});
     }
   const ContactTable table = table_of(set, crowd.agents(), pairs);

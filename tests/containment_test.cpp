@@ -50,8 +50,8 @@ test::PairScene copies_inside(test::Random& random, const Outline& big, const Ou
       if (!has_corner_inside(big, small, x, y, heading)) continue;
       const auto index = static_cast<std::uint32_t>(scene.crowd.shape.size());
       const auto level = [&] { return static_cast<std::uint8_t>(random.below(levels)); };
-      scene.crowd.add(0, 0, 0, 0, level());
-      scene.crowd.add(1, x, y, heading, level());
+      scene.crowd.add({0, 0, 0, 0, level()});
+      scene.crowd.add({1, x, y, heading, level()});
       scene.pairs.push_back({index, index + 1});
     }
   return scene;

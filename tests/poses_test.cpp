@@ -132,9 +132,9 @@ TEST(DefaultPoses, SolidSeesAPersonInsideAPerson) {
   std::vector<bool> nested;
   test::Random random(8);
   for (std::uint32_t i = 0; i < 3000; ++i) {
-    crowd.add(random.below(static_cast<std::uint32_t>(count)), 0, 0, random.uniform(-3, 3), 0);
-    crowd.add(static_cast<std::uint32_t>(count) + random.below(static_cast<std::uint32_t>(count)),
-              random.uniform(-0.3, 0.3), random.uniform(-0.3, 0.3), random.uniform(-3, 3), 0);
+    crowd.add({random.below(static_cast<std::uint32_t>(count)), 0, 0, random.uniform(-3, 3), 0});
+    crowd.add({static_cast<std::uint32_t>(count) + random.below(static_cast<std::uint32_t>(count)),
+               random.uniform(-0.3, 0.3), random.uniform(-0.3, 0.3), random.uniform(-3, 3), 0});
     pairs.push_back({2 * i, 2 * i + 1});
   }
   const Agents agents = crowd.agents();

@@ -117,8 +117,8 @@ void attack(const test::TangentShapes& shapes, std::uint64_t seed, Tallies& tall
   test::PairScene scene;
   for (std::uint32_t i = 0; i < block; ++i) {
     const NearTangent& pair = near.emplace_back(near_tangent(random, shapes));
-    scene.crowd.add(pair.a->shape, pair.at_x, pair.at_y, pair.a->heading, pair.a->level);
-    scene.crowd.add(pair.b->shape, pair.x, pair.y, pair.b->heading, pair.b->level);
+    scene.crowd.add({pair.a->shape, pair.at_x, pair.at_y, pair.a->heading, pair.a->level});
+    scene.crowd.add({pair.b->shape, pair.x, pair.y, pair.b->heading, pair.b->level});
     scene.pairs.push_back(i % 2 == 0 ? Pair{2 * i, 2 * i + 1} : Pair{2 * i + 1, 2 * i});
   }
   std::vector<std::uint8_t> hits(block);

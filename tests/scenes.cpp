@@ -130,13 +130,12 @@ std::vector<Shape> synthetic_shapes(std::uint64_t seed, std::uint32_t count) {
   return shapes;
 }
 
-void Crowd::add(std::uint32_t shape_index, double at_x, double at_y, double at_heading,
-                std::uint8_t at_level) {
-  shape.push_back(shape_index);
-  x.push_back(at_x);
-  y.push_back(at_y);
-  heading.push_back(at_heading);
-  level.push_back(at_level);
+void Crowd::add(const Agent& agent) {
+  shape.push_back(agent.shape);
+  x.push_back(agent.x);
+  y.push_back(agent.y);
+  heading.push_back(agent.heading);
+  level.push_back(agent.level);
 }
 
 PairScene random_scene(Random& random, const ShapeSet& shapes, std::uint32_t pairs) {
@@ -154,9 +153,9 @@ PairScene random_scene(Random& random, const ShapeSet& shapes, std::uint32_t pai
     const double far = extent(a) + extent(b);
     const double angle = random.uniform(-pi, pi), distance = far * random.uniform(0, 1.1);
     const double x = on_grid(random.uniform(-50, 50), 0x1p-20), y = on_grid(random.uniform(-50, 50), 0x1p-20);
-    scene.crowd.add(a, x, y, random.uniform(-10, 10), level());
-    scene.crowd.add(b, on_grid(x + distance * std::cos(angle), 0x1p-20),
-                    on_grid(y + distance * std::sin(angle), 0x1p-20), random.uniform(-10, 10), level());
+    scene.crowd.add({a, x, y, random.uniform(-10, 10), level()});
+    scene.crowd.add({b, on_grid(x + distance * std::cos(angle), 0x1p-20),
+                     on_grid(y + distance * std::sin(angle), 0x1p-20), random.uniform(-10, 10), level()});
     scene.pairs.push_back(random.below(2) == 0 ? Pair{2 * i, 2 * i + 1} : Pair{2 * i + 1, 2 * i});
   }
   return scene;

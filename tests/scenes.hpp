@@ -59,7 +59,13 @@ struct Crowd {
   std::vector<std::uint8_t> level;
 
   Agents agents() const { return {shape, x, y, heading, level}; }
-  void add(std::uint32_t shape_index, double at_x, double at_y, double at_heading, std::uint8_t at_level);
+  struct Agent {
+    std::uint32_t shape;
+    double x, y, heading;
+    std::uint8_t level;
+  };
+  /// Takes braces, in which random numbers come in the order of the fields; as arguments every compiler has its own.
+  void add(const Agent& agent);
 };
 
 /// Pairs (2 i, 2 i + 1) of agents of their own, with random shapes and levels, close enough for their root

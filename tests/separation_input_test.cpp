@@ -23,8 +23,8 @@ using test::PairScene;
 class TwoDiscs : public testing::Test {
  protected:
   TwoDiscs() {
-    scene.crowd.add(0, 0, 0, 0, 0);
-    scene.crowd.add(0, 0, 0, 0, 0);
+    scene.crowd.add({0, 0, 0, 0, 0});
+    scene.crowd.add({0, 0, 0, 0, 0});
     scene.pairs = {{0, 1}};
   }
 

@@ -48,8 +48,8 @@ Body block(float half_x, float half_y, float bottom, float top) {
 /// At the origin, so that the second one stands exactly where it is meant to.
 test::Crowd two(std::uint32_t a, std::uint32_t b, double x, double y, double heading) {
   test::Crowd crowd;
-  crowd.add(a, 0, 0, 0, 0);
-  crowd.add(b, x, y, heading, 0);
+  crowd.add({a, 0, 0, 0, 0});
+  crowd.add({b, x, y, heading, 0});
   return crowd;
 }
 

@@ -59,8 +59,8 @@ void add_pair(Bytes& bytes, const std::vector<Shape>& shapes, test::Crowd& crowd
   const double reach = shapes[a].hierarchy.reach + shapes[b].hierarchy.reach;
   const double dx = std::ldexp(reach * bytes.take<std::int32_t>(), -31),
                dy = std::ldexp(reach * bytes.take<std::int32_t>(), -31);
-  crowd.add(a, x, y, heading_of(bytes), static_cast<std::uint8_t>(bytes.below(3)));
-  crowd.add(b, x + dx, y + dy, heading_of(bytes), static_cast<std::uint8_t>(bytes.below(3)));
+  crowd.add({a, x, y, heading_of(bytes), static_cast<std::uint8_t>(bytes.below(3))});
+  crowd.add({b, x + dx, y + dy, heading_of(bytes), static_cast<std::uint8_t>(bytes.below(3))});
 }
 
 void check(const ShapeSet& set, const baselines::Reference& reference, const Agents& agents,
