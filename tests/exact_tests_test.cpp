@@ -198,7 +198,7 @@ class RandomCorners : public testing::TestWithParam<std::uint64_t> {
 };
 
 TEST_P(RandomCorners, Segments) {
-  for (int i = 0; i < 300'000; ++i) {
+  for (std::uint32_t i = 0; i < test::samples(300'000); ++i) {
     const Corners s = corners(2, 1), t = corners(2, 1);
     ASSERT_EQ(segments_meet(segment(s, 0x1p-29), segment(t, 0x1p-29)), expected_to_meet(s, t))
         << "case " << i << ": " << text(s) << text(t);
@@ -206,7 +206,7 @@ TEST_P(RandomCorners, Segments) {
 }
 
 TEST_P(RandomCorners, TrianglesOnTheGround) {
-  for (int i = 0; i < 200'000; ++i) {
+  for (std::uint32_t i = 0; i < test::samples(200'000); ++i) {
     const Corners s = corners(3, 1), t = corners(3, 1);
     ASSERT_EQ(triangles_meet(triangle_2d(s, 0x1p-29), triangle_2d(t, 0x1p-29)), expected_to_meet(s, t))
         << "case " << i << ": " << text(s) << text(t);
@@ -214,7 +214,7 @@ TEST_P(RandomCorners, TrianglesOnTheGround) {
 }
 
 TEST_P(RandomCorners, TrianglesInSpaceInAnyOrderOfCorners) {
-  for (int i = 0; i < 200'000; ++i) {
+  for (std::uint32_t i = 0; i < test::samples(200'000); ++i) {
     Corners s = corners(3, 4), t = corners(3, 4);
     const bool expected = expected_to_meet(s, t);
     for (int order = 0; order < 4; ++order) {

@@ -115,7 +115,7 @@ TEST(ObbTree, CopiesOfOneFacetAreDividedByCount) {
 /// may be found apart. Headings are random or turn by quarters, so that edges are parallel in many.
 TEST(BoxOverlap, NeverMissesACommonPoint) {
   Random random(1996);
-  for (int i = 0; i < 100'000; ++i) {
+  for (std::uint32_t i = 0; i < test::samples(100'000); ++i) {
     std::vector<Facet> facets_a = facets_of_some_kind(random), facets_b = facets_of_some_kind(random);
     const Eigen::Vector3f p = facets_a[random.below(static_cast<std::uint32_t>(facets_a.size()))][0];
     Eigen::Vector3f& q = facets_b[random.below(static_cast<std::uint32_t>(facets_b.size()))][1];
@@ -141,7 +141,7 @@ TEST(BoxOverlap, NeverMissesACommonPoint) {
 
 TEST(RectangleOverlap, NeverMissesACommonPoint) {
   Random random(1997);
-  for (int i = 0; i < 100'000; ++i) {
+  for (std::uint32_t i = 0; i < test::samples(100'000); ++i) {
     std::vector<Facet> facets[2];
     for (auto& set : facets) {
       set = random_facets(random, 1 + random.below(6), {1, random.below(2) == 0 ? 1.0f : 1e-5f, 0});
@@ -176,7 +176,7 @@ std::vector<Facet> block(const Eigen::Vector3f& half, const Eigen::Quaternionf& 
 /// the noise must not separate them.
 TEST(BoxOverlap, ParallelEdgesDoNotSeparate) {
   Random random(2005);
-  for (int i = 0; i < 20'000; ++i) {
+  for (std::uint32_t i = 0; i < test::samples(20'000); ++i) {
     const auto side = [&] { return static_cast<float>(random.uniform(0.1, 1)); };
     const Eigen::Vector3f half_a(side(), side(), side()), half_b(side(), side(), side());
     const Eigen::Quaternionf tilt(Eigen::AngleAxisf(static_cast<float>(random.uniform(-pi, pi)),

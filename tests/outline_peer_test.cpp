@@ -24,7 +24,7 @@ void expect_right_outlines(const std::vector<Character>& characters, std::uint32
     Skinner skinner(character);
     OutlineBuilder builder(character.triangles, character.vertices.size(), character.vertices);
     Outline outline;
-    for (const PoseTime& time : sample_poses(character, poses)) {
+    for (const PoseTime& time : sample_poses(character, test::samples(poses))) {
       SCOPED_TRACE(character.name + ", clip " + std::to_string(time.clip) + ", " +
                    std::to_string(time.seconds) + " s");
       const auto positions = skinner.pose(time);

@@ -41,6 +41,7 @@ void expect_no_crossing_missed(const std::vector<Character>& characters, std::ui
                              baselines::exact_placement(agents, pair.first, pair.second))
         .cross();
   };
+  pairs = test::samples(pairs);
   test::PairScene scene = random_scene(random, set, pairs);
   for (std::uint32_t i = 0; i < pairs; ++i)
     scene.crowd.shape[2 * i] = i % set.shape_count();  // every pose takes part

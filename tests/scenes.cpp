@@ -145,7 +145,7 @@ PairScene random_scene(Random& random, const ShapeSet& shapes, std::uint32_t pai
     return std::hypot(static_cast<double>(root.x), static_cast<double>(root.y)) +
            static_cast<double>(root.radius);
   };
-  pairs = samples(pairs);
+  if (pairs >= 5'000) pairs = samples(pairs);
   PairScene scene;
   for (std::uint32_t i = 0; i < pairs; ++i) {
     const std::uint32_t a = random.below(shapes.shape_count()), b = random.below(shapes.shape_count());
