@@ -48,6 +48,8 @@ struct Avx2Lanes : Lanes<xsimd::avx2> {
     const __m128 pairs = _mm_min_ps(fours, _mm_movehl_ps(fours, fours));
     return _mm_cvtss_f32(_mm_min_ss(pairs, _mm_shuffle_ps(pairs, pairs, 1)));
   }
+  static constexpr float rough = 0x1p-11f;
+  static Float rough_root(Float x) noexcept { return x * Float(_mm256_rsqrt_ps(x)); }
 };
 
 }  // namespace

@@ -26,7 +26,8 @@ namespace bch::kernel {
 /// 2^-18 in place of near, exceeds D' - (R_A + R_B) by 17.7 u S + 7.6 u D for the distance (D' <= D + 2 S), and 9 u
 /// S + 4 u D for what follows (R_A + R_B <= D' + S, or v' is below any v); v falls short of D - (r_A + r_B) by 15.7
 /// u S + 26.6 u D. All together: 42.4 u S, for which `slack` = 64 u S is taken off beside, and 38.2 u D, for which
-/// nearer takes 64. So v' <= v, and leaving out what is above the best never loses a tie.
+/// nearer takes 64. So v' <= v, and leaving out what is above the best never loses a tie. Its root is rough_root(),
+/// shortened by more than that is off.
 template <class Simd>
 class ClearanceMeasure {
  public:
@@ -41,9 +42,9 @@ class ClearanceMeasure {
   const NearestDiscs& nearest() const noexcept { return nearest_; }
   float best() const noexcept { return nearest_.distance; }
 
-  Float bound(Float x, Float y, Float r) const noexcept { return gap(x, y, r + Float(slack_), nearer); }
+  Float bound(Float x, Float y, Float r) const noexcept { return rough_gap(x, y, r + Float(slack_)); }
   static Float bound(Float x, Float y, Float r, Float reach) noexcept {
-    return gap(x, y, r + Float(slack_per_reach) * reach, nearer);
+    return rough_gap(x, y, r + Float(slack_per_reach) * reach);
   }
 
   /// Without roots, for a block or a window. v <= best means sqrt(x^2 + y^2) <= (r + best + u |best|) (1 + 19 u); the
@@ -54,14 +55,9 @@ class ClearanceMeasure {
   }
 
   void meet(const Transform& at, Discs a, Discs b, std::uint32_t first_a, std::uint32_t first_b) noexcept {
-    alignas(64) float gaps[block_pairs];
-    Float least(far_beyond);
-    visit_disc_pairs<Simd>(at, a, b, [&](unsigned k, Float x, Float y, Float r) {
-      const Float value = gap(x, y, r, near);
-      Simd::store(gaps + k, value);
-      least = xsimd::min(least, value);
-    });
-    take(at, a, b, first_a, first_b, gaps, Simd::least(least));
+    take_by_bounds<Simd>(
+        at, a, b, [this](Float x, Float y, Float r) { return bound(x, y, r); }, [this] { return best(); },
+        [=, this](unsigned k, const DiscPair& pair) { take(pair, k, first_a, first_b); });
   }
 
   /// The same of the pairs at the set bits, one after the other: for few.
@@ -69,33 +65,34 @@ class ClearanceMeasure {
                std::uint32_t first_b) noexcept {
     for (; bits != 0; bits &= bits - 1) {
       const auto k = static_cast<unsigned>(__builtin_ctzll(bits));
-      const auto [x, y, r] = disc_pair<Simd>(at, a, b, k);
-      offer({__builtin_sqrtf(x * x + y * y) * near - r, first_a + k / block_width, first_b + k % block_width,
-             x, y});
+      take(disc_pair<Simd>(at, a, b, k), k, first_a, first_b);
     }
   }
 
   /// Of one register's pairs of single discs.
-  static Float gap(Float x, Float y, Float r) noexcept { return gap(x, y, r, near); }
+  static Float gap(Float x, Float y, Float r) noexcept {
+    const Float square = x * x + y * y;
+    return Simd::select(square <= Float(far_beyond), xsimd::sqrt(square) * Float(near) - r,
+                        Float(far_beyond));
+  }
 
  private:
   static constexpr float slack_per_reach = 0x1p-18f;
   static constexpr float near = 1 - 0x1p-20f, nearer = 1 - 0x1p-18f;
+  static constexpr float least_normal = 0x1p-126f;
 
-  static Float gap(Float x, Float y, Float r, float factor) noexcept {
+  static Float rough_gap(Float x, Float y, Float r) noexcept {
     const Float square = x * x + y * y;
-    // Of padding it is infinite or NaN.
-    return Simd::select(square <= Float(far_beyond), xsimd::sqrt(square) * Float(factor) - r,
-                        Float(far_beyond));
+    const Float root =
+        Simd::rough_root(xsimd::max(square, Float(least_normal))) * Float(nearer * (1 - Simd::rough));
+    // Of padding the square is infinite or NaN.
+    return Simd::select(square <= Float(far_beyond), root - r, Float(far_beyond));
   }
 
-  /// The first of the least.
-  void take(const Transform& at, Discs a, Discs b, std::uint32_t first_a, std::uint32_t first_b,
-            const float* gaps, float least) noexcept {
-    if (!(least <= nearest_.distance)) return;
-    const unsigned k = first_within<Simd>(gaps, least);
-    const DiscPair pair = disc_pair<Simd>(at, a, b, k);
-    offer({least, first_a + k / block_width, first_b + k % block_width, pair.x, pair.y});
+  void take(const DiscPair& pair, unsigned k, std::uint32_t first_a, std::uint32_t first_b) noexcept {
+    const auto [x, y, r] = pair;
+    offer({__builtin_sqrtf(x * x + y * y) * near - r, first_a + k / block_width, first_b + k % block_width, x,
+           y});
   }
 
   /// Takes what is less than the best or comes before it.

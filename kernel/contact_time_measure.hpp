@@ -30,7 +30,8 @@ namespace bch::kernel {
 /// R'_B + 16 u D, and rounding brings 20 u S and 4 u D beside, with D <= D' + 2 S: `slack` = 128 u S and 128 u (|x| +
 /// |y|) have room for those 60 u S + 20 u D', and for what follows. The distances along the way and aside are off by 4 u
 /// D' each. That and 3 u of the squares make the root smaller by less than a radius enlarged by 8 u D' does, and the
-/// difference later by 4 u D' + u R'. Times are shortened by 16 u, for the 3 u of 1 / |v| and the product's.
+/// difference later by 4 u D' + u R'. Times are shortened by 16 u, for the 3 u of 1 / |v| and the product's. The root is
+/// rough_root(), lengthened by more than that is off.
 template <class Simd>
 class ContactTimeMeasure {
  public:
@@ -53,25 +54,15 @@ class ContactTimeMeasure {
     const Float along = (x * Float(x_) + y * Float(y_)) * Float(per_length_);
     const Float aside = (x * Float(y_) - y * Float(x_)) * Float(per_length_);
     const Float left = radius * radius - aside * aside, zero(0.0f), never(far_beyond);
-    const Float half = xsimd::sqrt(xsimd::max(left, zero));
+    const Float half = Simd::rough_root(xsimd::max(left, Float(least_normal))) * Float(1 + Simd::rough);
     const Float time = xsimd::max((along - half) * Float(per_length_), zero);
     return Simd::select(left >= zero, Simd::select(along + half >= zero, time, never), never);
   }
 
-  /// The discs with the least bound first, which leaves out most others.
   void meet(const Transform& at, Discs a, Discs b, std::uint32_t, std::uint32_t) noexcept {
-    alignas(64) float bounds[block_pairs];
-    visit_disc_pairs<Simd>(
-        at, a, b, [&](unsigned k, Float x, Float y, Float r) { Simd::store(bounds + k, bound(x, y, r)); });
-    const float least = least_value<Simd>(bounds);
-    if (!(least <= best())) return;
-    const unsigned first = first_within<Simd>(bounds, least);
-    take(disc_pair<Simd>(at, a, b, first));
-    std::uint64_t open = all_within<Simd>(bounds, best()) & ~(std::uint64_t{1} << first);
-    for (; open != 0; open &= open - 1) {
-      const auto k = static_cast<unsigned>(__builtin_ctzll(open));
-      if (bounds[k] <= best()) take(disc_pair<Simd>(at, a, b, k));
-    }
+    take_by_bounds<Simd>(
+        at, a, b, [this](Float x, Float y, Float r) { return bound(x, y, r); }, [this] { return best(); },
+        [this](unsigned, const DiscPair& pair) { take(pair.x, pair.y, pair.r); });
   }
 
   /// Takes the time of two discs of the cuts.
@@ -88,7 +79,7 @@ class ContactTimeMeasure {
   }
 
  private:
-  void take(const DiscPair& pair) noexcept { take(pair.x, pair.y, pair.r); }
+  static constexpr float least_normal = 0x1p-126f;
 
   Float enlarged(Float x, Float y, Float r) const noexcept {
     return r + Float(slack_) + Float(0x1p-17f) * (xsimd::abs(x) + xsimd::abs(y));

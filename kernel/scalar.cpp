@@ -15,6 +15,8 @@ struct ScalarLanes : Lanes<Scalar> {
   static void store_rounded(float* p, double v) noexcept { *p = static_cast<float>(v); }
   static std::uint32_t bits(bool hit) noexcept { return hit; }
   static float least(float values) noexcept { return values; }
+  static constexpr float rough = 0;
+  static float rough_root(float x) noexcept { return __builtin_sqrtf(x); }
 };
 
 }  // namespace

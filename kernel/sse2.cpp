@@ -28,6 +28,8 @@ struct Sse2Lanes : Lanes<xsimd::sse2> {
     const __m128 pairs = _mm_min_ps(values, _mm_movehl_ps(values, values));
     return _mm_cvtss_f32(_mm_min_ss(pairs, _mm_shuffle_ps(pairs, pairs, 1)));
   }
+  static constexpr float rough = 0x1p-11f;
+  static Float rough_root(Float x) noexcept { return x * Float(_mm_rsqrt_ps(x)); }
 };
 
 }  // namespace

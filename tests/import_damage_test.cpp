@@ -77,7 +77,7 @@ std::string damaged(std::string bytes, test::Random& random) {
 }
 
 /// Than the program gives, so that files which exhaust it take less long.
-constexpr ImportLimits less{std::chrono::seconds(20), std::size_t{512} << 20};
+constexpr ImportLimits less{std::chrono::seconds(5), std::size_t{512} << 20};
 
 struct Outcomes {
   std::size_t read = 0, refused = 0, stopped = 0;
