@@ -70,7 +70,7 @@ std::function<void()> add_report_command(CLI::App& program) {
       *program.add_subcommand("report", "Run the paper's experiments, and write a page about them");
   command.footer(
       "Writes DIR/report.html, one page with all charts and tables, and the tables as CSV and JSON files.\n"
-      "Charts need gnuplot. On two cores all takes about 20 minutes, 2 with --quick.\n"
+      "Charts need gnuplot. On two cores all takes about 10 minutes, 1 with --quick.\n"
       "Example: bch report --out report --quick");
   command.add_option("--out", options->report.folder, "Folder for the page and its tables")
       ->type_name("DIR")

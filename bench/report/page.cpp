@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <map>
 
 #include "bench/exit_codes.hpp"
@@ -42,15 +43,24 @@ bool is_number(std::string_view cell) {
   return cli::parse_number(cell).has_value();
 }
 
+bool has_numbers(const Table& table, std::size_t column) {
+  return std::any_of(table.rows().begin(), table.rows().end(),
+                     [&](const auto& row) { return is_number(row[column]); });
+}
+
 std::string html_of(const Table& table, std::string_view name) {
   std::string html =
       fmt::format("<div class=\"wide\"><table id=\"{0}\"><caption>{0}.csv</caption>\n<thead><tr>", name);
-  for (const std::string& column : table.columns()) html += fmt::format("<th>{}</th>", escaped(column));
+  std::vector<const char*> kinds;  // of columns: numbers are on the right, with a word among them
+  for (std::size_t column = 0; column < table.columns().size(); ++column) {
+    kinds.push_back(has_numbers(table, column) ? " class=\"number\"" : "");
+    html += fmt::format("<th{}>{}</th>", kinds[column], escaped(table.columns()[column]));
+  }
   html += "</tr></thead>\n<tbody>\n";
   for (const auto& row : table.rows()) {
     html += "<tr>";
-    for (const std::string& cell : row)
-      html += fmt::format("<td{}>{}</td>", is_number(cell) ? " class=\"number\"" : "", shown(cell));
+    for (std::size_t column = 0; column < row.size(); ++column)
+      html += fmt::format("<td{}>{}</td>", kinds[column], shown(row[column]));
     html += "</tr>\n";
   }
   return html + "</tbody></table></div>\n";

@@ -28,9 +28,10 @@ table { border-collapse: collapse; font-size: 13.5px; line-height: 1.35; }
 caption { text-align: left; color: #4a4a4a; font-size: 12.5px; padding-bottom: 4px; }
 th { text-align: left; vertical-align: bottom; border-bottom: 1.5px solid #1a1a1a; padding: 3px 14px 3px 0; }
 td { border-bottom: 1px solid #ddd; padding: 3px 14px 3px 0; }
+th.number { text-align: right; }
 td.number { text-align: right; font-variant-numeric: tabular-nums; white-space: nowrap; }
 @media (max-width: 600px) { body { font-size: 15px; } main { padding: 12px 12px 40px; } h1 { font-size: 24px; }
-  nav ol { columns: 1; } }
+  nav ol { columns: 1; } td { white-space: nowrap; } }
 @media print { main { max-width: none; padding: 0; } nav { display: none; } .wide { overflow: visible; }
   table { font-size: 8.5pt; } h2 { break-after: avoid; } tr { break-inside: avoid; }
   .figures { grid-template-columns: 1fr 1fr; gap: 8px 16px; } }

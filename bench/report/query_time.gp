@@ -1,7 +1,7 @@
 load "style.gp"
 set output "query_time.svg"
-set terminal svg size 600,520 dynamic font "Helvetica,Arial,sans-serif,14" background rgb "white"
-set bmargin screen 0.27
+set terminal svg size 600,560 dynamic font "Helvetica,Arial,sans-serif,14" background rgb "white"
+set bmargin screen 0.30
 set lmargin screen 0.36
 set logscale x
 set format x "%.0f"

@@ -30,22 +30,20 @@ void add_family(const bench::StabilityFamily& family, const std::vector<bench::S
       refused.add({fmt::format("{}: {}", family.title, row.value), row.refused});
       continue;
     }
-    table.add({family.name, family.title, row.value, row.conditioning, row.pairs, row.meeting,
-               bench::missed(row, row.plain_float), bench::missed(row, row.plain_double),
-               bench::missed(row, row.ours), bench::falsely_hit(row, row.plain_float),
-               bench::falsely_hit(row, row.plain_double), bench::falsely_hit(row, row.ours),
-               micrometres(row.plain_float), micrometres(row.plain_double), micrometres(row.ours),
-               row.outlines_meeting, row.outline_misses});
+    table.add({family.name, row.value, row.pairs, row.meeting, bench::missed(row, row.plain_float),
+               bench::missed(row, row.plain_double), bench::missed(row, row.ours),
+               bench::falsely_hit(row, row.plain_float), bench::falsely_hit(row, row.plain_double),
+               bench::falsely_hit(row, row.ours), micrometres(row.plain_float), micrometres(row.plain_double),
+               micrometres(row.ours), row.outlines_meeting, row.outline_misses});
   }
 }
 
 void add_rows(Run& run) {
   const std::vector<bench::StabilityRow> rows = bench::stability_rows(run.sizes().contacts, run.seed());
-  Table table({"family", "case", "value", "value as a number", "pairs near contact", "of them meeting",
-               "float: missed (%)", "double: missed (%)", "bch: missed (%)", "float: false hits (%)",
-               "double: false hits (%)", "bch: false hits (%)", "float: largest error (um/m)",
-               "double: largest error (um/m)", "bch: largest error (um/m)", "outlines that meet",
-               "outlines missed by bch"});
+  Table table({"family", "value", "pairs near contact", "of them meeting", "float: missed (%)",
+               "double: missed (%)", "bch: missed (%)", "float: false hits (%)", "double: false hits (%)",
+               "bch: false hits (%)", "float: largest error (um/m)", "double: largest error (um/m)",
+               "bch: largest error (um/m)", "outlines that meet", "outlines missed by bch"});
   Table refused({"case", "exception"});
   for (const bench::StabilityFamily& family : bench::stability_families())
     add_family(family, rows, table, refused);

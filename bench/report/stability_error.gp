@@ -10,5 +10,5 @@ tests = '"float" "double" "bch"'
 names = '"plain float" "plain double" "bch"'
 at(name) = strcol("family") eq "offset" ? column(name) : NaN
 where(x) = x < 1 ? 1 : x
-plot for [i=1:3] 'stability.csv' using (where(at("value as a number"))):(at(word(tests, i).": largest error (um/m)")) with linespoints linestyle i pointsize 1 title word(names, i), \
+plot for [i=1:3] 'stability.csv' using (where(at("value"))):(at(word(tests, i).": largest error (um/m)")) with linespoints linestyle i pointsize 1 title word(names, i), \
   4 with lines linestyle 8 dashtype 2 title "promised"

@@ -10,4 +10,4 @@ tests = '"float" "double" "bch"'
 names = '"plain float" "plain double" "bch"'
 at(name) = strcol("family") eq "offset" ? column(name) : NaN
 where(x) = x < 1 ? 1 : x
-plot for [i=1:3] 'stability.csv' using (where(at("value as a number"))):(at(word(tests, i).": missed (%)")) with linespoints linestyle i pointsize 1 title word(names, i)
+plot for [i=1:3] 'stability.csv' using (where(at("value"))):(at(word(tests, i).": missed (%)")) with linespoints linestyle i pointsize 1 title word(names, i)
