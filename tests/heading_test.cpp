@@ -32,6 +32,21 @@ TEST(Heading, IsWithinItsBoundsEverywhere) {
   }
 }
 
+/// Where nothing is reduced: what the polynomials leave out, and the rounding of doubles.
+TEST(Heading, PolynomialsAreWithinTheTermsTheyLeaveOut) {
+  for (int i = -1000; i <= 1000; ++i) {
+    const double heading = i * std::numbers::pi / 4000;
+    const Rotation at = rotation(heading);
+    const long double size = std::abs(static_cast<long double>(heading));
+    EXPECT_LE(std::abs(at.sine - std::sin(static_cast<long double>(heading))),
+              std::pow(size, 13) / 6.2e9L + 3e-16L)
+        << heading;
+    EXPECT_LE(std::abs(at.cosine - std::cos(static_cast<long double>(heading))),
+              std::pow(size, 12) / 4.7e8L + 3e-16L)
+        << heading;
+  }
+}
+
 TEST(Heading, QuarterTurns) {
   for (int quarter = -9; quarter <= 9; ++quarter) {
     const UnitVector u = unit_vector(quarter * std::numbers::pi / 2);
