@@ -49,7 +49,9 @@ struct Avx2Lanes : Lanes<xsimd::avx2> {
     return _mm_cvtss_f32(_mm_min_ss(pairs, _mm_shuffle_ps(pairs, pairs, 1)));
   }
   static constexpr float rough = 0x1p-11f;
-  static Float rough_root(Float x) noexcept { return x * Float(_mm256_rsqrt_ps(x)); }
+  static Float rough_root(Float x) noexcept {
+    return x * Float(_mm256_rsqrt_ps(x));
+  }
 };
 
 }  // namespace

@@ -62,7 +62,9 @@ struct Avx512Lanes : Lanes<xsimd::avx512f> {
     return _mm512_reduce_min_ps(values);
   }
   static constexpr float rough = 0x1p-13f;
-  static Float rough_root(Float x) noexcept { return x * Float(_mm512_rsqrt14_ps(x)); }
+  static Float rough_root(Float x) noexcept {
+    return x * Float(_mm512_rsqrt14_ps(x));
+  }
 };
 
 }  // namespace

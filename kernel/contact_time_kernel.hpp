@@ -51,10 +51,7 @@ class ContactTimeKernel {
       return;
     }
     if (shapes_.support != nullptr && open_.size != 0) part_by_supports();
-    for (std::uint32_t k = 0; k < open_.size; ++k) {
-      if (k + 2 < open_.size) prefetch(open_.pair[k + 2]);
-      time[open_.pair[k]] = time_of_trees(open_.pair[k]);
-    }
+    for (std::uint32_t k = 0; k < open_.size; ++k) time[open_.pair[k]] = time_of_trees(open_.pair[k]);
   }
 
   void part_by_supports() noexcept {
@@ -80,15 +77,6 @@ class ContactTimeKernel {
 
   float reach(std::uint32_t pair) const noexcept {
     return shapes_.reach[at_.shape_a[pair]] + shapes_.reach[at_.shape_b[pair]];
-  }
-
-  void prefetch(std::uint32_t pair) const noexcept {
-    for (const std::uint32_t root : {at_.root_a[pair], at_.root_b[pair]}) {
-      const Tree& tree = shapes_.trees[root];
-      const float* const discs = walk_.discs(tree.top, tree.stride).x;
-      __builtin_prefetch(discs);
-      __builtin_prefetch(discs + 16);
-    }
   }
 
   float time_of_trees(std::uint32_t pair) noexcept {
