@@ -79,12 +79,10 @@ class ClearanceMeasure {
  private:
   static constexpr float slack_per_reach = 0x1p-18f;
   static constexpr float near = 1 - 0x1p-20f, nearer = 1 - 0x1p-18f;
-  static constexpr float least_normal = 0x1p-126f;
 
   static Float rough_gap(Float x, Float y, Float r) noexcept {
     const Float square = x * x + y * y;
-    const Float root =
-        Simd::rough_root(xsimd::max(square, Float(least_normal))) * Float(nearer * (1 - Simd::rough));
+    const Float root = rough_root<Simd>(square) * Float(nearer * (1 - Simd::rough));
     // Of padding the square is infinite or NaN.
     return Simd::select(square <= Float(far_beyond), root - r, Float(far_beyond));
   }

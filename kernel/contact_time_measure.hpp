@@ -54,7 +54,7 @@ class ContactTimeMeasure {
     const Float along = (x * Float(x_) + y * Float(y_)) * Float(per_length_);
     const Float aside = (x * Float(y_) - y * Float(x_)) * Float(per_length_);
     const Float left = radius * radius - aside * aside, zero(0.0f), never(far_beyond);
-    const Float half = Simd::rough_root(xsimd::max(left, Float(least_normal))) * Float(1 + Simd::rough);
+    const Float half = rough_root<Simd>(left) * Float(1 + Simd::rough);
     const Float time = xsimd::max((along - half) * Float(per_length_), zero);
     return Simd::select(left >= zero, Simd::select(along + half >= zero, time, never), never);
   }
@@ -79,8 +79,6 @@ class ContactTimeMeasure {
   }
 
  private:
-  static constexpr float least_normal = 0x1p-126f;
-
   Float enlarged(Float x, Float y, Float r) const noexcept {
     return r + Float(slack_) + Float(0x1p-17f) * (xsimd::abs(x) + xsimd::abs(y));
   }

@@ -91,4 +91,10 @@ struct Lanes<Scalar> {
   }
 };
 
+/// sqrt(x), x >= 0, nearly: as Simd's rough_root(), of what is less than the least normal number that of this.
+template <class Simd>
+typename Simd::Float rough_root(typename Simd::Float x) noexcept {
+  return Simd::rough_root(xsimd::max(x, typename Simd::Float(0x1p-126f)));
+}
+
 }  // namespace bch::kernel
