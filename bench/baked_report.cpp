@@ -38,8 +38,7 @@ std::string clips_text(const ShapeOrigins& origins, std::uint32_t character) {
   }
   std::string text;
   for (const auto& [clip, named] : clips)
-    fmt::format_to(std::back_inserter(text), "{}{} ({})", text.empty() ? "" : ", ", named.first,
-                   counted(named.second, "shape"));
+    text += fmt::format("{}{} ({})", text.empty() ? "" : ", ", named.first, counted(named.second, "shape"));
   return text;
 }
 
@@ -74,7 +73,7 @@ std::string text_of(const std::string& file, const BakedShapes& baked) {
   const ShapeSet& set = baked.set;
   std::string out = fmt::format("{}\n", file);
   const auto line = [&](const char* what, const std::string& text) {
-    fmt::format_to(std::back_inserter(out), "  {:<10}{}\n", what, text);
+    out += fmt::format("  {:<10}{}\n", what, text);
   };
   line("format", "baked shapes");
   line("shapes",
@@ -98,10 +97,10 @@ std::string table_text(const BakedShapes& baked) {
   std::string out = fmt::format("\n{:>6}  {:<{}}  {:<{}}  {:>9}  {:>8}  {:>6}\n", "shape", "character",
                                 widest, "clip", widest, "time", "radius", "discs");
   for (std::uint32_t s = 0; s < origins.origins.size(); ++s)
-    fmt::format_to(std::back_inserter(out), "{:>6}  {:<{}}  {:<{}}  {:>7.2f} s  {:>6.3f} m  {:>6}\n", s,
-                   origins.names[origins.origins[s].character], widest, clip_of(origins, s), widest,
-                   origins.origins[s].seconds, root_radius(set, s),
-                   disc_count(set, s, set.level_count() - 1));
+    out += fmt::format("{:>6}  {:<{}}  {:<{}}  {:>7.2f} s  {:>6.3f} m  {:>6}\n", s,
+                       origins.names[origins.origins[s].character], widest, clip_of(origins, s), widest,
+                       origins.origins[s].seconds, root_radius(set, s),
+                       disc_count(set, s, set.level_count() - 1));
   return out;
 }
 

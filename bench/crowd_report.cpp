@@ -57,10 +57,10 @@ std::string level_table(const CrowdRun& run) {
   std::string out =
       fmt::format("{:>5} {:>9} {:>13} {:>10} {:>9}\n", "depth", "discs", "collisions", "cleared", "ns/pair");
   for (const LevelAnswers& level : run.answers.levels)
-    fmt::format_to(std::back_inserter(out), "{:>5} {:>9.1f} {:>13} {:>10} {:>9.1f}\n",
-                   depth_name(level.depth), level.discs, grouped(level.hit_count),
-                   level.depth == 0 ? "-" : fmt::format("{:.1f} %", 100 * share_cleared(run, level)),
-                   level.nanoseconds_per_pair);
+    out += fmt::format("{:>5} {:>9.1f} {:>13} {:>10} {:>9.1f}\n", depth_name(level.depth), level.discs,
+                       grouped(level.hit_count),
+                       level.depth == 0 ? "-" : fmt::format("{:.1f} %", 100 * share_cleared(run, level)),
+                       level.nanoseconds_per_pair);
   return out;
 }
 
@@ -134,8 +134,7 @@ std::string csv_report(const CrowdRun& run) {
   std::string out = "first,second\n";
   for (std::size_t i = 0; i < run.answers.pairs.size(); ++i)
     if (run.answers.finest().hits[i] != 0)
-      fmt::format_to(std::back_inserter(out), "{},{}\n", run.answers.pairs[i].first,
-                     run.answers.pairs[i].second);
+      out += fmt::format("{},{}\n", run.answers.pairs[i].first, run.answers.pairs[i].second);
   return out;
 }
 

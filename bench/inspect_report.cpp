@@ -78,7 +78,7 @@ std::string text_of(const LoadedCharacter& character) {
   const ImportReport& report = character.report;
   std::string out = fmt::format("{}\n", character.source);
   const auto line = [&](const char* what, const std::string& text) {
-    fmt::format_to(std::back_inserter(out), "  {:<10}{}\n", what, text);
+    out += fmt::format("  {:<10}{}\n", what, text);
   };
   line("format", report.format);
   line("mesh",
@@ -95,10 +95,11 @@ std::string text_of(const LoadedCharacter& character) {
                     ? std::string("none")
                     : fmt::format("{}, {:.2f} s together", report.clips.size(), clip_seconds(report)));
   for (const ClipReport& clip : report.clips)
-    fmt::format_to(std::back_inserter(out), "  {:<10}{:>8.2f} s  {}{}\n", "", clip.seconds, clip.name,
-                   clip.channels == clip.channels_in_file
-                       ? ""
-                       : fmt::format(" ({} of {} channels move it)", clip.channels, clip.channels_in_file));
+    out +=
+        fmt::format("  {:<10}{:>8.2f} s  {}{}\n", "", clip.seconds, clip.name,
+                    clip.channels == clip.channels_in_file
+                        ? ""
+                        : fmt::format(" ({} of {} channels move it)", clip.channels, clip.channels_in_file));
   for (const std::string& note : report.notes) line("note", note);
   return out;
 }
@@ -111,9 +112,8 @@ std::string text_of(const LoadedCharacter& character, const ShapeTable& table) {
   for (std::size_t i = 0; i < table.sources.size(); ++i) {
     const PoseTime at = table.sources[i].at;
     const Shape& shape = table.shapes[i];
-    fmt::format_to(std::back_inserter(out), "{:>6}  {:<{}}  {:>7.2f} s  {:>6.3f} m  {:>6}  {:>6}\n", i,
-                   clip_name(character, at), widest, at.seconds, root_radius(shape),
-                   shape.hierarchy.nodes.size(), leaves(shape));
+    out += fmt::format("{:>6}  {:<{}}  {:>7.2f} s  {:>6.3f} m  {:>6}  {:>6}\n", i, clip_name(character, at),
+                       widest, at.seconds, root_radius(shape), shape.hierarchy.nodes.size(), leaves(shape));
   }
   return out;
 }
@@ -125,12 +125,12 @@ std::string text_of(const LoadedCharacter& character, const ShapeFacts& facts) {
       counted(outline.contours(), "contour"), counted(outline.points.size(), "point"), facts.outline_area,
       counted(facts.shape.hierarchy.nodes.size(), "node"),
       leaves(facts.shape) == 1 ? std::string("1 leaf") : grouped(leaves(facts.shape)) + " leaves");
-  fmt::format_to(std::back_inserter(out), "{:>6}  {:>6}  {:>11}  {:>9}  {:>10}\n", "depth", "discs",
-                 "mean radius", "area", "of outline");
+  out += fmt::format("{:>6}  {:>6}  {:>11}  {:>9}  {:>10}\n", "depth", "discs", "mean radius", "area",
+                     "of outline");
   for (const DepthFacts& depth : facts.depths)
-    fmt::format_to(std::back_inserter(out), "{:>6}  {:>6}  {:>9.4f} m  {:>6.3f} m2  {:>10}\n", depth.depth,
-                   depth.discs, depth.mean_radius, depth.area,
-                   facts.outline_area > 0 ? fmt::format("{:.2f}", depth.area / facts.outline_area) : "-");
+    out += fmt::format("{:>6}  {:>6}  {:>9.4f} m  {:>6.3f} m2  {:>10}\n", depth.depth, depth.discs,
+                       depth.mean_radius, depth.area,
+                       facts.outline_area > 0 ? fmt::format("{:.2f}", depth.area / facts.outline_area) : "-");
   return out +
          "\nAreas are exact, of the discs by the arcs of their union. Deep discs follow the outline and "
          "leave its inside "

@@ -27,8 +27,7 @@ std::string collide_rows(const QueryInput& input) {
   std::vector<std::uint8_t> hits(input.pairs.size());
   collide(input.set, input.table.agents(), input.pairs, hits, input.options);
   std::string out;
-  for (std::size_t i = 0; i < hits.size(); ++i)
-    fmt::format_to(std::back_inserter(out), "{},{:d}\n", ids(input, i), hits[i]);
+  for (std::size_t i = 0; i < hits.size(); ++i) out += fmt::format("{},{:d}\n", ids(input, i), hits[i]);
   return out;
 }
 
@@ -38,7 +37,7 @@ std::string contact_rows(const QueryInput& input) {
   std::string out;
   for (std::size_t i = 0; i < input.pairs.size(); ++i)
     for (const Contact& contact : table.of(i))
-      fmt::format_to(std::back_inserter(out), "{},{},{}\n", ids(input, i), contact.first, contact.second);
+      out += fmt::format("{},{},{}\n", ids(input, i), contact.first, contact.second);
   return out;
 }
 
@@ -54,8 +53,7 @@ std::string separation_rows(const QueryInput& input) {
   }
   std::string out;
   for (std::size_t i = 0; i < ways.size(); ++i)
-    fmt::format_to(std::back_inserter(out), "{},{},{},{}\n", ids(input, i), ways[i].depth, ways[i].x,
-                   ways[i].y);
+    out += fmt::format("{},{},{},{}\n", ids(input, i), ways[i].depth, ways[i].x, ways[i].y);
   return out;
 }
 
@@ -66,8 +64,7 @@ std::string clearance_rows(const QueryInput& input) {
             {input.max_distance, input.options.implementation});
   std::string out;
   for (std::size_t i = 0; i < distance.size(); ++i)
-    fmt::format_to(std::back_inserter(out), "{},{},{},{}\n", ids(input, i), distance[i], direction[i].x,
-                   direction[i].y);
+    out += fmt::format("{},{},{},{}\n", ids(input, i), distance[i], direction[i].x, direction[i].y);
   return out;
 }
 
@@ -80,8 +77,7 @@ std::string contact_time_rows(const QueryInput& input) {
   std::vector<float> time(input.pairs.size());
   contact_time(input.set, input.table.agents(), input.pairs, {x, y}, time, {input.options.implementation});
   std::string out;
-  for (std::size_t i = 0; i < time.size(); ++i)
-    fmt::format_to(std::back_inserter(out), "{},{}\n", ids(input, i), time[i]);
+  for (std::size_t i = 0; i < time.size(); ++i) out += fmt::format("{},{}\n", ids(input, i), time[i]);
   return out;
 }
 

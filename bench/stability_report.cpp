@@ -6,7 +6,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <iterator>
 #include <nlohmann/json.hpp>
 
 #include "bench/chart.hpp"
@@ -77,9 +76,9 @@ std::string text_of(std::span<const StabilityRow> rows) {
       "of those "
       "bch misses.\n";
   for (const StabilityFamily& family : bench::stability_families()) {
-    fmt::format_to(std::back_inserter(out), "\n{}{}{}\n{:>32} {:>6} {:>6}", family.title,
-                   family.axis ? ": " : "", family.axis ? family.axis : "", "", "pairs", "meet");
-    for (const Test& test : tests) fmt::format_to(std::back_inserter(out), " | {:^22}", test.name);
+    out += fmt::format("\n{}{}{}\n{:>32} {:>6} {:>6}", family.title, family.axis ? ": " : "",
+                       family.axis ? family.axis : "", "", "pairs", "meet");
+    for (const Test& test : tests) out += fmt::format(" | {:^22}", test.name);
     out += " | outlines\n";
     for (const StabilityRow* row : of_family(family, rows)) out += line(*row);
   }
@@ -94,15 +93,15 @@ std::string csv_of(std::span<const StabilityRow> rows) {
       out += fmt::format(",{}_{}", test.key, column);
   out += ",outlines,outlines_meeting,outline_misses,refused\n";
   for (const StabilityRow& row : rows) {
-    fmt::format_to(std::back_inserter(out), "{},{},{},{},{}", row.family, csv_field(row.value),
-                   row.conditioning, row.pairs, row.meeting);
+    out += fmt::format("{},{},{},{},{}", row.family, csv_field(row.value), row.conditioning, row.pairs,
+                       row.meeting);
     for (const Test& test : tests) {
       const Errors& e = row.*test.errors;
-      fmt::format_to(std::back_inserter(out), ",{},{},{},{},{},{}", e.misses, e.false_positives,
-                     e.deepest_miss, e.largest_gap, e.miss_per_reach, e.gap_per_reach);
+      out += fmt::format(",{},{},{},{},{},{}", e.misses, e.false_positives, e.deepest_miss, e.largest_gap,
+                         e.miss_per_reach, e.gap_per_reach);
     }
-    fmt::format_to(std::back_inserter(out), ",{},{},{},{}\n", row.outlines, row.outlines_meeting,
-                   row.outline_misses, csv_field(row.refused));
+    out += fmt::format(",{},{},{},{}\n", row.outlines, row.outlines_meeting, row.outline_misses,
+                       csv_field(row.refused));
   }
   return out;
 }

@@ -6,7 +6,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <iterator>
 #include <nlohmann/json.hpp>
 
 #include "bench/chart.hpp"
@@ -51,24 +50,23 @@ std::string text_of(const StiffReport& report) {
       "Stiff contact: 80 kg, k = 1.2e5 kg/s2, kappa = 2.4e5 kg/(m s), semi-implicit Euler\n"
       "scene            depth  measure          2 / omega  largest stable step  jitter at rest\n";
   for (const StiffRow& row : report.rows)
-    fmt::format_to(std::back_inserter(out), "{:<16} {:>5}  {:<15} {:>7.1f} ms {:>17} {:>15}\n", row.scene,
-                   row.depth, name_of(row.measure), row.bound * 1e3,
-                   row.largest_step > 0 ? fmt::format("{:.0f} ms", row.largest_step * 1e3) : "below 2 ms",
-                   row.jitter > 0 ? fmt::format("{:.2f} mm/s", row.jitter * 1e3) : "-");
+    out += fmt::format("{:<16} {:>5}  {:<15} {:>7.1f} ms {:>17} {:>15}\n", row.scene, row.depth,
+                       name_of(row.measure), row.bound * 1e3,
+                       row.largest_step > 0 ? fmt::format("{:.0f} ms", row.largest_step * 1e3) : "below 2 ms",
+                       row.jitter > 0 ? fmt::format("{:.2f} mm/s", row.jitter * 1e3) : "-");
   out +=
       "\nTwo agents bounce at 1 m/s          depth at the beginning     energy created\n"
       "depth  measure          bounces     mean    largest        mean size    largest\n";
   for (const BounceRow& row : report.bounces)
-    fmt::format_to(std::back_inserter(out),
-                   "{:>5}  {:<15} {:>8} {:>5.1f} mm {:>7.1f} mm {:>14.2f} % {:>8.1f} %\n", row.depth,
-                   name_of(row.measure), row.bounces, row.onset * 1e3, row.largest_onset * 1e3,
-                   row.energy * 100, row.most_energy * 100);
+    out += fmt::format("{:>5}  {:<15} {:>8} {:>5.1f} mm {:>7.1f} mm {:>14.2f} % {:>8.1f} %\n", row.depth,
+                       name_of(row.measure), row.bounces, row.onset * 1e3, row.largest_onset * 1e3,
+                       row.energy * 100, row.most_energy * 100);
   out +=
       "\nTwo agents slide over each other by 0.1 mm a step\n"
       "depth  measure          largest change of depth  by the motion  of direction\n";
   for (const SlideRow& row : report.slides)
-    fmt::format_to(std::back_inserter(out), "{:>5}  {:<15} {:>20.3f} mm {:>14.2f} {:>9.3f} rad\n", row.depth,
-                   name_of(row.measure), row.jump * 1e3, row.change, row.turn);
+    out += fmt::format("{:>5}  {:<15} {:>20.3f} mm {:>14.2f} {:>9.3f} rad\n", row.depth, name_of(row.measure),
+                       row.jump * 1e3, row.change, row.turn);
   return out;
 }
 
@@ -76,16 +74,15 @@ std::string csv_of(const StiffReport& report) {
   std::string out =
       "measure,depth,kind,scene,bound_s,largest_step_s,jitter_m_s,bounces,onset_m,largest_onset_m,"
       "energy,most_energy,depth_change,depth_jump_m,turn_rad\n";
-  const auto into = std::back_inserter(out);
   for (const StiffRow& row : report.rows)
-    fmt::format_to(into, "{},{},press,{},{},{},{},,,,,,,,\n", name_of(row.measure), row.depth, row.scene,
-                   row.bound, row.largest_step, row.jitter);
+    out += fmt::format("{},{},press,{},{},{},{},,,,,,,,\n", name_of(row.measure), row.depth, row.scene,
+                       row.bound, row.largest_step, row.jitter);
   for (const BounceRow& row : report.bounces)
-    fmt::format_to(into, "{},{},bounce,,,,,{},{},{},{},{},,,\n", name_of(row.measure), row.depth, row.bounces,
-                   row.onset, row.largest_onset, row.energy, row.most_energy);
+    out += fmt::format("{},{},bounce,,,,,{},{},{},{},{},,,\n", name_of(row.measure), row.depth, row.bounces,
+                       row.onset, row.largest_onset, row.energy, row.most_energy);
   for (const SlideRow& row : report.slides)
-    fmt::format_to(into, "{},{},slide,,,,,,,,,,{},{},{}\n", name_of(row.measure), row.depth, row.change,
-                   row.jump, row.turn);
+    out += fmt::format("{},{},slide,,,,,,,,,,{},{},{}\n", name_of(row.measure), row.depth, row.change,
+                       row.jump, row.turn);
   return out;
 }
 

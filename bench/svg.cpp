@@ -6,7 +6,6 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <iterator>
 
 #include "bench/text.hpp"
 
@@ -25,7 +24,7 @@ std::string number(double value) {
 
 template <class... Values>
 void append(std::string& out, const char* format, const Values&... values) {
-  fmt::vformat_to(std::back_inserter(out), format, fmt::make_format_args(values...));
+  out += fmt::vformat(format, fmt::make_format_args(values...));
 }
 
 }  // namespace

@@ -3,7 +3,6 @@
 
 #include "kernel/contact_time.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <sstream>
 #include <stdexcept>
@@ -13,7 +12,6 @@
 #include "kernel/pair_validation.hpp"
 #include "kernel/standard_floats.hpp"
 #include "kernel/task_ranges.hpp"
-#include "layout/heading.hpp"
 #include "layout/rounding.hpp"
 
 namespace bch {
@@ -26,8 +24,7 @@ constexpr std::size_t grain = 1024;
 
 /// The work of one task. Most pairs that overlap are known sooner from collide(), which has shortcuts for them.
 void answer(const kernel::Implementation& implementation, ContactTimeArguments arguments,
-            const Agents& agents, std::span<const Pair> pairs, const double* x, const double* y,
-            float* times) noexcept {
+            std::span<const Pair> pairs, const double* x, const double* y, float* times) noexcept {
   std::uint8_t codes[grain];
   arguments.in.pairs = pairs.data();
   arguments.in.codes = codes;
@@ -35,21 +32,18 @@ void answer(const kernel::Implementation& implementation, ContactTimeArguments a
 
   Pair open[grain];
   std::uint32_t which[grain];
-  float in_a_x[grain], in_a_y[grain], found[grain];
+  float way_x[grain], way_y[grain], found[grain];
   std::size_t count = 0;
   for (std::uint32_t i = 0; i < pairs.size(); ++i) {
     times[i] = 0;
     if (codes[i] != kernel::apart) continue;
     const auto [first, second] = pairs[i];
     const double sign = second < first ? -1 : 1;
-    const auto dx = static_cast<float>(sign * x[i]), dy = static_cast<float>(sign * y[i]);
-    const UnitVector to = unit_vector(agents.heading[std::min(first, second)]);
-    in_a_x[count] = to.cosine * dx + to.sine * dy;
-    in_a_y[count] = to.cosine * dy - to.sine * dx;
+    way_x[count] = static_cast<float>(sign * x[i]), way_y[count] = static_cast<float>(sign * y[i]);
     open[count] = pairs[i], which[count++] = i;
   }
   arguments.in.pairs = open;
-  arguments.x = in_a_x, arguments.y = in_a_y, arguments.time = found;
+  arguments.x = way_x, arguments.y = way_y, arguments.time = found;
   implementation.contact_time(arguments, 0, count);
   for (std::size_t k = 0; k < count; ++k) times[which[k]] = found[k];
 }
@@ -90,7 +84,7 @@ void contact_time(const ShapeSet& shapes, const Agents& agents, std::span<const 
   const ShapeSetView view = shapes.view();
   ContactTimeArguments arguments{kernel::arguments_for(view, agents, {}), nullptr, nullptr, nullptr};
   kernel::for_pair_ranges(pairs.size(), grain, [&](std::size_t begin, std::size_t size) {
-    answer(implementation, arguments, agents, pairs.subspan(begin, size), displacements.x.data() + begin,
+    answer(implementation, arguments, pairs.subspan(begin, size), displacements.x.data() + begin,
            displacements.y.data() + begin, times.data() + begin);
   });
 }

@@ -39,7 +39,7 @@ class ContactTimeKernel {
 
   void answer_chunk(std::size_t begin, std::uint32_t size) noexcept {
     at_.place(arguments_.in, begin, size);
-    x_ = arguments_.x + begin, y_ = arguments_.y + begin;
+    turn_ways(arguments_.x + begin, arguments_.y + begin);
     float* const time = arguments_.time + begin;
     open_.size = 0;
     for (std::uint32_t k = 0; k < size; ++k) {
@@ -52,6 +52,15 @@ class ContactTimeKernel {
     }
     if (shapes_.support != nullptr && open_.size != 0) part_by_supports();
     for (std::uint32_t k = 0; k < open_.size; ++k) time[open_.pair[k]] = time_of_trees(open_.pair[k]);
+  }
+
+  /// Into A's frame.
+  void turn_ways(const float* x, const float* y) noexcept {
+    for (std::uint32_t k = 0; k < at_.size; ++k) {
+      const auto [cosine, sine] = at_.heading(k);
+      x_[k] = cosine * x[k] + sine * y[k];
+      y_[k] = cosine * y[k] - sine * x[k];
+    }
   }
 
   void part_by_supports() noexcept {
@@ -97,7 +106,7 @@ class ContactTimeKernel {
 
   const ContactTimeArguments& arguments_;
   const ShapeSetView shapes_;
-  const float *x_, *y_;  ///< the chunk's ways
+  alignas(64) float x_[chunk], y_[chunk];  ///< the chunk's ways
   Placements<Simd> at_;
   SeparationTest<Simd> separation_;
   std::uint32_t row_a_[chunk], row_b_[chunk];  ///< of the supports, where they are not in order

@@ -48,14 +48,14 @@ class ContactTimeMeasure {
   float time() const noexcept { return time_; }
   float best() const noexcept { return time_ < 1 ? time_ : 1; }
 
-  /// When the discs touch first; far_beyond where they do not.
+  /// When the discs touch first, which may be before the way begins; far_beyond where they do not.
   Float bound(Float x, Float y, Float r) const noexcept {
     const Float radius = enlarged(x, y, r);
     const Float along = (x * Float(x_) + y * Float(y_)) * Float(per_length_);
     const Float aside = (x * Float(y_) - y * Float(x_)) * Float(per_length_);
     const Float left = radius * radius - aside * aside, zero(0.0f), never(far_beyond);
     const Float half = rough_root<Simd>(left) * Float(1 + Simd::rough);
-    const Float time = xsimd::max((along - half) * Float(per_length_), zero);
+    const Float time = (along - half) * Float(per_length_);
     return Simd::select(left >= zero, Simd::select(along + half >= zero, time, never), never);
   }
 

@@ -35,6 +35,9 @@ class Placements {
 
   Transform transform(std::uint32_t pair) const noexcept { return {c[pair], s[pair], tx[pair], ty[pair]}; }
 
+  /// Of A.
+  UnitVector heading(std::uint32_t pair) const noexcept { return {cosine_[pair], sine_[pair]}; }
+
   /// The size, filled up to whole registers of floats.
   std::uint32_t whole_registers() const noexcept {
     return (size + Simd::width - 1) / Simd::width * Simd::width;

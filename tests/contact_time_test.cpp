@@ -155,10 +155,13 @@ TEST_F(ContactTimeDifferential, WithoutAWayItIsCollide) {
   collide(set, motion.crowd.agents(), motion.pairs, hits);
   const std::vector<float> all = times(set, motion);
   for (std::size_t i = 0; i < hits.size(); ++i) ASSERT_EQ(all[i], hits[i] ? 0 : never) << i;
-  motion.x.assign(motion.pairs.size(), 1e-300);
-  const std::vector<float> hardly = times(set, motion);
-  for (std::size_t i = 0; i < hits.size(); ++i)
-    ASSERT_EQ(hardly[i], expected(motion, i, Method::brute_force)) << i;
+  // As floats these are 0, and a way whose length cannot be divided by.
+  for (const double length : {1e-300, 1e-17}) {
+    motion.x.assign(motion.pairs.size(), length);
+    const std::vector<float> hardly = times(set, motion);
+    for (std::size_t i = 0; i < hits.size(); ++i)
+      ASSERT_EQ(hardly[i], expected(motion, i, Method::brute_force)) << length << " m, pair " << i;
+  }
 }
 
 TEST_F(ContactTimeDifferential, BatchesThreadsAndOrder) {

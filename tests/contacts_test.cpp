@@ -96,6 +96,12 @@ TEST_F(Contacts, OfPeople) {
   expect_brute_force(random_scene(random, set, 5'000), "people");
 }
 
+TEST(Contact, IsEqualWhereBothDiscsAre) {
+  EXPECT_EQ((Contact{1, 2}), (Contact{1, 2}));
+  EXPECT_NE((Contact{1, 2}), (Contact{1, 3}));
+  EXPECT_NE((Contact{1, 2}), (Contact{3, 2}));
+}
+
 TEST_F(Contacts, OfSingleDiscs) {
   const ShapeSetPlan single{{0}, false};
   const ShapeSet roots(shapes, single);
