@@ -6,7 +6,6 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <iterator>
 #include <map>
 
 #include "bench/exit_codes.hpp"

@@ -3,8 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <iterator>
-
 #include "bench/disc_union_area.hpp"
 #include "bench/inspection.hpp"
 #include "bench/text.hpp"

@@ -30,8 +30,8 @@ namespace bch::kernel {
 /// R'_B + 16 u D, and rounding brings 20 u S and 4 u D beside, with D <= D' + 2 S: `slack` = 128 u S and 128 u (|x| +
 /// |y|) have room for those 60 u S + 20 u D', and for what follows. The distances along the way and aside are off by 4 u
 /// D' each. That and 3 u of the squares make the root smaller by less than a radius enlarged by 8 u D' does, and the
-/// difference later by 4 u D' + u R'. Times are shortened by 16 u, for the 3 u of 1 / |v| and the product's. The root is
-/// rough_root(), lengthened by more than that is off.
+/// difference later by 4 u D' + u R'. Times are shortened by 16 u, for the 3 u of 1 / |v| and the product's; those below 0,
+/// before every T, only have to stay there. The root is rough_root(), lengthened by more than that is off.
 template <class Simd>
 class ContactTimeMeasure {
  public:
@@ -48,7 +48,7 @@ class ContactTimeMeasure {
   float time() const noexcept { return time_; }
   float best() const noexcept { return time_ < 1 ? time_ : 1; }
 
-  /// When the discs touch first, which may be before the way begins; far_beyond where they do not.
+  /// When the discs touch first, below 0 where that is before the way begins; far_beyond where they do not.
   Float bound(Float x, Float y, Float r) const noexcept {
     const Float radius = enlarged(x, y, r);
     const Float along = (x * Float(x_) + y * Float(y_)) * Float(per_length_);

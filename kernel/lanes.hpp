@@ -21,7 +21,7 @@ constexpr std::uint64_t counts_of_set = 0x4332'3221'3221'2110;
 /// the matching right side. Each instruction set's file adds what xsimd 8.1 has no name for: bits() of a mask,
 /// least() of a register's lanes, store_rounded() of doubles as floats, load_records(), which picks records of four
 /// floats from a table and gives field after field, lane = record, and rough_root(), for bounds: it is off by less than
-/// 3/4 of `rough`, relatively, for normal numbers, in other ways on every processor. It does not wait for the divider.
+/// 3/4 of `rough`, relatively, for normal numbers, in other ways on every processor.
 template <class Arch>
 struct Lanes {
   using Float = xsimd::batch<float, Arch>;
