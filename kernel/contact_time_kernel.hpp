@@ -88,8 +88,14 @@ class ContactTimeKernel {
     return shapes_.reach[at_.shape_a[pair]] + shapes_.reach[at_.shape_b[pair]];
   }
 
+  /// No centre of one shape's disc is farther from one of the other's: each is within 1.42 times its shape's reach, as
+  /// half of a box about others is.
+  float farthest(std::uint32_t pair) const noexcept {
+    return 2 * reach(pair) + __builtin_fabsf(at_.tx[pair]) + __builtin_fabsf(at_.ty[pair]);
+  }
+
   float time_of_trees(std::uint32_t pair) noexcept {
-    Measure measure(x_[pair], y_[pair], reach(pair));
+    Measure measure(x_[pair], y_[pair], farthest(pair));
     walk_.run(at_.transform(pair), shapes_.trees[at_.root_a[pair]], shapes_.trees[at_.root_b[pair]], measure);
     return measure.time();
   }

@@ -27,22 +27,23 @@ namespace bch::kernel {
 /// 1e-15, the last product takes off 4 u for that and for the rounding to float.
 ///
 /// Bounds are the times at which discs (C, R') that hold the two touch, enlarged. At T the centres are within R'_A +
-/// R'_B + 16 u D, and rounding brings 20 u S and 4 u D beside, with D <= D' + 2 S: `slack` = 128 u S and 128 u (|x| +
-/// |y|) have room for those 60 u S + 20 u D', and for what follows. The distances along the way and aside are off by 4 u
-/// D' each. That and 3 u of the squares make the root smaller by less than a radius enlarged by 8 u D' does, and the
-/// difference later by 4 u D' + u R'. Times are shortened by 16 u, for the 3 u of 1 / |v| and the product's; those below 0,
-/// before every T, only have to stay there. The root is rough_root(), lengthened by more than that is off.
+/// R'_B + 16 u D, and rounding brings 20 u S and 4 u D beside, with D <= D' + 2 S: 60 u S + 20 u D'. The distances along
+/// the way and aside are off by 5 u D' each. That and 3 u of the squares make the root smaller by less than a radius
+/// enlarged by 10 u D' does, and the difference later by 5 u D' + u R', R' <= 2 S. For all that, 62 u S + 35 u D', `slack`
+/// is 128 u F, with S <= F and D' <= F. Times are shortened by 16 u, for the 3 u of 1 / |v| and the product's; those below
+/// 0, before every T, only have to stay there. The root is rough_root(), lengthened by more than that is off.
 template <class Simd>
 class ContactTimeMeasure {
  public:
   using Float = typename Simd::Float;
 
-  /// v, and S in metres.
-  ContactTimeMeasure(float x, float y, float reach) noexcept : x_(x), y_(y), slack_(0x1p-17f * reach) {
+  /// v, and F in metres.
+  ContactTimeMeasure(float x, float y, float farthest) noexcept : x_(x), y_(y), slack_(0x1p-17f * farthest) {
     const float square = x * x + y * y;
     // Of a way shorter than that all bounds are 0.
     if (square < 1e-30f) return;
     per_length_ = (1 - 0x1p-20f) / __builtin_sqrtf(square);
+    unit_x_ = x * per_length_, unit_y_ = y * per_length_;
   }
 
   float time() const noexcept { return time_; }
@@ -50,9 +51,9 @@ class ContactTimeMeasure {
 
   /// When the discs touch first, below 0 where that is before the way begins; far_beyond where they do not.
   Float bound(Float x, Float y, Float r) const noexcept {
-    const Float radius = enlarged(x, y, r);
-    const Float along = (x * Float(x_) + y * Float(y_)) * Float(per_length_);
-    const Float aside = (x * Float(y_) - y * Float(x_)) * Float(per_length_);
+    const Float radius = r + Float(slack_);
+    const Float along = x * Float(unit_x_) + y * Float(unit_y_);
+    const Float aside = x * Float(unit_y_) - y * Float(unit_x_);
     const Float left = radius * radius - aside * aside, zero(0.0f), never(far_beyond);
     const Float half = rough_root<Simd>(left) * Float(1 + Simd::rough);
     const Float time = (along - half) * Float(per_length_);
@@ -79,12 +80,8 @@ class ContactTimeMeasure {
   }
 
  private:
-  Float enlarged(Float x, Float y, Float r) const noexcept {
-    return r + Float(slack_) + Float(0x1p-17f) * (xsimd::abs(x) + xsimd::abs(y));
-  }
-
   float x_ = 0, y_ = 0, slack_ = 0;
-  float per_length_ = 0;
+  float per_length_ = 0, unit_x_ = 0, unit_y_ = 0;
   float time_ = __builtin_inff();
 };
 
