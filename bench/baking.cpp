@@ -32,7 +32,7 @@ ShapeSet bake_shapes(std::span<const LoadedCharacter> characters, std::span<cons
   ShapeSetBuilder builder(plan);
   Progress progress("baking shapes", sources.size());
   tbb::enumerable_thread_specific<Workshop> workshops([&] {
-    return Workshop{ShapeMaker(characters, threshold, plan.depths.back()), ShapeFlattener(plan)};
+    return Workshop{ShapeMaker(characters, threshold, plan.depths.back(), plan.solid), ShapeFlattener(plan)};
   });
   // Shape i waits in place i % n. They leave in order and no more than n are on their way, so that the place is free
   // again. Indices alone go from stage to stage: the pipeline never destroys what it holds when a stage throws.

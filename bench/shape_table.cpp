@@ -54,18 +54,23 @@ std::string clip_name(const LoadedCharacter& character, PoseTime at) {
   return at.clip == PoseTime::rest ? "rest pose" : character.character.clips[at.clip].name;
 }
 
-ShapeMaker::ShapeMaker(std::span<const LoadedCharacter> characters, double threshold, std::uint32_t deepest)
-    : characters_(characters), threshold_(threshold), deepest_(deepest), shapers_(characters.size()) {}
+ShapeMaker::ShapeMaker(std::span<const LoadedCharacter> characters, double threshold, std::uint32_t deepest,
+                       bool outlines)
+    : characters_(characters),
+      threshold_(threshold),
+      deepest_(deepest),
+      outlines_(outlines || deepest > 0),
+      shapers_(characters.size()) {}
 
 const Shape& ShapeMaker::make(const ShapeSource& source) {
   const LoadedCharacter& from = characters_[source.character];
   auto& shaper = shapers_[source.character];
   try {
-    if (!shaper) shaper.emplace(from.character, static_cast<float>(threshold_), deepest_);
+    if (!shaper) shaper.emplace(from.character, static_cast<float>(threshold_), deepest_, outlines_);
     const auto begin = Clock::now();
-    shaper->make_outline(source.at);
+    if (outlines_) shaper->make_outline(source.at);
     const auto middle = Clock::now();
-    const Shape& shape = shaper->make_hierarchy();
+    const Shape& shape = outlines_ ? shaper->make_hierarchy() : shaper->shape(source.at);
     timing_ = {seconds_between(begin, middle), seconds_between(middle, Clock::now())};
     return shape;
   } catch (const std::logic_error& error) {

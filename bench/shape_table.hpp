@@ -29,15 +29,16 @@ std::string clip_name(const LoadedCharacter& character, PoseTime at);
 
 struct ShapeTiming {
   double outline = 0;    ///< seconds: skinning and outline
-  double hierarchy = 0;  ///< seconds
+  double hierarchy = 0;  ///< seconds; all, where no outline is made
 };
 
 /// Makes shapes of the characters, contour hierarchies, one after the other; learns a character's mesh when it is first asked
 /// for it. Not for two threads at a time. The characters must outlive it.
 class ShapeMaker {
  public:
-  /// Hierarchies end at the deepest depth that is asked for.
-  ShapeMaker(std::span<const LoadedCharacter> characters, double threshold, std::uint32_t deepest);
+  /// `deepest` and `outlines` as of PoseShaper.
+  ShapeMaker(std::span<const LoadedCharacter> characters, double threshold, std::uint32_t deepest,
+             bool outlines = true);
 
   /// Returns: the shape, until the next call.
   /// Errors:  throws InputError naming the character, clip and time of a pose that has no outline.
@@ -49,6 +50,7 @@ class ShapeMaker {
   std::span<const LoadedCharacter> characters_;
   double threshold_;
   std::uint32_t deepest_;
+  bool outlines_;
   std::vector<std::optional<PoseShaper>> shapers_;
   ShapeTiming timing_;
 };

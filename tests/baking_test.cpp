@@ -60,6 +60,18 @@ TEST_P(Baking, ATaskThatThrowsEndsTheBatchAndNothingElse) {
   EXPECT_EQ(set.shape_count(), 300u);
 }
 
+TEST(BakingOfRoots, AreThoseOfTheOutlines) {
+  const std::vector<LoadedCharacter> characters{{"default:female", default_female(), {}}};
+  const auto poses = list_shapes(characters, 20);
+  const ShapeSet roots = bake_shapes(characters, poses, 0.01, {.depths = {0}});
+  const ShapeSet all = bake_shapes(characters, poses, 0.01, {.depths = {0, all_depths}});
+  ASSERT_EQ(roots.shape_count(), all.shape_count());
+  for (std::uint32_t shape = 0; shape < roots.shape_count(); ++shape) {
+    const Root &one = roots.view().roots[shape], &other = all.view().roots[2 * shape];
+    EXPECT_TRUE(one.x == other.x && one.y == other.y && one.radius == other.radius) << shape;
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Threads, Baking, testing::Values(1, 2, 4));
 
 }  // namespace
