@@ -28,6 +28,9 @@ struct Discs {
   std::size_t stride;
 };
 
+/// Bits of pairs of eight discs by eight, bit 8 i + j for disc i of A and j of B: those of A's first, and of B's.
+constexpr std::uint64_t first_row_of_pairs = 0xff, first_column_of_pairs = 0x0101010101010101;
+
 template <class Simd, unsigned count>
 std::uint64_t overlaps_called(const Transform& b_in_a, Discs a, Discs b, float slack) noexcept;
 

@@ -55,8 +55,6 @@ class ContactKernel {
   }
 
  private:
-  static constexpr std::uint64_t first_column = 0x0101010101010101, row = 0xff;
-
   /// Of the columns, from left to right.
   struct Nodes {
     static constexpr std::uint32_t capacity = 32;
@@ -151,7 +149,7 @@ class ContactKernel {
   bool children_of_hits(const Nodes& columns, const std::uint64_t* hits, unsigned i,
                         Nodes& below) const noexcept {
     for (std::uint32_t k = 0; k < columns.size; ++k) {
-      std::uint64_t of_disc = hits[k] >> (i * block_width) & row;
+      std::uint64_t of_disc = hits[k] >> (i * block_width) & first_row_of_pairs;
       const bool is_window = columns.node[k] >= leaf_window;
       if (is_window && of_disc != 0) of_disc = 1;
       for (; of_disc != 0; of_disc &= of_disc - 1) {
@@ -176,12 +174,12 @@ class ContactKernel {
                      Use& use) const noexcept {
     std::uint64_t hits = overlaps_of(rows, node) & mask;
     if (node >= leaf_window) {
-      hits &= (row << seen_lanes(node, next) & row) * first_column;
+      hits &= (first_row_of_pairs << seen_lanes(node, next) & first_row_of_pairs) * first_column_of_pairs;
       if (hits != 0) use(node, hits);
       return;
     }
     for (unsigned j = 0; j < block_width; ++j)
-      if (hits & first_column << j) visit_columns(rows, mask, child(node, j), next, use);
+      if (hits & first_column_of_pairs << j) visit_columns(rows, mask, child(node, j), next, use);
   }
 
   /// How many of a window's discs an earlier window has shown, which ended before `next`.
@@ -199,7 +197,8 @@ class ContactKernel {
     std::uint64_t kept_hits[most_kept];
     for_column_windows(rows, mask, columns, [&](std::uint32_t window, std::uint64_t hits) {
       for (unsigned i = 0; i < block_width; ++i)
-        count[i] += static_cast<std::uint32_t>(__builtin_popcountll(hits >> (i * block_width) & row));
+        count[i] +=
+            static_cast<std::uint32_t>(__builtin_popcountll(hits >> (i * block_width) & first_row_of_pairs));
       if (windows < most_kept) kept[windows] = window, kept_hits[windows] = hits;
       ++windows;
     });

@@ -55,7 +55,6 @@ class NearestSearch {
   using Frame = NodePairBounds;
   static constexpr std::uint32_t most_kept = 2;  ///< frames of a descent; deeper ones are walked at once
   static constexpr std::uint32_t list_capacity = 1024;
-  static constexpr std::uint64_t first_row = 0xff, first_column = 0x0101010101010101;
 
   /// Two agents.
   struct Searched {
@@ -106,14 +105,15 @@ class NearestSearch {
 
   /// What is left of a frame.
   void collect(std::uint32_t pair, const Frame& frame) noexcept {
-    add_children({pair, frame.a, frame.b}, all_within<Simd>(frame.bound, pairs_[pair].measure.best()));
+    add_children({pair, frame.a, frame.b},
+                 all_within<Simd>(frame.bound, pairs_[pair].measure.best()) & frame.open);
   }
 
   /// The children of two nodes at the set bits.
   void add_children(const Step& step, std::uint64_t bits) noexcept {
     // A window is tested as a whole: once with each child of the other.
-    if (step.a >= leaf_window) bits = fold(bits, 8) & first_row;
-    if (step.b >= leaf_window) bits = fold(bits, 1) & first_column;
+    if (step.a >= leaf_window) bits = fold(bits, 8) & first_row_of_pairs;
+    if (step.b >= leaf_window) bits = fold(bits, 1) & first_column_of_pairs;
     for (; bits != 0; bits &= bits - 1) {
       const auto k = static_cast<unsigned>(__builtin_ctzll(bits));
       const Step child{step.pair, walk_.child(step.a, k / block_width), walk_.child(step.b, k % block_width)};

@@ -6,7 +6,6 @@
 #include <cstdint>
 
 #include "kernel/block_test.hpp"
-#include "kernel/clearance_arguments.hpp"
 #include "kernel/disc_pairs.hpp"
 #include "kernel/lanes.hpp"
 #include "kernel/tree_nodes.hpp"
@@ -14,9 +13,10 @@
 
 namespace bch::kernel {
 
-/// Two nodes, not both windows, and the bounds of their pairs of discs; of those that were taken, far_beyond.
+/// Two nodes, not both windows, and the bounds of their pairs of discs.
 struct NodePairBounds {
   alignas(64) float bound[block_pairs];
+  std::uint64_t open;  ///< pairs that were not taken
   std::uint32_t a, b;
 };
 
@@ -44,14 +44,18 @@ class NearestWalk {
            std::uint32_t stride_b, Measure& measure) noexcept {
     NodePairBounds* top = frames_;
     bound(at, a, b, stride_a, stride_b, measure, *top);
+    bool found = take_least(*top, measure.best(), a, b);
     for (;;) {
-      if (!take_least(*top, measure.best(), a, b)) {
+      if (!found) {
         if (top == frames_) return;
         --top;
+        found = take_next(*top, measure.best(), a, b);
       } else if ((a & b) >= leaf_window) {
         meet(at, a, b, stride_a, stride_b, measure);
+        found = take_next(*top, measure.best(), a, b);
       } else {
         bound(at, a, b, stride_a, stride_b, measure, *++top);
+        found = take_least(*top, measure.best(), a, b);
       }
     }
   }
@@ -64,25 +68,31 @@ class NearestWalk {
 
   void bound(const Transform& at, std::uint32_t a, std::uint32_t b, std::uint32_t stride_a,
              std::uint32_t stride_b, const Measure& measure, NodePairBounds& frame) const noexcept {
-    frame.a = a, frame.b = b;
+    frame.a = a, frame.b = b, frame.open = ~std::uint64_t{0};
     visit_disc_pairs<Simd>(
         at, discs(a, stride_a), discs(b, stride_b),
         [&](unsigned k, Float x, Float y, Float r) { Simd::store(frame.bound + k, measure.bound(x, y, r)); });
   }
 
-  /// The children below the least bound, unless that is above `best`.
+  /// The children below the least bound, unless that is above `best`. Of a frame of which nothing was taken.
   bool take_least(NodePairBounds& frame, float best, std::uint32_t& a, std::uint32_t& b) const noexcept {
     const float least = least_value<Simd>(frame.bound);
-    const unsigned k = first_within<Simd>(frame.bound, least), i = k / block_width, j = k % block_width;
-    a = child(frame.a, i), b = child(frame.b, j);
-    frame.bound[k] = far_beyond;
-    // All of a window's discs are tested at once: its other pairs with the same child are settled with this one.
-    if (frame.a >= leaf_window)
-      for (unsigned other = j; other < block_pairs; other += block_width) frame.bound[other] = far_beyond;
-    if (frame.b >= leaf_window)
-      for (unsigned other = 0; other < block_width; ++other)
-        frame.bound[i * block_width + other] = far_beyond;
+    take(frame, first_within<Simd>(frame.bound, least), a, b);
     return least <= best;
+  }
+
+  /// The children below the least bound of those that were not taken, unless that is above `best`. Mostly it is, which
+  /// is known sooner than which is the least; else there are few.
+  bool take_next(NodePairBounds& frame, float best, std::uint32_t& a, std::uint32_t& b) const noexcept {
+    std::uint64_t left = all_within<Simd>(frame.bound, best) & frame.open;
+    if (left == 0) return false;
+    auto least = static_cast<unsigned>(__builtin_ctzll(left));
+    while ((left &= left - 1) != 0) {
+      const auto k = static_cast<unsigned>(__builtin_ctzll(left));
+      least = frame.bound[k] < frame.bound[least] ? k : least;
+    }
+    take(frame, least, a, b);
+    return true;
   }
 
   Discs discs(std::uint32_t node, std::uint32_t stride) const noexcept {
@@ -98,6 +108,16 @@ class NearestWalk {
   using Float = typename Simd::Float;
   /// Every step descends on one side at least, and neither side has more levels than this.
   static constexpr std::uint32_t most_frames = 2 * most_wide_levels;
+
+  void take(NodePairBounds& frame, unsigned k, std::uint32_t& a, std::uint32_t& b) const noexcept {
+    const unsigned i = k / block_width, j = k % block_width;
+    a = child(frame.a, i), b = child(frame.b, j);
+    std::uint64_t taken = std::uint64_t{1} << k;
+    // All of a window's discs are tested at once: its other pairs with the same child are settled with this one.
+    if (frame.a >= leaf_window) taken |= first_column_of_pairs << j;
+    if (frame.b >= leaf_window) taken |= first_row_of_pairs << (k - j);
+    frame.open &= ~taken;
+  }
 
   const float* nodes_;
   NodePairBounds frames_[most_frames + 1];

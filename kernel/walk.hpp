@@ -48,7 +48,6 @@ class Walk {
   using Nodes = TreeNodes<Simd>;
   /// Every test descends on one side at least, and neither side has more levels than this.
   static constexpr std::uint32_t most_frames = 2 * most_wide_levels;
-  static constexpr std::uint64_t first_column = 0x0101010101010101;
 
   /// A pair being walked, with the two nodes to test next.
   struct Open {
@@ -125,8 +124,8 @@ class Walk {
         at.a = top.a, at.b = top.b;
         // All of a window's discs are tested at once: its other hits on the same child are settled with this one.
         if (top.a < leaf_window)
-          at.a = Nodes::child(nodes, top.a, i), rest &= ~(std::uint64_t{0xff} << (bit - j));
-        if (top.b < leaf_window) at.b = Nodes::child(nodes, top.b, j), rest &= ~(first_column << j);
+          at.a = Nodes::child(nodes, top.a, i), rest &= ~(first_row_of_pairs << (bit - j));
+        if (top.b < leaf_window) at.b = Nodes::child(nodes, top.b, j), rest &= ~(first_column_of_pairs << j);
       }
       top.open = rest;
       at.top = top_index - (rest == 0);
