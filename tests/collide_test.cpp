@@ -77,6 +77,12 @@ TEST_F(Differential, NearTangentPairs) {
   }
 }
 
+TEST_F(Differential, WithoutShortcuts) {
+  const ShapeSet plain(shapes, {.depths = plan.depths, .solid = true, .shortcuts = false});
+  expect_equal_to_brute_force(plain, reference, random_scene(random, plain, 25'000), "random");
+  expect_equal_to_brute_force(plain, reference, tangent_scene(25'000), "near tangent");
+}
+
 /// Rounding grows with the larger of two shapes, and pruning has to allow for that in the discs of the smaller one.
 TEST(Sizes, AnAntMeetsAnElephant) {
   Random random(20142);

@@ -148,6 +148,16 @@ TEST_F(ContactTimeDifferential, TheReferencesAgree) {
     ASSERT_EQ(expected(motion, i, Method::depth_first), expected(motion, i, Method::brute_force)) << i;
 }
 
+TEST_F(ContactTimeDifferential, WithoutShortcuts) {
+  const ShapeSet plain(shapes, {.depths = four_levels.depths, .shortcuts = false});
+  const Motion motion = approaching(20'000, 1);
+  const std::vector<float> expected = times(set, motion);
+  for (const auto& implementation : kernel::implementations()) {
+    if (!implementation.supported()) continue;
+    EXPECT_EQ(times(plain, motion, &implementation), expected) << implementation.name;
+  }
+}
+
 TEST_F(ContactTimeDifferential, WithoutAWayItIsCollide) {
   Motion motion{random_scene(random, set, 50'000), {}, {}};
   motion.x.assign(motion.pairs.size(), 0), motion.y = motion.x;
