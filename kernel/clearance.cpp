@@ -92,9 +92,9 @@ void clearance(const ShapeSet& shapes, const Agents& agents, std::span<const Pai
     throw std::invalid_argument("clearance: a max_distance of " + std::to_string(options.max_distance) +
                                 " m");
   const kernel::Implementation& implementation = kernel::chosen(options.implementation, "clearance");
-  kernel::require_valid(implementation, shapes, agents, pairs);
-
   const ShapeSetView view = shapes.view();
+  kernel::require_valid(implementation, view, agents, pairs);
+
   ClearanceArguments arguments{kernel::arguments_for(view, agents, {}), limit_of(options.max_distance),
                                nullptr};
   const auto part = [](auto span, std::size_t begin, std::size_t size) {

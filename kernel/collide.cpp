@@ -23,9 +23,9 @@ void collide(const ShapeSet& shapes, const Agents& agents, std::span<const Pair>
   if (solid && !shapes.solid())
     throw std::invalid_argument("collide: the shape set was not planned for solid semantics");
   const kernel::Implementation& implementation = kernel::chosen(options.implementation, "collide");
-  kernel::require_valid(implementation, shapes, agents, pairs);
-
   const ShapeSetView view = shapes.view();
+  kernel::require_valid(implementation, view, agents, pairs);
+
   kernel::Arguments arguments = kernel::arguments_for(view, agents, pairs);
   arguments.codes = hits.data();
   arguments.mark_near_misses = solid;

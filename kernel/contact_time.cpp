@@ -78,10 +78,10 @@ void contact_time(const ShapeSet& shapes, const Agents& agents, std::span<const 
   const kernel::StandardFloats floats;
   require_sizes(displacements, times.size(), pairs.size());
   const kernel::Implementation& implementation = kernel::chosen(options.implementation, "contact_time");
-  kernel::require_valid(implementation, shapes, agents, pairs);
+  const ShapeSetView view = shapes.view();
+  kernel::require_valid(implementation, view, agents, pairs);
   require_valid(displacements);
 
-  const ShapeSetView view = shapes.view();
   ContactTimeArguments arguments{kernel::arguments_for(view, agents, {}), nullptr, nullptr, nullptr};
   kernel::for_pair_ranges(pairs.size(), grain, [&](std::size_t begin, std::size_t size) {
     answer(implementation, arguments, pairs.subspan(begin, size), displacements.x.data() + begin,

@@ -7,6 +7,7 @@
 #include <oneapi/tbb/parallel_reduce.h>
 
 #include <algorithm>
+#include <limits>
 #include <stdexcept>
 #include <string>
 
@@ -24,39 +25,48 @@ using Range = tbb::blocked_range<std::size_t>;
 constexpr std::size_t many_agents = 100'000;
 
 /// The lowest index in [0, count) for which `bad` holds, or count. `all_good(begin, end)` says quickly where there is
-/// nothing to find.
+/// nothing to find. Floats as for_ranges().
 template <class AllGood, class Bad>
 std::size_t first_bad(std::size_t count, AllGood all_good, Bad bad) {
-  const auto search = [&](const Range& range, std::size_t found) {
-    const StandardFloats floats;
-    if (range.begin() >= found || all_good(range.begin(), range.end())) return found;
-    for (std::size_t i = range.begin(); i < range.end() && i < found; ++i)
+  const auto search = [&](std::size_t begin, std::size_t end, std::size_t found) {
+    if (begin >= found || all_good(begin, end)) return found;
+    for (std::size_t i = begin; i < end && i < found; ++i)
       if (bad(i)) return i;
     return found;
   };
-  const Range all(0, count, pairs_per_task);
-  if (count <= pairs_per_task) return search(all, count);
-  return tbb::parallel_reduce(all, count, search,
-                              [](std::size_t a, std::size_t b) { return std::min(a, b); });
+  if (count <= pairs_per_task) return search(0, count, count);
+  return tbb::parallel_reduce(
+      Range(0, count, pairs_per_task), count,
+      [&](const Range& range, std::size_t found) {
+        const StandardFloats floats;
+        return search(range.begin(), range.end(), found);
+      },
+      [](std::size_t a, std::size_t b) { return std::min(a, b); });
 }
 
-std::size_t first_bad_agent(const Implementation& implementation, const ShapeSet& shapes,
-                            const Agents& agents) {
-  const ShapeSetView view = shapes.view();
-  const Arguments arguments = arguments_for(view, agents, {});
+std::size_t first_bad_agent(const Implementation& implementation, const Arguments& arguments,
+                            const ShapeSetView& shapes, const Agents& agents) {
   return first_bad(
       agents.size(),
       [&](std::size_t begin, std::size_t end) { return implementation.check(arguments, begin, end); },
       [&](std::size_t i) { return !is_valid(shapes, agents, i); });
 }
 
-bool indices_are_below(std::span<const Pair> pairs, std::uint32_t agents) {
-  std::uint32_t bad = 0;
-  for (const Pair& pair : pairs) bad += (pair.first >= agents) | (pair.second >= agents);
-  return bad == 0;
+/// The lowest and the highest agent that pairs name.
+struct NamedAgents {
+  std::uint32_t low = std::numeric_limits<std::uint32_t>::max(), high = 0;
+};
+
+NamedAgents named_agents(std::span<const Pair> pairs) {
+  NamedAgents named;
+  for (const auto [a, b] : pairs) {
+    named.low = std::min(named.low, std::min(a, b));
+    named.high = std::max(named.high, std::max(a, b));
+  }
+  return named;
 }
 
-[[noreturn]] void reject_pair(const ShapeSet& shapes, const Agents& agents, std::span<const Pair> pairs,
+[[noreturn]] void reject_pair(const ShapeSetView& shapes, const Agents& agents, std::span<const Pair> pairs,
                               std::size_t i) {
   const std::string place = "pair " + std::to_string(i) + ": ";
   for (const std::uint32_t agent : {pairs[i].first, pairs[i].second}) {
@@ -76,11 +86,10 @@ bool indices_are_below(std::span<const Pair> pairs, std::uint32_t agents) {
 }  // namespace
 
 const Implementation& chosen(const Implementation* wanted, const char* query) {
-  const Implementation& implementation = wanted ? *wanted : best_implementation();
-  if (!implementation.supported())
-    throw std::invalid_argument(std::string(query) + ": this processor does not run '" + implementation.name +
-                                "'");
-  return implementation;
+  if (wanted == nullptr) return best_implementation();
+  if (!wanted->supported())
+    throw std::invalid_argument(std::string(query) + ": this processor does not run '" + wanted->name + "'");
+  return *wanted;
 }
 
 Arguments arguments_for(const ShapeSetView& view, const Agents& agents, std::span<const Pair> pairs) {
@@ -96,19 +105,23 @@ Arguments arguments_for(const ShapeSetView& view, const Agents& agents, std::spa
           .prefetch = agents.size() >= many_agents};
 }
 
-/// Where there are fewer agents than pairs name, looking at all of them, in order, is cheaper; a bad one then still
-/// has to be named by a pair.
-void require_valid(const Implementation& implementation, const ShapeSet& shapes, const Agents& agents,
+/// Where there are fewer agents than pairs name, all of them or from the lowest to the highest that are named, looking
+/// at them in order is cheaper; a bad one then still has to be named by a pair.
+void require_valid(const Implementation& implementation, const ShapeSetView& shapes, const Agents& agents,
                    std::span<const Pair> pairs) {
   require_sizes(agents);
+  const Arguments arguments = arguments_for(shapes, agents, {});
   const bool all_agents_are_valid =
-      agents.size() <= 2 * pairs.size() && first_bad_agent(implementation, shapes, agents) == agents.size();
+      agents.size() <= 2 * pairs.size() &&
+      first_bad_agent(implementation, arguments, shapes, agents) == agents.size();
   const auto is_bad = [&](std::uint32_t i) { return i >= agents.size() || !is_valid(shapes, agents, i); };
   const std::size_t i = first_bad(
       pairs.size(),
       [&](std::size_t begin, std::size_t end) {
-        return all_agents_are_valid && indices_are_below(pairs.subspan(begin, end - begin),
-                                                         static_cast<std::uint32_t>(agents.size()));
+        const auto [low, high] = named_agents(pairs.subspan(begin, end - begin));
+        if (high >= agents.size()) return false;
+        return all_agents_are_valid || (high - low < 2 * (end - begin) &&
+                                        implementation.check(arguments, low, high + std::size_t{1}));
       },
       [&](std::size_t k) { return is_bad(pairs[k].first) || is_bad(pairs[k].second); });
   if (i < pairs.size()) reject_pair(shapes, agents, pairs, i);
@@ -118,8 +131,11 @@ void require_valid(const Implementation& implementation, const ShapeSet& shapes,
 
 void validate(const ShapeSet& shapes, const Agents& agents) {
   kernel::require_sizes(agents);
-  const std::size_t i = kernel::first_bad_agent(kernel::best_implementation(), shapes, agents);
-  if (i < agents.size()) kernel::reject(shapes, agents, i);
+  const kernel::StandardFloats floats;
+  const ShapeSetView view = shapes.view();
+  const kernel::Arguments arguments = kernel::arguments_for(view, agents, {});
+  const std::size_t i = kernel::first_bad_agent(kernel::best_implementation(), arguments, view, agents);
+  if (i < agents.size()) kernel::reject(view, agents, i);
 }
 
 }  // namespace bch

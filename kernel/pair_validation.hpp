@@ -9,7 +9,7 @@
 #include "kernel/arguments.hpp"
 #include "kernel/implementation.hpp"
 #include "layout/agents.hpp"
-#include "layout/shape_set.hpp"
+#include "layout/shape_set_view.hpp"
 
 namespace bch::kernel {
 
@@ -27,7 +27,7 @@ Arguments arguments_for(const ShapeSetView& view, const Agents& agents, std::spa
 /// Errors:  throws std::invalid_argument on sizes that differ, and naming the first pair with an index out of range
 ///          or an agent that is_valid() rejects, and the value.
 /// Threads: runs in the caller's TBB arena.
-void require_valid(const Implementation& implementation, const ShapeSet& shapes, const Agents& agents,
+void require_valid(const Implementation& implementation, const ShapeSetView& shapes, const Agents& agents,
                    std::span<const Pair> pairs);
 
 }  // namespace bch::kernel

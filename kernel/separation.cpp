@@ -95,8 +95,9 @@ Query checked_query(const ShapeSet& shapes, const Agents& agents, std::span<cons
     throw std::invalid_argument("separation: " + std::to_string(pairs.size()) + " pairs but room for " +
                                 std::to_string(out.size()) + " answers");
   const kernel::Implementation& implementation = kernel::chosen(options.implementation, "separation");
-  kernel::require_valid(implementation, shapes, agents, pairs);
-  return {shapes.view(), agents, implementation};
+  const ShapeSetView view = shapes.view();
+  kernel::require_valid(implementation, view, agents, pairs);
+  return {view, agents, implementation};
 }
 
 void require_directions(std::span<const Vec2> directions, std::size_t pairs) {

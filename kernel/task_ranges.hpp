@@ -14,16 +14,16 @@
 namespace bch::kernel {
 
 /// Calls work(begin, end) for ranges that together are [0, count): as TBB's tasks of `grain` and more, where there is more
-/// than one, because a task costs more than a small batch. Each in the standard floating-point state.
+/// than one, because a task costs more than a small batch. Tasks run in the standard floating-point state; the caller
+/// has to be in it.
 template <class Work>
 void for_ranges(std::size_t count, std::size_t grain, const Work& work) {
   using Range = tbb::blocked_range<std::size_t>;
-  const auto run = [&](const Range& range) {
+  if (count <= grain) return work(std::size_t{0}, count);
+  tbb::parallel_for(Range(0, count, grain), [&](const Range& range) {
     const StandardFloats floats;
     work(range.begin(), range.end());
-  };
-  const Range all(0, count, grain);
-  count <= grain ? run(all) : tbb::parallel_for(all, run);
+  });
 }
 
 /// The same by calls of work(begin, size) for at most `grain` pairs each.

@@ -25,13 +25,13 @@ void require_sizes(const Agents& agents) {
     throw std::invalid_argument("agents: more than 2^32 - 1");
 }
 
-void reject(const ShapeSet& shapes, const Agents& agents, std::size_t i) {
+void reject(const ShapeSetView& shapes, const Agents& agents, std::size_t i) {
   std::ostringstream message;
   message << "agent " << i << ": ";
-  if (agents.shape[i] >= shapes.shape_count()) {
-    message << "shape " << agents.shape[i] << " of " << shapes.shape_count();
-  } else if (!agents.level.empty() && agents.level[i] >= shapes.level_count()) {
-    message << "level " << static_cast<unsigned>(agents.level[i]) << " of " << shapes.level_count();
+  if (agents.shape[i] >= shapes.shape_count) {
+    message << "shape " << agents.shape[i] << " of " << shapes.shape_count;
+  } else if (!agents.level.empty() && agents.level[i] >= shapes.level_count) {
+    message << "level " << static_cast<unsigned>(agents.level[i]) << " of " << shapes.level_count;
   } else if (!(std::abs(agents.heading[i]) <= rounding::largest_heading)) {
     message << "heading " << agents.heading[i] << " rad is not within +-1e9";
   } else {

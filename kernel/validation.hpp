@@ -8,14 +8,14 @@
 
 #include "layout/agents.hpp"
 #include "layout/rounding.hpp"
-#include "layout/shape_set.hpp"
+#include "layout/shape_set_view.hpp"
 
 namespace bch::kernel {
 
 /// Whether an agent may be asked about; NaN is not.
-inline bool is_valid(const ShapeSet& shapes, const Agents& agents, std::size_t i) noexcept {
-  return agents.shape[i] < shapes.shape_count() &&
-         (agents.level.empty() || agents.level[i] < shapes.level_count()) &&
+inline bool is_valid(const ShapeSetView& shapes, const Agents& agents, std::size_t i) noexcept {
+  return agents.shape[i] < shapes.shape_count &&
+         (agents.level.empty() || agents.level[i] < shapes.level_count) &&
          std::abs(agents.x[i]) <= rounding::largest_position &&
          std::abs(agents.y[i]) <= rounding::largest_position &&
          std::abs(agents.heading[i]) <= rounding::largest_heading;
@@ -25,6 +25,6 @@ inline bool is_valid(const ShapeSet& shapes, const Agents& agents, std::size_t i
 void require_sizes(const Agents& agents);
 
 /// Throws std::invalid_argument saying what is wrong with an agent for which is_valid() is false.
-[[noreturn]] void reject(const ShapeSet& shapes, const Agents& agents, std::size_t i);
+[[noreturn]] void reject(const ShapeSetView& shapes, const Agents& agents, std::size_t i);
 
 }  // namespace bch::kernel

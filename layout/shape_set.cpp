@@ -29,6 +29,25 @@ ShapeSet build(std::span<const Shape> shapes, const ShapeSetPlan& plan) {
   return std::move(builder).finish();
 }
 
+ShapeSetView view_of(const ShapeArrays& arrays) {
+  // An empty section of a file has an address as well.
+  const auto or_null = [](const auto& array) { return array.empty() ? nullptr : array.data(); };
+  return {.shape_count = static_cast<std::uint32_t>(arrays.shape_count()),
+          .level_count = static_cast<std::uint32_t>(arrays.depths.size()),
+          .rows_in_order = rows_in_order(arrays.roots),
+          .roots = or_null(arrays.roots),
+          .trees = or_null(arrays.trees),
+          .nodes = or_null(arrays.nodes),
+          .reach = or_null(arrays.reach),
+          .support = or_null(arrays.support),
+          .inscribed = or_null(arrays.inscribed),
+          .extremes = or_null(arrays.extremes),
+          .profiles = or_null(arrays.profiles),
+          .shape_contours = or_null(arrays.shape_contours),
+          .contours = or_null(arrays.contours),
+          .points = or_null(arrays.points)};
+}
+
 }  // namespace
 
 void validate(const ShapeSetPlan& plan) {
@@ -42,26 +61,7 @@ void validate(const ShapeSetPlan& plan) {
 ShapeSet::ShapeSet(std::span<const Shape> shapes, const ShapeSetPlan& plan) : ShapeSet(build(shapes, plan)) {}
 
 ShapeSet::ShapeSet(const ShapeArrays& arrays, std::shared_ptr<const void> memory)
-    : arrays_(arrays), memory_(std::move(memory)), rows_in_order_(rows_in_order(arrays.roots)) {}
-
-ShapeSetView ShapeSet::view() const noexcept {
-  // An empty section of a file has an address as well.
-  const auto or_null = [](const auto& array) { return array.empty() ? nullptr : array.data(); };
-  return {.shape_count = shape_count(),
-          .level_count = level_count(),
-          .rows_in_order = rows_in_order_,
-          .roots = or_null(arrays_.roots),
-          .trees = or_null(arrays_.trees),
-          .nodes = or_null(arrays_.nodes),
-          .reach = or_null(arrays_.reach),
-          .support = or_null(arrays_.support),
-          .inscribed = or_null(arrays_.inscribed),
-          .extremes = or_null(arrays_.extremes),
-          .profiles = or_null(arrays_.profiles),
-          .shape_contours = or_null(arrays_.shape_contours),
-          .contours = or_null(arrays_.contours),
-          .points = or_null(arrays_.points)};
-}
+    : arrays_(arrays), memory_(std::move(memory)), view_(view_of(arrays)) {}
 
 ShapeSetPlan ShapeSet::plan() const {
   return {.depths = {arrays_.depths.begin(), arrays_.depths.end()},

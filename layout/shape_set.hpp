@@ -12,6 +12,7 @@
 #include "layout/hierarchy.hpp"
 #include "layout/outline.hpp"
 #include "layout/shape_arrays.hpp"
+#include "layout/shape_set_view.hpp"
 
 namespace bch {
 
@@ -51,9 +52,9 @@ class ShapeSet {
   ShapeSet(ShapeSet&&) noexcept = default;
   ShapeSet& operator=(ShapeSet&&) noexcept = default;
 
-  ShapeSetView view() const noexcept;
+  ShapeSetView view() const noexcept { return view_; }
   const ShapeArrays& arrays() const noexcept { return arrays_; }
-  std::uint32_t shape_count() const noexcept { return static_cast<std::uint32_t>(arrays_.shape_count()); }
+  std::uint32_t shape_count() const noexcept { return view_.shape_count; }
   std::uint32_t level_count() const noexcept { return static_cast<std::uint32_t>(arrays_.depths.size()); }
   std::span<const std::uint32_t> depths() const noexcept { return arrays_.depths; }
   /// Solid semantics can be asked. Single discs need no outlines for it: those that do not overlap cannot hold each
@@ -68,7 +69,7 @@ class ShapeSet {
  private:
   ShapeArrays arrays_;
   std::shared_ptr<const void> memory_;
-  bool rows_in_order_;
+  ShapeSetView view_;
 };
 
 }  // namespace bch

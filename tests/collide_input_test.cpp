@@ -69,6 +69,27 @@ TEST_F(BadInput, AnAgentThatNoPairNamesMayBeAnything) {
   }
 }
 
+TEST_F(BadInput, AFewOfManyAgents) {
+  for (int i = 0; i < 98; ++i) crowd.add({0, 100.0 + 10 * i, 0, 0, 0});
+  pairs = {{43, 40}, {41, 43}, {41, 40}};
+  crowd.shape[39] = crowd.shape[42] = crowd.shape[44] = 2;
+  for (const kernel::Implementation& implementation : kernel::implementations()) {
+    if (!implementation.supported()) continue;
+    QueryOptions options{.implementation = &implementation};
+    std::vector<std::uint8_t> hits(pairs.size());
+    EXPECT_NO_THROW(collide(set, crowd.agents(), pairs, hits, options)) << implementation.name;
+    for (const std::uint32_t agent : {40u, 41u, 43u}) {
+      crowd.shape[agent] = 2;
+      const std::string first = agent == 41 ? "pair 1" : "pair 0";
+      expect_rejected(first + ": agent " + std::to_string(agent) + ": shape 2 of 2", options);
+      crowd.shape[agent] = 0;
+    }
+    pairs.push_back({99, 100});
+    expect_rejected("pair 3: agent 100 of 100", options);
+    pairs.pop_back();
+  }
+}
+
 TEST_F(BadInput, SizesThatDifferAndSolidWithoutAPlan) {
   expect_rejected("not planned for solid", {Semantics::solid});
   crowd.y.pop_back();
