@@ -25,7 +25,8 @@ struct Arguments {
   const Pair* pairs;
   std::uint8_t* codes;
   bool mark_near_misses;  ///< write near_miss where it applies, else apart
-  bool prefetch = false;  ///< agents before they are needed: there are more than a near cache holds
+  // Ask for what is needed soon: there is more of it than a near cache holds.
+  bool prefetch_agents = false, prefetch_shapes = false;
 };
 
 /// What a kernel says of a pair.

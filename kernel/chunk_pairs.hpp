@@ -10,7 +10,8 @@ namespace bch::kernel {
 /// Some of a chunk's pairs. (`Simd` also keeps instruction sets from sharing a function.)
 template <class Simd, std::uint32_t capacity>
 struct ChunkPairs {
-  static constexpr std::uint32_t padding = 16;  ///< lanes of the widest register
+  static constexpr std::uint32_t padding = 16;     ///< lanes of the widest register
+  static constexpr std::uint32_t pairs_ahead = 8;  ///< that `prefetch` is called for
 
   std::uint32_t size = 0;
   std::uint16_t pair[capacity + padding];
@@ -43,11 +44,12 @@ struct ChunkPairs {
     size = kept;
   }
 
-  /// Moves the pairs that pass a test to another list.
-  template <class Test>
-  void move_if(ChunkPairs& to, Test passes) noexcept {
+  /// Moves the pairs that pass a test to another list. `prefetch(pair)` asks for what the test will read.
+  template <class Test, class Prefetch>
+  void move_if(ChunkPairs& to, Test passes, Prefetch prefetch) noexcept {
     std::uint32_t kept = 0, moved = to.size;
     for (std::uint32_t k = 0; k < size; ++k) {
+      if (k + pairs_ahead < size) prefetch(pair[k + pairs_ahead]);
       const std::uint16_t each = pair[k];
       const std::uint32_t yes = passes(each);
       pair[kept] = to.pair[moved] = each;

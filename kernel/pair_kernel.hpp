@@ -49,8 +49,8 @@ class PairKernel {
         shapes_(*arguments.shapes),
         miss_(arguments.mark_near_misses ? near_miss : apart),
         separation_(shapes_, at_),
-        profiles_(shapes_, at_),
-        walk_(shapes_, arguments.codes) {}
+        profiles_(shapes_, at_, arguments.prefetch_shapes),
+        walk_(shapes_, arguments.codes, arguments.prefetch_shapes) {}
 
   void answer_chunk(std::size_t begin, std::uint32_t size) noexcept {
     at_.place(in_, begin, size);
@@ -121,13 +121,32 @@ class PairKernel {
   void take_shortcuts() noexcept {
     compare_profiles();
     separation_.place_directions();
-    open_.move_if(parted_, [&](std::uint32_t pair) { return separation_.apart(pair, 0); });
-    near_.move_if(met_, [&](std::uint32_t pair) { return inscribed_discs_overlap<block_width / 2>(pair); });
+    part(0);
+    meet<block_width / 2>(near_);
     near_.move_all(open_);
-    open_.move_if(met_, [&](std::uint32_t pair) { return inscribed_discs_overlap<block_width>(pair); });
-    open_.move_if(parted_, [&](std::uint32_t pair) { return separation_.apart(pair, 1); });
+    meet<block_width>(open_);
+    part(1);
     if (!in_.mark_near_misses) reopen_what_may_nest();
     for (std::uint32_t k = 0; k < parted_.size; ++k) codes_[parted_.pair[k]] = apart;
+  }
+
+  /// By supports along even directions or odd ones.
+  void part(unsigned odd) noexcept {
+    open_.move_if(
+        parted_, [&](std::uint32_t pair) { return separation_.apart(pair, odd); },
+        [&](std::uint32_t pair) __attribute__((always_inline)) {
+          if (in_.prefetch_shapes) separation_.prefetch(pair, odd);
+        });
+  }
+
+  /// By the first `count` inscribed discs of either.
+  template <unsigned count>
+  void meet(List& list) noexcept {
+    list.move_if(
+        met_, [&](std::uint32_t pair) { return inscribed_discs_overlap<count>(pair); },
+        [&](std::uint32_t pair) __attribute__((always_inline)) {
+          if (in_.prefetch_shapes) prefetch_inscribed(pair);
+        });
   }
 
   /// Lists pairs as parted, as met where they may nest besides, or as open, by whether they will probably collide.
@@ -167,11 +186,18 @@ class PairKernel {
     met_.move_all(open_);
   }
 
-  /// Whether the areas meet, by the first `count` discs of either. See layout/interior.hpp.
+  /// Whether the areas meet. See layout/interior.hpp.
   template <unsigned count>
   std::uint32_t inscribed_discs_overlap(std::uint32_t pair) const noexcept {
     return overlapping_discs<Simd, count>(at_.transform(pair), inscribed(at_.shape_a[pair]),
                                           inscribed(at_.shape_b[pair])) != 0;
+  }
+
+  [[gnu::always_inline]] void prefetch_inscribed(std::uint32_t pair) const noexcept {
+    for (const std::uint32_t shape : {at_.shape_a[pair], at_.shape_b[pair]}) {
+      __builtin_prefetch(shapes_.inscribed[shape].x);
+      __builtin_prefetch(shapes_.inscribed[shape].radius);
+    }
   }
 
   Discs inscribed(std::uint32_t shape) const noexcept { return {shapes_.inscribed[shape].x, block_width}; }

@@ -25,7 +25,7 @@ class Placements {
   /// Places `size` pairs from `begin` on, at most a chunk.
   void place(const Arguments& in, std::size_t begin, std::uint32_t count) noexcept {
     size = count;
-    in.prefetch ? gather<true>(in, begin) : gather<false>(in, begin);
+    in.prefetch_agents ? gather<true>(in, begin) : gather<false>(in, begin);
     find_roots(in, begin);
     repeat_last();
     rotate(heading_, cosine_, sine_);

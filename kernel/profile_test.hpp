@@ -24,7 +24,8 @@ class ProfileTest {
     std::uint32_t near = 0;      ///< they will probably collide
   };
 
-  ProfileTest(const ShapeSetView& shapes, const Placements<Simd>& at) noexcept : shapes_(shapes), at_(at) {}
+  ProfileTest(const ShapeSetView& shapes, const Placements<Simd>& at, bool prefetch) noexcept
+      : shapes_(shapes), at_(at), prefetch_(prefetch) {}
 
   /// Of all pairs of the chunk: the line of the centres, and what either shape looks like along it. `row_a`, `row_b`: of
   /// the roots; null where they are in order.
@@ -35,8 +36,8 @@ class ProfileTest {
       record_a_[k] = at_.shape_a[k] * records_each;
       record_b_[k] = at_.shape_b[k] * records_each;
     }
-    of_a_.load(records, record_a_, count);
-    of_b_.load(records, record_b_, count);
+    of_a_.load(records, record_a_, count, prefetch_);
+    of_b_.load(records, record_b_, count, prefetch_);
     find_sectors();
     for (std::uint32_t k = 0; k < count; ++k) {
       record_a_[k] +=
@@ -44,8 +45,8 @@ class ProfileTest {
       record_b_[k] +=
           1 + static_cast<std::uint32_t>(static_cast<std::int32_t>(sector_b_[k])) % profile_sectors;
     }
-    of_a_.load(records, record_a_, count);
-    of_b_.load(records, record_b_, count);
+    of_a_.load(records, record_a_, count, prefetch_);
+    of_b_.load(records, record_b_, count, prefetch_);
     if (row_a == nullptr) return;
     choose_outer(of_a_, row_a, count);
     choose_outer(of_b_, row_b, count);
@@ -106,6 +107,7 @@ class ProfileTest {
 
   const ShapeSetView& shapes_;
   const Placements<Simd>& at_;
+  const bool prefetch_;
   alignas(64) std::uint32_t record_a_[chunk], record_b_[chunk];
   alignas(64) float distance_[chunk], sector_a_[chunk], sector_b_[chunk];
   Fields of_a_, of_b_;

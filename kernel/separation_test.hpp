@@ -74,6 +74,17 @@ class SeparationTest {
     return parted != 0;
   }
 
+  /// What apart() will read.
+  [[gnu::always_inline]] void prefetch(std::uint32_t pair, unsigned odd) const noexcept {
+    const auto [a, below, above] = rows(pair, odd);
+    __builtin_prefetch(a);
+    // Of B's, both ends: they begin anywhere in a cache line.
+    for (const unsigned end : {0u, support_directions / 2 - 1}) {
+      __builtin_prefetch(below + end);
+      __builtin_prefetch(above + end);
+    }
+  }
+
   /// The same all the while that A moves by (x, y), with `slack` to spare.
   std::uint32_t apart_on_the_way(std::uint32_t pair, unsigned odd, float x, float y,
                                  float slack) const noexcept {
@@ -105,15 +116,22 @@ class SeparationTest {
     return rows_ + std::size_t{row} * support_stride;
   }
 
+  /// Supports of A along its even or odd directions, and of B on either side of the opposite ones.
+  struct Rows {
+    const float *a, *below, *above;
+  };
+  [[gnu::always_inline]] Rows rows(std::uint32_t pair, unsigned odd) const noexcept {
+    const unsigned offset = offset_[pair] + odd;
+    const float* const b = supports(row_b_[pair]);
+    return {supports(row_a_[pair]) + odd * half, b + offset % 2 * half + offset / 2,
+            b + (offset + 1) % 2 * half + (offset + 1) / 2};
+  }
+
   /// Calls visit(k, distance, reach) for every register: along A's directions from k on, how far B is and how far the
   /// two extend together.
   template <class Visit>
   [[gnu::always_inline]] void look_along(std::uint32_t pair, unsigned odd, Visit visit) const noexcept {
-    const unsigned offset = offset_[pair] + odd;
-    const float* a = supports(row_a_[pair]) + odd * half;
-    const float* b = supports(row_b_[pair]);
-    const float* below = b + offset % 2 * half + offset / 2;
-    const float* above = b + (offset + 1) % 2 * half + (offset + 1) / 2;
+    const auto [a, below, above] = rows(pair, odd);
     const Float lower(lower_[pair]), upper(upper_[pair]);
     for (unsigned k = 0; k < support_directions / 2; k += Simd::width)
       visit(k, along(at_.tx[pair], at_.ty[pair], odd, k),

@@ -24,7 +24,8 @@ class Walk {
   /// `add` needs room; `run(below)` makes it.
   static constexpr std::uint32_t capacity = 512;
 
-  Walk(const ShapeSetView& shapes, std::uint8_t* codes) noexcept : shapes_(shapes), codes_(codes) {}
+  Walk(const ShapeSetView& shapes, std::uint8_t* codes, bool prefetch) noexcept
+      : shapes_(shapes), codes_(codes), prefetch_(prefetch) {}
 
   /// `pair` is where the answer goes in codes, `miss` what it is unless a walk finds an overlap.
   /// `reach`: of the two shapes together.
@@ -46,6 +47,8 @@ class Walk {
 
  private:
   using Nodes = TreeNodes<Simd>;
+  /// Tests that nodes are asked for ahead, with `prefetch`.
+  static constexpr std::uint32_t tests_ahead = 6;
   /// Every test descends on one side at least, and neither side has more levels than this.
   static constexpr std::uint32_t most_frames = 2 * most_wide_levels;
 
@@ -77,6 +80,11 @@ class Walk {
   [[gnu::noipa]] void test() noexcept {
     const float* const nodes = shapes_.nodes;
     for (std::uint32_t k = 0; k < size_; ++k) {
+      if (prefetch_ && k + tests_ahead < size_) {
+        const Open& next = open_[slots_[k + tests_ahead]];
+        Nodes::prefetch(nodes, next.a, next.stride_a);
+        Nodes::prefetch(nodes, next.b, next.stride_b);
+      }
       const Open& at = open_[slots_[k]];
       hits_[k] = overlapping_discs<Simd>(at.b_in_a, Nodes::discs(nodes, at.a, at.stride_a),
                                          Nodes::discs(nodes, at.b, at.stride_b),
@@ -138,6 +146,7 @@ class Walk {
 
   const ShapeSetView& shapes_;
   std::uint8_t* const codes_;
+  const bool prefetch_;
   std::uint32_t size_ = 0, numbered_ = 0;
   std::uint16_t slots_[capacity];  ///< a permutation: first those of open pairs, then free ones
   Open open_[capacity];

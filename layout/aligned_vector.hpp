@@ -4,25 +4,23 @@
 #pragma once
 
 #include <cstddef>
-#include <new>
 #include <vector>
+
+#include "layout/aligned_memory.hpp"
 
 namespace bch {
 
-/// Allocates on cache lines, which are also the widest SIMD registers.
+/// Allocates on cache lines, which are also the widest SIMD registers, and large arrays on large pages.
 template <class Value>
 struct CacheLineAllocator {
   using value_type = Value;
-  static constexpr std::align_val_t alignment{64};
 
   CacheLineAllocator() = default;
   template <class Other>
   CacheLineAllocator(const CacheLineAllocator<Other>&) noexcept {}
 
-  Value* allocate(std::size_t count) {
-    return static_cast<Value*>(::operator new(count * sizeof(Value), alignment));
-  }
-  void deallocate(Value* values, std::size_t) noexcept { ::operator delete(values, alignment); }
+  Value* allocate(std::size_t count) { return static_cast<Value*>(allocate_aligned(count * sizeof(Value))); }
+  void deallocate(Value* values, std::size_t count) noexcept { free_aligned(values, count * sizeof(Value)); }
   friend bool operator==(const CacheLineAllocator&, const CacheLineAllocator&) { return true; }
 };
 

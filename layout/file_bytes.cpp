@@ -11,14 +11,14 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
-#include <new>
 #include <stdexcept>
 #include <string>
+
+#include "layout/aligned_memory.hpp"
 
 namespace bch {
 namespace {
 
-constexpr std::align_val_t large_page{std::size_t{2} << 20};
 constexpr std::size_t most_at_once = std::size_t{1} << 30;  ///< bytes; Linux reads no more than 2 GiB
 
 /// An open regular file.
@@ -59,10 +59,8 @@ class OpenFile {
 
 FileBytes read_file(const std::filesystem::path& file) {
   const OpenFile from(file);
-  const std::shared_ptr<void> memory(::operator new(from.size(), large_page),
-                                     [](void* bytes) { ::operator delete(bytes, large_page); });
-  // Advice: without large pages it only takes longer.
-  madvise(memory.get(), from.size(), MADV_HUGEPAGE);
+  const std::shared_ptr<void> memory(allocate_aligned(from.size()),
+                                     [size = from.size()](void* bytes) { free_aligned(bytes, size); });
   auto* const bytes = static_cast<std::byte*>(memory.get());
   for (std::size_t done = 0; done < from.size();) {
     const ssize_t got = read(from.descriptor(), bytes + done, std::min(from.size() - done, most_at_once));

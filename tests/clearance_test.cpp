@@ -95,6 +95,20 @@ TEST_F(ClearanceDifferential, FarFromTheOriginAndFarApart) {
 }
 
 /// Many gaps that are equal: copies of one disc set, unturned, at places on a grid.
+TEST_F(ClearanceDifferential, ManyShapesAnswerLikeOneOfEach) {
+  PairScene scene = random_scene(random, set, 5'000);
+  const Answers of_one = answers(set, scene.crowd.agents(), scene.pairs, 0.5);
+  const ShapeSet large(test::repeated(shapes), four_levels);
+  for (std::size_t i = 0; i < scene.crowd.shape.size(); ++i)
+    scene.crowd.shape[i] += static_cast<std::uint32_t>(i * shapes.size() % large.shape_count());
+  for (const auto& implementation : kernel::implementations()) {
+    if (!implementation.supported()) continue;
+    const Answers of_many = answers(large, scene.crowd.agents(), scene.pairs, 0.5, &implementation);
+    for (std::size_t i = 0; i < scene.pairs.size(); ++i)
+      ASSERT_TRUE(of_many.same(i, of_one, i)) << implementation.name << ", pair " << i;
+  }
+}
+
 TEST_F(ClearanceDifferential, OfEqualGapsTheFirstCounts) {
   PairScene scene;
   for (std::uint32_t i = 0; i < 10'000; ++i) {

@@ -83,6 +83,12 @@ TEST_F(Differential, WithoutShortcuts) {
   expect_equal_to_brute_force(plain, reference, tangent_scene(25'000), "near tangent");
 }
 
+TEST_F(Differential, ManyShapes) {
+  const std::vector<Shape> many = test::repeated(shapes);
+  const ShapeSet large(many, plan);
+  expect_equal_to_brute_force(large, Reference(many, plan), random_scene(random, large, 5'000), "many");
+}
+
 /// Rounding grows with the larger of two shapes, and pruning has to allow for that in the discs of the smaller one.
 TEST(Sizes, AnAntMeetsAnElephant) {
   Random random(20142);

@@ -130,6 +130,12 @@ std::vector<Shape> synthetic_shapes(std::uint64_t seed, std::uint32_t count) {
   return shapes;
 }
 
+std::vector<Shape> repeated(std::span<const Shape> shapes) {
+  std::vector<Shape> many;
+  while (many.size() < 1000) many.insert(many.end(), shapes.begin(), shapes.end());
+  return many;
+}
+
 void Crowd::add(const Agent& agent) {
   shape.push_back(agent.shape);
   x.push_back(agent.x);

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <span>
 #include <vector>
 
 #include "layout/agents.hpp"
@@ -51,6 +52,9 @@ Shape contour_shape(const Outline& outline, float threshold = 0.01f);
 /// Shapes of many kinds: people-sized stars of few and of many corners, slender ones, several contours,
 /// whiskers, triangles, and sizes from 1 cm to 4 m.
 std::vector<Shape> synthetic_shapes(std::uint64_t seed, std::uint32_t count);
+
+/// So many that kernels ask for them ahead: these again and again.
+std::vector<Shape> repeated(std::span<const Shape> shapes);
 
 /// Agents in vectors of their own.
 struct Crowd {
