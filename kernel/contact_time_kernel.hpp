@@ -70,7 +70,7 @@ class ContactTimeKernel {
       separation_.use_rows(row_a_, row_b_);
     }
     separation_.place_directions();
-    for (const unsigned odd : {0u, 1u})
+    for (unsigned odd = 0; odd < 2; ++odd)
       open_.drop_if([this, odd](std::uint32_t pair) {
         return separation_.apart_on_the_way(pair, odd, x_[pair], y_[pair], slack(pair));
       });

@@ -194,7 +194,8 @@ class PairKernel {
   }
 
   [[gnu::always_inline]] void prefetch_inscribed(std::uint32_t pair) const noexcept {
-    for (const std::uint32_t shape : {at_.shape_a[pair], at_.shape_b[pair]}) {
+    const std::uint32_t both[] = {at_.shape_a[pair], at_.shape_b[pair]};
+    for (const std::uint32_t shape : both) {
       __builtin_prefetch(shapes_.inscribed[shape].x);
       __builtin_prefetch(shapes_.inscribed[shape].radius);
     }

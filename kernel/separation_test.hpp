@@ -79,10 +79,9 @@ class SeparationTest {
     const auto [a, below, above] = rows(pair, odd);
     __builtin_prefetch(a);
     // Of B's, both ends: they begin anywhere in a cache line.
-    for (const unsigned end : {0u, support_directions / 2 - 1}) {
-      __builtin_prefetch(below + end);
-      __builtin_prefetch(above + end);
-    }
+    constexpr unsigned last = support_directions / 2 - 1;
+    __builtin_prefetch(below), __builtin_prefetch(below + last);
+    __builtin_prefetch(above), __builtin_prefetch(above + last);
   }
 
   /// The same all the while that A moves by (x, y), with `slack` to spare.
