@@ -47,11 +47,11 @@ std::size_t first_bad(std::size_t count, AllGood all_good, Bad bad) {
 }
 
 std::size_t first_bad_agent(const Implementation& implementation, const Arguments& arguments,
-                            const ShapeSetView& shapes, const Agents& agents) {
+                            const Agents& agents) {
   return first_bad(
       agents.size(),
       [&](std::size_t begin, std::size_t end) { return implementation.check(arguments, begin, end); },
-      [&](std::size_t i) { return !is_valid(shapes, agents, i); });
+      [&](std::size_t i) { return !is_valid(*arguments.shapes, agents, i); });
 }
 
 /// The lowest and the highest agent that pairs name.
@@ -114,9 +114,8 @@ void require_valid(const Implementation& implementation, const ShapeSetView& sha
                    std::span<const Pair> pairs) {
   require_sizes(agents);
   const Arguments arguments = arguments_for(shapes, agents, {});
-  const bool all_agents_are_valid =
-      agents.size() <= 2 * pairs.size() &&
-      first_bad_agent(implementation, arguments, shapes, agents) == agents.size();
+  const bool all_agents_are_valid = agents.size() <= 2 * pairs.size() &&
+                                    first_bad_agent(implementation, arguments, agents) == agents.size();
   const auto is_bad = [&](std::uint32_t i) { return i >= agents.size() || !is_valid(shapes, agents, i); };
   const std::size_t i = first_bad(
       pairs.size(),
@@ -137,7 +136,7 @@ void validate(const ShapeSet& shapes, const Agents& agents) {
   const kernel::StandardFloats floats;
   const ShapeSetView view = shapes.view();
   const kernel::Arguments arguments = kernel::arguments_for(view, agents, {});
-  const std::size_t i = kernel::first_bad_agent(kernel::best_implementation(), arguments, view, agents);
+  const std::size_t i = kernel::first_bad_agent(kernel::best_implementation(), arguments, agents);
   if (i < agents.size()) kernel::reject(view, agents, i);
 }
 

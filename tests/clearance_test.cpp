@@ -94,7 +94,6 @@ TEST_F(ClearanceDifferential, FarFromTheOriginAndFarApart) {
   }
 }
 
-/// Many gaps that are equal: copies of one disc set, unturned, at places on a grid.
 TEST_F(ClearanceDifferential, ManyShapesAnswerLikeOneOfEach) {
   PairScene scene = random_scene(random, set, 5'000);
   const Answers of_one = answers(set, scene.crowd.agents(), scene.pairs, 0.5);
@@ -109,6 +108,7 @@ TEST_F(ClearanceDifferential, ManyShapesAnswerLikeOneOfEach) {
   }
 }
 
+/// Many gaps that are equal: copies of one disc set, unturned, at places on a grid.
 TEST_F(ClearanceDifferential, OfEqualGapsTheFirstCounts) {
   PairScene scene;
   for (std::uint32_t i = 0; i < 10'000; ++i) {
