@@ -52,14 +52,15 @@ class ProfileTest {
     choose_outer(of_b_, row_b, count);
   }
 
-  /// Of the pairs from k on, after look().
+  /// Of the pairs from k on, after look(). Where the centres coincide no direction leads from one to the other, the
+  /// sectors do not lie opposite to each other, and nothing follows from them but that the areas meet.
   Answers answers(std::uint32_t k) const noexcept {
-    const Float distance = Simd::load(distance_ + k);
+    const Float distance = Simd::load(distance_ + k), coincident(1e-20f);
     const Float outer_a = field(of_a_, 1, k), outer_b = field(of_b_, 1, k);
     const Float inner = field(of_a_, 0, k) + field(of_b_, 0, k), outer = outer_a + outer_b;
-    return {.apart = Simd::bits(outer < distance),
+    return {.apart = Simd::bits(xsimd::max(coincident, outer) < distance),
             .meet = Simd::bits(distance <= inner),
-            .may_nest = Simd::bits(distance <= outer_a - field(of_b_, 2, k)) |
+            .may_nest = Simd::bits(distance <= xsimd::max(coincident, outer_a - field(of_b_, 2, k))) |
                         Simd::bits(distance <= outer_b - field(of_a_, 2, k)),
             .near = Simd::bits(distance < inner + Float(near_share) * (outer - inner))};
   }
