@@ -3,10 +3,6 @@
 
 #include "kernel/broad_phase.hpp"
 
-#include <oneapi/tbb/blocked_range.h>
-#include <oneapi/tbb/parallel_for.h>
-#include <oneapi/tbb/parallel_reduce.h>
-
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -27,17 +23,15 @@ using kernel::CrowdGrid;
 using kernel::GridDisc;
 using kernel::PairList;
 using kernel::SortedDiscs;
-using Range = tbb::blocked_range<std::size_t>;
 
 constexpr std::size_t grain = 2048;        ///< agents a task
 constexpr std::size_t block_discs = 1024;  ///< whose pairs a task finds
 
 CrowdBounds bounds(const ShapeSetView& shapes, const Agents& agents) {
-  return tbb::parallel_reduce(
-      Range(0, agents.size(), grain), CrowdBounds(),
-      [&](const Range& range, CrowdBounds all) {
-        const kernel::StandardFloats floats;
-        all.add(kernel::bounds(shapes, agents, range.begin(), range.end()));
+  return kernel::reduce_ranges(
+      agents.size(), grain, CrowdBounds(),
+      [&](std::size_t begin, std::size_t end, CrowdBounds all) {
+        all.add(kernel::bounds(shapes, agents, begin, end));
         return all;
       },
       [](CrowdBounds a, const CrowdBounds& b) {
@@ -59,6 +53,8 @@ struct BroadPhase::Scratch {
   std::vector<std::size_t> found_begin;  ///< among all
   std::vector<Pair> pairs;
 
+  /// Of one agent or more.
+  std::span<const Pair> find(const ShapeSetView& shapes, const Agents& agents);
   void sort_discs(const CrowdGrid& grid, const ShapeSetView& shapes, const Agents& agents);
   void find_in_block(const CrowdGrid& grid, std::size_t begin, std::size_t end, PairList& list) const;
   void find_in_class(const CrowdGrid& grid, std::uint32_t size_class, std::size_t begin, std::size_t end,
@@ -145,13 +141,28 @@ void BroadPhase::Scratch::gather_pairs(std::size_t blocks) {
   found_begin.assign(blocks + 1, 0);
   for (std::size_t b = 0; b < blocks; ++b) found_begin[b + 1] = found_begin[b] + found[b].pairs().size();
   pairs.resize(found_begin[blocks]);
-  tbb::parallel_for(std::size_t{0}, blocks, [&](std::size_t b) {
-    const std::span<const Pair> list = found[b].pairs();
-    std::transform(list.begin(), list.end(), pairs.begin() + static_cast<std::ptrdiff_t>(found_begin[b]),
-                   [](Pair pair) {
-                     return Pair{std::min(pair.first, pair.second), std::max(pair.first, pair.second)};
-                   });
+  kernel::for_ranges(blocks, 1, [&](std::size_t first, std::size_t last) {
+    auto to = pairs.begin() + static_cast<std::ptrdiff_t>(found_begin[first]);
+    for (std::size_t b = first; b < last; ++b)
+      to = std::transform(found[b].pairs().begin(), found[b].pairs().end(), to, [](Pair pair) {
+        return Pair{std::min(pair.first, pair.second), std::max(pair.first, pair.second)};
+      });
   });
+}
+
+std::span<const Pair> BroadPhase::Scratch::find(const ShapeSetView& shapes, const Agents& agents) {
+  const CrowdGrid grid(bounds(shapes, agents));
+  sort_discs(grid, shapes, agents);
+  const std::size_t blocks = (agents.size() + block_discs - 1) / block_discs;
+  if (found.size() < blocks) found.resize(blocks);
+  kernel::for_ranges(blocks, 1, [&](std::size_t first, std::size_t last) {
+    for (std::size_t b = first; b < last; ++b) {
+      const std::size_t begin = b * block_discs, end = std::min(begin + block_discs, agents.size());
+      find_in_block(grid, begin, end, found[b]);
+    }
+  });
+  gather_pairs(blocks);
+  return pairs;
 }
 
 BroadPhase::BroadPhase() : scratch_(std::make_unique<Scratch>()) {}
@@ -163,19 +174,7 @@ std::span<const Pair> BroadPhase::find(const ShapeSet& shapes, const Agents& age
   const kernel::StandardFloats floats;
   validate(shapes, agents);
   if (agents.size() == 0) return {};
-  Scratch& scratch = *scratch_;
-  const CrowdGrid grid(bounds(shapes.view(), agents));
-  scratch.sort_discs(grid, shapes.view(), agents);
-  const std::size_t blocks = (agents.size() + block_discs - 1) / block_discs;
-  if (scratch.found.size() < blocks) scratch.found.resize(blocks);
-  kernel::for_ranges(blocks, 1, [&](std::size_t first, std::size_t last) {
-    for (std::size_t b = first; b < last; ++b) {
-      const std::size_t begin = b * block_discs, end = std::min(begin + block_discs, agents.size());
-      scratch.find_in_block(grid, begin, end, scratch.found[b]);
-    }
-  });
-  scratch.gather_pairs(blocks);
-  return scratch.pairs;
+  return kernel::without_tasks_from_outside([&] { return scratch_->find(shapes.view(), agents); });
 }
 
 std::vector<Pair> candidate_pairs(const ShapeSet& shapes, const Agents& agents) {

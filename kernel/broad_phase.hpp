@@ -23,7 +23,7 @@ class BroadPhase {
 
   /// Every pair of agents whose root discs, at the agents' levels, can overlap: once each, first < second. No
   /// pair that collide() answers with 1 is left out; the only others are those whose root discs miss each
-  /// other by a few millionths of their radii.
+  /// other by a few millionths of their radii and of how far their shapes reach, or by 2^-26 of the crowd's largest radius.
   /// Order:   by place: along the rows of a grid, so that who reads agents in the order of the pairs finds
   ///          most of them in a cache, wherever they lie in memory. The same for any number of threads.
   /// Sizes:   radii within a factor of four share a grid, others have grids of their own: a few large agents
@@ -31,7 +31,8 @@ class BroadPhase {
   /// Memory:  the pairs are valid until the next call. 72 bytes an agent and up to 24 a pair are kept; a call
   ///          like an earlier one allocates nothing.
   /// Errors:  throws std::invalid_argument like validate(shapes, agents).
-  /// Threads: runs in the caller's TBB arena; one call at a time.
+  /// Threads: runs in the caller's TBB arena; one call at a time. While it waits for its tasks the calling thread takes
+  ///          no others, so that an object for each of TBB's threads is enough.
   std::span<const Pair> find(const ShapeSet& shapes, const Agents& agents);
 
  private:

@@ -21,6 +21,8 @@ struct CrowdCollider::Scratch {
   std::vector<std::uint8_t> hits;
   std::vector<std::uint64_t> begin;
   std::vector<std::uint32_t> neighbours;
+
+  CollidingNeighbours collide_all(const ShapeSet& shapes, const Agents& agents, const QueryOptions& options);
 };
 
 CrowdCollider::CrowdCollider() : scratch_(std::make_unique<Scratch>()) {}
@@ -28,9 +30,8 @@ CrowdCollider::CrowdCollider(CrowdCollider&&) noexcept = default;
 CrowdCollider& CrowdCollider::operator=(CrowdCollider&&) noexcept = default;
 CrowdCollider::~CrowdCollider() = default;
 
-CollidingNeighbours CrowdCollider::collide_all(const ShapeSet& shapes, const Agents& agents,
-                                               const QueryOptions& options) {
-  auto& [broad_phase, hits, begin, neighbours] = *scratch_;
+CollidingNeighbours CrowdCollider::Scratch::collide_all(const ShapeSet& shapes, const Agents& agents,
+                                                        const QueryOptions& options) {
   const std::span<const Pair> pairs = broad_phase.find(shapes, agents);
   hits.resize(pairs.size());
   collide(shapes, agents, pairs, hits, options);
@@ -46,6 +47,11 @@ CollidingNeighbours CrowdCollider::collide_all(const ShapeSet& shapes, const Age
   kernel::for_ranges(agents.size(), grain,
                      [&](std::size_t first, std::size_t last) { rows.sort(first, last); });
   return {begin, neighbours};
+}
+
+CollidingNeighbours CrowdCollider::collide_all(const ShapeSet& shapes, const Agents& agents,
+                                               const QueryOptions& options) {
+  return kernel::without_tasks_from_outside([&] { return scratch_->collide_all(shapes, agents, options); });
 }
 
 }  // namespace bch

@@ -36,7 +36,7 @@ class CrowdCollider {
   /// Memory:  the answer is valid until the next call. Beside a BroadPhase's, 1 byte for each pair that it finds, 8 an
   ///          agent and 8 a colliding pair are kept; a call like an earlier one allocates nothing.
   /// Errors:  throws std::invalid_argument like validate(shapes, agents) and collide(); the last answer is then gone.
-  /// Threads: runs in the caller's TBB arena; one call at a time.
+  /// Threads: runs in the caller's TBB arena; one call at a time, as BroadPhase::find().
   CollidingNeighbours collide_all(const ShapeSet& shapes, const Agents& agents,
                                   const QueryOptions& options = {});
 

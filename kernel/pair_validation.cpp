@@ -3,9 +3,6 @@
 
 #include "kernel/pair_validation.hpp"
 
-#include <oneapi/tbb/blocked_range.h>
-#include <oneapi/tbb/parallel_reduce.h>
-
 #include <algorithm>
 #include <limits>
 #include <stdexcept>
@@ -13,13 +10,12 @@
 
 #include "kernel/collide.hpp"
 #include "kernel/standard_floats.hpp"
+#include "kernel/task_ranges.hpp"
 #include "kernel/validation.hpp"
 
 namespace bch {
 namespace kernel {
 namespace {
-
-using Range = tbb::blocked_range<std::size_t>;
 
 /// From here on agents are prefetched: 3 MB of them. Below, that costs 1 % (and 13 % for single cylinders).
 constexpr std::size_t many_agents = 100'000;
@@ -36,14 +32,8 @@ std::size_t first_bad(std::size_t count, AllGood all_good, Bad bad) {
       if (bad(i)) return i;
     return found;
   };
-  if (count <= pairs_per_task) return search(0, count, count);
-  return tbb::parallel_reduce(
-      Range(0, count, pairs_per_task), count,
-      [&](const Range& range, std::size_t found) {
-        const StandardFloats floats;
-        return search(range.begin(), range.end(), found);
-      },
-      [](std::size_t a, std::size_t b) { return std::min(a, b); });
+  return reduce_ranges(count, pairs_per_task, count, search,
+                       [](std::size_t a, std::size_t b) { return std::min(a, b); });
 }
 
 std::size_t first_bad_agent(const Implementation& implementation, const Arguments& arguments,

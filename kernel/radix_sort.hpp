@@ -3,13 +3,13 @@
 
 #pragma once
 
-#include <oneapi/tbb/parallel_for.h>
-
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <utility>
 #include <vector>
+
+#include "kernel/task_ranges.hpp"
 
 namespace bch::kernel {
 
@@ -46,10 +46,13 @@ class RadixSort {
     const std::size_t blocks = std::clamp<std::size_t>(size / least_block, 1, most_blocks);
     places_.assign(blocks * digits, 0);
     const auto each_block = [&](auto visit) {
-      tbb::parallel_for(std::size_t{0}, blocks, [&](std::size_t block) {
-        std::uint32_t* const places = places_.data() + block * digits;
-        const std::size_t end = size * (block + 1) / blocks;
-        for (std::size_t i = size * block / blocks; i < end; ++i) visit(values[i], places[digit(values[i])]);
+      for_ranges(blocks, 1, [&](std::size_t first, std::size_t last) {
+        for (std::size_t block = first; block < last; ++block) {
+          std::uint32_t* const places = places_.data() + block * digits;
+          const std::size_t end = size * (block + 1) / blocks;
+          for (std::size_t i = size * block / blocks; i < end; ++i)
+            visit(values[i], places[digit(values[i])]);
+        }
       });
     };
     each_block([](const Value&, std::uint32_t& count) { ++count; });

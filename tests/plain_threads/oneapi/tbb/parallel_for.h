@@ -3,20 +3,15 @@
 
 #pragma once
 
+#include <oneapi/tbb/task_group.h>
+
 #include "tests/plain_threads/plain_threads.hpp"
 
 namespace tbb {
 
 template <class Body>
-void parallel_for(const blocked_range<std::size_t>& range, const Body& body) {
+void parallel_for(const blocked_range<std::size_t>& range, const Body& body, const task_group_context&) {
   bch::test::on_plain_threads([&](std::size_t t) { body(bch::test::part(range, t)); });
-}
-
-template <class Body>
-void parallel_for(std::size_t first, std::size_t last, const Body& body) {
-  parallel_for(blocked_range<std::size_t>(first, last), [&](const blocked_range<std::size_t>& range) {
-    for (std::size_t i = range.begin(); i < range.end(); ++i) body(i);
-  });
 }
 
 }  // namespace tbb

@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+namespace tbb {
+
+struct task_group_context {
+  enum Kind { isolated };
+  explicit task_group_context(Kind) {}
+};
+
+}  // namespace tbb
