@@ -8,6 +8,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "layout/flat_shape.hpp"
+
 namespace bch {
 namespace {
 
@@ -16,9 +18,14 @@ bool fits(const ShapeExtent& part, const ShapeExtent& whole) {
          part.points <= whole.points;
 }
 
-/// For what outgrew its place.
-std::size_t with_room(std::size_t needed, std::size_t had) {
-  return needed <= had ? had : needed + needed / 2;
+/// One part of a shape, which gets a new place behind all others where it outgrew its own.
+/// Returns: how far that makes the end move.
+std::size_t grow(std::size_t needed, std::size_t room, std::size_t end, std::size_t& begin,
+                 std::size_t& size) {
+  if (needed <= size) return 0;
+  begin = end;
+  size = room;
+  return room;
 }
 
 bool has_more_than_a_disc(const FlatShape& flat) {
@@ -34,38 +41,27 @@ bool has_single_disc(const FlatShape& flat) {
 }  // namespace
 
 DynamicShapeSet::DynamicShapeSet(const ShapeSet& start)
-    : plan_(start.plan()), storage_(copy_of(start.arrays())), set_(storage_.arrays(), nullptr) {
-  places_.resize(set_.shape_count());
-  find_places();
+    : plan_(start.plan()), places_(start.shape_count()), set_({}, nullptr) {
+  copy(start.arrays());
+  set_ = ShapeSet(storage_.arrays(), nullptr);
 }
 
-/// In a set that was built, or passed validate(), shapes lie one behind the other.
-void DynamicShapeSet::find_places() {
-  if (set_.roots_only()) {
+/// Shape by shape: they may lie in any order there, and closer to each other than places may.
+void DynamicShapeSet::copy(const ShapeArrays& arrays) {
+  storage_.depths.assign(arrays.depths.begin(), arrays.depths.end());
+  if (arrays.trees.empty()) {
+    storage_.roots.assign(arrays.roots.begin(), arrays.roots.end());
     constexpr std::size_t any = std::numeric_limits<std::size_t>::max();
     std::fill(places_.begin(), places_.end(), Place{{}, {any, any, any, any}});
     return;
   }
-  end_ = {next_line(storage_.nodes.size() - block_floats), first_row, storage_.contours.size(),
-          storage_.points.size()};
-  for (const Root& root : storage_.roots) end_.rows += root.row >= first_row;
-  ShapeExtent end = end_;
-  for (std::uint32_t shape = set_.shape_count(); shape-- > 0; end = places_[shape].begin)
-    places_[shape] = place_of(shape, end);
-}
-
-/// From where a place ends.
-DynamicShapeSet::Place DynamicShapeSet::place_of(std::uint32_t shape, const ShapeExtent& end) const {
-  const std::size_t levels = storage_.depths.size();
-  ShapeExtent begin = end;
-  begin.nodes = next_line(storage_.trees[shape * levels].top & ~leaf_window);
-  for (std::size_t k = 0; k < levels; ++k) begin.rows -= storage_.roots[shape * levels + k].row >= first_row;
-  if (plan_.solid) {
-    begin.contours = storage_.shape_contours[shape].begin;
-    if (begin.contours < end.contours) begin.points = storage_.contours[begin.contours].begin;
+  storage_.resize(plan_, places_.size());
+  for (std::uint32_t shape = 0; shape < places_.size(); ++shape) {
+    const FlatShape flat = flat_shape(arrays, shape);
+    const ShapeExtent extent = extent_of(flat);
+    make_place(shape, extent, extent);
+    storage_.put(shape, flat, places_[shape].begin);
   }
-  const std::size_t nodes = end.nodes > begin.nodes ? end.nodes - begin.nodes : 0;
-  return {begin, {nodes, end.rows - begin.rows, end.contours - begin.contours, end.points - begin.points}};
 }
 
 void DynamicShapeSet::require(std::uint32_t shape, const FlatShape& flat) const {
@@ -80,36 +76,45 @@ void DynamicShapeSet::require(std::uint32_t shape, const FlatShape& flat) const 
   }
 }
 
-bool DynamicShapeSet::try_replace(std::uint32_t shape, const FlatShape& flat) {
-  require(shape, flat);
-  if (!fits(extent_of(flat), places_[shape].size)) return false;
+bool DynamicShapeSet::fits(std::uint32_t shape, const FlatShape& flat) const {
   // Else set_ has to learn of single discs, or a kernel would not look for them.
   if (set_.view().rows_in_order && has_single_disc(flat)) return false;
+  return bch::fits(extent_of(flat), places_[shape].size);
+}
+
+bool DynamicShapeSet::try_replace(std::uint32_t shape, const FlatShape& flat) {
+  require(shape, flat);
+  if (!fits(shape, flat)) return false;
   storage_.put(shape, flat, places_[shape].begin);
   return true;
 }
 
 void DynamicShapeSet::replace(std::uint32_t shape, const FlatShape& flat) {
-  require(shape, flat);
+  if (try_replace(shape, flat)) return;
   // Also where an allocation fails half way.
   struct Refresh {
     DynamicShapeSet& of;
     ~Refresh() { of.set_ = ShapeSet(of.storage_.arrays(), nullptr); }
   };
   const Refresh refresh{*this};
-  const ShapeExtent size = extent_of(flat);
-  if (!fits(size, places_[shape].size)) move(shape, size);
+  const ShapeExtent needed = extent_of(flat);
+  make_place(shape, needed,
+             {needed.nodes + needed.nodes / 2, needed.rows, needed.contours + needed.contours / 2,
+              needed.points + needed.points / 2});
   storage_.put(shape, flat, places_[shape].begin);
 }
 
-void DynamicShapeSet::move(std::uint32_t shape, const ShapeExtent& size) {
-  const ShapeExtent& had = places_[shape].size;
-  const ShapeExtent room{next_line(with_room(size.nodes, had.nodes)), 1,
-                         with_room(size.contours, had.contours), with_room(size.points, had.points)};
-  storage_.make_room(end_, room);
-  places_[shape] = {end_, room};
-  end_ = {end_.nodes + room.nodes, end_.rows + room.rows, end_.contours + room.contours,
-          end_.points + room.points};
+/// Parts that have room enough stay where they are.
+void DynamicShapeSet::make_place(std::uint32_t shape, const ShapeExtent& needed, const ShapeExtent& room) {
+  auto [begin, size] = places_[shape];
+  const ShapeExtent grown{grow(needed.nodes, next_line(room.nodes), end_.nodes, begin.nodes, size.nodes),
+                          grow(needed.rows, room.rows, end_.rows, begin.rows, size.rows),
+                          grow(needed.contours, room.contours, end_.contours, begin.contours, size.contours),
+                          grow(needed.points, room.points, end_.points, begin.points, size.points)};
+  storage_.make_room(end_, grown);
+  places_[shape] = {begin, size};
+  end_ = {end_.nodes + grown.nodes, end_.rows + grown.rows, end_.contours + grown.contours,
+          end_.points + grown.points};
 }
 
 }  // namespace bch

@@ -16,16 +16,18 @@ ShapeSetBuilder::ShapeSetBuilder(const ShapeSetPlan& plan) : plan_(plan) {
 
 void ShapeSetBuilder::add(const FlatShape& flat) {
   const ShapeExtent size = extent_of(flat);
+  ShapeExtent at = end_;
+  at.nodes = next_line(end_.nodes);
   storage_.resize(plan_, shapes_ + 1);
-  storage_.make_room(end_, size);
-  storage_.put(shapes_++, flat, end_);
-  end_.nodes = next_line(end_.nodes + size.nodes);
-  end_.rows += size.rows;
-  end_.contours += size.contours;
-  end_.points += size.points;
+  storage_.make_room(at, size);
+  storage_.put(shapes_++, flat, at);
+  end_ = {at.nodes + size.nodes, at.rows + size.rows, at.contours + size.contours, at.points + size.points};
 }
 
 ShapeSet ShapeSetBuilder::finish() && {
+  // An add() that threw may have left more.
+  storage_.resize(plan_, shapes_);
+  storage_.make_room(end_, {});
   // Single discs need blocks only to meet those that are not, and never contain what they do not overlap.
   const auto is_single = [](const Root& root) { return root.row == single_disc; };
   if (std::all_of(storage_.roots.begin(), storage_.roots.end(), is_single)) {

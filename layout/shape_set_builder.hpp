@@ -14,7 +14,7 @@ class ShapeSetBuilder {
   explicit ShapeSetBuilder(const ShapeSetPlan& plan);
 
   /// A shape made flat with the same plan.
-  /// Errors:  throws std::length_error beyond 2^31 numbers in nodes or 2^32 roots.
+  /// Errors:  throws std::length_error beyond 2^31 numbers in nodes or 2^32 roots. What was added before is then as it was.
   void add(const FlatShape& flat);
   ShapeSet finish() &&;
 

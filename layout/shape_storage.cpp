@@ -55,24 +55,6 @@ ShapeArrays ShapeStorage::arrays() const {
           .points = points};
 }
 
-ShapeStorage copy_of(const ShapeArrays& arrays) {
-  ShapeStorage copy;
-  const auto assign = [](auto& to, const auto& from) { to.assign(from.begin(), from.end()); };
-  assign(copy.depths, arrays.depths);
-  assign(copy.roots, arrays.roots);
-  assign(copy.trees, arrays.trees);
-  assign(copy.nodes, arrays.nodes);
-  assign(copy.reach, arrays.reach);
-  assign(copy.support, arrays.support);
-  assign(copy.inscribed, arrays.inscribed);
-  assign(copy.extremes, arrays.extremes);
-  assign(copy.profiles, arrays.profiles);
-  assign(copy.shape_contours, arrays.shape_contours);
-  assign(copy.contours, arrays.contours);
-  assign(copy.points, arrays.points);
-  return copy;
-}
-
 void ShapeStorage::resize(const ShapeSetPlan& plan, std::size_t shapes) {
   const std::size_t levels = plan.depths.size();
   require_numbers(shapes * levels, "roots");

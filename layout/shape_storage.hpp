@@ -56,6 +56,4 @@ struct ShapeStorage {
   void put_outline(std::size_t shape, const FlatShape& flat, const ShapeExtent& at);
 };
 
-ShapeStorage copy_of(const ShapeArrays& arrays);
-
 }  // namespace bch

@@ -11,6 +11,7 @@
 
 #include "kernel/broad_phase.hpp"
 #include "kernel/collide.hpp"
+#include "layout/shape_validation.hpp"
 #include "tests/allocation_count.hpp"
 #include "tests/scenes.hpp"
 
@@ -121,6 +122,17 @@ TEST_P(DynamicShapes, NothingIsAllocatedOncePlacesAreLargeEnough) {
   EXPECT_EQ(dynamic.set().bytes(), bytes);
 }
 
+/// Also of one whose shapes no longer lie in order, and then it may be baked.
+TEST_P(DynamicShapes, MayBeCopied) {
+  for (int round = 0; round < 4; ++round) {
+    for (int i = 0; i < 8; ++i) replace(random.below(12), pool[random.below(60)]);
+    DynamicShapeSet copy(dynamic.set());
+    validate(copy.set().arrays());
+    dynamic = std::move(copy);
+    expect_as_if_built_anew();
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Plans, DynamicShapes,
                          testing::Values(ShapeSetPlan{}, ShapeSetPlan{{0}, false, false},
                                          ShapeSetPlan{{0, 3, all_depths}, true, true},
@@ -144,6 +156,59 @@ TEST(DynamicShapeSet, WhatDoesNotFitIsNotReplaced) {
   EXPECT_TRUE(dynamic.try_replace(0, flat(large, {})));
   EXPECT_TRUE(dynamic.try_replace(0, flat(small, {})));
   EXPECT_EQ(answers(dynamic.set(), scene, false), answers(start, scene, false));
+}
+
+/// Nothing asks shapes of a set, which may come from a file, to begin on a cache line.
+TEST(DynamicShapeSet, PlacesOfACopyDoNotReachIntoEachOther) {
+  Random random(86);
+  const ShapeSetPlan plan;
+  const std::vector<Shape> shapes = {test::contour_shape(test::star(random, 60, 0.3, 0.5)),
+                                     test::contour_shape(test::polygon({{0, 0}, {0.03f, 0}, {0, 0.04f}}))};
+  ShapeStorage tight;
+  tight.depths.assign(plan.depths.begin(), plan.depths.end());
+  tight.resize(plan, 2);
+  ShapeExtent end{.rows = first_row};
+  for (std::size_t s = 0; s < 2; ++s) {
+    const FlatShape shape = flat(shapes[s], plan);
+    const ShapeExtent size = extent_of(shape);
+    tight.make_room(end, size);
+    tight.put(s, shape, end);
+    end.nodes += size.nodes, end.rows += size.rows;
+  }
+  validate(tight.arrays());
+  ASSERT_NE(tight.trees[1].top % 16, 0u);
+  const ShapeSet start(tight.arrays(), nullptr);
+  const PairScene scene = random_scene(random, start, 1'000);
+  const auto expected = answers(start, scene, false);
+  DynamicShapeSet dynamic(start);
+  EXPECT_EQ(answers(dynamic.set(), scene, false), expected);
+  // As much as a place of the first shape may hold.
+  const ShapeExtent place = extent_of(flat(shapes[0], plan));
+  std::size_t most = 0;
+  for (int i = 0; i < 400; ++i) {
+    const FlatShape shape = flat(test::contour_shape(test::star(random, 60, 0.3, 0.5)), plan);
+    if (dynamic.try_replace(0, shape)) most = std::max(most, extent_of(shape).nodes);
+  }
+  EXPECT_GT(most, place.nodes);  // room that is left up to the next line
+  ASSERT_TRUE(dynamic.try_replace(0, flat(shapes[0], plan)));
+  EXPECT_EQ(answers(dynamic.set(), scene, false), expected);
+}
+
+/// What its header says: 4.5 times what the largest shapes need, each part by itself.
+TEST(DynamicShapeSet, PlacesTakeLittleMoreThanTheLargestShapes) {
+  const ShapeSetPlan plan{{all_depths}, true};
+  Random random(88);
+  const Outline outline = test::star(random, 500, 0.3, 0.5);
+  DynamicShapeSet dynamic(ShapeSet(std::vector<Shape>{test::contour_shape(outline, 0.4f)}, plan));
+  for (float threshold = 0.2f; threshold > 0.001f; threshold *= 0.9f) {
+    const FlatShape shape = flat(test::contour_shape(outline, threshold), plan);
+    dynamic.replace(0, shape);
+    const ShapeArrays& arrays = dynamic.set().arrays();
+    const ShapeExtent size = extent_of(shape);
+    EXPECT_LE(arrays.nodes.size(), 4.5 * static_cast<double>(size.nodes) + 64) << threshold;
+    EXPECT_EQ(arrays.support.size(), (first_row + 1) * support_stride);
+    EXPECT_EQ(arrays.points.size(), size.points);
+  }
 }
 
 TEST(DynamicShapeSet, RejectsOtherPlansAndShapesThatAreNotThere) {
