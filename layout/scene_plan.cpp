@@ -32,9 +32,8 @@ class Shapes {
   explicit Shapes(float pose_step) : step_(static_cast<double>(pose_step)) {}
 
   std::uint32_t number(ShapeSource source) {
-    if (step_ > 0)
-      source.at.seconds =
-          static_cast<float>(std::round(static_cast<double>(source.at.seconds) / step_) * step_);
+    if (source.at.clip == PoseTime::rest) source.at.seconds = 0;
+    if (step_ > 0) source.at.seconds = stepped(source.at.seconds);
     const auto [found, is_new] =
         numbers_.try_emplace({source.character, source.at.clip, source.at.seconds}, list.size());
     if (is_new) list.push_back(source);
@@ -44,6 +43,12 @@ class Shapes {
   std::vector<ShapeSource> list;
 
  private:
+  /// Not beyond the time itself, which may be the clip's end.
+  float stepped(float seconds) const {
+    const double steps = std::floor(static_cast<double>(seconds) / step_);
+    return std::min(seconds, static_cast<float>(steps * step_));
+  }
+
   double step_;
   std::map<std::tuple<std::uint32_t, std::uint32_t, float>, std::size_t> numbers_;
 };

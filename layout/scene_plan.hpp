@@ -35,8 +35,8 @@ struct SceneUse {
   bool solid = false;
   /// Level of detail: the cut depth of agents at a distance, all_depths where it does not matter. None: all_depths.
   std::function<std::uint32_t(double metres)> depth = {};
-  /// Seconds: times within a clip are rounded to multiples of it, so that agents share shapes; 0: only those do that
-  /// show the very same.
+  /// Seconds: times within a clip are rounded down to multiples of it, so that agents share shapes; 0: only those do
+  /// that show the very same.
   float pose_step = 0;
   /// About how many pairs a shape will be in before it is given up; few where each lives for one frame. From
   /// pairs_for_shortcuts on it gets shortcuts.

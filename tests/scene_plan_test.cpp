@@ -52,9 +52,33 @@ TEST(ScenePlan, SharesShapesWithinThePoseStep) {
   for (int i = 0; i < 1000; ++i) agents.push_back({{0, {0, 0.01f * static_cast<float>(i)}}, 0});
   EXPECT_EQ(plan_scene(agents).shapes.size(), 1000u);
   const ScenePlan plan = plan_scene(agents, {.pose_step = 0.5f});
-  EXPECT_EQ(plan.shapes.size(), 21u);
-  for (std::size_t i = 0; i < agents.size(); ++i)
-    EXPECT_LE(std::abs(plan.shapes[plan.agent_shape[i]].at.seconds - agents[i].shows.at.seconds), 0.2501f);
+  EXPECT_EQ(plan.shapes.size(), 20u);
+  for (std::size_t i = 0; i < agents.size(); ++i) {
+    const float later = agents[i].shows.at.seconds - plan.shapes[plan.agent_shape[i]].at.seconds;
+    EXPECT_GE(later, 0);
+    EXPECT_LT(later, 0.5f);
+  }
+}
+
+/// Whatever the step, up to the very end of every clip.
+TEST(ScenePlan, NamesTimesThatClipsHave) {
+  const Character character = test::default_characters().front();
+  Skinner skinner(character);
+  for (const float step : {0.3f, 1.0f / 30, 0.7f, 100.0f})
+    for (std::uint32_t clip = 0; clip < character.clips.size(); ++clip) {
+      const float end = character.clips[clip].seconds;
+      for (const float at : {end, std::nextafter(end, 0.0f), end - 0.01f}) {
+        const ScenePlan plan = plan_scene(std::vector<SceneAgent>{{{0, {clip, at}}, 0}}, {.pose_step = step});
+        EXPECT_NO_THROW(skinner.pose(plan.shapes[0].at)) << character.clips[clip].name << ' ' << at;
+      }
+    }
+}
+
+/// The rest pose has no time.
+TEST(ScenePlan, SharesTheRestPose) {
+  std::vector<SceneAgent> agents;
+  for (int i = 0; i < 100; ++i) agents.push_back({{0, {PoseTime::rest, 0.1f * static_cast<float>(i)}}, 0});
+  EXPECT_EQ(plan_scene(agents).shapes.size(), 1u);
 }
 
 TEST(ScenePlan, HasTheDepthsThatAgentsAskFor) {
