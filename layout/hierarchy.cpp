@@ -4,12 +4,41 @@
 #include "layout/hierarchy.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <string>
 #include <utility>
 
 #include "layout/hierarchy_builder.hpp"
 #include "layout/rounding.hpp"
 
 namespace bch {
+namespace {
+
+[[noreturn]] void reject(const Hierarchy& hierarchy, std::size_t i) {
+  const auto& [disc, bound, second, begin, end] = hierarchy.nodes[i];
+  throw std::invalid_argument("hierarchy: node " + std::to_string(i) + ": a disc of " +
+                              std::to_string(disc.radius) + " m at (" + std::to_string(disc.x) + ", " +
+                              std::to_string(disc.y) + ") m, second child " + std::to_string(second) +
+                              " of " + std::to_string(hierarchy.nodes.size()) + " nodes");
+}
+
+}  // namespace
+
+void validate(const Hierarchy& hierarchy) {
+  if (hierarchy.nodes.empty()) throw std::invalid_argument("hierarchy: it has no nodes");
+  require_reach(hierarchy.reach);
+  const auto farthest = static_cast<float>(hierarchy.reach * (1 + 0x1p-20));
+  const std::size_t count = hierarchy.nodes.size();
+  for (std::size_t i = 0; i < count; ++i) {
+    const HierarchyNode& node = hierarchy.nodes[i];
+    const bool is_near = (std::abs(node.disc.x) <= farthest) & (std::abs(node.disc.y) <= farthest);
+    const bool has_radius = (node.disc.radius > 0) & (node.disc.radius <= std::numeric_limits<float>::max());
+    const bool has_children = node.is_leaf() | ((node.second_child > i + 1) & (node.second_child < count));
+    if (!(is_near & has_radius & has_children)) reject(hierarchy, i);
+  }
+}
 
 Hierarchy contour_hierarchy(const Outline& outline, float threshold, SplitRule rule) {
   Hierarchy hierarchy;

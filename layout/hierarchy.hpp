@@ -44,6 +44,11 @@ struct Hierarchy {
   double reach = 0;                   ///< metres: largest distance of an element's point from the origin
 };
 
+/// Checks what others rely on: at least one node, children after their parents, discs that are finite, larger than 0 and
+/// about centres within the reach, a reach within the limits of rounding.hpp.
+/// Errors:  throws std::invalid_argument naming the node and the value.
+void validate(const Hierarchy& hierarchy);
+
 /// Where the plane goes that divides a node's segments; its normal is the axis of the larger extent.
 enum class SplitRule {
   centroid,  ///< through the centroid, weighted by length so that detailed parts do not pull it
@@ -60,8 +65,8 @@ Hierarchy contour_hierarchy(const Outline& outline, float threshold, SplitRule r
 
 /// The paper's hierarchy over all projected triangles: the plane goes through the mean of the vertices, a
 /// triangle goes to the side of its centroid and is never cut; one triangle is a leaf.
-/// Errors:  throws std::invalid_argument on no triangles, an index out of range, or a reach outside
-///          rounding.hpp's domain.
+/// Errors:  throws std::invalid_argument on no triangles, an index out of range, a vertex of theirs that is not finite,
+///          or a reach outside rounding.hpp's domain. Vertices of no triangle do not count.
 Hierarchy projected_hierarchy(std::span<const Vec2> vertices,
                               std::span<const std::array<std::uint32_t, 3>> triangles);
 

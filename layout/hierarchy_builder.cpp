@@ -80,15 +80,16 @@ void HierarchyBuilder::projected(std::span<const Vec2> vertices,
                                  Hierarchy& hierarchy) {
   hierarchy.nodes.clear();
   if (triangles.empty()) throw std::invalid_argument("hierarchy: no triangles");
+  hierarchy.reach = 0;
   for (std::size_t t = 0; t < triangles.size(); ++t)
-    for (const std::uint32_t vertex : triangles[t])
+    for (const std::uint32_t vertex : triangles[t]) {
       if (vertex >= vertices.size())
         throw std::invalid_argument("hierarchy: triangle " + std::to_string(t) + " names vertex " +
                                     std::to_string(vertex));
-  for (std::size_t v = 0; v < vertices.size(); ++v)
-    if (!std::isfinite(vertices[v].x) || !std::isfinite(vertices[v].y))
-      throw std::invalid_argument("hierarchy: vertex " + std::to_string(v) + " is not finite");
-  hierarchy.reach = reach(vertices);
+      if (!std::isfinite(vertices[vertex].x) || !std::isfinite(vertices[vertex].y))
+        throw std::invalid_argument("hierarchy: vertex " + std::to_string(vertex) + " is not finite");
+      hierarchy.reach = std::max(hierarchy.reach, reach(vertices.subspan(vertex, 1)));
+    }
   require_reach(hierarchy.reach);
   begin(hierarchy.reach, 0, 0);
   for (const auto& [a, b, c] : triangles) add_triangle({vertices[a], vertices[b], vertices[c]});

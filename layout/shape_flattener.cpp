@@ -24,22 +24,33 @@ ShapeFlattener::ShapeFlattener(const ShapeSetPlan& plan) : plan_(plan) {
 }
 
 void ShapeFlattener::flatten(const Shape& shape, std::size_t index, FlatShape& flat) {
-  if (shape.hierarchy.nodes.empty())
-    throw std::invalid_argument("shape set: shape " + std::to_string(index) + " has no nodes");
+  require(shape, index);
   flat.plan = plan_;
   flat.reach = shape.hierarchy.reach;
   add_levels(shape, flat);
   if (plan_.solid) add_outline(shape.outline, flat);
 }
 
+void ShapeFlattener::require(const Shape& shape, std::size_t index) const {
+  try {
+    validate(shape.hierarchy);
+    if (plan_.solid || (has_shortcuts() && shape.outline.contours() > 0)) validate(shape.outline);
+  } catch (const std::invalid_argument& error) {
+    throw std::invalid_argument("shape set: shape " + std::to_string(index) + ": " + error.what());
+  }
+}
+
+bool ShapeFlattener::has_shortcuts() const {
+  return plan_.shortcuts && plan_.depths.back() > 0;
+}
+
 void ShapeFlattener::add_levels(const Shape& shape, FlatShape& flat) {
-  const bool shortcuts = plan_.shortcuts && plan_.depths.back() > 0;
-  if (shortcuts) add_interior(shape, flat);
+  if (has_shortcuts()) add_interior(shape, flat);
   flat.levels.resize(plan_.depths.size());
   flattener_.begin(shape.hierarchy);
   for (std::size_t k = 0; k < plan_.depths.size(); ++k) {
     flattener_.flatten(plan_.depths[k], flat.levels[k]);
-    if (shortcuts) add_shortcuts(k, flat);
+    if (has_shortcuts()) add_shortcuts(k, flat);
   }
 }
 
@@ -47,10 +58,7 @@ void ShapeFlattener::add_levels(const Shape& shape, FlatShape& flat) {
 void ShapeFlattener::add_interior(const Shape& shape, FlatShape& flat) {
   flat.interior = {};
   flat.interior.x.fill(infinity);
-  if (shape.outline.contours() > 0) {
-    validate(shape.outline);
-    flat.interior = interiors_.build(shape.outline, shape.hierarchy.reach);
-  }
+  if (shape.outline.contours() > 0) flat.interior = interiors_.build(shape.outline, shape.hierarchy.reach);
   flat.profile = profile(shape.outline, flat.interior, shape.hierarchy.reach);
   for (Sector& sector : flat.profile.sectors) sector.shallow_outer = 0;
 }
@@ -69,7 +77,6 @@ void ShapeFlattener::add_shortcuts(std::size_t level, FlatShape& flat) const {
 }
 
 void ShapeFlattener::add_outline(const Outline& outline, FlatShape& flat) {
-  validate(outline);
   flat.outline = outline;
   flat.contour_disc.clear();
   for (std::size_t c = 0; c < outline.contours(); ++c) {

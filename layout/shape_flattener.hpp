@@ -36,6 +36,8 @@ class ShapeFlattener {
   void flatten(const Shape& shape, std::size_t index, FlatShape& flat);
 
  private:
+  void require(const Shape& shape, std::size_t index) const;
+  bool has_shortcuts() const;
   void add_levels(const Shape& shape, FlatShape& flat);
   void add_interior(const Shape& shape, FlatShape& flat);
   void add_shortcuts(std::size_t level, FlatShape& flat) const;

@@ -41,9 +41,9 @@ void validate(const ShapeSetPlan& plan);
 /// moved from can only be assigned to or destroyed.
 class ShapeSet {
  public:
-  /// Errors:  throws std::invalid_argument on a plan that validate() rejects, on a shape without nodes (naming
-  ///          it), and with a solid plan on an outline that validate() rejects; std::length_error beyond 2^31
-  ///          numbers in nodes.
+  /// Errors:  throws std::invalid_argument on a plan that validate() rejects and, naming the shape, on a hierarchy that
+  ///          validate() rejects, or an outline where the plan asks for one or for shortcuts; std::length_error beyond
+  ///          2^31 numbers in nodes.
   explicit ShapeSet(std::span<const Shape> shapes, const ShapeSetPlan& plan = {});
   /// Stands on arrays that live as long as `memory`, a mapped file say.
   /// Precondition: validate(arrays) does not throw.

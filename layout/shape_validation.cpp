@@ -85,6 +85,14 @@ void require_discs(const char* array, std::size_t place, const float* x, std::si
   if ((bad & top_bit) != 0) reject(array, place, "holds a disc that is none");
 }
 
+/// As kernels load whole registers.
+template <class... Arrays>
+void require_alignment(const Arrays&... arrays) {
+  const auto is_aligned = [](const void* data) { return std::bit_cast<std::uintptr_t>(data) % 64 == 0; };
+  if (!(is_aligned(arrays.data()) && ...))
+    throw std::invalid_argument("an array does not begin on a cache line");
+}
+
 void require_sizes(const ShapeArrays& a) {
   if (a.depths.empty() || a.depths.size() > 255)
     throw std::invalid_argument("depths: " + std::to_string(a.depths.size()) + ", not 1 to 255");
@@ -133,7 +141,7 @@ void require_roots(const ShapeArrays& a) {
            static_cast<double>(reach) <= rounding::largest_reach;
   });
   require_all("roots", a.roots, "no disc", [](const Root& root) {
-    return is_length(root.x) & is_length(root.y) & is_radius(root.radius);
+    return is_length(root.x) & is_length(root.y) & is_radius(root.radius) & (root.radius > 0);
   });
   require_rows(a);
 }
@@ -276,6 +284,9 @@ void require_outlines(const ShapeArrays& a) {
 }  // namespace
 
 void validate(const ShapeArrays& arrays) {
+  require_alignment(arrays.depths, arrays.roots, arrays.trees, arrays.nodes, arrays.reach, arrays.support,
+                    arrays.inscribed, arrays.extremes, arrays.profiles, arrays.shape_contours,
+                    arrays.contours, arrays.points);
   require_sizes(arrays);
   require_roots(arrays);
   std::uint64_t end = 0;

@@ -7,8 +7,8 @@
 
 namespace bch {
 
-/// Checks all that queries rely on, so that no arrays that pass make them read elsewhere, whatever else they hold:
-/// sizes fit each other; the blocks of a level are a tree in breadth-first order with fewer than most_wide_levels
+/// Checks all that queries rely on, so that no arrays that pass make them read elsewhere, whatever else they hold: each
+/// begins on a cache line; sizes fit each other; the blocks of a level are a tree in breadth-first order with fewer than most_wide_levels
 /// levels; windows lie among their level's discs; offsets ascend; floats are numbers within the library's domain,
 /// discs have no negative radius, and what is padding overlaps nothing.
 /// Errors:  throws std::invalid_argument naming the array, the place in it and the value.

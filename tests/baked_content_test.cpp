@@ -93,6 +93,7 @@ std::vector<Crime> crimes() {
       {"holds a disc that is none", [](BakedBytes& b) { top_block(b)[2 * block_width] = -0.1f; }},
       {"holds a disc that is none", [](BakedBytes& b) { top_block(b)[2 * block_width] = infinity; }},
       {"roots 0", floats(Section::roots, 2, -1.0f)},
+      {"roots 0", floats(Section::roots, 2, 0.0f)},
       {"roots 1", floats(Section::roots, 4, nan)},
       {"roots 1", [](BakedBytes& b) { b.section<Root>(Section::roots)[1].row = 2; }},
       {"roots 5: row 3", [](BakedBytes& b) { b.section<Root>(Section::roots)[2].row = single_disc; }},
@@ -148,8 +149,8 @@ TEST(BakedContent, TestsATreeOfSeveralBlocks) {
 }
 
 /// A tree in which only the first disc of every block is not padding.
-std::vector<float> chain(std::uint32_t blocks) {
-  std::vector<float> nodes;
+AlignedVector<float> chain(std::uint32_t blocks) {
+  AlignedVector<float> nodes;
   for (std::uint32_t i = 1; i <= blocks; ++i) {
     nodes.resize(i * block_floats);
     float* block = nodes.data() + (i - 1) * block_floats;
@@ -161,14 +162,14 @@ std::vector<float> chain(std::uint32_t blocks) {
 }
 
 TEST(BakedContent, TreesAreNoDeeperThanStacks) {
-  const std::vector<std::uint32_t> depths{all_depths};
-  const std::vector<Root> roots{{0, 0, 1, first_row}};
-  const std::vector<Tree> trees{{0, block_width}};
-  const std::vector<float> reach{1};
+  const AlignedVector<std::uint32_t> depths{all_depths};
+  const AlignedVector<Root> roots{{0, 0, 1, first_row}};
+  const AlignedVector<Tree> trees{{0, block_width}};
+  const AlignedVector<float> reach{1};
   ShapeArrays arrays{};
   arrays.depths = depths, arrays.roots = roots, arrays.trees = trees, arrays.reach = reach;
   for (std::uint32_t blocks = 1; blocks < 2 * most_wide_levels; ++blocks) {
-    const std::vector<float> nodes = chain(blocks);
+    const AlignedVector<float> nodes = chain(blocks);
     arrays.nodes = nodes;
     if (blocks < most_wide_levels)
       EXPECT_NO_THROW(validate(arrays)) << blocks;
@@ -177,12 +178,23 @@ TEST(BakedContent, TreesAreNoDeeperThanStacks) {
   }
 }
 
+TEST(BakedContent, ArraysBeginOnCacheLines) {
+  const AlignedVector<std::uint32_t> depths = {all_depths};
+  const AlignedVector<Root> roots(3, Root{0, 0, 1, single_disc});
+  ShapeArrays arrays{};
+  arrays.depths = depths;
+  arrays.roots = roots;
+  EXPECT_NO_THROW(validate(arrays));
+  arrays.roots = arrays.roots.subspan(1);
+  EXPECT_THROW(validate(arrays), std::invalid_argument);
+}
+
 TEST(BakedContent, ALevelHasAWindowOfDiscsAtLeast) {
-  const std::vector<std::uint32_t> depths{all_depths};
-  const std::vector<Root> roots{{0, 0, 1, first_row}};
-  std::vector<Tree> trees{{0, block_width}};
-  const std::vector<float> reach{1};
-  const std::vector<float> nodes = chain(1);
+  const AlignedVector<std::uint32_t> depths{all_depths};
+  const AlignedVector<Root> roots{{0, 0, 1, first_row}};
+  AlignedVector<Tree> trees{{0, block_width}};
+  const AlignedVector<float> reach{1};
+  const AlignedVector<float> nodes = chain(1);
   ShapeArrays arrays{};
   arrays.depths = depths, arrays.roots = roots, arrays.trees = trees, arrays.reach = reach,
   arrays.nodes = nodes;

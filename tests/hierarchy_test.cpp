@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <string>
 
 #include "layout/enclosing_disc.hpp"
 #include "layout/rounding.hpp"
@@ -125,6 +126,44 @@ TEST(ProjectedHierarchy, HasOneLeafATriangle) {
   triangles[3][1] = 0;
   vertices[60].y = std::numeric_limits<float>::quiet_NaN();
   EXPECT_THROW(projected_hierarchy(vertices, triangles), std::invalid_argument);
+}
+
+TEST(ProjectedHierarchy, CountsVerticesOfTrianglesAlone) {
+  std::vector<Vec2> vertices = {{0.5f, 0}, {0, 1}, {-1, 0}};
+  const std::vector<std::array<std::uint32_t, 3>> triangles = {{0, 1, 2}};
+  const Hierarchy expected = projected_hierarchy(vertices, triangles);
+  vertices.push_back({1e5f, 3e8f});
+  vertices.push_back({std::numeric_limits<float>::infinity(), 0});
+  const Hierarchy hierarchy = projected_hierarchy(vertices, triangles);
+  EXPECT_EQ(hierarchy.reach, expected.reach);
+  EXPECT_EQ(hierarchy.nodes[0].disc, expected.nodes[0].disc);
+}
+
+TEST(Hierarchy, IsCheckedNodeByNode) {
+  const Hierarchy good = contour_hierarchy(test::polygon({{-0.3f, 0}, {0.3f, 0}, {0, 0.4f}}), 0.01f);
+  EXPECT_NO_THROW(validate(good));
+  EXPECT_NO_THROW(validate(fixed_cylinder(0.3f)));
+  const auto expect_rejected = [&](const char* what, auto change) {
+    Hierarchy bad = good;
+    change(bad);
+    try {
+      validate(bad);
+      FAIL() << "accepted; expected: " << what;
+    } catch (const std::invalid_argument& error) {
+      EXPECT_NE(std::string(error.what()).find(what), std::string::npos) << error.what();
+    }
+  };
+  constexpr float nan = std::numeric_limits<float>::quiet_NaN();
+  expect_rejected("no nodes", [](Hierarchy& h) { h.nodes.clear(); });
+  expect_rejected("reach", [](Hierarchy& h) { h.reach = 0; });
+  expect_rejected("reach", [](Hierarchy& h) { h.reach = std::numeric_limits<double>::quiet_NaN(); });
+  expect_rejected("node 3", [](Hierarchy& h) { h.nodes[3].disc.x = nan; });
+  expect_rejected("node 0", [](Hierarchy& h) { h.nodes[0].disc.y = 2; });
+  expect_rejected("node 5", [](Hierarchy& h) { h.nodes[5].disc.radius = 0; });
+  expect_rejected("node 5", [](Hierarchy& h) { h.nodes[5].disc.radius = nan; });
+  expect_rejected("node 1", [](Hierarchy& h) { h.nodes[1].second_child = 2; });
+  expect_rejected("node 1",
+                  [](Hierarchy& h) { h.nodes[1].second_child = static_cast<std::uint32_t>(h.nodes.size()); });
 }
 
 TEST(FixedCylinder, IsOneDiscAboutTheAgent) {

@@ -7,6 +7,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <string>
 #include <tuple>
 
 #include "layout/wide_tree.hpp"
@@ -156,6 +158,15 @@ TEST(ShapeSet, RejectsBadPlansAndShapes) {
   std::vector<Shape> broken = shapes;
   broken[1].hierarchy.nodes.clear();
   EXPECT_THROW(ShapeSet{broken}, std::invalid_argument);
+  broken = shapes;
+  broken[1].outline.points[3].x = std::numeric_limits<float>::quiet_NaN();
+  try {
+    ShapeSet{broken};
+    FAIL() << "accepted";
+  } catch (const std::invalid_argument& error) {
+    EXPECT_EQ(std::string(error.what()).find("shape set: shape 1: outline: point 3"), 0u) << error.what();
+  }
+  EXPECT_NO_THROW(ShapeSet(broken, {{all_depths}, false, false}));  // asks for no outline
   EXPECT_THROW(ShapeSet(std::vector<Shape>{{{}, fixed_cylinder(1)}}, {{0}, true}), std::invalid_argument);
 }
 
