@@ -68,13 +68,18 @@ struct Lanes<Scalar> {
   using Mask = bool;
   static constexpr unsigned width = 1;
 
-  static Float load(const float* p) noexcept { return *p; }
+  // By copies, as registers are: what is stored as a float may be kept and read as an integer.
+  static Float load(const float* p) noexcept {
+    Float value;
+    __builtin_memcpy(&value, p, sizeof value);
+    return value;
+  }
   static Double load(const double* p) noexcept { return *p; }
-  static void store(float* p, Float v) noexcept { *p = v; }
+  static void store(float* p, Float v) noexcept { __builtin_memcpy(p, &v, sizeof v); }
   static void store(double* p, Double v) noexcept { *p = v; }
   static Float select(Mask mask, Float yes, Float no) noexcept { return mask ? yes : no; }
   static void load_records(const float* table, const std::uint32_t* index, Float (&field)[4]) noexcept {
-    for (std::size_t i = 0; i < 4; ++i) field[i] = table[std::size_t{4} * *index + i];
+    for (std::size_t i = 0; i < 4; ++i) field[i] = load(table + std::size_t{4} * *index + i);
   }
   static std::uint32_t write_set(std::uint32_t bits, std::uint32_t first, std::uint16_t* to) noexcept {
     *to = static_cast<std::uint16_t>(first);

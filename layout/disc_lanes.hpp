@@ -176,9 +176,9 @@ class DiscLanes {
 
     /// Points k of two neighbouring lanes.
     void put(std::size_t k, std::size_t lane, const Vec2* p, const Vec2* q) const {
-      const __m128d both =
-          _mm_loadh_pd(_mm_load_sd(reinterpret_cast<const double*>(p)), reinterpret_cast<const double*>(q));
-      const __m128 bits = _mm_castpd_ps(both);
+      // These two may alias what they read; those of doubles may not.
+      const __m128 bits = _mm_loadh_pi(_mm_loadl_pi(_mm_setzero_ps(), reinterpret_cast<const __m64*>(p)),
+                                       reinterpret_cast<const __m64*>(q));
       const __m128 x = _mm_shuffle_ps(bits, bits, _MM_SHUFFLE(2, 0, 2, 0)),
                    y = _mm_shuffle_ps(bits, bits, _MM_SHUFFLE(3, 1, 3, 1));
       _mm_storeu_pd(job_.scratch + 2 * k * width + lane, _mm_cvtps_pd(x));

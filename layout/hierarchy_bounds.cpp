@@ -29,9 +29,10 @@ void set_radii(HierarchyArrays& arrays, std::uint32_t count, double margin) {
   }
 }
 
+/// By instructions that may alias what they read, as those of doubles may not.
 __m128 load(const Vec2& low, const Vec2& high) {
-  return _mm_castpd_ps(_mm_loadh_pd(_mm_load_sd(reinterpret_cast<const double*>(&low)),
-                                    reinterpret_cast<const double*>(&high)));
+  return _mm_loadh_pi(_mm_loadl_pi(_mm_setzero_ps(), reinterpret_cast<const __m64*>(&low)),
+                      reinterpret_cast<const __m64*>(&high));
 }
 
 /// From every node to its parent and its grandparent, two nodes at a time.
