@@ -31,9 +31,9 @@ struct Arguments {
 
 /// What a kernel says of a pair.
 enum Code : std::uint8_t {
-  apart = 0,      ///< no discs of the cuts overlap, and the root discs do not either
+  apart = 0,      ///< the cuts do not overlap, and neither outline holds the other, or nobody asks
   overlap = 1,    ///< discs of the cuts overlap
-  near_miss = 2,  ///< the root discs overlap, the cuts do not: one might contain the other
+  near_miss = 2,  ///< the cuts do not overlap, and one outline might hold the other
 };
 
 }  // namespace bch::kernel

@@ -3,8 +3,9 @@
 
 #include "kernel/validation.hpp"
 
+#include <charconv>
+#include <cmath>
 #include <limits>
-#include <sstream>
 #include <stdexcept>
 #include <string>
 
@@ -25,19 +26,23 @@ void require_sizes(const Agents& agents) {
     throw std::invalid_argument("agents: more than 2^32 - 1");
 }
 
+/// As many digits as it takes to tell it from the limits.
+static std::string text(double value) {
+  char digits[32];
+  return {digits, std::to_chars(digits, digits + sizeof digits, value).ptr};
+}
+
 void reject(const ShapeSetView& shapes, const Agents& agents, std::size_t i) {
-  std::ostringstream message;
-  message << "agent " << i << ": ";
-  if (agents.shape[i] >= shapes.shape_count) {
-    message << "shape " << agents.shape[i] << " of " << shapes.shape_count;
-  } else if (!agents.level.empty() && agents.level[i] >= shapes.level_count) {
-    message << "level " << static_cast<unsigned>(agents.level[i]) << " of " << shapes.level_count;
-  } else if (!(std::abs(agents.heading[i]) <= rounding::largest_heading)) {
-    message << "heading " << agents.heading[i] << " rad is not within +-1e9";
-  } else {
-    message << "position (" << agents.x[i] << ", " << agents.y[i] << ") m is not within +-1e9";
-  }
-  throw std::invalid_argument(message.str());
+  const auto why = [&]() -> std::string {
+    if (agents.shape[i] >= shapes.shape_count)
+      return "shape " + std::to_string(agents.shape[i]) + " of " + std::to_string(shapes.shape_count);
+    if (!agents.level.empty() && agents.level[i] >= shapes.level_count)
+      return "level " + std::to_string(agents.level[i]) + " of " + std::to_string(shapes.level_count);
+    if (!(std::abs(agents.heading[i]) <= rounding::largest_heading))
+      return "heading " + text(agents.heading[i]) + " rad is not within +-1e9";
+    return "position (" + text(agents.x[i]) + ", " + text(agents.y[i]) + ") m is not within +-1e9";
+  };
+  throw std::invalid_argument("agent " + std::to_string(i) + ": " + why());
 }
 
 }  // namespace bch::kernel

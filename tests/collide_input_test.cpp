@@ -53,6 +53,8 @@ TEST_F(BadInput, NamesTheAgentOrPairAndTheValue) {
   expect_rejected("pair 1: agent 1: position (nan, 0)");
   crowd.x[1] = -2e9;
   expect_rejected("position (-2e+09, 0)");
+  crowd.x[1] = 1'000'000'000.5;
+  expect_rejected("position (1000000000.5, 0)");
   crowd.x[1] = 0;
   crowd.heading[1] = std::numeric_limits<double>::infinity();
   expect_rejected("heading inf");
