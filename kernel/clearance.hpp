@@ -29,10 +29,10 @@ struct CutNodes {
 };
 constexpr CutNodes no_cut_nodes{0xffffffff, 0xffffffff};
 
-/// Where the answers go. Spans that are empty are not asked for, which saves time.
+/// Where the answers go. Directions and nodes that are empty are not asked for, which saves time.
 struct ClearanceAnswers {
   std::span<float> distance;       ///< metres; infinite beyond max_distance
-  std::span<Vec2> direction;       ///< unit vectors; (0, 0) beyond max_distance
+  std::span<Vec2> direction = {};  ///< unit vectors; (0, 0) beyond max_distance
   std::span<CutNodes> nodes = {};  ///< no_cut_nodes beyond max_distance
 };
 

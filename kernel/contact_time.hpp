@@ -27,8 +27,9 @@ struct ContactTimeOptions {
 /// touch if the first agent has moved by t times its displacement; infinity where none do.
 ///
 /// 0 where collide() says 1 in boundary semantics now; a displacement of zero gives 0 there, and infinity elsewhere.
-/// Never later than the outlines' first contact. Earlier by no more than their leaf discs take to pass their sizes,
-/// and 1 um per metre of way and of the two shapes' reach. A contact may be reported that passes by within that. The
+/// Never later than the outlines' first contact. At the time told they are as near to each other as clearance() may
+/// tell of outlines that touch: the leaf discs' sizes, and 4 um per metre of way and of the two shapes' reach. So it is
+/// earlier than their contact by as long as they pass each other so closely, and told where they pass by like that. The
 /// same bits on every processor, for any number of threads and any split of the batch, and for exchanged agents with
 /// the displacement negated. Solid semantics would say no more: who is inside has crossed the outline before, unless
 /// he starts there.

@@ -23,8 +23,10 @@ namespace bch::kernel {
 /// t v is off by 4.6 u t |v|, and t |v| <= D + S; |d| <= D + S: 18.3 u S + 11.2 u D in all, and u S for r. Published
 /// radii have 23 u S to spare, R adds 16 u D. So at t the float discs of radius R overlap, and their first contact
 /// is not later. (Discs that do not move towards each other, b <= 0, where exact ones would: b is off by some u D
-/// |v|, so those come nearer by the square of that, and overlap at the start.) The arithmetic in double is off by
-/// 1e-15, the last product takes off 4 u for that and for the rounding to float.
+/// |v|, so those come nearer by the square of that, and overlap at the start.) Double loses 2^-51 of
+/// the squares that are subtracted, which may be much of what is left. But R exceeds what touches at t by 3.7 u S + 4.8 u D,
+/// at least 2^-23 of itself, so that such a loss moves the contact by less than 2^-28 of what that does. The last product
+/// takes off 4 u for the rounding to float.
 ///
 /// Bounds are the times at which discs (C, R') that hold the two touch, enlarged. At T the centres are within R'_A +
 /// R'_B + 16 u D, and rounding brings 20 u S and 4 u D beside, with D <= D' + 2 S: 60 u S + 20 u D'. The distances along

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
@@ -72,29 +73,31 @@ TEST(Clearance, RejectsBadInputBeforeAnythingIsWritten) {
   crowd.add({0, 0, 0, 0, 0});
   crowd.add({1, 1, 0, 0, 0});
   std::vector<Pair> pairs = {{0, 1}};
-  const auto expect_rejected = [&](const std::string& message, double max_distance,
-                                   std::size_t directions = 1) {
-    Answers all(1);
-    all.distance[0] = 42;
+  Answers all(1);
+  const auto expect_rejected = [&](const std::string& message, const ClearanceAnswers& spans,
+                                   double max_distance = 1) {
+    std::fill(all.distance.begin(), all.distance.end(), 42.0f);
     try {
-      clearance(set, crowd.agents(), pairs, {all.distance, std::span(all.direction).first(directions), {}},
-                {max_distance});
-      if (message.empty()) return;
+      clearance(set, crowd.agents(), pairs, spans, {max_distance});
       FAIL() << "accepted; expected: " << message;
     } catch (const std::invalid_argument& error) {
       EXPECT_NE(std::string(error.what()).find(message), std::string::npos) << error.what();
     }
     EXPECT_EQ(all.distance[0], 42);
   };
-  expect_rejected("max_distance of nan", std::nan(""));
-  expect_rejected("max_distance of -0.5", -0.5);
+  expect_rejected("max_distance of nan", all.spans(), std::nan(""));
+  expect_rejected("max_distance of -0.5", all.spans(), -0.5);
   crowd.x[1] = std::nan("");
-  expect_rejected("pair 0: agent 1: position (nan, 0)", 1);
+  expect_rejected("pair 0: agent 1: position (nan, 0)", all.spans());
   crowd.x[1] = 1;
   pairs = {{0, 2}};
-  expect_rejected("pair 0: agent 2 of 2", 1);
+  expect_rejected("pair 0: agent 2 of 2", all.spans());
   pairs = {{0, 1}, {1, 0}};
-  expect_rejected("2 pairs but 1 distances", 1);
+  expect_rejected("2 pairs but 1 distances", {all.distance});
+  Answers two(2);
+  expect_rejected("2 pairs but 1 directions", {two.distance, all.direction});
+  expect_rejected("2 pairs but 1 nodes", {two.distance, two.direction, all.nodes});
+  expect_rejected("2 pairs but 0 distances", {{}, two.direction, two.nodes});
 }
 
 }  // namespace

@@ -330,6 +330,14 @@ TEST(ContactTime, RejectsBadInputBeforeAnythingIsWritten) {
   motion.y = {};
   expect_rejected("1 pairs but 0 displacements in y");
   motion.y = {0};
+  motion.x = {1, 1};
+  expect_rejected("1 pairs but 2 displacements in x");
+  motion.x = {1};
+  motion.pairs = {{0, 1}, {1, 0}};
+  motion.x = motion.y = {1, 1};
+  expect_rejected("2 pairs but 1 times");
+  motion.pairs = {{0, 1}};
+  motion.x = {1}, motion.y = {0};
   motion.crowd.heading[1] = std::numeric_limits<double>::infinity();
   expect_rejected("pair 0: agent 1: heading inf");
 }
