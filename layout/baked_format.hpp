@@ -50,14 +50,14 @@
 /// Rows. Root::row is 0 where the level's cut is a single disc; else 1, but for a shape's last level, which has the row
 /// after that of the shape before, from 2 on.
 ///
-/// Nodes. A node's name is the index of its first float, with bit 31 set for a leaf window. A block is 32 floats: x, y and
-/// radius of eight discs, eight and eight, and the names of the eight nodes below them as u32. A disc whose x is
-/// plus infinity is padding, and the name with it has no meaning; the first one is none. A level's blocks lie one behind the other in
-/// breadth-first order, first Tree::top: those children that are blocks are the second, the third and so on. After the
-/// last come Tree::stride x, as many y and as many radii: the cut's discs, padding up to eight. A window is eight
-/// consecutive discs of these, named by the first one's x. From top on, first child
-/// after first child leads to the window at the first disc, top itself where it is a window. Levels lie in the order of
-/// roots, with at most 9 levels of blocks each. At least 32 floats follow the last one.
+/// Nodes. A node's name is the index of its first float, with bit 31 set for a leaf window. A block is 32 floats: x, y
+/// and radius of eight discs, eight and eight, and the names of the eight nodes below them as u32. A disc whose x is
+/// plus infinity is padding, and the name with it has no meaning; the first one is none. A level's blocks lie one
+/// behind the other in breadth-first order, first Tree::top: those children that are blocks are the second, the third
+/// and so on. After the last come Tree::stride x, as many y and as many radii: the cut's discs, padding up to eight. A
+/// window is eight consecutive discs of these, named by the first one's x. From top on, first child after first child
+/// leads to the window at the first disc, top itself where it is a window. Levels lie in the order of roots, with at
+/// most 9 levels of blocks each. At least 32 floats follow the last one.
 ///
 /// Numbers. Coordinates and radii are finite and at most 1e7 m, a root's radius above 0, reaches within rounding.hpp's
 /// domain.
