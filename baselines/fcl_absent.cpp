@@ -16,6 +16,10 @@ std::unique_ptr<PairDistances> fcl_outline_distances(std::span<const Body>) {
   return nullptr;
 }
 
+std::unique_ptr<PairDistances> fcl_segment_distances(std::span<const Body>) {
+  return nullptr;
+}
+
 std::unique_ptr<PairDistances> fcl_mesh_distances(std::span<const Body>) {
   return nullptr;
 }

@@ -31,12 +31,20 @@ class FclDistances final : public PairDistances {
   std::vector<std::shared_ptr<Model>> models_;
 };
 
+std::unique_ptr<PairDistances> outline_distances(std::span<const Body> bodies, Upright upright) {
+  std::vector<std::shared_ptr<Model>> outlines;
+  for (const Body& body : bodies) outlines.push_back(fcl_outline<fcl::OBBRSSd>(body.shape.outline, upright));
+  return std::make_unique<FclDistances>(std::move(outlines));
+}
+
 }  // namespace
 
 std::unique_ptr<PairDistances> fcl_outline_distances(std::span<const Body> bodies) {
-  std::vector<std::shared_ptr<Model>> walls;
-  for (const Body& body : bodies) walls.push_back(fcl_walls<fcl::OBBRSSd>(body.shape.outline));
-  return std::make_unique<FclDistances>(std::move(walls));
+  return outline_distances(bodies, Upright::wall);
+}
+
+std::unique_ptr<PairDistances> fcl_segment_distances(std::span<const Body> bodies) {
+  return outline_distances(bodies, Upright::triangle);
 }
 
 std::unique_ptr<PairDistances> fcl_mesh_distances(std::span<const Body> bodies) {

@@ -56,9 +56,14 @@ std::shared_ptr<fcl::BVHModel<Volume>> fcl_triangles(const Body& body) {
   return fcl_mesh<Volume>(vertices, triangles);
 }
 
-/// Each segment becomes a wall of two triangles, 1 m high: walls meet exactly where segments do.
+/// What stands on each segment, 1 m high. Both meet exactly where segments do, and are as far apart.
+enum class Upright {
+  wall,      ///< two triangles
+  triangle,  ///< half of the wall, which is enough
+};
+
 template <class Volume>
-std::shared_ptr<fcl::BVHModel<Volume>> fcl_walls(const Outline& outline) {
+std::shared_ptr<fcl::BVHModel<Volume>> fcl_outline(const Outline& outline, Upright upright) {
   validate(outline);
   std::vector<fcl::Vector3d> vertices;
   std::vector<fcl::Triangle> triangles;
@@ -70,7 +75,7 @@ std::shared_ptr<fcl::BVHModel<Volume>> fcl_walls(const Outline& outline) {
     for (std::size_t i = 0; i < count; ++i) {
       const std::size_t from = 2 * (begin + i), to = 2 * (begin + (i + 1) % count);
       triangles.emplace_back(from, to, from + 1);
-      triangles.emplace_back(to, to + 1, from + 1);
+      if (upright == Upright::wall) triangles.emplace_back(to, to + 1, from + 1);
     }
   }
   return fcl_mesh<Volume>(vertices, triangles);

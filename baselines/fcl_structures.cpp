@@ -62,10 +62,11 @@ std::unique_ptr<Structure> build_full(std::span<const Body> bodies, const BuildO
       bodies, [](const Body& body) { return FclModel<Volume>{fcl_triangles<Volume>(body)}; });
 }
 
-template <class Volume>
+template <class Volume, Upright upright>
 std::unique_ptr<Structure> build_contour(std::span<const Body> bodies, const BuildOptions&) {
-  return build_models<FclModel<Volume>>(
-      bodies, [](const Body& body) { return FclModel<Volume>{fcl_walls<Volume>(body.shape.outline)}; });
+  return build_models<FclModel<Volume>>(bodies, [](const Body& body) {
+    return FclModel<Volume>{fcl_outline<Volume>(body.shape.outline, upright)};
+  });
 }
 
 constexpr Kind rows[] = {
@@ -74,9 +75,11 @@ constexpr Kind rows[] = {
     {"fcl_obbrss_full", "FCL: oriented boxes and swept spheres over the triangles", Truth::mesh, false, false,
      build_full<fcl::OBBRSSd>},
     {"fcl_obb_contour", "FCL: oriented boxes over the outline as walls", Truth::outline, false, false,
-     build_contour<fcl::OBBd>},
+     build_contour<fcl::OBBd, Upright::wall>},
+    {"fcl_obb_segments", "FCL: oriented boxes over one triangle a segment of the outline", Truth::outline,
+     false, false, build_contour<fcl::OBBd, Upright::triangle>},
     {"fcl_obbrss_contour", "FCL: oriented boxes and swept spheres over the outline as walls", Truth::outline,
-     false, false, build_contour<fcl::OBBRSSd>},
+     false, false, build_contour<fcl::OBBRSSd, Upright::wall>},
 };
 
 }  // namespace

@@ -20,10 +20,11 @@ class PairDistances {
   virtual double query(const Agents& agents, Pair pair) const = 0;
 };
 
-/// FCL's distance of trees of oriented boxes and swept spheres over the outlines as walls, or over the triangles in
-/// space; null in a build without FCL.
+/// FCL's distance of trees of oriented boxes and swept spheres over the outlines as walls, or as one upright triangle a
+/// segment, or over the triangles in space; null in a build without FCL.
 /// Errors:  throw std::invalid_argument on an outline that validate() rejects, on triangles that a Structure would.
 std::unique_ptr<PairDistances> fcl_outline_distances(std::span<const Body> bodies);
+std::unique_ptr<PairDistances> fcl_segment_distances(std::span<const Body> bodies);
 std::unique_ptr<PairDistances> fcl_mesh_distances(std::span<const Body> bodies);
 
 }  // namespace bch::baselines

@@ -95,9 +95,9 @@ struct Kind {
 ///   obb_contour      the same over the outline's segments
 ///   obb_contour_2d   rectangles instead of boxes over the outline's segments
 ///   obb_projected    boxes over all triangles seen from above
-///   fcl_obb_full, fcl_obbrss_full, fcl_obb_contour, fcl_obbrss_contour
+///   fcl_obb_full, fcl_obbrss_full, fcl_obb_contour, fcl_obb_segments, fcl_obbrss_contour
 ///                    the Flexible Collision Library's trees over triangles, and over outlines as vertical
-///                    walls; only where the build found FCL
+///                    walls, or as one upright triangle a segment; only where the build found FCL
 std::span<const Kind> kinds();
 
 /// Errors: throws std::invalid_argument naming the kinds that there are.

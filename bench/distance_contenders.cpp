@@ -38,18 +38,28 @@ Contender scalar_clearance_contender(Scene& scene, const Workload& workload) {
   return {"scalar search", call};
 }
 
-std::optional<Contender> fcl_distance_contender(Scene& scene, const Workload& workload) {
-  const std::shared_ptr<const baselines::PairDistances> fcl =
-      baselines::fcl_outline_distances(scene.bodies());
-  if (fcl == nullptr) return std::nullopt;
+namespace {
+
+Contender fcl_distance_contender(Scene& scene, const Workload& workload, const std::string& name,
+                                 std::shared_ptr<const baselines::PairDistances> fcl) {
   const auto distances = std::make_shared<std::vector<double>>(workload.pairs.size());
   const auto call = [fcl, &workload, distances] {
     for (std::size_t i = 0; i < workload.pairs.size(); ++i)
       (*distances)[i] = fcl->query(workload.agents(), workload.pairs[i]);
   };
   call();
-  require_right("FCL", workload, wrong_distances(scene, workload, *distances));
-  return Contender{"fcl", call};
+  require_right(name, workload, wrong_distances(scene, workload, *distances));
+  return {name, call};
+}
+
+}  // namespace
+
+std::vector<Contender> fcl_distance_contenders(Scene& scene, const Workload& workload) {
+  auto walls = baselines::fcl_outline_distances(scene.bodies());
+  auto segments = baselines::fcl_segment_distances(scene.bodies());
+  if (walls == nullptr || segments == nullptr) return {};
+  return {fcl_distance_contender(scene, workload, "FCL, walls", std::move(walls)),
+          fcl_distance_contender(scene, workload, "FCL, one triangle a segment", std::move(segments))};
 }
 
 Contender contact_time_contender(Scene& scene, const Workload& workload,

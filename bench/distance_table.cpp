@@ -56,18 +56,21 @@ void print_over_scalar(Scene& scene, const Query& query, std::uint32_t runs) {
 void print_over_fcl(Scene& scene, std::uint32_t runs) {
   const Workload& near_miss = scene.workload("near_miss");
   const kernel::Implementation& best = kernel::best_implementation();
-  std::vector<Contender> both = {clearance_contender(scene, near_miss, best)};
-  if (auto fcl = fcl_distance_contender(scene, near_miss)) both.push_back(std::move(*fcl));
-  if (both.size() < 2) {
+  std::vector<Contender> contenders = fcl_distance_contenders(scene, near_miss);
+  if (contenders.empty()) {
     fmt::print("clearance over FCL's distance of outlines: not in this build\n");
     return;
   }
-  race(both, runs, 1);
-  const double ratio = both[1].nanoseconds / both[0].nanoseconds;
-  fmt::print(
-      "clearance over FCL's distance of outlines, near_miss, {}: {:.1f} ns over {:.1f}: {:.1f} x   {}\n",
-      best.name, per_pair(both[1], near_miss), per_pair(both[0], near_miss), ratio,
-      verdict(ratio, needed_over_fcl));
+  contenders.push_back(clearance_contender(scene, near_miss, best));
+  race(contenders, runs, 1);
+  const Contender& own = contenders.back();
+  fmt::print("clearance over FCL's distance of outlines, near_miss, {}: {:.1f} ns\n", best.name,
+             per_pair(own, near_miss));
+  for (const Contender& fcl : std::span(contenders).first(contenders.size() - 1)) {
+    const double ratio = fcl.nanoseconds / own.nanoseconds;
+    fmt::print("  {:28}{:8.1f} ns{:7.1f} x   {}\n", fcl.name, per_pair(fcl, near_miss), ratio,
+               &fcl == &contenders.front() ? verdict(ratio, needed_over_fcl) : "");
+  }
 }
 
 }  // namespace

@@ -25,7 +25,8 @@ constexpr Row rows[] = {
     {"BCH, outline, one pair after the other", 2660, plain_row},
     {"OBB tree, outline", 4630, "obb_contour"},
     {"OBB tree, outline, rectangles in 2D", 0, "obb_contour_2d"},
-    {"OBB tree, outline, FCL's", 0, "fcl_obb_contour"},
+    {"OBB tree, outline, FCL's, two triangles a segment", 0, "fcl_obb_contour"},
+    {"OBB tree, outline, FCL's, one triangle a segment", 0, "fcl_obb_segments"},
     {"OBB tree, all triangles seen from above", 20660, "obb_projected"},
 };
 

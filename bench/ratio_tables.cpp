@@ -85,25 +85,31 @@ void print_kernel_ratios(Scene& scene, std::uint32_t runs) {
 
 void print_peer_ratios(Scene& scene, std::uint32_t runs) {
   const Workload& workload = scene.workload("colliding");
-  constexpr std::pair<std::string_view, double> peers[] = {{"fcl_obb_contour", 200}, {"obb_contour_2d", 40}};
+  struct Peer {
+    std::string_view kind, name;
+    double needed;  ///< 0: nothing is asked
+  };
+  constexpr Peer peers[] = {{"fcl_obb_contour", "FCL, walls", 200},
+                            {"fcl_obb_segments", "FCL, one triangle a segment", 0},
+                            {"obb_contour_2d", "obb_contour_2d", 40}};
   std::vector<Contender> contenders = {
       kernel_contender(scene, workload, Semantics::boundary, kernel::best_implementation())};
-  for (const auto& [peer, needed] : peers)
-    if (has_kind(peer)) contenders.push_back(structure_contender(scene, workload, peer));
+  for (const Peer& peer : peers)
+    if (has_kind(peer.kind)) contenders.push_back(structure_contender(scene, workload, peer.kind));
   race(contenders, runs, 1);
   const auto pairs = static_cast<double>(workload.pairs.size());
   fmt::print("against boxes on the same outlines: {}, boundary; {} {:.1f} ns\n", per_call(workload),
              contenders[0].name, contenders[0].nanoseconds / pairs);
-  for (const auto& [peer, needed] : peers) {
+  for (const auto& [kind, name, needed] : peers) {
     const auto found = std::find_if(contenders.begin(), contenders.end(),
-                                    [name = peer](const Contender& one) { return one.name == name; });
+                                    [&, of = kind](const Contender& one) { return one.name == of; });
     if (found == contenders.end()) {
-      fmt::print("  {:16} not in this build\n", peer);
+      fmt::print("  {:28} not in this build\n", name);
       continue;
     }
     const double ratio = found->nanoseconds / contenders[0].nanoseconds;
-    fmt::print("  {:16}{:8.1f} ns{:7.1f} x   {}\n", peer, found->nanoseconds / pairs, ratio,
-               verdict(ratio, needed));
+    fmt::print("  {:28}{:8.1f} ns{:7.1f} x   {}\n", name, found->nanoseconds / pairs, ratio,
+               needed > 0 ? verdict(ratio, needed) : "");
   }
 }
 

@@ -4,7 +4,6 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -22,8 +21,9 @@ std::string verdict_at_most(double value, double most);
 Contender clearance_contender(Scene& scene, const Workload& workload,
                               const kernel::Implementation& implementation);
 Contender scalar_clearance_contender(Scene& scene, const Workload& workload);
-/// FCL's distances of the outlines; none in a build without FCL.
-std::optional<Contender> fcl_distance_contender(Scene& scene, const Workload& workload);
+/// FCL's distances of the outlines as walls, which is what is asked for, and as one triangle a segment, half of what it has
+/// to look at; none in a build without FCL.
+std::vector<Contender> fcl_distance_contenders(Scene& scene, const Workload& workload);
 Contender contact_time_contender(Scene& scene, const Workload& workload,
                                  const kernel::Implementation& implementation);
 Contender scalar_contact_time_contender(Scene& scene, const Workload& workload);

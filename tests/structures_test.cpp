@@ -59,7 +59,7 @@ TEST(Kinds, HaveTheirNames) {
   for (const char* name : {"reference", "single", "fixed", "bch_projected", "obb_full", "obb_contour",
                            "obb_contour_2d", "obb_projected"})
     EXPECT_TRUE(names.contains(name)) << name;
-  EXPECT_TRUE(names.size() == 8 || names.size() == 12) << names.size();
+  EXPECT_TRUE(names.size() == 8 || names.size() == 13) << names.size();
   EXPECT_EQ(&baselines::kind("obb_full"), &baselines::kind("obb_full"));
   try {
     baselines::kind("obb");
