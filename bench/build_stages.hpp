@@ -33,11 +33,16 @@ std::vector<BuildImplementation> build_implementations();
 BuildImplementation chosen_build_implementation();
 
 /// A character's way from poses to all that a set stores of shapes, stage by stage: each is made from what the one
-/// before it made of the same pose, with memory that is used again. Everything is checked when it is made first.
+/// before it made of the same pose, with memory that is used again. What is made first is compared:
+///   outline, hierarchy, interior   by another instruction set, where the processor has two: the same bits
+///   hierarchy_welzl                its nodes are hierarchy's, and its discs within 1 um
+///   levels                         the discs of the deepest one are those of cut(); what is above them is not compared
+///   all                            what the stages made one by one
+/// Skinning, profiles and supports are not compared: tests look at them.
 class BuildStages {
  public:
   /// The character must outlive this.
-  /// Errors: throws std::runtime_error where a stage makes something else than the slower way to it.
+  /// Errors: throws std::runtime_error where a stage makes something else than what it is compared with.
   BuildStages(const Character& character, std::uint32_t poses, const BuildImplementation& implementation);
 
   std::size_t poses() const { return times_.size(); }
@@ -57,7 +62,8 @@ class BuildStages {
   void all(std::size_t pose);
 
  private:
-  void make_and_check(std::size_t pose);
+  struct Others;  ///< what builders are compared with
+  void make_and_check(std::size_t pose, Others& others);
   void look_inside(const Outline& outline, double reach);
   void flatten(const Hierarchy& hierarchy);
 

@@ -123,9 +123,28 @@ std::vector<NodePoints> node_points(Scene& scene) {
   return all;
 }
 
+/// Where our solver's discs and the textbook's are not the same within 1 um; empty: nowhere.
+std::string wrong_discs(const std::vector<NodePoints>& all) {
+  EnclosingDiscs ours;
+  Welzl welzl;
+  std::vector<SolvedDisc> discs;
+  for (const auto& [points, nodes] : all) {
+    discs.resize(nodes.size());
+    ours.solve(points, nodes, discs);
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+      const auto [begin, end] = nodes[i];
+      const Welzl::Circle circle = welzl(std::span(points).subspan(begin, end - begin));
+      if (!(std::abs(std::sqrt(discs[i].square_radius) - std::sqrt(circle.square_radius)) <= 1e-6))
+        return "the two solvers' discs differ";
+    }
+  }
+  return {};
+}
+
 /// The nodes' smallest enclosing discs alone; then the same by the textbook's algorithm.
 void build_discs(benchmark::State& state, Scene& scene) {
   const std::vector<NodePoints> all = node_points(scene);
+  if (const auto wrong = wrong_discs(all); !wrong.empty()) return state.SkipWithError(wrong.c_str());
   EnclosingDiscs solver;
   std::vector<SolvedDisc> discs;
   time_poses(state, scene, [&](std::size_t i) {
@@ -136,6 +155,7 @@ void build_discs(benchmark::State& state, Scene& scene) {
 }
 void build_discs_by_welzl(benchmark::State& state, Scene& scene) {
   const std::vector<NodePoints> all = node_points(scene);
+  if (const auto wrong = wrong_discs(all); !wrong.empty()) return state.SkipWithError(wrong.c_str());
   Welzl solver;
   time_poses(state, scene, [&](std::size_t i) {
     for (const auto [begin, end] : all[i].nodes)
