@@ -47,6 +47,17 @@ std::string wrong_kernel(Scene& scene, const Workload& workload, Semantics seman
   return expect_equal(hits, scene.expected(semantics, workload), "brute force");
 }
 
+std::string wrong_answers(const baselines::Reference& reference, const Agents& agents,
+                          std::span<const Pair> pairs, const Hits& hits, Semantics semantics) {
+  constexpr auto method = baselines::Method::depth_first;
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    const bool expected = semantics == Semantics::solid ? reference.solid(agents, pairs[i], method)
+                                                        : reference.boundary(agents, pairs[i], method);
+    if (hits[i] != expected) return fmt::format("pair {} is answered wrongly", i);
+  }
+  return {};
+}
+
 std::string wrong_structure(Scene& scene, const Workload& workload, const baselines::Kind& kind,
                             const Hits& hits) {
   std::string wrong;

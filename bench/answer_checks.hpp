@@ -3,8 +3,10 @@
 
 #pragma once
 
+#include <span>
 #include <string>
 
+#include "baselines/reference.hpp"
 #include "baselines/structure.hpp"
 #include "bench/scene.hpp"
 
@@ -13,6 +15,10 @@ namespace bch::bench {
 
 /// The kernel: the same bits as brute force over all discs, on every pair.
 std::string wrong_kernel(Scene& scene, const Workload& workload, Semantics semantics, const Hits& hits);
+
+/// The same of shapes and levels that are no scene's: equal to the reference going depth first, on every pair.
+std::string wrong_answers(const baselines::Reference& reference, const Agents& agents,
+                          std::span<const Pair> pairs, const Hits& hits, Semantics semantics);
 
 /// A structure, by what its row of baselines::kinds() says of it:
 ///   exact                  equal to the first other kind of the same truth

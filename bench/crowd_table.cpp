@@ -5,7 +5,9 @@
 #include <oneapi/tbb/task_arena.h>
 
 #include <cstdio>
+#include <stdexcept>
 
+#include "bench/answer_checks.hpp"
 #include "bench/peak_memory.hpp"
 #include "bench/ratios.hpp"
 #include "bench/text.hpp"
@@ -31,14 +33,26 @@ class Steps {
   }
 
   void find_and_answer() {
+    for (const cli::Crowd& crowd : crowds_) find_and_answer(crowd);
+  }
+
+  /// Throws std::runtime_error if a pair is not answered as the reference does.
+  void check(const baselines::Reference& reference) {
     for (const cli::Crowd& crowd : crowds_) {
-      const std::span<const Pair> pairs = broad_phase_.find(set_, crowd.agents());
-      hits_.resize(pairs.size());
-      collide(set_, crowd.agents(), pairs, hits_);
+      const std::span<const Pair> pairs = find_and_answer(crowd);
+      const std::string wrong = wrong_answers(reference, crowd.agents(), pairs, hits_, Semantics::boundary);
+      if (!wrong.empty()) throw std::runtime_error(fmt::format("crowd of {}: {}", crowd.size(), wrong));
     }
   }
 
  private:
+  std::span<const Pair> find_and_answer(const cli::Crowd& crowd) {
+    const std::span<const Pair> pairs = broad_phase_.find(set_, crowd.agents());
+    hits_.resize(pairs.size());
+    collide(set_, crowd.agents(), pairs, hits_);
+    return pairs;
+  }
+
   const ShapeSet& set_;
   std::vector<cli::Crowd> crowds_;
   BroadPhase broad_phase_;
@@ -55,6 +69,9 @@ void print_crowd_ratios(Scene& scene, std::uint32_t runs) {
   Steps large(set, many, 1);
   tbb::task_arena(2).execute([&] { large.find_and_answer(); });
   const double mebibytes = static_cast<double>(memory.bytes()) / (1024 * 1024);
+  const baselines::Reference reference(scene.shapes(), {});
+  small.check(reference);
+  tbb::task_arena(2).execute([&] { large.check(reference); });
 
   std::vector<Contender> steps = {{"small", [&] { small.find_and_answer(); }},
                                   {"large", [&] { large.find_and_answer(); }},

@@ -7,10 +7,9 @@
 #include <cstdio>
 #include <memory>
 #include <optional>
-#include <stdexcept>
 #include <utility>
 
-#include "baselines/reference.hpp"
+#include "bench/answer_checks.hpp"
 #include "bench/ratios.hpp"
 #include "layout/pose_shape.hpp"
 #include "layout/scene_plan.hpp"
@@ -51,7 +50,7 @@ const std::vector<Row>& rows() {
 /// The scene's crowd, as a plan for it has it.
 class Planned {
  public:
-  Planned(Scene& scene, const Row& row) : scene_(scene), workload_(scene.workload("crowd")), row_(row) {
+  Planned(Scene& scene, const Row& row) : workload_(scene.workload("crowd")) {
     const cli::Crowd& crowd = workload_.crowd;
     std::vector<SceneAgent> agents;
     for (std::size_t i = 0; i < crowd.size(); ++i)
@@ -64,7 +63,10 @@ class Planned {
     set_.emplace(build());
     hits_.resize(workload_.pairs.size());
     answer();
-    require_right();
+    // Against the reference over the scene's own shapes.
+    require_right(row.name, workload_,
+                  wrong_answers({scene.shapes(), plan_.set}, crowd.at_level(plan_.agent_level),
+                                workload_.pairs, hits_, semantics()));
   }
 
   ShapeSet build() {
@@ -91,23 +93,7 @@ class Planned {
     return {plan_.agent_shape, crowd.x, crowd.y, crowd.heading, plan_.agent_level};
   }
 
-  /// Every fiftieth pair, against the reference over the scene's own shapes.
-  void require_right() {
-    const baselines::Reference reference(scene_.shapes(), plan_.set);
-    const Agents whole = workload_.crowd.at_level(plan_.agent_level);
-    const auto method = baselines::Method::depth_first;
-    for (std::size_t i = 0; i < pairs(); i += 50) {
-      const Pair pair = workload_.pairs[i];
-      const bool expected =
-          plan_.set.solid ? reference.solid(whole, pair, method) : reference.boundary(whole, pair, method);
-      if (hits_[i] != expected)
-        throw std::runtime_error(fmt::format("plan '{}': pair {} is answered wrongly", row_.name, i));
-    }
-  }
-
-  Scene& scene_;
   const Workload& workload_;
-  const Row& row_;
   ScenePlan plan_;
   std::vector<PoseShaper> shapers_;
   std::optional<ShapeFlattener> flattener_;

@@ -7,7 +7,9 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <memory>
 
+#include "bench/answer_checks.hpp"
 #include "bench/ratios.hpp"
 #include "bench/text.hpp"
 
@@ -61,12 +63,34 @@ std::string per_call(const Workload& workload) {
 }
 
 /// The pairs in calls of `size`, those left over aside.
-Contender in_batches(const ShapeSet& set, const Workload& workload, Hits& hits, std::size_t size) {
-  return {fmt::format("batches of {}", size), [&set, &workload, &hits, size] {
-            const std::span<const Pair> pairs = workload.pairs;
-            for (std::size_t i = 0; i + size <= pairs.size(); i += size)
-              collide(set, workload.agents(), pairs.subspan(i, size), std::span(hits).subspan(i, size));
-          }};
+Contender in_batches(Scene& scene, const Workload& workload, std::size_t size) {
+  const auto hits = std::make_shared<Hits>(workload.pairs.size());
+  const auto call = [&set = scene.set(Semantics::boundary), &workload, hits, size] {
+    const std::span<const Pair> pairs = workload.pairs;
+    for (std::size_t i = 0; i + size <= pairs.size(); i += size)
+      collide(set, workload.agents(), pairs.subspan(i, size), std::span(*hits).subspan(i, size));
+  };
+  call();
+  Hits complete = scene.expected(Semantics::boundary, workload);
+  std::copy_n(hits->begin(), workload.pairs.size() / size * size, complete.begin());
+  const std::string name = fmt::format("batches of {}", size);
+  require_right(name, workload, wrong_kernel(scene, workload, Semantics::boundary, complete));
+  return {name, call};
+}
+
+/// All pairs in one call, by so many threads.
+Contender by_threads(Scene& scene, const Workload& workload, int threads) {
+  const auto hits = std::make_shared<Hits>(workload.pairs.size());
+  const auto arena = std::make_shared<tbb::task_arena>(threads);
+  const auto call = [&set = scene.set(Semantics::boundary), &workload, hits, arena] {
+    arena->execute([&] { collide(set, workload.agents(), workload.pairs, *hits); });
+  };
+  call();
+  const std::string name = fmt::format("{} threads", threads);
+  require_right(
+      name, workload,
+      wrong_answers({scene.shapes(), {}}, workload.agents(), workload.pairs, *hits, Semantics::boundary));
+  return {name, call};
 }
 
 }  // namespace
@@ -114,24 +138,17 @@ void print_peer_ratios(Scene& scene, std::uint32_t runs) {
 }
 
 void print_call_ratios(Scene& scene, std::uint32_t runs) {
-  const ShapeSet& set = scene.set(Semantics::boundary);
-  Workload many = crowd_pairs(set, 50'000);
+  Workload many = crowd_pairs(scene.set(Semantics::boundary), 50'000);
   many.pairs.resize(std::min<std::size_t>(many.pairs.size(), 100'000));
-  Hits hits(many.pairs.size());
-  tbb::task_arena one(1), two(2);
-  const auto call = [&] { collide(set, many.agents(), many.pairs, hits); };
-  std::vector<Contender> threads = {{"1 thread", [&] { one.execute(call); }},
-                                    {"2 threads", [&] { two.execute(call); }}};
+  std::vector<Contender> threads = {by_threads(scene, many, 1), by_threads(scene, many, 2)};
   race(threads, runs, 2);
   const double gain = threads[0].nanoseconds / threads[1].nanoseconds;
   fmt::print("2 threads over 1: {}: {:.2f} x   {}\n", per_call(many), gain, verdict(gain, 1.9));
 
   const Workload& workload = scene.workload("colliding");
-  hits.resize(std::max(hits.size(), workload.pairs.size()));
   const std::size_t small = std::min<std::size_t>(16, workload.pairs.size());
   const std::size_t large = std::min<std::size_t>(512, workload.pairs.size());
-  std::vector<Contender> batches = {in_batches(set, workload, hits, small),
-                                    in_batches(set, workload, hits, large)};
+  std::vector<Contender> batches = {in_batches(scene, workload, small), in_batches(scene, workload, large)};
   race(batches, runs, 1);
   const auto each = [&](std::size_t i, std::size_t size) {
     return batches[i].nanoseconds / static_cast<double>(workload.pairs.size() / size * size);

@@ -79,11 +79,14 @@ Contender contacts_kernel(Scene& scene, const Workload& workload,
 
 Contender contacts_reference(Scene& scene, const Workload& workload) {
   const auto cuts = std::make_shared<baselines::CutLists>(scene.shapes(), ShapeSetPlan{});
-  return {"reference", [cuts, &workload] {
+  ContactTable table;
+  contacts(scene.set(Semantics::boundary), workload.agents(), workload.pairs, table);
+  return {"reference", [cuts, &workload, expected = table.contacts.size()] {
             std::size_t all = 0;
             for (const Pair pair : workload.pairs)
               all += baselines::contacts(*cuts, workload.agents(), pair).size();
-            if (all == 0) throw std::runtime_error("no contacts");
+            if (all != expected)
+              throw std::runtime_error(fmt::format("{} contacts where the kernel finds {}", all, expected));
           }};
 }
 
@@ -101,12 +104,18 @@ Contender separation_kernel(Scene& scene, const Workload& workload,
 Contender separation_reference(Scene& scene, const Workload& workload) {
   const auto cuts = std::make_shared<baselines::CutLists>(scene.shapes(), ShapeSetPlan{});
   const auto depths = std::make_shared<std::vector<float>>(workload.pairs.size());
-  return {
-      "reference", [cuts, depths, &workload] {
-        for (std::size_t i = 0; i < workload.pairs.size(); ++i)
-          (*depths)[i] =
-              baselines::separation(*cuts, workload.agents(), workload.pairs[i], separation_directions).depth;
-      }};
+  const auto call = [cuts, depths, &workload] {
+    for (std::size_t i = 0; i < workload.pairs.size(); ++i)
+      (*depths)[i] =
+          baselines::separation(*cuts, workload.agents(), workload.pairs[i], separation_directions).depth;
+  };
+  call();
+  std::vector<Separation> ways(workload.pairs.size());
+  separation(scene.set(Semantics::boundary), workload.agents(), workload.pairs, separation_directions, ways);
+  const bool same = std::equal(depths->begin(), depths->end(), ways.begin(), ways.end(),
+                               [](float depth, const Separation& way) { return depth == way.depth; });
+  require_right("reference", workload, same ? "" : "other depths than the kernel's");
+  return {"reference", call};
 }
 
 Contender collide_all_kernel(Scene& scene, const Workload& workload,

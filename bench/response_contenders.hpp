@@ -19,7 +19,8 @@ struct ResponseQuery {
   /// All of a workload's pairs, or its agents; the answers were compared with brute force over all discs.
   /// Errors:  throws std::runtime_error on wrong answers.
   Contender (*kernel)(Scene&, const Workload&, const kernel::Implementation&);
-  Contender (*reference)(Scene&, const Workload&);  ///< brute force; null where collide()'s stands for it
+  /// Brute force, its answers compared with the kernel's; null where collide()'s stands for it.
+  Contender (*reference)(Scene&, const Workload&);
 };
 
 /// contacts; separation, along the best of separation_directions; collide_all, whose pairs are those of its broad phase.

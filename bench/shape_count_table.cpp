@@ -6,9 +6,8 @@
 #include <cmath>
 #include <cstdio>
 #include <memory>
-#include <stdexcept>
 
-#include "baselines/reference.hpp"
+#include "bench/answer_checks.hpp"
 #include "bench/random.hpp"
 #include "bench/ratios.hpp"
 #include "bench/text.hpp"
@@ -46,7 +45,7 @@ std::vector<Shape> stretched(std::span<const Shape> shapes, std::uint32_t count)
   return copies;
 }
 
-/// The crowd workload of many shapes, every hundredth pair of it compared with the reference.
+/// The crowd workload of many shapes, every pair of it compared with the reference.
 struct ManyShapes {
   ManyShapes(std::span<const Shape> scene, std::uint32_t count) {
     const std::vector<Shape> shapes = stretched(scene, count);
@@ -54,10 +53,8 @@ struct ManyShapes {
     crowd = crowd_pairs(*set, agents);
     hits.resize(crowd.pairs.size());
     answer();
-    const baselines::Reference reference(shapes, {});
-    for (std::size_t i = 0; i < crowd.pairs.size(); i += 100)
-      if (hits[i] != reference.boundary(crowd.agents(), crowd.pairs[i], baselines::Method::depth_first))
-        throw std::runtime_error(fmt::format("{} shapes: pair {} is answered wrongly", count, i));
+    require_right(fmt::format("{} shapes", count), crowd,
+                  wrong_answers({shapes, {}}, crowd.agents(), crowd.pairs, hits, Semantics::boundary));
   }
 
   void answer() { collide(*set, crowd.agents(), crowd.pairs, hits); }
