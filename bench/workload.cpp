@@ -3,9 +3,12 @@
 
 #include "bench/workload.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <stdexcept>
 
 #include "bench/random.hpp"
 #include "kernel/broad_phase.hpp"
@@ -16,7 +19,8 @@ namespace {
 
 constexpr std::string_view names[] = {"colliding", "near_miss", "no_hit",
                                       "crowd",     "paper500",  "paper500_cached"};
-constexpr double world = 100;  ///< metres: where pairs with agents of their own stand
+constexpr double world = 100;                         ///< metres: where pairs with agents of their own stand
+constexpr std::uint32_t most_candidates = 1'000'000;  ///< without one that is wanted
 
 struct Point {
   double x, y;
@@ -72,14 +76,20 @@ Workload random_pairs(std::string_view name, std::uint64_t seed, std::span<const
   Workload workload{std::string(name), {}, {}};
   workload.crowd.side = world;
   cli::Random random(seed);
-  while (workload.pairs.size() < pairs) {
+  for (std::uint32_t in_vain = 0; workload.pairs.size() < pairs;) {
+    if (in_vain++ == most_candidates)
+      throw std::runtime_error(
+          fmt::format("workload {}: of {} pairs at random after the first {} none is wanted", name,
+                      most_candidates, workload.pairs.size()));
     const auto agent = static_cast<std::uint32_t>(workload.crowd.size());
     const Pair pair{agent, agent + 1};
     add_candidate(random, shapes, workload.crowd);
-    if (wanted(workload.agents(), pair))
+    if (wanted(workload.agents(), pair)) {
       workload.pairs.push_back(pair);
-    else
+      in_vain = 0;
+    } else {
       resize(workload.crowd, agent);
+    }
   }
   return workload;
 }

@@ -45,6 +45,7 @@ std::span<const std::string_view> workload_names();
 /// Pairs with agents of their own, shapes and headings at random, the second root disc's centre anywhere in
 /// the disc about the first one's centre in which the two overlap; those that are wanted. The same for the
 /// same shapes and seed everywhere.
+/// Errors:  throws std::runtime_error naming the workload once a million pairs in a row were not wanted.
 Workload random_pairs(std::string_view name, std::uint64_t seed, std::span<const Shape> shapes,
                       std::uint32_t pairs, const std::function<bool(const Agents&, Pair)>& wanted);
 
