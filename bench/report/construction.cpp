@@ -80,18 +80,17 @@ void add_structures(Run& run, Table& table) {
 
 /// Of all characters.
 void add_stages(Run& run, Table& table) {
-  constexpr std::string_view stages[] = {"skin", "outline", "hierarchy", "levels", "interior", "all"};
-  for (const std::string_view name : stages) {
+  std::vector<bench::BuildStages> characters;
+  for (const auto& loaded : run.scene().characters())
+    characters.emplace_back(loaded.character, run.sizes().poses, bench::chosen_build_implementation());
+  for (const bench::BuildStage& stage : bench::build_stages) {
+    if (stage.build == &bench::BuildStages::hierarchy_welzl) continue;  // a peer, not a stage of ours
     std::vector<double> all;
-    for (const auto& loaded : run.scene().characters()) {
-      bench::BuildStages build(loaded.character, run.sizes().poses, bench::build_implementations().front());
-      for (const bench::BuildStage& stage : bench::build_stages) {
-        if (stage.name != name) continue;
-        const auto times = time_each(build.poses(), [&](std::size_t i) { (build.*stage.build)(i); });
-        all.insert(all.end(), times.begin(), times.end());
-      }
+    for (bench::BuildStages& build : characters) {
+      const auto times = time_each(build.poses(), [&](std::size_t i) { (build.*stage.build)(i); });
+      all.insert(all.end(), times.begin(), times.end());
     }
-    add(table, name, "the stage before", all);
+    add(table, stage.name, "the stage before", all);
   }
 }
 
