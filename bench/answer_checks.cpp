@@ -59,7 +59,9 @@ std::string wrong_answers(const baselines::Reference& reference, const Agents& a
 }
 
 std::string wrong_structure(Scene& scene, const Workload& workload, const baselines::Kind& kind,
-                            const Hits& hits) {
+                            const Hits& hits, std::uint32_t max_depth) {
+  if (kind.exact != Truth::none && max_depth != all_depths)
+    return expect_no_miss(hits, scene.hits(kind.name, workload), "itself at all depths");
   std::string wrong;
   if (kind.name == "reference") wrong = wrong_kernel(scene, workload, Semantics::boundary, hits);
   if (const auto* peer = kind.exact == Truth::none ? nullptr : peer_of(kind);

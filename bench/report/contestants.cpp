@@ -5,7 +5,9 @@
 
 #include <stdexcept>
 
+#include "bench/answer_checks.hpp"
 #include "bench/race.hpp"
+#include "bench/report/subject.hpp"
 
 namespace bch::report {
 namespace {
@@ -50,6 +52,22 @@ const baselines::Structure& Contestants::structure(std::string_view name) {
   for (const Contestant& one : all)
     if (one.name == name) return structure(one);
   throw std::invalid_argument("no contestant '" + std::string(name) + "'");
+}
+
+void Contestants::require_right(const Contestant& contestant, const bench::Workload& workload,
+                                std::uint32_t max_depth) {
+  bench::Hits hits(workload.pairs.size());
+  structure(contestant).query(workload.agents(), workload.pairs, hits, max_depth);
+  std::string wrong;
+  if (contestant.centre) {
+    std::vector<Shape> shapes;
+    for (const baselines::Body& body : centre_bodies_) shapes.push_back(body.shape);
+    const ShapeSet set(shapes, {{max_depth}});
+    if (hits != answers(subject_of(set), workload)) wrong = "a kernel over the same discs says otherwise";
+  } else {
+    wrong = bench::wrong_structure(scene_, workload, baselines::kind(contestant.kind), hits, max_depth);
+  }
+  bench::require_right(std::string(contestant.name), workload, wrong);
 }
 
 std::vector<baselines::Body> with_hierarchies(std::span<const baselines::Body> bodies, float threshold,

@@ -36,6 +36,12 @@ class Contestants {
   const baselines::Structure& structure(const Contestant& contestant);
   const baselines::Structure& structure(std::string_view name);
 
+  /// Asks about a workload of the scene.
+  /// Errors:  throws std::runtime_error where the answers are not what wrong_structure() looks for, or, of hierarchies that
+  ///          are not the scene's, not those of a kernel over the same.
+  void require_right(const Contestant& contestant, const bench::Workload& workload,
+                     std::uint32_t max_depth = all_depths);
+
  private:
   bench::Scene& scene_;
   std::vector<baselines::Body> centre_bodies_;
