@@ -11,6 +11,7 @@
 #include <limits>
 #include <numbers>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "baselines/clearance_reference.hpp"
@@ -164,7 +165,10 @@ TEST_F(ClearanceDifferential, ExchangedAgentsExchangeNodesAndTurnTheDirection) {
 }
 
 TEST_F(ClearanceDifferential, AgreesWithCollide) {
-  for (const PairScene& scene : {random_scene(random, set, 50'000), tangent_scene(50'000)}) {
+  // At random none is within the margins of an overlap; at the edge of one, a third of the pairs are.
+  const std::pair<PairScene, double> scenes[] = {{random_scene(random, set, 50'000), 1e-4},
+                                                 {tangent_scene(50'000), 0.4}};
+  for (const auto& [scene, most] : scenes) {
     std::vector<std::uint8_t> hits(scene.pairs.size());
     collide(set, scene.crowd.agents(), scene.pairs, hits);
     const Answers all = answers(set, scene.crowd.agents(), scene.pairs, 0);
@@ -179,7 +183,7 @@ TEST_F(ClearanceDifferential, AgreesWithCollide) {
         EXPECT_GE(all.distance[i], -32e-6f) << i;  // shapes reach up to 4 m
       }
     }
-    EXPECT_LT(disputed, hits.size());
+    EXPECT_LE(static_cast<double>(disputed), most * static_cast<double>(hits.size()));
   }
 }
 

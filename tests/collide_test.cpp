@@ -184,8 +184,7 @@ TEST_F(Differential, TheOrderWithinAPairDoesNotMatter) {
       hits);
 }
 
-/// Outlines that meet are found at every level, in every implementation; and what is found is within the
-/// discs' sizes.
+/// Outlines that meet are found at every level, by every implementation.
 TEST_F(Differential, NoOutlineCrossingIsMissed) {
   const auto crosses = [&](const Agents& agents, Pair pair) {
     return baselines::Oracle(shapes[agents.shape[pair.first]].outline,
@@ -196,17 +195,15 @@ TEST_F(Differential, NoOutlineCrossingIsMissed) {
   PairScene scene = random_scene(random, set, 1'500);
   make_tangent(random, scene, crosses);
   const Agents agents = scene.crowd.agents();
-  std::size_t crossings = 0;
+  std::vector<std::uint8_t> meet;
+  for (const Pair pair : scene.pairs) meet.push_back(crosses(agents, pair));
+  EXPECT_GT(std::count(meet.begin(), meet.end(), 1), std::ssize(meet) / 3);
   for (const auto& implementation : kernel::implementations()) {
     if (!implementation.supported()) continue;
     const auto hits = answers(set, agents, scene.pairs, Semantics::boundary, implementation);
-    for (std::size_t i = 0; i < hits.size(); ++i) {
-      if (!crosses(agents, scene.pairs[i])) continue;
-      ++crossings;
-      EXPECT_EQ(hits[i], 1) << implementation.name << ", pair " << i;
-    }
+    for (std::size_t i = 0; i < hits.size(); ++i)
+      EXPECT_TRUE(hits[i] == 1 || meet[i] == 0) << implementation.name << ", pair " << i;
   }
-  EXPECT_GT(crossings, scene.pairs.size() / 2);
 }
 
 /// Supports and inscribed discs decide pairs early, and nothing else.

@@ -50,7 +50,7 @@ endif()
 foreach(program ${MICRO} ${RATIOS})
   execute_process(COMMAND ${program} --character=absent.glb OUTPUT_VARIABLE output ERROR_VARIABLE output
     RESULT_VARIABLE code TIMEOUT 600)
-  if(NOT output MATCHES "absent.glb")
+  if(code EQUAL 0 OR NOT output MATCHES "absent.glb")
     message(FATAL_ERROR "${program} does not name the file it cannot read: ${code}\n${output}")
   endif()
 endforeach()

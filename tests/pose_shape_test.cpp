@@ -40,8 +40,11 @@ TEST(PoseShaper, MakesTheShapesThatAreMadeOneByOne) {
     expect_as_one_by_one(character, 0.01f);
     expect_as_one_by_one(character, 0.1f);
   }
+}
+
+TEST(RealPoses, AreMadeAsOneByOne) {
   const auto data = test::test_data();
-  if (!data) return;
+  if (!data) GTEST_SKIP() << "BCH_TEST_DATA is not set: no real characters to test with";
   for (const Character& character : test::real_characters(*data)) expect_as_one_by_one(character, 0.01f);
 }
 
@@ -60,8 +63,11 @@ void expect_root_as_with_outline(const Character& character, std::uint32_t poses
 
 TEST(PoseShaper, NeedsNoOutlineForTheRootAlone) {
   for (const Character& character : test::default_characters()) expect_root_as_with_outline(character, 200);
+}
+
+TEST(RealPoses, NeedNoOutlineForTheRootAlone) {
   const auto data = test::test_data();
-  if (!data) return;
+  if (!data) GTEST_SKIP() << "BCH_TEST_DATA is not set: no real characters to test with";
   for (const Character& character : test::real_characters(*data)) expect_root_as_with_outline(character, 50);
 }
 

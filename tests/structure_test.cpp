@@ -96,15 +96,18 @@ TEST(Layers, LibrariesStayInTheirRooms) {
 }
 
 TEST(Layers, IsaFilesIncludeOnlyKernelTemplates) {
+  std::size_t found = 0;
   for (const auto& [file, includes] : includes_below("kernel")) {
     const std::string stem = file.stem().string();
     if (stem != "scalar" && stem != "sse2" && stem != "avx2" && stem != "avx512") continue;
+    ++found;
     EXPECT_EQ(includes,
               (std::vector<std::string>{"kernel/agent_check.hpp", "kernel/clearance_kernel.hpp",
                                         "kernel/contact_kernel.hpp", "kernel/contact_time_kernel.hpp",
                                         "kernel/extent_kernel.hpp", "kernel/pair_kernel.hpp"}))
         << file;
   }
+  EXPECT_EQ(found, 4u);
 }
 
 /// Code that could be shared with other objects: weak symbols that are not data.
