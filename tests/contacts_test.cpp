@@ -13,18 +13,16 @@
 #include <string>
 
 #include "baselines/contact_reference.hpp"
-#include "baselines/reference.hpp"
 #include "kernel/collide.hpp"
 #include "layout/default_characters.hpp"
 #include "tests/character_shapes.hpp"
-#include "tests/scenes.hpp"
+#include "tests/differential.hpp"
 
 namespace bch {
 namespace {
 
 using baselines::CutLists;
 using test::PairScene;
-using test::Random;
 
 const ShapeSetPlan plan{{0, 3, 6, all_depths}, false};
 
@@ -49,13 +47,11 @@ bool operator==(const ContactTable& a, const ContactTable& b) {
   return a.begin == b.begin && a.contacts == b.contacts;
 }
 
-class Contacts : public testing::Test {
+class Contacts : public test::Differential {
  protected:
-  std::vector<Shape> shapes = test::synthetic_shapes(81, 40);
-  ShapeSet set{shapes, plan};
+  Contacts() : Differential(81, plan) {}
+
   CutLists cuts{shapes, plan};
-  baselines::Reference reference{shapes, plan};
-  Random random{82};
 
   void expect_brute_force(const PairScene& scene, const char* what) {
     const ContactTable expected = brute_force(cuts, scene.crowd.agents(), scene.pairs);
@@ -65,14 +61,6 @@ class Contacts : public testing::Test {
         EXPECT_TRUE(table_of(set, scene.crowd.agents(), scene.pairs, implementation) == expected)
             << what << ", " << implementation.name;
       }
-  }
-
-  PairScene tangent_scene(std::uint32_t pairs) {
-    PairScene scene = random_scene(random, set, pairs);
-    make_tangent(random, scene, [&](const Agents& agents, Pair pair) {
-      return reference.boundary(agents, pair, baselines::Method::depth_first);
-    });
-    return scene;
   }
 };
 
