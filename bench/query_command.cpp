@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <optional>
@@ -18,6 +19,8 @@
 #include "bench/query_answers.hpp"
 #include "bench/shape_table.hpp"
 #include "bench/threads.hpp"
+#include "kernel/broad_phase.hpp"
+#include "kernel/clearance.hpp"
 #include "kernel/collide_all.hpp"
 #include "kernel/separation.hpp"
 #include "layout/rounding.hpp"
@@ -64,6 +67,24 @@ std::vector<ShapeSource> keep_used(std::span<const ShapeSource> sources, AgentTa
 }
 
 /// All pairs that collide, in the order of the agents' lines.
+/// Those that clearances are asked of: within `most` of each other.
+std::vector<Pair> near_pairs(const ShapeSet& set, const AgentTable& table, const QueryOptions& options,
+                             double most) {
+  const Agents agents = table.agents();
+  std::vector<Pair> pairs = candidate_pairs(set, agents, most);
+  std::sort(pairs.begin(), pairs.end(),
+            [](Pair a, Pair b) { return a.first != b.first ? a.first < b.first : a.second < b.second; });
+  std::vector<float> distance(pairs.size());
+  clearance(set, agents, pairs, {distance}, {most, options.implementation});
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    pairs[kept] = pairs[i];
+    kept += std::isfinite(distance[i]);
+  }
+  pairs.resize(kept);
+  return pairs;
+}
+
 std::vector<Pair> colliding_pairs(const ShapeSet& set, const Agents& agents, const QueryOptions& options) {
   CrowdCollider collider;
   const CollidingNeighbours rows = collider.collide_all(set, agents, options);
@@ -92,7 +113,9 @@ Question read_question(const QueryCommandOptions& options, std::size_t shapes, s
 void answer(const QueryCommandOptions& options, const ShapeSet& set, Question& question) {
   auto& [table, pairs] = question;
   const QueryOptions how = options.answer.query_options();
-  if (options.all_pairs) pairs = colliding_pairs(set, table.agents(), how);
+  if (options.all_pairs)
+    pairs = std::isfinite(options.max_distance) ? near_pairs(set, table, how, options.max_distance)
+                                                : colliding_pairs(set, table.agents(), how);
   const QueryKind& kind = query_kind(options.what);
   write_standard_output(fmt::format("first,second,{}\n", kind.columns) +
                         kind.rows({set, table, pairs, how, options.directions, options.only_direction(),
@@ -158,7 +181,9 @@ std::function<void()> add_query_command(CLI::App& program) {
       ->type_name("")
       ->required();
   command.add_option("PAIRS.csv", options->pairs, "Columns first,second: ids of agents")->type_name("");
-  command.add_flag("--all-pairs", options->all_pairs, "Instead of PAIRS.csv: all pairs that collide");
+  command.add_flag(
+      "--all-pairs", options->all_pairs,
+      "Instead of PAIRS.csv: all pairs that collide, or of clearances all within --max-distance");
   std::vector<std::string> names;
   for (const QueryKind& kind : query_kinds()) names.emplace_back(kind.name);
   command.add_option("--what", options->what, fmt::format("{} [{}]", fmt::join(names, ", "), names.front()))

@@ -7,6 +7,8 @@
 #include <array>
 #include <bit>
 #include <cstdint>
+#include <stdexcept>
+#include <string>
 
 #include "kernel/collide.hpp"
 #include "kernel/crowd_grid.hpp"
@@ -14,6 +16,7 @@
 #include "kernel/sorted_discs.hpp"
 #include "kernel/standard_floats.hpp"
 #include "kernel/task_ranges.hpp"
+#include "layout/rounding.hpp"
 
 namespace bch {
 namespace {
@@ -27,11 +30,11 @@ using kernel::SortedDiscs;
 constexpr std::size_t grain = 2048;        ///< agents a task
 constexpr std::size_t block_discs = 1024;  ///< whose pairs a task finds
 
-CrowdBounds bounds(const ShapeSetView& shapes, const Agents& agents) {
+CrowdBounds bounds(const ShapeSetView& shapes, const Agents& agents, double margin) {
   return kernel::reduce_ranges(
       agents.size(), grain, CrowdBounds(),
       [&](std::size_t begin, std::size_t end, CrowdBounds all) {
-        all.add(kernel::bounds(shapes, agents, begin, end));
+        all.add(kernel::bounds(shapes, agents, margin, begin, end));
         return all;
       },
       [](CrowdBounds a, const CrowdBounds& b) {
@@ -54,8 +57,8 @@ struct BroadPhase::Scratch {
   std::vector<Pair> pairs;
 
   /// Of one agent or more.
-  std::span<const Pair> find(const ShapeSetView& shapes, const Agents& agents);
-  void sort_discs(const CrowdGrid& grid, const ShapeSetView& shapes, const Agents& agents);
+  std::span<const Pair> find(const ShapeSetView& shapes, const Agents& agents, double margin);
+  void sort_discs(const CrowdGrid& grid, const ShapeSetView& shapes, const Agents& agents, double margin);
   void find_in_block(const CrowdGrid& grid, std::size_t begin, std::size_t end, PairList& list) const;
   void find_in_class(const CrowdGrid& grid, std::uint32_t size_class, std::size_t begin, std::size_t end,
                      PairList& list) const;
@@ -64,11 +67,11 @@ struct BroadPhase::Scratch {
   void gather_pairs(std::size_t blocks);
 };
 
-void BroadPhase::Scratch::sort_discs(const CrowdGrid& grid, const ShapeSetView& shapes,
-                                     const Agents& agents) {
+void BroadPhase::Scratch::sort_discs(const CrowdGrid& grid, const ShapeSetView& shapes, const Agents& agents,
+                                     double margin) {
   placed.resize(agents.size());
   kernel::for_ranges(agents.size(), grain, [&](std::size_t begin, std::size_t end) {
-    grid.place(shapes, agents, begin, end, placed.data());
+    grid.place(shapes, agents, margin, begin, end, placed.data());
   });
   const std::uint32_t classes = grid.class_count();
   radix_sort.sort(placed, static_cast<unsigned>(std::bit_width(grid.end_cell(classes - 1))),
@@ -150,9 +153,10 @@ void BroadPhase::Scratch::gather_pairs(std::size_t blocks) {
   });
 }
 
-std::span<const Pair> BroadPhase::Scratch::find(const ShapeSetView& shapes, const Agents& agents) {
-  const CrowdGrid grid(bounds(shapes, agents));
-  sort_discs(grid, shapes, agents);
+std::span<const Pair> BroadPhase::Scratch::find(const ShapeSetView& shapes, const Agents& agents,
+                                                double margin) {
+  const CrowdGrid grid(bounds(shapes, agents, margin));
+  sort_discs(grid, shapes, agents, margin);
   const std::size_t blocks = (agents.size() + block_discs - 1) / block_discs;
   if (found.size() < blocks) found.resize(blocks);
   kernel::for_ranges(blocks, 1, [&](std::size_t first, std::size_t last) {
@@ -170,16 +174,18 @@ BroadPhase::BroadPhase(BroadPhase&&) noexcept = default;
 BroadPhase& BroadPhase::operator=(BroadPhase&&) noexcept = default;
 BroadPhase::~BroadPhase() = default;
 
-std::span<const Pair> BroadPhase::find(const ShapeSet& shapes, const Agents& agents) {
+std::span<const Pair> BroadPhase::find(const ShapeSet& shapes, const Agents& agents, double margin) {
   const kernel::StandardFloats floats;
   validate(shapes, agents);
+  if (!(margin >= 0 && margin <= 2 * rounding::largest_position))
+    throw std::invalid_argument("broad phase: a margin of " + std::to_string(margin) + " m");
   if (agents.size() == 0) return {};
-  return kernel::without_tasks_from_outside([&] { return scratch_->find(shapes.view(), agents); });
+  return kernel::without_tasks_from_outside([&] { return scratch_->find(shapes.view(), agents, margin); });
 }
 
-std::vector<Pair> candidate_pairs(const ShapeSet& shapes, const Agents& agents) {
+std::vector<Pair> candidate_pairs(const ShapeSet& shapes, const Agents& agents, double margin) {
   BroadPhase broad_phase;
-  const std::span<const Pair> pairs = broad_phase.find(shapes, agents);
+  const std::span<const Pair> pairs = broad_phase.find(shapes, agents, margin);
   return {pairs.begin(), pairs.end()};
 }
 

@@ -23,11 +23,13 @@ constexpr double radius_of_cell = 0.5 * (1 - 0x1p-10);
 constexpr double centre_rounding = 0x1p-50;
 
 /// With the slack of a pruning disc, which covers the rounding of collide(). A root holds the shape, whose reach is
-/// therefore at most that of the root.
-double pruning_radius(const Root& root) {
+/// therefore at most that of the root. Enlarged by half of the margin, and by more than clearance() may tell too little:
+/// 27 u of the margin and 69 u of both reaches.
+double pruning_radius(const Root& root, double margin) {
   const double radius = root.radius;
   const double reach = std::abs(static_cast<double>(root.x)) + std::abs(static_cast<double>(root.y)) + radius;
-  return radius + rounding::nesting_margin * reach;
+  if (margin == 0) return radius + rounding::nesting_margin * reach;
+  return radius + 128 * rounding::unit_roundoff * reach + (0.5 + 0x1p-18) * margin;
 }
 
 }  // namespace
@@ -42,12 +44,12 @@ void CrowdBounds::add(const CrowdBounds& other) noexcept {
   most_radius = std::max(most_radius, other.most_radius);
 }
 
-CrowdBounds bounds(const ShapeSetView& shapes, const Agents& agents, std::size_t begin,
+CrowdBounds bounds(const ShapeSetView& shapes, const Agents& agents, double margin, std::size_t begin,
                    std::size_t end) noexcept {
   CrowdBounds all;
   for (std::size_t i = begin; i < end; ++i) {
     const std::size_t root = agents.root(i, shapes.level_count);
-    const double radius = pruning_radius(shapes.roots[root]);
+    const double radius = pruning_radius(shapes.roots[root], margin);
     const double offset = std::abs(static_cast<double>(shapes.roots[root].x)) +
                           std::abs(static_cast<double>(shapes.roots[root].y));
     all.add({agents.x[i], agents.x[i], agents.y[i], agents.y[i], offset, radius, radius});
@@ -82,8 +84,8 @@ CrowdGrid::CrowdGrid(const CrowdBounds& crowd) noexcept {
   } while (class_count_ < most_classes && cell >= least_cell * extent && most_radius >= crowd.least_radius);
 }
 
-void CrowdGrid::place(const ShapeSetView& shapes, const Agents& agents, std::size_t begin, std::size_t end,
-                      GridDisc* discs) const noexcept {
+void CrowdGrid::place(const ShapeSetView& shapes, const Agents& agents, double margin, std::size_t begin,
+                      std::size_t end, GridDisc* discs) const noexcept {
   for (std::size_t i = begin; i < end; ++i) {
     const std::size_t root = agents.root(i, shapes.level_count);
     const auto x = static_cast<double>(shapes.roots[root].x), y = static_cast<double>(shapes.roots[root].y);
@@ -93,7 +95,7 @@ void CrowdGrid::place(const ShapeSetView& shapes, const Agents& agents, std::siz
     // it.
     const auto at_x = static_cast<std::uint64_t>(((agents.x[i] - corner_x_) + offset_x) * units_);
     const auto at_y = static_cast<std::uint64_t>(((agents.y[i] - corner_y_) + offset_y) * units_);
-    const double radius = pruning_radius(shapes.roots[root]);
+    const double radius = pruning_radius(shapes.roots[root], margin);
     std::uint32_t c = class_count_ - 1;
     while (radius > classes_[c].most_radius) --c;
     const std::uint32_t shift = cell_bits - class_bits * c;

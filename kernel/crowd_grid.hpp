@@ -25,8 +25,8 @@ struct CrowdBounds {
   void add(const CrowdBounds& other) noexcept;
 };
 
-/// Of agents begin .. end at their levels.
-CrowdBounds bounds(const ShapeSetView& shapes, const Agents& agents, std::size_t begin,
+/// Of agents begin .. end at their levels. `margin`: as BroadPhase::find() has it.
+CrowdBounds bounds(const ShapeSetView& shapes, const Agents& agents, double margin, std::size_t begin,
                    std::size_t end) noexcept;
 
 /// An agent's root disc in units of a grid. The centre is modulo 2^32: differences below 2^31 units are right
@@ -54,9 +54,9 @@ class CrowdGrid {
 
   explicit CrowdGrid(const CrowdBounds& bounds) noexcept;
 
-  /// Writes the discs of agents begin .. end to discs[begin .. end].
-  void place(const ShapeSetView& shapes, const Agents& agents, std::size_t begin, std::size_t end,
-             GridDisc* discs) const noexcept;
+  /// Writes the discs of agents begin .. end to discs[begin .. end]. `margin`: as for the bounds.
+  void place(const ShapeSetView& shapes, const Agents& agents, double margin, std::size_t begin,
+             std::size_t end, GridDisc* discs) const noexcept;
 
   std::uint32_t class_count() const noexcept { return class_count_; }
   /// All cells of a class are below; so are those of the classes before it.

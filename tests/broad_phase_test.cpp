@@ -13,7 +13,9 @@
 #include <tuple>
 #include <utility>
 
+#include "kernel/clearance.hpp"
 #include "kernel/collide.hpp"
+#include "kernel/contact_time.hpp"
 #include "layout/heading.hpp"
 #include "layout/rounding.hpp"
 #include "tests/scenes.hpp"
@@ -198,6 +200,42 @@ TEST(BroadPhase, LeavesNoHitOut) {
     EXPECT_TRUE(is_candidate || hits[k] == 0) << all[k].first << ", " << all[k].second;
   }
   EXPECT_GT(found, 100u);
+}
+
+/// Who is within a margin, now or soon, and hardly anybody else.
+TEST(BroadPhase, LeavesNobodyOutWithinAMargin) {
+  const test::Crowd crowd = crowd_in(40, 40, 500, 8);
+  const Agents agents = crowd.agents();
+  const std::vector<Pair> all = [] {
+    std::vector<Pair> pairs;
+    for (std::uint32_t i = 0; i < 500; ++i)
+      for (std::uint32_t j = i + 1; j < 500; ++j) pairs.push_back({i, j});
+    return pairs;
+  }();
+  std::vector<float> distances(all.size()), times(all.size());
+  clearance(set, agents, all, {distances});
+  test::Random random(9);
+  for (const double margin : {1e-6, 0.1, 0.5, 3.0, 20.0}) {
+    const auto found = sorted(candidate_pairs(set, agents, margin));
+    std::vector<double> x, y;
+    for (std::size_t k = 0; k < all.size(); ++k) {
+      const double angle = random.uniform(-3.2, 3.2);
+      x.push_back(margin * std::cos(angle)), y.push_back(margin * std::sin(angle));
+    }
+    contact_time(set, agents, all, {x, y}, times);
+    for (std::size_t k = 0; k < all.size(); ++k) {
+      const bool is_near = static_cast<double>(distances[k]) <= margin || times[k] <= 1;
+      ASSERT_TRUE(!is_near || std::binary_search(found.begin(), found.end(), all[k], before))
+          << margin << ": " << all[k].first << ", " << all[k].second;
+    }
+    const std::vector<Pair> needed = brute_force(set, agents, 0, margin);
+    const std::vector<Pair> allowed = brute_force(set, agents, 0x1p-16, margin * (1 + 0x1p-15));
+    EXPECT_TRUE(std::includes(found.begin(), found.end(), needed.begin(), needed.end(), before)) << margin;
+    EXPECT_TRUE(std::includes(allowed.begin(), allowed.end(), found.begin(), found.end(), before)) << margin;
+    EXPECT_LT(found.size(), all.size());
+  }
+  for (const double bad : {-0.1, 3e9, std::numeric_limits<double>::quiet_NaN()})
+    EXPECT_THROW(candidate_pairs(set, agents, bad), std::invalid_argument);
 }
 
 /// Offsets must not be rounded to the step of the world's coordinates: the disc is smaller than its offset.

@@ -129,6 +129,12 @@ TEST_F(QueryWhat, ClearanceSaysHowFarAndWhichWay) {
   const Rows touching = rows("clearance", header, {pairs, "--max-distance", "0"});
   EXPECT_EQ(touching, (Rows{all[0], {"a", "c", "inf", "0", "0"}, {"a", "d", "inf", "0", "0"}}));
   EXPECT_EQ(rows("clearance", header, {"--all-pairs"}).size(), 1u);
+  const Rows within = rows("clearance", header, {"--all-pairs", "--max-distance", "0.5"});
+  ASSERT_EQ(within.size(), 3u);  // d stands far off
+  EXPECT_EQ(within[0][0] + within[0][1] + within[0][2], "ab" + all[0][2]);
+  EXPECT_EQ(within[1], all[1]);
+  EXPECT_EQ(within[2][0] + within[2][1], "bc");
+  EXPECT_LE(number(within[2][2]), 0.5);
 }
 
 TEST_F(QueryWhat, ContactTimeSaysWhenTheyTouch) {
