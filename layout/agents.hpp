@@ -12,6 +12,8 @@
 namespace bch {
 
 /// A crowd as a simulator holds it: one entry an agent in each span; nothing is copied.
+/// A heading turns a shape about its agent's position; 0 leaves it as its character was: the built-in ones then face +x,
+/// those of files stand as import.hpp says. How a clip turns its character's root stays in the shape.
 /// Units:   metres and radians, counter-clockwise, on the ground plane; |x|, |y| <= 1e9 m and |heading| <=
 ///          1e9 rad.
 struct Agents {

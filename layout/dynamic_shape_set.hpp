@@ -18,6 +18,12 @@ namespace bch {
 /// half as large again as it needs, behind all others, and leaves the old one empty. So after some frames every place is
 /// large enough and nothing is allocated any more; all places together take at most 4.5 times what the largest shapes
 /// need. One that was moved from can only be assigned to or destroyed.
+///
+///     PoseShaper shaper(character);                    // pose_shape.hpp; these two and the next one a thread
+///     ShapeFlattener flattener(dynamic.set().plan());  // shape_flattener.hpp
+///     FlatShape flat;
+///     flattener.flatten(shaper.shape({clip, seconds}), shape, flat);
+///     if (!dynamic.try_replace(shape, flat)) later.push_back(shape);  // for replace(), by one thread
 class DynamicShapeSet {
  public:
   /// A copy of a set, another one's set() for instance, with its plan and without what that left empty. In a set of

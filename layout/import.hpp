@@ -25,6 +25,8 @@ enum class UpAxis : std::uint8_t { x, y, z };
 
 /// What the caller knows better. Collada is in metres for `scale`, as assimp applies a Collada file's own
 /// unit.
+/// Up becomes z and nothing else turns: of a file that is y up, x stays and z becomes -y. Who faces +z there, as glTF has
+/// it, faces -y at heading 0, and walks along his heading less a quarter turn.
 struct ImportOptions {
   std::optional<UpAxis> up;                       ///< instead of what the file says or what is guessed
   std::optional<float> scale;                     ///< metres per unit of the file, likewise
