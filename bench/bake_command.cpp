@@ -7,6 +7,7 @@
 
 #include "bench/baked_report.hpp"
 #include "bench/baking.hpp"
+#include "bench/characters.hpp"
 #include "bench/commands.hpp"
 #include "bench/exit_codes.hpp"
 #include "bench/options.hpp"
@@ -33,6 +34,9 @@ void write_image(const std::string& file, const BakedImage& image) {
 }
 
 void run_bake(const BakeOptions& options) {
+  if (!is_baked(options.output))
+    throw UsageError(fmt::format("--output: '{}' does not end in .bch, by which baked files are known",
+                                 options.output));
   const ShapeSetPlan plan{options.answer.cut_depths(), options.answer.semantics == "solid"};
   require_writable(options.output);
   // Before there are threads: see guarded_import().

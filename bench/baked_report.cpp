@@ -47,10 +47,6 @@ float root_radius(const ShapeSet& set, std::uint32_t shape) {
 
 }  // namespace
 
-bool is_baked(const std::string& file) {
-  return file.ends_with(".bch");
-}
-
 BakedShapes load_baked_for(const std::string& file, bool solid) {
   BakedShapes baked = load_baked(file);
   if (solid && !baked.set.solid())

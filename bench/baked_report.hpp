@@ -10,9 +10,6 @@
 
 namespace bch::cli {
 
-/// By its name: what ends in ".bch".
-bool is_baked(const std::string& file);
-
 /// For one that has to answer in some semantics.
 /// Errors:  throws BakedFileError; InputError where solid semantics is asked of a set that was baked without.
 BakedShapes load_baked_for(const std::string& file, bool solid);

@@ -3,6 +3,8 @@
 
 #include "bench/characters.hpp"
 
+#include <strings.h>
+
 #include <algorithm>
 
 #include "bench/exit_codes.hpp"
@@ -53,7 +55,13 @@ std::string file_name(const LoadedCharacter& character) {
   return character.source.substr(character.source.find_last_of('/') + 1);
 }
 
+bool is_baked(const std::string& file) {
+  constexpr std::string_view end = ".bch";
+  return file.size() >= end.size() && strcasecmp(file.c_str() + file.size() - end.size(), end.data()) == 0;
+}
+
 LoadedCharacter load_character(const std::string& source, const ImportOptions& options) {
+  if (is_baked(source)) throw InputError(source + ": is a baked file, where a character is expected");
   if (source.starts_with(built_in_prefix)) return built_in(source, options);
   ImportedCharacter imported = guarded_import(source, options);
   return {source, std::move(imported.character), std::move(imported.report)};

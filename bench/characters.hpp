@@ -25,6 +25,9 @@ struct LoadedCharacter {
   ImportReport report;
 };
 
+/// By its name, which ends in .bch, in whatever case.
+bool is_baked(const std::string& file);
+
 /// Without its folders.
 std::string file_name(const LoadedCharacter& character);
 

@@ -116,6 +116,28 @@ TEST(Cli, BadBakedFilesGiveThreeAndOneLine) {
   expect_failure(bch({"inspect", folder.file("missing.bch")}), 3, {"missing.bch: "});
 }
 
+TEST(Cli, BakedFilesAreKnownByTheirEnding) {
+  const TemporaryFolder folder;
+  for (const char* name : {"p.txt", "p", "p.bch.gz", "bch"}) {
+    const std::string file = folder.file(name);
+    expect_failure(bch({"bake", "default:male", "-o", file}), 2, {file, ".bch"});
+  }
+  EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
+  const std::string upper = folder.file("P.BCH");
+  ASSERT_EQ(bch({"bake", "default:male", "--poses", "1", "-o", upper}).code, 0);
+  EXPECT_NE(bch({"inspect", upper}).out.find("baked shapes"), std::string::npos);
+}
+
+TEST(Cli, BakedFilesAreNoCharacters) {
+  const TemporaryFolder folder;
+  const std::string baked = folder.file("p.bch");
+  ASSERT_EQ(bch({"bake", "default:male", "--poses", "1", "-o", baked}).code, 0);
+  expect_failure(bch({"bake", baked, "-o", folder.file("q.bch")}), 3, {baked, "is a baked file"});
+  expect_failure(bch({"report", "--out", folder.file("report"), "--character", baked}), 3,
+                 {baked, "is a baked file"});
+  EXPECT_FALSE(std::filesystem::exists(folder.file("report/run.csv")));
+}
+
 /// A disk that is full, as far as this program may fill it.
 TEST(Cli, FilesThatDoNotFitLeaveNothing) {
   const TemporaryFolder folder;
@@ -149,7 +171,10 @@ TEST(Cli, InterruptsWhileBakingLeaveAllOrNothing) {
 TEST(Cli, BakingLeavesAllOrNothing) {
   const TemporaryFolder folder;
   const std::string file = folder.file("a.bch");
-  expect_failure(bch({"bake", "default:male", "--poses", "1", "-o", "/dev/full"}), 3, {"/dev/full"});
+  const std::string full = folder.file("full.bch");
+  std::filesystem::create_symlink("/dev/full", full);
+  expect_failure(bch({"bake", "default:male", "--poses", "1", "-o", full}), 3, {full, "No space"});
+  std::filesystem::remove(full);
   expect_failure(bch({"bake", "default:male", "--poses", "1", "-o", "/nowhere/a.bch"}), 3,
                  {"/nowhere/a.bch"});
   const Ending run = bch({"bake", "default:male", "--poses", "200000", "-o", file}, {},
