@@ -100,12 +100,21 @@ void write_json(const std::string& file, const nlohmann::ordered_json& json) {
   write_file(file, json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
 }
 
+void make_folder(const std::string& folder) {
+  if (folder.empty()) return;
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error) throw InputError(folder + ": cannot be made a folder: " + error.message());
+}
+
 void require_writable(const std::string& file) {
   if (file.empty()) return;
   const fs::path target = resolved(file);
   std::error_code none;
   if (fs::is_directory(target, none)) reject(file, EISDIR);
-  if (access(is_special(target) ? target.c_str() : folder_of(target).c_str(), W_OK) != 0) reject(file, errno);
+  // "/." because a file in the folder's place can be written to as well.
+  const fs::path written = is_special(target) ? target : folder_of(target) / ".";
+  if (access(written.c_str(), W_OK) != 0) reject(file, errno);
 }
 
 }  // namespace bch::cli

@@ -22,6 +22,9 @@ void write_file(const std::string& file, std::span<const std::string_view> parts
 /// An empty name is no file: nothing is written. Bytes of names that are not UTF-8 are replaced.
 void write_json(const std::string& file, const nlohmann::ordered_json& json);
 
+/// And the folders above it. An empty name is no folder and fine, as is one that is there.
+void make_folder(const std::string& folder);
+
 /// Says early what write_file() would say after the work was done: no such folder, or one that cannot be
 /// written to. An empty name is no file and fine.
 void require_writable(const std::string& file);

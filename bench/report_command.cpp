@@ -51,8 +51,7 @@ void run_report(const CLI::App& command, ReportOptions& options) {
     require_absent(command, {"--quick", "--seed", "--character", "--experiment"}, "--page measures nothing");
     report::make_page(options.report.folder);
   } else {
-    std::error_code ignored;  // the next line has words for it
-    std::filesystem::create_directories(options.report.folder, ignored);
+    make_folder(options.report.folder);
     require_writable(page);
     if (!options.characters.empty()) options.report.characters = options.characters;
     if (options.quick) options.report.sizes = report::quick_sizes;

@@ -29,13 +29,6 @@ struct StabilityOptions {
   std::string out, csv, json;
 };
 
-void make_folder(const std::string& folder) {
-  if (folder.empty()) return;
-  std::error_code error;
-  fs::create_directories(folder, error);
-  if (error) throw InputError(fmt::format("{}: {}", folder, error.message()));
-}
-
 void write_pictures(const std::string& folder, std::span<const bench::StabilityRow> rows) {
   for (const bench::StabilityFamily& family : bench::stability_families())
     if (family.axis)

@@ -75,11 +75,12 @@ Json json_of(const Experiment& experiment, const Table& facts) {
 }  // namespace
 
 void run_report(const Options& options) {
-  std::filesystem::create_directories(options.folder);
+  bench::Scene scene({options.characters, options.sizes.poses, {options.sizes.pairs, options.sizes.agents}});
+  // First, as a bad file should neither cost minutes nor leave files, and an import wants a process without threads.
+  scene.characters();
+  cli::make_folder(options.folder);
   const Table facts = facts_of(options);
   cli::write_file(options.folder / "run.csv", csv_of(facts));
-  bench::Scene scene({options.characters, options.sizes.poses, {options.sizes.pairs, options.sizes.agents}});
-  scene.characters();  // a bad file should not cost minutes, and an import wants a process without threads
 
   const auto these = wanted(options);
   double total = 0;
