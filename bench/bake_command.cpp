@@ -35,8 +35,8 @@ void write_image(const std::string& file, const BakedImage& image) {
 
 void run_bake(const BakeOptions& options) {
   if (!is_baked(options.output))
-    throw UsageError(fmt::format("--output: '{}' does not end in .bch, by which baked files are known",
-                                 options.output));
+    throw UsageError(
+        fmt::format("--output: '{}' does not end in .bch, by which baked files are known", options.output));
   const ShapeSetPlan plan{options.answer.cut_depths(), options.answer.semantics == "solid"};
   require_writable(options.output);
   // Before there are threads: see guarded_import().

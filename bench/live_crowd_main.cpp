@@ -6,12 +6,13 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
-#include <exception>
 
 #include "bench/characters.hpp"
+#include "bench/command_line.hpp"
 #include "bench/exit_codes.hpp"
 #include "bench/live_crowd.hpp"
 #include "bench/median.hpp"
+#include "bench/run_main.hpp"
 #include "bench/text.hpp"
 #include "bench/threads.hpp"
 
@@ -65,9 +66,9 @@ int run(int argc, char** argv) {
       ->check(CLI::Range(1u, 1'000'000u));
   program.add_option("--frames", options.frames, "Frames of which the medians are taken [200]")
       ->check(CLI::Range(1u, 1'000'000u));
-  program.add_option("--threads", options.threads, "Threads [all]");
+  program.add_option("--threads", options.threads, "Threads [all]")->check(CLI::Range(1u, 1024u));
   program.add_option("--character", options.characters, cli::character_help)->allow_extra_args(false);
-  CLI11_PARSE(program, argc, argv);
+  if (!cli::parse_command_line(program, argc, argv)) return cli::exit_success;
 
   // Before there are threads: see guarded_import().
   std::vector<Character> characters;
@@ -87,10 +88,5 @@ int run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  try {
-    return run(argc, argv);
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "bch_live_crowd: %s\n", error.what());
-    return cli::exit_bad_input;
-  }
+  return cli::run_main("bch_live_crowd", [&] { return run(argc, argv); });
 }

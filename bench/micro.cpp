@@ -6,12 +6,12 @@
 #include <benchmark/benchmark.h>
 
 #include <CLI/CLI.hpp>
-#include <cstdio>
-#include <exception>
 #include <string>
 #include <vector>
 
+#include "bench/command_line.hpp"
 #include "bench/exit_codes.hpp"
+#include "bench/run_main.hpp"
 #include "bench/scene_options.hpp"
 
 namespace {
@@ -35,7 +35,7 @@ int run(int argc, char** argv) {
       ->type_name("FILE")
       ->allow_extra_args(false);
   bch::bench::add_size_options(program, options);
-  CLI11_PARSE(program, argc, argv);
+  if (!bch::cli::parse_command_line(program, argc, argv)) return bch::cli::exit_success;
 
   std::vector<std::string> rest = program.remaining();
   std::vector<char*> arguments{argv[0]};
@@ -58,10 +58,5 @@ int run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  try {
-    return run(argc, argv);
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "bch_micro: %s\n", error.what());
-    return bch::cli::exit_bad_input;
-  }
+  return bch::cli::run_main("bch_micro", [&] { return run(argc, argv); });
 }

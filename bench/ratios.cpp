@@ -8,11 +8,11 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <cstdio>
-#include <exception>
 #include <functional>
 
+#include "bench/command_line.hpp"
 #include "bench/exit_codes.hpp"
+#include "bench/run_main.hpp"
 #include "bench/scene_options.hpp"
 
 namespace {
@@ -97,7 +97,7 @@ int run(int argc, char** argv) {
       ->type_name("NAME")
       ->allow_extra_args(false)
       ->check(CLI::IsMember(table_names()));
-  CLI11_PARSE(program, argc, argv);
+  if (!bch::cli::parse_command_line(program, argc, argv)) return bch::cli::exit_success;
 
   Scene built_in(scene);
   scene.characters = files;
@@ -128,10 +128,5 @@ std::string verdict_at_most(double value, double most) {
 }  // namespace bch::bench
 
 int main(int argc, char** argv) {
-  try {
-    return run(argc, argv);
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "bch_ratios: %s\n", error.what());
-    return bch::cli::exit_bad_input;
-  }
+  return bch::cli::run_main("bch_ratios", [&] { return run(argc, argv); });
 }

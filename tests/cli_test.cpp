@@ -68,10 +68,33 @@ TEST(Cli, UsageErrorsGiveTwo) {
   for (const auto& [arguments, word] : cases) expect_failure(bch(arguments), 2, {word});
 }
 
+/// Of the programs beside it those that were built: not every build has them all.
+TEST(Cli, TheOtherProgramsGiveTheSameExitCodes) {
+  const std::filesystem::path folder = std::filesystem::path(BCH_PROGRAM).parent_path();
+  for (const std::string name : {"bch_live_crowd", "bch_micro", "bch_ratios"}) {
+    const std::string program = folder / name;
+    if (!std::filesystem::exists(program)) continue;
+    EXPECT_EQ(run_program(program, {"--help"}).code, 0) << name;
+    for (const Arguments& wrong : {Arguments{"--nope"}, {"--agents", "0"}, {"--threads", "99999999"}}) {
+      const Ending run = run_program(program, wrong);
+      EXPECT_EQ(run.code, 2) << name << ' ' << wrong.front();
+      EXPECT_EQ(run.out, "");
+      EXPECT_EQ(lines(run.err), 1u) << run.err;
+    }
+  }
+}
+
 TEST(Cli, OutputThatCannotBeWrittenIsReported) {
   expect_failure(bch({"--version"}, {}, {"/dev/full", {}}), 3, {"standard output"});
   expect_failure(bch({"crowd", "--json", "/nowhere/crowd.json"}), 3, {"/nowhere/crowd.json"});
   expect_failure(bch({"report", "--out", "/dev/null/report"}), 3, {"/dev/null/report"});
+  const TemporaryFolder folder;
+  const std::string file = folder.write("a.csv", "old");
+  for (const char* command : {"report", "stability"})
+    for (const std::string& out : {file, std::string("/dev/null")})
+      expect_failure(bch({command, "--out", out, "--quick"}), 3, {out + ": ", "Not a directory"});
+  expect_failure(bch({"crowd", "--json", file + "/crowd.json"}), 3, {"Not a directory"});
+  EXPECT_EQ(read_text(file), "old");
 }
 
 struct BadFile {

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <string>
+#include <vector>
+
+#include "bench/exit_codes.hpp"
+#include "bench/output.hpp"
+
+namespace bch::cli {
+
+/// Reads the command line, or writes the help or the version that it asks for.
+/// Returns: whether there is anything left to do.
+/// Errors:  throws UsageError.
+inline bool parse_command_line(CLI::App& program, int argc, char** argv) {
+  try {
+    program.parse(argc, argv);
+    return true;
+  } catch (const CLI::CallForVersion& version) {
+    write_standard_output(std::string(version.what()) + "\n");
+  } catch (const CLI::CallForHelp&) {
+    write_standard_output(program.help() + "\n");
+  } catch (const CLI::ParseError& error) {
+    std::string line = error.what();
+    while (line.ends_with('\n') || line.ends_with(' ')) line.pop_back();
+    for (char& c : line)
+      if (c == '\n') c = ' ';
+    throw UsageError(line + " (--help tells more)");
+  }
+  return false;
+}
+
+}  // namespace bch::cli

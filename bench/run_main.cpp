@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include "bench/run_main.hpp"
+
+#include <cstdio>
+#include <exception>
+#include <new>
+#include <string>
+
+#include "bench/exit_codes.hpp"
+#include "layout/baked_file.hpp"
+#include "layout/import.hpp"
+
+namespace bch::cli {
+
+int run_main(const char* program, const std::function<int()>& run) {
+  const auto report = [&](int code, const std::string& message) {
+    std::fprintf(stderr, "%s: %s\n", program, message.c_str());
+    return code;
+  };
+  try {
+    return run();
+  } catch (const UsageError& error) {
+    return report(exit_usage, error.what());
+  } catch (const InputError& error) {
+    return report(exit_bad_input, error.what());
+  } catch (const InputErrors& errors) {
+    for (const std::string& line : errors.lines) report(exit_bad_input, line);
+    return exit_bad_input;
+  } catch (const ImportError& error) {
+    return report(exit_bad_input, error.what());
+  } catch (const BakedFileError& error) {
+    return report(exit_bad_input, error.what());
+  } catch (const std::bad_alloc&) {
+    return report(exit_internal, "not enough memory");
+  } catch (const std::exception& error) {
+    return report(exit_internal, std::string("internal error: ") + error.what());
+  }
+}
+
+}  // namespace bch::cli

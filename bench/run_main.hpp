@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <functional>
+
+namespace bch::cli {
+
+/// Runs a program. What it throws becomes a line on standard error, or one for each bad file, and an ExitCode.
+/// Returns: the exit code.
+int run_main(const char* program, const std::function<int()>& run);
+
+}  // namespace bch::cli
