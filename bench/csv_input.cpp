@@ -57,6 +57,14 @@ std::uint32_t index_below(const Place& place, const char* column, std::string_vi
   return value;
 }
 
+/// What is wrong with a header that has this column. One that was not meant to be text of bytes and lines ends up in
+/// the name of a column: UTF-16's mark in the first one, a line end that is none in the last.
+std::string unknown_column(std::string_view name) {
+  if (name.starts_with("\xff\xfe") || name.starts_with("\xfe\xff")) return "is UTF-16, not UTF-8";
+  if (name.find('\r') != std::string_view::npos) return "ends lines with CR alone, not with LF or CR LF";
+  return fmt::format("column '{}' is not known", name);
+}
+
 /// Runs a reader; what it finds wrong becomes an InputError in this program's words.
 template <class Body>
 void with_csv_errors(const std::string& file, const Body& body) {
@@ -69,7 +77,7 @@ void with_csv_errors(const std::string& file, const Body& body) {
   } catch (const io::error::missing_column_in_header& e) {
     throw InputError(fmt::format("{}:1: has no column '{}'", file, e.column_name));
   } catch (const io::error::extra_column_in_header& e) {
-    throw InputError(fmt::format("{}:1: column '{}' is not known", file, e.column_name));
+    throw InputError(fmt::format("{}:1: {}", file, unknown_column(e.column_name)));
   } catch (const io::error::duplicated_column_in_header& e) {
     throw InputError(fmt::format("{}:1: column '{}' is there twice", file, e.column_name));
   } catch (const io::error::too_few_columns& e) {

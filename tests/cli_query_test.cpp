@@ -68,6 +68,13 @@ TEST(Cli, AllPairsEqualsExplicitPairs) {
   EXPECT_GT(lines(all.out), 20u);
 }
 
+/// As spreadsheets write it, with the mark of its byte order.
+std::string utf16(const std::string& ascii, bool big_endian) {
+  std::string text = big_endian ? "\xfe\xff" : "\xff\xfe";
+  for (const char c : ascii) text += big_endian ? std::string{'\0', c} : std::string{c, '\0'};
+  return text;
+}
+
 TEST(Cli, BadAgentsNameFileLineAndValue) {
   const TemporaryFolder folder;
   const std::string shapes = folder.write("box.obj", box);
@@ -78,6 +85,9 @@ TEST(Cli, BadAgentsNameFileLineAndValue) {
       {"id,shape,x,y\na,0,0,0\n", "agents.csv:1: has no column 'heading'"},
       {"id,shape,x,y,heading,speed\n", "agents.csv:1: column 'speed'"},
       {"id,shape,x,x,y,heading\n", "agents.csv:1: column 'x' is there twice"},
+      {"id,shape,x,y,heading\ra,0,0,0,0\r", "agents.csv:1: ends lines with CR alone"},
+      {utf16(header, false), "agents.csv:1: is UTF-16, not UTF-8"},
+      {utf16(header, true), "agents.csv:1: is UTF-16, not UTF-8"},
       {header + "b,0,1.0abc,0,0\n", "agents.csv:3: x '1.0abc'"},
       {header + "b,0,,0,0\n", "agents.csv:3: x ''"},
       {header + "b,0,nan,0,0\n", "agents.csv:3: x 'nan'"},
@@ -112,6 +122,8 @@ TEST(Cli, BadPairsNameFileLineAndValue) {
       {"first,second\na,b\n,a\n", "pairs.csv:3: first ''"},
       {"first,second\na\n", "pairs.csv:2: has fewer"},
       {"a,b\na,b\n", "pairs.csv:1: "},
+      {"first,second\ra,b\r", "pairs.csv:1: ends lines with CR alone"},
+      {utf16("first,second\na,b\n", false), "pairs.csv:1: is UTF-16, not UTF-8"},
   };
   for (const auto& [text, words] : cases)
     expect_failure(bch({"query", shapes, agents, folder.write("pairs.csv", text)}, as_metres), 3, {words});
