@@ -152,6 +152,8 @@ void run_query(const CLI::App& command, const QueryCommandOptions& options) {
   if (options.what != "separation")
     require_absent(command, {"--directions", "--direction"}, "belongs to --what separation");
   if (options.what != "clearance") require_absent(command, {"--max-distance"}, "belongs to --what clearance");
+  if (options.what != "collide" && !options.all_pairs)
+    require_absent(command, {"--semantics"}, "belongs to --what collide and to --all-pairs");
   if (query_kind(options.what).moving)
     require_absent(command, {"--all-pairs"}, "agents that collide now touch at once");
   if (!options.direction.empty()) require_absent(command, {"--directions"}, "--direction names the only one");
@@ -174,8 +176,17 @@ std::function<void()> add_query_command(CLI::App& program) {
       "metres, heading is in radians, level an index into --depths (without that column: the last), dx and "
       "dy\n"
       "say how far the agent moves, in metres, without turning.\n"
+      "At heading 0 a shape stands as in its file, turned z up by x staying x: the built-in characters face "
+      "+x, who\n"
+      "faces +z in a y-up file (as glTF has it) or -y in a z-up one faces -y, so that pi/2 has to be added "
+      "to the\n"
+      "direction in which they walk.\n"
       "Writes a line for each line of PAIRS.csv, in that order, or what --what says:\n" +
-      query_help() + "Example: bch query default:female agents.csv pairs.csv > answers.csv");
+      query_help() +
+      "clearance, contact-time and contacts are about the discs of the cuts, which cover outlines: an agent "
+      "inside\n"
+      "another may be clear of it. --semantics is about collide, and which pairs --all-pairs finds.\n"
+      "Example: bch query default:female agents.csv pairs.csv > answers.csv");
   command.add_option("SHAPES", options->character, character_or_baked_help)->type_name("")->required();
   command.add_option("AGENTS.csv", options->agents, "Columns id,shape,x,y,heading[,level][,dx,dy]")
       ->type_name("")
@@ -194,7 +205,10 @@ std::function<void()> add_query_command(CLI::App& program) {
                   "Of a separation: along the best of so many, evenly spread, an even number [16]")
       ->type_name("N")
       ->check(number_between(2, most_directions));
-  command.add_option("--direction", options->direction, "Of a separation: along this one instead")
+  command
+      .add_option(
+          "--direction", options->direction,
+          "Of a separation: along this one instead, of any length, until the first lies beyond the second")
       ->type_name("X,Y");
   command
       .add_option("--max-distance", options->max_distance,

@@ -189,6 +189,8 @@ TEST_F(QueryWhat, WrongWordsGiveTwo) {
       {{"--what", "depth"}, "depth"},
       {{"--what", "contacts", "--directions", "4"}, "--directions"},
       {{"--direction", "1,0"}, "--direction"},
+      {{"--what", "clearance", "--semantics", "solid"}, "--semantics"},
+      {{"--what", "contacts", "--semantics", "boundary"}, "--semantics"},
       {{"--max-distance", "1"}, "--max-distance"},
       {{"--what", "clearance", "--max-distance", "-1"}, "--max-distance"},
       {{"--what", "clearance", "--max-distance", "nan"}, "--max-distance"},
