@@ -33,4 +33,16 @@ inline bool parse_command_line(CLI::App& program, int argc, char** argv) {
   return false;
 }
 
+/// An option that takes one value, and any number of times.
+inline CLI::Option& add_repeatable_option(CLI::App& program, const char* name,
+                                          std::vector<std::string>& values, const std::string& help,
+                                          const char* type) {
+  // All values together would be a list, whose help has dots and whose values may follow each other.
+  return *program.add_option(name, values, help)
+              ->type_name(type)
+              ->expected(1)
+              ->allow_extra_args(false)
+              ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+}
+
 }  // namespace bch::cli

@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "bench/baked_report.hpp"
+#include "bench/command_line.hpp"
 #include "bench/commands.hpp"
 #include "bench/crowd_picture.hpp"
 #include "bench/crowd_report.hpp"
@@ -62,7 +63,7 @@ void run_crowd_of_characters(const CrowdOptions& options) {
   const std::vector<std::uint32_t> depths = crowd_depths(options.answer);
   const std::uint32_t level = picture_level(options, depths);
   const bool solid = options.answer.query_options().semantics == Semantics::solid;
-  for (const std::string& file : {options.json, options.csv, options.svg}) require_writable(file);
+  require_outputs({{"--json", options.json}, {"--csv", options.csv}, {"--svg", options.svg}});
 
   // Before there are threads: see guarded_import().
   const auto characters = load_characters(options.characters, options.shapes.import_options());
@@ -75,7 +76,7 @@ void run_crowd_of_characters(const CrowdOptions& options) {
 
 void run_baked_crowd(const CrowdOptions& options) {
   const bool solid = options.answer.query_options().semantics == Semantics::solid;
-  for (const std::string& file : {options.json, options.csv}) require_writable(file);
+  require_outputs({{"--json", options.json}, {"--csv", options.csv}});
   const std::string& file = options.characters.front();
   const BakedShapes baked = load_baked_for(file, solid);
   if (baked.set.shape_count() == 0 || baked.set.depths().front() != 0)
@@ -85,6 +86,7 @@ void run_baked_crowd(const CrowdOptions& options) {
 }
 
 void run_crowd(const CLI::App& command, const CrowdOptions& options) {
+  if (options.svg.empty()) require_absent(command, {"--svg-depth"}, "belongs to --svg");
   if (std::none_of(options.characters.begin(), options.characters.end(), is_baked))
     return run_crowd_of_characters(options);
   if (options.characters.size() > 1) throw UsageError("--character: a baked file stands alone");
@@ -106,11 +108,8 @@ std::function<void()> add_crowd_command(CLI::App& program) {
       ->type_name("N")
       ->check(number_between(1e-4, 100));
   add_seed_option(command, options->seed, "positions, headings and shapes");
-  command
-      .add_option("--character", options->characters,
-                  std::string(character_or_baked_help) + " [the last two]")
-      ->type_name("FILE")
-      ->allow_extra_args(false);
+  add_repeatable_option(command, "--character", options->characters,
+                        std::string(character_or_baked_help) + " (repeatable) [the two built in]", "FILE");
   options->shapes.add_to(command);
   options->answer.add_to(command);
   command.add_option("--json", options->json, "Write the table and the options as JSON")->type_name("FILE");

@@ -35,8 +35,7 @@ void require_consistent(const InspectOptions& options) {
   if (options.shape && options.clip) throw UsageError("--shape and --clip: name a shape by one of them");
   if (!options.svg.empty() && !options.names_a_shape())
     throw UsageError("--svg: which shape? Add --shape, or --clip and --time");
-  require_writable(options.json);
-  require_writable(options.svg);
+  require_outputs({{"--json", options.json}, {"--svg", options.svg}});
 }
 
 ShapeSource at_time(const LoadedCharacter& from, const std::string& name, double seconds) {
@@ -108,6 +107,7 @@ std::function<void()> add_inspect_command(CLI::App& program) {
   CLI::App& command =
       *program.add_subcommand("inspect", "Show what a character or baked file holds, and its shapes");
   command.footer(
+      "Reads glTF 2, FBX, Collada, MD5, IQM, OBJ, PLY and STL, and clips of these and of BVH.\n"
       "A file is refused if reading it crashes or takes more than 2 GiB or 60 s.\n"
       "Example: bch inspect default:male --clip walk --time 1.5 --svg walk.svg");
   command.add_option("FILE", options->character, character_or_baked_help)->type_name("")->required();

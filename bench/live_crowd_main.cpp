@@ -67,7 +67,8 @@ int run(int argc, char** argv) {
   program.add_option("--frames", options.frames, "Frames of which the medians are taken [200]")
       ->check(CLI::Range(1u, 1'000'000u));
   program.add_option("--threads", options.threads, "Threads [all]")->check(CLI::Range(1u, 1024u));
-  program.add_option("--character", options.characters, cli::character_help)->allow_extra_args(false);
+  cli::add_repeatable_option(program, "--character", options.characters,
+                             std::string(cli::character_help) + " (repeatable) [the two built in]", "FILE");
   if (!cli::parse_command_line(program, argc, argv)) return cli::exit_success;
 
   // Before there are threads: see guarded_import().

@@ -7,8 +7,10 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <stdexcept>
 
+#include "bench/command_line.hpp"
 #include "bench/exit_codes.hpp"
 #include "bench/number.hpp"
 
@@ -22,10 +24,14 @@ CLI::Validator one_of(std::vector<std::string> words) {
 }
 
 CLI::Validator number_between(double low, double high) {
-  const auto check = [low, high](const std::string& text) -> std::string {
+  // Whole numbers in full: 1e7 is 10000000.
+  const auto name = [](double limit) {
+    return limit == std::floor(limit) ? fmt::format("{:.0f}", limit) : fmt::format("{}", limit);
+  };
+  const auto check = [low, high, name](const std::string& text) -> std::string {
     const auto value = parse_number(text);
     if (value && *value >= low && *value <= high) return {};
-    return fmt::format("'{}' is not a number from {} to {}", text, low, high);
+    return fmt::format("'{}' is not a number from {} to {}", text, name(low), name(high));
   };
   return CLI::Validator(check, "", "number");
 }
@@ -65,9 +71,8 @@ std::uint32_t parse_depth(const std::string& option, const std::string& text) {
 }
 
 void ShapeOptions::add_to(CLI::App& command) {
-  command.add_option("--clips", clips, "Add the clips of this file, matched by bone name (repeatable)")
-      ->type_name("FILE")
-      ->allow_extra_args(false);
+  add_repeatable_option(command, "--clips", clips,
+                        "Add the clips of this file, matched by bone name (repeatable)", "FILE");
   command.add_option("--up", up, "Up axis of the file [what the file says or looks like]")
       ->type_name("x|y|z")
       ->check(one_of({"x", "y", "z"}));

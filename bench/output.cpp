@@ -9,6 +9,7 @@
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "bench/exit_codes.hpp"
@@ -115,6 +116,21 @@ void require_writable(const std::string& file) {
   // "/." because a file in the folder's place can be written to as well.
   const fs::path written = is_special(target) ? target : folder_of(target) / ".";
   if (access(written.c_str(), W_OK) != 0) reject(file, errno);
+}
+
+void require_outputs(std::initializer_list<OutputOption> options) {
+  std::map<fs::path, const char*> written;
+  for (const auto& [name, file] : options) {
+    if (file.empty()) continue;
+    if (file == "-") throw UsageError(std::string(name) + ": '-' is not a file");
+    require_writable(file);
+    std::error_code failed;  // in a circle of links, which the writing replaces
+    const fs::path target = fs::weakly_canonical(fs::absolute(file), failed);
+    if (is_special(target)) continue;
+    const auto [other, added] = written.emplace(target, name);
+    if (!added)
+      throw UsageError(std::string(other->second) + " and " + name + ": " + file + " cannot be both");
+  }
 }
 
 }  // namespace bch::cli

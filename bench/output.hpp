@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <initializer_list>
 #include <nlohmann/json_fwd.hpp>
 #include <span>
 #include <string>
@@ -28,5 +29,15 @@ void make_folder(const std::string& folder);
 /// Says early what write_file() would say after the work was done: no such folder, or one that cannot be
 /// written to. An empty name is no file and fine.
 void require_writable(const std::string& file);
+
+/// An option that names a file to write, empty where it was not given.
+struct OutputOption {
+  const char* name;
+  const std::string& file;
+};
+
+/// The same of all; and they are files, of which no two are one, unless it is a device.
+/// Errors:  throws UsageError as well.
+void require_outputs(std::initializer_list<OutputOption> options);
 
 }  // namespace bch::cli

@@ -82,21 +82,18 @@ int run(int argc, char** argv) {
   SceneOptions scene;
   Options options;
   std::vector<std::string> files;
-  program
-      .add_option("--character", files,
-                  "Character file (repeatable): all of them make a second scene, beside the built-in ones")
-      ->type_name("FILE")
-      ->allow_extra_args(false);
+  bch::cli::add_repeatable_option(
+      program, "--character", files,
+      "Character file (repeatable): all of them make a second scene, beside the built-in ones", "FILE");
   add_size_options(program, scene);
   program.add_option("--runs", options.runs, "Runs of which the medians are taken [9]")
       ->type_name("N")
       ->check(CLI::Range(1u, 1000u));
   program.add_option("--shapes", options.most_shapes, "Leave out rows of more shapes [50000]")
       ->type_name("N");
-  program.add_option("--table", options.tables, "One table alone (repeatable) [all]")
-      ->type_name("NAME")
-      ->allow_extra_args(false)
-      ->check(CLI::IsMember(table_names()));
+  bch::cli::add_repeatable_option(program, "--table", options.tables, "One table alone (repeatable) [all]",
+                                  "NAME")
+      .check(CLI::IsMember(table_names()));
   if (!bch::cli::parse_command_line(program, argc, argv)) return bch::cli::exit_success;
 
   Scene built_in(scene);

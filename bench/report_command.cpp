@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "bench/characters.hpp"
+#include "bench/command_line.hpp"
 #include "bench/commands.hpp"
 #include "bench/exit_codes.hpp"
 #include "bench/options.hpp"
@@ -75,13 +76,11 @@ std::function<void()> add_report_command(CLI::App& program) {
       ->type_name("DIR")
       ->required();
   command.add_flag("--quick", options->quick, "Fewer poses, pairs, cases and runs");
-  command.add_option("--character", options->characters, std::string(character_help) + " [the last two]")
-      ->type_name("FILE")
-      ->allow_extra_args(false);
-  command.add_option("--experiment", options->report.experiments, "One experiment alone (repeatable) [all]")
-      ->type_name("NAME")
-      ->allow_extra_args(false)
-      ->check(one_of(experiment_names()));
+  add_repeatable_option(command, "--character", options->characters,
+                        std::string(character_help) + " (repeatable) [the two built in]", "FILE");
+  add_repeatable_option(command, "--experiment", options->report.experiments,
+                        "One experiment alone (repeatable) [all]", "NAME")
+      .check(one_of(experiment_names()));
   add_seed_option(command, options->report.seed, "cases, packings and resamples");
   command.add_flag("--page", options->page, "Measure nothing: make the page again from the tables in DIR");
   return [options, &command] { run_report(command, *options); };

@@ -74,7 +74,7 @@ void run_stiff(const StabilityOptions& options) {
 void run_stability(const CLI::App& command, const StabilityOptions& options) {
   if (options.quick) require_absent(command, {"--pairs"}, "--quick chooses them");
   if (options.stiff) require_absent(command, {"--pairs", "--seed"}, "belongs to the cases, not to --stiff");
-  for (const std::string& file : {options.csv, options.json}) require_writable(file);
+  require_outputs({{"--csv", options.csv}, {"--json", options.json}});
   make_folder(options.out);
   const Threads threads(options.threads);
   options.stiff ? run_stiff(options) : run_cases(options);

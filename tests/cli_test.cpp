@@ -30,6 +30,12 @@ TEST(Cli, HelpAndVersionGoToStandardOutput) {
   }
 }
 
+TEST(Cli, RepeatableOptionsDoNotLookLikeLists) {
+  for (const char* command : {"bake", "crowd", "inspect", "query", "report"})
+    for (const char* type : {"--clips FILE .", "--character FILE .", "--experiment NAME ."})
+      EXPECT_EQ(bch({command, "--help"}).out.find(type), std::string::npos) << command;
+}
+
 TEST(Cli, UsageErrorsGiveTwo) {
   const std::pair<Arguments, std::string> cases[] = {
       {{}, "subcommand"},
@@ -44,7 +50,17 @@ TEST(Cli, UsageErrorsGiveTwo) {
       {{"crowd", "--depths", "0,,3"}, "--depths"},
       {{"crowd", "--isa", "mmx"}, "mmx"},
       {{"crowd", "--semantics", "fuzzy"}, "fuzzy"},
-      {{"crowd", "--svg-depth", "5"}, "--svg-depth"},
+      {{"crowd", "--svg-depth", "6"}, "--svg"},
+      {{"crowd", "--svg", "x.svg", "--svg-depth", "5"}, "--svg-depth"},
+      {{"crowd", "--json", "-"}, "'-' is not a file"},
+      {{"crowd", "--json", "x.json", "--csv", "./x.json"}, "--json and --csv: "},
+      {{"crowd", "--csv", "x.svg", "--svg", "x.svg"}, "--csv and --svg: "},
+      {{"crowd", "--character", "x.bch", "--json", "x.json", "--csv", "x.json"}, "--json and --csv: "},
+      {{"inspect", "default:male", "--shape", "0", "--svg", "x.svg", "--json", "x.svg"},
+       "--json and --svg: "},
+      {{"stability", "--json", "x.csv", "--csv", "x.csv"}, "--csv and --json: "},
+      {{"crowd", "--seed", "1e99"}, "from 0 to 18446744073709549568"},
+      {{"crowd", "--clips", "a.bvh", "b.bvh"}, "b.bvh"},
       {{"crowd", "--character", "default:dog"}, "default:dog"},
       {{"crowd", "--clips", "walk.bvh"}, "--clips"},
       {{"bake", "default:male"}, "--output"},
@@ -75,7 +91,7 @@ TEST(Cli, TheOtherProgramsGiveTheSameExitCodes) {
     const std::string program = folder / name;
     if (!std::filesystem::exists(program)) continue;
     EXPECT_EQ(run_program(program, {"--help"}).code, 0) << name;
-    for (const Arguments& wrong : {Arguments{"--nope"}, {"--agents", "0"}, {"--threads", "99999999"}}) {
+    for (const Arguments& wrong : {Arguments{"--nope"}, {"--agents", "0"}, {"--threads=99999999"}}) {
       const Ending run = run_program(program, wrong);
       EXPECT_EQ(run.code, 2) << name << ' ' << wrong.front();
       EXPECT_EQ(run.out, "");
