@@ -57,8 +57,8 @@ std::uint32_t index_below(const Place& place, const char* column, std::string_vi
   return value;
 }
 
-/// What is wrong with a header that has this column. One that was not meant to be text of bytes and lines ends up in
-/// the name of a column: UTF-16's mark in the first one, a line end that is none in the last.
+/// What is wrong with a header that has this column. What is no text of lines in UTF-8 shows in a name: UTF-16 by its
+/// mark at the beginning of the first one, a CR that ends no line in the middle of the last.
 std::string unknown_column(std::string_view name) {
   if (name.starts_with("\xff\xfe") || name.starts_with("\xfe\xff")) return "is UTF-16, not UTF-8";
   if (name.find('\r') != std::string_view::npos) return "ends lines with CR alone, not with LF or CR LF";

@@ -176,11 +176,12 @@ std::function<void()> add_query_command(CLI::App& program) {
       "metres, heading is in radians, level an index into --depths (without that column: the last), dx and "
       "dy\n"
       "say how far the agent moves, in metres, without turning.\n"
-      "At heading 0 a shape stands as in its file, turned z up by x staying x: the built-in characters face "
-      "+x, who\n"
-      "faces +z in a y-up file (as glTF has it) or -y in a z-up one faces -y, so that pi/2 has to be added "
-      "to the\n"
-      "direction in which they walk.\n"
+      "Heading 0 leaves a shape as it stands in its file, where a y-up file's +z becomes -y. The built-in "
+      "characters\n"
+      "then face +x. People who face +z in a y-up file (as in glTF), or -y in a z-up one, face -y: their "
+      "heading "
+      "is\n"
+      "the direction in which they walk plus pi/2.\n"
       "Writes a line for each line of PAIRS.csv, in that order, or what --what says:\n" +
       query_help() +
       "clearance, contact-time and contacts are about the discs of the cuts, which cover outlines: an agent "
