@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "tests/bch_run.hpp"
 #include "tests/character_shapes.hpp"
@@ -27,13 +28,15 @@ TEST(Cli, HelpAndVersionGoToStandardOutput) {
     EXPECT_EQ(run.err, "");
     EXPECT_NE(run.out, "");
     EXPECT_EQ(run.out.back(), '\n');
+    std::istringstream text(run.out);
+    for (std::string line; std::getline(text, line);) EXPECT_LE(line.size(), 120u) << line;
   }
 }
 
 TEST(Cli, RepeatableOptionsDoNotLookLikeLists) {
   for (const char* command : {"bake", "crowd", "inspect", "query", "report"})
-    for (const char* type : {"--clips FILE .", "--character FILE .", "--experiment NAME ."})
-      EXPECT_EQ(bch({command, "--help"}).out.find(type), std::string::npos) << command;
+    for (const char* option : {"--clips FILE .", "--character FILE .", "--experiment NAME ."})
+      EXPECT_EQ(bch({command, "--help"}).out.find(option), std::string::npos) << command;
 }
 
 TEST(Cli, UsageErrorsGiveTwo) {
