@@ -23,6 +23,11 @@ std::string ids(const QueryInput& input, std::size_t pair) {
   return csv_field(input.table.id[first]) + "," + csv_field(input.table.id[second]);
 }
 
+/// Without the sign of a zero.
+float plain(float value) {
+  return value + 0.0f;
+}
+
 std::string collide_rows(const QueryInput& input) {
   std::vector<std::uint8_t> hits(input.pairs.size());
   collide(input.set, input.table.agents(), input.pairs, hits, input.options);
@@ -53,7 +58,8 @@ std::string separation_rows(const QueryInput& input) {
   }
   std::string out;
   for (std::size_t i = 0; i < ways.size(); ++i)
-    out += fmt::format("{},{},{},{}\n", ids(input, i), ways[i].depth, ways[i].x, ways[i].y);
+    out +=
+        fmt::format("{},{},{},{}\n", ids(input, i), plain(ways[i].depth), plain(ways[i].x), plain(ways[i].y));
   return out;
 }
 
@@ -64,7 +70,8 @@ std::string clearance_rows(const QueryInput& input) {
             {input.max_distance, input.options.implementation});
   std::string out;
   for (std::size_t i = 0; i < distance.size(); ++i)
-    out += fmt::format("{},{},{},{}\n", ids(input, i), distance[i], direction[i].x, direction[i].y);
+    out += fmt::format("{},{},{},{}\n", ids(input, i), plain(distance[i]), plain(direction[i].x),
+                       plain(direction[i].y));
   return out;
 }
 
@@ -98,7 +105,8 @@ constexpr QueryKind kinds[] = {
      contact_rows},
     {"separation", "depth,x,y",
      "how far, in metres, and where to, as a unit vector, the first agent\n"
-     "               has to move until a line parts the two; 0 where one does",
+     "               has to move until a line parts the two, 0 where one does; with --direction,\n"
+     "               until all of it lies beyond the second, which may be far where they are apart",
      separation_rows},
 };
 

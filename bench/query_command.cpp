@@ -186,7 +186,8 @@ std::function<void()> add_query_command(CLI::App& program) {
       query_help() +
       "clearance, contact-time and contacts are about the discs of the cuts, which cover outlines: an agent "
       "inside\n"
-      "another may be clear of it. --semantics is about collide, and which pairs --all-pairs finds.\n"
+      "another may be clear of it. --semantics is about collide, and which pairs --all-pairs finds without "
+      "--max-distance.\n"
       "Example: bch query default:female agents.csv pairs.csv > answers.csv");
   command.add_option("SHAPES", options->character, character_or_baked_help)->type_name("")->required();
   command.add_option("AGENTS.csv", options->agents, "Columns id,shape,x,y,heading[,level][,dx,dy]")

@@ -96,6 +96,9 @@ TEST_F(QueryWhat, SeparationSaysHowFarAndWhereTo) {
   const Rows up = rows("separation", header, {pairs, "--direction", "0,2"});
   EXPECT_NEAR(number(up[0][2]), 0.3, 0.025);
   EXPECT_EQ(up[0][4], "1");
+  const Rows left = rows("separation", header, {pairs, "--direction", "-1,-0"});
+  EXPECT_EQ(left[0][3], "-1");
+  EXPECT_EQ(left[0][4], "0");
   const Rows along_x = rows("separation", header, {pairs, "--directions", "2"});
   EXPECT_EQ(along_x[0][2], best[0][2]);
   EXPECT_GT(number(along_x[1][2]), 0.5);
