@@ -66,8 +66,7 @@ std::vector<ShapeSource> keep_used(std::span<const ShapeSource> sources, AgentTa
   return used;
 }
 
-/// All pairs that collide, in the order of the agents' lines.
-/// Those that clearances are asked of: within `most` of each other.
+/// All pairs that are within so many metres of each other, in the order of the agents' lines.
 std::vector<Pair> near_pairs(const ShapeSet& set, const AgentTable& table, const QueryOptions& options,
                              double most) {
   const Agents agents = table.agents();
@@ -85,6 +84,7 @@ std::vector<Pair> near_pairs(const ShapeSet& set, const AgentTable& table, const
   return pairs;
 }
 
+/// All pairs that collide, in the same order.
 std::vector<Pair> colliding_pairs(const ShapeSet& set, const Agents& agents, const QueryOptions& options) {
   CrowdCollider collider;
   const CollidingNeighbours rows = collider.collide_all(set, agents, options);
