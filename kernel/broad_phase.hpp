@@ -12,8 +12,8 @@
 
 namespace bch {
 
-/// Finds the pairs that are worth asking about, and keeps its memory from call to call. One that
-/// was moved from can only be assigned to or destroyed.
+/// Finds the pairs that are worth asking about, and keeps its memory from call to call. One that was moved from can
+/// only be assigned to or destroyed.
 class BroadPhase {
  public:
   BroadPhase();

@@ -22,12 +22,12 @@ namespace bch::kernel {
 /// the sum of radii u S, the last difference u D or u S. That is 15.7 u S, of which published radii have 23 to
 /// spare, and 10.6 u D, for which `near` takes off 16.
 ///
-/// Bounds. A disc (C, R) that holds a cut's disc (c, r) has D' - R <= D - r, and its own v', with `nearer` = 1 -
-/// 2^-18 in place of near, exceeds D' - (R_A + R_B) by 17.7 u S + 7.6 u D for the distance (D' <= D + 2 S), and 9 u
-/// S + 4 u D for what follows (R_A + R_B <= D' + S, or v' is below any v), with 3 u S + u D more where the slack is added
-/// to the sum of radii; v falls short of D - (r_A + r_B) by 15.7 u S + 26.6 u D. All together: 45.4 u S, for which
-/// `slack` = 64 u S is taken off beside, and 39.2 u D, for which nearer takes 64. So v' <= v, and leaving out what is above the best never loses a tie. Its root is rough_root(),
-/// shortened by more than that is off.
+/// Bounds. A disc (C, R) that holds a cut's disc (c, r) has D' - R <= D - r, and its own v', with `nearer` = 1 - 2^-18
+/// in place of near, exceeds D' - (R_A + R_B) by 17.7 u S + 7.6 u D for the distance (D' <= D + 2 S), and 9 u S + 4 u D
+/// for what follows (R_A + R_B <= D' + S, or v' is below any v), with 3 u S + u D more where the slack is added to the
+/// sum of radii; v falls short of D - (r_A + r_B) by 15.7 u S + 26.6 u D. All together: 45.4 u S, for which `slack` =
+/// 64 u S is taken off beside, and 39.2 u D, for which nearer takes 64. So v' <= v, and leaving out what is above the
+/// best never loses a tie. Its root is rough_root(), shortened by more than that is off.
 template <class Simd>
 class ClearanceMeasure {
  public:

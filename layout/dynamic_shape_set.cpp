@@ -76,15 +76,11 @@ void DynamicShapeSet::require(std::uint32_t shape, const FlatShape& flat) const 
   }
 }
 
-bool DynamicShapeSet::fits(std::uint32_t shape, const FlatShape& flat) const {
-  // Else set_ has to learn of single discs, or a kernel would not look for them.
-  if (set_.view().rows_in_order && has_single_disc(flat)) return false;
-  return bch::fits(extent_of(flat), places_[shape].size);
-}
-
 bool DynamicShapeSet::try_replace(std::uint32_t shape, const FlatShape& flat) {
   require(shape, flat);
-  if (!fits(shape, flat)) return false;
+  if (!fits(extent_of(flat), places_[shape].size)) return false;
+  // Else set_ has to learn of single discs, or a kernel would not look for them.
+  if (set_.view().rows_in_order && has_single_disc(flat)) return false;
   storage_.put(shape, flat, places_[shape].begin);
   return true;
 }

@@ -52,7 +52,6 @@ class DynamicShapeSet {
 
   void copy(const ShapeArrays& arrays);
   void require(std::uint32_t shape, const FlatShape& flat) const;
-  bool fits(std::uint32_t shape, const FlatShape& flat) const;
   void make_place(std::uint32_t shape, const ShapeExtent& needed, const ShapeExtent& room);
 
   ShapeSetPlan plan_;
