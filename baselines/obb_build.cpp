@@ -11,6 +11,7 @@
 
 #include "baselines/obb_tree.hpp"
 #include "layout/rounding.hpp"
+#include "layout/shortest.hpp"
 
 namespace bch::baselines {
 namespace {
@@ -145,7 +146,7 @@ double checked_reach(std::span<const Facet> facets) {
       reach = std::max(reach, p.cast<double>().norm());
     }
   if (reach < rounding::smallest_reach || reach > rounding::largest_reach)
-    throw std::invalid_argument("box tree: reach " + std::to_string(reach) + " m is outside 1e-6 to 1e6 m");
+    throw std::invalid_argument("box tree: reach " + shortest(reach) + " m is outside 1e-6 to 1e6 m");
   return reach;
 }
 

@@ -3,11 +3,12 @@
 
 #include "kernel/validation.hpp"
 
-#include <charconv>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
 #include <string>
+
+#include "layout/shortest.hpp"
 
 namespace bch::kernel {
 
@@ -26,12 +27,6 @@ void require_sizes(const Agents& agents) {
     throw std::invalid_argument("agents: more than 2^32 - 1");
 }
 
-/// As many digits as it takes to tell it from the limits.
-static std::string text(double value) {
-  char digits[32];
-  return {digits, std::to_chars(digits, digits + sizeof digits, value).ptr};
-}
-
 void reject(const ShapeSetView& shapes, const Agents& agents, std::size_t i) {
   const auto why = [&]() -> std::string {
     if (agents.shape[i] >= shapes.shape_count)
@@ -39,8 +34,8 @@ void reject(const ShapeSetView& shapes, const Agents& agents, std::size_t i) {
     if (!agents.level.empty() && agents.level[i] >= shapes.level_count)
       return "level " + std::to_string(agents.level[i]) + " of " + std::to_string(shapes.level_count);
     if (!(std::abs(agents.heading[i]) <= rounding::largest_heading))
-      return "heading " + text(agents.heading[i]) + " rad is not within +-1e9";
-    return "position (" + text(agents.x[i]) + ", " + text(agents.y[i]) + ") m is not within +-1e9";
+      return "heading " + shortest(agents.heading[i]) + " rad is not within +-1e9";
+    return "position (" + shortest(agents.x[i]) + ", " + shortest(agents.y[i]) + ") m is not within +-1e9";
   };
   throw std::invalid_argument("agent " + std::to_string(i) + ": " + why());
 }

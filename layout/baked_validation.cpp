@@ -8,6 +8,7 @@
 #include <string>
 
 #include "layout/shape_validation.hpp"
+#include "layout/shortest.hpp"
 
 namespace bch::baked {
 namespace {
@@ -20,7 +21,7 @@ void require_settings(std::span<const Settings> settings) {
   if (settings.size() != 1)
     throw std::invalid_argument("settings: " + std::to_string(settings.size()) + ", not 1");
   if (!std::isfinite(settings[0].threshold) || settings[0].threshold < 0)
-    reject("settings", 0, "threshold " + std::to_string(settings[0].threshold));
+    reject("settings", 0, "threshold " + shortest(settings[0].threshold));
 }
 
 /// Returns: how many there are.
@@ -43,7 +44,7 @@ void require_origins(std::span<const ShapeOrigin> origins, std::size_t shapes, s
     if (character >= names) reject("origins", i, "character has name " + std::to_string(character));
     if (clip >= names && clip != ShapeOrigin::rest_pose)
       reject("origins", i, "clip has name " + std::to_string(clip));
-    if (!std::isfinite(seconds)) reject("origins", i, "time " + std::to_string(seconds) + " s");
+    if (!std::isfinite(seconds)) reject("origins", i, "time " + shortest(seconds) + " s");
   }
 }
 

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "layout/shortest.hpp"
+
 namespace bch {
 namespace {
 
@@ -52,12 +54,11 @@ void validate_influences(const Character& c) {
       const Influence& influence = c.influences[i];
       if (influence.bone >= c.bones.size())
         reject(c, at("vertex", v) + " names bone " + std::to_string(influence.bone));
-      if (!(influence.weight > 0))
-        reject(c, at("vertex", v) + " has weight " + std::to_string(influence.weight));
+      if (!(influence.weight > 0)) reject(c, at("vertex", v) + " has weight " + shortest(influence.weight));
       sum += influence.weight;
     }
     if (!(std::abs(sum - 1) <= unit_tolerance))
-      reject(c, at("vertex", v) + " has weights that sum to " + std::to_string(sum));
+      reject(c, at("vertex", v) + " has weights that sum to " + shortest(sum));
   }
 }
 
@@ -65,11 +66,10 @@ template <class Value>
 void validate_keys(const Character& c, const std::string& place, const std::vector<Key<Value>>& keys) {
   for (std::size_t k = 0; k < keys.size(); ++k) {
     if (!std::isfinite(keys[k].time) || (k > 0 && keys[k].time < keys[k - 1].time))
-      reject(c, place + ", " + at("key", k) + " is at " + std::to_string(keys[k].time) + " s, out of order");
+      reject(c, place + ", " + at("key", k) + " is at " + shortest(keys[k].time) + " s, out of order");
     if constexpr (std::is_same_v<Value, Eigen::Quaternionf>) {
       if (!(std::abs(keys[k].value.norm() - 1) <= unit_tolerance))
-        reject(c, place + ", " + at("key", k) + " has a rotation of norm " +
-                      std::to_string(keys[k].value.norm()));
+        reject(c, place + ", " + at("key", k) + " has a rotation of norm " + shortest(keys[k].value.norm()));
     } else if (!keys[k].value.allFinite()) {
       reject(c, place + ", " + at("key", k) + " is not finite");
     }
@@ -79,7 +79,7 @@ void validate_keys(const Character& c, const std::string& place, const std::vect
 void validate_clips(const Character& c) {
   for (const Clip& clip : c.clips) {
     if (!std::isfinite(clip.seconds) || clip.seconds < 0)
-      reject(c, "clip '" + clip.name + "' lasts " + std::to_string(clip.seconds) + " s");
+      reject(c, "clip '" + clip.name + "' lasts " + shortest(clip.seconds) + " s");
     std::vector<bool> seen(c.joints.size());
     for (const Channel& channel : clip.channels) {
       const std::string place = "clip '" + clip.name + "', joint " + std::to_string(channel.joint);

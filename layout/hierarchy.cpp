@@ -12,6 +12,7 @@
 
 #include "layout/hierarchy_builder.hpp"
 #include "layout/rounding.hpp"
+#include "layout/shortest.hpp"
 
 namespace bch {
 namespace {
@@ -19,9 +20,9 @@ namespace {
 [[noreturn]] void reject(const Hierarchy& hierarchy, std::size_t i) {
   const auto& [disc, bound, second, begin, end] = hierarchy.nodes[i];
   throw std::invalid_argument("hierarchy: node " + std::to_string(i) + ": a disc of " +
-                              std::to_string(disc.radius) + " m at (" + std::to_string(disc.x) + ", " +
-                              std::to_string(disc.y) + ") m, second child " + std::to_string(second) +
-                              " of " + std::to_string(hierarchy.nodes.size()) + " nodes");
+                              shortest(disc.radius) + " m at (" + shortest(disc.x) + ", " + shortest(disc.y) +
+                              ") m, second child " + std::to_string(second) + " of " +
+                              std::to_string(hierarchy.nodes.size()) + " nodes");
 }
 
 }  // namespace

@@ -14,6 +14,7 @@
 #include "layout/enclosing_disc.hpp"
 #include "layout/hierarchy_bounds.hpp"
 #include "layout/rounding.hpp"
+#include "layout/shortest.hpp"
 
 namespace bch {
 namespace {
@@ -50,12 +51,12 @@ Vec2 middle_of(Vec2 a, Vec2 b) {
 
 void require_reach(double reach) {
   if (!(reach >= rounding::smallest_reach && reach <= rounding::largest_reach))
-    throw std::invalid_argument("hierarchy: reach " + std::to_string(reach) + " m is outside 1e-6 to 1e6 m");
+    throw std::invalid_argument("hierarchy: reach " + shortest(reach) + " m is outside 1e-6 to 1e6 m");
 }
 
 void require_threshold(float threshold) {
   if (!(threshold > 0) || !std::isfinite(threshold))
-    throw std::invalid_argument("hierarchy: threshold " + std::to_string(threshold) +
+    throw std::invalid_argument("hierarchy: threshold " + shortest(threshold) +
                                 " m is not positive and finite");
 }
 
@@ -166,8 +167,8 @@ inline void HierarchyBuilder::reserve(std::uint32_t nodes, std::uint32_t element
 void HierarchyBuilder::enlarge(std::uint32_t nodes, std::uint32_t elements) {
   if (node_count_ + nodes > nodes_.centre.size()) {
     if (node_count_ + nodes > most_nodes)
-      throw std::length_error("hierarchy: more than 2^22 nodes at a threshold of " +
-                              std::to_string(threshold_) + " m");
+      throw std::length_error("hierarchy: more than 2^22 nodes at a threshold of " + shortest(threshold_) +
+                              " m");
     nodes_.resize(std::min(most_nodes, 2 * std::size_t{node_count_} + nodes + 256));
   }
   if (element_count_ + elements > elements_.size()) {

@@ -5,6 +5,8 @@
 #include <cctype>
 #include <cmath>
 
+#include "layout/shortest.hpp"
+
 #include "layout/import_clips.hpp"
 
 namespace bch::import_detail {
@@ -195,7 +197,7 @@ class ClipFile {
 
   static void note_ratio(const std::string& name, double ratio, std::vector<std::string>& notes) {
     if (std::abs(ratio - 1) < 1e-3) return;
-    notes.push_back("clip '" + name + "': positions scaled by " + std::to_string(ratio) +
+    notes.push_back("clip '" + name + "': positions scaled by " + shortest(ratio) +
                     ", the ratio of the skeletons' sizes");
   }
 

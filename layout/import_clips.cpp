@@ -7,6 +7,8 @@
 #include <cmath>
 #include <set>
 
+#include "layout/shortest.hpp"
+
 namespace bch::import_detail {
 namespace {
 
@@ -96,8 +98,8 @@ class ClipReader {
     for (unsigned k = 0; k < size; ++k) {
       const double seconds = source[k].mTime / ticks_per_second_;
       if (!(std::abs(seconds) <= longest_clip))
-        file_.reject(place_ + ", " + what + " key " + std::to_string(k) + " is at " +
-                     std::to_string(seconds) + " s");
+        file_.reject(place_ + ", " + what + " key " + std::to_string(k) + " is at " + shortest(seconds) +
+                     " s");
       keys[k] = {static_cast<float>(seconds), to_eigen(source[k].mValue)};
       check(keys[k].value, what + " key " + std::to_string(k));
       first_ = std::min(first_, keys[k].time);

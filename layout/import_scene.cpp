@@ -44,7 +44,9 @@ void set_up(Assimp::Importer& importer, const std::filesystem::path& file, const
 std::string reason_of_failure(const Assimp::Importer& importer) {
   const std::string reason = one_line(importer.GetErrorString());
   if (reason.find("bad_alloc") != std::string::npos) return "needs more memory than there is";
-  if (reason.find("No suitable reader") != std::string::npos) return "damaged, or of no known format";
+  if (reason.find("No suitable reader") != std::string::npos)
+    return "damaged, or of no known format (glTF 2, FBX, Collada, MD5, IQM, OBJ, PLY, STL, and BVH for "
+           "clips)";
   return reason.empty() ? "cannot be read" : reason;
 }
 

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "layout/shortest.hpp"
+
 #include "layout/import_mesh.hpp"
 
 namespace bch::import_detail {
@@ -39,7 +41,7 @@ void read_bone(const SceneFile& file, const NodeList& nodes, const aiBone& bone,
     if (vertex >= lists.size())
       file.reject(name + " names vertex " + std::to_string(vertex) + " of " + std::to_string(lists.size()));
     if (!std::isfinite(weight) || weight < 0)
-      file.reject(name + " gives vertex " + std::to_string(vertex) + " the weight " + std::to_string(weight));
+      file.reject(name + " gives vertex " + std::to_string(vertex) + " the weight " + shortest(weight));
     if (weight > 0) lists[vertex].push_back({index, weight});
   }
 }

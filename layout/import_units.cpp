@@ -11,6 +11,7 @@
 #include <span>
 #include <stdexcept>
 
+#include "layout/shortest.hpp"
 #include "layout/skinning.hpp"
 
 namespace bch::import_detail {
@@ -48,7 +49,7 @@ DeclaredFrame declared_by_fbx(const SceneFile& file) {
   }
   if (axis < 0 || axis > 2) file.reject("FBX up axis " + std::to_string(axis) + " is none of 0, 1, 2");
   if (!std::isfinite(factor) || factor <= 0)
-    file.reject("FBX unit scale factor " + std::to_string(factor) + " is not a positive number");
+    file.reject("FBX unit scale factor " + shortest(factor) + " is not a positive number");
   frame.up = Direction{static_cast<UpAxis>(axis), sign < 0};
   frame.scale = factor * 0.01f;
   char text[64];
@@ -132,7 +133,7 @@ float choose_scale(const SceneFile& file, const DeclaredFrame& declared, const I
   if (options.scale) {
     scale = *options.scale;
     if (!std::isfinite(scale) || scale <= 0)
-      file.reject("scale " + std::to_string(scale) + " is not a positive number");
+      file.reject("scale " + shortest(scale) + " is not a positive number");
     source = ", as the caller says";
   } else if (declared.scale) {
     scale = *declared.scale;

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "layout/rounding.hpp"
+#include "layout/shortest.hpp"
 
 namespace bch {
 namespace {
@@ -67,10 +68,10 @@ void validate(const Outline& outline) {
     if (!std::isfinite(outline.points[i].x) || !std::isfinite(outline.points[i].y))
       throw std::invalid_argument("outline: point " + std::to_string(i) + " is not finite");
   if (!std::isfinite(outline.grid_step) || outline.grid_step < 0)
-    throw std::invalid_argument("outline: grid step " + std::to_string(outline.grid_step));
+    throw std::invalid_argument("outline: grid step " + shortest(outline.grid_step));
   const double size = reach(outline.points);
   if (size < rounding::smallest_reach || size > rounding::largest_reach)
-    throw std::invalid_argument("outline: reach " + std::to_string(size) + " m is outside 1e-6 to 1e6 m");
+    throw std::invalid_argument("outline: reach " + shortest(size) + " m is outside 1e-6 to 1e6 m");
 }
 
 }  // namespace bch

@@ -10,6 +10,8 @@
 #include <string>
 #include <tuple>
 
+#include "layout/shortest.hpp"
+
 namespace bch {
 namespace {
 
@@ -21,9 +23,9 @@ constexpr std::size_t most_levels = 255;
 
 void require(const SceneUse& use) {
   if (!(use.pose_step >= 0) || !std::isfinite(use.pose_step))
-    throw std::invalid_argument("scene plan: a pose step of " + std::to_string(use.pose_step) + " s");
+    throw std::invalid_argument("scene plan: a pose step of " + shortest(use.pose_step) + " s");
   if (!(use.pairs_per_shape >= 0))
-    throw std::invalid_argument("scene plan: " + std::to_string(use.pairs_per_shape) + " pairs a shape");
+    throw std::invalid_argument("scene plan: " + shortest(use.pairs_per_shape) + " pairs a shape");
 }
 
 /// Numbers the different shapes of a scene.
@@ -75,9 +77,9 @@ ScenePlan plan_scene(std::span<const SceneAgent> agents, const SceneUse& use) {
   require(use);
   for (std::size_t i = 0; i < agents.size(); ++i) {
     if (!(agents[i].distance >= 0) || !std::isfinite(agents[i].distance))
-      reject(i, "a distance of " + std::to_string(agents[i].distance) + " m");
+      reject(i, "a distance of " + shortest(agents[i].distance) + " m");
     if (!std::isfinite(agents[i].shows.at.seconds))
-      reject(i, "at " + std::to_string(agents[i].shows.at.seconds) + " s");
+      reject(i, "at " + shortest(agents[i].shows.at.seconds) + " s");
   }
   const std::vector<std::uint32_t> depths = depths_of(agents, use);
   ScenePlan plan;
