@@ -145,7 +145,7 @@ BuildStages::BuildStages(const Character& character, std::uint32_t poses,
 }
 
 void BuildStages::make_and_check(std::size_t pose, Others& others) {
-  const auto positions = skinner_.pose(times_[pose]);
+  const auto positions = skinner_.ground_pose(times_[pose]);
   positions_[pose].assign(positions.begin(), positions.end());
   outline(pose);
   outlines_[pose] = outline_;
@@ -169,7 +169,7 @@ void BuildStages::make_and_check(std::size_t pose, Others& others) {
 }
 
 void BuildStages::skin(std::size_t pose) {
-  use(skinner_.pose(times_[pose]));
+  use(skinner_.ground_pose(times_[pose]));
 }
 
 void BuildStages::outline(std::size_t pose) {
@@ -193,7 +193,7 @@ void BuildStages::interior(std::size_t pose) {
 }
 
 void BuildStages::all(std::size_t pose) {
-  outline_builder_.build(skinner_.pose(times_[pose]), outline_);
+  outline_builder_.build(skinner_.ground_pose(times_[pose]), outline_);
   hierarchy_builder_.contour(outline_, threshold, SplitRule::centroid, hierarchy_);
   look_inside(outline_, hierarchy_.reach);
   flatten(hierarchy_);

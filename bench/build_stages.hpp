@@ -46,7 +46,7 @@ class BuildStages {
   BuildStages(const Character& character, std::uint32_t poses, const BuildImplementation& implementation);
 
   std::size_t poses() const { return times_.size(); }
-  std::span<const Eigen::Vector3f> positions_of(std::size_t pose) const { return positions_[pose]; }
+  std::span<const Vec2> positions_of(std::size_t pose) const { return positions_[pose]; }
   const Outline& outline_of(std::size_t pose) const { return outlines_[pose]; }
 
   void skin(std::size_t pose);
@@ -69,7 +69,7 @@ class BuildStages {
 
   const Character& character_;
   std::vector<PoseTime> times_;
-  std::vector<std::vector<Eigen::Vector3f>> positions_;
+  std::vector<std::vector<Vec2>> positions_;
   std::vector<Outline> outlines_;
   std::vector<Hierarchy> hierarchies_;
 

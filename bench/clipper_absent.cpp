@@ -7,8 +7,7 @@
 
 namespace bch::bench {
 
-double clipper_union_area(std::span<const Eigen::Vector3f>, std::span<const std::array<std::uint32_t, 3>>,
-                          double) {
+double clipper_union_area(std::span<const Vec2>, std::span<const std::array<std::uint32_t, 3>>, double) {
   return -1;
 }
 

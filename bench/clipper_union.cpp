@@ -9,7 +9,7 @@
 
 namespace bch::bench {
 
-double clipper_union_area(std::span<const Eigen::Vector3f> positions,
+double clipper_union_area(std::span<const Vec2> positions,
                           std::span<const std::array<std::uint32_t, 3>> triangles, double step) {
   using namespace ClipperLib;
   Clipper clipper;
@@ -19,7 +19,7 @@ double clipper_union_area(std::span<const Eigen::Vector3f> positions,
       const auto steps = [step](float metres) {
         return static_cast<cInt>(std::nearbyint(static_cast<double>(metres) / step));
       };
-      path.emplace_back(steps(positions[v].x()), steps(positions[v].y()));
+      path.emplace_back(steps(positions[v].x), steps(positions[v].y));
     }
     if (!Orientation(path)) std::swap(path[0], path[1]);
     clipper.AddPath(path, ptSubject, true);

@@ -3,17 +3,18 @@
 
 #pragma once
 
-#include <Eigen/Core>
 #include <array>
 #include <cstdint>
 #include <span>
+
+#include "layout/disc.hpp"
 
 namespace bch::bench {
 
 /// The area of the union of a pose's triangles, seen from above and rounded to steps of a grid, as libpolyclipping has
 /// it; negative where the build found no libpolyclipping.
 /// Units:   metres.
-double clipper_union_area(std::span<const Eigen::Vector3f> positions,
+double clipper_union_area(std::span<const Vec2> positions,
                           std::span<const std::array<std::uint32_t, 3>> triangles, double step);
 
 }  // namespace bch::bench

@@ -51,7 +51,7 @@ ExtremeVertices::ExtremeVertices(std::span<const std::array<std::uint32_t, 3>> t
 /// The disc's radius R is at least that of the disc around any of the vertices. For any point at m from its centre, some
 /// vertex is at least sqrt(R^2 + m^2) away, so the farthest one bounds m, and the vertices on the disc's boundary are at
 /// least R - m away. All others may be left out, but those as far from the origin as the first, as far as floats tell.
-void ExtremeVertices::find(std::span<const Eigen::Vector3f> positions) {
+void ExtremeVertices::find(std::span<const Vec2> positions) {
   step_ = snap_to_grid(positions, used_, std::span(grid_).first(used_.size()));
   std::fill(grid_.begin() + static_cast<std::ptrdiff_t>(used_.size()), grid_.end(), grid_[used_.size() - 1]);
   const std::size_t first = farthest_from(0, 0, from_origin_);

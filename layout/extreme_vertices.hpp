@@ -3,7 +3,6 @@
 
 #pragma once
 
-#include <Eigen/Core>
 #include <array>
 #include <cstdint>
 #include <span>
@@ -27,7 +26,7 @@ class ExtremeVertices {
   /// Units:   metres; the ground is x-y.
   /// Errors:  throws std::invalid_argument on a coordinate that is not finite or a reach outside the domain of
   ///          rounding.hpp.
-  void find(std::span<const Eigen::Vector3f> positions);
+  void find(std::span<const Vec2> positions);
 
   std::span<const Vec2> points() const { return points_; }  ///< one at least
   float grid_step() const { return static_cast<float>(step_); }

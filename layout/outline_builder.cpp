@@ -52,6 +52,8 @@ struct OutlineBuilder::State {
     outside.reserve(leftmost.size());
   }
 
+  template <class Position>
+  void build(std::span<const Position> positions, Outline& outline);
   void walk_all();
   void find_outside();
   bool covered(GridPoint point, std::size_t first_contour) const;
@@ -74,6 +76,19 @@ struct OutlineBuilder::State {
   std::vector<std::uint32_t> outside;  ///< islands to walk around, unless they touch each other
   std::vector<GridPoint> leftmost;     ///< of an island's candidates
 };
+
+template <class Position>
+void OutlineBuilder::State::build(std::span<const Position> positions, Outline& outline) {
+  if (positions.size() != vertices)
+    throw std::invalid_argument("outline: " + std::to_string(positions.size()) + " positions for " +
+                                std::to_string(vertices) + " vertices");
+  const double step = snap_to_grid(positions, topology.used, points);
+  candidates.find(topology, points);
+  if (candidates.segments().empty())
+    throw std::invalid_argument("outline: every triangle is a point when seen from above");
+  walk_all();
+  write(step, outline);
+}
 
 /// Finds all contours. An island is connected and no contour crosses it, so unless a contour has come along
 /// it, it is as a whole inside or outside, and any of its vertices tells. Of pieces that touch, the one with
@@ -152,17 +167,12 @@ OutlineBuilder::OutlineBuilder(OutlineBuilder&&) noexcept = default;
 OutlineBuilder& OutlineBuilder::operator=(OutlineBuilder&&) noexcept = default;
 OutlineBuilder::~OutlineBuilder() = default;
 
+void OutlineBuilder::build(std::span<const Vec2> positions, Outline& outline) {
+  state_->build(positions, outline);
+}
+
 void OutlineBuilder::build(std::span<const Eigen::Vector3f> positions, Outline& outline) {
-  State& s = *state_;
-  if (positions.size() != s.vertices)
-    throw std::invalid_argument("outline: " + std::to_string(positions.size()) + " positions for " +
-                                std::to_string(s.vertices) + " vertices");
-  const double step = snap_to_grid(positions, s.topology.used, s.points);
-  s.candidates.find(s.topology, s.points);
-  if (s.candidates.segments().empty())
-    throw std::invalid_argument("outline: every triangle is a point when seen from above");
-  s.walk_all();
-  s.write(step, outline);
+  state_->build(positions, outline);
 }
 
 }  // namespace bch

@@ -48,6 +48,8 @@ class OutlineBuilder {
   /// Units:   metres; the ground is x-y.
   /// Errors:  throws std::invalid_argument on another number of positions than of vertices, a coordinate that
   ///          is not finite, a reach outside the domain of rounding.hpp, or when every triangle is a point.
+  void build(std::span<const Vec2> positions, Outline& outline);
+  /// The same of positions with heights, whatever those are.
   void build(std::span<const Eigen::Vector3f> positions, Outline& outline);
 
  private:

@@ -32,14 +32,14 @@ const Shape& PoseShaper::shape(PoseTime at) {
 
 const Shape& PoseShaper::make_root(PoseTime at) {
   require_threshold(threshold_);
-  extremes_->find(skinner_.pose(at));
+  extremes_->find(skinner_.ground_pose(at));
   hierarchy_builder_.root(extremes_->points(), extremes_->grid_step(), shape_.hierarchy);
   return shape_;
 }
 
 const Outline& PoseShaper::make_outline(PoseTime at) {
   assert(outline_builder_);
-  outline_builder_->build(skinner_.pose(at), shape_.outline);
+  outline_builder_->build(skinner_.ground_pose(at), shape_.outline);
   return shape_.outline;
 }
 

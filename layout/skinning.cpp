@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "layout/rotation_blend.hpp"
+#include "layout/shortest.hpp"
 
 namespace bch {
 namespace {
@@ -37,6 +38,31 @@ Eigen::Vector3d interpolate(const std::vector<Key<Eigen::Vector3f>>& keys, float
   });
 }
 
+float& x_of(Eigen::Vector3f& position) {
+  return position.x();
+}
+float& y_of(Eigen::Vector3f& position) {
+  return position.y();
+}
+float& x_of(Vec2& position) {
+  return position.x;
+}
+float& y_of(Vec2& position) {
+  return position.y;
+}
+
+/// The middle of their box, seen from above.
+template <class Position>
+void put_middle_at_origin(std::vector<Position>& positions) {
+  Eigen::AlignedBox2f box;
+  for (Position& position : positions) box.extend(Eigen::Vector2f(x_of(position), y_of(position)));
+  const Eigen::Vector2f middle = box.center();
+  for (Position& position : positions) {
+    x_of(position) -= middle.x();
+    y_of(position) -= middle.y();
+  }
+}
+
 }  // namespace
 
 Skinner::Skinner(const Character& character)
@@ -44,8 +70,7 @@ Skinner::Skinner(const Character& character)
       channel_of_joint_(character.joints.size()),
       to_ground_(character.to_ground),
       joint_to_world_(character.joints.size()),
-      blend_(character),
-      positions_(character.vertices.size()) {
+      blend_(character) {
   for (const Joint& joint : character.joints) {
     Eigen::Matrix3f rotation, scaling;
     joint.rest.computeRotationScaling(&rotation, &scaling);
@@ -83,12 +108,20 @@ AffineRows Skinner::local_transform(std::size_t joint, float seconds, std::size_
 }
 
 void Skinner::place_joints(PoseTime at) {
+  std::size_t guess = 0;
   std::fill(channel_of_joint_.begin(), channel_of_joint_.end(), nullptr);
   if (at.clip != PoseTime::rest)
-    for (const Channel& channel : character_->clips[at.clip].channels)
+    for (const Channel& channel : character_->clips[at.clip].channels) {
       channel_of_joint_[channel.joint] = &channel;
+      // Each channel's keys are somewhere else in memory, and a pose's are hardly ever those of the one before.
+      const auto& keys = channel.rotations;
+      if (guess == 0 && !keys.empty()) guess = key_after(keys, at.seconds, 0);
+      if (guess > 0 && guess < keys.size()) {
+        __builtin_prefetch(&keys[guess - 1]);
+        __builtin_prefetch(&keys[guess]);
+      }
+    }
 
-  std::size_t guess = 0;
   for (std::size_t j = 0; j < joint_to_world_.size(); ++j) {
     const std::int32_t parent = character_->joints[j].parent;
     joint_to_world_[j] = (parent < 0 ? to_ground_ : joint_to_world_[static_cast<std::size_t>(parent)]) *
@@ -111,30 +144,34 @@ void Skinner::place_bones() {
   }
 }
 
-std::span<const Eigen::Vector3f> Skinner::pose(PoseTime at) {
+template <class Position>
+void Skinner::place_vertices(PoseTime at, std::vector<Position>& positions) {
   const Character& c = *character_;
   if (at.clip != PoseTime::rest) {
     if (at.clip >= c.clips.size())
       throw std::invalid_argument("character '" + c.name + "' has no clip " + std::to_string(at.clip));
     if (!(at.seconds >= 0 && at.seconds <= c.clips[at.clip].seconds))
-      throw std::invalid_argument("clip '" + c.clips[at.clip].name + "' has no time " +
-                                  std::to_string(at.seconds) + " s");
+      throw std::invalid_argument("clip '" + c.clips[at.clip].name + "' has no time " + shortest(at.seconds) +
+                                  " s");
   }
   place_joints(at);
   place_bones();
 
-  if (const auto vertex = blend_.blend(bone_to_shape_, positions_))
+  positions.resize(c.vertices.size());
+  if (const auto vertex = blend_.blend(bone_to_shape_, std::span(positions)))
     throw std::domain_error("character '" + c.name + "': posed vertex " + std::to_string(*vertex) +
                             " is not finite");
+  if (c.root_joint < 0) put_middle_at_origin(positions);
+}
 
-  if (c.root_joint < 0) {
-    Eigen::AlignedBox3f box;
-    for (const Eigen::Vector3f& position : positions_) box.extend(position);
-    Eigen::Vector3f middle = box.center();
-    middle.z() = 0;
-    for (Eigen::Vector3f& position : positions_) position -= middle;
-  }
+std::span<const Eigen::Vector3f> Skinner::pose(PoseTime at) {
+  place_vertices(at, positions_);
   return positions_;
+}
+
+std::span<const Vec2> Skinner::ground_pose(PoseTime at) {
+  place_vertices(at, ground_positions_);
+  return ground_positions_;
 }
 
 }  // namespace bch

@@ -8,6 +8,7 @@
 
 #include "layout/affine_rows.hpp"
 #include "layout/character.hpp"
+#include "layout/disc.hpp"
 #include "layout/vertex_blend.hpp"
 
 namespace bch {
@@ -27,6 +28,9 @@ class Skinner {
   ///          position that is not finite.
   std::span<const Eigen::Vector3f> pose(PoseTime at);
 
+  /// The same bits seen from above, in two thirds of the time: x and y, whatever the heights are.
+  std::span<const Vec2> ground_pose(PoseTime at);
+
   const Character& character() const noexcept { return *character_; }
 
  private:
@@ -38,6 +42,8 @@ class Skinner {
   AffineRows local_transform(std::size_t joint, float seconds, std::size_t& guess) const;
   void place_joints(PoseTime at);
   void place_bones();
+  template <class Position>
+  void place_vertices(PoseTime at, std::vector<Position>& positions);
 
   const Character* character_;
   std::vector<Rest> rest_;
@@ -48,7 +54,9 @@ class Skinner {
   // Of the bones that move a vertex.
   std::vector<std::uint32_t> joint_of_bone_;
   std::vector<AffineRows> inverse_bind_, bone_to_shape_;
+  // Of the vertices; one of them has memory when its function is called first.
   std::vector<Eigen::Vector3f> positions_;
+  std::vector<Vec2> ground_positions_;
 };
 
 }  // namespace bch

@@ -12,6 +12,7 @@
 #include "layout/affine_rows.hpp"
 #include "layout/aligned_vector.hpp"
 #include "layout/character.hpp"
+#include "layout/disc.hpp"
 
 namespace bch {
 
@@ -33,12 +34,17 @@ class VertexBlend {
   /// Writes where every vertex goes. maps[i] is that of bones()[i].
   /// Returns: the first vertex whose position is not finite, if there is one.
   std::optional<std::uint32_t> blend(std::span<const AffineRows> maps, std::span<Eigen::Vector3f> positions);
+  /// The same bits without heights, which nobody sees from above.
+  std::optional<std::uint32_t> blend(std::span<const AffineRows> maps, std::span<Vec2> positions);
 
  private:
   /// Vertices that so many bones move, up to `end` of the order.
   struct Run {
     std::uint32_t bones, end;
   };
+
+  template <class Position>
+  std::optional<std::uint32_t> blend_all(std::span<const AffineRows> maps, std::span<Position> positions);
 
   std::vector<std::uint32_t> bones_;
   std::vector<Run> runs_;

@@ -19,7 +19,7 @@ namespace {
 using Triangles = std::vector<std::array<std::uint32_t, 3>>;
 
 struct Soup {
-  std::vector<Eigen::Vector3f> positions;
+  std::vector<Vec2> positions;
   Triangles triangles;
 };
 
@@ -34,10 +34,10 @@ Soup random_soup(test::Random& random, int kind) {
     if (kind == 2) y = std::sin(4 * x), x = std::cos(4 * x);
     if (kind == 3) x = std::round(2 * x), y = std::round(2 * y);
     if (kind == 4) y = 5 + 0.2 * y;
-    soup.positions.emplace_back(static_cast<float>(x + 0.3), static_cast<float>(y), 0.0f);
+    soup.positions.push_back({static_cast<float>(x + 0.3), static_cast<float>(y)});
   }
   for (std::uint32_t i = 0; i + 2 < count; ++i) soup.triangles.push_back({i, i + 1, i + 2});
-  soup.positions.emplace_back(9.0f, 9.0f, 0.0f);
+  soup.positions.push_back({9.0f, 9.0f});
   return soup;
 }
 
@@ -62,8 +62,8 @@ TEST(ExtremeVertices, DecideTheDiscAroundTheOutline) {
     const double unit = 0x1p-23 * root.reach;
     EXPECT_NEAR(disc.radius, other.radius, unit);
     for (std::size_t v = 0; v + 1 < soup.positions.size(); ++v)
-      ASSERT_LE(std::hypot(static_cast<double>(soup.positions[v].x()) - static_cast<double>(disc.x),
-                           static_cast<double>(soup.positions[v].y()) - static_cast<double>(disc.y)),
+      ASSERT_LE(std::hypot(static_cast<double>(soup.positions[v].x) - static_cast<double>(disc.x),
+                           static_cast<double>(soup.positions[v].y) - static_cast<double>(disc.y)),
                 disc.radius);
   }
 }
@@ -72,8 +72,8 @@ TEST(ExtremeVertices, AreFewOfManyVertices) {
   test::Random random(82);
   Soup soup;
   for (std::uint32_t i = 0; i < 3000; ++i)
-    soup.positions.emplace_back(static_cast<float>(random.uniform(-1, 1)),
-                                static_cast<float>(random.uniform(-0.3, 0.3)), 0.0f);
+    soup.positions.push_back(
+        {static_cast<float>(random.uniform(-1, 1)), static_cast<float>(random.uniform(-0.3, 0.3))});
   for (std::uint32_t i = 0; i + 2 < 3000; ++i) soup.triangles.push_back({i, i + 1, i + 2});
   ExtremeVertices extremes(soup.triangles, soup.positions.size());
   extremes.find(soup.positions);
@@ -82,12 +82,12 @@ TEST(ExtremeVertices, AreFewOfManyVertices) {
 
 TEST(ExtremeVertices, RejectWhatHasNoReach) {
   const Triangles one = {{0, 1, 2}};
-  std::vector<Eigen::Vector3f> positions(3, Eigen::Vector3f::Zero());
+  std::vector<Vec2> positions(3);
   ExtremeVertices extremes(one, 3);
   EXPECT_THROW(extremes.find(positions), std::invalid_argument);
-  positions[1].x() = std::numeric_limits<float>::quiet_NaN();
+  positions[1].x = std::numeric_limits<float>::quiet_NaN();
   EXPECT_THROW(extremes.find(positions), std::invalid_argument);
-  positions[1].x() = 1;
+  positions[1].x = 1;
   EXPECT_NO_THROW(extremes.find(positions));
 }
 

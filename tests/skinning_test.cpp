@@ -9,6 +9,8 @@
 #include <limits>
 #include <numbers>
 #include <random>
+#include <stdexcept>
+#include <string>
 
 #include "layout/rotation_blend.hpp"
 #include "tests/character_shapes.hpp"
@@ -153,9 +155,13 @@ void expect_as_slowly(const Character& character) {
   for (const PoseTime& time : times) {
     const auto pose = skinner.pose(time);
     const SlowSkinner slow(character, time);
-    for (std::size_t v = 0; v < pose.size(); ++v)
+    const auto ground = skinner.ground_pose(time);
+    ASSERT_EQ(ground.size(), pose.size());
+    for (std::size_t v = 0; v < pose.size(); ++v) {
       ASSERT_LT((pose[v].cast<double>() - slow.position(v)).norm(), 5e-6)
           << character.name << " vertex " << v;
+      ASSERT_EQ(ground[v], (Vec2{pose[v].x(), pose[v].y()})) << character.name << " vertex " << v;
+    }
   }
 }
 
@@ -192,7 +198,7 @@ TEST(Skinning, BlendsManyBonesWithKeysAtAnyTimes) {
     }
   }
   c.influence_begin = {0};
-  for (std::uint32_t v = 0; v < 70; ++v) {
+  for (std::uint32_t v = 0; v < 77; ++v) {
     const std::uint32_t count = v % 7 + 1;
     c.vertices.emplace_back(uniform(), uniform(), uniform());
     for (std::uint32_t i = 0; i < count; ++i)
@@ -204,6 +210,16 @@ TEST(Skinning, BlendsManyBonesWithKeysAtAnyTimes) {
   expect_as_slowly(c);
 }
 
+template <class Pose>
+std::string reason_of(Pose pose) {
+  try {
+    pose();
+  } catch (const std::domain_error& error) {
+    return error.what();
+  }
+  return "";
+}
+
 TEST(Skinning, NamesTheFirstVertexThatIsNotFinite) {
   Character c = two_joints();
   c.vertices[2].x() = c.vertices[4].y() = 3e38f;
@@ -211,12 +227,18 @@ TEST(Skinning, NamesTheFirstVertexThatIsNotFinite) {
   c.influences = {{0, 1}, {0, 0.5f}, {1, 0.5f}, {0, 1}, {1, 1}, {1, 1}, {1, 1}};
   c.bones[0].inverse_bind.linear() *= 2;
   Skinner skinner(c);
-  try {
-    skinner.pose({});
-    FAIL();
-  } catch (const std::domain_error& error) {
-    EXPECT_NE(std::string(error.what()).find("vertex 2 is not finite"), std::string::npos) << error.what();
-  }
+  const std::string expected = "character 'two joints': posed vertex 2 is not finite";
+  EXPECT_EQ(reason_of([&] { skinner.pose({}); }), expected);
+  EXPECT_EQ(reason_of([&] { skinner.ground_pose({}); }), expected);
+}
+
+TEST(Skinning, AsksNothingOfHeightsThatNobodySees) {
+  Character c = two_joints();
+  c.vertices[3].z() = 3e38f;
+  for (Bone& bone : c.bones) bone.inverse_bind.linear() *= 2;
+  Skinner skinner(c);
+  EXPECT_EQ(reason_of([&] { skinner.pose({}); }), "character 'two joints': posed vertex 3 is not finite");
+  EXPECT_EQ(reason_of([&] { skinner.ground_pose({}); }), "");
 }
 
 TEST(Slerp, TurnsAtConstantSpeedTheShorterWay) {
