@@ -100,7 +100,10 @@ void run_crowd(const CLI::App& command, const CrowdOptions& options) {
 std::function<void()> add_crowd_command(CLI::App& program) {
   const auto options = std::make_shared<CrowdOptions>();
   CLI::App& command = *program.add_subcommand("crowd", "Place a random crowd and find its collisions");
-  command.footer("Example: bch crowd --agents 2000 --density 1 --svg crowd.svg");
+  command.footer(
+      "Agents take their shapes evenly from all poses of all characters, so that one of few poses is seen "
+      "seldom.\n"
+      "Example: bch crowd --agents 2000 --density 1 --svg crowd.svg");
   command.add_option("--agents", options->agents, "How many agents [10000]")
       ->type_name("N")
       ->check(number_between(1, 1e7));

@@ -154,6 +154,8 @@ void run_query(const CLI::App& command, const QueryCommandOptions& options) {
   if (options.what != "clearance") require_absent(command, {"--max-distance"}, "belongs to --what clearance");
   if (options.what != "collide" && !options.all_pairs)
     require_absent(command, {"--semantics"}, "belongs to --what collide and to --all-pairs");
+  if (std::isfinite(options.max_distance))
+    require_absent(command, {"--semantics"}, "--max-distance is about discs, whatever is inside");
   if (query_kind(options.what).moving)
     require_absent(command, {"--all-pairs"}, "agents that collide now touch at once");
   if (!options.direction.empty()) require_absent(command, {"--directions"}, "--direction names the only one");

@@ -210,6 +210,9 @@ TEST_F(QueryWhat, WrongWordsGiveTwo) {
   const Ending all = run("contact-time", {"--all-pairs"});
   EXPECT_EQ(all.code, 2);
   EXPECT_NE(all.err.find("--all-pairs"), std::string::npos) << all.err;
+  const Ending within = run("clearance", {"--all-pairs", "--max-distance", "1", "--semantics", "solid"});
+  EXPECT_EQ(within.code, 2);
+  EXPECT_NE(within.err.find("--semantics: --max-distance"), std::string::npos) << within.err;
 }
 
 TEST_F(QueryWhat, HelpNamesEveryColumn) {
