@@ -16,8 +16,8 @@
 namespace bch {
 
 /// The edges of a pose that may be part of its outline. A point inside an edge with triangles on both sides is
-/// inside the union, so only edges whose triangles all lie on one side remain (a triangle seen edge-on lies on
-/// none); any further piece of the union may be among them without harm.
+/// inside the union, so only edges whose triangles all lie on one side remain (a triangle seen edge-on, or nearly,
+/// lies on none); any further piece of the union may be among them without harm.
 class OutlineCandidates {
  public:
   OutlineCandidates(const OutlineTopology& topology, const OutlineImplementation& implementation);

@@ -11,22 +11,19 @@
 namespace bch {
 
 /// The two loops of an outline that take most of its time, several triangles or segments a register.
-/// Everything is exact (grid_geometry.hpp), so that every instruction set gives the same bits; the quotient is
-/// rounded correctly on each. `Registers` is a type of the including file alone, so that no other file can
+/// What an outline is made of is exact (grid_geometry.hpp), so that every instruction set gives the same bits; the
+/// quotient is rounded correctly on each. `Registers` is a type of the including file alone, so that no other file can
 /// share what was compiled for its registers.
 template <class Registers>
 class OutlineLanes {
  public:
   /// Which way the corners of triangles go round: bit 0 for counter-clockwise, bit 1 for clockwise, none where
-  /// they are on a line. `count` is a multiple of four.
+  /// they are on a line, or so close to one that it is left open. `count` is a multiple of four.
   static void find_sides(const std::uint32_t* corners, std::size_t count, const GridPoint* points,
                          std::uint8_t* sides) noexcept {
     for (std::size_t t = 0; t < count; t += 4) {
-      const auto turns = Registers::turns(corners + 3 * t, points);
-      // Four bits spread to the lowest bits of four bytes.
-      constexpr std::uint32_t spread = 0x00204081, lowest = 0x01010101;
-      const std::uint32_t bytes = (turns.left * spread & lowest) | (turns.right * spread & lowest) << 1;
-      __builtin_memcpy(sides + t, &bytes, sizeof bytes);
+      const std::uint32_t four = Registers::sides_of_four(corners + 3 * t, points);
+      __builtin_memcpy(sides + t, &four, sizeof four);
     }
   }
 

@@ -25,9 +25,6 @@ struct Sse2 {
           max_x(_mm_set1_epi16(way.max_x)),
           max_y(_mm_set1_epi16(way.max_y)) {}
   };
-  struct Turns {
-    std::uint32_t left, right;
-  };
 
   static __m128i low_half(const void* from) { return _mm_loadl_epi64(static_cast<const __m128i*>(from)); }
   static __m128i high_half(__m128i v) { return _mm_unpackhi_epi64(v, v); }
@@ -66,24 +63,39 @@ struct Sse2 {
     return (bits + (bits >> 8)) & 0x1f;
   }
 
-  static __m128i gather(const GridPoint* points, std::uint32_t v, std::uint32_t w) {
-    return _mm_unpacklo_epi64(low_half(points + v), low_half(points + w));
-  }
-  /// Of two triangles.
-  static Turns turns_of_two(const std::uint32_t* corners, const GridPoint* points) {
-    const __m128i a = gather(points, corners[0], corners[3]);
-    const __m128i u = _mm_sub_epi32(gather(points, corners[1], corners[4]), a);
-    const __m128i v =
-        _mm_shuffle_epi32(_mm_sub_epi32(gather(points, corners[2], corners[5]), a), _MM_SHUFFLE(2, 3, 0, 1));
-    const __m128d first = _mm_cvtepi32_pd(u) * _mm_cvtepi32_pd(v);
-    const __m128d second = _mm_cvtepi32_pd(high_half(u)) * _mm_cvtepi32_pd(high_half(v));
-    const __m128d plus = _mm_unpacklo_pd(first, second), minus = _mm_unpackhi_pd(first, second);
-    return {static_cast<std::uint32_t>(_mm_movemask_pd(_mm_cmpgt_pd(plus, minus))),
-            static_cast<std::uint32_t>(_mm_movemask_pd(_mm_cmplt_pd(plus, minus)))};
-  }
-  static Turns turns(const std::uint32_t* corners, const GridPoint* points) {
-    const Turns low = turns_of_two(corners, points), high = turns_of_two(corners + 6, points);
-    return {low.left | high.left << 2, low.right | high.right << 2};
+  /// Corner k of two triangles and of the next two.
+  struct Corners {
+    __m128i first, second;
+
+    Corners(const std::uint32_t* corners, const GridPoint* points, int k) {
+      const auto load = [=](int i) { return low_half(points + corners[3 * i + k]); };
+      first = _mm_unpacklo_epi64(load(0), load(1));
+      second = _mm_unpacklo_epi64(load(2), load(3));
+    }
+  };
+  /// From one corner to another.
+  struct Way {
+    __m128 x, y;
+
+    Way(const Corners& from, const Corners& to) {
+      const __m128 first = _mm_castsi128_ps(_mm_sub_epi32(to.first, from.first));
+      const __m128 second = _mm_castsi128_ps(_mm_sub_epi32(to.second, from.second));
+      x = _mm_cvtepi32_ps(_mm_castps_si128(_mm_shuffle_ps(first, second, _MM_SHUFFLE(2, 0, 2, 0))));
+      y = _mm_cvtepi32_ps(_mm_castps_si128(_mm_shuffle_ps(first, second, _MM_SHUFFLE(3, 1, 3, 1))));
+    }
+  };
+  /// A turn's two terms are products of differences, which floats hold, rounded to floats. Rounding keeps order, so the
+  /// larger one is; where they are then equal, it is left open.
+  static std::uint32_t sides_of_four(const std::uint32_t* corners, const GridPoint* points) {
+    const Corners a(corners, points, 0);
+    const Way u(a, Corners(corners, points, 1)), v(a, Corners(corners, points, 2));
+    const __m128 plus = _mm_mul_ps(u.x, v.y), minus = _mm_mul_ps(u.y, v.x);
+    const __m128i left = _mm_castps_si128(_mm_cmpgt_ps(plus, minus));
+    const __m128i right = _mm_castps_si128(_mm_cmplt_ps(plus, minus));
+    const __m128i words =
+        _mm_or_si128(_mm_srli_epi32(left, 31), _mm_slli_epi32(_mm_srli_epi32(right, 31), 1));
+    const __m128i halves = _mm_packs_epi32(words, words);
+    return static_cast<std::uint32_t>(_mm_cvtsi128_si32(_mm_packus_epi16(halves, halves)));
   }
 };
 

@@ -79,23 +79,26 @@ __m128 put(const Products<2>& p, const Products<2>& q, Vec2& at_p, Vec2& at_q) {
 }
 
 /// Vertices of equally many bones, from an influence on, two at a time. `fixed`: how many bones, so that there is no loop
-/// over them, or 0.
+/// over them, or 0. `work` is a copy, which no position that is written can be part of.
 /// Returns: NaN in some lane if a position is not finite.
 template <class Position, std::uint32_t fixed>
-__m128 blend_run(const Work<Position>& work, std::size_t begin, std::size_t end, std::size_t influence,
+__m128 blend_run(const Work<Position> work, std::size_t begin, std::size_t end, std::size_t influence,
                  std::uint32_t bones) {
   constexpr std::size_t axes = axes_of(static_cast<Position*>(nullptr));
   if (fixed != 0) bones = fixed;
+  const Row* weighted = work.weighted + influence;
+  const std::uint32_t* first_row = work.first_row + influence;
   __m128 not_finite = _mm_setzero_ps();
-  for (std::size_t i = begin; i < end; i += 2, influence += 2 * std::size_t{bones}) {
-    // The last vertex of an odd number goes twice.
-    const std::size_t j = i + 1 < end ? i + 1 : i, next = influence + (j - i) * bones;
-    const auto p = add_up<axes>(work.rows, work.weighted + influence, work.first_row + influence, bones);
-    const auto q = add_up<axes>(work.rows, work.weighted + next, work.first_row + next, bones);
-    not_finite =
-        _mm_or_ps(not_finite, put(p, q, work.positions[work.vertex[i]], work.positions[work.vertex[j]]));
+  const auto position = [&](std::size_t i) -> Position& { return work.positions[work.vertex[i]]; };
+  std::size_t i = begin;
+  for (; i + 1 < end; i += 2, weighted += 2 * bones, first_row += 2 * bones) {
+    const auto p = add_up<axes>(work.rows, weighted, first_row, bones);
+    const auto q = add_up<axes>(work.rows, weighted + bones, first_row + bones, bones);
+    not_finite = _mm_or_ps(not_finite, put(p, q, position(i), position(i + 1)));
   }
-  return not_finite;
+  if (i == end) return not_finite;
+  const auto last = add_up<axes>(work.rows, weighted, first_row, bones);
+  return _mm_or_ps(not_finite, put(last, last, position(i), position(i)));
 }
 
 bool is_finite(const Eigen::Vector3f& position) {

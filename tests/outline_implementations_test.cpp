@@ -51,6 +51,39 @@ TEST(OutlineBuilder, EqualsTheArrangementOfAllEdges) {
   EXPECT_GT(compared, 9900);
 }
 
+/// Triangles a grid step wide and millions long: which way such a one goes round, floats cannot tell.
+Soup soup_of_slivers(test::Random& random) {
+  constexpr double step = 0x1p-23;
+  const double x = random.uniform(0.6, 1), y = random.uniform(-1, 1);
+  const auto on_grid = [&](double metres) {
+    return static_cast<float>(step * (std::round(metres / step) + random.below(5) - 2));
+  };
+  Soup soup;
+  const std::uint32_t count = 3 + random.below(4);
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const double share = i == 0 ? 0.99 : random.uniform(-0.99, 0.99);
+    soup.positions.emplace_back(on_grid(share * x), on_grid(share * y), 0.0f);
+  }
+  for (std::uint32_t i = 0; i < 6; ++i)
+    soup.triangles.push_back({i % count, random.below(count), random.below(count)});
+  return soup;
+}
+
+TEST(OutlineBuilder, SliversHaveTheOutlineOfTheirArrangement) {
+  test::Random random(23);
+  Outline outline;
+  for (int i = 0; i < 3000; ++i) {
+    const Soup slivers = soup_of_slivers(random);
+    for (const OutlineImplementation* row : supported_implementations()) {
+      OutlineBuilder(slivers.triangles, slivers.positions.size(), slivers.positions, *row)
+          .build(slivers.positions, outline);
+      ASSERT_EQ(outline.grid_step, 0x1p-23f);
+      ASSERT_EQ(test::on_grid(outline), test::arrangement_outline(test::on_grid(slivers, outline.grid_step)))
+          << row->name << ", soup " << i;
+    }
+  }
+}
+
 /// More candidates than any word of bits holds, all of them at one point: tip after tip, and the centre between.
 TEST(OutlineBuilder, AStarIsWalkedTipByTip) {
   for (const OutlineImplementation* row : supported_implementations())
