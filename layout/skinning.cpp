@@ -108,20 +108,12 @@ AffineRows Skinner::local_transform(std::size_t joint, float seconds, std::size_
 }
 
 void Skinner::place_joints(PoseTime at) {
-  std::size_t guess = 0;
   std::fill(channel_of_joint_.begin(), channel_of_joint_.end(), nullptr);
   if (at.clip != PoseTime::rest)
-    for (const Channel& channel : character_->clips[at.clip].channels) {
+    for (const Channel& channel : character_->clips[at.clip].channels)
       channel_of_joint_[channel.joint] = &channel;
-      // Each channel's keys are somewhere else in memory, and a pose's are hardly ever those of the one before.
-      const auto& keys = channel.rotations;
-      if (guess == 0 && !keys.empty()) guess = key_after(keys, at.seconds, 0);
-      if (guess > 0 && guess < keys.size()) {
-        __builtin_prefetch(&keys[guess - 1]);
-        __builtin_prefetch(&keys[guess]);
-      }
-    }
 
+  std::size_t guess = 0;
   for (std::size_t j = 0; j < joint_to_world_.size(); ++j) {
     const std::int32_t parent = character_->joints[j].parent;
     joint_to_world_[j] = (parent < 0 ? to_ground_ : joint_to_world_[static_cast<std::size_t>(parent)]) *
