@@ -210,6 +210,20 @@ TEST(Skinning, BlendsManyBonesWithKeysAtAnyTimes) {
   expect_as_slowly(c);
 }
 
+/// What no joint carries stands in the middle of its box.
+TEST(Skinning, WithoutARootTheMiddleIsTheOrigin) {
+  Character c = two_joints();
+  c.root_joint = -1;
+  Skinner skinner(c);
+  const auto pose = skinner.pose({0, 0.5f});
+  Eigen::AlignedBox3f box;
+  for (const Eigen::Vector3f& position : pose) box.extend(position);
+  EXPECT_LT(box.center().head<2>().norm(), 1e-6f);
+  EXPECT_EQ(box.min().z(), 0);
+  const auto ground = skinner.ground_pose({0, 0.5f});
+  for (std::size_t v = 0; v < pose.size(); ++v) EXPECT_EQ(ground[v], (Vec2{pose[v].x(), pose[v].y()}));
+}
+
 template <class Pose>
 std::string reason_of(Pose pose) {
   try {
