@@ -12,6 +12,7 @@
 #include "bench/build_stages.hpp"
 #include "bench/clipper_union.hpp"
 #include "bench/median.hpp"
+#include "bench/race.hpp"
 #include "bench/ratios.hpp"
 #include "bench/stopwatch.hpp"
 #include "bench/text.hpp"

@@ -9,6 +9,7 @@
 
 #include "bench/answer_checks.hpp"
 #include "bench/peak_memory.hpp"
+#include "bench/race.hpp"
 #include "bench/ratios.hpp"
 #include "bench/text.hpp"
 #include "kernel/broad_phase.hpp"

@@ -1,18 +1,20 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
+#include "bench/distance_contenders.hpp"
+
 #include <memory>
 
 #include "baselines/clearance_reference.hpp"
 #include "baselines/contact_time_reference.hpp"
 #include "baselines/pair_distances.hpp"
 #include "bench/distance_answers.hpp"
-#include "bench/ratios.hpp"
 
 namespace bch::bench {
+namespace {
 
-Contender clearance_contender(Scene& scene, const Workload& workload,
-                              const kernel::Implementation& implementation) {
+Contender clearance_kernel(Scene& scene, const Workload& workload,
+                           const kernel::Implementation& implementation) {
   const auto answers = std::make_shared<Clearances>(workload.pairs.size());
   const auto call = [&set = scene.set(Semantics::boundary), &workload, answers,
                      options = ClearanceOptions{clearance_limit, &implementation}] {
@@ -23,7 +25,7 @@ Contender clearance_contender(Scene& scene, const Workload& workload,
   return {implementation.name, call};
 }
 
-Contender scalar_clearance_contender(Scene& scene, const Workload& workload) {
+Contender clearance_reference(Scene& scene, const Workload& workload) {
   const auto answers = std::make_shared<Clearances>(workload.pairs.size());
   const auto reference = std::make_shared<baselines::ClearanceReference>(scene.shapes(), ShapeSetPlan{});
   const auto call = [reference, &workload, answers] {
@@ -38,8 +40,6 @@ Contender scalar_clearance_contender(Scene& scene, const Workload& workload) {
   return {"scalar search", call};
 }
 
-namespace {
-
 Contender fcl_distance_contender(Scene& scene, const Workload& workload, const std::string& name,
                                  std::shared_ptr<const baselines::PairDistances> fcl) {
   const auto distances = std::make_shared<std::vector<double>>(workload.pairs.size());
@@ -52,18 +52,8 @@ Contender fcl_distance_contender(Scene& scene, const Workload& workload, const s
   return {name, call};
 }
 
-}  // namespace
-
-std::vector<Contender> fcl_distance_contenders(Scene& scene, const Workload& workload) {
-  auto walls = baselines::fcl_outline_distances(scene.bodies());
-  auto segments = baselines::fcl_segment_distances(scene.bodies());
-  if (walls == nullptr || segments == nullptr) return {};
-  return {fcl_distance_contender(scene, workload, "FCL, walls", std::move(walls)),
-          fcl_distance_contender(scene, workload, "FCL, one triangle a segment", std::move(segments))};
-}
-
-Contender contact_time_contender(Scene& scene, const Workload& workload,
-                                 const kernel::Implementation& implementation) {
+Contender contact_time_kernel(Scene& scene, const Workload& workload,
+                              const kernel::Implementation& implementation) {
   const auto times = std::make_shared<std::vector<float>>(workload.pairs.size());
   const auto ways = std::make_shared<Ways>(workload);
   const auto call = [&set = scene.set(Semantics::boundary), &workload, ways, times, &implementation] {
@@ -74,7 +64,7 @@ Contender contact_time_contender(Scene& scene, const Workload& workload,
   return {implementation.name, call};
 }
 
-Contender scalar_contact_time_contender(Scene& scene, const Workload& workload) {
+Contender contact_time_reference(Scene& scene, const Workload& workload) {
   const auto times = std::make_shared<std::vector<float>>(workload.pairs.size());
   const auto ways = std::make_shared<Ways>(workload);
   const auto reference = std::make_shared<baselines::ContactTimeReference>(scene.shapes(), ShapeSetPlan{});
@@ -86,6 +76,26 @@ Contender scalar_contact_time_contender(Scene& scene, const Workload& workload) 
   call();
   require_right("scalar search", workload, wrong_contact_times(scene, workload, *times));
   return {"scalar search", call};
+}
+
+}  // namespace
+
+const TimedQuery& clearance_query() {
+  static constexpr TimedQuery query{"clearance", clearance_kernel, clearance_reference};
+  return query;
+}
+
+const TimedQuery& contact_time_query() {
+  static constexpr TimedQuery query{"contact_time", contact_time_kernel, contact_time_reference};
+  return query;
+}
+
+std::vector<Contender> fcl_distance_contenders(Scene& scene, const Workload& workload) {
+  auto walls = baselines::fcl_outline_distances(scene.bodies());
+  auto segments = baselines::fcl_segment_distances(scene.bodies());
+  if (walls == nullptr || segments == nullptr) return {};
+  return {fcl_distance_contender(scene, workload, "FCL, walls", std::move(walls)),
+          fcl_distance_contender(scene, workload, "FCL, one triangle a segment", std::move(segments))};
 }
 
 }  // namespace bch::bench

@@ -4,8 +4,11 @@
 #include <fmt/format.h>
 
 #include <cstdio>
+#include <string>
+#include <utility>
 
 #include "bench/distance_answers.hpp"
+#include "bench/distance_contenders.hpp"
 #include "bench/ratios.hpp"
 #include "bench/text.hpp"
 
@@ -14,37 +17,30 @@ namespace {
 
 constexpr double most_times_collide = 4, needed_over_scalar = 10, needed_over_fcl = 50;
 
-/// A query of kernels, and what it is compared with.
-struct Query {
-  std::string name;
-  std::function<Contender(const Workload&, const kernel::Implementation&)> kernel;
-  std::function<Contender(const Workload&)> scalar;
-};
-
 double per_pair(const Contender& contender, const Workload& workload) {
   return contender.nanoseconds / static_cast<double>(workload.pairs.size());
 }
 
-void print_over_collide(Scene& scene, const Query& query, std::uint32_t runs) {
+void print_over_collide(Scene& scene, const std::string& name, const TimedQuery& query, std::uint32_t runs) {
   const kernel::Implementation& best = kernel::best_implementation();
   const Workload& crowd = scene.workload("crowd");
   std::vector<Contender> both = {kernel_contender(scene, crowd, Semantics::boundary, best),
-                                 query.kernel(crowd, best)};
+                                 query.kernel(scene, crowd, best)};
   race(both, runs, 1);
   const double times = both[1].nanoseconds / both[0].nanoseconds;
-  fmt::print("{}, crowd, {}: {} pairs, {:.1f} ns over collide's {:.1f}: {:.2f} x   {}\n", query.name,
-             best.name, cli::grouped(crowd.pairs.size()), per_pair(both[1], crowd), per_pair(both[0], crowd),
-             times, verdict_at_most(times, most_times_collide));
+  fmt::print("{}, crowd, {}: {} pairs, {:.1f} ns over collide's {:.1f}: {:.2f} x   {}\n", name, best.name,
+             cli::grouped(crowd.pairs.size()), per_pair(both[1], crowd), per_pair(both[0], crowd), times,
+             verdict_at_most(times, most_times_collide));
 }
 
-void print_over_scalar(Scene& scene, const Query& query, std::uint32_t runs) {
+void print_over_scalar(Scene& scene, const std::string& name, const TimedQuery& query, std::uint32_t runs) {
   const Workload& near_miss = scene.workload("near_miss");
-  std::vector<Contender> contenders = {query.scalar(near_miss)};
+  std::vector<Contender> contenders = {query.reference(scene, near_miss)};
   for (const kernel::Implementation& implementation : kernel::implementations())
-    if (implementation.supported()) contenders.push_back(query.kernel(near_miss, implementation));
+    if (implementation.supported()) contenders.push_back(query.kernel(scene, near_miss, implementation));
   race(contenders, runs, 1);
-  fmt::print("{}, near_miss: {} pairs; scalar search {:.1f} ns\n", query.name,
-             cli::grouped(near_miss.pairs.size()), per_pair(contenders[0], near_miss));
+  fmt::print("{}, near_miss: {} pairs; scalar search {:.1f} ns\n", name, cli::grouped(near_miss.pairs.size()),
+             per_pair(contenders[0], near_miss));
   for (const Contender& contender : std::span(contenders).subspan(1)) {
     const double ratio = contenders[0].nanoseconds / contender.nanoseconds;
     fmt::print("  {:8}{:6.1f} ns{:7.1f} x   {}\n", contender.name, per_pair(contender, near_miss), ratio,
@@ -61,7 +57,7 @@ void print_over_fcl(Scene& scene, std::uint32_t runs) {
     fmt::print("clearance over FCL's distance of outlines: not in this build\n");
     return;
   }
-  contenders.push_back(clearance_contender(scene, near_miss, best));
+  contenders.push_back(clearance_query().kernel(scene, near_miss, best));
   race(contenders, runs, 1);
   const Contender& own = contenders.back();
   fmt::print("clearance over FCL's distance of outlines, near_miss, {}: {:.1f} ns\n", best.name,
@@ -76,20 +72,12 @@ void print_over_fcl(Scene& scene, std::uint32_t runs) {
 }  // namespace
 
 void print_distance_ratios(Scene& scene, std::uint32_t runs) {
-  const Query queries[] = {
-      {fmt::format("clearance within {:g} m", clearance_limit),
-       [&](const Workload& workload, const kernel::Implementation& implementation) {
-         return clearance_contender(scene, workload, implementation);
-       },
-       [&](const Workload& workload) { return scalar_clearance_contender(scene, workload); }},
-      {fmt::format("time of contact within {:g} s", walking_time),
-       [&](const Workload& workload, const kernel::Implementation& implementation) {
-         return contact_time_contender(scene, workload, implementation);
-       },
-       [&](const Workload& workload) { return scalar_contact_time_contender(scene, workload); }}};
-  for (const Query& query : queries) {
-    print_over_collide(scene, query, runs);
-    print_over_scalar(scene, query, runs);
+  const std::pair<std::string, const TimedQuery&> queries[] = {
+      {fmt::format("clearance within {:g} m", clearance_limit), clearance_query()},
+      {fmt::format("time of contact within {:g} s", walking_time), contact_time_query()}};
+  for (const auto& [name, query] : queries) {
+    print_over_collide(scene, name, query, runs);
+    print_over_scalar(scene, name, query, runs);
   }
   print_over_fcl(scene, runs);
 }

@@ -22,7 +22,7 @@ void register_collide_benchmarks(Scene& scene);
 
 /// clearance/<workload>/<implementation|reference>/threads:<n> and contact_time/...: distances up to 0.5 m with their
 /// directions, and first contacts while all agents walk 1.3 m/s for half a second. The reference is the scalar search
-/// with the same pruning. Counters as above, and `within`: pairs within the limit, or that touch in time.
+/// with the same pruning. A counter as above: ns_per_pair.
 void register_distance_benchmarks(Scene& scene);
 
 /// contacts/<workload>/<implementation|reference>/threads:<n> and separation/..., of colliding pairs and of the crowd's;

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "bench/race.hpp"
 #include "bench/ratios.hpp"
 
 namespace bch::bench {

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "bench/answer_checks.hpp"
+#include "bench/race.hpp"
 #include "bench/ratios.hpp"
 #include "layout/pose_shape.hpp"
 #include "layout/scene_plan.hpp"

@@ -32,6 +32,14 @@ Contender kernel_contender(Scene& scene, const Workload& workload, Semantics sem
                            const kernel::Implementation& implementation);
 Contender structure_contender(Scene& scene, const Workload& workload, std::string_view kind);
 
+/// A question beside collide(), of all of a workload's pairs or its agents. Answers are compared when a contender is made.
+/// Errors of both: throw std::runtime_error on wrong answers.
+struct TimedQuery {
+  const char* name;
+  Contender (*kernel)(Scene&, const Workload&, const kernel::Implementation&);
+  Contender (*reference)(Scene&, const Workload&);  ///< may be null
+};
+
 /// Throws std::runtime_error if something is wrong.
 void require_right(const std::string& name, const Workload& workload, const std::string& wrong);
 

@@ -5,9 +5,7 @@
 
 #include <cstdint>
 #include <string>
-#include <vector>
 
-#include "bench/race.hpp"
 #include "bench/scene.hpp"
 
 namespace bch::bench {
@@ -16,17 +14,6 @@ namespace bch::bench {
 std::string verdict(double ratio, double needed);
 /// The same of what must not be more: "at most 1.5: 8 % over".
 std::string verdict_at_most(double value, double most);
-
-/// Contenders of clearance(), with directions, of contact_time(), and of the scalar searches with the same pruning.
-Contender clearance_contender(Scene& scene, const Workload& workload,
-                              const kernel::Implementation& implementation);
-Contender scalar_clearance_contender(Scene& scene, const Workload& workload);
-/// FCL's distances of the outlines as walls, which is what is asked for, and as one triangle a segment, half of what it has
-/// to look at; none in a build without FCL.
-std::vector<Contender> fcl_distance_contenders(Scene& scene, const Workload& workload);
-Contender contact_time_contender(Scene& scene, const Workload& workload,
-                                 const kernel::Implementation& implementation);
-Contender scalar_contact_time_contender(Scene& scene, const Workload& workload);
 
 /// The tables. Each prints to standard output.
 void print_kernel_ratios(Scene& scene, std::uint32_t runs);

@@ -128,13 +128,13 @@ Contender collide_all_kernel(Scene& scene, const Workload& workload,
   return {implementation.name, call};
 }
 
-constexpr ResponseQuery queries[] = {{"contacts", contacts_kernel, contacts_reference},
-                                     {"separation", separation_kernel, separation_reference},
-                                     {"collide_all", collide_all_kernel, nullptr}};
+constexpr TimedQuery queries[] = {{"contacts", contacts_kernel, contacts_reference},
+                                  {"separation", separation_kernel, separation_reference},
+                                  {"collide_all", collide_all_kernel, nullptr}};
 
 }  // namespace
 
-std::span<const ResponseQuery> response_queries() {
+std::span<const TimedQuery> response_queries() {
   return queries;
 }
 

@@ -8,6 +8,7 @@
 #include <memory>
 
 #include "bench/answer_checks.hpp"
+#include "bench/race.hpp"
 #include "bench/random.hpp"
 #include "bench/ratios.hpp"
 #include "bench/text.hpp"

@@ -8,6 +8,7 @@
 #include <functional>
 #include <stdexcept>
 
+#include "bench/distance_contenders.hpp"
 #include "bench/micro.hpp"
 #include "bench/micro_timing.hpp"
 #include "bench/response_contenders.hpp"
@@ -27,7 +28,7 @@ void time_contender(benchmark::State& state, const Workload& workload, int threa
   }
 }
 
-void add(Scene& scene, const ResponseQuery& query, std::string_view workload) {
+void add(Scene& scene, const TimedQuery& query, std::string_view workload) {
   const auto name = [&](std::string_view structure, int threads) {
     return fmt::format("{}/{}/{}/threads:{}", query.name, workload, structure, threads);
   };
@@ -51,8 +52,13 @@ void add(Scene& scene, const ResponseQuery& query, std::string_view workload) {
 
 }  // namespace
 
+void register_distance_benchmarks(Scene& scene) {
+  for (const std::string_view workload : workload_names())
+    for (const TimedQuery* query : {&clearance_query(), &contact_time_query()}) add(scene, *query, workload);
+}
+
 void register_response_benchmarks(Scene& scene) {
-  for (const ResponseQuery& query : response_queries())
+  for (const TimedQuery& query : response_queries())
     for (const std::string_view workload : {"colliding", "crowd"})
       // Agents of pairs of their own stand anywhere, also in each other.
       if (workload == "crowd" || query.reference != nullptr) add(scene, query, workload);
