@@ -57,6 +57,19 @@ std::uint32_t levels(const WideTree& tree, std::uint32_t node) {
   return below + 1;
 }
 
+test::Answers brute_force_clearances(baselines::ClearanceReference& reference, const test::PairScene& scene,
+                                     double most) {
+  test::Answers all;
+  for (const Pair pair : scene.pairs) {
+    const auto [distance, direction, first, second] =
+        reference.query(scene.crowd.agents(), pair, most, Method::brute_force);
+    all.distance.push_back(distance);
+    all.direction.push_back(direction);
+    all.nodes.push_back({first, second});
+  }
+  return all;
+}
+
 class DeepTrees : public testing::Test {
  protected:
   DeepTrees() {
@@ -120,20 +133,36 @@ TEST_F(DeepTrees, CollideAndContacts) {
 TEST_F(DeepTrees, Clearance) {
   baselines::ClearanceReference reference(shapes, {});
   for (const double most : {0.05, 1e9}) {
-    test::Answers expected;
-    for (const Pair pair : scene.pairs) {
-      const auto [distance, direction, first, second] =
-          reference.query(agents(), pair, most, Method::brute_force);
-      expected.distance.push_back(distance);
-      expected.direction.push_back(direction);
-      expected.nodes.push_back({first, second});
-    }
+    const test::Answers expected = brute_force_clearances(reference, scene, most);
     on_every_implementation([&](const kernel::Implementation& each) {
       const test::Answers of = test::answers(*set, agents(), scene.pairs, most, &each);
       for (std::size_t i = 0; i < scene.pairs.size(); ++i)
         ASSERT_TRUE(of.same(i, expected, i)) << each.name << ", pair " << i;
     });
   }
+}
+
+/// Shapes whose groups all lie over each other leave more steps open, of 32 pairs together, than a search lists.
+TEST_F(DeepTrees, ClearanceOfMoreOpenStepsThanAreListed) {
+  const Shape thistle = test::contour_shape(test::star(random, 100, 0.02, 0.35));
+  const ShapeSet thistles({&thistle, 1});
+  const test::PairScene together = [&] {
+    test::PairScene all;
+    for (std::uint32_t i = 0; i < 32; ++i) {
+      for (int k = 0; k < 2; ++k)
+        all.crowd.add(
+            {0, random.uniform(-0.03, 0.03), random.uniform(-0.03, 0.03), random.uniform(-3, 3), 0});
+      all.pairs.push_back({2 * i, 2 * i + 1});
+    }
+    return all;
+  }();
+  baselines::ClearanceReference reference({&thistle, 1}, {});
+  const test::Answers expected = brute_force_clearances(reference, together, 1e9);
+  on_every_implementation([&](const kernel::Implementation& each) {
+    const test::Answers of = test::answers(thistles, together.crowd.agents(), together.pairs, 1e9, &each);
+    for (std::size_t i = 0; i < together.pairs.size(); ++i)
+      ASSERT_TRUE(of.same(i, expected, i)) << each.name << ", pair " << i;
+  });
 }
 
 TEST_F(DeepTrees, ContactTime) {
