@@ -31,7 +31,7 @@ class PoseShaper {
                       bool outlines = true);
 
   /// Returns: the shape that pose_shape() makes, down to the deepest depth, until the next call.
-  /// Errors:  as pose_shape(); the shape made before is lost.
+  /// Errors:  as pose_shape(), but that heights may be anything; the shape made before is lost.
   const Shape& shape(PoseTime at);
 
   /// shape() in two steps, for who needs the outline alone or takes the time of each: make_outline() is about

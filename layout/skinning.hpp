@@ -28,7 +28,7 @@ class Skinner {
   ///          position that is not finite.
   std::span<const Eigen::Vector3f> pose(PoseTime at);
 
-  /// The same bits seen from above, in two thirds of the time: x and y, whatever the heights are.
+  /// The same bits seen from above, in three quarters of the time: x and y, whatever the heights are.
   std::span<const Vec2> ground_pose(PoseTime at);
 
   const Character& character() const noexcept { return *character_; }
