@@ -13,8 +13,8 @@ namespace bch::bench {
 const TimedQuery& clearance_query();
 const TimedQuery& contact_time_query();
 
-/// FCL's distances of the outlines as walls, which is what is asked for, and as one triangle a segment, half of what it has
-/// to look at; none in a build without FCL.
+/// FCL's distances of the outlines as walls, which is what is asked for, and as one triangle a segment, half of what it
+/// has to look at; none in a build without FCL.
 std::vector<Contender> fcl_distance_contenders(Scene& scene, const Workload& workload);
 
 }  // namespace bch::bench

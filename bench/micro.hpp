@@ -32,7 +32,8 @@ void register_response_benchmarks(Scene& scene);
 /// build/<stage>: a stage of construction (build_stages.hpp) on the scene's characters; build/<stage>/<triangles>: on the
 /// built-in man with fewer and with more triangles. build/discs, build/discs_by_welzl, build/shape_set: the hierarchy's
 /// discs alone, and a set of one shape. build/<kind>: a structure over a pose's triangles or its shape; beside them
-/// build/single_cylinder, the disc around a pose's vertices, as in the paper's figure 3. An iteration builds one pose; they take turns. What stages make is checked before.
+/// build/single_cylinder, the disc around a pose's vertices, as in the paper's figure 3. An iteration builds one pose;
+/// they take turns. What stages make is checked before.
 void register_build_benchmarks(Scene& scene);
 
 /// load/map and load/read: a baked file of the scene's poses, in the file cache, by either way. load/<part>_alone: what
