@@ -17,6 +17,7 @@
 #include "kernel/standard_floats.hpp"
 #include "kernel/task_ranges.hpp"
 #include "layout/rounding.hpp"
+#include "layout/shortest.hpp"
 
 namespace bch {
 namespace {
@@ -178,7 +179,7 @@ std::span<const Pair> BroadPhase::find(const ShapeSet& shapes, const Agents& age
   const kernel::StandardFloats floats;
   validate(shapes, agents);
   if (!(margin >= 0 && margin <= 2 * rounding::largest_position))
-    throw std::invalid_argument("broad phase: a margin of " + std::to_string(margin) + " m");
+    throw std::invalid_argument("broad phase: a margin of " + shortest(margin) + " m");
   if (agents.size() == 0) return {};
   return kernel::without_tasks_from_outside([&] { return scratch_->find(shapes.view(), agents, margin); });
 }

@@ -14,6 +14,7 @@
 #include "kernel/task_ranges.hpp"
 #include "layout/cut_discs.hpp"
 #include "layout/heading.hpp"
+#include "layout/shortest.hpp"
 
 namespace bch {
 namespace {
@@ -89,8 +90,7 @@ void clearance(const ShapeSet& shapes, const Agents& agents, std::span<const Pai
   const kernel::StandardFloats floats;
   require_answers(answers, pairs.size());
   if (!(options.max_distance >= 0))
-    throw std::invalid_argument("clearance: a max_distance of " + std::to_string(options.max_distance) +
-                                " m");
+    throw std::invalid_argument("clearance: a max_distance of " + shortest(options.max_distance) + " m");
   const kernel::Implementation& implementation = kernel::chosen(options.implementation, "clearance");
   const ShapeSetView view = shapes.view();
   kernel::require_valid(implementation, view, agents, pairs);
