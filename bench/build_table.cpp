@@ -62,7 +62,7 @@ void print_header(std::string_view first) {
 
 void print_times(const StageTimes& times) {
   for (std::size_t s = 0; s < times.size(); ++s)
-    fmt::print("{:{}.1f}", times[s], std::string_view(build_stages[s].name).size() + 3);
+    fmt::print(" {:{}.1f}", times[s], std::string_view(build_stages[s].name).size() + 2);
 }
 
 double area_of(const Outline& outline) {
