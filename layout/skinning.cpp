@@ -38,29 +38,20 @@ Eigen::Vector3d interpolate(const std::vector<Key<Eigen::Vector3f>>& keys, float
   });
 }
 
-float& x_of(Eigen::Vector3f& position) {
-  return position.x();
+auto from_above(Eigen::Vector3f& position) {
+  return position.head<2>();
 }
-float& y_of(Eigen::Vector3f& position) {
-  return position.y();
-}
-float& x_of(Vec2& position) {
-  return position.x;
-}
-float& y_of(Vec2& position) {
-  return position.y;
+auto from_above(Vec2& position) {
+  return Eigen::Map<Eigen::Vector2f>(&position.x);
 }
 
 /// The middle of their box, seen from above.
 template <class Position>
 void put_middle_at_origin(std::vector<Position>& positions) {
   Eigen::AlignedBox2f box;
-  for (Position& position : positions) box.extend(Eigen::Vector2f(x_of(position), y_of(position)));
+  for (Position& position : positions) box.extend(from_above(position));
   const Eigen::Vector2f middle = box.center();
-  for (Position& position : positions) {
-    x_of(position) -= middle.x();
-    y_of(position) -= middle.y();
-  }
+  for (Position& position : positions) from_above(position) -= middle;
 }
 
 }  // namespace

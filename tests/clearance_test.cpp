@@ -39,20 +39,8 @@ class ClearanceDifferential : public test::Differential {
 
   ClearanceReference reference{shapes, four_levels};
 
-  Answers expected(const PairScene& scene, double max_distance, Method method) {
-    Answers all;
-    for (const Pair pair : scene.pairs) {
-      const auto [distance, direction, first, second] =
-          reference.query(scene.crowd.agents(), pair, max_distance, method);
-      all.distance.push_back(distance);
-      all.direction.push_back(direction);
-      all.nodes.push_back({first, second});
-    }
-    return all;
-  }
-
   void expect_equal_to_brute_force(const PairScene& scene, double max_distance, const std::string& what) {
-    const Answers brute_force = expected(scene, max_distance, Method::brute_force);
+    const Answers brute_force = answers(reference, scene, max_distance, Method::brute_force);
     for (const auto& implementation : kernel::implementations()) {
       if (!implementation.supported()) continue;
       const Answers of = answers(set, scene.crowd.agents(), scene.pairs, max_distance, &implementation);
@@ -127,8 +115,8 @@ TEST_F(ClearanceDifferential, OfEqualGapsTheFirstCounts) {
 TEST_F(ClearanceDifferential, TheReferencesAgree) {
   const PairScene scene = tangent_scene(10'000);
   for (const double max_distance : {infinity, 0.1}) {
-    const Answers slow = expected(scene, max_distance, Method::brute_force),
-                  fast = expected(scene, max_distance, Method::depth_first);
+    const Answers slow = answers(reference, scene, max_distance, Method::brute_force),
+                  fast = answers(reference, scene, max_distance, Method::depth_first);
     for (std::size_t i = 0; i < scene.pairs.size(); ++i) ASSERT_TRUE(fast.same(i, slow, i)) << i;
   }
 }

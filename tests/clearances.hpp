@@ -8,7 +8,9 @@
 #include <span>
 #include <vector>
 
+#include "baselines/clearance_reference.hpp"
 #include "kernel/clearance.hpp"
+#include "tests/scenes.hpp"
 
 namespace bch::test {
 
@@ -33,6 +35,20 @@ inline Answers answers(const ShapeSet& set, const Agents& agents, std::span<cons
                        double max_distance, const kernel::Implementation* implementation = nullptr) {
   Answers all(pairs.size());
   clearance(set, agents, pairs, all.spans(), {max_distance, implementation});
+  return all;
+}
+
+/// The same by the scalar reference.
+inline Answers answers(baselines::ClearanceReference& reference, const PairScene& scene, double max_distance,
+                       baselines::Method method) {
+  Answers all;
+  for (const Pair pair : scene.pairs) {
+    const auto [distance, direction, first, second] =
+        reference.query(scene.crowd.agents(), pair, max_distance, method);
+    all.distance.push_back(distance);
+    all.direction.push_back(direction);
+    all.nodes.push_back({first, second});
+  }
   return all;
 }
 

@@ -57,19 +57,6 @@ std::uint32_t levels(const WideTree& tree, std::uint32_t node) {
   return below + 1;
 }
 
-test::Answers brute_force_clearances(baselines::ClearanceReference& reference, const test::PairScene& scene,
-                                     double most) {
-  test::Answers all;
-  for (const Pair pair : scene.pairs) {
-    const auto [distance, direction, first, second] =
-        reference.query(scene.crowd.agents(), pair, most, Method::brute_force);
-    all.distance.push_back(distance);
-    all.direction.push_back(direction);
-    all.nodes.push_back({first, second});
-  }
-  return all;
-}
-
 class DeepTrees : public testing::Test {
  protected:
   DeepTrees() {
@@ -133,7 +120,7 @@ TEST_F(DeepTrees, CollideAndContacts) {
 TEST_F(DeepTrees, Clearance) {
   baselines::ClearanceReference reference(shapes, {});
   for (const double most : {0.05, 1e9}) {
-    const test::Answers expected = brute_force_clearances(reference, scene, most);
+    const test::Answers expected = test::answers(reference, scene, most, Method::brute_force);
     on_every_implementation([&](const kernel::Implementation& each) {
       const test::Answers of = test::answers(*set, agents(), scene.pairs, most, &each);
       for (std::size_t i = 0; i < scene.pairs.size(); ++i)
@@ -157,7 +144,7 @@ TEST_F(DeepTrees, ClearanceOfMoreOpenStepsThanAreListed) {
     return all;
   }();
   baselines::ClearanceReference reference({&thistle, 1}, {});
-  const test::Answers expected = brute_force_clearances(reference, together, 1e9);
+  const test::Answers expected = test::answers(reference, together, 1e9, Method::brute_force);
   on_every_implementation([&](const kernel::Implementation& each) {
     const test::Answers of = test::answers(thistles, together.crowd.agents(), together.pairs, 1e9, &each);
     for (std::size_t i = 0; i < together.pairs.size(); ++i)

@@ -16,6 +16,7 @@
 #include "layout/wide_tree.hpp"
 #include "tests/allocation_count.hpp"
 #include "tests/character_shapes.hpp"
+#include "tests/complaint.hpp"
 #include "tests/hierarchy_checks.hpp"
 #include "tests/reference_hierarchy.hpp"
 #include "tests/scenes.hpp"
@@ -201,14 +202,9 @@ TEST(Flattener, EqualsAFreshOne) {
 
 /// A number just beyond a limit must not read as the limit.
 TEST(HierarchyBuilder, NumbersInMessagesAreWhatTheyAre) {
-  const auto reason = [](float size, float threshold) -> std::string {
+  const auto reason = [](float size, float threshold) {
     const Outline outline{{{0, 0}, {size, 0}, {0, size}}, {0, 3}, 0x1p-40f};
-    try {
-      contour_hierarchy(outline, threshold);
-    } catch (const std::invalid_argument& error) {
-      return error.what();
-    }
-    return "accepted";
+    return test::complaint([&] { contour_hierarchy(outline, threshold); });
   };
   EXPECT_EQ(reason(1, 0.01f), "accepted");
   EXPECT_EQ(reason(1, -1e-9f), "hierarchy: threshold -1e-09 m is not positive and finite");

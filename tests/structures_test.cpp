@@ -14,6 +14,7 @@
 #include "layout/union_outline.hpp"
 #include "tests/baseline_scene.hpp"
 #include "tests/brute_force.hpp"
+#include "tests/complaint.hpp"
 
 // The interface all structures share: names, counts, order, bad input; and solids that touch exactly.
 
@@ -24,6 +25,7 @@ using baselines::Body;
 using baselines::Kind;
 using baselines::TestCounts;
 using baselines::Truth;
+using test::complaint;
 using Triangles = std::vector<std::array<std::uint32_t, 3>>;
 
 const Triangles block_triangles = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4},
@@ -165,16 +167,6 @@ TEST(Kinds, TakeDegenerateTriangles) {
           << one.kind->name << ", case " << i << ": " << a << " and " << b;
     }
   }
-}
-
-template <class Call>
-std::string complaint(Call call) {
-  try {
-    call();
-  } catch (const std::invalid_argument& error) {
-    return error.what();
-  }
-  return "accepted";
 }
 
 TEST(BadInput, BodiesAreNamedWithWhatIsWrong) {
