@@ -60,6 +60,10 @@ bool check_avx2(const Arguments& arguments, std::size_t begin, std::size_t end) 
   return AgentCheck<Avx2Lanes>::passes(arguments, begin, end);
 }
 
+AgentRange named_avx2(const Pair* pairs, std::size_t begin, std::size_t end) noexcept {
+  return AgentCheck<Avx2Lanes>::named(pairs, begin, end);
+}
+
 void run_avx2(const Arguments& arguments, std::size_t begin, std::size_t end) noexcept {
   PairKernel<Avx2Lanes>::run(arguments, begin, end);
 }

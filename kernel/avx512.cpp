@@ -73,6 +73,10 @@ bool check_avx512(const Arguments& arguments, std::size_t begin, std::size_t end
   return AgentCheck<Avx512Lanes>::passes(arguments, begin, end);
 }
 
+AgentRange named_avx512(const Pair* pairs, std::size_t begin, std::size_t end) noexcept {
+  return AgentCheck<Avx512Lanes>::named(pairs, begin, end);
+}
+
 void run_avx512(const Arguments& arguments, std::size_t begin, std::size_t end) noexcept {
   PairKernel<Avx512Lanes>::run(arguments, begin, end);
 }

@@ -11,6 +11,7 @@
 namespace bch {
 struct Contact;
 struct CutDiscs;
+struct Pair;
 }  // namespace bch
 
 namespace bch::kernel {
@@ -19,6 +20,11 @@ struct Arguments;
 struct ClearanceArguments;
 struct ContactTimeArguments;
 
+/// The lowest agent of some, and the highest. Of none, the lowest is above the highest.
+struct AgentRange {
+  std::uint32_t low, high;
+};
+
 /// One compilation of the kernels.
 struct Implementation {
   const char* name;  ///< "avx512", "avx2", "sse2" or "scalar"
@@ -26,6 +32,8 @@ struct Implementation {
   bool (*supported)() noexcept;
   /// Whether agents begin .. end are valid, as collide() asks of them.
   bool (*check)(const Arguments& arguments, std::size_t begin, std::size_t end) noexcept;
+  /// Those that pairs begin .. end name.
+  AgentRange (*named)(const Pair* pairs, std::size_t begin, std::size_t end) noexcept;
   /// Writes the codes of pairs begin .. end; see Arguments. Needs 256 KiB of stack and no other memory.
   void (*run)(const Arguments& arguments, std::size_t begin, std::size_t end) noexcept;
   /// How many contacts each of pairs begin .. end has, to counts[begin] .. counts[end].

@@ -4,7 +4,6 @@
 #include "kernel/pair_validation.hpp"
 
 #include <algorithm>
-#include <limits>
 #include <stdexcept>
 #include <string>
 
@@ -42,20 +41,6 @@ std::size_t first_bad_agent(const Implementation& implementation, const Argument
       agents.size(),
       [&](std::size_t begin, std::size_t end) { return implementation.check(arguments, begin, end); },
       [&](std::size_t i) { return !is_valid(*arguments.shapes, agents, i); });
-}
-
-/// The lowest and the highest agent that pairs name.
-struct NamedAgents {
-  std::uint32_t low = std::numeric_limits<std::uint32_t>::max(), high = 0;
-};
-
-NamedAgents named_agents(std::span<const Pair> pairs) {
-  NamedAgents named;
-  for (const auto [a, b] : pairs) {
-    named.low = std::min(named.low, std::min(a, b));
-    named.high = std::max(named.high, std::max(a, b));
-  }
-  return named;
 }
 
 [[noreturn]] void reject_pair(const ShapeSetView& shapes, const Agents& agents, std::span<const Pair> pairs,
@@ -110,7 +95,7 @@ void require_valid(const Implementation& implementation, const ShapeSetView& sha
   const std::size_t i = first_bad(
       pairs.size(),
       [&](std::size_t begin, std::size_t end) {
-        const auto [low, high] = named_agents(pairs.subspan(begin, end - begin));
+        const auto [low, high] = implementation.named(pairs.data(), begin, end);
         if (high >= agents.size()) return false;
         return all_agents_are_valid || (high - low < 2 * (end - begin) &&
                                         implementation.check(arguments, low, high + std::size_t{1}));

@@ -25,6 +25,10 @@ bool check_scalar(const Arguments& arguments, std::size_t begin, std::size_t end
   return AgentCheck<ScalarLanes>::passes(arguments, begin, end);
 }
 
+AgentRange named_scalar(const Pair* pairs, std::size_t begin, std::size_t end) noexcept {
+  return AgentCheck<ScalarLanes>::named(pairs, begin, end);
+}
+
 void run_scalar(const Arguments& arguments, std::size_t begin, std::size_t end) noexcept {
   PairKernel<ScalarLanes>::run(arguments, begin, end);
 }

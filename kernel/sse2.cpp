@@ -38,6 +38,10 @@ bool check_sse2(const Arguments& arguments, std::size_t begin, std::size_t end) 
   return AgentCheck<Sse2Lanes>::passes(arguments, begin, end);
 }
 
+AgentRange named_sse2(const Pair* pairs, std::size_t begin, std::size_t end) noexcept {
+  return AgentCheck<Sse2Lanes>::named(pairs, begin, end);
+}
+
 void run_sse2(const Arguments& arguments, std::size_t begin, std::size_t end) noexcept {
   PairKernel<Sse2Lanes>::run(arguments, begin, end);
 }
