@@ -12,6 +12,7 @@
 
 #include "bench/baking.hpp"
 #include "bench/micro.hpp"
+#include "layout/baked_checksum.hpp"
 #include "layout/baked_file.hpp"
 #include "layout/baked_format.hpp"
 #include "layout/baked_image.hpp"

@@ -8,6 +8,7 @@
 #include <type_traits>
 #include <utility>
 
+#include "layout/baked_checksum.hpp"
 #include "layout/baked_format.hpp"
 #include "layout/baked_validation.hpp"
 #include "layout/file_bytes.hpp"
@@ -39,11 +40,7 @@ class Reader {
     });
     if (offset != bytes_.size())
       reject(std::to_string(bytes_.size() - offset) + " bytes follow the last section");
-    try {
-      baked::validate(arrays);
-    } catch (const std::invalid_argument& error) {
-      reject(error.what());
-    }
+    check_content(arrays);
     return arrays;
   }
 
@@ -93,11 +90,34 @@ class Reader {
       reject(where + std::to_string(entry.count) + " elements do not fit into the file");
     const std::uint64_t size = entry.count * element_size, zeros = baked::zeros_after(size);
     if (zeros > room - size) reject(where + "the file ends before its zeros do");
-    const auto section = bytes_.subspan(offset, size + zeros);
-    if (entry.checksum != baked::checksum(section)) reject(where + "wrong checksum");
-    for (const std::byte byte : section.subspan(size))
+    const bool later = number == static_cast<std::uint32_t>(baked::Section::nodes);
+    if (!later && entry.checksum != baked::checksum(section(number))) reject(where + "wrong checksum");
+    for (const std::byte byte : section(number).subspan(size))
       if (byte != std::byte{0}) reject(where + "no zeros after it");
     return offset + size + zeros;
+  }
+
+  /// Nodes are most of a file: their checksum is taken while they are looked at. What is wrong with them may come from
+  /// damage, which is then what there is to say.
+  void check_content(const baked::Arrays& arrays) const {
+    const auto nodes = static_cast<std::uint32_t>(baked::Section::nodes);
+    baked::SectionChecksum checksum(section(nodes));
+    const auto require_checksum = [&] {
+      if (preamble_.entries[nodes].checksum != checksum.finish()) reject("section nodes: wrong checksum");
+    };
+    try {
+      baked::validate(arrays, [&](std::size_t place) { checksum.reach(place * sizeof(float)); });
+    } catch (const std::invalid_argument& error) {
+      require_checksum();
+      reject(error.what());
+    }
+    require_checksum();
+  }
+
+  /// With the zeros after it.
+  std::span<const std::byte> section(std::uint32_t number) const {
+    const std::uint64_t size = preamble_.entries[number].count * preamble_.entries[number].element_size;
+    return bytes_.subspan(preamble_.entries[number].offset, size + baked::zeros_after(size));
   }
 
   std::span<const std::byte> bytes_;

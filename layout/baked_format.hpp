@@ -151,12 +151,6 @@ void for_each_section(Arrays& arrays, Visit visit) {
   visit(Section::names, "names", arrays.names);
 }
 
-/// Of a file's first bytes.
-std::uint64_t checksum(Preamble preamble);
-std::uint64_t checksum(std::span<const std::byte> section_with_zeros);
-/// The same of bytes that are followed by `zeros` bytes of 0, fewer than `alignment`.
-std::uint64_t checksum(std::span<const std::byte> section, std::size_t zeros);
-
 /// How many zeros follow.
 constexpr std::size_t zeros_after(std::uint64_t size) {
   return static_cast<std::size_t>(-size % alignment);

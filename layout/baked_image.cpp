@@ -6,6 +6,7 @@
 #include <limits>
 #include <stdexcept>
 
+#include "layout/baked_checksum.hpp"
 #include "layout/baked_validation.hpp"
 
 namespace bch {

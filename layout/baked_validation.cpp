@@ -50,8 +50,8 @@ void require_origins(std::span<const ShapeOrigin> origins, std::size_t shapes, s
 
 }  // namespace
 
-void validate(const Arrays& arrays) {
-  bch::validate(arrays.shapes);
+void validate(const Arrays& arrays, const std::function<void(std::size_t)>& before_nodes) {
+  bch::validate(arrays.shapes, before_nodes);
   require_settings(arrays.settings);
   require_origins(arrays.origins, arrays.shapes.shape_count(),
                   require_names(arrays.name_begin, arrays.names.size()));

@@ -283,14 +283,17 @@ void require_outlines(const ShapeArrays& a) {
 
 }  // namespace
 
-void validate(const ShapeArrays& arrays) {
+void validate(const ShapeArrays& arrays, const std::function<void(std::size_t)>& before_nodes) {
   require_alignment(arrays.depths, arrays.roots, arrays.trees, arrays.nodes, arrays.reach, arrays.support,
                     arrays.inscribed, arrays.extremes, arrays.profiles, arrays.shape_contours,
                     arrays.contours, arrays.points);
   require_sizes(arrays);
   require_roots(arrays);
   std::uint64_t end = 0;
-  for (std::size_t root = 0; root < arrays.trees.size(); ++root) end = check_tree(arrays, root, end);
+  for (std::size_t root = 0; root < arrays.trees.size(); ++root) {
+    if (before_nodes) before_nodes(arrays.trees[root].top & ~leaf_window);
+    end = check_tree(arrays, root, end);
+  }
   require_shortcuts(arrays);
   require_outlines(arrays);
 }

@@ -3,6 +3,7 @@
 
 #include "tests/baked_bytes.hpp"
 
+#include "layout/baked_checksum.hpp"
 #include "layout/baked_image.hpp"
 #include "tests/scenes.hpp"
 

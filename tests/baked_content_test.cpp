@@ -142,6 +142,18 @@ TEST(BakedContent, IsCheckedBeyondChecksums) {
   }
 }
 
+/// Whatever it made of the content.
+TEST(BakedContent, DamageIsCalledDamage) {
+  const std::vector<Crime> all = crimes();
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    BakedBytes bytes = sound_bytes();
+    all[i].commit(bytes);
+    const std::string error = bytes.error();
+    EXPECT_TRUE(error.starts_with("file: section ") && error.ends_with(": wrong checksum"))
+        << i << ": " << error;
+  }
+}
+
 TEST(BakedContent, TestsATreeOfSeveralBlocks) {
   BakedBytes bytes = sound_bytes();
   ASSERT_LT(bytes.section<Tree>(Section::trees)[deep_root].top, leaf_window);

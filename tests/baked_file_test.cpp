@@ -7,12 +7,14 @@
 
 #include <cstring>
 #include <filesystem>
+#include <limits>
 
 #include "kernel/clearance.hpp"
 #include "kernel/collide.hpp"
 #include "kernel/contact_time.hpp"
 #include "kernel/contacts.hpp"
 #include "kernel/separation.hpp"
+#include "layout/baked_checksum.hpp"
 #include "layout/baked_image.hpp"
 #include "tests/baked_bytes.hpp"
 #include "tests/scenes.hpp"
@@ -254,6 +256,30 @@ TEST_F(SpoiledFile, ZerosThatAreNone) {
   bytes[names.offset + names.count] = std::byte{1};
   bytes.seal();
   expect_error("section names: no zeros");
+}
+
+/// However many pieces it is taken in, and wherever they end.
+TEST(SectionChecksum, IsThatOfTheWhole) {
+  constexpr std::size_t piece = std::size_t{128} << 10;
+  Random random(75);
+  for (const std::size_t size :
+       {std::size_t{0}, std::size_t{64}, piece - 64, piece, piece + 64, 5 * piece + 192}) {
+    std::vector<std::byte> section(size);
+    for (std::byte& byte : section) byte = static_cast<std::byte>(random.below(256));
+    const std::uint64_t whole = baked::checksum(section);
+    EXPECT_EQ(baked::SectionChecksum(section).finish(), whole) << size;
+    for (int i = 0; i < 20; ++i) {
+      baked::SectionChecksum pieces(section);
+      for (int step = 0; step < 5; ++step)
+        pieces.reach(random.below(static_cast<std::uint32_t>(size) + 1000));
+      EXPECT_EQ(pieces.finish(), whole) << size;
+    }
+    baked::SectionChecksum beyond(section);
+    beyond.reach(std::numeric_limits<std::size_t>::max());
+    EXPECT_EQ(beyond.finish(), whole) << size;
+    section.resize(size + 8);
+    EXPECT_EQ(baked::checksum(std::span(section).first(size), 8), baked::checksum(section)) << size;
+  }
 }
 
 TEST(BakedFile, FilesThatAreNone) {

@@ -89,7 +89,7 @@ TEST(Layers, LibrariesStayInTheirRooms) {
   expect_no_include("layout", "polyclipping/");
   expect_no_include("layout", "xsimd/", "^(cut|disc|interior)_lanes");
   expect_no_include("layout", "oneapi/tbb|tbb/");
-  expect_no_include("layout", "xxhash", "^baked_format");
+  expect_no_include("layout", "xxhash", "^baked_checksum");
   expect_no_include("kernel", "assimp/|Eigen/|polyclipping/");
   expect_no_include("kernel", "xsimd/", "^lanes");
   expect_no_include("baselines", "assimp/|xsimd/|oneapi/tbb|tbb/");

@@ -12,6 +12,7 @@
 #include "kernel/contacts.hpp"
 #include "kernel/separation.hpp"
 #include "layout/aligned_vector.hpp"
+#include "layout/baked_checksum.hpp"
 #include "layout/baked_file.hpp"
 #include "layout/baked_format.hpp"
 #include "tests/fuzz/target.hpp"
