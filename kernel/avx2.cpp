@@ -37,8 +37,11 @@ struct Avx2Lanes : Lanes<xsimd::avx2> {
     field[2] = _mm256_castpd_ps(_mm256_unpacklo_pd(high01, high23));
     field[3] = _mm256_castpd_ps(_mm256_unpackhi_pd(high01, high23));
   }
-  static void store_rounded(float* p, Double v) noexcept {
-    _mm_storeu_ps(p, _mm256_cvtpd_ps(v));
+  static Double gather(const double* p, const std::uint32_t* index) noexcept {
+    return _mm256_setr_pd(p[index[0]], p[index[1]], p[index[2]], p[index[3]]);
+  }
+  static Float rounded(const Double (&v)[2]) noexcept {
+    return _mm256_set_m128(_mm256_cvtpd_ps(v[1]), _mm256_cvtpd_ps(v[0]));
   }
   static std::uint32_t bits(xsimd::batch_bool<float, xsimd::avx2> hits) noexcept {
     return static_cast<std::uint32_t>(_mm256_movemask_ps(hits));

@@ -52,8 +52,14 @@ struct Avx512Lanes : Lanes<xsimd::avx512f> {
     field[2] = _mm512_castpd_ps(_mm512_unpacklo_pd(high01, high23));
     field[3] = _mm512_castpd_ps(_mm512_unpackhi_pd(high01, high23));
   }
-  static void store_rounded(float* p, Double v) noexcept {
-    _mm256_storeu_ps(p, _mm512_cvtpd_ps(v));
+  static Double gather(const double* p, const std::uint32_t* index) noexcept {
+    const auto at = [=](std::size_t i) { return p[index[i]]; };
+    return _mm512_setr_pd(at(0), at(1), at(2), at(3), at(4), at(5), at(6), at(7));
+  }
+  static Float rounded(const Double (&v)[2]) noexcept {
+    return _mm512_castpd_ps(
+        _mm512_insertf64x4(_mm512_castps_pd(_mm512_castps256_ps512(_mm512_cvtpd_ps(v[0]))),
+                           _mm256_castps_pd(_mm512_cvtpd_ps(v[1])), 1));
   }
   static std::uint32_t bits(xsimd::batch_bool<float, xsimd::avx512f> hits) noexcept {
     return hits.data;

@@ -19,9 +19,10 @@ constexpr std::uint64_t counts_of_set = 0x4332'3221'3221'2110;
 /// What the pair kernel needs of an instruction set beyond arithmetic. Eight is the width of a block: `row`
 /// gives part of an outer product's left side (disc i, or discs i and i + 1 where two rows fit), `columns`
 /// the matching right side. Each instruction set's file adds what xsimd 8.1 has no name for: bits() of a mask,
-/// least() of a register's lanes, store_rounded() of doubles as floats, load_records(), which picks records of four
-/// floats from a table and gives field after field, lane = record, and rough_root(), for bounds: it is off by less than
-/// 3/4 of `rough`, relatively, for normal numbers, in other ways on every processor.
+/// least() of a register's lanes, gather() of doubles by index, without a way through memory, rounded() of as many
+/// doubles as there are floats in a register, load_records(), which picks records of four floats from a table and gives
+/// field after field, lane = record, and rough_root(), for bounds: it is off by less than 3/4 of `rough`, relatively, for
+/// normal numbers, in other ways on every processor.
 template <class Arch>
 struct Lanes {
   using Float = xsimd::batch<float, Arch>;
@@ -30,9 +31,7 @@ struct Lanes {
   static constexpr unsigned width = Float::size;
 
   static Float load(const float* p) noexcept { return Float::load_unaligned(p); }
-  static Double load(const double* p) noexcept { return Double::load_unaligned(p); }
   static void store(float* p, Float v) noexcept { v.store_unaligned(p); }
-  static void store(double* p, Double v) noexcept { v.store_unaligned(p); }
   static Float select(Mask mask, Float yes, Float no) noexcept { return xsimd::select(mask, yes, no); }
   /// first + i for every set bit i, in order; a register's lanes of numbers may be written.
   /// Returns: how many.
@@ -74,9 +73,7 @@ struct Lanes<Scalar> {
     __builtin_memcpy(&value, p, sizeof value);
     return value;
   }
-  static Double load(const double* p) noexcept { return *p; }
   static void store(float* p, Float v) noexcept { __builtin_memcpy(p, &v, sizeof v); }
-  static void store(double* p, Double v) noexcept { *p = v; }
   static Float select(Mask mask, Float yes, Float no) noexcept { return mask ? yes : no; }
   static void load_records(const float* table, const std::uint32_t* index, Float (&field)[4]) noexcept {
     for (std::size_t i = 0; i < 4; ++i) field[i] = load(table + std::size_t{4} * *index + i);

@@ -25,12 +25,9 @@ class Placements {
   /// Places `size` pairs from `begin` on, at most a chunk.
   void place(const Arguments& in, std::size_t begin, std::uint32_t count) noexcept {
     size = count;
-    in.prefetch_agents ? gather<true>(in, begin) : gather<false>(in, begin);
-    find_roots(in, begin);
-    repeat_last();
-    rotate(heading_, cosine_, sine_);
-    rotate(heading_ + chunk, cosine_ + chunk, sine_ + chunk);
-    turn();
+    name_agents(in.pairs + begin);
+    in.prefetch_agents ? find_roots<true>(in) : find_roots<false>(in);
+    turn(in);
   }
 
   Transform transform(std::uint32_t pair) const noexcept { return {c[pair], s[pair], tx[pair], ty[pair]}; }
@@ -56,76 +53,68 @@ class Placements {
   using Float = typename Simd::Float;
   using Double = typename Simd::Double;
   static constexpr std::uint32_t doubles = sizeof(Double) / sizeof(double);  ///< a register
+  static constexpr std::uint32_t parts = Simd::width / doubles;  ///< registers of them for one of floats
 
-  /// Scalar: what the chunk's pairs need, side by side.
-  template <bool prefetch>
-  void gather(const Arguments& in, std::size_t begin) noexcept {
-    // What this writes might be these pointers, for all the compiler knows of `in`.
-    const Pair* const pairs = in.pairs + begin;
-    const std::uint32_t* const shape = in.agent_shape;
-    const double *const x = in.agent_x, *const y = in.agent_y, *const heading = in.agent_heading;
+  /// The lower index is A, so that the order within a pair does not matter.
+  void name_agents(const Pair* pairs) noexcept {
     const std::uint32_t count = size;
+    for (std::uint32_t k = 0; k < count; ++k) {
+      const auto [first, second] = pairs[k];
+      a_[k] = second < first ? second : first;
+      b_[k] = second < first ? first : second;
+    }
+    for (std::uint32_t k = count; k < whole_paddings(); ++k) a_[k] = a_[count - 1], b_[k] = b_[count - 1];
+  }
+
+  std::uint32_t whole_paddings() const noexcept { return (size + padding - 1) / padding * padding; }
+
+  /// `prefetch`: also asks for all that turn() needs of agents.
+  template <bool prefetch>
+  void find_roots(const Arguments& in) noexcept {
+    // What this writes might be these pointers, for all the compiler knows of `in`.
+    const std::uint32_t* const shape = in.agent_shape;
+    const std::uint8_t* const level = in.agent_level;
+    const std::uint32_t levels = in.shapes->level_count, count = whole_paddings();
     for (std::uint32_t k = 0; k < count; ++k) {
       // Not a function of its own: GCC 12 drops the call of one that only prefetches.
       if (prefetch && k + pairs_ahead < count) {
-        const Pair next = pairs[k + pairs_ahead];
-        const std::uint32_t both[] = {next.first, next.second};
-        for (const std::uint32_t i : both) {
-          __builtin_prefetch(shape + i);
-          __builtin_prefetch(x + i);
-          __builtin_prefetch(y + i);
-          __builtin_prefetch(heading + i);
-          if (in.agent_level) __builtin_prefetch(in.agent_level + i);
+        const std::uint32_t both[] = {a_[k + pairs_ahead], b_[k + pairs_ahead]};
+        for (const std::uint32_t agent : both) {
+          __builtin_prefetch(shape + agent);
+          __builtin_prefetch(in.agent_x + agent);
+          __builtin_prefetch(in.agent_y + agent);
+          __builtin_prefetch(in.agent_heading + agent);
+          if (level != nullptr) __builtin_prefetch(level + agent);
         }
       }
-      const auto [a, b] = ordered(pairs[k]);
-      shape_a[k] = shape[a];
-      shape_b[k] = shape[b];
-      dx_[k] = x[b] - x[a];
-      dy_[k] = y[b] - y[a];
-      heading_[k] = heading[a];
-      heading_[chunk + k] = heading[b];
+      shape_a[k] = shape[a_[k]];
+      shape_b[k] = shape[b_[k]];
     }
-  }
-
-  /// The lower index is A, so that the order within a pair does not matter.
-  static Pair ordered(Pair pair) noexcept {
-    const bool swap = pair.second < pair.first;
-    return {swap ? pair.second : pair.first, swap ? pair.first : pair.second};
-  }
-
-  void find_roots(const Arguments& in, std::size_t begin) noexcept {
-    const std::uint32_t levels = in.shapes->level_count, count = size;
     for (std::uint32_t k = 0; k < count; ++k) {
       root_a[k] = shape_a[k] * levels + levels - 1;
       root_b[k] = shape_b[k] * levels + levels - 1;
     }
-    if (!in.agent_level) return;
+    if (level == nullptr) return;
     for (std::uint32_t k = 0; k < count; ++k) {
-      const auto [a, b] = ordered(in.pairs[begin + k]);
-      root_a[k] -= levels - 1 - in.agent_level[a];
-      root_b[k] -= levels - 1 - in.agent_level[b];
+      root_a[k] -= levels - 1 - level[a_[k]];
+      root_b[k] -= levels - 1 - level[b_[k]];
     }
   }
 
-  void repeat_last() noexcept {
-    for (std::uint32_t k = size; k % padding != 0; ++k) {
-      shape_a[k] = shape_a[size - 1], shape_b[k] = shape_b[size - 1];
-      root_a[k] = root_a[size - 1], root_b[k] = root_b[size - 1];
-      dx_[k] = dx_[size - 1], dy_[k] = dy_[size - 1];
-      heading_[k] = heading_[size - 1], heading_[chunk + k] = heading_[chunk + size - 1];
-    }
-  }
+  struct UnitVectors {
+    Float cosine, sine;
+  };
 
   /// layout/heading.cpp, in lanes.
-  void rotate(const double* heading, float* cosine, float* sine) const noexcept {
+  static UnitVectors unit_vectors(const double* heading, const std::uint32_t* agent) noexcept {
     namespace h = heading_constants;
-    alignas(64) float quarter[chunk];
     const auto round_to_integer = [](Double x) {
       return (x + Double(h::round_to_integer)) - Double(h::round_to_integer);
     };
-    for (std::uint32_t k = 0; k < whole_registers(); k += doubles) {
-      const Double angle = Simd::load(heading + k);
+    Double all_sines[parts], all_cosines[parts], left_quarters[parts];
+#pragma GCC unroll 2
+    for (std::uint32_t part = 0; part < parts; ++part) {
+      const Double angle = Simd::gather(heading, agent + part * doubles);
       const Double quarters = round_to_integer(angle * Double(h::two_over_pi));
       Double r = angle - quarters * Double(h::half_pi[0]);
       r = r - quarters * Double(h::half_pi[1]);
@@ -135,29 +124,33 @@ class Placements {
       Double sines(h::sine[0]), cosines(h::cosine[0]);
       for (int i = 1; i < 5; ++i)
         sines = sines * square + Double(h::sine[i]), cosines = cosines * square + Double(h::cosine[i]);
-      Simd::store_rounded(sine + k, sines * square * r + r);
-      Simd::store_rounded(cosine + k, cosines * square + Double(1.0));
-      Simd::store_rounded(quarter + k, quarters - Double(4.0) * round_to_integer(quarters * Double(0.25)));
+      all_sines[part] = sines * square * r + r;
+      all_cosines[part] = cosines * square + Double(1.0);
+      left_quarters[part] = quarters - Double(4.0) * round_to_integer(quarters * Double(0.25));
     }
     // The quarters that remain turn by 0 and +-1: rounded before or after, that is the same.
-    for (std::uint32_t k = 0; k < size; k += Simd::width) {
-      const Float ck = Simd::load(cosine + k), sk = Simd::load(sine + k), left = Simd::load(quarter + k);
-      const Float turn_c = Float(1.0f) - xsimd::abs(left), turn_s = left * (Float(2.0f) - xsimd::abs(left));
-      Simd::store(cosine + k, ck * turn_c - sk * turn_s);
-      Simd::store(sine + k, sk * turn_c + ck * turn_s);
-    }
+    const Float c = Simd::rounded(all_cosines), s = Simd::rounded(all_sines),
+                left = Simd::rounded(left_quarters);
+    const Float turn_c = Float(1.0f) - xsimd::abs(left), turn_s = left * (Float(2.0f) - xsimd::abs(left));
+    return {c * turn_c - s * turn_s, s * turn_c + c * turn_s};
+  }
+
+  /// From A to B, of one coordinate.
+  static Float distance(const double* x, const std::uint32_t* a, const std::uint32_t* b) noexcept {
+    Double between[parts];
+#pragma GCC unroll 2
+    for (std::uint32_t part = 0; part < parts; ++part)
+      between[part] = Simd::gather(x, b + part * doubles) - Simd::gather(x, a + part * doubles);
+    return Simd::rounded(between);
   }
 
   /// B's rotation and position in A's frame.
-  void turn() noexcept {
-    for (std::uint32_t k = 0; k < whole_registers(); k += doubles) {
-      Simd::store_rounded(tx + k, Simd::load(dx_ + k));
-      Simd::store_rounded(ty + k, Simd::load(dy_ + k));
-    }
+  void turn(const Arguments& in) noexcept {
     for (std::uint32_t k = 0; k < size; k += Simd::width) {
-      const Float ca = Simd::load(cosine_ + k), sa = Simd::load(sine_ + k);
-      const Float cb = Simd::load(cosine_ + chunk + k), sb = Simd::load(sine_ + chunk + k);
-      const Float dx = Simd::load(tx + k), dy = Simd::load(ty + k);
+      const auto [ca, sa] = unit_vectors(in.agent_heading, a_ + k);
+      const auto [cb, sb] = unit_vectors(in.agent_heading, b_ + k);
+      const Float dx = distance(in.agent_x, a_ + k, b_ + k), dy = distance(in.agent_y, a_ + k, b_ + k);
+      Simd::store(cosine_ + k, ca), Simd::store(sine_ + k, sa);
       Simd::store(c + k, ca * cb + sa * sb);
       Simd::store(s + k, ca * sb - sa * cb);
       Simd::store(tx + k, ca * dx + sa * dy);
@@ -165,8 +158,8 @@ class Placements {
     }
   }
 
-  alignas(64) double heading_[2 * chunk], dx_[chunk], dy_[chunk];
-  alignas(64) float cosine_[2 * chunk], sine_[2 * chunk];
+  alignas(64) std::uint32_t a_[chunk], b_[chunk];  ///< agents, padded as above
+  alignas(64) float cosine_[chunk], sine_[chunk];
 };
 
 }  // namespace bch::kernel

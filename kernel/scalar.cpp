@@ -12,7 +12,8 @@ namespace bch::kernel {
 namespace {
 
 struct ScalarLanes : Lanes<Scalar> {
-  static void store_rounded(float* p, double v) noexcept { *p = static_cast<float>(v); }
+  static double gather(const double* p, const std::uint32_t* index) noexcept { return p[*index]; }
+  static float rounded(const double (&v)[1]) noexcept { return static_cast<float>(v[0]); }
   static std::uint32_t bits(bool hit) noexcept { return hit; }
   static float least(float values) noexcept { return values; }
   static constexpr float rough = 0;

@@ -18,8 +18,11 @@ struct Sse2Lanes : Lanes<xsimd::sse2> {
     _MM_TRANSPOSE4_PS(r0, r1, r2, r3);
     field[0] = r0, field[1] = r1, field[2] = r2, field[3] = r3;
   }
-  static void store_rounded(float* p, Double v) noexcept {
-    _mm_storel_epi64(reinterpret_cast<__m128i*>(p), _mm_castps_si128(_mm_cvtpd_ps(v)));
+  static Double gather(const double* p, const std::uint32_t* index) noexcept {
+    return _mm_setr_pd(p[index[0]], p[index[1]]);
+  }
+  static Float rounded(const Double (&v)[2]) noexcept {
+    return _mm_movelh_ps(_mm_cvtpd_ps(v[0]), _mm_cvtpd_ps(v[1]));
   }
   static std::uint32_t bits(xsimd::batch_bool<float, xsimd::sse2> hits) noexcept {
     return static_cast<std::uint32_t>(_mm_movemask_ps(hits));
