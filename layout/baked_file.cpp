@@ -90,6 +90,7 @@ class Reader {
       reject(where + std::to_string(entry.count) + " elements do not fit into the file");
     const std::uint64_t size = entry.count * element_size, zeros = baked::zeros_after(size);
     if (zeros > room - size) reject(where + "the file ends before its zeros do");
+    // Nodes' checksum is check_content()'s.
     const bool later = number == static_cast<std::uint32_t>(baked::Section::nodes);
     if (!later && entry.checksum != baked::checksum(section(number))) reject(where + "wrong checksum");
     for (const std::byte byte : section(number).subspan(size))
