@@ -20,7 +20,6 @@ template <class Simd>
 class Placements {
  public:
   static constexpr std::uint32_t chunk = 256;
-  static constexpr std::uint32_t padding = 16;  ///< lanes of the widest register
 
   /// Places `size` pairs from `begin` on, at most a chunk.
   void place(const Arguments& in, std::size_t begin, std::uint32_t count) noexcept {
@@ -42,7 +41,7 @@ class Placements {
 
   std::uint32_t size = 0;
 
-  // Up to the next multiple of the padding, lanes beyond the last pair repeat it.
+  // Up to whole_registers(), lanes beyond the last pair repeat it.
   alignas(64) float c[chunk], s[chunk], tx[chunk], ty[chunk];  ///< as in layout/rounding.hpp
   std::uint32_t shape_a[chunk], shape_b[chunk];
   std::uint32_t root_a[chunk], root_b[chunk];  ///< shape * level_count + level
@@ -63,10 +62,8 @@ class Placements {
       a_[k] = second < first ? second : first;
       b_[k] = second < first ? first : second;
     }
-    for (std::uint32_t k = count; k < whole_paddings(); ++k) a_[k] = a_[count - 1], b_[k] = b_[count - 1];
+    for (std::uint32_t k = count; k < whole_registers(); ++k) a_[k] = a_[count - 1], b_[k] = b_[count - 1];
   }
-
-  std::uint32_t whole_paddings() const noexcept { return (size + padding - 1) / padding * padding; }
 
   /// `prefetch`: also asks for all that turn() needs of agents.
   template <bool prefetch>
@@ -74,7 +71,7 @@ class Placements {
     // What this writes might be these pointers, for all the compiler knows of `in`.
     const std::uint32_t* const shape = in.agent_shape;
     const std::uint8_t* const level = in.agent_level;
-    const std::uint32_t levels = in.shapes->level_count, count = whole_paddings();
+    const std::uint32_t levels = in.shapes->level_count, count = whole_registers();
     for (std::uint32_t k = 0; k < count; ++k) {
       // Not a function of its own: GCC 12 drops the call of one that only prefetches.
       if (prefetch && k + pairs_ahead < count) {
