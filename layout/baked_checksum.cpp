@@ -25,34 +25,29 @@ std::uint64_t checksum(std::span<const std::byte> section_with_zeros) {
   return XXH3_64bits(section_with_zeros.data(), section_with_zeros.size());
 }
 
-std::uint64_t checksum(std::span<const std::byte> section, std::size_t zeros) {
-  return SectionChecksum(section).finish(zeros);
-}
-
 struct SectionChecksum::State {
   XXH3_state_t xxh3;
 };
 
 SectionChecksum::SectionChecksum(std::span<const std::byte> section)
-    : left_(section), state_(std::make_unique<State>()) {
+    : section_(section), state_(std::make_unique<State>()) {
   XXH3_64bits_reset(&state_->xxh3);
 }
 
 SectionChecksum::~SectionChecksum() = default;
 
 void SectionChecksum::take(std::size_t bytes) {
-  XXH3_64bits_update(&state_->xxh3, left_.data(), bytes);
-  left_ = left_.subspan(bytes);
+  XXH3_64bits_update(&state_->xxh3, section_.data() + taken_, bytes);
   taken_ += bytes;
 }
 
 void SectionChecksum::reach(std::size_t place) {
-  while (taken_ <= place && !left_.empty()) take(std::min(piece, left_.size()));
+  while (taken_ < section_.size() && taken_ <= place) take(std::min(piece, section_.size() - taken_));
 }
 
 std::uint64_t SectionChecksum::finish(std::size_t zeros) {
   constexpr std::byte zero[alignment] = {};
-  take(left_.size());
+  take(section_.size() - taken_);
   XXH3_64bits_update(&state_->xxh3, zero, zeros);
   return XXH3_64bits_digest(&state_->xxh3);
 }

@@ -15,8 +15,6 @@ namespace bch::baked {
 /// Of a file's first bytes.
 std::uint64_t checksum(Preamble preamble);
 std::uint64_t checksum(std::span<const std::byte> section_with_zeros);
-/// The same of bytes that are followed by `zeros` bytes of 0, fewer than `alignment`.
-std::uint64_t checksum(std::span<const std::byte> section, std::size_t zeros);
 
 /// A section's checksum, XXH3 of 64 bits, taken piece by piece: whoever looks at a piece next finds it in a near cache,
 /// and a large section is read from memory once.
@@ -36,7 +34,7 @@ class SectionChecksum {
 
   void take(std::size_t bytes);
 
-  std::span<const std::byte> left_;
+  std::span<const std::byte> section_;
   std::size_t taken_ = 0;  ///< bytes
   std::unique_ptr<State> state_;
 };

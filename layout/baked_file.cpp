@@ -92,8 +92,8 @@ class Reader {
     if (zeros > room - size) reject(where + "the file ends before its zeros do");
     // Nodes' checksum is check_content()'s.
     const bool later = number == static_cast<std::uint32_t>(baked::Section::nodes);
-    if (!later && entry.checksum != baked::checksum(section(number))) reject(where + "wrong checksum");
-    for (const std::byte byte : section(number).subspan(size))
+    if (!later && entry.checksum != baked::checksum(section(entry))) reject(where + "wrong checksum");
+    for (const std::byte byte : section(entry).subspan(size))
       if (byte != std::byte{0}) reject(where + "no zeros after it");
     return offset + size + zeros;
   }
@@ -101,24 +101,22 @@ class Reader {
   /// Nodes are most of a file: their checksum is taken while they are looked at. What is wrong with them may come from
   /// damage, which is then what there is to say.
   void check_content(const baked::Arrays& arrays) const {
-    const auto nodes = static_cast<std::uint32_t>(baked::Section::nodes);
+    const SectionEntry& nodes = preamble_.entries[static_cast<std::uint32_t>(baked::Section::nodes)];
     baked::SectionChecksum checksum(section(nodes));
-    const auto require_checksum = [&] {
-      if (preamble_.entries[nodes].checksum != checksum.finish()) reject("section nodes: wrong checksum");
-    };
+    std::string wrong;
     try {
       baked::validate(arrays, [&](std::size_t place) { checksum.reach(place * sizeof(float)); });
     } catch (const std::invalid_argument& error) {
-      require_checksum();
-      reject(error.what());
+      wrong = error.what();
     }
-    require_checksum();
+    if (nodes.checksum != checksum.finish()) reject("section nodes: wrong checksum");
+    if (!wrong.empty()) reject(wrong);
   }
 
   /// With the zeros after it.
-  std::span<const std::byte> section(std::uint32_t number) const {
-    const std::uint64_t size = preamble_.entries[number].count * preamble_.entries[number].element_size;
-    return bytes_.subspan(preamble_.entries[number].offset, size + baked::zeros_after(size));
+  std::span<const std::byte> section(const SectionEntry& entry) const {
+    const std::uint64_t size = entry.count * entry.element_size;
+    return bytes_.subspan(entry.offset, size + baked::zeros_after(size));
   }
 
   std::span<const std::byte> bytes_;

@@ -39,8 +39,9 @@ void BakedImage::lay_out() {
   std::uint64_t offset = add_part(&preamble_, sizeof preamble_);
   baked::for_each_section(arrays_, [&](baked::Section section, const char*, const auto& span) {
     const auto number = static_cast<std::uint32_t>(section);
-    preamble_.entries[number] = {number, sizeof span[0], offset, span.size(),
-                                 baked::checksum(std::as_bytes(span), baked::zeros_after(span.size_bytes()))};
+    preamble_.entries[number] = {
+        number, sizeof span[0], offset, span.size(),
+        baked::SectionChecksum(std::as_bytes(span)).finish(baked::zeros_after(span.size_bytes()))};
     offset += add_part(span.data(), span.size_bytes());
   });
   preamble_.header = {baked::magic, baked::byte_order, baked::version, offset, baked::section_count, {}, 0};
