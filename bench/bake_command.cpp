@@ -13,7 +13,6 @@
 #include "bench/options.hpp"
 #include "bench/output.hpp"
 #include "bench/threads.hpp"
-#include "layout/baked_image.hpp"
 
 namespace bch::cli {
 namespace {
@@ -25,13 +24,6 @@ struct BakeOptions {
   ShapeOptions shapes;
   AnswerOptions answer;
 };
-
-void write_image(const std::string& file, const BakedImage& image) {
-  std::vector<std::string_view> parts;
-  for (const auto part : image.parts())
-    parts.emplace_back(reinterpret_cast<const char*>(part.data()), part.size());
-  write_file(file, parts);
-}
 
 void run_bake(const BakeOptions& options) {
   if (!is_baked(options.output))
@@ -46,7 +38,7 @@ void run_bake(const BakeOptions& options) {
                                         : list_shapes(characters, options.shapes.poses);
   const BakedShapes baked{bake_shapes(characters, sources, options.shapes.threshold, plan),
                           origins_of(characters, sources, options.shapes.threshold)};
-  write_image(options.output, BakedImage(baked.set, baked.origins));
+  write_baked(options.output, baked);
   write_standard_output(text_of(options.output, baked));
 }
 

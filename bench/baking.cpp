@@ -7,10 +7,13 @@
 #include <oneapi/tbb/parallel_pipeline.h>
 #include <oneapi/tbb/task_arena.h>
 
+#include <string_view>
 #include <utility>
 #include <vector>
 
+#include "bench/output.hpp"
 #include "bench/progress.hpp"
+#include "layout/baked_image.hpp"
 #include "layout/shape_set_builder.hpp"
 
 namespace bch::cli {
@@ -75,6 +78,14 @@ ShapeOrigins origins_of(std::span<const LoadedCharacter> characters, std::span<c
         {name, at.clip == PoseTime::rest ? ShapeOrigin::rest_pose : name + 1 + at.clip, at.seconds});
   }
   return origins;
+}
+
+void write_baked(const std::string& file, const BakedShapes& baked) {
+  const BakedImage image(baked.set, baked.origins);
+  std::vector<std::string_view> parts;
+  for (const auto part : image.parts())
+    parts.emplace_back(reinterpret_cast<const char*>(part.data()), part.size());
+  write_file(file, parts);
 }
 
 }  // namespace bch::cli

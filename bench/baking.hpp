@@ -3,7 +3,10 @@
 
 #pragma once
 
+#include <string>
+
 #include "bench/shape_table.hpp"
+#include "layout/baked_file.hpp"
 #include "layout/shape_origins.hpp"
 #include "layout/shape_set.hpp"
 
@@ -18,5 +21,9 @@ ShapeSet bake_shapes(std::span<const LoadedCharacter> characters, std::span<cons
 /// What a baked file says about them. Characters go by their sources' file names.
 ShapeOrigins origins_of(std::span<const LoadedCharacter> characters, std::span<const ShapeSource> sources,
                         double threshold);
+
+/// As write_file().
+/// Errors:  as BakedImage and write_file() throw.
+void write_baked(const std::string& file, const BakedShapes& baked);
 
 }  // namespace bch::cli

@@ -6,16 +6,14 @@
 #include <unistd.h>
 
 #include <filesystem>
-#include <fstream>
 #include <stdexcept>
 #include <string>
+#include <system_error>
 
 #include "bench/baking.hpp"
 #include "bench/micro.hpp"
 #include "layout/baked_checksum.hpp"
 #include "layout/baked_file.hpp"
-#include "layout/baked_format.hpp"
-#include "layout/baked_image.hpp"
 #include "layout/file_bytes.hpp"
 #include "layout/shape_validation.hpp"
 
@@ -24,27 +22,30 @@ namespace {
 
 constexpr double threshold = 0.01;  ///< metres
 
-/// The scene's poses in a file that goes with this.
-class TemporaryBakedFile {
+/// A file of its own for each object, which goes with it.
+class TemporaryFile {
  public:
-  explicit TemporaryBakedFile(Scene& scene)
-      : path((std::filesystem::temp_directory_path() / "bch_XXXXXX").string()) {
+  TemporaryFile() : path((std::filesystem::temp_directory_path() / "bch_XXXXXX").string()) {
     const int descriptor = mkstemp(path.data());
     if (descriptor < 0) throw std::runtime_error(path + ": cannot be written");
     close(descriptor);
-    const ShapeSet set = cli::bake_shapes(scene.characters(), scene.sources(), threshold, {});
-    const BakedImage image(set, cli::origins_of(scene.characters(), scene.sources(), threshold));
-    std::ofstream file(path, std::ios::binary);
-    for (const auto part : image.parts())
-      file.write(reinterpret_cast<const char*>(part.data()), static_cast<std::streamsize>(part.size()));
-    if (!file.flush()) throw std::runtime_error(path + ": cannot be written");
   }
-  ~TemporaryBakedFile() { std::filesystem::remove(path); }
-  TemporaryBakedFile(const TemporaryBakedFile&) = delete;
-  TemporaryBakedFile& operator=(const TemporaryBakedFile&) = delete;
+  ~TemporaryFile() {
+    std::error_code ignored;
+    std::filesystem::remove(path, ignored);
+  }
+  TemporaryFile(const TemporaryFile&) = delete;
+  TemporaryFile& operator=(const TemporaryFile&) = delete;
 
   std::string path;
 };
+
+/// The scene's poses. Returns: the file.
+FileBytes bake(Scene& scene, const std::string& file) {
+  cli::write_baked(file, {cli::bake_shapes(scene.characters(), scene.sources(), threshold, {}),
+                          cli::origins_of(scene.characters(), scene.sources(), threshold)});
+  return map_file(file);
+}
 
 template <class Step>
 void time_step(benchmark::State& state, const FileBytes& file, std::size_t shapes, Step step) {
@@ -58,8 +59,8 @@ void time_step(benchmark::State& state, const FileBytes& file, std::size_t shape
 void register_load_benchmarks(Scene& scene) {
   struct Loaded {
     explicit Loaded(Scene& from)
-        : file(from), bytes(map_file(file.path)), baked(load_baked(bytes.bytes, file.path, bytes.memory)) {}
-    TemporaryBakedFile file;
+        : bytes(bake(from, file.path)), baked(load_baked(bytes.bytes, file.path, bytes.memory)) {}
+    TemporaryFile file;
     FileBytes bytes;
     BakedShapes baked;
   };
