@@ -48,19 +48,24 @@ bool has_numbers(const Table& table, std::size_t column) {
                      [&](const auto& row) { return is_number(row[column]); });
 }
 
-std::string html_of(const Table& table, std::string_view name) {
+/// Of measurements, or of words, which stand as they are: a commit may read as a number, such as 16e6464.
+enum class Cells { measured, words };
+
+std::string html_of(const Table& table, std::string_view name, Cells cells = Cells::measured) {
+  const bool measured = cells == Cells::measured;
   std::string html =
       fmt::format("<div class=\"wide\"><table id=\"{0}\"><caption>{0}.csv</caption>\n<thead><tr>", name);
   std::vector<const char*> kinds;  // of columns: numbers are on the right, with a word among them
   for (std::size_t column = 0; column < table.columns().size(); ++column) {
-    kinds.push_back(has_numbers(table, column) ? " class=\"number\"" : "");
+    kinds.push_back(measured && has_numbers(table, column) ? " class=\"number\"" : "");
     html += fmt::format("<th{}>{}</th>", kinds[column], escaped(table.columns()[column]));
   }
   html += "</tr></thead>\n<tbody>\n";
   for (const auto& row : table.rows()) {
     html += "<tr>";
     for (std::size_t column = 0; column < row.size(); ++column)
-      html += fmt::format("<td{}>{}</td>", kinds[column], shown(row[column]));
+      html +=
+          fmt::format("<td{}>{}</td>", kinds[column], measured ? shown(row[column]) : escaped(row[column]));
     html += "</tr>\n";
   }
   return html + "</tbody></table></div>\n";
@@ -115,8 +120,8 @@ void make_page(const fs::path& path) {
   } catch (const std::out_of_range& error) {
     throw cli::InputError(path.string() + ": tables of another version: " + error.what());
   }
-  html +=
-      "<section id=\"run\">\n<h2>Run</h2>\n" + html_of(facts, "run") + "</section>\n</main></body></html>\n";
+  html += "<section id=\"run\">\n<h2>Run</h2>\n" + html_of(facts, "run", Cells::words) +
+          "</section>\n</main></body></html>\n";
   cli::write_file(path / "report.html", html);
 }
 
