@@ -40,6 +40,10 @@ struct Avx2Lanes : Lanes<xsimd::avx2> {
   static Double gather(const double* p, const std::uint32_t* index) noexcept {
     return _mm256_setr_pd(p[index[0]], p[index[1]], p[index[2]], p[index[3]]);
   }
+  static Words gather(const std::uint32_t* p, const std::uint32_t* index) noexcept {
+    const auto at = [=](std::size_t i) { return static_cast<int>(p[index[i]]); };
+    return _mm256_setr_epi32(at(0), at(1), at(2), at(3), at(4), at(5), at(6), at(7));
+  }
   static Float rounded(const Double (&v)[2]) noexcept {
     return _mm256_set_m128(_mm256_cvtpd_ps(v[1]), _mm256_cvtpd_ps(v[0]));
   }

@@ -56,6 +56,11 @@ struct Avx512Lanes : Lanes<xsimd::avx512f> {
     const auto at = [=](std::size_t i) { return p[index[i]]; };
     return _mm512_setr_pd(at(0), at(1), at(2), at(3), at(4), at(5), at(6), at(7));
   }
+  static Words gather(const std::uint32_t* p, const std::uint32_t* index) noexcept {
+    const auto at = [=](std::size_t i) { return static_cast<int>(p[index[i]]); };
+    return _mm512_setr_epi32(at(0), at(1), at(2), at(3), at(4), at(5), at(6), at(7), at(8), at(9), at(10),
+                             at(11), at(12), at(13), at(14), at(15));
+  }
   static Float rounded(const Double (&v)[2]) noexcept {
     return _mm512_castpd_ps(
         _mm512_insertf64x4(_mm512_castps_pd(_mm512_castps256_ps512(_mm512_cvtpd_ps(v[0]))),

@@ -19,7 +19,7 @@ constexpr std::uint64_t counts_of_set = 0x4332'3221'3221'2110;
 /// What the pair kernel needs of an instruction set beyond arithmetic. Eight is the width of a block: `row`
 /// gives part of an outer product's left side (disc i, or discs i and i + 1 where two rows fit), `columns`
 /// the matching right side. Each instruction set's file adds what xsimd 8.1 has no name for: bits() of a mask,
-/// least() of a register's lanes, gather() of doubles by index, without a way through memory, rounded() of as many
+/// least() of a register's lanes, gather() of doubles or words by index, without a way through memory, rounded() of as many
 /// doubles as there are floats in a register, load_records(), which picks records of four floats from a table and gives
 /// field after field, lane = record, and rough_root(), for bounds: it is off by less than 3/4 of `rough`, relatively, for
 /// normal numbers, in other ways on every processor.
@@ -27,11 +27,13 @@ template <class Arch>
 struct Lanes {
   using Float = xsimd::batch<float, Arch>;
   using Double = xsimd::batch<double, Arch>;
+  using Words = xsimd::batch<std::uint32_t, Arch>;
   using Mask = xsimd::batch_bool<float, Arch>;
   static constexpr unsigned width = Float::size;
 
   static Float load(const float* p) noexcept { return Float::load_unaligned(p); }
   static void store(float* p, Float v) noexcept { v.store_unaligned(p); }
+  static void store(std::uint32_t* p, Words v) noexcept { v.store_unaligned(p); }
   static Float select(Mask mask, Float yes, Float no) noexcept { return xsimd::select(mask, yes, no); }
   /// first + i for every set bit i, in order; a register's lanes of numbers may be written.
   /// Returns: how many.
@@ -64,6 +66,7 @@ template <>
 struct Lanes<Scalar> {
   using Float = float;
   using Double = double;
+  using Words = std::uint32_t;
   using Mask = bool;
   static constexpr unsigned width = 1;
 
@@ -74,6 +77,7 @@ struct Lanes<Scalar> {
     return value;
   }
   static void store(float* p, Float v) noexcept { __builtin_memcpy(p, &v, sizeof v); }
+  static void store(std::uint32_t* p, Words v) noexcept { *p = v; }
   static Float select(Mask mask, Float yes, Float no) noexcept { return mask ? yes : no; }
   static void load_records(const float* table, const std::uint32_t* index, Float (&field)[4]) noexcept {
     for (std::size_t i = 0; i < 4; ++i) field[i] = load(table + std::size_t{4} * *index + i);

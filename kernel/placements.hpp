@@ -72,20 +72,21 @@ class Placements {
     const std::uint32_t* const shape = in.agent_shape;
     const std::uint8_t* const level = in.agent_level;
     const std::uint32_t levels = in.shapes->level_count, count = whole_registers();
-    for (std::uint32_t k = 0; k < count; ++k) {
+    for (std::uint32_t k = 0; k < count; k += Simd::width) {
       // Not a function of its own: GCC 12 drops the call of one that only prefetches.
-      if (prefetch && k + pairs_ahead < count) {
-        const std::uint32_t both[] = {a_[k + pairs_ahead], b_[k + pairs_ahead]};
-        for (const std::uint32_t agent : both) {
-          __builtin_prefetch(shape + agent);
-          __builtin_prefetch(in.agent_x + agent);
-          __builtin_prefetch(in.agent_y + agent);
-          __builtin_prefetch(in.agent_heading + agent);
-          if (level != nullptr) __builtin_prefetch(level + agent);
+      if (prefetch && k + pairs_ahead < count)
+        for (std::uint32_t lane = 0; lane < Simd::width; ++lane) {
+          const std::uint32_t both[] = {a_[k + pairs_ahead + lane], b_[k + pairs_ahead + lane]};
+          for (const std::uint32_t agent : both) {
+            __builtin_prefetch(shape + agent);
+            __builtin_prefetch(in.agent_x + agent);
+            __builtin_prefetch(in.agent_y + agent);
+            __builtin_prefetch(in.agent_heading + agent);
+            if (level != nullptr) __builtin_prefetch(level + agent);
+          }
         }
-      }
-      shape_a[k] = shape[a_[k]];
-      shape_b[k] = shape[b_[k]];
+      Simd::store(shape_a + k, Simd::gather(shape, a_ + k));
+      Simd::store(shape_b + k, Simd::gather(shape, b_ + k));
     }
     for (std::uint32_t k = 0; k < count; ++k) {
       root_a[k] = shape_a[k] * levels + levels - 1;

@@ -13,6 +13,9 @@ namespace {
 
 struct ScalarLanes : Lanes<Scalar> {
   static double gather(const double* p, const std::uint32_t* index) noexcept { return p[*index]; }
+  static std::uint32_t gather(const std::uint32_t* p, const std::uint32_t* index) noexcept {
+    return p[*index];
+  }
   static float rounded(const double (&v)[1]) noexcept { return static_cast<float>(v[0]); }
   static std::uint32_t bits(bool hit) noexcept { return hit; }
   static float least(float values) noexcept { return values; }

@@ -21,6 +21,10 @@ struct Sse2Lanes : Lanes<xsimd::sse2> {
   static Double gather(const double* p, const std::uint32_t* index) noexcept {
     return _mm_setr_pd(p[index[0]], p[index[1]]);
   }
+  static Words gather(const std::uint32_t* p, const std::uint32_t* index) noexcept {
+    const auto at = [=](std::size_t i) { return static_cast<int>(p[index[i]]); };
+    return _mm_setr_epi32(at(0), at(1), at(2), at(3));
+  }
   static Float rounded(const Double (&v)[2]) noexcept {
     return _mm_movelh_ps(_mm_cvtpd_ps(v[0]), _mm_cvtpd_ps(v[1]));
   }
