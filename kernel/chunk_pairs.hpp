@@ -26,38 +26,50 @@ struct ChunkPairs {
     size += Simd::write_set(bits, first, pair + size);
   }
 
-  void move_all(ChunkPairs& to) noexcept {
-    for (std::uint32_t k = 0; k < size; ++k) to.pair[to.size + k] = pair[k];
-    to.size += size;
-    size = 0;
-  }
-
-  /// Forgets the pairs that pass a test. No branch depends on an answer, here and below.
+  /// Forgets the pairs that pass a test; the rest go to a list, which may be this one. No branch depends on an answer,
+  /// here and below.
   template <class Test>
-  void drop_if(Test passes) noexcept {
-    std::uint32_t kept = 0;
-    for (std::uint32_t k = 0; k < size; ++k) {
+  void drop_if(ChunkPairs& rest, Test passes) noexcept {
+    const std::uint32_t count = take_all();
+    std::uint32_t kept = rest.size;
+    for (std::uint32_t k = 0; k < count; ++k) {
       const std::uint16_t each = pair[k];
-      pair[kept] = each;
+      rest.pair[kept] = each;
       kept += passes(each) ^ 1;
     }
-    size = kept;
+    rest.size = kept;
   }
 
-  /// Moves the pairs that pass a test to another list. `prefetch(pair)` asks for what the test will read.
+  /// What a test says of a pair, bits.
+  struct Verdict {
+    std::uint32_t leaves;    ///< this list
+    std::uint32_t is_moved;  ///< of those that leave it, else forgotten
+  };
+
+  /// Moves pairs to another list, or forgets them; the rest go to a third, which may be this one. `prefetch(pair)` asks for
+  /// what the test will read.
   template <class Test, class Prefetch>
-  void move_if(ChunkPairs& to, Test passes, Prefetch prefetch) noexcept {
-    std::uint32_t kept = 0, moved = to.size;
-    for (std::uint32_t k = 0; k < size; ++k) {
-      if (k + pairs_ahead < size) prefetch(pair[k + pairs_ahead]);
+  void move_if(ChunkPairs& to, ChunkPairs& rest, Test test, Prefetch prefetch) noexcept {
+    const std::uint32_t count = take_all();
+    std::uint32_t kept = rest.size, moved = to.size;
+    for (std::uint32_t k = 0; k < count; ++k) {
+      if (k + pairs_ahead < count) prefetch(pair[k + pairs_ahead]);
       const std::uint16_t each = pair[k];
-      const std::uint32_t yes = passes(each);
-      pair[kept] = to.pair[moved] = each;
-      kept += yes ^ 1;
-      moved += yes;
+      const auto [leaves, is_moved] = test(each);
+      rest.pair[kept] = to.pair[moved] = each;
+      kept += leaves ^ 1;
+      moved += leaves & is_moved;
     }
-    size = kept;
+    rest.size = kept;
     to.size = moved;
+  }
+
+ private:
+  /// As many pairs as there were; they may be read, up to where others are written.
+  std::uint32_t take_all() noexcept {
+    const std::uint32_t count = size;
+    size = 0;
+    return count;
   }
 };
 

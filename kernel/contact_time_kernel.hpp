@@ -71,7 +71,7 @@ class ContactTimeKernel {
     }
     separation_.place_directions();
     for (unsigned odd = 0; odd < 2; ++odd)
-      open_.drop_if([this, odd](std::uint32_t pair) {
+      open_.drop_if(open_, [this, odd](std::uint32_t pair) {
         return separation_.apart_on_the_way(pair, odd, x_[pair], y_[pair], slack(pair));
       });
   }

@@ -123,7 +123,6 @@ class PairKernel {
     separation_.place_directions();
     part(0);
     meet<block_width / 2>(near_);
-    near_.move_all(open_);
     meet<block_width>(open_);
     part(1);
     if (!in_.mark_near_misses) reopen_what_may_nest();
@@ -133,17 +132,24 @@ class PairKernel {
   /// By supports along even directions or odd ones.
   void part(unsigned odd) noexcept {
     open_.move_if(
-        parted_, [&](std::uint32_t pair) { return separation_.apart(pair, odd); },
+        parted_, open_,
+        [&](std::uint32_t pair) {
+          const std::uint32_t is_apart = separation_.apart(pair, odd);
+          return typename List::Verdict{is_apart, is_apart};
+        },
         [&](std::uint32_t pair) __attribute__((always_inline)) {
           if (in_.prefetch_shapes) separation_.prefetch(pair, odd);
         });
   }
 
-  /// By the first `count` inscribed discs of either.
+  /// By the first `count` inscribed discs of either. What they do not decide is open.
   template <unsigned count>
   void meet(List& list) noexcept {
     list.move_if(
-        met_, [&](std::uint32_t pair) { return inscribed_discs_overlap<count>(pair); },
+        met_, open_,
+        [&](std::uint32_t pair) {
+          return typename List::Verdict{inscribed_discs_overlap<count>(pair), may_nest(pair)};
+        },
         [&](std::uint32_t pair) __attribute__((always_inline)) {
           if (in_.prefetch_shapes) prefetch_inscribed(pair);
         });
@@ -181,9 +187,7 @@ class PairKernel {
 
   /// Where areas meet, outlines cross unless one holds the other, which boundary semantics does not count.
   void reopen_what_may_nest() noexcept {
-    met_.drop_if([&](std::uint32_t pair) { return may_nest(pair) ^ 1; });
-    met_.drop_if([&](std::uint32_t pair) { return separation_.contours_stick_out(pair); });
-    met_.move_all(open_);
+    met_.drop_if(open_, [&](std::uint32_t pair) { return separation_.contours_stick_out(pair); });
   }
 
   /// Whether the areas meet. See layout/interior.hpp.
