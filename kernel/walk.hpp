@@ -42,7 +42,7 @@ class Walk {
 
   /// Rounds, until at most so many pairs are open.
   void run(std::uint32_t enough) noexcept {
-    while (size_ > enough) round();
+    if (size_ > enough) rounds(enough);
   }
 
  private:
@@ -70,14 +70,17 @@ class Walk {
   };
 
   /// One test for every open pair, then one step for every pair: apart, because the processor looks ahead over a
-  /// few of either, but hardly over one of both. `noipa`, because GCC 12 takes such functions for ones without
-  /// effects when their parameters are changed a little, and drops the calls.
-  void round() noexcept {
-    test();
-    step();
+  /// few of either, but hardly over one of both. Both in one function, because rounds over a lone pair are so short
+  /// that calls count. `noipa`, because GCC 12 takes such functions for ones without effects when their parameters
+  /// are changed a little, and drops the calls.
+  [[gnu::noipa]] void rounds(std::uint32_t enough) noexcept {
+    do {
+      test();
+      step();
+    } while (size_ > enough);
   }
 
-  [[gnu::noipa]] void test() noexcept {
+  [[gnu::always_inline]] void test() noexcept {
     const float* const nodes = shapes_.nodes;
     for (std::uint32_t k = 0; k < size_; ++k) {
       if (prefetch_ && k + tests_ahead < size_) {
@@ -105,7 +108,7 @@ class Walk {
   /// test: the children of the two discs, or a leaf window again and the other's child. What is computed for a pair
   /// that is done is never used, which beats a branch that no processor can predict. The slots of pairs that are
   /// done end up behind the others.
-  [[gnu::noipa]] void step() noexcept {
+  [[gnu::always_inline]] void step() noexcept {
     const float* const nodes = shapes_.nodes;
     std::uint8_t* const codes = codes_;
     const std::uint32_t size = size_;
