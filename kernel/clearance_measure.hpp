@@ -54,19 +54,16 @@ class ClearanceMeasure {
     return (x * x + y * y) * Float(1 - 0x1p-17f) <= sum * sum;
   }
 
+  /// All gaps at once, because whether one is less than the best so far is a coin toss.
   void meet(const Transform& at, Discs a, Discs b, std::uint32_t first_a, std::uint32_t first_b) noexcept {
-    take_by_bounds<Simd>(
-        at, a, b, [this](Float x, Float y, Float r) { return bound(x, y, r); }, [this] { return best(); },
-        [=, this](unsigned k, const DiscPair& pair) { take(pair, k, first_a, first_b); });
-  }
-
-  /// The same of the pairs at the set bits, one after the other: for few.
-  void meet_at(std::uint64_t bits, const Transform& at, Discs a, Discs b, std::uint32_t first_a,
-               std::uint32_t first_b) noexcept {
-    for (; bits != 0; bits &= bits - 1) {
-      const auto k = static_cast<unsigned>(__builtin_ctzll(bits));
-      take(disc_pair<Simd>(at, a, b, k), k, first_a, first_b);
-    }
+    alignas(64) float gaps[block_pairs];
+    visit_disc_pairs<Simd>(
+        at, a, b, [&](unsigned k, Float x, Float y, Float r) { Simd::store(gaps + k, gap(x, y, r)); });
+    const float least = least_value<Simd>(gaps);
+    if (!(least <= best())) return;
+    const unsigned k = first_within<Simd>(gaps, least);
+    const DiscPair pair = disc_pair<Simd>(at, a, b, k);
+    offer({least, first_a + k / block_width, first_b + k % block_width, pair.x, pair.y});
   }
 
   /// Of one register's pairs of single discs.
@@ -85,12 +82,6 @@ class ClearanceMeasure {
     const Float root = rough_root<Simd>(square) * Float(nearer * (1 - Simd::rough));
     // Of padding the square is infinite or NaN.
     return Simd::select(square <= Float(far_beyond), root - r, Float(far_beyond));
-  }
-
-  void take(const DiscPair& pair, unsigned k, std::uint32_t first_a, std::uint32_t first_b) noexcept {
-    const auto [x, y, r] = pair;
-    offer({__builtin_sqrtf(x * x + y * y) * near - r, first_a + k / block_width, first_b + k % block_width, x,
-           y});
   }
 
   /// Takes what is less than the best or comes before it.

@@ -141,11 +141,7 @@ class NearestSearch {
 
   /// Few windows improve on the best, and those at once, which spares many of the next ones.
   void take_window(const Step& step) noexcept {
-    const std::uint64_t bits = improving(step);
-    if (bits == 0) return;
-    Searched& pair = pairs_[step.pair];
-    pair.measure.meet_at(bits, pair.at, walk_.discs(step.a, pair.stride_a),
-                         walk_.discs(step.b, pair.stride_b), step.a & ~leaf_window, step.b & ~leaf_window);
+    if (improving(step) != 0) meet(step);
   }
 
   /// The bits of the pairs of discs that may improve on the best.
