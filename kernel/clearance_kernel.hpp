@@ -45,7 +45,7 @@ class ClearanceKernel {
     for (std::uint32_t k = 0; k < size; k += Simd::width) bound_roots(k);
     for (std::uint32_t pair = 0; pair < size; ++pair) {
       const Measure measure(arguments_.limit, reach(pair));
-      nearest[pair] = measure.nearest();
+      nearest[pair] = {arguments_.limit, no_node, no_node, 0, 0};
       if (!(root_bound_[pair] <= arguments_.limit)) continue;
       searched_[search_.size()] = pair;
       search_.add(at_.transform(pair), shapes_.trees[at_.root_a[pair]], shapes_.trees[at_.root_b[pair]],
@@ -57,8 +57,20 @@ class ClearanceKernel {
 
   void answer_searched(NearestDiscs* nearest) noexcept {
     search_.run();
-    for (std::uint32_t k = 0; k < search_.size(); ++k) nearest[searched_[k]] = search_.measure(k).nearest();
+    for (std::uint32_t k = 0; k < search_.size(); ++k)
+      nearest[searched_[k]] = answer(searched_[k], search_.measure(k));
     search_.clear();
+  }
+
+  NearestDiscs answer(std::uint32_t pair, const Measure& measure) const noexcept {
+    const auto [distance, a, b] = measure.nearest();
+    if (a == no_node) return {distance, a, b, 0, 0};
+    const auto disc = [this](std::uint32_t place, std::uint32_t root) {
+      return Discs{shapes_.nodes + place, shapes_.trees[root].stride};
+    };
+    const auto [x, y, r] =
+        disc_pair<Simd>(at_.transform(pair), disc(a, at_.root_a[pair]), disc(b, at_.root_b[pair]), 0);
+    return {distance, a, b, x, y};
   }
 
   float reach(std::uint32_t pair) const noexcept {

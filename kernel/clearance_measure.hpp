@@ -35,11 +35,16 @@ class ClearanceMeasure {
 
   /// `reach` is S, metres.
   ClearanceMeasure(float limit, float reach) noexcept : slack_(slack_per_reach * reach) {
-    set({limit, no_node, no_node, 0, 0});
+    set({limit, no_node, no_node});
   }
   ClearanceMeasure() = default;
 
-  const NearestDiscs& nearest() const noexcept { return nearest_; }
+  /// Discs by where they stand among the nodes; or no_node.
+  struct Nearest {
+    float distance;
+    std::uint32_t a, b;
+  };
+  const Nearest& nearest() const noexcept { return nearest_; }
   float best() const noexcept { return nearest_.distance; }
 
   Float bound(Float x, Float y, Float r) const noexcept { return rough_gap(x, y, r + Float(slack_)); }
@@ -62,8 +67,7 @@ class ClearanceMeasure {
     const float least = least_value<Simd>(gaps);
     if (!(least <= best())) return;
     const unsigned k = first_within<Simd>(gaps, least);
-    const DiscPair pair = disc_pair<Simd>(at, a, b, k);
-    offer({least, first_a + k / block_width, first_b + k % block_width, pair.x, pair.y});
+    offer({least, first_a + k / block_width, first_b + k % block_width});
   }
 
   /// Of one register's pairs of single discs.
@@ -85,17 +89,17 @@ class ClearanceMeasure {
   }
 
   /// Takes what is less than the best or comes before it.
-  void offer(const NearestDiscs& other) noexcept {
+  void offer(const Nearest& other) noexcept {
     const bool before = other.a < nearest_.a || (other.a == nearest_.a && other.b < nearest_.b);
     if (other.distance < nearest_.distance || (other.distance == nearest_.distance && before)) set(other);
   }
 
-  void set(const NearestDiscs& nearest) noexcept {
+  void set(const Nearest& nearest) noexcept {
     nearest_ = nearest;
     most_ = nearest.distance + 0x1p-21f * __builtin_fabsf(nearest.distance) + slack_;
   }
 
-  NearestDiscs nearest_;
+  Nearest nearest_;
   float slack_;
   float most_;  ///< what is compared with instead of the best
 };
