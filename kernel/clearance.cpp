@@ -13,7 +13,6 @@
 #include "kernel/standard_floats.hpp"
 #include "kernel/task_ranges.hpp"
 #include "layout/cut_discs.hpp"
-#include "layout/heading.hpp"
 #include "layout/shortest.hpp"
 
 namespace bch {
@@ -45,13 +44,12 @@ CutNodes cut_nodes(const ShapeSetView& shapes, const Agents& agents, Pair pair, 
 }
 
 /// In double, where squares do not underflow.
-Vec2 direction(const Agents& agents, Pair pair, const NearestDiscs& nearest) {
+Vec2 direction(Pair pair, const NearestDiscs& nearest) {
   if (nearest.a == kernel::no_node) return {0, 0};
-  const double x = nearest.x, y = nearest.y, length = std::sqrt(x * x + y * y);
+  const double x = nearest.x, y = nearest.y;
   const double sign = pair.second < pair.first ? -1 : 1;
-  if (length == 0) return {static_cast<float>(sign), 0};
-  const UnitVector to = unit_vector(agents.heading[std::min(pair.first, pair.second)]);
-  const double c = to.cosine, s = to.sine, world_x = c * x - s * y, world_y = s * x + c * y;
+  if (x == 0 && y == 0) return {static_cast<float>(sign), 0};
+  const double c = nearest.cosine, s = nearest.sine, world_x = c * x - s * y, world_y = s * x + c * y;
   const double scale = sign / std::sqrt(world_x * world_x + world_y * world_y);
   return {static_cast<float>(scale * world_x), static_cast<float>(scale * world_y)};
 }
@@ -66,7 +64,7 @@ void answer(const kernel::Implementation& implementation, ClearanceArguments arg
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     const bool found = nearest[i].a != kernel::no_node;
     answers.distance[i] = found ? nearest[i].distance : std::numeric_limits<float>::infinity();
-    if (!answers.direction.empty()) answers.direction[i] = direction(agents, pairs[i], nearest[i]);
+    if (!answers.direction.empty()) answers.direction[i] = direction(pairs[i], nearest[i]);
     if (!answers.nodes.empty())
       answers.nodes[i] = cut_nodes(*arguments.in.shapes, agents, pairs[i], nearest[i]);
   }

@@ -20,6 +20,7 @@ struct NearestDiscs {
   std::uint32_t a,
       b;       ///< where the discs stand among ShapeSetView::nodes; 0 in a set of roots alone; or no_node
   float x, y;  ///< from A's centre to B's, in A's frame
+  float cosine, sine;  ///< of A's heading
 };
 
 /// As Arguments, which says why plain pointers.

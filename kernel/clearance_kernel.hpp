@@ -45,7 +45,7 @@ class ClearanceKernel {
     for (std::uint32_t k = 0; k < size; k += Simd::width) bound_roots(k);
     for (std::uint32_t pair = 0; pair < size; ++pair) {
       const Measure measure(arguments_.limit, reach(pair));
-      nearest[pair] = {arguments_.limit, no_node, no_node, 0, 0};
+      nearest[pair] = {arguments_.limit, no_node, no_node, 0, 0, 1, 0};
       if (!(root_bound_[pair] <= arguments_.limit)) continue;
       searched_[search_.size()] = pair;
       search_.add(at_.transform(pair), shapes_.trees[at_.root_a[pair]], shapes_.trees[at_.root_b[pair]],
@@ -64,13 +64,14 @@ class ClearanceKernel {
 
   NearestDiscs answer(std::uint32_t pair, const Measure& measure) const noexcept {
     const auto [distance, a, b] = measure.nearest();
-    if (a == no_node) return {distance, a, b, 0, 0};
+    if (a == no_node) return {distance, a, b, 0, 0, 1, 0};
     const auto disc = [this](std::uint32_t place, std::uint32_t root) {
       return Discs{shapes_.nodes + place, shapes_.trees[root].stride};
     };
     const auto [x, y, r] =
         disc_pair<Simd>(at_.transform(pair), disc(a, at_.root_a[pair]), disc(b, at_.root_b[pair]), 0);
-    return {distance, a, b, x, y};
+    const auto [cosine, sine] = at_.heading(pair);
+    return {distance, a, b, x, y, cosine, sine};
   }
 
   float reach(std::uint32_t pair) const noexcept {
@@ -107,7 +108,9 @@ class ClearanceKernel {
     }
     for (std::uint32_t k = 0; k < at_.size; ++k) {
       const bool within = gap[k] <= arguments_.limit;
-      nearest[k] = {gap[k], within ? 0 : no_node, within ? 0 : no_node, x_of[k], y_of[k]};
+      const std::uint32_t node = within ? 0 : no_node;
+      const auto [cosine, sine] = at_.heading(k);
+      nearest[k] = {gap[k], node, node, x_of[k], y_of[k], cosine, sine};
     }
   }
 
