@@ -45,7 +45,7 @@ class ClearanceKernel {
     for (std::uint32_t k = 0; k < size; k += Simd::width) bound_roots(k);
     for (std::uint32_t pair = 0; pair < size; ++pair) {
       const Measure measure(arguments_.limit, reach(pair));
-      nearest[pair] = {arguments_.limit, no_node, no_node, 0, 0, 1, 0};
+      nearest[pair] = answer(pair, measure);
       if (!(root_bound_[pair] <= arguments_.limit)) continue;
       searched_[search_.size()] = pair;
       search_.add(at_.transform(pair), shapes_.trees[at_.root_a[pair]], shapes_.trees[at_.root_b[pair]],

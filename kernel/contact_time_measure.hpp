@@ -62,10 +62,24 @@ class ContactTimeMeasure {
     return Simd::select(left >= zero, Simd::select(along + half >= zero, time, never), never);
   }
 
+  /// The pair with the least bound first, which leaves out most others.
   void meet(const Transform& at, Discs a, Discs b, std::uint32_t, std::uint32_t) noexcept {
-    take_by_bounds<Simd>(
-        at, a, b, [this](Float x, Float y, Float r) { return bound(x, y, r); }, [this] { return best(); },
-        [this](unsigned, const DiscPair& pair) { take(pair.x, pair.y, pair.r); });
+    alignas(64) float bounds[block_pairs];
+    visit_disc_pairs<Simd>(
+        at, a, b, [&](unsigned k, Float x, Float y, Float r) { Simd::store(bounds + k, bound(x, y, r)); });
+    const auto take_pair = [&](unsigned k) {
+      const auto [x, y, r] = disc_pair<Simd>(at, a, b, k);
+      take(x, y, r);
+    };
+    const float least = least_value<Simd>(bounds);
+    if (!(least <= best())) return;
+    const unsigned first = first_within<Simd>(bounds, least);
+    take_pair(first);
+    std::uint64_t open = all_within<Simd>(bounds, best()) & ~(std::uint64_t{1} << first);
+    for (; open != 0; open &= open - 1) {
+      const auto k = static_cast<unsigned>(__builtin_ctzll(open));
+      if (bounds[k] <= best()) take_pair(k);
+    }
   }
 
   /// Takes the time of two discs of the cuts.

@@ -94,24 +94,4 @@ unsigned first_within(const float* values, float most) noexcept {
   return static_cast<unsigned>(__builtin_ctzll(all_within<Simd>(values, most)));
 }
 
-/// Looks at the pairs of two leaf windows, the one with the least bound first, which leaves out most others: calls
-/// take(k, DiscPair) for those whose bound(x, y, r), lane by lane, is at most best(), which take() lowers.
-template <class Simd, class Bound, class Best, class Take>
-[[gnu::always_inline]] inline void take_by_bounds(const Transform& at, Discs a, Discs b, Bound bound,
-                                                  Best best, Take take) noexcept {
-  using Float = typename Simd::Float;
-  alignas(64) float bounds[block_pairs];
-  visit_disc_pairs<Simd>(
-      at, a, b, [&](unsigned k, Float x, Float y, Float r) { Simd::store(bounds + k, bound(x, y, r)); });
-  const float least = least_value<Simd>(bounds);
-  if (!(least <= best())) return;
-  const unsigned first = first_within<Simd>(bounds, least);
-  take(first, disc_pair<Simd>(at, a, b, first));
-  std::uint64_t open = all_within<Simd>(bounds, best()) & ~(std::uint64_t{1} << first);
-  for (; open != 0; open &= open - 1) {
-    const auto k = static_cast<unsigned>(__builtin_ctzll(open));
-    if (bounds[k] <= best()) take(k, disc_pair<Simd>(at, a, b, k));
-  }
-}
-
 }  // namespace bch::kernel
