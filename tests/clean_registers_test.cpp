@@ -89,18 +89,19 @@ TEST_F(CleanRegisters, AfterConstruction) {
   for (const OutlineImplementation& row : outline_implementations()) {
     if (!row.supported()) continue;
     OutlineBuilder builder(character.triangles, character.vertices.size(), character.vertices, row);
-    expect_clean(row.name, [&] { builder.build(character.vertices, outline); });
+    expect_clean(std::string("outline, ") + row.name, [&] { builder.build(character.vertices, outline); });
   }
   for (const DiscImplementation& row : disc_implementations()) {
     if (!row.supported()) continue;
     HierarchyBuilder builder(row);
     Hierarchy hierarchy;
-    expect_clean(row.name, [&] { builder.contour(outline, 0.01f, SplitRule::centroid, hierarchy); });
+    expect_clean(std::string("discs, ") + row.name,
+                 [&] { builder.contour(outline, 0.01f, SplitRule::centroid, hierarchy); });
   }
   for (const InteriorImplementation& row : interior_implementations()) {
     if (!row.supported()) continue;
     InteriorBuilder builder(row);
-    expect_clean(row.name, [&] { builder.build(outline, 1.0); });
+    expect_clean(std::string("interior, ") + row.name, [&] { builder.build(outline, 1.0); });
   }
 }
 

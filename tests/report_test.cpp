@@ -73,11 +73,11 @@ void expect_shows(const std::string& shown, const std::string& cell) {
   EXPECT_NEAR(std::stod(replaced(shown, " ", "")), number, 0.0051 * std::abs(number) + 1e-300) << shown;
 }
 
-void expect_page_shows_table(const TemporaryFolder& folder, const std::string& name) {
+void expect_shows_table(const std::string& page, const TemporaryFolder& folder, const std::string& name) {
   SCOPED_TRACE(name);
   const auto expect = name == "run" ? expect_shows_words : expect_shows;
   const Table table = read_table(folder.file(name + ".csv"));
-  const auto rows = rows_of(test::read_text(folder.file("report.html")), name);
+  const auto rows = rows_of(page, name);
   ASSERT_EQ(rows.size(), table.rows().size());
   for (std::size_t i = 0; i < rows.size(); ++i) {
     ASSERT_EQ(rows[i].size(), table.columns().size());
@@ -86,10 +86,11 @@ void expect_page_shows_table(const TemporaryFolder& folder, const std::string& n
 }
 
 void expect_page_shows_tables(const TemporaryFolder& folder) {
-  expect_page_shows_table(folder, "run");
+  const std::string page = test::read_text(folder.file("report.html"));
+  expect_shows_table(page, folder, "run");
   for (const Experiment& experiment : experiments())
     for (const std::string_view table : experiment.tables)
-      expect_page_shows_table(folder, std::string(table));
+      expect_shows_table(page, folder, std::string(table));
 }
 
 /// Whether a column holds times, which differ from run to run, or what was chosen by them.
@@ -154,7 +155,7 @@ TEST(Report, FactsOfARunStandAsTheyAre) {
     folder.write("run.csv",
                  "what,value\ncommand,bch report --poses=10000\nposes,10000\ncommit," + commit + "\n");
     make_page(folder.path());
-    expect_page_shows_table(folder, "run");
+    expect_shows_table(test::read_text(folder.file("report.html")), folder, "run");
   }
 }
 
