@@ -17,4 +17,9 @@ namespace bch::kernel {
 void answer(const Implementation& implementation, const Arguments& arguments, const Agents& agents,
             std::size_t begin, std::size_t end) noexcept;
 
+/// The same of all pairs, at most a chunk, before anything was validated but sizes: false, and nothing is written, where
+/// something may be wrong, or where there are more pairs or none.
+bool answer_if_valid(const Implementation& implementation, const Arguments& arguments, const Agents& agents,
+                     std::size_t count) noexcept;
+
 }  // namespace bch::kernel

@@ -23,8 +23,9 @@ struct Avx2Lanes : Lanes<xsimd::avx2> {
     if constexpr (count == width) return load(eight);
     return _mm256_broadcast_ps(reinterpret_cast<const __m128*>(eight));
   }
+  template <std::size_t stride>
   static void load_records(const float* table, const std::uint32_t* index, Float (&field)[4]) noexcept {
-    const auto record = [=](std::size_t i) { return _mm_load_ps(table + std::size_t{4} * index[i]); };
+    const auto record = [=](std::size_t i) { return _mm_load_ps(table + stride * index[i]); };
     __m256 r[4];
 #pragma GCC unroll 4
     for (std::size_t i = 0; i < 4; ++i) r[i] = _mm256_set_m128(record(i + 4), record(i));
@@ -82,6 +83,11 @@ AgentRange named_avx2(const Pair* pairs, std::size_t begin, std::size_t end) noe
 void run_avx2(const Arguments& arguments, std::size_t begin, std::size_t end) noexcept {
   const CleanRegisters clean;
   PairKernel<Avx2Lanes>::run(arguments, begin, end);
+}
+
+bool run_if_valid_avx2(const Arguments& arguments, std::uint32_t count) noexcept {
+  const CleanRegisters clean;
+  return PairKernel<Avx2Lanes>::run_if_valid(arguments, count);
 }
 
 void count_contacts_avx2(const Arguments& arguments, std::size_t begin, std::size_t end,

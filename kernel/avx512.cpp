@@ -33,8 +33,9 @@ struct Avx512Lanes : Lanes<xsimd::avx512f> {
     _mm256_storeu_si256(reinterpret_cast<__m256i*>(to), _mm512_cvtepi32_epi16(set));
     return static_cast<std::uint32_t>(__builtin_popcount(bits));
   }
+  template <std::size_t stride>
   static void load_records(const float* table, const std::uint32_t* index, Float (&field)[4]) noexcept {
-    const auto record = [=](std::size_t i) { return _mm_load_ps(table + std::size_t{4} * index[i]); };
+    const auto record = [=](std::size_t i) { return _mm_load_ps(table + stride * index[i]); };
     __m512 r[4];
 #pragma GCC unroll 4
     for (std::size_t i = 0; i < 4; ++i) {
@@ -99,6 +100,11 @@ AgentRange named_avx512(const Pair* pairs, std::size_t begin, std::size_t end) n
 void run_avx512(const Arguments& arguments, std::size_t begin, std::size_t end) noexcept {
   const CleanRegisters clean;
   PairKernel<Avx512Lanes>::run(arguments, begin, end);
+}
+
+bool run_if_valid_avx512(const Arguments& arguments, std::uint32_t count) noexcept {
+  const CleanRegisters clean;
+  return PairKernel<Avx512Lanes>::run_if_valid(arguments, count);
 }
 
 void count_contacts_avx512(const Arguments& arguments, std::size_t begin, std::size_t end,

@@ -90,7 +90,7 @@ void clearance(const ShapeSet& shapes, const Agents& agents, std::span<const Pai
   if (!(options.max_distance >= 0))
     throw std::invalid_argument("clearance: a max_distance of " + shortest(options.max_distance) + " m");
   const kernel::Implementation& implementation = kernel::chosen(options.implementation, "clearance");
-  const ShapeSetView view = shapes.view();
+  const ShapeSetView& view = shapes.view();
   kernel::require_valid(implementation, view, agents, pairs);
 
   ClearanceArguments arguments{kernel::arguments_for(view, agents, {}), limit_of(options.max_distance),

@@ -38,8 +38,10 @@ class ClearanceKernel {
 
   void answer_chunk(std::size_t begin, std::uint32_t size) noexcept {
     at_.place(arguments_.in, begin, size);
-    of_a_.load(&shapes_.roots->x, at_.root_a, at_.whole_registers(), arguments_.in.prefetch_shapes);
-    of_b_.load(&shapes_.roots->x, at_.root_b, at_.whole_registers(), arguments_.in.prefetch_shapes);
+    of_a_.template load<4>(&shapes_.roots->x, at_.root_a, at_.whole_registers(),
+                           arguments_.in.prefetch_shapes);
+    of_b_.template load<4>(&shapes_.roots->x, at_.root_b, at_.whole_registers(),
+                           arguments_.in.prefetch_shapes);
     NearestDiscs* const nearest = arguments_.nearest + begin;
     if (shapes_.trees == nullptr) return answer_roots(nearest);
     for (std::uint32_t k = 0; k < size; k += Simd::width) bound_roots(k);

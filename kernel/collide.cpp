@@ -10,6 +10,7 @@
 #include "kernel/pair_validation.hpp"
 #include "kernel/standard_floats.hpp"
 #include "kernel/task_ranges.hpp"
+#include "kernel/validation.hpp"
 
 namespace bch {
 
@@ -23,12 +24,13 @@ void collide(const ShapeSet& shapes, const Agents& agents, std::span<const Pair>
   if (solid && !shapes.solid())
     throw std::invalid_argument("collide: the shape set was not planned for solid semantics");
   const kernel::Implementation& implementation = kernel::chosen(options.implementation, "collide");
-  const ShapeSetView view = shapes.view();
-  kernel::require_valid(implementation, view, agents, pairs);
-
+  const ShapeSetView& view = shapes.view();
+  kernel::require_sizes(agents);
   kernel::Arguments arguments = kernel::arguments_for(view, agents, pairs);
   arguments.codes = hits.data();
   arguments.mark_near_misses = solid;
+  if (kernel::answer_if_valid(implementation, arguments, agents, pairs.size())) return;
+  kernel::require_valid(implementation, view, agents, pairs);
   kernel::for_ranges(pairs.size(), kernel::pairs_per_task, [&](std::size_t begin, std::size_t end) {
     kernel::answer(implementation, arguments, agents, begin, end);
   });

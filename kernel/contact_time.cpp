@@ -78,7 +78,7 @@ void contact_time(const ShapeSet& shapes, const Agents& agents, std::span<const 
   const kernel::StandardFloats floats;
   require_sizes(displacements, times.size(), pairs.size());
   const kernel::Implementation& implementation = kernel::chosen(options.implementation, "contact_time");
-  const ShapeSetView view = shapes.view();
+  const ShapeSetView& view = shapes.view();
   kernel::require_valid(implementation, view, agents, pairs);
   require_valid(displacements);
 

@@ -37,7 +37,7 @@ void contacts(const ShapeSet& shapes, const Agents& agents, std::span<const Pair
               const ContactOptions& options) {
   const kernel::StandardFloats floats;
   const kernel::Implementation& implementation = kernel::chosen(options.implementation, "contacts");
-  const ShapeSetView view = shapes.view();
+  const ShapeSetView& view = shapes.view();
   kernel::require_valid(implementation, view, agents, pairs);
   try {
     find_contacts(implementation, kernel::arguments_for(view, agents, pairs), pairs.size(), table);

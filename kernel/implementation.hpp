@@ -36,6 +36,9 @@ struct Implementation {
   AgentRange (*named)(const Pair* pairs, std::size_t begin, std::size_t end) noexcept;
   /// Writes the codes of pairs begin .. end; see Arguments. Needs 256 KiB of stack and no other memory.
   void (*run)(const Arguments& arguments, std::size_t begin, std::size_t end) noexcept;
+  /// The same of the first `count` pairs, one or more and at most a chunk, that nobody has looked at, nor at agents:
+  /// false, and nothing is written, unless they are surely valid. For small batches, where looking first takes longer.
+  bool (*run_if_valid)(const Arguments& arguments, std::uint32_t count) noexcept;
   /// How many contacts each of pairs begin .. end has, to counts[begin] .. counts[end].
   void (*count_contacts)(const Arguments& arguments, std::size_t begin, std::size_t end,
                          std::uint64_t* counts) noexcept;

@@ -20,9 +20,9 @@ constexpr std::uint64_t counts_of_set = 0x4332'3221'3221'2110;
 /// gives part of an outer product's left side (disc i, or discs i and i + 1 where two rows fit), `columns`
 /// the matching right side. Each instruction set's file adds what xsimd 8.1 has no name for: bits() of a mask,
 /// least() of a register's lanes, gather() of doubles or words by index, without a way through memory, rounded() of as many
-/// doubles as there are floats in a register, load_records(), which picks records of four floats from a table and gives
-/// field after field, lane = record, and rough_root(), for bounds: it is off by less than 3/4 of `rough`, relatively, for
-/// normal numbers, in other ways on every processor.
+/// doubles as there are floats in a register, load_records(), which picks records of four floats from a table, each an
+/// index of strides from its beginning, and gives field after field, lane = record, and rough_root(), for bounds: it is
+/// off by less than 3/4 of `rough`, relatively, for normal numbers, in other ways on every processor.
 template <class Arch>
 struct Lanes {
   using Float = xsimd::batch<float, Arch>;
@@ -79,8 +79,9 @@ struct Lanes<Scalar> {
   static void store(float* p, Float v) noexcept { __builtin_memcpy(p, &v, sizeof v); }
   static void store(std::uint32_t* p, Words v) noexcept { *p = v; }
   static Float select(Mask mask, Float yes, Float no) noexcept { return mask ? yes : no; }
+  template <std::size_t stride>
   static void load_records(const float* table, const std::uint32_t* index, Float (&field)[4]) noexcept {
-    for (std::size_t i = 0; i < 4; ++i) field[i] = load(table + std::size_t{4} * *index + i);
+    for (std::size_t i = 0; i < 4; ++i) field[i] = load(table + stride * *index + i);
   }
   static std::uint32_t write_set(std::uint32_t bits, std::uint32_t first, std::uint16_t* to) noexcept {
     *to = static_cast<std::uint16_t>(first);
@@ -96,6 +97,14 @@ struct Lanes<Scalar> {
     return eight[part];
   }
 };
+
+/// Calls each(k) for k below a count of whole registers, so that the compiler sees how many a register has and adds no
+/// loops for what it does not fill: those take longer than all of a small batch.
+template <class Simd, class Each>
+[[gnu::always_inline]] inline void for_whole_registers(std::uint32_t count, Each each) noexcept {
+  for (std::uint32_t k = 0; k < count; k += Simd::width)
+    for (std::uint32_t lane = 0; lane < Simd::width; ++lane) each(k + lane);
+}
 
 /// sqrt(x), x >= 0, nearly: as Simd's rough_root(), of what is less than the least normal number that of this.
 template <class Simd>

@@ -26,22 +26,36 @@ namespace bch::kernel {
 /// Pairs are answered in chunks, stage by stage, and each stage leaves fewer of them open: place B in A's frame;
 /// decide by profiles along the line of the centres, and tell which of the rest will probably collide; part the
 /// others by their supports; accept pairs whose inscribed discs overlap; walk the trees of what is left.
-template <class Simd>
+template <class Simd, std::uint32_t chunk = pairs_per_chunk>
 class PairKernel {
  public:
   static void run(const Arguments& arguments, std::size_t begin, std::size_t end) noexcept {
     static_assert(sizeof(PairKernel) <= 256 * 1024, "what implementation.hpp promises");
     PairKernel kernel(arguments);
     for (; begin < end; begin += chunk) {
-      kernel.answer_chunk(begin, end - begin < chunk ? static_cast<std::uint32_t>(end - begin) : chunk);
-      kernel.walk_.run(Walk<Simd>::capacity - chunk);
+      kernel.at_.place(arguments, begin,
+                       end - begin < chunk ? static_cast<std::uint32_t>(end - begin) : chunk);
+      kernel.answer_chunk(begin);
+      kernel.walk_.run(open_walks - chunk);
     }
     kernel.walk_.run(0);
   }
 
+  /// Few pairs have a kernel of their own, whose loops have a length that the compiler knows.
+  static bool run_if_valid(const Arguments& arguments, std::uint32_t count) noexcept {
+    if constexpr (chunk > few_pairs)
+      if (count <= few_pairs) return PairKernel<Simd, few_pairs>::run_if_valid(arguments, count);
+    PairKernel kernel(arguments);
+    if (!kernel.at_.place_if_valid(arguments, count)) return false;
+    kernel.answer_chunk(0);
+    kernel.walk_.run(0);
+    return true;
+  }
+
  private:
   using Float = typename Simd::Float;
-  static constexpr std::uint32_t chunk = Placements<Simd>::chunk;
+  /// Room for a chunk, besides those that wait for company.
+  static constexpr std::uint32_t open_walks = 2 * chunk;
   using List = ChunkPairs<Simd, chunk>;
 
   explicit PairKernel(const Arguments& arguments) noexcept
@@ -52,14 +66,16 @@ class PairKernel {
         profiles_(shapes_, at_, arguments.prefetch_shapes),
         walk_(shapes_, arguments.codes, arguments.prefetch_shapes) {}
 
-  void answer_chunk(std::size_t begin, std::uint32_t size) noexcept {
-    at_.place(in_, begin, size);
+  /// Of the pairs that were placed.
+  void answer_chunk(std::size_t begin) noexcept {
+    const std::uint32_t size = at_.size;
     codes_ = in_.codes + begin;
     open_.size = near_.size = 0;
     if (shapes_.support == nullptr || !shapes_.rows_in_order) {
       test_roots();
     } else {
-      for (std::uint32_t k = 0; k < size; k += Simd::width) open_bits_[k / Simd::width] = ~std::uint32_t{0};
+      for (std::uint32_t k = 0; k < at_.whole_registers(); k += Simd::width)
+        open_bits_[k / Simd::width] = ~std::uint32_t{0};
       __builtin_memset(codes_, overlap, size);
     }
     if (shapes_.support == nullptr)
@@ -76,10 +92,10 @@ class PairKernel {
   /// Root disc against root disc, lane = pair. Where both cuts are single discs, that is the answer.
   void test_roots() noexcept {
     separation_.use_rows(row_a_, row_b_);
-    for (std::uint32_t k = 0; k < at_.size; k += Simd::width) {
+    for (std::uint32_t k = 0; k < at_.whole_registers(); k += Simd::width) {
       Float a[4], b[4];
-      Simd::load_records(&shapes_.roots->x, at_.root_a + k, a);
-      Simd::load_records(&shapes_.roots->x, at_.root_b + k, b);
+      Simd::template load_records<4>(&shapes_.roots->x, at_.root_a + k, a);
+      Simd::template load_records<4>(&shapes_.roots->x, at_.root_b + k, b);
       Simd::store(reinterpret_cast<float*>(row_a_ + k), a[3]);
       Simd::store(reinterpret_cast<float*>(row_b_ + k), b[3]);
       const Float c = Simd::load(at_.c + k), s = Simd::load(at_.s + k);
@@ -108,7 +124,7 @@ class PairKernel {
   /// A set of single discs is done by now.
   bool any_open() const noexcept {
     std::uint32_t any = 0;
-    for (std::uint32_t k = 0; k < at_.size; k += Simd::width) any |= open_bits_[k / Simd::width];
+    for (std::uint32_t k = 0; k < at_.whole_registers(); k += Simd::width) any |= open_bits_[k / Simd::width];
     return any != 0;
   }
 
@@ -159,7 +175,7 @@ class PairKernel {
   void compare_profiles() noexcept {
     shapes_.rows_in_order ? profiles_.look(nullptr, nullptr) : profiles_.look(row_a_, row_b_);
     parted_.size = met_.size = 0;
-    for (std::uint32_t k = 0; k < at_.size; k += Simd::width) {
+    for (std::uint32_t k = 0; k < at_.whole_registers(); k += Simd::width) {
       const auto answers = profiles_.answers(k);
       const std::uint32_t all = open_bits_[k / Simd::width] & ((std::uint32_t{1} << lanes(k)) - 1);
       const std::uint32_t open = all & ~(answers.apart | answers.meet);
@@ -211,13 +227,13 @@ class PairKernel {
   const ShapeSetView shapes_;
   const std::uint8_t miss_;
   std::uint8_t* codes_ = nullptr;  ///< of the chunk
-  Placements<Simd> at_;
-  SeparationTest<Simd> separation_;
-  ProfileTest<Simd> profiles_;
+  Placements<Simd, chunk> at_;
+  SeparationTest<Simd, chunk> separation_;
+  ProfileTest<Simd, chunk> profiles_;
   alignas(64) std::uint32_t row_a_[chunk], row_b_[chunk];  ///< of the roots' supports; set by test_roots()
   std::uint32_t open_bits_[chunk / Simd::width], may_nest_[chunk / Simd::width];  ///< a register's pairs each
   List open_, near_, parted_, met_;
-  Walk<Simd> walk_;
+  Walk<Simd, open_walks> walk_;
 };
 
 }  // namespace bch::kernel

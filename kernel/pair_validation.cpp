@@ -71,6 +71,7 @@ const Implementation& chosen(const Implementation* wanted, const char* query) {
 
 Arguments arguments_for(const ShapeSetView& view, const Agents& agents, std::span<const Pair> pairs) {
   return {.shapes = &view,
+          .agent_count = static_cast<std::uint32_t>(agents.size()),
           .agent_shape = agents.shape.data(),
           .agent_x = agents.x.data(),
           .agent_y = agents.y.data(),
@@ -109,7 +110,7 @@ void require_valid(const Implementation& implementation, const ShapeSetView& sha
 void validate(const ShapeSet& shapes, const Agents& agents) {
   kernel::require_sizes(agents);
   const kernel::StandardFloats floats;
-  const ShapeSetView view = shapes.view();
+  const ShapeSetView& view = shapes.view();
   const kernel::Arguments arguments = kernel::arguments_for(view, agents, {});
   const std::size_t i = kernel::first_bad_agent(kernel::best_implementation(), arguments, agents);
   if (i < agents.size()) kernel::reject(view, agents, i);

@@ -13,7 +13,7 @@
 namespace bch::kernel {
 
 /// What two profiles (layout/profile.hpp) say along the line of their centres; lane = pair.
-template <class Simd>
+template <class Simd, std::uint32_t chunk>
 class ProfileTest {
  public:
   /// Of a register's pairs.
@@ -24,7 +24,7 @@ class ProfileTest {
     std::uint32_t near = 0;      ///< they will probably collide
   };
 
-  ProfileTest(const ShapeSetView& shapes, const Placements<Simd>& at, bool prefetch) noexcept
+  ProfileTest(const ShapeSetView& shapes, const Placements<Simd, chunk>& at, bool prefetch) noexcept
       : shapes_(shapes), at_(at), prefetch_(prefetch) {}
 
   /// Of all pairs of the chunk: the line of the centres, and what either shape looks like along it. `row_a`, `row_b`: of
@@ -32,21 +32,17 @@ class ProfileTest {
   void look(const std::uint32_t* row_a, const std::uint32_t* row_b) noexcept {
     const float* const records = &shapes_.profiles->x;
     const std::uint32_t count = at_.whole_registers();
-    for (std::uint32_t k = 0; k < count; ++k) {
-      record_a_[k] = at_.shape_a[k] * records_each;
-      record_b_[k] = at_.shape_b[k] * records_each;
-    }
-    of_a_.load(records, record_a_, count, prefetch_);
-    of_b_.load(records, record_b_, count, prefetch_);
+    find_profiles(at_.shape_a, record_a_, count);
+    find_profiles(at_.shape_b, record_b_, count);
+    of_a_.template load<stride>(records, record_a_, count, prefetch_);
+    of_b_.template load<stride>(records, record_b_, count, prefetch_);
     find_sectors();
-    for (std::uint32_t k = 0; k < count; ++k) {
-      record_a_[k] +=
-          1 + static_cast<std::uint32_t>(static_cast<std::int32_t>(sector_a_[k])) % profile_sectors;
-      record_b_[k] +=
-          1 + static_cast<std::uint32_t>(static_cast<std::int32_t>(sector_b_[k])) % profile_sectors;
-    }
-    of_a_.load(records, record_a_, count, prefetch_);
-    of_b_.load(records, record_b_, count, prefetch_);
+    for_whole_registers<Simd>(count, [&](std::uint32_t k) {
+      record_a_[k] += record_of(sector_a_[k]);
+      record_b_[k] += record_of(sector_b_[k]);
+    });
+    of_a_.template load<stride>(records, record_a_, count, prefetch_);
+    of_b_.template load<stride>(records, record_b_, count, prefetch_);
     if (row_a == nullptr) return;
     choose_outer(of_a_, row_a, count);
     choose_outer(of_b_, row_b, count);
@@ -67,9 +63,12 @@ class ProfileTest {
 
  private:
   using Float = typename Simd::Float;
-  static constexpr std::uint32_t chunk = Placements<Simd>::chunk;
   using Fields = RecordFields<Simd, chunk>;
-  static constexpr std::uint32_t records_each = sizeof(Profile) / sizeof(Sector);
+  /// Of indices, in floats: half a record, because that is the most that an address can hold, and what it cannot takes an
+  /// instruction a record.
+  static constexpr std::size_t stride = 2;
+  static constexpr std::uint32_t strides_each = sizeof(Sector) / sizeof(float) / stride;
+  static constexpr std::uint32_t profile_strides = sizeof(Profile) / sizeof(float) / stride;
   /// Of the way from where areas meet to where cuts are apart: pairs nearer than that probably collide. By measurement.
   static constexpr float near_share = 0.6f;
 
@@ -79,14 +78,25 @@ class ProfileTest {
 
   /// Of the pair's level. A single disc has been tested, and nothing is said of it.
   static void choose_outer(Fields& of, const std::uint32_t* row, std::uint32_t count) noexcept {
-    for (std::uint32_t k = 0; k < count; ++k) {
+    for_whole_registers<Simd>(count, [&](std::uint32_t k) {
       const float shallow = row[k] == no_supports ? of.field[3][k] : __builtin_inff();
       of.field[1][k] = row[k] >= first_row ? of.field[1][k] : shallow;
-    }
+    });
+  }
+
+  static void find_profiles(const std::uint32_t* __restrict shape, std::uint32_t* __restrict record,
+                            std::uint32_t count) noexcept {
+    for_whole_registers<Simd>(count, [=](std::uint32_t k) { record[k] = shape[k] * profile_strides; });
+  }
+
+  /// From a profile's begin on, in strides.
+  static std::uint32_t record_of(float sector) noexcept {
+    return (1 + static_cast<std::uint32_t>(static_cast<std::int32_t>(sector)) % profile_sectors) *
+           strides_each;
   }
 
   void find_sectors() noexcept {
-    for (std::uint32_t k = 0; k < at_.size; k += Simd::width) {
+    for (std::uint32_t k = 0; k < at_.whole_registers(); k += Simd::width) {
       const Float c = Simd::load(at_.c + k), s = Simd::load(at_.s + k), zero(0.0f);
       const Float bx = field(of_b_, 0, k), by = field(of_b_, 1, k);
       const Float x = (Simd::load(at_.tx + k) + (c * bx - s * by)) - field(of_a_, 0, k);
@@ -107,7 +117,7 @@ class ProfileTest {
   }
 
   const ShapeSetView& shapes_;
-  const Placements<Simd>& at_;
+  const Placements<Simd, chunk>& at_;
   const bool prefetch_;
   alignas(64) std::uint32_t record_a_[chunk], record_b_[chunk];
   alignas(64) float distance_[chunk], sector_a_[chunk], sector_b_[chunk];

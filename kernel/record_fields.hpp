@@ -15,14 +15,17 @@ struct RecordFields {
 
   static constexpr std::uint32_t records_ahead = 32;  ///< that are asked for, with `prefetch`
 
-  /// Whole registers are read: `index` has to go on that far.
-  void load(const float* table, const std::uint32_t* index, std::uint32_t count, bool prefetch) noexcept {
+  /// `stride`: of `index`, in floats. Whole registers are read: `index` has to go on that far. Inlined, because small
+  /// batches call it for one register.
+  template <std::size_t stride>
+  [[gnu::always_inline]] void load(const float* table, const std::uint32_t* index, std::uint32_t count,
+                                   bool prefetch) noexcept {
     for (std::uint32_t k = 0; k < count; k += Simd::width) {
       if (prefetch && k + records_ahead < count)
         for (std::uint32_t i = 0; i < Simd::width; ++i)
-          __builtin_prefetch(table + std::size_t{4} * index[k + records_ahead + i]);
+          __builtin_prefetch(table + stride * index[k + records_ahead + i]);
       typename Simd::Float fields[4];
-      Simd::load_records(table, index + k, fields);
+      Simd::template load_records<stride>(table, index + k, fields);
       for (std::uint32_t i = 0; i < 4; ++i) Simd::store(field[i] + k, fields[i]);
     }
   }

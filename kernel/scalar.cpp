@@ -37,6 +37,10 @@ void run_scalar(const Arguments& arguments, std::size_t begin, std::size_t end) 
   PairKernel<ScalarLanes>::run(arguments, begin, end);
 }
 
+bool run_if_valid_scalar(const Arguments& arguments, std::uint32_t count) noexcept {
+  return PairKernel<ScalarLanes>::run_if_valid(arguments, count);
+}
+
 void count_contacts_scalar(const Arguments& arguments, std::size_t begin, std::size_t end,
                            std::uint64_t* counts) noexcept {
   ContactKernel<ScalarLanes>::count(arguments, begin, end, counts);

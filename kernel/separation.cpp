@@ -95,7 +95,7 @@ Query checked_query(const ShapeSet& shapes, const Agents& agents, std::span<cons
     throw std::invalid_argument("separation: " + std::to_string(pairs.size()) + " pairs but room for " +
                                 std::to_string(out.size()) + " answers");
   const kernel::Implementation& implementation = kernel::chosen(options.implementation, "separation");
-  const ShapeSetView view = shapes.view();
+  const ShapeSetView& view = shapes.view();
   kernel::require_valid(implementation, view, agents, pairs);
   return {view, agents, implementation};
 }

@@ -17,10 +17,10 @@ namespace bch::kernel {
 /// pi - (B's turn in A's frame). psi = (offset + share) * D with 0 <= share <= 1, and a support between two
 /// directions is at most lower * (that of the one below) + upper * (that of the one above), the height of
 /// the corner of two supporting lines.
-template <class Simd>
+template <class Simd, std::uint32_t chunk = pairs_per_chunk>
 class SeparationTest {
  public:
-  SeparationTest(const ShapeSetView& shapes, const Placements<Simd>& at) noexcept
+  SeparationTest(const ShapeSetView& shapes, const Placements<Simd, chunk>& at) noexcept
       : shapes_(shapes), at_(at), rows_(shapes.support), row_a_(at.root_a), row_b_(at.root_b) {
     // Where rows are in order; see ShapeSetView.
     if (shapes.support != nullptr) rows_ += std::size_t{first_row} * support_stride;
@@ -38,9 +38,10 @@ class SeparationTest {
                                  1.4966058f,  2.4142136f,  5.0273395f};
     constexpr float cosine_of[] = {c1, c2, c3, c4, c5, c6, c7};
     constexpr float cotangent = 5.0273395f, one_over_sine = 5.1258309f;  // of D
-    alignas(64) float offset[Placements<Simd>::chunk];
+    alignas(64) float offset[chunk];
     const Float zero(0.0f);
-    for (std::uint32_t k = 0; k < at_.size; k += Simd::width) {
+    const std::uint32_t count = at_.whole_registers();
+    for (std::uint32_t k = 0; k < count; k += Simd::width) {
       const Float x = zero - Simd::load(at_.c + k), y = Simd::load(at_.s + k);
       const Float ax = xsimd::abs(x), ay = xsimd::abs(y);
       Float up(0.0f), cosine(1.0f), sine(0.0f);
@@ -63,7 +64,8 @@ class SeparationTest {
       Simd::store(lower_ + k, by_quadrant(near, far, near, far));
       Simd::store(upper_ + k, by_quadrant(far, near, far, near));
     }
-    for (std::uint32_t k = 0; k < at_.size; ++k) offset_[k] = static_cast<std::uint8_t>(offset[k]);
+    for_whole_registers<Simd>(count,
+                              [&](std::uint32_t k) { offset_[k] = static_cast<std::int32_t>(offset[k]); });
   }
 
   /// By A's even directions or by its odd ones.
@@ -99,7 +101,8 @@ class SeparationTest {
   std::uint32_t contours_stick_out(std::uint32_t pair) const noexcept {
     const float c = at_.c[pair], s = at_.s[pair], tx = at_.tx[pair], ty = at_.ty[pair];
     const std::uint32_t a = at_.shape_a[pair], b = at_.shape_b[pair];
-    const unsigned turn = ((offset_[pair] + 1u) / 2 + extreme_directions / 2) % extreme_directions;
+    const unsigned turn =
+        ((static_cast<unsigned>(offset_[pair]) + 1) / 2 + extreme_directions / 2) % extreme_directions;
     const unsigned back = (extreme_directions - turn) % extreme_directions;
     // The float arithmetic is off by less than 40 u S.
     const float slack = 4e-6f * (shapes_.reach[a] + shapes_.reach[b]);
@@ -120,7 +123,7 @@ class SeparationTest {
     const float *a, *below, *above;
   };
   [[gnu::always_inline]] Rows rows(std::uint32_t pair, unsigned odd) const noexcept {
-    const unsigned offset = offset_[pair] + odd;
+    const unsigned offset = static_cast<unsigned>(offset_[pair]) + odd;
     const float* const b = supports(row_b_[pair]);
     return {supports(row_a_[pair]) + odd * half, b + offset % 2 * half + offset / 2,
             b + (offset + 1) % 2 * half + (offset + 1) / 2};
@@ -173,11 +176,11 @@ class SeparationTest {
       {c7, c5, c3, c1, c1, c3, c5, c7, -c7, -c5, -c3, -c1, -c1, -c3, -c5, -c7}};
 
   const ShapeSetView& shapes_;
-  const Placements<Simd>& at_;
+  const Placements<Simd, chunk>& at_;
   const float* rows_;
   const std::uint32_t *row_a_, *row_b_;  ///< per pair
-  std::uint8_t offset_[Placements<Simd>::chunk];
-  alignas(64) float lower_[Placements<Simd>::chunk], upper_[Placements<Simd>::chunk];
+  alignas(64) std::int32_t offset_[chunk];
+  alignas(64) float lower_[chunk], upper_[chunk];
 };
 
 }  // namespace bch::kernel

@@ -12,8 +12,9 @@ namespace bch::kernel {
 namespace {
 
 struct Sse2Lanes : Lanes<xsimd::sse2> {
+  template <std::size_t stride>
   static void load_records(const float* table, const std::uint32_t* index, Float (&field)[4]) noexcept {
-    const auto record = [=](std::size_t i) { return _mm_load_ps(table + std::size_t{4} * index[i]); };
+    const auto record = [=](std::size_t i) { return _mm_load_ps(table + stride * index[i]); };
     __m128 r0 = record(0), r1 = record(1), r2 = record(2), r3 = record(3);
     _MM_TRANSPOSE4_PS(r0, r1, r2, r3);
     field[0] = r0, field[1] = r1, field[2] = r2, field[3] = r3;
@@ -51,6 +52,10 @@ AgentRange named_sse2(const Pair* pairs, std::size_t begin, std::size_t end) noe
 
 void run_sse2(const Arguments& arguments, std::size_t begin, std::size_t end) noexcept {
   PairKernel<Sse2Lanes>::run(arguments, begin, end);
+}
+
+bool run_if_valid_sse2(const Arguments& arguments, std::uint32_t count) noexcept {
+  return PairKernel<Sse2Lanes>::run_if_valid(arguments, count);
 }
 
 void count_contacts_sse2(const Arguments& arguments, std::size_t begin, std::size_t end,

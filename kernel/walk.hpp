@@ -18,12 +18,10 @@ namespace bch::kernel {
 /// round tests one pair of blocks for every open pair, so that cache misses and latencies of many pairs overlap
 /// and no branch depends on an answer. Most pairs end after a few rounds; those that do not wait for company,
 /// because a round over three pairs takes as long as one over thirty.
-template <class Simd>
+/// `capacity`: `add` needs room; `run(below)` makes it.
+template <class Simd, std::uint32_t capacity>
 class Walk {
  public:
-  /// `add` needs room; `run(below)` makes it.
-  static constexpr std::uint32_t capacity = 512;
-
   Walk(const ShapeSetView& shapes, std::uint8_t* codes, bool prefetch) noexcept
       : shapes_(shapes), codes_(codes), prefetch_(prefetch) {}
 
@@ -74,10 +72,12 @@ class Walk {
   /// that calls count. `noipa`, because GCC 12 takes such functions for ones without effects when their parameters
   /// are changed a little, and drops the calls.
   [[gnu::noipa]] void rounds(std::uint32_t enough) noexcept {
-    do {
+    const std::uint32_t alone = enough == 0 ? 1 : enough;
+    while (size_ > alone) {
       test();
       step();
-    } while (size_ > enough);
+    }
+    if (size_ > enough) finish_last();
   }
 
   [[gnu::always_inline]] void test() noexcept {
@@ -89,10 +89,15 @@ class Walk {
         Nodes::prefetch(nodes, next.b, next.stride_b);
       }
       const Open& at = open_[slots_[k]];
-      hits_[k] = overlapping_discs<Simd>(at.b_in_a, Nodes::discs(nodes, at.a, at.stride_a),
-                                         Nodes::discs(nodes, at.b, at.stride_b),
-                                         unless_leaves(at.slack, at.a & at.b));
+      hits_[k] = overlaps_of(at, at.a, at.b);
     }
+  }
+
+  [[gnu::always_inline]] std::uint64_t overlaps_of(const Open& pair, std::uint32_t a,
+                                                   std::uint32_t b) const noexcept {
+    const float* const nodes = shapes_.nodes;
+    return overlapping_discs<Simd>(pair.b_in_a, Nodes::discs(nodes, a, pair.stride_a),
+                                   Nodes::discs(nodes, b, pair.stride_b), unless_leaves(pair.slack, a & b));
   }
 
   /// By a mask, as TreeNodes::discs().
@@ -125,26 +130,53 @@ class Walk {
       const std::uint32_t top_index = at.top + hit;
       Frame& top = frames[top_index];
       const std::uint64_t open = top.open;
-      std::uint64_t rest = open & (open - 1);
-      const auto bit = static_cast<unsigned>(__builtin_ctzll(open | std::uint64_t{1} << 63));
-      const unsigned i = bit / block_width, j = bit % block_width;
-      if ((top.a | top.b) < leaf_window) [[likely]] {
-        at.a = Nodes::child(nodes, top.a, i);
-        at.b = Nodes::child(nodes, top.b, j);
-      } else {
-        at.a = top.a, at.b = top.b;
-        // All of a window's discs are tested at once: its other hits on the same child are settled with this one.
-        if (top.a < leaf_window)
-          at.a = Nodes::child(nodes, top.a, i), rest &= ~(first_row_of_pairs << (bit - j));
-        if (top.b < leaf_window) at.b = Nodes::child(nodes, top.b, j), rest &= ~(first_column_of_pairs << j);
-      }
-      top.open = rest;
-      at.top = top_index - (rest == 0);
+      const Frame next = first_below(nodes, top);
+      at.a = next.a, at.b = next.b;
+      top.open = next.open;
+      at.top = top_index - (next.open == 0);
       slots_[k] = slots_[left];
       slots_[left] = slot;
       left += (open != 0) & (found ^ 1);
     }
     size_ = left;
+  }
+
+  /// The nodes below the first open hit of two, or anything where none is, and the hits that stay open.
+  [[gnu::always_inline]] static Frame first_below(const float* nodes, const Frame& at) noexcept {
+    std::uint64_t rest = at.open & (at.open - 1);
+    const auto bit = static_cast<unsigned>(__builtin_ctzll(at.open | std::uint64_t{1} << 63));
+    const unsigned i = bit / block_width, j = bit % block_width;
+    if ((at.a | at.b) < leaf_window) [[likely]]
+      return {Nodes::child(nodes, at.a, i), Nodes::child(nodes, at.b, j), rest};
+    std::uint32_t a = at.a, b = at.b;
+    // All of a window's discs are tested at once: its other hits on the same child are settled with this one.
+    if (a < leaf_window) a = Nodes::child(nodes, a, i), rest &= ~(first_row_of_pairs << (bit - j));
+    if (b < leaf_window) b = Nodes::child(nodes, b, j), rest &= ~(first_column_of_pairs << j);
+    return {a, b, rest};
+  }
+
+  /// The rounds of the last open pair. Its nodes stay in registers, because there is nothing else to do while they are
+  /// written and read again.
+  [[gnu::always_inline]] void finish_last() noexcept {
+    const std::uint32_t slot = slots_[0];
+    const Open at = open_[slot];
+    Frame* const frames = frames_[slot];
+    std::uint32_t a = at.a, b = at.b, top = at.top;
+    for (;;) {
+      const Frame earlier = frames[top];
+      const std::uint64_t hits = overlaps_of(at, a, b);
+      const std::uint32_t hit = hits != 0, found = (a & b) / leaf_window & hit;
+      const Frame now = {hit ? a : earlier.a, hit ? b : earlier.b, hit ? hits : earlier.open};
+      if ((now.open == 0) | found) {
+        codes_[at.pair] = static_cast<std::uint8_t>(codes_[at.pair] | found);
+        break;
+      }
+      const Frame next = first_below(shapes_.nodes, now);
+      a = next.a, b = next.b;
+      frames[top + hit] = {now.a, now.b, next.open};
+      top = top + hit - (next.open == 0);
+    }
+    size_ = 0;
   }
 
   const ShapeSetView& shapes_;

@@ -52,7 +52,7 @@ class ShapeSet {
   ShapeSet(ShapeSet&&) noexcept = default;
   ShapeSet& operator=(ShapeSet&&) noexcept = default;
 
-  ShapeSetView view() const noexcept { return view_; }
+  const ShapeSetView& view() const noexcept { return view_; }
   const ShapeArrays& arrays() const noexcept { return arrays_; }
   std::uint32_t shape_count() const noexcept { return view_.shape_count; }
   std::uint32_t level_count() const noexcept { return static_cast<std::uint32_t>(arrays_.depths.size()); }

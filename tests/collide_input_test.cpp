@@ -3,8 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <initializer_list>
 #include <limits>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include "kernel/collide.hpp"
@@ -89,6 +91,65 @@ TEST_F(BadInput, AFewOfManyAgents) {
     pairs.push_back({99, 100});
     expect_rejected("pair 3: agent 100 of 100", options);
     pairs.pop_back();
+  }
+}
+
+// Batches of up to a chunk are looked at while they are answered.
+TEST_F(BadInput, AnyValueInAnyPlaceOfABatch) {
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN(),
+                   infinity = std::numeric_limits<double>::infinity();
+  for (const kernel::Implementation& implementation : kernel::implementations()) {
+    if (!implementation.supported()) continue;
+    const QueryOptions options{.implementation = &implementation};
+    for (const std::uint32_t size : {1, 2, 5, 15, 16, 17, 33, 255, 256, 257}) {
+      crowd = {};
+      pairs.clear();
+      for (std::uint32_t i = 0; i < size; ++i) {
+        pairs.push_back({2 * i + 1, 2 * i});
+        for (const double x : {0.0, 0.3}) crowd.add({i % 2, 10.0 * i + x, x, 0.1 * i, 0});
+      }
+      for (const std::uint32_t place : {0u, size / 2, size - 1})
+        for (const std::uint32_t agent : {2 * place, 2 * place + 1}) {
+          const std::string where = "pair " + std::to_string(place) + ": agent ";
+          const auto expect_each = [&](auto& value, std::initializer_list<double> bad) {
+            const auto good = value;
+            for (const double each : bad) {
+              value = static_cast<std::decay_t<decltype(value)>>(each);
+              SCOPED_TRACE(std::string(implementation.name) + ", " + std::to_string(size) + " pairs, " +
+                           std::to_string(each));
+              expect_rejected(where, options);
+            }
+            value = good;
+          };
+          expect_each(crowd.shape[agent], {2, 3, 4e9});
+          expect_each(crowd.level[agent], {1, 255});
+          for (auto* const values : {&crowd.x, &crowd.y, &crowd.heading})
+            expect_each((*values)[agent], {nan, infinity, -infinity, 1'000'000'000.5, -1e300});
+          expect_each(agent % 2 == 0 ? pairs[place].second : pairs[place].first, {2.0 * size, 4294967295.0});
+        }
+      std::vector<std::uint8_t> hits(size);
+      EXPECT_NO_THROW(collide(set, crowd.agents(), pairs, hits, options));
+    }
+  }
+}
+
+TEST_F(BadInput, TheLargestValuesAreValid) {
+  for (const kernel::Implementation& implementation : kernel::implementations()) {
+    if (!implementation.supported()) continue;
+    for (const double far : {4.9e8, 5.1e8, 1e9}) {
+      crowd = {};
+      crowd.add({0, far, -far, far, 0});
+      crowd.add({1, far, -far, -far, 0});
+      crowd.add({1, -far, far, far, 0});
+      for (const std::uint32_t size : {1, 16, 256, 300}) {
+        pairs.assign(size, {0, 1});
+        pairs.back() = {0, 2};
+        std::vector<std::uint8_t> hits(size, 42);
+        collide(set, crowd.agents(), pairs, hits, {.implementation = &implementation});
+        for (std::uint32_t i = 0; i < size; ++i)
+          EXPECT_EQ(hits[i], i + 1 < size) << implementation.name << far;
+      }
+    }
   }
 }
 

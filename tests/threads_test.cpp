@@ -15,6 +15,7 @@
 #include "kernel/contact_time.hpp"
 #include "kernel/contacts.hpp"
 #include "kernel/neighbour_rows.hpp"
+#include "kernel/pair_validation.hpp"
 #include "kernel/separation.hpp"
 #include "layout/dynamic_shape_set.hpp"
 #include "tests/clearances.hpp"
@@ -34,17 +35,10 @@ class Threads : public testing::Test {
   Agents agents = scene.crowd.agents();
 
   std::vector<std::uint8_t> answers(const kernel::Implementation& implementation, unsigned threads) {
-    const ShapeSetView view = set.view();
     std::vector<std::uint8_t> hits(scene.pairs.size());
-    const kernel::Arguments arguments{&view,
-                                      agents.shape.data(),
-                                      agents.x.data(),
-                                      agents.y.data(),
-                                      agents.heading.data(),
-                                      agents.level.data(),
-                                      scene.pairs.data(),
-                                      hits.data(),
-                                      true};
+    kernel::Arguments arguments = kernel::arguments_for(set.view(), agents, scene.pairs);
+    arguments.codes = hits.data();
+    arguments.mark_near_misses = true;
     std::vector<std::thread> running;
     for (unsigned t = 0; t < threads; ++t)
       running.emplace_back([&, t] {
