@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 #include <span>
+#include <xsimd/xsimd.hpp>
 
 #include "layout/cut_lanes.hpp"
 #include "layout/rounding.hpp"
@@ -75,12 +76,6 @@ const Boundaries& boundaries() {
   return all;
 }
 
-std::uint32_t sector(Point p) {
-  const double sum = std::abs(p.x) + std::abs(p.y), share = sum > 0 ? quadrant * std::abs(p.y) / sum : 0;
-  const double half = p.x < 0 ? 2 * quadrant - share : share;
-  return static_cast<std::uint32_t>(p.y < 0 ? 4 * quadrant - half : half) % profile_sectors;
-}
-
 /// Of the contour's area; its first point where it has none.
 Point centroid(Polygon contour) {
   const Point origin = minus(contour[0], {0, 0});
@@ -104,34 +99,95 @@ struct Clip {
   }
 };
 
-/// A segment, seen from the origin, and where its line comes nearest.
+/// A segment, seen from the origin.
 struct Segment {
-  Point a, b, along;
-  double foot;
+  Point a, b;
+  double foot;  ///< where its line comes nearest: share of the way from a to b
 
-  Segment(Point from, Point to) : a(from), b(to), along{to.x - from.x, to.y - from.y} {
-    const double square = dot(along, along);
-    foot = square > 0 ? -dot(a, along) / square : 0;
-  }
-
-  /// Square of the origin's distance.
-  double square_distance() const { return square_distance_in({}); }
-
-  /// The same of what lies between two boundaries, each moved out by `wider`.
+  /// Square of the distance of what lies between two boundaries, each moved out by `wider`.
   double square_distance_in(Point right, Point left, double wider) const {
     Clip clip;
     clip.keep_positive(cross(right, a) + wider, cross(right, b) + wider);
     clip.keep_positive(cross(a, left) + wider, cross(b, left) + wider);
     if (clip.from > clip.to) return infinity;
-    return square_distance_in(clip);
-  }
-
- private:
-  double square_distance_in(const Clip& clip) const {
     const double share = std::clamp(foot, clip.from, clip.to);
-    const Point there{a.x + share * along.x, a.y + share * along.y};
+    const Point there{a.x + share * (b.x - a.x), a.y + share * (b.y - a.y)};
     return dot(there, there);
   }
+};
+
+/// Some of a contour's segments, seen from a centre, with what can be computed of them without a branch, in registers
+/// of every x86-64 processor.
+class Segments {
+ public:
+  static constexpr std::size_t most = 64;
+
+  /// Those that end in these points, at most so many; the first begins in `begin`.
+  Segments(Vec2 begin, Polygon ends, Point centre) : count_(ends.size()) {
+    const auto put = [&](std::size_t i, Vec2 point) {
+      const Point p = minus(point, centre);
+      x_[i] = p.x, y_[i] = p.y;
+    };
+    put(0, begin);
+    for (std::size_t i = 0; i < count_; ++i) put(i + 1, ends[i]);
+    // To whole registers, for both loops.
+    for (std::size_t i = 1; i <= 2; ++i) put(count_ + i, ends[count_ - 1]);
+    for (std::size_t i = 0; i <= count_; i += Doubles::size) find_sectors(i);
+    for (std::size_t i = 0; i < count_; i += Doubles::size) find_feet(i);
+  }
+
+  std::size_t size() const { return count_; }
+  Segment operator[](std::size_t i) const { return {{x_[i], y_[i]}, {x_[i + 1], y_[i + 1]}, foot_[i]}; }
+  /// Square of the centre's distance.
+  double square_distance(std::size_t i) const { return square_distance_[i]; }
+  bool turns_left(std::size_t i) const { return turn_[i] >= 0; }
+  /// Whether it crosses the ray along x. (No branch: that would be a coin toss.)
+  bool crosses(std::size_t i) const {
+    return ((y_[i] > 0) != (y_[i + 1] > 0)) & (turns_left(i) == (y_[i + 1] > y_[i]));
+  }
+  /// Of where segment i begins, and i - 1 ends.
+  std::uint32_t sector(std::size_t i) const {
+    return static_cast<std::uint32_t>(static_cast<std::int32_t>(sector_[i])) % profile_sectors;
+  }
+  /// From the nearest line between sectors, at least.
+  double aside(std::size_t i) const { return aside_[i]; }
+
+ private:
+  using Doubles = xsimd::batch<double, xsimd::sse2>;
+  using Array = std::array<double, most + 3>;
+  /// Added to what is divided by, which may be 0 where what is divided is.
+  static constexpr double not_zero = 1e-200;
+
+  static Doubles load(const Array& of, std::size_t i) { return Doubles::load_unaligned(&of[i]); }
+  static void store(Array& to, std::size_t i, Doubles value) { value.store_unaligned(&to[i]); }
+
+  /// A sector takes an equal share of |y| / (|x| + |y|). From the line at one end, which is at most `quadrant` long in
+  /// those terms, a point is that share times (|x| + |y|) over its length away.
+  void find_sectors(std::size_t i) {
+    const Doubles x = load(x_, i), y = load(y_, i), zero(0.0);
+    const Doubles sum = xsimd::abs(x) + xsimd::abs(y);
+    const Doubles share = Doubles(quadrant) * xsimd::abs(y) / (sum + Doubles(not_zero));
+    const Doubles half = xsimd::select(x < zero, Doubles(2 * quadrant) - share, share);
+    const Doubles sector = xsimd::select(y < zero, Doubles(4 * quadrant) - half, half);
+    const Doubles to_integer(0x1.8p52), nearest = (sector + to_integer) - to_integer;
+    store(sector_, i, sector);
+    store(aside_, i, xsimd::abs(sector - nearest) * sum * Doubles(1.0 / (quadrant + 0.001)));
+  }
+
+  void find_feet(std::size_t i) {
+    const Doubles x = load(x_, i), y = load(y_, i), to_x = load(x_, i + 1), to_y = load(y_, i + 1);
+    const Doubles along_x = to_x - x, along_y = to_y - y;
+    const Doubles square = along_x * along_x + along_y * along_y;
+    const Doubles foot = (Doubles(0.0) - (x * along_x + y * along_y)) / (square + Doubles(not_zero));
+    const Doubles share = xsimd::max(Doubles(0.0), xsimd::min(Doubles(1.0), foot));
+    const Doubles there_x = x + share * along_x, there_y = y + share * along_y;
+    store(foot_, i, foot);
+    store(square_distance_, i, there_x * there_x + there_y * there_y);
+    store(turn_, i, x * to_y - y * to_x);
+  }
+
+  std::size_t count_;
+  Array x_, y_, sector_, aside_, foot_, square_distance_, turn_;
 };
 
 /// How far the contour's inside goes on from the centre, sector by sector.
@@ -140,14 +196,15 @@ class Inside {
   Inside(Polygon contour, Point centre, double reach) : to_(boundaries()), wider_(margin * reach) {
     square_.fill(infinity);
     bool inside = false;
-    Corner a = corner(minus(contour.back(), centre));
-    for (const Vec2 point : contour) {
-      const Corner b = corner(minus(point, centre));
-      const bool left = cross(a.at, b.at) >= 0;
-      inside ^= (a.at.y > 0) != (b.at.y > 0) && left == (b.at.y > a.at.y);
-      const std::uint32_t first = left ? a.sector : b.sector, last = left ? b.sector : a.sector;
-      limit({a.at, b.at}, first, last, a.is_near || b.is_near);
-      a = b;
+    Vec2 begin = contour.back();
+    for (std::size_t i = 0; i < contour.size(); i += Segments::most) {
+      const Polygon ends = contour.subspan(i, std::min(Segments::most, contour.size() - i));
+      const Segments segments(begin, ends, centre);
+      for (std::size_t k = 0; k < segments.size(); ++k) {
+        inside ^= segments.crosses(k);
+        limit(segments, k);
+      }
+      begin = ends.back();
     }
     // A contour so near would be wide of the neighbours of its sectors.
     const double nearest = *std::min_element(square_.begin(), square_.end());
@@ -160,26 +217,19 @@ class Inside {
   }
 
  private:
-  struct Corner {
-    Point at;
-    std::uint32_t sector;
-    bool is_near;  ///< a neighbour of its sector, made wider
-  };
-  Corner corner(Point p) const {
-    const std::uint32_t k = sector(p);
-    return {p, k, std::min(cross(to_.at[k], p), cross(p, to_.at[k + 1])) <= wider_};
-  }
-
-  /// By a segment, in the sectors that it crosses, counter-clockwise, and their neighbours. Most segments lie in one; and
-  /// in most of several there is a nearer one, whatever part of this one lies there.
-  void limit(const Segment& segment, std::uint32_t first, std::uint32_t last, bool is_near) {
-    const double least = segment.square_distance();
-    if (first == last && !is_near) {
-      square_[first] = std::min(square_[first], least);
+  /// By a segment, in the sectors that it crosses, counter-clockwise, and their neighbours. Most segments lie in one, and
+  /// not in a neighbour made wider; and in most of several there is a nearer one, whatever part of this one lies there.
+  void limit(const Segments& segments, std::size_t i) {
+    const std::uint32_t begin = segments.sector(i), end = segments.sector(i + 1);
+    const double least = segments.square_distance(i);
+    if (begin == end && std::min(segments.aside(i), segments.aside(i + 1)) > wider_) {
+      square_[begin] = std::min(square_[begin], least);
       return;
     }
-    const std::uint32_t end = (last + 2) % profile_sectors;
-    for (std::uint32_t k = (first + profile_sectors - 1) % profile_sectors; k != end;
+    const Segment segment = segments[i];
+    const bool left = segments.turns_left(i);
+    const std::uint32_t first = left ? begin : end, stop = ((left ? end : begin) + 2) % profile_sectors;
+    for (std::uint32_t k = (first + profile_sectors - 1) % profile_sectors; k != stop;
          k = (k + 1) % profile_sectors)
       if (least < square_[k])
         square_[k] = std::min(square_[k], segment.square_distance_in(to_.at[k], to_.at[k + 1], wider_));
