@@ -8,8 +8,8 @@
 #include <cmath>
 #include <limits>
 #include <span>
-#include <xsimd/xsimd.hpp>
 
+#include "layout/contour_lanes.hpp"
 #include "layout/cut_lanes.hpp"
 #include "layout/rounding.hpp"
 
@@ -116,80 +116,6 @@ struct Segment {
   }
 };
 
-/// Some of a contour's segments, seen from a centre, with what can be computed of them without a branch, in registers
-/// of every x86-64 processor.
-class Segments {
- public:
-  static constexpr std::size_t most = 64;
-
-  /// Those that end in these points, at most so many; the first begins in `begin`.
-  Segments(Vec2 begin, Polygon ends, Point centre) : count_(ends.size()) {
-    const auto put = [&](std::size_t i, Vec2 point) {
-      const Point p = minus(point, centre);
-      x_[i] = p.x, y_[i] = p.y;
-    };
-    put(0, begin);
-    for (std::size_t i = 0; i < count_; ++i) put(i + 1, ends[i]);
-    // To whole registers, for both loops.
-    for (std::size_t i = 1; i <= 2; ++i) put(count_ + i, ends[count_ - 1]);
-    for (std::size_t i = 0; i <= count_; i += Doubles::size) find_sectors(i);
-    for (std::size_t i = 0; i < count_; i += Doubles::size) find_feet(i);
-  }
-
-  std::size_t size() const { return count_; }
-  Segment operator[](std::size_t i) const { return {{x_[i], y_[i]}, {x_[i + 1], y_[i + 1]}, foot_[i]}; }
-  /// Square of the centre's distance.
-  double square_distance(std::size_t i) const { return square_distance_[i]; }
-  bool turns_left(std::size_t i) const { return turn_[i] >= 0; }
-  /// Whether it crosses the ray along x. (No branch: that would be a coin toss.)
-  bool crosses(std::size_t i) const {
-    return ((y_[i] > 0) != (y_[i + 1] > 0)) & (turns_left(i) == (y_[i + 1] > y_[i]));
-  }
-  /// Of where segment i begins, and i - 1 ends.
-  std::uint32_t sector(std::size_t i) const {
-    return static_cast<std::uint32_t>(static_cast<std::int32_t>(sector_[i])) % profile_sectors;
-  }
-  /// From the nearest line between sectors, at least.
-  double aside(std::size_t i) const { return aside_[i]; }
-
- private:
-  using Doubles = xsimd::batch<double, xsimd::sse2>;
-  using Array = std::array<double, most + 3>;
-  /// Added to what is divided by, which may be 0 where what is divided is.
-  static constexpr double not_zero = 1e-200;
-
-  static Doubles load(const Array& of, std::size_t i) { return Doubles::load_unaligned(&of[i]); }
-  static void store(Array& to, std::size_t i, Doubles value) { value.store_unaligned(&to[i]); }
-
-  /// A sector takes an equal share of |y| / (|x| + |y|). From the line at one end, which is at most `quadrant` long in
-  /// those terms, a point is that share times (|x| + |y|) over its length away.
-  void find_sectors(std::size_t i) {
-    const Doubles x = load(x_, i), y = load(y_, i), zero(0.0);
-    const Doubles sum = xsimd::abs(x) + xsimd::abs(y);
-    const Doubles share = Doubles(quadrant) * xsimd::abs(y) / (sum + Doubles(not_zero));
-    const Doubles half = xsimd::select(x < zero, Doubles(2 * quadrant) - share, share);
-    const Doubles sector = xsimd::select(y < zero, Doubles(4 * quadrant) - half, half);
-    const Doubles to_integer(0x1.8p52), nearest = (sector + to_integer) - to_integer;
-    store(sector_, i, sector);
-    store(aside_, i, xsimd::abs(sector - nearest) * sum * Doubles(1.0 / (quadrant + 0.001)));
-  }
-
-  void find_feet(std::size_t i) {
-    const Doubles x = load(x_, i), y = load(y_, i), to_x = load(x_, i + 1), to_y = load(y_, i + 1);
-    const Doubles along_x = to_x - x, along_y = to_y - y;
-    const Doubles square = along_x * along_x + along_y * along_y;
-    const Doubles foot = (Doubles(0.0) - (x * along_x + y * along_y)) / (square + Doubles(not_zero));
-    const Doubles share = xsimd::max(Doubles(0.0), xsimd::min(Doubles(1.0), foot));
-    const Doubles there_x = x + share * along_x, there_y = y + share * along_y;
-    store(foot_, i, foot);
-    store(square_distance_, i, there_x * there_x + there_y * there_y);
-    store(turn_, i, x * to_y - y * to_x);
-  }
-
-  std::size_t count_;
-  Array x_, y_, sector_, aside_, foot_, square_distance_, turn_;
-};
-
 /// How far the contour's inside goes on from the centre, sector by sector.
 class Inside {
  public:
@@ -199,7 +125,7 @@ class Inside {
     Vec2 begin = contour.back();
     for (std::size_t i = 0; i < contour.size(); i += Segments::most) {
       const Polygon ends = contour.subspan(i, std::min(Segments::most, contour.size() - i));
-      const Segments segments(begin, ends, centre);
+      const Segments segments(begin, ends, centre.x, centre.y);
       for (std::size_t k = 0; k < segments.size(); ++k) {
         inside ^= segments.crosses(k);
         limit(segments, k);
@@ -217,6 +143,8 @@ class Inside {
   }
 
  private:
+  using Segments = ContourLanes<xsimd::sse2>;  ///< of every x86-64 processor
+
   /// By a segment, in the sectors that it crosses, counter-clockwise, and their neighbours. Most segments lie in one, and
   /// not in a neighbour made wider; and in most of several there is a nearer one, whatever part of this one lies there.
   void limit(const Segments& segments, std::size_t i) {
@@ -226,7 +154,8 @@ class Inside {
       square_[begin] = std::min(square_[begin], least);
       return;
     }
-    const Segment segment = segments[i];
+    const Segment segment{
+        {segments.x(i), segments.y(i)}, {segments.x(i + 1), segments.y(i + 1)}, segments.foot(i)};
     const bool left = segments.turns_left(i);
     const std::uint32_t first = left ? begin : end, stop = ((left ? end : begin) + 2) % profile_sectors;
     for (std::uint32_t k = (first + profile_sectors - 1) % profile_sectors; k != stop;

@@ -87,7 +87,7 @@ TEST(Layers, NothingLooksUp) {
 TEST(Layers, LibrariesStayInTheirRooms) {
   expect_no_include("layout", "assimp/", "^import");
   expect_no_include("layout", "polyclipping/");
-  expect_no_include("layout", "xsimd/", "^(cut|disc|interior)_lanes");
+  expect_no_include("layout", "xsimd/", "^(contour|cut|disc|interior)_lanes");
   expect_no_include("layout", "oneapi/tbb|tbb/");
   expect_no_include("layout", "xxhash", "^baked_checksum");
   expect_no_include("kernel", "assimp/|Eigen/|polyclipping/");
