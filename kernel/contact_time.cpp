@@ -59,22 +59,15 @@ void require_sizes(const Displacements& displacements, std::size_t times, std::s
   require(times, "times");
 }
 
-bool is_valid(double length) {
-  return std::abs(length) <= rounding::largest_position;
-}
-
 void require_valid(const Displacements& displacements) {
-  // Without a branch first, because all are valid.
-  std::size_t beyond = 0;
-  for (const auto& lengths : {displacements.x, displacements.y})
-    for (const double length : lengths) beyond += !is_valid(length);
-  if (beyond == 0) return;
-  std::size_t i = 0;
-  while (is_valid(displacements.x[i]) && is_valid(displacements.y[i])) ++i;
-  std::ostringstream message;
-  message << "contact_time: pair " << i << ": displacement (" << displacements.x[i] << ", "
-          << displacements.y[i] << ") m is not within +-1e9";
-  throw std::invalid_argument(message.str());
+  const auto good = [](double length) { return std::abs(length) <= rounding::largest_position; };
+  for (std::size_t i = 0; i < displacements.x.size(); ++i) {
+    if (good(displacements.x[i]) && good(displacements.y[i])) continue;
+    std::ostringstream message;
+    message << "contact_time: pair " << i << ": displacement (" << displacements.x[i] << ", "
+            << displacements.y[i] << ") m is not within +-1e9";
+    throw std::invalid_argument(message.str());
+  }
 }
 
 }  // namespace

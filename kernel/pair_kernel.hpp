@@ -68,7 +68,6 @@ class PairKernel {
 
   /// Of the pairs that were placed.
   void answer_chunk(std::size_t begin) noexcept {
-    const std::uint32_t size = at_.size;
     codes_ = in_.codes + begin;
     open_.size = near_.size = 0;
     if (shapes_.support == nullptr || !shapes_.rows_in_order) {
@@ -76,7 +75,7 @@ class PairKernel {
     } else {
       for (std::uint32_t k = 0; k < at_.whole_registers(); k += Simd::width)
         open_bits_[k / Simd::width] = ~std::uint32_t{0};
-      __builtin_memset(codes_, overlap, size);
+      __builtin_memset(codes_, overlap, at_.size);
     }
     if (shapes_.support == nullptr)
       open_all();
