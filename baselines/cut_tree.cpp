@@ -11,7 +11,8 @@ namespace {
 using Node = CutTrees::Node;
 
 /// Appends what a hierarchy has below a node, down to a depth.
-void add(const Hierarchy& hierarchy, std::uint32_t node, std::uint32_t depth, CutTrees::Tree& tree) {
+void add(const Hierarchy& hierarchy, const std::vector<float>& bounds, std::uint32_t node,
+         std::uint32_t depth, CutTrees::Tree& tree) {
   const HierarchyNode& at = hierarchy.nodes[node];
   if (depth == 0 || at.is_leaf()) {
     const auto index = static_cast<std::uint32_t>(tree.discs.size());
@@ -20,22 +21,24 @@ void add(const Hierarchy& hierarchy, std::uint32_t node, std::uint32_t depth, Cu
     return;
   }
   const std::size_t here = tree.nodes.size();
-  tree.nodes.push_back({at.disc.x, at.disc.y, at.bound, 0});
-  add(hierarchy, node + 1, depth - 1, tree);
+  tree.nodes.push_back({at.disc.x, at.disc.y, bounds[node], 0});
+  add(hierarchy, bounds, node + 1, depth - 1, tree);
   tree.nodes[here].link = static_cast<std::uint32_t>(tree.nodes.size());
-  add(hierarchy, at.second_child, depth - 1, tree);
+  add(hierarchy, bounds, at.second_child, depth - 1, tree);
 }
 
 }  // namespace
 
 CutTrees::CutTrees(std::span<const Shape> shapes, const ShapeSetPlan& plan)
     : level_count_(static_cast<std::uint32_t>(plan.depths.size())) {
-  for (const Shape& shape : shapes)
+  for (const Shape& shape : shapes) {
+    const std::vector<float> bounds = bounding_radii(shape.hierarchy);
     for (const std::uint32_t depth : plan.depths) {
       Tree& tree = trees_.emplace_back();
       tree.reach = rounding::round_up(shape.hierarchy.reach);
-      add(shape.hierarchy, 0, depth, tree);
+      add(shape.hierarchy, bounds, 0, depth, tree);
     }
+  }
 }
 
 const CutTrees::Tree& CutTrees::tree(const Agents& agents, std::uint32_t agent) const {

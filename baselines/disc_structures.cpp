@@ -17,11 +17,14 @@ namespace {
 /// Discs over all triangles seen from above, which leaves test exactly, or leave at their discs.
 struct ProjectedHierarchy {
   std::vector<HierarchyNode> nodes;
-  std::vector<Element> triangles;  ///< empty: discs alone
+  std::vector<float> bounds;
+  std::vector<Element> triangles;  ///< in the order of the leaves; empty: discs alone
+  std::vector<ElementRange> held;  ///< per node: of them
   std::uint32_t height;
 
   std::size_t bytes() const {
-    return nodes.size() * sizeof(HierarchyNode) + triangles.size() * sizeof(Element);
+    return nodes.size() * (sizeof(HierarchyNode) + sizeof(float)) +
+           (triangles.empty() ? 0 : nodes.size() * sizeof(ElementRange) + triangles.size() * sizeof(Element));
   }
 
   template <class Counts>
@@ -31,13 +34,13 @@ struct ProjectedHierarchy {
     const auto accept = [&](const NodePair& at) {
       if (at.depth_a == max_depth || at.depth_b == max_depth || a.triangles.empty()) return true;
       counts.leaf();
-      const Element &s = a.triangles[a.nodes[at.a].element_begin],
-                    &t = b.triangles[b.nodes[at.b].element_begin];
+      const Element &s = a.triangles[a.held[at.a].begin], &t = b.triangles[b.held[at.b].begin];
       return triangles_meet(Triangle2{exact(s.a), exact(s.b), exact(s.c)},
                             Triangle2{place.place(t.a), place.place(t.b), place.place(t.c)});
     };
-    return any_ends_overlap(float_placement(agents, pair), {a.nodes.data(), max_depth, a.height},
-                            {b.nodes.data(), max_depth, b.height}, counts, accept);
+    return any_ends_overlap(float_placement(agents, pair),
+                            {a.nodes.data(), a.bounds.data(), max_depth, a.height},
+                            {b.nodes.data(), b.bounds.data(), max_depth, b.height}, counts, accept);
   }
 };
 
@@ -76,8 +79,10 @@ std::unique_ptr<Structure> build_bch_projected(std::span<const Body> bodies, con
     }
     Hierarchy hierarchy = projected_hierarchy(vertices, body.triangles);
     const std::uint32_t levels = height(hierarchy);
+    std::vector<float> bounds = bounding_radii(hierarchy);
     if (!options.projected_triangles) hierarchy.elements.clear();
-    return {std::move(hierarchy.nodes), std::move(hierarchy.elements), levels};
+    return {std::move(hierarchy.nodes), std::move(bounds), std::move(hierarchy.elements),
+            std::move(hierarchy.held), levels};
   });
 }
 

@@ -25,6 +25,7 @@ inline bool discs_overlap(const FloatPlacement& place, const Disc& a, float radi
 /// The cut of a hierarchy at a depth, as a traversal walks it.
 struct DiscTree {
   const HierarchyNode* nodes;
+  const float* bounds;   ///< bounding_radii()
   std::uint32_t depth;   ///< nodes at this depth count as leaves
   std::uint32_t height;  ///< edges on the longest way down
 
@@ -33,7 +34,7 @@ struct DiscTree {
   }
   /// An inner node prunes, so it has to hold the discs below it; a leaf gives the answer.
   float radius(std::uint32_t node, bool end) const noexcept {
-    return end ? nodes[node].disc.radius : nodes[node].bound;
+    return end ? nodes[node].disc.radius : bounds[node];
   }
 };
 

@@ -8,10 +8,11 @@
 namespace bch::baselines {
 
 ExactDisc tight_disc(const Hierarchy& hierarchy, std::uint32_t node) {
-  const HierarchyNode& of = hierarchy.nodes[node];
-  const QuadVector centre{of.disc.x, of.disc.y};
+  const Disc& disc = hierarchy.nodes[node].disc;
+  const auto [begin, end] = hierarchy.held.at(node);
+  const QuadVector centre{disc.x, disc.y};
   Quad farthest = 0;
-  for (std::uint32_t i = of.element_begin; i < of.element_end; ++i) {
+  for (std::uint32_t i = begin; i < end; ++i) {
     const Element& element = hierarchy.elements[i];
     for (const Vec2 p : {element.a, element.b, element.c})
       farthest = std::max(farthest, square(QuadVector{p.x, p.y} - centre));

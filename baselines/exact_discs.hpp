@@ -22,6 +22,7 @@ struct ExactDisc {
 
 /// The tight disc of a node: about the stored centre, which is exact, through the farthest point of what it holds.
 /// What the library promises of it: where tight discs of two agents' cuts have a point in common, the answer is a hit.
+/// Errors:  throws std::out_of_range where the hierarchy has no elements.
 ExactDisc tight_disc(const Hierarchy& hierarchy, std::uint32_t node);
 
 /// Those of a cut, in depth-first order.

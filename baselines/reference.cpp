@@ -22,13 +22,15 @@ bool any_overlap(const FloatPlacement& place, std::span<const Disc> a, std::span
 
 Reference::Reference(std::span<const Shape> shapes, const ShapeSetPlan& plan)
     : shapes_(shapes), level_count_(static_cast<std::uint32_t>(plan.depths.size())) {
-  for (const Shape& shape : shapes)
+  for (const Shape& shape : shapes) {
+    bounds_.push_back(bounding_radii(shape.hierarchy));
     for (const std::uint32_t depth : plan.depths) {
       Level level{depth, height(shape.hierarchy), {}};
       for (const std::uint32_t node : cut(shape.hierarchy, depth))
         level.discs.push_back(shape.hierarchy.nodes[node].disc);
       levels_.push_back(std::move(level));
     }
+  }
 }
 
 const Reference::Level& Reference::level(const Agents& agents, std::uint32_t agent) const {
@@ -41,7 +43,8 @@ bool Reference::boundary(const Agents& agents, Pair pair, Method method) const {
   const Level &level_a = level(agents, a), &level_b = level(agents, b);
   if (method == Method::brute_force) return any_overlap(place, level_a.discs, level_b.discs);
   const auto tree = [&](std::uint32_t agent, const Level& at) {
-    return DiscTree{shapes_[agents.shape[agent]].hierarchy.nodes.data(), at.depth, at.height};
+    const std::uint32_t shape = agents.shape[agent];
+    return DiscTree{shapes_[shape].hierarchy.nodes.data(), bounds_[shape].data(), at.depth, at.height};
   };
   return any_ends_overlap(place, tree(a, level_a), tree(b, level_b), NoCounts{},
                           [](const NodePair&) { return true; });

@@ -42,7 +42,8 @@ class Reference {
 
   std::span<const Shape> shapes_;
   std::uint32_t level_count_;
-  std::vector<Level> levels_;  ///< shape * level_count_ + level
+  std::vector<std::vector<float>> bounds_;  ///< per shape: bounding_radii()
+  std::vector<Level> levels_;               ///< shape * level_count_ + level
 };
 
 }  // namespace bch::baselines

@@ -94,10 +94,12 @@ class ContourHierarchies final : public Structure {
  public:
   void add(const Hierarchy& hierarchy) {
     const auto root = static_cast<std::uint32_t>(nodes_.size());
-    for (const HierarchyNode& node : hierarchy.nodes)
-      nodes_.push_back({node.disc.x, node.disc.y, node.is_leaf() ? node.disc.radius : node.bound,
-                        node.is_leaf() ? 0 : root + node.second_child});
-    trees_.push_back({root, height(hierarchy), hierarchy.nodes});
+    std::vector<float> bounds = bounding_radii(hierarchy);
+    for (std::size_t i = 0; i < bounds.size(); ++i) {
+      const auto& [disc, second] = hierarchy.nodes[i];
+      nodes_.push_back({disc.x, disc.y, bounds[i], second == 0 ? 0 : root + second});
+    }
+    trees_.push_back({root, height(hierarchy), hierarchy.nodes, std::move(bounds)});
     highest_ = std::max(highest_, trees_.back().height);
   }
 
@@ -120,6 +122,7 @@ class ContourHierarchies final : public Structure {
     std::uint32_t root;
     std::uint32_t height;
     std::vector<HierarchyNode> nodes;  ///< for queries that end at a depth, which need the tight discs too
+    std::vector<float> bounds;
   };
 
   /// On the caller's stack, except for trees of absurd heights.
@@ -150,8 +153,8 @@ class ContourHierarchies final : public Structure {
     const FloatPlacement place = float_placement(agents, pair);
     if (max_depth == all_depths)
       return leaves_overlap(nodes_.data(), a.root, b.root, place, stack.bottom(), counts);
-    return any_ends_overlap(place, {a.nodes.data(), max_depth, a.height},
-                            {b.nodes.data(), max_depth, b.height}, counts,
+    return any_ends_overlap(place, {a.nodes.data(), a.bounds.data(), max_depth, a.height},
+                            {b.nodes.data(), b.bounds.data(), max_depth, b.height}, counts,
                             [](const NodePair&) { return true; });
   }
 

@@ -73,8 +73,7 @@ bool same(const Disc& a, const Disc& b, float tolerance) {
 bool same(const Hierarchy& a, const Hierarchy& b, float tolerance) {
   return std::equal(a.nodes.begin(), a.nodes.end(), b.nodes.begin(), b.nodes.end(),
                     [=](const HierarchyNode& x, const HierarchyNode& y) {
-                      return x.second_child == y.second_child && x.element_begin == y.element_begin &&
-                             x.element_end == y.element_end && same(x.disc, y.disc, tolerance);
+                      return x.second_child == y.second_child && same(x.disc, y.disc, tolerance);
                     });
 }
 

@@ -109,10 +109,10 @@ std::vector<NodePoints> node_points(Scene& scene) {
   for (const Shape& shape : scene.shapes()) {
     NodePoints& of_shape = all.emplace_back();
     auto& [points, nodes] = of_shape;
-    for (const HierarchyNode& node : shape.hierarchy.nodes) {
-      if (node.element_end - node.element_begin < 2) continue;
+    for (const auto [first, last] : shape.hierarchy.held) {
+      if (last - first < 2) continue;
       const auto begin = static_cast<std::uint32_t>(points.size());
-      for (std::uint32_t e = node.element_begin; e < node.element_end; ++e) {
+      for (std::uint32_t e = first; e < last; ++e) {
         const auto& [a, b, c] = shape.hierarchy.elements[e];
         if (points.size() == begin || !(points.back() == a)) points.push_back(a);
         points.push_back(b);

@@ -41,7 +41,6 @@ std::vector<Shape> stretched(std::span<const Shape> shapes, std::uint32_t count)
       p = {static_cast<float>(std::round(x * static_cast<double>(p.x) / step) * step),
            static_cast<float>(std::round(y * static_cast<double>(p.y) / step) * step)};
     builder.contour(outline, threshold, SplitRule::centroid, copies[i].hierarchy);
-    copies[i].hierarchy.elements = {};  // a set needs the nodes only
   }
   return copies;
 }

@@ -21,27 +21,32 @@ struct Element {
 /// A node of the binary tree. Nodes stand in depth-first order: the first child of an inner node is the next
 /// node.
 struct HierarchyNode {
-  /// The smallest disc that encloses the node's elements, enlarged only by what rounding.hpp derives.
+  /// The smallest disc that encloses the node's elements, enlarged only by what rounding.hpp derives. It need not hold
+  /// the discs of the nodes below: see bounding_radii().
   Disc disc;
-  /// Radius about the same centre that holds the discs of all nodes below: what a traversal has to test
-  /// before it may prune. (Children stick out of the smallest enclosing disc of their geometry.)
-  float bound = 0;
   std::uint32_t second_child = 0;  ///< 0: a leaf
-  std::uint32_t element_begin = 0;
-  std::uint32_t element_end = 0;
 
   bool is_leaf() const { return second_child == 0; }
 };
-static_assert(sizeof(HierarchyNode) == 28);
+static_assert(sizeof(HierarchyNode) == 16);
+
+/// A run of elements.
+struct ElementRange {
+  std::uint32_t begin, end;
+};
 
 /// A bounding cylinder hierarchy of one shape: a binary tree of discs on the ground.
 /// Source:  Stuvel, Magnenat-Thalmann, Thalmann, Egges, van der Stappen, "Hierarchical structures for
 ///          collision checking between virtual characters", Computer Animation and Virtual Worlds 25, 2014.
 struct Hierarchy {
-  std::vector<HierarchyNode> nodes;   ///< the root first; never empty
+  std::vector<HierarchyNode> nodes;  ///< the root first; never empty
+  double reach = 0;                  ///< metres: largest distance of an element's point from the origin
+
+  // What nodes hold. Flat shapes and queries need none of it, so that builders fill it in where they are asked to, and
+  // leave it empty elsewhere.
   std::vector<Element> elements;      ///< in the order of the leaves
   std::vector<std::uint32_t> source;  ///< per element: index of the outline segment or triangle it comes from
-  double reach = 0;                   ///< metres: largest distance of an element's point from the origin
+  std::vector<ElementRange> held;     ///< per node: its elements
 };
 
 /// Checks what others rely on: at least one node, children after their parents, discs that are finite, larger than 0 and
@@ -60,11 +65,13 @@ enum class SplitRule {
 /// threshold is halved; a node whose smallest enclosing disc has a radius below the threshold is a leaf, as
 /// is a lone segment.
 /// Units:   metres; the threshold is positive and finite.
+/// Returns: the hierarchy with its elements.
 /// Errors:  throws std::invalid_argument on a bad outline or threshold, std::length_error beyond 2^22 nodes.
 Hierarchy contour_hierarchy(const Outline& outline, float threshold, SplitRule rule = SplitRule::centroid);
 
 /// The paper's hierarchy over all projected triangles: the plane goes through the mean of the vertices, a
 /// triangle goes to the side of its centroid and is never cut; one triangle is a leaf.
+/// Returns: the hierarchy with its elements.
 /// Errors:  throws std::invalid_argument on no triangles, an index out of range, a vertex of theirs that is not finite,
 ///          or a reach outside rounding.hpp's domain. Vertices of no triangle do not count.
 Hierarchy projected_hierarchy(std::span<const Vec2> vertices,
@@ -73,6 +80,10 @@ Hierarchy projected_hierarchy(std::span<const Vec2> vertices,
 /// The cylinder of crowd simulators with one radius for every pose, around the agent's position.
 /// Errors:  throws std::invalid_argument unless the radius is positive and within rounding.hpp's domain.
 Hierarchy fixed_cylinder(float radius);
+
+/// Per node a radius about its disc's centre that holds the discs of all nodes below, with the slack that rounding.hpp
+/// derives: what a traversal of the binary tree has to test before it may prune. A leaf's is its disc's.
+std::vector<float> bounding_radii(const Hierarchy& hierarchy);
 
 /// One past the last node of the subtree under each node.
 std::vector<std::uint32_t> subtree_ends(std::span<const HierarchyNode> nodes);

@@ -3,6 +3,8 @@
 
 #include "layout/hierarchy_builder.hpp"
 
+#include <emmintrin.h>
+
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -12,7 +14,6 @@
 #include <string>
 
 #include "layout/enclosing_disc.hpp"
-#include "layout/hierarchy_bounds.hpp"
 #include "layout/rounding.hpp"
 #include "layout/shortest.hpp"
 
@@ -47,6 +48,23 @@ Vec2 middle_of(Vec2 a, Vec2 b) {
           static_cast<float>(0.5 * (widened(a.y) + widened(b.y)))};
 }
 
+Vec2 centre(const HierarchyNode& node) {
+  return {node.disc.x, node.disc.y};
+}
+
+void set_centre(HierarchyNode& node, Vec2 centre) {
+  node.disc.x = centre.x, node.disc.y = centre.y;
+}
+
+void clear_elements(Hierarchy& hierarchy) {
+  hierarchy.elements.clear(), hierarchy.source.clear(), hierarchy.held.clear();
+}
+
+void clear(Hierarchy& hierarchy) {
+  hierarchy.nodes.clear();
+  clear_elements(hierarchy);
+}
+
 }  // namespace
 
 void require_reach(double reach) {
@@ -62,7 +80,7 @@ void require_threshold(float threshold) {
 
 void HierarchyBuilder::contour(const Outline& outline, float threshold, SplitRule rule, Hierarchy& hierarchy,
                                std::uint32_t deepest) {
-  hierarchy.nodes.clear();
+  clear(hierarchy);
   validate(outline);
   require_threshold(threshold);
   hierarchy.reach = reach(outline.points);
@@ -79,7 +97,7 @@ void HierarchyBuilder::contour(const Outline& outline, float threshold, SplitRul
 void HierarchyBuilder::projected(std::span<const Vec2> vertices,
                                  std::span<const std::array<std::uint32_t, 3>> triangles,
                                  Hierarchy& hierarchy) {
-  hierarchy.nodes.clear();
+  clear(hierarchy);
   if (triangles.empty()) throw std::invalid_argument("hierarchy: no triangles");
   hierarchy.reach = 0;
   for (std::size_t t = 0; t < triangles.size(); ++t)
@@ -99,12 +117,12 @@ void HierarchyBuilder::projected(std::span<const Vec2> vertices,
 }
 
 void HierarchyBuilder::root(std::span<const Vec2> points, float grid_step, Hierarchy& hierarchy) {
-  hierarchy.nodes.clear();
+  clear(hierarchy);
   if (points.empty()) throw std::invalid_argument("hierarchy: no points");
   hierarchy.reach = reach(points);
   require_reach(hierarchy.reach);
   begin(hierarchy.reach, rounding::outline_grid_steps * widened(grid_step), 0);
-  unsolved_.push_back({add_node(none), 0, 0});
+  unsolved_.push_back({add_node(), 0, 0});
   sets_.assign(1, {0, static_cast<std::uint32_t>(points.size())});
   solve(points);
   publish(hierarchy);
@@ -122,7 +140,7 @@ void HierarchyBuilder::begin(double reach, double margin, double threshold) {
   halvings_.clear();
   even_halves_.begin(2 * threshold, reach);
   unsolved_.clear();
-  node_count_ = element_count_ = 0;
+  node_count_ = 0;
 }
 
 void HierarchyBuilder::add_segment(Vec2 a, Vec2 b) {
@@ -159,22 +177,17 @@ void HierarchyBuilder::add_triangle(const Element& triangle) {
 }
 
 /// Room for more, which need not all be used.
-inline void HierarchyBuilder::reserve(std::uint32_t nodes, std::uint32_t elements) {
-  if (node_count_ + nodes > nodes_.centre.size() || element_count_ + elements > elements_.size()) [[unlikely]]
-    enlarge(nodes, elements);
+inline void HierarchyBuilder::reserve(std::uint32_t nodes) {
+  if (node_count_ + nodes > square_radius_.size()) [[unlikely]]
+    enlarge(nodes);
 }
 
-void HierarchyBuilder::enlarge(std::uint32_t nodes, std::uint32_t elements) {
-  if (node_count_ + nodes > nodes_.centre.size()) {
-    if (node_count_ + nodes > most_nodes)
-      throw std::length_error("hierarchy: more than 2^22 nodes at a threshold of " + shortest(threshold_) +
-                              " m");
-    nodes_.resize(std::min(most_nodes, 2 * std::size_t{node_count_} + nodes + 256));
-  }
-  if (element_count_ + elements > elements_.size()) {
-    elements_.resize(2 * elements_.size() + elements + 256);
-    sources_.resize(elements_.size());
-  }
+void HierarchyBuilder::enlarge(std::uint32_t nodes) {
+  if (node_count_ + nodes > most_nodes)
+    throw std::length_error("hierarchy: more than 2^22 nodes at a threshold of " + shortest(threshold_) +
+                            " m");
+  nodes_.resize(std::min(most_nodes, 2 * std::size_t{node_count_} + nodes + 256));
+  square_radius_.resize(nodes_.size());
 }
 
 /// First the tree, depth first, whose shape needs few discs, then the other discs.
@@ -182,6 +195,7 @@ void HierarchyBuilder::grow(bool through_centre, std::uint32_t deepest) {
   const std::size_t count = items_.size();
   order_.resize(count);
   scratch_.resize(std::max(scratch_.size(), count));
+  first_node_.resize(std::max(first_node_.size(), count));
   open_.resize(std::max(open_.size(), count + 1));
   std::iota(order_.begin(), order_.end(), 0);
   Open* top = open_.data();
@@ -193,9 +207,9 @@ void HierarchyBuilder::grow(bool through_centre, std::uint32_t deepest) {
     const ItemOrder order = std::span(order_).subspan(begin, end - begin);
     if (order.size() == 2 && threshold_ > 0) {
       divide_pair(items_, order, whole, through_centre);
-      add_lone_segment(order[0], node, below - 1);
-      nodes_.second_child[node] = node_count_;
-      add_lone_segment(order[1], node, below - 1);
+      add_lone_segment(begin, below - 1);
+      nodes_[node].second_child = node_count_;
+      add_lone_segment(begin + 1, below - 1);
       continue;
     }
     const auto middle =
@@ -205,21 +219,22 @@ void HierarchyBuilder::grow(bool through_centre, std::uint32_t deepest) {
     top[1].begin = begin, top[1].end = middle, top[1].parent = node, top[1].below = below - 1;
     top += 2;
   }
-  even_halves_.write(item_elements_, nodes_, elements_, sources_);
+  even_halves_.write(item_elements_, nodes_, square_radius_);
   solve_discs();
 }
 
 /// False for a leaf and for what is complete already.
 bool HierarchyBuilder::add_node(const Open& open) {
-  if (open.parent != none && open.parent + 1 != node_count_) nodes_.second_child[open.parent] = node_count_;
+  if (open.parent != none && open.parent + 1 != node_count_) nodes_[open.parent].second_child = node_count_;
   const std::span<const std::uint32_t> order = std::span(order_).subspan(open.begin, open.end - open.begin);
   if (order.size() == 1 && threshold_ > 0) {
-    add_lone_segment(order[0], open.parent, open.below);
+    add_lone_segment(open.begin, open.below);
     return false;
   }
-  unsolved_.push_back({add_node(open.parent), open.begin, open.end});
+  const std::uint32_t node = add_node();
+  unsolved_.push_back({node, open.begin, open.end});
   if (order.size() > 1 && open.below > 0 && !is_leaf(order, open.measure)) return true;
-  for (const std::uint32_t item : order) add_element(item_elements_[item], item);
+  for (std::uint32_t at = open.begin; at < open.end; ++at) first_node_[at] = node;
   return false;
 }
 
@@ -233,56 +248,45 @@ bool HierarchyBuilder::is_leaf(std::span<const std::uint32_t> order, const Split
   return smallest_enclosing_disc(std::span(points_).first(point_count_)).radius < threshold_;
 }
 
-/// A lone segment and, below, what it is halved into. The midpoint that divides it is its disc's centre.
-void HierarchyBuilder::add_lone_segment(std::uint32_t source, std::uint32_t parent, std::uint32_t below) {
+/// A lone segment, by its place in the order, and, below, what it is halved into. The midpoint that divides it is its
+/// disc's centre.
+void HierarchyBuilder::add_lone_segment(std::uint32_t at, std::uint32_t below) {
+  const std::uint32_t source = order_[at];
+  first_node_[at] = node_count_;
   if (halvings_[source] == EvenHalves::uneven)
-    return add_halves(item_elements_[source].a, item_elements_[source].b, source, parent, below);
+    return add_halves(item_elements_[source].a, item_elements_[source].b, below);
   const int halvings = static_cast<int>(std::min<std::uint32_t>(halvings_[source], below));
-  reserve(EvenHalves::nodes(halvings), EvenHalves::elements(halvings));
-  nodes_.parent[node_count_] = parent;
-  even_halves_.add(halvings, node_count_, element_count_, source);
+  reserve(EvenHalves::nodes(halvings));
+  even_halves_.add(halvings, node_count_, source);
   node_count_ += EvenHalves::nodes(halvings);
-  element_count_ += EvenHalves::elements(halvings);
 }
 
 /// The same where halves are not to be halved equally often.
-void HierarchyBuilder::add_halves(Vec2 a, Vec2 b, std::uint32_t source, std::uint32_t parent,
-                                  std::uint32_t below) {
+void HierarchyBuilder::add_halves(Vec2 a, Vec2 b, std::uint32_t below) {
   std::size_t open_count = 0;
   for (;;) {
-    const std::uint32_t node = add_node(parent);
+    const std::uint32_t node = add_node();
     const Vec2 middle = middle_of(a, b);
-    nodes_.centre[node] = middle;
-    nodes_.square_radius[node] = std::max(square_distance(a, middle), square_distance(b, middle));
+    set_centre(nodes_[node], middle);
+    square_radius_[node] = std::max(square_distance(a, middle), square_distance(b, middle));
     if (below > 0 && square_distance(a, b) > longest_square_length_ && !(middle == a) && !(middle == b)) {
       halves_[open_count++] = {node, --below, b};
       b = middle;
-      parent = node;
       continue;
     }
-    add_element({a, b, b}, source);
     if (open_count == 0) return;
     const Half& half = halves_[--open_count];
-    parent = half.node;
     below = half.below;
-    nodes_.second_child[parent] = node_count_;
-    a = nodes_.centre[parent];
+    nodes_[half.node].second_child = node_count_;
+    a = centre(nodes_[half.node]);
     b = half.end;
   }
 }
 
-std::uint32_t HierarchyBuilder::add_node(std::uint32_t parent) {
-  reserve(1, 0);
-  nodes_.second_child[node_count_] = 0;
-  nodes_.element_begin[node_count_] = element_count_;
-  nodes_.parent[node_count_] = parent;
+std::uint32_t HierarchyBuilder::add_node() {
+  reserve(1);
+  nodes_[node_count_].second_child = 0;
   return node_count_++;
-}
-
-void HierarchyBuilder::add_element(const Element& element, std::uint32_t source) {
-  reserve(0, 1);
-  elements_[element_count_] = element;
-  sources_[element_count_++] = source;
 }
 
 /// Triangles' points, or segments', which c repeats.
@@ -323,15 +327,65 @@ void HierarchyBuilder::solve(std::span<const Vec2> points) {
   discs_.resize(sets_.size());
   solver_.solve(points, sets_, discs_);
   for (std::size_t i = 0; i < discs_.size(); ++i) {
-    nodes_.centre[unsolved_[i].node] = discs_[i].centre;
-    nodes_.square_radius[unsolved_[i].node] = discs_[i].square_radius;
+    set_centre(nodes_[unsolved_[i].node], discs_[i].centre);
+    square_radius_[unsolved_[i].node] = discs_[i].square_radius;
   }
 }
 
+/// Radii with their margin, two at a time.
 void HierarchyBuilder::publish(Hierarchy& hierarchy) {
-  hierarchy.elements.assign(elements_.begin(), elements_.begin() + element_count_);
-  hierarchy.source.assign(sources_.begin(), sources_.begin() + element_count_);
-  publish_nodes(nodes_, node_count_, margin_, hierarchy);
+  reserve(1);  // one more, of an odd number
+  square_radius_[node_count_] = 0;
+  hierarchy.nodes.resize(node_count_ + 1);
+  const HierarchyNode* const from = nodes_.data();
+  HierarchyNode* const to = hierarchy.nodes.data();
+  const __m128d outward = _mm_set1_pd(1 + 0x1p-50), added = _mm_set1_pd(margin_);
+  for (std::uint32_t i = 0; i < node_count_; i += 2) {
+    const __m128d root = _mm_sqrt_pd(_mm_loadu_pd(&square_radius_[i]));
+    const __m128d exact = _mm_add_pd(_mm_mul_pd(root, outward), added);
+    const __m128 nearest = _mm_cvtpd_ps(exact);
+    // As rounding::round_up(): a comparison that holds is -1.
+    const __m128 below = _mm_castpd_ps(_mm_cmplt_pd(_mm_cvtps_pd(nearest), exact));
+    const __m128i step = _mm_castps_si128(_mm_shuffle_ps(below, below, _MM_SHUFFLE(2, 0, 2, 0)));
+    const __m128 radius = _mm_castsi128_ps(_mm_sub_epi32(_mm_castps_si128(nearest), step));
+    const auto write = [&](std::uint32_t node, float r) {
+      const auto& [disc, second] = from[node];
+      to[node] = {{disc.x, disc.y, r}, second};
+    };
+    write(i, _mm_cvtss_f32(radius));
+    write(i + 1, _mm_cvtss_f32(_mm_shuffle_ps(radius, radius, 1)));
+  }
+  hierarchy.nodes.pop_back();
+}
+
+/// A leaf's items, or the pieces of the one that is halved.
+void HierarchyBuilder::add_elements(Hierarchy& hierarchy) const {
+  clear_elements(hierarchy);
+  hierarchy.held.resize(hierarchy.nodes.size());
+  for (std::size_t at = 0; at < order_.size();) {
+    const std::uint32_t node = first_node_[at];
+    const auto begin = static_cast<std::uint32_t>(hierarchy.elements.size());
+    for (; at < order_.size() && first_node_[at] == node; ++at)
+      add_pieces(item_elements_[order_[at]], order_[at], node, hierarchy);
+    hierarchy.held[node].begin = begin;
+  }
+  for (std::size_t i = hierarchy.nodes.size(); i-- > 0;)
+    if (const HierarchyNode& node = hierarchy.nodes[i]; !node.is_leaf())
+      hierarchy.held[i] = {hierarchy.held[i + 1].begin, hierarchy.held[node.second_child].end};
+}
+
+/// A piece's midpoint is its disc's centre.
+void HierarchyBuilder::add_pieces(const Element& piece, std::uint32_t source, std::uint32_t node,
+                                  Hierarchy& hierarchy) const {
+  if (const std::uint32_t second = hierarchy.nodes[node].second_child; second != 0) {
+    const Vec2 middle = centre(hierarchy.nodes[node]);
+    add_pieces({piece.a, middle, middle}, source, node + 1, hierarchy);
+    return add_pieces({middle, piece.b, piece.b}, source, second, hierarchy);
+  }
+  const auto begin = static_cast<std::uint32_t>(hierarchy.elements.size());
+  hierarchy.elements.push_back(piece);
+  hierarchy.source.push_back(source);
+  hierarchy.held[node] = {begin, begin + 1};
 }
 
 }  // namespace bch

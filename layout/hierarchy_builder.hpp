@@ -11,7 +11,6 @@
 
 #include "layout/enclosing_discs.hpp"
 #include "layout/hierarchy.hpp"
-#include "layout/hierarchy_bounds.hpp"
 #include "layout/hierarchy_halves.hpp"
 #include "layout/hierarchy_split.hpp"
 
@@ -25,19 +24,22 @@ class HierarchyBuilder {
   /// With a given implementation of the discs, which this processor has to support.
   explicit HierarchyBuilder(const DiscImplementation& implementation) : solver_(implementation) {}
 
-  /// As contour_hierarchy() documents. After an exception the hierarchy has no nodes.
-  /// `deepest`: nodes there are leaves. Cuts down to there are the same; bounds, which hold what is below, are not.
+  /// As contour_hierarchy() documents, without elements. After an exception the hierarchy has no nodes.
+  /// `deepest`: nodes there are leaves; cuts down to there are the same.
   void contour(const Outline& outline, float threshold, SplitRule rule, Hierarchy& hierarchy,
                std::uint32_t deepest = all_depths);
 
-  /// The root of contour() alone, without elements, for an outline with these points on its convex hull and no others there
+  /// The root of contour() alone, for an outline with these points on its convex hull and no others there
   /// that decide the disc around it or its reach. After an exception the hierarchy has no nodes.
   /// Errors:  throws std::invalid_argument on no points or a reach outside rounding.hpp's domain.
   void root(std::span<const Vec2> points, float grid_step, Hierarchy& hierarchy);
 
-  /// As projected_hierarchy() documents. After an exception the hierarchy has no nodes.
+  /// As projected_hierarchy() documents, without elements. After an exception the hierarchy has no nodes.
   void projected(std::span<const Vec2> vertices, std::span<const std::array<std::uint32_t, 3>> triangles,
                  Hierarchy& hierarchy);
+
+  /// Fills in the elements of the hierarchy that contour() or projected() made last.
+  void add_elements(Hierarchy& hierarchy) const;
 
  private:
   /// A node still to be made: items of the order.
@@ -64,17 +66,17 @@ class HierarchyBuilder {
   void add_triangle(const Element& triangle);
   void grow(bool through_centre, std::uint32_t deepest);
   bool add_node(const Open& open);
-  void add_lone_segment(std::uint32_t source, std::uint32_t parent, std::uint32_t below);
-  void add_halves(Vec2 a, Vec2 b, std::uint32_t source, std::uint32_t parent, std::uint32_t below);
-  std::uint32_t add_node(std::uint32_t parent);
-  void add_element(const Element& element, std::uint32_t source);
-  void reserve(std::uint32_t nodes, std::uint32_t elements);
-  void enlarge(std::uint32_t nodes, std::uint32_t elements);
+  void add_lone_segment(std::uint32_t at, std::uint32_t below);
+  void add_halves(Vec2 a, Vec2 b, std::uint32_t below);
+  std::uint32_t add_node();
+  void reserve(std::uint32_t nodes);
+  void enlarge(std::uint32_t nodes);
   bool is_leaf(std::span<const std::uint32_t> order, const SplitMeasure& box);
   void gather_points(std::span<const std::uint32_t> order);
   void solve_discs();
   void solve(std::span<const Vec2> points);
   void publish(Hierarchy& hierarchy);
+  void add_pieces(const Element& piece, std::uint32_t source, std::uint32_t node, Hierarchy& hierarchy) const;
 
   double margin_ = 0, threshold_ = 0;
   double sure_square_diagonal_ = 0;   ///< a node whose box has a shorter one is a leaf
@@ -88,10 +90,11 @@ class HierarchyBuilder {
   EvenHalves even_halves_;
   std::array<Half, 256> halves_;  ///< lengths span fewer binary orders of magnitude
 
-  std::uint32_t node_count_ = 0, element_count_ = 0;
-  HierarchyArrays nodes_;
-  std::vector<Element> elements_;
-  std::vector<std::uint32_t> sources_;
+  std::uint32_t node_count_ = 0;
+  std::vector<HierarchyNode> nodes_;   ///< without radii
+  std::vector<double> square_radius_;  ///< per node: of the smallest disc about that very centre
+  std::vector<std::uint32_t>
+      first_node_;  ///< per item of the order: the leaf that holds it, or what it is halved into
   std::vector<Unsolved> unsolved_;
 
   /// Of the gathered items, in order; a point that ends one and begins the next stands once.

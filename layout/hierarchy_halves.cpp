@@ -17,10 +17,6 @@ __m128d widened(Vec2 p) {
   return _mm_setr_pd(static_cast<double>(p.x), static_cast<double>(p.y));
 }
 
-Vec2 narrowed(__m128 p) {
-  return {_mm_cvtss_f32(p), _mm_cvtss_f32(_mm_shuffle_ps(p, p, 1))};
-}
-
 /// The larger of two squared lengths.
 double larger_square(__m128d a, __m128d b) {
   const __m128d aa = _mm_mul_pd(a, a), bb = _mm_mul_pd(b, b);
@@ -30,34 +26,23 @@ double larger_square(__m128d a, __m128d b) {
 
 /// Where to write.
 struct Rows {
-  Vec2* centre;
+  HierarchyNode* nodes;
   double* square_radius;
-  std::uint32_t *second_child, *element_begin, *parent;
-  Element* elements;
-  std::uint32_t* sources;
 };
 
-/// A piece with its ends, narrow and wide, that is still to be halved so often; its node and first element.
+/// A piece, by its ends, that is still to be halved so often, and its node.
 template <int halvings>
-void write_piece(const Rows& rows, Vec2 a, __m128d wide_a, Vec2 b, __m128d wide_b, std::uint32_t node,
-                 std::uint32_t element, std::uint32_t source) {
-  const __m128 rounded = _mm_cvtpd_ps(_mm_mul_pd(_mm_set1_pd(0.5), _mm_add_pd(wide_a, wide_b)));
-  const __m128d wide_middle = _mm_cvtps_pd(rounded);
-  const Vec2 middle = narrowed(rounded);
-  rows.centre[node] = middle;
-  rows.square_radius[node] = larger_square(_mm_sub_pd(wide_a, wide_middle), _mm_sub_pd(wide_b, wide_middle));
-  rows.element_begin[node] = element;
-  if constexpr (halvings == 0) {
-    rows.second_child[node] = 0;
-    rows.elements[element] = {a, b, b};
-    rows.sources[element] = source;
-  } else {
-    constexpr std::uint32_t half = EvenHalves::elements(halvings - 1);
-    const std::uint32_t first = node + 1, second = first + EvenHalves::nodes(halvings - 1);
-    rows.second_child[node] = second;
-    rows.parent[first] = rows.parent[second] = node;
-    write_piece<halvings - 1>(rows, a, wide_a, middle, wide_middle, first, element, source);
-    write_piece<halvings - 1>(rows, middle, wide_middle, b, wide_b, second, element + half, source);
+void write_piece(const Rows& rows, __m128d a, __m128d b, std::uint32_t node) {
+  const __m128 rounded = _mm_cvtpd_ps(_mm_mul_pd(_mm_set1_pd(0.5), _mm_add_pd(a, b)));
+  const __m128d middle = _mm_cvtps_pd(rounded);
+  rows.square_radius[node] = larger_square(_mm_sub_pd(a, middle), _mm_sub_pd(b, middle));
+  const std::uint32_t first = node + 1,
+                      second = halvings == 0 ? 0 : node + EvenHalves::nodes(halvings - 1) + 1;
+  _mm_storel_pi(reinterpret_cast<__m64*>(&rows.nodes[node].disc), rounded);
+  rows.nodes[node].second_child = second;
+  if constexpr (halvings > 0) {
+    write_piece<halvings - 1>(rows, a, middle, first);
+    write_piece<halvings - 1>(rows, middle, b, second);
   }
 }
 
@@ -81,21 +66,12 @@ int EvenHalves::halvings(double length) const {
   return sure == possible ? sure : uneven;
 }
 
-void EvenHalves::write(const std::vector<Element>& segments, HierarchyArrays& nodes,
-                       std::vector<Element>& elements, std::vector<std::uint32_t>& sources) const {
-  const Rows rows{nodes.centre.data(),
-                  nodes.square_radius.data(),
-                  nodes.second_child.data(),
-                  nodes.element_begin.data(),
-                  nodes.parent.data(),
-                  elements.data(),
-                  sources.data()};
+void EvenHalves::write(const std::vector<Element>& segments, std::vector<HierarchyNode>& nodes,
+                       std::vector<double>& square_radius) const {
+  const Rows rows{nodes.data(), square_radius.data()};
   const auto write_all = [&]<int halvings>() {
-    for (const auto [node, element, source] : segments_[halvings]) {
-      const Element& segment = segments[source];
-      write_piece<halvings>(rows, segment.a, widened(segment.a), segment.b, widened(segment.b), node, element,
-                            source);
-    }
+    for (const auto [node, source] : segments_[halvings])
+      write_piece<halvings>(rows, widened(segments[source].a), widened(segments[source].b), node);
   };
   [&]<int... halvings>(std::integer_sequence<int, halvings...>) {
     (write_all.template operator()<halvings>(), ...);

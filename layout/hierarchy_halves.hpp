@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "layout/hierarchy.hpp"
-#include "layout/hierarchy_bounds.hpp"
 
 namespace bch {
 
@@ -20,23 +19,22 @@ class EvenHalves {
   static constexpr int most_halvings = 3;
   static constexpr int uneven = most_halvings + 1;
   static constexpr std::uint32_t nodes(int halvings) { return (2u << halvings) - 1; }
-  static constexpr std::uint32_t elements(int halvings) { return 1u << halvings; }
 
   /// Pieces longer than `longest` are halved, in a shape of a certain reach, both metres.
   void begin(double longest, double reach);
   /// How often a segment of a length is halved: `uneven` where that is too often, or rounding may decide.
   int halvings(double length) const;
-  /// Leaves room for a segment's nodes and elements. `source`: its index.
-  void add(int halvings, std::uint32_t node, std::uint32_t element, std::uint32_t source) {
-    segments_[static_cast<std::size_t>(halvings)].push_back({node, element, source});
+  /// Leaves room for a segment's nodes. `source`: its index.
+  void add(int halvings, std::uint32_t node, std::uint32_t source) {
+    segments_[static_cast<std::size_t>(halvings)].push_back({node, source});
   }
-  /// Fills the room. The first node's parent has been set.
-  void write(const std::vector<Element>& segments, HierarchyArrays& nodes, std::vector<Element>& elements,
-             std::vector<std::uint32_t>& sources) const;
+  /// Fills the room: nodes but for their radii, and the squares of the smallest.
+  void write(const std::vector<Element>& segments, std::vector<HierarchyNode>& nodes,
+             std::vector<double>& square_radius) const;
 
  private:
   struct Segment {
-    std::uint32_t node, element, source;
+    std::uint32_t node, source;
   };
   double surely_short_ = 0, surely_long_ = 0;
   std::array<std::vector<Segment>, most_halvings + 1> segments_;

@@ -38,9 +38,9 @@ Shape comb(test::Random& random, std::uint32_t leaves) {
     const bool is_last = i + 1 == leaves;
     if (!is_last) {
       const auto self = static_cast<std::uint32_t>(nodes.size());
-      nodes.push_back({{disc.x, disc.y, 2}, 4, self + 2, 0, 0});
+      nodes.push_back({{disc.x, disc.y, 2}, self + 2});
     }
-    nodes.push_back({disc, disc.radius, 0, 0, 0});
+    nodes.push_back({disc, 0});
     turn += random.uniform(-0.5, 0.5);
     x = std::clamp(x + 0.015 * std::cos(turn), -1.0, 1.0),
     y = std::clamp(y + 0.015 * std::sin(turn), -1.0, 1.0);

@@ -17,11 +17,11 @@ double distance(const Disc& disc, double x, double y) {
   return std::hypot(static_cast<double>(disc.x) - x, static_cast<double>(disc.y) - y);
 }
 
-void expect_holds_elements(const Hierarchy& hierarchy, const HierarchyNode& node) {
-  for (std::uint32_t e = node.element_begin; e < node.element_end; ++e) {
+void expect_holds_elements(const Hierarchy& hierarchy, std::uint32_t node) {
+  const Disc& disc = hierarchy.nodes[node].disc;
+  for (std::uint32_t e = hierarchy.held[node].begin; e < hierarchy.held[node].end; ++e) {
     const auto [a, b, c] = hierarchy.elements[e];
-    for (const Vec2& p : {a, b, c})
-      ASSERT_LE(distance(node.disc, p.x, p.y), node.disc.radius) << "element " << e;
+    for (const Vec2& p : {a, b, c}) ASSERT_LE(distance(disc, p.x, p.y), disc.radius) << "element " << e;
   }
 }
 
@@ -30,22 +30,25 @@ void expect_holds_elements(const Hierarchy& hierarchy, const HierarchyNode& node
 void expect_sound(const Hierarchy& hierarchy) {
   const auto& nodes = hierarchy.nodes;
   ASSERT_FALSE(nodes.empty());
-  EXPECT_EQ(nodes[0].element_end, hierarchy.elements.size());
+  const auto& held = hierarchy.held;
+  ASSERT_EQ(held.size(), nodes.size());
+  EXPECT_EQ(held[0].end, hierarchy.elements.size());
+  const std::vector<float> bounds = bounding_radii(hierarchy);
   const std::vector<std::uint32_t> ends = subtree_ends(nodes);
   EXPECT_EQ(ends[0], nodes.size());
   for (std::uint32_t i = 0; i < nodes.size(); ++i) {
     const HierarchyNode& node = nodes[i];
-    ASSERT_LT(node.element_begin, node.element_end) << "node " << i;
-    expect_holds_elements(hierarchy, node);
+    ASSERT_LT(held[i].begin, held[i].end) << "node " << i;
+    expect_holds_elements(hierarchy, i);
     for (std::uint32_t below = i + 1; below < ends[i]; ++below) {
       const Disc& disc = nodes[below].disc;
-      ASSERT_LE(distance(node.disc, disc.x, disc.y) + static_cast<double>(disc.radius), node.bound)
+      ASSERT_LE(distance(node.disc, disc.x, disc.y) + static_cast<double>(disc.radius), bounds[i])
           << "node " << i;
     }
     if (node.is_leaf()) continue;
-    EXPECT_EQ(nodes[i + 1].element_begin, node.element_begin);
-    EXPECT_EQ(nodes[i + 1].element_end, nodes[node.second_child].element_begin);
-    EXPECT_EQ(nodes[node.second_child].element_end, node.element_end);
+    EXPECT_EQ(held[i + 1].begin, held[i].begin);
+    EXPECT_EQ(held[i + 1].end, held[node.second_child].begin);
+    EXPECT_EQ(held[node.second_child].end, held[i].end);
   }
 }
 
@@ -69,8 +72,8 @@ void expect_covers_outline(const Hierarchy& hierarchy, const Outline& outline) {
   for (std::uint32_t depth = 0; depth <= height(hierarchy); ++depth) {
     std::uint32_t next = 0;
     for (const std::uint32_t node : cut(hierarchy, depth)) {
-      ASSERT_EQ(hierarchy.nodes[node].element_begin, next) << "depth " << depth;
-      next = hierarchy.nodes[node].element_end;
+      ASSERT_EQ(hierarchy.held[node].begin, next) << "depth " << depth;
+      next = hierarchy.held[node].end;
     }
     ASSERT_EQ(next, hierarchy.elements.size()) << "depth " << depth;
   }

@@ -8,7 +8,7 @@
 namespace bch::test {
 
 /// At every node: all vertices of its elements lie in its disc (in double), the children divide its elements
-/// and neither is empty, and its bound holds the discs of all nodes below.
+/// and neither is empty, and its bounding radius holds the discs of all nodes below.
 void expect_sound(const Hierarchy& hierarchy);
 
 /// The pieces of every outline segment lead from its one end to the other, and every cut holds all elements.

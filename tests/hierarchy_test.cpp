@@ -50,8 +50,7 @@ TEST(ContourHierarchy, SplitRulesDivideWhereTheySay) {
   const Hierarchy centroid = contour_hierarchy(outline, 0.1f, SplitRule::centroid);
   const Hierarchy centre = contour_hierarchy(outline, 0.1f, SplitRule::centre);
   const auto left_sources = [](const Hierarchy& h) {
-    std::vector<std::uint32_t> sources(h.source.begin() + h.nodes[1].element_begin,
-                                       h.source.begin() + h.nodes[1].element_end);
+    std::vector<std::uint32_t> sources(h.source.begin() + h.held[1].begin, h.source.begin() + h.held[1].end);
     std::sort(sources.begin(), sources.end());
     sources.erase(std::unique(sources.begin(), sources.end()), sources.end());
     return sources;

@@ -97,16 +97,13 @@ Hierarchy comb(std::uint32_t leaves) {
     const float x = 0.01f * static_cast<float>(i);
     HierarchyNode inner, leaf;
     inner.disc = {x, 0, 1 + 0.01f * static_cast<float>(leaves)};
-    inner.bound = 2 * inner.disc.radius;
     inner.second_child = static_cast<std::uint32_t>(hierarchy.nodes.size()) + 2;
     leaf.disc = {x, 0, 0.02f};
-    leaf.bound = 0.02f;
     hierarchy.nodes.push_back(inner);
     hierarchy.nodes.push_back(leaf);
   }
   HierarchyNode last;
   last.disc = {0.01f * static_cast<float>(leaves), 0, 0.02f};
-  last.bound = 0.02f;
   hierarchy.nodes.push_back(last);
   return hierarchy;
 }
