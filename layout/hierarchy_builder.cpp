@@ -84,12 +84,9 @@ void HierarchyBuilder::contour(const Outline& outline, float threshold, SplitRul
   validate(outline);
   require_threshold(threshold);
   hierarchy.reach = reach(outline.points);
-  begin(hierarchy.reach, rounding::outline_grid_steps * widened(outline.grid_step), widened(threshold));
-  for (std::size_t c = 0; c < outline.contours(); ++c) {
-    const auto points = outline.contour(c);
-    for (std::size_t i = 0; i + 1 < points.size(); ++i) add_segment(points[i], points[i + 1]);
-    add_segment(points.back(), points.front());
-  }
+  begin(hierarchy.reach, rounding::outline_grid_steps * widened(outline.grid_step), widened(threshold),
+        outline.points.size());
+  for (std::size_t c = 0; c < outline.contours(); ++c) items_.add_contour(outline.contour(c), even_halves_);
   grow(rule == SplitRule::centre, deepest);
   publish(hierarchy);
 }
@@ -110,8 +107,8 @@ void HierarchyBuilder::projected(std::span<const Vec2> vertices,
       hierarchy.reach = std::max(hierarchy.reach, reach(vertices.subspan(vertex, 1)));
     }
   require_reach(hierarchy.reach);
-  begin(hierarchy.reach, 0, 0);
-  for (const auto& [a, b, c] : triangles) add_triangle({vertices[a], vertices[b], vertices[c]});
+  begin(hierarchy.reach, 0, 0, triangles.size());
+  for (const auto& [a, b, c] : triangles) items_.add_triangle({vertices[a], vertices[b], vertices[c]});
   grow(false, all_depths);
   publish(hierarchy);
 }
@@ -121,59 +118,24 @@ void HierarchyBuilder::root(std::span<const Vec2> points, float grid_step, Hiera
   if (points.empty()) throw std::invalid_argument("hierarchy: no points");
   hierarchy.reach = reach(points);
   require_reach(hierarchy.reach);
-  begin(hierarchy.reach, rounding::outline_grid_steps * widened(grid_step), 0);
+  begin(hierarchy.reach, rounding::outline_grid_steps * widened(grid_step), 0, 0);
   unsolved_.push_back({add_node(), 0, 0});
   sets_.assign(1, {0, static_cast<std::uint32_t>(points.size())});
   solve(points);
   publish(hierarchy);
 }
 
-void HierarchyBuilder::begin(double reach, double margin, double threshold) {
+void HierarchyBuilder::begin(double reach, double margin, double threshold, std::size_t items) {
   margin_ = margin + rounding::query_margin * reach;
   threshold_ = threshold;
   // Half the diagonal of its box bounds a node's radius, but for the rounding of the centre.
   const double half = std::max(0.0, threshold * (1 - 0x1p-40) - 2 * rounding::unit_roundoff * reach);
   sure_square_diagonal_ = 4 * half * half;
   longest_square_length_ = largest_square(2 * threshold);
-  items_.clear();
-  item_elements_.clear();
-  halvings_.clear();
+  items_.begin(items);
   even_halves_.begin(2 * threshold, reach);
   unsolved_.clear();
   node_count_ = 0;
-}
-
-void HierarchyBuilder::add_segment(Vec2 a, Vec2 b) {
-  SplitItem item;
-  const double length = std::sqrt(square_distance(a, b));
-  item.weight[0] = item.weight[1] = length;
-  const auto set = [&](int axis, float at_a, float at_b) {
-    item.box[axis] = std::min(at_a, at_b);
-    item.box[2 + axis] = -std::max(at_a, at_b);
-    item.middle[axis] = 0.5 * (widened(at_a) + widened(at_b));
-    item.moment[axis] = length * item.middle[axis];
-  };
-  set(0, a.x, b.x);
-  set(1, a.y, b.y);
-  items_.push_back(item);
-  item_elements_.push_back({a, b, b});
-  halvings_.push_back(static_cast<std::uint8_t>(even_halves_.halvings(length)));
-}
-
-void HierarchyBuilder::add_triangle(const Element& triangle) {
-  const auto& [a, b, c] = triangle;
-  SplitItem item;
-  item.weight[0] = item.weight[1] = 3;
-  const auto set = [&](int axis, float at_a, float at_b, float at_c) {
-    item.box[axis] = std::min({at_a, at_b, at_c});
-    item.box[2 + axis] = -std::max({at_a, at_b, at_c});
-    item.moment[axis] = widened(at_a) + widened(at_b) + widened(at_c);
-    item.middle[axis] = item.moment[axis] / 3;
-  };
-  set(0, a.x, b.x, c.x);
-  set(1, a.y, b.y, c.y);
-  items_.push_back(item);
-  item_elements_.push_back(triangle);
 }
 
 /// Room for more, which need not all be used.
@@ -192,59 +154,70 @@ void HierarchyBuilder::enlarge(std::uint32_t nodes) {
 
 /// First the tree, depth first, whose shape needs few discs, then the other discs.
 void HierarchyBuilder::grow(bool through_centre, std::uint32_t deepest) {
-  const std::size_t count = items_.size();
+  const std::size_t count = items_.count;
   order_.resize(count);
-  scratch_.resize(std::max(scratch_.size(), count));
+  scratch_.resize(std::max(scratch_.size(), 2 * count));
   first_node_.resize(std::max(first_node_.size(), count));
   open_.resize(std::max(open_.size(), count + 1));
   std::iota(order_.begin(), order_.end(), 0);
   Open* top = open_.data();
-  *top++ = {0, static_cast<std::uint32_t>(count), none, deepest, measure(items_, order_)};
+  *top++ = {
+      0, static_cast<std::uint32_t>(count), order_.data(), scratch_.data(), none, deepest, measure(items_)};
   while (top != open_.data()) {
     const std::uint32_t node = node_count_;
     if (!add_node(*--top)) continue;
-    const auto [begin, end, parent, below, whole] = *top;
-    const ItemOrder order = std::span(order_).subspan(begin, end - begin);
-    if (order.size() == 2 && threshold_ > 0) {
-      divide_pair(items_, order, whole, through_centre);
-      add_lone_segment(begin, below - 1);
+    const Open now = *top;
+    std::uint32_t* const first = order_.data() + now.begin;
+    const std::uint32_t below = now.below - 1;
+    if (now.end - now.begin == 2 && threshold_ > 0) {
+      divide_pair(items_, now.items(), now.measure, through_centre, first);
+      add_lone_segment(now.begin, below);
       nodes_[node].second_child = node_count_;
-      add_lone_segment(begin + 1, below - 1);
+      add_lone_segment(now.begin + 1, below);
       continue;
     }
     const auto middle =
-        begin + static_cast<std::uint32_t>(divide(items_, order, whole, through_centre, scratch_.data(),
-                                                  top[1].measure, top[0].measure));
-    top[0].begin = middle, top[0].end = end, top[0].parent = node, top[0].below = below - 1;
-    top[1].begin = begin, top[1].end = middle, top[1].parent = node, top[1].below = below - 1;
+        now.begin + static_cast<std::uint32_t>(divide(items_, now.items(), now.measure, through_centre, first,
+                                                      now.scratch, top[1].measure, top[0].measure));
+    const auto set = [&](Open& child, std::uint32_t begin, std::uint32_t end, std::uint32_t* list,
+                         std::uint32_t* scratch) {
+      child.begin = begin, child.end = end, child.list = list, child.scratch = scratch;
+      child.parent = node, child.below = below;
+    };
+    set(top[0], middle, now.end, now.scratch, now.scratch);
+    set(top[1], now.begin, middle, first, now.scratch + (now.end - middle));
     top += 2;
   }
-  even_halves_.write(item_elements_, nodes_, square_radius_);
+  even_halves_.write(items_.elements, nodes_, square_radius_);
   solve_discs();
 }
 
 /// False for a leaf and for what is complete already.
 bool HierarchyBuilder::add_node(const Open& open) {
   if (open.parent != none && open.parent + 1 != node_count_) nodes_[open.parent].second_child = node_count_;
-  const std::span<const std::uint32_t> order = std::span(order_).subspan(open.begin, open.end - open.begin);
-  if (order.size() == 1 && threshold_ > 0) {
+  const ItemList items = open.items();
+  if (items.size() == 1 && threshold_ > 0) {
+    order_[open.begin] = items[0];
     add_lone_segment(open.begin, open.below);
     return false;
   }
   const std::uint32_t node = add_node();
   unsolved_.push_back({node, open.begin, open.end});
-  if (order.size() > 1 && open.below > 0 && !is_leaf(order, open.measure)) return true;
-  for (std::uint32_t at = open.begin; at < open.end; ++at) first_node_[at] = node;
+  if (items.size() > 1 && open.below > 0 && !is_leaf(items, open.measure)) return true;
+  for (std::size_t k = 0; k < items.size(); ++k) {
+    order_[open.begin + k] = items[k];
+    first_node_[open.begin + k] = node;
+  }
   return false;
 }
 
 /// The disc about a box holds its node's, whose diameter is at least the box's longer side: the disc itself
 /// decides only between.
-bool HierarchyBuilder::is_leaf(std::span<const std::uint32_t> order, const SplitMeasure& box) {
+bool HierarchyBuilder::is_leaf(ItemList items, const SplitMeasure& box) {
   const double x = box.extent(0), y = box.extent(1);
   if (0.5 * std::max(x, y) >= threshold_) return false;
   if (x * x + y * y < sure_square_diagonal_) return true;
-  gather_points(order);
+  gather_points(items);
   return smallest_enclosing_disc(std::span(points_).first(point_count_)).radius < threshold_;
 }
 
@@ -253,9 +226,10 @@ bool HierarchyBuilder::is_leaf(std::span<const std::uint32_t> order, const Split
 void HierarchyBuilder::add_lone_segment(std::uint32_t at, std::uint32_t below) {
   const std::uint32_t source = order_[at];
   first_node_[at] = node_count_;
-  if (halvings_[source] == EvenHalves::uneven)
-    return add_halves(item_elements_[source].a, item_elements_[source].b, below);
-  const int halvings = static_cast<int>(std::min<std::uint32_t>(halvings_[source], below));
+  const std::uint8_t wanted = items_.halvings[source];
+  if (wanted == EvenHalves::uneven)
+    return add_halves(items_.elements[source].a, items_.elements[source].b, below);
+  const int halvings = static_cast<int>(std::min<std::uint32_t>(wanted, below));
   reserve(EvenHalves::nodes(halvings));
   even_halves_.add(halvings, node_count_, source);
   node_count_ += EvenHalves::nodes(halvings);
@@ -290,19 +264,19 @@ std::uint32_t HierarchyBuilder::add_node() {
 }
 
 /// Triangles' points, or segments', which c repeats.
-void HierarchyBuilder::gather_points(std::span<const std::uint32_t> order) {
-  const std::size_t count = order.size();
+void HierarchyBuilder::gather_points(ItemList items) {
+  const std::size_t count = items.size();
   points_.resize(std::max(points_.size(), 3 * count));
   first_point_.resize(std::max(first_point_.size(), count));
   last_point_.resize(std::max(last_point_.size(), count));
   Vec2* const points = points_.data();
   std::uint32_t *const first = first_point_.data(), *const last = last_point_.data();
-  const Element* const elements = item_elements_.data();
+  const Element* const elements = items_.elements.data();
   std::uint32_t at = 0;
-  const Vec2* next = &elements[order[0]].a;
+  const Vec2* next = &elements[items[0]].a;
   for (std::size_t k = 0; k < count; ++k) {
-    const auto& [a, b, c] = elements[order[k]];
-    next = k + 1 < count ? &elements[order[k + 1]].a : next;
+    const auto& [a, b, c] = elements[items[k]];
+    next = k + 1 < count ? &elements[items[k + 1]].a : next;
     first[k] = at;
     points[at++] = a;
     points[at] = b;
@@ -366,7 +340,7 @@ void HierarchyBuilder::add_elements(Hierarchy& hierarchy) const {
     const std::uint32_t node = first_node_[at];
     const auto begin = static_cast<std::uint32_t>(hierarchy.elements.size());
     for (; at < order_.size() && first_node_[at] == node; ++at)
-      add_pieces(item_elements_[order_[at]], order_[at], node, hierarchy);
+      add_pieces(items_.elements[order_[at]], order_[at], node, hierarchy);
     hierarchy.held[node].begin = begin;
   }
   for (std::size_t i = hierarchy.nodes.size(); i-- > 0;)

@@ -42,12 +42,16 @@ class HierarchyBuilder {
   void add_elements(Hierarchy& hierarchy) const;
 
  private:
-  /// A node still to be made: items of the order.
+  /// A node still to be made: a range of the order. Its items are listed there, or, of a second child, in the scratch.
   struct Open {
     std::uint32_t begin, end;
+    std::uint32_t* list;
+    std::uint32_t* scratch;  ///< room for a second side: behind the lists that wait, or the list's own
     std::uint32_t parent;
     std::uint32_t below;  ///< levels that may follow
     SplitMeasure measure;
+
+    ItemList items() const { return {list, end - begin}; }
   };
   /// What remains of a segment on its way down: the half from a node's centre to this end.
   struct Half {
@@ -61,9 +65,7 @@ class HierarchyBuilder {
     std::uint32_t begin, end;  ///< of the order
   };
 
-  void begin(double reach, double margin, double threshold);
-  void add_segment(Vec2 a, Vec2 b);
-  void add_triangle(const Element& triangle);
+  void begin(double reach, double margin, double threshold, std::size_t items);
   void grow(bool through_centre, std::uint32_t deepest);
   bool add_node(const Open& open);
   void add_lone_segment(std::uint32_t at, std::uint32_t below);
@@ -71,8 +73,8 @@ class HierarchyBuilder {
   std::uint32_t add_node();
   void reserve(std::uint32_t nodes);
   void enlarge(std::uint32_t nodes);
-  bool is_leaf(std::span<const std::uint32_t> order, const SplitMeasure& box);
-  void gather_points(std::span<const std::uint32_t> order);
+  bool is_leaf(ItemList items, const SplitMeasure& box);
+  void gather_points(ItemList items);
   void solve_discs();
   void solve(std::span<const Vec2> points);
   void publish(Hierarchy& hierarchy);
@@ -82,9 +84,7 @@ class HierarchyBuilder {
   double sure_square_diagonal_ = 0;   ///< a node whose box has a shorter one is a leaf
   double longest_square_length_ = 0;  ///< of a segment that is not halved
 
-  std::vector<SplitItem> items_;
-  std::vector<Element> item_elements_;
-  std::vector<std::uint8_t> halvings_;  ///< per segment: of EvenHalves
+  SplitItems items_;
   std::vector<std::uint32_t> order_, scratch_;
   std::vector<Open> open_;
   EvenHalves even_halves_;

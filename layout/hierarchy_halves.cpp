@@ -48,22 +48,32 @@ void write_piece(const Rows& rows, __m128d a, __m128d b, std::uint32_t node) {
 
 }  // namespace
 
-/// A midpoint is off by sqrt(2) u of the reach, so a piece's end by 2 sqrt(2) u and its length by 5.7 u; lengths are rounded
-/// in double. Of a piece that is surely long 10 u remain, so that its midpoint is neither end, which takes 2.9 u.
+/// A midpoint is off by sqrt(2) u of the reach, so a piece's end by 2 sqrt(2) u and its length by 5.7 u; a length in float
+/// by 2.5 u of at most 2.83 times the reach, so 7.1 u, and the limits, where lengths come near them, by 2.9 u. Of a piece
+/// that is surely long 8 u remain, so that its midpoint is neither end, which takes 2.9 u.
 void EvenHalves::begin(double longest, double reach) {
-  const double slack = 16 * rounding::unit_roundoff * reach;
-  surely_short_ = longest - slack;
-  surely_long_ = longest + slack;
+  const double slack = 24 * rounding::unit_roundoff * reach;
+  for (std::size_t k = 0; k < surely_long_.size(); ++k) {
+    const double pieces = 1 << k;
+    surely_short_[k] = static_cast<float>(pieces * (longest - slack));
+    surely_long_[k] = static_cast<float>(pieces * (longest + slack));
+  }
   for (auto& of_a_kind : segments_) of_a_kind.clear();
 }
 
-int EvenHalves::halvings(double length) const {
-  int sure = 0, possible = 0;
-  for (int k = 0; k <= most_halvings; ++k) {
-    sure += length > static_cast<double>(1 << k) * surely_long_;
-    possible += length > static_cast<double>(1 << k) * surely_short_;
-  }
-  return sure == possible ? sure : uneven;
+void EvenHalves::write_halvings(__m128 lengths, std::uint8_t* halvings) const {
+  __m128i sure = _mm_setzero_si128(), possible = sure;
+  const auto count = [&](__m128i& sum, float limit) {
+    sum = _mm_sub_epi32(sum, _mm_castps_si128(_mm_cmpgt_ps(lengths, _mm_set1_ps(limit))));
+  };
+  for (std::size_t k = 0; k < surely_long_.size(); ++k)
+    count(sure, surely_long_[k]), count(possible, surely_short_[k]);
+  const __m128i is_even = _mm_cmpeq_epi32(sure, possible);
+  const __m128i four =
+      _mm_or_si128(_mm_and_si128(is_even, sure), _mm_andnot_si128(is_even, _mm_set1_epi32(uneven)));
+  const __m128i bytes = _mm_packus_epi16(_mm_packs_epi32(four, four), four);
+  const int packed = _mm_cvtsi128_si32(bytes);
+  __builtin_memcpy(halvings, &packed, sizeof packed);
 }
 
 void EvenHalves::write(const std::vector<Element>& segments, std::vector<HierarchyNode>& nodes,

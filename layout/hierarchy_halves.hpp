@@ -3,6 +3,8 @@
 
 #pragma once
 
+#include <emmintrin.h>
+
 #include <array>
 #include <cstdint>
 #include <vector>
@@ -22,8 +24,9 @@ class EvenHalves {
 
   /// Pieces longer than `longest` are halved, in a shape of a certain reach, both metres.
   void begin(double longest, double reach);
-  /// How often a segment of a length is halved: `uneven` where that is too often, or rounding may decide.
-  int halvings(double length) const;
+  /// How often segments of four lengths, rounded to float, are halved: `uneven` where that is too often, or rounding
+  /// may decide.
+  void write_halvings(__m128 lengths, std::uint8_t* halvings) const;
   /// Leaves room for a segment's nodes. `source`: its index.
   void add(int halvings, std::uint32_t node, std::uint32_t source) {
     segments_[static_cast<std::size_t>(halvings)].push_back({node, source});
@@ -36,7 +39,8 @@ class EvenHalves {
   struct Segment {
     std::uint32_t node, source;
   };
-  double surely_short_ = 0, surely_long_ = 0;
+  /// Lengths up to which a segment is surely halved so often at most, and beyond which surely once more.
+  std::array<float, most_halvings + 1> surely_short_ = {}, surely_long_ = {};
   std::array<std::vector<Segment>, most_halvings + 1> segments_;
 };
 

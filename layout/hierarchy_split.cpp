@@ -13,105 +13,116 @@ namespace {
 
 constexpr float infinity = std::numeric_limits<float>::infinity();
 
-/// Boxes and moments of both sides of a plane while they grow, in registers of every x86-64 processor. Which side an item
+/// Boxes and sums of both sides of a plane while they grow, in registers of every x86-64 processor. Which side an item
 /// is on is a mask, all bits of a lane or none: on the other side zeros are added, and a minimum is taken with NaN, which
 /// leaves what comes second.
 class Sums {
  public:
-  void add(const SplitItem& item, __m128d before, __m128d after) {
-    const __m128 box = _mm_loadu_ps(item.box);
-    const __m128d moment = _mm_loadu_pd(item.moment);
-    box_[0] = _mm_min_ps(_mm_or_ps(_mm_castpd_ps(after), box), box_[0]);
-    box_[1] = _mm_min_ps(_mm_or_ps(_mm_castpd_ps(before), box), box_[1]);
-    moment_[0] = _mm_add_pd(moment_[0], _mm_and_pd(before, moment));
-    moment_[1] = _mm_add_pd(moment_[1], _mm_and_pd(after, moment));
-    weight_ = _mm_add_pd(weight_, _mm_and_pd(_mm_unpacklo_pd(before, after), _mm_loadu_pd(item.weight)));
+  void add(const SplitItem& item, __m128 before, __m128 after) {
+    const __m128 box = _mm_load_ps(item.box), sums = _mm_load_ps(item.sums);
+    box_[0] = _mm_min_ps(_mm_or_ps(after, box), box_[0]);
+    box_[1] = _mm_min_ps(_mm_or_ps(before, box), box_[1]);
+    sums_[0] = _mm_add_ps(sums_[0], _mm_and_ps(before, sums));
+    sums_[1] = _mm_add_ps(sums_[1], _mm_and_ps(after, sums));
   }
 
   void store(SplitMeasure& before, SplitMeasure& after) const {
     _mm_storeu_ps(before.box, box_[0]);
     _mm_storeu_ps(after.box, box_[1]);
-    _mm_storeu_pd(before.moment, moment_[0]);
-    _mm_storeu_pd(after.moment, moment_[1]);
-    _mm_storel_pd(&before.weight, weight_);
-    _mm_storeh_pd(&after.weight, weight_);
+    _mm_storeu_ps(before.sums, sums_[0]);
+    _mm_storeu_ps(after.sums, sums_[1]);
   }
 
  private:
   __m128 box_[2] = {_mm_set1_ps(infinity), _mm_set1_ps(infinity)};
-  __m128d moment_[2] = {_mm_setzero_pd(), _mm_setzero_pd()}, weight_ = _mm_setzero_pd();
+  __m128 sums_[2] = {_mm_setzero_ps(), _mm_setzero_ps()};
 };
 
-double centroid(std::span<const SplitItem> items, ItemOrder order, const SplitMeasure& measure, int axis) {
-  if (measure.weight > 0) return measure.moment[axis] / measure.weight;
-  double sum = 0;
-  for (const std::uint32_t i : order) sum += items[i].middle[axis];
-  return sum / static_cast<double>(order.size());
+float centroid(const SplitItems& items, ItemList list, const SplitMeasure& measure, int axis) {
+  if (const float weight = measure.sums[2]; weight > 0) return measure.sums[axis] / weight;
+  float sum = 0;
+  for (const std::uint32_t i : list) sum += items.middle[static_cast<std::size_t>(axis)][i];
+  return sum / static_cast<float>(list.size());
 }
 
-double plane(std::span<const SplitItem> items, ItemOrder order, const SplitMeasure& whole,
-             bool through_centre, int axis) {
-  return through_centre ? 0.5 * (whole.low(axis) + whole.high(axis)) : centroid(items, order, whole, axis);
+float plane(const SplitItems& items, ItemList list, const SplitMeasure& whole, bool through_centre,
+            int axis) {
+  return through_centre ? 0.5f * (whole.box[axis] - whole.box[2 + axis]) : centroid(items, list, whole, axis);
 }
 
-/// Stable, and without a branch on an item's side: every item is written to both sides and offered to both sums.
-std::size_t partition(const SplitItem* items, ItemOrder order, int axis, double plane, std::uint32_t* second,
-                      SplitMeasure& before_plane, SplitMeasure& after_plane) {
-  const __m128d limit = _mm_set1_pd(plane);
+/// Of some of the items, the sums in order.
+SplitMeasure measure(const SplitItems& items, ItemList list) {
+  const __m128 none = _mm_setzero_ps(), all = _mm_cmpeq_ps(none, none);
   Sums sums;
-  std::uint32_t* first = order.data();
-  std::uint32_t* const second_begin = second;
-  for (const std::uint32_t i : order) {
-    const SplitItem& item = items[i];
-    const __m128d middle = _mm_set1_pd(item.middle[axis]), before = _mm_cmplt_pd(middle, limit);
-    sums.add(item, before, _mm_cmpge_pd(middle, limit));
-    const int is_before = _mm_movemask_pd(before) & 1;
-    *first = i;
-    *second = i;
-    first += is_before;
-    second += 1 - is_before;
-  }
-  sums.store(before_plane, after_plane);
-  const std::size_t first_count = static_cast<std::size_t>(first - order.data());
-  for (const std::uint32_t* i = second_begin; i != second; ++i) *first++ = *i;
-  return first_count;
-}
-
-}  // namespace
-
-SplitMeasure measure(std::span<const SplitItem> items, std::span<const std::uint32_t> order) {
-  const __m128d none = _mm_setzero_pd(), all = _mm_cmpeq_pd(none, none);
-  Sums sums;
-  for (const std::uint32_t i : order) sums.add(items[i], all, none);
+  for (const std::uint32_t i : list) sums.add(items.items[i], all, none);
   SplitMeasure result, empty;
   sums.store(result, empty);
   return result;
 }
 
-std::size_t divide(std::span<const SplitItem> items, ItemOrder order, const SplitMeasure& whole,
-                   bool through_centre, std::uint32_t* scratch, SplitMeasure& first, SplitMeasure& second) {
+/// Stable, and without a branch on an item's side: every item is written to both sides and offered to both sums.
+std::size_t partition(const SplitItems& items, ItemList list, int axis, float plane,
+                      std::uint32_t* first_list, std::uint32_t* second_list, SplitMeasure& before_plane,
+                      SplitMeasure& after_plane) {
+  const float* const middle = items.middle[static_cast<std::size_t>(axis)].data();
+  const SplitItem* const all = items.items.data();
+  const __m128 limit = _mm_set1_ps(plane);
+  Sums sums;
+  std::uint32_t* first = first_list;
+  for (const std::uint32_t i : list) {
+    const __m128 at = _mm_set1_ps(middle[i]), before = _mm_cmplt_ps(at, limit);
+    sums.add(all[i], before, _mm_cmpge_ps(at, limit));
+    const int is_before = _mm_movemask_ps(before) & 1;
+    *first = i;
+    *second_list = i;
+    first += is_before;
+    second_list += 1 - is_before;
+  }
+  sums.store(before_plane, after_plane);
+  return static_cast<std::size_t>(first - first_list);
+}
+
+}  // namespace
+
+SplitMeasure measure(const SplitItems& items) {
+  const __m128 none = _mm_setzero_ps(), all = _mm_cmpeq_ps(none, none);
+  Sums sums;
+  for (std::size_t i = 0; i < items.count; ++i) sums.add(items.items[i], all, none);
+  SplitMeasure result, empty;
+  sums.store(result, empty);
+  return result;
+}
+
+std::size_t divide(const SplitItems& items, ItemList list, const SplitMeasure& whole, bool through_centre,
+                   std::uint32_t* first_list, std::uint32_t* second_list, SplitMeasure& first,
+                   SplitMeasure& second) {
   const int longer = whole.longer_axis();
   for (const int axis : {longer, 1 - longer}) {
-    const double at = plane(items, order, whole, through_centre, axis);
-    const std::size_t count = partition(items.data(), order, axis, at, scratch, first, second);
-    if (count != 0 && count != order.size()) return count;
+    const float at = plane(items, list, whole, through_centre, axis);
+    const std::size_t count = partition(items, list, axis, at, first_list, second_list, first, second);
+    if (count != 0 && count != list.size()) return count;
+    // What the list stood in may have been written to; all of it went to one side.
+    list = {count == 0 ? second_list : first_list, list.size()};
   }
-  const std::size_t half = order.size() / 2;
-  first = measure(items, order.first(half));
-  second = measure(items, order.subspan(half));
+  const std::size_t half = list.size() / 2;
+  first = measure(items, list.first(half));
+  second = measure(items, list.subspan(half));
+  std::copy_n(list.begin(), half, first_list);
+  std::copy(list.begin() + static_cast<std::ptrdiff_t>(half), list.end(), second_list);
   return half;
 }
 
-void divide_pair(std::span<const SplitItem> items, ItemOrder order, const SplitMeasure& whole,
-                 bool through_centre) {
+void divide_pair(const SplitItems& items, ItemList list, const SplitMeasure& whole, bool through_centre,
+                 std::uint32_t* both) {
   const int longer = whole.longer_axis();
-  const SplitItem &a = items[order[0]], &b = items[order[1]];
+  const std::uint32_t a = list[0], b = list[1];
+  both[0] = a, both[1] = b;
   for (const int axis : {longer, 1 - longer}) {
-    const double at = plane(items, order, whole, through_centre, axis);
-    const bool is_a_before = a.middle[axis] < at, is_b_before = b.middle[axis] < at;
+    const float at = plane(items, list, whole, through_centre, axis);
+    const auto& middle = items.middle[static_cast<std::size_t>(axis)];
+    const bool is_a_before = middle[a] < at, is_b_before = middle[b] < at;
     if (is_a_before == is_b_before) continue;
-    const std::uint32_t first = order[is_b_before], second = order[is_a_before];
-    order[0] = first, order[1] = second;
+    both[0] = is_b_before ? b : a, both[1] = is_b_before ? a : b;
     return;
   }
 }

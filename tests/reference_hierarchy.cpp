@@ -20,6 +20,12 @@ struct Segment {
   std::uint32_t source;
 
   double middle(int axis) const { return 0.5 * (coordinate(a, axis) + coordinate(b, axis)); }
+  /// What decides sides is in float, the middle too.
+  float weight() const {
+    const float x = b.x - a.x, y = b.y - a.y;
+    return std::sqrt(x * x + y * y);
+  }
+  float side(int axis) const { return static_cast<float>(middle(axis)); }
   double length() const {
     const double x = coordinate(b, 0) - coordinate(a, 0), y = coordinate(b, 1) - coordinate(a, 1);
     return std::sqrt(x * x + y * y);
@@ -100,16 +106,16 @@ class Reference {
     return {low, high};
   }
 
-  double plane(const Segments& segments, int axis) const {
+  float plane(const Segments& segments, int axis) const {
     const auto [low, high] = extent(segments, axis);
-    if (rule_ == SplitRule::centre) return 0.5 * (low + high);
-    double sum = 0, weight = 0, plain = 0;
+    if (rule_ == SplitRule::centre) return static_cast<float>(0.5 * (low + high));
+    float sum = 0, weight = 0, plain = 0;
     for (const Segment& segment : segments) {
-      sum += segment.length() * segment.middle(axis);
-      weight += segment.length();
-      plain += segment.middle(axis);
+      sum += segment.weight() * segment.side(axis);
+      weight += segment.weight();
+      plain += segment.side(axis);
     }
-    return weight > 0 ? sum / weight : plain / static_cast<double>(segments.size());
+    return weight > 0 ? sum / weight : plain / static_cast<float>(segments.size());
   }
 
   std::pair<Segments, Segments> divide(const Segments& segments) const {
@@ -120,8 +126,8 @@ class Reference {
     const int longer = size(0) >= size(1) ? 0 : 1;
     for (const int axis : {longer, 1 - longer}) {
       Segments first, second;
-      const double at = plane(segments, axis);
-      for (const Segment& segment : segments) (segment.middle(axis) < at ? first : second).push_back(segment);
+      const float at = plane(segments, axis);
+      for (const Segment& segment : segments) (segment.side(axis) < at ? first : second).push_back(segment);
       if (!first.empty() && !second.empty()) return {first, second};
     }
     const auto half = segments.begin() + static_cast<std::ptrdiff_t>(segments.size() / 2);
