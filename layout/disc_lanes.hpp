@@ -21,9 +21,12 @@ template <class Arch, class Local>
 class DiscLanes {
  public:
   static void solve(const DiscSets& job) noexcept {
-    std::size_t i = 0;
-    for (; i < job.small_count; i += width) Block(job, i, job.small_count).solve_small();
-    for (i = job.small_count; i < job.count; i += width) Block(job, i, job.count).solve_large();
+    for (std::size_t i = 0; i < job.small_count; i += width) Block(job, i, job.small_count).solve_small();
+    const std::size_t large = job.count - job.small_count;
+    if (large == 0) return;
+    const std::size_t last_block = job.count - (large < width - 1 ? large : width - 1);
+    for (std::size_t i = job.small_count; i < last_block; i += width) Block(job, i, last_block).solve_large();
+    Block(job, last_block, job.count, Shared{}).solve_large();
   }
 
  private:
@@ -90,28 +93,27 @@ class DiscLanes {
     return basis(q, select(old.is_pair, old.a, far), select(old.is_pair, old.b, beyond));
   }
 
+  /// Chooses a block whose last two lanes share the largest set: often it has twice the points of the next.
+  struct Shared {};
+
   /// As many sets as there are lanes, point after point; sets with fewer points than others repeat their
   /// last.
   class Block {
    public:
     Block(const DiscSets& job, std::size_t begin, std::size_t end) : job_(job), begin_(begin), end_(end) {
-      const Vec2* first[width];
-      std::size_t last[width];
-      for (std::size_t lane = 0; lane < width; ++lane) {
-        const PointRange range = job.sets[job.order[set(lane)]];
-        first[lane] = job.points + range.begin;
-        last[lane] = range.end - range.begin - 1;
-      }
-      count_ = last[width - 1] + 1;
-      // Sets come by size: up to the first one's last point, all have one.
-      std::size_t k = 0;
-      for (; k <= last[0]; ++k)
-        for (std::size_t lane = 0; lane < width; lane += 2)
-          put(k, lane, first[lane] + k, first[lane + 1] + k);
-      for (; k <= count_; ++k)
-        for (std::size_t lane = 0; lane < width; lane += 2)
-          put(k, lane, first[lane] + (k < last[lane] ? k : last[lane]),
-              first[lane + 1] + (k < last[lane + 1] ? k : last[lane + 1]));
+      Column columns[width];
+      for (std::size_t lane = 0; lane < width; ++lane) columns[lane] = column(lane);
+      fill(columns);
+    }
+    Block(const DiscSets& job, std::size_t begin, std::size_t end, Shared)
+        : job_(job), begin_(begin), end_(end), is_shared_(true) {
+      Column columns[width];
+      for (std::size_t lane = 0; lane < width - 1; ++lane) columns[lane] = column(lane);
+      Column &half = columns[width - 2], &other = columns[width - 1];
+      const std::size_t middle = half.last / 2;
+      other = {half.first + middle + 1, half.last - middle - 1};
+      half.last = middle;
+      fill(columns);
     }
 
     /// Up to three points, or four. A smallest disc is that of two or three of the points, and the largest of theirs.
@@ -139,7 +141,7 @@ class DiscLanes {
     /// Farthest points are those from the centre as a float, so that the last look at them gives the radius too. Which
     /// of two is the farthest may then be decided by rounding; whether one is outside is asked of the exact disc.
     void solve_large() const {
-      const Point a = farthest(point(0)).point, b = farthest(a).point;
+      const Point a = farthest(start()).point, b = farthest(a).point;
       const Batch ab = square_distance(a, b);
       Basis now{a, b, b, middle(a, b), Batch(0.25) * ab, ab >= Batch(0.0)};
       Point best = now.centre;
@@ -170,6 +172,38 @@ class DiscLanes {
       Point point;
       Batch square;
     };
+    /// A lane's points.
+    struct Column {
+      const Vec2* first;
+      std::size_t last;
+    };
+
+    Column column(std::size_t lane) const {
+      const PointRange range = job_.sets[job_.order[set(lane)]];
+      return {job_.points + range.begin, range.end - range.begin - std::size_t{1}};
+    }
+
+    void fill(const Column (&columns)[width]) {
+      std::size_t least = columns[0].last, most = least;
+      for (const Column& column : columns) {
+        least = column.last < least ? column.last : least;
+        most = column.last > most ? column.last : most;
+      }
+      count_ = most + 1;
+      std::size_t k = 0;
+      for (; k <= least; ++k)
+        for (std::size_t lane = 0; lane < width; lane += 2)
+          put(k, lane, columns[lane].first + k, columns[lane + 1].first + k);
+      for (; k <= count_; ++k)
+        for (std::size_t lane = 0; lane < width; lane += 2) {
+          const auto [a, last_a] = columns[lane];
+          const auto [b, last_b] = columns[lane + 1];
+          if (k > last_a && k > last_b)
+            repeat(k, lane);
+          else
+            put(k, lane, a + (k < last_a ? k : last_a), b + (k < last_b ? k : last_b));
+        }
+    }
 
     /// Which set is in a lane; the last one is also in those that are left over.
     std::size_t set(std::size_t lane) const { return begin_ + lane < end_ ? begin_ + lane : end_ - 1; }
@@ -185,6 +219,13 @@ class DiscLanes {
       _mm_storeu_pd(job_.scratch + (2 * k + 1) * width + lane, _mm_cvtps_pd(y));
     }
 
+    /// What the point before it is, in two neighbouring lanes.
+    void repeat(std::size_t k, std::size_t lane) const {
+      double* const x = job_.scratch + 2 * k * width + lane;
+      _mm_storeu_pd(x, _mm_loadu_pd(x - 2 * width));
+      _mm_storeu_pd(x + width, _mm_loadu_pd(x - width));
+    }
+
     Point point(std::size_t k) const {
       return {Batch::load_unaligned(job_.scratch + 2 * k * width),
               Batch::load_unaligned(job_.scratch + (2 * k + 1) * width)};
@@ -193,6 +234,13 @@ class DiscLanes {
     static void keep_farther(Farthest& best, const Point& p, const Batch& square) {
       best.point = select(square > best.square, p, best.point);
       best.square = xsimd::max(best.square, square);
+    }
+
+    /// One of each set's points.
+    Point start() const {
+      Farthest first{point(0), Batch(0.0)};
+      if (is_shared_) share(first);
+      return first.point;
     }
 
     /// In two chains, because each waits for its last comparison.
@@ -204,7 +252,22 @@ class DiscLanes {
         keep_farther(even, q, square_distance(q, from));
       }
       keep_farther(odd, even.point, even.square);
+      if (is_shared_) share(odd);
       return odd;
+    }
+
+    /// Gives the last two lanes the farther one of their points.
+    static void share(Farthest& farthest) {
+      alignas(64) double x[width], y[width], square[width];
+      farthest.point.x.store_aligned(x);
+      farthest.point.y.store_aligned(y);
+      farthest.square.store_aligned(square);
+      constexpr std::size_t one = width - 2, other = width - 1;
+      const std::size_t farther = square[other] > square[one] ? other : one;
+      x[one] = x[other] = x[farther];
+      y[one] = y[other] = y[farther];
+      square[one] = square[other] = square[farther];
+      farthest = {{Batch::load_aligned(x), Batch::load_aligned(y)}, Batch::load_aligned(square)};
     }
 
     /// To the 24 bits of a float's significand.
@@ -229,6 +292,7 @@ class DiscLanes {
     const DiscSets& job_;
     std::size_t begin_, end_;
     std::size_t count_ = 0;
+    bool is_shared_ = false;
   };
 };
 
