@@ -140,7 +140,7 @@ void HierarchyBuilder::begin(double reach, double margin, double threshold, std:
 
 /// Room for more, which need not all be used.
 inline void HierarchyBuilder::reserve(std::uint32_t nodes) {
-  if (node_count_ + nodes > square_radius_.size()) [[unlikely]]
+  if (node_count_ + nodes > nodes_.size()) [[unlikely]]
     enlarge(nodes);
 }
 
@@ -149,7 +149,6 @@ void HierarchyBuilder::enlarge(std::uint32_t nodes) {
     throw std::length_error("hierarchy: more than 2^22 nodes at a threshold of " + shortest(threshold_) +
                             " m");
   nodes_.resize(std::min(most_nodes, 2 * std::size_t{node_count_} + nodes + 256));
-  square_radius_.resize(nodes_.size());
 }
 
 /// First the tree, depth first, whose shape needs few discs, then the other discs.
@@ -188,7 +187,7 @@ void HierarchyBuilder::grow(bool through_centre, std::uint32_t deepest) {
     set(top[1], now.begin, middle, first, now.scratch + (now.end - middle));
     top += 2;
   }
-  even_halves_.write(items_.elements, nodes_, square_radius_);
+  even_halves_.write(items_.elements, OutwardRadii(margin_), nodes_);
   solve_discs();
 }
 
@@ -242,7 +241,8 @@ void HierarchyBuilder::add_halves(Vec2 a, Vec2 b, std::uint32_t below) {
     const std::uint32_t node = add_node();
     const Vec2 middle = middle_of(a, b);
     set_centre(nodes_[node], middle);
-    square_radius_[node] = std::max(square_distance(a, middle), square_distance(b, middle));
+    const __m128d square = _mm_set1_pd(std::max(square_distance(a, middle), square_distance(b, middle)));
+    OutwardRadii(margin_).write(square, nodes_[node], nodes_[node]);
     if (below > 0 && square_distance(a, b) > longest_square_length_ && !(middle == a) && !(middle == b)) {
       halves_[open_count++] = {node, --below, b};
       b = middle;
@@ -300,36 +300,18 @@ void HierarchyBuilder::solve_discs() {
 void HierarchyBuilder::solve(std::span<const Vec2> points) {
   discs_.resize(sets_.size());
   solver_.solve(points, sets_, discs_);
-  for (std::size_t i = 0; i < discs_.size(); ++i) {
-    set_centre(nodes_[unsolved_[i].node], discs_[i].centre);
-    square_radius_[unsolved_[i].node] = discs_[i].square_radius;
+  const OutwardRadii radii(margin_);
+  const auto node = [&](std::size_t i) -> HierarchyNode& { return nodes_[unsolved_[i].node]; };
+  for (std::size_t i = 0; i < discs_.size(); i += 2) {
+    const std::size_t next = i + 1 < discs_.size() ? i + 1 : i;
+    set_centre(node(i), discs_[i].centre);
+    set_centre(node(next), discs_[next].centre);
+    radii.write(_mm_setr_pd(discs_[i].square_radius, discs_[next].square_radius), node(i), node(next));
   }
 }
 
-/// Radii with their margin, two at a time.
 void HierarchyBuilder::publish(Hierarchy& hierarchy) {
-  reserve(1);  // one more, of an odd number
-  square_radius_[node_count_] = 0;
-  hierarchy.nodes.resize(node_count_ + 1);
-  const HierarchyNode* const from = nodes_.data();
-  HierarchyNode* const to = hierarchy.nodes.data();
-  const __m128d outward = _mm_set1_pd(1 + 0x1p-50), added = _mm_set1_pd(margin_);
-  for (std::uint32_t i = 0; i < node_count_; i += 2) {
-    const __m128d root = _mm_sqrt_pd(_mm_loadu_pd(&square_radius_[i]));
-    const __m128d exact = _mm_add_pd(_mm_mul_pd(root, outward), added);
-    const __m128 nearest = _mm_cvtpd_ps(exact);
-    // As rounding::round_up(): a comparison that holds is -1.
-    const __m128 below = _mm_castpd_ps(_mm_cmplt_pd(_mm_cvtps_pd(nearest), exact));
-    const __m128i step = _mm_castps_si128(_mm_shuffle_ps(below, below, _MM_SHUFFLE(2, 0, 2, 0)));
-    const __m128 radius = _mm_castsi128_ps(_mm_sub_epi32(_mm_castps_si128(nearest), step));
-    const auto write = [&](std::uint32_t node, float r) {
-      const auto& [disc, second] = from[node];
-      to[node] = {{disc.x, disc.y, r}, second};
-    };
-    write(i, _mm_cvtss_f32(radius));
-    write(i + 1, _mm_cvtss_f32(_mm_shuffle_ps(radius, radius, 1)));
-  }
-  hierarchy.nodes.pop_back();
+  hierarchy.nodes.assign(nodes_.begin(), nodes_.begin() + node_count_);
 }
 
 /// A leaf's items, or the pieces of the one that is halved.

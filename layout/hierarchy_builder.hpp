@@ -91,8 +91,7 @@ class HierarchyBuilder {
   std::array<Half, 256> halves_;  ///< lengths span fewer binary orders of magnitude
 
   std::uint32_t node_count_ = 0;
-  std::vector<HierarchyNode> nodes_;   ///< without radii
-  std::vector<double> square_radius_;  ///< per node: of the smallest disc about that very centre
+  std::vector<HierarchyNode> nodes_;
   std::vector<std::uint32_t>
       first_node_;  ///< per item of the order: the leaf that holds it, or what it is halved into
   std::vector<Unsolved> unsolved_;

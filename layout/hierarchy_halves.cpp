@@ -17,33 +17,31 @@ __m128d widened(Vec2 p) {
   return _mm_setr_pd(static_cast<double>(p.x), static_cast<double>(p.y));
 }
 
-/// The larger of two squared lengths.
-double larger_square(__m128d a, __m128d b) {
+/// The larger of two squared lengths, in the lower lane.
+__m128d larger_square(__m128d a, __m128d b) {
   const __m128d aa = _mm_mul_pd(a, a), bb = _mm_mul_pd(b, b);
   const __m128d sums = _mm_add_pd(_mm_unpacklo_pd(aa, bb), _mm_unpackhi_pd(aa, bb));
-  return _mm_cvtsd_f64(_mm_max_sd(sums, _mm_unpackhi_pd(sums, sums)));
+  return _mm_max_sd(sums, _mm_unpackhi_pd(sums, sums));
 }
 
-/// Where to write.
-struct Rows {
-  HierarchyNode* nodes;
-  double* square_radius;
-};
-
-/// A piece, by its ends, that is still to be halved so often, and its node.
+/// Writes the nodes of a piece, by its ends, that is still to be halved so often; the first one is `number` of all.
+/// Returns: the square of the first one's radius, which remains to be written, in the lower lane.
 template <int halvings>
-void write_piece(const Rows& rows, __m128d a, __m128d b, std::uint32_t node) {
+__m128d write_piece(__m128d a, __m128d b, const OutwardRadii& radii, HierarchyNode* node,
+                    std::uint32_t number) {
   const __m128 rounded = _mm_cvtpd_ps(_mm_mul_pd(_mm_set1_pd(0.5), _mm_add_pd(a, b)));
   const __m128d middle = _mm_cvtps_pd(rounded);
-  rows.square_radius[node] = larger_square(_mm_sub_pd(a, middle), _mm_sub_pd(b, middle));
-  const std::uint32_t first = node + 1,
-                      second = halvings == 0 ? 0 : node + EvenHalves::nodes(halvings - 1) + 1;
-  _mm_storel_pi(reinterpret_cast<__m64*>(&rows.nodes[node].disc), rounded);
-  rows.nodes[node].second_child = second;
-  if constexpr (halvings > 0) {
-    write_piece<halvings - 1>(rows, a, middle, first);
-    write_piece<halvings - 1>(rows, middle, b, second);
+  _mm_storel_pi(reinterpret_cast<__m64*>(&node->disc), rounded);
+  if constexpr (halvings == 0) {
+    node->second_child = 0;
+  } else {
+    constexpr std::uint32_t second = EvenHalves::nodes(halvings - 1) + 1;
+    node->second_child = number + second;
+    const __m128d of_first = write_piece<halvings - 1>(a, middle, radii, node + 1, number + 1);
+    const __m128d of_second = write_piece<halvings - 1>(middle, b, radii, node + second, number + second);
+    radii.write(_mm_unpacklo_pd(of_first, of_second), node[1], node[second]);
   }
+  return larger_square(_mm_sub_pd(a, middle), _mm_sub_pd(b, middle));
 }
 
 }  // namespace
@@ -76,12 +74,20 @@ void EvenHalves::write_halvings(__m128 lengths, std::uint8_t* halvings) const {
   __builtin_memcpy(halvings, &packed, sizeof packed);
 }
 
-void EvenHalves::write(const std::vector<Element>& segments, std::vector<HierarchyNode>& nodes,
-                       std::vector<double>& square_radius) const {
-  const Rows rows{nodes.data(), square_radius.data()};
+void EvenHalves::write(const std::vector<Element>& segments, const OutwardRadii& radii,
+                       std::vector<HierarchyNode>& nodes) const {
   const auto write_all = [&]<int halvings>() {
-    for (const auto [node, source] : segments_[halvings])
-      write_piece<halvings>(rows, widened(segments[source].a), widened(segments[source].b), node);
+    const std::vector<Segment>& all = segments_[halvings];
+    const auto write_one = [&](const Segment& segment) {
+      const Element& whole = segments[segment.source];
+      return write_piece<halvings>(widened(whole.a), widened(whole.b), radii, &nodes[segment.node],
+                                   segment.node);
+    };
+    for (std::size_t i = 0; i < all.size(); i += 2) {
+      const Segment &first = all[i], &second = i + 1 < all.size() ? all[i + 1] : first;
+      radii.write(_mm_unpacklo_pd(write_one(first), write_one(second)), nodes[first.node],
+                  nodes[second.node]);
+    }
   };
   [&]<int... halvings>(std::integer_sequence<int, halvings...>) {
     (write_all.template operator()<halvings>(), ...);

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "layout/hierarchy.hpp"
+#include "layout/outward_radii.hpp"
 
 namespace bch {
 
@@ -31,9 +32,9 @@ class EvenHalves {
   void add(int halvings, std::uint32_t node, std::uint32_t source) {
     segments_[static_cast<std::size_t>(halvings)].push_back({node, source});
   }
-  /// Fills the room: nodes but for their radii, and the squares of the smallest.
-  void write(const std::vector<Element>& segments, std::vector<HierarchyNode>& nodes,
-             std::vector<double>& square_radius) const;
+  /// Fills the room.
+  void write(const std::vector<Element>& segments, const OutwardRadii& radii,
+             std::vector<HierarchyNode>& nodes) const;
 
  private:
   struct Segment {
