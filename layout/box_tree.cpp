@@ -107,6 +107,19 @@ void BoxTree::assign(const Segment* segments, std::size_t count) {
   clear_from(blocks, groups_);
 }
 
+GridPoint BoxTree::first_end(const Segment* segments) const {
+  std::int16_t column = highest;
+  for (const BoxBlock& group : groups_) column = std::min(column, around(group).min_x);
+  GridPoint first{std::numeric_limits<std::int32_t>::max(), 0};
+  for (std::size_t b = 0; b < blocks_.size(); ++b) {
+    if (groups_[b / boxes_per_block].min_x[b % boxes_per_block] != column) continue;
+    for (std::size_t i = 0; i < boxes_per_block; ++i)
+      for (const GridPoint end : {segments[boxes_per_block * b + i].a, segments[boxes_per_block * b + i].b})
+        first = lexicographically_less(end, first) ? end : first;
+  }
+  return first;
+}
+
 void BoxTree::describe(SegmentSearch& search) const {
   search.blocks = blocks_.data();
   search.groups = groups_.data();

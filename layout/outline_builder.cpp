@@ -25,18 +25,6 @@ GridPoint first_of(GridPoint a, GridPoint b) {
   return lexicographically_less(b, a) ? b : a;
 }
 
-/// The lexicographically smallest end. One coordinate after the other: comparing points would branch for each.
-GridPoint leftmost_end(std::span<const Segment> segments) {
-  GridPoint end = beyond;
-  for (const auto& [a, b] : segments) end.x = std::min(end.x, std::min(a.x, b.x));
-  end.y = std::numeric_limits<std::int32_t>::max();
-  for (const auto& [a, b] : segments) {
-    if (a.x == end.x) end.y = std::min(end.y, a.y);
-    if (b.x == end.x) end.y = std::min(end.y, b.y);
-  }
-  return end;
-}
-
 }  // namespace
 
 /// What is known of the mesh, and the scratch of a pose.
@@ -97,7 +85,7 @@ void OutlineBuilder::State::walk_all() {
   stretches.clear();
   contour_begin.assign(1, 0);
   walk.begin_pose();
-  walk_from(leftmost_end(candidates.segments()));
+  walk_from(candidates.boxes().first_end(candidates.segments().data()));
 
   find_outside();
   for (const std::uint32_t island : outside)
