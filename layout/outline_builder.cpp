@@ -44,7 +44,7 @@ struct OutlineBuilder::State {
   void build(std::span<const Position> positions, Outline& outline);
   void walk_all();
   void find_outside();
-  bool covered(GridPoint point, std::size_t first_contour) const;
+  bool is_in_later_contour(GridPoint point);
   std::span<const Stretch> contour(std::size_t i) const {
     return std::span(stretches).subspan(contour_begin[i], contour_begin[i + 1] - contour_begin[i]);
   }
@@ -63,6 +63,7 @@ struct OutlineBuilder::State {
   std::vector<std::size_t> contour_begin;
   std::vector<std::uint32_t> outside;  ///< islands to walk around, unless they touch each other
   std::vector<GridPoint> leftmost;     ///< of an island's candidates
+  ContourCover cover;
 };
 
 template <class Position>
@@ -89,15 +90,18 @@ void OutlineBuilder::State::walk_all() {
 
   find_outside();
   for (const std::uint32_t island : outside)
-    if (!walk.touched(island) && !covered(leftmost[island], 1)) walk_from(leftmost[island]);
+    if (!walk.touched(island) && !is_in_later_contour(leftmost[island])) walk_from(leftmost[island]);
 }
 
 /// Fills outside, in the order of the islands' leftmost vertices.
 void OutlineBuilder::State::find_outside() {
   outside.clear();
   for (std::uint32_t island = 0; island < leftmost.size(); ++island)
-    if (!walk.touched(island) && !covered(points[topology.island_vertex[island]], 0))
-      outside.push_back(island);
+    if (!walk.touched(island)) outside.push_back(island);
+  if (outside.empty()) return;
+  cover.assign(contour(0));
+  std::erase_if(outside,
+                [&](std::uint32_t island) { return cover.covers(points[topology.island_vertex[island]]); });
   if (outside.empty()) return;
 
   std::fill(leftmost.begin(), leftmost.end(), beyond);
@@ -113,9 +117,12 @@ void OutlineBuilder::State::find_outside() {
   });
 }
 
-bool OutlineBuilder::State::covered(GridPoint point, std::size_t first_contour) const {
-  for (std::size_t c = first_contour; c + 1 < contour_begin.size(); ++c)
-    if (covers(contour(c), point)) return true;
+/// In any but the first.
+bool OutlineBuilder::State::is_in_later_contour(GridPoint point) {
+  for (std::size_t c = 1; c + 1 < contour_begin.size(); ++c) {
+    cover.assign(contour(c));
+    if (cover.covers(point)) return true;
+  }
   return false;
 }
 

@@ -3,13 +3,26 @@
 
 #pragma once
 
+#include <cstdint>
 #include <span>
+#include <vector>
 
 #include "layout/outline_walk.hpp"
 
 namespace bch {
 
-/// Whether a point is inside a contour or on it, exactly.
-bool covers(std::span<const Stretch> contour, GridPoint point);
+/// Tells of points whether a contour covers them. Keeps its memory.
+class ContourCover {
+ public:
+  /// The stretches have to live until the next call.
+  void assign(std::span<const Stretch> contour);
+
+  /// Whether a point is inside the contour or on it, exactly.
+  bool covers(GridPoint point) const;
+
+ private:
+  std::span<const Stretch> contour_;
+  std::vector<std::int32_t> x_, y_;  ///< where stretches begin, rounded, and the first ones again
+};
 
 }  // namespace bch
