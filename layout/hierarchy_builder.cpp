@@ -81,10 +81,10 @@ void require_threshold(float threshold) {
 void HierarchyBuilder::contour(const Outline& outline, float threshold, SplitRule rule, Hierarchy& hierarchy,
                                std::uint32_t deepest) {
   clear(hierarchy);
-  validate(outline);
+  const double reach = validate(outline);
   require_threshold(threshold);
-  hierarchy.reach = reach(outline.points);
-  begin(hierarchy.reach, rounding::outline_grid_steps * widened(outline.grid_step), widened(threshold),
+  hierarchy.reach = reach;
+  begin(reach, rounding::outline_grid_steps * widened(outline.grid_step), widened(threshold),
         outline.points.size());
   for (std::size_t c = 0; c < outline.contours(); ++c) items_.add_contour(outline.contour(c), even_halves_);
   grow(rule == SplitRule::centre, deepest);

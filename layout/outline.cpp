@@ -25,12 +25,15 @@ double twice_area(std::span<const Vec2> contour) {
 }  // namespace
 
 double reach(std::span<const Vec2> points) {
-  double square = 0;
-  for (const Vec2& p : points) {
+  double largest[2] = {0, 0};  // two, because each waits for its last maximum
+  const auto offer = [&](double& square, Vec2 p) {
     const double x = p.x, y = p.y;
     square = std::max(square, x * x + y * y);
-  }
-  return std::sqrt(square) * (1 + 0x1p-50);
+  };
+  for (std::size_t i = 1; i < points.size(); i += 2)
+    offer(largest[0], points[i - 1]), offer(largest[1], points[i]);
+  if (points.size() % 2 != 0) offer(largest[0], points.back());
+  return std::sqrt(std::max(largest[0], largest[1])) * (1 + 0x1p-50);
 }
 
 double area(const Outline& outline) {
@@ -56,7 +59,7 @@ std::span<const Vec2> largest_contour(const Outline& outline) {
   return largest;
 }
 
-void validate(const Outline& outline) {
+double validate(const Outline& outline) {
   const auto& begin = outline.contour_begin;
   if (begin.size() < 2 || begin.front() != 0 || begin.back() != outline.points.size())
     throw std::invalid_argument("outline: contour offsets do not fit " +
@@ -72,6 +75,7 @@ void validate(const Outline& outline) {
   const double size = reach(outline.points);
   if (size < rounding::smallest_reach || size > rounding::largest_reach)
     throw std::invalid_argument("outline: reach " + shortest(size) + " m is outside 1e-6 to 1e6 m");
+  return size;
 }
 
 }  // namespace bch
