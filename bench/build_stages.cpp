@@ -161,6 +161,10 @@ void BuildStages::make_and_check(std::size_t pose, Others& others) {
   require(same(others.interior.build(outlines_[pose], hierarchies_[pose].reach), alone), "interior", pose);
   levels(pose);
   require(holds_cut(tree_, hierarchies_[pose], depths[std::size(depths) - 1]), "levels", pose);
+  this->pose(pose);
+  require(same(outline_, outlines_[pose]) && same(hierarchy_, hierarchies_[pose], 0) &&
+              holds_cut(tree_, hierarchies_[pose], depths[std::size(depths) - 1]),
+          "pose", pose);
   all(pose);
   require(same(outline_, outlines_[pose]) && same(hierarchy_, hierarchies_[pose], 0) &&
               same(interior_, alone) && holds_cut(tree_, hierarchies_[pose], depths[std::size(depths) - 1]),
@@ -184,18 +188,27 @@ void BuildStages::hierarchy_welzl(std::size_t pose) {
 }
 
 void BuildStages::levels(std::size_t pose) {
-  flatten(hierarchies_[pose]);
+  flatten_with_shortcuts(hierarchies_[pose]);
 }
 
 void BuildStages::interior(std::size_t pose) {
   look_inside(outlines_[pose], hierarchies_[pose].reach);
 }
 
+void BuildStages::pose(std::size_t pose) {
+  make_hierarchy(pose);
+  flatten(hierarchy_);
+}
+
 void BuildStages::all(std::size_t pose) {
+  make_hierarchy(pose);
+  look_inside(outline_, hierarchy_.reach);
+  flatten_with_shortcuts(hierarchy_);
+}
+
+void BuildStages::make_hierarchy(std::size_t pose) {
   outline_builder_.build(skinner_.ground_pose(times_[pose]), outline_);
   hierarchy_builder_.contour(outline_, threshold, SplitRule::centroid, hierarchy_);
-  look_inside(outline_, hierarchy_.reach);
-  flatten(hierarchy_);
 }
 
 void BuildStages::look_inside(const Outline& outline, double reach) {
@@ -205,6 +218,14 @@ void BuildStages::look_inside(const Outline& outline, double reach) {
 }
 
 void BuildStages::flatten(const Hierarchy& hierarchy) {
+  flattener_.begin(hierarchy);
+  for (const std::uint32_t depth : depths) {
+    flattener_.flatten(depth, tree_);
+    use(tree_);
+  }
+}
+
+void BuildStages::flatten_with_shortcuts(const Hierarchy& hierarchy) {
   flattener_.begin(hierarchy);
   for (const std::uint32_t depth : depths) {
     flattener_.flatten(depth, tree_);

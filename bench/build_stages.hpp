@@ -37,7 +37,7 @@ BuildImplementation chosen_build_implementation();
 ///   outline, hierarchy, interior   by another instruction set, where the processor has two: the same bits
 ///   hierarchy_welzl                its nodes are hierarchy's, and its discs within 1 um
 ///   levels                         the discs of the deepest one are those of cut(); what is above them is not compared
-///   all                            what the stages made one by one
+///   pose, all                      what the stages made one by one
 /// Skinning, profiles and supports are not compared: tests look at them.
 class BuildStages {
  public:
@@ -58,6 +58,8 @@ class BuildStages {
   void levels(std::size_t pose);
   /// Inscribed discs and the profile.
   void interior(std::size_t pose);
+  /// From the pose to flat nodes of four levels: what shapes of one frame take, which have no shortcuts for queries.
+  void pose(std::size_t pose);
   /// From the pose to all of these.
   void all(std::size_t pose);
 
@@ -65,7 +67,9 @@ class BuildStages {
   struct Others;  ///< what builders are compared with
   void make_and_check(std::size_t pose, Others& others);
   void look_inside(const Outline& outline, double reach);
+  void make_hierarchy(std::size_t pose);
   void flatten(const Hierarchy& hierarchy);
+  void flatten_with_shortcuts(const Hierarchy& hierarchy);
 
   const Character& character_;
   std::vector<PoseTime> times_;
@@ -94,13 +98,10 @@ struct BuildStage {
   void (BuildStages::*build)(std::size_t pose);
 };
 constexpr BuildStage build_stages[] = {
-    {"skin", &BuildStages::skin},
-    {"outline", &BuildStages::outline},
-    {"hierarchy", &BuildStages::hierarchy},
-    {"hierarchy_welzl", &BuildStages::hierarchy_welzl},
-    {"levels", &BuildStages::levels},
-    {"interior", &BuildStages::interior},
-    {"all", &BuildStages::all},
+    {"skin", &BuildStages::skin},           {"outline", &BuildStages::outline},
+    {"hierarchy", &BuildStages::hierarchy}, {"hierarchy_welzl", &BuildStages::hierarchy_welzl},
+    {"levels", &BuildStages::levels},       {"interior", &BuildStages::interior},
+    {"pose", &BuildStages::pose},           {"all", &BuildStages::all},
 };
 
 /// The built-in man with fewer triangles and with more, from 1 000 to beyond 100 000.

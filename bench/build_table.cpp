@@ -108,7 +108,8 @@ void print_character(const Character& character, std::uint32_t poses, std::uint3
     fmt::print("  {:10}", implementations[i].name);
     print_times(times[i]);
     const double most = implementations[i].name == "sse2" ? most_with_sse2 : most_microseconds;
-    fmt::print("   {}\n", verdict_at_most(time_of(times[i], "all"), most));
+    fmt::print("   pose: {}; all: {}\n", verdict_at_most(time_of(times[i], "pose"), most),
+               verdict_at_most(time_of(times[i], "all"), most));
   }
   const double gain = time_of(times[0], "hierarchy_welzl") / time_of(times[0], "hierarchy");
   fmt::print("  hierarchy over the same builder with Welzl's algorithm: {:.2f} x   {}\n", gain,

@@ -38,16 +38,39 @@ class Sums {
   __m128 sums_[2] = {_mm_setzero_ps(), _mm_setzero_ps()};
 };
 
-float centroid(const SplitItems& items, ItemList list, const SplitMeasure& measure, int axis) {
-  if (const float weight = measure.sums[2]; weight > 0) return measure.sums[axis] / weight;
+/// Every point with a smaller coordinate is before it; in every lane.
+struct Plane {
+  int axis;
+  __m128 at;
+};
+
+/// Of all items' middles, where lengths do not tell.
+float mean(const SplitItems& items, ItemList list, std::size_t axis) {
   float sum = 0;
-  for (const std::uint32_t i : list) sum += items.middle[static_cast<std::size_t>(axis)][i];
+  for (const std::uint32_t i : list) sum += items.middle[axis][i];
   return sum / static_cast<float>(list.size());
 }
 
-float plane(const SplitItems& items, ItemList list, const SplitMeasure& whole, bool through_centre,
-            int axis) {
-  return through_centre ? 0.5f * (whole.box[axis] - whole.box[2 + axis]) : centroid(items, list, whole, axis);
+/// Across the longer axis, or the other one. Both axes are computed, because which is longer is known as late as the
+/// planes, and cannot be predicted.
+Plane plane(const SplitItems& items, ItemList list, const SplitMeasure& whole, bool through_centre,
+            bool across_longer) {
+  const __m128 box = _mm_loadu_ps(whole.box), sums = _mm_loadu_ps(whole.sums);
+  const __m128 minus_high = _mm_movehl_ps(box, box);
+  __m128 planes;
+  if (through_centre)
+    planes = _mm_mul_ps(_mm_set1_ps(0.5f), _mm_sub_ps(box, minus_high));
+  else if (whole.sums[2] > 0)
+    planes = _mm_div_ps(sums, _mm_shuffle_ps(sums, sums, _MM_SHUFFLE(2, 2, 2, 2)));
+  else
+    planes = _mm_setr_ps(mean(items, list, 0), mean(items, list, 1), 0, 0);
+  const __m128 minus_extents = _mm_add_ps(box, minus_high);
+  const __m128 of_y = _mm_shuffle_ps(minus_extents, minus_extents, _MM_SHUFFLE(1, 1, 1, 1)),
+               of_x = _mm_shuffle_ps(minus_extents, minus_extents, _MM_SHUFFLE(0, 0, 0, 0));
+  const __m128 is_y = across_longer ? _mm_cmplt_ps(of_y, of_x) : _mm_cmpnlt_ps(of_y, of_x);
+  const __m128 x = _mm_shuffle_ps(planes, planes, _MM_SHUFFLE(0, 0, 0, 0)),
+               y = _mm_shuffle_ps(planes, planes, _MM_SHUFFLE(1, 1, 1, 1));
+  return {_mm_movemask_ps(is_y) & 1, _mm_or_ps(_mm_and_ps(is_y, y), _mm_andnot_ps(is_y, x))};
 }
 
 /// Of some of the items, the sums in order.
@@ -61,12 +84,11 @@ SplitMeasure measure(const SplitItems& items, ItemList list) {
 }
 
 /// Stable, and without a branch on an item's side: every item is written to both sides and offered to both sums.
-std::size_t partition(const SplitItems& items, ItemList list, int axis, float plane,
-                      std::uint32_t* first_list, std::uint32_t* second_list, SplitMeasure& before_plane,
-                      SplitMeasure& after_plane) {
-  const float* const middle = items.middle[static_cast<std::size_t>(axis)].data();
+std::size_t partition(const SplitItems& items, ItemList list, const Plane& plane, std::uint32_t* first_list,
+                      std::uint32_t* second_list, SplitMeasure& before_plane, SplitMeasure& after_plane) {
+  const float* const middle = items.middle[static_cast<std::size_t>(plane.axis)].data();
   const SplitItem* const all = items.items.data();
-  const __m128 limit = _mm_set1_ps(plane);
+  const __m128 limit = plane.at;
   Sums sums;
   std::uint32_t* first = first_list;
   for (const std::uint32_t i : list) {
@@ -96,10 +118,9 @@ SplitMeasure measure(const SplitItems& items) {
 std::size_t divide(const SplitItems& items, ItemList list, const SplitMeasure& whole, bool through_centre,
                    std::uint32_t* first_list, std::uint32_t* second_list, SplitMeasure& first,
                    SplitMeasure& second) {
-  const int longer = whole.longer_axis();
-  for (const int axis : {longer, 1 - longer}) {
-    const float at = plane(items, list, whole, through_centre, axis);
-    const std::size_t count = partition(items, list, axis, at, first_list, second_list, first, second);
+  for (const bool across_longer : {true, false}) {
+    const Plane at = plane(items, list, whole, through_centre, across_longer);
+    const std::size_t count = partition(items, list, at, first_list, second_list, first, second);
     if (count != 0 && count != list.size()) return count;
     // What the list stood in may have been written to; all of it went to one side.
     list = {count == 0 ? second_list : first_list, list.size()};
@@ -114,12 +135,12 @@ std::size_t divide(const SplitItems& items, ItemList list, const SplitMeasure& w
 
 void divide_pair(const SplitItems& items, ItemList list, const SplitMeasure& whole, bool through_centre,
                  std::uint32_t* both) {
-  const int longer = whole.longer_axis();
   const std::uint32_t a = list[0], b = list[1];
   both[0] = a, both[1] = b;
-  for (const int axis : {longer, 1 - longer}) {
-    const float at = plane(items, list, whole, through_centre, axis);
-    const auto& middle = items.middle[static_cast<std::size_t>(axis)];
+  for (const bool across_longer : {true, false}) {
+    const Plane plane = bch::plane(items, list, whole, through_centre, across_longer);
+    const auto& middle = items.middle[static_cast<std::size_t>(plane.axis)];
+    const float at = _mm_cvtss_f32(plane.at);
     const bool is_a_before = middle[a] < at, is_b_before = middle[b] < at;
     if (is_a_before == is_b_before) continue;
     both[0] = is_b_before ? b : a, both[1] = is_b_before ? a : b;

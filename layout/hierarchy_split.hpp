@@ -18,7 +18,6 @@ struct SplitMeasure {
   double low(int axis) const { return static_cast<double>(box[axis]); }
   double high(int axis) const { return -static_cast<double>(box[2 + axis]); }
   double extent(int axis) const { return high(axis) - low(axis); }
-  int longer_axis() const { return extent(0) >= extent(1) ? 0 : 1; }
 };
 
 /// Names items by index, so that dividing them moves four bytes each.

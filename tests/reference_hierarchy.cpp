@@ -121,7 +121,7 @@ class Reference {
   std::pair<Segments, Segments> divide(const Segments& segments) const {
     const auto size = [&](int axis) {
       const auto [low, high] = extent(segments, axis);
-      return high - low;
+      return static_cast<float>(high) - static_cast<float>(low);
     };
     const int longer = size(0) >= size(1) ? 0 : 1;
     for (const int axis : {longer, 1 - longer}) {
