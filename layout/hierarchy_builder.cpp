@@ -119,6 +119,7 @@ void HierarchyBuilder::root(std::span<const Vec2> points, float grid_step, Hiera
   hierarchy.reach = reach(points);
   require_reach(hierarchy.reach);
   begin(hierarchy.reach, rounding::outline_grid_steps * widened(grid_step), 0, 0);
+  order_.clear();
   unsolved_.push_back({add_node(), 0, 0});
   sets_.assign(1, {0, static_cast<std::uint32_t>(points.size())});
   solve(points);
@@ -175,9 +176,9 @@ void HierarchyBuilder::grow(bool through_centre, std::uint32_t deepest) {
       add_lone_segment(now.begin + 1, below);
       continue;
     }
-    const auto middle =
-        now.begin + static_cast<std::uint32_t>(divide(items_, now.items(), now.measure, through_centre, first,
-                                                      now.scratch, top[1].measure, top[0].measure));
+    const std::size_t first_size = divide(items_, now.items(), now.measure, through_centre, first,
+                                          now.scratch, top[1].measure, top[0].measure);
+    const std::uint32_t middle = now.begin + static_cast<std::uint32_t>(first_size);
     const auto set = [&](Open& child, std::uint32_t begin, std::uint32_t end, std::uint32_t* list,
                          std::uint32_t* scratch) {
       child.begin = begin, child.end = end, child.list = list, child.scratch = scratch;

@@ -38,7 +38,7 @@ class HierarchyBuilder {
   void projected(std::span<const Vec2> vertices, std::span<const std::array<std::uint32_t, 3>> triangles,
                  Hierarchy& hierarchy);
 
-  /// Fills in the elements of the hierarchy that contour() or projected() made last.
+  /// Fills in the elements of the hierarchy that contour() or projected() made last: this builder's last call.
   void add_elements(Hierarchy& hierarchy) const;
 
  private:
@@ -93,7 +93,7 @@ class HierarchyBuilder {
   std::uint32_t node_count_ = 0;
   std::vector<HierarchyNode> nodes_;
   std::vector<std::uint32_t>
-      first_node_;  ///< per item of the order: the leaf that holds it, or what it is halved into
+      first_node_;  ///< per item of the order: a leaf that holds it, or of its pieces' nodes
   std::vector<Unsolved> unsolved_;
 
   /// Of the gathered items, in order; a point that ends one and begins the next stands once.

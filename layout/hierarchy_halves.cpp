@@ -5,6 +5,8 @@
 
 #include <emmintrin.h>
 
+#include <algorithm>
+#include <limits>
 #include <utility>
 
 #include "layout/rounding.hpp"
@@ -53,8 +55,11 @@ void EvenHalves::begin(double longest, double reach) {
   const double slack = 24 * rounding::unit_roundoff * reach;
   for (std::size_t k = 0; k < surely_long_.size(); ++k) {
     const double pieces = 1 << k;
-    surely_short_[k] = static_cast<float>(pieces * (longest - slack));
-    surely_long_[k] = static_cast<float>(pieces * (longest + slack));
+    const auto limit = [&](double length) {
+      return static_cast<float>(std::min(pieces * length, double{std::numeric_limits<float>::max()}));
+    };
+    surely_short_[k] = limit(longest - slack);
+    surely_long_[k] = limit(longest + slack);
   }
   for (auto& of_a_kind : segments_) of_a_kind.clear();
 }

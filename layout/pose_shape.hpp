@@ -26,11 +26,11 @@ class PoseShaper {
   /// The character must outlive this and must be valid (see validate()); the threshold is that of
   /// pose_shape(). `deepest`: of a plan's depths; hierarchies end there. `outlines`: whether anybody looks at them, as
   /// the solid semantics does. Where nobody does, depth 0 takes the outermost vertices alone, a third of the time, and
-  /// shapes have neither outlines nor elements; see ExtremeVertices for what is the same.
+  /// shapes have no outlines; see ExtremeVertices for what is the same.
   explicit PoseShaper(const Character& character, float threshold = 0.01f, std::uint32_t deepest = all_depths,
                       bool outlines = true);
 
-  /// Returns: the shape that pose_shape() makes, down to the deepest depth, until the next call.
+  /// Returns: the shape that pose_shape() makes, down to the deepest depth and without elements, until the next call.
   /// Errors:  as pose_shape(), but that heights may be anything; the shape made before is lost.
   const Shape& shape(PoseTime at);
 

@@ -66,6 +66,13 @@ TEST(ContourHierarchy, HalvesALoneSegment) {
   test::expect_covers_outline(hierarchy, polygon({{0, 0}, {1, 0}}));
 }
 
+TEST(ContourHierarchy, TheLargestThresholdLeavesOneDisc) {
+  const Hierarchy hierarchy =
+      contour_hierarchy(polygon({{0, 0}, {1, 0}, {0, 1}}), std::numeric_limits<float>::max());
+  EXPECT_EQ(hierarchy.nodes.size(), 1u);
+  test::expect_sound(hierarchy);
+}
+
 TEST(ContourHierarchy, DividesSegmentsWithOneMidpoint) {
   const Outline star = polygon({{-1, -1}, {1, 1}, {-1, 1}, {1, -1}});
   const Hierarchy hierarchy = contour_hierarchy(star, 0.01f);
