@@ -107,13 +107,15 @@ struct NodePoints {
 std::vector<NodePoints> node_points(Scene& scene) {
   std::vector<NodePoints> all;
   for (const Shape& shape : scene.shapes()) {
+    // Once more, because a scene's hierarchies have no elements.
+    const Hierarchy hierarchy = contour_hierarchy(shape.outline, 0.01f);
     NodePoints& of_shape = all.emplace_back();
     auto& [points, nodes] = of_shape;
-    for (const auto [first, last] : shape.hierarchy.held) {
+    for (const auto [first, last] : hierarchy.held) {
       if (last - first < 2) continue;
       const auto begin = static_cast<std::uint32_t>(points.size());
       for (std::uint32_t e = first; e < last; ++e) {
-        const auto& [a, b, c] = shape.hierarchy.elements[e];
+        const auto& [a, b, c] = hierarchy.elements[e];
         if (points.size() == begin || !(points.back() == a)) points.push_back(a);
         points.push_back(b);
       }
@@ -129,6 +131,7 @@ std::string wrong_discs(const std::vector<NodePoints>& all) {
   Welzl welzl;
   std::vector<SolvedDisc> discs;
   for (const auto& [points, nodes] : all) {
+    if (nodes.empty()) return "a shape without discs to solve";
     discs.resize(nodes.size());
     ours.solve(points, nodes, discs);
     for (std::size_t i = 0; i < nodes.size(); ++i) {
