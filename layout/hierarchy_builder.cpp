@@ -9,6 +9,7 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <numbers>
 #include <numeric>
 #include <stdexcept>
 #include <string>
@@ -132,6 +133,7 @@ void HierarchyBuilder::begin(double reach, double margin, double threshold, std:
   // Half the diagonal of its box bounds a node's radius, but for the rounding of the centre.
   const double half = std::max(0.0, threshold * (1 - 0x1p-40) - 2 * rounding::unit_roundoff * reach);
   sure_square_diagonal_ = 4 * half * half;
+  sure_diagonal_extent_ = 2 * std::numbers::sqrt2 * threshold * (1 + 0x1p-40);
   longest_square_length_ = largest_square(2 * threshold);
   items_.begin(items);
   even_halves_.begin(2 * threshold, reach);
@@ -211,14 +213,32 @@ bool HierarchyBuilder::add_node(const Open& open) {
   return false;
 }
 
-/// The disc about a box holds its node's, whose diameter is at least the box's longer side: the disc itself
-/// decides only between.
+/// The disc about a box holds its node's, whose diameter is at least the box's longer side, and what the node extends along
+/// a diagonal of the axes: the disc itself decides only between.
 bool HierarchyBuilder::is_leaf(ItemList items, const SplitMeasure& box) {
   const double x = box.extent(0), y = box.extent(1);
   if (0.5 * std::max(x, y) >= threshold_) return false;
   if (x * x + y * y < sure_square_diagonal_) return true;
+  if (diagonal_extent(items) > sure_diagonal_extent_) return false;
   gather_points(items);
   return smallest_enclosing_disc(std::span(points_).first(point_count_)).radius < threshold_;
+}
+
+/// The larger one of x + y and of x - y.
+double HierarchyBuilder::diagonal_extent(ItemList items) const {
+  const __m128d none = _mm_set1_pd(HUGE_VAL);
+  __m128d low = none, minus_high = none;
+  for (const std::uint32_t item : items) {
+    const auto& [a, b, c] = items_.elements[item];
+    for (const Vec2 p : {a, b, c}) {
+      const __m128d x = _mm_set1_pd(widened(p.x)), y = _mm_setr_pd(widened(p.y), -widened(p.y));
+      const __m128d sums = _mm_add_pd(x, y);
+      low = _mm_min_pd(low, sums);
+      minus_high = _mm_min_pd(minus_high, _mm_sub_pd(_mm_setzero_pd(), sums));
+    }
+  }
+  const __m128d minus_extent = _mm_add_pd(low, minus_high);
+  return -std::min(_mm_cvtsd_f64(minus_extent), _mm_cvtsd_f64(_mm_unpackhi_pd(minus_extent, minus_extent)));
 }
 
 /// A lone segment, by its place in the order, and, below, what it is halved into. The midpoint that divides it is its

@@ -74,6 +74,7 @@ class HierarchyBuilder {
   void reserve(std::uint32_t nodes);
   void enlarge(std::uint32_t nodes);
   bool is_leaf(ItemList items, const SplitMeasure& box);
+  double diagonal_extent(ItemList items) const;
   void gather_points(ItemList items);
   void solve_discs();
   void solve(std::span<const Vec2> points);
@@ -82,6 +83,7 @@ class HierarchyBuilder {
 
   double margin_ = 0, threshold_ = 0;
   double sure_square_diagonal_ = 0;   ///< a node whose box has a shorter one is a leaf
+  double sure_diagonal_extent_ = 0;   ///< a node that extends farther is not
   double longest_square_length_ = 0;  ///< of a segment that is not halved
 
   SplitItems items_;
