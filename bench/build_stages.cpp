@@ -161,14 +161,14 @@ void BuildStages::make_and_check(std::size_t pose, Others& others) {
   require(same(others.interior.build(outlines_[pose], hierarchies_[pose].reach), alone), "interior", pose);
   levels(pose);
   require(holds_cut(tree_, hierarchies_[pose], depths[std::size(depths) - 1]), "levels", pose);
+  const auto is_as_alone = [&] {
+    return same(outline_, outlines_[pose]) && same(hierarchy_, hierarchies_[pose], 0) &&
+           holds_cut(tree_, hierarchies_[pose], depths[std::size(depths) - 1]);
+  };
   this->pose(pose);
-  require(same(outline_, outlines_[pose]) && same(hierarchy_, hierarchies_[pose], 0) &&
-              holds_cut(tree_, hierarchies_[pose], depths[std::size(depths) - 1]),
-          "pose", pose);
+  require(is_as_alone(), "pose", pose);
   all(pose);
-  require(same(outline_, outlines_[pose]) && same(hierarchy_, hierarchies_[pose], 0) &&
-              same(interior_, alone) && holds_cut(tree_, hierarchies_[pose], depths[std::size(depths) - 1]),
-          "all", pose);
+  require(is_as_alone() && same(interior_, alone), "all", pose);
 }
 
 void BuildStages::skin(std::size_t pose) {
@@ -188,7 +188,7 @@ void BuildStages::hierarchy_welzl(std::size_t pose) {
 }
 
 void BuildStages::levels(std::size_t pose) {
-  flatten_with_shortcuts(hierarchies_[pose]);
+  flatten(hierarchies_[pose], true);
 }
 
 void BuildStages::interior(std::size_t pose) {
@@ -197,13 +197,13 @@ void BuildStages::interior(std::size_t pose) {
 
 void BuildStages::pose(std::size_t pose) {
   make_hierarchy(pose);
-  flatten(hierarchy_);
+  flatten(hierarchy_, false);
 }
 
 void BuildStages::all(std::size_t pose) {
   make_hierarchy(pose);
   look_inside(outline_, hierarchy_.reach);
-  flatten_with_shortcuts(hierarchy_);
+  flatten(hierarchy_, true);
 }
 
 void BuildStages::make_hierarchy(std::size_t pose) {
@@ -217,22 +217,16 @@ void BuildStages::look_inside(const Outline& outline, double reach) {
   use(profile_);
 }
 
-void BuildStages::flatten(const Hierarchy& hierarchy) {
+void BuildStages::flatten(const Hierarchy& hierarchy, bool shortcuts) {
   flattener_.begin(hierarchy);
   for (const std::uint32_t depth : depths) {
     flattener_.flatten(depth, tree_);
     use(tree_);
-  }
-}
-
-void BuildStages::flatten_with_shortcuts(const Hierarchy& hierarchy) {
-  flattener_.begin(hierarchy);
-  for (const std::uint32_t depth : depths) {
-    flattener_.flatten(depth, tree_);
-    if (tree_.is_single) continue;
+    if (!shortcuts || tree_.is_single) continue;
     outer_ = flattener_.outer(profile_);
     use(outer_);
   }
+  if (!shortcuts) return;
   supports_ = flattener_.supports();
   use(supports_);
 }

@@ -68,8 +68,7 @@ class BuildStages {
   void make_and_check(std::size_t pose, Others& others);
   void look_inside(const Outline& outline, double reach);
   void make_hierarchy(std::size_t pose);
-  void flatten(const Hierarchy& hierarchy);
-  void flatten_with_shortcuts(const Hierarchy& hierarchy);
+  void flatten(const Hierarchy& hierarchy, bool shortcuts);
 
   const Character& character_;
   std::vector<PoseTime> times_;

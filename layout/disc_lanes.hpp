@@ -26,7 +26,7 @@ class DiscLanes {
     if (large == 0) return;
     const std::size_t last_block = job.count - (large < width - 1 ? large : width - 1);
     for (std::size_t i = job.small_count; i < last_block; i += width) Block(job, i, last_block).solve_large();
-    Block(job, last_block, job.count, Shared{}).solve_large();
+    Block(job, last_block, job.count, true).solve_large();
   }
 
  private:
@@ -93,26 +93,21 @@ class DiscLanes {
     return basis(q, select(old.is_pair, old.a, far), select(old.is_pair, old.b, beyond));
   }
 
-  /// Chooses a block whose last two lanes share the largest set: often it has twice the points of the next.
-  struct Shared {};
-
   /// As many sets as there are lanes, point after point; sets with fewer points than others repeat their
   /// last.
   class Block {
    public:
-    Block(const DiscSets& job, std::size_t begin, std::size_t end) : job_(job), begin_(begin), end_(end) {
+    /// `is_shared`: the last two lanes share the largest set, which often has twice the points of the next.
+    Block(const DiscSets& job, std::size_t begin, std::size_t end, bool is_shared = false)
+        : job_(job), begin_(begin), end_(end), is_shared_(is_shared) {
       Column columns[width];
       for (std::size_t lane = 0; lane < width; ++lane) columns[lane] = column(lane);
-      fill(columns);
-    }
-    Block(const DiscSets& job, std::size_t begin, std::size_t end, Shared)
-        : job_(job), begin_(begin), end_(end), is_shared_(true) {
-      Column columns[width];
-      for (std::size_t lane = 0; lane < width - 1; ++lane) columns[lane] = column(lane);
-      Column &half = columns[width - 2], &other = columns[width - 1];
-      const std::size_t middle = half.last / 2;
-      other = {half.first + middle + 1, half.last - middle - 1};
-      half.last = middle;
+      if (is_shared) {
+        Column &half = columns[width - 2], &other = columns[width - 1];
+        const std::size_t middle = half.last / 2;
+        other = {half.first + middle + 1, half.last - middle - 1};
+        half.last = middle;
+      }
       fill(columns);
     }
 
@@ -292,7 +287,7 @@ class DiscLanes {
     const DiscSets& job_;
     std::size_t begin_, end_;
     std::size_t count_ = 0;
-    bool is_shared_ = false;
+    bool is_shared_;
   };
 };
 

@@ -57,13 +57,9 @@ void set_centre(HierarchyNode& node, Vec2 centre) {
   node.disc.x = centre.x, node.disc.y = centre.y;
 }
 
-void clear_elements(Hierarchy& hierarchy) {
-  hierarchy.elements.clear(), hierarchy.source.clear(), hierarchy.held.clear();
-}
-
 void clear(Hierarchy& hierarchy) {
   hierarchy.nodes.clear();
-  clear_elements(hierarchy);
+  hierarchy.elements.clear(), hierarchy.source.clear(), hierarchy.held.clear();
 }
 
 }  // namespace
@@ -163,8 +159,13 @@ void HierarchyBuilder::grow(bool through_centre, std::uint32_t deepest) {
   open_.resize(std::max(open_.size(), count + 1));
   std::iota(order_.begin(), order_.end(), 0);
   Open* top = open_.data();
-  *top++ = {
-      0, static_cast<std::uint32_t>(count), order_.data(), scratch_.data(), none, deepest, measure(items_)};
+  *top++ = {0,
+            static_cast<std::uint32_t>(count),
+            order_.data(),
+            scratch_.data(),
+            none,
+            deepest,
+            measure(items_, order_)};
   while (top != open_.data()) {
     const std::uint32_t node = node_count_;
     if (!add_node(*--top)) continue;
@@ -219,26 +220,9 @@ bool HierarchyBuilder::is_leaf(ItemList items, const SplitMeasure& box) {
   const double x = box.extent(0), y = box.extent(1);
   if (0.5 * std::max(x, y) >= threshold_) return false;
   if (x * x + y * y < sure_square_diagonal_) return true;
-  if (diagonal_extent(items) > sure_diagonal_extent_) return false;
+  if (diagonal_extent(items_, items) > sure_diagonal_extent_) return false;
   gather_points(items);
   return smallest_enclosing_disc(std::span(points_).first(point_count_)).radius < threshold_;
-}
-
-/// The larger one of x + y and of x - y.
-double HierarchyBuilder::diagonal_extent(ItemList items) const {
-  const __m128d none = _mm_set1_pd(HUGE_VAL);
-  __m128d low = none, minus_high = none;
-  for (const std::uint32_t item : items) {
-    const auto& [a, b, c] = items_.elements[item];
-    for (const Vec2 p : {a, b, c}) {
-      const __m128d x = _mm_set1_pd(widened(p.x)), y = _mm_setr_pd(widened(p.y), -widened(p.y));
-      const __m128d sums = _mm_add_pd(x, y);
-      low = _mm_min_pd(low, sums);
-      minus_high = _mm_min_pd(minus_high, _mm_sub_pd(_mm_setzero_pd(), sums));
-    }
-  }
-  const __m128d minus_extent = _mm_add_pd(low, minus_high);
-  return -std::min(_mm_cvtsd_f64(minus_extent), _mm_cvtsd_f64(_mm_unpackhi_pd(minus_extent, minus_extent)));
 }
 
 /// A lone segment, by its place in the order, and, below, what it is halved into. The midpoint that divides it is its
@@ -333,36 +317,6 @@ void HierarchyBuilder::solve(std::span<const Vec2> points) {
 
 void HierarchyBuilder::publish(Hierarchy& hierarchy) {
   hierarchy.nodes.assign(nodes_.begin(), nodes_.begin() + node_count_);
-}
-
-/// A leaf's items, or the pieces of the one that is halved.
-void HierarchyBuilder::add_elements(Hierarchy& hierarchy) const {
-  clear_elements(hierarchy);
-  hierarchy.held.resize(hierarchy.nodes.size());
-  for (std::size_t at = 0; at < order_.size();) {
-    const std::uint32_t node = first_node_[at];
-    const auto begin = static_cast<std::uint32_t>(hierarchy.elements.size());
-    for (; at < order_.size() && first_node_[at] == node; ++at)
-      add_pieces(items_.elements[order_[at]], order_[at], node, hierarchy);
-    hierarchy.held[node].begin = begin;
-  }
-  for (std::size_t i = hierarchy.nodes.size(); i-- > 0;)
-    if (const HierarchyNode& node = hierarchy.nodes[i]; !node.is_leaf())
-      hierarchy.held[i] = {hierarchy.held[i + 1].begin, hierarchy.held[node.second_child].end};
-}
-
-/// A piece's midpoint is its disc's centre.
-void HierarchyBuilder::add_pieces(const Element& piece, std::uint32_t source, std::uint32_t node,
-                                  Hierarchy& hierarchy) const {
-  if (const std::uint32_t second = hierarchy.nodes[node].second_child; second != 0) {
-    const Vec2 middle = centre(hierarchy.nodes[node]);
-    add_pieces({piece.a, middle, middle}, source, node + 1, hierarchy);
-    return add_pieces({middle, piece.b, piece.b}, source, second, hierarchy);
-  }
-  const auto begin = static_cast<std::uint32_t>(hierarchy.elements.size());
-  hierarchy.elements.push_back(piece);
-  hierarchy.source.push_back(source);
-  hierarchy.held[node] = {begin, begin + 1};
 }
 
 }  // namespace bch

@@ -74,7 +74,6 @@ class HierarchyBuilder {
   void reserve(std::uint32_t nodes);
   void enlarge(std::uint32_t nodes);
   bool is_leaf(ItemList items, const SplitMeasure& box);
-  double diagonal_extent(ItemList items) const;
   void gather_points(ItemList items);
   void solve_discs();
   void solve(std::span<const Vec2> points);

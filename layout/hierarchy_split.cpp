@@ -6,6 +6,7 @@
 #include <emmintrin.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace bch {
@@ -73,16 +74,6 @@ Plane plane(const SplitItems& items, ItemList list, const SplitMeasure& whole, b
   return {_mm_movemask_ps(is_y) & 1, _mm_or_ps(_mm_and_ps(is_y, y), _mm_andnot_ps(is_y, x))};
 }
 
-/// Of some of the items, the sums in order.
-SplitMeasure measure(const SplitItems& items, ItemList list) {
-  const __m128 none = _mm_setzero_ps(), all = _mm_cmpeq_ps(none, none);
-  Sums sums;
-  for (const std::uint32_t i : list) sums.add(items.items[i], all, none);
-  SplitMeasure result, empty;
-  sums.store(result, empty);
-  return result;
-}
-
 /// Stable, and without a branch on an item's side: every item is written to both sides and offered to both sums.
 std::size_t partition(const SplitItems& items, ItemList list, const Plane& plane, std::uint32_t* first_list,
                       std::uint32_t* second_list, SplitMeasure& before_plane, SplitMeasure& after_plane) {
@@ -106,13 +97,29 @@ std::size_t partition(const SplitItems& items, ItemList list, const Plane& plane
 
 }  // namespace
 
-SplitMeasure measure(const SplitItems& items) {
+SplitMeasure measure(const SplitItems& items, ItemList list) {
   const __m128 none = _mm_setzero_ps(), all = _mm_cmpeq_ps(none, none);
   Sums sums;
-  for (std::size_t i = 0; i < items.count; ++i) sums.add(items.items[i], all, none);
+  for (const std::uint32_t i : list) sums.add(items.items[i], all, none);
   SplitMeasure result, empty;
   sums.store(result, empty);
   return result;
+}
+
+double diagonal_extent(const SplitItems& items, ItemList list) {
+  const __m128d none = _mm_set1_pd(HUGE_VAL);
+  __m128d low = none, minus_high = none;
+  for (const std::uint32_t i : list) {
+    const auto& [a, b, c] = items.elements[i];
+    for (const Vec2 p : {a, b, c}) {
+      const double x = p.x, y = p.y;
+      const __m128d sums = _mm_setr_pd(x + y, x - y);
+      low = _mm_min_pd(low, sums);
+      minus_high = _mm_min_pd(minus_high, _mm_sub_pd(_mm_setzero_pd(), sums));
+    }
+  }
+  const __m128d minus_extent = _mm_add_pd(low, minus_high);
+  return -std::min(_mm_cvtsd_f64(minus_extent), _mm_cvtsd_f64(_mm_unpackhi_pd(minus_extent, minus_extent)));
 }
 
 std::size_t divide(const SplitItems& items, ItemList list, const SplitMeasure& whole, bool through_centre,

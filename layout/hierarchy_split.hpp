@@ -15,16 +15,19 @@ namespace bch {
 struct SplitMeasure {
   float box[4], sums[4];  ///< as a SplitItem's
 
-  double low(int axis) const { return static_cast<double>(box[axis]); }
-  double high(int axis) const { return -static_cast<double>(box[2 + axis]); }
-  double extent(int axis) const { return high(axis) - low(axis); }
+  double extent(int axis) const {
+    return -static_cast<double>(box[2 + axis]) - static_cast<double>(box[axis]);
+  }
 };
 
 /// Names items by index, so that dividing them moves four bytes each.
 using ItemList = std::span<const std::uint32_t>;
 
-/// Of all items, the sums in order. At least one item.
-SplitMeasure measure(const SplitItems& items);
+/// One pass, the sums in order. At least one item.
+SplitMeasure measure(const SplitItems& items, ItemList list);
+
+/// How far items extend in x + y or in x - y, whichever is more: along a diagonal, times the root of two.
+double diagonal_extent(const SplitItems& items, ItemList list);
 
 /// Divides a node's items, two at least, so that those before a plane come first and both sides keep their
 /// order; neither side is empty. The plane's normal is the longer axis, or the other one where that would

@@ -25,15 +25,12 @@ double twice_area(std::span<const Vec2> contour) {
 }  // namespace
 
 double reach(std::span<const Vec2> points) {
-  double largest[2] = {0, 0};  // two, because each waits for its last maximum
-  const auto offer = [&](double& square, Vec2 p) {
+  double square = 0;
+  for (const Vec2& p : points) {
     const double x = p.x, y = p.y;
     square = std::max(square, x * x + y * y);
-  };
-  for (std::size_t i = 1; i < points.size(); i += 2)
-    offer(largest[0], points[i - 1]), offer(largest[1], points[i]);
-  if (points.size() % 2 != 0) offer(largest[0], points.back());
-  return std::sqrt(std::max(largest[0], largest[1])) * (1 + 0x1p-50);
+  }
+  return std::sqrt(square) * (1 + 0x1p-50);
 }
 
 double area(const Outline& outline) {
