@@ -5,8 +5,8 @@
 
 #include <memory>
 
+#include "bench/baked_output.hpp"
 #include "bench/baked_report.hpp"
-#include "bench/baking.hpp"
 #include "bench/characters.hpp"
 #include "bench/commands.hpp"
 #include "bench/exit_codes.hpp"
@@ -36,9 +36,7 @@ void run_bake(const BakeOptions& options) {
   const Threads threads(options.answer.threads);
   const auto sources = options.rate > 0 ? list_shapes_at_rate(characters, options.rate)
                                         : list_shapes(characters, options.shapes.poses);
-  const BakedShapes baked{bake_shapes(characters, sources, options.shapes.threshold, plan),
-                          origins_of(characters, sources, options.shapes.threshold)};
-  write_baked(options.output, baked);
+  const BakedShapes baked = bake_file(options.output, characters, sources, options.shapes.threshold, plan);
   write_standard_output(text_of(options.output, baked));
 }
 

@@ -7,13 +7,10 @@
 #include <oneapi/tbb/parallel_pipeline.h>
 #include <oneapi/tbb/task_arena.h>
 
-#include <string_view>
 #include <utility>
 #include <vector>
 
-#include "bench/output.hpp"
 #include "bench/progress.hpp"
-#include "layout/baked_image.hpp"
 #include "layout/shape_set_builder.hpp"
 
 namespace bch::cli {
@@ -31,8 +28,9 @@ struct Workshop {
 }  // namespace
 
 ShapeSet bake_shapes(std::span<const LoadedCharacter> characters, std::span<const ShapeSource> sources,
-                     double threshold, const ShapeSetPlan& plan) {
-  ShapeSetBuilder builder(plan);
+                     double threshold, const ShapeSetPlan& plan,
+                     const std::function<void(std::span<const float> nodes)>& added) {
+  ShapeSetBuilder builder(plan, sources.size());
   Progress progress("baking shapes", sources.size());
   tbb::enumerable_thread_specific<Workshop> workshops([&] {
     return Workshop{ShapeMaker(characters, threshold, plan.depths.back(), plan.solid), ShapeFlattener(plan)};
@@ -54,6 +52,7 @@ ShapeSet bake_shapes(std::span<const LoadedCharacter> characters, std::span<cons
   // In the order of the sources, which is why the bytes do not depend on who built what.
   const auto add = [&](std::size_t i) {
     builder.add(places[i % places.size()]);
+    if (added) added(builder.nodes());
     progress.advance();
   };
   tbb::parallel_pipeline(places.size(),
@@ -78,14 +77,6 @@ ShapeOrigins origins_of(std::span<const LoadedCharacter> characters, std::span<c
         {name, at.clip == PoseTime::rest ? ShapeOrigin::rest_pose : name + 1 + at.clip, at.seconds});
   }
   return origins;
-}
-
-void write_baked(const std::string& file, const BakedShapes& baked) {
-  const BakedImage image(baked.set, baked.origins);
-  std::vector<std::string_view> parts;
-  for (const auto part : image.parts())
-    parts.emplace_back(reinterpret_cast<const char*>(part.data()), part.size());
-  write_file(file, parts);
 }
 
 }  // namespace bch::cli

@@ -62,7 +62,7 @@ LiveCrowd::LiveCrowd(std::span<const Character> characters, std::uint32_t agents
 
 ShapeSet LiveCrowd::first_shapes() const {
   Workshop workshop(characters_, plan_);
-  ShapeSetBuilder builder(plan_);
+  ShapeSetBuilder builder(plan_, sources_.size());
   for (std::uint32_t i = 0; i < sources_.size(); ++i) builder.add(workshop.make(sources_[i], i));
   return std::move(builder).finish();
 }

@@ -10,7 +10,7 @@
 #include <string>
 #include <system_error>
 
-#include "bench/baking.hpp"
+#include "bench/baked_output.hpp"
 #include "bench/micro.hpp"
 #include "layout/baked_checksum.hpp"
 #include "layout/baked_file.hpp"
@@ -42,8 +42,7 @@ class TemporaryFile {
 
 /// The scene's poses. Returns: the file.
 FileBytes bake(Scene& scene, const std::string& file) {
-  cli::write_baked(file, {cli::bake_shapes(scene.characters(), scene.sources(), threshold, {}),
-                          cli::origins_of(scene.characters(), scene.sources(), threshold)});
+  cli::bake_file(file, scene.characters(), scene.sources(), threshold, {});
   return map_file(file);
 }
 

@@ -5,7 +5,6 @@
 
 #include <initializer_list>
 #include <nlohmann/json_fwd.hpp>
-#include <span>
 #include <string>
 #include <string_view>
 
@@ -13,13 +12,14 @@ namespace bch::cli {
 
 /// Errors of all: throw InputError naming the destination and the reason.
 
-void write_standard_output(std::string_view text);
+[[noreturn]] void reject_output(const std::string& destination, int error);
 
-/// The file holds all of the text or is left as it was: the text goes to a new file beside it that is
-/// renamed once it is on the disk. What is not a regular file (a device, a pipe) is written to directly.
+void write_standard_output(std::string_view text);
+/// To an open file, which errors call `destination`.
+void write_all(int descriptor, std::string_view text, const std::string& destination);
+
+/// The file holds all of the text or is left as it was, see OutputFile.
 void write_file(const std::string& file, std::string_view text);
-/// The same for parts that follow each other.
-void write_file(const std::string& file, std::span<const std::string_view> parts);
 /// An empty name is no file: nothing is written. Bytes of names that are not UTF-8 are replaced.
 void write_json(const std::string& file, const nlohmann::ordered_json& json);
 

@@ -71,7 +71,7 @@ class Planned {
   }
 
   ShapeSet build() {
-    ShapeSetBuilder builder(plan_.set);
+    ShapeSetBuilder builder(plan_.set, plan_.shapes.size());
     for (std::size_t i = 0; i < plan_.shapes.size(); ++i) {
       flattener_->flatten(shapers_[plan_.shapes[i].character].shape(plan_.shapes[i].at), i, flat_);
       builder.add(flat_);

@@ -20,7 +20,7 @@ bool rows_in_order(std::span<const Root> roots) {
 
 ShapeSet build(std::span<const Shape> shapes, const ShapeSetPlan& plan) {
   ShapeFlattener flattener(plan);
-  ShapeSetBuilder builder(plan);
+  ShapeSetBuilder builder(plan, shapes.size());
   FlatShape flat;
   for (std::size_t s = 0; s < shapes.size(); ++s) {
     flattener.flatten(shapes[s], s, flat);

@@ -8,13 +8,21 @@
 #include <utility>
 
 namespace bch {
+namespace {
 
-ShapeSetBuilder::ShapeSetBuilder(const ShapeSetPlan& plan) : plan_(plan) {
+/// So many shapes say how large the others are.
+constexpr std::size_t sample = 64;
+
+}  // namespace
+
+ShapeSetBuilder::ShapeSetBuilder(const ShapeSetPlan& plan, std::size_t expected_shapes)
+    : plan_(plan), expected_shapes_(expected_shapes) {
   validate(plan);
   storage_.depths.assign(plan.depths.begin(), plan.depths.end());
 }
 
 void ShapeSetBuilder::add(const FlatShape& flat) {
+  if (shapes_ == sample && expected_shapes_ > sample) reserve();
   const ShapeExtent size = extent_of(flat);
   ShapeExtent at = end_;
   at.nodes = next_line(end_.nodes);
@@ -22,6 +30,13 @@ void ShapeSetBuilder::add(const FlatShape& flat) {
   storage_.make_room(at, size);
   storage_.put(shapes_++, flat, at);
   end_ = {at.nodes + size.nodes, at.rows + size.rows, at.contours + size.contours, at.points + size.points};
+}
+
+/// As large as all are going to be, by those so far, and a quarter. Room that is never written to takes no memory.
+void ShapeSetBuilder::reserve() {
+  const std::size_t times = (expected_shapes_ * 5 / 4 + sample - 1) / sample;
+  storage_.reserve(plan_, expected_shapes_,
+                   {end_.nodes * times, end_.rows * times, end_.contours * times, end_.points * times});
 }
 
 ShapeSet ShapeSetBuilder::finish() && {

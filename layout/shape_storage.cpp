@@ -55,6 +55,22 @@ ShapeArrays ShapeStorage::arrays() const {
           .points = points};
 }
 
+void ShapeStorage::reserve(const ShapeSetPlan& plan, std::size_t shapes, const ShapeExtent& extent) {
+  roots.reserve(shapes * plan.depths.size());
+  if (plan.depths.back() == 0) return;
+  trees.reserve(shapes * plan.depths.size());
+  nodes.reserve(std::min<std::size_t>(extent.nodes, leaf_window));
+  reach.reserve(shapes);
+  if (plan.shortcuts) {
+    support.reserve(extent.rows * support_stride);
+    inscribed.reserve(shapes), extremes.reserve(shapes), profiles.reserve(shapes);
+  }
+  if (plan.solid) {
+    shape_contours.reserve(shapes);
+    contours.reserve(extent.contours), points.reserve(extent.points);
+  }
+}
+
 void ShapeStorage::resize(const ShapeSetPlan& plan, std::size_t shapes) {
   const std::size_t levels = plan.depths.size();
   require_numbers(shapes * levels, "roots");

@@ -41,6 +41,8 @@ struct ShapeStorage {
 
   ShapeArrays arrays() const;
 
+  /// Room for so many shapes of such an extent, of which nothing is written yet.
+  void reserve(const ShapeSetPlan& plan, std::size_t shapes, const ShapeExtent& extent);
   /// Makes the arrays with elements of a fixed size large enough for so many shapes, as far as the plan has them.
   void resize(const ShapeSetPlan& plan, std::size_t shapes);
   /// Makes the others end with such an extent behind this place.

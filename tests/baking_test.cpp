@@ -7,13 +7,17 @@
 #include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/task_arena.h>
 
+#include <filesystem>
 #include <string>
 
+#include "bench/baked_output.hpp"
 #include "bench/exit_codes.hpp"
-#include "layout/baked_image.hpp"
 #include "layout/default_characters.hpp"
+#include "layout/file_bytes.hpp"
+#include "tests/baked_bytes.hpp"
+#include "tests/temporary_folder.hpp"
 
-// A task that throws in the midst of a batch.
+// Batches of poses: files that are written meanwhile, tasks that throw in the midst.
 
 namespace bch::cli {
 namespace {
@@ -70,6 +74,47 @@ TEST(BakingOfRoots, AreThoseOfTheOutlines) {
     const Root &one = roots.view().roots[shape], &other = all.view().roots[2 * shape];
     EXPECT_TRUE(one.x == other.x && one.y == other.y && one.radius == other.radius) << shape;
   }
+}
+
+std::string content(const std::string& file) {
+  const FileBytes read = read_file(file);
+  return {reinterpret_cast<const char*>(read.bytes.data()), read.bytes.size()};
+}
+
+std::string image(const BakedShapes& baked) {
+  return test::BakedBytes(baked.set, baked.origins).text();
+}
+
+/// So many that most of the file is written before the last one is there.
+TEST_P(Baking, FilesHoldTheirImages) {
+  const TemporaryFolder folder;
+  const std::string file = folder.file("a.bch");
+  const auto poses = sources(600, 600);
+  for (const ShapeSetPlan& plan : {ShapeSetPlan{}, ShapeSetPlan{.depths = {0, 3, all_depths}, .solid = true},
+                                   ShapeSetPlan{.depths = {0}}}) {
+    const BakedShapes baked = arena.execute([&] { return bake_file(file, characters, poses, 0.01, plan); });
+    EXPECT_EQ(content(file), image(baked));
+    EXPECT_EQ(image(baked),
+              image({bake_shapes(characters, poses, 0.01, plan), origins_of(characters, poses, 0.01)}));
+  }
+}
+
+/// Their nodes were written when it turned out that nobody needs any.
+TEST_P(Baking, FilesOfSingleDiscsHaveNoNodes) {
+  const TemporaryFolder folder;
+  const std::string file = folder.file("a.bch");
+  const BakedShapes baked =
+      arena.execute([&] { return bake_file(file, characters, sources(4200, 4200), 10, {}); });
+  EXPECT_TRUE(baked.set.roots_only());
+  EXPECT_EQ(content(file), image(baked));
+}
+
+TEST_P(Baking, FilesOfATaskThatThrowsAreAsTheyWere) {
+  const TemporaryFolder folder;
+  const std::string file = folder.write("a.bch", "old");
+  expect_vanished([&] { bake_file(file, characters, sources(600, 599), 0.01, {}); });
+  EXPECT_EQ(content(file), "old");
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 1);
 }
 
 INSTANTIATE_TEST_SUITE_P(Threads, Baking, testing::Values(1, 2, 4));

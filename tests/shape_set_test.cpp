@@ -11,7 +11,9 @@
 #include <string>
 #include <tuple>
 
+#include "layout/shape_set_builder.hpp"
 #include "layout/wide_tree.hpp"
+#include "tests/baked_bytes.hpp"
 #include "tests/scenes.hpp"
 
 namespace bch {
@@ -145,6 +147,27 @@ TEST(ShapeSet, BuildsOnlyWhatThePlanNames) {
   EXPECT_LT(bytes({6}, false), bytes({all_depths}, false));
   EXPECT_LT(bytes({all_depths}, false), bytes({all_depths}, true));
   EXPECT_TRUE(ShapeSet(std::vector<Shape>{{{}, fixed_cylinder(1)}}).roots_only());
+}
+
+TEST(ShapeSet, IsTheSameHoweverManyShapesWereExpected) {
+  const std::vector<Shape> shapes = test::synthetic_shapes(25, 90);
+  const ShapeSetPlan plan{{0, 3, all_depths}, true};
+  ShapeFlattener flattener(plan);
+  FlatShape flat;
+  const auto bytes = [&](std::size_t expected) {
+    ShapeSetBuilder builder(plan, expected);
+    for (std::size_t s = 0; s < shapes.size(); ++s) {
+      flattener.flatten(shapes[s], s, flat);
+      builder.add(flat);
+    }
+    const std::vector<float> nodes(builder.nodes().begin(), builder.nodes().end());
+    const ShapeSet set = std::move(builder).finish();
+    EXPECT_TRUE(std::equal(nodes.begin(), nodes.end(), set.arrays().nodes.begin()));
+    EXPECT_EQ(set.arrays().nodes.size(), nodes.size() + block_floats);
+    return test::BakedBytes(set, {}).text();
+  };
+  const std::string unknown = bytes(0);
+  for (const std::size_t expected : {65, 90, 100000}) EXPECT_EQ(bytes(expected), unknown) << expected;
 }
 
 TEST(ShapeSet, RejectsBadPlansAndShapes) {
