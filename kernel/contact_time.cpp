@@ -34,13 +34,18 @@ void answer(const kernel::Implementation& implementation, ContactTimeArguments a
   std::uint32_t which[grain];
   float way_x[grain], way_y[grain], found[grain];
   std::size_t count = 0;
+  // In two loops, of which neither has a branch that depends on an answer.
   for (std::uint32_t i = 0; i < pairs.size(); ++i) {
     times[i] = 0;
-    if (codes[i] != kernel::apart) continue;
+    which[count] = i;
+    count += codes[i] == kernel::apart;
+  }
+  for (std::size_t k = 0; k < count; ++k) {
+    const std::uint32_t i = which[k];
     const auto [first, second] = pairs[i];
     const double sign = second < first ? -1 : 1;
-    way_x[count] = static_cast<float>(sign * x[i]), way_y[count] = static_cast<float>(sign * y[i]);
-    open[count] = pairs[i], which[count++] = i;
+    way_x[k] = static_cast<float>(sign * x[i]), way_y[k] = static_cast<float>(sign * y[i]);
+    open[k] = pairs[i];
   }
   arguments.in.pairs = open;
   arguments.x = way_x, arguments.y = way_y, arguments.time = found;

@@ -9,7 +9,7 @@
 #include "kernel/chunk_pairs.hpp"
 #include "kernel/contact_time_arguments.hpp"
 #include "kernel/contact_time_measure.hpp"
-#include "kernel/nearest_walk.hpp"
+#include "kernel/contact_time_walk.hpp"
 #include "kernel/placements.hpp"
 #include "kernel/separation_test.hpp"
 
@@ -25,6 +25,7 @@ class ContactTimeKernel {
     ContactTimeKernel kernel(arguments);
     for (; begin < end; begin += chunk)
       kernel.answer_chunk(begin, end - begin < chunk ? static_cast<std::uint32_t>(end - begin) : chunk);
+    kernel.walk_.run(0);
   }
 
  private:
@@ -35,7 +36,7 @@ class ContactTimeKernel {
       : arguments_(arguments),
         shapes_(*arguments.in.shapes),
         separation_(shapes_, at_),
-        walk_(shapes_.nodes) {}
+        walk_(shapes_.nodes, arguments.time) {}
 
   void answer_chunk(std::size_t begin, std::uint32_t size) noexcept {
     at_.place(arguments_.in, begin, size);
@@ -51,7 +52,11 @@ class ContactTimeKernel {
       return;
     }
     if (shapes_.support != nullptr && open_.size != 0) part_by_supports();
-    for (std::uint32_t k = 0; k < open_.size; ++k) time[open_.pair[k]] = time_of_trees(open_.pair[k]);
+    for (std::uint32_t k = 0; k < open_.size; ++k) {
+      const std::uint32_t pair = open_.pair[k];
+      walk_.add(begin + pair, at_.transform(pair), shapes_.trees[at_.root_a[pair]],
+                shapes_.trees[at_.root_b[pair]], Measure(x_[pair], y_[pair], farthest(pair)));
+    }
   }
 
   /// Into A's frame.
@@ -94,19 +99,14 @@ class ContactTimeKernel {
     return 2 * reach(pair) + __builtin_fabsf(at_.tx[pair]) + __builtin_fabsf(at_.ty[pair]);
   }
 
-  float time_of_trees(std::uint32_t pair) noexcept {
-    Measure measure(x_[pair], y_[pair], farthest(pair));
-    walk_.run(at_.transform(pair), shapes_.trees[at_.root_a[pair]], shapes_.trees[at_.root_b[pair]], measure);
-    return measure.time();
-  }
-
   /// Where every cut is a single disc.
   float time_of_roots(std::uint32_t pair) const noexcept {
     const Transform at = at_.transform(pair);
     const Root &a = shapes_.roots[at_.root_a[pair]], &b = shapes_.roots[at_.root_b[pair]];
     Measure measure(x_[pair], y_[pair], 0);
-    measure.take(at.tx + (at.c * b.x - at.s * b.y) - a.x, at.ty + (at.s * b.x + at.c * b.y) - a.y,
-                 a.radius + b.radius);
+    measure.take(Measure::template time_of<double>(at.tx + (at.c * b.x - at.s * b.y) - a.x,
+                                                   at.ty + (at.s * b.x + at.c * b.y) - a.y,
+                                                   a.radius + b.radius, x_[pair], y_[pair]));
     return measure.time();
   }
 
@@ -117,7 +117,7 @@ class ContactTimeKernel {
   SeparationTest<Simd> separation_;
   std::uint32_t row_a_[chunk], row_b_[chunk];  ///< of the supports, where they are not in order
   ChunkPairs<Simd, chunk> open_;
-  NearestWalk<Simd, Measure> walk_;
+  ContactTimeWalk<Simd> walk_;
 };
 
 }  // namespace bch::kernel

@@ -3,7 +3,7 @@
 
 #pragma once
 
-#include <cstdint>
+#include <type_traits>
 
 #include "kernel/clearance_arguments.hpp"
 #include "kernel/disc_pairs.hpp"
@@ -28,77 +28,96 @@ namespace bch::kernel {
 /// at least 2^-23 of itself, so that such a loss moves the contact by less than 2^-28 of what that does. The last product
 /// takes off 4 u for the rounding to float.
 ///
-/// Bounds are the times at which discs (C, R') that hold the two touch, enlarged. At T the centres are within R'_A +
-/// R'_B + 16 u D, and rounding brings 20 u S and 4 u D beside, with D <= D' + 2 S: 60 u S + 20 u D'. The distances along
-/// the way and aside are off by 5 u D' each. That and 3 u of the squares make the root smaller by less than a radius
-/// enlarged by 10 u D' does, and the difference later by 5 u D' + u R', R' <= 2 S. For all that, 62 u S + 35 u D', `slack`
-/// is 128 u F, with S <= F and D' <= F. Times are shortened by 16 u, for the 3 u of 1 / |v| and the product's; those below
-/// 0, before every T, only have to stay there. The root is rough_root(), lengthened by more than that is off.
+/// Bounds are how far A has come when discs (C, R') that hold the two touch, enlarged, in units of w = 1 / |(w_x, w_y)|
+/// metres, where (w_x, w_y) is v / |v| less `rough` of it: what is along the way and aside is then computed at once, from
+/// discs of both sides turned into the way's frame. At T the centres are within R'_A + R'_B + 16 u D, and rounding brings
+/// 20 u S and 4 u D beside, with D <= D' + 2 S: 60 u S + 20 u D'. The turn adds 2 u of each coefficient of B's placement,
+/// of |d| and of A's centre, and rounds two sums more: 6 u P_B + 2 u P_A + 3 u |d| + u D', where centres are within 1.42
+/// reaches; with 2.5 u D' for (w_x, w_y) itself either distance is off by 13 u S + 7 u D'. The squares' 3 u make that 19 u S
+/// + 7 u D' of the root, the difference is later by 15 u S + 8 u D'. So a radius enlarged by 94 u S + 35 u D' does, and
+/// `slack` is 256 u F, with S <= F and D' <= F: it also keeps squares of discs that touch on the way apart by far more than
+/// their rounding, so that the root of what is not above 0, NaN, is that of discs that never touch. Because (w_x, w_y) is
+/// short, sqrt(R'^2 - h'^2) / w exceeds the root by more than rough_root() is off; where that is exact, what (w_x, w_y) is
+/// off by is 3 u R' <= 6 u S, for which slack has room. A time of T is compared as T |v| / w, a 2^18th longer, for what |v|
+/// and the products are off by. Bounds below 0 only have to stay there.
 template <class Simd>
 class ContactTimeMeasure {
  public:
   using Float = typename Simd::Float;
 
+  ContactTimeMeasure() = default;
   /// v, and F in metres.
-  ContactTimeMeasure(float x, float y, float farthest) noexcept : x_(x), y_(y), slack_(0x1p-17f * farthest) {
-    const float square = x * x + y * y;
-    // Of a way shorter than that all bounds are 0.
-    if (square < 1e-30f) return;
-    per_length_ = (1 - 0x1p-20f) / __builtin_sqrtf(square);
-    unit_x_ = x * per_length_, unit_y_ = y * per_length_;
+  ContactTimeMeasure(float x, float y, float farthest) noexcept
+      : x_(x), y_(y), slack_(0x1p-16f * farthest), time_(__builtin_inff()) {
+    const float square = x * x + y * y, length = __builtin_sqrtf(square);
+    // Of a way shorter than that no bound is above 0.
+    const float per_length = square < 1e-30f ? 0 : (1 - Simd::rough) / length;
+    unit_x_ = x * per_length, unit_y_ = y * per_length;
+    length_ = length * ((1 - Simd::rough) * (1 + 0x1p-18f));
   }
 
+  float x() const noexcept { return x_; }
+  float y() const noexcept { return y_; }
   float time() const noexcept { return time_; }
-  float best() const noexcept { return time_ < 1 ? time_ : 1; }
 
-  /// When the discs touch first, below 0 where that is before the way begins; far_beyond where they do not.
-  Float bound(Float x, Float y, Float r) const noexcept {
-    const Float radius = r + Float(slack_);
-    const Float along = x * Float(unit_x_) + y * Float(unit_y_);
-    const Float aside = x * Float(unit_y_) - y * Float(unit_x_);
-    const Float left = radius * radius - aside * aside, zero(0.0f), never(far_beyond);
-    const Float half = rough_root<Simd>(left) * Float(1 + Simd::rough);
-    const Float time = (along - half) * Float(per_length_);
-    return Simd::select(left >= zero, Simd::select(along + half >= zero, time, never), never);
-  }
+  /// What is below bounds above it is later than the time so far, or than the way's end.
+  float limit() const noexcept { return best() * length_; }
 
-  /// The pair with the least bound first, which leaves out most others.
-  void meet(const Transform& at, Discs a, Discs b, std::uint32_t, std::uint32_t) noexcept {
-    alignas(64) float bounds[block_pairs];
-    visit_disc_pairs<Simd>(
-        at, a, b, [&](unsigned k, Float x, Float y, Float r) { Simd::store(bounds + k, bound(x, y, r)); });
-    const auto take_pair = [&](unsigned k) {
-      const auto [x, y, r] = disc_pair<Simd>(at, a, b, k);
-      take(x, y, r);
-    };
-    const float least = least_value<Simd>(bounds);
-    if (!(least <= best())) return;
-    const unsigned first = first_within<Simd>(bounds, least);
-    take_pair(first);
-    std::uint64_t open = all_within<Simd>(bounds, best()) & ~(std::uint64_t{1} << first);
-    for (; open != 0; open &= open - 1) {
-      const auto k = static_cast<unsigned>(__builtin_ctzll(open));
-      if (bounds[k] <= best()) take_pair(k);
+  /// Calls visit(k, bound) for every register of pairs as visit_disc_pairs() does; far_beyond for those that never touch.
+  template <class Visit>
+  [[gnu::always_inline]] void visit_bounds(const Transform& at, Discs a, Discs b,
+                                           Visit visit) const noexcept {
+    constexpr unsigned stride = Simd::width < block_width ? block_width : Simd::width;
+    alignas(64) float turned[3 * stride];
+    const Float ux(unit_x_), uy(unit_y_), slack(slack_), zero(0.0f), never(far_beyond);
+    for (unsigned k = 0; k < block_width; k += Simd::width) {
+      const auto of_a = [&](unsigned row) {
+        return Simd::template columns<block_width>(a.x + row * a.stride, k / Simd::width);
+      };
+      const Float x = of_a(0), y = of_a(1);
+      Simd::store(turned + k, ux * x + uy * y);
+      Simd::store(turned + stride + k, ux * y - uy * x);
+      Simd::store(turned + 2 * stride + k, of_a(2) + slack);
     }
+    const Transform on_way{unit_x_ * at.c + unit_y_ * at.s, unit_x_ * at.s - unit_y_ * at.c,
+                           unit_x_ * at.tx + unit_y_ * at.ty, unit_x_ * at.ty - unit_y_ * at.tx};
+    visit_disc_pairs<Simd>(on_way, Discs{turned, stride}, b,
+                           [=](unsigned k, Float along, Float aside, Float radius) {
+                             const Float half = Simd::rough_root(radius * radius - aside * aside);
+                             // Not where it is NaN.
+                             visit(k, Simd::select(along + half >= zero, along - half, never));
+                           });
   }
 
-  /// Takes the time of two discs of the cuts.
-  void take(float x, float y, float r) noexcept {
-    const double dx = x, dy = y, vx = x_, vy = y_;
-    const double square = dx * dx + dy * dy, towards = dx * vx + dy * vy;
-    const double radius = static_cast<double>(r) + 0x1p-20 * __builtin_sqrt(square);
-    const double aside = dx * vy - dy * vx;
-    const double under_root = radius * radius * (vx * vx + vy * vy) - aside * aside;
-    if (towards <= 0 || under_root < 0) return;
-    const double left = square - radius * radius;
-    const double time = left <= 0 ? 0 : left / (towards + __builtin_sqrt(under_root)) * (1 - 0x1p-22);
+  /// When two discs touch, infinity for never; lane by lane, or of two.
+  template <class Real>
+  [[gnu::always_inline]] static Real time_of(Real x, Real y, Real r, Real vx, Real vy) noexcept {
+    const Real zero(0.0), never(__builtin_inf());
+    const Real square = x * x + y * y, towards = x * vx + y * vy;
+    const Real radius = r + Real(0x1p-20) * xsimd::sqrt(square);
+    const Real aside = x * vy - y * vx;
+    const Real under_root = radius * radius * (vx * vx + vy * vy) - aside * aside;
+    const Real left = square - radius * radius;
+    const Real time = left / (towards + xsimd::sqrt(xsimd::max(under_root, zero))) * Real(1 - 0x1p-22);
+    const auto select = [](const auto& which, const Real& yes, const Real& no) {
+      if constexpr (std::is_same_v<Real, double>)
+        return which ? yes : no;
+      else
+        return xsimd::select(which, yes, no);
+    };
+    return select((towards > zero) & (under_root >= zero), select(left > zero, time, zero), never);
+  }
+  void take(double time) noexcept {
     if (time <= static_cast<double>(best())) time_ = static_cast<float>(time);
   }
 
  private:
-  float x_ = 0, y_ = 0, slack_ = 0;
-  float per_length_ = 0, unit_x_ = 0, unit_y_ = 0;
-  float time_ = __builtin_inff();
+  float best() const noexcept { return time_ < 1 ? time_ : 1; }
+
+  float x_, y_, slack_;
+  float unit_x_, unit_y_;
+  float length_;  ///< of the way, in units of bounds
+  float time_;
 };
 
 }  // namespace bch::kernel

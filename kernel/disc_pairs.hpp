@@ -54,7 +54,8 @@ struct DiscPair {
   float x, y, r;
 };
 template <class Simd>
-DiscPair disc_pair(const Transform& b_in_a, Discs a, Discs b, unsigned pair) noexcept {
+[[gnu::always_inline]] inline DiscPair disc_pair(const Transform& b_in_a, Discs a, Discs b,
+                                                 unsigned pair) noexcept {
   const unsigned i = pair / block_width, j = pair % block_width;
   const float x = b.x[j], y = b.x[b.stride + j];
   return {b_in_a.tx + (b_in_a.c * x - b_in_a.s * y) - a.x[i],

@@ -22,17 +22,20 @@ constexpr std::uint64_t counts_of_set = 0x4332'3221'3221'2110;
 /// least() of a register's lanes, gather() of doubles or words by index, without a way through memory, rounded() of as many
 /// doubles as there are floats in a register, load_records(), which picks records of four floats from a table, each an
 /// index of strides from its beginning, and gives field after field, lane = record, and rough_root(), for bounds: it is
-/// off by less than 3/4 of `rough`, relatively, for normal numbers, in other ways on every processor.
+/// off by less than 3/4 of `rough`, relatively, for normal numbers, in other ways on every processor, and NaN for numbers
+/// below 0.
 template <class Arch>
 struct Lanes {
   using Float = xsimd::batch<float, Arch>;
   using Double = xsimd::batch<double, Arch>;
   using Words = xsimd::batch<std::uint32_t, Arch>;
   using Mask = xsimd::batch_bool<float, Arch>;
-  static constexpr unsigned width = Float::size;
+  static constexpr unsigned width = Float::size, doubles = Double::size;
 
   static Float load(const float* p) noexcept { return Float::load_unaligned(p); }
+  static Double load(const double* p) noexcept { return Double::load_unaligned(p); }
   static void store(float* p, Float v) noexcept { v.store_unaligned(p); }
+  static void store(double* p, Double v) noexcept { v.store_unaligned(p); }
   static void store(std::uint32_t* p, Words v) noexcept { v.store_unaligned(p); }
   static Float select(Mask mask, Float yes, Float no) noexcept { return xsimd::select(mask, yes, no); }
   /// first + i for every set bit i, in order; a register's lanes of numbers may be written.
@@ -68,7 +71,7 @@ struct Lanes<Scalar> {
   using Double = double;
   using Words = std::uint32_t;
   using Mask = bool;
-  static constexpr unsigned width = 1;
+  static constexpr unsigned width = 1, doubles = 1;
 
   // By copies, as registers are: what is stored as a float may be kept and read as an integer.
   static Float load(const float* p) noexcept {
@@ -76,7 +79,9 @@ struct Lanes<Scalar> {
     __builtin_memcpy(&value, p, sizeof value);
     return value;
   }
+  static Double load(const double* p) noexcept { return *p; }
   static void store(float* p, Float v) noexcept { __builtin_memcpy(p, &v, sizeof v); }
+  static void store(double* p, Double v) noexcept { *p = v; }
   static void store(std::uint32_t* p, Words v) noexcept { *p = v; }
   static Float select(Mask mask, Float yes, Float no) noexcept { return mask ? yes : no; }
   template <std::size_t stride>

@@ -34,11 +34,6 @@ class NearestWalk {
  public:
   explicit NearestWalk(const float* nodes) noexcept : nodes_(nodes) {}
 
-  void run(const Transform& at, const Tree& a, const Tree& b, Measure& measure) noexcept {
-    if ((a.top & b.top) < leaf_window) return run(at, a.top, b.top, a.stride, b.stride, measure);
-    meet(at, a.top, b.top, a.stride, b.stride, measure);
-  }
-
   /// All below two nodes that are not both windows.
   void run(const Transform& at, std::uint32_t a, std::uint32_t b, std::uint32_t stride_a,
            std::uint32_t stride_b, Measure& measure) noexcept {
