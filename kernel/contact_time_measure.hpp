@@ -28,18 +28,18 @@ namespace bch::kernel {
 /// at least 2^-23 of itself, so that such a loss moves the contact by less than 2^-28 of what that does. The last product
 /// takes off 4 u for the rounding to float.
 ///
-/// Bounds are how far A has come when discs (C, R') that hold the two touch, enlarged, in units of w = 1 / |(w_x, w_y)|
-/// metres, where (w_x, w_y) is v / |v| less `rough` of it: what is along the way and aside is then computed at once, from
-/// discs of both sides turned into the way's frame. At T the centres are within R'_A + R'_B + 16 u D, and rounding brings
+/// Bounds are how far A has come when discs (C, R') that hold the two touch, enlarged. What is along the way and aside is
+/// computed at once, from discs of both sides turned into the way's frame by (w_x, w_y), which is v / |v| made shorter by
+/// `rough` of it: so are all lengths but the radii. At T the centres are within R'_A + R'_B + 16 u D, and rounding brings
 /// 20 u S and 4 u D beside, with D <= D' + 2 S: 60 u S + 20 u D'. The turn adds 2 u of each coefficient of B's placement,
 /// of |d| and of A's centre, and rounds two sums more: 6 u P_B + 2 u P_A + 3 u |d| + u D', where centres are within 1.42
-/// reaches; with 2.5 u D' for (w_x, w_y) itself either distance is off by 13 u S + 7 u D'. The squares' 3 u make that 19 u S
-/// + 7 u D' of the root, the difference is later by 15 u S + 8 u D'. So a radius enlarged by 94 u S + 35 u D' does, and
-/// `slack` is 256 u F, with S <= F and D' <= F: it also keeps squares of discs that touch on the way apart by far more than
-/// their rounding, so that the root of what is not above 0, NaN, is that of discs that never touch. Because (w_x, w_y) is
-/// short, sqrt(R'^2 - h'^2) / w exceeds the root by more than rough_root() is off; where that is exact, what (w_x, w_y) is
-/// off by is 3 u R' <= 6 u S, for which slack has room. A time of T is compared as T |v| / w, a 2^18th longer, for what |v|
-/// and the products are off by. Bounds below 0 only have to stay there.
+/// reaches; with 2.5 u D' for (w_x, w_y) itself either length is off by 13 u S + 7 u D'. The squares' 3 u make that 19 u S
+/// + 7 u D' of the root, the difference is later by 15 u S + 8 u D'. A radius enlarged by 94 u S + 35 u D' makes up for all,
+/// and `slack` is 256 u F, with S <= F and D' <= F: enough beside for the squares of discs that touch on the way to differ
+/// by far more than their rounding, so that a root of what is not above 0, NaN, is that of discs that never touch. As radii
+/// are not made shorter, the root is longer than its part of the way by more than rough_root() is off; where that is exact,
+/// (w_x, w_y) is off by as much as 3 u R' <= 6 u S, for which slack has room. A time T is compared as T |v|, shorter as
+/// lengths are and then a 2^18th longer, for what |v| and the products are off by. Bounds below 0 only have to stay there.
 template <class Simd>
 class ContactTimeMeasure {
  public:
