@@ -15,9 +15,9 @@
 namespace bch::cli {
 namespace {
 
-/// Bytes: enough that a call is nothing beside what it does; few enough that they are still in a near cache, and that
-/// whoever builds meanwhile does not run out of places for shapes.
-constexpr std::size_t piece = std::size_t{1} << 19;
+/// Bytes: a large page. Of the file, too, as a file cache has large pages where they are written at once, and mapping
+/// the file is then done sooner.
+constexpr std::size_t piece = std::size_t{2} << 20;
 
 std::string_view text(std::span<const std::byte> bytes) {
   return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
@@ -35,10 +35,12 @@ BakedOutput::BakedOutput(const std::string& file, std::size_t shapes, std::size_
     : file_(file), nodes_offset_(baked::nodes_offset(shapes, levels)) {}
 
 void BakedOutput::write_ahead(std::span<const float> nodes) {
-  const auto fresh = std::as_bytes(nodes).subspan(ahead_);
-  if (fresh.size() < piece || !file_.is_regular()) return;
-  file_.write_at(nodes_offset_ + ahead_, text(fresh));
-  ahead_ += fresh.size();
+  if (!file_.is_regular()) return;
+  const auto bytes = std::as_bytes(nodes);
+  const std::uint64_t begin = nodes_offset_ + ahead_, end = (nodes_offset_ + bytes.size()) / piece * piece;
+  if (end <= begin) return;
+  file_.write_at(begin, text(bytes.subspan(ahead_, end - begin)));
+  ahead_ += end - begin;
 }
 
 /// With what is there already left out.

@@ -16,8 +16,9 @@
 namespace bch::cli {
 namespace {
 
-/// Shapes that are built or wait for one before them, a thread: enough that a slow pose holds up nobody.
-constexpr std::size_t shapes_in_flight = 16;
+/// Shapes that are built or wait for one before them, a thread: enough that a slow pose holds up nobody, nor a piece of a
+/// file that is written, which takes as long as some twenty poses.
+constexpr std::size_t shapes_in_flight = 64;
 
 /// What a thread keeps from shape to shape.
 struct Workshop {
