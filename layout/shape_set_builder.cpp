@@ -39,6 +39,11 @@ void ShapeSetBuilder::reserve() {
                    {end_.nodes * times, end_.rows * times, end_.contours * times, end_.points * times});
 }
 
+std::span<const float> ShapeSetBuilder::nodes() const noexcept {
+  const std::span<const float> all = storage_.nodes;
+  return all.empty() ? all : all.first(end_.nodes);
+}
+
 ShapeSet ShapeSetBuilder::finish() && {
   // An add() that threw may have left more.
   storage_.resize(plan_, shapes_);

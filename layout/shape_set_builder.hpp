@@ -20,8 +20,9 @@ class ShapeSetBuilder {
   /// A shape made flat with the same plan.
   /// Errors:  throws std::length_error beyond 2^31 numbers in nodes or 2^32 roots. What was added before is then as it was.
   void add(const FlatShape& flat);
-  /// Those of the shapes so far, as the set is going to have them; until the next call of another function.
-  std::span<const float> nodes() const noexcept { return std::span(storage_.nodes).first(end_.nodes); }
+  /// Those of the shapes so far, as the set is going to have them, none for roots alone; until the next call of another
+  /// function.
+  std::span<const float> nodes() const noexcept;
   ShapeSet finish() &&;
 
  private:

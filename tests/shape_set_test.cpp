@@ -170,6 +170,15 @@ TEST(ShapeSet, IsTheSameHoweverManyShapesWereExpected) {
   for (const std::size_t expected : {65, 90, 100000}) EXPECT_EQ(bytes(expected), unknown) << expected;
 }
 
+TEST(ShapeSet, BuilderOfRootsHasNoNodes) {
+  const ShapeSetPlan plan{{0}, true};
+  ShapeSetBuilder builder(plan);
+  FlatShape flat;
+  ShapeFlattener(plan).flatten(test::synthetic_shapes(26, 1)[0], 0, flat);
+  builder.add(flat);
+  EXPECT_TRUE(builder.nodes().empty());
+}
+
 TEST(ShapeSet, RejectsBadPlansAndShapes) {
   const std::vector<Shape> shapes = test::synthetic_shapes(24, 2);
   EXPECT_THROW(ShapeSet(shapes, {{}, false}), std::invalid_argument);
