@@ -46,12 +46,12 @@ void BakedOutput::write_ahead(std::span<const float> nodes) {
 /// With what is there already left out.
 void BakedOutput::write_arrays(const ShapeArrays& shapes) {
   baked::Arrays arrays{shapes, {}, {}, {}, {}};
-  std::uint64_t offset = sizeof(baked::Preamble) + baked::zeros_after(sizeof(baked::Preamble));
+  std::uint64_t offset = baked::sections_offset;
   baked::for_each_section(arrays, [&](baked::Section section, const char*, const auto& array) {
     const auto bytes = std::as_bytes(array);
     const std::size_t written = section == baked::Section::nodes ? ahead_ : 0;
     file_.write_at(offset + written, text(bytes.subspan(written)));
-    offset += bytes.size() + baked::zeros_after(bytes.size());
+    offset += baked::padded(bytes.size());
   });
 }
 

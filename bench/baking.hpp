@@ -12,8 +12,8 @@
 
 namespace bch::cli {
 
-/// A set of all sources' shapes, built in parallel, with a progress bar. No more shapes than threads work on are in
-/// memory beside the set. The same bytes for any number of threads. `added` is told the nodes so far after every shape,
+/// A set of all sources' shapes, built in parallel, with a progress bar. No more than some dozens of shapes a thread
+/// are in memory beside the set. The same bytes for any number of threads. `added` is told the nodes so far after every shape,
 /// by any thread, one at a time.
 /// Errors:  as ShapeMaker and `added` throw.
 ShapeSet bake_shapes(std::span<const LoadedCharacter> characters, std::span<const ShapeSource> sources,

@@ -19,9 +19,6 @@ namespace {
 using baked::Preamble;
 using baked::SectionEntry;
 
-/// Where the first section begins.
-constexpr std::size_t preamble_end = sizeof(Preamble) + baked::zeros_after(sizeof(Preamble));
-
 /// Reads a file's bytes from the front to the back; every number is checked before it is used.
 class Reader {
  public:
@@ -30,7 +27,7 @@ class Reader {
   baked::Arrays read() {
     read_preamble();
     baked::Arrays arrays{};
-    std::uint64_t offset = preamble_end;
+    std::uint64_t offset = baked::sections_offset;
     baked::for_each_section(arrays, [&](baked::Section section, const char* what, auto& span) {
       using Element = std::remove_reference_t<decltype(span[0])>;
       const auto number = static_cast<std::uint32_t>(section);
@@ -49,7 +46,7 @@ class Reader {
 
   void read_preamble() {
     const auto& header = preamble_.header;
-    if (bytes_.size() < preamble_end)
+    if (bytes_.size() < baked::sections_offset)
       reject(std::to_string(bytes_.size()) + " bytes are too few for a baked file");
     if (reinterpret_cast<std::uintptr_t>(bytes_.data()) % baked::alignment != 0)
       reject("does not begin on a cache line of memory");
@@ -71,7 +68,7 @@ class Reader {
              std::to_string(baked::section_count));
     for (const std::uint32_t zero : header.zero)
       if (zero != 0) reject("header: " + std::to_string(zero) + " where there has to be 0");
-    for (const std::byte byte : bytes_.subspan(sizeof preamble_, preamble_end - sizeof preamble_))
+    for (const std::byte byte : bytes_.subspan(sizeof preamble_, baked::sections_offset - sizeof preamble_))
       if (byte != std::byte{0}) reject("header: no zeros after it");
   }
 
@@ -116,7 +113,7 @@ class Reader {
   /// With the zeros after it.
   std::span<const std::byte> section(const SectionEntry& entry) const {
     const std::uint64_t size = entry.count * entry.element_size;
-    return bytes_.subspan(entry.offset, size + baked::zeros_after(size));
+    return bytes_.subspan(entry.offset, baked::padded(size));
   }
 
   std::span<const std::byte> bytes_;

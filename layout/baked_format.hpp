@@ -156,13 +156,18 @@ constexpr std::size_t zeros_after(std::uint64_t size) {
   return static_cast<std::size_t>(-size % alignment);
 }
 
+/// With them.
+constexpr std::uint64_t padded(std::uint64_t size) {
+  return size + zeros_after(size);
+}
+
+/// Where the first section begins.
+constexpr std::uint64_t sections_offset = padded(sizeof(Preamble));
+
 /// Where nodes begin in the file of a set that has trees, which is known before they are.
 constexpr std::uint64_t nodes_offset(std::size_t shapes, std::size_t levels) {
-  std::uint64_t offset = 0;
-  for (const std::uint64_t size : {sizeof(Preamble), levels * sizeof(std::uint32_t),
-                                   shapes * levels * sizeof(Root), shapes * levels * sizeof(Tree)})
-    offset += size + zeros_after(size);
-  return offset;
+  return sections_offset + padded(levels * sizeof(std::uint32_t)) + padded(shapes * levels * sizeof(Root)) +
+         padded(shapes * levels * sizeof(Tree));
 }
 
 }  // namespace bch::baked

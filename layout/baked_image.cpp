@@ -34,7 +34,7 @@ void BakedImage::lay_out() {
   const auto add_part = [&](const void* data, std::size_t size) {
     parts_.emplace_back(static_cast<const std::byte*>(data), size);
     parts_.emplace_back(zeros, baked::zeros_after(size));
-    return std::uint64_t{size} + baked::zeros_after(size);
+    return baked::padded(size);
   };
   std::uint64_t offset = add_part(&preamble_, sizeof preamble_);
   baked::for_each_section(arrays_, [&](baked::Section section, const char*, const auto& span) {

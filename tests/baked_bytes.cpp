@@ -37,8 +37,8 @@ std::string BakedBytes::text() const {
 void BakedBytes::seal() {
   for (baked::SectionEntry& entry : preamble().entries) {
     const std::size_t size = entry.count * entry.element_size;
-    entry.checksum = baked::checksum(
-        std::span<const std::byte>(bytes_).subspan(entry.offset, size + baked::zeros_after(size)));
+    entry.checksum =
+        baked::checksum(std::span<const std::byte>(bytes_).subspan(entry.offset, baked::padded(size)));
   }
   seal_header();
 }

@@ -32,7 +32,7 @@ void seal(Image& image) {
   for (baked::SectionEntry& entry : preamble.entries) {
     if (entry.element_size > 4096 || entry.count > image.size() || entry.offset > image.size()) continue;
     const std::size_t size = entry.count * entry.element_size;
-    const std::size_t whole = size + baked::zeros_after(size);
+    const std::size_t whole = baked::padded(size);
     if (whole > image.size() - entry.offset) continue;
     entry.checksum = baked::checksum(std::span<const std::byte>(image).subspan(entry.offset, whole));
   }
