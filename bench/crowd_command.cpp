@@ -59,11 +59,17 @@ void run_crowd(const CrowdOptions& options, std::span<const LoadedCharacter> cha
   write_standard_output(text_report(run));
 }
 
+void require_outputs_of(const CrowdOptions& options) {
+  std::vector<std::string> inputs = options.characters;
+  inputs.insert(inputs.end(), options.shapes.clips.begin(), options.shapes.clips.end());
+  require_outputs({{"--json", options.json}, {"--csv", options.csv}, {"--svg", options.svg}}, inputs);
+}
+
 void run_crowd_of_characters(const CrowdOptions& options) {
   const std::vector<std::uint32_t> depths = crowd_depths(options.answer);
   const std::uint32_t level = picture_level(options, depths);
   const bool solid = options.answer.query_options().semantics == Semantics::solid;
-  require_outputs({{"--json", options.json}, {"--csv", options.csv}, {"--svg", options.svg}});
+  require_outputs_of(options);
 
   // Before there are threads: see guarded_import().
   const auto characters = load_characters(options.characters, options.shapes.import_options());
@@ -76,7 +82,7 @@ void run_crowd_of_characters(const CrowdOptions& options) {
 
 void run_baked_crowd(const CrowdOptions& options) {
   const bool solid = options.answer.query_options().semantics == Semantics::solid;
-  require_outputs({{"--json", options.json}, {"--csv", options.csv}});
+  require_outputs_of(options);
   const std::string& file = options.characters.front();
   const BakedShapes baked = load_baked_for(file, solid);
   if (baked.set.shape_count() == 0 || baked.set.depths().front() != 0)

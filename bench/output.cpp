@@ -13,14 +13,19 @@
 
 #include "bench/exit_codes.hpp"
 #include "bench/output_file.hpp"
+#include "bench/output_place.hpp"
 
 namespace bch::cli {
 namespace {
 
 namespace fs = std::filesystem;
 
-fs::path folder_of(const fs::path& path) {
-  return path.has_parent_path() ? path.parent_path() : fs::path(".");
+/// `output` is what errors call the file.
+void require_unread(const std::string& output, const FileIdentity& identity,
+                    const std::vector<std::string>& inputs) {
+  for (const std::string& input : inputs)
+    if (identity_of(fs::path(input)) == identity)
+      throw UsageError(output + " would overwrite " + input + ", an input of this command");
 }
 
 }  // namespace
@@ -60,29 +65,26 @@ void make_folder(const std::string& folder) {
   if (error) throw InputError(folder + ": cannot be made a folder: " + error.message());
 }
 
-void require_writable(const std::string& file) {
-  if (file.empty()) return;
-  const fs::path target = resolved(file);
-  std::error_code none;
-  if (fs::is_directory(target, none)) reject_output(file, EISDIR);
-  // "/." because a file in the folder's place can be written to as well.
-  const fs::path written = is_special(target) ? target : folder_of(target) / ".";
-  if (access(written.c_str(), W_OK) != 0) reject_output(file, errno);
+void require_outputs(const std::vector<OutputOption>& outputs, const std::vector<std::string>& inputs) {
+  std::map<FileIdentity, std::string> written;  // and by whom
+  if (const auto file = identity_of(STDOUT_FILENO)) {
+    require_unread("standard output", *file, inputs);
+    written.emplace(*file, "standard output");
+  }
+  for (const auto& [name, file] : outputs) {
+    if (file.empty()) continue;
+    if (file == "-") throw UsageError(name + ": '-' is not a file");
+    const auto identity = identity_of(writable_place(file));
+    if (!identity) continue;
+    const auto [other, added] = written.emplace(*identity, name);
+    if (!added) throw UsageError(other->second + " and " + name + ": " + file + " cannot be both");
+    require_unread(name + ": " + file, *identity, inputs);
+  }
 }
 
-void require_outputs(std::initializer_list<OutputOption> options) {
-  std::map<fs::path, const char*> written;
-  for (const auto& [name, file] : options) {
-    if (file.empty()) continue;
-    if (file == "-") throw UsageError(std::string(name) + ": '-' is not a file");
-    require_writable(file);
-    std::error_code failed;  // in a circle of links, which the writing replaces
-    const fs::path target = fs::weakly_canonical(fs::absolute(file), failed);
-    if (is_special(target)) continue;
-    const auto [other, added] = written.emplace(target, name);
-    if (!added)
-      throw UsageError(std::string(other->second) + " and " + name + ": " + file + " cannot be both");
-  }
+void require_unread(const OutputOption& output, const std::vector<std::string>& inputs) {
+  if (const auto identity = identity_of(fs::path(output.file)))
+    require_unread(output.name + ": " + output.file, *identity, inputs);
 }
 
 }  // namespace bch::cli

@@ -3,10 +3,10 @@
 
 #pragma once
 
-#include <initializer_list>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace bch::cli {
 
@@ -26,18 +26,21 @@ void write_json(const std::string& file, const nlohmann::ordered_json& json);
 /// And the folders above it. An empty name is no folder and fine, as is one that is there.
 void make_folder(const std::string& folder);
 
-/// Says early what write_file() would say after the work was done: no such folder, or one that cannot be
-/// written to. An empty name is no file and fine.
-void require_writable(const std::string& file);
-
 /// An option that names a file to write, empty where it was not given.
 struct OutputOption {
-  const char* name;
-  const std::string& file;
+  std::string name;
+  std::string file;
 };
 
-/// The same of all; and they are files, of which no two are one, unless it is a device.
-/// Errors:  throws UsageError as well.
-void require_outputs(std::initializer_list<OutputOption> options);
+/// Refuses, before anything is read, outputs that cannot be written or that would destroy something: an output that is
+/// also an input, and two outputs that are one file, whatever their names (links, other paths). Standard output is one
+/// of the outputs where it goes to a file. Devices may be named several times.
+/// Inputs:  all files that the command is going to read; those that do not exist are left to their readers.
+/// Errors:  throws UsageError, and InputError as OutputFile does.
+void require_outputs(const std::vector<OutputOption>& outputs, const std::vector<std::string>& inputs);
+
+/// Refuses an output that is an input. For files that will only perhaps be written.
+/// Errors:  throws UsageError.
+void require_unread(const OutputOption& output, const std::vector<std::string>& inputs);
 
 }  // namespace bch::cli

@@ -46,6 +46,17 @@ std::string command_of(const ReportOptions& options) {
   return text;
 }
 
+/// Refuses characters that the report would overwrite: the page, and every file of the folder with an ending that the
+/// report writes.
+void require_report_outputs(const ReportOptions& options, const std::filesystem::path& page) {
+  require_outputs({{"--out", page.string()}}, options.report.characters);
+  std::error_code none;
+  for (const auto& entry : std::filesystem::directory_iterator(options.report.folder, none))
+    for (const char* ending : {".csv", ".json", ".gp", ".svg"})
+      if (entry.path().extension() == ending)
+        require_unread({"--out", entry.path().string()}, options.report.characters);
+}
+
 void run_report(const CLI::App& command, ReportOptions& options) {
   const std::filesystem::path page = options.report.folder / "report.html";
   if (options.page) {
@@ -53,8 +64,8 @@ void run_report(const CLI::App& command, ReportOptions& options) {
     report::make_page(options.report.folder);
   } else {
     make_folder(options.report.folder);
-    require_writable(page);
     if (!options.characters.empty()) options.report.characters = options.characters;
+    require_report_outputs(options, page);
     if (options.quick) options.report.sizes = report::quick_sizes;
     options.report.command = command_of(options);
     report::run_report(options.report);

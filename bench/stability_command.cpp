@@ -3,10 +3,15 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
+#include <iterator>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
 
 #include "bench/commands.hpp"
 #include "bench/exit_codes.hpp"
@@ -29,11 +34,45 @@ struct StabilityOptions {
   std::string out, csv, json;
 };
 
-void write_pictures(const std::string& folder, std::span<const bench::StabilityRow> rows) {
+std::string in_folder(const StabilityOptions& options, std::string_view name) {
+  return (fs::path(options.out) / name).string();
+}
+
+std::string picture_name(const bench::StabilityFamily& family) {
+  return fmt::format("stability_{}.svg", family.name);
+}
+
+constexpr const char* cases_table = "stability.csv";
+constexpr const char* stiff_table = "stiff_contact.csv";
+constexpr const char* steps_picture = "stiff_contact_steps.svg";
+constexpr const char* errors_picture = "stiff_contact_errors.svg";
+
+/// The files that --out means.
+std::vector<OutputOption> folder_outputs(const StabilityOptions& options) {
+  std::vector<std::string> names = {stiff_table, steps_picture, errors_picture};
+  if (!options.stiff) {
+    names = {cases_table};
+    for (const bench::StabilityFamily& family : bench::stability_families())
+      if (family.axis) names.push_back(picture_name(family));
+  }
+  std::vector<OutputOption> outputs;
+  for (const std::string& name : names) outputs.push_back({"--out", in_folder(options, name)});
+  return outputs;
+}
+
+/// Makes the folder as well.
+void require_outputs_of(const StabilityOptions& options) {
+  std::vector<OutputOption> outputs{{"--csv", options.csv}, {"--json", options.json}};
+  require_outputs(outputs, {});
+  if (options.out.empty()) return;
+  make_folder(options.out);
+  std::ranges::move(folder_outputs(options), std::back_inserter(outputs));
+  require_outputs(outputs, {});
+}
+
+void write_pictures(const StabilityOptions& options, std::span<const bench::StabilityRow> rows) {
   for (const bench::StabilityFamily& family : bench::stability_families())
-    if (family.axis)
-      write_file((fs::path(folder) / fmt::format("stability_{}.svg", family.name)).string(),
-                 draw(family, rows));
+    if (family.axis) write_file(in_folder(options, picture_name(family)), draw(family, rows));
 }
 
 void require_promises(std::span<const bench::StabilityRow> rows) {
@@ -47,14 +86,14 @@ void require_promises(std::span<const bench::StabilityRow> rows) {
 void write_tables(const StabilityOptions& options, const char* name, const std::string& csv,
                   const nlohmann::ordered_json& json) {
   if (!options.csv.empty()) write_file(options.csv, csv);
-  if (!options.out.empty()) write_file((fs::path(options.out) / name).string(), csv);
+  if (!options.out.empty()) write_file(in_folder(options, name), csv);
   write_json(options.json, json);
 }
 
 void run_cases(const StabilityOptions& options) {
   const auto rows = bench::stability_rows(options.quick ? 200 : options.pairs, options.seed);
-  write_tables(options, "stability.csv", csv_of(rows), {{"stability", json_of(rows)}});
-  if (!options.out.empty()) write_pictures(options.out, rows);
+  write_tables(options, cases_table, csv_of(rows), {{"stability", json_of(rows)}});
+  if (!options.out.empty()) write_pictures(options, rows);
   write_standard_output(text_of(rows));
   require_promises(rows);
 }
@@ -63,10 +102,10 @@ void run_stiff(const StabilityOptions& options) {
   const bench::StiffReport report = bench::stiff_contact(
       options.quick ? bench::StiffOptions{.seconds = 2, .people = 40, .bounces = 25, .slides = 25}
                     : bench::StiffOptions{});
-  write_tables(options, "stiff_contact.csv", csv_of(report), {{"stiff_contact", json_of(report)}});
+  write_tables(options, stiff_table, csv_of(report), {{"stiff_contact", json_of(report)}});
   if (!options.out.empty()) {
-    write_file((fs::path(options.out) / "stiff_contact_steps.svg").string(), draw_steps(report));
-    write_file((fs::path(options.out) / "stiff_contact_errors.svg").string(), draw_errors(report));
+    write_file(in_folder(options, steps_picture), draw_steps(report));
+    write_file(in_folder(options, errors_picture), draw_errors(report));
   }
   write_standard_output(text_of(report));
 }
@@ -74,8 +113,7 @@ void run_stiff(const StabilityOptions& options) {
 void run_stability(const CLI::App& command, const StabilityOptions& options) {
   if (options.quick) require_absent(command, {"--pairs"}, "--quick chooses them");
   if (options.stiff) require_absent(command, {"--pairs", "--seed"}, "belongs to the cases, not to --stiff");
-  require_outputs({{"--csv", options.csv}, {"--json", options.json}});
-  make_folder(options.out);
+  require_outputs_of(options);
   const Threads threads(options.threads);
   options.stiff ? run_stiff(options) : run_cases(options);
 }
