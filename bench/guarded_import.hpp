@@ -14,8 +14,9 @@ namespace bch::cli {
 
 struct ImportLimits {
   std::chrono::milliseconds time{60'000};
-  std::size_t memory = std::size_t{2}
-                       << 30;  ///< bytes of address space; not with sanitizers, which need more
+  /// Bytes of address space beyond what this process has when the import begins. Builds with sanitizers, which need
+  /// far more, set no such limit.
+  std::size_t memory = std::size_t{2} << 30;
 };
 
 /// import_character() for files that nobody vouches for: assimp crashes on some malformed ones. A child process

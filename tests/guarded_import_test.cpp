@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 #include <signal.h>
+#include <sys/mman.h>
 #include <unistd.h>
 
 #include <cstdlib>
@@ -102,6 +103,20 @@ TEST(GuardedImport, Bombs) {
         throw std::bad_alloc();
       },
       "more than 0.25 GiB of memory");
+}
+
+/// A program that has read many characters may read the next one, and is no less guarded.
+TEST(GuardedImport, MemoryOfTheParentDoesNotCount) {
+  const std::size_t held = 2 * little_memory.memory;
+  void* const memory = mmap(nullptr, held, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+  ASSERT_NE(memory, MAP_FAILED);
+  EXPECT_EQ(guarded_import("a.glb", good, little_memory).character.triangles, good().character.triangles);
+  expect_rejected(
+      []() -> ImportedCharacter {
+        return std::string(little_memory.memory, 'x').empty() ? ImportedCharacter() : good();
+      },
+      "more than 0.25 GiB of memory");
+  munmap(memory, held);
 }
 #endif
 
