@@ -21,6 +21,7 @@
 
 #include "bench/character_bytes.hpp"
 #include "bench/exit_codes.hpp"
+#include "bench/interrupt.hpp"
 
 namespace bch::cli {
 namespace {
@@ -68,9 +69,7 @@ std::string answer(const std::function<ImportedCharacter()>& read) {
 [[noreturn]] void run_child(const std::function<ImportedCharacter()>& read, const ImportLimits& limits,
                             int to) {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
-  // Nobody's handlers: not this program's, nor a sanitizer's.
-  for (const int number : {SIGINT, SIGTERM, SIGHUP, SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT})
-    signal(number, SIG_DFL);
+  forget_signals();  // this program's handlers, and a sanitizer's
   // The parent speaks for both.
   const int nowhere = open("/dev/null", O_WRONLY | O_CLOEXEC);
   dup2(nowhere, STDOUT_FILENO);

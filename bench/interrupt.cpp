@@ -3,27 +3,48 @@
 
 #include "bench/interrupt.hpp"
 
+#include <fcntl.h>
 #include <signal.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <atomic>
-#include <climits>
-#include <cstring>
 #include <stdexcept>
+#include <string>
 
 #include "bench/exit_codes.hpp"
 
 namespace bch::cli {
 namespace {
 
-char path_buffer[PATH_MAX];
-std::atomic<const char*> to_remove{nullptr};
-static_assert(std::atomic<const char*>::is_always_lock_free);
+/// By which people and systems ask a program to end.
+constexpr int requests[] = {SIGINT, SIGTERM, SIGHUP};
+/// Which end no program, cannot be caught, or mean something else here.
+constexpr int left_alone[] = {SIGKILL, SIGSTOP, SIGTSTP, SIGTTIN,  SIGTTOU,
+                              SIGCONT, SIGCHLD, SIGURG,  SIGWINCH, SIGXFSZ};
+
+/// A file in an open folder.
+struct Unfinished {
+  int folder;
+  char name[RemovedOnSignal::longest_name + 1];
+};
+/// Never freed: a handler on another thread may still look at it when its owner has gone.
+Unfinished place;
+std::atomic<const Unfinished*> unfinished{nullptr};
+static_assert(std::atomic<const Unfinished*>::is_always_lock_free);
+
+/// Where handlers run when the main thread has used up its own stack.
+alignas(64) char handler_stack[std::size_t{64} << 10];
+
+/// Only calls that signal handlers may make.
+void remove_unfinished() {
+  if (const Unfinished* const file = unfinished.load()) unlinkat(file->folder, file->name, 0);
+}
 
 /// Leaves from here instead of setting a flag: an import or a batch may be far from the next place that would
-/// look at one. Only calls that signal handlers may make.
+/// look at one.
 extern "C" void leave(int signal) {
-  if (const char* path = to_remove.load()) unlink(path);
+  remove_unfinished();
   constexpr char message[] = "\nbch: interrupted\n";
   // A progress bar ends without a new line; elsewhere the message stands alone.
   const bool terminal = isatty(STDERR_FILENO) == 1;
@@ -32,30 +53,55 @@ extern "C" void leave(int signal) {
   _exit(exit_signal + signal);
 }
 
+/// Has the signal again when this returns, and then nothing catches it (SA_RESETHAND).
+extern "C" void clean_up(int signal) {
+  remove_unfinished();
+  raise(signal);
+}
+
+template <class Act>
+void for_each_ending_signal(Act act) {
+  for (int number = 1; number <= SIGRTMAX; ++number)
+    if (std::ranges::find(left_alone, number) == std::ranges::end(left_alone)) act(number);
+}
+
+void catch_signal(int number) {
+  struct sigaction action = {};
+  // The C library keeps some numbers for itself.
+  if (sigaction(number, nullptr, &action) != 0 || action.sa_handler != SIG_DFL) return;
+  const bool request = std::ranges::find(requests, number) != std::ranges::end(requests);
+  action = {};
+  action.sa_handler = request ? leave : clean_up;
+  action.sa_flags = SA_ONSTACK | (request ? 0 : SA_RESETHAND);
+  sigfillset(&action.sa_mask);
+  sigaction(number, &action, nullptr);
+}
+
 }  // namespace
 
 void clean_up_on_signals() {
-  for (const int number : {SIGINT, SIGTERM, SIGHUP}) {
-    struct sigaction action = {};
-    sigaction(number, nullptr, &action);
-    if (action.sa_handler == SIG_IGN) continue;
-    action = {};
-    action.sa_handler = leave;
-    sigfillset(&action.sa_mask);
-    sigaction(number, &action, nullptr);
-  }
-  // A file beyond the user's limit is an error of write() then, like a full disk.
+  stack_t stack = {};
+  stack.ss_sp = handler_stack;
+  stack.ss_size = sizeof handler_stack;
+  sigaltstack(&stack, nullptr);
+  for_each_ending_signal(catch_signal);
   signal(SIGXFSZ, SIG_IGN);
 }
 
-RemovedOnSignal::RemovedOnSignal(const std::filesystem::path& path) {
-  if (path.native().size() >= sizeof(path_buffer)) throw std::length_error("path too long: " + path.string());
-  std::memcpy(path_buffer, path.c_str(), path.native().size() + 1);
-  to_remove = path_buffer;
+void forget_signals() {
+  for_each_ending_signal([](int number) { signal(number, SIG_DFL); });
+}
+
+RemovedOnSignal::RemovedOnSignal(int folder, std::string_view name) {
+  if (name.size() > longest_name) throw std::length_error("name too long: " + std::string(name));
+  unfinished = nullptr;
+  place = {folder, {}};
+  std::ranges::copy(name, place.name);
+  unfinished = &place;
 }
 
 RemovedOnSignal::~RemovedOnSignal() {
-  to_remove = nullptr;
+  unfinished = nullptr;
 }
 
 }  // namespace bch::cli

@@ -3,19 +3,27 @@
 
 #pragma once
 
-#include <filesystem>
+#include <cstddef>
+#include <string_view>
 
 namespace bch::cli {
 
-/// From now on SIGINT, SIGTERM and SIGHUP end the program at once, whatever it is doing, with exit code 128 +
-/// signal, after the file under construction is removed. Signals that were ignored at the start stay ignored. SIGXFSZ is ignored.
+/// Makes every signal that ends the program, and can be caught, remove the file under construction first.
+/// SIGINT, SIGTERM and SIGHUP then end it with a message and exit code 128 + signal; all others, crashes among them, as
+/// they would have without this. Signals that are ignored or caught already stay so. SIGXFSZ is ignored: a file
+/// beyond the user's limit is an error of write(), like a full disk.
 void clean_up_on_signals();
 
-/// The file that such a signal removes, while this lives. One at a time.
+/// Gives those signals their default effect again, for a child process, which has no file to remove.
+void forget_signals();
+
+/// The file that such a signal removes, while this lives: a name in an open folder. Of several, it is the last one.
 class RemovedOnSignal {
  public:
-  /// Errors:  throws std::length_error on a path beyond PATH_MAX.
-  explicit RemovedOnSignal(const std::filesystem::path& path);
+  static constexpr std::size_t longest_name = 31;
+
+  /// Errors:  throws std::length_error on a longer name.
+  RemovedOnSignal(int folder, std::string_view name);
   ~RemovedOnSignal();
   RemovedOnSignal(const RemovedOnSignal&) = delete;
   RemovedOnSignal& operator=(const RemovedOnSignal&) = delete;

@@ -22,7 +22,8 @@ constexpr const char* description =
 constexpr const char* footer =
     "Data goes to standard output, messages to standard error.\n"
     "Exit codes: 0 success; 2 usage; 3 a file that cannot be read, believed or written; 4 internal error;\n"
-    "            130 interrupted. No half-written file stays behind.";
+    "            128 + N ended by signal N (129 hang-up, 130 interrupt, 143 termination).\n"
+    "No half-written file stays behind.";
 
 int run(int argc, char** argv) {
   CLI::App program(description, "bch");

@@ -4,60 +4,74 @@
 #include "bench/output_file.hpp"
 
 #include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
+#include <random>
+#include <utility>
 
 #include "bench/output.hpp"
+#include "bench/output_place.hpp"
 
 namespace bch::cli {
-namespace fs = std::filesystem;
+namespace {
 
-bool is_special(const fs::path& path) {
-  std::error_code none;
-  const fs::file_status status = fs::status(path, none);
-  return fs::exists(status) && !fs::is_regular_file(status);
+/// 64 random bits: two processes never choose the same name, and nobody can foresee it. Short, so that it fits wherever the
+/// file's own name does.
+std::string unforeseeable_name() {
+  std::random_device random;
+  return fmt::format(".bch-{:08x}{:08x}", random(), random());
 }
 
-fs::path resolved(const std::string& file) {
-  std::error_code failed;
-  const fs::path target = fs::canonical(file, failed);
-  return failed ? fs::path(file) : target;
+}  // namespace
+
+Descriptor::~Descriptor() {
+  if (number >= 0) close(number);
 }
 
-OutputFile::OutputFile(const std::string& file) : name_(file), target_(resolved(file)) {
-  if (is_special(target_)) {
-    descriptor_ = open(target_.c_str(), O_WRONLY | O_CLOEXEC);
-  } else {
-    temporary_ = target_.string() + ".bch-" + std::to_string(getpid());
-    removed_.emplace(temporary_);
-    descriptor_ = open(temporary_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+OutputFile::OutputFile(const std::string& file) : user_name_(file) {
+  const OutputPlace place = writable_place(file);
+  if (place.is_special()) {
+    file_.number = open(place.path.c_str(), O_WRONLY | O_CLOEXEC);
+    check(file_.number >= 0);
+    return;
   }
-  check(descriptor_ >= 0);
+  folder_.number = open(place.folder().c_str(), O_PATH | O_DIRECTORY | O_CLOEXEC);
+  check(folder_.number >= 0);
+  name_ = place.path.filename();
+  const std::string temporary = unforeseeable_name();
+  removed_.emplace(folder_.number, temporary);
+  file_.number = openat(folder_.number, temporary.c_str(),
+                        O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, place.there ? 0600 : 0666);
+  check(file_.number >= 0);
+  temporary_ = temporary;
+  // Where the file system refuses it, the file stays its owner's alone.
+  if (place.there) static_cast<void>(fchmod(file_.number, place.there->st_mode & 0777));
 }
 
 OutputFile::~OutputFile() {
-  if (descriptor_ >= 0) close(descriptor_);
-  if (is_regular()) unlink(temporary_.c_str());
+  if (is_regular()) unlinkat(folder_.number, temporary_.c_str(), 0);
 }
 
 void OutputFile::check(bool good) const {
-  if (!good) reject_output(name_, errno);
+  if (!good) reject_output(user_name_, errno);
 }
 
 void OutputFile::write(std::string_view bytes) {
-  write_all(descriptor_, bytes, name_);
+  write_all(file_.number, bytes, user_name_);
 }
 
 void OutputFile::skip(std::uint64_t bytes) {
-  check(lseek(descriptor_, static_cast<off_t>(bytes), SEEK_CUR) >= 0);
+  check(lseek(file_.number, static_cast<off_t>(bytes), SEEK_CUR) >= 0);
 }
 
 void OutputFile::write_at(std::uint64_t offset, std::string_view bytes) {
   const auto begin = static_cast<off_t>(offset);
   const auto size = static_cast<off_t>(bytes.size());
   for (off_t at = begin; !bytes.empty();) {
-    const ssize_t written = pwrite(descriptor_, bytes.data(), bytes.size(), at);
+    const ssize_t written = pwrite(file_.number, bytes.data(), bytes.size(), at);
     if (written < 0 && errno == EINTR) continue;
     check(written >= 0);
     bytes.remove_prefix(static_cast<std::size_t>(written));
@@ -65,23 +79,21 @@ void OutputFile::write_at(std::uint64_t offset, std::string_view bytes) {
   }
 #ifdef SYNC_FILE_RANGE_WRITE
   // Else all of it waits for commit(). Advice: errors are those of fsync().
-  sync_file_range(descriptor_, begin, size, SYNC_FILE_RANGE_WRITE);
+  sync_file_range(file_.number, begin, size, SYNC_FILE_RANGE_WRITE);
 #endif
 }
 
 void OutputFile::clear() {
-  check(ftruncate(descriptor_, 0) == 0);
-  check(lseek(descriptor_, 0, SEEK_SET) == 0);
+  check(ftruncate(file_.number, 0) == 0);
+  check(lseek(file_.number, 0, SEEK_SET) == 0);
 }
 
 void OutputFile::commit() {
   // On the disk before it has the name: a crash must not leave a file of zeros there.
-  if (is_regular()) check(fsync(descriptor_) == 0);
-  const int descriptor = descriptor_;
-  descriptor_ = -1;
-  check(close(descriptor) == 0);
+  if (is_regular()) check(fsync(file_.number) == 0);
+  check(close(std::exchange(file_.number, -1)) == 0);
   if (!is_regular()) return;
-  check(rename(temporary_.c_str(), target_.c_str()) == 0);
+  check(renameat(folder_.number, temporary_.c_str(), folder_.number, name_.c_str()) == 0);
   temporary_.clear();
   removed_.reset();
 }

@@ -4,7 +4,6 @@
 #pragma once
 
 #include <cstdint>
-#include <filesystem>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -13,9 +12,21 @@
 
 namespace bch::cli {
 
-/// A file that has its name only once it is whole: it grows beside what bears the name now, which stays as it was until
-/// commit(). Without that the new one is removed, by the destructor or by a signal. What is not a regular file (a
-/// device, a pipe) is written to directly. One at a time.
+/// A file descriptor that is closed with its owner.
+struct Descriptor {
+  int number = -1;
+
+  Descriptor() = default;
+  ~Descriptor();
+  Descriptor(const Descriptor&) = delete;
+  Descriptor& operator=(const Descriptor&) = delete;
+};
+
+/// A file that gets its name once it is whole. It grows beside the file that has the name now, under a random name
+/// that nobody can have prepared, and replaces that file in commit(). Without commit(), the destructor or a signal
+/// removes it. The new file has the permissions of the one it replaces. Where the name is a symbolic link, the file
+/// that it leads to is replaced. Devices and pipes are written to directly.
+/// Of several at a time, all are right, but a signal removes only the last one.
 /// Errors of all: throw InputError naming the file and the reason.
 class OutputFile {
  public:
@@ -41,16 +52,11 @@ class OutputFile {
  private:
   void check(bool good) const;
 
-  std::string name_;                 ///< as the user wrote it
-  std::filesystem::path target_;     ///< where a symbolic link leads: the link stays, its target is replaced
-  std::filesystem::path temporary_;  ///< empty where the target is not a regular file
+  std::string user_name_;  ///< as the user wrote it
+  std::string name_;       ///< in the folder, behind symbolic links
+  std::string temporary_;  ///< in the folder; empty where the output is not a regular file
+  Descriptor folder_, file_;
   std::optional<RemovedOnSignal> removed_;
-  int descriptor_ = -1;
 };
-
-/// Where the bytes of a file with this name would go: a symbolic link's target.
-std::filesystem::path resolved(const std::string& file);
-/// There, and not a regular file.
-bool is_special(const std::filesystem::path& path);
 
 }  // namespace bch::cli

@@ -10,6 +10,7 @@
 
 #include <fstream>
 #include <iterator>
+#include <vector>
 
 #include "bench/output.hpp"
 
@@ -18,8 +19,8 @@ namespace {
 
 constexpr const char* nowhere = "/dev/null";
 
-/// Runs gnuplot on a script in a folder. Returns: whether it succeeded.
-bool run_gnuplot(const std::filesystem::path& folder, std::string script) {
+/// Runs gnuplot in a folder. Returns: whether it succeeded.
+bool run_gnuplot(const std::filesystem::path& folder, std::vector<std::string> arguments) {
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
   posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, nowhere, O_RDONLY, 0);
@@ -27,9 +28,11 @@ bool run_gnuplot(const std::filesystem::path& folder, std::string script) {
   posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, nowhere, O_WRONLY, 0);
   posix_spawn_file_actions_addchdir_np(&actions, folder.c_str());
   std::string program = "gnuplot";
-  char* const arguments[] = {program.data(), script.data(), nullptr};
+  std::vector<char*> argv{program.data()};
+  for (std::string& argument : arguments) argv.push_back(argument.data());
+  argv.push_back(nullptr);
   pid_t child = 0;
-  const int failed = posix_spawnp(&child, program.c_str(), &actions, nullptr, arguments, environ);
+  const int failed = posix_spawnp(&child, program.c_str(), &actions, nullptr, argv.data(), environ);
   posix_spawn_file_actions_destroy(&actions);
   int status = 0;
   return failed == 0 && waitpid(child, &status, 0) == child && WIFEXITED(status) && WEXITSTATUS(status) == 0;
@@ -56,14 +59,7 @@ std::string for_a_page(std::string svg, const std::string& prefix) {
 }  // namespace
 
 bool can_draw() {
-  std::error_code none;
-  const auto folder = std::filesystem::temp_directory_path(none);
-  if (none) return false;
-  const std::filesystem::path script = folder / ("bch_" + std::to_string(getpid()) + ".gp");
-  std::ofstream(script) << "set terminal svg\n";
-  const bool can = run_gnuplot(folder, script.filename());
-  std::filesystem::remove(script, none);
-  return can;
+  return run_gnuplot("/", {"-e", "set terminal svg"});
 }
 
 void write_chart_scripts(const std::filesystem::path& folder) {
@@ -73,7 +69,7 @@ void write_chart_scripts(const std::filesystem::path& folder) {
 
 std::optional<std::string> draw(const std::filesystem::path& folder, std::string_view name) {
   const std::string script = std::string(name) + ".gp", picture = std::string(name) + ".svg";
-  if (!run_gnuplot(folder, script)) return std::nullopt;
+  if (!run_gnuplot(folder, {script})) return std::nullopt;
   std::ifstream stream(folder / picture);
   const std::string svg = for_a_page({std::istreambuf_iterator<char>(stream), {}}, std::string(name));
   if (svg.empty()) return std::nullopt;
