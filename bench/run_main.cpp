@@ -3,9 +3,13 @@
 
 #include "bench/run_main.hpp"
 
+#include <fcntl.h>
+#include <unistd.h>
+
 #include <cstdio>
 #include <exception>
 #include <new>
+#include <stdexcept>
 #include <string>
 
 #include "bench/exit_codes.hpp"
@@ -13,6 +17,18 @@
 #include "layout/import.hpp"
 
 namespace bch::cli {
+namespace {
+
+/// Opens the standard streams that are closed, each the wrong way round, so that using them is still an error.
+/// Otherwise the next file or pipe would be one of them.
+void occupy_standard_streams() {
+  for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
+    if (fcntl(stream, F_GETFD) < 0 &&
+        open("/dev/null", stream == STDIN_FILENO ? O_WRONLY : O_RDONLY) != stream)
+      throw std::runtime_error("standard streams are closed, and there is no /dev/null in their place");
+}
+
+}  // namespace
 
 int run_main(const char* program, const std::function<int()>& run) {
   const auto report = [&](int code, const std::string& message) {
@@ -20,6 +36,7 @@ int run_main(const char* program, const std::function<int()>& run) {
     return code;
   };
   try {
+    occupy_standard_streams();
     return run();
   } catch (const UsageError& error) {
     return report(exit_usage, error.what());

@@ -15,7 +15,7 @@
 #include "tests/bch_run.hpp"
 #include "tests/temporary_folder.hpp"
 
-// What the system does to the program: signals.
+// What the system does to the program: signals, streams that are closed.
 
 namespace bch::test {
 namespace {
@@ -65,6 +65,36 @@ TEST(CliSystem, EverySignalThatCanBeCaughtLeavesNoFile) {
       EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 128 + number) << status;
     else
       EXPECT_TRUE(WIFSIGNALED(status) && WTERMSIG(status) == number) << status;
+  }
+}
+
+/// Runs bch from a shell, which sets something up first.
+Ending after(const std::string& setup, const Arguments& arguments, const std::string& redirections = {}) {
+  Arguments all{"-c", setup + " exec \"$0\" \"$@\" " + redirections, BCH_PROGRAM};
+  all.insert(all.end(), arguments.begin(), arguments.end());
+  return run_program("/bin/sh", all);
+}
+
+/// Otherwise the pipe from the importing process would be standard input and output.
+TEST(CliSystem, StandardStreamsMayBeClosed) {
+  const TemporaryFolder folder;
+  const std::string model = folder.write("box.obj", box), json = folder.file("a.json");
+  const Ending alone = bch({"inspect", model, "--json", json}, as_metres);
+  ASSERT_EQ(alone.code, 0) << alone.err;
+  const std::string expected = read_text(json);
+  for (const std::string closed : {"<&-", ">&-", "<&- >&-", "<&- >&- 2>&-", ">&- 2>&-"}) {
+    SCOPED_TRACE(closed);
+    fs::remove(json);
+    Arguments arguments{"inspect", model, "--json", json};
+    arguments.insert(arguments.end(), as_metres.begin(), as_metres.end());
+    const Ending run = after("", arguments, closed);
+    EXPECT_EQ(read_text(json), expected);
+    const bool says = closed.find(">&-") == std::string::npos;
+    EXPECT_EQ(run.code, says ? 0 : 3) << run.err;
+    EXPECT_EQ(run.out, says ? alone.out : "");
+    if (!says && closed.find("2>") == std::string::npos) {
+      EXPECT_EQ(run.err, "bch: standard output: cannot be written: Bad file descriptor\n");
+    }
   }
 }
 
