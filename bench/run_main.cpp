@@ -4,6 +4,7 @@
 #include "bench/run_main.hpp"
 
 #include <fcntl.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include <cstdio>
@@ -18,6 +19,16 @@
 
 namespace bch::cli {
 namespace {
+
+constexpr rlim_t least_stack = 256;  ///< KiB, which queries need: kernel/collide.hpp
+
+/// A stack that is too small ends the program by SIGSEGV somewhere in the work.
+void require_stack() {
+  rlimit stack;
+  if (getrlimit(RLIMIT_STACK, &stack) == 0 && stack.rlim_cur / 1024 < least_stack)
+    throw UsageError("the stack is limited to " + std::to_string(stack.rlim_cur / 1024) +
+                     " KiB (ulimit -s), and " + std::to_string(least_stack) + " are needed");
+}
 
 /// Opens the standard streams that are closed, each the wrong way round, so that using them is still an error.
 /// Otherwise the next file or pipe would be one of them.
@@ -37,6 +48,7 @@ int run_main(const char* program, const std::function<int()>& run) {
   };
   try {
     occupy_standard_streams();
+    require_stack();
     return run();
   } catch (const UsageError& error) {
     return report(exit_usage, error.what());

@@ -15,7 +15,7 @@
 #include "tests/bch_run.hpp"
 #include "tests/temporary_folder.hpp"
 
-// What the system does to the program: signals, streams that are closed.
+// What the system does to the program: signals, streams that are closed, a small stack.
 
 namespace bch::test {
 namespace {
@@ -97,6 +97,16 @@ TEST(CliSystem, StandardStreamsMayBeClosed) {
     }
   }
 }
+
+#ifndef BCH_SANITIZED  // which need a larger stack themselves
+TEST(CliSystem, SmallStacksAreRefused) {
+  const Arguments crowd{"crowd", "--agents", "100", "--poses", "1"};
+  const Ending run = after("ulimit -s 64;", crowd);
+  EXPECT_EQ(run.code, 2);
+  EXPECT_EQ(run.err, "bch: the stack is limited to 64 KiB (ulimit -s), and 256 are needed\n");
+  EXPECT_EQ(after("ulimit -s 256;", crowd).code, 0);
+}
+#endif
 
 }  // namespace
 }  // namespace bch::test
