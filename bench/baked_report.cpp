@@ -7,6 +7,7 @@
 
 #include <cmath>
 #include <map>
+#include <new>
 
 #include "bench/exit_codes.hpp"
 #include "bench/text.hpp"
@@ -47,8 +48,16 @@ float root_radius(const ShapeSet& set, std::uint32_t shape) {
 
 }  // namespace
 
+BakedShapes open_baked(const std::string& file) {
+  try {
+    return load_baked(file);
+  } catch (const std::bad_alloc&) {
+    throw InputError(file + ": loading it takes more memory than there is");
+  }
+}
+
 BakedShapes load_baked_for(const std::string& file, bool solid) {
-  BakedShapes baked = load_baked(file);
+  BakedShapes baked = open_baked(file);
   if (solid && !baked.set.solid())
     throw InputError(file + ": was baked for boundary semantics; bake it with --semantics solid");
   return baked;

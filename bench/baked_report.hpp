@@ -10,8 +10,12 @@
 
 namespace bch::cli {
 
-/// For one that has to answer in some semantics.
-/// Errors:  throws BakedFileError; InputError where solid semantics is asked of a set that was baked without.
+/// Loads a file that a user named.
+/// Errors:  throws BakedFileError; InputError where memory does not suffice.
+BakedShapes open_baked(const std::string& file);
+
+/// The same for one that has to answer in some semantics.
+/// Errors:  throws InputError as well where solid semantics is asked of a set that was baked without.
 BakedShapes load_baked_for(const std::string& file, bool solid);
 
 /// What a person wants to know of a baked file.

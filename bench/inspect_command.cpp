@@ -79,7 +79,7 @@ void inspect_table(const InspectOptions& options, const LoadedCharacter& from,
 }
 
 void inspect_baked(const InspectOptions& options) {
-  const BakedShapes baked = load_baked(options.character);
+  const BakedShapes baked = open_baked(options.character);
   write_json(options.json, json_of(options.character, baked));
   write_standard_output(text_of(options.character, baked) + table_text(baked));
 }

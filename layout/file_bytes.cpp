@@ -6,13 +6,17 @@
 #include <fcntl.h>
 #include <sys/mman.h>
 #include <sys/stat.h>
+#include <sys/sysinfo.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
+#include <limits>
+#include <new>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #include "layout/aligned_memory.hpp"
 
@@ -45,6 +49,19 @@ class OpenFile {
   int descriptor() const noexcept { return descriptor_; }
   /// When it was opened.
   std::size_t size() const noexcept { return size_; }
+  /// Reads the first bytes of the file, as many as there is room for and not more than size().
+  void read(std::span<std::byte> bytes) const {
+    for (std::size_t done = 0; done < bytes.size();) {
+      const ssize_t got = pread(descriptor_, bytes.data() + done, std::min(bytes.size() - done, most_at_once),
+                                static_cast<off_t>(done));
+      if (got < 0 && errno == EINTR) continue;
+      if (got < 0) reject(std::strerror(errno));
+      if (got == 0)
+        reject("it shrank from " + std::to_string(size_) + " to " + std::to_string(done) +
+               " bytes meanwhile");
+      done += static_cast<std::size_t>(got);
+    }
+  }
   [[noreturn]] void reject(const std::string& reason) const {
     throw std::runtime_error(file_.string() + ": cannot be read: " + reason);
   }
@@ -55,27 +72,37 @@ class OpenFile {
   std::size_t size_ = 0;
 };
 
-}  // namespace
-
-FileBytes read_file(const std::filesystem::path& file) {
-  const OpenFile from(file);
-  const std::shared_ptr<void> memory(allocate_aligned(from.size()),
-                                     [size = from.size()](void* bytes) { free_aligned(bytes, size); });
-  auto* const bytes = static_cast<std::byte*>(memory.get());
-  for (std::size_t done = 0; done < from.size();) {
-    const ssize_t got = read(from.descriptor(), bytes + done, std::min(from.size() - done, most_at_once));
-    if (got < 0 && errno == EINTR) continue;
-    if (got < 0) from.reject(std::strerror(errno));
-    if (got == 0)
-      from.reject("it shrank from " + std::to_string(from.size()) + " to " + std::to_string(done) +
-                  " bytes meanwhile");
-    done += static_cast<std::size_t>(got);
-  }
-  return {{bytes, from.size()}, memory};
+/// Bytes of memory and of its extension on disk: what no process can have more of.
+std::uint64_t all_memory() {
+  struct sysinfo system;
+  if (sysinfo(&system) != 0) return std::numeric_limits<std::uint64_t>::max();
+  return (std::uint64_t{system.totalram} + system.totalswap) * system.mem_unit;
 }
 
-FileBytes map_file(const std::filesystem::path& file) {
+void accept(const OpenFile& from, const FirstLook& look) {
+  if (!look.accept) return;
+  std::vector<std::byte> first(std::min(look.bytes, from.size()));
+  from.read(first);
+  look.accept(first, from.size());
+}
+
+}  // namespace
+
+FileBytes read_file(const std::filesystem::path& file, const FirstLook& look) {
   const OpenFile from(file);
+  accept(from, look);
+  // A system that promises more memory than it has would end some process later.
+  if (from.size() > all_memory()) throw std::bad_alloc();
+  const std::shared_ptr<void> memory(allocate_aligned(from.size()),
+                                     [size = from.size()](void* bytes) { free_aligned(bytes, size); });
+  const std::span bytes(static_cast<std::byte*>(memory.get()), from.size());
+  from.read(bytes);
+  return {bytes, memory};
+}
+
+FileBytes map_file(const std::filesystem::path& file, const FirstLook& look) {
+  const OpenFile from(file);
+  accept(from, look);
   if (from.size() == 0) return {};
   void* const bytes = mmap(nullptr, from.size(), PROT_READ, MAP_PRIVATE | MAP_POPULATE, from.descriptor(), 0);
   if (bytes == MAP_FAILED) from.reject(std::strerror(errno));

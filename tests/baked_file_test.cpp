@@ -8,6 +8,7 @@
 #include <cstring>
 #include <filesystem>
 #include <limits>
+#include <new>
 
 #include "kernel/clearance.hpp"
 #include "kernel/collide.hpp"
@@ -17,6 +18,7 @@
 #include "layout/baked_checksum.hpp"
 #include "layout/baked_image.hpp"
 #include "tests/baked_bytes.hpp"
+#include "tests/complaint.hpp"
 #include "tests/scenes.hpp"
 #include "tests/temporary_folder.hpp"
 
@@ -289,6 +291,32 @@ TEST(BakedFile, FilesThatAreNone) {
   EXPECT_THROW(load_baked(folder.path()), BakedFileError);
   EXPECT_THROW(load_baked("/dev/null"), BakedFileError);
   EXPECT_THROW(load_baked(folder.write("text.bch", std::string(9999, 'x'))), BakedFileError);
+}
+
+/// Files of a size that nobody could read: what is wrong with them stands in their first bytes.
+TEST_F(SpoiledFile, SizesBeyondAllMemory) {
+  const TemporaryFolder folder;
+  constexpr std::uint64_t huge = std::uint64_t{4} << 40;
+  const auto text = folder.write("text.bch", std::string(4096, 'x')),
+             longer = folder.write("longer.bch", bytes.text());
+  baked::SectionEntry& names = bytes.entry(Section::names);
+  names.count = huge - names.offset;
+  bytes.preamble().header.file_size = huge;
+  bytes.seal_header();
+  const auto honest = folder.write("honest.bch", bytes.text());
+  for (const auto& file : {text, longer, honest}) {
+    std::error_code failed;
+    std::filesystem::resize_file(file, huge, failed);
+    if (failed) GTEST_SKIP() << "no file of 4 TiB: " << failed.message();
+  }
+  for (const FileAccess access : {FileAccess::read, FileAccess::map}) {
+    const auto error = [&](const auto& file) {
+      return complaint<BakedFileError>([&] { load_baked(file, access); });
+    };
+    EXPECT_EQ(error(text), text.string() + ": not a baked file: it begins differently");
+    EXPECT_NE(error(longer).find("bytes and has 4398046511104"), std::string::npos) << error(longer);
+  }
+  EXPECT_THROW(load_baked(honest), std::bad_alloc);
 }
 
 /// Such files of the system promise a page and hold a line: as if they had been cut meanwhile.

@@ -116,6 +116,18 @@ TEST(Cli, BadBakedFilesGiveThreeAndOneLine) {
   expect_failure(bch({"inspect", folder.file("missing.bch")}), 3, {"missing.bch: "});
 }
 
+TEST(Cli, BakedFilesOfAnySizeGiveThreeAndOneLine) {
+  const TemporaryFolder folder;
+  const std::string file = folder.write("huge.bch",
+                                        "\x89"
+                                        "BCH\r\n");
+  std::error_code failed;
+  std::filesystem::resize_file(file, std::uintmax_t{1} << 40, failed);
+  if (failed) GTEST_SKIP() << "no file of 1 TiB: " << failed.message();
+  expect_failure(bch({"inspect", file}), 3, {file, "not a baked file"});
+  expect_failure(bch({"crowd", "--character", file}), 3, {file, "not a baked file"});
+}
+
 TEST(Cli, BakedFilesAreKnownByTheirEnding) {
   const TemporaryFolder folder;
   for (const char* name : {"p.txt", "p", "p.bch.gz", "bch"}) {
