@@ -3,6 +3,10 @@
 
 #pragma once
 
+#if !__has_include(<Eigen/Core>)
+#error "Eigen is missing: write find_package(bch REQUIRED COMPONENTS baselines) and link bch::baselines."
+#endif
+
 #include <Eigen/Core>
 #include <array>
 #include <cstddef>

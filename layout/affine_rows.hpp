@@ -5,7 +5,7 @@
 
 #include <emmintrin.h>
 
-#include <Eigen/Geometry>
+#include "layout/eigen.hpp"
 
 namespace bch {
 

@@ -3,11 +3,12 @@
 
 #pragma once
 
-#include <Eigen/Geometry>
 #include <array>
 #include <cstdint>
 #include <string>
 #include <vector>
+
+#include "layout/eigen.hpp"
 
 namespace bch {
 

@@ -3,12 +3,12 @@
 
 #pragma once
 
-#include <Eigen/Core>
 #include <array>
 #include <cstdint>
 #include <memory>
 #include <span>
 
+#include "layout/eigen.hpp"
 #include "layout/outline.hpp"
 
 namespace bch {

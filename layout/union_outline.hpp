@@ -3,11 +3,11 @@
 
 #pragma once
 
-#include <Eigen/Core>
 #include <array>
 #include <cstdint>
 #include <span>
 
+#include "layout/eigen.hpp"
 #include "layout/outline.hpp"
 
 namespace bch {

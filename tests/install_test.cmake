@@ -3,17 +3,35 @@
 include(${CMAKE_CURRENT_LIST_DIR}/run.cmake)
 
 file(REMOVE_RECURSE ${WORK})
-run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${WORK}/prefix)
-foreach(project consumer kernel_consumer)
-  run(${CMAKE_COMMAND} -S ${TESTS}/${project} -B ${WORK}/${project} -G Ninja -DCMAKE_PREFIX_PATH=${WORK}/prefix
-    -DCMAKE_BUILD_TYPE=Release "-DCMAKE_CXX_FLAGS=${FLAGS}" -DCMAKE_CXX_COMPILER=${COMPILER}
-    -DCMAKE_EXE_LINKER_FLAGS=-Wl,--no-as-needed)  # ldd is to show what is linked, used or not
-  run(${CMAKE_COMMAND} --build ${WORK}/${project})
-endforeach()
-run(${WORK}/consumer/example)
+
+# The README's example, its CMakeLists.txt and the commands about them, as they stand there: read_block(variable language
+# word) takes the first block of a language that has a word.
+file(READ ${TESTS}/../README.md readme)
+function(read_block variable language word)
+  if(NOT readme MATCHES "```${language}\n([^`]*${word}[^`]*)```")
+    message(FATAL_ERROR "README.md has no block of ${language} with '${word}'")
+  endif()
+  set(${variable} "${CMAKE_MATCH_1}" PARENT_SCOPE)
+endfunction()
+read_block(example cpp "int main")
+read_block(lists cmake "find_package")
+read_block(commands sh "cmake --install")
+file(WRITE ${WORK}/example/example.cpp "${example}")
+file(WRITE ${WORK}/example/CMakeLists.txt "${lists}")
+file(MAKE_DIRECTORY ${WORK}/build)
+file(CREATE_LINK ${BUILD} ${WORK}/build/release SYMBOLIC)
+run(${CMAKE_COMMAND} -E env HOME=${WORK} CXX=${COMPILER} "CXXFLAGS=${FLAGS}" sh -ec "cd '${WORK}'\n${commands}")
 if(NOT output MATCHES "0 and 1 collide" OR NOT output MATCHES "2 and 3 pass")
   message(FATAL_ERROR "unexpected answers:\n${output}")
 endif()
+
+set(settings -G Ninja -DCMAKE_PREFIX_PATH=${WORK}/bch -DCMAKE_BUILD_TYPE=Release "-DCMAKE_CXX_FLAGS=${FLAGS}"
+  -DCMAKE_CXX_COMPILER=${COMPILER})
+foreach(project consumer kernel_consumer)
+  run(${CMAKE_COMMAND} -S ${TESTS}/${project} -B ${WORK}/${project} ${settings}
+    -DCMAKE_EXE_LINKER_FLAGS=-Wl,--no-as-needed)  # ldd is to show what is linked, used or not
+  run(${CMAKE_COMMAND} --build ${WORK}/${project})
+endforeach()
 run(${WORK}/consumer/crowd_step)
 message(STATUS "${output}")
 if(NOT output MATCHES "cylinders: .*none after.*hierarchies: .*none after")
@@ -31,3 +49,48 @@ foreach(program consumer/baked kernel_consumer/kernel_only)
     message(FATAL_ERROR "${program} drags in more than TBB:\n${output}")
   endif()
 endforeach()
+
+# Without components there are shapes and the kernel; whoever includes more reads which component brings it. A component
+# that lacks a package is left out where it is optional, and named where it is not.
+file(WRITE ${WORK}/components/CMakeLists.txt [[
+cmake_minimum_required(VERSION 3.25)
+project(components LANGUAGES CXX)
+separate_arguments(ASKED)
+find_package(bch REQUIRED ${ASKED})
+foreach(component shapes kernel baked characters import baselines flying)
+  if(bch_${component}_FOUND)
+    message(STATUS "component: ${component}")
+  endif()
+endforeach()
+file(WRITE ${CMAKE_BINARY_DIR}/user.cpp "#include <layout/pose_shape.hpp>\nint main() {}\n")
+add_executable(user ${CMAKE_BINARY_DIR}/user.cpp)
+target_link_libraries(user PRIVATE bch::kernel)
+]])
+set(configure -S ${WORK}/components ${settings})
+function(expect_components found)
+  run(${ARGN})
+  string(REGEX MATCHALL "component: [a-z]+" lines "${output}")
+  list(TRANSFORM lines REPLACE "component: " "")
+  if(NOT lines STREQUAL found)
+    message(FATAL_ERROR "found ${lines}, not ${found}: ${ARGN}\n${output}")
+  endif()
+endfunction()
+set(optional "-DASKED=COMPONENTS baked OPTIONAL_COMPONENTS import flying")
+set(required "-DASKED=COMPONENTS import")
+expect_components("shapes;kernel" ${CMAKE_COMMAND} ${configure} -B ${WORK}/none)
+run_wrong("name bch's component characters" ${CMAKE_COMMAND} --build ${WORK}/none)
+expect_components("shapes;kernel;baked;characters;import" ${CMAKE_COMMAND} ${configure} -B ${WORK}/all ${optional})
+set(without_Eigen3 ${CMAKE_COMMAND} -DCMAKE_DISABLE_FIND_PACKAGE_Eigen3=ON)
+set(without_PkgConfig ${CMAKE_COMMAND} -DCMAKE_DISABLE_FIND_PACKAGE_PkgConfig=ON)
+set(without_assimp ${CMAKE_COMMAND} -E env PKG_CONFIG_LIBDIR=${WORK} ${CMAKE_COMMAND})
+foreach(package Eigen3 PkgConfig assimp)
+  set(left "shapes;kernel;baked;characters")
+  if(package STREQUAL Eigen3)
+    set(left "shapes;kernel;baked")
+  endif()
+  expect_components("${left}" ${without_${package}} ${configure} -B ${WORK}/optional_${package} ${optional})
+  run_wrong("component 'import' of bch needs what was not found: ${package}"
+    ${without_${package}} ${configure} -B ${WORK}/required_${package} ${required})
+endforeach()
+run_wrong("bch has no component 'flying', only shapes, "
+  ${CMAKE_COMMAND} ${configure} -B ${WORK}/flying "-DASKED=COMPONENTS flying")

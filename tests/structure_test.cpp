@@ -150,12 +150,6 @@ TEST(Objects, NothingThatComputesAnAnswerFusesMultiplyAndAdd) {
   EXPECT_GE(multiplications, 2u);  // the disassembly is really looked at
 }
 
-TEST(Readme, ShowsTheExampleThatIsCompiled) {
-  const std::string readme = read(fs::path(BCH_SOURCE) / "README.md");
-  EXPECT_NE(readme.find("```cpp\n" + read(fs::path(BCH_SOURCE) / "tests/consumer/example.cpp") + "```"),
-            std::string::npos);
-}
-
 TEST(Readme, ShowsTheLineThatCiRuns) {
   const std::string ci = read(fs::path(BCH_SOURCE) / ".ci/run");
   const std::string readme = read(fs::path(BCH_SOURCE) / "README.md");
