@@ -8,8 +8,33 @@
 #include "kernel/clearance_arguments.hpp"
 #include "kernel/disc_pairs.hpp"
 #include "kernel/lanes.hpp"
+#include "layout/rounding.hpp"
 
 namespace bch::kernel {
+
+/// Errors of a time of contact and of its bounds, in units of u: the sums that ContactTimeMeasure derives.
+namespace contact_time_terms {
+
+namespace r = rounding::terms;
+
+constexpr double of_distance = 11.2, lengthening = 16;  // of D; R's
+static_assert(r::length_within(r::arm + r::position + 2 * r::sum, r::position + 1, r::contact_error), "of B");
+static_assert(r::length_within(r::position + r::sum, r::position + 1, r::contact_error), "of A");
+static_assert(of_distance >= 2 * r::position + r::sum + r::apart - 0x1p-40);
+static_assert(lengthening >= of_distance + 2);
+
+/// Of bounds, in S and D': the discs at T, with D <= D' + 2 S; the lengths; the root of their squares; the difference.
+constexpr double at_contact_reach = 60, at_contact_distance = 20;
+static_assert(at_contact_reach >= 20 + 2 * (lengthening + 4) && at_contact_distance >= lengthening + 4);
+constexpr double root_reach = 19, root_distance = 7, difference_reach = 15, difference_distance = 8;
+constexpr double bound_reach = 94, bound_distance = 35;
+static_assert(bound_reach >= at_contact_reach + root_reach + difference_reach);
+static_assert(bound_distance >= at_contact_distance + root_distance + difference_distance);
+constexpr double inexact_way = 6;  // of S, where rough_root() is exact
+constexpr double slack = 256;      // of F
+static_assert(slack >= bound_reach + bound_distance + inexact_way);
+
+}  // namespace contact_time_terms
 
 /// When two discs touch of which A's moves by t v, 0 <= t <= 1: in double, from the floats (x, y), r and v,
 ///
@@ -19,14 +44,15 @@ namespace bch::kernel {
 /// or 0 where D <= R, and never where b <= 0 or the root is not real. It is asked only of discs that do not overlap.
 ///
 /// Never too late, in the notation of layout/rounding.hpp. Where the tight discs touch at the true time t, the exact
-/// way between their centres is r_tight long. (x, y) is off by 8.1 u P_B + 5.6 u |d| + u D; v is rotated as d is, so
-/// t v is off by 4.6 u t |v|, and t |v| <= D + S; |d| <= D + S: 18.3 u S + 11.2 u D in all, and u S for r. Published
-/// radii have 23 u S to spare, R adds 16 u D. So at t the float discs of radius R overlap, and their first contact
-/// is not later. (Discs that do not move towards each other, b <= 0, where exact ones would: b is off by some u D
+/// way between their centres is r_tight long. (x, y) is off by 8.1 u |b| + 5.6 u |d| + u D; v is rotated as d is, so
+/// t v is off by 4.6 u t |v|, and t |v| <= D + r_A + r_B; |d| <= |a| + |b| + D; and r is off by u (r_A + r_B). In all that
+/// is 13.7 u |b| + 5.6 u |a| + 5.6 u (r_A + r_B) + 11.2 u D, of which the first three are at most 14.9 u S, as in (1').
+/// Published radii have 16.5 u S to spare, R adds 16 u D. So at t the float discs of radius R overlap, and their first
+/// contact is not later. (Discs that do not move towards each other, b <= 0, where exact ones would: b is off by some u D
 /// |v|, so those come nearer by the square of that, and overlap at the start.) Double loses 2^-51 of
-/// the squares that are subtracted, which may be much of what is left. But R exceeds what touches at t by 3.7 u S + 4.8 u D,
-/// at least 2^-23 of itself, so that such a loss moves the contact by less than 2^-28 of what that does. The last product
-/// takes off 4 u for the rounding to float.
+/// the squares that are subtracted, which may be much of what is left. But R exceeds what touches at t by 4.8 u D, where
+/// D > r, at least 2^-23 of itself, so that such a loss moves the contact by less than 2^-28 of what that does. The last
+/// product takes off 4 u for the rounding to float.
 ///
 /// Bounds are how far A has come when discs (C, R') that hold the two touch, enlarged. What is along the way and aside is
 /// computed at once, from discs of both sides turned into the way's frame by (w_x, w_y), which is v / |v| made shorter by
@@ -40,6 +66,9 @@ namespace bch::kernel {
 /// are not made shorter, the root is longer than its part of the way by more than rough_root() is off; where that is exact,
 /// (w_x, w_y) is off by as much as 3 u R' <= 6 u S, for which slack has room. A time T is compared as T |v|, shorter as
 /// lengths are and then a 2^18th longer, for what |v| and the products are off by. Bounds below 0 only have to stay there.
+///
+/// A test sees the slack: without it, or with F of one shape alone, tests/unequal_sizes_test.cpp finds later times than
+/// brute force does.
 template <class Simd>
 class ContactTimeMeasure {
  public:
@@ -48,7 +77,7 @@ class ContactTimeMeasure {
   ContactTimeMeasure() = default;
   /// v, and F in metres.
   ContactTimeMeasure(float x, float y, float farthest) noexcept
-      : x_(x), y_(y), slack_(0x1p-16f * farthest), time_(__builtin_inff()) {
+      : x_(x), y_(y), slack_(slack_per_length * farthest), time_(__builtin_inff()) {
     const float square = x * x + y * y, length = __builtin_sqrtf(square);
     // Of a way shorter than that no bound is above 0.
     const float per_length = square < 1e-30f ? 0 : (1 - Simd::rough) / length;
@@ -94,7 +123,7 @@ class ContactTimeMeasure {
   [[gnu::always_inline]] static Real time_of(Real x, Real y, Real r, Real vx, Real vy) noexcept {
     const Real zero(0.0), never(__builtin_inf());
     const Real square = x * x + y * y, towards = x * vx + y * vy;
-    const Real radius = r + Real(0x1p-20) * xsimd::sqrt(square);
+    const Real radius = r + Real(lengthening) * xsimd::sqrt(square);
     const Real aside = x * vy - y * vx;
     const Real under_root = radius * radius * (vx * vx + vy * vy) - aside * aside;
     const Real left = square - radius * radius;
@@ -112,6 +141,11 @@ class ContactTimeMeasure {
   }
 
  private:
+  static constexpr float slack_per_length = 0x1p-16f;
+  static constexpr double lengthening = 0x1p-20;
+  static_assert(double{slack_per_length} >= contact_time_terms::slack * rounding::unit_roundoff);
+  static_assert(lengthening >= contact_time_terms::lengthening * rounding::unit_roundoff);
+
   float best() const noexcept { return time_ < 1 ? time_ : 1; }
 
   float x_, y_, slack_;

@@ -4,6 +4,7 @@
 #include "kernel/containment.hpp"
 
 #include "layout/heading.hpp"
+#include "layout/rounding.hpp"
 
 namespace bch::kernel {
 namespace {
@@ -43,6 +44,19 @@ bool inside(const Vec2* points, const Contour& contour, Point p) {
   return odd;
 }
 
+/// The slack of may_be_inside(), times both shapes' reaches, in the terms of layout/rounding.hpp. The outer disc holds its
+/// contour whatever is rounded. The inner disc's centre is rounded to float, by u |c|, which makes d and r larger by as
+/// much, and r is rounded up: sqrt(d^2 + r^2) is too large by at most sqrt(2) u |c| + 2 u r, which is 2.45 u P, because
+/// |c|^2 + r^2 <= P^2. The headings are off by 3e-10 each, and so is the place of what is at most 3 S away: 0.04 u S.
+///
+/// Only the proof needs it: no test can see it made 0 for outlines that OutlineBuilder makes. Cuts that the float test keeps
+/// apart leave more than that between the contours, 3 u S: beside all that the test needs, published radii are enlarged by
+/// 1.5 grid steps, which are 2 u P or more.
+constexpr double inside_slack = 1e-6;
+constexpr double centre_and_radius = 2.45, placing = 0.04;  // in units of u
+static_assert(rounding::terms::length_within(rounding::terms::root_2, 2, centre_and_radius));
+static_assert(inside_slack >= (centre_and_radius + placing) * rounding::unit_roundoff);
+
 /// A contour inside another has the smaller enclosing disc, and more: the points that hold its disc in place
 /// do not fit into any half of it, so one of them is at least sqrt(d^2 + r^2) away from the other disc's
 /// centre.
@@ -55,9 +69,8 @@ bool may_be_inside(const Disc& outer, const Disc& inner, Point inner_centre, dou
 
 bool contains_contour_of(const ShapeSetView& shapes, std::uint32_t outer_shape, std::uint32_t inner_shape,
                          const Placement& place) {
-  // The discs' centres and radii are rounded to float, 2 u of the reach each.
-  const double slack = 1e-6 * (static_cast<double>(shapes.reach[outer_shape]) +
-                               static_cast<double>(shapes.reach[inner_shape]));
+  const double slack = inside_slack * (static_cast<double>(shapes.reach[outer_shape]) +
+                                       static_cast<double>(shapes.reach[inner_shape]));
   const ContourRange outer = shapes.shape_contours[outer_shape], inner = shapes.shape_contours[inner_shape];
   for (std::uint32_t i = inner.begin; i < inner.end; ++i) {
     const Contour& within = shapes.contours[i];

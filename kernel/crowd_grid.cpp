@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kernel/clearance_terms.hpp"
 #include "layout/heading.hpp"
 #include "layout/rounding.hpp"
 
@@ -22,14 +23,20 @@ constexpr double radius_of_cell = 0.5 * (1 - 0x1p-10);
 /// Rounding of a centre relative to the crowd's corner, of the crowd's extent.
 constexpr double centre_rounding = 0x1p-50;
 
+/// What clearance() may tell too little, with D up to the margin and twice both reaches, in units of u: of the margin and of
+/// both reaches. Two agents share it.
+constexpr double share_of_margin = 0x1p-18, share_of_reach = 128 * rounding::unit_roundoff;
+static_assert(2 * share_of_margin >= clearance_terms::short_of_distance * rounding::unit_roundoff);
+static_assert(share_of_reach >= (clearance_terms::short_of_reach + 2 * clearance_terms::short_of_distance) *
+                                    rounding::unit_roundoff);
+
 /// With the slack of a pruning disc, which covers the rounding of collide(). A root holds the shape, whose reach is
-/// therefore at most that of the root. Enlarged by half of the margin, and by more than clearance() may tell too little:
-/// 27 u of the margin and 69 u of both reaches.
+/// therefore at most that of the root. Enlarged by half of the margin, and by more than clearance() may tell too little.
 double pruning_radius(const Root& root, double margin) {
   const double radius = root.radius;
   const double reach = std::abs(static_cast<double>(root.x)) + std::abs(static_cast<double>(root.y)) + radius;
   if (margin == 0) return radius + rounding::nesting_margin * reach;
-  return radius + 128 * rounding::unit_roundoff * reach + (0.5 + 0x1p-18) * margin;
+  return radius + share_of_reach * reach + (0.5 + share_of_margin) * margin;
 }
 
 }  // namespace

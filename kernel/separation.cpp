@@ -27,10 +27,14 @@ constexpr std::size_t grain = 128;  ///< pairs a task, up to 10 us each
 /// Rounding, in the notation of layout/rounding.hpp, all as lengths. An axis, in double within 1e-9 of a unit vector,
 /// is turned into the agent's frame and rounded to float there: 0.75 u. An extent along it is off by 0.75 u P for that,
 /// 1.42 u P for the products, u P and 2 u P for the sums: 5.2 u P. The rest is done in double. For A's discs not to pass
-/// collide()'s test with B's, they have to be 23 u S apart: 28.2 u S together. And a step along the published float
-/// direction falls short by 0.75 u of it.
+/// collide()'s test with B's, they have to be 23 u S apart: 28.2 u S together. And an axis falls short of a unit vector by
+/// 4e-10, or by 0.75 u more where the caller rounds it to float. Tests see the margin; only the proof needs the lengthening.
 constexpr double margin = 40 * rounding::unit_roundoff;
+constexpr double extent_error = 5.2;  // in units of u
+static_assert(extent_error >= 0.75 + rounding::terms::root_2 + 1 + 2);
+static_assert(margin >= (extent_error + rounding::terms::query_error) * rounding::unit_roundoff);
 constexpr double lengthening = 1 + 4 * rounding::unit_roundoff;
+static_assert(lengthening - 1 >= 0.75 * rounding::unit_roundoff + 4e-10);
 
 /// Directions of the world, as unit vectors.
 struct Axes {

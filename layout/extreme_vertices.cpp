@@ -18,6 +18,7 @@ namespace {
 constexpr std::size_t block = 4;
 /// A square, in float of coordinates that float holds, is off by less than this share of it.
 constexpr double slack = 0x1p-20;
+static_assert(slack >= (2 + 1 + 1) * 0x1p-24, "the differences, their squares, the sum");
 /// Looks for a farthest vertex end when it is no farther than that square over the disc's, which leaves a tenth of its
 /// radius; more would take longer than the few vertices that they leave out.
 constexpr double near_enough = 1.01;

@@ -23,6 +23,10 @@ using Contour = std::span<const Vec2>;
 constexpr float dilation = DiscCoverage::cells / 12.0f;
 constexpr double longer_side = DiscCoverage::cells - 2 * static_cast<double>(dilation);
 
+/// Discs that the float test accepts are at most 23 u S apart. Inscribed radii are shorter by query_margin, so that areas
+/// meet then. (Their centres are floats, and exact.)
+static_assert(rounding::query_margin >= rounding::terms::query_error * rounding::unit_roundoff);
+
 /// A candidate with less than this share of its estimated radius is not sound.
 constexpr double least_share = 0.5;
 

@@ -14,13 +14,15 @@
 #include "layout/rounding.hpp"
 
 /// Rounding, in the terms of rounding.hpp. The line of centres D that a query computes in float is within 40 u S of the
-/// exact one; B's turn, D seen from B, and the sector are off by another 20 u, which is 40 u P_A and 40 u P_B across.
+/// exact one (along); B's turn, D seen from B, and the sector are off by another 20 u, which is 40 u P_A and 40 u P_B
+/// across (across).
 ///
 /// inner: a disc of `margin` about each point of the sector, out to there, touches no contour. So the point that both
-/// have still belongs to both when B is moved by 40 u S and lies 40 u P beside its line. Sums and comparison: 6 u S.
+/// have still belongs to both when B is moved by 40 u S and lies 40 u P beside its line. Sums and comparison: 6 u S (sums).
 /// outer: the same error along and across the line, and the 23 u S by which discs that the test accepts may be apart:
 /// 23 + 40 + 40 + 6 < 110 u S, where supports are enlarged by 320 u P.
 /// extent: the same without the 23 u S, on top of what outer has to spare.
+/// Tests see the sign of `margin`; only this proof needs all of it.
 namespace bch {
 namespace {
 
@@ -29,6 +31,10 @@ static_assert(profile_sectors == support_directions, "the lanes of CutLanes::hei
 
 constexpr float infinity = std::numeric_limits<float>::infinity();
 constexpr double margin = 128 * rounding::unit_roundoff;
+constexpr double along = 40, across = 40, sums = 6;  // in units of u
+static_assert(margin >= (along + across + sums) * rounding::unit_roundoff);
+static_assert(rounding::support_margin >=
+              (rounding::terms::query_error + along + across + sums) * rounding::unit_roundoff);
 
 struct Point {
   double x, y;

@@ -28,8 +28,9 @@ struct Directions {
 
 }  // namespace
 
-/// In float, which is off by 0.71 u of the reach for the direction, 1.42 u for the products, u and 2 u for
-/// the sums: 5.2 u, of the 34 u that rounding.hpp's margin has above what it derives.
+/// In float, which is off by 0.71 u of the reach for the direction, 1.42 u for the products, u and 2 u for the sums:
+/// (support_float) of rounding.hpp.
+static_assert(rounding::terms::support_float >= 1.5 * rounding::terms::root_2 + 1 + 2);
 Supports supports(const float* x, const float* y, const float* radius, std::uint32_t count, double reach) {
   static const Directions directions;
   std::array<float, support_directions> largest;
