@@ -40,8 +40,7 @@ Way with_slack(const CutLists& cuts, const Agents& agents, Pair pair, double way
   const double reach = static_cast<double>(cuts.reach(agents, std::min(pair.first, pair.second))) +
                        static_cast<double>(cuts.reach(agents, std::max(pair.first, pair.second)));
   const double depth = (way + 40 * rounding::unit_roundoff * reach) * (1 + 4 * rounding::unit_roundoff);
-  return {depth > 0 ? rounding::round_up(depth) : 0.0f, static_cast<float>(along.x),
-          static_cast<float>(along.y)};
+  return {depth > 0 ? rounding::round_up(depth) : 0.0f, along.x, along.y};
 }
 
 }  // namespace

@@ -9,7 +9,8 @@ namespace bch::baselines {
 
 /// How far a pair's first agent has to move, and where to.
 struct Way {
-  float depth, x, y;
+  float depth;
+  double x, y;
   friend bool operator==(const Way&, const Way&) = default;
 };
 

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <vector>
 
@@ -26,6 +27,11 @@ std::string ids(const QueryInput& input, std::size_t pair) {
 /// Without the sign of a zero.
 float plain(float value) {
   return value + 0.0f;
+}
+
+/// A part of a unit vector: zero without its sign and without what rounding leaves of it.
+double plain_part(double value) {
+  return std::abs(value) < 1e-15 ? 0 : value;
 }
 
 std::string collide_rows(const QueryInput& input) {
@@ -58,8 +64,8 @@ std::string separation_rows(const QueryInput& input) {
   }
   std::string out;
   for (std::size_t i = 0; i < ways.size(); ++i)
-    out +=
-        fmt::format("{},{},{},{}\n", ids(input, i), plain(ways[i].depth), plain(ways[i].x), plain(ways[i].y));
+    out += fmt::format("{},{},{},{}\n", ids(input, i), plain(ways[i].depth), plain_part(ways[i].x),
+                       plain_part(ways[i].y));
   return out;
 }
 

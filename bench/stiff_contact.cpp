@@ -203,8 +203,8 @@ void slide(SlideRow& row, std::uint8_t level, Random& random) {
       const double jump = std::abs(static_cast<double>(now.depth) - static_cast<double>(last.depth));
       row.jump = std::max(row.jump, jump);
       row.change = std::max(row.change, jump / step);
-      const double turn = std::atan2(static_cast<double>(std::abs(last.x * now.y - last.y * now.x)),
-                                     static_cast<double>(last.x * now.x + last.y * now.y));
+      const double turn =
+          std::atan2(std::abs(last.x * now.y - last.y * now.x), last.x * now.x + last.y * now.y);
       if (now.depth > 0 && last.depth > 0) row.turn = std::max(row.turn, turn);
     }
     last = now;

@@ -91,7 +91,7 @@ Separation Depths::deepest(const Agents& agents, Pair pair, std::span<const Cont
     const double overlap = a.radius(contact.first) + b.radius(contact.second) - distance;
     if (overlap > depth && distance > 0) depth = overlap, x = dx / distance, y = dy / distance;
   }
-  return {static_cast<float>(std::max(depth, 0.0)), static_cast<float>(x), static_cast<float>(y)};
+  return {static_cast<float>(std::max(depth, 0.0)), x, y};
 }
 
 std::span<const Pair> Depths::pairs(const Agents& agents) {
@@ -140,8 +140,7 @@ void StiffWorld::add_wall(Ground at, double heading) {
 
 void StiffWorld::press(Pair pair, const Separation& by) {
   if (pair.first >= people()) return;  // walls do not push each other
-  const double depth = static_cast<double>(by.depth), x = static_cast<double>(by.x),
-               y = static_cast<double>(by.y);
+  const double depth = static_cast<double>(by.depth), x = by.x, y = by.y;
   deepest_ = std::max(deepest_, depth);
   const bool wall = pair.second >= people();
   const Ground v = velocity_[pair.first], w = wall ? Ground{} : velocity_[pair.second];

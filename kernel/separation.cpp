@@ -90,7 +90,7 @@ Separation Query::answer(Pair pair, const Axes& axes, bool both_ways, const Exte
   }
   if (pair.second < pair.first) x = -x, y = -y;
   const double depth = (least + margin * (a.reach + b.reach)) * lengthening;
-  return {depth > 0 ? rounding::round_up(depth) : 0.0f, static_cast<float>(x), static_cast<float>(y)};
+  return {depth > 0 ? rounding::round_up(depth) : 0.0f, x, y};
 }
 
 Query checked_query(const ShapeSet& shapes, const Agents& agents, std::span<const Pair> pairs,

@@ -16,7 +16,7 @@ namespace bch {
 /// How far a pair's first agent has to move, and where to; the second one stays.
 struct Separation {
   float depth;  ///< metres, not negative; 0: a line across the direction parts the two as they are
-  float x, y;   ///< the direction, in the world, a unit vector
+  double x, y;  ///< the direction that the depth is measured along, in the world; a unit vector within 1e-9
   friend bool operator==(const Separation&, const Separation&) = default;
 };
 
@@ -34,7 +34,8 @@ struct SeparationOptions {
 ///
 /// *Enough.* A that has moved by s(u) or more lies behind a line across u, and B before it: discs, the outlines that
 ///   they cover, and what those enclose. The depth is rounded up so that collide() then answers 0, in either semantics,
-///   if A's new position is right to 1e-7 of the two shapes' reach (in doubles: up to 1e8 m or so from the origin).
+///   if A's new position is right to 1e-7 of the two shapes' reach (in doubles: up to 1e8 m or so from the origin). Far
+///   apart, rounding the direction turns the line that parts them: in float by centimetres at 1e6 m.
 /// *Continuous.* Where no point of an agent moves by more than m, by shifting or by turning, no a . u changes by more,
 ///   so the depth does not either; and no more than both together where both move. The smallest of several directions
 ///   inherits that. (Beside rounding: 1e-6 of the two shapes' reach, 4e-7 of the depth.)

@@ -223,8 +223,8 @@ TEST_F(Lattice, SeparationsAreThoseOfTheBoxes) {
         const double depth = found[i].depth, least = box_depth(box(first), box(second));
         ASSERT_GE(depth, least) << implementation.name;
         ASSERT_LE(depth, least + 2 * leaf_size + 1e-4) << implementation.name;
-        after.crowd.x[first] += depth * static_cast<double>(found[i].x);
-        after.crowd.y[first] += depth * static_cast<double>(found[i].y);
+        after.crowd.x[first] += depth * found[i].x;
+        after.crowd.y[first] += depth * found[i].y;
       }
       std::vector<std::uint8_t> hits(scene.pairs.size());
       collide(sets[0], after.crowd.agents(), after.pairs, hits, {Semantics::solid, &implementation});

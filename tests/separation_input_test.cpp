@@ -32,11 +32,11 @@ class TwoDiscs : public testing::Test {
   const ShapeSet set{shapes};
   PairScene scene;
 
-  void expect(const Separation& found, double depth, float x, float y) const {
+  void expect(const Separation& found, double depth, double x, double y) const {
     EXPECT_NEAR(static_cast<double>(found.depth), depth, 4e-6 * (1 + depth));
     EXPECT_GE(static_cast<double>(found.depth), depth);
-    EXPECT_NEAR(found.x, x, 1e-7f);
-    EXPECT_NEAR(found.y, y, 1e-7f);
+    EXPECT_NEAR(found.x, x, 1e-9);
+    EXPECT_NEAR(found.y, y, 1e-9);
   }
 };
 

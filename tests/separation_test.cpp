@@ -16,6 +16,7 @@
 #include "baselines/separation_reference.hpp"
 #include "kernel/collide.hpp"
 #include "layout/default_characters.hpp"
+#include "layout/heading.hpp"
 #include "tests/character_shapes.hpp"
 #include "tests/differential.hpp"
 #include "tests/separations.hpp"
@@ -46,8 +47,8 @@ std::vector<Vec2> random_directions(Random& random, std::size_t count) {
 PairScene moved(PairScene scene, std::span<const Separation> by, double further = 0) {
   for (std::size_t i = 0; i < by.size(); ++i) {
     const double depth = static_cast<double>(by[i].depth) + further;
-    scene.crowd.x[scene.pairs[i].first] += depth * static_cast<double>(by[i].x);
-    scene.crowd.y[scene.pairs[i].first] += depth * static_cast<double>(by[i].y);
+    scene.crowd.x[scene.pairs[i].first] += depth * by[i].x;
+    scene.crowd.y[scene.pairs[i].first] += depth * by[i].y;
   }
   return scene;
 }
@@ -224,6 +225,41 @@ TEST_F(SeparationTest, IsTheLeastThatDoesNotJump) {
     if (less[i].depth > 0) {
       ASSERT_EQ(hits[i], 1) << i;
     }
+}
+
+/// Far apart, a line across a direction that is not quite the one that was measured lies elsewhere.
+TEST_F(SeparationTest, LinesAcrossTheToldDirectionPartAgentsThatAreFarApart) {
+  using Real = long double;
+  for (const double distance : {1e5, 1e6, 1e7, 1e8, 7e8}) {
+    PairScene scene = random_scene(random, set, 2'000);
+    for (std::size_t i = 0; i < scene.pairs.size(); ++i) {
+      const double angle = random.uniform(-4, 4);
+      scene.crowd.x[2 * i] += distance * std::cos(angle), scene.crowd.y[2 * i] += distance * std::sin(angle);
+    }
+    const Agents agents = scene.crowd.agents();
+    /// How far an agent's discs extend along a unit vector, from the origin of the world.
+    const auto support = [&](std::uint32_t agent, Real x, Real y) {
+      const Rotation turn = rotation(agents.heading[agent]);
+      const Real c = turn.cosine, s = turn.sine;
+      Real most = -HUGE_VALL;
+      for (const Disc& disc : cuts.of(agents, agent)) {
+        const Real at_x = disc.x, at_y = disc.y, radius = disc.radius;
+        most = std::max(most, (c * at_x - s * at_y) * x + (s * at_x + c * at_y) * y + radius);
+      }
+      return most + agents.x[agent] * x + agents.y[agent] * y;
+    };
+    const auto best = best_of(16, set, scene);
+    const auto given = along(random_directions(random, scene.pairs.size()), set, scene);
+    for (const auto* told : {&best, &given})
+      for (std::size_t i = 0; i < scene.pairs.size(); ++i) {
+        const Real x = (*told)[i].x, y = (*told)[i].y, length = std::sqrt(x * x + y * y);
+        ASSERT_NEAR(static_cast<double>(length), 1, 1e-9);
+        const auto [a, b] = scene.pairs[i];
+        const Real back =
+            -support(a, -x / length, -y / length) + static_cast<Real>((*told)[i].depth) * length;
+        ASSERT_GE(back, support(b, x / length, y / length)) << distance << " m, pair " << i;
+      }
+  }
 }
 
 TEST_F(SeparationTest, OfSingleDiscs) {

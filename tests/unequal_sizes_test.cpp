@@ -234,8 +234,8 @@ TEST_F(UnequalSizes, SeparationsEqualBruteForceAndSuffice) {
       ASSERT_TRUE(found[i].depth == expected.depth && found[i].x == expected.x && found[i].y == expected.y)
           << i;
       const std::uint32_t first = scene.pairs[i].first;
-      scene.crowd.x[first] += static_cast<double>(found[i].depth) * static_cast<double>(found[i].x);
-      scene.crowd.y[first] += static_cast<double>(found[i].depth) * static_cast<double>(found[i].y);
+      scene.crowd.x[first] += static_cast<double>(found[i].depth) * found[i].x;
+      scene.crowd.y[first] += static_cast<double>(found[i].depth) * found[i].y;
     }
     std::vector<std::uint8_t> hits(scene.pairs.size());
     collide(sets[0], scene.crowd.agents(), scene.pairs, hits, {Semantics::solid});

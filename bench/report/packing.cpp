@@ -84,7 +84,7 @@ class Packing {
     separation(set_, crowd_.agents(), pairs_, 32, ways_);
     for (std::size_t k = 0; k < pairs_.size(); ++k) {
       const double half = static_cast<double>(std::min(0.5f * ways_[k].depth + beyond, longest));
-      const double x = half * static_cast<double>(ways_[k].x), y = half * static_cast<double>(ways_[k].y);
+      const double x = half * ways_[k].x, y = half * ways_[k].y;
       const auto [i, j] = pairs_[k];
       crowd_.x[i] += x, crowd_.y[i] += y;
       crowd_.x[j] -= x, crowd_.y[j] -= y;  // an image's is forgotten
