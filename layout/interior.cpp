@@ -43,6 +43,11 @@ struct Lines {
   }
 };
 
+/// As containment of the solid semantics counts: a contour from elsewhere may overlap itself.
+bool is_inside(double winding) {
+  return static_cast<int>(winding) % 2 != 0;
+}
+
 void set_extremes(const InteriorLoops& loops, Contour contour, Interior& result) {
   static const Lines lines;
   alignas(64) std::array<double, extreme_directions> farthest;
@@ -108,7 +113,7 @@ bool InteriorBuilder::choose(Contour contour, std::uint32_t count) {
 }
 
 bool InteriorBuilder::is_sound(const CandidateDiscs& discs, std::uint32_t k, double unit) const {
-  return depths_.winding[k] > 0 &&
+  return is_inside(depths_.winding[k]) &&
          depths_.distance[k] > least_share * static_cast<double>(discs.radius[k]) * unit;
 }
 
@@ -160,7 +165,7 @@ Interior InteriorBuilder::build(const Outline& outline, double reach) {
   std::uint32_t discs = 0;
   for (std::uint32_t k = 0; k < chosen_.count; ++k) {
     const double radius = depths_.distance[k] * (1 - 0x1p-23) - rounding::query_margin * reach;
-    if (!(depths_.winding[k] > 0 && radius > 0)) continue;
+    if (!(is_inside(depths_.winding[k]) && radius > 0)) continue;
     result.x[discs] = stored_.x[k], result.y[discs] = stored_.y[k];
     result.radius[discs++] = static_cast<float>(radius);
   }

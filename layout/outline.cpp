@@ -22,6 +22,34 @@ double twice_area(std::span<const Vec2> contour) {
   return sum;
 }
 
+/// Metres.
+double length(std::span<const Vec2> contour) {
+  double sum = 0;
+  for (std::size_t i = 0, before = contour.size() - 1; i < contour.size(); before = i++)
+    sum += std::hypot(static_cast<double>(contour[i].x) - static_cast<double>(contour[before].x),
+                      static_cast<double>(contour[i].y) - static_cast<double>(contour[before].y));
+  return sum;
+}
+
+void require_finite(std::span<const Vec2> points) {
+  for (std::size_t i = 0; i < points.size(); ++i)
+    if (!std::isfinite(points[i].x) || !std::isfinite(points[i].y))
+      throw std::invalid_argument("outline: point " + std::to_string(i) + " is not finite");
+}
+
+/// Whiskers and contours of a few grid steps have no area, or by the rounding of their points to the grid and of the sum
+/// less than none: only what is not explained by that is clockwise.
+void require_not_clockwise(const Outline& outline, std::size_t c, double twice_area, double reach) {
+  const auto contour = outline.contour(c);
+  const auto count = static_cast<double>(contour.size());
+  if (twice_area >= -0x1p-52 * count * count * reach * reach) return;
+  const double by_grid =
+      2 * rounding::outline_grid_steps * static_cast<double>(outline.grid_step) * length(contour);
+  if (twice_area >= -by_grid) return;
+  throw std::invalid_argument("outline: contour " + std::to_string(c) + " is clockwise, its area " +
+                              shortest(0.5 * twice_area) + " m^2");
+}
+
 }  // namespace
 
 double reach(std::span<const Vec2> points) {
@@ -64,12 +92,15 @@ double validate(const Outline& outline) {
   for (std::size_t c = 0; c + 1 < begin.size(); ++c)
     if (begin[c] >= begin[c + 1])
       throw std::invalid_argument("outline: contour " + std::to_string(c) + " is empty");
-  for (std::size_t i = 0; i < outline.points.size(); ++i)
-    if (!std::isfinite(outline.points[i].x) || !std::isfinite(outline.points[i].y))
-      throw std::invalid_argument("outline: point " + std::to_string(i) + " is not finite");
+  const double size = reach(outline.points);
+  for (std::size_t c = 0; c < outline.contours(); ++c) {
+    const double area = twice_area(outline.contour(c));
+    // What is not finite makes the area so.
+    if (!std::isfinite(area)) require_finite(outline.points);
+    if (area < 0) require_not_clockwise(outline, c, area, size);
+  }
   if (!std::isfinite(outline.grid_step) || outline.grid_step < 0)
     throw std::invalid_argument("outline: grid step " + shortest(outline.grid_step));
-  const double size = reach(outline.points);
   if (size < rounding::smallest_reach || size > rounding::largest_reach)
     throw std::invalid_argument("outline: reach " + shortest(size) + " m is outside 1e-6 to 1e6 m");
   return size;

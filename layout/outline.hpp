@@ -12,14 +12,20 @@
 
 namespace bch {
 
-/// What a character covers when seen from above: closed contours, counter-clockwise, that do not contain each
-/// other (holes are left out). A whisker, the trace of a triangle seen edge-on, is a contour (or part of one)
-/// that goes there and back. Coordinates are multiples of grid_step and below 2^23 of them, so floats hold
-/// them exactly.
+/// The outline of what a character covers when seen from above: closed contours, counter-clockwise. OutlineBuilder's do
+/// not contain each other (holes are left out), and cross themselves by a rounding to the grid at most. A whisker, the
+/// trace of a triangle seen edge-on, is a contour (or part of one) that goes there and back.
+///
+/// Outlines from elsewhere may have contours that touch, cross or overlap themselves or each other, and contours inside
+/// others. Boundary semantics sees every segment. Inside, for the solid semantics, is what some contour goes round an odd
+/// number of times. Clockwise contours are refused, because they stand for holes, which are to be left out.
 struct Outline {
-  std::vector<Vec2> points;                        ///< metres, in the shape's frame
+  std::vector<Vec2> points;  ///< metres, in the shape's frame; taken as they are, on a grid or not
   std::vector<std::uint32_t> contour_begin = {0};  ///< contours + 1 offsets into points
-  float grid_step = 0;                             ///< metres, a power of two
+  /// The step of the grid that points were rounded to before, metres; 0 if they were not. Discs are larger by 1.5 of it,
+  /// so that they hold what was there before the rounding. OutlineBuilder's is a power of two, and its coordinates are
+  /// multiples below 2^23, which floats hold exactly.
+  float grid_step = 0;
 
   std::size_t contours() const { return contour_begin.size() - 1; }
   std::span<const Vec2> contour(std::size_t i) const {
@@ -30,15 +36,17 @@ struct Outline {
 /// The largest distance of a point from the origin, at least.
 double reach(std::span<const Vec2> points);
 
-/// Area inside the contours, square metres.
+/// Area inside the contours, square metres; where contours overlap, the sum of theirs.
 double area(const Outline& outline);
 
 /// The contour with the largest area, the first of several.
 /// Precondition: there is one.
 std::span<const Vec2> largest_contour(const Outline& outline);
 
-/// Checks the promises that hierarchies rely on: at least one contour, offsets in order, finite points, reach
-/// within the limits of rounding.hpp.
+/// Checks the promises that hierarchies and shape sets rely on: at least one contour, offsets in order, finite points, reach
+/// within the limits of rounding.hpp, no clockwise contour (of more area than rounding to the grid explains). All else that
+/// Outline allows needs no check.
+/// Cost:    linear.
 /// Returns: the reach of its points.
 /// Errors:  throws std::invalid_argument naming the contour or point and the value.
 double validate(const Outline& outline);

@@ -90,5 +90,46 @@ TEST(Containment, ASmallCopyIsFoundEverywhereInARealPose) {
     expect_all_found(test::pose_shapes(character, 5));
 }
 
+/// Outlines from elsewhere may overlap themselves, or have contours inside others. Inside is what a contour goes round an
+/// odd number of times, with shortcuts and without.
+TEST(Containment, InsideIsWhatAContourGoesRoundAnOddNumberOfTimes) {
+  const std::vector<Outline> outlines = {
+      test::polygon({{0, 3}, {-2, -3}, {3, 1}, {-3, 1}, {2, -3}}),  // a star in one stroke
+      test::polygon(
+          {{-3, -3}, {3, -3}, {3, 3}, {-3, 3}, {-3, -3}, {2, -2}, {2, 2}, {-2, 2}}),  // most of it twice
+      test::polygon({{-3, -2}, {3, 2}, {3, -2}, {-3, 3}}),                            // one half clockwise
+  };
+  const Outline probe =
+      test::polygon({{-0.125f, -0.125f}, {0.125f, -0.125f}, {0.125f, 0.125f}, {-0.125f, 0.125f}});
+  test::Random random(78);
+  for (const Outline& outline : outlines) {
+    const std::vector<Shape> shapes = {test::contour_shape(outline), test::contour_shape(probe)};
+    test::PairScene scene;
+    for (std::uint32_t i = 0; i < 2'000; ++i) {
+      scene.crowd.add({0, 0, 0, 0, 0});
+      scene.crowd.add({1, random.uniform(-3, 3), random.uniform(-3, 3), 0, 0});
+      scene.pairs.push_back({2 * i, 2 * i + 1});
+    }
+    std::vector<std::uint8_t> boundary(scene.pairs.size()), solid(boundary);
+    std::size_t inside = 0, in_a_hole = 0;
+    for (const bool shortcuts : {false, true}) {
+      const ShapeSet set(shapes, {{all_depths}, true, shortcuts});
+      for (const auto& implementation : kernel::implementations()) {
+        if (!implementation.supported()) continue;
+        collide(set, scene.crowd.agents(), scene.pairs, boundary, {Semantics::boundary, &implementation});
+        collide(set, scene.crowd.agents(), scene.pairs, solid, {Semantics::solid, &implementation});
+        for (std::size_t i = 0; i < scene.pairs.size(); ++i) {
+          if (boundary[i] != 0) continue;
+          const bool is_inside = test::inside(outline, scene.crowd.x[2 * i + 1], scene.crowd.y[2 * i + 1]);
+          ASSERT_EQ(solid[i], is_inside) << implementation.name << (shortcuts ? " with" : " without");
+          (is_inside ? inside : in_a_hole) += 1;
+        }
+      }
+    }
+    EXPECT_GT(inside, 100u);
+    EXPECT_GT(in_a_hole, 100u);
+  }
+}
+
 }  // namespace
 }  // namespace bch

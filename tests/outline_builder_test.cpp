@@ -5,7 +5,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
+#include <stdexcept>
 #include <utility>
 #include <vector>
 
@@ -177,6 +179,27 @@ TEST(OutlineBuilder, AllocatesNothingTheSecondTime) {
 }
 
 /// The same union, made of the same triangles in another order, turned over, numbered otherwise, some twice.
+/// Soups on the grid; and slivers of a few steps, whose contours the rounding of crossings may turn round.
+TEST(OutlineBuilder, MakesOutlinesThatAreValid) {
+  test::Random random(72);
+  const std::uint32_t count = test::samples(20'000);
+  for (std::uint32_t i = 0; i < count; ++i) {
+    Soup soup = test::random_soup(random);
+    if (i % 2 == 0)
+      for (auto& p : soup.positions)
+        p += Eigen::Vector3f(static_cast<float>(random.uniform(-1, 1)),
+                             static_cast<float>(random.uniform(-1, 1)), 0) *
+             static_cast<float>(std::exp2(random.uniform(-30, -10)));
+    Outline outline;
+    try {
+      outline = build(soup);
+    } catch (const std::invalid_argument&) {
+      continue;  // a soup of points
+    }
+    ASSERT_NO_THROW(validate(outline)) << i;
+  }
+}
+
 TEST(OutlineBuilder, DependsOnTheUnionAlone) {
   test::Random random(5);
   for (int i = 0; i < 500; ++i) {

@@ -5,6 +5,9 @@
 
 #include <array>
 #include <limits>
+#include <stdexcept>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "layout/union_outline.hpp"
@@ -124,6 +127,59 @@ TEST(UnionOutline, RejectsBadInput) {
   });
 }
 
+Outline with_another(Outline outline, std::vector<Vec2> contour) {
+  test::append(outline, test::polygon(std::move(contour)));
+  return outline;
+}
+
+const std::vector<Vec2> square = {{-2, -2}, {2, -2}, {2, 2}, {-2, 2}};
+
+void expect_refused(const Outline& outline, const std::string& message) {
+  try {
+    validate(outline);
+    FAIL() << "accepted; expected: " << message;
+  } catch (const std::invalid_argument& error) {
+    EXPECT_EQ(error.what(), message);
+  }
+}
+
+TEST(ValidateOutline, ClockwiseContoursAreRefused) {
+  expect_refused(test::polygon({{0, 0}, {0, 1}, {1, 1}, {1, 0}}),
+                 "outline: contour 0 is clockwise, its area -1 m^2");
+  expect_refused(with_another(test::polygon(square), {{-1, -1}, {-1, 1}, {1, 1}, {1, -1}}),
+                 "outline: contour 1 is clockwise, its area -4 m^2");
+  // Small ones, too, and far away.
+  expect_refused(test::polygon({{1000, 0}, {1000, 0.25f}, {1000.25f, 0}}),
+                 "outline: contour 0 is clockwise, its area -0.03125 m^2");
+  EXPECT_THROW(contour_hierarchy(test::polygon({{0, 0}, {0, 1}, {1, 1}}), 0.01f), std::invalid_argument);
+}
+
+TEST(ValidateOutline, WhatIsNotFiniteIsNamed) {
+  const float infinity = std::numeric_limits<float>::infinity();
+  for (const float bad : {infinity, -infinity, std::numeric_limits<float>::quiet_NaN()})
+    for (std::size_t i = 0; i < square.size(); ++i)
+      for (const bool of_x : {false, true}) {
+        Outline outline = test::polygon(square);
+        (of_x ? outline.points[i].x : outline.points[i].y) = bad;
+        expect_refused(outline, "outline: point " + std::to_string(i) + " is not finite");
+      }
+}
+
+TEST(ValidateOutline, ContoursMayTouchCrossAndHoldEachOther) {
+  const std::vector<Outline> allowed = {
+      test::polygon({{1, 1}}),                                                // a point
+      test::polygon({{0, 0}, {2, 1}}),                                        // a whisker
+      test::polygon({{0, 0}, {0.1f, 0.7f}, {0, 0}, {0.3f, -0.1f}}),           // two
+      test::polygon({{0, 0}, {1, 0}, {0.5f, 1}, {0, 2}, {1, 2}, {0.5f, 1}}),  // a pinch, half of it clockwise
+      test::polygon({{0, 3}, {-2, -3}, {3, 1}, {-3, 1}, {2, -3}}),            // a star in one stroke
+      test::polygon({{0.1f, 0.2f}, {1e-7f, -0.3f}, {0.123456f, -0.777777f}, {0.9f, 0.3f}}),  // on no grid
+      with_another(test::polygon(square), {{-1, -1}, {1, -1}, {1, 1}}),  // one inside the other
+      with_another(test::polygon(square), {{1, 1}, {3, 1}, {3, 3}}),     // across each other
+      with_another(test::polygon(square), square),
+  };
+  for (std::size_t i = 0; i < allowed.size(); ++i) EXPECT_NO_THROW(validate(allowed[i])) << i;
+}
+
 TEST(UnionOutline, RandomSoups) {
   test::Random random(99);
   int compared = 0;
@@ -148,6 +204,7 @@ TEST(UnionOutline, RandomSoups) {
       continue;  // a soup of points
     }
     ++compared;
+    EXPECT_NO_THROW(validate(outline));
     test::expect_covers(outline, mesh.positions, mesh.triangles);
     test::expect_equals_samples(outline, mesh.positions, mesh.triangles, 48);
     if (HasFailure()) FAIL() << "soup " << i;
