@@ -3,6 +3,7 @@
 
 #include "tests/scenes.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <utility>
@@ -83,6 +84,16 @@ Outline needle() {
   const auto length = static_cast<float>(on_grid(0.4, grid)), half = static_cast<float>(4 * grid);
   return {
       .points = {{-length, -half}, {length, 0}, {-length, half}}, .contour_begin = {0, 3}, .grid_step = grid};
+}
+
+Outline counter_clockwise(Outline outline) {
+  for (std::size_t c = 0; c < outline.contours(); ++c) {
+    const auto contour = outline.contour(c);
+    if (area(polygon({contour.begin(), contour.end()})) >= 0) continue;
+    const auto begin = outline.points.begin();
+    std::reverse(begin + outline.contour_begin[c], begin + outline.contour_begin[c + 1]);
+  }
+  return outline;
 }
 
 void append(Outline& outline, const Outline& more) {

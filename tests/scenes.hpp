@@ -44,6 +44,9 @@ Outline star(Random& random, std::uint32_t corners, double inner, double outer, 
 /// A sliver from x = -0.4 to a tip at x = 0.4: ahead of the tip its leaf discs reach as far as it does itself.
 Outline needle();
 
+/// The same outline with every contour that is clockwise turned round, as validate() wants it.
+Outline counter_clockwise(Outline outline);
+
 /// Appends the contours of one outline to another.
 void append(Outline& outline, const Outline& more);
 

@@ -5,12 +5,14 @@
 
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 
 #include "layout/hierarchy.hpp"
 #include "layout/shape_set.hpp"
 #include "layout/shape_validation.hpp"
 #include "tests/fuzz/target.hpp"
 #include "tests/hierarchy_checks.hpp"
+#include "tests/scenes.hpp"
 
 namespace bch::fuzz {
 namespace {
@@ -26,7 +28,7 @@ Outline outline_of(Bytes& bytes) {
       outline.points.push_back({bytes.number(step), bytes.number(step)});
     outline.contour_begin.push_back(static_cast<std::uint32_t>(outline.points.size()));
   }
-  return outline;
+  return test::counter_clockwise(std::move(outline));  // others are refused
 }
 
 /// Sound, and accepted by the check of what files hold.
