@@ -10,10 +10,9 @@
 
 namespace bch {
 
-/// Checks all that queries rely on, so that no arrays that pass make them read elsewhere, whatever else they hold: each
-/// begins on a cache line; sizes fit each other; the blocks of a level are a tree in breadth-first order with fewer than most_wide_levels
-/// levels; windows lie among their level's discs; offsets ascend; floats are numbers within the library's domain,
-/// discs have no negative radius, and what is padding overlaps nothing.
+/// Checks all of shape_preconditions(): arrays that pass never make a query read elsewhere, and a pair takes no more than
+/// a small multiple of the time that an honest set of that size may take. Whether culling data, discs and outlines fit
+/// each other is not checked, because that takes longer than building them: see verify().
 /// `before_nodes`, where there is one, is called before each tree is read, tree after tree, with where its nodes begin,
 /// which may be beyond their end: for who wants to look at them at the same time.
 /// Errors:  throws std::invalid_argument naming the array, the place in it and the value.

@@ -167,9 +167,11 @@ AlignedVector<float> chain(std::uint32_t blocks) {
     nodes.resize(i * block_floats);
     float* block = nodes.data() + (i - 1) * block_floats;
     std::fill(block + 1, block + block_width, infinity);
+    block[2 * block_width] = 1;
     block[3 * block_width] = std::bit_cast<float>(i * block_floats + (i == blocks ? leaf_window : 0));
   }
   nodes.resize(nodes.size() + 3 * block_width + block_floats);
+  std::fill_n(nodes.end() - block_width - block_floats, block_width, 1.0f);  // radii
   return nodes;
 }
 

@@ -1,0 +1,234 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include "layout/shape_preconditions.hpp"
+
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <functional>
+#include <limits>
+#include <set>
+#include <string>
+
+#include "layout/shape_storage.hpp"
+#include "layout/shape_validation.hpp"
+#include "tests/baked_bytes.hpp"
+
+// For everything that queries take for granted of a set's arrays there is damage that this one check refuses.
+
+namespace bch::test {
+namespace {
+
+constexpr float nan = std::numeric_limits<float>::quiet_NaN();
+constexpr float infinity = std::numeric_limits<float>::infinity();
+
+/// A set's arrays, to be damaged, and what does not fit into them.
+struct Arrays {
+  ShapeStorage own;
+  AlignedVector<float> beside;
+  std::function<void(ShapeArrays&)> last = [](ShapeArrays&) {};
+
+  explicit Arrays(const ShapeSetPlan& plan) {
+    const ShapeSet set(few_shapes(), plan);
+    const ShapeArrays& a = set.arrays();
+    const auto copy = [](auto& to, const auto& from) { to.assign(from.begin(), from.end()); };
+    copy(own.depths, a.depths), copy(own.roots, a.roots), copy(own.trees, a.trees), copy(own.nodes, a.nodes);
+    copy(own.reach, a.reach), copy(own.support, a.support), copy(own.inscribed, a.inscribed);
+    copy(own.extremes, a.extremes), copy(own.profiles, a.profiles), copy(own.points, a.points);
+    copy(own.shape_contours, a.shape_contours), copy(own.contours, a.contours);
+  }
+
+  ShapeArrays view() const {
+    ShapeArrays all = own.arrays();
+    last(all);
+    return all;
+  }
+  /// The first shape's finest level: a tree of several blocks.
+  float* top_block() { return own.nodes.data() + own.trees[finest].top; }
+  float& name(float* block, std::uint32_t lane) { return block[3 * block_width + lane]; }
+  /// The first block all of whose names are windows.
+  float* lowest_block() {
+    float* block = top_block();
+    while (std::bit_cast<std::uint32_t>(name(block, 0)) < leaf_window) block += block_floats;
+    return block;
+  }
+
+  static constexpr std::size_t finest = 2;
+};
+
+struct Damage {
+  const char* precondition;
+  std::function<void(Arrays&)> make;
+};
+
+void add(float& name, std::uint32_t to) {
+  name = std::bit_cast<float>(std::bit_cast<std::uint32_t>(name) + to);
+}
+
+/// 64 windows, all at the same eight discs.
+void name_a_window_64_times(Arrays& a) {
+  a.own = {};
+  a.own.depths = {all_depths};
+  a.own.roots = {{0, 0, 1, first_row}};
+  a.own.trees = {{0, block_width}};
+  a.own.reach = {1};
+  const std::uint32_t discs = 9 * block_floats;
+  a.own.nodes.resize(discs + 3 * block_width + block_floats);
+  const auto put_discs = [&](std::uint32_t at) {
+    std::fill_n(&a.own.nodes[at + 2 * block_width], block_width, 1.0f);
+  };
+  for (std::uint32_t block = 0; block < 9; ++block) {
+    put_discs(block * block_floats);
+    for (std::uint32_t lane = 0; lane < block_width; ++lane)
+      a.name(&a.own.nodes[block * block_floats], lane) =
+          std::bit_cast<float>(block == 0 ? (lane + 1) * block_floats : leaf_window + discs);
+  }
+  put_discs(discs);
+}
+
+const std::vector<Damage>& all_damage() {
+  static const std::vector<Damage> all = {
+      {"alignment",
+       [](Arrays& a) {
+         a.beside.assign(1 + a.own.reach.size(), 1.0f);
+         a.last = [&a](ShapeArrays& view) { view.reach = std::span<const float>(a.beside).subspan(1); };
+       }},
+      {"depths", [](Arrays& a) { a.own.depths[2] = a.own.depths[1]; }},
+      {"depths", [](Arrays& a) { a.last = [](ShapeArrays& view) { view.depths = {}; }; }},
+      {"sizes", [](Arrays& a) { a.own.extremes.pop_back(); }},
+      {"sizes", [](Arrays& a) { a.own.reach.clear(); }},
+      {"sizes", [](Arrays& a) { a.own.shape_contours.pop_back(); }},
+      {"sizes",  // more profiles than kernels can name
+       [](Arrays& a) {
+         a.last = [](ShapeArrays& view) {
+           constexpr std::size_t shapes = 70'000'000;
+           const auto many = [](auto& span) { span = {span.data(), shapes}; };
+           view.depths = view.depths.first(1);
+           many(view.roots), many(view.trees), many(view.reach), many(view.inscribed), many(view.extremes);
+           many(view.profiles), many(view.shape_contours);
+         };
+       }},
+      {"rows", [](Arrays& a) { a.own.roots[Arrays::finest].row += 1; }},
+      {"rows", [](Arrays& a) { a.own.support.resize(a.own.support.size() + support_stride); }},
+      {"single depth",  // what made DynamicShapeSet copy roots without their trees
+       [](Arrays& a) {
+         a = Arrays({.depths = {all_depths}});
+         a.own.depths[0] = 0;
+       }},
+      {"single depth",
+       [](Arrays& a) {
+         a = Arrays({.depths = {2, 5}});
+         a.own.depths[0] = 0;
+       }},
+      {"infinite rows", [](Arrays& a) { a.own.support[support_stride + 3] = 1; }},
+      {"reaches", [](Arrays& a) { a.own.reach[1] = 0; }},
+      {"roots", [](Arrays& a) { a.own.roots[Arrays::finest].radius = 0; }},
+      {"supports", [](Arrays& a) { a.own.support.back() = nan; }},
+      {"inscribed discs", [](Arrays& a) { a.own.inscribed[1].radius[3] = -1; }},
+      {"extremes", [](Arrays& a) { a.own.extremes[2].y[31] = infinity; }},
+      {"profiles", [](Arrays& a) { a.own.profiles[1].sectors[31].outer = -infinity; }},
+      {"profiles", [](Arrays& a) { a.own.profiles[1].sectors[7].inner = infinity; }},
+      {"shape contours", [](Arrays& a) { a.own.shape_contours[1].end -= 1; }},
+      {"contours", [](Arrays& a) { a.own.contours[1].end = a.own.contours[1].begin; }},
+      {"points", [](Arrays& a) { a.own.points[5].y = nan; }},
+      {"contour discs", [](Arrays& a) { a.own.contours[0].disc.radius *= 2; }},
+      {"contour discs",  // as large as its farthest point asks, but elsewhere
+       [](Arrays& a) {
+         Disc& disc = a.own.contours[0].disc;
+         const Vec2 farthest =
+             *std::min_element(a.own.points.begin(), a.own.points.begin() + a.own.contours[0].end,
+                               [](const Vec2& p, const Vec2& q) { return p.x < q.x; });
+         disc = {farthest.x + 1000, farthest.y, 1000};
+       }},
+      {"order of levels", [](Arrays& a) { a.own.trees[Arrays::finest] = a.own.trees[Arrays::finest - 1]; }},
+      {"blocks", [](Arrays& a) { a.name(a.top_block(), 0) = std::bit_cast<float>(a.own.trees[2].top); }},
+      {"blocks", [](Arrays& a) { a.top_block()[0] = infinity; }},
+      {"room", [](Arrays& a) { a.own.trees[Arrays::finest].stride = block_width - 1; }},
+      {"room", [](Arrays& a) { a.own.nodes.resize(a.own.nodes.size() - 1); }},
+      {"windows", [](Arrays& a) { add(a.name(a.lowest_block(), 7), 4096); }},
+      {"first window", [](Arrays& a) { add(a.name(a.lowest_block(), 0), 1); }},
+      {"number of windows", name_a_window_64_times},
+      {"padding", [](Arrays& a) { a.lowest_block()[3] = infinity; }},
+      {"numbers", [](Arrays& a) { a.lowest_block()[2 * block_width] = 1e-12f; }},
+      {"numbers",
+       [](Arrays& a) { a.lowest_block()[2 * block_width + 1] = -a.lowest_block()[2 * block_width + 1]; }},
+      {"single discs", [](Arrays& a) { a.own.roots[Arrays::finest - 1].row = single_disc; }},
+      {"single discs", [](Arrays& a) { a.own.roots[0].x += 0.01f; }},
+      {"reach of a level", [](Arrays& a) { a.own.reach[0] = 100; }},
+      {"inner discs", [](Arrays& a) { a.lowest_block()[2 * block_width + 3] *= 8; }},
+      {"inner discs", [](Arrays& a) { a.top_block()[2 * block_width] *= 8; }},
+      {"inner discs", [](Arrays& a) { a.own.roots[Arrays::finest].radius *= 8; }},
+      {"inner discs",  // as large as it needs, from far away
+       [](Arrays& a) {
+         a.lowest_block()[3] += 3;
+         a.lowest_block()[2 * block_width + 3] += 3;
+       }},
+  };
+  return all;
+}
+
+/// What the other checks read without looking: where one of these does not hold they must not run.
+const std::set<std::string> relied_upon = {"depths",          "sizes",  "shape contours", "contours",
+                                           "order of levels", "blocks", "room",           "windows"};
+
+/// Runs the checks as validate() does, but for one. Returns: the name of the one that refuses; empty where none does.
+std::string refused_by(const ShapeArrays& arrays, const std::string& without, const std::string& stop_at) {
+  std::string name;
+  const auto runs = [&](const Precondition& each) {
+    name = each.name;
+    return name != without;
+  };
+  try {
+    for (const Precondition& each : shape_preconditions()) {
+      if (each.name == stop_at) return {};
+      if (each.check_set != nullptr && runs(each)) each.check_set(arrays);
+    }
+    std::uint64_t end = 0;
+    for (std::size_t root = 0; root < arrays.trees.size(); ++root) {
+      LevelNodes level{.root = root, .begin = end};
+      for (const Precondition& each : shape_preconditions()) {
+        if (each.name == stop_at) break;
+        if (each.check_level != nullptr && runs(each)) each.check_level(arrays, level);
+      }
+      end = level.end;
+    }
+  } catch (const std::invalid_argument&) {
+    return name;
+  }
+  return {};
+}
+
+TEST(ShapePreconditions, HaveNamesOfTheirOwnAndOneCheckEach) {
+  std::set<std::string> names;
+  for (const Precondition& each : shape_preconditions()) {
+    EXPECT_TRUE(names.insert(each.name).second) << each.name;
+    EXPECT_TRUE((each.check_set == nullptr) != (each.check_level == nullptr)) << each.name;
+    EXPECT_GT(std::string(each.says).size(), 20u) << each.name;
+  }
+}
+
+TEST(ShapePreconditions, HoldForASoundSet) {
+  const Arrays sound({.depths = {0, 3, all_depths}, .solid = true});
+  EXPECT_NO_THROW(validate(sound.view()));
+}
+
+TEST(ShapePreconditions, EachRefusesWhatNoOtherDoes) {
+  std::set<std::string> damaged;
+  for (const Damage& damage : all_damage()) {
+    damaged.insert(damage.precondition);
+    Arrays arrays({.depths = {0, 3, all_depths}, .solid = true});
+    damage.make(arrays);
+    const ShapeArrays view = arrays.view();
+    EXPECT_THROW(validate(view), std::invalid_argument) << damage.precondition;
+    EXPECT_EQ(refused_by(view, "", ""), damage.precondition);
+    const bool others_may_run = !relied_upon.contains(damage.precondition);
+    EXPECT_EQ(refused_by(view, damage.precondition, others_may_run ? "" : damage.precondition), "")
+        << damage.precondition;
+  }
+  for (const Precondition& each : shape_preconditions())
+    EXPECT_TRUE(damaged.contains(each.name)) << each.name << ": no damage violates it";
+}
+
+}  // namespace
+}  // namespace bch::test
