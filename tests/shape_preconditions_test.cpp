@@ -54,6 +54,14 @@ struct Arrays {
     return block;
   }
 
+  /// The smallest radius of the finest level.
+  float& smallest_disc() {
+    const Tree& tree = own.trees[finest];
+    const std::uint32_t first = std::bit_cast<std::uint32_t>(name(lowest_block(), 0)) & ~leaf_window;
+    float* radius = own.nodes.data() + first + 2 * std::size_t{tree.stride};
+    return *std::min_element(radius, radius + tree.stride);
+  }
+
   static constexpr std::size_t finest = 2;
 };
 
@@ -150,9 +158,8 @@ const std::vector<Damage>& all_damage() {
       {"first window", [](Arrays& a) { add(a.name(a.lowest_block(), 0), 1); }},
       {"number of windows", name_a_window_64_times},
       {"padding", [](Arrays& a) { a.lowest_block()[3] = infinity; }},
-      {"numbers", [](Arrays& a) { a.lowest_block()[2 * block_width] = 1e-12f; }},
-      {"numbers",
-       [](Arrays& a) { a.lowest_block()[2 * block_width + 1] = -a.lowest_block()[2 * block_width + 1]; }},
+      {"numbers", [](Arrays& a) { a.smallest_disc() = 1e-12f; }},
+      {"numbers", [](Arrays& a) { a.smallest_disc() *= -1; }},
       {"single discs", [](Arrays& a) { a.own.roots[Arrays::finest - 1].row = single_disc; }},
       {"single discs", [](Arrays& a) { a.own.roots[0].x += 0.01f; }},
       {"reach of a level", [](Arrays& a) { a.own.reach[0] = 100; }},

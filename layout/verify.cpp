@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include "layout/verify.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "layout/verify_parts.hpp"
+
+namespace bch {
+namespace verification {
+
+std::string text_of(const Disc& disc) {
+  return "(" + shortest(disc.x) + ", " + shortest(disc.y) + ") of radius " + shortest(disc.radius) + " m";
+}
+
+void Look::compare(const char* array, std::uint32_t level, const std::string& place, double stored,
+                   double expected) const {
+  if (stored == expected || std::abs(stored - expected) <= tolerance()) return;
+  say(array, level, place + " is " + shortest(stored) + " m, not " + shortest(expected) + " m");
+}
+
+namespace {
+
+double extent_of(const Root& root) {
+  return std::hypot(static_cast<double>(root.x), static_cast<double>(root.y)) +
+         static_cast<double>(root.radius);
+}
+
+/// Without a grid step, which is not stored. Without contours where the set has none.
+Outline outline_of(const ShapeArrays& arrays, std::uint32_t shape) {
+  Outline outline;
+  if (arrays.shape_contours.empty()) return outline;
+  const auto [begin, end] = arrays.shape_contours[shape];
+  for (const Contour& contour : arrays.contours.subspan(begin, end - begin)) {
+    const auto points = arrays.points.subspan(contour.begin, contour.end - contour.begin);
+    outline.points.insert(outline.points.end(), points.begin(), points.end());
+    outline.contour_begin.push_back(static_cast<std::uint32_t>(outline.points.size()));
+  }
+  return outline;
+}
+
+void verify_shape(const Look& look) {
+  verify_levels(look);
+  if (look.set.roots_only()) return;
+  const Outline outline = outline_of(look.arrays(), look.shape);
+  verify_reach(look);
+  for (std::uint32_t level = 0; level < look.levels(); ++level) {
+    verify_inner_discs(look, level);
+    verify_cover(look, outline, level);
+  }
+  verify_contours(look, outline);
+  if (look.arrays().profiles.empty()) return;
+  verify_supports(look);
+  verify_profile(look, outline);
+  if (outline.contours() > 0)
+    verify_inside(look, outline);
+  else
+    verify_hull(look);
+}
+
+}  // namespace
+}  // namespace verification
+
+std::string text_of(const Finding& finding) {
+  std::string text = "shape ";
+  text += std::to_string(finding.shape);
+  if (finding.level != Finding::no_level) text.append(", level ").append(std::to_string(finding.level));
+  return text.append(": ").append(finding.array).append(": ").append(finding.what);
+}
+
+std::vector<Finding> verify(const ShapeSet& set, std::size_t most) {
+  std::vector<Finding> findings;
+  const ShapeArrays& arrays = set.arrays();
+  for (std::uint32_t shape = 0; shape < set.shape_count() && findings.size() < most; ++shape) {
+    const double reach = set.roots_only()
+                             ? verification::extent_of(arrays.roots[std::size_t{shape} * set.level_count()])
+                             : static_cast<double>(arrays.reach[shape]);
+    verification::verify_shape({set, findings, most, shape, reach});
+  }
+  return findings;
+}
+
+}  // namespace bch
