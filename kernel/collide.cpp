@@ -21,6 +21,10 @@ void collide(const ShapeSet& shapes, const Agents& agents, std::span<const Pair>
   if (hits.size() != pairs.size())
     throw std::invalid_argument("collide: " + std::to_string(pairs.size()) + " pairs but " +
                                 std::to_string(hits.size()) + " hits");
+  if (!solid && options.semantics != Semantics::boundary)
+    throw std::invalid_argument("collide: no semantics is " +
+                                std::to_string(static_cast<int>(options.semantics)) +
+                                ", only boundary (0) and solid (1)");
   if (solid && !shapes.solid())
     throw std::invalid_argument("collide: the shape set was not planned for solid semantics");
   const kernel::Implementation& implementation = kernel::chosen(options.implementation, "collide");

@@ -33,8 +33,8 @@ struct QueryOptions {
 ///
 /// Shapes:  hits.size() == pairs.size(); an agent may be paired with itself (it collides).
 /// Errors:  throws std::invalid_argument, before hits is touched, on sizes that differ, an index out of
-///          range, a position or heading that is not finite or beyond the limits, solid semantics on a set
-///          that was not planned for it, an implementation that this processor does not run; the message
+///          range, a position or heading that is not finite or beyond the limits, an unknown semantics, solid
+///          semantics on a set that was not planned for it, an implementation that this processor does not run; the message
 ///          names the agent or pair and the value.
 /// Threads: runs in the caller's TBB arena, where each thread needs 256 KiB of stack, for this and every other query. The
 ///          rounding mode, treatment of denormals and traps that threads are set to do not matter to any, and stay as

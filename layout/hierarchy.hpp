@@ -66,7 +66,7 @@ enum class SplitRule {
 /// is a lone segment.
 /// Units:   metres; the threshold is positive and finite.
 /// Returns: the hierarchy with its elements.
-/// Errors:  throws std::invalid_argument on a bad outline or threshold, std::length_error beyond 2^22 nodes.
+/// Errors:  throws std::invalid_argument on a bad outline, threshold or rule, std::length_error beyond 2^22 nodes.
 Hierarchy contour_hierarchy(const Outline& outline, float threshold, SplitRule rule = SplitRule::centroid);
 
 /// The paper's hierarchy over all projected triangles: the plane goes through the mean of the vertices, a

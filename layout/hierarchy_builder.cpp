@@ -80,6 +80,8 @@ void HierarchyBuilder::contour(const Outline& outline, float threshold, SplitRul
   clear(hierarchy);
   const double reach = validate(outline);
   require_threshold(threshold);
+  if (rule != SplitRule::centroid && rule != SplitRule::centre)
+    throw std::invalid_argument("hierarchy: no split rule is " + std::to_string(static_cast<int>(rule)));
   hierarchy.reach = reach;
   begin(reach, rounding::outline_grid_steps * widened(outline.grid_step), widened(threshold),
         outline.points.size());
@@ -115,6 +117,9 @@ void HierarchyBuilder::root(std::span<const Vec2> points, float grid_step, Hiera
   if (points.empty()) throw std::invalid_argument("hierarchy: no points");
   hierarchy.reach = reach(points);
   require_reach(hierarchy.reach);
+  if (!(grid_step >= 0) || widened(grid_step) > hierarchy.reach)
+    throw std::invalid_argument("hierarchy: grid step " + shortest(grid_step) +
+                                " m is not from 0 to the reach, " + shortest(hierarchy.reach) + " m");
   begin(hierarchy.reach, rounding::outline_grid_steps * widened(grid_step), 0, 0);
   order_.clear();
   unsolved_.push_back({add_node(), 0, 0});

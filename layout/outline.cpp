@@ -103,6 +103,9 @@ double validate(const Outline& outline) {
     throw std::invalid_argument("outline: grid step " + shortest(outline.grid_step));
   if (size < rounding::smallest_reach || size > rounding::largest_reach)
     throw std::invalid_argument("outline: reach " + shortest(size) + " m is outside 1e-6 to 1e6 m");
+  if (static_cast<double>(outline.grid_step) > size)
+    throw std::invalid_argument("outline: grid step " + shortest(outline.grid_step) +
+                                " m is above the reach, " + shortest(size) + " m");
   return size;
 }
 

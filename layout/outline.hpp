@@ -22,9 +22,9 @@ namespace bch {
 struct Outline {
   std::vector<Vec2> points;  ///< metres, in the shape's frame; taken as they are, on a grid or not
   std::vector<std::uint32_t> contour_begin = {0};  ///< contours + 1 offsets into points
-  /// The step of the grid that points were rounded to before, metres; 0 if they were not. Discs are larger by 1.5 of it,
-  /// so that they hold what was there before the rounding. OutlineBuilder's is a power of two, and its coordinates are
-  /// multiples below 2^23, which floats hold exactly.
+  /// The step of the grid that points were rounded to before, metres; 0 if they were not. At most the reach. Discs are
+  /// larger by 1.5 of it, so that they hold what was there before the rounding. OutlineBuilder's is a power of two, and its
+  /// coordinates are multiples below 2^23, which floats hold exactly.
   float grid_step = 0;
 
   std::size_t contours() const { return contour_begin.size() - 1; }

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "kernel/collide.hpp"
+#include "kernel/collide_all.hpp"
 #include "tests/scenes.hpp"
 
 // What collide() refuses, and that it does nothing then.
@@ -151,6 +152,13 @@ TEST_F(BadInput, TheLargestValuesAreValid) {
       }
     }
   }
+}
+
+TEST_F(BadInput, SemanticsThatThereIsNot) {
+  expect_rejected("collide: no semantics is 2", {static_cast<Semantics>(2)});
+  expect_rejected("collide: no semantics is -1", {static_cast<Semantics>(-1)});
+  EXPECT_THROW(CrowdCollider().collide_all(set, crowd.agents(), {static_cast<Semantics>(2)}),
+               std::invalid_argument);
 }
 
 TEST_F(BadInput, SizesThatDifferAndSolidWithoutAPlan) {

@@ -10,6 +10,7 @@
 #include <string>
 
 #include "layout/enclosing_disc.hpp"
+#include "layout/hierarchy_builder.hpp"
 #include "layout/rounding.hpp"
 #include "tests/hierarchy_checks.hpp"
 #include "tests/scenes.hpp"
@@ -104,6 +105,20 @@ TEST(ContourHierarchy, RejectsBadInput) {
   EXPECT_THROW(contour_hierarchy(polygon({{0, 0}, {nan, 0}, {0, 1}}), 0.01f), std::invalid_argument);
   EXPECT_THROW(contour_hierarchy(polygon({{0, 0}, {1e-8f, 0}, {0, 0}}), 0.01f), std::invalid_argument);
   EXPECT_THROW(contour_hierarchy(polygon({{0, 0}, {2e6f, 0}, {0, 1}}), 1e3f), std::invalid_argument);
+  EXPECT_THROW(contour_hierarchy(good, 0.01f, static_cast<SplitRule>(2)), std::invalid_argument);
+}
+
+/// Coordinates are multiples of it, so none is larger than the shape.
+TEST(ContourHierarchy, RejectsAGridStepAboveTheReach) {
+  Outline outline = polygon({{0, 0}, {1, 0}, {0, 1}});
+  outline.grid_step = 1;
+  EXPECT_NO_THROW(contour_hierarchy(outline, 0.01f));
+  for (const float step : {1.0001f, 1e30f, -1.0f, std::numeric_limits<float>::quiet_NaN()}) {
+    outline.grid_step = step;
+    EXPECT_THROW(contour_hierarchy(outline, 0.01f), std::invalid_argument) << step;
+    Hierarchy hierarchy;
+    EXPECT_THROW(HierarchyBuilder().root(outline.points, step, hierarchy), std::invalid_argument) << step;
+  }
 }
 
 TEST(ProjectedHierarchy, HasOneLeafATriangle) {
