@@ -10,6 +10,7 @@
 #include "bench/characters.hpp"
 #include "bench/commands.hpp"
 #include "bench/exit_codes.hpp"
+#include "bench/inspection.hpp"
 #include "bench/options.hpp"
 #include "bench/output.hpp"
 #include "bench/threads.hpp"
@@ -39,7 +40,9 @@ void run_bake(const BakeOptions& options) {
   const auto sources = options.rate > 0 ? list_shapes_at_rate(characters, options.rate)
                                         : list_shapes(characters, options.shapes.poses);
   const BakedShapes baked = bake_file(options.output, characters, sources, options.shapes.threshold, plan);
-  write_standard_output(text_of(options.output, baked));
+  std::string notes;
+  for (const LoadedCharacter& character : characters) notes += notes_text(character);
+  write_standard_output(text_of(options.output, baked) + notes);
 }
 
 }  // namespace

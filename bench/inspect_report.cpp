@@ -102,6 +102,13 @@ std::string text_of(const LoadedCharacter& character) {
   return out;
 }
 
+std::string notes_text(const LoadedCharacter& character) {
+  std::string out;
+  for (const std::string& note : character.report.notes)
+    out += fmt::format("  {:<10}{}: {}\n", "note", character.source, note);
+  return out;
+}
+
 std::string text_of(const LoadedCharacter& character, const ShapeTable& table) {
   std::size_t widest = 9;  // "rest pose"
   for (const Clip& clip : character.character.clips) widest = std::max(widest, clip.name.size());
