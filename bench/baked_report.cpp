@@ -94,6 +94,14 @@ std::string text_of(const std::string& file, const BakedShapes& baked) {
   return out;
 }
 
+std::string verified_text(const ShapeSet& set) {
+  const bool outlines = !set.arrays().shape_contours.empty();
+  return fmt::format("  {:<10}{}\n", "verified",
+                     set.roots_only() ? "levels"
+                     : outlines       ? "inner discs, levels, culling data, and that discs cover the outlines"
+                                : "inner discs, levels, culling data as far as the discs tell (no outlines)");
+}
+
 std::string table_text(const BakedShapes& baked) {
   const auto& [set, origins] = baked;
   std::size_t widest = 9;  // "rest pose"

@@ -20,6 +20,8 @@ BakedShapes load_baked_for(const std::string& file, bool solid);
 
 /// What a person wants to know of a baked file.
 std::string text_of(const std::string& file, const BakedShapes& baked);
+/// What was looked at by verify(), which found nothing.
+std::string verified_text(const ShapeSet& set);
 /// A line a shape.
 std::string table_text(const BakedShapes& baked);
 /// Both.

@@ -13,6 +13,7 @@
 #include "bench/output.hpp"
 #include "bench/text.hpp"
 #include "bench/threads.hpp"
+#include "layout/verify.hpp"
 
 namespace bch::cli {
 namespace {
@@ -24,6 +25,7 @@ struct InspectOptions {
   std::optional<std::string> clip;
   std::optional<double> time;
   std::uint32_t threads = 0;
+  bool verify = false;
   std::string json, svg;
 
   bool names_a_shape() const { return shape || clip; }
@@ -78,10 +80,20 @@ void inspect_table(const InspectOptions& options, const LoadedCharacter& from,
   write_standard_output(text_of(from) + text_of(from, table));
 }
 
+void require_verified(const std::string& file, const ShapeSet& set) {
+  constexpr std::size_t most = 20;
+  std::vector<std::string> lines;
+  for (const Finding& finding : verify(set, most + 1)) lines.push_back(file + ": " + text_of(finding));
+  if (lines.size() > most) lines.back() = file + ": and more";
+  if (!lines.empty()) throw InputErrors(std::move(lines));
+}
+
 void inspect_baked(const InspectOptions& options) {
   const BakedShapes baked = open_baked(options.character);
+  if (options.verify) require_verified(options.character, baked.set);
   write_json(options.json, json_of(options.character, baked));
-  write_standard_output(text_of(options.character, baked) + table_text(baked));
+  write_standard_output(text_of(options.character, baked) + (options.verify ? verified_text(baked.set) : "") +
+                        table_text(baked));
 }
 
 void run_inspect(const CLI::App& command, const InspectOptions& options) {
@@ -91,6 +103,7 @@ void run_inspect(const CLI::App& command, const InspectOptions& options) {
     require_absent(command, {"--shape", "--clip", "--svg"}, "a baked file has no hierarchies to show");
     return inspect_baked(options);
   }
+  require_absent(command, {"--verify"}, "only a baked file can be verified");
   const LoadedCharacter from = load_character(options.character, options.shapes.import_options());
   const Threads threads(options.threads);
   const auto sources = list_shapes({&from, 1}, options.shapes.poses);
@@ -120,6 +133,9 @@ std::function<void()> add_inspect_command(CLI::App& program) {
       ->check(number_between(0, 1e9));
   options->shapes.add_to(command);
   add_threads_option(command, options->threads);
+  command.add_flag(
+      "--verify", options->verify,
+      "Recompute what a baked file stores besides its discs and outlines, and name what differs");
   command.add_option("--json", options->json, "Write the same, and all points of a shape's outline")
       ->type_name("FILE");
   command.add_option("--svg", options->svg, "Draw the shape: a panel for each depth of its hierarchy")

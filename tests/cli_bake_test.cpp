@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "tests/baked_bytes.hpp"
 #include "tests/bch_run.hpp"
 #include "tests/temporary_folder.hpp"
 
@@ -41,6 +42,48 @@ TEST(Cli, BakedShapesAnswerLikeTheirCharacter) {
     EXPECT_EQ(run.out, expected.out);
   }
   EXPECT_GT(lines(expected.out), 20u);
+}
+
+TEST(Cli, BakeTellsTheNotesOfTheImport) {
+  const TemporaryFolder folder;
+  const std::string obj = folder.write("box.obj", box);
+  const Ending inspect = bch({"inspect", obj}), bake = bch({"bake", obj, "-o", folder.file("box.bch")});
+  ASSERT_EQ(inspect.code, 0) << inspect.err;
+  ASSERT_EQ(bake.code, 0) << bake.err;
+  std::istringstream in(inspect.out);
+  std::size_t notes = 0;
+  for (std::string line; std::getline(in, line);) {
+    if (!line.starts_with("  note      ")) continue;
+    ++notes;
+    EXPECT_NE(bake.out.find("  note      " + obj + ": " + line.substr(12) + "\n"), std::string::npos)
+        << bake.out;
+  }
+  EXPECT_GT(notes, 0u) << inspect.out;
+}
+
+TEST(Cli, InspectVerifiesABakedFile) {
+  const TemporaryFolder folder;
+  for (const Arguments& how :
+       {Arguments{"--semantics", "solid"}, Arguments{"--depths", "0,3"}, Arguments{"--depths", "0"}}) {
+    const std::string file = folder.file("man.bch");
+    ASSERT_EQ(bch({"bake", "default:male", "--poses", "6", "-o", file}, how).code, 0);
+    const Ending run = bch({"inspect", "--verify", file});
+    EXPECT_EQ(run.code, 0) << run.err;
+    EXPECT_NE(run.out.find("  verified  "), std::string::npos) << run.out;
+    EXPECT_EQ(bch({"inspect", file}).out.find("verified"), std::string::npos);
+  }
+  expect_failure(bch({"inspect", "default:male", "--verify"}), 2, {"--verify", "baked"});
+}
+
+TEST(Cli, VerifyNamesALie) {
+  BakedBytes bytes(ShapeSet(few_shapes(), {.solid = true}), origins_of(3));
+  bytes.section<Profile>(baked::Section::profiles)[1].sectors[4].outer -= 0.01f;
+  bytes.seal();
+  const TemporaryFolder folder;
+  const std::string file = folder.write("lie.bch", bytes.text());
+  EXPECT_EQ(bch({"inspect", file}).code, 0);
+  expect_failure(bch({"inspect", file, "--verify"}), 3,
+                 {"lie.bch: shape 1: profiles: ", "outer of sector 4"});
 }
 
 TEST(Cli, BakedCrowdIsTheCrowdOfItsCharacters) {
