@@ -60,7 +60,7 @@
 /// most 9 levels of blocks each. At least 32 floats follow the last one.
 ///
 /// Numbers. Coordinates and radii are finite and at most 1e7 m, a root's radius above 0, reaches within rounding.hpp's
-/// domain.
+/// domain. shape_preconditions() lists all that is checked.
 namespace bch::baked {
 
 /// A byte that is no text, so that nobody takes it for some; then line ends that a transfer as text would change.

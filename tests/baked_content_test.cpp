@@ -8,10 +8,9 @@
 #include <limits>
 
 #include "kernel/broad_phase.hpp"
-#include "kernel/collide.hpp"
-#include "kernel/contacts.hpp"
-#include "kernel/separation.hpp"
+#include "layout/cut_discs.hpp"
 #include "layout/shape_validation.hpp"
+#include "tests/all_queries.hpp"
 #include "tests/baked_bytes.hpp"
 #include "tests/scenes.hpp"
 
@@ -217,41 +216,73 @@ TEST(BakedContent, ALevelHasAWindowOfDiscsAtLeast) {
   EXPECT_THROW(validate(arrays), std::invalid_argument);
 }
 
-/// Everything that follows the set's links.
+/// Everything that follows the set's links, also of a copy whose shapes are replaced.
 void query(const ShapeSet& set, std::uint64_t seed) {
   Random random(seed);
   Crowd crowd;
-  for (int i = 0; i < 60; ++i)
-    crowd.add({random.below(set.shape_count()), random.uniform(0, 2), random.uniform(0, 2),
+  for (int i = 0; i < 24; ++i)
+    crowd.add({random.below(set.shape_count()), random.uniform(0, 1.2), random.uniform(0, 1.2),
                random.uniform(0, 6), static_cast<std::uint8_t>(random.below(set.level_count()))});
   std::vector<Pair> pairs = candidate_pairs(set, crowd.agents());
-  for (std::uint32_t i = 1; i < 60; ++i) pairs.push_back({0, i});
-  std::vector<std::uint8_t> hits(pairs.size());
-  for (const Semantics semantics : {Semantics::boundary, Semantics::solid})
-    for (const kernel::Implementation& row : kernel::implementations())
-      if (row.supported() && (semantics == Semantics::boundary || set.solid()))
-        collide(set, crowd.agents(), pairs, hits, {semantics, &row});
-  const auto some = std::span(pairs).last(20);
-  ContactTable table;
-  std::vector<Separation> ways(some.size());
-  for (const kernel::Implementation& row : kernel::implementations())
-    if (row.supported()) {
-      contacts(set, crowd.agents(), some, table, {&row});
-      separation(set, crowd.agents(), some, 8, ways, {&row});
-    }
+  for (std::uint32_t i = 1; i < 24; ++i) pairs.push_back({0, i});
+  for (const kernel::Implementation& row : kernel::implementations()) {
+    if (!row.supported()) continue;
+    ask_all(set, crowd.agents(), pairs, row);
+    ask_all_of_a_dynamic_copy(set, crowd.agents(), pairs, row);
+  }
+}
+
+/// A file whose only depth is said to be 0, and that keeps its trees, had DynamicShapeSet copy roots without them.
+TEST(BakedContent, TheOnlyDepthIsNot0WhereThereAreTrees) {
+  BakedBytes bytes(ShapeSet(few_shapes(), {}), origins_of(3));
+  bytes.section<std::uint32_t>(Section::depths)[0] = 0;
+  bytes.seal();
+  EXPECT_NE(bytes.error().find("file: trees: 3 where there have to be 0"), std::string::npos)
+      << bytes.error();
+}
+
+/// A shape of many discs, in which hardly anything would be pruned if inner discs might be as large as they like.
+TEST(BakedContent, InnerDiscsAreNoLargerThanTheyNeed) {
+  Random random(76);
+  const std::vector<Shape> shapes = {contour_shape(star(random, 600, 0.2, 0.4), 0.002f)};
+  BakedBytes bytes(ShapeSet(shapes, {}), origins_of(1));
+  const Tree tree = bytes.section<Tree>(Section::trees)[0];
+  const auto nodes = bytes.section<float>(Section::nodes);
+  const std::size_t discs = first_disc(nodes.data(), tree.top);
+  ASSERT_GT(discs, tree.top + 20 * block_floats);
+  for (const float radius : {0.5f, 1e3f, 1e6f}) {
+    BakedBytes huge = bytes;
+    const auto damaged = huge.section<float>(Section::nodes);
+    for (std::size_t block = tree.top; block < discs; block += block_floats)
+      for (std::uint32_t i = 0; i < block_width; ++i)
+        if (damaged[block + i] != infinity) damaged[block + 2 * block_width + i] = radius;
+    huge.section<Root>(Section::roots)[0].radius = radius;
+    huge.seal();
+    EXPECT_NE(huge.error().find("than what it holds needs"), std::string::npos) << radius << huge.error();
+  }
+}
+
+/// The plans of files: what a file names may be its only depth, or all it has may be roots.
+std::vector<BakedBytes> sound_files() {
+  std::vector<BakedBytes> files = {sound_bytes()};
+  for (const ShapeSetPlan& plan : {ShapeSetPlan{}, ShapeSetPlan{{0}, false},
+                                   ShapeSetPlan{{2, 5}, true, false}, ShapeSetPlan{{0, 1}, false}})
+    files.emplace_back(ShapeSet(few_shapes(), plan), origins_of(3));
+  return files;
 }
 
 /// Whatever gets through gives wrong answers at worst.
 TEST(BakedContent, AnythingThatLoadsCanBeQueried) {
   Random random(75);
-  const BakedBytes sound = sound_bytes();
+  const std::vector<BakedBytes> sound = sound_files();
   const std::uint32_t words[] = {0, 1, 0x80000000, ~0u, 0x7f800000, 0x7fc00000, 0xff800000, 0x4b000000};
   int loaded = 0, refused = 0;
-  for (int i = 0; i < 8'000; ++i) {
-    BakedBytes bytes = sound;
+  for (std::uint32_t i = 0; i < samples(8'000); ++i) {
+    BakedBytes bytes = sound[i % sound.size()];
     const auto section = static_cast<Section>(random.below(static_cast<std::uint32_t>(Section::names)));
     const auto content = bytes.section<std::uint32_t>(section);
     const std::size_t size = content.size() * bytes.entry(section).element_size / 4;
+    if (size == 0) continue;
     std::uint32_t& word = content.data()[random.below(static_cast<std::uint32_t>(size))];
     switch (random.below(3)) {
       case 0:
@@ -272,8 +303,8 @@ TEST(BakedContent, AnythingThatLoadsCanBeQueried) {
       ++refused;
     }
   }
-  EXPECT_GT(loaded, 400);
-  EXPECT_GT(refused, 400);
+  EXPECT_GT(loaded, static_cast<int>(samples(400)));
+  EXPECT_GT(refused, static_cast<int>(samples(400)));
 }
 
 }  // namespace

@@ -5,16 +5,12 @@
 
 #include <vector>
 
-#include "kernel/clearance.hpp"
-#include "kernel/collide.hpp"
-#include "kernel/collide_all.hpp"
-#include "kernel/contact_time.hpp"
-#include "kernel/contacts.hpp"
-#include "kernel/separation.hpp"
 #include "layout/aligned_vector.hpp"
 #include "layout/baked_checksum.hpp"
 #include "layout/baked_file.hpp"
 #include "layout/baked_format.hpp"
+#include "layout/verify.hpp"
+#include "tests/all_queries.hpp"
 #include "tests/fuzz/target.hpp"
 #include "tests/scenes.hpp"
 
@@ -51,20 +47,9 @@ void query(const ShapeSet& set, const kernel::Implementation& implementation) {
   for (std::uint32_t a = 0; a < agents.size(); ++a)
     for (std::uint32_t b = 0; b <= a; ++b) pairs.push_back({a, b});
 
-  std::vector<std::uint8_t> hits(pairs.size());
-  collide(set, agents, pairs, hits, {Semantics::boundary, &implementation});
-  if (set.solid()) collide(set, agents, pairs, hits, {Semantics::solid, &implementation});
-  CrowdCollider().collide_all(set, agents, {Semantics::boundary, &implementation});
-  ContactTable table;
-  contacts(set, agents, pairs, table, {&implementation});
-  std::vector<Separation> ways(pairs.size());
-  separation(set, agents, pairs, 4, ways, {&implementation});
-  std::vector<float> values(pairs.size());
-  std::vector<Vec2> directions(pairs.size());
-  std::vector<CutNodes> nodes(pairs.size());
-  clearance(set, agents, pairs, {values, directions, nodes}, {.implementation = &implementation});
-  const std::vector<double> way(pairs.size(), 0.5);
-  contact_time(set, agents, pairs, {way, way}, values, {.implementation = &implementation});
+  test::ask_all(set, agents, pairs, implementation);
+  test::ask_all_of_a_dynamic_copy(set, agents, pairs, implementation);
+  verify(set);
 }
 
 }  // namespace
