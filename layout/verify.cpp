@@ -12,7 +12,9 @@ namespace bch {
 namespace verification {
 
 std::string text_of(const Disc& disc) {
-  return "(" + shortest(disc.x) + ", " + shortest(disc.y) + ") of radius " + shortest(disc.radius) + " m";
+  std::string text = "(";
+  text.append(shortest(disc.x)).append(", ").append(shortest(disc.y));
+  return text.append(") of radius ").append(shortest(disc.radius)).append(" m");
 }
 
 void Look::compare(const char* array, std::uint32_t level, const std::string& place, double stored,
