@@ -28,6 +28,17 @@ void require_unread(const std::string& output, const FileIdentity& identity,
       throw UsageError(output + " would overwrite " + input + ", an input of this command");
 }
 
+/// Whether an input may be a model that reads this file as well: a buffer, materials, motions in its folder. Which ones a
+/// model names is not known before it is read.
+bool may_be_read_by(const fs::path& input, const fs::path& output) {
+  std::error_code none;
+  const std::string ending = output.extension();
+  const bool named = ending == ".bin" || ending == ".mtl" || ending == ".md5anim";
+  return named && fs::exists(output, none) &&
+         fs::equivalent(fs::canonical(input, none).parent_path(), fs::canonical(output, none).parent_path(),
+                        none);
+}
+
 }  // namespace
 
 void reject_output(const std::string& destination, int error) {
@@ -74,11 +85,15 @@ void require_outputs(const std::vector<OutputOption>& outputs, const std::vector
   for (const auto& [name, file] : outputs) {
     if (file.empty()) continue;
     if (file == "-") throw UsageError(name + ": '-' is not a file");
-    const auto identity = identity_of(writable_place(file));
+    const OutputPlace place = writable_place(file);
+    const auto identity = identity_of(place);
     if (!identity) continue;
     const auto [other, added] = written.emplace(*identity, name);
     if (!added) throw UsageError(other->second + " and " + name + ": " + file + " cannot be both");
     require_unread(name + ": " + file, *identity, inputs);
+    for (const std::string& input : inputs)
+      if (may_be_read_by(input, place.path))
+        throw UsageError(name + ": " + file + " lies beside " + input + ", which may need it");
   }
 }
 

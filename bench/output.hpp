@@ -33,8 +33,9 @@ struct OutputOption {
 };
 
 /// Refuses, before anything is read, outputs that cannot be written or that would destroy something: an output that is
-/// also an input, and two outputs that are one file, whatever their names (links, other paths). Standard output is one
-/// of the outputs where it goes to a file. Devices may be named several times.
+/// also an input, or a buffer that lies beside one (glTF's .bin), and two outputs that are one file, whatever their
+/// names (links, other paths). Standard output is one of the outputs where it goes to a file. Devices may be named
+/// several times.
 /// Inputs:  all files that the command is going to read; those that do not exist are left to their readers.
 /// Errors:  throws UsageError, and InputError as OutputFile does.
 void require_outputs(const std::vector<OutputOption>& outputs, const std::vector<std::string>& inputs);

@@ -62,6 +62,21 @@ TEST_F(CliFiles, BakedFilesAreInputsToo) {
   expect_refused({"bake", model}, "--output", file("model.bch"), model);
 }
 
+/// The buffer of a glTF file: which ones it names is not known before it is read.
+TEST_F(CliFiles, BuffersBesideAModelAreInputs) {
+  const std::string buffer = folder.write("model.bin", "vertices");
+  const TemporaryFolder elsewhere;
+  fs::create_symlink(buffer, elsewhere.file("a.json"));
+  for (const std::string& same : {buffer, file("here/model.bin"), std::string(elsewhere.file("a.json"))})
+    expect_failure(bch({"inspect", model, "--json", same}), 2, {"--json: " + same, "beside " + model});
+  EXPECT_EQ(read_text(buffer), "vertices");
+  elsewhere.write("b.bin", "old");
+  for (const std::string& other : {file("new.bin"), std::string(elsewhere.file("b.bin"))}) {
+    EXPECT_EQ(bch({"inspect", model, "--json", other}, as_metres).code, 0);
+    EXPECT_TRUE(read_text(other).starts_with("{"));
+  }
+}
+
 /// The shell has opened it, but nothing is lost that was there before.
 TEST_F(CliFiles, StandardOutputIsAnOutput) {
   const Ending query = run_program(
