@@ -87,6 +87,7 @@ class Passage {
     for (std::uint32_t& number : numbers) one(number);
   }
   void one(Eigen::Vector3f& vector) { archive_.bytes(vector.data(), sizeof vector); }
+  void one(Eigen::Vector4f& vector) { archive_.bytes(vector.data(), sizeof vector); }
   void one(Eigen::Quaternionf& rotation) { archive_.bytes(rotation.coeffs().data(), sizeof rotation); }
   void one(Eigen::Affine3f& transform) { archive_.bytes(transform.data(), sizeof transform); }
   template <class Value>
@@ -96,7 +97,19 @@ class Passage {
   void one(Influence& influence) { all(influence.bone, influence.weight); }
   void one(Joint& joint) { all(joint.name, joint.parent, joint.rest); }
   void one(Bone& bone) { all(bone.joint, bone.inverse_bind); }
-  void one(Channel& channel) { all(channel.joint, channel.positions, channel.rotations, channel.scales); }
+  void one(Interpolation& interpolation) { archive_.bytes(&interpolation, sizeof interpolation); }
+  template <class Vector>
+  void one(Tangents<Vector>& tangents) {
+    all(tangents.in, tangents.out);
+  }
+  template <class Vector>
+  void one(Curve<Vector>& curve) {
+    all(curve.interpolation, curve.tangents);
+  }
+  void one(Channel& channel) {
+    all(channel.joint, channel.positions, channel.rotations, channel.scales, channel.position_curve,
+        channel.rotation_curve, channel.scale_curve);
+  }
   void one(Clip& clip) { all(clip.name, clip.seconds, clip.channels); }
   void one(ClipReport& clip) { all(clip.name, clip.seconds, clip.channels, clip.channels_in_file); }
   void one(Character& c) {

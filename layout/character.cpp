@@ -76,6 +76,21 @@ void validate_keys(const Character& c, const std::string& place, const std::vect
   }
 }
 
+template <class Value, class Vector>
+void validate_part(const Character& c, const std::string& place, const std::vector<Key<Value>>& keys,
+                   const Curve<Vector>& curve) {
+  validate_keys(c, place, keys);
+  if (curve.interpolation > Interpolation::cubic)
+    reject(c, place + " has interpolation " + std::to_string(static_cast<int>(curve.interpolation)));
+  const std::size_t tangents = curve.interpolation == Interpolation::cubic ? keys.size() : 0;
+  if (curve.tangents.size() != tangents)
+    reject(c, place + " has " + std::to_string(curve.tangents.size()) + " pairs of tangents, not " +
+                  std::to_string(tangents));
+  for (std::size_t k = 0; k < tangents; ++k)
+    if (!curve.tangents[k].in.allFinite() || !curve.tangents[k].out.allFinite())
+      reject(c, place + ", " + at("key", k) + " has tangents that are not finite");
+}
+
 void validate_clips(const Character& c) {
   for (const Clip& clip : c.clips) {
     if (!std::isfinite(clip.seconds) || clip.seconds < 0)
@@ -86,9 +101,9 @@ void validate_clips(const Character& c) {
       if (channel.joint >= c.joints.size()) reject(c, place + " does not exist");
       if (seen[channel.joint]) reject(c, place + " has two channels");
       seen[channel.joint] = true;
-      validate_keys(c, place, channel.positions);
-      validate_keys(c, place, channel.rotations);
-      validate_keys(c, place, channel.scales);
+      validate_part(c, place, channel.positions, channel.position_curve);
+      validate_part(c, place, channel.rotations, channel.rotation_curve);
+      validate_part(c, place, channel.scales, channel.scale_curve);
     }
   }
 }

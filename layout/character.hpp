@@ -26,6 +26,23 @@ struct Key {
   Value value;
 };
 
+/// How values between two keys are computed: linear blends them (rotations spherically), step keeps the earlier
+/// one, cubic is a Hermite spline through the keys with the curve's tangents.
+enum class Interpolation : std::uint8_t { linear, step, cubic };
+
+/// The derivatives of a value at a key, per second: before the key and behind it.
+template <class Vector>
+struct Tangents {
+  Vector in, out;
+};
+
+/// The course of one part of a channel between its keys. Tangents are there for cubic alone, one pair a key.
+template <class Vector>
+struct Curve {
+  Interpolation interpolation = Interpolation::linear;
+  std::vector<Tangents<Vector>> tangents;
+};
+
 /// The motion of one joint relative to its parent; keys in order of time. An empty list leaves
 /// that part of the joint's rest transform as it is.
 struct Channel {
@@ -33,6 +50,10 @@ struct Channel {
   std::vector<Key<Eigen::Vector3f>> positions;
   std::vector<Key<Eigen::Quaternionf>> rotations;
   std::vector<Key<Eigen::Vector3f>> scales;
+  Curve<Eigen::Vector3f> position_curve;
+  Curve<Eigen::Vector4f>
+      rotation_curve;  ///< x, y, z, w; cubic quaternions are normalised after they are blended
+  Curve<Eigen::Vector3f> scale_curve;
 };
 
 struct Clip {
@@ -70,7 +91,7 @@ struct Character {
   std::int32_t root_joint = -1;
 };
 
-/// Checks every promise above: indices, order of joints and keys, finite values, unit quaternions, weights.
+/// Checks every promise above: indices, order of joints and keys, finite values, unit quaternions, tangents, weights.
 /// Errors:  throws std::invalid_argument naming the character, the place and the value.
 void validate(const Character& character);
 

@@ -140,6 +140,12 @@ struct RootChange {
     for (auto& key : channel.positions) key.value = (transform * key.value.cast<double>()).cast<float>();
     for (auto& key : channel.rotations)
       key.value = (rotation * key.value.cast<double>()).normalized().cast<float>();
+    for (auto& tangents : channel.position_curve.tangents)
+      for (Eigen::Vector3f* tangent : {&tangents.in, &tangents.out})
+        *tangent = (transform.linear() * tangent->cast<double>()).cast<float>();
+    for (auto& tangents : channel.rotation_curve.tangents)
+      for (Eigen::Vector4f* tangent : {&tangents.in, &tangents.out})
+        *tangent = (rotation * Eigen::Quaterniond(tangent->cast<double>())).coeffs().cast<float>();
   }
 };
 
@@ -204,10 +210,12 @@ class ClipFile {
   void adapt(Channel& channel, std::uint32_t node, const std::vector<bool>& taken, const Character& character,
              const Pairing& pairing, double ratio) const {
     channel.scales.clear();
+    channel.scale_curve = {};
     const std::int32_t above = character.joints[channel.joint].parent;
     for (std::int32_t j = above; j >= 0; j = character.joints[static_cast<std::size_t>(j)].parent) {
       if (!taken[static_cast<std::size_t>(j)]) continue;
       channel.positions.clear();  // not the topmost: it keeps the character's own bone length
+      channel.position_curve = {};
       return;
     }
     const std::int32_t node_above = nodes_.joints[node].parent;

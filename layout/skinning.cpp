@@ -4,6 +4,7 @@
 #include "layout/skinning.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
 #include "layout/rotation_blend.hpp"
@@ -23,19 +24,54 @@ std::size_t key_after(const std::vector<Key<Value>>& keys, float seconds, std::s
   return static_cast<std::size_t>(after - keys.begin());
 }
 
-/// blend(a, b, t) is between two keys.
-template <class Value, class Blend>
-auto interpolate(const std::vector<Key<Value>>& keys, float seconds, std::size_t& guess, Blend blend) {
-  const std::size_t after = guess = key_after(keys, seconds, guess);
-  const Key<Value>&a = keys[after == 0 ? 0 : after - 1], &b = keys[after == keys.size() ? after - 1 : after];
-  return blend(a.value, b.value, &a == &b ? 0 : (seconds - a.time) / (b.time - a.time));
+Eigen::Vector3d blend(const Eigen::Vector3f& a, const Eigen::Vector3f& b, float t) {
+  return (a + t * (b - a)).cast<double>();
+}
+Eigen::Quaterniond blend(const Eigen::Quaternionf& a, const Eigen::Quaternionf& b, float t) {
+  return slerp(a, b, t);
 }
 
-Eigen::Vector3d interpolate(const std::vector<Key<Eigen::Vector3f>>& keys, float seconds,
-                            std::size_t& guess) {
-  return interpolate(keys, seconds, guess, [](const Eigen::Vector3f& a, const Eigen::Vector3f& b, float t) {
-    return Eigen::Vector3d((a + t * (b - a)).cast<double>());
-  });
+const Eigen::Vector3f& vector_of(const Eigen::Vector3f& value) {
+  return value;
+}
+const Eigen::Vector4f& vector_of(const Eigen::Quaternionf& value) {
+  return value.coeffs();
+}
+
+/// A point of a cubic curve as a value; `earlier` is the key before it.
+Eigen::Vector3d value_of(const Eigen::Vector3d& point, const Eigen::Vector3f&) {
+  return point;
+}
+Eigen::Quaterniond value_of(const Eigen::Vector4d& point, const Eigen::Quaternionf& earlier) {
+  constexpr double least_norm = 1e-6;  // keys of opposite signs lead through 0, which is no rotation
+  const double norm = std::sqrt(point.squaredNorm());
+  return norm < least_norm ? earlier.cast<double>() : Eigen::Quaterniond(point / norm);
+}
+
+/// The cubic Hermite spline of glTF 2.0, appendix C.5, between key a and the next one.
+template <class Value, class Vector>
+auto cubic(const std::vector<Key<Value>>& keys, const Curve<Vector>& curve, std::size_t a, float seconds) {
+  const Key<Value>&from = keys[a], &to = keys[a + 1];
+  const double length = static_cast<double>(to.time) - static_cast<double>(from.time);
+  const double t = (static_cast<double>(seconds) - static_cast<double>(from.time)) / length;
+  const double rest = 1 - t;
+  const auto point = (rest * rest * (1 + 2 * t) * vector_of(from.value).template cast<double>() +
+                      t * t * (3 - 2 * t) * vector_of(to.value).template cast<double>() +
+                      length * t * rest * rest * curve.tangents[a].out.template cast<double>() -
+                      length * t * t * rest * curve.tangents[a + 1].in.template cast<double>())
+                         .eval();
+  return value_of(point, from.value);
+}
+
+/// The value at a time; before the first key and behind the last one theirs.
+template <class Value, class Vector>
+auto interpolate(const std::vector<Key<Value>>& keys, const Curve<Vector>& curve, float seconds,
+                 std::size_t& guess) {
+  const std::size_t after = guess = key_after(keys, seconds, guess);
+  const Key<Value>&a = keys[after == 0 ? 0 : after - 1], &b = keys[after == keys.size() ? after - 1 : after];
+  if (&a != &b && curve.interpolation == Interpolation::cubic) return cubic(keys, curve, after - 1, seconds);
+  const bool holds = &a == &b || curve.interpolation == Interpolation::step;
+  return blend(a.value, b.value, holds ? 0 : (seconds - a.time) / (b.time - a.time));
 }
 
 auto from_above(Eigen::Vector3f& position) {
@@ -85,14 +121,16 @@ AffineRows Skinner::local_transform(std::size_t joint, float seconds, std::size_
   if (!channel->rotations.empty() || !channel->scales.empty()) {
     AffineRows rotation = rest_rotation, scaling = rest_scaling;
     if (!channel->rotations.empty())
-      rotation = AffineRows(interpolate(channel->rotations, seconds, guess, slerp).toRotationMatrix());
+      rotation = AffineRows(
+          interpolate(channel->rotations, channel->rotation_curve, seconds, guess).toRotationMatrix());
     if (!channel->scales.empty())
-      scaling = AffineRows(interpolate(channel->scales, seconds, guess).asDiagonal().toDenseMatrix());
+      scaling = AffineRows(
+          interpolate(channel->scales, channel->scale_curve, seconds, guess).asDiagonal().toDenseMatrix());
     local = rotation * scaling;
     for (int i = 0; i < 3; ++i) local.row[i][3] = rest.row[i][3];
   }
   if (!channel->positions.empty()) {
-    const Eigen::Vector3d position = interpolate(channel->positions, seconds, guess);
+    const Eigen::Vector3d position = interpolate(channel->positions, channel->position_curve, seconds, guess);
     for (int i = 0; i < 3; ++i) local.row[i][3] = position[i];
   }
   return local;

@@ -306,6 +306,15 @@ TEST(Character, ValidationNamesWhatIsWrong) {
     std::swap(c.clips[0].channels[0].positions[0], c.clips[0].channels[0].positions[1]);
   });
   broken([](Character& c) { c.clips[0].channels[1].rotations[0].value.coeffs() *= 2; });
+  broken([](Character& c) { c.clips[0].channels[0].position_curve.interpolation = Interpolation::cubic; });
+  broken([](Character& c) { c.clips[0].channels[0].position_curve.tangents.resize(2); });
+  broken([](Character& c) {
+    c.clips[0].channels[1].rotation_curve.interpolation = static_cast<Interpolation>(3);
+  });
+  broken([nan](Character& c) {
+    const Eigen::Vector3f zero = Eigen::Vector3f::Zero();
+    c.clips[0].channels[0].position_curve = {Interpolation::cubic, {{zero, zero}, {zero, {nan, 0, 0}}}};
+  });
 }
 
 TEST(Character, PosesAreSpreadOverAllClips) {
