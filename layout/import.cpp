@@ -4,6 +4,7 @@
 #include "layout/import.hpp"
 
 #include <new>
+#include <set>
 
 #include "layout/import_clips.hpp"
 #include "layout/import_mesh.hpp"
@@ -35,6 +36,13 @@ std::vector<Joint> carrying_joints(const std::vector<Joint>& joints, std::vector
   return kept;
 }
 
+/// A joint counts once, although several skins may bind it differently.
+std::size_t bone_joints(const Character& character) {
+  std::set<std::uint32_t> joints;
+  for (const Bone& bone : character.bones) joints.insert(bone.joint);
+  return joints.size();
+}
+
 }  // namespace
 
 ImportedCharacter import_detail::character_of(const SceneFile& file, const ImportOptions& options) {
@@ -44,6 +52,8 @@ ImportedCharacter import_detail::character_of(const SceneFile& file, const Impor
   character.name = one_line(file.path.stem().string());
   if (file.format == "Inter-Quake Model Importer")
     report.notes.emplace_back("of this format the rest pose alone is read, without bones and clips");
+  if (!file.gltf.posed_morphs.empty()) file.reject(file.gltf.posed_morphs);
+  report.notes.insert(report.notes.end(), file.gltf.notes.begin(), file.gltf.notes.end());
 
   const NodeList nodes = read_nodes(file);
   const std::vector<bool> bone_is_skin = read_meshes(file, nodes, character, report);
@@ -61,7 +71,7 @@ ImportedCharacter import_detail::character_of(const SceneFile& file, const Impor
 
   report.vertices = character.vertices.size();
   report.triangles = character.triangles.size();
-  report.bones = character.bones.size();
+  report.bones = bone_joints(character);
   report.height = rest_height(character);
   return result;
 }

@@ -47,7 +47,7 @@ struct ImportReport {
   std::size_t triangles = 0;
   std::size_t dropped_faces = 0;     ///< points, lines, faces that name a vertex that is not there
   std::size_t dropped_vertices = 0;  ///< used by no triangle
-  std::size_t bones = 0;
+  std::size_t bones = 0;  ///< joints that move vertices or are bones of a skin
   float height = 0;  ///< of the rest pose, metres
   std::vector<ClipReport> clips;
   std::vector<std::string> notes;  ///< a sentence for every conversion, guess and repair
@@ -58,15 +58,19 @@ struct ImportedCharacter {
   ImportReport report;
 };
 
-/// Reads glTF 2, FBX, Collada, MD5, IQM, OBJ, PLY and STL, and clips of these and of BVH. Of IQM, assimp reads the
+/// Reads glTF 2 itself, and by assimp FBX, Collada, MD5, IQM, OBJ, PLY and STL, and clips of these and of BVH. Of IQM, assimp reads the
 /// rest pose alone.
 /// Files:   up to 1 GiB. A file may name others that lie in the same folder, such as a glTF file's buffer; no
 ///          further one is read, wherever a link or a path leads.
 /// Meshes:  all of the scene, instances included. Polygons are cut into triangles; vertices equal in position
-///          and influences become one; weights are normalised, and any number of them is kept. A vertex
+///          and influences become one; weights, each from 0 to 1 (1.001 for rounding), are normalised, and any
+///          number of them is kept. A vertex
 ///          without weights in a mesh with bones takes those of the nearest vertex that has some.
 /// Frame:   to_ground leads to metres, z up, and never mirrors. Where neither file nor format tells the unit
 ///          or the up axis, they are guessed from the rest pose, and a note says so.
+/// glTF:    the default scene. Required extensions are refused by name but for KHR_mesh_quantization,
+///          KHR_draco_mesh_compression and those of materials, textures and lights. Morph targets with weights
+///          other than 0 are refused.
 /// Joints:  the nodes that carry vertices, and the nodes above them. root_joint is the joint with which clips
 ///          walk, in most skeletons the hips; -1 without bones.
 /// Clips:   those of other files are matched by joint name, any namespace ("mixamorig:") aside. They give the

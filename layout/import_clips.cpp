@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <set>
 
 #include "layout/shortest.hpp"
@@ -22,11 +23,33 @@ Eigen::Quaternionf to_eigen(const aiQuaternion& q) {
   return {q.w, q.x, q.y, q.z};
 }
 
-bool same(const Eigen::Vector3f& a, const Eigen::Vector3f& b) {
-  return a == b;
+const Eigen::Vector3f& vector_of(const Eigen::Vector3f& value) {
+  return value;
 }
-bool same(const Eigen::Quaternionf& a, const Eigen::Quaternionf& b) {
-  return a.coeffs() == b.coeffs();
+const Eigen::Vector4f& vector_of(const Eigen::Quaternionf& value) {
+  return value.coeffs();
+}
+
+/// Puts keys and their tangents in order of time.
+template <class Value, class Vector>
+void sort_keys(std::vector<Key<Value>>& keys, std::vector<Tangents<Vector>>& tangents) {
+  std::vector<std::size_t> order(keys.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return keys[a].time < keys[b].time; });
+  const std::vector<Key<Value>> unsorted = keys;
+  const std::vector<Tangents<Vector>> unsorted_tangents = tangents;
+  for (std::size_t k = 0; k < keys.size(); ++k) keys[k] = unsorted[order[k]];
+  for (std::size_t k = 0; k < tangents.size(); ++k) tangents[k] = unsorted_tangents[order[k]];
+}
+
+template <class Value, class Vector>
+bool is_constant(const std::vector<Key<Value>>& keys, const Curve<Vector>& curve) {
+  const bool equal = std::all_of(keys.begin(), keys.end(), [&](const Key<Value>& key) {
+    return vector_of(key.value) == vector_of(keys.front().value);
+  });
+  return equal && std::all_of(curve.tangents.begin(), curve.tangents.end(),
+                              [](const Tangents<Vector>& t) { return t.in.isZero(0) && t.out.isZero(0); });
 }
 
 /// Reads one animation.
@@ -66,53 +89,83 @@ class ClipReader {
     SourceChannel channel;
     channel.node = to_string(source->mNodeName);
     place_ = "clip '" + clip_.name + "', channel of '" + channel.node + "'";
-    channel.motion.positions =
-        read_keys<Eigen::Vector3f>(source->mPositionKeys, source->mNumPositionKeys, "position");
-    channel.motion.rotations =
-        read_keys<Eigen::Quaternionf>(source->mRotationKeys, source->mNumRotationKeys, "rotation");
-    channel.motion.scales =
-        read_keys<Eigen::Vector3f>(source->mScalingKeys, source->mNumScalingKeys, "scale");
+    const auto how = file_.gltf.interpolations.find(source);
+    const auto [positions, rotations, scales] =
+        how == file_.gltf.interpolations.end() ? ChannelInterpolation() : how->second;
+    Channel& motion = channel.motion;
+    read_part(source->mPositionKeys, source->mNumPositionKeys, "position", positions, motion.positions,
+              motion.position_curve);
+    read_part(source->mRotationKeys, source->mNumRotationKeys, "rotation", rotations, motion.rotations,
+              motion.rotation_curve);
+    read_part(source->mScalingKeys, source->mNumScalingKeys, "scale", scales, motion.scales,
+              motion.scale_curve);
     if (seen_.insert(channel.node).second)
       clip_.channels.push_back(std::move(channel));
     else
       ++repeated_;
   }
 
-  void check(Eigen::Vector3f& value, const std::string& key) {
+  template <class Vector>
+  void check_vector(const Vector& value, const std::string& key) {
     if (!value.allFinite()) file_.reject(place_ + ", " + key + " is not finite");
     if (value.cwiseAbs().maxCoeff() > largest_number) file_.reject(place_ + ", " + key + " is absurd");
   }
 
-  void check(Eigen::Quaternionf& value, const std::string& key) {
+  /// Returns: what the value was divided by.
+  float check(Eigen::Vector3f& value, const std::string& key) {
+    check_vector(value, key);
+    return 1;
+  }
+  float check(Eigen::Quaternionf& value, const std::string& key) {
     const double norm = value.cast<double>().norm();
     if (!std::isfinite(norm) || norm < 1e-6) file_.reject(place_ + ", " + key + " is no rotation");
     if (std::abs(norm - 1) > 1e-3) ++normalised_;
     value = value.cast<double>().normalized().cast<float>();
+    return static_cast<float>(norm);
   }
 
   /// A list of equal keys becomes one key.
-  template <class Value, class AiKey>
-  std::vector<Key<Value>> read_keys(const AiKey* source, unsigned size, const std::string& what) {
+  template <class Value, class Vector, class AiKey>
+  void read_part(const AiKey* source, unsigned size, const std::string& what, Interpolation interpolation,
+                 std::vector<Key<Value>>& keys, Curve<Vector>& curve) {
     if (size > 0 && source == nullptr) file_.reject(place_ + " has no " + what + " keys where it says so");
-    std::vector<Key<Value>> keys(size);
-    for (unsigned k = 0; k < size; ++k) {
-      const double seconds = source[k].mTime / ticks_per_second_;
-      if (!(std::abs(seconds) <= longest_clip))
-        file_.reject(place_ + ", " + what + " key " + std::to_string(k) + " is at " + shortest(seconds) +
-                     " s");
-      keys[k] = {static_cast<float>(seconds), to_eigen(source[k].mValue)};
-      check(keys[k].value, what + " key " + std::to_string(k));
-      first_ = std::min(first_, keys[k].time);
-      last_ = std::max(last_, keys[k].time);
+    const bool cubic = interpolation == Interpolation::cubic;
+    keys.resize(cubic ? size / 3 : size);
+    for (std::size_t k = 0; k < keys.size(); ++k) {
+      const AiKey* const key = source + (cubic ? 3 * k + 1 : k);
+      const std::string name = what + " key " + std::to_string(k);
+      keys[k] = {seconds_of(*key, name), to_eigen(key->mValue)};
+      const float divisor = check(keys[k].value, name);
+      if (!cubic) continue;
+      curve.tangents.push_back({tangent(key[-1], divisor, name), tangent(key[1], divisor, name)});
     }
+    curve.interpolation = interpolation;
     const auto earlier = [](const Key<Value>& a, const Key<Value>& b) { return a.time < b.time; };
     if (!std::is_sorted(keys.begin(), keys.end(), earlier)) {
       ++unordered_;
-      std::stable_sort(keys.begin(), keys.end(), earlier);
+      sort_keys(keys, curve.tangents);
     }
-    const auto like_first = [&](const Key<Value>& key) { return same(key.value, keys.front().value); };
-    if (!keys.empty() && std::all_of(keys.begin(), keys.end(), like_first)) keys.resize(1);
-    return keys;
+    if (keys.empty() || !is_constant(keys, curve)) return;
+    keys.resize(1);
+    curve = {};
+  }
+
+  template <class AiKey>
+  float seconds_of(const AiKey& key, const std::string& name) {
+    const double seconds = key.mTime / ticks_per_second_;
+    if (!(std::abs(seconds) <= longest_clip))
+      file_.reject(place_ + ", " + name + " is at " + shortest(seconds) + " s");
+    first_ = std::min(first_, static_cast<float>(seconds));
+    last_ = std::max(last_, static_cast<float>(seconds));
+    return static_cast<float>(seconds);
+  }
+
+  template <class AiKey>
+  auto tangent(const AiKey& key, float divisor, const std::string& name) {
+    const auto value = to_eigen(key.mValue);
+    const auto vector = (vector_of(value) / divisor).eval();
+    check_vector(vector, "tangent of " + name);
+    return vector;
   }
 
   /// A clip that starts before 0 is moved, as a pose's time counts from the start.
@@ -155,6 +208,19 @@ std::vector<SourceClip> read_clips(const SceneFile& file, std::vector<std::strin
     clips.push_back(ClipReader(file, *animation, std::move(name)).read(notes));
   }
   return clips;
+}
+
+std::vector<Eigen::Vector3d> hull_of_positions(const Channel& channel) {
+  const auto& keys = channel.positions;
+  const auto& tangents = channel.position_curve.tangents;
+  std::vector<Eigen::Vector3d> hull;
+  for (const auto& key : keys) hull.push_back(key.value.cast<double>());
+  for (std::size_t k = 1; k < tangents.size(); ++k) {
+    const double third = (static_cast<double>(keys[k].time) - static_cast<double>(keys[k - 1].time)) / 3;
+    hull.push_back(hull[k - 1] + third * tangents[k - 1].out.cast<double>());
+    hull.push_back(hull[k] - third * tangents[k].in.cast<double>());
+  }
+  return hull;
 }
 
 void add_own_clips(const SceneFile& file, const NodeList& nodes, Character& character, ImportReport& report) {

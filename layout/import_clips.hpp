@@ -35,6 +35,10 @@ void add_own_clips(const SceneFile& file, const NodeList& nodes, Character& char
 void add_clips_of(const std::filesystem::path& clip_file, const ImportOptions& options, Direction up,
                   Character& character, ImportReport& report);
 
+/// Positions between which a channel's positions stay: its keys, and of a cubic part the inner control points of each
+/// segment as a Bezier curve.
+std::vector<Eigen::Vector3d> hull_of_positions(const Channel& channel);
+
 /// The joint whose point on the ground is a shape's origin: see the source.
 std::int32_t find_root_joint(const Character& character, const std::vector<bool>& bone_is_skin);
 

@@ -18,7 +18,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::string_view supported[] = {
-    "glTF2 Importer",
     "Autodesk FBX Importer",
     "Collada Importer",
     "Doom 3 / MD5 Mesh Importer",

@@ -50,7 +50,7 @@ double travel(const Character& character, std::size_t joint, double metres_per_u
     for (const Channel& channel : clip.channels) {
       if (channel.joint != joint || channel.positions.empty()) continue;
       Eigen::AlignedBox3d box;
-      for (const auto& key : channel.positions) box.extend(key.value.cast<double>());
+      for (const Eigen::Vector3d& position : hull_of_positions(channel)) box.extend(position);
       farthest = std::max(farthest, metres_per_unit * box.diagonal().norm());
     }
   return farthest;

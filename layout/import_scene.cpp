@@ -12,6 +12,7 @@
 #include <new>
 
 #include "layout/import_files.hpp"
+#include "layout/import_gltf_file.hpp"
 
 namespace bch::import_detail {
 namespace {
@@ -80,17 +81,22 @@ std::string to_string(const aiString& text) {
 
 SceneFile::SceneFile(const std::filesystem::path& file, const ImportOptions& options) : path(file) {
   check_readable(file);
+  if (is_gltf(file)) {
+    gltf = read_gltf(file);
+    scene = gltf.scene.get();
+    format = "glTF2 Importer";
+    return;
+  }
   set_up(importer, file, options);
   // Nothing else of assimp's post-processing: joining vertices merges them without regard to their weights,
   // and each further step is a further place to fail on a damaged file.
   scene = importer.ReadFile(file.string(), aiProcess_Triangulate);
-  if (scene == nullptr) reject(reason_of_failure(importer));
-  if (scene->mRootNode == nullptr) reject("no scene");
-
   const int index = importer.GetPropertyInteger("importerIndex", -1);
   const aiImporterDesc* description =
       index < 0 ? nullptr : importer.GetImporterInfo(static_cast<std::size_t>(index));
   if (description != nullptr && description->mName != nullptr) format = description->mName;
+  if (scene == nullptr) reject(reason_of_failure(importer));
+  if (scene->mRootNode == nullptr) reject("no scene");
 }
 
 Eigen::Affine3f read_matrix(const SceneFile& file, const aiMatrix4x4& m, const std::string& what) {

@@ -15,8 +15,9 @@
 #include <vector>
 
 #include "layout/import.hpp"
+#include "layout/import_gltf.hpp"
 
-// Private to the importer: a file as assimp read it, and the first checks of what it returned.
+// Private to the importer: a file as a scene of assimp's types, and the first checks of it.
 
 namespace bch::import_detail {
 
@@ -35,7 +36,8 @@ std::string to_string(const aiString& text);
 
 struct SceneFile {
   std::filesystem::path path;
-  Assimp::Importer importer;  ///< owns the scene
+  Assimp::Importer importer;  ///< owns the scene of a file that assimp reads
+  GltfScene gltf;             ///< of a glTF file
   const aiScene* scene = nullptr;
   std::string format;
 

@@ -15,6 +15,8 @@ namespace {
 /// Float cannot tell a sum from one without such a share.
 constexpr double smallest_share = 1e-7;
 constexpr double sum_tolerance = 1e-3;
+/// What rounding may add to a weight of 1.
+constexpr float largest_weight = 1.001f;
 
 bool carries_weight(const aiBone& bone) {
   for (unsigned w = 0; w < bone.mNumWeights && bone.mWeights != nullptr; ++w)
@@ -40,8 +42,9 @@ void read_bone(const SceneFile& file, const NodeList& nodes, const aiBone& bone,
     const auto [vertex, weight] = bone.mWeights[w];
     if (vertex >= lists.size())
       file.reject(name + " names vertex " + std::to_string(vertex) + " of " + std::to_string(lists.size()));
-    if (!std::isfinite(weight) || weight < 0)
-      file.reject(name + " gives vertex " + std::to_string(vertex) + " the weight " + shortest(weight));
+    if (!(weight >= 0 && weight <= largest_weight))
+      file.reject(name + " gives vertex " + std::to_string(vertex) + " the weight " + shortest(weight) +
+                  ", which is not within 0 and 1");
     if (weight > 0) lists[vertex].push_back({index, weight});
   }
 }

@@ -11,6 +11,7 @@
 #include <span>
 #include <stdexcept>
 
+#include "layout/import_clips.hpp"
 #include "layout/shortest.hpp"
 #include "layout/skinning.hpp"
 
@@ -154,8 +155,8 @@ void check_ways(const SceneFile& file, const Character& character) {
   const std::vector<double> scales = metres_above(character);
   for (const Clip& clip : character.clips)
     for (const Channel& channel : clip.channels)
-      for (const auto& key : channel.positions)
-        if (!(key.value.cast<double>().norm() * scales[channel.joint] <= static_cast<double>(farthest)))
+      for (const Eigen::Vector3d& position : hull_of_positions(channel))
+        if (!(position.norm() * scales[channel.joint] <= static_cast<double>(farthest)))
           file.reject("clip '" + clip.name + "' takes joint '" + character.joints[channel.joint].name +
                       "' absurdly far away");
 }

@@ -33,25 +33,43 @@ std::string little_endian(std::size_t number) {
 
 }  // namespace
 
-std::string GltfFile::add(const void* data, std::size_t bytes, std::size_t values, int component,
-                          const std::string& type) {
-  const std::size_t elements = type == "SCALAR" ? 1 : type == "MAT4" ? 16 : type == "VEC4" ? 4 : 3;
-  const std::string index = std::to_string(accessors_.size());
+std::string GltfFile::add_view(const void* data, std::size_t bytes) {
   views_.push_back("{\"buffer\":0,\"byteOffset\":" + std::to_string(buffer_.size()) +
                    ",\"byteLength\":" + std::to_string(bytes) + "}");
-  accessors_.push_back("{\"bufferView\":" + index + ",\"componentType\":" + std::to_string(component) +
-                       ",\"count\":" + std::to_string(values / elements) + ",\"type\":\"" + type + "\"}");
   buffer_.append(static_cast<const char*>(data), bytes);
   buffer_.resize((buffer_.size() + 3) / 4 * 4);
-  return index;
+  return std::to_string(views_.size() - 1);
+}
+
+std::string GltfFile::add_accessor(const std::string& json) {
+  accessors_.push_back(json);
+  return std::to_string(accessors_.size() - 1);
+}
+
+std::string GltfFile::add(const void* data, std::size_t bytes, std::size_t values, int component,
+                          const std::string& type, bool normalised) {
+  const std::size_t elements = type == "SCALAR" ? 1 : type == "MAT4" ? 16 : type == "VEC4" ? 4 : 3;
+  return add_accessor("{\"bufferView\":" + add_view(data, bytes) +
+                      (normalised ? ",\"normalized\":true" : "") +
+                      ",\"componentType\":" + std::to_string(component) +
+                      ",\"count\":" + std::to_string(values / elements) + ",\"type\":\"" + type + "\"}");
 }
 
 std::string GltfFile::add(const std::vector<float>& values, const std::string& type) {
   return add(values.data(), values.size() * sizeof(float), values.size(), 5126, type);
 }
 
-std::string GltfFile::add(const std::vector<std::uint16_t>& values, const std::string& type) {
-  return add(values.data(), values.size() * sizeof(std::uint16_t), values.size(), 5123, type);
+std::string GltfFile::add(const std::vector<std::uint16_t>& values, const std::string& type,
+                          bool normalised) {
+  return add(values.data(), values.size() * sizeof(std::uint16_t), values.size(), 5123, type, normalised);
+}
+
+std::string GltfFile::add(const std::vector<std::uint8_t>& values, const std::string& type, bool normalised) {
+  return add(values.data(), values.size(), values.size(), 5121, type, normalised);
+}
+
+std::string GltfFile::add(const std::vector<std::int16_t>& values, const std::string& type, bool normalised) {
+  return add(values.data(), values.size() * sizeof(std::int16_t), values.size(), 5122, type, normalised);
 }
 
 std::string GltfFile::json(const std::string& uri) const {
@@ -93,7 +111,7 @@ GltfFile SkinnedStrip::file() const {
                 "},{\"name\":\"camera\",\"translation\":[9,9,9]},{" + armature +
                 "\"name\":\"armature\",\"children\":[1]}]");
   gltf.add_json("\"scenes\":[{\"nodes\":[0,4,3]}],\"scene\":0");
-  const std::string input = "{\"input\":" + gltf.add(times, "SCALAR") + ",\"output\":";
+  const std::string input = "{" + interpolation + "\"input\":" + gltf.add(times, "SCALAR") + ",\"output\":";
   std::string samplers = input + gltf.add(way, "VEC3") + "}," + input + gltf.add(turns, "VEC4") + "}";
   std::string channels =
       "{\"sampler\":0,\"target\":{\"node\":1,\"path\":\"translation\"}},"

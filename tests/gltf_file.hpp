@@ -15,7 +15,14 @@ class GltfFile {
   /// Adds an accessor of floats or unsigned shorts; `type` is "SCALAR", "VEC3", "MAT4" ...
   /// Returns: its index as text, to stand in the JSON.
   std::string add(const std::vector<float>& values, const std::string& type);
-  std::string add(const std::vector<std::uint16_t>& values, const std::string& type);
+  std::string add(const std::vector<std::uint16_t>& values, const std::string& type, bool normalised = false);
+  std::string add(const std::vector<std::uint8_t>& values, const std::string& type, bool normalised = false);
+  std::string add(const std::vector<std::int16_t>& values, const std::string& type, bool normalised = false);
+
+  /// Adds an accessor by its JSON.
+  std::string add_accessor(const std::string& json);
+  /// Adds a buffer view alone. Returns: its index.
+  std::string add_view(const void* data, std::size_t bytes);
 
   /// Adds members of the top-level object, such as "\"nodes\":[{}]".
   void add_json(const std::string& members) { members_.push_back(members); }
@@ -30,7 +37,7 @@ class GltfFile {
   std::vector<std::string> views_, accessors_, members_;
 
   std::string add(const void* data, std::size_t bytes, std::size_t values, int component,
-                  const std::string& type);
+                  const std::string& type, bool normalised = false);
   std::string json(const std::string& uri) const;
 };
 
@@ -55,7 +62,8 @@ struct SkinnedStrip {
   std::string armature;   ///< members of the node above the hips, such as "\"scale\":[1,1,1],"
   std::string hips_turn;  ///< members of the hips, such as "\"rotation\":[0,0,0,1],"
   std::string head_place = "\"translation\":[0,0.5,0]";
-  int mode = 4;  ///< of the primitive: triangles
+  int mode = 4;               ///< of the primitive: triangles
+  std::string interpolation;  ///< member of all samplers, such as "\"interpolation\":\"STEP\","
 
   GltfFile file() const;
   std::string text() const { return file().text(); }

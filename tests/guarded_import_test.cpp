@@ -47,12 +47,21 @@ ImportedCharacter good() {
 
 TEST(GuardedImport, ACharacterArrivesAsItWasRead) {
   const TemporaryFolder folder;
-  const std::string file = folder.write("strip.gltf", SkinnedStrip().text());
+  SkinnedStrip strip;
+  strip.interpolation = "\"interpolation\":\"CUBICSPLINE\",";
+  strip.times = {0};
+  strip.way.assign(9, 1);
+  strip.turns.assign(12, 0.5f);
+  const std::string file = folder.write("strip.gltf", strip.text());
   const std::string direct = to_bytes(import_character(file));
   EXPECT_EQ(to_bytes(guarded_import(file, ImportOptions{})), direct);
   const ImportedCharacter again = imported_from(direct);
   EXPECT_EQ(to_bytes(again), direct);
   EXPECT_EQ(again.character.clips.at(0).channels.size(), 2u);
+  const Curve<Eigen::Vector3f>& curve = again.character.clips[0].channels[0].position_curve;
+  EXPECT_EQ(curve.interpolation, Interpolation::cubic);
+  ASSERT_EQ(curve.tangents.size(), 1u);
+  EXPECT_EQ(curve.tangents[0].out, Eigen::Vector3f::Ones());
   EXPECT_EQ(again.report.clips.at(0).name, "walk");
   EXPECT_EQ(again.report.triangles, 2u);
 }

@@ -230,13 +230,15 @@ TEST_F(ImportData, NastyFilesAreReadOrRefusedAndNothingElse) {
 }
 
 TEST_F(ImportData, NastyFilesAreRefusedForTheRightReason) {
-  const std::pair<const char*, const char*> files[] = {{"BoxWithInfinites.glb", "vertex 0 is not finite"},
-                                                       {"empty.obj", "empty file"},
-                                                       {"box_UTF16BE.obj", "no triangles"},
-                                                       {"points.ply", "no triangles"},
-                                                       {"testline.obj", "no triangles"},
-                                                       {"nosurfaces.ac", "no known format"},
-                                                       {"IncorrectVertexArrays/Cube.bin", "no known format"}};
+  const std::pair<const char*, const char*> files[] = {
+      {"BoxWithInfinites.glb", "vertex 0 is not finite"},
+      {"empty.obj", "empty file"},
+      {"../gltf/required_unknown.gltf", "extension 'EXT_foo'"},
+      {"box_UTF16BE.obj", "no triangles"},
+      {"points.ply", "no triangles"},
+      {"testline.obj", "no triangles"},
+      {"nosurfaces.ac", "no known format"},
+      {"IncorrectVertexArrays/Cube.bin", "no known format"}};
   for (const auto& [name, reason] : files) {
     try {
       import_character(data / "nasty" / name);
@@ -245,6 +247,35 @@ TEST_F(ImportData, NastyFilesAreRefusedForTheRightReason) {
       EXPECT_NE(std::string_view(error.what()).find(reason), std::string_view::npos) << error.what();
     }
   }
+}
+
+/// How far two characters' vertices are apart in the worst of some poses of their first clips.
+float farthest_apart(const Character& a, const Character& b) {
+  Skinner of_a(a), of_b(b);
+  float farthest = 0;
+  for (const float share : {0.0f, 0.1f, 0.35f, 0.6f, 0.9f, 1.0f}) {
+    const auto pose_a = of_a.pose({0, share * a.clips.at(0).seconds});
+    const auto pose_b = of_b.pose({0, share * b.clips.at(0).seconds});
+    EXPECT_EQ(pose_a.size(), pose_b.size());
+    for (std::size_t v = 0; v < pose_a.size(); ++v)
+      farthest = std::max(farthest, (pose_a[v] - pose_b[v]).norm());
+  }
+  return farthest;
+}
+
+TEST_F(ImportData, CornersOfGltf) {
+  const auto read = [&](const char* name) { return import_character(data / "gltf" / name); };
+  const Character floats = read("skin_f32.gltf").character;
+  // Weights are told to 1/510 and 1/131070.
+  EXPECT_LT(farthest_apart(floats, read("skin_u8.gltf").character), 0.02f);
+  EXPECT_LT(farthest_apart(floats, read("skin_u16.gltf").character), 1e-4f);
+  const Character linear = read("linear.gltf").character;
+  EXPECT_LT(farthest_apart(linear, read("rot_i16.gltf").character), 1e-3f);
+  EXPECT_GT(farthest_apart(linear, read("step.gltf").character), 0.1f);
+  EXPECT_GT(farthest_apart(linear, read("cubic.gltf").character), 0.1f);
+  for (const char* name : {"skin_noibm.gltf", "skin_w8.gltf", "quant.gltf"})
+    EXPECT_EQ(read(name).report.triangles, 12u) << name;
+  EXPECT_NEAR(read("quant.gltf").report.height, 1.6f, 1e-4f);
 }
 
 TEST_F(ImportData, OddFilesKeepWhatIsGood) {

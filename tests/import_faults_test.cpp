@@ -56,7 +56,7 @@ TEST_F(ImportFaults, FilesThatAreNone) {
   expect_error(folder.path() / "missing.glb", "no such file");
   expect_error(folder.path(), "is a directory");
   expect_error("empty.glb", "", "empty file");
-  expect_error("text.glb", "This is\nnot a model.\n", "Invalid binary glTF file");
+  expect_error("text.glb", "This is\nnot a model.\n", "no glTF");
   expect_error("text.gltf", "This is\nnot a model.\n", "");
   expect_error("unknown.zzz", "This is\nnot a model.\n", "damaged, or of no known format");
 }
@@ -82,7 +82,7 @@ TEST_F(ImportFaults, MessageStaysOneLineForAnyFileName) {
 
 TEST_F(ImportFaults, NothingToDraw) {
   expect_strip_error([](SkinnedStrip& s) { s.mode = 0; }, "no triangles");
-  expect_strip_error([](SkinnedStrip& s) { s.indices = {0, 77, 78}; }, "has no faces");
+  expect_strip_error([](SkinnedStrip& s) { s.indices = {0, 77, 78}; }, "no triangles");
   expect_error("points.ply",
                "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\n"
                "property float z\nend_header\n0 0 0\n",
@@ -98,6 +98,10 @@ TEST_F(ImportFaults, Positions) {
 
 TEST_F(ImportFaults, WeightsAndBones) {
   expect_strip_error([](SkinnedStrip& s) { s.weights.assign(16, 0); }, "zero weights");
+  expect_strip_error([](SkinnedStrip& s) { s.weights[5] = nan; }, "gives vertex 1 the weight nan");
+  expect_strip_error([](SkinnedStrip& s) { s.weights[5] = -0.5f; }, "gives vertex 1 the weight -0.5");
+  expect_strip_error([](SkinnedStrip& s) { s.weights[8] = 1.01f; }, "gives vertex 2 the weight 1.01");
+  expect_strip_error([](SkinnedStrip& s) { s.joints[13] = 2; }, "gives vertex 3 joint 2 of 2");
   expect_strip_error([](SkinnedStrip& s) { s.inverse_binds[12] = nan; }, "bone 'hips' of mesh 0 'strip'");
   expect_strip_error([](SkinnedStrip& s) { s.inverse_binds[16 + 3] = 2; }, "not affine");
   expect_strip_error([](SkinnedStrip& s) { s.inverse_binds[0] = 1e20f; }, "absurd transform");

@@ -178,6 +178,15 @@ std::string with_carriage_returns(const std::string& text) {
   return out;
 }
 
+TEST_F(ImportFormats, SaysThatNodesShareAName) {
+  std::string text = with_carriage_returns(md5_mesh);
+  const std::filesystem::path distinct = folder.write("distinct.md5mesh", text);
+  EXPECT_FALSE(has_note(import_character(distinct).report, "several nodes"));
+  text.replace(text.find("\"head\""), 6, "\"hips\"");
+  const std::filesystem::path shared = folder.write("shared.md5mesh", text);
+  EXPECT_TRUE(has_note(import_character(shared).report, "several nodes are named 'hips'"));
+}
+
 TEST_F(ImportFormats, Md5WithItsMotionInAnotherFile) {
   ImportOptions options;
   options.clip_files = {folder.write("stroll.md5anim", with_carriage_returns(md5_anim))};

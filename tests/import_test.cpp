@@ -67,6 +67,7 @@ TEST_F(Import, StaticMeshFollowsItsNodeAndPolygonsBecomeTriangles) {
   EXPECT_EQ(character.name, "post");
   EXPECT_EQ(character.triangles.size(), 2u);
   EXPECT_EQ(character.vertices.size(), 4u);
+  EXPECT_EQ(report.bones, 1u);
   ASSERT_EQ(character.bones.size(), 1u);
   EXPECT_TRUE(character.bones[0].inverse_bind.isApprox(Eigen::Affine3f::Identity()));
   EXPECT_EQ(character.root_joint, -1);
@@ -154,7 +155,7 @@ TEST_F(Import, SkinnedMeshPlaysItsClip) {
 
 TEST_F(Import, NormalisesWeightsAndSaysSo) {
   SkinnedStrip strip;
-  strip.weights = {3, 0, 0, 0, 1, 0.25f, 0, 0, 0, 1, 0, 0, 0.5f, 0.5f, 0, 0};
+  strip.weights = {0.3f, 0, 0, 0, 1, 0.25f, 0, 0, 0, 1, 0, 0, 0.5f, 0.5f, 0, 0};
   const auto [character, report] = import("strip.gltf", strip.text());
   EXPECT_TRUE(has_note(report, "the weights of 2 vertices")) << all_notes(report);
   const std::uint32_t mixed = character.triangles[0][1];
@@ -248,13 +249,6 @@ TEST_F(Import, RootIsTheJointThatWalks) {
   EXPECT_EQ(root(strip), "hips");
 }
 
-TEST_F(Import, SaysThatNodesShareAName) {
-  SkinnedStrip strip;
-  EXPECT_FALSE(has_note(import("strip.gltf", strip.text()).report, "several nodes"));
-  strip.head = "body";  // as the node of the mesh
-  EXPECT_TRUE(has_note(import("strip.gltf", strip.text()).report, "several nodes are named 'body'"));
-}
-
 TEST_F(Import, EveryInstanceOfAMeshCounts) {
   GltfFile gltf;
   const std::string positions = gltf.add(std::vector<float>{0, 0, 0, 1, 0, 0, 0, 2, 0}, "VEC3");
@@ -276,7 +270,7 @@ TEST_F(Import, EveryInstanceOfAMeshCounts) {
 
 TEST_F(Import, ReadingTwiceGivesTheSame) {
   SkinnedStrip strip;
-  strip.weights = {3, 0, 0, 0, 1, 0.25f, 0, 0, 0, 1, 0, 0, 0, 0, 0, 0};
+  strip.weights = {0.3f, 0, 0, 0, 1, 0.25f, 0, 0, 0, 1, 0, 0, 0, 0, 0, 0};
   const auto first = import("strip.gltf", strip.text());
   const auto second = import("strip.gltf", strip.text());
   EXPECT_EQ(first.character.vertices, second.character.vertices);
