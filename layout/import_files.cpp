@@ -4,6 +4,7 @@
 #include "layout/import_files.hpp"
 
 #include <assimp/BaseImporter.h>
+#include <assimp/MemoryIOWrapper.h>
 #include <assimp/importerdesc.h>
 
 #include <algorithm>
@@ -16,6 +17,8 @@ namespace bch::import_detail {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
 
 constexpr std::string_view supported[] = {
     "Autodesk FBX Importer",
@@ -32,6 +35,15 @@ bool is_supported(const Assimp::Importer& importer, std::size_t index) {
   const aiImporterDesc* const description = importer.GetImporterInfo(index);
   return description != nullptr && std::find(std::begin(supported), std::end(supported),
                                              std::string_view(description->mName)) != std::end(supported);
+}
+
+/// Whether a stream is UTF-8 text behind a byte order mark, which the readers of OBJ and others take for a part of the
+/// first line. What holds a zero where a binary STL file has its counts is no text. Leaves the stream at its beginning.
+bool begins_with_mark(Assimp::IOStream& stream) {
+  char start[84];
+  const std::string_view text(start, stream.Read(start, 1, sizeof start));
+  stream.Seek(0, aiOrigin_SET);
+  return text.starts_with(byte_order_mark) && text.find('\0') == std::string_view::npos;
 }
 
 }  // namespace
@@ -52,7 +64,14 @@ bool FileAndSiblings::Exists(const char* path) const {
 
 Assimp::IOStream* FileAndSiblings::Open(const char* path, const char* mode) {
   const bool reads = mode != nullptr && mode[0] == 'r' && std::strchr(mode, '+') == nullptr;
-  return reads && path != nullptr && allows(path) ? DefaultIOSystem::Open(path, mode) : nullptr;
+  if (!reads || path == nullptr || !allows(path)) return nullptr;
+  std::unique_ptr<Assimp::IOStream> stream(DefaultIOSystem::Open(path, mode));
+  if (stream == nullptr || !begins_with_mark(*stream)) return stream.release();
+  const std::size_t size = stream->FileSize() - byte_order_mark.size();
+  std::unique_ptr<std::uint8_t[]> bytes(new std::uint8_t[size]);
+  stream->Seek(byte_order_mark.size(), aiOrigin_SET);
+  const std::size_t got = stream->Read(bytes.get(), 1, size);
+  return new Assimp::MemoryIOStream(bytes.release(), got, true);
 }
 
 void keep_supported_formats(Assimp::Importer& importer) {

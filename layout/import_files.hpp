@@ -18,7 +18,7 @@ constexpr std::uintmax_t largest_file = std::uintmax_t{1} << 30;
 
 /// Lets assimp read the given file and those that lie beside it, in the same folder: a buffer, a clip of the
 /// same name. Links that lead elsewhere, folders, pipes, devices and files beyond largest_file are not there
-/// for it, and it writes nothing.
+/// for it, and it writes nothing. Text is given without a byte order mark of UTF-8.
 class FileAndSiblings : public Assimp::DefaultIOSystem {
  public:
   explicit FileAndSiblings(const std::filesystem::path& file);

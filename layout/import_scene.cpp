@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
 #include <new>
 
 #include "layout/import_files.hpp"
@@ -40,6 +41,13 @@ void set_up(Assimp::Importer& importer, const std::filesystem::path& file, const
   // A file with a skeleton alone (BVH) would get a made-up mesh of pyramids.
   importer.SetPropertyBool(AI_CONFIG_IMPORT_NO_SKELETON_MESHES, true);
   if (options.up) importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);
+}
+
+bool is_utf16(const std::filesystem::path& file) {
+  char start[2] = {};
+  std::ifstream(file, std::ios::binary).read(start, sizeof start);
+  const std::string_view mark(start, sizeof start);
+  return mark == "\xFE\xFF" || mark == "\xFF\xFE";
 }
 
 std::string reason_of_failure(const Assimp::Importer& importer) {
@@ -95,6 +103,9 @@ SceneFile::SceneFile(const std::filesystem::path& file, const ImportOptions& opt
   const aiImporterDesc* description =
       index < 0 ? nullptr : importer.GetImporterInfo(static_cast<std::size_t>(index));
   if (description != nullptr && description->mName != nullptr) format = description->mName;
+  // Some readers know UTF-16; the one of OBJ finds an empty scene in it.
+  if ((scene == nullptr || format == "Wavefront Object Importer") && is_utf16(file))
+    reject("text in UTF-16, which is not read in this format: convert it to UTF-8");
   if (scene == nullptr) reject(reason_of_failure(importer));
   if (scene->mRootNode == nullptr) reject("no scene");
 }

@@ -234,7 +234,7 @@ TEST_F(ImportData, NastyFilesAreRefusedForTheRightReason) {
       {"BoxWithInfinites.glb", "vertex 0 is not finite"},
       {"empty.obj", "empty file"},
       {"../gltf/required_unknown.gltf", "extension 'EXT_foo'"},
-      {"box_UTF16BE.obj", "no triangles"},
+      {"box_UTF16BE.obj", "text in UTF-16"},
       {"points.ply", "no triangles"},
       {"testline.obj", "no triangles"},
       {"nosurfaces.ac", "no known format"},

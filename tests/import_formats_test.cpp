@@ -113,6 +113,24 @@ TEST_F(ImportFormats, ColladaSaysItsAxisAndUnit) {
   EXPECT_NEAR(import_character(file, options).report.height, 0.2f, 1e-5f);
 }
 
+TEST_F(ImportFormats, TextMayBeginWithAByteOrderMark) {
+  const std::string text = "v 0 0 0\nv 0.5 0 0\nv 0 1.8 0\nf 1 2 3\n";
+  const Character plain = import_character(folder.write("plain.obj", text)).character;
+  const Character marked = import_character(folder.write("marked.obj", "\xEF\xBB\xBF" + text)).character;
+  EXPECT_EQ(marked.vertices, plain.vertices);
+  EXPECT_EQ(marked.triangles, plain.triangles);
+  std::string wide = "\xFF\xFE";
+  for (const char c : text) wide.append({c, '\0'});
+  for (const char* name : {"wide.obj", "wide.ply"}) {
+    try {
+      import_character(folder.write(name, wide));
+      ADD_FAILURE() << name << " was accepted";
+    } catch (const ImportError& error) {
+      EXPECT_NE(std::string(error.what()).find("text in UTF-16"), std::string::npos) << error.what();
+    }
+  }
+}
+
 const char* const md5_mesh = R"(MD5Version 10
 commandline ""
 numJoints 2
