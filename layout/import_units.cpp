@@ -59,6 +59,14 @@ DeclaredFrame declared_by_fbx(const SceneFile& file) {
   return frame;
 }
 
+/// What a Collada file declares: its reader turns the root node so that this becomes y.
+std::optional<Direction> up_before_reader(const aiMatrix4x4& root) {
+  const Eigen::Vector3f row = Eigen::Vector3f(root.b1, root.b2, root.b3).normalized();
+  for (int axis = 0; axis < 3; ++axis)
+    if (std::abs(row[axis]) > 0.999f) return Direction{static_cast<UpAxis>(axis), row[axis] < 0};
+  return std::nullopt;
+}
+
 Eigen::AlignedBox3f box_of(std::span<const Eigen::Vector3f> positions) {
   Eigen::AlignedBox3f box;
   for (const Eigen::Vector3f& position : positions) box.extend(position);
@@ -119,7 +127,8 @@ Direction choose_up(const DeclaredFrame& declared, const ImportOptions& options,
     up.axis = rest.sizes().y() >= rest.sizes().z() ? UpAxis::y : UpAxis::z;
     source = ", guessed from the rest pose (set the up axis to override)";
   }
-  const std::string name = name_of(up);
+  const bool reader_turned = !options.up && declared.told_up;
+  const std::string name = name_of(reader_turned ? *declared.told_up : up);
   report.notes.push_back((name == "z" ? "z up" : name + " up -> z up") + source);
   return up;
 }
@@ -185,6 +194,8 @@ DeclaredFrame declared_frame(const SceneFile& file) {
     frame.scale = format.scale;
     frame.scale_source = format.scale_source;
   }
+  if (file.format == "Collada Importer")
+    frame.told_up = up_before_reader(file.scene->mRootNode->mTransformation);
   return frame;
 }
 

@@ -107,10 +107,15 @@ TEST_F(ImportFormats, ColladaSaysItsAxisAndUnit) {
 <instance_geometry url="#g"/></node></visual_scene></library_visual_scenes>
 <scene><instance_visual_scene url="#s"/></scene></COLLADA>
 )");
-  EXPECT_NEAR(import_character(file).report.height, 1.8f, 1e-5f);
+  const ImportReport report = import_character(file).report;
+  EXPECT_NEAR(report.height, 1.8f, 1e-5f);
+  EXPECT_TRUE(has_note(report, "z up"));
+  EXPECT_FALSE(has_note(report, "y up"));
   ImportOptions options;
   options.up = UpAxis::y;
-  EXPECT_NEAR(import_character(file, options).report.height, 0.2f, 1e-5f);
+  const ImportReport turned = import_character(file, options).report;
+  EXPECT_NEAR(turned.height, 0.2f, 1e-5f);
+  EXPECT_TRUE(has_note(turned, "y up -> z up, as the caller says"));
 }
 
 TEST_F(ImportFormats, TextMayBeginWithAByteOrderMark) {
