@@ -8,6 +8,7 @@
 
 #include "layout/baked_image.hpp"
 #include "tests/baked_bytes.hpp"
+#include "tests/gltf_file.hpp"
 #include "tests/scenes.hpp"
 
 namespace bch::test {
@@ -65,6 +66,18 @@ void add_lines(Folder folder) {
   }
 }
 
+void add_gltf(Folder folder) {
+  folder.add(SkinnedStrip().file().binary());
+  SkinnedStrip strip;
+  strip.interpolation = "\"interpolation\":\"STEP\",";
+  strip.armature = "\"matrix\":[1,0,0,0,0,1,0,0,0,0,1,0,0,0,0,1],";
+  strip.mode = 5;
+  folder.add(strip.text());
+  strip.interpolation = "\"interpolation\":\"CUBICSPLINE\",";
+  strip.times = {0};
+  folder.add(strip.text());
+}
+
 void add_noise(Folder folder, std::uint64_t seed) {
   Random random(seed);
   for (const std::uint32_t size : {40u, 150u, 300u, 600u, 1200u}) {
@@ -83,6 +96,7 @@ int main(int argc, char** argv) {
   add_images({argv[1], "baked_file"});
   add_tables({argv[1], "csv"});
   add_lines({argv[1], "options"});
+  add_gltf({argv[1], "gltf"});
   std::uint64_t seed = 10;
   for (const char* target : {"scene", "outline", "hierarchy", "collide"})
     add_noise({argv[1], target}, ++seed);
