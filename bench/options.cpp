@@ -43,7 +43,7 @@ void require_absent(const CLI::App& command, std::initializer_list<const char*> 
 }
 
 void require_unsettled(const CLI::App& command, const std::string& baked_file) {
-  for (const char* option : {"--clips", "--up", "--scale", "--poses", "--threshold", "--depths"})
+  for (const char* option : {"--clips", "--force-clips", "--up", "--scale", "--poses", "--threshold", "--depths"})
     if (command.get_option_no_throw(option) != nullptr)
       require_absent(command, {option}, baked_file + " has settled that");
 }
@@ -71,8 +71,10 @@ std::uint32_t parse_depth(const std::string& option, const std::string& text) {
 }
 
 void ShapeOptions::add_to(CLI::App& command) {
-  add_repeatable_option(command, "--clips", clips,
-                        "Add the clips of this file, matched by bone name (repeatable)", "FILE");
+  CLI::Option& clips_option = add_repeatable_option(
+      command, "--clips", clips, "Add the clips of this file, matched by bone name (repeatable)", "FILE");
+  command.add_flag("--force-clips", force_clips, "Take clips that belong to another skeleton, too")
+      ->needs(&clips_option);
   command.add_option("--up", up, "Up axis of the file [what the file says or looks like]")
       ->type_name("x|y|z")
       ->check(one_of({"x", "y", "z"}));
@@ -92,6 +94,7 @@ ImportOptions ShapeOptions::import_options() const {
   if (!up.empty()) options.up = static_cast<UpAxis>(up[0] - 'x');
   if (scale > 0) options.scale = static_cast<float>(scale);
   options.clip_files.assign(clips.begin(), clips.end());
+  options.force_clips = force_clips;
   return options;
 }
 

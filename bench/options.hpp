@@ -17,6 +17,7 @@ namespace bch::cli {
 /// Which poses of which characters, and their hierarchies: the same options in every command.
 struct ShapeOptions {
   std::vector<std::string> clips;
+  bool force_clips = false;
   std::string up;
   double scale = 0;  ///< 0: what the file says
   std::uint32_t poses = 100;

@@ -63,11 +63,13 @@ ImportedCharacter import_detail::character_of(const SceneFile& file, const Impor
 
   const Direction up = settle_frame(file, declared_frame(file), options, character, report);
   add_own_clips(file, nodes, character, report);
+  const std::size_t own_clips = character.clips.size();
   for (const std::filesystem::path& clip_file : options.clip_files)
     add_clips_of(clip_file, options, up, character, report);
   character.root_joint = find_root_joint(character, bone_is_skin);
   validate(character);
   check_poses(file, character);
+  note_far_poses(character, own_clips, report);
 
   report.vertices = character.vertices.size();
   report.triangles = character.triangles.size();

@@ -31,6 +31,7 @@ struct ImportOptions {
   std::optional<UpAxis> up;                       ///< instead of what the file says or what is guessed
   std::optional<float> scale;                     ///< metres per unit of the file, likewise
   std::vector<std::filesystem::path> clip_files;  ///< whose clips follow those of the file, in this order
+  bool force_clips = false;  ///< takes clips that belong to another skeleton, with a note; `--force-clips`
 };
 
 struct ClipReport {
@@ -75,8 +76,12 @@ struct ImportedCharacter {
 ///          walk, in most skeletons the hips; -1 without bones.
 /// Clips:   those of other files are matched by joint name, any namespace ("mixamorig:") aside. They give the
 ///          rotations of all joints they know, and the position of the topmost, scaled by the ratio of the
-///          skeletons' bone lengths, whatever their units; other joints keep the character's own lengths. A
-///          skeleton whose joints are turned otherwise is refused: motion is not fitted to it.
+///          skeletons' bone lengths, whatever their units; other joints keep the character's own lengths.
+///          A clip of another skeleton is refused unless force_clips is set. It is one if the two skeletons
+///          share no bone (two joints, one the parent of the other, by name), if less than half of the clip's
+///          channels move the character and its file has less than half of the character's joints, or if the
+///          joints are turned otherwise. A note names each such clip in which a pose reaches farther than 1.5
+///          times the rest pose.
 /// Returns: a character that validate() accepts; the same for the same files.
 /// Errors:  throws ImportError.
 ImportedCharacter import_character(const std::filesystem::path& file, const ImportOptions& options = {});

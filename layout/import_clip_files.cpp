@@ -5,9 +5,9 @@
 #include <cctype>
 #include <cmath>
 
-#include "layout/shortest.hpp"
-
+#include "layout/import_clip_match.hpp"
 #include "layout/import_clips.hpp"
+#include "layout/shortest.hpp"
 
 namespace bch::import_detail {
 namespace {
@@ -83,24 +83,27 @@ struct Pairing {
 };
 
 struct Comparison {
-  double alignment = 1;  ///< mean cosine between bones, by length; 1 where there is none to compare
-  std::optional<double> size_ratio;  ///< median of bone lengths, character over clip, in units of the files
+  std::size_t bones = 0;             ///< that join the same two joints in both skeletons
+  double alignment = 1;              ///< mean cosine between those that move, by length; 1 where none does
+  std::optional<double> size_ratio;  ///< median of their lengths, character over clip, in units of the files
 };
 
 /// Compares the bones whose both ends are in both skeletons, below what the clip moves: above, files differ
 /// in how they turn and scale a whole skeleton. A bone's direction in its upper joint's frame does not depend
 /// on the pose, so it tells whether the joints of two skeletons are turned alike.
 Comparison compare(const Character& character, const NodeList& nodes, const Pairing& pairing) {
+  Comparison result;
   double agreement = 0;
   double total = 0;
   std::vector<double> ratios;
   for (std::size_t n = 0; n < nodes.joints.size(); ++n) {
     const std::int32_t parent = nodes.joints[n].parent;
     if (parent < 0 || pairing.joint_of_node[n] == none) continue;
-    if (!pairing.in_motion[static_cast<std::size_t>(parent)]) continue;
     const std::uint32_t upper = pairing.joint_of_node[static_cast<std::size_t>(parent)];
     const Joint& joint = character.joints[pairing.joint_of_node[n]];
     if (upper == none || joint.parent != static_cast<std::int32_t>(upper)) continue;
+    ++result.bones;
+    if (!pairing.in_motion[static_cast<std::size_t>(parent)]) continue;
 
     const Eigen::Vector3d ours =
         joint.rest.translation().cast<double>() * scale_of(pairing.joint_to_file[upper]);
@@ -112,13 +115,23 @@ Comparison compare(const Character& character, const NodeList& nodes, const Pair
     agreement += ours.dot(theirs) / theirs.norm();
     total += ours.norm();
   }
-  Comparison result;
   if (ratios.empty()) return result;
   std::nth_element(ratios.begin(), ratios.begin() + static_cast<std::ptrdiff_t>(ratios.size() / 2),
                    ratios.end());
   result.size_ratio = ratios[ratios.size() / 2];
   result.alignment = agreement / total;
   return result;
+}
+
+/// Says what the skeletons have in common, once the channels are sorted into those that match and the rest.
+ClipMatch describe(const Character& character, const Pairing& pairing, const Comparison& comparison) {
+  ClipMatch match{{}, {}, character.joints.size(), 0, 0, comparison.bones, comparison.alignment};
+  std::vector<bool> found(character.joints.size());
+  for (const std::uint32_t joint : pairing.joint_of_node)
+    if (joint != none) found[joint] = true;
+  match.joints_in_file = static_cast<std::size_t>(std::count(found.begin(), found.end(), true));
+  for (const Joint& joint : character.joints) match.bones += joint.parent >= 0;
+  return match;
 }
 
 /// What leads from the frame above the clip's topmost joint to the frame above the character's, through the
@@ -152,7 +165,10 @@ struct RootChange {
 class ClipFile {
  public:
   ClipFile(const std::filesystem::path& path, const ImportOptions& options, Direction character_up)
-      : file_(path, options), nodes_(read_nodes(file_)), declared_(declared_frame(file_)) {
+      : file_(path, options),
+        nodes_(read_nodes(file_)),
+        declared_(declared_frame(file_)),
+        forced_(options.force_clips) {
     const Direction up = declared_.up.value_or(character_up);
     file_to_file_ = (upright(character_up).transpose() * upright(up)).cast<double>();
   }
@@ -162,14 +178,16 @@ class ClipFile {
   Clip fit(SourceClip source, const Character& character, std::vector<std::string>& notes) const {
     const Pairing pairing(character, nodes_, source);
     const Comparison comparison = compare(character, nodes_, pairing);
+    ClipMatch match = describe(character, pairing, comparison);
     Clip clip{source.name, source.seconds, {}};
     std::vector<bool> taken(character.joints.size());
     std::vector<std::uint32_t> node_of_channel;
     for (SourceChannel& channel : source.channels) {
       const auto node = nodes_.by_name.find(channel.node);
-      if (node == nodes_.by_name.end()) continue;
-      const std::uint32_t joint = pairing.joint_of_node[node->second];
-      if (joint == none || taken[joint]) continue;
+      const std::uint32_t joint = node == nodes_.by_name.end() ? none : pairing.joint_of_node[node->second];
+      const bool matches = joint != none && !taken[joint];
+      (matches ? match.matched : match.unmatched).push_back(channel.node);
+      if (!matches) continue;
       taken[joint] = true;
       channel.motion.joint = joint;
       clip.channels.push_back(std::move(channel.motion));
@@ -177,10 +195,7 @@ class ClipFile {
     }
     if (clip.channels.empty())
       file_.reject("clip '" + source.name + "' moves no joint that the character has");
-    constexpr double least_alignment = 0.7;
-    if (comparison.alignment < least_alignment)
-      file_.reject("clip '" + source.name +
-                   "' belongs to a skeleton whose joints are turned otherwise than the character's");
+    require_match(source.name, match, notes);
     const double ratio = size_ratio(comparison, character);
     for (std::size_t c = 0; c < clip.channels.size(); ++c)
       adapt(clip.channels[c], node_of_channel[c], taken, character, pairing, ratio);
@@ -192,7 +207,16 @@ class ClipFile {
   SceneFile file_;
   NodeList nodes_;
   DeclaredFrame declared_;
+  bool forced_;
   Eigen::Matrix3d file_to_file_;
+
+  void require_match(const std::string& name, const ClipMatch& match, std::vector<std::string>& notes) const {
+    const std::string reason = mismatch(match);
+    if (reason.empty()) return;
+    const std::string what = "clip '" + name + "' belongs to another skeleton";
+    if (!forced_) file_.reject(what + " (--force-clips takes it all the same): " + reason);
+    notes.push_back(what + ", but --force-clips takes it: " + reason);
+  }
 
   /// In units of the files; from the units alone where no bone can be compared.
   double size_ratio(const Comparison& comparison, const Character& character) const {

@@ -39,6 +39,10 @@ void add_clips_of(const std::filesystem::path& clip_file, const ImportOptions& o
 /// segment as a Bezier curve.
 std::vector<Eigen::Vector3d> hull_of_positions(const Channel& channel);
 
+/// Adds a note for every clip from `first_clip` on in which a pose reaches farther from its origin than 1.5 times the
+/// rest pose does, seen from above.
+void note_far_poses(const Character& character, std::size_t first_clip, ImportReport& report);
+
 /// The joint whose point on the ground is a shape's origin: see the source.
 std::int32_t find_root_joint(const Character& character, const std::vector<bool>& bone_is_skin);
 

@@ -66,6 +66,8 @@ TEST(Cli, UsageErrorsGiveTwo) {
       {{"crowd", "--clips", "a.bvh", "b.bvh"}, "b.bvh"},
       {{"crowd", "--character", "default:dog"}, "default:dog"},
       {{"crowd", "--clips", "walk.bvh"}, "--clips"},
+      {{"inspect", "x.glb", "--force-clips"}, "--clips"},
+      {{"inspect", "x.bch", "--clips", "walk.bvh", "--force-clips"}, "--clips"},
       {{"bake", "default:male"}, "--output"},
       {{"bake", "-o", "x.bch"}, "FILE"},
       {{"bake", "default:male", "-o", "x.bch", "--poses", "3", "--rate", "2"}, "--rate"},

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include <algorithm>
+#include <cmath>
+
+#include "layout/import_clips.hpp"
+#include "layout/shortest.hpp"
+#include "layout/skinning.hpp"
+
+namespace bch::import_detail {
+namespace {
+
+constexpr double farthest_share = 1.5;  // of the rest pose's reach
+constexpr int steps = 16;               // poses of a clip, less one
+
+/// The distance of the farthest vertex from the origin, metres.
+double reach(std::span<const Vec2> pose) {
+  double farthest = 0;
+  for (const Vec2 p : pose)
+    farthest = std::max(farthest, std::hypot(static_cast<double>(p.x), static_cast<double>(p.y)));
+  return farthest;
+}
+
+std::string millimetres(double metres) {
+  return shortest(std::round(metres * 1e3) / 1e3) + " m";
+}
+
+}  // namespace
+
+void note_far_poses(const Character& character, std::size_t first_clip, ImportReport& report) {
+  if (first_clip == character.clips.size()) return;
+  Skinner skinner(character);
+  const double rest = reach(skinner.ground_pose({}));
+  for (std::size_t c = first_clip; c < character.clips.size(); ++c) {
+    double farthest = 0;
+    for (int step = 0; step <= steps; ++step) {
+      const float seconds = character.clips[c].seconds * static_cast<float>(step) / static_cast<float>(steps);
+      farthest = std::max(farthest, reach(skinner.ground_pose({static_cast<std::uint32_t>(c), seconds})));
+    }
+    if (farthest > farthest_share * rest)
+      report.notes.push_back("clip '" + character.clips[c].name + "': a pose reaches " +
+                             millimetres(farthest) + ", more than " + shortest(farthest_share) +
+                             " times the rest pose's " + millimetres(rest));
+  }
+}
+
+}  // namespace bch::import_detail
