@@ -75,9 +75,9 @@ std::uint32_t disc_count(const ShapeSet& set, std::uint32_t shape, std::uint32_t
 
 std::string text_of(const std::string& file, const BakedShapes& baked) {
   const ShapeSet& set = baked.set;
-  std::string out = fmt::format("{}\n", file);
+  std::string out = printable_line(file) + "\n";
   const auto line = [&](const char* what, const std::string& text) {
-    out += fmt::format("  {:<10}{}\n", what, text);
+    out += fmt::format("  {:<10}{}\n", what, printable_line(text));
   };
   line("format", "baked shapes");
   line("shapes",
@@ -105,14 +105,14 @@ std::string verified_text(const ShapeSet& set) {
 std::string table_text(const BakedShapes& baked) {
   const auto& [set, origins] = baked;
   std::size_t widest = 9;  // "rest pose"
-  for (const std::string& name : origins.names) widest = std::max(widest, name.size());
+  for (const std::string& name : origins.names) widest = std::max(widest, printable_line(name).size());
   std::string out = fmt::format("\n{:>6}  {:<{}}  {:<{}}  {:>9}  {:>8}  {:>6}\n", "shape", "character",
                                 widest, "clip", widest, "time", "radius", "discs");
   for (std::uint32_t s = 0; s < origins.origins.size(); ++s)
     out += fmt::format("{:>6}  {:<{}}  {:<{}}  {:>7.2f} s  {:>6.3f} m  {:>6}\n", s,
-                       origins.names[origins.origins[s].character], widest, clip_of(origins, s), widest,
-                       origins.origins[s].seconds, root_radius(set, s),
-                       disc_count(set, s, set.level_count() - 1));
+                       printable_line(origins.names[origins.origins[s].character]), widest,
+                       printable_line(clip_of(origins, s)), widest, origins.origins[s].seconds,
+                       root_radius(set, s), disc_count(set, s, set.level_count() - 1));
   return out;
 }
 

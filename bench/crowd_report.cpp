@@ -32,7 +32,7 @@ std::string facts(const CrowdRun& run) {
     names += fmt::format("{}{} ({})", names.empty() ? "" : ", ", file_name(character),
                          counted(character.report.triangles, "triangle"));
   const auto line = [](const char* what, const std::string& text) {
-    return fmt::format("{:<12}{}\n", what, text);
+    return fmt::format("{:<12}{}\n", what, printable_line(text));
   };
   const bool baked = run.characters.empty();
   const double outline = run.built.outline_seconds, hierarchy = run.built.hierarchy_seconds;

@@ -26,6 +26,10 @@ double clip_seconds(const ImportReport& report) {
   return seconds;
 }
 
+std::string shown_clip(const LoadedCharacter& character, PoseTime at) {
+  return printable_line(clip_name(character, at));
+}
+
 Json seconds_json(PoseTime at) {
   return at.clip == PoseTime::rest ? Json(nullptr) : Json(shortest(at.seconds));
 }
@@ -68,15 +72,15 @@ std::string shape_title(const LoadedCharacter& character, const ShapeFacts& fact
   const PoseTime at = facts.source.at;
   const std::string pose = at.clip == PoseTime::rest
                                ? "rest pose"
-                               : fmt::format("{} at {:.2f} s", clip_name(character, at), at.seconds);
+                               : fmt::format("{} at {:.2f} s", shown_clip(character, at), at.seconds);
   return facts.index ? fmt::format("shape {}: {}", *facts.index, pose) : pose;
 }
 
 std::string text_of(const LoadedCharacter& character) {
   const ImportReport& report = character.report;
-  std::string out = fmt::format("{}\n", character.source);
+  std::string out = printable_line(character.source) + "\n";
   const auto line = [&](const char* what, const std::string& text) {
-    out += fmt::format("  {:<10}{}\n", what, text);
+    out += fmt::format("  {:<10}{}\n", what, printable_line(text));
   };
   line("format", report.format);
   line("mesh",
@@ -94,7 +98,7 @@ std::string text_of(const LoadedCharacter& character) {
                     : fmt::format("{}, {:.2f} s together", report.clips.size(), clip_seconds(report)));
   for (const ClipReport& clip : report.clips)
     out +=
-        fmt::format("  {:<10}{:>8.2f} s  {}{}\n", "", clip.seconds, clip.name,
+        fmt::format("  {:<10}{:>8.2f} s  {}{}\n", "", clip.seconds, printable_line(clip.name),
                     clip.channels == clip.channels_in_file
                         ? ""
                         : fmt::format(" ({} of {} channels move it)", clip.channels, clip.channels_in_file));
@@ -105,19 +109,20 @@ std::string text_of(const LoadedCharacter& character) {
 std::string notes_text(const LoadedCharacter& character) {
   std::string out;
   for (const std::string& note : character.report.notes)
-    out += fmt::format("  {:<10}{}: {}\n", "note", character.source, note);
+    out += fmt::format("  {:<10}{}: {}\n", "note", printable_line(character.source), printable_line(note));
   return out;
 }
 
 std::string text_of(const LoadedCharacter& character, const ShapeTable& table) {
   std::size_t widest = 9;  // "rest pose"
-  for (const Clip& clip : character.character.clips) widest = std::max(widest, clip.name.size());
+  for (const Clip& clip : character.character.clips)
+    widest = std::max(widest, printable_line(clip.name).size());
   std::string out = fmt::format("\n{:>6}  {:<{}}  {:>9}  {:>8}  {:>6}  {:>6}\n", "shape", "clip", widest,
                                 "time", "radius", "nodes", "leaves");
   for (std::size_t i = 0; i < table.sources.size(); ++i) {
     const PoseTime at = table.sources[i].at;
     const Shape& shape = table.shapes[i];
-    out += fmt::format("{:>6}  {:<{}}  {:>7.2f} s  {:>6.3f} m  {:>6}  {:>6}\n", i, clip_name(character, at),
+    out += fmt::format("{:>6}  {:<{}}  {:>7.2f} s  {:>6.3f} m  {:>6}  {:>6}\n", i, shown_clip(character, at),
                        widest, at.seconds, root_radius(shape), shape.hierarchy.nodes.size(), leaves(shape));
   }
   return out;

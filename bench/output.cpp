@@ -14,6 +14,7 @@
 #include "bench/exit_codes.hpp"
 #include "bench/output_file.hpp"
 #include "bench/output_place.hpp"
+#include "bench/printable.hpp"
 
 namespace bch::cli {
 namespace {
@@ -55,7 +56,12 @@ void write_all(int descriptor, std::string_view text, const std::string& destina
 }
 
 void write_standard_output(std::string_view text) {
-  write_all(STDOUT_FILENO, text, "standard output");
+  write_all(STDOUT_FILENO, printable(text), "standard output");
+}
+
+void write_standard_data(std::string_view data) {
+  if (isatty(STDOUT_FILENO) == 1) return write_standard_output(data);
+  write_all(STDOUT_FILENO, data, "standard output");
 }
 
 void write_file(const std::string& file, std::string_view text) {

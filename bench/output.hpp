@@ -14,7 +14,10 @@ namespace bch::cli {
 
 [[noreturn]] void reject_output(const std::string& destination, int error);
 
+/// Text for people: see printable().
 void write_standard_output(std::string_view text);
+/// Data for programs, byte for byte; text for people where standard output is a terminal.
+void write_standard_data(std::string_view data);
 /// To an open file, which errors call `destination`.
 void write_all(int descriptor, std::string_view text, const std::string& destination);
 

@@ -117,9 +117,9 @@ void answer(const QueryCommandOptions& options, const ShapeSet& set, Question& q
     pairs = std::isfinite(options.max_distance) ? near_pairs(set, table, how, options.max_distance)
                                                 : colliding_pairs(set, table.agents(), how);
   const QueryKind& kind = query_kind(options.what);
-  write_standard_output(fmt::format("first,second,{}\n", kind.columns) +
-                        kind.rows({set, table, pairs, how, options.directions, options.only_direction(),
-                                   options.max_distance}));
+  write_standard_data(fmt::format("first,second,{}\n", kind.columns) +
+                      kind.rows({set, table, pairs, how, options.directions, options.only_direction(),
+                                 options.max_distance}));
 }
 
 void query_character(const QueryCommandOptions& options) {

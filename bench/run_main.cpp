@@ -14,6 +14,7 @@
 #include <string>
 
 #include "bench/exit_codes.hpp"
+#include "bench/printable.hpp"
 #include "layout/baked_file.hpp"
 #include "layout/import.hpp"
 
@@ -43,7 +44,7 @@ void occupy_standard_streams() {
 
 int run_main(const char* program, const std::function<int()>& run) {
   const auto report = [&](int code, const std::string& message) {
-    std::fprintf(stderr, "%s: %s\n", program, message.c_str());
+    std::fprintf(stderr, "%s: %s\n", program, printable_line(message).c_str());
     return code;
   };
   try {

@@ -9,6 +9,7 @@
 #include <string>
 #include <string_view>
 
+#include "bench/printable.hpp"
 #include "layout/hierarchy.hpp"
 
 namespace bch::cli {
@@ -24,10 +25,10 @@ inline std::string grouped(std::uint64_t number) {
   return text;
 }
 
-/// As text of HTML or SVG, control characters as spaces.
+/// As text of HTML or SVG: see printable_line().
 inline std::string escaped(std::string_view text) {
   std::string markup;
-  for (const char c : text) {
+  for (const char c : printable_line(text)) {
     if (c == '&')
       markup += "&amp;";
     else if (c == '<')
@@ -37,7 +38,7 @@ inline std::string escaped(std::string_view text) {
     else if (c == '"')
       markup += "&quot;";
     else
-      markup += static_cast<unsigned char>(c) < ' ' ? ' ' : c;
+      markup += c;
   }
   return markup;
 }
