@@ -5,9 +5,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cerrno>
 #include <charconv>
+#include <cstdio>
 #include <cstring>
 #include <initializer_list>
+#include <memory>
 #include <string_view>
 
 // The reader's own thread gains nothing here, and a program without threads may still fork.
@@ -24,6 +28,44 @@ namespace {
 template <unsigned columns>
 using Reader = io::CSVReader<columns, io::trim_chars<' ', '\t'>, io::double_quote_escape<',', '"'>,
                              io::throw_on_overflow, io::empty_line_comment>;
+
+/// The bytes of a file for the reader, which takes a NUL byte for the end of a line and leaves out what follows.
+class FileBytes : public io::ByteSourceBase {
+ public:
+  /// Errors of both: throw InputError naming the file, the reason, and the line of what is not text in UTF-8.
+  explicit FileBytes(const std::string& file)
+      : name_(file), file_(std::fopen(file.c_str(), "re"), std::fclose) {
+    if (file_ == nullptr)
+      throw InputError(fmt::format("{}: cannot be opened: {}", file, std::strerror(errno)));
+  }
+
+  int read(char* buffer, int size) override {
+    const std::size_t got = std::fread(buffer, 1, static_cast<std::size_t>(size), file_.get());
+    if (std::ferror(file_.get()) != 0)
+      throw InputError(fmt::format("{}: cannot be read: {}", name_, std::strerror(errno)));
+    check({buffer, got});
+    return static_cast<int>(got);
+  }
+
+ private:
+  std::string name_;
+  std::unique_ptr<std::FILE, int (*)(std::FILE*)> file_;
+  bool begun_ = false;
+  std::size_t line_ = 1;  ///< of the next byte
+
+  void check(std::string_view bytes) {
+    if (!begun_ && (bytes.starts_with("\xff\xfe") || bytes.starts_with("\xfe\xff")))
+      reject("is UTF-16, not UTF-8");
+    begun_ = true;
+    const std::string_view text = bytes.substr(0, bytes.find('\0'));
+    line_ += static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));
+    if (text.size() < bytes.size()) reject("has a NUL byte; is it UTF-16, not UTF-8?");
+  }
+
+  [[noreturn]] void reject(const char* reason) const {
+    throw InputError(fmt::format("{}:{}: {}", name_, line_, reason));
+  }
+};
 
 /// Two agents' ways apart are within contact_time()'s limit.
 constexpr double largest_way = rounding::largest_position / 2;
@@ -57,10 +99,9 @@ std::uint32_t index_below(const Place& place, const char* column, std::string_vi
   return value;
 }
 
-/// What is wrong with a header that has this column. What is no text of lines in UTF-8 shows in a name: UTF-16 by its
-/// mark at the beginning of the first one, a CR that ends no line in the middle of the last.
+/// What is wrong with a header that has this column. A file whose lines end with CR alone has a CR in the name of its
+/// last column.
 std::string unknown_column(std::string_view name) {
-  if (name.starts_with("\xff\xfe") || name.starts_with("\xfe\xff")) return "is UTF-16, not UTF-8";
   if (name.find('\r') != std::string_view::npos) return "ends lines with CR alone, not with LF or CR LF";
   return fmt::format("column '{}' is not known", name);
 }
@@ -70,10 +111,8 @@ template <class Body>
 void with_csv_errors(const std::string& file, const Body& body) {
   try {
     body();
-  } catch (const io::error::can_not_open_file& e) {
-    throw InputError(fmt::format("{}: cannot be opened: {}", file, std::strerror(e.errno_value)));
   } catch (const io::error::header_missing&) {
-    throw InputError(file + ": is empty or cannot be read");
+    throw InputError(file + ": is empty");
   } catch (const io::error::missing_column_in_header& e) {
     throw InputError(fmt::format("{}:1: has no column '{}'", file, e.column_name));
   } catch (const io::error::extra_column_in_header& e) {
@@ -108,7 +147,7 @@ void add_agent(const Place& place, AgentTable& table, const char* id, std::uint3
 AgentTable read_agents(const std::string& file, std::uint32_t shapes, std::uint32_t levels, bool moving) {
   AgentTable table;
   with_csv_errors(file, [&] {
-    Reader<8> reader(file);
+    Reader<8> reader(file, std::make_unique<FileBytes>(file));
     reader.read_header(io::ignore_missing_column, "id", "shape", "x", "y", "heading", "level", "dx", "dy");
     const auto require_columns = [&](std::initializer_list<const char*> names) {
       for (const char* name : names)
@@ -139,7 +178,7 @@ AgentTable read_agents(const std::string& file, std::uint32_t shapes, std::uint3
 std::vector<Pair> read_pairs(const std::string& file, const AgentTable& agents) {
   std::vector<Pair> pairs;
   with_csv_errors(file, [&] {
-    Reader<2> reader(file);
+    Reader<2> reader(file, std::make_unique<FileBytes>(file));
     reader.read_header(io::ignore_no_column, "first", "second");
     char *first = nullptr, *second = nullptr;
     while (reader.read_row(first, second)) {
@@ -157,7 +196,9 @@ std::vector<Pair> read_pairs(const std::string& file, const AgentTable& agents) 
 }
 
 std::string csv_field(const std::string& text) {
-  if (text.find_first_of(",\"") == std::string::npos) return text;
+  const auto is_blank = [](char c) { return c == ' ' || c == '\t'; };
+  const bool trimmed = !text.empty() && (is_blank(text.front()) || is_blank(text.back()));
+  if (!trimmed && text.find_first_of(",\"\r\n") == std::string::npos) return text;
   std::string quoted = "\"";
   for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
   return quoted + "\"";

@@ -36,7 +36,8 @@ AgentTable read_agents(const std::string& file, std::uint32_t shapes, std::uint3
 /// Columns first,second: ids of agents.
 std::vector<Pair> read_pairs(const std::string& file, const AgentTable& agents);
 
-/// An id as a CSV field: in quotes where it needs them.
+/// An id as a CSV field: in quotes where it has a comma, a quote, a line ending, or a blank at either end, which readers
+/// would otherwise take away.
 std::string csv_field(const std::string& text);
 
 }  // namespace bch::cli

@@ -4,20 +4,30 @@
 #pragma once
 
 #include <charconv>
+#include <locale>
 #include <optional>
+#include <sstream>
+#include <string>
 #include <string_view>
+#include <system_error>
 
 namespace bch::cli {
 
 /// The whole text as a number in decimal or scientific notation, whatever the locale; "inf" and "nan" are
-/// numbers here, which callers have to reject by range.
+/// numbers here, which callers have to reject by range. A number too large for a double is the largest one, a number
+/// too small is nearly 0.
 /// Returns: nothing for anything else.
 inline std::optional<double> parse_number(std::string_view text) {
   // from_chars knows no plus sign, which people and spreadsheets write.
   if (text.size() > 1 && text[0] == '+' && text[1] != '-') text.remove_prefix(1);
   double value = 0;
   const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || stop != text.data() + text.size()) return std::nullopt;
+  if (error == std::errc::invalid_argument || stop != text.data() + text.size()) return std::nullopt;
+  if (error == std::errc::result_out_of_range) {
+    std::istringstream stream{std::string(text)};
+    stream.imbue(std::locale::classic());
+    stream >> value;
+  }
   return value;
 }
 

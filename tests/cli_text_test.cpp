@@ -9,6 +9,8 @@
 #include <nlohmann/json.hpp>
 #include <regex>
 
+#include "bench/csv_input.hpp"
+#include "bench/number.hpp"
 #include "bench/printable.hpp"
 #include "tests/bch_run.hpp"
 #include "tests/gltf_file.hpp"
@@ -178,6 +180,85 @@ TEST(CliText, APictureOfANameThatIsNotUtf8IsWellFormed) {
   ASSERT_EQ(run.code, 0) << run.err;
   EXPECT_TRUE(has(read_text(svg), "m\\xff")) << read_text(svg).substr(0, 500);
   EXPECT_EQ(printable(read_text(svg)), read_text(svg));
+}
+
+TEST(CliText, NulBytesInTablesAreErrorsOfTheirLine) {
+  const TemporaryFolder folder;
+  const std::string shapes = folder.write("box.obj", box);
+  const std::string header = "id,shape,x,y,heading\na,0,0,0,0\n", no_pairs = "first,second\n";
+  std::string long_table = header;
+  for (int i = 0; i < 150'000; ++i) long_table += "b" + std::to_string(i) + ",0,1.25,1.5,0\n";
+  const std::tuple<std::string, std::string, std::string> cases[] = {
+      {header + "\0b,1,0.3,0,1\n"s, no_pairs, "agents.csv:3: "},
+      {header + "b,0,1\0000,0,0\n"s, no_pairs, "agents.csv:3: "},
+      {header + "b,0,0,0,0\n\0"s, no_pairs, "agents.csv:4: "},
+      {header + "b,0,0,0,0\0"s, no_pairs, "agents.csv:3: "},
+      {"id,shape,x,y,heading\0,level\na,0,0,0,0,0\n"s, no_pairs, "agents.csv:1: "},
+      {long_table + "\0c,0,0,0,0\n"s, no_pairs, "agents.csv:150003: "},
+      {header, "first,second\na,a\n\0a,a\n"s, "pairs.csv:3: "},
+      {header, "first,second\na,a\0bc\n"s, "pairs.csv:2: "}};
+  for (const auto& [agents, pairs, place] : cases)
+    expect_failure(
+        bch({"query", shapes, folder.write("agents.csv", agents), folder.write("pairs.csv", pairs)},
+            as_metres),
+        3, {place, "NUL byte"});
+  std::string utf16;  // without a mark
+  for (const char c : header) utf16 += {c, '\0'};
+  expect_failure(bch({"query", shapes, folder.write("agents.csv", utf16), folder.file("none")}, as_metres), 3,
+                 {"agents.csv:1: ", "UTF-16"});
+}
+
+TEST(CliText, TablesComeThroughPipes) {
+  const TemporaryFolder folder;
+  const std::string shapes = folder.write("box.obj", box), agents = folder.write("agents.csv", four_agents);
+  // In parts, each of them less than a line.
+  const std::string script =
+      "(printf 'first,se'; sleep 0.2; printf 'cond\\na,'; sleep 0.2; printf 'b\\n') | " +
+      ("'" BCH_PROGRAM "' query '"s) + shapes + "' '" + agents + "' /dev/stdin --up y --scale 1";
+  EXPECT_EQ(run_program("/bin/sh", {"-c", script}).out, "first,second,hit\na,b,1\n");
+}
+
+TEST(CliText, ValuesBeyondTheRangeOfADoubleAreNumbers) {
+  EXPECT_EQ(cli::parse_number("1e-400"), 0.0);
+  EXPECT_EQ(cli::parse_number("1e400x"), std::nullopt);
+  EXPECT_GT(cli::parse_number("1e400"), 1e300);
+  EXPECT_LT(cli::parse_number("-1e99999"), -1e300);
+  const TemporaryFolder folder;
+  const std::string agents = folder.write("agents.csv", "id,shape,x,y,heading\na,0,1e400,0,0\n");
+  expect_failure(bch({"query", "default:male", agents, agents}), 3,
+                 {"agents.csv:2: x '1e400' is not within +-1e+09"});
+  expect_failure(bch({"crowd", "--density", "1e400"}), 2, {"'1e400' is not a number from 0.0001 to 100"});
+}
+
+TEST(CliText, TablesThatCannotBeOpenedSayWhy) {
+  const TemporaryFolder folder;
+  const std::string agents = folder.write("agents.csv", four_agents), none = folder.file("none.csv");
+  expect_failure(bch({"query", "default:male", none, agents}), 3,
+                 {"none.csv: cannot be opened: No such file"});
+  expect_failure(bch({"query", "default:male", folder.path().string(), agents}), 3,
+                 {": cannot be read: Is a directory"});
+  if (geteuid() == 0) GTEST_SKIP() << "the superuser may read every file";
+  std::filesystem::permissions(agents, std::filesystem::perms::none);
+  expect_failure(bch({"query", "default:male", agents, agents}), 3,
+                 {"agents.csv: cannot be opened: Permission denied"});
+}
+
+TEST(CliText, IdsKeepTheQuotesThatTheyNeed) {
+  EXPECT_EQ(cli::csv_field("a b"), "a b");
+  EXPECT_EQ(cli::csv_field(" a"), "\" a\"");
+  EXPECT_EQ(cli::csv_field("a\t"), "\"a\t\"");
+  EXPECT_EQ(cli::csv_field("a\"b"), "\"a\"\"b\"");
+  EXPECT_EQ(cli::csv_field(""), "");
+  const TemporaryFolder folder;
+  const std::string shapes = folder.write("box.obj", box);
+  const std::string agents = folder.write("agents.csv", "id,shape,x,y,heading\n\" a \",0,0,0,0\na,0,0,0,0\n");
+  const std::string pairs = folder.write("pairs.csv", "first,second\n\" a \",a\n");
+  const Ending run = bch({"query", shapes, agents, pairs}, as_metres);
+  EXPECT_EQ(run.out, "first,second,hit\n\" a \",a,1\n") << run.err;
+  // The answer can be asked again.
+  EXPECT_EQ(
+      bch({"query", shapes, agents, folder.write("again.csv", "first,second\n\" a \",a\n")}, as_metres).out,
+      run.out);
 }
 
 }  // namespace

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-// Tables of agents and pairs: each is refused with an InputError of one line, or every value is in range.
+// Tables of agents and pairs, of any bytes: each is refused with an InputError, or every value is in range. What is
+// shown of them has no control characters.
 
 #include <sys/mman.h>
 #include <unistd.h>
@@ -11,6 +12,7 @@
 
 #include "bench/csv_input.hpp"
 #include "bench/exit_codes.hpp"
+#include "bench/printable.hpp"
 #include "layout/rounding.hpp"
 #include "tests/fuzz/target.hpp"
 
@@ -55,6 +57,13 @@ void check(const cli::AgentTable& table, std::uint32_t shapes, std::uint32_t lev
   }
 }
 
+void check_printable(const std::string& text) {
+  const std::string shown = cli::printable_line(text);
+  for (const char c : shown)
+    require(static_cast<unsigned char>(c) >= ' ' && c != '\x7f', "no controls are shown");
+  require(cli::printable_line(shown) == shown, "what is shown is printable");
+}
+
 }  // namespace
 }  // namespace bch::fuzz
 
@@ -63,14 +72,18 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   fuzz::Bytes bytes(data, size);
   const std::uint32_t shapes = 1 + bytes.below(8), levels = 1 + bytes.below(4);
   const bool moving = bytes.below(2) == 1;
-  const fuzz::MemoryFile agents(bytes.text());
-  const std::span<const std::uint8_t> rest = bytes.rest();
-  const fuzz::MemoryFile pairs(std::string(rest.begin(), rest.end()));
+  const std::size_t length = bytes.take<std::uint16_t>();
+  const std::string text(bytes.rest().begin(), bytes.rest().end());
+  const std::string first = text.substr(0, length), second = text.substr(first.size());
+  fuzz::check_printable(text);
+  const fuzz::MemoryFile agents(first), pairs(second);
   try {
     const cli::AgentTable table = cli::read_agents(agents.path(), shapes, levels, moving);
+    fuzz::require(first.find('\0') == std::string::npos, "no byte behind a NUL byte is left out");
     fuzz::check(table, shapes, levels);
     for (const auto& [a, b] : cli::read_pairs(pairs.path(), table))
       fuzz::require(a < table.id.size() && b < table.id.size(), "pairs are of agents");
+    fuzz::require(second.find('\0') == std::string::npos, "no byte behind a NUL byte is left out");
   } catch (const cli::InputError& error) {
     fuzz::require(*error.what() != '\0', "errors say something");
   }

@@ -43,15 +43,28 @@ void add_images(Folder folder) {
       folder.add(mode + BakedBytes(ShapeSet(shapes, plan), origins_of(shapes.size())).text());
 }
 
+/// How many shapes and levels there are, whether agents move, the length of their table, both tables.
+std::string tables(const std::string& head, const std::string& agents, const std::string& pairs) {
+  const std::string length{static_cast<char>(agents.size() & 0xff), static_cast<char>(agents.size() >> 8)};
+  return head + length + agents + pairs;
+}
+
 void add_tables(Folder folder) {
-  const std::string head("\3\2\0", 3), moving("\3\2\1", 3), end(1, '\0'),
-      pairs = "first,second\nana,b\nb,\"c,d\"\n";
-  folder.add(head + "id,shape,x,y,heading\nana,0,0,0,0\nb,1,+1.5,-2e-3,3.14\n\"c,d\",2,1e9,-1e9,1e9\n" + end +
-             pairs);
-  folder.add(head + "id,x,y,shape,level,heading\n 7 ,1,2,0,1,0\r\n" + end + "second,first\n7,7\n");
-  folder.add(head + "id,shape,x,y,heading\nana,9,nan,inf,1e400\n" + end + "first\n");
-  folder.add(head + "id,shape,x,y,heading,level\n\"a\"\"b\",0,0,0,0,0\n\n");
-  folder.add(moving + "id,shape,x,y,heading,dx,dy\na,0,0,0,0,0.5,-1e9\nb,0,1,1,0,,0\n");
+  const std::string head("\3\2\0", 3), moving("\3\2\1", 3), nul(1, '\0'),
+      columns = "id,shape,x,y,heading\n", pairs = "first,second\nana,b\nb,\"c,d\"\n";
+  folder.add(tables(head, columns + "ana,0,0,0,0\nb,1,+1.5,-2e-3,3.14\n\"c,d\",2,1e9,-1e9,1e9\n", pairs));
+  folder.add(tables(head, "id,x,y,shape,level,heading\n 7 ,1,2,0,1,0\r\n", "second,first\n7,7\n"));
+  folder.add(tables(head, columns + "ana,9,nan,inf,1e400\n", "first\n"));
+  folder.add(tables(head, "id,shape,x,y,heading,level\n\"a\"\"b\",0,0,0,0,0\n\n", ""));
+  folder.add(tables(moving, "id,shape,x,y,heading,dx,dy\na,0,0,0,0,0.5,-1e9\nb,0,1,1,0,,0\n", ""));
+  folder.add(tables(head, columns + "ana,0,0,0,0\n" + nul + "b,1,0.3,0,1\n", pairs));
+  folder.add(tables(head, columns + "ana,0,1" + nul + "000,0,0\nb,0,0,0,0\n", pairs));
+  folder.add(tables(head, columns + "a,0,0,0,0\n", "first,second\na,a\n" + nul + "b,a\n"));
+  folder.add(tables(head, columns + "\x1b[2J\r\x7f\xc2\x9b,0,0,0,0\n\xe2\x80\xae\xff\xed\xa0\x80,0,1,1,0\n",
+                    "first,second\n\x1b[2J\r\x7f\xc2\x9b,\xe2\x80\xae\xff\xed\xa0\x80\n"));
+  folder.add(tables(head, "\xff\xfei" + nul + "d" + nul,
+                    "\xef\xbb\xbf"
+                    "first,second\n"));
 }
 
 void add_lines(Folder folder) {
