@@ -12,12 +12,22 @@
 
 namespace bch::cli {
 
+/// Refuses empty values of all options of a program and its commands: an empty name would mean the same as none.
+/// Errors:  throws UsageError naming the option.
+inline void require_values(const CLI::App& program) {
+  for (const CLI::App* app : program.get_subcommands()) require_values(*app);
+  for (const CLI::Option* option : program.get_options())
+    for (const std::string& value : option->results())
+      if (value.empty()) throw UsageError(option->get_name() + ": the value is empty (--help tells more)");
+}
+
 /// Reads the command line, or writes the help or the version that it asks for.
 /// Returns: whether there is anything left to do.
 /// Errors:  throws UsageError.
 inline bool parse_command_line(CLI::App& program, int argc, char** argv) {
   try {
     program.parse(argc, argv);
+    require_values(program);
     return true;
   } catch (const CLI::CallForVersion& version) {
     write_standard_output(std::string(version.what()) + "\n");

@@ -112,7 +112,7 @@ std::function<void()> add_crowd_command(CLI::App& program) {
       "Example: bch crowd --agents 2000 --density 1 --svg crowd.svg");
   command.add_option("--agents", options->agents, "How many agents [10000]")
       ->type_name("N")
-      ->check(number_between(1, 1e7));
+      ->check(whole_between(1, 10'000'000));
   command.add_option("--density", options->density, "Agents per square metre [3]")
       ->type_name("N")
       ->check(number_between(1e-4, 100));

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
 #include "bench/command_line.hpp"
@@ -36,6 +37,21 @@ CLI::Validator number_between(double low, double high) {
   return CLI::Validator(check, "", "number");
 }
 
+CLI::Validator whole_between(std::uint64_t low, std::uint64_t high) {
+  const auto check = [low, high](const std::string& text) -> std::string {
+    std::uint64_t value = 0;
+    const char* begin = text.data() + (text.starts_with('+') ? 1 : 0);
+    const char* end = text.data() + text.size();
+    const auto [stop, error] = std::from_chars(begin, end, value);
+    // CLI11 would read digits behind a zero as octal.
+    const bool digits = error == std::errc() && stop == end && (*begin != '0' || end - begin == 1);
+    if (digits && value >= low && value <= high) return {};
+    return fmt::format("'{}' is not a whole number from {} to {}, in digits such as {}", text, low, high,
+                       std::clamp<std::uint64_t>(1000, low, high));
+  };
+  return CLI::Validator(check, "", "number");
+}
+
 void require_absent(const CLI::App& command, std::initializer_list<const char*> options,
                     const std::string& reason) {
   for (const char* option : options)
@@ -43,7 +59,8 @@ void require_absent(const CLI::App& command, std::initializer_list<const char*> 
 }
 
 void require_unsettled(const CLI::App& command, const std::string& baked_file) {
-  for (const char* option : {"--clips", "--force-clips", "--up", "--scale", "--poses", "--threshold", "--depths"})
+  for (const char* option :
+       {"--clips", "--force-clips", "--up", "--scale", "--poses", "--threshold", "--depths"})
     if (command.get_option_no_throw(option) != nullptr)
       require_absent(command, {option}, baked_file + " has settled that");
 }
@@ -51,13 +68,13 @@ void require_unsettled(const CLI::App& command, const std::string& baked_file) {
 void add_seed_option(CLI::App& command, std::uint64_t& seed, const std::string& what) {
   command.add_option("--seed", seed, "Chooses " + what + " [1]")
       ->type_name("N")
-      ->check(number_between(0, 0x1p64 - 2048));
+      ->check(whole_between(0, std::numeric_limits<std::uint64_t>::max()));
 }
 
 void add_threads_option(CLI::App& command, std::uint32_t& threads) {
   command.add_option("--threads", threads, "Threads [all that the machine has]")
       ->type_name("N")
-      ->check(number_between(1, 1024));
+      ->check(whole_between(1, 1024));
 }
 
 std::uint32_t parse_depth(const std::string& option, const std::string& text) {
@@ -83,7 +100,7 @@ void ShapeOptions::add_to(CLI::App& command) {
       ->check(number_between(1e-9, 1e9));
   command.add_option("--poses", poses, "Poses of a character, spread evenly over its clips [100]")
       ->type_name("N")
-      ->check(number_between(1, 1e6));
+      ->check(whole_between(1, 1'000'000));
   command.add_option("--threshold", threshold, "A node with a smaller radius is not divided [0.01 m]")
       ->type_name("METRES")
       ->check(number_between(1e-4, 100));

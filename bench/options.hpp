@@ -63,4 +63,7 @@ CLI::Validator one_of(std::vector<std::string> words);
 /// Rejects what is not a finite number in [low, high], NaN included.
 CLI::Validator number_between(double low, double high);
 
+/// Rejects what is not a whole number in [low, high], in decimal digits.
+CLI::Validator whole_between(std::uint64_t low, std::uint64_t high);
+
 }  // namespace bch::cli

@@ -211,7 +211,7 @@ std::function<void()> add_query_command(CLI::App& program) {
       .add_option("--directions", options->directions,
                   "Of a separation: along the best of so many, evenly spread, an even number [16]")
       ->type_name("N")
-      ->check(number_between(2, most_directions));
+      ->check(whole_between(2, most_directions));
   command
       .add_option(
           "--direction", options->direction,

@@ -135,7 +135,7 @@ std::function<void()> add_stability_command(CLI::App& program) {
       "Example: bch stability --out stability");
   command.add_option("--pairs", options->pairs, "Pairs of every row [2000]")
       ->type_name("N")
-      ->check(number_between(20, 1e7));
+      ->check(whole_between(20, 10'000'000));
   command.add_flag("--quick", options->quick, "200 pairs of every row; less of --stiff, too");
   command.add_flag("--stiff", options->stiff, "Agents that are driven into each other, which takes minutes");
   add_seed_option(command, options->seed, "shapes and placements");

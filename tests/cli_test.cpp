@@ -62,7 +62,7 @@ TEST(Cli, UsageErrorsGiveTwo) {
       {{"inspect", "default:male", "--shape", "0", "--svg", "x.svg", "--json", "x.svg"},
        "--json and --svg: "},
       {{"stability", "--json", "x.csv", "--csv", "x.csv"}, "--csv and --json: "},
-      {{"crowd", "--seed", "1e99"}, "from 0 to 18446744073709549568"},
+      {{"crowd", "--seed", "1e99"}, "from 0 to 18446744073709551615"},
       {{"crowd", "--clips", "a.bvh", "b.bvh"}, "b.bvh"},
       {{"crowd", "--character", "default:dog"}, "default:dog"},
       {{"crowd", "--clips", "walk.bvh"}, "--clips"},

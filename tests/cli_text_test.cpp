@@ -243,6 +243,35 @@ TEST(CliText, TablesThatCannotBeOpenedSayWhy) {
                  {"agents.csv: cannot be opened: Permission denied"});
 }
 
+TEST(CliText, CountsAreWholeNumbers) {
+  for (const std::string value : {"1e3", "010", "0x10", "5.", "1e400", "-1", " 5", "+"})
+    expect_failure(bch({"crowd", "--agents", value}), 2,
+                   {"--agents", "'" + value + "' is not a whole number from 1 to 10000000"});
+  for (const char* option : {"--poses", "--threads", "--seed"})
+    expect_failure(bch({"crowd", option, "1e0"}), 2, {option, "'1e0' is not a whole number from "});
+  expect_failure(bch({"stability", "--pairs", "1e3"}), 2, {"'1e3' is not a whole number from 20"});
+  EXPECT_EQ(bch({"crowd", "--agents", "+5", "--poses", "1", "--seed", "18446744073709551615"}).code, 0);
+}
+
+TEST(CliText, EmptyValuesAreRefused) {
+  const std::pair<Arguments, std::string> cases[] = {
+      {{"crowd", "--csv", ""}, "--csv"},
+      {{"crowd", "--isa", ""}, "--isa"},
+      {{"crowd", "--svg-depth", "", "--svg", "x.svg"}, "--svg-depth"},
+      {{"crowd", "--character", "default:male", "--character", ""}, "--character"},
+      {{"bake", "default:male", "-o", ""}, "--output"},
+      {{"inspect", ""}, "FILE"},
+      {{"inspect", "default:male", "--json", ""}, "--json"},
+      {{"query", "default:male", "a.csv", ""}, "PAIRS.csv"},
+      {{"query", "default:male", "a.csv", "p.csv", "--what", "separation", "--direction", ""}, "--direction"},
+      {{"report", "--out", ""}, "--out"},
+      {{"report", "--out", "", "--page"}, "--out"},
+      {{"stability", "--out", ""}, "--out"},
+  };
+  for (const auto& [arguments, option] : cases)
+    expect_failure(bch(arguments), 2, {option + ": the value is empty"});
+}
+
 TEST(CliText, IdsKeepTheQuotesThatTheyNeed) {
   EXPECT_EQ(cli::csv_field("a b"), "a b");
   EXPECT_EQ(cli::csv_field(" a"), "\" a\"");
