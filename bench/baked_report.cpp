@@ -120,7 +120,7 @@ Json json_of(const std::string& file, const BakedShapes& baked) {
   const auto& [set, origins] = baked;
   Json json{{"source", file}, {"shape_count", set.shape_count()}, {"bytes", set.bytes()}};
   for (const std::uint32_t depth : set.depths()) json["depths"].push_back(depth_name(depth));
-  json["threshold_m"] = origins.threshold;
+  json["threshold_m"] = shortest(static_cast<float>(origins.threshold));
   json["solid"] = set.solid();
   json["shapes"] = Json::array();
   for (std::uint32_t s = 0; s < origins.origins.size(); ++s) {

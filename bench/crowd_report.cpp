@@ -80,7 +80,7 @@ nlohmann::ordered_json options_json(const CrowdRun& run) {
   if (!o.shapes.up.empty()) json["up"] = o.shapes.up;
   if (o.shapes.scale > 0) json["scale"] = o.shapes.scale;
   if (!run.characters.empty()) json["poses"] = o.shapes.poses;
-  json["threshold_m"] = run.threshold;
+  json["threshold_m"] = shortest(static_cast<float>(run.threshold));
   json["agents"] = o.agents;
   json["density_per_m2"] = o.density;
   json["seed"] = o.seed;

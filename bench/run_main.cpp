@@ -9,6 +9,7 @@
 
 #include <cstdio>
 #include <exception>
+#include <filesystem>
 #include <new>
 #include <stdexcept>
 #include <string>
@@ -62,6 +63,8 @@ int run_main(const char* program, const std::function<int()>& run) {
     return report(exit_bad_input, error.what());
   } catch (const BakedFileError& error) {
     return report(exit_bad_input, error.what());
+  } catch (const std::filesystem::filesystem_error& error) {
+    return report(exit_bad_input, error.path1().string() + ": " + error.code().message());
   } catch (const std::bad_alloc&) {
     return report(exit_internal, "not enough memory");
   } catch (const std::exception& error) {

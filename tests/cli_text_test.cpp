@@ -272,6 +272,18 @@ TEST(CliText, EmptyValuesAreRefused) {
     expect_failure(bch(arguments), 2, {option + ": the value is empty"});
 }
 
+TEST(CliText, ThresholdsAreTheShortestNumbers) {
+  const TemporaryFolder folder;
+  const std::string baked = folder.file("a.bch"), json = folder.file("a.json");
+  ASSERT_EQ(
+      bch({"bake", "default:male", "--poses", "1", "--threshold", "0.009999999776482582", "-o", baked}).code,
+      0);
+  ASSERT_EQ(bch({"inspect", baked, "--json", json}).code, 0);
+  EXPECT_TRUE(has(read_text(json), "\"threshold_m\": 0.01,")) << read_text(json);
+  ASSERT_EQ(bch({"crowd", "--character", baked, "--agents", "5", "--json", json}).code, 0);
+  EXPECT_TRUE(has(read_text(json), "\"threshold_m\": 0.01,")) << read_text(json);
+}
+
 TEST(CliText, IdsKeepTheQuotesThatTheyNeed) {
   EXPECT_EQ(cli::csv_field("a b"), "a b");
   EXPECT_EQ(cli::csv_field(" a"), "\" a\"");
@@ -288,6 +300,42 @@ TEST(CliText, IdsKeepTheQuotesThatTheyNeed) {
   EXPECT_EQ(
       bch({"query", shapes, agents, folder.write("again.csv", "first,second\n\" a \",a\n")}, as_metres).out,
       run.out);
+}
+
+TEST(CliText, QuarterTurnsHaveAComponentOfZero) {
+  const TemporaryFolder folder;
+  const std::string shapes = folder.write("box.obj", box);
+  const std::string agents =
+      folder.write("agents.csv", "id,shape,x,y,heading\na,0,0,0,0\nb,0,0,0.2,0\nc,0,0.45,0,0\n");
+  const std::string pairs = folder.write("pairs.csv", "first,second\na,b\nb,a\na,c\nc,a\n");
+  const Ending run = bch({"query", shapes, agents, pairs, "--what", "separation"}, as_metres);
+  ASSERT_EQ(run.code, 0) << run.err;
+  EXPECT_FALSE(has(run.out, "e-1")) << run.out;
+  EXPECT_TRUE(has(run.out, ",0,-1\n") && has(run.out, ",0,1\n") && has(run.out, ",1,0\n")) << run.out;
+}
+
+TEST(CliText, AFolderThatIsGoneIsNoFaultOfTheProgram) {
+  const TemporaryFolder folder;
+  for (const std::string command :
+       {"crowd --json x.json --agents 5 --poses 1", "inspect default:male --json x",
+        "bake default:male -o x.bch --poses 1", "inspect a.obj"}) {
+    const std::string place = folder.file("gone");
+    const std::string script = "mkdir '" + place + "' && cd '" + place + "' && rmdir '" + place +
+                               "' && exec '" + BCH_PROGRAM + "' " + command;
+    expect_failure(run_program("/bin/sh", {"-c", script}), 3, {});
+  }
+}
+
+TEST(CliText, APageOfTablesThatLackAColumnNamesIt) {
+  const TemporaryFolder folder;
+  const Arguments page{"report", "--out", folder.path().string(), "--page"};
+  folder.write("run.csv", "a,b\n1,2\n");
+  expect_failure(bch(page), 3, {"run.csv has no column 'what'"});
+  folder.write("run.csv", "what,value\nseed,1\n");
+  expect_failure(bch(page), 3, {"run.csv has no row with what 'command'"});
+  folder.write("run.csv", "what,value\ncommand,bch\n");
+  folder.write("threshold.csv", "a,b\n1,2\n");
+  expect_failure(bch(page), 3, {"threshold.csv has no "});
 }
 
 }  // namespace

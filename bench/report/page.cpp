@@ -104,25 +104,26 @@ std::string contents() {
   return html + "</ol></nav>\n";
 }
 
-}  // namespace
-
-void make_page(const fs::path& path) {
-  Folder folder(path);
+std::string page_of(Folder& folder) {
   const Table& facts = folder.table("run");
   const bool pictures = can_draw();
-  if (pictures) write_chart_scripts(path);
+  if (pictures) write_chart_scripts(folder.path());
   std::string html = std::string(page_head) + page_introduction;
   html += fmt::format("<pre>{}</pre>\n", escaped(facts.text(facts.row({{"what", "command"}}), "value")));
   if (!pictures) html += "<p>There is no gnuplot here, so that this page has tables and no charts.</p>\n";
   html += contents();
-  try {
-    for (const Experiment& experiment : experiments()) html += section(folder, experiment, pictures);
-  } catch (const std::out_of_range& error) {
-    throw cli::InputError(path.string() + ": tables of another version: " + error.what());
-  }
-  html += "<section id=\"run\">\n<h2>Run</h2>\n" + html_of(facts, "run", Cells::words) +
-          "</section>\n</main></body></html>\n";
-  cli::write_file(path / "report.html", html);
+  for (const Experiment& experiment : experiments()) html += section(folder, experiment, pictures);
+  return html + "<section id=\"run\">\n<h2>Run</h2>\n" + html_of(facts, "run", Cells::words) +
+         "</section>\n</main></body></html>\n";
+}
+
+}  // namespace
+
+void make_page(const fs::path& path) try {
+  Folder folder(path);
+  cli::write_file(path / "report.html", page_of(folder));
+} catch (const std::out_of_range& error) {
+  throw cli::InputError(path.string() + ": tables of another version: " + error.what());
 }
 
 }  // namespace bch::report

@@ -57,18 +57,19 @@ void Table::add(const std::vector<Cell>& cells) {
 std::size_t Table::column(std::string_view name) const {
   for (std::size_t i = 0; i < columns_.size(); ++i)
     if (columns_[i] == name) return i;
-  throw std::out_of_range("no column '" + std::string(name) + "'");
+  throw std::out_of_range(name_ + " has no column '" + std::string(name) + "'");
 }
 
 const std::string& Table::text(std::size_t row, std::string_view name) const {
-  return rows_.at(row)[column(name)];
+  if (row >= rows_.size()) throw std::out_of_range(fmt::format("{} has no row {}", name_, row));
+  return rows_[row][column(name)];
 }
 
 double Table::number(std::size_t row, std::string_view name) const {
   const std::string& cell = text(row, name);
   if (cell.empty()) return std::numeric_limits<double>::quiet_NaN();
   const auto value = cli::parse_number(cell);
-  if (!value) throw std::out_of_range("'" + cell + "' is no number");
+  if (!value) throw std::out_of_range(fmt::format("{}: {} '{}' is not a number", name_, name, cell));
   return *value;
 }
 
@@ -80,7 +81,7 @@ std::size_t Table::row(std::initializer_list<Where> where) const {
   }
   std::string wanted;
   for (const Where& one : where) wanted += fmt::format(" {} '{}'", one.column, one.text);
-  throw std::out_of_range("no row with" + wanted);
+  throw std::out_of_range(name_ + " has no row with" + wanted);
 }
 
 std::string csv_of(const Table& table) {
@@ -93,7 +94,7 @@ Table read_table(const std::filesystem::path& file) {
   std::ifstream stream(file);
   std::string line;
   if (!std::getline(stream, line)) throw cli::InputError(file.string() + ": cannot be read");
-  Table table(split(line));
+  Table table(split(line), file.filename().string());
   for (std::size_t number = 2; std::getline(stream, line); ++number) {
     const std::vector<std::string> cells = split(line);
     if (cells.size() != table.columns().size())

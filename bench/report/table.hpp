@@ -27,7 +27,9 @@ struct Cell {
 /// What a CSV file holds: the only way from an experiment to the page. Columns of numbers name their unit.
 class Table {
  public:
-  explicit Table(std::vector<std::string> columns) : columns_(std::move(columns)) {}
+  /// `name` is what errors call the table.
+  explicit Table(std::vector<std::string> columns, std::string name = "the table")
+      : columns_(std::move(columns)), name_(std::move(name)) {}
 
   /// Shapes: as many cells as columns, else throws std::logic_error.
   void add(std::initializer_list<Cell> cells) { add(std::vector<Cell>(cells)); }
@@ -36,7 +38,7 @@ class Table {
   const std::vector<std::string>& columns() const { return columns_; }
   const std::vector<std::vector<std::string>>& rows() const { return rows_; }
 
-  /// Errors of all: throw std::out_of_range naming the column or the value that there is not.
+  /// Errors of all: throw std::out_of_range naming the table and the row, the column or the value that there is not.
   std::size_t column(std::string_view name) const;
   const std::string& text(std::size_t row, std::string_view column) const;
   /// NaN for an empty cell.
@@ -53,6 +55,7 @@ class Table {
  private:
   std::vector<std::string> columns_;
   std::vector<std::vector<std::string>> rows_;
+  std::string name_;
 };
 
 std::string csv_of(const Table& table);
