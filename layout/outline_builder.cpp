@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "layout/contour_index.hpp"
 #include "layout/grid_snap.hpp"
 #include "layout/outline_candidates.hpp"
 #include "layout/outline_implementation.hpp"
@@ -25,6 +26,13 @@ GridPoint first_of(GridPoint a, GridPoint b) {
   return lexicographically_less(b, a) ? b : a;
 }
 
+/// A box around a contour, whose corners are rounded by less than a step.
+GridBox box_around(std::span<const Stretch> contour) {
+  GridBox box = empty_box;
+  for (const Stretch& stretch : contour) enlarge(box, {stretch.rounded_begin, stretch.rounded_begin});
+  return {{box.low.x - 1, box.low.y - 1}, {box.high.x + 1, box.high.y + 1}};
+}
+
 }  // namespace
 
 /// What is known of the mesh, and the scratch of a pose.
@@ -38,13 +46,16 @@ struct OutlineBuilder::State {
         walk(topology, candidates, implementation),
         leftmost(topology.island_vertex.size()) {
     outside.reserve(leftmost.size());
+    places.reserve(leftmost.size());
+    later.reserve(leftmost.size());
   }
 
   template <class Position>
   void build(std::span<const Position> positions, Outline& outline);
   void walk_all();
   void find_outside();
-  bool is_in_later_contour(GridPoint point);
+  void walk_outside();
+  bool is_in_later_contour(GridPoint point) const;
   std::span<const Stretch> contour(std::size_t i) const {
     return std::span(stretches).subspan(contour_begin[i], contour_begin[i + 1] - contour_begin[i]);
   }
@@ -63,7 +74,9 @@ struct OutlineBuilder::State {
   std::vector<std::size_t> contour_begin;
   std::vector<std::uint32_t> outside;  ///< islands to walk around, unless they touch each other
   std::vector<GridPoint> leftmost;     ///< of an island's candidates
-  ContourCover cover;
+  std::vector<GridPoint> places;       ///< where outside's islands begin
+  ContourCovers covers;                ///< of all contours, where any island is outside the first
+  ContourIndex later;                  ///< over all but the first
 };
 
 template <class Position>
@@ -89,8 +102,20 @@ void OutlineBuilder::State::walk_all() {
   walk_from(candidates.boxes().first_end(candidates.segments().data()));
 
   find_outside();
-  for (const std::uint32_t island : outside)
-    if (!walk.touched(island) && !is_in_later_contour(leftmost[island])) walk_from(leftmost[island]);
+  if (!outside.empty()) walk_outside();
+}
+
+void OutlineBuilder::State::walk_outside() {
+  places.clear();
+  for (const std::uint32_t island : outside) places.push_back(leftmost[island]);
+  later.begin(places);
+  for (std::size_t i = 0; i < outside.size(); ++i) {
+    if (walk.touched(outside[i]) || is_in_later_contour(places[i])) continue;
+    const std::size_t found = covers.size();
+    walk_from(places[i]);
+    covers.add(contour(found));
+    later.add(i, found, box_around(contour(found)));
+  }
 }
 
 /// Fills outside, in the order of the islands' leftmost vertices.
@@ -99,9 +124,11 @@ void OutlineBuilder::State::find_outside() {
   for (std::uint32_t island = 0; island < leftmost.size(); ++island)
     if (!walk.touched(island)) outside.push_back(island);
   if (outside.empty()) return;
-  cover.assign(contour(0));
-  std::erase_if(outside,
-                [&](std::uint32_t island) { return cover.covers(points[topology.island_vertex[island]]); });
+  covers.clear();
+  covers.add(contour(0));
+  std::erase_if(outside, [&](std::uint32_t island) {
+    return covers.covers(0, contour(0), points[topology.island_vertex[island]]);
+  });
   if (outside.empty()) return;
 
   std::fill(leftmost.begin(), leftmost.end(), beyond);
@@ -117,13 +144,8 @@ void OutlineBuilder::State::find_outside() {
   });
 }
 
-/// In any but the first.
-bool OutlineBuilder::State::is_in_later_contour(GridPoint point) {
-  for (std::size_t c = 1; c + 1 < contour_begin.size(); ++c) {
-    cover.assign(contour(c));
-    if (cover.covers(point)) return true;
-  }
-  return false;
+bool OutlineBuilder::State::is_in_later_contour(GridPoint point) const {
+  return later.any(point, [&](std::size_t c) { return covers.covers(c, contour(c), point); });
 }
 
 /// Writes corners, that is, where a stretch has another direction than the one before; corners that are

@@ -12,13 +12,16 @@ void find_sides_sse2(const std::uint32_t*, std::size_t, const GridPoint*, std::u
 void find_sides_avx2(const std::uint32_t*, std::size_t, const GridPoint*, std::uint8_t*) noexcept;
 std::size_t find_near_sse2(const SegmentSearch&, const SearchedWay&) noexcept;
 std::size_t find_near_avx2(const SegmentSearch&, const SearchedWay&) noexcept;
+void test_near_sse2(const SegmentSearch&, const SearchedWay&, std::size_t) noexcept;
+void test_near_avx2(const SegmentSearch&, const SearchedWay&, std::size_t) noexcept;
 
 namespace {
 
 // The compiler's test asks the operating system too, whether it saves the wide registers.
 constexpr OutlineImplementation table[] = {
-    {"avx2", []() noexcept { return __builtin_cpu_supports("avx2") != 0; }, find_sides_avx2, find_near_avx2},
-    {"sse2", []() noexcept { return true; }, find_sides_sse2, find_near_sse2},
+    {"avx2", []() noexcept { return __builtin_cpu_supports("avx2") != 0; }, find_sides_avx2, find_near_avx2,
+     test_near_avx2},
+    {"sse2", []() noexcept { return true; }, find_sides_sse2, find_near_sse2, test_near_sse2},
 };
 
 }  // namespace

@@ -16,6 +16,7 @@ struct OutlineImplementation {
   void (*find_sides)(const std::uint32_t* corners, std::size_t count, const GridPoint* points,
                      std::uint8_t* sides) noexcept;
   std::size_t (*find_near)(const SegmentSearch& job, const SearchedWay& way) noexcept;
+  void (*test_near)(const SegmentSearch& job, const SearchedWay& way, std::size_t count) noexcept;
 };
 
 /// All that were compiled, the best first; the last one runs everywhere.

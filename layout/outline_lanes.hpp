@@ -27,14 +27,19 @@ class OutlineLanes {
     }
   }
 
-  /// Finds the candidates whose boxes meet that of the way and says of each whether its line crosses the way's
-  /// from left to right further on than way.at (or equally far, as far as doubles tell) and before its end,
-  /// and whether it touches its end. With O the start of the way, D its direction and (a, b) the candidate:
-  /// side_a = D x (a - O), side_b = D x (b - O); their difference is the denominator, `along` the numerator
-  /// and `at` the quotient of where on the way it is crossed.
+  /// Finds the candidates whose boxes meet that of the way, and tests them.
   /// Returns: how many are near.
   static std::size_t find_near(const SegmentSearch& job, const SearchedWay& way) noexcept {
     const std::size_t count = find_meeting(job, way);
+    test_near(job, way, count);
+    return count;
+  }
+
+  /// Says of each of `count` candidates that stand in job.near whether its line crosses the way's from left to right further on than way.at (or equally far, as far as doubles tell) and before its end,
+  /// and whether it touches its end. With O the start of the way, D its direction and (a, b) the candidate:
+  /// side_a = D x (a - O), side_b = D x (b - O); their difference is the denominator, `along` the numerator
+  /// and `at` the quotient of where on the way it is crossed. Numbers that fill a register follow those in job.near.
+  static void test_near(const SegmentSearch& job, const SearchedWay& way, std::size_t count) noexcept {
     const Line line(way);
     for (std::size_t word = 0, i = 0; i < count; ++word) {
       std::uint64_t crossing = 0, ending = 0;
@@ -47,7 +52,6 @@ class OutlineLanes {
       job.crossing[word] = crossing;
       job.ending[word] = ending;
     }
-    return count;
   }
 
  private:

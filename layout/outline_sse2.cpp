@@ -108,5 +108,8 @@ void find_sides_sse2(const std::uint32_t* corners, std::size_t count, const Grid
 std::size_t find_near_sse2(const SegmentSearch& job, const SearchedWay& way) noexcept {
   return OutlineLanes<Sse2>::find_near(job, way);
 }
+void test_near_sse2(const SegmentSearch& job, const SearchedWay& way, std::size_t count) noexcept {
+  OutlineLanes<Sse2>::test_near(job, way, count);
+}
 
 }  // namespace bch

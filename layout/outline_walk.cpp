@@ -16,6 +16,22 @@ namespace {
 /// polygons by a sequence of translations", 1988), with alpha(n) <= 4 for any n that fits a computer.
 constexpr std::size_t most_stretches_per_segment = 256;
 
+/// From so many candidates on, more than poses of characters have, they are found through the tree.
+constexpr std::size_t many_candidates = 16384;
+
+/// A way is looked at in pieces. The first one is of at least so many steps, and so many times as long as the last
+/// stretch; each further one is so many times as long as the one before.
+constexpr double shortest_piece = 64, more_than_last = 1.125, piece_growth = 4;
+
+double length_of(GridVector way) {
+  return std::sqrt(static_cast<double>(dot(way, way)));
+}
+
+GridPlace place_on(const Place& line, double at) {
+  const GridVector way = line.direction();
+  return {line.from.x + at * static_cast<double>(way.x), line.from.y + at * static_cast<double>(way.y)};
+}
+
 /// The coordinates of a cell that steps are in.
 std::int16_t cell(std::int32_t steps) {
   return static_cast<std::int16_t>(steps >> cell_bits);
@@ -45,20 +61,29 @@ void OutlineWalk::begin_pose() {
   search_.along = along_.data(), search_.at = at_.data();
   search_.crossing = crossing_.data(), search_.ending = ending_.data();
   std::fill(touched_.begin(), touched_.end(), std::uint8_t{0});
+  has_tree_ = candidates_->segments().size() >= many_candidates;
+  if (has_tree_) tree_.assign(candidates_->segments());
 }
 
 void OutlineWalk::walk(GridPoint start, std::vector<Stretch>& contour) {
   const std::size_t first = contour.size(),
                     most = first + most_stretches_per_segment * candidates_->segments().size();
   const Place arriving{{start.x - 1, start.y}, start, {}};
-  find_near(arriving, start);
+  if (has_tree_)
+    find_near_piece(arriving, 0, 1);
+  else
+    find_near(arriving, start);
   take_first_direction(arriving, contour.emplace_back());
   while (contour.size() <= most) {
     contour.emplace_back();  // filled in place: copies would wait for what has just been written in parts
     const Stretch& now = contour[contour.size() - 2];
     Stretch& next = contour.back();
-    find_near(now.begin, now.rounded_begin);
-    if (take_first_crossing(now.begin, next)) continue;
+    if (has_tree_) {
+      if (cross_in_pieces(now, next)) continue;
+    } else {
+      find_near(now.begin, now.rounded_begin);
+      if (take_first_crossing(now.begin, 1, next)) continue;
+    }
     take_first_direction(now.begin, next);
     if (now.begin.to == start && same_direction(next.begin.direction(), contour[first].begin.direction()))
       return contour.pop_back();
@@ -76,6 +101,32 @@ void OutlineWalk::find_near(const Place& here, GridPoint rounded_here) {
        cell(std::min(from.y - 1, to.y)), cell(std::max(from.x + 1, to.x)), cell(std::max(from.y + 1, to.y))});
 }
 
+/// The same through the tree, for the part of the line between two shares of it.
+void OutlineWalk::find_near_piece(const Place& here, double begin, double end) {
+  near_count_ = tree_.find(place_on(here, begin), place_on(here, end), near_.data());
+  std::fill_n(near_.begin() + static_cast<std::ptrdiff_t>(near_count_), boxes_per_block, 0u);
+  implementation_->test_near(
+      search_, {here.from.x, here.from.y, here.to.x, here.to.y, here.at.value, 0, 0, 0, 0}, near_count_);
+}
+
+/// take_first_crossing() piece by piece, longer and longer ones: where candidates are many, most are beyond the first
+/// crossing. Leaves the candidates near the end of the line where there is none.
+bool OutlineWalk::cross_in_pieces(const Stretch& now, Stretch& next) {
+  const Place& here = now.begin;
+  const double length = length_of(here.direction());
+  double begin = here.at.value;
+  for (double piece = std::max(shortest_piece, more_than_last * last_length_);; piece *= piece_growth) {
+    const double end = std::min(begin + piece / length, 1.0);
+    find_near_piece(here, begin, end);
+    const bool crosses = take_first_crossing(here, end, next);
+    if (crosses || end == 1) {
+      last_length_ = length_of((crosses ? next.rounded_begin : here.to) - now.rounded_begin);
+      return crosses;
+    }
+    begin = end;
+  }
+}
+
 /// Calls each(i) where bit i of those found is set, in order.
 template <class Each>
 void OutlineWalk::for_each(const std::vector<std::uint64_t>& bits, Each each) const {
@@ -84,8 +135,9 @@ void OutlineWalk::for_each(const std::vector<std::uint64_t>& bits, Each each) co
       each(64 * word + static_cast<std::size_t>(std::countr_zero(open)));
 }
 
-/// Fills `next` with the first way to the right after `here` and before the end of its line, if there is one.
-bool OutlineWalk::take_first_crossing(const Place& here, Stretch& next) {
+/// Fills `next` with the first way to the right after `here` and before the end of its line, if there is one within that
+/// share of the line.
+bool OutlineWalk::take_first_crossing(const Place& here, double share, Stretch& next) {
   constexpr std::size_t none = ~std::size_t{0};
   std::size_t first = none;
   Fraction nearest;
@@ -101,6 +153,7 @@ bool OutlineWalk::take_first_crossing(const Place& here, Stretch& next) {
     return static_cast<std::int64_t>(std::abs(side_a_[i] - side_b_[i]));
   };
   for_each(crossing_, [&](std::size_t i) {
+    if (at_[i] > share) return;
     const Fraction at(static_cast<std::int64_t>(along_[i]), whole(i), at_[i]);
     if (compare(at, here.at) <= 0) return;
     const int order = first != none ? compare(at, nearest) : -1;

@@ -9,6 +9,7 @@
 
 #include "layout/grid_geometry.hpp"
 #include "layout/outline_candidates.hpp"
+#include "layout/segment_tree.hpp"
 
 namespace bch {
 
@@ -48,7 +49,9 @@ class OutlineWalk {
   void find_near(const Place& here, GridPoint rounded_here);
   template <class Each>
   void for_each(const std::vector<std::uint64_t>& bits, Each each) const;
-  bool take_first_crossing(const Place& here, Stretch& next);
+  void find_near_piece(const Place& here, double begin, double end);
+  bool cross_in_pieces(const Stretch& now, Stretch& next);
+  bool take_first_crossing(const Place& here, double share, Stretch& next);
   void take_first_direction(const Place& here, Stretch& next);
   void touch(std::uint32_t segment);
 
@@ -61,6 +64,9 @@ class OutlineWalk {
   SegmentSearch search_;        ///< with results in the arrays above
   std::size_t near_count_ = 0;  ///< candidates that the current stretch may meet
   std::vector<std::uint8_t> touched_;
+  SegmentTree tree_;  ///< over the candidates, where they are many
+  bool has_tree_ = false;
+  double last_length_ = 0;  ///< of a stretch, where there is a tree: the next one is often about as long
 };
 
 }  // namespace bch

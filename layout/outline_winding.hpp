@@ -7,22 +7,27 @@
 #include <span>
 #include <vector>
 
+#include "layout/grid_box.hpp"
 #include "layout/outline_walk.hpp"
 
 namespace bch {
 
-/// Tells of points whether a contour covers them. Keeps its memory.
-class ContourCover {
+/// The contours of a pose, to be asked whether one of them covers a point. Keeps its memory.
+class ContourCovers {
  public:
-  /// The stretches have to live until the next call.
-  void assign(std::span<const Stretch> contour);
+  void clear();
+  /// Adds the next contour. Its stretches need not live on.
+  void add(std::span<const Stretch> contour);
 
-  /// Whether a point is inside the contour or on it, exactly.
-  bool covers(GridPoint point) const;
+  std::size_t size() const { return begin_.size() - 1; }
+  /// Whether a point is inside contour i, which has the given stretches, or on it, exactly.
+  bool covers(std::size_t i, std::span<const Stretch> contour, GridPoint point) const;
 
  private:
-  std::span<const Stretch> contour_;
-  std::vector<std::int32_t> x_, y_;  ///< where stretches begin, rounded, and the first ones again
+  /// Where stretches begin, rounded; after a contour's last one its first again.
+  std::vector<std::int32_t> x_, y_;
+  std::vector<GridBox> boxes_;  ///< of the stretches of a contour, part after part
+  std::vector<std::size_t> begin_ = {0}, boxes_begin_ = {0};
 };
 
 }  // namespace bch
