@@ -9,6 +9,7 @@
 #include "bench/baked_report.hpp"
 #include "bench/characters.hpp"
 #include "bench/commands.hpp"
+#include "bench/cost_guard.hpp"
 #include "bench/exit_codes.hpp"
 #include "bench/inspection.hpp"
 #include "bench/options.hpp"
@@ -34,12 +35,15 @@ void run_bake(const BakeOptions& options) {
   std::vector<std::string> inputs = options.shapes.clips;
   inputs.insert(inputs.end(), options.characters.begin(), options.characters.end());
   require_outputs({{"--output", options.output}}, inputs);
+  const CostLimits& limits = options.shapes.limits;
   // Before there are threads: see guarded_import().
-  const auto characters = load_characters(options.characters, options.shapes.import_options());
+  const auto characters = load_characters(options.characters, options.shapes.import_options(), limits);
   const Threads threads(options.answer.threads);
   const auto sources = options.rate > 0 ? list_shapes_at_rate(characters, options.rate)
                                         : list_shapes(characters, options.shapes.poses);
-  const BakedShapes baked = bake_file(options.output, characters, sources, options.shapes.threshold, plan);
+  const CostGuard guard(limits, characters, sources.size());
+  const BakedShapes baked =
+      bake_file(options.output, characters, sources, options.shapes.threshold, plan, limits);
   std::string notes;
   for (const LoadedCharacter& character : characters) notes += notes_text(character);
   write_standard_output(text_of(options.output, baked) + notes);

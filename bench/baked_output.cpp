@@ -72,10 +72,11 @@ void BakedOutput::finish(const BakedShapes& baked) {
 }
 
 BakedShapes bake_file(const std::string& file, std::span<const LoadedCharacter> characters,
-                      std::span<const ShapeSource> sources, double threshold, const ShapeSetPlan& plan) {
+                      std::span<const ShapeSource> sources, double threshold, const ShapeSetPlan& plan,
+                      const CostLimits& limits) {
   BakedOutput output(file, sources.size(), plan.depths.size());
   const auto write_ahead = [&](std::span<const float> nodes) { output.write_ahead(nodes); };
-  BakedShapes baked{bake_shapes(characters, sources, threshold, plan, write_ahead),
+  BakedShapes baked{bake_shapes(characters, sources, threshold, plan, write_ahead, limits),
                     origins_of(characters, sources, threshold)};
   output.finish(baked);
   return baked;

@@ -38,6 +38,7 @@ class BakedOutput {
 
 /// bake_shapes() and origins_of() into a file.
 BakedShapes bake_file(const std::string& file, std::span<const LoadedCharacter> characters,
-                      std::span<const ShapeSource> sources, double threshold, const ShapeSetPlan& plan);
+                      std::span<const ShapeSource> sources, double threshold, const ShapeSetPlan& plan,
+                      const CostLimits& limits = {});
 
 }  // namespace bch::cli

@@ -30,11 +30,13 @@ struct Workshop {
 
 ShapeSet bake_shapes(std::span<const LoadedCharacter> characters, std::span<const ShapeSource> sources,
                      double threshold, const ShapeSetPlan& plan,
-                     const std::function<void(std::span<const float> nodes)>& added) {
+                     const std::function<void(std::span<const float> nodes)>& added,
+                     const CostLimits& limits) {
   ShapeSetBuilder builder(plan, sources.size());
   Progress progress("baking shapes", sources.size());
   tbb::enumerable_thread_specific<Workshop> workshops([&] {
-    return Workshop{ShapeMaker(characters, threshold, plan.depths.back(), plan.solid), ShapeFlattener(plan)};
+    return Workshop{ShapeMaker(characters, threshold, plan.depths.back(), plan.solid, limits),
+                    ShapeFlattener(plan)};
   });
   // Shape i waits in place i % n. They leave in order and no more than n are on their way, so that the place is free
   // again. Indices alone go from stage to stage: the pipeline never destroys what it holds when a stage throws.

@@ -18,7 +18,8 @@ namespace bch::cli {
 /// Errors:  as ShapeMaker and `added` throw.
 ShapeSet bake_shapes(std::span<const LoadedCharacter> characters, std::span<const ShapeSource> sources,
                      double threshold, const ShapeSetPlan& plan,
-                     const std::function<void(std::span<const float> nodes)>& added = {});
+                     const std::function<void(std::span<const float> nodes)>& added = {},
+                     const CostLimits& limits = {});
 
 /// What a baked file says about them. Characters go by their sources' file names.
 ShapeOrigins origins_of(std::span<const LoadedCharacter> characters, std::span<const ShapeSource> sources,

@@ -3,6 +3,7 @@
 
 #include "bench/characters.hpp"
 
+#include <fmt/format.h>
 #include <strings.h>
 
 #include <algorithm>
@@ -60,19 +61,24 @@ bool is_baked(const std::string& file) {
   return file.size() >= end.size() && strcasecmp(file.c_str() + file.size() - end.size(), end.data()) == 0;
 }
 
-LoadedCharacter load_character(const std::string& source, const ImportOptions& options) {
+LoadedCharacter load_character(const std::string& source, const ImportOptions& options,
+                               const CostLimits& limits) {
   if (is_baked(source)) throw InputError(source + ": is a baked file, where a character is expected");
   if (source.starts_with(built_in_prefix)) return built_in(source, options);
   ImportedCharacter imported = guarded_import(source, options);
+  if (const std::size_t count = imported.character.triangles.size(); count > limits.triangles)
+    throw InputError(fmt::format("{}: has {}", source,
+                                 beyond_limit(count, "triangles, those of each instance of a mesh",
+                                              limits.triangles, "--max-triangles")));
   return {source, std::move(imported.character), std::move(imported.report)};
 }
 
 std::vector<LoadedCharacter> load_characters(std::span<const std::string> sources,
-                                             const ImportOptions& options) {
+                                             const ImportOptions& options, const CostLimits& limits) {
   std::vector<LoadedCharacter> loaded;
   std::vector<std::string> errors;
   for (const std::string& source : sources) try {
-      loaded.push_back(load_character(source, options));
+      loaded.push_back(load_character(source, options, limits));
     } catch (const InputError& error) {
       errors.push_back(error.what());
     } catch (const ImportError& error) {

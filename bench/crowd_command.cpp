@@ -5,10 +5,12 @@
 
 #include <algorithm>
 #include <memory>
+#include <optional>
 
 #include "bench/baked_report.hpp"
 #include "bench/command_line.hpp"
 #include "bench/commands.hpp"
+#include "bench/cost_guard.hpp"
 #include "bench/crowd_picture.hpp"
 #include "bench/crowd_report.hpp"
 #include "bench/exit_codes.hpp"
@@ -71,12 +73,15 @@ void run_crowd_of_characters(const CrowdOptions& options) {
   const bool solid = options.answer.query_options().semantics == Semantics::solid;
   require_outputs_of(options);
 
+  const CostLimits& limits = options.shapes.limits;
   // Before there are threads: see guarded_import().
-  const auto characters = load_characters(options.characters, options.shapes.import_options());
+  const auto characters = load_characters(options.characters, options.shapes.import_options(), limits);
   const Threads threads(options.answer.threads);
   const auto sources = list_shapes(characters, options.shapes.poses);
-  const BuiltShapes built = build_shapes(characters, sources, options.shapes.threshold);
+  std::optional<CostGuard> guard(std::in_place, limits, characters, sources.size());
+  const BuiltShapes built = build_shapes(characters, sources, options.shapes.threshold, all_depths, limits);
   const ShapeSet set(built.shapes, {depths, solid});
+  guard.reset();
   run_crowd(options, characters, built, options.shapes.threshold, set, level, threads.count);
 }
 

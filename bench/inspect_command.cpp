@@ -7,6 +7,7 @@
 
 #include "bench/baked_report.hpp"
 #include "bench/commands.hpp"
+#include "bench/cost_guard.hpp"
 #include "bench/exit_codes.hpp"
 #include "bench/inspection.hpp"
 #include "bench/options.hpp"
@@ -65,7 +66,14 @@ ShapeSource at_index(const LoadedCharacter& from, std::span<const ShapeSource> s
 }
 
 void inspect_shape(const InspectOptions& options, const LoadedCharacter& from, const ShapeSource& source) {
-  const BuiltShapes built = build_shapes({&from, 1}, {&source, 1}, options.shapes.threshold);
+  const CostLimits& limits = options.shapes.limits;
+  const CostGuard guard(limits, {&from, 1}, 1);
+  const BuiltShapes built =
+      build_shapes({&from, 1}, {&source, 1}, options.shapes.threshold, all_depths, limits);
+  const std::size_t nodes = built.shapes.front().hierarchy.nodes.size();
+  if (!options.svg.empty() && nodes > limits.drawn_nodes)
+    throw InputError(fmt::format("{}: --svg would draw {}", from.source,
+                                 beyond_limit(nodes, "nodes", limits.drawn_nodes, "--max-drawn-nodes")));
   const ShapeFacts facts = examine(built.shapes.front(), source, options.shape);
   write_json(options.json, {{"character", json_of(from)}, {"shape", json_of(from, facts)}});
   if (!options.svg.empty()) write_file(options.svg, draw_depths(from, facts));
@@ -74,7 +82,9 @@ void inspect_shape(const InspectOptions& options, const LoadedCharacter& from, c
 
 void inspect_table(const InspectOptions& options, const LoadedCharacter& from,
                    std::span<const ShapeSource> sources) {
-  const BuiltShapes built = build_shapes({&from, 1}, sources, options.shapes.threshold);
+  const CostLimits& limits = options.shapes.limits;
+  const CostGuard guard(limits, {&from, 1}, sources.size());
+  const BuiltShapes built = build_shapes({&from, 1}, sources, options.shapes.threshold, all_depths, limits);
   const ShapeTable table{sources, built.shapes};
   write_json(options.json, {{"character", json_of(from)}, {"shapes", json_of(from, table)}});
   write_standard_output(text_of(from) + text_of(from, table));
@@ -104,7 +114,8 @@ void run_inspect(const CLI::App& command, const InspectOptions& options) {
     return inspect_baked(options);
   }
   require_absent(command, {"--verify"}, "only a baked file can be verified");
-  const LoadedCharacter from = load_character(options.character, options.shapes.import_options());
+  const LoadedCharacter from =
+      load_character(options.character, options.shapes.import_options(), options.shapes.limits);
   const Threads threads(options.threads);
   const auto sources = list_shapes({&from, 1}, options.shapes.poses);
   if (options.clip)
@@ -140,6 +151,13 @@ std::function<void()> add_inspect_command(CLI::App& program) {
       ->type_name("FILE");
   command.add_option("--svg", options->svg, "Draw the shape: a panel for each depth of its hierarchy")
       ->type_name("FILE");
+  CostLimits& limits = options->shapes.limits;
+  command
+      .add_option("--max-drawn-nodes", limits.drawn_nodes,
+                  fmt::format("Nodes of the shape that --svg draws [{}]", limits.drawn_nodes))
+      ->type_name("N")
+      ->check(whole_between(1, 1'000'000'000))
+      ->group("Limits");
   return [options, &command] { run_inspect(command, *options); };
 }
 

@@ -11,8 +11,10 @@
 #include <atomic>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 
 #include "bench/exit_codes.hpp"
+#include "bench/printable.hpp"
 
 namespace bch::cli {
 namespace {
@@ -41,16 +43,19 @@ void remove_unfinished() {
   if (const Unfinished* const file = unfinished.load()) unlinkat(file->folder, file->name, 0);
 }
 
+/// Removes the file under construction, writes the words and leaves. Only calls that signal handlers may make.
+[[noreturn]] void leave_saying(int code, std::string_view words) {
+  remove_unfinished();
+  // A progress bar ends without a new line; elsewhere the message stands alone.
+  [[maybe_unused]] ssize_t written = isatty(STDERR_FILENO) == 1 ? write(STDERR_FILENO, "\n", 1) : 0;
+  written = write(STDERR_FILENO, words.data(), words.size());
+  _exit(code);
+}
+
 /// Leaves from here instead of setting a flag: an import or a batch may be far from the next place that would
 /// look at one.
 extern "C" void leave(int signal) {
-  remove_unfinished();
-  constexpr char message[] = "\nbch: interrupted\n";
-  // A progress bar ends without a new line; elsewhere the message stands alone.
-  const bool terminal = isatty(STDERR_FILENO) == 1;
-  const char* text = terminal ? message : message + 1;
-  [[maybe_unused]] const auto written = write(STDERR_FILENO, text, sizeof(message) - (terminal ? 1 : 2));
-  _exit(exit_signal + signal);
+  leave_saying(exit_signal + signal, "bch: interrupted\n");
 }
 
 /// Has the signal again when this returns, and then nothing catches it (SA_RESETHAND).
@@ -86,6 +91,10 @@ void clean_up_on_signals() {
   sigaltstack(&stack, nullptr);
   for_each_ending_signal(catch_signal);
   signal(SIGXFSZ, SIG_IGN);
+}
+
+void leave_at_once(int code, const std::string& line) {
+  leave_saying(code, "bch: " + printable_line(line) + "\n");
 }
 
 void forget_signals() {

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstddef>
+#include <string>
 #include <string_view>
 
 namespace bch::cli {
@@ -16,6 +17,10 @@ void clean_up_on_signals();
 
 /// Gives those signals their default effect again, for a child process, which has no file to remove.
 void forget_signals();
+
+/// Ends the program at once, from any thread, whatever the others do: removes the file under construction, writes a line
+/// to standard error, and leaves with that code.
+[[noreturn]] void leave_at_once(int code, const std::string& line);
 
 /// The file that such a signal removes, while this lives: a name in an open folder. Of several, it is the last one.
 class RemovedOnSignal {

@@ -60,7 +60,8 @@ void require_absent(const CLI::App& command, std::initializer_list<const char*> 
 
 void require_unsettled(const CLI::App& command, const std::string& baked_file) {
   for (const char* option :
-       {"--clips", "--force-clips", "--up", "--scale", "--poses", "--threshold", "--depths"})
+       {"--clips", "--force-clips", "--up", "--scale", "--poses", "--threshold", "--depths", "--max-triangles",
+        "--max-contours", "--max-nodes", "--max-seconds", "--max-memory"})
     if (command.get_option_no_throw(option) != nullptr)
       require_absent(command, {option}, baked_file + " has settled that");
 }
@@ -104,6 +105,24 @@ void ShapeOptions::add_to(CLI::App& command) {
   command.add_option("--threshold", threshold, "A node with a smaller radius is not divided [0.01 m]")
       ->type_name("METRES")
       ->check(number_between(1e-4, 100));
+  add_limits_to(command);
+}
+
+void ShapeOptions::add_limits_to(CLI::App& command) {
+  const auto add = [&](const char* name, auto& value, const char* type, const std::string& help,
+                       const CLI::Validator& check) {
+    command.add_option(name, value, help)->type_name(type)->check(check)->group("Limits");
+  };
+  const auto add_count = [&](const char* name, std::size_t& value, const char* what) {
+    add(name, value, "N", fmt::format("{} [{}]", what, value), whole_between(1, 1'000'000'000));
+  };
+  add_count("--max-triangles", limits.triangles, "Triangles of a file, those of each instance of a mesh");
+  add_count("--max-contours", limits.contours, "Contours of the outline of a pose");
+  add_count("--max-nodes", limits.nodes, "Nodes of the hierarchy of a pose");
+  add("--max-seconds", limits.seconds, "N", "Time to build and write shapes [60 s, and 1 s a shape]",
+      number_between(1e-3, 1e9));
+  add("--max-memory", limits.memory, "GIB",
+      "Memory while shapes are built and written [4 GiB, and 1 MiB a shape]", number_between(1e-3, 1e6));
 }
 
 ImportOptions ShapeOptions::import_options() const {

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "bench/cost_limits.hpp"
 #include "kernel/collide.hpp"
 #include "layout/import.hpp"
 
@@ -22,9 +23,13 @@ struct ShapeOptions {
   double scale = 0;  ///< 0: what the file says
   std::uint32_t poses = 100;
   double threshold = 0.01;
+  CostLimits limits;
 
   void add_to(CLI::App& command);
   ImportOptions import_options() const;
+
+ private:
+  void add_limits_to(CLI::App& command);
 };
 
 /// How pairs are answered.

@@ -11,6 +11,7 @@
 
 #include "bench/baked_report.hpp"
 #include "bench/commands.hpp"
+#include "bench/cost_guard.hpp"
 #include "bench/csv_input.hpp"
 #include "bench/exit_codes.hpp"
 #include "bench/number.hpp"
@@ -125,7 +126,8 @@ void answer(const QueryCommandOptions& options, const ShapeSet& set, Question& q
 void query_character(const QueryCommandOptions& options) {
   std::vector<std::uint32_t> depths = options.answer.cut_depths();
   const bool solid = options.answer.query_options().semantics == Semantics::solid;
-  const LoadedCharacter from = load_character(options.character, options.shapes.import_options());
+  const CostLimits& limits = options.shapes.limits;
+  const LoadedCharacter from = load_character(options.character, options.shapes.import_options(), limits);
   const auto sources = list_shapes({&from, 1}, options.shapes.poses);
   Question question = read_question(options, sources.size(), depths.size());
   // Agents without a level use the last one: the others need not be there.
@@ -133,8 +135,11 @@ void query_character(const QueryCommandOptions& options) {
 
   const Threads threads(options.answer.threads);
   const auto used = keep_used(sources, question.table);
-  const BuiltShapes built = build_shapes({&from, 1}, used, options.shapes.threshold, depths.back());
-  answer(options, ShapeSet(built.shapes, {depths, solid}), question);
+  std::optional<CostGuard> guard(std::in_place, limits, std::span(&from, 1), used.size());
+  const BuiltShapes built = build_shapes({&from, 1}, used, options.shapes.threshold, depths.back(), limits);
+  const ShapeSet set(built.shapes, {depths, solid});
+  guard.reset();
+  answer(options, set, question);
 }
 
 void query_baked(const QueryCommandOptions& options) {

@@ -55,34 +55,44 @@ std::string clip_name(const LoadedCharacter& character, PoseTime at) {
 }
 
 ShapeMaker::ShapeMaker(std::span<const LoadedCharacter> characters, double threshold, std::uint32_t deepest,
-                       bool outlines)
+                       bool outlines, const CostLimits& limits)
     : characters_(characters),
       threshold_(threshold),
       deepest_(deepest),
       outlines_(outlines || deepest > 0),
+      limits_(limits),
       shapers_(characters.size()) {}
 
 const Shape& ShapeMaker::make(const ShapeSource& source) {
   const LoadedCharacter& from = characters_[source.character];
   auto& shaper = shapers_[source.character];
+  const auto reject = [&](const std::string& reason) {
+    throw InputError(fmt::format("{}: {} at {} s: {}", from.source, clip_name(from, source.at),
+                                 source.at.seconds, reason));
+  };
   try {
-    if (!shaper) shaper.emplace(from.character, static_cast<float>(threshold_), deepest_, outlines_);
+    if (!shaper) {
+      shaper.emplace(from.character, static_cast<float>(threshold_), deepest_, outlines_);
+      shaper->limit_nodes(limits_.nodes);
+    }
     const auto begin = Clock::now();
-    if (outlines_) shaper->make_outline(source.at);
+    const std::size_t contours = outlines_ ? shaper->make_outline(source.at).contours() : 0;
+    if (contours > limits_.contours)
+      reject("its outline has " + beyond_limit(contours, "contours", limits_.contours, "--max-contours"));
     const auto middle = Clock::now();
     const Shape& shape = outlines_ ? shaper->make_hierarchy() : shaper->shape(source.at);
     timing_ = {seconds_between(begin, middle), seconds_between(middle, Clock::now())};
     return shape;
+  } catch (const std::length_error& error) {
+    reject(std::string(error.what()) + "; --max-nodes raises the limit");
   } catch (const std::logic_error& error) {
-    // Out of the domain: a pose kilometres wide, say. domain_error, invalid_argument and length_error are all
-    // logic errors.
-    throw InputError(fmt::format("{}: {} at {} s: {}", from.source, clip_name(from, source.at),
-                                 source.at.seconds, error.what()));
+    // Out of the domain: a pose kilometres wide, say. domain_error and invalid_argument are both logic errors.
+    reject(error.what());
   }
 }
 
 BuiltShapes build_shapes(std::span<const LoadedCharacter> characters, std::span<const ShapeSource> sources,
-                         double threshold, std::uint32_t deepest) {
+                         double threshold, std::uint32_t deepest, const CostLimits& limits) {
   BuiltShapes built;
   built.shapes.resize(sources.size());
   std::vector<ShapeTiming> timings(sources.size());
@@ -90,7 +100,7 @@ BuiltShapes build_shapes(std::span<const LoadedCharacter> characters, std::span<
 
   // Learning a mesh takes as long as tens of shapes, so that a thread keeps what it learned.
   tbb::enumerable_thread_specific<ShapeMaker> makers(
-      [&] { return ShapeMaker(characters, threshold, deepest); });
+      [&] { return ShapeMaker(characters, threshold, deepest, true, limits); });
   tbb::parallel_for(std::size_t{0}, sources.size(), [&](std::size_t i) {
     ShapeMaker& maker = makers.local();
     built.shapes[i] = maker.make(sources[i]);

@@ -38,10 +38,11 @@ class ShapeMaker {
  public:
   /// `deepest` and `outlines` as of PoseShaper.
   ShapeMaker(std::span<const LoadedCharacter> characters, double threshold, std::uint32_t deepest,
-             bool outlines = true);
+             bool outlines = true, const CostLimits& limits = {});
 
   /// Returns: the shape, until the next call.
-  /// Errors:  throws InputError naming the character, clip and time of a pose that has no outline.
+  /// Errors:  throws InputError naming the character, clip and time of a pose that has no outline, or one of more
+  ///          contours, or a hierarchy of more nodes, than the limits.
   const Shape& make(const ShapeSource& source);
   /// What the last shape took.
   const ShapeTiming& timing() const { return timing_; }
@@ -51,6 +52,7 @@ class ShapeMaker {
   double threshold_;
   std::uint32_t deepest_;
   bool outlines_;
+  CostLimits limits_;
   std::vector<std::optional<PoseShaper>> shapers_;
   ShapeTiming timing_;
 };
@@ -64,6 +66,6 @@ struct BuiltShapes {
 /// Builds contour hierarchies, in parallel, with a progress bar.
 /// Errors:  as ShapeMaker throws.
 BuiltShapes build_shapes(std::span<const LoadedCharacter> characters, std::span<const ShapeSource> sources,
-                         double threshold, std::uint32_t deepest = all_depths);
+                         double threshold, std::uint32_t deepest = all_depths, const CostLimits& limits = {});
 
 }  // namespace bch::cli

@@ -21,7 +21,6 @@
 namespace bch {
 namespace {
 
-constexpr std::size_t most_nodes = std::size_t{1} << 22;
 constexpr std::uint32_t none = 0xffffffff;
 
 double widened(float value) {
@@ -149,10 +148,10 @@ inline void HierarchyBuilder::reserve(std::uint32_t nodes) {
 }
 
 void HierarchyBuilder::enlarge(std::uint32_t nodes) {
-  if (node_count_ + nodes > most_nodes)
-    throw std::length_error("hierarchy: more than 2^22 nodes at a threshold of " + shortest(threshold_) +
-                            " m");
-  nodes_.resize(std::min(most_nodes, 2 * std::size_t{node_count_} + nodes + 256));
+  if (node_count_ + nodes > most_nodes_)
+    throw std::length_error("hierarchy: more than " + std::to_string(most_nodes_) +
+                            " nodes at a threshold of " + shortest(threshold_) + " m");
+  nodes_.resize(std::min(most_nodes_, 2 * std::size_t{node_count_} + nodes + 256));
 }
 
 /// First the tree, depth first, whose shape needs few discs, then the other discs.

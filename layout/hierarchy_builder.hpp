@@ -24,6 +24,9 @@ class HierarchyBuilder {
   /// With a given implementation of the discs, which this processor has to support.
   explicit HierarchyBuilder(const DiscImplementation& implementation) : solver_(implementation) {}
 
+  /// The most nodes of a hierarchy, 2^22 unless told: more throw std::length_error.
+  void limit_nodes(std::size_t most) noexcept { most_nodes_ = most; }
+
   /// As contour_hierarchy() documents, without elements. After an exception the hierarchy has no nodes.
   /// `deepest`: nodes there are leaves; cuts down to there are the same.
   void contour(const Outline& outline, float threshold, SplitRule rule, Hierarchy& hierarchy,
@@ -92,6 +95,7 @@ class HierarchyBuilder {
   std::array<Half, 256> halves_;  ///< lengths span fewer binary orders of magnitude
 
   std::uint32_t node_count_ = 0;
+  std::size_t most_nodes_ = std::size_t{1} << 22;
   std::vector<HierarchyNode> nodes_;
   std::vector<std::uint32_t>
       first_node_;  ///< per item of the order: a leaf that holds it, or of its pieces' nodes

@@ -30,6 +30,9 @@ class PoseShaper {
   explicit PoseShaper(const Character& character, float threshold = 0.01f, std::uint32_t deepest = all_depths,
                       bool outlines = true);
 
+  /// The most nodes of a hierarchy, 2^22 unless told: shapes of more throw std::length_error.
+  void limit_nodes(std::size_t most) { hierarchy_builder_.limit_nodes(most); }
+
   /// Returns: the shape that pose_shape() makes, down to the deepest depth and without elements, until the next call.
   /// Errors:  as pose_shape(), but that heights may be anything; the shape made before is lost.
   const Shape& shape(PoseTime at);

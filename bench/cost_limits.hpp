@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <cstddef>
+#include <string>
+
+namespace bch::cli {
+
+/// What a character file may cost once it has been read: while its shapes are built and written. No real character
+/// comes near the defaults. Whatever goes beyond a limit is refused by one line that names the limit and the option that
+/// raises it.
+struct CostLimits {
+  std::size_t triangles = 4'000'000;         ///< of a file, those of each instance of a mesh
+  std::size_t contours = 1'000'000;          ///< of the outline of a pose
+  std::size_t nodes = std::size_t{1} << 22;  ///< of the hierarchy of a pose
+  std::size_t drawn_nodes = 100'000;         ///< of the hierarchy that a picture shows
+  double seconds = 0;                        ///< for all shapes; 0: 60, and 1 more for each shape
+  double memory = 0;                         ///< GiB of the program; 0: 4, and 1/1024 more for each shape
+
+  /// The two that depend on how many shapes were asked for.
+  double seconds_for(std::size_t shapes) const;
+  double memory_for(std::size_t shapes) const;
+};
+
+/// "12 contours, more than 10; --max-contours raises the limit".
+std::string beyond_limit(std::size_t count, const char* what, std::size_t most, const char* option);
+
+}  // namespace bch::cli
