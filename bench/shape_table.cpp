@@ -66,9 +66,9 @@ ShapeMaker::ShapeMaker(std::span<const LoadedCharacter> characters, double thres
 const Shape& ShapeMaker::make(const ShapeSource& source) {
   const LoadedCharacter& from = characters_[source.character];
   auto& shaper = shapers_[source.character];
-  const auto reject = [&](const std::string& reason) {
-    throw InputError(fmt::format("{}: {} at {} s: {}", from.source, clip_name(from, source.at),
-                                 source.at.seconds, reason));
+  const auto failure = [&](const std::string& reason) {
+    return InputError(fmt::format("{}: {} at {} s: {}", from.source, clip_name(from, source.at),
+                                  source.at.seconds, reason));
   };
   try {
     if (!shaper) {
@@ -78,16 +78,17 @@ const Shape& ShapeMaker::make(const ShapeSource& source) {
     const auto begin = Clock::now();
     const std::size_t contours = outlines_ ? shaper->make_outline(source.at).contours() : 0;
     if (contours > limits_.contours)
-      reject("its outline has " + beyond_limit(contours, "contours", limits_.contours, "--max-contours"));
+      throw failure("its outline has " +
+                    beyond_limit(contours, "contours", limits_.contours, "--max-contours"));
     const auto middle = Clock::now();
     const Shape& shape = outlines_ ? shaper->make_hierarchy() : shaper->shape(source.at);
     timing_ = {seconds_between(begin, middle), seconds_between(middle, Clock::now())};
     return shape;
   } catch (const std::length_error& error) {
-    reject(std::string(error.what()) + "; --max-nodes raises the limit");
+    throw failure(std::string(error.what()) + "; --max-nodes raises the limit");
   } catch (const std::logic_error& error) {
     // Out of the domain: a pose kilometres wide, say. domain_error and invalid_argument are both logic errors.
-    reject(error.what());
+    throw failure(error.what());
   }
 }
 
