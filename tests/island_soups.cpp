@@ -47,10 +47,14 @@ void add_nest(Soup& soup, Corner at, std::uint32_t depth) {
   add(soup, at, {at.x + 1, at.y}, {at.x, at.y + 1});
 }
 
-void append(Soup& soup, const Soup& other, float x, float y) {
-  const auto first = static_cast<std::uint32_t>(soup.positions.size());
-  for (const Eigen::Vector3f& p : other.positions) soup.positions.emplace_back(p.x() + x, p.y() + y, p.z());
-  for (const auto& [a, b, c] : other.triangles) soup.triangles.push_back({a + first, b + first, c + first});
+/// Triangles with corners anywhere, many at the same places.
+Soup anywhere(Random& random) {
+  const auto corner = [&] {
+    return Corner{static_cast<std::int32_t>(random.below(20)), static_cast<std::int32_t>(random.below(20))};
+  };
+  Soup soup;
+  for (std::uint32_t left = 1 + random.below(12); left > 0; --left) add(soup, corner(), corner(), corner());
+  return soup;
 }
 
 }  // namespace
@@ -106,19 +110,26 @@ Soup nearly_equal_triangles(Random& random, std::uint32_t count, std::uint32_t s
   return soup;
 }
 
+void append(Soup& soup, const Soup& other, std::int32_t x, std::int32_t y) {
+  const auto first = static_cast<std::uint32_t>(soup.positions.size());
+  for (const Eigen::Vector3f& p : other.positions)
+    soup.positions.emplace_back(p.x() + unit * static_cast<float>(x), p.y() + unit * static_cast<float>(y),
+                                p.z());
+  for (const auto& [a, b, c] : other.triangles) soup.triangles.push_back({a + first, b + first, c + first});
+}
+
 Soup jumble(Random& random) {
-  const auto place = [&] { return unit * static_cast<float>(random.below(120)); };
-  const auto parts = 1 + random.below(4);
+  const auto place = [&] { return static_cast<std::int32_t>(random.below(120)); };
   Soup soup;
-  for (std::uint32_t i = 0; i < parts; ++i) {
+  for (std::uint32_t left = 1 + random.below(4); left > 0; --left) {
     const std::uint32_t kind = random.below(5);
-    append(soup,
-           kind == 0   ? separate_triangles(1 + random.below(9))
-           : kind == 1 ? nested_frames(1, 1 + random.below(3))
-           : kind == 2 ? comb(1 + random.below(3), random.below(2) == 0)
-           : kind == 3 ? chain(1 + random.below(6))
-                       : random_soup(random),
-           place(), place());
+    const Soup part = kind == 0   ? separate_triangles(1 + random.below(9))
+                      : kind == 1 ? nested_frames(1, 1 + random.below(3))
+                      : kind == 2 ? comb(1 + random.below(3), random.below(2) == 0)
+                      : kind == 3 ? chain(1 + random.below(6))
+                                  : anywhere(random);
+    const std::int32_t x = place(), y = place();
+    append(soup, part, x, y);
   }
   return soup;
 }

@@ -26,7 +26,10 @@ Soup chain(std::uint32_t count);
 /// Triangles whose corners differ from those of one triangle by less than `spread` times 2^-10 m.
 Soup nearly_equal_triangles(Random& random, std::uint32_t count, std::uint32_t spread);
 
-/// Some of these soups, small and at random places of a small field.
+/// Adds the triangles of another soup, moved by so many times 2^-10 m.
+void append(Soup& soup, const Soup& other, std::int32_t x, std::int32_t y);
+
+/// Some of these soups, small and at random places of a small field of a few hundred times 2^-10 m.
 Soup jumble(Random& random);
 
 }  // namespace bch::test

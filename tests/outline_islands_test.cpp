@@ -45,6 +45,31 @@ TEST(OutlineIslands, JumblesHaveTheOutlinesOfTheirArrangements) {
   }
 }
 
+/// Many jumbles apart from each other, with more candidates than are looked at without a tree: the outline is that of each.
+TEST(OutlineIslands, AFieldOfJumblesHasTheOutlinesOfAllOfThem) {
+  constexpr std::int32_t row = 36, pitch = 512;
+  test::Random random(9);
+  Soup field;
+  std::vector<Soup> jumbles;
+  for (std::int32_t i = 0; i < row * row; ++i) {
+    jumbles.push_back(test::jumble(random));
+    test::append(field, jumbles.back(), pitch * (i % row), pitch * (i / row));
+  }
+  ASSERT_GT(field.triangles.size(), 16'384u);
+  const Outline outline = build(field);
+  const auto step = static_cast<std::int64_t>(0x1p-10f / outline.grid_step);  // of a jumble's unit
+  ASSERT_GT(step, 0);
+  std::vector<std::vector<test::IntegerContour>> found(jumbles.size());
+  for (test::IntegerContour& contour : test::on_grid(outline)) {
+    const auto cell = [&](std::int64_t steps) { return (steps + 64 * step) / (pitch * step); };
+    const std::int64_t x = cell(contour[0].x), y = cell(contour[0].y);
+    for (test::IntegerPoint& p : contour) p.x -= x * pitch * step, p.y -= y * pitch * step;
+    found[static_cast<std::size_t>(y * row + x)].push_back(contour);
+  }
+  for (std::size_t i = 0; i < jumbles.size(); ++i)
+    ASSERT_EQ(found[i], test::arrangement_outline(test::on_grid(jumbles[i], outline.grid_step))) << i;
+}
+
 /// A contour of hundreds of stretches, of which each island asks a few.
 TEST(OutlineIslands, AnIslandInAPocketIsApartAndOneOnAToothIsNot) {
   for (const bool before : {false, true}) expect_equals_arrangement(test::comb(24, before));
