@@ -91,6 +91,20 @@ Soup comb(std::uint32_t teeth, bool before) {
   return soup;
 }
 
+Soup wheel(std::uint32_t triangles, bool before) {
+  constexpr double radius = 2000;
+  const auto rim = [&](std::uint32_t i) {
+    const double angle = 6.283185307179586 * i / triangles;
+    return Corner{static_cast<std::int32_t>(std::lround(radius * std::cos(angle))),
+                  static_cast<std::int32_t>(std::lround(radius * std::sin(angle)))};
+  };
+  Soup soup;
+  for (std::uint32_t i = 0; i < triangles; ++i) add(soup, {0, 0}, rim(i), rim((i + 1) % triangles));
+  for (std::int32_t y = -1000; y <= 1000; y += 77) add(soup, {3, y}, {5, y}, {3, y + 2});
+  if (before) add(soup, {-2009, 0}, {-2005, 0}, {-2007, 4});
+  return soup;
+}
+
 Soup chain(std::uint32_t count) {
   Soup soup;
   for (std::uint32_t i = 0; i < count; ++i) {

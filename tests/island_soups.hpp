@@ -20,6 +20,9 @@ Soup nested_frames(std::uint32_t count, std::uint32_t depth);
 /// tooth one that lies inside it. `before`: a triangle stands to the left of everything.
 Soup comb(std::uint32_t teeth, bool before);
 
+/// A wheel of triangles about its centre, with small triangles inside. `before`: as of a comb.
+Soup wheel(std::uint32_t triangles, bool before);
+
 /// Triangles that touch the next in a corner: a chain.
 Soup chain(std::uint32_t count);
 

@@ -75,6 +75,11 @@ TEST(OutlineIslands, AnIslandInAPocketIsApartAndOneOnAToothIsNot) {
   for (const bool before : {false, true}) expect_equals_arrangement(test::comb(24, before));
 }
 
+TEST(OutlineIslands, AnIslandInsideALongContourIsLeftOut) {
+  for (const bool before : {false, true})
+    EXPECT_EQ(build(test::wheel(1000, before)).contours(), before ? 2u : 1u);
+}
+
 TEST(OutlineIslands, CountsManySeparateTriangles) {
   constexpr std::uint32_t count = 360'000;
   const Outline outline = build(test::separate_triangles(count));
