@@ -104,26 +104,43 @@ TEST(CliLimits, TimeAndMemoryAreLimitedAndNoFileIsLeft) {
   EXPECT_EQ(files_in(folder), 1u);
 }
 
-/// Nodes share their children: a small file of 12^4 instances.
-TEST(CliLimits, InstancesOfAMeshCount) {
+/// A triangle, and as many nodes that show it as there are names of it.
+std::string triangle_in_nodes(const std::string& nodes) {
   GltfFile file;
   const std::string positions = file.add(std::vector<float>{0, 0, 0, 1, 0, 0, 0, 1.8f, 1}, "VEC3");
   file.add_json(R"("meshes":[{"primitives":[{"attributes":{"POSITION":)" + positions + "}}]}]");
+  file.add_json(R"("nodes":[)" + nodes + R"(],"scenes":[{"nodes":[0]}],"scene":0)");
+  return file.text();
+}
+
+TEST(CliLimits, InstancesOfAMeshCount) {
+  std::string children, nodes;
+  for (int i = 1; i <= 12'000; ++i) {
+    children += (i > 1 ? "," : "") + std::to_string(i);
+    nodes += R"(,{"mesh":0})";
+  }
+  const TemporaryFolder folder;
+  const std::string instances =
+      folder.write("instances.gltf", triangle_in_nodes(R"({"children":[)" + children + "]}" + nodes));
+  expect_failure(bch({"inspect", instances, "--max-triangles", "10000"}), 3,
+                 {"instances.gltf: ", "12000 triangles", "each instance", "--max-triangles"});
+  const Ending run = bch({"inspect", instances});
+  EXPECT_EQ(run.code, 0) << run.err;
+}
+
+/// A file of 1 kB that stands for 12^4 nodes: glTF's nodes are trees, which have no child twice.
+TEST(CliLimits, NodesThatShareTheirChildrenAreRefused) {
   std::string nodes;
   for (int level = 1; level <= 4; ++level) {
     nodes += R"({"children":[)";
     for (int i = 0; i < 12; ++i) nodes += std::to_string(level) + (i < 11 ? "," : "");
     nodes += "]},";
   }
-  file.add_json(R"("nodes":[)" + nodes + R"({"mesh":0}])");
-  file.add_json(R"("scenes":[{"nodes":[0]}],"scene":0)");
   const TemporaryFolder folder;
-  const std::string instances = folder.write("instances.gltf", file.text());
-  EXPECT_LT(std::filesystem::file_size(instances), 2000u);
-  expect_failure(bch({"inspect", instances, "--max-triangles", "20000"}), 3,
-                 {"instances.gltf: ", "20736 triangles", "each instance", "--max-triangles"});
-  const Ending run = bch({"inspect", instances});
-  EXPECT_EQ(run.code, 0) << run.err;
+  const std::string shared = folder.write("shared.gltf", triangle_in_nodes(nodes + R"({"mesh":0})"));
+  EXPECT_LT(std::filesystem::file_size(shared), 2000u);
+  expect_failure(bch({"inspect", shared}), 3,
+                 {"shared.gltf: ", "a node that has a place in the scene already"});
 }
 
 }  // namespace
