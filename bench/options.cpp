@@ -60,8 +60,8 @@ void require_absent(const CLI::App& command, std::initializer_list<const char*> 
 
 void require_unsettled(const CLI::App& command, const std::string& baked_file) {
   for (const char* option :
-       {"--clips", "--force-clips", "--up", "--scale", "--poses", "--threshold", "--depths", "--max-triangles",
-        "--max-contours", "--max-nodes", "--max-seconds", "--max-memory"})
+       {"--clips", "--force-clips", "--up", "--scale", "--poses", "--threshold", "--depths",
+        "--max-triangles", "--max-contours", "--max-nodes", "--max-seconds", "--max-memory"})
     if (command.get_option_no_throw(option) != nullptr)
       require_absent(command, {option}, baked_file + " has settled that");
 }

@@ -48,8 +48,8 @@ struct ImportReport {
   std::size_t triangles = 0;
   std::size_t dropped_faces = 0;     ///< points, lines, faces that name a vertex that is not there
   std::size_t dropped_vertices = 0;  ///< used by no triangle
-  std::size_t bones = 0;  ///< joints that move vertices or are bones of a skin
-  float height = 0;  ///< of the rest pose, metres
+  std::size_t bones = 0;             ///< joints that move vertices or are bones of a skin
+  float height = 0;                  ///< of the rest pose, metres
   std::vector<ClipReport> clips;
   std::vector<std::string> notes;  ///< a sentence for every conversion, guess and repair
 };
