@@ -37,7 +37,7 @@ void run_bake(const BakeOptions& options) {
   require_outputs({{"--output", options.output}}, inputs);
   const CostLimits& limits = options.shapes.limits;
   // Before there are threads: see guarded_import().
-  const auto characters = load_characters(options.characters, options.shapes.import_options(), limits);
+  const auto characters = load_characters(options.characters, options.shapes.import_options());
   const Threads threads(options.answer.threads);
   const auto sources = options.rate > 0 ? list_shapes_at_rate(characters, options.rate)
                                         : list_shapes(characters, options.shapes.poses);

@@ -3,10 +3,10 @@
 
 #include "bench/characters.hpp"
 
-#include <fmt/format.h>
 #include <strings.h>
 
 #include <algorithm>
+#include <string_view>
 
 #include "bench/exit_codes.hpp"
 #include "bench/guarded_import.hpp"
@@ -50,6 +50,14 @@ LoadedCharacter built_in(const std::string& source, const ImportOptions& options
   return loaded;
 }
 
+/// The library's message with this program's name of the limit.
+std::string with_own_option(std::string message) {
+  constexpr std::string_view name = "ImportOptions::most_triangles";
+  if (const std::size_t at = message.rfind(name); at != std::string::npos)
+    message.replace(at, name.size(), "--max-triangles");
+  return message;
+}
+
 }  // namespace
 
 std::string file_name(const LoadedCharacter& character) {
@@ -61,24 +69,23 @@ bool is_baked(const std::string& file) {
   return file.size() >= end.size() && strcasecmp(file.c_str() + file.size() - end.size(), end.data()) == 0;
 }
 
-LoadedCharacter load_character(const std::string& source, const ImportOptions& options,
-                               const CostLimits& limits) {
+LoadedCharacter load_character(const std::string& source, const ImportOptions& options) {
   if (is_baked(source)) throw InputError(source + ": is a baked file, where a character is expected");
   if (source.starts_with(built_in_prefix)) return built_in(source, options);
-  ImportedCharacter imported = guarded_import(source, options);
-  if (const std::size_t count = imported.character.triangles.size(); count > limits.triangles)
-    throw InputError(fmt::format("{}: has {}", source,
-                                 beyond_limit(count, "triangles, those of each instance of a mesh",
-                                              limits.triangles, "--max-triangles")));
-  return {source, std::move(imported.character), std::move(imported.report)};
+  try {
+    ImportedCharacter imported = guarded_import(source, options);
+    return {source, std::move(imported.character), std::move(imported.report)};
+  } catch (const ImportError& error) {
+    throw ImportError(with_own_option(error.what()));
+  }
 }
 
 std::vector<LoadedCharacter> load_characters(std::span<const std::string> sources,
-                                             const ImportOptions& options, const CostLimits& limits) {
+                                             const ImportOptions& options) {
   std::vector<LoadedCharacter> loaded;
   std::vector<std::string> errors;
   for (const std::string& source : sources) try {
-      loaded.push_back(load_character(source, options, limits));
+      loaded.push_back(load_character(source, options));
     } catch (const InputError& error) {
       errors.push_back(error.what());
     } catch (const ImportError& error) {

@@ -7,7 +7,6 @@
 #include <string>
 #include <vector>
 
-#include "bench/cost_limits.hpp"
 #include "layout/import.hpp"
 
 namespace bch::cli {
@@ -32,13 +31,12 @@ bool is_baked(const std::string& file);
 std::string file_name(const LoadedCharacter& character);
 
 /// Errors:  throws UsageError on a built-in character with import options or an unknown "default:" name,
-///          InputError and ImportError on a bad file, or one of more triangles than the limit.
-LoadedCharacter load_character(const std::string& source, const ImportOptions& options,
-                               const CostLimits& limits = {});
+///          InputError and ImportError on a bad file.
+LoadedCharacter load_character(const std::string& source, const ImportOptions& options);
 
 /// All of them: a bad file does not keep the next from being read.
 /// Errors:  throws InputErrors of all bad files, and UsageError.
 std::vector<LoadedCharacter> load_characters(std::span<const std::string> sources,
-                                             const ImportOptions& options, const CostLimits& limits = {});
+                                             const ImportOptions& options);
 
 }  // namespace bch::cli

@@ -75,7 +75,7 @@ void run_crowd_of_characters(const CrowdOptions& options) {
 
   const CostLimits& limits = options.shapes.limits;
   // Before there are threads: see guarded_import().
-  const auto characters = load_characters(options.characters, options.shapes.import_options(), limits);
+  const auto characters = load_characters(options.characters, options.shapes.import_options());
   const Threads threads(options.answer.threads);
   const auto sources = list_shapes(characters, options.shapes.poses);
   std::optional<CostGuard> guard(std::in_place, limits, characters, sources.size());

@@ -114,8 +114,7 @@ void run_inspect(const CLI::App& command, const InspectOptions& options) {
     return inspect_baked(options);
   }
   require_absent(command, {"--verify"}, "only a baked file can be verified");
-  const LoadedCharacter from =
-      load_character(options.character, options.shapes.import_options(), options.shapes.limits);
+  const LoadedCharacter from = load_character(options.character, options.shapes.import_options());
   const Threads threads(options.threads);
   const auto sources = list_shapes({&from, 1}, options.shapes.poses);
   if (options.clip)

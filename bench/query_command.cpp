@@ -127,7 +127,7 @@ void query_character(const QueryCommandOptions& options) {
   std::vector<std::uint32_t> depths = options.answer.cut_depths();
   const bool solid = options.answer.query_options().semantics == Semantics::solid;
   const CostLimits& limits = options.shapes.limits;
-  const LoadedCharacter from = load_character(options.character, options.shapes.import_options(), limits);
+  const LoadedCharacter from = load_character(options.character, options.shapes.import_options());
   const auto sources = list_shapes({&from, 1}, options.shapes.poses);
   Question question = read_question(options, sources.size(), depths.size());
   // Agents without a level use the last one: the others need not be there.

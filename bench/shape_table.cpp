@@ -54,6 +54,15 @@ std::string clip_name(const LoadedCharacter& character, PoseTime at) {
   return at.clip == PoseTime::rest ? "rest pose" : character.character.clips[at.clip].name;
 }
 
+namespace {
+
+[[noreturn]] void reject(const LoadedCharacter& character, PoseTime at, const std::string& reason) {
+  throw InputError(
+      fmt::format("{}: {} at {} s: {}", character.source, clip_name(character, at), at.seconds, reason));
+}
+
+}  // namespace
+
 ShapeMaker::ShapeMaker(std::span<const LoadedCharacter> characters, double threshold, std::uint32_t deepest,
                        bool outlines, const CostLimits& limits)
     : characters_(characters),
@@ -66,10 +75,6 @@ ShapeMaker::ShapeMaker(std::span<const LoadedCharacter> characters, double thres
 const Shape& ShapeMaker::make(const ShapeSource& source) {
   const LoadedCharacter& from = characters_[source.character];
   auto& shaper = shapers_[source.character];
-  const auto failure = [&](const std::string& reason) {
-    return InputError(fmt::format("{}: {} at {} s: {}", from.source, clip_name(from, source.at),
-                                  source.at.seconds, reason));
-  };
   try {
     if (!shaper) {
       shaper.emplace(from.character, static_cast<float>(threshold_), deepest_, outlines_);
@@ -78,17 +83,17 @@ const Shape& ShapeMaker::make(const ShapeSource& source) {
     const auto begin = Clock::now();
     const std::size_t contours = outlines_ ? shaper->make_outline(source.at).contours() : 0;
     if (contours > limits_.contours)
-      throw failure("its outline has " +
-                    beyond_limit(contours, "contours", limits_.contours, "--max-contours"));
+      reject(from, source.at,
+             "its outline has " + beyond_limit(contours, "contours", limits_.contours, "--max-contours"));
     const auto middle = Clock::now();
     const Shape& shape = outlines_ ? shaper->make_hierarchy() : shaper->shape(source.at);
     timing_ = {seconds_between(begin, middle), seconds_between(middle, Clock::now())};
     return shape;
   } catch (const std::length_error& error) {
-    throw failure(std::string(error.what()) + "; --max-nodes raises the limit");
+    reject(from, source.at, std::string(error.what()) + "; --max-nodes raises the limit");
   } catch (const std::logic_error& error) {
     // Out of the domain: a pose kilometres wide, say. domain_error and invalid_argument are both logic errors.
-    throw failure(error.what());
+    reject(from, source.at, error.what());
   }
 }
 

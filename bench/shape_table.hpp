@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "bench/characters.hpp"
+#include "bench/cost_limits.hpp"
 #include "layout/pose_shape.hpp"
 #include "layout/scene_plan.hpp"
 #include "layout/shape_set.hpp"

@@ -32,6 +32,7 @@ struct ImportOptions {
   std::optional<float> scale;                     ///< metres per unit of the file, likewise
   std::vector<std::filesystem::path> clip_files;  ///< whose clips follow those of the file, in this order
   bool force_clips = false;  ///< takes clips that belong to another skeleton, with a note; `--force-clips`
+  std::size_t most_triangles = 0x7fffffff;  ///< those of each instance of a mesh count; more are refused
 };
 
 struct ClipReport {

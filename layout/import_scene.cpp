@@ -87,7 +87,8 @@ std::string to_string(const aiString& text) {
   return std::string(text.data, std::min<std::size_t>(text.length, sizeof text.data - 1));
 }
 
-SceneFile::SceneFile(const std::filesystem::path& file, const ImportOptions& options) : path(file) {
+SceneFile::SceneFile(const std::filesystem::path& file, const ImportOptions& options)
+    : path(file), most_triangles(options.most_triangles) {
   check_readable(file);
   if (is_gltf(file)) {
     gltf = read_gltf(file);

@@ -40,6 +40,7 @@ struct SceneFile {
   GltfScene gltf;             ///< of a glTF file
   const aiScene* scene = nullptr;
   std::string format;
+  std::size_t most_triangles = ImportOptions().most_triangles;
 
   /// Errors:  throws ImportError if the file cannot be read as a scene with a root node.
   SceneFile(const std::filesystem::path& file, const ImportOptions& options);
