@@ -116,7 +116,8 @@ std::string triangle_in_nodes(const std::string& nodes) {
 TEST(CliLimits, InstancesOfAMeshCount) {
   std::string children, nodes;
   for (int i = 1; i <= 12'000; ++i) {
-    children += (i > 1 ? "," : "") + std::to_string(i);
+    if (i > 1) children += ',';
+    children += std::to_string(i);
     nodes += R"(,{"mesh":0})";
   }
   const TemporaryFolder folder;

@@ -187,7 +187,8 @@ TEST(CliText, NulBytesInTablesAreErrorsOfTheirLine) {
   const std::string shapes = folder.write("box.obj", box);
   const std::string header = "id,shape,x,y,heading\na,0,0,0,0\n", no_pairs = "first,second\n";
   std::string long_table = header;
-  for (int i = 0; i < 150'000; ++i) long_table += "b" + std::to_string(i) + ",0,1.25,1.5,0\n";
+  for (int i = 0; i < 150'000; ++i)
+    long_table.append("b").append(std::to_string(i)).append(",0,1.25,1.5,0\n");
   const std::tuple<std::string, std::string, std::string> cases[] = {
       {header + "\0b,1,0.3,0,1\n"s, no_pairs, "agents.csv:3: "},
       {header + "b,0,1\0000,0,0\n"s, no_pairs, "agents.csv:3: "},

@@ -160,7 +160,9 @@ TEST(OutputFile, LinksStayAndTheirTargetsAreReplaced) {
 
 TEST(OutputFile, TheLongestNames) {
   const TemporaryFolder folder;
-  const std::string file = folder.file(std::string(NAME_MAX - 4, 'a') + ".csv");
+  std::string longest(NAME_MAX - 4, 'a');
+  longest += ".csv";
+  const std::string file = folder.file(longest);
   write_file(file, "new");
   EXPECT_EQ(content(file), "new");
   const std::string longer = folder.file(std::string(NAME_MAX + 1, 'a'));
