@@ -119,7 +119,7 @@ void ShapeOptions::add_limits_to(CLI::App& command) {
   add_count("--max-triangles", limits.triangles, "Triangles of a file, those of each instance of a mesh");
   add_count("--max-contours", limits.contours, "Contours of the outline of a pose");
   add_count("--max-nodes", limits.nodes, "Nodes of the hierarchy of a pose");
-  add("--max-seconds", limits.seconds, "N", "Time to build and write shapes [60 s, and 1 s a shape]",
+  add("--max-seconds", limits.seconds, "SECONDS", "Time to build and write shapes [60 s, and 1 s a shape]",
       number_between(1e-3, 1e9));
   add("--max-memory", limits.memory, "GIB",
       "Memory while shapes are built and written [4 GiB, and 1 MiB a shape]", number_between(1e-3, 1e6));
