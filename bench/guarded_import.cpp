@@ -36,6 +36,7 @@ void limit(decltype(RLIMIT_CPU) resource, rlim_t value) {
   setrlimit(resource, &both);
 }
 
+#ifndef BCH_SANITIZED  // whose shadow memory alone is larger than any limit
 /// Bytes of address space of this process: what it shares with its parent after a fork, the parent's shapes included.
 std::size_t address_space() {
   std::ifstream statm("/proc/self/statm");
@@ -43,13 +44,14 @@ std::size_t address_space() {
   statm >> pages;
   return pages * static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
 }
+#endif
 
 void set_limits(const ImportLimits& limits) {
   limit(RLIMIT_CORE, 0);
   limit(RLIMIT_FSIZE, 0);  // it has nothing to write
   // The parent counts the time; this is for a child whose parent is stopped.
   limit(RLIMIT_CPU, static_cast<rlim_t>(limits.time.count() / 1000 + 1));
-#ifndef BCH_SANITIZED  // whose shadow memory alone is larger
+#ifndef BCH_SANITIZED
   limit(RLIMIT_AS, address_space() + limits.memory);
 #endif
 }

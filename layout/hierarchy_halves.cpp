@@ -46,18 +46,15 @@ __m128d write_piece(__m128d a, __m128d b, const OutwardRadii& radii, HierarchyNo
   return larger_square(_mm_sub_pd(a, middle), _mm_sub_pd(b, middle));
 }
 
-}  // namespace
-
-namespace {
-
 /// In units of u times the reach. After three halvings a midpoint is off by 2.34 u (rounding.hpp), and so is a piece's end,
 /// which is at most 2 sqrt(2) u, so that a length is off by 5.7 u; a length in float by 2.5 u of at most 2.83 times the
 /// reach, and the limits, where lengths come near them, by 2.9 u. Of a piece that is surely long 8 u remain, so that its
 /// midpoint is neither end, which takes 2.9 u.
-constexpr double piece_end = 2 * rounding::terms::root_2, length = 2.5 * 2.83, limits = 2.9, remains = 8;
+constexpr double piece_end = 2 * rounding::terms::root_2, float_length = 2.5 * 2.83, limits = 2.9,
+                 remains = 8;
 static_assert(piece_end >= rounding::terms::halved(EvenHalves::most_halvings) && remains >= piece_end);
 constexpr double slack_in_u = 24;
-static_assert(slack_in_u >= 2 * piece_end + length + limits + remains);
+static_assert(slack_in_u >= 2 * piece_end + float_length + limits + remains);
 
 }  // namespace
 
