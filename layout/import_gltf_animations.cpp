@@ -44,6 +44,7 @@ class AnimationReader {
     animation_.mName = json_["name"].text().substr(0, longest_name);
     animation_.mTicksPerSecond = static_cast<double>(ticks_per_second);
     collect_samplers();
+    if (samplers_.empty()) return;  // assimp does not free an array of no channels
     animation_.mChannels = new aiNodeAnim* [samplers_.size()] {};
     animation_.mNumChannels = static_cast<unsigned>(samplers_.size());
     std::size_t next = 0;

@@ -144,6 +144,7 @@ void read_bones(GltfReader& reader, Primitive& primitive, const JsonValue& skin,
     if (matrices.size() < 16 * lists.size())
       binds.reject("has fewer matrices than the skin has joints, " + std::to_string(lists.size()));
   }
+  if (lists.empty()) return;  // assimp does not free an array of no bones
   mesh.mBones = new aiBone* [lists.size()] {};
   mesh.mNumBones = static_cast<unsigned>(lists.size());
   for (std::size_t j = 0; j < lists.size(); ++j) {
