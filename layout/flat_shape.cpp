@@ -61,16 +61,25 @@ void take_shortcuts(const ShapeArrays& arrays, std::size_t shape, std::uint32_t 
 
 /// What ShapeStorage::put_outline() was given.
 void take_outline(const ShapeArrays& arrays, std::size_t shape, FlatShape& flat) {
+  flat.outline = outline_of(arrays, shape);
   const auto [begin, end] = arrays.shape_contours[shape];
-  for (const Contour& contour : arrays.contours.subspan(begin, end - begin)) {
-    const auto points = arrays.points.subspan(contour.begin, contour.end - contour.begin);
-    flat.outline.points.insert(flat.outline.points.end(), points.begin(), points.end());
-    flat.outline.contour_begin.push_back(static_cast<std::uint32_t>(flat.outline.points.size()));
+  for (const Contour& contour : arrays.contours.subspan(begin, end - begin))
     flat.contour_disc.push_back(contour.disc);
-  }
 }
 
 }  // namespace
+
+Outline outline_of(const ShapeArrays& arrays, std::size_t shape) {
+  Outline outline;
+  if (arrays.shape_contours.empty()) return outline;
+  const auto [begin, end] = arrays.shape_contours[shape];
+  for (const Contour& contour : arrays.contours.subspan(begin, end - begin)) {
+    const auto points = arrays.points.subspan(contour.begin, contour.end - contour.begin);
+    outline.points.insert(outline.points.end(), points.begin(), points.end());
+    outline.contour_begin.push_back(static_cast<std::uint32_t>(outline.points.size()));
+  }
+  return outline;
+}
 
 FlatShape flat_shape(const ShapeArrays& arrays, std::size_t shape) {
   const std::size_t levels = arrays.depths.size(), first_root = shape * levels;

@@ -5,6 +5,7 @@
 
 #include <cstddef>
 
+#include "layout/outline.hpp"
 #include "layout/shape_arrays.hpp"
 #include "layout/shape_flattener.hpp"
 
@@ -14,5 +15,8 @@ namespace bch {
 /// stored.
 /// Precondition: the set is more than single discs.
 FlatShape flat_shape(const ShapeArrays& arrays, std::size_t shape);
+
+/// Reads a shape's outline from a set, without its grid step, which is not stored; without contours where the set has none.
+Outline outline_of(const ShapeArrays& arrays, std::size_t shape);
 
 }  // namespace bch

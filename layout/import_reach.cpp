@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "layout/import_clips.hpp"
+#include "layout/outline.hpp"
 #include "layout/shortest.hpp"
 #include "layout/skinning.hpp"
 
@@ -14,15 +15,8 @@ namespace {
 constexpr double farthest_share = 1.5;  // of the rest pose's reach
 constexpr int steps = 16;               // poses of a clip, less one
 
-/// The distance of the farthest vertex from the origin, metres.
-double reach(std::span<const Vec2> pose) {
-  double farthest = 0;
-  for (const Vec2 p : pose)
-    farthest = std::max(farthest, std::hypot(static_cast<double>(p.x), static_cast<double>(p.y)));
-  return farthest;
-}
-
-std::string millimetres(double metres) {
+/// To the millimetre.
+std::string text_of(double metres) {
   return shortest(std::round(metres * 1e3) / 1e3) + " m";
 }
 
@@ -39,9 +33,9 @@ void note_far_poses(const Character& character, std::size_t first_clip, ImportRe
       farthest = std::max(farthest, reach(skinner.ground_pose({static_cast<std::uint32_t>(c), seconds})));
     }
     if (farthest > farthest_share * rest)
-      report.notes.push_back("clip '" + character.clips[c].name + "': a pose reaches " +
-                             millimetres(farthest) + ", more than " + shortest(farthest_share) +
-                             " times the rest pose's " + millimetres(rest));
+      report.notes.push_back("clip '" + character.clips[c].name + "': a pose reaches " + text_of(farthest) +
+                             ", more than " + shortest(farthest_share) + " times the rest pose's " +
+                             text_of(rest));
   }
 }
 

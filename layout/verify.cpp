@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "layout/flat_shape.hpp"
 #include "layout/verify_parts.hpp"
 
 namespace bch {
@@ -28,19 +29,6 @@ namespace {
 double extent_of(const Root& root) {
   return std::hypot(static_cast<double>(root.x), static_cast<double>(root.y)) +
          static_cast<double>(root.radius);
-}
-
-/// Without a grid step, which is not stored. Without contours where the set has none.
-Outline outline_of(const ShapeArrays& arrays, std::uint32_t shape) {
-  Outline outline;
-  if (arrays.shape_contours.empty()) return outline;
-  const auto [begin, end] = arrays.shape_contours[shape];
-  for (const Contour& contour : arrays.contours.subspan(begin, end - begin)) {
-    const auto points = arrays.points.subspan(contour.begin, contour.end - contour.begin);
-    outline.points.insert(outline.points.end(), points.begin(), points.end());
-    outline.contour_begin.push_back(static_cast<std::uint32_t>(outline.points.size()));
-  }
-  return outline;
 }
 
 void verify_shape(const Look& look) {
