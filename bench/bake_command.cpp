@@ -32,9 +32,7 @@ void run_bake(const BakeOptions& options) {
     throw UsageError(
         fmt::format("--output: '{}' does not end in .bch, by which baked files are known", options.output));
   const ShapeSetPlan plan{options.answer.cut_depths(), options.answer.semantics == "solid"};
-  std::vector<std::string> inputs = options.shapes.clips;
-  inputs.insert(inputs.end(), options.characters.begin(), options.characters.end());
-  require_outputs({{"--output", options.output}}, inputs);
+  require_outputs({{"--output", options.output}}, options.shapes.inputs(options.characters));
   const CostLimits& limits = options.shapes.limits;
   // Before there are threads: see guarded_import().
   const auto characters = load_characters(options.characters, options.shapes.import_options());

@@ -62,9 +62,8 @@ void run_crowd(const CrowdOptions& options, std::span<const LoadedCharacter> cha
 }
 
 void require_outputs_of(const CrowdOptions& options) {
-  std::vector<std::string> inputs = options.characters;
-  inputs.insert(inputs.end(), options.shapes.clips.begin(), options.shapes.clips.end());
-  require_outputs({{"--json", options.json}, {"--csv", options.csv}, {"--svg", options.svg}}, inputs);
+  require_outputs({{"--json", options.json}, {"--csv", options.csv}, {"--svg", options.svg}},
+                  options.shapes.inputs(options.characters));
 }
 
 void run_crowd_of_characters(const CrowdOptions& options) {

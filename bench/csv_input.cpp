@@ -30,10 +30,10 @@ using Reader = io::CSVReader<columns, io::trim_chars<' ', '\t'>, io::double_quot
                              io::throw_on_overflow, io::empty_line_comment>;
 
 /// The bytes of a file for the reader, which takes a NUL byte for the end of a line and leaves out what follows.
-class FileBytes : public io::ByteSourceBase {
+class TextBytes : public io::ByteSourceBase {
  public:
   /// Errors of both: throw InputError naming the file, the reason, and the line of what is not text in UTF-8.
-  explicit FileBytes(const std::string& file)
+  explicit TextBytes(const std::string& file)
       : name_(file), file_(std::fopen(file.c_str(), "re"), std::fclose) {
     if (file_ == nullptr)
       throw InputError(fmt::format("{}: cannot be opened: {}", file, std::strerror(errno)));
@@ -147,7 +147,7 @@ void add_agent(const Place& place, AgentTable& table, const char* id, std::uint3
 AgentTable read_agents(const std::string& file, std::uint32_t shapes, std::uint32_t levels, bool moving) {
   AgentTable table;
   with_csv_errors(file, [&] {
-    Reader<8> reader(file, std::make_unique<FileBytes>(file));
+    Reader<8> reader(file, std::make_unique<TextBytes>(file));
     reader.read_header(io::ignore_missing_column, "id", "shape", "x", "y", "heading", "level", "dx", "dy");
     const auto require_columns = [&](std::initializer_list<const char*> names) {
       for (const char* name : names)
@@ -178,7 +178,7 @@ AgentTable read_agents(const std::string& file, std::uint32_t shapes, std::uint3
 std::vector<Pair> read_pairs(const std::string& file, const AgentTable& agents) {
   std::vector<Pair> pairs;
   with_csv_errors(file, [&] {
-    Reader<2> reader(file, std::make_unique<FileBytes>(file));
+    Reader<2> reader(file, std::make_unique<TextBytes>(file));
     reader.read_header(io::ignore_no_column, "first", "second");
     char *first = nullptr, *second = nullptr;
     while (reader.read_row(first, second)) {

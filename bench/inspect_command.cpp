@@ -38,9 +38,8 @@ void require_consistent(const InspectOptions& options) {
   if (options.shape && options.clip) throw UsageError("--shape and --clip: name a shape by one of them");
   if (!options.svg.empty() && !options.names_a_shape())
     throw UsageError("--svg: which shape? Add --shape, or --clip and --time");
-  std::vector<std::string> inputs = options.shapes.clips;
-  inputs.push_back(options.character);
-  require_outputs({{"--json", options.json}, {"--svg", options.svg}}, inputs);
+  require_outputs({{"--json", options.json}, {"--svg", options.svg}},
+                  options.shapes.inputs({options.character}));
 }
 
 ShapeSource at_time(const LoadedCharacter& from, const std::string& name, double seconds) {

@@ -135,6 +135,11 @@ ImportOptions ShapeOptions::import_options() const {
   return options;
 }
 
+std::vector<std::string> ShapeOptions::inputs(std::vector<std::string> files) const {
+  files.insert(files.end(), clips.begin(), clips.end());
+  return files;
+}
+
 void AnswerOptions::add_levels_to(CLI::App& command) {
   command.add_option("--depths", depths, "Levels of detail: cut depths, ascending [0,3,6,all]")
       ->type_name("LIST");

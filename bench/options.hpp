@@ -27,6 +27,8 @@ struct ShapeOptions {
 
   void add_to(CLI::App& command);
   ImportOptions import_options() const;
+  /// All files that are read: these, and the clips' files.
+  std::vector<std::string> inputs(std::vector<std::string> files) const;
 
  private:
   void add_limits_to(CLI::App& command);

@@ -167,9 +167,7 @@ void run_query(const CLI::App& command, const QueryCommandOptions& options) {
   if (options.directions % 2 != 0)
     throw UsageError(fmt::format("--directions: '{}' is odd", options.directions));
   options.only_direction();
-  std::vector<std::string> inputs = options.shapes.clips;
-  inputs.insert(inputs.end(), {options.character, options.agents, options.pairs});
-  require_outputs({}, inputs);
+  require_outputs({}, options.shapes.inputs({options.character, options.agents, options.pairs}));
   if (!is_baked(options.character)) return query_character(options);
   require_unsettled(command, options.character);
   query_baked(options);
