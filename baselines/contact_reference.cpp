@@ -11,16 +11,15 @@ namespace bch::baselines {
 std::vector<std::pair<std::uint32_t, std::uint32_t>> contacts(const CutLists& cuts, const Agents& agents,
                                                               Pair pair) {
   const FloatPlacement place = float_placement(agents, pair);
-  const auto overlap = [&](const Disc& of_first, const Disc& of_second) {
-    return pair.first <= pair.second
-               ? discs_overlap(place, of_first, of_first.radius, of_second, of_second.radius)
-               : discs_overlap(place, of_second, of_second.radius, of_first, of_first.radius);
+  const auto overlap = [&](std::span<const Disc> of_first, std::span<const Disc> of_second) {
+    return pair.first <= pair.second ? all_overlap(place, of_first, of_second)
+                                     : all_overlap(place, of_second, of_first);
   };
-  const std::span<const Disc> first = cuts.of(agents, pair.first), second = cuts.of(agents, pair.second);
+  const CutList &first = cuts.list(agents, pair.first), &second = cuts.list(agents, pair.second);
   std::vector<std::pair<std::uint32_t, std::uint32_t>> found;
-  for (std::uint32_t i = 0; i < first.size(); ++i)
-    for (std::uint32_t j = 0; j < second.size(); ++j)
-      if (overlap(first[i], second[j])) found.push_back({i, j});
+  for (std::uint32_t i = 0; i < first.discs.size(); ++i)
+    for (std::uint32_t j = 0; j < second.discs.size(); ++j)
+      if (overlap(first.path(i), second.path(j))) found.push_back({i, j});
   return found;
 }
 

@@ -11,7 +11,8 @@
 
 namespace bch::baselines {
 
-/// Scalar contacts of a pair: every disc of the first agent's cut against every disc of the second's, in that order.
+/// Scalar contacts of a pair: the discs of the first agent's cut that overlap one of the second's, as do all discs above
+/// them. Every disc against every disc, in that order; so there are none exactly where the two do not collide.
 std::vector<std::pair<std::uint32_t, std::uint32_t>> contacts(const CutLists& cuts, const Agents& agents,
                                                               Pair pair);
 

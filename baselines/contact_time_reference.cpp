@@ -21,10 +21,10 @@ struct Way {
 
 /// When two discs of the cuts touch; kernel/contact_time_measure.hpp says why so.
 float contact(const Step& at, Way way) noexcept {
-  if (at.x * at.x + at.y * at.y <= at.radius_sum * at.radius_sum) return 0;
-  const double x = at.x, y = at.y, vx = way.x, vy = way.y;
+  const double x = at.x, y = at.y, vx = way.x, vy = way.y, sum = at.radius_sum;
   const double square = x * x + y * y;
-  const double radius = static_cast<double>(at.radius_sum) + 0x1p-20 * std::sqrt(square);
+  if (square <= sum * sum * (1 + 0x1p-22)) return 0;
+  const double radius = sum + 0x1p-20 * std::sqrt(square);
   const double towards = x * vx + y * vy, aside = x * vy - y * vx;
   const double under_root = radius * radius * (vx * vx + vy * vy) - aside * aside;
   if (towards <= 0 || under_root < 0) return never;
@@ -58,6 +58,7 @@ float ContactTimeReference::query(const Agents& agents, Pair pair, double x, dou
   const UnitVector heading = unit_vector(agents.heading[first]);
   const double sign = pair.first <= pair.second ? 1 : -1;
   const auto dx = static_cast<float>(sign * x), dy = static_cast<float>(sign * y);
+  if (dx == 0 && dy == 0) return any_hit(cuts_, agents, pair) ? 0 : never;
   const Way way{heading.cosine * dx + heading.sine * dy, heading.cosine * dy - heading.sine * dx};
   float soonest = never;
   if (method == Method::brute_force) {

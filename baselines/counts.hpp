@@ -9,20 +9,23 @@ namespace bch::baselines {
 
 /// What a query did, for counters.
 struct TestCounts {
-  std::uint64_t nodes = 0;   ///< pairs of discs, boxes or other volumes tested
-  std::uint64_t leaves = 0;  ///< pairs of triangles or segments tested
+  std::uint64_t nodes = 0;      ///< pairs of discs, boxes or other volumes tested on the way down
+  std::uint64_t leaves = 0;     ///< pairs of triangles or segments tested
+  std::uint64_t ancestors = 0;  ///< pairs of discs tested to verify hits
 };
 
 /// Counts nothing, and costs nothing.
 struct NoCounts {
   void node() const noexcept {}
   void leaf() const noexcept {}
+  void ancestor() const noexcept {}
 };
 
 struct AddCounts {
   TestCounts& counts;
   void node() const noexcept { ++counts.nodes; }
   void leaf() const noexcept { ++counts.leaves; }
+  void ancestor() const noexcept { ++counts.ancestors; }
 };
 
 }  // namespace bch::baselines

@@ -7,26 +7,46 @@
 #include <span>
 #include <vector>
 
+#include "baselines/placement.hpp"
 #include "layout/agents.hpp"
 #include "layout/shape_set.hpp"
 
 namespace bch::baselines {
 
-/// The discs of every cut that a plan names, in the order of cut(): what references that look at all pairs of discs
-/// start from.
+/// The discs of one cut, in the order of cut(), each with all discs above it.
+struct CutList {
+  std::vector<Disc> discs;
+  std::vector<Disc> paths;  ///< one after the other: from a disc of the cut to the root, both included
+  std::vector<std::uint32_t> path_begin;  ///< per disc; then paths.size()
+
+  std::span<const Disc> path(std::size_t disc) const {
+    return std::span(paths).subspan(path_begin[disc], path_begin[disc + 1] - path_begin[disc]);
+  }
+};
+
+/// The answer by its definition: some disc of one cut overlaps one of the other, and so do all discs above them. `place`
+/// is that of B's agent, seen from A's.
+bool any_hit(const FloatPlacement& place, const CutList& a, const CutList& b);
+
+/// The discs of every cut that a plan names: what references that look at all pairs of discs start from.
 class CutLists {
  public:
   CutLists(std::span<const Shape> shapes, const ShapeSetPlan& plan);
 
   /// Of the agent's shape at its level.
+  const CutList& list(const Agents& agents, std::uint32_t agent) const;
+  /// The discs of that.
   std::span<const Disc> of(const Agents& agents, std::uint32_t agent) const;
   /// Metres, not below the reach that layout/rounding.hpp speaks of.
   float reach(const Agents& agents, std::uint32_t agent) const;
 
  private:
   std::size_t level_count_;
-  std::vector<std::vector<Disc>> lists_;  ///< shape * level_count_ + level
-  std::vector<float> reach_;              ///< per shape, rounded up
+  std::vector<CutList> lists_;  ///< shape * level_count_ + level
+  std::vector<float> reach_;    ///< per shape, rounded up
 };
+
+/// What any_hit() says of the cuts of a pair of agents, whatever their order.
+bool any_hit(const CutLists& cuts, const Agents& agents, Pair pair);
 
 }  // namespace bch::baselines

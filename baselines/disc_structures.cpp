@@ -17,13 +17,12 @@ namespace {
 /// Discs over all triangles seen from above, which leaves test exactly, or leave at their discs.
 struct ProjectedHierarchy {
   std::vector<HierarchyNode> nodes;
-  std::vector<float> bounds;
   std::vector<Element> triangles;  ///< in the order of the leaves; empty: discs alone
   std::vector<ElementRange> held;  ///< per node: of them
   std::uint32_t height;
 
   std::size_t bytes() const {
-    return nodes.size() * (sizeof(HierarchyNode) + sizeof(float)) +
+    return nodes.size() * sizeof(HierarchyNode) +
            (triangles.empty() ? 0 : nodes.size() * sizeof(ElementRange) + triangles.size() * sizeof(Element));
   }
 
@@ -31,16 +30,18 @@ struct ProjectedHierarchy {
   static bool meet(const ProjectedHierarchy& a, const ProjectedHierarchy& b, const Agents& agents, Pair pair,
                    std::uint32_t max_depth, Counts counts) {
     const Placement place = placement(agents, pair);
+    const FloatPlacement float_place = float_placement(agents, pair);
+    const DiscTree tree_a{a.nodes.data(), max_depth, a.height}, tree_b{b.nodes.data(), max_depth, b.height};
     const auto accept = [&](const NodePair& at) {
-      if (at.depth_a == max_depth || at.depth_b == max_depth || a.triangles.empty()) return true;
+      if (at.depth_a == max_depth || at.depth_b == max_depth || a.triangles.empty())
+        return is_verified(float_place, tree_a, tree_b, at, counts);
+      // Triangles that meet have a point in common, which lies in all discs above them.
       counts.leaf();
       const Element &s = a.triangles[a.held[at.a].begin], &t = b.triangles[b.held[at.b].begin];
       return triangles_meet(Triangle2{exact(s.a), exact(s.b), exact(s.c)},
                             Triangle2{place.place(t.a), place.place(t.b), place.place(t.c)});
     };
-    return any_ends_overlap(float_placement(agents, pair),
-                            {a.nodes.data(), a.bounds.data(), max_depth, a.height},
-                            {b.nodes.data(), b.bounds.data(), max_depth, b.height}, counts, accept);
+    return any_ends_overlap(float_place, tree_a, tree_b, counts, accept);
   }
 };
 
@@ -53,7 +54,7 @@ struct Cylinder {
   static bool meet(const Cylinder& a, const Cylinder& b, const Agents& agents, Pair pair, std::uint32_t,
                    Counts counts) {
     counts.node();
-    return discs_overlap(float_placement(agents, pair), a.disc, a.disc.radius, b.disc, b.disc.radius);
+    return discs_overlap(float_placement(agents, pair), a.disc, b.disc);
   }
 };
 
@@ -79,10 +80,8 @@ std::unique_ptr<Structure> build_bch_projected(std::span<const Body> bodies, con
     }
     Hierarchy hierarchy = projected_hierarchy(vertices, body.triangles);
     const std::uint32_t levels = height(hierarchy);
-    std::vector<float> bounds = bounding_radii(hierarchy);
     if (!options.projected_triangles) hierarchy.elements.clear();
-    return {std::move(hierarchy.nodes), std::move(bounds), std::move(hierarchy.elements),
-            std::move(hierarchy.held), levels};
+    return {std::move(hierarchy.nodes), std::move(hierarchy.elements), std::move(hierarchy.held), levels};
   });
 }
 

@@ -3,8 +3,10 @@
 
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <span>
+#include <vector>
 
 #include "baselines/counts.hpp"
 #include "baselines/placement.hpp"
@@ -14,32 +16,67 @@
 namespace bch::baselines {
 
 /// The float test of two discs, operation by operation as layout/rounding.hpp lists it.
-inline bool discs_overlap(const FloatPlacement& place, const Disc& a, float radius_a, const Disc& b,
-                          float radius_b) noexcept {
+inline bool discs_overlap(const FloatPlacement& place, const Disc& a, const Disc& b) noexcept {
   const float x = place.x + (place.cosine * b.x - place.sine * b.y) - a.x;
   const float y = place.y + (place.sine * b.x + place.cosine * b.y) - a.y;
-  const float radius_sum = radius_a + radius_b;
+  const float radius_sum = a.radius + b.radius;
   return x * x + y * y <= radius_sum * radius_sum;
+}
+
+/// Whether every disc of one path overlaps every disc of the other. A path leads from a node up to its root, so that the
+/// smallest discs, which part most pairs, come first. Where all discs on the ways up from two discs of the cuts overlap,
+/// the agents collide: this is the definition of the answer.
+inline bool all_overlap(const FloatPlacement& place, std::span<const Disc> path_a,
+                        std::span<const Disc> path_b) noexcept {
+  for (const Disc& a : path_a)
+    for (const Disc& b : path_b)
+      if (!discs_overlap(place, a, b)) return false;
+  return true;
+}
+
+/// The next node on the way down from a node to one below it, which their order tells.
+template <class Node>
+std::uint32_t towards(const Node* nodes, std::uint32_t from, std::uint32_t below) noexcept {
+  return below < nodes[from].second_child ? from + 1 : nodes[from].second_child;
+}
+
+/// The discs on the way from a node up to the root, both included.
+inline std::vector<Disc> path_to(const HierarchyNode* nodes, std::uint32_t node) {
+  std::vector<Disc> path;
+  for (std::uint32_t at = 0; at != node; at = towards(nodes, at, node)) path.push_back(nodes[at].disc);
+  path.push_back(nodes[node].disc);
+  std::reverse(path.begin(), path.end());
+  return path;
 }
 
 /// The cut of a hierarchy at a depth, as a traversal walks it.
 struct DiscTree {
   const HierarchyNode* nodes;
-  const float* bounds;   ///< bounding_radii()
   std::uint32_t depth;   ///< nodes at this depth count as leaves
   std::uint32_t height;  ///< edges on the longest way down
 
   bool ends_at(std::uint32_t node, std::uint32_t at_depth) const noexcept {
     return at_depth == depth || nodes[node].is_leaf();
   }
-  /// An inner node prunes, so it has to hold the discs below it; a leaf gives the answer.
-  float radius(std::uint32_t node, bool end) const noexcept {
-    return end ? nodes[node].disc.radius : bounds[node];
-  }
 };
 
-/// Walks both trees depth first, descending into the larger disc. True as soon as accept(pair) is true of two
-/// ends whose discs overlap.
+/// What all_overlap() says of the ways to two nodes, without listing them.
+template <class Counts>
+bool is_verified(const FloatPlacement& place, const DiscTree& a, const DiscTree& b, const NodePair& at,
+                 Counts counts) noexcept {
+  for (std::uint32_t i = 0;; i = towards(a.nodes, i, at.a)) {
+    for (std::uint32_t j = 0;; j = towards(b.nodes, j, at.b)) {
+      counts.ancestor();
+      if (!discs_overlap(place, a.nodes[i].disc, b.nodes[j].disc)) return false;
+      if (j == at.b) break;
+    }
+    if (i == at.a) return true;
+  }
+}
+
+/// Walks both trees depth first, descending into the larger disc: the paper's descent. True as soon as accept(pair) is
+/// true of two ends whose discs overlap. A pair is left out where two discs above it do not overlap, so it passes every
+/// pair that all_overlap() is true of, and others too: not all pairs of ancestors are met on the way.
 template <class Counts, class Accept>
 bool any_ends_overlap(const FloatPlacement& place, const DiscTree& a, const DiscTree& b, Counts counts,
                       Accept accept) {
@@ -48,13 +85,12 @@ bool any_ends_overlap(const FloatPlacement& place, const DiscTree& a, const Disc
   while (!open.empty()) {
     const NodePair at = open.pop();
     const HierarchyNode &node_a = a.nodes[at.a], &node_b = b.nodes[at.b];
-    const bool end_a = a.ends_at(at.a, at.depth_a), end_b = b.ends_at(at.b, at.depth_b);
-    const float radius_a = a.radius(at.a, end_a), radius_b = b.radius(at.b, end_b);
     counts.node();
-    if (!discs_overlap(place, node_a.disc, radius_a, node_b.disc, radius_b)) continue;
+    if (!discs_overlap(place, node_a.disc, node_b.disc)) continue;
+    const bool end_a = a.ends_at(at.a, at.depth_a), end_b = b.ends_at(at.b, at.depth_b);
     if (end_a && end_b) {
       if (accept(at)) return true;
-    } else if (end_b || (!end_a && radius_a >= radius_b)) {
+    } else if (end_b || (!end_a && node_a.disc.radius >= node_b.disc.radius)) {
       open.push({node_a.second_child, at.b, at.depth_a + 1, at.depth_b});
       open.push({at.a + 1, at.b, at.depth_a + 1, at.depth_b});
     } else {

@@ -21,11 +21,25 @@ struct ExactDisc {
 };
 
 /// The tight disc of a node: about the stored centre, which is exact, through the farthest point of what it holds.
-/// What the library promises of it: where tight discs of two agents' cuts have a point in common, the answer is a hit.
+/// What the library promises of it: where a disc of one agent's cut and all discs above have a point in common with a disc of
+/// the other's and all above that, each with each, the answer is a hit.
 /// Errors:  throws std::out_of_range where the hierarchy has no elements.
 ExactDisc tight_disc(const Hierarchy& hierarchy, std::uint32_t node);
 
-/// Those of a cut, in depth-first order.
-std::vector<ExactDisc> tight_discs(const Hierarchy& hierarchy, std::uint32_t depth);
+/// The tight discs of a cut and of all nodes above it, in depth-first order: the root is the first.
+struct ExactCut {
+  std::vector<ExactDisc> discs;
+  std::vector<std::uint32_t>
+      above;  ///< per disc: the one whose node has its node for a child; of the root, itself
+  std::vector<std::uint32_t> cut;  ///< those of the cut, in its order
+
+  /// In the axes of the world, about the position of the agent.
+  ExactCut posed(QuadVector rotation) const;
+  /// From a disc up to the root, both included.
+  std::vector<std::uint32_t> path(std::uint32_t disc) const;
+};
+
+/// Errors:  as tight_disc().
+ExactCut exact_cut(const Hierarchy& hierarchy, std::uint32_t depth);
 
 }  // namespace bch::baselines

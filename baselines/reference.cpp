@@ -9,45 +9,27 @@
 #include "baselines/oracle.hpp"
 
 namespace bch::baselines {
-namespace {
-
-bool any_overlap(const FloatPlacement& place, std::span<const Disc> a, std::span<const Disc> b) {
-  for (const Disc& p : a)
-    for (const Disc& q : b)
-      if (discs_overlap(place, p, p.radius, q, q.radius)) return true;
-  return false;
-}
-
-}  // namespace
 
 Reference::Reference(std::span<const Shape> shapes, const ShapeSetPlan& plan)
-    : shapes_(shapes), level_count_(static_cast<std::uint32_t>(plan.depths.size())) {
-  for (const Shape& shape : shapes) {
-    bounds_.push_back(bounding_radii(shape.hierarchy));
-    for (const std::uint32_t depth : plan.depths) {
-      Level level{depth, height(shape.hierarchy), {}};
-      for (const std::uint32_t node : cut(shape.hierarchy, depth))
-        level.discs.push_back(shape.hierarchy.nodes[node].disc);
-      levels_.push_back(std::move(level));
-    }
-  }
+    : shapes_(shapes), depths_(plan.depths), cuts_(shapes, plan) {
+  for (const Shape& shape : shapes) heights_.push_back(height(shape.hierarchy));
 }
 
-const Reference::Level& Reference::level(const Agents& agents, std::uint32_t agent) const {
-  return levels_[agents.root(agent, level_count_)];
+bool Reference::descend(const Agents& agents, Pair pair) const {
+  const FloatPlacement place = float_placement(agents, pair);
+  const auto tree = [&](std::uint32_t agent) {
+    const std::uint32_t shape = agents.shape[agent];
+    const std::size_t level = agents.root(agent, depths_.size()) % depths_.size();
+    return DiscTree{shapes_[shape].hierarchy.nodes.data(), depths_[level], heights_[shape]};
+  };
+  const auto [first, second] = std::minmax(pair.first, pair.second);
+  const DiscTree a = tree(first), b = tree(second);
+  return any_ends_overlap(place, a, b, NoCounts{},
+                          [&](const NodePair& at) { return is_verified(place, a, b, at, NoCounts{}); });
 }
 
 bool Reference::boundary(const Agents& agents, Pair pair, Method method) const {
-  const auto [a, b] = std::minmax(pair.first, pair.second);
-  const FloatPlacement place = float_placement(agents, pair);
-  const Level &level_a = level(agents, a), &level_b = level(agents, b);
-  if (method == Method::brute_force) return any_overlap(place, level_a.discs, level_b.discs);
-  const auto tree = [&](std::uint32_t agent, const Level& at) {
-    const std::uint32_t shape = agents.shape[agent];
-    return DiscTree{shapes_[shape].hierarchy.nodes.data(), bounds_[shape].data(), at.depth, at.height};
-  };
-  return any_ends_overlap(place, tree(a, level_a), tree(b, level_b), NoCounts{},
-                          [](const NodePair&) { return true; });
+  return method == Method::brute_force ? any_hit(cuts_, agents, pair) : descend(agents, pair);
 }
 
 bool Reference::solid(const Agents& agents, Pair pair, Method method) const {

@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "baselines/cut_lists.hpp"
 #include "layout/agents.hpp"
 #include "layout/hierarchy.hpp"
 #include "layout/shape_set.hpp"
@@ -14,8 +15,8 @@
 namespace bch::baselines {
 
 enum class Method {
-  brute_force,  ///< every disc of one cut against every disc of the other: the definition of the answer
-  depth_first,  ///< a traversal of both binary trees that descends into the larger disc
+  brute_force,  ///< every disc of one cut against every disc of the other, with all discs above: the definition
+  depth_first,  ///< the paper's descent into the larger disc, which verifies what it finds
 };
 
 /// Scalar answers to the questions of the batch kernel, straight from the binary hierarchies: one pair at a
@@ -26,24 +27,19 @@ class Reference {
   /// Shapes and levels as in ShapeSet. The shapes must outlive this.
   Reference(std::span<const Shape> shapes, const ShapeSetPlan& plan);
 
-  /// Whether discs of the cuts of agents a and b overlap.
+  /// Whether discs of the cuts of agents a and b overlap, and all discs above them.
   bool boundary(const Agents& agents, Pair pair, Method method) const;
 
   /// The same, or an outline contains a contour of the other. Long double; for outlines that do not meet.
   bool solid(const Agents& agents, Pair pair, Method method) const;
 
  private:
-  struct Level {
-    std::uint32_t depth;
-    std::uint32_t height;  ///< of the whole hierarchy
-    std::vector<Disc> discs;
-  };
-  const Level& level(const Agents& agents, std::uint32_t agent) const;
+  bool descend(const Agents& agents, Pair pair) const;
 
   std::span<const Shape> shapes_;
-  std::uint32_t level_count_;
-  std::vector<std::vector<float>> bounds_;  ///< per shape: bounding_radii()
-  std::vector<Level> levels_;               ///< shape * level_count_ + level
+  std::vector<std::uint32_t> depths_;
+  std::vector<std::uint32_t> heights_;  ///< per shape
+  CutLists cuts_;
 };
 
 }  // namespace bch::baselines

@@ -17,6 +17,7 @@ namespace {
 
 constexpr Kind own_kinds[] = {
     {"reference", "cylinders over the outline, depth first", Truth::none, true, true, build_reference},
+    {"paper_descent", "the same, whose hits nothing verifies", Truth::none, true, true, build_paper_descent},
     {"single", "one cylinder a pose", Truth::none, true, false, build_single},
     {"fixed", "one cylinder for all poses", Truth::none, false, false, build_fixed},
     {"bch_projected", "cylinders over the triangles seen from above", Truth::projection, false, true,

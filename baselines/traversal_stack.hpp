@@ -10,6 +10,26 @@
 
 namespace bch::baselines {
 
+/// Room that a traversal needs for a moment: on the caller's own stack, except for trees of absurd heights. Not
+/// initialised, which a query of one pair would notice.
+template <class T>
+class Scratch {
+ public:
+  explicit Scratch(std::size_t size) {
+    if (size > most_inside) heap_.resize(size);
+  }
+  Scratch(const Scratch&) = delete;
+  Scratch& operator=(const Scratch&) = delete;
+
+  T* data() noexcept { return heap_.empty() ? inside_ : heap_.data(); }
+  std::size_t size() const noexcept { return heap_.empty() ? most_inside : heap_.size(); }
+
+ private:
+  static constexpr std::size_t most_inside = 128;
+  T inside_[most_inside];
+  std::vector<T> heap_;
+};
+
 /// A pair of nodes to visit.
 struct NodePair {
   std::uint32_t a, b;
@@ -17,31 +37,22 @@ struct NodePair {
 };
 
 /// A depth-first traversal of two trees leaves one pair on the stack for each edge of the two ways down, so
-/// the sum of the trees' heights is enough. That much lies on the caller's own stack, except for trees of
-/// absurd heights.
+/// the sum of the trees' heights is enough.
 class TraversalStack {
  public:
-  explicit TraversalStack(std::size_t capacity) {
-    if (capacity <= most_inside) return;
-    heap_.resize(capacity);
-    top_ = bottom_ = heap_.data();
-  }
-  TraversalStack(const TraversalStack&) = delete;
-  TraversalStack& operator=(const TraversalStack&) = delete;
+  explicit TraversalStack(std::size_t capacity) : room_(capacity) {}
 
   bool empty() const noexcept { return top_ == bottom_; }
   void push(const NodePair& pair) noexcept {
-    assert(top_ - bottom_ < static_cast<std::ptrdiff_t>(heap_.empty() ? most_inside : heap_.size()));
+    assert(top_ - bottom_ < static_cast<std::ptrdiff_t>(room_.size()));
     *top_++ = pair;
   }
   NodePair pop() noexcept { return *--top_; }
 
  private:
-  static constexpr std::size_t most_inside = 128;
-  NodePair inside_[most_inside];
-  std::vector<NodePair> heap_;
-  NodePair* bottom_ = inside_;
-  NodePair* top_ = inside_;
+  Scratch<NodePair> room_;
+  NodePair* const bottom_ = room_.data();
+  NodePair* top_ = bottom_;
 };
 
 }  // namespace bch::baselines

@@ -64,6 +64,8 @@ std::string wrong_structure(Scene& scene, const Workload& workload, const baseli
     return expect_no_miss(hits, scene.hits(kind.name, workload), "itself at all depths");
   std::string wrong;
   if (kind.name == "reference") wrong = wrong_kernel(scene, workload, Semantics::boundary, hits);
+  if (kind.name == "paper_descent")
+    wrong = expect_no_miss(hits, scene.hits("reference", workload), "reference");
   if (const auto* peer = kind.exact == Truth::none ? nullptr : peer_of(kind);
       peer != nullptr && wrong.empty())
     wrong = expect_equal(hits, scene.hits(peer->name, workload), peer->name);

@@ -25,6 +25,7 @@ std::string wrong_answers(const baselines::Reference& reference, const Agents& a
 ///   mesh, projection       outlines or meshes that meet are seen by what projects them
 ///   never_misses_outlines  1 wherever the outlines meet
 ///   reference              the same bits as brute force over all discs
+///   paper_descent          1 wherever the reference says so
 /// One that is exact, when it went down to max_depth only: it misses nothing that it sees at all depths.
 std::string wrong_structure(Scene& scene, const Workload& workload, const baselines::Kind& kind,
                             const Hits& hits, std::uint32_t max_depth = all_depths);

@@ -66,11 +66,7 @@ BakedShapes load_baked_for(const std::string& file, bool solid) {
 std::uint32_t disc_count(const ShapeSet& set, std::uint32_t shape, std::uint32_t level) {
   const ShapeArrays& arrays = set.arrays();
   if (arrays.trees.empty()) return 1;
-  const auto [top, stride] = arrays.trees[std::size_t{shape} * set.level_count() + level];
-  if (stride > block_width) return stride;
-  std::uint32_t count = 0;  // a single window may have padding
-  for (const float x : arrays.nodes.subspan(top & ~leaf_window, block_width)) count += std::isfinite(x);
-  return count;
+  return arrays.trees[std::size_t{shape} * set.level_count() + level].count;
 }
 
 std::string text_of(const std::string& file, const BakedShapes& baked) {
@@ -98,8 +94,8 @@ std::string verified_text(const ShapeSet& set) {
   const bool outlines = !set.arrays().shape_contours.empty();
   return fmt::format("  {:<10}{}\n", "verified",
                      set.roots_only() ? "levels"
-                     : outlines       ? "inner discs, levels, culling data, and that discs cover the outlines"
-                                : "inner discs, levels, culling data as far as the discs tell (no outlines)");
+                     : outlines       ? "nodes, levels, culling data, and that discs cover the outlines"
+                                      : "nodes, levels, culling data as far as the discs tell (no outlines)");
 }
 
 std::string table_text(const BakedShapes& baked) {

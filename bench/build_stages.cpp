@@ -222,7 +222,7 @@ void BuildStages::flatten(const Hierarchy& hierarchy, bool shortcuts) {
   for (const std::uint32_t depth : depths) {
     flattener_.flatten(depth, tree_);
     use(tree_);
-    if (!shortcuts || tree_.is_single) continue;
+    if (!shortcuts || tree_.is_single()) continue;
     outer_ = flattener_.outer(profile_);
     use(outer_);
   }

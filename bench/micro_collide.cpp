@@ -62,6 +62,9 @@ void run_structure(benchmark::State& state, Scene& scene, std::string_view workl
   if (const std::uint64_t tests = counts.nodes + counts.leaves; tests > 0)
     state.counters["tests_per_pair"] =
         static_cast<double>(tests) / static_cast<double>(workload.pairs.size());
+  if (counts.ancestors > 0)
+    state.counters["ancestor_tests_per_pair"] =
+        static_cast<double>(counts.ancestors) / static_cast<double>(workload.pairs.size());
   std::size_t bytes = 0;
   for (std::uint32_t shape = 0; shape < structure.shape_count(); ++shape) bytes += structure.bytes(shape);
   state.counters["bytes_per_shape"] = static_cast<double>(bytes) / structure.shape_count();

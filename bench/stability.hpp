@@ -10,18 +10,20 @@
 
 /// How often a test of discs is wrong on hard cases, judged by exact arithmetic (baselines/quad.hpp).
 ///
-/// The truth is about the cut's tight discs: whether two of them, one of each agent, have a point in common. Three tests
-/// answer it: the plain test in float as anybody would write it (positions, headings and tight discs in float, the world's
-/// coordinates), the same in double, and collide(). Beside that it is asked, of pairs whose outlines are about to
+/// The truth is the definition of a collision (Semantics) for tight discs: whether two discs of the cuts, one of each agent,
+/// have a point in common, and every disc above the one has one with every disc above the other. Three tests answer it: the
+/// plain test in float as anybody would write it (positions, headings and tight discs in float, the world's coordinates; the
+/// same pairs of discs), the same in double, and collide(). Beside that it is asked, of pairs whose outlines are about to
 /// touch, whether collide() answers a hit wherever outlines meet.
 namespace bch::bench {
 
 /// What one test got wrong.
 struct Errors {
-  std::uint64_t misses = 0;           ///< discs meet, the answer is 0
-  std::uint64_t false_positives = 0;  ///< no two discs meet, the answer is 1
-  double deepest_miss = 0;            ///< metres of overlap, the most that was missed
-  double largest_gap = 0;             ///< metres, the largest that was answered as a hit
+  std::uint64_t misses = 0;           ///< discs collide, the answer is 0
+  std::uint64_t false_positives = 0;  ///< they do not, the answer is 1
+  // Metres, of Trial::gap():
+  double deepest_miss = 0;  ///< below 0, the most that was missed
+  double largest_gap = 0;   ///< the largest that was answered as a hit
   // The largest by the two shapes' reach:
   double miss_per_reach = 0, gap_per_reach = 0;
 };

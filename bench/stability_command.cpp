@@ -125,11 +125,9 @@ std::function<void()> add_stability_command(CLI::App& program) {
   CLI::App& command =
       *program.add_subcommand("stability", "Judge collision tests on hard cases by exact arithmetic");
   command.footer(
-      "Pairs of agents whose discs are about to touch, half of the gaps within 64 units in the last place of "
-      "a\n"
-      "float, half of all magnitudes; and pairs whose outlines are. Plain tests have positions, headings and "
-      "discs\n"
-      "in the world's coordinates. Fails if bch misses anything or hits beyond its documented gap.\n"
+      "Pairs of agents that are about to collide by discs, half of the gaps within 64 units in the last\n"
+      "place of a float, half of all magnitudes; and by outlines. Plain tests have positions, headings and\n"
+      "discs in the world's coordinates. Fails if bch misses anything or hits beyond its documented gap.\n"
       "With --stiff instead: depths as springs of penalty forces, how large a time step may be and what it "
       "costs.\n"
       "Example: bch stability --out stability");

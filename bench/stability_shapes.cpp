@@ -27,7 +27,7 @@ Vec2 point(double x, double y) {
 Specimen specimen(Outline outline, Outline geometry, double threshold) {
   Specimen made{{std::move(outline), {}}, {}, std::move(geometry)};
   made.shape.hierarchy = contour_hierarchy(made.shape.outline, static_cast<float>(threshold));
-  made.discs = baselines::tight_discs(made.shape.hierarchy, all_depths);
+  made.discs = baselines::exact_cut(made.shape.hierarchy, all_depths);
   return made;
 }
 

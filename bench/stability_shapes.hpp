@@ -15,8 +15,8 @@ namespace bch::bench {
 /// A shape with what is exactly true of it.
 struct Specimen {
   Shape shape;
-  std::vector<baselines::ExactDisc> discs;  ///< of its leaves
-  Outline geometry;  ///< what must be covered: its outline, or the triangles it was made from
+  baselines::ExactCut discs;  ///< of its leaves and all nodes above
+  Outline geometry;           ///< what must be covered: its outline, or the triangles it was made from
 
   double reach() const { return shape.hierarchy.reach; }
 };

@@ -9,7 +9,7 @@
 
 /// What a depth does as the spring of a penalty force: the stiff use that breaks on one that jumps.
 ///
-/// Agents of 80 kg are driven to 1 m/s within 0.5 s. Where two collide, a force k depth acts along the depth's direction,
+/// Agents of 80 kg are driven to 1 m/s within 0.5 s. Where two have a depth, a force k depth acts along its direction,
 /// and a friction kappa depth times the sliding speed across it.
 /// Source:  D. Helbing, I. Farkas, T. Vicsek, "Simulating dynamical features of escape panic", Nature 407, 2000, for the
 ///          constants; without the repulsion at a distance, which has nothing to do with a depth.
@@ -24,7 +24,7 @@ constexpr double wanted_speed = 1, relaxation = 0.5;              // m/s, s
 /// Where depth and direction come from.
 enum class DepthMeasure {
   separation,  ///< separation(), the best of 32 directions, of pairs that collide
-  discs,       ///< the two discs of contacts() that overlap deepest, along their centres
+  discs,       ///< clearance() below 0: the two discs of the cuts that overlap deepest, along their centres
   centres,     ///< separation_along() the line of the agents' centres, of all pairs near enough
 };
 std::string name_of(DepthMeasure measure);

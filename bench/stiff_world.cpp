@@ -35,30 +35,18 @@ ShapeSet make_shapes() {
   return ShapeSet(shapes, {.depths = {std::begin(stiff_depths), std::end(stiff_depths)}});
 }
 
-/// The discs of an agent's cut in the world.
-class WorldDiscs {
- public:
-  WorldDiscs(const Agents& agents, std::uint32_t agent, std::uint32_t level)
-      : discs_(cut_discs(stiff_shapes().view(), agents.shape[agent] * stiff_shapes().level_count() + level)),
-        turn_(rotation(agents.heading[agent])),
-        x_(agents.x[agent]),
-        y_(agents.y[agent]) {}
-
-  Ground centre(std::uint32_t i) const {
-    const double x = static_cast<double>(discs_.x[i]), y = static_cast<double>(discs_.y[i]);
-    return {x_ + (turn_.cosine * x - turn_.sine * y), y_ + (turn_.sine * x + turn_.cosine * y)};
-  }
-  double radius(std::uint32_t i) const { return static_cast<double>(discs_.radius[i]); }
-
- private:
-  CutDiscs discs_;
-  Rotation turn_;
-  double x_, y_;
-};
+/// Of the single disc of an agent's shape, in the world.
+Ground root_centre(const Agents& agents, std::uint32_t agent) {
+  const CutDiscs root = cut_discs(stiff_shapes().view(), agents.shape[agent] * stiff_shapes().level_count());
+  const double x = static_cast<double>(root.x[0]), y = static_cast<double>(root.y[0]);
+  const Rotation turn = rotation(agents.heading[agent]);
+  return {agents.x[agent] + (turn.cosine * x - turn.sine * y),
+          agents.y[agent] + (turn.sine * x + turn.cosine * y)};
+}
 
 /// A person's single disc has its centre where it stands in every direction; a wall has it on its axis, as near as can be.
 Ground core(const Agents& agents, std::uint32_t agent, Ground near) {
-  if (agents.shape[agent] < people_shapes) return WorldDiscs(agents, agent, 0).centre(0);
+  if (agents.shape[agent] < people_shapes) return root_centre(agents, agent);
   const Rotation turn = rotation(agents.heading[agent]);
   const double most = static_cast<double>(wall_length - wall_thickness) / 2;
   const double along = std::clamp(
@@ -81,22 +69,11 @@ const ShapeSet& stiff_shapes() {
   return shapes;
 }
 
-Separation Depths::deepest(const Agents& agents, Pair pair, std::span<const Contact> contacts) const {
-  const WorldDiscs a(agents, pair.first, agents.level[pair.first]),
-      b(agents, pair.second, agents.level[pair.second]);
-  double depth = -1, x = 1, y = 0;
-  for (const Contact& contact : contacts) {
-    const Ground p = a.centre(contact.first), q = b.centre(contact.second);
-    const double dx = p.x - q.x, dy = p.y - q.y, distance = std::sqrt(dx * dx + dy * dy);
-    const double overlap = a.radius(contact.first) + b.radius(contact.second) - distance;
-    if (overlap > depth && distance > 0) depth = overlap, x = dx / distance, y = dy / distance;
-  }
-  return {static_cast<float>(std::max(depth, 0.0)), x, y};
-}
-
 std::span<const Pair> Depths::pairs(const Agents& agents) {
-  if (measure_ == DepthMeasure::centres) {
-    pairs_ = candidate_pairs(stiff_shapes(), agents);
+  if (measure_ != DepthMeasure::separation) {
+    // Discs of cuts may overlap where root discs do not. Any margin makes the candidates know that.
+    constexpr double margin = 1e-3;
+    pairs_ = candidate_pairs(stiff_shapes(), agents, margin);
     return pairs_;
   }
   const CollidingNeighbours rows = collider_.collide_all(stiff_shapes(), agents);
@@ -115,8 +92,7 @@ std::span<const Separation> Depths::of(const Agents& agents, std::span<const Pai
       separation(stiff_shapes(), agents, pairs, directions, found_);
       break;
     case DepthMeasure::discs:
-      contacts(stiff_shapes(), agents, pairs, table_);
-      for (std::size_t i = 0; i < pairs.size(); ++i) found_[i] = deepest(agents, pairs[i], table_.of(i));
+      measure_discs(agents, pairs);
       break;
     case DepthMeasure::centres:
       lines_.clear();
@@ -124,6 +100,16 @@ std::span<const Separation> Depths::of(const Agents& agents, std::span<const Pai
       separation_along(stiff_shapes(), agents, pairs, lines_, found_);
   }
   return found_;
+}
+
+void Depths::measure_discs(const Agents& agents, std::span<const Pair> pairs) {
+  distance_.resize(pairs.size()), direction_.resize(pairs.size());
+  clearance(stiff_shapes(), agents, pairs, {.distance = distance_, .direction = direction_},
+            {.max_distance = 0});
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    const auto [x, y] = direction_[i];  // to the second agent
+    found_[i] = {std::max(-distance_[i], 0.0f), -static_cast<double>(x), -static_cast<double>(y)};
+  }
 }
 
 void StiffWorld::add_person(std::uint32_t shape, std::uint8_t level, Ground at, double heading,

@@ -8,8 +8,8 @@
 
 #include "bench/stiff_contact.hpp"
 #include "kernel/broad_phase.hpp"
+#include "kernel/clearance.hpp"
 #include "kernel/collide_all.hpp"
-#include "kernel/contacts.hpp"
 #include "kernel/separation.hpp"
 
 namespace bch::bench {
@@ -30,20 +30,20 @@ class Depths {
  public:
   explicit Depths(DepthMeasure measure) : measure_(measure) {}
 
-  /// The pairs that have depths: those that collide, or more for a measure that begins before.
+  /// The pairs that may have depths: those that collide, or candidates for a measure that does not wait for that.
   std::span<const Pair> pairs(const Agents& agents);
   /// Of such pairs; valid until the next call.
   std::span<const Separation> of(const Agents& agents, std::span<const Pair> pairs);
 
  private:
-  Separation deepest(const Agents& agents, Pair pair, std::span<const Contact> contacts) const;
+  void measure_discs(const Agents& agents, std::span<const Pair> pairs);
 
   DepthMeasure measure_;
   CrowdCollider collider_;
   std::vector<Pair> pairs_;
   std::vector<Separation> found_;
-  std::vector<Vec2> lines_;
-  ContactTable table_;
+  std::vector<Vec2> lines_, direction_;
+  std::vector<float> distance_;
 };
 
 /// Agents and what moves them.

@@ -22,9 +22,9 @@ class BroadPhase {
   ~BroadPhase();
 
   /// Every pair of agents whose root discs, at the agents' levels, can overlap or be within a margin of each other: once
-  /// each, first < second. No pair that collide() answers with 1 is left out, none of which clearance() tells a distance
-  /// of at most the margin, and none of which contact_time() tells a time where neither agent moves by more than half of
-  /// it. The only others are those whose root discs miss that by a few millionths of it, of their radii and of how far
+  /// each, first < second. No pair that collide() answers with 1 is left out; and with a margin above 0 none of which
+  /// clearance() tells a distance of at most the margin, and none of which contact_time() tells a time where neither agent
+  /// moves by more than half of it. The only others are those whose root discs miss that by a few millionths of it, of their radii and of how far
   /// their shapes reach, or by 2^-26 of the crowd's largest radius.
   /// Units:   metres; the margin is from 0 to 2e9.
   /// Order:   by place: along the rows of a grid, so that who reads agents in the order of the pairs finds

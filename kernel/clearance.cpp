@@ -12,7 +12,6 @@
 #include "kernel/pair_validation.hpp"
 #include "kernel/standard_floats.hpp"
 #include "kernel/task_ranges.hpp"
-#include "layout/cut_discs.hpp"
 #include "layout/shortest.hpp"
 
 namespace bch {
@@ -36,7 +35,7 @@ CutNodes cut_nodes(const ShapeSetView& shapes, const Agents& agents, Pair pair, 
   if (nearest.a == kernel::no_node) return no_cut_nodes;
   const auto index = [&](std::uint32_t agent, std::uint32_t node) {
     if (shapes.trees == nullptr) return node;
-    return node - first_disc(shapes.nodes, shapes.trees[agents.root(agent, shapes.level_count)].top);
+    return node - shapes.trees[agents.root(agent, shapes.level_count)].discs;
   };
   const auto [a, b] = std::minmax(pair.first, pair.second);
   const CutNodes nodes{index(a, nearest.a), index(b, nearest.b)};

@@ -45,8 +45,9 @@ struct ClearanceAnswers {
 /// Never larger than the distance of the outlines: an outline that crosses another has a clearance of at most 0.
 /// Below it by no more than r_A + r_B + (r_A^2 + r_B^2) / 2 D, with r the radii of the nearest discs and D =
 /// distance + r_A + r_B (below 3 cm for leaf discs of 1 cm), and 4 um per metre of the two shapes' reach and of D.
-/// Consistent with collide(): where that says 1 in boundary semantics, the distance is at most 0; where the distance
-/// is positive, it says 0. (It may say 0 at a distance within the 4 um below 0.) The same bits on every processor,
+/// The discs of the cuts alone count, not the nodes above them, so that a distance is one of two discs. Where collide() says
+/// 1 in boundary semantics, the distance is at most 0; where the distance is positive, it says 0. It may say 0 where discs
+/// overlap and nodes above them do not: a distance below 0 is no collision yet. The same bits on every processor,
 /// for any number of threads and any split of the batch; exchanging the agents of a pair exchanges the nodes and
 /// negates the direction. Of gaps that are equal, the one with the first disc of the agent with the lower index
 /// counts, then that with the first disc of the other.

@@ -68,7 +68,8 @@ class ClearanceKernel {
     const auto [distance, a, b] = measure.nearest();
     if (a == no_node) return {distance, a, b, 0, 0, 1, 0};
     const auto disc = [this](std::uint32_t place, std::uint32_t root) {
-      return Discs{shapes_.nodes + place, shapes_.trees[root].stride};
+      const std::size_t stride = shapes_.trees[root].stride;
+      return Discs{shapes_.nodes + place, stride, 2 * stride};
     };
     const auto [x, y, r] =
         disc_pair<Simd>(at_.transform(pair), disc(a, at_.root_a[pair]), disc(b, at_.root_b[pair]), 0);
@@ -93,10 +94,13 @@ class ClearanceKernel {
   }
 
   void bound_roots(std::uint32_t k) noexcept {
-    const auto [x, y, r] = between_roots(k);
-    alignas(64) float reaches[Simd::width];
-    for (std::uint32_t lane = 0; lane < Simd::width; ++lane) reaches[lane] = reach(k + lane);
-    Simd::store(root_bound_ + k, Measure::bound(x, y, r, Simd::load(reaches)));
+    const Step step = between_roots(k);
+    alignas(64) float reaches[Simd::width], radii[Simd::width];
+    for (std::uint32_t lane = 0; lane < Simd::width; ++lane) {
+      reaches[lane] = reach(k + lane);
+      radii[lane] = shapes_.trees[at_.root_a[k + lane]].outer + shapes_.trees[at_.root_b[k + lane]].outer;
+    }
+    Simd::store(root_bound_ + k, Measure::bound(step.x, step.y, Simd::load(radii), Simd::load(reaches)));
   }
 
   /// Where every cut is a single disc.

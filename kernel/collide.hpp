@@ -12,9 +12,14 @@
 
 namespace bch {
 
+/// What a collision is. Both say so of two agents at their levels, without a word of how a tree is traversed.
 enum class Semantics {
-  boundary,  ///< the paper's: some disc of one cut overlaps some disc of the other
-  solid,     ///< also where a contour of one outline lies inside the other outline
+  /// Some disc of one's cut and some disc of the other's overlap, and every node above the one (itself included) overlaps
+  /// every node above the other. Discs are the smallest of what nodes hold, touching counts. A point that two outlines have
+  /// in common lies in all of them, so this is the tightest answer that discs can give, and a deeper cut never adds a
+  /// collision.
+  boundary,
+  solid,  ///< also where a contour of one outline lies inside the other outline
 };
 
 struct QueryOptions {
@@ -25,8 +30,8 @@ struct QueryOptions {
 
 /// Answers each pair: 1 where the two agents collide at their levels, touching included, else 0.
 ///
-/// Never a miss: agents whose outlines meet collide, at every level. A false positive beyond the discs' own
-/// sizes needs a gap below 4 um per metre of the two shapes' reach (rounding.hpp).
+/// Never a miss: agents whose outlines meet collide, at every level, and those that do not collide at one level do not at a
+/// deeper one either. A false positive beyond the discs' own sizes needs a gap below 4 um per metre of the two shapes' reach (rounding.hpp).
 /// The same bits on every processor, for any number of threads, any split of the batch and either order within
 /// a pair. Only the difference of positions counts: far from the origin the answer is that of the same
 /// placement at the origin.

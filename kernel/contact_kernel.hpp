@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "kernel/ancestor_test.hpp"
 #include "kernel/arguments.hpp"
 #include "kernel/block_test.hpp"
 #include "kernel/contact.hpp"
@@ -13,12 +14,11 @@
 #include "kernel/placements.hpp"
 #include "kernel/tree_nodes.hpp"
 #include "layout/cut_discs.hpp"
-#include "layout/rounding.hpp"
 #include "layout/shape_set_view.hpp"
 
 namespace bch::kernel {
 
-/// All pairs of overlapping cut discs, one pair of agents after the other. Rows are discs of a pair's first agent,
+/// All pairs of cut discs that overlap with all their ancestors, one pair of agents after the other. Rows are discs of a pair's first agent,
 /// columns those of its second. Row windows are visited from left to right, each with the column nodes that the blocks
 /// above it left to it, so that contacts come in order but for the eight rows of a window, which are counted before they
 /// are placed.
@@ -27,7 +27,7 @@ namespace bch::kernel {
 /// count: up to where the next window begins; but the last eight, where windows are moved back, are taken together at
 /// the end. A column counts in the first visited window that shows it.
 ///
-/// Blocks prune as in the pair kernel's walk, and with its slack (layout/rounding.hpp): that loses no contact.
+/// Blocks prune as in the pair kernel's walk, and hits of leaves are verified as there.
 template <class Simd>
 class ContactKernel {
  public:
@@ -88,9 +88,9 @@ class ContactKernel {
     const std::uint32_t columns = swapped_ ? at_.root_a[k] : at_.root_b[k];
     if (shapes_.trees == nullptr) return look_at_single_discs(shapes_.roots[rows], shapes_.roots[columns]);
     nodes_ = shapes_.nodes;
-    slack_ = rounding::nesting_slack * (shapes_.reach[at_.shape_a[k]] + shapes_.reach[at_.shape_b[k]]);
+    reach_ = shapes_.reach[at_.shape_a[k]] + shapes_.reach[at_.shape_b[k]];
     rows_ = shapes_.trees[rows], columns_ = shapes_.trees[columns];
-    first_row_ = first_disc(nodes_, rows_.top), first_column_ = first_disc(nodes_, columns_.top);
+    first_row_ = rows_.discs, first_column_ = columns_.discs;
   }
 
   /// Windows of our own, because the set has none.
@@ -103,7 +103,8 @@ class ContactKernel {
     singles_[1].radius[0] = column_disc.radius;
     nodes_ = singles_[0].x;
     first_row_ = 0, first_column_ = sizeof(DiscBlock) / sizeof(float);
-    rows_ = {leaf_window | first_row_, block_width}, columns_ = {leaf_window | first_column_, block_width};
+    rows_ = {leaf_window | first_row_, first_row_, block_width, 1, 0};
+    columns_ = {leaf_window | first_column_, first_column_, block_width, 1, 0};
   }
 
   /// Calls use(window, mask of its own rows, nodes above the columns that may overlap them).
@@ -175,6 +176,7 @@ class ContactKernel {
     std::uint64_t hits = overlaps_of(rows, node) & mask;
     if (node >= leaf_window) {
       hits &= (first_row_of_pairs << seen_lanes(node, next) & first_row_of_pairs) * first_column_of_pairs;
+      if (hits != 0) hits = verified(rows, node, hits);
       if (hits != 0) use(node, hits);
       return;
     }
@@ -223,9 +225,32 @@ class ContactKernel {
   std::uint64_t overlaps_of(std::uint32_t rows, std::uint32_t columns) const noexcept {
     const Discs of_rows = TreeNodes<Simd>::discs(nodes_, rows, rows_.stride),
                 of_columns = TreeNodes<Simd>::discs(nodes_, columns, columns_.stride);
-    const float slack = (rows & columns) >= leaf_window ? 0 : slack_;
-    if (!swapped_) return overlapping_discs<Simd>(b_in_a_, of_rows, of_columns, slack);
-    return transposed(overlapping_discs<Simd>(b_in_a_, of_columns, of_rows, slack));
+    if (!swapped_) return overlapping_discs<Simd>(b_in_a_, of_rows, of_columns);
+    return transposed(overlapping_discs<Simd>(b_in_a_, of_columns, of_rows));
+  }
+
+  /// Of the hits of two leaf windows. Where every cut is a single disc, there is nothing above them.
+  std::uint64_t verified(std::uint32_t rows, std::uint32_t columns, std::uint64_t hits) const noexcept {
+    if (shapes_.trees == nullptr) return hits;
+    std::uint64_t verified = 0;
+    for (; hits != 0; hits &= hits - 1) {
+      const auto bit = static_cast<unsigned>(__builtin_ctzll(hits));
+      const std::uint32_t row = (rows & ~leaf_window) + bit / block_width,
+                          column = (columns & ~leaf_window) + bit % block_width;
+      const bool passes = swapped_ ? ancestors_overlap(columns_, column, rows_, row)
+                                   : ancestors_overlap(rows_, row, columns_, column);
+      verified |= std::uint64_t{passes} << bit;
+    }
+    return verified;
+  }
+
+  bool ancestors_overlap(const Tree& a, std::uint32_t disc_a, const Tree& b,
+                         std::uint32_t disc_b) const noexcept {
+    AncestorPath<Simd> above_a, above_b;
+    above_a.begin(nodes_, a, disc_a), above_b.begin(nodes_, b, disc_b);
+    for (std::uint32_t k = 1; k < AncestorPath<Simd>::length; ++k)
+      above_a.step(nodes_, k), above_b.step(nodes_, k);
+    return AncestorTest<Simd>(nodes_, {b_in_a_, a, b, reach_}, disc_a, disc_b, above_a, above_b).passes();
   }
 
   std::uint32_t child(std::uint32_t node, unsigned lane) const noexcept {
@@ -251,7 +276,7 @@ class ContactKernel {
   // Of the pair that is looked at.
   bool swapped_;  ///< the first agent is B
   Transform b_in_a_;
-  float slack_ = 0;  ///< of tests with a node that is not a leaf
+  float reach_;  ///< of both shapes
   const float* nodes_;
   Tree rows_, columns_;
   std::uint32_t first_row_, first_column_;  ///< where their discs begin

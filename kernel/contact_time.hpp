@@ -26,7 +26,9 @@ struct ContactTimeOptions {
 /// When two agents touch first while they move: for each pair the least t in [0, 1] at which discs of their cuts
 /// touch if the first agent has moved by t times its displacement; infinity where none do.
 ///
-/// 0 where collide() says 1 in boundary semantics now; a displacement of zero gives 0 there, and infinity elsewhere.
+/// The discs of the cuts alone count, not the nodes above them: whether these overlap changes on the way, and a time has to
+/// be no later than the outlines' contact. 0 where discs overlap now, as they do wherever collide() says 1, also where they
+/// move apart. A displacement of zero, in float, gives 0 where collide() says 1, and infinity elsewhere.
 /// Never later than the outlines' first contact. At the time told they are as near to each other as clearance() may
 /// tell of outlines that touch: the leaf discs' sizes, and 4 um per metre of way and of the two shapes' reach. So it is
 /// earlier than their contact by as long as they pass each other so closely, and told where they pass by like that. The

@@ -15,7 +15,7 @@
 
 namespace bch::kernel {
 
-/// The first contact of every pair, none of which overlaps now. Chunk by chunk: places B in A's frame, parts the pairs
+/// The first contact of every pair, none of which collides now. Chunk by chunk: places B in A's frame, parts the pairs
 /// that a line keeps apart on all of the way, by their supports, and walks the trees of the rest.
 template <class Simd>
 class ContactTimeKernel {

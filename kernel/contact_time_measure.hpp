@@ -18,6 +18,8 @@ namespace contact_time_terms {
 namespace r = rounding::terms;
 
 constexpr double of_distance = 11.2, lengthening = 16;  // of D; R's
+constexpr double overlap = 4;  // of r^2: collide()'s test rounds two squares, a sum and r^2
+static_assert(overlap >= 2 * r::square + 1 + 0x1p-10 && overlap / 2 <= lengthening);
 static_assert(r::length_within(r::arm + r::position + 2 * r::sum, r::position + 1, r::contact_error), "of B");
 static_assert(r::length_within(r::position + r::sum, r::position + 1, r::contact_error), "of A");
 static_assert(of_distance >= 2 * r::position + r::sum + r::apart - 0x1p-40);
@@ -41,7 +43,9 @@ static_assert(slack >= bound_reach + bound_distance + inexact_way);
 ///     R = r + 2^-20 D,    D = |(x, y)|,    h = x v_y - y v_x,    b = x v_x + y v_y
 ///     t = (D^2 - R^2) / (b + sqrt(R^2 v^2 - h^2)),    T = float(t (1 - 2^-22))
 ///
-/// or 0 where D <= R, and never where b <= 0 or the root is not real. It is asked only of discs that do not overlap.
+/// or 0 where D <= R, and never where b <= 0 or the root is not real; but 0 wherever D^2 <= r^2 (1 + 4 u), also of discs that
+/// move apart, because the outlines in them may yet meet. That holds wherever collide()'s test in float accepts the two, as
+/// it rounds the squares by 3 u of them; D <= r in double would not, and who collides needs the time 0 by its discs as well.
 ///
 /// Never too late, in the notation of layout/rounding.hpp. Where the tight discs touch at the true time t, the exact
 /// way between their centres is r_tight long. (x, y) is off by 8.1 u |b| + 5.6 u |d| + u D; v is rotated as d is, so
@@ -56,7 +60,7 @@ static_assert(slack >= bound_reach + bound_distance + inexact_way);
 ///
 /// Bounds are how far A has come when discs (C, R') that hold the two touch, enlarged. What is along the way and aside is
 /// computed at once, from discs of both sides turned into the way's frame by (w_x, w_y), which is v / |v| made shorter by
-/// `rough` of it: so are all lengths but the radii. At T the centres are within R'_A + R'_B + 16 u D, and rounding brings
+/// `rough` of it: so are all lengths but the radii. At T the centres are within R'_A + R'_B + 16 u D, also of discs that move apart, and rounding brings
 /// 20 u S and 4 u D beside, with D <= D' + 2 S: 60 u S + 20 u D'. The turn adds 2 u of each coefficient of B's placement,
 /// of |d| and of A's centre, and rounds two sums more: 6 u P_B + 2 u P_A + 3 u |d| + u D', where centres are within 1.42
 /// reaches; with 2.5 u D' for (w_x, w_y) itself either length is off by 13 u S + 7 u D'. The squares' 3 u make that 19 u S
@@ -100,17 +104,17 @@ class ContactTimeMeasure {
     alignas(64) float turned[3 * stride];
     const Float ux(unit_x_), uy(unit_y_), slack(slack_), zero(0.0f), never(far_beyond);
     for (unsigned k = 0; k < block_width; k += Simd::width) {
-      const auto of_a = [&](unsigned row) {
-        return Simd::template columns<block_width>(a.x + row * a.stride, k / Simd::width);
+      const auto of_a = [&](const float* eight) {
+        return Simd::template columns<block_width>(eight, k / Simd::width);
       };
-      const Float x = of_a(0), y = of_a(1);
+      const Float x = of_a(a.x), y = of_a(a.y());
       Simd::store(turned + k, ux * x + uy * y);
       Simd::store(turned + stride + k, ux * y - uy * x);
-      Simd::store(turned + 2 * stride + k, of_a(2) + slack);
+      Simd::store(turned + 2 * stride + k, of_a(a.radius()) + slack);
     }
     const Transform on_way{unit_x_ * at.c + unit_y_ * at.s, unit_x_ * at.s - unit_y_ * at.c,
                            unit_x_ * at.tx + unit_y_ * at.ty, unit_x_ * at.ty - unit_y_ * at.tx};
-    visit_disc_pairs<Simd>(on_way, Discs{turned, stride}, b,
+    visit_disc_pairs<Simd>(on_way, Discs{turned, stride, 2 * stride}, b,
                            [=](unsigned k, Float along, Float aside, Float radius) {
                              const Float half = Simd::rough_root(radius * radius - aside * aside);
                              // Not where it is NaN.
@@ -134,7 +138,9 @@ class ContactTimeMeasure {
       else
         return xsimd::select(which, yes, no);
     };
-    return select((towards > zero) & (under_root >= zero), select(left > zero, time, zero), never);
+    const Real later =
+        select((towards > zero) & (under_root >= zero), select(left > zero, time, zero), never);
+    return select(square <= r * r * Real(1 + overlap), zero, later);
   }
   void take(double time) noexcept {
     if (time <= static_cast<double>(best())) time_ = static_cast<float>(time);
@@ -143,8 +149,10 @@ class ContactTimeMeasure {
  private:
   static constexpr float slack_per_length = 0x1p-16f;
   static constexpr double lengthening = 0x1p-20;
+  static constexpr double overlap = 0x1p-22;
   static_assert(double{slack_per_length} >= contact_time_terms::slack * rounding::unit_roundoff);
   static_assert(lengthening >= contact_time_terms::lengthening * rounding::unit_roundoff);
+  static_assert(overlap >= contact_time_terms::overlap * rounding::unit_roundoff);
 
   float best() const noexcept { return time_ < 1 ? time_ : 1; }
 

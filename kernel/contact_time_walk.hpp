@@ -79,8 +79,8 @@ class ContactTimeWalk {
     std::uint32_t which;  ///< pair of discs has it
   };
 
-  Discs discs_a(const Open& open) const noexcept { return Nodes::discs(nodes_, open.a, open.stride_a); }
-  Discs discs_b(const Open& open) const noexcept { return Nodes::discs(nodes_, open.b, open.stride_b); }
+  Discs discs_a(const Open& open) const noexcept { return Nodes::outer_discs(nodes_, open.a, open.stride_a); }
+  Discs discs_b(const Open& open) const noexcept { return Nodes::outer_discs(nodes_, open.b, open.stride_b); }
 
   void bound() noexcept {
     for (std::uint32_t k = 0; k < fresh_.size; ++k) {

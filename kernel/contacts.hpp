@@ -29,10 +29,15 @@ struct ContactOptions {
   const kernel::Implementation* implementation = nullptr;
 };
 
-/// Finds, for each pair, all pairs of discs of the agents' cuts, at their levels, that overlap, touching included: with
-/// the float test that defines collide(), so a row is empty exactly where collide() answers 0 in boundary semantics.
+/// Finds, for each pair, all pairs of discs of the agents' cuts, at their levels, that make a collision: they overlap, and so
+/// do all nodes above the one and above the other; see Semantics. So a row is empty exactly where collide() answers 0 in
+/// boundary semantics.
 /// A table is never cut short: contacts are counted, then written. Two equal cuts of n discs in one place have n^2 of
 /// them at most.
+///
+/// A row's deepest overlap does not begin at nothing when two agents come together, because nodes above decide as well: the
+/// cut discs may have overlapped for long when the last two of those begin to. Forces that have to be continuous take
+/// clearance() below 0, or separation() of all pairs that are near.
 ///
 /// The same bits on every processor, for any number of threads. For a pair in the other order the same contacts, their
 /// parts exchanged, in their own order.

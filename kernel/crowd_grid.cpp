@@ -29,13 +29,17 @@ constexpr double share_of_margin = 0x1p-18, share_of_reach = 128 * rounding::uni
 static_assert(2 * share_of_margin >= clearance_terms::short_of_distance * rounding::unit_roundoff);
 static_assert(share_of_reach >= (clearance_terms::short_of_reach + 2 * clearance_terms::short_of_distance) *
                                     rounding::unit_roundoff);
+static_assert(share_of_reach >= rounding::terms::query_error * rounding::unit_roundoff,
+              "what collide() may accept");
 
-/// With the slack of a pruning disc, which covers the rounding of collide(). A root holds the shape, whose reach is
-/// therefore at most that of the root. Enlarged by half of the margin, and by more than clearance() may tell too little.
-double pruning_radius(const Root& root, double margin) {
-  const double radius = root.radius;
-  const double reach = std::abs(static_cast<double>(root.x)) + std::abs(static_cast<double>(root.y)) + radius;
-  if (margin == 0) return radius + rounding::nesting_margin * reach;
+/// A root disc that is enlarged by half of the margin, and by more than clearance() may tell too little, which covers the
+/// rounding of collide(). Its shape's reach is at most that of the root. With a margin it
+/// holds all discs, which may stick out of the smallest one.
+double pruning_radius(const ShapeSetView& shapes, std::size_t root, double margin) {
+  const auto [x, y, r, row] = shapes.roots[root];
+  const bool has_outer = margin > 0 && shapes.trees != nullptr;
+  const double radius = has_outer ? shapes.trees[root].outer : r;
+  const double reach = std::abs(static_cast<double>(x)) + std::abs(static_cast<double>(y)) + radius;
   return radius + share_of_reach * reach + (0.5 + share_of_margin) * margin;
 }
 
@@ -56,7 +60,7 @@ CrowdBounds bounds(const ShapeSetView& shapes, const Agents& agents, double marg
   CrowdBounds all;
   for (std::size_t i = begin; i < end; ++i) {
     const std::size_t root = agents.root(i, shapes.level_count);
-    const double radius = pruning_radius(shapes.roots[root], margin);
+    const double radius = pruning_radius(shapes, root, margin);
     const double offset = std::abs(static_cast<double>(shapes.roots[root].x)) +
                           std::abs(static_cast<double>(shapes.roots[root].y));
     all.add({agents.x[i], agents.x[i], agents.y[i], agents.y[i], offset, radius, radius});
@@ -102,7 +106,7 @@ void CrowdGrid::place(const ShapeSetView& shapes, const Agents& agents, double m
     // it.
     const auto at_x = static_cast<std::uint64_t>(((agents.x[i] - corner_x_) + offset_x) * units_);
     const auto at_y = static_cast<std::uint64_t>(((agents.y[i] - corner_y_) + offset_y) * units_);
-    const double radius = pruning_radius(shapes.roots[root], margin);
+    const double radius = pruning_radius(shapes, root, margin);
     std::uint32_t c = class_count_ - 1;
     while (radius > classes_[c].most_radius) --c;
     const std::uint32_t shift = cell_bits - class_bits * c;

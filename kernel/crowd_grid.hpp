@@ -20,7 +20,7 @@ struct CrowdBounds {
   double least_x = infinity, most_x = -infinity;  ///< of the agents' positions, metres
   double least_y = infinity, most_y = -infinity;
   double offset = 0;                                ///< no root's centre is farther from its agent
-  double least_radius = infinity, most_radius = 0;  ///< with the slack of a pruning disc
+  double least_radius = infinity, most_radius = 0;  ///< of their root discs, enlarged
 
   void add(const CrowdBounds& other) noexcept;
 };

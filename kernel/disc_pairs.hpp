@@ -29,14 +29,14 @@ template <class Simd, bool called = Simd::width == 1, class Visit>
   constexpr unsigned parts = Simd::width < block_width ? block_width / Simd::width : 1;
   constexpr unsigned rows = Simd::width > block_width ? Simd::width / block_width : 1;
   const Float c(b_in_a.c), s(b_in_a.s), tx(b_in_a.tx), ty(b_in_a.ty);
-  const auto ax = Simd::eight(a.x), ay = Simd::eight(a.x + a.stride), ar = Simd::eight(a.x + 2 * a.stride);
+  const auto ax = Simd::eight(a.x), ay = Simd::eight(a.y()), ar = Simd::eight(a.radius());
   Float px[parts], py[parts], r[parts];
 #pragma GCC unroll 8
   for (unsigned part = 0; part < parts; ++part) {
     const Float x = Simd::template columns<block_width>(b.x, part),
-                y = Simd::template columns<block_width>(b.x + b.stride, part);
+                y = Simd::template columns<block_width>(b.y(), part);
     px[part] = tx + (c * x - s * y), py[part] = ty + (s * x + c * y);
-    r[part] = Simd::template columns<block_width>(b.x + 2 * b.stride, part);
+    r[part] = Simd::template columns<block_width>(b.radius(), part);
   }
 #pragma GCC unroll 8
   for (unsigned row = 0; row < block_width; row += rows) {
@@ -57,10 +57,9 @@ template <class Simd>
 [[gnu::always_inline]] inline DiscPair disc_pair(const Transform& b_in_a, Discs a, Discs b,
                                                  unsigned pair) noexcept {
   const unsigned i = pair / block_width, j = pair % block_width;
-  const float x = b.x[j], y = b.x[b.stride + j];
+  const float x = b.x[j], y = b.y()[j];
   return {b_in_a.tx + (b_in_a.c * x - b_in_a.s * y) - a.x[i],
-          b_in_a.ty + (b_in_a.s * x + b_in_a.c * y) - a.x[a.stride + i],
-          a.x[2 * a.stride + i] + b.x[2 * b.stride + j]};
+          b_in_a.ty + (b_in_a.s * x + b_in_a.c * y) - a.y()[i], a.radius()[i] + b.radius()[j]};
 }
 
 /// Of the pairs' values.

@@ -148,7 +148,8 @@ class NearestSearch {
   [[gnu::always_inline]] std::uint64_t improving(const Step& step) const noexcept {
     const Searched& pair = pairs_[step.pair];
     std::uint64_t bits = 0;
-    visit_disc_pairs<Simd>(pair.at, walk_.discs(step.a, pair.stride_a), walk_.discs(step.b, pair.stride_b),
+    visit_disc_pairs<Simd>(pair.at, walk_.outer_discs(step.a, pair.stride_a),
+                           walk_.outer_discs(step.b, pair.stride_b),
                            [&](unsigned k, Float x, Float y, Float r) {
                              bits |= std::uint64_t{Simd::bits(pair.measure.may_improve(x, y, r))} << k;
                            });

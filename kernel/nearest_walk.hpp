@@ -58,14 +58,14 @@ class NearestWalk {
   /// Two windows.
   void meet(const Transform& at, std::uint32_t a, std::uint32_t b, std::uint32_t stride_a,
             std::uint32_t stride_b, Measure& measure) const noexcept {
-    measure.meet(at, discs(a, stride_a), discs(b, stride_b), a & ~leaf_window, b & ~leaf_window);
+    measure.meet(at, outer_discs(a, stride_a), outer_discs(b, stride_b), a & ~leaf_window, b & ~leaf_window);
   }
 
   void bound(const Transform& at, std::uint32_t a, std::uint32_t b, std::uint32_t stride_a,
              std::uint32_t stride_b, const Measure& measure, NodePairBounds& frame) const noexcept {
     frame.a = a, frame.b = b, frame.open = ~std::uint64_t{0};
     visit_disc_pairs<Simd>(
-        at, discs(a, stride_a), discs(b, stride_b),
+        at, outer_discs(a, stride_a), outer_discs(b, stride_b),
         [&](unsigned k, Float x, Float y, Float r) { Simd::store(frame.bound + k, measure.bound(x, y, r)); });
   }
 
@@ -90,8 +90,8 @@ class NearestWalk {
     return true;
   }
 
-  Discs discs(std::uint32_t node, std::uint32_t stride) const noexcept {
-    return TreeNodes<Simd>::discs(nodes_, node, stride);
+  Discs outer_discs(std::uint32_t node, std::uint32_t stride) const noexcept {
+    return TreeNodes<Simd>::outer_discs(nodes_, node, stride);
   }
 
   /// Of a window, itself.

@@ -14,7 +14,6 @@
 #include "kernel/profile_test.hpp"
 #include "kernel/separation_test.hpp"
 #include "kernel/walk.hpp"
-#include "layout/rounding.hpp"
 #include "layout/shape_set_view.hpp"
 
 namespace bch::kernel {
@@ -54,8 +53,8 @@ class PairKernel {
 
  private:
   using Float = typename Simd::Float;
-  /// Room for a chunk, besides those that wait for company.
-  static constexpr std::uint32_t open_walks = 2 * chunk;
+  /// Room for a chunk, besides those that wait for company, as many as the stack has room for.
+  static constexpr std::uint32_t open_walks = chunk + chunk * 7 / 8;
   using List = ChunkPairs<Simd, chunk>;
 
   explicit PairKernel(const Arguments& arguments) noexcept
@@ -101,14 +100,9 @@ class PairKernel {
       const Float x = Simd::load(at_.tx + k) + (c * b[0] - s * b[1]),
                   y = Simd::load(at_.ty + k) + (s * b[0] + c * b[1]);
       const std::uint32_t hits = overlaps<Simd>(x, y, b[2], a[0], a[1], a[2]);
-      // Roots hold their shapes, whose reaches are therefore at most theirs.
-      const Float reach =
-          (xsimd::abs(a[0]) + xsimd::abs(a[1]) + a[2]) + (xsimd::abs(b[0]) + xsimd::abs(b[1]) + b[2]);
-      const std::uint32_t near =
-          overlaps<Simd>(x, y, b[2] + Float(rounding::nesting_slack) * reach, a[0], a[1], a[2]);
       std::uint32_t open = 0;
       for (std::uint32_t lane = 0; lane < lanes(k); ++lane) {
-        const std::uint32_t decided = both_are_single(k + lane), hit = (decided ? hits : near) >> lane & 1;
+        const std::uint32_t decided = both_are_single(k + lane), hit = hits >> lane & 1;
         codes_[k + lane] = static_cast<std::uint8_t>(hit * overlap);
         open |= (hit & (decided ^ 1)) << lane;
       }
@@ -220,7 +214,9 @@ class PairKernel {
     }
   }
 
-  Discs inscribed(std::uint32_t shape) const noexcept { return {shapes_.inscribed[shape].x, block_width}; }
+  Discs inscribed(std::uint32_t shape) const noexcept {
+    return {shapes_.inscribed[shape].x, block_width, 2 * block_width};
+  }
 
   const Arguments& in_;
   const ShapeSetView shapes_;

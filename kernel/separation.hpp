@@ -26,7 +26,8 @@ struct SeparationOptions {
 };
 
 /// The depth at which two agents A and B stand in each other along a direction u: how far A has to move along u until
-/// nothing of it, at its level, overlaps anything of B, in the sense of solid, there or anywhere further along u.
+/// no disc of its cut overlaps one of B's and neither outline encloses anything of the other, there or anywhere further
+/// along u.
 ///
 ///     s(u) = max over B's discs (b . u + r) - min over A's discs (a . u - r),    depth = max(0, s(u))
 ///
@@ -40,16 +41,16 @@ struct SeparationOptions {
 ///   so the depth does not either; and no more than both together where both move. The smallest of several directions
 ///   inherits that. (Beside rounding: 1e-6 of the two shapes' reach, 4e-7 of the depth.)
 /// *Symmetric.* B has to move as far along -u as A along u: the same bits, the direction negated.
-/// *The least that is.* Let T be the largest t >= 0 at which A still overlaps B when it has moved by t u, or 0. Every
-///   f >= T that is continuous in this sense, in A's position alone, is at least s(u): let s(u) belong to two discs, w be
-///   how far they are apart across u, and start at q, which is n behind A along u and w beside it. From there the two
-///   discs touch last at n + s(u). So f(A) >= f(q) - |q - A| >= n + s(u) - sqrt(n^2 + w^2), for every n.
+/// *The least that is.* Let T be the largest t >= 0 at which a disc of A's cut still overlaps one of B's when A has moved by
+///   t u, or 0. Every f >= T that is continuous in this sense, in A's position alone, is at least s(u): let s(u) belong to
+///   two discs, w be how far they are apart across u, and start at q, which is n behind A along u and w beside it. From
+///   there the two discs touch last at n + s(u). So f(A) >= f(q) - |q - A| >= n + s(u) - sqrt(n^2 + w^2), for every n.
 ///
 /// The price: the depth may be positive where nothing overlaps yet, as one may reach around the other. Along a given
 /// direction nothing that is zero there can be continuous: if A touches B from behind, it has all of B before it. So ask
-/// for pairs that collide. Over all directions, the way to the nearest place where nothing overlaps lies between the
-/// deepest overlap of two discs, as continuous and zero until there is one (for a force that grows from contact on), and
-/// this depth (for a correction of positions that is done at once).
+/// for pairs that collide. Over all directions, the way to the nearest place where no discs overlap lies between
+/// the deepest overlap of two discs, which is clearance() below 0, as continuous and zero until there is one (for a force that
+/// grows from contact on), and this depth (for a correction of positions that is done at once).
 ///
 /// The answer is the same bits on every processor, for any number of threads and any split of the batch. Only the
 /// difference of positions counts.

@@ -18,7 +18,15 @@ struct TreeNodes {
 
   /// `stride`: that of the node's tree.
   static Discs discs(const float* nodes, std::uint32_t node, std::uint32_t stride) noexcept {
-    return {nodes + (node & ~leaf_window), block_width + (all_if_leaf(node) & (stride - block_width))};
+    const std::size_t to_y = block_width + (all_if_leaf(node) & (stride - block_width));
+    return {nodes + (node & ~leaf_window), to_y, 2 * to_y};
+  }
+
+  /// The same with the outer radii of a block's.
+  static Discs outer_discs(const float* nodes, std::uint32_t node, std::uint32_t stride) noexcept {
+    const std::uint32_t leaf = all_if_leaf(node);
+    return {nodes + (node & ~leaf_window), block_width + (leaf & (stride - block_width)),
+            block_outer + (leaf & (2 * stride - block_outer))};
   }
 
   /// Asks for a node's discs, and for the names below a block. (Here and elsewhere inlined for certain: GCC 12 drops the
@@ -26,13 +34,13 @@ struct TreeNodes {
   [[gnu::always_inline]] static void prefetch(const float* nodes, std::uint32_t node,
                                               std::uint32_t stride) noexcept {
     const Discs at = discs(nodes, node, stride);
-    for (std::size_t row = 0; row < 3; ++row) __builtin_prefetch(at.x + row * at.stride);
+    for (std::size_t row = 0; row < 3; ++row) __builtin_prefetch(at.x + row * at.to_y);
   }
 
   /// Below a disc of a block.
   static std::uint32_t child(const float* nodes, std::uint32_t block, unsigned lane) noexcept {
     std::uint32_t name;
-    __builtin_memcpy(&name, nodes + block + 3 * block_width + lane, sizeof name);
+    __builtin_memcpy(&name, nodes + block + block_names + lane, sizeof name);
     return name;
   }
 };

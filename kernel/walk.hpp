@@ -6,17 +6,17 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "kernel/ancestor_test.hpp"
 #include "kernel/arguments.hpp"
 #include "kernel/block_test.hpp"
 #include "kernel/tree_nodes.hpp"
-#include "layout/rounding.hpp"
 #include "layout/shape_set_view.hpp"
 
 namespace bch::kernel {
 
 /// The last stage of the pair kernel: walks the trees of the pairs that nothing quicker decided, in rounds. Each
 /// round tests one pair of blocks for every open pair, so that cache misses and latencies of many pairs overlap
-/// and no branch depends on an answer. Most pairs end after a few rounds; those that do not wait for company,
+/// and no branch depends on an answer; only where leaves overlap are their ancestors looked at. Most pairs end after a few rounds; those that do not wait for company,
 /// because a round over three pairs takes as long as one over thirty.
 /// `capacity`: `add` needs room; `run(below)` makes it.
 template <class Simd, std::uint32_t capacity>
@@ -33,7 +33,7 @@ class Walk {
     // Slots are numbered when they are first needed, because small batches need few.
     if (size_ == numbered_) slots_[size_] = static_cast<std::uint16_t>(numbered_++);
     const std::uint32_t slot = slots_[size_++];
-    open_[slot] = {b_in_a, a.top, b.top, a.stride, b.stride, rounding::nesting_slack * reach, 0, pair};
+    open_[slot] = {b_in_a, a.top, b.top, a.stride, b.stride, root_a, root_b, reach, 0, pair};
     frames_[slot][0] = {0, 0, 0};
     codes_[pair] = miss;
   }
@@ -47,6 +47,7 @@ class Walk {
   using Nodes = TreeNodes<Simd>;
   /// Tests that nodes are asked for ahead, with `prefetch`.
   static constexpr std::uint32_t tests_ahead = 6;
+  static constexpr std::uint32_t verified_together = 32;
   /// Every test descends on one side at least, and neither side has more levels than this.
   static constexpr std::uint32_t most_frames = 2 * most_wide_levels;
 
@@ -54,9 +55,10 @@ class Walk {
   struct Open {
     Transform b_in_a;
     std::uint32_t a, b;
-    std::uint32_t stride_a, stride_b;  ///< of the cut's discs
-    float slack;                       ///< of tests with a node that is not a leaf; see layout/rounding.hpp
-    std::uint32_t top;                 ///< frame
+    std::uint32_t stride_a, stride_b;
+    std::uint32_t root_a, root_b;
+    float reach;
+    std::uint32_t top;  ///< frame
     std::size_t pair;
   };
 
@@ -68,16 +70,15 @@ class Walk {
   };
 
   /// One test for every open pair, then one step for every pair: apart, because the processor looks ahead over a
-  /// few of either, but hardly over one of both. Both in one function, because rounds over a lone pair are so short
+  /// few of either, but hardly over one of both. All in one function, because rounds over a lone pair are so short
   /// that calls count. `noipa`, because GCC 12 takes such functions for ones without effects when their parameters
   /// are changed a little, and drops the calls.
   [[gnu::noipa]] void rounds(std::uint32_t enough) noexcept {
-    const std::uint32_t alone = enough == 0 ? 1 : enough;
-    while (size_ > alone) {
+    while (size_ > enough) {
       test();
+      verify();
       step();
     }
-    if (size_ > enough) finish_last();
   }
 
   [[gnu::always_inline]] void test() noexcept {
@@ -97,16 +98,59 @@ class Walk {
                                                    std::uint32_t b) const noexcept {
     const float* const nodes = shapes_.nodes;
     return overlapping_discs<Simd>(pair.b_in_a, Nodes::discs(nodes, a, pair.stride_a),
-                                   Nodes::discs(nodes, b, pair.stride_b), unless_leaves(pair.slack, a & b));
+                                   Nodes::discs(nodes, b, pair.stride_b));
   }
 
-  /// By a mask, as TreeNodes::discs().
-  static float unless_leaves(float slack, std::uint32_t both) noexcept {
-    std::uint32_t bits;
-    __builtin_memcpy(&bits, &slack, sizeof bits);
-    bits &= both / leaf_window - 1;
-    __builtin_memcpy(&slack, &bits, sizeof bits);
-    return slack;
+  /// Takes the hits of leaves away whose ancestors do not all overlap, but for a pair's first that stays.
+  [[gnu::always_inline]] void verify() noexcept {
+    std::uint16_t found[verified_together + 1];
+    std::uint32_t count = 0;
+    for (std::uint32_t k = 0; k < size_; ++k) {
+      const Open& at = open_[slots_[k]];
+      found[count] = static_cast<std::uint16_t>(k);
+      count += (at.a & at.b) / leaf_window & static_cast<std::uint32_t>(hits_[k] != 0);
+      if (count == verified_together) [[unlikely]]
+        verify_hits(found, count), count = 0;
+    }
+    verify_hits(found, count);
+  }
+
+  /// One hit of every pair after the other, until one stays or none is left. Paths are looked up side by side, because each
+  /// step waits for the one before.
+  void verify_hits(std::uint16_t* which, std::uint32_t count) noexcept {
+    const float* const nodes = shapes_.nodes;
+    AncestorPath<Simd>*const above_a = above_a_, *const above_b = above_b_;
+    while (count > 0) {
+      for (std::uint32_t i = 0; i < count; ++i) {
+        const Open& at = open_[slots_[which[i]]];
+        const auto [disc_a, disc_b] = first_hit(at, hits_[which[i]]);
+        above_a[i].begin(nodes, shapes_.trees[at.root_a], disc_a);
+        above_b[i].begin(nodes, shapes_.trees[at.root_b], disc_b);
+      }
+      for (std::uint32_t k = 1; k < AncestorPath<Simd>::length; ++k)
+        for (std::uint32_t i = 0; i < count; ++i) above_a[i].step(nodes, k), above_b[i].step(nodes, k);
+      std::uint32_t left = 0;
+      for (std::uint32_t i = 0; i < count; ++i) {
+        const std::uint16_t k = which[i];
+        const Open& at = open_[slots_[k]];
+        const auto [disc_a, disc_b] = first_hit(at, hits_[k]);
+        const PlacedTrees trees{at.b_in_a, shapes_.trees[at.root_a], shapes_.trees[at.root_b], at.reach};
+        const bool stays = AncestorTest<Simd>(nodes, trees, disc_a, disc_b, above_a[i], above_b[i]).passes();
+        if (!stays) hits_[k] &= hits_[k] - 1;
+        which[left] = k;
+        left += !stays & (hits_[k] != 0);
+      }
+      count = left;
+    }
+  }
+
+  struct DiscPair {
+    std::uint32_t a, b;  ///< places among the nodes
+  };
+  /// Of two windows.
+  static DiscPair first_hit(const Open& at, std::uint64_t hits) noexcept {
+    const auto bit = static_cast<unsigned>(__builtin_ctzll(hits));
+    return {(at.a & ~leaf_window) + bit / block_width, (at.b & ~leaf_window) + bit % block_width};
   }
 
   /// Answers where leaves overlap; else keeps the hits for later, takes the next open one, and names the nodes to
@@ -155,30 +199,6 @@ class Walk {
     return {a, b, rest};
   }
 
-  /// The rounds of the last open pair. Its nodes stay in registers, because there is nothing else to do while they are
-  /// written and read again.
-  [[gnu::always_inline]] void finish_last() noexcept {
-    const std::uint32_t slot = slots_[0];
-    const Open at = open_[slot];
-    Frame* const frames = frames_[slot];
-    std::uint32_t a = at.a, b = at.b, top = at.top;
-    for (;;) {
-      const Frame earlier = frames[top];
-      const std::uint64_t hits = overlaps_of(at, a, b);
-      const std::uint32_t hit = hits != 0, found = (a & b) / leaf_window & hit;
-      const Frame now = {hit ? a : earlier.a, hit ? b : earlier.b, hit ? hits : earlier.open};
-      if ((now.open == 0) | found) {
-        codes_[at.pair] = static_cast<std::uint8_t>(codes_[at.pair] | found);
-        break;
-      }
-      const Frame next = first_below(shapes_.nodes, now);
-      a = next.a, b = next.b;
-      frames[top + hit] = {now.a, now.b, next.open};
-      top = top + hit - (next.open == 0);
-    }
-    size_ = 0;
-  }
-
   const ShapeSetView& shapes_;
   std::uint8_t* const codes_;
   const bool prefetch_;
@@ -186,6 +206,8 @@ class Walk {
   std::uint16_t slots_[capacity];  ///< a permutation: first those of open pairs, then free ones
   Open open_[capacity];
   std::uint64_t hits_[capacity];
+  AncestorPath<Simd> above_a_[verified_together],
+      above_b_[verified_together];  ///< of those that are verified
   Frame frames_[capacity][most_frames + 2];
 };
 

@@ -31,7 +31,7 @@
 /// without. Records are those of shape_set_view.hpp, field after field, each 4 bytes:
 ///
 ///     depths          u32         L       cut depths, ascending; 0xffffffff are the leaves. 1 to 255 of them
-///     roots           Root        R       a level's disc: encloses its cut, or is it, where row is 0; see below
+///     roots           Root        R       a level's root disc; row is 0 where the cut is that disc; see below
 ///     trees           Tree        R or 0  where a level's nodes are; 0 where every cut is a single disc
 ///     nodes           f32         any     see below
 ///     reach           f32         S or 0  metres from the origin to the farthest point, 1e-6 to 1e6; like trees
@@ -50,14 +50,16 @@
 /// Rows. Root::row is 0 where the level's cut is a single disc; else 1, but for a shape's last level, which has the row
 /// after that of the shape before, from 2 on.
 ///
-/// Nodes. A node's name is the index of its first float, with bit 31 set for a leaf window. A block is 32 floats: x, y
-/// and radius of eight discs, eight and eight, and the names of the eight nodes below them as u32. A disc whose x is
-/// plus infinity is padding, and the name with it has no meaning; the first one is none. A level's blocks lie one
+/// Nodes. A node's name is the index of its first float, with bit 31 set for a leaf window. A block is 48 floats: x, y
+/// and radius of eight discs, eight and eight, the names of the eight nodes below them as u32, their outer radii, and which
+/// node of the hierarchy each is, as u32: the number of an inner node, or 2^31 + the index of a cut disc's x. A disc whose x
+/// is plus infinity is padding, and what else is said of it has no meaning; the first one is none. A level's blocks lie one
 /// behind the other in breadth-first order, first Tree::top: those children that are blocks are the second, the third
-/// and so on. After the last come Tree::stride x, as many y and as many radii: the cut's discs, padding up to eight. A
-/// window is eight consecutive discs of these, named by the first one's x. From top on, first child after first child
+/// and so on. After the last, at Tree::discs, come Tree::stride x, as many y and as many radii: the cut's discs, padding up to
+/// eight. A window is eight consecutive discs of these, named by the first one's x. At the next multiple of four floats come
+/// Tree::count records of an InnerNode, which is numbered by the index of its x by four. From top on, first child after first child
 /// leads to the window at the first disc, top itself where it is a window. Levels lie in the order of roots, with at
-/// most 9 levels of blocks each. At least 32 floats follow the last one.
+/// most 9 levels of blocks each. At least 48 floats follow the last one.
 ///
 /// Numbers. Coordinates and radii are finite and at most 1e7 m, a root's radius above 0, reaches within rounding.hpp's
 /// domain. shape_preconditions() lists all that is checked.
@@ -67,7 +69,7 @@ namespace bch::baked {
 constexpr std::array<std::uint8_t, 8> magic{0x89, 'B', 'C', 'H', '\r', '\n', 0x1a, '\n'};
 constexpr std::uint32_t byte_order = 0x01020304;
 constexpr std::uint32_t other_byte_order = 0x04030201;
-constexpr std::uint32_t version = 2;
+constexpr std::uint32_t version = 3;
 constexpr std::size_t alignment = 64;
 
 struct FileHeader {

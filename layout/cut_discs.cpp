@@ -4,14 +4,14 @@
 #include "layout/cut_discs.hpp"
 
 #include <bit>
-#include <limits>
+#include <cstddef>
 
 namespace bch {
 
 /// Children stand in the order of their discs, so the first of the first is the first.
-std::uint32_t first_disc(const float* nodes, std::uint32_t top) noexcept {
-  while (top < leaf_window) top = std::bit_cast<std::uint32_t>(nodes[top + 3 * block_width]);
-  return top & ~leaf_window;
+std::uint32_t first_disc(const float* nodes, std::uint32_t node) noexcept {
+  while (node < leaf_window) node = std::bit_cast<std::uint32_t>(nodes[node + block_names]);
+  return node & ~leaf_window;
 }
 
 CutDiscs cut_discs(const ShapeSetView& shapes, std::uint32_t root) noexcept {
@@ -19,11 +19,9 @@ CutDiscs cut_discs(const ShapeSetView& shapes, std::uint32_t root) noexcept {
     const Root& only = shapes.roots[root];
     return {&only.x, &only.y, &only.radius, 1};
   }
-  const auto [top, stride] = shapes.trees[root];
-  const float* x = shapes.nodes + first_disc(shapes.nodes, top);
-  std::uint32_t count = stride;
-  while (count > 1 && x[count - 1] == std::numeric_limits<float>::infinity()) --count;  // padding
-  return {x, x + stride, x + 2 * stride, count};
+  const Tree& tree = shapes.trees[root];
+  const float* x = shapes.nodes + tree.discs;
+  return {x, x + tree.stride, x + 2 * std::size_t{tree.stride}, tree.count};
 }
 
 }  // namespace bch

@@ -19,7 +19,7 @@ struct CutDiscs {
 /// `root`: shape * level_count + level. Valid while the set lives.
 CutDiscs cut_discs(const ShapeSetView& shapes, std::uint32_t root) noexcept;
 
-/// Where, among a set's nodes, a cut's first disc stands; `top` is that of its tree.
-std::uint32_t first_disc(const float* nodes, std::uint32_t top) noexcept;
+/// Where, among a set's nodes, the first cut disc below a node stands.
+std::uint32_t first_disc(const float* nodes, std::uint32_t node) noexcept;
 
 }  // namespace bch

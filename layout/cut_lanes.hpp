@@ -21,39 +21,19 @@ struct DiscRun {
   std::uint32_t count;
 };
 
-struct Extent {
-  Vec2 low, high;
-};
-
 /// Loops over a cut's discs.
 template <class Arch>
 class CutLanes {
  public:
-  /// Of the discs' centres.
-  static Extent extent(const DiscRun& run) noexcept {
-    Batch low_x(infinity), low_y(infinity), high_x(-infinity), high_y(-infinity);
-    for_each(run, [&](const Batch& x, const Batch& y, const Batch&, const Batch& there) {
-      low_x = xsimd::min(x + there, low_x);
-      low_y = xsimd::min(y + there, low_y);
-      high_x = xsimd::max(x + there, high_x);
-      high_y = xsimd::max(y + there, high_y);
-    });
-    return {{-largest(-low_x), -largest(-low_y)}, {largest(high_x), largest(high_y)}};
-  }
-
-  /// Radii of the discs about two centres that hold a run, to 5 units in the last place.
-  static void radii(const DiscRun& run, const Vec2 (&about)[2], float (&radius)[2]) noexcept {
-    const Batch a_x(about[0].x), a_y(about[0].y), b_x(about[1].x), b_y(about[1].y);
-    Batch a(0.0f), b(0.0f);
+  /// The radius of the disc about a centre that holds a run, to 5 units in the last place.
+  static float radius(const DiscRun& run, Vec2 centre) noexcept {
+    const Batch centre_x(centre.x), centre_y(centre.y);
+    Batch most(0.0f);
     for_each(run, [&](const Batch& x, const Batch& y, const Batch& r, const Batch& there) {
-      const auto reach = [&](const Batch& dx, const Batch& dy) {
-        return xsimd::sqrt(dx * dx + dy * dy) + (r + there);
-      };
-      a = xsimd::max(reach(x - a_x, y - a_y), a);
-      b = xsimd::max(reach(x - b_x, y - b_y), b);
+      const Batch dx = x - centre_x, dy = y - centre_y;
+      most = xsimd::max(xsimd::sqrt(dx * dx + dy * dy) + (r + there), most);
     });
-    radius[0] = largest(a);
-    radius[1] = largest(b);
+    return largest(most);
   }
 
   /// The run's extents along support_directions directions, to 6 units in the last place of its reach. Those of the

@@ -30,12 +30,12 @@ std::size_t grow(std::size_t needed, std::size_t room, std::size_t end, std::siz
 
 bool has_more_than_a_disc(const FlatShape& flat) {
   return std::any_of(flat.levels.begin(), flat.levels.end(),
-                     [](const WideTree& tree) { return !tree.is_single; });
+                     [](const WideTree& tree) { return !tree.is_single(); });
 }
 
 bool has_single_disc(const FlatShape& flat) {
   return std::any_of(flat.levels.begin(), flat.levels.end(),
-                     [](const WideTree& tree) { return tree.is_single; });
+                     [](const WideTree& tree) { return tree.is_single(); });
 }
 
 }  // namespace

@@ -17,28 +17,42 @@ namespace {
 WideTree wide_tree_of(const Root& root, const Tree& level, const float* nodes) {
   WideTree tree;
   tree.root = {root.x, root.y, root.radius};
-  tree.is_single = root.row == single_disc;
-  const std::uint32_t discs = first_disc(nodes, level.top);
-  const std::uint32_t begin = level.top < leaf_window ? level.top : discs;
-  const auto local = [=](std::uint32_t name) {
-    return name < leaf_window ? (name - begin) / block_floats : name - discs;
+  tree.count = level.count;
+  tree.outer = level.outer;
+  const std::uint32_t begin = level.top < leaf_window ? level.top : level.discs;
+  const auto local = [&](std::uint32_t name) {
+    return name < leaf_window ? (name - begin) / block_floats : name - level.discs;
   };
   tree.top = local(level.top);
-  tree.blocks.resize((discs - begin) / block_floats);
+  tree.blocks.resize((level.discs - begin) / block_floats);
+  const std::uint32_t first_inner = level.first_inner();
   const float* in = nodes + begin;
   const auto read = [&](float* to, std::size_t count) {
     std::copy_n(in, count, to);
     in += count;
   };
+  const auto read_bits = [&](std::uint32_t* to, const auto& local_of) {
+    std::transform(in, in + block_width, to,
+                   [&](float bits) { return local_of(std::bit_cast<std::uint32_t>(bits)); });
+    in += block_width;
+  };
   for (WideTree::Block& block : tree.blocks) {
     for (float* field : {block.discs.x, block.discs.y, block.discs.radius}) read(field, block_width);
-    std::transform(in, in + block_width, block.child,
-                   [&](float name) { return local(std::bit_cast<std::uint32_t>(name)); });
-    in += block_width;
+    read_bits(block.child, local);
+    read(block.outer, block_width);
+    read_bits(block.node, [&](std::uint32_t node) {
+      return node < leaf_window ? node - first_inner : node - level.discs;
+    });
   }
   for (std::vector<float>* field : {&tree.x, &tree.y, &tree.radius}) {
     field->resize(level.stride);
     read(field->data(), level.stride);
+  }
+  in = nodes + std::size_t{first_inner} * inner_floats;
+  tree.inner.resize(level.count);
+  for (InnerNode& inner : tree.inner) {
+    read(&inner.x, 3);
+    inner.link = std::bit_cast<std::uint32_t>(*in++) - first_inner;
   }
   return tree;
 }

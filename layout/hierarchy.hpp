@@ -81,8 +81,8 @@ Hierarchy projected_hierarchy(std::span<const Vec2> vertices,
 /// Errors:  throws std::invalid_argument unless the radius is positive and within rounding.hpp's domain.
 Hierarchy fixed_cylinder(float radius);
 
-/// Per node a radius about its disc's centre that holds the discs of all nodes below, with the slack that rounding.hpp
-/// derives: what a traversal of the binary tree has to test before it may prune. A leaf's is its disc's.
+/// Per node the least radius about its disc's centre that holds the discs of all nodes below, rounded up: what a search
+/// for the nearest discs of the binary tree may prune by. A leaf's is its disc's.
 std::vector<float> bounding_radii(const Hierarchy& hierarchy);
 
 /// One past the last node of the subtree under each node.

@@ -2,7 +2,6 @@
 // Copyright (c) 2026 the bch authors
 
 #include "layout/cut_discs.hpp"
-#include "layout/inner_disc_check.hpp"
 #include "layout/rounding.hpp"
 #include "layout/shape_checks.hpp"
 
@@ -19,7 +18,7 @@ float reach(const ShapeArrays& a, const LevelNodes& level) {
   return a.reach[level.root / a.depths.size()];
 }
 std::uint32_t name_of(const float* block, std::uint32_t lane) {
-  return std::bit_cast<std::uint32_t>(block[3 * block_width + lane]);
+  return std::bit_cast<std::uint32_t>(block[block_names + lane]);
 }
 
 /// Requires those of one block's children that are blocks to be the next ones in breadth-first order.
@@ -81,6 +80,16 @@ void require_eight_discs(const float* x, float least, std::uint64_t place) {
   if ((bad & top_bit) != 0) reject("nodes", place, not_a_disc);
 }
 
+void require_inner_numbers(const ShapeArrays& a, const LevelNodes& level, float least) {
+  const Tree& tree = a.trees[level.root];
+  const std::size_t begin = std::size_t{tree.first_inner()} * inner_floats;
+  std::uint32_t bad = 0;
+  for (const float* x = a.nodes.data() + begin;
+       x < a.nodes.data() + level.end - (tree.count > 1 ? inner_floats : 0); x += inner_floats)
+    bad |= beyond(x[0], largest_length) | beyond(x[1], largest_length) | outside(x[2], least, largest_length);
+  if ((bad & top_bit) != 0) reject("nodes", begin, not_a_disc);
+}
+
 }  // namespace
 
 void order_of_levels(const ShapeArrays& a, LevelNodes& level) {
@@ -116,10 +125,13 @@ void blocks(const ShapeArrays& a, LevelNodes& level) {
 }
 
 void room(const ShapeArrays& a, LevelNodes& level) {
-  const std::uint64_t stride = tree(a, level).stride;
-  level.end = level.discs + 3 * stride;
-  if (stride < block_width || level.end + block_floats > a.nodes.size())
-    reject("trees", level.root, std::to_string(stride) + " discs do not fit");
+  const auto [top, discs, stride, count, outer] = tree(a, level);
+  const std::uint64_t after_discs = level.discs + 3 * std::uint64_t{stride};
+  level.end =
+      (after_discs + inner_floats - 1) / inner_floats * inner_floats + inner_floats * std::uint64_t{count};
+  if (discs != level.discs || count < 1 || stride != std::max(count, block_width) ||
+      level.end + block_floats > a.nodes.size())
+    reject("trees", level.root, std::to_string(count) + " discs do not fit");
 }
 
 void windows(const ShapeArrays& a, LevelNodes& level) {
@@ -151,7 +163,12 @@ void padding(const ShapeArrays& a, LevelNodes& level) {
   if (!is_window(tree(a, level)))
     for (std::uint64_t block = tree(a, level).top; block < level.discs; block += block_floats)
       require_padding_last(nodes + block, block);
-  if (tree(a, level).stride == block_width) require_padding_last(nodes + level.discs, level.discs);
+  const std::uint32_t count = tree(a, level).count;
+  if (count > block_width) return;
+  require_padding_last(nodes + level.discs, level.discs);
+  if ((count < block_width && nodes[level.discs + count] != infinity) ||
+      nodes[level.discs + count - 1] == infinity)
+    reject("trees", level.root, "not " + std::to_string(count) + " discs");
 }
 
 void numbers(const ShapeArrays& a, LevelNodes& level) {
@@ -160,6 +177,7 @@ void numbers(const ShapeArrays& a, LevelNodes& level) {
   if (!is_window(tree(a, level)))
     for (std::uint64_t block = tree(a, level).top; block < level.discs; block += block_floats)
       require_eight_discs(nodes + block, least, block);
+  require_inner_numbers(a, level, least);
   const std::uint32_t stride = tree(a, level).stride;
   if (stride == block_width) return require_eight_discs(nodes + level.discs, least, level.discs);
   const float *places = nodes + level.discs, *radius = places + 2 * std::size_t{stride};
@@ -173,7 +191,7 @@ void single_discs(const ShapeArrays& a, LevelNodes& level) {
   const float* x = a.nodes.data() + level.discs;
   const std::uint32_t stride = tree(a, level).stride;
   const Root& root = a.roots[level.root];
-  if ((stride == block_width && x[1] == infinity) != (root.row == single_disc))
+  if ((tree(a, level).count == 1) != (root.row == single_disc))
     reject("roots", level.root, "row " + std::to_string(root.row) + " is not that of its discs");
   if (root.row == single_disc &&
       !(root.x == x[0] && root.y == x[stride] && root.radius == x[2 * std::size_t{stride}]))
@@ -187,23 +205,6 @@ void reach_of_level(const ShapeArrays& a, LevelNodes& level) {
   const float extent = std::abs(root.x) + std::abs(root.y) + root.radius;
   if (reach(a, level) > most * extent)
     reject("reach", level.root / a.depths.size(), "far beyond root " + std::to_string(level.root));
-}
-
-void inner_discs(const ShapeArrays& a, LevelNodes& level) {
-  const float* nodes = a.nodes.data();
-  const auto [top, stride] = tree(a, level);
-  const float slack = largest_inner_slack(reach(a, level));
-  const Root& root = a.roots[level.root];
-  if (root.row == single_disc) return;
-  float above[block_floats] = {root.x, infinity};
-  above[block_width] = root.y, above[2 * block_width] = root.radius;
-  above[3 * block_width] = std::bit_cast<float>(top);
-  if (!all_are_needed(above, nodes, stride, slack))
-    reject("roots", level.root, "larger than what it holds needs, or elsewhere");
-  if (is_window(tree(a, level))) return;
-  for (std::uint64_t block = top; block < level.discs; block += block_floats)
-    if (!all_are_needed(nodes + block, nodes, stride, slack))
-      reject("nodes", block, "an inner disc is larger than what it holds needs, or elsewhere");
 }
 
 }  // namespace bch::shape_checks

@@ -32,7 +32,7 @@
 ///     (centre)   |a| <= P_A, |b| <= P_B     a smallest disc's centre is in the convex hull of what it holds, the
 ///                                           hull in the disc of radius P about the origin, which is convex
 ///     (radius)   r <= P                     that disc holds it all, and r is the least that some disc has
-///     (contact)  D <= r_A + r_B <= S        where two outlines meet: the point in common is in both discs; (radius)
+///     (contact)  D <= r_A + r_B <= S        where two outlines meet in a point that both discs' nodes hold; (radius)
 ///     (shift)    |d| <= |a| + D + |b| <= 2 S          triangle; (centre), (contact)
 ///
 /// II. Errors against the same formula in exact arithmetic with the exact headings, as lengths of vectors. A rotation
@@ -60,8 +60,12 @@
 ///
 ///     13.7 u |b| + 5.6 u |a| + 9.1 u (r_A + r_B)  <=  16.5 u P_B + 10.7 u P_A  <=  16.5 u S                  (1')
 ///
-/// by Cauchy: (contact_error). No miss: two outlines that meet have tight discs with D <= r_A + r_B, exactly. Published
-/// radii add (contact_error) P each, so the float test accepts. More sources belong to the shape and are added beside:
+/// by Cauchy: (contact_error). No miss: where two outlines meet, a cut disc of either has the common point, and so has every
+/// node above it, up to the root. So every pair of a node of one way up and a node of the other has tight discs with D <= r_A +
+/// r_B, exactly. Published radii add (contact_error) P each, so the float test accepts all these pairs, and they are what a hit
+/// is: see Semantics. A traversal may leave out what is below a pair that the float test does not accept, because no pair
+/// below is a hit by that definition; nothing has to be proved of that. More sources belong to the shape and are added
+/// beside:
 ///
 ///     (halving)  8.9 u P                 a segment that was halved: each midpoint is rounded to float
 ///     (grid)     1.5 grid steps          an outline on a grid: sqrt(1/2) by snapping, as much by rounding a crossing
@@ -81,22 +85,7 @@
 ///
 ///     (price)    a false positive has a gap of at most 50.5 u S + 1.5 * 2^-22 S = 3.4e-6 S
 ///
-/// IV. Nesting. A pruning disc (centre C, radius R) holds the cut discs below it with a slack n: |C - c| + r <= R - n. If
-/// the float test accepts leaves, then by (1)
-///
-///     (leaves)   D <= r_A + r_B + 23 u S
-///     (pruning)  D' <= D + |C_A - a| + |C_B - b| <= (R_A - n_A) + (R_B - n_B) + 23 u S
-///
-/// With D' <= 3 S, and R_A + R_B <= 6 S (else the test is far from its limit), the sum of II for that pair is at most
-///
-///     7.1 u S + 9.2 u S + 3 u S + 6 u S + 9 u S  <=  36 u S                                                  (2)
-///
-/// (pruning_error). n = 59 u P, 23 and 36, would do (nesting_margin): then the float test of every ancestor accepts, so
-/// pruning changes no answer. Where a pruning disc meets a leaf of a much larger shape, n in P alone falls short of an
-/// error in S: so tests in which a pruning disc takes part add nesting_slack S, 64 u S, to the sum of the radii besides.
-/// tests/unequal_sizes_test.cpp fails where that slack follows one shape alone.
-///
-/// V. Supports part two shapes when t.u > h_A + a h_B + b h_B' for a direction u of A, where h_B and h_B' are
+/// IV. Supports part two shapes when t.u > h_A + a h_B + b h_B' for a direction u of A, where h_B and h_B' are
 /// B's supports on either side of -u and a, b >= 0 follow from the rotation.
 ///
 ///     (support_place)    21.2 u S        t and its product with u, rounded: 9.2 u S + 6 u |t|, with |t| <= 2 S where it
@@ -107,13 +96,13 @@
 ///
 /// All together
 ///
-///     21.2 u S + 4 * 59 u S + 6 u S  <=  264 u S                                                             (3)
+///     21.2 u S + 4 * 59 u S + 6 u S  <=  264 u S                                                             (2)
 ///
 /// Discs that the float test accepts are at most 23 u S apart, so supports enlarged by 287 u P each, and by the 5.2 u P of
 /// their own rounding (support_float, layout/supports.cpp), never part them: support_margin. Only this proof needs all of
 /// it; tests fail where it has the other sign.
 ///
-/// VI. The ends of the range. (underflow) Radii are at least 25 u P >= 1e-12 m (P >= smallest_reach), so (r_A + r_B)^2 >=
+/// V. The ends of the range. (underflow) Radii are at least 25 u P >= 1e-12 m (P >= smallest_reach), so (r_A + r_B)^2 >=
 /// 1e-24, while what a square loses below FLT_MIN, flushed to zero or not, is under 1e-37. A product in (turn), (arm) or
 /// (position) that is flushed loses 1.2e-38, where u P is 6e-14 m or more. (overflow) |d| <= 2e9 sqrt(2) m (limits below),
 /// squared 8e18.
@@ -162,10 +151,6 @@ static_assert(halving >= halved_often(18) && halving >= halved_often(19) && halv
 constexpr double higher = 0.03;
 static_assert(higher >= 0x1p-10 * (query_error + 1));
 
-constexpr double pruning_error = 36;
-static_assert(pruning_error >= arm + 2 * position + (2 + 1) * sum + 3 * apart + 3 * square + 6 * radii,
-              "(2)");
-
 constexpr double support_place = 21.2;
 constexpr double support_weight = 59;
 constexpr double support_sums = 6;
@@ -173,21 +158,13 @@ constexpr double support_error = 264;
 constexpr double support_float = 5.2;
 static_assert(support_place >= 2 * position + 6 * 2);
 static_assert(support_weight >= 11.5 * 5.1259);  // 1 / sin 11.25 degrees
-static_assert(support_error >= support_place + 2 * 2 * support_weight + support_sums, "(3)");
+static_assert(support_error >= support_place + 2 * 2 * support_weight + support_sums, "(2)");
 
 }  // namespace terms
 
 /// Added to every published radius, times the shape's reach: (1'), halving, higher orders.
 constexpr double query_margin = 25.5 * unit_roundoff;
 static_assert(query_margin >= (terms::contact_error + terms::halving + terms::higher) * unit_roundoff);
-
-/// Added to every pruning radius beyond what it holds, times the shape's reach.
-constexpr double nesting_margin = 64 * unit_roundoff;
-static_assert(nesting_margin >= (terms::query_error + terms::pruning_error) * unit_roundoff);
-
-/// Added by queries to a sum of radii one of which is a pruning one, times the sum of the shapes' reaches.
-constexpr float nesting_slack = 0x1p-18f;
-static_assert(double{nesting_slack} >= (terms::query_error + terms::pruning_error) * unit_roundoff);
 
 /// Added to every support, times the shape's reach.
 constexpr double support_margin = 320 * unit_roundoff;

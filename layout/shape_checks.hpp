@@ -47,9 +47,13 @@ void padding(const ShapeArrays& a, LevelNodes& level);
 void numbers(const ShapeArrays& a, LevelNodes& level);
 void single_discs(const ShapeArrays& a, LevelNodes& level);
 void reach_of_level(const ShapeArrays& a, LevelNodes& level);
-void inner_discs(const ShapeArrays& a, LevelNodes& level);
 
-/// Of coordinates, radii and supports, metres: a few reaches, as pruning discs and supports stick out.
+// Of a level: inner_node_checks.cpp.
+void inner_nodes(const ShapeArrays& a, LevelNodes& level);
+void nodes_of_blocks(const ShapeArrays& a, LevelNodes& level);
+void outer_radii(const ShapeArrays& a, LevelNodes& level);
+
+/// Of coordinates, radii and supports, metres: a few reaches, as supports and outer radii stick out.
 constexpr float largest_length = 1e7f;
 constexpr float infinity = std::numeric_limits<float>::infinity();
 constexpr std::uint32_t top_bit = 0x80000000;

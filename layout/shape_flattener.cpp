@@ -66,7 +66,7 @@ void ShapeFlattener::add_interior(const Shape& shape, FlatShape& flat) {
 /// Of the level that was made flat last. Of single discs nobody asks.
 void ShapeFlattener::add_shortcuts(std::size_t level, FlatShape& flat) const {
   const bool deepest = level + 1 == plan_.depths.size();
-  if (flat.levels[level].is_single && !deepest) return;
+  if (flat.levels[level].is_single() && !deepest) return;
   const Outer outer = flattener_.outer(flat.profile);
   if (deepest) flat.supports = flattener_.supports();
   for (std::uint32_t k = 0; k < profile_sectors; ++k) {

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <vector>
 
 #include "layout/shape_arrays.hpp"
 
@@ -27,6 +28,13 @@ struct LevelNodes {
   std::uint64_t discs = 0;  ///< where the cut's discs begin; blocks lie between the tree's top and here
   std::uint64_t end = 0;    ///< one past the level
   NamedWindows windows{};
+
+  /// An inner node, by its place among them, and the disc of its first child.
+  struct OpenNode {
+    std::uint32_t node;
+    Disc first_child;
+  };
+  std::vector<OpenNode> open_nodes;  ///< of the check of inner nodes, kept from level to level
 };
 
 /// One thing that queries take for granted of the arrays of a set. Each is checked by one function: of the whole set, or

@@ -29,10 +29,28 @@ struct DiscBlock {
 };
 
 /// A node is named by where its discs begin among ShapeSetView::nodes. With this bit it is a leaf window: eight discs of
-/// the cut, one after the other, anywhere. Without, it is a block: eight discs that enclose what is below them, and
-/// then the names of the eight nodes below, by their bits.
+/// the cut, one after the other, anywhere. Without, it is a block: x, y and radius of eight nodes of the hierarchy,
+/// then the names of the eight nodes below, by their bits, the outer radii, which about the same centres hold the cut's discs
+/// below (those stick out of the smallest disc), and which node of the hierarchy each is: the number of an inner node, or
+/// leaf_window + where a disc of the cut stands.
 constexpr std::uint32_t leaf_window = 0x80000000;
-constexpr std::uint32_t block_floats = 4 * block_width;
+constexpr std::uint32_t block_names = 3 * block_width;  ///< from a block's first x; this and the next two
+constexpr std::uint32_t block_outer = 4 * block_width;
+constexpr std::uint32_t block_nodes = 5 * block_width;
+constexpr std::uint32_t block_floats = 6 * block_width;
+
+/// A node above the cut of a level. These stand behind the cut's discs in the in-order sequence of the binary tree: number k
+/// of a level is the node whose first child's last disc is disc k of the cut. Instead of such a node for the last disc there
+/// is padding; a cut that is one disc has that disc there, as its root.
+struct InnerNode {
+  float x, y, radius;
+  std::uint32_t
+      link;  ///< number of the node above among all of the set, the root's its own; and the next bit
+};
+/// A link's bit: the node's first child is a disc of the cut.
+constexpr std::uint32_t above_cut_disc = 0x80000000;
+constexpr std::uint32_t inner_floats = sizeof(InnerNode) / sizeof(float);
+static_assert(sizeof(InnerNode) == 16);
 
 /// Where a level of a shape begins.
 struct Root {
@@ -44,10 +62,19 @@ constexpr std::uint32_t no_supports = 1;  ///< it is more, at another level than
 constexpr std::uint32_t first_row = 2;
 static_assert(sizeof(Root) == 16);
 
-/// Where the tree of a level begins.
+/// Where a level's nodes are: blocks, then the cut's discs, all x, all y and all radii, then its inner nodes.
 struct Tree {
   std::uint32_t top;     ///< node
+  std::uint32_t discs;   ///< where the first x is
   std::uint32_t stride;  ///< from a cut disc's x to its y, and from there to its radius
+  std::uint32_t count;   ///< cut discs; where they are fewer than the stride, padding follows
+  float outer;           ///< metres: the root's outer radius
+
+  /// Number of the first inner node: the number of floats from `nodes` on, by four. (Inlined for certain, so that
+  /// instruction sets share no function.)
+  [[gnu::always_inline]] std::uint32_t first_inner() const noexcept {
+    return (discs + 3 * stride + inner_floats - 1) / inner_floats;
+  }
 };
 
 /// Farthest points of a contour; see interior.hpp.
@@ -94,7 +121,7 @@ struct ShapeSetView {
 
   const Root* roots;
   const Tree* trees;   ///< like roots; this and the next null where every level is a single disc
-  const float* nodes;  ///< per level its blocks, then all x, all y, all radii of the cut
+  const float* nodes;  ///< of all levels; see Tree
   const float* reach;  ///< per shape, metres, rounded up; null like the trees
 
   // Null without the plan's shortcuts.

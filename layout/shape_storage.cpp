@@ -18,8 +18,14 @@ std::size_t level_begin(const WideTree& tree, std::size_t after) {
   return tree.blocks.empty() ? after : next_line(after);
 }
 
-std::size_t level_size(const WideTree& tree) {
-  return tree.blocks.size() * block_floats + 3 * tree.x.size();
+/// Inner nodes begin where kernels load them whole.
+std::size_t inner_begin(const WideTree& tree, std::size_t first_disc) {
+  return (first_disc + 3 * tree.x.size() + inner_floats - 1) / inner_floats * inner_floats;
+}
+
+std::size_t level_end(const WideTree& tree, std::size_t begin) {
+  const std::size_t first_disc = begin + tree.blocks.size() * block_floats;
+  return inner_begin(tree, first_disc) + tree.inner.size() * inner_floats;
 }
 
 void require_numbers(std::size_t count, const char* what) {
@@ -32,9 +38,9 @@ void require_numbers(std::size_t count, const char* what) {
 ShapeExtent extent_of(const FlatShape& flat) {
   ShapeExtent extent;
   for (const WideTree& tree : flat.levels) {
-    extent.nodes = level_begin(tree, extent.nodes) + level_size(tree);
+    extent.nodes = level_end(tree, level_begin(tree, extent.nodes));
   }
-  extent.rows = !flat.levels.back().is_single;
+  extent.rows = !flat.levels.back().is_single();
   extent.contours = flat.contour_disc.size();
   extent.points = flat.outline.points.size();
   return extent;
@@ -105,12 +111,12 @@ void ShapeStorage::put(std::size_t shape, const FlatShape& flat, const ShapeExte
   for (std::size_t k = 0; k < flat.levels.size(); ++k) {
     const WideTree& tree = flat.levels[k];
     const bool deepest = k + 1 == flat.levels.size();
-    const std::size_t row = tree.is_single ? single_disc : deepest ? at.rows : no_supports;
+    const std::size_t row = tree.is_single() ? single_disc : deepest ? at.rows : no_supports;
     roots[first_root + k] = {tree.root.x, tree.root.y, tree.root.radius, static_cast<std::uint32_t>(row)};
     if (trees.empty()) continue;
     node = level_begin(tree, node);
     put_level(first_root + k, tree, node);
-    node += level_size(tree);
+    node = level_end(tree, node);
   }
   if (!reach.empty()) reach[shape] = rounding::round_up(flat.reach);
   if (!profiles.empty()) put_shortcuts(shape, flat, at);
@@ -122,20 +128,31 @@ void ShapeStorage::put_level(std::size_t root, const WideTree& tree, std::size_t
   const auto name = [&](std::uint32_t local) {
     return static_cast<std::uint32_t>(local & leaf_window ? local + first_disc : node + local * block_floats);
   };
-  trees[root] = {name(tree.top), static_cast<std::uint32_t>(tree.x.size())};
+  trees[root] = {name(tree.top), static_cast<std::uint32_t>(first_disc),
+                 static_cast<std::uint32_t>(tree.x.size()), tree.count, tree.outer};
+  const std::uint32_t first_inner = trees[root].first_inner();
   float* out = nodes.data() + node;
   for (const WideTree::Block& block : tree.blocks) {
     for (const float* field : {block.discs.x, block.discs.y, block.discs.radius})
       out = std::copy_n(field, block_width, out);
     out = std::transform(block.child, block.child + block_width, out,
                          [&](std::uint32_t child) { return std::bit_cast<float>(name(child)); });
+    out = std::copy_n(block.outer, block_width, out);
+    out = std::transform(block.node, block.node + block_width, out, [&](std::uint32_t node) {
+      return std::bit_cast<float>(node < leaf_window ? node + first_inner : name(node));
+    });
   }
   for (const std::vector<float>* field : {&tree.x, &tree.y, &tree.radius})
     out = std::copy(field->begin(), field->end(), out);
+  out = std::fill_n(out, nodes.data() + inner_begin(tree, first_disc) - out, 0.0f);
+  for (const InnerNode& inner : tree.inner) {
+    out = std::copy_n(&inner.x, 3, out);
+    *out++ = std::bit_cast<float>(inner.link + first_inner);
+  }
 }
 
 void ShapeStorage::put_shortcuts(std::size_t shape, const FlatShape& flat, const ShapeExtent& at) {
-  if (!flat.levels.back().is_single)
+  if (!flat.levels.back().is_single())
     std::copy(flat.supports.begin(), flat.supports.end(), support.data() + at.rows * support_stride);
   profiles[shape] = flat.profile;
   const Interior& inside = flat.interior;

@@ -57,18 +57,23 @@ constexpr Precondition all[] = {
     {"padding", "Padding follows discs: in blocks, and where a level has fewer than eight.", nullptr,
      padding},
     {"numbers",
-     "Discs are numbers of at most 1e7 m, and no radius is smaller than what rounding.hpp adds to each: the "
-     "slack of inner discs stays small beside them.",
+     "Discs are numbers of at most 1e7 m, and no radius is smaller than what rounding.hpp adds to each.",
      nullptr, numbers},
     {"single discs", "A level is marked as a single disc where it is one, and then that is its root.",
      nullptr, single_discs},
     {"reach of a level",
-     "No reach is far beyond the root discs: tests of inner discs have a slack in proportion.", nullptr,
+     "No reach is far beyond the root discs: what only bounds an answer has a slack in proportion.", nullptr,
      reach_of_level},
-    {"inner discs",
-     "Inner discs are where the discs below them are, and no larger than those need: else nothing is "
-     "pruned.",
-     nullptr, inner_discs},
+    {"inner nodes",
+     "Links of inner nodes make a tree, which every way up leaves at the root disc; no node is larger than "
+     "its children "
+     "need, else nothing is pruned.",
+     nullptr, inner_nodes},
+    {"nodes of blocks",
+     "A block's discs are those of the nodes that it names, which are above the discs below.", nullptr,
+     nodes_of_blocks},
+    {"outer radii", "An outer radius exceeds a disc's by no more than cut discs can stick out of it.",
+     nullptr, outer_radii},
 };
 
 }  // namespace
@@ -80,13 +85,12 @@ std::span<const Precondition> shape_preconditions() noexcept {
 void validate(const ShapeArrays& arrays, const std::function<void(std::size_t)>& before_nodes) {
   for (const Precondition& each : all)
     if (each.check_set != nullptr) each.check_set(arrays);
-  std::uint64_t end = 0;
+  LevelNodes level{};
   for (std::size_t root = 0; root < arrays.trees.size(); ++root) {
     if (before_nodes) before_nodes(arrays.trees[root].top & ~leaf_window);
-    LevelNodes level{.root = root, .begin = end};
+    level.root = root, level.begin = level.end, level.windows = {};
     for (const Precondition& each : all)
       if (each.check_level != nullptr) each.check_level(arrays, level);
-    end = level.end;
   }
 }
 

@@ -37,7 +37,7 @@ void verify_shape(const Look& look) {
   const Outline outline = outline_of(look.arrays(), look.shape);
   verify_reach(look);
   for (std::uint32_t level = 0; level < look.levels(); ++level) {
-    verify_inner_discs(look, level);
+    verify_tree(look, level);
     verify_cover(look, outline, level);
   }
   verify_contours(look, outline);

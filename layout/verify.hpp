@@ -28,7 +28,8 @@ std::string text_of(const Finding& finding);
 /// Recomputes what a set stores of its shapes besides their discs and outlines, and compares: whether answers can be
 /// believed, where validate() sees to it that there are any.
 ///
-/// - Inner discs hold the discs of the cut below them with the slack of rounding.hpp, and are no larger than that needs.
+/// - Nodes above the cut are such as the smallest discs of a part and of the whole are. The nodes of the blocks above a disc
+///   of the cut are above it, so that it is found, and their outer radii hold it and are no larger than that needs.
 /// - A level has at most as many discs as its depth allows and no fewer than the one before, and each of its discs
 ///   belongs to one of the level before, as the smallest discs of a part and of the whole do.
 /// - Reaches, supports and the outer ends of profiles are those of the discs.

@@ -42,8 +42,11 @@ struct Look {
 };
 
 std::string text_of(const Disc& disc);
+double distance(const Disc& a, const Disc& b);  ///< of the centres
+/// Whether one disc may be the smallest of a part of what the other is the smallest disc of.
+bool may_be_part(const Disc& part, const Disc& whole, double tolerance);
 
-void verify_inner_discs(const Look& look, std::uint32_t level);
+void verify_tree(const Look& look, std::uint32_t level);
 void verify_levels(const Look& look);
 void verify_reach(const Look& look);
 void verify_supports(const Look& look);

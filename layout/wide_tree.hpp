@@ -14,21 +14,28 @@
 
 namespace bch {
 
-/// One cut of a hierarchy as a tree of blocks over the cut's discs. Every inner disc encloses the cut discs below
-/// it, with the slack that rounding.hpp derives, so that pruning by it changes no answer.
+/// One cut of a hierarchy as a tree of blocks over the cut's discs, with all nodes above the cut. Every disc is the
+/// hierarchy's own, the smallest of what its node holds: pruning by it is part of the answer's definition.
 struct WideTree {
   /// Up to eight groups of cut discs side by side; what is left over is padding. `child`: a block of this tree, or
   /// leaf_window + the index of the first of eight discs, which hold the group and, where it has fewer, some of
-  /// its neighbours: harmless, because every disc of the cut may be tested at any time.
+  /// its neighbours: harmless, because every disc of the cut may be tested at any time. `outer`: radii about the same
+  /// centres that hold the groups' discs. `node`: an index of `inner`, or leaf_window + that of a cut disc.
   struct Block {
     DiscBlock discs;
     std::uint32_t child[block_width];
+    float outer[block_width];
+    std::uint32_t node[block_width];
   };
   std::vector<Block> blocks;
   std::vector<float> x, y, radius;  ///< the cut in depth-first order; padded to eight where there are fewer
+  std::vector<InnerNode> inner;     ///< as many; links are indices
+  std::uint32_t count;              ///< discs of the cut
   std::uint32_t top;                ///< as `child`
-  Disc root;                        ///< encloses the cut discs; the cut's disc itself where there is only one
-  bool is_single;                   ///< the cut is one disc
+  Disc root;                        ///< the hierarchy's
+  float outer;                      ///< the radius about the root's centre that holds the cut's discs
+
+  bool is_single() const { return count == 1; }
 };
 
 /// Collapses the binary tree above a cut: a block's groups come from expanding descendants of its node, those of many
@@ -49,10 +56,11 @@ class Flattener {
   Outer outer(const Profile& profile) const;
 
  private:
-  /// A run of the cut's discs, and where it is a subtree of the binary tree, that subtree's root.
+  /// A run of the cut's discs, and a node of the hierarchy that is above all of them.
   struct Group {
     std::uint32_t begin, end;  ///< in the list of cut discs
-    std::uint32_t node;        ///< of the hierarchy; used by subtree grouping only
+    std::uint32_t node;        ///< with subtree grouping, above no others
+    std::uint32_t node_end;    ///< in the list of cut discs, of those below the node
 
     std::uint32_t size() const { return end - begin; }
   };
@@ -75,12 +83,17 @@ class Flattener {
   Parts subtrees(const Group& group) const;
   Parts even_runs(const Group& group) const;
   void expand(Parts& parts, std::uint32_t index) const;
-  Disc enclosing(const Group& group) const;
+  void find_lowest_node(Group& group) const;
+  void take_inner(WideTree& tree) const;
+  float outer_radius(const Group& group) const;
+  std::uint32_t place(std::uint32_t node) const;
   double worth(const Group& group) const;
 
   const Hierarchy* hierarchy_ = nullptr;
   std::vector<Open> open_;
   std::vector<std::uint32_t> position_;  ///< per node on or above the cut: the first of its discs
+  std::vector<std::uint32_t> parent_;    ///< per node below another one that is above the cut
+  std::vector<std::uint32_t> inner_;     ///< the nodes above the cut
   std::uint32_t count_ = 0;              ///< discs of the cut
   std::vector<float> x_, y_, radius_;
   std::vector<Group> level_, next_;

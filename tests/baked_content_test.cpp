@@ -156,38 +156,52 @@ TEST(BakedContent, DamageIsCalledDamage) {
 TEST(BakedContent, TestsATreeOfSeveralBlocks) {
   BakedBytes bytes = sound_bytes();
   ASSERT_LT(bytes.section<Tree>(Section::trees)[deep_root].top, leaf_window);
-  EXPECT_LT(std::bit_cast<std::uint32_t>(top_block(bytes)[3 * block_width]), leaf_window);
+  EXPECT_LT(std::bit_cast<std::uint32_t>(top_block(bytes)[block_names]), leaf_window);
 }
 
-/// A tree in which only the first disc of every block is not padding.
-AlignedVector<float> chain(std::uint32_t blocks) {
-  AlignedVector<float> nodes;
-  for (std::uint32_t i = 1; i <= blocks; ++i) {
-    nodes.resize(i * block_floats);
-    float* block = nodes.data() + (i - 1) * block_floats;
-    std::fill(block + 1, block + block_width, infinity);
-    block[2 * block_width] = 1;
-    block[3 * block_width] = std::bit_cast<float>(i * block_floats + (i == blocks ? leaf_window : 0));
+/// A set of one tree in which only the first disc of every block is not padding. All discs are the same: two of the cut, and
+/// the root above them.
+struct Chain {
+  AlignedVector<std::uint32_t> depths{all_depths};
+  AlignedVector<Root> roots{{0, 0, 1, first_row}};
+  AlignedVector<Tree> trees;
+  AlignedVector<float> reach{1}, nodes;
+
+  explicit Chain(std::uint32_t blocks) {
+    const std::uint32_t discs = blocks * block_floats;
+    const Tree& tree = trees.emplace_back(Tree{0, discs, block_width, 2, 1});
+    const std::uint32_t root = tree.first_inner();
+    nodes.resize((root + 2) * inner_floats + block_floats);
+    for (std::uint32_t block = 0; block < discs; block += block_floats) {
+      const std::uint32_t next = block + block_floats;
+      put_discs(block, 1);
+      nodes[block + block_names] = std::bit_cast<float>(next == discs ? leaf_window + discs : next);
+      nodes[block + block_nodes] = std::bit_cast<float>(root);
+    }
+    put_discs(discs, 2);
+    nodes[root * inner_floats + 2] = 1;
+    nodes[root * inner_floats + 3] = std::bit_cast<float>(above_cut_disc + root);
   }
-  nodes.resize(nodes.size() + 3 * block_width + block_floats);
-  std::fill_n(nodes.end() - block_width - block_floats, block_width, 1.0f);  // radii
-  return nodes;
-}
+
+  void put_discs(std::uint32_t at, std::uint32_t count) {
+    std::fill(nodes.begin() + at + count, nodes.begin() + at + block_width, infinity);
+    std::fill_n(nodes.begin() + at + 2 * block_width, count, 1.0f);
+  }
+
+  ShapeArrays arrays() const {
+    ShapeArrays all{};
+    all.depths = depths, all.roots = roots, all.trees = trees, all.reach = reach, all.nodes = nodes;
+    return all;
+  }
+};
 
 TEST(BakedContent, TreesAreNoDeeperThanStacks) {
-  const AlignedVector<std::uint32_t> depths{all_depths};
-  const AlignedVector<Root> roots{{0, 0, 1, first_row}};
-  const AlignedVector<Tree> trees{{0, block_width}};
-  const AlignedVector<float> reach{1};
-  ShapeArrays arrays{};
-  arrays.depths = depths, arrays.roots = roots, arrays.trees = trees, arrays.reach = reach;
   for (std::uint32_t blocks = 1; blocks < 2 * most_wide_levels; ++blocks) {
-    const AlignedVector<float> nodes = chain(blocks);
-    arrays.nodes = nodes;
+    const Chain chain(blocks);
     if (blocks < most_wide_levels)
-      EXPECT_NO_THROW(validate(arrays)) << blocks;
+      EXPECT_NO_THROW(validate(chain.arrays())) << blocks;
     else
-      EXPECT_THROW(validate(arrays), std::invalid_argument) << blocks;
+      EXPECT_THROW(validate(chain.arrays()), std::invalid_argument) << blocks;
   }
 }
 
@@ -203,17 +217,10 @@ TEST(BakedContent, ArraysBeginOnCacheLines) {
 }
 
 TEST(BakedContent, ALevelHasAWindowOfDiscsAtLeast) {
-  const AlignedVector<std::uint32_t> depths{all_depths};
-  const AlignedVector<Root> roots{{0, 0, 1, first_row}};
-  AlignedVector<Tree> trees{{0, block_width}};
-  const AlignedVector<float> reach{1};
-  const AlignedVector<float> nodes = chain(1);
-  ShapeArrays arrays{};
-  arrays.depths = depths, arrays.roots = roots, arrays.trees = trees, arrays.reach = reach,
-  arrays.nodes = nodes;
-  EXPECT_NO_THROW(validate(arrays));
-  trees[0].stride = block_width - 1;
-  EXPECT_THROW(validate(arrays), std::invalid_argument);
+  Chain chain(1);
+  EXPECT_NO_THROW(validate(chain.arrays()));
+  chain.trees[0].stride = block_width - 1;
+  EXPECT_THROW(validate(chain.arrays()), std::invalid_argument);
 }
 
 /// Everything that follows the set's links, also of a copy whose shapes are replaced.
@@ -247,18 +254,18 @@ TEST(BakedContent, InnerDiscsAreNoLargerThanTheyNeed) {
   const std::vector<Shape> shapes = {contour_shape(star(random, 600, 0.2, 0.4), 0.002f)};
   BakedBytes bytes(ShapeSet(shapes, {}), origins_of(1));
   const Tree tree = bytes.section<Tree>(Section::trees)[0];
-  const auto nodes = bytes.section<float>(Section::nodes);
-  const std::size_t discs = first_disc(nodes.data(), tree.top);
-  ASSERT_GT(discs, tree.top + 20 * block_floats);
+  ASSERT_GT(tree.discs, tree.top + 20 * block_floats);
   for (const float radius : {0.5f, 1e3f, 1e6f}) {
     BakedBytes huge = bytes;
     const auto damaged = huge.section<float>(Section::nodes);
-    for (std::size_t block = tree.top; block < discs; block += block_floats)
+    for (std::size_t block = tree.top; block < tree.discs; block += block_floats)
       for (std::uint32_t i = 0; i < block_width; ++i)
         if (damaged[block + i] != infinity) damaged[block + 2 * block_width + i] = radius;
+    for (std::size_t k = 0; k + 1 < tree.count; ++k)
+      damaged[(tree.first_inner() + k) * inner_floats + 2] = radius;
     huge.section<Root>(Section::roots)[0].radius = radius;
     huge.seal();
-    EXPECT_NE(huge.error().find("than what it holds needs"), std::string::npos) << radius << huge.error();
+    EXPECT_NE(huge.error().find("than what is below it needs"), std::string::npos) << radius << huge.error();
   }
 }
 

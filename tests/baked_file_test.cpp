@@ -199,7 +199,7 @@ TEST_F(SpoiledFile, SaysWhatIsWrongWithTheHeader) {
     header = sound;
   };
   with([&] { header.magic[1] = 'b'; }, "not a baked file");
-  with([&] { header.version = 3; }, "version 3");
+  with([&] { header.version = 2; }, "version 2");
   with([&] { header.byte_order = baked::other_byte_order; }, "byte order");
   with([&] { header.byte_order = 7; }, "byte order");
   with([&] { header.file_size = ~std::uint64_t{0}; }, "18446744073709551615 bytes");

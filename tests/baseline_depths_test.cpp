@@ -64,17 +64,19 @@ TEST_F(Depths, ExactHitsStayHitsAtEveryDepth) {
       continue;
     }
     EXPECT_EQ(hits(*structure, scene, 100), deepest) << kind.name;
-    if (kind.exact == baselines::Truth::none) continue;  // has no hits but by its own definition
-    std::ptrdiff_t before = std::ssize(deepest);
+    if (kind.name == "paper_descent") continue;  // what it hits depends on its way down
+    // Boxes stick out of those above, so single answers may come back; numbers shrink.
+    const bool only_shrinks = kind.name == "reference" || kind.name == "bch_projected";
+    std::vector<std::uint8_t> before(deepest.size(), 1);
     for (const std::uint32_t depth : {0u, 1u, 2u, 3u, 4u, 6u, 8u, 12u}) {
       const auto at_depth = hits(*structure, scene, depth);
       for (std::size_t i = 0; i < deepest.size(); ++i)
-        ASSERT_GE(at_depth[i], deepest[i])
+        ASSERT_TRUE(at_depth[i] >= deepest[i] && (!only_shrinks || at_depth[i] <= before[i]))
             << kind.name << " to depth " << depth << ", " << test::replay_line(scene, i);
-      // Children stick out of their parents' volumes, so single answers may come back; numbers shrink.
-      const auto count = std::count(at_depth.begin(), at_depth.end(), 1);
-      EXPECT_LE(count, before + (test::replaying() ? 1 : 20)) << kind.name << " to depth " << depth;
-      before = count;
+      EXPECT_LE(std::count(at_depth.begin(), at_depth.end(), 1),
+                std::count(before.begin(), before.end(), 1) + (test::replaying() ? 1 : 20))
+          << kind.name << " to depth " << depth;
+      before = at_depth;
     }
   }
 }

@@ -52,20 +52,21 @@ std::vector<Pair> sorted(std::span<const Pair> pairs) {
   return all;
 }
 
-/// An agent's root disc with the slack of pruning discs, its centre relative to the agent.
+/// An agent's root disc, its centre relative to the agent; with a margin the disc that holds its cut.
 struct Root {
   double x, y, radius;
 };
 
-std::vector<Root> roots(const ShapeSet& of, const Agents& agents) {
+std::vector<Root> roots(const ShapeSet& of, const Agents& agents, bool outer) {
   const ShapeSetView view = of.view();
   std::vector<Root> all;
   for (std::size_t i = 0; i < agents.size(); ++i) {
     const std::size_t root = std::size_t{agents.shape[i]} * of.level_count() + agents.level[i];
     const Rotation r = rotation(agents.heading[i]);
-    const double x = view.roots[root].x, y = view.roots[root].y, radius = view.roots[root].radius;
+    const double x = view.roots[root].x, y = view.roots[root].y;
+    const double radius = outer && view.trees != nullptr ? view.trees[root].outer : view.roots[root].radius;
     all.push_back({r.cosine * x - r.sine * y, r.sine * x + r.cosine * y,
-                   radius + rounding::nesting_margin * (std::abs(x) + std::abs(y) + radius)});
+                   radius + 128 * rounding::unit_roundoff * (std::abs(x) + std::abs(y) + radius)});
   }
   return all;
 }
@@ -74,7 +75,7 @@ std::vector<Root> roots(const ShapeSet& of, const Agents& agents) {
 /// `gap_of_all` metres.
 std::vector<Pair> brute_force(const ShapeSet& of, const Agents& agents, double gap = 0,
                               double gap_of_all = 0) {
-  const std::vector<Root> discs = roots(of, agents);
+  const std::vector<Root> discs = roots(of, agents, gap_of_all > 0x1p-20);
   std::vector<Pair> pairs;
   for (std::uint32_t i = 0; i < agents.size(); ++i)
     for (std::uint32_t j = i + 1; j < agents.size(); ++j) {
@@ -93,7 +94,7 @@ void expect_right(const test::Crowd& crowd, const ShapeSet& of = set) {
   const auto [least_x, most_x] = std::minmax_element(crowd.x.begin(), crowd.x.end());
   const auto [least_y, most_y] = std::minmax_element(crowd.y.begin(), crowd.y.end());
   double largest = 0;
-  for (const Root& root : roots(of, agents)) largest = std::max(largest, root.radius);
+  for (const Root& root : roots(of, agents, false)) largest = std::max(largest, root.radius);
   const double extent = std::max(*most_x - *least_x, *most_y - *least_y) + 4 * largest;
   const double widest = std::max(2.01 * largest, 0x1p-30 * extent);
 
@@ -145,7 +146,7 @@ TEST(BroadPhase, DiscsThatTouch) {
   test::Crowd crowd = crowd_in(0, 0, 900, 14, 0, 0, single);
   crowd.level.assign(900, 0);
   crowd.heading.assign(900, 0);
-  const double diameter = 2 * roots(single, crowd.agents())[0].radius;
+  const double diameter = 2 * roots(single, crowd.agents(), false)[0].radius;
   test::Random random(15);
   for (std::uint32_t i = 0; i < 900; ++i) {
     crowd.x[i] = diameter * (i % 30) * (1 + 0x1p-52 * random.below(3));

@@ -143,11 +143,11 @@ TEST(Cli, BadBakedFilesGiveThreeAndOneLine) {
   std::string flipped = text;
   flipped[text.size() / 2] ^= 4;
   std::string newer = text;
-  newer[12] = 3;
+  newer[12] = 4;
   const std::pair<std::string, const char*> cases[] = {{"", "too few"},
                                                        {text.substr(0, 3000), "3000"},
                                                        {flipped, "wrong checksum"},
-                                                       {newer, "version 3"},
+                                                       {newer, "version 4"},
                                                        {std::string(5000, 'x'), "not a baked file"}};
   const std::string agents = folder.write("agents.csv", four_agents);
   for (const auto& [content, word] : cases) {

@@ -32,9 +32,9 @@ namespace {
 
 using Hashes = std::vector<std::uint64_t>;
 
-const Hashes golden{0x3668a7bdb8ff44bf, 0xdef66ebfd898cc1b, 0x0df3e96f7ce06a4e, 0x651d4010a85dec47,
-                    0xe606dc4634e7388b, 0xe9c5340f4db89dab, 0xadb55d5b3276df7b, 0x465d9f4821158b31,
-                    0x9fdd6f00ea3aecad, 0x0be968372458ff93};
+const Hashes golden{0x5a2185e3105413a1, 0xb001f2145d76abf1, 0x0df165085461f9bf, 0x22e4be2a917a2aab,
+                    0x6208885fb451fee7, 0xbf5f940cfee4332d, 0x21c4d2cab484c549, 0x04ad4df0d6203a5b,
+                    0xe67190d710f1ec09, 0xebec44f58f6fc63e};
 
 /// In this order, bytes of all answers.
 class AnswerBytes {

@@ -162,7 +162,7 @@ TEST(DynamicShapeSet, WhatDoesNotFitIsNotReplaced) {
 TEST(DynamicShapeSet, PlacesOfACopyDoNotReachIntoEachOther) {
   Random random(86);
   const ShapeSetPlan plan;
-  const std::vector<Shape> shapes = {test::contour_shape(test::star(random, 60, 0.3, 0.5)),
+  const std::vector<Shape> shapes = {test::contour_shape(test::star(random, 61, 0.3, 0.5)),
                                      test::contour_shape(test::polygon({{0, 0}, {0.03f, 0}, {0, 0.04f}}))};
   ShapeStorage tight;
   tight.depths.assign(plan.depths.begin(), plan.depths.end());
@@ -186,7 +186,7 @@ TEST(DynamicShapeSet, PlacesOfACopyDoNotReachIntoEachOther) {
   const ShapeExtent place = extent_of(flat(shapes[0], plan));
   std::size_t most = 0;
   for (int i = 0; i < 400; ++i) {
-    const FlatShape shape = flat(test::contour_shape(test::star(random, 60, 0.3, 0.5)), plan);
+    const FlatShape shape = flat(test::contour_shape(test::star(random, 61, 0.3, 0.5)), plan);
     if (dynamic.try_replace(0, shape)) most = std::max(most, extent_of(shape).nodes);
   }
   EXPECT_GT(most, place.nodes);  // room that is left up to the next line

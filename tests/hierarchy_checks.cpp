@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -40,11 +41,13 @@ void expect_sound(const Hierarchy& hierarchy) {
     const HierarchyNode& node = nodes[i];
     ASSERT_LT(held[i].begin, held[i].end) << "node " << i;
     expect_holds_elements(hierarchy, i);
+    double needed = node.disc.radius;
     for (std::uint32_t below = i + 1; below < ends[i]; ++below) {
       const Disc& disc = nodes[below].disc;
-      ASSERT_LE(distance(node.disc, disc.x, disc.y) + static_cast<double>(disc.radius), bounds[i])
-          << "node " << i;
+      needed = std::max(needed, distance(node.disc, disc.x, disc.y) + static_cast<double>(disc.radius));
     }
+    ASSERT_GE(bounds[i], needed) << "node " << i;
+    ASSERT_LE(bounds[i], needed * (1 + 0x1p-22)) << "node " << i;
     if (node.is_leaf()) continue;
     EXPECT_EQ(held[i + 1].begin, held[i].begin);
     EXPECT_EQ(held[i + 1].end, held[node.second_child].begin);

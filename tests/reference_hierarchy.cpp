@@ -154,26 +154,6 @@ Hierarchy reference_hierarchy(const Outline& outline, float threshold, SplitRule
   return reference.hierarchy_;
 }
 
-std::vector<float> tightest_bounding_radii(const Hierarchy& hierarchy) {
-  const auto& nodes = hierarchy.nodes;
-  const std::vector<std::uint32_t> ends = subtree_ends(nodes);
-  std::vector<float> bounds;
-  for (std::size_t i = 0; i < nodes.size(); ++i) {
-    const Disc& disc = nodes[i].disc;
-    double bound = disc.radius;
-    for (std::size_t below = i + 1; below < ends[i]; ++below) {
-      const Disc& other = nodes[below].disc;
-      bound = std::max(bound, std::hypot(static_cast<double>(other.x) - static_cast<double>(disc.x),
-                                         static_cast<double>(other.y) - static_cast<double>(disc.y)) +
-                                  static_cast<double>(other.radius));
-    }
-    bounds.push_back(nodes[i].is_leaf()
-                         ? disc.radius
-                         : rounding::round_up(bound + rounding::nesting_margin * hierarchy.reach));
-  }
-  return bounds;
-}
-
 void expect_same_tree(const Hierarchy& hierarchy, const Hierarchy& reference) {
   ASSERT_EQ(hierarchy.nodes.size(), reference.nodes.size());
   EXPECT_EQ(hierarchy.source, reference.source);

@@ -3,17 +3,12 @@
 
 #pragma once
 
-#include <vector>
-
 #include "layout/hierarchy.hpp"
 
 namespace bch::test {
 
 /// contour_hierarchy() word by word: node after node by recursion, discs by Welzl's algorithm. Validates nothing.
 Hierarchy reference_hierarchy(const Outline& outline, float threshold, SplitRule rule);
-
-/// bounding_radii() word by word, from all nodes below.
-std::vector<float> tightest_bounding_radii(const Hierarchy& hierarchy);
 
 /// The same tree over the same elements, and discs as large up to a 1e-6 part and the rounding of their centres.
 void expect_same_tree(const Hierarchy& hierarchy, const Hierarchy& reference);

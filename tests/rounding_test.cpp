@@ -30,13 +30,13 @@ using test::Random;
 constexpr std::uint32_t block = 10'000;  ///< pairs
 
 struct Tally {
-  std::uint64_t pairs = 0, meeting = 0, misses = 0, far_false_positives = 0, false_positives = 0;
+  std::uint64_t pairs = 0, meeting = 0, above = 0, misses = 0, far_false_positives = 0, false_positives = 0;
   double largest_gap = 0;  ///< of a false positive, per metre of reach
   std::uint64_t bare_misses = 0;
   double deepest_bare_miss = 0;  ///< in units of u (P_A + P_B)
 
   void add(const Tally& other) {
-    pairs += other.pairs, meeting += other.meeting, misses += other.misses;
+    pairs += other.pairs, meeting += other.meeting, above += other.above, misses += other.misses;
     far_false_positives += other.far_false_positives, false_positives += other.false_positives;
     largest_gap = std::max(largest_gap, other.largest_gap);
     bare_misses += other.bare_misses;
@@ -69,22 +69,23 @@ struct FloatTest {
 };
 
 Vec2 in_own_frame(const test::PosedShape& pose, std::uint32_t disc) {
-  const QuadVector centre = turned_back(pose.rotation, pose.discs[disc].centre);
+  const QuadVector centre = turned_back(pose.rotation, pose.cut.discs[disc].centre);
   return {static_cast<float>(centre.x), static_cast<float>(centre.y)};
 }
 
-/// What a test in float does without the bound: tight radii, rounded to nearest.
+/// What a test in float does without the bound: tight radii, rounded to nearest. Of the two discs that nearly touch alone,
+/// without which there is no hit.
 bool bare_hit(const NearTangent& pair, Vec2 a, Vec2 b) {
   const TwoAgents two(pair);
   const FloatTest test(baselines::float_placement(two.agents(), {0, 1}), a, b);
-  const float radii =
-      static_cast<float>(pair.a->discs[pair.i].radius) + static_cast<float>(pair.b->discs[pair.j].radius);
+  const float radii = static_cast<float>(pair.disc_a().radius) + static_cast<float>(pair.disc_b().radius);
   return test.square_distance <= radii * radii;
 }
 
 void count(Tally& tally, const NearTangent& pair, bool hit) {
   ++tally.pairs;
   tally.meeting += pair.meet;
+  tally.above += pair.meet && pair.above;
   if (pair.meet && !hit) ++tally.misses;
   if (!hit || pair.meet || !pair.lone()) return;
   ++tally.false_positives;
@@ -97,6 +98,7 @@ void count_bare(Tally& tally, const NearTangent& pair) {
   tally.meeting += pair.meet;
   if (!pair.meet || bare_hit(pair, in_own_frame(*pair.a, pair.i), in_own_frame(*pair.b, pair.j))) return;
   ++tally.bare_misses;
+  tally.above += pair.above;
   tally.deepest_bare_miss =
       std::max(tally.deepest_bare_miss, -pair.gap / (rounding::unit_roundoff * pair.reaches()));
 }
@@ -153,14 +155,18 @@ TEST(RoundingBound, NearTangentPairsAgainstExactArithmetic) {
   for (std::size_t k = 0; k < tallies.size(); ++k) {
     const Tally& tally = tallies[k];
     const char* const name = supported()[k]->name;
-    std::printf("%s: %llu pairs, %llu meet, misses: %llu; false positives up to %.2g m per metre of reach\n",
-                name, static_cast<unsigned long long>(tally.pairs),
-                static_cast<unsigned long long>(tally.meeting), static_cast<unsigned long long>(tally.misses),
-                tally.largest_gap);
+    std::printf(
+        "%s: %llu pairs, %llu meet, %llu of them by discs above their cuts, misses: %llu; false positives up "
+        "to "
+        "%.2g m per metre of reach\n",
+        name, static_cast<unsigned long long>(tally.pairs), static_cast<unsigned long long>(tally.meeting),
+        static_cast<unsigned long long>(tally.above), static_cast<unsigned long long>(tally.misses),
+        tally.largest_gap);
     EXPECT_GE(tally.pairs, pairs);
     EXPECT_EQ(tally.misses, 0u) << name;
     EXPECT_EQ(tally.far_false_positives, 0u) << name;
     EXPECT_GT(tally.meeting, tally.pairs / 4);
+    EXPECT_GT(tally.above, tally.pairs / 16);
     EXPECT_GT(tally.false_positives, tally.pairs / 8);
   }
 }
@@ -176,6 +182,7 @@ TEST(RoundingBound, TheSamePairsBreakABareTest) {
       100.0 * static_cast<double>(tally.bare_misses) / static_cast<double>(tally.meeting),
       static_cast<unsigned long long>(tally.meeting), tally.deepest_bare_miss);
   EXPECT_GT(tally.bare_misses, tally.meeting / 20);
+  EXPECT_GT(tally.above, tally.bare_misses / 10);
   EXPECT_GT(tally.deepest_bare_miss, 2);
   EXPECT_LT(tally.deepest_bare_miss, rounding::terms::contact_error);
 }

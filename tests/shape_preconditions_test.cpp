@@ -46,7 +46,11 @@ struct Arrays {
   }
   /// The first shape's finest level: a tree of several blocks.
   float* top_block() { return own.nodes.data() + own.trees[finest].top; }
-  float& name(float* block, std::uint32_t lane) { return block[3 * block_width + lane]; }
+  float& name(float* block, std::uint32_t lane) { return block[block_names + lane]; }
+  /// The node above a disc of the finest level: x, y, radius and link.
+  float* inner_node(std::uint32_t disc) {
+    return own.nodes.data() + (own.trees[finest].first_inner() + disc) * std::size_t{inner_floats};
+  }
   /// The first block all of whose names are windows.
   float* lowest_block() {
     float* block = top_block();
@@ -62,6 +66,19 @@ struct Arrays {
     return *std::min_element(radius, radius + tree.stride);
   }
 
+  /// The first inner node of the finest level that no block has.
+  std::uint32_t node_of_no_block() {
+    const Tree& tree = own.trees[finest];
+    for (std::uint32_t k = 0;; ++k) {
+      bool is_in_block = false;
+      for (std::size_t block = tree.top; block < tree.discs; block += block_floats)
+        for (std::uint32_t lane = 0; lane < block_width; ++lane)
+          is_in_block |=
+              std::bit_cast<std::uint32_t>(own.nodes[block + block_nodes + lane]) == tree.first_inner() + k;
+      if (!is_in_block) return k;
+    }
+  }
+
   static constexpr std::size_t finest = 2;
 };
 
@@ -74,25 +91,33 @@ void add(float& name, std::uint32_t to) {
   name = std::bit_cast<float>(std::bit_cast<std::uint32_t>(name) + to);
 }
 
-/// 64 windows, all at the same eight discs.
+/// 64 windows, all at the same eight discs, below the same node. Discs are all the same, and a chain of nodes is above them.
 void name_a_window_64_times(Arrays& a) {
   a.own = {};
   a.own.depths = {all_depths};
   a.own.roots = {{0, 0, 1, first_row}};
-  a.own.trees = {{0, block_width}};
-  a.own.reach = {1};
   const std::uint32_t discs = 9 * block_floats;
-  a.own.nodes.resize(discs + 3 * block_width + block_floats);
+  a.own.trees = {{0, discs, block_width, block_width, 1}};
+  a.own.reach = {1};
+  const std::uint32_t first_inner = a.own.trees[0].first_inner();
+  a.own.nodes.resize((first_inner + block_width) * inner_floats + block_floats);
   const auto put_discs = [&](std::uint32_t at) {
     std::fill_n(&a.own.nodes[at + 2 * block_width], block_width, 1.0f);
   };
   for (std::uint32_t block = 0; block < 9; ++block) {
+    float* const x = &a.own.nodes[block * block_floats];
     put_discs(block * block_floats);
-    for (std::uint32_t lane = 0; lane < block_width; ++lane)
-      a.name(&a.own.nodes[block * block_floats], lane) =
-          std::bit_cast<float>(block == 0 ? (lane + 1) * block_floats : leaf_window + discs);
+    for (std::uint32_t lane = 0; lane < block_width; ++lane) {
+      a.name(x, lane) = std::bit_cast<float>(block == 0 ? (lane + 1) * block_floats : leaf_window + discs);
+      x[block_nodes + lane] = std::bit_cast<float>(first_inner);
+    }
   }
   put_discs(discs);
+  for (std::uint32_t k = 0; k + 1 < block_width; ++k) {
+    float* const inner = &a.own.nodes[(first_inner + k) * inner_floats];
+    inner[2] = 1;
+    inner[3] = std::bit_cast<float>(first_inner + (k == 0 ? 0 : k - 1) + above_cut_disc);
+  }
 }
 
 const std::vector<Damage>& all_damage() {
@@ -131,7 +156,11 @@ const std::vector<Damage>& all_damage() {
        }},
       {"infinite rows", [](Arrays& a) { a.own.support[support_stride + 3] = 1; }},
       {"reaches", [](Arrays& a) { a.own.reach[1] = 0; }},
-      {"roots", [](Arrays& a) { a.own.roots[Arrays::finest].radius = 0; }},
+      {"roots",  // of others a tree has the like
+       [](Arrays& a) {
+         a = Arrays({.depths = {0}});
+         a.own.roots[1].radius = 0;
+       }},
       {"supports", [](Arrays& a) { a.own.support.back() = nan; }},
       {"inscribed discs", [](Arrays& a) { a.own.inscribed[1].radius[3] = -1; }},
       {"extremes", [](Arrays& a) { a.own.extremes[2].y[31] = infinity; }},
@@ -163,21 +192,33 @@ const std::vector<Damage>& all_damage() {
       {"single discs", [](Arrays& a) { a.own.roots[Arrays::finest - 1].row = single_disc; }},
       {"single discs", [](Arrays& a) { a.own.roots[0].x += 0.01f; }},
       {"reach of a level", [](Arrays& a) { a.own.reach[0] = 100; }},
-      {"inner discs", [](Arrays& a) { a.lowest_block()[2 * block_width + 3] *= 8; }},
-      {"inner discs", [](Arrays& a) { a.top_block()[2 * block_width] *= 8; }},
-      {"inner discs", [](Arrays& a) { a.own.roots[Arrays::finest].radius *= 8; }},
-      {"inner discs",  // as large as it needs, from far away
+      {"inner nodes", [](Arrays& a) { a.own.roots[Arrays::finest].radius *= 8; }},
+      {"inner nodes", [](Arrays& a) { a.inner_node(a.node_of_no_block())[2] *= 8; }},
+      {"inner nodes",  // a way that never ends
        [](Arrays& a) {
-         a.lowest_block()[3] += 3;
-         a.lowest_block()[2 * block_width + 3] += 3;
+         const std::uint32_t k = a.node_of_no_block();
+         a.inner_node(k)[3] =
+             std::bit_cast<float>((std::bit_cast<std::uint32_t>(a.inner_node(k)[3]) & above_cut_disc) +
+                                  a.own.trees[Arrays::finest].first_inner() + k);
        }},
+      {"inner nodes", [](Arrays& a) { add(a.inner_node(a.node_of_no_block())[3], above_cut_disc); }},
+      {"nodes of blocks", [](Arrays& a) { a.lowest_block()[2 * block_width + 3] *= 1.01f; }},
+      {"nodes of blocks",  // the root's
+       [](Arrays& a) {
+         for (std::uint32_t field = 0; field < 3; ++field)
+           a.lowest_block()[field * block_width + 3] = (&a.own.roots[Arrays::finest].x)[field];
+       }},
+      {"nodes of blocks", [](Arrays& a) { add(a.lowest_block()[block_nodes + 3], 1); }},
+      {"outer radii", [](Arrays& a) { a.lowest_block()[block_outer + 3] += 1; }},
+      {"outer radii", [](Arrays& a) { a.lowest_block()[block_outer + 3] = nan; }},
+      {"outer radii", [](Arrays& a) { a.own.trees[Arrays::finest].outer += 1; }},
   };
   return all;
 }
 
 /// What the other checks read without looking: where one of these does not hold they must not run.
-const std::set<std::string> relied_upon = {"depths",          "sizes",  "shape contours", "contours",
-                                           "order of levels", "blocks", "room",           "windows"};
+const std::set<std::string> relied_upon = {"depths", "sizes", "shape contours", "contours", "order of levels",
+                                           "blocks", "room",  "windows",        "numbers"};
 
 /// Runs the checks as validate() does, but for one. Returns: the name of the one that refuses; empty where none does.
 std::string refused_by(const ShapeArrays& arrays, const std::string& without, const std::string& stop_at) {
@@ -191,14 +232,13 @@ std::string refused_by(const ShapeArrays& arrays, const std::string& without, co
       if (each.name == stop_at) return {};
       if (each.check_set != nullptr && runs(each)) each.check_set(arrays);
     }
-    std::uint64_t end = 0;
+    LevelNodes level{};
     for (std::size_t root = 0; root < arrays.trees.size(); ++root) {
-      LevelNodes level{.root = root, .begin = end};
+      level.root = root, level.begin = level.end, level.windows = {};
       for (const Precondition& each : shape_preconditions()) {
         if (each.name == stop_at) break;
         if (each.check_level != nullptr && runs(each)) each.check_level(arrays, level);
       }
-      end = level.end;
     }
   } catch (const std::invalid_argument&) {
     return name;

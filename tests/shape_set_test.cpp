@@ -19,50 +19,58 @@
 namespace bch {
 namespace {
 
-bool holds(const Disc& outer, const Disc& inner) {
-  return std::hypot(static_cast<double>(outer.x) - static_cast<double>(inner.x),
-                    static_cast<double>(outer.y) - static_cast<double>(inner.y)) +
-             static_cast<double>(inner.radius) <=
-         static_cast<double>(outer.radius);
-}
-
 /// Walks a wide tree: its height in blocks and windows, and the discs that it reaches, which are those of a window
-/// that all discs above hold (a window may show neighbours of its group as well).
+/// below all nodes of the blocks above it (a window may show neighbours of its group as well).
 class Walk {
  public:
-  explicit Walk(const WideTree& tree) : tree_(tree), reached_(tree.x.size()) {
-    visit(tree.top, {tree.root}, 1);
+  explicit Walk(const WideTree& tree) : tree_(tree), reached_(tree.count) {
+    visit(tree.top, {}, 1);
     for (std::size_t i = 0; i < reached_.size(); ++i)
-      if (reached_[i]) discs.push_back({tree.x[i], tree.y[i], tree.radius[i]});
+      if (reached_[i]) discs.push_back(disc(leaf_window + static_cast<std::uint32_t>(i)));
   }
   std::vector<Disc> discs;
   std::uint32_t levels = 0;
 
  private:
-  void visit(std::uint32_t node, const std::vector<Disc>& above, std::uint32_t level) {
+  /// Of an inner node, or leaf_window + a cut disc's index.
+  Disc disc(std::uint32_t node) const {
+    const std::uint32_t i = node & ~leaf_window;
+    if (node >= leaf_window) return {tree_.x[i], tree_.y[i], tree_.radius[i]};
+    return {tree_.inner[i].x, tree_.inner[i].y, tree_.inner[i].radius};
+  }
+
+  std::uint32_t above(std::uint32_t inner) const { return tree_.inner[inner].link & ~above_cut_disc; }
+
+  bool is_above(std::uint32_t node, std::uint32_t i) const {
+    if (node >= leaf_window) return node == leaf_window + i;
+    std::uint32_t at = tree_.inner[i].link >= above_cut_disc ? i : i - 1;
+    while (at != node && at != above(at)) at = above(at);
+    return at == node;
+  }
+
+  void visit(std::uint32_t node, const std::vector<std::uint32_t>& nodes_above, std::uint32_t level) {
     levels = std::max(levels, level);
-    if (node & leaf_window) return reach(node & ~leaf_window, above);
-    const auto& [around, child] = tree_.blocks.at(node);
+    if (node & leaf_window) return reach(node & ~leaf_window, nodes_above);
+    const WideTree::Block& block = tree_.blocks.at(node);
     for (std::uint32_t lane = 0; lane < block_width; ++lane) {
-      const Disc disc{around.x[lane], around.y[lane], around.radius[lane]};
-      if (std::isinf(disc.x)) {
-        EXPECT_EQ(disc.radius, 0);
+      const Disc in_block{block.discs.x[lane], block.discs.y[lane], block.discs.radius[lane]};
+      if (std::isinf(in_block.x)) {
+        EXPECT_EQ(in_block.radius, 0);
         continue;
       }
-      std::vector<Disc> chain = above;
-      chain.push_back(disc);
-      visit(child[lane], chain, level + 1);
+      EXPECT_EQ(in_block, disc(block.node[lane]));
+      std::vector<std::uint32_t> way = nodes_above;
+      way.push_back(block.node[lane]);
+      visit(block.child[lane], way, level + 1);
     }
   }
 
-  void reach(std::uint32_t first, const std::vector<Disc>& above) {
+  void reach(std::uint32_t first, const std::vector<std::uint32_t>& nodes_above) {
     ASSERT_LE(first + block_width, tree_.x.size());
-    for (std::uint32_t i = first; i < first + block_width; ++i) {
-      const Disc disc{tree_.x[i], tree_.y[i], tree_.radius[i]};
-      const bool held = tree_.is_single || std::all_of(above.begin(), above.end(),
-                                                       [&](const Disc& outer) { return holds(outer, disc); });
-      if (!std::isinf(disc.x) && held) reached_[i] = true;
-    }
+    for (std::uint32_t i = first; i < std::min(first + block_width, tree_.count); ++i)
+      if (std::all_of(nodes_above.begin(), nodes_above.end(),
+                      [&](std::uint32_t node) { return is_above(node, i); }))
+        reached_[i] = true;
   }
 
   const WideTree& tree_;
@@ -85,9 +93,30 @@ TEST(WideTree, HoldsTheCutAndNothingElse) {
     for (std::uint32_t depth = 0; depth <= height(shape.hierarchy) + 1; ++depth) {
       const WideTree tree = wide_tree(shape.hierarchy, depth);
       const Walk walk(tree);
-      EXPECT_EQ(tree.is_single, walk.discs.size() == 1);
+      EXPECT_EQ(tree.is_single(), walk.discs.size() == 1);
       expect_same_discs(walk.discs, shape.hierarchy, depth);
       EXPECT_LE(walk.levels, most_wide_levels);
+    }
+}
+
+/// Every way up from a disc of the cut is that of the hierarchy.
+TEST(WideTree, LinksLeadToTheRoot) {
+  for (const Shape& shape : test::synthetic_shapes(22, 32))
+    for (std::uint32_t depth = 0; depth <= height(shape.hierarchy) + 1; ++depth) {
+      const WideTree tree = wide_tree(shape.hierarchy, depth);
+      const std::vector<HierarchyNode>& nodes = shape.hierarchy.nodes;
+      const std::vector<std::uint32_t> discs = cut(shape.hierarchy, depth), ends = subtree_ends(nodes);
+      ASSERT_EQ(tree.inner.size(), discs.size());
+      for (std::uint32_t i = 0; i < discs.size(); ++i) {
+        std::uint32_t at = tree.inner[i].link >= above_cut_disc ? i : i - 1;
+        for (std::uint32_t node = discs[i]; node-- > 0;) {
+          if (ends[node] <= discs[i]) continue;  // not above the disc
+          EXPECT_EQ(nodes[node].disc, (Disc{tree.inner[at].x, tree.inner[at].y, tree.inner[at].radius}));
+          const std::uint32_t above = tree.inner[at].link & ~above_cut_disc;
+          EXPECT_EQ(above == at, node == 0);
+          at = above;
+        }
+      }
     }
 }
 

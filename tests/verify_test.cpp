@@ -84,15 +84,13 @@ constexpr std::size_t finest = 2;
 float* lowest_block(BakedBytes& bytes) {
   float* block =
       bytes.section<float>(Section::nodes).data() + bytes.section<Tree>(Section::trees)[finest].top;
-  while (std::bit_cast<std::uint32_t>(block[3 * block_width]) < leaf_window) block += block_floats;
+  while (std::bit_cast<std::uint32_t>(block[block_names]) < leaf_window) block += block_floats;
   return block;
 }
 
 /// The first disc of the finest level, and from it to its y.
 float* finest_discs(BakedBytes& bytes) {
-  float* block = lowest_block(bytes);
-  return bytes.section<float>(Section::nodes).data() +
-         (std::bit_cast<std::uint32_t>(block[3 * block_width]) & ~leaf_window);
+  return bytes.section<float>(Section::nodes).data() + bytes.section<Tree>(Section::trees)[finest].discs;
 }
 std::uint32_t stride(BakedBytes& bytes) {
   return bytes.section<Tree>(Section::trees)[finest].stride;
@@ -107,21 +105,18 @@ struct Lie {
 const std::vector<Lie>& lies() {
   static const std::vector<Lie> all = {
       {"depths", "discs at depth 1", [](BakedBytes& b) { b.section<std::uint32_t>(Section::depths)[1] = 1; }},
-      {"nodes", "is not held",  // its first disc's number is 0
-       [](BakedBytes& b) { lowest_block(b)[2 * block_width] *= 0.7f; }},
-      {"nodes", "is not held", [](BakedBytes& b) { lowest_block(b)[0] += 0.01f; }},
-      {"nodes", "is not held", [](BakedBytes& b) { lowest_block(b)[block_width + 1] += 0.01f; }},
-      {"nodes", "is at disc",
+      {"nodes", "needs", [](BakedBytes& b) { lowest_block(b)[block_outer] *= 0.9f; }},
+      {"nodes", "needs", [](BakedBytes& b) { b.section<Tree>(Section::trees)[finest].outer *= 1.01f; }},
+      {"nodes", "needs", [](BakedBytes& b) { b.section<Tree>(Section::trees)[finest].outer *= 0.99f; }},
+      {"nodes", "is not below",
        [](BakedBytes& b) {
-         float& name = lowest_block(b)[3 * block_width + 1];
-         name = std::bit_cast<float>(std::bit_cast<std::uint32_t>(name) + 7);
+         float& name = lowest_block(b)[block_names + 1];
+         name = std::bit_cast<float>(std::bit_cast<std::uint32_t>(name) + 1);
        }},
+      {"nodes", "sticks out of the one above",
+       [](BakedBytes& b) { finest_discs(b)[2 * std::size_t{stride(b)}] *= 3; }},
       {"nodes", "belongs to none", [](BakedBytes& b) { finest_discs(b)[2 * std::size_t{stride(b)}] = 1; }},
-      {"nodes", "cover", [](BakedBytes& b) { finest_discs(b)[2 * std::size_t{stride(b)} + 4] *= 0.8f; }},
       {"nodes", "cover", [](BakedBytes& b) { finest_discs(b)[4] += 0.01f; }},
-      {"nodes", "is not held",
-       [](BakedBytes& b) { b.section<Root>(Section::roots)[finest].radius *= 0.99f; }},
-      {"nodes", "needs", [](BakedBytes& b) { b.section<Root>(Section::roots)[finest].radius *= 1.3f; }},
       {"reach", "its discs say", [](BakedBytes& b) { b.section<float>(Section::reach)[1] *= 0.9f; }},
       {"reach", "the outline reaches", [](BakedBytes& b) { b.section<float>(Section::reach)[0] *= 1.001f; }},
       {"support", "number 11",

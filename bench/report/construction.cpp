@@ -65,7 +65,8 @@ void add_structures(Run& run, Table& table) {
   add(table, "BCH outline", "outline", time_hierarchies(bodies, SplitRule::centroid));
   add(table, "BCH outline by centre", "outline", time_hierarchies(bodies, SplitRule::centre));
   for (const Contestant& contestant : contestants()) {
-    if (contestant.kind == "single" || contestant.kind == "reference") continue;
+    if (contestant.kind == "single" || contestant.kind == "reference" || contestant.kind == "paper_descent")
+      continue;  // above
     const baselines::Kind& kind = baselines::kind(contestant.kind);
     const bool outlined = kind.exact == baselines::Truth::outline;
     const baselines::BuildOptions options{.fixed_radius = contestant.fixed_radius};

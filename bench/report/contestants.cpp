@@ -17,6 +17,7 @@ constexpr Contestant all[] = {
     {"fixed cylinder 0.25 m", "fixed", false, 0.25f, false, false},
     {"fixed cylinder 0.40 m", "fixed", false, 0.4f, false, false},
     {"BCH outline", "reference", false, 0, true},
+    {"BCH outline unverified", "paper_descent", false, 0, true},
     {"BCH outline by centre", "reference", true, 0, true},
     {"BCH projected", "bch_projected", false, 0, true},
     {"OBB outline", "obb_contour", false, 0, true},

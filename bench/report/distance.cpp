@@ -97,9 +97,8 @@ const Experiment distance_experiment{"distance",
                                      "random; the first slides straight at the second "
                                      "until the structure says that they collide. Then the distance of the "
                                      "two meshes in space is measured, by FCL's "
-                                     "distance of triangles: 0 would be perfect. The outline's hierarchy "
-                                     "finds its place by contact_time(), other structures "
-                                     "are asked every millimetre and then halved to a micrometre.",
+                                     "distance of triangles: 0 would be perfect. All are asked "
+                                     "every millimetre, and the place is then halved to a micrometre.",
                                      40,
                                      true,
                                      run_experiment,

@@ -98,7 +98,7 @@ Estimate excess_of(Run& run, const Contestant& contestant, std::uint32_t depth) 
 
 void add_others(Run& run, Points& points) {
   for (const Contestant& contestant : contestants()) {
-    if (contestant.kind == "reference") continue;
+    if (contestant.kind == "reference" || contestant.kind == "paper_descent") continue;
     const bool discs = contestant.kind == "single" || contestant.kind == "fixed";
     for (const std::uint32_t depth :
          contestant.has_depth ? depths_of(run, 0) : std::vector{discs ? 0 : all_depths}) {

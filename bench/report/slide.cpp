@@ -11,7 +11,7 @@
 #include <numbers>
 
 #include "bench/random.hpp"
-#include "kernel/contact_time.hpp"
+#include "kernel/collide.hpp"
 
 namespace bch::report {
 namespace {
@@ -55,33 +55,35 @@ SlideCases::SlideCases(std::span<const Shape> shapes, std::uint32_t cases, std::
 }
 
 std::vector<double> SlideCases::contacts(const ShapeSet& set) const {
-  // From one side to the other.
-  std::vector<double> x(size()), y(size(), 0);
-  for (std::size_t i = 0; i < size(); ++i) x[i] = -2 * from_[i];
-  std::vector<float> times(size());
-  contact_time(set, agents(), pairs_, {x, y}, times);
-  std::vector<double> places(size());
-  for (std::size_t i = 0; i < size(); ++i)
-    places[i] = std::isinf(times[i]) ? never : from_[i] + static_cast<double>(times[i]) * x[i];
-  return places;
+  return contacts([&](const Agents& agents) {
+    constexpr Pair both{0, 1};
+    std::uint8_t hit = 0;
+    collide(set, agents, {&both, 1}, {&hit, 1});
+    return hit != 0;
+  });
 }
 
 std::vector<double> SlideCases::contacts(const baselines::Structure& structure,
                                          std::uint32_t max_depth) const {
+  return contacts([&](const Agents& agents) { return structure.query(agents, {0, 1}, max_depth); });
+}
+
+template <class Meet>
+std::vector<double> SlideCases::contacts(Meet meet) const {
   std::vector<double> places(size());
-  tbb::parallel_for(std::size_t{0}, size(),
-                    [&](std::size_t i) { places[i] = contact(structure, max_depth, i); });
+  tbb::parallel_for(std::size_t{0}, size(), [&](std::size_t i) { places[i] = contact(i, meet); });
   return places;
 }
 
-double SlideCases::contact(const baselines::Structure& structure, std::uint32_t max_depth,
-                           std::size_t of) const {
+template <class Meet>
+double SlideCases::contact(std::size_t of, Meet meet) const {
   PairOfCase pair(agents(), pairs_[of]);
-  const auto meet = [&](double place) { return structure.query(pair.at(place), {0, 1}, max_depth); };
+  const auto meet_at = [&](double place) { return meet(pair.at(place)); };
   for (double place = from_[of]; place < -from_[of]; place += step) {
-    if (!meet(place)) continue;
+    if (!meet_at(place)) continue;
     double apart = place - step;
-    while (place - apart > resolution) (meet(0.5 * (apart + place)) ? place : apart) = 0.5 * (apart + place);
+    while (place - apart > resolution)
+      (meet_at(0.5 * (apart + place)) ? place : apart) = 0.5 * (apart + place);
     return place;
   }
   return never;

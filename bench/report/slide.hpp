@@ -26,9 +26,7 @@ class SlideCases {
   std::span<const Pair> pairs() const { return pairs_; }
 
   /// Where on the x axis the first one is when it is seen to collide, metres: one a case, NaN where it never is. Both
-  /// run on all threads.
-  /// contact_time() finds the place itself; a structure is asked every millimetre, and the place within that then halved
-  /// to a micrometre.
+  /// run on all threads. The answer is asked for every millimetre, and the place within that then halved to a micrometre.
   std::vector<double> contacts(const ShapeSet& set) const;
   std::vector<double> contacts(const baselines::Structure& structure, std::uint32_t max_depth) const;
 
@@ -36,7 +34,11 @@ class SlideCases {
   std::vector<double> distances(const baselines::PairDistances& bodies, std::span<const double> places) const;
 
  private:
-  double contact(const baselines::Structure& structure, std::uint32_t max_depth, std::size_t of) const;
+  /// `meet`: whether the two of some agents do.
+  template <class Meet>
+  std::vector<double> contacts(Meet meet) const;
+  template <class Meet>
+  double contact(std::size_t of, Meet meet) const;
 
   cli::Crowd crowd_;  ///< agents 2 i and 2 i + 1 are case i
   std::vector<Pair> pairs_;
