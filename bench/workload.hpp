@@ -37,7 +37,8 @@ struct WorkloadSizes {
 ///   no_hit        distinct pairs whose root discs overlap while their contour hierarchies do not
 ///   crowd         the broad phase's pairs of a crowd at 3 agents per square metre
 ///   paper500      the paper's protocol: 500 colliding cases in sequence, over and over
-///   paper500_cached  the same cases, each repeated before the next
+///   paper500_cached  the same cases, each repeated before the next: the paper shows that order and leaves it out of its
+///                    results
 /// The last two are small enough for the processor to learn every branch; they are here to be compared with
 /// the paper, not to judge by.
 std::span<const std::string_view> workload_names();

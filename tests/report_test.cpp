@@ -121,12 +121,24 @@ void expect_same_but_times(const TemporaryFolder& a, const TemporaryFolder& b) {
   EXPECT_GT(compared, 1000u);
 }
 
+/// The paper leaves cases that are repeated one by one out of its results.
+void expect_paper_times_beside_its_protocol_alone(const Table& times) {
+  std::size_t told = 0;
+  for (std::size_t i = 0; i < times.rows().size(); ++i) {
+    if (times.text(i, "paper (ns/pair)").empty()) continue;
+    EXPECT_EQ(times.text(i, "pairs"), "paper500");
+    ++told;
+  }
+  EXPECT_EQ(told, 3u);
+}
+
 TEST(Report, PageShowsTablesAndTablesAreTheSameAgain) {
   const TemporaryFolder first, second;
   run_into(first);
   run_into(second);
   expect_page_shows_tables(first);
   expect_same_but_times(first, second);
+  expect_paper_times_beside_its_protocol_alone(read_table(first.file("query_time.csv")));
   const auto json = nlohmann::json::parse(test::read_text(first.file("volume.json")));
   EXPECT_EQ(json["run"]["seed"], "1");
   EXPECT_EQ(json["run"]["command"], "bch report --out \"here\" & there");

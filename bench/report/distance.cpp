@@ -76,13 +76,11 @@ std::string findings(const Results& results) {
   const double discs = table.number({{"structure", "BCH outline"}}, "mean (cm)");
   return fmt::format(
       "<p>Mean distances of the meshes when a collision is seen: {}; {}; {}; {}.</p>"
-      "<p>Where we are above the paper it is the bodies and the way they meet, not the discs: OBB trees over "
-      "the outline "
-      "are exact seen from above, so their {} cm are the price of leaving out height, a leg that passes "
+      "<p>Where we are above the paper it is the bodies, not the discs: OBB trees over the outline are exact "
+      "seen from above, so their {} cm are the price of leaving out height, a leg that passes "
       "under an arm. Discs "
       "with leaves of 1 cm add {} cm to that; in the paper {} cm. Our people are other meshes in "
-      "other motions, and "
-      "they slide at each other by their roots.</p>",
+      "other motions.</p>",
       words_of(table, "single cylinder"), words_of(table, "BCH outline"), words_of(table, "OBB outline"),
       words_of(table, "OBB full mesh"), brief(outline), brief(discs - outline),
       brief(table.number({{"structure", "BCH outline"}}, "paper (cm)") -
