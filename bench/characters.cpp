@@ -39,13 +39,23 @@ ImportReport describe(const Character& character) {
   return report;
 }
 
+struct BuiltIn {
+  std::string_view name;
+  Character (*make)();
+};
+constexpr BuiltIn built_ins[] = {
+    {"male", default_male}, {"female", default_female}, {"bulky", default_bulky_male}};
+
+Character make_built_in(const std::string& source) {
+  for (const auto& [name, make] : built_ins)
+    if (source == std::string(built_in_prefix) + std::string(name)) return make();
+  throw UsageError(source + ": the built-in characters are default:male, default:female and default:bulky");
+}
+
 LoadedCharacter built_in(const std::string& source, const ImportOptions& options) {
   if (options.up || options.scale || !options.clip_files.empty())
     throw UsageError(source + ": --clips, --up and --scale are for character files");
-  const std::string_view name = std::string_view(source).substr(built_in_prefix.size());
-  if (name != "male" && name != "female")
-    throw UsageError(source + ": the built-in characters are default:male and default:female");
-  LoadedCharacter loaded{source, name == "male" ? default_male() : default_female(), {}};
+  LoadedCharacter loaded{source, make_built_in(source), {}};
   loaded.report = describe(loaded.character);
   return loaded;
 }

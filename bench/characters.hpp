@@ -12,11 +12,11 @@
 namespace bch::cli {
 
 /// Help for whatever takes a character.
-constexpr const char* character_help = "Character file (glTF, FBX ...), default:male or default:female";
+constexpr const char* character_help = "Character file (glTF, FBX ...), default:male, :female or :bulky";
 
 /// Help for what takes a baked file as well.
 constexpr const char* character_or_baked_help =
-    "Character file, default:male, default:female or baked file NAME.bch";
+    "Character file, default:male, :female, :bulky or baked file NAME.bch";
 
 struct LoadedCharacter {
   std::string source;  ///< as the user named it

@@ -122,7 +122,7 @@ std::function<void()> add_crowd_command(CLI::App& program) {
       ->check(number_between(1e-4, 100));
   add_seed_option(command, options->seed, "positions, headings and shapes");
   add_repeatable_option(command, "--character", options->characters,
-                        std::string(character_or_baked_help) + " (repeatable) [both defaults]", "FILE");
+                        std::string(character_or_baked_help) + " (repeatable) [male, female]", "FILE");
   options->shapes.add_to(command);
   options->answer.add_to(command);
   command.add_option("--json", options->json, "Write the table and the options as JSON")->type_name("FILE");

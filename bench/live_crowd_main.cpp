@@ -68,7 +68,7 @@ int run(int argc, char** argv) {
       ->check(CLI::Range(1u, 1'000'000u));
   program.add_option("--threads", options.threads, "Threads [all]")->check(CLI::Range(1u, 1024u));
   cli::add_repeatable_option(program, "--character", options.characters,
-                             std::string(cli::character_help) + " (repeatable) [both defaults]", "FILE");
+                             std::string(cli::character_help) + " (repeatable) [male, female]", "FILE");
   if (!cli::parse_command_line(program, argc, argv)) return cli::exit_success;
 
   // Before there are threads: see guarded_import().

@@ -30,7 +30,7 @@ int run(int argc, char** argv) {
   program.allow_extras();
   bch::bench::SceneOptions options;
   bch::cli::add_repeatable_option(program, "--character", options.characters,
-                                  std::string(bch::cli::character_help) + " (repeatable) [both defaults]",
+                                  std::string(bch::cli::character_help) + " (repeatable) [male, female]",
                                   "FILE");
   bch::bench::add_size_options(program, options);
   if (!bch::cli::parse_command_line(program, argc, argv)) return bch::cli::exit_success;

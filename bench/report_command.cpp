@@ -88,7 +88,7 @@ std::function<void()> add_report_command(CLI::App& program) {
       ->required();
   command.add_flag("--quick", options->quick, "Fewer poses, pairs, cases and runs");
   add_repeatable_option(command, "--character", options->characters,
-                        std::string(character_help) + " (repeatable) [both defaults]", "FILE");
+                        std::string(character_help) + " (repeatable) [male, female]", "FILE");
   add_repeatable_option(command, "--experiment", options->report.experiments,
                         "One experiment alone (repeatable) [all]", "NAME")
       .check(one_of(experiment_names()));

@@ -3,6 +3,7 @@
 
 #include "layout/body_shape.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace bch {
@@ -71,6 +72,30 @@ std::vector<TrunkSection> female_trunk() {
       {0.993, 0.994, 0.993, 0.049, 0.062, 0.053, 1.00, 0, head},
       {0.999, 0.999, 0.999, 0.026, 0.032, 0.026, 1.00, 0, head},
   };
+}
+
+/// The bulky man's: a belly before a broad trunk, a thick neck, and the man's head.
+std::vector<TrunkSection> bulky_trunk() {
+  const std::vector<TrunkSection> below_the_head = {
+      {0.488, 0.492, 0.480, 0.221, 0.149, 0.161, 0.90, 0, pelvis},
+      {0.516, 0.522, 0.515, 0.224, 0.183, 0.173, 0.88, 0, pelvis},
+      {0.546, 0.552, 0.550, 0.225, 0.212, 0.161, 0.88, 0, pelvis},
+      {0.584, 0.587, 0.587, 0.225, 0.229, 0.144, 0.88, 0, spine},
+      {0.622, 0.622, 0.622, 0.224, 0.233, 0.138, 0.90, 0, spine},
+      {0.658, 0.658, 0.660, 0.225, 0.222, 0.142, 0.88, 0, spine},
+      {0.692, 0.690, 0.694, 0.229, 0.198, 0.151, 0.86, 0, chest},
+      {0.722, 0.720, 0.727, 0.231, 0.181, 0.157, 0.84, 0, chest},
+      {0.750, 0.744, 0.757, 0.230, 0.166, 0.159, 0.84, 0, chest},
+      {0.778, 0.782, 0.790, 0.227, 0.142, 0.155, 0.84, 0, chest},
+      {0.801, 0.818, 0.820, 0.198, 0.101, 0.132, 0.88, 0, clavicle},
+      {0.815, 0.837, 0.838, 0.134, 0.072, 0.109, 0.95, 0, clavicle},
+      {0.828, 0.851, 0.853, 0.087, 0.056, 0.093, 1.00, 0, neck},
+      {0.847, 0.864, 0.869, 0.077, 0.059, 0.082, 1.00, 0, neck},
+      {0.863, 0.874, 0.884, 0.073, 0.075, 0.078, 1.00, 0.10, neck},
+  };
+  std::vector<TrunkSection> trunk = male_trunk();
+  std::copy(below_the_head.begin(), below_the_head.end(), trunk.begin());
+  return trunk;
 }
 
 /// Arm of the man, `along` as a fraction of the way from shoulder (0) over elbow (1) to wrist (2).
@@ -169,6 +194,22 @@ BodyShape male_shape() {
       {{-0.120, 0.085, 0.765 * h}, {-0.010, 0, 0}, {0.05, 0.045, 0.060}},     // shoulder blade
       {{-0.100, 0.000, 0.620 * h}, {0.010, 0, 0}, {0.05, 0.025, 0.150}},      // furrow of the spine
   };
+  return shape;
+}
+
+BodyShape bulky_male_shape() {
+  BodyShape shape = male_shape();
+  const double h = shape.stature;
+  shape.shoulder_half_breadth = 0.222;
+  shape.hip_half_breadth = 0.114;
+  shape.trunk = bulky_trunk();
+  shape.arm = scaled(unit_arm(), 1.28);
+  lay_out_arm(shape);
+  shape.leg = scaled(unit_leg(), 1.26);
+  // The belly and the back have no muscles to show.
+  std::erase_if(shape.bulges, [&](const Bulge& bulge) { return bulge.centre.z() < 0.85 * h; });
+  shape.bulges.push_back({{0.155, 0.095, 0.742 * h}, {0.016, 0, -0.004}, {0.08, 0.055, 0.045}});  // breast
+  shape.bulges.push_back({{-0.158, 0.085, 0.505 * h}, {-0.012, 0, 0}, {0.06, 0.055, 0.060}});     // buttock
   return shape;
 }
 

@@ -70,6 +70,14 @@ Character default_male() {
   return character;
 }
 
+Character default_bulky_male() {
+  const BodyShape shape = bulky_male_shape();
+  const JointPositions joints = joint_positions(shape);
+  Character character = at_rest("default bulky male", shape, joints);
+  add_clips(character, {joints, shape.stature, 0.95, 1.02, 0.24, 0.80, 0.30, 0.75});
+  return character;
+}
+
 Character default_female() {
   const BodyShape shape = female_shape();
   const JointPositions joints = joint_positions(shape);

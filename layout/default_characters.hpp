@@ -20,4 +20,8 @@ namespace bch {
 Character default_male();
 Character default_female();
 
+/// A third one: a man as tall as the first and with the volume that the means of the paper's table 1 imply of its man,
+/// about 0.137 m3. Otherwise as above.
+Character default_bulky_male();
+
 }  // namespace bch

@@ -8,6 +8,7 @@
 
 #include "bench/report/coverage.hpp"
 #include "bench/report/front.hpp"
+#include "bench/report/mesh_volume.hpp"
 #include "bench/report/packing.hpp"
 #include "bench/report/slide.hpp"
 #include "bench/report/statistics.hpp"
@@ -113,6 +114,18 @@ TEST(ReportParts, RasterCountsAreas) {
   // Beside each other they add up.
   const Coverage apart = rasterise(square(0.25f), std::vector<Disc>{{2, 0, 0.4f}});
   EXPECT_NEAR(apart.filled, pi * 0.16 + 0.25, 2e-4);
+}
+
+TEST(ReportParts, ClosedMeshesHaveAVolume) {
+  const std::vector<Eigen::Vector3f> corners = {{5, 5, 5}, {6, 5, 5}, {5, 6, 5}, {5, 5, 6}};
+  std::vector<std::array<std::uint32_t, 3>> sides = {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}};
+  EXPECT_TRUE(is_closed(sides));
+  EXPECT_NEAR(enclosed_volume(corners, sides), 1.0 / 6, 1e-6);
+  sides.pop_back();
+  EXPECT_FALSE(is_closed(sides));
+  sides.push_back({1, 3, 2});  // the other way round
+  EXPECT_FALSE(is_closed(sides));
+  EXPECT_TRUE(is_closed(default_bulky_male().triangles));
 }
 
 TEST(ReportParts, PackingIsDenseAndWithinTheHexagonalBound) {

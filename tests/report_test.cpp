@@ -142,21 +142,20 @@ TEST(Report, PageShowsTablesAndTablesAreTheSameAgain) {
   const auto json = nlohmann::json::parse(test::read_text(first.file("volume.json")));
   EXPECT_EQ(json["run"]["seed"], "1");
   EXPECT_EQ(json["run"]["command"], "bch report --out \"here\" & there");
-  EXPECT_EQ(json["tables"]["volume_radii"].size(), 2u);
+  EXPECT_EQ(json["tables"]["volume_paper"].size(), 12u);  // four rows of each of three people
 
   // Sentences come from the tables as well.
-  Table changed({"character", "paper, mean (m)", "paper, deviation (m)", "mean (m)", "mean (95 % low)",
-                 "mean (95 % high)", "median (m)", "standard deviation (m)", "poses"});
-  const Table radii = read_table(first.file("volume_radii.csv"));
-  for (const auto& row : radii.rows()) {
+  const Table volumes = read_table(first.file("volume_paper.csv"));
+  Table changed(volumes.columns());
+  for (const auto& row : volumes.rows()) {
     std::vector<Cell> cells(row.begin(), row.end());
-    cells[3] = 7.654;
+    cells[volumes.column("mean")] = 7.654;
     changed.add(cells);
   }
-  first.write("volume_radii.csv", csv_of(changed));
+  first.write("volume_paper.csv", csv_of(changed));
   make_page(first.path());
   expect_page_shows_tables(first);
-  EXPECT_NE(test::read_text(first.file("report.html")).find("radius is 7.65 m on average"),
+  EXPECT_NE(test::read_text(first.file("report.html")).find("radius is 7.65 (0.42) m on average"),
             std::string::npos);
 }
 
@@ -177,9 +176,9 @@ TEST(Report, PageOfAFolderWithoutTablesSaysSo) {
   folder.write("run.csv", "what,value\ncommand,none\n");
   make_page(folder.path());
   EXPECT_NE(test::read_text(folder.file("report.html")).find("Not in this run."), std::string::npos);
-  folder.write("volume_radii.csv", "character,mean (m)\nsomebody,1\n");
+  folder.write("volume_paper.csv", "character,mean\nsomebody,1\n");
   EXPECT_THROW(make_page(folder.path()), cli::InputError);
-  folder.write("volume_radii.csv", "character,mean (m)\nsomebody\n");
+  folder.write("volume_paper.csv", "character,mean\nsomebody\n");
   EXPECT_THROW(make_page(folder.path()), cli::InputError);
 }
 

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstdint>
+#include <span>
+
+namespace bch::report {
+
+/// Whether the triangles enclose a volume: each edge is passed one way as often as the other.
+bool is_closed(std::span<const std::array<std::uint32_t, 3>> triangles);
+
+/// The volume inside a closed mesh whose triangles run counter-clockwise seen from outside, cubic metres. What lies inside
+/// two parts of it counts twice.
+double enclosed_volume(std::span<const Eigen::Vector3f> positions,
+                       std::span<const std::array<std::uint32_t, 3>> triangles);
+
+}  // namespace bch::report

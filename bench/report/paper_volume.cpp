@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include "bench/report/paper_volume.hpp"
+
+#include <fmt/format.h>
+#include <oneapi/tbb/parallel_for.h>
+
+#include <algorithm>
+#include <numbers>
+
+#include "bench/report/areas.hpp"
+#include "bench/report/coverage.hpp"
+#include "bench/report/mesh_volume.hpp"
+#include "bench/report/statistics.hpp"
+#include "bench/report/words.hpp"
+#include "layout/enclosing_disc.hpp"
+
+namespace bch::report {
+namespace {
+
+constexpr const char* man = "default:male";
+constexpr const char* woman = "default:female";
+constexpr const char* bulky_man = "default:bulky";
+constexpr const char* radius_name = "cylinder radius (m)";
+constexpr const char* cylinder_name = "cylinder / mesh volume";
+constexpr const char* leaves_name = "BCH / mesh volume";
+constexpr const char* mesh_name = "mesh volume (m3)";
+constexpr double not_told = std::numeric_limits<double>::quiet_NaN();
+
+/// A row of the paper's table 1, or what its text says of the mesh volume.
+struct PaperRow {
+  bool of_woman;
+  std::string_view quantity;
+  double mean, median, deviation;
+};
+constexpr PaperRow paper_rows[] = {
+    {true, radius_name, 0.34, 0.31, 0.05},  {true, cylinder_name, 11.09, 9.50, 3.55},
+    {true, leaves_name, 4.61, 4.27, 0.76},  {true, mesh_name, not_told, not_told, 0.01},
+    {false, radius_name, 0.42, 0.40, 0.05}, {false, cylinder_name, 7.70, 6.99, 1.75},
+    {false, leaves_name, 3.57, 3.34, 0.51}, {false, mesh_name, not_told, not_told, 0.01},
+};
+
+/// The page takes the built-in man and woman for the paper's two, and the bulky man for its man once more.
+PaperRow paper_row(const std::string& source, std::string_view quantity) {
+  for (const PaperRow& row : paper_rows)
+    if (row.quantity == quantity && (row.of_woman ? source == woman : source == man || source == bulky_man))
+      return row;
+  return {false, quantity, not_told, not_told, not_told};
+}
+
+/// Of one character, an entry a pose.
+struct Volumes {
+  std::vector<double> radius, mesh;  ///< metres; cubic metres, of a closed mesh
+  std::vector<double> leaves;        ///< square metres that the leaf discs over all projected triangles cover
+};
+
+Volumes volumes_of(const Character& character, std::uint32_t poses) {
+  Skinner skinner(character);
+  const bool closed = is_closed(character.triangles);
+  Volumes volumes;
+  std::vector<std::vector<Vec2>> from_above;
+  for (const PoseTime& at : sample_poses(character, poses)) {
+    const auto positions = skinner.pose(at);
+    auto& points = from_above.emplace_back();
+    for (const Eigen::Vector3f& p : positions) points.push_back({p.x(), p.y()});
+    volumes.radius.push_back(static_cast<double>(smallest_enclosing_disc(points).radius));
+    volumes.mesh.push_back(closed ? enclosed_volume(positions, character.triangles) : not_told);
+  }
+  volumes.leaves.resize(poses);
+  tbb::parallel_for(std::size_t{0}, from_above.size(), [&](std::size_t i) {
+    const Hierarchy hierarchy = projected_hierarchy(from_above[i], character.triangles);
+    volumes.leaves[i] = rasterise({}, discs_of(hierarchy, all_depths)).discs;
+  });
+  return volumes;
+}
+
+void add_character(Run& run, const cli::LoadedCharacter& loaded, Table& table) {
+  Volumes volumes = volumes_of(loaded.character, run.sizes().poses);
+  const double mesh = estimate(volumes.mesh, run.seed()).mean;
+  const double height_per_mesh = static_cast<double>(loaded.report.height) / mesh;
+  std::vector<double> cylinders;
+  for (const double radius : volumes.radius)
+    cylinders.push_back(std::numbers::pi * radius * radius * height_per_mesh);
+  for (double& leaves : volumes.leaves) leaves *= height_per_mesh;
+  const auto add = [&](std::string_view quantity, const std::vector<double>& values) {
+    const PaperRow paper = paper_row(loaded.source, quantity);
+    const Estimate ours = estimate(values, run.seed());
+    table.add({cli::file_name(loaded), quantity, paper.mean, ours.mean, paper.median,
+               quartiles(values).median, paper.deviation, ours.deviation, ours.low, ours.high,
+               values.size()});
+  };
+  add(radius_name, volumes.radius);
+  add(cylinder_name, cylinders);
+  add(leaves_name, volumes.leaves);
+  add(mesh_name, volumes.mesh);
+}
+
+}  // namespace
+
+void measure_paper_volumes(Run& run) {
+  Table table({"character", "quantity", "paper (mean)", "mean", "paper (median)", "median",
+               "paper (deviation)", "standard deviation", "mean (95 % low)", "mean (95 % high)", "poses"});
+  const auto& characters = run.scene().characters();
+  for (const cli::LoadedCharacter& character : characters) add_character(run, character, table);
+  const auto is = [&](const char* source) {
+    return std::any_of(characters.begin(), characters.end(),
+                       [&](const auto& c) { return c.source == source; });
+  };
+  if (is(man) && !is(bulky_man)) add_character(run, cli::load_character(bulky_man, {}), table);
+  run.write("volume_paper", table);
+}
+
+std::string paper_volume_findings(const Results& results) {
+  const Table& table = results("volume_paper");
+  const auto of = [&](const std::string& character, std::string_view quantity, std::string_view column) {
+    return table.number({{"character", character}, {"quantity", quantity}}, column);
+  };
+  const auto both = [&](const std::string& character, std::string_view quantity, std::string_view column) {
+    return fmt::format("{} ({})", brief(of(character, quantity, column)),
+                       brief(of(character, quantity, fmt::format("paper ({})", column))));
+  };
+  std::string html = "<p>Ours, and the paper's in brackets.";
+  for (std::size_t i = 0; i < table.rows().size(); i += 4) {
+    const std::string& character = table.text(i, "character");
+    html += fmt::format(
+        " {}: the single cylinder's radius is {} m on average, its median {} m; it holds {} times the mesh's "
+        "volume, "
+        "the leaf discs {} times.",
+        escaped(character), both(character, radius_name, "mean"), both(character, radius_name, "median"),
+        both(character, cylinder_name, "mean"), both(character, leaves_name, "mean"));
+  }
+  html += "</p>";
+  if (table.text(table.rows().size() - 1, "character") != bulky_man) return html;
+  const auto above = [&](std::string_view quantity) {
+    return brief(100 * (of(bulky_man, quantity, "mean") / of(bulky_man, quantity, "paper (mean)") - 1));
+  };
+  return html + fmt::format(
+                    "<p>The built-in bodies were tuned to the means of the radius. The bulky man, of {} m3, "
+                    "tells what follows "
+                    "from radius and volume: his cylinder is {} % above the paper's mean and his leaf discs "
+                    "are {} %.</p>",
+                    brief(of(bulky_man, mesh_name, "mean")), above(cylinder_name), above(leaves_name));
+}
+
+}  // namespace bch::report

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <string>
+
+#include "bench/report/experiment.hpp"
+
+namespace bch::report {
+
+/// Writes volume_paper.csv: figure 7 and table 1 of the paper, in its own terms, of the scene's characters and, where these
+/// have the built-in man, of the bulky one.
+void measure_paper_volumes(Run& run);
+
+/// What that table says, in HTML.
+std::string paper_volume_findings(const Results& results);
+
+}  // namespace bch::report
