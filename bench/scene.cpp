@@ -26,7 +26,9 @@ const std::vector<cli::LoadedCharacter>& Scene::characters() {
 }
 
 const std::vector<ShapeSource>& Scene::sources() {
-  if (sources_.empty()) sources_ = cli::list_shapes(characters(), options_.poses);
+  if (sources_.empty())
+    sources_ = options_.pose_seed ? cli::list_random_shapes(characters(), options_.poses, *options_.pose_seed)
+                                  : cli::list_shapes(characters(), options_.poses);
   return sources_;
 }
 

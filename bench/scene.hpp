@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,6 +22,8 @@ namespace bch::bench {
 struct SceneOptions {
   std::vector<std::string> characters = {"default:male", "default:female"};  ///< as load_character() takes
   std::uint32_t poses = 100;                                                 ///< of a character
+  std::optional<std::uint64_t> pose_seed =
+      {};  ///< draws the poses at random; none: they lie evenly over the clips
   WorkloadSizes sizes;
 };
 

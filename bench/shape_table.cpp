@@ -13,6 +13,7 @@
 
 #include "bench/exit_codes.hpp"
 #include "bench/progress.hpp"
+#include "bench/random.hpp"
 
 namespace bch::cli {
 namespace {
@@ -31,6 +32,21 @@ std::vector<ShapeSource> list_shapes(std::span<const LoadedCharacter> characters
   std::vector<ShapeSource> sources;
   for (std::uint32_t c = 0; c < characters.size(); ++c)
     for (const PoseTime at : sample_poses(characters[c].character, poses)) sources.push_back({c, at});
+  return sources;
+}
+
+std::vector<ShapeSource> list_random_shapes(std::span<const LoadedCharacter> characters, std::uint32_t poses,
+                                            std::uint64_t seed) {
+  constexpr std::uint32_t finer = 100;  // a random time is one of so many even ones a pose
+  Random random(seed);
+  std::vector<ShapeSource> sources;
+  for (std::uint32_t c = 0; c < characters.size(); ++c) {
+    const Character& character = characters[c].character;
+    const std::vector<PoseTime> even = sample_poses(character, finer * poses);
+    const std::uint32_t count = character.clips.empty() ? 1 : poses;
+    for (std::uint32_t i = 0; i < count; ++i)
+      sources.push_back({c, even[random.below(static_cast<std::uint32_t>(even.size()))]});
+  }
   return sources;
 }
 

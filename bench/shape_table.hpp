@@ -21,6 +21,11 @@ namespace bch::cli {
 /// number by which files and tables name its shape.
 std::vector<ShapeSource> list_shapes(std::span<const LoadedCharacter> characters, std::uint32_t poses);
 
+/// Of each character so many poses at times drawn at random over all of its clips, the same for a seed everywhere; of one
+/// without clips its rest pose.
+std::vector<ShapeSource> list_random_shapes(std::span<const LoadedCharacter> characters, std::uint32_t poses,
+                                            std::uint64_t seed);
+
 /// The same at so many poses a second: of every clip those at 0, 1 / rate ... before its end, one at least.
 /// Errors:  throws InputError beyond 1e7 poses.
 std::vector<ShapeSource> list_shapes_at_rate(std::span<const LoadedCharacter> characters, double rate);

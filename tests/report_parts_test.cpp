@@ -12,6 +12,8 @@
 #include "bench/report/packing.hpp"
 #include "bench/report/slide.hpp"
 #include "bench/report/statistics.hpp"
+#include "bench/report/subject.hpp"
+#include "bench/report/tree_size.hpp"
 #include "bench/report/words.hpp"
 #include "layout/default_characters.hpp"
 #include "layout/pose_shape.hpp"
@@ -116,6 +118,60 @@ TEST(ReportParts, RasterCountsAreas) {
   EXPECT_NEAR(apart.filled, pi * 0.16 + 0.25, 2e-4);
 }
 
+struct People {
+  std::vector<baselines::Body> bodies;
+  std::vector<Shape> shapes;
+};
+
+People men(std::uint32_t poses) {
+  const Character man = default_male();
+  Skinner skinner(man);
+  PoseShaper shaper(man);
+  People people;
+  for (const PoseTime& at : sample_poses(man, poses)) {
+    const auto positions = skinner.pose(at);
+    people.shapes.push_back(shaper.shape(at));
+    people.bodies.push_back({{positions.begin(), positions.end()}, man.triangles, people.shapes.back()});
+  }
+  return people;
+}
+
+TEST(ReportParts, TestsAndTreesAreCounted) {
+  const People people = men(2);
+  const auto plain = baselines::kind("reference").build(people.bodies, {});
+  const bench::Workload workload =
+      bench::random_pairs("any", 1, people.shapes, 50,
+                          [&](const Agents& agents, Pair pair) { return plain->query(agents, pair, 0); });
+  EXPECT_EQ(subject_of(*plain, 0).tests(workload).nodes, 1);
+  EXPECT_GT(subject_of(*plain).tests(workload).nodes, 5);
+  EXPECT_TRUE(std::isnan(subject_of(ShapeSet(people.shapes)).tests(workload).nodes));
+  const auto size = [&](std::string_view kind) {
+    return tree_size({.name = kind, .kind = kind}, people.bodies);
+  };
+  EXPECT_EQ(size("single").nodes, 1);
+  EXPECT_EQ(size("reference").nodes, tree_size(people.shapes).nodes);
+  for (const char* kind : {"bch_projected", "obb_projected", "obb_full"}) {
+    EXPECT_EQ(size(kind).nodes, 2 * 2864 - 1) << kind;  // a triangle a leaf
+    EXPECT_GT(size(kind).height, 11) << kind;
+    EXPECT_LT(size(kind).height, 40) << kind;
+  }
+  EXPECT_TRUE(std::isnan(size("fcl_obb_full").nodes));
+}
+
+TEST(ReportParts, RandomPosesAreTheSameForASeed) {
+  const std::vector<cli::LoadedCharacter> man = {{"man", default_male(), {}}};
+  const auto first = cli::list_random_shapes(man, 50, 1), again = cli::list_random_shapes(man, 50, 1),
+             other = cli::list_random_shapes(man, 50, 2);
+  ASSERT_EQ(first.size(), 50u);
+  std::size_t different = 0;
+  for (std::size_t i = 0; i < 50; ++i) {
+    EXPECT_EQ(first[i].at.seconds, again[i].at.seconds);
+    EXPECT_LE(first[i].at.seconds, man[0].character.clips[first[i].at.clip].seconds);
+    different += first[i].at.seconds != other[i].at.seconds ? 1 : 0;
+  }
+  EXPECT_GT(different, 45u);
+}
+
 TEST(ReportParts, ClosedMeshesHaveAVolume) {
   const std::vector<Eigen::Vector3f> corners = {{5, 5, 5}, {6, 5, 5}, {5, 6, 5}, {5, 5, 6}};
   std::vector<std::array<std::uint32_t, 3>> sides = {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}};
@@ -136,33 +192,42 @@ TEST(ReportParts, PackingIsDenseAndWithinTheHexagonalBound) {
   EXPECT_LT(densest, 0.9069 / (pi * 0.0625));
 }
 
-TEST(ReportParts, SlidesEndWhereKernelAndStructuresSay) {
-  const Character man = default_male();
-  Skinner skinner(man);
-  PoseShaper shaper(man);
-  std::vector<baselines::Body> bodies;
-  std::vector<Shape> shapes;
-  for (const PoseTime& at : sample_poses(man, 6)) {
-    const auto positions = skinner.pose(at);
-    shapes.push_back(shaper.shape(at));
-    bodies.push_back({{positions.begin(), positions.end()}, man.triangles, shapes.back()});
+TEST(ReportParts, SlidesPassUpToHalfAMetreBesideAndMeet) {
+  const People people = men(6);
+  const SlideCases cases(people.shapes, 200, 3);
+  double least = 0, most = 0;
+  for (const Pair pair : cases.pairs()) {
+    const double beside = cases.agents().y[pair.first] - cases.agents().y[pair.second];
+    least = std::min(least, beside), most = std::max(most, beside);
   }
+  EXPECT_GE(least, -0.5);
+  EXPECT_LT(least, -0.3);
+  EXPECT_LE(most, 0.5);
+  EXPECT_GT(most, 0.3);
+  EXPECT_GE(known(cases.contacts(ShapeSet(people.shapes))).size(), 190u);  // discs meet in all
+}
+
+TEST(ReportParts, SlidesEndWhereKernelAndStructuresSay) {
+  const auto [bodies, shapes] = men(6);
   const SlideCases cases(shapes, 12, 9);
   const auto plain = baselines::kind("reference").build(bodies, {});
   for (const std::uint32_t depth : {0u, 4u, all_depths}) {
     const auto by_kernel = cases.contacts(ShapeSet(shapes, {{depth}})),
                by_steps = cases.contacts(*plain, depth);
-    for (std::size_t i = 0; i < cases.size(); ++i) EXPECT_EQ(by_kernel[i], by_steps[i]) << depth << ' ' << i;
+    for (std::size_t i = 0; i < cases.size(); ++i)
+      EXPECT_TRUE(by_kernel[i] == by_steps[i] || (std::isnan(by_kernel[i]) && std::isnan(by_steps[i])))
+          << depth << ' ' << i << ": " << by_kernel[i] << ", " << by_steps[i];
   }
   const auto distances = baselines::fcl_mesh_distances(bodies);
   if (!distances) GTEST_SKIP() << "no FCL";
   const auto full = baselines::kind("obb_full").build(bodies, {});
   const auto places = cases.contacts(*full, all_depths);
-  for (const double centimetres : cases.distances(*distances, places)) EXPECT_LT(centimetres, 1e-4);
+  EXPECT_GT(known(places).size(), 10u);  // an arm may pass over a leg
+  for (const double centimetres : known(cases.distances(*distances, places))) EXPECT_LT(centimetres, 1e-4);
   // A centimetre earlier they are apart, by no more than that.
   std::vector<double> earlier = places;
   for (double& place : earlier) place -= 0.01;
-  for (const double centimetres : cases.distances(*distances, earlier)) {
+  for (const double centimetres : known(cases.distances(*distances, earlier))) {
     EXPECT_GT(centimetres, 0);
     EXPECT_LT(centimetres, 1.0001);
   }

@@ -92,7 +92,8 @@ std::string findings(const Results& results) {
 const Experiment distance_experiment{"distance",
                                      "Distance at detection",
                                      "Figure 6, left. Two people stand apart, each in a pose and turned at "
-                                     "random; the first slides straight at the second "
+                                     "random; the first slides along a line that passes the second's origin "
+                                     "up to half a metre to either side, as in the paper, "
                                      "until the structure says that they collide. Then the distance of the "
                                      "two meshes in space is measured, by FCL's "
                                      "distance of triangles: 0 would be perfect. All are asked "

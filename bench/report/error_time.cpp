@@ -139,6 +139,8 @@ Table table_of(Run& run, const Points& points) {
                "near miss (ns/pair)",
                "near miss (25 %)",
                "near miss (75 %)",
+               "crowd, node tests",
+               "near miss, node tests",
                "distance at detection (cm)",
                "distance (95 % low)",
                "distance (95 % high)",
@@ -156,12 +158,14 @@ Table table_of(Run& run, const Points& points) {
     const Estimate wrong = share(count_hits(point.subject, near), near.pairs.size());
     const std::size_t found = count_hits(point.subject, colliding);
     const Estimate missed = share(colliding.pairs.size() - found, colliding.pairs.size());
+    const MeanTests crowd_tests = point.subject.tests(crowd), near_tests = point.subject.tests(near);
     table.add({point.structure,       cli::depth_name(point.depth),
                100 * point.threshold, point.semantics,
                point.arithmetic,      in_crowd[i].median,
                in_crowd[i].low,       in_crowd[i].high,
                on_near[i].median,     on_near[i].low,
-               on_near[i].high,       distance.mean,
+               on_near[i].high,       crowd_tests.nodes,
+               near_tests.nodes,      distance.mean,
                distance.low,          distance.high,
                100 * wrong.mean,      100 * wrong.low,
                100 * wrong.high,      point.excess.mean,

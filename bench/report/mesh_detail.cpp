@@ -7,6 +7,7 @@
 #include "bench/mesh_detail.hpp"
 #include "bench/report/experiment.hpp"
 #include "bench/report/subject.hpp"
+#include "bench/report/tree_size.hpp"
 #include "bench/report/words.hpp"
 #include "bench/stopwatch.hpp"
 #include "layout/default_characters.hpp"
@@ -20,8 +21,10 @@ constexpr std::size_t few_triangles = 716;  // a quarter of the man's
 constexpr std::uint32_t most_poses = 40;    // memory: tens of megabytes a hundred bodies
 
 struct Measured {
-  double build_tree, build_hierarchy;  // microseconds a pose
-  Quartiles tree[2], kernel[2], plain[2];
+  double build_tree = 0, build_hierarchy = 0;  // microseconds a pose
+  Quartiles tree[2]{}, kernel[2]{}, plain[2]{};
+  MeanTests tree_tests[2]{}, plain_tests[2]{};
+  TreeSize tree_size{}, plain_size{};
 };
 
 /// Poses, their bodies, and pairs of them; the meshes decide which collide.
@@ -45,7 +48,9 @@ class Detailed {
   }
 
   Measured measure(std::uint32_t pairs, std::uint32_t runs) const {
-    Measured measured{tree_microseconds_, quartiles(hierarchy_).median, {}, {}, {}};
+    Measured measured{tree_microseconds_, quartiles(hierarchy_).median};
+    measured.tree_size = tree_size({.name = "OBB full mesh", .kind = "obb_full"}, bodies_);
+    measured.plain_size = tree_size(shapes_);
     const ShapeSet set(shapes_);
     const auto roots = baselines::kind("single").build(bodies_, {});
     for (const bool colliding : {true, false}) {
@@ -59,6 +64,8 @@ class Detailed {
       const std::vector<Quartiles> taken = times(subjects, workload, runs);
       const int i = colliding ? 0 : 1;
       measured.tree[i] = taken[0], measured.kernel[i] = taken[1], measured.plain[i] = taken[2];
+      measured.tree_tests[i] = subjects[0].tests(workload),
+      measured.plain_tests[i] = subjects[2].tests(workload);
     }
     return measured;
   }
@@ -73,7 +80,8 @@ class Detailed {
 
 void run_experiment(Run& run) {
   Table table({"triangles", "structure", "build (us)", "colliding (ns/pair)", "colliding (25 %)",
-               "colliding (75 %)", "near miss (ns/pair)", "near miss (25 %)", "near miss (75 %)"});
+               "colliding (75 %)", "near miss (ns/pair)", "near miss (25 %)", "near miss (75 %)",
+               "nodes a shape", "height", "colliding, node tests", "near miss, node tests"});
   const Character man = default_male();
   const Character characters[] = {bench::coarser(man, few_triangles), man, bench::finer(man, 1),
                                   bench::finer(man, 2)};
@@ -81,13 +89,16 @@ void run_experiment(Run& run) {
   for (const Character& character : characters) {
     const Detailed detailed(character, std::min(run.sizes().poses, most_poses));
     const Measured measured = detailed.measure(run.sizes().pairs / 4, run.sizes().runs);
-    const auto add = [&](std::string_view name, double build, const Quartiles(&taken)[2]) {
+    constexpr MeanTests not_counted[2];
+    const auto add = [&](std::string_view name, double build, const Quartiles(&taken)[2],
+                         const TreeSize& size, const MeanTests(&tests)[2]) {
       table.add({character.triangles.size(), name, build, taken[0].median, taken[0].low, taken[0].high,
-                 taken[1].median, taken[1].low, taken[1].high});
+                 taken[1].median, taken[1].low, taken[1].high, size.nodes, size.height, tests[0].nodes,
+                 tests[1].nodes});
     };
-    add("OBB full mesh", measured.build_tree, measured.tree);
-    add(kernel_name, measured.build_hierarchy, measured.kernel);
-    add("BCH outline", measured.build_hierarchy, measured.plain);
+    add("OBB full mesh", measured.build_tree, measured.tree, measured.tree_size, measured.tree_tests);
+    add(kernel_name, measured.build_hierarchy, measured.kernel, measured.plain_size, not_counted);
+    add("BCH outline", measured.build_hierarchy, measured.plain, measured.plain_size, measured.plain_tests);
     run.done(++done / static_cast<double>(std::size(characters)));
   }
   run.write("mesh_detail", table);

@@ -55,19 +55,19 @@ struct Volumes {
   std::vector<double> leaves;        ///< square metres that the leaf discs over all projected triangles cover
 };
 
-Volumes volumes_of(const Character& character, std::uint32_t poses) {
+Volumes volumes_of(const Character& character, std::span<const ShapeSource> poses) {
   Skinner skinner(character);
   const bool closed = is_closed(character.triangles);
   Volumes volumes;
   std::vector<std::vector<Vec2>> from_above;
-  for (const PoseTime& at : sample_poses(character, poses)) {
-    const auto positions = skinner.pose(at);
+  for (const ShapeSource& pose : poses) {
+    const auto positions = skinner.pose(pose.at);
     auto& points = from_above.emplace_back();
     for (const Eigen::Vector3f& p : positions) points.push_back({p.x(), p.y()});
     volumes.radius.push_back(static_cast<double>(smallest_enclosing_disc(points).radius));
     volumes.mesh.push_back(closed ? enclosed_volume(positions, character.triangles) : not_told);
   }
-  volumes.leaves.resize(poses);
+  volumes.leaves.resize(poses.size());
   tbb::parallel_for(std::size_t{0}, from_above.size(), [&](std::size_t i) {
     const Hierarchy hierarchy = projected_hierarchy(from_above[i], character.triangles);
     volumes.leaves[i] = rasterise({}, discs_of(hierarchy, all_depths)).discs;
@@ -75,8 +75,9 @@ Volumes volumes_of(const Character& character, std::uint32_t poses) {
   return volumes;
 }
 
-void add_character(Run& run, const cli::LoadedCharacter& loaded, Table& table) {
-  Volumes volumes = volumes_of(loaded.character, run.sizes().poses);
+void add_character(Run& run, const cli::LoadedCharacter& loaded, std::span<const ShapeSource> poses,
+                   Table& table) {
+  Volumes volumes = volumes_of(loaded.character, poses);
   const double mesh = estimate(volumes.mesh, run.seed()).mean;
   const double height_per_mesh = static_cast<double>(loaded.report.height) / mesh;
   std::vector<double> cylinders;
@@ -102,12 +103,20 @@ void measure_paper_volumes(Run& run) {
   Table table({"character", "quantity", "paper (mean)", "mean", "paper (median)", "median",
                "paper (deviation)", "standard deviation", "mean (95 % low)", "mean (95 % high)", "poses"});
   const auto& characters = run.scene().characters();
-  for (const cli::LoadedCharacter& character : characters) add_character(run, character, table);
+  for (std::uint32_t c = 0; c < characters.size(); ++c) {
+    std::vector<ShapeSource> poses;
+    std::copy_if(run.scene().sources().begin(), run.scene().sources().end(), std::back_inserter(poses),
+                 [&](const ShapeSource& source) { return source.character == c; });
+    add_character(run, characters[c], poses, table);
+  }
   const auto is = [&](const char* source) {
     return std::any_of(characters.begin(), characters.end(),
                        [&](const auto& c) { return c.source == source; });
   };
-  if (is(man) && !is(bulky_man)) add_character(run, cli::load_character(bulky_man, {}), table);
+  if (is(man) && !is(bulky_man)) {
+    const std::vector<cli::LoadedCharacter> bulky = {cli::load_character(bulky_man, {})};
+    add_character(run, bulky[0], cli::list_random_shapes(bulky, run.sizes().poses, run.seed()), table);
+  }
   run.write("volume_paper", table);
 }
 

@@ -8,6 +8,7 @@
 #include "bench/answer_checks.hpp"
 #include "bench/report/experiment.hpp"
 #include "bench/report/subject.hpp"
+#include "bench/report/tree_size.hpp"
 #include "bench/report/words.hpp"
 
 // Query time: figure 3, right, of the paper.
@@ -42,15 +43,18 @@ void require_right(Run& run, const Subject& kernel, Semantics semantics, const b
 
 Table time_structures(Run& run) {
   Table table({"structure", "pairs", "paper (ns/pair)", "ns/pair", "lower quartile (ns)",
-               "upper quartile (ns)", "hits (%)"});
+               "upper quartile (ns)", "hits (%)", "nodes a shape", "height", "node tests a pair",
+               "leaf tests a pair"});
   std::vector<std::string> names;
   std::vector<Subject> subjects;
+  std::vector<TreeSize> sizes(1);
   const ShapeSet& set = run.scene().set(Semantics::boundary);
   names.emplace_back(kernel_name);
   subjects.push_back(subject_of(set));
   for (const Contestant& contestant : contestants()) {
     names.emplace_back(contestant.name);
     subjects.push_back(subject_of(run.contestants().structure(contestant)));
+    sizes.push_back(tree_size(contestant, run.scene().bodies()));
   }
   double done = 0;
   for (const std::string_view name : workloads) {
@@ -61,8 +65,10 @@ Table time_structures(Run& run) {
     for (std::size_t i = 0; i < subjects.size(); ++i) {
       const double hits = 100 * static_cast<double>(count_hits(subjects[i], workload)) /
                           static_cast<double>(workload.pairs.size());
+      const MeanTests tests = subjects[i].tests(workload);
       table.add({names[i], name, name == paper_workload ? Cell(paper_time(names[i])) : Cell(""),
-                 taken[i].median, taken[i].low, taken[i].high, hits});
+                 taken[i].median, taken[i].low, taken[i].high, hits, sizes[i].nodes, sizes[i].height,
+                 tests.nodes, tests.leaves});
     }
     run.done(0.15 * ++done);
   }
@@ -114,6 +120,12 @@ std::string findings(const Results& results) {
     };
     return brief(of(structure) / of("BCH outline"));
   };
+  const auto faster = [&](std::string_view structure) {
+    return brief(100 * (time(structure, paper_workload) / time(structure, "paper500_cached") - 1));
+  };
+  const auto tests = [&](std::string_view structure) {
+    return brief(table.number({{"structure", structure}, {"pairs", "colliding"}}, "node tests a pair"));
+  };
   const auto distinct = [&](std::string_view structure) {
     return brief(time(structure, "colliding") / time("BCH outline", "colliding"));
   };
@@ -126,11 +138,17 @@ std::string findings(const Results& results) {
       "paper, the protocol is one reason, another is the hardware: the paper's times are those of a laptop "
       "with an "
       "Intel Core i7 3630QM at 3.2 GHz.</p>"
+      "<p>Cases that are each repeated before the next are {} % faster than in sequence for the plain "
+      "traversal and {} % "
+      "for the OBB tree of the outline; the paper tells of about 15 %. A colliding pair takes {} node tests "
+      "of the "
+      "cylinders and {} of the boxes over the outline.</p>"
       "<p>Distinct pairs are the ones to plan by: a colliding one takes {} ns by the plain traversal, {} ns "
       "in the "
       "batch kernel; a near miss {} and {} ns.</p>",
       ratio("OBB outline"), paper("OBB outline"), ratio("OBB projected"), paper("OBB projected"),
-      distinct("OBB outline"), distinct("OBB projected"), brief(time("BCH outline", "colliding")),
+      distinct("OBB outline"), distinct("OBB projected"), faster("BCH outline"), faster("OBB outline"),
+      tests("BCH outline"), tests("OBB outline"), brief(time("BCH outline", "colliding")),
       brief(time(kernel_name, "colliding")), brief(time("BCH outline", "near_miss")),
       brief(time(kernel_name, "near_miss")));
 }

@@ -75,7 +75,10 @@ Json json_of(const Experiment& experiment, const Table& facts) {
 }  // namespace
 
 void run_report(const Options& options) {
-  bench::Scene scene({options.characters, options.sizes.poses, {options.sizes.pairs, options.sizes.agents}});
+  bench::Scene scene({.characters = options.characters,
+                      .poses = options.sizes.poses,
+                      .pose_seed = options.seed,
+                      .sizes = {options.sizes.pairs, options.sizes.agents}});
   // First, as a bad file should neither cost minutes nor leave files, and an import wants a process without threads.
   scene.characters();
   cli::make_folder(options.folder);

@@ -10,12 +10,15 @@
 #include "baselines/pair_distances.hpp"
 #include "baselines/structure.hpp"
 #include "bench/crowd.hpp"
+#include "bench/random.hpp"
 #include "layout/shape_set.hpp"
 
 namespace bch::report {
 
-/// The paper's experiment on errors: of each case, two people stand apart, turned at random, and the first one slides
-/// straight at the second until something says that they collide; then the two meshes are so far from each other.
+/// The paper's experiment on errors: of each case, two people stand apart, turned at random, and the first one slides along
+/// the x axis past the second, its own way up to half a metre beside the other, until something says that they collide;
+/// then the two meshes are so far from each other. Cases are drawn again where the leaf discs over the outlines do not
+/// meet on the way, so that nobody passes by.
 class SlideCases {
  public:
   /// The same for the same shapes and seed everywhere.
@@ -26,7 +29,8 @@ class SlideCases {
   std::span<const Pair> pairs() const { return pairs_; }
 
   /// Where on the x axis the first one is when it is seen to collide, metres: one a case, NaN where it never is. Both
-  /// run on all threads. The answer is asked for every millimetre, and the place within that then halved to a micrometre.
+  /// run on all threads. The answer is asked for every millimetre, and the place within that then halved to a micrometre;
+  /// contact_time() says from where on.
   std::vector<double> contacts(const ShapeSet& set) const;
   std::vector<double> contacts(const baselines::Structure& structure, std::uint32_t max_depth) const;
 
@@ -34,11 +38,10 @@ class SlideCases {
   std::vector<double> distances(const baselines::PairDistances& bodies, std::span<const double> places) const;
 
  private:
-  /// `meet`: whether the two of some agents do.
+  void draw(cli::Random& random, std::size_t of);
+  /// `meet`: whether the two of some agents do; not before so many steps.
   template <class Meet>
-  std::vector<double> contacts(Meet meet) const;
-  template <class Meet>
-  double contact(std::size_t of, Meet meet) const;
+  double contact(std::size_t of, double first_step, Meet meet) const;
 
   cli::Crowd crowd_;  ///< agents 2 i and 2 i + 1 are case i
   std::vector<Pair> pairs_;

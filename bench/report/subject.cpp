@@ -8,12 +8,32 @@
 #include <stdexcept>
 
 namespace bch::report {
+namespace {
+
+constexpr std::size_t counted_pairs = 2'000;
+
+MeanTests mean_tests(const baselines::Structure& structure, const bench::Workload& workload,
+                     std::uint32_t max_depth) {
+  baselines::TestCounts counts;
+  const std::size_t pairs = std::min(counted_pairs, workload.pairs.size());
+  for (std::size_t i = 0; i < pairs; ++i)
+    structure.query(workload.agents(), workload.pairs[i], max_depth, counts);
+  const auto each = [&](std::uint64_t tests) {
+    return static_cast<double>(tests) / static_cast<double>(pairs);
+  };
+  return {each(counts.nodes), each(counts.leaves)};
+}
+
+}  // namespace
 
 Subject subject_of(const baselines::Structure& structure, std::uint32_t max_depth) {
   return {[&structure, max_depth](const bench::Workload& workload, bench::Hits& hits) {
             structure.query(workload.agents(), workload.pairs, hits, max_depth);
           },
-          [&structure, max_depth](const SlideCases& cases) { return cases.contacts(structure, max_depth); }};
+          [&structure, max_depth](const SlideCases& cases) { return cases.contacts(structure, max_depth); },
+          [&structure, max_depth](const bench::Workload& workload) {
+            return mean_tests(structure, workload, max_depth);
+          }};
 }
 
 Subject subject_of(const ShapeSet& set, Semantics semantics, const kernel::Implementation& implementation) {
@@ -21,7 +41,8 @@ Subject subject_of(const ShapeSet& set, Semantics semantics, const kernel::Imple
                                                                      bench::Hits& hits) {
             collide(set, workload.agents(), workload.pairs, hits, options);
           },
-          [&set](const SlideCases& cases) { return cases.contacts(set); }};
+          [&set](const SlideCases& cases) { return cases.contacts(set); },
+          [](const bench::Workload&) { return MeanTests{}; }};
 }
 
 bench::Hits answers(const Subject& subject, const bench::Workload& workload) {

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <span>
 #include <string>
 #include <vector>
@@ -18,10 +19,17 @@ namespace bch::report {
 
 constexpr std::string_view kernel_name = "BCH outline in the batch kernel";
 
+/// Tests that a traversal makes of a pair, on average; NaN where nothing counts them.
+struct MeanTests {
+  double nodes = std::numeric_limits<double>::quiet_NaN();   ///< of two discs or boxes
+  double leaves = std::numeric_limits<double>::quiet_NaN();  ///< of two triangles or segments
+};
+
 /// Whatever answers pairs, be it a structure down to some depth or a kernel over a set.
 struct Subject {
   std::function<void(const bench::Workload&, bench::Hits&)> answer;
   std::function<std::vector<double>(const SlideCases&)> contacts;
+  std::function<MeanTests(const bench::Workload&)> tests;  ///< over its first pairs
 };
 
 /// What is referred to must outlive the subject.

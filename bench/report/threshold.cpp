@@ -3,8 +3,11 @@
 
 #include <fmt/format.h>
 
+#include <array>
+
 #include "bench/report/experiment.hpp"
 #include "bench/report/subject.hpp"
+#include "bench/report/tree_size.hpp"
 #include "bench/report/words.hpp"
 #include "bench/stopwatch.hpp"
 
@@ -19,7 +22,7 @@ constexpr double thresholds[] = {0.0025, 0.005, 0.01, 0.02, 0.04, 0.08};  // met
 struct Variant {
   std::vector<Shape> shapes;
   std::vector<double> microseconds;
-  double nodes = 0;
+  TreeSize size{};
 };
 
 Variant make_variant(Run& run, double threshold) {
@@ -31,17 +34,26 @@ Variant make_variant(Run& run, double threshold) {
       builder.contour(shape.outline, static_cast<float>(threshold), SplitRule::centroid, shape.hierarchy);
       if (timed) made.microseconds.push_back(watch.nanoseconds() / 1000);
     }
-  for (const Shape& shape : made.shapes)
-    made.nodes += static_cast<double>(shape.hierarchy.nodes.size()) / static_cast<double>(made.shapes.size());
+  made.size = tree_size(made.shapes);
   return made;
+}
+
+/// Of the plain traversal.
+std::array<MeanTests, 2> tests_of(Run& run, const Variant& variant) {
+  std::vector<baselines::Body> bodies(variant.shapes.size());
+  for (std::size_t i = 0; i < bodies.size(); ++i) bodies[i].shape = variant.shapes[i];
+  const auto plain = baselines::kind("reference").build(bodies, {});
+  const Subject subject = subject_of(*plain);
+  return {subject.tests(run.scene().workload("colliding")), subject.tests(run.scene().workload("near_miss"))};
 }
 
 void run_experiment(Run& run) {
   const SlideCases cases(run.scene().shapes(), run.sizes().cases, run.seed());
-  Table table({"threshold (cm)", "nodes a shape", "bytes a shape", "hierarchy (us)", "hierarchy (25 %)",
-               "hierarchy (75 %)", "colliding (ns/pair)", "colliding (25 %)", "colliding (75 %)",
-               "near miss (ns/pair)", "near miss (25 %)", "near miss (75 %)", "distance at detection (cm)",
-               "distance (95 % low)", "distance (95 % high)"});
+  Table table({"threshold (cm)", "nodes a shape", "height", "bytes a shape", "hierarchy (us)",
+               "hierarchy (25 %)", "hierarchy (75 %)", "colliding (ns/pair)", "colliding (25 %)",
+               "colliding (75 %)", "near miss (ns/pair)", "near miss (25 %)", "near miss (75 %)",
+               "colliding, node tests of the plain traversal", "near miss, node tests of the plain traversal",
+               "distance at detection (cm)", "distance (95 % low)", "distance (95 % high)"});
   std::vector<Variant> variants;
   std::vector<ShapeSet> sets;
   std::vector<Subject> subjects;
@@ -55,10 +67,12 @@ void run_experiment(Run& run) {
     const Quartiles built = quartiles(variants[i].microseconds);
     const Estimate distance =
         estimate(known(cases.distances(*run.distances(), subjects[i].contacts(cases))), run.seed());
-    table.add({100 * thresholds[i], variants[i].nodes,
+    const auto [colliding_tests, near_tests] = tests_of(run, variants[i]);
+    table.add({100 * thresholds[i], variants[i].size.nodes, variants[i].size.height,
                static_cast<double>(sets[i].bytes()) / sets[i].shape_count(), built.median, built.low,
                built.high, colliding[i].median, colliding[i].low, colliding[i].high, near[i].median,
-               near[i].low, near[i].high, distance.mean, distance.low, distance.high});
+               near[i].low, near[i].high, colliding_tests.nodes, near_tests.nodes, distance.mean,
+               distance.low, distance.high});
   }
   run.write("threshold", table);
 }

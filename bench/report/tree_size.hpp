@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <limits>
+#include <span>
+
+#include "bench/report/contestants.hpp"
+
+namespace bch::report {
+
+/// Means over shapes; NaN of a structure whose tree is not ours to look into.
+struct TreeSize {
+  double nodes = std::numeric_limits<double>::quiet_NaN();
+  double height =
+      std::numeric_limits<double>::quiet_NaN();  ///< edges on the longest way from the root to a leaf
+};
+
+TreeSize tree_size(std::span<const Shape> shapes);  ///< of their hierarchies
+TreeSize tree_size(const Contestant& contestant, std::span<const baselines::Body> bodies);
+
+}  // namespace bch::report
