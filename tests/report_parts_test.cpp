@@ -10,6 +10,7 @@
 #include "bench/report/front.hpp"
 #include "bench/report/mesh_volume.hpp"
 #include "bench/report/packing.hpp"
+#include "bench/report/paper_findings.hpp"
 #include "bench/report/slide.hpp"
 #include "bench/report/statistics.hpp"
 #include "bench/report/subject.hpp"
@@ -182,6 +183,21 @@ TEST(ReportParts, ClosedMeshesHaveAVolume) {
   sides.push_back({1, 3, 2});  // the other way round
   EXPECT_FALSE(is_closed(sides));
   EXPECT_TRUE(is_closed(default_bulky_male().triangles));
+}
+
+TEST(ReportParts, FindingsOfThePaperHaveAVerdictFromTables) {
+  Table critical({"structure", "critical depth"});
+  critical.add({kernel_name, 9});
+  Table late({"structure", "critical depth"});
+  late.add({kernel_name, 12});
+  const auto page = [](const Table* table) {
+    return paper_findings([&](std::string_view name) { return table != nullptr && name == "depth_critical"; },
+                          [&](std::string_view) -> const Table& { return *table; });
+  };
+  EXPECT_EQ(page(nullptr).find("From depth 9"), std::string::npos);
+  EXPECT_NE(page(nullptr).find("<b>Tried, and not kept.</b>"), std::string::npos);  // needs no table
+  EXPECT_NE(page(&critical).find("<b>Reproduced.</b> It is 9."), std::string::npos);
+  EXPECT_NE(page(&late).find("<b>Reversed.</b> It is 12."), std::string::npos);
 }
 
 TEST(ReportParts, PackingIsDenseAndWithinTheHexagonalBound) {

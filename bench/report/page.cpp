@@ -11,6 +11,7 @@
 #include "bench/output.hpp"
 #include "bench/report/chart.hpp"
 #include "bench/report/page_style.hpp"
+#include "bench/report/paper_findings.hpp"
 #include "bench/report/report.hpp"
 #include "bench/report/words.hpp"
 
@@ -97,7 +98,7 @@ std::string section(Folder& folder, const Experiment& experiment, bool pictures)
 }
 
 std::string contents() {
-  std::string html = "<nav><ol>\n";
+  std::string html = "<nav><ol>\n<li><a href=\"#findings\">The paper's findings</a></li>\n";
   for (const Experiment& experiment : experiments())
     html += fmt::format("<li><a href=\"#experiment-{}\">{}</a></li>\n", experiment.name,
                         escaped(experiment.title));
@@ -112,6 +113,8 @@ std::string page_of(Folder& folder) {
   html += fmt::format("<pre>{}</pre>\n", escaped(facts.text(facts.row({{"what", "command"}}), "value")));
   if (!pictures) html += "<p>There is no gnuplot here, so that this page has tables and no charts.</p>\n";
   html += contents();
+  html += paper_findings([&](std::string_view name) { return folder.has(name); },
+                         [&](std::string_view name) -> const Table& { return folder.table(name); });
   for (const Experiment& experiment : experiments()) html += section(folder, experiment, pictures);
   return html + "<section id=\"run\">\n<h2>Run</h2>\n" + html_of(facts, "run", Cells::words) +
          "</section>\n</main></body></html>\n";

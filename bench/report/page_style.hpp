@@ -14,7 +14,8 @@ body { margin: 0; background: #fff; color: #1a1a1a; font: 16px/1.5 "Helvetica Ne
 main { max-width: 1200px; margin: 0 auto; padding: 24px 20px 64px; }
 h1 { font-size: 30px; line-height: 1.2; margin: 16px 0 12px; }
 h2 { font-size: 22px; margin: 48px 0 8px; padding-top: 12px; border-top: 2px solid #1a1a1a; }
-p, nav { max-width: 46em; }
+p, nav, #findings li { max-width: 46em; }
+#findings li { margin: 0 0 10px; }
 .method { color: #4a4a4a; }
 pre { background: #f3f3f3; padding: 10px 14px; overflow-x: auto; }
 nav ol { padding-left: 1.6em; columns: 2; }

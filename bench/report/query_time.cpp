@@ -48,6 +48,8 @@ Table time_structures(Run& run) {
   std::vector<std::string> names;
   std::vector<Subject> subjects;
   std::vector<TreeSize> sizes(1);
+  const auto leaf_discs =
+      baselines::kind("bch_projected").build(run.scene().bodies(), {.projected_triangles = false});
   const ShapeSet& set = run.scene().set(Semantics::boundary);
   names.emplace_back(kernel_name);
   subjects.push_back(subject_of(set));
@@ -55,6 +57,10 @@ Table time_structures(Run& run) {
     names.emplace_back(contestant.name);
     subjects.push_back(subject_of(run.contestants().structure(contestant)));
     sizes.push_back(tree_size(contestant, run.scene().bodies()));
+    if (contestant.kind != "bch_projected") continue;
+    names.emplace_back(leaf_discs_name);
+    subjects.push_back(subject_of(*leaf_discs));
+    sizes.push_back(sizes.back());
   }
   double done = 0;
   for (const std::string_view name : workloads) {
@@ -170,7 +176,8 @@ const Experiment query_time_experiment{
     "plain "
     "traversal's with brute force over all discs, those of exact structures with each other's. Of a single "
     "cylinder "
-    "nothing but that it never misses an outline was asked, of fixed ones nothing.",
+    "nothing but that it never misses an outline was asked, of fixed ones and of leaf discs over projected "
+    "triangles nothing.",
     110,
     false,
     run_experiment,

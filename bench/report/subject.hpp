@@ -18,6 +18,8 @@
 namespace bch::report {
 
 constexpr std::string_view kernel_name = "BCH outline in the batch kernel";
+constexpr std::string_view leaf_discs_name =
+    "BCH projected leaf discs";  ///< without the exact tests of its triangles
 
 /// Tests that a traversal makes of a pair, on average; NaN where nothing counts them.
 struct MeanTests {
