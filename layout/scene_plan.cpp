@@ -57,7 +57,9 @@ class Shapes {
 
 std::vector<std::uint32_t> depths_of(std::span<const SceneAgent> agents, const SceneUse& use) {
   std::vector<std::uint32_t> depths;
-  for (const SceneAgent& agent : agents) depths.push_back(use.depth ? use.depth(agent.distance) : all_depths);
+  for (const SceneAgent& agent : agents)
+    depths.push_back(std::min(use.depth ? use.depth(agent.distance) : all_depths,
+                              use.density_depth ? use.density_depth(agent.density) : all_depths));
   return depths;
 }
 
@@ -73,11 +75,19 @@ std::vector<std::uint32_t> different(std::vector<std::uint32_t> depths) {
 
 }  // namespace
 
+std::uint32_t depth_at_density(double people_per_square_metre) {
+  if (people_per_square_metre < 1.1) return 0;
+  if (people_per_square_metre < 1.75) return 3;
+  return people_per_square_metre < 2.4 ? 6 : all_depths;
+}
+
 ScenePlan plan_scene(std::span<const SceneAgent> agents, const SceneUse& use) {
   require(use);
   for (std::size_t i = 0; i < agents.size(); ++i) {
     if (!(agents[i].distance >= 0) || !std::isfinite(agents[i].distance))
       reject(i, "a distance of " + shortest(agents[i].distance) + " m");
+    if (!(agents[i].density >= 0) || !std::isfinite(agents[i].density))
+      reject(i, "a density of " + shortest(agents[i].density) + " people per square metre");
     if (!std::isfinite(agents[i].shows.at.seconds))
       reject(i, "at " + shortest(agents[i].shows.at.seconds) + " s");
   }

@@ -24,6 +24,7 @@ struct ShapeSource {
 struct SceneAgent {
   ShapeSource shows;
   double distance = 0;  ///< metres, from who looks
+  double density = 0;   ///< people per square metre around the agent: local_densities() tells it
 };
 
 /// By measurement (`bch_ratios --table plans`): what shortcuts take to build, over what they save of a pair of a crowd.
@@ -35,6 +36,8 @@ struct SceneUse {
   bool solid = false;
   /// Level of detail: the cut depth of agents at a distance, all_depths where it does not matter. None: all_depths.
   std::function<std::uint32_t(double metres)> depth = {};
+  /// The same by the density around agents, for example depth_at_density(); where both say something, the coarser counts.
+  std::function<std::uint32_t(double people_per_square_metre)> density_depth = {};
   /// Seconds: times within a clip are rounded down to multiples of it, so that agents share shapes; 0: only those do
   /// that show the very same.
   float pose_step = 0;
@@ -51,7 +54,11 @@ struct ScenePlan {
   std::vector<std::uint8_t> agent_level;   ///< one an agent: Agents::level
 };
 
-/// Errors:  throws std::invalid_argument on a distance that is negative or not finite, naming the agent, a time that is
+/// The cut depth that a density asks for, by measurement (`bch report --experiment detail`): the coarsest one that stops a
+/// walking person without need once a second at most; from where there is none, all_depths.
+std::uint32_t depth_at_density(double people_per_square_metre);
+
+/// Errors:  throws std::invalid_argument on a distance or density that is negative or not finite, naming the agent, a time that is
 ///          not finite, a pose step that is negative or not finite, a number of pairs that is negative or NaN, and
 ///          on more than 255 different depths.
 ScenePlan plan_scene(std::span<const SceneAgent> agents, const SceneUse& use = {});

@@ -8,8 +8,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "kernel/collide.hpp"
+#include "layout/local_density.hpp"
 #include "layout/pose_shape.hpp"
 #include "tests/scenes.hpp"
 #include "tests/test_characters.hpp"
@@ -58,6 +60,41 @@ TEST(ScenePlan, SharesShapesWithinThePoseStep) {
     EXPECT_GE(later, 0);
     EXPECT_LT(later, 0.5f);
   }
+}
+
+TEST(ScenePlan, DepthFollowsTheDensity) {
+  std::vector<SceneAgent> agents;
+  for (const double density : {0.5, 1.2, 2.0, 5.0}) agents.push_back({{0, {}}, 7, density});
+  const ScenePlan plan = plan_scene(agents, {.density_depth = depth_at_density});
+  EXPECT_EQ(plan.set.depths, (std::vector<std::uint32_t>{0, 3, 6, all_depths}));
+  EXPECT_EQ(plan.agent_level, (std::vector<std::uint8_t>{0, 1, 2, 3}));
+  // The coarser of both: 6 at seven metres.
+  const ScenePlan both = plan_scene(agents, {.depth = depth_at, .density_depth = depth_at_density});
+  EXPECT_EQ(both.set.depths, (std::vector<std::uint32_t>{0, 3, 6}));
+  EXPECT_EQ(both.agent_level, (std::vector<std::uint8_t>{0, 1, 2, 2}));
+  for (const double wrong : {-0.5, std::numeric_limits<double>::infinity(), static_cast<double>(nan)}) {
+    agents[1].density = wrong;
+    EXPECT_THROW(plan_scene(agents), std::invalid_argument) << wrong;
+  }
+}
+
+TEST(ScenePlan, LocalDensitiesEqualCounting) {
+  test::Random random(17);
+  std::vector<double> x, y;
+  for (int i = 0; i < 400; ++i) x.push_back(random.uniform(-6, 9)), y.push_back(random.uniform(-4, 4));
+  x.push_back(2), y.push_back(0), x.push_back(4), y.push_back(0);  // 2 m apart, touching the circle
+  const std::vector<double> densities = local_densities(x, y, 2);
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    int count = 0;
+    for (std::size_t j = 0; j < x.size(); ++j)
+      count += (x[i] - x[j]) * (x[i] - x[j]) + (y[i] - y[j]) * (y[i] - y[j]) <= 4 ? 1 : 0;
+    EXPECT_DOUBLE_EQ(densities[i], count / (std::numbers::pi * 4)) << i;
+  }
+  EXPECT_TRUE(local_densities({}, {}).empty());
+  EXPECT_THROW(local_densities(x, std::span(y).first(3)), std::invalid_argument);
+  EXPECT_THROW(local_densities(x, y, 0), std::invalid_argument);
+  x[5] = nan;
+  EXPECT_THROW(local_densities(x, y), std::invalid_argument);
 }
 
 /// Whatever the step, up to the very end of every clip.

@@ -24,7 +24,7 @@ std::span<const Experiment> experiments() {
   static const Experiment all[] = {error_time_experiment, construction_experiment, query_time_experiment,
                                    distance_experiment,   depth_experiment,        volume_experiment,
                                    threshold_experiment,  mesh_detail_experiment,  density_experiment,
-                                   stability_experiment};
+                                   detail_experiment,     stability_experiment};
   return all;
 }
 
