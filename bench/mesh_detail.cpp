@@ -9,6 +9,8 @@
 #include <utility>
 #include <vector>
 
+#include "bench/random.hpp"
+
 namespace bch::bench {
 namespace {
 
@@ -26,13 +28,45 @@ std::uint32_t add_middle(Character& character, std::uint32_t a, std::uint32_t b)
   return static_cast<std::uint32_t>(character.vertices.size() - 1);
 }
 
-void cut(Character& character) {
+/// Of the surface at each vertex, at rest.
+std::vector<Eigen::Vector3f> normals_of(const Character& character) {
+  std::vector<Eigen::Vector3f> normals(character.vertices.size(), Eigen::Vector3f::Zero());
+  for (const auto& [a, b, c] : character.triangles) {
+    const Eigen::Vector3f normal =
+        (character.vertices[b] - character.vertices[a]).cross(character.vertices[c] - character.vertices[a]);
+    for (const std::uint32_t v : {a, b, c}) normals[v] += normal;
+  }
+  return normals;
+}
+
+/// Moves the middles of edges, which stand behind the vertices that there were.
+class Relief {
+ public:
+  void begin(const Character& character) { normals_ = normals_of(character); }
+
+  void move_middle(Character& character, std::uint32_t a, std::uint32_t b) {
+    constexpr double most = 0.125;  // of the edge's length
+    const float length = (character.vertices[a] - character.vertices[b]).norm();
+    const Eigen::Vector3f normal = (normals_[a].normalized() + normals_[b].normalized()).normalized();
+    const auto share = static_cast<float>(random_.uniform(2 * most) - most);
+    character.vertices.back() += share * length * normal;
+  }
+
+ private:
+  cli::Random random_{5};
+  std::vector<Eigen::Vector3f> normals_;
+};
+
+void cut(Character& character, Relief* relief = nullptr) {
+  if (relief != nullptr) relief->begin(character);
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> middle_of;
   const auto middle = [&](std::uint32_t a, std::uint32_t b) {
     const std::pair<std::uint32_t, std::uint32_t> edge = std::minmax(a, b);
     const auto found = middle_of.find(edge);
-    return found != middle_of.end() ? found->second
-                                    : middle_of[edge] = add_middle(character, edge.first, edge.second);
+    if (found != middle_of.end()) return found->second;
+    const std::uint32_t added = add_middle(character, edge.first, edge.second);
+    if (relief != nullptr) relief->move_middle(character, edge.first, edge.second);
+    return middle_of[edge] = added;
   };
   Triangles finer;
   for (const auto [a, b, c] : character.triangles) {
@@ -87,6 +121,13 @@ void drop_vertices(Character& character) {
 Character finer(const Character& character, int times) {
   Character result = character;
   for (int i = 0; i < times; ++i) cut(result);
+  return result;
+}
+
+Character with_relief(const Character& character, int times) {
+  Character result = character;
+  Relief relief;
+  for (int i = 0; i < times; ++i) cut(result, &relief);
   return result;
 }
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "bench/mesh_detail.hpp"
 #include "bench/report/coverage.hpp"
 #include "bench/report/front.hpp"
 #include "bench/report/mesh_volume.hpp"
@@ -183,6 +184,22 @@ TEST(ReportParts, ClosedMeshesHaveAVolume) {
   sides.push_back({1, 3, 2});  // the other way round
   EXPECT_FALSE(is_closed(sides));
   EXPECT_TRUE(is_closed(default_bulky_male().triangles));
+}
+
+TEST(ReportParts, ReliefStandsOutOfTheSurface) {
+  const Character man = default_male(), flat = bench::finer(man, 1), relief = bench::with_relief(man, 1);
+  ASSERT_EQ(relief.vertices.size(), flat.vertices.size());
+  EXPECT_EQ(relief.triangles, flat.triangles);
+  EXPECT_TRUE(is_closed(relief.triangles));
+  float farthest = 0;
+  for (std::size_t v = 0; v < flat.vertices.size(); ++v) {
+    const float moved = (relief.vertices[v] - flat.vertices[v]).norm();
+    EXPECT_TRUE(v >= man.vertices.size() || moved == 0) << v;
+    farthest = std::max(farthest, moved);
+  }
+  EXPECT_GT(farthest, 0.003f);
+  EXPECT_LT(farthest, 0.03f);
+  EXPECT_EQ(bench::with_relief(man, 1).vertices, relief.vertices);
 }
 
 TEST(ReportParts, FindingsOfThePaperHaveAVerdictFromTables) {
