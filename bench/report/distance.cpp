@@ -3,6 +3,9 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+#include <map>
+
 #include "bench/report/experiment.hpp"
 #include "bench/report/subject.hpp"
 #include "bench/report/words.hpp"
@@ -16,11 +19,12 @@ namespace {
 struct Row {
   std::string_view contestant;
   double paper;
+  bool in_groups = false;  ///< also for each kind of clips and couple of people
 };
 constexpr double not_told = std::numeric_limits<double>::quiet_NaN();
 constexpr Row rows[] = {
-    {"single cylinder", 20},     {"BCH outline", 5}, {"BCH outline by centre", not_told},
-    {"BCH projected", not_told}, {"OBB outline", 4}, {"OBB projected", not_told},
+    {"single cylinder", 20, true}, {"BCH outline", 5, true}, {"BCH outline by centre", not_told},
+    {"BCH projected", not_told},   {"OBB outline", 4, true}, {"OBB projected", not_told},
     {"OBB full mesh", 0},
 };
 
@@ -30,7 +34,54 @@ struct Tables {
                  "standard deviation (cm)", "lower quartile (cm)", "upper quartile (cm)", "cases",
                  "never detected"}};
   Table cases{{"structure", "case", "place (m)", "distance (cm)"}};
+  Table groups{{"structure", "by", "group", "mean (cm)", "mean (95 % low)", "mean (95 % high)", "median (cm)",
+                "cases"}};
 };
+
+/// Two names in one order, whoever slides.
+std::string couple(const std::string& a, const std::string& b) {
+  return a < b ? a + " + " + b : b + " + " + a;
+}
+
+/// What two people do and who they are, case by case.
+struct Group {
+  std::string_view by;
+  std::vector<std::string> of_case;
+};
+
+/// "walk" of "walk fast" or "walk_07_01".
+std::string kind_of(const cli::LoadedCharacter& character, PoseTime at) {
+  const std::string name = cli::clip_name(character, at);
+  return name.substr(0, name.find_first_of(" _"));
+}
+
+std::vector<Group> groups_of(Run& run, const SlideCases& cases) {
+  Group kinds{"clips", {}}, people{"people", {}};
+  const auto& sources = run.scene().sources();
+  const auto& characters = run.scene().characters();
+  for (const Pair pair : cases.pairs()) {
+    const ShapeSource &a = sources[cases.agents().shape[pair.first]],
+                      &b = sources[cases.agents().shape[pair.second]];
+    const cli::LoadedCharacter &first = characters[a.character], &second = characters[b.character];
+    kinds.of_case.push_back(couple(kind_of(first, a.at), kind_of(second, b.at)));
+    people.of_case.push_back(couple(cli::file_name(first), cli::file_name(second)));
+  }
+  return {kinds, people};
+}
+
+void add_groups(const Run& run, const Row& row, std::span<const Group> groups,
+                std::span<const double> distances, Table& table) {
+  for (const Group& group : groups) {
+    std::map<std::string, std::vector<double>> parts;
+    for (std::size_t i = 0; i < distances.size(); ++i)
+      if (!std::isnan(distances[i])) parts[group.of_case[i]].push_back(distances[i]);
+    for (const auto& [name, found] : parts) {
+      const Estimate mean = estimate(found, run.seed());
+      table.add({row.contestant, group.by, name, mean.mean, mean.low, mean.high, quartiles(found).median,
+                 found.size()});
+    }
+  }
+}
 
 void add(const Run& run, const Row& row, std::span<const double> places, std::span<const double> distances,
          Tables& out) {
@@ -45,6 +96,7 @@ void add(const Run& run, const Row& row, std::span<const double> places, std::sp
 
 void run_experiment(Run& run) {
   const SlideCases cases(run.scene().shapes(), run.sizes().cases, run.seed());
+  const std::vector<Group> groups = groups_of(run, cases);
   const ShapeSet leaves(run.scene().shapes()), roots(run.scene().shapes(), {{0}});
   Tables out;
   double done = 0;
@@ -55,11 +107,14 @@ void run_experiment(Run& run) {
                                        : row.contestant == "single cylinder"
                                            ? cases.contacts(roots)
                                            : cases.contacts(structure, all_depths);
-    add(run, row, places, cases.distances(*run.distances(), places), out);
+    const std::vector<double> distances = cases.distances(*run.distances(), places);
+    add(run, row, places, distances, out);
+    if (row.in_groups) add_groups(run, row, groups, distances, out.groups);
     run.done(++done / static_cast<double>(std::size(rows)));
   }
   run.write("distance", out.summary);
   run.write("distance_cases", out.cases);
+  run.write("distance_groups", out.groups);
 }
 
 /// "X: 6.7 cm (95 % 6.1 to 7.3; the paper 5)".
@@ -70,8 +125,24 @@ std::string words_of(const Table& table, std::string_view structure) {
                      brief(table.number(row, "mean (95 % high)")), brief(table.number(row, "paper (cm)")));
 }
 
+/// The groups in which the outline's cylinders err most and least.
+std::string extremes(const Table& groups, std::string_view by) {
+  std::size_t least = groups.rows().size(), most = least;
+  for (std::size_t i = 0; i < groups.rows().size(); ++i) {
+    if (groups.text(i, "structure") != "BCH outline" || groups.text(i, "by") != by) continue;
+    const double mean = groups.number(i, "mean (cm)");
+    if (least == groups.rows().size() || mean < groups.number(least, "mean (cm)")) least = i;
+    if (most == groups.rows().size() || mean > groups.number(most, "mean (cm)")) most = i;
+  }
+  const auto words = [&](std::size_t row) {
+    return fmt::format("{} cm for {} ({} cases)", brief(groups.number(row, "mean (cm)")),
+                       escaped(groups.text(row, "group")), groups.text(row, "cases"));
+  };
+  return words(least) + " to " + words(most);
+}
+
 std::string findings(const Results& results) {
-  const Table& table = results("distance");
+  const Table &table = results("distance"), &groups = results("distance_groups");
   const double outline = table.number({{"structure", "OBB outline"}}, "mean (cm)");
   const double discs = table.number({{"structure", "BCH outline"}}, "mean (cm)");
   return fmt::format(
@@ -80,11 +151,13 @@ std::string findings(const Results& results) {
       "seen from above, so their {} cm are the price of leaving out height, a leg that passes "
       "under an arm. Discs "
       "with leaves of 1 cm add {} cm to that; in the paper {} cm. Our people are other meshes in "
-      "other motions.</p>",
+      "other motions.</p>"
+      "<p>By what people do, the outline's cylinders stop them from {}; by who they are, from {}.</p>",
       words_of(table, "single cylinder"), words_of(table, "BCH outline"), words_of(table, "OBB outline"),
       words_of(table, "OBB full mesh"), brief(outline), brief(discs - outline),
       brief(table.number({{"structure", "BCH outline"}}, "paper (cm)") -
-            table.number({{"structure", "OBB outline"}}, "paper (cm)")));
+            table.number({{"structure", "OBB outline"}}, "paper (cm)")),
+      extremes(groups, "clips"), extremes(groups, "people"));
 }
 
 }  // namespace
@@ -101,7 +174,7 @@ const Experiment distance_experiment{"distance",
                                      40,
                                      true,
                                      run_experiment,
-                                     {"distance"},
+                                     {"distance", "distance_groups"},
                                      {{"distance",
                                        "Distance of the meshes at detection: median, quartiles (box), 5 % "
                                        "and 95 % (whiskers), mean (diamond) and "
