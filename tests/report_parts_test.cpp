@@ -120,6 +120,20 @@ TEST(ReportParts, RasterCountsAreas) {
   EXPECT_NEAR(apart.filled, pi * 0.16 + 0.25, 2e-4);
 }
 
+/// People who may turn, and then change their poses, stand closer.
+TEST(ReportParts, PackingIsDenserWhereMoreIsFree) {
+  const Character woman = default_female();
+  PoseShaper shaper(woman);
+  std::vector<Shape> shapes;
+  for (const PoseTime& at : sample_poses(woman, 10)) shapes.push_back(shaper.shape(at));
+  const ShapeSet set(shapes, {{3}, true});
+  const double fixed = densest_packing(set, 30, 3), turned = densest_packing(set, 30, 3, Freedom::headings),
+               changed = densest_packing(set, 30, 3, Freedom::poses, 10);
+  EXPECT_GT(turned, fixed);
+  EXPECT_GT(changed, 1.1 * turned);
+  EXPECT_EQ(densest_packing(set, 30, 3, Freedom::poses, 10), changed);
+}
+
 struct People {
   std::vector<baselines::Body> bodies;
   std::vector<Shape> shapes;

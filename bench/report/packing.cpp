@@ -8,6 +8,8 @@
 #include <vector>
 
 #include "bench/crowd.hpp"
+#include "bench/random.hpp"
+#include "kernel/collide.hpp"
 #include "kernel/collide_all.hpp"
 #include "kernel/separation.hpp"
 
@@ -18,11 +20,17 @@ constexpr double loose = 0.4, shrinking = 0.99;    // people per square metre; o
 constexpr double margin = 1.6;                     // metres: as far as two people reach at each other
 constexpr float longest = 0.1f, beyond = 0.0005f;  // metres of a step
 constexpr int most_steps = 300;
+constexpr double turn = 0.05;  // radians of a step
 
 class Packing {
  public:
-  Packing(const ShapeSet& set, std::uint32_t people, std::uint64_t seed)
-      : set_(set), people_(people), crowd_(cli::place_crowd(people, loose, set.shape_count(), seed)) {}
+  Packing(const ShapeSet& set, std::uint32_t people, std::uint64_t seed, Freedom freedom, std::uint32_t poses)
+      : set_(set),
+        people_(people),
+        freedom_(freedom),
+        poses_(poses),
+        random_(seed),
+        crowd_(cli::place_crowd(people, loose, set.shape_count(), seed)) {}
 
   double density() const { return people_ / (crowd_.side * crowd_.side); }
 
@@ -89,12 +97,73 @@ class Packing {
       crowd_.x[i] += x, crowd_.y[i] += y;
       crowd_.x[j] -= x, crowd_.y[j] -= y;  // an image's is forgotten
     }
+    if (freedom_ != Freedom::places) change_stances();
     remove_images();
     return !pairs_.empty();
   }
 
+  /// A way for an agent to stand where he is.
+  struct Stance {
+    std::uint32_t shape;
+    double heading;
+  };
+
+  /// As he does, turned either way, and, where poses are free, in another pose.
+  std::vector<Stance> stances(std::uint32_t of) {
+    const std::uint32_t shape = crowd_.shape[of];
+    const double heading = crowd_.heading[of];
+    std::vector<Stance> all = {{shape, heading}, {shape, heading + turn}, {shape, heading - turn}};
+    if (freedom_ == Freedom::poses) all.push_back({shape / poses_ * poses_ + random_.below(poses_), heading});
+    return all;
+  }
+
+  /// Everybody who overlaps somebody takes the stance that would leave the least overlap if all others kept theirs.
+  void change_stances() {
+    std::vector<std::vector<std::uint32_t>> beside(people_);
+    for (const auto [i, j] : pairs_) {
+      if (i < people_) beside[i].push_back(j);
+      if (j < people_) beside[j].push_back(i);
+    }
+    cli::Crowd trial = crowd_;
+    std::vector<Pair> asked;
+    std::vector<std::pair<std::uint32_t, Stance>> offers;  // of asked pairs, to whom
+    for (std::uint32_t i = 0; i < people_; ++i) {
+      if (beside[i].empty()) continue;
+      for (const Stance& stance : stances(i)) {
+        const auto agent = static_cast<std::uint32_t>(trial.size());
+        trial.shape.push_back(stance.shape), trial.heading.push_back(stance.heading);
+        trial.x.push_back(crowd_.x[i]), trial.y.push_back(crowd_.y[i]);
+        offers.push_back({i, stance});
+        for (const std::uint32_t j : beside[i]) asked.push_back({agent, j});
+      }
+    }
+    take_best(trial, asked, offers);
+  }
+
+  void take_best(const cli::Crowd& trial, std::span<const Pair> asked,
+                 std::span<const std::pair<std::uint32_t, Stance>> offers) {
+    const auto first_trial = static_cast<std::uint32_t>(crowd_.size());
+    std::vector<Separation> ways(asked.size());
+    std::vector<std::uint8_t> hits(asked.size());
+    separation(set_, trial.agents(), asked, 16, ways);
+    collide(set_, trial.agents(), asked, hits, {Semantics::solid});
+    std::vector<double> overlap(offers.size(), 0);
+    for (std::size_t k = 0; k < asked.size(); ++k)
+      overlap[asked[k].first - first_trial] += hits[k] != 0 ? static_cast<double>(ways[k].depth) : 0;
+    std::vector<double> least(people_, HUGE_VAL);
+    for (std::size_t k = 0; k < offers.size(); ++k) {
+      const auto& [agent, stance] = offers[k];
+      if (!(overlap[k] < least[agent])) continue;
+      least[agent] = overlap[k];
+      crowd_.shape[agent] = stance.shape, crowd_.heading[agent] = stance.heading;
+    }
+  }
+
   const ShapeSet& set_;
   std::uint32_t people_;
+  Freedom freedom_;
+  std::uint32_t poses_;
+  cli::Random random_;
   cli::Crowd crowd_;
   CrowdCollider collider_;
   std::vector<Pair> pairs_;
@@ -103,8 +172,9 @@ class Packing {
 
 }  // namespace
 
-double densest_packing(const ShapeSet& set, std::uint32_t people, std::uint64_t seed) {
-  Packing packing(set, people, seed);
+double densest_packing(const ShapeSet& set, std::uint32_t people, std::uint64_t seed, Freedom freedom,
+                       std::uint32_t poses) {
+  Packing packing(set, people, seed, freedom, poses);
   double densest = 0;
   while (packing.settle()) {
     densest = packing.density();
