@@ -7,8 +7,10 @@
 
 namespace bch::report {
 
-Run::Run(bench::Scene& scene, const Sizes& sizes, std::uint64_t seed, Write write, Done done)
+Run::Run(bench::Scene& scene, std::span<const cli::LoadedCharacter> real_characters, const Sizes& sizes,
+         std::uint64_t seed, Write write, Done done)
     : scene_(scene),
+      real_characters_(real_characters),
       sizes_(sizes),
       seed_(seed),
       contestants_(scene),
@@ -23,8 +25,9 @@ const baselines::PairDistances* Run::distances() {
 std::span<const Experiment> experiments() {
   static const Experiment all[] = {error_time_experiment, construction_experiment, query_time_experiment,
                                    distance_experiment,   depth_experiment,        volume_experiment,
-                                   threshold_experiment,  mesh_detail_experiment,  density_experiment,
-                                   detail_experiment,     stability_experiment};
+                                   threshold_experiment,  mesh_detail_experiment,  real_experiment,
+                                   density_experiment,    detail_experiment,       real_experiment,
+                                   stability_experiment};
   return all;
 }
 

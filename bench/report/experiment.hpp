@@ -38,9 +38,13 @@ class Run {
   using Write = std::function<void(const std::string& name, const Table& table)>;
   using Done = std::function<void(double share)>;
 
-  Run(bench::Scene& scene, const Sizes& sizes, std::uint64_t seed, Write write, Done done);
+  /// Keeps references to the scene and to the real characters.
+  Run(bench::Scene& scene, std::span<const cli::LoadedCharacter> real_characters, const Sizes& sizes,
+      std::uint64_t seed, Write write, Done done);
 
   bench::Scene& scene() { return scene_; }
+  /// None where there is no folder of them.
+  std::span<const cli::LoadedCharacter> real_characters() const { return real_characters_; }
   const Sizes& sizes() const { return sizes_; }
   std::uint64_t seed() const { return seed_; }
   Contestants& contestants() { return contestants_; }
@@ -55,6 +59,7 @@ class Run {
 
  private:
   bench::Scene& scene_;
+  std::span<const cli::LoadedCharacter> real_characters_;
   Sizes sizes_;
   std::uint64_t seed_;
   Contestants contestants_;
@@ -83,6 +88,7 @@ struct Experiment {
   std::vector<Chart> charts;
   /// Sentences in HTML, with numbers from the tables and from nowhere else.
   std::string (*findings)(const Results& results);
+  std::string_view needs = {};  ///< what a page says that a run lacked, in HTML; empty: distances, or nothing
 };
 
 /// In the order of the page.
@@ -90,6 +96,6 @@ std::span<const Experiment> experiments();
 
 extern const Experiment construction_experiment, query_time_experiment, distance_experiment, depth_experiment,
     volume_experiment, threshold_experiment, mesh_detail_experiment, error_time_experiment,
-    density_experiment, detail_experiment, stability_experiment;
+    density_experiment, detail_experiment, real_experiment, stability_experiment;
 
 }  // namespace bch::report

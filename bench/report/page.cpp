@@ -83,9 +83,11 @@ std::string section(Folder& folder, const Experiment& experiment, bool pictures)
                                  experiment.name, escaped(experiment.title), experiment.method);
   if (!folder.has(experiment.tables.front()))
     return html +
-           (experiment.needs_distances ? "<p>Not in this run: it needs distances of meshes, which FCL "
-                                         "measures, or was not asked for.</p>"
-                                       : "<p>Not in this run.</p>") +
+           (!experiment.needs.empty()
+                ? fmt::format("<p>Not in this run: {}, or was not asked for.</p>", experiment.needs)
+            : experiment.needs_distances ? "<p>Not in this run: it needs distances of meshes, which FCL "
+                                           "measures, or was not asked for.</p>"
+                                         : std::string("<p>Not in this run.</p>")) +
            "</section>\n";
   html += experiment.findings([&](std::string_view name) -> const Table& { return folder.table(name); });
   if (pictures) {

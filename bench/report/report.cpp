@@ -29,6 +29,19 @@ std::vector<const Experiment*> wanted(const Options& options) {
   return these;
 }
 
+std::vector<std::string> files_in(const std::filesystem::path& folder, std::string_view ending) {
+  std::vector<std::string> files;
+  std::error_code none;
+  for (const auto& entry : std::filesystem::directory_iterator(folder, none))
+    if (entry.path().extension() == ending) files.push_back(entry.path().string());
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+bool is_clip(const std::filesystem::path& file) {
+  return file.filename().string().starts_with("clip_");
+}
+
 /// What was run, on what, by what.
 Table facts_of(const Options& options) {
   Table table({"what", "value"});
@@ -37,6 +50,7 @@ Table facts_of(const Options& options) {
   std::string characters;
   for (const std::string& one : options.characters) characters += (characters.empty() ? "" : ", ") + one;
   table.add({"characters", characters});
+  table.add({"real characters", options.real_characters.string()});
   table.add({"seed", options.seed});
   const Sizes& sizes = options.sizes;
   table.add({"poses of a character", sizes.poses});
@@ -47,6 +61,25 @@ Table facts_of(const Options& options) {
   table.add({"people who are packed", sizes.people});
   table.add({"packings", sizes.packings});
   return table;
+}
+
+/// Files that are characters, in the order of their names: glTF files, and FBX files of the folder `native`, which its clips
+/// follow where they fit.
+std::vector<cli::LoadedCharacter> load_real_characters(const std::filesystem::path& folder) {
+  std::vector<cli::LoadedCharacter> loaded;
+  ImportOptions with_clips;
+  for (const auto& file : files_in(folder / "native", ".fbx"))
+    if (is_clip(file)) with_clips.clip_files.push_back(file);
+  for (const auto& file : files_in(folder, ".glb")) loaded.push_back(cli::load_character(file, {}));
+  for (const auto& file : files_in(folder / "native", ".fbx")) {
+    if (is_clip(file)) continue;
+    try {
+      loaded.push_back(cli::load_character(file, with_clips));
+    } catch (const ImportError&) {  // another skeleton
+      loaded.push_back(cli::load_character(file, {}));
+    }
+  }
+  return loaded;
 }
 
 Json json_of(const Table& table) {
@@ -81,6 +114,9 @@ void run_report(const Options& options) {
                       .sizes = {options.sizes.pairs, options.sizes.agents}});
   // First, as a bad file should neither cost minutes nor leave files, and an import wants a process without threads.
   scene.characters();
+  const bool has_real = !options.real_characters.empty() && wants(options, real_experiment);
+  const auto real =
+      has_real ? load_real_characters(options.real_characters) : std::vector<cli::LoadedCharacter>();
   cli::make_folder(options.folder);
   const Table facts = facts_of(options);
   cli::write_file(options.folder / "run.csv", csv_of(facts));
@@ -104,7 +140,7 @@ void run_report(const Options& options) {
            ++shown)
         progress.advance();
     };
-    Run run(scene, options.sizes, options.seed, write, done);
+    Run run(scene, real, options.sizes, options.seed, write, done);
     if (!experiment->needs_distances || run.distances() != nullptr) experiment->run(run);
     done(1);
     before += experiment->seconds;

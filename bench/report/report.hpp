@@ -14,7 +14,8 @@ namespace bch::report {
 struct Options {
   std::filesystem::path folder;
   std::vector<std::string> characters = {"default:male", "default:female"};
-  std::vector<std::string> experiments;  ///< none: all
+  std::filesystem::path real_characters;  ///< a folder of them; empty: none
+  std::vector<std::string> experiments;   ///< none: all
   Sizes sizes = full_sizes;
   std::uint64_t seed = 1;
   std::string command;  ///< that does all this again

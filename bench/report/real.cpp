@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "bench/report/experiment.hpp"
+#include "bench/report/subject.hpp"
+#include "bench/report/words.hpp"
+#include "bench/text.hpp"
+
+// Distances at detection of characters that nobody here made.
+
+namespace bch::report {
+namespace {
+
+constexpr double threshold = 0.01;        // metres
+constexpr std::uint32_t most_poses = 40;  // memory: a hundred megabytes of distances of meshes
+
+/// A character's poses as all structures take them.
+struct Posed {
+  std::vector<Shape> shapes;
+  std::vector<baselines::Body> bodies;
+};
+
+Posed pose(const cli::LoadedCharacter& loaded, std::uint32_t poses, std::uint64_t seed) {
+  const std::span<const cli::LoadedCharacter> one(&loaded, 1);
+  const std::vector<ShapeSource> sources = cli::list_random_shapes(one, poses, seed);
+  Posed posed{cli::build_shapes(one, sources, threshold).shapes, {}};
+  Skinner skinner(loaded.character);
+  for (std::size_t i = 0; i < sources.size(); ++i) {
+    const auto positions = skinner.pose(sources[i].at);
+    posed.bodies.push_back(
+        {{positions.begin(), positions.end()}, loaded.character.triangles, posed.shapes[i]});
+  }
+  return posed;
+}
+
+void add_character(Run& run, const cli::LoadedCharacter& loaded, Table& table) {
+  const Posed posed = pose(loaded, std::min(run.sizes().poses, most_poses), run.seed());
+  const SlideCases cases(posed.shapes, run.sizes().cases, run.seed());
+  const auto distances = baselines::fcl_mesh_distances(posed.bodies);
+  const auto add = [&](const std::string& structure, const std::vector<double>& places) {
+    const std::vector<double> found = known(cases.distances(*distances, places));
+    const Estimate mean = estimate(found, run.seed());
+    table.add({cli::file_name(loaded), loaded.character.triangles.size(), posed.shapes.size(), structure,
+               mean.mean, mean.low, mean.high, quartiles(found).median, mean.deviation, cases.size(),
+               cases.size() - found.size()});
+  };
+  for (const std::uint32_t depth : {0u, 3u, 6u, all_depths})
+    add(depth == 0 ? "single cylinder" : "BCH outline to depth " + cli::depth_name(depth),
+        cases.contacts(ShapeSet(posed.shapes, {{depth}})));
+  add("OBB outline", cases.contacts(*baselines::kind("obb_contour").build(posed.bodies, {}), all_depths));
+}
+
+void run_experiment(Run& run) {
+  if (run.real_characters().empty()) return;
+  Table table({"character", "triangles", "poses", "structure", "mean (cm)", "mean (95 % low)",
+               "mean (95 % high)", "median (cm)", "standard deviation (cm)", "cases", "never detected"});
+  double done = 0;
+  for (const cli::LoadedCharacter& character : run.real_characters()) {
+    add_character(run, character, table);
+    run.done(++done / static_cast<double>(run.real_characters().size()));
+  }
+  run.write("real", table);
+}
+
+std::string findings(const Results& results) {
+  const Table& table = results("real");
+  const auto range = [&](std::string_view structure) {
+    double least = std::numeric_limits<double>::infinity(), most = 0;
+    for (std::size_t i = 0; i < table.rows().size(); ++i) {
+      if (table.text(i, "structure") != structure) continue;
+      least = std::min(least, table.number(i, "mean (cm)"));
+      most = std::max(most, table.number(i, "mean (cm)"));
+    }
+    return fmt::format("{} to {} cm", brief(least), brief(most));
+  };
+  return fmt::format(
+      "<p>Means by character: the single cylinder {}, the outline's cylinders to depth 3 {}, to depth 6 {}, "
+      "to all depths "
+      "{}, exact outlines {}. The paper's two have 20, 5 and 4 cm for the first, the fourth and the "
+      "last.</p>",
+      range("single cylinder"), range("BCH outline to depth 3"), range("BCH outline to depth 6"),
+      range("BCH outline to depth all"), range("OBB outline"));
+}
+
+}  // namespace
+
+const Experiment real_experiment{"real",
+                                 "Real characters",
+                                 "The same slides by characters that are not built in: every one in the "
+                                 "folder that the environment variable "
+                                 "BCH_TEST_DATA names, by himself, in up to 40 random poses. Their meshes "
+                                 "are open, with hair and clothes as sheets of "
+                                 "their own.",
+                                 90,
+                                 true,
+                                 run_experiment,
+                                 {"real"},
+                                 {},
+                                 findings,
+                                 "it needs real characters, in the folder characters of the one that the "
+                                 "environment variable BCH_TEST_DATA names, and "
+                                 "distances of meshes, which FCL measures"};
+
+}  // namespace bch::report
