@@ -8,6 +8,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <numbers>
+#include <set>
 
 #include "bench/exit_codes.hpp"
 #include "tests/character_shapes.hpp"
@@ -197,6 +198,12 @@ TEST(Report, RealCharactersAreMeasured) {
     EXPECT_LT(leaves, single);
     EXPECT_LT(exact, single);
   }
+}
+
+TEST(Report, ExperimentsHaveNamesOfTheirOwn) {
+  std::set<std::string_view> names;
+  for (const Experiment& experiment : experiments())
+    EXPECT_TRUE(names.insert(experiment.name).second) << experiment.name;
 }
 
 TEST(Report, FactsOfARunStandAsTheyAre) {

@@ -24,10 +24,9 @@ const baselines::PairDistances* Run::distances() {
 
 std::span<const Experiment> experiments() {
   static const Experiment all[] = {error_time_experiment, construction_experiment, query_time_experiment,
-                                   distance_experiment,   depth_experiment,        volume_experiment,
-                                   threshold_experiment,  mesh_detail_experiment,  real_experiment,
-                                   density_experiment,    detail_experiment,       real_experiment,
-                                   stability_experiment};
+                                   distance_experiment,   real_experiment,         depth_experiment,
+                                   volume_experiment,     threshold_experiment,    mesh_detail_experiment,
+                                   density_experiment,    detail_experiment,       stability_experiment};
   return all;
 }
 

@@ -80,8 +80,9 @@ std::string findings(const Results& results) {
   return fmt::format(
       "<p>Means by character: the single cylinder {}, the outline's cylinders to depth 3 {}, to depth 6 {}, "
       "to all depths "
-      "{}, exact outlines {}. The paper's two have 20, 5 and 4 cm for the first, the fourth and the "
-      "last.</p>",
+      "{}, exact outlines {}. A file without motion of limbs shows its rest pose, arms spread: hence the "
+      "widest single "
+      "cylinders. The paper's two have 20, 5 and 4 cm for the first, the fourth and the last.</p>",
       range("single cylinder"), range("BCH outline to depth 3"), range("BCH outline to depth 6"),
       range("BCH outline to depth all"), range("OBB outline"));
 }
