@@ -6,6 +6,7 @@
 #include "bench/build_stages.hpp"
 #include "bench/report/experiment.hpp"
 #include "bench/report/statistics.hpp"
+#include "bench/report/tree_size.hpp"
 #include "bench/report/words.hpp"
 #include "bench/stopwatch.hpp"
 #include "layout/enclosing_disc.hpp"
@@ -40,6 +41,14 @@ void add(Table& table, std::string_view structure, std::string_view from,
   table.add({structure, from, spread.median, spread.low, spread.high, microseconds.size()});
 }
 
+/// The same with the size of its trees.
+void add(Table& table, std::string_view structure, std::string_view from,
+         const std::vector<double>& microseconds, const TreeSize& size) {
+  const Quartiles spread = quartiles(microseconds);
+  table.add({structure, from, spread.median, spread.low, spread.high, microseconds.size(), size.nodes,
+             size.height});
+}
+
 /// The disc around a pose's vertices: what a single cylinder takes without an outline.
 std::vector<double> time_single(const std::vector<baselines::Body>& bodies) {
   std::vector<Vec2> points;
@@ -59,24 +68,31 @@ std::vector<double> time_hierarchies(const std::vector<baselines::Body>& bodies,
                    [&](std::size_t i) { builder.contour(bodies[i].shape.outline, 0.01f, rule, hierarchy); });
 }
 
+/// A hierarchy over an outline is timed by its builder, which makes nothing besides.
+std::vector<double> time_structure(const Contestant& contestant, const std::vector<baselines::Body>& bodies) {
+  if (contestant.kind == "single") return time_single(bodies);
+  if (contestant.kind == "reference")
+    return time_hierarchies(bodies, contestant.centre ? SplitRule::centre : SplitRule::centroid);
+  const baselines::Kind& kind = baselines::kind(contestant.kind);
+  const baselines::BuildOptions options{.fixed_radius = contestant.fixed_radius};
+  return time_each(bodies.size(),
+                   [&](std::size_t i) { kind.build(std::span(bodies).subspan(i, 1), options); });
+}
+
+std::string_view made_from(const Contestant& contestant) {
+  if (contestant.kind == "single") return "vertices";
+  if (contestant.kind == "fixed") return "nothing";
+  const bool outlined =
+      contestant.kind == "reference" || baselines::kind(contestant.kind).exact == baselines::Truth::outline;
+  return outlined ? "outline" : "triangles";
+}
+
 void add_structures(Run& run, Table& table) {
   const auto& bodies = run.scene().bodies();
-  add(table, "single cylinder", "vertices", time_single(bodies));
-  add(table, "BCH outline", "outline", time_hierarchies(bodies, SplitRule::centroid));
-  add(table, "BCH outline by centre", "outline", time_hierarchies(bodies, SplitRule::centre));
-  for (const Contestant& contestant : contestants()) {
-    if (contestant.kind == "single" || contestant.kind == "reference" || contestant.kind == "paper_descent")
-      continue;  // above
-    const baselines::Kind& kind = baselines::kind(contestant.kind);
-    const bool outlined = kind.exact == baselines::Truth::outline;
-    const baselines::BuildOptions options{.fixed_radius = contestant.fixed_radius};
-    add(table, contestant.name,
-        contestant.kind == "fixed" ? "nothing"
-        : outlined                 ? "outline"
-                                   : "triangles",
-        time_each(bodies.size(),
-                  [&](std::size_t i) { kind.build(std::span(bodies).subspan(i, 1), options); }));
-  }
+  for (const Contestant& contestant : contestants())
+    if (contestant.kind != "paper_descent")  // the same tree as the reference's
+      add(table, contestant.name, made_from(contestant), time_structure(contestant, bodies),
+          tree_size(contestant, bodies));
 }
 
 /// Of all characters.
@@ -96,8 +112,8 @@ void add_stages(Run& run, Table& table) {
 }
 
 void run_experiment(Run& run) {
-  Table table(
-      {"structure", "made from", "median (us)", "lower quartile (us)", "upper quartile (us)", "poses"});
+  Table table({"structure", "made from", "median (us)", "lower quartile (us)", "upper quartile (us)", "poses",
+               "nodes a shape", "height"});
   add_structures(run, table);
   run.write("construction", table);
   run.done(0.8);
