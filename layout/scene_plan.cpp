@@ -77,8 +77,8 @@ std::vector<std::uint32_t> different(std::vector<std::uint32_t> depths) {
 
 std::uint32_t depth_at_density(double people_per_square_metre) {
   if (people_per_square_metre < 1.1) return 0;
-  if (people_per_square_metre < 1.75) return 3;
-  return people_per_square_metre < 2.4 ? 6 : all_depths;
+  if (people_per_square_metre < 2.3) return 3;
+  return people_per_square_metre < 3.0 ? 6 : all_depths;
 }
 
 ScenePlan plan_scene(std::span<const SceneAgent> agents, const SceneUse& use) {

@@ -64,7 +64,7 @@ TEST(ScenePlan, SharesShapesWithinThePoseStep) {
 
 TEST(ScenePlan, DepthFollowsTheDensity) {
   std::vector<SceneAgent> agents;
-  for (const double density : {0.5, 1.2, 2.0, 5.0}) agents.push_back({{0, {}}, 7, density});
+  for (const double density : {0.5, 1.2, 2.7, 5.0}) agents.push_back({{0, {}}, 7, density});
   const ScenePlan plan = plan_scene(agents, {.density_depth = depth_at_density});
   EXPECT_EQ(plan.set.depths, (std::vector<std::uint32_t>{0, 3, 6, all_depths}));
   EXPECT_EQ(plan.agent_level, (std::vector<std::uint8_t>{0, 1, 2, 3}));
