@@ -96,7 +96,7 @@ class AncestorTest {
   };
 
   struct Comparison {
-    bool overlap;      ///< either cut disc overlaps all nodes of the other's path
+    bool overlap;      ///< either cut disc overlaps all nodes of the other's path that are loaded
     bool share_point;  ///< a point is inside of all discs of both paths
   };
 
@@ -140,13 +140,13 @@ class AncestorTest {
     return {overlap == all, share_point == all};
   }
 
-  /// All nodes of one path with all of the other, and on to the roots.
+  /// All nodes of one path with all of the other and with its cut disc, and on to the roots.
   bool paths_overlap() noexcept {
     for (AncestorPath<Simd> a = above_a_;; a.go_up(nodes_)) {
       load(a, discs_a_);
       for (AncestorPath<Simd> b = above_b_;; b.go_up(nodes_)) {
         load(b, discs_b_);
-        if (!loaded_overlap()) return false;
+        if (!compare_with_leaves().overlap || !loaded_overlap()) return false;
         if (b.ends_at_root(nodes_)) break;
       }
       if (a.ends_at_root(nodes_)) return true;

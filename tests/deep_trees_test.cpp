@@ -26,7 +26,8 @@ namespace {
 
 using baselines::Method;
 
-/// A chain of discs in a tree of which every inner node's first child is a leaf.
+/// A chain of discs in a tree of which every inner node's first child is a leaf. All inner nodes overlap but for the fourth,
+/// which is far above most leaves.
 Shape comb(test::Random& random, std::uint32_t leaves) {
   Shape shape;
   std::vector<HierarchyNode>& nodes = shape.hierarchy.nodes;
@@ -38,7 +39,7 @@ Shape comb(test::Random& random, std::uint32_t leaves) {
     const bool is_last = i + 1 == leaves;
     if (!is_last) {
       const auto self = static_cast<std::uint32_t>(nodes.size());
-      nodes.push_back({{disc.x, disc.y, 2}, self + 2});
+      nodes.push_back({{disc.x, disc.y, i == 3 ? 0.4f : 2}, self + 2});
     }
     nodes.push_back({disc, 0});
     turn += random.uniform(-0.5, 0.5);

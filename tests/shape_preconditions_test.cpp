@@ -202,6 +202,18 @@ const std::vector<Damage>& all_damage() {
                                   a.own.trees[Arrays::finest].first_inner() + k);
        }},
       {"inner nodes", [](Arrays& a) { add(a.inner_node(a.node_of_no_block())[3], above_cut_disc); }},
+      {"inner nodes",  // below the node above the one that it is below
+       [](Arrays& a) {
+         const std::uint32_t first = a.own.trees[Arrays::finest].first_inner();
+         const auto above = [&](std::uint32_t k) {
+           return (std::bit_cast<std::uint32_t>(a.inner_node(k)[3]) & ~above_cut_disc) - first;
+         };
+         std::uint32_t k = 2;
+         while (!(above(k) < k && above(above(k)) < above(k))) ++k;
+         float& link = a.inner_node(k)[3];
+         link = std::bit_cast<float>((std::bit_cast<std::uint32_t>(link) & above_cut_disc) + first +
+                                     above(above(k)));
+       }},
       {"nodes of blocks", [](Arrays& a) { a.lowest_block()[2 * block_width + 3] *= 1.01f; }},
       {"nodes of blocks",  // the root's
        [](Arrays& a) {
