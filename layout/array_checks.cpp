@@ -62,13 +62,12 @@ void require_size(const char* array, std::uint64_t size, std::uint64_t expected)
 }
 
 void alignment(const ShapeArrays& a) {
-  const auto require = [](const auto&... arrays) {
-    const auto is_aligned = [](const void* data) { return std::bit_cast<std::uintptr_t>(data) % 64 == 0; };
-    if (!(is_aligned(arrays.data()) && ...))
-      throw std::invalid_argument("an array does not begin on a cache line");
-  };
-  require(a.depths, a.roots, a.trees, a.nodes, a.reach, a.support, a.inscribed, a.extremes, a.profiles,
-          a.shape_contours, a.contours, a.points);
+  for_each_array(
+      [](const char* name, const auto& array) {
+        if (std::bit_cast<std::uintptr_t>(array.data()) % 64 != 0)
+          throw std::invalid_argument(std::string(name) + ": does not begin on a cache line");
+      },
+      a);
 }
 
 void depths(const ShapeArrays& a) {

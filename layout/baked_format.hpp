@@ -135,22 +135,13 @@ struct Arrays {
 /// Calls visit(Section, name, span) for every section, in order.
 template <class Visit>
 void for_each_section(Arrays& arrays, Visit visit) {
-  visit(Section::depths, "depths", arrays.shapes.depths);
-  visit(Section::roots, "roots", arrays.shapes.roots);
-  visit(Section::trees, "trees", arrays.shapes.trees);
-  visit(Section::nodes, "nodes", arrays.shapes.nodes);
-  visit(Section::reach, "reach", arrays.shapes.reach);
-  visit(Section::support, "support", arrays.shapes.support);
-  visit(Section::inscribed, "inscribed", arrays.shapes.inscribed);
-  visit(Section::extremes, "extremes", arrays.shapes.extremes);
-  visit(Section::profiles, "profiles", arrays.shapes.profiles);
-  visit(Section::shape_contours, "shape_contours", arrays.shapes.shape_contours);
-  visit(Section::contours, "contours", arrays.shapes.contours);
-  visit(Section::points, "points", arrays.shapes.points);
-  visit(Section::settings, "settings", arrays.settings);
-  visit(Section::origins, "origins", arrays.origins);
-  visit(Section::name_begin, "name_begin", arrays.name_begin);
-  visit(Section::names, "names", arrays.names);
+  std::uint32_t next = 0;
+  const auto visit_next = [&](const char* name, auto& span) { visit(Section{next++}, name, span); };
+  for_each_array(visit_next, arrays.shapes);
+  visit_next("settings", arrays.settings);
+  visit_next("origins", arrays.origins);
+  visit_next("name_begin", arrays.name_begin);
+  visit_next("names", arrays.names);
 }
 
 /// How many zeros follow.

@@ -29,4 +29,22 @@ struct ShapeArrays {
   std::size_t shape_count() const noexcept { return depths.empty() ? 0 : roots.size() / depths.size(); }
 };
 
+/// Calls visit(name, array...) for each array of a set, in the order of a baked file, with that array of every one of `sets`:
+/// of ShapeArrays, or of anything else that has members of these names.
+template <class Visit, class... Sets>
+void for_each_array(Visit visit, Sets&... sets) {
+  visit("depths", sets.depths...);
+  visit("roots", sets.roots...);
+  visit("trees", sets.trees...);
+  visit("nodes", sets.nodes...);
+  visit("reach", sets.reach...);
+  visit("support", sets.support...);
+  visit("inscribed", sets.inscribed...);
+  visit("extremes", sets.extremes...);
+  visit("profiles", sets.profiles...);
+  visit("shape_contours", sets.shape_contours...);
+  visit("contours", sets.contours...);
+  visit("points", sets.points...);
+}
+
 }  // namespace bch

@@ -70,9 +70,9 @@ ShapeSetPlan ShapeSet::plan() const {
 }
 
 std::size_t ShapeSet::bytes() const noexcept {
-  const auto total = [](const auto&... spans) { return (spans.size_bytes() + ...); };
-  return total(arrays_.roots, arrays_.trees, arrays_.nodes, arrays_.reach, arrays_.support, arrays_.inscribed,
-               arrays_.extremes, arrays_.profiles, arrays_.shape_contours, arrays_.contours, arrays_.points);
+  std::size_t all = 0;
+  for_each_array([&](const char*, const auto& span) { all += span.size_bytes(); }, arrays_);
+  return all - arrays_.depths.size_bytes();
 }
 
 }  // namespace bch

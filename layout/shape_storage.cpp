@@ -47,18 +47,9 @@ ShapeExtent extent_of(const FlatShape& flat) {
 }
 
 ShapeArrays ShapeStorage::arrays() const {
-  return {.depths = depths,
-          .roots = roots,
-          .trees = trees,
-          .nodes = nodes,
-          .reach = reach,
-          .support = support,
-          .inscribed = inscribed,
-          .extremes = extremes,
-          .profiles = profiles,
-          .shape_contours = shape_contours,
-          .contours = contours,
-          .points = points};
+  ShapeArrays arrays;
+  for_each_array([](const char*, const auto& owned, auto& span) { span = owned; }, *this, arrays);
+  return arrays;
 }
 
 void ShapeStorage::reserve(const ShapeSetPlan& plan, std::size_t shapes, const ShapeExtent& extent) {

@@ -31,12 +31,8 @@ struct Arrays {
 
   explicit Arrays(const ShapeSetPlan& plan) {
     const ShapeSet set(few_shapes(), plan);
-    const ShapeArrays& a = set.arrays();
-    const auto copy = [](auto& to, const auto& from) { to.assign(from.begin(), from.end()); };
-    copy(own.depths, a.depths), copy(own.roots, a.roots), copy(own.trees, a.trees), copy(own.nodes, a.nodes);
-    copy(own.reach, a.reach), copy(own.support, a.support), copy(own.inscribed, a.inscribed);
-    copy(own.extremes, a.extremes), copy(own.profiles, a.profiles), copy(own.points, a.points);
-    copy(own.shape_contours, a.shape_contours), copy(own.contours, a.contours);
+    for_each_array([](const char*, auto& to, const auto& from) { to.assign(from.begin(), from.end()); }, own,
+                   set.arrays());
   }
 
   ShapeArrays view() const {
