@@ -13,8 +13,8 @@ namespace bch::baselines {
 namespace {
 
 CutList list_of(const Hierarchy& hierarchy, std::uint32_t depth) {
-  CutList list{{}, {}, {0}};
-  for (const std::uint32_t node : cut(hierarchy, depth)) {
+  CutList list{{}, cut(hierarchy, depth), {}, {0}};
+  for (const std::uint32_t node : list.nodes) {
     const std::vector<Disc> path = path_to(hierarchy.nodes.data(), node);
     list.discs.push_back(path.front());
     list.paths.insert(list.paths.end(), path.begin(), path.end());

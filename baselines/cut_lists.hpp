@@ -16,6 +16,7 @@ namespace bch::baselines {
 /// The discs of one cut, in the order of cut(), each with all discs above it.
 struct CutList {
   std::vector<Disc> discs;
+  std::vector<std::uint32_t> nodes;  ///< per disc: that of the hierarchy
   std::vector<Disc> paths;  ///< one after the other: from a disc of the cut to the root, both included
   std::vector<std::uint32_t> path_begin;  ///< per disc; then paths.size()
 

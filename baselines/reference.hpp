@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "baselines/cut_lists.hpp"
+#include "baselines/leaf_segments.hpp"
 #include "layout/agents.hpp"
 #include "layout/hierarchy.hpp"
 #include "layout/shape_set.hpp"
@@ -25,21 +26,23 @@ enum class Method {
 class Reference {
  public:
   /// Shapes and levels as in ShapeSet. The shapes must outlive this.
-  Reference(std::span<const Shape> shapes, const ShapeSetPlan& plan);
+  Reference(std::span<const Shape> shapes, const ShapeSetPlan& plan, Leaves leaves = Leaves::segments);
 
-  /// Whether discs of the cuts of agents a and b overlap, and all discs above them.
+  /// Whether discs of the cuts of agents a and b overlap, and all discs above them; with exact leaves also segments of them.
   bool boundary(const Agents& agents, Pair pair, Method method) const;
 
   /// The same, or an outline contains a contour of the other. Long double; for outlines that do not meet.
   bool solid(const Agents& agents, Pair pair, Method method) const;
 
  private:
+  bool compare_all(const Agents& agents, Pair pair) const;
   bool descend(const Agents& agents, Pair pair) const;
 
   std::span<const Shape> shapes_;
   std::vector<std::uint32_t> depths_;
   std::vector<std::uint32_t> heights_;  ///< per shape
   CutLists cuts_;
+  LeafSegments segments_;
 };
 
 }  // namespace bch::baselines

@@ -43,8 +43,9 @@ const baselines::Kind* peer_of(const baselines::Kind& kind) {
 
 }  // namespace
 
-std::string wrong_kernel(Scene& scene, const Workload& workload, Semantics semantics, const Hits& hits) {
-  return expect_equal(hits, scene.expected(semantics, workload), "brute force");
+std::string wrong_kernel(Scene& scene, const Workload& workload, const QueryOptions& query,
+                         const Hits& hits) {
+  return expect_equal(hits, scene.expected(query, workload), "brute force");
 }
 
 std::string wrong_answers(const baselines::Reference& reference, const Agents& agents,
@@ -63,7 +64,7 @@ std::string wrong_structure(Scene& scene, const Workload& workload, const baseli
   if (kind.exact != Truth::none && max_depth != all_depths)
     return expect_no_miss(hits, scene.hits(kind.name, workload), "itself at all depths");
   std::string wrong;
-  if (kind.name == "reference") wrong = wrong_kernel(scene, workload, Semantics::boundary, hits);
+  if (kind.name == "reference") wrong = wrong_kernel(scene, workload, disc_query, hits);
   if (kind.name == "paper_descent")
     wrong = expect_no_miss(hits, scene.hits("reference", workload), "reference");
   if (const auto* peer = kind.exact == Truth::none ? nullptr : peer_of(kind);

@@ -14,7 +14,7 @@
 namespace bch::bench {
 
 /// The kernel: the same bits as brute force over all discs, on every pair.
-std::string wrong_kernel(Scene& scene, const Workload& workload, Semantics semantics, const Hits& hits);
+std::string wrong_kernel(Scene& scene, const Workload& workload, const QueryOptions& query, const Hits& hits);
 
 /// The same of shapes and levels that are no scene's: equal to the reference going depth first, on every pair.
 std::string wrong_answers(const baselines::Reference& reference, const Agents& agents,

@@ -56,10 +56,15 @@ BakedShapes open_baked(const std::string& file) {
   }
 }
 
-BakedShapes load_baked_for(const std::string& file, bool solid) {
+BakedShapes load_baked_for(const std::string& file, const AnswerOptions& answer) {
   BakedShapes baked = open_baked(file);
-  if (solid && !baked.set.solid())
-    throw InputError(file + ": was baked for boundary semantics; bake it with --semantics solid");
+  const auto require = [&](const std::string& asked, const char* wanted, bool has,
+                           const std::string& option) {
+    if (asked == wanted && !has)
+      throw InputError(file + ": was baked without outlines; bake it with " + option);
+  };
+  require(answer.semantics, "solid", baked.set.solid(), "--semantics solid");
+  require(answer.leaves, "segments", baked.set.exact_leaves(), "--leaves segments and --depths all");
   return baked;
 }
 
@@ -82,6 +87,7 @@ std::string text_of(const std::string& file, const BakedShapes& baked) {
   line("depths", depths_text(set));
   line("threshold", fmt::format("{:g} mm", baked.origins.threshold * 1e3));
   line("semantics", set.solid() ? "boundary, solid" : "boundary");
+  line("leaves", set.exact_leaves() ? "segments, discs" : "discs");
   std::map<std::uint32_t, bool> seen;
   for (const ShapeOrigin& origin : baked.origins.origins)
     if (!std::exchange(seen[origin.character], true))
@@ -118,6 +124,7 @@ Json json_of(const std::string& file, const BakedShapes& baked) {
   for (const std::uint32_t depth : set.depths()) json["depths"].push_back(depth_name(depth));
   json["threshold_m"] = shortest(static_cast<float>(origins.threshold));
   json["solid"] = set.solid();
+  json["exact_leaves"] = set.exact_leaves();
   json["shapes"] = Json::array();
   for (std::uint32_t s = 0; s < origins.origins.size(); ++s) {
     const ShapeOrigin& origin = origins.origins[s];

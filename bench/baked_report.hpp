@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "bench/options.hpp"
 #include "layout/baked_file.hpp"
 
 namespace bch::cli {
@@ -14,9 +15,9 @@ namespace bch::cli {
 /// Errors:  throws BakedFileError; InputError where memory does not suffice.
 BakedShapes open_baked(const std::string& file);
 
-/// The same for one that has to answer in some semantics.
-/// Errors:  throws InputError as well where solid semantics is asked of a set that was baked without.
-BakedShapes load_baked_for(const std::string& file, bool solid);
+/// Loads a file that has to answer in a certain way.
+/// Errors:  throws InputError as well where solid semantics or exact leaves are asked for of a set without outlines.
+BakedShapes load_baked_for(const std::string& file, const AnswerOptions& answer);
 
 /// What a person wants to know of a baked file.
 std::string text_of(const std::string& file, const BakedShapes& baked);

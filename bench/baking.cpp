@@ -35,7 +35,7 @@ ShapeSet bake_shapes(std::span<const LoadedCharacter> characters, std::span<cons
   ShapeSetBuilder builder(plan, sources.size());
   Progress progress("baking shapes", sources.size());
   tbb::enumerable_thread_specific<Workshop> workshops([&] {
-    return Workshop{ShapeMaker(characters, threshold, plan.depths.back(), plan.solid, limits),
+    return Workshop{ShapeMaker(characters, threshold, plan.depths.back(), false, limits),
                     ShapeFlattener(plan)};
   });
   // Shape i waits in place i % n. They leave in order and no more than n are on their way, so that the place is free

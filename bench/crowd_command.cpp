@@ -69,7 +69,6 @@ void require_outputs_of(const CrowdOptions& options) {
 void run_crowd_of_characters(const CrowdOptions& options) {
   const std::vector<std::uint32_t> depths = crowd_depths(options.answer);
   const std::uint32_t level = picture_level(options, depths);
-  const bool solid = options.answer.query_options().semantics == Semantics::solid;
   require_outputs_of(options);
 
   const CostLimits& limits = options.shapes.limits;
@@ -79,16 +78,15 @@ void run_crowd_of_characters(const CrowdOptions& options) {
   const auto sources = list_shapes(characters, options.shapes.poses);
   std::optional<CostGuard> guard(std::in_place, limits, characters, sources.size());
   const BuiltShapes built = build_shapes(characters, sources, options.shapes.threshold, all_depths, limits);
-  const ShapeSet set(built.shapes, {depths, solid});
+  const ShapeSet set(built.shapes, {depths, options.answer.need_outlines()});
   guard.reset();
   run_crowd(options, characters, built, options.shapes.threshold, set, level, threads.count);
 }
 
 void run_baked_crowd(const CrowdOptions& options) {
-  const bool solid = options.answer.query_options().semantics == Semantics::solid;
   require_outputs_of(options);
   const std::string& file = options.characters.front();
-  const BakedShapes baked = load_baked_for(file, solid);
+  const BakedShapes baked = load_baked_for(file, options.answer);
   if (baked.set.shape_count() == 0 || baked.set.depths().front() != 0)
     throw InputError(file + ": has no shapes at depth 0, the single cylinder that others are compared with");
   const Threads threads(options.answer.threads);

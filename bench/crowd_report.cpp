@@ -12,6 +12,10 @@
 namespace bch::cli {
 namespace {
 
+std::string leaves_text(const CrowdRun& run) {
+  return run.set.exact_leaves() && run.options.answer.leaves != "discs" ? "segments" : "discs";
+}
+
 std::string time_text(double seconds) {
   return seconds < 1e-3 ? fmt::format("{:.0f} us", seconds * 1e6) : fmt::format("{:.1f} ms", seconds * 1e3);
 }
@@ -48,8 +52,9 @@ std::string facts(const CrowdRun& run) {
               fmt::format("{} on {:.1f} m x {:.1f} m, {:g} per m2, seed {}", grouped(run.crowd.size()),
                           run.crowd.side, run.crowd.side, run.options.density, run.options.seed)) +
          line("candidates", fmt::format("{} that can collide", counted(run.answers.pairs.size(), "pair"))) +
-         line("kernel", fmt::format("{}, {}, {} semantics", run.implementation,
-                                    counted(run.threads, "thread"), run.options.answer.semantics));
+         line("kernel",
+              fmt::format("{}, {}, {} semantics, leaves {}", run.implementation,
+                          counted(run.threads, "thread"), run.options.answer.semantics, leaves_text(run)));
 }
 
 std::string level_table(const CrowdRun& run) {
@@ -86,6 +91,7 @@ nlohmann::ordered_json options_json(const CrowdRun& run) {
   json["seed"] = o.seed;
   if (!run.characters.empty()) json["depths"] = o.answer.depths;
   json["semantics"] = o.answer.semantics;
+  json["leaves"] = leaves_text(run);
   return json;
 }
 

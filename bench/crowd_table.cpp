@@ -50,7 +50,7 @@ class Steps {
   std::span<const Pair> find_and_answer(const cli::Crowd& crowd) {
     const std::span<const Pair> pairs = broad_phase_.find(set_, crowd.agents());
     hits_.resize(pairs.size());
-    collide(set_, crowd.agents(), pairs, hits_);
+    collide(set_, crowd.agents(), pairs, hits_, disc_query);
     return pairs;
   }
 
@@ -63,14 +63,14 @@ class Steps {
 }  // namespace
 
 void print_crowd_ratios(Scene& scene, std::uint32_t runs) {
-  const ShapeSet& set = scene.set(Semantics::boundary);
+  const ShapeSet& set = scene.set();
   constexpr std::uint32_t small_crowds = 20;
   Steps small(set, few, small_crowds);
   const PeakMemory memory;
   Steps large(set, many, 1);
   tbb::task_arena(2).execute([&] { large.find_and_answer(); });
   const double mebibytes = static_cast<double>(memory.bytes()) / (1024 * 1024);
-  const baselines::Reference reference(scene.shapes(), {});
+  const baselines::Reference reference(scene.shapes(), {}, Leaves::discs);
   small.check(reference);
   tbb::task_arena(2).execute([&] { large.check(reference); });
 

@@ -36,7 +36,7 @@ std::string wrong_clearances(Scene& scene, const Workload& workload, const Clear
 
 std::string wrong_distances(Scene& scene, const Workload& workload, const std::vector<double>& distances) {
   Clearances all(workload.pairs.size());
-  clearance(scene.set(Semantics::boundary), workload.agents(), workload.pairs, all.spans());
+  clearance(scene.set(), workload.agents(), workload.pairs, all.spans());
   for (std::size_t i = 0; i < distances.size(); ++i) {
     const auto least = static_cast<double>(all.distance[i]);
     // Leaf discs of 1 cm.

@@ -16,7 +16,7 @@ namespace {
 Contender clearance_kernel(Scene& scene, const Workload& workload,
                            const kernel::Implementation& implementation) {
   const auto answers = std::make_shared<Clearances>(workload.pairs.size());
-  const auto call = [&set = scene.set(Semantics::boundary), &workload, answers,
+  const auto call = [&set = scene.set(), &workload, answers,
                      options = ClearanceOptions{clearance_limit, &implementation}] {
     clearance(set, workload.agents(), workload.pairs, answers->spans(), options);
   };
@@ -56,7 +56,7 @@ Contender contact_time_kernel(Scene& scene, const Workload& workload,
                               const kernel::Implementation& implementation) {
   const auto times = std::make_shared<std::vector<float>>(workload.pairs.size());
   const auto ways = std::make_shared<Ways>(workload);
-  const auto call = [&set = scene.set(Semantics::boundary), &workload, ways, times, &implementation] {
+  const auto call = [&set = scene.set(), &workload, ways, times, &implementation] {
     contact_time(set, workload.agents(), workload.pairs, ways->displacements(), *times, {&implementation});
   };
   call();

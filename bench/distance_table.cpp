@@ -24,7 +24,7 @@ double per_pair(const Contender& contender, const Workload& workload) {
 void print_over_collide(Scene& scene, const std::string& name, const TimedQuery& query, std::uint32_t runs) {
   const kernel::Implementation& best = kernel::best_implementation();
   const Workload& crowd = scene.workload("crowd");
-  std::vector<Contender> both = {kernel_contender(scene, crowd, Semantics::boundary, best),
+  std::vector<Contender> both = {kernel_contender(scene, crowd, disc_query, best),
                                  query.kernel(scene, crowd, best)};
   race(both, runs, 1);
   const double times = both[1].nanoseconds / both[0].nanoseconds;

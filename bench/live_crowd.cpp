@@ -41,7 +41,7 @@ std::vector<ShapeSource> random_sources(std::span<const Character> characters, s
 LiveCrowd::Workshop::Workshop(std::span<const Character> characters, const ShapeSetPlan& plan)
     : flattener(plan) {
   for (const Character& character : characters)
-    shapers.emplace_back(character, threshold, plan.depths.back(), plan.solid);
+    shapers.emplace_back(character, threshold, plan.depths.back(), false);
 }
 
 const FlatShape& LiveCrowd::Workshop::make(const ShapeSource& source, std::uint32_t shape) {

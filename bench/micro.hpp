@@ -7,7 +7,7 @@
 
 namespace bch::bench {
 
-/// collide/<workload>/<implementation>/<boundary|solid>/threads:<n>
+/// collide/<workload>/<implementation>/<boundary|solid>[_segments]/threads:<n>
 /// The implementations are those of the kernel that run here, by instruction set, and the structures of
 /// baselines::kinds(), which have boundary semantics and one thread. Threads are those of TBB, inside one
 /// call. Before the time is taken the answers are checked; a benchmark whose answers are wrong is skipped

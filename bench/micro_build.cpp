@@ -170,7 +170,7 @@ void build_discs_by_welzl(benchmark::State& state, Scene& scene) {
 void build_shape_set(benchmark::State& state, Scene& scene) {
   const std::span<const Shape> shapes = scene.shapes();
   time_poses(state, scene, [&](std::size_t i) {
-    const ShapeSet set(shapes.subspan(i, 1), {.solid = true});
+    const ShapeSet set(shapes.subspan(i, 1), {.outlines = true});
     benchmark::DoNotOptimize(set.view());
   });
 }

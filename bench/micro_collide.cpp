@@ -13,9 +13,15 @@
 namespace bch::bench {
 namespace {
 
-std::string_view name_of(Semantics semantics) {
-  return semantics == Semantics::solid ? "solid" : "boundary";
-}
+struct Question {
+  std::string_view name;
+  Semantics semantics;
+  Leaves leaves;
+};
+constexpr Question questions[] = {{"boundary", Semantics::boundary, Leaves::discs},
+                                  {"solid", Semantics::solid, Leaves::discs},
+                                  {"boundary_segments", Semantics::boundary, Leaves::segments},
+                                  {"solid_segments", Semantics::solid, Leaves::segments}};
 
 void count_hits(benchmark::State& state, Scene& scene, const Workload& workload, const Hits& hits) {
   const Hits& meshes = scene.hits("obb_full", workload);
@@ -31,14 +37,14 @@ void count_hits(benchmark::State& state, Scene& scene, const Workload& workload,
 void run_kernel(benchmark::State& state, Scene& scene, std::string_view workload_name,
                 const QueryOptions& options, int threads) {
   const Workload& workload = scene.workload(workload_name);
-  const ShapeSet& set = scene.set(options.semantics);
+  const ShapeSet& set = scene.set();
   Hits hits(workload.pairs.size());
   tbb::task_arena arena(threads);
   const auto query = [&] {
     arena.execute([&] { collide(set, workload.agents(), workload.pairs, hits, options); });
   };
   query();
-  if (const auto wrong = wrong_kernel(scene, workload, options.semantics, hits); !wrong.empty())
+  if (const auto wrong = wrong_kernel(scene, workload, options, hits); !wrong.empty())
     return state.SkipWithError(wrong.c_str());
   time_calls(state, workload, threads, query);
   count_hits(state, scene, workload, hits);
@@ -71,11 +77,11 @@ void run_structure(benchmark::State& state, Scene& scene, std::string_view workl
 }
 
 void register_kernel(Scene& scene, std::string_view workload, const kernel::Implementation& implementation) {
-  for (const Semantics semantics : {Semantics::boundary, Semantics::solid})
+  for (const auto& [name_of_question, semantics, leaves] : questions)
     for (const int threads : thread_counts()) {
       const std::string name = fmt::format("collide/{}/{}/{}/threads:{}", workload, implementation.name,
-                                           name_of(semantics), threads);
-      const QueryOptions options{semantics, &implementation};
+                                           name_of_question, threads);
+      const QueryOptions options{semantics, &implementation, leaves};
       benchmark::RegisterBenchmark(name.c_str(),
                                    [&scene, workload, options, threads](benchmark::State& state) {
                                      run_kernel(state, scene, workload, options, threads);

@@ -148,6 +148,12 @@ void AnswerOptions::add_levels_to(CLI::App& command) {
                   "boundary: outlines cross; solid: or one contains the other [boundary]")
       ->type_name("NAME")
       ->check(one_of({"boundary", "solid"}));
+  command
+      .add_option(
+          "--leaves", leaves,
+          "What decides at depth all: segments of the outlines, or discs, up to 1 cm sooner [segments]")
+      ->type_name("NAME")
+      ->check(one_of({"segments", "discs"}));
   add_threads_option(command, threads);
 }
 
@@ -171,10 +177,15 @@ std::vector<std::uint32_t> AnswerOptions::cut_depths() const {
   return list;
 }
 
+bool AnswerOptions::need_outlines() const {
+  return semantics == "solid" || (leaves != "discs" && cut_depths().back() == all_depths);
+}
+
 QueryOptions AnswerOptions::query_options() const {
   try {
     return {semantics == "solid" ? Semantics::solid : Semantics::boundary,
-            isa.empty() ? &kernel::best_implementation() : &kernel::implementation(isa)};
+            isa.empty() ? &kernel::best_implementation() : &kernel::implementation(isa),
+            leaves == "discs" ? Leaves::discs : Leaves::segments};
   } catch (const std::invalid_argument& error) {
     throw UsageError(
         fmt::format("{}: {}", isa.empty() ? "environment variable BCH_ISA" : "--isa", error.what()));

@@ -38,6 +38,7 @@ struct ShapeOptions {
 struct AnswerOptions {
   std::string depths = "0,3,6,all";
   std::string semantics = "boundary";
+  std::string leaves;  ///< empty: segments where there are some
   std::string isa;
   std::uint32_t threads = 0;  ///< 0: all
 
@@ -47,6 +48,8 @@ struct AnswerOptions {
   /// Errors of all: throw UsageError naming the option and the value.
   std::vector<std::uint32_t> cut_depths() const;
   QueryOptions query_options() const;
+  /// Whether shapes have to keep their outlines for that.
+  bool need_outlines() const;
 };
 
 /// A number, or "all".

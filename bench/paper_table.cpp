@@ -52,9 +52,9 @@ void print_paper_table(Scene& scene, std::uint32_t runs) {
     const Workload& workload = scene.workload(column);
     std::vector<Contender> contenders;
     for (const Row& row : there)
-      contenders.push_back(row.kind == kernel_row ? kernel_contender(scene, workload, Semantics::boundary,
-                                                                     kernel::best_implementation())
-                                                  : structure_contender(scene, workload, row.kind));
+      contenders.push_back(row.kind == kernel_row
+                               ? kernel_contender(scene, workload, disc_query, kernel::best_implementation())
+                               : structure_contender(scene, workload, row.kind));
     race(contenders, runs, 1);
     for (std::size_t i = 0; i < there.size(); ++i)
       nanoseconds[i].push_back(contenders[i].nanoseconds / static_cast<double>(workload.pairs.size()));

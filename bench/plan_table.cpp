@@ -43,7 +43,8 @@ const std::vector<Row>& rows() {
       {"all", {}},
       {"mixed: all to 5 m, 6 to 10 m, 3 to 20 m, then 0", {.depth = by_distance}},
       {"all, solid", {.solid = true}},
-      {"all, without shortcuts: shapes of one frame", {.pairs_per_shape = 0}},
+      {"all, discs as leaves", {.leaves = Leaves::discs}},
+      {"all, discs, without shortcuts: shapes of one frame", {.leaves = Leaves::discs, .pairs_per_shape = 0}},
   };
   return all;
 }
@@ -51,7 +52,9 @@ const std::vector<Row>& rows() {
 /// The scene's crowd, as a plan for it has it.
 class Planned {
  public:
-  Planned(Scene& scene, const Row& row) : workload_(scene.workload("crowd")) {
+  Planned(Scene& scene, const Row& row)
+      : workload_(scene.workload("crowd")),
+        query_{row.use.solid ? Semantics::solid : Semantics::boundary, nullptr, row.use.leaves} {
     const cli::Crowd& crowd = workload_.crowd;
     std::vector<SceneAgent> agents;
     for (std::size_t i = 0; i < crowd.size(); ++i)
@@ -59,15 +62,15 @@ class Planned {
                         std::hypot(crowd.x[i] - 0.5 * crowd.side, crowd.y[i] - 0.5 * crowd.side)});
     plan_ = plan_scene(agents, row.use);
     for (const cli::LoadedCharacter& character : scene.characters())
-      shapers_.emplace_back(character.character, threshold, plan_.set.depths.back(), plan_.set.solid);
+      shapers_.emplace_back(character.character, threshold, plan_.set.depths.back(), false);
     flattener_.emplace(plan_.set);
     set_.emplace(build());
     hits_.resize(workload_.pairs.size());
     answer();
     // Against the reference over the scene's own shapes.
     require_right(row.name, workload_,
-                  wrong_answers({scene.shapes(), plan_.set}, crowd.at_level(plan_.agent_level),
-                                workload_.pairs, hits_, semantics()));
+                  wrong_answers({scene.shapes(), plan_.set, query_.leaves}, crowd.at_level(plan_.agent_level),
+                                workload_.pairs, hits_, query_.semantics));
   }
 
   ShapeSet build() {
@@ -79,7 +82,7 @@ class Planned {
     return std::move(builder).finish();
   }
 
-  void answer() { collide(*set_, agents(), workload_.pairs, hits_, {semantics()}); }
+  void answer() { collide(*set_, agents(), workload_.pairs, hits_, query_); }
 
   std::size_t shapes() const { return plan_.shapes.size(); }
   std::size_t pairs() const { return workload_.pairs.size(); }
@@ -88,13 +91,13 @@ class Planned {
   }
 
  private:
-  Semantics semantics() const { return plan_.set.solid ? Semantics::solid : Semantics::boundary; }
   Agents agents() const {
     const cli::Crowd& crowd = workload_.crowd;
     return {plan_.agent_shape, crowd.x, crowd.y, crowd.heading, plan_.agent_level};
   }
 
   const Workload& workload_;
+  const QueryOptions query_;
   ScenePlan plan_;
   std::vector<PoseShaper> shapers_;
   std::optional<ShapeFlattener> flattener_;

@@ -44,7 +44,8 @@ std::string collide_rows(const QueryInput& input) {
 
 std::string contact_rows(const QueryInput& input) {
   ContactTable table;
-  contacts(input.set, input.table.agents(), input.pairs, table, {input.options.implementation});
+  contacts(input.set, input.table.agents(), input.pairs, table,
+           {input.options.implementation, input.options.leaves});
   std::string out;
   for (std::size_t i = 0; i < input.pairs.size(); ++i)
     for (const Contact& contact : table.of(i))

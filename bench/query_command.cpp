@@ -125,7 +125,6 @@ void answer(const QueryCommandOptions& options, const ShapeSet& set, Question& q
 
 void query_character(const QueryCommandOptions& options) {
   std::vector<std::uint32_t> depths = options.answer.cut_depths();
-  const bool solid = options.answer.query_options().semantics == Semantics::solid;
   const CostLimits& limits = options.shapes.limits;
   const LoadedCharacter from = load_character(options.character, options.shapes.import_options());
   const auto sources = list_shapes({&from, 1}, options.shapes.poses);
@@ -137,14 +136,13 @@ void query_character(const QueryCommandOptions& options) {
   const auto used = keep_used(sources, question.table);
   std::optional<CostGuard> guard(std::in_place, limits, std::span(&from, 1), used.size());
   const BuiltShapes built = build_shapes({&from, 1}, used, options.shapes.threshold, depths.back(), limits);
-  const ShapeSet set(built.shapes, {depths, solid});
+  const ShapeSet set(built.shapes, {depths, options.answer.need_outlines()});
   guard.reset();
   answer(options, set, question);
 }
 
 void query_baked(const QueryCommandOptions& options) {
-  const bool solid = options.answer.query_options().semantics == Semantics::solid;
-  const BakedShapes baked = load_baked_for(options.character, solid);
+  const BakedShapes baked = load_baked_for(options.character, options.answer);
   Question question = read_question(options, baked.set.shape_count(), baked.set.level_count());
   const Threads threads(options.answer.threads);
   answer(options, baked.set, question);
@@ -159,8 +157,10 @@ void run_query(const CLI::App& command, const QueryCommandOptions& options) {
   if (options.what != "clearance") require_absent(command, {"--max-distance"}, "belongs to --what clearance");
   if (options.what != "collide" && !options.all_pairs)
     require_absent(command, {"--semantics"}, "belongs to --what collide and to --all-pairs");
+  if (options.what != "collide" && options.what != "contacts" && !options.all_pairs)
+    require_absent(command, {"--leaves"}, "belongs to --what collide, --what contacts and --all-pairs");
   if (std::isfinite(options.max_distance))
-    require_absent(command, {"--semantics"}, "--max-distance is about discs, whatever is inside");
+    require_absent(command, {"--semantics", "--leaves"}, "--max-distance is about discs, whatever is inside");
   if (query_kind(options.what).moving)
     require_absent(command, {"--all-pairs"}, "agents that collide now touch at once");
   if (!options.direction.empty()) require_absent(command, {"--directions"}, "--direction names the only one");
@@ -192,10 +192,11 @@ std::function<void()> add_query_command(CLI::App& program) {
       "the direction in which they walk plus pi/2.\n"
       "Writes a line for each line of PAIRS.csv, in that order, or what --what says:\n" +
       query_help() +
-      "clearance, contact-time and contacts are about the discs of the cuts, which cover outlines: an agent "
-      "inside\n"
-      "another may be clear of it. --semantics is about collide, and which pairs --all-pairs finds without "
-      "--max-distance.\n"
+      "clearance, contact-time and separation look at the discs of the cuts, which cover outlines. An agent "
+      "inside another\n"
+      "may be clear of it. --semantics concerns collide and the pairs that --all-pairs finds without "
+      "--max-distance,\n"
+      "--leaves these and contacts.\n"
       "Example: bch query default:female agents.csv pairs.csv > answers.csv");
   command.add_option("SHAPES", options->character, character_or_baked_help)->type_name("")->required();
   command.add_option("AGENTS.csv", options->agents, "Columns id,shape,x,y,heading[,level][,dx,dy]")

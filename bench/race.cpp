@@ -54,15 +54,15 @@ bool has_kind(std::string_view kind) {
                      [&](const baselines::Kind& row) { return row.name == kind; });
 }
 
-Contender kernel_contender(Scene& scene, const Workload& workload, Semantics semantics,
+Contender kernel_contender(Scene& scene, const Workload& workload, const QueryOptions& query,
                            const kernel::Implementation& implementation) {
   const auto hits = std::make_shared<Hits>(workload.pairs.size());
-  const auto call = [&set = scene.set(semantics), &workload, hits,
-                     options = QueryOptions{semantics, &implementation}] {
+  const auto call = [&set = scene.set(), &workload, hits,
+                     options = QueryOptions{query.semantics, &implementation, query.leaves}] {
     collide(set, workload.agents(), workload.pairs, *hits, options);
   };
   call();
-  require_right(implementation.name, workload, wrong_kernel(scene, workload, semantics, *hits));
+  require_right(implementation.name, workload, wrong_kernel(scene, workload, query, *hits));
   return {implementation.name, call};
 }
 

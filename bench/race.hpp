@@ -28,7 +28,7 @@ void race(std::vector<Contender>& contenders, std::uint32_t runs, int threads);
 
 /// A contender that asks a kernel's implementation for all pairs of a workload, by one thread; its answers
 /// were compared. Errors of both: throw std::runtime_error on wrong answers.
-Contender kernel_contender(Scene& scene, const Workload& workload, Semantics semantics,
+Contender kernel_contender(Scene& scene, const Workload& workload, const QueryOptions& query,
                            const kernel::Implementation& implementation);
 Contender structure_contender(Scene& scene, const Workload& workload, std::string_view kind);
 

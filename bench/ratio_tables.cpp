@@ -23,6 +23,7 @@ struct Requirement {
   double avx512, avx2, sse2;  ///< times the reference
   double aim;                 ///< for avx512
 
+  QueryOptions query() const { return {.semantics = semantics, .leaves = Leaves::discs}; }
   double needed(std::string_view implementation) const {
     return implementation == "avx512" ? avx512 : implementation == "avx2" ? avx2 : sse2;
   }
@@ -66,16 +67,16 @@ std::string per_call(const Workload& workload) {
 /// The pairs in calls of `size`, those left over aside.
 Contender in_batches(Scene& scene, const Workload& workload, std::size_t size) {
   const auto hits = std::make_shared<Hits>(workload.pairs.size());
-  const auto call = [&set = scene.set(Semantics::boundary), &workload, hits, size] {
+  const auto call = [&set = scene.set(), &workload, hits, size] {
     const std::span<const Pair> pairs = workload.pairs;
     for (std::size_t i = 0; i + size <= pairs.size(); i += size)
-      collide(set, workload.agents(), pairs.subspan(i, size), std::span(*hits).subspan(i, size));
+      collide(set, workload.agents(), pairs.subspan(i, size), std::span(*hits).subspan(i, size), disc_query);
   };
   call();
-  Hits complete = scene.expected(Semantics::boundary, workload);
+  Hits complete = scene.expected(disc_query, workload);
   std::copy_n(hits->begin(), workload.pairs.size() / size * size, complete.begin());
   const std::string name = fmt::format("batches of {}", size);
-  require_right(name, workload, wrong_kernel(scene, workload, Semantics::boundary, complete));
+  require_right(name, workload, wrong_kernel(scene, workload, disc_query, complete));
   return {name, call};
 }
 
@@ -83,14 +84,14 @@ Contender in_batches(Scene& scene, const Workload& workload, std::size_t size) {
 Contender by_threads(Scene& scene, const Workload& workload, int threads) {
   const auto hits = std::make_shared<Hits>(workload.pairs.size());
   const auto arena = std::make_shared<tbb::task_arena>(threads);
-  const auto call = [&set = scene.set(Semantics::boundary), &workload, hits, arena] {
-    arena->execute([&] { collide(set, workload.agents(), workload.pairs, *hits); });
+  const auto call = [&set = scene.set(), &workload, hits, arena] {
+    arena->execute([&] { collide(set, workload.agents(), workload.pairs, *hits, disc_query); });
   };
   call();
   const std::string name = fmt::format("{} threads", threads);
-  require_right(
-      name, workload,
-      wrong_answers({scene.shapes(), {}}, workload.agents(), workload.pairs, *hits, Semantics::boundary));
+  require_right(name, workload,
+                wrong_answers({scene.shapes(), {}, Leaves::discs}, workload.agents(), workload.pairs, *hits,
+                              Semantics::boundary));
   return {name, call};
 }
 
@@ -101,10 +102,43 @@ void print_kernel_ratios(Scene& scene, std::uint32_t runs) {
     const Workload& workload = scene.workload(row.workload);
     std::vector<Contender> contenders = {structure_contender(scene, workload, "reference")};
     for (const auto* implementation : wide_implementations())
-      contenders.push_back(kernel_contender(scene, workload, row.semantics, *implementation));
+      contenders.push_back(kernel_contender(scene, workload, row.query(), *implementation));
     race(contenders, runs, 1);
-    const Hits& hits = scene.expected(row.semantics, workload);
+    const Hits& hits = scene.expected(row.query(), workload);
     print_row(row, workload, contenders, static_cast<std::uint64_t>(std::count(hits.begin(), hits.end(), 1)));
+  }
+}
+
+void print_leaf_ratios(Scene& scene, std::uint32_t runs) {
+  struct Row {
+    std::string_view workload;
+    Semantics semantics;
+  };
+  for (const auto& [name, semantics] :
+       {Row{"crowd", Semantics::boundary}, Row{"crowd", Semantics::solid},
+        Row{"colliding", Semantics::boundary}, Row{"near_miss", Semantics::boundary},
+        Row{"no_hit", Semantics::boundary}}) {
+    const Workload& workload = scene.workload(name);
+    std::vector<Contender> contenders;
+    for (const auto* implementation : wide_implementations())
+      for (const Leaves leaves : {Leaves::discs, Leaves::segments})
+        contenders.push_back(
+            kernel_contender(scene, workload, {.semantics = semantics, .leaves = leaves}, *implementation));
+    race(contenders, runs, 1);
+    const auto pairs = static_cast<double>(workload.pairs.size());
+    const auto hits = [&](Leaves leaves) {
+      const Hits& all = scene.expected({.semantics = semantics, .leaves = leaves}, workload);
+      return cli::grouped(static_cast<std::uint64_t>(std::count(all.begin(), all.end(), 1)));
+    };
+    fmt::print("exact leaves, {}, {}: {} pairs, {} hits with discs, {} with segments\n", name,
+               semantics == Semantics::solid ? "solid" : "boundary", cli::grouped(workload.pairs.size()),
+               hits(Leaves::discs), hits(Leaves::segments));
+    for (std::size_t i = 0; i < contenders.size(); i += 2) {
+      const double discs = contenders[i].nanoseconds, segments = contenders[i + 1].nanoseconds;
+      fmt::print("  {:8}{:6.1f} ns, {:.1f} with segments{:7.2f} x   {}, aim 1.1\n", contenders[i].name,
+                 discs / pairs, segments / pairs, segments / discs, verdict_at_most(segments / discs, 1.3));
+    }
+    std::fflush(stdout);
   }
 }
 
@@ -118,7 +152,7 @@ void print_peer_ratios(Scene& scene, std::uint32_t runs) {
                             {"fcl_obb_segments", "FCL, one triangle a segment", 0},
                             {"obb_contour_2d", "obb_contour_2d", 40}};
   std::vector<Contender> contenders = {
-      kernel_contender(scene, workload, Semantics::boundary, kernel::best_implementation())};
+      kernel_contender(scene, workload, disc_query, kernel::best_implementation())};
   for (const Peer& peer : peers)
     if (has_kind(peer.kind)) contenders.push_back(structure_contender(scene, workload, peer.kind));
   race(contenders, runs, 1);
@@ -139,7 +173,7 @@ void print_peer_ratios(Scene& scene, std::uint32_t runs) {
 }
 
 void print_call_ratios(Scene& scene, std::uint32_t runs) {
-  Workload many = crowd_pairs(scene.set(Semantics::boundary), 50'000);
+  Workload many = crowd_pairs(scene.set(), 50'000);
   many.pairs.resize(std::min<std::size_t>(many.pairs.size(), 100'000));
   std::vector<Contender> threads = {by_threads(scene, many, 1), by_threads(scene, many, 2)};
   race(threads, runs, 2);

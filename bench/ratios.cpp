@@ -42,6 +42,7 @@ struct Table {
 const std::vector<Table>& tables() {
   static const std::vector<Table> all = {
       {"kernel", [](Scene& scene, const Options& o) { print_kernel_ratios(scene, o.runs); }},
+      {"leaves", [](Scene& scene, const Options& o) { print_leaf_ratios(scene, o.runs); }},
       {"peers", [](Scene& scene, const Options& o) { print_peer_ratios(scene, o.runs); }},
       {"calls", [](Scene& scene, const Options& o) { print_call_ratios(scene, o.runs); }},
       {"crowd", [](Scene& scene, const Options& o) { print_crowd_ratios(scene, o.runs); }},

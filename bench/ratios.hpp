@@ -17,6 +17,7 @@ std::string verdict_at_most(double value, double most);
 
 /// The tables. Each prints to standard output.
 void print_kernel_ratios(Scene& scene, std::uint32_t runs);
+void print_leaf_ratios(Scene& scene, std::uint32_t runs);
 void print_peer_ratios(Scene& scene, std::uint32_t runs);
 void print_call_ratios(Scene& scene, std::uint32_t runs);
 void print_crowd_ratios(Scene& scene, std::uint32_t runs);

@@ -48,7 +48,7 @@ std::string wrong_separations(Scene& scene, const Workload& workload, std::span<
 
 /// Of a crowd, whose workload has all pairs that can collide.
 std::string wrong_neighbours(Scene& scene, const Workload& workload, const CollidingNeighbours& rows) {
-  const Hits& hits = scene.expected(Semantics::boundary, workload);
+  const Hits& hits = scene.expected(disc_query, workload);
   std::vector<std::vector<std::uint32_t>> expected(workload.crowd.size());
   for (std::size_t i = 0; i < hits.size(); ++i) {
     if (!hits[i]) continue;
@@ -69,8 +69,8 @@ std::string wrong_neighbours(Scene& scene, const Workload& workload, const Colli
 Contender contacts_kernel(Scene& scene, const Workload& workload,
                           const kernel::Implementation& implementation) {
   const auto table = std::make_shared<ContactTable>();
-  const auto call = [&set = scene.set(Semantics::boundary), &workload, table, &implementation] {
-    contacts(set, workload.agents(), workload.pairs, *table, {&implementation});
+  const auto call = [&set = scene.set(), &workload, table, &implementation] {
+    contacts(set, workload.agents(), workload.pairs, *table, {&implementation, Leaves::discs});
   };
   call();
   require_right(implementation.name, workload, wrong_contacts(scene, workload, *table));
@@ -80,7 +80,7 @@ Contender contacts_kernel(Scene& scene, const Workload& workload,
 Contender contacts_reference(Scene& scene, const Workload& workload) {
   const auto cuts = std::make_shared<baselines::CutLists>(scene.shapes(), ShapeSetPlan{});
   ContactTable table;
-  contacts(scene.set(Semantics::boundary), workload.agents(), workload.pairs, table);
+  contacts(scene.set(), workload.agents(), workload.pairs, table, {.leaves = Leaves::discs});
   return {"reference", [cuts, &workload, expected = table.contacts.size()] {
             std::size_t all = 0;
             for (const Pair pair : workload.pairs)
@@ -93,7 +93,7 @@ Contender contacts_reference(Scene& scene, const Workload& workload) {
 Contender separation_kernel(Scene& scene, const Workload& workload,
                             const kernel::Implementation& implementation) {
   const auto ways = std::make_shared<std::vector<Separation>>(workload.pairs.size());
-  const auto call = [&set = scene.set(Semantics::boundary), &workload, ways, &implementation] {
+  const auto call = [&set = scene.set(), &workload, ways, &implementation] {
     separation(set, workload.agents(), workload.pairs, separation_directions, *ways, {&implementation});
   };
   call();
@@ -111,7 +111,7 @@ Contender separation_reference(Scene& scene, const Workload& workload) {
   };
   call();
   std::vector<Separation> ways(workload.pairs.size());
-  separation(scene.set(Semantics::boundary), workload.agents(), workload.pairs, separation_directions, ways);
+  separation(scene.set(), workload.agents(), workload.pairs, separation_directions, ways);
   const bool same = std::equal(depths->begin(), depths->end(), ways.begin(), ways.end(),
                                [](float depth, const Separation& way) { return depth == way.depth; });
   require_right("reference", workload, same ? "" : "other depths than the kernel's");
@@ -121,8 +121,9 @@ Contender separation_reference(Scene& scene, const Workload& workload) {
 Contender collide_all_kernel(Scene& scene, const Workload& workload,
                              const kernel::Implementation& implementation) {
   const auto collider = std::make_shared<CrowdCollider>();
-  const auto call = [&set = scene.set(Semantics::boundary), &workload, collider, &implementation] {
-    return collider->collide_all(set, workload.agents(), {Semantics::boundary, &implementation});
+  const auto call = [&set = scene.set(), &workload, collider, &implementation] {
+    return collider->collide_all(set, workload.agents(),
+                                 {.implementation = &implementation, .leaves = Leaves::discs});
   };
   require_right(implementation.name, workload, wrong_neighbours(scene, workload, call()));
   return {implementation.name, call};

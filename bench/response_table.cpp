@@ -17,7 +17,7 @@ void print_response_ratios(Scene& scene, std::uint32_t runs) {
   const auto pairs = static_cast<double>(crowd.pairs.size());
   fmt::print("response, crowd, {}: {} pairs\n", best.name, cli::grouped(crowd.pairs.size()));
   for (const TimedQuery& query : response_queries()) {
-    std::vector<Contender> contenders = {kernel_contender(scene, crowd, Semantics::boundary, best),
+    std::vector<Contender> contenders = {kernel_contender(scene, crowd, disc_query, best),
                                          query.kernel(scene, crowd, best)};
     if (query.reference != nullptr) contenders.push_back(query.reference(scene, crowd));
     race(contenders, runs, 1);

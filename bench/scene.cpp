@@ -18,6 +18,11 @@ constexpr std::uint64_t colliding_seed = 31, near_miss_seed = 32, no_hit_seed = 
 
 }  // namespace
 
+std::string text_of(const QueryOptions& query) {
+  return std::string(query.semantics == Semantics::solid ? "solid, " : "boundary, ") +
+         (query.leaves == Leaves::segments ? "segments" : "discs");
+}
+
 Scene::Scene(SceneOptions options) : options_(std::move(options)) {}
 
 const std::vector<cli::LoadedCharacter>& Scene::characters() {
@@ -49,10 +54,9 @@ const std::vector<baselines::Body>& Scene::bodies() {
   return bodies_;
 }
 
-const ShapeSet& Scene::set(Semantics semantics) {
-  const auto found = sets_.find(semantics);
-  if (found != sets_.end()) return found->second;
-  return sets_.emplace(semantics, ShapeSet(shapes(), {.solid = semantics == Semantics::solid})).first->second;
+const ShapeSet& Scene::set() {
+  if (!set_) set_.emplace(shapes());
+  return *set_;
 }
 
 const baselines::Structure& Scene::structure(std::string_view kind) {
@@ -83,7 +87,7 @@ Workload Scene::make_workload(std::string_view name) {
                           return roots.query(agents, pair) && !discs.query(agents, pair);
                         });
   }
-  if (name == "crowd") return crowd_pairs(set(Semantics::boundary), options_.sizes.agents);
+  if (name == "crowd") return crowd_pairs(set(), options_.sizes.agents);
   if (name == "paper500" || name == "paper500_cached")
     return repeated(name, workload("colliding"), paper_cases, options_.sizes.pairs,
                     name == "paper500_cached");
@@ -98,15 +102,15 @@ const Hits& Scene::hits(std::string_view kind, const Workload& workload) {
   return hits;
 }
 
-const Hits& Scene::expected(Semantics semantics, const Workload& workload) {
-  const bool solid = semantics == Semantics::solid;
-  Hits& hits = hits_[(solid ? "*solid/" : "*boundary/") + workload.name];
+const Hits& Scene::expected(const QueryOptions& query, const Workload& workload) {
+  Hits& hits = hits_["*" + text_of(query) + "/" + workload.name];
   if (!hits.empty()) return hits;
-  const baselines::Reference reference(shapes(), {.solid = solid});
+  const baselines::Reference reference(shapes(), {}, query.leaves);
   const Agents agents = workload.agents();
   for (const Pair pair : workload.pairs)
-    hits.push_back(solid ? reference.solid(agents, pair, baselines::Method::brute_force)
-                         : reference.boundary(agents, pair, baselines::Method::brute_force));
+    hits.push_back(query.semantics == Semantics::solid
+                       ? reference.solid(agents, pair, baselines::Method::brute_force)
+                       : reference.boundary(agents, pair, baselines::Method::brute_force));
   return hits;
 }
 

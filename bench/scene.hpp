@@ -19,6 +19,12 @@
 
 namespace bch::bench {
 
+/// Asks what the plain traversal answers as well, which knows discs alone.
+constexpr QueryOptions disc_query{.leaves = Leaves::discs};
+
+/// Says what a query asks: "boundary, discs".
+std::string text_of(const QueryOptions& query);
+
 struct SceneOptions {
   std::vector<std::string> characters = {"default:male", "default:female"};  ///< as load_character() takes
   std::uint32_t poses = 100;                                                 ///< of a character
@@ -38,8 +44,8 @@ class Scene {
   const std::vector<ShapeSource>& sources();
   const std::vector<Shape>& shapes();
   const std::vector<baselines::Body>& bodies();
-  /// The finest level alone, planned for nothing but these semantics.
-  const ShapeSet& set(Semantics semantics);
+  /// The finest level alone, with all that queries may ask.
+  const ShapeSet& set();
   const baselines::Structure& structure(std::string_view kind);
   /// Errors: throws std::invalid_argument on a name that workload_names() does not have.
   const Workload& workload(std::string_view name);
@@ -47,7 +53,7 @@ class Scene {
   /// A kind's answers, at all depths.
   const Hits& hits(std::string_view kind, const Workload& workload);
   /// What the kernel must answer, pair by pair and disc by disc: baselines::Reference by brute force.
-  const Hits& expected(Semantics semantics, const Workload& workload);
+  const Hits& expected(const QueryOptions& query, const Workload& workload);
 
  private:
   Workload make_workload(std::string_view name);
@@ -57,7 +63,7 @@ class Scene {
   std::vector<ShapeSource> sources_;
   std::vector<Shape> shapes_;
   std::vector<baselines::Body> bodies_;
-  std::map<Semantics, ShapeSet> sets_;
+  std::optional<ShapeSet> set_;
   std::map<std::string, std::unique_ptr<baselines::Structure>, std::less<>> structures_;
   std::map<std::string, Workload, std::less<>> workloads_;
   std::map<std::string, Hits> hits_;

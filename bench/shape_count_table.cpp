@@ -53,11 +53,12 @@ struct ManyShapes {
     crowd = crowd_pairs(*set, agents);
     hits.resize(crowd.pairs.size());
     answer();
-    require_right(fmt::format("{} shapes", count), crowd,
-                  wrong_answers({shapes, {}}, crowd.agents(), crowd.pairs, hits, Semantics::boundary));
+    require_right(
+        fmt::format("{} shapes", count), crowd,
+        wrong_answers({shapes, {}, Leaves::discs}, crowd.agents(), crowd.pairs, hits, Semantics::boundary));
   }
 
-  void answer() { collide(*set, crowd.agents(), crowd.pairs, hits); }
+  void answer() { collide(*set, crowd.agents(), crowd.pairs, hits, disc_query); }
   double bytes_per_shape() const { return static_cast<double>(set->bytes()) / set->shape_count(); }
 
   std::unique_ptr<ShapeSet> set;

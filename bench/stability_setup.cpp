@@ -32,7 +32,7 @@ struct Batch {
   }
   std::vector<std::uint8_t> hits(const ShapeSet& set) const {
     std::vector<std::uint8_t> answers(pairs.size());
-    collide(set, {shape, x, y, heading}, pairs, answers);
+    collide(set, {shape, x, y, heading}, pairs, answers, {.leaves = Leaves::discs});
     return answers;
   }
 };

@@ -31,6 +31,7 @@ struct Arguments {
   const Pair* pairs;
   std::uint8_t* codes;
   bool mark_near_misses;  ///< write near_miss where it applies, else apart
+  bool exact_leaves;      ///< where both trees have segments, these decide; see Leaves
   // Ask for what is needed soon: there is more of it than a near cache holds.
   bool prefetch_agents = false, prefetch_shapes = false;
 };

@@ -25,7 +25,7 @@ struct Avx2Lanes : Lanes<xsimd::avx2> {
   }
   template <std::size_t stride>
   static void load_records(const float* table, const std::uint32_t* index, Float (&field)[4]) noexcept {
-    const auto record = [=](std::size_t i) { return _mm_load_ps(table + stride * index[i]); };
+    const auto record = [=](std::size_t i) { return _mm_loadu_ps(table + stride * index[i]); };
     __m256 r[4];
 #pragma GCC unroll 4
     for (std::size_t i = 0; i < 4; ++i) r[i] = _mm256_set_m128(record(i + 4), record(i));
@@ -47,6 +47,9 @@ struct Avx2Lanes : Lanes<xsimd::avx2> {
   }
   static Float rounded(const Double (&v)[2]) noexcept {
     return _mm256_set_m128(_mm256_cvtpd_ps(v[1]), _mm256_cvtpd_ps(v[0]));
+  }
+  static void widened(Float v, Double (&to)[2]) noexcept {
+    to[0] = _mm256_cvtps_pd(_mm256_castps256_ps128(v)), to[1] = _mm256_cvtps_pd(_mm256_extractf128_ps(v, 1));
   }
   static std::uint32_t bits(xsimd::batch_bool<float, xsimd::avx2> hits) noexcept {
     return static_cast<std::uint32_t>(_mm256_movemask_ps(hits));

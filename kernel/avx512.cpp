@@ -35,7 +35,7 @@ struct Avx512Lanes : Lanes<xsimd::avx512f> {
   }
   template <std::size_t stride>
   static void load_records(const float* table, const std::uint32_t* index, Float (&field)[4]) noexcept {
-    const auto record = [=](std::size_t i) { return _mm_load_ps(table + stride * index[i]); };
+    const auto record = [=](std::size_t i) { return _mm_loadu_ps(table + stride * index[i]); };
     __m512 r[4];
 #pragma GCC unroll 4
     for (std::size_t i = 0; i < 4; ++i) {
@@ -66,6 +66,10 @@ struct Avx512Lanes : Lanes<xsimd::avx512f> {
     return _mm512_castpd_ps(
         _mm512_insertf64x4(_mm512_castps_pd(_mm512_castps256_ps512(_mm512_cvtpd_ps(v[0]))),
                            _mm256_castps_pd(_mm512_cvtpd_ps(v[1])), 1));
+  }
+  static void widened(Float v, Double (&to)[2]) noexcept {
+    to[0] = _mm512_cvtps_pd(_mm512_castps512_ps256(v));
+    to[1] = _mm512_cvtps_pd(_mm256_castpd_ps(_mm512_extractf64x4_pd(_mm512_castps_pd(v), 1)));
   }
   static std::uint32_t bits(xsimd::batch_bool<float, xsimd::avx512f> hits) noexcept {
     return hits.data;

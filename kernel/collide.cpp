@@ -26,13 +26,16 @@ void collide(const ShapeSet& shapes, const Agents& agents, std::span<const Pair>
                                 std::to_string(static_cast<int>(options.semantics)) +
                                 ", only boundary (0) and solid (1)");
   if (solid && !shapes.solid())
-    throw std::invalid_argument("collide: the shape set was not planned for solid semantics");
+    throw std::invalid_argument(
+        "collide: solid semantics needs outlines, and the set does not have that of every shape");
+  const bool exact_leaves = kernel::exact_leaves(options.leaves, "collide");
   const kernel::Implementation& implementation = kernel::chosen(options.implementation, "collide");
   const ShapeSetView& view = shapes.view();
   kernel::require_sizes(agents);
   kernel::Arguments arguments = kernel::arguments_for(view, agents, pairs);
   arguments.codes = hits.data();
   arguments.mark_near_misses = solid;
+  arguments.exact_leaves = exact_leaves && shapes.exact_leaves();
   if (kernel::answer_if_valid(implementation, arguments, agents, pairs.size())) return;
   kernel::require_valid(implementation, view, agents, pairs);
   kernel::for_ranges(pairs.size(), kernel::pairs_per_task, [&](std::size_t begin, std::size_t end) {

@@ -26,6 +26,7 @@ struct QueryOptions {
   Semantics semantics = Semantics::boundary;
   /// One row of implementations(); null: the best that this processor runs. The answers are the same bits.
   const kernel::Implementation* implementation = nullptr;
+  Leaves leaves = Leaves::segments;
 };
 
 /// Answers each pair: 1 where the two agents collide at their levels, touching included, else 0.

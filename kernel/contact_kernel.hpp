@@ -12,13 +12,14 @@
 #include "kernel/contact.hpp"
 #include "kernel/lanes.hpp"
 #include "kernel/placements.hpp"
+#include "kernel/segment_test.hpp"
 #include "kernel/tree_nodes.hpp"
 #include "layout/cut_discs.hpp"
 #include "layout/shape_set_view.hpp"
 
 namespace bch::kernel {
 
-/// All pairs of cut discs that overlap with all their ancestors, one pair of agents after the other. Rows are discs of a pair's first agent,
+/// All pairs of cut discs that overlap with all their ancestors, and whose segments meet where these decide, one pair of agents after the other. Rows are discs of a pair's first agent,
 /// columns those of its second. Row windows are visited from left to right, each with the column nodes that the blocks
 /// above it left to it, so that contacts come in order but for the eight rows of a window, which are counted before they
 /// are placed.
@@ -55,6 +56,11 @@ class ContactKernel {
   }
 
  private:
+  struct Placed {
+    Transform b_in_a;
+    double margin;  ///< 0, or segments decide where leaves overlap: metres
+  };
+
   /// Of the columns, from left to right.
   struct Nodes {
     static constexpr std::uint32_t capacity = 32;
@@ -83,15 +89,22 @@ class ContactKernel {
   void look_at(std::size_t begin, std::uint32_t k) noexcept {
     const Pair pair = in_.pairs[begin + k];
     swapped_ = pair.second < pair.first;
-    b_in_a_ = at_.transform(k);
+    placed_.b_in_a = at_.transform(k);
     const std::uint32_t rows = swapped_ ? at_.root_b[k] : at_.root_a[k];
     const std::uint32_t columns = swapped_ ? at_.root_a[k] : at_.root_b[k];
     if (shapes_.trees == nullptr) return look_at_single_discs(shapes_.roots[rows], shapes_.roots[columns]);
     nodes_ = shapes_.nodes;
     reach_ = shapes_.reach[at_.shape_a[k]] + shapes_.reach[at_.shape_b[k]];
     rows_ = shapes_.trees[rows], columns_ = shapes_.trees[columns];
-    first_row_ = rows_.discs, first_column_ = columns_.discs;
+    placed_.margin = 0;
+    if (!in_.exact_leaves || rows_.segments == no_segments || columns_.segments == no_segments)
+      return set_first();
+    const double of_a = shapes_.segment_margin[at_.shape_a[k]], of_b = shapes_.segment_margin[at_.shape_b[k]];
+    placed_.margin = of_a + of_b;
+    set_first();
   }
+
+  void set_first() noexcept { first_row_ = rows_.discs, first_column_ = columns_.discs; }
 
   /// Windows of our own, because the set has none.
   void look_at_single_discs(const Root& row_disc, const Root& column_disc) noexcept {
@@ -225,8 +238,8 @@ class ContactKernel {
   std::uint64_t overlaps_of(std::uint32_t rows, std::uint32_t columns) const noexcept {
     const Discs of_rows = TreeNodes<Simd>::discs(nodes_, rows, rows_.stride),
                 of_columns = TreeNodes<Simd>::discs(nodes_, columns, columns_.stride);
-    if (!swapped_) return overlapping_discs<Simd>(b_in_a_, of_rows, of_columns);
-    return transposed(overlapping_discs<Simd>(b_in_a_, of_columns, of_rows));
+    if (!swapped_) return overlapping_discs<Simd>(placed_.b_in_a, of_rows, of_columns);
+    return transposed(overlapping_discs<Simd>(placed_.b_in_a, of_columns, of_rows));
   }
 
   /// Of the hits of two leaf windows. Where every cut is a single disc, there is nothing above them.
@@ -237,20 +250,31 @@ class ContactKernel {
       const auto bit = static_cast<unsigned>(__builtin_ctzll(hits));
       const std::uint32_t row = (rows & ~leaf_window) + bit / block_width,
                           column = (columns & ~leaf_window) + bit % block_width;
-      const bool passes = swapped_ ? ancestors_overlap(columns_, column, rows_, row)
-                                   : ancestors_overlap(rows_, row, columns_, column);
+      const bool passes =
+          swapped_ ? is_hit(columns_, column, rows_, row) : is_hit(rows_, row, columns_, column);
       verified |= std::uint64_t{passes} << bit;
     }
     return verified;
   }
 
-  bool ancestors_overlap(const Tree& a, std::uint32_t disc_a, const Tree& b,
-                         std::uint32_t disc_b) const noexcept {
+  bool segments_meet(const Tree& a, std::uint32_t disc_a, const Tree& b,
+                     std::uint32_t disc_b) const noexcept {
+    bool meet = false;
+    const auto hear = [&](std::uint32_t, Meeting meeting) { meet |= meeting != Meeting::none; };
+    SegmentTest<Simd, Placed> test(shapes_, &placed_);
+    test.add(0, a, disc_a, b, disc_b, 0, hear);
+    test.finish(hear);
+    return meet;
+  }
+
+  bool is_hit(const Tree& a, std::uint32_t disc_a, const Tree& b, std::uint32_t disc_b) const noexcept {
+    if (placed_.margin > 0 && !segments_meet(a, disc_a, b, disc_b)) return false;
     AncestorPath<Simd> above_a, above_b;
     above_a.begin(nodes_, a, disc_a), above_b.begin(nodes_, b, disc_b);
     for (std::uint32_t k = 1; k < AncestorPath<Simd>::length; ++k)
       above_a.step(nodes_, k), above_b.step(nodes_, k);
-    return AncestorTest<Simd>(nodes_, {b_in_a_, a, b, reach_}, disc_a, disc_b, above_a, above_b).passes();
+    return AncestorTest<Simd>(nodes_, {placed_.b_in_a, a, b, reach_}, disc_a, disc_b, above_a, above_b)
+        .passes();
   }
 
   std::uint32_t child(std::uint32_t node, unsigned lane) const noexcept {
@@ -275,7 +299,7 @@ class ContactKernel {
 
   // Of the pair that is looked at.
   bool swapped_;  ///< the first agent is B
-  Transform b_in_a_;
+  Placed placed_;
   float reach_;  ///< of both shapes
   const float* nodes_;
   Tree rows_, columns_;

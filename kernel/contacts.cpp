@@ -37,10 +37,13 @@ void contacts(const ShapeSet& shapes, const Agents& agents, std::span<const Pair
               const ContactOptions& options) {
   const kernel::StandardFloats floats;
   const kernel::Implementation& implementation = kernel::chosen(options.implementation, "contacts");
+  const bool exact_leaves = kernel::exact_leaves(options.leaves, "contacts");
   const ShapeSetView& view = shapes.view();
   kernel::require_valid(implementation, view, agents, pairs);
   try {
-    find_contacts(implementation, kernel::arguments_for(view, agents, pairs), pairs.size(), table);
+    kernel::Arguments arguments = kernel::arguments_for(view, agents, pairs);
+    arguments.exact_leaves = exact_leaves && shapes.exact_leaves();
+    find_contacts(implementation, arguments, pairs.size(), table);
   } catch (...) {
     table = {};
     throw;

@@ -27,11 +27,12 @@ struct ContactTable {
 struct ContactOptions {
   /// One row of implementations(); null: the best that this processor runs. The answers are the same bits.
   const kernel::Implementation* implementation = nullptr;
+  Leaves leaves = Leaves::segments;
 };
 
 /// Finds, for each pair, all pairs of discs of the agents' cuts, at their levels, that make a collision: they overlap, and so
-/// do all nodes above the one and above the other; see Semantics. So a row is empty exactly where collide() answers 0 in
-/// boundary semantics.
+/// do all nodes above the one and above the other, and with exact leaves segments of theirs meet; see Semantics and Leaves. So
+/// a row is empty exactly where collide() answers 0 in boundary semantics with the same leaves.
 /// A table is never cut short: contacts are counted, then written. Two equal cuts of n discs in one place have n^2 of
 /// them at most.
 ///

@@ -20,7 +20,7 @@ constexpr std::uint64_t counts_of_set = 0x4332'3221'3221'2110;
 /// gives part of an outer product's left side (disc i, or discs i and i + 1 where two rows fit), `columns`
 /// the matching right side. Each instruction set's file adds what xsimd 8.1 has no name for: bits() of a mask,
 /// least() of a register's lanes, gather() of doubles or words by index, without a way through memory, rounded() of as many
-/// doubles as there are floats in a register, load_records(), which picks records of four floats from a table, each an
+/// doubles as there are floats in a register, widened() the other way round, load_records(), which picks records of four floats from a table, each an
 /// index of strides from its beginning, and gives field after field, lane = record, and rough_root(), for bounds: it is
 /// off by less than 3/4 of `rough`, relatively, for normal numbers, in other ways on every processor, and NaN for numbers
 /// below 0.

@@ -63,7 +63,7 @@ class PairKernel {
         miss_(arguments.mark_near_misses ? near_miss : apart),
         separation_(shapes_, at_),
         profiles_(shapes_, at_, arguments.prefetch_shapes),
-        walk_(shapes_, arguments.codes, arguments.prefetch_shapes) {}
+        walk_(shapes_, arguments) {}
 
   /// Of the pairs that were placed.
   void answer_chunk(std::size_t begin) noexcept {
@@ -83,8 +83,15 @@ class PairKernel {
     for (std::uint32_t k = 0; k < open_.size; ++k) {
       const std::uint32_t pair = open_.pair[k];
       walk_.add(begin + pair, miss(pair), at_.transform(pair), at_.root_a[pair], at_.root_b[pair],
-                shapes_.reach[at_.shape_a[pair]] + shapes_.reach[at_.shape_b[pair]]);
+                shapes_.reach[at_.shape_a[pair]] + shapes_.reach[at_.shape_b[pair]], segment_margin(pair));
     }
+  }
+
+  double segment_margin(std::uint32_t pair) const noexcept {
+    if (!in_.exact_leaves) return 0;
+    const double of_a = shapes_.segment_margin[at_.shape_a[pair]],
+                 of_b = shapes_.segment_margin[at_.shape_b[pair]];
+    return of_a + of_b;
   }
 
   /// Root disc against root disc, lane = pair. Where both cuts are single discs, that is the answer.

@@ -69,6 +69,14 @@ const Implementation& chosen(const Implementation* wanted, const char* query) {
   return *wanted;
 }
 
+bool exact_leaves(Leaves leaves, const char* query) {
+  if (leaves != Leaves::discs && leaves != Leaves::segments)
+    throw std::invalid_argument(std::string(query) + ": no leaves are " +
+                                std::to_string(static_cast<int>(leaves)) +
+                                ", only discs (0) and segments (1)");
+  return leaves == Leaves::segments;
+}
+
 Arguments arguments_for(const ShapeSetView& view, const Agents& agents, std::span<const Pair> pairs) {
   return {.shapes = &view,
           .agent_count = static_cast<std::uint32_t>(agents.size()),
@@ -80,6 +88,7 @@ Arguments arguments_for(const ShapeSetView& view, const Agents& agents, std::spa
           .pairs = pairs.data(),
           .codes = nullptr,
           .mark_near_misses = false,
+          .exact_leaves = false,
           .prefetch_agents = agents.size() >= many_agents,
           .prefetch_shapes = view.shape_count >= many_shapes};
 }

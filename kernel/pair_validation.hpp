@@ -9,7 +9,7 @@
 #include "kernel/arguments.hpp"
 #include "kernel/implementation.hpp"
 #include "layout/agents.hpp"
-#include "layout/shape_set_view.hpp"
+#include "layout/shape_set.hpp"
 
 namespace bch::kernel {
 
@@ -19,6 +19,10 @@ constexpr std::size_t pairs_per_task = 2048;
 /// The one asked for, or the best where none is (null).
 /// Errors:  throws std::invalid_argument naming the query where this processor does not run it.
 const Implementation& chosen(const Implementation* wanted, const char* query);
+
+/// Whether segments are asked for.
+/// Errors:  throws std::invalid_argument naming the query on a value that is none.
+bool exact_leaves(Leaves leaves, const char* query);
 
 /// What a query reads. Everything has to outlive the arguments; `pairs` may be empty.
 Arguments arguments_for(const ShapeSetView& view, const Agents& agents, std::span<const Pair> pairs);

@@ -17,6 +17,7 @@ struct ScalarLanes : Lanes<Scalar> {
     return p[*index];
   }
   static float rounded(const double (&v)[1]) noexcept { return static_cast<float>(v[0]); }
+  static void widened(float v, double (&to)[1]) noexcept { to[0] = static_cast<double>(v); }
   static std::uint32_t bits(bool hit) noexcept { return hit; }
   static float least(float values) noexcept { return values; }
   static constexpr float rough = 0;

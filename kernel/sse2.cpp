@@ -14,7 +14,7 @@ namespace {
 struct Sse2Lanes : Lanes<xsimd::sse2> {
   template <std::size_t stride>
   static void load_records(const float* table, const std::uint32_t* index, Float (&field)[4]) noexcept {
-    const auto record = [=](std::size_t i) { return _mm_load_ps(table + stride * index[i]); };
+    const auto record = [=](std::size_t i) { return _mm_loadu_ps(table + stride * index[i]); };
     __m128 r0 = record(0), r1 = record(1), r2 = record(2), r3 = record(3);
     _MM_TRANSPOSE4_PS(r0, r1, r2, r3);
     field[0] = r0, field[1] = r1, field[2] = r2, field[3] = r3;
@@ -28,6 +28,9 @@ struct Sse2Lanes : Lanes<xsimd::sse2> {
   }
   static Float rounded(const Double (&v)[2]) noexcept {
     return _mm_movelh_ps(_mm_cvtpd_ps(v[0]), _mm_cvtpd_ps(v[1]));
+  }
+  static void widened(Float v, Double (&to)[2]) noexcept {
+    to[0] = _mm_cvtps_pd(v), to[1] = _mm_cvtps_pd(_mm_movehl_ps(v, v));
   }
   static std::uint32_t bits(xsimd::batch_bool<float, xsimd::sse2> hits) noexcept {
     return static_cast<std::uint32_t>(_mm_movemask_ps(hits));

@@ -9,6 +9,8 @@
 #include "kernel/ancestor_test.hpp"
 #include "kernel/arguments.hpp"
 #include "kernel/block_test.hpp"
+#include "kernel/disc_pairs.hpp"
+#include "kernel/segment_test.hpp"
 #include "kernel/tree_nodes.hpp"
 #include "layout/shape_set_view.hpp"
 
@@ -22,18 +24,23 @@ namespace bch::kernel {
 template <class Simd, std::uint32_t capacity>
 class Walk {
  public:
-  Walk(const ShapeSetView& shapes, std::uint8_t* codes, bool prefetch) noexcept
-      : shapes_(shapes), codes_(codes), prefetch_(prefetch) {}
+  Walk(const ShapeSetView& shapes, const Arguments& arguments) noexcept
+      : shapes_(shapes),
+        codes_(arguments.codes),
+        prefetch_(arguments.prefetch_shapes),
+        exact_leaves_(arguments.exact_leaves),
+        segments_(shapes, open_) {}
 
   /// `pair` is where the answer goes in codes, `miss` what it is unless a walk finds an overlap.
-  /// `reach`: of the two shapes together.
+  /// `reach`: of the two shapes together. `margin`: of their segments, 0 where discs decide.
   void add(std::size_t pair, std::uint8_t miss, const Transform& b_in_a, std::uint32_t root_a,
-           std::uint32_t root_b, float reach) noexcept {
+           std::uint32_t root_b, float reach, double margin) noexcept {
     const Tree a = shapes_.trees[root_a], b = shapes_.trees[root_b];
+    if (a.segments == no_segments || b.segments == no_segments) margin = 0;
     // Slots are numbered when they are first needed, because small batches need few.
     if (size_ == numbered_) slots_[size_] = static_cast<std::uint16_t>(numbered_++);
     const std::uint32_t slot = slots_[size_++];
-    open_[slot] = {b_in_a, a.top, b.top, a.stride, b.stride, root_a, root_b, reach, 0, pair};
+    open_[slot] = {b_in_a, a.top, b.top, a.stride, b.stride, root_a, root_b, reach, 0, pair, margin};
     frames_[slot][0] = {0, 0, 0};
     codes_[pair] = miss;
   }
@@ -60,6 +67,7 @@ class Walk {
     float reach;
     std::uint32_t top;  ///< frame
     std::size_t pair;
+    double margin;  ///< 0, or segments decide where leaves overlap: metres
   };
 
   /// Two nodes whose discs overlap at the set bits (8 i + j: disc i of A, disc j of B), none of which was
@@ -101,7 +109,8 @@ class Walk {
                                    Nodes::discs(nodes, b, pair.stride_b));
   }
 
-  /// Takes the hits of leaves away whose ancestors do not all overlap, but for a pair's first that stays.
+  /// Takes the hits of leaves away whose segments do not meet or whose ancestors do not all overlap, but for a pair's first
+  /// that stays.
   [[gnu::always_inline]] void verify() noexcept {
     std::uint16_t found[verified_together + 1];
     std::uint32_t count = 0;
@@ -110,9 +119,58 @@ class Walk {
       found[count] = static_cast<std::uint16_t>(k);
       count += (at.a & at.b) / leaf_window & static_cast<std::uint32_t>(hits_[k] != 0);
       if (count == verified_together) [[unlikely]]
-        verify_hits(found, count), count = 0;
+        verify(found, count), count = 0;
     }
-    verify_hits(found, count);
+    verify(found, count);
+  }
+
+  void verify(std::uint16_t* which, std::uint32_t count) noexcept {
+    if (exact_leaves_) count = compare_segments(which, count);
+    verify_hits(which, count);
+  }
+
+  /// Keeps of the hits of leaf windows those whose segments meet, or of a pair whose segments surely cross any.
+  /// Returns: how many pairs have hits whose ancestors have to be asked; these come first.
+  std::uint32_t compare_segments(std::uint16_t* which, std::uint32_t count) noexcept {
+    std::uint64_t near[verified_together];
+    std::uint32_t is_sure = 0, is_compared = 0;
+    static_assert(verified_together <= 32);
+    const auto hear = [&](std::uint32_t owner, Meeting meeting) {
+      const std::uint32_t i = owner / block_pairs;
+      is_sure |= std::uint32_t{meeting == Meeting::sure} << i;
+      near[i] |= std::uint64_t{meeting == Meeting::near} << owner % block_pairs;
+    };
+    const auto for_trees = [&](auto use) {
+      for (std::uint32_t i = 0; i < count; ++i) {
+        const Open& at = open_[slots_[which[i]]];
+        if (at.margin > 0) use(i, at, shapes_.trees[at.root_a], shapes_.trees[at.root_b]);
+      }
+    };
+    for_trees([&](std::uint32_t i, const Open& at, const Tree& a, const Tree& b) {
+      near[i] = 0;
+      is_compared |= std::uint32_t{1} << i;
+      segments_.prefetch_words(a, at.a), segments_.prefetch_words(b, at.b);
+    });
+    for_trees([&](std::uint32_t, const Open& at, const Tree& a, const Tree& b) {
+      segments_.prefetch_points(a, at.a), segments_.prefetch_points(b, at.b);
+    });
+    for_trees([&](std::uint32_t i, const Open& at, const Tree& a, const Tree& b) {
+      for (std::uint64_t hits = hits_[which[i]]; hits != 0; hits &= hits - 1) {
+        const auto [disc_a, disc_b] = first_hit(at, hits);
+        const std::uint32_t owner = i * block_pairs + static_cast<unsigned>(__builtin_ctzll(hits));
+        segments_.add(slots_[which[i]], a, disc_a, b, disc_b, owner, hear);
+      }
+    });
+    segments_.finish(hear);
+    std::uint32_t left = 0;
+    for (std::uint32_t i = 0; i < count; ++i) {
+      const std::uint16_t k = which[i];
+      const bool sure = is_sure >> i & 1;
+      if (is_compared >> i & 1 && !sure) hits_[k] = near[i];
+      which[left] = k;
+      left += !sure & (hits_[k] != 0);
+    }
+    return left;
   }
 
   /// One hit of every pair after the other, until one stays or none is left. Paths are looked up side by side, because each
@@ -201,13 +259,14 @@ class Walk {
 
   const ShapeSetView& shapes_;
   std::uint8_t* const codes_;
-  const bool prefetch_;
+  const bool prefetch_, exact_leaves_;
   std::uint32_t size_ = 0, numbered_ = 0;
   std::uint16_t slots_[capacity];  ///< a permutation: first those of open pairs, then free ones
   Open open_[capacity];
   std::uint64_t hits_[capacity];
   AncestorPath<Simd> above_a_[verified_together],
       above_b_[verified_together];  ///< of those that are verified
+  SegmentTest<Simd, Open> segments_;
   Frame frames_[capacity][most_frames + 2];
 };
 

@@ -18,16 +18,17 @@ constexpr auto may_be_unknown = [] {
   return known;
 }();
 
-/// Runs that follow each other and fill a list.
+/// Runs that follow each other, each and a gap behind the one before, and fill a list.
 template <class Run>
-void require_runs(const char* array, std::span<const Run> runs, std::uint64_t end, bool may_be_empty) {
+void require_runs(const char* array, std::span<const Run> runs, std::uint64_t end, bool may_be_empty,
+                  std::uint64_t gap) {
   std::uint64_t next = 0;
   for (std::size_t i = 0; i < runs.size(); ++i) {
     if (runs[i].begin != next)
       reject(array, i, "begins at " + std::to_string(runs[i].begin) + ", not " + std::to_string(next));
     if (runs[i].end < next + std::uint64_t{!may_be_empty})
       reject(array, i, "ends at " + std::to_string(runs[i].end) + " where it begins, or before");
-    next = runs[i].end;
+    next = runs[i].end + gap;
   }
   if (next != end)
     throw std::invalid_argument(std::string(array) + ": " + std::to_string(next) + " is not the end, " +
@@ -98,7 +99,12 @@ void sizes(const ShapeArrays& a) {
   // Kernels name a profile's records by 32 bits, two floats each.
   if (shortcuts && shapes > most / (sizeof(Profile) / (2 * sizeof(float))))
     throw std::invalid_argument("profiles: " + std::to_string(shapes) + ", too many");
-  if (!a.shape_contours.empty()) require_size("shape_contours", a.shape_contours.size(), shapes);
+  const bool outlines = !a.shape_contours.empty();
+  if (outlines) require_size("shape_contours", a.shape_contours.size(), shapes);
+  require_size("segment_margin", a.segment_margin.size(), outlines ? shapes : 0);
+  if (!outlines) require_size("leaf_segments", a.leaf_segments.size(), 0);
+  if (a.leaf_segments.size() > most)
+    throw std::invalid_argument("leaf_segments: " + std::to_string(a.leaf_segments.size()) + ", too many");
 }
 
 /// Rows of supports are numbered in the order of shapes, whose deepest levels have them.
@@ -178,15 +184,23 @@ void profiles(const ShapeArrays& a) {
 }
 
 void shape_contours(const ShapeArrays& a) {
-  require_runs("shape_contours", a.shape_contours, a.contours.size(), true);
+  require_runs("shape_contours", a.shape_contours, a.contours.size(), true, 0);
 }
 
 void contour_points(const ShapeArrays& a) {
-  require_runs("contours", a.contours, a.points.size(), false);
+  require_runs("contours", a.contours, a.points.size(), false, 1);
+  require_all("contours", a.contours, "its first point does not follow its last one", [&](const Contour& c) {
+    return std::bit_cast<std::uint64_t>(a.points[c.begin]) == std::bit_cast<std::uint64_t>(a.points[c.end]);
+  });
 }
 
 void points(const ShapeArrays& a) {
   require_all("points", a.points, "no point", [](const Vec2& p) { return is_length(p.x) & is_length(p.y); });
+}
+
+void segment_margins(const ShapeArrays& a) {
+  require_all("segment_margin", a.segment_margin, "no margin",
+              [](float margin) { return is_radius(margin); });
 }
 
 void contour_discs(const ShapeArrays& a) {

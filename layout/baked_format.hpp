@@ -41,7 +41,9 @@
 ///     profiles        Profile     S or 0  profile.hpp
 ///     shape_contours  ContourRange  S or 0  one behind the other; 0 where there are no trees
 ///     contours        Contour     any     its points, one at least, behind those of the contour before
-///     points          Vec2        any     metres
+///     points          Vec2        any     metres; after a contour's last point its first one again
+///     leaf_segments   u32         any     see below; or none
+///     segment_margin  f32         S or 0  metres, rounding.hpp; like shape_contours
 ///     settings        Settings    1
 ///     origins         ShapeOrigin S or 0  what each shape shows
 ///     name_begin      u32         N + 1   name n is bytes [n] to [n + 1] of names
@@ -61,6 +63,10 @@
 /// leads to the window at the first disc, top itself where it is a window. Levels lie in the order of roots, with at
 /// most 9 levels of blocks each. At least 48 floats follow the last one.
 ///
+/// Exact leaves. Tree::segments is 2^32 - 1, or, at the level of all depths of a shape with contours, the index in leaf_segments
+/// of the first of Tree::count words; Tree::points is then the index of the shape's first point, else 0. shape_set_view.hpp says
+/// what the words, and the lists that follow them in their order, mean. The next tree's words follow the last list.
+///
 /// Numbers. Coordinates and radii are finite and at most 1e7 m, a root's radius above 0, reaches within rounding.hpp's
 /// domain. shape_preconditions() lists all that is checked.
 namespace bch::baked {
@@ -69,7 +75,7 @@ namespace bch::baked {
 constexpr std::array<std::uint8_t, 8> magic{0x89, 'B', 'C', 'H', '\r', '\n', 0x1a, '\n'};
 constexpr std::uint32_t byte_order = 0x01020304;
 constexpr std::uint32_t other_byte_order = 0x04030201;
-constexpr std::uint32_t version = 3;
+constexpr std::uint32_t version = 4;
 constexpr std::size_t alignment = 64;
 
 struct FileHeader {
@@ -96,6 +102,8 @@ enum class Section : std::uint32_t {
   shape_contours,
   contours,
   points,
+  leaf_segments,
+  segment_margin,
   settings,
   origins,
   name_begin,

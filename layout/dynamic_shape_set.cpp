@@ -14,8 +14,9 @@ namespace bch {
 namespace {
 
 bool fits(const ShapeExtent& part, const ShapeExtent& whole) {
-  return part.nodes <= whole.nodes && part.rows <= whole.rows && part.contours <= whole.contours &&
-         part.points <= whole.points;
+  bool all = true;
+  for_each_part([&](std::size_t needed, std::size_t room) { all &= needed <= room; }, part, whole);
+  return all;
 }
 
 /// One part of a shape, which gets a new place behind all others where it outgrew its own.
@@ -51,8 +52,9 @@ void DynamicShapeSet::copy(const ShapeArrays& arrays) {
   storage_.depths.assign(arrays.depths.begin(), arrays.depths.end());
   if (arrays.trees.empty()) {
     storage_.roots.assign(arrays.roots.begin(), arrays.roots.end());
-    constexpr std::size_t any = std::numeric_limits<std::size_t>::max();
-    std::fill(places_.begin(), places_.end(), Place{{}, {any, any, any, any}});
+    Place any;
+    for_each_part([](std::size_t& part) { part = std::numeric_limits<std::size_t>::max(); }, any.size);
+    std::fill(places_.begin(), places_.end(), any);
     return;
   }
   storage_.resize(plan_, places_.size());
@@ -79,8 +81,9 @@ void DynamicShapeSet::require(std::uint32_t shape, const FlatShape& flat) const 
 bool DynamicShapeSet::try_replace(std::uint32_t shape, const FlatShape& flat) {
   require(shape, flat);
   if (!fits(extent_of(flat), places_[shape].size)) return false;
-  // Else set_ has to learn of single discs, or a kernel would not look for them.
+  // Else set_ has to learn of single discs, or a kernel would not look for them; and that an outline is missing.
   if (set_.view().rows_in_order && has_single_disc(flat)) return false;
+  if (set_.solid() && !set_.roots_only() && flat.outline.contours() == 0) return false;
   storage_.put(shape, flat, places_[shape].begin);
   return true;
 }
@@ -94,23 +97,24 @@ void DynamicShapeSet::replace(std::uint32_t shape, const FlatShape& flat) {
   };
   const Refresh refresh{*this};
   const ShapeExtent needed = extent_of(flat);
-  make_place(shape, needed,
-             {needed.nodes + needed.nodes / 2, needed.rows, needed.contours + needed.contours / 2,
-              needed.points + needed.points / 2});
+  ShapeExtent room = needed;
+  for_each_part([](std::size_t& part) { part += part / 2; }, room);
+  make_place(shape, needed, room);
   storage_.put(shape, flat, places_[shape].begin);
 }
 
 /// Parts that have room enough stay where they are.
 void DynamicShapeSet::make_place(std::uint32_t shape, const ShapeExtent& needed, const ShapeExtent& room) {
   auto [begin, size] = places_[shape];
-  const ShapeExtent grown{grow(needed.nodes, next_line(room.nodes), end_.nodes, begin.nodes, size.nodes),
-                          grow(needed.rows, room.rows, end_.rows, begin.rows, size.rows),
-                          grow(needed.contours, room.contours, end_.contours, begin.contours, size.contours),
-                          grow(needed.points, room.points, end_.points, begin.points, size.points)};
+  ShapeExtent to_lines = room, grown;
+  to_lines.nodes = next_line(room.nodes);
+  for_each_part(
+      [](std::size_t& more, std::size_t part, std::size_t with_room, std::size_t end, std::size_t& from,
+         std::size_t& length) { more = grow(part, with_room, end, from, length); },
+      grown, needed, to_lines, end_, begin, size);
   storage_.make_room(end_, grown);
   places_[shape] = {begin, size};
-  end_ = {end_.nodes + grown.nodes, end_.rows + grown.rows, end_.contours + grown.contours,
-          end_.points + grown.points};
+  for_each_part([](std::size_t& end, std::size_t more) { end += more; }, end_, grown);
 }
 
 }  // namespace bch

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "layout/cut_discs.hpp"
+#include "layout/leaf_segments.hpp"
 
 namespace bch {
 namespace {
@@ -79,6 +80,12 @@ void take_outline(const ShapeArrays& arrays, std::size_t shape, FlatShape& flat)
   const auto [begin, end] = arrays.shape_contours[shape];
   for (const Contour& contour : arrays.contours.subspan(begin, end - begin))
     flat.contour_disc.push_back(contour.disc);
+  flat.segment_margin = arrays.segment_margin[shape];
+  const Tree& last_level = arrays.trees[(shape + 1) * arrays.depths.size() - 1];
+  if (last_level.segments == no_segments) return;
+  const auto words = arrays.leaf_segments.subspan(last_level.segments);
+  const auto own = words.first(leaf_segments_size(words, last_level.count));
+  flat.leaf_segments.assign(own.begin(), own.end());
 }
 
 }  // namespace

@@ -47,6 +47,7 @@ struct Hierarchy {
   std::vector<Element> elements;      ///< in the order of the leaves
   std::vector<std::uint32_t> source;  ///< per element: index of the outline segment or triangle it comes from
   std::vector<ElementRange> held;     ///< per node: its elements
+  bool of_segments = false;  ///< the elements are an outline's segments or pieces of them, not triangles
 };
 
 /// Checks what others rely on: at least one node, children after their parents, discs that are finite, larger than 0 and

@@ -59,6 +59,7 @@ void set_centre(HierarchyNode& node, Vec2 centre) {
 void clear(Hierarchy& hierarchy) {
   hierarchy.nodes.clear();
   hierarchy.elements.clear(), hierarchy.source.clear(), hierarchy.held.clear();
+  hierarchy.of_segments = false;
 }
 
 }  // namespace

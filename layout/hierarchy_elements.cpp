@@ -11,6 +11,7 @@ namespace bch {
 void HierarchyBuilder::add_elements(Hierarchy& hierarchy) const {
   hierarchy.elements.clear(), hierarchy.source.clear();
   hierarchy.held.resize(hierarchy.nodes.size());
+  hierarchy.of_segments = threshold_ > 0;
   for (std::size_t at = 0; at < order_.size();) {
     const std::uint32_t node = first_node_[at];
     const auto begin = static_cast<std::uint32_t>(hierarchy.elements.size());

@@ -2,6 +2,8 @@
 // Copyright (c) 2026 the bch authors
 
 #include "layout/cut_discs.hpp"
+#include "layout/hierarchy.hpp"
+#include "layout/leaf_segments.hpp"
 #include "layout/rounding.hpp"
 #include "layout/shape_checks.hpp"
 
@@ -125,7 +127,7 @@ void blocks(const ShapeArrays& a, LevelNodes& level) {
 }
 
 void room(const ShapeArrays& a, LevelNodes& level) {
-  const auto [top, discs, stride, count, outer] = tree(a, level);
+  const auto [top, discs, stride, count, outer, segments, points] = tree(a, level);
   const std::uint64_t after_discs = level.discs + 3 * std::uint64_t{stride};
   level.end =
       (after_discs + inner_floats - 1) / inner_floats * inner_floats + inner_floats * std::uint64_t{count};
@@ -205,6 +207,44 @@ void reach_of_level(const ShapeArrays& a, LevelNodes& level) {
   const float extent = std::abs(root.x) + std::abs(root.y) + root.radius;
   if (reach(a, level) > most * extent)
     reject("reach", level.root / a.depths.size(), "far beyond root " + std::to_string(level.root));
+}
+
+void segments_of_leaves(const ShapeArrays& a, LevelNodes& level) {
+  const Tree& of = tree(a, level);
+  const std::size_t shape = level.root / a.depths.size();
+  const bool is_last_level = level.root % a.depths.size() == a.depths.size() - 1;
+  const auto require = [&](bool good, const char* what) {
+    if (!good) reject("leaf_segments", level.segments, "root " + std::to_string(level.root) + ": " + what);
+  };
+  if (of.segments != no_segments) {
+    require(is_last_level && a.depths.back() == all_depths && of.count > 1, "not a level of exact leaves");
+    require(of.segments == level.segments && of.segments + std::uint64_t{of.count} <= a.leaf_segments.size(),
+            "no words of its leaves");
+    const auto [first_contour, last_contour] = a.shape_contours[shape];
+    require(first_contour < last_contour && of.points == a.contours[first_contour].begin,
+            "not its shape's points");
+    const std::uint64_t points = a.contours[last_contour - 1].end - of.points;
+    const auto words = a.leaf_segments.subspan(of.segments);
+    std::uint64_t named = 0, end = of.count;
+    const auto name = [&](std::uint64_t first, std::uint64_t count) {
+      require(first + count <= points, "a leaf names no segments of its shape");
+      named += count;
+    };
+    for (const std::uint32_t word : words.first(of.count)) {
+      if (word < leaf_list) {
+        name(word & leaf_first_mask, word >> leaf_count_shift);
+        continue;
+      }
+      require((word & ~leaf_list) == end && end < words.size() && words[end] < words.size() - end,
+              "a list is not behind the one before");
+      for (const std::uint32_t segment : words.subspan(end + 1, words[end])) name(segment, 1);
+      require(words[end] > 0 && words[end] <= most_leaf_segments, "a list is too short or too long");
+      end += 1 + words[end];
+    }
+    require(named <= points + of.count, "leaves name too many segments");
+    level.segments = of.segments + end;
+  }
+  require(level.root + 1 < a.roots.size() || level.segments == a.leaf_segments.size(), "more follows");
 }
 
 }  // namespace bch::shape_checks

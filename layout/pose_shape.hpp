@@ -24,8 +24,8 @@ Shape pose_shape(Skinner& skinner, PoseTime at, float threshold = 0.01f);
 class PoseShaper {
  public:
   /// The character must outlive this and must be valid (see validate()); the threshold is that of
-  /// pose_shape(). `deepest`: of a plan's depths; hierarchies end there. `outlines`: whether anybody looks at them, as
-  /// the solid semantics does. Where nobody does, depth 0 takes the outermost vertices alone, a third of the time, and
+  /// pose_shape(). `deepest`: the largest of a plan's depths; hierarchies end there. `outlines`: whether to produce outlines
+  /// at depth 0, where no query needs them. Without, that depth takes the outermost vertices alone, a third of the time, and
   /// shapes have no outlines; see ExtremeVertices for what is the same.
   explicit PoseShaper(const Character& character, float threshold = 0.01f, std::uint32_t deepest = all_depths,
                       bool outlines = true);
@@ -33,7 +33,8 @@ class PoseShaper {
   /// The most nodes of a hierarchy, 2^22 unless told: shapes of more throw std::length_error.
   void limit_nodes(std::size_t most) { hierarchy_builder_.limit_nodes(most); }
 
-  /// Returns: the shape that pose_shape() makes, down to the deepest depth and without elements, until the next call.
+  /// Returns: the shape that pose_shape() makes, down to the deepest depth, until the next call; with elements where that is
+  /// all_depths, because exact leaves need them.
   /// Errors:  as pose_shape(), but that heights may be anything; the shape made before is lost.
   const Shape& shape(PoseTime at);
 

@@ -102,7 +102,31 @@
 /// their own rounding (support_float, layout/supports.cpp), never part them: support_margin. Only this proof needs all of
 /// it; tests fail where it has the other sign.
 ///
-/// V. The ends of the range. (underflow) Radii are at least 25 u P >= 1e-12 m (P >= smallest_reach), so (r_A + r_B)^2 >=
+/// V. Exact leaves: segments. Two segments are compared in double (kernel/segment_test.hpp), B's ends placed by the floats
+/// (c, s) and t. What double rounds is 2^-29 u, (higher). Where outlines meet, |d| <= |a| + |b| <= S for their common point,
+/// and the placed ends are off by
+///
+///     (segment_place)    8.9 u S         (turn) of |b|, and (position) of |d|
+///
+/// Segments meet where an end of one is within
+///
+///     (segment_margin)   13 u P          of either shape, and 1.5 of its grid steps
+///
+/// of the other, or where both ends of each lie on different sides of the other's line, at least 0.7 (sure_share) of that
+/// margin away from it. No miss: outlines that meet, snapped and placed, are at most (segment_place) and 1.5 of each grid
+/// step apart. Either the placed segments are disjoint, and then an end is as near as that to the other; or they cross and
+/// an end is within sqrt(2) 0.7 of the margin of the other's line, so that some end is as near as that to the other segment:
+/// of two segments that cross at a narrow angle the one that ends first between both. (The test compares with the sum of
+/// the coordinates of a segment, which is up to sqrt(2) of its length.) A crossing by (sure_share) is one of the outlines
+/// themselves, because it can only come apart where an end passes the other segment, and no end moves so far:
+///
+///     sure_share * segment_margin > segment_place
+///
+/// The price, in the same way as above: segments that meet are at most the margin and (segment_place) apart,
+///
+///     (segment_price)    (13 + 8.9) u S + 1.5 * 2^-22 S = 1.7e-6 S
+///
+/// VI. The ends of the range. (underflow) Radii are at least 25 u P >= 1e-12 m (P >= smallest_reach), so (r_A + r_B)^2 >=
 /// 1e-24, while what a square loses below FLT_MIN, flushed to zero or not, is under 1e-37. A product in (turn), (arm) or
 /// (position) that is flushed loses 1.2e-38, where u P is 6e-14 m or more. (overflow) |d| <= 2e9 sqrt(2) m (limits below),
 /// squared 8e18.
@@ -151,6 +175,9 @@ static_assert(halving >= halved_often(18) && halving >= halved_often(19) && halv
 constexpr double higher = 0.03;
 static_assert(higher >= 0x1p-10 * (query_error + 1));
 
+constexpr double segment_place = 8.9;
+static_assert(segment_place >= turn + position);
+
 constexpr double support_place = 21.2;
 constexpr double support_weight = 59;
 constexpr double support_sums = 6;
@@ -171,6 +198,14 @@ constexpr double support_margin = 320 * unit_roundoff;
 static_assert(support_margin >=
               (terms::support_error + terms::query_error + terms::support_float) * unit_roundoff);
 
+/// How near two segments are that meet: this times the sum of the shapes' reaches, beside the grid steps of both.
+constexpr double segment_margin = 13 * unit_roundoff;
+static_assert(segment_margin >= (terms::segment_place + terms::higher) * unit_roundoff);
+/// What of the margin all ends have to be beyond the other's line, so that a crossing is sure.
+constexpr double sure_share = 0.7;
+static_assert(terms::root_2 * sure_share < 1);
+static_assert(sure_share * segment_margin >= (terms::segment_place + terms::higher) * unit_roundoff);
+
 /// Snapping moves a vertex by sqrt(1/2) grid steps, and rounding a crossing to the grid by as much again.
 constexpr double outline_grid_steps = 1.5;
 static_assert(outline_grid_steps >= 2 * (terms::root_2 / 2));
@@ -179,6 +214,11 @@ static_assert(outline_grid_steps >= 2 * (terms::root_2 / 2));
 constexpr double price = 3.4e-6;
 static_assert(price >=
               query_margin + (2 + terms::query_error) * unit_roundoff + outline_grid_steps * 0x1p-22);
+
+/// The same of exact leaves.
+constexpr double segment_price = 1.7e-6;
+static_assert(segment_price >=
+              segment_margin + terms::segment_place * unit_roundoff + outline_grid_steps * 0x1p-22);
 
 /// The documented domain; beyond it the library throws.
 constexpr double smallest_reach = 1e-6;   // metres

@@ -34,6 +34,8 @@ constexpr double pairs_for_shortcuts = 500;
 struct SceneUse {
   /// The solid semantics, too.
   bool solid = false;
+  /// What decides at the leaves of the level of all depths, if there is one.
+  Leaves leaves = Leaves::segments;
   /// Level of detail: the cut depth of agents at a distance, all_depths where it does not matter. None: all_depths.
   std::function<std::uint32_t(double metres)> depth = {};
   /// The same by the density around agents, for example depth_at_density(); where both say something, the coarser counts.

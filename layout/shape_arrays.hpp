@@ -25,6 +25,8 @@ struct ShapeArrays {
   std::span<const ContourRange> shape_contours;
   std::span<const Contour> contours;
   std::span<const Vec2> points;
+  std::span<const std::uint32_t> leaf_segments;
+  std::span<const float> segment_margin;
 
   std::size_t shape_count() const noexcept { return depths.empty() ? 0 : roots.size() / depths.size(); }
 };
@@ -45,6 +47,8 @@ void for_each_array(Visit visit, Sets&... sets) {
   visit("shape_contours", sets.shape_contours...);
   visit("contours", sets.contours...);
   visit("points", sets.points...);
+  visit("leaf_segments", sets.leaf_segments...);
+  visit("segment_margin", sets.segment_margin...);
 }
 
 }  // namespace bch

@@ -34,6 +34,7 @@ void profiles(const ShapeArrays& a);
 void shape_contours(const ShapeArrays& a);
 void contour_points(const ShapeArrays& a);
 void points(const ShapeArrays& a);
+void segment_margins(const ShapeArrays& a);
 void contour_discs(const ShapeArrays& a);
 
 // Of a level: level_checks.cpp.
@@ -47,6 +48,7 @@ void padding(const ShapeArrays& a, LevelNodes& level);
 void numbers(const ShapeArrays& a, LevelNodes& level);
 void single_discs(const ShapeArrays& a, LevelNodes& level);
 void reach_of_level(const ShapeArrays& a, LevelNodes& level);
+void segments_of_leaves(const ShapeArrays& a, LevelNodes& level);
 
 // Of a level: inner_node_checks.cpp.
 void inner_nodes(const ShapeArrays& a, LevelNodes& level);

@@ -21,8 +21,12 @@ struct FlatShape {
   Supports supports;  ///< of the deepest level; this and the next two only with the plan's shortcuts
   Profile profile;
   Interior interior;
-  Outline outline;  ///< this and the next only with a solid plan
+  // Only with the plan's outlines.
+  Outline outline;
   std::vector<Disc> contour_disc;
+  float segment_margin = 0;  ///< metres; see rounding.hpp, V
+  std::vector<std::uint32_t>
+      leaf_segments;  ///< of the last level, if that has exact leaves; see shape_set_view.hpp
 };
 
 /// Makes shape after shape flat, with memory that is reused; where nearly all the time goes that a set takes.
@@ -41,11 +45,14 @@ class ShapeFlattener {
   void add_levels(const Shape& shape, FlatShape& flat);
   void add_interior(const Shape& shape, FlatShape& flat);
   void add_shortcuts(std::size_t level, FlatShape& flat) const;
-  static void add_outline(const Outline& outline, FlatShape& flat);
+  static void add_outline(const Shape& shape, FlatShape& flat);
+  void add_segments(const Hierarchy& hierarchy, FlatShape& flat);
 
   ShapeSetPlan plan_;
   Flattener flattener_;
   InteriorBuilder interiors_;
+  std::vector<std::uint32_t> moved_,
+      held_;  ///< numbers of segments: of all by the outline's points, and of one leaf
 };
 
 }  // namespace bch

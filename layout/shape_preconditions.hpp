@@ -23,10 +23,11 @@ struct NamedWindows {
 /// Where the nodes of one level of one shape lie. Checks of a level run in the order of shape_preconditions(); the first
 /// ones fill in what the later ones read.
 struct LevelNodes {
-  std::size_t root;         ///< shape * level count + level
-  std::uint64_t begin;      ///< one past the level before
-  std::uint64_t discs = 0;  ///< where the cut's discs begin; blocks lie between the tree's top and here
-  std::uint64_t end = 0;    ///< one past the level
+  std::size_t root;            ///< shape * level count + level
+  std::uint64_t begin;         ///< one past the level before
+  std::uint64_t discs = 0;     ///< where the cut's discs begin; blocks lie between the tree's top and here
+  std::uint64_t end = 0;       ///< one past the level
+  std::uint64_t segments = 0;  ///< one past what leaf_segments say of the levels before
   NamedWindows windows{};
 
   /// An inner node, by its place among them, and the disc of its first child.

@@ -18,6 +18,14 @@ bool rows_in_order(std::span<const Root> roots) {
   return in_order;
 }
 
+/// Single discs need no outlines: those that do not overlap cannot hold each other's.
+bool is_solid(const ShapeArrays& arrays) {
+  if (arrays.trees.empty()) return true;
+  bool all = !arrays.shape_contours.empty();
+  for (const ContourRange& contours : arrays.shape_contours) all &= contours.begin < contours.end;
+  return all;
+}
+
 ShapeSet build(std::span<const Shape> shapes, const ShapeSetPlan& plan) {
   ShapeFlattener flattener(plan);
   ShapeSetBuilder builder(plan, shapes.size());
@@ -45,7 +53,9 @@ ShapeSetView view_of(const ShapeArrays& arrays) {
           .profiles = or_null(arrays.profiles),
           .shape_contours = or_null(arrays.shape_contours),
           .contours = or_null(arrays.contours),
-          .points = or_null(arrays.points)};
+          .points = or_null(arrays.points),
+          .leaf_segments = or_null(arrays.leaf_segments),
+          .segment_margin = or_null(arrays.segment_margin)};
 }
 
 }  // namespace
@@ -61,11 +71,11 @@ void validate(const ShapeSetPlan& plan) {
 ShapeSet::ShapeSet(std::span<const Shape> shapes, const ShapeSetPlan& plan) : ShapeSet(build(shapes, plan)) {}
 
 ShapeSet::ShapeSet(const ShapeArrays& arrays, std::shared_ptr<const void> memory)
-    : arrays_(arrays), memory_(std::move(memory)), view_(view_of(arrays)) {}
+    : arrays_(arrays), memory_(std::move(memory)), view_(view_of(arrays)), solid_(is_solid(arrays)) {}
 
 ShapeSetPlan ShapeSet::plan() const {
   return {.depths = {arrays_.depths.begin(), arrays_.depths.end()},
-          .solid = !arrays_.shape_contours.empty(),
+          .outlines = !arrays_.shape_contours.empty(),
           .shortcuts = !arrays_.support.empty()};
 }
 

@@ -22,12 +22,22 @@ struct Shape {
   Hierarchy hierarchy;
 };
 
+/// What decides where leaves of two hierarchies overlap.
+enum class Leaves {
+  discs,  ///< that they do
+  /// Exact leaves: whether segments of the outlines in them come within the rounding margin of each other (rounding.hpp, V).
+  /// Of agents at the level of all depths whose shapes have segments there; else, and for leaves of more than 127 segments, as
+  /// with discs.
+  segments,
+};
+
 /// What a scene will use of its shapes; nothing else is built or stored.
 struct ShapeSetPlan {
   /// The levels of detail: cut depths, ascending. Level k of every shape is its cut at depths[k].
   std::vector<std::uint32_t> depths = {all_depths};
-  /// Keep what the solid semantics needs (the outlines, to see one shape inside another).
-  bool solid = false;
+  /// Keep the outlines: for the solid semantics, which sees one shape inside another, and for exact leaves, which the level of
+  /// all depths then has of shapes whose cut is more than one disc and whose hierarchy has its elements.
+  bool outlines = true;
   /// Keep what lets a query skip most traversals: supports and, of shapes with an outline, inscribed discs. They
   /// change no answer; a set that answers few queries does without.
   bool shortcuts = true;
@@ -57,9 +67,10 @@ class ShapeSet {
   std::uint32_t shape_count() const noexcept { return view_.shape_count; }
   std::uint32_t level_count() const noexcept { return static_cast<std::uint32_t>(arrays_.depths.size()); }
   std::span<const std::uint32_t> depths() const noexcept { return arrays_.depths; }
-  /// Solid semantics can be asked. Single discs need no outlines for it: those that do not overlap cannot hold each
-  /// other's outlines.
-  bool solid() const noexcept { return roots_only() || !arrays_.shape_contours.empty(); }
+  /// Solid semantics can be asked: every shape has its outline here, or every cut is a single disc.
+  bool solid() const noexcept { return solid_; }
+  /// Some level of some shape has exact leaves.
+  bool exact_leaves() const noexcept { return !arrays_.leaf_segments.empty(); }
   /// Every cut is a single disc: there are roots and nothing else.
   bool roots_only() const noexcept { return arrays_.trees.empty(); }
   /// What is stored: of roots alone no more than the depths.
@@ -70,6 +81,7 @@ class ShapeSet {
   ShapeArrays arrays_;
   std::shared_ptr<const void> memory_;
   ShapeSetView view_;
+  bool solid_;
 };
 
 }  // namespace bch

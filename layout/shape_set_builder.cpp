@@ -29,14 +29,16 @@ void ShapeSetBuilder::add(const FlatShape& flat) {
   storage_.resize(plan_, shapes_ + 1);
   storage_.make_room(at, size);
   storage_.put(shapes_++, flat, at);
-  end_ = {at.nodes + size.nodes, at.rows + size.rows, at.contours + size.contours, at.points + size.points};
+  for_each_part([](std::size_t& end, std::size_t from, std::size_t length) { end = from + length; }, end_, at,
+                size);
 }
 
 /// As large as all are going to be, by those so far, and a quarter. Room that is never written to takes no memory.
 void ShapeSetBuilder::reserve() {
   const std::size_t times = (expected_shapes_ * 5 / 4 + sample - 1) / sample;
-  storage_.reserve(plan_, expected_shapes_,
-                   {end_.nodes * times, end_.rows * times, end_.contours * times, end_.points * times});
+  ShapeExtent all = end_;
+  for_each_part([=](std::size_t& part) { part *= times; }, all);
+  storage_.reserve(plan_, expected_shapes_, all);
 }
 
 std::span<const float> ShapeSetBuilder::nodes() const noexcept {

@@ -62,13 +62,18 @@ constexpr std::uint32_t no_supports = 1;  ///< it is more, at another level than
 constexpr std::uint32_t first_row = 2;
 static_assert(sizeof(Root) == 16);
 
+/// The level has no exact leaves: it is not that of all depths or a single disc, or the shape has no outline.
+constexpr std::uint32_t no_segments = 0xffffffff;
+
 /// Where a level's nodes are: blocks, then the cut's discs, all x, all y and all radii, then its inner nodes.
 struct Tree {
-  std::uint32_t top;     ///< node
-  std::uint32_t discs;   ///< where the first x is
-  std::uint32_t stride;  ///< from a cut disc's x to its y, and from there to its radius
-  std::uint32_t count;   ///< cut discs; where they are fewer than the stride, padding follows
-  float outer;           ///< metres: the root's outer radius
+  std::uint32_t top;                     ///< node
+  std::uint32_t discs;                   ///< where the first x is
+  std::uint32_t stride;                  ///< from a cut disc's x to its y, and from there to its radius
+  std::uint32_t count;                   ///< cut discs; where they are fewer than the stride, padding follows
+  float outer;                           ///< metres: the root's outer radius
+  std::uint32_t segments = no_segments;  ///< where the words of the leaves are among leaf_segments, or that
+  std::uint32_t points = 0;              ///< with segments: where the shape's points are
 
   /// Number of the first inner node: the number of floats from `nodes` on, by four. (Inlined for certain, so that
   /// instruction sets share no function.)
@@ -76,6 +81,16 @@ struct Tree {
     return (discs + 3 * stride + inner_floats - 1) / inner_floats;
   }
 };
+
+// Which segments of an outline the leaves of a tree hold: a word a leaf, then lists. Segments are numbered by the points of the
+// shape where they begin, contour after contour, each with its first point again at its end. A word names a run of segments: its
+// first one in 24 bits, and how many there are, 1 to 127, in the next 7. Where these do not follow each other or numbers are
+// too large, the top bit is set, and the rest says where a list begins, counted from the first word: how many segments, then
+// their numbers. 0 stands for more than 127 segments: there the disc decides, else two such leaves would take too long.
+constexpr std::uint32_t leaf_list = 0x80000000;
+constexpr unsigned leaf_count_shift = 24;
+constexpr std::uint32_t leaf_first_mask = (std::uint32_t{1} << leaf_count_shift) - 1;
+constexpr std::uint32_t most_leaf_segments = 127;
 
 /// Farthest points of a contour; see interior.hpp.
 struct Extremes {
@@ -102,8 +117,9 @@ static_assert(sizeof(Profile) == (1 + profile_sectors) * sizeof(Sector) && sizeo
 
 /// A closed polygon of an outline.
 struct Contour {
-  Disc disc;                 ///< the smallest enclosing one
-  std::uint32_t begin, end;  ///< its points
+  Disc disc;  ///< the smallest enclosing one
+  std::uint32_t begin,
+      end;  ///< its points; after the last one the first follows again, as the end of the last segment
 };
 static_assert(sizeof(Contour) == 20);
 
@@ -130,10 +146,12 @@ struct ShapeSetView {
   const Extremes* extremes;
   const Profile* profiles;  ///< per shape
 
-  // Null without the solid plan, and like the trees.
+  // Null without the plan's outlines, and like the trees.
   const ContourRange* shape_contours;  ///< per shape
   const Contour* contours;
   const Vec2* points;
+  const std::uint32_t* leaf_segments;  ///< words and lists, see Tree::segments; null where no tree has any
+  const float* segment_margin;         ///< per shape, metres; see rounding.hpp, V; null without outlines
 };
 
 }  // namespace bch

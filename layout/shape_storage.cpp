@@ -42,7 +42,8 @@ ShapeExtent extent_of(const FlatShape& flat) {
   }
   extent.rows = !flat.levels.back().is_single();
   extent.contours = flat.contour_disc.size();
-  extent.points = flat.outline.points.size();
+  extent.points = flat.outline.points.size() + extent.contours;
+  extent.segments = flat.leaf_segments.size();
   return extent;
 }
 
@@ -62,9 +63,10 @@ void ShapeStorage::reserve(const ShapeSetPlan& plan, std::size_t shapes, const S
     support.reserve(extent.rows * support_stride);
     inscribed.reserve(shapes), extremes.reserve(shapes), profiles.reserve(shapes);
   }
-  if (plan.solid) {
-    shape_contours.reserve(shapes);
+  if (plan.outlines) {
+    shape_contours.reserve(shapes), segment_margin.reserve(shapes);
     contours.reserve(extent.contours), points.reserve(extent.points);
+    leaf_segments.reserve(extent.segments);
   }
 }
 
@@ -76,7 +78,7 @@ void ShapeStorage::resize(const ShapeSetPlan& plan, std::size_t shapes) {
   trees.resize(shapes * levels);
   reach.resize(shapes);
   if (plan.shortcuts) inscribed.resize(shapes), extremes.resize(shapes), profiles.resize(shapes);
-  if (plan.solid) shape_contours.resize(shapes);
+  if (plan.outlines) shape_contours.resize(shapes), segment_margin.resize(shapes);
 }
 
 void ShapeStorage::make_room(const ShapeExtent& at, const ShapeExtent& size) {
@@ -85,6 +87,7 @@ void ShapeStorage::make_room(const ShapeExtent& at, const ShapeExtent& size) {
   if (last_node >= leaf_window) throw std::length_error("shape set: more than 2^31 numbers in nodes");
   require_numbers(at.rows + size.rows, "rows of supports");
   require_numbers(at.points + size.points, "points");
+  require_numbers(at.segments + size.segments, "segments of leaves");
   if (!trees.empty()) nodes.resize(last_node);
   if (!profiles.empty()) {
     if (support.empty()) support.assign(first_row * support_stride, std::numeric_limits<float>::infinity());
@@ -93,6 +96,7 @@ void ShapeStorage::make_room(const ShapeExtent& at, const ShapeExtent& size) {
   if (!shape_contours.empty()) {
     contours.resize(at.contours + size.contours);
     points.resize(at.points + size.points);
+    leaf_segments.resize(at.segments + size.segments);
   }
 }
 
@@ -129,8 +133,8 @@ void ShapeStorage::put_level(std::size_t root, const WideTree& tree, std::size_t
     out = std::transform(block.child, block.child + block_width, out,
                          [&](std::uint32_t child) { return std::bit_cast<float>(name(child)); });
     out = std::copy_n(block.outer, block_width, out);
-    out = std::transform(block.node, block.node + block_width, out, [&](std::uint32_t node) {
-      return std::bit_cast<float>(node < leaf_window ? node + first_inner : name(node));
+    out = std::transform(block.node, block.node + block_width, out, [&](std::uint32_t of_block) {
+      return std::bit_cast<float>(of_block < leaf_window ? of_block + first_inner : name(of_block));
     });
   }
   for (const std::vector<float>* field : {&tree.x, &tree.y, &tree.radius})
@@ -159,9 +163,19 @@ void ShapeStorage::put_outline(std::size_t shape, const FlatShape& flat, const S
   const std::size_t count = flat.contour_disc.size();
   shape_contours[shape] = {contour, contour + static_cast<std::uint32_t>(count)};
   const auto& begin = flat.outline.contour_begin;
-  for (std::size_t c = 0; c < count; ++c)
-    contours[contour + c] = {flat.contour_disc[c], point + begin[c], point + begin[c + 1]};
-  std::copy(flat.outline.points.begin(), flat.outline.points.end(), points.begin() + point);
+  for (std::size_t c = 0; c < count; ++c) {
+    const auto closed = static_cast<std::uint32_t>(point + c);
+    contours[contour + c] = {flat.contour_disc[c], closed + begin[c], closed + begin[c + 1]};
+    const auto of_contour = flat.outline.contour(c);
+    Vec2* const out = std::copy(of_contour.begin(), of_contour.end(), points.data() + closed + begin[c]);
+    *out = of_contour.front();
+  }
+  segment_margin[shape] = flat.segment_margin;
+  if (flat.leaf_segments.empty()) return;
+  Tree& last_level = trees[(shape + 1) * depths.size() - 1];
+  last_level.segments = static_cast<std::uint32_t>(at.segments);
+  last_level.points = point;
+  std::copy(flat.leaf_segments.begin(), flat.leaf_segments.end(), leaf_segments.data() + at.segments);
 }
 
 }  // namespace bch

@@ -17,7 +17,20 @@ struct ShapeExtent {
   std::size_t nodes = 0;  ///< floats; a shape begins at a multiple of 16, a cache line
   std::size_t rows = 0;   ///< of supports
   std::size_t contours = 0, points = 0;
+  std::size_t segments = 0;  ///< of leaf_segments
+
+  friend bool operator==(const ShapeExtent&, const ShapeExtent&) = default;
 };
+
+/// Calls visit(part...) for each part, with that of every one of `extents`.
+template <class Visit, class... Extents>
+void for_each_part(Visit visit, Extents&... extents) {
+  visit(extents.nodes...);
+  visit(extents.rows...);
+  visit(extents.contours...);
+  visit(extents.points...);
+  visit(extents.segments...);
+}
 
 ShapeExtent extent_of(const FlatShape& flat);
 
@@ -38,6 +51,8 @@ struct ShapeStorage {
   AlignedVector<ContourRange> shape_contours;
   AlignedVector<Contour> contours;
   AlignedVector<Vec2> points;
+  AlignedVector<std::uint32_t> leaf_segments;
+  AlignedVector<float> segment_margin;
 
   ShapeArrays arrays() const;
 

@@ -33,9 +33,13 @@ constexpr Precondition all[] = {
     {"profiles", "Profiles are such numbers, or minus infinity where nothing is known.", profiles, nullptr},
     {"shape contours", "Shapes' contours lie one behind the other and are all contours.", shape_contours,
      nullptr},
-    {"contours", "Contours' points lie one behind the other and are all points; no contour is empty.",
+    {"contours",
+     "Contours' points, each with the first one again at its end, lie one behind the other and are all "
+     "points; no contour "
+     "is empty.",
      contour_points, nullptr},
     {"points", "Points are numbers of at most 1e7 m.", points, nullptr},
+    {"segment margins", "Segment margins are numbers from 0 to 1e7 m.", segment_margins, nullptr},
     {"contour discs",
      "A contour's disc is about its points and as large as its farthest point asks: else containment "
      "looks into contours that cannot hold each other.",
@@ -72,6 +76,11 @@ constexpr Precondition all[] = {
     {"nodes of blocks",
      "A block's discs are those of the nodes that it names, which are above the discs below.", nullptr,
      nodes_of_blocks},
+    {"segments of leaves",
+     "Leaves name segments of their shape's contours, no more of all than it has points and discs, at the "
+     "level of all depths "
+     "alone; what they name lies one behind the other.",
+     nullptr, segments_of_leaves},
     {"outer radii", "An outer radius exceeds a disc's by no more than cut discs can stick out of it.",
      nullptr, outer_radii},
 };

@@ -41,6 +41,7 @@ void verify_shape(const Look& look) {
     verify_cover(look, outline, level);
   }
   verify_contours(look, outline);
+  if (outline.contours() > 0) verify_segments(look);
   if (look.arrays().profiles.empty()) return;
   verify_supports(look);
   verify_profile(look, outline);

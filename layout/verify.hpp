@@ -33,7 +33,8 @@ std::string text_of(const Finding& finding);
 /// - A level has at most as many discs as its depth allows and no fewer than the one before, and each of its discs
 ///   belongs to one of the level before, as the smallest discs of a part and of the whole do.
 /// - Reaches, supports and the outer ends of profiles are those of the discs.
-/// - Where outlines are stored, with the solid plan: every level's discs cover them; contours' discs are the smallest;
+/// - Where outlines are stored: every level's discs cover them; the leaves that name a segment cover it, and margins are
+///   not below what rounding needs; contours' discs are the smallest;
 ///   inscribed discs lie inside the largest contour; extremes are its farthest points; profiles are those of the
 ///   outline. Where they are not, inscribed discs, extremes and profiles are only seen not to stick out of the discs.
 ///

@@ -4,9 +4,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <numbers>
 
 #include "layout/enclosing_disc.hpp"
+#include "layout/leaf_segments.hpp"
 #include "layout/profile.hpp"
 #include "layout/rounding.hpp"
 #include "layout/supports.hpp"
@@ -187,6 +189,32 @@ void verify_cover(const Look& look, const Outline& outline, std::uint32_t level)
                      std::to_string(c) + ", (" + shortest(contour[i].x) + ", " + shortest(contour[i].y) +
                      ") m");
   }
+}
+
+void verify_segments(const Look& look) {
+  const ShapeArrays& arrays = look.arrays();
+  const double margin = arrays.segment_margin[look.shape];
+  if (margin + look.tolerance() * 0x1p-4 < rounding::segment_margin * look.reach)
+    look.say("segment_margin", no_level, shortest(margin) + " m is below what rounding needs");
+  const std::uint32_t level = look.levels() - 1;
+  const Tree& tree = arrays.trees[look.root(level)];
+  if (tree.segments == no_segments) return;
+  const CutDiscs cut = look.cut(level);
+  std::map<std::uint32_t, std::vector<std::uint32_t>> leaves;  // of each segment
+  const auto words = arrays.leaf_segments.subspan(tree.segments);
+  for (std::uint32_t k = 0; k < cut.count; ++k)
+    for (const std::uint32_t segment : segments_of(words, k)) leaves[tree.points + segment].push_back(k);
+  if (std::count(words.begin(), words.begin() + cut.count, 0u) > 0) return;  // some name none
+  const auto [first, last] = arrays.shape_contours[look.shape];
+  for (const Contour& contour : arrays.contours.subspan(first, last - first))
+    for (std::uint32_t i = contour.begin; i < contour.end; ++i) {
+      std::vector<float> x, y, radius;
+      for (const std::uint32_t k : leaves[i])
+        x.push_back(cut.x[k]), y.push_back(cut.y[k]), radius.push_back(cut.radius[k]);
+      const CutDiscs naming{x.data(), y.data(), radius.data(), static_cast<std::uint32_t>(x.size())};
+      if (!is_covered(naming, point(arrays.points[i]), point(arrays.points[i + 1])))
+        look.say("leaf_segments", level, "no leaves that name segment " + std::to_string(i) + " cover it");
+    }
 }
 
 void verify_contours(const Look& look, const Outline& outline) {

@@ -55,5 +55,6 @@ void verify_inside(const Look& look, const Outline& outline);
 void verify_hull(const Look& look);
 void verify_contours(const Look& look, const Outline& outline);
 void verify_cover(const Look& look, const Outline& outline, std::uint32_t level);
+void verify_segments(const Look& look);
 
 }  // namespace bch::verification

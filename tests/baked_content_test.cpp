@@ -25,7 +25,7 @@ constexpr float infinity = std::numeric_limits<float>::infinity();
 constexpr float nan = std::numeric_limits<float>::quiet_NaN();
 
 BakedBytes sound_bytes() {
-  return BakedBytes(ShapeSet(few_shapes(), {.depths = {0, 3, all_depths}, .solid = true}), origins_of(3));
+  return BakedBytes(ShapeSet(few_shapes(), {.depths = {0, 3, all_depths}, .outlines = true}), origins_of(3));
 }
 
 struct Crime {
@@ -114,7 +114,7 @@ std::vector<Crime> crimes() {
       {"shape_contours 1: ends", word(Section::shape_contours, 3, 0)},
       {"shape_contours: 1000", word(Section::shape_contours, 5, 1000)},
       {"contours 2", [](BakedBytes& b) { b.section<Contour>(Section::contours)[2].begin = 1; }},
-      {"contours: 4294967295", [](BakedBytes& b) { b.section<Contour>(Section::contours)[3].end = ~0u; }},
+      {"contours: 4294967296", [](BakedBytes& b) { b.section<Contour>(Section::contours)[3].end = ~0u; }},
       {"contours 1", [](BakedBytes& b) { b.section<Contour>(Section::contours)[1].end = 0; }},
       {"contours 3", [](BakedBytes& b) { b.section<Contour>(Section::contours)[3].disc.radius = -1; }},
       {"points 5", [](BakedBytes& b) { b.section<Vec2>(Section::points)[5].y = nan; }},

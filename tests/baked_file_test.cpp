@@ -27,7 +27,7 @@ namespace {
 
 using baked::Section;
 
-const ShapeSetPlan full_plan{.depths = {0, 3, all_depths}, .solid = true, .shortcuts = true};
+const ShapeSetPlan full_plan{.depths = {0, 3, all_depths}, .outlines = true, .shortcuts = true};
 
 void expect_same(const ShapeArrays& loaded, const ShapeArrays& expected) {
   baked::Arrays a{loaded, {}, {}, {}, {}}, b{expected, {}, {}, {}, {}};
@@ -203,7 +203,7 @@ TEST_F(SpoiledFile, SaysWhatIsWrongWithTheHeader) {
   with([&] { header.byte_order = baked::other_byte_order; }, "byte order");
   with([&] { header.byte_order = 7; }, "byte order");
   with([&] { header.file_size = ~std::uint64_t{0}; }, "18446744073709551615 bytes");
-  with([&] { header.section_count = 18; }, "18 sections");
+  with([&] { header.section_count = 19; }, "19 sections");
   with([&] { header.zero[6] = 1; }, "where there has to be 0");
 }
 

@@ -91,8 +91,9 @@ TEST_P(Baking, FilesHoldTheirImages) {
   const TemporaryFolder folder;
   const std::string file = folder.file("a.bch");
   const auto poses = sources(600, 600);
-  for (const ShapeSetPlan& plan : {ShapeSetPlan{}, ShapeSetPlan{.depths = {0, 3, all_depths}, .solid = true},
-                                   ShapeSetPlan{.depths = {0}}}) {
+  for (const ShapeSetPlan& plan :
+       {ShapeSetPlan{}, ShapeSetPlan{.depths = {0, 3, all_depths}, .outlines = true},
+        ShapeSetPlan{.depths = {0}}}) {
     const BakedShapes baked = arena.execute([&] { return bake_file(file, characters, poses, 0.01, plan); });
     EXPECT_EQ(content(file), image(baked));
     EXPECT_EQ(image(baked),

@@ -76,7 +76,7 @@ TEST(Cli, InspectVerifiesABakedFile) {
 }
 
 TEST(Cli, VerifyNamesALie) {
-  BakedBytes bytes(ShapeSet(few_shapes(), {.solid = true}), origins_of(3));
+  BakedBytes bytes(ShapeSet(few_shapes(), {.outlines = true}), origins_of(3));
   bytes.section<Profile>(baked::Section::profiles)[1].sectors[4].outer -= 0.01f;
   bytes.seal();
   const TemporaryFolder folder;
@@ -98,7 +98,14 @@ TEST(Cli, BakedCrowdIsTheCrowdOfItsCharacters) {
     return levels;
   };
   EXPECT_EQ(report({"--character", baked}), report({"--poses", "5"}));
-  expect_failure(bch({"crowd", "--character", baked, "--semantics", "solid"}), 3, {"two.bch: ", "solid"});
+  const std::string discs = folder.file("discs.bch");
+  ASSERT_EQ(bch({"bake", "default:male", "--poses", "2", "--leaves", "discs", "-o", discs}).code, 0);
+  EXPECT_LT(std::filesystem::file_size(discs), std::filesystem::file_size(baked) / 5);
+  EXPECT_EQ(bch({"crowd", "--agents", "20", "--character", discs}).code, 0);
+  expect_failure(bch({"crowd", "--character", discs, "--semantics", "solid"}), 3,
+                 {"discs.bch: ", "--semantics solid"});
+  expect_failure(bch({"crowd", "--character", discs, "--leaves", "segments"}), 3,
+                 {"discs.bch: ", "--leaves segments"});
 }
 
 TEST(Cli, InspectDescribesABakedFile) {
@@ -116,6 +123,7 @@ TEST(Cli, InspectDescribesABakedFile) {
   EXPECT_EQ(json["depths"], nlohmann::json({"3"}));
   EXPECT_EQ(json["threshold_m"], 0.02);
   EXPECT_EQ(json["solid"], false);
+  EXPECT_EQ(json["exact_leaves"], false);
   ASSERT_EQ(json["shapes"].size(), json["shape_count"]);
   EXPECT_EQ(json["shapes"][0]["character"], "default:male");
   EXPECT_EQ(json["shapes"][0]["clip"], "walk");
@@ -143,11 +151,11 @@ TEST(Cli, BadBakedFilesGiveThreeAndOneLine) {
   std::string flipped = text;
   flipped[text.size() / 2] ^= 4;
   std::string newer = text;
-  newer[12] = 4;
+  newer[12] = 5;
   const std::pair<std::string, const char*> cases[] = {{"", "too few"},
                                                        {text.substr(0, 3000), "3000"},
                                                        {flipped, "wrong checksum"},
-                                                       {newer, "version 4"},
+                                                       {newer, "version 5"},
                                                        {std::string(5000, 'x'), "not a baked file"}};
   const std::string agents = folder.write("agents.csv", four_agents);
   for (const auto& [content, word] : cases) {

@@ -161,8 +161,12 @@ TEST_F(BadInput, SemanticsThatThereIsNot) {
                std::invalid_argument);
 }
 
-TEST_F(BadInput, SizesThatDifferAndSolidWithoutAPlan) {
-  expect_rejected("not planned for solid", {Semantics::solid});
+TEST_F(BadInput, SizesThatDifferAndSolidWithoutOutlines) {
+  set = ShapeSet(shapes, {.outlines = false});
+  expect_rejected("solid semantics needs outlines", {Semantics::solid});
+  shapes[1].outline = {};
+  set = ShapeSet(shapes);
+  expect_rejected("does not have that of every shape", {Semantics::solid});
   crowd.y.pop_back();
   expect_rejected("2 shapes but 1 values of y");
   crowd.y.push_back(0);

@@ -78,7 +78,7 @@ TEST_F(Differential, NearTangentPairs) {
 }
 
 TEST_F(Differential, WithoutShortcuts) {
-  const ShapeSet plain(shapes, {.depths = plan.depths, .solid = true, .shortcuts = false});
+  const ShapeSet plain(shapes, {.depths = plan.depths, .outlines = true, .shortcuts = false});
   expect_equal_to_brute_force(plain, reference, random_scene(random, plain, 25'000), "random");
   expect_equal_to_brute_force(plain, reference, tangent_scene(25'000), "near tangent");
 }
@@ -99,7 +99,7 @@ TEST(Sizes, AnAntMeetsAnElephant) {
     shape.outline = test::star(random, 60, 0.6 * size, size);
     shape.hierarchy = contour_hierarchy(shape.outline, static_cast<float>(0.02 * size));
   }
-  const ShapeSetPlan levels{.depths = {0, 3, all_depths}, .solid = true};
+  const ShapeSetPlan levels{.depths = {0, 3, all_depths}, .outlines = true};
   const ShapeSet set(shapes, levels);
   const Reference reference(shapes, levels);
   for (int i = 0; i < 2; ++i) {

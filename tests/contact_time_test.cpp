@@ -162,7 +162,7 @@ TEST_F(ContactTimeDifferential, WithoutAWayItIsCollide) {
   Motion motion{random_scene(random, set, 50'000), {}, {}};
   motion.x.assign(motion.pairs.size(), 0), motion.y = motion.x;
   std::vector<std::uint8_t> hits(motion.pairs.size());
-  collide(set, motion.crowd.agents(), motion.pairs, hits);
+  collide(set, motion.crowd.agents(), motion.pairs, hits, {.leaves = Leaves::discs});
   const std::vector<float> all = times(set, motion);
   for (std::size_t i = 0; i < hits.size(); ++i) ASSERT_EQ(all[i], hits[i] ? 0 : never) << i;
   // As floats these are 0, and a way whose length cannot be divided by.

@@ -98,11 +98,12 @@ TEST_F(DeepTrees, AreDeep) {
 TEST_F(DeepTrees, CollideAndContacts) {
   const baselines::Reference discs(shapes, {});
   const baselines::CutLists cuts(shapes, {});
+  const baselines::LeafSegments segments(shapes, {}, Leaves::segments);
   std::vector<std::uint8_t> expected;
   ContactTable expected_contacts{{0}, {}};
   for (const Pair pair : scene.pairs) {
     expected.push_back(discs.boundary(agents(), pair, Method::brute_force));
-    for (const auto& [i, j] : baselines::contacts(cuts, agents(), pair))
+    for (const auto& [i, j] : baselines::contacts(cuts, agents(), pair, &segments))
       expected_contacts.contacts.push_back({i, j});
     expected_contacts.begin.push_back(expected_contacts.contacts.size());
   }

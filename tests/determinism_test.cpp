@@ -34,7 +34,8 @@ using Hashes = std::vector<std::uint64_t>;
 
 const Hashes golden{0x5a2185e3105413a1, 0xb001f2145d76abf1, 0x0df165085461f9bf, 0x22e4be2a917a2aab,
                     0x6208885fb451fee7, 0xbf5f940cfee4332d, 0x21c4d2cab484c549, 0x04ad4df0d6203a5b,
-                    0xe67190d710f1ec09, 0xebec44f58f6fc63e};
+                    0xe67190d710f1ec09, 0xebec44f58f6fc63e, 0x05d25bd83e461c8b, 0x8a060f5623b47a02,
+                    0x80ad28f139efe06b};
 
 /// In this order, bytes of all answers.
 class AnswerBytes {
@@ -49,10 +50,13 @@ class AnswerBytes {
     times,
     depths,
     contact_counts,
-    contact_discs
+    contact_discs,
+    exact_boundary,
+    exact_solid,
+    exact_contacts
   };
 
-  AnswerBytes() : bytes_(contact_discs + 1) {}
+  AnswerBytes() : bytes_(exact_contacts + 1) {}
 
   template <class Values>
   void add(Query query, const Values& values) {
@@ -67,6 +71,12 @@ class AnswerBytes {
 
  private:
   std::vector<std::string> bytes_;
+};
+
+struct Asked {
+  Semantics semantics;
+  Leaves leaves;
+  AnswerBytes::Query query;
 };
 
 /// As MXCSR says it.
@@ -103,7 +113,7 @@ class Determinism : public testing::Test {
     for (std::size_t i = 0; i < pairs.size(); i += batch)
       answer(isa, i, std::min(batch, pairs.size() - i), bytes);
     CrowdCollider collider;
-    const auto all = collider.collide_all(set, crowd.agents(), {Semantics::solid, isa});
+    const auto all = collider.collide_all(set, crowd.agents(), {Semantics::solid, isa, Leaves::discs});
     bytes.add(AnswerBytes::neighbours, all.begin);
     bytes.add(AnswerBytes::neighbours, all.neighbours);
     return bytes.hashes();
@@ -133,10 +143,14 @@ class Determinism : public testing::Test {
     const Agents agents = crowd.agents();
     const auto of = std::span(pairs).subspan(begin, size);
     std::vector<std::uint8_t> hits(size);
-    collide(set, agents, of, hits, {Semantics::boundary, isa});
-    bytes.add(AnswerBytes::boundary, hits);
-    collide(set, agents, of, hits, {Semantics::solid, isa});
-    bytes.add(AnswerBytes::solid, hits);
+    for (const auto& [semantics, leaves, query] :
+         {Asked{Semantics::boundary, Leaves::discs, AnswerBytes::boundary},
+          Asked{Semantics::solid, Leaves::discs, AnswerBytes::solid},
+          Asked{Semantics::boundary, Leaves::segments, AnswerBytes::exact_boundary},
+          Asked{Semantics::solid, Leaves::segments, AnswerBytes::exact_solid}}) {
+      collide(set, agents, of, hits, {semantics, isa, leaves});
+      bytes.add(query, hits);
+    }
     std::vector<float> values(size);
     std::vector<Vec2> directions(size);
     std::vector<CutNodes> nodes(size);
@@ -151,10 +165,12 @@ class Determinism : public testing::Test {
     separation(set, agents, of, 16, ways, {isa});
     add_depths(ways, bytes);
     ContactTable table;
-    contacts(set, agents, of, table, {isa});
+    contacts(set, agents, of, table, {isa, Leaves::discs});
     for (std::size_t i = 0; i < size; ++i)
       bytes.add(AnswerBytes::contact_counts, std::vector{table.begin[i + 1] - table.begin[i]});
     bytes.add(AnswerBytes::contact_discs, table.contacts);
+    contacts(set, agents, of, table, {isa});
+    bytes.add(AnswerBytes::exact_contacts, table.contacts);
   }
 };
 

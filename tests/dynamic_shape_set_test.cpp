@@ -21,7 +21,7 @@ namespace bch {
 static void PrintTo(const ShapeSetPlan& plan, std::ostream* out) {
   for (const std::uint32_t depth : plan.depths)
     *out << (depth == all_depths ? "all" : std::to_string(depth)) << "_";
-  *out << (plan.solid ? "solid_" : "") << (plan.shortcuts ? "shortcuts" : "plain");
+  *out << (plan.outlines ? "solid_" : "") << (plan.shortcuts ? "shortcuts" : "plain");
 }
 
 namespace {
@@ -63,7 +63,7 @@ class DynamicShapes : public testing::TestWithParam<ShapeSetPlan> {
   void expect_as_if_built_anew() {
     const ShapeSet anew(present, GetParam());
     const PairScene scene = random_scene(random, anew, 3'000);
-    const bool solid = GetParam().solid;
+    const bool solid = GetParam().outlines;
     EXPECT_EQ(answers(dynamic.set(), scene, solid), answers(anew, scene, solid));
     const Agents agents = scene.crowd.agents();
     EXPECT_EQ(candidate_pairs(dynamic.set(), agents), candidate_pairs(anew, agents));
@@ -84,7 +84,7 @@ TEST_P(DynamicShapes, AnswerAsIfBuiltAnew) {
 /// Single discs come and go.
 TEST_P(DynamicShapes, MayBecomeSingleDiscs) {
   Shape disc = pool[20];
-  disc.hierarchy.nodes.resize(1);
+  disc.hierarchy.nodes.resize(1), disc.hierarchy.held.resize(1);
   disc.hierarchy.nodes[0].second_child = 0;
   for (int round = 0; round < 6; ++round) {
     for (std::uint32_t shape = 0; shape < 12; ++shape)
@@ -173,7 +173,7 @@ TEST(DynamicShapeSet, PlacesOfACopyDoNotReachIntoEachOther) {
     const ShapeExtent size = extent_of(shape);
     tight.make_room(end, size);
     tight.put(s, shape, end);
-    end.nodes += size.nodes, end.rows += size.rows;
+    for_each_part([](std::size_t& sum, std::size_t more) { sum += more; }, end, size);
   }
   validate(tight.arrays());
   ASSERT_NE(tight.trees[1].top % 16, 0u);

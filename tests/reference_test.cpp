@@ -94,6 +94,9 @@ class Answers {
         ASSERT_LE(hits[i], before[i]) << "a deeper cut adds a collision";
         ASSERT_LE(hits[i], met[i]) << "the descent misses a hit";
         ASSERT_GE(hits[i], crossing[i]) << "outlines that meet are missed";
+        const bool exact_hit = exact.boundary(agents, scene.pairs[i], Method::depth_first);
+        ASSERT_LE(exact_hit, hits[i] != 0) << "exact leaves add a collision";
+        ASSERT_GE(exact_hit, crossing[i] != 0) << "exact leaves miss outlines that meet";
         if (i % slow_share == 0) check_slowly(agents, scene.pairs[i], hits[i] == 1);
         refuted += hits[i] != met[i];
       }
@@ -123,7 +126,7 @@ class Answers {
     ASSERT_TRUE(hit || !oracle.cross());
   }
 
-  baselines::Reference slow{shapes, plan};
+  baselines::Reference slow{shapes, plan, Leaves::discs}, exact{shapes, plan};
   baselines::CutLists cuts_{shapes, plan};
 };
 

@@ -126,7 +126,8 @@ void attack(const test::TangentShapes& shapes, std::uint64_t seed, Tallies& tall
   std::vector<std::uint8_t> hits(block);
   const auto implementations = supported();
   for (std::size_t k = 0; k < implementations.size(); ++k) {
-    collide(shapes.set(), scene.crowd.agents(), scene.pairs, hits, {Semantics::boundary, implementations[k]});
+    collide(shapes.set(), scene.crowd.agents(), scene.pairs, hits,
+            {Semantics::boundary, implementations[k], Leaves::discs});
     for (std::uint32_t i = 0; i < block; ++i) count(tallies[k], near[i], hits[i] != 0);
   }
 }

@@ -134,7 +134,7 @@ TEST(ScenePlan, HasTheDepthsThatAgentsAskFor) {
 TEST(ScenePlan, HasTheShortcutsThatPay) {
   EXPECT_TRUE(plan_scene({}).set.shortcuts);
   EXPECT_FALSE(plan_scene({}, {.pairs_per_shape = 6}).set.shortcuts);
-  EXPECT_TRUE(plan_scene({}, {.solid = true}).set.solid);
+  EXPECT_TRUE(plan_scene({}, {.solid = true, .leaves = Leaves::discs}).set.outlines);
 }
 
 /// A set by the plan answers like one with everything.
@@ -156,14 +156,14 @@ TEST(ScenePlan, ChangesNoAnswer) {
       shapes.push_back(shapers[source.character].shape(source.at));
     std::vector<std::uint8_t> answers(pairs.size());
     collide(ShapeSet(shapes, set_plan), {plan.agent_shape, x, y, heading, plan.agent_level}, pairs, answers,
-            {set_plan.solid ? Semantics::solid : Semantics::boundary});
+            {set_plan.outlines ? Semantics::solid : Semantics::boundary});
     return answers;
   };
   for (const bool solid : {false, true})
     for (const double many : {6.0, 1e9}) {
       const ScenePlan plan = plan_scene(agents, {.solid = solid, .depth = depth_at, .pairs_per_shape = many});
       const auto answers = hits(plan, plan.set);
-      EXPECT_EQ(answers, hits(plan, {.depths = plan.set.depths, .solid = solid}));
+      EXPECT_EQ(answers, hits(plan, {.depths = plan.set.depths, .outlines = solid}));
       EXPECT_GT(std::count(answers.begin(), answers.end(), 1), 300);
     }
 }

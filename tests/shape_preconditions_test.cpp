@@ -128,6 +128,7 @@ const std::vector<Damage>& all_damage() {
       {"sizes", [](Arrays& a) { a.own.extremes.pop_back(); }},
       {"sizes", [](Arrays& a) { a.own.reach.clear(); }},
       {"sizes", [](Arrays& a) { a.own.shape_contours.pop_back(); }},
+      {"sizes", [](Arrays& a) { a.own.segment_margin.pop_back(); }},
       {"sizes",  // more profiles than kernels can name
        [](Arrays& a) {
          a.last = [](ShapeArrays& view) {
@@ -135,14 +136,14 @@ const std::vector<Damage>& all_damage() {
            const auto many = [](auto& span) { span = {span.data(), shapes}; };
            view.depths = view.depths.first(1);
            many(view.roots), many(view.trees), many(view.reach), many(view.inscribed), many(view.extremes);
-           many(view.profiles), many(view.shape_contours);
+           many(view.profiles), many(view.shape_contours), many(view.segment_margin);
          };
        }},
       {"rows", [](Arrays& a) { a.own.roots[Arrays::finest].row += 1; }},
       {"rows", [](Arrays& a) { a.own.support.resize(a.own.support.size() + support_stride); }},
       {"single depth",  // what made DynamicShapeSet copy roots without their trees
        [](Arrays& a) {
-         a = Arrays({.depths = {all_depths}});
+         a = Arrays({.depths = {all_depths}, .outlines = false});
          a.own.depths[0] = 0;
        }},
       {"single depth",
@@ -164,7 +165,9 @@ const std::vector<Damage>& all_damage() {
       {"profiles", [](Arrays& a) { a.own.profiles[1].sectors[7].inner = infinity; }},
       {"shape contours", [](Arrays& a) { a.own.shape_contours[1].end -= 1; }},
       {"contours", [](Arrays& a) { a.own.contours[1].end = a.own.contours[1].begin; }},
+      {"contours", [](Arrays& a) { a.own.points[a.own.contours[0].end].x += 1; }},
       {"points", [](Arrays& a) { a.own.points[5].y = nan; }},
+      {"segment margins", [](Arrays& a) { a.own.segment_margin[1] = -1e-6f; }},
       {"contour discs", [](Arrays& a) { a.own.contours[0].disc.radius *= 2; }},
       {"contour discs",  // as large as its farthest point asks, but elsewhere
        [](Arrays& a) {
@@ -217,6 +220,23 @@ const std::vector<Damage>& all_damage() {
            a.lowest_block()[field * block_width + 3] = (&a.own.roots[Arrays::finest].x)[field];
        }},
       {"nodes of blocks", [](Arrays& a) { add(a.lowest_block()[block_nodes + 3], 1); }},
+      {"segments of leaves",  // of the next shape
+       [](Arrays& a) { a.own.leaf_segments[a.own.trees[Arrays::finest].segments] += a.own.contours[0].end; }},
+      {"segments of leaves",  // a list beyond the array
+       [](Arrays& a) { a.own.leaf_segments.back() |= leaf_list; }},
+      {"segments of leaves",  // more than there are, again and again
+       [](Arrays& a) {
+         const Tree& tree = a.own.trees[Arrays::finest];
+         for (std::uint32_t k = 0; k < tree.count; ++k)
+           a.own.leaf_segments[tree.segments + k] = std::uint32_t{3} << leaf_count_shift;
+       }},
+      {"segments of leaves", [](Arrays& a) { a.own.trees[Arrays::finest].segments += 1; }},
+      {"segments of leaves", [](Arrays& a) { a.own.trees[Arrays::finest].points += 1; }},
+      {"segments of leaves",  // of a coarse level
+       [](Arrays& a) {
+         std::swap(a.own.trees[Arrays::finest].segments, a.own.trees[Arrays::finest - 1].segments);
+       }},
+      {"segments of leaves", [](Arrays& a) { a.own.leaf_segments.push_back(1 << leaf_count_shift); }},
       {"outer radii", [](Arrays& a) { a.lowest_block()[block_outer + 3] += 1; }},
       {"outer radii", [](Arrays& a) { a.lowest_block()[block_outer + 3] = nan; }},
       {"outer radii", [](Arrays& a) { a.own.trees[Arrays::finest].outer += 1; }},
@@ -264,7 +284,7 @@ TEST(ShapePreconditions, HaveNamesOfTheirOwnAndOneCheckEach) {
 }
 
 TEST(ShapePreconditions, HoldForASoundSet) {
-  const Arrays sound({.depths = {0, 3, all_depths}, .solid = true});
+  const Arrays sound({.depths = {0, 3, all_depths}, .outlines = true});
   EXPECT_NO_THROW(validate(sound.view()));
 }
 
@@ -272,7 +292,7 @@ TEST(ShapePreconditions, EachRefusesWhatNoOtherDoes) {
   std::set<std::string> damaged;
   for (const Damage& damage : all_damage()) {
     damaged.insert(damage.precondition);
-    Arrays arrays({.depths = {0, 3, all_depths}, .solid = true});
+    Arrays arrays({.depths = {0, 3, all_depths}, .outlines = true});
     damage.make(arrays);
     const ShapeArrays view = arrays.view();
     EXPECT_THROW(validate(view), std::invalid_argument) << damage.precondition;

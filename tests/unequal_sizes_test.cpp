@@ -63,7 +63,7 @@ class UnequalSizes : public testing::Test {
   UnequalSizes() {
     for (const double size : sizes) add_shapes(random, size, shapes);
     for (const bool shortcuts : {true, false})
-      sets.emplace_back(shapes, ShapeSetPlan{plan.depths, plan.solid, shortcuts});
+      sets.emplace_back(shapes, ShapeSetPlan{plan.depths, plan.outlines, shortcuts});
     discs = std::make_unique<baselines::Reference>(shapes, plan);
     cuts = std::make_unique<CutLists>(shapes, plan);
   }
@@ -178,12 +178,13 @@ TEST_F(UnequalSizes, SolidCollisionsEqualBruteForce) {
 }
 
 TEST_F(UnequalSizes, ContactsEqualBruteForce) {
+  const baselines::LeafSegments segments(shapes, plan, Leaves::segments);
   for (const PairScene& scene : scenes(test::samples(12'000)))
     for_implementations([&](const kernel::Implementation& implementation) {
       ContactTable table;
       contacts(sets[0], scene.crowd.agents(), scene.pairs, table, {&implementation});
       for (std::size_t i = 0; i < scene.pairs.size(); ++i) {
-        const auto expected = baselines::contacts(*cuts, scene.crowd.agents(), scene.pairs[i]);
+        const auto expected = baselines::contacts(*cuts, scene.crowd.agents(), scene.pairs[i], &segments);
         const auto found = table.of(i);
         ASSERT_TRUE(std::equal(
             found.begin(), found.end(), expected.begin(), expected.end(),

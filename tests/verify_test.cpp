@@ -62,7 +62,7 @@ TEST(Verify, FindsNothingInShapesWithoutOutlines) {
   for (Shape& shape : shapes) shape.outline = {};
   shapes.push_back({{}, fixed_cylinder(0.25f)});
   for (const ShapeSetPlan& plan : plans)
-    if (!plan.solid) expect_nothing(ShapeSet(shapes, plan));
+    if (!plan.outlines) expect_nothing(ShapeSet(shapes, plan));
 }
 
 TEST(Verify, FindsNothingInADynamicSet) {
@@ -155,12 +155,19 @@ const std::vector<Lie>& lies() {
                std::max(contour.disc.radius, std::hypot(p.x - contour.disc.x, p.y - contour.disc.y));
        }},
       {"nodes", "cover", [](BakedBytes& b) { b.section<Vec2>(Section::points)[7].x *= 0.5f; }},
+      {"leaf_segments", "no leaves that name segment",
+       [](BakedBytes& b) {
+         std::uint32_t& word = b.section<std::uint32_t>(Section::leaf_segments)[5];
+         word = std::uint32_t{1} << leaf_count_shift | (word + 3) % 8;
+       }},
+      {"segment_margin", "is below what rounding needs",
+       [](BakedBytes& b) { b.section<float>(Section::segment_margin)[0] *= 0.2f; }},
   };
   return all;
 }
 
 BakedBytes honest() {
-  return {ShapeSet(few_shapes(), {.depths = {0, 3, all_depths}, .solid = true}), origins_of(3)};
+  return {ShapeSet(few_shapes(), {.depths = {0, 3, all_depths}, .outlines = true}), origins_of(3)};
 }
 
 TEST(Verify, NamesTheLie) {

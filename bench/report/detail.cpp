@@ -97,7 +97,7 @@ std::vector<Outcome> walk_and_test(Run& run, std::span<const Detail> details, do
       const std::vector<std::uint8_t> levels = details[k].levels(workload.crowd);
       outcomes[k].counting.push_back(counting.nanoseconds());
       const bench::Stopwatch tests(1);
-      collide(*details[k].set, workload.crowd.at_level(levels), workload.pairs, hits);
+      collide(*details[k].set, workload.crowd.at_level(levels), workload.pairs, hits, bench::disc_query);
       outcomes[k].tests.push_back(tests.nanoseconds());
       for (std::size_t i = 0; i < hits.size(); ++i)
         outcomes[k].add(workload.pairs[i], frame, hits[i] != 0, truth[i] != 0);

@@ -23,9 +23,9 @@ struct Row {
 };
 constexpr double not_told = std::numeric_limits<double>::quiet_NaN();
 constexpr Row rows[] = {
-    {"single cylinder", 20, true}, {"BCH outline", 5, true}, {"BCH outline by centre", not_told},
-    {"BCH projected", not_told},   {"OBB outline", 4, true}, {"OBB projected", not_told},
-    {"OBB full mesh", 0},
+    {"single cylinder", 20, true},       {"BCH outline", 5, true},    {exact_leaves_name, not_told},
+    {"BCH outline by centre", not_told}, {"BCH projected", not_told}, {"OBB outline", 4, true},
+    {"OBB projected", not_told},         {"OBB full mesh", 0},
 };
 
 /// What is common to all rows of a table.
@@ -101,12 +101,13 @@ void run_experiment(Run& run) {
   Tables out;
   double done = 0;
   for (const Row& row : rows) {
-    const baselines::Structure& structure = run.contestants().structure(row.contestant);
     // The hierarchies that the kernel takes are slid in one query, others step by step.
-    const std::vector<double> places = row.contestant == "BCH outline" ? cases.contacts(leaves)
-                                       : row.contestant == "single cylinder"
-                                           ? cases.contacts(roots)
-                                           : cases.contacts(structure, all_depths);
+    const std::vector<double> places =
+        row.contestant == "BCH outline"       ? cases.contacts(leaves)
+        : row.contestant == exact_leaves_name ? cases.contacts(leaves, Leaves::segments)
+        : row.contestant == "single cylinder"
+            ? cases.contacts(roots)
+            : cases.contacts(run.contestants().structure(row.contestant), all_depths);
     const std::vector<double> distances = cases.distances(*run.distances(), places);
     add(run, row, places, distances, out);
     if (row.in_groups) add_groups(run, row, groups, distances, out.groups);

@@ -50,16 +50,17 @@ std::vector<std::uint32_t> depths_of(const Run& run, std::uint32_t first) {
 /// What points are asked.
 constexpr std::string_view workloads[] = {"crowd", "near_miss", "colliding"};
 
-/// In solid semantics, which the plain traversal does not know.
-void require_right(const Subject& solid, std::span<const Shape> shapes, std::uint32_t depth,
-                   const bench::Workload& workload) {
-  const baselines::Reference reference(shapes, {{depth}, true});
+/// Compares what the plain traversal does not know: solid semantics and exact leaves.
+void require_right(const Subject& kernel, const QueryOptions& query, std::span<const Shape> shapes,
+                   std::uint32_t depth, const bench::Workload& workload) {
+  const baselines::Reference reference(shapes, {{depth}}, query.leaves);
   bench::require_right(std::string(kernel_name), workload,
                        bench::wrong_answers(reference, workload.agents(), workload.pairs,
-                                            answers(solid, workload), Semantics::solid));
+                                            answers(kernel, workload), query.semantics));
 }
 
-/// The kernel at every depth and in both semantics, and the plain traversal, which must agree.
+/// The kernel at every depth, in both semantics and at all depths with exact leaves, and the plain traversal, which must
+/// agree.
 void add_kernel(Run& run, double threshold, Points& points) {
   const auto& bodies = points.bodies.emplace_back(
       with_hierarchies(run.scene().bodies(), static_cast<float>(threshold), SplitRule::centroid));
@@ -70,17 +71,23 @@ void add_kernel(Run& run, double threshold, Points& points) {
   for (const std::uint32_t depth : depths_of(run, first ? 0 : 1)) {
     const Estimate excess = estimate(excess_areas(shapes, depth), run.seed());
     const Subject slow = subject_of(*plain, depth);
-    for (const bool solid : {false, true}) {
-      if (solid && depth == 0) continue;  // single discs know no difference
-      const ShapeSet& set = points.sets.emplace_back(shapes, ShapeSetPlan{{depth}, solid});
-      const Subject fast = subject_of(set, solid ? Semantics::solid : Semantics::boundary);
-      for (const std::string_view name : workloads) {
-        const bench::Workload& workload = run.scene().workload(name);
-        solid ? require_right(fast, shapes, depth, workload) : require_same(fast, slow, workload);
+    const ShapeSet& set = points.sets.emplace_back(shapes, ShapeSetPlan{{depth}});
+    for (const Leaves leaves : {Leaves::discs, Leaves::segments})
+      for (const Semantics semantics : {Semantics::boundary, Semantics::solid}) {
+        const bool solid = semantics == Semantics::solid, segments = leaves == Leaves::segments;
+        if (solid && depth == 0) continue;  // single discs know no difference
+        if (segments && depth != all_depths) continue;
+        const QueryOptions query{semantics, nullptr, leaves};
+        const Subject fast = subject_of(set, query);
+        for (const std::string_view name : workloads) {
+          const bench::Workload& workload = run.scene().workload(name);
+          solid || segments ? require_right(fast, query, shapes, depth, workload)
+                            : require_same(fast, slow, workload);
+        }
+        points.all.push_back({std::string(segments ? exact_leaves_name : kernel_name), depth, threshold,
+                              solid ? "solid" : "boundary", segments ? "double" : "single", fast,
+                              segments ? exact : excess});
       }
-      points.all.push_back(
-          {std::string(kernel_name), depth, threshold, solid ? "solid" : "boundary", "single", fast, excess});
-    }
     if (first) points.all.push_back({"BCH outline", depth, threshold, "boundary", "single", slow, excess});
   }
 }
@@ -217,13 +224,20 @@ std::string findings(const Results& results) {
   const auto cylinder = all.row({{"structure", "single cylinder"}});
   const auto kernel = all.row(
       {{"structure", kernel_name}, {"depth", "all"}, {"threshold (cm)", "1"}, {"semantics", "boundary"}});
+  const auto exact_leaves = all.row({{"structure", exact_leaves_name},
+                                     {"depth", "all"},
+                                     {"threshold (cm)", "1"},
+                                     {"semantics", "boundary"}});
   const auto mesh = all.row({{"structure", "OBB full mesh"}, {"depth", "all"}});
   return fmt::format(
       "<p>In a crowd the front of mean distances at detection goes from {}. A single cylinder stops people "
       "who "
       "are still {} cm apart and calls {} % of near misses collisions; the outline's hierarchy with all its "
-      "depths in the batch kernel: {} cm and {} %, for {} ns a pair. Of that, {} cm are the price of "
-      "looking from above, which exact tests of outlines pay as well. Only trees over the full meshes go to "
+      "depths in the batch kernel: {} cm and {} %, for {} ns a pair; with exact leaves {} cm and {} %, for "
+      "{} ns. "
+      "That is the price of looking from above, which every exact test of outlines pays: {} cm. Only trees "
+      "over the full "
+      "meshes go to "
       "{} cm: {} "
       "ns a pair, {} times as long.</p>"
       "<p>A fixed cylinder of 0.25 m misses {} % of collisions of the meshes, so it is in the chart and not "
@@ -236,6 +250,9 @@ std::string findings(const Results& results) {
       brief(all.number(cylinder, "false positives (%)")),
       brief(all.number(kernel, "distance at detection (cm)")),
       brief(all.number(kernel, "false positives (%)")), brief(all.number(kernel, "crowd (ns/pair)")),
+      brief(all.number(exact_leaves, "distance at detection (cm)")),
+      brief(all.number(exact_leaves, "false positives (%)")),
+      brief(all.number(exact_leaves, "crowd (ns/pair)")),
       brief(all.number({{"structure", "OBB outline"}, {"depth", "all"}}, "distance at detection (cm)")),
       brief(all.number(mesh, "distance at detection (cm)")), brief(all.number(mesh, "crowd (ns/pair)")),
       brief(all.number(mesh, "crowd (ns/pair)") / all.number(kernel, "crowd (ns/pair)")),
@@ -257,7 +274,9 @@ const Experiment error_time_experiment{
     "what it "
     "covers beyond the outline. Boxes that were cut short have no such area here. Every answer was compared: "
     "the "
-    "kernel's with the plain traversal's, in solid semantics with that and exact containment; those of exact "
+    "kernel's with the plain traversal's, in solid semantics with that and exact containment, and with exact "
+    "leaves pair of "
+    "segments by pair of segments; those of exact "
     "structures with each other's, and where they were cut short with their own, of which they may miss "
     "none. "
     "Of a single cylinder nothing but that it never misses an outline was asked, of a fixed one nothing.",

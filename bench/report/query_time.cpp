@@ -33,12 +33,12 @@ constexpr std::string_view paper_workload = "paper500";
 constexpr std::string_view workloads[] = {paper_workload, "paper500_cached", "colliding", "near_miss"};
 
 /// Against brute force, disc by disc.
-void require_right(Run& run, const Subject& kernel, Semantics semantics, const bench::Workload& workload,
-                   int threads = 1) {
+void require_right(Run& run, const Subject& kernel, const QueryOptions& query,
+                   const bench::Workload& workload, int threads = 1) {
   bench::Hits hits;
   tbb::task_arena(threads).execute([&] { hits = answers(kernel, workload); });
   bench::require_right(std::string(kernel_name), workload,
-                       bench::wrong_kernel(run.scene(), workload, semantics, hits));
+                       bench::wrong_kernel(run.scene(), workload, query, hits));
 }
 
 Table time_structures(Run& run) {
@@ -47,12 +47,12 @@ Table time_structures(Run& run) {
                "leaf tests a pair"});
   std::vector<std::string> names;
   std::vector<Subject> subjects;
-  std::vector<TreeSize> sizes(1);
+  std::vector<TreeSize> sizes(2);
   const auto leaf_discs =
       baselines::kind("bch_projected").build(run.scene().bodies(), {.projected_triangles = false});
-  const ShapeSet& set = run.scene().set(Semantics::boundary);
-  names.emplace_back(kernel_name);
-  subjects.push_back(subject_of(set));
+  const ShapeSet& set = run.scene().set();
+  names = {std::string(kernel_name), std::string(exact_leaves_name)};
+  subjects = {subject_of(set), subject_of(set, {})};
   for (const Contestant& contestant : contestants()) {
     names.emplace_back(contestant.name);
     subjects.push_back(subject_of(run.contestants().structure(contestant)));
@@ -65,7 +65,8 @@ Table time_structures(Run& run) {
   double done = 0;
   for (const std::string_view name : workloads) {
     const bench::Workload& workload = run.scene().workload(name);
-    require_right(run, subjects.front(), Semantics::boundary, workload);
+    require_right(run, subjects[0], bench::disc_query, workload);
+    require_right(run, subjects[1], {}, workload);
     for (const Contestant& contestant : contestants()) run.contestants().require_right(contestant, workload);
     const std::vector<Quartiles> taken = times(subjects, workload, run.sizes().runs);
     for (std::size_t i = 0; i < subjects.size(); ++i) {
@@ -83,11 +84,15 @@ Table time_structures(Run& run) {
 
 /// Every instruction set, by one thread and by two where there are two.
 Table time_kernels(Run& run) {
-  Table table({"instruction set", "semantics", "pairs", "threads", "ns/pair", "lower quartile (ns)",
+  Table table({"instruction set", "semantics", "leaves", "pairs", "threads", "ns/pair", "lower quartile (ns)",
                "upper quartile (ns)"});
   std::vector<int> threads = {1};
   if (tbb::info::default_concurrency() > 1) threads.push_back(std::min(tbb::info::default_concurrency(), 2));
-  for (const Semantics semantics : {Semantics::boundary, Semantics::solid})
+  constexpr QueryOptions queries[] = {{Semantics::boundary, nullptr, Leaves::discs},
+                                      {Semantics::solid, nullptr, Leaves::discs},
+                                      {Semantics::boundary, nullptr, Leaves::segments},
+                                      {Semantics::solid, nullptr, Leaves::segments}};
+  for (QueryOptions query : queries)
     for (const std::string_view name : {"colliding", "near_miss", "crowd"})
       for (const int count : threads) {
         const bench::Workload& workload = run.scene().workload(name);
@@ -96,13 +101,15 @@ Table time_kernels(Run& run) {
         for (const kernel::Implementation& one : kernel::implementations()) {
           if (!one.supported()) continue;
           names.emplace_back(one.name);
-          subjects.push_back(subject_of(run.scene().set(semantics), semantics, one));
-          require_right(run, subjects.back(), semantics, workload, count);
+          query.implementation = &one;
+          subjects.push_back(subject_of(run.scene().set(), query));
+          require_right(run, subjects.back(), query, workload, count);
         }
         const std::vector<Quartiles> taken = times(subjects, workload, run.sizes().runs, count);
         for (std::size_t i = 0; i < subjects.size(); ++i)
-          table.add({names[i], semantics == Semantics::solid ? "solid" : "boundary", name, count,
-                     taken[i].median, taken[i].low, taken[i].high});
+          table.add({names[i], query.semantics == Semantics::solid ? "solid" : "boundary",
+                     query.leaves == Leaves::segments ? "segments" : "discs", name, count, taken[i].median,
+                     taken[i].low, taken[i].high});
       }
   return table;
 }

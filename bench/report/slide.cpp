@@ -70,7 +70,7 @@ void SlideCases::draw(cli::Random& random, std::size_t of) {
   crowd_.y[2 * of] = random.uniform(2 * most_beside) - most_beside;
 }
 
-std::vector<double> SlideCases::contacts(const ShapeSet& set) const {
+std::vector<double> SlideCases::contacts(const ShapeSet& set, Leaves leaves) const {
   // From one side to the other.
   std::vector<double> x(size()), y(size(), 0);
   for (std::size_t i = 0; i < size(); ++i) x[i] = -2 * from_[i];
@@ -84,7 +84,7 @@ std::vector<double> SlideCases::contacts(const ShapeSet& set) const {
     places[i] = contact(i, std::max(0.0, before), [&](const Agents& agents) {
       constexpr Pair both{0, 1};
       std::uint8_t hit = 0;
-      collide(set, agents, {&both, 1}, {&hit, 1});
+      collide(set, agents, {&both, 1}, {&hit, 1}, {.leaves = leaves});
       return hit != 0;
     });
   });

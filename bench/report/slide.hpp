@@ -31,7 +31,7 @@ class SlideCases {
   /// Where on the x axis the first one is when it is seen to collide, metres: one a case, NaN where it never is. Both
   /// run on all threads. The answer is asked for every millimetre, and the place within that then halved to a micrometre;
   /// contact_time() says from where on.
-  std::vector<double> contacts(const ShapeSet& set) const;
+  std::vector<double> contacts(const ShapeSet& set, Leaves leaves = Leaves::discs) const;
   std::vector<double> contacts(const baselines::Structure& structure, std::uint32_t max_depth) const;
 
   /// How far the bodies are from each other at such places, centimetres; 0 where they meet, NaN as above.

@@ -36,12 +36,11 @@ Subject subject_of(const baselines::Structure& structure, std::uint32_t max_dept
           }};
 }
 
-Subject subject_of(const ShapeSet& set, Semantics semantics, const kernel::Implementation& implementation) {
-  return {[&set, options = QueryOptions{semantics, &implementation}](const bench::Workload& workload,
-                                                                     bench::Hits& hits) {
-            collide(set, workload.agents(), workload.pairs, hits, options);
+Subject subject_of(const ShapeSet& set, const QueryOptions& query) {
+  return {[&set, query](const bench::Workload& workload, bench::Hits& hits) {
+            collide(set, workload.agents(), workload.pairs, hits, query);
           },
-          [&set](const SlideCases& cases) { return cases.contacts(set); },
+          [&set, leaves = query.leaves](const SlideCases& cases) { return cases.contacts(set, leaves); },
           [](const bench::Workload&) { return MeanTests{}; }};
 }
 

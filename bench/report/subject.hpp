@@ -18,6 +18,8 @@
 namespace bch::report {
 
 constexpr std::string_view kernel_name = "BCH outline in the batch kernel";
+/// The same with exact leaves.
+constexpr std::string_view exact_leaves_name = "BCH outline with exact leaves";
 constexpr std::string_view leaf_discs_name =
     "BCH projected leaf discs";  ///< without the exact tests of its triangles
 
@@ -36,8 +38,7 @@ struct Subject {
 
 /// What is referred to must outlive the subject.
 Subject subject_of(const baselines::Structure& structure, std::uint32_t max_depth = all_depths);
-Subject subject_of(const ShapeSet& set, Semantics semantics = Semantics::boundary,
-                   const kernel::Implementation& implementation = kernel::best_implementation());
+Subject subject_of(const ShapeSet& set, const QueryOptions& query = bench::disc_query);
 
 bench::Hits answers(const Subject& subject, const bench::Workload& workload);
 std::size_t count_hits(const Subject& subject, const bench::Workload& workload);

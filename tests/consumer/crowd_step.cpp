@@ -110,7 +110,7 @@ int main() {
     bch::PoseShaper shaper(character);
     for (const bch::PoseTime& time : bch::sample_poses(character, 50)) shapes.push_back(shaper.shape(time));
   }
-  const bch::ShapeSet set(shapes, {.depths = {0, bch::all_depths}, .solid = true});
+  const bch::ShapeSet set(shapes, {.depths = {0, bch::all_depths}, .outlines = true});
   const auto crowd = [&](std::uint8_t level) { return crushed(300, 5, set.shape_count(), level); };
   const double cylinders = settle(set, crowd(0), "cylinders"),
                hierarchies = settle(set, crowd(1), "hierarchies");

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "baselines/placement.hpp"
+#include "layout/agents.hpp"
+#include "layout/shape_set.hpp"
+
+namespace bch::baselines {
+
+/// Whether two segments come within a margin of each other, in double and by the operations of layout/rounding.hpp, V, in
+/// their order: written apart from the kernel, which has to give the same bits.
+bool segments_meet(std::array<Point2, 2> p, std::array<Point2, 2> q, double margin) noexcept;
+
+/// Exact leaves, straight from outlines and hierarchies: which segments the leaves of shapes hold, and whether those of two
+/// leaves meet.
+class LeafSegments {
+ public:
+  /// Shapes and levels as in a ShapeSet. The shapes must outlive this.
+  LeafSegments(std::span<const Shape> shapes, const ShapeSetPlan& plan, Leaves leaves);
+
+  /// Whether segments decide where leaves of a pair of agents overlap.
+  bool decide(const Agents& agents, Pair pair) const;
+
+  /// Whether segments of two leaves meet: nodes of the hierarchies of the agent of the lower index and of the other one.
+  /// Precondition: decide().
+  bool meet(const FloatPlacement& place, const Agents& agents, Pair pair, std::uint32_t node_a,
+            std::uint32_t node_b) const;
+
+ private:
+  std::span<const Shape> shapes_;
+  std::size_t level_count_;
+  std::vector<std::uint8_t> exact_;  ///< shape * level_count_ + level: has segments
+};
+
+}  // namespace bch::baselines
