@@ -9,8 +9,8 @@
 #include <tuple>
 #include <utility>
 
-#include "layout/heading.hpp"
-#include "layout/rounding.hpp"
+#include "layout/base/heading.hpp"
+#include "layout/base/rounding.hpp"
 
 namespace bch::baselines {
 namespace {

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <limits>
 
-#include "layout/heading.hpp"
+#include "layout/base/heading.hpp"
 
 namespace bch::baselines {
 namespace {
@@ -19,7 +19,7 @@ struct Way {
   float x, y;
 };
 
-/// When two discs of the cuts touch; kernel/contact_time_measure.hpp says why so.
+/// When two discs of the cuts touch; kernel/distance/contact_time_measure.hpp says why so.
 float contact(const Step& at, Way way) noexcept {
   const double x = at.x, y = at.y, vx = way.x, vy = way.y, sum = at.radius_sum;
   const double square = x * x + y * y;

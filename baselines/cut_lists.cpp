@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "baselines/disc_tree.hpp"
-#include "layout/rounding.hpp"
+#include "layout/base/rounding.hpp"
 
 namespace bch::baselines {
 namespace {

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "baselines/placement.hpp"
-#include "layout/agents.hpp"
-#include "layout/shape_set.hpp"
+#include "layout/format/agents.hpp"
+#include "layout/shape_set/shape_set.hpp"
 
 namespace bch::baselines {
 
@@ -38,7 +38,7 @@ class CutLists {
   const CutList& list(const Agents& agents, std::uint32_t agent) const;
   /// The discs of that.
   std::span<const Disc> of(const Agents& agents, std::uint32_t agent) const;
-  /// Metres, not below the reach that layout/rounding.hpp speaks of.
+  /// Metres, not below the reach that layout/base/rounding.hpp speaks of.
   float reach(const Agents& agents, std::uint32_t agent) const;
 
  private:

@@ -3,7 +3,7 @@
 
 #include "baselines/cut_tree.hpp"
 
-#include "layout/rounding.hpp"
+#include "layout/base/rounding.hpp"
 
 namespace bch::baselines {
 namespace {

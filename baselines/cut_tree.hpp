@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "baselines/placement.hpp"
-#include "layout/agents.hpp"
-#include "layout/shape_set.hpp"
+#include "layout/format/agents.hpp"
+#include "layout/shape_set/shape_set.hpp"
 
 namespace bch::baselines {
 
@@ -43,7 +43,7 @@ class CutTrees {
   std::vector<Tree> trees_;  ///< shape * level_count_ + level
 };
 
-/// From a disc of A to one of B, in A's frame: as layout/rounding.hpp lists it.
+/// From a disc of A to one of B, in A's frame: as layout/base/rounding.hpp lists it.
 struct Step {
   float x, y, radius_sum;
 };

@@ -11,11 +11,11 @@
 #include "baselines/counts.hpp"
 #include "baselines/placement.hpp"
 #include "baselines/traversal_stack.hpp"
-#include "layout/hierarchy.hpp"
+#include "layout/hierarchy/hierarchy.hpp"
 
 namespace bch::baselines {
 
-/// The float test of two discs, operation by operation as layout/rounding.hpp lists it.
+/// The float test of two discs, operation by operation as layout/base/rounding.hpp lists it.
 inline bool discs_overlap(const FloatPlacement& place, const Disc& a, const Disc& b) noexcept {
   const float x = place.x + (place.cosine * b.x - place.sine * b.y) - a.x;
   const float y = place.y + (place.sine * b.x + place.cosine * b.y) - a.y;

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "baselines/quad.hpp"
-#include "layout/hierarchy.hpp"
+#include "layout/hierarchy/hierarchy.hpp"
 
 namespace bch::baselines {
 

@@ -13,8 +13,8 @@
 #include "baselines/obb_tree.hpp"
 #include "baselines/placement.hpp"
 #include "baselines/structure.hpp"
-#include "layout/outline.hpp"
-#include "layout/rounding.hpp"
+#include "layout/base/rounding.hpp"
+#include "layout/format/outline.hpp"
 
 // What all queries of the Flexible Collision Library are asked about.
 

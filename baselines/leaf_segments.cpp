@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "layout/rounding.hpp"
+#include "layout/base/rounding.hpp"
 
 namespace bch::baselines {
 namespace {

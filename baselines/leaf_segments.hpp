@@ -9,12 +9,12 @@
 #include <vector>
 
 #include "baselines/placement.hpp"
-#include "layout/agents.hpp"
-#include "layout/shape_set.hpp"
+#include "layout/format/agents.hpp"
+#include "layout/shape_set/shape_set.hpp"
 
 namespace bch::baselines {
 
-/// Whether two segments come within a margin of each other, in double and by the operations of layout/rounding.hpp, V, in
+/// Whether two segments come within a margin of each other, in double and by the operations of layout/base/rounding.hpp, V, in
 /// their order: written apart from the kernel, which has to give the same bits.
 bool segments_meet(std::array<Point2, 2> p, std::array<Point2, 2> q, double margin) noexcept;
 

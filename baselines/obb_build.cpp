@@ -10,8 +10,8 @@
 #include <string>
 
 #include "baselines/obb_tree.hpp"
-#include "layout/rounding.hpp"
-#include "layout/shortest.hpp"
+#include "layout/base/rounding.hpp"
+#include "layout/base/shortest.hpp"
 
 namespace bch::baselines {
 namespace {

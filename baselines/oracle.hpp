@@ -6,8 +6,8 @@
 #include <span>
 #include <vector>
 
-#include "layout/agents.hpp"
-#include "layout/outline.hpp"
+#include "layout/format/agents.hpp"
+#include "layout/format/outline.hpp"
 
 namespace bch::baselines {
 

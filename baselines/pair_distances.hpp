@@ -7,7 +7,7 @@
 #include <span>
 
 #include "baselines/structure.hpp"
-#include "layout/agents.hpp"
+#include "layout/format/agents.hpp"
 
 namespace bch::baselines {
 

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "layout/heading.hpp"
+#include "layout/base/heading.hpp"
 
 namespace bch::baselines {
 namespace {

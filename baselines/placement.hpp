@@ -3,13 +3,13 @@
 
 #pragma once
 
-#include "layout/agents.hpp"
-#include "layout/disc.hpp"
+#include "layout/base/disc.hpp"
+#include "layout/format/agents.hpp"
 
 namespace bch::baselines {
 
 /// Where the agent of the larger index stands, seen from the other one: in float, with the operations that
-/// layout/rounding.hpp lists. What tests of discs use.
+/// layout/base/rounding.hpp lists. What tests of discs use.
 struct FloatPlacement {
   float cosine, sine, x, y;
 };
@@ -29,7 +29,7 @@ inline Point2 exact(Vec2 p) noexcept {
 /// place() and rounded to double there; those doubles, beside the floats of the first shape, ARE the input of
 /// the exact tests: each has one right answer for them, however the structures arrive at it. Against exact
 /// arithmetic with the exact headings a placed point is off by 6e-10 of its distance from its agent, which is
-/// the error of layout/heading.hpp, and by 4 units in the last place of the distance between the agents.
+/// the error of layout/base/heading.hpp, and by 4 units in the last place of the distance between the agents.
 struct Placement {
   double cosine = 1, sine = 0, x = 0, y = 0;
 

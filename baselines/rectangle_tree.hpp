@@ -9,7 +9,7 @@
 
 #include "baselines/exact_tests.hpp"
 #include "baselines/obb_tree.hpp"
-#include "layout/disc.hpp"
+#include "layout/base/disc.hpp"
 
 namespace bch::baselines {
 

@@ -9,9 +9,9 @@
 
 #include "baselines/cut_lists.hpp"
 #include "baselines/leaf_segments.hpp"
-#include "layout/agents.hpp"
-#include "layout/hierarchy.hpp"
-#include "layout/shape_set.hpp"
+#include "layout/format/agents.hpp"
+#include "layout/hierarchy/hierarchy.hpp"
+#include "layout/shape_set/shape_set.hpp"
 
 namespace bch::baselines {
 
@@ -21,7 +21,7 @@ enum class Method {
 };
 
 /// Scalar answers to the questions of the batch kernel, straight from the binary hierarchies: one pair at a
-/// time, one disc test at a time, in float with the operations that layout/rounding.hpp lists. Slow, obvious,
+/// time, one disc test at a time, in float with the operations that layout/base/rounding.hpp lists. Slow, obvious,
 /// and written apart from the kernel, which has to give the same bits.
 class Reference {
  public:

@@ -7,8 +7,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "layout/heading.hpp"
-#include "layout/rounding.hpp"
+#include "layout/base/heading.hpp"
+#include "layout/base/rounding.hpp"
 
 namespace bch::baselines {
 namespace {

@@ -15,7 +15,7 @@ struct Way {
 };
 
 /// Until its discs lie behind a line across the direction and the other's before it, one disc after the other, with the
-/// rounding of kernel/separation.hpp. That is the largest such way over all pairs of discs.
+/// rounding of kernel/separation/separation.hpp. That is the largest such way over all pairs of discs.
 Way separation_along(const CutLists& cuts, const Agents& agents, Pair pair, Vec2 direction);
 
 /// The shortest way among k directions evenly spread from the x axis on; in a tie the first of 0, k / 2, 1, k / 2 + 1

@@ -10,7 +10,7 @@
 #include <string>
 
 #include "baselines/kind_rows.hpp"
-#include "layout/rounding.hpp"
+#include "layout/base/rounding.hpp"
 
 namespace bch::baselines {
 namespace {

@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "layout/shape_set.hpp"
+#include "layout/shape_set/shape_set.hpp"
 
 namespace bch::report {
 

@@ -12,7 +12,7 @@
 #include <iterator>
 #include <vector>
 
-#include "bench/output.hpp"
+#include "bench/base/output.hpp"
 
 namespace bch::report {
 namespace {

@@ -3,14 +3,14 @@
 
 #include <fmt/format.h>
 
-#include "bench/build_stages.hpp"
+#include "bench/base/stopwatch.hpp"
 #include "bench/report/experiment.hpp"
 #include "bench/report/statistics.hpp"
 #include "bench/report/tree_size.hpp"
 #include "bench/report/words.hpp"
-#include "bench/stopwatch.hpp"
-#include "layout/enclosing_disc.hpp"
-#include "layout/outline_builder.hpp"
+#include "bench/workload/build_stages.hpp"
+#include "layout/enclosing_disc/enclosing_disc.hpp"
+#include "layout/outline/builder.hpp"
 
 // Construction time: figure 3, left, of the paper.
 

@@ -5,9 +5,9 @@
 
 #include <stdexcept>
 
-#include "bench/answer_checks.hpp"
-#include "bench/race.hpp"
 #include "bench/report/subject.hpp"
+#include "bench/workload/answer_checks.hpp"
+#include "bench/workload/race.hpp"
 
 namespace bch::report {
 namespace {

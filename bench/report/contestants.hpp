@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "baselines/structure.hpp"
-#include "bench/scene.hpp"
+#include "bench/workload/scene.hpp"
 
 namespace bch::report {
 

@@ -5,8 +5,8 @@
 
 #include <span>
 
-#include "layout/disc.hpp"
-#include "layout/outline.hpp"
+#include "layout/base/disc.hpp"
+#include "layout/format/outline.hpp"
 
 namespace bch::report {
 

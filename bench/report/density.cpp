@@ -6,11 +6,11 @@
 
 #include <atomic>
 
+#include "bench/base/text.hpp"
 #include "bench/report/experiment.hpp"
 #include "bench/report/packing.hpp"
 #include "bench/report/statistics.hpp"
 #include "bench/report/words.hpp"
-#include "bench/text.hpp"
 
 // The premise of the paper: with a single cylinder a crowd cannot be dense.
 

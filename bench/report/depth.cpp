@@ -3,10 +3,10 @@
 
 #include <fmt/format.h>
 
+#include "bench/base/text.hpp"
 #include "bench/report/experiment.hpp"
 #include "bench/report/subject.hpp"
 #include "bench/report/words.hpp"
-#include "bench/text.hpp"
 
 // What the maximum recursion depth costs and gives: figure 6, right, of the paper.
 

@@ -7,13 +7,13 @@
 #include <cmath>
 #include <map>
 
+#include "bench/base/stopwatch.hpp"
 #include "bench/report/experiment.hpp"
 #include "bench/report/statistics.hpp"
 #include "bench/report/subject.hpp"
 #include "bench/report/words.hpp"
-#include "bench/stopwatch.hpp"
-#include "kernel/broad_phase.hpp"
-#include "layout/local_density.hpp"
+#include "kernel/broad_phase/broad_phase.hpp"
+#include "layout/scene/local_density.hpp"
 
 // Level of detail by the density of a crowd, which the paper suggests and does not measure.
 

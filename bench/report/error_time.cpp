@@ -6,13 +6,13 @@
 #include <deque>
 
 #include "baselines/reference.hpp"
-#include "bench/answer_checks.hpp"
+#include "bench/base/text.hpp"
 #include "bench/report/areas.hpp"
 #include "bench/report/experiment.hpp"
 #include "bench/report/front.hpp"
 #include "bench/report/subject.hpp"
 #include "bench/report/words.hpp"
-#include "bench/text.hpp"
+#include "bench/workload/answer_checks.hpp"
 
 // What does each microsecond buy? Every structure, depth, threshold and semantics as a point.
 

@@ -13,7 +13,7 @@
 #include "baselines/pair_distances.hpp"
 #include "bench/report/contestants.hpp"
 #include "bench/report/table.hpp"
-#include "bench/scene.hpp"
+#include "bench/workload/scene.hpp"
 
 namespace bch::report {
 

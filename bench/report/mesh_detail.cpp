@@ -3,14 +3,14 @@
 
 #include <fmt/format.h>
 
-#include "bench/build_stages.hpp"
-#include "bench/mesh_detail.hpp"
+#include "bench/base/stopwatch.hpp"
 #include "bench/report/experiment.hpp"
 #include "bench/report/subject.hpp"
 #include "bench/report/tree_size.hpp"
 #include "bench/report/words.hpp"
-#include "bench/stopwatch.hpp"
-#include "layout/default_characters.hpp"
+#include "bench/workload/build_stages.hpp"
+#include "bench/workload/mesh_detail.hpp"
+#include "layout/default_character/default_characters.hpp"
 
 // Does an OBB tree over the full mesh get slower with the mesh? The paper suspects so.
 

@@ -7,11 +7,11 @@
 #include <cmath>
 #include <vector>
 
-#include "bench/crowd.hpp"
-#include "bench/random.hpp"
-#include "kernel/collide.hpp"
-#include "kernel/collide_all.hpp"
-#include "kernel/separation.hpp"
+#include "bench/base/random.hpp"
+#include "bench/characters/crowd.hpp"
+#include "kernel/collide/collide.hpp"
+#include "kernel/crowd/collide_all.hpp"
+#include "kernel/separation/separation.hpp"
 
 namespace bch::report {
 namespace {

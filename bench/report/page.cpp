@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <map>
 
-#include "bench/exit_codes.hpp"
-#include "bench/number.hpp"
-#include "bench/output.hpp"
+#include "bench/base/exit_codes.hpp"
+#include "bench/base/number.hpp"
+#include "bench/base/output.hpp"
 #include "bench/report/chart.hpp"
 #include "bench/report/page_style.hpp"
 #include "bench/report/paper_findings.hpp"

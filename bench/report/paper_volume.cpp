@@ -14,7 +14,7 @@
 #include "bench/report/mesh_volume.hpp"
 #include "bench/report/statistics.hpp"
 #include "bench/report/words.hpp"
-#include "layout/enclosing_disc.hpp"
+#include "layout/enclosing_disc/enclosing_disc.hpp"
 
 namespace bch::report {
 namespace {

@@ -12,7 +12,7 @@
 #include <fstream>
 
 #include "bch_commit.hpp"
-#include "kernel/implementation.hpp"
+#include "kernel/runtime/implementation.hpp"
 
 namespace bch::report {
 namespace {

@@ -5,11 +5,11 @@
 #include <oneapi/tbb/info.h>
 #include <oneapi/tbb/task_arena.h>
 
-#include "bench/answer_checks.hpp"
 #include "bench/report/experiment.hpp"
 #include "bench/report/subject.hpp"
 #include "bench/report/tree_size.hpp"
 #include "bench/report/words.hpp"
+#include "bench/workload/answer_checks.hpp"
 
 // Query time: figure 3, right, of the paper.
 

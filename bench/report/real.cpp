@@ -5,10 +5,10 @@
 
 #include <algorithm>
 
+#include "bench/base/text.hpp"
 #include "bench/report/experiment.hpp"
 #include "bench/report/subject.hpp"
 #include "bench/report/words.hpp"
-#include "bench/text.hpp"
 
 // Distances at detection of characters that nobody here made.
 

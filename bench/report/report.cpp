@@ -8,8 +8,8 @@
 #include <mutex>
 #include <nlohmann/json.hpp>
 
-#include "bench/output.hpp"
-#include "bench/progress.hpp"
+#include "bench/base/output.hpp"
+#include "bench/base/progress.hpp"
 #include "bench/report/provenance.hpp"
 
 namespace bch::report {

@@ -10,8 +10,8 @@
 #include <limits>
 #include <numbers>
 
-#include "kernel/collide.hpp"
-#include "kernel/contact_time.hpp"
+#include "kernel/collide/collide.hpp"
+#include "kernel/distance/contact_time.hpp"
 
 namespace bch::report {
 namespace {

@@ -9,9 +9,9 @@
 
 #include "baselines/pair_distances.hpp"
 #include "baselines/structure.hpp"
-#include "bench/crowd.hpp"
-#include "bench/random.hpp"
-#include "layout/shape_set.hpp"
+#include "bench/base/random.hpp"
+#include "bench/characters/crowd.hpp"
+#include "layout/shape_set/shape_set.hpp"
 
 namespace bch::report {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include "bench/stability.hpp"
+#include "bench/stability/stability.hpp"
 
 #include <fmt/format.h>
 
@@ -9,7 +9,7 @@
 
 #include "bench/report/experiment.hpp"
 #include "bench/report/words.hpp"
-#include "bench/stiff_contact.hpp"
+#include "bench/stability/stiff_contact.hpp"
 
 // Where tests of discs fail, and what depths do as springs.
 

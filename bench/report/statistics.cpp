@@ -7,7 +7,7 @@
 #include <cmath>
 #include <limits>
 
-#include "bench/random.hpp"
+#include "bench/base/random.hpp"
 
 namespace bch::report {
 namespace {

@@ -10,10 +10,10 @@
 #include <string>
 #include <vector>
 
-#include "bench/race.hpp"
 #include "bench/report/slide.hpp"
 #include "bench/report/statistics.hpp"
-#include "kernel/collide.hpp"
+#include "bench/workload/race.hpp"
+#include "kernel/collide/collide.hpp"
 
 namespace bch::report {
 

@@ -10,9 +10,9 @@
 #include <limits>
 #include <stdexcept>
 
-#include "bench/csv_input.hpp"
-#include "bench/exit_codes.hpp"
-#include "bench/number.hpp"
+#include "bench/base/csv_input.hpp"
+#include "bench/base/exit_codes.hpp"
+#include "bench/base/number.hpp"
 
 namespace bch::report {
 namespace {

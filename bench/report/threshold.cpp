@@ -5,11 +5,11 @@
 
 #include <array>
 
+#include "bench/base/stopwatch.hpp"
 #include "bench/report/experiment.hpp"
 #include "bench/report/subject.hpp"
 #include "bench/report/tree_size.hpp"
 #include "bench/report/words.hpp"
-#include "bench/stopwatch.hpp"
 
 // How small the leaves should be.
 

@@ -6,14 +6,14 @@
 
 #include <cmath>
 
-#include "bench/disc_union_area.hpp"
+#include "bench/base/disc_union_area.hpp"
+#include "bench/base/text.hpp"
 #include "bench/report/areas.hpp"
 #include "bench/report/coverage.hpp"
 #include "bench/report/experiment.hpp"
 #include "bench/report/paper_volume.hpp"
 #include "bench/report/statistics.hpp"
 #include "bench/report/words.hpp"
-#include "bench/text.hpp"
 
 // Represented volume: figure 7 and table 1 of the paper, and what cuts over the outline cover. All shapes are cylinders over
 // the ground, so that their volumes are to each other as their areas are.

@@ -8,8 +8,8 @@
 #include <cmath>
 #include <cstdint>
 
-#include "bench/number.hpp"
-#include "bench/text.hpp"
+#include "bench/base/number.hpp"
+#include "bench/base/text.hpp"
 
 namespace bch::report {
 

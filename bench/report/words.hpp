@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-#include "bench/text.hpp"
+#include "bench/base/text.hpp"
 
 namespace bch::report {
 

@@ -5,14 +5,14 @@
 
 #include <vector>
 
-#include "layout/aligned_vector.hpp"
-#include "layout/baked_checksum.hpp"
-#include "layout/baked_file.hpp"
-#include "layout/baked_format.hpp"
-#include "layout/verify.hpp"
-#include "tests/all_queries.hpp"
+#include "layout/baked/checksum.hpp"
+#include "layout/baked/file.hpp"
+#include "layout/baked/format.hpp"
+#include "layout/base/aligned_vector.hpp"
+#include "layout/shape_set/verify.hpp"
 #include "tests/fuzz/target.hpp"
-#include "tests/scenes.hpp"
+#include "tests/support/all_queries.hpp"
+#include "tests/support/scenes.hpp"
 
 namespace bch::fuzz {
 namespace {

@@ -8,10 +8,10 @@
 #include <numbers>
 
 #include "baselines/reference.hpp"
-#include "kernel/collide.hpp"
-#include "layout/rounding.hpp"
+#include "kernel/collide/collide.hpp"
+#include "layout/base/rounding.hpp"
 #include "tests/fuzz/target.hpp"
-#include "tests/scenes.hpp"
+#include "tests/support/scenes.hpp"
 
 namespace bch::fuzz {
 namespace {

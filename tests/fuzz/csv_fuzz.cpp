@@ -10,10 +10,10 @@
 #include <cmath>
 #include <string>
 
-#include "bench/csv_input.hpp"
-#include "bench/exit_codes.hpp"
-#include "bench/printable.hpp"
-#include "layout/rounding.hpp"
+#include "bench/base/csv_input.hpp"
+#include "bench/base/exit_codes.hpp"
+#include "bench/base/printable.hpp"
+#include "layout/base/rounding.hpp"
 #include "tests/fuzz/target.hpp"
 
 namespace bch::fuzz {

@@ -10,8 +10,8 @@
 #include <fstream>
 #include <string>
 
-#include "layout/import.hpp"
-#include "layout/skinning.hpp"
+#include "layout/character/skinning.hpp"
+#include "layout/import/import.hpp"
 #include "tests/fuzz/target.hpp"
 
 namespace bch::fuzz {

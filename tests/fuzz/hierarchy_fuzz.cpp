@@ -7,12 +7,12 @@
 #include <stdexcept>
 #include <utility>
 
-#include "layout/hierarchy.hpp"
-#include "layout/shape_set.hpp"
-#include "layout/shape_validation.hpp"
+#include "layout/format/shape_validation.hpp"
+#include "layout/hierarchy/hierarchy.hpp"
+#include "layout/shape_set/shape_set.hpp"
 #include "tests/fuzz/target.hpp"
-#include "tests/hierarchy_checks.hpp"
-#include "tests/scenes.hpp"
+#include "tests/support/hierarchy_checks.hpp"
+#include "tests/support/scenes.hpp"
 
 namespace bch::fuzz {
 namespace {

@@ -5,8 +5,8 @@
 
 #include <cmath>
 
-#include "bench/exit_codes.hpp"
-#include "bench/options.hpp"
+#include "bench/base/exit_codes.hpp"
+#include "bench/cli/options.hpp"
 #include "tests/fuzz/target.hpp"
 
 namespace bch::fuzz {

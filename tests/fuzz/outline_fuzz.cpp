@@ -8,12 +8,12 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "layout/outline_builder.hpp"
-#include "layout/outline_implementation.hpp"
-#include "layout/union_outline.hpp"
+#include "layout/outline/builder.hpp"
+#include "layout/outline/implementation.hpp"
+#include "layout/outline/union_outline.hpp"
 #include "tests/fuzz/target.hpp"
-#include "tests/outline_checks.hpp"
-#include "tests/outline_soups.hpp"
+#include "tests/support/outline_checks.hpp"
+#include "tests/support/outline_soups.hpp"
 
 namespace bch::fuzz {
 namespace {

@@ -9,8 +9,8 @@
 #include <stdexcept>
 #include <string>
 
-#include "layout/import_scene.hpp"
-#include "layout/skinning.hpp"
+#include "layout/character/skinning.hpp"
+#include "layout/import/scene.hpp"
 #include "tests/fuzz/target.hpp"
 
 namespace bch::fuzz {

@@ -6,10 +6,10 @@
 #include <fstream>
 #include <string>
 
-#include "layout/baked_image.hpp"
-#include "tests/baked_bytes.hpp"
-#include "tests/gltf_file.hpp"
-#include "tests/scenes.hpp"
+#include "layout/baked/image.hpp"
+#include "tests/support/baked_bytes.hpp"
+#include "tests/support/gltf_file.hpp"
+#include "tests/support/scenes.hpp"
 
 namespace bch::test {
 namespace {

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include "bench/base/placed_shape.hpp"
+
+namespace bch::cli {
+
+Pixel Placement::operator()(Vec2 point) const {
+  const double x = static_cast<double>(point.x), y = static_cast<double>(point.y);
+  // The picture's y axis points down.
+  return {origin.x + scale * (cosine * x - sine * y), origin.y - scale * (sine * x + cosine * y)};
+}
+
+PixelDisc placed(const Placement& placement, Disc disc) {
+  return {placement(Vec2{disc.x, disc.y}), placement.scale * static_cast<double>(disc.radius)};
+}
+
+std::vector<PixelDisc> placed_cut(const Placement& placement, const Hierarchy& hierarchy,
+                                  std::uint32_t depth) {
+  std::vector<PixelDisc> discs;
+  for (const std::uint32_t node : cut(hierarchy, depth))
+    discs.push_back(placed(placement, hierarchy.nodes[node].disc));
+  return discs;
+}
+
+bool overlap(const PixelDisc& a, const PixelDisc& b) {
+  const double x = a.centre.x - b.centre.x, y = a.centre.y - b.centre.y, r = a.radius + b.radius;
+  return x * x + y * y <= r * r;
+}
+
+void draw_outline(Svg& svg, const Placement& placement, const Outline& outline) {
+  svg.begin_path();
+  std::vector<Pixel> points;
+  for (std::size_t c = 0; c < outline.contours(); ++c) {
+    points.clear();
+    for (const Vec2 point : outline.contour(c)) points.push_back(placement(point));
+    svg.add_closed_curve(points);
+  }
+  svg.end_path();
+}
+
+void draw_discs(Svg& svg, const std::vector<PixelDisc>& discs) {
+  for (const PixelDisc& disc : discs) svg.circle(disc.centre, disc.radius);
+}
+
+}  // namespace bch::cli

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "bench/base/svg.hpp"
+#include "layout/shape_set/shape_set.hpp"
+
+namespace bch::cli {
+
+/// From a shape's own frame to the picture.
+struct Placement {
+  Pixel origin;
+  double cosine = 1;
+  double sine = 0;
+  double scale = 1;  ///< pixels per metre
+
+  Pixel operator()(Vec2 point) const;
+};
+
+struct PixelDisc {
+  Pixel centre;
+  double radius = 0;
+};
+
+PixelDisc placed(const Placement& placement, Disc disc);
+
+/// The discs of a cut.
+std::vector<PixelDisc> placed_cut(const Placement& placement, const Hierarchy& hierarchy,
+                                  std::uint32_t depth);
+
+bool overlap(const PixelDisc& a, const PixelDisc& b);
+
+void draw_outline(Svg& svg, const Placement& placement, const Outline& outline);
+void draw_discs(Svg& svg, const std::vector<PixelDisc>& discs);
+
+}  // namespace bch::cli

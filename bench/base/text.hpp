@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <fmt/format.h>
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include "bench/base/printable.hpp"
+#include "layout/hierarchy/hierarchy.hpp"
+
+namespace bch::cli {
+
+/// 12345 as "12 345".
+inline std::string grouped(std::uint64_t number) {
+  const std::string digits = fmt::format("{}", number);
+  std::string text;
+  for (std::size_t i = 0; i < digits.size(); ++i) {
+    if (i > 0 && (digits.size() - i) % 3 == 0) text.push_back(' ');
+    text.push_back(digits[i]);
+  }
+  return text;
+}
+
+/// As text of HTML or SVG: see printable_line().
+inline std::string escaped(std::string_view text) {
+  std::string markup;
+  for (const char c : printable_line(text)) {
+    if (c == '&')
+      markup += "&amp;";
+    else if (c == '<')
+      markup += "&lt;";
+    else if (c == '>')
+      markup += "&gt;";
+    else if (c == '"')
+      markup += "&quot;";
+    else
+      markup += c;
+  }
+  return markup;
+}
+
+inline std::string depth_name(std::uint32_t depth) {
+  return depth == all_depths ? "all" : fmt::format("{}", depth);
+}
+
+/// "1 clip", "2 clips".
+inline std::string counted(std::uint64_t count, std::string_view noun) {
+  return fmt::format("{} {}{}", grouped(count), noun, count == 1 ? "" : "s");
+}
+
+/// A float as the double of the same shortest decimal: 0.1f becomes 0.1 instead of 0.10000000149.
+inline double shortest(float value) {
+  return std::stod(fmt::format("{}", value));
+}
+
+}  // namespace bch::cli

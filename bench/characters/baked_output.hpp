@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+
+#include "bench/base/output_file.hpp"
+#include "bench/characters/shape_table.hpp"
+#include "layout/baked/file.hpp"
+
+namespace bch::cli {
+
+/// A baked file, most of which is written while its set is built: where nodes begin is known, and those of shapes that
+/// are there will not change. What is left in the end, no number of threads makes shorter.
+class BakedOutput {
+ public:
+  /// For a set of so many shapes and levels.
+  /// Errors:  as OutputFile throws.
+  BakedOutput(const std::string& file, std::size_t shapes, std::size_t levels);
+
+  /// The nodes of the shapes so far, from the first one on; they will not change.
+  void write_ahead(std::span<const float> nodes);
+  /// The rest, and the file has its name.
+  /// Errors:  as BakedImage and OutputFile throw.
+  void finish(const BakedShapes& baked);
+
+ private:
+  void write_arrays(const ShapeArrays& shapes);
+
+  OutputFile file_;
+  std::uint64_t nodes_offset_;
+  std::size_t ahead_ = 0;  ///< bytes of nodes that are written
+};
+
+/// bake_shapes() and origins_of() into a file.
+BakedShapes bake_file(const std::string& file, std::span<const LoadedCharacter> characters,
+                      std::span<const ShapeSource> sources, double threshold, const ShapeSetPlan& plan,
+                      const CostLimits& limits = {});
+
+}  // namespace bch::cli

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "layout/import/import.hpp"
+
+namespace bch::cli {
+
+/// Help for whatever takes a character.
+constexpr const char* character_help = "Character file (glTF, FBX ...), default:male, :female or :bulky";
+
+/// Help for what takes a baked file as well.
+constexpr const char* character_or_baked_help =
+    "Character file, default:male, :female, :bulky or baked file NAME.bch";
+
+struct LoadedCharacter {
+  std::string source;  ///< as the user named it
+  Character character;
+  ImportReport report;
+};
+
+/// By its name, which ends in .bch, in whatever case.
+bool is_baked(const std::string& file);
+
+/// Without its folders.
+std::string file_name(const LoadedCharacter& character);
+
+/// Errors:  throws UsageError on a built-in character with import options or an unknown "default:" name,
+///          InputError and ImportError on a bad file.
+LoadedCharacter load_character(const std::string& source, const ImportOptions& options);
+
+/// All of them: a bad file does not keep the next from being read.
+/// Errors:  throws InputErrors of all bad files, and UsageError.
+std::vector<LoadedCharacter> load_characters(std::span<const std::string> sources,
+                                             const ImportOptions& options);
+
+}  // namespace bch::cli

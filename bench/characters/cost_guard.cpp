@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include "bench/characters/cost_guard.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cstdio>
+
+#include "bench/base/exit_codes.hpp"
+#include "bench/base/interrupt.hpp"
+
+namespace bch::cli {
+namespace {
+
+constexpr std::chrono::milliseconds between_looks{50};
+
+/// GiB in main memory that are no file's; 0 where the system does not say. See proc(5), statm.
+double own_memory() {
+#ifdef BCH_SANITIZED  // whose shadow memory would count
+  return 0;
+#else
+  std::FILE* file = std::fopen("/proc/self/statm", "re");
+  if (file == nullptr) return 0;
+  unsigned long size = 0, resident = 0, shared = 0;
+  const int read = std::fscanf(file, "%lu %lu %lu", &size, &resident, &shared);
+  std::fclose(file);
+  if (read != 3) return 0;
+  return static_cast<double>(resident - shared) * static_cast<double>(sysconf(_SC_PAGESIZE)) * 0x1p-30;
+#endif
+}
+
+std::string names_of(std::span<const LoadedCharacter> characters) {
+  if (characters.size() == 1) return characters.front().source;
+  return fmt::format("{} and {} more", characters.front().source, characters.size() - 1);
+}
+
+}  // namespace
+
+CostGuard::CostGuard(const CostLimits& limits, std::span<const LoadedCharacter> characters,
+                     std::size_t shapes)
+    : files_(names_of(characters)),
+      seconds_(limits.seconds_for(shapes)),
+      memory_(limits.memory_for(shapes)),
+      watcher_([this] { watch(); }) {}
+
+CostGuard::~CostGuard() {
+  {
+    const std::lock_guard lock(mutex_);
+    is_over_ = true;
+  }
+  over_.notify_one();
+  watcher_.join();
+}
+
+void CostGuard::watch() {
+  std::unique_lock lock(mutex_);
+  while (!over_.wait_for(lock, between_looks, [this] { return is_over_; })) {
+    const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - begin_;
+    if (taken.count() > seconds_)
+      leave_at_once(exit_bad_input, fmt::format("{}: building and writing its shapes takes more than {:g} s; "
+                                                "--max-seconds raises the limit",
+                                                files_, seconds_));
+    if (own_memory() > memory_)
+      leave_at_once(exit_bad_input,
+                    fmt::format("{}: building and writing its shapes takes more than {:g} GiB of "
+                                "memory; --max-memory raises the limit",
+                                files_, memory_));
+  }
+}
+
+}  // namespace bch::cli

@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include "bench/characters/shape_table.hpp"
+
+#include <fmt/format.h>
+#include <oneapi/tbb/enumerable_thread_specific.h>
+#include <oneapi/tbb/parallel_for.h>
+
+#include <chrono>
+#include <cmath>
+#include <stdexcept>
+
+#include "bench/base/exit_codes.hpp"
+#include "bench/base/progress.hpp"
+#include "bench/base/random.hpp"
+
+namespace bch::cli {
+namespace {
+
+constexpr double most_shapes = 1e7;
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_between(Clock::time_point begin, Clock::time_point end) {
+  return std::chrono::duration<double>(end - begin).count();
+}
+
+}  // namespace
+
+std::vector<ShapeSource> list_shapes(std::span<const LoadedCharacter> characters, std::uint32_t poses) {
+  std::vector<ShapeSource> sources;
+  for (std::uint32_t c = 0; c < characters.size(); ++c)
+    for (const PoseTime at : sample_poses(characters[c].character, poses)) sources.push_back({c, at});
+  return sources;
+}
+
+std::vector<ShapeSource> list_random_shapes(std::span<const LoadedCharacter> characters, std::uint32_t poses,
+                                            std::uint64_t seed) {
+  constexpr std::uint32_t finer = 100;  // a random time is one of so many even ones a pose
+  Random random(seed);
+  std::vector<ShapeSource> sources;
+  for (std::uint32_t c = 0; c < characters.size(); ++c) {
+    const Character& character = characters[c].character;
+    const std::vector<PoseTime> even = sample_poses(character, finer * poses);
+    const std::uint32_t count = character.clips.empty() ? 1 : poses;
+    for (std::uint32_t i = 0; i < count; ++i)
+      sources.push_back({c, even[random.below(static_cast<std::uint32_t>(even.size()))]});
+  }
+  return sources;
+}
+
+std::vector<ShapeSource> list_shapes_at_rate(std::span<const LoadedCharacter> characters, double rate) {
+  std::vector<ShapeSource> sources;
+  for (std::uint32_t c = 0; c < characters.size(); ++c) {
+    const auto& clips = characters[c].character.clips;
+    if (clips.empty()) sources.push_back({c, {}});
+    for (std::uint32_t k = 0; k < clips.size(); ++k) {
+      const double poses = std::max(1.0, std::floor(static_cast<double>(clips[k].seconds) * rate));
+      if (static_cast<double>(sources.size()) + poses > most_shapes)
+        throw InputError(
+            fmt::format("{}: more than {} poses at {} a second", characters[c].source, most_shapes, rate));
+      for (double i = 0; i < poses; ++i) sources.push_back({c, {k, static_cast<float>(i / rate)}});
+    }
+  }
+  return sources;
+}
+
+std::string clip_name(const LoadedCharacter& character, PoseTime at) {
+  return at.clip == PoseTime::rest ? "rest pose" : character.character.clips[at.clip].name;
+}
+
+namespace {
+
+[[noreturn]] void reject(const LoadedCharacter& character, PoseTime at, const std::string& reason) {
+  throw InputError(
+      fmt::format("{}: {} at {} s: {}", character.source, clip_name(character, at), at.seconds, reason));
+}
+
+}  // namespace
+
+ShapeMaker::ShapeMaker(std::span<const LoadedCharacter> characters, double threshold, std::uint32_t deepest,
+                       bool outlines, const CostLimits& limits)
+    : characters_(characters),
+      threshold_(threshold),
+      deepest_(deepest),
+      outlines_(outlines || deepest > 0),
+      limits_(limits),
+      shapers_(characters.size()) {}
+
+const Shape& ShapeMaker::make(const ShapeSource& source) {
+  const LoadedCharacter& from = characters_[source.character];
+  auto& shaper = shapers_[source.character];
+  try {
+    if (!shaper) {
+      shaper.emplace(from.character, static_cast<float>(threshold_), deepest_, outlines_);
+      shaper->limit_nodes(limits_.nodes);
+    }
+    const auto begin = Clock::now();
+    const std::size_t contours = outlines_ ? shaper->make_outline(source.at).contours() : 0;
+    if (contours > limits_.contours)
+      reject(from, source.at,
+             "its outline has " + beyond_limit(contours, "contours", limits_.contours, "--max-contours"));
+    const auto middle = Clock::now();
+    const Shape& shape = outlines_ ? shaper->make_hierarchy() : shaper->shape(source.at);
+    timing_ = {seconds_between(begin, middle), seconds_between(middle, Clock::now())};
+    return shape;
+  } catch (const std::length_error& error) {
+    reject(from, source.at, std::string(error.what()) + "; --max-nodes raises the limit");
+  } catch (const std::logic_error& error) {
+    // Out of the domain: a pose kilometres wide, say. domain_error and invalid_argument are both logic errors.
+    reject(from, source.at, error.what());
+  }
+}
+
+BuiltShapes build_shapes(std::span<const LoadedCharacter> characters, std::span<const ShapeSource> sources,
+                         double threshold, std::uint32_t deepest, const CostLimits& limits) {
+  BuiltShapes built;
+  built.shapes.resize(sources.size());
+  std::vector<ShapeTiming> timings(sources.size());
+  Progress progress("building shapes", sources.size());
+
+  // Learning a mesh takes as long as tens of shapes, so that a thread keeps what it learned.
+  tbb::enumerable_thread_specific<ShapeMaker> makers(
+      [&] { return ShapeMaker(characters, threshold, deepest, true, limits); });
+  tbb::parallel_for(std::size_t{0}, sources.size(), [&](std::size_t i) {
+    ShapeMaker& maker = makers.local();
+    built.shapes[i] = maker.make(sources[i]);
+    timings[i] = maker.timing();
+    progress.advance();
+  });
+
+  const double count = std::max(1.0, static_cast<double>(sources.size()));
+  for (const ShapeTiming& timing : timings) {
+    built.outline_seconds += timing.outline / count;
+    built.hierarchy_seconds += timing.hierarchy / count;
+  }
+  return built;
+}
+
+}  // namespace bch::cli

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "bench/base/cost_limits.hpp"
+#include "bench/characters/characters.hpp"
+#include "layout/scene/pose_shape.hpp"
+#include "layout/scene/scene_plan.hpp"
+#include "layout/shape_set/shape_set.hpp"
+
+namespace bch::cli {
+
+/// The poses of all characters, one character after the other, as every command numbers them: a source's index is the
+/// number by which files and tables name its shape.
+std::vector<ShapeSource> list_shapes(std::span<const LoadedCharacter> characters, std::uint32_t poses);
+
+/// Of each character so many poses at times drawn at random over all of its clips, the same for a seed everywhere; of one
+/// without clips its rest pose.
+std::vector<ShapeSource> list_random_shapes(std::span<const LoadedCharacter> characters, std::uint32_t poses,
+                                            std::uint64_t seed);
+
+/// The same at so many poses a second: of every clip those at 0, 1 / rate ... before its end, one at least.
+/// Errors:  throws InputError beyond 1e7 poses.
+std::vector<ShapeSource> list_shapes_at_rate(std::span<const LoadedCharacter> characters, double rate);
+
+/// "walk", or "rest pose".
+std::string clip_name(const LoadedCharacter& character, PoseTime at);
+
+struct ShapeTiming {
+  double outline = 0;    ///< seconds: skinning and outline
+  double hierarchy = 0;  ///< seconds; all, where no outline is made
+};
+
+/// Makes shapes of the characters, contour hierarchies, one after the other; learns a character's mesh when it is first asked
+/// for it. Not for two threads at a time. The characters must outlive it.
+class ShapeMaker {
+ public:
+  /// `deepest` and `outlines` as of PoseShaper.
+  ShapeMaker(std::span<const LoadedCharacter> characters, double threshold, std::uint32_t deepest,
+             bool outlines = true, const CostLimits& limits = {});
+
+  /// Returns: the shape, until the next call.
+  /// Errors:  throws InputError naming the character, clip and time of a pose that has no outline, or one of more
+  ///          contours, or a hierarchy of more nodes, than the limits.
+  const Shape& make(const ShapeSource& source);
+  /// What the last shape took.
+  const ShapeTiming& timing() const { return timing_; }
+
+ private:
+  std::span<const LoadedCharacter> characters_;
+  double threshold_;
+  std::uint32_t deepest_;
+  bool outlines_;
+  CostLimits limits_;
+  std::vector<std::optional<PoseShaper>> shapers_;
+  ShapeTiming timing_;
+};
+
+struct BuiltShapes {
+  std::vector<Shape> shapes;     ///< one a source
+  double outline_seconds = 0;    ///< the mean of a shape, one thread: skinning and outline
+  double hierarchy_seconds = 0;  ///< likewise: the hierarchy
+};
+
+/// Builds contour hierarchies, in parallel, with a progress bar.
+/// Errors:  as ShapeMaker throws.
+BuiltShapes build_shapes(std::span<const LoadedCharacter> characters, std::span<const ShapeSource> sources,
+                         double threshold, std::uint32_t deepest = all_depths, const CostLimits& limits = {});
+
+}  // namespace bch::cli

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "bench/base/exit_codes.hpp"
+#include "bench/base/output.hpp"
+#include "bench/base/threads.hpp"
+#include "bench/characters/baked_output.hpp"
+#include "bench/characters/characters.hpp"
+#include "bench/characters/cost_guard.hpp"
+#include "bench/cli/baked_report.hpp"
+#include "bench/cli/commands.hpp"
+#include "bench/cli/inspection.hpp"
+#include "bench/cli/options.hpp"
+
+namespace bch::cli {
+namespace {
+
+struct BakeOptions {
+  std::vector<std::string> characters;
+  std::string output;
+  double rate = 0;  ///< poses a second; 0: a number of them
+  ShapeOptions shapes;
+  AnswerOptions answer;
+};
+
+void run_bake(const BakeOptions& options) {
+  if (!is_baked(options.output))
+    throw UsageError(
+        fmt::format("--output: '{}' does not end in .bch, by which baked files are known", options.output));
+  const ShapeSetPlan plan{options.answer.cut_depths(), options.answer.need_outlines()};
+  require_outputs({{"--output", options.output}}, options.shapes.inputs(options.characters));
+  const CostLimits& limits = options.shapes.limits;
+  // Before there are threads: see guarded_import().
+  const auto characters = load_characters(options.characters, options.shapes.import_options());
+  const Threads threads(options.answer.threads);
+  const auto sources = options.rate > 0 ? list_shapes_at_rate(characters, options.rate)
+                                        : list_shapes(characters, options.shapes.poses);
+  const CostGuard guard(limits, characters, sources.size());
+  const BakedShapes baked =
+      bake_file(options.output, characters, sources, options.shapes.threshold, plan, limits);
+  std::string notes;
+  for (const LoadedCharacter& character : characters) notes += notes_text(character);
+  write_standard_output(text_of(options.output, baked) + notes);
+}
+
+}  // namespace
+
+std::function<void()> add_bake_command(CLI::App& program) {
+  const auto options = std::make_shared<BakeOptions>();
+  CLI::App& command =
+      *program.add_subcommand("bake", "Build shapes once, into a file that queries load at once");
+  command.footer(
+      "The other commands take the file in place of a character; it holds no more than queries need.\n"
+      "With --semantics boundary --leaves discs it holds no outlines, and is about a quarter smaller.\n"
+      "Example: bch bake man.glb woman.glb --rate 30 --depths 0,all -o people.bch");
+  command.add_option("FILE", options->characters, character_help)->type_name("")->required();
+  command.add_option("-o,--output", options->output, "The file to write, NAME.bch")
+      ->type_name("FILE")
+      ->required();
+  options->shapes.add_to(command);
+  command.add_option("--rate", options->rate, "Instead of --poses: so many poses a second, of every clip")
+      ->type_name("N")
+      ->check(number_between(1e-3, 1e4))
+      ->excludes("--poses");
+  options->answer.add_levels_to(command);
+  return [options] { run_bake(*options); };
+}
+
+}  // namespace bch::cli

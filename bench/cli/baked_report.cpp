@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include "bench/cli/baked_report.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <map>
+#include <new>
+
+#include "bench/base/exit_codes.hpp"
+#include "bench/base/text.hpp"
+
+namespace bch::cli {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::string clip_of(const ShapeOrigins& origins, std::uint32_t shape) {
+  const std::uint32_t clip = origins.origins[shape].clip;
+  return clip == ShapeOrigin::rest_pose ? "rest pose" : origins.names[clip];
+}
+
+std::string depths_text(const ShapeSet& set) {
+  std::string text;
+  for (const std::uint32_t depth : set.depths()) text += (text.empty() ? "" : ", ") + depth_name(depth);
+  return text;
+}
+
+/// "walk (30 shapes), run (12 shapes)".
+std::string clips_text(const ShapeOrigins& origins, std::uint32_t character) {
+  std::map<std::uint32_t, std::pair<std::string, std::size_t>> clips;
+  for (std::uint32_t s = 0; s < origins.origins.size(); ++s) {
+    if (origins.origins[s].character != character) continue;
+    auto& [name, count] = clips[origins.origins[s].clip];
+    if (count++ == 0) name = clip_of(origins, s);
+  }
+  std::string text;
+  for (const auto& [clip, named] : clips)
+    text += fmt::format("{}{} ({})", text.empty() ? "" : ", ", named.first, counted(named.second, "shape"));
+  return text;
+}
+
+float root_radius(const ShapeSet& set, std::uint32_t shape) {
+  return set.arrays().roots[std::size_t{shape} * set.level_count()].radius;
+}
+
+}  // namespace
+
+BakedShapes open_baked(const std::string& file) {
+  try {
+    return load_baked(file);
+  } catch (const std::bad_alloc&) {
+    throw InputError(file + ": loading it takes more memory than there is");
+  }
+}
+
+BakedShapes load_baked_for(const std::string& file, const AnswerOptions& answer) {
+  BakedShapes baked = open_baked(file);
+  const auto require = [&](const std::string& asked, const char* wanted, bool has,
+                           const std::string& option) {
+    if (asked == wanted && !has)
+      throw InputError(file + ": was baked without outlines; bake it with " + option);
+  };
+  require(answer.semantics, "solid", baked.set.solid(), "--semantics solid");
+  require(answer.leaves, "segments", baked.set.exact_leaves(), "--leaves segments and --depths all");
+  return baked;
+}
+
+std::uint32_t disc_count(const ShapeSet& set, std::uint32_t shape, std::uint32_t level) {
+  const ShapeArrays& arrays = set.arrays();
+  if (arrays.trees.empty()) return 1;
+  return arrays.trees[std::size_t{shape} * set.level_count() + level].count;
+}
+
+std::string text_of(const std::string& file, const BakedShapes& baked) {
+  const ShapeSet& set = baked.set;
+  std::string out = printable_line(file) + "\n";
+  const auto line = [&](const char* what, const std::string& text) {
+    out += fmt::format("  {:<10}{}\n", what, printable_line(text));
+  };
+  line("format", "baked shapes");
+  line("shapes",
+       fmt::format("{}, {:.1f} kB each", grouped(set.shape_count()),
+                   static_cast<double>(set.bytes()) / 1e3 / std::max(1.0, double{1} * set.shape_count())));
+  line("depths", depths_text(set));
+  line("threshold", fmt::format("{:g} mm", baked.origins.threshold * 1e3));
+  line("semantics", set.solid() ? "boundary, solid" : "boundary");
+  line("leaves", set.exact_leaves() ? "segments, discs" : "discs");
+  std::map<std::uint32_t, bool> seen;
+  for (const ShapeOrigin& origin : baked.origins.origins)
+    if (!std::exchange(seen[origin.character], true))
+      line("character",
+           baked.origins.names[origin.character] + ": " + clips_text(baked.origins, origin.character));
+  return out;
+}
+
+std::string verified_text(const ShapeSet& set) {
+  const bool outlines = !set.arrays().shape_contours.empty();
+  return fmt::format("  {:<10}{}\n", "verified",
+                     set.roots_only() ? "levels"
+                     : outlines       ? "nodes, levels, culling data, and that discs cover the outlines"
+                                      : "nodes, levels, culling data as far as the discs tell (no outlines)");
+}
+
+std::string table_text(const BakedShapes& baked) {
+  const auto& [set, origins] = baked;
+  std::size_t widest = 9;  // "rest pose"
+  for (const std::string& name : origins.names) widest = std::max(widest, printable_line(name).size());
+  std::string out = fmt::format("\n{:>6}  {:<{}}  {:<{}}  {:>9}  {:>8}  {:>6}\n", "shape", "character",
+                                widest, "clip", widest, "time", "radius", "discs");
+  for (std::uint32_t s = 0; s < origins.origins.size(); ++s)
+    out += fmt::format("{:>6}  {:<{}}  {:<{}}  {:>7.2f} s  {:>6.3f} m  {:>6}\n", s,
+                       printable_line(origins.names[origins.origins[s].character]), widest,
+                       printable_line(clip_of(origins, s)), widest, origins.origins[s].seconds,
+                       root_radius(set, s), disc_count(set, s, set.level_count() - 1));
+  return out;
+}
+
+Json json_of(const std::string& file, const BakedShapes& baked) {
+  const auto& [set, origins] = baked;
+  Json json{{"source", file}, {"shape_count", set.shape_count()}, {"bytes", set.bytes()}};
+  for (const std::uint32_t depth : set.depths()) json["depths"].push_back(depth_name(depth));
+  json["threshold_m"] = shortest(static_cast<float>(origins.threshold));
+  json["solid"] = set.solid();
+  json["exact_leaves"] = set.exact_leaves();
+  json["shapes"] = Json::array();
+  for (std::uint32_t s = 0; s < origins.origins.size(); ++s) {
+    const ShapeOrigin& origin = origins.origins[s];
+    const bool rest = origin.clip == ShapeOrigin::rest_pose;
+    json["shapes"].push_back({{"shape", s},
+                              {"character", origins.names[origin.character]},
+                              {"clip", rest ? Json(nullptr) : Json(origins.names[origin.clip])},
+                              {"seconds", rest ? Json(nullptr) : Json(shortest(origin.seconds))},
+                              {"root_radius_m", shortest(root_radius(set, s))},
+                              {"discs", disc_count(set, s, set.level_count() - 1)}});
+  }
+  return json;
+}
+
+}  // namespace bch::cli

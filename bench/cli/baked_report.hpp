@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "bench/cli/options.hpp"
+#include "layout/baked/file.hpp"
+
+namespace bch::cli {
+
+/// Loads a file that a user named.
+/// Errors:  throws BakedFileError; InputError where memory does not suffice.
+BakedShapes open_baked(const std::string& file);
+
+/// Loads a file that has to answer in a certain way.
+/// Errors:  throws InputError as well where solid semantics or exact leaves are asked for of a set without outlines.
+BakedShapes load_baked_for(const std::string& file, const AnswerOptions& answer);
+
+/// What a person wants to know of a baked file.
+std::string text_of(const std::string& file, const BakedShapes& baked);
+/// What was looked at by verify(), which found nothing.
+std::string verified_text(const ShapeSet& set);
+/// A line a shape.
+std::string table_text(const BakedShapes& baked);
+/// Both.
+nlohmann::ordered_json json_of(const std::string& file, const BakedShapes& baked);
+
+/// Discs of a shape's cut.
+std::uint32_t disc_count(const ShapeSet& set, std::uint32_t shape, std::uint32_t level);
+
+}  // namespace bch::cli

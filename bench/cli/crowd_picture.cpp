@@ -1,0 +1,281 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include "bench/cli/crowd_picture.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+
+#include "bench/base/placed_shape.hpp"
+#include "bench/base/text.hpp"
+
+namespace bch::cli {
+namespace {
+
+constexpr double width = 1100, margin = 20;
+constexpr double view_top = 76, view_width = width - 2 * margin, view_height = 620;
+constexpr double legend_height = 84;
+constexpr double height = view_top + view_height + legend_height;
+/// Agents with their middle in the window, about. A crowd of hardly more is drawn whole.
+constexpr double window_agents = 48, whole_crowd = 60;
+
+constexpr const char* css = R"(text { font-family: "DejaVu Sans", Verdana, Arial, sans-serif; fill: #1c2733 }
+.title { font-size: 21px; font-weight: bold }
+.caption { font-size: 14px; fill: #4a5866 }
+.key { font-size: 14px }
+.middle { text-anchor: middle }
+.view { fill: #f7f9fa }
+.frame { fill: none; stroke: #9aa7b3 }
+.shape { stroke-width: 1.3; stroke-linejoin: round; fill-opacity: .8 }
+.discs { stroke-width: .8; fill: none; stroke-opacity: .7 }
+.free .shape { fill: #c1d3e2; stroke: #4f6f8b }
+.free .discs { stroke: #4f6a82 }
+.cleared .shape { fill: #ffe08a; stroke: #a87b00 }
+.cleared .discs { stroke: #9a7000 }
+.cylinder { fill: none; stroke: #3d3d3d; stroke-width: 1.3; stroke-dasharray: 5 4 }
+.partner { fill: none; stroke: #8d8d8d; stroke-width: 1; stroke-dasharray: 2 4 }
+.colliding .shape { fill: #d9622b; stroke: #7a2503 }
+.colliding .discs { stroke: #6b1f02 }
+.overlap { fill: #7d1402; stroke: #2e0500; stroke-width: .9; opacity: .72 }
+.scale { fill: none; stroke: #1c2733; stroke-width: 2 }
+)";
+
+enum State : std::size_t { is_free, is_cleared, is_colliding, states };
+constexpr std::array<const char*, states> state_name{"free", "cleared", "colliding"};
+
+/// The part of the ground that is drawn, metres.
+struct Window {
+  double x, y, width, height;
+  double scale() const { return view_width / width; }
+};
+
+Window middle_of(const CrowdPicture& picture) {
+  constexpr double aspect = view_width / view_height;
+  constexpr double room = 1;  // for those who stand at the edge, metres
+  const double middle = picture.crowd.side / 2;
+  const bool whole = static_cast<double>(picture.crowd.size()) <= whole_crowd;
+  const double h = whole ? picture.crowd.side + room : std::sqrt(window_agents / picture.density / aspect);
+  return {middle - h * aspect / 2, middle - h / 2, h * aspect, h};
+}
+
+std::string caption_of(const CrowdPicture& picture, const Window& window) {
+  const double side = picture.crowd.side;
+  const std::string part = window.height >= side
+                               ? fmt::format("All {:.1f} m × {:.1f} m", side, side)
+                               : fmt::format("The middle {:.1f} m × {:.1f} m of {:.1f} m × {:.1f} m",
+                                             window.width, window.height, side, side);
+  return fmt::format("{}, seen from above. Discs and collisions at depth {}.", part,
+                     depth_name(picture.answers.levels[picture.level].depth));
+}
+
+struct DrawnAgent {
+  const Shape* shape;
+  Placement placement;
+  State state = is_free;
+  bool is_partner = false;  ///< collides, and its single cylinder overlaps that of a cleared agent
+  std::vector<PixelDisc> discs;
+  std::vector<bool> overlaps;  ///< per disc
+};
+
+class Scene {
+ public:
+  explicit Scene(const CrowdPicture& picture);
+  void draw(Svg& svg) const;
+  Window window;
+
+ private:
+  void add_visible_agents(const CrowdPicture& picture);
+  void colour_by_answers(const CrowdPicture& picture);
+  void mark_partners(const CrowdPicture& picture);
+
+  static constexpr std::uint32_t unseen = 0xffffffff;
+  std::vector<DrawnAgent> agents_;
+  std::vector<std::uint32_t> drawn_index_;  ///< per agent of the crowd
+};
+
+Scene::Scene(const CrowdPicture& picture) : window(middle_of(picture)) {
+  add_visible_agents(picture);
+  colour_by_answers(picture);
+  mark_partners(picture);
+}
+
+/// Also those just outside: their parts reach in, and they touch agents that are inside.
+void Scene::add_visible_agents(const CrowdPicture& picture) {
+  const Crowd& crowd = picture.crowd;
+  drawn_index_.assign(crowd.size(), unseen);
+  for (std::uint32_t i = 0; i < crowd.size(); ++i) {
+    const Shape& shape = picture.shapes[crowd.shape[i]];
+    const double reach = 2 * shape.hierarchy.reach;
+    const double x = crowd.x[i] - window.x, y = crowd.y[i] - window.y;
+    if (x < -reach || y < -reach || x > window.width + reach || y > window.height + reach) continue;
+    DrawnAgent agent{&shape,
+                     {{margin + window.scale() * x, view_top + view_height - window.scale() * y},
+                      std::cos(crowd.heading[i]),
+                      std::sin(crowd.heading[i]),
+                      window.scale()},
+                     is_free,
+                     false,
+                     {},
+                     {}};
+    agent.discs = placed_cut(agent.placement, shape.hierarchy, picture.answers.levels[picture.level].depth);
+    agent.overlaps.resize(agent.discs.size());
+    drawn_index_[i] = static_cast<std::uint32_t>(agents_.size());
+    agents_.push_back(std::move(agent));
+  }
+}
+
+void Scene::colour_by_answers(const CrowdPicture& picture) {
+  const auto raise = [this](std::uint32_t agent, State state) {
+    if (drawn_index_[agent] == unseen) return;
+    State& old = agents_[drawn_index_[agent]].state;
+    old = std::max(old, state);
+  };
+  const CrowdAnswers& answers = picture.answers;
+  for (std::size_t p = 0; p < answers.pairs.size(); ++p) {
+    const auto [first, second] = answers.pairs[p];
+    const bool hit = answers.levels[picture.level].hits[p] != 0;
+    if (!hit && answers.levels.front().hits[p] == 0) continue;
+    for (const std::uint32_t agent : {first, second}) raise(agent, hit ? is_colliding : is_cleared);
+    if (!hit || drawn_index_[first] == unseen || drawn_index_[second] == unseen) continue;
+    DrawnAgent &a = agents_[drawn_index_[first]], &b = agents_[drawn_index_[second]];
+    for (std::size_t i = 0; i < a.discs.size(); ++i)
+      for (std::size_t j = 0; j < b.discs.size(); ++j)
+        if (overlap(a.discs[i], b.discs[j])) a.overlaps[i] = true, b.overlaps[j] = true;
+  }
+}
+
+/// Marks those whose single cylinders explain why a cleared agent is not free.
+void Scene::mark_partners(const CrowdPicture& picture) {
+  const CrowdAnswers& answers = picture.answers;
+  for (std::size_t p = 0; p < answers.pairs.size(); ++p) {
+    const std::uint32_t first = drawn_index_[answers.pairs[p].first],
+                        second = drawn_index_[answers.pairs[p].second];
+    if (answers.levels.front().hits[p] == 0 || first == unseen || second == unseen) continue;
+    DrawnAgent &a = agents_[first], &b = agents_[second];
+    if (a.state == is_cleared && b.state == is_colliding) b.is_partner = true;
+    if (b.state == is_cleared && a.state == is_colliding) a.is_partner = true;
+  }
+}
+
+void draw_overlaps(Svg& svg, const DrawnAgent& agent) {
+  for (std::size_t i = 0; i < agent.discs.size(); ++i)
+    if (agent.overlaps[i]) svg.circle(agent.discs[i].centre, agent.discs[i].radius);
+}
+
+void draw_agent(Svg& svg, const DrawnAgent& agent) {
+  svg.open_group({}, "shape");
+  draw_outline(svg, agent.placement, agent.shape->outline);
+  svg.close_group();
+  svg.open_group({}, "discs");
+  draw_discs(svg, agent.discs);
+  svg.close_group();
+}
+
+void draw_cylinder(Svg& svg, const DrawnAgent& agent) {
+  const PixelDisc disc = placed(agent.placement, agent.shape->hierarchy.nodes.front().disc);
+  svg.circle(disc.centre, disc.radius);
+}
+
+/// What matters most is drawn last.
+void Scene::draw(Svg& svg) const {
+  for (std::size_t state = 0; state < states; ++state) {
+    svg.open_group(state_name[state], state_name[state]);
+    for (const DrawnAgent& agent : agents_)
+      if (agent.state == state) draw_agent(svg, agent);
+    svg.close_group();
+  }
+  svg.open_group("overlaps", "overlap");
+  for (const DrawnAgent& agent : agents_) draw_overlaps(svg, agent);
+  svg.close_group();
+  svg.open_group("partners", "partner");
+  for (const DrawnAgent& agent : agents_)
+    if (agent.is_partner) draw_cylinder(svg, agent);
+  svg.close_group();
+  svg.open_group("single-cylinders", "cylinder");
+  for (const DrawnAgent& agent : agents_)
+    if (agent.state == is_cleared) draw_cylinder(svg, agent);
+  svg.close_group();
+}
+
+/// A small agent that stands for all of its kind.
+void draw_key(Svg& svg, const CrowdPicture& picture, State state, double x, const char* first,
+              const char* second) {
+  constexpr double icon = 44;
+  const Shape& shape = picture.shapes.front();
+  const Disc root = shape.hierarchy.nodes.front().disc;
+  const double scale = icon / 2 / static_cast<double>(root.radius);
+  const double y = view_top + view_height + legend_height / 2;
+  DrawnAgent agent{
+      &shape,
+      {{x + icon / 2 - scale * static_cast<double>(root.x), y + scale * static_cast<double>(root.y)},
+       1,
+       0,
+       scale},
+      state,
+      false,
+      {},
+      {}};
+  agent.discs =
+      placed_cut(agent.placement, shape.hierarchy, std::min(picture.answers.levels[picture.level].depth, 4u));
+  svg.open_group({}, state_name[state]);
+  draw_agent(svg, agent);
+  if (state == is_cleared) {
+    svg.open_group({}, "cylinder");
+    draw_cylinder(svg, agent);
+    svg.close_group();
+  }
+  if (state == is_colliding) {
+    for (const PixelDisc& disc : agent.discs) agent.overlaps.push_back(disc.centre.x > x + 0.6 * icon);
+    svg.open_group({}, "overlap");
+    draw_overlaps(svg, agent);
+    svg.close_group();
+  }
+  svg.close_group();
+  svg.text({x + icon + 12, y - 4}, "key", first);
+  svg.text({x + icon + 12, y + 15}, "key", second);
+}
+
+void draw_legend(Svg& svg, const CrowdPicture& picture, const Window& window) {
+  svg.open_group("legend");
+  draw_key(svg, picture, is_colliding, margin, "collides;", "overlapping discs are dark");
+  draw_key(svg, picture, is_cleared, 325, "cleared: only single", "cylinders (dashed) overlap");
+  draw_key(svg, picture, is_free, 635, "free: not even single", "cylinders overlap");
+  svg.close_group();
+
+  const double right = width - margin, left = right - window.scale();
+  const double y = view_top + view_height + 34;
+  svg.open_group("scale");
+  svg.open_group({}, "scale");
+  svg.line({left, y}, {right, y});
+  svg.line({left, y - 5}, {left, y + 5});
+  svg.line({right, y - 5}, {right, y + 5});
+  svg.close_group();
+  svg.text({(left + right) / 2, y + 22}, "key middle", "1 m");
+  svg.close_group();
+}
+
+}  // namespace
+
+std::string draw_crowd(const CrowdPicture& picture) {
+  const LevelAnswers& drawn = picture.answers.levels[picture.level];
+  const std::uint64_t single = picture.answers.levels.front().hit_count;
+  const double share = single == 0 ? 0 : static_cast<double>(drawn.cleared) / static_cast<double>(single);
+  const std::string title = fmt::format(
+      "{} agents, {:g} per m²: {} of {} single-cylinder collisions cleared ({:.1f} %)",
+      grouped(picture.crowd.size()), picture.density, grouped(drawn.cleared), grouped(single), 100 * share);
+  const Scene scene(picture);
+  Svg svg(width, height, title, css);
+  svg.text({margin, 36}, "title", title);
+  svg.text({margin, 60}, "caption", caption_of(picture, scene.window));
+  svg.rectangle({margin, view_top}, view_width, view_height, "view");
+  svg.open_clipped_group("crowd", {margin, view_top}, view_width, view_height);
+  scene.draw(svg);
+  svg.close_group();
+  svg.rectangle({margin, view_top}, view_width, view_height, "frame");
+  draw_legend(svg, picture, scene.window);
+  return std::move(svg).finish();
+}
+
+}  // namespace bch::cli

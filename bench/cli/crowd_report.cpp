@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include "bench/cli/crowd_report.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "bench/base/text.hpp"
+
+namespace bch::cli {
+namespace {
+
+std::string leaves_text(const CrowdRun& run) {
+  return run.set.exact_leaves() && run.options.answer.leaves != "discs" ? "segments" : "discs";
+}
+
+std::string time_text(double seconds) {
+  return seconds < 1e-3 ? fmt::format("{:.0f} us", seconds * 1e6) : fmt::format("{:.1f} ms", seconds * 1e3);
+}
+
+double bytes_per_shape(const CrowdRun& run) {
+  return static_cast<double>(run.set.bytes()) / static_cast<double>(run.set.shape_count());
+}
+
+/// Part of the single cylinder's collisions that a level clears.
+double share_cleared(const CrowdRun& run, const LevelAnswers& level) {
+  const std::uint64_t single = run.answers.levels.front().hit_count;
+  return single == 0 ? 0 : static_cast<double>(level.cleared) / static_cast<double>(single);
+}
+
+std::string facts(const CrowdRun& run) {
+  std::string names;
+  for (const LoadedCharacter& character : run.characters)
+    names += fmt::format("{}{} ({})", names.empty() ? "" : ", ", file_name(character),
+                         counted(character.report.triangles, "triangle"));
+  const auto line = [](const char* what, const std::string& text) {
+    return fmt::format("{:<12}{}\n", what, printable_line(text));
+  };
+  const bool baked = run.characters.empty();
+  const double outline = run.built.outline_seconds, hierarchy = run.built.hierarchy_seconds;
+  return line(baked ? "baked" : "characters", baked ? run.options.characters.front() : names) +
+         line("shapes", fmt::format("{} in contour hierarchies down to {:g} mm, {:.1f} kB each",
+                                    counted(run.set.shape_count(), "pose"), run.threshold * 1e3,
+                                    bytes_per_shape(run) / 1e3)) +
+         (baked ? std::string()
+                : line("build", fmt::format("{} a shape and thread: outline {}, hierarchy {}",
+                                            time_text(outline + hierarchy), time_text(outline),
+                                            time_text(hierarchy)))) +
+         line("agents",
+              fmt::format("{} on {:.1f} m x {:.1f} m, {:g} per m2, seed {}", grouped(run.crowd.size()),
+                          run.crowd.side, run.crowd.side, run.options.density, run.options.seed)) +
+         line("candidates", fmt::format("{} that can collide", counted(run.answers.pairs.size(), "pair"))) +
+         line("kernel",
+              fmt::format("{}, {}, {} semantics, leaves {}", run.implementation,
+                          counted(run.threads, "thread"), run.options.answer.semantics, leaves_text(run)));
+}
+
+std::string level_table(const CrowdRun& run) {
+  std::string out =
+      fmt::format("{:>5} {:>9} {:>13} {:>10} {:>9}\n", "depth", "discs", "collisions", "cleared", "ns/pair");
+  for (const LevelAnswers& level : run.answers.levels)
+    out += fmt::format("{:>5} {:>9.1f} {:>13} {:>10} {:>9.1f}\n", depth_name(level.depth), level.discs,
+                       grouped(level.hit_count),
+                       level.depth == 0 ? "-" : fmt::format("{:.1f} %", 100 * share_cleared(run, level)),
+                       level.nanoseconds_per_pair);
+  return out;
+}
+
+std::string conclusion(const CrowdRun& run) {
+  const LevelAnswers& finest = run.answers.finest();
+  if (finest.depth == 0 || run.answers.levels.front().hit_count == 0) return {};
+  const std::string which =
+      finest.depth == all_depths ? "The full hierarchy" : fmt::format("Depth {}", finest.depth);
+  return fmt::format("{} clears {:.1f} % of the single cylinder's collisions.\n", which,
+                     100 * share_cleared(run, finest));
+}
+
+/// A baked file has settled what concerns shapes.
+nlohmann::ordered_json options_json(const CrowdRun& run) {
+  const CrowdOptions& o = run.options;
+  nlohmann::ordered_json json{{"characters", o.characters}};
+  if (!run.characters.empty()) json["clips"] = o.shapes.clips;
+  if (!o.shapes.up.empty()) json["up"] = o.shapes.up;
+  if (o.shapes.scale > 0) json["scale"] = o.shapes.scale;
+  if (!run.characters.empty()) json["poses"] = o.shapes.poses;
+  json["threshold_m"] = shortest(static_cast<float>(run.threshold));
+  json["agents"] = o.agents;
+  json["density_per_m2"] = o.density;
+  json["seed"] = o.seed;
+  if (!run.characters.empty()) json["depths"] = o.answer.depths;
+  json["semantics"] = o.answer.semantics;
+  json["leaves"] = leaves_text(run);
+  return json;
+}
+
+nlohmann::ordered_json depth_json(std::uint32_t depth) {
+  return depth == all_depths ? nlohmann::ordered_json("all") : nlohmann::ordered_json(depth);
+}
+
+}  // namespace
+
+std::string text_report(const CrowdRun& run) {
+  std::uint32_t runs = 0;
+  for (const LevelAnswers& level : run.answers.levels) runs = std::max(runs, level.runs);
+  return facts(run) + "\n" + level_table(run) + "\n" + conclusion(run) +
+         fmt::format("Times per pair are medians of up to {} batch calls after a warm-up.\n", runs);
+}
+
+nlohmann::ordered_json json_report(const CrowdRun& run) {
+  nlohmann::ordered_json json{{"program", "bch " BCH_VERSION}, {"options", options_json(run)}};
+  for (const LoadedCharacter& character : run.characters)
+    json["characters"].push_back({{"source", character.source},
+                                  {"triangles", character.report.triangles},
+                                  {"height_m", shortest(character.report.height)}});
+  json["shapes"] = {{"count", run.set.shape_count()}, {"bytes_per_shape", bytes_per_shape(run)}};
+  if (!run.characters.empty()) {
+    json["shapes"]["outline_seconds"] = run.built.outline_seconds;
+    json["shapes"]["hierarchy_seconds"] = run.built.hierarchy_seconds;
+  }
+  json["crowd"] = {{"agents", run.crowd.size()},
+                   {"side_m", run.crowd.side},
+                   {"area_m2", run.crowd.side * run.crowd.side},
+                   {"candidate_pairs", run.answers.pairs.size()}};
+  json["kernel"] = {{"implementation", run.implementation}, {"threads", run.threads}};
+  for (const LevelAnswers& level : run.answers.levels)
+    json["levels"].push_back({{"depth", depth_json(level.depth)},
+                              {"discs_per_shape", level.discs},
+                              {"hits", level.hit_count},
+                              {"cleared", level.cleared},
+                              {"cleared_share", share_cleared(run, level)},
+                              {"nanoseconds_per_pair", level.nanoseconds_per_pair},
+                              {"runs", level.runs}});
+  return json;
+}
+
+std::string csv_report(const CrowdRun& run) {
+  std::string out = "first,second\n";
+  for (std::size_t i = 0; i < run.answers.pairs.size(); ++i)
+    if (run.answers.finest().hits[i] != 0)
+      out += fmt::format("{},{}\n", run.answers.pairs[i].first, run.answers.pairs[i].second);
+  return out;
+}
+
+}  // namespace bch::cli

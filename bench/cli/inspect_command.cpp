@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "bench/base/exit_codes.hpp"
+#include "bench/base/output.hpp"
+#include "bench/base/text.hpp"
+#include "bench/base/threads.hpp"
+#include "bench/characters/cost_guard.hpp"
+#include "bench/cli/baked_report.hpp"
+#include "bench/cli/commands.hpp"
+#include "bench/cli/inspection.hpp"
+#include "bench/cli/options.hpp"
+#include "layout/shape_set/verify.hpp"
+
+namespace bch::cli {
+namespace {
+
+struct InspectOptions {
+  std::string character;
+  ShapeOptions shapes;
+  std::optional<std::uint32_t> shape;
+  std::optional<std::string> clip;
+  std::optional<double> time;
+  std::uint32_t threads = 0;
+  bool verify = false;
+  std::string json, svg;
+
+  bool names_a_shape() const { return shape || clip; }
+};
+
+void require_consistent(const InspectOptions& options) {
+  if (options.clip.has_value() != options.time.has_value())
+    throw UsageError("--clip and --time belong together");
+  if (options.shape && options.clip) throw UsageError("--shape and --clip: name a shape by one of them");
+  if (!options.svg.empty() && !options.names_a_shape())
+    throw UsageError("--svg: which shape? Add --shape, or --clip and --time");
+  require_outputs({{"--json", options.json}, {"--svg", options.svg}},
+                  options.shapes.inputs({options.character}));
+}
+
+ShapeSource at_time(const LoadedCharacter& from, const std::string& name, double seconds) {
+  const auto& clips = from.character.clips;
+  for (std::uint32_t i = 0; i < clips.size(); ++i) {
+    if (clips[i].name != name) continue;
+    if (!(seconds >= 0 && seconds <= static_cast<double>(clips[i].seconds)))
+      throw InputError(fmt::format("{}: clip '{}' lasts {} s and has no time {} s", from.source, name,
+                                   clips[i].seconds, seconds));
+    return {0, {i, static_cast<float>(seconds)}};
+  }
+  throw InputError(fmt::format("{}: has no clip '{}' ({})", from.source, name,
+                               clips.empty()
+                                   ? std::string("nor any other")
+                                   : counted(clips.size(), "clip") + ", see bch inspect without --clip"));
+}
+
+ShapeSource at_index(const LoadedCharacter& from, std::span<const ShapeSource> sources, std::uint32_t index) {
+  if (index >= sources.size())
+    throw InputError(
+        fmt::format("{}: has no shape {}, only 0 to {}", from.source, index, sources.size() - 1));
+  return sources[index];
+}
+
+void inspect_shape(const InspectOptions& options, const LoadedCharacter& from, const ShapeSource& source) {
+  const CostLimits& limits = options.shapes.limits;
+  const CostGuard guard(limits, {&from, 1}, 1);
+  const BuiltShapes built =
+      build_shapes({&from, 1}, {&source, 1}, options.shapes.threshold, all_depths, limits);
+  const std::size_t nodes = built.shapes.front().hierarchy.nodes.size();
+  if (!options.svg.empty() && nodes > limits.drawn_nodes)
+    throw InputError(fmt::format("{}: --svg would draw {}", from.source,
+                                 beyond_limit(nodes, "nodes", limits.drawn_nodes, "--max-drawn-nodes")));
+  const ShapeFacts facts = examine(built.shapes.front(), source, options.shape);
+  write_json(options.json, {{"character", json_of(from)}, {"shape", json_of(from, facts)}});
+  if (!options.svg.empty()) write_file(options.svg, draw_depths(from, facts));
+  write_standard_output(text_of(from) + text_of(from, facts));
+}
+
+void inspect_table(const InspectOptions& options, const LoadedCharacter& from,
+                   std::span<const ShapeSource> sources) {
+  const CostLimits& limits = options.shapes.limits;
+  const CostGuard guard(limits, {&from, 1}, sources.size());
+  const BuiltShapes built = build_shapes({&from, 1}, sources, options.shapes.threshold, all_depths, limits);
+  const ShapeTable table{sources, built.shapes};
+  write_json(options.json, {{"character", json_of(from)}, {"shapes", json_of(from, table)}});
+  write_standard_output(text_of(from) + text_of(from, table));
+}
+
+void require_verified(const std::string& file, const ShapeSet& set) {
+  constexpr std::size_t most = 20;
+  std::vector<std::string> lines;
+  for (const Finding& finding : verify(set, most + 1)) lines.push_back(file + ": " + text_of(finding));
+  if (lines.size() > most) lines.back() = file + ": and more";
+  if (!lines.empty()) throw InputErrors(std::move(lines));
+}
+
+void inspect_baked(const InspectOptions& options) {
+  const BakedShapes baked = open_baked(options.character);
+  if (options.verify) require_verified(options.character, baked.set);
+  write_json(options.json, json_of(options.character, baked));
+  write_standard_output(text_of(options.character, baked) + (options.verify ? verified_text(baked.set) : "") +
+                        table_text(baked));
+}
+
+void run_inspect(const CLI::App& command, const InspectOptions& options) {
+  require_consistent(options);
+  if (is_baked(options.character)) {
+    require_unsettled(command, options.character);
+    require_absent(command, {"--shape", "--clip", "--svg"}, "a baked file has no hierarchies to show");
+    return inspect_baked(options);
+  }
+  require_absent(command, {"--verify"}, "only a baked file can be verified");
+  const LoadedCharacter from = load_character(options.character, options.shapes.import_options());
+  const Threads threads(options.threads);
+  const auto sources = list_shapes({&from, 1}, options.shapes.poses);
+  if (options.clip)
+    inspect_shape(options, from, at_time(from, *options.clip, *options.time));
+  else if (options.shape)
+    inspect_shape(options, from, at_index(from, sources, *options.shape));
+  else
+    inspect_table(options, from, sources);
+}
+
+}  // namespace
+
+std::function<void()> add_inspect_command(CLI::App& program) {
+  const auto options = std::make_shared<InspectOptions>();
+  CLI::App& command =
+      *program.add_subcommand("inspect", "Show what a character or baked file holds, and its shapes");
+  command.footer(
+      "Reads glTF 2, FBX, Collada, MD5, IQM, OBJ, PLY and STL, and clips of these and of BVH.\n"
+      "A file is refused if reading it crashes or takes more than 2 GiB or 60 s.\n"
+      "Example: bch inspect default:male --clip walk --time 1.5 --svg walk.svg");
+  command.add_option("FILE", options->character, character_or_baked_help)->type_name("")->required();
+  command.add_option("--shape", options->shape, "Show this shape of the table in detail")->type_name("INDEX");
+  command.add_option("--clip", options->clip, "Show this clip, at --time, in detail")->type_name("NAME");
+  command.add_option("--time", options->time, "Seconds from the start of --clip")
+      ->type_name("SECONDS")
+      ->check(number_between(0, 1e9));
+  options->shapes.add_to(command);
+  add_threads_option(command, options->threads);
+  command.add_flag(
+      "--verify", options->verify,
+      "Recompute what a baked file stores besides its discs and outlines, and name what differs");
+  command.add_option("--json", options->json, "Write the same, and all points of a shape's outline")
+      ->type_name("FILE");
+  command.add_option("--svg", options->svg, "Draw the shape: a panel for each depth of its hierarchy")
+      ->type_name("FILE");
+  CostLimits& limits = options->shapes.limits;
+  command
+      .add_option("--max-drawn-nodes", limits.drawn_nodes,
+                  fmt::format("Nodes of the shape that --svg draws [{}]", limits.drawn_nodes))
+      ->type_name("N")
+      ->check(whole_between(1, 1'000'000'000))
+      ->group("Limits");
+  return [options, &command] { run_inspect(command, *options); };
+}
+
+}  // namespace bch::cli

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "bench/base/placed_shape.hpp"
+#include "bench/cli/inspection.hpp"
+
+namespace bch::cli {
+namespace {
+
+constexpr double panel = 210, label = 38, gap = 14, margin = 20, head = 80;
+/// Part of the panel that the largest depth's discs fill.
+constexpr double fill = 0.94;
+
+constexpr const char* css = R"(text { font-family: "DejaVu Sans", Verdana, Arial, sans-serif; fill: #1c2733 }
+.title { font-size: 21px; font-weight: bold }
+.caption { font-size: 14px; fill: #4a5866 }
+.key { font-size: 14px }
+.label { font-size: 14px; text-anchor: middle }
+.middle { text-anchor: middle }
+.panel { fill: #f7f9fa; stroke: #d3dae0 }
+.outline { fill: #a9bccb; stroke: #3f566b; stroke-width: 1.1; stroke-linejoin: round }
+.discs { fill: #d55e00; fill-opacity: .14; stroke: #a84300; stroke-width: .9 }
+.scale { fill: none; stroke: #1c2733; stroke-width: 2 }
+)";
+
+/// What all panels share.
+struct Layout {
+  std::size_t columns;
+  double scale;  ///< pixels per metre
+  double x, y;   ///< the middle of all discs, metres
+};
+
+/// Five columns where that leaves fewer empty places than four.
+std::size_t columns_for(std::size_t panels) {
+  const auto empty = [panels](std::size_t columns) { return (columns - panels % columns) % columns; };
+  return panels > 4 && empty(5) < empty(4) ? 5 : 4;
+}
+
+/// Deeper discs stick out of the root's, so the frame is that of all of them.
+Layout lay_out(const ShapeFacts& facts) {
+  double left = 1e30, right = -1e30, low = 1e30, high = -1e30;
+  for (const HierarchyNode& node : facts.shape.hierarchy.nodes) {
+    const double x = static_cast<double>(node.disc.x), y = static_cast<double>(node.disc.y);
+    const double r = static_cast<double>(node.disc.radius);
+    left = std::min(left, x - r), right = std::max(right, x + r);
+    low = std::min(low, y - r), high = std::max(high, y + r);
+  }
+  return {columns_for(facts.depths.size()), fill * panel / std::max(right - left, high - low),
+          (left + right) / 2, (low + high) / 2};
+}
+
+void draw_panel(Svg& svg, const Layout& layout, const ShapeFacts& facts, std::size_t index) {
+  const DepthFacts& depth = facts.depths[index];
+  const Pixel corner{margin + static_cast<double>(index % layout.columns) * (panel + gap),
+                     head + static_cast<double>(index / layout.columns) * (panel + label)};
+  const Placement placement{
+      {corner.x + panel / 2 - layout.scale * layout.x, corner.y + panel / 2 + layout.scale * layout.y},
+      1,
+      0,
+      layout.scale};
+  svg.rectangle(corner, panel, panel, "panel");
+  svg.open_group(fmt::format("depth-{}", depth.depth));
+  svg.open_group({}, "outline");
+  draw_outline(svg, placement, facts.shape.outline);
+  svg.close_group();
+  svg.open_group({}, "discs");
+  draw_discs(svg, placed_cut(placement, facts.shape.hierarchy, depth.depth));
+  svg.close_group();
+  svg.close_group();
+  svg.text({corner.x + panel / 2, corner.y + panel + 20}, "label",
+           fmt::format("depth {}: {} disc{}, {:.3f} m²", depth.depth, depth.discs,
+                       depth.discs == 1 ? "" : "s", depth.area));
+}
+
+/// The round length that takes about a third of a panel, metres.
+double scale_length(double pixels_per_metre) {
+  const double most = panel / 2.2 / pixels_per_metre;
+  double length = 1e-6;
+  for (double decade = 1e-6; decade < 1e7; decade *= 10)
+    for (const double step : {1.0, 2.0, 5.0})
+      if (step * decade <= most) length = step * decade;
+  return length;
+}
+
+void draw_scale(Svg& svg, double right, double pixels_per_metre) {
+  const double length = scale_length(pixels_per_metre), left = right - length * pixels_per_metre;
+  const double y = 30;
+  svg.open_group("scale", "scale");
+  svg.line({left, y}, {right, y});
+  svg.line({left, y - 5}, {left, y + 5});
+  svg.line({right, y - 5}, {right, y + 5});
+  svg.close_group();
+  svg.text({(left + right) / 2, y + 22}, "key middle", fmt::format("{:g} m", length));
+}
+
+}  // namespace
+
+std::string draw_depths(const LoadedCharacter& character, const ShapeFacts& facts) {
+  const Layout layout = lay_out(facts);
+  const std::size_t panels = facts.depths.size(), rows = (panels + layout.columns - 1) / layout.columns;
+  const double width = 2 * margin + static_cast<double>(layout.columns) * (panel + gap) - gap;
+  const double height = head + static_cast<double>(rows) * (panel + label) + 8;
+  const std::string title = fmt::format("{}, {}", character.character.name, shape_title(character, facts));
+  Svg svg(width, height, title, css);
+  svg.text({margin, 38}, "title", title);
+  svg.text(
+      {margin, 62}, "caption",
+      fmt::format("Seen from above: outline of {:.3f} m², and the discs of its hierarchy cut at each depth.",
+                  facts.outline_area));
+  draw_scale(svg, width - margin, layout.scale);
+  for (std::size_t i = 0; i < panels; ++i) draw_panel(svg, layout, facts, i);
+  return std::move(svg).finish();
+}
+
+}  // namespace bch::cli

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bench/characters/shape_table.hpp"
+
+namespace bch::cli {
+
+/// What a hierarchy looks like when cut at one depth.
+struct DepthFacts {
+  std::uint32_t depth = 0;
+  std::size_t discs = 0;
+  double mean_radius = 0;  ///< metres
+  double area = 0;         ///< of the union of the discs, square metres
+};
+
+/// One shape in detail.
+struct ShapeFacts {
+  std::optional<std::uint32_t> index;  ///< in the table; none for a free choice of time
+  ShapeSource source;
+  const Shape& shape;
+  double outline_area = 0;
+  std::vector<DepthFacts> depths;  ///< 0 to the height
+};
+
+ShapeFacts examine(const Shape& shape, const ShapeSource& source, std::optional<std::uint32_t> index);
+
+struct ShapeTable {
+  std::span<const ShapeSource> sources;
+  std::span<const Shape> shapes;
+};
+
+std::string text_of(const LoadedCharacter& character);
+/// What the import has to say about a character, with its file's name: a line a note, mostly none.
+std::string notes_text(const LoadedCharacter& character);
+std::string text_of(const LoadedCharacter& character, const ShapeTable& table);
+std::string text_of(const LoadedCharacter& character, const ShapeFacts& facts);
+
+nlohmann::ordered_json json_of(const LoadedCharacter& character);
+nlohmann::ordered_json json_of(const LoadedCharacter& character, const ShapeTable& table);
+nlohmann::ordered_json json_of(const LoadedCharacter& character, const ShapeFacts& facts);
+
+/// One panel a depth: the outline filled, the discs over it.
+std::string draw_depths(const LoadedCharacter& character, const ShapeFacts& facts);
+
+/// "shape 3: walk at 1.25 s".
+std::string shape_title(const LoadedCharacter& character, const ShapeFacts& facts);
+
+}  // namespace bch::cli

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include <algorithm>
+#include <functional>
+#include <string>
+#include <utility>
+
+#include "bench/base/command_line.hpp"
+#include "bench/base/exit_codes.hpp"
+#include "bench/base/interrupt.hpp"
+#include "bench/base/run_main.hpp"
+#include "bench/cli/commands.hpp"
+
+namespace {
+
+using namespace bch::cli;
+
+constexpr const char* description =
+    "Collision checking between virtual characters in crowds by bounding cylinder hierarchies.\n"
+    "Lengths are in metres, headings in radians, counter-clockwise; the ground plane is x-y.";
+constexpr const char* footer =
+    "Data goes to standard output, messages to standard error.\n"
+    "Exit codes: 0 success; 2 usage; 3 a file that cannot be read, believed or written; 4 internal error;\n"
+    "            128 + N ended by signal N (129 hang-up, 130 interrupt, 143 termination).\n"
+    "No half-written file stays behind.";
+
+int run(int argc, char** argv) {
+  CLI::App program(description, "bch");
+  program.footer(footer);
+  program.set_version_flag("--version", "bch " BCH_VERSION);
+  program.require_subcommand(1);
+  program.get_formatter()->column_width(24);
+  const std::pair<const char*, std::function<void()>> commands[] = {
+      {"bake", add_bake_command(program)},       {"crowd", add_crowd_command(program)},
+      {"inspect", add_inspect_command(program)}, {"query", add_query_command(program)},
+      {"report", add_report_command(program)},   {"stability", add_stability_command(program)},
+  };
+  const std::string word = argc > 1 ? argv[1] : "-";
+  if (word[0] != '-' && std::ranges::none_of(commands, [&](const auto& one) { return one.first == word; }))
+    throw UsageError("no command '" + word + "' (bake, crowd, inspect, query, report, stability)");
+  if (!parse_command_line(program, argc, argv)) return exit_success;
+  for (const auto& [name, command] : commands)
+    if (program.got_subcommand(name)) command();
+  return exit_success;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  clean_up_on_signals();
+  return run_main("bch", [&] { return run(argc, argv); });
+}

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <cstdint>
+#include <initializer_list>
+#include <string>
+#include <vector>
+
+#include "bench/base/cost_limits.hpp"
+#include "kernel/collide/collide.hpp"
+#include "layout/import/import.hpp"
+
+namespace bch::cli {
+
+/// Which poses of which characters, and their hierarchies: the same options in every command.
+struct ShapeOptions {
+  std::vector<std::string> clips;
+  bool force_clips = false;
+  std::string up;
+  double scale = 0;  ///< 0: what the file says
+  std::uint32_t poses = 100;
+  double threshold = 0.01;
+  CostLimits limits;
+
+  void add_to(CLI::App& command);
+  ImportOptions import_options() const;
+  /// All files that are read: these, and the clips' files.
+  std::vector<std::string> inputs(std::vector<std::string> files) const;
+
+ private:
+  void add_limits_to(CLI::App& command);
+};
+
+/// How pairs are answered.
+struct AnswerOptions {
+  std::string depths = "0,3,6,all";
+  std::string semantics = "boundary";
+  std::string leaves;  ///< empty: segments where there are some
+  std::string isa;
+  std::uint32_t threads = 0;  ///< 0: all
+
+  void add_to(CLI::App& command);
+  /// All but the kernel.
+  void add_levels_to(CLI::App& command);
+  /// Errors of all: throw UsageError naming the option and the value.
+  std::vector<std::uint32_t> cut_depths() const;
+  QueryOptions query_options() const;
+  /// Whether shapes have to keep their outlines for that.
+  bool need_outlines() const;
+};
+
+/// A number, or "all".
+/// Errors:  throws UsageError naming the option.
+std::uint32_t parse_depth(const std::string& option, const std::string& text);
+
+/// Errors:  throws UsageError naming the option and the reason if one of them was given.
+void require_absent(const CLI::App& command, std::initializer_list<const char*> options,
+                    const std::string& reason);
+/// The same for the options of shapes and levels, those of them that the command has, which say nothing to a
+/// baked file.
+void require_unsettled(const CLI::App& command, const std::string& baked_file);
+
+void add_threads_option(CLI::App& command, std::uint32_t& threads);
+/// --seed, which chooses `what`.
+void add_seed_option(CLI::App& command, std::uint64_t& seed, const std::string& what);
+
+/// Rejects every other word.
+CLI::Validator one_of(std::vector<std::string> words);
+
+/// Rejects what is not a finite number in [low, high], NaN included.
+CLI::Validator number_between(double low, double high);
+
+/// Rejects what is not a whole number in [low, high], in decimal digits.
+CLI::Validator whole_between(std::uint64_t low, std::uint64_t high);
+
+}  // namespace bch::cli

@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include "bench/cli/query_answers.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <vector>
+
+#include "kernel/contact/contacts.hpp"
+#include "kernel/distance/clearance.hpp"
+#include "kernel/distance/contact_time.hpp"
+#include "kernel/separation/separation.hpp"
+
+namespace bch::cli {
+namespace {
+
+/// The two ids that begin each line.
+std::string ids(const QueryInput& input, std::size_t pair) {
+  const auto [first, second] = input.pairs[pair];
+  return csv_field(input.table.id[first]) + "," + csv_field(input.table.id[second]);
+}
+
+/// Without the sign of a zero.
+float plain(float value) {
+  return value + 0.0f;
+}
+
+/// A part of a unit vector: zero without its sign and without what rounding leaves of it.
+double plain_part(double value) {
+  return std::abs(value) < 1e-15 ? 0 : value;
+}
+
+std::string collide_rows(const QueryInput& input) {
+  std::vector<std::uint8_t> hits(input.pairs.size());
+  collide(input.set, input.table.agents(), input.pairs, hits, input.options);
+  std::string out;
+  for (std::size_t i = 0; i < hits.size(); ++i) out += fmt::format("{},{:d}\n", ids(input, i), hits[i]);
+  return out;
+}
+
+std::string contact_rows(const QueryInput& input) {
+  ContactTable table;
+  contacts(input.set, input.table.agents(), input.pairs, table,
+           {input.options.implementation, input.options.leaves});
+  std::string out;
+  for (std::size_t i = 0; i < input.pairs.size(); ++i)
+    for (const Contact& contact : table.of(i))
+      out += fmt::format("{},{},{}\n", ids(input, i), contact.first, contact.second);
+  return out;
+}
+
+std::string separation_rows(const QueryInput& input) {
+  std::vector<Separation> ways(input.pairs.size());
+  const Agents agents = input.table.agents();
+  const SeparationOptions options{input.options.implementation};
+  if (input.direction) {
+    const std::vector<Vec2> along(input.pairs.size(), *input.direction);
+    separation_along(input.set, agents, input.pairs, along, ways, options);
+  } else {
+    separation(input.set, agents, input.pairs, input.directions, ways, options);
+  }
+  std::string out;
+  for (std::size_t i = 0; i < ways.size(); ++i)
+    out += fmt::format("{},{},{},{}\n", ids(input, i), plain(ways[i].depth), plain_part(ways[i].x),
+                       plain_part(ways[i].y));
+  return out;
+}
+
+std::string clearance_rows(const QueryInput& input) {
+  std::vector<float> distance(input.pairs.size());
+  std::vector<Vec2> direction(input.pairs.size());
+  clearance(input.set, input.table.agents(), input.pairs, {distance, direction},
+            {input.max_distance, input.options.implementation});
+  std::string out;
+  for (std::size_t i = 0; i < distance.size(); ++i)
+    out += fmt::format("{},{},{},{}\n", ids(input, i), plain(distance[i]), plain(direction[i].x),
+                       plain(direction[i].y));
+  return out;
+}
+
+std::string contact_time_rows(const QueryInput& input) {
+  std::vector<double> x, y;
+  for (const auto [first, second] : input.pairs) {
+    x.push_back(input.table.dx[first] - input.table.dx[second]);
+    y.push_back(input.table.dy[first] - input.table.dy[second]);
+  }
+  std::vector<float> time(input.pairs.size());
+  contact_time(input.set, input.table.agents(), input.pairs, {x, y}, time, {input.options.implementation});
+  std::string out;
+  for (std::size_t i = 0; i < time.size(); ++i) out += fmt::format("{},{}\n", ids(input, i), time[i]);
+  return out;
+}
+
+constexpr QueryKind kinds[] = {
+    {"collide", "hit", "1 where the agents collide, else 0", collide_rows},
+    {"clearance", "distance,x,y",
+     "the least gap, in metres, of a disc of each, below 0 where they\n"
+     "               overlap, and the unit vector from the first one's to the second's; inf,0,0\n"
+     "               beyond --max-distance",
+     clearance_rows},
+    {"contact-time", "time",
+     "from 0 to 1, when the agents touch first while each moves by its dx\n"
+     "               and dy; inf: they do not",
+     contact_time_rows, true},
+    {"contacts", "first_disc,second_disc",
+     "a line for each two discs that overlap, by their\n"
+     "               numbers in the agents' cuts, from 0 on, depth first",
+     contact_rows},
+    {"separation", "depth,x,y",
+     "how far, in metres, and where to, as a unit vector, the first agent\n"
+     "               has to move until a line parts the two, 0 where one does; with --direction,\n"
+     "               until all of it lies beyond the second, which may be far where they are apart",
+     separation_rows},
+};
+
+}  // namespace
+
+std::span<const QueryKind> query_kinds() {
+  return kinds;
+}
+
+const QueryKind& query_kind(const std::string& name) {
+  return *std::find_if(std::begin(kinds), std::end(kinds),
+                       [&](const QueryKind& kind) { return kind.name == name; });
+}
+
+std::string query_help() {
+  std::string text;
+  for (const QueryKind& kind : kinds)
+    text += fmt::format("  {:<12} first,second,{}: {}\n", kind.name, kind.columns, kind.help);
+  return text;
+}
+
+}  // namespace bch::cli

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+
+#include "bench/base/csv_input.hpp"
+#include "kernel/collide/collide.hpp"
+#include "layout/base/disc.hpp"
+
+namespace bch::cli {
+
+/// What a query is asked about.
+struct QueryInput {
+  const ShapeSet& set;
+  const AgentTable& table;
+  std::span<const Pair> pairs;
+  QueryOptions options;
+  std::uint32_t directions;       ///< of a separation
+  std::optional<Vec2> direction;  ///< of a separation: the only one
+  double max_distance;            ///< of a clearance
+};
+
+/// One of the questions that --what names.
+struct QueryKind {
+  const char* name;
+  const char* columns;  ///< beside first,second
+  const char* help;     ///< what they are, in the words of --help
+  /// The answer as CSV, without the header, in the order of the pairs.
+  std::string (*rows)(const QueryInput& input);
+  bool moving = false;  ///< asks how agents move
+};
+
+/// All of them; the first is the default.
+std::span<const QueryKind> query_kinds();
+
+const QueryKind& query_kind(const std::string& name);
+
+/// A line for each.
+std::string query_help();
+
+}  // namespace bch::cli

@@ -1,0 +1,234 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <optional>
+#include <unordered_map>
+
+#include "bench/base/csv_input.hpp"
+#include "bench/base/exit_codes.hpp"
+#include "bench/base/number.hpp"
+#include "bench/base/output.hpp"
+#include "bench/base/threads.hpp"
+#include "bench/characters/cost_guard.hpp"
+#include "bench/characters/shape_table.hpp"
+#include "bench/cli/baked_report.hpp"
+#include "bench/cli/commands.hpp"
+#include "bench/cli/options.hpp"
+#include "bench/cli/query_answers.hpp"
+#include "kernel/broad_phase/broad_phase.hpp"
+#include "kernel/crowd/collide_all.hpp"
+#include "kernel/distance/clearance.hpp"
+#include "kernel/separation/separation.hpp"
+#include "layout/base/rounding.hpp"
+
+namespace bch::cli {
+namespace {
+
+struct QueryCommandOptions {
+  std::string character, agents, pairs;
+  bool all_pairs = false;
+  std::string what = query_kinds().front().name;
+  std::uint32_t directions = 16;
+  std::string direction;  ///< empty: the best of many
+  double max_distance = HUGE_VAL;
+  ShapeOptions shapes;
+  AnswerOptions answer;
+
+  /// Errors:  throws UsageError.
+  std::optional<Vec2> only_direction() const;
+};
+
+std::optional<Vec2> QueryCommandOptions::only_direction() const {
+  if (direction.empty()) return std::nullopt;
+  const std::size_t comma = direction.find(',');
+  const auto part = [](const std::string& text) { return parse_number(text).value_or(HUGE_VAL); };
+  const auto x = static_cast<float>(part(direction.substr(0, comma)));
+  const auto y =
+      static_cast<float>(comma == std::string::npos ? HUGE_VAL : part(direction.substr(comma + 1)));
+  if (!std::isfinite(x) || !std::isfinite(y) || (x == 0 && y == 0))
+    throw UsageError(fmt::format("--direction: '{}' is not X,Y with a length", direction));
+  return Vec2{x, y};
+}
+
+/// Renumbers the agents' shapes to those in use. Returns: where these come from; no other is built.
+std::vector<ShapeSource> keep_used(std::span<const ShapeSource> sources, AgentTable& table) {
+  std::vector<ShapeSource> used;
+  std::unordered_map<std::uint32_t, std::uint32_t> index_of;
+  for (std::uint32_t& shape : table.shape) {
+    const auto [entry, added] = index_of.emplace(shape, static_cast<std::uint32_t>(used.size()));
+    if (added) used.push_back(sources[shape]);
+    shape = entry->second;
+  }
+  return used;
+}
+
+/// All pairs that are within so many metres of each other, in the order of the agents' lines.
+std::vector<Pair> near_pairs(const ShapeSet& set, const AgentTable& table, const QueryOptions& options,
+                             double most) {
+  const Agents agents = table.agents();
+  std::vector<Pair> pairs = candidate_pairs(set, agents, most);
+  std::sort(pairs.begin(), pairs.end(),
+            [](Pair a, Pair b) { return a.first != b.first ? a.first < b.first : a.second < b.second; });
+  std::vector<float> distance(pairs.size());
+  clearance(set, agents, pairs, {distance}, {most, options.implementation});
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    pairs[kept] = pairs[i];
+    kept += std::isfinite(distance[i]);
+  }
+  pairs.resize(kept);
+  return pairs;
+}
+
+/// All pairs that collide, in the same order.
+std::vector<Pair> colliding_pairs(const ShapeSet& set, const Agents& agents, const QueryOptions& options) {
+  CrowdCollider collider;
+  const CollidingNeighbours rows = collider.collide_all(set, agents, options);
+  std::vector<Pair> pairs;
+  for (std::uint32_t i = 0; i < agents.size(); ++i)
+    for (const std::uint32_t j : rows.of(i))
+      if (i < j) pairs.push_back({i, j});
+  return pairs;
+}
+
+/// What there is to answer.
+struct Question {
+  AgentTable table;
+  std::vector<Pair> pairs;
+};
+
+/// Files first, so that a wrong value does not wait for shapes to be built.
+Question read_question(const QueryCommandOptions& options, std::size_t shapes, std::size_t levels) {
+  Question question{read_agents(options.agents, static_cast<std::uint32_t>(shapes),
+                                static_cast<std::uint32_t>(levels), query_kind(options.what).moving),
+                    {}};
+  if (!options.all_pairs) question.pairs = read_pairs(options.pairs, question.table);
+  return question;
+}
+
+void answer(const QueryCommandOptions& options, const ShapeSet& set, Question& question) {
+  auto& [table, pairs] = question;
+  const QueryOptions how = options.answer.query_options();
+  if (options.all_pairs)
+    pairs = std::isfinite(options.max_distance) ? near_pairs(set, table, how, options.max_distance)
+                                                : colliding_pairs(set, table.agents(), how);
+  const QueryKind& kind = query_kind(options.what);
+  write_standard_data(fmt::format("first,second,{}\n", kind.columns) +
+                      kind.rows({set, table, pairs, how, options.directions, options.only_direction(),
+                                 options.max_distance}));
+}
+
+void query_character(const QueryCommandOptions& options) {
+  std::vector<std::uint32_t> depths = options.answer.cut_depths();
+  const CostLimits& limits = options.shapes.limits;
+  const LoadedCharacter from = load_character(options.character, options.shapes.import_options());
+  const auto sources = list_shapes({&from, 1}, options.shapes.poses);
+  Question question = read_question(options, sources.size(), depths.size());
+  // Agents without a level use the last one: the others need not be there.
+  if (question.table.level.empty()) depths.erase(depths.begin(), depths.end() - 1);
+
+  const Threads threads(options.answer.threads);
+  const auto used = keep_used(sources, question.table);
+  std::optional<CostGuard> guard(std::in_place, limits, std::span(&from, 1), used.size());
+  const BuiltShapes built = build_shapes({&from, 1}, used, options.shapes.threshold, depths.back(), limits);
+  const ShapeSet set(built.shapes, {depths, options.answer.need_outlines()});
+  guard.reset();
+  answer(options, set, question);
+}
+
+void query_baked(const QueryCommandOptions& options) {
+  const BakedShapes baked = load_baked_for(options.character, options.answer);
+  Question question = read_question(options, baked.set.shape_count(), baked.set.level_count());
+  const Threads threads(options.answer.threads);
+  answer(options, baked.set, question);
+}
+
+void run_query(const CLI::App& command, const QueryCommandOptions& options) {
+  if (options.all_pairs == !options.pairs.empty())
+    throw UsageError(options.all_pairs ? "PAIRS.csv and --all-pairs: name one of them"
+                                       : "PAIRS.csv or --all-pairs is missing");
+  if (options.what != "separation")
+    require_absent(command, {"--directions", "--direction"}, "belongs to --what separation");
+  if (options.what != "clearance") require_absent(command, {"--max-distance"}, "belongs to --what clearance");
+  if (options.what != "collide" && !options.all_pairs)
+    require_absent(command, {"--semantics"}, "belongs to --what collide and to --all-pairs");
+  if (options.what != "collide" && options.what != "contacts" && !options.all_pairs)
+    require_absent(command, {"--leaves"}, "belongs to --what collide, --what contacts and --all-pairs");
+  if (std::isfinite(options.max_distance))
+    require_absent(command, {"--semantics", "--leaves"}, "--max-distance is about discs, whatever is inside");
+  if (query_kind(options.what).moving)
+    require_absent(command, {"--all-pairs"}, "agents that collide now touch at once");
+  if (!options.direction.empty()) require_absent(command, {"--directions"}, "--direction names the only one");
+  if (options.directions % 2 != 0)
+    throw UsageError(fmt::format("--directions: '{}' is odd", options.directions));
+  options.only_direction();
+  require_outputs({}, options.shapes.inputs({options.character, options.agents, options.pairs}));
+  if (!is_baked(options.character)) return query_character(options);
+  require_unsettled(command, options.character);
+  query_baked(options);
+}
+
+}  // namespace
+
+std::function<void()> add_query_command(CLI::App& program) {
+  const auto options = std::make_shared<QueryCommandOptions>();
+  CLI::App& command = *program.add_subcommand("query", "Answer pairs of agents from CSV files, as CSV");
+  command.footer(
+      "In AGENTS.csv an id is any text, shape the number that bch inspect gives it with the same --poses, x "
+      "and y are\n"
+      "metres, heading is in radians, level an index into --depths (without that column: the last), dx and "
+      "dy\n"
+      "say how far the agent moves, in metres, without turning.\n"
+      "Heading 0 leaves a shape as it stands in its file, where a y-up file's +z becomes -y. The built-in "
+      "characters\n"
+      "then face +x. People who face +z in a y-up file (as in glTF), or -y in a z-up one, face -y: their "
+      "heading "
+      "is\n"
+      "the direction in which they walk plus pi/2.\n"
+      "Writes a line for each line of PAIRS.csv, in that order, or what --what says:\n" +
+      query_help() +
+      "clearance, contact-time and separation look at the discs of the cuts, which cover outlines. An agent "
+      "inside another\n"
+      "may be clear of it. --semantics concerns collide and the pairs that --all-pairs finds without "
+      "--max-distance,\n"
+      "--leaves these and contacts.\n"
+      "Example: bch query default:female agents.csv pairs.csv > answers.csv");
+  command.add_option("SHAPES", options->character, character_or_baked_help)->type_name("")->required();
+  command.add_option("AGENTS.csv", options->agents, "Columns id,shape,x,y,heading[,level][,dx,dy]")
+      ->type_name("")
+      ->required();
+  command.add_option("PAIRS.csv", options->pairs, "Columns first,second: ids of agents")->type_name("");
+  command.add_flag(
+      "--all-pairs", options->all_pairs,
+      "Instead of PAIRS.csv: all pairs that collide, or of clearances all within --max-distance");
+  std::vector<std::string> names;
+  for (const QueryKind& kind : query_kinds()) names.emplace_back(kind.name);
+  command.add_option("--what", options->what, fmt::format("{} [{}]", fmt::join(names, ", "), names.front()))
+      ->type_name("NAME")
+      ->check(one_of(names));
+  command
+      .add_option("--directions", options->directions,
+                  "Of a separation: along the best of so many, evenly spread, an even number [16]")
+      ->type_name("N")
+      ->check(whole_between(2, most_directions));
+  command
+      .add_option(
+          "--direction", options->direction,
+          "Of a separation: along this one instead, of any length, until the first lies beyond the second")
+      ->type_name("X,Y");
+  command
+      .add_option("--max-distance", options->max_distance,
+                  "Of a clearance, metres: pairs farther apart are only told to be so [no limit]")
+      ->type_name("M")
+      ->check(number_between(0, 2 * rounding::largest_position));
+  options->shapes.add_to(command);
+  options->answer.add_to(command);
+  return [options, &command] { run_query(command, *options); };
+}
+
+}  // namespace bch::cli

@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <iterator>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "bench/base/exit_codes.hpp"
+#include "bench/base/output.hpp"
+#include "bench/base/threads.hpp"
+#include "bench/cli/commands.hpp"
+#include "bench/cli/options.hpp"
+#include "bench/cli/stability_report.hpp"
+#include "bench/cli/stiff_report.hpp"
+
+namespace bch::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct StabilityOptions {
+  std::uint32_t pairs = 2000;
+  bool quick = false, stiff = false;
+  std::uint64_t seed = 1;
+  std::uint32_t threads = 0;
+  std::string out, csv, json;
+};
+
+std::string in_folder(const StabilityOptions& options, std::string_view name) {
+  return (fs::path(options.out) / name).string();
+}
+
+std::string picture_name(const bench::StabilityFamily& family) {
+  return fmt::format("stability_{}.svg", family.name);
+}
+
+constexpr const char* cases_table = "stability.csv";
+constexpr const char* stiff_table = "stiff_contact.csv";
+constexpr const char* steps_picture = "stiff_contact_steps.svg";
+constexpr const char* errors_picture = "stiff_contact_errors.svg";
+
+/// The files that --out means.
+std::vector<OutputOption> folder_outputs(const StabilityOptions& options) {
+  std::vector<std::string> names = {stiff_table, steps_picture, errors_picture};
+  if (!options.stiff) {
+    names = {cases_table};
+    for (const bench::StabilityFamily& family : bench::stability_families())
+      if (family.axis) names.push_back(picture_name(family));
+  }
+  std::vector<OutputOption> outputs;
+  for (const std::string& name : names) outputs.push_back({"--out", in_folder(options, name)});
+  return outputs;
+}
+
+/// Makes the folder as well.
+void require_outputs_of(const StabilityOptions& options) {
+  std::vector<OutputOption> outputs{{"--csv", options.csv}, {"--json", options.json}};
+  require_outputs(outputs, {});
+  if (options.out.empty()) return;
+  make_folder(options.out);
+  std::ranges::move(folder_outputs(options), std::back_inserter(outputs));
+  require_outputs(outputs, {});
+}
+
+void write_pictures(const StabilityOptions& options, std::span<const bench::StabilityRow> rows) {
+  for (const bench::StabilityFamily& family : bench::stability_families())
+    if (family.axis) write_file(in_folder(options, picture_name(family)), draw(family, rows));
+}
+
+void require_promises(std::span<const bench::StabilityRow> rows) {
+  for (const bench::StabilityRow& row : rows) {
+    const std::string broken = broken_promise(row);
+    if (!broken.empty()) throw std::runtime_error("a promise is broken: " + broken);
+  }
+}
+
+/// Files of one half of the command; `name` is that of its CSV in the folder.
+void write_tables(const StabilityOptions& options, const char* name, const std::string& csv,
+                  const nlohmann::ordered_json& json) {
+  if (!options.csv.empty()) write_file(options.csv, csv);
+  if (!options.out.empty()) write_file(in_folder(options, name), csv);
+  write_json(options.json, json);
+}
+
+void run_cases(const StabilityOptions& options) {
+  const auto rows = bench::stability_rows(options.quick ? 200 : options.pairs, options.seed);
+  write_tables(options, cases_table, csv_of(rows), {{"stability", json_of(rows)}});
+  if (!options.out.empty()) write_pictures(options, rows);
+  write_standard_output(text_of(rows));
+  require_promises(rows);
+}
+
+void run_stiff(const StabilityOptions& options) {
+  const bench::StiffReport report = bench::stiff_contact(
+      options.quick ? bench::StiffOptions{.seconds = 2, .people = 40, .bounces = 25, .slides = 25}
+                    : bench::StiffOptions{});
+  write_tables(options, stiff_table, csv_of(report), {{"stiff_contact", json_of(report)}});
+  if (!options.out.empty()) {
+    write_file(in_folder(options, steps_picture), draw_steps(report));
+    write_file(in_folder(options, errors_picture), draw_errors(report));
+  }
+  write_standard_output(text_of(report));
+}
+
+void run_stability(const CLI::App& command, const StabilityOptions& options) {
+  if (options.quick) require_absent(command, {"--pairs"}, "--quick chooses them");
+  if (options.stiff) require_absent(command, {"--pairs", "--seed"}, "belongs to the cases, not to --stiff");
+  require_outputs_of(options);
+  const Threads threads(options.threads);
+  options.stiff ? run_stiff(options) : run_cases(options);
+}
+
+}  // namespace
+
+std::function<void()> add_stability_command(CLI::App& program) {
+  const auto options = std::make_shared<StabilityOptions>();
+  CLI::App& command =
+      *program.add_subcommand("stability", "Judge collision tests on hard cases by exact arithmetic");
+  command.footer(
+      "Pairs of agents that are about to collide by discs, half of the gaps within 64 units in the last\n"
+      "place of a float, half of all magnitudes; and by outlines. Plain tests have positions, headings and\n"
+      "discs in the world's coordinates. Fails if bch misses anything or hits beyond its documented gap.\n"
+      "With --stiff instead: depths as springs of penalty forces, how large a time step may be and what it "
+      "costs.\n"
+      "Example: bch stability --out stability");
+  command.add_option("--pairs", options->pairs, "Pairs of every row [2000]")
+      ->type_name("N")
+      ->check(whole_between(20, 10'000'000));
+  command.add_flag("--quick", options->quick, "200 pairs of every row; less of --stiff, too");
+  command.add_flag("--stiff", options->stiff, "Agents that are driven into each other, which takes minutes");
+  add_seed_option(command, options->seed, "shapes and placements");
+  add_threads_option(command, options->threads);
+  command.add_option("--csv", options->csv, "Write the table as CSV")->type_name("FILE");
+  command.add_option("--json", options->json, "Write the table as JSON")->type_name("FILE");
+  command.add_option("--out", options->out, "Write CSV and pictures into this folder")->type_name("DIR");
+  return [options, &command] { run_stability(command, *options); };
+}
+
+}  // namespace bch::cli

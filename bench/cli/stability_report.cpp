@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include "bench/cli/stability_report.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "bench/base/chart.hpp"
+#include "bench/base/csv_input.hpp"
+
+namespace bch::cli {
+namespace {
+
+using bench::Errors;
+using bench::falsely_hit;
+using bench::largest_error;
+using bench::missed;
+using bench::StabilityFamily;
+using bench::StabilityRow;
+
+struct Test {
+  const char *name, *key;
+  Errors StabilityRow::*errors;
+};
+constexpr Test tests[] = {{"plain float", "float", &StabilityRow::plain_float},
+                          {"plain double", "double", &StabilityRow::plain_double},
+                          {"bch", "bch", &StabilityRow::ours}};
+
+std::string errors_text(const StabilityRow& row, const Errors& errors) {
+  return fmt::format(" | {:>6.2f} {:>6.2f} {:>8.1e}", missed(row, errors), falsely_hit(row, errors),
+                     largest_error(errors));
+}
+
+std::string line(const StabilityRow& row) {
+  if (!row.refused.empty()) return fmt::format("{:>32}   refused: {}\n", row.value, row.refused);
+  std::string out = fmt::format("{:>32} {:>6} {:>6}", row.value, row.pairs, row.meeting);
+  for (const Test& test : tests) out += errors_text(row, row.*test.errors);
+  return out + fmt::format(" | {:>6} {:>6}\n", row.outlines_meeting, row.outline_misses);
+}
+
+std::vector<const StabilityRow*> of_family(const StabilityFamily& family,
+                                           std::span<const StabilityRow> rows) {
+  std::vector<const StabilityRow*> found;
+  for (const StabilityRow& row : rows)
+    if (row.family == family.name) found.push_back(&row);
+  return found;
+}
+
+ChartPanel panel(const StabilityFamily& family, std::span<const StabilityRow* const> rows, const char* title,
+                 bool logarithmic, double (*value)(const StabilityRow&, const Errors&)) {
+  ChartPanel made;
+  made.title = title;
+  std::vector<double> xs, ys;
+  for (const Test& test : tests) {
+    ChartSeries& series = made.series.emplace_back(ChartSeries{test.name, {}});
+    for (const StabilityRow* row : rows) {
+      series.points.push_back({row->conditioning, value(*row, row->*test.errors)});
+      xs.push_back(series.points.back().x), ys.push_back(series.points.back().y);
+    }
+  }
+  if (logarithmic) ys.push_back(bench::promised_gap);
+  made.x = axis_for(family.axis, family.logarithmic, xs);
+  made.y = axis_for("", logarithmic, ys);
+  return made;
+}
+
+}  // namespace
+
+std::string text_of(std::span<const StabilityRow> rows) {
+  std::string out =
+      "Of each test: missed contacts, % of those that meet; false hits, % of those that do not; the largest "
+      "error, metres per metre of reach.\nOf outlines that are about to touch: how many meet, and how many "
+      "of those "
+      "bch misses.\n";
+  for (const StabilityFamily& family : bench::stability_families()) {
+    out += fmt::format("\n{}{}{}\n{:>32} {:>6} {:>6}", family.title, family.axis ? ": " : "",
+                       family.axis ? family.axis : "", "", "pairs", "meet");
+    for (const Test& test : tests) out += fmt::format(" | {:^22}", test.name);
+    out += " | outlines\n";
+    for (const StabilityRow* row : of_family(family, rows)) out += line(*row);
+  }
+  return out;
+}
+
+std::string csv_of(std::span<const StabilityRow> rows) {
+  std::string out = "family,value,conditioning,pairs,meeting";
+  for (const Test& test : tests)
+    for (const char* column :
+         {"misses", "false_positives", "deepest_miss_m", "largest_gap_m", "miss_per_reach", "gap_per_reach"})
+      out += fmt::format(",{}_{}", test.key, column);
+  out += ",outlines,outlines_meeting,outline_misses,refused\n";
+  for (const StabilityRow& row : rows) {
+    out += fmt::format("{},{},{},{},{}", row.family, csv_field(row.value), row.conditioning, row.pairs,
+                       row.meeting);
+    for (const Test& test : tests) {
+      const Errors& e = row.*test.errors;
+      out += fmt::format(",{},{},{},{},{},{}", e.misses, e.false_positives, e.deepest_miss, e.largest_gap,
+                         e.miss_per_reach, e.gap_per_reach);
+    }
+    out += fmt::format(",{},{},{},{}\n", row.outlines, row.outlines_meeting, row.outline_misses,
+                       csv_field(row.refused));
+  }
+  return out;
+}
+
+nlohmann::ordered_json json_of(std::span<const StabilityRow> rows) {
+  auto json = nlohmann::ordered_json::array();
+  for (const StabilityRow& row : rows) {
+    nlohmann::ordered_json one{{"family", row.family}, {"value", row.value}};
+    if (row.outside) {
+      one["refused"] = row.refused;
+      json.push_back(one);
+      continue;
+    }
+    one["pairs"] = row.pairs, one["meeting"] = row.meeting;
+    for (const Test& test : tests) {
+      const Errors& e = row.*test.errors;
+      one[test.key] = {{"misses", e.misses},
+                       {"false_positives", e.false_positives},
+                       {"deepest_miss", e.deepest_miss},
+                       {"largest_gap", e.largest_gap},
+                       {"miss_per_reach", e.miss_per_reach},
+                       {"gap_per_reach", e.gap_per_reach}};
+    }
+    one["outlines"] = {
+        {"pairs", row.outlines}, {"meeting", row.outlines_meeting}, {"misses", row.outline_misses}};
+    json.push_back(one);
+  }
+  return json;
+}
+
+std::string draw(const StabilityFamily& family, std::span<const StabilityRow> rows) {
+  std::vector<const StabilityRow*> inside;
+  for (const StabilityRow* row : of_family(family, rows))
+    if (row->refused.empty()) inside.push_back(row);
+  std::vector<ChartPanel> panels = {
+      panel(family, inside, "Missed contacts, % of those that meet", false, missed),
+      panel(family, inside, "False hits, % of those that do not", false, falsely_hit),
+      panel(family, inside, "Largest error, metres per metre of reach", true,
+            [](const StabilityRow&, const Errors& e) { return largest_error(e); })};
+  panels.back().line = bench::promised_gap;
+  panels.back().line_name = "bch's bound, of gaps alone";
+  return draw_chart(family.title, panels);
+}
+
+}  // namespace bch::cli

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+
+#include "bench/stability/stiff_contact.hpp"
+
+namespace bch::cli {
+
+std::string text_of(const bench::StiffReport& report);
+/// A row a measure and depth, columns for all that was measured.
+std::string csv_of(const bench::StiffReport& report);
+nlohmann::ordered_json json_of(const bench::StiffReport& report);
+
+/// The largest stable step of every scene against the depth of the cut.
+std::string draw_steps(const bench::StiffReport& report);
+/// Depth at the beginning of a contact, energy created, and jitter.
+std::string draw_errors(const bench::StiffReport& report);
+
+}  // namespace bch::cli

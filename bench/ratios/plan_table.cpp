@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <cstdio>
+#include <memory>
+#include <optional>
+#include <utility>
+
+#include "bench/ratios/ratios.hpp"
+#include "bench/workload/answer_checks.hpp"
+#include "bench/workload/race.hpp"
+#include "layout/scene/pose_shape.hpp"
+#include "layout/scene/scene_plan.hpp"
+#include "layout/shape_set/shape_set_builder.hpp"
+
+namespace bch::bench {
+namespace {
+
+constexpr float threshold = 0.01f;  ///< metres
+
+std::function<std::uint32_t(double)> always(std::uint32_t depth) {
+  return [depth](double) { return depth; };
+}
+
+/// Who looks stands in the middle of the crowd, 58 m wide.
+std::uint32_t by_distance(double metres) {
+  return metres < 5 ? all_depths : metres < 10 ? 6 : metres < 20 ? 3 : 0;
+}
+
+struct Row {
+  const char* name;
+  SceneUse use;
+};
+
+const std::vector<Row>& rows() {
+  static const std::vector<Row> all = {
+      {"single cylinder", {.depth = always(0)}},
+      {"depth 3", {.depth = always(3)}},
+      {"depth 6", {.depth = always(6)}},
+      {"all", {}},
+      {"mixed: all to 5 m, 6 to 10 m, 3 to 20 m, then 0", {.depth = by_distance}},
+      {"all, solid", {.solid = true}},
+      {"all, discs as leaves", {.leaves = Leaves::discs}},
+      {"all, discs, without shortcuts: shapes of one frame", {.leaves = Leaves::discs, .pairs_per_shape = 0}},
+  };
+  return all;
+}
+
+/// The scene's crowd, as a plan for it has it.
+class Planned {
+ public:
+  Planned(Scene& scene, const Row& row)
+      : workload_(scene.workload("crowd")),
+        query_{row.use.solid ? Semantics::solid : Semantics::boundary, nullptr, row.use.leaves} {
+    const cli::Crowd& crowd = workload_.crowd;
+    std::vector<SceneAgent> agents;
+    for (std::size_t i = 0; i < crowd.size(); ++i)
+      agents.push_back({scene.sources()[crowd.shape[i]],
+                        std::hypot(crowd.x[i] - 0.5 * crowd.side, crowd.y[i] - 0.5 * crowd.side)});
+    plan_ = plan_scene(agents, row.use);
+    for (const cli::LoadedCharacter& character : scene.characters())
+      shapers_.emplace_back(character.character, threshold, plan_.set.depths.back(), false);
+    flattener_.emplace(plan_.set);
+    set_.emplace(build());
+    hits_.resize(workload_.pairs.size());
+    answer();
+    // Against the reference over the scene's own shapes.
+    require_right(row.name, workload_,
+                  wrong_answers({scene.shapes(), plan_.set, query_.leaves}, crowd.at_level(plan_.agent_level),
+                                workload_.pairs, hits_, query_.semantics));
+  }
+
+  ShapeSet build() {
+    ShapeSetBuilder builder(plan_.set, plan_.shapes.size());
+    for (std::size_t i = 0; i < plan_.shapes.size(); ++i) {
+      flattener_->flatten(shapers_[plan_.shapes[i].character].shape(plan_.shapes[i].at), i, flat_);
+      builder.add(flat_);
+    }
+    return std::move(builder).finish();
+  }
+
+  void answer() { collide(*set_, agents(), workload_.pairs, hits_, query_); }
+
+  std::size_t shapes() const { return plan_.shapes.size(); }
+  std::size_t pairs() const { return workload_.pairs.size(); }
+  double bytes_per_shape() const {
+    return static_cast<double>(set_->bytes()) / static_cast<double>(shapes());
+  }
+
+ private:
+  Agents agents() const {
+    const cli::Crowd& crowd = workload_.crowd;
+    return {plan_.agent_shape, crowd.x, crowd.y, crowd.heading, plan_.agent_level};
+  }
+
+  const Workload& workload_;
+  const QueryOptions query_;
+  ScenePlan plan_;
+  std::vector<PoseShaper> shapers_;
+  std::optional<ShapeFlattener> flattener_;
+  FlatShape flat_;
+  std::optional<ShapeSet> set_;
+  Hits hits_;
+};
+
+}  // namespace
+
+void print_plan_table(Scene& scene, std::uint32_t runs) {
+  std::vector<std::unique_ptr<Planned>> planned;
+  std::vector<Contender> bakes, queries;
+  for (const Row& row : rows()) {
+    Planned& plan = *planned.emplace_back(std::make_unique<Planned>(scene, row));
+    bakes.push_back({row.name, [&plan] { plan.build(); }});
+    queries.push_back({row.name, [&plan] { plan.answer(); }});
+  }
+  race(bakes, runs, 1);
+  race(queries, runs, 1);
+  fmt::print(
+      "\n| plan of a scene: a crowd, one thread | bytes per shape | us to bake a shape | ns per pair "
+      "|\n|---|---|---|---|\n");
+  for (std::size_t i = 0; i < planned.size(); ++i)
+    fmt::print("| {} | {:.0f} | {:.1f} | {:.1f} |\n", rows()[i].name, planned[i]->bytes_per_shape(),
+               bakes[i].nanoseconds / 1e3 / static_cast<double>(planned[i]->shapes()),
+               queries[i].nanoseconds / static_cast<double>(planned[i]->pairs()));
+  std::fflush(stdout);
+}
+
+}  // namespace bch::bench

@@ -1,0 +1,285 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include <fmt/format.h>
+#include <oneapi/tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "bench/stability/setup.hpp"
+
+namespace bch::bench {
+namespace {
+
+using cli::Random;
+
+using Setups = std::vector<StabilitySetup>;
+using Specimens = std::vector<Specimen>;
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
+
+StabilitySetup named(double value) {
+  StabilitySetup setup;
+  setup.value = fmt::format("{:g}", value);
+  setup.conditioning = value;
+  return setup;
+}
+
+auto of_reach(double reach) {
+  return [reach](Random& random) { return usual_specimens(random, reach); };
+}
+
+Setups offset_setups() {
+  Setups setups;
+  for (const double offset : {0.0, 1.0, 1e2, 1e4, 1e5, 1e6, 1e7, 1e8, 9.9e8, 1.1e9}) {
+    StabilitySetup& setup = setups.emplace_back(named(offset));
+    setup.x = offset, setup.y = -offset;
+    setup.outside = offset > 1e9;
+  }
+  return setups;
+}
+
+Setups scale_setups() {
+  Setups setups;
+  for (const double reach :
+       {9e-7, 1.001e-6, 1e-5, 1e-4, 1e-3, 1e-2, 0.1, 1.0, 10.0, 100.0, 1e3, 1e4, 1e5, 0.999e6, 1.1e6}) {
+    StabilitySetup& setup = setups.emplace_back(named(reach));
+    setup.make = of_reach(reach);
+    setup.outside = reach < 1e-6 || reach > 1e6;
+  }
+  return setups;
+}
+
+Setups ratio_setups() {
+  Setups setups;
+  for (const double ratio : {1.0, 10.0, 1e2, 1e3, 1e4, 1e5, 1e6, 1e9}) {
+    StabilitySetup& setup = setups.emplace_back(named(ratio));
+    setup.make = of_reach(1e5);
+    setup.make_other = of_reach(1e5 / ratio);
+  }
+  return setups;
+}
+
+Setups ladder_setups(double (*step)(double)) {
+  Setups setups;
+  for (const int steps : {-64, -32, -16, -8, -4, -2, -1, 0, 1, 2, 4, 8, 16, 32, 64}) {
+    StabilitySetup& setup = setups.emplace_back(named(steps));
+    setup.gap = [=](Random&, double radii, double) { return steps * step(radii); };
+  }
+  return setups;
+}
+
+Setups float_ladder_setups() {
+  return ladder_setups(float_step);
+}
+Setups double_ladder_setups() {
+  return ladder_setups(double_step);
+}
+
+/// Either way, half of them exactly so much and half a thousandth less at most.
+auto about(double heading) {
+  return [heading](Random& random) {
+    const double part = random.below(2) == 0 ? 1 : 1 - random.uniform(1e-3);
+    return (random.below(2) == 0 ? part : -part) * heading;
+  };
+}
+
+Setups rotation_setups() {
+  Setups setups;
+  constexpr double pi = std::numbers::pi;
+  for (const double heading :
+       {1e-20, 1e-10, 1e-7, 1e-3, 1.0, pi / 2, pi, 1e3, 1e6, 1e9, 1.1e9, infinity, not_a_number}) {
+    StabilitySetup& setup = setups.emplace_back(named(heading));
+    setup.heading = about(heading);
+    setup.outside = !(heading <= 1e9);
+  }
+  return setups;
+}
+
+Setups slender_setups() {
+  Setups setups;
+  for (const double slenderness : {1.0, 10.0, 100.0, 1e3, 1e4}) {
+    StabilitySetup& setup = setups.emplace_back(named(slenderness));
+    setup.make = [slenderness](Random& random) {
+      Specimens specimens;
+      for (int i = 0; i < 12; ++i)
+        specimens.push_back(contour_specimen(ring(random, 24, 0.2, 0.4, 0, 0, slenderness), 0.02));
+      return specimens;
+    };
+  }
+  return setups;
+}
+
+Setups contour_setups() {
+  Setups setups;
+  for (const std::uint32_t corners : {3u, 10u, 100u, 1'000u, 10'000u, 100'000u, 1'000'000u}) {
+    StabilitySetup& setup = setups.emplace_back(named(corners));
+    setup.make = [corners](Random& random) {
+      const double rough =
+          corners > 100 ? 10.0 / corners : 0.2;  // so that a corner is not longer than the outline
+      Specimens specimens;
+      for (int i = 0; i < (corners < 10'000 ? 8 : 2); ++i)
+        specimens.push_back(contour_specimen(ring(random, corners, 0.4 * (1 - rough), 0.4), 0.02));
+      return specimens;
+    };
+    setup.cost = corners < 100'000 ? 2 : corners / 10'000;
+  }
+  return setups;
+}
+
+Setups triangle_setups() {
+  Setups setups;
+  const std::pair<const char*, Soup> kinds[] = {{"collinear", Soup::collinear},
+                                                {"duplicate", Soup::duplicate},
+                                                {"folded", Soup::folded},
+                                                {"needle", Soup::needle}};
+  for (const auto& [name, kind] : kinds) {
+    StabilitySetup& setup = setups.emplace_back();
+    setup.value = name;
+    setup.make = [soup = kind](Random& random) { return soup_specimens(random, soup); };
+  }
+  return setups;
+}
+
+Setups coincident_setups() {
+  Setups setups;
+  for (const double offset : {0.0, 1e3, 9.9e8}) {
+    StabilitySetup& setup = setups.emplace_back(named(offset));
+    setup.value = fmt::format("at {:g} m, and one bit beside", offset);
+    setup.placing = Placing::coincident;
+    setup.x = setup.y = offset;
+  }
+  return setups;
+}
+
+/// A flat contour whose heights are `height`, far below what its length has of resolution.
+auto flat(double height) {
+  return [height](Random& random) {
+    Specimens specimens;
+    const auto low = static_cast<float>(height);
+    for (int i = 0; i < 8; ++i) {
+      const float end = static_cast<float>(0.1 + random.uniform(0.4));
+      specimens.push_back(raw_specimen({{-end, low}, {0, -low}, {end, low}, {0, 3 * low}}, 0.05));
+    }
+    return specimens;
+  };
+}
+
+auto triangle_of(double corner) {
+  return [corner](Random&) {
+    Specimens specimens;
+    specimens.push_back(raw_specimen({{0, 0}, {static_cast<float>(corner), 0}, {0, 1}}, 0.1));
+    return specimens;
+  };
+}
+
+Setups extreme_setups() {
+  Setups setups;
+  const auto add = [&](const char* value) -> StabilitySetup& {
+    setups.emplace_back().value = value;
+    return setups.back();
+  };
+  add("positions of 1e-310 m").x = 1e-310;
+  add("headings of 1e-40 rad").heading = about(1e-40);
+  add("headings of 5e-324 rad").heading = about(5e-324);
+  add("coordinates of 1e-40 m in a shape").make = flat(1e-40);
+  add("coordinates of 1e-45 m in a shape").make = flat(1e-45);
+  StabilitySetup& far = add("2e9 m apart");
+  far.x = far.y = -1e9, far.apart_x = far.apart_y = 2e9, far.placing = Placing::apart;
+  StabilitySetup& large = add("2e9 m apart, a reach of 1e6 m");
+  large = far, large.value = "2e9 m apart, a reach of 1e6 m", large.make = of_reach(0.999e6);
+  const auto refuse = [&](const char* value) -> StabilitySetup& {
+    StabilitySetup& setup = add(value);
+    setup.outside = true;
+    return setup;
+  };
+  refuse("a position of 1e300 m").x = 1e300;
+  refuse("an infinite position").y = -infinity;
+  refuse("a position that is no number").x = not_a_number;
+  refuse("a corner at 1e30 m").make = triangle_of(1e30);
+  refuse("an infinite corner").make = triangle_of(infinity);
+  refuse("a corner that is no number").make = triangle_of(not_a_number);
+  refuse("a contour that is a point").make = [](Random&) {
+    Specimens specimens;
+    specimens.push_back(raw_specimen({{0, 0}, {0, 0}, {0, 0}}, 0.1));
+    return specimens;
+  };
+  return setups;
+}
+
+double percent(std::uint64_t part, std::uint64_t whole) {
+  return whole == 0 ? 0 : 100 * static_cast<double>(part) / static_cast<double>(whole);
+}
+
+struct FamilySetups {
+  StabilityFamily family;
+  Setups (*setups)();
+};
+
+constexpr FamilySetups all_families[] = {
+    {{"offset", "Far from the origin", "distance of the agents from the origin, metres", true},
+     offset_setups},
+    {{"scale", "Small and large shapes", "reach of the shapes, metres", true}, scale_setups},
+    {{"ratio", "A large and a small shape", "ratio of their reaches", true}, ratio_setups},
+    {{"ladder_float", "A ladder of gaps, float", "gap, units in the last place of a float", false},
+     float_ladder_setups},
+    {{"ladder_double", "A ladder of gaps, double", "gap, units in the last place of a double", false},
+     double_ladder_setups},
+    {{"rotation", "Tiny, odd and large headings", "heading, radians", true}, rotation_setups},
+    {{"slender", "Slender shapes", "length by width", true}, slender_setups},
+    {{"contour", "Outlines of few and many corners", "corners", true}, contour_setups},
+    {{"triangles", "Triangles without area, in meshes", nullptr, false}, triangle_setups},
+    {{"coincident", "One shape twice at one place", nullptr, false}, coincident_setups},
+    {{"extremes", "The ends of the range", nullptr, false}, extreme_setups},
+};
+
+}  // namespace
+
+std::span<const StabilityFamily> stability_families() {
+  static const std::vector<StabilityFamily> families = [] {
+    std::vector<StabilityFamily> list;
+    for (const FamilySetups& each : all_families) list.push_back(each.family);
+    return list;
+  }();
+  return families;
+}
+
+std::vector<StabilityRow> stability_rows(std::uint32_t pairs, std::uint64_t seed) {
+  std::vector<std::pair<const char*, StabilitySetup>> work;
+  for (const FamilySetups& each : all_families)
+    for (StabilitySetup& setup : each.setups()) work.emplace_back(each.family.name, std::move(setup));
+  std::vector<StabilityRow> rows(work.size());
+  tbb::parallel_for(std::size_t{0}, work.size(), [&](std::size_t i) {
+    rows[i] = run_setup(work[i].first, work[i].second, pairs, seed + i);
+  });
+  return rows;
+}
+
+double missed(const StabilityRow& row, const Errors& errors) {
+  return percent(errors.misses, row.meeting);
+}
+
+double falsely_hit(const StabilityRow& row, const Errors& errors) {
+  return percent(errors.false_positives, row.pairs - row.meeting);
+}
+
+double largest_error(const Errors& errors) {
+  return std::max(errors.gap_per_reach, errors.miss_per_reach);
+}
+
+std::string broken_promise(const StabilityRow& row) {
+  const std::string where = row.family + " " + row.value + ": ";
+  if (row.outside) return row.refused.empty() ? where + "outside the domain, and answered" : "";
+  if (!row.refused.empty()) return where + row.refused;
+  if (row.ours.misses > 0) return where + fmt::format("{} misses", row.ours.misses);
+  if (row.outline_misses > 0) return where + fmt::format("{} missed outlines", row.outline_misses);
+  if (row.ours.gap_per_reach > promised_gap)
+    return where + fmt::format("a gap of {} m per metre of reach is a hit", row.ours.gap_per_reach);
+  return "";
+}
+
+}  // namespace bch::bench

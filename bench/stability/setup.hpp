@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <functional>
+
+#include "bench/stability/stability.hpp"
+#include "bench/stability/trial.hpp"
+
+namespace bch::bench {
+
+enum class Placing {
+  contact,     ///< half of the pairs with discs, half with outlines near contact
+  coincident,  ///< one shape twice, at one place or some bits beside it
+  apart,       ///< as far as the setup says
+};
+
+/// How the pairs of a row are made.
+struct StabilitySetup {
+  std::string value;
+  double conditioning = 0;
+  bool outside = false;    ///< of the documented domain
+  std::uint32_t cost = 1;  ///< only one in so many pairs is tried, at least 20
+  std::function<std::vector<Specimen>(cli::Random&)> make = [](cli::Random& random) {
+    return usual_specimens(random, 1);
+  };
+  /// Of the second agent; null: as of the first.
+  std::function<std::vector<Specimen>(cli::Random&)> make_other = nullptr;
+  Placing placing = Placing::contact;
+  double x = 0, y = 0;              ///< of the first agent
+  double apart_x = 0, apart_y = 0;  ///< the second agent's position from there, where they are apart
+  std::function<double(cli::Random&)> heading = nullptr;  ///< null: all directions
+  /// From the sum of two radii and the sum of the reaches; null: gaps of all sizes.
+  std::function<double(cli::Random&, double radii, double reaches)> gap = nullptr;
+};
+
+/// The distance to the next float or double from a value.
+double float_step(double value);
+double double_step(double value);
+
+StabilityRow run_setup(const char* family, const StabilitySetup& setup, std::uint32_t pairs,
+                       std::uint64_t seed);
+
+}  // namespace bch::bench

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "baselines/exact_discs.hpp"
+#include "bench/base/random.hpp"
+#include "layout/shape_set/shape_set.hpp"
+
+namespace bch::bench {
+
+/// A shape with what is exactly true of it.
+struct Specimen {
+  Shape shape;
+  baselines::ExactCut discs;  ///< of its leaves and all nodes above
+  Outline geometry;           ///< what must be covered: its outline, or the triangles it was made from
+
+  double reach() const { return shape.hierarchy.reach; }
+};
+
+/// What is made into a specimen.
+/// Errors of all: as contour_hierarchy() and union_outline() throw.
+
+/// From a contour of one's own, as it is.
+Specimen raw_specimen(std::vector<Vec2> points, double threshold);
+/// The same, put on the grid that outlines of that size have.
+Specimen contour_specimen(std::vector<Vec2> points, double threshold);
+
+/// From triangles, in order: three points each.
+Specimen triangle_specimen(const std::vector<Vec2>& corners, double threshold);
+
+/// Corners around (x, y) at distances within [inner, outer], y divided by `slenderness`.
+std::vector<Vec2> ring(cli::Random& random, std::uint32_t corners, double inner, double outer, double x = 0,
+                       double y = 0, double slenderness = 1);
+
+/// Outlines of few and many corners about their origin and beside it, and strokes, each of this reach.
+std::vector<Specimen> usual_specimens(cli::Random& random, double reach);
+
+enum class Soup { collinear, duplicate, folded, needle };
+std::vector<Specimen> soup_specimens(cli::Random& random, Soup kind);
+
+}  // namespace bch::bench

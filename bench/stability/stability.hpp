@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+/// How often a test of discs is wrong on hard cases, judged by exact arithmetic (baselines/quad.hpp).
+///
+/// The truth is the definition of a collision (Semantics) for tight discs: whether two discs of the cuts, one of each agent,
+/// have a point in common, and every disc above the one has one with every disc above the other. Three tests answer it: the
+/// plain test in float as anybody would write it (positions, headings and tight discs in float, the world's coordinates; the
+/// same pairs of discs), the same in double, and collide(). Beside that it is asked, of pairs whose outlines are about to
+/// touch, whether collide() answers a hit wherever outlines meet.
+namespace bch::bench {
+
+/// What one test got wrong.
+struct Errors {
+  std::uint64_t misses = 0;           ///< discs collide, the answer is 0
+  std::uint64_t false_positives = 0;  ///< they do not, the answer is 1
+  // Metres, of Trial::gap():
+  double deepest_miss = 0;  ///< below 0, the most that was missed
+  double largest_gap = 0;   ///< the largest that was answered as a hit
+  // The largest by the two shapes' reach:
+  double miss_per_reach = 0, gap_per_reach = 0;
+};
+
+/// One value of what a family varies.
+struct StabilityRow {
+  std::string family, value;
+  double conditioning = 0;  ///< the value as a number
+  std::uint64_t pairs = 0;  ///< with discs near contact
+  std::uint64_t meeting = 0;
+  Errors plain_float, plain_double, ours;
+  std::uint64_t outlines = 0;  ///< pairs with outlines near contact
+  std::uint64_t outlines_meeting = 0, outline_misses = 0;
+  bool outside = false;  ///< of the documented domain: has to be refused
+  std::string refused;   ///< the exception's message; nothing is answered then
+};
+
+struct StabilityFamily {
+  const char* name;   ///< a word, for file names
+  const char* title;  ///< a line
+  const char* axis;   ///< what the value is; null: values are not numbers, there is no picture
+  bool logarithmic;
+};
+std::span<const StabilityFamily> stability_families();
+
+/// The rows of all families, in order, the same for a seed on every machine.
+/// `pairs`: for every row, half of which go to outlines. Runs in the caller's TBB arena.
+std::vector<StabilityRow> stability_rows(std::uint32_t pairs, std::uint64_t seed = 1);
+
+/// Percent of the pairs that meet, and of those that do not.
+double missed(const StabilityRow& row, const Errors& errors);
+double falsely_hit(const StabilityRow& row, const Errors& errors);
+/// The larger of the two: metres per metre of reach.
+double largest_error(const Errors& errors);
+
+/// What is wrong with a row: a miss, a false positive beyond the documented gap, an answer outside the domain, none inside.
+/// Empty: nothing.
+std::string broken_promise(const StabilityRow& row);
+
+/// Metres per metre of reach, layout/base/rounding.hpp.
+constexpr double promised_gap = 4e-6;
+
+}  // namespace bch::bench

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "bench/stability/stiff_contact.hpp"
+#include "kernel/broad_phase/broad_phase.hpp"
+#include "kernel/crowd/collide_all.hpp"
+#include "kernel/distance/clearance.hpp"
+#include "kernel/separation/separation.hpp"
+
+namespace bch::bench {
+
+/// Levels of detail of every shape, and the shapes: people in some poses, then pieces of wall.
+constexpr std::uint32_t stiff_depths[] = {0, 3, 6, all_depths};
+constexpr std::uint8_t finest_level = 3;
+constexpr std::uint32_t people_shapes = 8;
+enum WallShape : std::uint32_t { wall_of_10_m = people_shapes };
+const ShapeSet& stiff_shapes();
+
+struct Ground {
+  double x = 0, y = 0;
+};
+
+/// The depth at which pairs stand in each other, as one of the measures has it.
+class Depths {
+ public:
+  explicit Depths(DepthMeasure measure) : measure_(measure) {}
+
+  /// The pairs that may have depths: those that collide, or candidates for a measure that does not wait for that.
+  std::span<const Pair> pairs(const Agents& agents);
+  /// Of such pairs; valid until the next call.
+  std::span<const Separation> of(const Agents& agents, std::span<const Pair> pairs);
+
+ private:
+  void measure_discs(const Agents& agents, std::span<const Pair> pairs);
+
+  DepthMeasure measure_;
+  CrowdCollider collider_;
+  std::vector<Pair> pairs_;
+  std::vector<Separation> found_;
+  std::vector<Vec2> lines_, direction_;
+  std::vector<float> distance_;
+};
+
+/// Agents and what moves them.
+class StiffWorld {
+ public:
+  explicit StiffWorld(DepthMeasure measure, bool free = false) : depths_(measure), free_(free) {}
+
+  void add_person(std::uint32_t shape, std::uint8_t level, Ground at, double heading, Ground velocity);
+  void add_wall(Ground at, double heading);
+
+  /// `goal`: of each person, a unit vector.
+  void step(double seconds, std::span<const Ground> goal);
+
+  std::size_t people() const { return velocity_.size(); }
+  Ground position(std::size_t i) const { return {x_[i], y_[i]}; }
+  Ground velocity(std::size_t i) const { return velocity_[i]; }
+  double fastest() const;                      ///< m/s
+  double mean_square() const;                  ///< of speeds
+  double deepest() const { return deepest_; }  ///< metres, in the last step
+
+ private:
+  Agents agents() const { return {shape_, x_, y_, heading_, level_}; }
+  void press(Pair pair, const Separation& by);
+
+  Depths depths_;
+  bool free_;  ///< no drive, no friction
+  std::vector<std::uint32_t> shape_;
+  std::vector<std::uint8_t> level_;
+  std::vector<double> x_, y_, heading_;  ///< people first, then walls
+  std::vector<Ground> velocity_, force_;
+  double deepest_ = 0;
+};
+
+}  // namespace bch::bench

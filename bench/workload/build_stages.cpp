@@ -1,0 +1,244 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include "bench/workload/build_stages.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "baselines/welzl.hpp"
+#include "bench/workload/mesh_detail.hpp"
+#include "layout/default_character/default_characters.hpp"
+#include "layout/outline/implementation.hpp"
+
+namespace bch::bench {
+namespace {
+
+constexpr float threshold = 0.01f;  ///< metres
+constexpr std::uint32_t depths[] = {0, 3, 6, all_depths};
+
+/// Keeps what was computed.
+template <class Value>
+void use(const Value& value) {
+  asm volatile("" : : "r"(&value) : "memory");
+}
+
+void solve_by_welzl(const DiscSets& sets) noexcept {
+  static thread_local Welzl welzl;
+  for (std::size_t i = 0; i < sets.count; ++i) {
+    const std::span points(sets.points + sets.sets[i].begin, sets.points + sets.sets[i].end);
+    const Welzl::Circle circle = welzl(points);
+    const Vec2 centre{static_cast<float>(circle.x), static_cast<float>(circle.y)};
+    double square = 0;
+    for (const Vec2 p : points) {
+      const double x = static_cast<double>(p.x) - static_cast<double>(centre.x),
+                   y = static_cast<double>(p.y) - static_cast<double>(centre.y);
+      square = std::max(square, x * x + y * y);
+    }
+    sets.discs[i] = {centre, square};
+  }
+}
+
+const DiscImplementation& by_welzl() {
+  static const DiscImplementation row{"welzl", []() noexcept { return true; }, solve_by_welzl};
+  return row;
+}
+
+/// The row of a name, or else the best: not every stage is compiled for every set.
+template <class Rows>
+const auto* row_for(const Rows& rows, std::string_view name) {
+  const auto named =
+      std::find_if(rows.begin(), rows.end(), [&](const auto& row) { return row.name == name; });
+  return named != rows.end() ? &*named : &rows.front();
+}
+
+void require(bool right, std::string_view stage, std::size_t pose) {
+  if (!right)
+    throw std::runtime_error(
+        fmt::format("construction: stage {} makes something else of pose {}", stage, pose));
+}
+
+bool same(const Outline& a, const Outline& b) {
+  return a.points == b.points && a.contour_begin == b.contour_begin;
+}
+
+bool same(const Disc& a, const Disc& b, float tolerance) {
+  return std::abs(a.x - b.x) <= tolerance && std::abs(a.y - b.y) <= tolerance &&
+         std::abs(a.radius - b.radius) <= tolerance;
+}
+
+bool same(const Hierarchy& a, const Hierarchy& b, float tolerance) {
+  return std::equal(a.nodes.begin(), a.nodes.end(), b.nodes.begin(), b.nodes.end(),
+                    [=](const HierarchyNode& x, const HierarchyNode& y) {
+                      return x.second_child == y.second_child && same(x.disc, y.disc, tolerance);
+                    });
+}
+
+bool same(const Interior& a, const Interior& b) {
+  return a.x == b.x && a.y == b.y && a.radius == b.radius && a.extreme_x == b.extreme_x &&
+         a.extreme_y == b.extreme_y;
+}
+
+/// Whether a tree's discs are those of the cut, padding aside.
+bool holds_cut(const WideTree& tree, const Hierarchy& hierarchy, std::uint32_t depth) {
+  const std::vector<std::uint32_t> nodes = cut(hierarchy, depth);
+  if (nodes.size() > tree.x.size()) return false;
+  for (std::size_t i = 0; i < nodes.size(); ++i)
+    if (!same({tree.x[i], tree.y[i], tree.radius[i]}, hierarchy.nodes[nodes[i]].disc, 0)) return false;
+  return true;
+}
+
+/// Another instruction set's, where the processor has two.
+BuildImplementation other_than(const BuildImplementation& implementation) {
+  const std::vector<BuildImplementation> all = build_implementations();
+  return all.back().name == implementation.name ? all.front() : all.back();
+}
+
+}  // namespace
+
+struct BuildStages::Others {
+  OutlineBuilder outline;
+  HierarchyBuilder hierarchy;
+  InteriorBuilder interior;
+
+  Others(const Character& character, const BuildImplementation& implementation)
+      : outline(character.triangles, character.vertices.size(), character.vertices, *implementation.outline),
+        hierarchy(*implementation.discs),
+        interior(*implementation.interior) {}
+};
+
+std::vector<BuildImplementation> build_implementations() {
+  std::vector<BuildImplementation> all;
+  for (const DiscImplementation& discs : disc_implementations())
+    if (discs.supported())
+      all.push_back({discs.name, row_for(outline_implementations(), discs.name), &discs,
+                     row_for(interior_implementations(), discs.name)});
+  return all;
+}
+
+BuildImplementation chosen_build_implementation() {
+  const std::vector<BuildImplementation> all = build_implementations();
+  return *std::find_if(all.begin(), all.end(), [](const BuildImplementation& row) {
+    return row.interior == &best_interior_implementation();
+  });
+}
+
+BuildStages::BuildStages(const Character& character, std::uint32_t poses,
+                         const BuildImplementation& implementation)
+    : character_(character),
+      times_(sample_poses(character, poses)),
+      positions_(times_.size()),
+      outlines_(times_.size()),
+      hierarchies_(times_.size()),
+      skinner_(character),
+      outline_builder_(character.triangles, character.vertices.size(), character.vertices,
+                       *implementation.outline),
+      hierarchy_builder_(*implementation.discs),
+      welzl_builder_(by_welzl()),
+      interior_builder_(*implementation.interior) {
+  Others others(character, other_than(implementation));
+  for (std::size_t pose = 0; pose < times_.size(); ++pose) make_and_check(pose, others);
+}
+
+void BuildStages::make_and_check(std::size_t pose, Others& others) {
+  const auto positions = skinner_.ground_pose(times_[pose]);
+  positions_[pose].assign(positions.begin(), positions.end());
+  outline(pose);
+  outlines_[pose] = outline_;
+  others.outline.build(positions_[pose], outline_);
+  require(same(outline_, outlines_[pose]), "outline", pose);
+  hierarchy(pose);
+  hierarchies_[pose] = hierarchy_;
+  others.hierarchy.contour(outlines_[pose], threshold, SplitRule::centroid, hierarchy_);
+  require(same(hierarchy_, hierarchies_[pose], 0), "hierarchy", pose);
+  hierarchy_welzl(pose);
+  require(same(hierarchy_, hierarchies_[pose], 1e-6f), "hierarchy_welzl", pose);
+  interior(pose);
+  const Interior alone = interior_;
+  require(same(others.interior.build(outlines_[pose], hierarchies_[pose].reach), alone), "interior", pose);
+  levels(pose);
+  require(holds_cut(tree_, hierarchies_[pose], depths[std::size(depths) - 1]), "levels", pose);
+  const auto is_as_alone = [&] {
+    return same(outline_, outlines_[pose]) && same(hierarchy_, hierarchies_[pose], 0) &&
+           holds_cut(tree_, hierarchies_[pose], depths[std::size(depths) - 1]);
+  };
+  this->pose(pose);
+  require(is_as_alone(), "pose", pose);
+  all(pose);
+  require(is_as_alone() && same(interior_, alone), "all", pose);
+}
+
+void BuildStages::skin(std::size_t pose) {
+  use(skinner_.ground_pose(times_[pose]));
+}
+
+void BuildStages::outline(std::size_t pose) {
+  outline_builder_.build(positions_[pose], outline_);
+}
+
+void BuildStages::hierarchy(std::size_t pose) {
+  hierarchy_builder_.contour(outlines_[pose], threshold, SplitRule::centroid, hierarchy_);
+}
+
+void BuildStages::hierarchy_welzl(std::size_t pose) {
+  welzl_builder_.contour(outlines_[pose], threshold, SplitRule::centroid, hierarchy_);
+}
+
+void BuildStages::levels(std::size_t pose) {
+  flatten(hierarchies_[pose], true);
+}
+
+void BuildStages::interior(std::size_t pose) {
+  look_inside(outlines_[pose], hierarchies_[pose].reach);
+}
+
+void BuildStages::pose(std::size_t pose) {
+  make_hierarchy(pose);
+  flatten(hierarchy_, false);
+}
+
+void BuildStages::all(std::size_t pose) {
+  make_hierarchy(pose);
+  look_inside(outline_, hierarchy_.reach);
+  flatten(hierarchy_, true);
+}
+
+void BuildStages::make_hierarchy(std::size_t pose) {
+  outline_builder_.build(skinner_.ground_pose(times_[pose]), outline_);
+  hierarchy_builder_.contour(outline_, threshold, SplitRule::centroid, hierarchy_);
+}
+
+void BuildStages::look_inside(const Outline& outline, double reach) {
+  interior_ = interior_builder_.build(outline, reach);
+  profile_ = profile(outline, interior_, reach);
+  use(profile_);
+}
+
+void BuildStages::flatten(const Hierarchy& hierarchy, bool shortcuts) {
+  flattener_.begin(hierarchy);
+  for (const std::uint32_t depth : depths) {
+    flattener_.flatten(depth, tree_);
+    use(tree_);
+    if (!shortcuts || tree_.is_single()) continue;
+    outer_ = flattener_.outer(profile_);
+    use(outer_);
+  }
+  if (!shortcuts) return;
+  supports_ = flattener_.supports();
+  use(supports_);
+}
+
+MenInDetail::MenInDetail() : man_(default_male()), coarse_(coarser(man_, 1'000)) {}
+
+Character MenInDetail::make(std::size_t i) const {
+  return finer(base(i), times(i));
+}
+
+std::uint32_t MenInDetail::poses(std::size_t i) const {
+  return static_cast<std::uint32_t>(std::clamp<std::size_t>(1'000'000 / triangles(i), 10, 100));
+}
+
+}  // namespace bch::bench

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "layout/character/skinning.hpp"
+#include "layout/culling/interior.hpp"
+#include "layout/culling/profile.hpp"
+#include "layout/enclosing_disc/enclosing_discs.hpp"
+#include "layout/hierarchy/builder.hpp"
+#include "layout/outline/builder.hpp"
+#include "layout/shape_set/wide_tree.hpp"
+
+namespace bch::bench {
+
+/// The compilations of all stages that one instruction set would choose.
+struct BuildImplementation {
+  std::string_view name;
+  const OutlineImplementation* outline;
+  const DiscImplementation* discs;
+  const InteriorImplementation* interior;
+};
+
+/// Those that run here, the best first.
+std::vector<BuildImplementation> build_implementations();
+/// The one of them that builders take by themselves.
+BuildImplementation chosen_build_implementation();
+
+/// A character's way from poses to all that a set stores of shapes, stage by stage: each is made from what the one
+/// before it made of the same pose, with memory that is used again. What is made first is compared:
+///   outline, hierarchy, interior   by another instruction set, where the processor has two: the same bits
+///   hierarchy_welzl                its nodes are hierarchy's, and its discs within 1 um
+///   levels                         the discs of the deepest one are those of cut(); what is above them is not compared
+///   pose, all                      what the stages made one by one
+/// Skinning, profiles and supports are not compared: tests look at them.
+class BuildStages {
+ public:
+  /// The character must outlive this.
+  /// Errors: throws std::runtime_error where a stage makes something else than what it is compared with.
+  BuildStages(const Character& character, std::uint32_t poses, const BuildImplementation& implementation);
+
+  std::size_t poses() const { return times_.size(); }
+  std::span<const Vec2> positions_of(std::size_t pose) const { return positions_[pose]; }
+  const Outline& outline_of(std::size_t pose) const { return outlines_[pose]; }
+
+  void skin(std::size_t pose);
+  void outline(std::size_t pose);
+  void hierarchy(std::size_t pose);
+  /// The same with every disc by Welzl's algorithm as textbooks have it.
+  void hierarchy_welzl(std::size_t pose);
+  /// Wide trees of four levels, how far they extend from the last profile's centre, and supports of the deepest.
+  void levels(std::size_t pose);
+  /// Inscribed discs and the profile.
+  void interior(std::size_t pose);
+  /// From the pose to flat nodes of four levels: what shapes of one frame take, which have no shortcuts for queries.
+  void pose(std::size_t pose);
+  /// From the pose to all of these.
+  void all(std::size_t pose);
+
+ private:
+  struct Others;  ///< what builders are compared with
+  void make_and_check(std::size_t pose, Others& others);
+  void look_inside(const Outline& outline, double reach);
+  void make_hierarchy(std::size_t pose);
+  void flatten(const Hierarchy& hierarchy, bool shortcuts);
+
+  const Character& character_;
+  std::vector<PoseTime> times_;
+  std::vector<std::vector<Vec2>> positions_;
+  std::vector<Outline> outlines_;
+  std::vector<Hierarchy> hierarchies_;
+
+  Skinner skinner_;
+  OutlineBuilder outline_builder_;
+  HierarchyBuilder hierarchy_builder_, welzl_builder_;
+  Flattener flattener_;
+  InteriorBuilder interior_builder_;
+
+  // What was made last.
+  Outline outline_;
+  Hierarchy hierarchy_;
+  WideTree tree_;
+  Interior interior_;
+  Profile profile_;
+  Supports supports_;
+  Outer outer_;
+};
+
+struct BuildStage {
+  const char* name;
+  void (BuildStages::*build)(std::size_t pose);
+};
+constexpr BuildStage build_stages[] = {
+    {"skin", &BuildStages::skin},           {"outline", &BuildStages::outline},
+    {"hierarchy", &BuildStages::hierarchy}, {"hierarchy_welzl", &BuildStages::hierarchy_welzl},
+    {"levels", &BuildStages::levels},       {"interior", &BuildStages::interior},
+    {"pose", &BuildStages::pose},           {"all", &BuildStages::all},
+};
+
+/// The built-in man with fewer triangles and with more, from 1 000 to beyond 100 000.
+class MenInDetail {
+ public:
+  MenInDetail();
+
+  std::size_t count() const { return 8; }
+  std::size_t triangles(std::size_t i) const { return base(i).triangles.size() << 2 * times(i); }
+  Character make(std::size_t i) const;
+  /// So many that their memory stays below a gigabyte, and are different.
+  std::uint32_t poses(std::size_t i) const;
+
+ private:
+  const Character& base(std::size_t i) const { return i % 2 == 0 ? coarse_ : man_; }
+  static int times(std::size_t i) { return static_cast<int>(i / 2); }
+
+  Character man_, coarse_;
+};
+
+}  // namespace bch::bench

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+
+#include "layout/base/disc.hpp"
+
+namespace bch::bench {
+
+/// The area of the union of a pose's triangles, seen from above and rounded to steps of a grid, as libpolyclipping has
+/// it; negative where the build found no libpolyclipping.
+/// Units:   metres.
+double clipper_union_area(std::span<const Vec2> positions,
+                          std::span<const std::array<std::uint32_t, 3>> triangles, double step);
+
+}  // namespace bch::bench

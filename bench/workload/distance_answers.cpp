@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include "bench/workload/distance_answers.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "baselines/clearance_reference.hpp"
+#include "baselines/contact_time_reference.hpp"
+#include "layout/base/heading.hpp"
+
+namespace bch::bench {
+
+Ways::Ways(const Workload& workload) {
+  const auto& headings = workload.crowd.heading;
+  for (const auto& [first, second] : workload.pairs) {
+    const Rotation a = rotation(headings[first]), b = rotation(headings[second]);
+    x.push_back(walking_speed * walking_time * (a.cosine - b.cosine));
+    y.push_back(walking_speed * walking_time * (a.sine - b.sine));
+  }
+}
+
+std::string wrong_clearances(Scene& scene, const Workload& workload, const Clearances& answers) {
+  baselines::ClearanceReference reference(scene.shapes(), {});
+  for (std::size_t i = 0; i < workload.pairs.size(); ++i) {
+    const baselines::Clearance expected = reference.query(workload.agents(), workload.pairs[i],
+                                                          clearance_limit, baselines::Method::brute_force);
+    if (answers.distance[i] != expected.distance || answers.direction[i] != expected.direction)
+      return fmt::format("pair {}: {} m where brute force says {} m", i, answers.distance[i],
+                         expected.distance);
+  }
+  return {};
+}
+
+std::string wrong_distances(Scene& scene, const Workload& workload, const std::vector<double>& distances) {
+  Clearances all(workload.pairs.size());
+  clearance(scene.set(), workload.agents(), workload.pairs, all.spans());
+  for (std::size_t i = 0; i < distances.size(); ++i) {
+    const auto least = static_cast<double>(all.distance[i]);
+    // Leaf discs of 1 cm.
+    if (!(std::max(0.0, distances[i]) >= least - 1e-9) || !(distances[i] <= std::max(0.0, least) + 0.04))
+      return fmt::format("pair {}: {} m where the clearance is {} m", i, distances[i], least);
+  }
+  return {};
+}
+
+std::string wrong_contact_times(Scene& scene, const Workload& workload, const std::vector<float>& times) {
+  baselines::ContactTimeReference reference(scene.shapes(), {});
+  const Ways ways(workload);
+  for (std::size_t i = 0; i < workload.pairs.size(); ++i) {
+    const float expected = reference.query(workload.agents(), workload.pairs[i], ways.x[i], ways.y[i],
+                                           baselines::Method::brute_force);
+    if (times[i] != expected)
+      return fmt::format("pair {}: {} where brute force says {}", i, times[i], expected);
+  }
+  return {};
+}
+
+}  // namespace bch::bench

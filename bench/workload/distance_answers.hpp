@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "bench/workload/scene.hpp"
+#include "kernel/distance/clearance.hpp"
+#include "kernel/distance/contact_time.hpp"
+
+// What the benchmarks of distances and times ask for, and what answers must be before they are worth timing.
+
+namespace bch::bench {
+
+constexpr double clearance_limit = 0.5;  ///< metres
+constexpr double walking_speed = 1.3;    ///< metres a second, along the heading
+constexpr double walking_time = 0.5;     ///< seconds
+
+/// Clearances with their directions.
+struct Clearances {
+  std::vector<float> distance;
+  std::vector<Vec2> direction;
+
+  explicit Clearances(std::size_t pairs) : distance(pairs), direction(pairs) {}
+  ClearanceAnswers spans() { return {distance, direction}; }
+};
+
+/// How the agents of each pair move relative to each other when all walk.
+struct Ways {
+  std::vector<double> x, y;
+
+  explicit Ways(const Workload& workload);
+  Displacements displacements() const { return {x, y}; }
+};
+
+/// These say where answers differ from brute force over all discs, on every pair; empty: nowhere.
+std::string wrong_clearances(Scene& scene, const Workload& workload, const Clearances& answers);
+/// Distances of outlines, which clearances bound.
+std::string wrong_distances(Scene& scene, const Workload& workload, const std::vector<double>& distances);
+std::string wrong_contact_times(Scene& scene, const Workload& workload, const std::vector<float>& times);
+
+}  // namespace bch::bench

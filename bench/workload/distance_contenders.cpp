@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include "bench/workload/distance_contenders.hpp"
+
+#include <memory>
+
+#include "baselines/clearance_reference.hpp"
+#include "baselines/contact_time_reference.hpp"
+#include "baselines/pair_distances.hpp"
+#include "bench/workload/distance_answers.hpp"
+
+namespace bch::bench {
+namespace {
+
+Contender clearance_kernel(Scene& scene, const Workload& workload,
+                           const kernel::Implementation& implementation) {
+  const auto answers = std::make_shared<Clearances>(workload.pairs.size());
+  const auto call = [&set = scene.set(), &workload, answers,
+                     options = ClearanceOptions{clearance_limit, &implementation}] {
+    clearance(set, workload.agents(), workload.pairs, answers->spans(), options);
+  };
+  call();
+  require_right(implementation.name, workload, wrong_clearances(scene, workload, *answers));
+  return {implementation.name, call};
+}
+
+Contender clearance_reference(Scene& scene, const Workload& workload) {
+  const auto answers = std::make_shared<Clearances>(workload.pairs.size());
+  const auto reference = std::make_shared<baselines::ClearanceReference>(scene.shapes(), ShapeSetPlan{});
+  const auto call = [reference, &workload, answers] {
+    for (std::size_t i = 0; i < workload.pairs.size(); ++i) {
+      const auto nearest = reference->query(workload.agents(), workload.pairs[i], clearance_limit,
+                                            baselines::Method::depth_first);
+      answers->distance[i] = nearest.distance, answers->direction[i] = nearest.direction;
+    }
+  };
+  call();
+  require_right("scalar search", workload, wrong_clearances(scene, workload, *answers));
+  return {"scalar search", call};
+}
+
+Contender fcl_distance_contender(Scene& scene, const Workload& workload, const std::string& name,
+                                 std::shared_ptr<const baselines::PairDistances> fcl) {
+  const auto distances = std::make_shared<std::vector<double>>(workload.pairs.size());
+  const auto call = [fcl, &workload, distances] {
+    for (std::size_t i = 0; i < workload.pairs.size(); ++i)
+      (*distances)[i] = fcl->query(workload.agents(), workload.pairs[i]);
+  };
+  call();
+  require_right(name, workload, wrong_distances(scene, workload, *distances));
+  return {name, call};
+}
+
+Contender contact_time_kernel(Scene& scene, const Workload& workload,
+                              const kernel::Implementation& implementation) {
+  const auto times = std::make_shared<std::vector<float>>(workload.pairs.size());
+  const auto ways = std::make_shared<Ways>(workload);
+  const auto call = [&set = scene.set(), &workload, ways, times, &implementation] {
+    contact_time(set, workload.agents(), workload.pairs, ways->displacements(), *times, {&implementation});
+  };
+  call();
+  require_right(implementation.name, workload, wrong_contact_times(scene, workload, *times));
+  return {implementation.name, call};
+}
+
+Contender contact_time_reference(Scene& scene, const Workload& workload) {
+  const auto times = std::make_shared<std::vector<float>>(workload.pairs.size());
+  const auto ways = std::make_shared<Ways>(workload);
+  const auto reference = std::make_shared<baselines::ContactTimeReference>(scene.shapes(), ShapeSetPlan{});
+  const auto call = [reference, &workload, ways, times] {
+    for (std::size_t i = 0; i < workload.pairs.size(); ++i)
+      (*times)[i] = reference->query(workload.agents(), workload.pairs[i], ways->x[i], ways->y[i],
+                                     baselines::Method::depth_first);
+  };
+  call();
+  require_right("scalar search", workload, wrong_contact_times(scene, workload, *times));
+  return {"scalar search", call};
+}
+
+}  // namespace
+
+const TimedQuery& clearance_query() {
+  static constexpr TimedQuery query{"clearance", clearance_kernel, clearance_reference};
+  return query;
+}
+
+const TimedQuery& contact_time_query() {
+  static constexpr TimedQuery query{"contact_time", contact_time_kernel, contact_time_reference};
+  return query;
+}
+
+std::vector<Contender> fcl_distance_contenders(Scene& scene, const Workload& workload) {
+  auto walls = baselines::fcl_outline_distances(scene.bodies());
+  auto segments = baselines::fcl_segment_distances(scene.bodies());
+  if (walls == nullptr || segments == nullptr) return {};
+  return {fcl_distance_contender(scene, workload, "FCL, walls", std::move(walls)),
+          fcl_distance_contender(scene, workload, "FCL, one triangle a segment", std::move(segments))};
+}
+
+}  // namespace bch::bench

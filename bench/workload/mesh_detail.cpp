@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include "bench/workload/mesh_detail.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <utility>
+#include <vector>
+
+#include "bench/base/random.hpp"
+
+namespace bch::bench {
+namespace {
+
+using Triangles = std::vector<std::array<std::uint32_t, 3>>;
+
+/// The middle of two vertices, at the end of the character's.
+std::uint32_t add_middle(Character& character, std::uint32_t a, std::uint32_t b) {
+  std::map<std::uint32_t, float> weights;
+  for (const std::uint32_t end : {a, b})
+    for (std::uint32_t i = character.influence_begin[end]; i < character.influence_begin[end + 1]; ++i)
+      weights[character.influences[i].bone] += 0.5f * character.influences[i].weight;
+  for (const auto& [bone, weight] : weights) character.influences.push_back({bone, weight});
+  character.influence_begin.push_back(static_cast<std::uint32_t>(character.influences.size()));
+  character.vertices.emplace_back(0.5f * (character.vertices[a] + character.vertices[b]));
+  return static_cast<std::uint32_t>(character.vertices.size() - 1);
+}
+
+/// Of the surface at each vertex, at rest.
+std::vector<Eigen::Vector3f> normals_of(const Character& character) {
+  std::vector<Eigen::Vector3f> normals(character.vertices.size(), Eigen::Vector3f::Zero());
+  for (const auto& [a, b, c] : character.triangles) {
+    const Eigen::Vector3f normal =
+        (character.vertices[b] - character.vertices[a]).cross(character.vertices[c] - character.vertices[a]);
+    for (const std::uint32_t v : {a, b, c}) normals[v] += normal;
+  }
+  return normals;
+}
+
+/// Moves the middles of edges, which stand behind the vertices that there were.
+class Relief {
+ public:
+  void begin(const Character& character) { normals_ = normals_of(character); }
+
+  void move_middle(Character& character, std::uint32_t a, std::uint32_t b) {
+    constexpr double most = 0.125;  // of the edge's length
+    const float length = (character.vertices[a] - character.vertices[b]).norm();
+    const Eigen::Vector3f normal = (normals_[a].normalized() + normals_[b].normalized()).normalized();
+    const auto share = static_cast<float>(random_.uniform(2 * most) - most);
+    character.vertices.back() += share * length * normal;
+  }
+
+ private:
+  cli::Random random_{5};
+  std::vector<Eigen::Vector3f> normals_;
+};
+
+void cut(Character& character, Relief* relief = nullptr) {
+  if (relief != nullptr) relief->begin(character);
+  std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> middle_of;
+  const auto middle = [&](std::uint32_t a, std::uint32_t b) {
+    const std::pair<std::uint32_t, std::uint32_t> edge = std::minmax(a, b);
+    const auto found = middle_of.find(edge);
+    if (found != middle_of.end()) return found->second;
+    const std::uint32_t added = add_middle(character, edge.first, edge.second);
+    if (relief != nullptr) relief->move_middle(character, edge.first, edge.second);
+    return middle_of[edge] = added;
+  };
+  Triangles finer;
+  for (const auto [a, b, c] : character.triangles) {
+    const std::uint32_t ab = middle(a, b), bc = middle(b, c), ca = middle(c, a);
+    finer.insert(finer.end(), {{a, ab, ca}, {b, bc, ab}, {c, ca, bc}, {ab, bc, ca}});
+  }
+  character.triangles = std::move(finer);
+}
+
+Triangles merged(const Character& character, float cell) {
+  std::map<std::array<float, 3>, std::uint32_t> first_in;
+  std::vector<std::uint32_t> merged_into;
+  for (std::uint32_t v = 0; v < character.vertices.size(); ++v) {
+    const Eigen::Vector3f& at = character.vertices[v];
+    const std::array<float, 3> place{std::floor(at.x() / cell), std::floor(at.y() / cell),
+                                     std::floor(at.z() / cell)};
+    merged_into.push_back(first_in.insert({place, v}).first->second);
+  }
+  Triangles left;
+  for (const auto [a, b, c] : character.triangles) {
+    const std::array<std::uint32_t, 3> t{merged_into[a], merged_into[b], merged_into[c]};
+    if (t[0] != t[1] && t[1] != t[2] && t[2] != t[0]) left.push_back(t);
+  }
+  return left;
+}
+
+/// Keeps the vertices that triangles use.
+void drop_vertices(Character& character) {
+  constexpr std::uint32_t dropped = 0xffffffff;
+  std::vector<std::uint32_t> number(character.vertices.size(), dropped);
+  for (const auto& triangle : character.triangles)
+    for (const std::uint32_t v : triangle) number[v] = 0;
+  Character kept;
+  kept.influence_begin = {0};
+  for (std::uint32_t v = 0; v < number.size(); ++v) {
+    if (number[v] == dropped) continue;
+    number[v] = static_cast<std::uint32_t>(kept.vertices.size());
+    kept.vertices.push_back(character.vertices[v]);
+    kept.influences.insert(kept.influences.end(), character.influences.begin() + character.influence_begin[v],
+                           character.influences.begin() + character.influence_begin[v + 1]);
+    kept.influence_begin.push_back(static_cast<std::uint32_t>(kept.influences.size()));
+  }
+  for (auto& triangle : character.triangles)
+    for (std::uint32_t& v : triangle) v = number[v];
+  character.vertices = std::move(kept.vertices);
+  character.influences = std::move(kept.influences);
+  character.influence_begin = std::move(kept.influence_begin);
+}
+
+}  // namespace
+
+Character finer(const Character& character, int times) {
+  Character result = character;
+  for (int i = 0; i < times; ++i) cut(result);
+  return result;
+}
+
+Character with_relief(const Character& character, int times) {
+  Character result = character;
+  Relief relief;
+  for (int i = 0; i < times; ++i) cut(result, &relief);
+  return result;
+}
+
+Character coarser(const Character& character, std::size_t most) {
+  Character result = character;
+  for (float cell = 0.001f; result.triangles.size() > most; cell *= 1.03f)
+    result.triangles = merged(character, cell);
+  drop_vertices(result);
+  return result;
+}
+
+}  // namespace bch::bench

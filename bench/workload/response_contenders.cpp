@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include "bench/workload/response_contenders.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <memory>
+#include <stdexcept>
+#include <vector>
+
+#include "baselines/contact_reference.hpp"
+#include "baselines/cut_lists.hpp"
+#include "baselines/separation_reference.hpp"
+#include "kernel/contact/contacts.hpp"
+#include "kernel/crowd/collide_all.hpp"
+#include "kernel/separation/separation.hpp"
+
+namespace bch::bench {
+namespace {
+
+std::string wrong_contacts(Scene& scene, const Workload& workload, const ContactTable& table) {
+  const baselines::CutLists cuts(scene.shapes(), {});
+  for (std::size_t i = 0; i < workload.pairs.size(); ++i) {
+    const auto expected = baselines::contacts(cuts, workload.agents(), workload.pairs[i]);
+    const auto same = [](const Contact& contact, const auto& discs) {
+      return contact.first == discs.first && contact.second == discs.second;
+    };
+    const auto row = table.of(i);
+    if (!std::equal(row.begin(), row.end(), expected.begin(), expected.end(), same))
+      return fmt::format("pair {}: {} contacts where brute force finds {}, or others", i, row.size(),
+                         expected.size());
+  }
+  return {};
+}
+
+std::string wrong_separations(Scene& scene, const Workload& workload, std::span<const Separation> ways) {
+  const baselines::CutLists cuts(scene.shapes(), {});
+  for (std::size_t i = 0; i < workload.pairs.size(); ++i) {
+    const auto [depth, x, y] =
+        baselines::separation(cuts, workload.agents(), workload.pairs[i], separation_directions);
+    if (ways[i] != Separation{depth, x, y})
+      return fmt::format("pair {}: {} m where brute force says {} m", i, ways[i].depth, depth);
+  }
+  return {};
+}
+
+/// Of a crowd, whose workload has all pairs that can collide.
+std::string wrong_neighbours(Scene& scene, const Workload& workload, const CollidingNeighbours& rows) {
+  const Hits& hits = scene.expected(disc_query, workload);
+  std::vector<std::vector<std::uint32_t>> expected(workload.crowd.size());
+  for (std::size_t i = 0; i < hits.size(); ++i) {
+    if (!hits[i]) continue;
+    const auto [first, second] = workload.pairs[i];
+    expected[first].push_back(second);
+    expected[second].push_back(first);
+  }
+  for (std::uint32_t agent = 0; agent < expected.size(); ++agent) {
+    std::sort(expected[agent].begin(), expected[agent].end());
+    const auto row = rows.of(agent);
+    if (!std::equal(row.begin(), row.end(), expected[agent].begin(), expected[agent].end()))
+      return fmt::format("agent {}: {} neighbours where brute force finds {}, or others", agent, row.size(),
+                         expected[agent].size());
+  }
+  return {};
+}
+
+Contender contacts_kernel(Scene& scene, const Workload& workload,
+                          const kernel::Implementation& implementation) {
+  const auto table = std::make_shared<ContactTable>();
+  const auto call = [&set = scene.set(), &workload, table, &implementation] {
+    contacts(set, workload.agents(), workload.pairs, *table, {&implementation, Leaves::discs});
+  };
+  call();
+  require_right(implementation.name, workload, wrong_contacts(scene, workload, *table));
+  return {implementation.name, call};
+}
+
+Contender contacts_reference(Scene& scene, const Workload& workload) {
+  const auto cuts = std::make_shared<baselines::CutLists>(scene.shapes(), ShapeSetPlan{});
+  ContactTable table;
+  contacts(scene.set(), workload.agents(), workload.pairs, table, {.leaves = Leaves::discs});
+  return {"reference", [cuts, &workload, expected = table.contacts.size()] {
+            std::size_t all = 0;
+            for (const Pair pair : workload.pairs)
+              all += baselines::contacts(*cuts, workload.agents(), pair).size();
+            if (all != expected)
+              throw std::runtime_error(fmt::format("{} contacts where the kernel finds {}", all, expected));
+          }};
+}
+
+Contender separation_kernel(Scene& scene, const Workload& workload,
+                            const kernel::Implementation& implementation) {
+  const auto ways = std::make_shared<std::vector<Separation>>(workload.pairs.size());
+  const auto call = [&set = scene.set(), &workload, ways, &implementation] {
+    separation(set, workload.agents(), workload.pairs, separation_directions, *ways, {&implementation});
+  };
+  call();
+  require_right(implementation.name, workload, wrong_separations(scene, workload, *ways));
+  return {implementation.name, call};
+}
+
+Contender separation_reference(Scene& scene, const Workload& workload) {
+  const auto cuts = std::make_shared<baselines::CutLists>(scene.shapes(), ShapeSetPlan{});
+  const auto depths = std::make_shared<std::vector<float>>(workload.pairs.size());
+  const auto call = [cuts, depths, &workload] {
+    for (std::size_t i = 0; i < workload.pairs.size(); ++i)
+      (*depths)[i] =
+          baselines::separation(*cuts, workload.agents(), workload.pairs[i], separation_directions).depth;
+  };
+  call();
+  std::vector<Separation> ways(workload.pairs.size());
+  separation(scene.set(), workload.agents(), workload.pairs, separation_directions, ways);
+  const bool same = std::equal(depths->begin(), depths->end(), ways.begin(), ways.end(),
+                               [](float depth, const Separation& way) { return depth == way.depth; });
+  require_right("reference", workload, same ? "" : "other depths than the kernel's");
+  return {"reference", call};
+}
+
+Contender collide_all_kernel(Scene& scene, const Workload& workload,
+                             const kernel::Implementation& implementation) {
+  const auto collider = std::make_shared<CrowdCollider>();
+  const auto call = [&set = scene.set(), &workload, collider, &implementation] {
+    return collider->collide_all(set, workload.agents(),
+                                 {.implementation = &implementation, .leaves = Leaves::discs});
+  };
+  require_right(implementation.name, workload, wrong_neighbours(scene, workload, call()));
+  return {implementation.name, call};
+}
+
+constexpr TimedQuery queries[] = {{"contacts", contacts_kernel, contacts_reference},
+                                  {"separation", separation_kernel, separation_reference},
+                                  {"collide_all", collide_all_kernel, nullptr}};
+
+}  // namespace
+
+std::span<const TimedQuery> response_queries() {
+  return queries;
+}
+
+}  // namespace bch::bench

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "baselines/structure.hpp"
+#include "bench/characters/characters.hpp"
+#include "bench/characters/shape_table.hpp"
+#include "bench/workload/workload.hpp"
+#include "kernel/collide/collide.hpp"
+#include "layout/shape_set/shape_set.hpp"
+
+namespace bch::bench {
+
+/// Asks what the plain traversal answers as well, which knows discs alone.
+constexpr QueryOptions disc_query{.leaves = Leaves::discs};
+
+/// Says what a query asks: "boundary, discs".
+std::string text_of(const QueryOptions& query);
+
+struct SceneOptions {
+  std::vector<std::string> characters = {"default:male", "default:female"};  ///< as load_character() takes
+  std::uint32_t poses = 100;                                                 ///< of a character
+  std::optional<std::uint64_t> pose_seed =
+      {};  ///< draws the poses at random; none: they lie evenly over the clips
+  WorkloadSizes sizes;
+};
+
+/// Everything that benchmarks measure on, each made when it is first asked for and kept: a benchmark that the
+/// filter leaves out costs nothing. Shapes are contour hierarchies with a threshold of 1 cm. For one thread.
+class Scene {
+ public:
+  explicit Scene(SceneOptions options);
+
+  const std::vector<cli::LoadedCharacter>& characters();
+  std::uint32_t poses() const { return options_.poses; }  ///< of a character
+  const std::vector<ShapeSource>& sources();
+  const std::vector<Shape>& shapes();
+  const std::vector<baselines::Body>& bodies();
+  /// The finest level alone, with all that queries may ask.
+  const ShapeSet& set();
+  const baselines::Structure& structure(std::string_view kind);
+  /// Errors: throws std::invalid_argument on a name that workload_names() does not have.
+  const Workload& workload(std::string_view name);
+
+  /// A kind's answers, at all depths.
+  const Hits& hits(std::string_view kind, const Workload& workload);
+  /// What the kernel must answer, pair by pair and disc by disc: baselines::Reference by brute force.
+  const Hits& expected(const QueryOptions& query, const Workload& workload);
+
+ private:
+  Workload make_workload(std::string_view name);
+
+  SceneOptions options_;
+  std::vector<cli::LoadedCharacter> characters_;
+  std::vector<ShapeSource> sources_;
+  std::vector<Shape> shapes_;
+  std::vector<baselines::Body> bodies_;
+  std::optional<ShapeSet> set_;
+  std::map<std::string, std::unique_ptr<baselines::Structure>, std::less<>> structures_;
+  std::map<std::string, Workload, std::less<>> workloads_;
+  std::map<std::string, Hits> hits_;
+};
+
+}  // namespace bch::bench

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include "bench/workload/workload.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+
+#include "bench/base/random.hpp"
+#include "kernel/broad_phase/broad_phase.hpp"
+#include "layout/base/heading.hpp"
+
+namespace bch::bench {
+namespace {
+
+constexpr std::string_view names[] = {"colliding", "near_miss", "no_hit",
+                                      "crowd",     "paper500",  "paper500_cached"};
+constexpr double world = 100;                         ///< metres: where pairs with agents of their own stand
+constexpr std::uint32_t most_candidates = 1'000'000;  ///< without one that is wanted
+
+struct Point {
+  double x, y;
+};
+
+/// Of a shape's root disc, turned by a heading.
+Point root_offset(const Shape& shape, double heading) {
+  const Disc& disc = shape.hierarchy.nodes[0].disc;
+  const double x = static_cast<double>(disc.x), y = static_cast<double>(disc.y);
+  const Rotation turn = rotation(heading);
+  return {turn.cosine * x - turn.sine * y, turn.sine * x + turn.cosine * y};
+}
+
+void add(cli::Crowd& crowd, std::uint32_t shape, Point at, double heading) {
+  crowd.shape.push_back(shape);
+  crowd.x.push_back(at.x);
+  crowd.y.push_back(at.y);
+  crowd.heading.push_back(heading);
+}
+
+void add_candidate(cli::Random& random, std::span<const Shape> shapes, cli::Crowd& crowd) {
+  const auto count = static_cast<std::uint32_t>(shapes.size());
+  const std::uint32_t a = random.below(count), b = random.below(count);
+  const double heading_a = random.uniform(2 * std::numbers::pi);
+  const double heading_b = random.uniform(2 * std::numbers::pi);
+  const Point at{random.uniform(world), random.uniform(world)};
+  const double angle = random.uniform(2 * std::numbers::pi);
+  const double most = static_cast<double>(shapes[a].hierarchy.nodes[0].disc.radius) +
+                      static_cast<double>(shapes[b].hierarchy.nodes[0].disc.radius);
+  const double distance = most * std::sqrt(random.uniform(1));  // uniform over the area
+  const Rotation turn = rotation(angle);
+  const Point from = root_offset(shapes[a], heading_a), to = root_offset(shapes[b], heading_b);
+  add(crowd, a, at, heading_a);
+  add(crowd, b, {at.x + from.x + distance * turn.cosine - to.x, at.y + from.y + distance * turn.sine - to.y},
+      heading_b);
+}
+
+void resize(cli::Crowd& crowd, std::size_t agents) {
+  crowd.shape.resize(agents);
+  crowd.x.resize(agents);
+  crowd.y.resize(agents);
+  crowd.heading.resize(agents);
+}
+
+}  // namespace
+
+std::span<const std::string_view> workload_names() {
+  return names;
+}
+
+Workload random_pairs(std::string_view name, std::uint64_t seed, std::span<const Shape> shapes,
+                      std::uint32_t pairs, const std::function<bool(const Agents&, Pair)>& wanted) {
+  Workload workload{std::string(name), {}, {}};
+  workload.crowd.side = world;
+  cli::Random random(seed);
+  for (std::uint32_t in_vain = 0; workload.pairs.size() < pairs;) {
+    if (in_vain++ == most_candidates)
+      throw std::runtime_error(
+          fmt::format("workload {}: of {} pairs at random after the first {} none is wanted", name,
+                      most_candidates, workload.pairs.size()));
+    const auto agent = static_cast<std::uint32_t>(workload.crowd.size());
+    const Pair pair{agent, agent + 1};
+    add_candidate(random, shapes, workload.crowd);
+    if (wanted(workload.agents(), pair)) {
+      workload.pairs.push_back(pair);
+      in_vain = 0;
+    } else {
+      resize(workload.crowd, agent);
+    }
+  }
+  return workload;
+}
+
+Workload crowd_pairs(const ShapeSet& set, std::uint32_t agents) {
+  Workload workload{
+      "crowd", cli::place_crowd(agents, agents_per_square_metre, set.shape_count(), crowd_seed), {}};
+  workload.pairs = candidate_pairs(set, workload.agents());
+  return workload;
+}
+
+Workload repeated(std::string_view name, const Workload& from, std::uint32_t cases, std::uint32_t pairs,
+                  bool cached) {
+  Workload workload{std::string(name), from.crowd, {}};
+  cases = std::min(cases, static_cast<std::uint32_t>(from.pairs.size()));
+  const std::uint32_t times = std::max(1u, pairs / cases);
+  for (std::uint32_t i = 0; i < cases * times; ++i)
+    workload.pairs.push_back(from.pairs[cached ? i / times : i % cases]);
+  return workload;
+}
+
+}  // namespace bch::bench

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "bench/characters/crowd.hpp"
+#include "layout/shape_set/shape_set.hpp"
+
+namespace bch::bench {
+
+using Hits = std::vector<std::uint8_t>;
+
+/// Agents, and the pairs of them that a benchmark asks for.
+struct Workload {
+  std::string name;
+  cli::Crowd crowd;
+  std::vector<Pair> pairs;
+
+  Agents agents() const { return crowd.agents(); }
+};
+
+struct WorkloadSizes {
+  std::uint32_t pairs = 20'000;   ///< of all but the crowd, whose pairs are those of the broad phase
+  std::uint32_t agents = 10'000;  ///< of the crowd
+};
+
+/// In the order of reports:
+///   colliding     distinct pairs whose meshes intersect
+///   near_miss     distinct pairs whose root discs overlap while the meshes do not intersect
+///   no_hit        distinct pairs whose root discs overlap while their contour hierarchies do not
+///   crowd         the broad phase's pairs of a crowd at 3 agents per square metre
+///   paper500      the paper's protocol: 500 colliding cases in sequence, over and over
+///   paper500_cached  the same cases, each repeated before the next: the paper shows that order and leaves it out of its
+///                    results
+/// The last two are small enough for the processor to learn every branch; they are here to be compared with
+/// the paper, not to judge by.
+std::span<const std::string_view> workload_names();
+
+/// Pairs with agents of their own, shapes and headings at random, the second root disc's centre anywhere in
+/// the disc about the first one's centre in which the two overlap; those that are wanted. The same for the
+/// same shapes and seed everywhere.
+/// Errors:  throws std::runtime_error naming the workload once a million pairs in a row were not wanted.
+Workload random_pairs(std::string_view name, std::uint64_t seed, std::span<const Shape> shapes,
+                      std::uint32_t pairs, const std::function<bool(const Agents&, Pair)>& wanted);
+
+/// Of the crowd, and of others that are measured beside it.
+constexpr double agents_per_square_metre = 3;
+constexpr std::uint64_t crowd_seed = 34;
+
+Workload crowd_pairs(const ShapeSet& set, std::uint32_t agents);
+
+/// The first `cases` pairs of a workload, `pairs` in all. Cached: each over and over, then the next; else the
+/// cases in sequence, over and over.
+Workload repeated(std::string_view name, const Workload& from, std::uint32_t cases, std::uint32_t pairs,
+                  bool cached);
+
+}  // namespace bch::bench

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include "kernel/broad_phase/crowd_grid.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "kernel/distance/clearance_terms.hpp"
+#include "layout/base/heading.hpp"
+#include "layout/base/rounding.hpp"
+
+namespace bch::kernel {
+namespace {
+
+constexpr std::uint32_t cell_bits = 29;  ///< of a unit's number in class 0's cell
+constexpr std::uint32_t class_bits = 2;  ///< fewer from class to class
+
+/// The least width of a cell, of the crowd's extent: numbers of cells stay below 2^62.
+constexpr double least_cell = 0x1p-30;
+/// The largest radius in a cell, of its width.
+constexpr double radius_of_cell = 0.5 * (1 - 0x1p-10);
+/// Rounding of a centre relative to the crowd's corner, of the crowd's extent.
+constexpr double centre_rounding = 0x1p-50;
+
+/// What clearance() may tell too little, with D up to the margin and twice both reaches, in units of u: of the margin and of
+/// both reaches. Two agents share it.
+constexpr double share_of_margin = 0x1p-18, share_of_reach = 128 * rounding::unit_roundoff;
+static_assert(2 * share_of_margin >= clearance_terms::short_of_distance * rounding::unit_roundoff);
+static_assert(share_of_reach >= (clearance_terms::short_of_reach + 2 * clearance_terms::short_of_distance) *
+                                    rounding::unit_roundoff);
+static_assert(share_of_reach >= rounding::terms::query_error * rounding::unit_roundoff,
+              "what collide() may accept");
+
+/// A root disc that is enlarged by half of the margin, and by more than clearance() may tell too little, which covers the
+/// rounding of collide(). Its shape's reach is at most that of the root. With a margin it
+/// holds all discs, which may stick out of the smallest one.
+double pruning_radius(const ShapeSetView& shapes, std::size_t root, double margin) {
+  const auto [x, y, r, row] = shapes.roots[root];
+  const bool has_outer = margin > 0 && shapes.trees != nullptr;
+  const double radius = has_outer ? shapes.trees[root].outer : r;
+  const double reach = std::abs(static_cast<double>(x)) + std::abs(static_cast<double>(y)) + radius;
+  return radius + share_of_reach * reach + (0.5 + share_of_margin) * margin;
+}
+
+}  // namespace
+
+void CrowdBounds::add(const CrowdBounds& other) noexcept {
+  least_x = std::min(least_x, other.least_x);
+  most_x = std::max(most_x, other.most_x);
+  least_y = std::min(least_y, other.least_y);
+  most_y = std::max(most_y, other.most_y);
+  offset = std::max(offset, other.offset);
+  least_radius = std::min(least_radius, other.least_radius);
+  most_radius = std::max(most_radius, other.most_radius);
+}
+
+CrowdBounds bounds(const ShapeSetView& shapes, const Agents& agents, double margin, std::size_t begin,
+                   std::size_t end) noexcept {
+  CrowdBounds all;
+  for (std::size_t i = begin; i < end; ++i) {
+    const std::size_t root = agents.root(i, shapes.level_count);
+    const double radius = pruning_radius(shapes, root, margin);
+    const double offset = std::abs(static_cast<double>(shapes.roots[root].x)) +
+                          std::abs(static_cast<double>(shapes.roots[root].y));
+    all.add({agents.x[i], agents.x[i], agents.y[i], agents.y[i], offset, radius, radius});
+  }
+  return all;
+}
+
+CrowdGrid::CrowdGrid(const CrowdBounds& crowd) noexcept {
+  // Turning lengthens an offset by its rounding; the corner's own counts far from the origin.
+  const double margin =
+      crowd.offset * (1 + 0x1p-20) + 0x1p-50 * std::max(std::abs(crowd.least_x), std::abs(crowd.least_y));
+  corner_x_ = crowd.least_x - margin;
+  corner_y_ = crowd.least_y - margin;
+  const double width = crowd.most_x - corner_x_ + margin, height = crowd.most_y - corner_y_ + margin;
+  const double extent = std::max(width, height), off_by = centre_rounding * extent;
+  double cell = std::max((crowd.most_radius + off_by) / radius_of_cell, least_cell * extent);
+  units_ = static_cast<double>(1u << cell_bits) / cell;
+  slack_ = off_by + 2 / units_;
+
+  const auto units_wide = static_cast<std::uint64_t>(width * units_);
+  const auto units_high = static_cast<std::uint64_t>(height * units_);
+  std::uint64_t end = 0;
+  double most_radius = crowd.most_radius;
+  do {
+    const std::uint32_t shift = cell_bits - class_bits * class_count_;
+    const std::uint64_t columns = (units_wide >> shift) + 2, rows = (units_high >> shift) + 2;
+    const std::uint64_t stride = columns + 1, first = end + stride + 1;
+    end = first + (rows + 1) * stride;
+    classes_[class_count_++] = {most_radius, first, stride, end};
+    cell /= 1u << class_bits;
+    most_radius = cell * radius_of_cell - off_by;
+  } while (class_count_ < most_classes && cell >= least_cell * extent && most_radius >= crowd.least_radius);
+}
+
+void CrowdGrid::place(const ShapeSetView& shapes, const Agents& agents, double margin, std::size_t begin,
+                      std::size_t end, GridDisc* discs) const noexcept {
+  for (std::size_t i = begin; i < end; ++i) {
+    const std::size_t root = agents.root(i, shapes.level_count);
+    const auto x = static_cast<double>(shapes.roots[root].x), y = static_cast<double>(shapes.roots[root].y);
+    const Rotation turn = rotation(agents.heading[i]);
+    const double offset_x = turn.cosine * x - turn.sine * y, offset_y = turn.sine * x + turn.cosine * y;
+    // The corner is taken from the position first: far from the origin, adding the offset there would lose
+    // it.
+    const auto at_x = static_cast<std::uint64_t>(((agents.x[i] - corner_x_) + offset_x) * units_);
+    const auto at_y = static_cast<std::uint64_t>(((agents.y[i] - corner_y_) + offset_y) * units_);
+    const double radius = pruning_radius(shapes, root, margin);
+    std::uint32_t c = class_count_ - 1;
+    while (radius > classes_[c].most_radius) --c;
+    const std::uint32_t shift = cell_bits - class_bits * c;
+    // No rounding up, whose branch nothing foretells: 2^-20 holds the rounding to float too.
+    discs[i] = {classes_[c].first + (at_y >> shift) * classes_[c].stride + (at_x >> shift),
+                static_cast<std::uint32_t>(at_x), static_cast<std::uint32_t>(at_y),
+                static_cast<float>((radius + slack_) * units_ * (1 + 0x1p-20)),
+                static_cast<std::uint32_t>(i)};
+  }
+}
+
+std::uint64_t CrowdGrid::coarser(std::uint64_t cell, std::uint32_t from, std::uint32_t to) const noexcept {
+  const std::uint64_t at = cell - classes_[from].first;
+  const std::uint32_t shift = class_bits * (from - to);
+  const std::uint64_t row = (at / classes_[from].stride) >> shift;
+  const std::uint64_t column = (at % classes_[from].stride) >> shift;
+  return classes_[to].first + row * classes_[to].stride + column;
+}
+
+}  // namespace bch::kernel

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "kernel/broad_phase/crowd_grid.hpp"
+#include "kernel/simd/lanes.hpp"
+#include "layout/format/pair.hpp"
+
+namespace bch::kernel {
+
+/// Discs of a grid in the order of their cells, array by array.
+class SortedDiscs {
+ public:
+  /// As wide as every x86-64 processor is. Most runs of neighbours are short: wider ones would gain little.
+  using Int = xsimd::batch<std::int32_t, xsimd::sse2>;
+  using Float = xsimd::batch<float, xsimd::sse2>;
+  static constexpr std::size_t width = Float::size;
+
+  std::size_t size() const noexcept { return cell_.size(); }
+  std::uint64_t cell(std::size_t i) const noexcept { return cell_[i]; }
+
+  void resize(std::size_t size) {
+    cell_.resize(size);
+    // Whole registers are read: what is beyond the last disc does not matter.
+    x_.resize(size + width);
+    y_.resize(size + width);
+    radius_.resize(size + width);
+    agent_.resize(size + width);
+  }
+
+  void set(std::size_t i, const GridDisc& disc) noexcept {
+    cell_[i] = disc.cell;
+    x_[i] = static_cast<std::int32_t>(disc.x);
+    y_[i] = static_cast<std::int32_t>(disc.y);
+    radius_[i] = disc.radius;
+    agent_[i] = disc.agent;
+  }
+
+  /// The first of discs begin .. end whose cell is not below `from`; else end.
+  std::size_t first_from(std::uint64_t from, std::size_t begin, std::size_t end) const noexcept {
+    const std::uint64_t* const cells = cell_.data();
+    return static_cast<std::size_t>(std::lower_bound(cells + begin, cells + end, from) - cells);
+  }
+
+  /// Writes (agent of i, agent of j) for each j in begin .. end whose disc overlaps that of i.
+  /// Returns: the end of what was written. There has to be room for end - begin + width pairs.
+  Pair* write_overlapping(std::size_t i, std::size_t begin, std::size_t end, Pair* pairs) const noexcept {
+    const Int x(x_[i]), y(y_[i]);
+    const Float radius(radius_[i]);
+    const std::uint32_t agent = agent_[i];
+    for (std::size_t first = begin; first < end; first += width) {
+      const Float dx = xsimd::to_float(Int::load_unaligned(x_.data() + first) - x);
+      const Float dy = xsimd::to_float(Int::load_unaligned(y_.data() + first) - y);
+      const Float r = Float::load_unaligned(radius_.data() + first) + radius;
+      auto hits = static_cast<unsigned>(_mm_movemask_ps(dx * dx + dy * dy <= r * r));
+      hits &= (1u << std::min(width, end - first)) - 1;
+      // Every lane writes and a hit moves on: no branch, as none could be foretold.
+      for (std::size_t k = 0; k < width; ++k) {
+        *pairs = {agent, agent_[first + k]};
+        pairs += hits >> k & 1;
+      }
+    }
+    return pairs;
+  }
+
+ private:
+  std::vector<std::uint64_t> cell_;
+  std::vector<std::int32_t> x_, y_;  ///< modulo 2^32, see GridDisc
+  std::vector<float> radius_;
+  std::vector<std::uint32_t> agent_;
+};
+
+/// Pairs that a task found.
+class PairList {
+ public:
+  std::span<const Pair> pairs() const noexcept { return {pairs_.data(), size_}; }
+  void clear() noexcept { size_ = 0; }
+
+  /// The pairs of disc i with those of begin .. end that it overlaps.
+  void add_overlapping(const SortedDiscs& discs, std::size_t i, std::size_t begin, std::size_t end) {
+    const std::size_t most = size_ + (end - begin) + SortedDiscs::width;
+    if (most > pairs_.size()) pairs_.resize(2 * most);
+    size_ = static_cast<std::size_t>(discs.write_overlapping(i, begin, end, pairs_.data() + size_) -
+                                     pairs_.data());
+  }
+
+ private:
+  std::vector<Pair> pairs_;
+  std::size_t size_ = 0;
+};
+
+}  // namespace bch::kernel

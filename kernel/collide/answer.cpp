@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include "kernel/collide/answer.hpp"
+
+#include "kernel/collide/containment.hpp"
+
+namespace bch::kernel {
+namespace {
+
+/// Of a kernel's codes, what is left of them.
+void decide_near_misses(const Arguments& arguments, const Agents& agents, std::size_t begin,
+                        std::size_t end) noexcept {
+  if (!arguments.mark_near_misses) return;
+  for (std::size_t i = begin; i < end; ++i)
+    if (arguments.codes[i] == near_miss)
+      arguments.codes[i] =
+          one_contains_other(*arguments.shapes, agents, arguments.pairs[i]) ? overlap : apart;
+    else
+      arguments.codes[i] &= overlap;
+}
+
+}  // namespace
+
+void answer(const Implementation& implementation, const Arguments& arguments, const Agents& agents,
+            std::size_t begin, std::size_t end) noexcept {
+  implementation.run(arguments, begin, end);
+  decide_near_misses(arguments, agents, begin, end);
+}
+
+bool answer_if_valid(const Implementation& implementation, const Arguments& arguments, const Agents& agents,
+                     std::size_t count) noexcept {
+  if (count == 0 || count > pairs_per_chunk ||
+      !implementation.run_if_valid(arguments, static_cast<std::uint32_t>(count)))
+    return false;
+  decide_near_misses(arguments, agents, 0, count);
+  return true;
+}
+
+}  // namespace bch::kernel

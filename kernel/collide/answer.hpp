@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <cstddef>
+
+#include "kernel/runtime/implementation.hpp"
+#include "kernel/simd/arguments.hpp"
+#include "layout/format/agents.hpp"
+
+namespace bch::kernel {
+
+/// The work of one task: answers pairs begin .. end, each 0 or 1. Writes nothing but their codes, so that
+/// ranges may run at the same time.
+/// Preconditions: everything was validated; `agents` holds what `arguments` points to.
+void answer(const Implementation& implementation, const Arguments& arguments, const Agents& agents,
+            std::size_t begin, std::size_t end) noexcept;
+
+/// The same of all pairs, at most a chunk, before anything was validated but sizes: false, and nothing is written, where
+/// something may be wrong, or where there are more pairs or none.
+bool answer_if_valid(const Implementation& implementation, const Arguments& arguments, const Agents& agents,
+                     std::size_t count) noexcept;
+
+}  // namespace bch::kernel

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include "kernel/collide/containment.hpp"
+
+#include "layout/base/heading.hpp"
+#include "layout/base/rounding.hpp"
+
+namespace bch::kernel {
+namespace {
+
+struct Point {
+  double x, y;
+};
+
+/// From the frame of one agent into that of another.
+struct Placement {
+  Rotation turn;
+  Point origin;
+
+  Point operator()(Vec2 p) const {
+    const double x = p.x, y = p.y;
+    return {origin.x + (turn.cosine * x - turn.sine * y), origin.y + (turn.sine * x + turn.cosine * y)};
+  }
+};
+
+Placement placement(const Agents& agents, std::uint32_t of, std::uint32_t in) {
+  const Rotation to = rotation(agents.heading[in]), from = rotation(agents.heading[of]);
+  const double dx = agents.x[of] - agents.x[in], dy = agents.y[of] - agents.y[in];
+  return {{to.cosine * from.cosine + to.sine * from.sine, to.cosine * from.sine - to.sine * from.cosine},
+          {to.cosine * dx + to.sine * dy, to.cosine * dy - to.sine * dx}};
+}
+
+/// By the parity of the edges to the right of p. Whiskers are walked there and back and cancel.
+bool inside(const Vec2* points, const Contour& contour, Point p) {
+  bool odd = false;
+  for (std::uint32_t i = contour.begin, before = contour.end - 1; i < contour.end; before = i++) {
+    const double ax = points[before].x, ay = points[before].y;
+    const double bx = points[i].x, by = points[i].y;
+    if ((ay > p.y) == (by > p.y)) continue;
+    const double side = (bx - ax) * (p.y - ay) - (by - ay) * (p.x - ax);
+    odd ^= (by > ay) == (side > 0);
+  }
+  return odd;
+}
+
+/// The slack of may_be_inside(), times both shapes' reaches, in the terms of layout/base/rounding.hpp. The outer disc holds its
+/// contour whatever is rounded. The inner disc's centre is rounded to float, by u |c|, which makes d and r larger by as
+/// much, and r is rounded up: sqrt(d^2 + r^2) is too large by at most sqrt(2) u |c| + 2 u r, which is 2.45 u P, because
+/// |c|^2 + r^2 <= P^2. The headings are off by 3e-10 each, and so is the place of what is at most 3 S away: 0.04 u S.
+///
+/// Only the proof needs it: no test can see it made 0 for outlines that OutlineBuilder makes. Cuts that the float test keeps
+/// apart leave more than that between the contours, 3 u S: beside all that the test needs, published radii are enlarged by
+/// 1.5 grid steps, which are 2 u P or more.
+constexpr double inside_slack = 1e-6;
+constexpr double centre_and_radius = 2.45, placing = 0.04;  // in units of u
+static_assert(rounding::terms::length_within(rounding::terms::root_2, 2, centre_and_radius));
+static_assert(inside_slack >= (centre_and_radius + placing) * rounding::unit_roundoff);
+
+/// A contour inside another has the smaller enclosing disc, and more: the points that hold its disc in place
+/// do not fit into any half of it, so one of them is at least sqrt(d^2 + r^2) away from the other disc's
+/// centre.
+bool may_be_inside(const Disc& outer, const Disc& inner, Point inner_centre, double slack) {
+  const double x = inner_centre.x - static_cast<double>(outer.x),
+               y = inner_centre.y - static_cast<double>(outer.y);
+  const double r = inner.radius, limit = static_cast<double>(outer.radius) + slack;
+  return x * x + y * y + r * r <= limit * limit;
+}
+
+bool contains_contour_of(const ShapeSetView& shapes, std::uint32_t outer_shape, std::uint32_t inner_shape,
+                         const Placement& place) {
+  const double slack = inside_slack * (static_cast<double>(shapes.reach[outer_shape]) +
+                                       static_cast<double>(shapes.reach[inner_shape]));
+  const ContourRange outer = shapes.shape_contours[outer_shape], inner = shapes.shape_contours[inner_shape];
+  for (std::uint32_t i = inner.begin; i < inner.end; ++i) {
+    const Contour& within = shapes.contours[i];
+    const Point centre = place({within.disc.x, within.disc.y});
+    for (std::uint32_t o = outer.begin; o < outer.end; ++o)
+      if (may_be_inside(shapes.contours[o].disc, within.disc, centre, slack) &&
+          inside(shapes.points, shapes.contours[o], place(shapes.points[within.begin])))
+        return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+bool one_contains_other(const ShapeSetView& shapes, const Agents& agents, Pair pair) noexcept {
+  const auto [a, b] = pair;
+  return contains_contour_of(shapes, agents.shape[a], agents.shape[b], placement(agents, b, a)) ||
+         contains_contour_of(shapes, agents.shape[b], agents.shape[a], placement(agents, a, b));
+}
+
+}  // namespace bch::kernel

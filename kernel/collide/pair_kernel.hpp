@@ -1,0 +1,241 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "kernel/collide/walk.hpp"
+#include "kernel/simd/arguments.hpp"
+#include "kernel/simd/block_test.hpp"
+#include "kernel/simd/chunk_pairs.hpp"
+#include "kernel/simd/lanes.hpp"
+#include "kernel/simd/placements.hpp"
+#include "kernel/simd/profile_test.hpp"
+#include "kernel/simd/separation_test.hpp"
+#include "layout/format/shape_set_view.hpp"
+
+namespace bch::kernel {
+
+/// The pair query, written once. `Simd` is a Lanes<Arch> with bits(). Every float operation that decides an
+/// answer is one of those listed in layout/base/rounding.hpp, in that order, so that all instantiations and the
+/// scalar reference agree bit for bit; what only saves work is conservative.
+///
+/// Pairs are answered in chunks, stage by stage, and each stage leaves fewer of them open: place B in A's frame;
+/// decide by profiles along the line of the centres, and tell which of the rest will probably collide; part the
+/// others by their supports; accept pairs whose inscribed discs overlap; walk the trees of what is left.
+template <class Simd, std::uint32_t chunk = pairs_per_chunk>
+class PairKernel {
+ public:
+  static void run(const Arguments& arguments, std::size_t begin, std::size_t end) noexcept {
+    static_assert(sizeof(PairKernel) <= 256 * 1024, "what implementation.hpp promises");
+    PairKernel kernel(arguments);
+    for (; begin < end; begin += chunk) {
+      kernel.at_.place(arguments, begin,
+                       end - begin < chunk ? static_cast<std::uint32_t>(end - begin) : chunk);
+      kernel.answer_chunk(begin);
+      kernel.walk_.run(open_walks - chunk);
+    }
+    kernel.walk_.run(0);
+  }
+
+  /// Few pairs have a kernel of their own, whose loops have a length that the compiler knows.
+  static bool run_if_valid(const Arguments& arguments, std::uint32_t count) noexcept {
+    if constexpr (chunk > few_pairs)
+      if (count <= few_pairs) return PairKernel<Simd, few_pairs>::run_if_valid(arguments, count);
+    PairKernel kernel(arguments);
+    if (!kernel.at_.place_if_valid(arguments, count)) return false;
+    kernel.answer_chunk(0);
+    kernel.walk_.run(0);
+    return true;
+  }
+
+ private:
+  using Float = typename Simd::Float;
+  /// Room for a chunk, besides those that wait for company, as many as the stack has room for.
+  static constexpr std::uint32_t open_walks = chunk + chunk * 7 / 8;
+  using List = ChunkPairs<Simd, chunk>;
+
+  explicit PairKernel(const Arguments& arguments) noexcept
+      : in_(arguments),
+        shapes_(*arguments.shapes),
+        miss_(arguments.mark_near_misses ? near_miss : apart),
+        separation_(shapes_, at_),
+        profiles_(shapes_, at_, arguments.prefetch_shapes),
+        walk_(shapes_, arguments) {}
+
+  /// Of the pairs that were placed.
+  void answer_chunk(std::size_t begin) noexcept {
+    codes_ = in_.codes + begin;
+    open_.size = near_.size = 0;
+    if (shapes_.support == nullptr || !shapes_.rows_in_order) {
+      test_roots();
+    } else {
+      for (std::uint32_t k = 0; k < at_.whole_registers(); k += Simd::width)
+        open_bits_[k / Simd::width] = ~std::uint32_t{0};
+      __builtin_memset(codes_, overlap, at_.size);
+    }
+    if (shapes_.support == nullptr)
+      open_all();
+    else if (any_open())
+      take_shortcuts();
+    for (std::uint32_t k = 0; k < open_.size; ++k) {
+      const std::uint32_t pair = open_.pair[k];
+      walk_.add(begin + pair, miss(pair), at_.transform(pair), at_.root_a[pair], at_.root_b[pair],
+                shapes_.reach[at_.shape_a[pair]] + shapes_.reach[at_.shape_b[pair]], segment_margin(pair));
+    }
+  }
+
+  double segment_margin(std::uint32_t pair) const noexcept {
+    if (!in_.exact_leaves) return 0;
+    const double of_a = shapes_.segment_margin[at_.shape_a[pair]],
+                 of_b = shapes_.segment_margin[at_.shape_b[pair]];
+    return of_a + of_b;
+  }
+
+  /// Root disc against root disc, lane = pair. Where both cuts are single discs, that is the answer.
+  void test_roots() noexcept {
+    separation_.use_rows(row_a_, row_b_);
+    for (std::uint32_t k = 0; k < at_.whole_registers(); k += Simd::width) {
+      Float a[4], b[4];
+      Simd::template load_records<4>(&shapes_.roots->x, at_.root_a + k, a);
+      Simd::template load_records<4>(&shapes_.roots->x, at_.root_b + k, b);
+      Simd::store(reinterpret_cast<float*>(row_a_ + k), a[3]);
+      Simd::store(reinterpret_cast<float*>(row_b_ + k), b[3]);
+      const Float c = Simd::load(at_.c + k), s = Simd::load(at_.s + k);
+      const Float x = Simd::load(at_.tx + k) + (c * b[0] - s * b[1]),
+                  y = Simd::load(at_.ty + k) + (s * b[0] + c * b[1]);
+      const std::uint32_t hits = overlaps<Simd>(x, y, b[2], a[0], a[1], a[2]);
+      std::uint32_t open = 0;
+      for (std::uint32_t lane = 0; lane < lanes(k); ++lane) {
+        const std::uint32_t decided = both_are_single(k + lane), hit = hits >> lane & 1;
+        codes_[k + lane] = static_cast<std::uint8_t>(hit * overlap);
+        open |= (hit & (decided ^ 1)) << lane;
+      }
+      open_bits_[k / Simd::width] = open;
+    }
+  }
+
+  std::uint32_t both_are_single(std::uint32_t k) const noexcept {
+    return (row_a_[k] | row_b_[k]) == single_disc;
+  }
+
+  /// A set of single discs is done by now.
+  bool any_open() const noexcept {
+    std::uint32_t any = 0;
+    for (std::uint32_t k = 0; k < at_.whole_registers(); k += Simd::width) any |= open_bits_[k / Simd::width];
+    return any != 0;
+  }
+
+  void open_all() noexcept {
+    for (std::uint32_t k = 0; k < at_.size; ++k)
+      open_.add_if(open_bits_[k / Simd::width] >> k % Simd::width & 1, k);
+  }
+
+  /// Leaves the pairs open that only a walk can decide. Those that are not parted have the code for it by now.
+  void take_shortcuts() noexcept {
+    compare_profiles();
+    separation_.place_directions();
+    part(0);
+    meet<block_width / 2>(near_);
+    meet<block_width>(open_);
+    part(1);
+    if (!in_.mark_near_misses) reopen_what_may_nest();
+    for (std::uint32_t k = 0; k < parted_.size; ++k) codes_[parted_.pair[k]] = apart;
+  }
+
+  /// By supports along even directions or odd ones.
+  void part(unsigned odd) noexcept {
+    open_.move_if(
+        parted_, open_,
+        [&](std::uint32_t pair) {
+          const std::uint32_t is_apart = separation_.apart(pair, odd);
+          return typename List::Verdict{is_apart, is_apart};
+        },
+        [&](std::uint32_t pair) __attribute__((always_inline)) {
+          if (in_.prefetch_shapes) separation_.prefetch(pair, odd);
+        });
+  }
+
+  /// By the first `count` inscribed discs of either. What they do not decide is open.
+  template <unsigned count>
+  void meet(List& list) noexcept {
+    list.move_if(
+        met_, open_,
+        [&](std::uint32_t pair) {
+          return typename List::Verdict{inscribed_discs_overlap<count>(pair), may_nest(pair)};
+        },
+        [&](std::uint32_t pair) __attribute__((always_inline)) {
+          if (in_.prefetch_shapes) prefetch_inscribed(pair);
+        });
+  }
+
+  /// Lists pairs as parted, as met where they may nest besides, or as open, by whether they will probably collide.
+  void compare_profiles() noexcept {
+    shapes_.rows_in_order ? profiles_.look(nullptr, nullptr) : profiles_.look(row_a_, row_b_);
+    parted_.size = met_.size = 0;
+    for (std::uint32_t k = 0; k < at_.whole_registers(); k += Simd::width) {
+      const auto answers = profiles_.answers(k);
+      const std::uint32_t all = open_bits_[k / Simd::width] & ((std::uint32_t{1} << lanes(k)) - 1);
+      const std::uint32_t open = all & ~(answers.apart | answers.meet);
+      may_nest_[k / Simd::width] = answers.may_nest;
+      parted_.add(all & answers.apart, k);
+      met_.add(all & answers.meet & answers.may_nest, k);
+      near_.add(open & answers.near, k);
+      open_.add(open & ~answers.near, k);
+    }
+  }
+
+  /// Of the register that begins with pair k.
+  std::uint32_t lanes(std::uint32_t k) const noexcept {
+    return at_.size - k < Simd::width ? at_.size - k : Simd::width;
+  }
+
+  /// What a pair is whose cuts do not overlap.
+  std::uint8_t miss(std::uint32_t pair) const noexcept {
+    return static_cast<std::uint8_t>(shapes_.support == nullptr ? miss_ : miss_ * may_nest(pair));
+  }
+
+  std::uint32_t may_nest(std::uint32_t pair) const noexcept {
+    return may_nest_[pair / Simd::width] >> pair % Simd::width & 1;
+  }
+
+  /// Where areas meet, outlines cross unless one holds the other, which boundary semantics does not count.
+  void reopen_what_may_nest() noexcept {
+    met_.drop_if(open_, [&](std::uint32_t pair) { return separation_.contours_stick_out(pair); });
+  }
+
+  /// Whether the areas meet. See layout/culling/interior.hpp.
+  template <unsigned count>
+  std::uint32_t inscribed_discs_overlap(std::uint32_t pair) const noexcept {
+    return overlapping_discs<Simd, count>(at_.transform(pair), inscribed(at_.shape_a[pair]),
+                                          inscribed(at_.shape_b[pair])) != 0;
+  }
+
+  [[gnu::always_inline]] void prefetch_inscribed(std::uint32_t pair) const noexcept {
+    const std::uint32_t both[] = {at_.shape_a[pair], at_.shape_b[pair]};
+    for (const std::uint32_t shape : both) {
+      __builtin_prefetch(shapes_.inscribed[shape].x);
+      __builtin_prefetch(shapes_.inscribed[shape].radius);
+    }
+  }
+
+  Discs inscribed(std::uint32_t shape) const noexcept {
+    return {shapes_.inscribed[shape].x, block_width, 2 * block_width};
+  }
+
+  const Arguments& in_;
+  const ShapeSetView shapes_;
+  const std::uint8_t miss_;
+  std::uint8_t* codes_ = nullptr;  ///< of the chunk
+  Placements<Simd, chunk> at_;
+  SeparationTest<Simd, chunk> separation_;
+  ProfileTest<Simd, chunk> profiles_;
+  alignas(64) std::uint32_t row_a_[chunk], row_b_[chunk];  ///< of the roots' supports; set by test_roots()
+  std::uint32_t open_bits_[chunk / Simd::width], may_nest_[chunk / Simd::width];  ///< a register's pairs each
+  List open_, near_, parted_, met_;
+  Walk<Simd, open_walks> walk_;
+};
+
+}  // namespace bch::kernel

@@ -1,0 +1,273 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "kernel/simd/ancestor_test.hpp"
+#include "kernel/simd/arguments.hpp"
+#include "kernel/simd/block_test.hpp"
+#include "kernel/simd/disc_pairs.hpp"
+#include "kernel/simd/segment_test.hpp"
+#include "kernel/simd/tree_nodes.hpp"
+#include "layout/format/shape_set_view.hpp"
+
+namespace bch::kernel {
+
+/// The last stage of the pair kernel: walks the trees of the pairs that nothing quicker decided, in rounds. Each
+/// round tests one pair of blocks for every open pair, so that cache misses and latencies of many pairs overlap
+/// and no branch depends on an answer; only where leaves overlap are their ancestors looked at. Most pairs end after a few rounds; those that do not wait for company,
+/// because a round over three pairs takes as long as one over thirty.
+/// `capacity`: `add` needs room; `run(below)` makes it.
+template <class Simd, std::uint32_t capacity>
+class Walk {
+ public:
+  Walk(const ShapeSetView& shapes, const Arguments& arguments) noexcept
+      : shapes_(shapes),
+        codes_(arguments.codes),
+        prefetch_(arguments.prefetch_shapes),
+        exact_leaves_(arguments.exact_leaves),
+        segments_(shapes, open_) {}
+
+  /// `pair` is where the answer goes in codes, `miss` what it is unless a walk finds an overlap.
+  /// `reach`: of the two shapes together. `margin`: of their segments, 0 where discs decide.
+  void add(std::size_t pair, std::uint8_t miss, const Transform& b_in_a, std::uint32_t root_a,
+           std::uint32_t root_b, float reach, double margin) noexcept {
+    const Tree a = shapes_.trees[root_a], b = shapes_.trees[root_b];
+    if (a.segments == no_segments || b.segments == no_segments) margin = 0;
+    // Slots are numbered when they are first needed, because small batches need few.
+    if (size_ == numbered_) slots_[size_] = static_cast<std::uint16_t>(numbered_++);
+    const std::uint32_t slot = slots_[size_++];
+    open_[slot] = {b_in_a, a.top, b.top, a.stride, b.stride, root_a, root_b, reach, 0, pair, margin};
+    frames_[slot][0] = {0, 0, 0};
+    codes_[pair] = miss;
+  }
+
+  /// Rounds, until at most so many pairs are open.
+  void run(std::uint32_t enough) noexcept {
+    if (size_ > enough) rounds(enough);
+  }
+
+ private:
+  using Nodes = TreeNodes<Simd>;
+  /// Tests that nodes are asked for ahead, with `prefetch`.
+  static constexpr std::uint32_t tests_ahead = 6;
+  static constexpr std::uint32_t verified_together = 32;
+  /// Every test descends on one side at least, and neither side has more levels than this.
+  static constexpr std::uint32_t most_frames = 2 * most_wide_levels;
+
+  /// A pair being walked, with the two nodes to test next.
+  struct Open {
+    Transform b_in_a;
+    std::uint32_t a, b;
+    std::uint32_t stride_a, stride_b;
+    std::uint32_t root_a, root_b;
+    float reach;
+    std::uint32_t top;  ///< frame
+    std::size_t pair;
+    double margin;  ///< 0, or segments decide where leaves overlap: metres
+  };
+
+  /// Two nodes whose discs overlap at the set bits (8 i + j: disc i of A, disc j of B), none of which was
+  /// followed yet.
+  struct Frame {
+    std::uint32_t a, b;
+    std::uint64_t open;
+  };
+
+  /// One test for every open pair, then one step for every pair: apart, because the processor looks ahead over a
+  /// few of either, but hardly over one of both. All in one function, because rounds over a lone pair are so short
+  /// that calls count. `noipa`, because GCC 12 takes such functions for ones without effects when their parameters
+  /// are changed a little, and drops the calls.
+  [[gnu::noipa]] void rounds(std::uint32_t enough) noexcept {
+    while (size_ > enough) {
+      test();
+      verify();
+      step();
+    }
+  }
+
+  [[gnu::always_inline]] void test() noexcept {
+    const float* const nodes = shapes_.nodes;
+    for (std::uint32_t k = 0; k < size_; ++k) {
+      if (prefetch_ && k + tests_ahead < size_) {
+        const Open& next = open_[slots_[k + tests_ahead]];
+        Nodes::prefetch(nodes, next.a, next.stride_a);
+        Nodes::prefetch(nodes, next.b, next.stride_b);
+      }
+      const Open& at = open_[slots_[k]];
+      hits_[k] = overlaps_of(at, at.a, at.b);
+    }
+  }
+
+  [[gnu::always_inline]] std::uint64_t overlaps_of(const Open& pair, std::uint32_t a,
+                                                   std::uint32_t b) const noexcept {
+    const float* const nodes = shapes_.nodes;
+    return overlapping_discs<Simd>(pair.b_in_a, Nodes::discs(nodes, a, pair.stride_a),
+                                   Nodes::discs(nodes, b, pair.stride_b));
+  }
+
+  /// Takes the hits of leaves away whose segments do not meet or whose ancestors do not all overlap, but for a pair's first
+  /// that stays.
+  [[gnu::always_inline]] void verify() noexcept {
+    std::uint16_t found[verified_together + 1];
+    std::uint32_t count = 0;
+    for (std::uint32_t k = 0; k < size_; ++k) {
+      const Open& at = open_[slots_[k]];
+      found[count] = static_cast<std::uint16_t>(k);
+      count += (at.a & at.b) / leaf_window & static_cast<std::uint32_t>(hits_[k] != 0);
+      if (count == verified_together) [[unlikely]]
+        verify(found, count), count = 0;
+    }
+    verify(found, count);
+  }
+
+  void verify(std::uint16_t* which, std::uint32_t count) noexcept {
+    if (exact_leaves_) count = compare_segments(which, count);
+    verify_hits(which, count);
+  }
+
+  /// Keeps of the hits of leaf windows those whose segments meet, or of a pair whose segments surely cross any.
+  /// Returns: how many pairs have hits whose ancestors have to be asked; these come first.
+  std::uint32_t compare_segments(std::uint16_t* which, std::uint32_t count) noexcept {
+    std::uint64_t near[verified_together];
+    std::uint32_t is_sure = 0, is_compared = 0;
+    static_assert(verified_together <= 32);
+    const auto hear = [&](std::uint32_t owner, Meeting meeting) {
+      const std::uint32_t i = owner / block_pairs;
+      is_sure |= std::uint32_t{meeting == Meeting::sure} << i;
+      near[i] |= std::uint64_t{meeting == Meeting::near} << owner % block_pairs;
+    };
+    const auto for_trees = [&](auto use) {
+      for (std::uint32_t i = 0; i < count; ++i) {
+        const Open& at = open_[slots_[which[i]]];
+        if (at.margin > 0) use(i, at, shapes_.trees[at.root_a], shapes_.trees[at.root_b]);
+      }
+    };
+    for_trees([&](std::uint32_t i, const Open& at, const Tree& a, const Tree& b) {
+      near[i] = 0;
+      is_compared |= std::uint32_t{1} << i;
+      segments_.prefetch_words(a, at.a), segments_.prefetch_words(b, at.b);
+    });
+    for_trees([&](std::uint32_t, const Open& at, const Tree& a, const Tree& b) {
+      segments_.prefetch_points(a, at.a), segments_.prefetch_points(b, at.b);
+    });
+    for_trees([&](std::uint32_t i, const Open& at, const Tree& a, const Tree& b) {
+      for (std::uint64_t hits = hits_[which[i]]; hits != 0; hits &= hits - 1) {
+        const auto [disc_a, disc_b] = first_hit(at, hits);
+        const std::uint32_t owner = i * block_pairs + static_cast<unsigned>(__builtin_ctzll(hits));
+        segments_.add(slots_[which[i]], a, disc_a, b, disc_b, owner, hear);
+      }
+    });
+    segments_.finish(hear);
+    std::uint32_t left = 0;
+    for (std::uint32_t i = 0; i < count; ++i) {
+      const std::uint16_t k = which[i];
+      const bool sure = is_sure >> i & 1;
+      if (is_compared >> i & 1 && !sure) hits_[k] = near[i];
+      which[left] = k;
+      left += !sure & (hits_[k] != 0);
+    }
+    return left;
+  }
+
+  /// One hit of every pair after the other, until one stays or none is left. Paths are looked up side by side, because each
+  /// step waits for the one before.
+  void verify_hits(std::uint16_t* which, std::uint32_t count) noexcept {
+    const float* const nodes = shapes_.nodes;
+    AncestorPath<Simd>*const above_a = above_a_, *const above_b = above_b_;
+    while (count > 0) {
+      for (std::uint32_t i = 0; i < count; ++i) {
+        const Open& at = open_[slots_[which[i]]];
+        const auto [disc_a, disc_b] = first_hit(at, hits_[which[i]]);
+        above_a[i].begin(nodes, shapes_.trees[at.root_a], disc_a);
+        above_b[i].begin(nodes, shapes_.trees[at.root_b], disc_b);
+      }
+      for (std::uint32_t k = 1; k < AncestorPath<Simd>::length; ++k)
+        for (std::uint32_t i = 0; i < count; ++i) above_a[i].step(nodes, k), above_b[i].step(nodes, k);
+      std::uint32_t left = 0;
+      for (std::uint32_t i = 0; i < count; ++i) {
+        const std::uint16_t k = which[i];
+        const Open& at = open_[slots_[k]];
+        const auto [disc_a, disc_b] = first_hit(at, hits_[k]);
+        const PlacedTrees trees{at.b_in_a, shapes_.trees[at.root_a], shapes_.trees[at.root_b], at.reach};
+        const bool stays = AncestorTest<Simd>(nodes, trees, disc_a, disc_b, above_a[i], above_b[i]).passes();
+        if (!stays) hits_[k] &= hits_[k] - 1;
+        which[left] = k;
+        left += !stays & (hits_[k] != 0);
+      }
+      count = left;
+    }
+  }
+
+  struct DiscPair {
+    std::uint32_t a, b;  ///< places among the nodes
+  };
+  /// Of two windows.
+  static DiscPair first_hit(const Open& at, std::uint64_t hits) noexcept {
+    const auto bit = static_cast<unsigned>(__builtin_ctzll(hits));
+    return {(at.a & ~leaf_window) + bit / block_width, (at.b & ~leaf_window) + bit % block_width};
+  }
+
+  /// Answers where leaves overlap; else keeps the hits for later, takes the next open one, and names the nodes to
+  /// test: the children of the two discs, or a leaf window again and the other's child. What is computed for a pair
+  /// that is done is never used, which beats a branch that no processor can predict. The slots of pairs that are
+  /// done end up behind the others.
+  [[gnu::always_inline]] void step() noexcept {
+    const float* const nodes = shapes_.nodes;
+    std::uint8_t* const codes = codes_;
+    const std::uint32_t size = size_;
+    std::uint32_t left = 0;
+    for (std::uint32_t k = 0; k < size; ++k) {
+      const std::uint16_t slot = slots_[k];
+      Open& at = open_[slot];
+      const std::uint64_t hits = hits_[k];
+      const std::uint32_t hit = hits != 0, found = (at.a & at.b) / leaf_window & hit;
+      codes[at.pair] = static_cast<std::uint8_t>(codes[at.pair] | found);
+
+      Frame* const frames = frames_[slot];
+      frames[at.top + 1] = {at.a, at.b, hits};
+      const std::uint32_t top_index = at.top + hit;
+      Frame& top = frames[top_index];
+      const std::uint64_t open = top.open;
+      const Frame next = first_below(nodes, top);
+      at.a = next.a, at.b = next.b;
+      top.open = next.open;
+      at.top = top_index - (next.open == 0);
+      slots_[k] = slots_[left];
+      slots_[left] = slot;
+      left += (open != 0) & (found ^ 1);
+    }
+    size_ = left;
+  }
+
+  /// The nodes below the first open hit of two, or anything where none is, and the hits that stay open.
+  [[gnu::always_inline]] static Frame first_below(const float* nodes, const Frame& at) noexcept {
+    std::uint64_t rest = at.open & (at.open - 1);
+    const auto bit = static_cast<unsigned>(__builtin_ctzll(at.open | std::uint64_t{1} << 63));
+    const unsigned i = bit / block_width, j = bit % block_width;
+    if ((at.a | at.b) < leaf_window) [[likely]]
+      return {Nodes::child(nodes, at.a, i), Nodes::child(nodes, at.b, j), rest};
+    std::uint32_t a = at.a, b = at.b;
+    // All of a window's discs are tested at once: its other hits on the same child are settled with this one.
+    if (a < leaf_window) a = Nodes::child(nodes, a, i), rest &= ~(first_row_of_pairs << (bit - j));
+    if (b < leaf_window) b = Nodes::child(nodes, b, j), rest &= ~(first_column_of_pairs << j);
+    return {a, b, rest};
+  }
+
+  const ShapeSetView& shapes_;
+  std::uint8_t* const codes_;
+  const bool prefetch_, exact_leaves_;
+  std::uint32_t size_ = 0, numbered_ = 0;
+  std::uint16_t slots_[capacity];  ///< a permutation: first those of open pairs, then free ones
+  Open open_[capacity];
+  std::uint64_t hits_[capacity];
+  AncestorPath<Simd> above_a_[verified_together],
+      above_b_[verified_together];  ///< of those that are verified
+  SegmentTest<Simd, Open> segments_;
+  Frame frames_[capacity][most_frames + 2];
+};
+
+}  // namespace bch::kernel

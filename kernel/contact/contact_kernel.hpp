@@ -1,0 +1,310 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "kernel/contact/contact.hpp"
+#include "kernel/simd/ancestor_test.hpp"
+#include "kernel/simd/arguments.hpp"
+#include "kernel/simd/block_test.hpp"
+#include "kernel/simd/lanes.hpp"
+#include "kernel/simd/placements.hpp"
+#include "kernel/simd/segment_test.hpp"
+#include "kernel/simd/tree_nodes.hpp"
+#include "layout/format/cut_discs.hpp"
+#include "layout/format/shape_set_view.hpp"
+
+namespace bch::kernel {
+
+/// All pairs of cut discs that overlap with all their ancestors, and whose segments meet where these decide, one pair of agents after the other. Rows are discs of a pair's first agent,
+/// columns those of its second. Row windows are visited from left to right, each with the column nodes that the blocks
+/// above it left to it, so that contacts come in order but for the eight rows of a window, which are counted before they
+/// are placed.
+///
+/// No contact is named twice, although windows show some of their neighbours' discs. Of a row window only its own rows
+/// count: up to where the next window begins; but the last eight, where windows are moved back, are taken together at
+/// the end. A column counts in the first visited window that shows it.
+///
+/// Blocks prune as in the pair kernel's walk, and hits of leaves are verified as there.
+template <class Simd>
+class ContactKernel {
+ public:
+  static void count(const Arguments& in, std::size_t begin, std::size_t end, std::uint64_t* counts) noexcept {
+    for_pairs(in, begin, end, [=](ContactKernel& kernel, std::size_t pair) {
+      std::uint64_t sum = 0;
+      kernel.for_row_windows([&](std::uint32_t rows, std::uint64_t mask, const Nodes& columns) {
+        kernel.for_column_windows(rows, mask, columns, [&](std::uint32_t, std::uint64_t hits) {
+          sum += static_cast<std::uint64_t>(__builtin_popcountll(hits));
+        });
+      });
+      counts[pair] = sum;
+    });
+  }
+
+  static void fill(const Arguments& in, std::size_t begin, std::size_t end, const std::uint64_t* offsets,
+                   Contact* contacts) noexcept {
+    for_pairs(in, begin, end, [=](ContactKernel& kernel, std::size_t pair) {
+      Contact* out = contacts + offsets[pair];
+      if (offsets[pair + 1] == offsets[pair]) return;
+      kernel.for_row_windows([&](std::uint32_t rows, std::uint64_t mask, const Nodes& columns) {
+        out = kernel.place_rows(rows, mask, columns, out);
+      });
+    });
+  }
+
+ private:
+  struct Placed {
+    Transform b_in_a;
+    double margin;  ///< 0, or segments decide where leaves overlap: metres
+  };
+
+  /// Of the columns, from left to right.
+  struct Nodes {
+    static constexpr std::uint32_t capacity = 32;
+    std::uint32_t size = 0;
+    std::uint32_t node[capacity];
+  };
+
+  explicit ContactKernel(const Arguments& in) noexcept : in_(in), shapes_(*in.shapes) {}
+
+  template <class Use>
+  static void for_pairs(const Arguments& in, std::size_t begin, std::size_t end, Use use) noexcept {
+    ContactKernel kernel(in);
+    for (; begin < end; begin += kernel.at_.size) {
+      const std::size_t left = end - begin;
+      kernel.at_.place(
+          in, begin,
+          left < Placements<Simd>::chunk ? static_cast<std::uint32_t>(left) : Placements<Simd>::chunk);
+      for (std::uint32_t k = 0; k < kernel.at_.size; ++k) {
+        kernel.look_at(begin, k);
+        use(kernel, begin + k);
+      }
+    }
+  }
+
+  /// The lower index is A; see Placements.
+  void look_at(std::size_t begin, std::uint32_t k) noexcept {
+    const Pair pair = in_.pairs[begin + k];
+    swapped_ = pair.second < pair.first;
+    placed_.b_in_a = at_.transform(k);
+    const std::uint32_t rows = swapped_ ? at_.root_b[k] : at_.root_a[k];
+    const std::uint32_t columns = swapped_ ? at_.root_a[k] : at_.root_b[k];
+    if (shapes_.trees == nullptr) return look_at_single_discs(shapes_.roots[rows], shapes_.roots[columns]);
+    nodes_ = shapes_.nodes;
+    reach_ = shapes_.reach[at_.shape_a[k]] + shapes_.reach[at_.shape_b[k]];
+    rows_ = shapes_.trees[rows], columns_ = shapes_.trees[columns];
+    placed_.margin = 0;
+    if (!in_.exact_leaves || rows_.segments == no_segments || columns_.segments == no_segments)
+      return set_first();
+    const double of_a = shapes_.segment_margin[at_.shape_a[k]], of_b = shapes_.segment_margin[at_.shape_b[k]];
+    placed_.margin = of_a + of_b;
+    set_first();
+  }
+
+  void set_first() noexcept { first_row_ = rows_.discs, first_column_ = columns_.discs; }
+
+  /// Windows of our own, because the set has none.
+  void look_at_single_discs(const Root& row_disc, const Root& column_disc) noexcept {
+    for (DiscBlock& single : singles_)
+      for (unsigned i = 0; i < block_width; ++i)
+        single.x[i] = __builtin_inff(), single.y[i] = single.radius[i] = 0;
+    singles_[0].x[0] = row_disc.x, singles_[0].y[0] = row_disc.y, singles_[0].radius[0] = row_disc.radius;
+    singles_[1].x[0] = column_disc.x, singles_[1].y[0] = column_disc.y,
+    singles_[1].radius[0] = column_disc.radius;
+    nodes_ = singles_[0].x;
+    first_row_ = 0, first_column_ = sizeof(DiscBlock) / sizeof(float);
+    rows_ = {leaf_window | first_row_, first_row_, block_width, 1, 0};
+    columns_ = {leaf_window | first_column_, first_column_, block_width, 1, 0};
+  }
+
+  /// Calls use(window, mask of its own rows, nodes above the columns that may overlap them).
+  template <class Use>
+  void for_row_windows(Use use) const noexcept {
+    Nodes columns;
+    columns.node[columns.size++] = columns_.top;
+    visit_rows(rows_.top, last_rows() + block_width, columns, use);
+    use(last_rows() | leaf_window, ~std::uint64_t{0}, columns);
+  }
+
+  /// Where the last eight begin.
+  std::uint32_t last_rows() const noexcept { return first_row_ + rows_.stride - block_width; }
+
+  /// `end`: where the node to the right begins.
+  template <class Use>
+  void visit_rows(std::uint32_t node, std::uint32_t end, const Nodes& columns, Use& use) const noexcept {
+    if (node >= leaf_window) {
+      const std::uint32_t begin = node & ~leaf_window;
+      const std::uint32_t stop = end < last_rows() ? end : last_rows();
+      if (begin < stop) use(node, rows_below(stop - begin), columns);
+      return;
+    }
+    std::uint64_t hits[Nodes::capacity];
+    for (std::uint32_t k = 0; k < columns.size; ++k) hits[k] = overlaps_of(node, columns.node[k]);
+    for (unsigned i = 0; i < block_width; ++i) {
+      Nodes below;
+      const bool fits = children_of_hits(columns, hits, i, below);
+      if (below.size == 0) continue;
+      const bool is_last = i + 1 == block_width || nodes_[node + i + 1] == __builtin_inff();
+      const std::uint32_t child_end = is_last ? end : first_disc(nodes_, child(node, i + 1));
+      // Nodes higher up are above the same columns.
+      visit_rows(child(node, i), child_end, fits ? below : columns, use);
+    }
+  }
+
+  static std::uint64_t rows_below(std::uint32_t lanes) noexcept {
+    return lanes < block_width ? (std::uint64_t{1} << (lanes * block_width)) - 1 : ~std::uint64_t{0};
+  }
+
+  /// The children of column nodes that disc i of a row block overlaps; a window stays itself.
+  /// Returns: whether there is room for them.
+  bool children_of_hits(const Nodes& columns, const std::uint64_t* hits, unsigned i,
+                        Nodes& below) const noexcept {
+    for (std::uint32_t k = 0; k < columns.size; ++k) {
+      std::uint64_t of_disc = hits[k] >> (i * block_width) & first_row_of_pairs;
+      const bool is_window = columns.node[k] >= leaf_window;
+      if (is_window && of_disc != 0) of_disc = 1;
+      for (; of_disc != 0; of_disc &= of_disc - 1) {
+        if (below.size == Nodes::capacity) return false;
+        const auto j = static_cast<unsigned>(__builtin_ctzll(of_disc));
+        below.node[below.size++] = is_window ? columns.node[k] : child(columns.node[k], j);
+      }
+    }
+    return true;
+  }
+
+  /// Calls use(window, hits) for each window of columns with discs that overlap those of a row window.
+  template <class Use>
+  void for_column_windows(std::uint32_t rows, std::uint64_t mask, const Nodes& columns,
+                          Use use) const noexcept {
+    std::uint32_t next = 0;
+    for (std::uint32_t k = 0; k < columns.size; ++k) visit_columns(rows, mask, columns.node[k], next, use);
+  }
+
+  template <class Use>
+  void visit_columns(std::uint32_t rows, std::uint64_t mask, std::uint32_t node, std::uint32_t& next,
+                     Use& use) const noexcept {
+    std::uint64_t hits = overlaps_of(rows, node) & mask;
+    if (node >= leaf_window) {
+      hits &= (first_row_of_pairs << seen_lanes(node, next) & first_row_of_pairs) * first_column_of_pairs;
+      if (hits != 0) hits = verified(rows, node, hits);
+      if (hits != 0) use(node, hits);
+      return;
+    }
+    for (unsigned j = 0; j < block_width; ++j)
+      if (hits & first_column_of_pairs << j) visit_columns(rows, mask, child(node, j), next, use);
+  }
+
+  /// How many of a window's discs an earlier window has shown, which ended before `next`.
+  static std::uint32_t seen_lanes(std::uint32_t window, std::uint32_t& next) noexcept {
+    const std::uint32_t seen = next > window ? next - window : 0;
+    next = window + block_width > next ? window + block_width : next;
+    return seen < block_width ? seen : block_width;
+  }
+
+  /// Returns: one past the last that was placed.
+  Contact* place_rows(std::uint32_t rows, std::uint64_t mask, const Nodes& columns,
+                      Contact* out) const noexcept {
+    constexpr std::uint32_t most_kept = 16;
+    std::uint32_t count[block_width] = {}, windows = 0, kept[most_kept];
+    std::uint64_t kept_hits[most_kept];
+    for_column_windows(rows, mask, columns, [&](std::uint32_t window, std::uint64_t hits) {
+      for (unsigned i = 0; i < block_width; ++i)
+        count[i] +=
+            static_cast<std::uint32_t>(__builtin_popcountll(hits >> (i * block_width) & first_row_of_pairs));
+      if (windows < most_kept) kept[windows] = window, kept_hits[windows] = hits;
+      ++windows;
+    });
+    Contact* end[block_width];
+    for (unsigned i = 0; i < block_width; ++i) end[i] = out, out += count[i];
+    const std::uint32_t first = (rows & ~leaf_window) - first_row_;
+    const auto place = [&](std::uint32_t window, std::uint64_t hits) {
+      for (; hits != 0; hits &= hits - 1) {
+        const auto bit = static_cast<unsigned>(__builtin_ctzll(hits));
+        *end[bit / block_width]++ = {first + bit / block_width,
+                                     (window & ~leaf_window) - first_column_ + bit % block_width};
+      }
+    };
+    if (windows > most_kept)
+      for_column_windows(rows, mask, columns, place);
+    else
+      for (std::uint32_t k = 0; k < windows; ++k) place(kept[k], kept_hits[k]);
+    return out;
+  }
+
+  /// Bit 8 i + j: disc i of a node of the rows, disc j of one of the columns.
+  std::uint64_t overlaps_of(std::uint32_t rows, std::uint32_t columns) const noexcept {
+    const Discs of_rows = TreeNodes<Simd>::discs(nodes_, rows, rows_.stride),
+                of_columns = TreeNodes<Simd>::discs(nodes_, columns, columns_.stride);
+    if (!swapped_) return overlapping_discs<Simd>(placed_.b_in_a, of_rows, of_columns);
+    return transposed(overlapping_discs<Simd>(placed_.b_in_a, of_columns, of_rows));
+  }
+
+  /// Of the hits of two leaf windows. Where every cut is a single disc, there is nothing above them.
+  std::uint64_t verified(std::uint32_t rows, std::uint32_t columns, std::uint64_t hits) const noexcept {
+    if (shapes_.trees == nullptr) return hits;
+    std::uint64_t verified = 0;
+    for (; hits != 0; hits &= hits - 1) {
+      const auto bit = static_cast<unsigned>(__builtin_ctzll(hits));
+      const std::uint32_t row = (rows & ~leaf_window) + bit / block_width,
+                          column = (columns & ~leaf_window) + bit % block_width;
+      const bool passes =
+          swapped_ ? is_hit(columns_, column, rows_, row) : is_hit(rows_, row, columns_, column);
+      verified |= std::uint64_t{passes} << bit;
+    }
+    return verified;
+  }
+
+  bool segments_meet(const Tree& a, std::uint32_t disc_a, const Tree& b,
+                     std::uint32_t disc_b) const noexcept {
+    bool meet = false;
+    const auto hear = [&](std::uint32_t, Meeting meeting) { meet |= meeting != Meeting::none; };
+    SegmentTest<Simd, Placed> test(shapes_, &placed_);
+    test.add(0, a, disc_a, b, disc_b, 0, hear);
+    test.finish(hear);
+    return meet;
+  }
+
+  bool is_hit(const Tree& a, std::uint32_t disc_a, const Tree& b, std::uint32_t disc_b) const noexcept {
+    if (placed_.margin > 0 && !segments_meet(a, disc_a, b, disc_b)) return false;
+    AncestorPath<Simd> above_a, above_b;
+    above_a.begin(nodes_, a, disc_a), above_b.begin(nodes_, b, disc_b);
+    for (std::uint32_t k = 1; k < AncestorPath<Simd>::length; ++k)
+      above_a.step(nodes_, k), above_b.step(nodes_, k);
+    return AncestorTest<Simd>(nodes_, {placed_.b_in_a, a, b, reach_}, disc_a, disc_b, above_a, above_b)
+        .passes();
+  }
+
+  std::uint32_t child(std::uint32_t node, unsigned lane) const noexcept {
+    return TreeNodes<Simd>::child(nodes_, node, lane);
+  }
+
+  /// Of a matrix of 8 x 8 bits. Source: Warren, Hacker's Delight, 7-3.
+  static std::uint64_t transposed(std::uint64_t m) noexcept {
+    const auto exchange = [&m](std::uint64_t bits, unsigned shift) {
+      const std::uint64_t both = (m ^ m >> shift) & bits;
+      m ^= both ^ both << shift;
+    };
+    exchange(0x00aa00aa00aa00aa, 7);
+    exchange(0x0000cccc0000cccc, 14);
+    exchange(0x00000000f0f0f0f0, 28);
+    return m;
+  }
+
+  const Arguments& in_;
+  const ShapeSetView shapes_;
+  Placements<Simd> at_;
+
+  // Of the pair that is looked at.
+  bool swapped_;  ///< the first agent is B
+  Placed placed_;
+  float reach_;  ///< of both shapes
+  const float* nodes_;
+  Tree rows_, columns_;
+  std::uint32_t first_row_, first_column_;  ///< where their discs begin
+  DiscBlock singles_[2];
+};
+
+}  // namespace bch::kernel

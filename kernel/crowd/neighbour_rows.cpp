@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include "kernel/crowd/neighbour_rows.hpp"
+
+#include <algorithm>
+#include <atomic>
+
+namespace bch::kernel {
+namespace {
+
+/// Returns: what was there before.
+std::uint64_t add(std::uint64_t& count, std::uint64_t more) noexcept {
+  return std::atomic_ref(count).fetch_add(more, std::memory_order_relaxed);
+}
+
+}  // namespace
+
+void NeighbourRows::count(std::size_t first, std::size_t last) const noexcept {
+  for (std::size_t i = first; i < last; ++i) {
+    if (hits[i] == 0) continue;
+    add(begin[pairs[i].first], 1);
+    add(begin[pairs[i].second], 1);
+  }
+}
+
+std::uint64_t NeighbourRows::place() const noexcept {
+  std::uint64_t end = 0;
+  for (std::uint64_t& row : begin) row = end += row;
+  return end;
+}
+
+void NeighbourRows::fill(std::size_t first, std::size_t last) const noexcept {
+  for (std::size_t i = first; i < last; ++i) {
+    if (hits[i] == 0) continue;
+    const auto [a, b] = pairs[i];
+    neighbours[add(begin[a], ~std::uint64_t{0}) - 1] = b;
+    neighbours[add(begin[b], ~std::uint64_t{0}) - 1] = a;
+  }
+}
+
+void NeighbourRows::sort(std::size_t first, std::size_t last) const noexcept {
+  for (std::size_t i = first; i < last; ++i)
+    std::sort(neighbours.begin() + static_cast<std::ptrdiff_t>(begin[i]),
+              neighbours.begin() + static_cast<std::ptrdiff_t>(begin[i + 1]));
+}
+
+}  // namespace bch::kernel

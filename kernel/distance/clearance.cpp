@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include "kernel/distance/clearance.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+#include "kernel/distance/clearance_arguments.hpp"
+#include "kernel/runtime/pair_validation.hpp"
+#include "kernel/runtime/standard_floats.hpp"
+#include "kernel/runtime/task_ranges.hpp"
+#include "layout/base/shortest.hpp"
+
+namespace bch {
+namespace {
+
+using kernel::ClearanceArguments;
+using kernel::NearestDiscs;
+
+/// Pairs a task.
+constexpr std::size_t grain = 1024;
+
+constexpr float largest_limit = 1e10f;  ///< beyond the distance of any two agents
+
+/// The largest float that is not above max_distance.
+float limit_of(double max_distance) {
+  const float nearest = static_cast<float>(std::min(max_distance, static_cast<double>(largest_limit)));
+  return static_cast<double>(nearest) > max_distance ? std::nextafter(nearest, -1.0f) : nearest;
+}
+
+CutNodes cut_nodes(const ShapeSetView& shapes, const Agents& agents, Pair pair, const NearestDiscs& nearest) {
+  if (nearest.a == kernel::no_node) return no_cut_nodes;
+  const auto index = [&](std::uint32_t agent, std::uint32_t node) {
+    if (shapes.trees == nullptr) return node;
+    return node - shapes.trees[agents.root(agent, shapes.level_count)].discs;
+  };
+  const auto [a, b] = std::minmax(pair.first, pair.second);
+  const CutNodes nodes{index(a, nearest.a), index(b, nearest.b)};
+  return pair.second < pair.first ? CutNodes{nodes.second, nodes.first} : nodes;
+}
+
+/// In double, where squares do not underflow.
+Vec2 direction(Pair pair, const NearestDiscs& nearest) {
+  if (nearest.a == kernel::no_node) return {0, 0};
+  const double x = nearest.x, y = nearest.y;
+  const double sign = pair.second < pair.first ? -1 : 1;
+  if (x == 0 && y == 0) return {static_cast<float>(sign), 0};
+  const double c = nearest.cosine, s = nearest.sine, world_x = c * x - s * y, world_y = s * x + c * y;
+  const double scale = sign / std::sqrt(world_x * world_x + world_y * world_y);
+  return {static_cast<float>(scale * world_x), static_cast<float>(scale * world_y)};
+}
+
+/// The work of one task.
+void answer(const kernel::Implementation& implementation, ClearanceArguments arguments, const Agents& agents,
+            std::span<const Pair> pairs, const ClearanceAnswers& answers) noexcept {
+  NearestDiscs nearest[grain];
+  arguments.in.pairs = pairs.data();
+  arguments.nearest = nearest;
+  implementation.clearance(arguments, 0, pairs.size());
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    const bool found = nearest[i].a != kernel::no_node;
+    answers.distance[i] = found ? nearest[i].distance : std::numeric_limits<float>::infinity();
+    if (!answers.direction.empty()) answers.direction[i] = direction(pairs[i], nearest[i]);
+    if (!answers.nodes.empty())
+      answers.nodes[i] = cut_nodes(*arguments.in.shapes, agents, pairs[i], nearest[i]);
+  }
+}
+
+void require_answers(const ClearanceAnswers& answers, std::size_t pairs) {
+  const auto require = [pairs](std::size_t size, const char* name, bool optional) {
+    if (size == pairs || (optional && size == 0)) return;
+    throw std::invalid_argument("clearance: " + std::to_string(pairs) + " pairs but " + std::to_string(size) +
+                                " " + name);
+  };
+  require(answers.distance.size(), "distances", false);
+  require(answers.direction.size(), "directions", true);
+  require(answers.nodes.size(), "nodes", true);
+}
+
+}  // namespace
+
+void clearance(const ShapeSet& shapes, const Agents& agents, std::span<const Pair> pairs,
+               const ClearanceAnswers& answers, const ClearanceOptions& options) {
+  const kernel::StandardFloats floats;
+  require_answers(answers, pairs.size());
+  if (!(options.max_distance >= 0))
+    throw std::invalid_argument("clearance: a max_distance of " + shortest(options.max_distance) + " m");
+  const kernel::Implementation& implementation = kernel::chosen(options.implementation, "clearance");
+  const ShapeSetView& view = shapes.view();
+  kernel::require_valid(implementation, view, agents, pairs);
+
+  ClearanceArguments arguments{kernel::arguments_for(view, agents, {}), limit_of(options.max_distance),
+                               nullptr};
+  const auto part = [](auto span, std::size_t begin, std::size_t size) {
+    return span.empty() ? span : span.subspan(begin, size);
+  };
+  kernel::for_pair_ranges(pairs.size(), grain, [&](std::size_t begin, std::size_t size) {
+    answer(implementation, arguments, agents, pairs.subspan(begin, size),
+           {part(answers.distance, begin, size), part(answers.direction, begin, size),
+            part(answers.nodes, begin, size)});
+  });
+}
+
+}  // namespace bch

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <cstdint>
+
+#include "kernel/simd/arguments.hpp"
+
+namespace bch::kernel {
+
+/// Beyond every length, squared length and time that a kernel computes of valid agents.
+constexpr float far_beyond = 0x1p66f;
+
+constexpr std::uint32_t no_node = 0xffffffff;
+
+/// What a kernel finds for a pair, of which the agent with the lower index is A.
+struct NearestDiscs {
+  float distance;  ///< metres
+  std::uint32_t a,
+      b;       ///< where the discs stand among ShapeSetView::nodes; 0 in a set of roots alone; or no_node
+  float x, y;  ///< from A's centre to B's, in A's frame
+  float cosine, sine;  ///< of A's heading
+};
+
+/// As Arguments, which says why plain pointers.
+struct ClearanceArguments {
+  Arguments in;           ///< without codes
+  float limit;            ///< distances above it are not looked for; below far_beyond
+  NearestDiscs* nearest;  ///< as many as pairs
+};
+
+}  // namespace bch::kernel

@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "kernel/distance/clearance_arguments.hpp"
+#include "kernel/distance/clearance_measure.hpp"
+#include "kernel/distance/nearest_search.hpp"
+#include "kernel/simd/lanes.hpp"
+#include "kernel/simd/placements.hpp"
+#include "kernel/simd/record_fields.hpp"
+
+namespace bch::kernel {
+
+/// The nearest discs of every pair. Chunk by chunk: places B in A's frame, bounds the gap by the root discs, one
+/// pair a lane, and walks the trees of the pairs that may be within the limit.
+template <class Simd>
+class ClearanceKernel {
+ public:
+  static void run(const ClearanceArguments& arguments, std::size_t begin, std::size_t end) noexcept {
+    static_assert(sizeof(ClearanceKernel) <= 256 * 1024, "what implementation.hpp promises");
+    ClearanceKernel kernel(arguments);
+    for (; begin < end; begin += chunk)
+      kernel.answer_chunk(begin, end - begin < chunk ? static_cast<std::uint32_t>(end - begin) : chunk);
+  }
+
+ private:
+  using Float = typename Simd::Float;
+  using Measure = ClearanceMeasure<Simd>;
+  using Search = NearestSearch<Simd, Measure>;
+  static constexpr std::uint32_t chunk = Placements<Simd>::chunk;
+
+  explicit ClearanceKernel(const ClearanceArguments& arguments) noexcept
+      : arguments_(arguments), shapes_(*arguments.in.shapes), search_(shapes_.nodes) {}
+
+  void answer_chunk(std::size_t begin, std::uint32_t size) noexcept {
+    at_.place(arguments_.in, begin, size);
+    of_a_.template load<4>(&shapes_.roots->x, at_.root_a, at_.whole_registers(),
+                           arguments_.in.prefetch_shapes);
+    of_b_.template load<4>(&shapes_.roots->x, at_.root_b, at_.whole_registers(),
+                           arguments_.in.prefetch_shapes);
+    NearestDiscs* const nearest = arguments_.nearest + begin;
+    if (shapes_.trees == nullptr) return answer_roots(nearest);
+    for (std::uint32_t k = 0; k < size; k += Simd::width) bound_roots(k);
+    for (std::uint32_t pair = 0; pair < size; ++pair) {
+      const Measure measure(arguments_.limit, reach(pair));
+      nearest[pair] = answer(pair, measure);
+      if (!(root_bound_[pair] <= arguments_.limit)) continue;
+      searched_[search_.size()] = pair;
+      search_.add(at_.transform(pair), shapes_.trees[at_.root_a[pair]], shapes_.trees[at_.root_b[pair]],
+                  measure);
+      if (search_.size() == Search::capacity) answer_searched(nearest);
+    }
+    answer_searched(nearest);
+  }
+
+  void answer_searched(NearestDiscs* nearest) noexcept {
+    search_.run();
+    for (std::uint32_t k = 0; k < search_.size(); ++k)
+      nearest[searched_[k]] = answer(searched_[k], search_.measure(k));
+    search_.clear();
+  }
+
+  NearestDiscs answer(std::uint32_t pair, const Measure& measure) const noexcept {
+    const auto [distance, a, b] = measure.nearest();
+    if (a == no_node) return {distance, a, b, 0, 0, 1, 0};
+    const auto disc = [this](std::uint32_t place, std::uint32_t root) {
+      const std::size_t stride = shapes_.trees[root].stride;
+      return Discs{shapes_.nodes + place, stride, 2 * stride};
+    };
+    const auto [x, y, r] =
+        disc_pair<Simd>(at_.transform(pair), disc(a, at_.root_a[pair]), disc(b, at_.root_b[pair]), 0);
+    const auto [cosine, sine] = at_.heading(pair);
+    return {distance, a, b, x, y, cosine, sine};
+  }
+
+  float reach(std::uint32_t pair) const noexcept {
+    return shapes_.reach[at_.shape_a[pair]] + shapes_.reach[at_.shape_b[pair]];
+  }
+
+  struct Step {
+    Float x, y, r;
+  };
+  /// From root disc to root disc, lane = pair.
+  Step between_roots(std::uint32_t k) const noexcept {
+    const Float c = Simd::load(at_.c + k), s = Simd::load(at_.s + k);
+    const Float x = Simd::load(of_b_.field[0] + k), y = Simd::load(of_b_.field[1] + k);
+    return {Simd::load(at_.tx + k) + (c * x - s * y) - Simd::load(of_a_.field[0] + k),
+            Simd::load(at_.ty + k) + (s * x + c * y) - Simd::load(of_a_.field[1] + k),
+            Simd::load(of_a_.field[2] + k) + Simd::load(of_b_.field[2] + k)};
+  }
+
+  void bound_roots(std::uint32_t k) noexcept {
+    const Step step = between_roots(k);
+    alignas(64) float reaches[Simd::width], radii[Simd::width];
+    for (std::uint32_t lane = 0; lane < Simd::width; ++lane) {
+      reaches[lane] = reach(k + lane);
+      radii[lane] = shapes_.trees[at_.root_a[k + lane]].outer + shapes_.trees[at_.root_b[k + lane]].outer;
+    }
+    Simd::store(root_bound_ + k, Measure::bound(step.x, step.y, Simd::load(radii), Simd::load(reaches)));
+  }
+
+  /// Where every cut is a single disc.
+  void answer_roots(NearestDiscs* nearest) noexcept {
+    alignas(64) float gap[chunk], x_of[chunk], y_of[chunk];
+    for (std::uint32_t k = 0; k < at_.size; k += Simd::width) {
+      const auto [x, y, r] = between_roots(k);
+      Simd::store(gap + k, Measure::gap(x, y, r));
+      Simd::store(x_of + k, x);
+      Simd::store(y_of + k, y);
+    }
+    for (std::uint32_t k = 0; k < at_.size; ++k) {
+      const bool within = gap[k] <= arguments_.limit;
+      const std::uint32_t node = within ? 0 : no_node;
+      const auto [cosine, sine] = at_.heading(k);
+      nearest[k] = {gap[k], node, node, x_of[k], y_of[k], cosine, sine};
+    }
+  }
+
+  const ClearanceArguments& arguments_;
+  const ShapeSetView shapes_;
+  Placements<Simd> at_;
+  RecordFields<Simd, chunk> of_a_, of_b_;
+  alignas(64) float root_bound_[chunk];
+  std::uint32_t searched_[Search::capacity];  ///< pairs of the chunk
+  Search search_;
+};
+
+}  // namespace bch::kernel

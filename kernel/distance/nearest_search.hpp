@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <cstdint>
+
+#include "kernel/distance/nearest_walk.hpp"
+#include "kernel/simd/block_test.hpp"
+#include "kernel/simd/disc_pairs.hpp"
+#include "layout/format/shape_set_view.hpp"
+
+namespace bch::kernel {
+
+/// NearestWalk for many pairs of agents side by side, so that latencies and cache misses of many overlap. Beside
+/// what that asks of a measure:
+///
+///     Mask may_improve(Float x, Float y, Float r)   false only where no disc below has a value up to best()
+///
+/// First every pair descends along the least bounds to its first leaves, in rounds, and keeps the bounds on its way.
+/// The best by then is near the end's, so the order of the rest hardly matters, and finding it costs more than it
+/// spares.
+template <class Simd, class Measure>
+class NearestSearch {
+ public:
+  static constexpr std::uint32_t capacity = 32;
+
+  explicit NearestSearch(const float* nodes) noexcept : walk_(nodes) {}
+
+  std::uint32_t size() const noexcept { return size_; }
+  const Measure& measure(std::uint32_t pair) const noexcept { return pairs_[pair].measure; }
+
+  /// There has to be room.
+  void add(const Transform& b_in_a, const Tree& a, const Tree& b, const Measure& measure) noexcept {
+    steps_[size_] = {size_, a.top, b.top};
+    pairs_[size_] = {measure, b_in_a, a.stride, b.stride, 0};
+    ++size_;
+  }
+
+  /// Searches all pairs; their measures then hold the answers.
+  void run() noexcept {
+    descend();
+    inner_.size = 0;
+    for (std::uint32_t depth = most_kept; depth-- > 0;) {
+      for (std::uint32_t pair = 0; pair < size_; ++pair)
+        if (depth < pairs_[pair].frames) collect(pair, frames_[pair][depth]);
+      expand_inner();
+    }
+  }
+
+  void clear() noexcept { size_ = 0; }
+
+ private:
+  using Float = typename Simd::Float;
+  using Frame = NodePairBounds;
+  static constexpr std::uint32_t most_kept = 2;  ///< frames of a descent; deeper ones are walked at once
+  static constexpr std::uint32_t list_capacity = 1024;
+
+  /// Two agents.
+  struct Searched {
+    Measure measure;
+    Transform at;
+    std::uint32_t stride_a, stride_b;
+    std::uint32_t frames;
+  };
+
+  /// Two nodes of such a pair.
+  struct Step {
+    std::uint32_t pair, a, b;
+  };
+
+  struct List {
+    std::uint32_t size = 0;
+    Step step[list_capacity];
+  };
+
+  /// In rounds: a block for every pair, then a choice for every pair.
+  void descend() noexcept {
+    std::uint32_t open = size_;
+    for (std::uint32_t depth = 0; open != 0; ++depth) {
+      std::uint32_t left = 0;
+      for (std::uint32_t k = 0; k < open; ++k) {
+        const Step step = steps_[k];
+        Searched& pair = pairs_[step.pair];
+        if ((step.a & step.b) >= leaf_window) {
+          meet(step);
+        } else if (depth == most_kept) {
+          walk_.run(pair.at, step.a, step.b, pair.stride_a, pair.stride_b, pair.measure);
+        } else {
+          walk_.bound(pair.at, step.a, step.b, pair.stride_a, pair.stride_b, pair.measure,
+                      frames_[step.pair][depth]);
+          pair.frames = depth + 1;
+          steps_[left++] = step;
+        }
+      }
+      open = 0;
+      for (std::uint32_t k = 0; k < left; ++k) {
+        const std::uint32_t pair = steps_[k].pair;
+        steps_[open].pair = pair;
+        open += walk_.take_least(frames_[pair][depth], pairs_[pair].measure.best(), steps_[open].a,
+                                 steps_[open].b);
+      }
+    }
+  }
+
+  /// What is left of a frame.
+  void collect(std::uint32_t pair, const Frame& frame) noexcept {
+    add_children({pair, frame.a, frame.b},
+                 all_within<Simd>(frame.bound, pairs_[pair].measure.best()) & frame.open);
+  }
+
+  /// The children of two nodes at the set bits.
+  void add_children(const Step& step, std::uint64_t bits) noexcept {
+    // A window is tested as a whole: once with each child of the other.
+    if (step.a >= leaf_window) bits = fold(bits, 8) & first_row_of_pairs;
+    if (step.b >= leaf_window) bits = fold(bits, 1) & first_column_of_pairs;
+    for (; bits != 0; bits &= bits - 1) {
+      const auto k = static_cast<unsigned>(__builtin_ctzll(bits));
+      const Step child{step.pair, walk_.child(step.a, k / block_width), walk_.child(step.b, k % block_width)};
+      if ((child.a & child.b) >= leaf_window)
+        take_window(child);
+      else if (inner_.size < list_capacity)
+        inner_.step[inner_.size++] = child;
+      else
+        walk(child);
+    }
+  }
+
+  /// Ors the bits of eight lanes, each `apart` from the next, into the first.
+  static std::uint64_t fold(std::uint64_t bits, unsigned apart) noexcept {
+    for (unsigned far = 4 * apart; far >= apart; far /= 2) bits |= bits >> far;
+    return bits;
+  }
+
+  void expand_inner() noexcept {
+    while (inner_.size != 0) {
+      const Step step = inner_.step[--inner_.size];
+      add_children(step, improving(step));
+    }
+  }
+
+  /// Few windows improve on the best, and those at once, which spares many of the next ones.
+  void take_window(const Step& step) noexcept {
+    if (improving(step) != 0) meet(step);
+  }
+
+  /// The bits of the pairs of discs that may improve on the best.
+  [[gnu::always_inline]] std::uint64_t improving(const Step& step) const noexcept {
+    const Searched& pair = pairs_[step.pair];
+    std::uint64_t bits = 0;
+    visit_disc_pairs<Simd>(pair.at, walk_.outer_discs(step.a, pair.stride_a),
+                           walk_.outer_discs(step.b, pair.stride_b),
+                           [&](unsigned k, Float x, Float y, Float r) {
+                             bits |= std::uint64_t{Simd::bits(pair.measure.may_improve(x, y, r))} << k;
+                           });
+    return bits;
+  }
+
+  void meet(const Step& step) noexcept {
+    Searched& pair = pairs_[step.pair];
+    walk_.meet(pair.at, step.a, step.b, pair.stride_a, pair.stride_b, pair.measure);
+  }
+
+  void walk(const Step& step) noexcept {
+    Searched& pair = pairs_[step.pair];
+    walk_.run(pair.at, step.a, step.b, pair.stride_a, pair.stride_b, pair.measure);
+  }
+
+  std::uint32_t size_ = 0;
+  Step steps_[capacity];
+  Searched pairs_[capacity];
+  Frame frames_[capacity][most_kept];
+  List inner_;
+  NearestWalk<Simd, Measure> walk_;
+};
+
+}  // namespace bch::kernel

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <cstdint>
+
+#include "kernel/simd/block_test.hpp"
+#include "kernel/simd/disc_pairs.hpp"
+#include "kernel/simd/lanes.hpp"
+#include "kernel/simd/tree_nodes.hpp"
+#include "layout/format/shape_set_view.hpp"
+
+namespace bch::kernel {
+
+/// Two nodes, not both windows, and the bounds of their pairs of discs.
+struct NodePairBounds {
+  alignas(64) float bound[block_pairs];
+  std::uint64_t open;  ///< pairs that were not taken
+  std::uint32_t a, b;
+};
+
+/// Branch and bound over two trees: the least value of all pairs of cut discs. `Measure` says what a value is:
+///
+///     Float bound(Float x, Float y, Float r)   of two discs as visit_disc_pairs() gives them, lane by lane: not above
+///                                              the value of any disc below the one with any disc below the other,
+///                                              unless that is above best(); far_beyond for padding
+///     float best()                             values above it are of no interest; only ever decreases
+///     void meet(at, a, b, first_a, first_b)    takes the values of two leaf windows, named by where they begin
+///
+/// Of the pairs of a block the one with the least bound goes first, and what is above the best by then is left out.
+template <class Simd, class Measure>
+class NearestWalk {
+ public:
+  explicit NearestWalk(const float* nodes) noexcept : nodes_(nodes) {}
+
+  /// All below two nodes that are not both windows.
+  void run(const Transform& at, std::uint32_t a, std::uint32_t b, std::uint32_t stride_a,
+           std::uint32_t stride_b, Measure& measure) noexcept {
+    NodePairBounds* top = frames_;
+    bound(at, a, b, stride_a, stride_b, measure, *top);
+    bool found = take_least(*top, measure.best(), a, b);
+    for (;;) {
+      if (!found) {
+        if (top == frames_) return;
+        --top;
+        found = take_next(*top, measure.best(), a, b);
+      } else if ((a & b) >= leaf_window) {
+        meet(at, a, b, stride_a, stride_b, measure);
+        found = take_next(*top, measure.best(), a, b);
+      } else {
+        bound(at, a, b, stride_a, stride_b, measure, *++top);
+        found = take_least(*top, measure.best(), a, b);
+      }
+    }
+  }
+
+  /// Two windows.
+  void meet(const Transform& at, std::uint32_t a, std::uint32_t b, std::uint32_t stride_a,
+            std::uint32_t stride_b, Measure& measure) const noexcept {
+    measure.meet(at, outer_discs(a, stride_a), outer_discs(b, stride_b), a & ~leaf_window, b & ~leaf_window);
+  }
+
+  void bound(const Transform& at, std::uint32_t a, std::uint32_t b, std::uint32_t stride_a,
+             std::uint32_t stride_b, const Measure& measure, NodePairBounds& frame) const noexcept {
+    frame.a = a, frame.b = b, frame.open = ~std::uint64_t{0};
+    visit_disc_pairs<Simd>(
+        at, outer_discs(a, stride_a), outer_discs(b, stride_b),
+        [&](unsigned k, Float x, Float y, Float r) { Simd::store(frame.bound + k, measure.bound(x, y, r)); });
+  }
+
+  /// The children below the least bound, unless that is above `best`. Of a frame of which nothing was taken.
+  bool take_least(NodePairBounds& frame, float best, std::uint32_t& a, std::uint32_t& b) const noexcept {
+    const float least = least_value<Simd>(frame.bound);
+    take(frame, first_within<Simd>(frame.bound, least), a, b);
+    return least <= best;
+  }
+
+  /// The children below the least bound of those that were not taken, unless that is above `best`. Mostly it is, which
+  /// is known sooner than which is the least; else there are few.
+  bool take_next(NodePairBounds& frame, float best, std::uint32_t& a, std::uint32_t& b) const noexcept {
+    std::uint64_t left = all_within<Simd>(frame.bound, best) & frame.open;
+    if (left == 0) return false;
+    auto least = static_cast<unsigned>(__builtin_ctzll(left));
+    while ((left &= left - 1) != 0) {
+      const auto k = static_cast<unsigned>(__builtin_ctzll(left));
+      least = frame.bound[k] < frame.bound[least] ? k : least;
+    }
+    take(frame, least, a, b);
+    return true;
+  }
+
+  Discs outer_discs(std::uint32_t node, std::uint32_t stride) const noexcept {
+    return TreeNodes<Simd>::outer_discs(nodes_, node, stride);
+  }
+
+  /// Of a window, itself.
+  std::uint32_t child(std::uint32_t node, unsigned lane) const noexcept {
+    return node >= leaf_window ? node : TreeNodes<Simd>::child(nodes_, node, lane);
+  }
+
+ private:
+  using Float = typename Simd::Float;
+  /// Every step descends on one side at least, and neither side has more levels than this.
+  static constexpr std::uint32_t most_frames = 2 * most_wide_levels;
+
+  void take(NodePairBounds& frame, unsigned k, std::uint32_t& a, std::uint32_t& b) const noexcept {
+    const unsigned i = k / block_width, j = k % block_width;
+    a = child(frame.a, i), b = child(frame.b, j);
+    std::uint64_t taken = std::uint64_t{1} << k;
+    // All of a window's discs are tested at once: its other pairs with the same child are settled with this one.
+    if (frame.a >= leaf_window) taken |= first_column_of_pairs << j;
+    if (frame.b >= leaf_window) taken |= first_row_of_pairs << (k - j);
+    frame.open &= ~taken;
+  }
+
+  const float* nodes_;
+  NodePairBounds frames_[most_frames + 1];
+};
+
+}  // namespace bch::kernel

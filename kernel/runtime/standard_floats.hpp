@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+namespace bch::kernel {
+
+/// While it lives, its thread computes as IEEE 754 has it by default: rounding to nearest, denormal numbers kept, no
+/// traps. Then whatever the thread had is back. Callers may have set another state, and a task may run in a thread
+/// that was left in one, so a query holds one of these, and each of its tasks another; that is where answers get their
+/// bits, and the bounds of layout/base/rounding.hpp hold only here.
+class StandardFloats {
+ public:
+  StandardFloats() noexcept;
+  ~StandardFloats();
+  StandardFloats(const StandardFloats&) = delete;
+  StandardFloats& operator=(const StandardFloats&) = delete;
+
+ private:
+  unsigned before_;
+};
+
+}  // namespace bch::kernel

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include "kernel/runtime/validation.hpp"
+
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <string>
+
+#include "layout/base/shortest.hpp"
+
+namespace bch::kernel {
+
+void require_sizes(const Agents& agents) {
+  const std::size_t size = agents.size();
+  const auto require = [size](std::size_t other, const char* name, bool optional) {
+    if (other == size || (optional && other == 0)) return;
+    throw std::invalid_argument("agents: " + std::to_string(size) + " shapes but " + std::to_string(other) +
+                                " values of " + name);
+  };
+  require(agents.x.size(), "x", false);
+  require(agents.y.size(), "y", false);
+  require(agents.heading.size(), "heading", false);
+  require(agents.level.size(), "level", true);
+  if (size > std::numeric_limits<std::uint32_t>::max())
+    throw std::invalid_argument("agents: more than 2^32 - 1");
+}
+
+void reject(const ShapeSetView& shapes, const Agents& agents, std::size_t i) {
+  const auto why = [&]() -> std::string {
+    if (agents.shape[i] >= shapes.shape_count)
+      return "shape " + std::to_string(agents.shape[i]) + " of " + std::to_string(shapes.shape_count);
+    if (!agents.level.empty() && agents.level[i] >= shapes.level_count)
+      return "level " + std::to_string(agents.level[i]) + " of " + std::to_string(shapes.level_count);
+    if (!(std::abs(agents.heading[i]) <= rounding::largest_heading))
+      return "heading " + shortest(agents.heading[i]) + " rad is not within +-1e9";
+    return "position (" + shortest(agents.x[i]) + ", " + shortest(agents.y[i]) + ") m is not within +-1e9";
+  };
+  throw std::invalid_argument("agent " + std::to_string(i) + ": " + why());
+}
+
+}  // namespace bch::kernel

@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include "kernel/separation/separation.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+
+#include "kernel/runtime/pair_validation.hpp"
+#include "kernel/runtime/standard_floats.hpp"
+#include "kernel/runtime/task_ranges.hpp"
+#include "layout/base/heading.hpp"
+#include "layout/base/rounding.hpp"
+#include "layout/format/cut_discs.hpp"
+
+namespace bch {
+namespace {
+
+constexpr std::uint32_t most_axes = most_directions / 2;
+constexpr std::size_t grain = 128;  ///< pairs a task, up to 10 us each
+
+/// Rounding, in the notation of layout/base/rounding.hpp, all as lengths. An axis, in double within 1e-9 of a unit vector,
+/// is turned into the agent's frame and rounded to float there: 0.75 u. An extent along it is off by 0.75 u P for that,
+/// 1.42 u P for the products, u P and 2 u P for the sums: 5.2 u P. The rest is done in double. For A's discs not to pass
+/// collide()'s test with B's, they have to be 23 u S apart: 28.2 u S together. And an axis falls short of a unit vector by
+/// 4e-10, or by 0.75 u more where the caller rounds it to float. Tests see the margin; only the proof needs the lengthening.
+constexpr double margin = 40 * rounding::unit_roundoff;
+constexpr double extent_error = 5.2;  // in units of u
+static_assert(extent_error >= 0.75 + rounding::terms::root_2 + 1 + 2);
+static_assert(margin >= (extent_error + rounding::terms::query_error) * rounding::unit_roundoff);
+constexpr double lengthening = 1 + 4 * rounding::unit_roundoff;
+static_assert(lengthening - 1 >= 0.75 * rounding::unit_roundoff + 4e-10);
+
+/// Directions of the world, as unit vectors.
+struct Axes {
+  double x[most_axes], y[most_axes];
+  std::uint32_t count;
+};
+
+/// The intervals that an agent takes along axes, about its position.
+struct Extents {
+  float low[most_axes], high[most_axes];
+  double reach;  ///< as in rounding.hpp
+};
+
+struct Query {
+  const ShapeSetView shapes;
+  const Agents& agents;
+  const kernel::Implementation& implementation;
+
+  void measure(std::uint32_t agent, const Axes& axes, Extents& extents) const noexcept;
+  Separation answer(Pair pair, const Axes& axes, bool both_ways, const Extents& a,
+                    const Extents& b) const noexcept;
+};
+
+void Query::measure(std::uint32_t agent, const Axes& axes, Extents& extents) const noexcept {
+  const CutDiscs discs =
+      cut_discs(shapes, static_cast<std::uint32_t>(agents.root(agent, shapes.level_count)));
+  const Rotation turn = rotation(agents.heading[agent]);
+  float x[most_axes], y[most_axes];
+  for (std::uint32_t i = 0; i < axes.count; ++i) {
+    x[i] = static_cast<float>(turn.cosine * axes.x[i] + turn.sine * axes.y[i]);
+    y[i] = static_cast<float>(turn.cosine * axes.y[i] - turn.sine * axes.x[i]);
+  }
+  implementation.extents(discs, x, y, axes.count, extents.low, extents.high);
+  // A set of single discs has no reaches.
+  extents.reach =
+      static_cast<double>(discs.count == 1 ? std::abs(discs.x[0]) + std::abs(discs.y[0]) + discs.radius[0]
+                                           : shapes.reach[agents.shape[agent]]);
+}
+
+/// `a` belongs to the lower index, whatever the pair's order: so that both orders agree.
+Separation Query::answer(Pair pair, const Axes& axes, bool both_ways, const Extents& a,
+                         const Extents& b) const noexcept {
+  const auto [low, high] = std::minmax(pair.first, pair.second);
+  const double dx = agents.x[high] - agents.x[low], dy = agents.y[high] - agents.y[low];
+  double least = std::numeric_limits<double>::infinity(), x = 0, y = 0;
+  const auto offer = [&](double depth, double along_x, double along_y) {
+    if (depth < least) least = depth, x = along_x, y = along_y;
+  };
+  for (std::uint32_t i = 0; i < axes.count; ++i) {
+    const double ex = axes.x[i], ey = axes.y[i], along = dx * ex + dy * ey;
+    offer(static_cast<double>(b.high[i]) - static_cast<double>(a.low[i]) + along, ex, ey);
+    if (both_ways) offer(static_cast<double>(a.high[i]) - static_cast<double>(b.low[i]) - along, -ex, -ey);
+  }
+  if (pair.second < pair.first) x = -x, y = -y;
+  const double depth = (least + margin * (a.reach + b.reach)) * lengthening;
+  return {depth > 0 ? rounding::round_up(depth) : 0.0f, x, y};
+}
+
+Query checked_query(const ShapeSet& shapes, const Agents& agents, std::span<const Pair> pairs,
+                    std::span<Separation> out, const SeparationOptions& options) {
+  if (out.size() != pairs.size())
+    throw std::invalid_argument("separation: " + std::to_string(pairs.size()) + " pairs but room for " +
+                                std::to_string(out.size()) + " answers");
+  const kernel::Implementation& implementation = kernel::chosen(options.implementation, "separation");
+  const ShapeSetView& view = shapes.view();
+  kernel::require_valid(implementation, view, agents, pairs);
+  return {view, agents, implementation};
+}
+
+void require_directions(std::span<const Vec2> directions, std::size_t pairs) {
+  if (directions.size() != pairs)
+    throw std::invalid_argument("separation: " + std::to_string(pairs) + " pairs but " +
+                                std::to_string(directions.size()) + " directions");
+  for (std::size_t i = 0; i < pairs; ++i) {
+    const auto [x, y] = directions[i];
+    if (std::isfinite(x) && std::isfinite(y) && (x != 0 || y != 0)) continue;
+    std::ostringstream message;
+    message << "pair " << i << ": direction (" << x << ", " << y << ") is none";
+    throw std::invalid_argument(message.str());
+  }
+}
+
+/// Half of the directions; the others are opposite.
+Axes spread_axes(std::uint32_t directions) {
+  if (directions < 2 || directions > most_directions || directions % 2 != 0)
+    throw std::invalid_argument("separation: " + std::to_string(directions) +
+                                " directions are not an even number from 2 to " +
+                                std::to_string(most_directions));
+  Axes axes;
+  axes.count = directions / 2;
+  for (std::uint32_t i = 0; i < axes.count; ++i) {
+    const Rotation axis = rotation(2 * std::numbers::pi * i / directions);
+    axes.x[i] = axis.cosine, axes.y[i] = axis.sine;
+  }
+  return axes;
+}
+
+}  // namespace
+
+void separation_along(const ShapeSet& shapes, const Agents& agents, std::span<const Pair> pairs,
+                      std::span<const Vec2> directions, std::span<Separation> out,
+                      const SeparationOptions& options) {
+  const kernel::StandardFloats floats;
+  const Query query = checked_query(shapes, agents, pairs, out, options);
+  require_directions(directions, pairs.size());
+  kernel::for_pair_ranges(pairs.size(), grain, [&](std::size_t begin, std::size_t size) {
+    Axes axis;
+    Extents a, b;
+    axis.count = 1;
+    for (std::size_t i = begin; i < begin + size; ++i) {
+      const auto [low, high] = std::minmax(pairs[i].first, pairs[i].second);
+      const double x = directions[i].x, y = directions[i].y;
+      const double length = std::sqrt(x * x + y * y) * (pairs[i].second < pairs[i].first ? -1 : 1);
+      axis.x[0] = x / length, axis.y[0] = y / length;
+      query.measure(low, axis, a);
+      query.measure(high, axis, b);
+      out[i] = query.answer(pairs[i], axis, false, a, b);
+    }
+  });
+}
+
+void separation(const ShapeSet& shapes, const Agents& agents, std::span<const Pair> pairs,
+                std::uint32_t directions, std::span<Separation> out, const SeparationOptions& options) {
+  const kernel::StandardFloats floats;
+  const Query query = checked_query(shapes, agents, pairs, out, options);
+  const Axes axes = spread_axes(directions);
+  kernel::for_pair_ranges(pairs.size(), grain, [&](std::size_t begin, std::size_t size) {
+    Extents a, b;
+    std::size_t measured = agents.size();
+    for (std::size_t i = begin; i < begin + size; ++i) {
+      const auto [low, high] = std::minmax(pairs[i].first, pairs[i].second);
+      // Pairs often come agent by agent.
+      if (measured != low) query.measure(low, axes, a);
+      measured = low;
+      query.measure(high, axes, b);
+      out[i] = query.answer(pairs[i], axes, true, a, b);
+    }
+  });
+}
+
+}  // namespace bch

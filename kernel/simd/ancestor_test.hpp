@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "kernel/simd/block_test.hpp"
+#include "layout/base/rounding.hpp"
+#include "layout/format/shape_set_view.hpp"
+
+namespace bch::kernel {
+
+/// Two trees, and how the second lies in the first one's frame.
+struct PlacedTrees {
+  const Transform& b_in_a;
+  const Tree& a;
+  const Tree& b;
+  float reach;  ///< of the two shapes together
+};
+
+/// The numbers of inner nodes on the way from a cut disc up to the root, sixteen at a time. Where there are fewer, the root
+/// stands for the rest. (`Simd` keeps instruction sets from sharing a function.)
+template <class Simd>
+struct AncestorPath {
+  static constexpr std::uint32_t length = 16;
+  std::uint32_t node[length];
+
+  /// `disc`: the cut disc's place among `nodes`. Of the path only the first node is known then.
+  void begin(const float* nodes, const Tree& tree, std::uint32_t disc) noexcept {
+    const std::uint32_t beside = tree.first_inner() + (disc - tree.discs);
+    // The disc is the first child of that node, or the second child of the one before.
+    node[0] = beside - (link(nodes, beside) < above_cut_disc);
+  }
+  /// Finds node k from the one before.
+  void step(const float* nodes, std::uint32_t k) noexcept { node[k] = above(nodes, node[k - 1]); }
+
+  void go_up(const float* nodes) noexcept {
+    node[0] = above(nodes, node[length - 1]);
+    for (std::uint32_t k = 1; k < length; ++k) step(nodes, k);
+  }
+  bool ends_at_root(const float* nodes) const noexcept {
+    return above(nodes, node[length - 1]) == node[length - 1];
+  }
+
+ private:
+  static std::uint32_t link(const float* nodes, std::uint32_t inner) noexcept {
+    std::uint32_t bits;
+    __builtin_memcpy(&bits, nodes + std::size_t{inner} * inner_floats + 3, sizeof bits);
+    return bits;
+  }
+  static std::uint32_t above(const float* nodes, std::uint32_t inner) noexcept {
+    return link(nodes, inner) & ~above_cut_disc;
+  }
+};
+
+/// Whether two cut discs that overlap do so with all their ancestors: every node from the one up to its root overlaps every
+/// node from the other up to its own. That is the definition of a hit; see Semantics.
+template <class Simd>
+class AncestorTest {
+ public:
+  /// The discs by their places among `nodes`; `above_a` and `above_b` are their paths.
+  AncestorTest(const float* nodes, const PlacedTrees& trees, std::uint32_t disc_a, std::uint32_t disc_b,
+               const AncestorPath<Simd>& above_a, const AncestorPath<Simd>& above_b) noexcept
+      : nodes_(nodes), trees_(trees), above_a_(above_a), above_b_(above_b) {
+    a_ = disc(trees.a, disc_a);
+    const Disc b = disc(trees.b, disc_b);
+    const auto [c, s, tx, ty] = trees.b_in_a;
+    b_ = {tx + (c * b.x - s * b.y), ty + (s * b.x + c * b.y), b.radius};
+    load(above_a, discs_a_), load(above_b, discs_b_);
+  }
+
+  bool passes() noexcept {
+    const auto [overlap, share_point] = compare_with_leaves();
+    if (!overlap) return false;
+    if (!above_a_.ends_at_root(nodes_) || !above_b_.ends_at_root(nodes_)) return paths_overlap();
+    return share_point || loaded_overlap();
+  }
+
+ private:
+  using Float = typename Simd::Float;
+  static constexpr std::uint32_t length = AncestorPath<Simd>::length;
+  /// How far inside of all discs a point has to be, in both reaches: then every disc of A overlaps every one of B by twice
+  /// that. The test of such a pair and these two compare the same floats. Each rounds a difference, squares and radii, which
+  /// are at most both reaches.
+  static constexpr double inside_margin = 16 * rounding::unit_roundoff;
+  static_assert(2 * inside_margin >=
+                3 * (rounding::terms::apart + rounding::terms::square + rounding::terms::radii) *
+                    rounding::unit_roundoff);
+
+  struct PathDiscs {
+    alignas(64) float field[3][length];
+
+    Discs eight(std::uint32_t first) const noexcept { return {field[0] + first, length, 2 * length}; }
+  };
+
+  struct Comparison {
+    bool overlap;      ///< either cut disc overlaps all nodes of the other's path that are loaded
+    bool share_point;  ///< a point is inside of all discs of both paths
+  };
+
+  Disc disc(const Tree& tree, std::uint32_t place) const noexcept {
+    const float* const x = nodes_ + place;
+    return {x[0], x[tree.stride], x[2 * std::size_t{tree.stride}]};
+  }
+
+  [[gnu::always_inline]] void load(const AncestorPath<Simd>& path, PathDiscs& discs) const noexcept {
+    for (std::uint32_t k = 0; k < length; k += Simd::width) {
+      Float field[4];
+      Simd::template load_records<inner_floats>(nodes_, path.node + k, field);
+      for (std::uint32_t i = 0; i < 3; ++i) Simd::store(discs.field[i] + k, field[i]);
+    }
+  }
+
+  /// Decides most cases, with one test a node. The point is the one of the line of the centres that divides it as the radii
+  /// do, so that it lies in both cut discs.
+  Comparison compare_with_leaves() const noexcept {
+    const auto [c, s, tx, ty] = trees_.b_in_a;
+    const float share = a_.radius / (a_.radius + b_.radius);
+    const Float x(a_.x + share * (b_.x - a_.x)), y(a_.y + share * (b_.y - a_.y));
+    const Float margin(static_cast<float>(inside_margin) * trees_.reach), zero(0.0f);
+    const auto holds_point = [&](Float at_x, Float at_y, Float r) {
+      const Float dx = x - at_x, dy = y - at_y, inside = r - margin;
+      return Simd::bits(dx * dx + dy * dy <= inside * inside) & Simd::bits(inside >= zero);
+    };
+    std::uint32_t overlap = ~std::uint32_t{0}, share_point = ~std::uint32_t{0};
+    for (std::uint32_t k = 0; k < length; k += Simd::width) {
+      const Float ax = Simd::load(discs_a_.field[0] + k), ay = Simd::load(discs_a_.field[1] + k),
+                  ar = Simd::load(discs_a_.field[2] + k);
+      const Float in_b_x = Simd::load(discs_b_.field[0] + k), in_b_y = Simd::load(discs_b_.field[1] + k),
+                  br = Simd::load(discs_b_.field[2] + k);
+      const Float bx = Float(tx) + (Float(c) * in_b_x - Float(s) * in_b_y),
+                  by = Float(ty) + (Float(s) * in_b_x + Float(c) * in_b_y);
+      overlap &= overlaps<Simd>(Float(b_.x), Float(b_.y), Float(b_.radius), ax, ay, ar) &
+                 overlaps<Simd>(bx, by, br, Float(a_.x), Float(a_.y), Float(a_.radius));
+      share_point &= holds_point(ax, ay, ar) & holds_point(bx, by, br);
+    }
+    constexpr std::uint32_t all = (std::uint32_t{1} << Simd::width) - 1;
+    return {overlap == all, share_point == all};
+  }
+
+  /// All nodes of one path with all of the other and with its cut disc, and on to the roots.
+  bool paths_overlap() noexcept {
+    for (AncestorPath<Simd> a = above_a_;; a.go_up(nodes_)) {
+      load(a, discs_a_);
+      for (AncestorPath<Simd> b = above_b_;; b.go_up(nodes_)) {
+        load(b, discs_b_);
+        if (!compare_with_leaves().overlap || !loaded_overlap()) return false;
+        if (b.ends_at_root(nodes_)) break;
+      }
+      if (a.ends_at_root(nodes_)) return true;
+    }
+  }
+
+  bool loaded_overlap() const noexcept {
+    for (std::uint32_t i = 0; i < length; i += block_width)
+      for (std::uint32_t j = 0; j < length; j += block_width)
+        if (~overlapping_discs<Simd>(trees_.b_in_a, discs_a_.eight(i), discs_b_.eight(j)) != 0) return false;
+    return true;
+  }
+
+  const float* const nodes_;
+  const PlacedTrees& trees_;
+  Disc a_, b_;  ///< the cut discs, in A's frame
+  const AncestorPath<Simd>&above_a_, &above_b_;
+  PathDiscs discs_a_, discs_b_;
+};
+
+}  // namespace bch::kernel

@@ -1,0 +1,221 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "kernel/simd/arguments.hpp"
+#include "kernel/simd/block_test.hpp"
+#include "kernel/simd/lanes.hpp"
+#include "layout/base/heading.hpp"
+#include "layout/base/rounding.hpp"
+#include "layout/format/pair.hpp"
+#include "layout/format/shape_set_view.hpp"
+
+namespace bch::kernel {
+
+/// Where the agents of a chunk of pairs stand: B seen from A, side by side. The first stage of the pair kernel.
+template <class Simd, std::uint32_t capacity = pairs_per_chunk>
+class Placements {
+ public:
+  static constexpr std::uint32_t chunk = capacity;
+
+  /// Places `size` pairs from `begin` on, at most a chunk.
+  void place(const Arguments& in, std::size_t begin, std::uint32_t count) noexcept {
+    size = count;
+    name_agents<false>(in, begin);
+    in.prefetch_agents ? find_roots<true, false>(in) : find_roots<false, false>(in);
+    turn<false>(in);
+  }
+
+  /// The same of pairs that nobody has looked at. False, and nothing may be asked, unless all is surely valid, which
+  /// is more than require_valid() asks: what is in registers anyway is looked at with the fewest operations.
+  bool place_if_valid(const Arguments& in, std::uint32_t count) noexcept {
+    size = count;
+    if (!name_agents<true>(in, 0)) return false;
+    return (in.prefetch_agents ? find_roots<true, true>(in) : find_roots<false, true>(in)) && turn<true>(in);
+  }
+
+  Transform transform(std::uint32_t pair) const noexcept { return {c[pair], s[pair], tx[pair], ty[pair]}; }
+
+  /// Of A.
+  UnitVector heading(std::uint32_t pair) const noexcept { return {cosine_[pair], sine_[pair]}; }
+
+  /// The size, filled up to whole registers of floats.
+  std::uint32_t whole_registers() const noexcept {
+    if constexpr (chunk == Simd::width) return chunk;
+    return (size + Simd::width - 1) / Simd::width * Simd::width;
+  }
+
+  std::uint32_t size = 0;
+
+  // Up to whole_registers(), lanes beyond the last pair repeat it.
+  alignas(64) float c[chunk], s[chunk], tx[chunk], ty[chunk];  ///< as in layout/base/rounding.hpp
+  std::uint32_t shape_a[chunk], shape_b[chunk];
+  std::uint32_t root_a[chunk], root_b[chunk];  ///< shape * level_count + level
+
+ private:
+  static constexpr std::uint32_t pairs_ahead = 32;  ///< that agents are prefetched
+
+  using Float = typename Simd::Float;
+  using Double = typename Simd::Double;
+  static constexpr std::uint32_t doubles = sizeof(Double) / sizeof(double);  ///< a register
+  static constexpr std::uint32_t parts = Simd::width / doubles;  ///< registers of them for one of floats
+
+  // With `check`, what these return tells whether the next one may read what this one names.
+
+  /// The lower index is A, so that the order within a pair does not matter.
+  template <bool check>
+  bool name_agents(const Arguments& in, std::size_t begin) noexcept {
+    const Pair* const __restrict pairs = in.pairs + begin;
+    const std::uint32_t count = size, whole = count / Simd::width * Simd::width, agents = in.agent_count;
+    std::uint32_t beyond = 0;
+    const auto name = [&](std::uint32_t k) {
+      const auto [first, second] = pairs[k];
+      a_[k] = second < first ? second : first;
+      b_[k] = second < first ? first : second;
+      if (check) beyond |= b_[k] >= agents;
+    };
+    for_whole_registers<Simd>(whole, name);
+    for (std::uint32_t k = whole; k < count; ++k) name(k);
+    for (std::uint32_t k = count; k < whole_registers(); ++k) a_[k] = a_[count - 1], b_[k] = b_[count - 1];
+    return beyond == 0;
+  }
+
+  /// `prefetch`: also asks for all that turn() needs of agents.
+  template <bool prefetch, bool check>
+  bool find_roots(const Arguments& in) noexcept {
+    // What this writes might be these pointers, for all the compiler knows of `in`.
+    const std::uint32_t* const shape = in.agent_shape;
+    const std::uint8_t* const level = in.agent_level;
+    const std::uint32_t levels = in.shapes->level_count, shapes = in.shapes->shape_count;
+    const std::uint32_t count = whole_registers();
+    std::uint32_t beyond = 0;
+    for (std::uint32_t k = 0; k < count; k += Simd::width) {
+      // Not a function of its own: GCC 12 drops the call of one that only prefetches.
+      if (prefetch && k + pairs_ahead < count)
+        for (std::uint32_t lane = 0; lane < Simd::width; ++lane) {
+          const std::uint32_t both[] = {a_[k + pairs_ahead + lane], b_[k + pairs_ahead + lane]};
+          for (const std::uint32_t agent : both) {
+            __builtin_prefetch(shape + agent);
+            __builtin_prefetch(in.agent_x + agent);
+            __builtin_prefetch(in.agent_y + agent);
+            __builtin_prefetch(in.agent_heading + agent);
+            if (level != nullptr) __builtin_prefetch(level + agent);
+          }
+        }
+      Simd::store(shape_a + k, Simd::gather(shape, a_ + k));
+      Simd::store(shape_b + k, Simd::gather(shape, b_ + k));
+    }
+    for_whole_registers<Simd>(count, [&](std::uint32_t k) {
+      root_a[k] = shape_a[k] * levels + levels - 1;
+      root_b[k] = shape_b[k] * levels + levels - 1;
+      if (check) beyond |= (shape_a[k] >= shapes) | (shape_b[k] >= shapes);
+    });
+    if (level == nullptr) return beyond == 0;
+    for (std::uint32_t k = 0; k < count; ++k) {
+      const std::uint32_t level_a = level[a_[k]], level_b = level[b_[k]];
+      root_a[k] -= levels - 1 - level_a;
+      root_b[k] -= levels - 1 - level_b;
+      if (check) beyond |= (level_a >= levels) | (level_b >= levels);
+    }
+    return beyond == 0;
+  }
+
+  struct UnitVectors {
+    Float cosine, sine;
+  };
+
+  /// Magnitudes of all that was read for a lane's pair, summed up where `check` asks for it.
+  template <bool check>
+  class Magnitudes {
+   public:
+    void add(std::uint32_t part, Double value) noexcept {
+      if constexpr (check) sum_[part] = sum_[part] + xsimd::abs(value);
+    }
+
+    /// Half of what is valid, to make up for rounding; not a number is beyond.
+    std::uint32_t within() const noexcept {
+      static_assert(rounding::largest_position == rounding::largest_heading);
+      return Simd::bits(Simd::rounded(sum_) <= Float(static_cast<float>(0.5 * rounding::largest_position)));
+    }
+
+   private:
+    Double sum_[parts] = {};
+  };
+
+  /// layout/base/heading.cpp, in lanes.
+  template <bool check>
+  static UnitVectors unit_vectors(const double* heading, const std::uint32_t* agent,
+                                  Magnitudes<check>& magnitudes) noexcept {
+    namespace h = heading_constants;
+    const auto round_to_integer = [](Double x) {
+      return (x + Double(h::round_to_integer)) - Double(h::round_to_integer);
+    };
+    Double all_sines[parts], all_cosines[parts], left_quarters[parts];
+#pragma GCC unroll 2
+    for (std::uint32_t part = 0; part < parts; ++part) {
+      const Double angle = Simd::gather(heading, agent + part * doubles);
+      magnitudes.add(part, angle);
+      const Double quarters = round_to_integer(angle * Double(h::two_over_pi));
+      Double r = angle - quarters * Double(h::half_pi[0]);
+      r = r - quarters * Double(h::half_pi[1]);
+      r = r - quarters * Double(h::half_pi[2]);
+      r = r - quarters * Double(h::half_pi[3]);
+      const Double square = r * r;
+      Double sines(h::sine[0]), cosines(h::cosine[0]);
+      for (int i = 1; i < 5; ++i)
+        sines = sines * square + Double(h::sine[i]), cosines = cosines * square + Double(h::cosine[i]);
+      all_sines[part] = sines * square * r + r;
+      all_cosines[part] = cosines * square + Double(1.0);
+      left_quarters[part] = quarters - Double(4.0) * round_to_integer(quarters * Double(0.25));
+    }
+    // The quarters that remain turn by 0 and +-1: rounded before or after, that is the same.
+    const Float c = Simd::rounded(all_cosines), s = Simd::rounded(all_sines),
+                left = Simd::rounded(left_quarters);
+    const Float turn_c = Float(1.0f) - xsimd::abs(left), turn_s = left * (Float(2.0f) - xsimd::abs(left));
+    return {c * turn_c - s * turn_s, s * turn_c + c * turn_s};
+  }
+
+  /// From A to B, of one coordinate.
+  template <bool check>
+  static Float distance(const double* x, const std::uint32_t* a, const std::uint32_t* b,
+                        Magnitudes<check>& magnitudes) noexcept {
+    Double between[parts];
+#pragma GCC unroll 2
+    for (std::uint32_t part = 0; part < parts; ++part) {
+      const Double to = Simd::gather(x, b + part * doubles), from = Simd::gather(x, a + part * doubles);
+      magnitudes.add(part, to), magnitudes.add(part, from);
+      between[part] = to - from;
+    }
+    return Simd::rounded(between);
+  }
+
+  /// B's rotation and position in A's frame.
+  template <bool check>
+  bool turn(const Arguments& in) noexcept {
+    constexpr std::uint32_t all = (std::uint32_t{1} << Simd::width) - 1;
+    std::uint32_t within = all;
+    for (std::uint32_t k = 0; k < whole_registers(); k += Simd::width) {
+      Magnitudes<check> magnitudes;
+      const auto [ca, sa] = unit_vectors(in.agent_heading, a_ + k, magnitudes);
+      const auto [cb, sb] = unit_vectors(in.agent_heading, b_ + k, magnitudes);
+      const Float dx = distance(in.agent_x, a_ + k, b_ + k, magnitudes),
+                  dy = distance(in.agent_y, a_ + k, b_ + k, magnitudes);
+      if constexpr (check) within &= magnitudes.within();
+      Simd::store(cosine_ + k, ca), Simd::store(sine_ + k, sa);
+      Simd::store(c + k, ca * cb + sa * sb);
+      Simd::store(s + k, ca * sb - sa * cb);
+      Simd::store(tx + k, ca * dx + sa * dy);
+      Simd::store(ty + k, ca * dy - sa * dx);
+    }
+    return within == all;
+  }
+
+  alignas(64) std::uint32_t a_[chunk], b_[chunk];  ///< agents, padded as above
+  alignas(64) float cosine_[chunk], sine_[chunk];
+};
+
+}  // namespace bch::kernel

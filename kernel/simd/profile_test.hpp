@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "kernel/simd/placements.hpp"
+#include "kernel/simd/record_fields.hpp"
+#include "layout/format/shape_set_view.hpp"
+
+namespace bch::kernel {
+
+/// What two profiles (layout/culling/profile.hpp) say along the line of their centres; lane = pair.
+template <class Simd, std::uint32_t chunk>
+class ProfileTest {
+ public:
+  /// Of a register's pairs.
+  struct Answers {
+    std::uint32_t apart = 0;     ///< a line parts the cuts
+    std::uint32_t meet = 0;      ///< areas of the largest contours meet
+    std::uint32_t may_nest = 0;  ///< a contour of one may lie inside one of the other
+    std::uint32_t near = 0;      ///< they will probably collide
+  };
+
+  ProfileTest(const ShapeSetView& shapes, const Placements<Simd, chunk>& at, bool prefetch) noexcept
+      : shapes_(shapes), at_(at), prefetch_(prefetch) {}
+
+  /// Of all pairs of the chunk: the line of the centres, and what either shape looks like along it. `row_a`, `row_b`: of
+  /// the roots; null where they are in order.
+  void look(const std::uint32_t* row_a, const std::uint32_t* row_b) noexcept {
+    const float* const records = &shapes_.profiles->x;
+    const std::uint32_t count = at_.whole_registers();
+    find_profiles(at_.shape_a, record_a_, count);
+    find_profiles(at_.shape_b, record_b_, count);
+    of_a_.template load<stride>(records, record_a_, count, prefetch_);
+    of_b_.template load<stride>(records, record_b_, count, prefetch_);
+    find_sectors();
+    for_whole_registers<Simd>(count, [&](std::uint32_t k) {
+      record_a_[k] += record_of(sector_a_[k]);
+      record_b_[k] += record_of(sector_b_[k]);
+    });
+    of_a_.template load<stride>(records, record_a_, count, prefetch_);
+    of_b_.template load<stride>(records, record_b_, count, prefetch_);
+    if (row_a == nullptr) return;
+    choose_outer(of_a_, row_a, count);
+    choose_outer(of_b_, row_b, count);
+  }
+
+  /// Of the pairs from k on, after look(). Where the centres coincide no direction leads from one to the other, the
+  /// sectors do not lie opposite to each other, and nothing follows from them but that the areas meet.
+  Answers answers(std::uint32_t k) const noexcept {
+    const Float distance = Simd::load(distance_ + k), coincident(1e-20f);
+    const Float outer_a = field(of_a_, 1, k), outer_b = field(of_b_, 1, k);
+    const Float inner = field(of_a_, 0, k) + field(of_b_, 0, k), outer = outer_a + outer_b;
+    return {.apart = Simd::bits(xsimd::max(coincident, outer) < distance),
+            .meet = Simd::bits(distance <= inner),
+            .may_nest = Simd::bits(distance <= xsimd::max(coincident, outer_a - field(of_b_, 2, k))) |
+                        Simd::bits(distance <= outer_b - field(of_a_, 2, k)),
+            .near = Simd::bits(distance < inner + Float(near_share) * (outer - inner))};
+  }
+
+ private:
+  using Float = typename Simd::Float;
+  using Fields = RecordFields<Simd, chunk>;
+  /// Of indices, in floats: half a record, because that is the most that an address can hold, and what it cannot takes an
+  /// instruction a record.
+  static constexpr std::size_t stride = 2;
+  static constexpr std::uint32_t strides_each = sizeof(Sector) / sizeof(float) / stride;
+  static constexpr std::uint32_t profile_strides = sizeof(Profile) / sizeof(float) / stride;
+  /// Of the way from where areas meet to where cuts are apart: pairs nearer than that probably collide. By measurement.
+  static constexpr float near_share = 0.6f;
+
+  static Float field(const Fields& of, std::uint32_t i, std::uint32_t k) noexcept {
+    return Simd::load(of.field[i] + k);
+  }
+
+  /// Of the pair's level. A single disc has been tested, and nothing is said of it.
+  static void choose_outer(Fields& of, const std::uint32_t* row, std::uint32_t count) noexcept {
+    for_whole_registers<Simd>(count, [&](std::uint32_t k) {
+      const float shallow = row[k] == no_supports ? of.field[3][k] : __builtin_inff();
+      of.field[1][k] = row[k] >= first_row ? of.field[1][k] : shallow;
+    });
+  }
+
+  static void find_profiles(const std::uint32_t* __restrict shape, std::uint32_t* __restrict record,
+                            std::uint32_t count) noexcept {
+    for_whole_registers<Simd>(count, [=](std::uint32_t k) { record[k] = shape[k] * profile_strides; });
+  }
+
+  /// From a profile's begin on, in strides.
+  static std::uint32_t record_of(float sector) noexcept {
+    return (1 + static_cast<std::uint32_t>(static_cast<std::int32_t>(sector)) % profile_sectors) *
+           strides_each;
+  }
+
+  void find_sectors() noexcept {
+    for (std::uint32_t k = 0; k < at_.whole_registers(); k += Simd::width) {
+      const Float c = Simd::load(at_.c + k), s = Simd::load(at_.s + k), zero(0.0f);
+      const Float bx = field(of_b_, 0, k), by = field(of_b_, 1, k);
+      const Float x = (Simd::load(at_.tx + k) + (c * bx - s * by)) - field(of_a_, 0, k);
+      const Float y = (Simd::load(at_.ty + k) + (s * bx + c * by)) - field(of_a_, 1, k);
+      Simd::store(distance_ + k, xsimd::sqrt(x * x + y * y));
+      Simd::store(sector_a_ + k, sector(x, y));
+      Simd::store(sector_b_ + k, sector(zero - (c * x + s * y), s * x - c * y));
+    }
+  }
+
+  /// Where a direction lies among the sectors; after the last one comes the first again. Zero has any.
+  static Float sector(Float x, Float y) noexcept {
+    constexpr float quadrant = profile_sectors / 4, not_zero = 1e-30f;
+    const Float zero(0.0f), ax = xsimd::abs(x), ay = xsimd::abs(y);
+    const Float share = Float(quadrant) * ay / (ax + ay + Float(not_zero));
+    const Float half = Simd::select(x < zero, Float(2 * quadrant) - share, share);
+    return Simd::select(y < zero, Float(4 * quadrant) - half, half);
+  }
+
+  const ShapeSetView& shapes_;
+  const Placements<Simd, chunk>& at_;
+  const bool prefetch_;
+  alignas(64) std::uint32_t record_a_[chunk], record_b_[chunk];
+  alignas(64) float distance_[chunk], sector_a_[chunk], sector_b_[chunk];
+  Fields of_a_, of_b_;
+};
+
+}  // namespace bch::kernel

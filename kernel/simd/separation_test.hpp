@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "kernel/simd/placements.hpp"
+#include "layout/base/rounding.hpp"
+#include "layout/format/shape_set_view.hpp"
+
+namespace bch::kernel {
+
+/// Whether a line parts two cuts, by their supports (layout/culling/supports.hpp), lane = direction.
+///
+/// Against A's direction k stands B's direction k * D + psi, with D the angle between directions and psi =
+/// pi - (B's turn in A's frame). psi = (offset + share) * D with 0 <= share <= 1, and a support between two
+/// directions is at most lower * (that of the one below) + upper * (that of the one above), the height of
+/// the corner of two supporting lines.
+template <class Simd, std::uint32_t chunk = pairs_per_chunk>
+class SeparationTest {
+ public:
+  SeparationTest(const ShapeSetView& shapes, const Placements<Simd, chunk>& at) noexcept
+      : shapes_(shapes), at_(at), rows_(shapes.support), row_a_(at.root_a), row_b_(at.root_b) {
+    // Where rows are in order; see ShapeSetView.
+    if (shapes.support != nullptr) rows_ += std::size_t{first_row} * support_stride;
+  }
+
+  /// Where they are not.
+  void use_rows(const std::uint32_t* a, const std::uint32_t* b) noexcept {
+    rows_ = shapes_.support, row_a_ = a, row_b_ = b;
+  }
+
+  /// For all pairs of the chunk, lane = pair: offset, lower, upper.
+  void place_directions() noexcept {
+    static_assert(support_directions == 32);
+    constexpr float tangent[] = {0.19891237f, 0.41421356f, 0.66817864f, 1.0f,
+                                 1.4966058f,  2.4142136f,  5.0273395f};
+    constexpr float cosine_of[] = {c1, c2, c3, c4, c5, c6, c7};
+    constexpr float cotangent = 5.0273395f, one_over_sine = 5.1258309f;  // of D
+    alignas(64) float offset[chunk];
+    const Float zero(0.0f);
+    const std::uint32_t count = at_.whole_registers();
+    for (std::uint32_t k = 0; k < count; k += Simd::width) {
+      const Float x = zero - Simd::load(at_.c + k), y = Simd::load(at_.s + k);
+      const Float ax = xsimd::abs(x), ay = xsimd::abs(y);
+      Float up(0.0f), cosine(1.0f), sine(0.0f);
+#pragma GCC unroll 7
+      for (int sector = 0; sector < 7; ++sector) {
+        const Mask past = Float(tangent[sector]) * ax < ay;
+        up = Simd::select(past, Float(static_cast<float>(sector + 1)), up);
+        cosine = Simd::select(past, Float(cosine_of[sector]), cosine);
+        sine = Simd::select(past, Float(cosine_of[6 - sector]), sine);
+      }
+      const Float rest_cosine = ax * cosine + ay * sine, rest_sine = ay * cosine - ax * sine;
+      const Float near = rest_cosine - Float(cotangent) * rest_sine, far = Float(one_over_sine) * rest_sine;
+      // No operator on masks: in xsimd 8.1, != is wrong with SSE2 (it compares as floats, and a full mask is
+      // a NaN) and ^ with AVX-512.
+      const Mask left = x < zero, below = y < zero;
+      const auto by_quadrant = [&](Float first, Float second, Float third, Float fourth) {
+        return Simd::select(left, Simd::select(below, third, second), Simd::select(below, fourth, first));
+      };
+      Simd::store(offset + k, by_quadrant(up, Float(15.0f) - up, Float(16.0f) + up, Float(31.0f) - up));
+      Simd::store(lower_ + k, by_quadrant(near, far, near, far));
+      Simd::store(upper_ + k, by_quadrant(far, near, far, near));
+    }
+    for_whole_registers<Simd>(count,
+                              [&](std::uint32_t k) { offset_[k] = static_cast<std::int32_t>(offset[k]); });
+  }
+
+  /// By A's even directions or by its odd ones.
+  std::uint32_t apart(std::uint32_t pair, unsigned odd) const noexcept {
+    std::uint32_t parted = 0;
+    look_along(pair, odd,
+               [&](unsigned, Float distance, Float reach) { parted |= Simd::bits(reach < distance); });
+    return parted != 0;
+  }
+
+  /// What apart() will read.
+  [[gnu::always_inline]] void prefetch(std::uint32_t pair, unsigned odd) const noexcept {
+    const auto [a, below, above] = rows(pair, odd);
+    __builtin_prefetch(a);
+    // Of B's, both ends: they begin anywhere in a cache line.
+    constexpr unsigned last = support_directions / 2 - 1;
+    __builtin_prefetch(below), __builtin_prefetch(below + last);
+    __builtin_prefetch(above), __builtin_prefetch(above + last);
+  }
+
+  /// The same all the while that A moves by (x, y), with `slack` to spare.
+  std::uint32_t apart_on_the_way(std::uint32_t pair, unsigned odd, float x, float y,
+                                 float slack) const noexcept {
+    std::uint32_t parted = 0;
+    look_along(pair, odd, [&](unsigned k, Float distance, Float reach) {
+      const Float way = xsimd::max(along(x, y, odd, k), Float(0.0f));
+      parted |= Simd::bits(reach < distance - way - Float(slack));
+    });
+    return parted != 0;
+  }
+
+  /// Each shape's largest contour has a point beyond the other's supports, so neither lies inside the other.
+  std::uint32_t contours_stick_out(std::uint32_t pair) const noexcept {
+    const float c = at_.c[pair], s = at_.s[pair], tx = at_.tx[pair], ty = at_.ty[pair];
+    const std::uint32_t a = at_.shape_a[pair], b = at_.shape_b[pair];
+    const unsigned turn =
+        ((static_cast<unsigned>(offset_[pair]) + 1) / 2 + extreme_directions / 2) % extreme_directions;
+    const unsigned back = (extreme_directions - turn) % extreme_directions;
+    // The float arithmetic is off by less than 40 u S. Only the proof needs the slack: a contour that lies in another one
+    // and comes so near its supports comes as near its outline, where leaf discs overlap as well.
+    constexpr float share = 4e-6f;
+    static_assert(double{share} >= 40 * rounding::unit_roundoff);
+    const float slack = share * (shapes_.reach[a] + shapes_.reach[b]);
+    return sticks_out(b, turn, c, s, tx, ty, row_a_[pair], slack) &
+           sticks_out(a, back, c, -s, -(c * tx + s * ty), -(c * ty - s * tx), row_b_[pair], slack);
+  }
+
+ private:
+  using Float = typename Simd::Float;
+  using Mask = typename Simd::Mask;
+
+  const float* supports(std::uint32_t row) const noexcept {
+    return rows_ + std::size_t{row} * support_stride;
+  }
+
+  /// Supports of A along its even or odd directions, and of B on either side of the opposite ones.
+  struct Rows {
+    const float *a, *below, *above;
+  };
+  [[gnu::always_inline]] Rows rows(std::uint32_t pair, unsigned odd) const noexcept {
+    const unsigned offset = static_cast<unsigned>(offset_[pair]) + odd;
+    const float* const b = supports(row_b_[pair]);
+    return {supports(row_a_[pair]) + odd * half, b + offset % 2 * half + offset / 2,
+            b + (offset + 1) % 2 * half + (offset + 1) / 2};
+  }
+
+  /// Calls visit(k, distance, reach) for every register: along A's directions from k on, how far B is and how far the
+  /// two extend together.
+  template <class Visit>
+  [[gnu::always_inline]] void look_along(std::uint32_t pair, unsigned odd, Visit visit) const noexcept {
+    const auto [a, below, above] = rows(pair, odd);
+    const Float lower(lower_[pair]), upper(upper_[pair]);
+    for (unsigned k = 0; k < support_directions / 2; k += Simd::width)
+      visit(k, along(at_.tx[pair], at_.ty[pair], odd, k),
+            Simd::load(a + k) + (lower * Simd::load(below + k) + upper * Simd::load(above + k)));
+  }
+
+  static Float along(float x, float y, unsigned odd, unsigned k) noexcept {
+    return Float(x) * Simd::load(direction_x[odd] + k) + Float(y) * Simd::load(direction_y[odd] + k);
+  }
+
+  /// Whether a farthest point of a shape, placed in another's frame by a rotation (c, s) and a translation t,
+  /// is beyond one of the other's supports. Its direction k + turn is the one that points most nearly along
+  /// the other's direction k.
+  std::uint32_t sticks_out(std::uint32_t shape, unsigned turn, float c, float s, float tx, float ty,
+                           std::uint32_t other_row, float slack) const noexcept {
+    const float* x = shapes_.extremes[shape].x + turn;
+    const float* y = shapes_.extremes[shape].y + turn;
+    const float* support = supports(other_row);
+    std::uint32_t out = 0;
+    for (unsigned k = 0; k < extreme_directions; k += Simd::width) {
+      const Float ux = Simd::load(direction_x[0] + k), uy = Simd::load(direction_y[0] + k);
+      const Float turned_x = Float(c) * ux + Float(s) * uy, turned_y = Float(c) * uy - Float(s) * ux;
+      const Float along =
+          (Float(tx) * ux + Float(ty) * uy) + (Simd::load(x + k) * turned_x + Simd::load(y + k) * turned_y);
+      out |= Simd::bits(Simd::load(support + k) + Float(slack) < along);
+    }
+    return out != 0;
+  }
+
+  static constexpr unsigned half = support_stride / 2;
+  /// Cosines of D, 2 D, ...
+  static constexpr float c1 = 0.98078528f, c2 = 0.92387953f, c3 = 0.83146961f, c4 = 0.70710678f,
+                         c5 = 0.55557023f, c6 = 0.38268343f, c7 = 0.19509032f;
+  /// Even directions, odd directions.
+  alignas(64) static constexpr float direction_x[2][support_directions / 2] = {
+      {1, c2, c4, c6, 0, -c6, -c4, -c2, -1, -c2, -c4, -c6, 0, c6, c4, c2},
+      {c1, c3, c5, c7, -c7, -c5, -c3, -c1, -c1, -c3, -c5, -c7, c7, c5, c3, c1}};
+  alignas(64) static constexpr float direction_y[2][support_directions / 2] = {
+      {0, c6, c4, c2, 1, c2, c4, c6, 0, -c6, -c4, -c2, -1, -c2, -c4, -c6},
+      {c7, c5, c3, c1, c1, c3, c5, c7, -c7, -c5, -c3, -c1, -c1, -c3, -c5, -c7}};
+
+  const ShapeSetView& shapes_;
+  const Placements<Simd, chunk>& at_;
+  const float* rows_;
+  const std::uint32_t *row_a_, *row_b_;  ///< per pair
+  alignas(64) std::int32_t offset_[chunk];
+  alignas(64) float lower_[chunk], upper_[chunk];
+};
+
+}  // namespace bch::kernel

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "layout/baked/format.hpp"
+#include "layout/baked/shape_origins.hpp"
+#include "layout/base/aligned_vector.hpp"
+#include "layout/shape_set/shape_set.hpp"
+
+namespace bch {
+
+/// A set as the bytes of a baked file (baked_format.hpp), without a copy of its arrays.
+class BakedImage {
+ public:
+  /// The set has to outlive this.
+  /// Errors:  throws std::invalid_argument where load_baked() would refuse the file: a set out of the domain of
+  ///          validate(ShapeArrays), origins of another number of shapes or with names that are not there.
+  BakedImage(const ShapeSet& set, const ShapeOrigins& origins);
+  BakedImage(const BakedImage&) = delete;
+  BakedImage& operator=(const BakedImage&) = delete;
+
+  /// Whoever writes them one after the other has written the file: the preamble, then the sections, and after each of
+  /// them its zeros.
+  std::span<const std::span<const std::byte>> parts() const noexcept { return parts_; }
+
+ private:
+  void add_names(const std::vector<std::string>& names);
+  void lay_out();
+
+  baked::Preamble preamble_{};
+  baked::Settings settings_;
+  std::vector<ShapeOrigin> origins_;
+  std::vector<std::uint32_t> name_begin_;
+  std::vector<char> names_;
+  baked::Arrays arrays_;
+  std::vector<std::span<const std::byte>> parts_;
+};
+
+}  // namespace bch

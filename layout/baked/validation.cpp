@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include "layout/baked/validation.hpp"
+
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+#include "layout/base/shortest.hpp"
+#include "layout/format/shape_validation.hpp"
+
+namespace bch::baked {
+namespace {
+
+[[noreturn]] void reject(const char* section, std::size_t place, const std::string& what) {
+  throw std::invalid_argument(std::string(section) + " " + std::to_string(place) + ": " + what);
+}
+
+void require_settings(std::span<const Settings> settings) {
+  if (settings.size() != 1)
+    throw std::invalid_argument("settings: " + std::to_string(settings.size()) + ", not 1");
+  if (!std::isfinite(settings[0].threshold) || settings[0].threshold < 0)
+    reject("settings", 0, "threshold " + shortest(settings[0].threshold));
+}
+
+/// Returns: how many there are.
+std::size_t require_names(std::span<const std::uint32_t> begin, std::size_t size) {
+  if (begin.empty() || begin.front() != 0) throw std::invalid_argument("name_begin: does not begin with 0");
+  for (std::size_t i = 1; i < begin.size(); ++i)
+    if (begin[i] < begin[i - 1]) reject("name_begin", i, std::to_string(begin[i]) + " does not ascend");
+  if (begin.back() != size)
+    reject("name_begin", begin.size() - 1,
+           std::to_string(begin.back()) + " is not the end, " + std::to_string(size));
+  return begin.size() - 1;
+}
+
+void require_origins(std::span<const ShapeOrigin> origins, std::size_t shapes, std::size_t names) {
+  if (!origins.empty() && origins.size() != shapes)
+    throw std::invalid_argument("origins: " + std::to_string(origins.size()) + " of " +
+                                std::to_string(shapes) + " shapes");
+  for (std::size_t i = 0; i < origins.size(); ++i) {
+    const auto& [character, clip, seconds] = origins[i];
+    if (character >= names) reject("origins", i, "character has name " + std::to_string(character));
+    if (clip >= names && clip != ShapeOrigin::rest_pose)
+      reject("origins", i, "clip has name " + std::to_string(clip));
+    if (!std::isfinite(seconds)) reject("origins", i, "time " + shortest(seconds) + " s");
+  }
+}
+
+}  // namespace
+
+void validate(const Arrays& arrays, const std::function<void(std::size_t)>& before_nodes) {
+  bch::validate(arrays.shapes, before_nodes);
+  require_settings(arrays.settings);
+  require_origins(arrays.origins, arrays.shapes.shape_count(),
+                  require_names(arrays.name_begin, arrays.names.size()));
+}
+
+}  // namespace bch::baked

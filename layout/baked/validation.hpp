@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <cstddef>
+#include <functional>
+
+#include "layout/baked/format.hpp"
+
+namespace bch::baked {
+
+/// Checks the content of all sections: validate(ShapeArrays), and that every shape's origin has its names.
+/// `before_nodes`: as there.
+/// Errors:  throws std::invalid_argument naming the section, the place in it and the value.
+void validate(const Arrays& arrays, const std::function<void(std::size_t)>& before_nodes = {});
+
+}  // namespace bch::baked

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include "layout/base/aligned_memory.hpp"
+
+#include <sys/mman.h>
+
+#include <new>
+
+namespace bch {
+namespace {
+
+constexpr std::size_t cache_line = 64, large_page = std::size_t{2} << 20;
+
+std::align_val_t alignment(std::size_t bytes) {
+  return std::align_val_t{bytes < large_page ? cache_line : large_page};
+}
+
+}  // namespace
+
+void* allocate_aligned(std::size_t bytes) {
+  void* const memory = ::operator new(bytes, alignment(bytes));
+  // Advice: without large pages it only takes longer.
+  if (bytes >= large_page) madvise(memory, bytes, MADV_HUGEPAGE);
+  return memory;
+}
+
+void free_aligned(void* memory, std::size_t bytes) noexcept {
+  ::operator delete(memory, alignment(bytes));
+}
+
+}  // namespace bch

@@ -1,0 +1,236 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <bit>
+#include <cstdint>
+
+/// How far discs are enlarged so that a query in float never misses what the exact outlines hit: the proof.
+/// tests/kernel/rounding_test.cpp measures every step and attacks the whole with exact arithmetic.
+///
+/// Notation. u = 2^-24, the unit roundoff of float: fl(x op y) = (x op y)(1 + e), |e| <= u. A shape's *reach* P is the largest
+/// distance of its points from its origin. A disc's *tight* radius r is the largest distance of what it holds from its
+/// centre, which is a float and exact. For shapes A and B at relative position d, S = P_A + P_B. a and b are a disc's
+/// centre of each, D the exact distance between the two. First-order terms only: the products of two errors, and what
+/// double loses (2^-53 = 2^-29 u), are below 2^-10 of them and are added at the end (higher).
+///
+/// Names in parentheses are those of the constants below, in namespace terms, in units of u. Every sum of this text is a
+/// static_assert over them, so that a margin below what the text asks for does not compile. The other derivations of the
+/// project stand beside their margins and end in static_asserts of the same kind.
+///
+/// The query (every kernel and the reference, same operations, same order; no contraction):
+///
+///     d      = float(position_B - position_A)                   the difference in double
+///     (c, s) = (cA cB + sA sB, cA sB - sA cB)                   rotation of B relative to A
+///     t      = (cA dx + sA dy, cA dy - sA dx)                   position of B in A's frame
+///     p      = (t.x + (c x - s y), t.y + (s x + c y))           a disc centre of B in A's frame
+///     hit   <=>  (p.x - a.x)^2 + (p.y - a.y)^2 <= (r_A + r_B)^2
+///
+/// I. What the geometry gives.
+///
+///     (centre)   |a| <= P_A, |b| <= P_B     a smallest disc's centre is in the convex hull of what it holds, the
+///                                           hull in the disc of radius P about the origin, which is convex
+///     (radius)   r <= P                     that disc holds it all, and r is the least that some disc has
+///     (contact)  D <= r_A + r_B <= S        where two outlines meet in a point that both discs' nodes hold; (radius)
+///     (shift)    |d| <= |a| + D + |b| <= 2 S          triangle; (centre), (contact)
+///
+/// II. Errors against the same formula in exact arithmetic with the exact headings, as lengths of vectors. A rotation
+/// (c x - s y, s x + c y) rounds four products and two sums: each part is off by at most u (|c x| + |s y|) + u |c x - s y| <=
+/// 2 u |(c, s)| |(x, y)| (Cauchy), both together by 2 sqrt(2) u of the product of lengths, (rotation); an error e of (c, s)
+/// adds |e| |(x, y)|, as complex numbers multiply.
+///
+///     (rotation) 2.829 u |(x, y)|        of a rotation's products and sums, as said
+///     (heading)  0.72 u                  each unit vector, to float: sqrt(2) u / 2 (1 + 2^-7), layout/base/heading.hpp
+///     (turn)     4.3 u                   (c, s): two of (heading), and (rotation)
+///     (arm)      7.1 u |b|               b turned: two of (heading), and two of (rotation); |b| <= P_B by (centre)
+///     (position) 4.6 u |d|               t: d to float u |d|, (heading) |d|, and (rotation) |d|
+///     (sum)      u (|d| + |b|)           p = t + arm, a rounding of each part
+///     (apart)    u D                     p - a, a rounding of each part
+///     (square)   u D                     squares and their sum: 2 u of the square are u of its root
+///     (radii)    1.5 u (r_A + r_B)       the sum u, its square u of the square
+///
+/// III. All of it together. By (shift), (contact) and P_B <= S the sides of the comparison are off by at most
+///
+///     7.1 u P_B + 4.6 u (2 S) + u (2 S + P_B) + u S + u S + 1.5 u S  <=  22.8 u S  <=  23 u S                (1)
+///
+/// and that is (query_error). Where both discs touch, and each is the smallest of what it holds, less is true: some point
+/// of what a smallest disc holds is at least sqrt(|a|^2 + r^2) from the origin, so that |a|^2 + r_A^2 <= P_A^2. With
+/// |d| <= |a| + |b| + D and D <= r_A + r_B the same terms are
+///
+///     13.7 u |b| + 5.6 u |a| + 9.1 u (r_A + r_B)  <=  16.5 u P_B + 10.7 u P_A  <=  16.5 u S                  (1')
+///
+/// by Cauchy: (contact_error). No miss: where two outlines meet, a cut disc of either has the common point, and so has every
+/// node above it, up to the root. So every pair of a node of one way up and a node of the other has tight discs with D <= r_A +
+/// r_B, exactly. Published radii add (contact_error) P each, so the float test accepts all these pairs, and they are what a hit
+/// is: see Semantics. A traversal may leave out what is below a pair that the float test does not accept, because no pair
+/// below is a hit by that definition; nothing has to be proved of that. More sources belong to the shape and are added
+/// beside:
+///
+///     (halving)  8.9 u P                 a segment that was halved: each midpoint is rounded to float
+///     (grid)     1.5 grid steps          an outline on a grid: sqrt(1/2) by snapping, as much by rounding a crossing
+///     (higher)   0.03 u P                2^-10 of all that
+///
+/// which makes 25.43 u P, published as query_margin, 25.5 u P, and rounded up.
+///
+/// Halving: a midpoint is off by half of what its ends are off by together, and u P. So after k halvings it is off by
+/// (2 k + 1) / 3 u P: at most 8.4 u P after 12, which make 4096 pieces of one segment. After more of them parity helps:
+/// midpoints that were rounded have an even last bit, so that the next one is exact. Coordinates from 2^E to 2^(E + 1) are then
+/// off by (4 k + 6) / 9 u 2^E at most (every difference of up to 2^15 units in the last place was tried; tests/kernel/rounding_test.cpp
+/// repeats a part of that). And k halvings move a coordinate only where its ends are 2^k units apart, so that P is at least
+/// (1 + 2^(k - 23)) 2^E: 8.6 u P after any number of halvings.
+///
+/// What the margin costs: where the float test accepts, D is at most the tight radii and what was added,
+/// (25.5 + 2) u S with the rounding up, and 23 u S by (1), beside the grid, whose step is at most 2^-22 P:
+///
+///     (price)    a false positive has a gap of at most 50.5 u S + 1.5 * 2^-22 S = 3.4e-6 S
+///
+/// IV. Supports part two shapes when t.u > h_A + a h_B + b h_B' for a direction u of A, where h_B and h_B' are
+/// B's supports on either side of -u and a, b >= 0 follow from the rotation.
+///
+///     (support_place)    21.2 u S        t and its product with u, rounded: 9.2 u S + 6 u |t|, with |t| <= 2 S where it
+///                                        matters
+///     (support_weight)   59 u            a and b each: (turn) and what the sector's own rotation adds, 11.5 u together,
+///                                        through a quotient by sin 11.25 degrees; times a support of at most 2 P
+///     (support_sums)     6 u S           the sums
+///
+/// All together
+///
+///     21.2 u S + 4 * 59 u S + 6 u S  <=  264 u S                                                             (2)
+///
+/// Discs that the float test accepts are at most 23 u S apart, so supports enlarged by 287 u P each, and by the 5.2 u P of
+/// their own rounding (support_float, layout/culling/supports.cpp), never part them: support_margin. Only this proof needs all of
+/// it; tests fail where it has the other sign.
+///
+/// V. Exact leaves: segments. Two segments are compared in double (kernel/simd/segment_test.hpp), B's ends placed by the floats
+/// (c, s) and t. What double rounds is 2^-29 u, (higher). Where outlines meet, |d| <= |a| + |b| <= S for their common point,
+/// and the placed ends are off by
+///
+///     (segment_place)    8.9 u S         (turn) of |b|, and (position) of |d|
+///
+/// Segments meet where an end of one is within
+///
+///     (segment_margin)   13 u P          of either shape, and 1.5 of its grid steps
+///
+/// of the other, or where both ends of each lie on different sides of the other's line, at least 0.7 (sure_share) of that
+/// margin away from it. No miss: outlines that meet, snapped and placed, are at most (segment_place) and 1.5 of each grid
+/// step apart. Either the placed segments are disjoint, and then an end is as near as that to the other; or they cross and
+/// an end is within sqrt(2) 0.7 of the margin of the other's line, so that some end is as near as that to the other segment:
+/// of two segments that cross at a narrow angle the one that ends first between both. (The test compares with the sum of
+/// the coordinates of a segment, which is up to sqrt(2) of its length.) A crossing by (sure_share) is one of the outlines
+/// themselves, because it can only come apart where an end passes the other segment, and no end moves so far:
+///
+///     sure_share * segment_margin > segment_place
+///
+/// The price, in the same way as above: segments that meet are at most the margin and (segment_place) apart,
+///
+///     (segment_price)    (13 + 8.9) u S + 1.5 * 2^-22 S = 1.7e-6 S
+///
+/// VI. The ends of the range. (underflow) Radii are at least 25 u P >= 1e-12 m (P >= smallest_reach), so (r_A + r_B)^2 >=
+/// 1e-24, while what a square loses below FLT_MIN, flushed to zero or not, is under 1e-37. A product in (turn), (arm) or
+/// (position) that is flushed loses 1.2e-38, where u P is 6e-14 m or more. (overflow) |d| <= 2e9 sqrt(2) m (limits below),
+/// squared 8e18.
+namespace bch::rounding {
+
+constexpr double unit_roundoff = 0x1p-24;
+
+/// The terms of the derivation above, in units of unit_roundoff.
+namespace terms {
+
+constexpr double root_2 = 1.41421357;  // rounded up
+constexpr double rotation = 2.829;
+constexpr double heading = 0.72;
+constexpr double turn = 4.3;
+constexpr double arm = 7.1;
+constexpr double position = 4.6;
+constexpr double sum = 1, apart = 1, square = 1, radii = 1.5;
+static_assert(rotation >= 2 * root_2);
+static_assert(heading >= root_2 / 2 * (1 + 0x1p-7));
+static_assert(turn >= 2 * heading + rotation);
+static_assert(arm >= 2 * heading + 2 * rotation);
+static_assert(position >= 1 + heading + rotation);
+
+constexpr double query_error = 23;
+static_assert(query_error >= arm + 2 * position + (2 + 1) * sum + apart + square + radii, "(1)");
+
+/// sqrt(x^2 + y^2) <= limit.
+constexpr bool length_within(double x, double y, double limit) {
+  return x * x + y * y <= limit * limit;
+}
+constexpr double contact_error = 16.5;
+constexpr double by_radii = position + sum + apart + square + radii;  // D <= r_A + r_B
+static_assert(length_within(arm + position + 2 * sum, by_radii, contact_error), "(1'), of B");
+static_assert(length_within(position + sum, by_radii, contact_error), "(1'), of A");
+
+/// Of the largest coordinate, after k halvings: by induction, and by trying.
+constexpr double halved(int k) {
+  return (2 * k + 1) / 3.0;
+}
+constexpr double halved_often(int k) {
+  return (4 * k + 6) / 9.0 / (1 + 1.0 / (1 << (23 - k)));
+}
+constexpr double halving = 8.9;
+static_assert(halving >= halved(12));
+static_assert(halving >= halved_often(18) && halving >= halved_often(19) && halving >= halved_often(20));
+constexpr double higher = 0.03;
+static_assert(higher >= 0x1p-10 * (query_error + 1));
+
+constexpr double segment_place = 8.9;
+static_assert(segment_place >= turn + position);
+
+constexpr double support_place = 21.2;
+constexpr double support_weight = 59;
+constexpr double support_sums = 6;
+constexpr double support_error = 264;
+constexpr double support_float = 5.2;
+static_assert(support_place >= 2 * position + 6 * 2);
+static_assert(support_weight >= 11.5 * 5.1259);  // 1 / sin 11.25 degrees
+static_assert(support_error >= support_place + 2 * 2 * support_weight + support_sums, "(2)");
+
+}  // namespace terms
+
+/// Added to every published radius, times the shape's reach: (1'), halving, higher orders.
+constexpr double query_margin = 25.5 * unit_roundoff;
+static_assert(query_margin >= (terms::contact_error + terms::halving + terms::higher) * unit_roundoff);
+
+/// Added to every support, times the shape's reach.
+constexpr double support_margin = 320 * unit_roundoff;
+static_assert(support_margin >=
+              (terms::support_error + terms::query_error + terms::support_float) * unit_roundoff);
+
+/// How near two segments are that meet: this times the sum of the shapes' reaches, beside the grid steps of both.
+constexpr double segment_margin = 13 * unit_roundoff;
+static_assert(segment_margin >= (terms::segment_place + terms::higher) * unit_roundoff);
+/// What of the margin all ends have to be beyond the other's line, so that a crossing is sure.
+constexpr double sure_share = 0.7;
+static_assert(terms::root_2 * sure_share < 1);
+static_assert(sure_share * segment_margin >= (terms::segment_place + terms::higher) * unit_roundoff);
+
+/// Snapping moves a vertex by sqrt(1/2) grid steps, and rounding a crossing to the grid by as much again.
+constexpr double outline_grid_steps = 1.5;
+static_assert(outline_grid_steps >= 2 * (terms::root_2 / 2));
+
+/// A false positive's largest gap, times the sum of the shapes' reaches: (price).
+constexpr double price = 3.4e-6;
+static_assert(price >=
+              query_margin + (2 + terms::query_error) * unit_roundoff + outline_grid_steps * 0x1p-22);
+
+/// The same of exact leaves.
+constexpr double segment_price = 1.7e-6;
+static_assert(segment_price >=
+              segment_margin + terms::segment_place * unit_roundoff + outline_grid_steps * 0x1p-22);
+
+/// The documented domain; beyond it the library throws.
+constexpr double smallest_reach = 1e-6;   // metres
+constexpr double largest_reach = 1e6;     // metres
+constexpr double largest_position = 1e9;  // metres
+constexpr double largest_heading = 1e9;   // radians
+
+/// The smallest float that is not below a finite value >= 0. Without a branch, which would be a coin toss.
+inline float round_up(double value) {
+  const float nearest = static_cast<float>(value);
+  return std::bit_cast<float>(std::bit_cast<std::uint32_t>(nearest) +
+                              std::uint32_t{static_cast<double>(nearest) < value});
+}
+
+}  // namespace bch::rounding

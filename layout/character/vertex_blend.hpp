@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "layout/base/aligned_vector.hpp"
+#include "layout/base/disc.hpp"
+#include "layout/character/affine_rows.hpp"
+#include "layout/character/character.hpp"
+
+namespace bch {
+
+/// A mesh that its bones move: each vertex goes to the mean of where they take it, weighted. What does not depend
+/// on the pose is done once: a vertex is multiplied by its weights, so that every bone adds one product, and
+/// vertices of equally many bones stand together, so that how many is no surprise.
+class VertexBlend {
+ public:
+  /// One of a map's three, or a vertex and 1.
+  struct alignas(16) Row {
+    float at[4];
+  };
+
+  explicit VertexBlend(const Character& character);
+
+  /// The bones that move a vertex, in order.
+  std::span<const std::uint32_t> bones() const { return bones_; }
+
+  /// Writes where every vertex goes. maps[i] is that of bones()[i].
+  /// Returns: the first vertex whose position is not finite, if there is one.
+  std::optional<std::uint32_t> blend(std::span<const AffineRows> maps, std::span<Eigen::Vector3f> positions);
+  /// The same bits without heights, which nobody sees from above.
+  std::optional<std::uint32_t> blend(std::span<const AffineRows> maps, std::span<Vec2> positions);
+
+ private:
+  /// Vertices that so many bones move, up to `end` of the order.
+  struct Run {
+    std::uint32_t bones, end;
+  };
+
+  template <class Position>
+  std::optional<std::uint32_t> blend_all(std::span<const AffineRows> maps, std::span<Position> positions);
+
+  std::vector<std::uint32_t> bones_;
+  std::vector<Run> runs_;
+  std::vector<std::uint32_t> vertex_;     ///< in the order of work
+  AlignedVector<Row> weighted_;           ///< per influence: the vertex and 1, times the weight
+  std::vector<std::uint32_t> first_row_;  ///< per influence: of its bone's three
+  AlignedVector<Row> rows_;               ///< of the maps
+};
+
+}  // namespace bch

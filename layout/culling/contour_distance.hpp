@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <array>
+#include <span>
+
+#include "layout/culling/interior_implementation.hpp"
+#include "layout/culling/tangent_discs.hpp"
+
+namespace bch {
+
+/// Where a contour is, seen from points.
+struct ContourDepths {
+  alignas(64) std::array<double, most_touches> distance;
+  /// How often the contour goes round the point, counter-clockwise: 1 inside. Without meaning on the contour.
+  alignas(64) std::array<double, most_touches> winding;
+};
+
+/// Depths of the discs' centres, exact but for the rounding of double.
+void measure_depths(const InteriorLoops& loops, std::span<const Vec2> contour, const CandidateDiscs& discs,
+                    ContourDepths& depths);
+
+/// The same in float, at half the cost.
+void estimate_depths(const InteriorLoops& loops, const ContourPoints& contour, const CandidateDiscs& discs,
+                     ContourDepths& depths);
+
+/// The point of a contour nearest to each disc's centre, and the unit vector from there to the centre; both
+/// in float, and the vector is 0 for a centre on the contour.
+void nearest_touches(const InteriorLoops& loops, const ContourPoints& contour, const CandidateDiscs& discs,
+                     Touches& touches);
+
+}  // namespace bch

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <xsimd/xsimd.hpp>
+
+#include "layout/base/disc.hpp"
+#include "layout/format/shape_set_view.hpp"
+
+namespace bch {
+
+/// Some of a contour's segments, seen from a centre, with what can be computed of them without a branch.
+template <class Arch>
+class ContourLanes {
+ public:
+  static constexpr std::size_t most = 64;
+
+  /// Those that end in these points, one or more and at most so many; the first begins in `begin`.
+  ContourLanes(Vec2 begin, std::span<const Vec2> ends, double centre_x, double centre_y) noexcept
+      : count_(ends.size()) {
+    const auto put = [&](std::size_t i, Vec2 point) {
+      x_[i] = static_cast<double>(point.x) - centre_x, y_[i] = static_cast<double>(point.y) - centre_y;
+    };
+    put(0, begin);
+    for (std::size_t i = 0; i < count_; ++i) put(i + 1, ends[i]);
+    for (std::size_t i = 0; i < padding; ++i) put(count_ + 1 + i, ends[count_ - 1]);
+    for (std::size_t i = 0; i <= count_; i += Batch::size) find_sectors(i);
+    for (std::size_t i = 0; i < count_; i += Batch::size) find_feet(i);
+  }
+
+  std::size_t size() const noexcept { return count_; }
+
+  // Of where segment i begins, and i - 1 ends.
+
+  double x(std::size_t i) const noexcept { return x_[i]; }
+  double y(std::size_t i) const noexcept { return y_[i]; }
+  std::uint32_t sector(std::size_t i) const noexcept {
+    return static_cast<std::uint32_t>(static_cast<std::int32_t>(sector_[i])) % profile_sectors;
+  }
+  /// Not more than the distance from the nearest line between sectors.
+  double aside(std::size_t i) const noexcept { return aside_[i]; }
+
+  // Of segment i.
+
+  /// Where its line comes nearest to the centre: share of the way to its end.
+  double foot(std::size_t i) const noexcept { return foot_[i]; }
+  double square_distance(std::size_t i) const noexcept { return square_distance_[i]; }
+  bool turns_left(std::size_t i) const noexcept { return turn_[i] >= 0; }
+  /// Whether it crosses the ray along x. (No branch: that would be a coin toss.)
+  bool crosses(std::size_t i) const noexcept {
+    return ((y_[i] > 0) != (y_[i + 1] > 0)) & (turns_left(i) == (y_[i + 1] > y_[i]));
+  }
+
+ private:
+  using Batch = xsimd::batch<double, Arch>;
+  /// To whole registers, of the ends of segments too.
+  static constexpr std::size_t padding = Batch::size;
+  using Array = std::array<double, most + 1 + padding>;
+  /// Added to what is divided by, which may be 0 where what is divided is.
+  static constexpr double not_zero = 1e-200;
+
+  static Batch load(const Array& of, std::size_t i) noexcept { return Batch::load_unaligned(&of[i]); }
+  static void store(Array& to, std::size_t i, const Batch& value) noexcept { value.store_unaligned(&to[i]); }
+
+  /// A sector takes an equal share of |y| / (|x| + |y|). From the line at one end, which is at most `quadrant` long in
+  /// those terms, a point is that share times (|x| + |y|) over its length away.
+  void find_sectors(std::size_t i) noexcept {
+    constexpr double quadrant = profile_sectors / 4;
+    const Batch x = load(x_, i), y = load(y_, i), zero(0.0);
+    const Batch sum = xsimd::abs(x) + xsimd::abs(y);
+    const Batch share = Batch(quadrant) * xsimd::abs(y) / (sum + Batch(not_zero));
+    const Batch half = xsimd::select(x < zero, Batch(2 * quadrant) - share, share);
+    const Batch sector = xsimd::select(y < zero, Batch(4 * quadrant) - half, half);
+    const Batch to_integer(0x1.8p52), nearest = (sector + to_integer) - to_integer;
+    store(sector_, i, sector);
+    store(aside_, i, xsimd::abs(sector - nearest) * sum * Batch(1 / (quadrant + 0.001)));
+  }
+
+  void find_feet(std::size_t i) noexcept {
+    const Batch x = load(x_, i), y = load(y_, i), to_x = load(x_, i + 1), to_y = load(y_, i + 1);
+    const Batch along_x = to_x - x, along_y = to_y - y;
+    const Batch square = along_x * along_x + along_y * along_y;
+    const Batch foot = (Batch(0.0) - (x * along_x + y * along_y)) / (square + Batch(not_zero));
+    const Batch share = xsimd::max(Batch(0.0), xsimd::min(Batch(1.0), foot));
+    const Batch there_x = x + share * along_x, there_y = y + share * along_y;
+    store(foot_, i, foot);
+    store(square_distance_, i, there_x * there_x + there_y * there_y);
+    store(turn_, i, x * to_y - y * to_x);
+  }
+
+  std::size_t count_;
+  Array x_, y_, sector_, aside_, foot_, square_distance_, turn_;
+};
+
+}  // namespace bch

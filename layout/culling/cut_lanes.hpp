@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <emmintrin.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <xsimd/xsimd.hpp>
+
+#include "layout/base/disc.hpp"
+#include "layout/format/shape_set_view.hpp"
+
+namespace bch {
+
+/// Discs side by side; whole registers may be read from `count` - 1 on.
+struct DiscRun {
+  const float *x, *y, *radius;
+  std::uint32_t count;
+};
+
+/// Loops over a cut's discs.
+template <class Arch>
+class CutLanes {
+ public:
+  /// The radius of the disc about a centre that holds a run, to 5 units in the last place.
+  static float radius(const DiscRun& run, Vec2 centre) noexcept {
+    const Batch centre_x(centre.x), centre_y(centre.y);
+    Batch most(0.0f);
+    for_each(run, [&](const Batch& x, const Batch& y, const Batch& r, const Batch& there) {
+      const Batch dx = x - centre_x, dy = y - centre_y;
+      most = xsimd::max(xsimd::sqrt(dx * dx + dy * dy) + (r + there), most);
+    });
+    return largest(most);
+  }
+
+  /// The run's extents along support_directions directions, to 6 units in the last place of its reach. Those of the
+  /// first quadrant are given; the others are these turned by a quarter, a half and three quarters, so that they
+  /// share products.
+  static void heights(const DiscRun& run, const float* cosine, const float* sine, float* height) noexcept {
+    for (std::size_t k = 0; k < quadrant; k += Batch::size) {
+      const Batch c = Batch::load_unaligned(cosine + k), s = Batch::load_unaligned(sine + k);
+      Batch h[4] = {Batch(-infinity), Batch(-infinity), Batch(-infinity), Batch(-infinity)};
+      for (std::uint32_t i = 0; i < run.count; ++i) {
+        const Batch x(run.x[i]), y(run.y[i]), r(run.radius[i]);
+        const Batch along = c * x + s * y, across = c * y - s * x;
+        h[0] = xsimd::max(h[0], r + along);
+        h[1] = xsimd::max(h[1], r + across);
+        h[2] = xsimd::max(h[2], r - along);
+        h[3] = xsimd::max(h[3], r - across);
+      }
+      for (std::size_t turn = 0; turn < 4; ++turn) h[turn].store_unaligned(height + turn * quadrant + k);
+    }
+  }
+
+ private:
+  using Batch = xsimd::batch<float, Arch>;
+  static constexpr float infinity = std::numeric_limits<float>::infinity();
+  static constexpr std::size_t quadrant = support_directions / 4;
+
+  /// Also hands out 0 in the lanes of the run's discs and NaN in others, which a minimum or maximum drops when it comes
+  /// first: that is one instruction, where selecting is three.
+  template <class Visit>
+  static void for_each(const DiscRun& run, Visit visit) {
+    alignas(64) float lane[Batch::size];
+    for (std::size_t i = 0; i < Batch::size; ++i) lane[i] = static_cast<float>(i);
+    const Batch index = Batch::load_aligned(lane), gone(std::numeric_limits<float>::quiet_NaN());
+    for (std::uint32_t i = 0; i < run.count; i += Batch::size) {
+      const auto is_there = index < Batch(static_cast<float>(run.count - i));
+      visit(Batch::load_unaligned(run.x + i), Batch::load_unaligned(run.y + i),
+            Batch::load_unaligned(run.radius + i), xsimd::select(is_there, Batch(0.0f), gone));
+    }
+  }
+
+  static float largest(const Batch& values) {
+    static_assert(Batch::size == 4);
+    const __m128 two = _mm_max_ps(values, _mm_movehl_ps(values, values));
+    return _mm_cvtss_f32(_mm_max_ss(two, _mm_shuffle_ps(two, two, 1)));
+  }
+};
+
+}  // namespace bch

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "layout/culling/contour_distance.hpp"
+#include "layout/culling/disc_coverage.hpp"
+#include "layout/culling/tangent_discs.hpp"
+#include "layout/format/outline.hpp"
+#include "layout/format/shape_set_view.hpp"
+
+namespace bch {
+
+/// What lets a query accept a pair without walking its trees. All of it belongs to the outline's largest
+/// contour.
+///
+/// Where a disc inside one contour overlaps a disc inside another, the contours' areas meet. Then either the
+/// contours cross, which both semantics call a hit at every level, or one lies inside the other, which solid
+/// calls a hit too. Boundary may accept only where nesting is excluded: when each contour has a point beyond
+/// the other's supports (supports.hpp).
+struct Interior {
+  /// Discs inside the contour, their radii rounded inward by what rounding.hpp derives; padded like a block.
+  std::array<float, block_width> x, y, radius;
+  /// The contour's farthest point along each direction of the supports, twice over, as supports are stored.
+  std::array<float, extreme_stride> extreme_x, extreme_y;
+};
+
+/// Chooses the discs of shape after shape; allocates only where a contour has more points than any before.
+/// For one thread.
+///
+/// Candidates lie on the contour's medial axis (tangent_discs.hpp), since any other disc is part of a larger
+/// one. They are chosen one after the other, each to add the most area to the union of those chosen so far,
+/// all dilated by a tenth of the contour's width: what matters is not to fill the contour but to be near
+/// anything that may come in. Estimates in float do for that; then the depths of the chosen centres, and
+/// whether they are inside, are computed from the contour itself.
+///
+/// Measured on bch_micro's colliding pairs, the built-in characters and two scanned ones: 95 % and 97 % have
+/// discs that overlap. Discs exchanged until none fits other such pairs better reach 97 % and 98 %. Without
+/// dilation it is 84 % and 91 %; from 0.075 to 0.15 of the width flat within 0.3 %. 4 discs decide 79 % and
+/// 86 %, 12 decide 98 % and 99 %, 16 decide 99 % and 99.5 %; more than 8 take further tests of 8 x 8 on every
+/// open pair, which cost more than the walks that they save (0.7 ns a pair for a percent).
+class InteriorBuilder {
+ public:
+  /// With the best loops that this processor supports.
+  InteriorBuilder();
+  /// With given ones, which this processor has to support.
+  explicit InteriorBuilder(const InteriorImplementation& implementation);
+
+  /// Shapes:  validate(outline) does not throw; contours are counter-clockwise. `reach` is that of the shape,
+  ///          metres. Where no disc fits that is larger than the rounding there is none; slivers some 60
+  ///          times as long as wide may have fewer than fit.
+  /// Cost:    linear in the points of the largest contour.
+  Interior build(const Outline& outline, double reach);
+
+ private:
+  using Contour = std::span<const Vec2>;
+  /// From metres to cells of the raster: (metres - x) / cell.
+  struct Frame {
+    double x, y, cell;
+  };
+
+  static Frame frame(Contour contour);
+  void to_cells(Contour contour);
+  bool choose(Contour contour, std::uint32_t count);
+  bool is_sound(const CandidateDiscs& discs, std::uint32_t k, double unit) const;
+  std::uint32_t offer_measured();
+
+  ContourPoints corners() const { return {x_.data(), y_.data(), x_.size()}; }
+
+  const InteriorLoops* loops_;
+  Frame frame_;
+  std::vector<float> x_, y_;  ///< the contour's points, in cells
+  ContourSamples samples_;
+  CandidateDiscs candidates_, chosen_;  ///< in cells
+  Touches nearest_;                     ///< of the chosen ones
+  DiscCoverage coverage_;
+  CandidateDiscs stored_;  ///< the chosen centres in metres, as floats
+  ContourDepths depths_;   ///< of the last discs looked at
+};
+
+/// The same for one shape.
+Interior interior(const Outline& outline, double reach);
+
+}  // namespace bch

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "layout/base/disc.hpp"
+
+namespace bch {
+
+/// What the loops behind interior.hpp work on: plain pointers, because nothing of the standard library may be
+/// compiled for wide registers.
+struct ContourPoints {
+  const float *x, *y;
+  std::size_t count;
+};
+
+/// Points that each have a lane: whole registers are read and written, of which only the first `count` lanes
+/// matter. Their arrays have room for most_touches.
+struct PointLanes {
+  const float *x, *y;
+  std::uint32_t count;
+};
+struct TouchLanes {
+  const float *x, *y, *normal_x, *normal_y;
+  std::uint32_t count;
+};
+
+/// Directions that each have a lane, contour_lines of them, and which points are least and farthest along each.
+constexpr std::uint32_t contour_lines = 8;
+struct LineLanes {
+  const double *cosine, *sine;
+  double *lowest, *highest;  ///< indices; of several points the first
+};
+
+/// A raster's words, each a row and a bit for each of its cells.
+constexpr std::uint32_t raster_rows = 32;
+
+/// One compilation of interior_lanes.hpp, which says what the loops do.
+struct InteriorLoops {
+  void (*keep_out)(const ContourPoints& points, const TouchLanes& touches, float* half_curvature) noexcept;
+  void (*measure)(const Vec2* contour, std::size_t count, const PointLanes& from, double* square,
+                  double* turns) noexcept;
+  void (*estimate)(const ContourPoints& contour, const PointLanes& from, float* square,
+                   float* turns) noexcept;
+  void (*find_nearest)(const ContourPoints& contour, const PointLanes& from, float* square,
+                       std::int32_t* edge) noexcept;
+  void (*find_extremes)(const Vec2* contour, std::size_t count, const LineLanes& lines) noexcept;
+  std::int32_t (*draw)(float x, float y, float radius, std::uint32_t* rows) noexcept;
+  std::int32_t (*count_new)(const std::uint32_t* rows, const std::uint32_t* covered) noexcept;
+};
+
+/// All give the same bits.
+struct InteriorImplementation {
+  const char* name;  ///< "avx512", "avx2" or "sse2"
+  bool (*supported)() noexcept;
+  const InteriorLoops& loops;
+};
+
+/// All that were compiled, the best first; the last one runs everywhere.
+std::span<const InteriorImplementation> interior_implementations() noexcept;
+
+/// The fastest for construction that this processor supports.
+const InteriorImplementation& best_interior_implementation() noexcept;
+
+}  // namespace bch

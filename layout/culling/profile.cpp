@@ -1,0 +1,237 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include "layout/culling/profile.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <span>
+
+#include "layout/base/rounding.hpp"
+#include "layout/culling/contour_lanes.hpp"
+#include "layout/culling/cut_lanes.hpp"
+
+/// Rounding, in the terms of rounding.hpp. The line of centres D that a query computes in float is within 40 u S of the
+/// exact one (along); B's turn, D seen from B, and the sector are off by another 20 u, which is 40 u P_A and 40 u P_B
+/// across (across).
+///
+/// inner: a disc of `margin` about each point of the sector, out to there, touches no contour. So the point that both
+/// have still belongs to both when B is moved by 40 u S and lies 40 u P beside its line. Sums and comparison: 6 u S (sums).
+/// outer: the same error along and across the line, and the 23 u S by which discs that the test accepts may be apart:
+/// 23 + 40 + 40 + 6 < 110 u S, where supports are enlarged by 320 u P.
+/// extent: the same without the 23 u S, on top of what outer has to spare.
+/// Tests see the sign of `margin`; only this proof needs all of it.
+namespace bch {
+namespace {
+
+using Polygon = std::span<const Vec2>;
+static_assert(profile_sectors == support_directions, "the lanes of CutLanes::heights()");
+
+constexpr float infinity = std::numeric_limits<float>::infinity();
+constexpr double margin = 128 * rounding::unit_roundoff;
+constexpr double along = 40, across = 40, sums = 6;  // in units of u
+static_assert(margin >= (along + across + sums) * rounding::unit_roundoff);
+static_assert(rounding::support_margin >=
+              (rounding::terms::query_error + along + across + sums) * rounding::unit_roundoff);
+
+struct Point {
+  double x, y;
+};
+
+double cross(Point a, Point b) {
+  return a.x * b.y - a.y * b.x;
+}
+double dot(Point a, Point b) {
+  return a.x * b.x + a.y * b.y;
+}
+Point minus(Vec2 p, Point q) {
+  return {static_cast<double>(p.x) - q.x, static_cast<double>(p.y) - q.y};
+}
+
+constexpr std::uint32_t quadrant = profile_sectors / 4;
+
+/// Unit vectors between sectors: the one before sector k, and after the last one the first again.
+struct Boundaries {
+  std::array<Point, profile_sectors + 1> at;
+  std::array<double, profile_sectors + 1> x, y;
+  std::array<float, quadrant> cosine, sine;  ///< of the first quadrant
+  /// Of the angle of sector k, and one over the square of its sine.
+  std::array<double, profile_sectors> gap_cosine, over_square_sine;
+
+  Boundaries() {
+    for (std::uint32_t k = 0; k <= profile_sectors; ++k) {
+      const double b = k % quadrant, a = quadrant - b, length = std::sqrt(a * a + b * b);
+      const Point turned[] = {{a, b}, {-b, a}, {-a, -b}, {b, -a}};
+      const Point& p = turned[k / quadrant % 4];
+      at[k] = {p.x / length, p.y / length};
+      x[k] = at[k].x, y[k] = at[k].y;
+    }
+    for (std::uint32_t k = 0; k < quadrant; ++k)
+      cosine[k] = static_cast<float>(at[k].x), sine[k] = static_cast<float>(at[k].y);
+    for (std::uint32_t k = 0; k < profile_sectors; ++k) {
+      gap_cosine[k] = dot(at[k], at[k + 1]);
+      over_square_sine[k] = 1 / (1 - gap_cosine[k] * gap_cosine[k]);
+    }
+  }
+};
+
+const Boundaries& boundaries() {
+  static const Boundaries all;
+  return all;
+}
+
+/// Of the contour's area; its first point where it has none.
+Point centroid(Polygon contour) {
+  const Point origin = minus(contour[0], {0, 0});
+  double area = 0, x = 0, y = 0;
+  for (std::size_t i = 2; i < contour.size(); ++i) {
+    const Point a = minus(contour[i - 1], origin), b = minus(contour[i], origin);
+    area += cross(a, b), x += cross(a, b) * (a.x + b.x), y += cross(a, b) * (a.y + b.y);
+  }
+  if (!(area > 0)) return origin;
+  return {origin.x + x / (3 * area), origin.y + y / (3 * area)};
+}
+
+/// What of a segment lies on the side of a line where a linear function, given at either end, is positive.
+struct Clip {
+  double from = 0, to = 1;
+
+  void keep_positive(double at_a, double at_b) {
+    if (at_a < 0 && at_b < 0) to = -1;
+    if (at_a < 0 && at_b >= 0) from = std::max(from, at_a / (at_a - at_b));
+    if (at_b < 0 && at_a >= 0) to = std::min(to, at_a / (at_a - at_b));
+  }
+};
+
+/// A segment, seen from the origin.
+struct Segment {
+  Point a, b;
+  double foot;  ///< where its line comes nearest: share of the way from a to b
+
+  /// Square of the distance of what lies between two boundaries, each moved out by `wider`.
+  double square_distance_in(Point right, Point left, double wider) const {
+    Clip clip;
+    clip.keep_positive(cross(right, a) + wider, cross(right, b) + wider);
+    clip.keep_positive(cross(a, left) + wider, cross(b, left) + wider);
+    if (clip.from > clip.to) return infinity;
+    const double share = std::clamp(foot, clip.from, clip.to);
+    const Point there{a.x + share * (b.x - a.x), a.y + share * (b.y - a.y)};
+    return dot(there, there);
+  }
+};
+
+/// How far the contour's inside goes on from the centre, sector by sector.
+class Inside {
+ public:
+  Inside(Polygon contour, Point centre, double reach) : to_(boundaries()), wider_(margin * reach) {
+    square_.fill(infinity);
+    bool inside = false;
+    Vec2 begin = contour.back();
+    for (std::size_t i = 0; i < contour.size(); i += Segments::most) {
+      const Polygon ends = contour.subspan(i, std::min(Segments::most, contour.size() - i));
+      const Segments segments(begin, ends, centre.x, centre.y);
+      for (std::size_t k = 0; k < segments.size(); ++k) {
+        inside ^= segments.crosses(k);
+        limit(segments, k);
+      }
+      begin = ends.back();
+    }
+    // A contour so near would be wide of the neighbours of its sectors.
+    const double nearest = *std::min_element(square_.begin(), square_.end());
+    if (!inside || nearest < 64 * wider_ * 64 * wider_) square_.fill(0);
+  }
+
+  float inner(std::uint32_t k) const {
+    const double rounded_in = std::sqrt(square_[k]) - 2 * wider_;
+    return rounded_in > 0 ? static_cast<float>(rounded_in) : -infinity;
+  }
+
+ private:
+  using Segments = ContourLanes<xsimd::sse2>;  ///< of every x86-64 processor
+
+  /// By a segment, in the sectors that it crosses, counter-clockwise, and their neighbours. Most segments lie in one, and
+  /// not in a neighbour made wider; and in most of several there is a nearer one, whatever part of this one lies there.
+  void limit(const Segments& segments, std::size_t i) {
+    const std::uint32_t begin = segments.sector(i), end = segments.sector(i + 1);
+    const double least = segments.square_distance(i);
+    if (begin == end && std::min(segments.aside(i), segments.aside(i + 1)) > wider_) {
+      square_[begin] = std::min(square_[begin], least);
+      return;
+    }
+    const Segment segment{
+        {segments.x(i), segments.y(i)}, {segments.x(i + 1), segments.y(i + 1)}, segments.foot(i)};
+    const bool left = segments.turns_left(i);
+    const std::uint32_t first = left ? begin : end, stop = ((left ? end : begin) + 2) % profile_sectors;
+    for (std::uint32_t k = (first + profile_sectors - 1) % profile_sectors; k != stop;
+         k = (k + 1) % profile_sectors)
+      if (least < square_[k])
+        square_[k] = std::min(square_[k], segment.square_distance_in(to_.at[k], to_.at[k + 1], wider_));
+  }
+
+  const Boundaries& to_;
+  double wider_;
+  std::array<double, profile_sectors> square_;  ///< of distances
+};
+
+/// The least that the contour extends to in directions opposite to each sector: its farthest points do at either end,
+/// and what is positive there is no less between.
+std::array<double, profile_sectors> extents(const Interior& interior, Point centre) {
+  const Boundaries& to = boundaries();
+  std::array<double, profile_sectors> most{};
+  for (std::uint32_t i = 0; i < extreme_directions; ++i) {
+    const Point p = minus({interior.extreme_x[i], interior.extreme_y[i]}, centre);
+    std::array<double, profile_sectors + 1> behind;
+    for (std::uint32_t k = 0; k <= profile_sectors; ++k) behind[k] = -(p.x * to.x[k] + p.y * to.y[k]);
+    for (std::uint32_t k = 0; k < profile_sectors; ++k) {
+      const double both = behind[k] < behind[k + 1] ? behind[k] : behind[k + 1];
+      most[k] = most[k] < both ? both : most[k];
+    }
+  }
+  return most;
+}
+
+}  // namespace
+
+Profile profile(const Outline& outline, const Interior& interior, double reach) {
+  Profile result{};
+  for (Sector& each : result.sectors) each = {-infinity, infinity, -infinity, infinity};
+  if (outline.contours() == 0) return result;
+  const Polygon contour = largest_contour(outline);
+  const Point exact = centroid(contour);
+  result.x = static_cast<float>(exact.x), result.y = static_cast<float>(exact.y);
+  const Point centre = minus({result.x, result.y}, {0, 0});
+  const Inside inside(contour, centre, reach);
+  for (std::uint32_t k = 0; k < profile_sectors; ++k) result.sectors[k].inner = inside.inner(k);
+  if (outline.contours() > 1) return result;
+  const auto behind = extents(interior, centre);
+  for (std::uint32_t k = 0; k < profile_sectors; ++k)
+    if (behind[k] > 0) result.sectors[k].extent = static_cast<float>(behind[k] - margin * reach);
+  return result;
+}
+
+Outer outer(const Profile& profile, const float* x, const float* y, const float* radius, std::uint32_t count,
+            double reach) {
+  const Boundaries& to = boundaries();
+  std::array<float, profile_sectors> heights;
+  CutLanes<xsimd::sse2>::heights({x, y, radius, count}, to.cosine.data(), to.sine.data(), heights.data());
+  const auto centre_x = static_cast<double>(profile.x), centre_y = static_cast<double>(profile.y);
+  std::array<double, profile_sectors + 1> height;
+  for (std::uint32_t k = 0; k < profile_sectors; ++k)
+    height[k] = static_cast<double>(heights[k]) - (centre_x * to.x[k] + centre_y * to.y[k]);
+  height[profile_sectors] = height[0];
+  // To the corner of the supporting lines of either end, where it is in the sector. Without a branch.
+  Outer result;
+  for (std::uint32_t k = 0; k < profile_sectors; ++k) {
+    const double right = height[k], left = height[k + 1], cosine = to.gap_cosine[k];
+    const double corner =
+        std::sqrt((right * right + left * left - 2 * right * left * cosine) * to.over_square_sine[k]);
+    const double larger = right < left ? left : right, smaller = right < left ? right : left;
+    const double farthest = smaller < larger * cosine ? larger : corner;
+    result[k] = static_cast<float>(farthest + rounding::support_margin * reach);
+  }
+  return result;
+}
+
+}  // namespace bch

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "layout/culling/interior.hpp"
+#include "layout/format/outline.hpp"
+#include "layout/format/shape_set_view.hpp"
+
+namespace bch {
+
+/// What a shape looks like along lines from a centre, sector by sector, so that one look at each of two shapes along
+/// the line of their centres, D apart, decides most pairs:
+///
+///     inner_A + inner_B >= D     a point between the centres belongs to both areas
+///     outer_A + outer_B < D      a line across parts the cuts
+///     outer_A < D + extent_B     no contour of B lies inside one of A: it sticks out on the far side
+///
+/// A sector is what has the same place among profile_sectors equal parts of |y| / (|x| + |y|), quadrant by quadrant, and
+/// a centre that of the largest contour's area. B looks along the same line from the other end, so its extent is
+/// kept with the sector opposite to it.
+///
+/// Returns: the profile of an outline, both `outer` left at infinity; without an outline, or where it has no room about the
+///          centre, `inner` is minus infinity, and so is `extent` of several contours, of which nothing is known.
+/// Preconditions: validate(outline) does not throw, or it has no contours; `interior` is that of the outline, `reach`
+///          that of the shape, metres.
+Profile profile(const Outline& outline, const Interior& interior, double reach);
+
+/// How far one disc or more of a cut, in arrays, extend from a profile's centre, sector by sector.
+using Outer = std::array<float, profile_sectors>;
+Outer outer(const Profile& profile, const float* x, const float* y, const float* radius, std::uint32_t count,
+            double reach);
+
+}  // namespace bch

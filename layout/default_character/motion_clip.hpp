@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include "layout/character/character.hpp"
+#include "layout/default_character/human_pose.hpp"
+
+namespace bch {
+
+/// A pose for each time in seconds.
+using Motion = std::function<HumanPose(double seconds)>;
+
+/// How the pelvis moves over the ground: as the motion says, or such that the foot that carries does not
+/// slide.
+enum class Travel { authored, by_feet };
+
+/// Writes a motion down as keys, 16 a second. The height of the pelvis is corrected so that the
+/// lowest vertex of the soles is on the ground at each key. `character` has a skin and a skeleton at
+/// `joints`. Precondition: a whole number of seconds.
+Clip bake(const Character& character, const JointPositions& joints, std::string name, int seconds,
+          Travel travel, const Motion& motion);
+
+}  // namespace bch

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include "layout/default_character/motion_clip.hpp"
+
+namespace bch {
+
+/// How a person moves, beside the lengths of the bones. Angles in radians, lengths in metres.
+struct Manner {
+  JointPositions joints;
+  double stature;
+  double stride;         ///< scales the excursion of the hips in walking; 1 is the published one
+  double cadence;        ///< scales the strides a second
+  double arm_abduction;  ///< of a hanging arm, so that it passes the hips
+  double arm_swing;      ///< scales the excursion of the arms
+  double foot_spacing;   ///< between the ankles when standing
+  double gesture;        ///< how far hands go from the body when talking or waving: 1 is ordinary
+};
+
+struct Gait {
+  double strides_per_second;
+  double reach;          ///< scales hip and arms against natural walking
+  double turn_rate = 0;  ///< of the heading, radians a second, counter-clockwise
+};
+
+Motion walking(const Manner& manner, const Gait& gait);
+
+/// Steps about the own axis; `direction` is 1 to the left, -1 to the right.
+Motion turning(const Manner& manner, double direction);
+Motion side_stepping(const Manner& manner, double direction);
+
+enum class Idle { shift, look_around, akimbo, arms_crossed, phone, wave, talk, think };
+Motion idling(const Manner& manner, Idle kind);
+
+/// A natural stance for arms, common to all standing motions.
+ArmPose hanging_arm(const Manner& manner);
+
+/// 0 before `begin`, 1 after `end`, and a smooth way between.
+double ease(double begin, double end, double t);
+
+}  // namespace bch

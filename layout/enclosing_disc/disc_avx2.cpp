@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include "layout/enclosing_disc/disc_lanes.hpp"
+
+namespace bch {
+namespace {
+
+struct Local {};
+
+}  // namespace
+
+void solve_discs_avx2(const DiscSets& sets) noexcept {
+  DiscLanes<xsimd::avx2, Local>::solve(sets);
+}
+
+}  // namespace bch

@@ -1,0 +1,294 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <emmintrin.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <xsimd/xsimd.hpp>
+
+#include "layout/enclosing_disc/disc_sets.hpp"
+
+namespace bch {
+
+/// Smallest enclosing discs of many point sets, one set a lane: disc_pivoting.hpp's algorithm without its
+/// branches, which are coin tosses. A lane's operations do not depend on the width nor on its neighbours, so
+/// that every instruction set gives the same bits. `Local` is a type of the including file alone, so that no
+/// other file can share what was compiled for its registers.
+template <class Arch, class Local>
+class DiscLanes {
+ public:
+  static void solve(const DiscSets& job) noexcept {
+    for (std::size_t i = 0; i < job.small_count; i += width) Block(job, i, job.small_count).solve_small();
+    const std::size_t large = job.count - job.small_count;
+    if (large == 0) return;
+    const std::size_t last_block = job.count - (large < width - 1 ? large : width - 1);
+    for (std::size_t i = job.small_count; i < last_block; i += width) Block(job, i, last_block).solve_large();
+    Block(job, last_block, job.count, true).solve_large();
+  }
+
+ private:
+  using Batch = xsimd::batch<double, Arch>;
+  using Mask = typename Batch::batch_bool_type;
+  static constexpr std::size_t width = Batch::size;
+
+  struct Point {
+    Batch x, y;
+  };
+  /// The points on the boundary, the second and third the same where there are two, and their disc.
+  struct Basis {
+    Point a, b, c;
+    Point centre;
+    Batch square_radius;
+    Mask is_pair;
+  };
+
+  static Batch select(const Mask& where, const Batch& yes, const Batch& no) {
+    return xsimd::select(where, yes, no);
+  }
+  static Point select(const Mask& where, const Point& yes, const Point& no) {
+    return {select(where, yes.x, no.x), select(where, yes.y, no.y)};
+  }
+  static Batch square_distance(const Point& a, const Point& b) {
+    const Batch x = a.x - b.x, y = a.y - b.y;
+    return x * x + y * y;
+  }
+  static Point middle(const Point& a, const Point& b) {
+    return {Batch(0.5) * (a.x + b.x), Batch(0.5) * (a.y + b.y)};
+  }
+
+  /// Of a triangle: the longest side's disc unless it is acute.
+  static Basis basis(const Point& a, const Point& b, const Point& c) {
+    const Batch ab = square_distance(a, b), bc = square_distance(b, c), ca = square_distance(c, a);
+    const Batch bx = b.x - a.x, by = b.y - a.y, cx = c.x - a.x, cy = c.y - a.y;
+    const Batch scale = Batch(0.5) / (bx * cy - by * cx);
+    const Point offset{(cy * ab - by * ca) * scale, (bx * ca - cx * ab) * scale};
+    Basis result{a, b, c, {a.x + offset.x, a.y + offset.y}, offset.x * offset.x + offset.y * offset.y, {}};
+    const Mask beside_ca = ca >= ab + bc, beside_bc = bc >= ab + ca, beside_ab = ab >= bc + ca;
+    const auto drop = [&](const Mask& where, const Point& from, const Point& to, const Batch& square) {
+      result.a = select(where, from, result.a);
+      result.b = select(where, to, result.b);
+      result.c = select(where, to, result.c);
+      result.centre = select(where, middle(from, to), result.centre);
+      result.square_radius = select(where, Batch(0.25) * square, result.square_radius);
+    };
+    drop(beside_ca, c, a, ca);
+    drop(beside_bc, b, c, bc);
+    drop(beside_ab, a, b, ab);
+    result.is_pair = beside_ca | beside_bc | beside_ab;
+    return result;
+  }
+
+  static Basis pivot(const Basis& old, const Point& q) {
+    const Batch a = square_distance(old.a, q), b = square_distance(old.b, q), c = square_distance(old.c, q);
+    const Mask b_far = b > a, c_far = c > xsimd::max(a, b);
+    const Point far = select(c_far, old.c, select(b_far, old.b, old.a));
+    const Point next = select(c_far, old.a, select(b_far, old.c, old.b));
+    const Point last = select(c_far, old.b, select(b_far, old.a, old.c));
+    const Batch x = old.centre.x - far.x, y = old.centre.y - far.y;
+    const auto side = [&](const Point& p) { return x * (p.y - far.y) - y * (p.x - far.x); };
+    const Point beyond = select(side(q) * side(next) <= Batch(0.0), next, last);
+    return basis(q, select(old.is_pair, old.a, far), select(old.is_pair, old.b, beyond));
+  }
+
+  /// As many sets as there are lanes, point after point; sets with fewer points than others repeat their
+  /// last.
+  class Block {
+   public:
+    /// `is_shared`: the last two lanes share the largest set, which often has twice the points of the next.
+    Block(const DiscSets& job, std::size_t begin, std::size_t end, bool is_shared = false)
+        : job_(job), begin_(begin), end_(end), is_shared_(is_shared) {
+      Column columns[width];
+      for (std::size_t lane = 0; lane < width; ++lane) columns[lane] = column(lane);
+      if (is_shared) {
+        Column &half = columns[width - 2], &other = columns[width - 1];
+        const std::size_t middle = half.last / 2;
+        other = {half.first + middle + 1, half.last - middle - 1};
+        half.last = middle;
+      }
+      fill(columns);
+    }
+
+    /// Up to three points, or four. A smallest disc is that of two or three of the points, and the largest of theirs.
+    void solve_small() const {
+      const auto at = [&](std::size_t k) { return point(k < count_ ? k : count_ - 1); };
+      const Point a = at(0), b = at(1), c = at(2), d = at(3);
+      Basis best = basis(a, b, c);
+      const auto offer = [&](const Basis& other) {
+        const Mask larger = other.square_radius > best.square_radius;
+        best.centre = select(larger, other.centre, best.centre);
+        best.square_radius = select(larger, other.square_radius, best.square_radius);
+      };
+      if (count_ > 3) {
+        offer(basis(a, b, d));
+        offer(basis(a, c, d));
+        offer(basis(b, c, d));
+      }
+      const Point centre{rounded(best.centre.x), rounded(best.centre.y)};
+      Batch largest(0.0);
+      for (std::size_t k = 0; k < count_; ++k)
+        largest = xsimd::max(largest, square_distance(point(k), centre));
+      store(centre, largest);
+    }
+
+    /// Farthest points are those from the centre as a float, so that the last look at them gives the radius too. Which
+    /// of two is the farthest may then be decided by rounding; whether one is outside is asked of the exact disc.
+    void solve_large() const {
+      const Point a = farthest(start()).point, b = farthest(a).point;
+      const Batch ab = square_distance(a, b);
+      Basis now{a, b, b, middle(a, b), Batch(0.25) * ab, ab >= Batch(0.0)};
+      Point best = now.centre;
+      Batch least(HUGE_VAL);
+      Mask open = now.is_pair;
+      for (int i = 0; i < most_disc_pivots; ++i) {
+        const Point centre{rounded(now.centre.x), rounded(now.centre.y)};
+        const Farthest q = farthest(centre);
+        const Mask better = open & (q.square < least);
+        best = select(better, centre, best);
+        least = select(better, q.square, least);
+        open = open & (square_distance(q.point, now.centre) > now.square_radius * Batch(disc_slack));
+        if (!xsimd::any(open)) break;
+        const Basis next = pivot(now, q.point);
+        open = open & (next.square_radius > now.square_radius);
+        now.a = select(open, next.a, now.a);
+        now.b = select(open, next.b, now.b);
+        now.c = select(open, next.c, now.c);
+        now.centre = select(open, next.centre, now.centre);
+        now.square_radius = select(open, next.square_radius, now.square_radius);
+        now.is_pair = (open & next.is_pair) | (now.is_pair & !open);
+      }
+      store(best, least);
+    }
+
+   private:
+    struct Farthest {
+      Point point;
+      Batch square;
+    };
+    /// A lane's points.
+    struct Column {
+      const Vec2* first;
+      std::size_t last;
+    };
+
+    Column column(std::size_t lane) const {
+      const PointRange range = job_.sets[job_.order[set(lane)]];
+      return {job_.points + range.begin, range.end - range.begin - std::size_t{1}};
+    }
+
+    void fill(const Column (&columns)[width]) {
+      std::size_t least = columns[0].last, most = least;
+      for (const Column& column : columns) {
+        least = column.last < least ? column.last : least;
+        most = column.last > most ? column.last : most;
+      }
+      count_ = most + 1;
+      std::size_t k = 0;
+      for (; k <= least; ++k)
+        for (std::size_t lane = 0; lane < width; lane += 2)
+          put(k, lane, columns[lane].first + k, columns[lane + 1].first + k);
+      for (; k <= count_; ++k)
+        for (std::size_t lane = 0; lane < width; lane += 2) {
+          const auto [a, last_a] = columns[lane];
+          const auto [b, last_b] = columns[lane + 1];
+          if (k > last_a && k > last_b)
+            repeat(k, lane);
+          else
+            put(k, lane, a + (k < last_a ? k : last_a), b + (k < last_b ? k : last_b));
+        }
+    }
+
+    /// Which set is in a lane; the last one is also in those that are left over.
+    std::size_t set(std::size_t lane) const { return begin_ + lane < end_ ? begin_ + lane : end_ - 1; }
+
+    /// Points k of two neighbouring lanes.
+    void put(std::size_t k, std::size_t lane, const Vec2* p, const Vec2* q) const {
+      // These two may alias what they read; those of doubles may not.
+      const __m128 bits = _mm_loadh_pi(_mm_loadl_pi(_mm_setzero_ps(), reinterpret_cast<const __m64*>(p)),
+                                       reinterpret_cast<const __m64*>(q));
+      const __m128 x = _mm_shuffle_ps(bits, bits, _MM_SHUFFLE(2, 0, 2, 0)),
+                   y = _mm_shuffle_ps(bits, bits, _MM_SHUFFLE(3, 1, 3, 1));
+      _mm_storeu_pd(job_.scratch + 2 * k * width + lane, _mm_cvtps_pd(x));
+      _mm_storeu_pd(job_.scratch + (2 * k + 1) * width + lane, _mm_cvtps_pd(y));
+    }
+
+    /// What the point before it is, in two neighbouring lanes.
+    void repeat(std::size_t k, std::size_t lane) const {
+      double* const x = job_.scratch + 2 * k * width + lane;
+      _mm_storeu_pd(x, _mm_loadu_pd(x - 2 * width));
+      _mm_storeu_pd(x + width, _mm_loadu_pd(x - width));
+    }
+
+    Point point(std::size_t k) const {
+      return {Batch::load_unaligned(job_.scratch + 2 * k * width),
+              Batch::load_unaligned(job_.scratch + (2 * k + 1) * width)};
+    }
+
+    static void keep_farther(Farthest& best, const Point& p, const Batch& square) {
+      best.point = select(square > best.square, p, best.point);
+      best.square = xsimd::max(best.square, square);
+    }
+
+    /// One of each set's points.
+    Point start() const {
+      Farthest first{point(0), Batch(0.0)};
+      if (is_shared_) share(first);
+      return first.point;
+    }
+
+    /// In two chains, because each waits for its last comparison.
+    Farthest farthest(const Point& from) const {
+      Farthest even{point(0), square_distance(point(0), from)}, odd = even;
+      for (std::size_t k = 1; k < count_; k += 2) {
+        const Point p = point(k), q = point(k + 1);
+        keep_farther(odd, p, square_distance(p, from));
+        keep_farther(even, q, square_distance(q, from));
+      }
+      keep_farther(odd, even.point, even.square);
+      if (is_shared_) share(odd);
+      return odd;
+    }
+
+    /// Gives the last two lanes the farther one of their points.
+    static void share(Farthest& farthest) {
+      alignas(64) double x[width], y[width], square[width];
+      farthest.point.x.store_aligned(x);
+      farthest.point.y.store_aligned(y);
+      farthest.square.store_aligned(square);
+      constexpr std::size_t one = width - 2, other = width - 1;
+      const std::size_t farther = square[other] > square[one] ? other : one;
+      x[one] = x[other] = x[farther];
+      y[one] = y[other] = y[farther];
+      square[one] = square[other] = square[farther];
+      farthest = {{Batch::load_aligned(x), Batch::load_aligned(y)}, Batch::load_aligned(square)};
+    }
+
+    /// To the 24 bits of a float's significand.
+    /// Source:  T. J. Dekker, "A floating-point technique for extending the available precision", Numerische
+    ///          Mathematik 18, 1971.
+    static Batch rounded(const Batch& value) {
+      const Batch scaled = value * Batch(0x1p29 + 1);
+      return scaled - (scaled - value);
+    }
+
+    /// The centre's coordinates are floats.
+    void store(const Point& centre, const Batch& square_radius) const {
+      alignas(64) double x[width], y[width], square[width];
+      centre.x.store_aligned(x);
+      centre.y.store_aligned(y);
+      square_radius.store_aligned(square);
+      for (std::size_t lane = 0; lane < width; ++lane)
+        job_.discs[job_.order[set(lane)]] = {{static_cast<float>(x[lane]), static_cast<float>(y[lane])},
+                                             square[lane]};
+    }
+
+    const DiscSets& job_;
+    std::size_t begin_, end_;
+    std::size_t count_ = 0;
+    bool is_shared_;
+  };
+};
+
+}  // namespace bch

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "layout/base/disc.hpp"
+
+namespace bch {
+
+/// A run of points.
+struct PointRange {
+  std::uint32_t begin, end;
+};
+
+/// As EnclosingDisc, with the radius squared.
+struct SolvedDisc {
+  Vec2 centre;
+  double square_radius;
+};
+
+/// Beyond this share a point counts as outside: tighter than the rounding of a circumcentre would pivot in a
+/// circle.
+constexpr double disc_slack = 1 + 1e-13;
+/// Each pivot enlarges the disc; ten suffice in practice. The last scan makes the answer safe even after
+/// these.
+constexpr int most_disc_pivots = 100;
+
+/// What EnclosingDiscs asks of an instruction set: plain pointers, because nothing of the standard library
+/// may be compiled for wide registers.
+struct DiscSets {
+  const Vec2* points;
+  const PointRange* sets;
+  const std::uint32_t* order;  ///< of the sets: by size
+  std::size_t small_count;     ///< so many of them have at most four points
+  std::size_t count;
+  double* scratch;  ///< the largest set's points, disc_set_lanes times
+  SolvedDisc* discs;
+};
+
+/// The widest registers' lanes.
+constexpr std::size_t disc_set_lanes = 8;
+
+}  // namespace bch

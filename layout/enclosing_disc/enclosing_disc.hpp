@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <span>
+
+#include "layout/base/disc.hpp"
+
+namespace bch {
+
+/// The centre is a float, as it will be stored; the radius belongs to that very centre and is exact but for
+/// the rounding of double.
+struct EnclosingDisc {
+  Vec2 centre;
+  double radius = 0;
+};
+
+/// The smallest disc that holds the points, up to the rounding of its centre to float: every point is within
+/// `radius` of `centre`.
+/// Shapes:  at least one point; any order, duplicates and collinear points allowed.
+/// Source:  see disc_pivoting.hpp; for many sets at once, see enclosing_discs.hpp.
+EnclosingDisc smallest_enclosing_disc(std::span<const Vec2> points);
+
+}  // namespace bch

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "layout/enclosing_disc/disc_sets.hpp"
+
+namespace bch {
+
+/// One compilation of the solver; all give the same bits.
+struct DiscImplementation {
+  const char* name;  ///< "avx512", "avx2" or "sse2"
+  bool (*supported)() noexcept;
+  void (*solve)(const DiscSets& sets) noexcept;
+};
+
+/// All that were compiled, the best first; the last one runs everywhere.
+std::span<const DiscImplementation> disc_implementations() noexcept;
+
+/// The smallest enclosing discs of many sets at once, solved side by side. Keeps its memory.
+class EnclosingDiscs {
+ public:
+  /// With the best that this processor supports.
+  EnclosingDiscs();
+  /// With a given one, which this processor has to support.
+  explicit EnclosingDiscs(const DiscImplementation& implementation);
+
+  /// Sets may overlap; none is empty. discs[i] is as smallest_enclosing_disc() would have it but for the
+  /// rounding of the centre.
+  void solve(std::span<const Vec2> points, std::span<const PointRange> sets, std::span<SolvedDisc> discs);
+
+ private:
+  const DiscImplementation* implementation_;
+  std::vector<std::uint32_t> offset_, order_;
+  std::vector<double> scratch_;
+};
+
+}  // namespace bch

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "layout/format/shape_set_view.hpp"
+
+namespace bch {
+
+/// Adds a leaf's segments, one at least, to the words of `leaves` leaves; see shape_set_view.hpp.
+void add_leaf(std::span<const std::uint32_t> segments, std::size_t leaf, std::size_t leaves,
+              std::vector<std::uint32_t>& words);
+
+/// The segments that a leaf's word names; none where there are too many of them.
+std::vector<std::uint32_t> segments_of(std::span<const std::uint32_t> words, std::size_t leaf);
+
+/// Words and lists of so many leaves: those that begin with `words`.
+std::size_t leaf_segments_size(std::span<const std::uint32_t> words, std::size_t leaves);
+
+}  // namespace bch

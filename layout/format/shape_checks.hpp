@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <algorithm>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <string>
+
+#include "layout/format/shape_arrays.hpp"
+#include "layout/format/shape_preconditions.hpp"
+
+/// The checks behind shape_preconditions(), and what they share. Each throws std::invalid_argument that names the array,
+/// the place in it and the value.
+namespace bch::shape_checks {
+
+// Of the whole set: array_checks.cpp.
+void alignment(const ShapeArrays& a);
+void depths(const ShapeArrays& a);
+void sizes(const ShapeArrays& a);
+void rows(const ShapeArrays& a);
+void single_depth(const ShapeArrays& a);
+void infinite_rows(const ShapeArrays& a);
+void reaches(const ShapeArrays& a);
+void roots(const ShapeArrays& a);
+void supports(const ShapeArrays& a);
+void inscribed(const ShapeArrays& a);
+void extremes(const ShapeArrays& a);
+void profiles(const ShapeArrays& a);
+void shape_contours(const ShapeArrays& a);
+void contour_points(const ShapeArrays& a);
+void points(const ShapeArrays& a);
+void segment_margins(const ShapeArrays& a);
+void contour_discs(const ShapeArrays& a);
+
+// Of a level: level_checks.cpp.
+void order_of_levels(const ShapeArrays& a, LevelNodes& level);
+void blocks(const ShapeArrays& a, LevelNodes& level);
+void room(const ShapeArrays& a, LevelNodes& level);
+void windows(const ShapeArrays& a, LevelNodes& level);
+void first_window(const ShapeArrays& a, LevelNodes& level);
+void number_of_windows(const ShapeArrays& a, LevelNodes& level);
+void padding(const ShapeArrays& a, LevelNodes& level);
+void numbers(const ShapeArrays& a, LevelNodes& level);
+void single_discs(const ShapeArrays& a, LevelNodes& level);
+void reach_of_level(const ShapeArrays& a, LevelNodes& level);
+void segments_of_leaves(const ShapeArrays& a, LevelNodes& level);
+
+// Of a level: inner_node_checks.cpp.
+void inner_nodes(const ShapeArrays& a, LevelNodes& level);
+void nodes_of_blocks(const ShapeArrays& a, LevelNodes& level);
+void outer_radii(const ShapeArrays& a, LevelNodes& level);
+
+/// Of coordinates, radii and supports, metres: a few reaches, as supports and outer radii stick out.
+constexpr float largest_length = 1e7f;
+constexpr float infinity = std::numeric_limits<float>::infinity();
+constexpr std::uint32_t top_bit = 0x80000000;
+
+[[noreturn]] void reject(const char* array, std::size_t place, const std::string& what);
+void require_size(const char* array, std::uint64_t size, std::uint64_t expected);
+
+/// The top bit of the result says so: a float whose magnitude is above a positive limit, or that is negative or above it.
+/// Plain integer operations, so that loops over many become vectors; NaN is above everything.
+inline std::uint32_t beyond(float value, float limit) {
+  return std::bit_cast<std::uint32_t>(limit) - (std::bit_cast<std::uint32_t>(value) & 0x7fffffff);
+}
+inline std::uint32_t negative_or_beyond(float value, float limit) {
+  const auto bits = std::bit_cast<std::uint32_t>(value);
+  return (std::bit_cast<std::uint32_t>(limit) - bits) | bits;
+}
+
+inline bool is_length(float value) {
+  return (beyond(value, largest_length) & top_bit) == 0;
+}
+inline bool is_radius(float value) {
+  return (negative_or_beyond(value, largest_length) & top_bit) == 0;
+}
+
+/// All bits or none.
+inline std::uint32_t is_padding(float x) {
+  return -static_cast<std::uint32_t>(std::bit_cast<std::uint32_t>(x) ==
+                                     std::bit_cast<std::uint32_t>(infinity));
+}
+
+/// Calls `good` for each, and names the first that is not. Returns so soon only where all are.
+template <class Record, class Good>
+void require_all(const char* array, std::span<const Record> records, const char* what, Good good) {
+  bool all = true;
+  for (const Record& record : records) all &= good(record);
+  if (all) return;
+  const auto found =
+      std::find_if(records.begin(), records.end(), [&](const Record& record) { return !good(record); });
+  reject(array, static_cast<std::size_t>(found - records.begin()), what);
+}
+
+/// Requires discs, x, y and radius each in a run of its own, to be numbers. A disc at infinity is padding.
+inline void require_discs(const char* array, std::size_t place, const float* x, std::size_t count,
+                          std::size_t stride) {
+  const float *y = x + stride, *radius = x + 2 * stride;
+  std::uint32_t bad = 0;
+  for (std::size_t i = 0; i < count; ++i) bad |= beyond(x[i], largest_length) & ~is_padding(x[i]);
+  for (std::size_t i = 0; i < count; ++i) bad |= beyond(y[i], largest_length);
+  for (std::size_t i = 0; i < count; ++i) bad |= negative_or_beyond(radius[i], largest_length);
+  if ((bad & top_bit) != 0) reject(array, place, "holds a disc that is none");
+}
+
+}  // namespace bch::shape_checks

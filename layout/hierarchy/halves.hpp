@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <emmintrin.h>
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "layout/hierarchy/hierarchy.hpp"
+#include "layout/hierarchy/outward_radii.hpp"
+
+namespace bch {
+
+/// Lone segments that are halved evenly: all pieces have been halved equally often. What that makes of a segment is
+/// known from its length, so that its nodes can be counted while the tree grows and written later, segments of a
+/// kind in one loop: one after the other, how often is a coin toss that costs more than the halving.
+class EvenHalves {
+ public:
+  static constexpr int most_halvings = 3;
+  static constexpr int uneven = most_halvings + 1;
+  static constexpr std::uint32_t nodes(int halvings) { return (2u << halvings) - 1; }
+
+  /// Pieces longer than `longest` are halved, in a shape of a certain reach, both metres.
+  void begin(double longest, double reach);
+  /// How often segments of four lengths, rounded to float, are halved: `uneven` where that is too often, or rounding
+  /// may decide.
+  void write_halvings(__m128 lengths, std::uint8_t* halvings) const;
+  /// Leaves room for a segment's nodes. `source`: its index.
+  void add(int halvings, std::uint32_t node, std::uint32_t source) {
+    segments_[static_cast<std::size_t>(halvings)].push_back({node, source});
+  }
+  /// Fills the room.
+  void write(const std::vector<Element>& segments, const OutwardRadii& radii,
+             std::vector<HierarchyNode>& nodes) const;
+
+ private:
+  struct Segment {
+    std::uint32_t node, source;
+  };
+  /// Lengths up to which a segment is surely halved so often at most, and beyond which surely once more.
+  std::array<float, most_halvings + 1> surely_short_ = {}, surely_long_ = {};
+  std::array<std::vector<Segment>, most_halvings + 1> segments_;
+};
+
+}  // namespace bch

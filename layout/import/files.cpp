@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include "layout/import/files.hpp"
+
+#include <assimp/BaseImporter.h>
+#include <assimp/MemoryIOWrapper.h>
+#include <assimp/importerdesc.h>
+
+#include <algorithm>
+#include <cstring>
+#include <memory>
+#include <string_view>
+#include <system_error>
+
+namespace bch::import_detail {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
+
+constexpr std::string_view supported[] = {
+    "Autodesk FBX Importer",
+    "Collada Importer",
+    "Doom 3 / MD5 Mesh Importer",
+    "Inter-Quake Model Importer",
+    "BVH Importer (MoCap)",
+    "Wavefront Object Importer",
+    "Stanford Polygon Library (PLY) Importer",
+    "Stereolithography (STL) Importer",
+};
+
+bool is_supported(const Assimp::Importer& importer, std::size_t index) {
+  const aiImporterDesc* const description = importer.GetImporterInfo(index);
+  return description != nullptr && std::find(std::begin(supported), std::end(supported),
+                                             std::string_view(description->mName)) != std::end(supported);
+}
+
+/// Whether a stream is UTF-8 text behind a byte order mark, which the readers of OBJ and others take for a part of the
+/// first line. What holds a zero where a binary STL file has its counts is no text. Leaves the stream at its beginning.
+bool begins_with_mark(Assimp::IOStream& stream) {
+  char start[84];
+  const std::string_view text(start, stream.Read(start, 1, sizeof start));
+  stream.Seek(0, aiOrigin_SET);
+  return text.starts_with(byte_order_mark) && text.find('\0') == std::string_view::npos;
+}
+
+}  // namespace
+
+FileAndSiblings::FileAndSiblings(const fs::path& file)
+    : file_(fs::canonical(file)), folder_(fs::canonical(fs::absolute(file).parent_path())) {}
+
+bool FileAndSiblings::allows(const char* path) const {
+  std::error_code error;
+  const fs::path target = fs::canonical(path, error);
+  if (error || (target != file_ && target.parent_path() != folder_)) return false;
+  return fs::is_regular_file(target, error) && fs::file_size(target, error) <= largest_file && !error;
+}
+
+bool FileAndSiblings::Exists(const char* path) const {
+  return path != nullptr && allows(path) && DefaultIOSystem::Exists(path);
+}
+
+Assimp::IOStream* FileAndSiblings::Open(const char* path, const char* mode) {
+  const bool reads = mode != nullptr && mode[0] == 'r' && std::strchr(mode, '+') == nullptr;
+  if (!reads || path == nullptr || !allows(path)) return nullptr;
+  std::unique_ptr<Assimp::IOStream> stream(DefaultIOSystem::Open(path, mode));
+  if (stream == nullptr || !begins_with_mark(*stream)) return stream.release();
+  const std::size_t size = stream->FileSize() - byte_order_mark.size();
+  std::unique_ptr<std::uint8_t[]> bytes(new std::uint8_t[size]);
+  stream->Seek(byte_order_mark.size(), aiOrigin_SET);
+  const std::size_t got = stream->Read(bytes.get(), 1, size);
+  return new Assimp::MemoryIOStream(bytes.release(), got, true);
+}
+
+void keep_supported_formats(Assimp::Importer& importer) {
+  for (std::size_t i = importer.GetImporterCount(); i-- > 0;) {
+    if (is_supported(importer, i)) continue;
+    const std::unique_ptr<Assimp::BaseImporter> reader(importer.GetImporter(i));
+    importer.UnregisterLoader(reader.get());
+  }
+}
+
+}  // namespace bch::import_detail

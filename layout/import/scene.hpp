@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <assimp/scene.h>
+
+#include <Eigen/Geometry>
+#include <assimp/Importer.hpp>
+#include <cstdint>
+#include <filesystem>
+#include <set>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include "layout/import/gltf.hpp"
+#include "layout/import/import.hpp"
+
+// Private to the importer: a file as a scene of assimp's types, and the first checks of it.
+
+namespace bch::import_detail {
+
+/// Numbers beyond this are taken for damage: their squares leave float's range soon after.
+constexpr float largest_number = 1e15f;
+
+/// Control characters become blanks, so that a message stays one line whatever a file contains.
+std::string one_line(const std::string& text);
+
+[[noreturn]] void reject(const std::filesystem::path& file, const std::string& reason);
+
+/// "1 face", "2 faces".
+std::string count(std::size_t number, const std::string& noun, const std::string& plural = "");
+
+std::string to_string(const aiString& text);
+
+struct SceneFile {
+  std::filesystem::path path;
+  Assimp::Importer importer;  ///< owns the scene of a file that assimp reads
+  GltfScene gltf;             ///< of a glTF file
+  const aiScene* scene = nullptr;
+  std::string format;
+  std::size_t most_triangles = ImportOptions().most_triangles;
+
+  /// Errors:  throws ImportError if the file cannot be read as a scene with a root node.
+  SceneFile(const std::filesystem::path& file, const ImportOptions& options);
+  /// A scene that somebody else owns, as if a reader of this name had found it in the file.
+  SceneFile(const std::filesystem::path& file, const aiScene& scene_there, const std::string& reader)
+      : path(file), scene(&scene_there), format(reader) {}
+
+  bool is_fbx() const { return format == "Autodesk FBX Importer"; }
+
+  [[noreturn]] void reject(const std::string& reason) const { import_detail::reject(path, reason); }
+};
+
+/// All of import_character() but reading the file.
+/// Errors:  throws ImportError, and what validate() and the skinning throw.
+ImportedCharacter character_of(const SceneFile& file, const ImportOptions& options);
+
+/// The nodes of a scene, parents first.
+struct NodeList {
+  std::vector<Joint> joints;
+  std::vector<const aiNode*> nodes;
+  std::unordered_map<std::string, std::uint32_t> by_name;  ///< the first of that name
+  std::set<std::string> shared_names;                      ///< of more than one node
+};
+
+NodeList read_nodes(const SceneFile& file);
+
+/// Bones and clips know their node by its name alone: says so once if several nodes have this one.
+void note_if_shared(const NodeList& nodes, const std::string& name, ImportReport& report);
+
+/// Errors:  throws ImportError naming `what` if the matrix is not finite or not affine.
+Eigen::Affine3f read_matrix(const SceneFile& file, const aiMatrix4x4& matrix, const std::string& what);
+
+/// Every joint's transform at rest into the frame of the file.
+std::vector<Eigen::Affine3d> rest_to_file(const std::vector<Joint>& joints);
+
+}  // namespace bch::import_detail

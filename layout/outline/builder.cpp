@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include "layout/outline/builder.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "layout/outline/candidates.hpp"
+#include "layout/outline/contour_index.hpp"
+#include "layout/outline/grid_snap.hpp"
+#include "layout/outline/implementation.hpp"
+#include "layout/outline/topology.hpp"
+#include "layout/outline/walk.hpp"
+#include "layout/outline/winding.hpp"
+
+namespace bch {
+namespace {
+
+constexpr GridPoint beyond{std::numeric_limits<std::int32_t>::max(), 0};
+
+GridPoint first_of(GridPoint a, GridPoint b) {
+  return lexicographically_less(b, a) ? b : a;
+}
+
+/// A box around a contour, whose corners are rounded by less than a step.
+GridBox box_around(std::span<const Stretch> contour) {
+  GridBox box = empty_box;
+  for (const Stretch& stretch : contour) enlarge(box, {stretch.rounded_begin, stretch.rounded_begin});
+  return {{box.low.x - 1, box.low.y - 1}, {box.high.x + 1, box.high.y + 1}};
+}
+
+}  // namespace
+
+/// What is known of the mesh, and the scratch of a pose.
+struct OutlineBuilder::State {
+  State(std::span<const std::array<std::uint32_t, 3>> triangles, std::size_t vertex_count,
+        std::span<const Eigen::Vector3f> bind_pose, const OutlineImplementation& implementation)
+      : vertices(vertex_count),
+        topology(outline_topology(triangles, vertex_count, bind_pose)),
+        points(topology.used.size()),
+        candidates(topology, implementation),
+        walk(topology, candidates, implementation),
+        leftmost(topology.island_vertex.size()) {
+    outside.reserve(leftmost.size());
+    places.reserve(leftmost.size());
+    later.reserve(leftmost.size());
+  }
+
+  template <class Position>
+  void build(std::span<const Position> positions, Outline& outline);
+  void walk_all();
+  void find_outside();
+  void walk_outside();
+  bool is_in_later_contour(GridPoint point) const;
+  std::span<const Stretch> contour(std::size_t i) const {
+    return std::span(stretches).subspan(contour_begin[i], contour_begin[i + 1] - contour_begin[i]);
+  }
+  void walk_from(GridPoint start) {
+    walk.walk(start, stretches);
+    contour_begin.push_back(stretches.size());
+  }
+  void write(double step, Outline& outline) const;
+
+  std::size_t vertices;
+  OutlineTopology topology;
+  std::vector<GridPoint> points;
+  OutlineCandidates candidates;
+  OutlineWalk walk;
+  std::vector<Stretch> stretches;
+  std::vector<std::size_t> contour_begin;
+  std::vector<std::uint32_t> outside;  ///< islands to walk around, unless they touch each other
+  std::vector<GridPoint> leftmost;     ///< of an island's candidates
+  std::vector<GridPoint> places;       ///< where outside's islands begin
+  ContourCovers covers;                ///< of all contours, where any island is outside the first
+  ContourIndex later;                  ///< over all but the first
+};
+
+template <class Position>
+void OutlineBuilder::State::build(std::span<const Position> positions, Outline& outline) {
+  if (positions.size() != vertices)
+    throw std::invalid_argument("outline: " + std::to_string(positions.size()) + " positions for " +
+                                std::to_string(vertices) + " vertices");
+  const double step = snap_to_grid(positions, topology.used, points);
+  candidates.find(topology, points);
+  if (candidates.segments().empty())
+    throw std::invalid_argument("outline: every triangle is a point when seen from above");
+  walk_all();
+  write(step, outline);
+}
+
+/// Finds all contours. An island is connected and no contour crosses it, so unless a contour has come along
+/// it, it is as a whole inside or outside, and any of its vertices tells. Of pieces that touch, the one with
+/// the leftmost vertex comes first.
+void OutlineBuilder::State::walk_all() {
+  stretches.clear();
+  contour_begin.assign(1, 0);
+  walk.begin_pose();
+  walk_from(candidates.boxes().first_end(candidates.segments().data()));
+
+  find_outside();
+  if (!outside.empty()) walk_outside();
+}
+
+void OutlineBuilder::State::walk_outside() {
+  places.clear();
+  for (const std::uint32_t island : outside) places.push_back(leftmost[island]);
+  later.begin(places);
+  for (std::size_t i = 0; i < outside.size(); ++i) {
+    if (walk.touched(outside[i]) || is_in_later_contour(places[i])) continue;
+    const std::size_t found = covers.size();
+    walk_from(places[i]);
+    covers.add(contour(found));
+    later.add(i, found, box_around(contour(found)));
+  }
+}
+
+/// Fills outside, in the order of the islands' leftmost vertices.
+void OutlineBuilder::State::find_outside() {
+  outside.clear();
+  for (std::uint32_t island = 0; island < leftmost.size(); ++island)
+    if (!walk.touched(island)) outside.push_back(island);
+  if (outside.empty()) return;
+  covers.clear();
+  covers.add(contour(0));
+  std::erase_if(outside, [&](std::uint32_t island) {
+    return covers.covers(0, contour(0), points[topology.island_vertex[island]]);
+  });
+  if (outside.empty()) return;
+
+  std::fill(leftmost.begin(), leftmost.end(), beyond);
+  const std::span<const Segment> segments = candidates.segments();
+  for (std::size_t i = 0; i < segments.size(); ++i) {
+    GridPoint& first = leftmost[topology.island[candidates.vertex(i)]];
+    first = first_of(first, first_of(segments[i].a, segments[i].b));
+  }
+  // Islands without candidates are points, or see other islands named for the edges they share.
+  std::erase_if(outside, [&](std::uint32_t island) { return leftmost[island] == beyond; });
+  std::sort(outside.begin(), outside.end(), [&](std::uint32_t a, std::uint32_t b) {
+    return lexicographically_less(leftmost[a], leftmost[b]);
+  });
+}
+
+bool OutlineBuilder::State::is_in_later_contour(GridPoint point) const {
+  return later.any(point, [&](std::size_t c) { return covers.covers(c, contour(c), point); });
+}
+
+/// Writes corners, that is, where a stretch has another direction than the one before; corners that are
+/// rounded to one point are one.
+void OutlineBuilder::State::write(double step, Outline& outline) const {
+  outline.points.clear();
+  outline.contour_begin.assign(1, 0);
+  outline.grid_step = static_cast<float>(step);
+  for (std::size_t c = 0; c + 1 < contour_begin.size(); ++c) {
+    const std::span<const Stretch> around = contour(c);
+    GridPoint last = around[0].rounded_begin;
+    const auto add = [&](GridPoint p) {
+      outline.points.push_back({static_cast<float>(p.x * step), static_cast<float>(p.y * step)});
+    };
+    add(last);
+    for (std::size_t i = 1; i < around.size(); ++i) {
+      const GridPoint p = around[i].rounded_begin;
+      if (p == last || same_direction(around[i - 1].begin.direction(), around[i].begin.direction())) continue;
+      add(last = p);
+    }
+    if (last == around[0].rounded_begin) outline.points.pop_back();
+    outline.contour_begin.push_back(static_cast<std::uint32_t>(outline.points.size()));
+  }
+}
+
+OutlineBuilder::OutlineBuilder(std::span<const std::array<std::uint32_t, 3>> triangles, std::size_t vertices,
+                               std::span<const Eigen::Vector3f> bind_pose)
+    : OutlineBuilder(triangles, vertices, bind_pose, best_outline_implementation()) {}
+
+OutlineBuilder::OutlineBuilder(std::span<const std::array<std::uint32_t, 3>> triangles, std::size_t vertices,
+                               std::span<const Eigen::Vector3f> bind_pose,
+                               const OutlineImplementation& implementation)
+    : state_(std::make_unique<State>(triangles, vertices, bind_pose, implementation)) {}
+
+OutlineBuilder::OutlineBuilder(OutlineBuilder&&) noexcept = default;
+OutlineBuilder& OutlineBuilder::operator=(OutlineBuilder&&) noexcept = default;
+OutlineBuilder::~OutlineBuilder() = default;
+
+void OutlineBuilder::build(std::span<const Vec2> positions, Outline& outline) {
+  state_->build(positions, outline);
+}
+
+void OutlineBuilder::build(std::span<const Eigen::Vector3f> positions, Outline& outline) {
+  state_->build(positions, outline);
+}
+
+}  // namespace bch

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <span>
+
+#include "layout/character/eigen.hpp"
+#include "layout/format/outline.hpp"
+
+namespace bch {
+
+struct OutlineImplementation;
+
+/// Finds the outline of one mesh in pose after pose: the boundary of the unbounded face of the closed union
+/// of its triangles, seen from above.
+///
+/// Vertices are snapped to a grid of 2^-23 of the power of two above the reach (0.12 um for a person). On the
+/// grid the result is exact, but for points where edges cross: each is rounded to the nearest grid point.
+/// Every vertex of a triangle is inside the outline or within 1.5 grid steps of it. Triangles may be open,
+/// non-manifold, duplicated, degenerate. Holes are left out, also where they are closed by mere contact. A
+/// triangle without area is a whisker, walked there and back; one that is a point is left out.
+///
+/// The result depends on the union alone, not on how it is made of triangles: a contour begins at its
+/// lexicographically smallest vertex before rounding, no corner is straight, and contours are in the order of
+/// where they begin.
+class OutlineBuilder {
+ public:
+  /// The bind pose, where there is one, makes it fast: edges near each other are looked at together, and
+  /// vertices at the same place are taken to stay together as long as a pose does not part them.
+  /// Shapes:  triangle indices are below `vertices`; the bind pose has as many positions, or none.
+  /// Errors:  throws std::invalid_argument on no triangles, an index out of range, a bind pose of another
+  ///          length or with a position that is not finite. Vertices that no triangle uses do not count.
+  OutlineBuilder(std::span<const std::array<std::uint32_t, 3>> triangles, std::size_t vertices,
+                 std::span<const Eigen::Vector3f> bind_pose = {});
+  /// The same with a given implementation instead of the best, which this processor has to support.
+  OutlineBuilder(std::span<const std::array<std::uint32_t, 3>> triangles, std::size_t vertices,
+                 std::span<const Eigen::Vector3f> bind_pose, const OutlineImplementation& implementation);
+  OutlineBuilder(OutlineBuilder&&) noexcept;
+  OutlineBuilder& operator=(OutlineBuilder&&) noexcept;
+  ~OutlineBuilder();
+
+  /// Writes the outline of a pose into `outline`, whose memory is used again; allocates nothing once the
+  /// longest outline has been built.
+  /// Units:   metres; the ground is x-y.
+  /// Errors:  throws std::invalid_argument on another number of positions than of vertices, a coordinate that
+  ///          is not finite, a reach outside the domain of rounding.hpp, or when every triangle is a point.
+  void build(std::span<const Vec2> positions, Outline& outline);
+  /// The same of positions with heights, whatever those are.
+  void build(std::span<const Eigen::Vector3f> positions, Outline& outline);
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace bch

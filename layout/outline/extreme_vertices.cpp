@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include "layout/outline/extreme_vertices.hpp"
+
+#include <emmintrin.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "layout/enclosing_disc/disc_pivoting.hpp"
+#include "layout/outline/grid_snap.hpp"
+
+namespace bch {
+namespace {
+
+/// Vertices whose squares fill a register.
+constexpr std::size_t block = 4;
+/// A square, in float of coordinates that float holds, is off by less than this share of it.
+constexpr double slack = 0x1p-20;
+static_assert(slack >= (2 + 1 + 1) * 0x1p-24, "the differences, their squares, the sum");
+/// Looks for a farthest vertex end when it is no farther than that square over the disc's, which leaves a tenth of its
+/// radius; more would take longer than the few vertices that they leave out.
+constexpr double near_enough = 1.01;
+constexpr int most_looks = 4;
+
+/// The squares of four points' distances.
+__m128 squares_of(const GridPoint* points, __m128 from) {
+  const auto two = [&](const GridPoint* first) {
+    const __m128i steps = _mm_loadu_si128(reinterpret_cast<const __m128i*>(first));
+    const __m128 way = _mm_sub_ps(_mm_cvtepi32_ps(steps), from);
+    return _mm_mul_ps(way, way);
+  };
+  const __m128 low = two(points), high = two(points + 2);
+  return _mm_add_ps(_mm_shuffle_ps(low, high, _MM_SHUFFLE(2, 0, 2, 0)),
+                    _mm_shuffle_ps(low, high, _MM_SHUFFLE(3, 1, 3, 1)));
+}
+
+}  // namespace
+
+ExtremeVertices::ExtremeVertices(std::span<const std::array<std::uint32_t, 3>> triangles,
+                                 std::size_t vertices) {
+  std::vector<bool> is_used(vertices);
+  for (const auto& triangle : triangles)
+    for (const std::uint32_t vertex : triangle) is_used[vertex] = true;
+  for (std::uint32_t v = 0; v < vertices; ++v)
+    if (is_used[v]) used_.push_back(v);
+  grid_.resize((used_.size() + block - 1) / block * block);
+  for (auto* squares : {&from_origin_, &from_middle_}) squares->resize(grid_.size());
+}
+
+/// The disc's radius R is at least that of the disc around any of the vertices. For any point at m from its centre, some
+/// vertex is at least sqrt(R^2 + m^2) away, so the farthest one bounds m, and the vertices on the disc's boundary are at
+/// least R - m away. All others may be left out, but those as far from the origin as the first, as far as floats tell.
+void ExtremeVertices::find(std::span<const Vec2> positions) {
+  step_ = snap_to_grid(positions, used_, std::span(grid_).first(used_.size()));
+  std::fill(grid_.begin() + static_cast<std::ptrdiff_t>(used_.size()), grid_.end(), grid_[used_.size() - 1]);
+  const std::size_t first = farthest_from(0, 0, from_origin_);
+  const auto point = [&](std::size_t i) { return pivoting::Point{1.0 * grid_[i].x, 1.0 * grid_[i].y}; };
+  const pivoting::Point a = point(first), b = point(farthest_from(a.x, a.y, from_middle_));
+  pivoting::Basis now = pivoting::basis(a, b);
+  double at_most = 0;
+  for (int look = 0; look < most_looks; ++look) {
+    const std::size_t last = farthest_from(now.centre.x, now.centre.y, from_middle_);
+    at_most = (1 + slack) * static_cast<double>(from_middle_[last]);
+    if (at_most <= near_enough * now.square_radius) break;
+    now = pivoting::pivot(now, point(last));
+  }
+  const double at_least = (1 - slack) * now.square_radius;
+  const double nearest = std::sqrt(at_least) - std::sqrt(std::max(0.0, at_most - at_least));
+  keep(static_cast<float>((1 - slack) * (nearest > 0 ? nearest * nearest : 0)),
+       static_cast<float>((1 - slack) * static_cast<double>(from_origin_[first])));
+}
+
+/// Which is the farthest, as far as floats tell.
+std::size_t ExtremeVertices::farthest_from(double x, double y, std::vector<float>& squares) const {
+  const __m128 half = _mm_cvtpd_ps(_mm_setr_pd(x, y)), from = _mm_movelh_ps(half, half);
+  __m128 largest = _mm_setzero_ps();
+  for (std::size_t i = 0; i < grid_.size(); i += block) {
+    const __m128 four = squares_of(&grid_[i], from);
+    _mm_storeu_ps(&squares[i], four);
+    largest = _mm_max_ps(largest, four);
+  }
+  alignas(16) float lanes[block];
+  _mm_store_ps(lanes, largest);
+  const float most = *std::max_element(lanes, lanes + block);
+  const __m128 sought = _mm_set1_ps(most);
+  std::size_t i = 0;
+  while (_mm_movemask_ps(_mm_cmpeq_ps(_mm_loadu_ps(&squares[i]), sought)) == 0) i += block;
+  while (squares[i] != most) ++i;
+  return i;
+}
+
+/// Those that are as far as that from the middle or from the origin.
+void ExtremeVertices::keep(float from_middle, float from_origin) {
+  points_.clear();
+  const __m128 middle = _mm_set1_ps(from_middle), origin = _mm_set1_ps(from_origin);
+  for (std::size_t i = 0; i < grid_.size(); i += block) {
+    const __m128 far = _mm_or_ps(_mm_cmpge_ps(_mm_loadu_ps(&from_middle_[i]), middle),
+                                 _mm_cmpge_ps(_mm_loadu_ps(&from_origin_[i]), origin));
+    const int bits = _mm_movemask_ps(far);
+    if (bits == 0) continue;
+    for (std::size_t k = 0; k < block; ++k)
+      if ((bits >> k & 1) != 0)
+        points_.push_back(
+            {static_cast<float>(grid_[i + k].x * step_), static_cast<float>(grid_[i + k].y * step_)});
+  }
+}
+
+}  // namespace bch

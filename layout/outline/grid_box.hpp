@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <limits>
+
+#include "layout/outline/grid_geometry.hpp"
+
+namespace bch {
+
+/// A rectangle on the grid, its sides included.
+struct GridBox {
+  GridPoint low, high;
+
+  bool holds(GridPoint p) const { return low.x <= p.x && p.x <= high.x && low.y <= p.y && p.y <= high.y; }
+};
+
+/// A box without a point, which any other one enlarges to itself.
+constexpr GridBox empty_box{
+    {std::numeric_limits<std::int32_t>::max(), std::numeric_limits<std::int32_t>::max()},
+    {std::numeric_limits<std::int32_t>::min(), std::numeric_limits<std::int32_t>::min()}};
+
+inline void enlarge(GridBox& box, const GridBox& by) {
+  box.low = {std::min(box.low.x, by.low.x), std::min(box.low.y, by.low.y)};
+  box.high = {std::max(box.high.x, by.high.x), std::max(box.high.y, by.high.y)};
+}
+
+}  // namespace bch

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include "layout/outline/implementation.hpp"
+
+#include <algorithm>
+#include <iterator>
+
+namespace bch {
+
+void find_sides_sse2(const std::uint32_t*, std::size_t, const GridPoint*, std::uint8_t*) noexcept;
+void find_sides_avx2(const std::uint32_t*, std::size_t, const GridPoint*, std::uint8_t*) noexcept;
+std::size_t find_near_sse2(const SegmentSearch&, const SearchedWay&) noexcept;
+std::size_t find_near_avx2(const SegmentSearch&, const SearchedWay&) noexcept;
+void test_near_sse2(const SegmentSearch&, const SearchedWay&, std::size_t) noexcept;
+void test_near_avx2(const SegmentSearch&, const SearchedWay&, std::size_t) noexcept;
+
+namespace {
+
+// The compiler's test asks the operating system too, whether it saves the wide registers.
+constexpr OutlineImplementation table[] = {
+    {"avx2", []() noexcept { return __builtin_cpu_supports("avx2") != 0; }, find_sides_avx2, find_near_avx2,
+     test_near_avx2},
+    {"sse2", []() noexcept { return true; }, find_sides_sse2, find_near_sse2, test_near_sse2},
+};
+
+}  // namespace
+
+std::span<const OutlineImplementation> outline_implementations() noexcept {
+  return table;
+}
+
+const OutlineImplementation& best_outline_implementation() noexcept {
+  static const OutlineImplementation& best = *std::find_if(
+      std::begin(table), std::end(table), [](const OutlineImplementation& row) { return row.supported(); });
+  return best;
+}
+
+}  // namespace bch

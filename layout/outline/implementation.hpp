@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <span>
+
+#include "layout/outline/segment_search.hpp"
+
+namespace bch {
+
+/// One compilation of outline_lanes.hpp, which says what the functions do; all give the same bits.
+struct OutlineImplementation {
+  const char* name;  ///< "avx2" or "sse2"
+  bool (*supported)() noexcept;
+  void (*find_sides)(const std::uint32_t* corners, std::size_t count, const GridPoint* points,
+                     std::uint8_t* sides) noexcept;
+  std::size_t (*find_near)(const SegmentSearch& job, const SearchedWay& way) noexcept;
+  void (*test_near)(const SegmentSearch& job, const SearchedWay& way, std::size_t count) noexcept;
+};
+
+/// All that were compiled, the best first; the last one runs everywhere.
+std::span<const OutlineImplementation> outline_implementations() noexcept;
+
+/// The first that this processor supports.
+const OutlineImplementation& best_outline_implementation() noexcept;
+
+}  // namespace bch

@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include "layout/outline/topology.hpp"
+
+#include <algorithm>
+#include <numeric>
+#include <stdexcept>
+#include <string>
+#include <tuple>
+
+namespace bch {
+namespace {
+
+using EdgeUse = OutlineTopology::EdgeUse;
+using Triangles = std::span<const std::array<std::uint32_t, 3>>;
+using Positions = std::span<const Eigen::Vector3f>;
+
+constexpr std::uint32_t unused = 0xffffffff;
+
+/// Fills used and triangles.
+void number_anew(Triangles triangles, std::size_t vertices, OutlineTopology& topology) {
+  if (triangles.empty()) throw std::invalid_argument("outline: no triangles");
+  std::vector<std::uint32_t> number(vertices, unused);
+  for (std::size_t t = 0; t < triangles.size(); ++t)
+    for (const std::uint32_t v : triangles[t]) {
+      if (v >= vertices)
+        throw std::invalid_argument("outline: triangle " + std::to_string(t) + " names vertex " +
+                                    std::to_string(v));
+      number[v] = 0;
+    }
+  for (std::uint32_t v = 0; v < vertices; ++v) {
+    if (number[v] == unused) continue;
+    number[v] = static_cast<std::uint32_t>(topology.used.size());
+    topology.used.push_back(v);
+  }
+  for (const auto& [a, b, c] : triangles) topology.triangles.push_back({number[a], number[b], number[c]});
+}
+
+std::vector<Eigen::Vector3f> used_positions(Positions bind_pose, std::span<const std::uint32_t> used) {
+  std::vector<Eigen::Vector3f> positions;
+  for (const std::uint32_t v : used) {
+    if (!bind_pose[v].allFinite())
+      throw std::invalid_argument("outline: vertex " + std::to_string(v) + " of the bind pose is not finite");
+    positions.push_back(bind_pose[v]);
+  }
+  return positions;
+}
+
+/// For each vertex the first at the same position.
+std::vector<std::uint32_t> welded(Positions positions, std::size_t vertices) {
+  std::vector<std::uint32_t> weld(vertices);
+  std::iota(weld.begin(), weld.end(), 0u);
+  if (positions.empty()) return weld;
+  const auto key = [&](std::uint32_t v) {
+    return std::tuple(positions[v].x(), positions[v].y(), positions[v].z());
+  };
+  std::vector<std::uint32_t> order = weld;
+  std::sort(order.begin(), order.end(),
+            [&](std::uint32_t v, std::uint32_t w) { return std::pair(key(v), v) < std::pair(key(w), w); });
+  for (std::size_t i = 1; i < order.size(); ++i)
+    if (key(order[i]) == key(order[i - 1])) weld[order[i]] = weld[order[i - 1]];
+  return weld;
+}
+
+/// An edge: all triangles' uses of it, and where it is.
+struct Edge {
+  std::span<EdgeUse> uses;
+  Eigen::Vector3f middle;
+};
+
+bool manifold(std::span<const EdgeUse> uses) {
+  return uses.size() == 2 && uses[0].a == uses[1].a && uses[0].b == uses[1].b &&
+         uses[0].direction != uses[1].direction;
+}
+
+/// The triangles' uses of their edges, those of an edge together. Ends that are one vertex are no edge.
+std::vector<EdgeUse> edge_uses(Triangles triangles, std::span<const std::uint32_t> weld) {
+  std::vector<EdgeUse> uses;
+  uses.reserve(3 * triangles.size());
+  for (std::uint32_t t = 0; t < triangles.size(); ++t)
+    for (int k = 0; k < 3; ++k) {
+      const std::uint32_t from = triangles[t][k], to = triangles[t][(k + 1) % 3];
+      if (from == to) continue;
+      const bool forward = std::tie(weld[from], from) < std::tie(weld[to], to);
+      uses.push_back(forward ? EdgeUse{from, to, t, 1} : EdgeUse{to, from, t, -1});
+    }
+  const auto key = [&](const EdgeUse& use) {
+    return std::tuple(weld[use.a], weld[use.b], use.a, use.b, use.triangle, use.direction);
+  };
+  std::sort(uses.begin(), uses.end(), [&](const EdgeUse& a, const EdgeUse& b) { return key(a) < key(b); });
+  return uses;
+}
+
+std::vector<Edge> edges_of(std::vector<EdgeUse>& uses, std::span<const std::uint32_t> weld,
+                           Positions positions) {
+  std::vector<Edge> edges;
+  for (std::size_t begin = 0, end = 0; begin < uses.size(); begin = end) {
+    const auto [a, b, triangle, direction] = uses[begin];
+    while (end < uses.size() && weld[uses[end].a] == weld[a] && weld[uses[end].b] == weld[b]) ++end;
+    edges.push_back({std::span(uses).subspan(begin, end - begin), Eigen::Vector3f::Zero()});
+    if (!positions.empty()) edges.back().middle = 0.5f * positions[a] + 0.5f * positions[b];
+  }
+  return edges;
+}
+
+/// Puts edges near each other next to each other: halves by the longer side of their box, over and over.
+void sort_by_place(std::span<Edge> edges) {
+  constexpr std::size_t together = 8;
+  if (edges.size() <= together) return;
+  Eigen::Vector3f low = edges[0].middle, high = low;
+  for (const Edge& edge : edges) {
+    low = low.cwiseMin(edge.middle);
+    high = high.cwiseMax(edge.middle);
+  }
+  int axis = 0;
+  (high - low).maxCoeff(&axis);
+  const auto half = edges.begin() + static_cast<std::ptrdiff_t>(edges.size() / 2);
+  std::nth_element(edges.begin(), half, edges.end(), [axis](const Edge& a, const Edge& b) {
+    return std::pair(a.middle[axis], a.uses.data()) < std::pair(b.middle[axis], b.uses.data());
+  });
+  sort_by_place(edges.first(edges.size() / 2));
+  sort_by_place(edges.subspan(edges.size() / 2));
+}
+
+/// Fills island and island_vertex.
+void find_islands(OutlineTopology& topology) {
+  std::vector<std::uint32_t> root(topology.used.size());
+  std::iota(root.begin(), root.end(), 0u);
+  const auto find = [&](std::uint32_t v) {
+    while (root[v] != v) v = root[v] = root[root[v]];
+    return v;
+  };
+  for (const auto& [a, b, c] : topology.triangles) {
+    for (const std::uint32_t other : {b, c}) {
+      const std::uint32_t v = find(a), w = find(other);
+      root[std::max(v, w)] = std::min(v, w);
+    }
+  }
+  topology.island.resize(root.size());
+  for (std::uint32_t v = 0; v < root.size(); ++v) {
+    if (find(v) == v) topology.island_vertex.push_back(v);
+    const auto newest = static_cast<std::uint32_t>(topology.island_vertex.size() - 1);
+    topology.island[v] = find(v) == v ? newest : topology.island[find(v)];
+  }
+}
+
+}  // namespace
+
+OutlineTopology outline_topology(Triangles triangles, std::size_t vertices, Positions bind_pose) {
+  if (!bind_pose.empty() && bind_pose.size() != vertices)
+    throw std::invalid_argument("outline: a bind pose of " + std::to_string(bind_pose.size()) +
+                                " positions for " + std::to_string(vertices) + " vertices");
+  OutlineTopology topology;
+  number_anew(triangles, vertices, topology);
+  std::vector<Eigen::Vector3f> positions;
+  if (!bind_pose.empty()) positions = used_positions(bind_pose, topology.used);
+
+  const std::vector<std::uint32_t> weld = welded(positions, topology.used.size());
+  std::vector<EdgeUse> uses = edge_uses(topology.triangles, weld);
+  std::vector<Edge> edges = edges_of(uses, weld, positions);
+  sort_by_place(edges);
+  for (const Edge& edge : edges) {
+    if (manifold(edge.uses)) {
+      topology.manifold.push_back({edge.uses[0].a, edge.uses[0].b});
+      topology.manifold_triangles.push_back({edge.uses[0].triangle, edge.uses[1].triangle});
+      continue;
+    }
+    topology.uses_begin.push_back(static_cast<std::uint32_t>(topology.uses.size()));
+    topology.uses.insert(topology.uses.end(), edge.uses.begin(), edge.uses.end());
+  }
+  topology.uses_begin.push_back(static_cast<std::uint32_t>(topology.uses.size()));
+  find_islands(topology);
+  return topology;
+}
+
+}  // namespace bch

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include "layout/scene/scene_plan.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <stdexcept>
+#include <string>
+#include <tuple>
+
+#include "layout/base/shortest.hpp"
+
+namespace bch {
+namespace {
+
+constexpr std::size_t most_levels = 255;
+
+[[noreturn]] void reject(std::size_t agent, const std::string& what) {
+  throw std::invalid_argument("scene plan: agent " + std::to_string(agent) + ": " + what);
+}
+
+void require(const SceneUse& use) {
+  if (!(use.pose_step >= 0) || !std::isfinite(use.pose_step))
+    throw std::invalid_argument("scene plan: a pose step of " + shortest(use.pose_step) + " s");
+  if (!(use.pairs_per_shape >= 0))
+    throw std::invalid_argument("scene plan: " + shortest(use.pairs_per_shape) + " pairs a shape");
+}
+
+/// Numbers the different shapes of a scene.
+class Shapes {
+ public:
+  explicit Shapes(float pose_step) : step_(static_cast<double>(pose_step)) {}
+
+  std::uint32_t number(ShapeSource source) {
+    if (source.at.clip == PoseTime::rest) source.at.seconds = 0;
+    if (step_ > 0) source.at.seconds = stepped(source.at.seconds);
+    const auto [found, is_new] =
+        numbers_.try_emplace({source.character, source.at.clip, source.at.seconds}, list.size());
+    if (is_new) list.push_back(source);
+    return static_cast<std::uint32_t>(found->second);
+  }
+
+  std::vector<ShapeSource> list;
+
+ private:
+  /// Not beyond the time itself, which may be the clip's end.
+  float stepped(float seconds) const {
+    const double steps = std::floor(static_cast<double>(seconds) / step_);
+    return std::min(seconds, static_cast<float>(steps * step_));
+  }
+
+  double step_;
+  std::map<std::tuple<std::uint32_t, std::uint32_t, float>, std::size_t> numbers_;
+};
+
+std::vector<std::uint32_t> depths_of(std::span<const SceneAgent> agents, const SceneUse& use) {
+  std::vector<std::uint32_t> depths;
+  for (const SceneAgent& agent : agents)
+    depths.push_back(std::min(use.depth ? use.depth(agent.distance) : all_depths,
+                              use.density_depth ? use.density_depth(agent.density) : all_depths));
+  return depths;
+}
+
+std::vector<std::uint32_t> different(std::vector<std::uint32_t> depths) {
+  std::sort(depths.begin(), depths.end());
+  depths.erase(std::unique(depths.begin(), depths.end()), depths.end());
+  if (depths.empty()) depths.push_back(all_depths);
+  if (depths.size() > most_levels)
+    throw std::invalid_argument("scene plan: " + std::to_string(depths.size()) +
+                                " different depths, more than 255");
+  return depths;
+}
+
+}  // namespace
+
+std::uint32_t depth_at_density(double people_per_square_metre) {
+  if (people_per_square_metre < 1.1) return 0;
+  if (people_per_square_metre < 2.3) return 3;
+  return people_per_square_metre < 3.0 ? 6 : all_depths;
+}
+
+ScenePlan plan_scene(std::span<const SceneAgent> agents, const SceneUse& use) {
+  require(use);
+  for (std::size_t i = 0; i < agents.size(); ++i) {
+    if (!(agents[i].distance >= 0) || !std::isfinite(agents[i].distance))
+      reject(i, "a distance of " + shortest(agents[i].distance) + " m");
+    if (!(agents[i].density >= 0) || !std::isfinite(agents[i].density))
+      reject(i, "a density of " + shortest(agents[i].density) + " people per square metre");
+    if (!std::isfinite(agents[i].shows.at.seconds))
+      reject(i, "at " + shortest(agents[i].shows.at.seconds) + " s");
+  }
+  const std::vector<std::uint32_t> depths = depths_of(agents, use);
+  ScenePlan plan;
+  plan.set.depths = different(depths);
+  plan.set.outlines = use.solid || (use.leaves == Leaves::segments && plan.set.depths.back() == all_depths);
+  plan.set.shortcuts = use.pairs_per_shape >= pairs_for_shortcuts;
+  Shapes shapes(use.pose_step);
+  for (std::size_t i = 0; i < agents.size(); ++i) {
+    plan.agent_shape.push_back(shapes.number(agents[i].shows));
+    const auto level = std::lower_bound(plan.set.depths.begin(), plan.set.depths.end(), depths[i]);
+    plan.agent_level.push_back(static_cast<std::uint8_t>(level - plan.set.depths.begin()));
+  }
+  plan.shapes = std::move(shapes.list);
+  return plan;
+}
+
+}  // namespace bch

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include "layout/shape_set/flat_shape.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cstdint>
+#include <vector>
+
+#include "layout/format/cut_discs.hpp"
+#include "layout/format/leaf_segments.hpp"
+
+namespace bch {
+namespace {
+
+/// What ShapeStorage::put_level() was given.
+WideTree wide_tree_of(const Root& root, const Tree& level, const float* nodes) {
+  WideTree tree;
+  tree.root = {root.x, root.y, root.radius};
+  tree.count = level.count;
+  tree.outer = level.outer;
+  const std::uint32_t begin = level.top < leaf_window ? level.top : level.discs;
+  const auto local = [&](std::uint32_t name) {
+    return name < leaf_window ? (name - begin) / block_floats : name - level.discs;
+  };
+  tree.top = local(level.top);
+  tree.blocks.resize((level.discs - begin) / block_floats);
+  const std::uint32_t first_inner = level.first_inner();
+  const float* in = nodes + begin;
+  const auto read = [&](float* to, std::size_t count) {
+    std::copy_n(in, count, to);
+    in += count;
+  };
+  const auto read_bits = [&](std::uint32_t* to, const auto& local_of) {
+    std::transform(in, in + block_width, to,
+                   [&](float bits) { return local_of(std::bit_cast<std::uint32_t>(bits)); });
+    in += block_width;
+  };
+  for (WideTree::Block& block : tree.blocks) {
+    for (float* field : {block.discs.x, block.discs.y, block.discs.radius}) read(field, block_width);
+    read_bits(block.child, local);
+    read(block.outer, block_width);
+    read_bits(block.node, [&](std::uint32_t node) {
+      return node < leaf_window ? node - first_inner : node - level.discs;
+    });
+  }
+  for (std::vector<float>* field : {&tree.x, &tree.y, &tree.radius}) {
+    field->resize(level.stride);
+    read(field->data(), level.stride);
+  }
+  in = nodes + std::size_t{first_inner} * inner_floats;
+  tree.inner.resize(level.count);
+  for (InnerNode& inner : tree.inner) {
+    read(&inner.x, 3);
+    inner.link = std::bit_cast<std::uint32_t>(*in++) - first_inner;
+  }
+  return tree;
+}
+
+/// What ShapeStorage::put_shortcuts() was given.
+void take_shortcuts(const ShapeArrays& arrays, std::size_t shape, std::uint32_t row, FlatShape& flat) {
+  if (row >= first_row)
+    std::copy_n(arrays.support.data() + std::size_t{row} * support_stride, support_stride,
+                flat.supports.begin());
+  flat.profile = arrays.profiles[shape];
+  const DiscBlock& discs = arrays.inscribed[shape];
+  const Extremes& extremes = arrays.extremes[shape];
+  Interior& inside = flat.interior;
+  std::copy_n(discs.x, block_width, inside.x.begin());
+  std::copy_n(discs.y, block_width, inside.y.begin());
+  std::copy_n(discs.radius, block_width, inside.radius.begin());
+  std::copy_n(extremes.x, extreme_stride, inside.extreme_x.begin());
+  std::copy_n(extremes.y, extreme_stride, inside.extreme_y.begin());
+}
+
+/// What ShapeStorage::put_outline() was given.
+void take_outline(const ShapeArrays& arrays, std::size_t shape, FlatShape& flat) {
+  flat.outline = outline_of(arrays, shape);
+  const auto [begin, end] = arrays.shape_contours[shape];
+  for (const Contour& contour : arrays.contours.subspan(begin, end - begin))
+    flat.contour_disc.push_back(contour.disc);
+  flat.segment_margin = arrays.segment_margin[shape];
+  const Tree& last_level = arrays.trees[(shape + 1) * arrays.depths.size() - 1];
+  if (last_level.segments == no_segments) return;
+  const auto words = arrays.leaf_segments.subspan(last_level.segments);
+  const auto own = words.first(leaf_segments_size(words, last_level.count));
+  flat.leaf_segments.assign(own.begin(), own.end());
+}
+
+}  // namespace
+
+Outline outline_of(const ShapeArrays& arrays, std::size_t shape) {
+  Outline outline;
+  if (arrays.shape_contours.empty()) return outline;
+  const auto [begin, end] = arrays.shape_contours[shape];
+  for (const Contour& contour : arrays.contours.subspan(begin, end - begin)) {
+    const auto points = arrays.points.subspan(contour.begin, contour.end - contour.begin);
+    outline.points.insert(outline.points.end(), points.begin(), points.end());
+    outline.contour_begin.push_back(static_cast<std::uint32_t>(outline.points.size()));
+  }
+  return outline;
+}
+
+FlatShape flat_shape(const ShapeArrays& arrays, std::size_t shape) {
+  const std::size_t levels = arrays.depths.size(), first_root = shape * levels;
+  FlatShape flat;
+  flat.reach = static_cast<double>(arrays.reach[shape]);
+  for (std::size_t k = first_root; k < first_root + levels; ++k)
+    flat.levels.push_back(wide_tree_of(arrays.roots[k], arrays.trees[k], arrays.nodes.data()));
+  if (!arrays.profiles.empty())
+    take_shortcuts(arrays, shape, arrays.roots[first_root + levels - 1].row, flat);
+  if (!arrays.shape_contours.empty()) take_outline(arrays, shape, flat);
+  return flat;
+}
+
+}  // namespace bch

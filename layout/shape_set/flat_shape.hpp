@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <cstddef>
+
+#include "layout/format/outline.hpp"
+#include "layout/format/shape_arrays.hpp"
+#include "layout/shape_set/shape_flattener.hpp"
+
+namespace bch {
+
+/// A shape of a set as ShapeStorage::put() was given it, but for its plan and its outline's grid step, which are not
+/// stored.
+/// Precondition: the set is more than single discs.
+FlatShape flat_shape(const ShapeArrays& arrays, std::size_t shape);
+
+/// Reads a shape's outline from a set, without its grid step, which is not stored; without contours where the set has none.
+Outline outline_of(const ShapeArrays& arrays, std::size_t shape);
+
+}  // namespace bch

@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include "layout/shape_set/shape_flattener.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <stdexcept>
+#include <string>
+
+#include "layout/base/rounding.hpp"
+#include "layout/culling/profile.hpp"
+#include "layout/enclosing_disc/enclosing_disc.hpp"
+#include "layout/format/leaf_segments.hpp"
+
+namespace bch {
+namespace {
+
+constexpr float infinity = std::numeric_limits<float>::infinity();
+
+/// Checks the elements of a hierarchy over the segments of an outline, as far as exact leaves use them.
+void require_segments(const Shape& shape) {
+  const auto& [outline, hierarchy] = shape;
+  if (!hierarchy.of_segments || outline.contours() == 0) return;
+  if (hierarchy.held.size() != hierarchy.nodes.size())
+    throw std::invalid_argument("hierarchy: " + std::to_string(hierarchy.held.size()) +
+                                " ranges of elements for " + std::to_string(hierarchy.nodes.size()) +
+                                " nodes");
+  for (std::size_t i = 0; i < hierarchy.held.size(); ++i)
+    if (const auto [begin, end] = hierarchy.held[i]; begin >= end || end > hierarchy.source.size())
+      throw std::invalid_argument("hierarchy: node " + std::to_string(i) + " holds elements " +
+                                  std::to_string(begin) + " to " + std::to_string(end) + " of " +
+                                  std::to_string(hierarchy.source.size()));
+  for (std::size_t i = 0; i < hierarchy.source.size(); ++i)
+    if (hierarchy.source[i] >= outline.points.size())
+      throw std::invalid_argument("hierarchy: element " + std::to_string(i) + " comes from segment " +
+                                  std::to_string(hierarchy.source[i]) + " of " +
+                                  std::to_string(outline.points.size()));
+}
+
+}  // namespace
+
+ShapeFlattener::ShapeFlattener(const ShapeSetPlan& plan) : plan_(plan) {
+  validate(plan);
+}
+
+void ShapeFlattener::flatten(const Shape& shape, std::size_t index, FlatShape& flat) {
+  require(shape, index);
+  flat.plan = plan_;
+  flat.reach = shape.hierarchy.reach;
+  add_levels(shape, flat);
+  if (!plan_.outlines) return;
+  add_outline(shape, flat);
+  add_segments(shape.hierarchy, flat);
+}
+
+void ShapeFlattener::require(const Shape& shape, std::size_t index) const {
+  try {
+    validate(shape.hierarchy);
+    if (plan_.outlines) require_segments(shape);
+    if (shape.outline.contours() > 0 && (plan_.outlines || has_shortcuts())) validate(shape.outline);
+  } catch (const std::invalid_argument& error) {
+    throw std::invalid_argument("shape set: shape " + std::to_string(index) + ": " + error.what());
+  }
+}
+
+bool ShapeFlattener::has_shortcuts() const {
+  return plan_.shortcuts && plan_.depths.back() > 0;
+}
+
+void ShapeFlattener::add_levels(const Shape& shape, FlatShape& flat) {
+  if (has_shortcuts()) add_interior(shape, flat);
+  flat.levels.resize(plan_.depths.size());
+  flattener_.begin(shape.hierarchy);
+  for (std::size_t k = 0; k < plan_.depths.size(); ++k) {
+    flattener_.flatten(plan_.depths[k], flat.levels[k]);
+    if (has_shortcuts()) add_shortcuts(k, flat);
+  }
+}
+
+/// A shape without an outline has no inscribed discs: padding, which overlaps nothing.
+void ShapeFlattener::add_interior(const Shape& shape, FlatShape& flat) {
+  flat.interior = {};
+  flat.interior.x.fill(infinity);
+  if (shape.outline.contours() > 0) flat.interior = interiors_.build(shape.outline, shape.hierarchy.reach);
+  flat.profile = profile(shape.outline, flat.interior, shape.hierarchy.reach);
+  for (Sector& sector : flat.profile.sectors) sector.shallow_outer = 0;
+}
+
+/// Of the level that was made flat last. Of single discs nobody asks.
+void ShapeFlattener::add_shortcuts(std::size_t level, FlatShape& flat) const {
+  const bool deepest = level + 1 == plan_.depths.size();
+  if (flat.levels[level].is_single() && !deepest) return;
+  const Outer outer = flattener_.outer(flat.profile);
+  if (deepest) flat.supports = flattener_.supports();
+  for (std::uint32_t k = 0; k < profile_sectors; ++k) {
+    Sector& sector = flat.profile.sectors[k];
+    float& limit = deepest ? sector.outer : sector.shallow_outer;
+    limit = deepest ? outer[k] : std::max(limit, outer[k]);
+  }
+}
+
+void ShapeFlattener::add_outline(const Shape& shape, FlatShape& flat) {
+  const Outline& outline = flat.outline = shape.outline;
+  flat.segment_margin =
+      rounding::round_up(rounding::segment_margin * shape.hierarchy.reach +
+                         rounding::outline_grid_steps * static_cast<double>(outline.grid_step));
+  flat.contour_disc.clear();
+  for (std::size_t c = 0; c < outline.contours(); ++c) {
+    const EnclosingDisc disc = smallest_enclosing_disc(outline.contour(c));
+    flat.contour_disc.push_back({disc.centre.x, disc.centre.y, rounding::round_up(disc.radius)});
+  }
+}
+
+void ShapeFlattener::add_segments(const Hierarchy& hierarchy, FlatShape& flat) {
+  flat.leaf_segments.clear();
+  const Outline& outline = flat.outline;
+  if (plan_.depths.back() != all_depths || flat.levels.back().is_single() || !hierarchy.of_segments ||
+      outline.contours() == 0)
+    return;
+  // Each contour's first point follows its last one, which moves the points of the contours after it.
+  moved_.resize(outline.points.size());
+  for (std::uint32_t c = 0; c < outline.contours(); ++c)
+    for (std::uint32_t i = outline.contour_begin[c]; i < outline.contour_begin[c + 1]; ++i) moved_[i] = i + c;
+  std::size_t leaf = 0;
+  for (std::size_t i = 0; i < hierarchy.nodes.size(); ++i) {
+    if (!hierarchy.nodes[i].is_leaf()) continue;
+    held_.clear();
+    for (std::uint32_t k = hierarchy.held[i].begin; k < hierarchy.held[i].end; ++k)
+      held_.push_back(moved_[hierarchy.source[k]]);
+    add_leaf(held_, leaf++, flat.levels.back().count, flat.leaf_segments);
+  }
+}
+
+}  // namespace bch

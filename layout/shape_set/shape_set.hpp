@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "layout/format/outline.hpp"
+#include "layout/format/shape_arrays.hpp"
+#include "layout/format/shape_set_view.hpp"
+#include "layout/hierarchy/hierarchy.hpp"
+
+namespace bch {
+
+/// One pose of a character.
+struct Shape {
+  Outline outline;
+  Hierarchy hierarchy;
+};
+
+/// What decides where leaves of two hierarchies overlap.
+enum class Leaves {
+  discs,  ///< that they do
+  /// Exact leaves: whether segments of the outlines in them come within the rounding margin of each other (rounding.hpp, V).
+  /// Of agents at the level of all depths whose shapes have segments there; else, and for leaves of more than 127 segments, as
+  /// with discs.
+  segments,
+};
+
+/// What a scene will use of its shapes; nothing else is built or stored.
+struct ShapeSetPlan {
+  /// The levels of detail: cut depths, ascending. Level k of every shape is its cut at depths[k].
+  std::vector<std::uint32_t> depths = {all_depths};
+  /// Keep the outlines: for the solid semantics, which sees one shape inside another, and for exact leaves, which the level of
+  /// all depths then has of shapes whose cut is more than one disc and whose hierarchy has its elements.
+  bool outlines = true;
+  /// Keep what lets a query skip most traversals: supports and, of shapes with an outline, inscribed discs. They
+  /// change no answer; a set that answers few queries does without.
+  bool shortcuts = true;
+  friend bool operator==(const ShapeSetPlan&, const ShapeSetPlan&) = default;
+};
+
+/// Errors:  throws std::invalid_argument on a plan without depths, with more than 255, or with depths out of order.
+void validate(const ShapeSetPlan& plan);
+
+/// The flat form of many shapes for batch queries: structure of arrays, aligned to cache lines, immutable. One that was
+/// moved from can only be assigned to or destroyed.
+class ShapeSet {
+ public:
+  /// Errors:  throws std::invalid_argument on a plan that validate() rejects and, naming the shape, on a hierarchy that
+  ///          validate() rejects, or an outline where the plan asks for one or for shortcuts; std::length_error beyond
+  ///          2^31 numbers in nodes.
+  explicit ShapeSet(std::span<const Shape> shapes, const ShapeSetPlan& plan = {});
+  /// Stands on arrays that live as long as `memory`, a mapped file say.
+  /// Precondition: validate(arrays) does not throw.
+  ShapeSet(const ShapeArrays& arrays, std::shared_ptr<const void> memory);
+
+  ShapeSet(ShapeSet&&) noexcept = default;
+  ShapeSet& operator=(ShapeSet&&) noexcept = default;
+
+  const ShapeSetView& view() const noexcept { return view_; }
+  const ShapeArrays& arrays() const noexcept { return arrays_; }
+  std::uint32_t shape_count() const noexcept { return view_.shape_count; }
+  std::uint32_t level_count() const noexcept { return static_cast<std::uint32_t>(arrays_.depths.size()); }
+  std::span<const std::uint32_t> depths() const noexcept { return arrays_.depths; }
+  /// Solid semantics can be asked: every shape has its outline here, or every cut is a single disc.
+  bool solid() const noexcept { return solid_; }
+  /// Some level of some shape has exact leaves.
+  bool exact_leaves() const noexcept { return !arrays_.leaf_segments.empty(); }
+  /// Every cut is a single disc: there are roots and nothing else.
+  bool roots_only() const noexcept { return arrays_.trees.empty(); }
+  /// What is stored: of roots alone no more than the depths.
+  ShapeSetPlan plan() const;
+  std::size_t bytes() const noexcept;
+
+ private:
+  ShapeArrays arrays_;
+  std::shared_ptr<const void> memory_;
+  ShapeSetView view_;
+  bool solid_;
+};
+
+}  // namespace bch

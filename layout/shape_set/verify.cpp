@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include "layout/shape_set/verify.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "layout/shape_set/flat_shape.hpp"
+#include "layout/shape_set/verify_parts.hpp"
+
+namespace bch {
+namespace verification {
+
+std::string text_of(const Disc& disc) {
+  std::string text = "(";
+  text.append(shortest(disc.x)).append(", ").append(shortest(disc.y));
+  return text.append(") of radius ").append(shortest(disc.radius)).append(" m");
+}
+
+void Look::compare(const char* array, std::uint32_t level, const std::string& place, double stored,
+                   double expected) const {
+  if (stored == expected || std::abs(stored - expected) <= tolerance()) return;
+  say(array, level, place + " is " + shortest(stored) + " m, not " + shortest(expected) + " m");
+}
+
+namespace {
+
+double extent_of(const Root& root) {
+  return std::hypot(static_cast<double>(root.x), static_cast<double>(root.y)) +
+         static_cast<double>(root.radius);
+}
+
+void verify_shape(const Look& look) {
+  verify_levels(look);
+  if (look.set.roots_only()) return;
+  const Outline outline = outline_of(look.arrays(), look.shape);
+  verify_reach(look);
+  for (std::uint32_t level = 0; level < look.levels(); ++level) {
+    verify_tree(look, level);
+    verify_cover(look, outline, level);
+  }
+  verify_contours(look, outline);
+  if (outline.contours() > 0) verify_segments(look);
+  if (look.arrays().profiles.empty()) return;
+  verify_supports(look);
+  verify_profile(look, outline);
+  if (outline.contours() > 0)
+    verify_inside(look, outline);
+  else
+    verify_hull(look);
+}
+
+}  // namespace
+}  // namespace verification
+
+std::string text_of(const Finding& finding) {
+  std::string text = "shape ";
+  text += std::to_string(finding.shape);
+  if (finding.level != Finding::no_level) text.append(", level ").append(std::to_string(finding.level));
+  return text.append(": ").append(finding.array).append(": ").append(finding.what);
+}
+
+std::vector<Finding> verify(const ShapeSet& set, std::size_t most) {
+  std::vector<Finding> findings;
+  const ShapeArrays& arrays = set.arrays();
+  for (std::uint32_t shape = 0; shape < set.shape_count() && findings.size() < most; ++shape) {
+    const double reach = set.roots_only()
+                             ? verification::extent_of(arrays.roots[std::size_t{shape} * set.level_count()])
+                             : static_cast<double>(arrays.reach[shape]);
+    verification::verify_shape({set, findings, most, shape, reach});
+  }
+  return findings;
+}
+
+}  // namespace bch

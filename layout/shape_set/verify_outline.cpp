@@ -1,0 +1,289 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <numbers>
+
+#include "layout/base/rounding.hpp"
+#include "layout/culling/profile.hpp"
+#include "layout/culling/supports.hpp"
+#include "layout/enclosing_disc/enclosing_disc.hpp"
+#include "layout/format/leaf_segments.hpp"
+#include "layout/shape_set/verify_parts.hpp"
+
+// What follows from a shape's outline, or, where it is not stored, what may not stick out of its discs.
+
+namespace bch::verification {
+namespace {
+
+constexpr float infinity = std::numeric_limits<float>::infinity();
+constexpr std::uint32_t no_level = Finding::no_level;
+
+struct Point {
+  double x, y;
+};
+Point operator-(Point a, Point b) {
+  return {a.x - b.x, a.y - b.y};
+}
+double dot(Point a, Point b) {
+  return a.x * b.x + a.y * b.y;
+}
+Point point(Vec2 p) {
+  return {static_cast<double>(p.x), static_cast<double>(p.y)};
+}
+
+double length(Point p) {
+  return std::hypot(p.x, p.y);
+}
+
+Point direction(std::uint32_t k, std::uint32_t of) {
+  const double angle = 2 * std::numbers::pi * k / of;
+  return {std::cos(angle), std::sin(angle)};
+}
+
+/// The share of a segment's way up to which a disc holds it, if it holds the point at `from`; else `from`.
+double held_up_to(const Disc& disc, Point a, Point way, double from) {
+  const Point centre{static_cast<double>(disc.x), static_cast<double>(disc.y)};
+  const double radius = disc.radius, square = dot(way, way);
+  const Point to_a = a - centre, at{to_a.x + from * way.x, to_a.y + from * way.y};
+  const double beyond = radius * radius - dot(at, at);
+  if (beyond < 0) return from;
+  if (square == 0) return 1;
+  const double along = dot(at, way);
+  return from + (std::sqrt(along * along + square * beyond) - along) / square;
+}
+
+bool is_covered(const CutDiscs& discs, Point a, Point b) {
+  const Point way = b - a;
+  const double half = 0.5 * length(way);
+  const Point middle{0.5 * (a.x + b.x), 0.5 * (a.y + b.y)};
+  std::vector<Disc> near;
+  for (std::uint32_t i = 0; i < discs.count; ++i) {
+    const Disc disc{discs.x[i], discs.y[i], discs.radius[i]};
+    const Point to{static_cast<double>(disc.x) - middle.x, static_cast<double>(disc.y) - middle.y};
+    const double limit = half + static_cast<double>(disc.radius);
+    if (dot(to, to) <= limit * limit) near.push_back(disc);
+  }
+  double at = 0;
+  for (double next = 0; at < 1; at = next) {
+    for (const Disc& disc : near) next = std::max(next, held_up_to(disc, a, way, at));
+    if (next == at) return false;
+  }
+  return true;
+}
+
+struct Depth {
+  double distance;
+  bool inside;
+};
+
+/// Of a point in a contour.
+Depth depth_in(std::span<const Vec2> contour, Point p) {
+  Depth depth{HUGE_VAL, false};
+  Point a = point(contour.back()) - p;
+  for (const Vec2 end : contour) {
+    const Point b = point(end) - p, way = b - a;
+    const double square = dot(way, way), share = square > 0 ? std::clamp(-dot(a, way) / square, 0.0, 1.0) : 0;
+    depth.distance = std::min(depth.distance, length({a.x + share * way.x, a.y + share * way.y}));
+    if ((a.y > 0) != (b.y > 0)) depth.inside ^= (a.x * b.y - a.y * b.x > 0) == (b.y > a.y);
+    a = b;
+  }
+  return depth;
+}
+
+Interior interior_of(const ShapeArrays& arrays, std::uint32_t shape) {
+  Interior interior{};
+  std::copy_n(arrays.extremes[shape].x, extreme_stride, interior.extreme_x.begin());
+  std::copy_n(arrays.extremes[shape].y, extreme_stride, interior.extreme_y.begin());
+  return interior;
+}
+
+/// What the library stored as outer and shallow_outer.
+void verify_outer(const Look& look, const Profile& stored) {
+  Outer shallow{};
+  const std::uint32_t deepest = look.levels() - 1;
+  for (std::uint32_t level = 0; level <= deepest; ++level) {
+    const CutDiscs discs = look.cut(level);
+    if (level < deepest && discs.count == 1) continue;
+    const Outer of_level = outer(stored, discs.x, discs.y, discs.radius, discs.count, look.reach);
+    for (std::uint32_t k = 0; k < profile_sectors; ++k)
+      if (level < deepest)
+        shallow[k] = std::max(shallow[k], of_level[k]);
+      else
+        look.compare("profiles", no_level, "outer of sector " + std::to_string(k),
+                     static_cast<double>(stored.sectors[k].outer), static_cast<double>(of_level[k]));
+  }
+  for (std::uint32_t k = 0; k < profile_sectors; ++k)
+    look.compare("profiles", no_level, "shallow_outer of sector " + std::to_string(k),
+                 static_cast<double>(stored.sectors[k].shallow_outer), static_cast<double>(shallow[k]));
+}
+
+/// Nothing is ever wrong with minus infinity, which is stored where nothing is known.
+void verify_sectors(const Look& look, const Profile& stored, const Profile& expected) {
+  const auto compare = [&](const char* what, std::uint32_t k, float value, float limit) {
+    if (value != -infinity)
+      look.compare("profiles", no_level, what + std::to_string(k), static_cast<double>(value),
+                   static_cast<double>(limit));
+  };
+  for (std::uint32_t k = 0; k < profile_sectors; ++k) {
+    compare("inner of sector ", k, stored.sectors[k].inner, expected.sectors[k].inner);
+    compare("extent of sector ", k, stored.sectors[k].extent, expected.sectors[k].extent);
+  }
+}
+
+/// Without an outline: what is inside ends before the discs do.
+void verify_sectors(const Look& look, const Profile& stored) {
+  float farthest = 0;
+  for (const Sector& sector : stored.sectors) farthest = std::max(farthest, sector.outer);
+  for (std::uint32_t k = 0; k < profile_sectors; ++k) {
+    const Sector& sector = stored.sectors[k];
+    if (sector.inner > sector.outer || sector.extent > farthest)
+      look.say("profiles", no_level, "sector " + std::to_string(k) + " sticks out of the discs");
+  }
+}
+
+/// How far a disc sticks out of the discs of the deepest level along the worst direction; metres.
+double beyond_supports(const Supports& heights, const Disc& disc) {
+  double most = -HUGE_VAL;
+  for (std::uint32_t k = 0; k < support_directions; ++k) {
+    const double along =
+        dot({static_cast<double>(disc.x), static_cast<double>(disc.y)}, direction(k, support_directions));
+    const double height = heights[k % 2 * support_directions + k / 2];
+    most = std::max(most, along + static_cast<double>(disc.radius) - height);
+  }
+  return most;
+}
+
+void verify_extremes(const Look& look, std::span<const Vec2> contour) {
+  const Extremes& stored = look.arrays().extremes[look.shape];
+  for (std::uint32_t k = 0; k < extreme_stride; ++k) {
+    const Vec2 p{stored.x[k], stored.y[k]};
+    const Point along = direction(k % extreme_directions, extreme_directions);
+    double most = -HUGE_VAL;
+    bool found = false;
+    for (const Vec2 q : contour) {
+      most = std::max(most, dot(point(q), along));
+      found |= p.x == q.x && p.y == q.y;
+    }
+    if (!found || dot(point(p), along) < most - look.tolerance())
+      look.say("extremes", no_level,
+               "point " + std::to_string(k) + ", (" + shortest(p.x) + ", " + shortest(p.y) +
+                   ") m, is not the contour's farthest");
+  }
+}
+
+}  // namespace
+
+void verify_cover(const Look& look, const Outline& outline, std::uint32_t level) {
+  const CutDiscs discs = look.cut(level);
+  for (std::size_t c = 0; c < outline.contours(); ++c) {
+    const auto contour = outline.contour(c);
+    Vec2 before = contour.back();
+    for (std::size_t i = 0; i < contour.size(); before = contour[i++])
+      if (!is_covered(discs, point(before), point(contour[i])))
+        look.say("nodes", level,
+                 "no discs cover the outline at point " + std::to_string(i) + " of contour " +
+                     std::to_string(c) + ", (" + shortest(contour[i].x) + ", " + shortest(contour[i].y) +
+                     ") m");
+  }
+}
+
+void verify_segments(const Look& look) {
+  const ShapeArrays& arrays = look.arrays();
+  const double margin = arrays.segment_margin[look.shape];
+  if (margin + look.tolerance() * 0x1p-4 < rounding::segment_margin * look.reach)
+    look.say("segment_margin", no_level, shortest(margin) + " m is below what rounding needs");
+  const std::uint32_t level = look.levels() - 1;
+  const Tree& tree = arrays.trees[look.root(level)];
+  if (tree.segments == no_segments) return;
+  const CutDiscs cut = look.cut(level);
+  std::map<std::uint32_t, std::vector<std::uint32_t>> leaves;  // of each segment
+  const auto words = arrays.leaf_segments.subspan(tree.segments);
+  for (std::uint32_t k = 0; k < cut.count; ++k)
+    for (const std::uint32_t segment : segments_of(words, k)) leaves[tree.points + segment].push_back(k);
+  if (std::count(words.begin(), words.begin() + cut.count, 0u) > 0) return;  // some name none
+  const auto [first, last] = arrays.shape_contours[look.shape];
+  for (const Contour& contour : arrays.contours.subspan(first, last - first))
+    for (std::uint32_t i = contour.begin; i < contour.end; ++i) {
+      std::vector<float> x, y, radius;
+      for (const std::uint32_t k : leaves[i])
+        x.push_back(cut.x[k]), y.push_back(cut.y[k]), radius.push_back(cut.radius[k]);
+      const CutDiscs naming{x.data(), y.data(), radius.data(), static_cast<std::uint32_t>(x.size())};
+      if (!is_covered(naming, point(arrays.points[i]), point(arrays.points[i + 1])))
+        look.say("leaf_segments", level, "no leaves that name segment " + std::to_string(i) + " cover it");
+    }
+}
+
+void verify_contours(const Look& look, const Outline& outline) {
+  for (std::size_t c = 0; c < outline.contours(); ++c) {
+    const std::uint32_t place =
+        look.arrays().shape_contours[look.shape].begin + static_cast<std::uint32_t>(c);
+    const Disc& stored = look.arrays().contours[place].disc;
+    const EnclosingDisc smallest = smallest_enclosing_disc(outline.contour(c));
+    const Point off = point({stored.x, stored.y}) - point(smallest.centre);
+    const double larger = std::abs(static_cast<double>(stored.radius) - smallest.radius);
+    if (larger > look.tolerance() || length(off) > look.tolerance())
+      look.say(
+          "contours", no_level,
+          "the disc of contour " + std::to_string(place) + " at " + text_of(stored) + " is not its smallest");
+  }
+  const double farthest = reach(outline.points);
+  const bool more = outline.contours() > 0 && look.cut(look.levels() - 1).count > 1;
+  if (farthest > look.reach + look.tolerance() || (more && look.reach > farthest + look.tolerance()))
+    look.say("reach", no_level,
+             shortest(look.reach) + " m, and the outline reaches to " + shortest(farthest) + " m");
+}
+
+void verify_profile(const Look& look, const Outline& outline) {
+  const Profile& stored = look.arrays().profiles[look.shape];
+  verify_outer(look, stored);
+  if (outline.contours() == 0) return verify_sectors(look, stored);
+  // Made from the reach before it was rounded up.
+  const float reach = std::nextafter(static_cast<float>(look.reach), 0.0f);
+  const Profile expected =
+      profile(outline, interior_of(look.arrays(), look.shape), static_cast<double>(reach));
+  const double off = length(point({stored.x, stored.y}) - point({expected.x, expected.y}));
+  if (off > look.tolerance())
+    return look.say(
+        "profiles", no_level,
+        "the centre (" + shortest(stored.x) + ", " + shortest(stored.y) + ") m is not the area's");
+  verify_sectors(look, stored, expected);
+}
+
+void verify_inside(const Look& look, const Outline& outline) {
+  const auto contour = largest_contour(outline);
+  const DiscBlock& discs = look.arrays().inscribed[look.shape];
+  for (std::uint32_t i = 0; i < block_width; ++i) {
+    if (!(discs.x[i] < infinity)) continue;
+    const Disc disc{discs.x[i], discs.y[i], discs.radius[i]};
+    const Depth depth = depth_in(contour, point({disc.x, disc.y}));
+    const double room = depth.distance - 24 * rounding::unit_roundoff * look.reach;
+    if (!depth.inside || static_cast<double>(disc.radius) > room)
+      look.say("inscribed", no_level,
+               "disc " + std::to_string(i) + " at " + text_of(disc) + " is not inside the largest contour");
+  }
+  verify_extremes(look, contour);
+}
+
+void verify_hull(const Look& look) {
+  const CutDiscs cut = look.cut(look.levels() - 1);
+  const Supports heights = supports(cut.x, cut.y, cut.radius, cut.count, look.reach);
+  const DiscBlock& discs = look.arrays().inscribed[look.shape];
+  for (std::uint32_t i = 0; i < block_width; ++i) {
+    const Disc disc{discs.x[i], discs.y[i], discs.radius[i]};
+    if (disc.x < infinity && beyond_supports(heights, disc) > 0)
+      look.say("inscribed", no_level,
+               "disc " + std::to_string(i) + " at " + text_of(disc) + " sticks out of the discs");
+  }
+  // All 0 where the shape was made without an outline.
+  const Extremes& extremes = look.arrays().extremes[look.shape];
+  for (std::uint32_t k = 0; k < extreme_stride; ++k)
+    if ((extremes.x[k] != 0 || extremes.y[k] != 0) &&
+        beyond_supports(heights, {extremes.x[k], extremes.y[k], 0}) > 0)
+      look.say("extremes", no_level, "point " + std::to_string(k) + " sticks out of the discs");
+}
+
+}  // namespace bch::verification

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "layout/base/shortest.hpp"
+#include "layout/format/cut_discs.hpp"
+#include "layout/format/outline.hpp"
+#include "layout/shape_set/shape_set.hpp"
+#include "layout/shape_set/verify.hpp"
+
+/// The parts of verify(), and what they share.
+namespace bch::verification {
+
+/// A shape of a set that is looked at, and where to say what is found.
+struct Look {
+  const ShapeSet& set;
+  std::vector<Finding>& findings;
+  std::size_t most;  ///< findings
+  std::uint32_t shape;
+  double reach;  ///< metres; of a set of roots alone what they extend to
+
+  const ShapeArrays& arrays() const { return set.arrays(); }
+  std::uint32_t levels() const { return set.level_count(); }
+  std::uint32_t root(std::uint32_t level) const { return shape * set.level_count() + level; }
+  CutDiscs cut(std::uint32_t level) const { return cut_discs(set.view(), root(level)); }
+  /// Lengths that differ by less are equal: what rounding to float does to them, and recomputing them from a reach that
+  /// was rounded up.
+  double tolerance() const { return 0x1p-19 * reach; }
+
+  void say(const char* array, std::uint32_t level, const std::string& what) const {
+    if (findings.size() < most) findings.push_back({shape, level, array, what});
+  }
+  /// Says so where a stored length is not what was recomputed.
+  void compare(const char* array, std::uint32_t level, const std::string& place, double stored,
+               double expected) const;
+};
+
+std::string text_of(const Disc& disc);
+double distance(const Disc& a, const Disc& b);  ///< of the centres
+/// Whether one disc may be the smallest of a part of what the other is the smallest disc of.
+bool may_be_part(const Disc& part, const Disc& whole, double tolerance);
+
+void verify_tree(const Look& look, std::uint32_t level);
+void verify_levels(const Look& look);
+void verify_reach(const Look& look);
+void verify_supports(const Look& look);
+void verify_profile(const Look& look, const Outline& outline);
+void verify_inside(const Look& look, const Outline& outline);
+void verify_hull(const Look& look);
+void verify_contours(const Look& look, const Outline& outline);
+void verify_cover(const Look& look, const Outline& outline, std::uint32_t level);
+void verify_segments(const Look& look);
+
+}  // namespace bch::verification

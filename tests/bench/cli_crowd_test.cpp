@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "kernel/runtime/implementation.hpp"
+#include "tests/support/bch_run.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+// `bch crowd`.
+
+namespace bch::test {
+namespace {
+
+/// What must not depend on the machine: the answers.
+struct CrowdAnswer {
+  std::vector<std::uint64_t> hits;
+  std::string csv;
+  friend bool operator==(const CrowdAnswer&, const CrowdAnswer&) = default;
+};
+
+CrowdAnswer small_crowd(const TemporaryFolder& folder, const Arguments& more) {
+  const std::string json_file = folder.file("crowd.json"), csv_file = folder.file("crowd.csv");
+  const Ending run =
+      bch({"crowd", "--agents", "200", "--poses", "5", "--json", json_file, "--csv", csv_file}, more);
+  EXPECT_EQ(run.code, 0) << run.err;
+  EXPECT_EQ(run.err, "");
+  CrowdAnswer answer{{}, read_text(csv_file)};
+  const auto json = read_json(json_file);
+  for (const auto& level : json["levels"]) answer.hits.push_back(level["hits"]);
+  return answer;
+}
+
+TEST(Cli, CrowdGivesTheSameAnswersEverywhere) {
+  const TemporaryFolder folder;
+  const CrowdAnswer first = small_crowd(folder, {"--threads", "1"});
+  ASSERT_EQ(first.hits.size(), 4u);
+  EXPECT_GT(first.hits[0], first.hits[3]);
+  EXPECT_EQ(lines(first.csv), first.hits[3] + 1);
+  EXPECT_EQ(first, small_crowd(folder, {"--threads", "3"}));
+  EXPECT_NE(first, small_crowd(folder, {"--seed", "2"}));
+  for (const kernel::Implementation& row : kernel::implementations())
+    if (row.supported()) {
+      EXPECT_EQ(first, small_crowd(folder, {"--isa", row.name})) << row.name;
+    }
+  EXPECT_GE(small_crowd(folder, {"--semantics", "solid"}).hits[3], first.hits[3]);
+}
+
+TEST(Cli, CrowdDrawsAPicture) {
+  const TemporaryFolder folder;
+  const std::string svg_file = folder.file("crowd.svg");
+  const Ending run = bch({"crowd", "--agents", "200", "--poses", "5", "--svg", svg_file});
+  ASSERT_EQ(run.code, 0) << run.err;
+  const std::string svg = read_text(svg_file);
+  EXPECT_TRUE(svg.starts_with("<svg ") && svg.ends_with("</svg>\n"));
+  EXPECT_LT(svg.size(), 600000u);
+  for (const char* id :
+       {"crowd", "colliding", "cleared", "free", "overlaps", "single-cylinders", "legend", "scale"})
+    EXPECT_NE(svg.find("id=\"" + std::string(id) + "\""), std::string::npos) << id;
+  const auto count = [&svg](const std::string& word) {
+    std::size_t found = 0;
+    for (std::size_t at = svg.find(word); at != std::string::npos; at = svg.find(word, at + 1)) ++found;
+    return found;
+  };
+  EXPECT_EQ(count("<g"), count("</g>"));
+  EXPECT_EQ(svg.find("nan"), std::string::npos);
+  EXPECT_EQ(svg.find("inf"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace bch::test

@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "tests/support/bch_run.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+// Outputs never destroy inputs or each other, whatever their names are.
+
+namespace bch::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+class CliFiles : public testing::Test {
+ protected:
+  CliFiles() {
+    fs::create_hard_link(model, folder.file("hard.json"));
+    fs::create_symlink("model.obj", folder.file("soft.json"));
+    fs::create_symlink(folder.path(), folder.file("here"));
+  }
+
+  std::string file(const std::string& name) const { return folder.file(name); }
+
+  /// Refuses `output` because it is `input`, and leaves the input as it was.
+  void expect_refused(const Arguments& arguments, const std::string& option, const std::string& output,
+                      const std::string& input) {
+    const std::string before = read_text(input);
+    expect_failure(bch(arguments, {option, output}), 2, {option + ": " + output, input + ", an input"});
+    EXPECT_EQ(read_text(input), before) << output;
+  }
+
+  const TemporaryFolder folder;
+  const std::string model = folder.write("model.obj", box);
+  const std::string agents = folder.write("agents.csv", four_agents);
+};
+
+TEST_F(CliFiles, OutputsAreNoInputs) {
+  const std::string clips = folder.write("walk.bvh", "none");
+  for (const std::string& same :
+       {model, file("hard.json"), file("soft.json"), file("here/model.obj"), file("./here/soft.json")}) {
+    expect_refused({"inspect", model}, "--json", same, model);
+    expect_refused({"inspect", model, "--shape", "0"}, "--svg", same, model);
+    for (const char* option : {"--json", "--csv", "--svg"})
+      expect_refused({"crowd", "--character", "default:male", "--character", model}, option, same, model);
+  }
+  expect_refused({"inspect", model, "--clips", clips}, "--json", clips, clips);
+  expect_refused({"crowd", "--character", model, "--clips", clips}, "--csv", clips, clips);
+}
+
+TEST_F(CliFiles, BakedFilesAreInputsToo) {
+  const std::string baked = file("p.bch");
+  ASSERT_EQ(bch({"bake", "default:male", "--poses", "1", "-o", baked}).code, 0);
+  fs::create_hard_link(baked, file("q.bch"));
+  expect_refused({"inspect", baked}, "--json", baked, baked);
+  for (const char* option : {"--json", "--csv"})
+    expect_refused({"crowd", "--character", baked}, option, file("q.bch"), baked);
+  fs::create_symlink(model, file("model.bch"));
+  expect_refused({"bake", model}, "--output", file("model.bch"), model);
+}
+
+/// The buffer of a glTF file: which ones it names is not known before it is read.
+TEST_F(CliFiles, BuffersBesideAModelAreInputs) {
+  const std::string buffer = folder.write("model.bin", "vertices");
+  const TemporaryFolder elsewhere;
+  fs::create_symlink(buffer, elsewhere.file("a.json"));
+  for (const std::string& same : {buffer, file("here/model.bin"), std::string(elsewhere.file("a.json"))})
+    expect_failure(bch({"inspect", model, "--json", same}), 2, {"--json: " + same, "beside " + model});
+  EXPECT_EQ(read_text(buffer), "vertices");
+  elsewhere.write("b.bin", "old");
+  for (const std::string& other : {file("new.bin"), std::string(elsewhere.file("b.bin"))}) {
+    EXPECT_EQ(bch({"inspect", model, "--json", other}, as_metres).code, 0);
+    EXPECT_TRUE(read_text(other).starts_with("{"));
+  }
+}
+
+/// The shell has opened it, but nothing is lost that was there before.
+TEST_F(CliFiles, StandardOutputIsAnOutput) {
+  const Ending query = run_program(
+      "/bin/sh", {"-c", "exec \"$0\" query default:male \"$1\" --all-pairs >> \"$1\"", BCH_PROGRAM, agents});
+  EXPECT_EQ(query.code, 2);
+  EXPECT_NE(query.err.find("standard output would overwrite " + agents), std::string::npos) << query.err;
+  EXPECT_EQ(read_text(agents), four_agents);
+  const Ending inspect = run_program(
+      "/bin/sh",
+      {"-c", "exec \"$0\" inspect default:male --poses 1 --json \"$1\" > \"$1\"", BCH_PROGRAM, file("out")});
+  EXPECT_EQ(inspect.code, 2);
+  EXPECT_NE(inspect.err.find("standard output and --json: "), std::string::npos) << inspect.err;
+}
+
+TEST_F(CliFiles, NoTwoOutputsAreOneFile) {
+  folder.write("a.json", "old");
+  fs::create_hard_link(file("a.json"), file("a.csv"));
+  fs::create_symlink("new.json", file("link.csv"));
+  const std::pair<const char*, const char*> same[] = {{"a.json", "a.csv"},
+                                                      {"a.json", "here/a.json"},
+                                                      {"new.json", "here/new.json"},
+                                                      {"new.json", "link.csv"}};
+  for (const auto& [json, csv] : same) {
+    const Arguments outputs{"--json", file(json), "--csv", file(csv)};
+    expect_failure(bch({"crowd", "--poses", "1"}, outputs), 2, {"--json and --csv: " + file(csv)});
+    expect_failure(bch({"stability", "--quick"}, outputs), 2, {"--csv and --json: "});
+    EXPECT_EQ(read_text(file("a.json")), "old");
+    EXPECT_FALSE(fs::exists(file("new.json")));
+  }
+  const Ending different =
+      bch({"crowd", "--poses", "1", "--agents", "9", "--json", file("b"), "--csv", file("here/c")});
+  EXPECT_EQ(different.code, 0) << different.err;
+}
+
+TEST_F(CliFiles, FilesOfAFolderAreOutputs) {
+  fs::create_directory(file("out"));
+  expect_failure(bch({"stability", "--quick", "--out", file("out"), "--csv", file("out/stability.csv")}), 2,
+                 {"--csv and --out: "});
+  expect_failure(bch({"stability", "--stiff", "--quick", "--out", file("out"), "--json",
+                      file("here/out/stiff_contact_steps.svg")}),
+                 2, {"--json and --out: "});
+  EXPECT_TRUE(fs::is_empty(file("out")));
+  for (const char* name : {"report.html", "run.csv", "depth.json", "depth.gp", "depth.svg"}) {
+    const std::string output = file("out/") + name;
+    fs::create_symlink(model, output);
+    expect_failure(bch({"report", "--quick", "--out", file("out"), "--character", model}), 2,
+                   {"--out: " + output, model + ", an input"});
+    fs::remove(output);
+  }
+  EXPECT_EQ(read_text(model), box);
+}
+
+}  // namespace
+}  // namespace bch::test

@@ -1,0 +1,228 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <set>
+#include <sstream>
+
+#include "kernel/runtime/implementation.hpp"
+#include "tests/support/program_run.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+// bch query --what: each question from the command line.
+
+namespace bch::test {
+namespace {
+
+using Arguments = std::vector<std::string>;
+
+/// A person-sized box, 0.5 m x 0.3 m on the ground, y up.
+constexpr const char* box =
+    "v -0.25 0 -0.15\nv 0.25 0 -0.15\nv 0.25 0 0.15\nv -0.25 0 0.15\n"
+    "v -0.25 1.8 -0.15\nv 0.25 1.8 -0.15\nv 0.25 1.8 0.15\nv -0.25 1.8 0.15\n"
+    "f 1 2 3 4\nf 8 7 6 5\nf 1 5 6 2\nf 2 6 7 3\nf 3 7 8 4\nf 4 8 5 1\n";
+
+using Rows = std::vector<std::vector<std::string>>;
+
+class QueryWhat : public testing::Test {
+ protected:
+  Ending run(const std::string& what, const Arguments& more) const {
+    Arguments arguments{"query", shapes, agents, "--up", "y", "--scale", "1", "--what", what};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return run_program(BCH_PROGRAM, arguments);
+  }
+
+  /// Without the header, which has to be as said.
+  Rows rows(const std::string& what, const std::string& header, const Arguments& more) const {
+    const Ending ending = run(what, more);
+    EXPECT_EQ(ending.code, 0) << ending.err;
+    EXPECT_EQ(ending.err, "");
+    std::istringstream lines(ending.out);
+    std::string line;
+    std::getline(lines, line);
+    EXPECT_EQ(line, header);
+    Rows all;
+    while (std::getline(lines, line)) {
+      std::istringstream fields(line);
+      for (all.emplace_back(); std::getline(fields, line, ',');) all.back().push_back(line);
+    }
+    return all;
+  }
+
+  void expect_usage_error(const Arguments& more, const std::string& word) const {
+    Arguments arguments{"query", shapes, agents, pairs};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const Ending ending = run_program(BCH_PROGRAM, arguments);
+    EXPECT_EQ(ending.code, 2) << ending.err;
+    EXPECT_EQ(ending.out, "");
+    EXPECT_NE(ending.err.find(word), std::string::npos) << ending.err;
+  }
+
+  const TemporaryFolder folder;
+  const std::string shapes = folder.write("box.obj", box);
+  /// b overlaps a by 0.1 m, c stands 0.05 m beside a, d is far away. a and c approach by 0.2 m, d follows a.
+  const std::string agents = folder.write("agents.csv",
+                                          "id,shape,x,y,heading,dx,dy\na,0,0,0,0,0,0.15\nb,0,0.4,0,0,1,0\n"
+                                          "c,0,0,0.35,0,0,-0.05\nd,0,9,9,1,0,0.15\n");
+  const std::string pairs = folder.write("pairs.csv", "first,second\nb,a\na,c\na,d\n");
+};
+
+double number(const std::string& text) {
+  return std::strtod(text.c_str(), nullptr);
+}
+
+TEST_F(QueryWhat, CollideIsTheDefault) {
+  const Rows hits = rows("collide", "first,second,hit", {pairs});
+  EXPECT_EQ(hits, (Rows{{"b", "a", "1"}, {"a", "c", "0"}, {"a", "d", "0"}}));
+  const Ending plain =
+      run_program(BCH_PROGRAM, {"query", shapes, agents, pairs, "--up", "y", "--scale", "1"});
+  EXPECT_EQ(plain.out, run("collide", {pairs}).out);
+}
+
+TEST_F(QueryWhat, SeparationSaysHowFarAndWhereTo) {
+  const std::string header = "first,second,depth,x,y";
+  const Rows best = rows("separation", header, {pairs});
+  ASSERT_EQ(best.size(), 3u);
+  EXPECT_EQ(best[0][0], "b");
+  EXPECT_NEAR(number(best[0][2]), 0.1, 0.025);  // and the discs' sizes
+  EXPECT_GT(number(best[0][2]), 0.1);
+  EXPECT_EQ(best[0][3], "1");
+  EXPECT_EQ(best[0][4], "0");  // and not what rounding leaves of it
+  EXPECT_EQ(best[1][2], "0");
+  EXPECT_EQ(best[2][2], "0");
+  const Rows up = rows("separation", header, {pairs, "--direction", "0,2"});
+  EXPECT_NEAR(number(up[0][2]), 0.3, 0.025);
+  EXPECT_EQ(up[0][4], "1");
+  const Rows left = rows("separation", header, {pairs, "--direction", "-1,-0"});
+  EXPECT_EQ(left[0][3], "-1");
+  EXPECT_EQ(left[0][4], "0");
+  const Rows along_x = rows("separation", header, {pairs, "--directions", "2"});
+  EXPECT_EQ(along_x[0][2], best[0][2]);
+  EXPECT_GT(number(along_x[1][2]), 0.5);
+}
+
+TEST_F(QueryWhat, ContactsAreALineEach) {
+  const std::string header = "first,second,first_disc,second_disc";
+  const Rows all = rows("contacts", header, {pairs});
+  EXPECT_GT(all.size(), 2u);
+  EXPECT_EQ(std::set<std::vector<std::string>>(all.begin(), all.end()).size(), all.size());
+  for (const auto& row : all) EXPECT_EQ(row[0] + row[1], "ba");
+  // At the coarsest level there is one disc each.
+  EXPECT_EQ(rows("contacts", header, {pairs, "--depths", "0"}),
+            (Rows{{"b", "a", "0", "0"}, {"a", "c", "0", "0"}}));
+}
+
+TEST_F(QueryWhat, ClearanceSaysHowFarAndWhichWay) {
+  const std::string header = "first,second,distance,x,y";
+  const Rows all = rows("clearance", header, {pairs});
+  ASSERT_EQ(all.size(), 3u);
+  EXPECT_EQ(all[0][0], "b");
+  EXPECT_LT(number(all[0][2]), 0);
+  EXPECT_LE(number(all[1][2]), 0.05);
+  EXPECT_NEAR(number(all[1][2]), 0.05, 0.025);  // the discs' sizes
+  EXPECT_NEAR(number(all[1][3]), 0, 0.4);
+  EXPECT_NEAR(number(all[1][4]), 1, 0.1);
+  EXPECT_NEAR(number(all[2][2]), 12.2, 0.1);
+  EXPECT_NEAR(number(all[2][3]), 0.7, 0.03);
+  const Rows near = rows("clearance", header, {pairs, "--max-distance", "0.5"});
+  EXPECT_EQ(near, (Rows{all[0], all[1], {"a", "d", "inf", "0", "0"}}));
+  const Rows touching = rows("clearance", header, {pairs, "--max-distance", "0"});
+  EXPECT_EQ(touching, (Rows{all[0], {"a", "c", "inf", "0", "0"}, {"a", "d", "inf", "0", "0"}}));
+  EXPECT_EQ(rows("clearance", header, {"--all-pairs"}).size(), 1u);
+  const Rows within = rows("clearance", header, {"--all-pairs", "--max-distance", "0.5"});
+  ASSERT_EQ(within.size(), 3u);  // d stands far off
+  EXPECT_EQ(within[0][0] + within[0][1] + within[0][2], "ab" + all[0][2]);
+  EXPECT_EQ(within[1], all[1]);
+  EXPECT_EQ(within[2][0] + within[2][1], "bc");
+  EXPECT_LE(number(within[2][2]), 0.5);
+}
+
+TEST_F(QueryWhat, ContactTimeSaysWhenTheyTouch) {
+  const Rows all = rows("contact-time", "first,second,time", {pairs});
+  ASSERT_EQ(all.size(), 3u);
+  EXPECT_EQ(all[0], (std::vector<std::string>{"b", "a", "0"}));
+  EXPECT_LE(number(all[1][2]), 0.25);
+  EXPECT_NEAR(number(all[1][2]), 0.25, 0.125);  // the discs' sizes
+  EXPECT_EQ(all[2], (std::vector<std::string>{"a", "d", "inf"}));
+}
+
+TEST_F(QueryWhat, WaysAreCheckedLikeTheRest) {
+  const std::string header = "id,shape,x,y,heading,dx,dy\n";
+  const std::pair<std::string, std::string> cases[] = {
+      {"id,shape,x,y,heading\na,0,0,0,0\n", "ways.csv:1: has no column 'dx'"},
+      {"id,shape,x,y,heading,dx\na,0,0,0,0,1\n", "ways.csv:1: has no column 'dy'"},
+      {header + "a,0,0,0,0,1\n", "ways.csv:2: has fewer values"},
+      {header + "a,0,0,0,0,1,\n", "ways.csv:2: dy ''"},
+      {header + "a,0,0,0,0,nan,0\n", "ways.csv:2: dx 'nan'"},
+      {header + "a,0,0,0,0,1,1\nb,0,0,0,0,0,-6e8\n", "ways.csv:3: dy '-6e8'"},
+  };
+  for (const auto& [text, words] : cases) {
+    const std::string file = folder.write("ways.csv", text);
+    const Ending ending = run_program(BCH_PROGRAM, {"query", shapes, file, pairs, "--what", "contact-time"});
+    EXPECT_EQ(ending.code, 3) << ending.err;
+    EXPECT_EQ(ending.out, "");
+    EXPECT_NE(ending.err.find(words), std::string::npos) << ending.err;
+  }
+  const std::string half = folder.write("ways.csv", cases[1].first);
+  EXPECT_EQ(run_program(BCH_PROGRAM, {"query", shapes, half, pairs}).code, 3);
+}
+
+TEST_F(QueryWhat, AllPairsAreThoseThatCollide) {
+  EXPECT_EQ(rows("collide", "first,second,hit", {"--all-pairs"}), (Rows{{"a", "b", "1"}}));
+  const Rows ways = rows("separation", "first,second,depth,x,y", {"--all-pairs"});
+  ASSERT_EQ(ways.size(), 1u);
+  EXPECT_EQ(ways[0][1], "b");
+  EXPECT_EQ(ways[0][3], "-1");
+  EXPECT_FALSE(rows("contacts", "first,second,first_disc,second_disc", {"--all-pairs"}).empty());
+}
+
+TEST_F(QueryWhat, EveryKernelWritesTheSame) {
+  for (const char* what : {"collide", "clearance", "contact-time", "contacts", "separation"})
+    for (const kernel::Implementation& row : kernel::implementations())
+      if (row.supported()) {
+        EXPECT_EQ(run(what, {pairs, "--isa", row.name}).out, run(what, {pairs}).out) << what;
+      }
+}
+
+TEST_F(QueryWhat, WrongWordsGiveTwo) {
+  const std::pair<Arguments, const char*> cases[] = {
+      {{"--what", "depth"}, "depth"},
+      {{"--what", "contacts", "--directions", "4"}, "--directions"},
+      {{"--direction", "1,0"}, "--direction"},
+      {{"--what", "clearance", "--semantics", "solid"}, "--semantics"},
+      {{"--what", "contacts", "--semantics", "boundary"}, "--semantics"},
+      {{"--max-distance", "1"}, "--max-distance"},
+      {{"--what", "clearance", "--max-distance", "-1"}, "--max-distance"},
+      {{"--what", "clearance", "--max-distance", "nan"}, "--max-distance"},
+      {{"--what", "separation", "--directions", "0"}, "--directions"},
+      {{"--what", "separation", "--directions", "5"}, "5"},
+      {{"--what", "separation", "--directions", "300"}, "300"},
+      {{"--what", "separation", "--directions", "4", "--direction", "1,0"}, "--directions"},
+      {{"--what", "separation", "--direction", "0,0"}, "0,0"},
+      {{"--what", "separation", "--direction", "1"}, "--direction"},
+      {{"--what", "separation", "--direction", "1,nan"}, "nan"},
+      {{"--what", "separation", "--direction", "1,2,3"}, "1,2,3"},
+  };
+  for (const auto& [more, word] : cases) expect_usage_error(more, word);
+  const Ending all = run("contact-time", {"--all-pairs"});
+  EXPECT_EQ(all.code, 2);
+  EXPECT_NE(all.err.find("--all-pairs"), std::string::npos) << all.err;
+  const Ending within = run("clearance", {"--all-pairs", "--max-distance", "1", "--semantics", "solid"});
+  EXPECT_EQ(within.code, 2);
+  EXPECT_NE(within.err.find("--semantics: --max-distance"), std::string::npos) << within.err;
+}
+
+TEST_F(QueryWhat, HelpNamesEveryColumn) {
+  const Ending help = run_program(BCH_PROGRAM, {"query", "--help"});
+  for (const char* columns : {"first,second,hit", "first,second,distance,x,y", "first,second,time",
+                              "first,second,first_disc,second_disc", "first,second,depth,x,y", "[,dx,dy]"})
+    EXPECT_NE(help.out.find(columns), std::string::npos) << columns;
+  std::istringstream lines(help.out);
+  for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 120u) << line;
+}
+
+}  // namespace
+}  // namespace bch::test

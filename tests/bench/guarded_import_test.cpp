@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include "bench/characters/guarded_import.hpp"
+
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/mman.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <cstring>
+#include <vector>
+
+#include "bench/base/exit_codes.hpp"
+#include "bench/characters/character_bytes.hpp"
+#include "layout/default_character/default_characters.hpp"
+#include "tests/support/gltf_file.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+// A parser that goes wrong in any way: what is left is one line, and a process that goes on.
+
+namespace bch::cli {
+namespace {
+
+using Read = std::function<ImportedCharacter()>;
+
+constexpr ImportLimits little_memory{.memory = std::size_t{256} << 20};
+constexpr ImportLimits little_time{.time = std::chrono::milliseconds(300)};
+
+void expect_rejected(const Read& read, const std::string& reason,
+                     const ImportLimits& limits = little_memory) {
+  try {
+    guarded_import("a.glb", read, limits);
+    ADD_FAILURE() << "accepted";
+  } catch (const InputError& error) {
+    const std::string message = error.what();
+    EXPECT_TRUE(message.starts_with("a.glb: ")) << message;
+    EXPECT_NE(message.find(reason), std::string::npos) << message;
+    EXPECT_EQ(message.find('\n'), std::string::npos) << message;
+  }
+}
+
+ImportedCharacter good() {
+  return {default_male(), {}};
+}
+
+TEST(GuardedImport, ACharacterArrivesAsItWasRead) {
+  const TemporaryFolder folder;
+  SkinnedStrip strip;
+  strip.interpolation = "\"interpolation\":\"CUBICSPLINE\",";
+  strip.times = {0};
+  strip.way.assign(9, 1);
+  strip.turns.assign(12, 0.5f);
+  const std::string file = folder.write("strip.gltf", strip.text());
+  const std::string direct = to_bytes(import_character(file));
+  EXPECT_EQ(to_bytes(guarded_import(file, ImportOptions{})), direct);
+  const ImportedCharacter again = imported_from(direct);
+  EXPECT_EQ(to_bytes(again), direct);
+  EXPECT_EQ(again.character.clips.at(0).channels.size(), 2u);
+  const Curve<Eigen::Vector3f>& curve = again.character.clips[0].channels[0].position_curve;
+  EXPECT_EQ(curve.interpolation, Interpolation::cubic);
+  ASSERT_EQ(curve.tangents.size(), 1u);
+  EXPECT_EQ(curve.tangents[0].out, Eigen::Vector3f::Ones());
+  EXPECT_EQ(again.report.clips.at(0).name, "walk");
+  EXPECT_EQ(again.report.triangles, 2u);
+}
+
+TEST(GuardedImport, ErrorsOfTheImportAreItsOwn) {
+  try {
+    guarded_import("/nowhere/a.glb", ImportOptions{});
+    ADD_FAILURE() << "accepted";
+  } catch (const ImportError& error) {
+    EXPECT_STREQ(error.what(), "/nowhere/a.glb: no such file");
+  }
+}
+
+TEST(GuardedImport, Crashes) {
+  for (const int number : {SIGSEGV, SIGABRT, SIGFPE, SIGBUS, SIGILL})
+    expect_rejected([number]() -> ImportedCharacter { return raise(number), good(); },
+                    "crashes on it (signal " + std::to_string(number) + ")");
+}
+
+TEST(GuardedImport, Hangs) {
+  expect_rejected(
+      []() -> ImportedCharacter {
+        for (volatile int i = 0;;) i = i + 1;
+      },
+      "more than 0.3 seconds", little_time);
+  expect_rejected([]() -> ImportedCharacter { return pause(), good(); }, "more than 0.3 seconds",
+                  little_time);
+  // One that would be heard, but not ended, by a signal that can be ignored.
+  expect_rejected(
+      []() -> ImportedCharacter {
+        for (int number = 1; number < 32; ++number) signal(number, SIG_IGN);
+        while (true) pause();
+      },
+      "more than 0.3 seconds", little_time);
+}
+
+#ifndef BCH_SANITIZED  // which have no limit of memory
+TEST(GuardedImport, Bombs) {
+  expect_rejected(
+      []() -> ImportedCharacter {
+        std::vector<std::vector<char>> all;
+        while (true) all.emplace_back(std::size_t{1} << 20, 'x');
+      },
+      "more than 0.25 GiB of memory");
+  expect_rejected(
+      []() -> ImportedCharacter {
+        while (char* const block = static_cast<char*>(std::malloc(1 << 20))) std::memset(block, 1, 1 << 20);
+        throw std::bad_alloc();
+      },
+      "more than 0.25 GiB of memory");
+}
+
+/// A program that has read many characters may read the next one, and is no less guarded.
+TEST(GuardedImport, MemoryOfTheParentDoesNotCount) {
+  const std::size_t held = 2 * little_memory.memory;
+  void* const memory = mmap(nullptr, held, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+  ASSERT_NE(memory, MAP_FAILED);
+  EXPECT_EQ(guarded_import("a.glb", good, little_memory).character.triangles, good().character.triangles);
+  expect_rejected(
+      []() -> ImportedCharacter {
+        const std::string all(2 * little_memory.memory, 'x');
+        const volatile char& last = all.back();  // else the compiler may leave the memory out
+        return last == 'x' ? good() : ImportedCharacter();
+      },
+      "more than 0.25 GiB of memory");
+  munmap(memory, held);
+}
+#endif
+
+TEST(GuardedImport, Leavings) {
+  for (const int code : {0, 1, 3})
+    expect_rejected([code]() -> ImportedCharacter { _exit(code); }, "gives up on it");
+}
+
+/// What a child whose memory is damaged may say.
+TEST(GuardedImport, CharactersThatAreNone) {
+  expect_rejected(
+      [] {
+        ImportedCharacter imported = good();
+        imported.character.triangles[0][1] = 0x7fffffff;
+        return imported;
+      },
+      "malformed");
+  const std::string bytes = to_bytes({default_male(), {}});
+  for (const std::size_t size :
+       {std::size_t{0}, std::size_t{7}, std::size_t{8}, bytes.size() / 2, bytes.size() - 1})
+    EXPECT_THROW(imported_from(std::span(bytes).first(size)), std::invalid_argument) << size;
+  EXPECT_THROW(imported_from(bytes + '\0'), std::invalid_argument);
+  // A count of 2^64 - 1 names.
+  EXPECT_THROW(imported_from(std::string(8, '\xff') + bytes), std::invalid_argument);
+}
+
+TEST(GuardedImport, TheNextFileIsReadAfterABadOne) {
+  expect_rejected([]() -> ImportedCharacter { std::abort(); }, "crashes");
+  EXPECT_EQ(guarded_import("b.glb", good).character.triangles, good().character.triangles);
+}
+
+}  // namespace
+}  // namespace bch::cli

@@ -1,0 +1,212 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include "bench/base/output_file.hpp"
+
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <climits>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "bench/base/exit_codes.hpp"
+#include "bench/base/output.hpp"
+#include "tests/support/complaint.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+// What is written is whole or not there, whoever else writes into the same folder.
+
+namespace bch::cli {
+namespace {
+
+namespace fs = std::filesystem;
+using test::complaint;
+
+std::string content(const fs::path& file) {
+  std::ostringstream text;
+  text << std::ifstream(file, std::ios::binary).rdbuf();
+  return text.str();
+}
+
+std::ptrdiff_t files_in(const fs::path& folder) {
+  return std::distance(fs::directory_iterator(folder), {});
+}
+
+unsigned permissions(const fs::path& file) {
+  return static_cast<unsigned>(fs::status(file).permissions());
+}
+
+std::string error_of_writing(const fs::path& file) {
+  return complaint<InputError>([&] { write_file(file, "new"); });
+}
+
+/// Acts as a user who is not root, to whom permissions apply, while this lives.
+class OrdinaryUser {
+ public:
+  explicit OrdinaryUser(const TemporaryFolder& folder) {
+    constexpr uid_t nobody = 65534;
+    if (!was_root_) return;
+    fs::permissions(folder.path(), fs::perms(0777));
+    if (seteuid(nobody) != 0) throw std::runtime_error("cannot become another user");
+  }
+  ~OrdinaryUser() {
+    if (was_root_ && seteuid(0) != 0) std::abort();
+  }
+
+ private:
+  const bool was_root_ = geteuid() == 0;
+};
+
+/// As two processes of one number do, from two containers: here they are one process.
+TEST(OutputFile, TwoWritersOfOneFileDoNotMeet) {
+  const TemporaryFolder folder;
+  const std::string file = folder.file("a.bch");
+  OutputFile first(file), second(file);
+  first.write("first, long");
+  second.write("second");
+  second.commit();
+  EXPECT_EQ(content(file), "second");
+  first.write("er");
+  first.commit();
+  EXPECT_EQ(content(file), "first, longer");
+  EXPECT_EQ(files_in(folder.path()), 1);
+}
+
+TEST(OutputFile, WithoutCommitNothingChanges) {
+  const TemporaryFolder folder;
+  const std::string file = folder.write("a.json", "old");
+  { OutputFile(file).write("new"); }
+  EXPECT_EQ(content(file), "old");
+  EXPECT_EQ(files_in(folder.path()), 1);
+}
+
+/// Whoever knows the process number cannot prepare the way: a link, a file, a folder.
+TEST(OutputFile, WhatWasPlantedStaysAsItIs) {
+  const TemporaryFolder folder;
+  const std::string file = folder.file("a.csv"), planted = file + ".bch-" + std::to_string(getpid());
+  const std::string victim = folder.write("victim", "precious");
+  fs::create_symlink(victim, planted);
+  write_file(file, "one");
+  EXPECT_EQ(content(victim), "precious");
+  EXPECT_TRUE(fs::is_symlink(planted));
+  EXPECT_FALSE(fs::is_symlink(file));
+  fs::remove(planted);
+  folder.write(fs::path(planted).filename(), "somebody's");
+  write_file(file, "two");
+  EXPECT_EQ(content(planted), "somebody's");
+  EXPECT_EQ(content(file), "two");
+}
+
+TEST(OutputFile, TemporaryNamesDoNotRepeat) {
+  const TemporaryFolder folder;
+  std::string before;
+  for (int i = 0; i < 3; ++i) {
+    const OutputFile output(folder.file("a.csv"));
+    const std::string name = fs::directory_iterator(folder.path())->path();
+    EXPECT_NE(name, before);
+    before = name;
+  }
+}
+
+TEST(OutputFile, PermissionsAreThoseOfTheReplacedFile) {
+  const TemporaryFolder folder;
+  const std::string file = folder.write("a.csv", "old");
+  for (const unsigned mode : {0600u, 0640u, 0664u, 0755u}) {
+    fs::permissions(file, fs::perms(mode));
+    OutputFile output(file);
+    for (const auto& entry : fs::directory_iterator(folder.path()))
+      EXPECT_EQ(permissions(entry.path()) & ~mode, 0u) << entry.path();  // at no time more than in the end
+    output.write("new");
+    output.commit();
+    EXPECT_EQ(permissions(file), mode);
+    EXPECT_EQ(content(file), "new");
+  }
+}
+
+TEST(OutputFile, PermissionsOfANewFileFollowTheMask) {
+  const TemporaryFolder folder;
+  for (const mode_t mask : {mode_t{022}, mode_t{027}, mode_t{077}}) {
+    const mode_t before = umask(mask);
+    const std::string file = folder.file(std::to_string(mask));
+    write_file(file, "new");
+    umask(before);
+    EXPECT_EQ(permissions(file), 0666u & ~mask);
+  }
+}
+
+TEST(OutputFile, LinksStayAndTheirTargetsAreReplaced) {
+  const TemporaryFolder folder;
+  fs::create_directory(folder.file("below"));
+  const std::string target = folder.write("below/target.csv", "old"), link = folder.file("link.csv");
+  fs::create_symlink("below/target.csv", link);
+  fs::create_symlink("link.csv", folder.file("second.csv"));
+  fs::permissions(target, fs::perms(0600));
+  write_file(folder.file("second.csv"), "new");
+  EXPECT_TRUE(fs::is_symlink(link));
+  EXPECT_FALSE(fs::is_symlink(target));
+  EXPECT_EQ(content(target), "new");
+  EXPECT_EQ(permissions(target), 0600u);
+  fs::remove(target);  // a link that leads to no file yet makes it
+  write_file(link, "again");
+  EXPECT_TRUE(fs::is_symlink(link));
+  EXPECT_EQ(content(target), "again");
+  EXPECT_EQ(files_in(folder.path()), 3);
+  fs::create_symlink("circle", folder.file("circle"));
+  EXPECT_NE(error_of_writing(folder.file("circle")).find("Too many levels"), std::string::npos);
+}
+
+TEST(OutputFile, TheLongestNames) {
+  const TemporaryFolder folder;
+  std::string longest(NAME_MAX - 4, 'a');
+  longest += ".csv";
+  const std::string file = folder.file(longest);
+  write_file(file, "new");
+  EXPECT_EQ(content(file), "new");
+  const std::string longer = folder.file(std::string(NAME_MAX + 1, 'a'));
+  EXPECT_EQ(error_of_writing(longer), longer + ": cannot be written: File name too long");
+  EXPECT_EQ(files_in(folder.path()), 1);
+  // A path of PATH_MAX - 1 bytes, which leaves no room for a longer name beside it.
+  fs::path deep = folder.path();
+  while (deep.native().size() + 202 < PATH_MAX - 2) deep /= std::string(200, 'd');
+  fs::create_directories(deep);
+  deep /= std::string(PATH_MAX - 2 - deep.native().size(), 'f');
+  ASSERT_EQ(deep.native().size(), std::size_t{PATH_MAX - 1});
+  write_file(deep, "deep");
+  EXPECT_EQ(content(deep), "deep");
+}
+
+TEST(OutputFile, MissingPermissionsAreNamed) {
+  const TemporaryFolder folder;
+  const OrdinaryUser user(folder);
+  const std::string closed = folder.file("closed"), file = folder.write("a.csv", "old");
+  fs::create_directory(closed);
+  fs::permissions(closed, fs::perms(0555));
+  EXPECT_EQ(error_of_writing(closed + "/a.csv"),
+            closed + "/a.csv: cannot be written: folder " + closed + ": Permission denied");
+  fs::permissions(closed, fs::perms(0));
+  EXPECT_EQ(error_of_writing(closed + "/a.csv"), closed + "/a.csv: cannot be written: Permission denied");
+  fs::permissions(closed, fs::perms(0755));
+  fs::permissions(file, fs::perms(0444));  // nobody is to change it, by another way neither
+  EXPECT_EQ(error_of_writing(file), file + ": cannot be written: Permission denied");
+  EXPECT_EQ(content(file), "old");
+  EXPECT_EQ(error_of_writing(closed), closed + ": cannot be written: Is a directory");
+}
+
+TEST(OutputFile, AFolderThatIsGoneIsNamed) {
+  const TemporaryFolder folder;
+  const fs::path before = fs::current_path();
+  fs::create_directory(folder.file("gone"));
+  fs::current_path(folder.file("gone"));
+  fs::remove(folder.file("gone"));
+  const std::string error = error_of_writing("a.csv");
+  const std::string early = complaint<InputError>([&] { require_outputs({{"--csv", "a.csv"}}, {}); });
+  fs::current_path(before);
+  EXPECT_EQ(error, "a.csv: cannot be written: folder .: No such file or directory");
+  EXPECT_EQ(early, error);
+}
+
+}  // namespace
+}  // namespace bch::cli

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include "bench/stability/stability.hpp"
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+// The hard cases of `bch stability`, few pairs of each. That they are hard is part of what is tested: plain tests in float and
+// in double have to fail there.
+
+namespace bch::bench {
+namespace {
+
+const std::vector<StabilityRow>& rows() {
+  static const std::vector<StabilityRow> all = stability_rows(200);
+  return all;
+}
+
+template <class Value>
+std::uint64_t sum(Value value, const char* family = nullptr) {
+  std::uint64_t total = 0;
+  for (const StabilityRow& row : rows())
+    if (!family || row.family == family) total += value(row);
+  return total;
+}
+
+TEST(Stability, EveryPromiseHolds) {
+  for (const StabilityRow& row : rows()) EXPECT_EQ(broken_promise(row), "");
+}
+
+void expect_both_answers(const StabilityFamily& family) {
+  const auto pairs = sum([](const StabilityRow& row) { return row.pairs; }, family.name);
+  const auto meeting = sum([](const StabilityRow& row) { return row.meeting; }, family.name);
+  EXPECT_GT(meeting, pairs / 10) << family.name;
+  if (std::string(family.name) != "coincident") {
+    EXPECT_LT(meeting, pairs) << family.name;
+  }
+}
+
+TEST(Stability, CasesAreHard) {
+  for (const StabilityFamily& family : stability_families()) expect_both_answers(family);
+  const auto outlines = sum([](const StabilityRow& row) { return row.outlines; });
+  const auto outlines_meeting = sum([](const StabilityRow& row) { return row.outlines_meeting; });
+  EXPECT_GT(outlines_meeting, outlines / 10);
+  EXPECT_LT(outlines_meeting, outlines * 9 / 10);
+  EXPECT_GT(sum([](const StabilityRow& row) { return row.plain_float.misses; }), 100u);
+  EXPECT_GT(sum([](const StabilityRow& row) { return row.plain_double.misses; }, "ladder_double"), 10u);
+  EXPECT_GT(sum([](const StabilityRow& row) { return row.plain_double.false_positives; }, "ladder_double"),
+            10u);
+  // What is outside the domain is refused by a sentence.
+  EXPECT_GE(sum([](const StabilityRow& row) { return row.outside; }), 12u);
+  for (const StabilityRow& row : rows())
+    if (row.outside) {
+      EXPECT_GT(row.refused.size(), 20u) << row.family << " " << row.value;
+    }
+}
+
+TEST(Stability, RowsAreTheSameEachTime) {
+  const std::vector<StabilityRow> again = stability_rows(200);
+  ASSERT_EQ(again.size(), rows().size());
+  for (std::size_t i = 0; i < again.size(); ++i) {
+    EXPECT_EQ(again[i].meeting, rows()[i].meeting);
+    EXPECT_EQ(again[i].plain_float.misses, rows()[i].plain_float.misses);
+    EXPECT_EQ(again[i].ours.largest_gap, rows()[i].ours.largest_gap);
+  }
+}
+
+}  // namespace
+}  // namespace bch::bench

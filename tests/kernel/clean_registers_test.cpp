@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include <cpuid.h>
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "kernel/collide/collide.hpp"
+#include "kernel/contact/contacts.hpp"
+#include "kernel/distance/clearance.hpp"
+#include "kernel/distance/contact_time.hpp"
+#include "kernel/separation/separation.hpp"
+#include "layout/culling/interior.hpp"
+#include "layout/culling/interior_implementation.hpp"
+#include "layout/default_character/default_characters.hpp"
+#include "layout/hierarchy/builder.hpp"
+#include "layout/outline/builder.hpp"
+#include "layout/outline/implementation.hpp"
+#include "tests/support/scenes.hpp"
+
+// Whoever leaves something in the upper halves of the registers makes all SSE code after him slow, up to five times.
+
+namespace bch {
+namespace {
+
+/// What the processor tells of registers in use (XGETBV with 1): bit 2 the upper halves of YMM, bit 6 those of ZMM.
+std::uint32_t upper_halves_in_use() {
+  std::uint32_t low = 0, high = 0;
+  asm volatile("xgetbv" : "=a"(low), "=d"(high) : "c"(1));
+  return low & (1u << 2 | 1u << 6);
+}
+
+bool can_tell() {
+  unsigned a = 0, b = 0, c = 0, d = 0;
+  const bool has_xgetbv = __get_cpuid(1, &a, &b, &c, &d) != 0 && (c & bit_OSXSAVE) != 0;
+  return has_xgetbv && __get_cpuid_count(0xd, 1, &a, &b, &c, &d) != 0 && (a & 1u << 2) != 0;
+}
+
+class CleanRegisters : public testing::Test {
+ protected:
+  void SetUp() override {
+    if (!can_tell()) GTEST_SKIP() << "this processor does not tell which registers are in use";
+  }
+
+  static void expect_clean(const std::string& name, const std::function<void()>& call) {
+    if (__builtin_cpu_supports("avx") != 0) asm volatile("vzeroupper");
+    call();
+    EXPECT_EQ(upper_halves_in_use(), 0u) << name;
+  }
+};
+
+TEST_F(CleanRegisters, AfterQueries) {
+  test::Random random(256);
+  const ShapeSet shapes(test::synthetic_shapes(257, 16), {{0, 3, all_depths}, true});
+  // Less than a register of pairs, whole chunks, and some that are left over.
+  for (const std::uint32_t count : {1u, 3u, 16u, 256u, 512u, 700u}) {
+    const test::PairScene scene = test::random_scene(random, shapes, count);
+    const Agents agents = scene.crowd.agents();
+    const std::span<const Pair> pairs = scene.pairs;
+    std::vector<std::uint8_t> hits(pairs.size());
+    std::vector<float> values(pairs.size());
+    std::vector<Vec2> directions(pairs.size());
+    std::vector<double> x(pairs.size(), 0.5), y(pairs.size(), -0.25);
+    std::vector<Separation> ways(pairs.size());
+    ContactTable table;
+    for (const kernel::Implementation& isa : kernel::implementations()) {
+      if (!isa.supported()) continue;
+      SCOPED_TRACE(std::string(isa.name) + ", " + std::to_string(count) + " pairs");
+      for (const Semantics semantics : {Semantics::boundary, Semantics::solid})
+        expect_clean("collide", [&] { collide(shapes, agents, pairs, hits, {semantics, &isa}); });
+      for (const double limit : {0.0, 0.5, 10.0})
+        expect_clean("clearance", [&] {
+          clearance(shapes, agents, pairs, {values, directions}, {limit, &isa});
+        });
+      expect_clean("contact_time", [&] { contact_time(shapes, agents, pairs, {x, y}, values, {&isa}); });
+      expect_clean("separation", [&] { separation(shapes, agents, pairs, 16, ways, {&isa}); });
+      expect_clean("contacts", [&] { contacts(shapes, agents, pairs, table, {&isa}); });
+    }
+  }
+}
+
+TEST_F(CleanRegisters, AfterConstruction) {
+  const Character character = default_male();
+  Outline outline;
+  for (const OutlineImplementation& row : outline_implementations()) {
+    if (!row.supported()) continue;
+    OutlineBuilder builder(character.triangles, character.vertices.size(), character.vertices, row);
+    expect_clean(std::string("outline, ") + row.name, [&] { builder.build(character.vertices, outline); });
+  }
+  for (const DiscImplementation& row : disc_implementations()) {
+    if (!row.supported()) continue;
+    HierarchyBuilder builder(row);
+    Hierarchy hierarchy;
+    expect_clean(std::string("discs, ") + row.name,
+                 [&] { builder.contour(outline, 0.01f, SplitRule::centroid, hierarchy); });
+  }
+  for (const InteriorImplementation& row : interior_implementations()) {
+    if (!row.supported()) continue;
+    InteriorBuilder builder(row);
+    expect_clean(std::string("interior, ") + row.name, [&] { builder.build(outline, 1.0); });
+  }
+}
+
+}  // namespace
+}  // namespace bch

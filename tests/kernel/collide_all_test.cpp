@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include "kernel/crowd/collide_all.hpp"
+
+#include <gtest/gtest.h>
+#include <oneapi/tbb/global_control.h>
+#include <oneapi/tbb/task_arena.h>
+
+#include <algorithm>
+#include <limits>
+#include <stdexcept>
+#include <vector>
+
+#include "baselines/reference.hpp"
+#include "tests/support/scenes.hpp"
+
+namespace bch {
+namespace {
+
+using baselines::Method;
+using baselines::Reference;
+
+using Rows = std::vector<std::vector<std::uint32_t>>;
+
+Rows copy_of(const CollidingNeighbours& answer) {
+  Rows rows;
+  for (std::uint32_t i = 0; i + 1 < answer.begin.size(); ++i) {
+    const auto row = answer.of(i);
+    rows.emplace_back(row.begin(), row.end());
+  }
+  return rows;
+}
+
+class CollideAll : public testing::Test {
+ protected:
+  const ShapeSetPlan plan{{0, 3, all_depths}, true};
+  const std::vector<Shape> shapes = test::synthetic_shapes(61, 24);  // radii from 1 cm to 4 m
+  const ShapeSet set{shapes, plan};
+  const Reference reference{shapes, plan};
+
+  test::Crowd crowd_of(std::uint32_t agents, double side, std::uint64_t seed) const {
+    test::Random random(seed);
+    test::Crowd crowd;
+    for (std::uint32_t i = 0; i < agents; ++i)
+      crowd.add({random.below(set.shape_count()), random.uniform(0, side), random.uniform(0, side),
+                 random.uniform(-4, 4), static_cast<std::uint8_t>(random.below(set.level_count()))});
+    return crowd;
+  }
+
+  /// Every agent against every other.
+  Rows expected(const Agents& agents, Semantics semantics) const {
+    Rows rows(agents.size());
+    for (std::uint32_t i = 0; i < agents.size(); ++i)
+      for (std::uint32_t j = 0; j < agents.size(); ++j) {
+        if (i == j) continue;
+        if (semantics == Semantics::boundary ? reference.boundary(agents, {i, j}, Method::depth_first)
+                                             : reference.solid(agents, {i, j}, Method::depth_first))
+          rows[i].push_back(j);
+      }
+    return rows;
+  }
+};
+
+TEST_F(CollideAll, EqualsEveryAgentAgainstEveryOther) {
+  CrowdCollider collider;
+  for (const std::uint32_t size : {400u, 1u, 2u, 150u, 0u}) {
+    const test::Crowd crowd = crowd_of(size, 30, size);
+    for (const Semantics semantics : {Semantics::boundary, Semantics::solid}) {
+      const Rows rows = expected(crowd.agents(), semantics);
+      for (const auto& implementation : kernel::implementations()) {
+        if (!implementation.supported()) continue;
+        EXPECT_EQ(copy_of(collider.collide_all(set, crowd.agents(), {semantics, &implementation})), rows)
+            << size << " agents, " << implementation.name;
+      }
+    }
+  }
+}
+
+TEST_F(CollideAll, AllInOnePlaceAndNobodyNearAnother) {
+  CrowdCollider collider;
+  const test::Crowd together = crowd_of(60, 0, 5), apart = crowd_of(60, 1e8, 6);
+  const Rows rows = copy_of(collider.collide_all(set, together.agents(), {Semantics::solid}));
+  EXPECT_EQ(rows, expected(together.agents(), Semantics::solid));
+  EXPECT_GT(rows[0].size(), 10u);
+  EXPECT_EQ(copy_of(collider.collide_all(set, apart.agents())), Rows(60));
+}
+
+TEST_F(CollideAll, AnyNumberOfThreads) {
+  const test::Crowd crowd = crowd_of(20'000, 200, 7);
+  Rows alone;
+  for (int threads = 1; threads <= 8; ++threads) {
+    const tbb::global_control allow(tbb::global_control::max_allowed_parallelism, 8);
+    tbb::task_arena arena(threads);
+    arena.execute([&] {
+      CrowdCollider collider;
+      const Rows rows = copy_of(collider.collide_all(set, crowd.agents()));
+      if (alone.empty()) alone = rows;
+      EXPECT_EQ(rows, alone) << threads << " threads";
+    });
+  }
+  std::size_t entries = 0;
+  for (std::uint32_t i = 0; i < alone.size(); ++i) {
+    EXPECT_TRUE(std::is_sorted(alone[i].begin(), alone[i].end()));
+    entries += alone[i].size();
+    for (const std::uint32_t j : alone[i])
+      EXPECT_TRUE(std::binary_search(alone[j].begin(), alone[j].end(), i));
+  }
+  EXPECT_GT(entries, 20'000u);
+}
+
+TEST_F(CollideAll, BadInputIsNamed) {
+  CrowdCollider collider;
+  test::Crowd crowd = crowd_of(3, 1, 8);
+  crowd.x[2] = std::numeric_limits<double>::quiet_NaN();
+  try {
+    collider.collide_all(set, crowd.agents());
+    FAIL();
+  } catch (const std::invalid_argument& error) {
+    EXPECT_NE(std::string(error.what()).find("agent 2: position (nan"), std::string::npos) << error.what();
+  }
+  const ShapeSet boundary_only(shapes, {plan.depths, false});
+  EXPECT_THROW(collider.collide_all(boundary_only, crowd_of(3, 1, 8).agents(), {Semantics::solid}),
+               std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace bch

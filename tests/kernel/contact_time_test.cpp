@@ -1,0 +1,346 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include "kernel/distance/contact_time.hpp"
+
+#include <gtest/gtest.h>
+#include <oneapi/tbb/global_control.h>
+#include <oneapi/tbb/task_arena.h>
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "baselines/contact_time_reference.hpp"
+#include "baselines/oracle.hpp"
+#include "kernel/collide/collide.hpp"
+#include "kernel/distance/clearance.hpp"
+#include "tests/support/differential.hpp"
+
+namespace bch {
+namespace {
+
+using baselines::ContactTimeReference;
+using baselines::Method;
+using test::four_levels;
+using test::PairScene;
+using test::Random;
+
+constexpr float never = std::numeric_limits<float>::infinity();
+
+/// Pairs that move.
+struct Motion : PairScene {
+  std::vector<double> x, y;
+  Displacements displacements() const { return {x, y}; }
+};
+
+std::vector<float> times(const ShapeSet& set, const Motion& motion,
+                         const kernel::Implementation* implementation = nullptr) {
+  std::vector<float> all(motion.pairs.size(), -1);
+  contact_time(set, motion.crowd.agents(), motion.pairs, motion.displacements(), all, {implementation});
+  return all;
+}
+
+class ContactTimeDifferential : public test::Differential {
+ protected:
+  ContactTimeDifferential() : Differential(2602, four_levels) {}
+
+  ContactTimeReference reference{shapes, four_levels};
+
+  /// Ways of random lengths up to `longest`, half of them about towards the other agent.
+  Motion moving(PairScene scene, double longest) {
+    Motion motion{std::move(scene), {}, {}};
+    for (const auto& [first, second] : motion.pairs) {
+      const double towards = std::atan2(motion.crowd.y[second] - motion.crowd.y[first],
+                                        motion.crowd.x[second] - motion.crowd.x[first]);
+      const double angle = towards + random.uniform(-1, 1) * (random.below(2) == 0 ? std::numbers::pi : 0.5);
+      const double length = longest * random.uniform(0, 1);
+      motion.x.push_back(length * std::cos(angle));
+      motion.y.push_back(length * std::sin(angle));
+    }
+    return motion;
+  }
+
+  /// The same with the first agents so far back that most start apart.
+  Motion approaching(std::uint32_t pairs, double back) {
+    PairScene scene = random_scene(random, set, pairs);
+    for (std::size_t i = 0; i < scene.crowd.x.size(); i += 2)
+      scene.crowd.x[i] -= back * random.uniform(0.5, 1);
+    return moving(std::move(scene), 2 * back);
+  }
+
+  float expected(const Motion& motion, std::size_t i, Method method) {
+    return reference.query(motion.crowd.agents(), motion.pairs[i], motion.x[i], motion.y[i], method);
+  }
+
+  void expect_equal_to_brute_force(const Motion& motion, const std::string& what) {
+    std::vector<float> brute_force;
+    for (std::size_t i = 0; i < motion.pairs.size(); ++i)
+      brute_force.push_back(expected(motion, i, Method::brute_force));
+    const auto between =
+        std::count_if(brute_force.begin(), brute_force.end(), [](float t) { return t > 0 && t <= 1; });
+    EXPECT_GT(between, std::ssize(brute_force) / 20) << what;
+    for (const auto& implementation : kernel::implementations()) {
+      if (!implementation.supported()) continue;
+      const std::vector<float> of = times(set, motion, &implementation);
+      for (std::size_t i = 0; i < motion.pairs.size(); ++i)
+        ASSERT_EQ(of[i], brute_force[i]) << what << ", " << implementation.name << ", pair " << i;
+    }
+  }
+};
+
+TEST_F(ContactTimeDifferential, RandomPairs) {
+  for (const double back : {0.1, 0.5, 2.0, 10.0})
+    for (int i = 0; i < 2; ++i)
+      expect_equal_to_brute_force(approaching(25'000, back), "from " + std::to_string(back));
+}
+
+/// Ways that end at the touch of two discs, or pass by within the last bits.
+TEST_F(ContactTimeDifferential, NearTangentPairs) {
+  Motion motion = approaching(20'000, 1);
+  for (std::size_t i = 0; i < motion.pairs.size(); ++i) {
+    const float t = expected(motion, i, Method::depth_first);
+    if (!(t <= 1)) continue;
+    const double exactly = static_cast<double>(t) * (1 + 0x1p-24 * (static_cast<int>(random.below(9)) - 4));
+    motion.x[i] *= exactly, motion.y[i] *= exactly;
+  }
+  expect_equal_to_brute_force(motion, "ends at the touch");
+  for (std::size_t i = 0; i < motion.pairs.size(); ++i) {
+    const double x = motion.x[i], y = motion.y[i];
+    const auto meets_at = [&](double angle) {
+      motion.x[i] = 3 * (x * std::cos(angle) - y * std::sin(angle));
+      motion.y[i] = 3 * (x * std::sin(angle) + y * std::cos(angle));
+      return expected(motion, i, Method::depth_first) <= 1;
+    };
+    double hit = 0, miss = std::numbers::pi;
+    for (int step = 0; step < 40; ++step) {
+      const double middle = 0.5 * (hit + miss);
+      (meets_at(middle) ? hit : miss) = middle;
+    }
+    meets_at(random.below(2) == 0 ? hit : miss);
+  }
+  expect_equal_to_brute_force(motion, "passes by");
+}
+
+TEST_F(ContactTimeDifferential, FarFromTheOriginAndFarApart) {
+  Motion motion = approaching(20'000, 1);
+  const std::vector<float> at_origin = times(set, motion);
+  test::move_away(motion, 1e7, -8e8);
+  expect_equal_to_brute_force(motion, "far from the origin");
+  for (const double apart : {100.0, 1e5, 1e9}) {
+    motion = approaching(4'000, 0.5);
+    for (std::size_t i = 0; i < motion.pairs.size(); ++i) {
+      const auto [first, second] = motion.pairs[i];
+      motion.crowd.x[first] -= 0.9 * apart;
+      const double dx = motion.crowd.x[second] - motion.crowd.x[first],
+                   dy = motion.crowd.y[second] - motion.crowd.y[first];
+      motion.x[i] = std::min(1e9, random.uniform(0.9, 1.2) * dx), motion.y[i] = dy;
+    }
+    expect_equal_to_brute_force(motion, "far apart: " + std::to_string(apart));
+  }
+}
+
+TEST_F(ContactTimeDifferential, TheReferencesAgree) {
+  const Motion motion = approaching(20'000, 1);
+  for (std::size_t i = 0; i < motion.pairs.size(); ++i)
+    ASSERT_EQ(expected(motion, i, Method::depth_first), expected(motion, i, Method::brute_force)) << i;
+}
+
+TEST_F(ContactTimeDifferential, WithoutShortcuts) {
+  const ShapeSet plain(shapes, {.depths = four_levels.depths, .shortcuts = false});
+  const Motion motion = approaching(20'000, 1);
+  const std::vector<float> expected = times(set, motion);
+  for (const auto& implementation : kernel::implementations()) {
+    if (!implementation.supported()) continue;
+    EXPECT_EQ(times(plain, motion, &implementation), expected) << implementation.name;
+  }
+}
+
+TEST_F(ContactTimeDifferential, WithoutAWayItIsCollide) {
+  Motion motion{random_scene(random, set, 50'000), {}, {}};
+  motion.x.assign(motion.pairs.size(), 0), motion.y = motion.x;
+  std::vector<std::uint8_t> hits(motion.pairs.size());
+  collide(set, motion.crowd.agents(), motion.pairs, hits, {.leaves = Leaves::discs});
+  const std::vector<float> all = times(set, motion);
+  for (std::size_t i = 0; i < hits.size(); ++i) ASSERT_EQ(all[i], hits[i] ? 0 : never) << i;
+  // As floats these are 0, and a way whose length cannot be divided by.
+  for (const double length : {1e-300, 1e-17}) {
+    motion.x.assign(motion.pairs.size(), length);
+    const std::vector<float> hardly = times(set, motion);
+    for (std::size_t i = 0; i < hits.size(); ++i)
+      ASSERT_EQ(hardly[i], expected(motion, i, Method::brute_force)) << length << " m, pair " << i;
+  }
+}
+
+TEST_F(ContactTimeDifferential, BatchesThreadsAndOrder) {
+  Motion motion = approaching(20'000, 1);
+  const std::vector<float> whole = times(set, motion);
+  const Agents agents = motion.crowd.agents();
+  for (const std::size_t size : {0, 1, 3, 17, 255, 257, 1025})
+    for (const std::size_t offset : {0, 1, 62}) {
+      std::vector<float> part(size);
+      contact_time(set, agents, std::span(motion.pairs).subspan(offset, size),
+                   {std::span(motion.x).subspan(offset, size), std::span(motion.y).subspan(offset, size)},
+                   part);
+      for (std::size_t i = 0; i < size; ++i) EXPECT_EQ(part[i], whole[offset + i]);
+    }
+  const tbb::global_control allow(tbb::global_control::max_allowed_parallelism, 8);
+  for (int threads = 1; threads <= 8; ++threads) {
+    tbb::task_arena arena(threads);
+    EXPECT_EQ(arena.execute([&] { return times(set, motion); }), whole) << threads << " threads";
+  }
+  for (std::size_t i = 0; i < motion.pairs.size(); ++i) {
+    std::swap(motion.pairs[i].first, motion.pairs[i].second);
+    motion.x[i] = -motion.x[i], motion.y[i] = -motion.y[i];
+  }
+  EXPECT_EQ(times(set, motion), whole);
+}
+
+/// Never later than the outlines' contact; before it discs do not overlap, and at it they do, but for rounding.
+TEST_F(ContactTimeDifferential, IsNotLaterThanTheContactOfTheOutlines) {
+  const ShapeSet finest(shapes);
+  std::vector<Motion> motions = {approaching(1'000, 1), approaching(500, 20), approaching(500, 1)};
+  test::move_away(motions[2], 1e7, -8e8);
+  std::size_t contacts = 0;
+  for (Motion& motion : motions) {
+    motion.crowd.level.clear();
+    const Agents agents = motion.crowd.agents();
+    const std::vector<float> all = times(finest, motion);
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      const auto [a, b] = motion.pairs[i];
+      const baselines::Oracle oracle(shapes[agents.shape[a]].outline, shapes[agents.shape[b]].outline,
+                                     baselines::exact_placement(agents, a, b));
+      const long double c = std::cos(static_cast<long double>(agents.heading[a])),
+                        s = std::sin(static_cast<long double>(agents.heading[a]));
+      const long double x = motion.x[i], y = motion.y[i];
+      const long double exact = oracle.contact_time(c * x + s * y, c * y - s * x);
+      contacts += exact > 0 && exact <= 1;
+      if (exact <= 1) {
+        EXPECT_LE(all[i], exact) << i;
+      }
+    }
+  }
+  EXPECT_GT(contacts, 300u);
+}
+
+/// Tip against tip nothing but the margins is between the answer and the outlines, at any distance.
+TEST(ContactTime, OfTipsIsThatOfTheOutlinesLessTheMargin) {
+  const std::vector<Shape> shapes = {test::contour_shape(test::needle())};
+  const ShapeSet set(shapes);
+  Random random(12);
+  Motion motion;
+  std::vector<long double> exact, margin;
+  for (std::uint32_t i = 0; i < 4'000; ++i) {
+    const double angle = random.uniform(-4, 4), length = 0.8 + std::pow(10, random.uniform(-6, 3));
+    const double x = random.uniform(-50, 50), y = random.uniform(-50, 50), way = random.uniform(0.5, 2);
+    motion.crowd.add({0, x, y, angle, 0});
+    motion.crowd.add(
+        {0, x + length * std::cos(angle), y + length * std::sin(angle), angle + std::numbers::pi, 0});
+    motion.pairs.push_back({2 * i, 2 * i + 1});
+    motion.x.push_back(way * length * std::cos(angle));
+    motion.y.push_back(way * length * std::sin(angle));
+    const baselines::Oracle oracle(shapes[0].outline, shapes[0].outline,
+                                   baselines::exact_placement(motion.crowd.agents(), 2 * i, 2 * i + 1));
+    // Tips may pass each other by a rounding, so by their distance instead of where corners arrive.
+    exact.push_back(oracle.distance() / (static_cast<long double>(way) * length));
+    margin.push_back(4e-6L * (1 + length) / (static_cast<long double>(way) * length));
+  }
+  const std::vector<float> all = times(set, motion);
+  std::size_t contacts = 0;
+  for (std::size_t i = 0; i < exact.size(); ++i) {
+    if (exact[i] > 1) continue;
+    ++contacts;
+    EXPECT_LE(all[i], exact[i]) << i;
+    EXPECT_GE(all[i], exact[i] - margin[i]) << i;
+  }
+  EXPECT_GT(contacts, 1'000u);
+}
+
+TEST_F(ContactTimeDifferential, IsWhenDiscsTouch) {
+  Motion motion = approaching(5'000, 1);
+  const std::vector<float> all = times(set, motion);
+  const auto clearance_at = [&](std::size_t i, double t) {
+    test::Crowd crowd = {};
+    const auto [first, second] = motion.pairs[i];
+    for (const std::uint32_t agent : {first, second})
+      crowd.add({motion.crowd.shape[agent], motion.crowd.x[agent], motion.crowd.y[agent],
+                 motion.crowd.heading[agent], motion.crowd.level[agent]});
+    crowd.x[0] += t * motion.x[i], crowd.y[0] += t * motion.y[i];
+    const std::vector<Pair> pair = {{0, 1}};
+    std::vector<float> distance(1);
+    clearance(set, crowd.agents(), pair, {distance, {}, {}});
+    return distance[0];
+  };
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const double end = std::min(all[i], 1.0f);
+    for (const double part : {0.0, 0.3, 0.7, 0.9, 0.99})
+      if (all[i] > 0) {
+        ASSERT_GE(clearance_at(i, part * end), -3e-5f) << i;
+      }
+    if (all[i] <= 1) {
+      ASSERT_LE(clearance_at(i, end), 3e-5f) << i;
+    }
+  }
+}
+
+TEST(ContactTime, OfSingleDiscs) {
+  const std::vector<Shape> shapes = {{{}, fixed_cylinder(0.25f)}};
+  for (const ShapeSetPlan& levels : {ShapeSetPlan{{0}}, ShapeSetPlan{}}) {
+    const ShapeSet set(shapes, levels);
+    Motion motion;
+    motion.crowd.add({0, 0, 0, 1, 0});
+    motion.crowd.add({0, 2.5, 0, 2, 0});
+    motion.pairs = {{0, 1}, {0, 1}, {1, 0}, {0, 1}, {0, 0}, {0, 1}, {0, 1}};
+    motion.x = {4, -4, -4, 1.9, 1, 0, 4};
+    motion.y = {0, 0, 0, 0, 0, 0, 1};
+    const std::vector<float> all = times(set, motion);
+    EXPECT_NEAR(all[0], 0.5, 1e-5);
+    EXPECT_EQ(all[1], never);  // away from each other
+    EXPECT_EQ(all[2], all[0]);
+    EXPECT_EQ(all[3], never);  // ends before
+    EXPECT_EQ(all[4], 0);      // an agent and itself
+    EXPECT_EQ(all[5], never);  // at rest
+    EXPECT_EQ(all[6], never);  // passes by
+  }
+}
+
+TEST(ContactTime, RejectsBadInputBeforeAnythingIsWritten) {
+  const ShapeSet set(test::synthetic_shapes(1, 2));
+  Motion motion;
+  motion.crowd.add({0, 0, 0, 0, 0});
+  motion.crowd.add({1, 1, 0, 0, 0});
+  motion.pairs = {{0, 1}};
+  motion.x = {1}, motion.y = {0};
+  const auto expect_rejected = [&](const std::string& message) {
+    std::vector<float> all(1, 42);
+    try {
+      contact_time(set, motion.crowd.agents(), motion.pairs, motion.displacements(), all);
+      FAIL() << "accepted; expected: " << message;
+    } catch (const std::invalid_argument& error) {
+      EXPECT_NE(std::string(error.what()).find(message), std::string::npos) << error.what();
+    }
+    EXPECT_EQ(all[0], 42);
+  };
+  motion.y = {std::nan("")};
+  expect_rejected("pair 0: displacement (1, nan)");
+  motion.y = {-2e9};
+  expect_rejected("pair 0: displacement (1, -2e+09)");
+  motion.y = {};
+  expect_rejected("1 pairs but 0 displacements in y");
+  motion.y = {0};
+  motion.x = {1, 1};
+  expect_rejected("1 pairs but 2 displacements in x");
+  motion.x = {1};
+  motion.pairs = {{0, 1}, {1, 0}};
+  motion.x = motion.y = {1, 1};
+  expect_rejected("2 pairs but 1 times");
+  motion.pairs = {{0, 1}};
+  motion.x = {1}, motion.y = {0};
+  motion.crowd.heading[1] = std::numeric_limits<double>::infinity();
+  expect_rejected("pair 0: agent 1: heading inf");
+}
+
+}  // namespace
+}  // namespace bch

@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include "kernel/contact/contacts.hpp"
+
+#include <gtest/gtest.h>
+#include <oneapi/tbb/global_control.h>
+#include <oneapi/tbb/task_arena.h>
+
+#include <algorithm>
+#include <limits>
+#include <stdexcept>
+#include <string>
+
+#include "baselines/contact_reference.hpp"
+#include "kernel/collide/collide.hpp"
+#include "layout/default_character/default_characters.hpp"
+#include "tests/support/character_shapes.hpp"
+#include "tests/support/differential.hpp"
+
+namespace bch {
+namespace {
+
+using baselines::CutLists;
+using test::PairScene;
+
+const ShapeSetPlan plan{{0, 3, 6, all_depths}, false};
+
+ContactTable table_of(const ShapeSet& set, const Agents& agents, std::span<const Pair> pairs,
+                      const kernel::Implementation& implementation = kernel::best_implementation()) {
+  ContactTable table;
+  contacts(set, agents, pairs, table, {&implementation});
+  return table;
+}
+
+/// Row after row, by every disc of one cut against every disc of the other.
+ContactTable brute_force(const CutLists& cuts, const Agents& agents, std::span<const Pair> pairs) {
+  ContactTable table{{0}, {}};
+  for (const Pair pair : pairs) {
+    for (const auto& [i, j] : baselines::contacts(cuts, agents, pair)) table.contacts.push_back({i, j});
+    table.begin.push_back(table.contacts.size());
+  }
+  return table;
+}
+
+bool operator==(const ContactTable& a, const ContactTable& b) {
+  return a.begin == b.begin && a.contacts == b.contacts;
+}
+
+class Contacts : public test::Differential {
+ protected:
+  Contacts() : Differential(81, plan) {}
+
+  CutLists cuts{shapes, plan};
+
+  void expect_brute_force(const PairScene& scene, const char* what) {
+    const ContactTable expected = brute_force(cuts, scene.crowd.agents(), scene.pairs);
+    EXPECT_GT(expected.contacts.size(), scene.pairs.size() / 3);
+    for (const auto& implementation : kernel::implementations())
+      if (implementation.supported()) {
+        EXPECT_TRUE(table_of(set, scene.crowd.agents(), scene.pairs, implementation) == expected)
+            << what << ", " << implementation.name;
+      }
+  }
+};
+
+TEST_F(Contacts, EqualBruteForce) {
+  for (int i = 0; i < 4; ++i) {
+    PairScene scene = random_scene(random, set, 25'000);
+    expect_brute_force(scene, "random");
+    test::move_away(scene, 1e7, -8e8);
+    expect_brute_force(scene, "far from the origin");
+  }
+}
+
+TEST_F(Contacts, EqualBruteForceNearTangency) {
+  for (int i = 0; i < 4; ++i) expect_brute_force(tangent_scene(25'000), "near tangent");
+}
+
+TEST_F(Contacts, OfPeople) {
+  shapes = test::pose_shapes(default_female(), 20);
+  set = ShapeSet(shapes, plan);
+  cuts = CutLists(shapes, plan);
+  expect_brute_force(random_scene(random, set, 5'000), "people");
+}
+
+TEST(Contact, IsEqualWhereBothDiscsAre) {
+  EXPECT_EQ((Contact{1, 2}), (Contact{1, 2}));
+  EXPECT_NE((Contact{1, 2}), (Contact{1, 3}));
+  EXPECT_NE((Contact{1, 2}), (Contact{3, 2}));
+}
+
+TEST_F(Contacts, OfSingleDiscs) {
+  const ShapeSetPlan single{{0}, false};
+  const ShapeSet roots(shapes, single);
+  ASSERT_TRUE(roots.roots_only());
+  const PairScene scene = random_scene(random, roots, 3'000);
+  EXPECT_TRUE(table_of(roots, scene.crowd.agents(), scene.pairs) ==
+              brute_force(CutLists(shapes, single), scene.crowd.agents(), scene.pairs));
+}
+
+TEST_F(Contacts, AreThereWhereAgentsCollide) {
+  const PairScene scene = tangent_scene(50'000);
+  std::vector<std::uint8_t> hits(scene.pairs.size());
+  collide(set, scene.crowd.agents(), scene.pairs, hits);
+  const ContactTable table = table_of(set, scene.crowd.agents(), scene.pairs);
+  for (std::size_t i = 0; i < hits.size(); ++i) ASSERT_EQ(table.of(i).empty(), hits[i] == 0) << i;
+}
+
+TEST_F(Contacts, OfTheOtherOrderAreTheSameExchanged) {
+  PairScene scene = tangent_scene(20'000);
+  const ContactTable table = table_of(set, scene.crowd.agents(), scene.pairs);
+  for (Pair& pair : scene.pairs) std::swap(pair.first, pair.second);
+  const ContactTable other = table_of(set, scene.crowd.agents(), scene.pairs);
+  for (std::size_t i = 0; i < scene.pairs.size(); ++i) {
+    std::vector<Contact> exchanged;
+    for (const Contact& contact : other.of(i)) exchanged.push_back({contact.second, contact.first});
+    std::sort(exchanged.begin(), exchanged.end(), [](const Contact& a, const Contact& b) {
+      return a.first < b.first || (a.first == b.first && a.second < b.second);
+    });
+    const auto row = table.of(i);
+    ASSERT_TRUE(std::equal(row.begin(), row.end(), exchanged.begin(), exchanged.end())) << i;
+  }
+}
+
+/// Where most discs overlap, no list is long enough by chance; and an agent overlaps itself.
+TEST_F(Contacts, OfCoincidentAgentsAndOfAnAgentWithItself) {
+  test::Crowd crowd;
+  std::vector<Pair> pairs;
+  for (std::uint32_t shape = 0; shape < set.shape_count(); ++shape)
+    for (std::uint8_t level = 0; level < set.level_count(); ++level) {
+      const auto agent = static_cast<std::uint32_t>(crowd.x.size());
+      crowd.add({shape, 1, 2, 3, level});
+      crowd.add({shape, 1, 2, 3, level});
+      pairs.insert(pairs.end(), {{agent, agent}, {agent + 1, agent}});
+    }
+  const ContactTable table = table_of(set, crowd.agents(), pairs);
+  EXPECT_TRUE(table == brute_force(cuts, crowd.agents(), pairs));
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    const auto row = table.of(i);
+    EXPECT_EQ(std::count_if(row.begin(), row.end(), [](const Contact& c) { return c.first == c.second; }),
+              std::ssize(cuts.of(crowd.agents(), pairs[i].first)));
+  }
+}
+
+TEST_F(Contacts, BatchesOfEverySizeAndAnyNumberOfThreads) {
+  const PairScene scene = random_scene(random, set, 3'000);
+  const ContactTable whole = table_of(set, scene.crowd.agents(), scene.pairs);
+  const tbb::global_control allow(tbb::global_control::max_allowed_parallelism, 8);
+  for (const int threads : {1, 2, 3, 8}) {
+    tbb::task_arena arena(threads);
+    arena.execute([&] {
+      ContactTable table;
+      for (const std::size_t size : {0u, 1u, 15u, 16u, 17u, 255u, 256u, 257u, 3000u}) {
+        contacts(set, scene.crowd.agents(), std::span(scene.pairs).first(size), table);
+        ASSERT_EQ(table.begin.size(), size + 1);
+        EXPECT_TRUE(std::equal(table.begin.begin(), table.begin.end(), whole.begin.begin()));
+        ASSERT_EQ(table.contacts.size(), table.begin[size]);
+        EXPECT_TRUE(std::equal(table.contacts.begin(), table.contacts.end(), whole.contacts.begin()));
+      }
+    });
+  }
+}
+
+TEST_F(Contacts, BadInputLeavesTheTable) {
+  PairScene scene = random_scene(random, set, 10);
+  ContactTable table = table_of(set, scene.crowd.agents(), scene.pairs);
+  const ContactTable before = table;
+  scene.crowd.heading[7] = std::numeric_limits<double>::quiet_NaN();
+  try {
+    contacts(set, scene.crowd.agents(), scene.pairs, table);
+    FAIL();
+  } catch (const std::invalid_argument& error) {
+    EXPECT_NE(std::string(error.what()).find("pair 3: agent 7: heading nan"), std::string::npos)
+        << error.what();
+  }
+  EXPECT_TRUE(table == before);
+}
+
+}  // namespace
+}  // namespace bch

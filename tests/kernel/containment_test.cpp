@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "kernel/collide/collide.hpp"
+#include "layout/base/heading.hpp"
+#include "layout/default_character/default_characters.hpp"
+#include "tests/support/character_shapes.hpp"
+#include "tests/support/outline_checks.hpp"
+#include "tests/support/scenes.hpp"
+#include "tests/support/test_characters.hpp"
+
+namespace bch {
+namespace {
+
+constexpr std::uint8_t levels = 3;
+
+/// On the same grid, as outlines have to be.
+Outline scaled(const Outline& outline, double factor) {
+  Outline result = outline;
+  const double step = outline.grid_step;
+  for (Vec2& p : result.points)
+    p = {static_cast<float>(std::round(factor * static_cast<double>(p.x) / step) * step),
+         static_cast<float>(std::round(factor * static_cast<double>(p.y) / step) * step)};
+  return result;
+}
+
+/// Whether a corner of the second agent's outline is inside the first one's: then their areas meet.
+bool has_corner_inside(const Outline& outer, const Outline& inner, double x, double y, double heading) {
+  const Rotation turn = rotation(heading);
+  return std::any_of(inner.points.begin(), inner.points.end(), [&](Vec2 p) {
+    const double px = p.x, py = p.y;
+    return test::inside(outer, x + turn.cosine * px - turn.sine * py, y + turn.sine * px + turn.cosine * py);
+  });
+}
+
+/// A small copy of the shape at every place of a raster over it, where the two meet.
+test::PairScene copies_inside(test::Random& random, const Outline& big, const Outline& small) {
+  test::PairScene scene;
+  constexpr int raster = 40;
+  const double size = reach(big.points);
+  for (int j = 0; j < raster; ++j)
+    for (int i = 0; i < raster; ++i) {
+      const double x = size * (2.0 * i / raster - 1), y = size * (2.0 * j / raster - 1),
+                   heading = random.uniform(-3, 3);
+      if (!has_corner_inside(big, small, x, y, heading)) continue;
+      const auto index = static_cast<std::uint32_t>(scene.crowd.shape.size());
+      const auto level = [&] { return static_cast<std::uint8_t>(random.below(levels)); };
+      scene.crowd.add({0, 0, 0, 0, level()});
+      scene.crowd.add({1, x, y, heading, level()});
+      scene.pairs.push_back({index, index + 1});
+    }
+  return scene;
+}
+
+void expect_all_found(const std::vector<Shape>& poses) {
+  test::Random random(77);
+  std::size_t only_solid = 0;
+  for (const Shape& pose : poses) {
+    const Outline small = scaled(pose.outline, 0.3);
+    const std::vector<Shape> shapes = {pose, test::contour_shape(small)};
+    const ShapeSet set(shapes, {{2, 5, all_depths}, true});
+    const test::PairScene scene = copies_inside(random, pose.outline, small);
+    ASSERT_GT(scene.pairs.size(), 100u);
+    std::vector<std::uint8_t> solid(scene.pairs.size()), boundary(scene.pairs.size());
+    for (const auto& implementation : kernel::implementations()) {
+      if (!implementation.supported()) continue;
+      collide(set, scene.crowd.agents(), scene.pairs, solid, {Semantics::solid, &implementation});
+      EXPECT_EQ(std::count(solid.begin(), solid.end(), 0), 0) << implementation.name;
+    }
+    collide(set, scene.crowd.agents(), scene.pairs, boundary);
+    only_solid += static_cast<std::size_t>(std::count(boundary.begin(), boundary.end(), 0));
+  }
+  EXPECT_GT(only_solid, 10 * poses.size());  // there are copies that touch no edge
+}
+
+TEST(Containment, ASmallCopyIsFoundEverywhereInAPose) {
+  expect_all_found(test::pose_shapes(default_male(), 10));
+  expect_all_found(test::pose_shapes(default_female(), 10));
+}
+
+TEST(Containment, ASmallCopyIsFoundEverywhereInARealPose) {
+  const auto data = test::test_data();
+  if (!data) GTEST_SKIP() << "BCH_TEST_DATA is not set";
+  for (const Character& character : test::real_characters(*data))
+    expect_all_found(test::pose_shapes(character, 5));
+}
+
+/// Outlines from elsewhere may overlap themselves, or have contours inside others. Inside is what a contour goes round an
+/// odd number of times, with shortcuts and without.
+TEST(Containment, InsideIsWhatAContourGoesRoundAnOddNumberOfTimes) {
+  const std::vector<Outline> outlines = {
+      test::polygon({{0, 3}, {-2, -3}, {3, 1}, {-3, 1}, {2, -3}}),  // a star in one stroke
+      test::polygon(
+          {{-3, -3}, {3, -3}, {3, 3}, {-3, 3}, {-3, -3}, {2, -2}, {2, 2}, {-2, 2}}),  // most of it twice
+      test::polygon({{-3, -2}, {3, 2}, {3, -2}, {-3, 3}}),                            // one half clockwise
+  };
+  const Outline probe =
+      test::polygon({{-0.125f, -0.125f}, {0.125f, -0.125f}, {0.125f, 0.125f}, {-0.125f, 0.125f}});
+  test::Random random(78);
+  for (const Outline& outline : outlines) {
+    const std::vector<Shape> shapes = {test::contour_shape(outline), test::contour_shape(probe)};
+    test::PairScene scene;
+    for (std::uint32_t i = 0; i < 2'000; ++i) {
+      scene.crowd.add({0, 0, 0, 0, 0});
+      scene.crowd.add({1, random.uniform(-3, 3), random.uniform(-3, 3), 0, 0});
+      scene.pairs.push_back({2 * i, 2 * i + 1});
+    }
+    std::vector<std::uint8_t> boundary(scene.pairs.size()), solid(boundary);
+    std::size_t inside = 0, in_a_hole = 0;
+    for (const bool shortcuts : {false, true}) {
+      const ShapeSet set(shapes, {{all_depths}, true, shortcuts});
+      for (const auto& implementation : kernel::implementations()) {
+        if (!implementation.supported()) continue;
+        collide(set, scene.crowd.agents(), scene.pairs, boundary, {Semantics::boundary, &implementation});
+        collide(set, scene.crowd.agents(), scene.pairs, solid, {Semantics::solid, &implementation});
+        for (std::size_t i = 0; i < scene.pairs.size(); ++i) {
+          if (boundary[i] != 0) continue;
+          const bool is_inside = test::inside(outline, scene.crowd.x[2 * i + 1], scene.crowd.y[2 * i + 1]);
+          ASSERT_EQ(solid[i], is_inside) << implementation.name << (shortcuts ? " with" : " without");
+          (is_inside ? inside : in_a_hole) += 1;
+        }
+      }
+    }
+    EXPECT_GT(inside, 100u);
+    EXPECT_GT(in_a_hole, 100u);
+  }
+}
+
+}  // namespace
+}  // namespace bch

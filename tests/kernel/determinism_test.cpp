@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include <gtest/gtest.h>
+#include <oneapi/tbb/global_control.h>
+#include <oneapi/tbb/task_arena.h>
+#include <xmmintrin.h>
+#define XXH_INLINE_ALL  // nothing is linked
+#include <xxhash.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "kernel/broad_phase/broad_phase.hpp"
+#include "kernel/collide/collide.hpp"
+#include "kernel/contact/contacts.hpp"
+#include "kernel/crowd/collide_all.hpp"
+#include "kernel/distance/clearance.hpp"
+#include "kernel/distance/contact_time.hpp"
+#include "kernel/runtime/standard_floats.hpp"
+#include "kernel/separation/separation.hpp"
+#include "tests/support/scenes.hpp"
+
+// The answers to one crowd as hashes, the same for every compiler, optimisation, processor, instruction set, number of
+// threads, split of the batch, and floating-point state of the threads. Where an answer changes on purpose, so do these.
+
+namespace bch {
+namespace {
+
+using Hashes = std::vector<std::uint64_t>;
+
+const Hashes golden{0x5a2185e3105413a1, 0xb001f2145d76abf1, 0x0df165085461f9bf, 0x22e4be2a917a2aab,
+                    0x6208885fb451fee7, 0xbf5f940cfee4332d, 0x21c4d2cab484c549, 0x04ad4df0d6203a5b,
+                    0xe67190d710f1ec09, 0xebec44f58f6fc63e, 0x05d25bd83e461c8b, 0x8a060f5623b47a02,
+                    0x80ad28f139efe06b};
+
+/// In this order, bytes of all answers.
+class AnswerBytes {
+ public:
+  enum Query {
+    boundary,
+    solid,
+    neighbours,
+    distances,
+    directions,
+    nodes,
+    times,
+    depths,
+    contact_counts,
+    contact_discs,
+    exact_boundary,
+    exact_solid,
+    exact_contacts
+  };
+
+  AnswerBytes() : bytes_(exact_contacts + 1) {}
+
+  template <class Values>
+  void add(Query query, const Values& values) {
+    const auto* begin = reinterpret_cast<const char*>(values.data());
+    bytes_[query].append(begin, values.size() * sizeof(values[0]));
+  }
+  Hashes hashes() const {
+    Hashes all;
+    for (const std::string& bytes : bytes_) all.push_back(XXH3_64bits(bytes.data(), bytes.size()));
+    return all;
+  }
+
+ private:
+  std::vector<std::string> bytes_;
+};
+
+struct Asked {
+  Semantics semantics;
+  Leaves leaves;
+  AnswerBytes::Query query;
+};
+
+/// As MXCSR says it.
+struct FloatState {
+  const char* name;
+  unsigned bits;
+};
+constexpr unsigned flags = 0x3f;
+constexpr FloatState odd_states[] = {{"denormals are zero, both ways", 0x1f80 | 0x8040},
+                                     {"down", 0x1f80 | 0x2000},
+                                     {"up", 0x1f80 | 0x4000},
+                                     {"towards zero", 0x1f80 | 0x6000},
+                                     {"traps", 0x1f80 & ~0x680u}};
+
+class Determinism : public testing::Test {
+ protected:
+  Determinism() {
+    test::Random random(62);
+    for (int i = 0; i < 1'500; ++i)
+      crowd.add({random.below(16), random.uniform(-20, 20), random.uniform(-20, 20), random.uniform(-7, 7),
+                 static_cast<std::uint8_t>(random.below(3))});
+    // Apart by less than the least normal number.
+    crowd.add({16, 30, 0, 0, 0});
+    crowd.add({16, 30, 1e-40, 0, 0});
+    pairs = candidate_pairs(set, crowd.agents());
+    for (std::size_t i = 0; i < pairs.size(); ++i) {
+      x.push_back(random.uniform(-2, 2)), y.push_back(random.uniform(-2, 2));
+      if (i % 2 == 0) std::swap(pairs[i].first, pairs[i].second);
+    }
+  }
+
+  Hashes hashes(const kernel::Implementation* isa, std::size_t batch) const {
+    AnswerBytes bytes;
+    for (std::size_t i = 0; i < pairs.size(); i += batch)
+      answer(isa, i, std::min(batch, pairs.size() - i), bytes);
+    CrowdCollider collider;
+    const auto all = collider.collide_all(set, crowd.agents(), {Semantics::solid, isa, Leaves::discs});
+    bytes.add(AnswerBytes::neighbours, all.begin);
+    bytes.add(AnswerBytes::neighbours, all.neighbours);
+    return bytes.hashes();
+  }
+
+  static std::vector<Shape> shapes() {
+    std::vector<Shape> all = test::synthetic_shapes(61, 16);
+    all.push_back(test::contour_shape(test::polygon({{-1, -1}, {1, -1}, {1, 1}, {-1, 1}})));
+    return all;
+  }
+
+  const ShapeSet set{shapes(), {{0, 3, all_depths}, true}};
+  test::Crowd crowd;
+  std::vector<Pair> pairs;
+  std::vector<double> x, y;
+
+ private:
+  /// Without what pads them, and rounded here, to nearest; separation_test compares directions bit by bit.
+  static void add_depths(const std::vector<Separation>& ways, AnswerBytes& bytes) {
+    const kernel::StandardFloats to_nearest;
+    for (const auto& [depth, x, y] : ways)
+      bytes.add(AnswerBytes::depths, std::array{depth, static_cast<float>(x), static_cast<float>(y)});
+  }
+
+  void answer(const kernel::Implementation* isa, std::size_t begin, std::size_t size,
+              AnswerBytes& bytes) const {
+    const Agents agents = crowd.agents();
+    const auto of = std::span(pairs).subspan(begin, size);
+    std::vector<std::uint8_t> hits(size);
+    for (const auto& [semantics, leaves, query] :
+         {Asked{Semantics::boundary, Leaves::discs, AnswerBytes::boundary},
+          Asked{Semantics::solid, Leaves::discs, AnswerBytes::solid},
+          Asked{Semantics::boundary, Leaves::segments, AnswerBytes::exact_boundary},
+          Asked{Semantics::solid, Leaves::segments, AnswerBytes::exact_solid}}) {
+      collide(set, agents, of, hits, {semantics, isa, leaves});
+      bytes.add(query, hits);
+    }
+    std::vector<float> values(size);
+    std::vector<Vec2> directions(size);
+    std::vector<CutNodes> nodes(size);
+    clearance(set, agents, of, {values, directions, nodes}, {1.5, isa});
+    bytes.add(AnswerBytes::distances, values);
+    bytes.add(AnswerBytes::directions, directions);
+    bytes.add(AnswerBytes::nodes, nodes);
+    contact_time(set, agents, of, {std::span(x).subspan(begin, size), std::span(y).subspan(begin, size)},
+                 values, {isa});
+    bytes.add(AnswerBytes::times, values);
+    std::vector<Separation> ways(size);
+    separation(set, agents, of, 16, ways, {isa});
+    add_depths(ways, bytes);
+    ContactTable table;
+    contacts(set, agents, of, table, {isa, Leaves::discs});
+    for (std::size_t i = 0; i < size; ++i)
+      bytes.add(AnswerBytes::contact_counts, std::vector{table.begin[i + 1] - table.begin[i]});
+    bytes.add(AnswerBytes::contact_discs, table.contacts);
+    contacts(set, agents, of, table, {isa});
+    bytes.add(AnswerBytes::exact_contacts, table.contacts);
+  }
+};
+
+TEST_F(Determinism, OfInstructionSets) {
+  EXPECT_GT(pairs.size(), 5'000u);
+  for (const auto& isa : kernel::implementations()) {
+    if (isa.supported()) {
+      EXPECT_EQ(hashes(&isa, pairs.size()), golden) << isa.name;
+    }
+  }
+}
+
+TEST_F(Determinism, OfThreadsAndBatches) {
+  const tbb::global_control allow(tbb::global_control::max_allowed_parallelism, 32);
+  for (const int threads : {1, 2, 3, 8, 32}) {
+    tbb::task_arena arena(threads);
+    for (const std::size_t batch : {pairs.size(), std::size_t{2049}, std::size_t{100}})
+      arena.execute([&] { EXPECT_EQ(hashes(nullptr, batch), golden) << threads << " threads, " << batch; });
+  }
+}
+
+/// New arenas give the state of the thread that makes them to their workers.
+TEST_F(Determinism, OfTheThreadsFloatingPointState) {
+  const tbb::global_control allow(tbb::global_control::max_allowed_parallelism, 4);
+  const unsigned before = _mm_getcsr();
+  for (const FloatState& state : odd_states) {
+    Hashes here;
+    unsigned after = 0;
+    _mm_setcsr(state.bits);
+    {
+      tbb::task_arena arena(4);
+      arena.execute([&] { here = hashes(nullptr, pairs.size()), after = _mm_getcsr(); });
+    }
+    _mm_setcsr(before);
+    EXPECT_EQ(here, golden) << state.name;
+    EXPECT_EQ(after & ~flags, state.bits) << state.name;
+  }
+}
+
+}  // namespace
+}  // namespace bch

@@ -1,0 +1,390 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include <gtest/gtest.h>
+#include <oneapi/tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "baselines/contact_reference.hpp"
+#include "baselines/oracle.hpp"
+#include "baselines/reference.hpp"
+#include "kernel/collide/collide.hpp"
+#include "kernel/contact/contacts.hpp"
+#include "layout/base/rounding.hpp"
+#include "layout/default_character/default_characters.hpp"
+#include "layout/format/leaf_segments.hpp"
+#include "tests/support/character_shapes.hpp"
+#include "tests/support/differential.hpp"
+
+// Exact leaves: that leaf segments decide like brute force over all segments, miss no outlines that meet, and take no others
+// for meeting than those within the promised gap.
+
+namespace bch {
+namespace {
+
+using baselines::Oracle;
+using test::Crowd;
+using test::Random;
+
+std::vector<std::uint8_t> answers(const ShapeSet& set, const Agents& agents, std::span<const Pair> pairs,
+                                  QueryOptions options = {}) {
+  std::vector<std::uint8_t> hits(pairs.size(), 77);
+  collide(set, agents, pairs, hits, options);
+  return hits;
+}
+
+Oracle oracle(const std::vector<Shape>& shapes, const Agents& agents, Pair pair) {
+  return Oracle(shapes[agents.shape[pair.first]].outline, shapes[agents.shape[pair.second]].outline,
+                baselines::exact_placement(agents, pair.first, pair.second));
+}
+
+/// Outlines of few corners, of sizes from a millimetre to 100 m, up to ten sizes away from their origins: stars, slivers,
+/// whiskers and single points, one contour or several. Discs are an eighth of them or much smaller.
+std::vector<Shape> simple_shapes(Random& random, std::uint32_t count) {
+  std::vector<Shape> shapes;
+  while (shapes.size() < count) {
+    const double size = std::pow(10.0, random.uniform(-3, 2));
+    const double x = random.below(2) * random.uniform(-10, 10) * size,
+                 y = random.below(2) * random.uniform(-10, 10) * size;
+    const auto point = [&] {
+      return Vec2{static_cast<float>(x + random.uniform(-size, size)),
+                  static_cast<float>(y + random.uniform(-size, size))};
+    };
+    Outline outline;
+    switch (random.below(4)) {
+      case 0:
+        outline = test::polygon({point(), point()});
+        break;  // there and back
+      case 1:
+        outline = test::counter_clockwise(test::polygon({point(), point(), point()}));
+        break;
+      case 2:
+        outline = test::star(random, 3 + random.below(6), 0.2 * size, size, x, y);
+        break;
+      default:
+        outline = test::counter_clockwise(test::polygon({point(), point(), point()}));
+        test::append(outline, test::polygon({point()}));
+        test::append(outline, test::counter_clockwise(test::polygon({point(), point(), point()})));
+    }
+    const double threshold = size * std::pow(2.0, -1.0 - random.below(6));
+    shapes.push_back(test::contour_shape(outline, static_cast<float>(threshold)));
+  }
+  return shapes;
+}
+
+/// How near to each other the agents of a pair are put, and what the outlines then do.
+struct Truth {
+  bool cross;
+  double gap;  ///< metres per metre of both reaches, beside the steps of the grid
+};
+
+struct Scene {
+  Crowd crowd;
+  std::vector<Pair> pairs;
+  std::vector<Truth> truths;
+};
+
+/// Pairs of which the second agent is slid up to the first touch of the outlines, and left there, but for a gap of any
+/// magnitude, either way.
+Scene touching_scene(Random& random, const std::vector<Shape>& shapes, std::uint32_t count) {
+  Scene scene;
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const auto shape = [&] { return random.below(static_cast<std::uint32_t>(shapes.size())); };
+    const std::uint32_t a = shape(), b = shape();
+    const double reaches = shapes[a].hierarchy.reach + shapes[b].hierarchy.reach;
+    const double turn = random.uniform(0, 2 * std::numbers::pi), c = std::cos(turn), s = std::sin(turn);
+    const double at_x = random.uniform(-1, 1) * reaches * 1e3, at_y = random.uniform(-1, 1) * reaches * 1e3;
+    const auto heading = [&] {
+      return random.below(4) == 0 ? 0.5 * std::numbers::pi * random.below(4) : random.uniform(-9, 9);
+    };
+    Crowd two;
+    two.add({a, at_x, at_y, heading(), 0});
+    two.add({b, at_x + 3 * reaches * c, at_y + 3 * reaches * s, heading(), 0});
+    const double beside = random.uniform(-1, 1) * reaches;
+    two.x[1] -= beside * s, two.y[1] += beside * c;
+    // The first one's way towards it, in its own frame: the oracle moves that one.
+    const double frame_c = std::cos(two.heading[0]), frame_s = std::sin(two.heading[0]);
+    const long double x = 6 * reaches * (frame_c * c + frame_s * s),
+                      y = 6 * reaches * (frame_c * s - frame_s * c);
+    const long double time = oracle(shapes, two.agents(), {0, 1}).contact_time(x, y);
+    if (!std::isfinite(time)) continue;
+    const double gap = (random.below(3) == 0   ? 0
+                        : random.below(2) == 0 ? 1
+                                               : -1) *
+                       reaches * std::pow(10.0, random.uniform(-10, -3));
+    const double way = static_cast<double>(6 * static_cast<long double>(reaches) * time) - gap;
+    two.x[1] -= way * c, two.y[1] -= way * s;
+    const Oracle exact = oracle(shapes, two.agents(), {0, 1});
+    const double steps =
+        static_cast<double>(shapes[a].outline.grid_step) + static_cast<double>(shapes[b].outline.grid_step);
+    const double beyond = static_cast<double>(exact.distance()) - rounding::outline_grid_steps * steps;
+    scene.truths.push_back({exact.cross(), beyond / reaches});
+    const auto first = static_cast<std::uint32_t>(scene.crowd.shape.size());
+    for (const std::size_t k : {0, 1}) scene.crowd.add({two.shape[k], two.x[k], two.y[k], two.heading[k], 0});
+    scene.pairs.push_back(i % 2 == 0 ? Pair{first, first + 1} : Pair{first + 1, first});
+  }
+  return scene;
+}
+
+class ExactLeaves : public testing::Test {
+ protected:
+  Random random{2401};
+  std::vector<Shape> shapes = simple_shapes(random, 600);
+  ShapeSet set{shapes};
+};
+
+TEST_F(ExactLeaves, MissNoOutlinesThatMeetAndTakeNoOthersForMeeting) {
+  constexpr std::uint32_t blocks = 400;
+  std::vector<Scene> scenes(blocks);
+  tbb::parallel_for(0u, blocks, [&](std::uint32_t i) {
+    Random own(2402 + i);
+    scenes[i] = touching_scene(own, shapes, test::samples(5'000));
+  });
+  std::size_t crossing = 0, near = 0, tested = 0;
+  double largest = 0;
+  for (const Scene& scene : scenes)
+    for (const auto& implementation : kernel::implementations()) {
+      if (!implementation.supported()) continue;
+      const auto hits =
+          answers(set, scene.crowd.agents(), scene.pairs, {Semantics::boundary, &implementation});
+      for (std::size_t i = 0; i < hits.size(); ++i) {
+        const auto [cross, gap] = scene.truths[i];
+        // A set's single discs decide for shapes that are one.
+        const auto is_single = [&](std::uint32_t agent) {
+          return set.arrays().trees[scene.crowd.shape[agent]].segments == no_segments;
+        };
+        ASSERT_TRUE(!cross || hits[i]) << implementation.name << ", pair " << i;
+        if (is_single(scene.pairs[i].first) || is_single(scene.pairs[i].second)) continue;
+        ++tested;
+        crossing += cross;
+        if (!hits[i] || cross) continue;
+        ++near;
+        largest = std::max(largest, gap);
+      }
+    }
+  std::printf("%zu answers, %zu cross; %zu hits with a gap, of up to %.3g m per metre of reach\n", tested,
+              crossing, near, largest);
+  EXPECT_GT(crossing, tested / 4);
+  EXPECT_GT(near, tested / 50);
+  const double most = rounding::segment_margin + rounding::terms::segment_place * rounding::unit_roundoff;
+  EXPECT_LT(largest, most);
+  EXPECT_GT(largest, 0.5 * most);
+}
+
+TEST_F(ExactLeaves, EqualBruteForceWhereOutlinesTouch) {
+  const Scene scene = touching_scene(random, shapes, test::samples(20'000));
+  const Agents agents = scene.crowd.agents();
+  const baselines::Reference reference(shapes, {});
+  for (const Semantics semantics : {Semantics::boundary, Semantics::solid}) {
+    std::vector<std::uint8_t> expected;
+    for (const Pair pair : scene.pairs) {
+      const auto ask = [&](baselines::Method method) {
+        return semantics == Semantics::solid ? reference.solid(agents, pair, method)
+                                             : reference.boundary(agents, pair, method);
+      };
+      expected.push_back(ask(baselines::Method::brute_force));
+      ASSERT_EQ(ask(baselines::Method::depth_first), expected.back());
+    }
+    for (const auto& implementation : kernel::implementations())
+      if (implementation.supported()) {
+        EXPECT_EQ(answers(set, agents, scene.pairs, {semantics, &implementation}), expected)
+            << implementation.name;
+      }
+  }
+}
+
+/// Where segments meet, so do leaf discs and all discs above them.
+TEST_F(ExactLeaves, HitNothingThatDiscsDoNot) {
+  const Scene scene = touching_scene(random, shapes, test::samples(50'000));
+  const auto segments = answers(set, scene.crowd.agents(), scene.pairs),
+             discs = answers(set, scene.crowd.agents(), scene.pairs, {.leaves = Leaves::discs});
+  std::size_t cleared = 0;
+  for (std::size_t i = 0; i < segments.size(); ++i) {
+    ASSERT_LE(segments[i], discs[i]) << i;
+    cleared += segments[i] < discs[i];
+  }
+  EXPECT_GT(cleared, 0u);
+}
+
+TEST_F(ExactLeaves, DecideContactsAsWell) {
+  const Scene scene = touching_scene(random, shapes, test::samples(5'000));
+  const Agents agents = scene.crowd.agents();
+  const baselines::CutLists cuts(shapes, {});
+  const baselines::LeafSegments segments(shapes, {}, Leaves::segments);
+  for (const auto& implementation : kernel::implementations()) {
+    if (!implementation.supported()) continue;
+    ContactTable table;
+    contacts(set, agents, scene.pairs, table, {&implementation});
+    const auto hits = answers(set, agents, scene.pairs, {Semantics::boundary, &implementation});
+    for (std::size_t i = 0; i < hits.size(); ++i) {
+      ASSERT_EQ(table.of(i).empty(), hits[i] == 0) << implementation.name << ", pair " << i;
+      const auto expected = baselines::contacts(cuts, agents, scene.pairs[i], &segments);
+      const auto row = table.of(i);
+      ASSERT_TRUE(std::equal(row.begin(), row.end(), expected.begin(), expected.end(),
+                             [](const Contact& contact, const auto& discs) {
+                               return contact.first == discs.first && contact.second == discs.second;
+                             }))
+          << implementation.name << ", pair " << i;
+    }
+  }
+}
+
+/// What people are tested for: exact outlines, and nothing between.
+TEST(ExactLeavesOfPeople, AnswerAsOutlinesDo) {
+  const std::vector<Shape> shapes = test::pose_shapes(default_male(), 12);
+  const ShapeSet set(shapes);
+  Random random(2403);
+  test::PairScene scene = random_scene(random, set, 4'000);
+  scene.crowd.level.clear();
+  const auto hits = answers(set, scene.crowd.agents(), scene.pairs);
+  std::size_t crossing = 0;
+  for (std::size_t i = 0; i < hits.size(); ++i) {
+    const Oracle exact = oracle(shapes, scene.crowd.agents(), scene.pairs[i]);
+    const bool cross = exact.cross();
+    crossing += cross;
+    if (hits[i] != cross) EXPECT_TRUE(hits[i] && exact.distance() < 1e-5L) << i;
+  }
+  EXPECT_GT(crossing, hits.size() / 4);
+  EXPECT_LT(crossing, hits.size() * 3 / 4);
+}
+
+/// Walls in one line: every side of every end is a toss of rounding, and only ends tell the gap.
+TEST(ExactLeavesOfWalls, SeeTheGapBetweenWallsInOneLine) {
+  const std::vector<Shape> shapes = {test::contour_shape(test::polygon({{0, 0}, {1, 0}}), 0.3f)};
+  const ShapeSet set(shapes);
+  Random random(2404);
+  for (int i = 0; i < 20'000; ++i) {
+    const double heading = random.uniform(-4, 4), c = std::cos(heading), s = std::sin(heading);
+    const double gap = random.below(2) == 0 ? 1e-5 : -1e-5;
+    const std::vector<std::uint32_t> shape = {0, 0};
+    const std::vector<double> x = {0, (1 + gap) * c}, y = {0, (1 + gap) * s}, headings = {heading, heading};
+    const std::vector<Pair> pairs = {{0, 1}};
+    ASSERT_EQ(answers(set, {shape, x, y, headings}, pairs)[0], gap < 0) << heading;
+  }
+}
+
+TEST(LeafSegments, AreRunsOrLists) {
+  const std::vector<std::vector<std::uint32_t>> leaves = {{7}, {1, 2, 3}, {4, 6}, {0x1000000}, {9, 8}, {5}};
+  std::vector<std::uint32_t> long_run(127);
+  for (std::uint32_t i = 0; i < 127; ++i) long_run[i] = 50 + i;
+  std::vector<std::uint32_t> words;
+  for (std::size_t i = 0; i < leaves.size(); ++i) add_leaf(leaves[i], i, leaves.size() + 1, words);
+  add_leaf(long_run, leaves.size(), leaves.size() + 1, words);
+  for (std::size_t i = 0; i < leaves.size(); ++i) EXPECT_EQ(segments_of(words, i), leaves[i]);
+  EXPECT_EQ(segments_of(words, leaves.size()), long_run);
+  EXPECT_EQ(leaf_segments_size(words, leaves.size() + 1), words.size());
+  EXPECT_EQ(words.size(), 7 + 3 + 2 + 3);
+  long_run.push_back(177);
+  add_leaf(long_run, 1, leaves.size() + 1, words);
+  EXPECT_TRUE(segments_of(words, 1).empty());
+}
+
+/// A leaf with a list: two strokes that are near each other, one of them the outline's last.
+TEST(LeafSegments, OfAListDecideAsWell) {
+  Outline outline = test::polygon({{0, 0}, {0.004f, 0}, {0.008f, 0}});
+  test::append(outline, test::counter_clockwise(test::polygon({{0.5f, 0}, {0.9f, 0.1f}, {0.6f, 0.3f}})));
+  test::append(outline, test::polygon({{0.002f, 0.001f}, {0.006f, 0.001f}}));
+  const std::vector<Shape> shapes = {test::contour_shape(outline),
+                                     test::contour_shape(test::polygon({{0, 0}, {0.1f, 0}}))};
+  const ShapeSet set(shapes);
+  const auto words = set.arrays().leaf_segments;
+  EXPECT_TRUE(std::any_of(words.begin(), words.end(), [](std::uint32_t word) { return word >= leaf_list; }));
+  const std::vector<std::uint32_t> shape = {0, 1};
+  const std::vector<Pair> pairs = {{0, 1}};
+  const auto hit = [&](double y) {
+    const std::vector<double> xs = {0, 0.004}, ys = {0, y}, headings = {0, std::numbers::pi / 2};
+    return answers(set, {shape, xs, ys, headings}, pairs)[0] != 0;
+  };
+  EXPECT_TRUE(hit(-0.05));
+  EXPECT_TRUE(hit(0.0005));
+  EXPECT_FALSE(hit(0.0012));
+}
+
+/// Outlines a hundred times denser than discs: what two leaves take stays bounded, because discs decide there.
+TEST(LeafSegments, OfDenseOutlinesAreDiscs) {
+  Random random(2409);
+  std::vector<Shape> shapes = {test::contour_shape(test::star(random, 20'000, 0.3, 0.31), 0.05f),
+                               test::contour_shape(test::star(random, 40, 0.2, 0.4))};
+  const ShapeSet set(shapes);
+  const Tree& dense = set.arrays().trees[0];
+  EXPECT_EQ(
+      std::count(set.arrays().leaf_segments.begin(), set.arrays().leaf_segments.begin() + dense.count, 0u),
+      dense.count);
+  const test::PairScene scene = random_scene(random, set, 300);
+  const baselines::Reference reference(shapes, {});
+  const auto hits = answers(set, scene.crowd.agents(), scene.pairs);
+  for (std::size_t i = 0; i < hits.size(); ++i)
+    ASSERT_EQ(hits[i],
+              reference.boundary(scene.crowd.agents(), scene.pairs[i], baselines::Method::depth_first))
+        << i;
+}
+
+TEST(Plans, WithoutOutlinesHaveNoExactLeaves) {
+  const std::vector<Shape> shapes = test::synthetic_shapes(2405, 8);
+  EXPECT_TRUE(ShapeSet(shapes).exact_leaves());
+  EXPECT_FALSE(ShapeSet(shapes, {.outlines = false}).exact_leaves());
+  EXPECT_FALSE(ShapeSet(shapes, {{0, 3, 6}}).exact_leaves());
+  EXPECT_EQ(ShapeSet(shapes, {.outlines = false}).arrays().points.size(), 0u);
+  std::vector<Shape> bare = shapes;
+  for (Shape& shape : bare) shape.hierarchy.of_segments = false;
+  EXPECT_FALSE(ShapeSet(bare).exact_leaves());
+  EXPECT_TRUE(ShapeSet(bare).solid());
+}
+
+/// Agents at levels that have segments beside such at levels that do not: discs decide between those.
+TEST(Levels, BesideThatOfAllDepthsAreComparedByDiscs) {
+  const std::vector<Shape> shapes = test::synthetic_shapes(2406, 12);
+  const ShapeSetPlan plan{{0, 4, all_depths}};
+  const ShapeSet set(shapes, plan);
+  Random random(2407);
+  const test::PairScene scene = random_scene(random, set, 20'000);
+  const Agents agents = scene.crowd.agents();
+  const auto segments = answers(set, agents, scene.pairs),
+             discs = answers(set, agents, scene.pairs, {.leaves = Leaves::discs});
+  std::size_t differ = 0;
+  for (std::size_t i = 0; i < segments.size(); ++i) {
+    if (segments[i] == discs[i]) continue;
+    ++differ;
+    ASSERT_EQ(agents.level[scene.pairs[i].first], 2) << i;
+    ASSERT_EQ(agents.level[scene.pairs[i].second], 2) << i;
+  }
+  EXPECT_GT(differ, 0u);
+}
+
+TEST(ExactLeavesInput, IsChecked) {
+  const std::vector<Shape> shapes = test::synthetic_shapes(2408, 2);
+  const ShapeSet set(shapes);
+  const std::vector<std::uint32_t> shape = {0, 1};
+  const std::vector<double> zero = {0, 0};
+  const std::vector<Pair> pairs = {{0, 1}};
+  EXPECT_THROW(answers(set, {shape, zero, zero, zero}, pairs, {.leaves = static_cast<Leaves>(7)}),
+               std::invalid_argument);
+  ContactTable table;
+  EXPECT_THROW(contacts(set, {shape, zero, zero, zero}, pairs, table, {.leaves = static_cast<Leaves>(7)}),
+               std::invalid_argument);
+
+  const auto rejected = [](const auto& change) {
+    std::vector<Shape> changed = test::synthetic_shapes(2408, 2);
+    change(changed[1].hierarchy);
+    try {
+      ShapeSet{changed};
+    } catch (const std::invalid_argument& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  EXPECT_NE(rejected([](Hierarchy& h) { h.held.pop_back(); }).find("shape 1: hierarchy:"), std::string::npos);
+  EXPECT_NE(rejected([](Hierarchy& h) { h.held.back().end += 1; }).find("holds elements"), std::string::npos);
+  EXPECT_NE(rejected([](Hierarchy& h) { h.held.back().begin = h.held.back().end; }).find("holds elements"),
+            std::string::npos);
+  EXPECT_NE(rejected([](Hierarchy& h) { h.source[0] = 100'000; }).find("comes from segment 100000"),
+            std::string::npos);
+}
+
+}  // namespace
+}  // namespace bch

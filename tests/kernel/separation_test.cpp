@@ -1,0 +1,313 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include "kernel/separation/separation.hpp"
+
+#include <gtest/gtest.h>
+#include <oneapi/tbb/global_control.h>
+#include <oneapi/tbb/task_arena.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "baselines/oracle.hpp"
+#include "baselines/separation_reference.hpp"
+#include "kernel/collide/collide.hpp"
+#include "kernel/distance/clearance.hpp"
+#include "layout/base/heading.hpp"
+#include "layout/default_character/default_characters.hpp"
+#include "tests/support/character_shapes.hpp"
+#include "tests/support/differential.hpp"
+#include "tests/support/separations.hpp"
+
+namespace bch {
+namespace {
+
+using baselines::CutLists;
+using test::along;
+using test::best_of;
+using test::PairScene;
+using test::Random;
+
+const ShapeSetPlan plan{{0, 3, 6, all_depths}, true};
+
+/// Of every length and way.
+std::vector<Vec2> random_directions(Random& random, std::size_t count) {
+  std::vector<Vec2> directions;
+  for (std::size_t i = 0; i < count; ++i) {
+    const double angle = random.uniform(-4, 4), length = std::exp(random.uniform(-20, 20));
+    directions.push_back(
+        {static_cast<float>(length * std::cos(angle)), static_cast<float>(length * std::sin(angle))});
+  }
+  return directions;
+}
+
+/// The scene after every pair's first agent has moved.
+PairScene moved(PairScene scene, std::span<const Separation> by, double further = 0) {
+  for (std::size_t i = 0; i < by.size(); ++i) {
+    const double depth = static_cast<double>(by[i].depth) + further;
+    scene.crowd.x[scene.pairs[i].first] += depth * by[i].x;
+    scene.crowd.y[scene.pairs[i].first] += depth * by[i].y;
+  }
+  return scene;
+}
+
+class SeparationTest : public test::Differential {
+ protected:
+  SeparationTest() : Differential(91, plan) {}
+
+  CutLists cuts{shapes, plan};
+
+  void expect_reference(const PairScene& scene, std::uint32_t k, const char* what) {
+    const Agents agents = scene.crowd.agents();
+    const std::vector<Vec2> directions = random_directions(random, scene.pairs.size());
+    std::vector<baselines::Way> best, given;
+    for (std::size_t i = 0; i < scene.pairs.size(); ++i) {
+      best.push_back(baselines::separation(cuts, agents, scene.pairs[i], k));
+      given.push_back(baselines::separation_along(cuts, agents, scene.pairs[i], directions[i]));
+    }
+    const auto same = [](const Separation& a, const baselines::Way& b) {
+      return a.depth == b.depth && a.x == b.x && a.y == b.y;
+    };
+    for (const auto& implementation : kernel::implementations()) {
+      if (!implementation.supported()) continue;
+      const auto found_best = best_of(k, set, scene, implementation);
+      const auto found_given = along(directions, set, scene, implementation);
+      for (std::size_t i = 0; i < scene.pairs.size(); ++i) {
+        ASSERT_TRUE(same(found_best[i], best[i])) << what << ", " << implementation.name << ", pair " << i;
+        ASSERT_TRUE(same(found_given[i], given[i])) << what << ", " << implementation.name << ", pair " << i;
+      }
+    }
+  }
+
+  std::size_t collisions(const PairScene& scene, Semantics semantics) const {
+    std::vector<std::uint8_t> hits(scene.pairs.size());
+    collide(set, scene.crowd.agents(), scene.pairs, hits, {semantics});
+    return static_cast<std::size_t>(std::count(hits.begin(), hits.end(), 1));
+  }
+
+  double reach(const Agents& agents, std::uint32_t agent) const {
+    return static_cast<double>(cuts.reach(agents, agent));
+  }
+};
+
+TEST_F(SeparationTest, EqualsTheReference) {
+  const std::uint32_t counts[] = {2, 4, 6, 16, 18, 64, 10, 16};
+  for (int i = 0; i < 8; ++i) {
+    PairScene scene = i % 2 == 0 ? random_scene(random, set, 25'000) : tangent_scene(25'000);
+    if (i >= 4) test::move_away(scene, 1e7, -8e8);
+    expect_reference(scene, counts[i], i % 2 == 0 ? "random" : "near tangent");
+  }
+}
+
+TEST_F(SeparationTest, OfPeople) {
+  shapes = test::pose_shapes(default_male(), 20);
+  set = ShapeSet(shapes, plan);
+  cuts = CutLists(shapes, plan);
+  const PairScene scene = random_scene(random, set, 10'000);
+  expect_reference(scene, 32, "people");
+  EXPECT_EQ(collisions(moved(scene, best_of(32, set, scene)), Semantics::solid), 0u);
+}
+
+TEST_F(SeparationTest, NothingOverlapsAfterwards) {
+  for (const bool tangent : {false, true}) {
+    PairScene scene = tangent ? tangent_scene(50'000) : random_scene(random, set, 50'000);
+    EXPECT_GT(collisions(scene, Semantics::solid), scene.pairs.size() / 5);
+    const auto best = best_of(16, set, scene);
+    const auto given = along(random_directions(random, scene.pairs.size()), set, scene);
+    for (const auto& by : {best, given})
+      for (const double further : {0.0, 1e-3, 0.1, 1.0})
+        EXPECT_EQ(collisions(moved(scene, by, further), Semantics::solid), 0u);
+    // And less than that leaves some.
+    std::vector<Separation> less = best;
+    for (Separation& each : less) each.depth *= 0.9f;
+    EXPECT_GT(collisions(moved(scene, less), Semantics::solid), 0u);
+  }
+}
+
+/// By what is true of outlines, where they cross, nest, or nearly touch.
+TEST_F(SeparationTest, NoOutlinesMeetAfterwards) {
+  const auto outlines = [&](const Agents& agents, Pair pair) {
+    return baselines::Oracle(shapes[agents.shape[pair.first]].outline,
+                             shapes[agents.shape[pair.second]].outline,
+                             baselines::exact_placement(agents, pair.first, pair.second));
+  };
+  PairScene tangent = random_scene(random, set, 400);
+  make_tangent(random, tangent,
+               [&](const Agents& agents, Pair pair) { return outlines(agents, pair).cross(); });
+  std::size_t met = 0;
+  for (const PairScene& before : {tangent, random_scene(random, set, 1'000)}) {
+    const PairScene after = moved(before, best_of(8, set, before));
+    for (const Pair pair : before.pairs) {
+      const baselines::Oracle then = outlines(before.crowd.agents(), pair),
+                              now = outlines(after.crowd.agents(), pair);
+      met += then.cross() || then.nested();
+      ASSERT_FALSE(now.cross() || now.nested());
+    }
+  }
+  EXPECT_GT(met, 300u);
+}
+
+/// Along paths of many steps, large and small, on which agents shift and turn, through each other and apart: no depth
+/// changes by more than the points of the agents moved.
+TEST_F(SeparationTest, DepthsDoNotJump) {
+  PairScene scene = random_scene(random, set, 2'000);
+  const std::vector<Vec2> directions = random_directions(random, scene.pairs.size());
+  std::vector<Separation> best = best_of(16, set, scene), given = along(directions, set, scene);
+  double largest = 0;
+  for (int step = 0; step < 400; ++step) {
+    const double size = std::exp(random.uniform(-14, -2));
+    std::vector<double> motion(scene.pairs.size());
+    for (std::size_t i = 0; i < scene.pairs.size(); ++i)
+      for (const std::size_t agent : {2 * i, 2 * i + 1}) {
+        const double dx = random.uniform(-size, size), dy = random.uniform(-size, size);
+        const double turn = random.uniform(-size, size);
+        scene.crowd.x[agent] += dx, scene.crowd.y[agent] += dy, scene.crowd.heading[agent] += turn;
+        motion[i] += std::hypot(dx, dy) +
+                     std::abs(turn) * reach(scene.crowd.agents(), static_cast<std::uint32_t>(agent));
+      }
+    const auto next_best = best_of(16, set, scene), next_given = along(directions, set, scene);
+    for (std::size_t i = 0; i < scene.pairs.size(); ++i) {
+      const auto [a, b] = scene.pairs[i];
+      const double both = reach(scene.crowd.agents(), a) + reach(scene.crowd.agents(), b);
+      for (const auto& [now, before] :
+           {std::pair{next_best[i], best[i]}, std::pair{next_given[i], given[i]}}) {
+        const double change = std::abs(static_cast<double>(now.depth) - static_cast<double>(before.depth));
+        ASSERT_LE(change, motion[i] + 1e-6 * both + 4e-7 * static_cast<double>(now.depth)) << i;
+        largest = std::max(largest, change / motion[i]);
+      }
+    }
+    best = next_best, given = next_given;
+  }
+  EXPECT_GT(largest, 0.5);  // the bound is not idle
+}
+
+TEST_F(SeparationTest, OfTheOtherOrderIsOpposite) {
+  PairScene scene = tangent_scene(20'000);
+  std::vector<Vec2> directions = random_directions(random, scene.pairs.size());
+  const auto best = best_of(16, set, scene), given = along(directions, set, scene);
+  for (Pair& pair : scene.pairs) std::swap(pair.first, pair.second);
+  for (Vec2& direction : directions) direction = {-direction.x, -direction.y};
+  const auto other_best = best_of(16, set, scene), other_given = along(directions, set, scene);
+  const auto opposite = [](const Separation& a) { return Separation{a.depth, -a.x, -a.y}; };
+  for (std::size_t i = 0; i < scene.pairs.size(); ++i) {
+    ASSERT_EQ(other_best[i], opposite(best[i]));
+    ASSERT_EQ(other_given[i], opposite(given[i]));
+  }
+}
+
+/// What the header proves: beside where A stands it would have to move as far, by its discs alone.
+TEST_F(SeparationTest, IsTheLeastThatDoesNotJump) {
+  PairScene scene = random_scene(random, set, 5'000);
+  for (std::size_t i = 0; i < scene.pairs.size(); ++i)
+    scene.pairs[i] = {static_cast<std::uint32_t>(2 * i), static_cast<std::uint32_t>(2 * i + 1)};
+  std::fill(scene.crowd.heading.begin(), scene.crowd.heading.end(), 0);
+  const std::vector<Vec2> directions(scene.pairs.size(), Vec2{1, 0});
+  std::vector<Separation> less = along(directions, set, scene);
+  const Agents agents = scene.crowd.agents();
+  for (std::size_t i = 0; i < scene.pairs.size(); ++i) {
+    const auto [a, b] = scene.pairs[i];
+    const auto of_a = cuts.of(agents, a), of_b = cuts.of(agents, b);
+    const Disc last = *std::min_element(of_a.begin(), of_a.end(), [](const Disc& p, const Disc& q) {
+      return p.x - p.radius < q.x - q.radius;
+    });
+    const Disc foremost = *std::max_element(of_b.begin(), of_b.end(), [](const Disc& p, const Disc& q) {
+      return p.x + p.radius < q.x + q.radius;
+    });
+    scene.crowd.y[a] = scene.crowd.y[b] + static_cast<double>(foremost.y) - static_cast<double>(last.y);
+    less[i].depth *= 1 - 4e-7f;
+    less[i].depth -= static_cast<float>(5e-6 * (reach(agents, a) + reach(agents, b)));
+  }
+  std::vector<float> distance(scene.pairs.size());
+  clearance(set, moved(scene, less).crowd.agents(), scene.pairs, {distance});
+  std::size_t asked = 0;
+  for (std::size_t i = 0; i < distance.size(); ++i) {
+    if (!(less[i].depth > 0)) continue;
+    ++asked;
+    ASSERT_LE(distance[i], 0) << i;
+  }
+  EXPECT_GT(asked, distance.size() / 4);
+}
+
+/// Far apart, a line across a direction that is not quite the one that was measured lies elsewhere.
+TEST_F(SeparationTest, LinesAcrossTheToldDirectionPartAgentsThatAreFarApart) {
+  using Real = long double;
+  for (const double distance : {1e5, 1e6, 1e7, 1e8, 7e8}) {
+    PairScene scene = random_scene(random, set, 2'000);
+    for (std::size_t i = 0; i < scene.pairs.size(); ++i) {
+      const double angle = random.uniform(-4, 4);
+      scene.crowd.x[2 * i] += distance * std::cos(angle), scene.crowd.y[2 * i] += distance * std::sin(angle);
+    }
+    const Agents agents = scene.crowd.agents();
+    /// How far an agent's discs extend along a unit vector, from the origin of the world.
+    const auto support = [&](std::uint32_t agent, Real x, Real y) {
+      const Rotation turn = rotation(agents.heading[agent]);
+      const Real c = turn.cosine, s = turn.sine;
+      Real most = -HUGE_VALL;
+      for (const Disc& disc : cuts.of(agents, agent)) {
+        const Real at_x = disc.x, at_y = disc.y, radius = disc.radius;
+        most = std::max(most, (c * at_x - s * at_y) * x + (s * at_x + c * at_y) * y + radius);
+      }
+      return most + agents.x[agent] * x + agents.y[agent] * y;
+    };
+    const auto best = best_of(16, set, scene);
+    const auto given = along(random_directions(random, scene.pairs.size()), set, scene);
+    for (const auto* told : {&best, &given})
+      for (std::size_t i = 0; i < scene.pairs.size(); ++i) {
+        const Real x = (*told)[i].x, y = (*told)[i].y, length = std::sqrt(x * x + y * y);
+        ASSERT_NEAR(static_cast<double>(length), 1, 1e-9);
+        const auto [a, b] = scene.pairs[i];
+        const Real back =
+            -support(a, -x / length, -y / length) + static_cast<Real>((*told)[i].depth) * length;
+        ASSERT_GE(back, support(b, x / length, y / length)) << distance << " m, pair " << i;
+      }
+  }
+}
+
+TEST_F(SeparationTest, OfSingleDiscs) {
+  const ShapeSetPlan single{{0}, false};
+  const ShapeSet roots(shapes, single);
+  ASSERT_TRUE(roots.roots_only());
+  const CutLists lists(shapes, single);
+  const PairScene scene = random_scene(random, roots, 3'000);
+  const auto found = best_of(12, roots, scene);
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    const auto [depth, x, y] = baselines::separation(lists, scene.crowd.agents(), scene.pairs[i], 12);
+    ASSERT_EQ(found[i], (Separation{depth, x, y}));
+  }
+}
+
+TEST_F(SeparationTest, BatchesOfEverySizeAndAnyNumberOfThreads) {
+  const PairScene scene = random_scene(random, set, 3'000);
+  const std::vector<Vec2> directions = random_directions(random, scene.pairs.size());
+  const auto best = best_of(16, set, scene), given = along(directions, set, scene);
+  const tbb::global_control allow(tbb::global_control::max_allowed_parallelism, 8);
+  for (const int threads : {1, 2, 3, 8}) {
+    tbb::task_arena arena(threads);
+    arena.execute([&] {
+      for (const std::size_t size : {0u, 1u, 127u, 128u, 129u, 2'999u}) {
+        PairScene part = scene;
+        part.pairs.assign(scene.pairs.begin() + 1,
+                          scene.pairs.begin() + 1 + static_cast<std::ptrdiff_t>(size));
+        const auto some_best = best_of(16, set, part);
+        const auto some_given = along(std::span(directions).subspan(1, size), set, part);
+        EXPECT_TRUE(std::equal(some_best.begin(), some_best.end(), best.begin() + 1));
+        EXPECT_TRUE(std::equal(some_given.begin(), some_given.end(), given.begin() + 1));
+      }
+    });
+  }
+}
+
+/// Pairs of one agent after the other, in which its extents are kept.
+TEST_F(SeparationTest, PairsThatShareAnAgent) {
+  PairScene scene = random_scene(random, set, 60);
+  scene.pairs.clear();
+  for (std::uint32_t i = 0; i < 120; ++i)
+    for (std::uint32_t j = 0; j < 120; ++j) scene.pairs.push_back({i, j});
+  expect_reference(scene, 16, "all pairs");
+}
+
+}  // namespace
+}  // namespace bch

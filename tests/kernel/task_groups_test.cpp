@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include <gtest/gtest.h>
+#include <oneapi/tbb/enumerable_thread_specific.h>
+#include <oneapi/tbb/global_control.h>
+#include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/task_arena.h>
+#include <oneapi/tbb/task_group.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <cstdint>
+#include <stdexcept>
+#include <vector>
+
+#include "kernel/broad_phase/broad_phase.hpp"
+#include "kernel/collide/collide.hpp"
+#include "kernel/crowd/collide_all.hpp"
+#include "tests/support/scenes.hpp"
+
+// Queries inside of a caller's own tasks.
+
+namespace bch {
+namespace {
+
+/// An answer, kept.
+struct Rows {
+  std::vector<std::uint64_t> begin;
+  std::vector<std::uint32_t> neighbours;
+
+  explicit Rows(const CollidingNeighbours& found)
+      : begin(found.begin.begin(), found.begin.end()),
+        neighbours(found.neighbours.begin(), found.neighbours.end()) {}
+  bool operator==(const CollidingNeighbours& found) const {
+    return std::ranges::equal(begin, found.begin) && std::ranges::equal(neighbours, found.neighbours);
+  }
+};
+
+class TaskGroups : public testing::Test {
+ protected:
+  test::Crowd people(std::uint32_t count) {
+    test::Crowd crowd;
+    const double side = std::sqrt(4.0 * count);
+    for (std::uint32_t i = 0; i < count; ++i)
+      crowd.add(
+          {random.below(8), random.uniform(0, side), random.uniform(0, side), random.uniform(-3, 3), 0});
+    return crowd;
+  }
+
+  test::Random random{311};
+  std::vector<Shape> shapes = test::synthetic_shapes(312, 8);
+  ShapeSet set{shapes};
+};
+
+/// A group that is cancelled starts no more tasks, and what waits for them returns as if they had run.
+TEST_F(TaskGroups, ACancelledOneTakesNoAnswers) {
+  for (const std::uint32_t count : {10u, 1'500u, 3'000u, 20'000u}) {
+    const test::Crowd crowd = people(count);
+    const Agents agents = crowd.agents();
+    const std::vector<Pair> pairs = candidate_pairs(set, agents);
+    std::vector<std::uint8_t> expected(pairs.size());
+    collide(set, agents, pairs, expected);
+    test::Crowd bad = crowd;
+    bad.shape[pairs.back().second] = 4'000'000'000;
+
+    std::vector<Pair> found;
+    std::vector<std::uint8_t> hits(pairs.size(), 42);
+    bool rejected = false;
+    tbb::task_group_context outer;
+    tbb::parallel_for(
+        0, 1,
+        [&](int) {
+          outer.cancel_group_execution();
+          found = candidate_pairs(set, agents);
+          collide(set, agents, pairs, hits);
+          try {
+            std::vector<std::uint8_t> none(pairs.size());
+            collide(set, bad.agents(), pairs, none);
+          } catch (const std::invalid_argument&) {
+            rejected = true;
+          }
+        },
+        outer);
+    EXPECT_EQ(found, pairs) << count;
+    EXPECT_EQ(hits, expected) << count;
+    EXPECT_TRUE(rejected) << count;
+  }
+}
+
+/// The exception of a task beside a query arrives, instead of a crash in that.
+TEST_F(TaskGroups, ATaskBesideAQueryMayThrow) {
+  const test::Crowd crowd = people(2'000);
+  tbb::task_arena arena(2);
+  for (int round = 0; round < 50; ++round)
+    EXPECT_THROW(arena.execute([&] {
+      tbb::parallel_for(0, 8, [&](int i) {
+        if (i == 5) throw std::runtime_error("beside");
+        candidate_pairs(set, crowd.agents());
+      });
+    }),
+                 std::runtime_error);
+}
+
+/// An object for each thread, as TBB's users have it: a thread that waits within a call does not begin another with it.
+TEST_F(TaskGroups, AnObjectAThreadIsEnough) {
+  std::vector<test::Crowd> crowds;
+  std::vector<Rows> expected;
+  for (std::uint32_t k = 0; k < 4; ++k) {
+    crowds.push_back(people(2'500 + 500 * k));
+    CrowdCollider collider;
+    expected.emplace_back(collider.collide_all(set, crowds.back().agents()));
+  }
+  const tbb::global_control more_than_processors(tbb::global_control::max_allowed_parallelism, 4);
+  tbb::task_arena arena(4);
+  tbb::enumerable_thread_specific<CrowdCollider> colliders;
+  tbb::enumerable_thread_specific<int> inside;
+  std::atomic<int> nested = 0, wrong = 0;
+  arena.execute([&] {
+    tbb::parallel_for(std::size_t{0}, std::size_t{test::samples(1'200)}, [&](std::size_t i) {
+      const std::size_t k = i % crowds.size();
+      nested += inside.local()++ != 0;
+      wrong += !(expected[k] == colliders.local().collide_all(set, crowds[k].agents()));
+      --inside.local();
+    });
+  });
+  EXPECT_EQ(nested, 0);
+  EXPECT_EQ(wrong, 0);
+}
+
+}  // namespace
+}  // namespace bch

@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include <gtest/gtest.h>
+
+#include <optional>
+#include <span>
+#include <thread>
+#include <vector>
+
+#include "kernel/broad_phase/broad_phase.hpp"
+#include "kernel/collide/answer.hpp"
+#include "kernel/contact/contacts.hpp"
+#include "kernel/crowd/collide_all.hpp"
+#include "kernel/crowd/neighbour_rows.hpp"
+#include "kernel/distance/clearance.hpp"
+#include "kernel/distance/contact_time.hpp"
+#include "kernel/runtime/pair_validation.hpp"
+#include "kernel/separation/separation.hpp"
+#include "layout/shape_set/dynamic_shape_set.hpp"
+#include "tests/support/clearances.hpp"
+#include "tests/support/scenes.hpp"
+
+// For ThreadSanitizer: the functions that tasks run, and whole calls, which then run on tests/plain_threads.
+
+namespace bch {
+namespace {
+
+class Threads : public testing::Test {
+ protected:
+  std::vector<Shape> shapes = test::synthetic_shapes(41, 16);
+  ShapeSet set{shapes, {{0, 3, all_depths}, true}};
+  test::Random random{42};
+  test::PairScene scene = random_scene(random, set, 4'999);
+  Agents agents = scene.crowd.agents();
+
+  std::vector<std::uint8_t> answers(const kernel::Implementation& implementation, unsigned threads) {
+    std::vector<std::uint8_t> hits(scene.pairs.size());
+    kernel::Arguments arguments = kernel::arguments_for(set.view(), agents, scene.pairs);
+    arguments.codes = hits.data();
+    arguments.mark_near_misses = true;
+    std::vector<std::thread> running;
+    for (unsigned t = 0; t < threads; ++t)
+      running.emplace_back([&, t] {
+        const std::size_t n = hits.size();
+        kernel::answer(implementation, arguments, agents, n * t / threads, n * (t + 1) / threads);
+      });
+    for (std::thread& thread : running) thread.join();
+    return hits;
+  }
+};
+
+TEST_F(Threads, RangesOfOneBatchDoNotMeet) {
+  for (const auto& implementation : kernel::implementations()) {
+    if (!implementation.supported()) continue;
+    const auto alone = answers(implementation, 1);
+    for (const unsigned threads : {2u, 3u, 8u})
+      EXPECT_EQ(answers(implementation, threads), alone) << implementation.name;
+  }
+}
+
+TEST_F(Threads, ASetIsReadWhileAnotherIsBuilt) {
+  const auto expected = answers(kernel::implementation("sse2"), 1);
+  std::vector<std::uint8_t> first, second;
+  std::thread reader([&] { first = answers(kernel::implementation("sse2"), 2); });
+  std::thread other_reader([&] { second = answers(kernel::best_implementation(), 2); });
+  std::size_t bytes = 0;
+  std::thread builder([&] { bytes = ShapeSet(shapes, {{0, all_depths}, true}).bytes(); });
+  reader.join();
+  other_reader.join();
+  builder.join();
+  EXPECT_EQ(first, expected);
+  EXPECT_EQ(second, expected);
+  EXPECT_GT(bytes, 0u);
+}
+
+/// All that can be asked of a scene, in calls that share nothing but the shapes and the agents.
+struct Everything {
+  std::vector<std::uint8_t> boundary, solid;
+  test::Answers clearances;
+  std::vector<float> times;
+  std::vector<Separation> best, along;
+  ContactTable contacts;
+  std::vector<Pair> candidates;
+  std::vector<std::uint64_t> begin;
+  std::vector<std::uint32_t> neighbours;
+
+  Everything(const ShapeSet& set, const test::PairScene& scene)
+      : boundary(scene.pairs.size()),
+        solid(boundary),
+        times(boundary.size()),
+        best(boundary.size()),
+        along(best) {
+    const Agents agents = scene.crowd.agents();
+    const std::span<const Pair> pairs = scene.pairs;
+    const std::vector<double> way(pairs.size(), 0.5);
+    const std::vector<Vec2> directions(pairs.size(), Vec2{0.6f, 0.8f});
+    collide(set, agents, pairs, boundary);
+    collide(set, agents, pairs, solid, {Semantics::solid});
+    clearances = test::answers(set, agents, pairs, 0.5);
+    contact_time(set, agents, pairs, {way, way}, times);
+    separation(set, agents, pairs, 8, best);
+    separation_along(set, agents, pairs, directions, along);
+    bch::contacts(set, agents, pairs, contacts);
+    candidates = candidate_pairs(set, agents);
+    CrowdCollider collider;
+    const CollidingNeighbours all = collider.collide_all(set, agents);
+    begin.assign(all.begin.begin(), all.begin.end());
+    neighbours.assign(all.neighbours.begin(), all.neighbours.end());
+  }
+
+  void expect_same(const Everything& other) const {
+    EXPECT_EQ(boundary, other.boundary);
+    EXPECT_EQ(solid, other.solid);
+    for (std::size_t i = 0; i < boundary.size(); ++i)
+      EXPECT_TRUE(clearances.same(i, other.clearances, i)) << i;
+    EXPECT_EQ(times, other.times);
+    EXPECT_EQ(best, other.best);
+    EXPECT_EQ(along, other.along);
+    EXPECT_EQ(contacts.begin, other.contacts.begin);
+    EXPECT_EQ(contacts.contacts, other.contacts.contacts);
+    EXPECT_EQ(candidates, other.candidates);
+    EXPECT_EQ(begin, other.begin);
+    EXPECT_EQ(neighbours, other.neighbours);
+  }
+};
+
+TEST_F(Threads, EveryQueryRunsWhileOthersRunAndASetIsBuilt) {
+  const Everything alone(set, scene);
+  EXPECT_GT(alone.neighbours.size(), scene.pairs.size() / 2);
+  std::optional<Everything> first, second;
+  std::thread reader([&] { first.emplace(set, scene); });
+  std::thread other_reader([&] { second.emplace(set, scene); });
+  std::thread builder([&] { EXPECT_GT(ShapeSet(shapes, {{0, 3, all_depths}, true}).bytes(), 0u); });
+  reader.join();
+  other_reader.join();
+  builder.join();
+  alone.expect_same(*first);
+  alone.expect_same(*second);
+}
+
+TEST_F(Threads, DifferentShapesAreReplacedAtTheSameTime) {
+  DynamicShapeSet dynamic(set);
+  std::vector<std::thread> running;
+  for (std::uint32_t t = 0; t < 4; ++t)
+    running.emplace_back([&, t] {
+      ShapeFlattener flattener(set.plan());
+      FlatShape flat;
+      for (std::uint32_t shape = t; shape < set.shape_count(); shape += 4) {
+        flattener.flatten(shapes[shape], shape, flat);
+        EXPECT_TRUE(dynamic.try_replace(shape, flat));
+      }
+    });
+  for (std::thread& thread : running) thread.join();
+  const auto expected = answers(kernel::best_implementation(), 1);
+  set = ShapeSet(dynamic.set().arrays(), nullptr);
+  EXPECT_EQ(answers(kernel::best_implementation(), 1), expected);
+}
+
+TEST_F(Threads, RowsOfNeighboursAreFilledAtTheSameTime) {
+  std::vector<Pair> pairs;
+  for (std::uint32_t i = 0; i < 200; ++i)
+    for (std::uint32_t j = i + 1; j < 200; ++j) pairs.push_back({i, j});
+  const std::vector<std::uint8_t> hits(pairs.size(), 1);
+  std::vector<std::uint64_t> begin(201);
+  std::vector<std::uint32_t> neighbours(200 * 199);
+  const kernel::NeighbourRows rows{pairs, hits, begin, neighbours};
+  const auto in_parts = [](std::size_t count, auto work) {
+    std::vector<std::thread> running;
+    for (std::size_t t = 0; t < 4; ++t)
+      running.emplace_back([=] { work(count * t / 4, count * (t + 1) / 4); });
+    for (std::thread& thread : running) thread.join();
+  };
+  in_parts(pairs.size(), [&](std::size_t first, std::size_t last) { rows.count(first, last); });
+  EXPECT_EQ(rows.place(), neighbours.size());
+  in_parts(pairs.size(), [&](std::size_t first, std::size_t last) { rows.fill(first, last); });
+  in_parts(200, [&](std::size_t first, std::size_t last) { rows.sort(first, last); });
+  for (std::uint32_t i = 0; i < 200; ++i)
+    for (std::uint32_t k = 0; k < 199; ++k) ASSERT_EQ(neighbours[begin[i] + k], k + (k >= i)) << i;
+}
+
+}  // namespace
+}  // namespace bch

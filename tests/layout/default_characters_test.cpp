@@ -1,0 +1,272 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include "layout/default_character/default_characters.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numeric>
+#include <random>
+#include <set>
+
+#include "layout/character/skinning.hpp"
+
+namespace bch {
+namespace {
+
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+using Eigen::Vector3f;
+
+/// What the header promises about a character.
+struct Expectation {
+  Character (*make)();
+  double stature;
+  double mean_radius;
+  double least_volume, most_volume;  // at rest, cubic metres
+};
+
+class DefaultCharacter : public testing::TestWithParam<Expectation> {
+ protected:
+  Character character = GetParam().make();
+};
+
+std::string name_of(const testing::TestParamInfo<Expectation>& test) {
+  return std::vector<std::string>{"male", "female", "bulky_male"}.at(test.index);
+}
+
+// A person of 60 to 95 kg is about as dense as water. The bulky man has the volume that the paper's table 1 implies.
+INSTANTIATE_TEST_SUITE_P(All, DefaultCharacter,
+                         testing::Values(Expectation{default_male, 1.88, 0.42, 0.050, 0.100},
+                                         Expectation{default_female, 1.74, 0.34, 0.050, 0.100},
+                                         Expectation{default_bulky_male, 1.88, 0.42, 0.135, 0.139}),
+                         name_of);
+
+struct Disc {
+  double x = 0, y = 0, radius = -1;
+
+  bool holds(const Vector3f& p) const {
+    return std::hypot(static_cast<double>(p.x()) - x, static_cast<double>(p.y()) - y) <= radius + 1e-9;
+  }
+};
+
+Disc disc_through(const Vector3f& a, const Vector3f& b) {
+  const Vector2d p = a.head<2>().cast<double>();
+  const Vector2d q = b.head<2>().cast<double>();
+  return {(p.x() + q.x()) / 2, (p.y() + q.y()) / 2, (p - q).norm() / 2};
+}
+
+Disc disc_through(const Vector3f& a, const Vector3f& b, const Vector3f& c) {
+  const Vector2d p = a.head<2>().cast<double>();
+  const Vector2d u = b.head<2>().cast<double>() - p;
+  const Vector2d v = c.head<2>().cast<double>() - p;
+  const double twice = 2 * (u.x() * v.y() - u.y() * v.x());
+  const Vector2d centre((v.y() * u.squaredNorm() - u.y() * v.squaredNorm()) / twice,
+                        (u.x() * v.squaredNorm() - v.x() * u.squaredNorm()) / twice);
+  return {p.x() + centre.x(), p.y() + centre.y(), centre.norm()};
+}
+
+/// Radius of the smallest disc that holds the points seen from above: a point outside the disc of those
+/// before it is on the border of the next. E. Welzl, "Smallest enclosing disks (balls and ellipsoids)", 1991.
+double enclosing_radius(std::span<const Vector3f> points) {
+  std::vector<Vector3f> p(points.begin(), points.end());
+  std::mt19937 random(7);
+  for (std::size_t i = p.size() - 1; i > 0; --i) std::swap(p[i], p[random() % (i + 1)]);
+  Disc disc;
+  for (std::size_t i = 0; i < p.size(); ++i) {
+    if (disc.holds(p[i])) continue;
+    disc = disc_through(p[i], p[i]);
+    for (std::size_t j = 0; j < i; ++j) {
+      if (disc.holds(p[j])) continue;
+      disc = disc_through(p[i], p[j]);
+      for (std::size_t k = 0; k < j; ++k)
+        if (!disc.holds(p[k])) disc = disc_through(p[i], p[j], p[k]);
+    }
+  }
+  return disc.radius;
+}
+
+double signed_volume(const Character& c) {
+  double volume = 0;
+  for (const auto& t : c.triangles)
+    volume += c.vertices[t[0]].cast<double>().dot(
+                  c.vertices[t[1]].cast<double>().cross(c.vertices[t[2]].cast<double>())) /
+              6;
+  return volume;
+}
+
+std::set<std::pair<std::uint32_t, std::uint32_t>> edges(const Character& c) {
+  std::set<std::pair<std::uint32_t, std::uint32_t>> found;
+  for (const auto& t : c.triangles)
+    for (std::size_t i = 0; i < 3; ++i) {
+      const auto ends = std::minmax(t[i], t[(i + 1) % 3]);
+      found.insert({ends.first, ends.second});
+    }
+  return found;
+}
+
+bool same(const Character& a, const Character& b) {
+  if (a.vertices != b.vertices || a.triangles != b.triangles || a.clips.size() != b.clips.size())
+    return false;
+  for (std::size_t k = 0; k < a.clips.size(); ++k)
+    for (std::size_t j = 0; j < a.clips[k].channels.size(); ++j) {
+      const Channel& x = a.clips[k].channels[j];
+      const Channel& y = b.clips[k].channels[j];
+      if (x.rotations.size() != y.rotations.size() || x.positions.size() != y.positions.size()) return false;
+      for (std::size_t i = 0; i < x.rotations.size(); ++i)
+        if (x.rotations[i].value.coeffs() != y.rotations[i].value.coeffs()) return false;
+      for (std::size_t i = 0; i < x.positions.size(); ++i)
+        if (x.positions[i].value != y.positions[i].value) return false;
+    }
+  return true;
+}
+
+TEST_P(DefaultCharacter, IsValidAndTheSameEachTime) {
+  EXPECT_NO_THROW(validate(character));
+  EXPECT_TRUE(same(character, GetParam().make()));
+  EXPECT_EQ(character.joints[static_cast<std::size_t>(character.root_joint)].name, "pelvis");
+}
+
+TEST_P(DefaultCharacter, HasTheSizeOfThePaper) {
+  EXPECT_GE(character.triangles.size(), 2800u);
+  EXPECT_LE(character.triangles.size(), 2900u);
+  Skinner skinner(character);
+  Eigen::AlignedBox3f box;
+  for (const Vector3f& p : skinner.pose({})) box.extend(p);
+  EXPECT_NEAR(box.max().z(), GetParam().stature, 0.01);
+  EXPECT_NEAR(box.min().z(), 0, 0.002);
+}
+
+TEST_P(DefaultCharacter, SkinIsOneClosedSphere) {
+  std::set<std::pair<std::uint32_t, std::uint32_t>> directed;
+  for (const auto& t : character.triangles)
+    for (std::size_t i = 0; i < 3; ++i) EXPECT_TRUE(directed.insert({t[i], t[(i + 1) % 3]}).second);
+  for (const auto& [a, b] : directed) EXPECT_TRUE(directed.contains({b, a}));
+
+  const auto undirected = edges(character);
+  std::vector<std::uint32_t> component(character.vertices.size());
+  std::iota(component.begin(), component.end(), 0u);
+  const auto root = [&](std::uint32_t v) {
+    while (component[v] != v) v = component[v];
+    return v;
+  };
+  for (const auto& [a, b] : undirected) component[root(a)] = root(b);
+  std::set<std::uint32_t> roots;
+  for (std::uint32_t v = 0; v < component.size(); ++v) roots.insert(root(v));
+  EXPECT_EQ(roots.size(), 1u);
+  EXPECT_EQ(character.vertices.size() + character.triangles.size(), undirected.size() + 2);
+}
+
+TEST_P(DefaultCharacter, SkinHasTheVolumeOfAPersonAndNoFlatTriangle) {
+  EXPECT_GT(signed_volume(character), GetParam().least_volume);
+  EXPECT_LT(signed_volume(character), GetParam().most_volume);
+  for (const auto& t : character.triangles) {
+    const Vector3d a = character.vertices[t[0]].cast<double>();
+    const Vector3d b = character.vertices[t[1]].cast<double>();
+    const Vector3d c = character.vertices[t[2]].cast<double>();
+    const double longest = std::max({(b - a).norm(), (c - b).norm(), (a - c).norm()});
+    EXPECT_GT((b - a).cross(c - a).norm() / longest, 3e-4) << a.transpose();
+  }
+}
+
+TEST_P(DefaultCharacter, RestIsSymmetric) {
+  for (const Vector3f& p : character.vertices) {
+    const Vector3f mirrored(p.x(), -p.y(), p.z());
+    const bool found = std::any_of(character.vertices.begin(), character.vertices.end(),
+                                   [&](const Vector3f& q) { return (q - mirrored).norm() < 1e-5f; });
+    EXPECT_TRUE(found) << p.transpose();
+  }
+}
+
+TEST_P(DefaultCharacter, VerticesFollowFewBones) {
+  std::size_t blended = 0;
+  for (std::size_t v = 0; v < character.vertices.size(); ++v) {
+    const auto count = character.influence_begin[v + 1] - character.influence_begin[v];
+    EXPECT_LE(count, 5u);
+    blended += count > 1 ? 1 : 0;
+  }
+  EXPECT_GT(blended, character.vertices.size() / 3);
+}
+
+TEST_P(DefaultCharacter, ClipsLastAsLongAsThePapersAndAreOfItsKinds) {
+  float seconds = 0;
+  std::map<std::string, int> kinds;
+  for (const Clip& clip : character.clips) {
+    seconds += clip.seconds;
+    ++kinds[clip.name.substr(0, clip.name.find(' '))];
+  }
+  EXPECT_EQ(seconds, 212.0f);
+  for (const char* kind : {"walk", "turn", "side-step", "idle"}) EXPECT_GE(kinds[kind], 2) << kind;
+}
+
+TEST_P(DefaultCharacter, IsAsWideAsThePapers) {
+  Skinner skinner(character);
+  const auto check = [&](const std::vector<PoseTime>& poses) {
+    double sum = 0;
+    double squares = 0;
+    for (const PoseTime& at : poses) {
+      const double radius = enclosing_radius(skinner.pose(at));
+      sum += radius;
+      squares += radius * radius;
+    }
+    const auto count = static_cast<double>(poses.size());
+    EXPECT_NEAR(sum / count, GetParam().mean_radius, 0.02);
+    const double deviation = std::sqrt(squares / count - sum * sum / (count * count));
+    EXPECT_GT(deviation, 0.03);
+    EXPECT_LT(deviation, 0.07);
+  };
+  check(sample_poses(character, 100));
+
+  // A random time is a random one of very many even samples: no distribution of the library's is involved.
+  const std::vector<PoseTime> dense = sample_poses(character, 21200);
+  std::mt19937 random(20140501);
+  std::vector<PoseTime> poses;
+  for (int i = 0; i < 100; ++i) poses.push_back(dense[random() % dense.size()]);
+  check(poses);
+}
+
+TEST_P(DefaultCharacter, FeetStayOnTheGround) {
+  Skinner skinner(character);
+  for (const PoseTime& at : sample_poses(character, 1000)) {
+    float lowest = 1;
+    for (const Vector3f& p : skinner.pose(at)) lowest = std::min(lowest, p.z());
+    EXPECT_NEAR(lowest, 0, 0.015) << character.clips[at.clip].name << " at " << at.seconds;
+  }
+}
+
+TEST_P(DefaultCharacter, SkinDoesNotTear) {
+  Skinner skinner(character);
+  const auto all = edges(character);
+  for (const PoseTime& at : sample_poses(character, 200)) {
+    const auto pose = skinner.pose(at);
+    for (const auto& [a, b] : all) {
+      const float rest = (character.vertices[a] - character.vertices[b]).norm();
+      ASSERT_LT((pose[a] - pose[b]).norm(), 2.5f * rest + 0.03f)
+          << character.clips[at.clip].name << " at " << at.seconds << ", near "
+          << character.vertices[a].transpose();
+    }
+  }
+}
+
+TEST_P(DefaultCharacter, MovesWithoutJumps) {
+  Skinner skinner(character);
+  for (std::uint32_t clip = 0; clip < character.clips.size(); ++clip) {
+    const float step = 1.0f / 16;
+    std::vector<Vector3f> before;
+    for (float time = 0.5f * step; time <= character.clips[clip].seconds; time += step) {
+      const auto pose = skinner.pose({clip, time});
+      float farthest = 0;
+      for (std::size_t v = 0; v < before.size(); ++v)
+        farthest = std::max(farthest, (pose[v] - before[v]).norm());
+      // 6.5 m/s is a foot in fast walking, or a hand in a broad gesture.
+      ASSERT_LT(farthest / step, 6.5f) << character.clips[clip].name << " at " << time;
+      before.assign(pose.begin(), pose.end());
+    }
+  }
+}
+
+}  // namespace
+}  // namespace bch

@@ -1,0 +1,237 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include "layout/hierarchy/builder.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include "layout/base/rounding.hpp"
+#include "layout/shape_set/wide_tree.hpp"
+#include "tests/support/allocation_count.hpp"
+#include "tests/support/character_shapes.hpp"
+#include "tests/support/complaint.hpp"
+#include "tests/support/hierarchy_checks.hpp"
+#include "tests/support/reference_hierarchy.hpp"
+#include "tests/support/scenes.hpp"
+#include "tests/support/test_characters.hpp"
+
+namespace bch {
+namespace {
+
+void expect_as_reference(const Outline& outline, float threshold) {
+  HierarchyBuilder builder;
+  Hierarchy hierarchy;
+  for (const SplitRule rule : {SplitRule::centroid, SplitRule::centre}) {
+    builder.contour(outline, threshold, rule, hierarchy);
+    builder.add_elements(hierarchy);
+    test::expect_same_tree(hierarchy, test::reference_hierarchy(outline, threshold, rule));
+    test::expect_sound(hierarchy);
+  }
+}
+
+void expect_poses_as_reference(const std::vector<Character>& characters, std::uint32_t poses) {
+  for (const Character& character : characters)
+    for (const Shape& shape : test::pose_shapes(character, poses)) expect_as_reference(shape.outline, 0.01f);
+}
+
+TEST(HierarchyBuilder, EqualsTheReferenceOnManyShapes) {
+  for (const Shape& shape : test::synthetic_shapes(31, 120))
+    for (const float threshold : {0.003f, 0.01f, 0.2f}) expect_as_reference(shape.outline, threshold);
+}
+
+TEST(HierarchyBuilder, EqualsTheReferenceOnDefaultPoses) {
+  expect_poses_as_reference(test::default_characters(), 100);
+}
+
+TEST(HierarchyBuilder, EqualsTheReferenceOnRealPoses) {
+  const auto data = test::test_data();
+  if (!data) GTEST_SKIP() << "BCH_TEST_DATA is not set: no real characters to test with";
+  expect_poses_as_reference(test::real_characters(*data), 30);
+}
+
+/// Points of a kind: on a line, on a circle, few distinct ones, anywhere; a power of two keeps them exact.
+Outline outline_of(test::Random& random, int kind, double scale) {
+  Outline outline;
+  const std::uint32_t count = 1 + random.below(60);
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const double x = random.uniform(-1, 1), angle = random.uniform(-4, 4);
+    const double y = kind == 0 ? 0.5 * x : random.uniform(-1, 1);
+    Vec2 p{static_cast<float>(x * scale), static_cast<float>(y * scale)};
+    if (kind == 1)
+      p = {static_cast<float>(std::cos(angle) * scale), static_cast<float>(std::sin(angle) * scale)};
+    if (kind == 2) p = {static_cast<float>(std::round(x) * scale), static_cast<float>(std::round(y) * scale)};
+    outline.points.push_back(p);
+  }
+  outline.points.push_back({static_cast<float>(0.75 * scale), 0});
+  outline.contour_begin.push_back(count + 1);
+  return test::counter_clockwise(std::move(outline));
+}
+
+TEST(HierarchyBuilder, EqualsTheReferenceOnDegenerateOutlines) {
+  test::Random random(32);
+  for (const double scale : {0x1p-19, 1.0, 0x1p19})
+    for (int kind = 0; kind < 4; ++kind)
+      for (int i = 0; i < 40; ++i)
+        expect_as_reference(outline_of(random, kind, scale),
+                            static_cast<float>(scale * random.uniform(0.01, 0.5)));
+}
+
+/// Segments about as long as decides how often they are halved, away from the origin, where midpoints are rounded.
+TEST(HierarchyBuilder, EqualsTheReferenceWhereRoundingDecidesOnHalves) {
+  test::Random random(38);
+  const auto near = [&](double value) {
+    return static_cast<float>(value + random.uniform(-4, 4) * rounding::unit_roundoff);
+  };
+  for (int i = 0; i < 4000; ++i) {
+    const double threshold = i % 2 == 0 ? 0.01 : 1e-7, angle = random.uniform(-4, 4);
+    const double length = 2 * static_cast<double>(static_cast<float>(threshold)) * (1u << random.below(5));
+    const double x = random.uniform(-0.7, 0.7), y = random.uniform(-0.7, 0.7);
+    Outline outline;
+    outline.points = {{near(x), near(y)},
+                      {near(x + length * std::cos(angle)), near(y + length * std::sin(angle))},
+                      {near(x + 0.3), near(y + 0.1)}};
+    if (i % 2 != 0) outline.points.pop_back();
+    outline.contour_begin.push_back(static_cast<std::uint32_t>(outline.points.size()));
+    expect_as_reference(test::counter_clockwise(outline), static_cast<float>(threshold));
+  }
+}
+
+/// Every disc of every cut, bit for bit.
+TEST(HierarchyBuilder, EndsAtTheDeepestDepth) {
+  HierarchyBuilder builder;
+  Hierarchy whole, limited;
+  const auto discs = [](const Hierarchy& hierarchy, std::uint32_t depth) {
+    std::vector<Disc> all;
+    for (const std::uint32_t node : cut(hierarchy, depth)) all.push_back(hierarchy.nodes[node].disc);
+    return all;
+  };
+  for (const Shape& shape : test::synthetic_shapes(36, 60))
+    for (const float threshold : {0.0005f, 0.01f}) {
+      builder.contour(shape.outline, threshold, SplitRule::centroid, whole);
+      for (std::uint32_t deepest = 0; deepest < height(whole) + 2; ++deepest) {
+        builder.contour(shape.outline, threshold, SplitRule::centroid, limited, deepest);
+        EXPECT_TRUE(limited.elements.empty());
+        builder.add_elements(limited);
+        test::expect_sound(limited);
+        EXPECT_EQ(height(limited), std::min(deepest, height(whole)));
+        EXPECT_EQ(limited.reach, whole.reach);
+        for (std::uint32_t depth = 0; depth <= deepest; ++depth)
+          ASSERT_EQ(discs(limited, depth), discs(whole, depth)) << depth << " of " << deepest;
+      }
+    }
+}
+
+TEST(HierarchyBuilder, LeavesNothingHalfDone) {
+  HierarchyBuilder builder;
+  Hierarchy hierarchy;
+  const Outline outline = test::synthetic_shapes(33, 1)[0].outline;
+  builder.contour(outline, 0.01f, SplitRule::centroid, hierarchy);
+  builder.add_elements(hierarchy);
+  EXPECT_THROW(builder.contour(outline, 1e-8f, SplitRule::centroid, hierarchy), std::length_error);
+  EXPECT_TRUE(hierarchy.nodes.empty());
+  EXPECT_TRUE(hierarchy.elements.empty());
+  builder.contour(outline, 0.01f, SplitRule::centroid, hierarchy);
+  builder.add_elements(hierarchy);
+  test::expect_same_tree(hierarchy, test::reference_hierarchy(outline, 0.01f, SplitRule::centroid));
+  EXPECT_THROW(
+      builder.contour(outline, std::numeric_limits<float>::quiet_NaN(), SplitRule::centroid, hierarchy),
+      std::invalid_argument);
+  EXPECT_TRUE(hierarchy.nodes.empty());
+}
+
+/// Hierarchies and their levels; twice, and a second time without allocating.
+TEST(HierarchyBuilder, ReusesItsMemory) {
+  const std::vector<Shape> shapes = test::synthetic_shapes(34, 64);
+  HierarchyBuilder builder;
+  Flattener flattener;
+  Hierarchy hierarchy;
+  WideTree tree;
+  std::size_t before = 0;
+  for (int round = 0; round < 2; ++round) {
+    before = test::allocation_count();
+    for (const Shape& shape : shapes) {
+      builder.contour(shape.outline, 0.01f, SplitRule::centroid, hierarchy);
+      flattener.begin(hierarchy);
+      for (const std::uint32_t depth : {0u, 3u, 6u, all_depths}) {
+        flattener.flatten(depth, tree);
+        EXPECT_GE(flattener.supports()[0], -1e6f);
+      }
+    }
+  }
+  EXPECT_GT(before, 0u);
+  EXPECT_EQ(test::allocation_count(), before);
+}
+
+TEST(Flattener, EqualsAFreshOne) {
+  Flattener flattener;
+  WideTree tree;
+  for (const Shape& shape : test::synthetic_shapes(35, 32)) {
+    flattener.begin(shape.hierarchy);
+    for (const std::uint32_t depth : {all_depths, 0u, 6u, 3u}) {
+      flattener.flatten(depth, tree);
+      const WideTree fresh = wide_tree(shape.hierarchy, depth);
+      EXPECT_EQ(tree.root, fresh.root);
+      EXPECT_EQ(tree.is_single(), fresh.is_single());
+      ASSERT_EQ(tree.blocks.size(), fresh.blocks.size());
+      for (std::size_t i = 0; i < tree.blocks.size(); ++i)
+        EXPECT_EQ(std::memcmp(&tree.blocks[i], &fresh.blocks[i], sizeof(WideTree::Block)), 0);
+      EXPECT_EQ(tree.x, fresh.x);
+      EXPECT_EQ(tree.y, fresh.y);
+      EXPECT_EQ(tree.radius, fresh.radius);
+      EXPECT_EQ(tree.outer, fresh.outer);
+      ASSERT_EQ(tree.inner.size(), fresh.inner.size());
+      EXPECT_EQ(std::memcmp(tree.inner.data(), fresh.inner.data(), tree.inner.size() * sizeof(InnerNode)), 0);
+    }
+  }
+}
+
+/// A number just beyond a limit must not read as the limit.
+TEST(HierarchyBuilder, NumbersInMessagesAreWhatTheyAre) {
+  const auto reason = [](float size, float threshold) {
+    const Outline outline{{{0, 0}, {size, 0}, {0, size}}, {0, 3}, 0x1p-40f};
+    return test::complaint([&] { contour_hierarchy(outline, threshold); });
+  };
+  EXPECT_EQ(reason(1, 0.01f), "accepted");
+  EXPECT_EQ(reason(1, -1e-9f), "hierarchy: threshold -1e-09 m is not positive and finite");
+  EXPECT_EQ(reason(0x1p-21f, 0.01f).rfind("outline: reach 4.768371", 0), 0u) << reason(0x1p-21f, 0.01f);
+}
+
+/// Against the definition in double: rounding takes at most 8 of the margin's 320 units.
+TEST(Flattener, SupportsAreThoseOfTheCut) {
+  Flattener flattener;
+  WideTree tree;
+  for (const Shape& shape : test::synthetic_shapes(36, 32)) {
+    flattener.begin(shape.hierarchy);
+    for (const std::uint32_t depth : {0u, 3u, 6u, all_depths}) {
+      flattener.flatten(depth, tree);
+      const Supports heights = flattener.supports();
+      for (std::uint32_t k = 0; k < support_stride; ++k) {
+        // All even directions twice over, then all odd ones.
+        const std::uint32_t direction = 2 * (k % (support_directions / 2)) + k / support_directions;
+        const double angle = 2 * std::acos(-1.0) * direction / support_directions;
+        double largest = -HUGE_VAL;
+        for (const std::uint32_t node : cut(shape.hierarchy, depth)) {
+          const Disc& disc = shape.hierarchy.nodes[node].disc;
+          largest = std::max(largest, std::cos(angle) * static_cast<double>(disc.x) +
+                                          std::sin(angle) * static_cast<double>(disc.y) +
+                                          static_cast<double>(disc.radius));
+        }
+        const double unit = rounding::unit_roundoff * shape.hierarchy.reach;
+        EXPECT_NEAR(static_cast<double>(heights[k]),
+                    largest + rounding::support_margin * shape.hierarchy.reach, 10 * unit)
+            << "direction " << k;
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace bch

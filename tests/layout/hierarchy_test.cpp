@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include "layout/hierarchy/hierarchy.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <limits>
+#include <string>
+
+#include "layout/base/rounding.hpp"
+#include "layout/enclosing_disc/enclosing_disc.hpp"
+#include "layout/hierarchy/builder.hpp"
+#include "tests/support/hierarchy_checks.hpp"
+#include "tests/support/scenes.hpp"
+
+namespace bch {
+namespace {
+
+using test::polygon;
+
+TEST(ContourHierarchy, KeepsItsPromisesOnManyShapes) {
+  for (const Shape& shape : test::synthetic_shapes(11, 80))
+    for (const SplitRule rule : {SplitRule::centroid, SplitRule::centre}) {
+      const Hierarchy hierarchy = contour_hierarchy(shape.outline, 0.02f, rule);
+      test::expect_sound(hierarchy);
+      test::expect_covers_outline(hierarchy, shape.outline);
+      test::expect_leaves_below(hierarchy, 0.02f);
+    }
+}
+
+TEST(ContourHierarchy, RootIsTheSmallestEnclosingDiscOfTheOutline) {
+  for (const Shape& shape : test::synthetic_shapes(12, 40)) {
+    const double tight = smallest_enclosing_disc(shape.outline.points).radius;
+    const double stored = shape.hierarchy.nodes[0].disc.radius;
+    EXPECT_GE(stored, tight);
+    const double margins = rounding::query_margin * shape.hierarchy.reach +
+                           rounding::outline_grid_steps * static_cast<double>(shape.outline.grid_step);
+    EXPECT_LE(stored - tight, margins + 0x1p-22 * stored);
+  }
+}
+
+/// A T of three segments: long bar, short stem of two. The centroid by length and the middle of the extent
+/// part them differently.
+TEST(ContourHierarchy, SplitRulesDivideWhereTheySay) {
+  const Outline outline =
+      polygon({{0, 0}, {4, 0}, {4, 0.25f}, {3.75f, 0.25f}, {3.5f, 0.25f}, {3.25f, 0.25f}});
+  // Midpoints: 2, 4, 3.875, 3.625, 3.375, 1.625; lengths 4, .25, .25, .25, .25, 3.26. Centroid 2.04, middle
+  // of the extent 2.
+  const Hierarchy centroid = contour_hierarchy(outline, 0.1f, SplitRule::centroid);
+  const Hierarchy centre = contour_hierarchy(outline, 0.1f, SplitRule::centre);
+  const auto left_sources = [](const Hierarchy& h) {
+    std::vector<std::uint32_t> sources(h.source.begin() + h.held[1].begin, h.source.begin() + h.held[1].end);
+    std::sort(sources.begin(), sources.end());
+    sources.erase(std::unique(sources.begin(), sources.end()), sources.end());
+    return sources;
+  };
+  EXPECT_EQ(left_sources(centroid), (std::vector<std::uint32_t>{0, 5}));
+  EXPECT_EQ(left_sources(centre), (std::vector<std::uint32_t>{5}));
+}
+
+TEST(ContourHierarchy, HalvesALoneSegment) {
+  const Hierarchy hierarchy = contour_hierarchy(polygon({{0, 0}, {1, 0}}), 0.2f);
+  // Two segments (there and back), each 1 m, halved until at most 0.4 m: four pieces each.
+  EXPECT_EQ(cut(hierarchy, all_depths).size(), 8u);
+  test::expect_covers_outline(hierarchy, polygon({{0, 0}, {1, 0}}));
+}
+
+TEST(ContourHierarchy, TheLargestThresholdLeavesOneDisc) {
+  const Hierarchy hierarchy =
+      contour_hierarchy(polygon({{0, 0}, {1, 0}, {0, 1}}), std::numeric_limits<float>::max());
+  EXPECT_EQ(hierarchy.nodes.size(), 1u);
+  test::expect_sound(hierarchy);
+}
+
+TEST(ContourHierarchy, DividesSegmentsWithOneMidpoint) {
+  const Outline star = polygon({{-1, -1}, {1, 1}, {-1, 1}, {1, -1}});
+  const Hierarchy hierarchy = contour_hierarchy(star, 0.01f);
+  test::expect_sound(hierarchy);
+  test::expect_covers_outline(hierarchy, star);
+}
+
+TEST(ContourHierarchy, CutsGrowDownToTheLeaves) {
+  const Shape shape = test::synthetic_shapes(13, 8).back();
+  const std::uint32_t deepest = height(shape.hierarchy);
+  EXPECT_EQ(cut(shape.hierarchy, 0), std::vector<std::uint32_t>{0});
+  EXPECT_EQ(cut(shape.hierarchy, 1).size(), 2u);
+  std::size_t before = 1;
+  for (std::uint32_t depth = 1; depth <= deepest; ++depth) {
+    const std::size_t size = cut(shape.hierarchy, depth).size();
+    EXPECT_GT(size, before);
+    before = size;
+  }
+  EXPECT_EQ(cut(shape.hierarchy, deepest), cut(shape.hierarchy, all_depths));
+}
+
+TEST(ContourHierarchy, RejectsBadInput) {
+  const Outline good = polygon({{0, 0}, {1, 0}, {0, 1}});
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  for (const float threshold : {0.0f, -1.0f, nan, std::numeric_limits<float>::infinity()})
+    EXPECT_THROW(contour_hierarchy(good, threshold), std::invalid_argument);
+  EXPECT_THROW(contour_hierarchy(good, 1e-8f), std::length_error);
+  EXPECT_THROW(contour_hierarchy(Outline{}, 0.01f), std::invalid_argument);
+  EXPECT_THROW(contour_hierarchy(polygon({{0, 0}, {nan, 0}, {0, 1}}), 0.01f), std::invalid_argument);
+  EXPECT_THROW(contour_hierarchy(polygon({{0, 0}, {1e-8f, 0}, {0, 0}}), 0.01f), std::invalid_argument);
+  EXPECT_THROW(contour_hierarchy(polygon({{0, 0}, {2e6f, 0}, {0, 1}}), 1e3f), std::invalid_argument);
+  EXPECT_THROW(contour_hierarchy(good, 0.01f, static_cast<SplitRule>(2)), std::invalid_argument);
+}
+
+/// Coordinates are multiples of it, so none is larger than the shape.
+TEST(ContourHierarchy, RejectsAGridStepAboveTheReach) {
+  Outline outline = polygon({{0, 0}, {1, 0}, {0, 1}});
+  outline.grid_step = 1;
+  EXPECT_NO_THROW(contour_hierarchy(outline, 0.01f));
+  for (const float step : {1.0001f, 1e30f, -1.0f, std::numeric_limits<float>::quiet_NaN()}) {
+    outline.grid_step = step;
+    EXPECT_THROW(contour_hierarchy(outline, 0.01f), std::invalid_argument) << step;
+    Hierarchy hierarchy;
+    EXPECT_THROW(HierarchyBuilder().root(outline.points, step, hierarchy), std::invalid_argument) << step;
+  }
+}
+
+TEST(ProjectedHierarchy, HasOneLeafATriangle) {
+  test::Random random(3);
+  std::vector<Vec2> vertices(120);
+  for (Vec2& p : vertices)
+    p = {static_cast<float>(random.uniform(-0.5, 0.5)), static_cast<float>(random.uniform(-0.5, 0.5))};
+  vertices[7] = vertices[8];
+  std::vector<std::array<std::uint32_t, 3>> triangles;
+  for (int i = 0; i < 300; ++i)
+    triangles.push_back({random.below(120), random.below(120), random.below(120)});
+  triangles.push_back(triangles[0]);
+  triangles.push_back({5, 5, 5});
+  const Hierarchy hierarchy = projected_hierarchy(vertices, triangles);
+  test::expect_sound(hierarchy);
+  EXPECT_EQ(cut(hierarchy, all_depths).size(), triangles.size());
+  std::vector<std::uint32_t> sources = hierarchy.source;
+  std::sort(sources.begin(), sources.end());
+  for (std::uint32_t i = 0; i < sources.size(); ++i) EXPECT_EQ(sources[i], i);
+  for (std::size_t i = 0; i < hierarchy.elements.size(); ++i)
+    EXPECT_EQ(hierarchy.elements[i].b, vertices[triangles[hierarchy.source[i]][1]]);
+
+  EXPECT_THROW(projected_hierarchy(vertices, {}), std::invalid_argument);
+  triangles[3][1] = 120;
+  EXPECT_THROW(projected_hierarchy(vertices, triangles), std::invalid_argument);
+  triangles[3][1] = 0;
+  vertices[60].y = std::numeric_limits<float>::quiet_NaN();
+  EXPECT_THROW(projected_hierarchy(vertices, triangles), std::invalid_argument);
+}
+
+TEST(ProjectedHierarchy, CountsVerticesOfTrianglesAlone) {
+  std::vector<Vec2> vertices = {{0.5f, 0}, {0, 1}, {-1, 0}};
+  const std::vector<std::array<std::uint32_t, 3>> triangles = {{0, 1, 2}};
+  const Hierarchy expected = projected_hierarchy(vertices, triangles);
+  vertices.push_back({1e5f, 3e8f});
+  vertices.push_back({std::numeric_limits<float>::infinity(), 0});
+  const Hierarchy hierarchy = projected_hierarchy(vertices, triangles);
+  EXPECT_EQ(hierarchy.reach, expected.reach);
+  EXPECT_EQ(hierarchy.nodes[0].disc, expected.nodes[0].disc);
+}
+
+TEST(Hierarchy, IsCheckedNodeByNode) {
+  const Hierarchy good = contour_hierarchy(test::polygon({{-0.3f, 0}, {0.3f, 0}, {0, 0.4f}}), 0.01f);
+  EXPECT_NO_THROW(validate(good));
+  EXPECT_NO_THROW(validate(fixed_cylinder(0.3f)));
+  const auto expect_rejected = [&](const char* what, auto change) {
+    Hierarchy bad = good;
+    change(bad);
+    try {
+      validate(bad);
+      FAIL() << "accepted; expected: " << what;
+    } catch (const std::invalid_argument& error) {
+      EXPECT_NE(std::string(error.what()).find(what), std::string::npos) << error.what();
+    }
+  };
+  constexpr float nan = std::numeric_limits<float>::quiet_NaN();
+  expect_rejected("no nodes", [](Hierarchy& h) { h.nodes.clear(); });
+  expect_rejected("reach", [](Hierarchy& h) { h.reach = 0; });
+  expect_rejected("reach", [](Hierarchy& h) { h.reach = std::numeric_limits<double>::quiet_NaN(); });
+  expect_rejected("node 3", [](Hierarchy& h) { h.nodes[3].disc.x = nan; });
+  expect_rejected("node 0", [](Hierarchy& h) { h.nodes[0].disc.y = 2; });
+  expect_rejected("node 5", [](Hierarchy& h) { h.nodes[5].disc.radius = 0; });
+  expect_rejected("node 5", [](Hierarchy& h) { h.nodes[5].disc.radius = nan; });
+  expect_rejected("node 1", [](Hierarchy& h) { h.nodes[1].second_child = 2; });
+  expect_rejected("node 1",
+                  [](Hierarchy& h) { h.nodes[1].second_child = static_cast<std::uint32_t>(h.nodes.size()); });
+}
+
+TEST(FixedCylinder, IsOneDiscAboutTheAgent) {
+  const Hierarchy cylinder = fixed_cylinder(0.4f);
+  ASSERT_EQ(cylinder.nodes.size(), 1u);
+  EXPECT_EQ(cylinder.nodes[0].disc.x, 0);
+  EXPECT_GE(cylinder.nodes[0].disc.radius, 0.4f);
+  EXPECT_NEAR(cylinder.nodes[0].disc.radius, 0.4f, 1e-6);
+  for (const float radius : {0.0f, -0.1f, std::numeric_limits<float>::quiet_NaN(), 1e7f})
+    EXPECT_THROW(fixed_cylinder(radius), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace bch

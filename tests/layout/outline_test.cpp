@@ -1,0 +1,216 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <limits>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "layout/outline/union_outline.hpp"
+#include "tests/support/outline_checks.hpp"
+#include "tests/support/scenes.hpp"
+
+namespace bch {
+namespace {
+
+struct Mesh {
+  std::vector<Eigen::Vector3f> positions;
+  std::vector<std::array<std::uint32_t, 3>> triangles;
+
+  void add(Eigen::Vector3f a, Eigen::Vector3f b, Eigen::Vector3f c) {
+    const auto first = static_cast<std::uint32_t>(positions.size());
+    positions.insert(positions.end(), {a, b, c});
+    triangles.push_back({first, first + 1, first + 2});
+  }
+  void add_rectangle(float x0, float y0, float x1, float y1, float z = 0) {
+    add({x0, y0, z}, {x1, y0, z}, {x1, y1, z});
+    add({x0, y0, z}, {x0, y1, z}, {x1, y1, z});  // the other way round: orientation must not matter
+  }
+  Outline outline() const { return union_outline(positions, triangles); }
+};
+
+TEST(UnionOutline, TwoTrianglesMakeASquare) {
+  Mesh mesh;
+  mesh.add_rectangle(0, 0, 1, 1);
+  const Outline outline = mesh.outline();
+  ASSERT_EQ(outline.contours(), 1u);
+  EXPECT_EQ(outline.points, (std::vector<Vec2>{{0, 0}, {1, 0}, {1, 1}, {0, 1}}));
+  EXPECT_EQ(area(outline), 1.0);
+  EXPECT_EQ(outline.grid_step, 0x1p-22f);
+}
+
+TEST(UnionOutline, LeavesHolesAndWhatIsInThemOut) {
+  Mesh mesh;
+  mesh.add_rectangle(0, 0, 3, 1);
+  mesh.add_rectangle(0, 2, 3, 3);
+  mesh.add_rectangle(0, 0, 1, 3);
+  mesh.add_rectangle(2, 0, 3, 3);
+  mesh.add_rectangle(1.25f, 1.25f, 1.75f, 1.75f);
+  const Outline outline = mesh.outline();
+  ASSERT_EQ(outline.contours(), 1u);
+  EXPECT_EQ(area(outline), 9.0);
+  EXPECT_EQ(outline.points.size(), 4u);
+}
+
+TEST(UnionOutline, KeepsSeparateParts) {
+  Mesh mesh;
+  mesh.add_rectangle(2, 0, 3, 1);
+  mesh.add_rectangle(0, 0, 1, 1);
+  mesh.add_rectangle(0, 0, 1, 1, 5);  // a duplicate above
+  const Outline outline = mesh.outline();
+  ASSERT_EQ(outline.contours(), 2u);
+  EXPECT_EQ(outline.contour(0)[0], (Vec2{0, 0}));
+  EXPECT_EQ(outline.contour(1)[0], (Vec2{2, 0}));
+  EXPECT_EQ(area(outline), 2.0);
+}
+
+TEST(UnionOutline, KeepsATriangleSeenEdgeOnAsAWhisker) {
+  Mesh mesh;
+  mesh.add_rectangle(0, 0, 1, 1);
+  mesh.add({0.5f, 0.5f, 0}, {2, 0.5f, 0}, {2, 0.5f, 1});
+  mesh.add({3, 3, 0}, {3, 4, 0}, {3, 4, 1});
+  mesh.add({0.25f, 0.25f, 0}, {0.75f, 0.5f, 0}, {0.5f, 0.375f, 1});  // inside: nothing to see
+  const Outline outline = mesh.outline();
+  EXPECT_EQ(area(outline), 1.0);
+  const auto has = [&](Vec2 p) {
+    return std::find(outline.points.begin(), outline.points.end(), p) != outline.points.end();
+  };
+  EXPECT_TRUE(has({2, 0.5f}));
+  EXPECT_TRUE(has({3, 3}));
+  EXPECT_TRUE(has({3, 4}));
+  EXPECT_FALSE(has({0.25f, 0.25f}));
+  EXPECT_EQ(outline.contours(), 2u);
+}
+
+TEST(UnionOutline, KeepsTheTipOfANeedle) {
+  Mesh mesh;
+  mesh.add_rectangle(0, 0, 1, 1);
+  mesh.add({0.5f, 0.5f, 0}, {0.5f, 0.5f + 3e-6f, 0}, {3, 0.51f, 0});
+  const Outline outline = mesh.outline();
+  test::expect_covers(outline, mesh.positions, mesh.triangles);
+}
+
+TEST(UnionOutline, GridFollowsTheSize) {
+  for (const float size : {1e-5f, 0.01f, 1.0f, 100.0f, 5e5f}) {
+    Mesh mesh;
+    mesh.add_rectangle(0, 0, size, size);
+    const Outline outline = mesh.outline();
+    EXPECT_NEAR(area(outline), static_cast<double>(size) * static_cast<double>(size),
+                1e-6 * static_cast<double>(size) * static_cast<double>(size));
+    EXPECT_GE(outline.grid_step, size * 0x1p-24f);
+    EXPECT_LE(outline.grid_step, size * 0x1p-22f);
+  }
+}
+
+TEST(UnionOutline, RejectsBadInput) {
+  Mesh empty;
+  EXPECT_THROW(empty.outline(), std::invalid_argument);
+  const auto rejected = [](auto&& breakage) {
+    Mesh mesh;
+    mesh.add_rectangle(0, 0, 1, 1);
+    breakage(mesh);
+    EXPECT_THROW(mesh.outline(), std::invalid_argument);
+  };
+  rejected([](Mesh& mesh) { mesh.triangles[1][2] = 6; });
+  rejected([](Mesh& mesh) { mesh.positions[0].y() = std::numeric_limits<float>::quiet_NaN(); });
+  rejected([](Mesh& mesh) { mesh.positions[0].x() = std::numeric_limits<float>::infinity(); });
+  rejected([](Mesh& mesh) { mesh.positions[0].x() = 2e6f; });
+  rejected([](Mesh& mesh) {
+    for (auto& p : mesh.positions) p = {0.5f, 0.5f, p.z()};
+  });
+  rejected([](Mesh& mesh) {
+    for (auto& p : mesh.positions) p *= 1e-8f;
+  });
+}
+
+Outline with_another(Outline outline, std::vector<Vec2> contour) {
+  test::append(outline, test::polygon(std::move(contour)));
+  return outline;
+}
+
+const std::vector<Vec2> square = {{-2, -2}, {2, -2}, {2, 2}, {-2, 2}};
+
+void expect_refused(const Outline& outline, const std::string& message) {
+  try {
+    validate(outline);
+    FAIL() << "accepted; expected: " << message;
+  } catch (const std::invalid_argument& error) {
+    EXPECT_EQ(error.what(), message);
+  }
+}
+
+TEST(ValidateOutline, ClockwiseContoursAreRefused) {
+  expect_refused(test::polygon({{0, 0}, {0, 1}, {1, 1}, {1, 0}}),
+                 "outline: contour 0 is clockwise, its area -1 m^2");
+  expect_refused(with_another(test::polygon(square), {{-1, -1}, {-1, 1}, {1, 1}, {1, -1}}),
+                 "outline: contour 1 is clockwise, its area -4 m^2");
+  // Small ones, too, and far away.
+  expect_refused(test::polygon({{1000, 0}, {1000, 0.25f}, {1000.25f, 0}}),
+                 "outline: contour 0 is clockwise, its area -0.03125 m^2");
+  EXPECT_THROW(contour_hierarchy(test::polygon({{0, 0}, {0, 1}, {1, 1}}), 0.01f), std::invalid_argument);
+}
+
+TEST(ValidateOutline, WhatIsNotFiniteIsNamed) {
+  const float infinity = std::numeric_limits<float>::infinity();
+  for (const float bad : {infinity, -infinity, std::numeric_limits<float>::quiet_NaN()})
+    for (std::size_t i = 0; i < square.size(); ++i)
+      for (const bool of_x : {false, true}) {
+        Outline outline = test::polygon(square);
+        (of_x ? outline.points[i].x : outline.points[i].y) = bad;
+        expect_refused(outline, "outline: point " + std::to_string(i) + " is not finite");
+      }
+}
+
+TEST(ValidateOutline, ContoursMayTouchCrossAndHoldEachOther) {
+  const std::vector<Outline> allowed = {
+      test::polygon({{1, 1}}),                                                // a point
+      test::polygon({{0, 0}, {2, 1}}),                                        // a whisker
+      test::polygon({{0, 0}, {0.1f, 0.7f}, {0, 0}, {0.3f, -0.1f}}),           // two
+      test::polygon({{0, 0}, {1, 0}, {0.5f, 1}, {0, 2}, {1, 2}, {0.5f, 1}}),  // a pinch, half of it clockwise
+      test::polygon({{0, 3}, {-2, -3}, {3, 1}, {-3, 1}, {2, -3}}),            // a star in one stroke
+      test::polygon({{0.1f, 0.2f}, {1e-7f, -0.3f}, {0.123456f, -0.777777f}, {0.9f, 0.3f}}),  // on no grid
+      with_another(test::polygon(square), {{-1, -1}, {1, -1}, {1, 1}}),  // one inside the other
+      with_another(test::polygon(square), {{1, 1}, {3, 1}, {3, 3}}),     // across each other
+      with_another(test::polygon(square), square),
+  };
+  for (std::size_t i = 0; i < allowed.size(); ++i) EXPECT_NO_THROW(validate(allowed[i])) << i;
+}
+
+TEST(UnionOutline, RandomSoups) {
+  test::Random random(99);
+  int compared = 0;
+  for (int i = 0; i < 300; ++i) {
+    Mesh mesh;
+    const int count = 1 + static_cast<int>(random.below(30));
+    // Every third soup has small integer coordinates, where coincidences of all kinds happen.
+    const auto coordinate = [&] {
+      return i % 3 == 0 ? static_cast<float>(random.below(9)) : static_cast<float>(random.uniform(0, 8));
+    };
+    for (int t = 0; t < count; ++t) {
+      const float x = coordinate(), y = coordinate();
+      const auto near = [&](float at) {
+        return i % 2 == 0 ? coordinate() : at + static_cast<float>(random.uniform(-1.5, 1.5));
+      };
+      mesh.add({x, y, 0}, {near(x), near(y), 1}, {near(x), near(y), 2});
+    }
+    Outline outline;
+    try {
+      outline = mesh.outline();
+    } catch (const std::invalid_argument&) {
+      continue;  // a soup of points
+    }
+    ++compared;
+    EXPECT_NO_THROW(validate(outline));
+    test::expect_covers(outline, mesh.positions, mesh.triangles);
+    test::expect_equals_samples(outline, mesh.positions, mesh.triangles, 48);
+    if (HasFailure()) FAIL() << "soup " << i;
+  }
+  EXPECT_GT(compared, 290);
+}
+
+}  // namespace
+}  // namespace bch

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include "layout/scene/pose_shape.hpp"
+
+#include <gtest/gtest.h>
+
+#include <stdexcept>
+#include <vector>
+
+#include "tests/support/allocation_count.hpp"
+#include "tests/support/character_shapes.hpp"
+#include "tests/support/test_characters.hpp"
+
+namespace bch {
+namespace {
+
+void expect_equal(const Shape& shape, const Shape& expected) {
+  EXPECT_EQ(shape.outline.points, expected.outline.points);
+  EXPECT_EQ(shape.outline.contour_begin, expected.outline.contour_begin);
+  EXPECT_EQ(shape.outline.grid_step, expected.outline.grid_step);
+  ASSERT_EQ(shape.hierarchy.nodes.size(), expected.hierarchy.nodes.size());
+  for (std::size_t i = 0; i < expected.hierarchy.nodes.size(); ++i) {
+    const HierarchyNode &node = shape.hierarchy.nodes[i], &other = expected.hierarchy.nodes[i];
+    ASSERT_EQ(node.disc, other.disc) << i;
+    ASSERT_EQ(node.second_child, other.second_child) << i;
+  }
+}
+
+void expect_as_one_by_one(const Character& character, float threshold) {
+  Skinner skinner(character);
+  PoseShaper shaper(character, threshold);
+  for (const PoseTime& time : sample_poses(character, 20))
+    expect_equal(shaper.shape(time), pose_shape(skinner, time, threshold));
+}
+
+TEST(PoseShaper, MakesTheShapesThatAreMadeOneByOne) {
+  for (const Character& character : test::default_characters()) {
+    expect_as_one_by_one(character, 0.01f);
+    expect_as_one_by_one(character, 0.1f);
+  }
+}
+
+TEST(RealPoses, AreMadeAsOneByOne) {
+  const auto data = test::test_data();
+  if (!data) GTEST_SKIP() << "BCH_TEST_DATA is not set: no real characters to test with";
+  for (const Character& character : test::real_characters(*data)) expect_as_one_by_one(character, 0.01f);
+}
+
+/// Depth 0 without an outline: the same disc, bit for bit.
+void expect_root_as_with_outline(const Character& character, std::uint32_t poses) {
+  PoseShaper with(character, 0.01f, 0), without(character, 0.01f, 0, false);
+  for (const PoseTime& time : sample_poses(character, poses)) {
+    const Hierarchy &expected = with.shape(time).hierarchy, &root = without.shape(time).hierarchy;
+    ASSERT_EQ(root.nodes.size(), 1u);
+    EXPECT_EQ(root.nodes[0].disc, expected.nodes[0].disc);
+    EXPECT_TRUE(root.nodes[0].is_leaf());
+    EXPECT_EQ(root.reach, expected.reach);
+  }
+}
+
+TEST(PoseShaper, NeedsNoOutlineForTheRootAlone) {
+  for (const Character& character : test::default_characters()) expect_root_as_with_outline(character, 200);
+}
+
+TEST(RealPoses, NeedNoOutlineForTheRootAlone) {
+  const auto data = test::test_data();
+  if (!data) GTEST_SKIP() << "BCH_TEST_DATA is not set: no real characters to test with";
+  for (const Character& character : test::real_characters(*data)) expect_root_as_with_outline(character, 50);
+}
+
+void expect_no_allocations_the_second_time(std::uint32_t deepest, bool outlines) {
+  const Character woman = default_female();
+  PoseShaper shaper(woman, 0.01f, deepest, outlines);
+  const std::vector<PoseTime> times = sample_poses(woman, 20);
+  const std::size_t before = test::allocation_count();
+  for (const PoseTime& time : times) shaper.shape(time);
+  const std::size_t first = test::allocation_count();
+  EXPECT_GT(first, before);
+  for (const PoseTime& time : times) shaper.shape(time);
+  EXPECT_EQ(test::allocation_count(), first);
+}
+
+TEST(PoseShaper, AllocatesNothingTheSecondTime) {
+  expect_no_allocations_the_second_time(all_depths, true);
+  expect_no_allocations_the_second_time(0, false);
+}
+
+TEST(PoseShaper, RejectsWhatItsPartsReject) {
+  const Character man = default_male();
+  EXPECT_THROW(PoseShaper(man, -1.0f).shape({PoseTime::rest, 0}), std::invalid_argument);
+  EXPECT_THROW(PoseShaper(man, -1.0f, 0, false).shape({PoseTime::rest, 0}), std::invalid_argument);
+  PoseShaper shaper(man);
+  EXPECT_THROW(shaper.shape({static_cast<std::uint32_t>(man.clips.size()), 0}), std::invalid_argument);
+  Skinner skinner(man);
+  expect_equal(shaper.shape({PoseTime::rest, 0}), pose_shape(skinner, {PoseTime::rest, 0}));
+}
+
+}  // namespace
+}  // namespace bch

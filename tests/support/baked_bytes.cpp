@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include "tests/support/baked_bytes.hpp"
+
+#include "layout/baked/checksum.hpp"
+#include "layout/baked/image.hpp"
+#include "tests/support/scenes.hpp"
+
+namespace bch::test {
+
+std::vector<Shape> few_shapes() {
+  Random random(71);
+  Outline two = star(random, 9, 0.2, 0.3);
+  append(two, star(random, 5, 0.05, 0.1, 0.8, 0.1));
+  return {contour_shape(star(random, 40, 0.2, 0.4), 0.01f), contour_shape(two, 0.05f),
+          contour_shape(star(random, 4, 0.1, 0.1), 0.5f)};
+}
+
+ShapeOrigins origins_of(std::size_t shapes) {
+  ShapeOrigins origins{0.01, {"man.glb", "walk", "", "run \xc3\xbc"}, {}};
+  for (std::uint32_t s = 0; s < shapes; ++s)
+    origins.origins.push_back(
+        {0, s == 0 ? ShapeOrigin::rest_pose : 1 + s % 3, 0.25f * static_cast<float>(s)});
+  return origins;
+}
+
+BakedBytes::BakedBytes(const ShapeSet& set, const ShapeOrigins& origins) {
+  const BakedImage image(set, origins);
+  for (const auto part : image.parts()) bytes_.insert(bytes_.end(), part.begin(), part.end());
+}
+
+std::string BakedBytes::text() const {
+  return {reinterpret_cast<const char*>(bytes_.data()), bytes_.size()};
+}
+
+void BakedBytes::seal() {
+  for (baked::SectionEntry& entry : preamble().entries) {
+    const std::size_t size = entry.count * entry.element_size;
+    entry.checksum =
+        baked::checksum(std::span<const std::byte>(bytes_).subspan(entry.offset, baked::padded(size)));
+  }
+  seal_header();
+}
+
+void BakedBytes::seal_header() {
+  preamble().header.checksum = baked::checksum(preamble());
+}
+
+BakedShapes BakedBytes::load() const {
+  return load_baked(bytes_, "file", nullptr);
+}
+
+BakedShapes BakedBytes::load_first(std::size_t size) const {
+  AlignedVector<std::byte> few(bytes_.begin(), bytes_.begin() + static_cast<std::ptrdiff_t>(size));
+  few.shrink_to_fit();
+  return load_baked(few, "file", nullptr);
+}
+
+std::string BakedBytes::error() const {
+  try {
+    load();
+  } catch (const BakedFileError& error) {
+    return error.what();
+  }
+  return {};
+}
+
+}  // namespace bch::test

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <string>
+
+#include "layout/baked/file.hpp"
+#include "layout/baked/format.hpp"
+#include "layout/base/aligned_vector.hpp"
+
+namespace bch::test {
+
+/// A few shapes with blocks, windows, single discs, several contours.
+std::vector<Shape> few_shapes();
+ShapeOrigins origins_of(std::size_t shapes);
+
+/// A baked file in memory, to be spoiled.
+class BakedBytes {
+ public:
+  BakedBytes(const ShapeSet& set, const ShapeOrigins& origins);
+
+  std::size_t size() const { return bytes_.size(); }
+  std::byte& operator[](std::size_t i) { return bytes_[i]; }
+  std::string text() const;
+  baked::Preamble& preamble() { return *reinterpret_cast<baked::Preamble*>(bytes_.data()); }
+  baked::SectionEntry& entry(baked::Section section) {
+    return preamble().entries[static_cast<std::uint32_t>(section)];
+  }
+  template <class Element>
+  std::span<Element> section(baked::Section section) {
+    return {reinterpret_cast<Element*>(bytes_.data() + entry(section).offset), entry(section).count};
+  }
+  /// Makes all checksums right again, or the header's alone.
+  void seal();
+  void seal_header();
+
+  BakedShapes load() const;
+  /// From a block of memory with nothing behind it.
+  BakedShapes load_first(std::size_t size) const;
+  /// The error of load(); empty where there is none.
+  std::string error() const;
+
+ private:
+  AlignedVector<std::byte> bytes_;
+};
+
+}  // namespace bch::test

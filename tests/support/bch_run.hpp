@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+#include "tests/support/program_run.hpp"
+
+namespace bch::test {
+
+using Arguments = std::vector<std::string>;
+
+/// Runs the program `bch`.
+Ending bch(Arguments arguments, const Arguments& more = {}, const Streams& streams = {});
+
+/// One line on standard error that has all of the words, and nothing on standard output.
+void expect_failure(const Ending& run, int code, const Arguments& words);
+
+std::size_t lines(const std::string& text);
+
+nlohmann::json read_json(const std::filesystem::path& file);
+
+/// A person-sized box, 0.5 m x 0.3 m on the ground, y up.
+constexpr const char* box =
+    "v -0.25 0 -0.15\nv 0.25 0 -0.15\nv 0.25 0 0.15\nv -0.25 0 0.15\n"
+    "v -0.25 1.8 -0.15\nv 0.25 1.8 -0.15\nv 0.25 1.8 0.15\nv -0.25 1.8 0.15\n"
+    "f 1 2 3 4\nf 8 7 6 5\nf 1 5 6 2\nf 2 6 7 3\nf 3 7 8 4\nf 4 8 5 1\n";
+/// What says that of it.
+inline const Arguments as_metres{"--up", "y", "--scale", "1"};
+
+constexpr const char* four_agents =
+    "id,shape,x,y,heading\na,0,0,0,0\nb,0,0.4,0,0\nc,0,0,0.35,0\n\"d,e\",0,9,9,1\n";
+
+}  // namespace bch::test

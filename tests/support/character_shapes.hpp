@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <vector>
+
+#include "layout/character/character.hpp"
+#include "layout/shape_set/shape_set.hpp"
+
+namespace bch::test {
+
+/// The folder that the environment variable BCH_TEST_DATA names; empty where it is unset.
+std::optional<std::filesystem::path> test_data();
+
+/// Contour hierarchies at 1 cm of poses spread over the character's clips; on all threads.
+std::vector<Shape> pose_shapes(const Character& character, std::uint32_t poses);
+
+}  // namespace bch::test

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <bit>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "baselines/clearance_reference.hpp"
+#include "kernel/distance/clearance.hpp"
+#include "tests/support/scenes.hpp"
+
+namespace bch::test {
+
+/// All that clearance() says of some pairs.
+struct Answers {
+  std::vector<float> distance;
+  std::vector<Vec2> direction;
+  std::vector<CutNodes> nodes;
+
+  explicit Answers(std::size_t size = 0) : distance(size), direction(size), nodes(size) {}
+  ClearanceAnswers spans() { return {distance, direction, nodes}; }
+  /// Bits, not values: -0 is not 0.
+  bool same(std::size_t i, const Answers& other, std::size_t k) const {
+    const auto bits = [](float value) { return std::bit_cast<std::uint32_t>(value); };
+    return bits(distance[i]) == bits(other.distance[k]) &&
+           bits(direction[i].x) == bits(other.direction[k].x) &&
+           bits(direction[i].y) == bits(other.direction[k].y) && nodes[i] == other.nodes[k];
+  }
+};
+
+inline Answers answers(const ShapeSet& set, const Agents& agents, std::span<const Pair> pairs,
+                       double max_distance, const kernel::Implementation* implementation = nullptr) {
+  Answers all(pairs.size());
+  clearance(set, agents, pairs, all.spans(), {max_distance, implementation});
+  return all;
+}
+
+/// The same by the scalar reference.
+inline Answers answers(baselines::ClearanceReference& reference, const PairScene& scene, double max_distance,
+                       baselines::Method method) {
+  Answers all;
+  for (const Pair pair : scene.pairs) {
+    const auto [distance, direction, first, second] =
+        reference.query(scene.crowd.agents(), pair, max_distance, method);
+    all.distance.push_back(distance);
+    all.direction.push_back(direction);
+    all.nodes.push_back({first, second});
+  }
+  return all;
+}
+
+}  // namespace bch::test

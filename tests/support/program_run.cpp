@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include "tests/support/program_run.hpp"
+
+#include <fcntl.h>
+#include <signal.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <fstream>
+#include <sstream>
+#include <thread>
+
+#include "tests/support/temporary_folder.hpp"
+
+namespace bch::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+void redirect(int descriptor, const fs::path& file) {
+  const int opened = open(file.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
+  if (opened < 0 || dup2(opened, descriptor) < 0) _exit(126);
+}
+
+[[noreturn]] void become(const std::string& program, const std::vector<std::string>& arguments,
+                         const fs::path& out, const fs::path& err, std::size_t largest_file) {
+  redirect(STDOUT_FILENO, out);
+  redirect(STDERR_FILENO, err);
+  // Test runners in the background may ignore it, which children inherit.
+  signal(SIGINT, SIG_DFL);
+  const rlimit size{largest_file, largest_file};
+  if (largest_file > 0) setrlimit(RLIMIT_FSIZE, &size);
+  // assimp leaks on malformed files, which a sanitized program would report in the midst of its own words.
+  setenv("ASAN_OPTIONS", "detect_leaks=0", 0);
+  std::vector<char*> argv{const_cast<char*>(program.c_str())};
+  for (const std::string& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
+  argv.push_back(nullptr);
+  execv(program.c_str(), argv.data());
+  _exit(127);
+}
+
+}  // namespace
+
+std::string read_text(const fs::path& file) {
+  std::ostringstream text;
+  text << std::ifstream(file, std::ios::binary).rdbuf();
+  return text.str();
+}
+
+Ending run_program(const std::string& program, const std::vector<std::string>& arguments,
+                   const Streams& streams) {
+  const TemporaryFolder folder;
+  const fs::path out = streams.out.empty() ? folder.file("out") : fs::path(streams.out);
+  const fs::path err = folder.file("err");
+  const pid_t child = fork();
+  if (child == 0) become(program, arguments, out, err, streams.largest_file);
+  if (streams.interrupt_after.count() > 0) {
+    std::this_thread::sleep_for(streams.interrupt_after);
+    kill(child, SIGINT);
+  }
+  int status = 0;
+  waitpid(child, &status, 0);
+  const int code = WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
+  return {code, streams.out.empty() ? read_text(out) : std::string(), read_text(err)};
+}
+
+}  // namespace bch::test

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "layout/format/agents.hpp"
+#include "layout/shape_set/shape_set.hpp"
+
+namespace bch::test {
+
+/// splitmix64 (Steele, Lea, Flood 2014): the same numbers everywhere for a seed.
+class Random {
+ public:
+  explicit Random(std::uint64_t seed) : state_(seed) {}
+  std::uint64_t next();
+  double uniform(double low, double high);
+  std::uint32_t below(std::uint32_t bound);
+
+ private:
+  std::uint64_t state_;
+};
+
+/// How many cases of the same kind a test of `cases` looks at: with sanitizers an eighth. They watch the code, which is
+/// the same for all, and take ten times as long; the other builds count answers.
+constexpr std::uint32_t samples(std::uint32_t cases) {
+#ifdef BCH_SANITIZED
+  return (cases + 7) / 8;
+#else
+  return cases;
+#endif
+}
+
+/// One contour.
+Outline polygon(std::vector<Vec2> points);
+
+/// A star-shaped polygon on the outline grid, counter-clockwise around (x, y).
+Outline star(Random& random, std::uint32_t corners, double inner, double outer, double x = 0, double y = 0);
+
+/// A sliver from x = -0.4 to a tip at x = 0.4: ahead of the tip its leaf discs reach as far as it does itself.
+Outline needle();
+
+/// The same outline with every contour that is clockwise turned round, as validate() wants it.
+Outline counter_clockwise(Outline outline);
+
+/// Appends the contours of one outline to another.
+void append(Outline& outline, const Outline& more);
+
+Shape contour_shape(const Outline& outline, float threshold = 0.01f);
+
+/// Shapes of many kinds: people-sized stars of few and of many corners, slender ones, several contours,
+/// whiskers, triangles, and sizes from 1 cm to 4 m.
+std::vector<Shape> synthetic_shapes(std::uint64_t seed, std::uint32_t count);
+
+/// So many that kernels ask for them ahead: these again and again.
+std::vector<Shape> repeated(std::span<const Shape> shapes);
+
+/// Agents in vectors of their own.
+struct Crowd {
+  std::vector<std::uint32_t> shape;
+  std::vector<double> x, y, heading;
+  std::vector<std::uint8_t> level;
+
+  Agents agents() const { return {shape, x, y, heading, level}; }
+  struct Agent {
+    std::uint32_t shape;
+    double x, y, heading;
+    std::uint8_t level;
+  };
+  /// Takes braces, in which random numbers come in the order of the fields; as arguments every compiler has its own.
+  void add(const Agent& agent);
+};
+
+/// Pairs (2 i, 2 i + 1) of agents of their own, with random shapes and levels, close enough for their root
+/// discs to overlap in most.
+struct PairScene {
+  Crowd crowd;
+  std::vector<Pair> pairs;
+};
+/// Of 5 000 pairs and more only samples().
+PairScene random_scene(Random& random, const ShapeSet& shapes, std::uint32_t pairs);
+
+/// Slides the second agent of every pair along a line until `hit` changes within the last bits of the
+/// placement, and leaves it a few of those bits on either side.
+void make_tangent(Random& random, PairScene& scene, const std::function<bool(const Agents&, Pair)>& hit);
+
+/// A random scene whose second agents stand about the first ones' positions plus (x, y), with differences
+/// that are exact: every coordinate is a multiple of 2^-20 m.
+void move_away(PairScene& scene, double x, double y);
+
+}  // namespace bch::test

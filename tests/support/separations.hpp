@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "kernel/separation/separation.hpp"
+#include "tests/support/scenes.hpp"
+
+namespace bch::test {
+
+inline std::vector<Separation> best_of(
+    std::uint32_t k, const ShapeSet& set, const PairScene& scene,
+    const kernel::Implementation& implementation = kernel::best_implementation()) {
+  std::vector<Separation> found(scene.pairs.size(), {-1, -1, -1});
+  separation(set, scene.crowd.agents(), scene.pairs, k, found, {&implementation});
+  return found;
+}
+
+inline std::vector<Separation> along(
+    std::span<const Vec2> directions, const ShapeSet& set, const PairScene& scene,
+    const kernel::Implementation& implementation = kernel::best_implementation()) {
+  std::vector<Separation> found(scene.pairs.size(), {-1, -1, -1});
+  separation_along(set, scene.crowd.agents(), scene.pairs, directions, found, {&implementation});
+  return found;
+}
+
+}  // namespace bch::test

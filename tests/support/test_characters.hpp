@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "layout/default_character/default_characters.hpp"
+#include "layout/import/import.hpp"
+
+namespace bch::test {
+
+inline std::vector<Character> default_characters() {
+  return {default_male(), default_female()};
+}
+
+/// Three people of about 2 850 triangles from the folder that test_data() names.
+inline std::vector<Character> real_characters(const std::filesystem::path& data) {
+  return {import_character(data / "characters" / "rocketbox_male_2847_cmu.glb").character,
+          import_character(data / "characters" / "rocketbox_female_2841_cmu.glb").character,
+          import_character(data / "characters" / "generic_man_cmu.glb").character};
+}
+
+}  // namespace bch::test

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include <gtest/gtest.h>
+#include <oneapi/tbb/global_control.h>
+#include <oneapi/tbb/task_arena.h>
+
+#include <vector>
+
+#include "kernel/broad_phase/broad_phase.hpp"
+#include "kernel/collide/collide.hpp"
+#include "kernel/contact/contacts.hpp"
+#include "kernel/crowd/collide_all.hpp"
+#include "kernel/distance/clearance.hpp"
+#include "kernel/distance/contact_time.hpp"
+#include "kernel/separation/separation.hpp"
+#include "tests/support/allocation_count.hpp"
+#include "tests/support/scenes.hpp"
+
+namespace bch {
+namespace {
+
+class Allocations : public testing::TestWithParam<int> {
+ protected:
+  Allocations() {
+    test::Random random(52);
+    for (int i = 0; i < 30'000; ++i)
+      crowd.add({random.below(16), random.uniform(0, 300), random.uniform(0, 300), random.uniform(-4, 4),
+                 static_cast<std::uint8_t>(random.below(3))});
+  }
+
+  /// Some tasks' worth: each pair takes microseconds.
+  std::vector<Pair> some_pairs() const {
+    std::vector<Pair> pairs = candidate_pairs(set, crowd.agents());
+    pairs.resize(5'000);
+    return pairs;
+  }
+
+  /// Of later calls, the first being over.
+  template <class Call>
+  std::size_t count(Call call) {
+    return arena.execute([&] {
+      call();
+      const std::size_t before = test::allocation_count();
+      for (int i = 0; i < 5; ++i) call();
+      return test::allocation_count() - before;
+    });
+  }
+
+  const tbb::global_control allow{tbb::global_control::max_allowed_parallelism, 4};
+  tbb::task_arena arena{GetParam()};
+  const ShapeSet set{test::synthetic_shapes(51, 16), {{0, 3, all_depths}, true}};
+  test::Crowd crowd;
+};
+
+TEST_P(Allocations, BroadPhaseKeepsItsMemory) {
+  BroadPhase broad_phase;
+  std::size_t pairs = 0;
+  EXPECT_EQ(count([&] { pairs = broad_phase.find(set, crowd.agents()).size(); }), 0u);
+  EXPECT_GT(pairs, 20'000u);
+  EXPECT_GT(count([&] { candidate_pairs(set, crowd.agents()); }), 0u);  // they are really counted
+}
+
+TEST_P(Allocations, CollideNeedsNone) {
+  const std::vector<Pair> pairs = candidate_pairs(set, crowd.agents());
+  std::vector<std::uint8_t> hits(pairs.size());
+  for (const Semantics semantics : {Semantics::boundary, Semantics::solid})
+    EXPECT_EQ(count([&] { collide(set, crowd.agents(), pairs, hits, {semantics}); }), 0u);
+}
+
+TEST_P(Allocations, CollideAllKeepsItsMemory) {
+  CrowdCollider collider;
+  std::size_t neighbours = 0;
+  EXPECT_EQ(count([&] { neighbours = collider.collide_all(set, crowd.agents()).neighbours.size(); }), 0u);
+  EXPECT_GT(neighbours, 20'000u);
+}
+
+TEST_P(Allocations, ContactsNeedTheirTableAlone) {
+  const std::vector<Pair> pairs = some_pairs();
+  ContactTable table;
+  EXPECT_EQ(count([&] { contacts(set, crowd.agents(), pairs, table); }), 0u);
+  EXPECT_GT(table.contacts.size(), pairs.size());
+}
+
+TEST_P(Allocations, SeparationNeedsNone) {
+  const std::vector<Pair> pairs = some_pairs();
+  const std::vector<Vec2> directions(pairs.size(), Vec2{1, 2});
+  std::vector<Separation> ways(pairs.size());
+  EXPECT_EQ(count([&] { separation(set, crowd.agents(), pairs, 16, ways); }), 0u);
+  EXPECT_EQ(count([&] { separation_along(set, crowd.agents(), pairs, directions, ways); }), 0u);
+}
+
+TEST_P(Allocations, DistancesAndTimesNeedNone) {
+  const std::vector<Pair> pairs = some_pairs();
+  std::vector<float> values(pairs.size());
+  std::vector<Vec2> directions(pairs.size());
+  std::vector<CutNodes> nodes(pairs.size());
+  const std::vector<double> way(pairs.size(), 0.5);
+  EXPECT_EQ(count([&] { clearance(set, crowd.agents(), pairs, {values, directions, nodes}, {0.5}); }), 0u);
+  EXPECT_EQ(count([&] { contact_time(set, crowd.agents(), pairs, {way, way}, values); }), 0u);
+}
+
+INSTANTIATE_TEST_SUITE_P(Threads, Allocations, testing::Values(1, 2, 4));
+
+}  // namespace
+}  // namespace bch

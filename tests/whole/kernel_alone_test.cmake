@@ -1,0 +1,57 @@
+# Builds and installs SOURCE with every option off, where no package but TBB can be found, and a program against that.
+# Usage: cmake -DSOURCE=... -DWORK=... -DCOMPILER=... -DFLAGS=... -P kernel_alone_test.cmake
+include(${CMAKE_CURRENT_LIST_DIR}/run.cmake)
+
+# Without optimisation: what is looked at is headers and libraries.
+set(settings -G Ninja -DCMAKE_BUILD_TYPE=Debug "-DCMAKE_CXX_FLAGS=${FLAGS}" -DCMAKE_CXX_COMPILER=${COMPILER}
+  -DCMAKE_PREFIX_PATH=${WORK}/prefix)
+set(alone -DBCH_XXHASH_INCLUDE_DIR=/nonexistent)
+foreach(component BAKED CHARACTERS IMPORT BASELINES BENCH TESTS)
+  list(APPEND alone -DBCH_BUILD_${component}=OFF)
+endforeach()
+foreach(package Eigen3 PkgConfig fcl CLI11 nlohmann_json fmt benchmark GTest)
+  list(APPEND alone -DCMAKE_DISABLE_FIND_PACKAGE_${package}=ON)
+endforeach()
+
+file(REMOVE_RECURSE ${WORK})
+run(${CMAKE_COMMAND} -S ${SOURCE} -B ${WORK}/bch ${settings} ${alone})
+foreach(unused BCH_XXHASH_INCLUDE_DIR CMAKE_DISABLE_FIND_PACKAGE_Eigen3 CMAKE_DISABLE_FIND_PACKAGE_PkgConfig)
+  if(NOT output MATCHES "were not used by the project:.*${unused}")  # as CMake warns
+    message(FATAL_ERROR "something looked at ${unused}:\n${output}")
+  endif()
+endforeach()
+run(${CMAKE_COMMAND} --build ${WORK}/bch)
+run(${CMAKE_COMMAND} --install ${WORK}/bch --prefix ${WORK}/prefix)
+
+# Every header that was read, whether or not a target asked for its folder.
+file(STRINGS ${WORK}/bch/CMakeCache.txt ninja REGEX "^CMAKE_MAKE_PROGRAM:")
+string(REGEX REPLACE "^[^=]*=" "" ninja "${ninja}")
+run(${ninja} -C ${WORK}/bch -t deps)
+if(NOT output MATCHES "/xsimd/" OR NOT output MATCHES "/tbb/")
+  message(FATAL_ERROR "these are not the headers:\n${output}")
+endif()
+if(output MATCHES "[^\n]*/(eigen3|Eigen|assimp|fcl|xxhash)[^\n]*")
+  message(FATAL_ERROR "the kernel reads ${CMAKE_MATCH_0}")
+endif()
+
+# The libraries that a program is linked to, used or not: TBB and what every C++ program has.
+run(${CMAKE_COMMAND} -S ${SOURCE}/tests/examples/kernel_consumer -B ${WORK}/consumer ${settings}
+  -DCMAKE_EXE_LINKER_FLAGS=-Wl,--no-as-needed)
+run(${CMAKE_COMMAND} --build ${WORK}/consumer)
+run(${WORK}/consumer/kernel_only)
+run(ldd ${WORK}/consumer/kernel_only)
+if(NOT output MATCHES "libtbb\\.so")
+  message(FATAL_ERROR "these are not the libraries:\n${output}")
+endif()
+string(REGEX MATCHALL "[^\n]+" libraries "${output}")
+list(FILTER libraries EXCLUDE REGEX
+  "^[ \t]*(linux-vdso|/.*/ld-linux[-a-z0-9_]*|lib(tbb|stdc\\+\\+|m|gcc_s|c|pthread|dl|rt))\\.so")
+if(libraries)
+  message(FATAL_ERROR "the kernel drags in more than TBB: ${libraries}")
+endif()
+
+# Who asks for more than there is reads why.
+run_wrong("bch has no component 'characters'"
+  ${CMAKE_COMMAND} -S ${SOURCE}/tests/examples/consumer -B ${WORK}/wrong_consumer ${settings})
+run_wrong("BCH_BUILD_IMPORT needs BCH_BUILD_CHARACTERS"
+  ${CMAKE_COMMAND} -S ${SOURCE} -B ${WORK}/bch -DBCH_BUILD_IMPORT=ON)

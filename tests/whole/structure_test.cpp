@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <regex>
+#include <set>
+#include <sstream>
+#include <string>
+#include <vector>
+
+// What must hold of the sources and the object files themselves. BCH_OBJECTS: the libraries' objects,
+// BCH_SOURCE: the repository.
+
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string read(const fs::path& file) {
+  std::ifstream stream(file);
+  std::ostringstream text;
+  text << stream.rdbuf();
+  return text.str();
+}
+
+std::string output_of(const std::string& command) {
+  std::string output;
+  FILE* pipe = popen(command.c_str(), "r");
+  if (pipe == nullptr) return output;
+  std::array<char, 4096> buffer;
+  while (const std::size_t size = std::fread(buffer.data(), 1, buffer.size(), pipe))
+    output.append(buffer.data(), size);
+  EXPECT_EQ(pclose(pipe), 0) << command;
+  return output;
+}
+
+std::vector<fs::path> objects() {
+  std::vector<fs::path> paths;
+  std::istringstream list(read(BCH_OBJECTS));
+  for (std::string path; std::getline(list, path);) paths.emplace_back(path);
+  return paths;
+}
+
+bool is_wide(const fs::path& object) {
+  const std::string name = object.filename().string();
+  return name.find("avx") != std::string::npos;
+}
+
+/// Each source file's includes, as written.
+std::map<fs::path, std::vector<std::string>> includes_below(const std::string& folder) {
+  static const std::regex include(R"re(#include\s*[<"]([^>"]+)[>"])re");
+  std::map<fs::path, std::vector<std::string>> includes;
+  for (const auto& entry : fs::recursive_directory_iterator(fs::path(BCH_SOURCE) / folder)) {
+    if (entry.path().extension() != ".cpp" && entry.path().extension() != ".hpp") continue;
+    const std::string text = read(entry.path());
+    for (auto match = std::sregex_iterator(text.begin(), text.end(), include);
+         match != std::sregex_iterator(); ++match)
+      includes[entry.path()].push_back((*match)[1]);
+  }
+  return includes;
+}
+
+void expect_no_include(const std::string& folder, const std::string& forbidden,
+                       const std::string& but_in = "^$") {
+  const std::regex pattern("^(" + forbidden + ")"), exempt(but_in);
+  std::size_t files = 0;
+  for (const auto& [file, includes] : includes_below(folder)) {
+    ++files;
+    if (std::regex_search(fs::relative(file, fs::path(BCH_SOURCE) / folder).string(), exempt)) continue;
+    for (const std::string& include : includes)
+      EXPECT_FALSE(std::regex_search(include, pattern)) << file << " includes " << include;
+  }
+  EXPECT_GT(files, 0u) << folder;
+}
+
+TEST(Layers, NothingLooksUp) {
+  expect_no_include("layout", "kernel/|baselines/|bench/|tests/");
+  expect_no_include("kernel", "baselines/|bench/|tests/");
+  expect_no_include("baselines", "kernel/|bench/|tests/");
+}
+
+TEST(Layers, LibrariesStayInTheirRooms) {
+  expect_no_include("layout", "assimp/", "^import/");
+  expect_no_include("layout", "polyclipping/");
+  expect_no_include("layout", "xsimd/", "^(culling/(contour|cut|interior)|enclosing_disc/disc)_lanes");
+  expect_no_include("layout", "oneapi/tbb|tbb/");
+  expect_no_include("layout", "xxhash", "^baked/checksum");
+  expect_no_include("kernel", "assimp/|Eigen/|polyclipping/");
+  expect_no_include("kernel", "xsimd/", "^simd/lanes");
+  expect_no_include("baselines", "assimp/|xsimd/|oneapi/tbb|tbb/");
+}
+
+/// Folders include each other one way only: what is left when those that need no others are taken away, again and again, is a
+/// cycle.
+TEST(Layers, FoldersLookOneWay) {
+  std::map<std::string, std::map<std::string, std::string>>
+      needs;  // of each folder, others and a file that includes them
+  for (const char* const top : {"layout", "kernel", "baselines", "bench", "tests"})
+    for (const auto& [file, includes] : includes_below(top)) {
+      const fs::path from = fs::relative(file, BCH_SOURCE);
+      auto& others = needs[from.parent_path().string()];
+      for (const std::string& include : includes)
+        if (fs::exists(fs::path(BCH_SOURCE) / include) &&
+            fs::path(include).parent_path() != from.parent_path())
+          others.emplace(fs::path(include).parent_path().string(), from.string() + " includes " + include);
+    }
+  EXPECT_GT(needs.size(), 30u);
+  for (bool taken = true; taken;) {
+    taken = false;
+    for (auto folder = needs.begin(); folder != needs.end();) {
+      std::erase_if(folder->second, [&](const auto& other) { return !needs.contains(other.first); });
+      const bool is_free = folder->second.empty();
+      taken |= is_free;
+      folder = is_free ? needs.erase(folder) : std::next(folder);
+    }
+  }
+  for (const auto& [folder, others] : needs)
+    for (const auto& [other, example] : others)
+      ADD_FAILURE() << folder << " and " << other << ": " << example;
+}
+
+TEST(Layers, IsaFilesIncludeOnlyKernelTemplates) {
+  std::size_t found = 0;
+  for (const auto& [file, includes] : includes_below("kernel")) {
+    const std::string stem = file.stem().string();
+    if (stem != "scalar" && stem != "sse2" && stem != "avx2" && stem != "avx512") continue;
+    ++found;
+    EXPECT_EQ(includes, (std::vector<std::string>{
+                            "kernel/collide/pair_kernel.hpp", "kernel/contact/contact_kernel.hpp",
+                            "kernel/distance/clearance_kernel.hpp", "kernel/distance/contact_time_kernel.hpp",
+                            "kernel/runtime/agent_check.hpp", "kernel/separation/extent_kernel.hpp"}))
+        << file;
+  }
+  EXPECT_EQ(found, 4u);
+}
+
+/// Code that could be shared with other objects: weak symbols that are not data.
+std::set<std::string> weak_code(const fs::path& object) {
+  std::set<std::string> symbols;
+  std::istringstream lines(output_of("nm --defined-only '" + object.string() + "'"));
+  for (std::string address, type, name; lines >> address >> type >> name;)
+    if (type == "W" || type == "w" || type == "u" || type == "i") symbols.insert(name);
+  return symbols;
+}
+
+TEST(Objects, NoCodeForWideRegistersCanReplaceOtherCode) {
+  std::set<std::string> elsewhere;
+  std::size_t wide = 0;
+  for (const fs::path& object : objects())
+    if (!is_wide(object)) elsewhere.merge(weak_code(object));
+  EXPECT_FALSE(elsewhere.empty());
+  for (const fs::path& object : objects()) {
+    if (!is_wide(object)) continue;
+    ++wide;
+    const std::set<std::string> here = weak_code(object);
+    for (const std::string& symbol : here)
+      EXPECT_FALSE(elsewhere.contains(symbol)) << object << ": " << symbol;
+#ifdef __OPTIMIZE__
+    EXPECT_TRUE(here.empty()) << object << ": " << *here.begin();
+#endif
+  }
+  EXPECT_EQ(wide, 7u);
+}
+
+TEST(Objects, NothingThatComputesAnAnswerFusesMultiplyAndAdd) {
+  const std::regex fused(R"(\bvfn?m(add|sub))");
+  std::size_t multiplications = 0;
+  for (const fs::path& object : objects()) {
+    const std::string code = output_of("objdump -d --no-show-raw-insn '" + object.string() + "'");
+    std::smatch match;
+    EXPECT_FALSE(std::regex_search(code, match, fused)) << object << ": " << match.str();
+    multiplications += code.find("vmulps") != std::string::npos;
+  }
+  EXPECT_GE(multiplications, 2u);  // the disassembly is really looked at
+}
+
+TEST(Readme, ShowsTheLineThatCiRuns) {
+  const std::string ci = read(fs::path(BCH_SOURCE) / ".ci/run");
+  const std::string readme = read(fs::path(BCH_SOURCE) / "README.md");
+  std::istringstream lines(ci);
+  bool found = false;
+  for (std::string line; std::getline(lines, line);)
+    if (line.find("cmake --workflow --preset release") != std::string::npos && !line.starts_with("#")) {
+      found = true;
+      EXPECT_NE(readme.find("\n" + line + "\n"), std::string::npos) << line;
+    }
+  EXPECT_TRUE(found);
+}
+
+}  // namespace
