@@ -12,7 +12,7 @@
 
 namespace bch::baselines {
 
-/// What clearance() answers for a pair.
+/// The answer of clearance() for a pair.
 struct Clearance {
   float distance;  ///< metres; infinite beyond the limit, and the rest is as clearance() says
   Vec2 direction;
@@ -24,8 +24,8 @@ class ClearanceReference {
  public:
   ClearanceReference(std::span<const Shape> shapes, const ShapeSetPlan& plan) : trees_(shapes, plan) {}
 
-  /// Not for two threads at a time. `depth_first` goes to the nearer child first and leaves out what is farther than
-  /// the nearest so far.
+  /// Returns the clearance of a pair. `depth_first` visits the nearer child first and skips what is farther
+  /// than the nearest so far. Not for two threads at a time.
   Clearance query(const Agents& agents, Pair pair, double max_distance, Method method);
 
  private:

@@ -25,8 +25,8 @@ struct CutList {
   }
 };
 
-/// The answer by its definition: some disc of one cut overlaps one of the other, and so do all discs above them. `place`
-/// is that of B's agent, seen from A's.
+/// The answer by its definition: some disc of one cut overlaps one of the other, and so do all discs above
+/// them. `place` is that of B's agent, seen from A's.
 bool any_hit(const FloatPlacement& place, const CutList& a, const CutList& b);
 
 /// The discs of every cut that a plan names: what references that look at all pairs of discs start from.
@@ -34,11 +34,11 @@ class CutLists {
  public:
   CutLists(std::span<const Shape> shapes, const ShapeSetPlan& plan);
 
-  /// Of the agent's shape at its level.
+  /// Returns the cut list of the agent's shape at its level.
   const CutList& list(const Agents& agents, std::uint32_t agent) const;
-  /// The discs of that.
+  /// Returns the discs of that list.
   std::span<const Disc> of(const Agents& agents, std::uint32_t agent) const;
-  /// Metres, not below the reach that layout/base/rounding.hpp speaks of.
+  /// Returns the agent's reach in metres, not below the reach that layout/base/rounding.hpp defines.
   float reach(const Agents& agents, std::uint32_t agent) const;
 
  private:
@@ -47,7 +47,7 @@ class CutLists {
   std::vector<float> reach_;    ///< per shape, rounded up
 };
 
-/// What any_hit() says of the cuts of a pair of agents, whatever their order.
+/// Returns the answer of any_hit() for the cuts of a pair of agents, whatever their order.
 bool any_hit(const CutLists& cuts, const Agents& agents, Pair pair);
 
 }  // namespace bch::baselines

@@ -14,8 +14,8 @@
 
 namespace bch::baselines {
 
-/// The cuts of shapes as binary trees of their own, level by level as in a ShapeSet: what the scalar references of
-/// the queries about distances and times search.
+/// The cuts of shapes as binary trees of their own, level by level as in a ShapeSet: what the scalar
+/// references of the queries about distances and times search.
 class CutTrees {
  public:
   /// A node, 16 bytes. Inner ones have the radius that holds all discs below.
@@ -43,7 +43,7 @@ class CutTrees {
   std::vector<Tree> trees_;  ///< shape * level_count_ + level
 };
 
-/// From a disc of A to one of B, in A's frame: as layout/base/rounding.hpp lists it.
+/// The step from a disc of A to one of B, in A's frame, computed as layout/base/rounding.hpp lists it.
 struct Step {
   float x, y, radius_sum;
 };
@@ -54,8 +54,8 @@ Step step(const FloatPlacement& place, const DiscA& a, const DiscB& b) noexcept 
           place.y + (place.sine * b.x + place.cosine * b.y) - a.y, a.radius + b.radius};
 }
 
-/// Walks both trees, the nearer child first: visit(a, b, step) for pairs of leaves, leaving out what lies below pairs
-/// for which bound(step) is above best(). Bounds and best are of one measure; `open` is scratch.
+/// Walks both trees, the nearer child first: visit(a, b, step) for pairs of leaves, leaving out what lies
+/// below pairs for which bound(step) is above best(). Bounds and best are of one measure; `open` is scratch.
 struct OpenPair {
   std::uint32_t a, b;
   float bound;

@@ -17,13 +17,14 @@ namespace {
 /// Discs over all triangles seen from above, which leaves test exactly, or leave at their discs.
 struct ProjectedHierarchy {
   std::vector<HierarchyNode> nodes;
-  std::vector<Element> triangles;  ///< in the order of the leaves; empty: discs alone
-  std::vector<ElementRange> held;  ///< per node: of them
+  std::vector<Primitive> triangles;              ///< in the order of the leaves; empty: discs alone
+  std::vector<PrimitiveRange> primitive_ranges;  ///< per node: of them
   std::uint32_t height;
 
   std::size_t bytes() const {
     return nodes.size() * sizeof(HierarchyNode) +
-           (triangles.empty() ? 0 : nodes.size() * sizeof(ElementRange) + triangles.size() * sizeof(Element));
+           (triangles.empty() ? 0
+                              : nodes.size() * sizeof(PrimitiveRange) + triangles.size() * sizeof(Primitive));
   }
 
   template <class Counts>
@@ -37,7 +38,8 @@ struct ProjectedHierarchy {
         return is_verified(float_place, tree_a, tree_b, at, counts);
       // Triangles that meet have a point in common, which lies in all discs above them.
       counts.leaf();
-      const Element &s = a.triangles[a.held[at.a].begin], &t = b.triangles[b.held[at.b].begin];
+      const Primitive &s = a.triangles[a.primitive_ranges[at.a].begin],
+                      &t = b.triangles[b.primitive_ranges[at.b].begin];
       return triangles_meet(Triangle2{exact(s.a), exact(s.b), exact(s.c)},
                             Triangle2{place.place(t.a), place.place(t.b), place.place(t.c)});
     };
@@ -80,8 +82,9 @@ std::unique_ptr<Structure> build_bch_projected(std::span<const Body> bodies, con
     }
     Hierarchy hierarchy = projected_hierarchy(vertices, body.triangles);
     const std::uint32_t levels = height(hierarchy);
-    if (!options.projected_triangles) hierarchy.elements.clear();
-    return {std::move(hierarchy.nodes), std::move(hierarchy.elements), std::move(hierarchy.held), levels};
+    if (!options.projected_triangles) hierarchy.primitives.clear();
+    return {std::move(hierarchy.nodes), std::move(hierarchy.primitives),
+            std::move(hierarchy.primitive_ranges), levels};
   });
 }
 

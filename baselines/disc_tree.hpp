@@ -23,9 +23,9 @@ inline bool discs_overlap(const FloatPlacement& place, const Disc& a, const Disc
   return x * x + y * y <= radius_sum * radius_sum;
 }
 
-/// Whether every disc of one path overlaps every disc of the other. A path leads from a node up to its root, so that the
-/// smallest discs, which part most pairs, come first. Where all discs on the ways up from two discs of the cuts overlap,
-/// the agents collide: this is the definition of the answer.
+/// Returns whether every disc of one path overlaps every disc of the other. A path leads from a node up to
+/// its root, so the smallest discs, which separate most pairs, come first. If all ancestors of two
+/// overlapping discs of the cuts overlap, the agents collide: this is the definition of the answer.
 inline bool all_overlap(const FloatPlacement& place, std::span<const Disc> path_a,
                         std::span<const Disc> path_b) noexcept {
   for (const Disc& a : path_a)
@@ -60,7 +60,7 @@ struct DiscTree {
   }
 };
 
-/// What all_overlap() says of the ways to two nodes, without listing them.
+/// Returns the answer of all_overlap() for the paths to two nodes, without listing the paths.
 template <class Counts>
 bool is_verified(const FloatPlacement& place, const DiscTree& a, const DiscTree& b, const NodePair& at,
                  Counts counts) noexcept {
@@ -74,9 +74,10 @@ bool is_verified(const FloatPlacement& place, const DiscTree& a, const DiscTree&
   }
 }
 
-/// Walks both trees depth first, descending into the larger disc: the paper's descent. True as soon as accept(pair) is
-/// true of two ends whose discs overlap. A pair is left out where two discs above it do not overlap, so it passes every
-/// pair that all_overlap() is true of, and others too: not all pairs of ancestors are met on the way.
+/// Walks both trees depth first, descending into the larger disc: the paper's descent. True as soon as
+/// accept(pair) is true of two ends whose discs overlap. A pair is left out where two discs above it do not
+/// overlap, so it passes every pair that all_overlap() is true of, and others too: not all pairs of ancestors
+/// are met on the way.
 template <class Counts, class Accept>
 bool any_ends_overlap(const FloatPlacement& place, const DiscTree& a, const DiscTree& b, Counts counts,
                       Accept accept) {

@@ -12,10 +12,10 @@ namespace {
 /// Calls visit(point) for all points of what a node holds.
 template <class Visit>
 void visit_held(const Hierarchy& hierarchy, std::uint32_t node, Visit visit) {
-  const auto [begin, end] = hierarchy.held.at(node);
+  const auto [begin, end] = hierarchy.primitive_ranges.at(node);
   for (std::uint32_t i = begin; i < end; ++i) {
-    const Element& element = hierarchy.elements[i];
-    for (const Vec2 p : {element.a, element.b, element.c}) visit(p);
+    const Primitive& primitive = hierarchy.primitives[i];
+    for (const Vec2 p : {primitive.a, primitive.b, primitive.c}) visit(p);
   }
 }
 

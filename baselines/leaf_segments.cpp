@@ -17,8 +17,8 @@ Point2 minus(Point2 a, Point2 b) {
   return {a.x - b.x, a.y - b.y};
 }
 
-/// On which side of a segment's line two points lie: one value each, and what a distance of one margin from the line counts
-/// at least.
+/// The sides of a segment's line on which two points lie: one value each, and the least value of a point at a
+/// distance of one margin from the line.
 struct Sides {
   double first, second, margin;
 
@@ -92,8 +92,8 @@ bool LeafSegments::meet(const FloatPlacement& place, const Agents& agents, Pair 
   const Placement in_a{static_cast<double>(place.cosine), static_cast<double>(place.sine),
                        static_cast<double>(place.x), static_cast<double>(place.y)};
   const double margin = margin_of(a) + margin_of(b);
-  const auto [begin_a, end_a] = a.hierarchy.held[node_a];
-  const auto [begin_b, end_b] = b.hierarchy.held[node_b];
+  const auto [begin_a, end_a] = a.hierarchy.primitive_ranges[node_a];
+  const auto [begin_b, end_b] = b.hierarchy.primitive_ranges[node_b];
   if (std::max(end_a - begin_a, end_b - begin_b) > most_leaf_segments) return true;
   for (std::uint32_t i = begin_a; i < end_a; ++i)
     for (std::uint32_t j = begin_b; j < end_b; ++j) {

@@ -14,21 +14,23 @@
 
 namespace bch::baselines {
 
-/// Whether two segments come within a margin of each other, in double and by the operations of layout/base/rounding.hpp, V, in
-/// their order: written apart from the kernel, which has to give the same bits.
+/// Returns whether two segments come within a margin of each other. It computes in double with the operations
+/// of layout/base/rounding.hpp, V, in their order. It is written independently of the kernel, which has to
+/// give the same bits.
 bool segments_meet(std::array<Point2, 2> p, std::array<Point2, 2> q, double margin) noexcept;
 
-/// Exact leaves, straight from outlines and hierarchies: which segments the leaves of shapes hold, and whether those of two
-/// leaves meet.
+/// Exact leaves, straight from outlines and hierarchies. The class finds which segments the leaves of shapes
+/// hold, and whether those of two leaves meet.
 class LeafSegments {
  public:
   /// Shapes and levels as in a ShapeSet. The shapes must outlive this.
   LeafSegments(std::span<const Shape> shapes, const ShapeSetPlan& plan, Leaves leaves);
 
-  /// Whether segments decide where leaves of a pair of agents overlap.
+  /// Returns whether segments decide if leaves of a pair of agents overlap.
   bool decide(const Agents& agents, Pair pair) const;
 
-  /// Whether segments of two leaves meet: nodes of the hierarchies of the agent of the lower index and of the other one.
+  /// Returns whether segments of two leaves meet. The leaves are nodes of the hierarchies of the agent with
+  /// the lower index (`node_a`) and of the other agent (`node_b`).
   /// Precondition: decide().
   bool meet(const FloatPlacement& place, const Agents& agents, Pair pair, std::uint32_t node_a,
             std::uint32_t node_b) const;

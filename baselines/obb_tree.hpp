@@ -33,8 +33,8 @@ struct ObbNode {
 };
 static_assert(sizeof(ObbNode) == 64);
 
-/// After S. Gottschalk, M. C. Lin, D. Manocha, "OBBTree: a hierarchical structure for rapid interference
-/// detection", SIGGRAPH 1996.
+/// A tree of oriented boxes after S. Gottschalk, M. C. Lin, D. Manocha, "OBBTree: a hierarchical structure
+/// for rapid interference detection", SIGGRAPH 1996.
 /// Boxes: aligned with the eigenvectors of the covariance of the facets' area (of segments: their length).
 ///        The paper prefers the area of the facets' convex hull, which interior facets cannot tilt; a walking
 ///        person's surface is nearly its hull at the scales where boxes are large, and deeper down patches

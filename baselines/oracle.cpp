@@ -64,7 +64,8 @@ long double Oracle::distance(Point p, Point a, Point b) {
   return std::hypot(p.x - a.x - t * dx, p.y - a.y - t * dy);
 }
 
-/// When p, moving by t (x, y), is on a segment. Not if they are parallel: then it meets the end of a neighbour.
+/// Returns the time t at which p, moving by t (x, y), reaches a segment. Returns infinity if the two are
+/// parallel: p then meets the end of a neighbouring segment.
 long double Oracle::arrival(Point p, long double x, long double y, Point a, Point b) {
   const long double dx = b.x - a.x, dy = b.y - a.y, across = x * dy - y * dx;
   if (across == 0) return HUGE_VALL;
@@ -73,8 +74,8 @@ long double Oracle::arrival(Point p, long double x, long double y, Point a, Poin
   return t >= 0 && t <= 1 && along >= 0 && along <= 1 ? t : HUGE_VALL;
 }
 
-/// By the winding number: the kernels count parity, and the two agree because contours do not contain each
-/// other.
+/// Returns whether p is inside, by the winding number. The kernels count parity, and the two agree because
+/// contours do not contain each other.
 bool Oracle::inside(Point p, const std::vector<Contour>& contours) {
   int winding = 0;
   any_segment(contours, [&](Point a, Point b) {
@@ -100,7 +101,7 @@ bool Oracle::nested() const {
   return any_inside(a_, b_) || any_inside(b_, a_);
 }
 
-long double Oracle::contact_time(long double x, long double y) const {
+long double Oracle::time_of_impact(long double x, long double y) const {
   if (cross()) return 0;
   long double first = HUGE_VALL;
   any_segment(a_, [&](Point a, Point b) {

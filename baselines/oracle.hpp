@@ -11,15 +11,16 @@
 
 namespace bch::baselines {
 
-/// Where an agent b is, seen from an agent a, in x87 extended precision: 64 bits of mantissa, so off by less
-/// than 1e-17 of the distances involved, where the kernels' slack is 1e-6 of them.
+/// The placement of agent b in the frame of agent a, in x87 extended precision with 64 bits of mantissa. It
+/// is off by less than 1e-17 of the distances involved, while the kernels' slack is 1e-6 of them.
 struct ExactPlacement {
   long double cosine, sine, x, y;
 };
 
 ExactPlacement exact_placement(const Agents& agents, std::uint32_t a, std::uint32_t b);
 
-/// What is true of two outlines, whatever discs say: every segment against every segment, in long double.
+/// The true relation of two outlines, independent of discs: every segment against every segment, in long
+/// double.
 class Oracle {
  public:
   Oracle(const Outline& a, const Outline& b, const ExactPlacement& b_in_a);
@@ -30,9 +31,9 @@ class Oracle {
   /// A contour of one lies inside the other. For outlines that do not cross.
   bool nested() const;
 
-  /// The least t in [0, 1] at which the outlines have a point in common if a has moved by t (x, y), in its own
-  /// frame; or infinity. Every corner on its way against every segment.
-  long double contact_time(long double x, long double y) const;
+  /// The least t in [0, 1] at which the outlines have a point in common if a has moved by t (x, y), in its
+  /// own frame; or infinity. Every corner on its way against every segment.
+  long double time_of_impact(long double x, long double y) const;
 
   /// Smallest distance between points of the outlines, metres; 0 where they cross.
   long double distance() const;

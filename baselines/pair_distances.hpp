@@ -11,18 +11,19 @@
 
 namespace bch::baselines {
 
-/// Distances by somebody else's library: a peer of clearance(), and what errors are measured by. Any number of threads
-/// may ask.
+/// Distances by somebody else's library: a peer of clearance(), and what errors are measured by. Any number
+/// of threads may ask.
 class PairDistances {
  public:
   virtual ~PairDistances() = default;
-  /// Metres; not positive where the two meet.
+  /// Returns the distance in metres; not positive where the two meet.
   virtual double query(const Agents& agents, Pair pair) const = 0;
 };
 
-/// FCL's distance of trees of oriented boxes and swept spheres over the outlines as walls, or as one upright triangle a
-/// segment, or over the triangles in space; null in a build without FCL.
-/// Errors:  throw std::invalid_argument on an outline that validate() rejects, on triangles that a Structure would.
+/// FCL's distance of trees of oriented boxes and swept spheres over the outlines as walls, or as one upright
+/// triangle a segment, or over the triangles in space; null in a build without FCL.
+/// Errors:  throw std::invalid_argument on an outline that validate() rejects, on triangles that a Structure
+///          would.
 std::unique_ptr<PairDistances> fcl_outline_distances(std::span<const Body> bodies);
 std::unique_ptr<PairDistances> fcl_segment_distances(std::span<const Body> bodies);
 std::unique_ptr<PairDistances> fcl_mesh_distances(std::span<const Body> bodies);

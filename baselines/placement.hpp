@@ -8,8 +8,8 @@
 
 namespace bch::baselines {
 
-/// Where the agent of the larger index stands, seen from the other one: in float, with the operations that
-/// layout/base/rounding.hpp lists. What tests of discs use.
+/// The placement of the agent with the larger index in the frame of the other one, in float. It uses the
+/// operations that layout/base/rounding.hpp lists. Tests of discs use it.
 struct FloatPlacement {
   float cosine, sine, x, y;
 };
@@ -25,8 +25,8 @@ inline Point2 exact(Vec2 p) noexcept {
   return {static_cast<double>(p.x), static_cast<double>(p.y)};
 }
 
-/// The same in double: what tests of triangles and segments use. A point of the second shape is placed by
-/// place() and rounded to double there; those doubles, beside the floats of the first shape, ARE the input of
+/// The placement in double, for tests of triangles and segments. A point of the second shape is placed by
+/// place() and rounded to double there. Those doubles, beside the floats of the first shape, ARE the input of
 /// the exact tests: each has one right answer for them, however the structures arrive at it. Against exact
 /// arithmetic with the exact headings a placed point is off by 6e-10 of its distance from its agent, which is
 /// the error of layout/base/heading.hpp, and by 4 units in the last place of the distance between the agents.

@@ -37,7 +37,7 @@ struct RectangleTree {
   std::vector<Segment> facets;  ///< in the order of the leaves
   std::uint32_t height = 0;
 
-  /// Of a tree over segments at z = 0.
+  /// Builds the tree from an OBB tree over segments at z = 0.
   explicit RectangleTree(const ObbTree& flat);
 
   std::size_t bytes() const { return nodes.size() * sizeof(RectangleNode) + facets.size() * sizeof(Segment); }

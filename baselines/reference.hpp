@@ -16,22 +16,24 @@
 namespace bch::baselines {
 
 enum class Method {
-  brute_force,  ///< every disc of one cut against every disc of the other, with all discs above: the definition
+  brute_force,  ///< every disc of one cut against every one of the other, with all ancestors: the definition
   depth_first,  ///< the paper's descent into the larger disc, which verifies what it finds
 };
 
 /// Scalar answers to the questions of the batch kernel, straight from the binary hierarchies: one pair at a
-/// time, one disc test at a time, in float with the operations that layout/base/rounding.hpp lists. Slow, obvious,
-/// and written apart from the kernel, which has to give the same bits.
+/// time, one disc test at a time, in float with the operations that layout/base/rounding.hpp lists. Slow,
+/// obvious, and written apart from the kernel, which has to give the same bits.
 class Reference {
  public:
   /// Shapes and levels as in ShapeSet. The shapes must outlive this.
   Reference(std::span<const Shape> shapes, const ShapeSetPlan& plan, Leaves leaves = Leaves::segments);
 
-  /// Whether discs of the cuts of agents a and b overlap, and all discs above them; with exact leaves also segments of them.
+  /// Returns whether discs of the cuts of agents a and b overlap with all their ancestors; with exact leaves,
+  /// their segments have to meet as well.
   bool boundary(const Agents& agents, Pair pair, Method method) const;
 
-  /// The same, or an outline contains a contour of the other. Long double; for outlines that do not meet.
+  /// Returns whether boundary() holds, or an outline contains a contour of the other one. The containment
+  /// test is in long double, for outlines that do not meet.
   bool solid(const Agents& agents, Pair pair, Method method) const;
 
  private:

@@ -12,9 +12,10 @@
 #include "baselines/traversal_stack.hpp"
 #include "layout/hierarchy/hierarchy.hpp"
 
-// The kinds "reference" and "paper_descent": the paper's descent of two binary trees by their smallest discs, one pair at
-// a time, into the larger disc first. "reference" is what the batch kernel's speed is measured against, so both are
-// written to be fast; it verifies what the descent finds, because that meets some pairs of ancestors and not all.
+// The kinds "reference" and "paper_descent": the paper's descent of two binary trees by their smallest discs,
+// one pair at a time, into the larger disc first. "reference" is what the batch kernel's speed is measured
+// against, so both are written to be fast; it verifies what the descent finds, because that meets some pairs
+// of ancestors and not all.
 
 namespace bch::baselines {
 namespace {
@@ -32,7 +33,8 @@ struct Centre {
   float x, y;
 };
 
-/// As discs_overlap() places a disc of B; kept beside B's node while A's side descends.
+/// Places a disc of B as discs_overlap() does. The result is kept beside B's node while the traversal
+/// descends on A's side.
 Centre placed(const FloatPlacement& place, const Node& b) noexcept {
   return {place.x + (place.cosine * b.x - place.sine * b.y),
           place.y + (place.sine * b.x + place.cosine * b.y)};
@@ -50,8 +52,8 @@ struct Visit {
 };
 
 /// Tests both children before it goes on with one of them: their tests do not wait for each other, and fewer
-/// branches are mispredicted than by a stack of pairs yet to be tested. True as soon as accept(a, b) is true of two
-/// leaves whose discs overlap.
+/// branches are mispredicted than by a stack of pairs yet to be tested. True as soon as accept(a, b) is true
+/// of two leaves whose discs overlap.
 /// Precondition: `open` has room for the sum of the trees' heights.
 template <class Counts, class Accept>
 bool any_leaves_overlap(const Node* nodes, Visit at, const FloatPlacement& place, Visit* open, Counts counts,
@@ -97,8 +99,9 @@ bool any_leaves_overlap(const Node* nodes, Visit at, const FloatPlacement& place
   }
 }
 
-/// Whether all nodes from the root of A down to `a` overlap all from the root of B down to `b`. The ways down follow from
-/// the order of nodes: what is no hit pays nothing for them. (To store parents gained 10 ns of 590.)
+/// Returns whether all nodes from the root of A down to `a` overlap all nodes from the root of B down to `b`.
+/// The paths follow from the order of nodes, so pairs without a hit pay nothing for them. (To store parents
+/// gained 10 ns of 590.)
 /// Precondition: `path` has room for the height of A and one more.
 template <class Counts>
 bool ancestors_overlap(const Node* nodes, Pair roots, std::uint32_t a, std::uint32_t b,

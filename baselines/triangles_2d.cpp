@@ -36,7 +36,7 @@ bool edges_meet(const Triangle2& s, const Triangle2& t) {
   return false;
 }
 
-/// Of a triangle that turns by `turn` != 0.
+/// Returns whether a triangle that turns by `turn` != 0 contains a point.
 bool contains(const Triangle2& s, int turn, const Point2& p) {
   return orientation(s[0], s[1], p) != -turn && orientation(s[1], s[2], p) != -turn &&
          orientation(s[2], s[0], p) != -turn;

@@ -12,7 +12,7 @@ namespace {
 
 using Signs = std::array<int, 3>;
 
-/// On which side of the plane of s the corners of t are; zeros if s has no area.
+/// Returns on which side of the plane of s the corners of t are; zeros if s has no area.
 Signs sides(const Triangle3& s, const Triangle3& t) {
   return {orientation(s[0], s[1], s[2], t[0]), orientation(s[0], s[1], s[2], t[1]),
           orientation(s[0], s[1], s[2], t[2])};

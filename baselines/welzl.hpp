@@ -42,7 +42,8 @@ class Welzl {
     }
   }
 
-  /// Of the first points, with one on the boundary, or two.
+  /// Returns the smallest circle around the first `count` points that has one given point on its boundary, or
+  /// two.
   Circle through(std::size_t count, Vec2 p) const {
     Circle disc = around(points_[0], p);
     for (std::size_t i = 1; i < count; ++i)

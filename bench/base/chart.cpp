@@ -39,7 +39,7 @@ double nice_step(double span) {
   return 10 * power;
 }
 
-/// Where values stand along an axis, 0 to 1.
+/// The places of values along an axis, 0 to 1.
 class Scale {
  public:
   explicit Scale(const ChartAxis& axis) : axis_(axis) {

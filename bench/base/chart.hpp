@@ -19,7 +19,8 @@ struct ChartSeries {
   std::vector<ChartPoint> points;
 };
 
-/// A logarithmic axis shows decades, and what is zero at a place of its own beside the least of them.
+/// An axis of a chart. A logarithmic axis shows decades, and zeros at a place of their own beside the least
+/// of them.
 struct ChartAxis {
   std::string title;
   bool logarithmic = false;
@@ -35,10 +36,11 @@ struct ChartPanel {
   std::string line_name;
 };
 
-/// Low and high for all of the values; room above for a linear axis, which begins at 0 unless values are negative.
+/// Returns an axis from the low to the high of all values; with room above for a linear axis, which begins at
+/// 0 unless values are negative.
 ChartAxis axis_for(std::string title, bool logarithmic, std::span<const double> values);
 
-/// An SVG picture: panels beside each other under a title, with one legend.
+/// Draws an SVG picture: panels beside each other under a title, with one legend.
 std::string draw_chart(const std::string& title, std::span<const ChartPanel> panels);
 
 }  // namespace bch::cli

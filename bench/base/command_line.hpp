@@ -12,7 +12,8 @@
 
 namespace bch::cli {
 
-/// Refuses empty values of all options of a program and its commands: an empty name would mean the same as none.
+/// Refuses empty values of all options of a program and its commands: an empty name would mean the same as no
+/// option.
 /// Errors:  throws UsageError naming the option.
 inline void require_values(const CLI::App& program) {
   for (const CLI::App* app : program.get_subcommands()) require_values(*app);
@@ -43,7 +44,7 @@ inline bool parse_command_line(CLI::App& program, int argc, char** argv) {
   return false;
 }
 
-/// An option that takes one value, and any number of times.
+/// Adds an option that takes one value and may be given any number of times.
 inline CLI::Option& add_repeatable_option(CLI::App& program, const char* name,
                                           std::vector<std::string>& values, const std::string& help,
                                           const char* type) {

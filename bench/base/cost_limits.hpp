@@ -19,12 +19,12 @@ struct CostLimits {
   double seconds = 0;                        ///< for all shapes; 0: 60, and 1 more for each shape
   double memory = 0;                         ///< GiB of the program; 0: 4, and 1/1024 more for each shape
 
-  /// The two that depend on how many shapes were asked for.
+  /// The two limits that depend on how many shapes were asked for.
   double seconds_for(std::size_t shapes) const;
   double memory_for(std::size_t shapes) const;
 };
 
-/// "12 contours, more than 10; --max-contours raises the limit".
+/// Returns an error message: "12 contours, more than 10; --max-contours raises the limit".
 std::string beyond_limit(std::size_t count, const char* what, std::size_t most, const char* option);
 
 }  // namespace bch::cli

@@ -67,7 +67,7 @@ class TextBytes : public io::ByteSourceBase {
   }
 };
 
-/// Two agents' ways apart are within contact_time()'s limit.
+/// The longest way of an agent: two agents' ways apart are within the limit of time_of_impact().
 constexpr double largest_way = rounding::largest_position / 2;
 
 /// A place in a file, for messages.

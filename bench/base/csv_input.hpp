@@ -24,20 +24,20 @@ struct AgentTable {
   Agents agents() const { return {shape, x, y, heading, level}; }
 };
 
-/// Both take any order of columns, spaces around values, quotes as spreadsheets write them, empty lines,
-/// either kind of line ending.
+/// Both readers below take any order of columns, spaces around values, quotes as spreadsheets write them,
+/// empty lines, and either kind of line ending.
 /// Errors:  throw InputError naming file, line and value.
 
-/// Columns id,shape,x,y,heading[,level][,dx,dy]. An id is any text, unique; shapes are below `shapes`, levels below
-/// `levels`, the rest within the limits of collide() and, for every two agents, of contact_time().
-/// `moving`: dx and dy have to be there.
+/// Reads the columns id,shape,x,y,heading[,level][,dx,dy]. An id is any text, unique; shapes are below
+/// `shapes`, levels below `levels`, the rest within the limits of collide() and, for every two agents, of
+/// time_of_impact(). `moving`: dx and dy have to be there.
 AgentTable read_agents(const std::string& file, std::uint32_t shapes, std::uint32_t levels, bool moving);
 
-/// Columns first,second: ids of agents.
+/// Reads the columns first,second: ids of agents.
 std::vector<Pair> read_pairs(const std::string& file, const AgentTable& agents);
 
-/// An id as a CSV field: in quotes where it has a comma, a quote, a line ending, or a blank at either end, which readers
-/// would otherwise take away.
+/// Writes an id as a CSV field: in quotes where it has a comma, a quote, a line ending, or a blank at either
+/// end, which readers would otherwise take away.
 std::string csv_field(const std::string& text);
 
 }  // namespace bch::cli

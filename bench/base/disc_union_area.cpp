@@ -33,7 +33,7 @@ double swept_area(const Circle& c, double begin, double end) {
 bool add_hidden_arcs(const Circle& a, const Circle& b, bool a_first, std::vector<Arc>& hidden) {
   const double x = b.x - a.x, y = b.y - a.y, distance = std::hypot(x, y);
   if (distance >= a.radius + b.radius) return true;
-  // Of two equal discs the first one counts.
+  // If two discs are equal, the first one counts.
   if (distance == 0 && a.radius == b.radius) return a_first;
   if (distance + a.radius <= b.radius) return false;
   if (distance + b.radius <= a.radius) return true;

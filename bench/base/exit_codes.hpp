@@ -18,19 +18,19 @@ enum ExitCode : int {
   exit_signal = 128,   ///< plus the signal's number: 130 for an interrupt
 };
 
-/// What leads to exit_usage. The message is one line.
+/// An error in the command line, which leads to exit_usage. The message is one line.
 class UsageError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-/// What leads to exit_bad_input. The message is one line that names the file.
+/// An error in a file, which leads to exit_bad_input. The message is one line that names the file.
 class InputError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-/// The same of one or more files: a line each.
+/// The errors of several bad files, which lead to exit_bad_input: a line for each file.
 class InputErrors : public std::runtime_error {
  public:
   explicit InputErrors(std::vector<std::string> each)

@@ -19,9 +19,9 @@
 namespace bch::cli {
 namespace {
 
-/// By which people and systems ask a program to end.
+/// The signals by which people and systems ask a program to end.
 constexpr int requests[] = {SIGINT, SIGTERM, SIGHUP};
-/// Which end no program, cannot be caught, or mean something else here.
+/// The signals that end no program, cannot be caught, or mean something else here.
 constexpr int left_alone[] = {SIGKILL, SIGSTOP, SIGTSTP, SIGTTIN,  SIGTTOU,
                               SIGCONT, SIGCHLD, SIGURG,  SIGWINCH, SIGXFSZ};
 
@@ -35,10 +35,10 @@ Unfinished place;
 std::atomic<const Unfinished*> unfinished{nullptr};
 static_assert(std::atomic<const Unfinished*>::is_always_lock_free);
 
-/// Where handlers run when the main thread has used up its own stack.
+/// The stack on which handlers run when the main thread has used up its own.
 alignas(64) char handler_stack[std::size_t{64} << 10];
 
-/// Only calls that signal handlers may make.
+/// Removes the file under construction by calls that signal handlers may make.
 void remove_unfinished() {
   if (const Unfinished* const file = unfinished.load()) unlinkat(file->folder, file->name, 0);
 }

@@ -22,7 +22,8 @@ void forget_signals();
 /// to standard error, and leaves with that code.
 [[noreturn]] void leave_at_once(int code, const std::string& line);
 
-/// The file that such a signal removes, while this lives: a name in an open folder. Of several, it is the last one.
+/// The file that such a signal removes during this object's lifetime: a name in an open folder. Of several,
+/// it is the last one.
 class RemovedOnSignal {
  public:
   static constexpr std::size_t longest_name = 31;

@@ -9,7 +9,8 @@
 
 namespace bch::cli {
 
-/// Precondition: not empty. Of an even number of values, the greater of the two in the middle.
+/// Returns the median; of an even number of values, the greater of the two in the middle.
+/// Precondition: not empty.
 inline double median(std::vector<double> values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());

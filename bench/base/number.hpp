@@ -13,9 +13,9 @@
 
 namespace bch::cli {
 
-/// The whole text as a number in decimal or scientific notation, whatever the locale; "inf" and "nan" are
-/// numbers here, which callers have to reject by range. A number too large for a double is the largest one, a number
-/// too small is nearly 0.
+/// Parses the whole text as a number in decimal or scientific notation, whatever the locale; "inf" and "nan"
+/// are numbers here, which callers have to reject by range. A number too large for a double is the largest
+/// one, a number too small is nearly 0.
 /// Returns: nothing for anything else.
 inline std::optional<double> parse_number(std::string_view text) {
   // from_chars knows no plus sign, which people and spreadsheets write.

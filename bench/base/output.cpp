@@ -29,8 +29,8 @@ void require_unread(const std::string& output, const FileIdentity& identity,
       throw UsageError(output + " would overwrite " + input + ", an input of this command");
 }
 
-/// Whether an input may be a model that reads this file as well: a buffer, materials, motions in its folder. Which ones a
-/// model names is not known before it is read.
+/// Returns whether an input may be a model that reads this file as well: a buffer, materials, motions in its
+/// folder. Which ones a model names is not known before it is read.
 bool may_be_read_by(const fs::path& input, const fs::path& output) {
   std::error_code none;
   const std::string ending = output.extension();

@@ -14,19 +14,21 @@ namespace bch::cli {
 
 [[noreturn]] void reject_output(const std::string& destination, int error);
 
-/// Text for people: see printable().
+/// Writes text for people to standard output: see printable().
 void write_standard_output(std::string_view text);
-/// Data for programs, byte for byte; text for people where standard output is a terminal.
+/// Writes data for programs to standard output, byte for byte; as text for people where it is a terminal.
 void write_standard_data(std::string_view data);
-/// To an open file, which errors call `destination`.
+/// Writes text to an open file, which errors call `destination`.
 void write_all(int descriptor, std::string_view text, const std::string& destination);
 
-/// The file holds all of the text or is left as it was, see OutputFile.
+/// Writes text to a file. The file holds all of the text or is left as it was, see OutputFile.
 void write_file(const std::string& file, std::string_view text);
-/// An empty name is no file: nothing is written. Bytes of names that are not UTF-8 are replaced.
+/// Writes JSON to a file. An empty name is no file: nothing is written. Bytes of names that are not UTF-8 are
+/// replaced.
 void write_json(const std::string& file, const nlohmann::ordered_json& json);
 
-/// And the folders above it. An empty name is no folder and fine, as is one that is there.
+/// Makes a folder and the folders above it. An empty name is no folder and no error, nor is a folder that
+/// exists.
 void make_folder(const std::string& folder);
 
 /// An option that names a file to write, empty where it was not given.
@@ -43,7 +45,7 @@ struct OutputOption {
 /// Errors:  throws UsageError, and InputError as OutputFile does.
 void require_outputs(const std::vector<OutputOption>& outputs, const std::vector<std::string>& inputs);
 
-/// Refuses an output that is an input. For files that will only perhaps be written.
+/// Refuses an output that is an input. It is meant for files that may or may not be written later.
 /// Errors:  throws UsageError.
 void require_unread(const OutputOption& output, const std::vector<std::string>& inputs);
 

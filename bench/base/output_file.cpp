@@ -47,7 +47,7 @@ OutputFile::OutputFile(const std::string& file) : user_name_(file) {
                         O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, place.there ? 0600 : 0666);
   check(file_.number >= 0);
   temporary_ = temporary;
-  // Where the file system refuses it, the file stays its owner's alone.
+  // If the file system refuses the permissions, only the owner can access the file.
   if (place.there) static_cast<void>(fchmod(file_.number, place.there->st_mode & 0777));
 }
 

@@ -22,11 +22,11 @@ struct Descriptor {
   Descriptor& operator=(const Descriptor&) = delete;
 };
 
-/// A file that gets its name once it is whole. It grows beside the file that has the name now, under a random name
-/// that nobody can have prepared, and replaces that file in commit(). Without commit(), the destructor or a signal
-/// removes it. The new file has the permissions of the one it replaces. Where the name is a symbolic link, the file
-/// that it leads to is replaced. Devices and pipes are written to directly.
-/// Of several at a time, all are right, but a signal removes only the last one.
+/// A file that gets its name once it is complete. It grows beside the file that has the name now, under a
+/// random name that an attacker cannot predict, and replaces that file in commit(). Without commit(), the
+/// destructor or a signal removes it. The new file has the permissions of the one it replaces. Where the name
+/// is a symbolic link, the file that it leads to is replaced. Devices and pipes are written to directly.
+/// Several files may be open at a time, but a signal removes only the last one.
 /// Errors of all: throw InputError naming the file and the reason.
 class OutputFile {
  public:
@@ -35,18 +35,19 @@ class OutputFile {
   OutputFile(const OutputFile&) = delete;
   OutputFile& operator=(const OutputFile&) = delete;
 
-  /// Whether write_at(), skip() and clear() can be called.
+  /// Returns whether write_at(), skip() and clear() can be called.
   bool is_regular() const noexcept { return !temporary_.empty(); }
 
-  /// Behind what was written or skipped before.
+  /// Appends behind what was written or skipped before.
   void write(std::string_view bytes);
   void skip(std::uint64_t bytes);
-  /// Anywhere; write() does not notice. The system is asked to have the bytes on the disk soon.
+  /// Writes at any offset; the position of write() stays. The system is asked to have the bytes on the disk
+  /// soon.
   void write_at(std::uint64_t offset, std::string_view bytes);
-  /// As it was at first: empty.
+  /// Makes the file empty again, as it was at first.
   void clear();
 
-  /// Nothing can be called after it.
+  /// Gives the file its name. No function can be called after it.
   void commit();
 
  private:

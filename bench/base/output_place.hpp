@@ -22,11 +22,13 @@ struct FileIdentity {
   friend auto operator<=>(const FileIdentity&, const FileIdentity&) = default;
 };
 
-/// Returns: nothing for what does not exist, and for what is no regular file (devices may be read and written at once).
+/// Identifies a file by device and inode.
+/// Returns: nothing for what does not exist, and for what is no regular file (devices may be read and written
+///          at once).
 std::optional<FileIdentity> identity_of(const std::filesystem::path& file);
 std::optional<FileIdentity> identity_of(int descriptor);
 
-/// Where the bytes of an output go.
+/// The place where the bytes of an output go.
 struct OutputPlace {
   std::filesystem::path path;        ///< behind all symbolic links; as the user wrote it for a device
   std::optional<struct stat> there;  ///< what has the name now
@@ -39,6 +41,7 @@ struct OutputPlace {
 /// Errors:  throws InputError naming the file and the reason.
 OutputPlace writable_place(const std::string& file);
 
+/// Identifies the file at the place of an output.
 /// Returns: nothing for a device.
 std::optional<FileIdentity> identity_of(const OutputPlace& place);
 

@@ -7,8 +7,8 @@
 
 namespace bch::bench {
 
-/// How much more memory the process occupies at most, from here on, than it did here. Where the system does
-/// not let it forget its earlier peak, that peak counts: too much rather than too little.
+/// Measures how much more memory the process occupies at most, from here on, than it did here. Where the
+/// system cannot reset the earlier peak, that peak counts: too much rather than too little.
 class PeakMemory {
  public:
   PeakMemory();

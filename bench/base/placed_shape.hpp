@@ -11,7 +11,7 @@
 
 namespace bch::cli {
 
-/// From a shape's own frame to the picture.
+/// A transformation from a shape's own frame to the picture.
 struct Placement {
   Pixel origin;
   double cosine = 1;
@@ -28,7 +28,7 @@ struct PixelDisc {
 
 PixelDisc placed(const Placement& placement, Disc disc);
 
-/// The discs of a cut.
+/// Returns the discs of a cut in the picture.
 std::vector<PixelDisc> placed_cut(const Placement& placement, const Hierarchy& hierarchy,
                                   std::uint32_t depth);
 

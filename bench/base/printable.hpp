@@ -8,12 +8,14 @@
 
 namespace bch::cli {
 
-/// Text of any origin as a terminal or a page may show it: what would control either is written out.
-/// That is control characters (C0, DEL, C1) as "\x1b" or "\u0085", marks that turn the direction of writing, that break
-/// lines or that are not characters as "\u202e", and bytes that are not UTF-8 as "\xff". Line feeds stay.
+/// Makes text of any origin safe to show on a terminal or a page: what would control either is written out.
+/// That is control characters (C0, DEL, C1) as "\x1b" or "\u0085"; marks that turn the direction of writing,
+/// that break lines or that are not characters as "\u202e"; and bytes that are not UTF-8 as "\xff". Line
+/// feeds stay.
 std::string printable(std::string_view text);
 
-/// The same of a name or a message, which is one line: a line feed is written out as well, "\x0a".
+/// Makes a name or a message printable as one line: as printable() does, and line feeds are written out as
+/// "\x0a".
 std::string printable_line(std::string_view text);
 
 }  // namespace bch::cli

@@ -11,8 +11,8 @@
 
 namespace bch::cli {
 
-/// A bar on standard error for work of more than a second, with the rate and the time left at that rate; only on a
-/// terminal. Gone when the work ends.
+/// A progress bar on standard error for work of more than a second, with the rate and the time left at that
+/// rate. It is shown on a terminal only, and removed when the work ends.
 class Progress {
  public:
   Progress(std::string what, std::size_t total);
@@ -20,7 +20,7 @@ class Progress {
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
-  /// One more of the total is done. From any thread.
+  /// Counts one more of the total as done. May be called from any thread.
   void advance();
 
  private:

@@ -20,10 +20,10 @@ class Random {
     return z ^ (z >> 31);
   }
 
-  /// In [0, bound).
+  /// Draws a real number from [0, bound).
   double uniform(double bound) { return static_cast<double>(next() >> 11) * 0x1p-53 * bound; }
 
-  /// In [0, bound).
+  /// Draws an integer from [0, bound).
   std::uint32_t below(std::uint32_t bound) {
     return static_cast<std::uint32_t>(((next() >> 32) * bound) >> 32);
   }

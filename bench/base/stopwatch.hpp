@@ -9,11 +9,11 @@
 
 namespace bch::bench {
 
-/// Nanoseconds since it was made.
+/// Measures nanoseconds since its construction.
 class Stopwatch {
  public:
-  /// The calling thread's time forgives other programs that want the processor, but knows nothing of other
-  /// threads' work: for one thread the former, for several the wall clock.
+  /// Chooses the clock: the calling thread's time for one thread, the wall clock for several. The former does
+  /// not count the time of other programs on the processor, but misses the work of other threads.
   explicit Stopwatch(int threads) : clock_(threads == 1 ? CLOCK_THREAD_CPUTIME_ID : CLOCK_MONOTONIC) {}
 
   double nanoseconds() const { return static_cast<double>(now() - begin_); }

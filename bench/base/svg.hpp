@@ -18,13 +18,14 @@ struct Pixel {
 /// An SVG picture under construction. Coordinates are written with one decimal.
 class Svg {
  public:
-  /// White ground; `css` says what classes look like, `title` is what screen readers and tooltips say.
+  /// Begins a picture with a white ground; `css` says what classes look like, `title` is what screen readers
+  /// and tooltips say.
   Svg(double width, double height, std::string_view title, std::string_view css);
 
-  /// What comes until close_group() belongs to it; no id if empty.
+  /// Opens a group, which holds everything until close_group(); no id if empty.
   void open_group(std::string_view id, std::string_view classes = {});
   void close_group();
-  /// A group that shows nothing outside of the rectangle.
+  /// Opens a group that shows nothing outside of the rectangle.
   void open_clipped_group(std::string_view id, Pixel corner, double width, double height);
 
   void circle(Pixel centre, double radius);
@@ -32,12 +33,12 @@ class Svg {
   void rectangle(Pixel corner, double width, double height, std::string_view classes);
   void text(Pixel at, std::string_view classes, std::string_view words);
 
-  /// Closed curves as one path. Points that would not be seen apart from their neighbours are left out.
+  /// Begins a path of closed curves. Points that cannot be told apart from their neighbours are left out.
   void begin_path();
   void add_closed_curve(std::span<const Pixel> points);
   void end_path();
 
-  /// The finished picture.
+  /// Returns the finished picture.
   std::string finish() &&;
 
  private:

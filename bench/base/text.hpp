@@ -14,7 +14,7 @@
 
 namespace bch::cli {
 
-/// 12345 as "12 345".
+/// Writes a number with its digits in groups: 12345 as "12 345".
 inline std::string grouped(std::uint64_t number) {
   const std::string digits = fmt::format("{}", number);
   std::string text;
@@ -25,7 +25,7 @@ inline std::string grouped(std::uint64_t number) {
   return text;
 }
 
-/// As text of HTML or SVG: see printable_line().
+/// Escapes text for HTML or SVG: see printable_line().
 inline std::string escaped(std::string_view text) {
   std::string markup;
   for (const char c : printable_line(text)) {
@@ -47,12 +47,12 @@ inline std::string depth_name(std::uint32_t depth) {
   return depth == all_depths ? "all" : fmt::format("{}", depth);
 }
 
-/// "1 clip", "2 clips".
+/// Writes a count with its noun: "1 clip", "2 clips".
 inline std::string counted(std::uint64_t count, std::string_view noun) {
   return fmt::format("{} {}{}", grouped(count), noun, count == 1 ? "" : "s");
 }
 
-/// A float as the double of the same shortest decimal: 0.1f becomes 0.1 instead of 0.10000000149.
+/// Converts a float to the double of the same shortest decimal: 0.1f becomes 0.1 instead of 0.10000000149.
 inline double shortest(float value) {
   return std::stod(fmt::format("{}", value));
 }

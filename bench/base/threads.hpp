@@ -10,7 +10,7 @@
 
 namespace bch::cli {
 
-/// How many threads work from here on, while this lives; 0: all.
+/// Sets how many threads work during this object's lifetime; 0: all.
 class Threads {
  public:
   explicit Threads(std::uint32_t wanted)

@@ -23,7 +23,7 @@ std::string_view text(std::span<const std::byte> bytes) {
   return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
-/// Of an image's parts: one that write_arrays() writes.
+/// Returns whether a part of an image is an array that write_arrays() writes.
 bool is_array(std::size_t part) {
   constexpr auto arrays = static_cast<std::size_t>(baked::Section::settings);
   return part % 2 == 0 && part > 0 && part / 2 <= arrays;

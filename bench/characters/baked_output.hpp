@@ -14,17 +14,18 @@
 
 namespace bch::cli {
 
-/// A baked file, most of which is written while its set is built: where nodes begin is known, and those of shapes that
-/// are there will not change. What is left in the end, no number of threads makes shorter.
+/// A baked file, most of which is written while its set is built. This is possible because the offset of the
+/// nodes is known, and the nodes of shapes that are there will not change. The time for the rest at the end
+/// does not depend on the number of threads.
 class BakedOutput {
  public:
-  /// For a set of so many shapes and levels.
+  /// Opens a file for a set of so many shapes and levels.
   /// Errors:  as OutputFile throws.
   BakedOutput(const std::string& file, std::size_t shapes, std::size_t levels);
 
-  /// The nodes of the shapes so far, from the first one on; they will not change.
+  /// Writes the nodes of the shapes so far, from the first one on; they must not change any more.
   void write_ahead(std::span<const float> nodes);
-  /// The rest, and the file has its name.
+  /// Writes the rest and gives the file its name.
   /// Errors:  as BakedImage and OutputFile throw.
   void finish(const BakedShapes& baked);
 
@@ -36,7 +37,7 @@ class BakedOutput {
   std::size_t ahead_ = 0;  ///< bytes of nodes that are written
 };
 
-/// bake_shapes() and origins_of() into a file.
+/// Writes the results of bake_shapes() and origins_of() into a file.
 BakedShapes bake_file(const std::string& file, std::span<const LoadedCharacter> characters,
                       std::span<const ShapeSource> sources, double threshold, const ShapeSetPlan& plan,
                       const CostLimits& limits = {});

@@ -16,8 +16,9 @@
 namespace bch::cli {
 namespace {
 
-/// Shapes that are built or wait for one before them, a thread: enough that a slow pose holds up nobody, nor a piece of a
-/// file that is written, which takes as long as some twenty poses.
+/// The number of shapes a thread that are being built or wait for one before them. It is large enough that
+/// neither a slow pose nor writing a piece of a file, which takes as long as some twenty poses, makes the
+/// other threads wait.
 constexpr std::size_t shapes_in_flight = 64;
 
 /// What a thread keeps from shape to shape.
@@ -52,7 +53,7 @@ ShapeSet bake_shapes(std::span<const LoadedCharacter> characters, std::span<cons
     workshop.flattener.flatten(workshop.maker.make(sources[i]), i, places[i % places.size()]);
     return i;
   };
-  // In the order of the sources, which is why the bytes do not depend on who built what.
+  // Adds shapes in the order of the sources: the bytes do not depend on the thread that built a shape.
   const auto add = [&](std::size_t i) {
     builder.add(places[i % places.size()]);
     if (added) added(builder.nodes());

@@ -11,10 +11,10 @@
 
 namespace bch::cli {
 
-/// Help for whatever takes a character.
+/// Help for an option that takes a character.
 constexpr const char* character_help = "Character file (glTF, FBX ...), default:male, :female or :bulky";
 
-/// Help for what takes a baked file as well.
+/// Help for an option that takes a baked file as well.
 constexpr const char* character_or_baked_help =
     "Character file, default:male, :female, :bulky or baked file NAME.bch";
 
@@ -24,17 +24,18 @@ struct LoadedCharacter {
   ImportReport report;
 };
 
-/// By its name, which ends in .bch, in whatever case.
+/// Returns whether a file is a baked file by its name, which ends in .bch, in upper or lower case.
 bool is_baked(const std::string& file);
 
-/// Without its folders.
+/// Returns the name of the character's file without its folders.
 std::string file_name(const LoadedCharacter& character);
 
+/// Loads a built-in character or imports a file.
 /// Errors:  throws UsageError on a built-in character with import options or an unknown "default:" name,
 ///          InputError and ImportError on a bad file.
 LoadedCharacter load_character(const std::string& source, const ImportOptions& options);
 
-/// All of them: a bad file does not keep the next from being read.
+/// Loads all characters: a bad file does not keep the next from being read.
 /// Errors:  throws InputErrors of all bad files, and UsageError.
 std::vector<LoadedCharacter> load_characters(std::span<const std::string> sources,
                                              const ImportOptions& options);

@@ -15,8 +15,9 @@
 
 namespace bch::cli {
 
-/// Watches the time and the memory that building and writing shapes takes, while it lives. Beyond a limit it ends the
-/// program at once, whatever that is doing: with a line on standard error, exit_bad_input and no half-written file.
+/// Watches the time and the memory that building and writing shapes takes, during its lifetime. Beyond a
+/// limit it ends the program at once, whatever the program is doing: with a line on standard error,
+/// exit_bad_input and no half-written file.
 class CostGuard {
  public:
   CostGuard(const CostLimits& limits, std::span<const LoadedCharacter> characters, std::size_t shapes);

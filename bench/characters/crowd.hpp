@@ -18,11 +18,11 @@ struct Crowd {
 
   std::size_t size() const { return shape.size(); }
   Agents agents() const { return {shape, x, y, heading}; }
-  /// All at one level.
+  /// Returns the agents, all at one level.
   Agents at_level(const std::vector<std::uint8_t>& level) const { return {shape, x, y, heading, level}; }
 };
 
-/// Positions, headings and shapes uniformly at random; the same for a seed everywhere.
+/// Places agents with positions, headings and shapes uniformly at random; the same for a seed everywhere.
 Crowd place_crowd(std::uint32_t agents, double density, std::uint32_t shapes, std::uint64_t seed);
 
 }  // namespace bch::cli

@@ -19,14 +19,15 @@ struct ImportLimits {
   std::size_t memory = std::size_t{2} << 30;
 };
 
-/// import_character() for files that nobody vouches for: assimp crashes on some malformed ones. A child process
-/// reads the file, within limits, and hands over the character; nothing of assimp runs in this one.
+/// Imports a character as import_character() does, from a file that is not trusted: assimp crashes on some
+/// malformed ones. A child process reads the file, within limits, and hands over the character; nothing of
+/// assimp runs in this process.
 /// Errors:  throws InputError on a file that crashes or exhausts the child, and ImportError as
 ///          import_character() does. One line each that names the file.
 /// Threads: call before any other thread was started, because a child gets only the caller's.
 ImportedCharacter guarded_import(const std::string& file, const ImportOptions& options);
 
-/// The same for any way to read `file`, which runs in the child.
+/// Imports a character from `file` in the same way, where the child calls `read` to read it.
 ImportedCharacter guarded_import(const std::string& file, const std::function<ImportedCharacter()>& read,
                                  const ImportLimits& limits = {});
 

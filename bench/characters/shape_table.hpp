@@ -17,20 +17,21 @@
 
 namespace bch::cli {
 
-/// The poses of all characters, one character after the other, as every command numbers them: a source's index is the
-/// number by which files and tables name its shape.
+/// Lists the poses of all characters, one character after the other, as every command numbers them: a
+/// source's index is the number by which files and tables name its shape.
 std::vector<ShapeSource> list_shapes(std::span<const LoadedCharacter> characters, std::uint32_t poses);
 
-/// Of each character so many poses at times drawn at random over all of its clips, the same for a seed everywhere; of one
-/// without clips its rest pose.
+/// Lists so many poses of each character, at times drawn at random over all of its clips, the same for a seed
+/// everywhere; for a character without clips, its rest pose.
 std::vector<ShapeSource> list_random_shapes(std::span<const LoadedCharacter> characters, std::uint32_t poses,
                                             std::uint64_t seed);
 
-/// The same at so many poses a second: of every clip those at 0, 1 / rate ... before its end, one at least.
+/// Lists the poses of all characters at `rate` poses a second: in every clip those at 0, 1 / rate ... before
+/// its end, one at least; for a character without clips, its rest pose.
 /// Errors:  throws InputError beyond 1e7 poses.
 std::vector<ShapeSource> list_shapes_at_rate(std::span<const LoadedCharacter> characters, double rate);
 
-/// "walk", or "rest pose".
+/// Returns the name of a pose's clip, "walk", or "rest pose".
 std::string clip_name(const LoadedCharacter& character, PoseTime at);
 
 struct ShapeTiming {
@@ -38,19 +39,20 @@ struct ShapeTiming {
   double hierarchy = 0;  ///< seconds; all, where no outline is made
 };
 
-/// Makes shapes of the characters, contour hierarchies, one after the other; learns a character's mesh when it is first asked
-/// for it. Not for two threads at a time. The characters must outlive it.
+/// Makes shapes of the characters, contour hierarchies, one after the other; prepares a character's mesh when
+/// it is first asked for it. Not for two threads at a time. The characters must outlive it.
 class ShapeMaker {
  public:
   /// `deepest` and `outlines` as of PoseShaper.
   ShapeMaker(std::span<const LoadedCharacter> characters, double threshold, std::uint32_t deepest,
              bool outlines = true, const CostLimits& limits = {});
 
+  /// Makes a shape.
   /// Returns: the shape, until the next call.
   /// Errors:  throws InputError naming the character, clip and time of a pose that has no outline, or one of more
   ///          contours, or a hierarchy of more nodes, than the limits.
   const Shape& make(const ShapeSource& source);
-  /// What the last shape took.
+  /// Returns the time that the last shape took.
   const ShapeTiming& timing() const { return timing_; }
 
  private:

@@ -19,16 +19,16 @@ BakedShapes open_baked(const std::string& file);
 /// Errors:  throws InputError as well where solid semantics or exact leaves are asked for of a set without outlines.
 BakedShapes load_baked_for(const std::string& file, const AnswerOptions& answer);
 
-/// What a person wants to know of a baked file.
+/// Describes a baked file for people.
 std::string text_of(const std::string& file, const BakedShapes& baked);
-/// What was looked at by verify(), which found nothing.
+/// Describes what verify() checked, after it found no error.
 std::string verified_text(const ShapeSet& set);
-/// A line a shape.
+/// Lists the shapes of a baked file, one a line.
 std::string table_text(const BakedShapes& baked);
-/// Both.
+/// Describes a baked file and its shapes as JSON.
 nlohmann::ordered_json json_of(const std::string& file, const BakedShapes& baked);
 
-/// Discs of a shape's cut.
+/// Returns the number of discs of a shape's cut.
 std::uint32_t disc_count(const ShapeSet& set, std::uint32_t shape, std::uint32_t level);
 
 }  // namespace bch::cli

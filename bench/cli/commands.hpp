@@ -9,7 +9,7 @@
 namespace bch::cli {
 
 /// Adds a subcommand to the program.
-/// Returns: what runs it once the command line was read.
+/// Returns: a function that runs it once the command line was read.
 /// Errors:  the returned function throws UsageError, InputError, ImportError, BakedFileError, anything else for a fault.
 std::function<void()> add_bake_command(CLI::App& program);
 std::function<void()> add_crowd_command(CLI::App& program);

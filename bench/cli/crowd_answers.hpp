@@ -11,7 +11,7 @@
 
 namespace bch::cli {
 
-/// What the pairs say at one level of detail.
+/// The answers for all pairs at one level of detail.
 struct LevelAnswers {
   std::uint32_t depth = 0;
   double discs = 0;  ///< of a shape, mean

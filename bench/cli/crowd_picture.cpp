@@ -101,7 +101,8 @@ Scene::Scene(const CrowdPicture& picture) : window(middle_of(picture)) {
   mark_partners(picture);
 }
 
-/// Also those just outside: their parts reach in, and they touch agents that are inside.
+/// Adds the agents in the window and those just outside: their parts reach in, and they touch agents that are
+/// inside.
 void Scene::add_visible_agents(const CrowdPicture& picture) {
   const Crowd& crowd = picture.crowd;
   drawn_index_.assign(crowd.size(), unseen);

@@ -19,9 +19,9 @@ struct CrowdPicture {
   double density = 0;
 };
 
-/// The middle of the crowd from above as SVG: outlines filled, discs over them, agents told apart by whether
-/// they collide, only their single cylinders do, or neither. Colours differ in lightness as much as in hue,
-/// so that they survive colour blindness and grey print.
+/// Draws the middle of the crowd from above as SVG: outlines filled, discs over them. Colours show whether an
+/// agent collides, only its single cylinder does, or neither. They differ in lightness as much as in hue, so
+/// that they can be told apart with colour blindness and in grey print.
 std::string draw_crowd(const CrowdPicture& picture);
 
 }  // namespace bch::cli

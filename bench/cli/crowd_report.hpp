@@ -38,7 +38,7 @@ struct CrowdRun {
 
 std::string text_report(const CrowdRun& run);
 nlohmann::ordered_json json_report(const CrowdRun& run);
-/// The colliding pairs at the finest level.
+/// Lists the colliding pairs at the finest level as CSV.
 std::string csv_report(const CrowdRun& run);
 
 }  // namespace bch::cli

@@ -12,7 +12,7 @@
 
 namespace bch::cli {
 
-/// What a hierarchy looks like when cut at one depth.
+/// Properties of a hierarchy's cut at one depth.
 struct DepthFacts {
   std::uint32_t depth = 0;
   std::size_t discs = 0;
@@ -37,7 +37,7 @@ struct ShapeTable {
 };
 
 std::string text_of(const LoadedCharacter& character);
-/// What the import has to say about a character, with its file's name: a line a note, mostly none.
+/// Returns the import's notes on a character, with its file's name: a line a note, mostly none.
 std::string notes_text(const LoadedCharacter& character);
 std::string text_of(const LoadedCharacter& character, const ShapeTable& table);
 std::string text_of(const LoadedCharacter& character, const ShapeFacts& facts);
@@ -46,10 +46,10 @@ nlohmann::ordered_json json_of(const LoadedCharacter& character);
 nlohmann::ordered_json json_of(const LoadedCharacter& character, const ShapeTable& table);
 nlohmann::ordered_json json_of(const LoadedCharacter& character, const ShapeFacts& facts);
 
-/// One panel a depth: the outline filled, the discs over it.
+/// Draws one panel a depth: the outline filled, the discs over it.
 std::string draw_depths(const LoadedCharacter& character, const ShapeFacts& facts);
 
-/// "shape 3: walk at 1.25 s".
+/// Returns a title: "shape 3: walk at 1.25 s".
 std::string shape_title(const LoadedCharacter& character, const ShapeFacts& facts);
 
 }  // namespace bch::cli

@@ -16,9 +16,12 @@
 #include "bench/base/number.hpp"
 
 namespace bch::cli {
-CLI::Validator one_of(std::vector<std::string> words) {
-  const auto check = [words = std::move(words)](const std::string& text) -> std::string {
+CLI::Validator one_of(std::vector<std::string> words, std::map<std::string, std::string> renamed) {
+  const auto check = [words = std::move(words),
+                      renamed = std::move(renamed)](const std::string& text) -> std::string {
     if (std::find(words.begin(), words.end(), text) != words.end()) return {};
+    if (const auto found = renamed.find(text); found != renamed.end())
+      return fmt::format("'{}' is called {} now", text, found->second);
     return fmt::format("'{}' is not one of {}", text, fmt::join(words, ", "));
   };
   return CLI::Validator(check, "", "word");

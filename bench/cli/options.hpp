@@ -6,6 +6,7 @@
 #include <CLI/CLI.hpp>
 #include <cstdint>
 #include <initializer_list>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -15,7 +16,7 @@
 
 namespace bch::cli {
 
-/// Which poses of which characters, and their hierarchies: the same options in every command.
+/// Options that choose the poses of characters and their hierarchies: the same ones in every command.
 struct ShapeOptions {
   std::vector<std::string> clips;
   bool force_clips = false;
@@ -27,14 +28,14 @@ struct ShapeOptions {
 
   void add_to(CLI::App& command);
   ImportOptions import_options() const;
-  /// All files that are read: these, and the clips' files.
+  /// Returns all files that are read: these, and the clips' files.
   std::vector<std::string> inputs(std::vector<std::string> files) const;
 
  private:
   void add_limits_to(CLI::App& command);
 };
 
-/// How pairs are answered.
+/// Options that choose how pairs are answered.
 struct AnswerOptions {
   std::string depths = "0,3,6,all";
   std::string semantics = "boundary";
@@ -43,32 +44,34 @@ struct AnswerOptions {
   std::uint32_t threads = 0;  ///< 0: all
 
   void add_to(CLI::App& command);
-  /// All but the kernel.
+  /// Adds all options but that of the kernel.
   void add_levels_to(CLI::App& command);
   /// Errors of all: throw UsageError naming the option and the value.
   std::vector<std::uint32_t> cut_depths() const;
   QueryOptions query_options() const;
-  /// Whether shapes have to keep their outlines for that.
+  /// Returns whether shapes have to keep their outlines to answer these queries.
   bool need_outlines() const;
 };
 
-/// A number, or "all".
+/// Parses a depth: a number, or "all".
 /// Errors:  throws UsageError naming the option.
 std::uint32_t parse_depth(const std::string& option, const std::string& text);
 
+/// Refuses options that do not fit to others.
 /// Errors:  throws UsageError naming the option and the reason if one of them was given.
 void require_absent(const CLI::App& command, std::initializer_list<const char*> options,
                     const std::string& reason);
-/// The same for the options of shapes and levels, those of them that the command has, which say nothing to a
+/// Refuses the options of shapes and levels, as far as the command has them, since they have no effect on a
 /// baked file.
+/// Errors:  as require_absent() throws.
 void require_unsettled(const CLI::App& command, const std::string& baked_file);
 
 void add_threads_option(CLI::App& command, std::uint32_t& threads);
-/// --seed, which chooses `what`.
+/// Adds the option --seed, which chooses `what`.
 void add_seed_option(CLI::App& command, std::uint64_t& seed, const std::string& what);
 
-/// Rejects every other word.
-CLI::Validator one_of(std::vector<std::string> words);
+/// Rejects every other word. `renamed`: old words with the new ones, which the message names.
+CLI::Validator one_of(std::vector<std::string> words, std::map<std::string, std::string> renamed = {});
 
 /// Rejects what is not a finite number in [low, high], NaN included.
 CLI::Validator number_between(double low, double high);

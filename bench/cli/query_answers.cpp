@@ -12,8 +12,8 @@
 
 #include "kernel/contact/contacts.hpp"
 #include "kernel/distance/clearance.hpp"
-#include "kernel/distance/contact_time.hpp"
-#include "kernel/separation/separation.hpp"
+#include "kernel/distance/time_of_impact.hpp"
+#include "kernel/penetration/penetration.hpp"
 
 namespace bch::cli {
 namespace {
@@ -48,20 +48,20 @@ std::string contact_rows(const QueryInput& input) {
            {input.options.implementation, input.options.leaves});
   std::string out;
   for (std::size_t i = 0; i < input.pairs.size(); ++i)
-    for (const Contact& contact : table.of(i))
+    for (const DiscPair& contact : table.of(i))
       out += fmt::format("{},{},{}\n", ids(input, i), contact.first, contact.second);
   return out;
 }
 
-std::string separation_rows(const QueryInput& input) {
-  std::vector<Separation> ways(input.pairs.size());
+std::string penetration_rows(const QueryInput& input) {
+  std::vector<Penetration> ways(input.pairs.size());
   const Agents agents = input.table.agents();
-  const SeparationOptions options{input.options.implementation};
+  const PenetrationOptions options{input.options.implementation};
   if (input.direction) {
     const std::vector<Vec2> along(input.pairs.size(), *input.direction);
-    separation_along(input.set, agents, input.pairs, along, ways, options);
+    penetration_along(input.set, agents, input.pairs, along, ways, options);
   } else {
-    separation(input.set, agents, input.pairs, input.directions, ways, options);
+    penetration(input.set, agents, input.pairs, input.directions, ways, options);
   }
   std::string out;
   for (std::size_t i = 0; i < ways.size(); ++i)
@@ -82,14 +82,14 @@ std::string clearance_rows(const QueryInput& input) {
   return out;
 }
 
-std::string contact_time_rows(const QueryInput& input) {
+std::string time_of_impact_rows(const QueryInput& input) {
   std::vector<double> x, y;
   for (const auto [first, second] : input.pairs) {
     x.push_back(input.table.dx[first] - input.table.dx[second]);
     y.push_back(input.table.dy[first] - input.table.dy[second]);
   }
   std::vector<float> time(input.pairs.size());
-  contact_time(input.set, input.table.agents(), input.pairs, {x, y}, time, {input.options.implementation});
+  time_of_impact(input.set, input.table.agents(), input.pairs, {x, y}, time, {input.options.implementation});
   std::string out;
   for (std::size_t i = 0; i < time.size(); ++i) out += fmt::format("{},{}\n", ids(input, i), time[i]);
   return out;
@@ -99,22 +99,22 @@ constexpr QueryKind kinds[] = {
     {"collide", "hit", "1 where the agents collide, else 0", collide_rows},
     {"clearance", "distance,x,y",
      "the least gap, in metres, of a disc of each, below 0 where they\n"
-     "               overlap, and the unit vector from the first one's to the second's; inf,0,0\n"
-     "               beyond --max-distance",
+     "                 overlap, and the unit vector from the first one's to the second's; inf,0,0\n"
+     "                 beyond --max-distance",
      clearance_rows},
-    {"contact-time", "time",
+    {"time-of-impact", "time",
      "from 0 to 1, when the agents touch first while each moves by its dx\n"
-     "               and dy; inf: they do not",
-     contact_time_rows, true},
+     "                 and dy; inf: they do not",
+     time_of_impact_rows, true},
     {"contacts", "first_disc,second_disc",
      "a line for each two discs that overlap, by their\n"
-     "               numbers in the agents' cuts, from 0 on, depth first",
+     "                 numbers in the agents' cuts, from 0 on, depth first",
      contact_rows},
-    {"separation", "depth,x,y",
+    {"penetration", "depth,x,y",
      "how far, in metres, and where to, as a unit vector, the first agent\n"
-     "               has to move until a line parts the two, 0 where one does; with --direction,\n"
-     "               until all of it lies beyond the second, which may be far where they are apart",
-     separation_rows},
+     "                 has to move until a line separates the two, 0 where one does; with --direction,\n"
+     "                 until all of it lies beyond the second, which may be far where they are apart",
+     penetration_rows},
 };
 
 }  // namespace
@@ -131,7 +131,7 @@ const QueryKind& query_kind(const std::string& name) {
 std::string query_help() {
   std::string text;
   for (const QueryKind& kind : kinds)
-    text += fmt::format("  {:<12} first,second,{}: {}\n", kind.name, kind.columns, kind.help);
+    text += fmt::format("  {:<14} first,second,{}: {}\n", kind.name, kind.columns, kind.help);
   return text;
 }
 

@@ -13,14 +13,14 @@
 
 namespace bch::cli {
 
-/// What a query is asked about.
+/// The input of a query.
 struct QueryInput {
   const ShapeSet& set;
   const AgentTable& table;
   std::span<const Pair> pairs;
   QueryOptions options;
-  std::uint32_t directions;       ///< of a separation
-  std::optional<Vec2> direction;  ///< of a separation: the only one
+  std::uint32_t directions;       ///< of a penetration
+  std::optional<Vec2> direction;  ///< of a penetration: the only one
   double max_distance;            ///< of a clearance
 };
 
@@ -34,12 +34,12 @@ struct QueryKind {
   bool moving = false;  ///< asks how agents move
 };
 
-/// All of them; the first is the default.
+/// Returns all kinds of queries; the first is the default.
 std::span<const QueryKind> query_kinds();
 
 const QueryKind& query_kind(const std::string& name);
 
-/// A line for each.
+/// Returns the help on all kinds of queries, a line for each.
 std::string query_help();
 
 }  // namespace bch::cli

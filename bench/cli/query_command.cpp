@@ -23,7 +23,7 @@
 #include "kernel/broad_phase/broad_phase.hpp"
 #include "kernel/crowd/collide_all.hpp"
 #include "kernel/distance/clearance.hpp"
-#include "kernel/separation/separation.hpp"
+#include "kernel/penetration/penetration.hpp"
 #include "layout/base/rounding.hpp"
 
 namespace bch::cli {
@@ -152,8 +152,8 @@ void run_query(const CLI::App& command, const QueryCommandOptions& options) {
   if (options.all_pairs == !options.pairs.empty())
     throw UsageError(options.all_pairs ? "PAIRS.csv and --all-pairs: name one of them"
                                        : "PAIRS.csv or --all-pairs is missing");
-  if (options.what != "separation")
-    require_absent(command, {"--directions", "--direction"}, "belongs to --what separation");
+  if (options.what != "penetration")
+    require_absent(command, {"--directions", "--direction"}, "belongs to --what penetration");
   if (options.what != "clearance") require_absent(command, {"--max-distance"}, "belongs to --what clearance");
   if (options.what != "collide" && !options.all_pairs)
     require_absent(command, {"--semantics"}, "belongs to --what collide and to --all-pairs");
@@ -192,7 +192,8 @@ std::function<void()> add_query_command(CLI::App& program) {
       "the direction in which they walk plus pi/2.\n"
       "Writes a line for each line of PAIRS.csv, in that order, or what --what says:\n" +
       query_help() +
-      "clearance, contact-time and separation look at the discs of the cuts, which cover outlines. An agent "
+      "clearance, time-of-impact and penetration look at the discs of the cuts, which cover outlines. An "
+      "agent "
       "inside another\n"
       "may be clear of it. --semantics concerns collide and the pairs that --all-pairs finds without "
       "--max-distance,\n"
@@ -210,16 +211,16 @@ std::function<void()> add_query_command(CLI::App& program) {
   for (const QueryKind& kind : query_kinds()) names.emplace_back(kind.name);
   command.add_option("--what", options->what, fmt::format("{} [{}]", fmt::join(names, ", "), names.front()))
       ->type_name("NAME")
-      ->check(one_of(names));
+      ->check(one_of(names, {{"separation", "penetration"}, {"contact-time", "time-of-impact"}}));
   command
       .add_option("--directions", options->directions,
-                  "Of a separation: along the best of so many, evenly spread, an even number [16]")
+                  "Of a penetration: along the best of so many, evenly spread, an even number [16]")
       ->type_name("N")
       ->check(whole_between(2, most_directions));
   command
       .add_option(
           "--direction", options->direction,
-          "Of a separation: along this one instead, of any length, until the first lies beyond the second")
+          "Of a penetration: along this one instead, of any length, until the first lies beyond the second")
       ->type_name("X,Y");
   command
       .add_option("--max-distance", options->max_distance,

@@ -19,18 +19,18 @@ using bench::SlideRow;
 using bench::StiffReport;
 using bench::StiffRow;
 
-/// Where a depth stands on an axis: "all" comes after 6.
+/// Returns the place of a depth on an axis: "all" comes after 6.
 double place_of(const std::string& depth) {
   return depth == "all" ? 9 : std::stod(depth);
 }
 
-/// Of the rows that a filter lets through, a line for each measure.
+/// Makes a panel of the rows that a filter lets through, with a line for each measure.
 template <class Row, class Keep, class Value>
 ChartPanel panel(const std::vector<Row>& rows, std::string title, bool logarithmic, Keep keep, Value value) {
   ChartPanel made;
   made.title = std::move(title);
   std::vector<double> ys;
-  for (const DepthMeasure measure : {DepthMeasure::separation, DepthMeasure::discs, DepthMeasure::centres}) {
+  for (const DepthMeasure measure : {DepthMeasure::penetration, DepthMeasure::discs, DepthMeasure::centres}) {
     ChartSeries& series = made.series.emplace_back(ChartSeries{name_of(measure), {}});
     for (const Row& row : rows)
       if (row.measure == measure && keep(row)) {

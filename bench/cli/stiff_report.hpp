@@ -11,13 +11,13 @@
 namespace bch::cli {
 
 std::string text_of(const bench::StiffReport& report);
-/// A row a measure and depth, columns for all that was measured.
+/// Writes a row for each measure and depth, with columns for all that was measured.
 std::string csv_of(const bench::StiffReport& report);
 nlohmann::ordered_json json_of(const bench::StiffReport& report);
 
-/// The largest stable step of every scene against the depth of the cut.
+/// Draws the largest stable step of every scene against the depth of the cut.
 std::string draw_steps(const bench::StiffReport& report);
-/// Depth at the beginning of a contact, energy created, and jitter.
+/// Draws the depth at the beginning of a contact, the energy created, and the jitter.
 std::string draw_errors(const bench::StiffReport& report);
 
 }  // namespace bch::cli

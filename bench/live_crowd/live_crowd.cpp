@@ -51,7 +51,7 @@ const FlatShape& LiveCrowd::Workshop::make(const ShapeSource& source, std::uint3
 
 LiveCrowd::LiveCrowd(std::span<const Character> characters, std::uint32_t agents, std::uint32_t depth)
     : characters_(characters),
-      plan_{.depths = {depth}, .shortcuts = false},  // no shape is in enough pairs for those
+      plan_{.depths = {depth}, .culling = false},  // no shape is in enough pairs for those
       crowd_(cli::place_crowd(agents, density, 1, 72)),
       sources_(random_sources(characters, agents)),
       shapes_(first_shapes()),

@@ -31,17 +31,17 @@ class LiveCrowd {
   /// must outlive this.
   LiveCrowd(std::span<const Character> characters, std::uint32_t agents, std::uint32_t depth);
 
-  /// Runs in the caller's TBB arena.
+  /// Computes the next frame, `seconds` later. Runs in the caller's TBB arena.
   FrameTime step(double seconds);
 
-  /// Of the last frame.
+  /// Returns the pairs of the last frame; hits() returns their answers.
   std::span<const Pair> pairs() const { return pairs_; }
   std::span<const std::uint8_t> hits() const { return hits_; }
-  /// The answers for a set that is built from the same poses, with everything that a set can have.
+  /// Returns the answers for a set that is built from the same poses, with everything that a set can have.
   std::vector<std::uint8_t> hits_of_a_new_set() const;
 
  private:
-  /// What a thread keeps from shape to shape.
+  /// Memory that a thread keeps from shape to shape.
   struct Workshop {
     std::vector<PoseShaper> shapers;
     ShapeFlattener flattener;

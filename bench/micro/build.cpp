@@ -111,11 +111,11 @@ std::vector<NodePoints> node_points(Scene& scene) {
     const Hierarchy hierarchy = contour_hierarchy(shape.outline, 0.01f);
     NodePoints& of_shape = all.emplace_back();
     auto& [points, nodes] = of_shape;
-    for (const auto [first, last] : hierarchy.held) {
+    for (const auto [first, last] : hierarchy.primitive_ranges) {
       if (last - first < 2) continue;
       const auto begin = static_cast<std::uint32_t>(points.size());
       for (std::uint32_t e = first; e < last; ++e) {
-        const auto& [a, b, c] = hierarchy.elements[e];
+        const auto& [a, b, c] = hierarchy.primitives[e];
         if (points.size() == begin || !(points.back() == a)) points.push_back(a);
         points.push_back(b);
       }
@@ -125,7 +125,7 @@ std::vector<NodePoints> node_points(Scene& scene) {
   return all;
 }
 
-/// Where our solver's discs and the textbook's are not the same within 1 um; empty: nowhere.
+/// Says where our solver's discs and the textbook's differ by more than 1 um; empty: nowhere.
 std::string wrong_discs(const std::vector<NodePoints>& all) {
   EnclosingDiscs ours;
   Welzl welzl;

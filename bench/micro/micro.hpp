@@ -20,12 +20,12 @@ namespace bch::bench {
 /// The scene must outlive the benchmarks.
 void register_collide_benchmarks(Scene& scene);
 
-/// clearance/<workload>/<implementation|reference>/threads:<n> and contact_time/...: distances up to 0.5 m with their
+/// clearance/<workload>/<implementation|reference>/threads:<n> and time_of_impact/...: distances up to 0.5 m with their
 /// directions, and first contacts while all agents walk 1.3 m/s for half a second. The reference is the scalar search
 /// with the same pruning. A counter as above: ns_per_pair.
 void register_distance_benchmarks(Scene& scene);
 
-/// contacts/<workload>/<implementation|reference>/threads:<n> and separation/..., of colliding pairs and of the crowd's;
+/// contacts/<workload>/<implementation|reference>/threads:<n> and penetration/..., of colliding pairs and of the crowd's;
 /// collide_all/crowd/<implementation>/threads:<n>, of a pair that its broad phase finds. The reference is brute force.
 void register_response_benchmarks(Scene& scene);
 

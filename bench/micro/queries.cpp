@@ -54,7 +54,8 @@ void add(Scene& scene, const TimedQuery& query, std::string_view workload) {
 
 void register_distance_benchmarks(Scene& scene) {
   for (const std::string_view workload : workload_names())
-    for (const TimedQuery* query : {&clearance_query(), &contact_time_query()}) add(scene, *query, workload);
+    for (const TimedQuery* query : {&clearance_query(), &time_of_impact_query()})
+      add(scene, *query, workload);
 }
 
 void register_response_benchmarks(Scene& scene) {

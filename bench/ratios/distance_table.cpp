@@ -74,7 +74,7 @@ void print_over_fcl(Scene& scene, std::uint32_t runs) {
 void print_distance_ratios(Scene& scene, std::uint32_t runs) {
   const std::pair<std::string, const TimedQuery&> queries[] = {
       {fmt::format("clearance within {:g} m", clearance_limit), clearance_query()},
-      {fmt::format("time of contact within {:g} s", walking_time), contact_time_query()}};
+      {fmt::format("time of impact within {:g} s", walking_time), time_of_impact_query()}};
   for (const auto& [name, query] : queries) {
     print_over_collide(scene, name, query, runs);
     print_over_scalar(scene, name, query, runs);

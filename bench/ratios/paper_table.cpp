@@ -33,7 +33,7 @@ constexpr Row rows[] = {
 
 constexpr std::string_view columns[] = {"paper500", "paper500_cached", "colliding"};
 
-/// A time, and how many times the plain traversal's it is: that ratio does not depend on the hardware.
+/// Writes a time and its ratio to the scalar reference's time; that ratio does not depend on the hardware.
 std::string cell(double nanoseconds, double plain) {
   if (!(nanoseconds > 0)) return {};
   const double ratio = nanoseconds / plain;

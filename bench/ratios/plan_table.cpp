@@ -44,7 +44,8 @@ const std::vector<Row>& rows() {
       {"mixed: all to 5 m, 6 to 10 m, 3 to 20 m, then 0", {.depth = by_distance}},
       {"all, solid", {.solid = true}},
       {"all, discs as leaves", {.leaves = Leaves::discs}},
-      {"all, discs, without shortcuts: shapes of one frame", {.leaves = Leaves::discs, .pairs_per_shape = 0}},
+      {"all, discs, without culling data: shapes of one frame",
+       {.leaves = Leaves::discs, .pairs_per_shape = 0}},
   };
   return all;
 }

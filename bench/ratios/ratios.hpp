@@ -10,12 +10,12 @@
 
 namespace bch::bench {
 
-/// "PASS", or by how much a ratio misses what it needs: "needs 20: 19 % short".
+/// Judges a ratio: "PASS", or by how much it misses what it needs: "needs 20: 19 % short".
 std::string verdict(double ratio, double needed);
-/// The same of what must not be more: "at most 1.5: 8 % over".
+/// Judges a value that must not exceed `most`: "PASS", or "at most 1.5: 8 % over".
 std::string verdict_at_most(double value, double most);
 
-/// The tables. Each prints to standard output.
+/// Each of these functions prints a table to standard output.
 void print_kernel_ratios(Scene& scene, std::uint32_t runs);
 void print_leaf_ratios(Scene& scene, std::uint32_t runs);
 void print_peer_ratios(Scene& scene, std::uint32_t runs);
@@ -25,7 +25,8 @@ void print_distance_ratios(Scene& scene, std::uint32_t runs);
 void print_response_ratios(Scene& scene, std::uint32_t runs);
 void print_shape_count_ratios(Scene& scene, std::uint32_t runs, std::uint32_t most_shapes);
 void print_plan_table(Scene& scene, std::uint32_t runs);
-/// Construction: every stage by every instruction set, beside what is asked; and how it grows with triangles.
+/// Prints the times of construction: every stage by every instruction set beside what is required, and the
+/// growth with triangles.
 void print_build_ratios(Scene& scene, std::uint32_t runs);
 void print_build_growth(std::uint32_t poses, std::uint32_t runs);
 void print_paper_table(Scene& scene, std::uint32_t runs);

@@ -11,10 +11,11 @@
 
 namespace bch::report {
 
-/// The discs of a cut.
+/// Returns the discs of a cut.
 std::vector<Disc> discs_of(const Hierarchy& hierarchy, std::uint32_t depth);
 
-/// What discs and the inside of an outline cover beyond the outline, per cent of the area inside it, of each shape.
+/// Returns what discs and the inside of an outline cover beyond the outline, per cent of the area inside it,
+/// of each shape.
 /// Runs on all threads.
 std::vector<double> excess_areas(std::span<const Shape> shapes, std::uint32_t depth);
 

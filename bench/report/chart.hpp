@@ -11,21 +11,22 @@
 
 namespace bch::report {
 
-/// bench/report/NAME.gp.
+/// A gnuplot script, bench/report/NAME.gp.
 struct ChartScript {
   std::string_view name, text;
 };
 std::span<const ChartScript> chart_scripts();
 
-/// Puts the scripts of all charts beside the CSV files that they read, for draw() and others to draw by.
+/// Puts the scripts of all charts beside the CSV files that they read, so that draw() and other programs can
+/// use them.
 void write_chart_scripts(const std::filesystem::path& folder);
 
-/// Whether gnuplot is there and can draw SVG.
+/// Returns whether gnuplot is installed and can draw SVG.
 bool can_draw();
 
-/// Draws by the folder's NAME.gp.
-/// Returns: NAME.svg for a page that has others: without prologue, its identifiers beginning with the name; nothing where
-///          gnuplot failed.
+/// Draws a chart by the folder's NAME.gp.
+/// Returns: NAME.svg for embedding in a page with others: without prologue, its identifiers beginning with
+///          the name; nothing where gnuplot failed.
 std::optional<std::string> draw(const std::filesystem::path& folder, std::string_view name);
 
 }  // namespace bch::report

@@ -41,7 +41,7 @@ void add(Table& table, std::string_view structure, std::string_view from,
   table.add({structure, from, spread.median, spread.low, spread.high, microseconds.size()});
 }
 
-/// The same with the size of its trees.
+/// Adds a row with the size of the structure's trees.
 void add(Table& table, std::string_view structure, std::string_view from,
          const std::vector<double>& microseconds, const TreeSize& size) {
   const Quartiles spread = quartiles(microseconds);
@@ -95,7 +95,7 @@ void add_structures(Run& run, Table& table) {
           tree_size(contestant, bodies));
 }
 
-/// Of all characters.
+/// Adds the stages of construction, over all characters.
 void add_stages(Run& run, Table& table) {
   std::vector<bench::BuildStages> characters;
   for (const auto& loaded : run.scene().characters())

@@ -25,7 +25,7 @@ struct Contestant {
   bool projected = true;  ///< never sees less than what the meshes cover seen from above
 };
 
-/// Those of the paper, then others, those of FCL only where the build has it.
+/// Returns the paper's structures, then others; those of FCL only where the build has it.
 std::vector<Contestant> contestants();
 
 /// Structures over all bodies of a scene, each made when it is first asked for.
@@ -36,9 +36,9 @@ class Contestants {
   const baselines::Structure& structure(const Contestant& contestant);
   const baselines::Structure& structure(std::string_view name);
 
-  /// Asks about a workload of the scene.
-  /// Errors:  throws std::runtime_error where the answers are not what wrong_structure() looks for, or, of hierarchies that
-  ///          are not the scene's, not those of a kernel over the same.
+  /// Checks a structure's answers for a workload of the scene.
+  /// Errors:  throws std::runtime_error where wrong_structure() finds the answers wrong, or, for hierarchies
+  ///          that are not the scene's, where they differ from those of a kernel over the same hierarchies.
   void require_right(const Contestant& contestant, const bench::Workload& workload,
                      std::uint32_t max_depth = all_depths);
 
@@ -48,7 +48,7 @@ class Contestants {
   std::map<std::string, std::unique_ptr<baselines::Structure>, std::less<>> made_;
 };
 
-/// The bodies with hierarchies of another kind.
+/// Returns the bodies with hierarchies of another kind.
 std::vector<baselines::Body> with_hierarchies(std::span<const baselines::Body> bodies, float threshold,
                                               SplitRule rule);
 

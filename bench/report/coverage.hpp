@@ -10,10 +10,11 @@
 
 namespace bch::report {
 
-/// Of the grid that areas are counted on: 6.25 megapixels per square metre, where the paper has more than 6.
+/// The pixel size of the grid for counting areas: 6.25 megapixels per square metre; the paper has more than
+/// 6.
 constexpr double pixel = 0.0004;  // metres
 
-/// Areas by counting the pixels whose centres are covered, square metres.
+/// Areas in square metres, by counting the pixels whose centres are covered.
 struct Coverage {
   double discs = 0;    ///< by some disc
   double filled = 0;   ///< by some disc or the inside of the outline

@@ -56,7 +56,7 @@ std::vector<Row> rows_of(Run& run) {
 void run_experiment(Run& run) {
   const std::vector<Row> rows = rows_of(run);
   const std::size_t packings = run.sizes().packings;
-  // Characters without clips have one pose: then nobody changes his.
+  // Characters without clips have one pose, which then never changes.
   const std::uint32_t characters = static_cast<std::uint32_t>(run.scene().characters().size()),
                       poses = run.sizes().poses;
   const std::uint32_t free_poses = run.scene().shapes().size() == characters * poses ? poses : 1;

@@ -50,7 +50,7 @@ std::vector<std::uint32_t> depths_of(const Run& run, std::uint32_t first) {
 /// What points are asked.
 constexpr std::string_view workloads[] = {"crowd", "near_miss", "colliding"};
 
-/// Compares what the plain traversal does not know: solid semantics and exact leaves.
+/// Checks what the scalar reference does not know: solid semantics and exact leaves.
 void require_right(const Subject& kernel, const QueryOptions& query, std::span<const Shape> shapes,
                    std::uint32_t depth, const bench::Workload& workload) {
   const baselines::Reference reference(shapes, {{depth}}, query.leaves);
@@ -59,8 +59,8 @@ void require_right(const Subject& kernel, const QueryOptions& query, std::span<c
                                             answers(kernel, workload), query.semantics));
 }
 
-/// The kernel at every depth, in both semantics and at all depths with exact leaves, and the plain traversal, which must
-/// agree.
+/// Adds the kernel at every depth, in both semantics and at all depths with exact leaves, and the scalar
+/// reference, which must agree.
 void add_kernel(Run& run, double threshold, Points& points) {
   const auto& bodies = points.bodies.emplace_back(
       with_hierarchies(run.scene().bodies(), static_cast<float>(threshold), SplitRule::centroid));

@@ -32,7 +32,7 @@ struct Sizes {
 constexpr Sizes full_sizes;
 constexpr Sizes quick_sizes{20, 2'000, 2'000, 100, 3, 200, 2, 40, 1};
 
-/// What an experiment runs on and hands its tables to.
+/// The context of an experiment: what it runs on and where its tables go.
 class Run {
  public:
   using Write = std::function<void(const std::string& name, const Table& table)>;
@@ -43,18 +43,18 @@ class Run {
       std::uint64_t seed, Write write, Done done);
 
   bench::Scene& scene() { return scene_; }
-  /// None where there is no folder of them.
+  /// Returns the real characters; none where there is no folder of them.
   std::span<const cli::LoadedCharacter> real_characters() const { return real_characters_; }
   const Sizes& sizes() const { return sizes_; }
   std::uint64_t seed() const { return seed_; }
   Contestants& contestants() { return contestants_; }
 
-  /// Between the bodies in space; null in a build without FCL.
+  /// Returns the distances between the bodies in space; null in a build without FCL.
   const baselines::PairDistances* distances();
 
-  /// Hands a table over: NAME.csv.
+  /// Hands over a table, which becomes NAME.csv.
   void write(const std::string& name, const Table& table) const { write_(name, table); }
-  /// Tells which share of this experiment is behind.
+  /// Reports which share of this experiment is done.
   void done(double share) const { done_(share); }
 
  private:
@@ -91,7 +91,7 @@ struct Experiment {
   std::string_view needs = {};  ///< what a page says that a run lacked, in HTML; empty: distances, or nothing
 };
 
-/// In the order of the page.
+/// Returns all experiments, in the order of the page.
 std::span<const Experiment> experiments();
 
 extern const Experiment construction_experiment, query_time_experiment, distance_experiment, depth_experiment,

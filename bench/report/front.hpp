@@ -9,8 +9,8 @@
 
 namespace bch::report {
 
-/// The Pareto front of time and one error, in a crowd and on near misses: of the rows that miss no collision, those that no
-/// other one equals or beats in both. By ascending error.
+/// Returns the Pareto front of time and one error, in a crowd and on near misses: of the rows that miss no
+/// collision, those that no other one equals or beats in both. By ascending error.
 /// Returns: pairs, that error, "ns/pair", and what names the row.
 Table front(const Table& points, std::string_view error);
 

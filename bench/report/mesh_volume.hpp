@@ -10,11 +10,11 @@
 
 namespace bch::report {
 
-/// Whether the triangles enclose a volume: each edge is passed one way as often as the other.
+/// Returns whether the triangles enclose a volume: each edge is passed one way as often as the other.
 bool is_closed(std::span<const std::array<std::uint32_t, 3>> triangles);
 
-/// The volume inside a closed mesh whose triangles run counter-clockwise seen from outside, cubic metres. What lies inside
-/// two parts of it counts twice.
+/// Returns the volume inside a closed mesh whose triangles run counter-clockwise seen from outside, cubic
+/// metres. A region inside two parts of the mesh counts twice.
 double enclosed_volume(std::span<const Eigen::Vector3f> positions,
                        std::span<const std::array<std::uint32_t, 3>> triangles);
 

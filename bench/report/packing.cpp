@@ -11,7 +11,7 @@
 #include "bench/characters/crowd.hpp"
 #include "kernel/collide/collide.hpp"
 #include "kernel/crowd/collide_all.hpp"
-#include "kernel/separation/separation.hpp"
+#include "kernel/penetration/penetration.hpp"
 
 namespace bch::report {
 namespace {
@@ -40,7 +40,7 @@ class Packing {
     for (std::uint32_t i = 0; i < people_; ++i) crowd_.x[i] *= times, crowd_.y[i] *= times;
   }
 
-  /// Returns: whether nobody overlaps anybody in the end.
+  /// Returns: whether no two people overlap in the end.
   bool settle() {
     for (int i = 0; i < most_steps; ++i)
       if (!step()) return true;
@@ -89,7 +89,7 @@ class Packing {
     add_images();
     find_pairs();
     ways_.resize(pairs_.size());
-    separation(set_, crowd_.agents(), pairs_, 32, ways_);
+    penetration(set_, crowd_.agents(), pairs_, 32, ways_);
     for (std::size_t k = 0; k < pairs_.size(); ++k) {
       const double half = static_cast<double>(std::min(0.5f * ways_[k].depth + beyond, longest));
       const double x = half * ways_[k].x, y = half * ways_[k].y;
@@ -108,7 +108,8 @@ class Packing {
     double heading;
   };
 
-  /// As he does, turned either way, and, where poses are free, in another pose.
+  /// Returns the stances that a person may take: the present one, turned either way, and, where poses are
+  /// free, in another pose.
   std::vector<Stance> stances(std::uint32_t of) {
     const std::uint32_t shape = crowd_.shape[of];
     const double heading = crowd_.heading[of];
@@ -143,9 +144,9 @@ class Packing {
   void take_best(const cli::Crowd& trial, std::span<const Pair> asked,
                  std::span<const std::pair<std::uint32_t, Stance>> offers) {
     const auto first_trial = static_cast<std::uint32_t>(crowd_.size());
-    std::vector<Separation> ways(asked.size());
+    std::vector<Penetration> ways(asked.size());
     std::vector<std::uint8_t> hits(asked.size());
-    separation(set_, trial.agents(), asked, 16, ways);
+    penetration(set_, trial.agents(), asked, 16, ways);
     collide(set_, trial.agents(), asked, hits, {Semantics::solid});
     std::vector<double> overlap(offers.size(), 0);
     for (std::size_t k = 0; k < asked.size(); ++k)
@@ -167,7 +168,7 @@ class Packing {
   cli::Crowd crowd_;
   CrowdCollider collider_;
   std::vector<Pair> pairs_;
-  std::vector<Separation> ways_;
+  std::vector<Penetration> ways_;
 };
 
 }  // namespace

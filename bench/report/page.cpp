@@ -49,7 +49,8 @@ bool has_numbers(const Table& table, std::size_t column) {
                      [&](const auto& row) { return is_number(row[column]); });
 }
 
-/// Of measurements, or of words, which stand as they are: a commit may read as a number, such as 16e6464.
+/// The content of cells: measurements, or words, which are shown as they are, since a commit may read as a
+/// number, such as 16e6464.
 enum class Cells { measured, words };
 
 std::string html_of(const Table& table, std::string_view name, Cells cells = Cells::measured) {

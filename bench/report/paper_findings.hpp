@@ -11,8 +11,8 @@
 
 namespace bch::report {
 
-/// A section in HTML: each finding of the paper beside what we measured, reproduced or reversed, and why. A finding whose tables
-/// are not there is left out.
+/// Returns a section in HTML: each finding of the paper beside what we measured, reproduced or reversed, and
+/// why. A finding whose tables are missing is left out.
 std::string paper_findings(const std::function<bool(std::string_view table)>& has, const Results& results);
 
 }  // namespace bch::report

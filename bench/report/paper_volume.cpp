@@ -49,7 +49,7 @@ PaperRow paper_row(const std::string& source, std::string_view quantity) {
   return {false, quantity, not_told, not_told, not_told};
 }
 
-/// Of one character, an entry a pose.
+/// The volumes of one character, an entry a pose.
 struct Volumes {
   std::vector<double> radius, mesh;  ///< metres; cubic metres, of a closed mesh
   std::vector<double> leaves;        ///< square metres that the leaf discs over all projected triangles cover

@@ -13,7 +13,7 @@ namespace bch::report {
 /// have the built-in man, of the bulky one.
 void measure_paper_volumes(Run& run);
 
-/// What that table says, in HTML.
+/// Returns what that table says, in HTML.
 std::string paper_volume_findings(const Results& results);
 
 }  // namespace bch::report

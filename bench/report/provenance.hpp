@@ -9,7 +9,7 @@
 
 namespace bch::report {
 
-/// Names and values: processor, cores, memory, system, compiler, build, commit, time.
+/// Returns names and values: processor, cores, memory, system, compiler, build, commit, time.
 std::vector<std::pair<std::string, std::string>> provenance();
 
 }  // namespace bch::report

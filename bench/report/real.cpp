@@ -10,7 +10,7 @@
 #include "bench/report/subject.hpp"
 #include "bench/report/words.hpp"
 
-// Distances at detection of characters that nobody here made.
+// Measures distances at detection of characters from other sources.
 
 namespace bch::report {
 namespace {

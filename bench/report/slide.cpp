@@ -11,7 +11,7 @@
 #include <numbers>
 
 #include "kernel/collide/collide.hpp"
-#include "kernel/distance/contact_time.hpp"
+#include "kernel/distance/time_of_impact.hpp"
 
 namespace bch::report {
 namespace {
@@ -75,11 +75,11 @@ std::vector<double> SlideCases::contacts(const ShapeSet& set, Leaves leaves) con
   std::vector<double> x(size()), y(size(), 0);
   for (std::size_t i = 0; i < size(); ++i) x[i] = -2 * from_[i];
   std::vector<float> times(size());
-  contact_time(set, agents(), pairs_, {x, y}, times);
+  time_of_impact(set, agents(), pairs_, {x, y}, times);
   std::vector<double> places(size(), never);
   tbb::parallel_for(std::size_t{0}, size(), [&](std::size_t i) {
     if (std::isinf(times[i])) return;
-    // Nobody collides before discs touch.
+    // No pair collides before discs touch.
     const double before = std::floor(static_cast<double>(times[i]) * x[i] / step) - 1;
     places[i] = contact(i, std::max(0.0, before), [&](const Agents& agents) {
       constexpr Pair both{0, 1};

@@ -15,26 +15,28 @@
 
 namespace bch::report {
 
-/// The paper's experiment on errors: of each case, two people stand apart, turned at random, and the first one slides along
-/// the x axis past the second, its own way up to half a metre beside the other, until something says that they collide;
-/// then the two meshes are so far from each other. Cases are drawn again where the leaf discs over the outlines do not
-/// meet on the way, so that nobody passes by.
+/// The cases of the paper's experiment on errors. In each case, two people stand apart, turned at random. The
+/// first one slides along the x axis past the second, on a line up to half a metre beside the other, until a
+/// collision is detected; then the distance between the two meshes is measured. A case is drawn again where
+/// the leaf discs over the outlines do not meet on the way, so that in every case the two collide.
 class SlideCases {
  public:
-  /// The same for the same shapes and seed everywhere.
+  /// Draws the cases, which are the same for the same shapes and seed everywhere.
   SlideCases(std::span<const Shape> shapes, std::uint32_t cases, std::uint64_t seed);
 
   std::size_t size() const { return pairs_.size(); }
   Agents agents() const { return crowd_.agents(); }
   std::span<const Pair> pairs() const { return pairs_; }
 
-  /// Where on the x axis the first one is when it is seen to collide, metres: one a case, NaN where it never is. Both
-  /// run on all threads. The answer is asked for every millimetre, and the place within that then halved to a micrometre;
-  /// contact_time() says from where on.
+  /// Returns where on the x axis the first person is when a collision is detected, metres: one place a case,
+  /// NaN where there is none. Both overloads run on all threads. The answer is asked for at every millimetre,
+  /// and that interval is then bisected to a micrometre. With a set, the search begins where time_of_impact()
+  /// finds the first contact.
   std::vector<double> contacts(const ShapeSet& set, Leaves leaves = Leaves::discs) const;
   std::vector<double> contacts(const baselines::Structure& structure, std::uint32_t max_depth) const;
 
-  /// How far the bodies are from each other at such places, centimetres; 0 where they meet, NaN as above.
+  /// Returns how far the bodies are from each other at such places, centimetres; 0 where they meet, NaN as
+  /// above.
   std::vector<double> distances(const baselines::PairDistances& bodies, std::span<const double> places) const;
 
  private:
@@ -48,7 +50,7 @@ class SlideCases {
   std::vector<double> from_;  ///< where even boxes about boxes do not meet yet
 };
 
-/// Those that are numbers.
+/// Returns the values that are numbers, not NaN.
 std::vector<double> known(std::span<const double> values);
 
 }  // namespace bch::report

@@ -11,7 +11,7 @@
 #include "bench/report/words.hpp"
 #include "bench/stability/stiff_contact.hpp"
 
-// Where tests of discs fail, and what depths do as springs.
+// Measures where tests of discs fail, and how depths behave as springs.
 
 namespace bch::report {
 namespace {

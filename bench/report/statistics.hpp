@@ -10,24 +10,26 @@
 
 namespace bch::report {
 
-/// Of times, and whatever else is skew.
+/// The quartiles of times, and of other values whose distribution is skewed.
 struct Quartiles {
   double low, median, high;
 };
 
-/// Interpolated between the two values next to a quarter, a half, three quarters of the way; NaN of no values.
+/// Returns quartiles, interpolated between the two values next to a quarter, a half, three quarters of the
+/// way; NaN of no values.
 Quartiles quartiles(std::vector<double> values);
 
-/// A mean, the standard deviation of what it is the mean of, and its 95 % confidence interval.
+/// A mean, the standard deviation of the values, and the mean's 95 % confidence interval.
 struct Estimate {
   double mean, deviation, low, high;
 };
 
-/// By the percentile bootstrap: 1 000 samples with replacement, the same for a seed everywhere. NaN of no values.
+/// Estimates a mean by the percentile bootstrap: 1 000 samples with replacement, the same for a seed
+/// everywhere. NaN of no values.
 /// Source: B. Efron, R. Tibshirani, "An Introduction to the Bootstrap", 1993, chapter 13.
 Estimate estimate(std::span<const double> values, std::uint64_t seed);
 
-/// A share, by Wilson's score interval, which holds near 0 and 1 as well.
+/// Estimates a share by Wilson's score interval, which holds near 0 and 1 as well.
 /// Source: E. B. Wilson, "Probable inference, the law of succession, and statistical inference", JASA 22, 1927.
 Estimate share(std::size_t of_these, std::size_t all);
 

@@ -18,35 +18,36 @@
 namespace bch::report {
 
 constexpr std::string_view kernel_name = "BCH outline in the batch kernel";
-/// The same with exact leaves.
+/// The name of the batch kernel with exact leaves.
 constexpr std::string_view exact_leaves_name = "BCH outline with exact leaves";
 constexpr std::string_view leaf_discs_name =
     "BCH projected leaf discs";  ///< without the exact tests of its triangles
 
-/// Tests that a traversal makes of a pair, on average; NaN where nothing counts them.
+/// The mean number of tests that a traversal makes of a pair; NaN where it is not counted.
 struct MeanTests {
   double nodes = std::numeric_limits<double>::quiet_NaN();   ///< of two discs or boxes
   double leaves = std::numeric_limits<double>::quiet_NaN();  ///< of two triangles or segments
 };
 
-/// Whatever answers pairs, be it a structure down to some depth or a kernel over a set.
+/// Anything that answers pairs: a structure down to some depth, or a kernel over a set.
 struct Subject {
   std::function<void(const bench::Workload&, bench::Hits&)> answer;
   std::function<std::vector<double>(const SlideCases&)> contacts;
   std::function<MeanTests(const bench::Workload&)> tests;  ///< over its first pairs
 };
 
-/// What is referred to must outlive the subject.
+/// Makes a subject, which refers to the arguments: they must outlive it.
 Subject subject_of(const baselines::Structure& structure, std::uint32_t max_depth = all_depths);
 Subject subject_of(const ShapeSet& set, const QueryOptions& query = bench::disc_query);
 
 bench::Hits answers(const Subject& subject, const bench::Workload& workload);
 std::size_t count_hits(const Subject& subject, const bench::Workload& workload);
 
-/// Nanoseconds a pair of each, all of them timed in turn.
+/// Returns the nanoseconds a pair of each subject, all of them timed in turn.
 std::vector<Quartiles> times(std::span<const Subject> subjects, const bench::Workload& workload,
                              std::uint32_t runs, int threads = 1);
 
+/// Checks that two subjects give the same answers.
 /// Errors:  throws std::logic_error naming the workload where the two answer some pair differently.
 void require_same(const Subject& a, const Subject& b, const bench::Workload& workload);
 

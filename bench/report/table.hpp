@@ -24,14 +24,15 @@ struct Cell {
   Cell(Integer number) : text(std::to_string(number)) {}
 };
 
-/// What a CSV file holds: the only way from an experiment to the page. Columns of numbers name their unit.
+/// The content of a CSV file: the only way from an experiment to the page. Columns of numbers name their
+/// unit.
 class Table {
  public:
   /// `name` is what errors call the table.
   explicit Table(std::vector<std::string> columns, std::string name = "the table")
       : columns_(std::move(columns)), name_(std::move(name)) {}
 
-  /// Shapes: as many cells as columns, else throws std::logic_error.
+  /// Adds a row. Shapes: as many cells as columns, else throws std::logic_error.
   void add(std::initializer_list<Cell> cells) { add(std::vector<Cell>(cells)); }
   void add(const std::vector<Cell>& cells);
 
@@ -41,7 +42,7 @@ class Table {
   /// Errors of all: throw std::out_of_range naming the table and the row, the column or the value that there is not.
   std::size_t column(std::string_view name) const;
   const std::string& text(std::size_t row, std::string_view column) const;
-  /// NaN for an empty cell.
+  /// Returns a number; NaN for an empty cell.
   double number(std::size_t row, std::string_view column) const;
   /// The first row that has these texts in these columns.
   struct Where {
@@ -60,7 +61,9 @@ class Table {
 
 std::string csv_of(const Table& table);
 
-/// Errors:  throws cli::InputError naming the file, and the line of a row that is shorter or longer than the header.
+/// Reads a table from a CSV file.
+/// Errors:  throws cli::InputError naming the file, and the line of a row that is shorter or longer than the
+///          header.
 Table read_table(const std::filesystem::path& file);
 
 }  // namespace bch::report

@@ -38,7 +38,7 @@ Variant make_variant(Run& run, double threshold) {
   return made;
 }
 
-/// Of the plain traversal.
+/// Returns the mean tests of the scalar reference.
 std::array<MeanTests, 2> tests_of(Run& run, const Variant& variant) {
   std::vector<baselines::Body> bodies(variant.shapes.size());
   for (std::size_t i = 0; i < bodies.size(); ++i) bodies[i].shape = variant.shapes[i];

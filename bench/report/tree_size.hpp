@@ -10,7 +10,7 @@
 
 namespace bch::report {
 
-/// Means over shapes; NaN of a structure whose tree is not ours to look into.
+/// The mean size of trees over shapes; NaN of a structure whose tree is not accessible.
 struct TreeSize {
   double nodes = std::numeric_limits<double>::quiet_NaN();
   double height =

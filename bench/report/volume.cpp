@@ -38,7 +38,8 @@ std::string name_of(std::uint32_t depth) {
   return depth == 0 ? "single cylinder" : "BCH outline to depth " + cli::depth_name(depth);
 }
 
-/// Of a character, at a depth; normalised by the volume of the single cylinder of the same pose.
+/// Adds the volumes of a character at a depth, normalised by the volume of the single cylinder of the same
+/// pose.
 void add_depth(Run& run, const std::string& character, std::span<const Shape> shapes, std::uint32_t depth,
                Table& table, Table& poses) {
   std::vector<Areas> all(shapes.size());

@@ -10,12 +10,13 @@
 
 namespace bch::report {
 
-/// Three digits that count, from 1 000 on all before the point: "0.0123", "4.57", "12 346", "1.2e-07"; "–" for NaN.
+/// Writes a number with three significant digits, from 1 000 on all before the point: "0.0123", "4.57", "12
+/// 346", "1.2e-07"; "–" for NaN.
 std::string brief(double number);
 
 using cli::escaped;
 
-/// A CSV cell as the page's tables show it: numbers by brief(), texts escaped.
+/// Writes a CSV cell as the page's tables show it: numbers by brief(), texts escaped.
 std::string shown(std::string_view cell);
 
 }  // namespace bch::report

@@ -25,17 +25,17 @@ struct StabilitySetup {
   std::function<std::vector<Specimen>(cli::Random&)> make = [](cli::Random& random) {
     return usual_specimens(random, 1);
   };
-  /// Of the second agent; null: as of the first.
+  /// Makes the shapes of the second agent; null: as of the first.
   std::function<std::vector<Specimen>(cli::Random&)> make_other = nullptr;
   Placing placing = Placing::contact;
   double x = 0, y = 0;              ///< of the first agent
   double apart_x = 0, apart_y = 0;  ///< the second agent's position from there, where they are apart
   std::function<double(cli::Random&)> heading = nullptr;  ///< null: all directions
-  /// From the sum of two radii and the sum of the reaches; null: gaps of all sizes.
+  /// Draws a gap from the sum of two radii and the sum of the reaches; null: gaps of all sizes.
   std::function<double(cli::Random&, double radii, double reaches)> gap = nullptr;
 };
 
-/// The distance to the next float or double from a value.
+/// Returns the distance from a value to the next float or double.
 double float_step(double value);
 double double_step(double value);
 

@@ -31,7 +31,7 @@ Specimen specimen(Outline outline, Outline geometry, double threshold) {
   return made;
 }
 
-/// As snap_to_grid() chooses it.
+/// Returns the grid step that snap_to_grid() chooses.
 double grid_step(std::span<const Vec2> points) {
   double largest = 0;
   for (const Vec2 p : points)

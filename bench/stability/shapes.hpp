@@ -12,7 +12,7 @@
 
 namespace bch::bench {
 
-/// A shape with what is exactly true of it.
+/// A shape with its exact discs and geometry.
 struct Specimen {
   Shape shape;
   baselines::ExactCut discs;  ///< of its leaves and all nodes above
@@ -21,22 +21,23 @@ struct Specimen {
   double reach() const { return shape.hierarchy.reach; }
 };
 
-/// What is made into a specimen.
+/// The functions below make specimens.
 /// Errors of all: as contour_hierarchy() and union_outline() throw.
 
-/// From a contour of one's own, as it is.
+/// Makes a specimen from a contour of one's own, as it is.
 Specimen raw_specimen(std::vector<Vec2> points, double threshold);
-/// The same, put on the grid that outlines of that size have.
+/// Makes a specimen from a contour that is put on the grid of outlines of that size.
 Specimen contour_specimen(std::vector<Vec2> points, double threshold);
 
-/// From triangles, in order: three points each.
+/// Makes a specimen from triangles, in order: three points each.
 Specimen triangle_specimen(const std::vector<Vec2>& corners, double threshold);
 
-/// Corners around (x, y) at distances within [inner, outer], y divided by `slenderness`.
+/// Returns corners around (x, y) at distances within [inner, outer], y divided by `slenderness`.
 std::vector<Vec2> ring(cli::Random& random, std::uint32_t corners, double inner, double outer, double x = 0,
                        double y = 0, double slenderness = 1);
 
-/// Outlines of few and many corners about their origin and beside it, and strokes, each of this reach.
+/// Returns outlines of few and many corners about their origin and beside it, and strokes, each of this
+/// reach.
 std::vector<Specimen> usual_specimens(cli::Random& random, double reach);
 
 enum class Soup { collinear, duplicate, folded, needle };

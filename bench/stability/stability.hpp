@@ -17,7 +17,7 @@
 /// touch, whether collide() answers a hit wherever outlines meet.
 namespace bch::bench {
 
-/// What one test got wrong.
+/// The errors of one test.
 struct Errors {
   std::uint64_t misses = 0;           ///< discs collide, the answer is 0
   std::uint64_t false_positives = 0;  ///< they do not, the answer is 1
@@ -28,7 +28,7 @@ struct Errors {
   double miss_per_reach = 0, gap_per_reach = 0;
 };
 
-/// One value of what a family varies.
+/// The results for one value of what a family varies.
 struct StabilityRow {
   std::string family, value;
   double conditioning = 0;  ///< the value as a number
@@ -49,21 +49,21 @@ struct StabilityFamily {
 };
 std::span<const StabilityFamily> stability_families();
 
-/// The rows of all families, in order, the same for a seed on every machine.
+/// Returns the rows of all families, in order, the same for a seed on every machine.
 /// `pairs`: for every row, half of which go to outlines. Runs in the caller's TBB arena.
 std::vector<StabilityRow> stability_rows(std::uint32_t pairs, std::uint64_t seed = 1);
 
-/// Percent of the pairs that meet, and of those that do not.
+/// Return the errors in percent of the pairs that meet, and of those that do not.
 double missed(const StabilityRow& row, const Errors& errors);
 double falsely_hit(const StabilityRow& row, const Errors& errors);
-/// The larger of the two: metres per metre of reach.
+/// Returns the larger of the two errors by reach: metres per metre of reach.
 double largest_error(const Errors& errors);
 
-/// What is wrong with a row: a miss, a false positive beyond the documented gap, an answer outside the domain, none inside.
-/// Empty: nothing.
+/// Describes what is wrong with a row: a miss, a false positive beyond the documented gap, an answer outside
+/// the domain, none inside. Empty: nothing.
 std::string broken_promise(const StabilityRow& row);
 
-/// Metres per metre of reach, layout/base/rounding.hpp.
+/// The documented gap in metres per metre of reach, see layout/base/rounding.hpp.
 constexpr double promised_gap = 4e-6;
 
 }  // namespace bch::bench

@@ -19,7 +19,7 @@ namespace {
 using cli::Random;
 
 constexpr double pi = std::numbers::pi;
-constexpr DepthMeasure measures[] = {DepthMeasure::separation, DepthMeasure::discs, DepthMeasure::centres};
+constexpr DepthMeasure measures[] = {DepthMeasure::penetration, DepthMeasure::discs, DepthMeasure::centres};
 constexpr double tried_steps[] = {2e-3,  3e-3,  4e-3,  6e-3,  8e-3,  10e-3, 12e-3, 16e-3,
                                   20e-3, 24e-3, 28e-3, 32e-3, 36e-3, 40e-3, 48e-3};
 
@@ -44,7 +44,7 @@ struct Scenario {
     const double length = std::sqrt(at.x * at.x + at.y * at.y);
     return {-at.x / length, -at.y / length};
   }
-  /// To the middle of the door, and straight on behind it.
+  /// Aims everybody at the middle of the door, and straight on behind it.
   void aim_at_door() {
     for (std::size_t i = 0; i < goal.size(); ++i) {
       const Ground at = world.position(i);
@@ -86,7 +86,7 @@ Scenario make(StiffScene scene, DepthMeasure measure, std::uint8_t level, const 
   return made;
 }
 
-/// Nobody becomes faster than twice what anybody wants to be, once the first second is over.
+/// Returns whether no agent becomes faster than twice the wanted speed once the first second is over.
 bool stable(Scenario scenario, double step) {
   constexpr double too_fast = 2 * stiff::wanted_speed;
   for (double time = 0; time < scenario.seconds; time += step) {
@@ -192,13 +192,13 @@ void slide(SlideRow& row, std::uint8_t level, Random& random) {
   const double angle = random.uniform(2 * pi), away = between(random, 0.1, 0.5);
   const double along_x = std::cos(angle), along_y = std::sin(angle);
   Depths depths(row.measure);
-  Separation last{-1, 0, 0};
+  Penetration last{-1, 0, 0};
   for (int i = 0; i < 2000; ++i) {
     const double at = (i - 1000) * step;
     const double x[] = {0, away * -along_y + at * along_x}, y[] = {0, away * along_x + at * along_y};
     const Agents agents{shape, x, y, heading, levels};
     const auto pairs = depths.pairs(agents);
-    const Separation now = pairs.empty() ? Separation{-1, 0, 0} : depths.of(agents, pairs)[0];
+    const Penetration now = pairs.empty() ? Penetration{-1, 0, 0} : depths.of(agents, pairs)[0];
     if (now.depth >= 0 && last.depth >= 0) {
       const double jump = std::abs(static_cast<double>(now.depth) - static_cast<double>(last.depth));
       row.jump = std::max(row.jump, jump);
@@ -235,9 +235,9 @@ StiffReport combination(DepthMeasure measure, std::uint8_t level, const StiffOpt
 }  // namespace
 
 std::string name_of(DepthMeasure measure) {
-  return measure == DepthMeasure::separation ? "separation"
-         : measure == DepthMeasure::discs    ? "deepest discs"
-                                             : "line of centres";
+  return measure == DepthMeasure::penetration ? "penetration"
+         : measure == DepthMeasure::discs     ? "deepest discs"
+                                              : "line of centres";
 }
 
 StiffReport stiff_contact(const StiffOptions& options) {

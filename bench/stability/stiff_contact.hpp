@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-/// What a depth does as the spring of a penalty force: the stiff use that breaks on one that jumps.
+/// Measures depths as the springs of penalty forces: a stiff use that fails with a depth that jumps.
 ///
 /// Agents of 80 kg are driven to 1 m/s within 0.5 s. Where two have a depth, a force k depth acts along its direction,
 /// and a friction kappa depth times the sliding speed across it.
@@ -21,11 +21,11 @@ constexpr double mass = 80, stiffness = 1.2e5, friction = 2.4e5;  // kg, kg/s^2,
 constexpr double wanted_speed = 1, relaxation = 0.5;              // m/s, s
 }  // namespace stiff
 
-/// Where depth and direction come from.
+/// The source of depth and direction.
 enum class DepthMeasure {
-  separation,  ///< separation(), the best of 32 directions, of pairs that collide
-  discs,       ///< clearance() below 0: the two discs of the cuts that overlap deepest, along their centres
-  centres,     ///< separation_along() the line of the agents' centres, of all pairs near enough
+  penetration,  ///< penetration(), the best of 32 directions, of pairs that collide
+  discs,        ///< clearance() below 0: the two discs of the cuts that overlap deepest, along their centres
+  centres,      ///< penetration_along() the line of the agents' centres, of all pairs near enough
 };
 std::string name_of(DepthMeasure measure);
 
@@ -44,7 +44,7 @@ struct StiffRow {
   double jitter = 0;  ///< m/s, root mean square at rest, with a step of 1 ms; the door: no rest
 };
 
-/// Two agents that fly into each other at 1 m/s, without drive and friction, and apart again.
+/// The results for two agents that fly into each other at 1 m/s, without drive and friction, and apart again.
 struct BounceRow {
   std::string depth;
   DepthMeasure measure;
@@ -53,7 +53,7 @@ struct BounceRow {
   double energy = 0, most_energy = 0;   ///< created, parts of what was there: mean of the size, largest
 };
 
-/// Two agents that slide over each other by small steps.
+/// The results for two agents that slide over each other by small steps.
 struct SlideRow {
   std::string depth;
   DepthMeasure measure;
@@ -75,7 +75,7 @@ struct StiffReport {
   std::vector<SlideRow> slides;
 };
 
-/// The same on every machine. Runs in the caller's TBB arena.
+/// Runs all simulations, with the same results on every machine. Runs in the caller's TBB arena.
 StiffReport stiff_contact(const StiffOptions& options);
 
 }  // namespace bch::bench

@@ -35,7 +35,7 @@ ShapeSet make_shapes() {
   return ShapeSet(shapes, {.depths = {std::begin(stiff_depths), std::end(stiff_depths)}});
 }
 
-/// Of the single disc of an agent's shape, in the world.
+/// Returns the centre of the single disc of an agent's shape, in the world.
 Ground root_centre(const Agents& agents, std::uint32_t agent) {
   const CutDiscs root = cut_discs(stiff_shapes().view(), agents.shape[agent] * stiff_shapes().level_count());
   const double x = static_cast<double>(root.x[0]), y = static_cast<double>(root.y[0]);
@@ -70,7 +70,7 @@ const ShapeSet& stiff_shapes() {
 }
 
 std::span<const Pair> Depths::pairs(const Agents& agents) {
-  if (measure_ != DepthMeasure::separation) {
+  if (measure_ != DepthMeasure::penetration) {
     // Discs of cuts may overlap where root discs do not. Any margin makes the candidates know that.
     constexpr double margin = 1e-3;
     pairs_ = candidate_pairs(stiff_shapes(), agents, margin);
@@ -84,12 +84,12 @@ std::span<const Pair> Depths::pairs(const Agents& agents) {
   return pairs_;
 }
 
-std::span<const Separation> Depths::of(const Agents& agents, std::span<const Pair> pairs) {
+std::span<const Penetration> Depths::of(const Agents& agents, std::span<const Pair> pairs) {
   constexpr std::uint32_t directions = 32;
   found_.resize(pairs.size());
   switch (measure_) {
-    case DepthMeasure::separation:
-      separation(stiff_shapes(), agents, pairs, directions, found_);
+    case DepthMeasure::penetration:
+      penetration(stiff_shapes(), agents, pairs, directions, found_);
       break;
     case DepthMeasure::discs:
       measure_discs(agents, pairs);
@@ -97,7 +97,7 @@ std::span<const Separation> Depths::of(const Agents& agents, std::span<const Pai
     case DepthMeasure::centres:
       lines_.clear();
       for (const Pair pair : pairs) lines_.push_back(line_of_centres(agents, pair));
-      separation_along(stiff_shapes(), agents, pairs, lines_, found_);
+      penetration_along(stiff_shapes(), agents, pairs, lines_, found_);
   }
   return found_;
 }
@@ -124,7 +124,7 @@ void StiffWorld::add_wall(Ground at, double heading) {
   x_.push_back(at.x), y_.push_back(at.y);
 }
 
-void StiffWorld::press(Pair pair, const Separation& by) {
+void StiffWorld::press(Pair pair, const Penetration& by) {
   if (pair.first >= people()) return;  // walls do not push each other
   const double depth = static_cast<double>(by.depth), x = by.x, y = by.y;
   deepest_ = std::max(deepest_, depth);

@@ -10,7 +10,7 @@
 #include "kernel/broad_phase/broad_phase.hpp"
 #include "kernel/crowd/collide_all.hpp"
 #include "kernel/distance/clearance.hpp"
-#include "kernel/separation/separation.hpp"
+#include "kernel/penetration/penetration.hpp"
 
 namespace bch::bench {
 
@@ -25,15 +25,16 @@ struct Ground {
   double x = 0, y = 0;
 };
 
-/// The depth at which pairs stand in each other, as one of the measures has it.
+/// Computes the depths of overlapping pairs by one of the measures.
 class Depths {
  public:
   explicit Depths(DepthMeasure measure) : measure_(measure) {}
 
-  /// The pairs that may have depths: those that collide, or candidates for a measure that does not wait for that.
+  /// Returns the pairs that may have depths: those that collide, or all candidates for a measure that does
+  /// not need a collision.
   std::span<const Pair> pairs(const Agents& agents);
-  /// Of such pairs; valid until the next call.
-  std::span<const Separation> of(const Agents& agents, std::span<const Pair> pairs);
+  /// Returns the depths of such pairs; valid until the next call.
+  std::span<const Penetration> of(const Agents& agents, std::span<const Pair> pairs);
 
  private:
   void measure_discs(const Agents& agents, std::span<const Pair> pairs);
@@ -41,12 +42,12 @@ class Depths {
   DepthMeasure measure_;
   CrowdCollider collider_;
   std::vector<Pair> pairs_;
-  std::vector<Separation> found_;
+  std::vector<Penetration> found_;
   std::vector<Vec2> lines_, direction_;
   std::vector<float> distance_;
 };
 
-/// Agents and what moves them.
+/// Agents and the forces that move them.
 class StiffWorld {
  public:
   explicit StiffWorld(DepthMeasure measure, bool free = false) : depths_(measure), free_(free) {}
@@ -54,7 +55,7 @@ class StiffWorld {
   void add_person(std::uint32_t shape, std::uint8_t level, Ground at, double heading, Ground velocity);
   void add_wall(Ground at, double heading);
 
-  /// `goal`: of each person, a unit vector.
+  /// Advances the simulation by one step. `goal`: of each person, a unit vector.
   void step(double seconds, std::span<const Ground> goal);
 
   std::size_t people() const { return velocity_.size(); }
@@ -66,7 +67,7 @@ class StiffWorld {
 
  private:
   Agents agents() const { return {shape_, x_, y_, heading_, level_}; }
-  void press(Pair pair, const Separation& by);
+  void press(Pair pair, const Penetration& by);
 
   Depths depths_;
   bool free_;  ///< no drive, no friction

@@ -38,7 +38,7 @@ ExactCut posed(const PlacedSpecimen& placed) {
 template <class Value>
 class PairsWithAbove {
  public:
-  /// `of(i, j)`: of two discs; `both(v, w)` puts together.
+  /// Computes all values. `of(i, j)`: of two discs; `both(v, w)` puts together.
   template <class Of, class Both>
   PairsWithAbove(const ExactCut& a, const ExactCut& b, Of of, Both both) : a_(a), b_(b) {
     // Who is above comes first.
@@ -52,7 +52,7 @@ class PairsWithAbove {
   }
 
   const Value& operator()(std::size_t i, std::size_t j) const { return values_[i * b_.discs.size() + j]; }
-  /// Of two discs of the cuts, the first by an order.
+  /// Returns the value of two discs of the cuts that is the first by an order.
   template <class Less>
   const Value& least(Less less) const {
     const Value* found = &(*this)(a_.cut[0], b_.cut[0]);
@@ -71,9 +71,9 @@ QuadVector shift(const PlacedSpecimen& a, const PlacedSpecimen& b) {
   return {Quad{b.x} - Quad{a.x}, Quad{b.y} - Quad{a.y}};
 }
 
-/// Where two discs, and all above them, overlap as b moves along a direction: from `begin` to `end`, metres, if that is not
-/// less. Discs i and j are those that part there, `along` and `across` the direction and what is to its left as the line of
-/// their centres has them.
+/// The interval where two discs, and all above them, overlap as b moves along a direction: from `begin` to
+/// `end`, metres, if that is not less. Discs i and j are those that separate there. `along` and `across` are
+/// the components of the line of their centres along the direction and to its left.
 struct Overlap {
   double begin, end;
   std::size_t i, j;
@@ -109,7 +109,8 @@ Overlap last_overlap(const ExactCut& cut_a, const ExactCut& cut_b, double x, dou
       });
 }
 
-/// Of two discs and all above them, as far as they count; exactly. `at` leads from a's agent to b's.
+/// Returns the largest gap of two discs and all above them, as far as they count; exactly. `at` leads from
+/// a's agent to b's.
 template <class Counts>
 Quad largest_gap(const ExactCut& a, std::uint32_t disc_a, const ExactCut& b, std::uint32_t disc_b,
                  QuadVector at, Counts counts) {
@@ -214,7 +215,7 @@ void Trial::put_outlines_in_contact(double x, double y, double gap) {
   // In a's frame it is a that moves.
   const QuadVector way = turned_back(baselines::quad_rotation(a.heading), {far * x, far * y});
   const long double time =
-      oracle(a, away, x, y).contact_time(static_cast<long double>(way.x), static_cast<long double>(way.y));
+      oracle(a, away, x, y).time_of_impact(static_cast<long double>(way.x), static_cast<long double>(way.y));
   const double distance = time <= 1 ? static_cast<double>(far * (1 - time)) : 0;
   b.x = a.x + (distance + gap) * x;
   b.y = a.y + (distance + gap) * y;

@@ -14,22 +14,24 @@ struct PlacedSpecimen {
   double x, y, heading;
 };
 
-/// Two agents: what is true of them, and what plain tests say.
+/// Two agents with the exact answers about them, and the answers of simple tests.
 class Trial {
  public:
   Trial(const PlacedSpecimen& a, const PlacedSpecimen& b);
 
   PlacedSpecimen a, b;
 
-  /// Moves b along the direction (x, y), a unit vector, to where the two collide last by their discs, and from there along the
-  /// line of the centres of the two that part there, which may be discs above the cuts, by the gap for the sum of their
-  /// radii. Correct to the rounding of b's position.
+  /// Moves b along the direction (x, y), a unit vector, to where the two collide last by their discs. From
+  /// there it moves b along the line of the centres of the two discs that separate the agents there, which
+  /// may be discs above the cuts, by the gap for the sum of their radii. Correct to the rounding of b's
+  /// position.
   void put_discs_in_contact(double x, double y, const std::function<double(double radii)>& gap);
   /// Moves b along the direction to where the outlines touch last, and by `gap` further.
   void put_outlines_in_contact(double x, double y, double gap);
 
-  /// How far the two are from colliding by their tight discs, metres: of two discs of the cuts and all discs above them the
-  /// largest gap between one of the first agent and one of the second; of all such choices the least. Its sign is exact.
+  /// Returns how far the two are from colliding by their tight discs, metres. For a choice of one disc of
+  /// each cut, take the largest gap between the first one or a disc above it and the second one or a disc
+  /// above it; the result is the least value over all such choices. Its sign is exact.
   double gap() const;
   bool outlines_meet() const;
 

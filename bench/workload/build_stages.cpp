@@ -82,8 +82,8 @@ bool same(const Interior& a, const Interior& b) {
          a.extreme_y == b.extreme_y;
 }
 
-/// Whether a tree's discs are those of the cut, padding aside.
-bool holds_cut(const WideTree& tree, const Hierarchy& hierarchy, std::uint32_t depth) {
+/// Returns whether a tree's discs are those of the cut, padding aside.
+bool holds_cut(const Bvh8& tree, const Hierarchy& hierarchy, std::uint32_t depth) {
   const std::vector<std::uint32_t> nodes = cut(hierarchy, depth);
   if (nodes.size() > tree.x.size()) return false;
   for (std::size_t i = 0; i < nodes.size(); ++i)
@@ -217,16 +217,16 @@ void BuildStages::look_inside(const Outline& outline, double reach) {
   use(profile_);
 }
 
-void BuildStages::flatten(const Hierarchy& hierarchy, bool shortcuts) {
+void BuildStages::flatten(const Hierarchy& hierarchy, bool culling) {
   flattener_.begin(hierarchy);
   for (const std::uint32_t depth : depths) {
     flattener_.flatten(depth, tree_);
     use(tree_);
-    if (!shortcuts || tree_.is_single()) continue;
+    if (!culling || tree_.is_single()) continue;
     outer_ = flattener_.outer(profile_);
     use(outer_);
   }
-  if (!shortcuts) return;
+  if (!culling) return;
   supports_ = flattener_.supports();
   use(supports_);
 }

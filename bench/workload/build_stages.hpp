@@ -15,7 +15,7 @@
 #include "layout/enclosing_disc/enclosing_discs.hpp"
 #include "layout/hierarchy/builder.hpp"
 #include "layout/outline/builder.hpp"
-#include "layout/shape_set/wide_tree.hpp"
+#include "layout/shape_set/bvh8.hpp"
 
 namespace bch::bench {
 
@@ -27,9 +27,9 @@ struct BuildImplementation {
   const InteriorImplementation* interior;
 };
 
-/// Those that run here, the best first.
+/// Returns the implementations that run here, the best first.
 std::vector<BuildImplementation> build_implementations();
-/// The one of them that builders take by themselves.
+/// Returns the implementation that builders choose by themselves.
 BuildImplementation chosen_build_implementation();
 
 /// A character's way from poses to all that a set stores of shapes, stage by stage: each is made from what the one
@@ -52,15 +52,17 @@ class BuildStages {
   void skin(std::size_t pose);
   void outline(std::size_t pose);
   void hierarchy(std::size_t pose);
-  /// The same with every disc by Welzl's algorithm as textbooks have it.
+  /// Builds the hierarchy with every disc by Welzl's algorithm as textbooks have it.
   void hierarchy_welzl(std::size_t pose);
-  /// Wide trees of four levels, how far they extend from the last profile's centre, and supports of the deepest.
+  /// Builds wide trees of four levels, how far they extend from the last profile's centre, and supports of
+  /// the deepest.
   void levels(std::size_t pose);
-  /// Inscribed discs and the profile.
+  /// Builds inscribed discs and the profile.
   void interior(std::size_t pose);
-  /// From the pose to flat nodes of four levels: what shapes of one frame take, which have no shortcuts for queries.
+  /// Builds flat nodes of four levels from the pose. This is what shapes of one frame need; they have no
+  /// culling data.
   void pose(std::size_t pose);
-  /// From the pose to all of these.
+  /// Builds all of these from the pose.
   void all(std::size_t pose);
 
  private:
@@ -68,7 +70,7 @@ class BuildStages {
   void make_and_check(std::size_t pose, Others& others);
   void look_inside(const Outline& outline, double reach);
   void make_hierarchy(std::size_t pose);
-  void flatten(const Hierarchy& hierarchy, bool shortcuts);
+  void flatten(const Hierarchy& hierarchy, bool culling);
 
   const Character& character_;
   std::vector<PoseTime> times_;
@@ -85,7 +87,7 @@ class BuildStages {
   // What was made last.
   Outline outline_;
   Hierarchy hierarchy_;
-  WideTree tree_;
+  Bvh8 tree_;
   Interior interior_;
   Profile profile_;
   Supports supports_;
@@ -111,7 +113,7 @@ class MenInDetail {
   std::size_t count() const { return 8; }
   std::size_t triangles(std::size_t i) const { return base(i).triangles.size() << 2 * times(i); }
   Character make(std::size_t i) const;
-  /// So many that their memory stays below a gigabyte, and are different.
+  /// Returns how many different poses to take, so that their memory stays below a gigabyte.
   std::uint32_t poses(std::size_t i) const;
 
  private:

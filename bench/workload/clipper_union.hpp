@@ -11,8 +11,8 @@
 
 namespace bch::bench {
 
-/// The area of the union of a pose's triangles, seen from above and rounded to steps of a grid, as libpolyclipping has
-/// it; negative where the build found no libpolyclipping.
+/// Returns the area of the union of a pose's triangles, seen from above and rounded to steps of a grid, by
+/// libpolyclipping; negative where the build found no libpolyclipping.
 /// Units:   metres.
 double clipper_union_area(std::span<const Vec2> positions,
                           std::span<const std::array<std::uint32_t, 3>> triangles, double step);

@@ -8,7 +8,7 @@
 #include <algorithm>
 
 #include "baselines/clearance_reference.hpp"
-#include "baselines/contact_time_reference.hpp"
+#include "baselines/time_of_impact_reference.hpp"
 #include "layout/base/heading.hpp"
 
 namespace bch::bench {
@@ -46,8 +46,8 @@ std::string wrong_distances(Scene& scene, const Workload& workload, const std::v
   return {};
 }
 
-std::string wrong_contact_times(Scene& scene, const Workload& workload, const std::vector<float>& times) {
-  baselines::ContactTimeReference reference(scene.shapes(), {});
+std::string wrong_times_of_impact(Scene& scene, const Workload& workload, const std::vector<float>& times) {
+  baselines::TimeOfImpactReference reference(scene.shapes(), {});
   const Ways ways(workload);
   for (std::size_t i = 0; i < workload.pairs.size(); ++i) {
     const float expected = reference.query(workload.agents(), workload.pairs[i], ways.x[i], ways.y[i],

@@ -8,7 +8,7 @@
 
 #include "bench/workload/scene.hpp"
 #include "kernel/distance/clearance.hpp"
-#include "kernel/distance/contact_time.hpp"
+#include "kernel/distance/time_of_impact.hpp"
 
 // What the benchmarks of distances and times ask for, and what answers must be before they are worth timing.
 
@@ -27,7 +27,7 @@ struct Clearances {
   ClearanceAnswers spans() { return {distance, direction}; }
 };
 
-/// How the agents of each pair move relative to each other when all walk.
+/// The relative motion of the agents of each pair when all walk.
 struct Ways {
   std::vector<double> x, y;
 
@@ -35,10 +35,11 @@ struct Ways {
   Displacements displacements() const { return {x, y}; }
 };
 
-/// These say where answers differ from brute force over all discs, on every pair; empty: nowhere.
+/// The functions below say where answers differ from brute force over all discs, on every pair; empty:
+/// nowhere.
 std::string wrong_clearances(Scene& scene, const Workload& workload, const Clearances& answers);
-/// Distances of outlines, which clearances bound.
+/// Checks distances of outlines, which clearances bound.
 std::string wrong_distances(Scene& scene, const Workload& workload, const std::vector<double>& distances);
-std::string wrong_contact_times(Scene& scene, const Workload& workload, const std::vector<float>& times);
+std::string wrong_times_of_impact(Scene& scene, const Workload& workload, const std::vector<float>& times);
 
 }  // namespace bch::bench

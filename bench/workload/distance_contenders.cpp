@@ -6,8 +6,8 @@
 #include <memory>
 
 #include "baselines/clearance_reference.hpp"
-#include "baselines/contact_time_reference.hpp"
 #include "baselines/pair_distances.hpp"
+#include "baselines/time_of_impact_reference.hpp"
 #include "bench/workload/distance_answers.hpp"
 
 namespace bch::bench {
@@ -52,29 +52,29 @@ Contender fcl_distance_contender(Scene& scene, const Workload& workload, const s
   return {name, call};
 }
 
-Contender contact_time_kernel(Scene& scene, const Workload& workload,
-                              const kernel::Implementation& implementation) {
+Contender time_of_impact_kernel(Scene& scene, const Workload& workload,
+                                const kernel::Implementation& implementation) {
   const auto times = std::make_shared<std::vector<float>>(workload.pairs.size());
   const auto ways = std::make_shared<Ways>(workload);
   const auto call = [&set = scene.set(), &workload, ways, times, &implementation] {
-    contact_time(set, workload.agents(), workload.pairs, ways->displacements(), *times, {&implementation});
+    time_of_impact(set, workload.agents(), workload.pairs, ways->displacements(), *times, {&implementation});
   };
   call();
-  require_right(implementation.name, workload, wrong_contact_times(scene, workload, *times));
+  require_right(implementation.name, workload, wrong_times_of_impact(scene, workload, *times));
   return {implementation.name, call};
 }
 
-Contender contact_time_reference(Scene& scene, const Workload& workload) {
+Contender time_of_impact_reference(Scene& scene, const Workload& workload) {
   const auto times = std::make_shared<std::vector<float>>(workload.pairs.size());
   const auto ways = std::make_shared<Ways>(workload);
-  const auto reference = std::make_shared<baselines::ContactTimeReference>(scene.shapes(), ShapeSetPlan{});
+  const auto reference = std::make_shared<baselines::TimeOfImpactReference>(scene.shapes(), ShapeSetPlan{});
   const auto call = [reference, &workload, ways, times] {
     for (std::size_t i = 0; i < workload.pairs.size(); ++i)
       (*times)[i] = reference->query(workload.agents(), workload.pairs[i], ways->x[i], ways->y[i],
                                      baselines::Method::depth_first);
   };
   call();
-  require_right("scalar search", workload, wrong_contact_times(scene, workload, *times));
+  require_right("scalar search", workload, wrong_times_of_impact(scene, workload, *times));
   return {"scalar search", call};
 }
 
@@ -85,8 +85,8 @@ const TimedQuery& clearance_query() {
   return query;
 }
 
-const TimedQuery& contact_time_query() {
-  static constexpr TimedQuery query{"contact_time", contact_time_kernel, contact_time_reference};
+const TimedQuery& time_of_impact_query() {
+  static constexpr TimedQuery query{"time_of_impact", time_of_impact_kernel, time_of_impact_reference};
   return query;
 }
 

@@ -9,12 +9,13 @@
 
 namespace bch::bench {
 
-/// clearance(), with directions; contact_time(). The references are scalar searches with the same pruning.
+/// Return the queries of clearance(), with directions, and of time_of_impact(). The references are scalar
+/// searches with the same pruning.
 const TimedQuery& clearance_query();
-const TimedQuery& contact_time_query();
+const TimedQuery& time_of_impact_query();
 
-/// FCL's distances of the outlines as walls, which is what is asked for, and as one triangle a segment, half of what it
-/// has to look at; none in a build without FCL.
+/// Returns FCL's distances of the outlines: as walls, which is what is asked for, and as one triangle a
+/// segment, which is half of the work; none in a build without FCL.
 std::vector<Contender> fcl_distance_contenders(Scene& scene, const Workload& workload);
 
 }  // namespace bch::bench

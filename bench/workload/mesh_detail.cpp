@@ -28,7 +28,7 @@ std::uint32_t add_middle(Character& character, std::uint32_t a, std::uint32_t b)
   return static_cast<std::uint32_t>(character.vertices.size() - 1);
 }
 
-/// Of the surface at each vertex, at rest.
+/// Returns the normals of the surface at each vertex, at rest.
 std::vector<Eigen::Vector3f> normals_of(const Character& character) {
   std::vector<Eigen::Vector3f> normals(character.vertices.size(), Eigen::Vector3f::Zero());
   for (const auto& [a, b, c] : character.triangles) {

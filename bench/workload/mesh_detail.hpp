@@ -9,16 +9,17 @@
 
 namespace bch::bench {
 
-/// The character with every triangle cut into four at the middles of its edges, `times` over. A middle moves with
-/// the bones of both ends.
+/// Returns the character with every triangle cut into four at the middles of its edges, `times` times. A
+/// middle moves with the bones of both ends.
 Character finer(const Character& character, int times);
 
-/// The same with relief, as cloth and muscles have it at every size: each middle stands out of its edge, or into it, by up to
-/// an eighth of the edge's length along the surface's normal. The same for a character everywhere.
+/// Returns the character refined as by finer(), with relief as cloth and muscles have it at every size. Each
+/// middle stands out of its edge, or into it, by up to an eighth of the edge's length along the surface's
+/// normal. The result is the same for a character everywhere.
 Character with_relief(const Character& character, int times);
 
-/// The character with its vertices merged by the cells of a grid, and without the triangles that this closes: the
-/// finest grid that leaves no more triangles than `most`.
+/// Returns the character with its vertices merged by the cells of a grid, and without the triangles that this
+/// closes. The grid is the finest one that leaves no more triangles than `most`.
 Character coarser(const Character& character, std::size_t most);
 
 }  // namespace bch::bench

@@ -30,7 +30,7 @@ void time_calls(benchmark::State& state, const Workload& workload, int threads, 
   state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(workload.pairs.size()));
 }
 
-/// Powers of two, and all that the machine has.
+/// Returns powers of two, and the number of all threads of the machine.
 inline std::vector<int> thread_counts() {
   const int most = tbb::info::default_concurrency();
   std::vector<int> counts;

@@ -18,8 +18,9 @@ namespace {
 
 constexpr double shortest_run = 1e7;  ///< nanoseconds
 
-/// In an arena of its own size: with one thread, the caller's time is then all of the time that the call takes. Others are
-/// woken first, which takes about a millisecond, and between the frames of a simulation does not happen.
+/// Times a call in an arena of its own size: with one thread, the caller's time is then all of the time that
+/// the call takes. Other threads are woken first, which takes about a millisecond and does not happen between
+/// the frames of a simulation.
 double time_run(const std::function<void()>& call, int threads) {
   tbb::task_arena arena(threads);
   if (threads > 1) arena.execute(call);

@@ -26,8 +26,8 @@ struct Contender {
 /// Threads: each call runs in an arena of that many, whose time Stopwatch takes.
 void race(std::vector<Contender>& contenders, std::uint32_t runs, int threads);
 
-/// A contender that asks a kernel's implementation for all pairs of a workload, by one thread; its answers
-/// were compared. Errors of both: throw std::runtime_error on wrong answers.
+/// Makes a contender that asks a kernel's implementation for all pairs of a workload, by one thread; its
+/// answers were compared. Errors of both: throw std::runtime_error on wrong answers.
 Contender kernel_contender(Scene& scene, const Workload& workload, const QueryOptions& query,
                            const kernel::Implementation& implementation);
 Contender structure_contender(Scene& scene, const Workload& workload, std::string_view kind);
@@ -40,10 +40,10 @@ struct TimedQuery {
   Contender (*reference)(Scene&, const Workload&);  ///< may be null
 };
 
-/// Throws std::runtime_error if something is wrong.
+/// Checks that nothing is wrong: throws std::runtime_error if `wrong` is not empty.
 void require_right(const std::string& name, const Workload& workload, const std::string& wrong);
 
-/// Whether this build has the kind.
+/// Returns whether this build has the kind.
 bool has_kind(std::string_view kind);
 
 }  // namespace bch::bench

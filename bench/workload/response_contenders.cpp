@@ -12,10 +12,10 @@
 
 #include "baselines/contact_reference.hpp"
 #include "baselines/cut_lists.hpp"
-#include "baselines/separation_reference.hpp"
+#include "baselines/penetration_reference.hpp"
 #include "kernel/contact/contacts.hpp"
 #include "kernel/crowd/collide_all.hpp"
-#include "kernel/separation/separation.hpp"
+#include "kernel/penetration/penetration.hpp"
 
 namespace bch::bench {
 namespace {
@@ -24,7 +24,7 @@ std::string wrong_contacts(Scene& scene, const Workload& workload, const Contact
   const baselines::CutLists cuts(scene.shapes(), {});
   for (std::size_t i = 0; i < workload.pairs.size(); ++i) {
     const auto expected = baselines::contacts(cuts, workload.agents(), workload.pairs[i]);
-    const auto same = [](const Contact& contact, const auto& discs) {
+    const auto same = [](const DiscPair& contact, const auto& discs) {
       return contact.first == discs.first && contact.second == discs.second;
     };
     const auto row = table.of(i);
@@ -35,18 +35,18 @@ std::string wrong_contacts(Scene& scene, const Workload& workload, const Contact
   return {};
 }
 
-std::string wrong_separations(Scene& scene, const Workload& workload, std::span<const Separation> ways) {
+std::string wrong_penetrations(Scene& scene, const Workload& workload, std::span<const Penetration> ways) {
   const baselines::CutLists cuts(scene.shapes(), {});
   for (std::size_t i = 0; i < workload.pairs.size(); ++i) {
     const auto [depth, x, y] =
-        baselines::separation(cuts, workload.agents(), workload.pairs[i], separation_directions);
-    if (ways[i] != Separation{depth, x, y})
+        baselines::penetration(cuts, workload.agents(), workload.pairs[i], penetration_directions);
+    if (ways[i] != Penetration{depth, x, y})
       return fmt::format("pair {}: {} m where brute force says {} m", i, ways[i].depth, depth);
   }
   return {};
 }
 
-/// Of a crowd, whose workload has all pairs that can collide.
+/// Checks the answers for a crowd, whose workload has all pairs that can collide.
 std::string wrong_neighbours(Scene& scene, const Workload& workload, const CollidingNeighbours& rows) {
   const Hits& hits = scene.expected(disc_query, workload);
   std::vector<std::vector<std::uint32_t>> expected(workload.crowd.size());
@@ -90,30 +90,30 @@ Contender contacts_reference(Scene& scene, const Workload& workload) {
           }};
 }
 
-Contender separation_kernel(Scene& scene, const Workload& workload,
-                            const kernel::Implementation& implementation) {
-  const auto ways = std::make_shared<std::vector<Separation>>(workload.pairs.size());
+Contender penetration_kernel(Scene& scene, const Workload& workload,
+                             const kernel::Implementation& implementation) {
+  const auto ways = std::make_shared<std::vector<Penetration>>(workload.pairs.size());
   const auto call = [&set = scene.set(), &workload, ways, &implementation] {
-    separation(set, workload.agents(), workload.pairs, separation_directions, *ways, {&implementation});
+    penetration(set, workload.agents(), workload.pairs, penetration_directions, *ways, {&implementation});
   };
   call();
-  require_right(implementation.name, workload, wrong_separations(scene, workload, *ways));
+  require_right(implementation.name, workload, wrong_penetrations(scene, workload, *ways));
   return {implementation.name, call};
 }
 
-Contender separation_reference(Scene& scene, const Workload& workload) {
+Contender penetration_reference(Scene& scene, const Workload& workload) {
   const auto cuts = std::make_shared<baselines::CutLists>(scene.shapes(), ShapeSetPlan{});
   const auto depths = std::make_shared<std::vector<float>>(workload.pairs.size());
   const auto call = [cuts, depths, &workload] {
     for (std::size_t i = 0; i < workload.pairs.size(); ++i)
       (*depths)[i] =
-          baselines::separation(*cuts, workload.agents(), workload.pairs[i], separation_directions).depth;
+          baselines::penetration(*cuts, workload.agents(), workload.pairs[i], penetration_directions).depth;
   };
   call();
-  std::vector<Separation> ways(workload.pairs.size());
-  separation(scene.set(), workload.agents(), workload.pairs, separation_directions, ways);
+  std::vector<Penetration> ways(workload.pairs.size());
+  penetration(scene.set(), workload.agents(), workload.pairs, penetration_directions, ways);
   const bool same = std::equal(depths->begin(), depths->end(), ways.begin(), ways.end(),
-                               [](float depth, const Separation& way) { return depth == way.depth; });
+                               [](float depth, const Penetration& way) { return depth == way.depth; });
   require_right("reference", workload, same ? "" : "other depths than the kernel's");
   return {"reference", call};
 }
@@ -130,7 +130,7 @@ Contender collide_all_kernel(Scene& scene, const Workload& workload,
 }
 
 constexpr TimedQuery queries[] = {{"contacts", contacts_kernel, contacts_reference},
-                                  {"separation", separation_kernel, separation_reference},
+                                  {"penetration", penetration_kernel, penetration_reference},
                                   {"collide_all", collide_all_kernel, nullptr}};
 
 }  // namespace

@@ -9,10 +9,11 @@
 
 namespace bch::bench {
 
-constexpr std::uint32_t separation_directions = 16;
+constexpr std::uint32_t penetration_directions = 16;
 
-/// contacts; separation, along the best of separation_directions; collide_all, whose pairs are those of its broad phase. The
-/// reference is brute force; of collide_all there is none, as collide()'s stands for it.
+/// Returns the queries contacts; penetration, along the best of penetration_directions; collide_all, whose
+/// pairs are those of its broad phase. The reference is brute force; collide_all has none, as that of
+/// collide() serves for it.
 std::span<const TimedQuery> response_queries();
 
 }  // namespace bch::bench

@@ -19,7 +19,7 @@
 
 namespace bch::bench {
 
-/// Asks what the plain traversal answers as well, which knows discs alone.
+/// A query that the scalar reference, which knows discs alone, answers as well.
 constexpr QueryOptions disc_query{.leaves = Leaves::discs};
 
 /// Says what a query asks: "boundary, discs".
@@ -44,15 +44,15 @@ class Scene {
   const std::vector<ShapeSource>& sources();
   const std::vector<Shape>& shapes();
   const std::vector<baselines::Body>& bodies();
-  /// The finest level alone, with all that queries may ask.
+  /// Returns a set of the finest level alone, with all that queries may ask.
   const ShapeSet& set();
   const baselines::Structure& structure(std::string_view kind);
-  /// Errors: throws std::invalid_argument on a name that workload_names() does not have.
+  /// Returns a workload. Errors: throws std::invalid_argument on a name that workload_names() does not have.
   const Workload& workload(std::string_view name);
 
-  /// A kind's answers, at all depths.
+  /// Returns a kind's answers, at all depths.
   const Hits& hits(std::string_view kind, const Workload& workload);
-  /// What the kernel must answer, pair by pair and disc by disc: baselines::Reference by brute force.
+  /// Returns what the kernel must answer, pair by pair and disc by disc: baselines::Reference by brute force.
   const Hits& expected(const QueryOptions& query, const Workload& workload);
 
  private:

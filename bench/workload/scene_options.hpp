@@ -9,7 +9,7 @@
 
 namespace bch::bench {
 
-/// The options by which a command line chooses how much to measure on.
+/// Adds the options by which a command line chooses how much to measure on.
 void add_size_options(CLI::App& program, SceneOptions& options);
 
 }  // namespace bch::bench

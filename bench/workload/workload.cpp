@@ -26,7 +26,7 @@ struct Point {
   double x, y;
 };
 
-/// Of a shape's root disc, turned by a heading.
+/// Returns the offset of a shape's root disc, turned by a heading.
 Point root_offset(const Shape& shape, double heading) {
   const Disc& disc = shape.hierarchy.nodes[0].disc;
   const double x = static_cast<double>(disc.x), y = static_cast<double>(disc.y);

@@ -31,7 +31,7 @@ struct WorkloadSizes {
   std::uint32_t agents = 10'000;  ///< of the crowd
 };
 
-/// In the order of reports:
+/// Returns the names of the workloads, in the order of reports:
 ///   colliding     distinct pairs whose meshes intersect
 ///   near_miss     distinct pairs whose root discs overlap while the meshes do not intersect
 ///   no_hit        distinct pairs whose root discs overlap while their contour hierarchies do not
@@ -39,25 +39,25 @@ struct WorkloadSizes {
 ///   paper500      the paper's protocol: 500 colliding cases in sequence, over and over
 ///   paper500_cached  the same cases, each repeated before the next: the paper shows that order and leaves it out of its
 ///                    results
-/// The last two are small enough for the processor to learn every branch; they are here to be compared with
-/// the paper, not to judge by.
+/// The last two are small enough for the processor to learn every branch. They serve for comparison with the
+/// paper, not for judging performance.
 std::span<const std::string_view> workload_names();
 
-/// Pairs with agents of their own, shapes and headings at random, the second root disc's centre anywhere in
-/// the disc about the first one's centre in which the two overlap; those that are wanted. The same for the
-/// same shapes and seed everywhere.
+/// Draws pairs with agents of their own, shapes and headings at random. The second root disc's centre is
+/// anywhere in the disc about the first one's centre in which the two overlap. Only pairs that are wanted are
+/// kept. The result is the same for the same shapes and seed everywhere.
 /// Errors:  throws std::runtime_error naming the workload once a million pairs in a row were not wanted.
 Workload random_pairs(std::string_view name, std::uint64_t seed, std::span<const Shape> shapes,
                       std::uint32_t pairs, const std::function<bool(const Agents&, Pair)>& wanted);
 
-/// Of the crowd, and of others that are measured beside it.
+/// The density and the seed of the crowd, and of others that are measured beside it.
 constexpr double agents_per_square_metre = 3;
 constexpr std::uint64_t crowd_seed = 34;
 
 Workload crowd_pairs(const ShapeSet& set, std::uint32_t agents);
 
-/// The first `cases` pairs of a workload, `pairs` in all. Cached: each over and over, then the next; else the
-/// cases in sequence, over and over.
+/// Repeats the first `cases` pairs of a workload, `pairs` in all. Cached: each case over and over, then the
+/// next; else the cases in sequence, over and over.
 Workload repeated(std::string_view name, const Workload& from, std::uint32_t cases, std::uint32_t pairs,
                   bool cached);
 

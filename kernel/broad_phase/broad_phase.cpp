@@ -13,7 +13,7 @@
 #include "kernel/broad_phase/crowd_grid.hpp"
 #include "kernel/broad_phase/radix_sort.hpp"
 #include "kernel/broad_phase/sorted_discs.hpp"
-#include "kernel/runtime/standard_floats.hpp"
+#include "kernel/runtime/floating_point_state.hpp"
 #include "kernel/runtime/task_ranges.hpp"
 #include "kernel/runtime/validate.hpp"
 #include "layout/base/rounding.hpp"
@@ -57,7 +57,7 @@ struct BroadPhase::Scratch {
   std::vector<std::size_t> found_begin;  ///< among all
   std::vector<Pair> pairs;
 
-  /// Of one agent or more.
+  /// Finds the pairs of one agent or more.
   std::span<const Pair> find(const ShapeSetView& shapes, const Agents& agents, double margin);
   void sort_discs(const CrowdGrid& grid, const ShapeSetView& shapes, const Agents& agents, double margin);
   void find_in_block(const CrowdGrid& grid, std::size_t begin, std::size_t end, PairList& list) const;
@@ -122,7 +122,7 @@ void BroadPhase::Scratch::find_in_class(const CrowdGrid& grid, std::uint32_t siz
   }
 }
 
-/// All nine cells about a disc, in the grid of every coarser class.
+/// Searches all nine cells about a disc, in the grid of every coarser class.
 void BroadPhase::Scratch::find_larger(const CrowdGrid& grid, std::uint32_t size_class, std::size_t begin,
                                       std::size_t end, PairList& list) const {
   for (std::uint32_t c = 0; c < size_class; ++c) {
@@ -176,7 +176,7 @@ BroadPhase& BroadPhase::operator=(BroadPhase&&) noexcept = default;
 BroadPhase::~BroadPhase() = default;
 
 std::span<const Pair> BroadPhase::find(const ShapeSet& shapes, const Agents& agents, double margin) {
-  const kernel::StandardFloats floats;
+  const kernel::FloatingPointStateGuard floats;
   validate(shapes, agents);
   if (!(margin >= 0 && margin <= 2 * rounding::largest_position))
     throw std::invalid_argument("broad phase: a margin of " + shortest(margin) + " m");

@@ -23,8 +23,8 @@ constexpr double radius_of_cell = 0.5 * (1 - 0x1p-10);
 /// Rounding of a centre relative to the crowd's corner, of the crowd's extent.
 constexpr double centre_rounding = 0x1p-50;
 
-/// What clearance() may tell too little, with D up to the margin and twice both reaches, in units of u: of the margin and of
-/// both reaches. Two agents share it.
+/// The amount by which clearance() may be too small, with D up to the margin and twice both reaches, in units
+/// of u: a share of the margin and a share of both reaches. Each of two agents takes half of it.
 constexpr double share_of_margin = 0x1p-18, share_of_reach = 128 * rounding::unit_roundoff;
 static_assert(2 * share_of_margin >= clearance_terms::short_of_distance * rounding::unit_roundoff);
 static_assert(share_of_reach >= (clearance_terms::short_of_reach + 2 * clearance_terms::short_of_distance) *
@@ -32,8 +32,8 @@ static_assert(share_of_reach >= (clearance_terms::short_of_reach + 2 * clearance
 static_assert(share_of_reach >= rounding::terms::query_error * rounding::unit_roundoff,
               "what collide() may accept");
 
-/// A root disc that is enlarged by half of the margin, and by more than clearance() may tell too little, which covers the
-/// rounding of collide(). Its shape's reach is at most that of the root. With a margin it
+/// A root disc that is enlarged by half of the margin, and by more than clearance() may tell too little,
+/// which covers the rounding of collide(). Its shape's reach is at most that of the root. With a margin it
 /// holds all discs, which may stick out of the smallest one.
 double pruning_radius(const ShapeSetView& shapes, std::size_t root, double margin) {
   const auto [x, y, r, row] = shapes.roots[root];

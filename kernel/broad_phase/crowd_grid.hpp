@@ -13,7 +13,7 @@
 
 namespace bch::kernel {
 
-/// Where some agents are, and how large their roots.
+/// The extent of the positions of some agents, and the sizes of their roots.
 struct CrowdBounds {
   static constexpr double infinity = std::numeric_limits<double>::infinity();
 
@@ -25,7 +25,7 @@ struct CrowdBounds {
   void add(const CrowdBounds& other) noexcept;
 };
 
-/// Of agents begin .. end at their levels. `margin`: as BroadPhase::find() has it.
+/// Returns the bounds of agents begin .. end at their levels. `margin`: as in BroadPhase::find().
 CrowdBounds bounds(const ShapeSetView& shapes, const Agents& agents, double margin, std::size_t begin,
                    std::size_t end) noexcept;
 
@@ -59,9 +59,11 @@ class CrowdGrid {
              std::size_t end, GridDisc* discs) const noexcept;
 
   std::uint32_t class_count() const noexcept { return class_count_; }
-  /// All cells of a class are below; so are those of the classes before it.
+  /// Returns the end of the cells of a class: all of its cells are below, and so are those of the classes
+  /// before it.
   std::uint64_t end_cell(std::uint32_t size_class) const noexcept { return classes_[size_class].end; }
-  /// From a cell to the one above it. Those beside it have the numbers next to its own.
+  /// Returns the difference from a cell to the one above it. The cells beside a cell have the numbers next to
+  /// its own.
   std::uint64_t stride(std::uint32_t size_class) const noexcept { return classes_[size_class].stride; }
   /// The cell of a coarser class, or of the same, that a cell is a part of.
   std::uint64_t coarser(std::uint64_t cell, std::uint32_t from, std::uint32_t to) const noexcept;

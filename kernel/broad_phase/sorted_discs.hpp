@@ -18,7 +18,8 @@ namespace bch::kernel {
 /// Discs of a grid in the order of their cells, array by array.
 class SortedDiscs {
  public:
-  /// As wide as every x86-64 processor is. Most runs of neighbours are short: wider ones would gain little.
+  /// The registers are as wide as on every x86-64 processor. Most runs of neighbours are short: wider ones
+  /// would gain little.
   using Int = xsimd::batch<std::int32_t, xsimd::sse2>;
   using Float = xsimd::batch<float, xsimd::sse2>;
   static constexpr std::size_t width = Float::size;

@@ -8,7 +8,7 @@
 namespace bch::kernel {
 namespace {
 
-/// Of a kernel's codes, what is left of them.
+/// Decides the near misses among a kernel's codes.
 void decide_near_misses(const Arguments& arguments, const Agents& agents, std::size_t begin,
                         std::size_t end) noexcept {
   if (!arguments.mark_near_misses) return;

@@ -17,8 +17,8 @@ namespace bch::kernel {
 void answer(const Implementation& implementation, const Arguments& arguments, const Agents& agents,
             std::size_t begin, std::size_t end) noexcept;
 
-/// The same of all pairs, at most a chunk, before anything was validated but sizes: false, and nothing is written, where
-/// something may be wrong, or where there are more pairs or none.
+/// Answers all pairs, at most a chunk, when nothing but sizes was validated. Returns false, and writes
+/// nothing, where something may be invalid, or where there are more pairs or none.
 bool answer_if_valid(const Implementation& implementation, const Arguments& arguments, const Agents& agents,
                      std::size_t count) noexcept;
 

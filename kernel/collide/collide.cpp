@@ -7,8 +7,8 @@
 #include <string>
 
 #include "kernel/collide/answer.hpp"
+#include "kernel/runtime/floating_point_state.hpp"
 #include "kernel/runtime/pair_validation.hpp"
-#include "kernel/runtime/standard_floats.hpp"
 #include "kernel/runtime/task_ranges.hpp"
 #include "kernel/runtime/validation.hpp"
 
@@ -16,7 +16,7 @@ namespace bch {
 
 void collide(const ShapeSet& shapes, const Agents& agents, std::span<const Pair> pairs,
              std::span<std::uint8_t> hits, const QueryOptions& options) {
-  const kernel::StandardFloats floats;
+  const kernel::FloatingPointStateGuard floats;
   const bool solid = options.semantics == Semantics::solid;
   if (hits.size() != pairs.size())
     throw std::invalid_argument("collide: " + std::to_string(pairs.size()) + " pairs but " +

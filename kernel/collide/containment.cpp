@@ -13,7 +13,7 @@ struct Point {
   double x, y;
 };
 
-/// From the frame of one agent into that of another.
+/// Maps from the frame of one agent into that of another.
 struct Placement {
   Rotation turn;
   Point origin;
@@ -31,7 +31,8 @@ Placement placement(const Agents& agents, std::uint32_t of, std::uint32_t in) {
           {to.cosine * dx + to.sine * dy, to.cosine * dy - to.sine * dx}};
 }
 
-/// By the parity of the edges to the right of p. Whiskers are walked there and back and cancel.
+/// Returns whether p is inside, by the parity of the edges to its right. Whiskers are walked there and back
+/// and cancel.
 bool inside(const Vec2* points, const Contour& contour, Point p) {
   bool odd = false;
   for (std::uint32_t i = contour.begin, before = contour.end - 1; i < contour.end; before = i++) {
@@ -44,14 +45,15 @@ bool inside(const Vec2* points, const Contour& contour, Point p) {
   return odd;
 }
 
-/// The slack of may_be_inside(), times both shapes' reaches, in the terms of layout/base/rounding.hpp. The outer disc holds its
-/// contour whatever is rounded. The inner disc's centre is rounded to float, by u |c|, which makes d and r larger by as
-/// much, and r is rounded up: sqrt(d^2 + r^2) is too large by at most sqrt(2) u |c| + 2 u r, which is 2.45 u P, because
-/// |c|^2 + r^2 <= P^2. The headings are off by 3e-10 each, and so is the place of what is at most 3 S away: 0.04 u S.
+/// The slack of may_be_inside(), times both shapes' reaches, in the terms of layout/base/rounding.hpp. The
+/// outer disc holds its contour whatever is rounded. The inner disc's centre is rounded to float, by u |c|,
+/// which makes d and r larger by as much, and r is rounded up: sqrt(d^2 + r^2) is too large by at most
+/// sqrt(2) u |c| + 2 u r, which is 2.45 u P, because |c|^2 + r^2 <= P^2. The headings are off by 3e-10 each,
+/// and so is the place of what is at most 3 S away: 0.04 u S.
 ///
-/// Only the proof needs it: no test can see it made 0 for outlines that OutlineBuilder makes. Cuts that the float test keeps
-/// apart leave more than that between the contours, 3 u S: beside all that the test needs, published radii are enlarged by
-/// 1.5 grid steps, which are 2 u P or more.
+/// Only the proof needs it: no test can see it made 0 for outlines that OutlineBuilder makes. Cuts that the
+/// float test keeps apart leave more than that between the contours, 3 u S: beside all that the test needs,
+/// published radii are enlarged by 1.5 grid steps, which are 2 u P or more.
 constexpr double inside_slack = 1e-6;
 constexpr double centre_and_radius = 2.45, placing = 0.04;  // in units of u
 static_assert(rounding::terms::length_within(rounding::terms::root_2, 2, centre_and_radius));

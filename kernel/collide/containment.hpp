@@ -8,8 +8,8 @@
 
 namespace bch::kernel {
 
-/// Whether a contour of one agent's outline lies inside the other's outline, for two agents whose cuts do not
-/// overlap.
+/// Returns whether a contour of one agent's outline lies inside the other's outline, for two agents whose
+/// cuts do not overlap.
 ///
 /// Outlines then do not meet, so one point of a contour speaks for all of it. And the answer does not hang on
 /// a rounding: discs that the float test keeps apart leave u S and more between any two outline points

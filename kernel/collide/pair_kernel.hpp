@@ -6,25 +6,26 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "kernel/collide/walk.hpp"
+#include "kernel/collide/overlap_traversal.hpp"
 #include "kernel/simd/arguments.hpp"
 #include "kernel/simd/block_test.hpp"
 #include "kernel/simd/chunk_pairs.hpp"
 #include "kernel/simd/lanes.hpp"
 #include "kernel/simd/placements.hpp"
 #include "kernel/simd/profile_test.hpp"
-#include "kernel/simd/separation_test.hpp"
+#include "kernel/simd/separating_axis_test.hpp"
 #include "layout/format/shape_set_view.hpp"
 
 namespace bch::kernel {
 
 /// The pair query, written once. `Simd` is a Lanes<Arch> with bits(). Every float operation that decides an
-/// answer is one of those listed in layout/base/rounding.hpp, in that order, so that all instantiations and the
-/// scalar reference agree bit for bit; what only saves work is conservative.
+/// answer is one of those listed in layout/base/rounding.hpp, in that order, so that all instantiations and
+/// the scalar reference agree bit for bit; what only saves work is conservative.
 ///
-/// Pairs are answered in chunks, stage by stage, and each stage leaves fewer of them open: place B in A's frame;
-/// decide by profiles along the line of the centres, and tell which of the rest will probably collide; part the
-/// others by their supports; accept pairs whose inscribed discs overlap; walk the trees of what is left.
+/// Pairs are answered in chunks, stage by stage, and each stage leaves fewer of them open: place B in A's
+/// frame; decide by profiles along the line of the centres, and tell which of the rest will probably collide;
+/// separate the others by their supports; accept pairs whose inscribed discs overlap; walk the trees of what
+/// is left.
 template <class Simd, std::uint32_t chunk = pairs_per_chunk>
 class PairKernel {
  public:
@@ -53,7 +54,7 @@ class PairKernel {
 
  private:
   using Float = typename Simd::Float;
-  /// Room for a chunk, besides those that wait for company, as many as the stack has room for.
+  /// The room for open traversals: a chunk, and besides as many unfinished pairs as fit on the stack.
   static constexpr std::uint32_t open_walks = chunk + chunk * 7 / 8;
   using List = ChunkPairs<Simd, chunk>;
 
@@ -61,11 +62,11 @@ class PairKernel {
       : in_(arguments),
         shapes_(*arguments.shapes),
         miss_(arguments.mark_near_misses ? near_miss : apart),
-        separation_(shapes_, at_),
+        axis_test_(shapes_, at_),
         profiles_(shapes_, at_, arguments.prefetch_shapes),
         walk_(shapes_, arguments) {}
 
-  /// Of the pairs that were placed.
+  /// Answers the pairs that were placed.
   void answer_chunk(std::size_t begin) noexcept {
     codes_ = in_.codes + begin;
     open_.size = near_.size = 0;
@@ -79,7 +80,7 @@ class PairKernel {
     if (shapes_.support == nullptr)
       open_all();
     else if (any_open())
-      take_shortcuts();
+      take_culling();
     for (std::uint32_t k = 0; k < open_.size; ++k) {
       const std::uint32_t pair = open_.pair[k];
       walk_.add(begin + pair, miss(pair), at_.transform(pair), at_.root_a[pair], at_.root_b[pair],
@@ -96,7 +97,7 @@ class PairKernel {
 
   /// Root disc against root disc, lane = pair. Where both cuts are single discs, that is the answer.
   void test_roots() noexcept {
-    separation_.use_rows(row_a_, row_b_);
+    axis_test_.use_rows(row_a_, row_b_);
     for (std::uint32_t k = 0; k < at_.whole_registers(); k += Simd::width) {
       Float a[4], b[4];
       Simd::template load_records<4>(&shapes_.roots->x, at_.root_a + k, a);
@@ -133,32 +134,34 @@ class PairKernel {
       open_.add_if(open_bits_[k / Simd::width] >> k % Simd::width & 1, k);
   }
 
-  /// Leaves the pairs open that only a walk can decide. Those that are not parted have the code for it by now.
-  void take_shortcuts() noexcept {
+  /// Leaves the pairs open that only a walk can decide. Those that are not separated have the code for it by
+  /// now.
+  void take_culling() noexcept {
     compare_profiles();
-    separation_.place_directions();
-    part(0);
+    axis_test_.place_directions();
+    separate(0);
     meet<block_width / 2>(near_);
     meet<block_width>(open_);
-    part(1);
+    separate(1);
     if (!in_.mark_near_misses) reopen_what_may_nest();
-    for (std::uint32_t k = 0; k < parted_.size; ++k) codes_[parted_.pair[k]] = apart;
+    for (std::uint32_t k = 0; k < separated_.size; ++k) codes_[separated_.pair[k]] = apart;
   }
 
-  /// By supports along even directions or odd ones.
-  void part(unsigned odd) noexcept {
+  /// Separates open pairs by their supports along even directions or odd ones.
+  void separate(unsigned odd) noexcept {
     open_.move_if(
-        parted_, open_,
+        separated_, open_,
         [&](std::uint32_t pair) {
-          const std::uint32_t is_apart = separation_.apart(pair, odd);
+          const std::uint32_t is_apart = axis_test_.apart(pair, odd);
           return typename List::Verdict{is_apart, is_apart};
         },
         [&](std::uint32_t pair) __attribute__((always_inline)) {
-          if (in_.prefetch_shapes) separation_.prefetch(pair, odd);
+          if (in_.prefetch_shapes) axis_test_.prefetch(pair, odd);
         });
   }
 
-  /// By the first `count` inscribed discs of either. What they do not decide is open.
+  /// Accepts pairs by the first `count` inscribed discs of either shape. Pairs that these do not decide stay
+  /// open.
   template <unsigned count>
   void meet(List& list) noexcept {
     list.move_if(
@@ -171,28 +174,29 @@ class PairKernel {
         });
   }
 
-  /// Lists pairs as parted, as met where they may nest besides, or as open, by whether they will probably collide.
+  /// Lists pairs as separated, as met where they may nest besides, or as open, by whether they will probably
+  /// collide.
   void compare_profiles() noexcept {
     shapes_.rows_in_order ? profiles_.look(nullptr, nullptr) : profiles_.look(row_a_, row_b_);
-    parted_.size = met_.size = 0;
+    separated_.size = met_.size = 0;
     for (std::uint32_t k = 0; k < at_.whole_registers(); k += Simd::width) {
       const auto answers = profiles_.answers(k);
       const std::uint32_t all = open_bits_[k / Simd::width] & ((std::uint32_t{1} << lanes(k)) - 1);
       const std::uint32_t open = all & ~(answers.apart | answers.meet);
       may_nest_[k / Simd::width] = answers.may_nest;
-      parted_.add(all & answers.apart, k);
+      separated_.add(all & answers.apart, k);
       met_.add(all & answers.meet & answers.may_nest, k);
       near_.add(open & answers.near, k);
       open_.add(open & ~answers.near, k);
     }
   }
 
-  /// Of the register that begins with pair k.
+  /// Returns the number of pairs in the register that begins with pair k.
   std::uint32_t lanes(std::uint32_t k) const noexcept {
     return at_.size - k < Simd::width ? at_.size - k : Simd::width;
   }
 
-  /// What a pair is whose cuts do not overlap.
+  /// Returns the code of a pair whose cuts do not overlap.
   std::uint8_t miss(std::uint32_t pair) const noexcept {
     return static_cast<std::uint8_t>(shapes_.support == nullptr ? miss_ : miss_ * may_nest(pair));
   }
@@ -201,12 +205,13 @@ class PairKernel {
     return may_nest_[pair / Simd::width] >> pair % Simd::width & 1;
   }
 
-  /// Where areas meet, outlines cross unless one holds the other, which boundary semantics does not count.
+  /// Reopens pairs whose areas meet but whose outlines may not cross. Outlines of areas that meet cross
+  /// unless one holds the other, which boundary semantics does not count.
   void reopen_what_may_nest() noexcept {
-    met_.drop_if(open_, [&](std::uint32_t pair) { return separation_.contours_stick_out(pair); });
+    met_.drop_if(open_, [&](std::uint32_t pair) { return axis_test_.contours_stick_out(pair); });
   }
 
-  /// Whether the areas meet. See layout/culling/interior.hpp.
+  /// Returns whether the areas meet by their inscribed discs. See layout/culling/interior.hpp.
   template <unsigned count>
   std::uint32_t inscribed_discs_overlap(std::uint32_t pair) const noexcept {
     return overlapping_discs<Simd, count>(at_.transform(pair), inscribed(at_.shape_a[pair]),
@@ -230,12 +235,12 @@ class PairKernel {
   const std::uint8_t miss_;
   std::uint8_t* codes_ = nullptr;  ///< of the chunk
   Placements<Simd, chunk> at_;
-  SeparationTest<Simd, chunk> separation_;
+  SeparatingAxisTest<Simd, chunk> axis_test_;
   ProfileTest<Simd, chunk> profiles_;
   alignas(64) std::uint32_t row_a_[chunk], row_b_[chunk];  ///< of the roots' supports; set by test_roots()
   std::uint32_t open_bits_[chunk / Simd::width], may_nest_[chunk / Simd::width];  ///< a register's pairs each
-  List open_, near_, parted_, met_;
-  Walk<Simd, open_walks> walk_;
+  List open_, near_, separated_, met_;
+  OverlapTraversal<Simd, open_walks> walk_;
 };
 
 }  // namespace bch::kernel

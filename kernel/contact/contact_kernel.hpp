@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "kernel/contact/contact.hpp"
+#include "kernel/contact/disc_pair.hpp"
 #include "kernel/simd/ancestor_test.hpp"
 #include "kernel/simd/arguments.hpp"
 #include "kernel/simd/block_test.hpp"
@@ -19,14 +19,15 @@
 
 namespace bch::kernel {
 
-/// All pairs of cut discs that overlap with all their ancestors, and whose segments meet where these decide, one pair of agents after the other. Rows are discs of a pair's first agent,
-/// columns those of its second. Row windows are visited from left to right, each with the column nodes that the blocks
-/// above it left to it, so that contacts come in order but for the eight rows of a window, which are counted before they
-/// are placed.
+/// All pairs of cut discs that overlap with all their ancestors, and whose segments meet where these decide,
+/// one pair of agents after the other. Rows are discs of a pair's first agent, columns those of its second.
+/// Row windows are visited from left to right, each with the column nodes that the blocks above it left to
+/// it, so that contacts come in order but for the eight rows of a window, which are counted before they are
+/// placed.
 ///
-/// No contact is named twice, although windows show some of their neighbours' discs. Of a row window only its own rows
-/// count: up to where the next window begins; but the last eight, where windows are moved back, are taken together at
-/// the end. A column counts in the first visited window that shows it.
+/// No contact is named twice, although windows show some of their neighbours' discs. Of a row window only its
+/// own rows count: up to where the next window begins; but the last eight, where windows are moved back, are
+/// taken together at the end. A column counts in the first visited window that shows it.
 ///
 /// Blocks prune as in the pair kernel's walk, and hits of leaves are verified as there.
 template <class Simd>
@@ -45,9 +46,9 @@ class ContactKernel {
   }
 
   static void fill(const Arguments& in, std::size_t begin, std::size_t end, const std::uint64_t* offsets,
-                   Contact* contacts) noexcept {
+                   DiscPair* contacts) noexcept {
     for_pairs(in, begin, end, [=](ContactKernel& kernel, std::size_t pair) {
-      Contact* out = contacts + offsets[pair];
+      DiscPair* out = contacts + offsets[pair];
       if (offsets[pair + 1] == offsets[pair]) return;
       kernel.for_row_windows([&](std::uint32_t rows, std::uint64_t mask, const Nodes& columns) {
         out = kernel.place_rows(rows, mask, columns, out);
@@ -61,7 +62,7 @@ class ContactKernel {
     double margin;  ///< 0, or segments decide where leaves overlap: metres
   };
 
-  /// Of the columns, from left to right.
+  /// Nodes of the columns, from left to right.
   struct Nodes {
     static constexpr std::uint32_t capacity = 32;
     std::uint32_t size = 0;
@@ -129,10 +130,10 @@ class ContactKernel {
     use(last_rows() | leaf_window, ~std::uint64_t{0}, columns);
   }
 
-  /// Where the last eight begin.
+  /// Returns where the last eight rows begin.
   std::uint32_t last_rows() const noexcept { return first_row_ + rows_.stride - block_width; }
 
-  /// `end`: where the node to the right begins.
+  /// Visits the row windows below a node. `end`: where the node to the right begins.
   template <class Use>
   void visit_rows(std::uint32_t node, std::uint32_t end, const Nodes& columns, Use& use) const noexcept {
     if (node >= leaf_window) {
@@ -197,7 +198,7 @@ class ContactKernel {
       if (hits & first_column_of_pairs << j) visit_columns(rows, mask, child(node, j), next, use);
   }
 
-  /// How many of a window's discs an earlier window has shown, which ended before `next`.
+  /// Returns how many of a window's discs an earlier window has shown, which ended before `next`.
   static std::uint32_t seen_lanes(std::uint32_t window, std::uint32_t& next) noexcept {
     const std::uint32_t seen = next > window ? next - window : 0;
     next = window + block_width > next ? window + block_width : next;
@@ -205,8 +206,8 @@ class ContactKernel {
   }
 
   /// Returns: one past the last that was placed.
-  Contact* place_rows(std::uint32_t rows, std::uint64_t mask, const Nodes& columns,
-                      Contact* out) const noexcept {
+  DiscPair* place_rows(std::uint32_t rows, std::uint64_t mask, const Nodes& columns,
+                       DiscPair* out) const noexcept {
     constexpr std::uint32_t most_kept = 16;
     std::uint32_t count[block_width] = {}, windows = 0, kept[most_kept];
     std::uint64_t kept_hits[most_kept];
@@ -217,7 +218,7 @@ class ContactKernel {
       if (windows < most_kept) kept[windows] = window, kept_hits[windows] = hits;
       ++windows;
     });
-    Contact* end[block_width];
+    DiscPair* end[block_width];
     for (unsigned i = 0; i < block_width; ++i) end[i] = out, out += count[i];
     const std::uint32_t first = (rows & ~leaf_window) - first_row_;
     const auto place = [&](std::uint32_t window, std::uint64_t hits) {
@@ -242,7 +243,8 @@ class ContactKernel {
     return transposed(overlapping_discs<Simd>(placed_.b_in_a, of_columns, of_rows));
   }
 
-  /// Of the hits of two leaf windows. Where every cut is a single disc, there is nothing above them.
+  /// Returns the hits of two leaf windows that their ancestors confirm. Where every cut is a single disc,
+  /// there is nothing above them.
   std::uint64_t verified(std::uint32_t rows, std::uint32_t columns, std::uint64_t hits) const noexcept {
     if (shapes_.trees == nullptr) return hits;
     std::uint64_t verified = 0;
@@ -281,7 +283,7 @@ class ContactKernel {
     return TreeNodes<Simd>::child(nodes_, node, lane);
   }
 
-  /// Of a matrix of 8 x 8 bits. Source: Warren, Hacker's Delight, 7-3.
+  /// Transposes a matrix of 8 x 8 bits. Source: Warren, Hacker's Delight, 7-3.
   static std::uint64_t transposed(std::uint64_t m) noexcept {
     const auto exchange = [&m](std::uint64_t bits, unsigned shift) {
       const std::uint64_t both = (m ^ m >> shift) & bits;
@@ -297,7 +299,7 @@ class ContactKernel {
   const ShapeSetView shapes_;
   Placements<Simd> at_;
 
-  // Of the pair that is looked at.
+  // State of the current pair.
   bool swapped_;  ///< the first agent is B
   Placed placed_;
   float reach_;  ///< of both shapes

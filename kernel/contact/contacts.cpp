@@ -3,8 +3,8 @@
 
 #include "kernel/contact/contacts.hpp"
 
+#include "kernel/runtime/floating_point_state.hpp"
 #include "kernel/runtime/pair_validation.hpp"
-#include "kernel/runtime/standard_floats.hpp"
 #include "kernel/runtime/task_ranges.hpp"
 
 namespace bch {
@@ -14,20 +14,20 @@ constexpr std::size_t grain = 256;  ///< pairs a task; each may have thousands o
 
 void find_contacts(const kernel::Implementation& implementation, const kernel::Arguments& arguments,
                    std::size_t pairs, ContactTable& table) {
-  table.begin.resize(pairs + 1);
+  table.offsets.resize(pairs + 1);
   kernel::for_ranges(pairs, grain, [&](std::size_t begin, std::size_t end) {
-    implementation.count_contacts(arguments, begin, end, table.begin.data());
+    implementation.count_contacts(arguments, begin, end, table.offsets.data());
   });
   std::uint64_t end = 0;
   for (std::size_t i = 0; i < pairs; ++i) {
-    const std::uint64_t count = table.begin[i];
-    table.begin[i] = end;
+    const std::uint64_t count = table.offsets[i];
+    table.offsets[i] = end;
     end += count;
   }
-  table.begin[pairs] = end;
+  table.offsets[pairs] = end;
   table.contacts.resize(end);
   kernel::for_ranges(pairs, grain, [&](std::size_t begin, std::size_t end_of_range) {
-    implementation.fill_contacts(arguments, begin, end_of_range, table.begin.data(), table.contacts.data());
+    implementation.fill_contacts(arguments, begin, end_of_range, table.offsets.data(), table.contacts.data());
   });
 }
 
@@ -35,7 +35,7 @@ void find_contacts(const kernel::Implementation& implementation, const kernel::A
 
 void contacts(const ShapeSet& shapes, const Agents& agents, std::span<const Pair> pairs, ContactTable& table,
               const ContactOptions& options) {
-  const kernel::StandardFloats floats;
+  const kernel::FloatingPointStateGuard floats;
   const kernel::Implementation& implementation = kernel::chosen(options.implementation, "contacts");
   const bool exact_leaves = kernel::exact_leaves(options.leaves, "contacts");
   const ShapeSetView& view = shapes.view();

@@ -12,18 +12,19 @@
 
 namespace bch {
 
-/// Of each agent, the others that it collides with: rows that follow each other in one array.
+/// The colliding neighbours of each agent: rows that follow each other in one array.
 struct CollidingNeighbours {
-  std::span<const std::uint64_t> begin;  ///< one more than agents: agent i's row is begin[i] .. begin[i + 1]
+  std::span<const std::uint64_t>
+      offsets;  ///< one more than agents: agent i's row is [offsets[i], offsets[i + 1])
   std::span<const std::uint32_t> neighbours;  ///< ascending within a row
 
   std::span<const std::uint32_t> of(std::uint32_t agent) const noexcept {
-    return neighbours.subspan(begin[agent], begin[agent + 1] - begin[agent]);
+    return neighbours.subspan(offsets[agent], offsets[agent + 1] - offsets[agent]);
   }
 };
 
-/// Broad and narrow phase in one call: who of a crowd collides with whom. Keeps its memory from call to call. One that
-/// was moved from can only be assigned to or destroyed.
+/// Broad and narrow phase in one call: who of a crowd collides with whom. Keeps its memory from call to call.
+/// One that was moved from can only be assigned to or destroyed.
 class CrowdCollider {
  public:
   CrowdCollider();
@@ -31,11 +32,14 @@ class CrowdCollider {
   CrowdCollider& operator=(CrowdCollider&&) noexcept;
   ~CrowdCollider();
 
-  /// j is a neighbour of i exactly if i and j differ and collide() answers 1 for them: so i is one of j, too.
-  /// The same for any number of threads and every implementation.
-  /// Memory:  the answer is valid until the next call. Beside a BroadPhase's, 1 byte for each pair that it finds, 8 an
-  ///          agent and 8 a colliding pair are kept; a call like an earlier one allocates nothing.
-  /// Errors:  throws std::invalid_argument like validate(shapes, agents) and collide(); the last answer is then gone.
+  /// Finds the colliding neighbours of every agent. j is a neighbour of i exactly if i and j differ and
+  /// collide() answers 1 for them; so i is a neighbour of j, too. The answer is the same for any number of
+  /// threads and every implementation.
+  /// Memory:  the answer is valid until the next call. Beside a BroadPhase's, 1 byte for each pair that it
+  ///          finds, 8 an agent and 8 a colliding pair are kept; a call like an earlier one allocates
+  ///          nothing.
+  /// Errors:  throws std::invalid_argument like validate(shapes, agents) and collide(); the last answer is
+  ///          then gone.
   /// Threads: runs in the caller's TBB arena; one call at a time, as BroadPhase::find().
   CollidingNeighbours collide_all(const ShapeSet& shapes, const Agents& agents,
                                   const QueryOptions& options = {});

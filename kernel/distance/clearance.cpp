@@ -9,8 +9,8 @@
 #include <string>
 
 #include "kernel/distance/clearance_arguments.hpp"
+#include "kernel/runtime/floating_point_state.hpp"
 #include "kernel/runtime/pair_validation.hpp"
-#include "kernel/runtime/standard_floats.hpp"
 #include "kernel/runtime/task_ranges.hpp"
 #include "layout/base/shortest.hpp"
 
@@ -31,18 +31,19 @@ float limit_of(double max_distance) {
   return static_cast<double>(nearest) > max_distance ? std::nextafter(nearest, -1.0f) : nearest;
 }
 
-CutNodes cut_nodes(const ShapeSetView& shapes, const Agents& agents, Pair pair, const NearestDiscs& nearest) {
+ClosestDiscs cut_nodes(const ShapeSetView& shapes, const Agents& agents, Pair pair,
+                       const NearestDiscs& nearest) {
   if (nearest.a == kernel::no_node) return no_cut_nodes;
   const auto index = [&](std::uint32_t agent, std::uint32_t node) {
     if (shapes.trees == nullptr) return node;
     return node - shapes.trees[agents.root(agent, shapes.level_count)].discs;
   };
   const auto [a, b] = std::minmax(pair.first, pair.second);
-  const CutNodes nodes{index(a, nearest.a), index(b, nearest.b)};
-  return pair.second < pair.first ? CutNodes{nodes.second, nodes.first} : nodes;
+  const ClosestDiscs nodes{index(a, nearest.a), index(b, nearest.b)};
+  return pair.second < pair.first ? ClosestDiscs{nodes.second, nodes.first} : nodes;
 }
 
-/// In double, where squares do not underflow.
+/// Returns the direction of a clearance. It is computed in double, where squares do not underflow.
 Vec2 direction(Pair pair, const NearestDiscs& nearest) {
   if (nearest.a == kernel::no_node) return {0, 0};
   const double x = nearest.x, y = nearest.y;
@@ -84,7 +85,7 @@ void require_answers(const ClearanceAnswers& answers, std::size_t pairs) {
 
 void clearance(const ShapeSet& shapes, const Agents& agents, std::span<const Pair> pairs,
                const ClearanceAnswers& answers, const ClearanceOptions& options) {
-  const kernel::StandardFloats floats;
+  const kernel::FloatingPointStateGuard floats;
   require_answers(answers, pairs.size());
   if (!(options.max_distance >= 0))
     throw std::invalid_argument("clearance: a max_distance of " + shortest(options.max_distance) + " m");

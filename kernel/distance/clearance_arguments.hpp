@@ -14,7 +14,7 @@ constexpr float far_beyond = 0x1p66f;
 
 constexpr std::uint32_t no_node = 0xffffffff;
 
-/// What a kernel finds for a pair, of which the agent with the lower index is A.
+/// The result of a kernel for a pair. The agent with the lower index is A.
 struct NearestDiscs {
   float distance;  ///< metres
   std::uint32_t a,
@@ -23,7 +23,7 @@ struct NearestDiscs {
   float cosine, sine;  ///< of A's heading
 };
 
-/// As Arguments, which says why plain pointers.
+/// The input and output of a clearance kernel. These are plain pointers for the reason that Arguments states.
 struct ClearanceArguments {
   Arguments in;           ///< without codes
   float limit;            ///< distances above it are not looked for; below far_beyond

@@ -15,8 +15,8 @@
 
 namespace bch::kernel {
 
-/// The nearest discs of every pair. Chunk by chunk: places B in A's frame, bounds the gap by the root discs, one
-/// pair a lane, and walks the trees of the pairs that may be within the limit.
+/// The nearest discs of every pair. Chunk by chunk: places B in A's frame, bounds the gap by the root discs,
+/// one pair a lane, and walks the trees of the pairs that may be within the limit.
 template <class Simd>
 class ClearanceKernel {
  public:
@@ -84,7 +84,7 @@ class ClearanceKernel {
   struct Step {
     Float x, y, r;
   };
-  /// From root disc to root disc, lane = pair.
+  /// Returns the step from root disc to root disc, lane = pair.
   Step between_roots(std::uint32_t k) const noexcept {
     const Float c = Simd::load(at_.c + k), s = Simd::load(at_.s + k);
     const Float x = Simd::load(of_b_.field[0] + k), y = Simd::load(of_b_.field[1] + k);
@@ -103,7 +103,7 @@ class ClearanceKernel {
     Simd::store(root_bound_ + k, Measure::bound(step.x, step.y, Simd::load(radii), Simd::load(reaches)));
   }
 
-  /// Where every cut is a single disc.
+  /// Answers pairs of a set in which every cut is a single disc.
   void answer_roots(NearestDiscs* nearest) noexcept {
     alignas(64) float gap[chunk], x_of[chunk], y_of[chunk];
     for (std::uint32_t k = 0; k < at_.size; k += Simd::width) {

@@ -16,21 +16,23 @@ namespace bch::kernel {
 ///
 ///     v = sqrt(x^2 + y^2) * near - (r_A + r_B)            near = 1 - 2^-20
 ///
-/// with (x, y) and the notation of layout/base/rounding.hpp. D is the distance of the exact centres, so |d| <= D + S.
+/// with (x, y) and the notation of layout/base/rounding.hpp. D is the distance of the exact centres, so |d|
+/// <= D + S.
 ///
-/// Never too large. sqrt(x^2 + y^2) is off by 8.1 u P_B + 5.6 u |d| for the placement and the sum p, and u D each
-/// for the difference, for the squares and their sum, and for the root: 13.7 u S + 8.6 u D. The product adds u D,
-/// the sum of radii u S, the last difference u D or u S. That is 15.7 u S, of which published radii have 16.5 to
-/// spare (contact_error), and 10.6 u D, for which `near` takes off 16.
+/// Never too large. sqrt(x^2 + y^2) is off by 8.1 u P_B + 5.6 u |d| for the placement and the sum p, and u D
+/// each for the difference, for the squares and their sum, and for the root: 13.7 u S + 8.6 u D. The product
+/// adds u D, the sum of radii u S, the last difference u D or u S. That is 15.7 u S, of which published radii
+/// have 16.5 to spare (contact_error), and 10.6 u D, for which `near` takes off 16.
 ///
-/// Bounds. A disc (C, R) that holds a cut's disc (c, r) has D' - R <= D - r, and its own v', with `nearer` = 1 - 2^-18
-/// in place of near, exceeds D' - (R_A + R_B) by 17.7 u S + 7.6 u D for the distance (D' <= D + 2 S), and 9 u S + 4 u D
-/// for what follows (R_A + R_B <= D' + S, or v' is below any v), with 3 u S + u D more where the slack is added to the
-/// sum of radii; v falls short of D - (r_A + r_B) by 15.7 u S + 26.6 u D. All together: 45.4 u S, for which `slack` =
-/// 64 u S is taken off beside, and 39.2 u D, for which nearer takes 64. So v' <= v, and leaving out what is above the
-/// best never loses a tie. Its root is rough_root(), shortened by more than that is off. These sums are static_asserts in
-/// clearance_terms.hpp. A test sees the slack: without it, tests/kernel/unequal_sizes_test.cpp finds other discs than brute force
-/// does, where a tiny shape lies in a disc of one that is far from its own origin. Only the proof needs that `nearer` is
+/// Bounds. A disc (C, R) that holds a cut's disc (c, r) has D' - R <= D - r, and its own v', with `nearer` =
+/// 1 - 2^-18 in place of near, exceeds D' - (R_A + R_B) by 17.7 u S + 7.6 u D for the distance (D' <= D + 2
+/// S), and 9 u S + 4 u D for what follows (R_A + R_B <= D' + S, or v' is below any v), with 3 u S + u D more
+/// where the slack is added to the sum of radii; v falls short of D - (r_A + r_B) by 15.7 u S + 26.6 u D. All
+/// together: 45.4 u S, for which `slack` = 64 u S is taken off beside, and 39.2 u D, for which nearer takes
+/// 64. So v' <= v, and leaving out what is above the best never loses a tie. Its root is rough_root(),
+/// shortened by more than that is off. These sums are static_asserts in clearance_terms.hpp. A test sees the
+/// slack: without it, tests/kernel/unequal_sizes_test.cpp finds other discs than brute force does, where a
+/// tiny shape lies in a disc of one that is far from its own origin. Only the proof needs that `nearer` is
 /// less than `near`.
 template <class Simd>
 class ClearanceMeasure {
@@ -56,14 +58,16 @@ class ClearanceMeasure {
     return rough_gap(x, y, r + Float(slack_per_reach) * reach);
   }
 
-  /// Without roots, for a block or a window. v <= best means sqrt(x^2 + y^2) <= (r + best + u |best|) (1 + 19 u); the
-  /// slack, 8 u |best|, and a factor 1 - 128 u on the square have room for that and for the rounding here.
+  /// Returns which pairs of a block or a window may improve on the best, without square roots. v <= best
+  /// means sqrt(x^2 + y^2) <= (r + best + u |best|) (1 + 19 u). The slack, 8 u |best|, and a factor 1 - 128 u
+  /// on the square have room for that and for the rounding here.
   typename Simd::Mask may_improve(Float x, Float y, Float r) const noexcept {
     const Float sum = r + Float(most_);
     return (x * x + y * y) * Float(of_square) <= sum * sum;
   }
 
-  /// All gaps at once, because whether one is less than the best so far is a coin toss.
+  /// Takes all gaps of two windows at once, because a branch on whether one is below the best so far is
+  /// unpredictable.
   void meet(const Transform& at, Discs a, Discs b, std::uint32_t first_a, std::uint32_t first_b) noexcept {
     alignas(64) float gaps[block_pairs];
     visit_disc_pairs<Simd>(
@@ -74,7 +78,7 @@ class ClearanceMeasure {
     offer({least, first_a + k / block_width, first_b + k % block_width});
   }
 
-  /// Of one register's pairs of single discs.
+  /// Returns the gaps of one register's pairs of single discs.
   static Float gap(Float x, Float y, Float r) noexcept {
     const Float square = x * x + y * y;
     return Simd::select(square <= Float(far_beyond), xsimd::sqrt(square) * Float(near) - r,
@@ -96,7 +100,7 @@ class ClearanceMeasure {
   static Float rough_gap(Float x, Float y, Float r) noexcept {
     const Float square = x * x + y * y;
     const Float root = rough_root<Simd>(square) * Float(nearer * (1 - Simd::rough));
-    // Of padding the square is infinite or NaN.
+    // The square of padding is infinite or NaN.
     return Simd::select(square <= Float(far_beyond), root - r, Float(far_beyond));
   }
 

@@ -5,41 +5,41 @@
 
 #include "layout/base/rounding.hpp"
 
-/// Errors of a clearance, in units of u: the sums that kernel/distance/clearance_measure.hpp derives. `of_reach` counts in S, the
-/// reaches of both shapes, `of_distance` in D, the distance of the exact centres.
+/// Errors of a clearance, in units of u: the sums that kernel/distance/clearance_measure.hpp derives.
+/// `of_reach` counts in S, the reaches of both shapes, `of_distance` in D, the distance of the exact centres.
 namespace bch::kernel::clearance_terms {
 
 namespace r = rounding::terms;
 
-/// Of sqrt(x^2 + y^2), with |d| <= D + S.
+/// The error of sqrt(x^2 + y^2), with |d| <= D + S.
 constexpr double root_of_reach = 13.7, root_of_distance = 8.6;
 static_assert(root_of_reach >= r::arm + r::position + 2 * r::sum - 0x1p-40);
 static_assert(root_of_distance >= r::position + r::sum + r::apart + r::square + 1 - 0x1p-40);
 
-/// Of the gap: with the product, the sum of the radii and the last difference.
+/// The error of the gap: the root, the product, the sum of the radii and the last difference.
 constexpr double gap_of_reach = 15.7, gap_of_distance = 10.6;
 static_assert(gap_of_reach >= root_of_reach + 1 + 1);
 static_assert(gap_of_distance >= root_of_distance + 1 + 1);
 static_assert(r::contact_error >= gap_of_reach, "what published radii have to spare");
 
-/// What the gap's factor takes off, and how much a gap then falls short in all.
+/// The amount that the gap's factor takes off, and the total by which a gap then falls short.
 constexpr double shortening = 16;
 constexpr double short_of_reach = gap_of_reach, short_of_distance = 26.6;
 static_assert(shortening >= gap_of_distance);
 static_assert(short_of_distance >= gap_of_distance + shortening);
 
-/// By how much a bound exceeds what it bounds: the distance, with D' <= D + 2 S, what follows, and an enlarged sum of the
-/// radii. Then what the gap falls short.
+/// The amount by which a bound exceeds what it bounds: the error of the distance, with D' <= D + 2 S, of the
+/// operations after it, and of an enlarged sum of the radii. The shortfall of the gap is added.
 constexpr double bound_of_reach = 45.4, bound_of_distance = 39.2;
 static_assert(bound_of_reach >= (root_of_reach + 4) + 9 + 3 + short_of_reach);
 static_assert(bound_of_distance >= (root_of_distance - 1) + 4 + 1 + short_of_distance);
 
-/// Taken off bounds: of S beside, of D by a factor.
+/// The amount that is taken off bounds: a multiple of S as a difference, of D as a factor.
 constexpr double slack = 64, bound_shortening = 64;
 static_assert(slack >= bound_of_reach && bound_shortening >= bound_of_distance);
 
-/// Taken off the square of a distance that may improve on the best: twice what a gap's root is longer, and the rounding of
-/// both sides of the comparison.
+/// The amount that is taken off the square of a distance that may improve on the best: twice the amount by
+/// which a gap's root is longer, and the rounding of both sides of the comparison.
 constexpr double square_shortening = 128;
 static_assert(square_shortening >= 2 * (shortening + 3) + 6);
 

@@ -5,21 +5,21 @@
 
 #include <cstdint>
 
-#include "kernel/distance/nearest_walk.hpp"
+#include "kernel/distance/best_first_traversal.hpp"
 #include "kernel/simd/block_test.hpp"
 #include "kernel/simd/disc_pairs.hpp"
 #include "layout/format/shape_set_view.hpp"
 
 namespace bch::kernel {
 
-/// NearestWalk for many pairs of agents side by side, so that latencies and cache misses of many overlap. Beside
-/// what that asks of a measure:
+/// BestFirstTraversal for many pairs of agents side by side, so that latencies and cache misses of many
+/// overlap. Beside what that asks of a measure:
 ///
 ///     Mask may_improve(Float x, Float y, Float r)   false only where no disc below has a value up to best()
 ///
-/// First every pair descends along the least bounds to its first leaves, in rounds, and keeps the bounds on its way.
-/// The best by then is near the end's, so the order of the rest hardly matters, and finding it costs more than it
-/// spares.
+/// First every pair descends along the least bounds to its first leaves, in rounds, and keeps the bounds on
+/// its way. The best by then is near the end's, so the order of the rest hardly matters, and finding it costs
+/// more than it spares.
 template <class Simd, class Measure>
 class NearestSearch {
  public:
@@ -74,7 +74,7 @@ class NearestSearch {
     Step step[list_capacity];
   };
 
-  /// In rounds: a block for every pair, then a choice for every pair.
+  /// Descends in rounds: a block for every pair, then a choice for every pair.
   void descend() noexcept {
     std::uint32_t open = size_;
     for (std::uint32_t depth = 0; open != 0; ++depth) {
@@ -103,7 +103,7 @@ class NearestSearch {
     }
   }
 
-  /// What is left of a frame.
+  /// Collects the open children of a frame that may still improve on the best.
   void collect(std::uint32_t pair, const Frame& frame) noexcept {
     add_children({pair, frame.a, frame.b},
                  all_within<Simd>(frame.bound, pairs_[pair].measure.best()) & frame.open);
@@ -171,7 +171,7 @@ class NearestSearch {
   Searched pairs_[capacity];
   Frame frames_[capacity][most_kept];
   List inner_;
-  NearestWalk<Simd, Measure> walk_;
+  BestFirstTraversal<Simd, Measure> walk_;
 };
 
 }  // namespace bch::kernel

@@ -4,9 +4,9 @@
 #include "kernel/collide/pair_kernel.hpp"
 #include "kernel/contact/contact_kernel.hpp"
 #include "kernel/distance/clearance_kernel.hpp"
-#include "kernel/distance/contact_time_kernel.hpp"
+#include "kernel/distance/time_of_impact_kernel.hpp"
+#include "kernel/penetration/extent_kernel.hpp"
 #include "kernel/runtime/agent_check.hpp"
-#include "kernel/separation/extent_kernel.hpp"
 
 namespace bch::kernel {
 namespace {
@@ -100,7 +100,7 @@ void count_contacts_avx2(const Arguments& arguments, std::size_t begin, std::siz
 }
 
 void fill_contacts_avx2(const Arguments& arguments, std::size_t begin, std::size_t end,
-                        const std::uint64_t* offsets, Contact* contacts) noexcept {
+                        const std::uint64_t* offsets, DiscPair* contacts) noexcept {
   const CleanRegisters clean;
   ContactKernel<Avx2Lanes>::fill(arguments, begin, end, offsets, contacts);
 }
@@ -116,9 +116,10 @@ void clearance_avx2(const ClearanceArguments& arguments, std::size_t begin, std:
   ClearanceKernel<Avx2Lanes>::run(arguments, begin, end);
 }
 
-void contact_time_avx2(const ContactTimeArguments& arguments, std::size_t begin, std::size_t end) noexcept {
+void time_of_impact_avx2(const TimeOfImpactArguments& arguments, std::size_t begin,
+                         std::size_t end) noexcept {
   const CleanRegisters clean;
-  ContactTimeKernel<Avx2Lanes>::run(arguments, begin, end);
+  TimeOfImpactKernel<Avx2Lanes>::run(arguments, begin, end);
 }
 
 }  // namespace bch::kernel

@@ -4,9 +4,9 @@
 #include "kernel/collide/pair_kernel.hpp"
 #include "kernel/contact/contact_kernel.hpp"
 #include "kernel/distance/clearance_kernel.hpp"
-#include "kernel/distance/contact_time_kernel.hpp"
+#include "kernel/distance/time_of_impact_kernel.hpp"
+#include "kernel/penetration/extent_kernel.hpp"
 #include "kernel/runtime/agent_check.hpp"
-#include "kernel/separation/extent_kernel.hpp"
 
 namespace bch::kernel {
 namespace {
@@ -118,7 +118,7 @@ void count_contacts_avx512(const Arguments& arguments, std::size_t begin, std::s
 }
 
 void fill_contacts_avx512(const Arguments& arguments, std::size_t begin, std::size_t end,
-                          const std::uint64_t* offsets, Contact* contacts) noexcept {
+                          const std::uint64_t* offsets, DiscPair* contacts) noexcept {
   const CleanRegisters clean;
   ContactKernel<Avx512Lanes>::fill(arguments, begin, end, offsets, contacts);
 }
@@ -134,9 +134,10 @@ void clearance_avx512(const ClearanceArguments& arguments, std::size_t begin, st
   ClearanceKernel<Avx512Lanes>::run(arguments, begin, end);
 }
 
-void contact_time_avx512(const ContactTimeArguments& arguments, std::size_t begin, std::size_t end) noexcept {
+void time_of_impact_avx512(const TimeOfImpactArguments& arguments, std::size_t begin,
+                           std::size_t end) noexcept {
   const CleanRegisters clean;
-  ContactTimeKernel<Avx512Lanes>::run(arguments, begin, end);
+  TimeOfImpactKernel<Avx512Lanes>::run(arguments, begin, end);
 }
 
 }  // namespace bch::kernel

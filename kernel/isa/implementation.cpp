@@ -9,7 +9,7 @@
 #include <string>
 
 #include "kernel/distance/clearance_arguments.hpp"
-#include "kernel/distance/contact_time_arguments.hpp"
+#include "kernel/distance/time_of_impact_arguments.hpp"
 #include "kernel/simd/arguments.hpp"
 
 namespace bch::kernel {
@@ -20,27 +20,27 @@ void run_scalar(const Arguments&, std::size_t, std::size_t) noexcept;
 bool run_if_valid_scalar(const Arguments&, std::uint32_t) noexcept;
 void count_contacts_scalar(const Arguments&, std::size_t, std::size_t, std::uint64_t*) noexcept;
 void fill_contacts_scalar(const Arguments&, std::size_t, std::size_t, const std::uint64_t*,
-                          Contact*) noexcept;
+                          DiscPair*) noexcept;
 void clearance_scalar(const ClearanceArguments&, std::size_t, std::size_t) noexcept;
-void contact_time_scalar(const ContactTimeArguments&, std::size_t, std::size_t) noexcept;
+void time_of_impact_scalar(const TimeOfImpactArguments&, std::size_t, std::size_t) noexcept;
 void extents_scalar(const CutDiscs&, const float*, const float*, std::uint32_t, float*, float*) noexcept;
 bool check_sse2(const Arguments&, std::size_t, std::size_t) noexcept;
 AgentRange named_sse2(const Pair*, std::size_t, std::size_t) noexcept;
 void run_sse2(const Arguments&, std::size_t, std::size_t) noexcept;
 bool run_if_valid_sse2(const Arguments&, std::uint32_t) noexcept;
 void count_contacts_sse2(const Arguments&, std::size_t, std::size_t, std::uint64_t*) noexcept;
-void fill_contacts_sse2(const Arguments&, std::size_t, std::size_t, const std::uint64_t*, Contact*) noexcept;
+void fill_contacts_sse2(const Arguments&, std::size_t, std::size_t, const std::uint64_t*, DiscPair*) noexcept;
 void clearance_sse2(const ClearanceArguments&, std::size_t, std::size_t) noexcept;
-void contact_time_sse2(const ContactTimeArguments&, std::size_t, std::size_t) noexcept;
+void time_of_impact_sse2(const TimeOfImpactArguments&, std::size_t, std::size_t) noexcept;
 void extents_sse2(const CutDiscs&, const float*, const float*, std::uint32_t, float*, float*) noexcept;
 bool check_avx2(const Arguments&, std::size_t, std::size_t) noexcept;
 AgentRange named_avx2(const Pair*, std::size_t, std::size_t) noexcept;
 void run_avx2(const Arguments&, std::size_t, std::size_t) noexcept;
 bool run_if_valid_avx2(const Arguments&, std::uint32_t) noexcept;
 void count_contacts_avx2(const Arguments&, std::size_t, std::size_t, std::uint64_t*) noexcept;
-void fill_contacts_avx2(const Arguments&, std::size_t, std::size_t, const std::uint64_t*, Contact*) noexcept;
+void fill_contacts_avx2(const Arguments&, std::size_t, std::size_t, const std::uint64_t*, DiscPair*) noexcept;
 void clearance_avx2(const ClearanceArguments&, std::size_t, std::size_t) noexcept;
-void contact_time_avx2(const ContactTimeArguments&, std::size_t, std::size_t) noexcept;
+void time_of_impact_avx2(const TimeOfImpactArguments&, std::size_t, std::size_t) noexcept;
 void extents_avx2(const CutDiscs&, const float*, const float*, std::uint32_t, float*, float*) noexcept;
 bool check_avx512(const Arguments&, std::size_t, std::size_t) noexcept;
 AgentRange named_avx512(const Pair*, std::size_t, std::size_t) noexcept;
@@ -48,9 +48,9 @@ void run_avx512(const Arguments&, std::size_t, std::size_t) noexcept;
 bool run_if_valid_avx512(const Arguments&, std::uint32_t) noexcept;
 void count_contacts_avx512(const Arguments&, std::size_t, std::size_t, std::uint64_t*) noexcept;
 void fill_contacts_avx512(const Arguments&, std::size_t, std::size_t, const std::uint64_t*,
-                          Contact*) noexcept;
+                          DiscPair*) noexcept;
 void clearance_avx512(const ClearanceArguments&, std::size_t, std::size_t) noexcept;
-void contact_time_avx512(const ContactTimeArguments&, std::size_t, std::size_t) noexcept;
+void time_of_impact_avx512(const TimeOfImpactArguments&, std::size_t, std::size_t) noexcept;
 void extents_avx512(const CutDiscs&, const float*, const float*, std::uint32_t, float*, float*) noexcept;
 
 namespace {
@@ -60,14 +60,14 @@ namespace {
 constexpr Implementation table[] = {
     {"avx512", 16, []() noexcept { return __builtin_cpu_supports("avx512f") != 0; }, check_avx512,
      named_avx512, run_avx512, run_if_valid_avx512, count_contacts_avx512, fill_contacts_avx512,
-     extents_avx512, clearance_avx512, contact_time_avx512},
+     extents_avx512, clearance_avx512, time_of_impact_avx512},
     {"avx2", 8, []() noexcept { return __builtin_cpu_supports("avx2") != 0; }, check_avx2, named_avx2,
      run_avx2, run_if_valid_avx2, count_contacts_avx2, fill_contacts_avx2, extents_avx2, clearance_avx2,
-     contact_time_avx2},
+     time_of_impact_avx2},
     {"sse2", 4, []() noexcept { return true; }, check_sse2, named_sse2, run_sse2, run_if_valid_sse2,
-     count_contacts_sse2, fill_contacts_sse2, extents_sse2, clearance_sse2, contact_time_sse2},
+     count_contacts_sse2, fill_contacts_sse2, extents_sse2, clearance_sse2, time_of_impact_sse2},
     {"scalar", 1, []() noexcept { return true; }, check_scalar, named_scalar, run_scalar, run_if_valid_scalar,
-     count_contacts_scalar, fill_contacts_scalar, extents_scalar, clearance_scalar, contact_time_scalar},
+     count_contacts_scalar, fill_contacts_scalar, extents_scalar, clearance_scalar, time_of_impact_scalar},
 };
 
 const Implementation& choose() {

@@ -4,9 +4,9 @@
 #include "kernel/collide/pair_kernel.hpp"
 #include "kernel/contact/contact_kernel.hpp"
 #include "kernel/distance/clearance_kernel.hpp"
-#include "kernel/distance/contact_time_kernel.hpp"
+#include "kernel/distance/time_of_impact_kernel.hpp"
+#include "kernel/penetration/extent_kernel.hpp"
 #include "kernel/runtime/agent_check.hpp"
-#include "kernel/separation/extent_kernel.hpp"
 
 namespace bch::kernel {
 namespace {
@@ -48,7 +48,7 @@ void count_contacts_scalar(const Arguments& arguments, std::size_t begin, std::s
 }
 
 void fill_contacts_scalar(const Arguments& arguments, std::size_t begin, std::size_t end,
-                          const std::uint64_t* offsets, Contact* contacts) noexcept {
+                          const std::uint64_t* offsets, DiscPair* contacts) noexcept {
   ContactKernel<ScalarLanes>::fill(arguments, begin, end, offsets, contacts);
 }
 
@@ -61,8 +61,9 @@ void clearance_scalar(const ClearanceArguments& arguments, std::size_t begin, st
   ClearanceKernel<ScalarLanes>::run(arguments, begin, end);
 }
 
-void contact_time_scalar(const ContactTimeArguments& arguments, std::size_t begin, std::size_t end) noexcept {
-  ContactTimeKernel<ScalarLanes>::run(arguments, begin, end);
+void time_of_impact_scalar(const TimeOfImpactArguments& arguments, std::size_t begin,
+                           std::size_t end) noexcept {
+  TimeOfImpactKernel<ScalarLanes>::run(arguments, begin, end);
 }
 
 }  // namespace bch::kernel

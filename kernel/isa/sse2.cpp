@@ -4,9 +4,9 @@
 #include "kernel/collide/pair_kernel.hpp"
 #include "kernel/contact/contact_kernel.hpp"
 #include "kernel/distance/clearance_kernel.hpp"
-#include "kernel/distance/contact_time_kernel.hpp"
+#include "kernel/distance/time_of_impact_kernel.hpp"
+#include "kernel/penetration/extent_kernel.hpp"
 #include "kernel/runtime/agent_check.hpp"
-#include "kernel/separation/extent_kernel.hpp"
 
 namespace bch::kernel {
 namespace {
@@ -67,7 +67,7 @@ void count_contacts_sse2(const Arguments& arguments, std::size_t begin, std::siz
 }
 
 void fill_contacts_sse2(const Arguments& arguments, std::size_t begin, std::size_t end,
-                        const std::uint64_t* offsets, Contact* contacts) noexcept {
+                        const std::uint64_t* offsets, DiscPair* contacts) noexcept {
   ContactKernel<Sse2Lanes>::fill(arguments, begin, end, offsets, contacts);
 }
 
@@ -80,8 +80,9 @@ void clearance_sse2(const ClearanceArguments& arguments, std::size_t begin, std:
   ClearanceKernel<Sse2Lanes>::run(arguments, begin, end);
 }
 
-void contact_time_sse2(const ContactTimeArguments& arguments, std::size_t begin, std::size_t end) noexcept {
-  ContactTimeKernel<Sse2Lanes>::run(arguments, begin, end);
+void time_of_impact_sse2(const TimeOfImpactArguments& arguments, std::size_t begin,
+                         std::size_t end) noexcept {
+  TimeOfImpactKernel<Sse2Lanes>::run(arguments, begin, end);
 }
 
 }  // namespace bch::kernel

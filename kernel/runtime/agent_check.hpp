@@ -14,8 +14,8 @@
 
 namespace bch::kernel {
 
-/// Whether agents are what a query may be asked about, without a branch, so that the compiler uses the registers of the
-/// instruction set that `Simd` stands for.
+/// Checks whether agents are valid arguments of a query. It has no branch, so that the compiler uses the
+/// registers of the instruction set that `Simd` stands for.
 template <class Simd>
 class AgentCheck {
  public:

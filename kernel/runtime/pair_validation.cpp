@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "kernel/runtime/standard_floats.hpp"
+#include "kernel/runtime/floating_point_state.hpp"
 #include "kernel/runtime/task_ranges.hpp"
 #include "kernel/runtime/validate.hpp"
 #include "kernel/runtime/validation.hpp"
@@ -16,13 +16,15 @@ namespace bch {
 namespace kernel {
 namespace {
 
-/// From here on agents are prefetched: 3 MB of them. Below, that costs 1 % (and 13 % for single cylinders).
+/// The number of agents from which on these are prefetched: 3 MB of them. Below, that costs 1 % (and 13 % for
+/// single cylinders).
 constexpr std::size_t many_agents = 100'000;
-/// The same of shapes: 2 MB. With 5 000 it spares a quarter of a query, with 200 it costs 2 to 6 %.
+/// The number of shapes from which on these are prefetched: 2 MB. With 5 000 it spares a quarter of a query,
+/// with 200 it costs 2 to 6 %.
 constexpr std::uint32_t many_shapes = 500;
 
-/// The lowest index in [0, count) for which `bad` holds, or count. `all_good(begin, end)` says quickly where there is
-/// nothing to find. Floats as for_ranges().
+/// The lowest index in [0, count) for which `bad` holds, or count. `all_good(begin, end)` says quickly where
+/// there is nothing to find. Floats as for_ranges().
 template <class AllGood, class Bad>
 std::size_t first_bad(std::size_t count, AllGood all_good, Bad bad) {
   const auto search = [&](std::size_t begin, std::size_t end, std::size_t found) {
@@ -93,8 +95,9 @@ Arguments arguments_for(const ShapeSetView& view, const Agents& agents, std::spa
           .prefetch_shapes = view.shape_count >= many_shapes};
 }
 
-/// Where there are fewer agents than pairs name, all of them or from the lowest to the highest that are named, looking
-/// at them in order is cheaper; a bad one then still has to be named by a pair.
+/// Validates the agents that pairs name. It is cheaper to validate agents in order, either all of them or
+/// those from the lowest to the highest index named, where these are fewer than the pairs name. An invalid
+/// one is then an error only if a pair names it.
 void require_valid(const Implementation& implementation, const ShapeSetView& shapes, const Agents& agents,
                    std::span<const Pair> pairs) {
   require_sizes(agents);
@@ -118,7 +121,7 @@ void require_valid(const Implementation& implementation, const ShapeSetView& sha
 
 void validate(const ShapeSet& shapes, const Agents& agents) {
   kernel::require_sizes(agents);
-  const kernel::StandardFloats floats;
+  const kernel::FloatingPointStateGuard floats;
   const ShapeSetView& view = shapes.view();
   const kernel::Arguments arguments = kernel::arguments_for(view, agents, {});
   const std::size_t i = kernel::first_bad_agent(kernel::best_implementation(), arguments, agents);

@@ -13,23 +13,24 @@
 
 namespace bch::kernel {
 
-/// Pairs a task of a query: enough to hide its cost, few enough to balance two pairs of cores over a small crowd.
+/// Pairs a task of a query: enough to hide its cost, few enough to balance two pairs of cores over a small
+/// crowd.
 constexpr std::size_t pairs_per_task = 2048;
 
-/// The one asked for, or the best where none is (null).
+/// Returns the wanted implementation, or the best one where none is wanted (null).
 /// Errors:  throws std::invalid_argument naming the query where this processor does not run it.
 const Implementation& chosen(const Implementation* wanted, const char* query);
 
-/// Whether segments are asked for.
+/// Returns whether `leaves` selects segments.
 /// Errors:  throws std::invalid_argument naming the query on a value that is none.
 bool exact_leaves(Leaves leaves, const char* query);
 
-/// What a query reads. Everything has to outlive the arguments; `pairs` may be empty.
+/// Returns the input of a query. Everything has to outlive the arguments; `pairs` may be empty.
 Arguments arguments_for(const ShapeSetView& view, const Agents& agents, std::span<const Pair> pairs);
 
-/// Only agents that pairs name have to be valid.
-/// Errors:  throws std::invalid_argument on sizes that differ, and naming the first pair with an index out of range
-///          or an agent that is_valid() rejects, and the value.
+/// Requires that the agents that pairs name are valid; other agents need not be.
+/// Errors:  throws std::invalid_argument on sizes that differ, and naming the first pair with an index out of
+///          range or an agent that is_valid() rejects, and the value.
 /// Threads: runs in the caller's TBB arena.
 void require_valid(const Implementation& implementation, const ShapeSetView& shapes, const Agents& agents,
                    std::span<const Pair> pairs);

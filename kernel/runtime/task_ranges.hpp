@@ -12,14 +12,15 @@
 #include <algorithm>
 #include <cstddef>
 
-#include "kernel/runtime/standard_floats.hpp"
+#include "kernel/runtime/floating_point_state.hpp"
 
 namespace bch::kernel {
 
-/// Calls work(begin, end) for ranges that together are [0, count): as TBB's tasks of `grain` and more, where there is more
-/// than one, because a task costs more than a small batch. Tasks run in the standard floating-point state; the caller
-/// has to be in it. They are a group of their own: where the caller's is cancelled meanwhile, because another of its tasks
-/// threw for instance, TBB would leave out these as well, and return as if they had run.
+/// Calls work(begin, end) for ranges that together are [0, count): as TBB's tasks of `grain` and more, where
+/// there is more than one, because a task costs more than a small batch. Tasks run in the standard
+/// floating-point state; the caller has to be in it. They are a group of their own: where the caller's is
+/// cancelled meanwhile, because another of its tasks threw for instance, TBB would leave out these as well,
+/// and return as if they had run.
 template <class Work>
 void for_ranges(std::size_t count, std::size_t grain, const Work& work) {
   using Range = tbb::blocked_range<std::size_t>;
@@ -28,13 +29,14 @@ void for_ranges(std::size_t count, std::size_t grain, const Work& work) {
   tbb::parallel_for(
       Range(0, count, grain),
       [&](const Range& range) {
-        const StandardFloats floats;
+        const FloatingPointStateGuard floats;
         work(range.begin(), range.end());
       },
       own);
 }
 
-/// The same where ranges have a result: what add(begin, end, value) makes of `identity`, range after range, joined.
+/// Calls add(begin, end, value) for ranges as for_ranges() does, and joins their results. A value begins as
+/// `identity` and passes from range to range.
 template <class Value, class Add, class Join>
 Value reduce_ranges(std::size_t count, std::size_t grain, const Value& identity, const Add& add,
                     const Join& join) {
@@ -44,20 +46,20 @@ Value reduce_ranges(std::size_t count, std::size_t grain, const Value& identity,
   return tbb::parallel_reduce(
       Range(0, count, grain), identity,
       [&](const Range& range, const Value& value) {
-        const StandardFloats floats;
+        const FloatingPointStateGuard floats;
         return add(range.begin(), range.end(), value);
       },
       join, own);
 }
 
-/// Runs work() so that a thread that waits in it takes no task from outside, which might be the next call for the same
-/// object.
+/// Runs work() so that a thread that waits in it takes no task from outside, which might be the next call for
+/// the same object.
 template <class Work>
 decltype(auto) without_tasks_from_outside(const Work& work) {
   return tbb::this_task_arena::isolate(work);
 }
 
-/// The same by calls of work(begin, size) for at most `grain` pairs each.
+/// Calls work(begin, size) for at most `grain` pairs each, in the ranges of for_ranges().
 template <class Work>
 void for_pair_ranges(std::size_t pairs, std::size_t grain, const Work& work) {
   for_ranges(pairs, grain, [&](std::size_t begin, std::size_t end) {

@@ -12,7 +12,7 @@
 
 namespace bch::kernel {
 
-/// Whether an agent may be asked about; NaN is not.
+/// Returns whether an agent is a valid argument of a query; NaN is not.
 inline bool is_valid(const ShapeSetView& shapes, const Agents& agents, std::size_t i) noexcept {
   return agents.shape[i] < shapes.shape_count &&
          (agents.level.empty() || agents.level[i] < shapes.level_count) &&

@@ -20,8 +20,8 @@ struct PlacedTrees {
   float reach;  ///< of the two shapes together
 };
 
-/// The numbers of inner nodes on the way from a cut disc up to the root, sixteen at a time. Where there are fewer, the root
-/// stands for the rest. (`Simd` keeps instruction sets from sharing a function.)
+/// The numbers of inner nodes on the way from a cut disc up to the root, sixteen at a time. Where there are
+/// fewer, the root stands for the rest. (`Simd` keeps instruction sets from sharing a function.)
 template <class Simd>
 struct AncestorPath {
   static constexpr std::uint32_t length = 16;
@@ -55,8 +55,8 @@ struct AncestorPath {
   }
 };
 
-/// Whether two cut discs that overlap do so with all their ancestors: every node from the one up to its root overlaps every
-/// node from the other up to its own. That is the definition of a hit; see Semantics.
+/// Tests whether two overlapping cut discs overlap with all their ancestors: every node from the one up to
+/// its root overlaps every node from the other up to its own. That is the definition of a hit; see Semantics.
 template <class Simd>
 class AncestorTest {
  public:
@@ -81,9 +81,9 @@ class AncestorTest {
  private:
   using Float = typename Simd::Float;
   static constexpr std::uint32_t length = AncestorPath<Simd>::length;
-  /// How far inside of all discs a point has to be, in both reaches: then every disc of A overlaps every one of B by twice
-  /// that. The test of such a pair and these two compare the same floats. Each rounds a difference, squares and radii, which
-  /// are at most both reaches.
+  /// How far inside of all discs a point has to be, in both reaches: then every disc of A overlaps every one
+  /// of B by twice that. The test of such a pair and these two compare the same floats. Each rounds a
+  /// difference, squares and radii, which are at most both reaches.
   static constexpr double inside_margin = 16 * rounding::unit_roundoff;
   static_assert(2 * inside_margin >=
                 3 * (rounding::terms::apart + rounding::terms::square + rounding::terms::radii) *
@@ -113,8 +113,8 @@ class AncestorTest {
     }
   }
 
-  /// Decides most cases, with one test a node. The point is the one of the line of the centres that divides it as the radii
-  /// do, so that it lies in both cut discs.
+  /// Decides most cases, with one test a node. The point is the one of the line of the centres that divides
+  /// it as the radii do, so that it lies in both cut discs.
   Comparison compare_with_leaves() const noexcept {
     const auto [c, s, tx, ty] = trees_.b_in_a;
     const float share = a_.radius / (a_.radius + b_.radius);
@@ -140,7 +140,7 @@ class AncestorTest {
     return {overlap == all, share_point == all};
   }
 
-  /// All nodes of one path with all of the other and with its cut disc, and on to the roots.
+  /// Tests all nodes of one path with all of the other and with its cut disc, and on to the roots.
   bool paths_overlap() noexcept {
     for (AncestorPath<Simd> a = above_a_;; a.go_up(nodes_)) {
       load(a, discs_a_);

@@ -36,9 +36,9 @@ struct Arguments {
   bool prefetch_agents = false, prefetch_shapes = false;
 };
 
-/// What a kernel says of a pair.
+/// The result of a kernel for a pair.
 enum Code : std::uint8_t {
-  apart = 0,      ///< the cuts do not overlap, and neither outline holds the other, or nobody asks
+  apart = 0,      ///< the cuts do not overlap, and neither outline holds the other, or that is not asked for
   overlap = 1,    ///< discs of the cuts overlap
   near_miss = 2,  ///< the cuts do not overlap, and one outline might hold the other
 };

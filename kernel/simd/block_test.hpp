@@ -10,7 +10,7 @@
 
 namespace bch::kernel {
 
-/// From B's frame into A's: a rotation (c, s), then a translation. See layout/base/rounding.hpp.
+/// Maps from B's frame into A's: a rotation (c, s), then a translation. See layout/base/rounding.hpp.
 struct Transform {
   float c, s, tx, ty;
 };
@@ -22,8 +22,8 @@ std::uint32_t overlaps(Float bx, Float by, Float br, Float ax, Float ay, Float a
   return Simd::bits(x * x + y * y <= r * r);
 }
 
-/// Where eight discs stand: x, and so many floats further each y and radius. Inlined for certain, so that instruction sets
-/// share no function.
+/// The location of eight discs: their x, and the distance in floats to each y and radius. The functions are
+/// always inlined, so that instruction sets share no function.
 struct Discs {
   const float* x;
   std::size_t to_y, to_radius;
@@ -32,15 +32,17 @@ struct Discs {
   [[gnu::always_inline]] const float* radius() const noexcept { return x + to_radius; }
 };
 
-/// Bits of pairs of eight discs by eight, bit 8 i + j for disc i of A and j of B: those of A's first, and of B's.
+/// Bits of pairs of eight discs by eight, bit 8 i + j for disc i of A and j of B: those of A's first, and of
+/// B's.
 constexpr std::uint64_t first_row_of_pairs = 0xff, first_column_of_pairs = 0x0101010101010101;
 
 template <class Simd, unsigned count>
 std::uint64_t overlaps_called(const Transform& b_in_a, Discs a, Discs b) noexcept;
 
-/// The first `count` of A's discs against those of B, four or all eight: bit count * i + j for disc i of A and j of B.
-/// Inlined: passing it to a function takes longer than the test, but not one lane at a time, when copies of it would fill
-/// the object.
+/// The first `count` of A's discs against those of B, four or all eight: bit count * i + j for disc i of A
+/// and j of B.
+/// Inlined: passing it to a function takes longer than the test, but not one lane at a time, when copies of
+/// it would fill the object.
 template <class Simd, unsigned count = block_width, bool called = Simd::width == 1>
 [[gnu::always_inline]] inline std::uint64_t overlapping_discs(const Transform& b_in_a, Discs a,
                                                               Discs b) noexcept {

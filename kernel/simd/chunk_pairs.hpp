@@ -21,13 +21,13 @@ struct ChunkPairs {
     size += wanted;
   }
 
-  /// Those of the pairs from `first` on whose bits are set.
+  /// Adds those of the pairs from `first` on whose bits are set.
   void add(std::uint32_t bits, std::uint32_t first) noexcept {
     size += Simd::write_set(bits, first, pair + size);
   }
 
-  /// Forgets the pairs that pass a test; the rest go to a list, which may be this one. No branch depends on an answer,
-  /// here and below.
+  /// Forgets the pairs that pass a test; the rest go to a list, which may be this one. No branch depends on
+  /// an answer, here and below.
   template <class Test>
   void drop_if(ChunkPairs& rest, Test passes) noexcept {
     const std::uint32_t count = take_all();
@@ -40,14 +40,14 @@ struct ChunkPairs {
     rest.size = kept;
   }
 
-  /// What a test says of a pair, bits.
+  /// The result of a test for a pair, bits.
   struct Verdict {
     std::uint32_t leaves;    ///< this list
     std::uint32_t is_moved;  ///< of those that leave it, else forgotten
   };
 
-  /// Moves pairs to another list, or forgets them; the rest go to a third, which may be this one. `prefetch(pair)` asks for
-  /// what the test will read.
+  /// Moves pairs to another list, or forgets them; the rest go to a third, which may be this one.
+  /// `prefetch(pair)` asks for what the test will read.
   template <class Test, class Prefetch>
   void move_if(ChunkPairs& to, ChunkPairs& rest, Test test, Prefetch prefetch) noexcept {
     const std::uint32_t count = take_all();
@@ -65,7 +65,8 @@ struct ChunkPairs {
   }
 
  private:
-  /// As many pairs as there were; they may be read, up to where others are written.
+  /// Empties the list and returns how many pairs there were. They may still be read, up to where others are
+  /// written.
   std::uint32_t take_all() noexcept {
     const std::uint32_t count = size;
     size = 0;

@@ -17,10 +17,10 @@ constexpr unsigned block_pairs = block_width * block_width;
 template <class Simd, class Visit>
 void visit_pairs_called(const Transform& b_in_a, Discs a, Discs b, Visit visit) noexcept;
 
-/// All of A's eight discs with all of B's, pair 8 i + j for disc i of A and j of B: calls visit(k, x, y, r) for
-/// every register, whose lanes are the pairs from k on. (x, y) leads from A's disc to B's in A's frame, r is the sum
-/// of radii; the operations are those of layout/base/rounding.hpp. Padding gives infinities and NaN. One lane at a
-/// time, copies of it would fill the object.
+/// Visits the pairs of A's eight discs with B's eight, pair 8 i + j for disc i of A and j of B: calls
+/// visit(k, x, y, r) for every register, whose lanes are the pairs from k on. (x, y) leads from A's disc to
+/// B's in A's frame, r is the sum of radii. The operations are those of layout/base/rounding.hpp. Padding
+/// gives infinities and NaN. One lane at a time, inlined copies of it would fill the object file.
 template <class Simd, bool called = Simd::width == 1, class Visit>
 [[gnu::always_inline]] inline void visit_disc_pairs(const Transform& b_in_a, Discs a, Discs b,
                                                     Visit visit) noexcept {
@@ -50,19 +50,19 @@ template <class Simd, bool called = Simd::width == 1, class Visit>
 }
 
 /// One of those pairs, by the same operations.
-struct DiscPair {
+struct PlacedPair {
   float x, y, r;
 };
 template <class Simd>
-[[gnu::always_inline]] inline DiscPair disc_pair(const Transform& b_in_a, Discs a, Discs b,
-                                                 unsigned pair) noexcept {
+[[gnu::always_inline]] inline PlacedPair disc_pair(const Transform& b_in_a, Discs a, Discs b,
+                                                   unsigned pair) noexcept {
   const unsigned i = pair / block_width, j = pair % block_width;
   const float x = b.x[j], y = b.y()[j];
   return {b_in_a.tx + (b_in_a.c * x - b_in_a.s * y) - a.x[i],
           b_in_a.ty + (b_in_a.s * x + b_in_a.c * y) - a.y()[i], a.radius()[i] + b.radius()[j]};
 }
 
-/// Of the pairs' values.
+/// Returns the least of the pairs' values.
 template <class Simd>
 float least_value(const float* values) noexcept {
   auto least = Simd::load(values);

@@ -9,8 +9,8 @@
 
 namespace bch::kernel {
 
-/// Of the sets of four bits: the numbers of those that are set, 16 bits each from the lowest, and how many. (Here,
-/// because members of a template would be data that objects share.)
+/// Table over the sets of four bits: the numbers of the bits that are set, 16 bits each from the lowest, and
+/// how many there are. (It is not a member, because members of a template would be data that objects share.)
 constexpr std::uint64_t numbers_of_set[] = {
     0x0, 0x0,      0x1,      0x1'0000,      0x2,      0x2'0000,      0x2'0001,      0x2'0001'0000,
     0x3, 0x3'0000, 0x3'0001, 0x3'0001'0000, 0x3'0002, 0x3'0002'0000, 0x3'0002'0001, 0x3'0002'0001'0000};
@@ -18,11 +18,12 @@ constexpr std::uint64_t counts_of_set = 0x4332'3221'3221'2110;
 
 /// What the pair kernel needs of an instruction set beyond arithmetic. Eight is the width of a block: `row`
 /// gives part of an outer product's left side (disc i, or discs i and i + 1 where two rows fit), `columns`
-/// the matching right side. Each instruction set's file adds what xsimd 8.1 has no name for: bits() of a mask,
-/// least() of a register's lanes, gather() of doubles or words by index, without a way through memory, rounded() of as many
-/// doubles as there are floats in a register, widened() the other way round, load_records(), which picks records of four floats from a table, each an
-/// index of strides from its beginning, and gives field after field, lane = record, and rough_root(), for bounds: it is
-/// off by less than 3/4 of `rough`, relatively, for normal numbers, in other ways on every processor, and NaN for numbers
+/// the matching right side. Each instruction set's file adds what xsimd 8.1 has no name for: bits() of a
+/// mask, least() of a register's lanes, gather() of doubles or words by index, without a way through memory,
+/// rounded() of as many doubles as there are floats in a register, widened() the other way round,
+/// load_records(), which picks records of four floats from a table, each an index of strides from its
+/// beginning, and gives field after field, lane = record, and rough_root(), for bounds: it is off by less
+/// than 3/4 of `rough`, relatively, for normal numbers, in other ways on every processor, and NaN for numbers
 /// below 0.
 template <class Arch>
 struct Lanes {
@@ -73,7 +74,7 @@ struct Lanes<Scalar> {
   using Mask = bool;
   static constexpr unsigned width = 1, doubles = 1;
 
-  // By copies, as registers are: what is stored as a float may be kept and read as an integer.
+  // These copy, as registers do: what is stored as a float may be kept and read as an integer.
   static Float load(const float* p) noexcept {
     Float value;
     __builtin_memcpy(&value, p, sizeof value);
@@ -103,15 +104,16 @@ struct Lanes<Scalar> {
   }
 };
 
-/// Calls each(k) for k below a count of whole registers, so that the compiler sees how many a register has and adds no
-/// loops for what it does not fill: those take longer than all of a small batch.
+/// Calls each(k) for k below a count of whole registers, so that the compiler sees how many a register has
+/// and adds no loops for what it does not fill: those take longer than all of a small batch.
 template <class Simd, class Each>
 [[gnu::always_inline]] inline void for_whole_registers(std::uint32_t count, Each each) noexcept {
   for (std::uint32_t k = 0; k < count; k += Simd::width)
     for (std::uint32_t lane = 0; lane < Simd::width; ++lane) each(k + lane);
 }
 
-/// sqrt(x), x >= 0, nearly: as Simd's rough_root(), of what is less than the least normal number that of this.
+/// sqrt(x), x >= 0, nearly: as Simd's rough_root(), of what is less than the least normal number that of
+/// this.
 template <class Simd>
 typename Simd::Float rough_root(typename Simd::Float x) noexcept {
   return Simd::rough_root(xsimd::max(x, typename Simd::Float(0x1p-126f)));

@@ -16,7 +16,8 @@
 
 namespace bch::kernel {
 
-/// Where the agents of a chunk of pairs stand: B seen from A, side by side. The first stage of the pair kernel.
+/// The placements of the agents of a chunk of pairs: B seen from A, side by side. This is the first stage of
+/// the pair kernel.
 template <class Simd, std::uint32_t capacity = pairs_per_chunk>
 class Placements {
  public:
@@ -30,8 +31,9 @@ class Placements {
     turn<false>(in);
   }
 
-  /// The same of pairs that nobody has looked at. False, and nothing may be asked, unless all is surely valid, which
-  /// is more than require_valid() asks: what is in registers anyway is looked at with the fewest operations.
+  /// Places pairs that were not validated. Returns false unless everything is surely valid; then no other
+  /// member may be called. The check is stricter than require_valid(): it tests what is in registers anyway,
+  /// with the fewest operations.
   bool place_if_valid(const Arguments& in, std::uint32_t count) noexcept {
     size = count;
     if (!name_agents<true>(in, 0)) return false;
@@ -40,7 +42,7 @@ class Placements {
 
   Transform transform(std::uint32_t pair) const noexcept { return {c[pair], s[pair], tx[pair], ty[pair]}; }
 
-  /// Of A.
+  /// Returns A's heading.
   UnitVector heading(std::uint32_t pair) const noexcept { return {cosine_[pair], sine_[pair]}; }
 
   /// The size, filled up to whole registers of floats.
@@ -94,7 +96,7 @@ class Placements {
     const std::uint32_t count = whole_registers();
     std::uint32_t beyond = 0;
     for (std::uint32_t k = 0; k < count; k += Simd::width) {
-      // Not a function of its own: GCC 12 drops the call of one that only prefetches.
+      // This is not a function of its own: GCC 12 drops the call of one that only prefetches.
       if (prefetch && k + pairs_ahead < count)
         for (std::uint32_t lane = 0; lane < Simd::width; ++lane) {
           const std::uint32_t both[] = {a_[k + pairs_ahead + lane], b_[k + pairs_ahead + lane]};
@@ -179,7 +181,7 @@ class Placements {
     return {c * turn_c - s * turn_s, s * turn_c + c * turn_s};
   }
 
-  /// From A to B, of one coordinate.
+  /// Returns the distance from A to B in one coordinate.
   template <bool check>
   static Float distance(const double* x, const std::uint32_t* a, const std::uint32_t* b,
                         Magnitudes<check>& magnitudes) noexcept {

@@ -12,13 +12,13 @@
 
 namespace bch::kernel {
 
-/// What two profiles (layout/culling/profile.hpp) say along the line of their centres; lane = pair.
+/// Tests pairs by two profiles (layout/culling/profile.hpp) along the line of their centres; lane = pair.
 template <class Simd, std::uint32_t chunk>
 class ProfileTest {
  public:
-  /// Of a register's pairs.
+  /// The answers for a register's pairs.
   struct Answers {
-    std::uint32_t apart = 0;     ///< a line parts the cuts
+    std::uint32_t apart = 0;     ///< a line separates the cuts
     std::uint32_t meet = 0;      ///< areas of the largest contours meet
     std::uint32_t may_nest = 0;  ///< a contour of one may lie inside one of the other
     std::uint32_t near = 0;      ///< they will probably collide
@@ -27,8 +27,8 @@ class ProfileTest {
   ProfileTest(const ShapeSetView& shapes, const Placements<Simd, chunk>& at, bool prefetch) noexcept
       : shapes_(shapes), at_(at), prefetch_(prefetch) {}
 
-  /// Of all pairs of the chunk: the line of the centres, and what either shape looks like along it. `row_a`, `row_b`: of
-  /// the roots; null where they are in order.
+  /// Finds, for all pairs of the chunk, the line of the centres, and the sectors of both profiles along it.
+  /// `row_a`, `row_b`: the rows of the roots; null where they are in order.
   void look(const std::uint32_t* row_a, const std::uint32_t* row_b) noexcept {
     const float* const records = &shapes_.profiles->x;
     const std::uint32_t count = at_.whole_registers();
@@ -48,8 +48,9 @@ class ProfileTest {
     choose_outer(of_b_, row_b, count);
   }
 
-  /// Of the pairs from k on, after look(). Where the centres coincide no direction leads from one to the other, the
-  /// sectors do not lie opposite to each other, and nothing follows from them but that the areas meet.
+  /// Returns the answers for the pairs from k on, after look(). Where the centres coincide, no direction
+  /// leads from one to the other and the sectors do not lie opposite to each other. Then it only follows that
+  /// the areas meet.
   Answers answers(std::uint32_t k) const noexcept {
     const Float distance = Simd::load(distance_ + k), coincident(1e-20f);
     const Float outer_a = field(of_a_, 1, k), outer_b = field(of_b_, 1, k);
@@ -64,19 +65,20 @@ class ProfileTest {
  private:
   using Float = typename Simd::Float;
   using Fields = RecordFields<Simd, chunk>;
-  /// Of indices, in floats: half a record, because that is the most that an address can hold, and what it cannot takes an
-  /// instruction a record.
+  /// The unit of record indices, in floats: half a record. That is the largest scale that an address can
+  /// hold; a larger one takes an additional instruction for each record.
   static constexpr std::size_t stride = 2;
   static constexpr std::uint32_t strides_each = sizeof(Sector) / sizeof(float) / stride;
   static constexpr std::uint32_t profile_strides = sizeof(Profile) / sizeof(float) / stride;
-  /// Of the way from where areas meet to where cuts are apart: pairs nearer than that probably collide. By measurement.
+  /// The share of the way from where areas meet to where cuts are apart: pairs nearer than that probably
+  /// collide. Its value was measured.
   static constexpr float near_share = 0.6f;
 
   static Float field(const Fields& of, std::uint32_t i, std::uint32_t k) noexcept {
     return Simd::load(of.field[i] + k);
   }
 
-  /// Of the pair's level. A single disc has been tested, and nothing is said of it.
+  /// Chooses the outer field of the pair's level. A single disc has been tested, and has no outer bound here.
   static void choose_outer(Fields& of, const std::uint32_t* row, std::uint32_t count) noexcept {
     for_whole_registers<Simd>(count, [&](std::uint32_t k) {
       const float shallow = row[k] == no_supports ? of.field[3][k] : __builtin_inff();
@@ -89,7 +91,7 @@ class ProfileTest {
     for_whole_registers<Simd>(count, [=](std::uint32_t k) { record[k] = shape[k] * profile_strides; });
   }
 
-  /// From a profile's begin on, in strides.
+  /// Returns the record of a sector, counted from the beginning of its profile, in strides.
   static std::uint32_t record_of(float sector) noexcept {
     return (1 + static_cast<std::uint32_t>(static_cast<std::int32_t>(sector)) % profile_sectors) *
            strides_each;
@@ -107,7 +109,8 @@ class ProfileTest {
     }
   }
 
-  /// Where a direction lies among the sectors; after the last one comes the first again. Zero has any.
+  /// Returns the place of a direction among the sectors; after the last one comes the first again. Zero has
+  /// any.
   static Float sector(Float x, Float y) noexcept {
     constexpr float quadrant = profile_sectors / 4, not_zero = 1e-30f;
     const Float zero(0.0f), ax = xsimd::abs(x), ay = xsimd::abs(y);

@@ -12,16 +12,16 @@
 
 namespace bch::kernel {
 
-/// What two segments do.
+/// The relation of two segments.
 enum class Meeting : std::uint8_t {
   none,
   near,  ///< they come within the margin of each other
-  sure,  ///< besides, the outlines cross for certain: then some leaves that hold the crossing overlap with all their ancestors
+  sure,  ///< also, the outlines surely cross: some leaves that hold the crossing overlap with all ancestors
 };
 
-/// Exact leaves: collects pairs of segments, one of either shape, and tests them side by side, lane = pair. Every operation is
-/// one in double of a fixed sequence, which baselines/ writes down again; layout/base/rounding.hpp, V, says why no two outlines
-/// that meet are missed.
+/// Exact leaves: collects pairs of segments, one of either shape, and tests them side by side, lane = pair.
+/// Every operation is one in double of a fixed sequence, which baselines/ writes down again;
+/// layout/base/rounding.hpp, V, says why no two outlines that meet are missed.
 /// `Placed`: has a Transform b_in_a and a double margin, which is that of both shapes together.
 template <class Simd, class Placed>
 class SegmentTest {
@@ -43,9 +43,9 @@ class SegmentTest {
   }
 
   /// Collects all segments of a leaf of A with all of a leaf of B, named by the places of their discs among
-  /// ShapeSetView::nodes. Tests those that were collected before where there is no room for more. Both trees have segments.
-  /// `use(owner, meeting)` is called for each pair of segments that meets, now or in finish(), and for leaves of too many
-  /// segments as if some met.
+  /// ShapeSetView::nodes. Tests those that were collected before where there is no room for more. Both trees
+  /// have segments. `use(owner, meeting)` is called for each pair of segments that meets, now or in finish(),
+  /// and for leaves of too many segments as if some met.
   template <class Use>
   [[gnu::always_inline]] void add(std::uint32_t placed, const Tree& a, std::uint32_t leaf_a, const Tree& b,
                                   std::uint32_t leaf_b, std::uint32_t owner, Use use) noexcept {
@@ -88,12 +88,12 @@ class SegmentTest {
   static_assert(capacity % Simd::width == 0);
   static_assert(sizeof(Placed) % sizeof(double) == 0 && alignof(Placed) == alignof(double));
 
-  /// Of a leaf, by the place of its disc.
+  /// Returns the word of a leaf, by the place of its disc.
   const std::uint32_t* word(const Tree& tree, std::uint32_t leaf) const noexcept {
     return words_ + tree.segments + (leaf - tree.discs);
   }
 
-  /// Those of a leaf, by the points where they begin.
+  /// The segments of a leaf, by the points where they begin.
   struct Segments {
     std::uint32_t first, count;
     const std::uint32_t* listed;  ///< counted from the first; null: they follow each other
@@ -118,7 +118,7 @@ class SegmentTest {
     Double margin;
   };
 
-  /// Those of a register of floats, in registers of doubles.
+  /// Loads the pairs of a register of floats, in registers of doubles.
   void load(std::uint32_t k, Pair (&pairs)[parts]) const noexcept {
     Float p[4], q[4], place[4];
     Simd::template load_records<2>(&points_->x, segment_a_ + k, p);
@@ -148,7 +148,7 @@ class SegmentTest {
 
   static Point way(Point from, Point to) noexcept { return {to.x - from.x, to.y - from.y}; }
 
-  /// Where the ends of one segment lie, seen from the line of another.
+  /// The sides of the line of one segment on which the ends of another lie.
   struct Sides {
     Double high, low;  ///< of both ends, the larger and the smaller
     Double margin;     ///< what counts at least as the margin's distance from the line
@@ -161,7 +161,8 @@ class SegmentTest {
             margin * (xsimd::abs(along.x) + xsimd::abs(along.y))};
   }
 
-  /// Two numbers a pair, which say by being above 0 that a line separates the segments, and that they surely cross.
+  /// Two numbers a pair, which say by being above 0 that a line separates the segments, and that they surely
+  /// cross.
   /// Returns: bits of the pairs of which the first number may not be.
   std::uint32_t test(std::uint32_t k) noexcept {
     Pair pairs[parts];
@@ -187,7 +188,8 @@ class SegmentTest {
     return sure_[lane] > 0 ? Meeting::sure : near(k, lane);
   }
 
-  /// Of the pairs from k on, for one of them: one in some ten thousand comes to this.
+  /// Returns whether the segments of a pair come within the margin. It computes the register of the pairs
+  /// from k on for one of them, `lane`. About one in ten thousand pairs comes to this.
   [[gnu::noinline]] Meeting near(std::uint32_t k, std::uint32_t lane) noexcept {
     Pair pairs[parts];
     load(k, pairs);
@@ -201,7 +203,7 @@ class SegmentTest {
     return beyond[lane - k] <= 0 ? Meeting::near : Meeting::none;
   }
 
-  /// Of a point from the nearest one of a segment.
+  /// Returns the square of the distance from a point to the nearest one of a segment.
   static Double square_distance(Point p, Point from, Point to) noexcept {
     const Point along = way(from, to), to_p = way(from, p);
     // A segment without length has a share of 0, by a number that is less than every other square.

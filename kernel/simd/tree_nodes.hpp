@@ -10,7 +10,8 @@
 
 namespace bch::kernel {
 
-/// What a node's name leads to among ShapeSetView::nodes. (`Simd` keeps instruction sets from sharing a function.)
+/// Finds what a node's name leads to among ShapeSetView::nodes. (`Simd` keeps instruction sets from sharing a
+/// function.)
 template <class Simd>
 struct TreeNodes {
   /// Masks, not conditions: GCC makes branches of those, and no processor can predict which nodes are leaves.
@@ -22,22 +23,22 @@ struct TreeNodes {
     return {nodes + (node & ~leaf_window), to_y, 2 * to_y};
   }
 
-  /// The same with the outer radii of a block's.
+  /// Returns the discs of a node, of a block those with the outer radii.
   static Discs outer_discs(const float* nodes, std::uint32_t node, std::uint32_t stride) noexcept {
     const std::uint32_t leaf = all_if_leaf(node);
     return {nodes + (node & ~leaf_window), block_width + (leaf & (stride - block_width)),
             block_outer + (leaf & (2 * stride - block_outer))};
   }
 
-  /// Asks for a node's discs, and for the names below a block. (Here and elsewhere inlined for certain: GCC 12 drops the
-  /// calls of functions that do nothing else.)
+  /// Asks for a node's discs, and for the names below a block. (Here and elsewhere inlined for certain: GCC
+  /// 12 drops the calls of functions that do nothing else.)
   [[gnu::always_inline]] static void prefetch(const float* nodes, std::uint32_t node,
                                               std::uint32_t stride) noexcept {
     const Discs at = discs(nodes, node, stride);
     for (std::size_t row = 0; row < 3; ++row) __builtin_prefetch(at.x + row * at.to_y);
   }
 
-  /// Below a disc of a block.
+  /// Returns the child below a disc of a block.
   static std::uint32_t child(const float* nodes, std::uint32_t block, unsigned lane) noexcept {
     std::uint32_t name;
     __builtin_memcpy(&name, nodes + block + block_names + lane, sizeof name);

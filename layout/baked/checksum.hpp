@@ -12,12 +12,12 @@
 
 namespace bch::baked {
 
-/// Of a file's first bytes.
+/// Returns the checksum of a file's first bytes.
 std::uint64_t checksum(Preamble preamble);
 std::uint64_t checksum(std::span<const std::byte> section_with_zeros);
 
-/// A section's checksum, XXH3 of 64 bits, taken piece by piece: whoever looks at a piece next finds it in a near cache,
-/// and a large section is read from memory once.
+/// A section's checksum, 64 bits of XXH3, computed piece by piece. The code that reads a piece next finds it
+/// in a near cache, and a large section is read from memory once.
 class SectionChecksum {
  public:
   /// The section has to outlive this.

@@ -115,8 +115,8 @@ class Reader {
       if (byte != std::byte{0}) reject(where + "no zeros after it");
   }
 
-  /// Nodes are most of a file: their checksum is taken while they are looked at. What is wrong with them may come from
-  /// damage, which is then what there is to say.
+  /// Checks the content and the nodes' checksum in one pass, because nodes are most of a file. Wrong nodes
+  /// may come from damage; then the checksum's error is reported.
   void check_content(const baked::Arrays& arrays) const {
     const SectionEntry& nodes = preamble_.entries[static_cast<std::uint32_t>(baked::Section::nodes)];
     baked::SectionChecksum checksum(section(nodes));
@@ -130,7 +130,7 @@ class Reader {
     if (!wrong.empty()) reject(wrong);
   }
 
-  /// With the zeros after it.
+  /// Returns a section's bytes and the zeros after it.
   std::span<const std::byte> section(const SectionEntry& entry) const {
     const std::uint64_t size = entry.count * entry.element_size;
     return bytes_.subspan(entry.offset, baked::padded(size));

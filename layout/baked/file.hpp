@@ -29,7 +29,7 @@ struct BakedShapes {
 
 enum class FileAccess {
   read,  ///< into memory of our own: right whatever happens to the file meanwhile
-  map,   ///< no copy; for files that nobody writes to or shortens while the set lives, see file_bytes.hpp
+  map,   ///< no copy; for files that no process writes to or shortens while the set lives, see file_bytes.hpp
 };
 
 /// A set from a baked file (baked_format.hpp), which it then stands on: nothing is parsed or copied. Checksums and
@@ -38,8 +38,8 @@ enum class FileAccess {
 /// Errors:  throws BakedFileError, std::bad_alloc.
 BakedShapes load_baked(const std::filesystem::path& file, FileAccess access = FileAccess::read);
 
-/// The same from bytes that are in memory, on a cache line, and stay there, unchanged, while `memory` lives. `name` is
-/// what errors call them.
+/// Loads a set from bytes in memory. They begin on a cache line and stay there, unchanged, while `memory`
+/// lives. `name` is what errors call them.
 BakedShapes load_baked(std::span<const std::byte> bytes, const std::string& name,
                        std::shared_ptr<const void> memory);
 

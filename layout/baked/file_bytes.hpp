@@ -30,10 +30,10 @@ struct FirstLook {
 
 FileBytes read_file(const std::filesystem::path& file, const FirstLook& look = {});
 
-/// Without a copy: pages come from the file cache. While `memory` lives nobody may write to the file or make it
-/// shorter: bytes that were checked would change, and reading those that are gone ends the process by SIGBUS. No
-/// kind of mapping prevents that. To replace the file (write another, rename it over this) is fine: the mapping
-/// keeps the old one.
+/// Maps a file without a copy: pages come from the file cache. While `memory` lives no process may write to
+/// the file or make it shorter: bytes that were checked would change, and reading those that are gone ends
+/// the process by SIGBUS. No kind of mapping prevents that. To replace the file (write another, rename it
+/// over this) is fine: the mapping keeps the old one.
 FileBytes map_file(const std::filesystem::path& file, const FirstLook& look = {});
 
 }  // namespace bch

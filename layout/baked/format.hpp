@@ -71,7 +71,8 @@
 /// domain. shape_preconditions() lists all that is checked.
 namespace bch::baked {
 
-/// A byte that is no text, so that nobody takes it for some; then line ends that a transfer as text would change.
+/// A byte that is no text, so that the file is not taken for text; then line ends that a transfer as text
+/// would change.
 constexpr std::array<std::uint8_t, 8> magic{0x89, 'B', 'C', 'H', '\r', '\n', 0x1a, '\n'};
 constexpr std::uint32_t byte_order = 0x01020304;
 constexpr std::uint32_t other_byte_order = 0x04030201;
@@ -152,20 +153,20 @@ void for_each_section(Arrays& arrays, Visit visit) {
   visit_next("names", arrays.names);
 }
 
-/// How many zeros follow.
+/// Returns how many zeros follow a section of this size, in bytes.
 constexpr std::size_t zeros_after(std::uint64_t size) {
   return static_cast<std::size_t>(-size % alignment);
 }
 
-/// With them.
+/// Returns a section's size with the zeros after it, in bytes.
 constexpr std::uint64_t padded(std::uint64_t size) {
   return size + zeros_after(size);
 }
 
-/// Where the first section begins.
+/// The offset of the first section, in bytes.
 constexpr std::uint64_t sections_offset = padded(sizeof(Preamble));
 
-/// Where nodes begin in the file of a set that has trees, which is known before they are.
+/// Returns the offset of the nodes in the file of a set that has trees. It is known before the nodes are.
 constexpr std::uint64_t nodes_offset(std::size_t shapes, std::size_t levels) {
   return sections_offset + padded(levels * sizeof(std::uint32_t)) + padded(shapes * levels * sizeof(Root)) +
          padded(shapes * levels * sizeof(Tree));

@@ -24,7 +24,7 @@ class BakedImage {
   BakedImage(const BakedImage&) = delete;
   BakedImage& operator=(const BakedImage&) = delete;
 
-  /// Whoever writes them one after the other has written the file: the preamble, then the sections, and after each of
+  /// The file's parts, to be written one after the other: the preamble, then the sections, and after each of
   /// them its zeros.
   std::span<const std::span<const std::byte>> parts() const noexcept { return parts_; }
 

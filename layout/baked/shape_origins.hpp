@@ -19,7 +19,7 @@ struct ShapeOrigin {
   friend bool operator==(const ShapeOrigin&, const ShapeOrigin&) = default;
 };
 
-/// Where the shapes of a set come from. People ask for it, queries do not.
+/// The characters, clips and times that the shapes of a set come from. Queries do not use them.
 struct ShapeOrigins {
   double threshold = 0;              ///< of all hierarchies, metres; see contour_hierarchy()
   std::vector<std::string> names;    ///< of characters and clips, as their files have them

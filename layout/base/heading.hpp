@@ -11,7 +11,7 @@ struct Rotation {
   double sine = 0;
 };
 
-/// The same as queries use it.
+/// A rotation's cosine and sine in float, as queries use them.
 struct UnitVector {
   float cosine = 1;
   float sine = 0;

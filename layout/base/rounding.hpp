@@ -85,8 +85,8 @@
 ///
 ///     (price)    a false positive has a gap of at most 50.5 u S + 1.5 * 2^-22 S = 3.4e-6 S
 ///
-/// IV. Supports part two shapes when t.u > h_A + a h_B + b h_B' for a direction u of A, where h_B and h_B' are
-/// B's supports on either side of -u and a, b >= 0 follow from the rotation.
+/// IV. Supports separate two shapes when t.u > h_A + a h_B + b h_B' for a direction u of A, where h_B and
+/// h_B' are B's supports on either side of -u and a, b >= 0 follow from the rotation.
 ///
 ///     (support_place)    21.2 u S        t and its product with u, rounded: 9.2 u S + 6 u |t|, with |t| <= 2 S where it
 ///                                        matters
@@ -99,8 +99,8 @@
 ///     21.2 u S + 4 * 59 u S + 6 u S  <=  264 u S                                                             (2)
 ///
 /// Discs that the float test accepts are at most 23 u S apart, so supports enlarged by 287 u P each, and by the 5.2 u P of
-/// their own rounding (support_float, layout/culling/supports.cpp), never part them: support_margin. Only this proof needs all of
-/// it; tests fail where it has the other sign.
+/// their own rounding (support_float, layout/culling/supports.cpp), never separate them: support_margin. Only
+/// this proof needs all of it; tests fail where it has the other sign.
 ///
 /// V. Exact leaves: segments. Two segments are compared in double (kernel/simd/segment_test.hpp), B's ends placed by the floats
 /// (c, s) and t. What double rounds is 2^-29 u, (higher). Where outlines meet, |d| <= |a| + |b| <= S for their common point,
@@ -162,7 +162,7 @@ constexpr double by_radii = position + sum + apart + square + radii;  // D <= r_
 static_assert(length_within(arm + position + 2 * sum, by_radii, contact_error), "(1'), of B");
 static_assert(length_within(position + sum, by_radii, contact_error), "(1'), of A");
 
-/// Of the largest coordinate, after k halvings: by induction, and by trying.
+/// Bounds for the error of the largest coordinate after k halvings: by induction, and by trying.
 constexpr double halved(int k) {
   return (2 * k + 1) / 3.0;
 }
@@ -215,7 +215,7 @@ constexpr double price = 3.4e-6;
 static_assert(price >=
               query_margin + (2 + terms::query_error) * unit_roundoff + outline_grid_steps * 0x1p-22);
 
-/// The same of exact leaves.
+/// A false positive's largest gap with exact leaves, times the sum of the shapes' reaches: (segment_price).
 constexpr double segment_price = 1.7e-6;
 static_assert(segment_price >=
               segment_margin + terms::segment_place * unit_roundoff + outline_grid_steps * 0x1p-22);
@@ -226,7 +226,8 @@ constexpr double largest_reach = 1e6;     // metres
 constexpr double largest_position = 1e9;  // metres
 constexpr double largest_heading = 1e9;   // radians
 
-/// The smallest float that is not below a finite value >= 0. Without a branch, which would be a coin toss.
+/// Returns the smallest float that is not below a finite value >= 0. It has no branch, because none could be
+/// predicted.
 inline float round_up(double value) {
   const float nearest = static_cast<float>(value);
   return std::bit_cast<float>(std::bit_cast<std::uint32_t>(nearest) +

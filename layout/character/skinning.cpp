@@ -13,8 +13,8 @@
 namespace bch {
 namespace {
 
-/// Where in its list a clip's time is. The channels of a clip mostly have the same times, so that the last one's
-/// place is tried first.
+/// Returns the index of the first key after a time. The channels of a clip mostly have the same times, so the
+/// last channel's place is tried first.
 template <class Value>
 std::size_t key_after(const std::vector<Key<Value>>& keys, float seconds, std::size_t guess) {
   if (guess > 0 && guess < keys.size() && keys[guess - 1].time <= seconds && seconds < keys[guess].time)
@@ -81,7 +81,7 @@ auto from_above(Vec2& position) {
   return Eigen::Map<Eigen::Vector2f>(&position.x);
 }
 
-/// The middle of their box, seen from above.
+/// Moves the middle of the positions' box, seen from above, to the origin.
 template <class Position>
 void put_middle_at_origin(std::vector<Position>& positions) {
   Eigen::AlignedBox2f box;

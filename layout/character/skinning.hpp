@@ -28,7 +28,8 @@ class Skinner {
   ///          position that is not finite.
   std::span<const Eigen::Vector3f> pose(PoseTime at);
 
-  /// The same bits seen from above, in three quarters of the time: x and y, whatever the heights are.
+  /// Returns x and y of pose(), with the same bits, in three quarters of the time. Heights may have any
+  /// value.
   std::span<const Vec2> ground_pose(PoseTime at);
 
   const Character& character() const noexcept { return *character_; }
@@ -51,10 +52,10 @@ class Skinner {
   AffineRows to_ground_;
   std::vector<AffineRows> joint_to_world_;
   VertexBlend blend_;
-  // Of the bones that move a vertex.
+  // These arrays hold the bones that move a vertex.
   std::vector<std::uint32_t> joint_of_bone_;
   std::vector<AffineRows> inverse_bind_, bone_to_shape_;
-  // Of the vertices; one of them has memory when its function is called first.
+  // These arrays hold the vertices. Each one gets its memory when its function is called first.
   std::vector<Eigen::Vector3f> positions_;
   std::vector<Vec2> ground_positions_;
 };

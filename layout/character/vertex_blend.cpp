@@ -37,7 +37,7 @@ constexpr std::size_t axes_of(const Vec2*) {
   return 2;
 }
 
-/// Of the bones from an influence on.
+/// Returns the sum of the weighted products of the bones from an influence on.
 template <std::size_t axes>
 Products<axes> add_up(const Row* rows, const Row* weighted, const std::uint32_t* first_row,
                       std::uint32_t bones) {

@@ -14,7 +14,7 @@ PointLanes centres(const CandidateDiscs& discs) {
   return {discs.x.data(), discs.y.data(), discs.count};
 }
 
-/// Of a point on a contour's edge that ends at its point i.
+/// Returns the point nearest to a place on the contour's edge that ends at point i.
 Vec2 nearest_on_edge(const ContourPoints& contour, std::size_t i, float at_x, float at_y) {
   const std::size_t before = (i == 0 ? contour.count : i) - 1;
   const float x = contour.x[before], y = contour.y[before], dx = contour.x[i] - x, dy = contour.y[i] - y;

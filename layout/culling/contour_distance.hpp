@@ -11,7 +11,7 @@
 
 namespace bch {
 
-/// Where a contour is, seen from points.
+/// A contour's distances from points, and its winding numbers about them.
 struct ContourDepths {
   alignas(64) std::array<double, most_touches> distance;
   /// How often the contour goes round the point, counter-clockwise: 1 inside. Without meaning on the contour.
@@ -22,7 +22,7 @@ struct ContourDepths {
 void measure_depths(const InteriorLoops& loops, std::span<const Vec2> contour, const CandidateDiscs& discs,
                     ContourDepths& depths);
 
-/// The same in float, at half the cost.
+/// Computes the discs' depths in float, at half the cost.
 void estimate_depths(const InteriorLoops& loops, const ContourPoints& contour, const CandidateDiscs& discs,
                      ContourDepths& depths);
 

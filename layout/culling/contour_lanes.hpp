@@ -35,30 +35,30 @@ class ContourLanes {
 
   std::size_t size() const noexcept { return count_; }
 
-  // Of where segment i begins, and i - 1 ends.
+  // These functions describe the point where segment i begins and segment i - 1 ends.
 
   double x(std::size_t i) const noexcept { return x_[i]; }
   double y(std::size_t i) const noexcept { return y_[i]; }
   std::uint32_t sector(std::size_t i) const noexcept {
     return static_cast<std::uint32_t>(static_cast<std::int32_t>(sector_[i])) % profile_sectors;
   }
-  /// Not more than the distance from the nearest line between sectors.
+  /// A lower bound of the distance from the nearest line between sectors.
   double aside(std::size_t i) const noexcept { return aside_[i]; }
 
-  // Of segment i.
+  // These functions describe segment i.
 
-  /// Where its line comes nearest to the centre: share of the way to its end.
+  /// The point where the segment's line comes nearest to the centre, as a share of the way to its end.
   double foot(std::size_t i) const noexcept { return foot_[i]; }
   double square_distance(std::size_t i) const noexcept { return square_distance_[i]; }
   bool turns_left(std::size_t i) const noexcept { return turn_[i] >= 0; }
-  /// Whether it crosses the ray along x. (No branch: that would be a coin toss.)
+  /// Returns whether the segment crosses the ray along x. It has no branch, because none could be predicted.
   bool crosses(std::size_t i) const noexcept {
     return ((y_[i] > 0) != (y_[i + 1] > 0)) & (turns_left(i) == (y_[i + 1] > y_[i]));
   }
 
  private:
   using Batch = xsimd::batch<double, Arch>;
-  /// To whole registers, of the ends of segments too.
+  /// Elements that fill up whole registers, also for the ends of segments.
   static constexpr std::size_t padding = Batch::size;
   using Array = std::array<double, most + 1 + padding>;
   /// Added to what is divided by, which may be 0 where what is divided is.

@@ -60,8 +60,9 @@ class CutLanes {
   static constexpr float infinity = std::numeric_limits<float>::infinity();
   static constexpr std::size_t quadrant = support_directions / 4;
 
-  /// Also hands out 0 in the lanes of the run's discs and NaN in others, which a minimum or maximum drops when it comes
-  /// first: that is one instruction, where selecting is three.
+  /// Calls visit(x, y, radius, gap) for each register of the run. `gap` is 0 in the lanes of the run's discs
+  /// and NaN in the others. A minimum or maximum drops NaN when it comes first: that is one instruction,
+  /// where selecting is three.
   template <class Visit>
   static void for_each(const DiscRun& run, Visit visit) {
     alignas(64) float lane[Batch::size];

@@ -19,7 +19,8 @@ namespace {
 
 using Contour = std::span<const Vec2>;
 
-/// Of the coverage's raster. It holds the contour's longer side with the dilation on either side.
+/// The dilation in cells of the coverage's raster. The raster holds the contour's longer side with the
+/// dilation on either side.
 constexpr float dilation = DiscCoverage::cells / 12.0f;
 constexpr double longer_side = DiscCoverage::cells - 2 * static_cast<double>(dilation);
 
@@ -43,7 +44,8 @@ struct Lines {
   }
 };
 
-/// As containment of the solid semantics counts: a contour from elsewhere may overlap itself.
+/// Returns whether a winding number means inside, as containment of the solid semantics counts: a contour
+/// from elsewhere may overlap itself.
 bool is_inside(double winding) {
   return static_cast<int>(winding) % 2 != 0;
 }

@@ -16,10 +16,10 @@
 
 namespace bch {
 
-/// What lets a query accept a pair without walking its trees. All of it belongs to the outline's largest
-/// contour.
+/// The data by which a query accepts a pair without a traversal of its trees. All of it belongs to the
+/// outline's largest contour.
 ///
-/// Where a disc inside one contour overlaps a disc inside another, the contours' areas meet. Then either the
+/// The contours' areas meet where a disc inside one contour overlaps a disc inside another. Then either the
 /// contours cross, which both semantics call a hit at every level, or one lies inside the other, which solid
 /// calls a hit too. Boundary may accept only where nesting is excluded: when each contour has a point beyond
 /// the other's supports (supports.hpp).
@@ -30,8 +30,8 @@ struct Interior {
   std::array<float, extreme_stride> extreme_x, extreme_y;
 };
 
-/// Chooses the discs of shape after shape; allocates only where a contour has more points than any before.
-/// For one thread.
+/// Chooses the inscribed discs of one shape after the other. It allocates only where a contour has more
+/// points than any before. One thread may use it at a time.
 ///
 /// Candidates lie on the contour's medial axis (tangent_discs.hpp), since any other disc is part of a larger
 /// one. They are chosen one after the other, each to add the most area to the union of those chosen so far,
@@ -46,9 +46,9 @@ struct Interior {
 /// open pair, which cost more than the walks that they save (0.7 ns a pair for a percent).
 class InteriorBuilder {
  public:
-  /// With the best loops that this processor supports.
+  /// Uses the best loops that this processor supports.
   InteriorBuilder();
-  /// With given ones, which this processor has to support.
+  /// Uses the given loops, which this processor has to support.
   explicit InteriorBuilder(const InteriorImplementation& implementation);
 
   /// Shapes:  validate(outline) does not throw; contours are counter-clockwise. `reach` is that of the shape,
@@ -59,7 +59,7 @@ class InteriorBuilder {
 
  private:
   using Contour = std::span<const Vec2>;
-  /// From metres to cells of the raster: (metres - x) / cell.
+  /// A map from metres to cells of the raster: (metres - x) / cell.
   struct Frame {
     double x, y, cell;
   };
@@ -83,7 +83,7 @@ class InteriorBuilder {
   ContourDepths depths_;   ///< of the last discs looked at
 };
 
-/// The same for one shape.
+/// Chooses the inscribed discs of one shape.
 Interior interior(const Outline& outline, double reach);
 
 }  // namespace bch

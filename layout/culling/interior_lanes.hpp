@@ -135,12 +135,13 @@ class InteriorLanes {
   using Floats = xsimd::batch<float, Arch>;
   using Ints = xsimd::batch<std::int32_t, Arch>;
   static constexpr std::size_t width = Floats::size;
-  /// Of a square distance: what is nearer than coordinates are rounded tells nothing about a tangent disc.
+  /// The uncertainty of a square distance: points nearer than the rounding of coordinates tell nothing about
+  /// a tangent disc.
   static constexpr float blur = 0x1p-16f;
 
-  /// In every row the first cell whose centre is not before a coordinate, which has half a cell added to it, and its
-  /// bit; beyond the last cell there is none. The bit is made as a power of two in float: not every instruction
-  /// set can shift lanes by lanes.
+  /// The first cell of every row whose centre is not before a coordinate, and its bit. The coordinate has
+  /// half a cell added to it. Beyond the last cell there is no bit. The bit is made as a power of two in
+  /// float, because not every instruction set can shift lanes by lanes.
   struct Cell {
     Ints index, bit;
 
@@ -169,8 +170,9 @@ class InteriorLanes {
       const Real length = dx * dx + dy * dy;
       over = length > smallest_normal ? 1 / length : 0;
     }
-    /// Of points relative to the edge's beginning. Where along the edge the nearest point is may be off by its
-    /// rounding, which beside an edge of length l, where t = distance / l, is no more than a rounding of the distance.
+    /// Returns the square distances of points that are relative to the edge's beginning. The nearest point's
+    /// place along the edge may be off by its rounding. Beside an edge of length l, where t = distance / l,
+    /// that is no more than a rounding of the distance.
     Batch square_distance(const Batch& px, const Batch& py) const {
       const Batch t = (px * Batch(dx) + py * Batch(dy)) * Batch(over);
       const Batch held = xsimd::min(xsimd::max(t, Batch(Real(0))), Batch(Real(1)));

@@ -57,7 +57,7 @@ struct Boundaries {
   std::array<Point, profile_sectors + 1> at;
   std::array<double, profile_sectors + 1> x, y;
   std::array<float, quadrant> cosine, sine;  ///< of the first quadrant
-  /// Of the angle of sector k, and one over the square of its sine.
+  /// The cosine of the angle of sector k, and one over the square of its sine.
   std::array<double, profile_sectors> gap_cosine, over_square_sine;
 
   Boundaries() {
@@ -82,7 +82,7 @@ const Boundaries& boundaries() {
   return all;
 }
 
-/// Of the contour's area; its first point where it has none.
+/// Returns the centroid of the contour's area, or its first point where it has no area.
 Point centroid(Polygon contour) {
   const Point origin = minus(contour[0], {0, 0});
   double area = 0, x = 0, y = 0;
@@ -151,8 +151,9 @@ class Inside {
  private:
   using Segments = ContourLanes<xsimd::sse2>;  ///< of every x86-64 processor
 
-  /// By a segment, in the sectors that it crosses, counter-clockwise, and their neighbours. Most segments lie in one, and
-  /// not in a neighbour made wider; and in most of several there is a nearer one, whatever part of this one lies there.
+  /// Limits the inner distances by a segment, in the sectors that it crosses, counter-clockwise, and their
+  /// neighbours. Most segments lie in one sector, and not in a neighbour made wider. In most of several
+  /// sectors another segment is nearer, whatever part of this one lies there.
   void limit(const Segments& segments, std::size_t i) {
     const std::uint32_t begin = segments.sector(i), end = segments.sector(i + 1);
     const double least = segments.square_distance(i);
@@ -221,7 +222,8 @@ Outer outer(const Profile& profile, const float* x, const float* y, const float*
   for (std::uint32_t k = 0; k < profile_sectors; ++k)
     height[k] = static_cast<double>(heights[k]) - (centre_x * to.x[k] + centre_y * to.y[k]);
   height[profile_sectors] = height[0];
-  // To the corner of the supporting lines of either end, where it is in the sector. Without a branch.
+  // The farthest point is the corner of the supporting lines of either end, if that is in the sector. No
+  // branch.
   Outer result;
   for (std::uint32_t k = 0; k < profile_sectors; ++k) {
     const double right = height[k], left = height[k + 1], cosine = to.gap_cosine[k];

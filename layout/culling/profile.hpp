@@ -12,11 +12,11 @@
 
 namespace bch {
 
-/// What a shape looks like along lines from a centre, sector by sector, so that one look at each of two shapes along
+/// The extents of a shape along lines from a centre, sector by sector. One lookup in each of two shapes along
 /// the line of their centres, D apart, decides most pairs:
 ///
 ///     inner_A + inner_B >= D     a point between the centres belongs to both areas
-///     outer_A + outer_B < D      a line across parts the cuts
+///     outer_A + outer_B < D      a line across separates the cuts
 ///     outer_A < D + extent_B     no contour of B lies inside one of A: it sticks out on the far side
 ///
 /// A sector is what has the same place among profile_sectors equal parts of |y| / (|x| + |y|), quadrant by quadrant, and

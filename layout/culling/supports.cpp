@@ -13,7 +13,7 @@
 namespace bch {
 namespace {
 
-/// Of the first quadrant.
+/// The directions of the first quadrant.
 struct Directions {
   std::array<float, support_directions / 4> cosine, sine;
 
@@ -28,8 +28,8 @@ struct Directions {
 
 }  // namespace
 
-/// In float, which is off by 0.71 u of the reach for the direction, 1.42 u for the products, u and 2 u for the sums:
-/// (support_float) of rounding.hpp.
+/// Computes the supports in float, which is off by 0.71 u of the reach for the direction, 1.42 u for the
+/// products, u and 2 u for the sums: (support_float) of rounding.hpp.
 static_assert(rounding::terms::support_float >= 1.5 * rounding::terms::root_2 + 1 + 2);
 Supports supports(const float* x, const float* y, const float* radius, std::uint32_t count, double reach) {
   static const Directions directions;

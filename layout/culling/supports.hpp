@@ -18,14 +18,14 @@ namespace bch {
 ///
 /// Two sets are apart when along some direction the sum of their supports is less than the distance of their
 /// origins. Between two directions a support is at most that of the corner where the two supporting lines
-/// meet; rounding.hpp says how much the heights are enlarged so that the float test never parts discs that
-/// the float test of discs lets overlap.
+/// meet; rounding.hpp says how much the heights are enlarged so that the float test never separates discs
+/// that the float test of discs lets overlap.
 using Supports = std::array<float, support_stride>;
 
-/// `reach` as in rounding.hpp, metres.
+/// Computes the supports of discs. `reach` is that of rounding.hpp, in metres.
 Supports supports(std::span<const Disc> discs, double reach);
 
-/// Of one disc or more in arrays.
+/// Computes the supports of one disc or more in arrays.
 Supports supports(const float* x, const float* y, const float* radius, std::uint32_t count, double reach);
 
 }  // namespace bch

@@ -31,7 +31,8 @@ constexpr float smallest_curvature = 0x1p-6f;
 
 }  // namespace
 
-/// First which edge each sample is on, then all samples in a straight loop: how many an edge has is a coin toss.
+/// Finds first the edge of each sample, then all samples in a straight loop, because the number of samples on
+/// an edge cannot be predicted.
 void ContourSamples::take(std::span<const float> x, std::span<const float> y) {
   const double step = edge_lengths(x, y, length_) / count;
   assert(step > 0);

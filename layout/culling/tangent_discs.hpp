@@ -36,9 +36,9 @@ class ContourSamples {
 
   /// Every other sample, with the normal of its edge.
   const Touches& touches() const { return touches_; }
-  /// For each touch the largest disc that touches there and holds neither a sample nor one of the corners
-  /// given: a disc of the medial axis, up to the spacing. On the outer side of a whisker discs lie outside;
-  /// whoever uses them has to look.
+  /// Finds for each touch the largest disc that touches there and holds neither a sample nor one of the
+  /// corners given: a disc of the medial axis, up to the spacing. On the outer side of a whisker discs lie
+  /// outside; the caller has to check that.
   /// Source:  the closed form of J. Ma, S. W. Bae, S. Choi, "3D medial axis point approximation using nearest
   ///          neighbors and the normal field", The Visual Computer 28, 2012.
   void largest_discs(const InteriorLoops& loops, const Touches& touches, const ContourPoints& corners,

@@ -55,8 +55,8 @@ constexpr std::uint32_t parent_index(std::uint32_t joint) {
   return joint_index(parents[right ? joint - side_joints : joint], right ? Side::right : Side::left);
 }
 
-/// Where the joints are in the rest pose, in metres, z up, facing +x, the left side at positive y. No joint
-/// is turned at rest.
+/// The positions of the joints in the rest pose, in metres, z up, facing +x, the left side at positive y. No
+/// joint is turned at rest.
 using JointPositions = std::array<Eigen::Vector3d, body_joint_count>;
 
 }  // namespace bch

@@ -14,7 +14,7 @@ using Eigen::Vector3d;
 
 constexpr double degree = std::numbers::pi / 180;
 
-/// Where a foot stands: the ankle's point on the ground and the foot's direction.
+/// The place of a foot: the ankle's point on the ground and the foot's direction.
 struct Footing {
   Vector3d at = Vector3d::Zero();
   double yaw = 0;

@@ -14,9 +14,9 @@
 namespace bch {
 
 /// Smallest enclosing discs of many point sets, one set a lane: disc_pivoting.hpp's algorithm without its
-/// branches, which are coin tosses. A lane's operations do not depend on the width nor on its neighbours, so
-/// that every instruction set gives the same bits. `Local` is a type of the including file alone, so that no
-/// other file can share what was compiled for its registers.
+/// branches, which cannot be predicted. A lane's operations do not depend on the width nor on its neighbours,
+/// so that every instruction set gives the same bits. `Local` is a type of the including file alone, so that
+/// no other file can share what was compiled for its registers.
 template <class Arch, class Local>
 class DiscLanes {
  public:
@@ -59,7 +59,7 @@ class DiscLanes {
     return {Batch(0.5) * (a.x + b.x), Batch(0.5) * (a.y + b.y)};
   }
 
-  /// Of a triangle: the longest side's disc unless it is acute.
+  /// Returns the smallest disc of a triangle: the longest side's disc unless the triangle is acute.
   static Basis basis(const Point& a, const Point& b, const Point& c) {
     const Batch ab = square_distance(a, b), bc = square_distance(b, c), ca = square_distance(c, a);
     const Batch bx = b.x - a.x, by = b.y - a.y, cx = c.x - a.x, cy = c.y - a.y;
@@ -93,8 +93,8 @@ class DiscLanes {
     return basis(q, select(old.is_pair, old.a, far), select(old.is_pair, old.b, beyond));
   }
 
-  /// As many sets as there are lanes, point after point; sets with fewer points than others repeat their
-  /// last.
+  /// A block of as many sets as there are lanes, stored point after point. Sets with fewer points than others
+  /// repeat their last.
   class Block {
    public:
     /// `is_shared`: the last two lanes share the largest set, which often has twice the points of the next.
@@ -238,7 +238,8 @@ class DiscLanes {
       return first.point;
     }
 
-    /// In two chains, because each waits for its last comparison.
+    /// Returns the point farthest from another. It uses two chains, because each waits for its last
+    /// comparison.
     Farthest farthest(const Point& from) const {
       Farthest even{point(0), square_distance(point(0), from)}, odd = even;
       for (std::size_t k = 1; k < count_; k += 2) {
@@ -265,7 +266,7 @@ class DiscLanes {
       farthest = {{Batch::load_aligned(x), Batch::load_aligned(y)}, Batch::load_aligned(square)};
     }
 
-    /// To the 24 bits of a float's significand.
+    /// Rounds a value to the 24 bits of a float's significand.
     /// Source:  T. J. Dekker, "A floating-point technique for extending the available precision", Numerische
     ///          Mathematik 18, 1971.
     static Batch rounded(const Batch& value) {

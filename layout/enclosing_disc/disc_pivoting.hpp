@@ -9,7 +9,7 @@
 
 namespace bch::pivoting {
 
-/// In the precision that pivoting works with.
+/// A point in the precision that pivoting works with.
 struct Point {
   double x, y;
 };

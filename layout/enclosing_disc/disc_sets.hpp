@@ -15,7 +15,7 @@ struct PointRange {
   std::uint32_t begin, end;
 };
 
-/// As EnclosingDisc, with the radius squared.
+/// A disc like EnclosingDisc, with the radius squared.
 struct SolvedDisc {
   Vec2 centre;
   double square_radius;

@@ -37,7 +37,7 @@ EnclosingDiscs::EnclosingDiscs() : EnclosingDiscs(best_implementation()) {}
 
 EnclosingDiscs::EnclosingDiscs(const DiscImplementation& implementation) : implementation_(&implementation) {}
 
-/// By size, so that lanes have little to wait for.
+/// Solves the sets in the order of their sizes, so that lanes have little to wait for.
 void EnclosingDiscs::solve(std::span<const Vec2> points, std::span<const PointRange> sets,
                            std::span<SolvedDisc> discs) {
   std::uint32_t largest = 4;

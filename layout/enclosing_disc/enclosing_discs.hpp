@@ -25,9 +25,9 @@ std::span<const DiscImplementation> disc_implementations() noexcept;
 /// The smallest enclosing discs of many sets at once, solved side by side. Keeps its memory.
 class EnclosingDiscs {
  public:
-  /// With the best that this processor supports.
+  /// Uses the best implementation that this processor supports.
   EnclosingDiscs();
-  /// With a given one, which this processor has to support.
+  /// Uses a given implementation, which this processor has to support.
   explicit EnclosingDiscs(const DiscImplementation& implementation);
 
   /// Sets may overlap; none is empty. discs[i] is as smallest_enclosing_disc() would have it but for the

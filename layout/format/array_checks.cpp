@@ -83,7 +83,7 @@ void sizes(const ShapeArrays& a) {
   constexpr std::uint64_t most = std::numeric_limits<std::uint32_t>::max();
   if (roots > most) throw std::invalid_argument("roots: " + std::to_string(roots) + ", too many");
   require_size("roots", a.roots.size(), roots);
-  const bool roots_only = a.trees.empty(), shortcuts = !a.support.empty();
+  const bool roots_only = a.trees.empty(), culling = !a.support.empty();
   require_size("trees", a.trees.size(), roots_only ? 0 : roots);
   require_size("reach", a.reach.size(), roots_only ? 0 : shapes);
   if (roots_only) {
@@ -93,11 +93,11 @@ void sizes(const ShapeArrays& a) {
   }
   if (a.nodes.size() >= leaf_window)
     throw std::invalid_argument("nodes: " + std::to_string(a.nodes.size()) + ", not below 2^31");
-  require_size("inscribed", a.inscribed.size(), shortcuts ? shapes : 0);
-  require_size("extremes", a.extremes.size(), shortcuts ? shapes : 0);
-  require_size("profiles", a.profiles.size(), shortcuts ? shapes : 0);
+  require_size("inscribed", a.inscribed.size(), culling ? shapes : 0);
+  require_size("extremes", a.extremes.size(), culling ? shapes : 0);
+  require_size("profiles", a.profiles.size(), culling ? shapes : 0);
   // Kernels name a profile's records by 32 bits, two floats each.
-  if (shortcuts && shapes > most / (sizeof(Profile) / (2 * sizeof(float))))
+  if (culling && shapes > most / (sizeof(Profile) / (2 * sizeof(float))))
     throw std::invalid_argument("profiles: " + std::to_string(shapes) + ", too many");
   const bool outlines = !a.shape_contours.empty();
   if (outlines) require_size("shape_contours", a.shape_contours.size(), shapes);

@@ -61,9 +61,10 @@ bool same(const Disc& a, const Disc& b) {
   return a.x == b.x && a.y == b.y && a.radius == b.radius;
 }
 
-/// The nodes on the way from the root to the last one that was looked at which have no node above them yet but the one before
-/// in this list. A node whose first child is not a disc of the cut ends the part of the list that is below it. So each node
-/// is taken from the list once, and the one above it later: all ways end at the last one, the root.
+/// The open nodes on the way from the root to the last node visited: those that have no node above them yet
+/// but the one before in this list. A node whose first child is not a disc of the cut ends the part of the
+/// list that is below it. So each node is taken from the list once, and the one above it later. All ways end
+/// at the last one, the root.
 class OpenNodes {
  public:
   OpenNodes(const InnerNodes& nodes, std::vector<LevelNodes::OpenNode>& open, float slack)

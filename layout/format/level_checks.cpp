@@ -63,13 +63,14 @@ float smallest_radius(float reach) {
 
 constexpr const char* not_a_disc = "holds a disc that is none, or smaller than the rounding of its shape";
 
-/// Like beyond(), of what is not between two positive numbers.
+/// Returns a word whose top bit is set, like that of beyond(), for a value that is not between two positive
+/// numbers.
 std::uint32_t outside(float value, float least, float most) {
   const auto bits = std::bit_cast<std::uint32_t>(value);
   return (bits - std::bit_cast<std::uint32_t>(least)) | (std::bit_cast<std::uint32_t>(most) - bits);
 }
 
-/// With padding.
+/// Requires eight discs, padding among them, to be numbers within their limits.
 void require_eight_discs(const float* x, float least, std::uint64_t place) {
   std::uint32_t bad = 0;
 #pragma GCC unroll 1

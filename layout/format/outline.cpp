@@ -22,7 +22,7 @@ double twice_area(std::span<const Vec2> contour) {
   return sum;
 }
 
-/// Metres.
+/// Returns the length of a contour, metres.
 double length(std::span<const Vec2> contour) {
   double sum = 0;
   for (std::size_t i = 0, before = contour.size() - 1; i < contour.size(); before = i++)

@@ -7,7 +7,7 @@
 
 namespace bch {
 
-/// Two agents by index. Their order does not matter to who collides; other queries say what they tell of the first.
+/// Two agents by index. Collisions do not depend on their order; other queries report about the first.
 struct Pair {
   std::uint32_t first;
   std::uint32_t second;

@@ -12,8 +12,8 @@
 
 namespace bch {
 
-/// The arrays of a shape set with their sizes, whoever owns them; ShapeSetView says what they hold. Each begins on a
-/// cache line.
+/// The arrays of a shape set with their sizes, owned or not; ShapeSetView says what they hold. Each begins on
+/// a cache line.
 struct ShapeArrays {
   std::span<const std::uint32_t> depths;  ///< cut depths, ascending: one a level, 1 to 255 of them
   std::span<const Root> roots;

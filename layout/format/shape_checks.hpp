@@ -18,7 +18,7 @@
 /// the place in it and the value.
 namespace bch::shape_checks {
 
-// Of the whole set: array_checks.cpp.
+// These functions check the whole set: array_checks.cpp.
 void alignment(const ShapeArrays& a);
 void depths(const ShapeArrays& a);
 void sizes(const ShapeArrays& a);
@@ -37,7 +37,7 @@ void points(const ShapeArrays& a);
 void segment_margins(const ShapeArrays& a);
 void contour_discs(const ShapeArrays& a);
 
-// Of a level: level_checks.cpp.
+// These functions check a level: level_checks.cpp.
 void order_of_levels(const ShapeArrays& a, LevelNodes& level);
 void blocks(const ShapeArrays& a, LevelNodes& level);
 void room(const ShapeArrays& a, LevelNodes& level);
@@ -50,12 +50,13 @@ void single_discs(const ShapeArrays& a, LevelNodes& level);
 void reach_of_level(const ShapeArrays& a, LevelNodes& level);
 void segments_of_leaves(const ShapeArrays& a, LevelNodes& level);
 
-// Of a level: inner_node_checks.cpp.
+// These functions check the inner nodes of a level: inner_node_checks.cpp.
 void inner_nodes(const ShapeArrays& a, LevelNodes& level);
 void nodes_of_blocks(const ShapeArrays& a, LevelNodes& level);
 void outer_radii(const ShapeArrays& a, LevelNodes& level);
 
-/// Of coordinates, radii and supports, metres: a few reaches, as supports and outer radii stick out.
+/// The limit of coordinates, radii and supports, metres: a few reaches, as supports and outer radii stick
+/// out.
 constexpr float largest_length = 1e7f;
 constexpr float infinity = std::numeric_limits<float>::infinity();
 constexpr std::uint32_t top_bit = 0x80000000;
@@ -63,8 +64,8 @@ constexpr std::uint32_t top_bit = 0x80000000;
 [[noreturn]] void reject(const char* array, std::size_t place, const std::string& what);
 void require_size(const char* array, std::uint64_t size, std::uint64_t expected);
 
-/// The top bit of the result says so: a float whose magnitude is above a positive limit, or that is negative or above it.
-/// Plain integer operations, so that loops over many become vectors; NaN is above everything.
+/// Sets the result's top bit for a float whose magnitude is above a positive limit, or that is negative or
+/// above it. Plain integer operations let loops over many floats become vectors; NaN is above everything.
 inline std::uint32_t beyond(float value, float limit) {
   return std::bit_cast<std::uint32_t>(limit) - (std::bit_cast<std::uint32_t>(value) & 0x7fffffff);
 }
@@ -80,13 +81,13 @@ inline bool is_radius(float value) {
   return (negative_or_beyond(value, largest_length) & top_bit) == 0;
 }
 
-/// All bits or none.
+/// Returns all bits for padding, no bits for anything else.
 inline std::uint32_t is_padding(float x) {
   return -static_cast<std::uint32_t>(std::bit_cast<std::uint32_t>(x) ==
                                      std::bit_cast<std::uint32_t>(infinity));
 }
 
-/// Calls `good` for each, and names the first that is not. Returns so soon only where all are.
+/// Calls `good` for each record and rejects the first that is not good. It returns early only where all are.
 template <class Record, class Good>
 void require_all(const char* array, std::span<const Record> records, const char* what, Good good) {
   bool all = true;

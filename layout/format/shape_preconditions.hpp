@@ -20,8 +20,8 @@ struct NamedWindows {
   std::uint32_t count[block_width];
 };
 
-/// Where the nodes of one level of one shape lie. Checks of a level run in the order of shape_preconditions(); the first
-/// ones fill in what the later ones read.
+/// The places of the nodes of one level of one shape. Checks of a level run in the order of
+/// shape_preconditions(); the first ones fill in what the later ones read.
 struct LevelNodes {
   std::size_t root;            ///< shape * level count + level
   std::uint64_t begin;         ///< one past the level before

@@ -52,7 +52,7 @@ constexpr std::uint32_t above_cut_disc = 0x80000000;
 constexpr std::uint32_t inner_floats = sizeof(InnerNode) / sizeof(float);
 static_assert(sizeof(InnerNode) == 16);
 
-/// Where a level of a shape begins.
+/// The root of a level of a shape.
 struct Root {
   float x, y, radius;
   std::uint32_t row;  ///< of its supports, or one of the next two
@@ -65,7 +65,8 @@ static_assert(sizeof(Root) == 16);
 /// The level has no exact leaves: it is not that of all depths or a single disc, or the shape has no outline.
 constexpr std::uint32_t no_segments = 0xffffffff;
 
-/// Where a level's nodes are: blocks, then the cut's discs, all x, all y and all radii, then its inner nodes.
+/// The places of a level's nodes: blocks, then the cut's discs, all x, all y and all radii, then its inner
+/// nodes.
 struct Tree {
   std::uint32_t top;                     ///< node
   std::uint32_t discs;                   ///< where the first x is
@@ -140,7 +141,7 @@ struct ShapeSetView {
   const float* nodes;  ///< of all levels; see Tree
   const float* reach;  ///< per shape, metres, rounded up; null like the trees
 
-  // Null without the plan's shortcuts.
+  // Null without the plan's culling data.
   const float* support;        ///< rows of support_stride floats; those before first_row are infinite
   const DiscBlock* inscribed;  ///< per shape; see interior.hpp, like the next
   const Extremes* extremes;

@@ -10,11 +10,12 @@
 
 namespace bch {
 
-/// Checks all of shape_preconditions(): arrays that pass never make a query read elsewhere, and a pair takes no more than
-/// a small multiple of the time that an honest set of that size may take. Whether culling data, discs and outlines fit
-/// each other is not checked, because that takes longer than building them: see verify().
-/// `before_nodes`, where there is one, is called before each tree is read, tree after tree, with where its nodes begin,
-/// which may be beyond their end: for who wants to look at them at the same time.
+/// Checks all of shape_preconditions(). Arrays that pass never make a query read elsewhere, and a pair takes
+/// no more than a small multiple of the time that an honest set of that size may take. Culling data, discs
+/// and outlines are not checked against each other, because that takes longer than building them: see
+/// verify().
+/// `before_nodes`, if it is given, is called before each tree is read, tree after tree, with the place where
+/// the tree's nodes begin, which may be beyond their end. A caller can process the nodes at the same time.
 /// Errors:  throws std::invalid_argument naming the array, the place in it and the value.
 /// Cost:    one pass over the arrays, no allocation.
 void validate(const ShapeArrays& arrays, const std::function<void(std::size_t)>& before_nodes = {});

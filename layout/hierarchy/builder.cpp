@@ -58,7 +58,7 @@ void set_centre(HierarchyNode& node, Vec2 centre) {
 
 void clear(Hierarchy& hierarchy) {
   hierarchy.nodes.clear();
-  hierarchy.elements.clear(), hierarchy.source.clear(), hierarchy.held.clear();
+  hierarchy.primitives.clear(), hierarchy.source.clear(), hierarchy.primitive_ranges.clear();
   hierarchy.of_segments = false;
 }
 
@@ -142,7 +142,7 @@ void HierarchyBuilder::begin(double reach, double margin, double threshold, std:
   node_count_ = 0;
 }
 
-/// Room for more, which need not all be used.
+/// Makes room for more nodes, not all of which need to be used.
 inline void HierarchyBuilder::reserve(std::uint32_t nodes) {
   if (node_count_ + nodes > nodes_.size()) [[unlikely]]
     enlarge(nodes);
@@ -155,7 +155,7 @@ void HierarchyBuilder::enlarge(std::uint32_t nodes) {
   nodes_.resize(std::min(most_nodes_, 2 * std::size_t{node_count_} + nodes + 256));
 }
 
-/// First the tree, depth first, whose shape needs few discs, then the other discs.
+/// Grows the tree first, depth first, whose shape needs few discs, then computes the other discs.
 void HierarchyBuilder::grow(bool through_centre, std::uint32_t deepest) {
   const std::size_t count = items_.count;
   order_.resize(count);
@@ -196,11 +196,11 @@ void HierarchyBuilder::grow(bool through_centre, std::uint32_t deepest) {
     set(top[1], now.begin, middle, first, now.scratch + (now.end - middle));
     top += 2;
   }
-  even_halves_.write(items_.elements, OutwardRadii(margin_), nodes_);
+  even_halves_.write(items_.primitives, OutwardRadii(margin_), nodes_);
   solve_discs();
 }
 
-/// False for a leaf and for what is complete already.
+/// Adds a node. Returns false for a leaf and for a node that is complete already.
 bool HierarchyBuilder::add_node(const Open& open) {
   if (open.parent != none && open.parent + 1 != node_count_) nodes_[open.parent].second_child = node_count_;
   const ItemList items = open.items();
@@ -219,8 +219,9 @@ bool HierarchyBuilder::add_node(const Open& open) {
   return false;
 }
 
-/// The disc about a box holds its node's, whose diameter is at least the box's longer side, and what the node extends along
-/// a diagonal of the axes: the disc itself decides only between.
+/// Returns whether a node is a leaf. The disc about a box holds the node's disc, whose diameter is at least
+/// the box's longer side and the node's extent along a diagonal of the axes. The disc itself is computed only
+/// between these bounds.
 bool HierarchyBuilder::is_leaf(ItemList items, const SplitMeasure& box) {
   const double x = box.extent(0), y = box.extent(1);
   if (0.5 * std::max(x, y) >= threshold_) return false;
@@ -230,21 +231,21 @@ bool HierarchyBuilder::is_leaf(ItemList items, const SplitMeasure& box) {
   return smallest_enclosing_disc(std::span(points_).first(point_count_)).radius < threshold_;
 }
 
-/// A lone segment, by its place in the order, and, below, what it is halved into. The midpoint that divides it is its
-/// disc's centre.
+/// Adds a lone segment, given by its place in the order, and below it the pieces that it is halved into. The
+/// midpoint that divides it is its disc's centre.
 void HierarchyBuilder::add_lone_segment(std::uint32_t at, std::uint32_t below) {
   const std::uint32_t source = order_[at];
   first_node_[at] = node_count_;
   const std::uint8_t wanted = items_.halvings[source];
   if (wanted == EvenHalves::uneven)
-    return add_halves(items_.elements[source].a, items_.elements[source].b, below);
+    return add_halves(items_.primitives[source].a, items_.primitives[source].b, below);
   const int halvings = static_cast<int>(std::min<std::uint32_t>(wanted, below));
   reserve(EvenHalves::nodes(halvings));
   even_halves_.add(halvings, node_count_, source);
   node_count_ += EvenHalves::nodes(halvings);
 }
 
-/// The same where halves are not to be halved equally often.
+/// Adds the nodes of a lone segment whose pieces are not all halved equally often.
 void HierarchyBuilder::add_halves(Vec2 a, Vec2 b, std::uint32_t below) {
   std::size_t open_count = 0;
   for (;;) {
@@ -273,7 +274,7 @@ std::uint32_t HierarchyBuilder::add_node() {
   return node_count_++;
 }
 
-/// Triangles' points, or segments', which c repeats.
+/// Gathers the points of triangles, or those of segments, in which c repeats b.
 void HierarchyBuilder::gather_points(ItemList items) {
   const std::size_t count = items.size();
   points_.resize(std::max(points_.size(), 3 * count));
@@ -281,12 +282,12 @@ void HierarchyBuilder::gather_points(ItemList items) {
   last_point_.resize(std::max(last_point_.size(), count));
   Vec2* const points = points_.data();
   std::uint32_t *const first = first_point_.data(), *const last = last_point_.data();
-  const Element* const elements = items_.elements.data();
+  const Primitive* const primitives = items_.primitives.data();
   std::uint32_t at = 0;
-  const Vec2* next = &elements[items[0]].a;
+  const Vec2* next = &primitives[items[0]].a;
   for (std::size_t k = 0; k < count; ++k) {
-    const auto& [a, b, c] = elements[items[k]];
-    next = k + 1 < count ? &elements[items[k + 1]].a : next;
+    const auto& [a, b, c] = primitives[items[k]];
+    next = k + 1 < count ? &primitives[items[k + 1]].a : next;
     first[k] = at;
     points[at++] = a;
     points[at] = b;
@@ -306,7 +307,7 @@ void HierarchyBuilder::solve_discs() {
   solve(points_);
 }
 
-/// The sets, which are those of the unsolved nodes.
+/// Solves the sets, which are those of the unsolved nodes.
 void HierarchyBuilder::solve(std::span<const Vec2> points) {
   discs_.resize(sets_.size());
   solver_.solve(points, sets_, discs_);

@@ -21,14 +21,14 @@ namespace bch {
 class HierarchyBuilder {
  public:
   HierarchyBuilder() = default;
-  /// With a given implementation of the discs, which this processor has to support.
+  /// Uses a given implementation of the discs, which this processor has to support.
   explicit HierarchyBuilder(const DiscImplementation& implementation) : solver_(implementation) {}
 
   /// The most nodes of a hierarchy, 2^22 unless told: more throw std::length_error.
   void limit_nodes(std::size_t most) noexcept { most_nodes_ = most; }
 
-  /// As contour_hierarchy() documents, without elements. After an exception the hierarchy has no nodes.
-  /// `deepest`: nodes there are leaves; cuts down to there are the same.
+  /// Builds the hierarchy that contour_hierarchy() documents, without primitives. After an exception the
+  /// hierarchy has no nodes. `deepest`: nodes at this depth are leaves; cuts down to there are the same.
   void contour(const Outline& outline, float threshold, SplitRule rule, Hierarchy& hierarchy,
                std::uint32_t deepest = all_depths);
 
@@ -37,12 +37,13 @@ class HierarchyBuilder {
   /// Errors:  throws std::invalid_argument on no points or a reach outside rounding.hpp's domain.
   void root(std::span<const Vec2> points, float grid_step, Hierarchy& hierarchy);
 
-  /// As projected_hierarchy() documents, without elements. After an exception the hierarchy has no nodes.
+  /// Builds the hierarchy that projected_hierarchy() documents, without primitives. After an exception the
+  /// hierarchy has no nodes.
   void projected(std::span<const Vec2> vertices, std::span<const std::array<std::uint32_t, 3>> triangles,
                  Hierarchy& hierarchy);
 
-  /// Fills in the elements of the hierarchy that contour() or projected() made last: this builder's last call.
-  void add_elements(Hierarchy& hierarchy) const;
+  /// Fills in the primitives of the hierarchy that contour() or projected() made last: this builder's last call.
+  void add_primitives(Hierarchy& hierarchy) const;
 
  private:
   /// A node still to be made: a range of the order. Its items are listed there, or, of a second child, in the scratch.
@@ -81,7 +82,8 @@ class HierarchyBuilder {
   void solve_discs();
   void solve(std::span<const Vec2> points);
   void publish(Hierarchy& hierarchy);
-  void add_pieces(const Element& piece, std::uint32_t source, std::uint32_t node, Hierarchy& hierarchy) const;
+  void add_pieces(const Primitive& piece, std::uint32_t source, std::uint32_t node,
+                  Hierarchy& hierarchy) const;
 
   double margin_ = 0, threshold_ = 0;
   double sure_square_diagonal_ = 0;   ///< a node whose box has a shorter one is a leaf
@@ -101,7 +103,8 @@ class HierarchyBuilder {
       first_node_;  ///< per item of the order: a leaf that holds it, or of its pieces' nodes
   std::vector<Unsolved> unsolved_;
 
-  /// Of the gathered items, in order; a point that ends one and begins the next stands once.
+  /// The points of the gathered items, in order. A point that ends one item and begins the next is stored
+  /// once.
   std::vector<Vec2> points_;
   std::uint32_t point_count_ = 0;
   std::vector<std::uint32_t> first_point_, last_point_;  ///< per gathered item

@@ -46,10 +46,11 @@ __m128d write_piece(__m128d a, __m128d b, const OutwardRadii& radii, HierarchyNo
   return larger_square(_mm_sub_pd(a, middle), _mm_sub_pd(b, middle));
 }
 
-/// In units of u times the reach. After three halvings a midpoint is off by 2.34 u (rounding.hpp), and so is a piece's end,
-/// which is at most 2 sqrt(2) u, so that a length is off by 5.7 u; a length in float by 2.5 u of at most 2.83 times the
-/// reach, and the limits, where lengths come near them, by 2.9 u. Of a piece that is surely long 8 u remain, so that its
-/// midpoint is neither end, which takes 2.9 u.
+/// The slack for halving by length, in units of u times the reach. After three halvings a midpoint is off by
+/// 2.34 u (rounding.hpp), and so is a piece's end, which is at most 2 sqrt(2) u, so that a length is off by
+/// 5.7 u. A length in float is off by 2.5 u of at most 2.83 times the reach, and the limits, where lengths
+/// come near them, by 2.9 u. Of a piece that is surely long 8 u remain, so that its midpoint is neither end,
+/// which takes 2.9 u.
 constexpr double piece_end = 2 * rounding::terms::root_2, float_length = 2.5 * 2.83, limits = 2.9,
                  remains = 8;
 static_assert(piece_end >= rounding::terms::halved(EvenHalves::most_halvings) && remains >= piece_end);
@@ -86,12 +87,12 @@ void EvenHalves::write_halvings(__m128 lengths, std::uint8_t* halvings) const {
   __builtin_memcpy(halvings, &packed, sizeof packed);
 }
 
-void EvenHalves::write(const std::vector<Element>& segments, const OutwardRadii& radii,
+void EvenHalves::write(const std::vector<Primitive>& segments, const OutwardRadii& radii,
                        std::vector<HierarchyNode>& nodes) const {
   const auto write_all = [&]<int halvings>() {
     const std::vector<Segment>& all = segments_[halvings];
     const auto write_one = [&](const Segment& segment) {
-      const Element& whole = segments[segment.source];
+      const Primitive& whole = segments[segment.source];
       return write_piece<halvings>(widened(whole.a), widened(whole.b), radii, &nodes[segment.node],
                                    segment.node);
     };

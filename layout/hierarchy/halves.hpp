@@ -14,9 +14,10 @@
 
 namespace bch {
 
-/// Lone segments that are halved evenly: all pieces have been halved equally often. What that makes of a segment is
-/// known from its length, so that its nodes can be counted while the tree grows and written later, segments of a
-/// kind in one loop: one after the other, how often is a coin toss that costs more than the halving.
+/// Lone segments that are halved evenly: all pieces have been halved equally often. The nodes of such a
+/// segment are known from its length. So they are counted while the tree grows and written later, in one loop
+/// for all segments with the same number of halvings. In the order of segments that number could not be
+/// predicted, which costs more than the halving.
 class EvenHalves {
  public:
   static constexpr int most_halvings = 3;
@@ -32,8 +33,8 @@ class EvenHalves {
   void add(int halvings, std::uint32_t node, std::uint32_t source) {
     segments_[static_cast<std::size_t>(halvings)].push_back({node, source});
   }
-  /// Fills the room.
-  void write(const std::vector<Element>& segments, const OutwardRadii& radii,
+  /// Writes the nodes of all segments into the room that add() left.
+  void write(const std::vector<Primitive>& segments, const OutwardRadii& radii,
              std::vector<HierarchyNode>& nodes) const;
 
  private:

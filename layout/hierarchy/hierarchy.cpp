@@ -45,7 +45,7 @@ Hierarchy contour_hierarchy(const Outline& outline, float threshold, SplitRule r
   Hierarchy hierarchy;
   HierarchyBuilder builder;
   builder.contour(outline, threshold, rule, hierarchy);
-  builder.add_elements(hierarchy);
+  builder.add_primitives(hierarchy);
   return hierarchy;
 }
 
@@ -54,7 +54,7 @@ Hierarchy projected_hierarchy(std::span<const Vec2> vertices,
   Hierarchy hierarchy;
   HierarchyBuilder builder;
   builder.projected(vertices, triangles, hierarchy);
-  builder.add_elements(hierarchy);
+  builder.add_primitives(hierarchy);
   return hierarchy;
 }
 

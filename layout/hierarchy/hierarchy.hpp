@@ -15,14 +15,14 @@
 namespace bch {
 
 /// What leaves hold: a triangle, or a segment (c equals b), or a point (all equal).
-struct Element {
+struct Primitive {
   Vec2 a, b, c;
 };
 
 /// A node of the binary tree. Nodes stand in depth-first order: the first child of an inner node is the next
 /// node.
 struct HierarchyNode {
-  /// The smallest disc that encloses the node's elements, enlarged only by what rounding.hpp derives. It need not hold
+  /// The smallest disc that encloses the node's primitives, enlarged only by what rounding.hpp derives. It need not hold
   /// the discs of the nodes below: see bounding_radii().
   Disc disc;
   std::uint32_t second_child = 0;  ///< 0: a leaf
@@ -31,8 +31,8 @@ struct HierarchyNode {
 };
 static_assert(sizeof(HierarchyNode) == 16);
 
-/// A run of elements.
-struct ElementRange {
+/// A run of primitives.
+struct PrimitiveRange {
   std::uint32_t begin, end;
 };
 
@@ -41,14 +41,15 @@ struct ElementRange {
 ///          collision checking between virtual characters", Computer Animation and Virtual Worlds 25, 2014.
 struct Hierarchy {
   std::vector<HierarchyNode> nodes;  ///< the root first; never empty
-  double reach = 0;                  ///< metres: largest distance of an element's point from the origin
+  double reach = 0;                  ///< metres: largest distance of a primitive's point from the origin
 
   // What nodes hold. Flat shapes and queries need none of it, so that builders fill it in where they are asked to, and
   // leave it empty elsewhere.
-  std::vector<Element> elements;      ///< in the order of the leaves
-  std::vector<std::uint32_t> source;  ///< per element: index of the outline segment or triangle it comes from
-  std::vector<ElementRange> held;     ///< per node: its elements
-  bool of_segments = false;  ///< the elements are an outline's segments or pieces of them, not triangles
+  std::vector<Primitive> primitives;  ///< in the order of the leaves
+  std::vector<std::uint32_t>
+      source;  ///< per primitive: index of the outline segment or triangle it comes from
+  std::vector<PrimitiveRange> primitive_ranges;  ///< per node: its primitives
+  bool of_segments = false;  ///< the primitives are an outline's segments or pieces of them, not triangles
 };
 
 /// Checks what others rely on: at least one node, children after their parents, discs that are finite, larger than 0 and
@@ -56,7 +57,7 @@ struct Hierarchy {
 /// Errors:  throws std::invalid_argument naming the node and the value.
 void validate(const Hierarchy& hierarchy);
 
-/// Where the plane goes that divides a node's segments; its normal is the axis of the larger extent.
+/// The place of the plane that divides a node's segments; its normal is the axis of the larger extent.
 enum class SplitRule {
   centroid,  ///< through the centroid, weighted by length so that detailed parts do not pull it
   centre,    ///< through the middle of the extent
@@ -67,13 +68,13 @@ enum class SplitRule {
 /// threshold is halved; a node whose smallest enclosing disc has a radius below the threshold is a leaf, as
 /// is a lone segment.
 /// Units:   metres; the threshold is positive and finite.
-/// Returns: the hierarchy with its elements.
+/// Returns: the hierarchy with its primitives.
 /// Errors:  throws std::invalid_argument on a bad outline, threshold or rule, std::length_error beyond 2^22 nodes.
 Hierarchy contour_hierarchy(const Outline& outline, float threshold, SplitRule rule = SplitRule::centroid);
 
 /// The paper's hierarchy over all projected triangles: the plane goes through the mean of the vertices, a
 /// triangle goes to the side of its centroid and is never cut; one triangle is a leaf.
-/// Returns: the hierarchy with its elements.
+/// Returns: the hierarchy with its primitives.
 /// Errors:  throws std::invalid_argument on no triangles, an index out of range, a vertex of theirs that is not finite,
 ///          or a reach outside rounding.hpp's domain. Vertices of no triangle do not count.
 Hierarchy projected_hierarchy(std::span<const Vec2> vertices,

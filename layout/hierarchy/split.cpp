@@ -45,15 +45,15 @@ struct Plane {
   __m128 at;
 };
 
-/// Of all items' middles, where lengths do not tell.
+/// Returns the mean of all items' middles, for items whose lengths cannot serve as weights.
 float mean(const SplitItems& items, ItemList list, std::size_t axis) {
   float sum = 0;
   for (const std::uint32_t i : list) sum += items.middle[axis][i];
   return sum / static_cast<float>(list.size());
 }
 
-/// Across the longer axis, or the other one. Both axes are computed, because which is longer is known as late as the
-/// planes, and cannot be predicted.
+/// Returns the plane across the longer axis, or across the other one. Both axes are computed, because which
+/// is longer is known as late as the planes, and cannot be predicted.
 Plane plane(const SplitItems& items, ItemList list, const SplitMeasure& whole, bool through_centre,
             bool across_longer) {
   const __m128 box = _mm_loadu_ps(whole.box), sums = _mm_loadu_ps(whole.sums);
@@ -110,7 +110,7 @@ double diagonal_extent(const SplitItems& items, ItemList list) {
   const __m128d none = _mm_set1_pd(HUGE_VAL);
   __m128d low = none, minus_high = none;
   for (const std::uint32_t i : list) {
-    const auto& [a, b, c] = items.elements[i];
+    const auto& [a, b, c] = items.primitives[i];
     for (const Vec2 p : {a, b, c}) {
       const double x = p.x, y = p.y;
       const __m128d sums = _mm_setr_pd(x + y, x - y);

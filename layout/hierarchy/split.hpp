@@ -39,7 +39,7 @@ std::size_t divide(const SplitItems& items, ItemList list, const SplitMeasure& w
                    std::uint32_t* first_list, std::uint32_t* second_list, SplitMeasure& first,
                    SplitMeasure& second);
 
-/// The same for two items, both to one place, without the measures.
+/// Divides a node of two items, writes both to one place, and computes no measures.
 void divide_pair(const SplitItems& items, ItemList list, const SplitMeasure& whole, bool through_centre,
                  std::uint32_t* both);
 

@@ -43,7 +43,7 @@ void SplitItems::begin(std::size_t most) {
   count = 0;
   const std::size_t room = most + width;
   if (items.size() >= room) return;
-  items.resize(room), elements.resize(room), halvings.resize(room);
+  items.resize(room), primitives.resize(room), halvings.resize(room);
   for (auto& of_axis : middle) of_axis.resize(room);
 }
 
@@ -66,12 +66,12 @@ void SplitItems::add_contour(std::span<const Vec2> points, const EvenHalves& hal
     _mm_storeu_ps(&middle[0][at], middle_x);
     _mm_storeu_ps(&middle[1][at], middle_y);
     halves.write_halvings(length, &halvings[at]);
-    for (std::size_t k = 0; k < width; ++k) elements[at + k] = {ends[k], ends[k + 1], ends[k + 1]};
+    for (std::size_t k = 0; k < width; ++k) primitives[at + k] = {ends[k], ends[k + 1], ends[k + 1]};
   }
   count += points.size();
 }
 
-void SplitItems::add_triangle(const Element& triangle) {
+void SplitItems::add_triangle(const Primitive& triangle) {
   const auto& [a, b, c] = triangle;
   SplitItem& item = items[count];
   item.sums[2] = 3, item.sums[3] = 0;
@@ -83,7 +83,7 @@ void SplitItems::add_triangle(const Element& triangle) {
   };
   set(0, a.x, b.x, c.x);
   set(1, a.y, b.y, c.y);
-  elements[count++] = triangle;
+  primitives[count++] = triangle;
 }
 
 }  // namespace bch

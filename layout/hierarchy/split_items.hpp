@@ -14,26 +14,26 @@
 
 namespace bch {
 
-/// What an element, a segment or a triangle, counts for while nodes are divided. Axis 0 is x, 1 is y.
+/// What a primitive, a segment or a triangle, counts for while nodes are divided. Axis 0 is x, 1 is y.
 struct alignas(32) SplitItem {
   float box[4];   ///< low x, low y, -high x, -high y: one minimum grows it
   float sums[4];  ///< what it adds to its node's: moments in x and y, weight, 0
 };
 
-/// The elements of a shape, array by array; there is room for more than `count`. In float: which side of a plane an
-/// element falls on is a choice, not a claim, and every processor rounds it alike.
+/// The primitives of a shape, array by array; there is room for more than `count`. In float: which side of a plane an
+/// primitive falls on is a choice, not a claim, and every processor rounds it alike.
 struct SplitItems {
   std::size_t count = 0;
   std::vector<SplitItem> items;
-  std::array<std::vector<float>, 2> middle;  ///< per axis: the point that decides an element's side
-  std::vector<Element> elements;
+  std::array<std::vector<float>, 2> middle;  ///< per axis: the point that decides a primitive's side
+  std::vector<Primitive> primitives;
   std::vector<std::uint8_t> halvings;  ///< of segments, as EvenHalves has them
 
   /// Starts anew, with room for so many.
   void begin(std::size_t most);
   /// A closed contour's segments, four at a time.
   void add_contour(std::span<const Vec2> points, const EvenHalves& halves);
-  void add_triangle(const Element& triangle);
+  void add_triangle(const Primitive& triangle);
 
  private:
   std::vector<Vec2> ring_;  ///< a contour's points and its first ones again

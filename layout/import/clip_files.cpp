@@ -218,7 +218,8 @@ class ClipFile {
     notes.push_back(what + ", but --force-clips takes it: " + reason);
   }
 
-  /// In units of the files; from the units alone where no bone can be compared.
+  /// Returns the ratio of the skeletons' sizes in units of the files, or that of the units alone where no
+  /// bone can be compared.
   double size_ratio(const Comparison& comparison, const Character& character) const {
     if (comparison.size_ratio) return *comparison.size_ratio;
     const double ours = scale_of(character.to_ground.cast<double>());

@@ -37,8 +37,9 @@ bool is_supported(const Assimp::Importer& importer, std::size_t index) {
                                              std::string_view(description->mName)) != std::end(supported);
 }
 
-/// Whether a stream is UTF-8 text behind a byte order mark, which the readers of OBJ and others take for a part of the
-/// first line. What holds a zero where a binary STL file has its counts is no text. Leaves the stream at its beginning.
+/// Returns whether a stream is UTF-8 text behind a byte order mark, which the readers of OBJ and others take
+/// for a part of the first line. A stream with a zero where a binary STL file has its counts is no text.
+/// Leaves the stream at its beginning.
 bool begins_with_mark(Assimp::IOStream& stream) {
   char start[84];
   const std::string_view text(start, stream.Read(start, 1, sizeof start));

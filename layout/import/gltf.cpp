@@ -57,7 +57,7 @@ void push_all(const JsonValue& list, aiNode* parent, aiNode** places, std::vecto
   for (std::size_t i = list.size(); i-- > 0;) stack.push_back({list[i], parent, places + i});
 }
 
-/// Depth first, with a stack of our own: a file chooses its depth.
+/// Reads the nodes depth first, with a stack of our own, because a file chooses its depth.
 void read_scene_nodes(GltfReader& reader, const JsonValue& roots) {
   const JsonValue nodes = reader.file.root()["nodes"];
   reader.names.resize(nodes.size());

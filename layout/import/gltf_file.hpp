@@ -25,7 +25,7 @@ constexpr std::size_t largest_offset = largest_file;
 /// the file does not bound them.
 constexpr std::size_t most_values = std::size_t{1} << 28;
 
-/// Whether a file is glTF, by its beginning or its extension.
+/// Returns whether a file is glTF, judged by its beginning or its extension.
 bool is_gltf(const std::filesystem::path& file);
 
 /// The bytes of an element's first component and the way to the next element.
@@ -34,7 +34,7 @@ struct Elements {
   std::size_t stride = 0;
 };
 
-/// Of an accessor's element of that type, such as "VEC3".
+/// Returns the number of components of an accessor's element of that type, such as "VEC3".
 std::size_t components_of(std::string_view type);
 
 struct Decoder;
@@ -60,7 +60,7 @@ class GltfFile {
   /// The numbers of an accessor, element by element: of any component type, integers normalised where it says so,
   /// sparse or not. `type` is what the accessor has to be, such as "VEC3".
   std::vector<float> floats(const JsonValue& accessor, const char* type);
-  /// Likewise unsigned integers.
+  /// The unsigned integers of an accessor, element by element.
   std::vector<std::uint32_t> indices(const JsonValue& accessor, const char* type);
 
  private:

@@ -30,7 +30,7 @@ std::size_t faces_of(Mode mode, std::size_t corners) {
   return mode == line_loop ? corners : corners + 1 - each;
 }
 
-/// Where corner `k` of a face stands in the list. Faces of a strip turn the same way.
+/// Returns the place of a face's corner `k` in the list. Faces of a strip turn the same way.
 std::size_t corner_of(Mode mode, std::size_t face, std::size_t k, std::size_t corners) {
   switch (mode) {
     case line_loop:
@@ -217,7 +217,7 @@ bool has_morphs(const JsonValue& mesh) {
 
 void read_gltf_meshes(GltfReader& reader) {
   const GltfFile& file = reader.file;
-  // In order of the file's meshes, which is the order in which messages number them.
+  // The map is in the order of the file's meshes, which is the order in which messages number them.
   std::map<std::pair<std::size_t, std::size_t>, std::vector<std::size_t>> users;
   const JsonValue nodes = file.root()["nodes"];
   for (std::size_t n = 0; n < reader.nodes.size(); ++n) {

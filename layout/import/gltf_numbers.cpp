@@ -12,7 +12,7 @@
 namespace bch::import_detail {
 namespace {
 
-/// Those of an accessor without bytes, whose elements are 0 but for sparse ones.
+/// The most numbers of an accessor without bytes, whose elements are 0 but for sparse ones.
 constexpr std::size_t most_zeros = std::size_t{1} << 24;
 
 template <class Number>

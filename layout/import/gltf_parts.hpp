@@ -38,7 +38,7 @@ inline aiVector3D vector_from(const float* xyz) {
 inline aiQuaternion quaternion_from(const float* xyzw) {
   return {xyzw[3], xyzw[0], xyzw[1], xyzw[2]};
 }
-/// From 16 numbers, column by column.
+/// Returns a matrix of 16 numbers, given column by column.
 aiMatrix4x4 matrix_from(const float* columns);
 
 /// Gives the scene the meshes of its nodes, one for every primitive and skin.
@@ -47,7 +47,7 @@ void read_gltf_meshes(GltfReader& reader);
 /// Gives the scene the animations of the file.
 void read_gltf_animations(GltfReader& reader);
 
-/// Whether morph targets move vertices of a mesh.
+/// Returns whether morph targets move vertices of a mesh.
 bool has_morphs(const JsonValue& mesh);
 
 }  // namespace bch::import_detail

@@ -86,7 +86,7 @@ ImportedCharacter import_character(const std::filesystem::path& file, const Impo
   } catch (const std::bad_alloc&) {
     reject(file, "needs more memory than there is");
   } catch (const std::exception& error) {
-    // Also what validate() and the skinning find; a further line of defence.
+    // This also catches errors of validate() and the skinning, as a further line of defence.
     reject(file, error.what());
   }
 }

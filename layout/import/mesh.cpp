@@ -135,7 +135,7 @@ std::weak_ordering order(float a, float b) {
                  : std::weak_ordering::equivalent;
 }
 
-/// By position, then by influences.
+/// Compares two vertices by position, then by influences.
 std::weak_ordering compare_vertices(const Character& c, std::uint32_t a, std::uint32_t b) {
   for (int axis = 0; axis < 3; ++axis)
     if (const auto result = order(c.vertices[a][axis], c.vertices[b][axis]); result != 0) return result;
@@ -149,7 +149,7 @@ std::weak_ordering compare_vertices(const Character& c, std::uint32_t a, std::ui
       });
 }
 
-/// For every vertex the first of those that are equal to it.
+/// Finds for every vertex the first of those that are equal to it.
 std::vector<std::uint32_t> find_equals(const Character& c) {
   std::vector<std::uint32_t> sorted(c.vertices.size());
   std::iota(sorted.begin(), sorted.end(), 0u);

@@ -15,7 +15,7 @@ namespace {
 constexpr double farthest_share = 1.5;  // of the rest pose's reach
 constexpr int steps = 16;               // poses of a clip, less one
 
-/// To the millimetre.
+/// Returns the text of a length, rounded to the millimetre.
 std::string text_of(double metres) {
   return shortest(std::round(metres * 1e3) / 1e3) + " m";
 }

@@ -58,9 +58,9 @@ double travel(const Character& character, std::size_t joint, double metres_per_u
 
 }  // namespace
 
-/// Of the trunk's joints the lowest with which a clip walks away, so that no shape leaves its origin. If all
-/// clips stay in place, the topmost that moves at all: what sways below it is motion of the body over its
-/// root. Without motion the lowest that carries everything, the hips of most skeletons.
+/// Finds the lowest of the trunk's joints with which a clip walks away, so that no shape leaves its origin.
+/// If all clips stay in place, it is the topmost that moves at all: what sways below it is motion of the body
+/// over its root. Without motion it is the lowest that carries everything, the hips of most skeletons.
 std::int32_t find_root_joint(const Character& character, const std::vector<bool>& bone_is_skin) {
   const Trunk trunk = find_trunk(character, bone_is_skin);
   if (trunk.joints.empty()) return -1;

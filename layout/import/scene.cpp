@@ -123,7 +123,8 @@ Eigen::Affine3f read_matrix(const SceneFile& file, const aiMatrix4x4& m, const s
   return Eigen::Affine3f(matrix);
 }
 
-/// Depth first and in the order of the file, with a stack of our own: a file chooses its depth.
+/// Reads the nodes depth first and in the order of the file, with a stack of our own, because a file chooses
+/// its depth.
 NodeList read_nodes(const SceneFile& file) {
   struct Pending {
     const aiNode* node;

@@ -44,7 +44,7 @@ struct SceneFile {
 
   /// Errors:  throws ImportError if the file cannot be read as a scene with a root node.
   SceneFile(const std::filesystem::path& file, const ImportOptions& options);
-  /// A scene that somebody else owns, as if a reader of this name had found it in the file.
+  /// Takes a scene that the caller owns, as if a reader of this name had found it in the file.
   SceneFile(const std::filesystem::path& file, const aiScene& scene_there, const std::string& reader)
       : path(file), scene(&scene_there), format(reader) {}
 

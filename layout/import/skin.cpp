@@ -69,7 +69,7 @@ double normalise(std::vector<Influence>& list) {
   return sum;
 }
 
-/// For each vertex without influences those of the nearest vertex that has some, by a sweep along x.
+/// Gives each vertex without influences those of the nearest vertex that has some, by a sweep along x.
 void fill_gaps(const aiMesh& mesh, InfluenceLists& lists) {
   std::vector<unsigned> weighted;
   for (unsigned v = 0; v < lists.size(); ++v)

@@ -38,13 +38,13 @@ Eigen::Matrix3f upright(Direction up);
 Direction settle_frame(const SceneFile& file, const DeclaredFrame& declared, const ImportOptions& options,
                        Character& character, ImportReport& report);
 
-/// For every joint: how many metres one unit of its position keys is, at rest.
+/// Returns for every joint how many metres one unit of its position keys is, at rest.
 std::vector<double> metres_above(const Character& character);
 
 /// Errors:  throws ImportError if a pose leaves the range of 1000 km or is not finite.
 void check_poses(const SceneFile& file, const Character& character);
 
-/// Of the rest pose, in metres, once the frame is settled.
+/// Returns the height of the rest pose, in metres, once the frame is settled.
 float rest_height(const Character& character);
 
 }  // namespace bch::import_detail

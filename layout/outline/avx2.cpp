@@ -63,7 +63,8 @@ struct Avx2 {
     };
     return _mm256_inserti128_si256(_mm256_castsi128_si256(two(0)), two(2), 1);
   }
-  /// By exact products. With floats, eight at a time, it takes as long: as the loads do.
+  /// Computes the sides of four triangles by exact products. Floats, eight at a time, take as long, because
+  /// the loads decide the time.
   static std::uint32_t sides_of_four(const std::uint32_t* corners, const GridPoint* points) {
     const __m256i a = gather(corners, points, 0);
     const __m256i u = _mm256_sub_epi32(gather(corners, points, 1), a);

@@ -29,14 +29,15 @@ struct OutlineImplementation;
 /// where they begin.
 class OutlineBuilder {
  public:
-  /// The bind pose, where there is one, makes it fast: edges near each other are looked at together, and
-  /// vertices at the same place are taken to stay together as long as a pose does not part them.
+  /// Learns the mesh. The bind pose, if there is one, makes building fast: edges near each other are
+  /// processed together, and vertices at the same place are taken to stay together as long as a pose does not
+  /// separate them.
   /// Shapes:  triangle indices are below `vertices`; the bind pose has as many positions, or none.
   /// Errors:  throws std::invalid_argument on no triangles, an index out of range, a bind pose of another
   ///          length or with a position that is not finite. Vertices that no triangle uses do not count.
   OutlineBuilder(std::span<const std::array<std::uint32_t, 3>> triangles, std::size_t vertices,
                  std::span<const Eigen::Vector3f> bind_pose = {});
-  /// The same with a given implementation instead of the best, which this processor has to support.
+  /// Uses a given implementation instead of the best. This processor has to support it.
   OutlineBuilder(std::span<const std::array<std::uint32_t, 3>> triangles, std::size_t vertices,
                  std::span<const Eigen::Vector3f> bind_pose, const OutlineImplementation& implementation);
   OutlineBuilder(OutlineBuilder&&) noexcept;
@@ -49,7 +50,7 @@ class OutlineBuilder {
   /// Errors:  throws std::invalid_argument on another number of positions than of vertices, a coordinate that
   ///          is not finite, a reach outside the domain of rounding.hpp, or when every triangle is a point.
   void build(std::span<const Vec2> positions, Outline& outline);
-  /// The same of positions with heights, whatever those are.
+  /// Writes the outline of positions with heights, which may have any value.
   void build(std::span<const Eigen::Vector3f> positions, Outline& outline);
 
  private:

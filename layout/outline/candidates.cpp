@@ -70,7 +70,7 @@ void OutlineCandidates::find(const OutlineTopology& topology, std::span<const Gr
   boxes_.assign(segments_.data(), count_);
 }
 
-/// Where welded vertices are apart, each use is an edge of its own.
+/// Adds an edge's uses. If welded vertices are apart, each use is an edge of its own.
 void OutlineCandidates::add_uses(std::span<const GridPoint> points,
                                  std::span<const OutlineTopology::EdgeUse> uses) {
   bool together = true;

@@ -18,7 +18,7 @@ std::uint64_t spread(std::uint32_t number) {
   return (bits | bits << 1) & 0x5555555555555555;
 }
 
-/// Where a point is on Morton's curve, along which neighbours are mostly near each other.
+/// Returns a point's place on Morton's curve, along which neighbours are mostly near each other.
 std::uint64_t morton(GridPoint point) {
   constexpr std::uint32_t offset = std::uint32_t{1} << 31;
   return spread(static_cast<std::uint32_t>(point.x) + offset) << 1 |

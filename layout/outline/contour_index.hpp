@@ -26,7 +26,7 @@ class ContourIndex {
   /// Adds a contour that begins in that place, by its number and a box around it.
   void add(std::size_t place, std::size_t contour, const GridBox& box);
 
-  /// Whether a contour whose box holds the point is accepted by `accept`, a function of its number.
+  /// Returns whether `accept`, a function of a contour's number, accepts a contour whose box holds the point.
   template <class Accept>
   bool any(GridPoint point, Accept accept) const {
     std::size_t open[most_open], count = 0;

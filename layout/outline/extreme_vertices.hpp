@@ -13,10 +13,11 @@
 
 namespace bch {
 
-/// Of a mesh in pose after pose the few vertices that decide the single disc around it, and its reach: corners of its
-/// convex hull, which need no outline. They are snapped to the grid of outlines (outline_builder.hpp), so that the disc
-/// around them is the disc around the outline. Only there may it differ that a whole triangle seen as a point counts
-/// here, and that a crossing on the hull is rounded beyond it there, both within the grid's share of a disc's margin.
+/// Finds the few vertices of a mesh, in pose after pose, that decide the single disc around it and its reach:
+/// corners of its convex hull, which need no outline. They are snapped to the grid of outlines
+/// (outline_builder.hpp), so that the disc around them is the disc around the outline. It may differ in two
+/// ways only: a whole triangle seen as a point counts here, and a crossing on the hull is rounded beyond it
+/// there, both within the grid's share of a disc's margin.
 class ExtremeVertices {
  public:
   /// Shapes:  triangle indices are below `vertices`, and there is a triangle.

@@ -36,7 +36,7 @@ inline std::int64_t dot(GridVector a, GridVector b) {
   return a.x * b.x + a.y * b.y;
 }
 
-/// Of the lower x, or of the same and the lower y.
+/// Returns whether a has the lower x, or the same x and the lower y.
 inline bool lexicographically_less(GridPoint a, GridPoint b) {
   return a.x != b.x ? a.x < b.x : a.y < b.y;
 }

@@ -54,7 +54,7 @@ class Chosen {
   std::span<const std::uint32_t> used_;
 };
 
-/// Of all of them, without heights between.
+/// (x, y) of all vertices, without heights between.
 class All {
  public:
   explicit All(std::span<const Vec2> positions) : positions_(positions) {}

@@ -26,7 +26,7 @@ struct alignas(64) BoxBlock {
   std::int16_t max_x[boxes_per_block], max_y[boxes_per_block];
 };
 
-/// At most so many groups are looked at together: the bits of their boxes fit a word.
+/// At most so many groups are searched together: the bits of their boxes fit a word.
 constexpr std::size_t groups_in_a_word = 4;
 
 /// Two levels of boxes (BoxTree), the candidates that they are around, and room for what is found.

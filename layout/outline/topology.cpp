@@ -47,7 +47,7 @@ std::vector<Eigen::Vector3f> used_positions(Positions bind_pose, std::span<const
   return positions;
 }
 
-/// For each vertex the first at the same position.
+/// Finds for each vertex the first at the same position.
 std::vector<std::uint32_t> welded(Positions positions, std::size_t vertices) {
   std::vector<std::uint32_t> weld(vertices);
   std::iota(weld.begin(), weld.end(), 0u);

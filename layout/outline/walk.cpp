@@ -19,8 +19,8 @@ constexpr std::size_t most_stretches_per_segment = 256;
 /// From so many candidates on, more than poses of characters have, they are found through the tree.
 constexpr std::size_t many_candidates = 16384;
 
-/// A way is looked at in pieces. The first one is of at least so many steps, and so many times as long as the last
-/// stretch; each further one is so many times as long as the one before.
+/// A way is searched in pieces. The first one is of at least so many steps, and so many times as long as the
+/// last stretch; each further one is so many times as long as the one before.
 constexpr double shortest_piece = 64, more_than_last = 1.125, piece_growth = 4;
 
 double length_of(GridVector way) {
@@ -101,7 +101,7 @@ void OutlineWalk::find_near(const Place& here, GridPoint rounded_here) {
        cell(std::min(from.y - 1, to.y)), cell(std::max(from.x + 1, to.x)), cell(std::max(from.y + 1, to.y))});
 }
 
-/// The same through the tree, for the part of the line between two shares of it.
+/// Finds the candidates near the part of the line between two shares of it, through the tree.
 void OutlineWalk::find_near_piece(const Place& here, double begin, double end) {
   near_count_ = tree_.find(place_on(here, begin), place_on(here, end), near_.data());
   std::fill_n(near_.begin() + static_cast<std::ptrdiff_t>(near_count_), boxes_per_block, 0u);

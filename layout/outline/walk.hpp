@@ -42,7 +42,7 @@ class OutlineWalk {
   /// Errors:  throws std::logic_error should the walk be longer than any face's boundary can be.
   void walk(GridPoint start, std::vector<Stretch>& contour);
 
-  /// Whether a contour has come along a candidate of this island.
+  /// Returns whether a contour has come along a candidate of this island.
   bool touched(std::uint32_t island) const { return touched_[island] != 0; }
 
  private:

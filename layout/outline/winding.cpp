@@ -12,13 +12,13 @@
 namespace bch {
 namespace {
 
-/// Stretches that are looked at together.
+/// The number of stretches that are tested together.
 constexpr std::size_t width = 4;
 /// Stretches with a box of their own, by which most of a long contour is left aside.
 constexpr std::size_t part_size = 64;
 static_assert(part_size % width == 0);
 
-/// Whether a point of the stretch's line is between the ends of the stretch.
+/// Returns whether a point of the stretch's line is between the ends of the stretch.
 bool between(const Place& begin, const Place& end, GridPoint point) {
   const GridVector way = begin.direction();
   const bool along_x = way.x != 0;
@@ -28,7 +28,7 @@ bool between(const Place& begin, const Place& end, GridPoint point) {
   return forward ? from_begin <= 0 && from_end >= 0 : from_begin >= 0 && from_end <= 0;
 }
 
-/// Of some of a contour's stretches and the first of the next ones.
+/// A part of a contour: some of its stretches and the first of the next ones.
 struct ContourPart {
   std::span<const Stretch> contour;
   std::size_t first, last;

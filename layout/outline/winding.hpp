@@ -20,11 +20,11 @@ class ContourCovers {
   void add(std::span<const Stretch> contour);
 
   std::size_t size() const { return begin_.size() - 1; }
-  /// Whether a point is inside contour i, which has the given stretches, or on it, exactly.
+  /// Returns whether a point is inside contour i, which has the given stretches, or on it, exactly.
   bool covers(std::size_t i, std::span<const Stretch> contour, GridPoint point) const;
 
  private:
-  /// Where stretches begin, rounded; after a contour's last one its first again.
+  /// The places where stretches begin, rounded. After a contour's last one its first is repeated.
   std::vector<std::int32_t> x_, y_;
   std::vector<GridBox> boxes_;  ///< of the stretches of a contour, part after part
   std::vector<std::size_t> begin_ = {0}, boxes_begin_ = {0};

@@ -45,7 +45,7 @@ const Outline& PoseShaper::make_outline(PoseTime at) {
 
 const Shape& PoseShaper::make_hierarchy() {
   hierarchy_builder_.contour(shape_.outline, threshold_, SplitRule::centroid, shape_.hierarchy, deepest_);
-  if (deepest_ == all_depths) hierarchy_builder_.add_elements(shape_.hierarchy);
+  if (deepest_ == all_depths) hierarchy_builder_.add_primitives(shape_.hierarchy);
   return shape_;
 }
 

@@ -33,13 +33,13 @@ class PoseShaper {
   /// The most nodes of a hierarchy, 2^22 unless told: shapes of more throw std::length_error.
   void limit_nodes(std::size_t most) { hierarchy_builder_.limit_nodes(most); }
 
-  /// Returns: the shape that pose_shape() makes, down to the deepest depth, until the next call; with elements where that is
+  /// Returns: the shape that pose_shape() makes, down to the deepest depth, until the next call; with primitives where that is
   /// all_depths, because exact leaves need them.
   /// Errors:  as pose_shape(), but that heights may be anything; the shape made before is lost.
   const Shape& shape(PoseTime at);
 
-  /// shape() in two steps, for who needs the outline alone or takes the time of each: make_outline() is about
-  /// a pose, make_hierarchy() about the outline made last.
+  /// Makes the shape in two steps, for callers that need the outline alone or take the time of each:
+  /// make_outline() is about a pose, make_hierarchy() about the outline made last.
   /// Preconditions: the shaper makes outlines.
   const Outline& make_outline(PoseTime at);
   const Shape& make_hierarchy();

@@ -45,7 +45,7 @@ class Shapes {
   std::vector<ShapeSource> list;
 
  private:
-  /// Not beyond the time itself, which may be the clip's end.
+  /// Rounds a time down to a step, but not beyond the time itself, which may be the clip's end.
   float stepped(float seconds) const {
     const double steps = std::floor(static_cast<double>(seconds) / step_);
     return std::min(seconds, static_cast<float>(steps * step_));
@@ -95,7 +95,7 @@ ScenePlan plan_scene(std::span<const SceneAgent> agents, const SceneUse& use) {
   ScenePlan plan;
   plan.set.depths = different(depths);
   plan.set.outlines = use.solid || (use.leaves == Leaves::segments && plan.set.depths.back() == all_depths);
-  plan.set.shortcuts = use.pairs_per_shape >= pairs_for_shortcuts;
+  plan.set.culling = use.pairs_per_shape >= pairs_for_culling;
   Shapes shapes(use.pose_step);
   for (std::size_t i = 0; i < agents.size(); ++i) {
     plan.agent_shape.push_back(shapes.number(agents[i].shows));

@@ -23,28 +23,30 @@ struct ShapeSource {
 /// An agent as a plan sees it.
 struct SceneAgent {
   ShapeSource shows;
-  double distance = 0;  ///< metres, from who looks
+  double distance = 0;  ///< metres, from the viewer
   double density = 0;   ///< people per square metre around the agent: local_densities() tells it
 };
 
-/// By measurement (`bch_ratios --table plans`): what shortcuts take to build, over what they save of a pair of a crowd.
-constexpr double pairs_for_shortcuts = 500;
+/// The number of pairs from which on culling data pays off: the time to build it over the time that it saves
+/// of a pair of a crowd, by measurement (`bch_ratios --table plans`).
+constexpr double pairs_for_culling = 500;
 
 /// What will be asked of a scene.
 struct SceneUse {
-  /// The solid semantics, too.
+  /// Queries use the solid semantics, too.
   bool solid = false;
   /// What decides at the leaves of the level of all depths, if there is one.
   Leaves leaves = Leaves::segments;
   /// Level of detail: the cut depth of agents at a distance, all_depths where it does not matter. None: all_depths.
   std::function<std::uint32_t(double metres)> depth = {};
-  /// The same by the density around agents, for example depth_at_density(); where both say something, the coarser counts.
+  /// Level of detail: the cut depth by the density around agents, for example depth_at_density(). If both
+  /// functions give a depth, the coarser counts.
   std::function<std::uint32_t(double people_per_square_metre)> density_depth = {};
   /// Seconds: times within a clip are rounded down to multiples of it, so that agents share shapes; 0: only those do
   /// that show the very same.
   float pose_step = 0;
   /// About how many pairs a shape will be in before it is given up; few where each lives for one frame. From
-  /// pairs_for_shortcuts on it gets shortcuts.
+  /// pairs_for_culling on it gets culling data.
   double pairs_per_shape = std::numeric_limits<double>::infinity();
 };
 

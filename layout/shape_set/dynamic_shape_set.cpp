@@ -31,12 +31,12 @@ std::size_t grow(std::size_t needed, std::size_t room, std::size_t end, std::siz
 
 bool has_more_than_a_disc(const FlatShape& flat) {
   return std::any_of(flat.levels.begin(), flat.levels.end(),
-                     [](const WideTree& tree) { return !tree.is_single(); });
+                     [](const Bvh8& tree) { return !tree.is_single(); });
 }
 
 bool has_single_disc(const FlatShape& flat) {
   return std::any_of(flat.levels.begin(), flat.levels.end(),
-                     [](const WideTree& tree) { return tree.is_single(); });
+                     [](const Bvh8& tree) { return tree.is_single(); });
 }
 
 }  // namespace
@@ -90,7 +90,7 @@ bool DynamicShapeSet::try_replace(std::uint32_t shape, const FlatShape& flat) {
 
 void DynamicShapeSet::replace(std::uint32_t shape, const FlatShape& flat) {
   if (try_replace(shape, flat)) return;
-  // Also where an allocation fails half way.
+  // The refresh also happens where an allocation fails half way.
   struct Refresh {
     DynamicShapeSet& of;
     ~Refresh() { of.set_ = ShapeSet(of.storage_.arrays(), nullptr); }

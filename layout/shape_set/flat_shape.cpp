@@ -15,8 +15,8 @@ namespace bch {
 namespace {
 
 /// What ShapeStorage::put_level() was given.
-WideTree wide_tree_of(const Root& root, const Tree& level, const float* nodes) {
-  WideTree tree;
+Bvh8 bvh8_of(const Root& root, const Tree& level, const float* nodes) {
+  Bvh8 tree;
   tree.root = {root.x, root.y, root.radius};
   tree.count = level.count;
   tree.outer = level.outer;
@@ -37,7 +37,7 @@ WideTree wide_tree_of(const Root& root, const Tree& level, const float* nodes) {
                    [&](float bits) { return local_of(std::bit_cast<std::uint32_t>(bits)); });
     in += block_width;
   };
-  for (WideTree::Block& block : tree.blocks) {
+  for (Bvh8::Block& block : tree.blocks) {
     for (float* field : {block.discs.x, block.discs.y, block.discs.radius}) read(field, block_width);
     read_bits(block.child, local);
     read(block.outer, block_width);
@@ -58,8 +58,8 @@ WideTree wide_tree_of(const Root& root, const Tree& level, const float* nodes) {
   return tree;
 }
 
-/// What ShapeStorage::put_shortcuts() was given.
-void take_shortcuts(const ShapeArrays& arrays, std::size_t shape, std::uint32_t row, FlatShape& flat) {
+/// What ShapeStorage::put_culling() was given.
+void take_culling(const ShapeArrays& arrays, std::size_t shape, std::uint32_t row, FlatShape& flat) {
   if (row >= first_row)
     std::copy_n(arrays.support.data() + std::size_t{row} * support_stride, support_stride,
                 flat.supports.begin());
@@ -107,9 +107,8 @@ FlatShape flat_shape(const ShapeArrays& arrays, std::size_t shape) {
   FlatShape flat;
   flat.reach = static_cast<double>(arrays.reach[shape]);
   for (std::size_t k = first_root; k < first_root + levels; ++k)
-    flat.levels.push_back(wide_tree_of(arrays.roots[k], arrays.trees[k], arrays.nodes.data()));
-  if (!arrays.profiles.empty())
-    take_shortcuts(arrays, shape, arrays.roots[first_root + levels - 1].row, flat);
+    flat.levels.push_back(bvh8_of(arrays.roots[k], arrays.trees[k], arrays.nodes.data()));
+  if (!arrays.profiles.empty()) take_culling(arrays, shape, arrays.roots[first_root + levels - 1].row, flat);
   if (!arrays.shape_contours.empty()) take_outline(arrays, shape, flat);
   return flat;
 }

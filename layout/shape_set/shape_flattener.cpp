@@ -18,22 +18,23 @@ namespace {
 
 constexpr float infinity = std::numeric_limits<float>::infinity();
 
-/// Checks the elements of a hierarchy over the segments of an outline, as far as exact leaves use them.
+/// Checks the primitives of a hierarchy over the segments of an outline, as far as exact leaves use them.
 void require_segments(const Shape& shape) {
   const auto& [outline, hierarchy] = shape;
   if (!hierarchy.of_segments || outline.contours() == 0) return;
-  if (hierarchy.held.size() != hierarchy.nodes.size())
-    throw std::invalid_argument("hierarchy: " + std::to_string(hierarchy.held.size()) +
-                                " ranges of elements for " + std::to_string(hierarchy.nodes.size()) +
+  if (hierarchy.primitive_ranges.size() != hierarchy.nodes.size())
+    throw std::invalid_argument("hierarchy: " + std::to_string(hierarchy.primitive_ranges.size()) +
+                                " ranges of primitives for " + std::to_string(hierarchy.nodes.size()) +
                                 " nodes");
-  for (std::size_t i = 0; i < hierarchy.held.size(); ++i)
-    if (const auto [begin, end] = hierarchy.held[i]; begin >= end || end > hierarchy.source.size())
-      throw std::invalid_argument("hierarchy: node " + std::to_string(i) + " holds elements " +
+  for (std::size_t i = 0; i < hierarchy.primitive_ranges.size(); ++i)
+    if (const auto [begin, end] = hierarchy.primitive_ranges[i];
+        begin >= end || end > hierarchy.source.size())
+      throw std::invalid_argument("hierarchy: node " + std::to_string(i) + " holds primitives " +
                                   std::to_string(begin) + " to " + std::to_string(end) + " of " +
                                   std::to_string(hierarchy.source.size()));
   for (std::size_t i = 0; i < hierarchy.source.size(); ++i)
     if (hierarchy.source[i] >= outline.points.size())
-      throw std::invalid_argument("hierarchy: element " + std::to_string(i) + " comes from segment " +
+      throw std::invalid_argument("hierarchy: primitive " + std::to_string(i) + " comes from segment " +
                                   std::to_string(hierarchy.source[i]) + " of " +
                                   std::to_string(outline.points.size()));
 }
@@ -58,23 +59,23 @@ void ShapeFlattener::require(const Shape& shape, std::size_t index) const {
   try {
     validate(shape.hierarchy);
     if (plan_.outlines) require_segments(shape);
-    if (shape.outline.contours() > 0 && (plan_.outlines || has_shortcuts())) validate(shape.outline);
+    if (shape.outline.contours() > 0 && (plan_.outlines || has_culling())) validate(shape.outline);
   } catch (const std::invalid_argument& error) {
     throw std::invalid_argument("shape set: shape " + std::to_string(index) + ": " + error.what());
   }
 }
 
-bool ShapeFlattener::has_shortcuts() const {
-  return plan_.shortcuts && plan_.depths.back() > 0;
+bool ShapeFlattener::has_culling() const {
+  return plan_.culling && plan_.depths.back() > 0;
 }
 
 void ShapeFlattener::add_levels(const Shape& shape, FlatShape& flat) {
-  if (has_shortcuts()) add_interior(shape, flat);
+  if (has_culling()) add_interior(shape, flat);
   flat.levels.resize(plan_.depths.size());
   flattener_.begin(shape.hierarchy);
   for (std::size_t k = 0; k < plan_.depths.size(); ++k) {
     flattener_.flatten(plan_.depths[k], flat.levels[k]);
-    if (has_shortcuts()) add_shortcuts(k, flat);
+    if (has_culling()) add_culling(k, flat);
   }
 }
 
@@ -87,8 +88,9 @@ void ShapeFlattener::add_interior(const Shape& shape, FlatShape& flat) {
   for (Sector& sector : flat.profile.sectors) sector.shallow_outer = 0;
 }
 
-/// Of the level that was made flat last. Of single discs nobody asks.
-void ShapeFlattener::add_shortcuts(std::size_t level, FlatShape& flat) const {
+/// Adds the culling data of the level that was made flat last. Single discs need none above the deepest
+/// level.
+void ShapeFlattener::add_culling(std::size_t level, FlatShape& flat) const {
   const bool deepest = level + 1 == plan_.depths.size();
   if (flat.levels[level].is_single() && !deepest) return;
   const Outer outer = flattener_.outer(flat.profile);
@@ -126,7 +128,7 @@ void ShapeFlattener::add_segments(const Hierarchy& hierarchy, FlatShape& flat) {
   for (std::size_t i = 0; i < hierarchy.nodes.size(); ++i) {
     if (!hierarchy.nodes[i].is_leaf()) continue;
     held_.clear();
-    for (std::uint32_t k = hierarchy.held[i].begin; k < hierarchy.held[i].end; ++k)
+    for (std::uint32_t k = hierarchy.primitive_ranges[i].begin; k < hierarchy.primitive_ranges[i].end; ++k)
       held_.push_back(moved_[hierarchy.source[k]]);
     add_leaf(held_, leaf++, flat.levels.back().count, flat.leaf_segments);
   }

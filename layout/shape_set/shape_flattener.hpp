@@ -8,8 +8,8 @@
 
 #include "layout/culling/interior.hpp"
 #include "layout/culling/supports.hpp"
+#include "layout/shape_set/bvh8.hpp"
 #include "layout/shape_set/shape_set.hpp"
-#include "layout/shape_set/wide_tree.hpp"
 
 namespace bch {
 
@@ -17,8 +17,8 @@ namespace bch {
 struct FlatShape {
   ShapeSetPlan plan;
   double reach = 0;
-  std::vector<WideTree> levels;  ///< one a depth
-  Supports supports;  ///< of the deepest level; this and the next two only with the plan's shortcuts
+  std::vector<Bvh8> levels;  ///< one a depth
+  Supports supports;  ///< of the deepest level; this and the next two only with the plan's culling data
   Profile profile;
   Interior interior;
   // Only with the plan's outlines.
@@ -29,8 +29,8 @@ struct FlatShape {
       leaf_segments;  ///< of the last level, if that has exact leaves; see shape_set_view.hpp
 };
 
-/// Makes shape after shape flat, with memory that is reused; where nearly all the time goes that a set takes.
-/// For one thread.
+/// Makes one shape after the other flat and reuses its memory. Nearly all the time that a set takes is spent
+/// here. One thread may use it at a time.
 class ShapeFlattener {
  public:
   /// Errors:  throws std::invalid_argument on a bad plan.
@@ -41,10 +41,10 @@ class ShapeFlattener {
 
  private:
   void require(const Shape& shape, std::size_t index) const;
-  bool has_shortcuts() const;
+  bool has_culling() const;
   void add_levels(const Shape& shape, FlatShape& flat);
   void add_interior(const Shape& shape, FlatShape& flat);
-  void add_shortcuts(std::size_t level, FlatShape& flat) const;
+  void add_culling(std::size_t level, FlatShape& flat) const;
   static void add_outline(const Shape& shape, FlatShape& flat);
   void add_segments(const Hierarchy& hierarchy, FlatShape& flat);
 

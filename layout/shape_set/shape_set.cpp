@@ -76,7 +76,7 @@ ShapeSet::ShapeSet(const ShapeArrays& arrays, std::shared_ptr<const void> memory
 ShapeSetPlan ShapeSet::plan() const {
   return {.depths = {arrays_.depths.begin(), arrays_.depths.end()},
           .outlines = !arrays_.shape_contours.empty(),
-          .shortcuts = !arrays_.support.empty()};
+          .culling = !arrays_.support.empty()};
 }
 
 std::size_t ShapeSet::bytes() const noexcept {

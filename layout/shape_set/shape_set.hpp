@@ -25,9 +25,9 @@ struct Shape {
 /// What decides where leaves of two hierarchies overlap.
 enum class Leaves {
   discs,  ///< that they do
-  /// Exact leaves: whether segments of the outlines in them come within the rounding margin of each other (rounding.hpp, V).
-  /// Of agents at the level of all depths whose shapes have segments there; else, and for leaves of more than 127 segments, as
-  /// with discs.
+  /// Exact leaves: segments of the outlines in them come within the rounding margin of each other
+  /// (rounding.hpp, V). This applies to agents at the level of all depths whose shapes have segments there.
+  /// Otherwise, and for leaves of more than 127 segments, discs decide.
   segments,
 };
 
@@ -36,11 +36,11 @@ struct ShapeSetPlan {
   /// The levels of detail: cut depths, ascending. Level k of every shape is its cut at depths[k].
   std::vector<std::uint32_t> depths = {all_depths};
   /// Keep the outlines: for the solid semantics, which sees one shape inside another, and for exact leaves, which the level of
-  /// all depths then has of shapes whose cut is more than one disc and whose hierarchy has its elements.
+  /// all depths then has of shapes whose cut is more than one disc and whose hierarchy has its primitives.
   bool outlines = true;
   /// Keep what lets a query skip most traversals: supports and, of shapes with an outline, inscribed discs. They
   /// change no answer; a set that answers few queries does without.
-  bool shortcuts = true;
+  bool culling = true;
   friend bool operator==(const ShapeSetPlan&, const ShapeSetPlan&) = default;
 };
 
@@ -52,7 +52,7 @@ void validate(const ShapeSetPlan& plan);
 class ShapeSet {
  public:
   /// Errors:  throws std::invalid_argument on a plan that validate() rejects and, naming the shape, on a hierarchy that
-  ///          validate() rejects, or an outline where the plan asks for one or for shortcuts; std::length_error beyond
+  ///          validate() rejects, or an outline where the plan asks for one or for culling data; std::length_error beyond
   ///          2^31 numbers in nodes.
   explicit ShapeSet(std::span<const Shape> shapes, const ShapeSetPlan& plan = {});
   /// Stands on arrays that live as long as `memory`, a mapped file say.

@@ -33,7 +33,8 @@ void ShapeSetBuilder::add(const FlatShape& flat) {
                 size);
 }
 
-/// As large as all are going to be, by those so far, and a quarter. Room that is never written to takes no memory.
+/// Makes room for all shapes, estimated from those so far, and a quarter. Room that is never written to takes
+/// no memory.
 void ShapeSetBuilder::reserve() {
   const std::size_t times = (expected_shapes_ * 5 / 4 + sample - 1) / sample;
   ShapeExtent all = end_;

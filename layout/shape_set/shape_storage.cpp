@@ -14,16 +14,16 @@ namespace bch {
 namespace {
 
 /// Blocks begin on cache lines; windows do not care.
-std::size_t level_begin(const WideTree& tree, std::size_t after) {
+std::size_t level_begin(const Bvh8& tree, std::size_t after) {
   return tree.blocks.empty() ? after : next_line(after);
 }
 
 /// Inner nodes begin where kernels load them whole.
-std::size_t inner_begin(const WideTree& tree, std::size_t first_disc) {
+std::size_t inner_begin(const Bvh8& tree, std::size_t first_disc) {
   return (first_disc + 3 * tree.x.size() + inner_floats - 1) / inner_floats * inner_floats;
 }
 
-std::size_t level_end(const WideTree& tree, std::size_t begin) {
+std::size_t level_end(const Bvh8& tree, std::size_t begin) {
   const std::size_t first_disc = begin + tree.blocks.size() * block_floats;
   return inner_begin(tree, first_disc) + tree.inner.size() * inner_floats;
 }
@@ -37,7 +37,7 @@ void require_numbers(std::size_t count, const char* what) {
 
 ShapeExtent extent_of(const FlatShape& flat) {
   ShapeExtent extent;
-  for (const WideTree& tree : flat.levels) {
+  for (const Bvh8& tree : flat.levels) {
     extent.nodes = level_end(tree, level_begin(tree, extent.nodes));
   }
   extent.rows = !flat.levels.back().is_single();
@@ -59,7 +59,7 @@ void ShapeStorage::reserve(const ShapeSetPlan& plan, std::size_t shapes, const S
   trees.reserve(shapes * plan.depths.size());
   nodes.reserve(std::min<std::size_t>(extent.nodes, leaf_window));
   reach.reserve(shapes);
-  if (plan.shortcuts) {
+  if (plan.culling) {
     support.reserve(extent.rows * support_stride);
     inscribed.reserve(shapes), extremes.reserve(shapes), profiles.reserve(shapes);
   }
@@ -77,7 +77,7 @@ void ShapeStorage::resize(const ShapeSetPlan& plan, std::size_t shapes) {
   if (plan.depths.back() == 0) return;
   trees.resize(shapes * levels);
   reach.resize(shapes);
-  if (plan.shortcuts) inscribed.resize(shapes), extremes.resize(shapes), profiles.resize(shapes);
+  if (plan.culling) inscribed.resize(shapes), extremes.resize(shapes), profiles.resize(shapes);
   if (plan.outlines) shape_contours.resize(shapes), segment_margin.resize(shapes);
 }
 
@@ -104,7 +104,7 @@ void ShapeStorage::put(std::size_t shape, const FlatShape& flat, const ShapeExte
   const std::size_t first_root = shape * depths.size();
   std::size_t node = at.nodes;
   for (std::size_t k = 0; k < flat.levels.size(); ++k) {
-    const WideTree& tree = flat.levels[k];
+    const Bvh8& tree = flat.levels[k];
     const bool deepest = k + 1 == flat.levels.size();
     const std::size_t row = tree.is_single() ? single_disc : deepest ? at.rows : no_supports;
     roots[first_root + k] = {tree.root.x, tree.root.y, tree.root.radius, static_cast<std::uint32_t>(row)};
@@ -114,11 +114,11 @@ void ShapeStorage::put(std::size_t shape, const FlatShape& flat, const ShapeExte
     node = level_end(tree, node);
   }
   if (!reach.empty()) reach[shape] = rounding::round_up(flat.reach);
-  if (!profiles.empty()) put_shortcuts(shape, flat, at);
+  if (!profiles.empty()) put_culling(shape, flat, at);
   if (!shape_contours.empty()) put_outline(shape, flat, at);
 }
 
-void ShapeStorage::put_level(std::size_t root, const WideTree& tree, std::size_t node) {
+void ShapeStorage::put_level(std::size_t root, const Bvh8& tree, std::size_t node) {
   const std::size_t first_disc = node + tree.blocks.size() * block_floats;
   const auto name = [&](std::uint32_t local) {
     return static_cast<std::uint32_t>(local & leaf_window ? local + first_disc : node + local * block_floats);
@@ -127,7 +127,7 @@ void ShapeStorage::put_level(std::size_t root, const WideTree& tree, std::size_t
                  static_cast<std::uint32_t>(tree.x.size()), tree.count, tree.outer};
   const std::uint32_t first_inner = trees[root].first_inner();
   float* out = nodes.data() + node;
-  for (const WideTree::Block& block : tree.blocks) {
+  for (const Bvh8::Block& block : tree.blocks) {
     for (const float* field : {block.discs.x, block.discs.y, block.discs.radius})
       out = std::copy_n(field, block_width, out);
     out = std::transform(block.child, block.child + block_width, out,
@@ -146,7 +146,7 @@ void ShapeStorage::put_level(std::size_t root, const WideTree& tree, std::size_t
   }
 }
 
-void ShapeStorage::put_shortcuts(std::size_t shape, const FlatShape& flat, const ShapeExtent& at) {
+void ShapeStorage::put_culling(std::size_t shape, const FlatShape& flat, const ShapeExtent& at) {
   if (!flat.levels.back().is_single())
     std::copy(flat.supports.begin(), flat.supports.end(), support.data() + at.rows * support_stride);
   profiles[shape] = flat.profile;

@@ -12,7 +12,7 @@
 
 namespace bch {
 
-/// Of the parts of a shape that have no fixed size: how many elements, or where the first one is.
+/// The extents of the parts of a shape that have no fixed size: how many elements, or where the first one is.
 struct ShapeExtent {
   std::size_t nodes = 0;  ///< floats; a shape begins at a multiple of 16, a cache line
   std::size_t rows = 0;   ///< of supports
@@ -34,7 +34,7 @@ void for_each_part(Visit visit, Extents&... extents) {
 
 ShapeExtent extent_of(const FlatShape& flat);
 
-/// Where the next shape begins.
+/// Returns where the next shape begins.
 constexpr std::size_t next_line(std::size_t floats) {
   return (floats + 15) / 16 * 16;
 }
@@ -68,8 +68,8 @@ struct ShapeStorage {
   void put(std::size_t shape, const FlatShape& flat, const ShapeExtent& at);
 
  private:
-  void put_level(std::size_t root, const WideTree& tree, std::size_t node);
-  void put_shortcuts(std::size_t shape, const FlatShape& flat, const ShapeExtent& at);
+  void put_level(std::size_t root, const Bvh8& tree, std::size_t node);
+  void put_culling(std::size_t shape, const FlatShape& flat, const ShapeExtent& at);
   void put_outline(std::size_t shape, const FlatShape& flat, const ShapeExtent& at);
 };
 

@@ -25,21 +25,21 @@ struct Finding {
 /// "shape 3, level 1: nodes: ...".
 std::string text_of(const Finding& finding);
 
-/// Recomputes what a set stores of its shapes besides their discs and outlines, and compares: whether answers can be
-/// believed, where validate() sees to it that there are any.
+/// Recomputes what a set stores of its shapes besides their discs and outlines, and compares. It checks that
+/// answers are right, where validate() checks that queries are safe.
 ///
 /// - Nodes above the cut are such as the smallest discs of a part and of the whole are. The nodes of the blocks above a disc
 ///   of the cut are above it, so that it is found, and their outer radii hold it and are no larger than that needs.
 /// - A level has at most as many discs as its depth allows and no fewer than the one before, and each of its discs
 ///   belongs to one of the level before, as the smallest discs of a part and of the whole do.
 /// - Reaches, supports and the outer ends of profiles are those of the discs.
-/// - Where outlines are stored: every level's discs cover them; the leaves that name a segment cover it, and margins are
-///   not below what rounding needs; contours' discs are the smallest;
-///   inscribed discs lie inside the largest contour; extremes are its farthest points; profiles are those of the
-///   outline. Where they are not, inscribed discs, extremes and profiles are only seen not to stick out of the discs.
+/// - If outlines are stored, every level's discs cover them; the leaves that name a segment cover it, and
+///   margins are not below what rounding needs; contours' discs are the smallest; inscribed discs lie inside
+///   the largest contour; extremes are its farthest points; profiles are those of the outline. If they are
+///   not stored, inscribed discs, extremes and profiles are only checked not to stick out of the discs.
 ///
-/// Not known from a set, and so not looked at: whether discs and outlines are those of a character; whether a disc is the
-/// smallest; and, without outlines, whether discs are missing.
+/// These facts do not follow from a set and are not checked: that discs and outlines are those of a
+/// character; that a disc is the smallest; and, without outlines, that no discs are missing.
 ///
 /// Returns: what was found, shape after shape, at most so many; nothing for a set that this library made.
 /// Precondition: validate(set.arrays()) does not throw, or a DynamicShapeSet's set().

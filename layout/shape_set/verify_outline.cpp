@@ -80,7 +80,7 @@ struct Depth {
   bool inside;
 };
 
-/// Of a point in a contour.
+/// Computes the depth of a point in a contour.
 Depth depth_in(std::span<const Vec2> contour, Point p) {
   Depth depth{HUGE_VAL, false};
   Point a = point(contour.back()) - p;

@@ -17,7 +17,7 @@
 /// The parts of verify(), and what they share.
 namespace bch::verification {
 
-/// A shape of a set that is looked at, and where to say what is found.
+/// A shape of a set that is verified, and the list that takes the findings.
 struct Look {
   const ShapeSet& set;
   std::vector<Finding>& findings;
@@ -36,14 +36,14 @@ struct Look {
   void say(const char* array, std::uint32_t level, const std::string& what) const {
     if (findings.size() < most) findings.push_back({shape, level, array, what});
   }
-  /// Says so where a stored length is not what was recomputed.
+  /// Reports a stored length that is not what was recomputed.
   void compare(const char* array, std::uint32_t level, const std::string& place, double stored,
                double expected) const;
 };
 
 std::string text_of(const Disc& disc);
 double distance(const Disc& a, const Disc& b);  ///< of the centres
-/// Whether one disc may be the smallest of a part of what the other is the smallest disc of.
+/// Returns whether one disc may be the smallest disc of a part of the other disc's points.
 bool may_be_part(const Disc& part, const Disc& whole, double tolerance);
 
 void verify_tree(const Look& look, std::uint32_t level);

@@ -14,10 +14,10 @@
 #include <vector>
 
 #include "baselines/contact_reference.hpp"
-#include "baselines/contact_time_reference.hpp"
 #include "baselines/disc_tree.hpp"
 #include "baselines/oracle.hpp"
 #include "baselines/placement.hpp"
+#include "baselines/time_of_impact_reference.hpp"
 #include "tests/support/baseline_scene.hpp"
 #include "tests/support/character_shapes.hpp"
 #include "tests/support/test_characters.hpp"
@@ -235,11 +235,11 @@ TEST(Examples, TheDescentMeetsOnlySomeAncestors) {
 }
 
 /// Discs of the cuts overlap where the two do not collide: a way, however short, begins with their contact.
-TEST(Examples, TimesOfContactStartWithDiscsThatOverlap) {
+TEST(Examples, TimesOfImpactStartWithDiscsThatOverlap) {
   const Disc root{0, 0, 1}, right{0.9f, 0, 0.5f}, left{-0.9f, 0, 0.5f};
   const Answers answers(std::vector<Body>(2, two_leaves(root, right, left)));
   const test::Crowd apart = beside(2.2), together = beside(1.9);
-  baselines::ContactTimeReference times(answers.shapes, {});
+  baselines::TimeOfImpactReference times(answers.shapes, {});
   for (const Method method : {Method::brute_force, Method::depth_first}) {
     EXPECT_EQ(times.query(apart.agents(), {0, 1}, 0, 0, method), std::numeric_limits<float>::infinity());
     EXPECT_EQ(times.query(apart.agents(), {0, 1}, 1, 0, method), 0);

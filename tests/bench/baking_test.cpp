@@ -101,7 +101,8 @@ TEST_P(Baking, FilesHoldTheirImages) {
   }
 }
 
-/// Their nodes were written when it turned out that nobody needs any: of many levels, so that there are enough.
+/// Their nodes were written before it turned out that none are needed: many levels, so that there are enough
+/// nodes.
 TEST_P(Baking, FilesOfSingleDiscsHaveNoNodes) {
   const TemporaryFolder folder;
   const std::string file = folder.file("a.bch");

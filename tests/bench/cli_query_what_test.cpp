@@ -82,9 +82,9 @@ TEST_F(QueryWhat, CollideIsTheDefault) {
   EXPECT_EQ(plain.out, run("collide", {pairs}).out);
 }
 
-TEST_F(QueryWhat, SeparationSaysHowFarAndWhereTo) {
+TEST_F(QueryWhat, PenetrationSaysHowFarAndWhereTo) {
   const std::string header = "first,second,depth,x,y";
-  const Rows best = rows("separation", header, {pairs});
+  const Rows best = rows("penetration", header, {pairs});
   ASSERT_EQ(best.size(), 3u);
   EXPECT_EQ(best[0][0], "b");
   EXPECT_NEAR(number(best[0][2]), 0.1, 0.025);  // and the discs' sizes
@@ -93,13 +93,13 @@ TEST_F(QueryWhat, SeparationSaysHowFarAndWhereTo) {
   EXPECT_EQ(best[0][4], "0");  // and not what rounding leaves of it
   EXPECT_EQ(best[1][2], "0");
   EXPECT_EQ(best[2][2], "0");
-  const Rows up = rows("separation", header, {pairs, "--direction", "0,2"});
+  const Rows up = rows("penetration", header, {pairs, "--direction", "0,2"});
   EXPECT_NEAR(number(up[0][2]), 0.3, 0.025);
   EXPECT_EQ(up[0][4], "1");
-  const Rows left = rows("separation", header, {pairs, "--direction", "-1,-0"});
+  const Rows left = rows("penetration", header, {pairs, "--direction", "-1,-0"});
   EXPECT_EQ(left[0][3], "-1");
   EXPECT_EQ(left[0][4], "0");
-  const Rows along_x = rows("separation", header, {pairs, "--directions", "2"});
+  const Rows along_x = rows("penetration", header, {pairs, "--directions", "2"});
   EXPECT_EQ(along_x[0][2], best[0][2]);
   EXPECT_GT(number(along_x[1][2]), 0.5);
 }
@@ -140,8 +140,8 @@ TEST_F(QueryWhat, ClearanceSaysHowFarAndWhichWay) {
   EXPECT_LE(number(within[2][2]), 0.5);
 }
 
-TEST_F(QueryWhat, ContactTimeSaysWhenTheyTouch) {
-  const Rows all = rows("contact-time", "first,second,time", {pairs});
+TEST_F(QueryWhat, TimeOfImpactSaysWhenTheyTouch) {
+  const Rows all = rows("time-of-impact", "first,second,time", {pairs});
   ASSERT_EQ(all.size(), 3u);
   EXPECT_EQ(all[0], (std::vector<std::string>{"b", "a", "0"}));
   EXPECT_LE(number(all[1][2]), 0.25);
@@ -161,7 +161,8 @@ TEST_F(QueryWhat, WaysAreCheckedLikeTheRest) {
   };
   for (const auto& [text, words] : cases) {
     const std::string file = folder.write("ways.csv", text);
-    const Ending ending = run_program(BCH_PROGRAM, {"query", shapes, file, pairs, "--what", "contact-time"});
+    const Ending ending =
+        run_program(BCH_PROGRAM, {"query", shapes, file, pairs, "--what", "time-of-impact"});
     EXPECT_EQ(ending.code, 3) << ending.err;
     EXPECT_EQ(ending.out, "");
     EXPECT_NE(ending.err.find(words), std::string::npos) << ending.err;
@@ -172,7 +173,7 @@ TEST_F(QueryWhat, WaysAreCheckedLikeTheRest) {
 
 TEST_F(QueryWhat, AllPairsAreThoseThatCollide) {
   EXPECT_EQ(rows("collide", "first,second,hit", {"--all-pairs"}), (Rows{{"a", "b", "1"}}));
-  const Rows ways = rows("separation", "first,second,depth,x,y", {"--all-pairs"});
+  const Rows ways = rows("penetration", "first,second,depth,x,y", {"--all-pairs"});
   ASSERT_EQ(ways.size(), 1u);
   EXPECT_EQ(ways[0][1], "b");
   EXPECT_EQ(ways[0][3], "-1");
@@ -180,7 +181,7 @@ TEST_F(QueryWhat, AllPairsAreThoseThatCollide) {
 }
 
 TEST_F(QueryWhat, EveryKernelWritesTheSame) {
-  for (const char* what : {"collide", "clearance", "contact-time", "contacts", "separation"})
+  for (const char* what : {"collide", "clearance", "time-of-impact", "contacts", "penetration"})
     for (const kernel::Implementation& row : kernel::implementations())
       if (row.supported()) {
         EXPECT_EQ(run(what, {pairs, "--isa", row.name}).out, run(what, {pairs}).out) << what;
@@ -190,6 +191,9 @@ TEST_F(QueryWhat, EveryKernelWritesTheSame) {
 TEST_F(QueryWhat, WrongWordsGiveTwo) {
   const std::pair<Arguments, const char*> cases[] = {
       {{"--what", "depth"}, "depth"},
+      {{"--what", "separation"}, "penetration"},
+      {{"--what", "contact-time"}, "time-of-impact"},
+      {{"--what", "clearance", "--leaves", "discs"}, "--leaves"},
       {{"--what", "contacts", "--directions", "4"}, "--directions"},
       {{"--direction", "1,0"}, "--direction"},
       {{"--what", "clearance", "--semantics", "solid"}, "--semantics"},
@@ -197,17 +201,17 @@ TEST_F(QueryWhat, WrongWordsGiveTwo) {
       {{"--max-distance", "1"}, "--max-distance"},
       {{"--what", "clearance", "--max-distance", "-1"}, "--max-distance"},
       {{"--what", "clearance", "--max-distance", "nan"}, "--max-distance"},
-      {{"--what", "separation", "--directions", "0"}, "--directions"},
-      {{"--what", "separation", "--directions", "5"}, "5"},
-      {{"--what", "separation", "--directions", "300"}, "300"},
-      {{"--what", "separation", "--directions", "4", "--direction", "1,0"}, "--directions"},
-      {{"--what", "separation", "--direction", "0,0"}, "0,0"},
-      {{"--what", "separation", "--direction", "1"}, "--direction"},
-      {{"--what", "separation", "--direction", "1,nan"}, "nan"},
-      {{"--what", "separation", "--direction", "1,2,3"}, "1,2,3"},
+      {{"--what", "penetration", "--directions", "0"}, "--directions"},
+      {{"--what", "penetration", "--directions", "5"}, "5"},
+      {{"--what", "penetration", "--directions", "300"}, "300"},
+      {{"--what", "penetration", "--directions", "4", "--direction", "1,0"}, "--directions"},
+      {{"--what", "penetration", "--direction", "0,0"}, "0,0"},
+      {{"--what", "penetration", "--direction", "1"}, "--direction"},
+      {{"--what", "penetration", "--direction", "1,nan"}, "nan"},
+      {{"--what", "penetration", "--direction", "1,2,3"}, "1,2,3"},
   };
   for (const auto& [more, word] : cases) expect_usage_error(more, word);
-  const Ending all = run("contact-time", {"--all-pairs"});
+  const Ending all = run("time-of-impact", {"--all-pairs"});
   EXPECT_EQ(all.code, 2);
   EXPECT_NE(all.err.find("--all-pairs"), std::string::npos) << all.err;
   const Ending within = run("clearance", {"--all-pairs", "--max-distance", "1", "--semantics", "solid"});

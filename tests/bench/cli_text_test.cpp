@@ -264,7 +264,8 @@ TEST(CliText, EmptyValuesAreRefused) {
       {{"inspect", ""}, "FILE"},
       {{"inspect", "default:male", "--json", ""}, "--json"},
       {{"query", "default:male", "a.csv", ""}, "PAIRS.csv"},
-      {{"query", "default:male", "a.csv", "p.csv", "--what", "separation", "--direction", ""}, "--direction"},
+      {{"query", "default:male", "a.csv", "p.csv", "--what", "penetration", "--direction", ""},
+       "--direction"},
       {{"report", "--out", ""}, "--out"},
       {{"report", "--out", "", "--page"}, "--out"},
       {{"stability", "--out", ""}, "--out"},
@@ -309,7 +310,7 @@ TEST(CliText, QuarterTurnsHaveAComponentOfZero) {
   const std::string agents =
       folder.write("agents.csv", "id,shape,x,y,heading\na,0,0,0,0\nb,0,0,0.2,0\nc,0,0.45,0,0\n");
   const std::string pairs = folder.write("pairs.csv", "first,second\na,b\nb,a\na,c\nc,a\n");
-  const Ending run = bch({"query", shapes, agents, pairs, "--what", "separation"}, as_metres);
+  const Ending run = bch({"query", shapes, agents, pairs, "--what", "penetration"}, as_metres);
   ASSERT_EQ(run.code, 0) << run.err;
   EXPECT_FALSE(has(run.out, "e-1")) << run.out;
   EXPECT_TRUE(has(run.out, ",0,-1\n") && has(run.out, ",0,1\n") && has(run.out, ",1,0\n")) << run.out;

@@ -24,12 +24,12 @@ const Row& find(const std::vector<Row>& rows, const char* depth, DepthMeasure me
 
 void expect_continuous_depths() {
   for (const char* depth : {"0", "3", "6", "all"})
-    for (const DepthMeasure measure : {DepthMeasure::separation, DepthMeasure::discs}) {
+    for (const DepthMeasure measure : {DepthMeasure::penetration, DepthMeasure::discs}) {
       const SlideRow& row = find(report().slides, depth, measure);
       EXPECT_LE(row.change, 1.01) << depth << " " << name_of(measure);
       EXPECT_GT(row.change, 0.5);
     }
-  EXPECT_GT(find(report().slides, "all", DepthMeasure::separation).turn, 0.5);
+  EXPECT_GT(find(report().slides, "all", DepthMeasure::penetration).turn, 0.5);
   EXPECT_LT(find(report().slides, "all", DepthMeasure::centres).turn, 0.01);
 }
 
@@ -38,7 +38,7 @@ void expect_discs_to_begin_at_nothing() {
   for (const char* depth : {"0", "3", "6", "all"})
     EXPECT_LT(find(report().bounces, depth, DepthMeasure::discs).largest_onset, 0.0015)
         << depth;  // a step's way
-  EXPECT_GT(find(report().bounces, "all", DepthMeasure::separation).largest_onset, 0.02);
+  EXPECT_GT(find(report().bounces, "all", DepthMeasure::penetration).largest_onset, 0.02);
 }
 
 void expect_little_energy_of_coarse_discs() {

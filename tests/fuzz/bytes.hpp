@@ -33,16 +33,16 @@ class Bytes {
     return bound <= 256 ? take<std::uint8_t>() % bound : take<std::uint32_t>() % bound;
   }
 
-  /// One of 2^16 multiples of `step` about 0.
+  /// Takes one of 2^16 multiples of `step` about 0.
   float coordinate(float step) { return static_cast<float>(take<std::int16_t>()) * step; }
 
-  /// Mostly a coordinate, at times any float there is.
+  /// Takes mostly a coordinate, at times any float there is.
   float number(float step) {
     if (below(16) > 0) return coordinate(step);
     return take<float>();
   }
 
-  /// Up to the next zero byte.
+  /// Takes text up to the next zero byte.
   std::string text() {
     std::string text;
     while (!left_.empty())

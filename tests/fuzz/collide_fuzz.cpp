@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-// Answers of every implementation against brute force and the plain traversal, for arbitrary star-shaped
-// outlines in arbitrary places.
+// Compares answers of every implementation with brute force and the scalar reference, for arbitrary
+// star-shaped outlines in arbitrary places.
 
 #include <cmath>
 #include <numbers>

@@ -15,7 +15,7 @@
 
 #include "kernel/collide/collide.hpp"
 #include "kernel/distance/clearance.hpp"
-#include "kernel/distance/contact_time.hpp"
+#include "kernel/distance/time_of_impact.hpp"
 #include "layout/base/heading.hpp"
 #include "layout/base/rounding.hpp"
 #include "tests/support/scenes.hpp"
@@ -223,7 +223,7 @@ TEST(BroadPhase, LeavesNobodyOutWithinAMargin) {
       const double angle = random.uniform(-3.2, 3.2);
       x.push_back(margin * std::cos(angle)), y.push_back(margin * std::sin(angle));
     }
-    contact_time(set, agents, all, {x, y}, times);
+    time_of_impact(set, agents, all, {x, y}, times);
     for (std::size_t k = 0; k < all.size(); ++k) {
       const bool is_near = static_cast<double>(distances[k]) <= margin || times[k] <= 1;
       ASSERT_TRUE(!is_near || std::binary_search(found.begin(), found.end(), all[k], before))

@@ -12,8 +12,8 @@
 #include "kernel/collide/collide.hpp"
 #include "kernel/contact/contacts.hpp"
 #include "kernel/distance/clearance.hpp"
-#include "kernel/distance/contact_time.hpp"
-#include "kernel/separation/separation.hpp"
+#include "kernel/distance/time_of_impact.hpp"
+#include "kernel/penetration/penetration.hpp"
 #include "layout/culling/interior.hpp"
 #include "layout/culling/interior_implementation.hpp"
 #include "layout/default_character/default_characters.hpp"
@@ -65,7 +65,7 @@ TEST_F(CleanRegisters, AfterQueries) {
     std::vector<float> values(pairs.size());
     std::vector<Vec2> directions(pairs.size());
     std::vector<double> x(pairs.size(), 0.5), y(pairs.size(), -0.25);
-    std::vector<Separation> ways(pairs.size());
+    std::vector<Penetration> ways(pairs.size());
     ContactTable table;
     for (const kernel::Implementation& isa : kernel::implementations()) {
       if (!isa.supported()) continue;
@@ -76,8 +76,8 @@ TEST_F(CleanRegisters, AfterQueries) {
         expect_clean("clearance", [&] {
           clearance(shapes, agents, pairs, {values, directions}, {limit, &isa});
         });
-      expect_clean("contact_time", [&] { contact_time(shapes, agents, pairs, {x, y}, values, {&isa}); });
-      expect_clean("separation", [&] { separation(shapes, agents, pairs, 16, ways, {&isa}); });
+      expect_clean("time_of_impact", [&] { time_of_impact(shapes, agents, pairs, {x, y}, values, {&isa}); });
+      expect_clean("penetration", [&] { penetration(shapes, agents, pairs, 16, ways, {&isa}); });
       expect_clean("contacts", [&] { contacts(shapes, agents, pairs, table, {&isa}); });
     }
   }

@@ -46,7 +46,7 @@ TEST(Clearance, OfSingleDiscs) {
     EXPECT_EQ(of.direction[3], (Vec2{-1, 0}));
     EXPECT_NEAR(of.distance[4], -0.5, 1e-5);  // an agent and itself
     EXPECT_EQ(of.direction[4], (Vec2{1, 0}));
-    EXPECT_EQ(of.nodes[4], (CutNodes{0, 0}));
+    EXPECT_EQ(of.nodes[4], (ClosestDiscs{0, 0}));
     const auto limited = answers(set, crowd.agents(), pairs, 4);
     EXPECT_EQ(limited.distance[0], std::numeric_limits<float>::infinity());
     EXPECT_EQ(limited.direction[0], (Vec2{0, 0}));

@@ -148,7 +148,7 @@ TEST_F(ClearanceDifferential, ExchangedAgentsExchangeNodesAndTurnTheDirection) {
   for (std::size_t i = 0; i < scene.pairs.size(); ++i) {
     EXPECT_EQ(other.distance[i], one.distance[i]);
     EXPECT_EQ(other.direction[i], (Vec2{-one.direction[i].x, -one.direction[i].y}));
-    EXPECT_EQ(other.nodes[i], (CutNodes{one.nodes[i].second, one.nodes[i].first}));
+    EXPECT_EQ(other.nodes[i], (ClosestDiscs{one.nodes[i].second, one.nodes[i].first}));
   }
 }
 

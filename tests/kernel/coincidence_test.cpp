@@ -11,7 +11,7 @@
 #include "kernel/contact/contacts.hpp"
 #include "kernel/crowd/collide_all.hpp"
 #include "kernel/distance/clearance.hpp"
-#include "kernel/distance/contact_time.hpp"
+#include "kernel/distance/time_of_impact.hpp"
 #include "tests/support/scenes.hpp"
 
 // Agents of which points coincide that a kernel draws lines through: their positions, or the centres of their profiles.
@@ -66,7 +66,7 @@ TEST_P(Coincidence, OfPositionsOfShapesWithoutAnOutline) {
   std::vector<float> distances(count), times(count);
   clearance(set, agents, scene.pairs, {distances, {}}, {.implementation = GetParam()});
   const std::vector<double> nothing(count);
-  contact_time(set, agents, scene.pairs, {nothing, nothing}, times, {GetParam()});
+  time_of_impact(set, agents, scene.pairs, {nothing, nothing}, times, {GetParam()});
   std::size_t colliding = 0;
   for (std::size_t i = 0; i < count; ++i) {
     const bool hit = discs.boundary(agents, scene.pairs[i], baselines::Method::brute_force);

@@ -25,7 +25,7 @@ using Rows = std::vector<std::vector<std::uint32_t>>;
 
 Rows copy_of(const CollidingNeighbours& answer) {
   Rows rows;
-  for (std::uint32_t i = 0; i + 1 < answer.begin.size(); ++i) {
+  for (std::uint32_t i = 0; i + 1 < answer.offsets.size(); ++i) {
     const auto row = answer.of(i);
     rows.emplace_back(row.begin(), row.end());
   }

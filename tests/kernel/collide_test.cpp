@@ -78,7 +78,7 @@ TEST_F(Differential, NearTangentPairs) {
 }
 
 TEST_F(Differential, WithoutShortcuts) {
-  const ShapeSet plain(shapes, {.depths = plan.depths, .outlines = true, .shortcuts = false});
+  const ShapeSet plain(shapes, {.depths = plan.depths, .outlines = true, .culling = false});
   expect_equal_to_brute_force(plain, reference, random_scene(random, plain, 25'000), "random");
   expect_equal_to_brute_force(plain, reference, tangent_scene(25'000), "near tangent");
 }

@@ -38,13 +38,13 @@ ContactTable brute_force(const CutLists& cuts, const Agents& agents, std::span<c
   ContactTable table{{0}, {}};
   for (const Pair pair : pairs) {
     for (const auto& [i, j] : baselines::contacts(cuts, agents, pair)) table.contacts.push_back({i, j});
-    table.begin.push_back(table.contacts.size());
+    table.offsets.push_back(table.contacts.size());
   }
   return table;
 }
 
 bool operator==(const ContactTable& a, const ContactTable& b) {
-  return a.begin == b.begin && a.contacts == b.contacts;
+  return a.offsets == b.offsets && a.contacts == b.contacts;
 }
 
 class Contacts : public test::Differential {
@@ -84,10 +84,10 @@ TEST_F(Contacts, OfPeople) {
   expect_brute_force(random_scene(random, set, 5'000), "people");
 }
 
-TEST(Contact, IsEqualWhereBothDiscsAre) {
-  EXPECT_EQ((Contact{1, 2}), (Contact{1, 2}));
-  EXPECT_NE((Contact{1, 2}), (Contact{1, 3}));
-  EXPECT_NE((Contact{1, 2}), (Contact{3, 2}));
+TEST(DiscPair, IsEqualWhereBothDiscsAre) {
+  EXPECT_EQ((DiscPair{1, 2}), (DiscPair{1, 2}));
+  EXPECT_NE((DiscPair{1, 2}), (DiscPair{1, 3}));
+  EXPECT_NE((DiscPair{1, 2}), (DiscPair{3, 2}));
 }
 
 TEST_F(Contacts, OfSingleDiscs) {
@@ -113,9 +113,9 @@ TEST_F(Contacts, OfTheOtherOrderAreTheSameExchanged) {
   for (Pair& pair : scene.pairs) std::swap(pair.first, pair.second);
   const ContactTable other = table_of(set, scene.crowd.agents(), scene.pairs);
   for (std::size_t i = 0; i < scene.pairs.size(); ++i) {
-    std::vector<Contact> exchanged;
-    for (const Contact& contact : other.of(i)) exchanged.push_back({contact.second, contact.first});
-    std::sort(exchanged.begin(), exchanged.end(), [](const Contact& a, const Contact& b) {
+    std::vector<DiscPair> exchanged;
+    for (const DiscPair& contact : other.of(i)) exchanged.push_back({contact.second, contact.first});
+    std::sort(exchanged.begin(), exchanged.end(), [](const DiscPair& a, const DiscPair& b) {
       return a.first < b.first || (a.first == b.first && a.second < b.second);
     });
     const auto row = table.of(i);
@@ -138,7 +138,7 @@ TEST_F(Contacts, OfCoincidentAgentsAndOfAnAgentWithItself) {
   EXPECT_TRUE(table == brute_force(cuts, crowd.agents(), pairs));
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     const auto row = table.of(i);
-    EXPECT_EQ(std::count_if(row.begin(), row.end(), [](const Contact& c) { return c.first == c.second; }),
+    EXPECT_EQ(std::count_if(row.begin(), row.end(), [](const DiscPair& c) { return c.first == c.second; }),
               std::ssize(cuts.of(crowd.agents(), pairs[i].first)));
   }
 }
@@ -153,9 +153,9 @@ TEST_F(Contacts, BatchesOfEverySizeAndAnyNumberOfThreads) {
       ContactTable table;
       for (const std::size_t size : {0u, 1u, 15u, 16u, 17u, 255u, 256u, 257u, 3000u}) {
         contacts(set, scene.crowd.agents(), std::span(scene.pairs).first(size), table);
-        ASSERT_EQ(table.begin.size(), size + 1);
-        EXPECT_TRUE(std::equal(table.begin.begin(), table.begin.end(), whole.begin.begin()));
-        ASSERT_EQ(table.contacts.size(), table.begin[size]);
+        ASSERT_EQ(table.offsets.size(), size + 1);
+        EXPECT_TRUE(std::equal(table.offsets.begin(), table.offsets.end(), whole.offsets.begin()));
+        ASSERT_EQ(table.contacts.size(), table.offsets[size]);
         EXPECT_TRUE(std::equal(table.contacts.begin(), table.contacts.end(), whole.contacts.begin()));
       }
     });

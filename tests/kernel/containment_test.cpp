@@ -91,7 +91,7 @@ TEST(Containment, ASmallCopyIsFoundEverywhereInARealPose) {
 }
 
 /// Outlines from elsewhere may overlap themselves, or have contours inside others. Inside is what a contour goes round an
-/// odd number of times, with shortcuts and without.
+/// odd number of times, with culling data and without.
 TEST(Containment, InsideIsWhatAContourGoesRoundAnOddNumberOfTimes) {
   const std::vector<Outline> outlines = {
       test::polygon({{0, 3}, {-2, -3}, {3, 1}, {-3, 1}, {2, -3}}),  // a star in one stroke
@@ -112,8 +112,8 @@ TEST(Containment, InsideIsWhatAContourGoesRoundAnOddNumberOfTimes) {
     }
     std::vector<std::uint8_t> boundary(scene.pairs.size()), solid(boundary);
     std::size_t inside = 0, in_a_hole = 0;
-    for (const bool shortcuts : {false, true}) {
-      const ShapeSet set(shapes, {{all_depths}, true, shortcuts});
+    for (const bool culling : {false, true}) {
+      const ShapeSet set(shapes, {{all_depths}, true, culling});
       for (const auto& implementation : kernel::implementations()) {
         if (!implementation.supported()) continue;
         collide(set, scene.crowd.agents(), scene.pairs, boundary, {Semantics::boundary, &implementation});
@@ -121,7 +121,7 @@ TEST(Containment, InsideIsWhatAContourGoesRoundAnOddNumberOfTimes) {
         for (std::size_t i = 0; i < scene.pairs.size(); ++i) {
           if (boundary[i] != 0) continue;
           const bool is_inside = test::inside(outline, scene.crowd.x[2 * i + 1], scene.crowd.y[2 * i + 1]);
-          ASSERT_EQ(solid[i], is_inside) << implementation.name << (shortcuts ? " with" : " without");
+          ASSERT_EQ(solid[i], is_inside) << implementation.name << (culling ? " with" : " without");
           (is_inside ? inside : in_a_hole) += 1;
         }
       }

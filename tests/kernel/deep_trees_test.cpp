@@ -10,12 +10,12 @@
 
 #include "baselines/clearance_reference.hpp"
 #include "baselines/contact_reference.hpp"
-#include "baselines/contact_time_reference.hpp"
 #include "baselines/reference.hpp"
+#include "baselines/time_of_impact_reference.hpp"
 #include "kernel/collide/collide.hpp"
 #include "kernel/contact/contacts.hpp"
-#include "kernel/distance/contact_time.hpp"
-#include "layout/shape_set/wide_tree.hpp"
+#include "kernel/distance/time_of_impact.hpp"
+#include "layout/shape_set/bvh8.hpp"
 #include "tests/support/clearances.hpp"
 #include "tests/support/scenes.hpp"
 
@@ -49,7 +49,7 @@ Shape comb(test::Random& random, std::uint32_t leaves) {
   return shape;
 }
 
-std::uint32_t levels(const WideTree& tree, std::uint32_t node) {
+std::uint32_t levels(const Bvh8& tree, std::uint32_t node) {
   if (node >= leaf_window) return 1;
   std::uint32_t below = 0;
   for (std::uint32_t lane = 0; lane < block_width; ++lane)
@@ -89,7 +89,7 @@ class DeepTrees : public testing::Test {
 TEST_F(DeepTrees, AreDeep) {
   std::uint32_t most = 0;
   for (const Shape& shape : shapes) {
-    const WideTree tree = wide_tree(shape.hierarchy, all_depths);
+    const Bvh8 tree = bvh8(shape.hierarchy, all_depths);
     most = std::max(most, levels(tree, tree.top));
   }
   EXPECT_EQ(most, most_wide_levels);
@@ -105,7 +105,7 @@ TEST_F(DeepTrees, CollideAndContacts) {
     expected.push_back(discs.boundary(agents(), pair, Method::brute_force));
     for (const auto& [i, j] : baselines::contacts(cuts, agents(), pair, &segments))
       expected_contacts.contacts.push_back({i, j});
-    expected_contacts.begin.push_back(expected_contacts.contacts.size());
+    expected_contacts.offsets.push_back(expected_contacts.contacts.size());
   }
   EXPECT_GT(std::count(expected.begin(), expected.end(), 1), std::ssize(expected) / 6);
   on_every_implementation([&](const kernel::Implementation& each) {
@@ -114,7 +114,7 @@ TEST_F(DeepTrees, CollideAndContacts) {
     EXPECT_EQ(hits, expected) << each.name;
     ContactTable table;
     contacts(*set, agents(), scene.pairs, table, {&each});
-    EXPECT_EQ(table.begin, expected_contacts.begin) << each.name;
+    EXPECT_EQ(table.offsets, expected_contacts.offsets) << each.name;
     EXPECT_TRUE(table.contacts == expected_contacts.contacts) << each.name;
   });
 }
@@ -154,8 +154,8 @@ TEST_F(DeepTrees, ClearanceOfMoreOpenStepsThanAreListed) {
   });
 }
 
-TEST_F(DeepTrees, ContactTime) {
-  baselines::ContactTimeReference reference(shapes, {});
+TEST_F(DeepTrees, TimeOfImpact) {
+  baselines::TimeOfImpactReference reference(shapes, {});
   std::vector<double> x, y;
   std::vector<float> expected;
   for (const auto& [first, second] : scene.pairs) {
@@ -168,7 +168,7 @@ TEST_F(DeepTrees, ContactTime) {
   EXPECT_GT(on_the_way, std::ssize(expected) / 6);
   on_every_implementation([&](const kernel::Implementation& each) {
     std::vector<float> times(scene.pairs.size());
-    contact_time(*set, agents(), scene.pairs, {x, y}, times, {&each});
+    time_of_impact(*set, agents(), scene.pairs, {x, y}, times, {&each});
     for (std::size_t i = 0; i < times.size(); ++i)
       ASSERT_EQ(times[i], expected[i]) << each.name << ", pair " << i;
   });

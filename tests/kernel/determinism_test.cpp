@@ -19,9 +19,9 @@
 #include "kernel/contact/contacts.hpp"
 #include "kernel/crowd/collide_all.hpp"
 #include "kernel/distance/clearance.hpp"
-#include "kernel/distance/contact_time.hpp"
-#include "kernel/runtime/standard_floats.hpp"
-#include "kernel/separation/separation.hpp"
+#include "kernel/distance/time_of_impact.hpp"
+#include "kernel/penetration/penetration.hpp"
+#include "kernel/runtime/floating_point_state.hpp"
 #include "tests/support/scenes.hpp"
 
 // The answers to one crowd as hashes, the same for every compiler, optimisation, processor, instruction set, number of
@@ -114,7 +114,7 @@ class Determinism : public testing::Test {
       answer(isa, i, std::min(batch, pairs.size() - i), bytes);
     CrowdCollider collider;
     const auto all = collider.collide_all(set, crowd.agents(), {Semantics::solid, isa, Leaves::discs});
-    bytes.add(AnswerBytes::neighbours, all.begin);
+    bytes.add(AnswerBytes::neighbours, all.offsets);
     bytes.add(AnswerBytes::neighbours, all.neighbours);
     return bytes.hashes();
   }
@@ -131,9 +131,9 @@ class Determinism : public testing::Test {
   std::vector<double> x, y;
 
  private:
-  /// Without what pads them, and rounded here, to nearest; separation_test compares directions bit by bit.
-  static void add_depths(const std::vector<Separation>& ways, AnswerBytes& bytes) {
-    const kernel::StandardFloats to_nearest;
+  /// Without what pads them, and rounded here, to nearest; penetration_test compares directions bit by bit.
+  static void add_depths(const std::vector<Penetration>& ways, AnswerBytes& bytes) {
+    const kernel::FloatingPointStateGuard to_nearest;
     for (const auto& [depth, x, y] : ways)
       bytes.add(AnswerBytes::depths, std::array{depth, static_cast<float>(x), static_cast<float>(y)});
   }
@@ -153,21 +153,21 @@ class Determinism : public testing::Test {
     }
     std::vector<float> values(size);
     std::vector<Vec2> directions(size);
-    std::vector<CutNodes> nodes(size);
+    std::vector<ClosestDiscs> nodes(size);
     clearance(set, agents, of, {values, directions, nodes}, {1.5, isa});
     bytes.add(AnswerBytes::distances, values);
     bytes.add(AnswerBytes::directions, directions);
     bytes.add(AnswerBytes::nodes, nodes);
-    contact_time(set, agents, of, {std::span(x).subspan(begin, size), std::span(y).subspan(begin, size)},
-                 values, {isa});
+    time_of_impact(set, agents, of, {std::span(x).subspan(begin, size), std::span(y).subspan(begin, size)},
+                   values, {isa});
     bytes.add(AnswerBytes::times, values);
-    std::vector<Separation> ways(size);
-    separation(set, agents, of, 16, ways, {isa});
+    std::vector<Penetration> ways(size);
+    penetration(set, agents, of, 16, ways, {isa});
     add_depths(ways, bytes);
     ContactTable table;
     contacts(set, agents, of, table, {isa, Leaves::discs});
     for (std::size_t i = 0; i < size; ++i)
-      bytes.add(AnswerBytes::contact_counts, std::vector{table.begin[i + 1] - table.begin[i]});
+      bytes.add(AnswerBytes::contact_counts, std::vector{table.offsets[i + 1] - table.offsets[i]});
     bytes.add(AnswerBytes::contact_discs, table.contacts);
     contacts(set, agents, of, table, {isa});
     bytes.add(AnswerBytes::exact_contacts, table.contacts);

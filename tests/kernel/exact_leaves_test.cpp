@@ -17,7 +17,6 @@
 #include "kernel/contact/contacts.hpp"
 #include "layout/base/rounding.hpp"
 #include "layout/default_character/default_characters.hpp"
-#include "layout/format/leaf_segments.hpp"
 #include "tests/support/character_shapes.hpp"
 #include "tests/support/differential.hpp"
 
@@ -111,7 +110,7 @@ Scene touching_scene(Random& random, const std::vector<Shape>& shapes, std::uint
     const double frame_c = std::cos(two.heading[0]), frame_s = std::sin(two.heading[0]);
     const long double x = 6 * reaches * (frame_c * c + frame_s * s),
                       y = 6 * reaches * (frame_c * s - frame_s * c);
-    const long double time = oracle(shapes, two.agents(), {0, 1}).contact_time(x, y);
+    const long double time = oracle(shapes, two.agents(), {0, 1}).time_of_impact(x, y);
     if (!std::isfinite(time)) continue;
     const double gap = (random.below(3) == 0   ? 0
                         : random.below(2) == 0 ? 1
@@ -226,7 +225,7 @@ TEST_F(ExactLeaves, DecideContactsAsWell) {
       const auto expected = baselines::contacts(cuts, agents, scene.pairs[i], &segments);
       const auto row = table.of(i);
       ASSERT_TRUE(std::equal(row.begin(), row.end(), expected.begin(), expected.end(),
-                             [](const Contact& contact, const auto& discs) {
+                             [](const DiscPair& contact, const auto& discs) {
                                return contact.first == discs.first && contact.second == discs.second;
                              }))
           << implementation.name << ", pair " << i;
@@ -266,22 +265,6 @@ TEST(ExactLeavesOfWalls, SeeTheGapBetweenWallsInOneLine) {
     const std::vector<Pair> pairs = {{0, 1}};
     ASSERT_EQ(answers(set, {shape, x, y, headings}, pairs)[0], gap < 0) << heading;
   }
-}
-
-TEST(LeafSegments, AreRunsOrLists) {
-  const std::vector<std::vector<std::uint32_t>> leaves = {{7}, {1, 2, 3}, {4, 6}, {0x1000000}, {9, 8}, {5}};
-  std::vector<std::uint32_t> long_run(127);
-  for (std::uint32_t i = 0; i < 127; ++i) long_run[i] = 50 + i;
-  std::vector<std::uint32_t> words;
-  for (std::size_t i = 0; i < leaves.size(); ++i) add_leaf(leaves[i], i, leaves.size() + 1, words);
-  add_leaf(long_run, leaves.size(), leaves.size() + 1, words);
-  for (std::size_t i = 0; i < leaves.size(); ++i) EXPECT_EQ(segments_of(words, i), leaves[i]);
-  EXPECT_EQ(segments_of(words, leaves.size()), long_run);
-  EXPECT_EQ(leaf_segments_size(words, leaves.size() + 1), words.size());
-  EXPECT_EQ(words.size(), 7 + 3 + 2 + 3);
-  long_run.push_back(177);
-  add_leaf(long_run, 1, leaves.size() + 1, words);
-  EXPECT_TRUE(segments_of(words, 1).empty());
 }
 
 /// A leaf with a list: two strokes that are near each other, one of them the outline's last.
@@ -324,18 +307,6 @@ TEST(LeafSegments, OfDenseOutlinesAreDiscs) {
         << i;
 }
 
-TEST(Plans, WithoutOutlinesHaveNoExactLeaves) {
-  const std::vector<Shape> shapes = test::synthetic_shapes(2405, 8);
-  EXPECT_TRUE(ShapeSet(shapes).exact_leaves());
-  EXPECT_FALSE(ShapeSet(shapes, {.outlines = false}).exact_leaves());
-  EXPECT_FALSE(ShapeSet(shapes, {{0, 3, 6}}).exact_leaves());
-  EXPECT_EQ(ShapeSet(shapes, {.outlines = false}).arrays().points.size(), 0u);
-  std::vector<Shape> bare = shapes;
-  for (Shape& shape : bare) shape.hierarchy.of_segments = false;
-  EXPECT_FALSE(ShapeSet(bare).exact_leaves());
-  EXPECT_TRUE(ShapeSet(bare).solid());
-}
-
 /// Agents at levels that have segments beside such at levels that do not: discs decide between those.
 TEST(Levels, BesideThatOfAllDepthsAreComparedByDiscs) {
   const std::vector<Shape> shapes = test::synthetic_shapes(2406, 12);
@@ -367,23 +338,6 @@ TEST(ExactLeavesInput, IsChecked) {
   ContactTable table;
   EXPECT_THROW(contacts(set, {shape, zero, zero, zero}, pairs, table, {.leaves = static_cast<Leaves>(7)}),
                std::invalid_argument);
-
-  const auto rejected = [](const auto& change) {
-    std::vector<Shape> changed = test::synthetic_shapes(2408, 2);
-    change(changed[1].hierarchy);
-    try {
-      ShapeSet{changed};
-    } catch (const std::invalid_argument& error) {
-      return std::string(error.what());
-    }
-    return std::string();
-  };
-  EXPECT_NE(rejected([](Hierarchy& h) { h.held.pop_back(); }).find("shape 1: hierarchy:"), std::string::npos);
-  EXPECT_NE(rejected([](Hierarchy& h) { h.held.back().end += 1; }).find("holds elements"), std::string::npos);
-  EXPECT_NE(rejected([](Hierarchy& h) { h.held.back().begin = h.held.back().end; }).find("holds elements"),
-            std::string::npos);
-  EXPECT_NE(rejected([](Hierarchy& h) { h.source[0] = 100'000; }).find("comes from segment 100000"),
-            std::string::npos);
 }
 
 }  // namespace

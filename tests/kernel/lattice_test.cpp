@@ -14,8 +14,8 @@
 #include "kernel/contact/contacts.hpp"
 #include "kernel/crowd/collide_all.hpp"
 #include "kernel/distance/clearance.hpp"
-#include "kernel/distance/contact_time.hpp"
-#include "kernel/separation/separation.hpp"
+#include "kernel/distance/time_of_impact.hpp"
+#include "kernel/penetration/penetration.hpp"
 #include "tests/support/scenes.hpp"
 
 // Footprints with integer corners at integer positions and heading 0, as simulators have them. Many corners are exactly
@@ -64,8 +64,8 @@ class Lattice : public testing::Test {
     outlines = big_footprints();
     for (const Outline& each : small_footprints()) outlines.push_back(each);
     for (const Outline& each : outlines) shapes.push_back(test::contour_shape(each, threshold));
-    for (const bool shortcuts : {true, false})
-      sets.emplace_back(shapes, ShapeSetPlan{{all_depths}, true, shortcuts});
+    for (const bool culling : {true, false})
+      sets.emplace_back(shapes, ShapeSetPlan{{all_depths}, true, culling});
   }
 
   baselines::Oracle oracle(const Agents& agents, Pair pair) const {
@@ -95,7 +95,7 @@ class Lattice : public testing::Test {
 
   std::vector<Outline> outlines;
   std::vector<Shape> shapes;
-  std::vector<ShapeSet> sets;  ///< with shortcuts and without
+  std::vector<ShapeSet> sets;  ///< with culling data and without
 };
 
 template <class Visit>
@@ -157,7 +157,7 @@ TEST_F(Lattice, ContactsAreThereWhereOutlinesCross) {
 }
 
 /// The first agent of a pair comes towards the second one's place, goes a metre further, and turns neither.
-TEST_F(Lattice, ContactTimesAreThoseOfTheOutlines) {
+TEST_F(Lattice, TimeOfImpactsAreThoseOfTheOutlines) {
   std::size_t meetings = 0;
   for_pairs_of_shapes([&](const test::PairScene& scene) {
     const Agents agents = scene.crowd.agents();
@@ -166,12 +166,12 @@ TEST_F(Lattice, ContactTimesAreThoseOfTheOutlines) {
       x.push_back(agents.x[second] - agents.x[first] + 1);
       y.push_back(agents.y[second] - agents.y[first]);
       const baselines::Oracle truth = oracle(agents, {first, second});
-      time.push_back(truth.cross() ? 0 : static_cast<double>(truth.contact_time(x.back(), y.back())));
+      time.push_back(truth.cross() ? 0 : static_cast<double>(truth.time_of_impact(x.back(), y.back())));
       meetings += time.back() > 0 && time.back() <= 1;
     }
     for_implementations([&](const kernel::Implementation& implementation) {
       std::vector<float> found(scene.pairs.size());
-      contact_time(sets[0], agents, scene.pairs, {x, y}, found, {&implementation});
+      time_of_impact(sets[0], agents, scene.pairs, {x, y}, found, {&implementation});
       for (std::size_t i = 0; i < found.size(); ++i) {
         ASSERT_LE(static_cast<double>(found[i]), time[i]) << implementation.name;
         if (found[i] > 1) continue;
@@ -208,15 +208,15 @@ double box_depth(const Box& a, const Box& b) {
   return std::max(least, 0.0);
 }
 
-TEST_F(Lattice, SeparationsAreThoseOfTheBoxes) {
+TEST_F(Lattice, PenetrationsAreThoseOfTheBoxes) {
   for_pairs_of_shapes([&](const test::PairScene& scene) {
     const Agents agents = scene.crowd.agents();
     const auto box = [&](std::uint32_t agent) {
       return Box(outlines[agents.shape[agent]], agents.x[agent], agents.y[agent]);
     };
     for_implementations([&](const kernel::Implementation& implementation) {
-      std::vector<Separation> found(scene.pairs.size());
-      separation(sets[0], agents, scene.pairs, 4, found, {&implementation});
+      std::vector<Penetration> found(scene.pairs.size());
+      penetration(sets[0], agents, scene.pairs, 4, found, {&implementation});
       test::PairScene after = scene;
       for (std::size_t i = 0; i < found.size(); ++i) {
         const auto [first, second] = scene.pairs[i];

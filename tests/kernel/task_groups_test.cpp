@@ -31,10 +31,10 @@ struct Rows {
   std::vector<std::uint32_t> neighbours;
 
   explicit Rows(const CollidingNeighbours& found)
-      : begin(found.begin.begin(), found.begin.end()),
+      : begin(found.offsets.begin(), found.offsets.end()),
         neighbours(found.neighbours.begin(), found.neighbours.end()) {}
   bool operator==(const CollidingNeighbours& found) const {
-    return std::ranges::equal(begin, found.begin) && std::ranges::equal(neighbours, found.neighbours);
+    return std::ranges::equal(begin, found.offsets) && std::ranges::equal(neighbours, found.neighbours);
   }
 };
 

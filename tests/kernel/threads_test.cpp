@@ -14,9 +14,9 @@
 #include "kernel/crowd/collide_all.hpp"
 #include "kernel/crowd/neighbour_rows.hpp"
 #include "kernel/distance/clearance.hpp"
-#include "kernel/distance/contact_time.hpp"
+#include "kernel/distance/time_of_impact.hpp"
+#include "kernel/penetration/penetration.hpp"
 #include "kernel/runtime/pair_validation.hpp"
-#include "kernel/separation/separation.hpp"
 #include "layout/shape_set/dynamic_shape_set.hpp"
 #include "tests/support/clearances.hpp"
 #include "tests/support/scenes.hpp"
@@ -79,7 +79,7 @@ struct Everything {
   std::vector<std::uint8_t> boundary, solid;
   test::Answers clearances;
   std::vector<float> times;
-  std::vector<Separation> best, along;
+  std::vector<Penetration> best, along;
   ContactTable contacts;
   std::vector<Pair> candidates;
   std::vector<std::uint64_t> begin;
@@ -98,14 +98,14 @@ struct Everything {
     collide(set, agents, pairs, boundary);
     collide(set, agents, pairs, solid, {Semantics::solid});
     clearances = test::answers(set, agents, pairs, 0.5);
-    contact_time(set, agents, pairs, {way, way}, times);
-    separation(set, agents, pairs, 8, best);
-    separation_along(set, agents, pairs, directions, along);
+    time_of_impact(set, agents, pairs, {way, way}, times);
+    penetration(set, agents, pairs, 8, best);
+    penetration_along(set, agents, pairs, directions, along);
     bch::contacts(set, agents, pairs, contacts);
     candidates = candidate_pairs(set, agents);
     CrowdCollider collider;
     const CollidingNeighbours all = collider.collide_all(set, agents);
-    begin.assign(all.begin.begin(), all.begin.end());
+    begin.assign(all.offsets.begin(), all.offsets.end());
     neighbours.assign(all.neighbours.begin(), all.neighbours.end());
   }
 
@@ -117,7 +117,7 @@ struct Everything {
     EXPECT_EQ(times, other.times);
     EXPECT_EQ(best, other.best);
     EXPECT_EQ(along, other.along);
-    EXPECT_EQ(contacts.begin, other.contacts.begin);
+    EXPECT_EQ(contacts.offsets, other.contacts.offsets);
     EXPECT_EQ(contacts.contacts, other.contacts.contacts);
     EXPECT_EQ(candidates, other.candidates);
     EXPECT_EQ(begin, other.begin);

@@ -9,16 +9,16 @@
 #include <vector>
 
 #include "baselines/contact_reference.hpp"
-#include "baselines/contact_time_reference.hpp"
+#include "baselines/penetration_reference.hpp"
 #include "baselines/reference.hpp"
-#include "baselines/separation_reference.hpp"
+#include "baselines/time_of_impact_reference.hpp"
 #include "kernel/collide/collide.hpp"
 #include "kernel/contact/contacts.hpp"
 #include "kernel/crowd/collide_all.hpp"
-#include "kernel/distance/contact_time.hpp"
+#include "kernel/distance/time_of_impact.hpp"
 #include "tests/support/clearances.hpp"
+#include "tests/support/penetrations.hpp"
 #include "tests/support/scenes.hpp"
-#include "tests/support/separations.hpp"
 
 // Pairs of very unequal shapes at the edge of contact, against all pairs of discs. Margins that grow with the size of one
 // shape alone do not hold for the other's rounding: these tests see it.
@@ -62,8 +62,8 @@ class UnequalSizes : public testing::Test {
  protected:
   UnequalSizes() {
     for (const double size : sizes) add_shapes(random, size, shapes);
-    for (const bool shortcuts : {true, false})
-      sets.emplace_back(shapes, ShapeSetPlan{plan.depths, plan.outlines, shortcuts});
+    for (const bool culling : {true, false})
+      sets.emplace_back(shapes, ShapeSetPlan{plan.depths, plan.outlines, culling});
     discs = std::make_unique<baselines::Reference>(shapes, plan);
     cuts = std::make_unique<CutLists>(shapes, plan);
   }
@@ -136,7 +136,7 @@ class UnequalSizes : public testing::Test {
 
   Random random{501};
   std::vector<Shape> shapes;
-  std::vector<ShapeSet> sets;  ///< with shortcuts and without
+  std::vector<ShapeSet> sets;  ///< with culling data and without
   std::unique_ptr<baselines::Reference> discs;
   std::unique_ptr<CutLists> cuts;
 };
@@ -188,7 +188,7 @@ TEST_F(UnequalSizes, ContactsEqualBruteForce) {
         const auto found = table.of(i);
         ASSERT_TRUE(std::equal(
             found.begin(), found.end(), expected.begin(), expected.end(),
-            [](const Contact& a, const auto& b) { return a.first == b.first && a.second == b.second; }))
+            [](const DiscPair& a, const auto& b) { return a.first == b.first && a.second == b.second; }))
             << implementation.name << ", pair " << i;
       }
     });
@@ -206,8 +206,8 @@ TEST_F(UnequalSizes, ClearancesEqualBruteForce) {
   }
 }
 
-TEST_F(UnequalSizes, ContactTimesEqualBruteForce) {
-  baselines::ContactTimeReference reference(shapes, plan);
+TEST_F(UnequalSizes, TimeOfImpactsEqualBruteForce) {
+  baselines::TimeOfImpactReference reference(shapes, plan);
   for (const PairScene& scene : scenes(test::samples(12'000))) {
     const Agents agents = scene.crowd.agents();
     std::vector<double> x, y;
@@ -219,7 +219,7 @@ TEST_F(UnequalSizes, ContactTimesEqualBruteForce) {
     }
     std::vector<float> found(scene.pairs.size());
     for_implementations([&](const kernel::Implementation& implementation) {
-      contact_time(sets[0], agents, scene.pairs, {x, y}, found, {&implementation});
+      time_of_impact(sets[0], agents, scene.pairs, {x, y}, found, {&implementation});
       for (std::size_t i = 0; i < found.size(); ++i)
         ASSERT_EQ(found[i], reference.query(agents, scene.pairs[i], x[i], y[i], Method::brute_force))
             << implementation.name << ", pair " << i;
@@ -227,11 +227,11 @@ TEST_F(UnequalSizes, ContactTimesEqualBruteForce) {
   }
 }
 
-TEST_F(UnequalSizes, SeparationsEqualBruteForceAndSuffice) {
+TEST_F(UnequalSizes, PenetrationsEqualBruteForceAndSuffice) {
   for (PairScene scene : scenes(test::samples(8'000))) {
     const auto found = test::best_of(8, sets[0], scene);
     for (std::size_t i = 0; i < scene.pairs.size(); ++i) {
-      const auto expected = baselines::separation(*cuts, scene.crowd.agents(), scene.pairs[i], 8);
+      const auto expected = baselines::penetration(*cuts, scene.crowd.agents(), scene.pairs[i], 8);
       ASSERT_TRUE(found[i].depth == expected.depth && found[i].x == expected.x && found[i].y == expected.y)
           << i;
       const std::uint32_t first = scene.pairs[i].first;

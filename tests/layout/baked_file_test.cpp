@@ -13,8 +13,8 @@
 #include "kernel/collide/collide.hpp"
 #include "kernel/contact/contacts.hpp"
 #include "kernel/distance/clearance.hpp"
-#include "kernel/distance/contact_time.hpp"
-#include "kernel/separation/separation.hpp"
+#include "kernel/distance/time_of_impact.hpp"
+#include "kernel/penetration/penetration.hpp"
 #include "layout/baked/checksum.hpp"
 #include "layout/baked/image.hpp"
 #include "tests/support/baked_bytes.hpp"
@@ -27,7 +27,7 @@ namespace {
 
 using baked::Section;
 
-const ShapeSetPlan full_plan{.depths = {0, 3, all_depths}, .outlines = true, .shortcuts = true};
+const ShapeSetPlan full_plan{.depths = {0, 3, all_depths}, .outlines = true, .culling = true};
 
 void expect_same(const ShapeArrays& loaded, const ShapeArrays& expected) {
   baked::Arrays a{loaded, {}, {}, {}, {}}, b{expected, {}, {}, {}, {}};
@@ -59,7 +59,7 @@ void expect_same_measures(const ShapeSet& loaded, const ShapeSet& expected) {
   const Agents agents = scene.crowd.agents();
   const std::vector<double> way(scene.pairs.size(), 0.5);
   ContactTable table[2];
-  std::vector<Separation> ways[2];
+  std::vector<Penetration> ways[2];
   std::vector<float> distances[2], times[2];
   std::vector<Vec2> directions(scene.pairs.size());
   for (int i = 0; i < 2; ++i) {
@@ -67,11 +67,11 @@ void expect_same_measures(const ShapeSet& loaded, const ShapeSet& expected) {
     ways[i].resize(scene.pairs.size()), distances[i].resize(scene.pairs.size()),
         times[i].resize(scene.pairs.size());
     contacts(set, agents, scene.pairs, table[i]);
-    separation(set, agents, scene.pairs, 8, ways[i]);
+    penetration(set, agents, scene.pairs, 8, ways[i]);
     clearance(set, agents, scene.pairs, {distances[i], directions});
-    contact_time(set, agents, scene.pairs, {way, way}, times[i]);
+    time_of_impact(set, agents, scene.pairs, {way, way}, times[i]);
   }
-  EXPECT_EQ(table[0].begin, table[1].begin);
+  EXPECT_EQ(table[0].offsets, table[1].offsets);
   EXPECT_TRUE(table[0].contacts == table[1].contacts);
   EXPECT_EQ(ways[0], ways[1]);
   EXPECT_EQ(distances[0], distances[1]);
@@ -83,9 +83,9 @@ TEST(BakedFile, ComesBackAsItWas) {
   for (const std::vector<std::uint32_t>& depths :
        {std::vector<std::uint32_t>{0}, {all_depths}, {0, 3, all_depths}, {1, 2}})
     for (const bool solid : {false, true})
-      for (const bool shortcuts : {false, true}) {
+      for (const bool culling : {false, true}) {
         const std::vector<Shape> shapes = synthetic_shapes(73, 40);
-        const ShapeSet set(shapes, {depths, solid, shortcuts});
+        const ShapeSet set(shapes, {depths, solid, culling});
         const ShapeOrigins origins = origins_of(shapes.size());
         const auto file = folder.write("shapes.bch", BakedBytes(set, origins).text());
         for (const FileAccess access : {FileAccess::read, FileAccess::map}) {
@@ -293,7 +293,7 @@ TEST(BakedFile, FilesThatAreNone) {
   EXPECT_THROW(load_baked(folder.write("text.bch", std::string(9999, 'x'))), BakedFileError);
 }
 
-/// Files of a size that nobody could read: what is wrong with them stands in their first bytes.
+/// Tests files too large to read into memory: the errors in them are found in their first bytes.
 TEST_F(SpoiledFile, SizesBeyondAllMemory) {
   const TemporaryFolder folder;
   constexpr std::uint64_t huge = std::uint64_t{4} << 40;

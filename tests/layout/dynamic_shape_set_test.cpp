@@ -21,7 +21,7 @@ namespace bch {
 static void PrintTo(const ShapeSetPlan& plan, std::ostream* out) {
   for (const std::uint32_t depth : plan.depths)
     *out << (depth == all_depths ? "all" : std::to_string(depth)) << "_";
-  *out << (plan.outlines ? "solid_" : "") << (plan.shortcuts ? "shortcuts" : "plain");
+  *out << (plan.outlines ? "solid_" : "") << (plan.culling ? "culling data" : "plain");
 }
 
 namespace {
@@ -84,7 +84,7 @@ TEST_P(DynamicShapes, AnswerAsIfBuiltAnew) {
 /// Single discs come and go.
 TEST_P(DynamicShapes, MayBecomeSingleDiscs) {
   Shape disc = pool[20];
-  disc.hierarchy.nodes.resize(1), disc.hierarchy.held.resize(1);
+  disc.hierarchy.nodes.resize(1), disc.hierarchy.primitive_ranges.resize(1);
   disc.hierarchy.nodes[0].second_child = 0;
   for (int round = 0; round < 6; ++round) {
     for (std::uint32_t shape = 0; shape < 12; ++shape)

@@ -14,7 +14,7 @@
 #include <utility>
 
 #include "layout/base/rounding.hpp"
-#include "layout/shape_set/wide_tree.hpp"
+#include "layout/shape_set/bvh8.hpp"
 #include "tests/support/allocation_count.hpp"
 #include "tests/support/character_shapes.hpp"
 #include "tests/support/complaint.hpp"
@@ -31,7 +31,7 @@ void expect_as_reference(const Outline& outline, float threshold) {
   Hierarchy hierarchy;
   for (const SplitRule rule : {SplitRule::centroid, SplitRule::centre}) {
     builder.contour(outline, threshold, rule, hierarchy);
-    builder.add_elements(hierarchy);
+    builder.add_primitives(hierarchy);
     test::expect_same_tree(hierarchy, test::reference_hierarchy(outline, threshold, rule));
     test::expect_sound(hierarchy);
   }
@@ -118,8 +118,8 @@ TEST(HierarchyBuilder, EndsAtTheDeepestDepth) {
       builder.contour(shape.outline, threshold, SplitRule::centroid, whole);
       for (std::uint32_t deepest = 0; deepest < height(whole) + 2; ++deepest) {
         builder.contour(shape.outline, threshold, SplitRule::centroid, limited, deepest);
-        EXPECT_TRUE(limited.elements.empty());
-        builder.add_elements(limited);
+        EXPECT_TRUE(limited.primitives.empty());
+        builder.add_primitives(limited);
         test::expect_sound(limited);
         EXPECT_EQ(height(limited), std::min(deepest, height(whole)));
         EXPECT_EQ(limited.reach, whole.reach);
@@ -134,12 +134,12 @@ TEST(HierarchyBuilder, LeavesNothingHalfDone) {
   Hierarchy hierarchy;
   const Outline outline = test::synthetic_shapes(33, 1)[0].outline;
   builder.contour(outline, 0.01f, SplitRule::centroid, hierarchy);
-  builder.add_elements(hierarchy);
+  builder.add_primitives(hierarchy);
   EXPECT_THROW(builder.contour(outline, 1e-8f, SplitRule::centroid, hierarchy), std::length_error);
   EXPECT_TRUE(hierarchy.nodes.empty());
-  EXPECT_TRUE(hierarchy.elements.empty());
+  EXPECT_TRUE(hierarchy.primitives.empty());
   builder.contour(outline, 0.01f, SplitRule::centroid, hierarchy);
-  builder.add_elements(hierarchy);
+  builder.add_primitives(hierarchy);
   test::expect_same_tree(hierarchy, test::reference_hierarchy(outline, 0.01f, SplitRule::centroid));
   EXPECT_THROW(
       builder.contour(outline, std::numeric_limits<float>::quiet_NaN(), SplitRule::centroid, hierarchy),
@@ -153,7 +153,7 @@ TEST(HierarchyBuilder, ReusesItsMemory) {
   HierarchyBuilder builder;
   Flattener flattener;
   Hierarchy hierarchy;
-  WideTree tree;
+  Bvh8 tree;
   std::size_t before = 0;
   for (int round = 0; round < 2; ++round) {
     before = test::allocation_count();
@@ -172,17 +172,17 @@ TEST(HierarchyBuilder, ReusesItsMemory) {
 
 TEST(Flattener, EqualsAFreshOne) {
   Flattener flattener;
-  WideTree tree;
+  Bvh8 tree;
   for (const Shape& shape : test::synthetic_shapes(35, 32)) {
     flattener.begin(shape.hierarchy);
     for (const std::uint32_t depth : {all_depths, 0u, 6u, 3u}) {
       flattener.flatten(depth, tree);
-      const WideTree fresh = wide_tree(shape.hierarchy, depth);
+      const Bvh8 fresh = bvh8(shape.hierarchy, depth);
       EXPECT_EQ(tree.root, fresh.root);
       EXPECT_EQ(tree.is_single(), fresh.is_single());
       ASSERT_EQ(tree.blocks.size(), fresh.blocks.size());
       for (std::size_t i = 0; i < tree.blocks.size(); ++i)
-        EXPECT_EQ(std::memcmp(&tree.blocks[i], &fresh.blocks[i], sizeof(WideTree::Block)), 0);
+        EXPECT_EQ(std::memcmp(&tree.blocks[i], &fresh.blocks[i], sizeof(Bvh8::Block)), 0);
       EXPECT_EQ(tree.x, fresh.x);
       EXPECT_EQ(tree.y, fresh.y);
       EXPECT_EQ(tree.radius, fresh.radius);
@@ -207,7 +207,7 @@ TEST(HierarchyBuilder, NumbersInMessagesAreWhatTheyAre) {
 /// Against the definition in double: rounding takes at most 8 of the margin's 320 units.
 TEST(Flattener, SupportsAreThoseOfTheCut) {
   Flattener flattener;
-  WideTree tree;
+  Bvh8 tree;
   for (const Shape& shape : test::synthetic_shapes(36, 32)) {
     flattener.begin(shape.hierarchy);
     for (const std::uint32_t depth : {0u, 3u, 6u, all_depths}) {

@@ -51,7 +51,8 @@ TEST(ContourHierarchy, SplitRulesDivideWhereTheySay) {
   const Hierarchy centroid = contour_hierarchy(outline, 0.1f, SplitRule::centroid);
   const Hierarchy centre = contour_hierarchy(outline, 0.1f, SplitRule::centre);
   const auto left_sources = [](const Hierarchy& h) {
-    std::vector<std::uint32_t> sources(h.source.begin() + h.held[1].begin, h.source.begin() + h.held[1].end);
+    std::vector<std::uint32_t> sources(h.source.begin() + h.primitive_ranges[1].begin,
+                                       h.source.begin() + h.primitive_ranges[1].end);
     std::sort(sources.begin(), sources.end());
     sources.erase(std::unique(sources.begin(), sources.end()), sources.end());
     return sources;
@@ -138,8 +139,8 @@ TEST(ProjectedHierarchy, HasOneLeafATriangle) {
   std::vector<std::uint32_t> sources = hierarchy.source;
   std::sort(sources.begin(), sources.end());
   for (std::uint32_t i = 0; i < sources.size(); ++i) EXPECT_EQ(sources[i], i);
-  for (std::size_t i = 0; i < hierarchy.elements.size(); ++i)
-    EXPECT_EQ(hierarchy.elements[i].b, vertices[triangles[hierarchy.source[i]][1]]);
+  for (std::size_t i = 0; i < hierarchy.primitives.size(); ++i)
+    EXPECT_EQ(hierarchy.primitives[i].b, vertices[triangles[hierarchy.source[i]][1]]);
 
   EXPECT_THROW(projected_hierarchy(vertices, {}), std::invalid_argument);
   triangles[3][1] = 120;

@@ -240,7 +240,7 @@ TEST(Interior, EveryInstructionSetGivesTheSameBits) {
   }
 }
 
-/// Against counting cell by cell, without shortcuts.
+/// Against counting cell by cell, without culling data.
 void expect_best_choices(const InteriorLoops& loops) {
   constexpr int cells = DiscCoverage::cells;
   test::Random random(9);

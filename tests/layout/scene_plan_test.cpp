@@ -132,8 +132,8 @@ TEST(ScenePlan, HasTheDepthsThatAgentsAskFor) {
 }
 
 TEST(ScenePlan, HasTheShortcutsThatPay) {
-  EXPECT_TRUE(plan_scene({}).set.shortcuts);
-  EXPECT_FALSE(plan_scene({}, {.pairs_per_shape = 6}).set.shortcuts);
+  EXPECT_TRUE(plan_scene({}).set.culling);
+  EXPECT_FALSE(plan_scene({}, {.pairs_per_shape = 6}).set.culling);
   EXPECT_TRUE(plan_scene({}, {.solid = true, .leaves = Leaves::discs}).set.outlines);
 }
 

@@ -11,8 +11,8 @@
 #include <string>
 #include <tuple>
 
+#include "layout/shape_set/bvh8.hpp"
 #include "layout/shape_set/shape_set_builder.hpp"
-#include "layout/shape_set/wide_tree.hpp"
 #include "tests/support/baked_bytes.hpp"
 #include "tests/support/scenes.hpp"
 
@@ -23,7 +23,7 @@ namespace {
 /// below all nodes of the blocks above it (a window may show neighbours of its group as well).
 class Walk {
  public:
-  explicit Walk(const WideTree& tree) : tree_(tree), reached_(tree.count) {
+  explicit Walk(const Bvh8& tree) : tree_(tree), reached_(tree.count) {
     visit(tree.top, {}, 1);
     for (std::size_t i = 0; i < reached_.size(); ++i)
       if (reached_[i]) discs.push_back(disc(leaf_window + static_cast<std::uint32_t>(i)));
@@ -51,7 +51,7 @@ class Walk {
   void visit(std::uint32_t node, const std::vector<std::uint32_t>& nodes_above, std::uint32_t level) {
     levels = std::max(levels, level);
     if (node & leaf_window) return reach(node & ~leaf_window, nodes_above);
-    const WideTree::Block& block = tree_.blocks.at(node);
+    const Bvh8::Block& block = tree_.blocks.at(node);
     for (std::uint32_t lane = 0; lane < block_width; ++lane) {
       const Disc in_block{block.discs.x[lane], block.discs.y[lane], block.discs.radius[lane]};
       if (std::isinf(in_block.x)) {
@@ -73,7 +73,7 @@ class Walk {
         reached_[i] = true;
   }
 
-  const WideTree& tree_;
+  const Bvh8& tree_;
   std::vector<bool> reached_;
 };
 
@@ -88,10 +88,10 @@ void expect_same_discs(std::vector<Disc> reached, const Hierarchy& hierarchy, st
   EXPECT_EQ(reached, expected);
 }
 
-TEST(WideTree, HoldsTheCutAndNothingElse) {
+TEST(Bvh8, HoldsTheCutAndNothingElse) {
   for (const Shape& shape : test::synthetic_shapes(21, 32))
     for (std::uint32_t depth = 0; depth <= height(shape.hierarchy) + 1; ++depth) {
-      const WideTree tree = wide_tree(shape.hierarchy, depth);
+      const Bvh8 tree = bvh8(shape.hierarchy, depth);
       const Walk walk(tree);
       EXPECT_EQ(tree.is_single(), walk.discs.size() == 1);
       expect_same_discs(walk.discs, shape.hierarchy, depth);
@@ -100,10 +100,10 @@ TEST(WideTree, HoldsTheCutAndNothingElse) {
 }
 
 /// Every way up from a disc of the cut is that of the hierarchy.
-TEST(WideTree, LinksLeadToTheRoot) {
+TEST(Bvh8, LinksLeadToTheRoot) {
   for (const Shape& shape : test::synthetic_shapes(22, 32))
     for (std::uint32_t depth = 0; depth <= height(shape.hierarchy) + 1; ++depth) {
-      const WideTree tree = wide_tree(shape.hierarchy, depth);
+      const Bvh8 tree = bvh8(shape.hierarchy, depth);
       const std::vector<HierarchyNode>& nodes = shape.hierarchy.nodes;
       const std::vector<std::uint32_t> discs = cut(shape.hierarchy, depth), ends = subtree_ends(nodes);
       ASSERT_EQ(tree.inner.size(), discs.size());
@@ -139,10 +139,10 @@ Hierarchy comb(std::uint32_t leaves) {
   return hierarchy;
 }
 
-TEST(WideTree, StaysShallowWhateverTheBinaryTree) {
+TEST(Bvh8, StaysShallowWhateverTheBinaryTree) {
   for (const std::uint32_t leaves : {2u, 8u, 9u, 100u, 113u, 5000u}) {
     const Hierarchy hierarchy = comb(leaves);
-    const Walk walk(wide_tree(hierarchy, all_depths));
+    const Walk walk(bvh8(hierarchy, all_depths));
     EXPECT_LE(walk.levels, most_wide_levels) << leaves;
     expect_same_discs(walk.discs, hierarchy, all_depths);
   }

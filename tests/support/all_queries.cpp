@@ -9,8 +9,8 @@
 #include "kernel/contact/contacts.hpp"
 #include "kernel/crowd/collide_all.hpp"
 #include "kernel/distance/clearance.hpp"
-#include "kernel/distance/contact_time.hpp"
-#include "kernel/separation/separation.hpp"
+#include "kernel/distance/time_of_impact.hpp"
+#include "kernel/penetration/penetration.hpp"
 #include "layout/shape_set/dynamic_shape_set.hpp"
 #include "layout/shape_set/flat_shape.hpp"
 
@@ -24,14 +24,14 @@ void ask_all(const ShapeSet& set, const Agents& agents, std::span<const Pair> pa
   CrowdCollider().collide_all(set, agents, {Semantics::boundary, &implementation});
   ContactTable table;
   contacts(set, agents, pairs, table, {&implementation});
-  std::vector<Separation> ways(pairs.size());
-  separation(set, agents, pairs, 4, ways, {&implementation});
+  std::vector<Penetration> ways(pairs.size());
+  penetration(set, agents, pairs, 4, ways, {&implementation});
   std::vector<float> values(pairs.size());
   std::vector<Vec2> directions(pairs.size());
-  std::vector<CutNodes> nodes(pairs.size());
+  std::vector<ClosestDiscs> nodes(pairs.size());
   clearance(set, agents, pairs, {values, directions, nodes}, {.implementation = &implementation});
   const std::vector<double> way(pairs.size(), 0.5);
-  contact_time(set, agents, pairs, {way, way}, values, {.implementation = &implementation});
+  time_of_impact(set, agents, pairs, {way, way}, values, {.implementation = &implementation});
 }
 
 void ask_all_of_a_dynamic_copy(const ShapeSet& set, const Agents& agents, std::span<const Pair> pairs,

@@ -12,7 +12,8 @@
 
 namespace bch::test {
 
-/// Asks every query about pairs of a crowd, in every semantics that the set has: for who only wants to see that all end.
+/// Asks every query about pairs of a crowd, in every semantics that the set has, for tests that only check
+/// that all calls end.
 void ask_all(const ShapeSet& set, const Agents& agents, std::span<const Pair> pairs,
              const kernel::Implementation& implementation);
 

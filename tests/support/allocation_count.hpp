@@ -7,19 +7,20 @@
 
 namespace bch::test {
 
-// For programs that are linked with allocation_count.cpp, which replaces operator new.
+// These functions are for programs that are linked with allocation_count.cpp, which replaces operator new.
 
-/// Calls of operator new so far.
+/// Returns the number of calls of operator new so far.
 std::size_t allocation_count();
 
-/// What operator new gave and nobody has returned.
+/// Returns the number of allocations by operator new that have not been freed.
 std::size_t live_allocations();
 
 enum class Failing { none, one, all };
 
-/// From now on, so many calls of operator new succeed; then one, or all until stop_failing_allocations(), has no memory.
+/// Makes operator new fail: so many calls succeed; then one, or all until stop_failing_allocations(), has no
+/// memory.
 void fail_allocations(Failing mode, std::size_t after);
-/// Returns: how many failed.
+/// Ends the failures of operator new. Returns: how many calls failed.
 std::size_t stop_failing_allocations();
 
 }  // namespace bch::test

@@ -13,11 +13,11 @@
 
 namespace bch::test {
 
-/// A few shapes with blocks, windows, single discs, several contours.
+/// Returns a few shapes with blocks, windows, single discs, several contours.
 std::vector<Shape> few_shapes();
 ShapeOrigins origins_of(std::size_t shapes);
 
-/// A baked file in memory, to be spoiled.
+/// A baked file in memory, for tests that corrupt it.
 class BakedBytes {
  public:
   BakedBytes(const ShapeSet& set, const ShapeOrigins& origins);
@@ -38,9 +38,9 @@ class BakedBytes {
   void seal_header();
 
   BakedShapes load() const;
-  /// From a block of memory with nothing behind it.
+  /// Loads the first bytes from a block of memory that ends with them.
   BakedShapes load_first(std::size_t size) const;
-  /// The error of load(); empty where there is none.
+  /// Returns the error of load(); empty where there is none.
   std::string error() const;
 
  private:

@@ -16,7 +16,7 @@
 
 namespace bch::test {
 
-/// Poses spread over each character's clips.
+/// Returns bodies in poses spread over each character's clips.
 std::vector<baselines::Body> posed_bodies(const std::vector<Character>& characters, std::uint32_t poses);
 
 /// Answers of one structure to all pairs.
@@ -26,11 +26,11 @@ struct Answers {
   std::vector<std::uint8_t> hits;
 };
 
-/// Every kind, built over the bodies; not yet asked.
+/// Builds every kind over the bodies; answers are not yet asked for.
 std::vector<Answers> build_all(const std::vector<baselines::Body>& bodies);
 
-/// Pairs (2 i, 2 i + 1) of agents whose root discs overlap in most. If the environment variable BCH_REPLAY
-/// holds what replay_line() printed, that one pair alone.
+/// Makes pairs (2 i, 2 i + 1) of agents whose root discs overlap in most. If the environment variable
+/// BCH_REPLAY holds what replay_line() printed, that one pair alone.
 PairScene placements(std::uint64_t seed, const std::vector<baselines::Body>& bodies, std::uint32_t pairs);
 
 /// Slides the second agent of every pair to where the answer of one of the structures (in turn) changes: half
@@ -40,11 +40,11 @@ void slide_to_contact(std::uint64_t seed, PairScene& scene,
 
 bool replaying();
 
-/// How to run one failing pair again.
+/// Returns a line that says how to run one failing pair again.
 std::string replay_line(const PairScene& scene, std::size_t pair);
 
-/// Whether an answer changes when the second agent moves by `shift` metres in one of 32 directions: how the
-/// tests recognise touching.
+/// Returns whether an answer changes when the second agent moves by `shift` metres in one of 32 directions.
+/// This is how the tests recognise touching.
 template <class Answer>
 bool touches(const PairScene& scene, std::size_t pair, double shift, Answer answer);
 

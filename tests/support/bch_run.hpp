@@ -17,7 +17,7 @@ using Arguments = std::vector<std::string>;
 /// Runs the program `bch`.
 Ending bch(Arguments arguments, const Arguments& more = {}, const Streams& streams = {});
 
-/// One line on standard error that has all of the words, and nothing on standard output.
+/// Expects one line on standard error that has all of the words, and nothing on standard output.
 void expect_failure(const Ending& run, int code, const Arguments& words);
 
 std::size_t lines(const std::string& text);
@@ -29,7 +29,7 @@ constexpr const char* box =
     "v -0.25 0 -0.15\nv 0.25 0 -0.15\nv 0.25 0 0.15\nv -0.25 0 0.15\n"
     "v -0.25 1.8 -0.15\nv 0.25 1.8 -0.15\nv 0.25 1.8 0.15\nv -0.25 1.8 0.15\n"
     "f 1 2 3 4\nf 8 7 6 5\nf 1 5 6 2\nf 2 6 7 3\nf 3 7 8 4\nf 4 8 5 1\n";
-/// What says that of it.
+/// The import options for that box.
 inline const Arguments as_metres{"--up", "y", "--scale", "1"};
 
 constexpr const char* four_agents =

@@ -12,10 +12,10 @@
 
 namespace bch::test {
 
-/// The folder that the environment variable BCH_TEST_DATA names; empty where it is unset.
+/// Returns the folder that the environment variable BCH_TEST_DATA names; empty where it is unset.
 std::optional<std::filesystem::path> test_data();
 
-/// Contour hierarchies at 1 cm of poses spread over the character's clips; on all threads.
+/// Builds contour hierarchies at 1 cm of poses spread over the character's clips; on all threads.
 std::vector<Shape> pose_shapes(const Character& character, std::uint32_t poses);
 
 }  // namespace bch::test

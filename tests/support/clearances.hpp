@@ -14,15 +14,15 @@
 
 namespace bch::test {
 
-/// All that clearance() says of some pairs.
+/// The results of clearance() for some pairs.
 struct Answers {
   std::vector<float> distance;
   std::vector<Vec2> direction;
-  std::vector<CutNodes> nodes;
+  std::vector<ClosestDiscs> nodes;
 
   explicit Answers(std::size_t size = 0) : distance(size), direction(size), nodes(size) {}
   ClearanceAnswers spans() { return {distance, direction, nodes}; }
-  /// Bits, not values: -0 is not 0.
+  /// Compares bits, not values: -0 is not 0.
   bool same(std::size_t i, const Answers& other, std::size_t k) const {
     const auto bits = [](float value) { return std::bit_cast<std::uint32_t>(value); };
     return bits(distance[i]) == bits(other.distance[k]) &&
@@ -38,7 +38,7 @@ inline Answers answers(const ShapeSet& set, const Agents& agents, std::span<cons
   return all;
 }
 
-/// The same by the scalar reference.
+/// Asks the scalar reference for the answers to all pairs of a scene.
 inline Answers answers(baselines::ClearanceReference& reference, const PairScene& scene, double max_distance,
                        baselines::Method method) {
   Answers all;

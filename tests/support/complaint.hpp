@@ -8,7 +8,7 @@
 
 namespace bch::test {
 
-/// What a call says when it throws an Exception; "accepted" where it throws nothing.
+/// Returns the message of a call that throws an Exception; "accepted" where it throws nothing.
 template <class Exception = std::invalid_argument, class Call>
 std::string complaint(Call call) {
   try {

@@ -14,10 +14,10 @@
 
 namespace bch::test {
 
-/// Of sets for distance queries.
+/// The levels of sets for distance queries.
 inline const ShapeSetPlan four_levels{{0, 3, 6, all_depths}};
 
-/// What a comparison of kernels with references begins with: shapes of many kinds, and pairs of them.
+/// The fixture for comparisons of kernels with references: shapes of many kinds, and pairs of them.
 class Differential : public testing::Test {
  protected:
   Differential(std::uint64_t seed, const ShapeSetPlan& levels)
@@ -29,7 +29,7 @@ class Differential : public testing::Test {
 
   void SetUp() override { RecordProperty("seed", std::to_string(seed_)); }
 
-  /// Pairs that stand at the edge of an overlap of discs.
+  /// Makes pairs that stand at the edge of an overlap of discs.
   PairScene tangent_scene(std::uint32_t pairs) {
     PairScene scene = random_scene(random, set, pairs);
     make_tangent(random, scene, [&](const Agents& agents, Pair pair) {

@@ -20,9 +20,10 @@ double distance(const Disc& disc, double x, double y) {
 
 void expect_holds_elements(const Hierarchy& hierarchy, std::uint32_t node) {
   const Disc& disc = hierarchy.nodes[node].disc;
-  for (std::uint32_t e = hierarchy.held[node].begin; e < hierarchy.held[node].end; ++e) {
-    const auto [a, b, c] = hierarchy.elements[e];
-    for (const Vec2& p : {a, b, c}) ASSERT_LE(distance(disc, p.x, p.y), disc.radius) << "element " << e;
+  for (std::uint32_t e = hierarchy.primitive_ranges[node].begin; e < hierarchy.primitive_ranges[node].end;
+       ++e) {
+    const auto [a, b, c] = hierarchy.primitives[e];
+    for (const Vec2& p : {a, b, c}) ASSERT_LE(distance(disc, p.x, p.y), disc.radius) << "primitive " << e;
   }
 }
 
@@ -31,9 +32,9 @@ void expect_holds_elements(const Hierarchy& hierarchy, std::uint32_t node) {
 void expect_sound(const Hierarchy& hierarchy) {
   const auto& nodes = hierarchy.nodes;
   ASSERT_FALSE(nodes.empty());
-  const auto& held = hierarchy.held;
+  const auto& held = hierarchy.primitive_ranges;
   ASSERT_EQ(held.size(), nodes.size());
-  EXPECT_EQ(held[0].end, hierarchy.elements.size());
+  EXPECT_EQ(held[0].end, hierarchy.primitives.size());
   const std::vector<float> bounds = bounding_radii(hierarchy);
   const std::vector<std::uint32_t> ends = subtree_ends(nodes);
   EXPECT_EQ(ends[0], nodes.size());
@@ -58,14 +59,14 @@ void expect_sound(const Hierarchy& hierarchy) {
 void expect_covers_outline(const Hierarchy& hierarchy, const Outline& outline) {
   // Where each segment's pieces start, in the order of their halving.
   std::vector<Vec2> reached(outline.points);
-  std::vector<std::vector<Element>> pieces(outline.points.size());
-  for (std::size_t e = 0; e < hierarchy.elements.size(); ++e)
-    pieces[hierarchy.source[e]].push_back(hierarchy.elements[e]);
+  std::vector<std::vector<Primitive>> pieces(outline.points.size());
+  for (std::size_t e = 0; e < hierarchy.primitives.size(); ++e)
+    pieces[hierarchy.source[e]].push_back(hierarchy.primitives[e]);
   for (std::size_t c = 0; c < outline.contours(); ++c) {
     const auto contour = outline.contour(c);
     for (std::size_t i = 0; i < contour.size(); ++i) {
       Vec2 at = contour[i];
-      for (const Element& piece : pieces[outline.contour_begin[c] + i]) {
+      for (const Primitive& piece : pieces[outline.contour_begin[c] + i]) {
         EXPECT_EQ(piece.a, at);
         at = piece.b;
       }
@@ -75,10 +76,10 @@ void expect_covers_outline(const Hierarchy& hierarchy, const Outline& outline) {
   for (std::uint32_t depth = 0; depth <= height(hierarchy); ++depth) {
     std::uint32_t next = 0;
     for (const std::uint32_t node : cut(hierarchy, depth)) {
-      ASSERT_EQ(hierarchy.held[node].begin, next) << "depth " << depth;
-      next = hierarchy.held[node].end;
+      ASSERT_EQ(hierarchy.primitive_ranges[node].begin, next) << "depth " << depth;
+      next = hierarchy.primitive_ranges[node].end;
     }
-    ASSERT_EQ(next, hierarchy.elements.size()) << "depth " << depth;
+    ASSERT_EQ(next, hierarchy.primitives.size()) << "depth " << depth;
   }
 }
 

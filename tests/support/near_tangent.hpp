@@ -38,9 +38,9 @@ class TangentShapes {
   std::vector<PosedShape> poses_;
 };
 
-/// A pair of agents at the edge of a hit. A disc of one's cut and one of the other's overlap, with all discs above them, but
-/// for two of all these, which are within a few units in the last place of touching: the two of the cuts, or discs above one
-/// of them or both.
+/// A pair of agents at the edge of a hit. A disc of one's cut and one of the other's overlap, with all discs
+/// above them, except for two of these discs, which are within a few units in the last place of touching.
+/// Those two are the discs of the cuts, or discs above one of them or both.
 struct NearTangent {
   const PosedShape *a, *b;
   double x, y;  ///< of b's agent; a's stands at (at_x, at_y)
@@ -55,13 +55,14 @@ struct NearTangent {
   const baselines::ExactDisc& disc_a() const { return a->cut.discs[i]; }
   const baselines::ExactDisc& disc_b() const { return b->cut.discs[j]; }
   double radii() const { return static_cast<double>(disc_a().radius + disc_b().radius); }
-  /// Whether they have no other discs.
+  /// Returns whether the cuts have no other discs.
   bool lone() const { return a->cut.discs.size() == 1 && b->cut.discs.size() == 1; }
 };
 
-/// The discs of the cuts are the outermost along a random line, so that hardly any others hide a miss of theirs. The two that
-/// nearly touch are those that part them: the first to do so as b goes away along that line, from where the centres of both
-/// discs of the cuts are one point. That point is then in all discs above, too, so that all overlap on the way.
+/// Draws a pair of agents that nearly touch. The discs of the cuts are the outermost along a random line, so
+/// that hardly any others hide a miss of theirs. The two that nearly touch are those that separate the
+/// agents: the first to do so as b moves away along that line from where the centres of both discs of the
+/// cuts coincide. That point is then in all discs above, too, so that all overlap on the way.
 ///
 /// Half of the gaps are -64 to 64 units in the last place of a float, a quarter as many of a double, and the rest up to 8 u
 /// of the reaches.

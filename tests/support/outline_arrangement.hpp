@@ -16,9 +16,10 @@ struct IntegerPoint {
 using IntegerTriangle = std::array<IntegerPoint, 3>;
 using IntegerContour = std::vector<IntegerPoint>;
 
-/// What OutlineBuilder promises, from the definition and in cubic time: all edges of all triangles are cut at
-/// each other, in exact fractions, and the contours are the boundaries of the arrangement's unbounded face. (A
-/// triangle's edges bound it, so this face is that of the triangles' union.) Coordinates are at most 2^23.
+/// Computes the outline that OutlineBuilder promises, from the definition and in cubic time. All edges of all
+/// triangles are cut at each other, in exact fractions, and the contours are the boundaries of the
+/// arrangement's unbounded face. (A triangle's edges bound it, so this face is that of the triangles' union.)
+/// Coordinates are at most 2^23.
 std::vector<IntegerContour> arrangement_outline(const std::vector<IntegerTriangle>& triangles);
 
 }  // namespace bch::test

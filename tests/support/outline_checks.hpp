@@ -15,16 +15,16 @@ namespace bch::test {
 using Positions = std::span<const Eigen::Vector3f>;
 using Triangles = std::span<const std::array<std::uint32_t, 3>>;
 
-/// Even-odd rule over all contours.
+/// Returns whether a point is inside by the even-odd rule over all contours.
 bool inside(const Outline& outline, double x, double y);
 
-/// Every vertex of every triangle is inside the outline or within 1.5 grid steps of it, and so are points
-/// along the edges.
+/// Checks that every vertex of every triangle is inside the outline or within 1.5 grid steps of it, and so
+/// are points along the edges.
 void expect_covers(const Outline& outline, Positions positions, Triangles triangles);
 
-/// Point-in-triangle tests on a raster of `resolution` squared points, those within 3 grid steps of any edge
-/// left aside: a covered point is inside; a point that can be reached from outside along raster lines that no
-/// triangle meets is outside.
+/// Compares the outline with point-in-triangle tests on a raster of `resolution` squared points. Points
+/// within 3 grid steps of any edge are left aside. A covered point is inside; a point that can be reached
+/// from outside along raster lines that no triangle meets is outside.
 void expect_equals_samples(const Outline& outline, Positions positions, Triangles triangles, int resolution);
 
 }  // namespace bch::test

@@ -12,7 +12,7 @@ namespace bch::test {
 
 std::string read_text(const std::filesystem::path& file);
 
-/// What a program said and how it ended.
+/// The output of a program and how it ended.
 struct Ending {
   int code = 0;  ///< exit code, or minus the signal that ended it
   std::string out, err;

@@ -48,7 +48,7 @@ class Reference {
     const double radius = add_node(segments);
     if (radius < threshold_ || !divisible(segments)) {
       for (const auto& [a, b, source] : segments) {
-        hierarchy_.elements.push_back({a, b, b});
+        hierarchy_.primitives.push_back({a, b, b});
         hierarchy_.source.push_back(source);
       }
     } else {
@@ -57,7 +57,7 @@ class Reference {
       nodes[index].second_child = static_cast<std::uint32_t>(nodes.size());
       add(second);
     }
-    hierarchy_.held[index].end = static_cast<std::uint32_t>(hierarchy_.elements.size());
+    hierarchy_.primitive_ranges[index].end = static_cast<std::uint32_t>(hierarchy_.primitives.size());
   }
 
   Hierarchy hierarchy_;
@@ -76,7 +76,7 @@ class Reference {
     }
     HierarchyNode node;
     node.disc = {x, y, rounding::round_up(radius + margin_)};
-    hierarchy_.held.push_back({static_cast<std::uint32_t>(hierarchy_.elements.size()), 0});
+    hierarchy_.primitive_ranges.push_back({static_cast<std::uint32_t>(hierarchy_.primitives.size()), 0});
     hierarchy_.nodes.push_back(node);
     return radius;
   }
@@ -157,16 +157,16 @@ Hierarchy reference_hierarchy(const Outline& outline, float threshold, SplitRule
 void expect_same_tree(const Hierarchy& hierarchy, const Hierarchy& reference) {
   ASSERT_EQ(hierarchy.nodes.size(), reference.nodes.size());
   EXPECT_EQ(hierarchy.source, reference.source);
-  ASSERT_EQ(hierarchy.elements.size(), reference.elements.size());
-  for (std::size_t i = 0; i < hierarchy.elements.size(); ++i) {
-    EXPECT_EQ(hierarchy.elements[i].a, reference.elements[i].a);
-    EXPECT_EQ(hierarchy.elements[i].b, reference.elements[i].b);
+  ASSERT_EQ(hierarchy.primitives.size(), reference.primitives.size());
+  for (std::size_t i = 0; i < hierarchy.primitives.size(); ++i) {
+    EXPECT_EQ(hierarchy.primitives[i].a, reference.primitives[i].a);
+    EXPECT_EQ(hierarchy.primitives[i].b, reference.primitives[i].b);
   }
   for (std::size_t i = 0; i < hierarchy.nodes.size(); ++i) {
     const HierarchyNode &node = hierarchy.nodes[i], &expected = reference.nodes[i];
     ASSERT_EQ(node.second_child, expected.second_child) << "node " << i;
-    ASSERT_EQ(hierarchy.held[i].begin, reference.held[i].begin) << "node " << i;
-    ASSERT_EQ(hierarchy.held[i].end, reference.held[i].end) << "node " << i;
+    ASSERT_EQ(hierarchy.primitive_ranges[i].begin, reference.primitive_ranges[i].begin) << "node " << i;
+    ASSERT_EQ(hierarchy.primitive_ranges[i].end, reference.primitive_ranges[i].end) << "node " << i;
     EXPECT_NEAR(node.disc.radius, expected.disc.radius,
                 1e-6 * static_cast<double>(expected.disc.radius) + 0x1p-23 * hierarchy.reach)
         << "node " << i;

@@ -7,10 +7,12 @@
 
 namespace bch::test {
 
-/// contour_hierarchy() word by word: node after node by recursion, discs by Welzl's algorithm. Validates nothing.
+/// Builds what contour_hierarchy() defines, word by word: node after node by recursion, discs by Welzl's
+/// algorithm. Validates nothing.
 Hierarchy reference_hierarchy(const Outline& outline, float threshold, SplitRule rule);
 
-/// The same tree over the same elements, and discs as large up to a 1e-6 part and the rounding of their centres.
+/// Expects the same tree over the same primitives, and discs as large up to a 1e-6 part and the rounding of
+/// their centres.
 void expect_same_tree(const Hierarchy& hierarchy, const Hierarchy& reference);
 
 }  // namespace bch::test

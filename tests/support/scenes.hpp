@@ -25,8 +25,8 @@ class Random {
   std::uint64_t state_;
 };
 
-/// How many cases of the same kind a test of `cases` looks at: with sanitizers an eighth. They watch the code, which is
-/// the same for all, and take ten times as long; the other builds count answers.
+/// Returns how many cases of the same kind a test of `cases` looks at: an eighth with sanitizers. These check
+/// the code, which is the same for all cases, and take ten times as long; the other builds count answers.
 constexpr std::uint32_t samples(std::uint32_t cases) {
 #ifdef BCH_SANITIZED
   return (cases + 7) / 8;
@@ -35,16 +35,17 @@ constexpr std::uint32_t samples(std::uint32_t cases) {
 #endif
 }
 
-/// One contour.
+/// Returns an outline of one contour.
 Outline polygon(std::vector<Vec2> points);
 
-/// A star-shaped polygon on the outline grid, counter-clockwise around (x, y).
+/// Returns a star-shaped polygon on the outline grid, counter-clockwise around (x, y).
 Outline star(Random& random, std::uint32_t corners, double inner, double outer, double x = 0, double y = 0);
 
-/// A sliver from x = -0.4 to a tip at x = 0.4: ahead of the tip its leaf discs reach as far as it does itself.
+/// Returns a sliver from x = -0.4 to a tip at x = 0.4: ahead of the tip its leaf discs reach as far as it
+/// does itself.
 Outline needle();
 
-/// The same outline with every contour that is clockwise turned round, as validate() wants it.
+/// Returns the outline with every clockwise contour reversed, as validate() requires it.
 Outline counter_clockwise(Outline outline);
 
 /// Appends the contours of one outline to another.
@@ -52,11 +53,11 @@ void append(Outline& outline, const Outline& more);
 
 Shape contour_shape(const Outline& outline, float threshold = 0.01f);
 
-/// Shapes of many kinds: people-sized stars of few and of many corners, slender ones, several contours,
+/// Makes shapes of many kinds: people-sized stars of few and of many corners, slender ones, several contours,
 /// whiskers, triangles, and sizes from 1 cm to 4 m.
 std::vector<Shape> synthetic_shapes(std::uint64_t seed, std::uint32_t count);
 
-/// So many that kernels ask for them ahead: these again and again.
+/// Repeats the shapes until there are so many that kernels prefetch them.
 std::vector<Shape> repeated(std::span<const Shape> shapes);
 
 /// Agents in vectors of their own.
@@ -71,7 +72,8 @@ struct Crowd {
     double x, y, heading;
     std::uint8_t level;
   };
-  /// Takes braces, in which random numbers come in the order of the fields; as arguments every compiler has its own.
+  /// Adds an agent. Braces evaluate random numbers in the order of the fields; the order of arguments depends
+  /// on the compiler.
   void add(const Agent& agent);
 };
 
@@ -81,14 +83,14 @@ struct PairScene {
   Crowd crowd;
   std::vector<Pair> pairs;
 };
-/// Of 5 000 pairs and more only samples().
+/// Draws a scene of `pairs` pairs; of 5 000 pairs and more only samples().
 PairScene random_scene(Random& random, const ShapeSet& shapes, std::uint32_t pairs);
 
 /// Slides the second agent of every pair along a line until `hit` changes within the last bits of the
 /// placement, and leaves it a few of those bits on either side.
 void make_tangent(Random& random, PairScene& scene, const std::function<bool(const Agents&, Pair)>& hit);
 
-/// A random scene whose second agents stand about the first ones' positions plus (x, y), with differences
+/// Moves the second agents of a random scene about the first ones' positions plus (x, y), with differences
 /// that are exact: every coordinate is a multiple of 2^-20 m.
 void move_away(PairScene& scene, double x, double y);
 

@@ -9,7 +9,7 @@
 
 namespace bch::test {
 
-/// The triangles as a binary STL file, where each has vertices of its own.
+/// Returns the triangles as a binary STL file, where each has vertices of its own.
 std::string stl_file(const Soup& soup);
 
 }  // namespace bch::test

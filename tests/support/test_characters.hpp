@@ -15,7 +15,7 @@ inline std::vector<Character> default_characters() {
   return {default_male(), default_female()};
 }
 
-/// Three people of about 2 850 triangles from the folder that test_data() names.
+/// Returns three people of about 2 850 triangles from the folder that test_data() names.
 inline std::vector<Character> real_characters(const std::filesystem::path& data) {
   return {import_character(data / "characters" / "rocketbox_male_2847_cmu.glb").character,
           import_character(data / "characters" / "rocketbox_female_2841_cmu.glb").character,

@@ -12,8 +12,8 @@
 #include "kernel/contact/contacts.hpp"
 #include "kernel/crowd/collide_all.hpp"
 #include "kernel/distance/clearance.hpp"
-#include "kernel/distance/contact_time.hpp"
-#include "kernel/separation/separation.hpp"
+#include "kernel/distance/time_of_impact.hpp"
+#include "kernel/penetration/penetration.hpp"
 #include "tests/support/allocation_count.hpp"
 #include "tests/support/scenes.hpp"
 
@@ -82,22 +82,22 @@ TEST_P(Allocations, ContactsNeedTheirTableAlone) {
   EXPECT_GT(table.contacts.size(), pairs.size());
 }
 
-TEST_P(Allocations, SeparationNeedsNone) {
+TEST_P(Allocations, PenetrationNeedsNone) {
   const std::vector<Pair> pairs = some_pairs();
   const std::vector<Vec2> directions(pairs.size(), Vec2{1, 2});
-  std::vector<Separation> ways(pairs.size());
-  EXPECT_EQ(count([&] { separation(set, crowd.agents(), pairs, 16, ways); }), 0u);
-  EXPECT_EQ(count([&] { separation_along(set, crowd.agents(), pairs, directions, ways); }), 0u);
+  std::vector<Penetration> ways(pairs.size());
+  EXPECT_EQ(count([&] { penetration(set, crowd.agents(), pairs, 16, ways); }), 0u);
+  EXPECT_EQ(count([&] { penetration_along(set, crowd.agents(), pairs, directions, ways); }), 0u);
 }
 
 TEST_P(Allocations, DistancesAndTimesNeedNone) {
   const std::vector<Pair> pairs = some_pairs();
   std::vector<float> values(pairs.size());
   std::vector<Vec2> directions(pairs.size());
-  std::vector<CutNodes> nodes(pairs.size());
+  std::vector<ClosestDiscs> nodes(pairs.size());
   const std::vector<double> way(pairs.size(), 0.5);
   EXPECT_EQ(count([&] { clearance(set, crowd.agents(), pairs, {values, directions, nodes}, {0.5}); }), 0u);
-  EXPECT_EQ(count([&] { contact_time(set, crowd.agents(), pairs, {way, way}, values); }), 0u);
+  EXPECT_EQ(count([&] { time_of_impact(set, crowd.agents(), pairs, {way, way}, values); }), 0u);
 }
 
 INSTANTIATE_TEST_SUITE_P(Threads, Allocations, testing::Values(1, 2, 4));

@@ -12,12 +12,12 @@
 
 #include "kernel/broad_phase/broad_phase.hpp"
 #include "kernel/collide/collide.hpp"
-#include "kernel/distance/contact_time.hpp"
+#include "kernel/distance/time_of_impact.hpp"
 #include "layout/default_character/default_characters.hpp"
 #include "layout/scene/pose_shape.hpp"
 
 // Continuous motion: two groups of people walk through each other in steps of half a second. Who looks only at where a
-// step ends lets them pass through each other on the way; who asks for the time of contact stops them before.
+// step ends lets them pass through each other on the way; who asks for the time of impact stops them before.
 
 namespace {
 
@@ -103,7 +103,7 @@ class Stepper {
         const auto [i, j] = near[k];
         x[k] = now.to_x[i] - now.to_x[j], y[k] = now.to_y[i] - now.to_y[j];
       }
-      bch::contact_time(shapes_, now.agents(), near, {x, y}, time);
+      bch::time_of_impact(shapes_, now.agents(), near, {x, y}, time);
       const std::vector<double> before = part;
       for (std::size_t k = 0; k < near.size(); ++k) {
         if (!(time[k] <= 1)) continue;

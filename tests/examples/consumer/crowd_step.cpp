@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "kernel/crowd/collide_all.hpp"
-#include "kernel/separation/separation.hpp"
+#include "kernel/penetration/penetration.hpp"
 #include "layout/default_character/default_characters.hpp"
 #include "layout/scene/pose_shape.hpp"
 
@@ -42,7 +42,7 @@ Crowd crushed(std::uint32_t people, double per_square_metre, std::uint32_t shape
   return crowd;
 }
 
-/// Moves each of two colliding agents half of the shortest way that separation() finds, but by no more than a short
+/// Moves each of two colliding agents half of the shortest way that penetration() finds, but by no more than a short
 /// step, so that agents who reach around each other stop as soon as they do not overlap; and a little beyond, so that
 /// rows of agents come to rest.
 class Pusher {
@@ -59,7 +59,7 @@ class Pusher {
       for (const std::uint32_t j : rows.of(i))
         if (i < j) pairs_.push_back({i, j});
     ways_.resize(pairs_.size());
-    bch::separation(shapes_, crowd.agents(), pairs_, 32, ways_);
+    bch::penetration(shapes_, crowd.agents(), pairs_, 32, ways_);
     for (std::size_t k = 0; k < pairs_.size(); ++k) {
       const double half = std::min(0.5f * ways_[k].depth + beyond, longest);
       const auto [i, j] = pairs_[k];
@@ -73,7 +73,7 @@ class Pusher {
   const bch::ShapeSet& shapes_;
   bch::CrowdCollider collider_;
   std::vector<bch::Pair> pairs_;
-  std::vector<bch::Separation> ways_;
+  std::vector<bch::Penetration> ways_;
 };
 
 /// People per square metre among the half of a crowd that is nearest its middle.
@@ -88,7 +88,7 @@ double density(const Crowd& crowd) {
   return (people / 2) / (3.14159265 * square[people / 2]);
 }
 
-/// Returns: the density at which nobody overlaps; 0 where that is not reached.
+/// Returns: the density at which no two people overlap; 0 where that is not reached.
 double settle(const bch::ShapeSet& set, Crowd crowd, const char* name) {
   Pusher pusher(set);
   const std::size_t before = pusher.step(crowd);

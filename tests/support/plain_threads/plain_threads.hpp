@@ -25,7 +25,7 @@ void on_plain_threads(const Work& work) {
   for (std::thread& thread : running) thread.join();
 }
 
-/// The t-th of the parts that a range is cut into.
+/// Returns the t-th of the parts that a range is cut into.
 inline tbb::blocked_range<std::size_t> part(const tbb::blocked_range<std::size_t>& range, std::size_t t) {
   const std::size_t size = range.end() - range.begin();
   return {range.begin() + size * t / plain_threads, range.begin() + size * (t + 1) / plain_threads};

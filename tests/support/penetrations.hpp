@@ -7,24 +7,24 @@
 #include <span>
 #include <vector>
 
-#include "kernel/separation/separation.hpp"
+#include "kernel/penetration/penetration.hpp"
 #include "tests/support/scenes.hpp"
 
 namespace bch::test {
 
-inline std::vector<Separation> best_of(
+inline std::vector<Penetration> best_of(
     std::uint32_t k, const ShapeSet& set, const PairScene& scene,
     const kernel::Implementation& implementation = kernel::best_implementation()) {
-  std::vector<Separation> found(scene.pairs.size(), {-1, -1, -1});
-  separation(set, scene.crowd.agents(), scene.pairs, k, found, {&implementation});
+  std::vector<Penetration> found(scene.pairs.size(), {-1, -1, -1});
+  penetration(set, scene.crowd.agents(), scene.pairs, k, found, {&implementation});
   return found;
 }
 
-inline std::vector<Separation> along(
+inline std::vector<Penetration> along(
     std::span<const Vec2> directions, const ShapeSet& set, const PairScene& scene,
     const kernel::Implementation& implementation = kernel::best_implementation()) {
-  std::vector<Separation> found(scene.pairs.size(), {-1, -1, -1});
-  separation_along(set, scene.crowd.agents(), scene.pairs, directions, found, {&implementation});
+  std::vector<Penetration> found(scene.pairs.size(), {-1, -1, -1});
+  penetration_along(set, scene.crowd.agents(), scene.pairs, directions, found, {&implementation});
   return found;
 }
 

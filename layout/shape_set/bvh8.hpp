@@ -16,7 +16,7 @@ namespace bch {
 
 /// One cut of a hierarchy as a tree of blocks over the cut's discs, with all nodes above the cut. Every disc is the
 /// hierarchy's own, the smallest of what its node holds: pruning by it is part of the answer's definition.
-struct WideTree {
+struct Bvh8 {
   /// Up to eight groups of cut discs side by side; what is left over is padding. `child`: a block of this tree, or
   /// leaf_window + the index of the first of eight discs, which hold the group and, where it has fewer, some of
   /// its neighbours: harmless, because every disc of the cut may be tested at any time. `outer`: radii about the same
@@ -40,18 +40,18 @@ struct WideTree {
 
 /// Collapses the binary tree above a cut: a block's groups come from expanding descendants of its node, those of many
 /// and large discs first, until there are eight groups or nothing to expand. What fits into a window becomes one.
-/// Where that would need more than most_wide_levels, the cut's discs are grouped evenly in their order instead.
-WideTree wide_tree(const Hierarchy& hierarchy, std::uint32_t depth);
+/// If that would need more than most_wide_levels, the cut's discs are grouped evenly in their order instead.
+Bvh8 bvh8(const Hierarchy& hierarchy, std::uint32_t depth);
 
-/// The same for several cuts of one hierarchy after the other, with memory that is reused: once it has seen
-/// the largest, nothing is allocated. Not for two threads at a time.
+/// Builds the trees of several cuts of one hierarchy, one after the other, and reuses its memory. Once it has
+/// seen the largest, it allocates nothing. One thread may use it at a time.
 class Flattener {
  public:
   /// The hierarchy has to live until the next call.
   void begin(const Hierarchy& hierarchy);
   /// Makes a cut the current one and collapses the tree above it.
-  void flatten(std::uint32_t depth, WideTree& tree);
-  /// Of the current cut's discs.
+  void flatten(std::uint32_t depth, Bvh8& tree);
+  /// Computes the 32-DOP of the current cut's discs.
   Supports supports() const;
   Outer outer(const Profile& profile) const;
 
@@ -78,13 +78,13 @@ class Flattener {
   using Split = Parts (Flattener::*)(const Group&) const;
 
   void cut(std::uint32_t depth);
-  bool grow(Split split, WideTree& tree);
+  bool grow(Split split, Bvh8& tree);
   std::uint32_t window(const Group& group) const;
   Parts subtrees(const Group& group) const;
   Parts even_runs(const Group& group) const;
   void expand(Parts& parts, std::uint32_t index) const;
   void find_lowest_node(Group& group) const;
-  void take_inner(WideTree& tree) const;
+  void take_inner(Bvh8& tree) const;
   float outer_radius(const Group& group) const;
   std::uint32_t place(std::uint32_t node) const;
   double worth(const Group& group) const;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include "kernel/runtime/standard_floats.hpp"
+#include "kernel/runtime/floating_point_state.hpp"
 
 #include <xmmintrin.h>
 
@@ -17,12 +17,13 @@ bool is_standard(unsigned state) {
 
 }  // namespace
 
-// Not inline, so that no computation moves out of the guarded part. Writing the register takes longer than reading it.
-StandardFloats::StandardFloats() noexcept : before_(_mm_getcsr()) {
+// The function is not inline, so that no computation moves out of the guarded part. Writing the register
+// takes longer than reading it.
+FloatingPointStateGuard::FloatingPointStateGuard() noexcept : before_(_mm_getcsr()) {
   if (!is_standard(before_)) _mm_setcsr(standard);
 }
 
-StandardFloats::~StandardFloats() {
+FloatingPointStateGuard::~FloatingPointStateGuard() {
   if (!is_standard(before_)) _mm_setcsr(before_);
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include "baselines/contact_time_reference.hpp"
+#include "baselines/time_of_impact_reference.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -19,7 +19,8 @@ struct Way {
   float x, y;
 };
 
-/// When two discs of the cuts touch; kernel/distance/contact_time_measure.hpp says why so.
+/// Returns the time at which two discs of the cuts touch; kernel/distance/time_of_impact_measure.hpp derives
+/// the formula.
 float contact(const Step& at, Way way) noexcept {
   const double x = at.x, y = at.y, vx = way.x, vy = way.y, sum = at.radius_sum;
   const double square = x * x + y * y;
@@ -34,8 +35,8 @@ float contact(const Step& at, Way way) noexcept {
   return time <= 1 ? static_cast<float>(time) : never;
 }
 
-/// A time before which nothing below two discs touches, or never: by how far the moving disc's front has to go, and
-/// by how near it comes until `most`.
+/// A time before which nothing below two discs touches, or never: by how far the moving disc's front has to
+/// go, and by how near it comes until `most`.
 float earliest(const Step& at, Way way, float slack, float most) noexcept {
   const double x = at.x, y = at.y, vx = way.x, vy = way.y;
   const double radius =
@@ -51,7 +52,7 @@ float earliest(const Step& at, Way way, float slack, float most) noexcept {
 
 }  // namespace
 
-float ContactTimeReference::query(const Agents& agents, Pair pair, double x, double y, Method method) {
+float TimeOfImpactReference::query(const Agents& agents, Pair pair, double x, double y, Method method) {
   const auto [first, second] = std::minmax(pair.first, pair.second);
   const CutTrees::Tree &a = trees_.tree(agents, first), &b = trees_.tree(agents, second);
   const FloatPlacement place = float_placement(agents, pair);

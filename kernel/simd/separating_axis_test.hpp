@@ -12,27 +12,28 @@
 
 namespace bch::kernel {
 
-/// Whether a line parts two cuts, by their supports (layout/culling/supports.hpp), lane = direction.
+/// Tests whether a line separates two cuts, by their supports (layout/culling/supports.hpp), lane =
+/// direction.
 ///
 /// Against A's direction k stands B's direction k * D + psi, with D the angle between directions and psi =
 /// pi - (B's turn in A's frame). psi = (offset + share) * D with 0 <= share <= 1, and a support between two
 /// directions is at most lower * (that of the one below) + upper * (that of the one above), the height of
 /// the corner of two supporting lines.
 template <class Simd, std::uint32_t chunk = pairs_per_chunk>
-class SeparationTest {
+class SeparatingAxisTest {
  public:
-  SeparationTest(const ShapeSetView& shapes, const Placements<Simd, chunk>& at) noexcept
+  SeparatingAxisTest(const ShapeSetView& shapes, const Placements<Simd, chunk>& at) noexcept
       : shapes_(shapes), at_(at), rows_(shapes.support), row_a_(at.root_a), row_b_(at.root_b) {
-    // Where rows are in order; see ShapeSetView.
+    // This is right where rows are in order; see ShapeSetView.
     if (shapes.support != nullptr) rows_ += std::size_t{first_row} * support_stride;
   }
 
-  /// Where they are not.
+  /// Sets the rows of the pairs where the rows are not in order.
   void use_rows(const std::uint32_t* a, const std::uint32_t* b) noexcept {
     rows_ = shapes_.support, row_a_ = a, row_b_ = b;
   }
 
-  /// For all pairs of the chunk, lane = pair: offset, lower, upper.
+  /// Computes offset, lower and upper for all pairs of the chunk, lane = pair.
   void place_directions() noexcept {
     static_assert(support_directions == 32);
     constexpr float tangent[] = {0.19891237f, 0.41421356f, 0.66817864f, 1.0f,
@@ -69,7 +70,7 @@ class SeparationTest {
                               [&](std::uint32_t k) { offset_[k] = static_cast<std::int32_t>(offset[k]); });
   }
 
-  /// By A's even directions or by its odd ones.
+  /// Returns whether a line across one of A's even directions, or of its odd ones, separates the pair.
   std::uint32_t apart(std::uint32_t pair, unsigned odd) const noexcept {
     std::uint32_t parted = 0;
     look_along(pair, odd,
@@ -77,17 +78,17 @@ class SeparationTest {
     return parted != 0;
   }
 
-  /// What apart() will read.
+  /// Prefetches what apart() will read.
   [[gnu::always_inline]] void prefetch(std::uint32_t pair, unsigned odd) const noexcept {
     const auto [a, below, above] = rows(pair, odd);
     __builtin_prefetch(a);
-    // Of B's, both ends: they begin anywhere in a cache line.
+    // Both ends of B's rows: they begin anywhere in a cache line.
     constexpr unsigned last = support_directions / 2 - 1;
     __builtin_prefetch(below), __builtin_prefetch(below + last);
     __builtin_prefetch(above), __builtin_prefetch(above + last);
   }
 
-  /// The same all the while that A moves by (x, y), with `slack` to spare.
+  /// Returns whether a line separates the pair all the while that A moves by (x, y), with `slack` to spare.
   std::uint32_t apart_on_the_way(std::uint32_t pair, unsigned odd, float x, float y,
                                  float slack) const noexcept {
     std::uint32_t parted = 0;
@@ -105,8 +106,8 @@ class SeparationTest {
     const unsigned turn =
         ((static_cast<unsigned>(offset_[pair]) + 1) / 2 + extreme_directions / 2) % extreme_directions;
     const unsigned back = (extreme_directions - turn) % extreme_directions;
-    // The float arithmetic is off by less than 40 u S. Only the proof needs the slack: a contour that lies in another one
-    // and comes so near its supports comes as near its outline, where leaf discs overlap as well.
+    // The float arithmetic is off by less than 40 u S. Only the proof needs the slack: a contour that lies in
+    // another one and comes so near its supports comes as near its outline, where leaf discs overlap as well.
     constexpr float share = 4e-6f;
     static_assert(double{share} >= 40 * rounding::unit_roundoff);
     const float slack = share * (shapes_.reach[a] + shapes_.reach[b]);
@@ -133,8 +134,8 @@ class SeparationTest {
             b + (offset + 1) % 2 * half + (offset + 1) / 2};
   }
 
-  /// Calls visit(k, distance, reach) for every register: along A's directions from k on, how far B is and how far the
-  /// two extend together.
+  /// Calls visit(k, distance, reach) for every register: along A's directions from k on, how far B is and how
+  /// far the two extend together.
   template <class Visit>
   [[gnu::always_inline]] void look_along(std::uint32_t pair, unsigned odd, Visit visit) const noexcept {
     const auto [a, below, above] = rows(pair, odd);
@@ -148,9 +149,9 @@ class SeparationTest {
     return Float(x) * Simd::load(direction_x[odd] + k) + Float(y) * Simd::load(direction_y[odd] + k);
   }
 
-  /// Whether a farthest point of a shape, placed in another's frame by a rotation (c, s) and a translation t,
-  /// is beyond one of the other's supports. Its direction k + turn is the one that points most nearly along
-  /// the other's direction k.
+  /// Returns whether a farthest point of a shape is beyond one of the supports of another shape. The point is
+  /// placed in the other's frame by a rotation (c, s) and a translation t. The shape's direction k + turn is
+  /// the one that points most nearly along the other's direction k.
   std::uint32_t sticks_out(std::uint32_t shape, unsigned turn, float c, float s, float tx, float ty,
                            std::uint32_t other_row, float slack) const noexcept {
     const float* x = shapes_.extremes[shape].x + turn;

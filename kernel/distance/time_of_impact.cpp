@@ -1,29 +1,30 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include "kernel/distance/contact_time.hpp"
+#include "kernel/distance/time_of_impact.hpp"
 
 #include <cmath>
 #include <sstream>
 #include <stdexcept>
 #include <string>
 
-#include "kernel/distance/contact_time_arguments.hpp"
+#include "kernel/distance/time_of_impact_arguments.hpp"
+#include "kernel/runtime/floating_point_state.hpp"
 #include "kernel/runtime/pair_validation.hpp"
-#include "kernel/runtime/standard_floats.hpp"
 #include "kernel/runtime/task_ranges.hpp"
 #include "layout/base/rounding.hpp"
 
 namespace bch {
 namespace {
 
-using kernel::ContactTimeArguments;
+using kernel::TimeOfImpactArguments;
 
 /// Pairs a task.
 constexpr std::size_t grain = 1024;
 
-/// The work of one task. Most pairs that overlap are known sooner from collide(), which has shortcuts for them.
-void answer(const kernel::Implementation& implementation, ContactTimeArguments arguments,
+/// The work of one task. Most overlapping pairs are found sooner by collide(), which has culling data for
+/// that.
+void answer(const kernel::Implementation& implementation, TimeOfImpactArguments arguments,
             std::span<const Pair> pairs, const double* x, const double* y, float* times) noexcept {
   std::uint8_t codes[grain];
   arguments.in.pairs = pairs.data();
@@ -34,7 +35,7 @@ void answer(const kernel::Implementation& implementation, ContactTimeArguments a
   std::uint32_t which[grain];
   float way_x[grain], way_y[grain], found[grain];
   std::size_t count = 0;
-  // In two loops, of which neither has a branch that depends on an answer.
+  // There are two loops, neither of which has a branch that depends on an answer.
   for (std::uint32_t i = 0; i < pairs.size(); ++i) {
     times[i] = 0;
     which[count] = i;
@@ -49,14 +50,14 @@ void answer(const kernel::Implementation& implementation, ContactTimeArguments a
   }
   arguments.in.pairs = open;
   arguments.x = way_x, arguments.y = way_y, arguments.time = found;
-  implementation.contact_time(arguments, 0, count);
+  implementation.time_of_impact(arguments, 0, count);
   for (std::size_t k = 0; k < count; ++k) times[which[k]] = found[k];
 }
 
 void require_sizes(const Displacements& displacements, std::size_t times, std::size_t pairs) {
   const auto require = [pairs](std::size_t size, const char* name) {
     if (size != pairs)
-      throw std::invalid_argument("contact_time: " + std::to_string(pairs) + " pairs but " +
+      throw std::invalid_argument("time_of_impact: " + std::to_string(pairs) + " pairs but " +
                                   std::to_string(size) + " " + name);
   };
   require(displacements.x.size(), "displacements in x");
@@ -69,7 +70,7 @@ void require_valid(const Displacements& displacements) {
   for (std::size_t i = 0; i < displacements.x.size(); ++i) {
     if (good(displacements.x[i]) && good(displacements.y[i])) continue;
     std::ostringstream message;
-    message << "contact_time: pair " << i << ": displacement (" << displacements.x[i] << ", "
+    message << "time_of_impact: pair " << i << ": displacement (" << displacements.x[i] << ", "
             << displacements.y[i] << ") m is not within +-1e9";
     throw std::invalid_argument(message.str());
   }
@@ -77,17 +78,17 @@ void require_valid(const Displacements& displacements) {
 
 }  // namespace
 
-void contact_time(const ShapeSet& shapes, const Agents& agents, std::span<const Pair> pairs,
-                  const Displacements& displacements, std::span<float> times,
-                  const ContactTimeOptions& options) {
-  const kernel::StandardFloats floats;
+void time_of_impact(const ShapeSet& shapes, const Agents& agents, std::span<const Pair> pairs,
+                    const Displacements& displacements, std::span<float> times,
+                    const TimeOfImpactOptions& options) {
+  const kernel::FloatingPointStateGuard floats;
   require_sizes(displacements, times.size(), pairs.size());
-  const kernel::Implementation& implementation = kernel::chosen(options.implementation, "contact_time");
+  const kernel::Implementation& implementation = kernel::chosen(options.implementation, "time_of_impact");
   const ShapeSetView& view = shapes.view();
   kernel::require_valid(implementation, view, agents, pairs);
   require_valid(displacements);
 
-  ContactTimeArguments arguments{kernel::arguments_for(view, agents, {}), nullptr, nullptr, nullptr};
+  TimeOfImpactArguments arguments{kernel::arguments_for(view, agents, {}), nullptr, nullptr, nullptr};
   kernel::for_pair_ranges(pairs.size(), grain, [&](std::size_t begin, std::size_t size) {
     answer(implementation, arguments, pairs.subspan(begin, size), displacements.x.data() + begin,
            displacements.y.data() + begin, times.data() + begin);

@@ -12,8 +12,8 @@
 
 namespace bch::kernel {
 
-/// Errors of a time of contact and of its bounds, in units of u: the sums that ContactTimeMeasure derives.
-namespace contact_time_terms {
+/// Errors of a time of impact and of its bounds, in units of u: the sums that TimeOfImpactMeasure derives.
+namespace time_of_impact_terms {
 
 namespace r = rounding::terms;
 
@@ -25,7 +25,8 @@ static_assert(r::length_within(r::position + r::sum, r::position + 1, r::contact
 static_assert(of_distance >= 2 * r::position + r::sum + r::apart - 0x1p-40);
 static_assert(lengthening >= of_distance + 2);
 
-/// Of bounds, in S and D': the discs at T, with D <= D' + 2 S; the lengths; the root of their squares; the difference.
+/// The errors of bounds, in S and D': the discs at T, with D <= D' + 2 S; the lengths; the root of their
+/// squares; the difference.
 constexpr double at_contact_reach = 60, at_contact_distance = 20;
 static_assert(at_contact_reach >= 20 + 2 * (lengthening + 4) && at_contact_distance >= lengthening + 4);
 constexpr double root_reach = 19, root_distance = 7, difference_reach = 15, difference_distance = 8;
@@ -36,54 +37,60 @@ constexpr double inexact_way = 6;  // of S, where rough_root() is exact
 constexpr double slack = 256;      // of F
 static_assert(slack >= bound_reach + bound_distance + inexact_way);
 
-}  // namespace contact_time_terms
+}  // namespace time_of_impact_terms
 
-/// When two discs touch of which A's moves by t v, 0 <= t <= 1: in double, from the floats (x, y), r and v,
+/// Finds when two discs touch of which A's moves by t v, 0 <= t <= 1. It computes in double, from the floats
+/// (x, y), r and v,
 ///
 ///     R = r + 2^-20 D,    D = |(x, y)|,    h = x v_y - y v_x,    b = x v_x + y v_y
 ///     t = (D^2 - R^2) / (b + sqrt(R^2 v^2 - h^2)),    T = float(t (1 - 2^-22))
 ///
-/// or 0 where D <= R, and never where b <= 0 or the root is not real; but 0 wherever D^2 <= r^2 (1 + 4 u), also of discs that
-/// move apart, because the outlines in them may yet meet. That holds wherever collide()'s test in float accepts the two, as
-/// it rounds the squares by 3 u of them; D <= r in double would not, and who collides needs the time 0 by its discs as well.
+/// or 0 where D <= R, and never where b <= 0 or the root is not real; but 0 wherever D^2 <= r^2 (1 + 4 u),
+/// also of discs that move apart, because the outlines in them may yet meet. That holds wherever collide()'s
+/// test in float accepts the two, as it rounds the squares by 3 u of them; D <= r in double would not, and
+/// who collides needs the time 0 by its discs as well.
 ///
-/// Never too late, in the notation of layout/base/rounding.hpp. Where the tight discs touch at the true time t, the exact
-/// way between their centres is r_tight long. (x, y) is off by 8.1 u |b| + 5.6 u |d| + u D; v is rotated as d is, so
-/// t v is off by 4.6 u t |v|, and t |v| <= D + r_A + r_B; |d| <= |a| + |b| + D; and r is off by u (r_A + r_B). In all that
-/// is 13.7 u |b| + 5.6 u |a| + 5.6 u (r_A + r_B) + 11.2 u D, of which the first three are at most 14.9 u S, as in (1').
-/// Published radii have 16.5 u S to spare, R adds 16 u D. So at t the float discs of radius R overlap, and their first
-/// contact is not later. (Discs that do not move towards each other, b <= 0, where exact ones would: b is off by some u D
-/// |v|, so those come nearer by the square of that, and overlap at the start.) Double loses 2^-51 of
-/// the squares that are subtracted, which may be much of what is left. But R exceeds what touches at t by 4.8 u D, where
-/// D > r, at least 2^-23 of itself, so that such a loss moves the contact by less than 2^-28 of what that does. The last
-/// product takes off 4 u for the rounding to float.
+/// Never too late, in the notation of layout/base/rounding.hpp. Where the tight discs touch at the true time
+/// t, the exact way between their centres is r_tight long. (x, y) is off by 8.1 u |b| + 5.6 u |d| + u D; v is
+/// rotated as d is, so t v is off by 4.6 u t |v|, and t |v| <= D + r_A + r_B; |d| <= |a| + |b| + D; and r is
+/// off by u (r_A + r_B). In all that is 13.7 u |b| + 5.6 u |a| + 5.6 u (r_A + r_B) + 11.2 u D, of which the
+/// first three are at most 14.9 u S, as in (1'). Published radii have 16.5 u S to spare, R adds 16 u D. So at
+/// t the float discs of radius R overlap, and their first contact is not later. (Discs that do not move
+/// towards each other, b <= 0, where exact ones would: b is off by some u D |v|, so those come nearer by the
+/// square of that, and overlap at the start.) Double loses 2^-51 of the squares that are subtracted, which
+/// may be much of what is left. But R exceeds what touches at t by 4.8 u D, where D > r, at least 2^-23 of
+/// itself, so that such a loss moves the contact by less than 2^-28 of what that does. The last product takes
+/// off 4 u for the rounding to float.
 ///
-/// Bounds are how far A has come when discs (C, R') that hold the two touch, enlarged. What is along the way and aside is
-/// computed at once, from discs of both sides turned into the way's frame by (w_x, w_y), which is v / |v| made shorter by
-/// `rough` of it: so are all lengths but the radii. At T the centres are within R'_A + R'_B + 16 u D, also of discs that move apart, and rounding brings
-/// 20 u S and 4 u D beside, with D <= D' + 2 S: 60 u S + 20 u D'. The turn adds 2 u of each coefficient of B's placement,
-/// of |d| and of A's centre, and rounds two sums more: 6 u P_B + 2 u P_A + 3 u |d| + u D', where centres are within 1.42
-/// reaches; with 2.5 u D' for (w_x, w_y) itself either length is off by 13 u S + 7 u D'. The squares' 3 u make that 19 u S
-/// + 7 u D' of the root, the difference is later by 15 u S + 8 u D'. A radius enlarged by 94 u S + 35 u D' makes up for all,
-/// and `slack` is 256 u F, with S <= F and D' <= F: enough beside for the squares of discs that touch on the way to differ
-/// by far more than their rounding, so that a root of what is not above 0, NaN, is that of discs that never touch. As radii
-/// are not made shorter, the root is longer than its part of the way by more than rough_root() is off; where that is exact,
-/// (w_x, w_y) is off by as much as 3 u R' <= 6 u S, for which slack has room. A time T is compared as T |v|, shorter as
-/// lengths are and then a 2^18th longer, for what |v| and the products are off by. Bounds below 0 only have to stay there.
+/// Bounds are how far A has come when discs (C, R') that hold the two touch, enlarged. What is along the way
+/// and aside is computed at once, from discs of both sides turned into the way's frame by (w_x, w_y), which
+/// is v / |v| made shorter by `rough` of it: so are all lengths but the radii. At T the centres are within
+/// R'_A + R'_B + 16 u D, also of discs that move apart, and rounding brings 20 u S and 4 u D beside, with D
+/// <= D' + 2 S: 60 u S + 20 u D'. The turn adds 2 u of each coefficient of B's placement, of |d| and of A's
+/// centre, and rounds two sums more: 6 u P_B + 2 u P_A + 3 u |d| + u D', where centres are within 1.42
+/// reaches; with 2.5 u D' for (w_x, w_y) itself either length is off by 13 u S + 7 u D'. The squares' 3 u
+/// make that 19 u S + 7 u D' of the root, the difference is later by 15 u S + 8 u D'. A radius enlarged by 94
+/// u S + 35 u D' makes up for all, and `slack` is 256 u F, with S <= F and D' <= F: enough beside for the
+/// squares of discs that touch on the way to differ by far more than their rounding, so that a root of what
+/// is not above 0, NaN, is that of discs that never touch. As radii are not made shorter, the root is longer
+/// than its part of the way by more than rough_root() is off; where that is exact, (w_x, w_y) is off by as
+/// much as 3 u R' <= 6 u S, for which slack has room. A time T is compared as T |v|, shorter as lengths are
+/// and then a 2^18th longer, for what |v| and the products are off by. Bounds below 0 only have to stay
+/// there.
 ///
-/// A test sees the slack: without it, or with F of one shape alone, tests/kernel/unequal_sizes_test.cpp finds later times than
-/// brute force does.
+/// A test sees the slack: without it, or with F of one shape alone, tests/kernel/unequal_sizes_test.cpp finds
+/// later times than brute force does.
 template <class Simd>
-class ContactTimeMeasure {
+class TimeOfImpactMeasure {
  public:
   using Float = typename Simd::Float;
 
-  ContactTimeMeasure() = default;
+  TimeOfImpactMeasure() = default;
   /// v, and F in metres.
-  ContactTimeMeasure(float x, float y, float farthest) noexcept
+  TimeOfImpactMeasure(float x, float y, float farthest) noexcept
       : x_(x), y_(y), slack_(slack_per_length * farthest), time_(__builtin_inff()) {
     const float square = x * x + y * y, length = __builtin_sqrtf(square);
-    // Of a way shorter than that no bound is above 0.
+    // No bound of a way that is shorter than that is above 0.
     const float per_length = square < 1e-30f ? 0 : (1 - Simd::rough) / length;
     unit_x_ = x * per_length, unit_y_ = y * per_length;
     length_ = length * ((1 - Simd::rough) * (1 + 0x1p-18f));
@@ -93,10 +100,12 @@ class ContactTimeMeasure {
   float y() const noexcept { return y_; }
   float time() const noexcept { return time_; }
 
-  /// What is below bounds above it is later than the time so far, or than the way's end.
+  /// Returns the limit of bounds: what is below a bound above it is later than the time so far, or than the
+  /// end of the way.
   float limit() const noexcept { return best() * length_; }
 
-  /// Calls visit(k, bound) for every register of pairs as visit_disc_pairs() does; far_beyond for those that never touch.
+  /// Calls visit(k, bound) for every register of pairs as visit_disc_pairs() does; far_beyond for those that
+  /// never touch.
   template <class Visit>
   [[gnu::always_inline]] void visit_bounds(const Transform& at, Discs a, Discs b,
                                            Visit visit) const noexcept {
@@ -117,12 +126,12 @@ class ContactTimeMeasure {
     visit_disc_pairs<Simd>(on_way, Discs{turned, stride, 2 * stride}, b,
                            [=](unsigned k, Float along, Float aside, Float radius) {
                              const Float half = Simd::rough_root(radius * radius - aside * aside);
-                             // Not where it is NaN.
+                             // Pairs whose root is NaN never touch.
                              visit(k, Simd::select(along + half >= zero, along - half, never));
                            });
   }
 
-  /// When two discs touch, infinity for never; lane by lane, or of two.
+  /// Returns when two discs touch, infinity for never; lane by lane, or for a single pair.
   template <class Real>
   [[gnu::always_inline]] static Real time_of(Real x, Real y, Real r, Real vx, Real vy) noexcept {
     const Real zero(0.0), never(__builtin_inf());
@@ -150,9 +159,9 @@ class ContactTimeMeasure {
   static constexpr float slack_per_length = 0x1p-16f;
   static constexpr double lengthening = 0x1p-20;
   static constexpr double overlap = 0x1p-22;
-  static_assert(double{slack_per_length} >= contact_time_terms::slack * rounding::unit_roundoff);
-  static_assert(lengthening >= contact_time_terms::lengthening * rounding::unit_roundoff);
-  static_assert(overlap >= contact_time_terms::overlap * rounding::unit_roundoff);
+  static_assert(double{slack_per_length} >= time_of_impact_terms::slack * rounding::unit_roundoff);
+  static_assert(lengthening >= time_of_impact_terms::lengthening * rounding::unit_roundoff);
+  static_assert(overlap >= time_of_impact_terms::overlap * rounding::unit_roundoff);
 
   float best() const noexcept { return time_ < 1 ? time_ : 1; }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include "kernel/separation/separation.hpp"
+#include "kernel/penetration/penetration.hpp"
 
 #include <gtest/gtest.h>
 #include <oneapi/tbb/global_control.h>
@@ -13,14 +13,14 @@
 #include <numbers>
 
 #include "baselines/oracle.hpp"
-#include "baselines/separation_reference.hpp"
+#include "baselines/penetration_reference.hpp"
 #include "kernel/collide/collide.hpp"
 #include "kernel/distance/clearance.hpp"
 #include "layout/base/heading.hpp"
 #include "layout/default_character/default_characters.hpp"
 #include "tests/support/character_shapes.hpp"
 #include "tests/support/differential.hpp"
-#include "tests/support/separations.hpp"
+#include "tests/support/penetrations.hpp"
 
 namespace bch {
 namespace {
@@ -45,7 +45,7 @@ std::vector<Vec2> random_directions(Random& random, std::size_t count) {
 }
 
 /// The scene after every pair's first agent has moved.
-PairScene moved(PairScene scene, std::span<const Separation> by, double further = 0) {
+PairScene moved(PairScene scene, std::span<const Penetration> by, double further = 0) {
   for (std::size_t i = 0; i < by.size(); ++i) {
     const double depth = static_cast<double>(by[i].depth) + further;
     scene.crowd.x[scene.pairs[i].first] += depth * by[i].x;
@@ -54,9 +54,9 @@ PairScene moved(PairScene scene, std::span<const Separation> by, double further 
   return scene;
 }
 
-class SeparationTest : public test::Differential {
+class SeparatingAxisTest : public test::Differential {
  protected:
-  SeparationTest() : Differential(91, plan) {}
+  SeparatingAxisTest() : Differential(91, plan) {}
 
   CutLists cuts{shapes, plan};
 
@@ -65,10 +65,10 @@ class SeparationTest : public test::Differential {
     const std::vector<Vec2> directions = random_directions(random, scene.pairs.size());
     std::vector<baselines::Way> best, given;
     for (std::size_t i = 0; i < scene.pairs.size(); ++i) {
-      best.push_back(baselines::separation(cuts, agents, scene.pairs[i], k));
-      given.push_back(baselines::separation_along(cuts, agents, scene.pairs[i], directions[i]));
+      best.push_back(baselines::penetration(cuts, agents, scene.pairs[i], k));
+      given.push_back(baselines::penetration_along(cuts, agents, scene.pairs[i], directions[i]));
     }
-    const auto same = [](const Separation& a, const baselines::Way& b) {
+    const auto same = [](const Penetration& a, const baselines::Way& b) {
       return a.depth == b.depth && a.x == b.x && a.y == b.y;
     };
     for (const auto& implementation : kernel::implementations()) {
@@ -93,7 +93,7 @@ class SeparationTest : public test::Differential {
   }
 };
 
-TEST_F(SeparationTest, EqualsTheReference) {
+TEST_F(SeparatingAxisTest, EqualsTheReference) {
   const std::uint32_t counts[] = {2, 4, 6, 16, 18, 64, 10, 16};
   for (int i = 0; i < 8; ++i) {
     PairScene scene = i % 2 == 0 ? random_scene(random, set, 25'000) : tangent_scene(25'000);
@@ -102,7 +102,7 @@ TEST_F(SeparationTest, EqualsTheReference) {
   }
 }
 
-TEST_F(SeparationTest, OfPeople) {
+TEST_F(SeparatingAxisTest, OfPeople) {
   shapes = test::pose_shapes(default_male(), 20);
   set = ShapeSet(shapes, plan);
   cuts = CutLists(shapes, plan);
@@ -111,7 +111,7 @@ TEST_F(SeparationTest, OfPeople) {
   EXPECT_EQ(collisions(moved(scene, best_of(32, set, scene)), Semantics::solid), 0u);
 }
 
-TEST_F(SeparationTest, NothingOverlapsAfterwards) {
+TEST_F(SeparatingAxisTest, NothingOverlapsAfterwards) {
   for (const bool tangent : {false, true}) {
     PairScene scene = tangent ? tangent_scene(50'000) : random_scene(random, set, 50'000);
     EXPECT_GT(collisions(scene, Semantics::solid), scene.pairs.size() / 5);
@@ -121,14 +121,14 @@ TEST_F(SeparationTest, NothingOverlapsAfterwards) {
       for (const double further : {0.0, 1e-3, 0.1, 1.0})
         EXPECT_EQ(collisions(moved(scene, by, further), Semantics::solid), 0u);
     // And less than that leaves some.
-    std::vector<Separation> less = best;
-    for (Separation& each : less) each.depth *= 0.9f;
+    std::vector<Penetration> less = best;
+    for (Penetration& each : less) each.depth *= 0.9f;
     EXPECT_GT(collisions(moved(scene, less), Semantics::solid), 0u);
   }
 }
 
 /// By what is true of outlines, where they cross, nest, or nearly touch.
-TEST_F(SeparationTest, NoOutlinesMeetAfterwards) {
+TEST_F(SeparatingAxisTest, NoOutlinesMeetAfterwards) {
   const auto outlines = [&](const Agents& agents, Pair pair) {
     return baselines::Oracle(shapes[agents.shape[pair.first]].outline,
                              shapes[agents.shape[pair.second]].outline,
@@ -152,10 +152,10 @@ TEST_F(SeparationTest, NoOutlinesMeetAfterwards) {
 
 /// Along paths of many steps, large and small, on which agents shift and turn, through each other and apart: no depth
 /// changes by more than the points of the agents moved.
-TEST_F(SeparationTest, DepthsDoNotJump) {
+TEST_F(SeparatingAxisTest, DepthsDoNotJump) {
   PairScene scene = random_scene(random, set, 2'000);
   const std::vector<Vec2> directions = random_directions(random, scene.pairs.size());
-  std::vector<Separation> best = best_of(16, set, scene), given = along(directions, set, scene);
+  std::vector<Penetration> best = best_of(16, set, scene), given = along(directions, set, scene);
   double largest = 0;
   for (int step = 0; step < 400; ++step) {
     const double size = std::exp(random.uniform(-14, -2));
@@ -184,14 +184,14 @@ TEST_F(SeparationTest, DepthsDoNotJump) {
   EXPECT_GT(largest, 0.5);  // the bound is not idle
 }
 
-TEST_F(SeparationTest, OfTheOtherOrderIsOpposite) {
+TEST_F(SeparatingAxisTest, OfTheOtherOrderIsOpposite) {
   PairScene scene = tangent_scene(20'000);
   std::vector<Vec2> directions = random_directions(random, scene.pairs.size());
   const auto best = best_of(16, set, scene), given = along(directions, set, scene);
   for (Pair& pair : scene.pairs) std::swap(pair.first, pair.second);
   for (Vec2& direction : directions) direction = {-direction.x, -direction.y};
   const auto other_best = best_of(16, set, scene), other_given = along(directions, set, scene);
-  const auto opposite = [](const Separation& a) { return Separation{a.depth, -a.x, -a.y}; };
+  const auto opposite = [](const Penetration& a) { return Penetration{a.depth, -a.x, -a.y}; };
   for (std::size_t i = 0; i < scene.pairs.size(); ++i) {
     ASSERT_EQ(other_best[i], opposite(best[i]));
     ASSERT_EQ(other_given[i], opposite(given[i]));
@@ -199,13 +199,13 @@ TEST_F(SeparationTest, OfTheOtherOrderIsOpposite) {
 }
 
 /// What the header proves: beside where A stands it would have to move as far, by its discs alone.
-TEST_F(SeparationTest, IsTheLeastThatDoesNotJump) {
+TEST_F(SeparatingAxisTest, IsTheLeastThatDoesNotJump) {
   PairScene scene = random_scene(random, set, 5'000);
   for (std::size_t i = 0; i < scene.pairs.size(); ++i)
     scene.pairs[i] = {static_cast<std::uint32_t>(2 * i), static_cast<std::uint32_t>(2 * i + 1)};
   std::fill(scene.crowd.heading.begin(), scene.crowd.heading.end(), 0);
   const std::vector<Vec2> directions(scene.pairs.size(), Vec2{1, 0});
-  std::vector<Separation> less = along(directions, set, scene);
+  std::vector<Penetration> less = along(directions, set, scene);
   const Agents agents = scene.crowd.agents();
   for (std::size_t i = 0; i < scene.pairs.size(); ++i) {
     const auto [a, b] = scene.pairs[i];
@@ -232,7 +232,7 @@ TEST_F(SeparationTest, IsTheLeastThatDoesNotJump) {
 }
 
 /// Far apart, a line across a direction that is not quite the one that was measured lies elsewhere.
-TEST_F(SeparationTest, LinesAcrossTheToldDirectionPartAgentsThatAreFarApart) {
+TEST_F(SeparatingAxisTest, LinesAcrossTheToldDirectionPartAgentsThatAreFarApart) {
   using Real = long double;
   for (const double distance : {1e5, 1e6, 1e7, 1e8, 7e8}) {
     PairScene scene = random_scene(random, set, 2'000);
@@ -266,7 +266,7 @@ TEST_F(SeparationTest, LinesAcrossTheToldDirectionPartAgentsThatAreFarApart) {
   }
 }
 
-TEST_F(SeparationTest, OfSingleDiscs) {
+TEST_F(SeparatingAxisTest, OfSingleDiscs) {
   const ShapeSetPlan single{{0}, false};
   const ShapeSet roots(shapes, single);
   ASSERT_TRUE(roots.roots_only());
@@ -274,12 +274,12 @@ TEST_F(SeparationTest, OfSingleDiscs) {
   const PairScene scene = random_scene(random, roots, 3'000);
   const auto found = best_of(12, roots, scene);
   for (std::size_t i = 0; i < found.size(); ++i) {
-    const auto [depth, x, y] = baselines::separation(lists, scene.crowd.agents(), scene.pairs[i], 12);
-    ASSERT_EQ(found[i], (Separation{depth, x, y}));
+    const auto [depth, x, y] = baselines::penetration(lists, scene.crowd.agents(), scene.pairs[i], 12);
+    ASSERT_EQ(found[i], (Penetration{depth, x, y}));
   }
 }
 
-TEST_F(SeparationTest, BatchesOfEverySizeAndAnyNumberOfThreads) {
+TEST_F(SeparatingAxisTest, BatchesOfEverySizeAndAnyNumberOfThreads) {
   const PairScene scene = random_scene(random, set, 3'000);
   const std::vector<Vec2> directions = random_directions(random, scene.pairs.size());
   const auto best = best_of(16, set, scene), given = along(directions, set, scene);
@@ -301,7 +301,7 @@ TEST_F(SeparationTest, BatchesOfEverySizeAndAnyNumberOfThreads) {
 }
 
 /// Pairs of one agent after the other, in which its extents are kept.
-TEST_F(SeparationTest, PairsThatShareAnAgent) {
+TEST_F(SeparatingAxisTest, PairsThatShareAnAgent) {
   PairScene scene = random_scene(random, set, 60);
   scene.pairs.clear();
   for (std::uint32_t i = 0; i < 120; ++i)

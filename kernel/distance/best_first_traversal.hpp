@@ -20,21 +20,25 @@ struct NodePairBounds {
   std::uint32_t a, b;
 };
 
-/// Branch and bound over two trees: the least value of all pairs of cut discs. `Measure` says what a value is:
+/// Branch and bound over two trees: the least value of all pairs of cut discs. `Measure` says what a value
+/// is:
 ///
-///     Float bound(Float x, Float y, Float r)   of two discs as visit_disc_pairs() gives them, lane by lane: not above
-///                                              the value of any disc below the one with any disc below the other,
-///                                              unless that is above best(); far_beyond for padding
+///     Float bound(Float x, Float y, Float r)   of two discs as visit_disc_pairs() gives them, lane by lane:
+///                                              not above the value of any disc below the one with any disc
+///                                              below the other, unless that is above best(); far_beyond for
+///                                              padding
 ///     float best()                             values above it are of no interest; only ever decreases
-///     void meet(at, a, b, first_a, first_b)    takes the values of two leaf windows, named by where they begin
+///     void meet(at, a, b, first_a, first_b)    takes the values of two leaf windows, named by where they
+///                                              begin
 ///
-/// Of the pairs of a block the one with the least bound goes first, and what is above the best by then is left out.
+/// The traversal visits the pair with the least bound in a block first, and skips the pairs that are above
+/// the best by then.
 template <class Simd, class Measure>
-class NearestWalk {
+class BestFirstTraversal {
  public:
-  explicit NearestWalk(const float* nodes) noexcept : nodes_(nodes) {}
+  explicit BestFirstTraversal(const float* nodes) noexcept : nodes_(nodes) {}
 
-  /// All below two nodes that are not both windows.
+  /// Traverses everything below two nodes that are not both windows.
   void run(const Transform& at, std::uint32_t a, std::uint32_t b, std::uint32_t stride_a,
            std::uint32_t stride_b, Measure& measure) noexcept {
     NodePairBounds* top = frames_;
@@ -76,8 +80,8 @@ class NearestWalk {
     return least <= best;
   }
 
-  /// The children below the least bound of those that were not taken, unless that is above `best`. Mostly it is, which
-  /// is known sooner than which is the least; else there are few.
+  /// The children below the least bound of those that were not taken, unless that is above `best`. Mostly it
+  /// is, which is known sooner than which is the least; else there are few.
   bool take_next(NodePairBounds& frame, float best, std::uint32_t& a, std::uint32_t& b) const noexcept {
     std::uint64_t left = all_within<Simd>(frame.bound, best) & frame.open;
     if (left == 0) return false;
@@ -94,7 +98,7 @@ class NearestWalk {
     return TreeNodes<Simd>::outer_discs(nodes_, node, stride);
   }
 
-  /// Of a window, itself.
+  /// Returns the child of a node in a lane; a window is its own child.
   std::uint32_t child(std::uint32_t node, unsigned lane) const noexcept {
     return node >= leaf_window ? node : TreeNodes<Simd>::child(nodes_, node, lane);
   }
@@ -108,7 +112,8 @@ class NearestWalk {
     const unsigned i = k / block_width, j = k % block_width;
     a = child(frame.a, i), b = child(frame.b, j);
     std::uint64_t taken = std::uint64_t{1} << k;
-    // All of a window's discs are tested at once: its other pairs with the same child are settled with this one.
+    // All of a window's discs are tested at once: its other pairs with the same child are settled with this
+    // one.
     if (frame.a >= leaf_window) taken |= first_column_of_pairs << j;
     if (frame.b >= leaf_window) taken |= first_row_of_pairs << (k - j);
     frame.open &= ~taken;

@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "kernel/distance/contact_time_measure.hpp"
+#include "kernel/distance/time_of_impact_measure.hpp"
 #include "kernel/simd/block_test.hpp"
 #include "kernel/simd/chunk_pairs.hpp"
 #include "kernel/simd/disc_pairs.hpp"
@@ -15,18 +15,18 @@
 
 namespace bch::kernel {
 
-/// The last stage of ContactTimeKernel: branch and bound over the trees of many pairs of agents, in rounds. A round takes
-/// one step of every open pair, stage by stage, because a step of one pair is a chain of latencies, of which the processor
-/// looks ahead over few: bounds of two nodes' discs; the least of them; where that leads, the children below it or, of two
-/// windows, a time; and back to an earlier pair of nodes where nothing is left to find. Hardly any branch depends on an
-/// answer.
+/// The last stage of TimeOfImpactKernel: branch and bound over the trees of many pairs of agents, in rounds.
+/// A round takes one step of every open pair, stage by stage, because a step of one pair is a chain of
+/// latencies, of which the processor looks ahead over few: bounds of two nodes' discs; the least of them;
+/// where that leads, the children below it or, of two windows, a time; and back to an earlier pair of nodes
+/// where nothing is left to find. Hardly any branch depends on an answer.
 template <class Simd>
-class ContactTimeWalk {
+class TimeOfImpactWalk {
  public:
-  using Measure = ContactTimeMeasure<Simd>;
+  using Measure = TimeOfImpactMeasure<Simd>;
   static constexpr std::uint32_t capacity = 32;
 
-  ContactTimeWalk(const float* nodes, float* times) noexcept : nodes_(nodes), times_(times) {}
+  TimeOfImpactWalk(const float* nodes, float* times) noexcept : nodes_(nodes), times_(times) {}
 
   /// A pair whose time goes to times[pair]. Where there is no room, walks until there is.
   void add(std::size_t pair, const Transform& b_in_a, const Tree& a, const Tree& b,
@@ -121,7 +121,7 @@ class ContactTimeWalk {
     fresh_ = below;
   }
 
-  /// To the children below the least bound.
+  /// Descends to the children below the least bound.
   void descend(Open& open) const noexcept {
     Frame& frame = *open.frame++;
     const unsigned i = open.which / block_width, j = open.which % block_width;
@@ -130,19 +130,20 @@ class ContactTimeWalk {
     };
     open.a = child(frame.a, i), open.b = child(frame.b, j);
     frame.bound[open.which] = far_beyond;
-    // All of a window's discs are tested at once: its other pairs with the same child are settled with this one.
+    // All of a window's discs are tested at once: its other pairs with the same child are settled with this
+    // one.
     if (frame.a >= leaf_window) [[unlikely]]
       close(j, block_width);
     if (frame.b >= leaf_window) [[unlikely]]
       close(i * block_width, 1);
   }
 
-  /// Of a window, itself.
+  /// Returns the child of a node in a lane; a window is its own child.
   std::uint32_t child(std::uint32_t node, unsigned lane) const noexcept {
     return node >= leaf_window ? node : Nodes::child(nodes_, node, lane);
   }
 
-  /// Of the pairs with the least bounds, which mostly leave out all others.
+  /// Takes the times of the disc pairs with the least bounds, which mostly exclude all others.
   void take_times() noexcept {
     for (std::uint32_t k = 0; k < windows_.size; ++k) {
       const Open& open = open_[windows_.pair[k]];
@@ -173,7 +174,7 @@ class ContactTimeWalk {
     }
   }
 
-  /// Those that missed and those with windows, whose bounds are then settled.
+  /// Takes back the pairs that missed and those with windows, whose bounds are then settled.
   void go_back() noexcept {
     for (std::uint32_t k = 0; k < windows_.size; ++k) missed_.add_if(true, windows_.pair[k]);
     returning_.size = 0;
@@ -191,8 +192,8 @@ class ContactTimeWalk {
 
   const float* const nodes_;
   float* const times_;
-  // Pairs of agents by their slots: whose nodes are new; who goes on with nodes from before; and for the round who is at
-  // two windows, and who finds nothing below the nodes.
+  // Pairs of agents by their slots: whose nodes are new; who goes on with nodes from before; and for the
+  // round who is at two windows, and who finds nothing below the nodes.
   Slots fresh_, returning_, free_;
   Slots windows_, missed_;
   std::uint32_t numbered_ = 0;

@@ -16,15 +16,16 @@
 
 namespace bch::kernel {
 
-/// The last stage of the pair kernel: walks the trees of the pairs that nothing quicker decided, in rounds. Each
-/// round tests one pair of blocks for every open pair, so that cache misses and latencies of many pairs overlap
-/// and no branch depends on an answer; only where leaves overlap are their ancestors looked at. Most pairs end after a few rounds; those that do not wait for company,
-/// because a round over three pairs takes as long as one over thirty.
+/// The last stage of the pair kernel: traverses the trees of the pairs that no quicker stage decided, in
+/// rounds. Each round tests one pair of blocks for every open pair, so that cache misses and latencies of
+/// many pairs overlap and no branch depends on an answer. Ancestors are tested only where leaves overlap.
+/// Most pairs end after a few rounds. The rest stay open until more pairs are added, because a round over
+/// three pairs takes as long as one over thirty.
 /// `capacity`: `add` needs room; `run(below)` makes it.
 template <class Simd, std::uint32_t capacity>
-class Walk {
+class OverlapTraversal {
  public:
-  Walk(const ShapeSetView& shapes, const Arguments& arguments) noexcept
+  OverlapTraversal(const ShapeSetView& shapes, const Arguments& arguments) noexcept
       : shapes_(shapes),
         codes_(arguments.codes),
         prefetch_(arguments.prefetch_shapes),
@@ -77,10 +78,10 @@ class Walk {
     std::uint64_t open;
   };
 
-  /// One test for every open pair, then one step for every pair: apart, because the processor looks ahead over a
-  /// few of either, but hardly over one of both. All in one function, because rounds over a lone pair are so short
-  /// that calls count. `noipa`, because GCC 12 takes such functions for ones without effects when their parameters
-  /// are changed a little, and drops the calls.
+  /// One test for every open pair, then one step for every pair: apart, because the processor looks ahead
+  /// over a few of either, but hardly over one of both. All in one function, because rounds over a lone pair
+  /// are so short that calls count. `noipa`, because GCC 12 takes such functions for ones without effects
+  /// when their parameters are changed a little, and drops the calls.
   [[gnu::noipa]] void rounds(std::uint32_t enough) noexcept {
     while (size_ > enough) {
       test();
@@ -109,8 +110,8 @@ class Walk {
                                    Nodes::discs(nodes, b, pair.stride_b));
   }
 
-  /// Takes the hits of leaves away whose segments do not meet or whose ancestors do not all overlap, but for a pair's first
-  /// that stays.
+  /// Takes the hits of leaves away whose segments do not meet or whose ancestors do not all overlap, but for
+  /// a pair's first that stays.
   [[gnu::always_inline]] void verify() noexcept {
     std::uint16_t found[verified_together + 1];
     std::uint32_t count = 0;
@@ -129,7 +130,8 @@ class Walk {
     verify_hits(which, count);
   }
 
-  /// Keeps of the hits of leaf windows those whose segments meet, or of a pair whose segments surely cross any.
+  /// Keeps of the hits of leaf windows those whose segments meet, or of a pair whose segments surely cross
+  /// any.
   /// Returns: how many pairs have hits whose ancestors have to be asked; these come first.
   std::uint32_t compare_segments(std::uint16_t* which, std::uint32_t count) noexcept {
     std::uint64_t near[verified_together];
@@ -173,8 +175,8 @@ class Walk {
     return left;
   }
 
-  /// One hit of every pair after the other, until one stays or none is left. Paths are looked up side by side, because each
-  /// step waits for the one before.
+  /// One hit of every pair after the other, until one stays or none is left. Paths are looked up side by
+  /// side, because each step waits for the one before.
   void verify_hits(std::uint16_t* which, std::uint32_t count) noexcept {
     const float* const nodes = shapes_.nodes;
     AncestorPath<Simd>*const above_a = above_a_, *const above_b = above_b_;
@@ -202,19 +204,19 @@ class Walk {
     }
   }
 
-  struct DiscPair {
+  struct LeafPair {
     std::uint32_t a, b;  ///< places among the nodes
   };
-  /// Of two windows.
-  static DiscPair first_hit(const Open& at, std::uint64_t hits) noexcept {
+  /// Returns the leaves of the first hit of two windows.
+  static LeafPair first_hit(const Open& at, std::uint64_t hits) noexcept {
     const auto bit = static_cast<unsigned>(__builtin_ctzll(hits));
     return {(at.a & ~leaf_window) + bit / block_width, (at.b & ~leaf_window) + bit % block_width};
   }
 
-  /// Answers where leaves overlap; else keeps the hits for later, takes the next open one, and names the nodes to
-  /// test: the children of the two discs, or a leaf window again and the other's child. What is computed for a pair
-  /// that is done is never used, which beats a branch that no processor can predict. The slots of pairs that are
-  /// done end up behind the others.
+  /// Answers where leaves overlap; else keeps the hits for later, takes the next open one, and names the
+  /// nodes to test: the children of the two discs, or a leaf window again and the other's child. What is
+  /// computed for a pair that is done is never used, which beats a branch that no processor can predict. The
+  /// slots of pairs that are done end up behind the others.
   [[gnu::always_inline]] void step() noexcept {
     const float* const nodes = shapes_.nodes;
     std::uint8_t* const codes = codes_;

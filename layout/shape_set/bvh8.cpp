@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include "layout/shape_set/wide_tree.hpp"
+#include "layout/shape_set/bvh8.hpp"
 
 #include <algorithm>
 #include <limits>
@@ -18,8 +18,8 @@ using Lanes = CutLanes<xsimd::sse2>;
 /// Discs that may be read beyond a run's.
 constexpr std::size_t padding = 16;
 
-constexpr WideTree::Block empty_block = [] {
-  WideTree::Block block{};
+constexpr Bvh8::Block empty_block = [] {
+  Bvh8::Block block{};
   for (float& x : block.discs.x) x = std::numeric_limits<float>::infinity();
   return block;
 }();
@@ -34,7 +34,7 @@ void Flattener::begin(const Hierarchy& hierarchy) {
 }
 
 void Flattener::cut(std::uint32_t depth) {
-  // In local variables, because a member's last store would have to be waited for at every node.
+  // Local variables, because a member's last store would have to be waited for at every node.
   const HierarchyNode* const nodes = hierarchy_->nodes.data();
   std::uint32_t *const position = position_.data(), *const parent = parent_.data();
   float *const x = x_.data(), *const y = y_.data(), *const radius = radius_.data();
@@ -65,7 +65,7 @@ void Flattener::cut(std::uint32_t depth) {
   count_ = count;
 }
 
-void Flattener::flatten(std::uint32_t depth, WideTree& tree) {
+void Flattener::flatten(std::uint32_t depth, Bvh8& tree) {
   cut(depth);
   tree.count = count_;
   const std::uint32_t padded = std::max(count_, block_width);
@@ -79,12 +79,12 @@ void Flattener::flatten(std::uint32_t depth, WideTree& tree) {
   if (!grow(&Flattener::subtrees, tree)) grow(&Flattener::even_runs, tree);
 }
 
-/// Of a node above the cut, in their in-order sequence.
+/// Returns the place of a node above the cut in the in-order sequence of these nodes.
 std::uint32_t Flattener::place(std::uint32_t node) const {
   return position_[hierarchy_->nodes[node].second_child] - 1;
 }
 
-void Flattener::take_inner(WideTree& tree) const {
+void Flattener::take_inner(Bvh8& tree) const {
   const HierarchyNode* const nodes = hierarchy_->nodes.data();
   tree.inner.resize(count_);
   const Disc& root = nodes[0].disc;
@@ -96,8 +96,8 @@ void Flattener::take_inner(WideTree& tree) const {
   }
 }
 
-/// Breadth first. False where the tree would be too deep.
-bool Flattener::grow(Split split, WideTree& tree) {
+/// Grows the tree breadth first. Returns false where the tree would be too deep.
+bool Flattener::grow(Split split, Bvh8& tree) {
   const Group all{0, count_, 0, count_};
   tree.root = hierarchy_->nodes[0].disc;
   tree.outer = outer_radius(all);
@@ -111,7 +111,7 @@ bool Flattener::grow(Split split, WideTree& tree) {
     const auto next_block = static_cast<std::uint32_t>(tree.blocks.size() + level_.size());
     for (const Group& group : level_) {
       const Parts parts = (this->*split)(group);
-      WideTree::Block& block = tree.blocks.emplace_back(empty_block);
+      Bvh8::Block& block = tree.blocks.emplace_back(empty_block);
       for (std::uint32_t i = 0; i < parts.count; ++i) {
         const Group& part = parts.group[i];
         const Disc& disc = hierarchy_->nodes[part.node].disc;
@@ -133,7 +133,7 @@ std::uint32_t Flattener::window(const Group& group) const {
   return leaf_window + std::min(group.begin, count_ < block_width ? 0 : count_ - block_width);
 }
 
-/// Of expanding a group.
+/// Returns the worth of expanding a group.
 double Flattener::worth(const Group& group) const {
   if (group.size() == 1) return 0;
   return static_cast<double>(hierarchy_->nodes[group.node].disc.radius) * group.size();
@@ -204,8 +204,8 @@ Outer Flattener::outer(const Profile& profile) const {
   return bch::outer(profile, x_.data(), y_.data(), radius_.data(), count_, hierarchy_->reach);
 }
 
-WideTree wide_tree(const Hierarchy& hierarchy, std::uint32_t depth) {
-  WideTree tree;
+Bvh8 bvh8(const Hierarchy& hierarchy, std::uint32_t depth) {
+  Bvh8 tree;
   Flattener flattener;
   flattener.begin(hierarchy);
   flattener.flatten(depth, tree);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include "kernel/distance/contact_time.hpp"
+#include "kernel/distance/time_of_impact.hpp"
 
 #include <gtest/gtest.h>
 #include <oneapi/tbb/global_control.h>
@@ -13,8 +13,8 @@
 #include <string>
 #include <vector>
 
-#include "baselines/contact_time_reference.hpp"
 #include "baselines/oracle.hpp"
+#include "baselines/time_of_impact_reference.hpp"
 #include "kernel/collide/collide.hpp"
 #include "kernel/distance/clearance.hpp"
 #include "tests/support/differential.hpp"
@@ -22,8 +22,8 @@
 namespace bch {
 namespace {
 
-using baselines::ContactTimeReference;
 using baselines::Method;
+using baselines::TimeOfImpactReference;
 using test::four_levels;
 using test::PairScene;
 using test::Random;
@@ -39,15 +39,15 @@ struct Motion : PairScene {
 std::vector<float> times(const ShapeSet& set, const Motion& motion,
                          const kernel::Implementation* implementation = nullptr) {
   std::vector<float> all(motion.pairs.size(), -1);
-  contact_time(set, motion.crowd.agents(), motion.pairs, motion.displacements(), all, {implementation});
+  time_of_impact(set, motion.crowd.agents(), motion.pairs, motion.displacements(), all, {implementation});
   return all;
 }
 
-class ContactTimeDifferential : public test::Differential {
+class TimeOfImpactDifferential : public test::Differential {
  protected:
-  ContactTimeDifferential() : Differential(2602, four_levels) {}
+  TimeOfImpactDifferential() : Differential(2602, four_levels) {}
 
-  ContactTimeReference reference{shapes, four_levels};
+  TimeOfImpactReference reference{shapes, four_levels};
 
   /// Ways of random lengths up to `longest`, half of them about towards the other agent.
   Motion moving(PairScene scene, double longest) {
@@ -91,14 +91,14 @@ class ContactTimeDifferential : public test::Differential {
   }
 };
 
-TEST_F(ContactTimeDifferential, RandomPairs) {
+TEST_F(TimeOfImpactDifferential, RandomPairs) {
   for (const double back : {0.1, 0.5, 2.0, 10.0})
     for (int i = 0; i < 2; ++i)
       expect_equal_to_brute_force(approaching(25'000, back), "from " + std::to_string(back));
 }
 
 /// Ways that end at the touch of two discs, or pass by within the last bits.
-TEST_F(ContactTimeDifferential, NearTangentPairs) {
+TEST_F(TimeOfImpactDifferential, NearTangentPairs) {
   Motion motion = approaching(20'000, 1);
   for (std::size_t i = 0; i < motion.pairs.size(); ++i) {
     const float t = expected(motion, i, Method::depth_first);
@@ -124,7 +124,7 @@ TEST_F(ContactTimeDifferential, NearTangentPairs) {
   expect_equal_to_brute_force(motion, "passes by");
 }
 
-TEST_F(ContactTimeDifferential, FarFromTheOriginAndFarApart) {
+TEST_F(TimeOfImpactDifferential, FarFromTheOriginAndFarApart) {
   Motion motion = approaching(20'000, 1);
   const std::vector<float> at_origin = times(set, motion);
   test::move_away(motion, 1e7, -8e8);
@@ -142,14 +142,14 @@ TEST_F(ContactTimeDifferential, FarFromTheOriginAndFarApart) {
   }
 }
 
-TEST_F(ContactTimeDifferential, TheReferencesAgree) {
+TEST_F(TimeOfImpactDifferential, TheReferencesAgree) {
   const Motion motion = approaching(20'000, 1);
   for (std::size_t i = 0; i < motion.pairs.size(); ++i)
     ASSERT_EQ(expected(motion, i, Method::depth_first), expected(motion, i, Method::brute_force)) << i;
 }
 
-TEST_F(ContactTimeDifferential, WithoutShortcuts) {
-  const ShapeSet plain(shapes, {.depths = four_levels.depths, .shortcuts = false});
+TEST_F(TimeOfImpactDifferential, WithoutShortcuts) {
+  const ShapeSet plain(shapes, {.depths = four_levels.depths, .culling = false});
   const Motion motion = approaching(20'000, 1);
   const std::vector<float> expected = times(set, motion);
   for (const auto& implementation : kernel::implementations()) {
@@ -158,7 +158,7 @@ TEST_F(ContactTimeDifferential, WithoutShortcuts) {
   }
 }
 
-TEST_F(ContactTimeDifferential, WithoutAWayItIsCollide) {
+TEST_F(TimeOfImpactDifferential, WithoutAWayItIsCollide) {
   Motion motion{random_scene(random, set, 50'000), {}, {}};
   motion.x.assign(motion.pairs.size(), 0), motion.y = motion.x;
   std::vector<std::uint8_t> hits(motion.pairs.size());
@@ -174,16 +174,16 @@ TEST_F(ContactTimeDifferential, WithoutAWayItIsCollide) {
   }
 }
 
-TEST_F(ContactTimeDifferential, BatchesThreadsAndOrder) {
+TEST_F(TimeOfImpactDifferential, BatchesThreadsAndOrder) {
   Motion motion = approaching(20'000, 1);
   const std::vector<float> whole = times(set, motion);
   const Agents agents = motion.crowd.agents();
   for (const std::size_t size : {0, 1, 3, 17, 255, 257, 1025})
     for (const std::size_t offset : {0, 1, 62}) {
       std::vector<float> part(size);
-      contact_time(set, agents, std::span(motion.pairs).subspan(offset, size),
-                   {std::span(motion.x).subspan(offset, size), std::span(motion.y).subspan(offset, size)},
-                   part);
+      time_of_impact(set, agents, std::span(motion.pairs).subspan(offset, size),
+                     {std::span(motion.x).subspan(offset, size), std::span(motion.y).subspan(offset, size)},
+                     part);
       for (std::size_t i = 0; i < size; ++i) EXPECT_EQ(part[i], whole[offset + i]);
     }
   const tbb::global_control allow(tbb::global_control::max_allowed_parallelism, 8);
@@ -199,7 +199,7 @@ TEST_F(ContactTimeDifferential, BatchesThreadsAndOrder) {
 }
 
 /// Never later than the outlines' contact; before it discs do not overlap, and at it they do, but for rounding.
-TEST_F(ContactTimeDifferential, IsNotLaterThanTheContactOfTheOutlines) {
+TEST_F(TimeOfImpactDifferential, IsNotLaterThanTheContactOfTheOutlines) {
   const ShapeSet finest(shapes);
   std::vector<Motion> motions = {approaching(1'000, 1), approaching(500, 20), approaching(500, 1)};
   test::move_away(motions[2], 1e7, -8e8);
@@ -215,7 +215,7 @@ TEST_F(ContactTimeDifferential, IsNotLaterThanTheContactOfTheOutlines) {
       const long double c = std::cos(static_cast<long double>(agents.heading[a])),
                         s = std::sin(static_cast<long double>(agents.heading[a]));
       const long double x = motion.x[i], y = motion.y[i];
-      const long double exact = oracle.contact_time(c * x + s * y, c * y - s * x);
+      const long double exact = oracle.time_of_impact(c * x + s * y, c * y - s * x);
       contacts += exact > 0 && exact <= 1;
       if (exact <= 1) {
         EXPECT_LE(all[i], exact) << i;
@@ -226,7 +226,7 @@ TEST_F(ContactTimeDifferential, IsNotLaterThanTheContactOfTheOutlines) {
 }
 
 /// Tip against tip nothing but the margins is between the answer and the outlines, at any distance.
-TEST(ContactTime, OfTipsIsThatOfTheOutlinesLessTheMargin) {
+TEST(TimeOfImpact, OfTipsIsThatOfTheOutlinesLessTheMargin) {
   const std::vector<Shape> shapes = {test::contour_shape(test::needle())};
   const ShapeSet set(shapes);
   Random random(12);
@@ -258,7 +258,7 @@ TEST(ContactTime, OfTipsIsThatOfTheOutlinesLessTheMargin) {
   EXPECT_GT(contacts, 1'000u);
 }
 
-TEST_F(ContactTimeDifferential, IsWhenDiscsTouch) {
+TEST_F(TimeOfImpactDifferential, IsWhenDiscsTouch) {
   Motion motion = approaching(5'000, 1);
   const std::vector<float> all = times(set, motion);
   const auto clearance_at = [&](std::size_t i, double t) {
@@ -285,7 +285,7 @@ TEST_F(ContactTimeDifferential, IsWhenDiscsTouch) {
   }
 }
 
-TEST(ContactTime, OfSingleDiscs) {
+TEST(TimeOfImpact, OfSingleDiscs) {
   const std::vector<Shape> shapes = {{{}, fixed_cylinder(0.25f)}};
   for (const ShapeSetPlan& levels : {ShapeSetPlan{{0}}, ShapeSetPlan{}}) {
     const ShapeSet set(shapes, levels);
@@ -306,7 +306,7 @@ TEST(ContactTime, OfSingleDiscs) {
   }
 }
 
-TEST(ContactTime, RejectsBadInputBeforeAnythingIsWritten) {
+TEST(TimeOfImpact, RejectsBadInputBeforeAnythingIsWritten) {
   const ShapeSet set(test::synthetic_shapes(1, 2));
   Motion motion;
   motion.crowd.add({0, 0, 0, 0, 0});
@@ -316,7 +316,7 @@ TEST(ContactTime, RejectsBadInputBeforeAnythingIsWritten) {
   const auto expect_rejected = [&](const std::string& message) {
     std::vector<float> all(1, 42);
     try {
-      contact_time(set, motion.crowd.agents(), motion.pairs, motion.displacements(), all);
+      time_of_impact(set, motion.crowd.agents(), motion.pairs, motion.displacements(), all);
       FAIL() << "accepted; expected: " << message;
     } catch (const std::invalid_argument& error) {
       EXPECT_NE(std::string(error.what()).find(message), std::string::npos) << error.what();

@@ -6,36 +6,37 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "kernel/distance/contact_time_arguments.hpp"
-#include "kernel/distance/contact_time_measure.hpp"
-#include "kernel/distance/contact_time_walk.hpp"
+#include "kernel/distance/time_of_impact_arguments.hpp"
+#include "kernel/distance/time_of_impact_measure.hpp"
+#include "kernel/distance/time_of_impact_walk.hpp"
 #include "kernel/simd/chunk_pairs.hpp"
 #include "kernel/simd/placements.hpp"
-#include "kernel/simd/separation_test.hpp"
+#include "kernel/simd/separating_axis_test.hpp"
 
 namespace bch::kernel {
 
-/// The first contact of every pair, none of which collides now. Chunk by chunk: places B in A's frame, parts the pairs
-/// that a line keeps apart on all of the way, by their supports, and walks the trees of the rest.
+/// Finds the first contact of every pair, none of which collides now. The kernel works chunk by chunk. It
+/// places B in A's frame, separates by their supports the pairs that a line keeps apart on all of the way,
+/// and traverses the trees of the rest.
 template <class Simd>
-class ContactTimeKernel {
+class TimeOfImpactKernel {
  public:
-  static void run(const ContactTimeArguments& arguments, std::size_t begin, std::size_t end) noexcept {
-    static_assert(sizeof(ContactTimeKernel) <= 256 * 1024, "what implementation.hpp promises");
-    ContactTimeKernel kernel(arguments);
+  static void run(const TimeOfImpactArguments& arguments, std::size_t begin, std::size_t end) noexcept {
+    static_assert(sizeof(TimeOfImpactKernel) <= 256 * 1024, "what implementation.hpp promises");
+    TimeOfImpactKernel kernel(arguments);
     for (; begin < end; begin += chunk)
       kernel.answer_chunk(begin, end - begin < chunk ? static_cast<std::uint32_t>(end - begin) : chunk);
     kernel.walk_.run(0);
   }
 
  private:
-  using Measure = ContactTimeMeasure<Simd>;
+  using Measure = TimeOfImpactMeasure<Simd>;
   static constexpr std::uint32_t chunk = Placements<Simd>::chunk;
 
-  explicit ContactTimeKernel(const ContactTimeArguments& arguments) noexcept
+  explicit TimeOfImpactKernel(const TimeOfImpactArguments& arguments) noexcept
       : arguments_(arguments),
         shapes_(*arguments.in.shapes),
-        separation_(shapes_, at_),
+        penetration_(shapes_, at_),
         walk_(shapes_.nodes, arguments.time) {}
 
   void answer_chunk(std::size_t begin, std::uint32_t size) noexcept {
@@ -72,18 +73,18 @@ class ContactTimeKernel {
     if (!shapes_.rows_in_order) {
       for (std::uint32_t k = 0; k < at_.size; ++k)
         row_a_[k] = shapes_.roots[at_.root_a[k]].row, row_b_[k] = shapes_.roots[at_.root_b[k]].row;
-      separation_.use_rows(row_a_, row_b_);
+      penetration_.use_rows(row_a_, row_b_);
     }
-    separation_.place_directions();
+    penetration_.place_directions();
     for (unsigned odd = 0; odd < 2; ++odd)
       open_.drop_if(open_, [this, odd](std::uint32_t pair) {
-        return separation_.apart_on_the_way(pair, odd, x_[pair], y_[pair], slack(pair));
+        return penetration_.apart_on_the_way(pair, odd, x_[pair], y_[pair], slack(pair));
       });
   }
 
-  /// Discs touch by the measure at 16 u D more than by collide()'s test, D <= S + |t|. Beside what supports have room
-  /// for, in layout/base/rounding.hpp, the way's product with a direction is off by 3 u |v|, the differences by 2 u (|t| +
-  /// |v|), and |t| may be 2 S + |v|: 30 u S + 18 u |t| + 11 u |v|. Only
+  /// Discs touch by the measure at 16 u D more than by collide()'s test, D <= S + |t|. Beside what supports
+  /// have room for, in layout/base/rounding.hpp, the way's product with a direction is off by 3 u |v|, the
+  /// differences by 2 u (|t| + |v|), and |t| may be 2 S + |v|: 30 u S + 18 u |t| + 11 u |v|. Only
   /// the proof needs it: supports have room for more than tests have found.
   float slack(std::uint32_t pair) const noexcept {
     constexpr float share = 0x1p-18f;
@@ -96,13 +97,13 @@ class ContactTimeKernel {
     return shapes_.reach[at_.shape_a[pair]] + shapes_.reach[at_.shape_b[pair]];
   }
 
-  /// No centre of one shape's disc is farther from one of the other's: each is within 1.42 times its shape's reach, as
-  /// half of a box about others is.
+  /// No centre of one shape's disc is farther from one of the other's: each is within 1.42 times its shape's
+  /// reach, as half of a box about others is.
   float farthest(std::uint32_t pair) const noexcept {
     return 2 * reach(pair) + __builtin_fabsf(at_.tx[pair]) + __builtin_fabsf(at_.ty[pair]);
   }
 
-  /// Where every cut is a single disc.
+  /// Returns the time of a pair in a set in which every cut is a single disc.
   float time_of_roots(std::uint32_t pair) const noexcept {
     const Transform at = at_.transform(pair);
     const Root &a = shapes_.roots[at_.root_a[pair]], &b = shapes_.roots[at_.root_b[pair]];
@@ -113,14 +114,14 @@ class ContactTimeKernel {
     return measure.time();
   }
 
-  const ContactTimeArguments& arguments_;
+  const TimeOfImpactArguments& arguments_;
   const ShapeSetView shapes_;
   alignas(64) float x_[chunk], y_[chunk];  ///< the chunk's ways
   Placements<Simd> at_;
-  SeparationTest<Simd> separation_;
+  SeparatingAxisTest<Simd> penetration_;
   std::uint32_t row_a_[chunk], row_b_[chunk];  ///< of the supports, where they are not in order
   ChunkPairs<Simd, chunk> open_;
-  ContactTimeWalk<Simd> walk_;
+  TimeOfImpactWalk<Simd> walk_;
 };
 
 }  // namespace bch::kernel

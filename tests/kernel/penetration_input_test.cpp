@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
-#include "tests/support/separations.hpp"
+#include "tests/support/penetrations.hpp"
 
-// What separation() says of two discs, and of input that is not allowed.
+// What penetration() says of two discs, and of input that is not allowed.
 
 namespace bch {
 namespace {
@@ -32,7 +32,7 @@ class TwoDiscs : public testing::Test {
   const ShapeSet set{shapes};
   PairScene scene;
 
-  void expect(const Separation& found, double depth, double x, double y) const {
+  void expect(const Penetration& found, double depth, double x, double y) const {
     EXPECT_NEAR(static_cast<double>(found.depth), depth, 4e-6 * (1 + depth));
     EXPECT_GE(static_cast<double>(found.depth), depth);
     EXPECT_NEAR(found.x, x, 1e-9);
@@ -47,7 +47,7 @@ TEST_F(TwoDiscs, AreMovedApart) {
   expect(along(std::vector<Vec2>{{0, 1e-30f}}, set, scene)[0], 0.5, 0, 1);
   scene.crowd.x[1] = 1e9;
   EXPECT_EQ(best_of(4, set, scene)[0].depth, 0);
-  EXPECT_EQ(along(std::vector<Vec2>{{-2, 0}}, set, scene)[0], (Separation{0, -1, 0}));
+  EXPECT_EQ(along(std::vector<Vec2>{{-2, 0}}, set, scene)[0], (Penetration{0, -1, 0}));
   expect(along(std::vector<Vec2>{{2, 0}}, set, scene)[0], 1e9, 1, 0);
 }
 
@@ -60,46 +60,46 @@ TEST_F(TwoDiscs, InOnePlaceMoveByTheFirstDirection) {
   expect(best_of(8, set, scene)[0], 0.5, -1, 0);
 }
 
-class BadSeparation : public TwoDiscs {
+class BadPenetration : public TwoDiscs {
  protected:
   template <class Call>
   void expect_rejected(const std::string& message, Call call) {
-    std::vector<Separation> out(scene.pairs.size(), {7, 7, 7});
+    std::vector<Penetration> out(scene.pairs.size(), {7, 7, 7});
     try {
       call(out);
       FAIL() << "accepted; expected: " << message;
     } catch (const std::invalid_argument& error) {
       EXPECT_NE(std::string(error.what()).find(message), std::string::npos) << error.what();
     }
-    for (const Separation& each : out) EXPECT_EQ(each, (Separation{7, 7, 7}));
+    for (const Penetration& each : out) EXPECT_EQ(each, (Penetration{7, 7, 7}));
   }
 };
 
-TEST_F(BadSeparation, DirectionsAreNamed) {
+TEST_F(BadPenetration, DirectionsAreNamed) {
   scene.pairs = {{0, 1}, {1, 0}};
   const float nan = std::numeric_limits<float>::quiet_NaN(),
               infinity = std::numeric_limits<float>::infinity();
   for (const Vec2 bad : {Vec2{0, 0}, Vec2{-0.0f, 0}, Vec2{nan, 1}, Vec2{1, infinity}})
-    expect_rejected("pair 1: direction (", [&](std::span<Separation> out) {
-      separation_along(set, scene.crowd.agents(), scene.pairs, std::vector<Vec2>{{1, 0}, bad}, out);
+    expect_rejected("pair 1: direction (", [&](std::span<Penetration> out) {
+      penetration_along(set, scene.crowd.agents(), scene.pairs, std::vector<Vec2>{{1, 0}, bad}, out);
     });
-  expect_rejected("2 pairs but 1 directions", [&](std::span<Separation> out) {
-    separation_along(set, scene.crowd.agents(), scene.pairs, std::vector<Vec2>{{1, 0}}, out);
+  expect_rejected("2 pairs but 1 directions", [&](std::span<Penetration> out) {
+    penetration_along(set, scene.crowd.agents(), scene.pairs, std::vector<Vec2>{{1, 0}}, out);
   });
   for (const std::uint32_t k : {0u, 1u, 3u, 255u, 258u, ~0u})
-    expect_rejected(std::to_string(k) + " directions are not", [&](std::span<Separation> out) {
-      separation(set, scene.crowd.agents(), scene.pairs, k, out);
+    expect_rejected(std::to_string(k) + " directions are not", [&](std::span<Penetration> out) {
+      penetration(set, scene.crowd.agents(), scene.pairs, k, out);
     });
   EXPECT_EQ(best_of(most_directions, set, scene).size(), 2u);
 }
 
-TEST_F(BadSeparation, AgentsAndSizesAreNamed) {
-  expect_rejected("room for 0", [&](std::span<Separation> out) {
-    separation(set, scene.crowd.agents(), scene.pairs, 4, out.first(0));
+TEST_F(BadPenetration, AgentsAndSizesAreNamed) {
+  expect_rejected("room for 0", [&](std::span<Penetration> out) {
+    penetration(set, scene.crowd.agents(), scene.pairs, 4, out.first(0));
   });
   scene.crowd.y[1] = std::numeric_limits<double>::quiet_NaN();
-  expect_rejected("pair 0: agent 1: position (0, nan)", [&](std::span<Separation> out) {
-    separation(set, scene.crowd.agents(), scene.pairs, 4, out);
+  expect_rejected("pair 0: agent 1: position (0, nan)", [&](std::span<Penetration> out) {
+    penetration(set, scene.crowd.agents(), scene.pairs, 4, out);
   });
 }
 

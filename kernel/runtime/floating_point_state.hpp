@@ -9,12 +9,12 @@ namespace bch::kernel {
 /// traps. Then whatever the thread had is back. Callers may have set another state, and a task may run in a thread
 /// that was left in one, so a query holds one of these, and each of its tasks another; that is where answers get their
 /// bits, and the bounds of layout/base/rounding.hpp hold only here.
-class StandardFloats {
+class FloatingPointStateGuard {
  public:
-  StandardFloats() noexcept;
-  ~StandardFloats();
-  StandardFloats(const StandardFloats&) = delete;
-  StandardFloats& operator=(const StandardFloats&) = delete;
+  FloatingPointStateGuard() noexcept;
+  ~FloatingPointStateGuard();
+  FloatingPointStateGuard(const FloatingPointStateGuard&) = delete;
+  FloatingPointStateGuard& operator=(const FloatingPointStateGuard&) = delete;
 
  private:
   unsigned before_;

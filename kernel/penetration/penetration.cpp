@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include "kernel/separation/separation.hpp"
+#include "kernel/penetration/penetration.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -11,8 +11,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "kernel/runtime/floating_point_state.hpp"
 #include "kernel/runtime/pair_validation.hpp"
-#include "kernel/runtime/standard_floats.hpp"
 #include "kernel/runtime/task_ranges.hpp"
 #include "layout/base/heading.hpp"
 #include "layout/base/rounding.hpp"
@@ -54,8 +54,8 @@ struct Query {
   const kernel::Implementation& implementation;
 
   void measure(std::uint32_t agent, const Axes& axes, Extents& extents) const noexcept;
-  Separation answer(Pair pair, const Axes& axes, bool both_ways, const Extents& a,
-                    const Extents& b) const noexcept;
+  Penetration answer(Pair pair, const Axes& axes, bool both_ways, const Extents& a,
+                     const Extents& b) const noexcept;
 };
 
 void Query::measure(std::uint32_t agent, const Axes& axes, Extents& extents) const noexcept {
@@ -75,8 +75,8 @@ void Query::measure(std::uint32_t agent, const Axes& axes, Extents& extents) con
 }
 
 /// `a` belongs to the lower index, whatever the pair's order: so that both orders agree.
-Separation Query::answer(Pair pair, const Axes& axes, bool both_ways, const Extents& a,
-                         const Extents& b) const noexcept {
+Penetration Query::answer(Pair pair, const Axes& axes, bool both_ways, const Extents& a,
+                          const Extents& b) const noexcept {
   const auto [low, high] = std::minmax(pair.first, pair.second);
   const double dx = agents.x[high] - agents.x[low], dy = agents.y[high] - agents.y[low];
   double least = std::numeric_limits<double>::infinity(), x = 0, y = 0;
@@ -94,11 +94,11 @@ Separation Query::answer(Pair pair, const Axes& axes, bool both_ways, const Exte
 }
 
 Query checked_query(const ShapeSet& shapes, const Agents& agents, std::span<const Pair> pairs,
-                    std::span<Separation> out, const SeparationOptions& options) {
+                    std::span<Penetration> out, const PenetrationOptions& options) {
   if (out.size() != pairs.size())
-    throw std::invalid_argument("separation: " + std::to_string(pairs.size()) + " pairs but room for " +
+    throw std::invalid_argument("penetration: " + std::to_string(pairs.size()) + " pairs but room for " +
                                 std::to_string(out.size()) + " answers");
-  const kernel::Implementation& implementation = kernel::chosen(options.implementation, "separation");
+  const kernel::Implementation& implementation = kernel::chosen(options.implementation, "penetration");
   const ShapeSetView& view = shapes.view();
   kernel::require_valid(implementation, view, agents, pairs);
   return {view, agents, implementation};
@@ -106,7 +106,7 @@ Query checked_query(const ShapeSet& shapes, const Agents& agents, std::span<cons
 
 void require_directions(std::span<const Vec2> directions, std::size_t pairs) {
   if (directions.size() != pairs)
-    throw std::invalid_argument("separation: " + std::to_string(pairs) + " pairs but " +
+    throw std::invalid_argument("penetration: " + std::to_string(pairs) + " pairs but " +
                                 std::to_string(directions.size()) + " directions");
   for (std::size_t i = 0; i < pairs; ++i) {
     const auto [x, y] = directions[i];
@@ -120,7 +120,7 @@ void require_directions(std::span<const Vec2> directions, std::size_t pairs) {
 /// Half of the directions; the others are opposite.
 Axes spread_axes(std::uint32_t directions) {
   if (directions < 2 || directions > most_directions || directions % 2 != 0)
-    throw std::invalid_argument("separation: " + std::to_string(directions) +
+    throw std::invalid_argument("penetration: " + std::to_string(directions) +
                                 " directions are not an even number from 2 to " +
                                 std::to_string(most_directions));
   Axes axes;
@@ -134,10 +134,10 @@ Axes spread_axes(std::uint32_t directions) {
 
 }  // namespace
 
-void separation_along(const ShapeSet& shapes, const Agents& agents, std::span<const Pair> pairs,
-                      std::span<const Vec2> directions, std::span<Separation> out,
-                      const SeparationOptions& options) {
-  const kernel::StandardFloats floats;
+void penetration_along(const ShapeSet& shapes, const Agents& agents, std::span<const Pair> pairs,
+                       std::span<const Vec2> directions, std::span<Penetration> out,
+                       const PenetrationOptions& options) {
+  const kernel::FloatingPointStateGuard floats;
   const Query query = checked_query(shapes, agents, pairs, out, options);
   require_directions(directions, pairs.size());
   kernel::for_pair_ranges(pairs.size(), grain, [&](std::size_t begin, std::size_t size) {
@@ -156,9 +156,9 @@ void separation_along(const ShapeSet& shapes, const Agents& agents, std::span<co
   });
 }
 
-void separation(const ShapeSet& shapes, const Agents& agents, std::span<const Pair> pairs,
-                std::uint32_t directions, std::span<Separation> out, const SeparationOptions& options) {
-  const kernel::StandardFloats floats;
+void penetration(const ShapeSet& shapes, const Agents& agents, std::span<const Pair> pairs,
+                 std::uint32_t directions, std::span<Penetration> out, const PenetrationOptions& options) {
+  const kernel::FloatingPointStateGuard floats;
   const Query query = checked_query(shapes, agents, pairs, out, options);
   const Axes axes = spread_axes(directions);
   kernel::for_pair_ranges(pairs.size(), grain, [&](std::size_t begin, std::size_t size) {

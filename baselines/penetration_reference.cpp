@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include "baselines/separation_reference.hpp"
+#include "baselines/penetration_reference.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -28,7 +28,7 @@ double support(const CutLists& cuts, const Agents& agents, std::uint32_t agent, 
   return static_cast<double>(largest);
 }
 
-/// Until `mover` is before `other`, without slack.
+/// Returns how far `mover` has to move until it is before `other`, without slack.
 double way(const CutLists& cuts, const Agents& agents, std::uint32_t mover, std::uint32_t other,
            Vector along) {
   const double dx = agents.x[other] - agents.x[mover], dy = agents.y[other] - agents.y[mover];
@@ -45,13 +45,13 @@ Way with_slack(const CutLists& cuts, const Agents& agents, Pair pair, double way
 
 }  // namespace
 
-Way separation_along(const CutLists& cuts, const Agents& agents, Pair pair, Vec2 direction) {
+Way penetration_along(const CutLists& cuts, const Agents& agents, Pair pair, Vec2 direction) {
   const double x = direction.x, y = direction.y, length = std::sqrt(x * x + y * y);
   const Vector along{x / length, y / length};
   return with_slack(cuts, agents, pair, way(cuts, agents, pair.first, pair.second, along), along);
 }
 
-Way separation(const CutLists& cuts, const Agents& agents, Pair pair, std::uint32_t k) {
+Way penetration(const CutLists& cuts, const Agents& agents, Pair pair, std::uint32_t k) {
   const auto [a, b] = std::minmax(pair.first, pair.second);
   double least = HUGE_VAL;
   Vector best{0, 0};

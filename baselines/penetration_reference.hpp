@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include "baselines/cut_lists.hpp"
+
+namespace bch::baselines {
+
+/// How far a pair's first agent has to move, and where to.
+struct Way {
+  float depth;
+  double x, y;
+  friend bool operator==(const Way&, const Way&) = default;
+};
+
+/// Returns the way until the first agent's discs lie behind a line across the direction and the other's
+/// before it. Tests one disc after the other, with the rounding of kernel/penetration/penetration.hpp. The
+/// result is the largest such way over all pairs of discs.
+Way penetration_along(const CutLists& cuts, const Agents& agents, Pair pair, Vec2 direction);
+
+/// The shortest way among k directions evenly spread from the x axis on; in a tie the first of 0, k / 2, 1, k
+/// / 2 + 1 ... for the agent of the lower index.
+Way penetration(const CutLists& cuts, const Agents& agents, Pair pair, std::uint32_t k);
+
+}  // namespace bch::baselines
