@@ -13,15 +13,15 @@ foreach(workload colliding near_miss no_hit crowd paper500 paper500_cached)
     endif()
   endforeach()
 endforeach()
-foreach(query clearance contact_time)
+foreach(query clearance time_of_impact)
   foreach(rest near_miss/sse2/threads:1 crowd/scalar/threads:1 crowd/reference/threads:1)
     if(NOT output MATCHES "${query}/${rest} [^\n]*ns_per_pair=")
       message(FATAL_ERROR "bch_micro: no ${query}/${rest}\n${output}")
     endif()
   endforeach()
 endforeach()
-foreach(benchmark contacts/colliding/sse2/threads:1 contacts/crowd/reference/threads:1 separation/crowd/scalar/threads:1
-    separation/colliding/reference/threads:1 collide_all/crowd/sse2/threads:1)
+foreach(benchmark contacts/colliding/sse2/threads:1 contacts/crowd/reference/threads:1 penetration/crowd/scalar/threads:1
+    penetration/colliding/reference/threads:1 collide_all/crowd/sse2/threads:1)
   if(NOT output MATCHES "${benchmark} [^\n]*ns_per_pair=")
     message(FATAL_ERROR "bch_micro: no ${benchmark}\n${output}")
   endif()
@@ -42,7 +42,7 @@ execute_process(COMMAND ${RATIOS} ${sizes} --runs=1 --shapes=5000 OUTPUT_VARIABL
 if(NOT code EQUAL 0 OR NOT output MATCHES "colliding, solid: 200 pairs" OR NOT output MATCHES "OBB tree, outline \\| 4630" OR
     NOT output MATCHES "an agent of a crowd of 1 000 000" OR NOT output MATCHES "a pair among 5 000 shapes" OR NOT output MATCHES "sse2 [^\n]*at most 90" OR
     NOT output MATCHES "hierarchy over the same builder" OR NOT output MATCHES "183 296 " OR
-    NOT output MATCHES "plan of a scene" OR NOT output MATCHES "clearance within 0.5 m, near_miss" OR NOT output MATCHES "time of contact within 0.5 s, crowd" OR
+    NOT output MATCHES "plan of a scene" OR NOT output MATCHES "clearance within 0.5 m, near_miss" OR NOT output MATCHES "time of impact within 0.5 s, crowd" OR
     NOT output MATCHES "collide_all  [^\n]*over collide's")
   message(FATAL_ERROR "bch_ratios: ${code}\n${output}")
 endif()
