@@ -1,18 +1,19 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include "kernel/collide/pair_kernel.hpp"
-#include "kernel/contact/contact_kernel.hpp"
-#include "kernel/distance/clearance_kernel.hpp"
-#include "kernel/distance/time_of_impact_kernel.hpp"
-#include "kernel/penetration/extent_kernel.hpp"
-#include "kernel/runtime/agent_check.hpp"
+#include "kernel/isa/row.hpp"
 
 namespace bch::kernel {
 namespace {
 
 /// Two rows of four fit into one register.
 struct Avx2Lanes : Lanes<xsimd::avx2> {
+  /// Leaves the registers' upper halves clean, which GCC 12 forgets on some
+  /// ways out of a kernel: whatever the caller then does with SSE instructions
+  /// takes up to five times as long.
+  struct Guard {
+    ~Guard() { _mm256_zeroupper(); }
+  };
   template <unsigned count>
   static Float row(const float* eight, unsigned i) noexcept {
     if constexpr (count == width) return Float(eight[i]);
@@ -65,61 +66,9 @@ struct Avx2Lanes : Lanes<xsimd::avx2> {
   }
 };
 
-/// Leaves the registers' upper halves clean, which GCC 12 forgets on some ways out of a kernel: whatever the caller then
-/// does with SSE instructions takes up to five times as long.
-struct CleanRegisters {
-  ~CleanRegisters() { _mm256_zeroupper(); }
-};
-
 }  // namespace
 
-bool check_avx2(const Arguments& arguments, std::size_t begin, std::size_t end) noexcept {
-  const CleanRegisters clean;
-  return AgentCheck<Avx2Lanes>::passes(arguments, begin, end);
-}
-
-AgentRange named_avx2(const Pair* pairs, std::size_t begin, std::size_t end) noexcept {
-  const CleanRegisters clean;
-  return AgentCheck<Avx2Lanes>::named(pairs, begin, end);
-}
-
-void run_avx2(const Arguments& arguments, std::size_t begin, std::size_t end) noexcept {
-  const CleanRegisters clean;
-  PairKernel<Avx2Lanes>::run(arguments, begin, end);
-}
-
-bool run_if_valid_avx2(const Arguments& arguments, std::uint32_t count) noexcept {
-  const CleanRegisters clean;
-  return PairKernel<Avx2Lanes>::run_if_valid(arguments, count);
-}
-
-void count_contacts_avx2(const Arguments& arguments, std::size_t begin, std::size_t end,
-                         std::uint64_t* counts) noexcept {
-  const CleanRegisters clean;
-  ContactKernel<Avx2Lanes>::count(arguments, begin, end, counts);
-}
-
-void fill_contacts_avx2(const Arguments& arguments, std::size_t begin, std::size_t end,
-                        const std::uint64_t* offsets, DiscPair* contacts) noexcept {
-  const CleanRegisters clean;
-  ContactKernel<Avx2Lanes>::fill(arguments, begin, end, offsets, contacts);
-}
-
-void extents_avx2(const CutDiscs& discs, const float* axis_x, const float* axis_y, std::uint32_t axes,
-                  float* low, float* high) noexcept {
-  const CleanRegisters clean;
-  ExtentKernel<Avx2Lanes>::run(discs, axis_x, axis_y, axes, low, high);
-}
-
-void clearance_avx2(const ClearanceArguments& arguments, std::size_t begin, std::size_t end) noexcept {
-  const CleanRegisters clean;
-  ClearanceKernel<Avx2Lanes>::run(arguments, begin, end);
-}
-
-void time_of_impact_avx2(const TimeOfImpactArguments& arguments, std::size_t begin,
-                         std::size_t end) noexcept {
-  const CleanRegisters clean;
-  TimeOfImpactKernel<Avx2Lanes>::run(arguments, begin, end);
-}
+extern const Kernels avx2_kernels;
+constinit const Kernels avx2_kernels = Row<Avx2Lanes>::kernels;
 
 }  // namespace bch::kernel

@@ -1,18 +1,20 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include "kernel/collide/pair_kernel.hpp"
-#include "kernel/contact/contact_kernel.hpp"
-#include "kernel/distance/clearance_kernel.hpp"
-#include "kernel/distance/time_of_impact_kernel.hpp"
-#include "kernel/penetration/extent_kernel.hpp"
-#include "kernel/runtime/agent_check.hpp"
+#include "kernel/isa/row.hpp"
 
 namespace bch::kernel {
 namespace {
 
-/// Several rows of a block's outer product fit into one register: two of eight, four of four.
+/// Several rows of a block's outer product fit into one register: two of eight,
+/// four of four.
 struct Avx512Lanes : Lanes<xsimd::avx512f> {
+  /// Leaves the registers' upper halves clean, which GCC 12 forgets on some
+  /// ways out of a kernel: whatever the caller then does with SSE instructions
+  /// takes up to five times as long.
+  struct Guard {
+    ~Guard() { _mm256_zeroupper(); }
+  };
   static Float eight(const float* p) noexcept { return columns<8>(p, 0); }
   template <unsigned count>
   static Float row(Float eight, unsigned i) noexcept {
@@ -83,61 +85,9 @@ struct Avx512Lanes : Lanes<xsimd::avx512f> {
   }
 };
 
-/// Leaves the registers' upper halves clean, which GCC 12 forgets on some ways out of a kernel: whatever the caller then
-/// does with SSE instructions takes up to five times as long.
-struct CleanRegisters {
-  ~CleanRegisters() { _mm256_zeroupper(); }
-};
-
 }  // namespace
 
-bool check_avx512(const Arguments& arguments, std::size_t begin, std::size_t end) noexcept {
-  const CleanRegisters clean;
-  return AgentCheck<Avx512Lanes>::passes(arguments, begin, end);
-}
-
-AgentRange named_avx512(const Pair* pairs, std::size_t begin, std::size_t end) noexcept {
-  const CleanRegisters clean;
-  return AgentCheck<Avx512Lanes>::named(pairs, begin, end);
-}
-
-void run_avx512(const Arguments& arguments, std::size_t begin, std::size_t end) noexcept {
-  const CleanRegisters clean;
-  PairKernel<Avx512Lanes>::run(arguments, begin, end);
-}
-
-bool run_if_valid_avx512(const Arguments& arguments, std::uint32_t count) noexcept {
-  const CleanRegisters clean;
-  return PairKernel<Avx512Lanes>::run_if_valid(arguments, count);
-}
-
-void count_contacts_avx512(const Arguments& arguments, std::size_t begin, std::size_t end,
-                           std::uint64_t* counts) noexcept {
-  const CleanRegisters clean;
-  ContactKernel<Avx512Lanes>::count(arguments, begin, end, counts);
-}
-
-void fill_contacts_avx512(const Arguments& arguments, std::size_t begin, std::size_t end,
-                          const std::uint64_t* offsets, DiscPair* contacts) noexcept {
-  const CleanRegisters clean;
-  ContactKernel<Avx512Lanes>::fill(arguments, begin, end, offsets, contacts);
-}
-
-void extents_avx512(const CutDiscs& discs, const float* axis_x, const float* axis_y, std::uint32_t axes,
-                    float* low, float* high) noexcept {
-  const CleanRegisters clean;
-  ExtentKernel<Avx512Lanes>::run(discs, axis_x, axis_y, axes, low, high);
-}
-
-void clearance_avx512(const ClearanceArguments& arguments, std::size_t begin, std::size_t end) noexcept {
-  const CleanRegisters clean;
-  ClearanceKernel<Avx512Lanes>::run(arguments, begin, end);
-}
-
-void time_of_impact_avx512(const TimeOfImpactArguments& arguments, std::size_t begin,
-                           std::size_t end) noexcept {
-  const CleanRegisters clean;
-  TimeOfImpactKernel<Avx512Lanes>::run(arguments, begin, end);
-}
+extern const Kernels avx512_kernels;
+constinit const Kernels avx512_kernels = Row<Avx512Lanes>::kernels;
 
 }  // namespace bch::kernel

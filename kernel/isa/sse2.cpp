@@ -1,17 +1,13 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include "kernel/collide/pair_kernel.hpp"
-#include "kernel/contact/contact_kernel.hpp"
-#include "kernel/distance/clearance_kernel.hpp"
-#include "kernel/distance/time_of_impact_kernel.hpp"
-#include "kernel/penetration/extent_kernel.hpp"
-#include "kernel/runtime/agent_check.hpp"
+#include "kernel/isa/row.hpp"
 
 namespace bch::kernel {
 namespace {
 
 struct Sse2Lanes : Lanes<xsimd::sse2> {
+  struct Guard {};
   template <std::size_t stride>
   static void load_records(const float* table, const std::uint32_t* index, Float (&field)[4]) noexcept {
     const auto record = [=](std::size_t i) { return _mm_loadu_ps(table + stride * index[i]); };
@@ -45,44 +41,7 @@ struct Sse2Lanes : Lanes<xsimd::sse2> {
 
 }  // namespace
 
-bool check_sse2(const Arguments& arguments, std::size_t begin, std::size_t end) noexcept {
-  return AgentCheck<Sse2Lanes>::passes(arguments, begin, end);
-}
-
-AgentRange named_sse2(const Pair* pairs, std::size_t begin, std::size_t end) noexcept {
-  return AgentCheck<Sse2Lanes>::named(pairs, begin, end);
-}
-
-void run_sse2(const Arguments& arguments, std::size_t begin, std::size_t end) noexcept {
-  PairKernel<Sse2Lanes>::run(arguments, begin, end);
-}
-
-bool run_if_valid_sse2(const Arguments& arguments, std::uint32_t count) noexcept {
-  return PairKernel<Sse2Lanes>::run_if_valid(arguments, count);
-}
-
-void count_contacts_sse2(const Arguments& arguments, std::size_t begin, std::size_t end,
-                         std::uint64_t* counts) noexcept {
-  ContactKernel<Sse2Lanes>::count(arguments, begin, end, counts);
-}
-
-void fill_contacts_sse2(const Arguments& arguments, std::size_t begin, std::size_t end,
-                        const std::uint64_t* offsets, DiscPair* contacts) noexcept {
-  ContactKernel<Sse2Lanes>::fill(arguments, begin, end, offsets, contacts);
-}
-
-void extents_sse2(const CutDiscs& discs, const float* axis_x, const float* axis_y, std::uint32_t axes,
-                  float* low, float* high) noexcept {
-  ExtentKernel<Sse2Lanes>::run(discs, axis_x, axis_y, axes, low, high);
-}
-
-void clearance_sse2(const ClearanceArguments& arguments, std::size_t begin, std::size_t end) noexcept {
-  ClearanceKernel<Sse2Lanes>::run(arguments, begin, end);
-}
-
-void time_of_impact_sse2(const TimeOfImpactArguments& arguments, std::size_t begin,
-                         std::size_t end) noexcept {
-  TimeOfImpactKernel<Sse2Lanes>::run(arguments, begin, end);
-}
+extern const Kernels sse2_kernels;
+constinit const Kernels sse2_kernels = Row<Sse2Lanes>::kernels;
 
 }  // namespace bch::kernel

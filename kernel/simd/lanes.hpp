@@ -16,15 +16,18 @@ constexpr std::uint64_t numbers_of_set[] = {
     0x3, 0x3'0000, 0x3'0001, 0x3'0001'0000, 0x3'0002, 0x3'0002'0000, 0x3'0002'0001, 0x3'0002'0001'0000};
 constexpr std::uint64_t counts_of_set = 0x4332'3221'3221'2110;
 
-/// What the pair kernel needs of an instruction set beyond arithmetic. Eight is the width of a block: `row`
-/// gives part of an outer product's left side (disc i, or discs i and i + 1 where two rows fit), `columns`
-/// the matching right side. Each instruction set's file adds what xsimd 8.1 has no name for: bits() of a
-/// mask, least() of a register's lanes, gather() of doubles or words by index, without a way through memory,
-/// rounded() of as many doubles as there are floats in a register, widened() the other way round,
-/// load_records(), which picks records of four floats from a table, each an index of strides from its
-/// beginning, and gives field after field, lane = record, and rough_root(), for bounds: it is off by less
-/// than 3/4 of `rough`, relatively, for normal numbers, in other ways on every processor, and NaN for numbers
-/// below 0.
+/// The vocabulary of an instruction set, as far as xsimd has it. Eight is the width of a block: `row` gives part
+/// of an outer product's left side (disc i, or discs i and i + 1 where two rows fit), `columns` the matching
+/// right side. The file of each instruction set adds what xsimd 8.1 has no name for:
+///
+/// - Guard, whose destructor leaves the processor's registers as callers expect them;
+/// - bits() of a mask, and least() of a register's lanes;
+/// - gather() of doubles or words by index, without a way through memory;
+/// - rounded(), which makes a register of floats of as many doubles, and widened(), its inverse;
+/// - load_records(), which picks records of four floats from a table, each by an index of strides from its
+///   beginning, and gives field after field, lane = record;
+/// - rough_root(), for bounds: it is off by less than 3/4 of `rough`, relatively, for normal numbers, differently
+///   on every processor, and NaN for numbers below 0.
 template <class Arch>
 struct Lanes {
   using Float = xsimd::batch<float, Arch>;

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include "kernel/collide/pair_kernel.hpp"
+#include "kernel/contact/contact_kernel.hpp"
+#include "kernel/distance/clearance_kernel.hpp"
+#include "kernel/distance/time_of_impact_kernel.hpp"
+#include "kernel/penetration/extent_kernel.hpp"
+#include "kernel/runtime/agent_check.hpp"
+#include "kernel/runtime/kernels.hpp"
+
+namespace bch::kernel {
+
+/// All kernels compiled for the lanes of one instruction set. Each holds a
+/// Simd::Guard, which cleans up on the way out. `Simd` has to be of an
+/// anonymous namespace, so that instruction sets share no function.
+template <class Simd>
+struct Row {
+  using Guard [[maybe_unused]] = typename Simd::Guard;
+
+  static bool check(const Arguments& arguments, std::size_t begin, std::size_t end) noexcept {
+    [[maybe_unused]] const Guard guard;
+    return AgentCheck<Simd>::passes(arguments, begin, end);
+  }
+  static AgentRange named(const Pair* pairs, std::size_t begin, std::size_t end) noexcept {
+    [[maybe_unused]] const Guard guard;
+    return AgentCheck<Simd>::named(pairs, begin, end);
+  }
+  static void run(const Arguments& arguments, std::size_t begin, std::size_t end) noexcept {
+    [[maybe_unused]] const Guard guard;
+    PairKernel<Simd>::run(arguments, begin, end);
+  }
+  static bool run_if_valid(const Arguments& arguments, std::uint32_t count) noexcept {
+    [[maybe_unused]] const Guard guard;
+    return PairKernel<Simd>::run_if_valid(arguments, count);
+  }
+  static void count_contacts(const Arguments& arguments, std::size_t begin, std::size_t end,
+                             std::uint64_t* counts) noexcept {
+    [[maybe_unused]] const Guard guard;
+    ContactKernel<Simd>::count(arguments, begin, end, counts);
+  }
+  static void fill_contacts(const Arguments& arguments, std::size_t begin, std::size_t end,
+                            const std::uint64_t* offsets, DiscPair* contacts) noexcept {
+    [[maybe_unused]] const Guard guard;
+    ContactKernel<Simd>::fill(arguments, begin, end, offsets, contacts);
+  }
+  static void extents(const CutDiscs& discs, const float* axis_x, const float* axis_y, std::uint32_t axes,
+                      float* low, float* high) noexcept {
+    [[maybe_unused]] const Guard guard;
+    ExtentKernel<Simd>::run(discs, axis_x, axis_y, axes, low, high);
+  }
+  static void clearance(const ClearanceArguments& arguments, std::size_t begin, std::size_t end) noexcept {
+    [[maybe_unused]] const Guard guard;
+    ClearanceKernel<Simd>::run(arguments, begin, end);
+  }
+  static void time_of_impact(const TimeOfImpactArguments& arguments, std::size_t begin,
+                             std::size_t end) noexcept {
+    [[maybe_unused]] const Guard guard;
+    TimeOfImpactKernel<Simd>::run(arguments, begin, end);
+  }
+
+  static constexpr Kernels kernels{Simd::width,    check,         named,   run,       run_if_valid,
+                                   count_contacts, fill_contacts, extents, clearance, time_of_impact};
+};
+
+}  // namespace bch::kernel

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+namespace bch {
+struct DiscPair;
+struct CutDiscs;
+struct Pair;
+}  // namespace bch
+
+namespace bch::kernel {
+
+struct Arguments;
+struct ClearanceArguments;
+struct TimeOfImpactArguments;
+
+/// The lowest agent of some, and the highest. Of none, the lowest is above the
+/// highest.
+struct AgentRange {
+  std::uint32_t low, high;
+};
+
+/// The kernels of one instruction set.
+struct Kernels {
+  unsigned width;  ///< floats side by side
+  /// Returns whether agents begin .. end are valid, as collide() requires.
+  bool (*check)(const Arguments& arguments, std::size_t begin, std::size_t end) noexcept;
+  /// Returns the range of the agents that pairs begin .. end name.
+  AgentRange (*named)(const Pair* pairs, std::size_t begin, std::size_t end) noexcept;
+  /// Writes the codes of pairs begin .. end; see Arguments. Needs 256 KiB of
+  /// stack and no other memory.
+  void (*run)(const Arguments& arguments, std::size_t begin, std::size_t end) noexcept;
+  /// Writes the codes of the first `count` pairs, one or more and at most a
+  /// chunk, when neither pairs nor agents were validated. Returns false, and
+  /// writes nothing, unless they are surely valid. It is meant for small
+  /// batches, for which a separate validation takes longer.
+  bool (*run_if_valid)(const Arguments& arguments, std::uint32_t count) noexcept;
+  /// Writes how many contacts each of pairs begin .. end has, to counts[begin]
+  /// .. counts[end].
+  void (*count_contacts)(const Arguments& arguments, std::size_t begin, std::size_t end,
+                         std::uint64_t* counts) noexcept;
+  /// Writes the contacts of pair i to contacts[offsets[i]] ..
+  /// contacts[offsets[i + 1]].
+  void (*fill_contacts)(const Arguments& arguments, std::size_t begin, std::size_t end,
+                        const std::uint64_t* offsets, DiscPair* contacts) noexcept;
+  /// The interval that discs take along each of so many axes: of c . axis - r
+  /// the least, of c . axis + r the largest.
+  void (*extents)(const CutDiscs& discs, const float* axis_x, const float* axis_y, std::uint32_t axes,
+                  float* low, float* high) noexcept;
+  /// Writes the nearest discs of pairs begin .. end, with as much stack as
+  /// run(); see ClearanceArguments.
+  void (*clearance)(const ClearanceArguments& arguments, std::size_t begin, std::size_t end) noexcept;
+  /// Writes the times of impact of those pairs begin .. end that do not overlap
+  /// now; see TimeOfImpactArguments.
+  void (*time_of_impact)(const TimeOfImpactArguments& arguments, std::size_t begin, std::size_t end) noexcept;
+};
+
+}  // namespace bch::kernel
