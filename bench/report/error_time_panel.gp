@@ -7,7 +7,7 @@ set yrange [0:*]
 set bmargin screen 0.36
 set format x "%.0f"
 kinds = '"BCH outline in the batch kernel" "BCH outline with exact leaves" "BCH outline" "BCH projected" "OBB outline" "OBB outline in 2D" "OBB full mesh" "OBB projected"'
-names = '"BCH batch kernel" "BCH batch kernel, exact leaves" "BCH pair by pair" "BCH projected" "OBB outline" "OBB outline in 2D" "OBB full mesh" "OBB projected"'
+names = '"BCH batch kernel" "BCH exact leaves" "BCH pair by pair" "BCH projected" "OBB outline" "OBB outline in 2D" "OBB full mesh" "OBB projected"'
 time = pairs." (ns/pair)"
 of(kind) = strcol("structure") eq kind ? column(error) : NaN
 begins(kind) = strcol("structure")[1:strlen(kind)] eq kind ? column(error) : NaN
