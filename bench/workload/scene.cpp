@@ -103,7 +103,7 @@ const Hits& Scene::hits(std::string_view kind, const Workload& workload) {
 }
 
 const Hits& Scene::expected(const QueryOptions& query, const Workload& workload) {
-  Hits& hits = hits_["*" + text_of(query) + "/" + workload.name];
+  Hits& hits = hits_[text_of(query).append("/").append(workload.name)];
   if (!hits.empty()) return hits;
   const baselines::Reference reference(shapes(), {}, query.leaves);
   const Agents agents = workload.agents();
