@@ -21,7 +21,7 @@
 #include "tests/support/clearances.hpp"
 #include "tests/support/scenes.hpp"
 
-// For ThreadSanitizer: the functions that tasks run, and whole calls, which then run on tests/plain_threads.
+// For ThreadSanitizer: the functions that tasks run, and whole calls, which then run on tests/support/plain_threads.
 
 namespace bch {
 namespace {

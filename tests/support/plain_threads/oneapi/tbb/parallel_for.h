@@ -5,7 +5,7 @@
 
 #include <oneapi/tbb/task_group.h>
 
-#include "tests/plain_threads/plain_threads.hpp"
+#include "tests/support/plain_threads/plain_threads.hpp"
 
 namespace tbb {
 
