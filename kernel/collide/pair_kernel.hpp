@@ -90,9 +90,7 @@ class PairKernel {
 
   double segment_margin(std::uint32_t pair) const noexcept {
     if (!in_.exact_leaves) return 0;
-    const double of_a = shapes_.segment_margin[at_.shape_a[pair]],
-                 of_b = shapes_.segment_margin[at_.shape_b[pair]];
-    return of_a + of_b;
+    return kernel::segment_margin<Simd>(shapes_, at_.shape_a[pair], at_.shape_b[pair]);
   }
 
   /// Root disc against root disc, lane = pair. Where both cuts are single discs, that is the answer.

@@ -97,15 +97,10 @@ class ContactKernel {
     nodes_ = shapes_.nodes;
     reach_ = shapes_.reach[at_.shape_a[k]] + shapes_.reach[at_.shape_b[k]];
     rows_ = shapes_.trees[rows], columns_ = shapes_.trees[columns];
-    placed_.margin = 0;
-    if (!in_.exact_leaves || rows_.segments == no_segments || columns_.segments == no_segments)
-      return set_first();
-    const double of_a = shapes_.segment_margin[at_.shape_a[k]], of_b = shapes_.segment_margin[at_.shape_b[k]];
-    placed_.margin = of_a + of_b;
-    set_first();
+    const bool exact = in_.exact_leaves && rows_.segments != no_segments && columns_.segments != no_segments;
+    placed_.margin = exact ? segment_margin<Simd>(shapes_, at_.shape_a[k], at_.shape_b[k]) : 0;
+    first_row_ = rows_.discs, first_column_ = columns_.discs;
   }
-
-  void set_first() noexcept { first_row_ = rows_.discs, first_column_ = columns_.discs; }
 
   /// Windows of our own, because the set has none.
   void look_at_single_discs(const Root& row_disc, const Root& column_disc) noexcept {

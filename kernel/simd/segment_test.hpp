@@ -19,6 +19,13 @@ enum class Meeting : std::uint8_t {
   sure,  ///< also, the outlines surely cross: some leaves that hold the crossing overlap with all ancestors
 };
 
+/// Returns how near segments of two shapes are that meet, metres. (`Simd` keeps instruction sets from sharing a function.)
+template <class Simd>
+double segment_margin(const ShapeSetView& shapes, std::uint32_t shape_a, std::uint32_t shape_b) noexcept {
+  const double of_a = shapes.segment_margin[shape_a], of_b = shapes.segment_margin[shape_b];
+  return of_a + of_b;
+}
+
 /// Exact leaves: collects pairs of segments, one of either shape, and tests them side by side, lane = pair.
 /// Every operation is one in double of a fixed sequence, which baselines/ writes down again;
 /// layout/base/rounding.hpp, V, says why no two outlines that meet are missed.
