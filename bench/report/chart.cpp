@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "bench/base/output.hpp"
+#include "bench/report/embedded.hpp"
 
 namespace bch::report {
 namespace {

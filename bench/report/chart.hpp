@@ -5,17 +5,10 @@
 
 #include <filesystem>
 #include <optional>
-#include <span>
 #include <string>
 #include <string_view>
 
 namespace bch::report {
-
-/// A gnuplot script, bench/report/NAME.gp.
-struct ChartScript {
-  std::string_view name, text;
-};
-std::span<const ChartScript> chart_scripts();
 
 /// Puts the scripts of all charts beside the CSV files that they read, so that draw() and other programs can
 /// use them.

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include <fmt/format.h>
-
 #include "bench/base/stopwatch.hpp"
 #include "bench/report/experiment.hpp"
 #include "bench/report/statistics.hpp"
@@ -122,23 +120,17 @@ void run_experiment(Run& run) {
   run.write("construction_stages", stages);
 }
 
-std::string findings(const Results& results) {
-  const Table &table = results("construction"), &stages = results("construction_stages");
-  const auto time = [&](std::string_view structure) {
-    return table.number({{"structure", structure}}, "median (us)");
-  };
-  const double outline = stages.number({{"stage", "outline"}}, "median (us)");
-  const double hierarchy = stages.number({{"stage", "hierarchy"}}, "median (us)");
-  const double whole = stages.number({{"stage", "all"}}, "median (us)");
-  return fmt::format(
-      "<p>From posed vertices to the hierarchy a pose takes {} us, {} of them for the outline; the OBB tree "
-      "over the same "
-      "outline {} us besides it, the one over the full mesh {} us, {} times as long. The whole way, with "
-      "skinning, levels "
-      "and inscribed discs, takes {} us, {} poses in a sixtieth of a second; in the paper construction was a "
-      "preprocessing step. Its figures were not at hand to stand beside ours.</p>",
-      brief(outline + hierarchy), brief(outline), brief(time("OBB outline")), brief(time("OBB full mesh")),
-      brief(time("OBB full mesh") / (outline + hierarchy)), brief(whole), brief(1e6 / 60 / whole));
+double structure_us(const Results& results, std::string_view structure) {
+  return results("construction").number({{"structure", structure}}, "median (us)");
+}
+
+double stage_us(const Results& results, std::string_view stage) {
+  return results("construction_stages").number({{"stage", stage}}, "median (us)");
+}
+
+/// From posed vertices on.
+double hierarchy_us(const Results& results) {
+  return stage_us(results, "outline") + stage_us(results, "hierarchy");
 }
 
 }  // namespace
@@ -146,20 +138,20 @@ std::string findings(const Results& results) {
 const Experiment construction_experiment{
     "construction",
     "Construction time",
-    "Figure 3, left. Every pose of every character is made into every structure, by one thread: a median of "
-    "three times for a "
-    "pose, then median and quartiles over the poses. Structures over an outline need it first; the stages of "
-    "our way "
-    "from a clip's keys to a flat shape stand in the second table.",
     20,
     false,
     run_experiment,
-    {"construction", "construction_stages"},
-    {{"construction",
-      "Time to build a structure of one pose, without the outline where it is made from one: medians; bars "
-      "are quartiles over poses."},
-     {"construction_stages",
-      "The stages from keys of a clip to a flat shape with levels and inscribed discs, likewise."}},
-    findings};
+    {{"outline and hierarchy",
+      [](const Results& results, std::string_view) { return brief(hierarchy_us(results)); }},
+     {"full mesh over hierarchy",
+      [](const Results& results, std::string_view) {
+        return brief(structure_us(results, "OBB full mesh") / hierarchy_us(results));
+      }},
+     {"boxes with their outline",
+      [](const Results& results, std::string_view) {
+        return brief(structure_us(results, "OBB outline") + stage_us(results, "outline"));
+      }},
+     {"poses in a frame",
+      [](const Results& results, std::string_view) { return brief(1e6 / 60 / stage_us(results, "all")); }}}};
 
 }  // namespace bch::report

@@ -10,7 +10,6 @@
 #include "bench/report/experiment.hpp"
 #include "bench/report/packing.hpp"
 #include "bench/report/statistics.hpp"
-#include "bench/report/words.hpp"
 
 // The premise of the paper: with a single cylinder a crowd cannot be dense.
 
@@ -83,53 +82,8 @@ void run_experiment(Run& run) {
   run.write("density", table);
 }
 
-std::string findings(const Results& results) {
-  const Table& table = results("density");
-  const auto of = [&](std::string_view structure, std::string_view column) {
-    return brief(table.number({{"structure", structure}}, column));
-  };
-  const auto free = [&](std::string_view structure, Freedom freedom) {
-    return brief(table.number({{"structure", structure}, {"free", name_of(freedom)}}, "densest (people/m2)"));
-  };
-  return fmt::format(
-      "<p>{} people in random poses, pushed together, come to stand at {} per square metre where each is a "
-      "single cylinder, and "
-      "at {} where each is its outline's cylinders without limit of depth: {} times as many. Depth 3 gives "
-      "{}, depth 6 {}. A fixed "
-      "cylinder of 0.40 m allows {}, one of 0.25 m {}, which lets bodies overlap.</p>"
-      "<p>Where people may turn as they are pushed, the outline's cylinders allow {} and single ones {}; "
-      "where they may "
-      "take other poses besides, {} and {}.</p>",
-      of("single cylinder", "people"), of("single cylinder", "densest (people/m2)"),
-      of("BCH outline to depth all", "densest (people/m2)"),
-      of("BCH outline to depth all", "times the single cylinder's"),
-      of("BCH outline to depth 3", "densest (people/m2)"),
-      of("BCH outline to depth 6", "densest (people/m2)"), of("fixed cylinder 0.40 m", "densest (people/m2)"),
-      of("fixed cylinder 0.25 m", "densest (people/m2)"), free("BCH outline to depth all", Freedom::headings),
-      free("single cylinder", Freedom::headings), free("BCH outline to depth all", Freedom::poses),
-      free("single cylinder", Freedom::poses));
-}
-
 }  // namespace
 
-const Experiment density_experiment{
-    "density",
-    "Crowd density",
-    "The premise of the paper. People in poses and headings at random stand loosely on a square whose "
-    "opposite sides are one, so "
-    "that there is no rim; the square shrinks by a hundredth of its area at a time, and those who overlap "
-    "are pushed apart until "
-    "nobody overlaps anybody, in the solid semantics. The densest crowd is the last one where that succeeds "
-    "within 300 "
-    "steps. First nobody turns or changes the pose. Then, of up to 300 people, those who overlap somebody "
-    "turn by 0.05 rad either way, and in a third run also take another random pose of their character, "
-    "wherever that "
-    "leaves less overlap.",
-    240,
-    false,
-    run_experiment,
-    {"density"},
-    {{"density", "Highest density without overlap: mean, and 95 % interval over packings."}},
-    findings};
+const Experiment density_experiment{"density", "Crowd density", 240, false, run_experiment};
 
 }  // namespace bch::report

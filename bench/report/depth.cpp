@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include <fmt/format.h>
-
 #include "bench/base/text.hpp"
 #include "bench/report/experiment.hpp"
 #include "bench/report/subject.hpp"
-#include "bench/report/words.hpp"
 
 // What the maximum recursion depth costs and gives: figure 6, right, of the paper.
 
@@ -114,43 +111,8 @@ void run_experiment(Run& run) {
   run.write("depth_cases", each);
 }
 
-std::string findings(const Results& results) {
-  const Table &table = results("depth"), &critical_depths = results("depth_critical");
-  const std::size_t kernel = critical_depths.row({{"structure", kernel_name}});
-  const std::string depth = critical_depths.text(kernel, "critical depth");
-  const auto at = [&](std::string_view d, std::string_view column) {
-    return brief(table.number({{"structure", kernel_name}, {"depth", d}}, column));
-  };
-  return fmt::format(
-      "<p>The critical depth, from which on the mean distance is within 1 % of that without limit ({} cm), "
-      "is {} (the paper: "
-      "{}): no deeper level is worth building for it. At depth 0 it is {} cm, at 3 {} cm, at 6 {} cm. In the "
-      "batch kernel a "
-      "colliding pair costs {} ns at depth 3, {} ns at depth 6 and {} ns without limit.</p>",
-      brief(critical_depths.number(kernel, "mean without limit (cm)")), depth,
-      brief(critical_depths.number(kernel, "paper")), at("0", "mean (cm)"), at("3", "mean (cm)"),
-      at("6", "mean (cm)"), at("3", "colliding (ns/pair)"), at("6", "colliding (ns/pair)"),
-      at("all", "colliding (ns/pair)"));
-}
-
 }  // namespace
 
-const Experiment depth_experiment{
-    "depth",
-    "Depth",
-    "Figure 6, right. The same people slide at each other while hierarchies are cut at a maximum recursion "
-    "depth; then how long a "
-    "pair takes there. Boxes are cut likewise: a box at that depth counts as a leaf.",
-    45,
-    true,
-    run_experiment,
-    {"depth_critical", "depth"},
-    {{"depth",
-      "Distance at detection against depth: a thin line for every case of the cylinders over the outline, "
-      "their median "
-      "thick, its quartiles dashed; the medians of the single cylinder and of the OBB tree over the "
-      "outline."},
-     {"depth_time", "Time of a pair against depth; bars are quartiles."}},
-    findings};
+const Experiment depth_experiment{"depth", "Depth", 45, true, run_experiment};
 
 }  // namespace bch::report

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -11,7 +9,6 @@
 #include "bench/report/experiment.hpp"
 #include "bench/report/statistics.hpp"
 #include "bench/report/subject.hpp"
-#include "bench/report/words.hpp"
 #include "kernel/broad_phase/broad_phase.hpp"
 #include "layout/scene/local_density.hpp"
 
@@ -139,58 +136,8 @@ void run_experiment(Run& run) {
   run.write("detail", table);
 }
 
-std::string findings(const Results& results) {
-  const Table& table = results("detail");
-  const auto of = [&](std::string_view density, std::string_view detail, std::string_view column) {
-    return brief(table.number({{"people per m2", density}, {"detail", detail}}, column));
-  };
-  std::string html = "<p>";
-  for (const std::string_view density : {"0.5", "2", "6"}) {
-    const auto stops = [&](std::string_view detail) {
-      return of(density, detail, "false stops per person and second");
-    };
-    const auto time = [&](std::string_view detail) {
-      return of(density, detail, "tests of a frame (ns a person)");
-    };
-    html += fmt::format(
-        "At {} people per square metre a single cylinder stops a person {} times a second without need, all "
-        "depths {} "
-        "times, depths by density {} times, for {}, {} and {} ns a person and frame. ",
-        density, stops("single cylinder"), stops("all depths"), stops("by density"), time("single cylinder"),
-        time("all depths"), time("by density"));
-  }
-  return html + fmt::format(
-                    "Nothing but the fixed cylinder of 0.25 m misses a collision, of which it misses {} % at "
-                    "2 people per "
-                    "square metre. Finding each person's density takes {} ns there, as a call of its own in "
-                    "every frame: more than "
-                    "a coarser depth saves, so that it should come from what a simulator knows anyway, or be "
-                    "asked for once "
-                    "in a while.</p>",
-                    of("2", "fixed cylinder 0.25 m", "missed (%)"),
-                    of("2", "by density", "levels of a frame (ns a person)"));
-}
-
 }  // namespace
 
-const Experiment detail_experiment{
-    "detail",
-    "Detail by density",
-    "The paper suggests to choose the depth by the density of a crowd. People in random poses walk straight "
-    "on at 1.3 m/s, "
-    "each along a heading of his own and through whoever is in the way, for 5 s at 10 frames a second. A "
-    "stop is a stretch of "
-    "frames in which two of them are said to collide, and false where their meshes do not meet in any of "
-    "these. By density, "
-    "each agent has the depth that depth_at_density() gives for those within 2 m. Time is that of the kernel "
-    "for all pairs "
-    "whose root discs overlap, on all threads; finding the levels is timed beside it.",
-    30,
-    false,
-    run_experiment,
-    {"detail"},
-    {{"detail", "False stops of a person in a second against the density of the crowd."},
-     {"detail_time", "Time of a frame's tests, for a person, against the density."}},
-    findings};
+const Experiment detail_experiment{"detail", "Detail by density", 30, false, run_experiment};
 
 }  // namespace bch::report

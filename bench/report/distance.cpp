@@ -119,7 +119,8 @@ void run_experiment(Run& run) {
 }
 
 /// "X: 6.7 cm (95 % 6.1 to 7.3; the paper 5)".
-std::string words_of(const Table& table, std::string_view structure) {
+std::string words_of(const Results& results, std::string_view structure) {
+  const Table& table = results("distance");
   const std::size_t row = table.row({{"structure", structure}});
   return fmt::format("{} {} cm ({} to {}; the paper {})", escaped(structure),
                      brief(table.number(row, "mean (cm)")), brief(table.number(row, "mean (95 % low)")),
@@ -127,7 +128,8 @@ std::string words_of(const Table& table, std::string_view structure) {
 }
 
 /// The groups in which the outline's cylinders err most and least.
-std::string extremes(const Table& groups, std::string_view by) {
+std::string extremes(const Results& results, std::string_view by) {
+  const Table& groups = results("distance_groups");
   std::size_t least = groups.rows().size(), most = least;
   for (std::size_t i = 0; i < groups.rows().size(); ++i) {
     if (groups.text(i, "structure") != "BCH outline" || groups.text(i, "by") != by) continue;
@@ -142,44 +144,26 @@ std::string extremes(const Table& groups, std::string_view by) {
   return words(least) + " to " + words(most);
 }
 
-std::string findings(const Results& results) {
-  const Table &table = results("distance"), &groups = results("distance_groups");
-  const double outline = table.number({{"structure", "OBB outline"}}, "mean (cm)");
-  const double discs = table.number({{"structure", "BCH outline"}}, "mean (cm)");
-  return fmt::format(
-      "<p>Mean distances of the meshes when a collision is seen: {}; {}; {}; {}.</p>"
-      "<p>Where we are above the paper it is the bodies, not the discs: OBB trees over the outline are exact "
-      "seen from above, so their {} cm are the price of leaving out height, a leg that passes "
-      "under an arm. Discs "
-      "with leaves of 1 cm add {} cm to that; in the paper {} cm. Our people are other meshes in "
-      "other motions.</p>"
-      "<p>By what people do, the outline's cylinders stop them from {}; by who they are, from {}.</p>",
-      words_of(table, "single cylinder"), words_of(table, "BCH outline"), words_of(table, "OBB outline"),
-      words_of(table, "OBB full mesh"), brief(outline), brief(discs - outline),
-      brief(table.number({{"structure", "BCH outline"}}, "paper (cm)") -
-            table.number({{"structure", "OBB outline"}}, "paper (cm)")),
-      extremes(groups, "clips"), extremes(groups, "people"));
+/// What leaves of 1 cm cost beyond the exact outline.
+std::string discs_over_boxes(const Results& results, std::string_view column) {
+  const Table& table = results("distance");
+  return brief(table.number({{"structure", "BCH outline"}}, column) -
+               table.number({{"structure", "OBB outline"}}, column));
 }
 
 }  // namespace
 
-const Experiment distance_experiment{"distance",
-                                     "Distance at detection",
-                                     "Figure 6, left. Two people stand apart, each in a pose and turned at "
-                                     "random; the first slides along a line that passes the second's origin "
-                                     "up to half a metre to either side, as in the paper, "
-                                     "until the structure says that they collide. Then the distance of the "
-                                     "two meshes in space is measured, by FCL's "
-                                     "distance of triangles: 0 would be perfect. All are asked "
-                                     "every millimetre, and the place is then halved to a micrometre.",
-                                     40,
-                                     true,
-                                     run_experiment,
-                                     {"distance", "distance_groups"},
-                                     {{"distance",
-                                       "Distance of the meshes at detection: median, quartiles (box), 5 % "
-                                       "and 95 % (whiskers), mean (diamond) and "
-                                       "the paper's mean (cross)."}},
-                                     findings};
+const Experiment distance_experiment{
+    "distance",
+    "Distance at detection",
+    40,
+    true,
+    run_experiment,
+    {{"distance of", words_of},
+     {"distance of discs over boxes",
+      [](const Results& results, std::string_view) { return discs_over_boxes(results, "mean (cm)"); }},
+     {"the paper's distance of discs over boxes",
+      [](const Results& results, std::string_view) { return discs_over_boxes(results, "paper (cm)"); }},
+     {"extremes by", extremes}}};
 
 }  // namespace bch::report

@@ -208,91 +208,22 @@ std::string name_of(const Table& table, std::size_t row) {
 }
 
 /// The first of the front, which has the least error, and the one that is fastest.
-std::string ends_of(const Table& front, std::string_view workload, std::string_view error,
-                    std::string_view unit) {
+std::string ends_of_front(const Results& results, std::string_view) {
+  const Table& front = results("error_time_distance");
   std::size_t first = front.rows().size(), last = 0;
   for (std::size_t i = 0; i < front.rows().size(); ++i)
-    if (front.text(i, "pairs") == workload) first = std::min(first, i), last = i;
-  return fmt::format("{} {} for {} ns ({}) to {} {} for {} ns ({})", brief(front.number(last, error)), unit,
-                     brief(front.number(last, "ns/pair")), escaped(name_of(front, last)),
-                     brief(front.number(first, error)), unit, brief(front.number(first, "ns/pair")),
-                     escaped(name_of(front, first)));
-}
-
-std::string findings(const Results& results) {
-  const Table &all = results("error_time"), &distance = results("error_time_distance");
-  const auto cylinder = all.row({{"structure", "single cylinder"}});
-  const auto kernel = all.row(
-      {{"structure", kernel_name}, {"depth", "all"}, {"threshold (cm)", "1"}, {"semantics", "boundary"}});
-  const auto exact_leaves = all.row({{"structure", exact_leaves_name},
-                                     {"depth", "all"},
-                                     {"threshold (cm)", "1"},
-                                     {"semantics", "boundary"}});
-  const auto mesh = all.row({{"structure", "OBB full mesh"}, {"depth", "all"}});
-  return fmt::format(
-      "<p>In a crowd the front of mean distances at detection goes from {}. A single cylinder stops people "
-      "who "
-      "are still {} cm apart and calls {} % of near misses collisions; the outline's hierarchy with all its "
-      "depths in the batch kernel: {} cm and {} %, for {} ns a pair; with exact leaves {} cm and {} %, for "
-      "{} ns. "
-      "That is the price of looking from above, which every exact test of outlines pays: {} cm. Only trees "
-      "over the full "
-      "meshes go to "
-      "{} cm: {} "
-      "ns a pair, {} times as long.</p>"
-      "<p>A fixed cylinder of 0.25 m misses {} % of collisions of the meshes, so it is in the chart and not "
-      "on "
-      "any front: all that is there never misses one. The paper found that radius, or nearly so, in three "
-      "works "
-      "(its keys KGO09, vTCG12, HFV00), 0.40 m in two (Ger10, AMTT12), and up to 2.00 m in one (GKLM11).</p>",
-      ends_of(distance, "crowd", "distance at detection (cm)", "cm"),
-      brief(all.number(cylinder, "distance at detection (cm)")),
-      brief(all.number(cylinder, "false positives (%)")),
-      brief(all.number(kernel, "distance at detection (cm)")),
-      brief(all.number(kernel, "false positives (%)")), brief(all.number(kernel, "crowd (ns/pair)")),
-      brief(all.number(exact_leaves, "distance at detection (cm)")),
-      brief(all.number(exact_leaves, "false positives (%)")),
-      brief(all.number(exact_leaves, "crowd (ns/pair)")),
-      brief(all.number({{"structure", "OBB outline"}, {"depth", "all"}}, "distance at detection (cm)")),
-      brief(all.number(mesh, "distance at detection (cm)")), brief(all.number(mesh, "crowd (ns/pair)")),
-      brief(all.number(mesh, "crowd (ns/pair)") / all.number(kernel, "crowd (ns/pair)")),
-      brief(all.number({{"structure", "fixed cylinder 0.25 m"}}, "missed collisions (%)")));
+    if (front.text(i, "pairs") == "crowd") first = std::min(first, i), last = i;
+  const auto end = [&](std::size_t row) {
+    return fmt::format("{} cm for {} ns ({})", brief(front.number(row, "distance at detection (cm)")),
+                       brief(front.number(row, "ns/pair")), escaped(name_of(front, row)));
+  };
+  return end(last) + " to " + end(first);
 }
 
 }  // namespace
 
 const Experiment error_time_experiment{
-    "error_time",
-    "Error against run time",
-    "Every structure, at every depth, with leaves of several sizes and in both semantics, is one point. Its "
-    "time is "
-    "that of a pair in a crowd of 3 agents per square metre, or of a near miss (root discs overlap, the "
-    "meshes do "
-    "not meet); one thread, medians. Its error is told in three ways: how far apart the meshes are when "
-    "people who "
-    "slide at each other are first seen to collide; which share of near misses it takes for collisions; and "
-    "what it "
-    "covers beyond the outline. Boxes that were cut short have no such area here. Every answer was compared: "
-    "the "
-    "kernel's with the plain traversal's, in solid semantics with that and exact containment, and with exact "
-    "leaves pair of "
-    "segments by pair of segments; those of exact "
-    "structures with each other's, and where they were cut short with their own, of which they may miss "
-    "none. "
-    "Of a single cylinder nothing but that it never misses an outline was asked, of a fixed one nothing.",
-    250,
-    true,
-    run_experiment,
-    {"error_time_distance", "error_time_false", "error_time_excess"},
-    {{"error_time_distance_crowd",
-      "Mean distance at detection against the time of a pair in a crowd; the line is the "
-      "front that nothing beats in both."},
-     {"error_time_distance_near", "The same against the time of a near miss."},
-     {"error_time_false_crowd",
-      "Share of near misses taken for collisions, against the time of a pair in a crowd."},
-     {"error_time_false_near", "The same against the time of a near miss."},
-     {"error_time_excess_crowd", "Area covered beyond the outline, against the time of a pair in a crowd."},
-     {"error_time_excess_near", "The same against the time of a near miss."}},
-    findings};
+    "error_time", "Error against run time", 250,
+    true,         run_experiment,           {{"ends of the front", ends_of_front}}};
 
 }  // namespace bch::report

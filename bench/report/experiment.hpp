@@ -71,24 +71,19 @@ class Run {
 /// The tables of an experiment, as they were read back.
 using Results = std::function<const Table&(std::string_view name)>;
 
-/// A picture: NAME.gp draws NAME.svg from the CSV files beside it.
-struct Chart {
+/// A number or words of the page that are no cell of a table: {{NAME}} or {{NAME: OF}} in page.html.
+struct Computed {
   std::string_view name;
-  std::string_view shows;  ///< a sentence
+  std::string (*text)(const Results& results, std::string_view of);  ///< in HTML
 };
 
 struct Experiment {
   std::string_view name;
   std::string_view title;
-  std::string_view method;  ///< what was done, in HTML
-  double seconds;           ///< that the full run takes, roughly: the unit of the progress bar
-  bool needs_distances;     ///< cannot do without FCL
+  double seconds;        ///< that the full run takes, roughly: the unit of the progress bar
+  bool needs_distances;  ///< cannot do without FCL
   void (*run)(Run& run);
-  std::vector<std::string_view> tables;  ///< that the page shows; others are files only
-  std::vector<Chart> charts;
-  /// Sentences in HTML, with numbers from the tables and from nowhere else.
-  std::string (*findings)(const Results& results);
-  std::string_view needs = {};  ///< what a page says that a run lacked, in HTML; empty: distances, or nothing
+  std::vector<Computed> computed = {};
 };
 
 /// Returns all experiments, in the order of the page.

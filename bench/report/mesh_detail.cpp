@@ -1,15 +1,12 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include <fmt/format.h>
-
+#include "bench/workload/mesh_detail.hpp"
 #include "bench/base/stopwatch.hpp"
 #include "bench/report/experiment.hpp"
 #include "bench/report/subject.hpp"
 #include "bench/report/tree_size.hpp"
-#include "bench/report/words.hpp"
 #include "bench/workload/build_stages.hpp"
-#include "bench/workload/mesh_detail.hpp"
 #include "layout/default_character/default_characters.hpp"
 
 // Does an OBB tree over the full mesh get slower with the mesh? The paper suspects so.
@@ -104,50 +101,8 @@ void run_experiment(Run& run) {
   run.write("mesh_detail", table);
 }
 
-std::string findings(const Results& results) {
-  const Table& table = results("mesh_detail");
-  const std::string &few = table.text(0, "triangles"),
-                    &many = table.text(table.rows().size() - 1, "triangles");
-  const auto of = [&](std::string_view triangles, std::string_view structure, std::string_view column) {
-    return table.number({{"triangles", triangles}, {"structure", structure}}, column);
-  };
-  const auto growth = [&](std::string_view structure, std::string_view column) {
-    return brief(of(many, structure, column) / of(few, structure, column));
-  };
-  return fmt::format(
-      "<p>From {} to {} triangles a near miss of OBB trees over full meshes takes {} times as long, a "
-      "colliding pair {} times; "
-      "of the outline's cylinders, in the batch kernel, {} and {} times. The paper only suspects what "
-      "detail costs. The hierarchy grows from {} to {} nodes, the tree from {} to {}. At {} triangles a tree "
-      "takes {} us to build, outline and "
-      "hierarchy {} us.</p>",
-      brief(table.number(0, "triangles")), brief(table.number(table.rows().size() - 1, "triangles")),
-      growth("OBB full mesh", "near miss (ns/pair)"), growth("OBB full mesh", "colliding (ns/pair)"),
-      growth(kernel_name, "near miss (ns/pair)"), growth(kernel_name, "colliding (ns/pair)"),
-      brief(of(few, kernel_name, "nodes a shape")), brief(of(many, kernel_name, "nodes a shape")),
-      brief(of(few, "OBB full mesh", "nodes a shape")), brief(of(many, "OBB full mesh", "nodes a shape")),
-      brief(table.number(table.rows().size() - 1, "triangles")),
-      brief(of(many, "OBB full mesh", "build (us)")), brief(of(many, kernel_name, "build (us)")));
-}
-
 }  // namespace
 
-const Experiment mesh_detail_experiment{
-    "mesh_detail",
-    "Mesh detail",
-    "The built-in man with his vertices merged by a grid, as he is, and with every triangle cut into four, "
-    "once and twice, "
-    "where each new vertex stands out of the surface or into it by up to an eighth of the edge that it "
-    "halves: relief "
-    "of every size, as of cloth and muscles, so that outlines get longer and finer, too. Leaves of 1 cm "
-    "bound the "
-    "hierarchy; trees over all triangles grow.",
-    60,
-    false,
-    run_experiment,
-    {"mesh_detail"},
-    {{"mesh_detail", "Time of a pair against the number of triangles, one thread; bars are quartiles."},
-     {"mesh_detail_build", "Time to build a pose's structure; the outline's hierarchy with the outline."}},
-    findings};
+const Experiment mesh_detail_experiment{"mesh_detail", "Mesh detail", 60, false, run_experiment};
 
 }  // namespace bch::report

@@ -4,13 +4,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 #include <map>
+#include <stdexcept>
 
 #include "bench/base/exit_codes.hpp"
 #include "bench/base/number.hpp"
 #include "bench/base/output.hpp"
 #include "bench/report/chart.hpp"
-#include "bench/report/page_style.hpp"
+#include "bench/report/embedded.hpp"
 #include "bench/report/paper_findings.hpp"
 #include "bench/report/report.hpp"
 #include "bench/report/words.hpp"
@@ -27,7 +29,7 @@ class Folder {
 
   const fs::path& path() const { return path_; }
   bool has(std::string_view name) const { return fs::exists(file(name)); }
-  const Table& table(std::string_view name) {
+  const Table& operator()(std::string_view name) {
     const auto found = tables_.find(name);
     if (found != tables_.end()) return found->second;
     return tables_.emplace(std::string(name), read_table(file(name))).first->second;
@@ -40,21 +42,14 @@ class Folder {
   std::map<std::string, Table, std::less<>> tables_;
 };
 
-bool is_number(std::string_view cell) {
-  return cli::parse_number(cell).has_value();
-}
-
 bool has_numbers(const Table& table, std::size_t column) {
   return std::any_of(table.rows().begin(), table.rows().end(),
-                     [&](const auto& row) { return is_number(row[column]); });
+                     [&](const auto& row) { return cli::parse_number(row[column]).has_value(); });
 }
 
-/// The content of cells: measurements, or words, which are shown as they are, since a commit may read as a
-/// number, such as 16e6464.
-enum class Cells { measured, words };
-
-std::string html_of(const Table& table, std::string_view name, Cells cells = Cells::measured) {
-  const bool measured = cells == Cells::measured;
+std::string html_of(const Table& table, std::string_view name) {
+  // What is told of a run is shown as it is, since a commit may read as a number, such as 16e6464.
+  const bool measured = name != "run";
   std::string html =
       fmt::format("<div class=\"wide\"><table id=\"{0}\"><caption>{0}.csv</caption>\n<thead><tr>", name);
   std::vector<const char*> kinds;  // of columns: numbers are on the right, with a word among them
@@ -73,61 +68,105 @@ std::string html_of(const Table& table, std::string_view name, Cells cells = Cel
   return html + "</tbody></table></div>\n";
 }
 
-std::string figure(Folder& folder, const Chart& chart) {
-  const auto svg = draw(folder.path(), chart.name);
-  return fmt::format("<figure id=\"figure-{}\">\n{}<figcaption>{}</figcaption></figure>\n", chart.name,
-                     svg ? *svg : std::string("<p>gnuplot could not draw this.</p>"), escaped(chart.shows));
-}
-
-std::string section(Folder& folder, const Experiment& experiment, bool pictures) {
-  std::string html = fmt::format("<section id=\"experiment-{}\">\n<h2>{}</h2>\n<p class=\"method\">{}</p>\n",
-                                 experiment.name, escaped(experiment.title), experiment.method);
-  if (!folder.has(experiment.tables.front()))
-    return html +
-           (!experiment.needs.empty()
-                ? fmt::format("<p>Not in this run: {}, or was not asked for.</p>", experiment.needs)
-            : experiment.needs_distances ? "<p>Not in this run: it needs distances of meshes, which FCL "
-                                           "measures, or was not asked for.</p>"
-                                         : std::string("<p>Not in this run.</p>")) +
-           "</section>\n";
-  html += experiment.findings([&](std::string_view name) -> const Table& { return folder.table(name); });
-  if (pictures) {
-    html += "<div class=\"figures\">\n";
-    for (const Chart& chart : experiment.charts) html += figure(folder, chart);
-    html += "</div>\n";
+/// The cell that a tag names: see Page.
+std::string cell(const Results& results, std::string_view tag) {
+  std::vector<std::string_view> parts(1, tag);
+  for (std::size_t at; (at = parts.back().find(" | ")) != std::string_view::npos;) {
+    parts.push_back(parts.back().substr(at + 3));
+    parts[parts.size() - 2].remove_suffix(parts.back().size() + 3);
   }
-  for (const std::string_view name : experiment.tables) html += html_of(folder.table(name), name);
-  return html + "</section>\n";
+  const Table& table = results(parts.front());
+  std::vector<Table::Where> where;
+  for (std::size_t i = 1; i + 1 < parts.size(); ++i) {
+    const std::size_t equals = parts[i].find('=');
+    const std::string_view column = parts[i].substr(0, equals), text = parts[i].substr(equals + 1);
+    where.push_back({column, text == "first"  ? table.text(0, column)
+                             : text == "last" ? table.text(table.rows().size() - 1, column)
+                                              : text});
+  }
+  return table.text(table.row(where), parts.back());
 }
 
-std::string contents() {
-  std::string html = "<nav><ol>\n<li><a href=\"#findings\">The paper's findings</a></li>\n";
-  for (const Experiment& experiment : experiments())
-    html += fmt::format("<li><a href=\"#experiment-{}\">{}</a></li>\n", experiment.name,
-                        escaped(experiment.title));
-  return html + "</ol></nav>\n";
+/// What a tag says of a cell, or of two that differ in "A / B".
+std::string shown_cell(const Results& results, std::string_view tag) {
+  const std::size_t slash = tag.find(" / ");
+  if (slash == std::string_view::npos) {
+    const std::string text = cell(results, tag);
+    return text.empty() ? "–" : shown(text);
+  }
+  const std::size_t before = tag.find_last_of("=|", slash), begin = before + (tag[before] == '=' ? 1 : 2);
+  const std::size_t end = std::min(tag.find(" | ", slash), tag.size());
+  const auto number = [&](const std::string& one) {
+    return cli::parse_number(cell(results, one)).value_or(std::numeric_limits<double>::quiet_NaN());
+  };
+  return brief(number(fmt::format("{}{}", tag.substr(0, slash), tag.substr(end))) /
+               number(fmt::format("{}{}", tag.substr(0, begin), tag.substr(slash + 3))));
 }
 
-std::string page_of(Folder& folder) {
-  const Table& facts = folder.table("run");
-  const bool pictures = can_draw();
-  if (pictures) write_chart_scripts(folder.path());
-  std::string html = std::string(page_head) + page_introduction;
-  html += fmt::format("<pre>{}</pre>\n", escaped(facts.text(facts.row({{"what", "command"}}), "value")));
-  if (!pictures) html += "<p>There is no gnuplot here, so that this page has tables and no charts.</p>\n";
-  html += contents();
-  html += paper_findings([&](std::string_view name) { return folder.has(name); },
-                         [&](std::string_view name) -> const Table& { return folder.table(name); });
-  for (const Experiment& experiment : experiments()) html += section(folder, experiment, pictures);
-  return html + "<section id=\"run\">\n<h2>Run</h2>\n" + html_of(facts, "run", Cells::words) +
-         "</section>\n</main></body></html>\n";
-}
+/// Fills a template in, whose tags mean:
+///   {{TABLE | COLUMN=TEXT | ... | COLUMN}}  the cell of the first row with these texts, `first` and `last`
+///                                           being those at the column's ends; with "A / B" in a part, the
+///                                           quotient of two cells
+///   {{table: NAME}}, {{chart: NAME}}        a whole table; the picture that NAME.gp draws
+///   {{title: EXPERIMENT}}                   its title
+///   {{NAME}}, {{NAME: OF}}                  what is Computed
+///   {{#NAME}} ... {{/NAME}}                 shown where there is a table, or gnuplot, of this name
+///   {{^NAME}} ... {{/NAME}}                 shown where there is none
+class Page {
+ public:
+  explicit Page(Folder& folder) : folder_(folder), pictures_(can_draw()) {
+    if (pictures_) write_chart_scripts(folder.path());
+  }
+
+  std::string filled(std::string_view text) {
+    std::string html;
+    std::vector<bool> visible{true};  // the sections around the place
+    for (;;) {
+      const std::size_t begin = text.find("{{");
+      if (visible.back()) html += text.substr(0, begin);
+      if (begin == std::string_view::npos) return html;
+      const std::size_t end = text.find("}}", begin);
+      const std::string_view tag = text.substr(begin + 2, end - begin - 2);
+      text.remove_prefix(end + 2);
+      if (tag[0] == '#' || tag[0] == '^')
+        visible.push_back(visible.back() && has(tag.substr(1)) == (tag[0] == '#'));
+      else if (tag[0] == '/')
+        visible.pop_back();
+      else if (visible.back())
+        html += value(tag);
+    }
+  }
+
+ private:
+  bool has(std::string_view name) const { return name == "gnuplot" ? pictures_ : folder_.has(name); }
+
+  std::string value(std::string_view tag) {
+    const Results results = [this](std::string_view name) -> const Table& { return folder_(name); };
+    if (tag.find(" | ") != std::string_view::npos) return shown_cell(results, tag);
+    const std::size_t colon = std::min(tag.find(": "), tag.size());
+    const std::string_view name = tag.substr(0, colon), of = tag.substr(std::min(colon + 2, tag.size()));
+    if (name == "table") return html_of(folder_(of), of);
+    if (name == "chart") return draw(folder_.path(), of).value_or("<p>gnuplot could not draw this.</p>");
+    for (const Experiment& experiment : experiments()) {
+      if (name == "title" && experiment.name == of) return escaped(experiment.title);
+      for (const Computed& one : experiment.computed)
+        if (one.name == name) return one.text(results, of);
+    }
+    for (const Computed& one : paper_findings())
+      if (one.name == name) return one.text(results, of);
+    throw std::logic_error("the page's template asks for " + std::string(tag));
+  }
+
+  Folder& folder_;
+  bool pictures_;
+};
 
 }  // namespace
 
 void make_page(const fs::path& path) try {
   Folder folder(path);
-  cli::write_file(path / "report.html", page_of(folder));
+  folder("run");
+  cli::write_file(path / "report.html", Page(folder).filled(page_template()));
 } catch (const std::out_of_range& error) {
   throw cli::InputError(path.string() + ": tables of another version: " + error.what());
 }

@@ -3,16 +3,14 @@
 
 #pragma once
 
-#include <functional>
-#include <string>
-#include <string_view>
+#include <span>
 
 #include "bench/report/experiment.hpp"
 
 namespace bch::report {
 
-/// Returns a section in HTML: each finding of the paper beside what we measured, reproduced or reversed, and
-/// why. A finding whose tables are missing is left out.
-std::string paper_findings(const std::function<bool(std::string_view table)>& has, const Results& results);
+/// Returns what the page's list of the paper's findings needs beside cells of tables: above all verdicts, whether
+/// we reproduce or reverse a finding, which the numbers decide.
+std::span<const Computed> paper_findings();
 
 }  // namespace bch::report

@@ -120,7 +120,7 @@ void measure_paper_volumes(Run& run) {
   run.write("volume_paper", table);
 }
 
-std::string paper_volume_findings(const Results& results) {
+std::string paper_volume_findings(const Results& results, std::string_view) {
   const Table& table = results("volume_paper");
   const auto of = [&](const std::string& character, std::string_view quantity, std::string_view column) {
     return table.number({{"character", character}, {"quantity", quantity}}, column);

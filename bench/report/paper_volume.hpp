@@ -4,6 +4,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 
 #include "bench/report/experiment.hpp"
 
@@ -13,7 +14,7 @@ namespace bch::report {
 /// have the built-in man, of the bulky one.
 void measure_paper_volumes(Run& run);
 
-/// Returns what that table says, in HTML.
-std::string paper_volume_findings(const Results& results);
+/// Returns what that table says, in HTML: a text of Computed.
+std::string paper_volume_findings(const Results& results, std::string_view);
 
 }  // namespace bch::report

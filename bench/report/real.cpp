@@ -66,44 +66,21 @@ void run_experiment(Run& run) {
   run.write("real", table);
 }
 
-std::string findings(const Results& results) {
+/// The least and the greatest mean of all characters.
+std::string range_of(const Results& results, std::string_view structure) {
   const Table& table = results("real");
-  const auto range = [&](std::string_view structure) {
-    double least = std::numeric_limits<double>::infinity(), most = 0;
-    for (std::size_t i = 0; i < table.rows().size(); ++i) {
-      if (table.text(i, "structure") != structure) continue;
-      least = std::min(least, table.number(i, "mean (cm)"));
-      most = std::max(most, table.number(i, "mean (cm)"));
-    }
-    return fmt::format("{} to {} cm", brief(least), brief(most));
-  };
-  return fmt::format(
-      "<p>Means by character: the single cylinder {}, the outline's cylinders to depth 3 {}, to depth 6 {}, "
-      "to all depths "
-      "{}, exact outlines {}. A file without motion of limbs shows its rest pose, arms spread: hence the "
-      "widest single "
-      "cylinders. The paper's two have 20, 5 and 4 cm for the first, the fourth and the last.</p>",
-      range("single cylinder"), range("BCH outline to depth 3"), range("BCH outline to depth 6"),
-      range("BCH outline to depth all"), range("OBB outline"));
+  double least = std::numeric_limits<double>::infinity(), most = 0;
+  for (std::size_t i = 0; i < table.rows().size(); ++i) {
+    if (table.text(i, "structure") != structure) continue;
+    least = std::min(least, table.number(i, "mean (cm)"));
+    most = std::max(most, table.number(i, "mean (cm)"));
+  }
+  return fmt::format("{} to {} cm", brief(least), brief(most));
 }
 
 }  // namespace
 
-const Experiment real_experiment{"real",
-                                 "Real characters",
-                                 "The same slides by characters that are not built in: every one in the "
-                                 "folder that the environment variable "
-                                 "BCH_TEST_DATA names, by himself, in up to 40 random poses. Their meshes "
-                                 "are open, with hair and clothes as sheets of "
-                                 "their own.",
-                                 90,
-                                 true,
-                                 run_experiment,
-                                 {"real"},
-                                 {},
-                                 findings,
-                                 "it needs real characters, in the folder characters of the one that the "
-                                 "environment variable BCH_TEST_DATA names, and "
-                                 "distances of meshes, which FCL measures"};
+const Experiment real_experiment{"real", "Real characters", 90,
+                                 true,   run_experiment,    {{"range of", range_of}}};
 
 }  // namespace bch::report

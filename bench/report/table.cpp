@@ -73,7 +73,7 @@ double Table::number(std::size_t row, std::string_view name) const {
   return *value;
 }
 
-std::size_t Table::row(std::initializer_list<Where> where) const {
+std::size_t Table::row(std::span<const Where> where) const {
   for (std::size_t i = 0; i < rows_.size(); ++i) {
     bool all = true;
     for (const Where& one : where) all = all && text(i, one.column) == one.text;

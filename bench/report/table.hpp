@@ -6,6 +6,7 @@
 #include <concepts>
 #include <filesystem>
 #include <initializer_list>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -48,7 +49,8 @@ class Table {
   struct Where {
     std::string_view column, text;
   };
-  std::size_t row(std::initializer_list<Where> where) const;
+  std::size_t row(std::span<const Where> where) const;
+  std::size_t row(std::initializer_list<Where> where) const { return row(std::span(where)); }
   double number(std::initializer_list<Where> where, std::string_view column) const {
     return number(row(where), column);
   }

@@ -1,15 +1,12 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include <fmt/format.h>
-
 #include <array>
 
 #include "bench/base/stopwatch.hpp"
 #include "bench/report/experiment.hpp"
 #include "bench/report/subject.hpp"
 #include "bench/report/tree_size.hpp"
-#include "bench/report/words.hpp"
 
 // How small the leaves should be.
 
@@ -77,39 +74,8 @@ void run_experiment(Run& run) {
   run.write("threshold", table);
 }
 
-std::string findings(const Results& results) {
-  const Table& table = results("threshold");
-  const auto at = [&](std::string_view threshold, std::string_view column) {
-    return brief(table.number({{"threshold (cm)", threshold}}, column));
-  };
-  return fmt::format(
-      "<p>From leaves of 1 cm to leaves of 0.25 cm the mean distance at detection falls from {} to {} cm, "
-      "for {} instead of {} "
-      "bytes a shape; leaves of 4 cm give {} cm for {} bytes. A near miss takes {} ns with leaves of 0.25 "
-      "cm, {} ns with 1 cm, "
-      "{} ns with 4 cm.</p>",
-      at("1", "distance at detection (cm)"), at("0.25", "distance at detection (cm)"),
-      at("0.25", "bytes a shape"), at("1", "bytes a shape"), at("4", "distance at detection (cm)"),
-      at("4", "bytes a shape"), at("0.25", "near miss (ns/pair)"), at("1", "near miss (ns/pair)"),
-      at("4", "near miss (ns/pair)"));
-}
-
 }  // namespace
 
-const Experiment threshold_experiment{
-    "threshold",
-    "Threshold",
-    "The radius below which a node is not divided, from 0.25 to 8 cm, all depths, in the batch kernel, one "
-    "thread. The paper "
-    "takes 1 cm. Bytes are those of a flat shape with supports and inscribed discs.",
-    25,
-    true,
-    run_experiment,
-    {"threshold"},
-    {{"threshold_distance", "Mean distance at detection, with its 95 % interval, against the threshold."},
-     {"threshold_cost",
-      "Times of a pair and of building a hierarchy, and size of a shape, each as a multiple of that at 1 "
-      "cm."}},
-    findings};
+const Experiment threshold_experiment{"threshold", "Threshold", 25, true, run_experiment};
 
 }  // namespace bch::report

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include <fmt/format.h>
 #include <oneapi/tbb/parallel_for.h>
 
 #include <cmath>
@@ -13,7 +12,6 @@
 #include "bench/report/experiment.hpp"
 #include "bench/report/paper_volume.hpp"
 #include "bench/report/statistics.hpp"
-#include "bench/report/words.hpp"
 
 // Represented volume: figure 7 and table 1 of the paper, and what cuts over the outline cover. All shapes are cylinders over
 // the ground, so that their volumes are to each other as their areas are.
@@ -96,51 +94,10 @@ void run_experiment(Run& run) {
   run.write("volume_poses", poses);
 }
 
-std::string findings(const Results& results) {
-  const Table& table = results("volume");
-  const std::string& first = table.text(0, "character");
-  const auto of = [&](std::string_view structure, std::string_view column) {
-    return brief(table.number({{"character", first}, {"structure", structure}}, column));
-  };
-  return paper_volume_findings(results) +
-         fmt::format(
-             "<p>Our own addition: of its single cylinder, {} fills {}; "
-             "cylinders to depth 3 "
-             "take {} of it, to depth 6 {}, without limit {}. Counting pixels of 0.4 mm is off the exact "
-             "area of the leaf discs by {} % in the median.</p>",
-             escaped(first), of("outline", "normalised volume"),
-             of("BCH outline to depth 3", "normalised volume"),
-             of("BCH outline to depth 6", "normalised volume"),
-             of("BCH outline to depth all", "normalised volume"),
-             of("BCH outline to depth all", "raster off exact, median (%)"));
-}
-
 }  // namespace
 
-const Experiment volume_experiment{"volume",
-                                   "Represented volume",
-                                   "Figure 7 and table 1, as the paper measures them: the pose's smallest "
-                                   "cylinder, and the union of the leaf discs of "
-                                   "the hierarchy over all projected triangles, counted at 6.25 megapixels "
-                                   "per square metre; both times the character's "
-                                   "height, over the mean volume of the character's mesh. A third body, a "
-                                   "bulky man, has the volume that the paper's "
-                                   "means imply of its man. Below, our own addition: what the cylinders of a "
-                                   "cut over the outline cover, together with "
-                                   "the outline's inside, as a share of the pose's single cylinder. Discs "
-                                   "alone also exactly, as the area of their "
-                                   "union, and so is the outline.",
-                                   30,
-                                   false,
-                                   run_experiment,
-                                   {"volume_paper", "volume"},
-                                   {{"volume_paper",
-                                     "Figure 7: volume of the single cylinder and of the hierarchy, as "
-                                     "multiples of the mesh's: mean and standard "
-                                     "deviation over poses; crosses are the paper's means."},
-                                    {"volume",
-                                     "Our own addition: volume as a share of the pose's single cylinder, "
-                                     "mean and standard deviation over poses."}},
-                                   findings};
+const Experiment volume_experiment{
+    "volume", "Represented volume", 30,
+    false,    run_experiment,       {{"volumes beside the paper's", paper_volume_findings}}};
 
 }  // namespace bch::report

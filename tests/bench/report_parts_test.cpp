@@ -10,7 +10,6 @@
 #include "bench/report/front.hpp"
 #include "bench/report/mesh_volume.hpp"
 #include "bench/report/packing.hpp"
-#include "bench/report/paper_findings.hpp"
 #include "bench/report/slide.hpp"
 #include "bench/report/statistics.hpp"
 #include "bench/report/subject.hpp"
@@ -214,21 +213,6 @@ TEST(ReportParts, ReliefStandsOutOfTheSurface) {
   EXPECT_GT(farthest, 0.003f);
   EXPECT_LT(farthest, 0.03f);
   EXPECT_EQ(bench::with_relief(man, 1).vertices, relief.vertices);
-}
-
-TEST(ReportParts, FindingsOfThePaperHaveAVerdictFromTables) {
-  Table critical({"structure", "critical depth"});
-  critical.add({kernel_name, 9});
-  Table late({"structure", "critical depth"});
-  late.add({kernel_name, 12});
-  const auto page = [](const Table* table) {
-    return paper_findings([&](std::string_view name) { return table != nullptr && name == "depth_critical"; },
-                          [&](std::string_view) -> const Table& { return *table; });
-  };
-  EXPECT_EQ(page(nullptr).find("From depth 9"), std::string::npos);
-  EXPECT_NE(page(nullptr).find("<b>Tried, and not kept.</b>"), std::string::npos);  // needs no table
-  EXPECT_NE(page(&critical).find("<b>Reproduced.</b> It is 9."), std::string::npos);
-  EXPECT_NE(page(&late).find("<b>Reversed.</b> It is 12."), std::string::npos);
 }
 
 TEST(ReportParts, PackingIsDenseAndWithinTheHexagonalBound) {
