@@ -20,6 +20,7 @@
 #include "bench/cli/options.hpp"
 #include "bench/cli/stability_report.hpp"
 #include "bench/cli/stiff_report.hpp"
+#include "bench/report/chart.hpp"
 
 namespace bch::cli {
 namespace {
@@ -38,22 +39,21 @@ std::string in_folder(const StabilityOptions& options, std::string_view name) {
   return (fs::path(options.out) / name).string();
 }
 
-std::string picture_name(const bench::StabilityFamily& family) {
-  return fmt::format("stability_{}.svg", family.name);
-}
-
 constexpr const char* cases_table = "stability.csv";
 constexpr const char* stiff_table = "stiff_contact.csv";
-constexpr const char* steps_picture = "stiff_contact_steps.svg";
-constexpr const char* errors_picture = "stiff_contact_errors.svg";
+constexpr const char* cases_chart = "stability_families";
+constexpr const char* stiff_chart = "stiff_contact";
 
 /// The files that --out means.
 std::vector<OutputOption> folder_outputs(const StabilityOptions& options) {
-  std::vector<std::string> names = {stiff_table, steps_picture, errors_picture};
-  if (!options.stiff) {
-    names = {cases_table};
+  std::vector<std::string> names = {"style.gp"};
+  if (options.stiff) {
+    names.insert(names.end(),
+                 {stiff_table, "stiff_contact.gp", "stiff_contact_steps.svg", "stiff_contact_errors.svg"});
+  } else {
+    names.insert(names.end(), {cases_table, "stability_families.gp"});
     for (const bench::StabilityFamily& family : bench::stability_families())
-      if (family.axis) names.push_back(picture_name(family));
+      if (family.axis) names.push_back(fmt::format("stability_{}.svg", family.name));
   }
   std::vector<OutputOption> outputs;
   for (const std::string& name : names) outputs.push_back({"--out", in_folder(options, name)});
@@ -70,11 +70,6 @@ void require_outputs_of(const StabilityOptions& options) {
   require_outputs(outputs, {});
 }
 
-void write_pictures(const StabilityOptions& options, std::span<const bench::StabilityRow> rows) {
-  for (const bench::StabilityFamily& family : bench::stability_families())
-    if (family.axis) write_file(in_folder(options, picture_name(family)), draw(family, rows));
-}
-
 void require_promises(std::span<const bench::StabilityRow> rows) {
   for (const bench::StabilityRow& row : rows) {
     const std::string broken = broken_promise(row);
@@ -82,18 +77,20 @@ void require_promises(std::span<const bench::StabilityRow> rows) {
   }
 }
 
-/// Files of one half of the command; `name` is that of its CSV in the folder.
-void write_tables(const StabilityOptions& options, const char* name, const std::string& csv,
-                  const nlohmann::ordered_json& json) {
+/// Files of one half of the command; `table` and `chart` are those in the folder.
+void write_files(const StabilityOptions& options, const char* table, const char* chart,
+                 const std::string& csv, const nlohmann::ordered_json& json) {
   if (!options.csv.empty()) write_file(options.csv, csv);
-  if (!options.out.empty()) write_file(in_folder(options, name), csv);
   write_json(options.json, json);
+  if (options.out.empty()) return;
+  write_file(in_folder(options, table), csv);
+  if (!report::draw(options.out, chart))
+    fmt::print(stderr, "bch: no pictures: gnuplot is not installed, or it failed\n");
 }
 
 void run_cases(const StabilityOptions& options) {
   const auto rows = bench::stability_rows(options.quick ? 200 : options.pairs, options.seed);
-  write_tables(options, cases_table, csv_of(rows), {{"stability", json_of(rows)}});
-  if (!options.out.empty()) write_pictures(options, rows);
+  write_files(options, cases_table, cases_chart, csv_of(rows), {{"stability", json_of(rows)}});
   write_standard_output(text_of(rows));
   require_promises(rows);
 }
@@ -102,11 +99,7 @@ void run_stiff(const StabilityOptions& options) {
   const bench::StiffReport report = bench::stiff_contact(
       options.quick ? bench::StiffOptions{.seconds = 2, .people = 40, .bounces = 25, .slides = 25}
                     : bench::StiffOptions{});
-  write_tables(options, stiff_table, csv_of(report), {{"stiff_contact", json_of(report)}});
-  if (!options.out.empty()) {
-    write_file(in_folder(options, steps_picture), draw_steps(report));
-    write_file(in_folder(options, errors_picture), draw_errors(report));
-  }
+  write_files(options, stiff_table, stiff_chart, csv_of(report), {{"stiff_contact", json_of(report)}});
   write_standard_output(text_of(report));
 }
 
@@ -140,7 +133,8 @@ std::function<void()> add_stability_command(CLI::App& program) {
   add_threads_option(command, options->threads);
   command.add_option("--csv", options->csv, "Write the table as CSV")->type_name("FILE");
   command.add_option("--json", options->json, "Write the table as JSON")->type_name("FILE");
-  command.add_option("--out", options->out, "Write CSV and pictures into this folder")->type_name("DIR");
+  command.add_option("--out", options->out, "Write CSV into this folder, and pictures by gnuplot")
+      ->type_name("DIR");
   return [options, &command] { run_stability(command, *options); };
 }
 

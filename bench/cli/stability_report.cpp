@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "bench/base/chart.hpp"
 #include "bench/base/csv_input.hpp"
 
 namespace bch::cli {
@@ -47,24 +46,6 @@ std::vector<const StabilityRow*> of_family(const StabilityFamily& family,
   for (const StabilityRow& row : rows)
     if (row.family == family.name) found.push_back(&row);
   return found;
-}
-
-ChartPanel panel(const StabilityFamily& family, std::span<const StabilityRow* const> rows, const char* title,
-                 bool logarithmic, double (*value)(const StabilityRow&, const Errors&)) {
-  ChartPanel made;
-  made.title = title;
-  std::vector<double> xs, ys;
-  for (const Test& test : tests) {
-    ChartSeries& series = made.series.emplace_back(ChartSeries{test.name, {}});
-    for (const StabilityRow* row : rows) {
-      series.points.push_back({row->conditioning, value(*row, row->*test.errors)});
-      xs.push_back(series.points.back().x), ys.push_back(series.points.back().y);
-    }
-  }
-  if (logarithmic) ys.push_back(bench::promised_gap);
-  made.x = axis_for(family.axis, family.logarithmic, xs);
-  made.y = axis_for("", logarithmic, ys);
-  return made;
 }
 
 }  // namespace
@@ -130,20 +111,6 @@ nlohmann::ordered_json json_of(std::span<const StabilityRow> rows) {
     json.push_back(one);
   }
   return json;
-}
-
-std::string draw(const StabilityFamily& family, std::span<const StabilityRow> rows) {
-  std::vector<const StabilityRow*> inside;
-  for (const StabilityRow* row : of_family(family, rows))
-    if (row->refused.empty()) inside.push_back(row);
-  std::vector<ChartPanel> panels = {
-      panel(family, inside, "Missed contacts, % of those that meet", false, missed),
-      panel(family, inside, "False hits, % of those that do not", false, falsely_hit),
-      panel(family, inside, "Largest error, metres per metre of reach", true,
-            [](const StabilityRow&, const Errors& e) { return largest_error(e); })};
-  panels.back().line = bench::promised_gap;
-  panels.back().line_name = "bch's bound, of gaps alone";
-  return draw_chart(family.title, panels);
 }
 
 }  // namespace bch::cli

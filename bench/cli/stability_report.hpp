@@ -16,7 +16,4 @@ std::string text_of(std::span<const bench::StabilityRow> rows);
 std::string csv_of(std::span<const bench::StabilityRow> rows);
 nlohmann::ordered_json json_of(std::span<const bench::StabilityRow> rows);
 
-/// Draws errors against conditioning, for a family whose values are numbers.
-std::string draw(const bench::StabilityFamily& family, std::span<const bench::StabilityRow> rows);
-
 }  // namespace bch::cli

@@ -5,10 +5,7 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <nlohmann/json.hpp>
-
-#include "bench/base/chart.hpp"
 
 namespace bch::cli {
 namespace {
@@ -18,30 +15,6 @@ using bench::DepthMeasure;
 using bench::SlideRow;
 using bench::StiffReport;
 using bench::StiffRow;
-
-/// Returns the place of a depth on an axis: "all" comes after 6.
-double place_of(const std::string& depth) {
-  return depth == "all" ? 9 : std::stod(depth);
-}
-
-/// Makes a panel of the rows that a filter lets through, with a line for each measure.
-template <class Row, class Keep, class Value>
-ChartPanel panel(const std::vector<Row>& rows, std::string title, bool logarithmic, Keep keep, Value value) {
-  ChartPanel made;
-  made.title = std::move(title);
-  std::vector<double> ys;
-  for (const DepthMeasure measure : {DepthMeasure::penetration, DepthMeasure::discs, DepthMeasure::centres}) {
-    ChartSeries& series = made.series.emplace_back(ChartSeries{name_of(measure), {}});
-    for (const Row& row : rows)
-      if (row.measure == measure && keep(row)) {
-        series.points.push_back({place_of(row.depth), value(row)});
-        ys.push_back(series.points.back().y);
-      }
-  }
-  made.x = {"depth of the cut; all: at 9", false, 0, 9, false};
-  made.y = axis_for("", logarithmic, ys);
-  return made;
-}
 
 }  // namespace
 
@@ -111,37 +84,6 @@ nlohmann::ordered_json json_of(const StiffReport& report) {
                       {"jump", row.jump},
                       {"turn", row.turn}});
   return {{"presses", presses}, {"bounces", bounces}, {"slides", slides}};
-}
-
-std::string draw_steps(const StiffReport& report) {
-  std::vector<ChartPanel> panels;
-  for (const StiffRow& first : report.rows) {
-    if (std::any_of(panels.begin(), panels.end(),
-                    [&](const ChartPanel& panel) { return panel.title.starts_with(first.scene); }))
-      continue;
-    panels.push_back(panel(
-        report.rows, first.scene + ", ms", false,
-        [&](const StiffRow& row) { return row.scene == first.scene; },
-        [](const StiffRow& row) { return row.largest_step * 1e3; }));
-    panels.back().y.high = 50;
-    panels.back().line = first.bound * 1e3;
-    panels.back().line_name = "2 / omega of the springs";
-  }
-  return draw_chart("Stiff contact: the largest stable time step", panels);
-}
-
-std::string draw_errors(const StiffReport& report) {
-  const auto every = [](const auto&) { return true; };
-  const std::vector<ChartPanel> panels = {
-      panel(report.bounces, "Largest depth at the first touch, m", true, every,
-            [](const BounceRow& row) { return row.largest_onset; }),
-      panel(report.bounces, "Energy created by a bounce, part, mean", true, every,
-            [](const BounceRow& row) { return row.energy; }),
-      panel(
-          report.rows, "Jitter of two agents at rest, m/s", true,
-          [&](const StiffRow& row) { return row.scene == report.rows.front().scene; },
-          [](const StiffRow& row) { return row.jitter; })};
-  return draw_chart("Stiff contact: what a depth adds that is not there", panels);
 }
 
 }  // namespace bch::cli

@@ -15,9 +15,4 @@ std::string text_of(const bench::StiffReport& report);
 std::string csv_of(const bench::StiffReport& report);
 nlohmann::ordered_json json_of(const bench::StiffReport& report);
 
-/// Draws the largest stable step of every scene against the depth of the cut.
-std::string draw_steps(const bench::StiffReport& report);
-/// Draws the depth at the beginning of a contact, the energy created, and the jitter.
-std::string draw_errors(const bench::StiffReport& report);
-
 }  // namespace bch::cli

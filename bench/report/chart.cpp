@@ -44,17 +44,17 @@ void replace_all(std::string& text, const std::string& from, const std::string& 
     text.replace(at, from.size(), to);
 }
 
-/// Several pictures of a page must not share identifiers.
-std::string for_a_page(std::string svg, const std::string& prefix) {
-  const std::size_t begin = svg.find("<svg");
-  if (begin == std::string::npos) return {};
-  svg.erase(0, begin);
-  for (const std::string quote : {"'", "\""}) {
-    replace_all(svg, "id=" + quote, "id=" + quote + prefix + "-");
-    replace_all(svg, "href=" + quote + "#", "href=" + quote + "#" + prefix + "-");
+/// Writes a script, and those that it loads.
+void write_script(const std::filesystem::path& folder, std::string_view name) {
+  constexpr std::string_view load = "load \"";
+  for (const ChartScript& script : chart_scripts()) {
+    if (script.name != name) continue;
+    cli::write_file(folder / (std::string(name) + ".gp"), script.text);
+    for (std::size_t at = 0; (at = script.text.find(load, at)) != std::string_view::npos;) {
+      at += load.size();
+      write_script(folder, script.text.substr(at, script.text.find(".gp", at) - at));
+    }
   }
-  replace_all(svg, "url(#", "url(#" + prefix + "-");
-  return svg;
 }
 
 }  // namespace
@@ -63,17 +63,23 @@ bool can_draw() {
   return run_gnuplot("/", {"-e", "set terminal svg"});
 }
 
-void write_chart_scripts(const std::filesystem::path& folder) {
-  for (const ChartScript& script : chart_scripts())
-    cli::write_file(folder / (std::string(script.name) + ".gp"), script.text);
+bool draw(const std::filesystem::path& folder, std::string_view name) {
+  write_script(folder, name);
+  return run_gnuplot(folder, {std::string(name) + ".gp"});
 }
 
-std::optional<std::string> draw(const std::filesystem::path& folder, std::string_view name) {
-  const std::string script = std::string(name) + ".gp", picture = std::string(name) + ".svg";
-  if (!run_gnuplot(folder, {script})) return std::nullopt;
-  std::ifstream stream(folder / picture);
-  const std::string svg = for_a_page({std::istreambuf_iterator<char>(stream), {}}, std::string(name));
-  if (svg.empty()) return std::nullopt;
+std::string embedded_picture(const std::filesystem::path& folder, const std::string& name) {
+  std::ifstream stream(folder / (name + ".svg"));
+  std::string svg{std::istreambuf_iterator<char>(stream), {}};
+  const std::size_t begin = svg.find("<svg");
+  if (begin == std::string::npos) return {};
+  svg.erase(0, begin);
+  // Several pictures of a page must not share identifiers.
+  for (const std::string quote : {"'", "\""}) {
+    replace_all(svg, "id=" + quote, "id=" + quote + name + "-");
+    replace_all(svg, "href=" + quote + "#", "href=" + quote + "#" + name + "-");
+  }
+  replace_all(svg, "url(#", "url(#" + name + "-");
   return svg;
 }
 

@@ -4,22 +4,21 @@
 #pragma once
 
 #include <filesystem>
-#include <optional>
 #include <string>
 #include <string_view>
 
 namespace bch::report {
 
-/// Puts the scripts of all charts beside the CSV files that they read, so that draw() and other programs can
-/// use them.
-void write_chart_scripts(const std::filesystem::path& folder);
-
 /// Returns whether gnuplot is installed and can draw SVG.
 bool can_draw();
 
-/// Draws a chart by the folder's NAME.gp.
-/// Returns: NAME.svg for embedding in a page with others: without prologue, its identifiers beginning with
-///          the name; nothing where gnuplot failed.
-std::optional<std::string> draw(const std::filesystem::path& folder, std::string_view name);
+/// Draws by the script bench/report/NAME.gp from the CSV files in a folder, where it puts the script, and those
+/// that it loads, for other programs to use.
+/// Returns: whether gnuplot is installed and succeeded.
+bool draw(const std::filesystem::path& folder, std::string_view name);
+
+/// Returns the folder's NAME.svg for embedding in a page with others: without prologue, its identifiers
+/// beginning with the name; empty if there is none.
+std::string embedded_picture(const std::filesystem::path& folder, const std::string& name);
 
 }  // namespace bch::report

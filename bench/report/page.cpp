@@ -114,9 +114,7 @@ std::string shown_cell(const Results& results, std::string_view tag) {
 ///   {{^NAME}} ... {{/NAME}}                 shown where there is none
 class Page {
  public:
-  explicit Page(Folder& folder) : folder_(folder), pictures_(can_draw()) {
-    if (pictures_) write_chart_scripts(folder.path());
-  }
+  explicit Page(Folder& folder) : folder_(folder) {}
 
   std::string filled(std::string_view text) {
     std::string html;
@@ -146,7 +144,7 @@ class Page {
     const std::size_t colon = std::min(tag.find(": "), tag.size());
     const std::string_view name = tag.substr(0, colon), of = tag.substr(std::min(colon + 2, tag.size()));
     if (name == "table") return html_of(folder_(of), of);
-    if (name == "chart") return draw(folder_.path(), of).value_or("<p>gnuplot could not draw this.</p>");
+    if (name == "chart") return chart(std::string(of));
     for (const Experiment& experiment : experiments()) {
       if (name == "title" && experiment.name == of) return escaped(experiment.title);
       for (const Computed& one : experiment.computed)
@@ -157,8 +155,13 @@ class Page {
     throw std::logic_error("the page's template asks for " + std::string(tag));
   }
 
+  std::string chart(const std::string& name) const {
+    const std::string svg = draw(folder_.path(), name) ? embedded_picture(folder_.path(), name) : "";
+    return svg.empty() ? "<p>gnuplot could not draw this.</p>" : svg;
+  }
+
   Folder& folder_;
-  bool pictures_;
+  const bool pictures_ = can_draw();
 };
 
 }  // namespace

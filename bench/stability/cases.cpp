@@ -221,20 +221,19 @@ struct FamilySetups {
 };
 
 constexpr FamilySetups all_families[] = {
-    {{"offset", "Far from the origin", "distance of the agents from the origin, metres", true},
-     offset_setups},
-    {{"scale", "Small and large shapes", "reach of the shapes, metres", true}, scale_setups},
-    {{"ratio", "A large and a small shape", "ratio of their reaches", true}, ratio_setups},
-    {{"ladder_float", "A ladder of gaps, float", "gap, units in the last place of a float", false},
+    {{"offset", "Far from the origin", "distance of the agents from the origin, metres"}, offset_setups},
+    {{"scale", "Small and large shapes", "reach of the shapes, metres"}, scale_setups},
+    {{"ratio", "A large and a small shape", "ratio of their reaches"}, ratio_setups},
+    {{"ladder_float", "A ladder of gaps, float", "gap, units in the last place of a float"},
      float_ladder_setups},
-    {{"ladder_double", "A ladder of gaps, double", "gap, units in the last place of a double", false},
+    {{"ladder_double", "A ladder of gaps, double", "gap, units in the last place of a double"},
      double_ladder_setups},
-    {{"rotation", "Tiny, odd and large headings", "heading, radians", true}, rotation_setups},
-    {{"slender", "Slender shapes", "length by width", true}, slender_setups},
-    {{"contour", "Outlines of few and many corners", "corners", true}, contour_setups},
-    {{"triangles", "Triangles without area, in meshes", nullptr, false}, triangle_setups},
-    {{"coincident", "One shape twice at one place", nullptr, false}, coincident_setups},
-    {{"extremes", "The ends of the range", nullptr, false}, extreme_setups},
+    {{"rotation", "Tiny, odd and large headings", "heading, radians"}, rotation_setups},
+    {{"slender", "Slender shapes", "length by width"}, slender_setups},
+    {{"contour", "Outlines of few and many corners", "corners"}, contour_setups},
+    {{"triangles", "Triangles without area, in meshes", nullptr}, triangle_setups},
+    {{"coincident", "One shape twice at one place", nullptr}, coincident_setups},
+    {{"extremes", "The ends of the range", nullptr}, extreme_setups},
 };
 
 }  // namespace

@@ -45,7 +45,6 @@ struct StabilityFamily {
   const char* name;   ///< a word, for file names
   const char* title;  ///< a line
   const char* axis;   ///< what the value is; null: values are not numbers, there is no picture
-  bool logarithmic;
 };
 std::span<const StabilityFamily> stability_families();
 
