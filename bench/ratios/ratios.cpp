@@ -3,115 +3,128 @@
 
 #include "bench/ratios/ratios.hpp"
 
+#include <benchmark/benchmark.h>
 #include <fmt/format.h>
 #include <stdlib.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <functional>
+#include <cstdio>
 
 #include "bench/base/command_line.hpp"
 #include "bench/base/exit_codes.hpp"
 #include "bench/base/run_main.hpp"
 #include "bench/workload/scene_options.hpp"
 
+namespace bch::bench {
 namespace {
 
-using namespace bch::bench;
-
 constexpr const char* description =
-    "How many times as fast as the plain traversal the kernel is, and what is asked of it. All of a row is\n"
-    "measured in turn, so that the ratios hold on a machine that is not quiet; every answer is checked "
-    "first.";
+    "How many times as fast as the plain traversal the kernel is, and what is asked of it. All of a table "
+    "is\n"
+    "measured in turn, so that the ratios hold on a machine that is not quiet; every answer is checked\n"
+    "before it is timed.";
+constexpr const char* footer =
+    "Google Benchmark's own options work, too: --benchmark_filter=<regex>, --benchmark_list_tests=true,\n"
+    "--benchmark_format=json ... With any of them its own report takes the place of the tables. It tells\n"
+    "of more benchmarks than they do; those of a table are --table NAME's.";
+constexpr const char* tables[] = {"kernel",    "leaves",    "peers",  "calls", "crowd",
+                                  "distances", "responses", "shapes", "plans", "construction",
+                                  "growth",    "load",      "paper"};
+
+struct Options {
+  SceneOptions scene;
+  std::uint32_t runs = 9, most_shapes = 50'000;
+  std::vector<std::string> tables;  ///< none: all
+};
 
 double load_average() {
   double load = 0;
   return getloadavg(&load, 1) == 1 ? load : 0;
 }
 
-struct Options {
-  std::uint32_t runs = 9, most_shapes = 50'000;
-  std::vector<std::string> tables;  ///< none: all
-};
-
-struct Table {
-  const char* name;
-  std::function<void(Scene&, const Options&)> print;
-};
-
-const std::vector<Table>& tables() {
-  static const std::vector<Table> all = {
-      {"kernel", [](Scene& scene, const Options& o) { print_kernel_ratios(scene, o.runs); }},
-      {"leaves", [](Scene& scene, const Options& o) { print_leaf_ratios(scene, o.runs); }},
-      {"peers", [](Scene& scene, const Options& o) { print_peer_ratios(scene, o.runs); }},
-      {"calls", [](Scene& scene, const Options& o) { print_call_ratios(scene, o.runs); }},
-      {"crowd", [](Scene& scene, const Options& o) { print_crowd_ratios(scene, o.runs); }},
-      {"distances", [](Scene& scene, const Options& o) { print_distance_ratios(scene, o.runs); }},
-      {"responses", [](Scene& scene, const Options& o) { print_response_ratios(scene, o.runs); }},
-      {"shapes",
-       [](Scene& scene, const Options& o) { print_shape_count_ratios(scene, o.runs, o.most_shapes); }},
-      {"plans", [](Scene& scene, const Options& o) { print_plan_table(scene, o.runs); }},
-      {"construction", [](Scene& scene, const Options& o) { print_build_ratios(scene, o.runs); }},
-      {"paper", [](Scene& scene, const Options& o) { print_paper_table(scene, o.runs); }},
-  };
-  return all;
+/// Adds all benchmarks. Returns their tables, in the order of printing.
+std::vector<Table> add_all(Suite& suite, Scene& scene, const Options& options) {
+  std::vector<Table> all;
+  for (const std::vector<Table>& some :
+       {collide_tables(suite, scene), call_tables(suite, scene), crowd_tables(suite, scene),
+        query_tables(suite, scene), shape_count_tables(suite, scene, options.most_shapes),
+        plan_tables(suite, scene), build_tables(suite, scene), load_tables(suite, scene)})
+    all.insert(all.end(), some.begin(), some.end());
+  std::vector<Table> wanted;
+  for (const char* name : tables)
+    if (options.tables.empty() || std::count(options.tables.begin(), options.tables.end(), name) > 0)
+      wanted.push_back(
+          *std::find_if(all.begin(), all.end(), [&](const Table& one) { return one.name == name; }));
+  return wanted;
 }
 
-std::vector<std::string> table_names() {
-  std::vector<std::string> names = {"growth"};  // of no scene
-  for (const Table& table : tables()) names.push_back(table.name);
+/// The benchmarks of the tables that were asked for; empty: of none.
+std::string names_of(const Options& options, std::span<const Table> wanted) {
+  std::string names;
+  if (!options.tables.empty())
+    for (const Table& table : wanted) names += (names.empty() ? "" : "|") + table.benchmarks;
   return names;
 }
 
-bool wants(const Options& options, const std::string& table) {
-  return options.tables.empty() ||
-         std::find(options.tables.begin(), options.tables.end(), table) != options.tables.end();
-}
-
-void print_tables(Scene& scene, const Options& options) {
+void print_tables(Suite& suite, Scene& scene, const Options& options, std::span<const Table> wanted) {
   std::string names;
   for (const auto& character : scene.characters()) names += (names.empty() ? "" : ", ") + character.source;
   fmt::print("# {}: {} shapes, medians of {} runs, load {:.1f}\n", names, scene.shapes().size(), options.runs,
              load_average());
-  for (const Table& table : tables())
-    if (wants(options, table.name)) table.print(scene, options);
-  fmt::print("\n");
+  for (const Table& table : wanted) {
+    table.print(suite.run(table.benchmarks));
+    std::fflush(stdout);
+  }
+}
+
+/// Hands over the options that are not ours, which come last and so win over what the tables want.
+/// Returns: whether there are others that are nobody's.
+bool initialize(char* program, const Options& options, std::vector<std::string> rest) {
+  std::vector<std::string> words = {"--benchmark_enable_random_interleaving=true",
+                                    fmt::format("--benchmark_repetitions={}", options.runs),
+                                    "--benchmark_min_time=0.01"};
+  if (!rest.empty()) words.push_back("--benchmark_display_aggregates_only=true");
+  words.insert(words.end(), rest.begin(), rest.end());
+  std::vector<char*> arguments{program};
+  for (std::string& word : words) arguments.push_back(word.data());
+  int count = static_cast<int>(arguments.size());
+  benchmark::Initialize(&count, arguments.data());
+  return benchmark::ReportUnrecognizedArguments(count, arguments.data());
 }
 
 int run(int argc, char** argv) {
   CLI::App program(description, "bch_ratios");
-  SceneOptions scene;
+  program.footer(footer);
+  program.allow_extras();
   Options options;
-  std::vector<std::string> files;
-  bch::cli::add_repeatable_option(
-      program, "--character", files,
-      "Character file (repeatable): all of them make a second scene, beside the built-in ones", "FILE");
-  add_size_options(program, scene);
+  cli::add_repeatable_option(program, "--character", options.scene.characters,
+                             std::string(cli::character_help) + " (repeatable) [male, female]", "FILE");
+  add_size_options(program, options.scene);
   program.add_option("--runs", options.runs, "Runs of which the medians are taken [9]")
       ->type_name("N")
       ->check(CLI::Range(1u, 1000u));
   program.add_option("--shapes", options.most_shapes, "Leave out rows of more shapes [50000]")
       ->type_name("N");
-  bch::cli::add_repeatable_option(program, "--table", options.tables, "One table alone (repeatable) [all]",
-                                  "NAME")
-      .check(CLI::IsMember(table_names()));
-  if (!bch::cli::parse_command_line(program, argc, argv)) return bch::cli::exit_success;
+  cli::add_repeatable_option(program, "--table", options.tables, "One table alone (repeatable) [all]", "NAME")
+      .check(CLI::IsMember(std::vector<std::string>(std::begin(tables), std::end(tables))));
+  if (!cli::parse_command_line(program, argc, argv)) return cli::exit_success;
+  const std::vector<std::string> rest = program.remaining();
+  if (initialize(argv[0], options, rest)) return cli::exit_usage;
 
-  Scene built_in(scene);
-  scene.characters = files;
-  Scene given(scene);
+  Suite suite;
+  Scene scene(options.scene);
   // Before anything else, because a bad file should not cost minutes, and an import wants a process without
   // threads.
-  if (!files.empty()) given.characters();
-  print_tables(built_in, options);
-  if (wants(options, "growth")) print_build_growth(scene.poses, options.runs);
-  if (!files.empty()) print_tables(given, options);
-  return bch::cli::exit_success;
+  scene.characters();
+  const std::vector<Table> wanted = add_all(suite, scene, options);
+  if (!rest.empty())
+    return suite.run_by_options(names_of(options, wanted)) ? cli::exit_success : cli::exit_internal;
+  print_tables(suite, scene, options, wanted);
+  return cli::exit_success;
 }
 
 }  // namespace
-
-namespace bch::bench {
 
 std::string verdict(double ratio, double needed) {
   if (ratio >= needed) return fmt::format("PASS (needs {:g})", needed);
@@ -126,5 +139,5 @@ std::string verdict_at_most(double value, double most) {
 }  // namespace bch::bench
 
 int main(int argc, char** argv) {
-  return bch::cli::run_main("bch_ratios", [&] { return run(argc, argv); });
+  return bch::cli::run_main("bch_ratios", [&] { return bch::bench::run(argc, argv); });
 }

@@ -4,9 +4,11 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <string>
+#include <vector>
 
-#include "bench/workload/scene.hpp"
+#include "bench/ratios/suite.hpp"
 
 namespace bch::bench {
 
@@ -15,20 +17,41 @@ std::string verdict(double ratio, double needed);
 /// Judges a value that must not exceed `most`: "PASS", or "at most 1.5: 8 % over".
 std::string verdict_at_most(double value, double most);
 
-/// Each of these functions prints a table to standard output.
-void print_kernel_ratios(Scene& scene, std::uint32_t runs);
-void print_leaf_ratios(Scene& scene, std::uint32_t runs);
-void print_peer_ratios(Scene& scene, std::uint32_t runs);
-void print_call_ratios(Scene& scene, std::uint32_t runs);
-void print_crowd_ratios(Scene& scene, std::uint32_t runs);
-void print_distance_ratios(Scene& scene, std::uint32_t runs);
-void print_response_ratios(Scene& scene, std::uint32_t runs);
-void print_shape_count_ratios(Scene& scene, std::uint32_t runs, std::uint32_t most_shapes);
-void print_plan_table(Scene& scene, std::uint32_t runs);
-/// Prints the times of construction: every stage by every instruction set beside what is required, and the
-/// growth with triangles.
-void print_build_ratios(Scene& scene, std::uint32_t runs);
-void print_build_growth(std::uint32_t poses, std::uint32_t runs);
-void print_paper_table(Scene& scene, std::uint32_t runs);
+/// Part of what is printed: benchmarks that are timed together, and what is told of them.
+struct Table {
+  std::string name;
+  std::string benchmarks;  ///< a regular expression of their names
+  std::function<void(const Results&)> print;
+};
+
+/// Each of these functions adds benchmarks and returns the tables of them. The scene must outlive the suite.
+
+/// collide/<workload>/<semantics>/<leaves>/<instruction set>[/threads:<n>], collide/<workload>/boundary/<kind>.
+std::vector<Table> collide_tables(Suite& suite, Scene& scene);
+/// threads/<n>, batches/<size>: one query of many pairs, and queries of a few.
+std::vector<Table> call_tables(Suite& suite, Scene& scene);
+/// crowd/<agents>/<what>: pairs and answers of whole crowds.
+std::vector<Table> crowd_tables(Suite& suite, Scene& scene);
+/// <query>/<workload>/<instruction set|reference>[/threads:<n>]: the queries beside collide().
+std::vector<Table> query_tables(Suite& suite, Scene& scene);
+/// shapes/<count>: a crowd of so many different shapes, up to `most`.
+std::vector<Table> shape_count_tables(Suite& suite, Scene& scene, std::uint32_t most);
+/// plans/<row>/<bake|query>.
+std::vector<Table> plan_tables(Suite& suite, Scene& scene);
+/// construction/<character>/<instruction set>/<stage> of the characters, and growth/<triangles>/<stage> of
+/// the built-in man with fewer and with more triangles.
+std::vector<Table> build_tables(Suite& suite, Scene& scene);
+/// load/<part>: a baked file of the scene's poses, in the file cache.
+std::vector<Table> load_tables(Suite& suite, Scene& scene);
+
+/// Returns the name of a benchmark of collide().
+std::string collide_name(std::string_view workload, const QueryOptions& query,
+                         std::string_view implementation);
+/// Returns the numbers of threads to measure with: powers of two, and all of the machine's.
+std::vector<int> thread_counts();
+/// Returns a name as a benchmark's that is timed by so many threads.
+std::string with_threads(const std::string& name, int threads);
+/// Returns the names of the instruction sets that run here and are wider than one lane.
+std::vector<std::string> wide_implementations();
 
 }  // namespace bch::bench

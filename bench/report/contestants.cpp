@@ -7,7 +7,7 @@
 
 #include "bench/report/subject.hpp"
 #include "bench/workload/answer_checks.hpp"
-#include "bench/workload/race.hpp"
+#include "bench/workload/contender.hpp"
 
 namespace bch::report {
 namespace {

@@ -13,6 +13,7 @@
 #include "bench/report/subject.hpp"
 #include "bench/report/words.hpp"
 #include "bench/workload/answer_checks.hpp"
+#include "bench/workload/contender.hpp"
 
 // What does each microsecond buy? Every structure, depth, threshold and semantics as a point.
 

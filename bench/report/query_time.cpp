@@ -9,6 +9,7 @@
 #include "bench/report/tree_size.hpp"
 #include "bench/report/words.hpp"
 #include "bench/workload/answer_checks.hpp"
+#include "bench/workload/contender.hpp"
 
 // Query time: figure 3, right, of the paper.
 
@@ -106,9 +107,8 @@ Table time_kernels(Run& run) {
         }
         const std::vector<Quartiles> taken = times(subjects, workload, run.sizes().runs, count);
         for (std::size_t i = 0; i < subjects.size(); ++i)
-          table.add({names[i], query.semantics == Semantics::solid ? "solid" : "boundary",
-                     query.leaves == Leaves::segments ? "segments" : "discs", name, count, taken[i].median,
-                     taken[i].low, taken[i].high});
+          table.add({names[i], bench::name_of(query.semantics), bench::name_of(query.leaves), name, count,
+                     taken[i].median, taken[i].low, taken[i].high});
       }
   return table;
 }

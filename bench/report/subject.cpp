@@ -3,14 +3,18 @@
 
 #include "bench/report/subject.hpp"
 
+#include <oneapi/tbb/task_arena.h>
+
 #include <algorithm>
-#include <memory>
 #include <stdexcept>
+
+#include "bench/base/stopwatch.hpp"
 
 namespace bch::report {
 namespace {
 
 constexpr std::size_t counted_pairs = 2'000;
+constexpr double shortest_run = 1e7;  ///< nanoseconds
 
 MeanTests mean_tests(const baselines::Structure& structure, const bench::Workload& workload,
                      std::uint32_t max_depth) {
@@ -22,6 +26,21 @@ MeanTests mean_tests(const baselines::Structure& structure, const bench::Workloa
     return static_cast<double>(tests) / static_cast<double>(pairs);
   };
   return {each(counts.nodes), each(counts.leaves)};
+}
+
+/// Times a call in an arena of its own size: with one thread, the caller's time is then all of the time that
+/// the call takes. Other threads are woken first, which takes about a millisecond and does not happen between
+/// the frames of a simulation.
+double time_run(const std::function<void()>& call, int threads) {
+  tbb::task_arena arena(threads);
+  if (threads > 1) arena.execute(call);
+  const bench::Stopwatch watch(threads);
+  std::uint32_t calls = 0;
+  do {
+    arena.execute(call);
+    ++calls;
+  } while (watch.nanoseconds() < shortest_run);
+  return watch.nanoseconds() / calls;
 }
 
 }  // namespace
@@ -58,16 +77,14 @@ std::size_t count_hits(const Subject& subject, const bench::Workload& workload) 
 std::vector<Quartiles> times(std::span<const Subject> subjects, const bench::Workload& workload,
                              std::uint32_t runs, int threads) {
   bench::Hits hits(workload.pairs.size());
-  std::vector<bench::Contender> contenders;
-  for (const Subject& subject : subjects)
-    contenders.push_back({workload.name, [&] { subject.answer(workload, hits); }});
-  bench::race(contenders, runs, threads);
+  std::vector<std::vector<double>> taken(subjects.size());
+  for (const Subject& subject : subjects) subject.answer(workload, hits);  // caches, page faults
+  for (std::uint32_t run = 0; run < runs; ++run)
+    for (std::size_t i = 0; i < subjects.size(); ++i)
+      taken[i].push_back(time_run([&] { subjects[i].answer(workload, hits); }, threads) /
+                         static_cast<double>(workload.pairs.size()));
   std::vector<Quartiles> of_pairs;
-  const auto pairs = static_cast<double>(workload.pairs.size());
-  for (const bench::Contender& contender : contenders) {
-    const Quartiles call = quartiles(contender.runs);
-    of_pairs.push_back({call.low / pairs, call.median / pairs, call.high / pairs});
-  }
+  for (const std::vector<double>& times : taken) of_pairs.push_back(quartiles(times));
   return of_pairs;
 }
 

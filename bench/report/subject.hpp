@@ -12,7 +12,7 @@
 
 #include "bench/report/slide.hpp"
 #include "bench/report/statistics.hpp"
-#include "bench/workload/race.hpp"
+#include "bench/workload/scene.hpp"
 #include "kernel/collide/collide.hpp"
 
 namespace bch::report {
@@ -43,7 +43,9 @@ Subject subject_of(const ShapeSet& set, const QueryOptions& query = bench::disc_
 bench::Hits answers(const Subject& subject, const bench::Workload& workload);
 std::size_t count_hits(const Subject& subject, const bench::Workload& workload);
 
-/// Returns the nanoseconds a pair of each subject, all of them timed in turn.
+/// Returns the nanoseconds a pair of each subject. All of them are timed in turn, `runs` times over, so that
+/// what slows the machine down for a while slows all of them, and ratios stay. A run takes 10 ms at least.
+/// Threads: each call runs in an arena of that many, whose time Stopwatch takes.
 std::vector<Quartiles> times(std::span<const Subject> subjects, const bench::Workload& workload,
                              std::uint32_t runs, int threads = 1);
 

@@ -9,6 +9,8 @@
 
 namespace bch::bench {
 
+const bool has_clipper = true;
+
 double clipper_union_area(std::span<const Vec2> positions,
                           std::span<const std::array<std::uint32_t, 3>> triangles, double step) {
   using namespace ClipperLib;

@@ -11,8 +11,11 @@
 
 namespace bch::bench {
 
+/// Whether the build found libpolyclipping.
+extern const bool has_clipper;
+
 /// Returns the area of the union of a pose's triangles, seen from above and rounded to steps of a grid, by
-/// libpolyclipping; negative where the build found no libpolyclipping.
+/// libpolyclipping.
 /// Units:   metres.
 double clipper_union_area(std::span<const Vec2> positions,
                           std::span<const std::array<std::uint32_t, 3>> triangles, double step);

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include "bench/workload/distance_contenders.hpp"
-
 #include <memory>
 
 #include "baselines/clearance_reference.hpp"
 #include "baselines/pair_distances.hpp"
 #include "baselines/time_of_impact_reference.hpp"
+#include "bench/workload/contender.hpp"
 #include "bench/workload/distance_answers.hpp"
 
 namespace bch::bench {
@@ -22,7 +21,7 @@ Contender clearance_kernel(Scene& scene, const Workload& workload,
   };
   call();
   require_right(implementation.name, workload, wrong_clearances(scene, workload, *answers));
-  return {implementation.name, call};
+  return {call, workload.pairs.size()};
 }
 
 Contender clearance_reference(Scene& scene, const Workload& workload) {
@@ -37,19 +36,7 @@ Contender clearance_reference(Scene& scene, const Workload& workload) {
   };
   call();
   require_right("scalar search", workload, wrong_clearances(scene, workload, *answers));
-  return {"scalar search", call};
-}
-
-Contender fcl_distance_contender(Scene& scene, const Workload& workload, const std::string& name,
-                                 std::shared_ptr<const baselines::PairDistances> fcl) {
-  const auto distances = std::make_shared<std::vector<double>>(workload.pairs.size());
-  const auto call = [fcl, &workload, distances] {
-    for (std::size_t i = 0; i < workload.pairs.size(); ++i)
-      (*distances)[i] = fcl->query(workload.agents(), workload.pairs[i]);
-  };
-  call();
-  require_right(name, workload, wrong_distances(scene, workload, *distances));
-  return {name, call};
+  return {call, workload.pairs.size()};
 }
 
 Contender time_of_impact_kernel(Scene& scene, const Workload& workload,
@@ -61,7 +48,7 @@ Contender time_of_impact_kernel(Scene& scene, const Workload& workload,
   };
   call();
   require_right(implementation.name, workload, wrong_times_of_impact(scene, workload, *times));
-  return {implementation.name, call};
+  return {call, workload.pairs.size()};
 }
 
 Contender time_of_impact_reference(Scene& scene, const Workload& workload) {
@@ -75,27 +62,30 @@ Contender time_of_impact_reference(Scene& scene, const Workload& workload) {
   };
   call();
   require_right("scalar search", workload, wrong_times_of_impact(scene, workload, *times));
-  return {"scalar search", call};
+  return {call, workload.pairs.size()};
 }
+
+constexpr TimedQuery queries[] = {{"clearance", clearance_kernel, clearance_reference},
+                                  {"time_of_impact", time_of_impact_kernel, time_of_impact_reference}};
 
 }  // namespace
 
-const TimedQuery& clearance_query() {
-  static constexpr TimedQuery query{"clearance", clearance_kernel, clearance_reference};
-  return query;
+std::span<const TimedQuery> distance_queries() {
+  return queries;
 }
 
-const TimedQuery& time_of_impact_query() {
-  static constexpr TimedQuery query{"time_of_impact", time_of_impact_kernel, time_of_impact_reference};
-  return query;
-}
-
-std::vector<Contender> fcl_distance_contenders(Scene& scene, const Workload& workload) {
-  auto walls = baselines::fcl_outline_distances(scene.bodies());
-  auto segments = baselines::fcl_segment_distances(scene.bodies());
-  if (walls == nullptr || segments == nullptr) return {};
-  return {fcl_distance_contender(scene, workload, "FCL, walls", std::move(walls)),
-          fcl_distance_contender(scene, workload, "FCL, one triangle a segment", std::move(segments))};
+Contender fcl_distance_contender(Scene& scene, const Workload& workload, bool walls) {
+  const std::shared_ptr<const baselines::PairDistances> fcl =
+      walls ? baselines::fcl_outline_distances(scene.bodies())
+            : baselines::fcl_segment_distances(scene.bodies());
+  const auto distances = std::make_shared<std::vector<double>>(workload.pairs.size());
+  const auto call = [fcl, &workload, distances] {
+    for (std::size_t i = 0; i < workload.pairs.size(); ++i)
+      (*distances)[i] = fcl->query(workload.agents(), workload.pairs[i]);
+  };
+  call();
+  require_right("FCL", workload, wrong_distances(scene, workload, *distances));
+  return {call, workload.pairs.size()};
 }
 
 }  // namespace bch::bench

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include "bench/workload/response_contenders.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -13,12 +11,15 @@
 #include "baselines/contact_reference.hpp"
 #include "baselines/cut_lists.hpp"
 #include "baselines/penetration_reference.hpp"
+#include "bench/workload/contender.hpp"
 #include "kernel/contact/contacts.hpp"
 #include "kernel/crowd/collide_all.hpp"
 #include "kernel/penetration/penetration.hpp"
 
 namespace bch::bench {
 namespace {
+
+constexpr std::uint32_t penetration_directions = 16;
 
 std::string wrong_contacts(Scene& scene, const Workload& workload, const ContactTable& table) {
   const baselines::CutLists cuts(scene.shapes(), {});
@@ -74,20 +75,20 @@ Contender contacts_kernel(Scene& scene, const Workload& workload,
   };
   call();
   require_right(implementation.name, workload, wrong_contacts(scene, workload, *table));
-  return {implementation.name, call};
+  return {call, workload.pairs.size()};
 }
 
 Contender contacts_reference(Scene& scene, const Workload& workload) {
   const auto cuts = std::make_shared<baselines::CutLists>(scene.shapes(), ShapeSetPlan{});
   ContactTable table;
   contacts(scene.set(), workload.agents(), workload.pairs, table, {.leaves = Leaves::discs});
-  return {"reference", [cuts, &workload, expected = table.contacts.size()] {
-            std::size_t all = 0;
-            for (const Pair pair : workload.pairs)
-              all += baselines::contacts(*cuts, workload.agents(), pair).size();
-            if (all != expected)
-              throw std::runtime_error(fmt::format("{} contacts where the kernel finds {}", all, expected));
-          }};
+  const auto call = [cuts, &workload, expected = table.contacts.size()] {
+    std::size_t all = 0;
+    for (const Pair pair : workload.pairs) all += baselines::contacts(*cuts, workload.agents(), pair).size();
+    if (all != expected)
+      throw std::runtime_error(fmt::format("{} contacts where the kernel finds {}", all, expected));
+  };
+  return {call, workload.pairs.size()};
 }
 
 Contender penetration_kernel(Scene& scene, const Workload& workload,
@@ -98,7 +99,7 @@ Contender penetration_kernel(Scene& scene, const Workload& workload,
   };
   call();
   require_right(implementation.name, workload, wrong_penetrations(scene, workload, *ways));
-  return {implementation.name, call};
+  return {call, workload.pairs.size()};
 }
 
 Contender penetration_reference(Scene& scene, const Workload& workload) {
@@ -115,7 +116,7 @@ Contender penetration_reference(Scene& scene, const Workload& workload) {
   const bool same = std::equal(depths->begin(), depths->end(), ways.begin(), ways.end(),
                                [](float depth, const Penetration& way) { return depth == way.depth; });
   require_right("reference", workload, same ? "" : "other depths than the kernel's");
-  return {"reference", call};
+  return {call, workload.pairs.size()};
 }
 
 Contender collide_all_kernel(Scene& scene, const Workload& workload,
@@ -126,7 +127,7 @@ Contender collide_all_kernel(Scene& scene, const Workload& workload,
                                  {.implementation = &implementation, .leaves = Leaves::discs});
   };
   require_right(implementation.name, workload, wrong_neighbours(scene, workload, call()));
-  return {implementation.name, call};
+  return {call, workload.pairs.size()};
 }
 
 constexpr TimedQuery queries[] = {{"contacts", contacts_kernel, contacts_reference},

@@ -3,6 +3,8 @@
 
 #include "bench/workload/scene.hpp"
 
+#include <fmt/format.h>
+
 #include <stdexcept>
 #include <utility>
 
@@ -18,9 +20,12 @@ constexpr std::uint64_t colliding_seed = 31, near_miss_seed = 32, no_hit_seed = 
 
 }  // namespace
 
-std::string text_of(const QueryOptions& query) {
-  return std::string(query.semantics == Semantics::solid ? "solid, " : "boundary, ") +
-         (query.leaves == Leaves::segments ? "segments" : "discs");
+std::string_view name_of(Semantics semantics) {
+  return semantics == Semantics::solid ? "solid" : "boundary";
+}
+
+std::string_view name_of(Leaves leaves) {
+  return leaves == Leaves::segments ? "segments" : "discs";
 }
 
 Scene::Scene(SceneOptions options) : options_(std::move(options)) {}
@@ -103,7 +108,7 @@ const Hits& Scene::hits(std::string_view kind, const Workload& workload) {
 }
 
 const Hits& Scene::expected(const QueryOptions& query, const Workload& workload) {
-  Hits& hits = hits_[text_of(query).append("/").append(workload.name)];
+  Hits& hits = hits_[fmt::format("{} {}/{}", name_of(query.semantics), name_of(query.leaves), workload.name)];
   if (!hits.empty()) return hits;
   const baselines::Reference reference(shapes(), {}, query.leaves);
   const Agents agents = workload.agents();

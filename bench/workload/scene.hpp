@@ -22,8 +22,9 @@ namespace bch::bench {
 /// A query that the scalar reference, which knows discs alone, answers as well.
 constexpr QueryOptions disc_query{.leaves = Leaves::discs};
 
-/// Says what a query asks: "boundary, discs".
-std::string text_of(const QueryOptions& query);
+/// Return "boundary" or "solid", "discs" or "segments".
+std::string_view name_of(Semantics semantics);
+std::string_view name_of(Leaves leaves);
 
 struct SceneOptions {
   std::vector<std::string> characters = {"default:male", "default:female"};  ///< as load_character() takes

@@ -4,20 +4,20 @@
 #include <fmt/format.h>
 #include <oneapi/tbb/task_arena.h>
 
-#include <cstdio>
+#include <memory>
 #include <stdexcept>
 
 #include "bench/base/peak_memory.hpp"
 #include "bench/base/text.hpp"
 #include "bench/ratios/ratios.hpp"
 #include "bench/workload/answer_checks.hpp"
-#include "bench/workload/race.hpp"
 #include "kernel/broad_phase/broad_phase.hpp"
 
 namespace bch::bench {
 namespace {
 
 constexpr std::uint32_t few = 10'000, many = 1'000'000;  ///< agents
+constexpr std::uint32_t small_crowds = 20;
 constexpr double most_nanoseconds = 120, most_times = 1.3, most_mebibytes = 1024;
 
 /// What a simulator does in every step: finds the pairs and answers them. Several crowds in turn, because a
@@ -60,34 +60,46 @@ class Steps {
   Hits hits_;
 };
 
-}  // namespace
-
-void print_crowd_ratios(Scene& scene, std::uint32_t runs) {
-  const ShapeSet& set = scene.set();
-  constexpr std::uint32_t small_crowds = 20;
-  Steps small(set, few, small_crowds);
+/// Several small crowds, or a large one, checked after the first step, whose memory is told.
+Contender step_contender(Scene& scene, std::uint32_t agents, std::uint32_t crowds) {
   const PeakMemory memory;
-  Steps large(set, many, 1);
-  tbb::task_arena(2).execute([&] { large.find_and_answer(); });
+  const auto steps = std::make_shared<Steps>(scene.set(), agents, crowds);
+  tbb::task_arena arena(2);
+  arena.execute([&] { steps->find_and_answer(); });
   const double mebibytes = static_cast<double>(memory.bytes()) / (1024 * 1024);
   const baselines::Reference reference(scene.shapes(), {}, Leaves::discs);
-  small.check(reference);
-  tbb::task_arena(2).execute([&] { large.check(reference); });
+  arena.execute([&] { steps->check(reference); });
+  return {[steps] { steps->find_and_answer(); }, std::size_t{agents} * crowds, {{"MiB", mebibytes}}};
+}
 
-  std::vector<Contender> steps = {{"small", [&] { small.find_and_answer(); }},
-                                  {"large", [&] { large.find_and_answer(); }},
-                                  {"large, pairs", [&] { large.find(); }}};
-  race(steps, runs, 2);
-  const double of_few = steps[0].nanoseconds / (few * small_crowds);
-  const double of_many = steps[1].nanoseconds / many, pairs = steps[2].nanoseconds / many;
+Contender pairs_contender(Scene& scene) {
+  const auto steps = std::make_shared<Steps>(scene.set(), many, 1);
+  return {[steps] { steps->find(); }, many};
+}
+
+void print_crowds(const Results& results) {
+  const Timing &small = results.at("crowd/10000/step"), &large = results.at("crowd/1000000/step");
+  const double times = large.nanoseconds / small.nanoseconds, mebibytes = large.counters.at("MiB");
   fmt::print(
       "an agent of a crowd of {}, pairs and answers, 2 threads: {:.1f} ns ({:.1f} for pairs)   {}, aim 50\n",
-      cli::grouped(many), of_many, pairs, verdict_at_most(of_many, most_nanoseconds));
-  fmt::print("the same over one of {}: {:.1f} ns over {:.1f}: {:.2f} x   {}\n", cli::grouped(few), of_many,
-             of_few, of_many / of_few, verdict_at_most(of_many / of_few, most_times));
+      cli::grouped(many), large.nanoseconds, results.at("crowd/1000000/pairs").nanoseconds,
+      verdict_at_most(large.nanoseconds, most_nanoseconds));
+  fmt::print("the same over one of {}: {:.1f} ns over {:.1f}: {:.2f} x   {}\n", cli::grouped(few),
+             large.nanoseconds, small.nanoseconds, times, verdict_at_most(times, most_times));
   fmt::print("memory of {} agents, their pairs, answers and all scratch: {:.0f} MiB   {}\n",
              cli::grouped(many), mebibytes, verdict_at_most(mebibytes, most_mebibytes));
-  std::fflush(stdout);
+}
+
+}  // namespace
+
+std::vector<Table> crowd_tables(Suite& suite, Scene& scene) {
+  suite.add(
+      "crowd/10000/step", [&scene] { return step_contender(scene, few, small_crowds); }, 2);
+  suite.add(
+      "crowd/1000000/step", [&scene] { return step_contender(scene, many, 1); }, 2);
+  suite.add(
+      "crowd/1000000/pairs", [&scene] { return pairs_contender(scene); }, 2);
+  return {{"crowd", "^crowd/", print_crowds}};
 }
 
 }  // namespace bch::bench

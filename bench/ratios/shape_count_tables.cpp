@@ -4,14 +4,12 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <cstdio>
 #include <memory>
 
 #include "bench/base/random.hpp"
 #include "bench/base/text.hpp"
 #include "bench/ratios/ratios.hpp"
 #include "bench/workload/answer_checks.hpp"
-#include "bench/workload/race.hpp"
 #include "layout/hierarchy/builder.hpp"
 
 namespace bch::bench {
@@ -46,44 +44,43 @@ std::vector<Shape> stretched(std::span<const Shape> shapes, std::uint32_t count)
 }
 
 /// The crowd workload of many shapes, every pair of it compared with the reference.
-struct ManyShapes {
-  ManyShapes(std::span<const Shape> scene, std::uint32_t count) {
-    const std::vector<Shape> shapes = stretched(scene, count);
-    set = std::make_unique<ShapeSet>(shapes);
-    crowd = crowd_pairs(*set, agents);
-    hits.resize(crowd.pairs.size());
-    answer();
-    require_right(
-        fmt::format("{} shapes", count), crowd,
-        wrong_answers({shapes, {}, Leaves::discs}, crowd.agents(), crowd.pairs, hits, Semantics::boundary));
-  }
+Contender among_shapes(Scene& scene, std::uint32_t count) {
+  const std::vector<Shape> shapes = stretched(scene.shapes(), count);
+  const auto set = std::make_shared<const ShapeSet>(shapes);
+  const auto crowd = std::make_shared<const Workload>(crowd_pairs(*set, agents));
+  const auto hits = std::make_shared<Hits>(crowd->pairs.size());
+  const auto call = [set, crowd, hits] { collide(*set, crowd->agents(), crowd->pairs, *hits, disc_query); };
+  call();
+  require_right(
+      fmt::format("{} shapes", count), *crowd,
+      wrong_answers({shapes, {}, Leaves::discs}, crowd->agents(), crowd->pairs, *hits, Semantics::boundary));
+  return {call, hits->size(), {{"bytes_per_shape", static_cast<double>(set->bytes()) / set->shape_count()}}};
+}
 
-  void answer() { collide(*set, crowd.agents(), crowd.pairs, hits, disc_query); }
-  double bytes_per_shape() const { return static_cast<double>(set->bytes()) / set->shape_count(); }
+std::string name_of(std::uint32_t shapes) {
+  return fmt::format("shapes/{}", shapes);
+}
 
-  std::unique_ptr<ShapeSet> set;
-  Workload crowd;
-  Hits hits;
-};
-
-}  // namespace
-
-void print_shape_count_ratios(Scene& scene, std::uint32_t runs, std::uint32_t most_shapes) {
-  ManyShapes base(scene.shapes(), few);
+void print_shape_counts(const Results& results) {
+  const double of_few = results.at(name_of(few)).nanoseconds;
   for (const Row& row : rows) {
-    if (row.shapes > most_shapes) continue;
-    ManyShapes many(scene.shapes(), row.shapes);
-    std::vector<Contender> contenders = {{"few", [&] { base.answer(); }}, {"many", [&] { many.answer(); }}};
-    race(contenders, runs, 1);
-    const double of_few = contenders[0].nanoseconds / static_cast<double>(base.crowd.pairs.size());
-    const double of_many = contenders[1].nanoseconds / static_cast<double>(many.crowd.pairs.size());
+    const auto found = results.find(name_of(row.shapes));
+    if (found == results.end()) continue;
+    const auto& [of_many, pairs, counters] = found->second;
     fmt::print(
         "a pair among {} shapes over {}: crowd, {} pairs, {:.0f} bytes a shape: {:.1f} ns over {:.1f}: "
         "{:.2f} x   {}\n",
-        cli::grouped(row.shapes), few, cli::grouped(many.crowd.pairs.size()), many.bytes_per_shape(), of_many,
-        of_few, of_many / of_few, verdict_at_most(of_many / of_few, row.most_times));
-    std::fflush(stdout);
+        cli::grouped(row.shapes), few, cli::grouped(pairs), counters.at("bytes_per_shape"), of_many, of_few,
+        of_many / of_few, verdict_at_most(of_many / of_few, row.most_times));
   }
+}
+
+}  // namespace
+
+std::vector<Table> shape_count_tables(Suite& suite, Scene& scene, std::uint32_t most) {
+  for (const std::uint32_t shapes : {few, rows[0].shapes, rows[1].shapes})
+    if (shapes <= most) suite.add(name_of(shapes), [&scene, shapes] { return among_shapes(scene, shapes); });
+  return {{"shapes", "^shapes/", print_shape_counts}};
 }
 
 }  // namespace bch::bench

@@ -4,14 +4,12 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <cstdio>
 #include <memory>
 #include <optional>
 #include <utility>
 
 #include "bench/ratios/ratios.hpp"
 #include "bench/workload/answer_checks.hpp"
-#include "bench/workload/race.hpp"
 #include "layout/scene/pose_shape.hpp"
 #include "layout/scene/scene_plan.hpp"
 #include "layout/shape_set/shape_set_builder.hpp"
@@ -107,26 +105,36 @@ class Planned {
   Hits hits_;
 };
 
-}  // namespace
+std::string name_of(std::size_t row, std::string_view what) {
+  return fmt::format("plans/{}/{}", row, what);
+}
 
-void print_plan_table(Scene& scene, std::uint32_t runs) {
-  std::vector<std::unique_ptr<Planned>> planned;
-  std::vector<Contender> bakes, queries;
-  for (const Row& row : rows()) {
-    Planned& plan = *planned.emplace_back(std::make_unique<Planned>(scene, row));
-    bakes.push_back({row.name, [&plan] { plan.build(); }});
-    queries.push_back({row.name, [&plan] { plan.answer(); }});
-  }
-  race(bakes, runs, 1);
-  race(queries, runs, 1);
+void print_plans(const Results& results) {
   fmt::print(
       "\n| plan of a scene: a crowd, one thread | bytes per shape | us to bake a shape | ns per pair "
       "|\n|---|---|---|---|\n");
-  for (std::size_t i = 0; i < planned.size(); ++i)
-    fmt::print("| {} | {:.0f} | {:.1f} | {:.1f} |\n", rows()[i].name, planned[i]->bytes_per_shape(),
-               bakes[i].nanoseconds / 1e3 / static_cast<double>(planned[i]->shapes()),
-               queries[i].nanoseconds / static_cast<double>(planned[i]->pairs()));
-  std::fflush(stdout);
+  for (std::size_t i = 0; i < rows().size(); ++i) {
+    const Timing &bake = results.at(name_of(i, "bake")), &query = results.at(name_of(i, "query"));
+    fmt::print("| {} | {:.0f} | {:.1f} | {:.1f} |\n", rows()[i].name, bake.counters.at("bytes_per_shape"),
+               bake.nanoseconds / 1e3, query.nanoseconds);
+  }
+}
+
+}  // namespace
+
+std::vector<Table> plan_tables(Suite& suite, Scene& scene) {
+  for (std::size_t i = 0; i < rows().size(); ++i) {
+    const Shared<Planned> plan([&scene, i] { return std::make_shared<Planned>(scene, rows()[i]); });
+    suite.add(name_of(i, "bake"), [plan]() -> Contender {
+      return {[kept = plan.get()] { kept->build(); },
+              plan.get()->shapes(),
+              {{"bytes_per_shape", plan.get()->bytes_per_shape()}}};
+    });
+    suite.add(name_of(i, "query"), [plan]() -> Contender {
+      return {[kept = plan.get()] { kept->answer(); }, plan.get()->pairs()};
+    });
+  }
+  return {{"plans", "^plans/", print_plans}};
 }
 
 }  // namespace bch::bench

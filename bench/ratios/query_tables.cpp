@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include <fmt/format.h>
+
+#include "bench/base/text.hpp"
+#include "bench/ratios/ratios.hpp"
+#include "bench/workload/distance_answers.hpp"
+
+namespace bch::bench {
+namespace {
+
+constexpr double most_times_collide = 4, needed_over_scalar = 10, needed_over_fcl = 50;
+
+std::string name_of(std::string_view query, std::string_view workload, std::string_view implementation) {
+  return fmt::format("{}/{}/{}", query, workload, implementation);
+}
+
+std::string_view best() {
+  return kernel::best_implementation().name;
+}
+
+const Timing& collide_in_crowd(const Results& results) {
+  return results.at(collide_name("crowd", disc_query, best()));
+}
+
+void print_distance(const Results& results, std::string_view query, const std::string& title) {
+  const Timing &collide = collide_in_crowd(results), &own = results.at(name_of(query, "crowd", best()));
+  const double times = own.nanoseconds / collide.nanoseconds;
+  fmt::print("{}, crowd, {}: {} pairs, {:.1f} ns over collide's {:.1f}: {:.2f} x   {}\n", title, best(),
+             cli::grouped(own.items), own.nanoseconds, collide.nanoseconds, times,
+             verdict_at_most(times, most_times_collide));
+  const Timing& scalar = results.at(name_of(query, "near_miss", "reference"));
+  fmt::print("{}, near_miss: {} pairs; scalar search {:.1f} ns\n", title, cli::grouped(scalar.items),
+             scalar.nanoseconds);
+  for (const kernel::Implementation& one : kernel::implementations()) {
+    if (!one.supported()) continue;
+    const double taken = results.at(name_of(query, "near_miss", one.name)).nanoseconds;
+    const double ratio = scalar.nanoseconds / taken;
+    fmt::print("  {:8}{:6.1f} ns{:7.1f} x   {}\n", one.name, taken, ratio,
+               one.name == best() ? verdict(ratio, needed_over_scalar) : "");
+  }
+}
+
+void print_over_fcl(const Results& results) {
+  if (!has_kind("fcl_obb_contour"))
+    return fmt::print("clearance over FCL's distance of outlines: not in this build\n");
+  const double own = results.at(name_of("clearance", "near_miss", best())).nanoseconds;
+  fmt::print("clearance over FCL's distance of outlines, near_miss, {}: {:.1f} ns\n", best(), own);
+  const auto print = [&](std::string_view title, std::string_view implementation, double needed) {
+    const double taken = results.at(name_of("clearance", "near_miss", implementation)).nanoseconds;
+    fmt::print("  {:28}{:8.1f} ns{:7.1f} x   {}\n", title, taken, taken / own,
+               needed > 0 ? verdict(taken / own, needed) : "");
+  };
+  print("FCL, walls", "fcl_walls", needed_over_fcl);
+  print("FCL, one triangle a segment", "fcl_segments", 0);
+}
+
+void print_distances(const Results& results) {
+  print_distance(results, "clearance", fmt::format("clearance within {:g} m", clearance_limit));
+  print_distance(results, "time_of_impact", fmt::format("time of impact within {:g} s", walking_time));
+  print_over_fcl(results);
+}
+
+void print_responses(const Results& results) {
+  const Timing& collide = collide_in_crowd(results);
+  fmt::print("response, crowd, {}: {} pairs\n", best(), cli::grouped(collide.items));
+  for (const TimedQuery& query : response_queries()) {
+    const double own = results.at(name_of(query.name, "crowd", best())).nanoseconds;
+    fmt::print("  {:12}{:7.1f} ns over collide's {:.1f}: {:.2f} x", query.name, own, collide.nanoseconds,
+               own / collide.nanoseconds);
+    if (query.reference != nullptr) {
+      const double brute_force = results.at(name_of(query.name, "crowd", "reference")).nanoseconds;
+      fmt::print("; brute force {:.0f} ns: {:.1f} x as long", brute_force, brute_force / own);
+    }
+    fmt::print("\n");
+  }
+}
+
+void add_query(Suite& suite, Scene& scene, const TimedQuery& query, std::string_view workload) {
+  for (const kernel::Implementation& implementation : kernel::implementations())
+    for (const int threads : thread_counts())
+      if (implementation.supported())
+        suite.add(
+            with_threads(name_of(query.name, workload, implementation.name), threads),
+            [&scene, &query, workload, &implementation] {
+              return query.kernel(scene, scene.workload(workload), implementation);
+            },
+            threads);
+  if (query.reference != nullptr)
+    suite.add(name_of(query.name, workload, "reference"),
+              [&scene, &query, workload] { return query.reference(scene, scene.workload(workload)); });
+}
+
+}  // namespace
+
+std::vector<Table> query_tables(Suite& suite, Scene& scene) {
+  for (const TimedQuery& query : distance_queries())
+    for (const std::string_view workload : workload_names()) add_query(suite, scene, query, workload);
+  for (const TimedQuery& query : response_queries())
+    for (const std::string_view workload : {"colliding", "crowd"})
+      // Agents of pairs of their own stand anywhere, also in each other.
+      if (workload == "crowd" || query.reference != nullptr) add_query(suite, scene, query, workload);
+  if (has_kind("fcl_obb_contour"))
+    for (const bool walls : {true, false})
+      suite.add(name_of("clearance", "near_miss", walls ? "fcl_walls" : "fcl_segments"), [&scene, walls] {
+        return fcl_distance_contender(scene, scene.workload("near_miss"), walls);
+      });
+  const std::string collide = fmt::format("^{}$", collide_name("crowd", disc_query, best()));
+  const std::string one_thread = "/[a-z0-9_]+$";
+  return {{"distances",
+           fmt::format("{}|^(clearance|time_of_impact)/(crowd/{}$|near_miss{})", collide, best(), one_thread),
+           print_distances},
+          {"responses",
+           fmt::format("{}|^(contacts|penetration|collide_all)/crowd/({}|reference)$", collide, best()),
+           print_responses}};
+}
+
+}  // namespace bch::bench
