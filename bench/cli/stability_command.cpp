@@ -39,19 +39,14 @@ std::string in_folder(const StabilityOptions& options, std::string_view name) {
   return (fs::path(options.out) / name).string();
 }
 
-constexpr const char* cases_table = "stability.csv";
-constexpr const char* stiff_table = "stiff_contact.csv";
-constexpr const char* cases_chart = "stability_families";
-constexpr const char* stiff_chart = "stiff_contact";
-
 /// The files that --out means.
 std::vector<OutputOption> folder_outputs(const StabilityOptions& options) {
   std::vector<std::string> names = {"style.gp"};
   if (options.stiff) {
-    names.insert(names.end(),
-                 {stiff_table, "stiff_contact.gp", "stiff_contact_steps.svg", "stiff_contact_errors.svg"});
+    names.insert(names.end(), {"stiff_contact.csv", "stiff_contact.gp", "stiff_contact_steps.svg",
+                               "stiff_contact_errors.svg"});
   } else {
-    names.insert(names.end(), {cases_table, "stability_families.gp"});
+    names.insert(names.end(), {"stability.csv", "stability_families.gp"});
     for (const bench::StabilityFamily& family : bench::stability_families())
       if (family.axis) names.push_back(fmt::format("stability_{}.svg", family.name));
   }
@@ -77,20 +72,20 @@ void require_promises(std::span<const bench::StabilityRow> rows) {
   }
 }
 
-/// Files of one half of the command; `table` and `chart` are those in the folder.
-void write_files(const StabilityOptions& options, const char* table, const char* chart,
-                 const std::string& csv, const nlohmann::ordered_json& json) {
-  if (!options.csv.empty()) write_file(options.csv, csv);
-  write_json(options.json, json);
+/// Files of one half of the command; in the folder NAME.csv and what CHART.gp draws from it.
+void write_files(const StabilityOptions& options, const std::string& name, const char* chart,
+                 const report::Table& table) {
+  if (!options.csv.empty()) write_file(options.csv, csv_of(table));
+  write_json(options.json, {{name, json_of(table)}});
   if (options.out.empty()) return;
-  write_file(in_folder(options, table), csv);
+  write_file(in_folder(options, name + ".csv"), csv_of(table));
   if (!report::draw(options.out, chart))
     fmt::print(stderr, "bch: no pictures: gnuplot is not installed, or it failed\n");
 }
 
 void run_cases(const StabilityOptions& options) {
   const auto rows = bench::stability_rows(options.quick ? 200 : options.pairs, options.seed);
-  write_files(options, cases_table, cases_chart, csv_of(rows), {{"stability", json_of(rows)}});
+  write_files(options, "stability", "stability_families", table_of(rows));
   write_standard_output(text_of(rows));
   require_promises(rows);
 }
@@ -99,7 +94,7 @@ void run_stiff(const StabilityOptions& options) {
   const bench::StiffReport report = bench::stiff_contact(
       options.quick ? bench::StiffOptions{.seconds = 2, .people = 40, .bounces = 25, .slides = 25}
                     : bench::StiffOptions{});
-  write_files(options, stiff_table, stiff_chart, csv_of(report), {{"stiff_contact", json_of(report)}});
+  write_files(options, "stiff_contact", "stiff_contact", table_of(report));
   write_standard_output(text_of(report));
 }
 

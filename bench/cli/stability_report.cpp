@@ -5,11 +5,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <nlohmann/json.hpp>
-
-#include "bench/base/csv_input.hpp"
-
 namespace bch::cli {
 namespace {
 
@@ -66,51 +61,25 @@ std::string text_of(std::span<const StabilityRow> rows) {
   return out;
 }
 
-std::string csv_of(std::span<const StabilityRow> rows) {
-  std::string out = "family,value,conditioning,pairs,meeting";
+report::Table table_of(std::span<const StabilityRow> rows) {
+  std::vector<std::string> columns = {"family", "value", "conditioning", "pairs", "meeting"};
   for (const Test& test : tests)
     for (const char* column :
          {"misses", "false_positives", "deepest_miss_m", "largest_gap_m", "miss_per_reach", "gap_per_reach"})
-      out += fmt::format(",{}_{}", test.key, column);
-  out += ",outlines,outlines_meeting,outline_misses,refused\n";
+      columns.push_back(fmt::format("{}_{}", test.key, column));
+  columns.insert(columns.end(), {"outlines", "outlines_meeting", "outline_misses", "refused"});
+  report::Table table(columns);
   for (const StabilityRow& row : rows) {
-    out += fmt::format("{},{},{},{},{}", row.family, csv_field(row.value), row.conditioning, row.pairs,
-                       row.meeting);
+    std::vector<report::Cell> cells = {row.family, row.value, row.conditioning, row.pairs, row.meeting};
     for (const Test& test : tests) {
       const Errors& e = row.*test.errors;
-      out += fmt::format(",{},{},{},{},{},{}", e.misses, e.false_positives, e.deepest_miss, e.largest_gap,
-                         e.miss_per_reach, e.gap_per_reach);
+      cells.insert(cells.end(), {e.misses, e.false_positives, e.deepest_miss, e.largest_gap, e.miss_per_reach,
+                                 e.gap_per_reach});
     }
-    out += fmt::format(",{},{},{},{}\n", row.outlines, row.outlines_meeting, row.outline_misses,
-                       csv_field(row.refused));
+    cells.insert(cells.end(), {row.outlines, row.outlines_meeting, row.outline_misses, row.refused});
+    table.add(cells);
   }
-  return out;
-}
-
-nlohmann::ordered_json json_of(std::span<const StabilityRow> rows) {
-  auto json = nlohmann::ordered_json::array();
-  for (const StabilityRow& row : rows) {
-    nlohmann::ordered_json one{{"family", row.family}, {"value", row.value}};
-    if (row.outside) {
-      one["refused"] = row.refused;
-      json.push_back(one);
-      continue;
-    }
-    one["pairs"] = row.pairs, one["meeting"] = row.meeting;
-    for (const Test& test : tests) {
-      const Errors& e = row.*test.errors;
-      one[test.key] = {{"misses", e.misses},
-                       {"false_positives", e.false_positives},
-                       {"deepest_miss", e.deepest_miss},
-                       {"largest_gap", e.largest_gap},
-                       {"miss_per_reach", e.miss_per_reach},
-                       {"gap_per_reach", e.gap_per_reach}};
-    }
-    one["outlines"] = {
-        {"pairs", row.outlines}, {"meeting", row.outlines_meeting}, {"misses", row.outline_misses}};
-    json.push_back(one);
-  }
-  return json;
+  return table;
 }
 
 }  // namespace bch::cli

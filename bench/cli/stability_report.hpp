@@ -3,17 +3,17 @@
 
 #pragma once
 
-#include <nlohmann/json_fwd.hpp>
 #include <span>
 #include <string>
 
+#include "bench/report/table.hpp"
 #include "bench/stability/stability.hpp"
 
 namespace bch::cli {
 
 /// Writes a table for each family.
 std::string text_of(std::span<const bench::StabilityRow> rows);
-std::string csv_of(std::span<const bench::StabilityRow> rows);
-nlohmann::ordered_json json_of(std::span<const bench::StabilityRow> rows);
+/// Returns a row for each value, with columns for all that was measured.
+report::Table table_of(std::span<const bench::StabilityRow> rows);
 
 }  // namespace bch::cli

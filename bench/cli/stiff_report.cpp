@@ -5,8 +5,6 @@
 
 #include <fmt/format.h>
 
-#include <nlohmann/json.hpp>
-
 namespace bch::cli {
 namespace {
 
@@ -43,47 +41,20 @@ std::string text_of(const StiffReport& report) {
   return out;
 }
 
-std::string csv_of(const StiffReport& report) {
-  std::string out =
-      "measure,depth,kind,scene,bound_s,largest_step_s,jitter_m_s,bounces,onset_m,largest_onset_m,"
-      "energy,most_energy,depth_change,depth_jump_m,turn_rad\n";
+report::Table table_of(const StiffReport& report) {
+  report::Table table({"measure", "depth", "kind", "scene", "bound_s", "largest_step_s", "jitter_m_s",
+                       "bounces", "onset_m", "largest_onset_m", "energy", "most_energy", "depth_change",
+                       "depth_jump_m", "turn_rad"});
   for (const StiffRow& row : report.rows)
-    out += fmt::format("{},{},press,{},{},{},{},,,,,,,,\n", name_of(row.measure), row.depth, row.scene,
-                       row.bound, row.largest_step, row.jitter);
+    table.add({name_of(row.measure), row.depth, "press", row.scene, row.bound, row.largest_step, row.jitter,
+               "", "", "", "", "", "", "", ""});
   for (const BounceRow& row : report.bounces)
-    out += fmt::format("{},{},bounce,,,,,{},{},{},{},{},,,\n", name_of(row.measure), row.depth, row.bounces,
-                       row.onset, row.largest_onset, row.energy, row.most_energy);
+    table.add({name_of(row.measure), row.depth, "bounce", "", "", "", "", row.bounces, row.onset,
+               row.largest_onset, row.energy, row.most_energy, "", "", ""});
   for (const SlideRow& row : report.slides)
-    out += fmt::format("{},{},slide,,,,,,,,,,{},{},{}\n", name_of(row.measure), row.depth, row.change,
-                       row.jump, row.turn);
-  return out;
-}
-
-nlohmann::ordered_json json_of(const StiffReport& report) {
-  using nlohmann::ordered_json;
-  ordered_json presses = ordered_json::array(), bounces = presses, slides = presses;
-  for (const StiffRow& row : report.rows)
-    presses.push_back({{"scene", row.scene},
-                       {"depth", row.depth},
-                       {"measure", name_of(row.measure)},
-                       {"bound", row.bound},
-                       {"largest_step", row.largest_step},
-                       {"jitter", row.jitter}});
-  for (const BounceRow& row : report.bounces)
-    bounces.push_back({{"depth", row.depth},
-                       {"measure", name_of(row.measure)},
-                       {"bounces", row.bounces},
-                       {"onset", row.onset},
-                       {"largest_onset", row.largest_onset},
-                       {"energy", row.energy},
-                       {"most_energy", row.most_energy}});
-  for (const SlideRow& row : report.slides)
-    slides.push_back({{"depth", row.depth},
-                      {"measure", name_of(row.measure)},
-                      {"change", row.change},
-                      {"jump", row.jump},
-                      {"turn", row.turn}});
-  return {{"presses", presses}, {"bounces", bounces}, {"slides", slides}};
+    table.add({name_of(row.measure), row.depth, "slide", "", "", "", "", "", "", "", "", "", row.change,
+               row.jump, row.turn});
+  return table;
 }
 
 }  // namespace bch::cli

@@ -3,16 +3,15 @@
 
 #pragma once
 
-#include <nlohmann/json_fwd.hpp>
 #include <string>
 
+#include "bench/report/table.hpp"
 #include "bench/stability/stiff_contact.hpp"
 
 namespace bch::cli {
 
 std::string text_of(const bench::StiffReport& report);
-/// Writes a row for each measure and depth, with columns for all that was measured.
-std::string csv_of(const bench::StiffReport& report);
-nlohmann::ordered_json json_of(const bench::StiffReport& report);
+/// Returns a row for each measure and depth, with columns for all that was measured.
+report::Table table_of(const bench::StiffReport& report);
 
 }  // namespace bch::cli

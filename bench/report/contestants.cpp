@@ -79,4 +79,10 @@ std::vector<baselines::Body> with_hierarchies(std::span<const baselines::Body> b
   return others;
 }
 
+std::vector<Shape> with_fixed_cylinders(std::span<const Shape> shapes, float radius) {
+  std::vector<Shape> fixed(shapes.begin(), shapes.end());
+  for (Shape& shape : fixed) shape.hierarchy = fixed_cylinder(radius);
+  return fixed;
+}
+
 }  // namespace bch::report

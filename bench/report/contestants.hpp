@@ -52,4 +52,7 @@ class Contestants {
 std::vector<baselines::Body> with_hierarchies(std::span<const baselines::Body> bodies, float threshold,
                                               SplitRule rule);
 
+/// Returns shapes as they are, but with one cylinder around the origin for each.
+std::vector<Shape> with_fixed_cylinders(std::span<const Shape> shapes, float radius);
+
 }  // namespace bch::report

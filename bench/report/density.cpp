@@ -6,10 +6,9 @@
 
 #include <atomic>
 
-#include "bench/base/text.hpp"
 #include "bench/report/experiment.hpp"
 #include "bench/report/packing.hpp"
-#include "bench/report/statistics.hpp"
+#include "bench/report/subject.hpp"
 
 // The premise of the paper: with a single cylinder a crowd cannot be dense.
 
@@ -39,16 +38,14 @@ std::vector<Row> rows_of(Run& run) {
   std::vector<Row> rows;
   rows.push_back({"single cylinder", ShapeSet(shapes, {{0}, true})});
   for (const float radius : {0.25f, 0.4f}) {
-    std::vector<Shape> fixed(shapes.begin(), shapes.end());
-    for (Shape& shape : fixed) shape.hierarchy = fixed_cylinder(radius);
-    rows.push_back({fmt::format("fixed cylinder {:.2f} m", radius), ShapeSet(fixed, {{0}, true})});
+    rows.push_back({fmt::format("fixed cylinder {:.2f} m", radius),
+                    ShapeSet(with_fixed_cylinders(shapes, radius), {{0}, true})});
   }
   for (const std::uint32_t depth : {3u, 6u, 9u, all_depths})
-    rows.push_back({"BCH outline to depth " + cli::depth_name(depth), ShapeSet(shapes, {{depth}, true})});
+    rows.push_back({cut_name(depth), ShapeSet(shapes, {{depth}, true})});
   for (const Freedom freedom : {Freedom::headings, Freedom::poses})
     for (const std::uint32_t depth : {0u, 3u, all_depths})
-      rows.push_back({depth == 0 ? "single cylinder" : "BCH outline to depth " + cli::depth_name(depth),
-                      ShapeSet(shapes, {{depth}, true}), freedom});
+      rows.push_back({cut_name(depth), ShapeSet(shapes, {{depth}, true}), freedom});
   return rows;
 }
 

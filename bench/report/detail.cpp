@@ -108,9 +108,7 @@ std::vector<Outcome> walk_and_test(Run& run, std::span<const Detail> details, do
 void run_experiment(Run& run) {
   const std::span<const Shape> shapes = run.scene().shapes();
   const ShapeSet cuts(shapes, {std::vector<std::uint32_t>(std::begin(depths), std::end(depths))});
-  std::vector<Shape> fixed(shapes.begin(), shapes.end());
-  for (Shape& shape : fixed) shape.hierarchy = fixed_cylinder(0.25f);
-  const ShapeSet fixed_set(fixed, {{0}});
+  const ShapeSet fixed_set(with_fixed_cylinders(shapes, 0.25f), {{0}});
   const Detail details[] = {
       {"single cylinder", &cuts, same_level<0>}, {"depth 3", &cuts, same_level<1>},
       {"depth 6", &cuts, same_level<2>},         {"all depths", &cuts, same_level<3>},

@@ -96,11 +96,9 @@ void add_kernel(Run& run, double threshold, Points& points) {
 /// The area of those that are discs; boxes cut short are not measured.
 Estimate excess_of(Run& run, const Contestant& contestant, std::uint32_t depth) {
   if (contestant.kind == "single") return estimate(excess_areas(run.scene().shapes(), 0), run.seed());
-  if (contestant.kind == "fixed") {
-    std::vector<Shape> shapes(run.scene().shapes());
-    for (Shape& shape : shapes) shape.hierarchy = fixed_cylinder(contestant.fixed_radius);
-    return estimate(excess_areas(shapes, 0), run.seed());
-  }
+  if (contestant.kind == "fixed")
+    return estimate(excess_areas(with_fixed_cylinders(run.scene().shapes(), contestant.fixed_radius), 0),
+                    run.seed());
   return depth == all_depths ? exact : unknown;
 }
 

@@ -49,8 +49,7 @@ void add_character(Run& run, const cli::LoadedCharacter& loaded, Table& table) {
                cases.size() - found.size()});
   };
   for (const std::uint32_t depth : {0u, 3u, 6u, all_depths})
-    add(depth == 0 ? "single cylinder" : "BCH outline to depth " + cli::depth_name(depth),
-        cases.contacts(ShapeSet(posed.shapes, {{depth}})));
+    add(cut_name(depth), cases.contacts(ShapeSet(posed.shapes, {{depth}})));
   add("OBB outline", cases.contacts(*baselines::kind("obb_contour").build(posed.bodies, {}), all_depths));
 }
 

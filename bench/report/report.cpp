@@ -82,23 +82,6 @@ std::vector<cli::LoadedCharacter> load_real_characters(const std::filesystem::pa
   return loaded;
 }
 
-Json json_of(const Table& table) {
-  Json rows = Json::array();
-  for (std::size_t i = 0; i < table.rows().size(); ++i) {
-    Json& row = rows.emplace_back(Json::object());
-    for (const std::string& column : table.columns()) {
-      const std::string& cell = table.text(i, column);
-      try {
-        const double number = table.number(i, column);
-        row[column] = std::isnan(number) ? Json() : Json(number);
-      } catch (const std::out_of_range&) {
-        row[column] = cell;
-      }
-    }
-  }
-  return rows;
-}
-
 Json json_of(const Experiment& experiment, const Table& facts) {
   Json json{{"experiment", experiment.name}, {"title", experiment.title}};
   for (const auto& row : facts.rows()) json["run"][row[0]] = row[1];

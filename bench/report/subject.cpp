@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "bench/base/stopwatch.hpp"
+#include "bench/base/text.hpp"
 
 namespace bch::report {
 namespace {
@@ -44,6 +45,10 @@ double time_run(const std::function<void()>& call, int threads) {
 }
 
 }  // namespace
+
+std::string cut_name(std::uint32_t depth) {
+  return depth == 0 ? "single cylinder" : "BCH outline to depth " + cli::depth_name(depth);
+}
 
 Subject subject_of(const baselines::Structure& structure, std::uint32_t max_depth) {
   return {[&structure, max_depth](const bench::Workload& workload, bench::Hits& hits) {

@@ -23,6 +23,9 @@ constexpr std::string_view exact_leaves_name = "BCH outline with exact leaves";
 constexpr std::string_view leaf_discs_name =
     "BCH projected leaf discs";  ///< without the exact tests of its triangles
 
+/// Returns the name of a cut of the outline's hierarchy: "single cylinder", "BCH outline to depth 3".
+std::string cut_name(std::uint32_t depth);
+
 /// The mean number of tests that a traversal makes of a pair; NaN where it is not counted.
 struct MeanTests {
   double nodes = std::numeric_limits<double>::quiet_NaN();   ///< of two discs or boxes

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <fstream>
 #include <limits>
+#include <nlohmann/json.hpp>
 #include <stdexcept>
 
 #include "bench/base/csv_input.hpp"
@@ -88,6 +89,19 @@ std::string csv_of(const Table& table) {
   std::string text = csv_line(table.columns());
   for (const auto& row : table.rows()) text += csv_line(row);
   return text;
+}
+
+nlohmann::ordered_json json_of(const Table& table) {
+  using Json = nlohmann::ordered_json;
+  Json rows = Json::array();
+  for (const auto& cells : table.rows()) {
+    Json& row = rows.emplace_back(Json::object());
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+      const Json number = Json::parse(cells[i], nullptr, false);
+      row[table.columns()[i]] = number.is_number() ? number : cells[i].empty() ? Json() : Json(cells[i]);
+    }
+  }
+  return rows;
 }
 
 Table read_table(const std::filesystem::path& file) {

@@ -6,6 +6,7 @@
 #include <concepts>
 #include <filesystem>
 #include <initializer_list>
+#include <nlohmann/json_fwd.hpp>
 #include <span>
 #include <string>
 #include <string_view>
@@ -62,6 +63,8 @@ class Table {
 };
 
 std::string csv_of(const Table& table);
+/// Returns the rows as objects: numbers, texts, and null for an empty cell.
+nlohmann::ordered_json json_of(const Table& table);
 
 /// Reads a table from a CSV file.
 /// Errors:  throws cli::InputError naming the file, and the line of a row that is shorter or longer than the

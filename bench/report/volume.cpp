@@ -4,14 +4,14 @@
 #include <oneapi/tbb/parallel_for.h>
 
 #include <cmath>
+#include <numbers>
 
 #include "bench/base/disc_union_area.hpp"
-#include "bench/base/text.hpp"
 #include "bench/report/areas.hpp"
 #include "bench/report/coverage.hpp"
 #include "bench/report/experiment.hpp"
 #include "bench/report/paper_volume.hpp"
-#include "bench/report/statistics.hpp"
+#include "bench/report/subject.hpp"
 
 // Represented volume: figure 7 and table 1 of the paper, and what cuts over the outline cover. All shapes are cylinders over
 // the ground, so that their volumes are to each other as their areas are.
@@ -32,10 +32,6 @@ Areas areas_of(const Shape& shape, std::uint32_t depth) {
   return {grid.discs, grid.filled, grid.outline, cli::union_area(discs), area(shape.outline)};
 }
 
-std::string name_of(std::uint32_t depth) {
-  return depth == 0 ? "single cylinder" : "BCH outline to depth " + cli::depth_name(depth);
-}
-
 /// Adds the volumes of a character at a depth, normalised by the volume of the single cylinder of the same
 /// pose.
 void add_depth(Run& run, const std::string& character, std::span<const Shape> shapes, std::uint32_t depth,
@@ -46,15 +42,15 @@ void add_depth(Run& run, const std::string& character, std::span<const Shape> sh
   std::vector<double> normalised, exact, apart;
   for (std::size_t i = 0; i < shapes.size(); ++i) {
     const double radius = static_cast<double>(shapes[i].hierarchy.nodes[0].disc.radius);
-    const double cylinder = 3.14159265358979323846 * radius * radius;
+    const double cylinder = std::numbers::pi * radius * radius;
     normalised.push_back(all[i].filled / cylinder);
     exact.push_back(all[i].exact_discs / cylinder);
     apart.push_back(100 * std::abs(all[i].discs / all[i].exact_discs - 1));
-    poses.add({character, name_of(depth), i, radius, all[i].filled, all[i].discs, all[i].exact_discs,
+    poses.add({character, cut_name(depth), i, radius, all[i].filled, all[i].discs, all[i].exact_discs,
                all[i].outline, all[i].exact_outline});
   }
   const Estimate filled = estimate(normalised, run.seed()), discs = estimate(exact, run.seed());
-  table.add({character, name_of(depth), filled.mean, filled.low, filled.high, quartiles(normalised).median,
+  table.add({character, cut_name(depth), filled.mean, filled.low, filled.high, quartiles(normalised).median,
              filled.deviation, discs.mean, discs.deviation, quartiles(apart).median, quartiles(apart).high});
 }
 
@@ -63,7 +59,7 @@ void add_outline(Run& run, const std::string& character, std::span<const Shape> 
   for (const Shape& shape : shapes) {
     const double radius = static_cast<double>(shape.hierarchy.nodes[0].disc.radius),
                  exact = area(shape.outline);
-    normalised.push_back(exact / (3.14159265358979323846 * radius * radius));
+    normalised.push_back(exact / (std::numbers::pi * radius * radius));
     apart.push_back(100 * std::abs(rasterise(shape.outline, {}).outline / exact - 1));
   }
   const Estimate exact = estimate(normalised, run.seed());
