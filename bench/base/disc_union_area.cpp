@@ -152,4 +152,10 @@ double union_area(std::span<const Disc> discs) {
   return area;
 }
 
+std::vector<Disc> discs_of(const Hierarchy& hierarchy, std::uint32_t depth) {
+  std::vector<Disc> discs;
+  for (const std::uint32_t node : cut(hierarchy, depth)) discs.push_back(hierarchy.nodes[node].disc);
+  return discs;
+}
+
 }  // namespace bch::cli

@@ -3,9 +3,12 @@
 
 #pragma once
 
+#include <cstdint>
 #include <span>
+#include <vector>
 
 #include "layout/base/disc.hpp"
+#include "layout/hierarchy/hierarchy.hpp"
 
 namespace bch::cli {
 
@@ -13,5 +16,8 @@ namespace bch::cli {
 /// theorem it is an integral over the arcs of each circle that lie in no other disc. Takes O(n^2 log n) time
 /// for n discs.
 double union_area(std::span<const Disc> discs);
+
+/// Returns the discs of a cut.
+std::vector<Disc> discs_of(const Hierarchy& hierarchy, std::uint32_t depth);
 
 }  // namespace bch::cli

@@ -3,6 +3,8 @@
 
 #include "bench/base/placed_shape.hpp"
 
+#include "bench/base/disc_union_area.hpp"
+
 namespace bch::cli {
 
 Pixel Placement::operator()(Vec2 point) const {
@@ -18,8 +20,7 @@ PixelDisc placed(const Placement& placement, Disc disc) {
 std::vector<PixelDisc> placed_cut(const Placement& placement, const Hierarchy& hierarchy,
                                   std::uint32_t depth) {
   std::vector<PixelDisc> discs;
-  for (const std::uint32_t node : cut(hierarchy, depth))
-    discs.push_back(placed(placement, hierarchy.nodes[node].disc));
+  for (const Disc& disc : discs_of(hierarchy, depth)) discs.push_back(placed(placement, disc));
   return discs;
 }
 

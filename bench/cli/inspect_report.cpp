@@ -57,9 +57,7 @@ ShapeFacts examine(const Shape& shape, const ShapeSource& source, std::optional<
   ShapeFacts facts{index, source, shape, area(shape.outline), {}};
   const std::uint32_t deepest = height(shape.hierarchy);
   for (std::uint32_t depth = 0; depth <= deepest; ++depth) {
-    std::vector<Disc> discs;
-    for (const std::uint32_t node : cut(shape.hierarchy, depth))
-      discs.push_back(shape.hierarchy.nodes[node].disc);
+    const std::vector<Disc> discs = discs_of(shape.hierarchy, depth);
     double radii = 0;
     for (const Disc& disc : discs) radii += static_cast<double>(disc.radius);
     facts.depths.push_back(

@@ -14,7 +14,6 @@
 #include "bench/base/command_line.hpp"
 #include "bench/base/exit_codes.hpp"
 #include "bench/base/run_main.hpp"
-#include "bench/workload/scene_options.hpp"
 
 namespace bch::bench {
 namespace {
@@ -93,14 +92,18 @@ bool initialize(char* program, const Options& options, std::vector<std::string> 
   return benchmark::ReportUnrecognizedArguments(count, arguments.data());
 }
 
-int run(int argc, char** argv) {
-  CLI::App program(description, "bch_ratios");
-  program.footer(footer);
-  program.allow_extras();
-  Options options;
+void add_options(CLI::App& program, Options& options) {
   cli::add_repeatable_option(program, "--character", options.scene.characters,
                              std::string(cli::character_help) + " (repeatable) [male, female]", "FILE");
-  add_size_options(program, options.scene);
+  program.add_option("--poses", options.scene.poses, "Poses of a character [100]")
+      ->type_name("N")
+      ->check(CLI::Range(1u, 100'000u));
+  program.add_option("--pairs", options.scene.sizes.pairs, "Pairs of a workload, the crowd's aside [20000]")
+      ->type_name("N")
+      ->check(CLI::Range(1u, 10'000'000u));
+  program.add_option("--agents", options.scene.sizes.agents, "Agents of the crowd [10000]")
+      ->type_name("N")
+      ->check(CLI::Range(2u, 1'000'000u));
   program.add_option("--runs", options.runs, "Runs of which the medians are taken [9]")
       ->type_name("N")
       ->check(CLI::Range(1u, 1000u));
@@ -108,6 +111,14 @@ int run(int argc, char** argv) {
       ->type_name("N");
   cli::add_repeatable_option(program, "--table", options.tables, "One table alone (repeatable) [all]", "NAME")
       .check(CLI::IsMember(std::vector<std::string>(std::begin(tables), std::end(tables))));
+}
+
+int run(int argc, char** argv) {
+  CLI::App program(description, "bch_ratios");
+  program.footer(footer);
+  program.allow_extras();
+  Options options;
+  add_options(program, options);
   if (!cli::parse_command_line(program, argc, argv)) return cli::exit_success;
   const std::vector<std::string> rest = program.remaining();
   if (initialize(argv[0], options, rest)) return cli::exit_usage;

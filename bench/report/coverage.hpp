@@ -3,10 +3,13 @@
 
 #pragma once
 
+#include <cstdint>
 #include <span>
+#include <vector>
 
 #include "layout/base/disc.hpp"
 #include "layout/format/outline.hpp"
+#include "layout/shape_set/shape_set.hpp"
 
 namespace bch::report {
 
@@ -22,5 +25,10 @@ struct Coverage {
 };
 
 Coverage rasterise(const Outline& outline, std::span<const Disc> discs);
+
+/// Returns what discs and the inside of an outline cover beyond the outline, per cent of the area inside it,
+/// of each shape.
+/// Runs on all threads.
+std::vector<double> excess_areas(std::span<const Shape> shapes, std::uint32_t depth);
 
 }  // namespace bch::report

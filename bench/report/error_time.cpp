@@ -7,7 +7,7 @@
 
 #include "baselines/reference.hpp"
 #include "bench/base/text.hpp"
-#include "bench/report/areas.hpp"
+#include "bench/report/coverage.hpp"
 #include "bench/report/experiment.hpp"
 #include "bench/report/front.hpp"
 #include "bench/report/subject.hpp"

@@ -2,6 +2,7 @@
 // Copyright (c) 2026 the bch authors
 
 #include "bench/report/paper_volume.hpp"
+#include "bench/base/disc_union_area.hpp"
 
 #include <fmt/format.h>
 #include <oneapi/tbb/parallel_for.h>
@@ -9,7 +10,6 @@
 #include <algorithm>
 #include <numbers>
 
-#include "bench/report/areas.hpp"
 #include "bench/report/coverage.hpp"
 #include "bench/report/mesh_volume.hpp"
 #include "bench/report/statistics.hpp"
@@ -70,7 +70,7 @@ Volumes volumes_of(const Character& character, std::span<const ShapeSource> pose
   volumes.leaves.resize(poses.size());
   tbb::parallel_for(std::size_t{0}, from_above.size(), [&](std::size_t i) {
     const Hierarchy hierarchy = projected_hierarchy(from_above[i], character.triangles);
-    volumes.leaves[i] = rasterise({}, discs_of(hierarchy, all_depths)).discs;
+    volumes.leaves[i] = rasterise({}, cli::discs_of(hierarchy, all_depths)).discs;
   });
   return volumes;
 }

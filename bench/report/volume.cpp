@@ -7,7 +7,6 @@
 #include <numbers>
 
 #include "bench/base/disc_union_area.hpp"
-#include "bench/report/areas.hpp"
 #include "bench/report/coverage.hpp"
 #include "bench/report/experiment.hpp"
 #include "bench/report/paper_volume.hpp"
@@ -27,7 +26,7 @@ struct Areas {
 };
 
 Areas areas_of(const Shape& shape, std::uint32_t depth) {
-  const std::vector<Disc> discs = discs_of(shape.hierarchy, depth);
+  const std::vector<Disc> discs = cli::discs_of(shape.hierarchy, depth);
   const Coverage grid = rasterise(shape.outline, discs);
   return {grid.discs, grid.filled, grid.outline, cli::union_area(discs), area(shape.outline)};
 }
