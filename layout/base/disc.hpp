@@ -12,6 +12,30 @@ struct Vec2 {
   friend bool operator==(const Vec2&, const Vec2&) = default;
 };
 
+/// A point or vector of space, metres; z is up.
+struct Vec3 {
+  float x = 0;
+  float y = 0;
+  float z = 0;
+  friend bool operator==(const Vec3&, const Vec3&) = default;
+};
+
+/// A rotation as a unit quaternion, or the derivative of one.
+struct Quaternion {
+  float x = 0;
+  float y = 0;
+  float z = 0;
+  float w = 1;
+  friend bool operator==(const Quaternion&, const Quaternion&) = default;
+};
+
+/// An affine map takes a point to rows * (x, y, z, 1): each row is one of the linear part and its share of the
+/// translation.
+struct Affine3 {
+  float rows[3][4] = {{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}};
+  friend bool operator==(const Affine3&, const Affine3&) = default;
+};
+
 /// A closed disc on the ground: a vertical cylinder of infinite height seen from above.
 struct Disc {
   float x = 0;
