@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
+#include <cmath>
 #include <stdexcept>
 #include <string>
 
@@ -75,10 +76,10 @@ std::unique_ptr<Structure> build_single(std::span<const Body> bodies, const Buil
 std::unique_ptr<Structure> build_bch_projected(std::span<const Body> bodies, const BuildOptions& options) {
   return build_models<ProjectedHierarchy>(bodies, [&](const Body& body) -> ProjectedHierarchy {
     std::vector<Vec2> vertices;
-    for (const Eigen::Vector3f& p : body.positions) {
-      if (!p.allFinite())
+    for (const Vec3& p : body.positions) {
+      if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z))
         throw std::invalid_argument("vertex " + std::to_string(vertices.size()) + " is not finite");
-      vertices.push_back({p.x(), p.y()});
+      vertices.push_back({p.x, p.y});
     }
     Hierarchy hierarchy = projected_hierarchy(vertices, body.triangles);
     const std::uint32_t levels = height(hierarchy);

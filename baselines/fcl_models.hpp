@@ -14,6 +14,7 @@
 #include "baselines/placement.hpp"
 #include "baselines/structure.hpp"
 #include "layout/base/rounding.hpp"
+#include "layout/character/eigen.hpp"
 #include "layout/format/outline.hpp"
 
 // What all queries of the Flexible Collision Library are asked about.
@@ -51,7 +52,7 @@ std::shared_ptr<fcl::BVHModel<Volume>> fcl_triangles(const Body& body) {
   triangle_facets(body.positions, body.triangles);  // for its complaints
   std::vector<fcl::Vector3d> vertices;
   std::vector<fcl::Triangle> triangles;
-  for (const Eigen::Vector3f& p : body.positions) vertices.push_back(p.cast<double>());
+  for (const Vec3& p : body.positions) vertices.push_back(to_eigen(p).cast<double>());
   for (const auto& [a, b, c] : body.triangles) triangles.emplace_back(a, b, c);
   return fcl_mesh<Volume>(vertices, triangles);
 }

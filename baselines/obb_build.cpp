@@ -2,7 +2,6 @@
 // Copyright (c) 2026 the bch authors
 
 #include <Eigen/Eigenvalues>
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -12,6 +11,7 @@
 #include "baselines/obb_tree.hpp"
 #include "layout/base/rounding.hpp"
 #include "layout/base/shortest.hpp"
+#include "layout/character/eigen.hpp"
 
 namespace bch::baselines {
 namespace {
@@ -190,7 +190,7 @@ ObbTree build_obb_tree(std::vector<Facet> facets) {
   return tree;
 }
 
-std::vector<Facet> triangle_facets(std::span<const Eigen::Vector3f> positions,
+std::vector<Facet> triangle_facets(std::span<const Vec3> positions,
                                    std::span<const std::array<std::uint32_t, 3>> triangles) {
   if (triangles.empty()) throw std::invalid_argument("no triangles");
   std::vector<Facet> facets;
@@ -200,7 +200,8 @@ std::vector<Facet> triangle_facets(std::span<const Eigen::Vector3f> positions,
       if (vertex >= positions.size())
         throw std::invalid_argument("triangle " + std::to_string(t) + " names vertex " +
                                     std::to_string(vertex) + " of " + std::to_string(positions.size()));
-    facets.push_back({positions[triangles[t][0]], positions[triangles[t][1]], positions[triangles[t][2]]});
+    const auto& [a, b, c] = triangles[t];
+    facets.push_back({to_eigen(positions[a]), to_eigen(positions[b]), to_eigen(positions[c])});
   }
   return facets;
 }

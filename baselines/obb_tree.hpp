@@ -9,6 +9,8 @@
 #include <span>
 #include <vector>
 
+#include "layout/base/disc.hpp"
+
 namespace bch::baselines {
 
 /// What a tree of oriented boxes holds: a triangle, or a segment (c equals b).
@@ -55,7 +57,7 @@ struct ObbTree {
 ObbTree build_obb_tree(std::vector<Facet> facets);
 
 /// Facets of triangles. Errors: throws std::invalid_argument on no triangles or an index out of range.
-std::vector<Facet> triangle_facets(std::span<const Eigen::Vector3f> positions,
+std::vector<Facet> triangle_facets(std::span<const Vec3> positions,
                                    std::span<const std::array<std::uint32_t, 3>> triangles);
 
 /// Half-extents are enlarged by this times the shape's reach; derived in obb_overlap.hpp.

@@ -3,11 +3,6 @@
 
 #pragma once
 
-#if !__has_include(<Eigen/Core>)
-#error "Eigen is missing: write find_package(bch REQUIRED COMPONENTS baselines) and link bch::baselines."
-#endif
-
-#include <Eigen/Core>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -27,7 +22,7 @@ namespace bch::baselines {
 
 /// A character in a pose, in every form that some structure is built from.
 struct Body {
-  std::vector<Eigen::Vector3f> positions;               ///< as Skinner::pose() gives them
+  std::vector<Vec3> positions;                          ///< as Skinner::pose() gives them
   std::vector<std::array<std::uint32_t, 3>> triangles;  ///< the character's
   Shape shape;                                          ///< outline and contour hierarchy
 };

@@ -86,10 +86,9 @@ class Passage {
   void one(std::array<std::uint32_t, size>& numbers) {
     for (std::uint32_t& number : numbers) one(number);
   }
-  void one(Eigen::Vector3f& vector) { archive_.bytes(vector.data(), sizeof vector); }
-  void one(Eigen::Vector4f& vector) { archive_.bytes(vector.data(), sizeof vector); }
-  void one(Eigen::Quaternionf& rotation) { archive_.bytes(rotation.coeffs().data(), sizeof rotation); }
-  void one(Eigen::Affine3f& transform) { archive_.bytes(transform.data(), sizeof transform); }
+  void one(Vec3& vector) { archive_.bytes(&vector, sizeof vector); }
+  void one(Quaternion& rotation) { archive_.bytes(&rotation, sizeof rotation); }
+  void one(Affine3& transform) { archive_.bytes(&transform, sizeof transform); }
   template <class Value>
   void one(Key<Value>& key) {
     all(key.time, key.value);
@@ -98,12 +97,12 @@ class Passage {
   void one(Joint& joint) { all(joint.name, joint.parent, joint.rest); }
   void one(Bone& bone) { all(bone.joint, bone.inverse_bind); }
   void one(Interpolation& interpolation) { archive_.bytes(&interpolation, sizeof interpolation); }
-  template <class Vector>
-  void one(Tangents<Vector>& tangents) {
+  template <class Value>
+  void one(Tangents<Value>& tangents) {
     all(tangents.in, tangents.out);
   }
-  template <class Vector>
-  void one(Curve<Vector>& curve) {
+  template <class Value>
+  void one(Curve<Value>& curve) {
     all(curve.interpolation, curve.tangents);
   }
   void one(Channel& channel) {

@@ -21,9 +21,9 @@ constexpr std::string_view built_in_prefix = "default:";
 float rest_height(const Character& character) {
   Skinner skinner(character);
   const auto positions = skinner.pose({});
-  const auto lower = [](const auto& a, const auto& b) { return a.z() < b.z(); };
+  const auto lower = [](const auto& a, const auto& b) { return a.z < b.z; };
   const auto [low, high] = std::minmax_element(positions.begin(), positions.end(), lower);
-  return high->z() - low->z();
+  return high->z - low->z;
 }
 
 ImportReport describe(const Character& character) {

@@ -53,7 +53,7 @@ std::vector<double> time_single(const std::vector<baselines::Body>& bodies) {
   float sum = 0;
   return time_each(bodies.size(), [&](std::size_t i) {
     points.clear();
-    for (const Eigen::Vector3f& p : bodies[i].positions) points.push_back({p.x(), p.y()});
+    for (const Vec3& p : bodies[i].positions) points.push_back({p.x, p.y});
     sum += smallest_enclosing_disc(points).centre.x;
     __asm__ volatile("" : : "g"(&sum) : "memory");  // the disc is needed
   });

@@ -7,6 +7,8 @@
 #include <map>
 #include <utility>
 
+#include "layout/character/eigen.hpp"
+
 namespace bch::report {
 
 bool is_closed(std::span<const std::array<std::uint32_t, 3>> triangles) {
@@ -21,12 +23,13 @@ bool is_closed(std::span<const std::array<std::uint32_t, 3>> triangles) {
   return std::all_of(balance.begin(), balance.end(), [](const auto& edge) { return edge.second == 0; });
 }
 
-double enclosed_volume(std::span<const Eigen::Vector3f> positions,
+double enclosed_volume(std::span<const Vec3> positions,
                        std::span<const std::array<std::uint32_t, 3>> triangles) {
   double volume = 0;  // of the tetrahedra that triangles make with the origin
   for (const auto& [a, b, c] : triangles) {
-    const Eigen::Vector3d p = positions[a].cast<double>(), q = positions[b].cast<double>(),
-                          r = positions[c].cast<double>();
+    const Eigen::Vector3d p = to_eigen(positions[a]).cast<double>(),
+                          q = to_eigen(positions[b]).cast<double>(),
+                          r = to_eigen(positions[c]).cast<double>();
     volume += p.x() * (q.y() * r.z() - q.z() * r.y()) + p.y() * (q.z() * r.x() - q.x() * r.z()) +
               p.z() * (q.x() * r.y() - q.y() * r.x());
   }

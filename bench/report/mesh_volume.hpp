@@ -3,10 +3,11 @@
 
 #pragma once
 
-#include <Eigen/Core>
 #include <array>
 #include <cstdint>
 #include <span>
+
+#include "layout/base/disc.hpp"
 
 namespace bch::report {
 
@@ -15,7 +16,7 @@ bool is_closed(std::span<const std::array<std::uint32_t, 3>> triangles);
 
 /// Returns the volume inside a closed mesh whose triangles run counter-clockwise seen from outside, cubic
 /// metres. A region inside two parts of the mesh counts twice.
-double enclosed_volume(std::span<const Eigen::Vector3f> positions,
+double enclosed_volume(std::span<const Vec3> positions,
                        std::span<const std::array<std::uint32_t, 3>> triangles);
 
 }  // namespace bch::report

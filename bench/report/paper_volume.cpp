@@ -63,7 +63,7 @@ Volumes volumes_of(const Character& character, std::span<const ShapeSource> pose
   for (const ShapeSource& pose : poses) {
     const auto positions = skinner.pose(pose.at);
     auto& points = from_above.emplace_back();
-    for (const Eigen::Vector3f& p : positions) points.push_back({p.x(), p.y()});
+    for (const Vec3& p : positions) points.push_back({p.x, p.y});
     volumes.radius.push_back(static_cast<double>(smallest_enclosing_disc(points).radius));
     volumes.mesh.push_back(closed ? enclosed_volume(positions, character.triangles) : not_told);
   }

@@ -29,7 +29,7 @@ TreeSize size_of(const baselines::ObbTree& tree) {
 
 Hierarchy projected(const baselines::Body& body) {
   std::vector<Vec2> vertices;
-  for (const Eigen::Vector3f& p : body.positions) vertices.push_back({p.x(), p.y()});
+  for (const Vec3& p : body.positions) vertices.push_back({p.x, p.y});
   return projected_hierarchy(vertices, body.triangles);
 }
 

@@ -87,12 +87,12 @@ Specimen contour_specimen(std::vector<Vec2> points, double threshold) {
 }
 
 Specimen triangle_specimen(const std::vector<Vec2>& corners, double threshold) {
-  std::vector<Eigen::Vector3f> positions;
+  std::vector<Vec3> positions;
   std::vector<std::array<std::uint32_t, 3>> triangles;
   Outline geometry;
   geometry.points = corners;
   for (std::uint32_t i = 0; i < corners.size(); i += 3) {
-    for (std::uint32_t k = i; k < i + 3; ++k) positions.emplace_back(corners[k].x, corners[k].y, 0.0f);
+    for (std::uint32_t k = i; k < i + 3; ++k) positions.push_back({corners[k].x, corners[k].y, 0});
     triangles.push_back({i, i + 1, i + 2});
     geometry.contour_begin.push_back(i + 3);
   }

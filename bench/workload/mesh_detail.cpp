@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "bench/base/random.hpp"
+#include "layout/character/eigen.hpp"
 
 namespace bch::bench {
 namespace {
@@ -24,7 +25,8 @@ std::uint32_t add_middle(Character& character, std::uint32_t a, std::uint32_t b)
       weights[character.influences[i].bone] += 0.5f * character.influences[i].weight;
   for (const auto& [bone, weight] : weights) character.influences.push_back({bone, weight});
   character.influence_begin.push_back(static_cast<std::uint32_t>(character.influences.size()));
-  character.vertices.emplace_back(0.5f * (character.vertices[a] + character.vertices[b]));
+  character.vertices.push_back(
+      vec3(0.5f * (to_eigen(character.vertices[a]) + to_eigen(character.vertices[b]))));
   return static_cast<std::uint32_t>(character.vertices.size() - 1);
 }
 
@@ -32,8 +34,9 @@ std::uint32_t add_middle(Character& character, std::uint32_t a, std::uint32_t b)
 std::vector<Eigen::Vector3f> normals_of(const Character& character) {
   std::vector<Eigen::Vector3f> normals(character.vertices.size(), Eigen::Vector3f::Zero());
   for (const auto& [a, b, c] : character.triangles) {
+    const Eigen::Vector3f at = to_eigen(character.vertices[a]);
     const Eigen::Vector3f normal =
-        (character.vertices[b] - character.vertices[a]).cross(character.vertices[c] - character.vertices[a]);
+        (to_eigen(character.vertices[b]) - at).cross(to_eigen(character.vertices[c]) - at);
     for (const std::uint32_t v : {a, b, c}) normals[v] += normal;
   }
   return normals;
@@ -46,10 +49,11 @@ class Relief {
 
   void move_middle(Character& character, std::uint32_t a, std::uint32_t b) {
     constexpr double most = 0.125;  // of the edge's length
-    const float length = (character.vertices[a] - character.vertices[b]).norm();
+    const float length = (to_eigen(character.vertices[a]) - to_eigen(character.vertices[b])).norm();
     const Eigen::Vector3f normal = (normals_[a].normalized() + normals_[b].normalized()).normalized();
     const auto share = static_cast<float>(random_.uniform(2 * most) - most);
-    character.vertices.back() += share * length * normal;
+    Vec3& middle = character.vertices.back();
+    middle = vec3(to_eigen(middle) + share * length * normal);
   }
 
  private:
@@ -80,9 +84,9 @@ Triangles merged(const Character& character, float cell) {
   std::map<std::array<float, 3>, std::uint32_t> first_in;
   std::vector<std::uint32_t> merged_into;
   for (std::uint32_t v = 0; v < character.vertices.size(); ++v) {
-    const Eigen::Vector3f& at = character.vertices[v];
-    const std::array<float, 3> place{std::floor(at.x() / cell), std::floor(at.y() / cell),
-                                     std::floor(at.z() / cell)};
+    const Vec3& at = character.vertices[v];
+    const std::array<float, 3> place{std::floor(at.x / cell), std::floor(at.y / cell),
+                                     std::floor(at.z / cell)};
     merged_into.push_back(first_in.insert({place, v}).first->second);
   }
   Triangles left;

@@ -5,7 +5,7 @@
 
 #include <emmintrin.h>
 
-#include "layout/character/eigen.hpp"
+#include "layout/base/disc.hpp"
 
 namespace bch {
 
@@ -15,13 +15,9 @@ struct AffineRows {
   alignas(16) double row[3][4] = {{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}};
 
   AffineRows() = default;
-  explicit AffineRows(const Eigen::Affine3f& map) {
+  explicit AffineRows(const Affine3& map) {
     for (int i = 0; i < 3; ++i)
-      for (int j = 0; j < 4; ++j) row[i][j] = static_cast<double>(map(i, j));
-  }
-  explicit AffineRows(const Eigen::Matrix3d& linear) {
-    for (int i = 0; i < 3; ++i)
-      for (int j = 0; j < 3; ++j) row[i][j] = linear(i, j);
+      for (int j = 0; j < 4; ++j) row[i][j] = static_cast<double>(map.rows[i][j]);
   }
 };
 

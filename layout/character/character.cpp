@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "layout/base/shortest.hpp"
+#include "layout/character/eigen.hpp"
 
 namespace bch {
 namespace {
@@ -26,16 +27,17 @@ void validate_joints(const Character& c) {
     const Joint& joint = c.joints[i];
     if (joint.parent < -1 || joint.parent >= static_cast<std::int64_t>(i))
       reject(c, at("joint", i) + " has parent " + std::to_string(joint.parent) + ", not an earlier joint");
-    if (!joint.rest.matrix().allFinite())
+    if (!to_eigen(joint.rest).matrix().allFinite())
       reject(c, at("joint", i) + " has a rest transform that is not finite");
   }
   if (c.root_joint < -1 || c.root_joint >= static_cast<std::int64_t>(c.joints.size()))
     reject(c, "root joint " + std::to_string(c.root_joint) + " does not exist");
-  if (!c.to_ground.matrix().allFinite()) reject(c, "the transform to the ground frame is not finite");
+  if (!to_eigen(c.to_ground).matrix().allFinite())
+    reject(c, "the transform to the ground frame is not finite");
   for (std::size_t i = 0; i < c.bones.size(); ++i) {
     if (c.bones[i].joint >= c.joints.size())
       reject(c, at("bone", i) + " names joint " + std::to_string(c.bones[i].joint));
-    if (!c.bones[i].inverse_bind.matrix().allFinite())
+    if (!to_eigen(c.bones[i].inverse_bind).matrix().allFinite())
       reject(c, at("bone", i) + " has a bind matrix that is not finite");
   }
 }
@@ -45,7 +47,7 @@ void validate_influences(const Character& c) {
       c.influence_begin.back() != c.influences.size())
     reject(c, "influence offsets do not fit " + std::to_string(c.vertices.size()) + " vertices");
   for (std::size_t v = 0; v < c.vertices.size(); ++v) {
-    if (!c.vertices[v].allFinite()) reject(c, at("vertex", v) + " is not finite");
+    if (!to_eigen(c.vertices[v]).allFinite()) reject(c, at("vertex", v) + " is not finite");
     if (c.influence_begin[v] >= c.influence_begin[v + 1]) reject(c, at("vertex", v) + " follows no bone");
     if (c.influence_begin[v + 1] > c.influences.size())
       reject(c, at("vertex", v) + " has offsets out of range");
@@ -67,18 +69,19 @@ void validate_keys(const Character& c, const std::string& place, const std::vect
   for (std::size_t k = 0; k < keys.size(); ++k) {
     if (!std::isfinite(keys[k].time) || (k > 0 && keys[k].time < keys[k - 1].time))
       reject(c, place + ", " + at("key", k) + " is at " + shortest(keys[k].time) + " s, out of order");
-    if constexpr (std::is_same_v<Value, Eigen::Quaternionf>) {
-      if (!(std::abs(keys[k].value.norm() - 1) <= unit_tolerance))
-        reject(c, place + ", " + at("key", k) + " has a rotation of norm " + shortest(keys[k].value.norm()));
-    } else if (!keys[k].value.allFinite()) {
+    const auto value = coefficients(keys[k].value);
+    if constexpr (std::is_same_v<Value, Quaternion>) {
+      if (!(std::abs(value.norm() - 1) <= unit_tolerance))
+        reject(c, place + ", " + at("key", k) + " has a rotation of norm " + shortest(value.norm()));
+    } else if (!value.allFinite()) {
       reject(c, place + ", " + at("key", k) + " is not finite");
     }
   }
 }
 
-template <class Value, class Vector>
+template <class Value>
 void validate_part(const Character& c, const std::string& place, const std::vector<Key<Value>>& keys,
-                   const Curve<Vector>& curve) {
+                   const Curve<Value>& curve) {
   validate_keys(c, place, keys);
   if (curve.interpolation > Interpolation::cubic)
     reject(c, place + " has interpolation " + std::to_string(static_cast<int>(curve.interpolation)));
@@ -87,7 +90,7 @@ void validate_part(const Character& c, const std::string& place, const std::vect
     reject(c, place + " has " + std::to_string(curve.tangents.size()) + " pairs of tangents, not " +
                   std::to_string(tangents));
   for (std::size_t k = 0; k < tangents; ++k)
-    if (!curve.tangents[k].in.allFinite() || !curve.tangents[k].out.allFinite())
+    if (!coefficients(curve.tangents[k].in).allFinite() || !coefficients(curve.tangents[k].out).allFinite())
       reject(c, place + ", " + at("key", k) + " has tangents that are not finite");
 }
 

@@ -8,15 +8,15 @@
 #include <string>
 #include <vector>
 
-#include "layout/character/eigen.hpp"
+#include "layout/base/disc.hpp"
 
 namespace bch {
 
 /// A node of the skeleton. A parent stands before its children.
 struct Joint {
   std::string name;
-  std::int32_t parent = -1;                            ///< -1: a root
-  Eigen::Affine3f rest = Eigen::Affine3f::Identity();  ///< in the parent's frame, where a clip is silent
+  std::int32_t parent = -1;  ///< -1: a root
+  Affine3 rest;              ///< in the parent's frame, where a clip is silent
 };
 
 /// A value at a time in seconds.
@@ -31,29 +31,28 @@ struct Key {
 enum class Interpolation : std::uint8_t { linear, step, cubic };
 
 /// The derivatives of a value at a key, per second: before the key and behind it.
-template <class Vector>
+template <class Value>
 struct Tangents {
-  Vector in, out;
+  Value in, out;
 };
 
 /// The course of one part of a channel between its keys. Tangents are there for cubic alone, one pair a key.
-template <class Vector>
+template <class Value>
 struct Curve {
   Interpolation interpolation = Interpolation::linear;
-  std::vector<Tangents<Vector>> tangents;
+  std::vector<Tangents<Value>> tangents;
 };
 
 /// The motion of one joint relative to its parent; keys in order of time. An empty list leaves
 /// that part of the joint's rest transform as it is.
 struct Channel {
   std::uint32_t joint = 0;
-  std::vector<Key<Eigen::Vector3f>> positions;
-  std::vector<Key<Eigen::Quaternionf>> rotations;
-  std::vector<Key<Eigen::Vector3f>> scales;
-  Curve<Eigen::Vector3f> position_curve;
-  Curve<Eigen::Vector4f>
-      rotation_curve;  ///< x, y, z, w; cubic quaternions are normalised after they are blended
-  Curve<Eigen::Vector3f> scale_curve;
+  std::vector<Key<Vec3>> positions;
+  std::vector<Key<Quaternion>> rotations;
+  std::vector<Key<Vec3>> scales;
+  Curve<Vec3> position_curve;
+  Curve<Quaternion> rotation_curve;  ///< cubic quaternions are normalised after they are blended
+  Curve<Vec3> scale_curve;
 };
 
 struct Clip {
@@ -65,7 +64,7 @@ struct Clip {
 /// What moves vertices: a joint, and the map from a mesh's own frame into that joint's frame at rest.
 struct Bone {
   std::uint32_t joint = 0;
-  Eigen::Affine3f inverse_bind = Eigen::Affine3f::Identity();
+  Affine3 inverse_bind;
 };
 
 struct Influence {
@@ -80,12 +79,12 @@ struct Character {
   std::string name;
   std::vector<Joint> joints;
   std::vector<Bone> bones;
-  std::vector<Eigen::Vector3f> vertices;       ///< in the frames that the bones' inverse_bind expects
+  std::vector<Vec3> vertices;                  ///< in the frames that the bones' inverse_bind expects
   std::vector<std::uint32_t> influence_begin;  ///< vertices.size() + 1 offsets into influences
   std::vector<Influence> influences;           ///< weights of a vertex are positive and sum to 1
   std::vector<std::array<std::uint32_t, 3>> triangles;
   std::vector<Clip> clips;
-  Eigen::Affine3f to_ground = Eigen::Affine3f::Identity();  ///< file frame -> metres, z up
+  Affine3 to_ground;  ///< file frame -> metres, z up
   /// The joint whose point on the ground is a shape's origin; -1 for a mesh without skeleton, where it is the
   /// middle of the bounding rectangle.
   std::int32_t root_joint = -1;

@@ -32,8 +32,8 @@ __m128d shares(__m128d t, double missing) {
 struct Four {
   __m128d low, high;
 
-  explicit Four(const Eigen::Quaternionf& q) {
-    const __m128 coefficients = _mm_loadu_ps(q.coeffs().data());
+  explicit Four(const Quaternion& q) {
+    const __m128 coefficients = _mm_loadu_ps(&q.x);
     low = _mm_cvtps_pd(coefficients), high = _mm_cvtps_pd(_mm_movehl_ps(coefficients, coefficients));
   }
   Four(__m128d low_two, __m128d high_two) : low(low_two), high(high_two) {}
@@ -53,7 +53,7 @@ double dot(const Four& a, const Four& b) {
 
 }  // namespace
 
-Eigen::Quaterniond slerp(const Eigen::Quaternionf& a, const Eigen::Quaternionf& b, float t) {
+Eigen::Quaterniond slerp(const Quaternion& a, const Quaternion& b, float t) {
   Four from(a), to(b);
   double along = static_cast<double>(t), cosine = dot(from, to);
   if (cosine < 0) cosine = -cosine, to = -1 * to;

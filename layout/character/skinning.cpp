@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "layout/base/shortest.hpp"
+#include "layout/character/eigen.hpp"
 #include "layout/character/rotation_blend.hpp"
 
 namespace bch {
@@ -24,48 +25,41 @@ std::size_t key_after(const std::vector<Key<Value>>& keys, float seconds, std::s
   return static_cast<std::size_t>(after - keys.begin());
 }
 
-Eigen::Vector3d blend(const Eigen::Vector3f& a, const Eigen::Vector3f& b, float t) {
-  return (a + t * (b - a)).cast<double>();
+Eigen::Vector3d blend(const Vec3& a, const Vec3& b, float t) {
+  return (to_eigen(a) + t * (to_eigen(b) - to_eigen(a))).cast<double>();
 }
-Eigen::Quaterniond blend(const Eigen::Quaternionf& a, const Eigen::Quaternionf& b, float t) {
+Eigen::Quaterniond blend(const Quaternion& a, const Quaternion& b, float t) {
   return slerp(a, b, t);
 }
 
-const Eigen::Vector3f& vector_of(const Eigen::Vector3f& value) {
-  return value;
-}
-const Eigen::Vector4f& vector_of(const Eigen::Quaternionf& value) {
-  return value.coeffs();
-}
-
 /// A point of a cubic curve as a value; `earlier` is the key before it.
-Eigen::Vector3d value_of(const Eigen::Vector3d& point, const Eigen::Vector3f&) {
+Eigen::Vector3d value_of(const Eigen::Vector3d& point, const Vec3&) {
   return point;
 }
-Eigen::Quaterniond value_of(const Eigen::Vector4d& point, const Eigen::Quaternionf& earlier) {
+Eigen::Quaterniond value_of(const Eigen::Vector4d& point, const Quaternion& earlier) {
   constexpr double least_norm = 1e-6;  // keys of opposite signs lead through 0, which is no rotation
   const double norm = std::sqrt(point.squaredNorm());
-  return norm < least_norm ? earlier.cast<double>() : Eigen::Quaterniond(point / norm);
+  return norm < least_norm ? to_eigen(earlier).cast<double>() : Eigen::Quaterniond(point / norm);
 }
 
 /// The cubic Hermite spline of glTF 2.0, appendix C.5, between key a and the next one.
-template <class Value, class Vector>
-auto cubic(const std::vector<Key<Value>>& keys, const Curve<Vector>& curve, std::size_t a, float seconds) {
+template <class Value>
+auto cubic(const std::vector<Key<Value>>& keys, const Curve<Value>& curve, std::size_t a, float seconds) {
   const Key<Value>&from = keys[a], &to = keys[a + 1];
   const double length = static_cast<double>(to.time) - static_cast<double>(from.time);
   const double t = (static_cast<double>(seconds) - static_cast<double>(from.time)) / length;
   const double rest = 1 - t;
-  const auto point = (rest * rest * (1 + 2 * t) * vector_of(from.value).template cast<double>() +
-                      t * t * (3 - 2 * t) * vector_of(to.value).template cast<double>() +
-                      length * t * rest * rest * curve.tangents[a].out.template cast<double>() -
-                      length * t * t * rest * curve.tangents[a + 1].in.template cast<double>())
+  const auto point = (rest * rest * (1 + 2 * t) * coefficients(from.value).template cast<double>() +
+                      t * t * (3 - 2 * t) * coefficients(to.value).template cast<double>() +
+                      length * t * rest * rest * coefficients(curve.tangents[a].out).template cast<double>() -
+                      length * t * t * rest * coefficients(curve.tangents[a + 1].in).template cast<double>())
                          .eval();
   return value_of(point, from.value);
 }
 
 /// The value at a time; before the first key and behind the last one theirs.
-template <class Value, class Vector>
-auto interpolate(const std::vector<Key<Value>>& keys, const Curve<Vector>& curve, float seconds,
+template <class Value>
+auto interpolate(const std::vector<Key<Value>>& keys, const Curve<Value>& curve, float seconds,
                  std::size_t& guess) {
   const std::size_t after = guess = key_after(keys, seconds, guess);
   const Key<Value>&a = keys[after == 0 ? 0 : after - 1], &b = keys[after == keys.size() ? after - 1 : after];
@@ -74,10 +68,8 @@ auto interpolate(const std::vector<Key<Value>>& keys, const Curve<Vector>& curve
   return blend(a.value, b.value, holds ? 0 : (seconds - a.time) / (b.time - a.time));
 }
 
-auto from_above(Eigen::Vector3f& position) {
-  return position.head<2>();
-}
-auto from_above(Vec2& position) {
+template <class Position>
+auto from_above(Position& position) {
   return Eigen::Map<Eigen::Vector2f>(&position.x);
 }
 
@@ -90,6 +82,13 @@ void put_middle_at_origin(std::vector<Position>& positions) {
   for (Position& position : positions) from_above(position) -= middle;
 }
 
+AffineRows linear_rows(const Eigen::Matrix3d& linear) {
+  AffineRows rows;
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) rows.row[i][j] = linear(i, j);
+  return rows;
+}
+
 }  // namespace
 
 Skinner::Skinner(const Character& character)
@@ -100,9 +99,9 @@ Skinner::Skinner(const Character& character)
       blend_(character) {
   for (const Joint& joint : character.joints) {
     Eigen::Matrix3f rotation, scaling;
-    joint.rest.computeRotationScaling(&rotation, &scaling);
-    rest_.push_back({AffineRows(joint.rest), AffineRows(Eigen::Affine3f(rotation)),
-                     AffineRows(Eigen::Affine3f(scaling))});
+    to_eigen(joint.rest).computeRotationScaling(&rotation, &scaling);
+    rest_.push_back(
+        {AffineRows(joint.rest), linear_rows(rotation.cast<double>()), linear_rows(scaling.cast<double>())});
   }
   for (const std::uint32_t bone : blend_.bones()) {
     joint_of_bone_.push_back(character.bones[bone].joint);
@@ -121,10 +120,10 @@ AffineRows Skinner::local_transform(std::size_t joint, float seconds, std::size_
   if (!channel->rotations.empty() || !channel->scales.empty()) {
     AffineRows rotation = rest_rotation, scaling = rest_scaling;
     if (!channel->rotations.empty())
-      rotation = AffineRows(
+      rotation = linear_rows(
           interpolate(channel->rotations, channel->rotation_curve, seconds, guess).toRotationMatrix());
     if (!channel->scales.empty())
-      scaling = AffineRows(
+      scaling = linear_rows(
           interpolate(channel->scales, channel->scale_curve, seconds, guess).asDiagonal().toDenseMatrix());
     local = rotation * scaling;
     for (int i = 0; i < 3; ++i) local.row[i][3] = rest.row[i][3];
@@ -185,7 +184,7 @@ void Skinner::place_vertices(PoseTime at, std::vector<Position>& positions) {
   if (c.root_joint < 0) put_middle_at_origin(positions);
 }
 
-std::span<const Eigen::Vector3f> Skinner::pose(PoseTime at) {
+std::span<const Vec3> Skinner::pose(PoseTime at) {
   place_vertices(at, positions_);
   return positions_;
 }

@@ -26,7 +26,7 @@ class Skinner {
   ///          call.
   /// Errors:  throws std::invalid_argument on a clip or a time that is not there, std::domain_error on a
   ///          position that is not finite.
-  std::span<const Eigen::Vector3f> pose(PoseTime at);
+  std::span<const Vec3> pose(PoseTime at);
 
   /// Returns x and y of pose(), with the same bits, in three quarters of the time. Heights may have any
   /// value.
@@ -56,7 +56,7 @@ class Skinner {
   std::vector<std::uint32_t> joint_of_bone_;
   std::vector<AffineRows> inverse_bind_, bone_to_shape_;
   // These arrays hold the vertices. Each one gets its memory when its function is called first.
-  std::vector<Eigen::Vector3f> positions_;
+  std::vector<Vec3> positions_;
   std::vector<Vec2> ground_positions_;
 };
 

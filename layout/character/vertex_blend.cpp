@@ -30,7 +30,7 @@ struct Products {
   __m128 axis[axes];
 };
 
-constexpr std::size_t axes_of(const Eigen::Vector3f*) {
+constexpr std::size_t axes_of(const Vec3*) {
   return 3;
 }
 constexpr std::size_t axes_of(const Vec2*) {
@@ -58,14 +58,14 @@ __m128 halves(__m128 x, __m128 y) {
 }
 
 /// Writes two positions. Returns: what is NaN in some lane if one is not finite.
-__m128 put(const Products<3>& p, const Products<3>& q, Eigen::Vector3f& at_p, Eigen::Vector3f& at_q) {
-  const auto put_one = [](const Products<3>& sum, Eigen::Vector3f& at) {
+__m128 put(const Products<3>& p, const Products<3>& q, Vec3& at_p, Vec3& at_q) {
+  const auto put_one = [](const Products<3>& sum, Vec3& at) {
     const auto& [x, y, z] = sum.axis;
     const __m128 xy = halves(x, y), zz = _mm_add_ps(z, _mm_movehl_ps(z, z));
     // The last lane is finite if the third is.
     const __m128 all = _mm_add_ps(_mm_movelh_ps(xy, zz), _mm_shuffle_ps(xy, zz, _MM_SHUFFLE(0, 1, 3, 2)));
-    _mm_storel_pi(reinterpret_cast<__m64*>(at.data()), all);
-    _mm_store_ss(at.data() + 2, _mm_movehl_ps(all, all));
+    _mm_storel_pi(reinterpret_cast<__m64*>(&at), all);
+    _mm_store_ss(&at.z, _mm_movehl_ps(all, all));
     return _mm_sub_ps(all, all);
   };
   return _mm_or_ps(put_one(p, at_p), put_one(q, at_q));
@@ -101,8 +101,8 @@ __m128 blend_run(const Work<Position> work, std::size_t begin, std::size_t end, 
   return _mm_or_ps(not_finite, put(last, last, position(i), position(i)));
 }
 
-bool is_finite(const Eigen::Vector3f& position) {
-  return position.allFinite();
+bool is_finite(const Vec3& position) {
+  return std::isfinite(position.x) && std::isfinite(position.y) && std::isfinite(position.z);
 }
 bool is_finite(Vec2 position) {
   return std::isfinite(position.x) && std::isfinite(position.y);
@@ -127,10 +127,10 @@ VertexBlend::VertexBlend(const Character& character) : vertex_(character.vertice
     if (runs_.empty() || runs_.back().bones != count(v))
       runs_.push_back({count(v), runs_.empty() ? 0 : runs_.back().end});
     ++runs_.back().end;
-    const Eigen::Vector3f& at = character.vertices[v];
+    const Vec3& at = character.vertices[v];
     for (std::uint32_t i = begin[v]; i < begin[v + 1]; ++i) {
       const auto [bone, weight] = character.influences[i];
-      weighted_.push_back({{weight * at.x(), weight * at.y(), weight * at.z(), weight}});
+      weighted_.push_back({{weight * at.x, weight * at.y, weight * at.z, weight}});
       const auto found = std::lower_bound(bones_.begin(), bones_.end(), bone);
       first_row_.push_back(static_cast<std::uint32_t>(3 * (found - bones_.begin())));
     }
@@ -163,8 +163,7 @@ std::optional<std::uint32_t> VertexBlend::blend_all(std::span<const AffineRows> 
   return static_cast<std::uint32_t>(first - positions.begin());
 }
 
-std::optional<std::uint32_t> VertexBlend::blend(std::span<const AffineRows> maps,
-                                                std::span<Eigen::Vector3f> positions) {
+std::optional<std::uint32_t> VertexBlend::blend(std::span<const AffineRows> maps, std::span<Vec3> positions) {
   return blend_all(maps, positions);
 }
 

@@ -33,7 +33,7 @@ class VertexBlend {
 
   /// Writes where every vertex goes. maps[i] is that of bones()[i].
   /// Returns: the first vertex whose position is not finite, if there is one.
-  std::optional<std::uint32_t> blend(std::span<const AffineRows> maps, std::span<Eigen::Vector3f> positions);
+  std::optional<std::uint32_t> blend(std::span<const AffineRows> maps, std::span<Vec3> positions);
   /// Writes x and y alone, with the same bits, for views from above.
   std::optional<std::uint32_t> blend(std::span<const AffineRows> maps, std::span<Vec2> positions);
 

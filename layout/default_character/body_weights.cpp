@@ -5,6 +5,8 @@
 
 #include <algorithm>
 
+#include "layout/character/eigen.hpp"
+
 namespace bch {
 namespace {
 
@@ -51,17 +53,14 @@ void append_influences(Character& character, const Weights& weights) {
 }  // namespace
 
 void attach_skin(Character& character, const BodySurface& surface, const JointPositions& joints) {
-  for (std::uint32_t j = 0; j < body_joint_count; ++j) {
-    Bone bone{j, Eigen::Affine3f::Identity()};
-    bone.inverse_bind.translation() = -joints[j].cast<float>();
-    character.bones.push_back(bone);
-  }
+  for (std::uint32_t j = 0; j < body_joint_count; ++j)
+    character.bones.push_back({j, translation(-joints[j].cast<float>())});
   character.influence_begin.push_back(0);
   for (const Weights& weights : diffused(surface, 3)) {
     append_influences(character, weights);
     character.influence_begin.push_back(static_cast<std::uint32_t>(character.influences.size()));
   }
-  for (const Eigen::Vector3d& p : surface.positions) character.vertices.push_back(p.cast<float>());
+  for (const Eigen::Vector3d& p : surface.positions) character.vertices.push_back(vec3(p.cast<float>()));
   character.triangles = triangulated(surface);
 }
 

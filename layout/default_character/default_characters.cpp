@@ -3,6 +3,7 @@
 
 #include "layout/default_character/default_characters.hpp"
 
+#include "layout/character/eigen.hpp"
 #include "layout/default_character/body_weights.hpp"
 #include "layout/default_character/parametric_body.hpp"
 #include "layout/default_character/parametric_motion.hpp"
@@ -28,7 +29,7 @@ Character at_rest(std::string name, const BodyShape& shape, const JointPositions
     joint.name = joint_name(j);
     joint.parent = j == 0 ? -1 : static_cast<std::int32_t>(parent_index(j));
     const Eigen::Vector3d parent_at = j == 0 ? Eigen::Vector3d::Zero() : joints[parent_index(j)];
-    joint.rest.translation() = (joints[j] - parent_at).cast<float>();
+    joint.rest = translation((joints[j] - parent_at).cast<float>());
     character.joints.push_back(joint);
   }
   character.root_joint = 0;

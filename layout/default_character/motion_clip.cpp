@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "layout/character/eigen.hpp"
+
 namespace bch {
 namespace {
 
@@ -19,7 +21,7 @@ class Soles {
   Soles(const Character& character, const JointPositions& joints) : character_(character), joints_(joints) {
     const float sole_height = 0.02f;
     for (std::uint32_t v = 0; v < character.vertices.size(); ++v)
-      if (character.vertices[v].z() < sole_height) vertices_.push_back(v);
+      if (character.vertices[v].z < sole_height) vertices_.push_back(v);
   }
 
   std::vector<Vector3d> place(const HumanPose& pose) const {
@@ -29,9 +31,9 @@ class Soles {
       Vector3d sum = Vector3d::Zero();
       for (std::uint32_t i = character_.influence_begin[v]; i < character_.influence_begin[v + 1]; ++i) {
         const Influence& influence = character_.influences[i];
-        sum +=
-            static_cast<double>(influence.weight) *
-            (to_ground[influence.bone] * (character_.vertices[v].cast<double>() - joints_[influence.bone]));
+        sum += static_cast<double>(influence.weight) *
+               (to_ground[influence.bone] *
+                (to_eigen(character_.vertices[v]).cast<double>() - joints_[influence.bone]));
       }
       points.push_back(sum);
     }
@@ -97,8 +99,8 @@ Channel channel(std::uint32_t joint, const std::vector<HumanPose>& poses) {
     if (k > 0 && turn.dot(poses[k - 1].turn[joint]) < 0) turn.coeffs() *= -1;
     moves = moves || turn.angularDistance(poses[0].turn[joint]) > 1e-6;
     const float time = static_cast<float>(k) / keys_per_second;
-    c.rotations.push_back({time, turn.cast<float>()});
-    if (joint == 0) c.positions.push_back({time, poses[k].pelvis.cast<float>()});
+    c.rotations.push_back({time, quaternion(turn.cast<float>())});
+    if (joint == 0) c.positions.push_back({time, vec3(poses[k].pelvis.cast<float>())});
   }
   if (!moves) c.rotations.resize(1);
   return c;

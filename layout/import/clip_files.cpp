@@ -65,7 +65,7 @@ struct Pairing {
     const JointNames names(character.joints);
     for (const Joint& node : nodes.joints) {
       joint_of_node.push_back(names.find(node.name));
-      node_offset.push_back(node.rest.translation().cast<double>());
+      node_offset.push_back(to_eigen(node.rest).translation().cast<double>());
     }
     in_motion.resize(nodes.joints.size());
     for (const SourceChannel& channel : clip.channels) {
@@ -74,7 +74,7 @@ struct Pairing {
       in_motion[node->second] = true;
       // Some formats (md5anim) hold the skeleton's measures in the keys alone.
       if (!channel.motion.positions.empty())
-        node_offset[node->second] = channel.motion.positions.front().value.cast<double>();
+        node_offset[node->second] = to_eigen(channel.motion.positions.front().value).cast<double>();
     }
     for (std::size_t n = 0; n < nodes.joints.size(); ++n)
       if (nodes.joints[n].parent >= 0 && in_motion[static_cast<std::size_t>(nodes.joints[n].parent)])
@@ -106,7 +106,7 @@ Comparison compare(const Character& character, const NodeList& nodes, const Pair
     if (!pairing.in_motion[static_cast<std::size_t>(parent)]) continue;
 
     const Eigen::Vector3d ours =
-        joint.rest.translation().cast<double>() * scale_of(pairing.joint_to_file[upper]);
+        to_eigen(joint.rest).translation().cast<double>() * scale_of(pairing.joint_to_file[upper]);
     const Eigen::Vector3d theirs =
         pairing.node_offset[n] * scale_of(pairing.node_to_file[static_cast<std::size_t>(parent)]);
     if (!(ours.norm() > 0 && theirs.norm() > 0)) continue;
@@ -150,15 +150,16 @@ struct RootChange {
   }
 
   void apply(Channel& channel) const {
-    for (auto& key : channel.positions) key.value = (transform * key.value.cast<double>()).cast<float>();
+    for (auto& key : channel.positions)
+      key.value = vec3((transform * to_eigen(key.value).cast<double>()).cast<float>());
     for (auto& key : channel.rotations)
-      key.value = (rotation * key.value.cast<double>()).normalized().cast<float>();
+      key.value = quaternion((rotation * to_eigen(key.value).cast<double>()).normalized().cast<float>());
     for (auto& tangents : channel.position_curve.tangents)
-      for (Eigen::Vector3f* tangent : {&tangents.in, &tangents.out})
-        *tangent = (transform.linear() * tangent->cast<double>()).cast<float>();
+      for (Vec3* tangent : {&tangents.in, &tangents.out})
+        *tangent = vec3((transform.linear() * to_eigen(*tangent).cast<double>()).cast<float>());
     for (auto& tangents : channel.rotation_curve.tangents)
-      for (Eigen::Vector4f* tangent : {&tangents.in, &tangents.out})
-        *tangent = (rotation * Eigen::Quaterniond(tangent->cast<double>())).coeffs().cast<float>();
+      for (Quaternion* tangent : {&tangents.in, &tangents.out})
+        *tangent = quaternion((rotation * to_eigen(*tangent).cast<double>()).cast<float>());
   }
 };
 
@@ -222,7 +223,7 @@ class ClipFile {
   /// bone can be compared.
   double size_ratio(const Comparison& comparison, const Character& character) const {
     if (comparison.size_ratio) return *comparison.size_ratio;
-    const double ours = scale_of(character.to_ground.cast<double>());
+    const double ours = scale_of(to_eigen(character.to_ground).cast<double>());
     return declared_.scale ? static_cast<double>(*declared_.scale) / ours : 1.0;
   }
 

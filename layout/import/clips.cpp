@@ -16,40 +16,40 @@ namespace {
 constexpr double default_ticks_per_second = 25;  // what a reader is to assume where a file is silent
 constexpr double longest_clip = 1e6;             // seconds
 
-Eigen::Vector3f to_eigen(const aiVector3D& v) {
+Vec3 value_of(const aiVector3D& v) {
   return {v.x, v.y, v.z};
 }
-Eigen::Quaternionf to_eigen(const aiQuaternion& q) {
-  return {q.w, q.x, q.y, q.z};
+Quaternion value_of(const aiQuaternion& q) {
+  return {q.x, q.y, q.z, q.w};
 }
 
-const Eigen::Vector3f& vector_of(const Eigen::Vector3f& value) {
-  return value;
+Vec3 quotient(const Vec3& v, float divisor) {
+  return {v.x / divisor, v.y / divisor, v.z / divisor};
 }
-const Eigen::Vector4f& vector_of(const Eigen::Quaternionf& value) {
-  return value.coeffs();
+Quaternion quotient(const Quaternion& q, float divisor) {
+  return {q.x / divisor, q.y / divisor, q.z / divisor, q.w / divisor};
 }
 
 /// Puts keys and their tangents in order of time.
-template <class Value, class Vector>
-void sort_keys(std::vector<Key<Value>>& keys, std::vector<Tangents<Vector>>& tangents) {
+template <class Value>
+void sort_keys(std::vector<Key<Value>>& keys, std::vector<Tangents<Value>>& tangents) {
   std::vector<std::size_t> order(keys.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::stable_sort(order.begin(), order.end(),
                    [&](std::size_t a, std::size_t b) { return keys[a].time < keys[b].time; });
   const std::vector<Key<Value>> unsorted = keys;
-  const std::vector<Tangents<Vector>> unsorted_tangents = tangents;
+  const std::vector<Tangents<Value>> unsorted_tangents = tangents;
   for (std::size_t k = 0; k < keys.size(); ++k) keys[k] = unsorted[order[k]];
   for (std::size_t k = 0; k < tangents.size(); ++k) tangents[k] = unsorted_tangents[order[k]];
 }
 
-template <class Value, class Vector>
-bool is_constant(const std::vector<Key<Value>>& keys, const Curve<Vector>& curve) {
-  const bool equal = std::all_of(keys.begin(), keys.end(), [&](const Key<Value>& key) {
-    return vector_of(key.value) == vector_of(keys.front().value);
-  });
-  return equal && std::all_of(curve.tangents.begin(), curve.tangents.end(),
-                              [](const Tangents<Vector>& t) { return t.in.isZero(0) && t.out.isZero(0); });
+template <class Value>
+bool is_constant(const std::vector<Key<Value>>& keys, const Curve<Value>& curve) {
+  const bool equal = std::all_of(keys.begin(), keys.end(),
+                                 [&](const Key<Value>& key) { return key.value == keys.front().value; });
+  return equal && std::all_of(curve.tangents.begin(), curve.tangents.end(), [](const Tangents<Value>& t) {
+           return coefficients(t.in).isZero(0) && coefficients(t.out).isZero(0);
+         });
 }
 
 /// Reads one animation.
@@ -105,36 +105,37 @@ class ClipReader {
       ++repeated_;
   }
 
-  template <class Vector>
-  void check_vector(const Vector& value, const std::string& key) {
-    if (!value.allFinite()) file_.reject(place_ + ", " + key + " is not finite");
-    if (value.cwiseAbs().maxCoeff() > largest_number) file_.reject(place_ + ", " + key + " is absurd");
+  template <class Value>
+  void check_coefficients(const Value& value, const std::string& key) {
+    if (!coefficients(value).allFinite()) file_.reject(place_ + ", " + key + " is not finite");
+    if (coefficients(value).cwiseAbs().maxCoeff() > largest_number)
+      file_.reject(place_ + ", " + key + " is absurd");
   }
 
   /// Returns: what the value was divided by.
-  float check(Eigen::Vector3f& value, const std::string& key) {
-    check_vector(value, key);
+  float check(const Vec3& value, const std::string& key) {
+    check_coefficients(value, key);
     return 1;
   }
-  float check(Eigen::Quaternionf& value, const std::string& key) {
-    const double norm = value.cast<double>().norm();
+  float check(Quaternion& value, const std::string& key) {
+    const double norm = to_eigen(value).cast<double>().norm();
     if (!std::isfinite(norm) || norm < 1e-6) file_.reject(place_ + ", " + key + " is no rotation");
     if (std::abs(norm - 1) > 1e-3) ++normalised_;
-    value = value.cast<double>().normalized().cast<float>();
+    value = quaternion(to_eigen(value).cast<double>().normalized().cast<float>());
     return static_cast<float>(norm);
   }
 
   /// A list of equal keys becomes one key.
-  template <class Value, class Vector, class AiKey>
+  template <class Value, class AiKey>
   void read_part(const AiKey* source, unsigned size, const std::string& what, Interpolation interpolation,
-                 std::vector<Key<Value>>& keys, Curve<Vector>& curve) {
+                 std::vector<Key<Value>>& keys, Curve<Value>& curve) {
     if (size > 0 && source == nullptr) file_.reject(place_ + " has no " + what + " keys where it says so");
     const bool cubic = interpolation == Interpolation::cubic;
     keys.resize(cubic ? size / 3 : size);
     for (std::size_t k = 0; k < keys.size(); ++k) {
       const AiKey* const key = source + (cubic ? 3 * k + 1 : k);
       const std::string name = what + " key " + std::to_string(k);
-      keys[k] = {seconds_of(*key, name), to_eigen(key->mValue)};
+      keys[k] = {seconds_of(*key, name), value_of(key->mValue)};
       const float divisor = check(keys[k].value, name);
       if (!cubic) continue;
       curve.tangents.push_back({tangent(key[-1], divisor, name), tangent(key[1], divisor, name)});
@@ -162,10 +163,9 @@ class ClipReader {
 
   template <class AiKey>
   auto tangent(const AiKey& key, float divisor, const std::string& name) {
-    const auto value = to_eigen(key.mValue);
-    const auto vector = (vector_of(value) / divisor).eval();
-    check_vector(vector, "tangent of " + name);
-    return vector;
+    const auto value = quotient(value_of(key.mValue), divisor);
+    check_coefficients(value, "tangent of " + name);
+    return value;
   }
 
   /// A clip that starts before 0 is moved, as a pose's time counts from the start.
@@ -214,11 +214,11 @@ std::vector<Eigen::Vector3d> hull_of_positions(const Channel& channel) {
   const auto& keys = channel.positions;
   const auto& tangents = channel.position_curve.tangents;
   std::vector<Eigen::Vector3d> hull;
-  for (const auto& key : keys) hull.push_back(key.value.cast<double>());
+  for (const auto& key : keys) hull.push_back(to_eigen(key.value).cast<double>());
   for (std::size_t k = 1; k < tangents.size(); ++k) {
     const double third = (static_cast<double>(keys[k].time) - static_cast<double>(keys[k - 1].time)) / 3;
-    hull.push_back(hull[k - 1] + third * tangents[k - 1].out.cast<double>());
-    hull.push_back(hull[k] - third * tangents[k].in.cast<double>());
+    hull.push_back(hull[k - 1] + third * to_eigen(tangents[k - 1].out).cast<double>());
+    hull.push_back(hull[k] - third * to_eigen(tangents[k].in).cast<double>());
   }
   return hull;
 }

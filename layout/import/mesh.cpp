@@ -4,6 +4,7 @@
 #include "layout/import/mesh.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <compare>
 #include <numeric>
 #include <span>
@@ -16,15 +17,15 @@ std::string describe(const aiMesh& mesh, unsigned index) {
   return "mesh " + std::to_string(index) + (name.empty() ? "" : " '" + name + "'");
 }
 
-std::vector<Eigen::Vector3f> read_vertices(const SceneFile& file, const aiMesh& mesh,
-                                           const std::string& mesh_name) {
+std::vector<Vec3> read_vertices(const SceneFile& file, const aiMesh& mesh, const std::string& mesh_name) {
   if (mesh.mNumVertices > 0 && mesh.mVertices == nullptr) file.reject(mesh_name + " has no positions");
-  std::vector<Eigen::Vector3f> vertices(mesh.mNumVertices);
+  std::vector<Vec3> vertices(mesh.mNumVertices);
   for (unsigned v = 0; v < mesh.mNumVertices; ++v) {
     vertices[v] = {mesh.mVertices[v].x, mesh.mVertices[v].y, mesh.mVertices[v].z};
     const std::string place = mesh_name + ", vertex " + std::to_string(v);
-    if (!vertices[v].allFinite()) file.reject(place + " is not finite");
-    if (vertices[v].cwiseAbs().maxCoeff() > largest_number) file.reject(place + " is absurdly far away");
+    if (!to_eigen(vertices[v]).allFinite()) file.reject(place + " is not finite");
+    if (to_eigen(vertices[v]).cwiseAbs().maxCoeff() > largest_number)
+      file.reject(place + " is absurdly far away");
   }
   return vertices;
 }
@@ -67,7 +68,7 @@ class MeshAppender {
       report_.notes.push_back(name + " has bones and hangs on several nodes: it is taken once");
       return;
     }
-    const std::vector<Eigen::Vector3f> vertices = read_vertices(file_, mesh, name);
+    const std::vector<Vec3> vertices = read_vertices(file_, mesh, name);
     const auto triangles = read_triangles(file_, mesh, name, report_);
     if (triangles.empty()) {
       report_.dropped_vertices += vertices.size();
@@ -95,7 +96,7 @@ class MeshAppender {
     if (mesh.mNumBones > 0) {
       lists = read_influences(file_, nodes_, mesh, name, bones_, report_);
     } else {
-      const std::uint32_t bone = bones_.add(node, Eigen::Affine3f::Identity());
+      const std::uint32_t bone = bones_.add(node, {});
       lists.assign(mesh.mNumVertices, {Influence{bone, 1.0f}});
     }
     is_skin_.resize(character_.bones.size(), mesh.mNumBones > 0);
@@ -111,7 +112,7 @@ class MeshAppender {
       character_.triangles.push_back({a + offset, b + offset, c + offset});
   }
 
-  void append_vertices(const std::vector<Eigen::Vector3f>& vertices, const InfluenceLists& lists) {
+  void append_vertices(const std::vector<Vec3>& vertices, const InfluenceLists& lists) {
     constexpr std::size_t most = 0x7fffffff;
     if (character_.vertices.size() + vertices.size() > most) file_.reject("too many vertices");
     character_.vertices.insert(character_.vertices.end(), vertices.begin(), vertices.end());
@@ -137,8 +138,8 @@ std::weak_ordering order(float a, float b) {
 
 /// Compares two vertices by position, then by influences.
 std::weak_ordering compare_vertices(const Character& c, std::uint32_t a, std::uint32_t b) {
-  for (int axis = 0; axis < 3; ++axis)
-    if (const auto result = order(c.vertices[a][axis], c.vertices[b][axis]); result != 0) return result;
+  for (const auto axis : {&Vec3::x, &Vec3::y, &Vec3::z})
+    if (const auto result = order(c.vertices[a].*axis, c.vertices[b].*axis); result != 0) return result;
   const std::span<const Influence> of_a = influences_of(c, a);
   const std::span<const Influence> of_b = influences_of(c, b);
   return std::lexicographical_compare_three_way(
@@ -167,9 +168,8 @@ std::vector<std::uint32_t> find_equals(const Character& c) {
 
 }  // namespace
 
-std::uint32_t BoneTable::add(std::uint32_t joint, const Eigen::Affine3f& inverse_bind) {
-  std::array<float, 12> elements;
-  Eigen::Map<Eigen::Matrix<float, 3, 4>>(elements.data()) = inverse_bind.matrix().topRows<3>();
+std::uint32_t BoneTable::add(std::uint32_t joint, const Affine3& inverse_bind) {
+  const auto elements = std::bit_cast<std::array<float, 12>>(inverse_bind);
   const auto next = static_cast<std::uint32_t>(bones_->size());
   const auto [place, added] = indices_.try_emplace({joint, elements}, next);
   if (added) bones_->push_back({joint, inverse_bind});

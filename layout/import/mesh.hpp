@@ -20,7 +20,7 @@ class BoneTable {
  public:
   explicit BoneTable(std::vector<Bone>& bones) : bones_(&bones) {}
 
-  std::uint32_t add(std::uint32_t joint, const Eigen::Affine3f& inverse_bind);
+  std::uint32_t add(std::uint32_t joint, const Affine3& inverse_bind);
 
  private:
   std::vector<Bone>* bones_;

@@ -111,7 +111,7 @@ SceneFile::SceneFile(const std::filesystem::path& file, const ImportOptions& opt
   if (scene->mRootNode == nullptr) reject("no scene");
 }
 
-Eigen::Affine3f read_matrix(const SceneFile& file, const aiMatrix4x4& m, const std::string& what) {
+Affine3 read_matrix(const SceneFile& file, const aiMatrix4x4& m, const std::string& what) {
   constexpr float tolerance = 1e-4f;
   Eigen::Matrix4f matrix;
   matrix << m.a1, m.a2, m.a3, m.a4, m.b1, m.b2, m.b3, m.b4, m.c1, m.c2, m.c3, m.c4, m.d1, m.d2, m.d3, m.d4;
@@ -120,7 +120,7 @@ Eigen::Affine3f read_matrix(const SceneFile& file, const aiMatrix4x4& m, const s
   if (matrix.row(3).head<3>().cwiseAbs().maxCoeff() > tolerance || std::abs(matrix(3, 3) - 1) > tolerance)
     file.reject(what + " has a transform that is not affine");
   matrix.row(3) << 0, 0, 0, 1;
-  return Eigen::Affine3f(matrix);
+  return affine3(Eigen::Affine3f(matrix));
 }
 
 /// Reads the nodes depth first and in the order of the file, with a stack of our own, because a file chooses
@@ -138,11 +138,11 @@ NodeList read_nodes(const SceneFile& file) {
     if (node == nullptr) file.reject("the scene has a missing node");
     if (list.nodes.size() == most_nodes) file.reject("more than " + count(most_nodes, "node"));
 
-    Joint joint{to_string(node->mName), parent, Eigen::Affine3f::Identity()};
+    Joint joint{to_string(node->mName), parent, {}};
     joint.rest = read_matrix(file, node->mTransformation, "node '" + joint.name + "'");
     // Some versions of assimp turn the root of an FBX file as its axes ask, others leave it alone; the axes
     // are applied here, so they must not be applied twice.
-    if (parent < 0 && file.is_fbx()) joint.rest.setIdentity();
+    if (parent < 0 && file.is_fbx()) joint.rest = {};
     const auto index = static_cast<std::uint32_t>(list.nodes.size());
     if (!list.by_name.try_emplace(joint.name, index).second) list.shared_names.insert(joint.name);
     list.joints.push_back(std::move(joint));
@@ -165,7 +165,7 @@ void note_if_shared(const NodeList& nodes, const std::string& name, ImportReport
 std::vector<Eigen::Affine3d> rest_to_file(const std::vector<Joint>& joints) {
   std::vector<Eigen::Affine3d> transforms(joints.size());
   for (std::size_t j = 0; j < joints.size(); ++j) {
-    transforms[j] = joints[j].rest.cast<double>();
+    transforms[j] = to_eigen(joints[j].rest).cast<double>();
     if (joints[j].parent >= 0)
       transforms[j] = transforms[static_cast<std::size_t>(joints[j].parent)] * transforms[j];
   }

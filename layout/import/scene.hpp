@@ -5,7 +5,6 @@
 
 #include <assimp/scene.h>
 
-#include <Eigen/Geometry>
 #include <assimp/Importer.hpp>
 #include <cstdint>
 #include <filesystem>
@@ -14,6 +13,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "layout/character/eigen.hpp"
 #include "layout/import/gltf.hpp"
 #include "layout/import/import.hpp"
 
@@ -71,7 +71,7 @@ NodeList read_nodes(const SceneFile& file);
 void note_if_shared(const NodeList& nodes, const std::string& name, ImportReport& report);
 
 /// Errors:  throws ImportError naming `what` if the matrix is not finite or not affine.
-Eigen::Affine3f read_matrix(const SceneFile& file, const aiMatrix4x4& matrix, const std::string& what);
+Affine3 read_matrix(const SceneFile& file, const aiMatrix4x4& matrix, const std::string& what);
 
 /// Every joint's transform at rest into the frame of the file.
 std::vector<Eigen::Affine3d> rest_to_file(const std::vector<Joint>& joints);

@@ -67,9 +67,9 @@ std::optional<Direction> up_before_reader(const aiMatrix4x4& root) {
   return std::nullopt;
 }
 
-Eigen::AlignedBox3f box_of(std::span<const Eigen::Vector3f> positions) {
+Eigen::AlignedBox3f box_of(std::span<const Vec3> positions) {
   Eigen::AlignedBox3f box;
-  for (const Eigen::Vector3f& position : positions) box.extend(position);
+  for (const Vec3& position : positions) box.extend(to_eigen(position));
   return box;
 }
 
@@ -176,7 +176,7 @@ std::vector<double> metres_above(const Character& character) {
   const auto scale_of = [](const Eigen::Affine3d& transform) {
     return std::cbrt(std::abs(transform.linear().determinant()));
   };
-  const double unit = scale_of(character.to_ground.cast<double>());
+  const double unit = scale_of(to_eigen(character.to_ground).cast<double>());
   const std::vector<Eigen::Affine3d> to_file = rest_to_file(character.joints);
   std::vector<double> scales;
   for (const Joint& joint : character.joints)
@@ -219,12 +219,12 @@ Eigen::Matrix3f upright(Direction up) {
 
 Direction settle_frame(const SceneFile& file, const DeclaredFrame& declared, const ImportOptions& options,
                        Character& character, ImportReport& report) {
-  character.to_ground.setIdentity();
+  character.to_ground = {};
   const Eigen::AlignedBox3f rest = rest_box(character);
   const Direction up = choose_up(declared, options, rest, report);
   const float height = rest.sizes()[static_cast<Eigen::Index>(up.axis)];
   const float scale = choose_scale(file, declared, options, height, report);
-  character.to_ground.linear() = upright(up) * scale;
+  character.to_ground = affine3(Eigen::Affine3f(upright(up) * scale));
   return up;
 }
 
@@ -232,14 +232,14 @@ void check_poses(const SceneFile& file, const Character& character) {
   check_ways(file, character);
   Skinner skinner(character);
   const auto check = [&](PoseTime at, const std::string& name) {
-    std::span<const Eigen::Vector3f> positions;
+    std::span<const Vec3> positions;
     try {
       positions = skinner.pose(at);
     } catch (const std::domain_error& error) {
       file.reject(name + ": " + error.what());
     }
     for (std::size_t v = 0; v < positions.size(); ++v)
-      if (positions[v].cwiseAbs().maxCoeff() > farthest)
+      if (to_eigen(positions[v]).cwiseAbs().maxCoeff() > farthest)
         file.reject(name + ": vertex " + std::to_string(v) + " is absurdly far away");
   };
   check(PoseTime{}, "rest pose");

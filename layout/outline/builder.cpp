@@ -38,7 +38,7 @@ GridBox box_around(std::span<const Stretch> contour) {
 /// What is known of the mesh, and the scratch of a pose.
 struct OutlineBuilder::State {
   State(std::span<const std::array<std::uint32_t, 3>> triangles, std::size_t vertex_count,
-        std::span<const Eigen::Vector3f> bind_pose, const OutlineImplementation& implementation)
+        std::span<const Vec3> bind_pose, const OutlineImplementation& implementation)
       : vertices(vertex_count),
         topology(outline_topology(triangles, vertex_count, bind_pose)),
         points(topology.used.size()),
@@ -172,12 +172,11 @@ void OutlineBuilder::State::write(double step, Outline& outline) const {
 }
 
 OutlineBuilder::OutlineBuilder(std::span<const std::array<std::uint32_t, 3>> triangles, std::size_t vertices,
-                               std::span<const Eigen::Vector3f> bind_pose)
+                               std::span<const Vec3> bind_pose)
     : OutlineBuilder(triangles, vertices, bind_pose, best_outline_implementation()) {}
 
 OutlineBuilder::OutlineBuilder(std::span<const std::array<std::uint32_t, 3>> triangles, std::size_t vertices,
-                               std::span<const Eigen::Vector3f> bind_pose,
-                               const OutlineImplementation& implementation)
+                               std::span<const Vec3> bind_pose, const OutlineImplementation& implementation)
     : state_(std::make_unique<State>(triangles, vertices, bind_pose, implementation)) {}
 
 OutlineBuilder::OutlineBuilder(OutlineBuilder&&) noexcept = default;
@@ -188,7 +187,7 @@ void OutlineBuilder::build(std::span<const Vec2> positions, Outline& outline) {
   state_->build(positions, outline);
 }
 
-void OutlineBuilder::build(std::span<const Eigen::Vector3f> positions, Outline& outline) {
+void OutlineBuilder::build(std::span<const Vec3> positions, Outline& outline) {
   state_->build(positions, outline);
 }
 

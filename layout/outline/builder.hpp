@@ -8,7 +8,7 @@
 #include <memory>
 #include <span>
 
-#include "layout/character/eigen.hpp"
+#include "layout/base/disc.hpp"
 #include "layout/format/outline.hpp"
 
 namespace bch {
@@ -36,10 +36,10 @@ class OutlineBuilder {
   /// Errors:  throws std::invalid_argument on no triangles, an index out of range, a bind pose of another
   ///          length or with a position that is not finite. Vertices that no triangle uses do not count.
   OutlineBuilder(std::span<const std::array<std::uint32_t, 3>> triangles, std::size_t vertices,
-                 std::span<const Eigen::Vector3f> bind_pose = {});
+                 std::span<const Vec3> bind_pose = {});
   /// Uses a given implementation instead of the best. This processor has to support it.
   OutlineBuilder(std::span<const std::array<std::uint32_t, 3>> triangles, std::size_t vertices,
-                 std::span<const Eigen::Vector3f> bind_pose, const OutlineImplementation& implementation);
+                 std::span<const Vec3> bind_pose, const OutlineImplementation& implementation);
   OutlineBuilder(OutlineBuilder&&) noexcept;
   OutlineBuilder& operator=(OutlineBuilder&&) noexcept;
   ~OutlineBuilder();
@@ -51,7 +51,7 @@ class OutlineBuilder {
   ///          is not finite, a reach outside the domain of rounding.hpp, or when every triangle is a point.
   void build(std::span<const Vec2> positions, Outline& outline);
   /// Writes the outline of positions with heights, which may have any value.
-  void build(std::span<const Eigen::Vector3f> positions, Outline& outline);
+  void build(std::span<const Vec3> positions, Outline& outline);
 
  private:
   struct State;

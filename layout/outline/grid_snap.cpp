@@ -20,17 +20,10 @@ namespace {
 
 constexpr int grid_bits = 23;
 
-const float* coordinates(const Eigen::Vector3f& position) {
-  return position.data();
-}
-const float* coordinates(const Vec2& position) {
-  return &position.x;
-}
-
 /// Eight bytes: behind the last vertex there need not be more than its height.
 template <class Position>
 __m128i load(const Position& position) {
-  return _mm_loadl_epi64(reinterpret_cast<const __m128i*>(coordinates(position)));
+  return _mm_loadl_epi64(reinterpret_cast<const __m128i*>(&position));
 }
 
 /// (x, y) of some of the vertices, in the order of their numbers.
@@ -98,7 +91,7 @@ template <class Position>
 [[noreturn]] void reject(std::span<const Position> positions, std::span<const std::uint32_t> used,
                          float reach) {
   for (const std::uint32_t v : used)
-    if (!std::isfinite(coordinates(positions[v])[0]) || !std::isfinite(coordinates(positions[v])[1]))
+    if (!std::isfinite(positions[v].x) || !std::isfinite(positions[v].y))
       throw std::invalid_argument("outline: vertex " + std::to_string(v) + " is not finite");
   throw std::invalid_argument("outline: reach " + shortest(reach) + " m is outside 1e-6 to 1e6 m");
 }
@@ -128,7 +121,7 @@ double snap_to_grid(const Vertices& vertices, std::span<const Position> position
 
 }  // namespace
 
-double snap_to_grid(std::span<const Eigen::Vector3f> positions, std::span<const std::uint32_t> used,
+double snap_to_grid(std::span<const Vec3> positions, std::span<const std::uint32_t> used,
                     std::span<GridPoint> points) {
   return snap_to_grid(Chosen(positions, used), positions, used, points);
 }

@@ -3,7 +3,6 @@
 
 #pragma once
 
-#include <Eigen/Core>
 #include <cstdint>
 #include <span>
 
@@ -21,7 +20,7 @@ namespace bch {
 ///          domain of rounding.hpp.
 double snap_to_grid(std::span<const Vec2> positions, std::span<const std::uint32_t> used,
                     std::span<GridPoint> points);
-double snap_to_grid(std::span<const Eigen::Vector3f> positions, std::span<const std::uint32_t> used,
+double snap_to_grid(std::span<const Vec3> positions, std::span<const std::uint32_t> used,
                     std::span<GridPoint> points);
 
 }  // namespace bch

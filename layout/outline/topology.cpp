@@ -4,6 +4,7 @@
 #include "layout/outline/topology.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 #include <stdexcept>
 #include <string>
@@ -14,7 +15,7 @@ namespace {
 
 using EdgeUse = OutlineTopology::EdgeUse;
 using Triangles = std::span<const std::array<std::uint32_t, 3>>;
-using Positions = std::span<const Eigen::Vector3f>;
+using Positions = std::span<const Vec3>;
 
 constexpr std::uint32_t unused = 0xffffffff;
 
@@ -37,12 +38,13 @@ void number_anew(Triangles triangles, std::size_t vertices, OutlineTopology& top
   for (const auto& [a, b, c] : triangles) topology.triangles.push_back({number[a], number[b], number[c]});
 }
 
-std::vector<Eigen::Vector3f> used_positions(Positions bind_pose, std::span<const std::uint32_t> used) {
-  std::vector<Eigen::Vector3f> positions;
+std::vector<Vec3> used_positions(Positions bind_pose, std::span<const std::uint32_t> used) {
+  std::vector<Vec3> positions;
   for (const std::uint32_t v : used) {
-    if (!bind_pose[v].allFinite())
+    const Vec3& at = bind_pose[v];
+    if (!std::isfinite(at.x) || !std::isfinite(at.y) || !std::isfinite(at.z))
       throw std::invalid_argument("outline: vertex " + std::to_string(v) + " of the bind pose is not finite");
-    positions.push_back(bind_pose[v]);
+    positions.push_back(at);
   }
   return positions;
 }
@@ -53,7 +55,7 @@ std::vector<std::uint32_t> welded(Positions positions, std::size_t vertices) {
   std::iota(weld.begin(), weld.end(), 0u);
   if (positions.empty()) return weld;
   const auto key = [&](std::uint32_t v) {
-    return std::tuple(positions[v].x(), positions[v].y(), positions[v].z());
+    return std::tuple(positions[v].x, positions[v].y, positions[v].z);
   };
   std::vector<std::uint32_t> order = weld;
   std::sort(order.begin(), order.end(),
@@ -66,8 +68,12 @@ std::vector<std::uint32_t> welded(Positions positions, std::size_t vertices) {
 /// An edge: all triangles' uses of it, and where it is.
 struct Edge {
   std::span<EdgeUse> uses;
-  Eigen::Vector3f middle;
+  std::array<float, 3> middle;
 };
+
+std::array<float, 3> middle_of(const Vec3& a, const Vec3& b) {
+  return {0.5f * a.x + 0.5f * b.x, 0.5f * a.y + 0.5f * b.y, 0.5f * a.z + 0.5f * b.z};
+}
 
 bool manifold(std::span<const EdgeUse> uses) {
   return uses.size() == 2 && uses[0].a == uses[1].a && uses[0].b == uses[1].b &&
@@ -98,8 +104,8 @@ std::vector<Edge> edges_of(std::vector<EdgeUse>& uses, std::span<const std::uint
   for (std::size_t begin = 0, end = 0; begin < uses.size(); begin = end) {
     const auto [a, b, triangle, direction] = uses[begin];
     while (end < uses.size() && weld[uses[end].a] == weld[a] && weld[uses[end].b] == weld[b]) ++end;
-    edges.push_back({std::span(uses).subspan(begin, end - begin), Eigen::Vector3f::Zero()});
-    if (!positions.empty()) edges.back().middle = 0.5f * positions[a] + 0.5f * positions[b];
+    edges.push_back({std::span(uses).subspan(begin, end - begin), {}});
+    if (!positions.empty()) edges.back().middle = middle_of(positions[a], positions[b]);
   }
   return edges;
 }
@@ -108,13 +114,13 @@ std::vector<Edge> edges_of(std::vector<EdgeUse>& uses, std::span<const std::uint
 void sort_by_place(std::span<Edge> edges) {
   constexpr std::size_t together = 8;
   if (edges.size() <= together) return;
-  Eigen::Vector3f low = edges[0].middle, high = low;
-  for (const Edge& edge : edges) {
-    low = low.cwiseMin(edge.middle);
-    high = high.cwiseMax(edge.middle);
+  std::array<float, 3> extent;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const auto [low, high] = std::minmax_element(
+        edges.begin(), edges.end(), [k](const Edge& a, const Edge& b) { return a.middle[k] < b.middle[k]; });
+    extent[k] = high->middle[k] - low->middle[k];
   }
-  int axis = 0;
-  (high - low).maxCoeff(&axis);
+  const auto axis = static_cast<std::size_t>(std::max_element(extent.begin(), extent.end()) - extent.begin());
   const auto half = edges.begin() + static_cast<std::ptrdiff_t>(edges.size() / 2);
   std::nth_element(edges.begin(), half, edges.end(), [axis](const Edge& a, const Edge& b) {
     return std::pair(a.middle[axis], a.uses.data()) < std::pair(b.middle[axis], b.uses.data());
@@ -153,7 +159,7 @@ OutlineTopology outline_topology(Triangles triangles, std::size_t vertices, Posi
                                 " positions for " + std::to_string(vertices) + " vertices");
   OutlineTopology topology;
   number_anew(triangles, vertices, topology);
-  std::vector<Eigen::Vector3f> positions;
+  std::vector<Vec3> positions;
   if (!bind_pose.empty()) positions = used_positions(bind_pose, topology.used);
 
   const std::vector<std::uint32_t> weld = welded(positions, topology.used.size());

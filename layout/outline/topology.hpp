@@ -3,11 +3,12 @@
 
 #pragma once
 
-#include <Eigen/Core>
 #include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
+
+#include "layout/base/disc.hpp"
 
 namespace bch {
 
@@ -46,6 +47,6 @@ struct OutlineTopology {
 /// Errors:  throws std::invalid_argument on no triangles, an index out of range, or a bind pose that has not
 ///          `vertices` positions or one that is not finite where a triangle uses it.
 OutlineTopology outline_topology(std::span<const std::array<std::uint32_t, 3>> triangles,
-                                 std::size_t vertices, std::span<const Eigen::Vector3f> bind_pose);
+                                 std::size_t vertices, std::span<const Vec3> bind_pose);
 
 }  // namespace bch

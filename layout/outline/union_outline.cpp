@@ -9,11 +9,11 @@
 
 namespace bch {
 
-Outline union_outline(std::span<const Eigen::Vector3f> positions,
+Outline union_outline(std::span<const Vec3> positions,
                       std::span<const std::array<std::uint32_t, 3>> triangles) {
-  std::vector<Eigen::Vector3f> flat;  // heights do not matter, not even whether they are numbers
+  std::vector<Vec3> flat;  // heights do not matter, not even whether they are numbers
   flat.reserve(positions.size());
-  for (const Eigen::Vector3f& p : positions) flat.emplace_back(p.x(), p.y(), 0.0f);
+  for (const Vec3& p : positions) flat.push_back({p.x, p.y, 0});
   Outline outline;
   OutlineBuilder(triangles, flat.size(), flat).build(flat, outline);
   return outline;

@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <span>
 
-#include "layout/character/eigen.hpp"
+#include "layout/base/disc.hpp"
 #include "layout/format/outline.hpp"
 
 namespace bch {
@@ -17,7 +17,7 @@ namespace bch {
 /// Shapes:  triangle indices are below positions.size(); vertices that no triangle uses do not count.
 /// Errors:  throws std::invalid_argument on no triangles, an index out of range, a coordinate that is not
 ///          finite, or a reach outside the domain of rounding.hpp.
-Outline union_outline(std::span<const Eigen::Vector3f> positions,
+Outline union_outline(std::span<const Vec3> positions,
                       std::span<const std::array<std::uint32_t, 3>> triangles);
 
 }  // namespace bch

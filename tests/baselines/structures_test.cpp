@@ -31,7 +31,7 @@ using Triangles = std::vector<std::array<std::uint32_t, 3>>;
 const Triangles block_triangles = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4},
                                    {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
 
-Body body_of(const std::vector<Eigen::Vector3f>& positions, const Triangles& triangles) {
+Body body_of(const std::vector<Vec3>& positions, const Triangles& triangles) {
   Body body{positions, triangles, {}};
   body.shape.outline = union_outline(positions, triangles);
   body.shape.hierarchy = contour_hierarchy(body.shape.outline, 0.01f);
@@ -40,10 +40,10 @@ Body body_of(const std::vector<Eigen::Vector3f>& positions, const Triangles& tri
 
 /// A block from -half to half on the ground, and from `bottom` to `top`.
 Body block(float half_x, float half_y, float bottom, float top) {
-  std::vector<Eigen::Vector3f> corners;
+  std::vector<Vec3> corners;
   for (int i = 0; i < 8; ++i)
-    corners.emplace_back((i & 1) != 0 ? half_x : -half_x, (i & 2) != 0 ? half_y : -half_y,
-                         (i & 4) != 0 ? top : bottom);
+    corners.push_back(
+        {(i & 1) != 0 ? half_x : -half_x, (i & 2) != 0 ? half_y : -half_y, (i & 4) != 0 ? top : bottom});
   return body_of(corners, block_triangles);
 }
 
@@ -148,7 +148,7 @@ TEST(Kinds, TheFixedCylinderHasItsRadius) {
 
 /// A triangle seen edge-on, one that is a segment, and one that is a point beside others.
 TEST(Kinds, TakeDegenerateTriangles) {
-  const std::vector<Eigen::Vector3f> positions = {{0, 0, 0}, {0.4f, 0, 0}, {0.2f, 0, 0.5f}, {0, 0.3f, 0}};
+  const std::vector<Vec3> positions = {{0, 0, 0}, {0.4f, 0, 0}, {0.2f, 0, 0.5f}, {0, 0.3f, 0}};
   const std::vector<Triangles> meshes = {{{0, 1, 2}}, {{0, 1, 1}, {3, 3, 3}}, {{0, 1, 3}, {2, 2, 2}}};
   std::vector<Body> bodies;
   for (const Triangles& triangles : meshes) bodies.push_back(body_of(positions, triangles));
@@ -190,8 +190,8 @@ TEST(BadInput, BodiesAreNamedWithWhatIsWrong) {
                                                     : "accepted");
     for (const std::string& message :
          {build([](Body& body) { body.triangles = {}; }), build([&](Body& body) { body.triangles = wild; }),
-          build([](Body& body) { body.positions[3].x() = NAN; }),
-          build([](Body& body) { body.positions[3].x() = 2e6f; })})
+          build([](Body& body) { body.positions[3].x = NAN; }),
+          build([](Body& body) { body.positions[3].x = 2e6f; })})
       EXPECT_TRUE(uses_triangles ? message.starts_with("body 1: ") : message == "accepted") << message;
   }
   for (const float radius : {0.0f, -1.0f, std::numeric_limits<float>::quiet_NaN(), 2e6f})

@@ -27,7 +27,7 @@ namespace {
 LoadedCharacter vanishing_man() {
   LoadedCharacter man{"man.glb", default_male(), {}};
   Clip clip{"vanish", 1, {{}}};
-  clip.channels[0].scales = {{0, Eigen::Vector3f::Ones()}, {1, Eigen::Vector3f::Zero()}};
+  clip.channels[0].scales = {{0, {1, 1, 1}}, {1, {0, 0, 0}}};
   man.character.clips = {clip};
   validate(man.character);
   return man;

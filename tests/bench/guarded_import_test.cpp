@@ -58,10 +58,10 @@ TEST(GuardedImport, ACharacterArrivesAsItWasRead) {
   const ImportedCharacter again = imported_from(direct);
   EXPECT_EQ(to_bytes(again), direct);
   EXPECT_EQ(again.character.clips.at(0).channels.size(), 2u);
-  const Curve<Eigen::Vector3f>& curve = again.character.clips[0].channels[0].position_curve;
+  const Curve<Vec3>& curve = again.character.clips[0].channels[0].position_curve;
   EXPECT_EQ(curve.interpolation, Interpolation::cubic);
   ASSERT_EQ(curve.tangents.size(), 1u);
-  EXPECT_EQ(curve.tangents[0].out, Eigen::Vector3f::Ones());
+  EXPECT_EQ(curve.tangents[0].out, (Vec3{1, 1, 1}));
   EXPECT_EQ(again.report.clips.at(0).name, "walk");
   EXPECT_EQ(again.report.triangles, 2u);
 }

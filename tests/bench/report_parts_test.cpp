@@ -16,6 +16,7 @@
 #include "bench/report/tree_size.hpp"
 #include "bench/report/words.hpp"
 #include "bench/workload/mesh_detail.hpp"
+#include "layout/character/eigen.hpp"
 #include "layout/default_character/default_characters.hpp"
 #include "layout/scene/pose_shape.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -188,7 +189,7 @@ TEST(ReportParts, RandomPosesAreTheSameForASeed) {
 }
 
 TEST(ReportParts, ClosedMeshesHaveAVolume) {
-  const std::vector<Eigen::Vector3f> corners = {{5, 5, 5}, {6, 5, 5}, {5, 6, 5}, {5, 5, 6}};
+  const std::vector<Vec3> corners = {{5, 5, 5}, {6, 5, 5}, {5, 6, 5}, {5, 5, 6}};
   std::vector<std::array<std::uint32_t, 3>> sides = {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}};
   EXPECT_TRUE(is_closed(sides));
   EXPECT_NEAR(enclosed_volume(corners, sides), 1.0 / 6, 1e-6);
@@ -206,7 +207,7 @@ TEST(ReportParts, ReliefStandsOutOfTheSurface) {
   EXPECT_TRUE(is_closed(relief.triangles));
   float farthest = 0;
   for (std::size_t v = 0; v < flat.vertices.size(); ++v) {
-    const float moved = (relief.vertices[v] - flat.vertices[v]).norm();
+    const float moved = (to_eigen(relief.vertices[v]) - to_eigen(flat.vertices[v])).norm();
     EXPECT_TRUE(v >= man.vertices.size() || moved == 0) << v;
     farthest = std::max(farthest, moved);
   }

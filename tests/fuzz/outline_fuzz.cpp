@@ -4,7 +4,6 @@
 // Outlines of arbitrary triangles: those of every implementation are the same, hold all vertices and, of few
 // triangles, are those of the exact arrangement.
 
-#include <Eigen/Core>
 #include <cmath>
 #include <stdexcept>
 
@@ -26,9 +25,8 @@ test::Soup soup_of(Bytes& bytes) {
   const float step = std::ldexp(1.0f, -static_cast<int>(bytes.below(20)));
   for (std::uint32_t v = 0; v < vertices; ++v)
     soup.positions.push_back(
-        coarse ? Eigen::Vector3f(static_cast<float>(bytes.below(8)) * step,
-                                 static_cast<float>(bytes.below(8)) * step, 0)
-               : Eigen::Vector3f(bytes.number(step), bytes.number(step), bytes.number(step)));
+        coarse ? Vec3{static_cast<float>(bytes.below(8)) * step, static_cast<float>(bytes.below(8)) * step, 0}
+               : Vec3{bytes.number(step), bytes.number(step), bytes.number(step)});
   for (std::uint32_t t = 0; t < triangles; ++t)
     soup.triangles.push_back(
         {bytes.below(vertices + 1), bytes.below(vertices + 1), bytes.below(vertices + 1)});
@@ -44,7 +42,7 @@ test::Soup snapped(test::Soup soup, float grid_step) {
   const auto snap = [&](float& coordinate) {
     coordinate = std::nearbyint(coordinate / grid_step) * grid_step;
   };
-  for (Eigen::Vector3f& position : soup.positions) snap(position.x()), snap(position.y());
+  for (Vec3& position : soup.positions) snap(position.x), snap(position.y);
   return soup;
 }
 

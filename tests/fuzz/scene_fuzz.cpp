@@ -159,8 +159,8 @@ void check(const Character& character) {
   validate(character);
   Skinner skinner(character);
   for (const PoseTime& time : sample_poses(character, 3))
-    for (const Eigen::Vector3f& position : skinner.pose(time))
-      require(position.allFinite(), "poses are finite");
+    for (const Vec3& position : skinner.pose(time))
+      require(to_eigen(position).allFinite(), "poses are finite");
 }
 
 }  // namespace

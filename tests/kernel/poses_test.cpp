@@ -96,9 +96,9 @@ void expect_sound_poses(const std::vector<Character>& characters, std::uint32_t 
       const Disc& root = contour.nodes[0].disc;
       std::vector<Vec2> vertices;
       for (const auto& p : positions) {
-        vertices.push_back({p.x(), p.y()});
-        EXPECT_LE(std::hypot(static_cast<double>(p.x()) - static_cast<double>(root.x),
-                             static_cast<double>(p.y()) - static_cast<double>(root.y)),
+        vertices.push_back({p.x, p.y});
+        EXPECT_LE(std::hypot(static_cast<double>(p.x) - static_cast<double>(root.x),
+                             static_cast<double>(p.y) - static_cast<double>(root.y)),
                   root.radius);
       }
       test::expect_sound(projected_hierarchy(vertices, character.triangles));

@@ -12,6 +12,7 @@
 #include <random>
 #include <set>
 
+#include "layout/character/eigen.hpp"
 #include "layout/character/skinning.hpp"
 
 namespace bch {
@@ -19,7 +20,6 @@ namespace {
 
 using Eigen::Vector2d;
 using Eigen::Vector3d;
-using Eigen::Vector3f;
 
 /// What the header promises about a character.
 struct Expectation {
@@ -48,21 +48,25 @@ INSTANTIATE_TEST_SUITE_P(All, DefaultCharacter,
 struct Disc {
   double x = 0, y = 0, radius = -1;
 
-  bool holds(const Vector3f& p) const {
-    return std::hypot(static_cast<double>(p.x()) - x, static_cast<double>(p.y()) - y) <= radius + 1e-9;
+  bool holds(const Vec3& p) const {
+    return std::hypot(static_cast<double>(p.x) - x, static_cast<double>(p.y) - y) <= radius + 1e-9;
   }
 };
 
-Disc disc_through(const Vector3f& a, const Vector3f& b) {
-  const Vector2d p = a.head<2>().cast<double>();
-  const Vector2d q = b.head<2>().cast<double>();
+Vector2d ground(const Vec3& p) {
+  return to_eigen(p).head<2>().cast<double>();
+}
+
+Disc disc_through(const Vec3& a, const Vec3& b) {
+  const Vector2d p = ground(a);
+  const Vector2d q = ground(b);
   return {(p.x() + q.x()) / 2, (p.y() + q.y()) / 2, (p - q).norm() / 2};
 }
 
-Disc disc_through(const Vector3f& a, const Vector3f& b, const Vector3f& c) {
-  const Vector2d p = a.head<2>().cast<double>();
-  const Vector2d u = b.head<2>().cast<double>() - p;
-  const Vector2d v = c.head<2>().cast<double>() - p;
+Disc disc_through(const Vec3& a, const Vec3& b, const Vec3& c) {
+  const Vector2d p = ground(a);
+  const Vector2d u = ground(b) - p;
+  const Vector2d v = ground(c) - p;
   const double twice = 2 * (u.x() * v.y() - u.y() * v.x());
   const Vector2d centre((v.y() * u.squaredNorm() - u.y() * v.squaredNorm()) / twice,
                         (u.x() * v.squaredNorm() - v.x() * u.squaredNorm()) / twice);
@@ -71,8 +75,8 @@ Disc disc_through(const Vector3f& a, const Vector3f& b, const Vector3f& c) {
 
 /// Radius of the smallest disc that holds the points seen from above: a point outside the disc of those
 /// before it is on the border of the next. E. Welzl, "Smallest enclosing disks (balls and ellipsoids)", 1991.
-double enclosing_radius(std::span<const Vector3f> points) {
-  std::vector<Vector3f> p(points.begin(), points.end());
+double enclosing_radius(std::span<const Vec3> points) {
+  std::vector<Vec3> p(points.begin(), points.end());
   std::mt19937 random(7);
   for (std::size_t i = p.size() - 1; i > 0; --i) std::swap(p[i], p[random() % (i + 1)]);
   Disc disc;
@@ -89,12 +93,14 @@ double enclosing_radius(std::span<const Vector3f> points) {
   return disc.radius;
 }
 
+Vector3d exact(const Vec3& p) {
+  return to_eigen(p).cast<double>();
+}
+
 double signed_volume(const Character& c) {
   double volume = 0;
   for (const auto& t : c.triangles)
-    volume += c.vertices[t[0]].cast<double>().dot(
-                  c.vertices[t[1]].cast<double>().cross(c.vertices[t[2]].cast<double>())) /
-              6;
+    volume += exact(c.vertices[t[0]]).dot(exact(c.vertices[t[1]]).cross(exact(c.vertices[t[2]]))) / 6;
   return volume;
 }
 
@@ -117,7 +123,7 @@ bool same(const Character& a, const Character& b) {
       const Channel& y = b.clips[k].channels[j];
       if (x.rotations.size() != y.rotations.size() || x.positions.size() != y.positions.size()) return false;
       for (std::size_t i = 0; i < x.rotations.size(); ++i)
-        if (x.rotations[i].value.coeffs() != y.rotations[i].value.coeffs()) return false;
+        if (x.rotations[i].value != y.rotations[i].value) return false;
       for (std::size_t i = 0; i < x.positions.size(); ++i)
         if (x.positions[i].value != y.positions[i].value) return false;
     }
@@ -135,7 +141,7 @@ TEST_P(DefaultCharacter, HasTheSizeOfThePaper) {
   EXPECT_LE(character.triangles.size(), 2900u);
   Skinner skinner(character);
   Eigen::AlignedBox3f box;
-  for (const Vector3f& p : skinner.pose({})) box.extend(p);
+  for (const Vec3& p : skinner.pose({})) box.extend(to_eigen(p));
   EXPECT_NEAR(box.max().z(), GetParam().stature, 0.01);
   EXPECT_NEAR(box.min().z(), 0, 0.002);
 }
@@ -164,20 +170,24 @@ TEST_P(DefaultCharacter, SkinHasTheVolumeOfAPersonAndNoFlatTriangle) {
   EXPECT_GT(signed_volume(character), GetParam().least_volume);
   EXPECT_LT(signed_volume(character), GetParam().most_volume);
   for (const auto& t : character.triangles) {
-    const Vector3d a = character.vertices[t[0]].cast<double>();
-    const Vector3d b = character.vertices[t[1]].cast<double>();
-    const Vector3d c = character.vertices[t[2]].cast<double>();
+    const Vector3d a = exact(character.vertices[t[0]]);
+    const Vector3d b = exact(character.vertices[t[1]]);
+    const Vector3d c = exact(character.vertices[t[2]]);
     const double longest = std::max({(b - a).norm(), (c - b).norm(), (a - c).norm()});
     EXPECT_GT((b - a).cross(c - a).norm() / longest, 3e-4) << a.transpose();
   }
 }
 
+float distance(const Vec3& p, const Vec3& q) {
+  return (to_eigen(p) - to_eigen(q)).norm();
+}
+
 TEST_P(DefaultCharacter, RestIsSymmetric) {
-  for (const Vector3f& p : character.vertices) {
-    const Vector3f mirrored(p.x(), -p.y(), p.z());
+  for (const Vec3& p : character.vertices) {
+    const Vec3 mirrored{p.x, -p.y, p.z};
     const bool found = std::any_of(character.vertices.begin(), character.vertices.end(),
-                                   [&](const Vector3f& q) { return (q - mirrored).norm() < 1e-5f; });
-    EXPECT_TRUE(found) << p.transpose();
+                                   [&](const Vec3& q) { return distance(q, mirrored) < 1e-5f; });
+    EXPECT_TRUE(found) << to_eigen(p).transpose();
   }
 }
 
@@ -232,7 +242,7 @@ TEST_P(DefaultCharacter, FeetStayOnTheGround) {
   Skinner skinner(character);
   for (const PoseTime& at : sample_poses(character, 1000)) {
     float lowest = 1;
-    for (const Vector3f& p : skinner.pose(at)) lowest = std::min(lowest, p.z());
+    for (const Vec3& p : skinner.pose(at)) lowest = std::min(lowest, p.z);
     EXPECT_NEAR(lowest, 0, 0.015) << character.clips[at.clip].name << " at " << at.seconds;
   }
 }
@@ -243,10 +253,10 @@ TEST_P(DefaultCharacter, SkinDoesNotTear) {
   for (const PoseTime& at : sample_poses(character, 200)) {
     const auto pose = skinner.pose(at);
     for (const auto& [a, b] : all) {
-      const float rest = (character.vertices[a] - character.vertices[b]).norm();
-      ASSERT_LT((pose[a] - pose[b]).norm(), 2.5f * rest + 0.03f)
+      const float rest = distance(character.vertices[a], character.vertices[b]);
+      ASSERT_LT(distance(pose[a], pose[b]), 2.5f * rest + 0.03f)
           << character.clips[at.clip].name << " at " << at.seconds << ", near "
-          << character.vertices[a].transpose();
+          << to_eigen(character.vertices[a]).transpose();
     }
   }
 }
@@ -255,12 +265,12 @@ TEST_P(DefaultCharacter, MovesWithoutJumps) {
   Skinner skinner(character);
   for (std::uint32_t clip = 0; clip < character.clips.size(); ++clip) {
     const float step = 1.0f / 16;
-    std::vector<Vector3f> before;
+    std::vector<Vec3> before;
     for (float time = 0.5f * step; time <= character.clips[clip].seconds; time += step) {
       const auto pose = skinner.pose({clip, time});
       float farthest = 0;
       for (std::size_t v = 0; v < before.size(); ++v)
-        farthest = std::max(farthest, (pose[v] - before[v]).norm());
+        farthest = std::max(farthest, distance(pose[v], before[v]));
       // 6.5 m/s is a foot in fast walking, or a hand in a broad gesture.
       ASSERT_LT(farthest / step, 6.5f) << character.clips[clip].name << " at " << time;
       before.assign(pose.begin(), pose.end());

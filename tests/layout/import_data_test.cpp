@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <string_view>
 
+#include "layout/character/eigen.hpp"
 #include "layout/character/skinning.hpp"
 #include "layout/import/import.hpp"
 #include "tests/support/character_shapes.hpp"
@@ -46,9 +47,9 @@ class ImportData : public testing::Test {
       for (const float share : {0.0f, 0.13f, 0.29f, 0.5f, 0.61f, 0.77f, 0.92f, 1.0f}) {
         float reach = 0;
         Eigen::AlignedBox3f box;
-        for (const Eigen::Vector3f& position : skinner.pose({clip, share * c.clips[clip].seconds})) {
-          reach = std::max(reach, position.head<2>().norm());
-          box.extend(position);
+        for (const Vec3& position : skinner.pose({clip, share * c.clips[clip].seconds})) {
+          reach = std::max(reach, to_eigen(position).head<2>().norm());
+          box.extend(to_eigen(position));
         }
         const std::string place = c.name + ", " + c.clips[clip].name + " at " + std::to_string(share);
         EXPECT_LT(reach, 1.0f) << place;
@@ -144,7 +145,7 @@ TEST_F(ImportData, ClipIsIndependentOfTheUnitOfTheCharacter) {
     const auto box = [&](Skinner& skinner, const Character& c) {
       Eigen::AlignedBox3f all;
       const auto clip = static_cast<std::uint32_t>(c.clips.size() - 1);
-      for (const Eigen::Vector3f& position : skinner.pose({clip, time})) all.extend(position);
+      for (const Vec3& position : skinner.pose({clip, time})) all.extend(to_eigen(position));
       return all;
     };
     const Eigen::AlignedBox3f a = box(in_centimetres, centimetres);
@@ -165,16 +166,17 @@ TEST_F(ImportData, PosesKeepTheirYaw) {
   ASSERT_LT(clip, c.clips.size());
   // Two vertices far apart across the body at rest.
   const auto rest = skinner.pose({});
-  const auto across = std::minmax_element(rest.begin(), rest.end(),
-                                          [](const auto& a, const auto& b) { return a.x() < b.x(); });
+  const auto across =
+      std::minmax_element(rest.begin(), rest.end(), [](const auto& a, const auto& b) { return a.x < b.x; });
   const auto left = across.first - rest.begin();
   const auto right = across.second - rest.begin();
   float most_turned = 1;
   Eigen::Vector2f first = Eigen::Vector2f::Zero();
   for (float time = 0; time < c.clips[clip].seconds; time += 0.25f) {
     const auto pose = skinner.pose({clip, time});
-    const Eigen::Vector2f way =
-        (pose[static_cast<std::size_t>(right)] - pose[static_cast<std::size_t>(left)]).head<2>().normalized();
+    const Eigen::Vector3f across_now =
+        to_eigen(pose[static_cast<std::size_t>(right)]) - to_eigen(pose[static_cast<std::size_t>(left)]);
+    const Eigen::Vector2f way = across_now.head<2>().normalized();
     if (time == 0) first = way;
     most_turned = std::min(most_turned, first.dot(way));
   }
@@ -258,7 +260,7 @@ float farthest_apart(const Character& a, const Character& b) {
     const auto pose_b = of_b.pose({0, share * b.clips.at(0).seconds});
     EXPECT_EQ(pose_a.size(), pose_b.size());
     for (std::size_t v = 0; v < pose_a.size(); ++v)
-      farthest = std::max(farthest, (pose_a[v] - pose_b[v]).norm());
+      farthest = std::max(farthest, (to_eigen(pose_a[v]) - to_eigen(pose_b[v])).norm());
   }
   return farthest;
 }

@@ -7,6 +7,7 @@
 #include <bit>
 #include <cmath>
 
+#include "layout/character/eigen.hpp"
 #include "layout/character/skinning.hpp"
 #include "layout/import/import.hpp"
 #include "tests/support/gltf_file.hpp"
@@ -44,7 +45,8 @@ class ImportFormats : public testing::Test {
       const auto pose_a = skinner_a.pose({a, share * character.clips[a].seconds});
       const auto pose_b = skinner_b.pose({b, share * character.clips[b].seconds});
       for (std::size_t v = 0; v < pose_a.size(); ++v)
-        EXPECT_LT((pose_a[v] - pose_b[v]).norm(), 1e-5f) << "vertex " << v << " at " << share;
+        EXPECT_LT((to_eigen(pose_a[v]) - to_eigen(pose_b[v])).norm(), 1e-5f)
+            << "vertex " << v << " at " << share;
     }
   }
 
@@ -52,7 +54,7 @@ class ImportFormats : public testing::Test {
   static Eigen::Vector3f end_of_way(const Character& character, std::uint32_t clip) {
     for (const Channel& channel : character.clips.at(clip).channels)
       if (static_cast<std::int32_t>(channel.joint) == character.root_joint)
-        return channel.positions.back().value;
+        return to_eigen(channel.positions.back().value);
     throw std::logic_error("the root joint does not move");
   }
 };
@@ -82,10 +84,10 @@ TEST_F(ImportFormats, FbxSaysItsAxisAndUnit) {
     const auto [character, report] = import_character(file);
     EXPECT_NEAR(report.height, height * 0.0254f, 1e-5f) << "axis " << axis;
     EXPECT_TRUE(has_note(report, "inches -> metres (FBX unit scale factor 2.54)"));
-    EXPECT_GT(character.to_ground.linear().determinant(), 0);
+    EXPECT_GT(to_eigen(character.to_ground).linear().determinant(), 0);
     Skinner skinner(character);
     float bottom = 1e9f;
-    for (const Eigen::Vector3f& position : skinner.pose({})) bottom = std::min(bottom, position.z());
+    for (const Vec3& position : skinner.pose({})) bottom = std::min(bottom, position.z);
     EXPECT_NEAR(bottom, lowest * 0.0254f, 1e-5f) << "axis " << axis << ", sign " << sign;
   }
   EXPECT_THROW(import_character(folder.write("body.fbx", fbx_tetrahedron(7, 1, "1"))), ImportError);
@@ -231,8 +233,8 @@ TEST_F(ImportFormats, Md5WithItsMotionInAnotherFile) {
     const std::uint32_t begin = character.influence_begin[v];
     const Bone& bone = character.bones[character.influences[begin].bone];
     if (character.influence_begin[v + 1] - begin > 1 || character.joints[bone.joint].name != "head") continue;
-    top_x = pose[v].x();
-    top_y = pose[v].y();
+    top_x = pose[v].x;
+    top_y = pose[v].y;
   }
   EXPECT_NEAR(top_x, 0, 1e-4f);
   EXPECT_NEAR(std::abs(top_y), 0.508f, 1e-4f);

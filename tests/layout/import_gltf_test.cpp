@@ -7,6 +7,7 @@
 #include <cmath>
 #include <string>
 
+#include "layout/character/eigen.hpp"
 #include "layout/character/skinning.hpp"
 #include "layout/import/import.hpp"
 #include "tests/support/gltf_file.hpp"
@@ -153,12 +154,12 @@ TEST_F(ImportGltf, WithoutInverseBindMatricesTheyAreIdentity) {
                  },
                  false))
           .character;
-  for (const Bone& bone : c.bones) EXPECT_EQ(bone.inverse_bind.matrix(), Eigen::Matrix4f::Identity());
+  for (const Bone& bone : c.bones) EXPECT_EQ(bone.inverse_bind, Affine3());
   Skinner skinner(c);
   const auto pose = skinner.pose({});
   // The hips stand 1 m up and the head 1.5 m: feet at 0 come to 1, hands at 1.8 to 3.3.
-  EXPECT_NEAR(pose[c.triangles[0][1]].z(), 1.0f, 1e-6f);
-  EXPECT_NEAR(pose[c.triangles[0][2]].z(), 3.3f, 1e-6f);
+  EXPECT_NEAR(pose[c.triangles[0][1]].z, 1.0f, 1e-6f);
+  EXPECT_NEAR(pose[c.triangles[0][2]].z, 3.3f, 1e-6f);
 }
 
 TEST_F(ImportGltf, NodesOfOneNameAreTheirOwn) {
@@ -197,8 +198,8 @@ struct Posed {
 Posed posed(const Character& character, float seconds) {
   Skinner skinner(character);
   const auto pose = skinner.pose({0, seconds});
-  const Eigen::Vector3f across = pose[character.triangles[0][2]] - pose[character.triangles[1][2]];
-  return {pose[character.triangles[0][0]].z(), std::atan2(across.y(), across.x())};
+  const Vec3 left = pose[character.triangles[0][2]], right = pose[character.triangles[1][2]];
+  return {pose[character.triangles[0][0]].z, std::atan2(left.y - right.y, left.x - right.x)};
 }
 
 constexpr float right_angle = 1.57079633f;
@@ -282,7 +283,7 @@ TEST_F(ImportGltf, CubicKeysOfAnotherFileTurnAndGrowWithItsSkeleton) {
     const auto wanted = first.pose({0, time});
     const auto pose = second.pose({1, time});
     for (std::size_t v = 0; v < pose.size(); ++v)
-      EXPECT_NEAR(pose[v].z(), wanted[v].z(), 1e-5f) << time;  // the turn is the other skeleton's own
+      EXPECT_NEAR(pose[v].z, wanted[v].z, 1e-5f) << time;  // the turn is the other skeleton's own
   }
 }
 
@@ -426,8 +427,10 @@ TEST_F(ImportGltf, StripsAndFansAreTriangles) {
     ASSERT_EQ(c.triangles.size(), 2u);
     Skinner skinner(c);
     const auto pose = skinner.pose({});
-    for (const auto& [x, y, z] : c.triangles)  // both turn the same way
-      EXPECT_LT((pose[y] - pose[x]).cross(pose[z] - pose[x]).y(), -0.4f) << mode;
+    for (const auto& [x, y, z] : c.triangles) {  // both turn the same way
+      const Eigen::Vector3f corner = to_eigen(pose[x]);
+      EXPECT_LT((to_eigen(pose[y]) - corner).cross(to_eigen(pose[z]) - corner).y(), -0.4f) << mode;
+    }
   }
 }
 

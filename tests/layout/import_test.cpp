@@ -7,6 +7,7 @@
 
 #include <algorithm>
 
+#include "layout/character/eigen.hpp"
 #include "layout/character/skinning.hpp"
 #include "tests/support/gltf_file.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -45,7 +46,8 @@ float signed_volume(const Character& character) {
   Skinner skinner(character);
   const auto pose = skinner.pose({});
   float volume = 0;
-  for (const auto& [a, b, c] : character.triangles) volume += pose[a].dot(pose[b].cross(pose[c])) / 6;
+  for (const auto& [a, b, c] : character.triangles)
+    volume += to_eigen(pose[a]).dot(to_eigen(pose[b]).cross(to_eigen(pose[c]))) / 6;
   return volume;
 }
 
@@ -69,7 +71,7 @@ TEST_F(Import, StaticMeshFollowsItsNodeAndPolygonsBecomeTriangles) {
   EXPECT_EQ(character.vertices.size(), 4u);
   EXPECT_EQ(report.bones, 1u);
   ASSERT_EQ(character.bones.size(), 1u);
-  EXPECT_TRUE(character.bones[0].inverse_bind.isApprox(Eigen::Affine3f::Identity()));
+  EXPECT_TRUE(to_eigen(character.bones[0].inverse_bind).isApprox(Eigen::Affine3f::Identity()));
   EXPECT_EQ(character.root_joint, -1);
   EXPECT_EQ(report.dropped_faces, 1u);
   EXPECT_GE(report.dropped_vertices, 1u);
@@ -148,8 +150,10 @@ TEST_F(Import, SkinnedMeshPlaysItsClip) {
     // x of the file stays x; a turn about its y by 90 degrees takes x to its -z, which is the ground's y.
     const std::uint32_t foot = character.triangles[0][1];
     const std::uint32_t hand = character.triangles[0][2];
-    EXPECT_TRUE(pose[foot].isApprox(Eigen::Vector3f(0.5f, 0, 0), 1e-5f)) << pose[foot].transpose();
-    EXPECT_TRUE(pose[hand].isApprox(Eigen::Vector3f(0, 0.5f, 1.8f), 1e-5f)) << pose[hand].transpose();
+    EXPECT_TRUE(to_eigen(pose[foot]).isApprox(Eigen::Vector3f(0.5f, 0, 0), 1e-5f))
+        << to_eigen(pose[foot]).transpose();
+    EXPECT_TRUE(to_eigen(pose[hand]).isApprox(Eigen::Vector3f(0, 0.5f, 1.8f), 1e-5f))
+        << to_eigen(pose[hand]).transpose();
   }
 }
 
@@ -210,7 +214,8 @@ TEST_F(Import, RepairsTheOrderOfKeysAndTheNormOfRotations) {
   for (const float time : {0.0f, 0.6f, 1.4f, 2.0f}) {
     const auto pose = skinner.pose({0, time});
     const auto wanted = expected.pose({0, time});
-    for (std::size_t v = 0; v < pose.size(); ++v) EXPECT_LT((pose[v] - wanted[v]).norm(), 1e-5f);
+    for (std::size_t v = 0; v < pose.size(); ++v)
+      EXPECT_LT((to_eigen(pose[v]) - to_eigen(wanted[v])).norm(), 1e-5f);
   }
 }
 
@@ -226,7 +231,8 @@ TEST_F(Import, MovesAClipThatStartsBeforeZero) {
   for (const float time : {0.0f, 0.6f, 1.4f, 2.0f}) {
     const auto pose = skinner.pose({0, time});
     const auto wanted = expected.pose({0, time});
-    for (std::size_t v = 0; v < pose.size(); ++v) EXPECT_LT((pose[v] - wanted[v]).norm(), 1e-5f);
+    for (std::size_t v = 0; v < pose.size(); ++v)
+      EXPECT_LT((to_eigen(pose[v]) - to_eigen(wanted[v])).norm(), 1e-5f);
   }
 }
 
@@ -264,7 +270,8 @@ TEST_F(Import, EveryInstanceOfAMeshCounts) {
   EXPECT_NEAR(report.height, 3.0f, 1e-6f);
   Skinner skinner(character);
   const auto pose = skinner.pose({});
-  const Eigen::Vector3f between = pose[character.triangles[1][0]] - pose[character.triangles[0][0]];
+  const Eigen::Vector3f between =
+      to_eigen(pose[character.triangles[1][0]]) - to_eigen(pose[character.triangles[0][0]]);
   EXPECT_TRUE(between.isApprox(Eigen::Vector3f(-1, 0, 2), 1e-6f)) << between.transpose();
 }
 

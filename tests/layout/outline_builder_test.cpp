@@ -36,7 +36,7 @@ Soup soup(const std::vector<std::array<std::array<float, 2>, 3>>& triangles) {
   Soup result;
   for (const auto& t : triangles) {
     const auto first = static_cast<std::uint32_t>(result.positions.size());
-    for (const auto& [x, y] : t) result.positions.emplace_back(x, y, 0.0f);
+    for (const auto& [x, y] : t) result.positions.push_back({x, y, 0});
     result.triangles.push_back({first, first + 1, first + 2});
   }
   return result;
@@ -111,12 +111,12 @@ TEST(OutlineBuilder, PartsInsidePartsAreLeftOutAlsoWhereTheyTouch) {
 TEST(OutlineBuilder, VerticesThatAPosePartsAreNotTakenForOne) {
   // Two halves of a square with vertices of their own along the diagonal.
   Soup halves = soup({{{{0, 0}, {2, 0}, {2, 2}}}, {{{0, 0}, {2, 2}, {0, 2}}}});
-  const std::vector<Eigen::Vector3f> bind_pose = halves.positions;
+  const std::vector<Vec3> bind_pose = halves.positions;
   OutlineBuilder builder(halves.triangles, halves.positions.size(), bind_pose);
   Outline outline;
   builder.build(halves.positions, outline);
   EXPECT_EQ(contours(outline), (Contours{{{0, 0}, {2, 0}, {2, 2}, {0, 2}}}));
-  for (std::size_t v = 3; v < 6; ++v) halves.positions[v].x() -= 3;
+  for (std::size_t v = 3; v < 6; ++v) halves.positions[v].x -= 3;
   builder.build(halves.positions, outline);
   EXPECT_EQ(contours(outline), (Contours{{{-3, 0}, {-1, 2}, {-3, 2}}, {{0, 0}, {2, 0}, {2, 2}}}));
 }
@@ -126,10 +126,10 @@ TEST(OutlineBuilder, RejectsBadInput) {
   Outline outline;
   EXPECT_THROW(OutlineBuilder({}, 3), std::invalid_argument);
   EXPECT_THROW(OutlineBuilder(good.triangles, 2), std::invalid_argument);
-  const std::vector<Eigen::Vector3f> two(2);
+  const std::vector<Vec3> two(2);
   EXPECT_THROW(OutlineBuilder(good.triangles, 3, two), std::invalid_argument);
-  std::vector<Eigen::Vector3f> bad = good.positions;
-  bad[1].z() = std::numeric_limits<float>::infinity();
+  std::vector<Vec3> bad = good.positions;
+  bad[1].z = std::numeric_limits<float>::infinity();
   EXPECT_THROW(OutlineBuilder(good.triangles, 3, bad), std::invalid_argument);
   OutlineBuilder builder(good.triangles, 3);
   EXPECT_THROW(builder.build(two, outline), std::invalid_argument);
@@ -144,8 +144,8 @@ TEST(OutlineBuilder, RejectsWhatIsNotFiniteWhereverItIs) {
   for (std::size_t v = 0; v < good.positions.size(); ++v)
     for (const int axis : {0, 1})
       for (const float bad : {nan, -nan, inf, -inf}) {
-        std::vector<Eigen::Vector3f> positions = good.positions;
-        positions[v][axis] = bad;
+        std::vector<Vec3> positions = good.positions;
+        (axis == 0 ? positions[v].x : positions[v].y) = bad;
         EXPECT_THROW(builder.build(positions, outline), std::invalid_argument)
             << v << ' ' << axis << ' ' << bad;
       }
@@ -186,10 +186,11 @@ TEST(OutlineBuilder, MakesOutlinesThatAreValid) {
   for (std::uint32_t i = 0; i < count; ++i) {
     Soup soup = test::random_soup(random);
     if (i % 2 == 0)
-      for (auto& p : soup.positions)
-        p += Eigen::Vector3f(static_cast<float>(random.uniform(-1, 1)),
-                             static_cast<float>(random.uniform(-1, 1)), 0) *
-             static_cast<float>(std::exp2(random.uniform(-30, -10)));
+      for (Vec3& p : soup.positions) {
+        const auto size = static_cast<float>(std::exp2(random.uniform(-30, -10)));
+        p.x += size * static_cast<float>(random.uniform(-1, 1));
+        p.y += size * static_cast<float>(random.uniform(-1, 1));
+      }
     Outline outline;
     try {
       outline = build(soup);

@@ -37,7 +37,7 @@ TEST(OutlineBuilder, EqualsTheArrangementOfAllEdges) {
     const Soup any = test::random_soup(random);
     const bool bind_pose = random.below(2) == 0;
     OutlineBuilder builder(any.triangles, any.positions.size(),
-                           bind_pose ? std::span(any.positions) : std::span<const Eigen::Vector3f>(),
+                           bind_pose ? std::span(any.positions) : std::span<const Vec3>(),
                            *implementations[static_cast<std::size_t>(i) % implementations.size()]);
     try {
       builder.build(any.positions, outline);
@@ -62,7 +62,7 @@ Soup soup_of_slivers(test::Random& random) {
   const std::uint32_t count = 3 + random.below(4);
   for (std::uint32_t i = 0; i < count; ++i) {
     const double share = i == 0 ? 0.99 : random.uniform(-0.99, 0.99);
-    soup.positions.emplace_back(on_grid(share * x), on_grid(share * y), 0.0f);
+    soup.positions.push_back({on_grid(share * x), on_grid(share * y), 0});
   }
   for (std::uint32_t i = 0; i < 6; ++i)
     soup.triangles.push_back({i % count, random.below(count), random.below(count)});
@@ -91,8 +91,8 @@ TEST(OutlineBuilder, AStarIsWalkedTipByTip) {
       Soup star{{{0, 0, 0}}, {}};
       for (std::uint32_t i = 0; i < tips; ++i) {
         const double angle = 6.283185307179586 * (i + 0.25) / static_cast<double>(tips);
-        star.positions.emplace_back(static_cast<float>(std::cos(angle)), static_cast<float>(std::sin(angle)),
-                                    0.0f);
+        star.positions.push_back(
+            {static_cast<float>(std::cos(angle)), static_cast<float>(std::sin(angle)), 0});
         star.triangles.push_back({0, i + 1, i + 1});
       }
       Outline outline;

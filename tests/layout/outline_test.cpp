@@ -18,10 +18,10 @@ namespace bch {
 namespace {
 
 struct Mesh {
-  std::vector<Eigen::Vector3f> positions;
+  std::vector<Vec3> positions;
   std::vector<std::array<std::uint32_t, 3>> triangles;
 
-  void add(Eigen::Vector3f a, Eigen::Vector3f b, Eigen::Vector3f c) {
+  void add(Vec3 a, Vec3 b, Vec3 c) {
     const auto first = static_cast<std::uint32_t>(positions.size());
     positions.insert(positions.end(), {a, b, c});
     triangles.push_back({first, first + 1, first + 2});
@@ -116,14 +116,14 @@ TEST(UnionOutline, RejectsBadInput) {
     EXPECT_THROW(mesh.outline(), std::invalid_argument);
   };
   rejected([](Mesh& mesh) { mesh.triangles[1][2] = 6; });
-  rejected([](Mesh& mesh) { mesh.positions[0].y() = std::numeric_limits<float>::quiet_NaN(); });
-  rejected([](Mesh& mesh) { mesh.positions[0].x() = std::numeric_limits<float>::infinity(); });
-  rejected([](Mesh& mesh) { mesh.positions[0].x() = 2e6f; });
+  rejected([](Mesh& mesh) { mesh.positions[0].y = std::numeric_limits<float>::quiet_NaN(); });
+  rejected([](Mesh& mesh) { mesh.positions[0].x = std::numeric_limits<float>::infinity(); });
+  rejected([](Mesh& mesh) { mesh.positions[0].x = 2e6f; });
   rejected([](Mesh& mesh) {
-    for (auto& p : mesh.positions) p = {0.5f, 0.5f, p.z()};
+    for (auto& p : mesh.positions) p = {0.5f, 0.5f, p.z};
   });
   rejected([](Mesh& mesh) {
-    for (auto& p : mesh.positions) p *= 1e-8f;
+    for (auto& p : mesh.positions) p = {1e-8f * p.x, 1e-8f * p.y, 1e-8f * p.z};
   });
 }
 

@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <numbers>
 
+#include "layout/character/eigen.hpp"
 #include "layout/character/skinning.hpp"
 #include "layout/default_character/default_characters.hpp"
 #include "layout/import/import.hpp"
@@ -22,6 +23,12 @@ constexpr float pi = std::numbers::pi_v<float>;
 
 Eigen::Quaternionf turn(float angle, const Eigen::Vector3f& axis) {
   return Eigen::Quaternionf(Eigen::AngleAxisf(angle, axis.normalized()));
+}
+
+std::vector<Key<Quaternion>> keys(const std::vector<Key<Eigen::Quaternionf>>& turns) {
+  std::vector<Key<Quaternion>> result;
+  for (const auto& [time, turn] : turns) result.push_back({time, quaternion(turn)});
+  return result;
 }
 
 void add_tube_mesh(Character& c) {
@@ -60,18 +67,13 @@ Character tube() {
   Character c;
   c.name = "tube";
   c.joints.resize(3);
-  c.joints[0] = {"hips", -1, Eigen::Affine3f::Identity()};
-  c.joints[0].rest.translation() = Eigen::Vector3f(0, 0, 0.6f);
-  c.joints[0].rest.rotate(turn(pi / 2, {0, 1, 0}));
-  c.joints[1] = {"spine", 0, Eigen::Affine3f::Identity()};
-  c.joints[1].rest.translation() = Eigen::Vector3f(-0.4f, 0, 0);
-  c.joints[1].rest.rotate(turn(0.3f, {1, 2, 3}));
-  c.joints[2] = {"head", 1, Eigen::Affine3f::Identity()};
-  c.joints[2].rest.translation() = Eigen::Vector3f(-0.5f, 0.1f, 0);
+  c.joints[0] = {"hips", -1, affine3(Eigen::Translation3f(0, 0, 0.6f) * turn(pi / 2, {0, 1, 0}))};
+  c.joints[1] = {"spine", 0, affine3(Eigen::Translation3f(-0.4f, 0, 0) * turn(0.3f, {1, 2, 3}))};
+  c.joints[2] = {"head", 1, translation({-0.5f, 0.1f, 0})};
   Eigen::Affine3f to_root = Eigen::Affine3f::Identity();
   for (std::uint32_t j = 0; j < 3; ++j) {
-    to_root = to_root * c.joints[j].rest;
-    c.bones.push_back({j, to_root.inverse()});
+    to_root = to_root * to_eigen(c.joints[j].rest);
+    c.bones.push_back({j, affine3(to_root.inverse())});
   }
   c.root_joint = 0;
   add_tube_mesh(c);
@@ -80,17 +82,17 @@ Character tube() {
   clip.channels.resize(3);
   for (std::uint32_t j = 0; j < 3; ++j) clip.channels[j].joint = j;
   clip.channels[0].positions = {{0.0f, {0, 0, 0.6f}}, {0.7f, {0.5f, 0.1f, 0.65f}}, {2.0f, {3, 1, 0.6f}}};
-  const Eigen::Quaternionf hips(c.joints[0].rest.linear());
-  clip.channels[0].rotations = {{0.0f, hips}, {1.0f, turn(1.2f, {0, 0, 1}) * hips}, {2.0f, hips}};
-  const Eigen::Quaternionf spine(c.joints[1].rest.linear());
-  clip.channels[1].rotations = {{0.0f, spine}, {0.5f, spine * turn(0.6f, {0, 1, 0})}, {2.0f, spine}};
-  clip.channels[2].rotations = {{0.0f, turn(0, {0, 0, 1})}, {2.0f, turn(-0.8f, {0, 0, 1})}};
+  const Eigen::Quaternionf hips(to_eigen(c.joints[0].rest).linear());
+  clip.channels[0].rotations = keys({{0.0f, hips}, {1.0f, turn(1.2f, {0, 0, 1}) * hips}, {2.0f, hips}});
+  const Eigen::Quaternionf spine(to_eigen(c.joints[1].rest).linear());
+  clip.channels[1].rotations = keys({{0.0f, spine}, {0.5f, spine * turn(0.6f, {0, 1, 0})}, {2.0f, spine}});
+  clip.channels[2].rotations = keys({{0.0f, turn(0, {0, 0, 1})}, {2.0f, turn(-0.8f, {0, 0, 1})}});
   c.clips.push_back(clip);
 
   Clip wave{"nod", 0.5f, {}};
   wave.channels.resize(1);
   wave.channels[0].joint = 2;
-  wave.channels[0].rotations = {{0.0f, turn(0, {0, 1, 0})}, {0.5f, turn(0.7f, {0, 1, 0})}};
+  wave.channels[0].rotations = keys({{0.0f, turn(0, {0, 1, 0})}, {0.5f, turn(0.7f, {0, 1, 0})}});
   c.clips.push_back(wave);
   return c;
 }
@@ -103,7 +105,9 @@ float largest_difference(const Character& a, const Character& b, PoseTime at) {
   float largest = 0;
   for (std::size_t t = 0; t < a.triangles.size(); ++t)
     for (std::size_t corner = 0; corner < 3; ++corner)
-      largest = std::max(largest, (pose_a[a.triangles[t][corner]] - pose_b[b.triangles[t][corner]]).norm());
+      largest = std::max(
+          largest,
+          (to_eigen(pose_a[a.triangles[t][corner]]) - to_eigen(pose_b[b.triangles[t][corner]])).norm());
   return largest;
 }
 
@@ -152,8 +156,8 @@ TEST(RoundTrip, KeepsTheFramesOfACharacterInCentimetresAndYUp) {
   // The same body, described in another frame.
   Eigen::Affine3f to_file = Eigen::Affine3f::Identity();
   to_file.linear() << 100, 0, 0, 0, 0, 100, 0, -100, 0;
-  c.to_ground = to_file.inverse();
-  Joint root{"file", -1, to_file};
+  c.to_ground = affine3(to_file.inverse());
+  Joint root{"file", -1, affine3(to_file)};
   for (Joint& joint : c.joints) ++joint.parent;
   c.joints.insert(c.joints.begin(), root);
   for (Bone& bone : c.bones) ++bone.joint;
@@ -169,10 +173,10 @@ TEST(RoundTrip, KeepsSeveralBonesOfOneJoint) {
   // The upper half hangs on a second bone of the spine, whose mesh frame lies elsewhere.
   const auto second = static_cast<std::uint32_t>(c.bones.size());
   Bone shifted = c.bones[1];
-  shifted.inverse_bind.translate(Eigen::Vector3f(0, 0, -5));
+  shifted.inverse_bind = affine3(to_eigen(shifted.inverse_bind) * Eigen::Translation3f(0, 0, -5));
   c.bones.push_back(shifted);
   for (std::size_t v = c.vertices.size() / 2; v < c.vertices.size(); ++v) {
-    c.vertices[v].z() += 5;
+    c.vertices[v].z += 5;
     for (std::uint32_t i = c.influence_begin[v]; i < c.influence_begin[v + 1]; ++i) {
       c.influences[i].bone = second;
       c.influences[i].weight = 1.0f / static_cast<float>(c.influence_begin[v + 1] - c.influence_begin[v]);

@@ -12,6 +12,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "layout/character/eigen.hpp"
 #include "layout/character/rotation_blend.hpp"
 #include "tests/support/character_shapes.hpp"
 #include "tests/support/complaint.hpp"
@@ -29,10 +30,10 @@ Character two_joints() {
   c.name = "two joints";
   c.joints.resize(2);
   c.joints[1].parent = 0;
-  c.joints[1].rest.translation() = Eigen::Vector3f(0, 0, 1);
+  c.joints[1].rest = translation({0, 0, 1});
   c.bones.resize(2);
   c.bones[1].joint = 1;
-  c.bones[1].inverse_bind.translation() = Eigen::Vector3f(0, 0, -1);
+  c.bones[1].inverse_bind = translation({0, 0, -1});
   c.root_joint = 0;
   c.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {0, 1, 1}};
   for (std::uint32_t v = 0; v < 6; ++v) {
@@ -47,7 +48,7 @@ Character two_joints() {
   clip.channels[0].positions = {{0.0f, {0, 0, 0}}, {2.0f, {4, 0, 0}}};
   clip.channels[1].joint = 1;
   const auto turn = [](float angle) {
-    return Eigen::Quaternionf(Eigen::AngleAxisf(angle, Eigen::Vector3f::UnitZ()));
+    return quaternion(Eigen::Quaternionf(Eigen::AngleAxisf(angle, Eigen::Vector3f::UnitZ())));
   };
   const float pi = std::numbers::pi_v<float>;
   clip.channels[1].rotations = {{0.0f, turn(0)}, {1.0f, turn(pi / 2)}, {2.0f, turn(pi)}};
@@ -67,8 +68,8 @@ TEST(Skinning, TakesOutTheWayButKeepsTheTurn) {
   const Character c = two_joints();
   Skinner skinner(c);
   const auto pose = skinner.pose({0, 1.0f});
-  EXPECT_TRUE(pose[1].isApprox(Eigen::Vector3f(1, 0, 0), 1e-6f));
-  EXPECT_TRUE(pose[4].isApprox(Eigen::Vector3f(0, 1, 1), 1e-6f)) << pose[4].transpose();
+  EXPECT_TRUE(to_eigen(pose[1]).isApprox(Eigen::Vector3f(1, 0, 0), 1e-6f));
+  EXPECT_TRUE(to_eigen(pose[4]).isApprox(Eigen::Vector3f(0, 1, 1), 1e-6f)) << to_eigen(pose[4]).transpose();
 }
 
 TEST(Skinning, BlendsTheBonesOfAVertex) {
@@ -78,7 +79,7 @@ TEST(Skinning, BlendsTheBonesOfAVertex) {
   validate(c);
   Skinner skinner(c);
   const auto pose = skinner.pose({0, 2.0f});
-  EXPECT_TRUE(pose[4].isApprox(Eigen::Vector3f(0, 0, 1), 1e-6f)) << pose[4].transpose();
+  EXPECT_TRUE(to_eigen(pose[4]).isApprox(Eigen::Vector3f(0, 0, 1), 1e-6f)) << to_eigen(pose[4]).transpose();
 }
 
 /// Linear blend skinning as it is written, in double and with the library's slerp.
@@ -87,8 +88,8 @@ class SlowSkinner {
   SlowSkinner(const Character& character, PoseTime at) : character_(character), at_(at) {
     for (std::size_t j = 0; j < character.joints.size(); ++j) {
       const std::int32_t parent = character.joints[j].parent;
-      const Eigen::Affine3d above =
-          parent < 0 ? character.to_ground.cast<double>() : world_[static_cast<std::size_t>(parent)];
+      const Eigen::Affine3d above = parent < 0 ? to_eigen(character.to_ground).cast<double>()
+                                               : world_[static_cast<std::size_t>(parent)];
       world_.push_back(above * local(j));
     }
     if (character.root_joint >= 0)
@@ -103,7 +104,8 @@ class SlowSkinner {
       const auto [bone, weight] = character_.influences[i];
       const auto& [joint, inverse_bind] = character_.bones[bone];
       sum += static_cast<double>(weight) *
-             (world_[joint] * (inverse_bind.cast<double>() * character_.vertices[vertex].cast<double>()));
+             (world_[joint] *
+              (to_eigen(inverse_bind).cast<double>() * to_eigen(character_.vertices[vertex]).cast<double>()));
     }
     return sum;
   }
@@ -119,14 +121,14 @@ class SlowSkinner {
     const auto& [end, b] = keys[after];
     return blend(a, b, static_cast<double>(at_.seconds - begin) / static_cast<double>(end - begin));
   }
-  Eigen::Vector3d value(const std::vector<Key<Eigen::Vector3f>>& keys) const {
-    return value(keys, [](const Eigen::Vector3f& a, const Eigen::Vector3f& b, double t) {
-      return Eigen::Vector3d((1 - t) * a.cast<double>() + t * b.cast<double>());
+  Eigen::Vector3d value(const std::vector<Key<Vec3>>& keys) const {
+    return value(keys, [](const Vec3& a, const Vec3& b, double t) {
+      return Eigen::Vector3d((1 - t) * to_eigen(a).cast<double>() + t * to_eigen(b).cast<double>());
     });
   }
 
   Eigen::Affine3d local(std::size_t joint) const {
-    const Eigen::Affine3d rest = character_.joints[joint].rest.cast<double>();
+    const Eigen::Affine3d rest = to_eigen(character_.joints[joint].rest).cast<double>();
     Eigen::Vector3d position = rest.translation();
     Eigen::Matrix3d rotation, scaling;
     rest.computeRotationScaling(&rotation, &scaling);
@@ -136,11 +138,10 @@ class SlowSkinner {
         if (!channel.positions.empty()) position = value(channel.positions);
         if (!channel.scales.empty()) scaling = value(channel.scales).asDiagonal();
         if (!channel.rotations.empty())
-          rotation = value(channel.rotations,
-                           [](const Eigen::Quaternionf& a, const Eigen::Quaternionf& b, double t) {
-                             return Eigen::Matrix3d(
-                                 a.cast<double>().slerp(t, b.cast<double>()).normalized().toRotationMatrix());
-                           });
+          rotation = value(channel.rotations, [](const Quaternion& a, const Quaternion& b, double t) {
+            const Eigen::Quaterniond from = to_eigen(a).cast<double>();
+            return Eigen::Matrix3d(from.slerp(t, to_eigen(b).cast<double>()).normalized().toRotationMatrix());
+          });
       }
     return Eigen::Affine3d(Eigen::Translation3d(position) * Eigen::Affine3d(rotation * scaling));
   }
@@ -161,9 +162,9 @@ void expect_as_slowly(const Character& character) {
     const auto ground = skinner.ground_pose(time);
     ASSERT_EQ(ground.size(), pose.size());
     for (std::size_t v = 0; v < pose.size(); ++v) {
-      ASSERT_LT((pose[v].cast<double>() - slow.position(v)).norm(), 5e-6)
+      ASSERT_LT((to_eigen(pose[v]).cast<double>() - slow.position(v)).norm(), 5e-6)
           << character.name << " vertex " << v;
-      ASSERT_EQ(ground[v], (Vec2{pose[v].x(), pose[v].y()})) << character.name << " vertex " << v;
+      ASSERT_EQ(ground[v], (Vec2{pose[v].x, pose[v].y})) << character.name << " vertex " << v;
     }
   }
 }
@@ -188,14 +189,15 @@ TEST(Skinning, BlendsManyBonesWithKeysAtAnyTimes) {
   for (std::uint32_t j = 0; j < 7; ++j) {
     Joint& joint = c.joints.emplace_back();
     joint.parent = static_cast<std::int32_t>(j / 2) - (j == 0);
-    joint.rest = Eigen::Translation3f(uniform(), uniform(), uniform()) * rotation();
+    const Eigen::Affine3f rest(Eigen::Translation3f(uniform(), uniform(), uniform()) * rotation());
+    joint.rest = affine3(rest);
     c.bones.emplace_back().joint = j;
-    c.bones.back().inverse_bind = joint.rest.inverse();
+    c.bones.back().inverse_bind = affine3(rest.inverse());
     Channel& channel = c.clips[0].channels[j];
     channel.joint = j;
     for (std::uint32_t k = 0; k <= j; ++k) {
       const float time = 2 * static_cast<float>(k) / static_cast<float>(j + 1);
-      if (j != 3) channel.rotations.push_back({time, rotation()});
+      if (j != 3) channel.rotations.push_back({time, quaternion(rotation())});
       if (j % 2 == 0) channel.positions.push_back({0.5f * time, {uniform(), uniform(), uniform()}});
       if (j % 3 == 0) channel.scales.push_back({time, {1, 1 + 0.1f * uniform(), 0.9f}});
     }
@@ -203,7 +205,7 @@ TEST(Skinning, BlendsManyBonesWithKeysAtAnyTimes) {
   c.influence_begin = {0};
   for (std::uint32_t v = 0; v < 77; ++v) {
     const std::uint32_t count = v % 7 + 1;
-    c.vertices.emplace_back(uniform(), uniform(), uniform());
+    c.vertices.push_back({uniform(), uniform(), uniform()});
     for (std::uint32_t i = 0; i < count; ++i)
       c.influences.push_back({(v + i) % 7, 1 / static_cast<float>(count)});
     c.influence_begin.push_back(static_cast<std::uint32_t>(c.influences.size()));
@@ -220,19 +222,24 @@ TEST(Skinning, WithoutARootTheMiddleIsTheOrigin) {
   Skinner skinner(c);
   const auto pose = skinner.pose({0, 0.5f});
   Eigen::AlignedBox3f box;
-  for (const Eigen::Vector3f& position : pose) box.extend(position);
+  for (const Vec3& position : pose) box.extend(to_eigen(position));
   EXPECT_LT(box.center().head<2>().norm(), 1e-6f);
   EXPECT_EQ(box.min().z(), 0);
   const auto ground = skinner.ground_pose({0, 0.5f});
-  for (std::size_t v = 0; v < pose.size(); ++v) EXPECT_EQ(ground[v], (Vec2{pose[v].x(), pose[v].y()}));
+  for (std::size_t v = 0; v < pose.size(); ++v) EXPECT_EQ(ground[v], (Vec2{pose[v].x, pose[v].y}));
+}
+
+void double_linear_part(Bone& bone) {
+  for (auto& row : bone.inverse_bind.rows)
+    for (int i = 0; i < 3; ++i) row[i] *= 2;
 }
 
 TEST(Skinning, NamesTheFirstVertexThatIsNotFinite) {
   Character c = two_joints();
-  c.vertices[2].x() = c.vertices[4].y() = 3e38f;
+  c.vertices[2].x = c.vertices[4].y = 3e38f;
   c.influence_begin = {0, 1, 3, 4, 5, 6, 7};
   c.influences = {{0, 1}, {0, 0.5f}, {1, 0.5f}, {0, 1}, {1, 1}, {1, 1}, {1, 1}};
-  c.bones[0].inverse_bind.linear() *= 2;
+  double_linear_part(c.bones[0]);
   Skinner skinner(c);
   const std::string expected = "character 'two joints': posed vertex 2 is not finite";
   EXPECT_EQ(complaint<std::domain_error>([&] { skinner.pose({}); }), expected);
@@ -241,8 +248,8 @@ TEST(Skinning, NamesTheFirstVertexThatIsNotFinite) {
 
 TEST(Skinning, AsksNothingOfHeightsThatNobodySees) {
   Character c = two_joints();
-  c.vertices[3].z() = 3e38f;
-  for (Bone& bone : c.bones) bone.inverse_bind.linear() *= 2;
+  c.vertices[3].z = 3e38f;
+  for (Bone& bone : c.bones) double_linear_part(bone);
   Skinner skinner(c);
   EXPECT_EQ(complaint<std::domain_error>([&] { skinner.pose({}); }),
             "character 'two joints': posed vertex 3 is not finite");
@@ -261,7 +268,7 @@ TEST(Slerp, TurnsAtConstantSpeedTheShorterWay) {
     const float t = std::uniform_real_distribution<float>(0, 1)(random);
     const Eigen::Quaterniond exact =
         a.cast<double>().normalized().slerp(static_cast<double>(t), b.cast<double>().normalized());
-    const Eigen::Quaterniond ours = slerp(a, b, t);
+    const Eigen::Quaterniond ours = slerp(quaternion(a), quaternion(b), t);
     ASSERT_NEAR(std::abs(ours.dot(exact)), 1, 1e-13);
     ASSERT_LT(std::min((ours.coeffs() - exact.coeffs()).norm(), (ours.coeffs() + exact.coeffs()).norm()),
               3e-7);
@@ -270,10 +277,10 @@ TEST(Slerp, TurnsAtConstantSpeedTheShorterWay) {
 }
 
 TEST(Slerp, BeginsAndEndsWhereItShould) {
-  const Eigen::Quaternionf a(1, 0, 0, 0), b(0, 0, 0, 1);
-  EXPECT_TRUE(slerp(a, b, 0).isApprox(a.cast<double>(), 1e-15));
-  EXPECT_TRUE(slerp(a, b, 1).isApprox(b.cast<double>(), 1e-15));
-  EXPECT_TRUE(slerp(a, a, 0.5f).isApprox(a.cast<double>(), 1e-15));
+  const Quaternion a, b{0, 0, 1, 0};
+  EXPECT_TRUE(slerp(a, b, 0).isApprox(to_eigen(a).cast<double>(), 1e-15));
+  EXPECT_TRUE(slerp(a, b, 1).isApprox(to_eigen(b).cast<double>(), 1e-15));
+  EXPECT_TRUE(slerp(a, a, 0.5f).isApprox(to_eigen(a).cast<double>(), 1e-15));
 }
 
 TEST(Skinning, RejectsTimesAndClipsThatAreNotThere) {
@@ -300,19 +307,19 @@ TEST(Character, ValidationNamesWhatIsWrong) {
   broken([](Character& c) { c.influence_begin[2] = 1; });
   broken([](Character& c) { c.influence_begin.pop_back(); });
   broken([](Character& c) { c.clips[0].channels[1].joint = 0; });
-  broken([nan](Character& c) { c.vertices[0].x() = nan; });
+  broken([nan](Character& c) { c.vertices[0].x = nan; });
   broken([nan](Character& c) { c.clips[0].seconds = nan; });
   broken([](Character& c) {
     std::swap(c.clips[0].channels[0].positions[0], c.clips[0].channels[0].positions[1]);
   });
-  broken([](Character& c) { c.clips[0].channels[1].rotations[0].value.coeffs() *= 2; });
+  broken([](Character& c) { c.clips[0].channels[1].rotations[0].value.w = 2; });
   broken([](Character& c) { c.clips[0].channels[0].position_curve.interpolation = Interpolation::cubic; });
   broken([](Character& c) { c.clips[0].channels[0].position_curve.tangents.resize(2); });
   broken([](Character& c) {
     c.clips[0].channels[1].rotation_curve.interpolation = static_cast<Interpolation>(3);
   });
   broken([nan](Character& c) {
-    const Eigen::Vector3f zero = Eigen::Vector3f::Zero();
+    const Vec3 zero;
     c.clips[0].channels[0].position_curve = {Interpolation::cubic, {{zero, zero}, {zero, {nan, 0, 0}}}};
   });
 }

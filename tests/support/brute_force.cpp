@@ -65,10 +65,10 @@ bool any_meet(std::vector<Boxed<Facet>> a, std::vector<Boxed<Facet>> b, Meet mee
 /// Triangles in space, or dropped to the ground.
 std::vector<Boxed<baselines::Triangle3>> triangles(const Body& body, const Placement* at, bool flat) {
   std::vector<Point3> placed;
-  for (const Eigen::Vector3f& p : body.positions) {
-    const Vec2 ground{p.x(), p.y()};
+  for (const Vec3& p : body.positions) {
+    const Vec2 ground{p.x, p.y};
     const Point2 q = at != nullptr ? at->place(ground) : baselines::exact(ground);
-    placed.push_back({q.x, q.y, flat ? 0.0 : static_cast<double>(p.z())});
+    placed.push_back({q.x, q.y, flat ? 0.0 : static_cast<double>(p.z)});
   }
   std::vector<Boxed<baselines::Triangle3>> result;
   for (const auto& [i, j, k] : body.triangles) {

@@ -17,8 +17,7 @@ struct Corner {
 void add(Soup& soup, Corner a, Corner b, Corner c) {
   const auto first = static_cast<std::uint32_t>(soup.positions.size());
   for (const Corner corner : {a, b, c})
-    soup.positions.emplace_back(unit * static_cast<float>(corner.x), unit * static_cast<float>(corner.y),
-                                0.0f);
+    soup.positions.push_back({unit * static_cast<float>(corner.x), unit * static_cast<float>(corner.y), 0});
   soup.triangles.push_back({first, first + 1, first + 2});
 }
 
@@ -126,9 +125,8 @@ Soup nearly_equal_triangles(Random& random, std::uint32_t count, std::uint32_t s
 
 void append(Soup& soup, const Soup& other, std::int32_t x, std::int32_t y) {
   const auto first = static_cast<std::uint32_t>(soup.positions.size());
-  for (const Eigen::Vector3f& p : other.positions)
-    soup.positions.emplace_back(p.x() + unit * static_cast<float>(x), p.y() + unit * static_cast<float>(y),
-                                p.z());
+  for (const Vec3& p : other.positions)
+    soup.positions.push_back({p.x + unit * static_cast<float>(x), p.y + unit * static_cast<float>(y), p.z});
   for (const auto& [a, b, c] : other.triangles) soup.triangles.push_back({a + first, b + first, c + first});
 }
 

@@ -16,8 +16,8 @@ struct Point {
   double x, y;
 };
 
-Point flat(const Eigen::Vector3f& p) {
-  return {p.x(), p.y()};
+Point flat(const Vec3& p) {
+  return {p.x, p.y};
 }
 double cross(Point a, Point b, Point p) {
   return (b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x);

@@ -3,7 +3,6 @@
 
 #pragma once
 
-#include <Eigen/Core>
 #include <array>
 #include <cstdint>
 #include <span>
@@ -12,7 +11,7 @@
 
 namespace bch::test {
 
-using Positions = std::span<const Eigen::Vector3f>;
+using Positions = std::span<const Vec3>;
 using Triangles = std::span<const std::array<std::uint32_t, 3>>;
 
 /// Returns whether a point is inside by the even-odd rule over all contours.

@@ -53,7 +53,7 @@ Paths inflated_union(Positions positions, Triangles triangles, float step) {
   ClipperLib::Clipper clipper;
   for (const auto& t : triangles) {
     std::array<IntPoint, 3> corners;
-    for (std::size_t k = 0; k < 3; ++k) corners[k] = on_grid(positions[t[k]].x(), positions[t[k]].y(), step);
+    for (std::size_t k = 0; k < 3; ++k) corners[k] = on_grid(positions[t[k]].x, positions[t[k]].y, step);
     if (corners[0] == corners[1] && corners[1] == corners[2]) continue;
     clipper.AddPath(inflated(corners), ClipperLib::ptSubject, true);
   }

@@ -20,7 +20,7 @@ Soup random_soup(Random& random) {
   constexpr std::uint32_t ranges[] = {2, 4, 5, 8, 32};
   const std::uint32_t range = ranges[random.below(5)];
   const auto coordinate = [&] { return unit * static_cast<float>(random.below(range)); };
-  const auto point = [&] { return Eigen::Vector3f(coordinate(), coordinate(), coordinate()); };
+  const auto point = [&] { return Vec3{coordinate(), coordinate(), coordinate()}; };
   Soup soup;
   const std::uint32_t count = 1 + random.below(random.below(6) == 0 ? 30 : 12);
   const bool shared = random.below(2) == 0;
@@ -38,9 +38,9 @@ Soup random_soup(Random& random) {
   if (random.below(2) == 0) {
     const float distant = unit * 0x1p22f;
     const std::uint32_t first = vertices;
-    soup.positions.emplace_back(distant, coordinate(), 0.0f);
-    soup.positions.emplace_back(distant + coordinate(), coordinate(), 0.0f);
-    soup.positions.push_back(random.below(3) == 0 ? point() : Eigen::Vector3f(distant, coordinate(), 0));
+    soup.positions.push_back({distant, coordinate(), 0});
+    soup.positions.push_back({distant + coordinate(), coordinate(), 0});
+    soup.positions.push_back(random.below(3) == 0 ? point() : Vec3{distant, coordinate(), 0});
     soup.triangles.push_back({first, first + 1, first + 2});
   }
   return soup;
@@ -51,7 +51,7 @@ std::vector<IntegerTriangle> on_grid(const Soup& soup, float grid_step) {
   for (const auto& t : soup.triangles) {
     IntegerTriangle& triangle = triangles.emplace_back();
     for (std::size_t k = 0; k < 3; ++k)
-      triangle[k] = steps(soup.positions[t[k]].x(), soup.positions[t[k]].y(), grid_step);
+      triangle[k] = steps(soup.positions[t[k]].x, soup.positions[t[k]].y, grid_step);
   }
   return triangles;
 }

@@ -3,7 +3,6 @@
 
 #pragma once
 
-#include <Eigen/Core>
 #include <array>
 #include <cstdint>
 #include <vector>
@@ -15,7 +14,7 @@
 namespace bch::test {
 
 struct Soup {
-  std::vector<Eigen::Vector3f> positions;
+  std::vector<Vec3> positions;
   std::vector<std::array<std::uint32_t, 3>> triangles;
 };
 

@@ -11,20 +11,21 @@
 #include <set>
 #include <stdexcept>
 
+#include "layout/character/eigen.hpp"
+
 namespace bch {
 namespace {
 
-aiVector3D to_ai(const Eigen::Vector3f& v) {
-  return {v.x(), v.y(), v.z()};
+aiVector3D to_ai(const Vec3& v) {
+  return {v.x, v.y, v.z};
 }
-aiQuaternion to_ai(const Eigen::Quaternionf& q) {
-  return {q.w(), q.x(), q.y(), q.z()};
+aiQuaternion to_ai(const Quaternion& q) {
+  return {q.w, q.x, q.y, q.z};
 }
 
-aiMatrix4x4 to_ai(const Eigen::Affine3f& t) {
-  const Eigen::Matrix4f& m = t.matrix();
-  return {m(0, 0), m(0, 1), m(0, 2), m(0, 3), m(1, 0), m(1, 1), m(1, 2), m(1, 3),
-          m(2, 0), m(2, 1), m(2, 2), m(2, 3), m(3, 0), m(3, 1), m(3, 2), m(3, 3)};
+aiMatrix4x4 to_ai(const Affine3& t) {
+  const auto& [x, y, z] = t.rows;
+  return {x[0], x[1], x[2], x[3], y[0], y[1], y[2], y[3], z[0], z[1], z[2], z[3], 0, 0, 0, 1};
 }
 
 /// assimp's structures own plain arrays.
@@ -65,7 +66,7 @@ struct SceneBuilder {
     Eigen::Affine3f z_up_to_y_up = Eigen::Affine3f::Identity();
     z_up_to_y_up.linear() << 1, 0, 0, 0, 0, 1, 0, -1, 0;
     scene->mRootNode = new aiNode("scene root");
-    scene->mRootNode->mTransformation = to_ai(Eigen::Affine3f(z_up_to_y_up * character.to_ground));
+    scene->mRootNode->mTransformation = to_ai(affine3(z_up_to_y_up * to_eigen(character.to_ground)));
     auto* mesh_node = new aiNode("mesh node");
     mesh_node->mNumMeshes = 1;
     mesh_node->mMeshes = new unsigned[1]{0};
@@ -97,8 +98,7 @@ struct SceneBuilder {
     scene->mMaterials = new aiMaterial* [1] { new aiMaterial };
     mesh->mName = "mesh";
     mesh->mPrimitiveTypes = aiPrimitiveType_TRIANGLE;
-    fill(mesh->mVertices, mesh->mNumVertices, character.vertices,
-         [](const Eigen::Vector3f& v) { return to_ai(v); });
+    fill(mesh->mVertices, mesh->mNumVertices, character.vertices, [](const Vec3& v) { return to_ai(v); });
     fill(mesh->mFaces, mesh->mNumFaces, character.triangles,
          [](const std::array<std::uint32_t, 3>& triangle) {
            aiFace face;
@@ -132,27 +132,28 @@ struct SceneBuilder {
     const Joint& joint = character.joints[channel.joint];
     Eigen::Matrix3f turn;
     Eigen::Matrix3f stretch;
-    joint.rest.computeRotationScaling(&turn, &stretch);
+    const Eigen::Affine3f rest = to_eigen(joint.rest);
+    rest.computeRotationScaling(&turn, &stretch);
     std::set<float> times;
     for (const auto& key : channel.positions) times.insert(key.time);
     for (const auto& key : channel.rotations) times.insert(key.time);
     for (const auto& key : channel.scales) times.insert(key.time);
 
-    const auto blend = [](const Eigen::Vector3f& x, const Eigen::Vector3f& y, float t) {
-      return Eigen::Vector3f(x + t * (y - x));
+    const auto blend = [](const Vec3& x, const Vec3& y, float t) {
+      return vec3(to_eigen(x) + t * (to_eigen(y) - to_eigen(x)));
     };
-    const auto blend_turns = [](const Eigen::Quaternionf& x, const Eigen::Quaternionf& y, float t) {
-      return x.slerp(t, y);
+    const auto blend_turns = [](const Quaternion& x, const Quaternion& y, float t) {
+      return quaternion(to_eigen(x).slerp(t, to_eigen(y)));
     };
     std::vector<aiVectorKey> positions, scales;
     std::vector<aiQuatKey> rotations;
     for (const float time : times) {
       const double ticks = static_cast<double>(time) * ticks_per_second;
       positions.emplace_back(ticks,
-                             to_ai(value_at(channel.positions, time, joint.rest.translation(), blend)));
-      rotations.emplace_back(ticks,
-                             to_ai(value_at(channel.rotations, time, Eigen::Quaternionf(turn), blend_turns)));
-      scales.emplace_back(ticks, to_ai(value_at(channel.scales, time, stretch.diagonal(), blend)));
+                             to_ai(value_at(channel.positions, time, vec3(rest.translation()), blend)));
+      rotations.emplace_back(
+          ticks, to_ai(value_at(channel.rotations, time, quaternion(Eigen::Quaternionf(turn)), blend_turns)));
+      scales.emplace_back(ticks, to_ai(value_at(channel.scales, time, vec3(stretch.diagonal()), blend)));
     }
     auto* out = new aiNodeAnim;
     out->mNodeName = joint.name;

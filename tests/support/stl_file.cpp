@@ -17,7 +17,7 @@ std::string stl_file(const Soup& soup) {
   std::string bytes(80, '\0');
   append(bytes, static_cast<std::uint32_t>(soup.triangles.size()));
   for (const auto& triangle : soup.triangles) {
-    append(bytes, Eigen::Vector3f(0, 0, 0));  // no normal
+    append(bytes, Vec3());  // no normal
     for (const std::uint32_t vertex : triangle) append(bytes, soup.positions[vertex]);
     append(bytes, std::uint16_t{0});
   }

@@ -93,7 +93,7 @@ TEST_F(AllocationFaults, Outline) {
   const Character character = default_male();
   Skinner skinner(character);
   const auto pose = skinner.pose({});
-  const std::vector<Eigen::Vector3f> positions(pose.begin(), pose.end());
+  const std::vector<Vec3> positions(pose.begin(), pose.end());
   EXPECT_GT(fail_each([&] {
               Outline outline;
               OutlineBuilder(character.triangles, positions.size(), positions).build(positions, outline);
