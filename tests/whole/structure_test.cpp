@@ -90,6 +90,9 @@ TEST(Layers, LibrariesStayInTheirRooms) {
   expect_no_include("layout", "polyclipping/");
   expect_no_include("layout", "xsimd/", "^(culling/(contour|cut|interior)|enclosing_disc/disc)_lanes");
   expect_no_include("layout", "oneapi/tbb|tbb/");
+  expect_no_include("layout", "Eigen/|layout/character/eigen",
+                    "^(character|default_character|import)/.*cpp$|^character/(eigen|rotation_blend)|"
+                    "^default_character/(body|human)_|^import/(scene|units)");
   expect_no_include("layout", "xxhash", "^baked/checksum");
   expect_no_include("kernel", "assimp/|Eigen/|polyclipping/");
   expect_no_include("kernel", "xsimd/", "^simd/lanes");
