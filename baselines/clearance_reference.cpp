@@ -39,7 +39,7 @@ Vec2 direction(const Agents& agents, Pair pair, const Step& at) {
   const double x = at.x, y = at.y;
   const double sign = pair.first <= pair.second ? 1 : -1;
   if (x == 0 && y == 0) return {static_cast<float>(sign), 0};
-  const UnitVector heading = unit_vector(agents.heading[std::min(pair.first, pair.second)]);
+  const detail::UnitVector heading = detail::unit_vector(agents.heading[std::min(pair.first, pair.second)]);
   const double c = heading.cosine, s = heading.sine;
   const double world_x = c * x - s * y, world_y = s * x + c * y;
   const double scale = sign / std::sqrt(world_x * world_x + world_y * world_y);
@@ -60,7 +60,7 @@ Clearance ClearanceReference::query(const Agents& agents, Pair pair, double max_
   } else {
     // Twice what discs below may have a smaller gap than the one above, by rounding.
     const float slack = 0x1p-18f * (a.reach + b.reach);
-    const float most = rounding::round_up(std::min(max_distance, 1e30));
+    const float most = detail::rounding::round_up(std::min(max_distance, 1e30));
     search(
         place, a.nodes.data(), b.nodes.data(), open_,
         [slack](const Step& at) { return gap(at, 1 - 0x1p-18f) - slack; },

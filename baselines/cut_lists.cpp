@@ -35,7 +35,7 @@ bool any_hit(const FloatPlacement& place, const CutList& a, const CutList& b) {
 CutLists::CutLists(std::span<const Shape> shapes, const ShapeSetPlan& plan)
     : level_count_(plan.depths.size()) {
   for (const Shape& shape : shapes) {
-    reach_.push_back(rounding::round_up(shape.hierarchy.reach));
+    reach_.push_back(detail::rounding::round_up(shape.hierarchy.reach));
     for (const std::uint32_t depth : plan.depths) lists_.push_back(list_of(shape.hierarchy, depth));
   }
 }

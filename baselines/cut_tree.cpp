@@ -4,6 +4,7 @@
 #include "baselines/cut_tree.hpp"
 
 #include "layout/base/rounding.hpp"
+#include "layout/hierarchy/subtrees.hpp"
 
 namespace bch::baselines {
 namespace {
@@ -32,10 +33,10 @@ void add(const Hierarchy& hierarchy, const std::vector<float>& bounds, std::uint
 CutTrees::CutTrees(std::span<const Shape> shapes, const ShapeSetPlan& plan)
     : level_count_(static_cast<std::uint32_t>(plan.depths.size())) {
   for (const Shape& shape : shapes) {
-    const std::vector<float> bounds = bounding_radii(shape.hierarchy);
+    const std::vector<float> bounds = detail::bounding_radii(shape.hierarchy);
     for (const std::uint32_t depth : plan.depths) {
       Tree& tree = trees_.emplace_back();
-      tree.reach = rounding::round_up(shape.hierarchy.reach);
+      tree.reach = detail::rounding::round_up(shape.hierarchy.reach);
       add(shape.hierarchy, bounds, 0, depth, tree);
     }
   }

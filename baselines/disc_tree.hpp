@@ -8,10 +8,11 @@
 #include <span>
 #include <vector>
 
+#include <bch/hierarchy.hpp>
+
 #include "baselines/counts.hpp"
 #include "baselines/placement.hpp"
 #include "baselines/traversal_stack.hpp"
-#include "layout/hierarchy/hierarchy.hpp"
 
 namespace bch::baselines {
 

@@ -6,8 +6,9 @@
 #include <cstdint>
 #include <vector>
 
+#include <bch/hierarchy.hpp>
+
 #include "baselines/quad.hpp"
-#include "layout/hierarchy/hierarchy.hpp"
 
 namespace bch::baselines {
 

@@ -10,12 +10,13 @@
 #include <string>
 #include <vector>
 
+#include <bch/outline.hpp>
+
 #include "baselines/obb_tree.hpp"
 #include "baselines/placement.hpp"
 #include "baselines/structure.hpp"
 #include "layout/base/rounding.hpp"
 #include "layout/character/eigen.hpp"
-#include "layout/format/outline.hpp"
 
 // What all queries of the Flexible Collision Library are asked about.
 
@@ -35,7 +36,7 @@ std::shared_ptr<fcl::BVHModel<Volume>> fcl_mesh(const std::vector<fcl::Vector3d>
                                                 const std::vector<fcl::Triangle>& triangles) {
   if (triangles.empty()) throw std::invalid_argument("no triangles");
   for (std::size_t i = 0; i < vertices.size(); ++i)
-    if (!(vertices[i].norm() <= rounding::largest_reach))
+    if (!(vertices[i].norm() <= detail::rounding::largest_reach))
       throw std::invalid_argument("vertex " + std::to_string(i) + ": (" + std::to_string(vertices[i].x()) +
                                   ", " + std::to_string(vertices[i].y()) + ", " +
                                   std::to_string(vertices[i].z()) + ")");
@@ -52,7 +53,7 @@ std::shared_ptr<fcl::BVHModel<Volume>> fcl_triangles(const Body& body) {
   triangle_facets(body.positions, body.triangles);  // for its complaints
   std::vector<fcl::Vector3d> vertices;
   std::vector<fcl::Triangle> triangles;
-  for (const Vec3& p : body.positions) vertices.push_back(to_eigen(p).cast<double>());
+  for (const Vec3& p : body.positions) vertices.push_back(detail::to_eigen(p).cast<double>());
   for (const auto& [a, b, c] : body.triangles) triangles.emplace_back(a, b, c);
   return fcl_mesh<Volume>(vertices, triangles);
 }

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "layout/base/rounding.hpp"
+#include "layout/format/shape_set_view.hpp"
 
 namespace bch::baselines {
 namespace {
@@ -34,7 +35,7 @@ struct Sides {
 
   bool on_one_side() const { return std::min(first, second) > margin || std::max(first, second) < -margin; }
   bool on_both_sides() const {
-    const double sure = rounding::sure_share * margin;
+    const double sure = detail::rounding::sure_share * margin;
     return std::max(first, second) > sure && std::min(first, second) < -sure;
   }
 };
@@ -57,9 +58,9 @@ Segment segment_of(const Outline& outline, std::uint32_t number) {
 }
 
 double margin_of(const Shape& shape) {
-  return static_cast<double>(
-      rounding::round_up(rounding::segment_margin * shape.hierarchy.reach +
-                         rounding::outline_grid_steps * static_cast<double>(shape.outline.grid_step)));
+  return static_cast<double>(detail::rounding::round_up(
+      detail::rounding::segment_margin * shape.hierarchy.reach +
+      detail::rounding::outline_grid_steps * static_cast<double>(shape.outline.grid_step)));
 }
 
 }  // namespace
@@ -94,7 +95,7 @@ bool LeafSegments::meet(const FloatPlacement& place, const Agents& agents, Pair 
   const double margin = margin_of(a) + margin_of(b);
   const auto [begin_a, end_a] = a.hierarchy.primitive_ranges[node_a];
   const auto [begin_b, end_b] = b.hierarchy.primitive_ranges[node_b];
-  if (std::max(end_a - begin_a, end_b - begin_b) > most_leaf_segments) return true;
+  if (std::max(end_a - begin_a, end_b - begin_b) > detail::most_leaf_segments) return true;
   for (std::uint32_t i = begin_a; i < end_a; ++i)
     for (std::uint32_t j = begin_b; j < end_b; ++j) {
       Segment of_b = segment_of(b.outline, b.hierarchy.source[j]);

@@ -8,9 +8,10 @@
 #include <span>
 #include <vector>
 
+#include <bch/agents.hpp>
+#include <bch/shape_set.hpp>
+
 #include "baselines/placement.hpp"
-#include "layout/format/agents.hpp"
-#include "layout/shape_set/shape_set.hpp"
 
 namespace bch::baselines {
 

@@ -115,7 +115,7 @@ ObbNode box_along(const Eigen::Matrix3d& frame, std::span<const Item> items, dou
   for (std::size_t k = 0; k < 3; ++k) {
     for (Eigen::Index x = 0; x < 3; ++x) node.axis[k][x] = axes(x, order[k]);
     node.centre[k] = centre[static_cast<Eigen::Index>(k)];
-    node.half[k] = rounding::round_up(half[order[k]] * (1 + 0x1p-40) + margin);
+    node.half[k] = detail::rounding::round_up(half[order[k]] * (1 + 0x1p-40) + margin);
   }
   return node;
 }
@@ -145,8 +145,8 @@ double checked_reach(std::span<const Facet> facets) {
         throw std::invalid_argument("box tree: facet " + std::to_string(i) + " is not finite");
       reach = std::max(reach, p.cast<double>().norm());
     }
-  if (reach < rounding::smallest_reach || reach > rounding::largest_reach)
-    throw std::invalid_argument("box tree: reach " + shortest(reach) + " m is outside 1e-6 to 1e6 m");
+  if (reach < detail::rounding::smallest_reach || reach > detail::rounding::largest_reach)
+    throw std::invalid_argument("box tree: reach " + detail::shortest(reach) + " m is outside 1e-6 to 1e6 m");
   return reach;
 }
 
@@ -201,7 +201,8 @@ std::vector<Facet> triangle_facets(std::span<const Vec3> positions,
         throw std::invalid_argument("triangle " + std::to_string(t) + " names vertex " +
                                     std::to_string(vertex) + " of " + std::to_string(positions.size()));
     const auto& [a, b, c] = triangles[t];
-    facets.push_back({to_eigen(positions[a]), to_eigen(positions[b]), to_eigen(positions[c])});
+    facets.push_back(
+        {detail::to_eigen(positions[a]), detail::to_eigen(positions[b]), detail::to_eigen(positions[c])});
   }
   return facets;
 }

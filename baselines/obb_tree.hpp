@@ -9,7 +9,7 @@
 #include <span>
 #include <vector>
 
-#include "layout/base/disc.hpp"
+#include <bch/geometry.hpp>
 
 namespace bch::baselines {
 

@@ -6,8 +6,8 @@
 #include <span>
 #include <vector>
 
-#include "layout/format/agents.hpp"
-#include "layout/format/outline.hpp"
+#include <bch/agents.hpp>
+#include <bch/outline.hpp>
 
 namespace bch::baselines {
 

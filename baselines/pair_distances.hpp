@@ -6,8 +6,9 @@
 #include <memory>
 #include <span>
 
+#include <bch/agents.hpp>
+
 #include "baselines/structure.hpp"
-#include "layout/format/agents.hpp"
 
 namespace bch::baselines {
 

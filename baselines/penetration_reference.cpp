@@ -19,7 +19,7 @@ struct Vector {
 
 /// The largest extent of an agent's discs along a direction of the world, from its position on.
 double support(const CutLists& cuts, const Agents& agents, std::uint32_t agent, Vector along) {
-  const Rotation turn = rotation(agents.heading[agent]);
+  const detail::Rotation turn = detail::rotation(agents.heading[agent]);
   const auto x = static_cast<float>(turn.cosine * along.x + turn.sine * along.y);
   const auto y = static_cast<float>(turn.cosine * along.y - turn.sine * along.x);
   float largest = -HUGE_VALF;
@@ -39,8 +39,9 @@ double way(const CutLists& cuts, const Agents& agents, std::uint32_t mover, std:
 Way with_slack(const CutLists& cuts, const Agents& agents, Pair pair, double way, Vector along) {
   const double reach = static_cast<double>(cuts.reach(agents, std::min(pair.first, pair.second))) +
                        static_cast<double>(cuts.reach(agents, std::max(pair.first, pair.second)));
-  const double depth = (way + 40 * rounding::unit_roundoff * reach) * (1 + 4 * rounding::unit_roundoff);
-  return {depth > 0 ? rounding::round_up(depth) : 0.0f, along.x, along.y};
+  const double depth =
+      (way + 40 * detail::rounding::unit_roundoff * reach) * (1 + 4 * detail::rounding::unit_roundoff);
+  return {depth > 0 ? detail::rounding::round_up(depth) : 0.0f, along.x, along.y};
 }
 
 }  // namespace
@@ -56,7 +57,7 @@ Way penetration(const CutLists& cuts, const Agents& agents, Pair pair, std::uint
   double least = HUGE_VAL;
   Vector best{0, 0};
   for (std::uint32_t i = 0; i < k / 2; ++i) {
-    const Rotation turn = rotation(2 * std::numbers::pi * i / k);
+    const detail::Rotation turn = detail::rotation(2 * std::numbers::pi * i / k);
     for (const double sign : {1.0, -1.0}) {
       const Vector along{sign * turn.cosine, sign * turn.sine};
       const double each = way(cuts, agents, a, b, along);

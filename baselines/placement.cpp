@@ -19,8 +19,8 @@ double without_dust(double value) {
 
 FloatPlacement float_placement(const Agents& agents, Pair pair) noexcept {
   const auto [a, b] = std::minmax(pair.first, pair.second);
-  const UnitVector u = unit_vector(agents.heading[a]);
-  const UnitVector v = unit_vector(agents.heading[b]);
+  const detail::UnitVector u = detail::unit_vector(agents.heading[a]);
+  const detail::UnitVector v = detail::unit_vector(agents.heading[b]);
   const float dx = static_cast<float>(agents.x[b] - agents.x[a]);
   const float dy = static_cast<float>(agents.y[b] - agents.y[a]);
   return {u.cosine * v.cosine + u.sine * v.sine, u.cosine * v.sine - u.sine * v.cosine,
@@ -29,8 +29,8 @@ FloatPlacement float_placement(const Agents& agents, Pair pair) noexcept {
 
 Placement placement(const Agents& agents, Pair pair) noexcept {
   const auto [a, b] = std::minmax(pair.first, pair.second);
-  const Rotation u = rotation(agents.heading[a]);
-  const Rotation v = rotation(agents.heading[b]);
+  const detail::Rotation u = detail::rotation(agents.heading[a]);
+  const detail::Rotation v = detail::rotation(agents.heading[b]);
   const double dx = agents.x[b] - agents.x[a];
   const double dy = agents.y[b] - agents.y[a];
   return {without_dust(u.cosine * v.cosine + u.sine * v.sine),

@@ -3,8 +3,8 @@
 
 #pragma once
 
-#include "layout/base/disc.hpp"
-#include "layout/format/agents.hpp"
+#include <bch/agents.hpp>
+#include <bch/geometry.hpp>
 
 namespace bch::baselines {
 

@@ -7,9 +7,10 @@
 #include <cstdint>
 #include <vector>
 
+#include <bch/geometry.hpp>
+
 #include "baselines/exact_tests.hpp"
 #include "baselines/obb_tree.hpp"
-#include "layout/base/disc.hpp"
 
 namespace bch::baselines {
 

@@ -7,11 +7,12 @@
 #include <span>
 #include <vector>
 
+#include <bch/agents.hpp>
+#include <bch/hierarchy.hpp>
+#include <bch/shape_set.hpp>
+
 #include "baselines/cut_lists.hpp"
 #include "baselines/leaf_segments.hpp"
-#include "layout/format/agents.hpp"
-#include "layout/hierarchy/hierarchy.hpp"
-#include "layout/shape_set/shape_set.hpp"
 
 namespace bch::baselines {
 

@@ -6,11 +6,12 @@
 #include <string>
 #include <vector>
 
+#include <bch/hierarchy.hpp>
+
 #include "baselines/disc_tree.hpp"
 #include "baselines/kind_rows.hpp"
 #include "baselines/placement.hpp"
 #include "baselines/traversal_stack.hpp"
-#include "layout/hierarchy/hierarchy.hpp"
 
 // The kinds "reference" and "paper_descent": the paper's descent of two binary trees by their smallest discs,
 // one pair at a time, into the larger disc first. "reference" is what the batch kernel's speed is measured

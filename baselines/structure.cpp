@@ -45,10 +45,10 @@ void validate_agent(const Agents& agents, std::uint32_t agent, std::uint32_t sha
   if (agent >= agents.size()) reject("pair ", pair, ": agent ", agent, " of ", agents.size());
   if (agents.shape[agent] >= shapes)
     reject("pair ", pair, ": agent ", agent, ": shape ", agents.shape[agent], " of ", shapes);
-  if (!in_range(agents.x[agent], rounding::largest_position) ||
-      !in_range(agents.y[agent], rounding::largest_position))
+  if (!in_range(agents.x[agent], detail::rounding::largest_position) ||
+      !in_range(agents.y[agent], detail::rounding::largest_position))
     reject("pair ", pair, ": agent ", agent, ": position (", agents.x[agent], ", ", agents.y[agent], ")");
-  if (!in_range(agents.heading[agent], rounding::largest_heading))
+  if (!in_range(agents.heading[agent], detail::rounding::largest_heading))
     reject("pair ", pair, ": agent ", agent, ": heading ", agents.heading[agent]);
 }
 

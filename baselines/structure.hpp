@@ -11,9 +11,10 @@
 #include <string_view>
 #include <vector>
 
+#include <bch/agents.hpp>
+#include <bch/shape_set.hpp>
+
 #include "baselines/counts.hpp"
-#include "layout/format/agents.hpp"
-#include "layout/shape_set/shape_set.hpp"
 
 /// One interface over all structures that answer "do these two collide?", for benchmarks, experiments and
 /// tests to walk: build a kind over bodies, then ask it about the very agents and pairs that bch::collide()

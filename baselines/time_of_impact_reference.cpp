@@ -56,7 +56,7 @@ float TimeOfImpactReference::query(const Agents& agents, Pair pair, double x, do
   const auto [first, second] = std::minmax(pair.first, pair.second);
   const CutTrees::Tree &a = trees_.tree(agents, first), &b = trees_.tree(agents, second);
   const FloatPlacement place = float_placement(agents, pair);
-  const UnitVector heading = unit_vector(agents.heading[first]);
+  const detail::UnitVector heading = detail::unit_vector(agents.heading[first]);
   const double sign = pair.first <= pair.second ? 1 : -1;
   const auto dx = static_cast<float>(sign * x), dy = static_cast<float>(sign * y);
   if (dx == 0 && dy == 0) return any_hit(cuts_, agents, pair) ? 0 : never;

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "layout/base/disc.hpp"
+#include <bch/geometry.hpp>
 
 namespace bch::bench {
 

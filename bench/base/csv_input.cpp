@@ -68,7 +68,7 @@ class TextBytes : public io::ByteSourceBase {
 };
 
 /// The longest way of an agent: two agents' ways apart are within the limit of time_of_impact().
-constexpr double largest_way = rounding::largest_position / 2;
+constexpr double largest_way = detail::rounding::largest_position / 2;
 
 /// A place in a file, for messages.
 struct Place {
@@ -162,9 +162,9 @@ AgentTable read_agents(const std::string& file, std::uint32_t shapes, std::uint3
     while (reader.read_row(id, shape, x, y, heading, level, dx, dy)) {
       const Place place{file, reader.get_file_line()};
       add_agent(place, table, id, index_below(place, "shape", shape, shapes),
-                number_within(place, "x", x, rounding::largest_position),
-                number_within(place, "y", y, rounding::largest_position),
-                number_within(place, "heading", heading, rounding::largest_heading));
+                number_within(place, "x", x, detail::rounding::largest_position),
+                number_within(place, "y", y, detail::rounding::largest_position),
+                number_within(place, "heading", heading, detail::rounding::largest_heading));
       if (has_level)
         table.level.push_back(static_cast<std::uint8_t>(index_below(place, "level", level, levels)));
       if (!has_way) continue;

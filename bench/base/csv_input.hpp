@@ -8,7 +8,7 @@
 #include <unordered_map>
 #include <vector>
 
-#include "kernel/collide/collide.hpp"
+#include <bch/collide.hpp>
 
 namespace bch::cli {
 

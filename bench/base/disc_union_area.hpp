@@ -7,8 +7,8 @@
 #include <span>
 #include <vector>
 
-#include "layout/base/disc.hpp"
-#include "layout/hierarchy/hierarchy.hpp"
+#include <bch/geometry.hpp>
+#include <bch/hierarchy.hpp>
 
 namespace bch::cli {
 

@@ -6,8 +6,9 @@
 #include <cstdint>
 #include <vector>
 
+#include <bch/shape_set.hpp>
+
 #include "bench/base/svg.hpp"
-#include "layout/shape_set/shape_set.hpp"
 
 namespace bch::cli {
 

@@ -14,15 +14,16 @@
 #include <stdexcept>
 #include <string>
 
+#include <bch/baked.hpp>
+#include <bch/import.hpp>
+
 #include "bench/base/exit_codes.hpp"
 #include "bench/base/printable.hpp"
-#include "layout/baked/file.hpp"
-#include "layout/import/import.hpp"
 
 namespace bch::cli {
 namespace {
 
-constexpr rlim_t least_stack = 256;  ///< KiB, which queries need: kernel/collide/collide.hpp
+constexpr rlim_t least_stack = 256;  ///< KiB, which queries need: <bch/collide.hpp>
 
 /// A stack that is too small ends the program by SIGSEGV somewhere in the work.
 void require_stack() {

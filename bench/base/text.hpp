@@ -9,8 +9,9 @@
 #include <string>
 #include <string_view>
 
+#include <bch/hierarchy.hpp>
+
 #include "bench/base/printable.hpp"
-#include "layout/hierarchy/hierarchy.hpp"
 
 namespace bch::cli {
 

@@ -25,14 +25,14 @@ std::string_view text(std::span<const std::byte> bytes) {
 
 /// Returns whether a part of an image is an array that write_arrays() writes.
 bool is_array(std::size_t part) {
-  constexpr auto arrays = static_cast<std::size_t>(baked::Section::settings);
+  constexpr auto arrays = static_cast<std::size_t>(detail::baked::Section::settings);
   return part % 2 == 0 && part > 0 && part / 2 <= arrays;
 }
 
 }  // namespace
 
 BakedOutput::BakedOutput(const std::string& file, std::size_t shapes, std::size_t levels)
-    : file_(file), nodes_offset_(baked::nodes_offset(shapes, levels)) {}
+    : file_(file), nodes_offset_(detail::baked::nodes_offset(shapes, levels)) {}
 
 void BakedOutput::write_ahead(std::span<const float> nodes) {
   if (!file_.is_regular()) return;
@@ -44,22 +44,23 @@ void BakedOutput::write_ahead(std::span<const float> nodes) {
 }
 
 /// With what is there already left out.
-void BakedOutput::write_arrays(const ShapeArrays& shapes) {
-  baked::Arrays arrays{shapes, {}, {}, {}, {}};
-  std::uint64_t offset = baked::sections_offset;
-  baked::for_each_section(arrays, [&](baked::Section section, const char*, const auto& array) {
-    const auto bytes = std::as_bytes(array);
-    const std::size_t written = section == baked::Section::nodes ? ahead_ : 0;
-    file_.write_at(offset + written, text(bytes.subspan(written)));
-    offset += baked::padded(bytes.size());
-  });
+void BakedOutput::write_arrays(const detail::ShapeArrays& shapes) {
+  detail::baked::Arrays arrays{shapes, {}, {}, {}, {}};
+  std::uint64_t offset = detail::baked::sections_offset;
+  detail::baked::for_each_section(
+      arrays, [&](detail::baked::Section section, const char*, const auto& array) {
+        const auto bytes = std::as_bytes(array);
+        const std::size_t written = section == detail::baked::Section::nodes ? ahead_ : 0;
+        file_.write_at(offset + written, text(bytes.subspan(written)));
+        offset += detail::baked::padded(bytes.size());
+      });
 }
 
 void BakedOutput::finish(const BakedShapes& baked) {
-  const ShapeArrays& shapes = baked.set.arrays();
+  const detail::ShapeArrays& shapes = baked.set.arrays();
   // A set of which every cut turned out to be a single disc has let its trees go.
   if (ahead_ > shapes.nodes.size_bytes()) file_.clear(), ahead_ = 0;
-  std::optional<BakedImage> image;
+  std::optional<detail::BakedImage> image;
   tbb::parallel_invoke([&] { image.emplace(baked.set, baked.origins); },
                        [&] {
                          if (file_.is_regular()) write_arrays(shapes);

@@ -8,9 +8,10 @@
 #include <span>
 #include <string>
 
+#include <bch/baked.hpp>
+
 #include "bench/base/output_file.hpp"
 #include "bench/characters/shape_table.hpp"
-#include "layout/baked/file.hpp"
 
 namespace bch::cli {
 
@@ -30,7 +31,7 @@ class BakedOutput {
   void finish(const BakedShapes& baked);
 
  private:
-  void write_arrays(const ShapeArrays& shapes);
+  void write_arrays(const detail::ShapeArrays& shapes);
 
   OutputFile file_;
   std::uint64_t nodes_offset_;

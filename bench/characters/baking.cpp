@@ -10,8 +10,9 @@
 #include <utility>
 #include <vector>
 
+#include <bch/shape_set_builder.hpp>
+
 #include "bench/base/progress.hpp"
-#include "layout/shape_set/shape_set_builder.hpp"
 
 namespace bch::cli {
 namespace {
@@ -21,12 +22,6 @@ namespace {
 /// other threads wait.
 constexpr std::size_t shapes_in_flight = 64;
 
-/// What a thread keeps from shape to shape.
-struct Workshop {
-  ShapeMaker maker;
-  ShapeFlattener flattener;
-};
-
 }  // namespace
 
 ShapeSet bake_shapes(std::span<const LoadedCharacter> characters, std::span<const ShapeSource> sources,
@@ -35,22 +30,20 @@ ShapeSet bake_shapes(std::span<const LoadedCharacter> characters, std::span<cons
                      const CostLimits& limits) {
   ShapeSetBuilder builder(plan, sources.size());
   Progress progress("baking shapes", sources.size());
-  tbb::enumerable_thread_specific<Workshop> workshops([&] {
-    return Workshop{ShapeMaker(characters, threshold, plan.depths.back(), false, limits),
-                    ShapeFlattener(plan)};
-  });
+  tbb::enumerable_thread_specific<ShapeMaker> makers(
+      [&] { return ShapeMaker(characters, threshold, plan.depths.back(), false, limits); });
   // Shape i waits in place i % n. They leave in order and no more than n are on their way, so that the place is free
   // again. Indices alone go from stage to stage: the pipeline never destroys what it holds when a stage throws.
   const auto threads = static_cast<std::size_t>(tbb::this_task_arena::max_concurrency());
-  std::vector<FlatShape> places(shapes_in_flight * threads);
+  std::vector<PreparedShape> places;
+  for (std::size_t i = 0; i < shapes_in_flight * threads; ++i) places.emplace_back(plan);
   std::size_t next = 0;
   const auto take = [&](tbb::flow_control& flow) -> std::size_t {
     if (next == sources.size()) flow.stop();
     return next++;
   };
   const auto build = [&](std::size_t i) -> std::size_t {
-    Workshop& workshop = workshops.local();
-    workshop.flattener.flatten(workshop.maker.make(sources[i]), i, places[i % places.size()]);
+    places[i % places.size()].prepare(makers.local().make(sources[i]), i);
     return i;
   };
   // Adds shapes in the order of the sources: the bytes do not depend on the thread that built a shape.

@@ -6,9 +6,10 @@
 #include <functional>
 #include <span>
 
+#include <bch/baked.hpp>
+#include <bch/shape_set.hpp>
+
 #include "bench/characters/shape_table.hpp"
-#include "layout/baked/shape_origins.hpp"
-#include "layout/shape_set/shape_set.hpp"
 
 namespace bch::cli {
 

@@ -6,7 +6,7 @@
 #include <span>
 #include <string>
 
-#include "layout/import/import.hpp"
+#include <bch/import.hpp>
 
 namespace bch::cli {
 

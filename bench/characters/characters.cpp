@@ -8,10 +8,11 @@
 #include <algorithm>
 #include <string_view>
 
+#include <bch/default_characters.hpp>
+
 #include "bench/base/exit_codes.hpp"
 #include "bench/characters/guarded_import.hpp"
 #include "layout/character/skinning.hpp"
-#include "layout/default_character/default_characters.hpp"
 
 namespace bch::cli {
 namespace {
@@ -19,7 +20,7 @@ namespace {
 constexpr std::string_view built_in_prefix = "default:";
 
 float rest_height(const Character& character) {
-  Skinner skinner(character);
+  detail::Skinner skinner(character);
   const auto positions = skinner.pose({});
   const auto lower = [](const auto& a, const auto& b) { return a.z < b.z; };
   const auto [low, high] = std::minmax_element(positions.begin(), positions.end(), lower);

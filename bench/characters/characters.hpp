@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "layout/import/import.hpp"
+#include <bch/import.hpp>
 
 namespace bch::cli {
 

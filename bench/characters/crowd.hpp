@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "layout/format/agents.hpp"
+#include <bch/agents.hpp>
 
 namespace bch::cli {
 

@@ -8,7 +8,7 @@
 #include <functional>
 #include <string>
 
-#include "layout/import/import.hpp"
+#include <bch/import.hpp>
 
 namespace bch::cli {
 

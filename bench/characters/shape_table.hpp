@@ -9,11 +9,12 @@
 #include <string>
 #include <vector>
 
+#include <bch/pose_shape.hpp>
+#include <bch/scene_plan.hpp>
+#include <bch/shape_set.hpp>
+
 #include "bench/base/cost_limits.hpp"
 #include "bench/characters/characters.hpp"
-#include "layout/scene/pose_shape.hpp"
-#include "layout/scene/scene_plan.hpp"
-#include "layout/shape_set/shape_set.hpp"
 
 namespace bch::cli {
 

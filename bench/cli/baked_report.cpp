@@ -11,6 +11,7 @@
 
 #include "bench/base/exit_codes.hpp"
 #include "bench/base/text.hpp"
+#include "layout/format/shape_arrays.hpp"
 
 namespace bch::cli {
 namespace {
@@ -69,7 +70,7 @@ BakedShapes load_baked_for(const std::string& file, const AnswerOptions& answer)
 }
 
 std::uint32_t disc_count(const ShapeSet& set, std::uint32_t shape, std::uint32_t level) {
-  const ShapeArrays& arrays = set.arrays();
+  const detail::ShapeArrays& arrays = set.arrays();
   if (arrays.trees.empty()) return 1;
   return arrays.trees[std::size_t{shape} * set.level_count() + level].count;
 }

@@ -6,8 +6,9 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include <bch/baked.hpp>
+
 #include "bench/cli/options.hpp"
-#include "layout/baked/file.hpp"
 
 namespace bch::cli {
 

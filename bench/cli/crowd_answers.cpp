@@ -8,10 +8,11 @@
 #include <iterator>
 #include <tuple>
 
+#include <bch/broad_phase.hpp>
+
 #include "bench/base/median.hpp"
 #include "bench/base/progress.hpp"
 #include "bench/cli/baked_report.hpp"
-#include "kernel/broad_phase/broad_phase.hpp"
 
 namespace bch::cli {
 namespace {

@@ -6,8 +6,9 @@
 #include <cstdint>
 #include <vector>
 
+#include <bch/collide.hpp>
+
 #include "bench/characters/crowd.hpp"
-#include "kernel/collide/collide.hpp"
 
 namespace bch::cli {
 

@@ -5,6 +5,8 @@
 
 #include <memory>
 
+#include <bch/verify.hpp>
+
 #include "bench/base/exit_codes.hpp"
 #include "bench/base/output.hpp"
 #include "bench/base/text.hpp"
@@ -14,7 +16,6 @@
 #include "bench/cli/commands.hpp"
 #include "bench/cli/inspection.hpp"
 #include "bench/cli/options.hpp"
-#include "layout/shape_set/verify.hpp"
 
 namespace bch::cli {
 namespace {

@@ -187,7 +187,7 @@ bool AnswerOptions::need_outlines() const {
 QueryOptions AnswerOptions::query_options() const {
   try {
     return {semantics == "solid" ? Semantics::solid : Semantics::boundary,
-            isa.empty() ? &kernel::best_implementation() : &kernel::implementation(isa),
+            isa.empty() ? &best_implementation() : &implementation(isa),
             leaves == "discs" ? Leaves::discs : Leaves::segments};
   } catch (const std::invalid_argument& error) {
     throw UsageError(

@@ -10,9 +10,10 @@
 #include <string>
 #include <vector>
 
+#include <bch/collide.hpp>
+#include <bch/import.hpp>
+
 #include "bench/base/cost_limits.hpp"
-#include "kernel/collide/collide.hpp"
-#include "layout/import/import.hpp"
 
 namespace bch::cli {
 

@@ -10,10 +10,10 @@
 #include <iterator>
 #include <vector>
 
-#include "kernel/contact/contacts.hpp"
-#include "kernel/distance/clearance.hpp"
-#include "kernel/distance/time_of_impact.hpp"
-#include "kernel/penetration/penetration.hpp"
+#include <bch/clearance.hpp>
+#include <bch/contacts.hpp>
+#include <bch/penetration.hpp>
+#include <bch/time_of_impact.hpp>
 
 namespace bch::cli {
 namespace {
@@ -43,12 +43,11 @@ std::string collide_rows(const QueryInput& input) {
 }
 
 std::string contact_rows(const QueryInput& input) {
-  ContactTable table;
-  contacts(input.set, input.table.agents(), input.pairs, table,
-           {input.options.implementation, input.options.leaves});
+  ContactFinder finder;
+  const Rows<DiscPair> rows = finder.find(input.set, input.table.agents(), input.pairs, input.options);
   std::string out;
   for (std::size_t i = 0; i < input.pairs.size(); ++i)
-    for (const DiscPair& contact : table.of(i))
+    for (const DiscPair& contact : rows[i])
       out += fmt::format("{},{},{}\n", ids(input, i), contact.first, contact.second);
   return out;
 }
@@ -56,12 +55,11 @@ std::string contact_rows(const QueryInput& input) {
 std::string penetration_rows(const QueryInput& input) {
   std::vector<Penetration> ways(input.pairs.size());
   const Agents agents = input.table.agents();
-  const PenetrationOptions options{input.options.implementation};
   if (input.direction) {
     const std::vector<Vec2> along(input.pairs.size(), *input.direction);
-    penetration_along(input.set, agents, input.pairs, along, ways, options);
+    penetration_along(input.set, agents, input.pairs, along, ways, input.options);
   } else {
-    penetration(input.set, agents, input.pairs, input.directions, ways, options);
+    penetration(input.set, agents, input.pairs, input.directions, ways, input.options);
   }
   std::string out;
   for (std::size_t i = 0; i < ways.size(); ++i)
@@ -73,8 +71,7 @@ std::string penetration_rows(const QueryInput& input) {
 std::string clearance_rows(const QueryInput& input) {
   std::vector<float> distance(input.pairs.size());
   std::vector<Vec2> direction(input.pairs.size());
-  clearance(input.set, input.table.agents(), input.pairs, {distance, direction},
-            {input.max_distance, input.options.implementation});
+  clearance(input.set, input.table.agents(), input.pairs, {distance, direction}, input.options);
   std::string out;
   for (std::size_t i = 0; i < distance.size(); ++i)
     out += fmt::format("{},{},{},{}\n", ids(input, i), plain(distance[i]), plain(direction[i].x),
@@ -89,7 +86,7 @@ std::string time_of_impact_rows(const QueryInput& input) {
     y.push_back(input.table.dy[first] - input.table.dy[second]);
   }
   std::vector<float> time(input.pairs.size());
-  time_of_impact(input.set, input.table.agents(), input.pairs, {x, y}, time, {input.options.implementation});
+  time_of_impact(input.set, input.table.agents(), input.pairs, {x, y}, time, input.options);
   std::string out;
   for (std::size_t i = 0; i < time.size(); ++i) out += fmt::format("{},{}\n", ids(input, i), time[i]);
   return out;

@@ -7,9 +7,10 @@
 #include <span>
 #include <string>
 
+#include <bch/collide.hpp>
+#include <bch/geometry.hpp>
+
 #include "bench/base/csv_input.hpp"
-#include "kernel/collide/collide.hpp"
-#include "layout/base/disc.hpp"
 
 namespace bch::cli {
 
@@ -21,7 +22,6 @@ struct QueryInput {
   QueryOptions options;
   std::uint32_t directions;       ///< of a penetration
   std::optional<Vec2> direction;  ///< of a penetration: the only one
-  double max_distance;            ///< of a clearance
 };
 
 /// One of the questions that --what names.

@@ -9,6 +9,11 @@
 #include <optional>
 #include <unordered_map>
 
+#include <bch/broad_phase.hpp>
+#include <bch/clearance.hpp>
+#include <bch/collide_all.hpp>
+#include <bch/penetration.hpp>
+
 #include "bench/base/csv_input.hpp"
 #include "bench/base/exit_codes.hpp"
 #include "bench/base/number.hpp"
@@ -20,10 +25,6 @@
 #include "bench/cli/commands.hpp"
 #include "bench/cli/options.hpp"
 #include "bench/cli/query_answers.hpp"
-#include "kernel/broad_phase/broad_phase.hpp"
-#include "kernel/crowd/collide_all.hpp"
-#include "kernel/distance/clearance.hpp"
-#include "kernel/penetration/penetration.hpp"
 #include "layout/base/rounding.hpp"
 
 namespace bch::cli {
@@ -68,14 +69,13 @@ std::vector<ShapeSource> keep_used(std::span<const ShapeSource> sources, AgentTa
 }
 
 /// All pairs that are within so many metres of each other, in the order of the agents' lines.
-std::vector<Pair> near_pairs(const ShapeSet& set, const AgentTable& table, const QueryOptions& options,
-                             double most) {
+std::vector<Pair> near_pairs(const ShapeSet& set, const AgentTable& table, const QueryOptions& options) {
   const Agents agents = table.agents();
-  std::vector<Pair> pairs = candidate_pairs(set, agents, most);
+  std::vector<Pair> pairs = candidate_pairs(set, agents, options.max_distance);
   std::sort(pairs.begin(), pairs.end(),
             [](Pair a, Pair b) { return a.first != b.first ? a.first < b.first : a.second < b.second; });
   std::vector<float> distance(pairs.size());
-  clearance(set, agents, pairs, {distance}, {most, options.implementation});
+  clearance(set, agents, pairs, {distance}, options);
   std::size_t kept = 0;
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     pairs[kept] = pairs[i];
@@ -88,10 +88,10 @@ std::vector<Pair> near_pairs(const ShapeSet& set, const AgentTable& table, const
 /// All pairs that collide, in the same order.
 std::vector<Pair> colliding_pairs(const ShapeSet& set, const Agents& agents, const QueryOptions& options) {
   CrowdCollider collider;
-  const CollidingNeighbours rows = collider.collide_all(set, agents, options);
+  const Rows<std::uint32_t> rows = collider.collide_all(set, agents, options);
   std::vector<Pair> pairs;
   for (std::uint32_t i = 0; i < agents.size(); ++i)
-    for (const std::uint32_t j : rows.of(i))
+    for (const std::uint32_t j : rows[i])
       if (i < j) pairs.push_back({i, j});
   return pairs;
 }
@@ -113,14 +113,14 @@ Question read_question(const QueryCommandOptions& options, std::size_t shapes, s
 
 void answer(const QueryCommandOptions& options, const ShapeSet& set, Question& question) {
   auto& [table, pairs] = question;
-  const QueryOptions how = options.answer.query_options();
+  QueryOptions how = options.answer.query_options();
+  how.max_distance = options.max_distance;
   if (options.all_pairs)
-    pairs = std::isfinite(options.max_distance) ? near_pairs(set, table, how, options.max_distance)
+    pairs = std::isfinite(options.max_distance) ? near_pairs(set, table, how)
                                                 : colliding_pairs(set, table.agents(), how);
   const QueryKind& kind = query_kind(options.what);
   write_standard_data(fmt::format("first,second,{}\n", kind.columns) +
-                      kind.rows({set, table, pairs, how, options.directions, options.only_direction(),
-                                 options.max_distance}));
+                      kind.rows({set, table, pairs, how, options.directions, options.only_direction()}));
 }
 
 void query_character(const QueryCommandOptions& options) {
@@ -226,7 +226,7 @@ std::function<void()> add_query_command(CLI::App& program) {
       .add_option("--max-distance", options->max_distance,
                   "Of a clearance, metres: pairs farther apart are only told to be so [no limit]")
       ->type_name("M")
-      ->check(number_between(0, 2 * rounding::largest_position));
+      ->check(number_between(0, 2 * detail::rounding::largest_position));
   options->shapes.add_to(command);
   options->answer.add_to(command);
   return [options, &command] { run_query(command, *options); };

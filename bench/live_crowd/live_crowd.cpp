@@ -7,11 +7,11 @@
 
 #include <cmath>
 
+#include <bch/collide.hpp>
+
 #include "bench/base/random.hpp"
 #include "bench/base/stopwatch.hpp"
-#include "kernel/collide/collide.hpp"
 #include "layout/base/heading.hpp"
-#include "layout/shape_set/shape_set_builder.hpp"
 
 namespace bch::bench {
 namespace {
@@ -39,14 +39,14 @@ std::vector<ShapeSource> random_sources(std::span<const Character> characters, s
 }  // namespace
 
 LiveCrowd::Workshop::Workshop(std::span<const Character> characters, const ShapeSetPlan& plan)
-    : flattener(plan) {
+    : prepared(plan) {
   for (const Character& character : characters)
     shapers.emplace_back(character, threshold, plan.depths.back(), false);
 }
 
-const FlatShape& LiveCrowd::Workshop::make(const ShapeSource& source, std::uint32_t shape) {
-  flattener.flatten(shapers[source.character].shape(source.at), shape, flat);
-  return flat;
+const PreparedShape& LiveCrowd::Workshop::make(const ShapeSource& source, std::uint32_t shape) {
+  prepared.prepare(shapers[source.character].shape(source.at), shape);
+  return prepared;
 }
 
 LiveCrowd::LiveCrowd(std::span<const Character> characters, std::uint32_t agents, std::uint32_t depth)
@@ -82,7 +82,7 @@ FrameTime LiveCrowd::step(double seconds) {
 /// Who leaves the square comes in again on the other side.
 void LiveCrowd::walk(double seconds) {
   for (std::size_t i = 0; i < crowd_.size(); ++i) {
-    const Rotation ahead = rotation(crowd_.heading[i]);
+    const detail::Rotation ahead = detail::rotation(crowd_.heading[i]);
     const auto wrap = [&](double x) { return x - crowd_.side * std::floor(x / crowd_.side); };
     crowd_.x[i] = wrap(crowd_.x[i] + speed * seconds * ahead.cosine);
     crowd_.y[i] = wrap(crowd_.y[i] + speed * seconds * ahead.sine);

@@ -9,11 +9,12 @@
 #include <span>
 #include <vector>
 
+#include <bch/broad_phase.hpp>
+#include <bch/dynamic_shape_set.hpp>
+#include <bch/pose_shape.hpp>
+#include <bch/scene_plan.hpp>
+
 #include "bench/characters/crowd.hpp"
-#include "kernel/broad_phase/broad_phase.hpp"
-#include "layout/scene/pose_shape.hpp"
-#include "layout/scene/scene_plan.hpp"
-#include "layout/shape_set/dynamic_shape_set.hpp"
 
 namespace bch::bench {
 
@@ -44,11 +45,10 @@ class LiveCrowd {
   /// Memory that a thread keeps from shape to shape.
   struct Workshop {
     std::vector<PoseShaper> shapers;
-    ShapeFlattener flattener;
-    FlatShape flat;
+    PreparedShape prepared;
 
     Workshop(std::span<const Character> characters, const ShapeSetPlan& plan);
-    const FlatShape& make(const ShapeSource& source, std::uint32_t shape);
+    const PreparedShape& make(const ShapeSource& source, std::uint32_t shape);
   };
 
   ShapeSet first_shapes() const;

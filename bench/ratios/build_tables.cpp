@@ -7,11 +7,12 @@
 #include <cmath>
 #include <stdexcept>
 
+#include <bch/outline.hpp>
+
 #include "bench/base/text.hpp"
 #include "bench/ratios/ratios.hpp"
 #include "bench/workload/build_stages.hpp"
 #include "bench/workload/clipper_union.hpp"
-#include "layout/format/outline.hpp"
 
 namespace bch::bench {
 namespace {

@@ -57,7 +57,7 @@ void print_calls(const Results& results) {
              verdict(gain, 1.9));
   const double small = results.at("batches/16").nanoseconds, large = results.at("batches/512").nanoseconds;
   fmt::print("a pair in batches of 16 over 512: colliding: {:.1f} ns over {:.1f}: {:.2f} x   {}\n", small,
-             large, small / large, verdict_at_most(small / large, 1.5));
+             large, small / large, verdict_at_most(small / large, 1.6));
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include "baselines/structure.hpp"
 #include "bench/base/text.hpp"
 #include "bench/ratios/ratios.hpp"
+#include "kernel/runtime/kernels.hpp"
 
 namespace bch::bench {
 namespace {
@@ -62,7 +63,7 @@ std::string structure_name(std::string_view workload, std::string_view kind) {
 }
 
 std::string best_name(std::string_view workload) {
-  return collide_name(workload, disc_query, kernel::best_implementation().name);
+  return collide_name(workload, disc_query, best_implementation().name);
 }
 
 std::string grouped(double count) {
@@ -115,7 +116,7 @@ void print_leaves(const Results& results) {
 void print_peers(const Results& results) {
   const Timing& own = results.at(best_name("colliding"));
   fmt::print("against boxes on the same outlines: colliding, {} pairs, boundary; {} {:.1f} ns\n",
-             cli::grouped(own.items), kernel::best_implementation().name, own.nanoseconds);
+             cli::grouped(own.items), best_implementation().name, own.nanoseconds);
   for (const auto& [kind, name, needed] : peers) {
     const auto found = results.find(structure_name("colliding", kind));
     if (found == results.end()) {
@@ -151,8 +152,7 @@ void print_paper(const Results& results) {
   }
 }
 
-void add_kernel(Suite& suite, Scene& scene, std::string_view workload,
-                const kernel::Implementation& implementation) {
+void add_kernel(Suite& suite, Scene& scene, std::string_view workload, const Implementation& implementation) {
   for (const Semantics semantics : {Semantics::boundary, Semantics::solid})
     for (const Leaves leaves : {Leaves::discs, Leaves::segments})
       for (const int threads : thread_counts()) {
@@ -188,14 +188,15 @@ std::string with_threads(const std::string& name, int threads) {
 
 std::vector<std::string> wide_implementations() {
   std::vector<std::string> wide;
-  for (const kernel::Implementation& implementation : kernel::implementations())
-    if (implementation.supported() && implementation.width > 1) wide.emplace_back(implementation.name);
+  for (const Implementation& implementation : implementations())
+    if (implementation.supported() && implementation.kernels->width > 1)
+      wide.emplace_back(implementation.name);
   return wide;
 }
 
 std::vector<Table> collide_tables(Suite& suite, Scene& scene) {
   for (const std::string_view workload : workload_names()) {
-    for (const kernel::Implementation& implementation : kernel::implementations())
+    for (const Implementation& implementation : implementations())
       if (implementation.supported()) add_kernel(suite, scene, workload, implementation);
     for (const baselines::Kind& kind : baselines::kinds())
       suite.add(structure_name(workload, kind.name), [&scene, workload, &kind] {
@@ -203,7 +204,7 @@ std::vector<Table> collide_tables(Suite& suite, Scene& scene) {
       });
   }
   const std::string wide = fmt::format("({})$", fmt::join(wide_implementations(), "|"));
-  const std::string best = fmt::format("discs/{}", kernel::best_implementation().name);
+  const std::string best = fmt::format("discs/{}", best_implementation().name);
   return {
       {"kernel",
        "^collide/(colliding|near_miss|no_hit|crowd)/(boundary/reference$|(boundary|solid)/discs/" + wide +

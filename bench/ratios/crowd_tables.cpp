@@ -7,11 +7,12 @@
 #include <memory>
 #include <stdexcept>
 
+#include <bch/broad_phase.hpp>
+
 #include "bench/base/peak_memory.hpp"
 #include "bench/base/text.hpp"
 #include "bench/ratios/ratios.hpp"
 #include "bench/workload/answer_checks.hpp"
-#include "kernel/broad_phase/broad_phase.hpp"
 
 namespace bch::bench {
 namespace {

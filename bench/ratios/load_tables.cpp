@@ -10,11 +10,12 @@
 #include <stdexcept>
 #include <system_error>
 
+#include <bch/baked.hpp>
+
 #include "bench/base/text.hpp"
 #include "bench/characters/baked_output.hpp"
 #include "bench/ratios/ratios.hpp"
 #include "layout/baked/checksum.hpp"
-#include "layout/baked/file.hpp"
 #include "layout/baked/file_bytes.hpp"
 #include "layout/format/shape_validation.hpp"
 
@@ -41,9 +42,9 @@ class TemporaryFile {
   std::string path;
 };
 
-FileBytes bake(Scene& scene, const std::string& file) {
+detail::FileBytes bake(Scene& scene, const std::string& file) {
   cli::bake_file(file, scene.characters(), scene.sources(), threshold, {});
-  return map_file(file);
+  return detail::map_file(file);
 }
 
 /// A file of the scene's poses.
@@ -52,7 +53,7 @@ struct Loaded {
       : bytes(bake(scene, file.path)), baked(load_baked(bytes.bytes, file.path, bytes.memory)) {}
 
   TemporaryFile file;
-  FileBytes bytes;
+  detail::FileBytes bytes;
   BakedShapes baked;
 };
 
@@ -65,9 +66,9 @@ constexpr Part parts[] = {
     {"map",
      [](const Loaded& from) { benchmark::DoNotOptimize(load_baked(from.file.path, FileAccess::map)); }},
     {"read", [](const Loaded& from) { benchmark::DoNotOptimize(load_baked(from.file.path)); }},
-    {"map_alone", [](const Loaded& from) { benchmark::DoNotOptimize(map_file(from.file.path)); }},
+    {"map_alone", [](const Loaded& from) { benchmark::DoNotOptimize(detail::map_file(from.file.path)); }},
     {"checksum_alone",
-     [](const Loaded& from) { benchmark::DoNotOptimize(baked::checksum(from.bytes.bytes)); }},
+     [](const Loaded& from) { benchmark::DoNotOptimize(detail::baked::checksum(from.bytes.bytes)); }},
     {"validation_alone", [](const Loaded& from) { validate(from.baked.set.arrays()); }}};
 
 std::string name_of(const Part& part) {

@@ -8,11 +8,12 @@
 #include <optional>
 #include <utility>
 
+#include <bch/pose_shape.hpp>
+#include <bch/scene_plan.hpp>
+#include <bch/shape_set_builder.hpp>
+
 #include "bench/ratios/ratios.hpp"
 #include "bench/workload/answer_checks.hpp"
-#include "layout/scene/pose_shape.hpp"
-#include "layout/scene/scene_plan.hpp"
-#include "layout/shape_set/shape_set_builder.hpp"
 
 namespace bch::bench {
 namespace {
@@ -62,7 +63,7 @@ class Planned {
     plan_ = plan_scene(agents, row.use);
     for (const cli::LoadedCharacter& character : scene.characters())
       shapers_.emplace_back(character.character, threshold, plan_.set.depths.back(), false);
-    flattener_.emplace(plan_.set);
+    prepared_.emplace(plan_.set);
     set_.emplace(build());
     hits_.resize(workload_.pairs.size());
     answer();
@@ -75,8 +76,8 @@ class Planned {
   ShapeSet build() {
     ShapeSetBuilder builder(plan_.set, plan_.shapes.size());
     for (std::size_t i = 0; i < plan_.shapes.size(); ++i) {
-      flattener_->flatten(shapers_[plan_.shapes[i].character].shape(plan_.shapes[i].at), i, flat_);
-      builder.add(flat_);
+      prepared_->prepare(shapers_[plan_.shapes[i].character].shape(plan_.shapes[i].at), i);
+      builder.add(*prepared_);
     }
     return std::move(builder).finish();
   }
@@ -99,8 +100,7 @@ class Planned {
   const QueryOptions query_;
   ScenePlan plan_;
   std::vector<PoseShaper> shapers_;
-  std::optional<ShapeFlattener> flattener_;
-  FlatShape flat_;
+  std::optional<PreparedShape> prepared_;
   std::optional<ShapeSet> set_;
   Hits hits_;
 };

@@ -17,7 +17,7 @@ std::string name_of(std::string_view query, std::string_view workload, std::stri
 }
 
 std::string_view best() {
-  return kernel::best_implementation().name;
+  return best_implementation().name;
 }
 
 const Timing& collide_in_crowd(const Results& results) {
@@ -33,7 +33,7 @@ void print_distance(const Results& results, std::string_view query, const std::s
   const Timing& scalar = results.at(name_of(query, "near_miss", "reference"));
   fmt::print("{}, near_miss: {} pairs; scalar search {:.1f} ns\n", title, cli::grouped(scalar.items),
              scalar.nanoseconds);
-  for (const kernel::Implementation& one : kernel::implementations()) {
+  for (const Implementation& one : implementations()) {
     if (!one.supported()) continue;
     const double taken = results.at(name_of(query, "near_miss", one.name)).nanoseconds;
     const double ratio = scalar.nanoseconds / taken;
@@ -78,7 +78,7 @@ void print_responses(const Results& results) {
 }
 
 void add_query(Suite& suite, Scene& scene, const TimedQuery& query, std::string_view workload) {
-  for (const kernel::Implementation& implementation : kernel::implementations())
+  for (const Implementation& implementation : implementations())
     for (const int threads : thread_counts())
       if (implementation.supported())
         suite.add(

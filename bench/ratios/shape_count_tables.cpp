@@ -29,7 +29,7 @@ constexpr Row rows[] = {{5'000, 1.8}, {50'000, 3}};
 /// further poses would be.
 std::vector<Shape> stretched(std::span<const Shape> shapes, std::uint32_t count) {
   cli::Random random(17);
-  HierarchyBuilder builder;
+  detail::HierarchyBuilder builder;
   std::vector<Shape> copies(count);
   for (std::uint32_t i = 0; i < count; ++i) {
     Outline& outline = copies[i].outline;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
+#include <bch/outline_builder.hpp>
+
 #include "bench/base/stopwatch.hpp"
 #include "bench/report/experiment.hpp"
 #include "bench/report/statistics.hpp"
@@ -8,7 +10,6 @@
 #include "bench/report/words.hpp"
 #include "bench/workload/build_stages.hpp"
 #include "layout/enclosing_disc/enclosing_disc.hpp"
-#include "layout/outline/builder.hpp"
 
 // Construction time: figure 3, left, of the paper.
 
@@ -54,13 +55,13 @@ std::vector<double> time_single(const std::vector<baselines::Body>& bodies) {
   return time_each(bodies.size(), [&](std::size_t i) {
     points.clear();
     for (const Vec3& p : bodies[i].positions) points.push_back({p.x, p.y});
-    sum += smallest_enclosing_disc(points).centre.x;
+    sum += detail::smallest_enclosing_disc(points).centre.x;
     __asm__ volatile("" : : "g"(&sum) : "memory");  // the disc is needed
   });
 }
 
 std::vector<double> time_hierarchies(const std::vector<baselines::Body>& bodies, SplitRule rule) {
-  HierarchyBuilder builder;
+  detail::HierarchyBuilder builder;
   Hierarchy hierarchy;
   return time_each(bodies.size(),
                    [&](std::size_t i) { builder.contour(bodies[i].shape.outline, 0.01f, rule, hierarchy); });

@@ -7,9 +7,9 @@
 #include <span>
 #include <vector>
 
-#include "layout/base/disc.hpp"
-#include "layout/format/outline.hpp"
-#include "layout/shape_set/shape_set.hpp"
+#include <bch/geometry.hpp>
+#include <bch/outline.hpp>
+#include <bch/shape_set.hpp>
 
 namespace bch::report {
 

@@ -5,12 +5,13 @@
 #include <cmath>
 #include <map>
 
+#include <bch/broad_phase.hpp>
+#include <bch/scene_plan.hpp>
+
 #include "bench/base/stopwatch.hpp"
 #include "bench/report/experiment.hpp"
 #include "bench/report/statistics.hpp"
 #include "bench/report/subject.hpp"
-#include "kernel/broad_phase/broad_phase.hpp"
-#include "layout/scene/local_density.hpp"
 
 // Level of detail by the density of a crowd, which the paper suggests and does not measure.
 

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include "bench/workload/mesh_detail.hpp"
+#include <bch/default_characters.hpp>
+
 #include "bench/base/stopwatch.hpp"
 #include "bench/report/experiment.hpp"
 #include "bench/report/subject.hpp"
 #include "bench/report/tree_size.hpp"
 #include "bench/workload/build_stages.hpp"
-#include "layout/default_character/default_characters.hpp"
+#include "bench/workload/mesh_detail.hpp"
 
 // Does an OBB tree over the full mesh get slower with the mesh? The paper suspects so.
 
@@ -28,7 +29,7 @@ struct Measured {
 class Detailed {
  public:
   Detailed(const Character& character, std::uint32_t poses) {
-    Skinner skinner(character);
+    detail::Skinner skinner(character);
     PoseShaper shaper(character);
     for (const PoseTime& at : sample_poses(character, poses)) {
       const auto positions = skinner.pose(at);

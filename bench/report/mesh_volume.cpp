@@ -27,9 +27,9 @@ double enclosed_volume(std::span<const Vec3> positions,
                        std::span<const std::array<std::uint32_t, 3>> triangles) {
   double volume = 0;  // of the tetrahedra that triangles make with the origin
   for (const auto& [a, b, c] : triangles) {
-    const Eigen::Vector3d p = to_eigen(positions[a]).cast<double>(),
-                          q = to_eigen(positions[b]).cast<double>(),
-                          r = to_eigen(positions[c]).cast<double>();
+    const Eigen::Vector3d p = detail::to_eigen(positions[a]).cast<double>(),
+                          q = detail::to_eigen(positions[b]).cast<double>(),
+                          r = detail::to_eigen(positions[c]).cast<double>();
     volume += p.x() * (q.y() * r.z() - q.z() * r.y()) + p.y() * (q.z() * r.x() - q.x() * r.z()) +
               p.z() * (q.x() * r.y() - q.y() * r.x());
   }

@@ -7,11 +7,12 @@
 #include <cmath>
 #include <vector>
 
+#include <bch/collide.hpp>
+#include <bch/collide_all.hpp>
+#include <bch/penetration.hpp>
+
 #include "bench/base/random.hpp"
 #include "bench/characters/crowd.hpp"
-#include "kernel/collide/collide.hpp"
-#include "kernel/crowd/collide_all.hpp"
-#include "kernel/penetration/penetration.hpp"
 
 namespace bch::report {
 namespace {
@@ -76,10 +77,10 @@ class Packing {
 
   /// Who collides, each pair once; of a pair across a side, both ways, and each moves the one that is no image.
   void find_pairs() {
-    const CollidingNeighbours rows = collider_.collide_all(set_, crowd_.agents(), {Semantics::solid});
+    const Rows<std::uint32_t> rows = collider_.collide_all(set_, crowd_.agents(), {Semantics::solid});
     pairs_.clear();
     for (std::uint32_t i = 0; i < people_; ++i)
-      for (const std::uint32_t j : rows.of(i))
+      for (const std::uint32_t j : rows[i])
         if (i < j) pairs_.push_back({i, j});
   }
 

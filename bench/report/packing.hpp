@@ -5,7 +5,7 @@
 
 #include <cstdint>
 
-#include "layout/shape_set/shape_set.hpp"
+#include <bch/shape_set.hpp>
 
 namespace bch::report {
 

@@ -14,6 +14,7 @@
 #include "bench/report/mesh_volume.hpp"
 #include "bench/report/statistics.hpp"
 #include "bench/report/words.hpp"
+#include "layout/character/skinning.hpp"
 #include "layout/enclosing_disc/enclosing_disc.hpp"
 
 namespace bch::report {
@@ -56,7 +57,7 @@ struct Volumes {
 };
 
 Volumes volumes_of(const Character& character, std::span<const ShapeSource> poses) {
-  Skinner skinner(character);
+  detail::Skinner skinner(character);
   const bool closed = is_closed(character.triangles);
   Volumes volumes;
   std::vector<std::vector<Vec2>> from_above;
@@ -64,7 +65,7 @@ Volumes volumes_of(const Character& character, std::span<const ShapeSource> pose
     const auto positions = skinner.pose(pose.at);
     auto& points = from_above.emplace_back();
     for (const Vec3& p : positions) points.push_back({p.x, p.y});
-    volumes.radius.push_back(static_cast<double>(smallest_enclosing_disc(points).radius));
+    volumes.radius.push_back(static_cast<double>(detail::smallest_enclosing_disc(points).radius));
     volumes.mesh.push_back(closed ? enclosed_volume(positions, character.triangles) : not_told);
   }
   volumes.leaves.resize(poses.size());

@@ -11,8 +11,9 @@
 #include <ctime>
 #include <fstream>
 
+#include <bch/query.hpp>
+
 #include "bch_commit.hpp"
-#include "kernel/runtime/implementation.hpp"
 
 namespace bch::report {
 namespace {
@@ -38,7 +39,7 @@ std::string system_name() {
 
 std::vector<std::pair<std::string, std::string>> provenance() {
   std::string sets;
-  for (const kernel::Implementation& one : kernel::implementations())
+  for (const Implementation& one : implementations())
     if (one.supported()) sets += (sets.empty() ? "" : ", ") + std::string(one.name);
   const double gibibytes =
       static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGE_SIZE)) / (1 << 30);

@@ -98,7 +98,7 @@ Table time_kernels(Run& run) {
         const bench::Workload& workload = run.scene().workload(name);
         std::vector<std::string> names;
         std::vector<Subject> subjects;
-        for (const kernel::Implementation& one : kernel::implementations()) {
+        for (const Implementation& one : implementations()) {
           if (!one.supported()) continue;
           names.emplace_back(one.name);
           query.implementation = &one;

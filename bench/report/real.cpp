@@ -9,6 +9,7 @@
 #include "bench/report/experiment.hpp"
 #include "bench/report/subject.hpp"
 #include "bench/report/words.hpp"
+#include "layout/character/skinning.hpp"
 
 // Measures distances at detection of characters from other sources.
 
@@ -28,7 +29,7 @@ Posed pose(const cli::LoadedCharacter& loaded, std::uint32_t poses, std::uint64_
   const std::span<const cli::LoadedCharacter> one(&loaded, 1);
   const std::vector<ShapeSource> sources = cli::list_random_shapes(one, poses, seed);
   Posed posed{cli::build_shapes(one, sources, threshold).shapes, {}};
-  Skinner skinner(loaded.character);
+  detail::Skinner skinner(loaded.character);
   for (std::size_t i = 0; i < sources.size(); ++i) {
     const auto positions = skinner.pose(sources[i].at);
     posed.bodies.push_back(

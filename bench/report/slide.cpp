@@ -10,8 +10,8 @@
 #include <limits>
 #include <numbers>
 
-#include "kernel/collide/collide.hpp"
-#include "kernel/distance/time_of_impact.hpp"
+#include <bch/collide.hpp>
+#include <bch/time_of_impact.hpp>
 
 namespace bch::report {
 namespace {

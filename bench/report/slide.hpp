@@ -7,11 +7,12 @@
 #include <span>
 #include <vector>
 
+#include <bch/shape_set.hpp>
+
 #include "baselines/pair_distances.hpp"
 #include "baselines/structure.hpp"
 #include "bench/base/random.hpp"
 #include "bench/characters/crowd.hpp"
-#include "layout/shape_set/shape_set.hpp"
 
 namespace bch::report {
 

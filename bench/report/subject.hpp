@@ -10,10 +10,11 @@
 #include <string>
 #include <vector>
 
+#include <bch/collide.hpp>
+
 #include "bench/report/slide.hpp"
 #include "bench/report/statistics.hpp"
 #include "bench/workload/scene.hpp"
-#include "kernel/collide/collide.hpp"
 
 namespace bch::report {
 

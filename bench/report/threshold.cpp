@@ -7,6 +7,7 @@
 #include "bench/report/experiment.hpp"
 #include "bench/report/subject.hpp"
 #include "bench/report/tree_size.hpp"
+#include "layout/hierarchy/builder.hpp"
 
 // How small the leaves should be.
 
@@ -24,7 +25,7 @@ struct Variant {
 
 Variant make_variant(Run& run, double threshold) {
   Variant made{run.scene().shapes(), {}};
-  HierarchyBuilder builder;
+  detail::HierarchyBuilder builder;
   for (const bool timed : {false, true})  // memory is there the second time
     for (Shape& shape : made.shapes) {
       const bench::Stopwatch watch(1);

@@ -9,7 +9,7 @@
 #include <numbers>
 #include <stdexcept>
 
-#include "kernel/collide/collide.hpp"
+#include <bch/collide.hpp>
 
 namespace bch::bench {
 namespace {

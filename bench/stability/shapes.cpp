@@ -7,7 +7,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "layout/outline/union_outline.hpp"
+#include <bch/outline_builder.hpp>
+
+#include "layout/format/contours.hpp"
 
 namespace bch::bench {
 namespace {
@@ -113,7 +115,7 @@ std::vector<Vec2> ring(Random& random, std::uint32_t corners, double inner, doub
 std::vector<Specimen> usual_specimens(Random& random, double reach) {
   std::vector<Specimen> specimens;
   const auto add = [&](std::vector<Vec2> points, double threshold) {
-    const double factor = reach / bch::reach(points);
+    const double factor = reach / detail::reach(points);
     for (Vec2& p : points) p = point(factor * static_cast<double>(p.x), factor * static_cast<double>(p.y));
     specimens.push_back(contour_specimen(std::move(points), threshold * reach));
   };

@@ -6,9 +6,10 @@
 #include <cstdint>
 #include <vector>
 
+#include <bch/shape_set.hpp>
+
 #include "baselines/exact_discs.hpp"
 #include "bench/base/random.hpp"
-#include "layout/shape_set/shape_set.hpp"
 
 namespace bch::bench {
 

@@ -6,10 +6,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include <bch/default_characters.hpp>
+#include <bch/pose_shape.hpp>
+
 #include "layout/base/heading.hpp"
-#include "layout/default_character/default_characters.hpp"
 #include "layout/format/cut_discs.hpp"
-#include "layout/scene/pose_shape.hpp"
 
 namespace bch::bench {
 namespace {
@@ -37,9 +38,10 @@ ShapeSet make_shapes() {
 
 /// Returns the centre of the single disc of an agent's shape, in the world.
 Ground root_centre(const Agents& agents, std::uint32_t agent) {
-  const CutDiscs root = cut_discs(stiff_shapes().view(), agents.shape[agent] * stiff_shapes().level_count());
+  const detail::CutDiscs root =
+      detail::cut_discs(stiff_shapes().view(), agents.shape[agent] * stiff_shapes().level_count());
   const double x = static_cast<double>(root.x[0]), y = static_cast<double>(root.y[0]);
-  const Rotation turn = rotation(agents.heading[agent]);
+  const detail::Rotation turn = detail::rotation(agents.heading[agent]);
   return {agents.x[agent] + (turn.cosine * x - turn.sine * y),
           agents.y[agent] + (turn.sine * x + turn.cosine * y)};
 }
@@ -47,7 +49,7 @@ Ground root_centre(const Agents& agents, std::uint32_t agent) {
 /// A person's single disc has its centre where it stands in every direction; a wall has it on its axis, as near as can be.
 Ground core(const Agents& agents, std::uint32_t agent, Ground near) {
   if (agents.shape[agent] < people_shapes) return root_centre(agents, agent);
-  const Rotation turn = rotation(agents.heading[agent]);
+  const detail::Rotation turn = detail::rotation(agents.heading[agent]);
   const double most = static_cast<double>(wall_length - wall_thickness) / 2;
   const double along = std::clamp(
       (near.x - agents.x[agent]) * turn.cosine + (near.y - agents.y[agent]) * turn.sine, -most, most);
@@ -76,10 +78,10 @@ std::span<const Pair> Depths::pairs(const Agents& agents) {
     pairs_ = candidate_pairs(stiff_shapes(), agents, margin);
     return pairs_;
   }
-  const CollidingNeighbours rows = collider_.collide_all(stiff_shapes(), agents);
+  const Rows<std::uint32_t> rows = collider_.collide_all(stiff_shapes(), agents);
   pairs_.clear();
   for (std::uint32_t i = 0; i < agents.size(); ++i)
-    for (const std::uint32_t j : rows.of(i))
+    for (const std::uint32_t j : rows[i])
       if (i < j) pairs_.push_back({i, j});
   return pairs_;
 }

@@ -6,11 +6,12 @@
 #include <span>
 #include <vector>
 
+#include <bch/broad_phase.hpp>
+#include <bch/clearance.hpp>
+#include <bch/collide_all.hpp>
+#include <bch/penetration.hpp>
+
 #include "bench/stability/stiff_contact.hpp"
-#include "kernel/broad_phase/broad_phase.hpp"
-#include "kernel/crowd/collide_all.hpp"
-#include "kernel/distance/clearance.hpp"
-#include "kernel/penetration/penetration.hpp"
 
 namespace bch::bench {
 

@@ -9,9 +9,10 @@
 #include <cmath>
 #include <stdexcept>
 
+#include <bch/default_characters.hpp>
+
 #include "baselines/welzl.hpp"
 #include "bench/workload/mesh_detail.hpp"
-#include "layout/default_character/default_characters.hpp"
 #include "layout/outline/implementation.hpp"
 
 namespace bch::bench {
@@ -26,7 +27,7 @@ void use(const Value& value) {
   asm volatile("" : : "r"(&value) : "memory");
 }
 
-void solve_by_welzl(const DiscSets& sets) noexcept {
+void solve_by_welzl(const detail::DiscSets& sets) noexcept {
   static thread_local Welzl welzl;
   for (std::size_t i = 0; i < sets.count; ++i) {
     const std::span points(sets.points + sets.sets[i].begin, sets.points + sets.sets[i].end);
@@ -42,8 +43,8 @@ void solve_by_welzl(const DiscSets& sets) noexcept {
   }
 }
 
-const DiscImplementation& by_welzl() {
-  static const DiscImplementation row{"welzl", []() noexcept { return true; }, solve_by_welzl};
+const detail::DiscImplementation& by_welzl() {
+  static const detail::DiscImplementation row{"welzl", []() noexcept { return true; }, solve_by_welzl};
   return row;
 }
 
@@ -77,13 +78,13 @@ bool same(const Hierarchy& a, const Hierarchy& b, float tolerance) {
                     });
 }
 
-bool same(const Interior& a, const Interior& b) {
+bool same(const detail::Interior& a, const detail::Interior& b) {
   return a.x == b.x && a.y == b.y && a.radius == b.radius && a.extreme_x == b.extreme_x &&
          a.extreme_y == b.extreme_y;
 }
 
 /// Returns whether a tree's discs are those of the cut, padding aside.
-bool holds_cut(const Bvh8& tree, const Hierarchy& hierarchy, std::uint32_t depth) {
+bool holds_cut(const detail::Bvh8& tree, const Hierarchy& hierarchy, std::uint32_t depth) {
   const std::vector<std::uint32_t> nodes = cut(hierarchy, depth);
   if (nodes.size() > tree.x.size()) return false;
   for (std::size_t i = 0; i < nodes.size(); ++i)
@@ -101,8 +102,8 @@ BuildImplementation other_than(const BuildImplementation& implementation) {
 
 struct BuildStages::Others {
   OutlineBuilder outline;
-  HierarchyBuilder hierarchy;
-  InteriorBuilder interior;
+  detail::HierarchyBuilder hierarchy;
+  detail::InteriorBuilder interior;
 
   Others(const Character& character, const BuildImplementation& implementation)
       : outline(character.triangles, character.vertices.size(), character.vertices, *implementation.outline),
@@ -112,17 +113,17 @@ struct BuildStages::Others {
 
 std::vector<BuildImplementation> build_implementations() {
   std::vector<BuildImplementation> all;
-  for (const DiscImplementation& discs : disc_implementations())
+  for (const detail::DiscImplementation& discs : detail::disc_implementations())
     if (discs.supported())
-      all.push_back({discs.name, row_for(outline_implementations(), discs.name), &discs,
-                     row_for(interior_implementations(), discs.name)});
+      all.push_back({discs.name, row_for(detail::outline_implementations(), discs.name), &discs,
+                     row_for(detail::interior_implementations(), discs.name)});
   return all;
 }
 
 BuildImplementation chosen_build_implementation() {
   const std::vector<BuildImplementation> all = build_implementations();
   return *std::find_if(all.begin(), all.end(), [](const BuildImplementation& row) {
-    return row.interior == &best_interior_implementation();
+    return row.interior == &detail::best_interior_implementation();
   });
 }
 
@@ -157,7 +158,7 @@ void BuildStages::make_and_check(std::size_t pose, Others& others) {
   hierarchy_welzl(pose);
   require(same(hierarchy_, hierarchies_[pose], 1e-6f), "hierarchy_welzl", pose);
   interior(pose);
-  const Interior alone = interior_;
+  const detail::Interior alone = interior_;
   require(same(others.interior.build(outlines_[pose], hierarchies_[pose].reach), alone), "interior", pose);
   levels(pose);
   require(holds_cut(tree_, hierarchies_[pose], depths[std::size(depths) - 1]), "levels", pose);

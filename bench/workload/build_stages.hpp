@@ -9,12 +9,13 @@
 #include <string_view>
 #include <vector>
 
+#include <bch/outline_builder.hpp>
+
 #include "layout/character/skinning.hpp"
 #include "layout/culling/interior.hpp"
 #include "layout/culling/profile.hpp"
 #include "layout/enclosing_disc/enclosing_discs.hpp"
 #include "layout/hierarchy/builder.hpp"
-#include "layout/outline/builder.hpp"
 #include "layout/shape_set/bvh8.hpp"
 
 namespace bch::bench {
@@ -22,9 +23,9 @@ namespace bch::bench {
 /// The compilations of all stages that one instruction set would choose.
 struct BuildImplementation {
   std::string_view name;
-  const OutlineImplementation* outline;
-  const DiscImplementation* discs;
-  const InteriorImplementation* interior;
+  const detail::OutlineImplementation* outline;
+  const detail::DiscImplementation* discs;
+  const detail::InteriorImplementation* interior;
 };
 
 /// Returns the implementations that run here, the best first.
@@ -78,20 +79,20 @@ class BuildStages {
   std::vector<Outline> outlines_;
   std::vector<Hierarchy> hierarchies_;
 
-  Skinner skinner_;
+  detail::Skinner skinner_;
   OutlineBuilder outline_builder_;
-  HierarchyBuilder hierarchy_builder_, welzl_builder_;
-  Flattener flattener_;
-  InteriorBuilder interior_builder_;
+  detail::HierarchyBuilder hierarchy_builder_, welzl_builder_;
+  detail::Flattener flattener_;
+  detail::InteriorBuilder interior_builder_;
 
   // What was made last.
   Outline outline_;
   Hierarchy hierarchy_;
-  Bvh8 tree_;
-  Interior interior_;
-  Profile profile_;
-  Supports supports_;
-  Outer outer_;
+  detail::Bvh8 tree_;
+  detail::Interior interior_;
+  detail::Profile profile_;
+  detail::Supports supports_;
+  detail::Outer outer_;
 };
 
 struct BuildStage {

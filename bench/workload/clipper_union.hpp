@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <span>
 
-#include "layout/base/disc.hpp"
+#include <bch/geometry.hpp>
 
 namespace bch::bench {
 

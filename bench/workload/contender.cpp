@@ -32,7 +32,7 @@ bool has_kind(std::string_view kind) {
 }
 
 Contender kernel_contender(Scene& scene, const Workload& workload, const QueryOptions& query,
-                           const kernel::Implementation& implementation) {
+                           const Implementation& implementation) {
   const auto hits = std::make_shared<Hits>(workload.pairs.size());
   const auto call = [&set = scene.set(), &workload, hits,
                      options = QueryOptions{query.semantics, &implementation, query.leaves}] {

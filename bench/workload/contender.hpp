@@ -23,14 +23,14 @@ struct Contender {
 /// Makes a contender that asks a kernel's implementation for all pairs of a workload.
 /// Errors of both: throw std::runtime_error on wrong answers.
 Contender kernel_contender(Scene& scene, const Workload& workload, const QueryOptions& query,
-                           const kernel::Implementation& implementation);
+                           const Implementation& implementation);
 Contender structure_contender(Scene& scene, const Workload& workload, std::string_view kind);
 
 /// A question beside collide(), of all of a workload's pairs or its agents.
 /// Errors of both: throw std::runtime_error on wrong answers.
 struct TimedQuery {
   const char* name;
-  Contender (*kernel)(Scene&, const Workload&, const kernel::Implementation&);
+  Contender (*kernel)(Scene&, const Workload&, const Implementation&);
   Contender (*reference)(Scene&, const Workload&);  ///< may be null
 };
 

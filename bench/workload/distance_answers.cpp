@@ -16,7 +16,7 @@ namespace bch::bench {
 Ways::Ways(const Workload& workload) {
   const auto& headings = workload.crowd.heading;
   for (const auto& [first, second] : workload.pairs) {
-    const Rotation a = rotation(headings[first]), b = rotation(headings[second]);
+    const detail::Rotation a = detail::rotation(headings[first]), b = detail::rotation(headings[second]);
     x.push_back(walking_speed * walking_time * (a.cosine - b.cosine));
     y.push_back(walking_speed * walking_time * (a.sine - b.sine));
   }

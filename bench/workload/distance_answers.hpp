@@ -6,9 +6,10 @@
 #include <string>
 #include <vector>
 
+#include <bch/clearance.hpp>
+#include <bch/time_of_impact.hpp>
+
 #include "bench/workload/scene.hpp"
-#include "kernel/distance/clearance.hpp"
-#include "kernel/distance/time_of_impact.hpp"
 
 // What the benchmarks of distances and times ask for, and what answers must be before they are worth timing.
 

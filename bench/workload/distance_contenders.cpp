@@ -12,11 +12,11 @@
 namespace bch::bench {
 namespace {
 
-Contender clearance_kernel(Scene& scene, const Workload& workload,
-                           const kernel::Implementation& implementation) {
+Contender clearance_kernel(Scene& scene, const Workload& workload, const Implementation& implementation) {
   const auto answers = std::make_shared<Clearances>(workload.pairs.size());
   const auto call = [&set = scene.set(), &workload, answers,
-                     options = ClearanceOptions{clearance_limit, &implementation}] {
+                     options =
+                         QueryOptions{.implementation = &implementation, .max_distance = clearance_limit}] {
     clearance(set, workload.agents(), workload.pairs, answers->spans(), options);
   };
   call();
@@ -40,11 +40,12 @@ Contender clearance_reference(Scene& scene, const Workload& workload) {
 }
 
 Contender time_of_impact_kernel(Scene& scene, const Workload& workload,
-                                const kernel::Implementation& implementation) {
+                                const Implementation& implementation) {
   const auto times = std::make_shared<std::vector<float>>(workload.pairs.size());
   const auto ways = std::make_shared<Ways>(workload);
   const auto call = [&set = scene.set(), &workload, ways, times, &implementation] {
-    time_of_impact(set, workload.agents(), workload.pairs, ways->displacements(), *times, {&implementation});
+    time_of_impact(set, workload.agents(), workload.pairs, ways->displacements(), *times,
+                   {.implementation = &implementation});
   };
   call();
   require_right(implementation.name, workload, wrong_times_of_impact(scene, workload, *times));

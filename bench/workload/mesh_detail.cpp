@@ -25,8 +25,8 @@ std::uint32_t add_middle(Character& character, std::uint32_t a, std::uint32_t b)
       weights[character.influences[i].bone] += 0.5f * character.influences[i].weight;
   for (const auto& [bone, weight] : weights) character.influences.push_back({bone, weight});
   character.influence_begin.push_back(static_cast<std::uint32_t>(character.influences.size()));
-  character.vertices.push_back(
-      vec3(0.5f * (to_eigen(character.vertices[a]) + to_eigen(character.vertices[b]))));
+  character.vertices.push_back(detail::vec3(
+      0.5f * (detail::to_eigen(character.vertices[a]) + detail::to_eigen(character.vertices[b]))));
   return static_cast<std::uint32_t>(character.vertices.size() - 1);
 }
 
@@ -34,9 +34,9 @@ std::uint32_t add_middle(Character& character, std::uint32_t a, std::uint32_t b)
 std::vector<Eigen::Vector3f> normals_of(const Character& character) {
   std::vector<Eigen::Vector3f> normals(character.vertices.size(), Eigen::Vector3f::Zero());
   for (const auto& [a, b, c] : character.triangles) {
-    const Eigen::Vector3f at = to_eigen(character.vertices[a]);
+    const Eigen::Vector3f at = detail::to_eigen(character.vertices[a]);
     const Eigen::Vector3f normal =
-        (to_eigen(character.vertices[b]) - at).cross(to_eigen(character.vertices[c]) - at);
+        (detail::to_eigen(character.vertices[b]) - at).cross(detail::to_eigen(character.vertices[c]) - at);
     for (const std::uint32_t v : {a, b, c}) normals[v] += normal;
   }
   return normals;
@@ -49,11 +49,12 @@ class Relief {
 
   void move_middle(Character& character, std::uint32_t a, std::uint32_t b) {
     constexpr double most = 0.125;  // of the edge's length
-    const float length = (to_eigen(character.vertices[a]) - to_eigen(character.vertices[b])).norm();
+    const float length =
+        (detail::to_eigen(character.vertices[a]) - detail::to_eigen(character.vertices[b])).norm();
     const Eigen::Vector3f normal = (normals_[a].normalized() + normals_[b].normalized()).normalized();
     const auto share = static_cast<float>(random_.uniform(2 * most) - most);
     Vec3& middle = character.vertices.back();
-    middle = vec3(to_eigen(middle) + share * length * normal);
+    middle = detail::vec3(detail::to_eigen(middle) + share * length * normal);
   }
 
  private:

@@ -5,7 +5,7 @@
 
 #include <cstdint>
 
-#include "layout/character/character.hpp"
+#include <bch/character.hpp>
 
 namespace bch::bench {
 

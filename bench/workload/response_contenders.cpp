@@ -8,27 +8,28 @@
 #include <stdexcept>
 #include <vector>
 
+#include <bch/collide_all.hpp>
+#include <bch/contacts.hpp>
+#include <bch/penetration.hpp>
+
 #include "baselines/contact_reference.hpp"
 #include "baselines/cut_lists.hpp"
 #include "baselines/penetration_reference.hpp"
 #include "bench/workload/contender.hpp"
-#include "kernel/contact/contacts.hpp"
-#include "kernel/crowd/collide_all.hpp"
-#include "kernel/penetration/penetration.hpp"
 
 namespace bch::bench {
 namespace {
 
 constexpr std::uint32_t penetration_directions = 16;
 
-std::string wrong_contacts(Scene& scene, const Workload& workload, const ContactTable& table) {
+std::string wrong_contacts(Scene& scene, const Workload& workload, const Rows<DiscPair>& table) {
   const baselines::CutLists cuts(scene.shapes(), {});
   for (std::size_t i = 0; i < workload.pairs.size(); ++i) {
     const auto expected = baselines::contacts(cuts, workload.agents(), workload.pairs[i]);
     const auto same = [](const DiscPair& contact, const auto& discs) {
       return contact.first == discs.first && contact.second == discs.second;
     };
-    const auto row = table.of(i);
+    const auto row = table[i];
     if (!std::equal(row.begin(), row.end(), expected.begin(), expected.end(), same))
       return fmt::format("pair {}: {} contacts where brute force finds {}, or others", i, row.size(),
                          expected.size());
@@ -48,7 +49,7 @@ std::string wrong_penetrations(Scene& scene, const Workload& workload, std::span
 }
 
 /// Checks the answers for a crowd, whose workload has all pairs that can collide.
-std::string wrong_neighbours(Scene& scene, const Workload& workload, const CollidingNeighbours& rows) {
+std::string wrong_neighbours(Scene& scene, const Workload& workload, const Rows<std::uint32_t>& rows) {
   const Hits& hits = scene.expected(disc_query, workload);
   std::vector<std::vector<std::uint32_t>> expected(workload.crowd.size());
   for (std::size_t i = 0; i < hits.size(); ++i) {
@@ -59,7 +60,7 @@ std::string wrong_neighbours(Scene& scene, const Workload& workload, const Colli
   }
   for (std::uint32_t agent = 0; agent < expected.size(); ++agent) {
     std::sort(expected[agent].begin(), expected[agent].end());
-    const auto row = rows.of(agent);
+    const auto row = rows[agent];
     if (!std::equal(row.begin(), row.end(), expected[agent].begin(), expected[agent].end()))
       return fmt::format("agent {}: {} neighbours where brute force finds {}, or others", agent, row.size(),
                          expected[agent].size());
@@ -67,22 +68,23 @@ std::string wrong_neighbours(Scene& scene, const Workload& workload, const Colli
   return {};
 }
 
-Contender contacts_kernel(Scene& scene, const Workload& workload,
-                          const kernel::Implementation& implementation) {
-  const auto table = std::make_shared<ContactTable>();
-  const auto call = [&set = scene.set(), &workload, table, &implementation] {
-    contacts(set, workload.agents(), workload.pairs, *table, {&implementation, Leaves::discs});
+Contender contacts_kernel(Scene& scene, const Workload& workload, const Implementation& implementation) {
+  const auto finder = std::make_shared<ContactFinder>();
+  const auto call = [&set = scene.set(), &workload, finder, &implementation] {
+    return finder->find(set, workload.agents(), workload.pairs,
+                        {.implementation = &implementation, .leaves = Leaves::discs});
   };
-  call();
-  require_right(implementation.name, workload, wrong_contacts(scene, workload, *table));
+  require_right(implementation.name, workload, wrong_contacts(scene, workload, call()));
   return {call, workload.pairs.size()};
 }
 
 Contender contacts_reference(Scene& scene, const Workload& workload) {
   const auto cuts = std::make_shared<baselines::CutLists>(scene.shapes(), ShapeSetPlan{});
-  ContactTable table;
-  contacts(scene.set(), workload.agents(), workload.pairs, table, {.leaves = Leaves::discs});
-  const auto call = [cuts, &workload, expected = table.contacts.size()] {
+  const std::size_t found =
+      ContactFinder()
+          .find(scene.set(), workload.agents(), workload.pairs, {.leaves = Leaves::discs})
+          .values.size();
+  const auto call = [cuts, &workload, expected = found] {
     std::size_t all = 0;
     for (const Pair pair : workload.pairs) all += baselines::contacts(*cuts, workload.agents(), pair).size();
     if (all != expected)
@@ -91,11 +93,11 @@ Contender contacts_reference(Scene& scene, const Workload& workload) {
   return {call, workload.pairs.size()};
 }
 
-Contender penetration_kernel(Scene& scene, const Workload& workload,
-                             const kernel::Implementation& implementation) {
+Contender penetration_kernel(Scene& scene, const Workload& workload, const Implementation& implementation) {
   const auto ways = std::make_shared<std::vector<Penetration>>(workload.pairs.size());
   const auto call = [&set = scene.set(), &workload, ways, &implementation] {
-    penetration(set, workload.agents(), workload.pairs, penetration_directions, *ways, {&implementation});
+    penetration(set, workload.agents(), workload.pairs, penetration_directions, *ways,
+                {.implementation = &implementation});
   };
   call();
   require_right(implementation.name, workload, wrong_penetrations(scene, workload, *ways));
@@ -119,8 +121,7 @@ Contender penetration_reference(Scene& scene, const Workload& workload) {
   return {call, workload.pairs.size()};
 }
 
-Contender collide_all_kernel(Scene& scene, const Workload& workload,
-                             const kernel::Implementation& implementation) {
+Contender collide_all_kernel(Scene& scene, const Workload& workload, const Implementation& implementation) {
   const auto collider = std::make_shared<CrowdCollider>();
   const auto call = [&set = scene.set(), &workload, collider, &implementation] {
     return collider->collide_all(set, workload.agents(),

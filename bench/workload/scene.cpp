@@ -52,7 +52,7 @@ const std::vector<baselines::Body>& Scene::bodies() {
   for (std::size_t i = 0; i < shapes().size(); ++i) {
     const auto [index, at] = sources()[i];
     const Character& character = characters()[index].character;
-    Skinner skinner(character);
+    detail::Skinner skinner(character);
     const auto positions = skinner.pose(at);
     bodies_.push_back({{positions.begin(), positions.end()}, character.triangles, shapes()[i]});
   }

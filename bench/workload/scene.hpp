@@ -10,12 +10,13 @@
 #include <string>
 #include <vector>
 
+#include <bch/collide.hpp>
+#include <bch/shape_set.hpp>
+
 #include "baselines/structure.hpp"
 #include "bench/characters/characters.hpp"
 #include "bench/characters/shape_table.hpp"
 #include "bench/workload/workload.hpp"
-#include "kernel/collide/collide.hpp"
-#include "layout/shape_set/shape_set.hpp"
 
 namespace bch::bench {
 

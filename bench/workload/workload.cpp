@@ -10,8 +10,9 @@
 #include <numbers>
 #include <stdexcept>
 
+#include <bch/broad_phase.hpp>
+
 #include "bench/base/random.hpp"
-#include "kernel/broad_phase/broad_phase.hpp"
 #include "layout/base/heading.hpp"
 
 namespace bch::bench {
@@ -30,7 +31,7 @@ struct Point {
 Point root_offset(const Shape& shape, double heading) {
   const Disc& disc = shape.hierarchy.nodes[0].disc;
   const double x = static_cast<double>(disc.x), y = static_cast<double>(disc.y);
-  const Rotation turn = rotation(heading);
+  const detail::Rotation turn = detail::rotation(heading);
   return {turn.cosine * x - turn.sine * y, turn.sine * x + turn.cosine * y};
 }
 
@@ -51,7 +52,7 @@ void add_candidate(cli::Random& random, std::span<const Shape> shapes, cli::Crow
   const double most = static_cast<double>(shapes[a].hierarchy.nodes[0].disc.radius) +
                       static_cast<double>(shapes[b].hierarchy.nodes[0].disc.radius);
   const double distance = most * std::sqrt(random.uniform(1));  // uniform over the area
-  const Rotation turn = rotation(angle);
+  const detail::Rotation turn = detail::rotation(angle);
   const Point from = root_offset(shapes[a], heading_a), to = root_offset(shapes[b], heading_b);
   add(crowd, a, at, heading_a);
   add(crowd, b, {at.x + from.x + distance * turn.cosine - to.x, at.y + from.y + distance * turn.sine - to.y},

@@ -10,8 +10,9 @@
 #include <string_view>
 #include <vector>
 
+#include <bch/shape_set.hpp>
+
 #include "bench/characters/crowd.hpp"
-#include "layout/shape_set/shape_set.hpp"
 
 namespace bch::bench {
 

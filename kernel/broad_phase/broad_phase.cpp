@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include "kernel/broad_phase/broad_phase.hpp"
+#include <bch/broad_phase.hpp>
 
 #include <algorithm>
 #include <array>
@@ -10,32 +10,36 @@
 #include <stdexcept>
 #include <string>
 
+#include <bch/query.hpp>
+
 #include "kernel/broad_phase/crowd_grid.hpp"
 #include "kernel/broad_phase/radix_sort.hpp"
 #include "kernel/broad_phase/sorted_discs.hpp"
 #include "kernel/runtime/floating_point_state.hpp"
 #include "kernel/runtime/task_ranges.hpp"
-#include "kernel/runtime/validate.hpp"
 #include "layout/base/rounding.hpp"
 #include "layout/base/shortest.hpp"
 
 namespace bch {
+
+using namespace detail;
+
 namespace {
 
-using kernel::CrowdBounds;
-using kernel::CrowdGrid;
-using kernel::GridDisc;
-using kernel::PairList;
-using kernel::SortedDiscs;
+using detail::CrowdBounds;
+using detail::CrowdGrid;
+using detail::GridDisc;
+using detail::PairList;
+using detail::SortedDiscs;
 
 constexpr std::size_t grain = 2048;        ///< agents a task
 constexpr std::size_t block_discs = 1024;  ///< whose pairs a task finds
 
 CrowdBounds bounds(const ShapeSetView& shapes, const Agents& agents, double margin) {
-  return kernel::reduce_ranges(
+  return detail::reduce_ranges(
       agents.size(), grain, CrowdBounds(),
       [&](std::size_t begin, std::size_t end, CrowdBounds all) {
-        all.add(kernel::bounds(shapes, agents, margin, begin, end));
+        all.add(detail::bounds(shapes, agents, margin, begin, end));
         return all;
       },
       [](CrowdBounds a, const CrowdBounds& b) {
@@ -49,7 +53,7 @@ CrowdBounds bounds(const ShapeSetView& shapes, const Agents& agents, double marg
 /// What find() computes, stage by stage.
 struct BroadPhase::Scratch {
   std::vector<GridDisc> placed;
-  kernel::RadixSort<GridDisc> radix_sort;
+  detail::RadixSort<GridDisc> radix_sort;
   SortedDiscs discs;
   /// Discs of a class.
   std::array<std::size_t, CrowdGrid::most_classes + 1> class_begin;
@@ -71,14 +75,14 @@ struct BroadPhase::Scratch {
 void BroadPhase::Scratch::sort_discs(const CrowdGrid& grid, const ShapeSetView& shapes, const Agents& agents,
                                      double margin) {
   placed.resize(agents.size());
-  kernel::for_ranges(agents.size(), grain, [&](std::size_t begin, std::size_t end) {
+  detail::for_ranges(agents.size(), grain, [&](std::size_t begin, std::size_t end) {
     grid.place(shapes, agents, margin, begin, end, placed.data());
   });
   const std::uint32_t classes = grid.class_count();
   radix_sort.sort(placed, static_cast<unsigned>(std::bit_width(grid.end_cell(classes - 1))),
                   [](const GridDisc& disc) { return disc.cell; });
   discs.resize(agents.size());
-  kernel::for_ranges(agents.size(), grain, [&](std::size_t begin, std::size_t end) {
+  detail::for_ranges(agents.size(), grain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) discs.set(i, placed[i]);
   });
   class_begin[0] = 0;
@@ -145,7 +149,7 @@ void BroadPhase::Scratch::gather_pairs(std::size_t blocks) {
   found_begin.assign(blocks + 1, 0);
   for (std::size_t b = 0; b < blocks; ++b) found_begin[b + 1] = found_begin[b] + found[b].pairs().size();
   pairs.resize(found_begin[blocks]);
-  kernel::for_ranges(blocks, 1, [&](std::size_t first, std::size_t last) {
+  detail::for_ranges(blocks, 1, [&](std::size_t first, std::size_t last) {
     auto to = pairs.begin() + static_cast<std::ptrdiff_t>(found_begin[first]);
     for (std::size_t b = first; b < last; ++b)
       to = std::transform(found[b].pairs().begin(), found[b].pairs().end(), to, [](Pair pair) {
@@ -160,7 +164,7 @@ std::span<const Pair> BroadPhase::Scratch::find(const ShapeSetView& shapes, cons
   sort_discs(grid, shapes, agents, margin);
   const std::size_t blocks = (agents.size() + block_discs - 1) / block_discs;
   if (found.size() < blocks) found.resize(blocks);
-  kernel::for_ranges(blocks, 1, [&](std::size_t first, std::size_t last) {
+  detail::for_ranges(blocks, 1, [&](std::size_t first, std::size_t last) {
     for (std::size_t b = first; b < last; ++b) {
       const std::size_t begin = b * block_discs, end = std::min(begin + block_discs, agents.size());
       find_in_block(grid, begin, end, found[b]);
@@ -176,12 +180,12 @@ BroadPhase& BroadPhase::operator=(BroadPhase&&) noexcept = default;
 BroadPhase::~BroadPhase() = default;
 
 std::span<const Pair> BroadPhase::find(const ShapeSet& shapes, const Agents& agents, double margin) {
-  const kernel::FloatingPointStateGuard floats;
+  const detail::FloatingPointStateGuard floats;
   validate(shapes, agents);
   if (!(margin >= 0 && margin <= 2 * rounding::largest_position))
     throw std::invalid_argument("broad phase: a margin of " + shortest(margin) + " m");
   if (agents.size() == 0) return {};
-  return kernel::without_tasks_from_outside([&] { return scratch_->find(shapes.view(), agents, margin); });
+  return detail::without_tasks_from_outside([&] { return scratch_->find(shapes.view(), agents, margin); });
 }
 
 std::vector<Pair> candidate_pairs(const ShapeSet& shapes, const Agents& agents, double margin) {

@@ -10,7 +10,7 @@
 #include "layout/base/heading.hpp"
 #include "layout/base/rounding.hpp"
 
-namespace bch::kernel {
+namespace bch::detail {
 namespace {
 
 constexpr std::uint32_t cell_bits = 29;  ///< of a unit's number in class 0's cell
@@ -126,4 +126,4 @@ std::uint64_t CrowdGrid::coarser(std::uint64_t cell, std::uint32_t from, std::ui
   return classes_[to].first + row * classes_[to].stride + column;
 }
 
-}  // namespace bch::kernel
+}  // namespace bch::detail

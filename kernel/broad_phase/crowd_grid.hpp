@@ -8,10 +8,11 @@
 #include <cstdint>
 #include <limits>
 
-#include "layout/format/agents.hpp"
+#include <bch/agents.hpp>
+
 #include "layout/format/shape_set_view.hpp"
 
-namespace bch::kernel {
+namespace bch::detail {
 
 /// The extent of the positions of some agents, and the sizes of their roots.
 struct CrowdBounds {
@@ -82,4 +83,4 @@ class CrowdGrid {
   std::array<Class, most_classes> classes_;
 };
 
-}  // namespace bch::kernel
+}  // namespace bch::detail

@@ -11,7 +11,7 @@
 
 #include "kernel/runtime/task_ranges.hpp"
 
-namespace bch::kernel {
+namespace bch::detail {
 
 /// Sorts fewer than 2^32 values by an unsigned key, lowest digits first; equal keys keep their order. Keeps
 /// its memory for the next call.
@@ -67,4 +67,4 @@ class RadixSort {
   std::vector<std::uint32_t> places_;  ///< by block and digit
 };
 
-}  // namespace bch::kernel
+}  // namespace bch::detail

@@ -9,11 +9,12 @@
 #include <span>
 #include <vector>
 
+#include <bch/agents.hpp>
+
 #include "kernel/broad_phase/crowd_grid.hpp"
 #include "kernel/simd/lanes.hpp"
-#include "layout/format/pair.hpp"
 
-namespace bch::kernel {
+namespace bch::detail {
 
 /// Discs of a grid in the order of their cells, array by array.
 class SortedDiscs {
@@ -97,4 +98,4 @@ class PairList {
   std::size_t size_ = 0;
 };
 
-}  // namespace bch::kernel
+}  // namespace bch::detail

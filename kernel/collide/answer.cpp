@@ -4,8 +4,9 @@
 #include "kernel/collide/answer.hpp"
 
 #include "kernel/collide/containment.hpp"
+#include "kernel/runtime/kernels.hpp"
 
-namespace bch::kernel {
+namespace bch::detail {
 namespace {
 
 /// Decides the near misses among a kernel's codes.
@@ -24,17 +25,17 @@ void decide_near_misses(const Arguments& arguments, const Agents& agents, std::s
 
 void answer(const Implementation& implementation, const Arguments& arguments, const Agents& agents,
             std::size_t begin, std::size_t end) noexcept {
-  implementation.run(arguments, begin, end);
+  implementation.kernels->run(arguments, begin, end);
   decide_near_misses(arguments, agents, begin, end);
 }
 
 bool answer_if_valid(const Implementation& implementation, const Arguments& arguments, const Agents& agents,
                      std::size_t count) noexcept {
   if (count == 0 || count > pairs_per_chunk ||
-      !implementation.run_if_valid(arguments, static_cast<std::uint32_t>(count)))
+      !implementation.kernels->run_if_valid(arguments, static_cast<std::uint32_t>(count)))
     return false;
   decide_near_misses(arguments, agents, 0, count);
   return true;
 }
 
-}  // namespace bch::kernel
+}  // namespace bch::detail

@@ -5,11 +5,12 @@
 
 #include <cstddef>
 
-#include "kernel/runtime/implementation.hpp"
-#include "kernel/simd/arguments.hpp"
-#include "layout/format/agents.hpp"
+#include <bch/agents.hpp>
+#include <bch/query.hpp>
 
-namespace bch::kernel {
+#include "kernel/simd/arguments.hpp"
+
+namespace bch::detail {
 
 /// The work of one task: answers pairs begin .. end, each 0 or 1. Writes nothing but their codes, so that
 /// ranges may run at the same time.
@@ -22,4 +23,4 @@ void answer(const Implementation& implementation, const Arguments& arguments, co
 bool answer_if_valid(const Implementation& implementation, const Arguments& arguments, const Agents& agents,
                      std::size_t count) noexcept;
 
-}  // namespace bch::kernel
+}  // namespace bch::detail

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include "kernel/collide/collide.hpp"
+#include <bch/collide.hpp>
 
 #include <stdexcept>
 #include <string>
@@ -14,9 +14,11 @@
 
 namespace bch {
 
+using namespace detail;
+
 void collide(const ShapeSet& shapes, const Agents& agents, std::span<const Pair> pairs,
              std::span<std::uint8_t> hits, const QueryOptions& options) {
-  const kernel::FloatingPointStateGuard floats;
+  const FloatingPointStateGuard floats;
   const bool solid = options.semantics == Semantics::solid;
   if (hits.size() != pairs.size())
     throw std::invalid_argument("collide: " + std::to_string(pairs.size()) + " pairs but " +
@@ -28,18 +30,18 @@ void collide(const ShapeSet& shapes, const Agents& agents, std::span<const Pair>
   if (solid && !shapes.solid())
     throw std::invalid_argument(
         "collide: solid semantics needs outlines, and the set does not have that of every shape");
-  const bool exact_leaves = kernel::exact_leaves(options.leaves, "collide");
-  const kernel::Implementation& implementation = kernel::chosen(options.implementation, "collide");
+  const bool exact = exact_leaves(options.leaves, "collide");
+  const Implementation& implementation = chosen(options, "collide");
   const ShapeSetView& view = shapes.view();
-  kernel::require_sizes(agents);
-  kernel::Arguments arguments = kernel::arguments_for(view, agents, pairs);
+  require_sizes(agents);
+  Arguments arguments = arguments_for(view, agents, pairs);
   arguments.codes = hits.data();
   arguments.mark_near_misses = solid;
-  arguments.exact_leaves = exact_leaves && shapes.exact_leaves();
-  if (kernel::answer_if_valid(implementation, arguments, agents, pairs.size())) return;
-  kernel::require_valid(implementation, view, agents, pairs);
-  kernel::for_ranges(pairs.size(), kernel::pairs_per_task, [&](std::size_t begin, std::size_t end) {
-    kernel::answer(implementation, arguments, agents, begin, end);
+  arguments.exact_leaves = exact && shapes.exact_leaves();
+  if (answer_if_valid(implementation, arguments, agents, pairs.size())) return;
+  require_valid(implementation, view, agents, pairs);
+  for_ranges(pairs.size(), pairs_per_task, [&](std::size_t begin, std::size_t end) {
+    answer(implementation, arguments, agents, begin, end);
   });
 }
 

@@ -6,7 +6,7 @@
 #include "layout/base/heading.hpp"
 #include "layout/base/rounding.hpp"
 
-namespace bch::kernel {
+namespace bch::detail {
 namespace {
 
 struct Point {
@@ -93,4 +93,4 @@ bool one_contains_other(const ShapeSetView& shapes, const Agents& agents, Pair p
          contains_contour_of(shapes, agents.shape[b], agents.shape[a], placement(agents, a, b));
 }
 
-}  // namespace bch::kernel
+}  // namespace bch::detail

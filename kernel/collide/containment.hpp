@@ -3,10 +3,11 @@
 
 #pragma once
 
-#include "layout/format/agents.hpp"
-#include "layout/shape_set/shape_set.hpp"
+#include <bch/agents.hpp>
 
-namespace bch::kernel {
+#include "layout/format/shape_set_view.hpp"
+
+namespace bch::detail {
 
 /// Returns whether a contour of one agent's outline lies inside the other's outline, for two agents whose
 /// cuts do not overlap.
@@ -17,4 +18,4 @@ namespace bch::kernel {
 /// Preconditions: valid indices; the set was planned for the solid semantics.
 bool one_contains_other(const ShapeSetView& shapes, const Agents& agents, Pair pair) noexcept;
 
-}  // namespace bch::kernel
+}  // namespace bch::detail

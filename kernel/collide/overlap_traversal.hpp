@@ -14,7 +14,7 @@
 #include "kernel/simd/tree_nodes.hpp"
 #include "layout/format/shape_set_view.hpp"
 
-namespace bch::kernel {
+namespace bch::detail {
 
 /// The last stage of the pair kernel: traverses the trees of the pairs that no quicker stage decided, in
 /// rounds. Each round tests one pair of blocks for every open pair, so that cache misses and latencies of
@@ -272,4 +272,4 @@ class OverlapTraversal {
   Frame frames_[capacity][most_frames + 2];
 };
 
-}  // namespace bch::kernel
+}  // namespace bch::detail

@@ -16,7 +16,7 @@
 #include "kernel/simd/separating_axis_test.hpp"
 #include "layout/format/shape_set_view.hpp"
 
-namespace bch::kernel {
+namespace bch::detail {
 
 /// The pair query, written once. `Simd` is a Lanes<Arch> with bits(). Every float operation that decides an
 /// answer is one of those listed in layout/base/rounding.hpp, in that order, so that all instantiations and
@@ -30,7 +30,7 @@ template <class Simd, std::uint32_t chunk = pairs_per_chunk>
 class PairKernel {
  public:
   static void run(const Arguments& arguments, std::size_t begin, std::size_t end) noexcept {
-    static_assert(sizeof(PairKernel) <= 256 * 1024, "what implementation.hpp promises");
+    static_assert(sizeof(PairKernel) <= 256 * 1024, "what collide.hpp promises, and room for calls");
     PairKernel kernel(arguments);
     for (; begin < end; begin += chunk) {
       kernel.at_.place(arguments, begin,
@@ -90,7 +90,7 @@ class PairKernel {
 
   double segment_margin(std::uint32_t pair) const noexcept {
     if (!in_.exact_leaves) return 0;
-    return kernel::segment_margin<Simd>(shapes_, at_.shape_a[pair], at_.shape_b[pair]);
+    return detail::segment_margin<Simd>(shapes_, at_.shape_a[pair], at_.shape_b[pair]);
   }
 
   /// Root disc against root disc, lane = pair. Where both cuts are single discs, that is the answer.
@@ -241,4 +241,4 @@ class PairKernel {
   OverlapTraversal<Simd, open_walks> walk_;
 };
 
-}  // namespace bch::kernel
+}  // namespace bch::detail

@@ -6,7 +6,8 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "kernel/contact/disc_pair.hpp"
+#include <bch/query.hpp>
+
 #include "kernel/simd/ancestor_test.hpp"
 #include "kernel/simd/arguments.hpp"
 #include "kernel/simd/block_test.hpp"
@@ -17,7 +18,7 @@
 #include "layout/format/cut_discs.hpp"
 #include "layout/format/shape_set_view.hpp"
 
-namespace bch::kernel {
+namespace bch::detail {
 
 /// All pairs of cut discs that overlap with all their ancestors, and whose segments meet where these decide,
 /// one pair of agents after the other. Rows are discs of a pair's first agent, columns those of its second.
@@ -304,4 +305,4 @@ class ContactKernel {
   DiscBlock singles_[2];
 };
 
-}  // namespace bch::kernel
+}  // namespace bch::detail

@@ -1,53 +1,71 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include "kernel/contact/contacts.hpp"
+#include <bch/contacts.hpp>
+
+#include <vector>
 
 #include "kernel/runtime/floating_point_state.hpp"
 #include "kernel/runtime/pair_validation.hpp"
 #include "kernel/runtime/task_ranges.hpp"
 
 namespace bch {
+
+using namespace detail;
+
 namespace {
 
 constexpr std::size_t grain = 256;  ///< pairs a task; each may have thousands of contacts
 
-void find_contacts(const kernel::Implementation& implementation, const kernel::Arguments& arguments,
-                   std::size_t pairs, ContactTable& table) {
-  table.offsets.resize(pairs + 1);
-  kernel::for_ranges(pairs, grain, [&](std::size_t begin, std::size_t end) {
-    implementation.count_contacts(arguments, begin, end, table.offsets.data());
+}  // namespace
+
+struct ContactFinder::State {
+  std::vector<std::uint64_t> offsets;
+  std::vector<DiscPair> contacts;
+
+  void find(const Implementation& implementation, const Arguments& arguments, std::size_t pairs);
+};
+
+void ContactFinder::State::find(const Implementation& implementation, const Arguments& arguments,
+                                std::size_t pairs) {
+  offsets.resize(pairs + 1);
+  for_ranges(pairs, grain, [&](std::size_t begin, std::size_t end) {
+    implementation.kernels->count_contacts(arguments, begin, end, offsets.data());
   });
   std::uint64_t end = 0;
   for (std::size_t i = 0; i < pairs; ++i) {
-    const std::uint64_t count = table.offsets[i];
-    table.offsets[i] = end;
+    const std::uint64_t count = offsets[i];
+    offsets[i] = end;
     end += count;
   }
-  table.offsets[pairs] = end;
-  table.contacts.resize(end);
-  kernel::for_ranges(pairs, grain, [&](std::size_t begin, std::size_t end_of_range) {
-    implementation.fill_contacts(arguments, begin, end_of_range, table.offsets.data(), table.contacts.data());
+  offsets[pairs] = end;
+  contacts.resize(end);
+  for_ranges(pairs, grain, [&](std::size_t begin, std::size_t end_of_range) {
+    implementation.kernels->fill_contacts(arguments, begin, end_of_range, offsets.data(), contacts.data());
   });
 }
 
-}  // namespace
+ContactFinder::ContactFinder() : state_(std::make_unique<State>()) {}
+ContactFinder::ContactFinder(ContactFinder&&) noexcept = default;
+ContactFinder& ContactFinder::operator=(ContactFinder&&) noexcept = default;
+ContactFinder::~ContactFinder() = default;
 
-void contacts(const ShapeSet& shapes, const Agents& agents, std::span<const Pair> pairs, ContactTable& table,
-              const ContactOptions& options) {
-  const kernel::FloatingPointStateGuard floats;
-  const kernel::Implementation& implementation = kernel::chosen(options.implementation, "contacts");
-  const bool exact_leaves = kernel::exact_leaves(options.leaves, "contacts");
+Rows<DiscPair> ContactFinder::find(const ShapeSet& shapes, const Agents& agents, std::span<const Pair> pairs,
+                                   const QueryOptions& options) {
+  const FloatingPointStateGuard floats;
+  const Implementation& implementation = chosen(options, "contacts");
+  const bool exact = exact_leaves(options.leaves, "contacts");
   const ShapeSetView& view = shapes.view();
-  kernel::require_valid(implementation, view, agents, pairs);
+  require_valid(implementation, view, agents, pairs);
+  Arguments arguments = arguments_for(view, agents, pairs);
+  arguments.exact_leaves = exact && shapes.exact_leaves();
   try {
-    kernel::Arguments arguments = kernel::arguments_for(view, agents, pairs);
-    arguments.exact_leaves = exact_leaves && shapes.exact_leaves();
-    find_contacts(implementation, arguments, pairs.size(), table);
+    state_->find(implementation, arguments, pairs.size());
   } catch (...) {
-    table = {};
+    *state_ = {};
     throw;
   }
+  return {state_->offsets, state_->contacts};
 }
 
 }  // namespace bch

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <atomic>
 
-namespace bch::kernel {
+namespace bch::detail {
 namespace {
 
 /// Returns: what was there before.
@@ -45,4 +45,4 @@ void NeighbourRows::sort(std::size_t first, std::size_t last) const noexcept {
               neighbours.begin() + static_cast<std::ptrdiff_t>(begin[i + 1]));
 }
 
-}  // namespace bch::kernel
+}  // namespace bch::detail

@@ -7,9 +7,9 @@
 #include <cstdint>
 #include <span>
 
-#include "layout/format/pair.hpp"
+#include <bch/agents.hpp>
 
-namespace bch::kernel {
+namespace bch::detail {
 
 /// Pairs that were answered, and the rows that they become: of each agent, its partners in the pairs that hit. The
 /// three passes below, one after the other; each may run at the same time on different ranges. In which order rows
@@ -30,4 +30,4 @@ struct NeighbourRows {
   void sort(std::size_t first, std::size_t last) const noexcept;
 };
 
-}  // namespace bch::kernel
+}  // namespace bch::detail

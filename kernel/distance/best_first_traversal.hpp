@@ -11,7 +11,7 @@
 #include "kernel/simd/tree_nodes.hpp"
 #include "layout/format/shape_set_view.hpp"
 
-namespace bch::kernel {
+namespace bch::detail {
 
 /// Two nodes, not both windows, and the bounds of their pairs of discs.
 struct NodePairBounds {
@@ -123,4 +123,4 @@ class BestFirstTraversal {
   NodePairBounds frames_[most_frames + 1];
 };
 
-}  // namespace bch::kernel
+}  // namespace bch::detail

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include "kernel/distance/clearance.hpp"
+#include <bch/clearance.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -15,10 +15,10 @@
 #include "layout/base/shortest.hpp"
 
 namespace bch {
-namespace {
 
-using kernel::ClearanceArguments;
-using kernel::NearestDiscs;
+using namespace detail;
+
+namespace {
 
 /// Pairs a task.
 constexpr std::size_t grain = 1024;
@@ -31,21 +31,21 @@ float limit_of(double max_distance) {
   return static_cast<double>(nearest) > max_distance ? std::nextafter(nearest, -1.0f) : nearest;
 }
 
-ClosestDiscs cut_nodes(const ShapeSetView& shapes, const Agents& agents, Pair pair,
+DiscPair nearest_discs(const ShapeSetView& shapes, const Agents& agents, Pair pair,
                        const NearestDiscs& nearest) {
-  if (nearest.a == kernel::no_node) return no_cut_nodes;
+  if (nearest.a == no_node) return no_discs;
   const auto index = [&](std::uint32_t agent, std::uint32_t node) {
     if (shapes.trees == nullptr) return node;
     return node - shapes.trees[agents.root(agent, shapes.level_count)].discs;
   };
   const auto [a, b] = std::minmax(pair.first, pair.second);
-  const ClosestDiscs nodes{index(a, nearest.a), index(b, nearest.b)};
-  return pair.second < pair.first ? ClosestDiscs{nodes.second, nodes.first} : nodes;
+  const DiscPair nodes{index(a, nearest.a), index(b, nearest.b)};
+  return pair.second < pair.first ? DiscPair{nodes.second, nodes.first} : nodes;
 }
 
 /// Returns the direction of a clearance. It is computed in double, where squares do not underflow.
 Vec2 direction(Pair pair, const NearestDiscs& nearest) {
-  if (nearest.a == kernel::no_node) return {0, 0};
+  if (nearest.a == no_node) return {0, 0};
   const double x = nearest.x, y = nearest.y;
   const double sign = pair.second < pair.first ? -1 : 1;
   if (x == 0 && y == 0) return {static_cast<float>(sign), 0};
@@ -55,18 +55,18 @@ Vec2 direction(Pair pair, const NearestDiscs& nearest) {
 }
 
 /// The work of one task.
-void answer(const kernel::Implementation& implementation, ClearanceArguments arguments, const Agents& agents,
+void answer(const Implementation& implementation, ClearanceArguments arguments, const Agents& agents,
             std::span<const Pair> pairs, const ClearanceAnswers& answers) noexcept {
   NearestDiscs nearest[grain];
   arguments.in.pairs = pairs.data();
   arguments.nearest = nearest;
-  implementation.clearance(arguments, 0, pairs.size());
+  implementation.kernels->clearance(arguments, 0, pairs.size());
   for (std::size_t i = 0; i < pairs.size(); ++i) {
-    const bool found = nearest[i].a != kernel::no_node;
+    const bool found = nearest[i].a != no_node;
     answers.distance[i] = found ? nearest[i].distance : std::numeric_limits<float>::infinity();
     if (!answers.direction.empty()) answers.direction[i] = direction(pairs[i], nearest[i]);
-    if (!answers.nodes.empty())
-      answers.nodes[i] = cut_nodes(*arguments.in.shapes, agents, pairs[i], nearest[i]);
+    if (!answers.discs.empty())
+      answers.discs[i] = nearest_discs(*arguments.in.shapes, agents, pairs[i], nearest[i]);
   }
 }
 
@@ -78,30 +78,29 @@ void require_answers(const ClearanceAnswers& answers, std::size_t pairs) {
   };
   require(answers.distance.size(), "distances", false);
   require(answers.direction.size(), "directions", true);
-  require(answers.nodes.size(), "nodes", true);
+  require(answers.discs.size(), "discs", true);
 }
 
 }  // namespace
 
 void clearance(const ShapeSet& shapes, const Agents& agents, std::span<const Pair> pairs,
-               const ClearanceAnswers& answers, const ClearanceOptions& options) {
-  const kernel::FloatingPointStateGuard floats;
+               const ClearanceAnswers& answers, const QueryOptions& options) {
+  const FloatingPointStateGuard floats;
   require_answers(answers, pairs.size());
   if (!(options.max_distance >= 0))
     throw std::invalid_argument("clearance: a max_distance of " + shortest(options.max_distance) + " m");
-  const kernel::Implementation& implementation = kernel::chosen(options.implementation, "clearance");
+  const Implementation& implementation = chosen(options, "clearance");
   const ShapeSetView& view = shapes.view();
-  kernel::require_valid(implementation, view, agents, pairs);
+  require_valid(implementation, view, agents, pairs);
 
-  ClearanceArguments arguments{kernel::arguments_for(view, agents, {}), limit_of(options.max_distance),
-                               nullptr};
+  ClearanceArguments arguments{arguments_for(view, agents, {}), limit_of(options.max_distance), nullptr};
   const auto part = [](auto span, std::size_t begin, std::size_t size) {
     return span.empty() ? span : span.subspan(begin, size);
   };
-  kernel::for_pair_ranges(pairs.size(), grain, [&](std::size_t begin, std::size_t size) {
+  for_pair_ranges(pairs.size(), grain, [&](std::size_t begin, std::size_t size) {
     answer(implementation, arguments, agents, pairs.subspan(begin, size),
            {part(answers.distance, begin, size), part(answers.direction, begin, size),
-            part(answers.nodes, begin, size)});
+            part(answers.discs, begin, size)});
   });
 }
 

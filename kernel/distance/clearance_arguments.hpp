@@ -7,7 +7,7 @@
 
 #include "kernel/simd/arguments.hpp"
 
-namespace bch::kernel {
+namespace bch::detail {
 
 /// Beyond every length, squared length and time that a kernel computes of valid agents.
 constexpr float far_beyond = 0x1p66f;
@@ -30,4 +30,4 @@ struct ClearanceArguments {
   NearestDiscs* nearest;  ///< as many as pairs
 };
 
-}  // namespace bch::kernel
+}  // namespace bch::detail

@@ -13,7 +13,7 @@
 #include "kernel/simd/placements.hpp"
 #include "kernel/simd/record_fields.hpp"
 
-namespace bch::kernel {
+namespace bch::detail {
 
 /// The nearest discs of every pair. Chunk by chunk: places B in A's frame, bounds the gap by the root discs,
 /// one pair a lane, and walks the trees of the pairs that may be within the limit.
@@ -21,7 +21,7 @@ template <class Simd>
 class ClearanceKernel {
  public:
   static void run(const ClearanceArguments& arguments, std::size_t begin, std::size_t end) noexcept {
-    static_assert(sizeof(ClearanceKernel) <= 256 * 1024, "what implementation.hpp promises");
+    static_assert(sizeof(ClearanceKernel) <= 256 * 1024, "what collide.hpp promises, and room for calls");
     ClearanceKernel kernel(arguments);
     for (; begin < end; begin += chunk)
       kernel.answer_chunk(begin, end - begin < chunk ? static_cast<std::uint32_t>(end - begin) : chunk);
@@ -129,4 +129,4 @@ class ClearanceKernel {
   Search search_;
 };
 
-}  // namespace bch::kernel
+}  // namespace bch::detail

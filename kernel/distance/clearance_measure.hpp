@@ -10,7 +10,7 @@
 #include "kernel/simd/disc_pairs.hpp"
 #include "kernel/simd/lanes.hpp"
 
-namespace bch::kernel {
+namespace bch::detail {
 
 /// The gap between two discs, in float:
 ///
@@ -120,4 +120,4 @@ class ClearanceMeasure {
   float most_;  ///< what is compared with instead of the best
 };
 
-}  // namespace bch::kernel
+}  // namespace bch::detail

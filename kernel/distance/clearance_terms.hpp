@@ -7,7 +7,7 @@
 
 /// Errors of a clearance, in units of u: the sums that kernel/distance/clearance_measure.hpp derives.
 /// `of_reach` counts in S, the reaches of both shapes, `of_distance` in D, the distance of the exact centres.
-namespace bch::kernel::clearance_terms {
+namespace bch::detail::clearance_terms {
 
 namespace r = rounding::terms;
 
@@ -43,4 +43,4 @@ static_assert(slack >= bound_of_reach && bound_shortening >= bound_of_distance);
 constexpr double square_shortening = 128;
 static_assert(square_shortening >= 2 * (shortening + 3) + 6);
 
-}  // namespace bch::kernel::clearance_terms
+}  // namespace bch::detail::clearance_terms

@@ -10,7 +10,7 @@
 #include "kernel/simd/disc_pairs.hpp"
 #include "layout/format/shape_set_view.hpp"
 
-namespace bch::kernel {
+namespace bch::detail {
 
 /// BestFirstTraversal for many pairs of agents side by side, so that latencies and cache misses of many
 /// overlap. Beside what that asks of a measure:
@@ -174,4 +174,4 @@ class NearestSearch {
   BestFirstTraversal<Simd, Measure> walk_;
 };
 
-}  // namespace bch::kernel
+}  // namespace bch::detail

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include "kernel/distance/time_of_impact.hpp"
+#include <bch/time_of_impact.hpp>
 
 #include <cmath>
 #include <sstream>
@@ -15,21 +15,22 @@
 #include "layout/base/rounding.hpp"
 
 namespace bch {
-namespace {
 
-using kernel::TimeOfImpactArguments;
+using namespace detail;
+
+namespace {
 
 /// Pairs a task.
 constexpr std::size_t grain = 1024;
 
 /// The work of one task. Most overlapping pairs are found sooner by collide(), which has culling data for
 /// that.
-void answer(const kernel::Implementation& implementation, TimeOfImpactArguments arguments,
+void answer(const Implementation& implementation, TimeOfImpactArguments arguments,
             std::span<const Pair> pairs, const double* x, const double* y, float* times) noexcept {
   std::uint8_t codes[grain];
   arguments.in.pairs = pairs.data();
   arguments.in.codes = codes;
-  implementation.run(arguments.in, 0, pairs.size());
+  implementation.kernels->run(arguments.in, 0, pairs.size());
 
   Pair open[grain];
   std::uint32_t which[grain];
@@ -39,7 +40,7 @@ void answer(const kernel::Implementation& implementation, TimeOfImpactArguments 
   for (std::uint32_t i = 0; i < pairs.size(); ++i) {
     times[i] = 0;
     which[count] = i;
-    count += codes[i] == kernel::apart;
+    count += codes[i] == apart;
   }
   for (std::size_t k = 0; k < count; ++k) {
     const std::uint32_t i = which[k];
@@ -50,7 +51,7 @@ void answer(const kernel::Implementation& implementation, TimeOfImpactArguments 
   }
   arguments.in.pairs = open;
   arguments.x = way_x, arguments.y = way_y, arguments.time = found;
-  implementation.time_of_impact(arguments, 0, count);
+  implementation.kernels->time_of_impact(arguments, 0, count);
   for (std::size_t k = 0; k < count; ++k) times[which[k]] = found[k];
 }
 
@@ -79,17 +80,16 @@ void require_valid(const Displacements& displacements) {
 }  // namespace
 
 void time_of_impact(const ShapeSet& shapes, const Agents& agents, std::span<const Pair> pairs,
-                    const Displacements& displacements, std::span<float> times,
-                    const TimeOfImpactOptions& options) {
-  const kernel::FloatingPointStateGuard floats;
+                    const Displacements& displacements, std::span<float> times, const QueryOptions& options) {
+  const FloatingPointStateGuard floats;
   require_sizes(displacements, times.size(), pairs.size());
-  const kernel::Implementation& implementation = kernel::chosen(options.implementation, "time_of_impact");
+  const Implementation& implementation = chosen(options, "time_of_impact");
   const ShapeSetView& view = shapes.view();
-  kernel::require_valid(implementation, view, agents, pairs);
+  require_valid(implementation, view, agents, pairs);
   require_valid(displacements);
 
-  TimeOfImpactArguments arguments{kernel::arguments_for(view, agents, {}), nullptr, nullptr, nullptr};
-  kernel::for_pair_ranges(pairs.size(), grain, [&](std::size_t begin, std::size_t size) {
+  TimeOfImpactArguments arguments{arguments_for(view, agents, {}), nullptr, nullptr, nullptr};
+  for_pair_ranges(pairs.size(), grain, [&](std::size_t begin, std::size_t size) {
     answer(implementation, arguments, pairs.subspan(begin, size), displacements.x.data() + begin,
            displacements.y.data() + begin, times.data() + begin);
   });

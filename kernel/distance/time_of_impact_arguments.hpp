@@ -5,7 +5,7 @@
 
 #include "kernel/simd/arguments.hpp"
 
-namespace bch::kernel {
+namespace bch::detail {
 
 /// The input and output of a time of impact kernel. These are plain pointers for the reason that Arguments
 /// states. The agent of a pair with the lower index is A.
@@ -15,4 +15,4 @@ struct TimeOfImpactArguments {
   float* time;         ///< per pair; infinite: none
 };
 
-}  // namespace bch::kernel
+}  // namespace bch::detail

@@ -13,7 +13,7 @@
 #include "kernel/simd/placements.hpp"
 #include "kernel/simd/separating_axis_test.hpp"
 
-namespace bch::kernel {
+namespace bch::detail {
 
 /// Finds the first contact of every pair, none of which collides now. The kernel works chunk by chunk. It
 /// places B in A's frame, separates by their supports the pairs that a line keeps apart on all of the way,
@@ -22,7 +22,7 @@ template <class Simd>
 class TimeOfImpactKernel {
  public:
   static void run(const TimeOfImpactArguments& arguments, std::size_t begin, std::size_t end) noexcept {
-    static_assert(sizeof(TimeOfImpactKernel) <= 256 * 1024, "what implementation.hpp promises");
+    static_assert(sizeof(TimeOfImpactKernel) <= 256 * 1024, "what collide.hpp promises, and room for calls");
     TimeOfImpactKernel kernel(arguments);
     for (; begin < end; begin += chunk)
       kernel.answer_chunk(begin, end - begin < chunk ? static_cast<std::uint32_t>(end - begin) : chunk);
@@ -124,4 +124,4 @@ class TimeOfImpactKernel {
   TimeOfImpactWalk<Simd> walk_;
 };
 
-}  // namespace bch::kernel
+}  // namespace bch::detail

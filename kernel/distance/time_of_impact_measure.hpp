@@ -10,7 +10,7 @@
 #include "kernel/simd/lanes.hpp"
 #include "layout/base/rounding.hpp"
 
-namespace bch::kernel {
+namespace bch::detail {
 
 /// Errors of a time of impact and of its bounds, in units of u: the sums that TimeOfImpactMeasure derives.
 namespace time_of_impact_terms {
@@ -171,4 +171,4 @@ class TimeOfImpactMeasure {
   float time_;
 };
 
-}  // namespace bch::kernel
+}  // namespace bch::detail

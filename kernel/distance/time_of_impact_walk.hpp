@@ -13,7 +13,7 @@
 #include "kernel/simd/tree_nodes.hpp"
 #include "layout/format/shape_set_view.hpp"
 
-namespace bch::kernel {
+namespace bch::detail {
 
 /// The last stage of TimeOfImpactKernel: branch and bound over the trees of many pairs of agents, in rounds.
 /// A round takes one step of every open pair, stage by stage, because a step of one pair is a chain of
@@ -203,4 +203,4 @@ class TimeOfImpactWalk {
   Frame frames_[capacity][most_frames + 1];
 };
 
-}  // namespace bch::kernel
+}  // namespace bch::detail

@@ -3,7 +3,7 @@
 
 #include "kernel/isa/row.hpp"
 
-namespace bch::kernel {
+namespace bch::detail {
 namespace {
 
 /// Two rows of four fit into one register.
@@ -71,4 +71,4 @@ struct Avx2Lanes : Lanes<xsimd::avx2> {
 extern const Kernels avx2_kernels;
 constinit const Kernels avx2_kernels = Row<Avx2Lanes>::kernels;
 
-}  // namespace bch::kernel
+}  // namespace bch::detail

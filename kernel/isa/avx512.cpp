@@ -3,7 +3,7 @@
 
 #include "kernel/isa/row.hpp"
 
-namespace bch::kernel {
+namespace bch::detail {
 namespace {
 
 /// Several rows of a block's outer product fit into one register: two of eight,
@@ -90,4 +90,4 @@ struct Avx512Lanes : Lanes<xsimd::avx512f> {
 extern const Kernels avx512_kernels;
 constinit const Kernels avx512_kernels = Row<Avx512Lanes>::kernels;
 
-}  // namespace bch::kernel
+}  // namespace bch::detail

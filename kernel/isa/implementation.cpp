@@ -1,27 +1,32 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include "kernel/runtime/implementation.hpp"
+#include <bch/query.hpp>
 
 #include <algorithm>
 #include <cstdlib>
 #include <stdexcept>
 #include <string>
 
-namespace bch::kernel {
+#include "kernel/runtime/kernels.hpp"
+
+namespace bch::detail {
 
 extern const Kernels avx512_kernels, avx2_kernels, sse2_kernels, scalar_kernels;
 
+}  // namespace bch::detail
+
+namespace bch {
 namespace {
 
 // The compiler's test asks the operating system too, whether it saves the wide
 // registers; xsimd 8.1's does not.
 std::span<const Implementation> table() noexcept {
   static const Implementation rows[] = {
-      {avx512_kernels, "avx512", []() noexcept { return __builtin_cpu_supports("avx512f") != 0; }},
-      {avx2_kernels, "avx2", []() noexcept { return __builtin_cpu_supports("avx2") != 0; }},
-      {sse2_kernels, "sse2", []() noexcept { return true; }},
-      {scalar_kernels, "scalar", []() noexcept { return true; }},
+      {"avx512", []() noexcept { return __builtin_cpu_supports("avx512f") != 0; }, &detail::avx512_kernels},
+      {"avx2", []() noexcept { return __builtin_cpu_supports("avx2") != 0; }, &detail::avx2_kernels},
+      {"sse2", []() noexcept { return true; }, &detail::sse2_kernels},
+      {"scalar", []() noexcept { return true; }, &detail::scalar_kernels},
   };
   return rows;
 }
@@ -58,4 +63,4 @@ const Implementation& implementation(std::string_view name) {
   throw std::invalid_argument("no implementation '" + std::string(name) + "' (known: " + known + ")");
 }
 
-}  // namespace bch::kernel
+}  // namespace bch

@@ -11,7 +11,7 @@
 #include "kernel/runtime/agent_check.hpp"
 #include "kernel/runtime/kernels.hpp"
 
-namespace bch::kernel {
+namespace bch::detail {
 
 /// All kernels compiled for the lanes of one instruction set. Each holds a
 /// Simd::Guard, which cleans up on the way out. `Simd` has to be of an
@@ -65,4 +65,4 @@ struct Row {
                                    count_contacts, fill_contacts, extents, clearance, time_of_impact};
 };
 
-}  // namespace bch::kernel
+}  // namespace bch::detail

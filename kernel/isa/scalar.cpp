@@ -3,7 +3,7 @@
 
 #include "kernel/isa/row.hpp"
 
-namespace bch::kernel {
+namespace bch::detail {
 namespace {
 
 struct ScalarLanes : Lanes<Scalar> {
@@ -25,4 +25,4 @@ struct ScalarLanes : Lanes<Scalar> {
 extern const Kernels scalar_kernels;
 constinit const Kernels scalar_kernels = Row<ScalarLanes>::kernels;
 
-}  // namespace bch::kernel
+}  // namespace bch::detail

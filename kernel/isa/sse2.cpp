@@ -3,7 +3,7 @@
 
 #include "kernel/isa/row.hpp"
 
-namespace bch::kernel {
+namespace bch::detail {
 namespace {
 
 struct Sse2Lanes : Lanes<xsimd::sse2> {
@@ -44,4 +44,4 @@ struct Sse2Lanes : Lanes<xsimd::sse2> {
 extern const Kernels sse2_kernels;
 constinit const Kernels sse2_kernels = Row<Sse2Lanes>::kernels;
 
-}  // namespace bch::kernel
+}  // namespace bch::detail

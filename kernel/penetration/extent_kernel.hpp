@@ -8,7 +8,7 @@
 #include "kernel/simd/lanes.hpp"
 #include "layout/format/cut_discs.hpp"
 
-namespace bch::kernel {
+namespace bch::detail {
 
 /// The interval that discs take along axes: low = min(c . e - r), high = max(c . e + r), with c . e = x ex + y ey. Every
 /// disc is one lane of one register or of two: smallest and largest do not mind.
@@ -65,4 +65,4 @@ class ExtentKernel {
   }
 };
 
-}  // namespace bch::kernel
+}  // namespace bch::detail

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include "kernel/penetration/penetration.hpp"
+#include <bch/penetration.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -19,6 +19,9 @@
 #include "layout/format/cut_discs.hpp"
 
 namespace bch {
+
+using namespace detail;
+
 namespace {
 
 constexpr std::uint32_t most_axes = most_directions / 2;
@@ -51,7 +54,7 @@ struct Extents {
 struct Query {
   const ShapeSetView shapes;
   const Agents& agents;
-  const kernel::Implementation& implementation;
+  const Implementation& implementation;
 
   void measure(std::uint32_t agent, const Axes& axes, Extents& extents) const noexcept;
   Penetration answer(Pair pair, const Axes& axes, bool both_ways, const Extents& a,
@@ -67,7 +70,7 @@ void Query::measure(std::uint32_t agent, const Axes& axes, Extents& extents) con
     x[i] = static_cast<float>(turn.cosine * axes.x[i] + turn.sine * axes.y[i]);
     y[i] = static_cast<float>(turn.cosine * axes.y[i] - turn.sine * axes.x[i]);
   }
-  implementation.extents(discs, x, y, axes.count, extents.low, extents.high);
+  implementation.kernels->extents(discs, x, y, axes.count, extents.low, extents.high);
   // A set of single discs has no reaches.
   extents.reach =
       static_cast<double>(discs.count == 1 ? std::abs(discs.x[0]) + std::abs(discs.y[0]) + discs.radius[0]
@@ -94,13 +97,13 @@ Penetration Query::answer(Pair pair, const Axes& axes, bool both_ways, const Ext
 }
 
 Query checked_query(const ShapeSet& shapes, const Agents& agents, std::span<const Pair> pairs,
-                    std::span<Penetration> out, const PenetrationOptions& options) {
+                    std::span<Penetration> out, const QueryOptions& options) {
   if (out.size() != pairs.size())
     throw std::invalid_argument("penetration: " + std::to_string(pairs.size()) + " pairs but room for " +
                                 std::to_string(out.size()) + " answers");
-  const kernel::Implementation& implementation = kernel::chosen(options.implementation, "penetration");
+  const Implementation& implementation = chosen(options, "penetration");
   const ShapeSetView& view = shapes.view();
-  kernel::require_valid(implementation, view, agents, pairs);
+  require_valid(implementation, view, agents, pairs);
   return {view, agents, implementation};
 }
 
@@ -136,11 +139,11 @@ Axes spread_axes(std::uint32_t directions) {
 
 void penetration_along(const ShapeSet& shapes, const Agents& agents, std::span<const Pair> pairs,
                        std::span<const Vec2> directions, std::span<Penetration> out,
-                       const PenetrationOptions& options) {
-  const kernel::FloatingPointStateGuard floats;
+                       const QueryOptions& options) {
+  const FloatingPointStateGuard floats;
   const Query query = checked_query(shapes, agents, pairs, out, options);
   require_directions(directions, pairs.size());
-  kernel::for_pair_ranges(pairs.size(), grain, [&](std::size_t begin, std::size_t size) {
+  for_pair_ranges(pairs.size(), grain, [&](std::size_t begin, std::size_t size) {
     Axes axis;
     Extents a, b;
     axis.count = 1;
@@ -157,11 +160,11 @@ void penetration_along(const ShapeSet& shapes, const Agents& agents, std::span<c
 }
 
 void penetration(const ShapeSet& shapes, const Agents& agents, std::span<const Pair> pairs,
-                 std::uint32_t directions, std::span<Penetration> out, const PenetrationOptions& options) {
-  const kernel::FloatingPointStateGuard floats;
+                 std::uint32_t directions, std::span<Penetration> out, const QueryOptions& options) {
+  const FloatingPointStateGuard floats;
   const Query query = checked_query(shapes, agents, pairs, out, options);
   const Axes axes = spread_axes(directions);
-  kernel::for_pair_ranges(pairs.size(), grain, [&](std::size_t begin, std::size_t size) {
+  for_pair_ranges(pairs.size(), grain, [&](std::size_t begin, std::size_t size) {
     Extents a, b;
     std::size_t measured = agents.size();
     for (std::size_t i = begin; i < begin + size; ++i) {

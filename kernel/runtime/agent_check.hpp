@@ -6,13 +6,14 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "kernel/runtime/implementation.hpp"
+#include <bch/agents.hpp>
+
+#include "kernel/runtime/kernels.hpp"
 #include "kernel/simd/arguments.hpp"
 #include "layout/base/rounding.hpp"
-#include "layout/format/pair.hpp"
 #include "layout/format/shape_set_view.hpp"
 
-namespace bch::kernel {
+namespace bch::detail {
 
 /// Checks whether agents are valid arguments of a query. It has no branch, so that the compiler uses the
 /// registers of the instruction set that `Simd` stands for.
@@ -59,4 +60,4 @@ class AgentCheck {
   }
 };
 
-}  // namespace bch::kernel
+}  // namespace bch::detail

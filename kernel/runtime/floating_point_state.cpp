@@ -5,7 +5,7 @@
 
 #include <xmmintrin.h>
 
-namespace bch::kernel {
+namespace bch::detail {
 namespace {
 
 constexpr unsigned standard = 0x1f80;  ///< of the register MXCSR: all traps masked
@@ -27,4 +27,4 @@ FloatingPointStateGuard::~FloatingPointStateGuard() {
   if (!is_standard(before_)) _mm_setcsr(before_);
 }
 
-}  // namespace bch::kernel
+}  // namespace bch::detail

@@ -3,7 +3,7 @@
 
 #pragma once
 
-namespace bch::kernel {
+namespace bch::detail {
 
 /// While it lives, its thread computes as IEEE 754 has it by default: rounding to nearest, denormal numbers kept, no
 /// traps. Then whatever the thread had is back. Callers may have set another state, and a task may run in a thread
@@ -20,4 +20,4 @@ class FloatingPointStateGuard {
   unsigned before_;
 };
 
-}  // namespace bch::kernel
+}  // namespace bch::detail

@@ -8,12 +8,12 @@
 
 namespace bch {
 struct DiscPair;
-struct CutDiscs;
 struct Pair;
 }  // namespace bch
 
-namespace bch::kernel {
+namespace bch::detail {
 
+struct CutDiscs;
 struct Arguments;
 struct ClearanceArguments;
 struct TimeOfImpactArguments;
@@ -31,8 +31,8 @@ struct Kernels {
   bool (*check)(const Arguments& arguments, std::size_t begin, std::size_t end) noexcept;
   /// Returns the range of the agents that pairs begin .. end name.
   AgentRange (*named)(const Pair* pairs, std::size_t begin, std::size_t end) noexcept;
-  /// Writes the codes of pairs begin .. end; see Arguments. Needs 256 KiB of
-  /// stack and no other memory.
+  /// Writes the codes of pairs begin .. end; see Arguments. Keeps up to 256 KiB
+  /// on the stack, and needs no other memory.
   void (*run)(const Arguments& arguments, std::size_t begin, std::size_t end) noexcept;
   /// Writes the codes of the first `count` pairs, one or more and at most a
   /// chunk, when neither pairs nor agents were validated. Returns false, and
@@ -59,4 +59,4 @@ struct Kernels {
   void (*time_of_impact)(const TimeOfImpactArguments& arguments, std::size_t begin, std::size_t end) noexcept;
 };
 
-}  // namespace bch::kernel
+}  // namespace bch::detail

@@ -7,13 +7,13 @@
 #include <stdexcept>
 #include <string>
 
+#include <bch/query.hpp>
+
 #include "kernel/runtime/floating_point_state.hpp"
 #include "kernel/runtime/task_ranges.hpp"
-#include "kernel/runtime/validate.hpp"
 #include "kernel/runtime/validation.hpp"
 
-namespace bch {
-namespace kernel {
+namespace bch::detail {
 namespace {
 
 /// The number of agents from which on these are prefetched: 3 MB of them. Below, that costs 1 % (and 13 % for
@@ -41,7 +41,9 @@ std::size_t first_bad_agent(const Implementation& implementation, const Argument
                             const Agents& agents) {
   return first_bad(
       agents.size(),
-      [&](std::size_t begin, std::size_t end) { return implementation.check(arguments, begin, end); },
+      [&](std::size_t begin, std::size_t end) {
+        return implementation.kernels->check(arguments, begin, end);
+      },
       [&](std::size_t i) { return !is_valid(*arguments.shapes, agents, i); });
 }
 
@@ -64,7 +66,8 @@ std::size_t first_bad_agent(const Implementation& implementation, const Argument
 
 }  // namespace
 
-const Implementation& chosen(const Implementation* wanted, const char* query) {
+const Implementation& chosen(const QueryOptions& options, const char* query) {
+  const Implementation* const wanted = options.implementation;
   if (wanted == nullptr) return best_implementation();
   if (!wanted->supported())
     throw std::invalid_argument(std::string(query) + ": this processor does not run '" + wanted->name + "'");
@@ -108,24 +111,23 @@ void require_valid(const Implementation& implementation, const ShapeSetView& sha
   const std::size_t i = first_bad(
       pairs.size(),
       [&](std::size_t begin, std::size_t end) {
-        const auto [low, high] = implementation.named(pairs.data(), begin, end);
+        const auto [low, high] = implementation.kernels->named(pairs.data(), begin, end);
         if (high >= agents.size()) return false;
         return all_agents_are_valid || (high - low < 2 * (end - begin) &&
-                                        implementation.check(arguments, low, high + std::size_t{1}));
+                                        implementation.kernels->check(arguments, low, high + std::size_t{1}));
       },
       [&](std::size_t k) { return is_bad(pairs[k].first) || is_bad(pairs[k].second); });
   if (i < pairs.size()) reject_pair(shapes, agents, pairs, i);
 }
 
-}  // namespace kernel
+}  // namespace bch::detail
 
-void validate(const ShapeSet& shapes, const Agents& agents) {
-  kernel::require_sizes(agents);
-  const kernel::FloatingPointStateGuard floats;
+void bch::validate(const ShapeSet& shapes, const Agents& agents) {
+  using namespace detail;
+  require_sizes(agents);
+  const FloatingPointStateGuard floats;
   const ShapeSetView& view = shapes.view();
-  const kernel::Arguments arguments = kernel::arguments_for(view, agents, {});
-  const std::size_t i = kernel::first_bad_agent(kernel::best_implementation(), arguments, agents);
-  if (i < agents.size()) kernel::reject(view, agents, i);
+  const Arguments arguments = arguments_for(view, agents, {});
+  const std::size_t i = first_bad_agent(best_implementation(), arguments, agents);
+  if (i < agents.size()) reject(view, agents, i);
 }
-
-}  // namespace bch

@@ -6,20 +6,21 @@
 #include <cstddef>
 #include <span>
 
-#include "kernel/runtime/implementation.hpp"
-#include "kernel/simd/arguments.hpp"
-#include "layout/format/agents.hpp"
-#include "layout/shape_set/shape_set.hpp"
+#include <bch/query.hpp>
 
-namespace bch::kernel {
+#include "kernel/runtime/kernels.hpp"
+#include "kernel/simd/arguments.hpp"
+#include "layout/format/shape_set_view.hpp"
+
+namespace bch::detail {
 
 /// Pairs a task of a query: enough to hide its cost, few enough to balance two pairs of cores over a small
 /// crowd.
 constexpr std::size_t pairs_per_task = 2048;
 
-/// Returns the wanted implementation, or the best one where none is wanted (null).
+/// Returns the implementation that the options name, or the best one.
 /// Errors:  throws std::invalid_argument naming the query where this processor does not run it.
-const Implementation& chosen(const Implementation* wanted, const char* query);
+const Implementation& chosen(const QueryOptions& options, const char* query);
 
 /// Returns whether `leaves` selects segments.
 /// Errors:  throws std::invalid_argument naming the query on a value that is none.
@@ -35,4 +36,4 @@ Arguments arguments_for(const ShapeSetView& view, const Agents& agents, std::spa
 void require_valid(const Implementation& implementation, const ShapeSetView& shapes, const Agents& agents,
                    std::span<const Pair> pairs);
 
-}  // namespace bch::kernel
+}  // namespace bch::detail

@@ -14,7 +14,7 @@
 
 #include "kernel/runtime/floating_point_state.hpp"
 
-namespace bch::kernel {
+namespace bch::detail {
 
 /// Calls work(begin, end) for ranges that together are [0, count): as TBB's tasks of `grain` and more, where
 /// there is more than one, because a task costs more than a small batch. Tasks run in the standard
@@ -67,4 +67,4 @@ void for_pair_ranges(std::size_t pairs, std::size_t grain, const Work& work) {
   });
 }
 
-}  // namespace bch::kernel
+}  // namespace bch::detail

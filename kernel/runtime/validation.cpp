@@ -10,7 +10,7 @@
 
 #include "layout/base/shortest.hpp"
 
-namespace bch::kernel {
+namespace bch::detail {
 
 void require_sizes(const Agents& agents) {
   const std::size_t size = agents.size();
@@ -40,4 +40,4 @@ void reject(const ShapeSetView& shapes, const Agents& agents, std::size_t i) {
   throw std::invalid_argument("agent " + std::to_string(i) + ": " + why());
 }
 
-}  // namespace bch::kernel
+}  // namespace bch::detail

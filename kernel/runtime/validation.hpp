@@ -6,11 +6,12 @@
 #include <cmath>
 #include <cstddef>
 
+#include <bch/agents.hpp>
+
 #include "layout/base/rounding.hpp"
-#include "layout/format/agents.hpp"
 #include "layout/format/shape_set_view.hpp"
 
-namespace bch::kernel {
+namespace bch::detail {
 
 /// Returns whether an agent is a valid argument of a query; NaN is not.
 inline bool is_valid(const ShapeSetView& shapes, const Agents& agents, std::size_t i) noexcept {
@@ -27,4 +28,4 @@ void require_sizes(const Agents& agents);
 /// Throws std::invalid_argument saying what is wrong with an agent for which is_valid() is false.
 [[noreturn]] void reject(const ShapeSetView& shapes, const Agents& agents, std::size_t i);
 
-}  // namespace bch::kernel
+}  // namespace bch::detail

@@ -10,7 +10,7 @@
 #include "layout/base/rounding.hpp"
 #include "layout/format/shape_set_view.hpp"
 
-namespace bch::kernel {
+namespace bch::detail {
 
 /// Two trees, and how the second lies in the first one's frame.
 struct PlacedTrees {
@@ -167,4 +167,4 @@ class AncestorTest {
   PathDiscs discs_a_, discs_b_;
 };
 
-}  // namespace bch::kernel
+}  // namespace bch::detail

@@ -7,10 +7,11 @@
 
 namespace bch {
 struct Pair;
-struct ShapeSetView;
-}  // namespace bch
+}
 
-namespace bch::kernel {
+namespace bch::detail {
+
+struct ShapeSetView;
 
 /// Pairs that a kernel takes through its stages together.
 constexpr std::uint32_t pairs_per_chunk = 256;
@@ -43,4 +44,4 @@ enum Code : std::uint8_t {
   near_miss = 2,  ///< the cuts do not overlap, and one outline might hold the other
 };
 
-}  // namespace bch::kernel
+}  // namespace bch::detail

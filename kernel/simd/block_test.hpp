@@ -8,7 +8,7 @@
 
 #include "layout/format/shape_set_view.hpp"
 
-namespace bch::kernel {
+namespace bch::detail {
 
 /// Maps from B's frame into A's: a rotation (c, s), then a translation. See layout/base/rounding.hpp.
 struct Transform {
@@ -77,4 +77,4 @@ template <class Simd, unsigned count>
   return overlapping_discs<Simd, count, false>(b_in_a, a, b);
 }
 
-}  // namespace bch::kernel
+}  // namespace bch::detail

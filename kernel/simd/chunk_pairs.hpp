@@ -5,7 +5,7 @@
 
 #include <cstdint>
 
-namespace bch::kernel {
+namespace bch::detail {
 
 /// Some of a chunk's pairs. (`Simd` also keeps instruction sets from sharing a function.)
 template <class Simd, std::uint32_t capacity>
@@ -74,4 +74,4 @@ struct ChunkPairs {
   }
 };
 
-}  // namespace bch::kernel
+}  // namespace bch::detail

@@ -9,7 +9,7 @@
 #include "kernel/simd/lanes.hpp"
 #include "layout/format/shape_set_view.hpp"
 
-namespace bch::kernel {
+namespace bch::detail {
 
 /// Pairs of discs of two blocks.
 constexpr unsigned block_pairs = block_width * block_width;
@@ -94,4 +94,4 @@ unsigned first_within(const float* values, float most) noexcept {
   return static_cast<unsigned>(__builtin_ctzll(all_within<Simd>(values, most)));
 }
 
-}  // namespace bch::kernel
+}  // namespace bch::detail

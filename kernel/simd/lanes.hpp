@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <xsimd/xsimd.hpp>
 
-namespace bch::kernel {
+namespace bch::detail {
 
 /// Table over the sets of four bits: the numbers of the bits that are set, 16 bits each from the lowest, and
 /// how many there are. (It is not a member, because members of a template would be data that objects share.)
@@ -122,4 +122,4 @@ typename Simd::Float rough_root(typename Simd::Float x) noexcept {
   return Simd::rough_root(xsimd::max(x, typename Simd::Float(0x1p-126f)));
 }
 
-}  // namespace bch::kernel
+}  // namespace bch::detail

@@ -6,15 +6,16 @@
 #include <cstddef>
 #include <cstdint>
 
+#include <bch/agents.hpp>
+
 #include "kernel/simd/arguments.hpp"
 #include "kernel/simd/block_test.hpp"
 #include "kernel/simd/lanes.hpp"
 #include "layout/base/heading.hpp"
 #include "layout/base/rounding.hpp"
-#include "layout/format/pair.hpp"
 #include "layout/format/shape_set_view.hpp"
 
-namespace bch::kernel {
+namespace bch::detail {
 
 /// The placements of the agents of a chunk of pairs: B seen from A, side by side. This is the first stage of
 /// the pair kernel.
@@ -63,7 +64,7 @@ class Placements {
 
   using Float = typename Simd::Float;
   using Double = typename Simd::Double;
-  static constexpr std::uint32_t doubles = sizeof(Double) / sizeof(double);  ///< a register
+  static constexpr std::uint32_t doubles = Simd::doubles;        ///< a register
   static constexpr std::uint32_t parts = Simd::width / doubles;  ///< registers of them for one of floats
 
   // With `check`, what these return tells whether the next one may read what this one names.
@@ -220,4 +221,4 @@ class Placements {
   alignas(64) float cosine_[chunk], sine_[chunk];
 };
 
-}  // namespace bch::kernel
+}  // namespace bch::detail

@@ -10,7 +10,7 @@
 #include "kernel/simd/record_fields.hpp"
 #include "layout/format/shape_set_view.hpp"
 
-namespace bch::kernel {
+namespace bch::detail {
 
 /// Tests pairs by two profiles (layout/culling/profile.hpp) along the line of their centres; lane = pair.
 template <class Simd, std::uint32_t chunk>
@@ -112,7 +112,7 @@ class ProfileTest {
   /// Returns the place of a direction among the sectors; after the last one comes the first again. Zero has
   /// any.
   static Float sector(Float x, Float y) noexcept {
-    constexpr float quadrant = profile_sectors / 4, not_zero = 1e-30f;
+    constexpr float quadrant = 0.25f * profile_sectors, not_zero = 1e-30f;
     const Float zero(0.0f), ax = xsimd::abs(x), ay = xsimd::abs(y);
     const Float share = Float(quadrant) * ay / (ax + ay + Float(not_zero));
     const Float half = Simd::select(x < zero, Float(2 * quadrant) - share, share);
@@ -127,4 +127,4 @@ class ProfileTest {
   Fields of_a_, of_b_;
 };
 
-}  // namespace bch::kernel
+}  // namespace bch::detail

@@ -5,7 +5,7 @@
 
 #include <cstdint>
 
-namespace bch::kernel {
+namespace bch::detail {
 
 /// Records of four floats, picked from a table by index, field by field: what lanes that stand for pairs need
 /// of tables.
@@ -31,4 +31,4 @@ struct RecordFields {
   }
 };
 
-}  // namespace bch::kernel
+}  // namespace bch::detail

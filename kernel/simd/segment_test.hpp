@@ -10,7 +10,7 @@
 #include "layout/base/rounding.hpp"
 #include "layout/format/shape_set_view.hpp"
 
-namespace bch::kernel {
+namespace bch::detail {
 
 /// The relation of two segments.
 enum class Meeting : std::uint8_t {
@@ -230,4 +230,4 @@ class SegmentTest {
   double apart_[capacity], sure_[capacity];
 };
 
-}  // namespace bch::kernel
+}  // namespace bch::detail

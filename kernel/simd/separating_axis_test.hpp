@@ -10,7 +10,7 @@
 #include "layout/base/rounding.hpp"
 #include "layout/format/shape_set_view.hpp"
 
-namespace bch::kernel {
+namespace bch::detail {
 
 /// Tests whether a line separates two cuts, by their supports (layout/culling/supports.hpp), lane =
 /// direction.
@@ -188,4 +188,4 @@ class SeparatingAxisTest {
   alignas(64) float lower_[chunk], upper_[chunk];
 };
 
-}  // namespace bch::kernel
+}  // namespace bch::detail

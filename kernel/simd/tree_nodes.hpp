@@ -8,7 +8,7 @@
 #include "kernel/simd/block_test.hpp"
 #include "layout/format/shape_set_view.hpp"
 
-namespace bch::kernel {
+namespace bch::detail {
 
 /// Finds what a node's name leads to among ShapeSetView::nodes. (`Simd` keeps instruction sets from sharing a
 /// function.)
@@ -46,4 +46,4 @@ struct TreeNodes {
   }
 };
 
-}  // namespace bch::kernel
+}  // namespace bch::detail

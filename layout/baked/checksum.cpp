@@ -8,7 +8,7 @@
 #define XXH_INLINE_ALL
 #include <xxhash.h>
 
-namespace bch::baked {
+namespace bch::detail::baked {
 namespace {
 
 /// Bytes: several of them fit into a second cache.
@@ -52,4 +52,4 @@ std::uint64_t SectionChecksum::finish(std::size_t zeros) {
   return XXH3_64bits_digest(&state_->xxh3);
 }
 
-}  // namespace bch::baked
+}  // namespace bch::detail::baked

@@ -10,7 +10,7 @@
 
 #include "layout/baked/format.hpp"
 
-namespace bch::baked {
+namespace bch::detail::baked {
 
 /// Returns the checksum of a file's first bytes.
 std::uint64_t checksum(Preamble preamble);
@@ -39,4 +39,4 @@ class SectionChecksum {
   std::unique_ptr<State> state_;
 };
 
-}  // namespace bch::baked
+}  // namespace bch::detail::baked

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include "layout/baked/file.hpp"
+#include <bch/baked.hpp>
 
 #include <cstring>
 #include <string_view>
@@ -14,6 +14,9 @@
 #include "layout/baked/validation.hpp"
 
 namespace bch {
+
+using namespace detail;
+
 namespace {
 
 using baked::Preamble;

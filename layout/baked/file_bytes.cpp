@@ -20,7 +20,7 @@
 
 #include "layout/base/aligned_memory.hpp"
 
-namespace bch {
+namespace bch::detail {
 namespace {
 
 constexpr std::size_t most_at_once = std::size_t{1} << 30;  ///< bytes; Linux reads no more than 2 GiB
@@ -110,4 +110,4 @@ FileBytes map_file(const std::filesystem::path& file, const FirstLook& look) {
           std::shared_ptr<const void>(bytes, [size = from.size()](void* at) { munmap(at, size); })};
 }
 
-}  // namespace bch
+}  // namespace bch::detail

@@ -10,7 +10,7 @@
 #include <memory>
 #include <span>
 
-namespace bch {
+namespace bch::detail {
 
 /// A file's bytes, from a cache line on, as long as `memory` lives.
 struct FileBytes {
@@ -36,4 +36,4 @@ FileBytes read_file(const std::filesystem::path& file, const FirstLook& look = {
 /// over this) is fine: the mapping keeps the old one.
 FileBytes map_file(const std::filesystem::path& file, const FirstLook& look = {});
 
-}  // namespace bch
+}  // namespace bch::detail

@@ -8,7 +8,8 @@
 #include <cstdint>
 #include <span>
 
-#include "layout/baked/shape_origins.hpp"
+#include <bch/baked.hpp>
+
 #include "layout/format/shape_arrays.hpp"
 
 /// The baked file: a shape set as it lies in memory.
@@ -69,7 +70,7 @@
 ///
 /// Numbers. Coordinates and radii are finite and at most 1e7 m, a root's radius above 0, reaches within rounding.hpp's
 /// domain. shape_preconditions() lists all that is checked.
-namespace bch::baked {
+namespace bch::detail::baked {
 
 /// A byte that is no text, so that the file is not taken for text; then line ends that a transfer as text
 /// would change.
@@ -172,4 +173,4 @@ constexpr std::uint64_t nodes_offset(std::size_t shapes, std::size_t levels) {
          padded(shapes * levels * sizeof(Tree));
 }
 
-}  // namespace bch::baked
+}  // namespace bch::detail::baked

@@ -9,7 +9,7 @@
 #include "layout/baked/checksum.hpp"
 #include "layout/baked/validation.hpp"
 
-namespace bch {
+namespace bch::detail {
 
 BakedImage::BakedImage(const ShapeSet& set, const ShapeOrigins& origins)
     : settings_{origins.threshold}, origins_(origins.origins) {
@@ -48,4 +48,4 @@ void BakedImage::lay_out() {
   preamble_.header.checksum = baked::checksum(preamble_);
 }
 
-}  // namespace bch
+}  // namespace bch::detail

@@ -7,12 +7,13 @@
 #include <span>
 #include <vector>
 
-#include "layout/baked/format.hpp"
-#include "layout/baked/shape_origins.hpp"
-#include "layout/base/aligned_vector.hpp"
-#include "layout/shape_set/shape_set.hpp"
+#include <bch/baked.hpp>
+#include <bch/shape_set.hpp>
 
-namespace bch {
+#include "layout/baked/format.hpp"
+#include "layout/base/aligned_vector.hpp"
+
+namespace bch::detail {
 
 /// A set as the bytes of a baked file (baked_format.hpp), without a copy of its arrays.
 class BakedImage {
@@ -41,4 +42,4 @@ class BakedImage {
   std::vector<std::span<const std::byte>> parts_;
 };
 
-}  // namespace bch
+}  // namespace bch::detail

@@ -10,7 +10,7 @@
 #include "layout/base/shortest.hpp"
 #include "layout/format/shape_validation.hpp"
 
-namespace bch::baked {
+namespace bch::detail::baked {
 namespace {
 
 [[noreturn]] void reject(const char* section, std::size_t place, const std::string& what) {
@@ -51,10 +51,10 @@ void require_origins(std::span<const ShapeOrigin> origins, std::size_t shapes, s
 }  // namespace
 
 void validate(const Arrays& arrays, const std::function<void(std::size_t)>& before_nodes) {
-  bch::validate(arrays.shapes, before_nodes);
+  detail::validate(arrays.shapes, before_nodes);
   require_settings(arrays.settings);
   require_origins(arrays.origins, arrays.shapes.shape_count(),
                   require_names(arrays.name_begin, arrays.names.size()));
 }
 
-}  // namespace bch::baked
+}  // namespace bch::detail::baked

@@ -8,11 +8,11 @@
 
 #include "layout/baked/format.hpp"
 
-namespace bch::baked {
+namespace bch::detail::baked {
 
 /// Checks the content of all sections: validate(ShapeArrays), and that every shape's origin has its names.
 /// `before_nodes`: as there.
 /// Errors:  throws std::invalid_argument naming the section, the place in it and the value.
 void validate(const Arrays& arrays, const std::function<void(std::size_t)>& before_nodes = {});
 
-}  // namespace bch::baked
+}  // namespace bch::detail::baked

@@ -7,7 +7,7 @@
 
 #include <new>
 
-namespace bch {
+namespace bch::detail {
 namespace {
 
 constexpr std::size_t cache_line = 64, large_page = std::size_t{2} << 20;
@@ -29,4 +29,4 @@ void free_aligned(void* memory, std::size_t bytes) noexcept {
   ::operator delete(memory, alignment(bytes));
 }
 
-}  // namespace bch
+}  // namespace bch::detail

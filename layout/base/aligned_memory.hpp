@@ -5,7 +5,7 @@
 
 #include <cstddef>
 
-namespace bch {
+namespace bch::detail {
 
 /// Memory from a cache line on. As much as a large page or more begins on one, and the system is asked for large pages:
 /// with small ones, finding out where the shapes of a large set lie costs as much as fetching them.
@@ -14,4 +14,4 @@ void* allocate_aligned(std::size_t bytes);
 /// `bytes`: as many as were asked for.
 void free_aligned(void* memory, std::size_t bytes) noexcept;
 
-}  // namespace bch
+}  // namespace bch::detail

@@ -8,7 +8,7 @@
 
 #include "layout/base/aligned_memory.hpp"
 
-namespace bch {
+namespace bch::detail {
 
 /// Allocates on cache lines, which are also the widest SIMD registers, and large arrays on large pages.
 template <class Value>
@@ -27,4 +27,4 @@ struct CacheLineAllocator {
 template <class Value>
 using AlignedVector = std::vector<Value, CacheLineAllocator<Value>>;
 
-}  // namespace bch
+}  // namespace bch::detail

@@ -7,7 +7,7 @@
 #include <iterator>
 #include <string_view>
 
-namespace bch {
+namespace bch::detail {
 
 /// The first row of a table that pays off in construction on this processor, most of whose work is in plain code. The first
 /// processors with AVX-512 lower their clock for a millisecond where it is used: with it a pose takes 7 % longer
@@ -21,4 +21,4 @@ const auto& best_for_construction(const Table& table) noexcept {
   });
 }
 
-}  // namespace bch
+}  // namespace bch::detail

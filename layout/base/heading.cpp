@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-namespace bch {
+namespace bch::detail {
 namespace {
 
 double round_to_integer(double x) {
@@ -42,4 +42,4 @@ UnitVector unit_vector(double heading) noexcept {
   return {static_cast<float>(r.cosine), static_cast<float>(r.sine)};
 }
 
-}  // namespace bch
+}  // namespace bch::detail

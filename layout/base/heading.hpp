@@ -3,7 +3,7 @@
 
 #pragma once
 
-namespace bch {
+namespace bch::detail {
 
 /// Cosine and sine of a heading.
 struct Rotation {
@@ -40,4 +40,4 @@ constexpr double cosine[] = {-1.0 / 3628800, 1.0 / 40320, -1.0 / 720, 1.0 / 24, 
 
 }  // namespace heading_constants
 
-}  // namespace bch
+}  // namespace bch::detail

@@ -130,7 +130,7 @@
 /// 1e-24, while what a square loses below FLT_MIN, flushed to zero or not, is under 1e-37. A product in (turn), (arm) or
 /// (position) that is flushed loses 1.2e-38, where u P is 6e-14 m or more. (overflow) |d| <= 2e9 sqrt(2) m (limits below),
 /// squared 8e18.
-namespace bch::rounding {
+namespace bch::detail::rounding {
 
 constexpr double unit_roundoff = 0x1p-24;
 
@@ -234,4 +234,4 @@ inline float round_up(double value) {
                               std::uint32_t{static_cast<double>(nearest) < value});
 }
 
-}  // namespace bch::rounding
+}  // namespace bch::detail::rounding

@@ -5,7 +5,7 @@
 
 #include <charconv>
 
-namespace bch {
+namespace bch::detail {
 namespace {
 
 template <class Value>
@@ -24,4 +24,4 @@ std::string shortest(float value) {
   return digits_of(value);
 }
 
-}  // namespace bch
+}  // namespace bch::detail

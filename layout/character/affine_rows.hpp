@@ -5,9 +5,9 @@
 
 #include <emmintrin.h>
 
-#include "layout/base/disc.hpp"
+#include <bch/geometry.hpp>
 
-namespace bch {
+namespace bch::detail {
 
 /// An affine map, row by row: three of its linear part, each with what it adds. Joints are placed one after the
 /// other, so that a product's latency counts: this one is a third of Eigen's.
@@ -37,4 +37,4 @@ inline AffineRows operator*(const AffineRows& a, const AffineRows& b) {
   return result;
 }
 
-}  // namespace bch
+}  // namespace bch::detail

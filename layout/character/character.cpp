@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include "layout/character/character.hpp"
+#include <bch/character.hpp>
 
 #include <cmath>
 #include <stdexcept>
@@ -10,6 +10,9 @@
 #include "layout/character/eigen.hpp"
 
 namespace bch {
+
+using namespace detail;
+
 namespace {
 
 constexpr float unit_tolerance = 1e-3f;

@@ -5,11 +5,11 @@
 
 #include <Eigen/Geometry>
 
-#include "layout/base/disc.hpp"
+#include <bch/geometry.hpp>
 
 // Private: Eigen, in which sources compute, and the one way between its types and the plain ones of public headers.
 
-namespace bch {
+namespace bch::detail {
 
 inline Eigen::Vector3f to_eigen(const Vec3& v) {
   return {v.x, v.y, v.z};
@@ -47,4 +47,4 @@ inline Eigen::Vector4f coefficients(const Quaternion& q) {
   return to_eigen(q).coeffs();
 }
 
-}  // namespace bch
+}  // namespace bch::detail

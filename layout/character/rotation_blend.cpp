@@ -7,7 +7,7 @@
 
 #include <cmath>
 
-namespace bch {
+namespace bch::detail {
 namespace {
 
 /// A way with a cosine of at least that needs so many terms: the first one left out is below 1e-9.
@@ -73,4 +73,4 @@ Eigen::Quaterniond slerp(const Quaternion& a, const Quaternion& b, float t) {
   return result;
 }
 
-}  // namespace bch
+}  // namespace bch::detail

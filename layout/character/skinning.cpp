@@ -11,7 +11,7 @@
 #include "layout/character/eigen.hpp"
 #include "layout/character/rotation_blend.hpp"
 
-namespace bch {
+namespace bch::detail {
 namespace {
 
 /// Returns the index of the first key after a time. The channels of a clip mostly have the same times, so the
@@ -194,4 +194,4 @@ std::span<const Vec2> Skinner::ground_pose(PoseTime at) {
   return ground_positions_;
 }
 
-}  // namespace bch
+}  // namespace bch::detail

@@ -6,12 +6,13 @@
 #include <span>
 #include <vector>
 
-#include "layout/base/disc.hpp"
+#include <bch/character.hpp>
+#include <bch/geometry.hpp>
+
 #include "layout/character/affine_rows.hpp"
-#include "layout/character/character.hpp"
 #include "layout/character/vertex_blend.hpp"
 
-namespace bch {
+namespace bch::detail {
 
 /// Poses one character again and again without allocating after the first time.
 class Skinner {
@@ -60,4 +61,4 @@ class Skinner {
   std::vector<Vec2> ground_positions_;
 };
 
-}  // namespace bch
+}  // namespace bch::detail

@@ -10,7 +10,7 @@
 #include <iterator>
 #include <numeric>
 
-namespace bch {
+namespace bch::detail {
 namespace {
 
 using Row = VertexBlend::Row;
@@ -171,4 +171,4 @@ std::optional<std::uint32_t> VertexBlend::blend(std::span<const AffineRows> maps
   return blend_all(maps, positions);
 }
 
-}  // namespace bch
+}  // namespace bch::detail

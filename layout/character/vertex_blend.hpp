@@ -9,12 +9,13 @@
 #include <span>
 #include <vector>
 
-#include "layout/base/aligned_vector.hpp"
-#include "layout/base/disc.hpp"
-#include "layout/character/affine_rows.hpp"
-#include "layout/character/character.hpp"
+#include <bch/character.hpp>
+#include <bch/geometry.hpp>
 
-namespace bch {
+#include "layout/base/aligned_vector.hpp"
+#include "layout/character/affine_rows.hpp"
+
+namespace bch::detail {
 
 /// A mesh that its bones move: each vertex goes to the mean of where they take it, weighted. What does not depend
 /// on the pose is done once: a vertex is multiplied by its weights, so that every bone adds one product, and
@@ -54,4 +55,4 @@ class VertexBlend {
   AlignedVector<Row> rows_;               ///< of the maps
 };
 
-}  // namespace bch
+}  // namespace bch::detail

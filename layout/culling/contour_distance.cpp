@@ -7,7 +7,7 @@
 #include <cmath>
 #include <limits>
 
-namespace bch {
+namespace bch::detail {
 namespace {
 
 PointLanes centres(const CandidateDiscs& discs) {
@@ -61,4 +61,4 @@ void nearest_touches(const InteriorLoops& loops, const ContourPoints& contour, c
   }
 }
 
-}  // namespace bch
+}  // namespace bch::detail

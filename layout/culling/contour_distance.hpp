@@ -9,7 +9,7 @@
 #include "layout/culling/interior_implementation.hpp"
 #include "layout/culling/tangent_discs.hpp"
 
-namespace bch {
+namespace bch::detail {
 
 /// A contour's distances from points, and its winding numbers about them.
 struct ContourDepths {
@@ -31,4 +31,4 @@ void estimate_depths(const InteriorLoops& loops, const ContourPoints& contour, c
 void nearest_touches(const InteriorLoops& loops, const ContourPoints& contour, const CandidateDiscs& discs,
                      Touches& touches);
 
-}  // namespace bch
+}  // namespace bch::detail

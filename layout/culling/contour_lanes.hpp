@@ -9,10 +9,11 @@
 #include <span>
 #include <xsimd/xsimd.hpp>
 
-#include "layout/base/disc.hpp"
+#include <bch/geometry.hpp>
+
 #include "layout/format/shape_set_view.hpp"
 
-namespace bch {
+namespace bch::detail {
 
 /// Some of a contour's segments, seen from a centre, with what can be computed of them without a branch.
 template <class Arch>
@@ -97,4 +98,4 @@ class ContourLanes {
   Array x_, y_, sector_, aside_, foot_, square_distance_, turn_;
 };
 
-}  // namespace bch
+}  // namespace bch::detail

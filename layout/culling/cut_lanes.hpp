@@ -10,10 +10,11 @@
 #include <limits>
 #include <xsimd/xsimd.hpp>
 
-#include "layout/base/disc.hpp"
+#include <bch/geometry.hpp>
+
 #include "layout/format/shape_set_view.hpp"
 
-namespace bch {
+namespace bch::detail {
 
 /// Discs side by side; whole registers may be read from `count` - 1 on.
 struct DiscRun {
@@ -82,4 +83,4 @@ class CutLanes {
   }
 };
 
-}  // namespace bch
+}  // namespace bch::detail

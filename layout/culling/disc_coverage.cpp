@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cassert>
 
-namespace bch {
+namespace bch::detail {
 void DiscCoverage::offer(const InteriorLoops& loops, const CandidateDiscs& discs, float dilation) {
   loops_ = &loops;
   covered_.fill(0);
@@ -41,4 +41,4 @@ std::uint32_t DiscCoverage::choose() {
   return disc;
 }
 
-}  // namespace bch
+}  // namespace bch::detail

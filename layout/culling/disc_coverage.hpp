@@ -8,7 +8,7 @@
 
 #include "layout/culling/tangent_discs.hpp"
 
-namespace bch {
+namespace bch::detail {
 
 /// Chooses discs one after the other, each to add the most area to the union of those chosen so far, all of
 /// them dilated. Area is counted on a raster of 32 x 32 unit cells from the origin, a bit each.
@@ -35,4 +35,4 @@ class DiscCoverage {
   alignas(64) std::array<std::int32_t, most_touches> promise_;
 };
 
-}  // namespace bch
+}  // namespace bch::detail

@@ -13,8 +13,9 @@
 
 #include "layout/base/heading.hpp"
 #include "layout/base/rounding.hpp"
+#include "layout/format/contours.hpp"
 
-namespace bch {
+namespace bch::detail {
 namespace {
 
 using Contour = std::span<const Vec2>;
@@ -178,4 +179,4 @@ Interior interior(const Outline& outline, double reach) {
   return InteriorBuilder().build(outline, reach);
 }
 
-}  // namespace bch
+}  // namespace bch::detail

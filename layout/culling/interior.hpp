@@ -8,13 +8,14 @@
 #include <span>
 #include <vector>
 
+#include <bch/outline.hpp>
+
 #include "layout/culling/contour_distance.hpp"
 #include "layout/culling/disc_coverage.hpp"
 #include "layout/culling/tangent_discs.hpp"
-#include "layout/format/outline.hpp"
 #include "layout/format/shape_set_view.hpp"
 
-namespace bch {
+namespace bch::detail {
 
 /// The data by which a query accepts a pair without a traversal of its trees. All of it belongs to the
 /// outline's largest contour.
@@ -86,4 +87,4 @@ class InteriorBuilder {
 /// Chooses the inscribed discs of one shape.
 Interior interior(const Outline& outline, double reach);
 
-}  // namespace bch
+}  // namespace bch::detail

@@ -5,7 +5,7 @@
 
 #include "layout/base/construction_implementation.hpp"
 
-namespace bch {
+namespace bch::detail {
 
 extern const InteriorLoops interior_avx512, interior_avx2, interior_sse2;
 
@@ -29,4 +29,4 @@ const InteriorImplementation& best_interior_implementation() noexcept {
   return best;
 }
 
-}  // namespace bch
+}  // namespace bch::detail

@@ -7,9 +7,9 @@
 #include <cstdint>
 #include <span>
 
-#include "layout/base/disc.hpp"
+#include <bch/geometry.hpp>
 
-namespace bch {
+namespace bch::detail {
 
 /// What the loops behind interior.hpp work on: plain pointers, because nothing of the standard library may be
 /// compiled for wide registers.
@@ -66,4 +66,4 @@ std::span<const InteriorImplementation> interior_implementations() noexcept;
 /// The fastest for construction that this processor supports.
 const InteriorImplementation& best_interior_implementation() noexcept;
 
-}  // namespace bch
+}  // namespace bch::detail

@@ -9,7 +9,7 @@
 
 #include "layout/culling/interior_implementation.hpp"
 
-namespace bch {
+namespace bch::detail {
 
 /// The loops that take most of the time of interior.hpp: over the points of a contour, with whatever is asked about it
 /// side by side in lanes, and over the rows of a raster. No float is summed across lanes, so that every instruction
@@ -230,4 +230,4 @@ class InteriorLanes {
   }
 };
 
-}  // namespace bch
+}  // namespace bch::detail

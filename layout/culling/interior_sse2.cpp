@@ -3,7 +3,7 @@
 
 #include "layout/culling/interior_lanes.hpp"
 
-namespace bch {
+namespace bch::detail {
 namespace {
 
 struct Local {};
@@ -13,4 +13,4 @@ struct Local {};
 extern const InteriorLoops interior_sse2;
 const InteriorLoops interior_sse2 = InteriorLanes<xsimd::sse2, Local>::loops();
 
-}  // namespace bch
+}  // namespace bch::detail

@@ -12,6 +12,7 @@
 #include "layout/base/rounding.hpp"
 #include "layout/culling/contour_lanes.hpp"
 #include "layout/culling/cut_lanes.hpp"
+#include "layout/format/contours.hpp"
 
 /// Rounding, in the terms of rounding.hpp. The line of centres D that a query computes in float is within 40 u S of the
 /// exact one (along); B's turn, D seen from B, and the sector are off by another 20 u, which is 40 u P_A and 40 u P_B
@@ -23,7 +24,7 @@
 /// 23 + 40 + 40 + 6 < 110 u S, where supports are enlarged by 320 u P.
 /// extent: the same without the 23 u S, on top of what outer has to spare.
 /// Tests see the sign of `margin`; only this proof needs all of it.
-namespace bch {
+namespace bch::detail {
 namespace {
 
 using Polygon = std::span<const Vec2>;
@@ -236,4 +237,4 @@ Outer outer(const Profile& profile, const float* x, const float* y, const float*
   return result;
 }
 
-}  // namespace bch
+}  // namespace bch::detail

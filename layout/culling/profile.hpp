@@ -6,11 +6,12 @@
 #include <array>
 #include <cstdint>
 
+#include <bch/outline.hpp>
+
 #include "layout/culling/interior.hpp"
-#include "layout/format/outline.hpp"
 #include "layout/format/shape_set_view.hpp"
 
-namespace bch {
+namespace bch::detail {
 
 /// The extents of a shape along lines from a centre, sector by sector. One lookup in each of two shapes along
 /// the line of their centres, D apart, decides most pairs:
@@ -34,4 +35,4 @@ using Outer = std::array<float, profile_sectors>;
 Outer outer(const Profile& profile, const float* x, const float* y, const float* radius, std::uint32_t count,
             double reach);
 
-}  // namespace bch
+}  // namespace bch::detail

@@ -10,7 +10,7 @@
 #include "layout/base/rounding.hpp"
 #include "layout/culling/cut_lanes.hpp"
 
-namespace bch {
+namespace bch::detail {
 namespace {
 
 /// The directions of the first quadrant.
@@ -51,4 +51,4 @@ Supports supports(std::span<const Disc> discs, double reach) {
   return supports(x.data(), y.data(), radius.data(), static_cast<std::uint32_t>(discs.size()), reach);
 }
 
-}  // namespace bch
+}  // namespace bch::detail

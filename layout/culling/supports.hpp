@@ -7,10 +7,11 @@
 #include <cstdint>
 #include <span>
 
-#include "layout/base/disc.hpp"
+#include <bch/geometry.hpp>
+
 #include "layout/format/shape_set_view.hpp"
 
-namespace bch {
+namespace bch::detail {
 
 /// Support heights, the largest extent of a set of discs along each of support_directions directions:
 /// direction k is at angle k * 2 pi / support_directions. First all even directions, then all odd ones, each
@@ -28,4 +29,4 @@ Supports supports(std::span<const Disc> discs, double reach);
 /// Computes the supports of one disc or more in arrays.
 Supports supports(const float* x, const float* y, const float* radius, std::uint32_t count, double reach);
 
-}  // namespace bch
+}  // namespace bch::detail

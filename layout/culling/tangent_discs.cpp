@@ -8,7 +8,7 @@
 #include <cmath>
 #include <cstddef>
 
-namespace bch {
+namespace bch::detail {
 namespace {
 
 /// Lengths of the edges that end at each corner, and their sum.
@@ -79,4 +79,4 @@ void ContourSamples::largest_discs(const InteriorLoops& loops, const Touches& to
   }
 }
 
-}  // namespace bch
+}  // namespace bch::detail

@@ -8,10 +8,11 @@
 #include <span>
 #include <vector>
 
-#include "layout/base/disc.hpp"
+#include <bch/geometry.hpp>
+
 #include "layout/culling/interior_implementation.hpp"
 
-namespace bch {
+namespace bch::detail {
 
 /// Points where a disc is to touch a contour, and the unit normals there that point inward.
 constexpr std::uint32_t most_touches = 64;
@@ -52,4 +53,4 @@ class ContourSamples {
   std::vector<double> begin_;  ///< of the same edges, along the contour
 };
 
-}  // namespace bch
+}  // namespace bch::detail

@@ -8,7 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 
-namespace bch {
+namespace bch::detail {
 
 /// The skeleton of a parametric body. A parent stands before its children; the joints of the right side
 /// follow those of the left in the same order. Swing and twist of the long bones are separate joints (the
@@ -59,4 +59,4 @@ constexpr std::uint32_t parent_index(std::uint32_t joint) {
 /// joint is turned at rest.
 using JointPositions = std::array<Eigen::Vector3d, body_joint_count>;
 
-}  // namespace bch
+}  // namespace bch::detail

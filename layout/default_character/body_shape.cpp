@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace bch {
+namespace bch::detail {
 namespace {
 
 using enum BodyJoint;
@@ -275,4 +275,4 @@ JointPositions joint_positions(const BodyShape& shape) {
   return at;
 }
 
-}  // namespace bch
+}  // namespace bch::detail

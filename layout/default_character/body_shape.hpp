@@ -8,7 +8,7 @@
 
 #include "layout/default_character/body_joints.hpp"
 
-namespace bch {
+namespace bch::detail {
 
 /// A closed curve around trunk, neck or head, symmetric to the plane y = 0. Heights are fractions of the
 /// stature, lengths metres. The height runs from front over side to back, since a jaw or a collar is not
@@ -74,4 +74,4 @@ BodyShape bulky_male_shape();
 
 JointPositions joint_positions(const BodyShape& shape);
 
-}  // namespace bch
+}  // namespace bch::detail

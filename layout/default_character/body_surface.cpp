@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cassert>
 
-namespace bch {
+namespace bch::detail {
 
 std::uint32_t BodySurface::add(const Eigen::Vector3d& position, const SkinTag& tag) {
   positions.push_back(position);
@@ -125,4 +125,4 @@ std::vector<std::array<std::uint32_t, 3>> triangulated(const BodySurface& surfac
   return triangles;
 }
 
-}  // namespace bch
+}  // namespace bch::detail

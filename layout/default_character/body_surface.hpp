@@ -10,7 +10,7 @@
 
 #include "layout/default_character/body_joints.hpp"
 
-namespace bch {
+namespace bch::detail {
 
 /// What a vertex follows before the weights are spread: `joint`, and for the part `mix` of it `next`.
 struct SkinTag {
@@ -59,4 +59,4 @@ std::vector<std::vector<std::uint32_t>> neighbours(const BodySurface& surface);
 /// Cuts each quad along its shorter diagonal.
 std::vector<std::array<std::uint32_t, 3>> triangulated(const BodySurface& surface);
 
-}  // namespace bch
+}  // namespace bch::detail

@@ -7,7 +7,7 @@
 
 #include "layout/character/eigen.hpp"
 
-namespace bch {
+namespace bch::detail {
 namespace {
 
 using Weights = std::array<double, body_joint_count>;
@@ -64,4 +64,4 @@ void attach_skin(Character& character, const BodySurface& surface, const JointPo
   character.triangles = triangulated(surface);
 }
 
-}  // namespace bch
+}  // namespace bch::detail

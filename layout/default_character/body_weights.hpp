@@ -3,10 +3,11 @@
 
 #pragma once
 
-#include "layout/character/character.hpp"
+#include <bch/character.hpp>
+
 #include "layout/default_character/body_surface.hpp"
 
-namespace bch {
+namespace bch::detail {
 
 /// Gives a character without clips its skin: vertices, triangles and weights, a bone for each joint. The tags
 /// of the surface are weights that jump from ring to ring; they are diffused along the mesh so that a joint
@@ -14,4 +15,4 @@ namespace bch {
 inline constexpr std::size_t max_influences = 5;
 void attach_skin(Character& character, const BodySurface& surface, const JointPositions& joints);
 
-}  // namespace bch
+}  // namespace bch::detail

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include "layout/default_character/default_characters.hpp"
+#include <bch/default_characters.hpp>
 
 #include "layout/character/eigen.hpp"
 #include "layout/default_character/body_weights.hpp"
@@ -9,6 +9,9 @@
 #include "layout/default_character/parametric_motion.hpp"
 
 namespace bch {
+
+using namespace detail;
+
 namespace {
 
 constexpr std::array<const char*, midline_joints + side_joints> joint_names{

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <limits>
 
-namespace bch {
+namespace bch::detail {
 namespace {
 
 using Eigen::Matrix3d;
@@ -179,4 +179,4 @@ std::array<Eigen::Affine3d, body_joint_count> place(const HumanPose& pose, const
   return to_ground;
 }
 
-}  // namespace bch
+}  // namespace bch::detail

@@ -7,7 +7,7 @@
 
 #include "layout/default_character/body_joints.hpp"
 
-namespace bch {
+namespace bch::detail {
 
 /// A pose of a parametric body: where the pelvis is, and how each joint is turned against its parent. No
 /// joint is turned at rest, so a turn is written in the axes of the rest pose: x forwards, y to the left, z
@@ -65,4 +65,4 @@ void plant_foot(HumanPose& pose, const JointPositions& joints, Side side, const 
 /// Joint to ground.
 std::array<Eigen::Affine3d, body_joint_count> place(const HumanPose& pose, const JointPositions& joints);
 
-}  // namespace bch
+}  // namespace bch::detail

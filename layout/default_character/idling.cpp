@@ -6,7 +6,7 @@
 
 #include "layout/default_character/parametric_motion.hpp"
 
-namespace bch {
+namespace bch::detail {
 namespace {
 
 using Eigen::Vector3d;
@@ -148,4 +148,4 @@ Motion idling(const Manner& manner, Idle kind) {
   };
 }
 
-}  // namespace bch
+}  // namespace bch::detail

@@ -8,7 +8,7 @@
 
 #include "layout/character/eigen.hpp"
 
-namespace bch {
+namespace bch::detail {
 namespace {
 
 using Eigen::Vector3d;
@@ -25,7 +25,7 @@ class Soles {
   }
 
   std::vector<Vector3d> place(const HumanPose& pose) const {
-    const auto to_ground = bch::place(pose, joints_);
+    const auto to_ground = detail::place(pose, joints_);
     std::vector<Vector3d> points;
     for (const std::uint32_t v : vertices_) {
       Vector3d sum = Vector3d::Zero();
@@ -117,4 +117,4 @@ Clip bake(const Character& character, const JointPositions& joints, std::string 
   return clip;
 }
 
-}  // namespace bch
+}  // namespace bch::detail

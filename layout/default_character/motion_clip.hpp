@@ -6,10 +6,11 @@
 #include <functional>
 #include <string>
 
-#include "layout/character/character.hpp"
+#include <bch/character.hpp>
+
 #include "layout/default_character/human_pose.hpp"
 
-namespace bch {
+namespace bch::detail {
 
 /// A pose for each time in seconds.
 using Motion = std::function<HumanPose(double seconds)>;
@@ -24,4 +25,4 @@ enum class Travel { authored, by_feet };
 Clip bake(const Character& character, const JointPositions& joints, std::string name, int seconds,
           Travel travel, const Motion& motion);
 
-}  // namespace bch
+}  // namespace bch::detail

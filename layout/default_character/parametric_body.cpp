@@ -7,7 +7,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace bch {
+namespace bch::detail {
 namespace {
 
 using enum BodyJoint;
@@ -263,4 +263,4 @@ BodySurface parametric_body(const BodyShape& shape) {
   return body;
 }
 
-}  // namespace bch
+}  // namespace bch::detail

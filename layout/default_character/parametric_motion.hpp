@@ -5,7 +5,7 @@
 
 #include "layout/default_character/motion_clip.hpp"
 
-namespace bch {
+namespace bch::detail {
 
 /// How a person moves, beside the lengths of the bones. Angles in radians, lengths in metres.
 struct Manner {
@@ -40,4 +40,4 @@ ArmPose hanging_arm(const Manner& manner);
 /// 0 before `begin`, 1 after `end`, and a smooth way between.
 double ease(double begin, double end, double t);
 
-}  // namespace bch
+}  // namespace bch::detail

@@ -7,7 +7,7 @@
 
 #include "layout/default_character/parametric_motion.hpp"
 
-namespace bch {
+namespace bch::detail {
 namespace {
 
 using Eigen::Vector3d;
@@ -153,4 +153,4 @@ Motion side_stepping(const Manner& manner, double direction) {
   };
 }
 
-}  // namespace bch
+}  // namespace bch::detail

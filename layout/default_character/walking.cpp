@@ -7,7 +7,7 @@
 
 #include "layout/default_character/parametric_motion.hpp"
 
-namespace bch {
+namespace bch::detail {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -104,4 +104,4 @@ Motion walking(const Manner& manner, const Gait& gait) {
   };
 }
 
-}  // namespace bch
+}  // namespace bch::detail

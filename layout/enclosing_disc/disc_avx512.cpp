@@ -3,7 +3,7 @@
 
 #include "layout/enclosing_disc/disc_lanes.hpp"
 
-namespace bch {
+namespace bch::detail {
 namespace {
 
 struct Local {};
@@ -14,4 +14,4 @@ void solve_discs_avx512(const DiscSets& sets) noexcept {
   DiscLanes<xsimd::avx512f, Local>::solve(sets);
 }
 
-}  // namespace bch
+}  // namespace bch::detail

@@ -11,7 +11,7 @@
 
 #include "layout/enclosing_disc/disc_sets.hpp"
 
-namespace bch {
+namespace bch::detail {
 
 /// Smallest enclosing discs of many point sets, one set a lane: disc_pivoting.hpp's algorithm without its
 /// branches, which cannot be predicted. A lane's operations do not depend on the width nor on its neighbours,
@@ -292,4 +292,4 @@ class DiscLanes {
   };
 };
 
-}  // namespace bch
+}  // namespace bch::detail

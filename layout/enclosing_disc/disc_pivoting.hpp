@@ -7,7 +7,7 @@
 
 #include "layout/enclosing_disc/disc_sets.hpp"
 
-namespace bch::pivoting {
+namespace bch::detail::pivoting {
 
 /// A point in the precision that pivoting works with.
 struct Point {
@@ -77,4 +77,4 @@ Point smallest_centre(Point first, Farthest farthest) {
   return best;
 }
 
-}  // namespace bch::pivoting
+}  // namespace bch::detail::pivoting

@@ -6,9 +6,9 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "layout/base/disc.hpp"
+#include <bch/geometry.hpp>
 
-namespace bch {
+namespace bch::detail {
 
 /// A run of points.
 struct PointRange {
@@ -43,4 +43,4 @@ struct DiscSets {
 /// The widest registers' lanes.
 constexpr std::size_t disc_set_lanes = 8;
 
-}  // namespace bch
+}  // namespace bch::detail

@@ -10,7 +10,7 @@
 
 #include "layout/enclosing_disc/disc_pivoting.hpp"
 
-namespace bch {
+namespace bch::detail {
 namespace {
 
 using pivoting::Point;
@@ -43,4 +43,4 @@ EnclosingDisc smallest_enclosing_disc(std::span<const Vec2> points) {
   return {centre, std::sqrt(square)};
 }
 
-}  // namespace bch
+}  // namespace bch::detail

@@ -5,9 +5,9 @@
 
 #include <span>
 
-#include "layout/base/disc.hpp"
+#include <bch/geometry.hpp>
 
-namespace bch {
+namespace bch::detail {
 
 /// The centre is a float, as it will be stored; the radius belongs to that very centre and is exact but for
 /// the rounding of double.
@@ -22,4 +22,4 @@ struct EnclosingDisc {
 /// Source:  see disc_pivoting.hpp; for many sets at once, see enclosing_discs.hpp.
 EnclosingDisc smallest_enclosing_disc(std::span<const Vec2> points);
 
-}  // namespace bch
+}  // namespace bch::detail

@@ -7,7 +7,7 @@
 
 #include "layout/base/construction_implementation.hpp"
 
-namespace bch {
+namespace bch::detail {
 
 void solve_discs_sse2(const DiscSets&) noexcept;
 void solve_discs_avx2(const DiscSets&) noexcept;
@@ -53,4 +53,4 @@ void EnclosingDiscs::solve(std::span<const Vec2> points, std::span<const PointRa
       {points.data(), sets.data(), order_.data(), small_count, sets.size(), scratch_.data(), discs.data()});
 }
 
-}  // namespace bch
+}  // namespace bch::detail

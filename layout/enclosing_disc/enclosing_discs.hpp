@@ -10,7 +10,7 @@
 
 #include "layout/enclosing_disc/disc_sets.hpp"
 
-namespace bch {
+namespace bch::detail {
 
 /// One compilation of the solver; all give the same bits.
 struct DiscImplementation {
@@ -40,4 +40,4 @@ class EnclosingDiscs {
   std::vector<double> scratch_;
 };
 
-}  // namespace bch
+}  // namespace bch::detail

@@ -8,7 +8,7 @@
 #include "layout/base/rounding.hpp"
 #include "layout/format/shape_checks.hpp"
 
-namespace bch::shape_checks {
+namespace bch::detail::shape_checks {
 namespace {
 
 /// The numbers of a profile's sectors of which nothing may be known: inner and extent. Minus infinity says so.
@@ -211,4 +211,4 @@ void contour_discs(const ShapeArrays& a) {
               [&](const Contour& c) { return is_about(c.disc, a.points.subspan(c.begin, c.end - c.begin)); });
 }
 
-}  // namespace bch::shape_checks
+}  // namespace bch::detail::shape_checks

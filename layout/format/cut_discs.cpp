@@ -6,7 +6,7 @@
 #include <bit>
 #include <cstddef>
 
-namespace bch {
+namespace bch::detail {
 
 /// Children stand in the order of their discs, so the first of the first is the first.
 std::uint32_t first_disc(const float* nodes, std::uint32_t node) noexcept {
@@ -24,4 +24,4 @@ CutDiscs cut_discs(const ShapeSetView& shapes, std::uint32_t root) noexcept {
   return {x, x + tree.stride, x + 2 * std::size_t{tree.stride}, tree.count};
 }
 
-}  // namespace bch
+}  // namespace bch::detail

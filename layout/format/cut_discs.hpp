@@ -7,7 +7,7 @@
 
 #include "layout/format/shape_set_view.hpp"
 
-namespace bch {
+namespace bch::detail {
 
 /// The discs of one cut, in the order in which a set stores them: that of cut() for what a ShapeSet was made from. This
 /// is what numbers a disc in an answer.
@@ -22,4 +22,4 @@ CutDiscs cut_discs(const ShapeSetView& shapes, std::uint32_t root) noexcept;
 /// Where, among a set's nodes, the first cut disc below a node stands.
 std::uint32_t first_disc(const float* nodes, std::uint32_t node) noexcept;
 
-}  // namespace bch
+}  // namespace bch::detail

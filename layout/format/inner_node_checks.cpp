@@ -13,7 +13,7 @@
 // Inner nodes: that their links make a tree, so that every way up ends at the root; and that their discs are no larger than
 // what lies below them needs, which bounds the time of a pair.
 
-namespace bch::shape_checks {
+namespace bch::detail::shape_checks {
 namespace {
 
 /// A level's inner nodes and discs.
@@ -186,4 +186,4 @@ void outer_radii(const ShapeArrays& a, LevelNodes& level) {
         reject("nodes", block, "the outer radius of disc " + std::to_string(lane) + " is none");
 }
 
-}  // namespace bch::shape_checks
+}  // namespace bch::detail::shape_checks

@@ -7,7 +7,7 @@
 #include <functional>
 #include <numeric>
 
-namespace bch {
+namespace bch::detail {
 namespace {
 
 bool is_run(std::span<const std::uint32_t> segments) {
@@ -52,4 +52,4 @@ std::size_t leaf_segments_size(std::span<const std::uint32_t> words, std::size_t
   return end;
 }
 
-}  // namespace bch
+}  // namespace bch::detail

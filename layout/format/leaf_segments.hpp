@@ -10,7 +10,7 @@
 
 #include "layout/format/shape_set_view.hpp"
 
-namespace bch {
+namespace bch::detail {
 
 /// Adds a leaf's segments, one at least, to the words of `leaves` leaves; see shape_set_view.hpp.
 void add_leaf(std::span<const std::uint32_t> segments, std::size_t leaf, std::size_t leaves,
@@ -22,4 +22,4 @@ std::vector<std::uint32_t> segments_of(std::span<const std::uint32_t> words, std
 /// Words and lists of so many leaves: those that begin with `words`.
 std::size_t leaf_segments_size(std::span<const std::uint32_t> words, std::size_t leaves);
 
-}  // namespace bch
+}  // namespace bch::detail

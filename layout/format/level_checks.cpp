@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
+#include <bch/hierarchy.hpp>
+
 #include "layout/base/rounding.hpp"
 #include "layout/format/cut_discs.hpp"
-#include "layout/format/depths.hpp"
 #include "layout/format/leaf_segments.hpp"
 #include "layout/format/shape_checks.hpp"
 
-namespace bch::shape_checks {
+namespace bch::detail::shape_checks {
 namespace {
 
 const Tree& tree(const ShapeArrays& a, const LevelNodes& level) {
@@ -248,4 +249,4 @@ void segments_of_leaves(const ShapeArrays& a, LevelNodes& level) {
   require(level.root + 1 < a.roots.size() || level.segments == a.leaf_segments.size(), "more follows");
 }
 
-}  // namespace bch::shape_checks
+}  // namespace bch::detail::shape_checks

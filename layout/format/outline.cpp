@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include "layout/format/outline.hpp"
+#include <bch/outline.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -10,17 +10,13 @@
 
 #include "layout/base/rounding.hpp"
 #include "layout/base/shortest.hpp"
+#include "layout/format/contours.hpp"
 
 namespace bch {
-namespace {
 
-double twice_area(std::span<const Vec2> contour) {
-  double sum = 0;
-  for (std::size_t i = 0, before = contour.size() - 1; i < contour.size(); before = i++)
-    sum += static_cast<double>(contour[before].x) * static_cast<double>(contour[i].y) -
-           static_cast<double>(contour[before].y) * static_cast<double>(contour[i].x);
-  return sum;
-}
+using namespace detail;
+
+namespace {
 
 /// Returns the length of a contour, metres.
 double length(std::span<const Vec2> contour) {
@@ -52,36 +48,37 @@ void require_not_clockwise(const Outline& outline, std::size_t c, double twice_a
 
 }  // namespace
 
-double reach(std::span<const Vec2> points) {
-  double square = 0;
-  for (const Vec2& p : points) {
-    const double x = p.x, y = p.y;
-    square = std::max(square, x * x + y * y);
-  }
-  return std::sqrt(square) * (1 + 0x1p-50);
-}
-
 double area(const Outline& outline) {
   double twice = 0;
-  for (std::size_t c = 0; c < outline.contours(); ++c) {
-    const auto points = outline.contour(c);
-    for (std::size_t i = 0; i < points.size(); ++i) {
-      const Vec2 a = points[i], b = points[(i + 1) % points.size()];
-      twice += static_cast<double>(a.x) * static_cast<double>(b.y) -
-               static_cast<double>(a.y) * static_cast<double>(b.x);
-    }
-  }
+  for (std::size_t c = 0; c < outline.contours(); ++c) twice += twice_area(outline.contour(c));
   return 0.5 * twice;
 }
 
-std::span<const Vec2> largest_contour(const Outline& outline) {
-  std::span<const Vec2> largest = outline.contour(0);
-  if (outline.contours() == 1) return largest;
-  double most = twice_area(largest);
-  for (std::size_t c = 1; c < outline.contours(); ++c)
-    if (const double size = twice_area(outline.contour(c)); size > most)
-      most = size, largest = outline.contour(c);
-  return largest;
+Outline outline_from_polygons(std::span<const std::vector<Vec2>> polygons) {
+  if (polygons.empty()) throw std::invalid_argument("outline: there are no polygons");
+  Outline outline;
+  for (std::size_t p = 0; p < polygons.size(); ++p) {
+    const std::string name = "polygon " + std::to_string(p);
+    const auto begin = static_cast<std::ptrdiff_t>(outline.points.size());
+    for (const Vec2& corner : polygons[p]) {
+      if (!std::isfinite(corner.x) || !std::isfinite(corner.y))
+        throw std::invalid_argument(name + ": corner " + std::to_string(&corner - polygons[p].data()) +
+                                    " is not finite");
+      if (std::ssize(outline.points) == begin || outline.points.back() != corner)
+        outline.points.push_back(corner);
+    }
+    while (std::ssize(outline.points) > begin + 1 && outline.points.back() == outline.points[begin])
+      outline.points.pop_back();
+    const auto corners = std::span(outline.points).subspan(static_cast<std::size_t>(begin));
+    if (corners.size() < 3)
+      throw std::invalid_argument(name + ": " + std::to_string(corners.size()) + " different corners");
+    const double area = twice_area(corners);
+    if (area == 0) throw std::invalid_argument(name + ": it has no area");
+    if (area < 0) std::reverse(corners.begin(), corners.end());
+    outline.contour_begin.push_back(static_cast<std::uint32_t>(outline.points.size()));
+  }
+  validate(outline);
+  return outline;
 }
 
 double validate(const Outline& outline) {

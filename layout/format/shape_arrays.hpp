@@ -7,10 +7,11 @@
 #include <cstdint>
 #include <span>
 
-#include "layout/base/disc.hpp"
+#include <bch/geometry.hpp>
+
 #include "layout/format/shape_set_view.hpp"
 
-namespace bch {
+namespace bch::detail {
 
 /// The arrays of a shape set with their sizes, owned or not; ShapeSetView says what they hold. Each begins on
 /// a cache line.
@@ -51,4 +52,4 @@ void for_each_array(Visit visit, Sets&... sets) {
   visit("segment_margin", sets.segment_margin...);
 }
 
-}  // namespace bch
+}  // namespace bch::detail

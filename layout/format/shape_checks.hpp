@@ -16,7 +16,7 @@
 
 /// The checks behind shape_preconditions(), and what they share. Each throws std::invalid_argument that names the array,
 /// the place in it and the value.
-namespace bch::shape_checks {
+namespace bch::detail::shape_checks {
 
 // These functions check the whole set: array_checks.cpp.
 void alignment(const ShapeArrays& a);
@@ -109,4 +109,4 @@ inline void require_discs(const char* array, std::size_t place, const float* x, 
   if ((bad & top_bit) != 0) reject(array, place, "holds a disc that is none");
 }
 
-}  // namespace bch::shape_checks
+}  // namespace bch::detail::shape_checks

@@ -10,7 +10,7 @@
 
 #include "layout/format/shape_arrays.hpp"
 
-namespace bch {
+namespace bch::detail {
 
 /// The windows that a level's nodes name, lane by lane. As signed numbers names of windows are negative, the first the
 /// least, and those of blocks are not.
@@ -50,4 +50,4 @@ struct Precondition {
 /// All that validate() checks, in that order: every check may rely on the ones before it.
 std::span<const Precondition> shape_preconditions() noexcept;
 
-}  // namespace bch
+}  // namespace bch::detail

@@ -5,9 +5,9 @@
 
 #include <cstdint>
 
-#include "layout/base/disc.hpp"
+#include <bch/geometry.hpp>
 
-namespace bch {
+namespace bch::detail {
 
 /// Discs of a block.
 constexpr std::uint32_t block_width = 8;
@@ -155,4 +155,4 @@ struct ShapeSetView {
   const float* segment_margin;         ///< per shape, metres; see rounding.hpp, V; null without outlines
 };
 
-}  // namespace bch
+}  // namespace bch::detail

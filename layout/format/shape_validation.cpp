@@ -6,7 +6,7 @@
 #include "layout/format/shape_checks.hpp"
 #include "layout/format/shape_preconditions.hpp"
 
-namespace bch {
+namespace bch::detail {
 namespace {
 
 using namespace shape_checks;
@@ -103,4 +103,4 @@ void validate(const ShapeArrays& arrays, const std::function<void(std::size_t)>&
   }
 }
 
-}  // namespace bch
+}  // namespace bch::detail

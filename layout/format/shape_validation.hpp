@@ -8,7 +8,7 @@
 
 #include "layout/format/shape_arrays.hpp"
 
-namespace bch {
+namespace bch::detail {
 
 /// Checks all of shape_preconditions(). Arrays that pass never make a query read elsewhere, and a pair takes
 /// no more than a small multiple of the time that an honest set of that size may take. Culling data, discs
@@ -20,4 +20,4 @@ namespace bch {
 /// Cost:    one pass over the arrays, no allocation.
 void validate(const ShapeArrays& arrays, const std::function<void(std::size_t)>& before_nodes = {});
 
-}  // namespace bch
+}  // namespace bch::detail

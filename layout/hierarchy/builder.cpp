@@ -17,8 +17,9 @@
 #include "layout/base/rounding.hpp"
 #include "layout/base/shortest.hpp"
 #include "layout/enclosing_disc/enclosing_disc.hpp"
+#include "layout/format/contours.hpp"
 
-namespace bch {
+namespace bch::detail {
 namespace {
 
 constexpr std::uint32_t none = 0xffffffff;
@@ -325,4 +326,4 @@ void HierarchyBuilder::publish(Hierarchy& hierarchy) {
   hierarchy.nodes.assign(nodes_.begin(), nodes_.begin() + node_count_);
 }
 
-}  // namespace bch
+}  // namespace bch::detail

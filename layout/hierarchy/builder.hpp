@@ -9,12 +9,13 @@
 #include <span>
 #include <vector>
 
+#include <bch/hierarchy.hpp>
+
 #include "layout/enclosing_disc/enclosing_discs.hpp"
 #include "layout/hierarchy/halves.hpp"
-#include "layout/hierarchy/hierarchy.hpp"
 #include "layout/hierarchy/split.hpp"
 
-namespace bch {
+namespace bch::detail {
 
 /// Builds one hierarchy after the other and reuses its memory and theirs: once both have seen the largest,
 /// nothing is allocated. Not for two threads at a time.
@@ -118,4 +119,4 @@ void require_reach(double reach);
 /// Throws std::invalid_argument unless the threshold is positive and finite.
 void require_threshold(float threshold);
 
-}  // namespace bch
+}  // namespace bch::detail

@@ -11,7 +11,7 @@
 
 #include "layout/base/rounding.hpp"
 
-namespace bch {
+namespace bch::detail {
 namespace {
 
 /// Both coordinates side by side, in a register of every x86-64 processor.
@@ -108,4 +108,4 @@ void EvenHalves::write(const std::vector<Primitive>& segments, const OutwardRadi
   (std::make_integer_sequence<int, most_halvings + 1>());
 }
 
-}  // namespace bch
+}  // namespace bch::detail

@@ -9,10 +9,11 @@
 #include <cstdint>
 #include <vector>
 
-#include "layout/hierarchy/hierarchy.hpp"
+#include <bch/hierarchy.hpp>
+
 #include "layout/hierarchy/outward_radii.hpp"
 
-namespace bch {
+namespace bch::detail {
 
 /// Lone segments that are halved evenly: all pieces have been halved equally often. The nodes of such a
 /// segment are known from its length. So they are counted while the tree grows and written later, in one loop
@@ -46,4 +47,4 @@ class EvenHalves {
   std::array<std::vector<Segment>, most_halvings + 1> segments_;
 };
 
-}  // namespace bch
+}  // namespace bch::detail

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include "layout/hierarchy/hierarchy.hpp"
+#include <bch/hierarchy.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -15,6 +15,9 @@
 #include "layout/hierarchy/builder.hpp"
 
 namespace bch {
+
+using namespace detail;
+
 namespace {
 
 [[noreturn]] void reject(const Hierarchy& hierarchy, std::size_t i) {
@@ -67,31 +70,6 @@ Hierarchy fixed_cylinder(float radius) {
   root.disc = {0, 0, rounding::round_up(size * (1 + rounding::query_margin))};
   hierarchy.nodes.push_back(root);
   return hierarchy;
-}
-
-std::vector<float> bounding_radii(const Hierarchy& hierarchy) {
-  const auto& nodes = hierarchy.nodes;
-  const std::vector<std::uint32_t> ends = subtree_ends(nodes);
-  std::vector<float> bounds;
-  for (std::size_t i = 0; i < nodes.size(); ++i) {
-    const Disc& disc = nodes[i].disc;
-    double held = disc.radius;
-    for (std::size_t below = i + 1; below < ends[i]; ++below) {
-      const Disc& other = nodes[below].disc;
-      const double x = static_cast<double>(other.x) - static_cast<double>(disc.x),
-                   y = static_cast<double>(other.y) - static_cast<double>(disc.y);
-      held = std::max(held, (std::sqrt(x * x + y * y) + static_cast<double>(other.radius)) * (1 + 0x1p-50));
-    }
-    bounds.push_back(rounding::round_up(held));
-  }
-  return bounds;
-}
-
-std::vector<std::uint32_t> subtree_ends(std::span<const HierarchyNode> nodes) {
-  std::vector<std::uint32_t> end(nodes.size());
-  for (std::size_t i = nodes.size(); i-- > 0;)
-    end[i] = nodes[i].is_leaf() ? static_cast<std::uint32_t>(i + 1) : end[nodes[i].second_child];
-  return end;
 }
 
 std::vector<std::uint32_t> cut(const Hierarchy& hierarchy, std::uint32_t depth) {

@@ -5,9 +5,9 @@
 
 #include <emmintrin.h>
 
-#include "layout/hierarchy/hierarchy.hpp"
+#include <bch/hierarchy.hpp>
 
-namespace bch {
+namespace bch::detail {
 
 /// Radii of published discs from the squares of the smallest, two at a time: enlarged by a margin and rounded up.
 class OutwardRadii {
@@ -30,4 +30,4 @@ class OutwardRadii {
   __m128d margin_;
 };
 
-}  // namespace bch
+}  // namespace bch::detail

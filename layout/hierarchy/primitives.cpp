@@ -5,7 +5,7 @@
 
 // The primitives of the last hierarchy's nodes, which are added on request.
 
-namespace bch {
+namespace bch::detail {
 
 /// Adds every leaf's items, or the pieces of the one that is halved.
 void HierarchyBuilder::add_primitives(Hierarchy& hierarchy) const {
@@ -40,4 +40,4 @@ void HierarchyBuilder::add_pieces(const Primitive& piece, std::uint32_t source, 
   hierarchy.primitive_ranges[node] = {begin, begin + 1};
 }
 
-}  // namespace bch
+}  // namespace bch::detail

@@ -9,7 +9,7 @@
 #include <cmath>
 #include <limits>
 
-namespace bch {
+namespace bch::detail {
 namespace {
 
 constexpr float infinity = std::numeric_limits<float>::infinity();
@@ -145,7 +145,7 @@ void divide_pair(const SplitItems& items, ItemList list, const SplitMeasure& who
   const std::uint32_t a = list[0], b = list[1];
   both[0] = a, both[1] = b;
   for (const bool across_longer : {true, false}) {
-    const Plane plane = bch::plane(items, list, whole, through_centre, across_longer);
+    const Plane plane = detail::plane(items, list, whole, through_centre, across_longer);
     const auto& middle = items.middle[static_cast<std::size_t>(plane.axis)];
     const float at = _mm_cvtss_f32(plane.at);
     const bool is_a_before = middle[a] < at, is_b_before = middle[b] < at;
@@ -155,4 +155,4 @@ void divide_pair(const SplitItems& items, ItemList list, const SplitMeasure& who
   }
 }
 
-}  // namespace bch
+}  // namespace bch::detail

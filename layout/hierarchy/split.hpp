@@ -9,7 +9,7 @@
 
 #include "layout/hierarchy/split_items.hpp"
 
-namespace bch {
+namespace bch::detail {
 
 /// The box and centroid of a node's items.
 struct SplitMeasure {
@@ -43,4 +43,4 @@ std::size_t divide(const SplitItems& items, ItemList list, const SplitMeasure& w
 void divide_pair(const SplitItems& items, ItemList list, const SplitMeasure& whole, bool through_centre,
                  std::uint32_t* both);
 
-}  // namespace bch
+}  // namespace bch::detail

@@ -7,7 +7,7 @@
 
 #include <algorithm>
 
-namespace bch {
+namespace bch::detail {
 namespace {
 
 constexpr std::size_t width = 4;
@@ -86,4 +86,4 @@ void SplitItems::add_triangle(const Primitive& triangle) {
   primitives[count++] = triangle;
 }
 
-}  // namespace bch
+}  // namespace bch::detail

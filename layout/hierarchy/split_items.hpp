@@ -9,10 +9,11 @@
 #include <span>
 #include <vector>
 
-#include "layout/hierarchy/halves.hpp"
-#include "layout/hierarchy/hierarchy.hpp"
+#include <bch/hierarchy.hpp>
 
-namespace bch {
+#include "layout/hierarchy/halves.hpp"
+
+namespace bch::detail {
 
 /// What a primitive, a segment or a triangle, counts for while nodes are divided. Axis 0 is x, 1 is y.
 struct alignas(32) SplitItem {
@@ -39,4 +40,4 @@ struct SplitItems {
   std::vector<Vec2> ring_;  ///< a contour's points and its first ones again
 };
 
-}  // namespace bch
+}  // namespace bch::detail

@@ -9,7 +9,7 @@
 #include "layout/import/clip_match.hpp"
 #include "layout/import/clips.hpp"
 
-namespace bch::import_detail {
+namespace bch::detail::importing {
 namespace {
 
 constexpr std::uint32_t none = 0xffffffff;
@@ -271,4 +271,4 @@ void add_clips_of(const std::filesystem::path& clip_file, const ImportOptions& o
   }
 }
 
-}  // namespace bch::import_detail
+}  // namespace bch::detail::importing

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-namespace bch::import_detail {
+namespace bch::detail::importing {
 namespace {
 
 constexpr double least_alignment = 0.7;
@@ -46,4 +46,4 @@ std::string mismatch(const ClipMatch& match) {
   return {};
 }
 
-}  // namespace bch::import_detail
+}  // namespace bch::detail::importing

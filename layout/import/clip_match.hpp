@@ -9,7 +9,7 @@
 
 // Private to the importer: whether a clip of another file was made for the character's skeleton.
 
-namespace bch::import_detail {
+namespace bch::detail::importing {
 
 /// What the skeletons of a character and of a clip's file have in common.
 struct ClipMatch {
@@ -26,4 +26,4 @@ struct ClipMatch {
 /// move the character or the file has at least half of the character's joints, and where bones point the same way.
 std::string mismatch(const ClipMatch& match);
 
-}  // namespace bch::import_detail
+}  // namespace bch::detail::importing

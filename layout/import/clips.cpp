@@ -10,7 +10,7 @@
 
 #include "layout/base/shortest.hpp"
 
-namespace bch::import_detail {
+namespace bch::detail::importing {
 namespace {
 
 constexpr double default_ticks_per_second = 25;  // what a reader is to assume where a file is silent
@@ -253,4 +253,4 @@ void add_own_clips(const SceneFile& file, const NodeList& nodes, Character& char
   }
 }
 
-}  // namespace bch::import_detail
+}  // namespace bch::detail::importing

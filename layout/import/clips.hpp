@@ -11,7 +11,7 @@
 
 // Private to the importer: aiAnimation -> Clip.
 
-namespace bch::import_detail {
+namespace bch::detail::importing {
 
 struct SourceChannel {
   std::string node;
@@ -46,4 +46,4 @@ void note_far_poses(const Character& character, std::size_t first_clip, ImportRe
 /// The joint whose point on the ground is a shape's origin: see the source.
 std::int32_t find_root_joint(const Character& character, const std::vector<bool>& bone_is_skin);
 
-}  // namespace bch::import_detail
+}  // namespace bch::detail::importing

@@ -13,7 +13,7 @@
 #include <string_view>
 #include <system_error>
 
-namespace bch::import_detail {
+namespace bch::detail::importing {
 namespace {
 
 namespace fs = std::filesystem;
@@ -83,4 +83,4 @@ void keep_supported_formats(Assimp::Importer& importer) {
   }
 }
 
-}  // namespace bch::import_detail
+}  // namespace bch::detail::importing

@@ -11,7 +11,7 @@
 
 // Private to the importer: what assimp may open, and with which readers.
 
-namespace bch::import_detail {
+namespace bch::detail::importing {
 
 /// Bytes of the largest file that is opened.
 constexpr std::uintmax_t largest_file = std::uintmax_t{1} << 30;
@@ -39,4 +39,4 @@ class FileAndSiblings : public Assimp::DefaultIOSystem {
 /// ways in for a malformed file, which need not bear the name of its format.
 void keep_supported_formats(Assimp::Importer& importer);
 
-}  // namespace bch::import_detail
+}  // namespace bch::detail::importing

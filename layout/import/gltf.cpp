@@ -8,7 +8,7 @@
 #include "layout/import/gltf_parts.hpp"
 #include "layout/import/scene.hpp"
 
-namespace bch::import_detail {
+namespace bch::detail::importing {
 namespace {
 
 aiMatrix4x4 transform_of(const JsonValue& node) {
@@ -128,4 +128,4 @@ GltfScene read_gltf(const std::filesystem::path& file) {
   return std::move(reader.result);
 }
 
-}  // namespace bch::import_detail
+}  // namespace bch::detail::importing

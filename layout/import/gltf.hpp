@@ -11,12 +11,12 @@
 #include <unordered_map>
 #include <vector>
 
-#include "layout/character/character.hpp"
+#include <bch/character.hpp>
 
 // Private to the importer: a glTF 2 file as a scene of assimp's types. assimp's own reader is not used: 5.2.5 takes
 // normalised integers for floats, reads all animations as linear and ignores what a file requires.
 
-namespace bch::import_detail {
+namespace bch::detail::importing {
 
 /// How the parts of a channel are interpolated, which assimp's type does not hold. Of a cubic part the keys come in
 /// threes of the same time: tangent before the key, value, tangent behind it.
@@ -42,4 +42,4 @@ struct GltfScene {
 /// Errors:  throws ImportError.
 GltfScene read_gltf(const std::filesystem::path& file);
 
-}  // namespace bch::import_detail
+}  // namespace bch::detail::importing

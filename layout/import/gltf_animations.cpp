@@ -7,7 +7,7 @@
 #include "layout/import/gltf_parts.hpp"
 #include "layout/import/scene.hpp"
 
-namespace bch::import_detail {
+namespace bch::detail::importing {
 namespace {
 
 /// assimp's time unit. Times are multiplied as floats, as in its reader, so that clips keep their bits.
@@ -165,4 +165,4 @@ void read_gltf_animations(GltfReader& reader) {
     AnimationReader(reader, animations[a], *(scene.mAnimations[a] = new aiAnimation)).read();
 }
 
-}  // namespace bch::import_detail
+}  // namespace bch::detail::importing

@@ -5,7 +5,7 @@
 
 #include <draco/compression/decode.h>
 
-namespace bch::import_detail {
+namespace bch::detail::importing {
 namespace {
 
 std::unique_ptr<draco::Mesh> decode(GltfFile& file, const JsonValue& extension) {
@@ -52,4 +52,4 @@ std::vector<Number> DracoMesh::attribute(const char* name, std::size_t component
 template std::vector<float> DracoMesh::attribute(const char*, std::size_t, bool) const;
 template std::vector<std::uint32_t> DracoMesh::attribute(const char*, std::size_t, bool) const;
 
-}  // namespace bch::import_detail
+}  // namespace bch::detail::importing

@@ -15,7 +15,7 @@ class Mesh;
 
 // Private to the importer: meshes that KHR_draco_mesh_compression compresses. The only user of Draco.
 
-namespace bch::import_detail {
+namespace bch::detail::importing {
 
 class DracoMesh {
  public:
@@ -40,4 +40,4 @@ class DracoMesh {
 extern template std::vector<float> DracoMesh::attribute(const char*, std::size_t, bool) const;
 extern template std::vector<std::uint32_t> DracoMesh::attribute(const char*, std::size_t, bool) const;
 
-}  // namespace bch::import_detail
+}  // namespace bch::detail::importing

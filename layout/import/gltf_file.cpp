@@ -12,7 +12,7 @@
 
 #include "layout/import/scene.hpp"
 
-namespace bch::import_detail {
+namespace bch::detail::importing {
 namespace {
 
 constexpr std::size_t glb_header = 12, chunk_header = 8;
@@ -185,4 +185,4 @@ std::string_view GltfFile::bytes_of(const JsonValue& view) {
   return bytes.substr(offset, size);
 }
 
-}  // namespace bch::import_detail
+}  // namespace bch::detail::importing

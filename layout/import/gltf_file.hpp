@@ -17,7 +17,7 @@
 
 // Private to the importer: a glTF 2 file's JSON, its buffers, and the numbers in them.
 
-namespace bch::import_detail {
+namespace bch::detail::importing {
 
 constexpr std::size_t largest_index = 0xfffffffe;
 constexpr std::size_t largest_offset = largest_file;
@@ -82,4 +82,4 @@ class GltfFile {
   void replace_sparse(const JsonValue& accessor, const Decoder& decoder, std::vector<Number>& numbers);
 };
 
-}  // namespace bch::import_detail
+}  // namespace bch::detail::importing

@@ -10,7 +10,7 @@
 #include "layout/import/gltf_parts.hpp"
 #include "layout/import/scene.hpp"
 
-namespace bch::import_detail {
+namespace bch::detail::importing {
 namespace {
 
 constexpr std::size_t no_skin = static_cast<std::size_t>(-1);
@@ -242,4 +242,4 @@ void read_gltf_meshes(GltfReader& reader) {
   meshes.move_to(*reader.result.scene);
 }
 
-}  // namespace bch::import_detail
+}  // namespace bch::detail::importing

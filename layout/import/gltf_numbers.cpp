@@ -9,7 +9,7 @@
 
 // The numbers in a glTF file's accessors.
 
-namespace bch::import_detail {
+namespace bch::detail::importing {
 namespace {
 
 /// The most numbers of an accessor without bytes, whose elements are 0 but for sparse ones.
@@ -91,7 +91,7 @@ Elements GltfFile::elements(const JsonValue& place, std::size_t count, std::size
   const bool fits = count == 0 || (offset <= bytes.size() && element_bytes <= bytes.size() - offset &&
                                    (count - 1) <= (bytes.size() - offset - element_bytes) / stride);
   if (!fits)
-    place.reject("reaches beyond the " + import_detail::count(bytes.size(), "byte") + " of " + view.place());
+    place.reject("reaches beyond the " + importing::count(bytes.size(), "byte") + " of " + view.place());
   return {bytes.data() + offset, stride};
 }
 
@@ -148,4 +148,4 @@ std::vector<std::uint32_t> GltfFile::indices(const JsonValue& accessor, const ch
   return read<std::uint32_t>(accessor, type);
 }
 
-}  // namespace bch::import_detail
+}  // namespace bch::detail::importing

@@ -10,7 +10,7 @@
 
 // Private to the importer: what the parts of the glTF reader share.
 
-namespace bch::import_detail {
+namespace bch::detail::importing {
 
 /// A glTF file while it becomes a scene.
 struct GltfReader {
@@ -50,4 +50,4 @@ void read_gltf_animations(GltfReader& reader);
 /// Returns whether morph targets move vertices of a mesh.
 bool has_morphs(const JsonValue& mesh);
 
-}  // namespace bch::import_detail
+}  // namespace bch::detail::importing

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include "layout/import/import.hpp"
+#include <bch/import.hpp>
 
 #include <new>
 #include <set>
@@ -12,9 +12,12 @@
 #include "layout/import/units.hpp"
 
 namespace bch {
+
+using namespace detail;
+
 namespace {
 
-using namespace import_detail;
+using namespace detail::importing;
 
 /// The joints of the bones and the joints above them; cameras and helpers go. The bones are renumbered.
 std::vector<Joint> carrying_joints(const std::vector<Joint>& joints, std::vector<Bone>& bones) {
@@ -45,7 +48,7 @@ std::size_t bone_joints(const Character& character) {
 
 }  // namespace
 
-ImportedCharacter import_detail::character_of(const SceneFile& file, const ImportOptions& options) {
+ImportedCharacter importing::character_of(const SceneFile& file, const ImportOptions& options) {
   ImportedCharacter result;
   auto& [character, report] = result;
   report.format = file.format;

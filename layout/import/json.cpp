@@ -9,7 +9,7 @@
 
 #include "layout/import/scene.hpp"
 
-namespace bch::import_detail {
+namespace bch::detail::importing {
 
 JsonValue::JsonValue(const JsonValue& parent, const nlohmann::json* value, std::string place)
     : file_(parent.file_), value_(value), place_(std::move(place)) {}
@@ -68,7 +68,7 @@ std::string JsonValue::text() const {
 }
 
 void JsonValue::reject(const std::string& reason) const {
-  import_detail::reject(*file_, (place_.empty() ? "JSON" : place_) + " " + reason);
+  importing::reject(*file_, (place_.empty() ? "JSON" : place_) + " " + reason);
 }
 
-}  // namespace bch::import_detail
+}  // namespace bch::detail::importing

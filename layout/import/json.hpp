@@ -10,7 +10,7 @@
 
 // Private to the importer: JSON whose errors name the place.
 
-namespace bch::import_detail {
+namespace bch::detail::importing {
 
 /// A value of a JSON document and its place there, such as "accessors[3].count". It may be absent. The document and the
 /// file's path must outlive it. Every function but the two operators of absent values throws ImportError, naming file and
@@ -45,4 +45,4 @@ class JsonValue {
   JsonValue(const JsonValue& parent, const nlohmann::json* value, std::string place);
 };
 
-}  // namespace bch::import_detail
+}  // namespace bch::detail::importing

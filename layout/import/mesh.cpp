@@ -9,7 +9,7 @@
 #include <numeric>
 #include <span>
 
-namespace bch::import_detail {
+namespace bch::detail::importing {
 namespace {
 
 std::string describe(const aiMesh& mesh, unsigned index) {
@@ -219,4 +219,4 @@ void weld_vertices(Character& character, ImportReport& report) {
   character.influence_begin = std::move(welded.influence_begin);
 }
 
-}  // namespace bch::import_detail
+}  // namespace bch::detail::importing

@@ -13,7 +13,7 @@
 
 // Private to the importer: aiMesh -> vertices, influences, triangles.
 
-namespace bch::import_detail {
+namespace bch::detail::importing {
 
 /// The bones of a character under construction. Meshes that share a skeleton bring the same bones again.
 class BoneTable {
@@ -42,4 +42,4 @@ std::vector<bool> read_meshes(const SceneFile& file, const NodeList& nodes, Char
 /// Makes one vertex of those that are equal in position and influences, and drops those of no triangle.
 void weld_vertices(Character& character, ImportReport& report);
 
-}  // namespace bch::import_detail
+}  // namespace bch::detail::importing

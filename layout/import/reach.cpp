@@ -4,12 +4,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include <bch/outline.hpp>
+
 #include "layout/base/shortest.hpp"
 #include "layout/character/skinning.hpp"
-#include "layout/format/outline.hpp"
+#include "layout/format/contours.hpp"
 #include "layout/import/clips.hpp"
 
-namespace bch::import_detail {
+namespace bch::detail::importing {
 namespace {
 
 constexpr double farthest_share = 1.5;  // of the rest pose's reach
@@ -39,4 +41,4 @@ void note_far_poses(const Character& character, std::size_t first_clip, ImportRe
   }
 }
 
-}  // namespace bch::import_detail
+}  // namespace bch::detail::importing

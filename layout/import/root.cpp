@@ -5,7 +5,7 @@
 
 #include "layout/import/clips.hpp"
 
-namespace bch::import_detail {
+namespace bch::detail::importing {
 namespace {
 
 constexpr double skeleton_share = 0.9;    // of all weight: such a joint carries the body, not a limb
@@ -78,4 +78,4 @@ std::int32_t find_root_joint(const Character& character, const std::vector<bool>
   return static_cast<std::int32_t>(root);
 }
 
-}  // namespace bch::import_detail
+}  // namespace bch::detail::importing

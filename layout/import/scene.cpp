@@ -15,7 +15,7 @@
 #include "layout/import/files.hpp"
 #include "layout/import/gltf_file.hpp"
 
-namespace bch::import_detail {
+namespace bch::detail::importing {
 namespace {
 
 constexpr std::size_t most_nodes = std::size_t{1} << 20;
@@ -172,4 +172,4 @@ std::vector<Eigen::Affine3d> rest_to_file(const std::vector<Joint>& joints) {
   return transforms;
 }
 
-}  // namespace bch::import_detail
+}  // namespace bch::detail::importing

@@ -13,13 +13,14 @@
 #include <unordered_map>
 #include <vector>
 
+#include <bch/import.hpp>
+
 #include "layout/character/eigen.hpp"
 #include "layout/import/gltf.hpp"
-#include "layout/import/import.hpp"
 
 // Private to the importer: a file as a scene of assimp's types, and the first checks of it.
 
-namespace bch::import_detail {
+namespace bch::detail::importing {
 
 /// Numbers beyond this are taken for damage: their squares leave float's range soon after.
 constexpr float largest_number = 1e15f;
@@ -50,7 +51,7 @@ struct SceneFile {
 
   bool is_fbx() const { return format == "Autodesk FBX Importer"; }
 
-  [[noreturn]] void reject(const std::string& reason) const { import_detail::reject(path, reason); }
+  [[noreturn]] void reject(const std::string& reason) const { importing::reject(path, reason); }
 };
 
 /// All of import_character() but reading the file.
@@ -76,4 +77,4 @@ Affine3 read_matrix(const SceneFile& file, const aiMatrix4x4& matrix, const std:
 /// Every joint's transform at rest into the frame of the file.
 std::vector<Eigen::Affine3d> rest_to_file(const std::vector<Joint>& joints);
 
-}  // namespace bch::import_detail
+}  // namespace bch::detail::importing

@@ -9,7 +9,7 @@
 
 #include "layout/import/mesh.hpp"
 
-namespace bch::import_detail {
+namespace bch::detail::importing {
 namespace {
 
 /// Float cannot tell a sum from one without such a share.
@@ -137,4 +137,4 @@ InfluenceLists read_influences(const SceneFile& file, const NodeList& nodes, con
   return lists;
 }
 
-}  // namespace bch::import_detail
+}  // namespace bch::detail::importing

@@ -15,7 +15,7 @@
 #include "layout/character/skinning.hpp"
 #include "layout/import/clips.hpp"
 
-namespace bch::import_detail {
+namespace bch::detail::importing {
 namespace {
 
 constexpr float farthest = 1e6f;
@@ -253,4 +253,4 @@ float rest_height(const Character& character) {
   return rest_box(character).sizes().z();
 }
 
-}  // namespace bch::import_detail
+}  // namespace bch::detail::importing

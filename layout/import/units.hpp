@@ -11,7 +11,7 @@
 
 // Private to the importer: which way is up in a file, and how long its unit is.
 
-namespace bch::import_detail {
+namespace bch::detail::importing {
 
 /// An axis of the file's frame, or its opposite.
 struct Direction {
@@ -47,4 +47,4 @@ void check_poses(const SceneFile& file, const Character& character);
 /// Returns the height of the rest pose, in metres, once the frame is settled.
 float rest_height(const Character& character);
 
-}  // namespace bch::import_detail
+}  // namespace bch::detail::importing

@@ -5,7 +5,7 @@
 
 #include "layout/outline/lanes.hpp"
 
-namespace bch {
+namespace bch::detail {
 namespace {
 
 struct Avx2 {
@@ -95,4 +95,4 @@ void test_near_avx2(const SegmentSearch& job, const SearchedWay& way, std::size_
   OutlineLanes<Avx2>::test_near(job, way, count);
 }
 
-}  // namespace bch
+}  // namespace bch::detail

@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <limits>
 
-namespace bch {
+namespace bch::detail {
 namespace {
 
 constexpr std::int16_t lowest = std::numeric_limits<std::int16_t>::min();
@@ -126,4 +126,4 @@ void BoxTree::describe(SegmentSearch& search) const {
   search.group_count = divided(blocks_.size(), boxes_per_block);
 }
 
-}  // namespace bch
+}  // namespace bch::detail

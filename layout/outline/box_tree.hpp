@@ -8,7 +8,7 @@
 #include "layout/base/aligned_vector.hpp"
 #include "layout/outline/segment_search.hpp"
 
-namespace bch {
+namespace bch::detail {
 
 /// Boxes around segments, 16 to a block, and around blocks, 16 to a group. The order of the segments makes the
 /// blocks: neighbours should be near each other.
@@ -30,4 +30,4 @@ class BoxTree {
   AlignedVector<BoxBlock> blocks_, groups_;
 };
 
-}  // namespace bch
+}  // namespace bch::detail

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include "layout/outline/builder.hpp"
+#include <bch/outline_builder.hpp>
 
 #include <algorithm>
 #include <limits>
@@ -18,6 +18,9 @@
 #include "layout/outline/winding.hpp"
 
 namespace bch {
+
+using namespace detail;
+
 namespace {
 
 constexpr GridPoint beyond{std::numeric_limits<std::int32_t>::max(), 0};

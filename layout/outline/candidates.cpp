@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <bit>
 
-namespace bch {
+namespace bch::detail {
 namespace {
 
 using ManifoldEdge = OutlineTopology::ManifoldEdge;
@@ -87,4 +87,4 @@ void OutlineCandidates::add_uses(std::span<const GridPoint> points,
   }
 }
 
-}  // namespace bch
+}  // namespace bch::detail

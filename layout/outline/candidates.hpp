@@ -13,7 +13,7 @@
 #include "layout/outline/implementation.hpp"
 #include "layout/outline/topology.hpp"
 
-namespace bch {
+namespace bch::detail {
 
 /// The edges of a pose that may be part of its outline. A point inside an edge with triangles on both sides is
 /// inside the union, so only edges whose triangles all lie on one side remain (a triangle seen edge-on, or nearly,
@@ -43,4 +43,4 @@ class OutlineCandidates {
   BoxTree boxes_;
 };
 
-}  // namespace bch
+}  // namespace bch::detail

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-namespace bch {
+namespace bch::detail {
 namespace {
 
 /// The number with a 0 after each bit.
@@ -51,4 +51,4 @@ void ContourIndex::add(std::size_t place, std::size_t contour, const GridBox& bo
   for (std::size_t node = leaves_ + leaf_[place]; node >= root; node /= 2) enlarge(boxes_[node], box);
 }
 
-}  // namespace bch
+}  // namespace bch::detail

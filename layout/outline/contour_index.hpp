@@ -10,7 +10,7 @@
 
 #include "layout/outline/grid_box.hpp"
 
-namespace bch {
+namespace bch::detail {
 
 /// An index over contours by their boxes, which finds those that may cover a point. Where contours can begin has to be
 /// known beforehand: a binary tree over these places takes in a contour, and finds those about a point, in time
@@ -60,4 +60,4 @@ class ContourIndex {
   std::vector<std::size_t> contour_;  ///< of each leaf
 };
 
-}  // namespace bch
+}  // namespace bch::detail

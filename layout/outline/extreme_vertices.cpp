@@ -11,7 +11,7 @@
 #include "layout/enclosing_disc/disc_pivoting.hpp"
 #include "layout/outline/grid_snap.hpp"
 
-namespace bch {
+namespace bch::detail {
 namespace {
 
 /// Vertices whose squares fill a register.
@@ -107,4 +107,4 @@ void ExtremeVertices::keep(float from_middle, float from_origin) {
   }
 }
 
-}  // namespace bch
+}  // namespace bch::detail

@@ -8,10 +8,11 @@
 #include <span>
 #include <vector>
 
-#include "layout/base/disc.hpp"
+#include <bch/geometry.hpp>
+
 #include "layout/outline/grid_geometry.hpp"
 
-namespace bch {
+namespace bch::detail {
 
 /// Finds the few vertices of a mesh, in pose after pose, that decide the single disc around it and its reach:
 /// corners of its convex hull, which need no outline. They are snapped to the grid of outlines
@@ -44,4 +45,4 @@ class ExtremeVertices {
   double step_ = 0;
 };
 
-}  // namespace bch
+}  // namespace bch::detail

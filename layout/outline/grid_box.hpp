@@ -9,7 +9,7 @@
 
 #include "layout/outline/grid_geometry.hpp"
 
-namespace bch {
+namespace bch::detail {
 
 /// A rectangle on the grid, its sides included.
 struct GridBox {
@@ -28,4 +28,4 @@ inline void enlarge(GridBox& box, const GridBox& by) {
   box.high = {std::max(box.high.x, by.high.x), std::max(box.high.y, by.high.y)};
 }
 
-}  // namespace bch
+}  // namespace bch::detail

@@ -3,7 +3,7 @@
 
 #include "layout/outline/grid_geometry.hpp"
 
-namespace bch {
+namespace bch::detail {
 namespace {
 
 int compare_coordinate(std::int64_t from, std::int64_t direction, const Fraction& at, std::int64_t limit) {
@@ -42,4 +42,4 @@ GridPoint rounded(const Place& place) {
           rounded_coordinate(place.from.y, place.direction().y, place.at)};
 }
 
-}  // namespace bch
+}  // namespace bch::detail

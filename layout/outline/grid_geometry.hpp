@@ -12,7 +12,7 @@
 /// as a double. Fractions have such products as terms. Two of them cross-multiplied are below 2^98, and a
 /// coordinate of the point at a fraction, multiplied out (twice 2^24 * 2^49 + 2^24 * 2^49, and a carry), below
 /// 2^76: far from the limits of 128 bits.
-namespace bch {
+namespace bch::detail {
 
 __extension__ using Wide = __int128;
 
@@ -79,4 +79,4 @@ int compare_y(const Place& place, std::int32_t y);
 /// The grid point next to a place, a half rounded up: the same from whichever lines the place is described.
 GridPoint rounded(const Place& place);
 
-}  // namespace bch
+}  // namespace bch::detail

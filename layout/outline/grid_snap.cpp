@@ -15,7 +15,7 @@
 #include "layout/base/rounding.hpp"
 #include "layout/base/shortest.hpp"
 
-namespace bch {
+namespace bch::detail {
 namespace {
 
 constexpr int grid_bits = 23;
@@ -132,4 +132,4 @@ double snap_to_grid(std::span<const Vec2> positions, std::span<const std::uint32
                                          : snap_to_grid(Chosen(positions, used), positions, used, points);
 }
 
-}  // namespace bch
+}  // namespace bch::detail

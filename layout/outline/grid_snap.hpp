@@ -6,10 +6,11 @@
 #include <cstdint>
 #include <span>
 
-#include "layout/base/disc.hpp"
+#include <bch/geometry.hpp>
+
 #include "layout/outline/grid_geometry.hpp"
 
-namespace bch {
+namespace bch::detail {
 
 /// Rounds the named vertices, seen from above, to a grid of 2^-23 of the power of two above the largest
 /// coordinate: points[i] belongs to vertex used[i], and no coordinate exceeds 2^23. Returns the grid's step in
@@ -23,4 +24,4 @@ double snap_to_grid(std::span<const Vec2> positions, std::span<const std::uint32
 double snap_to_grid(std::span<const Vec3> positions, std::span<const std::uint32_t> used,
                     std::span<GridPoint> points);
 
-}  // namespace bch
+}  // namespace bch::detail

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <iterator>
 
-namespace bch {
+namespace bch::detail {
 
 void find_sides_sse2(const std::uint32_t*, std::size_t, const GridPoint*, std::uint8_t*) noexcept;
 void find_sides_avx2(const std::uint32_t*, std::size_t, const GridPoint*, std::uint8_t*) noexcept;
@@ -36,4 +36,4 @@ const OutlineImplementation& best_outline_implementation() noexcept {
   return best;
 }
 
-}  // namespace bch
+}  // namespace bch::detail

@@ -7,7 +7,7 @@
 
 #include "layout/outline/segment_search.hpp"
 
-namespace bch {
+namespace bch::detail {
 
 /// One compilation of outline_lanes.hpp, which says what the functions do; all give the same bits.
 struct OutlineImplementation {
@@ -25,4 +25,4 @@ std::span<const OutlineImplementation> outline_implementations() noexcept;
 /// The first that this processor supports.
 const OutlineImplementation& best_outline_implementation() noexcept;
 
-}  // namespace bch
+}  // namespace bch::detail

@@ -8,7 +8,7 @@
 
 #include "layout/outline/segment_search.hpp"
 
-namespace bch {
+namespace bch::detail {
 
 /// The two loops of an outline that take most of its time, several triangles or segments a register.
 /// What an outline is made of is exact (grid_geometry.hpp), so that every instruction set gives the same bits; the
@@ -139,4 +139,4 @@ class OutlineLanes {
   };
 };
 
-}  // namespace bch
+}  // namespace bch::detail

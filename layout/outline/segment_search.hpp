@@ -10,7 +10,7 @@
 
 /// What the outline's walk asks of an instruction set: plain pointers, because nothing of the standard library
 /// may be compiled for wide registers.
-namespace bch {
+namespace bch::detail {
 
 struct Segment {
   GridPoint a, b;
@@ -49,4 +49,4 @@ struct SearchedWay {
   std::int16_t min_x, min_y, max_x, max_y;
 };
 
-}  // namespace bch
+}  // namespace bch::detail

@@ -7,7 +7,7 @@
 #include <bit>
 #include <cmath>
 
-namespace bch {
+namespace bch::detail {
 namespace {
 
 constexpr std::size_t segments_per_leaf = 8;
@@ -95,4 +95,4 @@ std::size_t SegmentTree::find(GridPlace from, GridPlace to, std::uint32_t* near)
   return found;
 }
 
-}  // namespace bch
+}  // namespace bch::detail

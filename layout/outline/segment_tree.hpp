@@ -11,7 +11,7 @@
 #include "layout/outline/grid_box.hpp"
 #include "layout/outline/segment_search.hpp"
 
-namespace bch {
+namespace bch::detail {
 
 /// A point between points of the grid, in steps.
 struct GridPlace {
@@ -46,4 +46,4 @@ class SegmentTree {
   std::vector<Node> nodes_;  ///< the children of node i are 2 i and 2 i + 1; leaves from leaves_ on
 };
 
-}  // namespace bch
+}  // namespace bch::detail

@@ -5,7 +5,7 @@
 
 #include "layout/outline/lanes.hpp"
 
-namespace bch {
+namespace bch::detail {
 namespace {
 
 struct Sse2 {
@@ -112,4 +112,4 @@ void test_near_sse2(const SegmentSearch& job, const SearchedWay& way, std::size_
   OutlineLanes<Sse2>::test_near(job, way, count);
 }
 
-}  // namespace bch
+}  // namespace bch::detail

@@ -10,7 +10,7 @@
 #include <string>
 #include <tuple>
 
-namespace bch {
+namespace bch::detail {
 namespace {
 
 using EdgeUse = OutlineTopology::EdgeUse;
@@ -180,4 +180,4 @@ OutlineTopology outline_topology(Triangles triangles, std::size_t vertices, Posi
   return topology;
 }
 
-}  // namespace bch
+}  // namespace bch::detail

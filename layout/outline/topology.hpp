@@ -8,9 +8,9 @@
 #include <span>
 #include <vector>
 
-#include "layout/base/disc.hpp"
+#include <bch/geometry.hpp>
 
-namespace bch {
+namespace bch::detail {
 
 /// What a mesh's connectivity says about outlines in every pose. Vertices are numbered anew, in the order of
 /// their old numbers and without those that no triangle uses.
@@ -49,4 +49,4 @@ struct OutlineTopology {
 OutlineTopology outline_topology(std::span<const std::array<std::uint32_t, 3>> triangles,
                                  std::size_t vertices, std::span<const Vec3> bind_pose);
 
-}  // namespace bch
+}  // namespace bch::detail

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include "layout/outline/union_outline.hpp"
+#include <bch/outline_builder.hpp>
 
 #include <vector>
 
-#include "layout/outline/builder.hpp"
-
 namespace bch {
+
+using namespace detail;
 
 Outline union_outline(std::span<const Vec3> positions,
                       std::span<const std::array<std::uint32_t, 3>> triangles) {

@@ -9,7 +9,7 @@
 #include <stdexcept>
 #include <string>
 
-namespace bch {
+namespace bch::detail {
 namespace {
 
 /// A face bounded by n segments has O(n alpha(n)) stretches (Pollack, Sharir, Sifrony, "Separating two simple
@@ -202,4 +202,4 @@ void OutlineWalk::touch(std::uint32_t segment) {
   touched_[topology_->island[candidates_->vertex(segment)]] = 1;
 }
 
-}  // namespace bch
+}  // namespace bch::detail

@@ -11,7 +11,7 @@
 #include "layout/outline/grid_geometry.hpp"
 #include "layout/outline/segment_tree.hpp"
 
-namespace bch {
+namespace bch::detail {
 
 /// A straight piece of a contour: it begins at `begin` and goes on in the direction of begin.to, until where
 /// the contour's next stretch begins.
@@ -69,4 +69,4 @@ class OutlineWalk {
   double last_length_ = 0;  ///< of a stretch, where there is a tree: the next one is often about as long
 };
 
-}  // namespace bch
+}  // namespace bch::detail

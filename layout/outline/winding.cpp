@@ -9,7 +9,7 @@
 #include <bit>
 #include <optional>
 
-namespace bch {
+namespace bch::detail {
 namespace {
 
 /// The number of stretches that are tested together.
@@ -113,4 +113,4 @@ bool ContourCovers::covers(std::size_t i, std::span<const Stretch> contour, Grid
   return turns != 0;
 }
 
-}  // namespace bch
+}  // namespace bch::detail

@@ -10,7 +10,7 @@
 #include "layout/outline/grid_box.hpp"
 #include "layout/outline/walk.hpp"
 
-namespace bch {
+namespace bch::detail {
 
 /// The contours of a pose, to be asked whether one of them covers a point. Keeps its memory.
 class ContourCovers {
@@ -30,4 +30,4 @@ class ContourCovers {
   std::vector<std::size_t> begin_ = {0}, boxes_begin_ = {0};
 };
 
-}  // namespace bch
+}  // namespace bch::detail

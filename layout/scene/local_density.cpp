@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include "layout/scene/local_density.hpp"
+#include <bch/scene_plan.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -13,6 +13,9 @@
 #include "layout/base/shortest.hpp"
 
 namespace bch {
+
+using namespace detail;
+
 namespace {
 
 constexpr double largest_position = 1e9;  // metres

@@ -1,52 +1,73 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include "layout/scene/pose_shape.hpp"
-
 #include <cassert>
-#include <utility>
+#include <optional>
 
-#include "layout/outline/union_outline.hpp"
+#include <bch/outline_builder.hpp>
+#include <bch/pose_shape.hpp>
+
+#include "layout/character/skinning.hpp"
+#include "layout/hierarchy/builder.hpp"
+#include "layout/outline/extreme_vertices.hpp"
 
 namespace bch {
 
-Shape pose_shape(Skinner& skinner, PoseTime at, float threshold) {
-  Outline outline = union_outline(skinner.pose(at), skinner.character().triangles);
-  Hierarchy hierarchy = contour_hierarchy(outline, threshold);
-  return {std::move(outline), std::move(hierarchy)};
-}
+using namespace detail;
+
+struct PoseShaper::State {
+  float threshold;
+  std::uint32_t deepest;
+  Skinner skinner;
+  std::optional<OutlineBuilder> outline_builder;  ///< this or the next
+  std::optional<ExtremeVertices> extremes;
+  HierarchyBuilder hierarchy_builder;
+  Shape shape;
+
+  void make_root(PoseTime at) {
+    require_threshold(threshold);
+    extremes->find(skinner.ground_pose(at));
+    hierarchy_builder.root(extremes->points(), extremes->grid_step(), shape.hierarchy);
+  }
+};
 
 PoseShaper::PoseShaper(const Character& character, float threshold, std::uint32_t deepest, bool outlines)
-    : threshold_(threshold), deepest_(deepest), skinner_(character) {
+    : state_(new State{threshold, deepest, Skinner(character), {}, {}, {}, {}}) {
   if (deepest == 0 && !outlines)
-    extremes_.emplace(character.triangles, character.vertices.size());
+    state_->extremes.emplace(character.triangles, character.vertices.size());
   else
-    outline_builder_.emplace(character.triangles, character.vertices.size(), character.vertices);
+    state_->outline_builder.emplace(character.triangles, character.vertices.size(), character.vertices);
+}
+
+PoseShaper::PoseShaper(PoseShaper&&) noexcept = default;
+PoseShaper& PoseShaper::operator=(PoseShaper&&) noexcept = default;
+PoseShaper::~PoseShaper() = default;
+
+void PoseShaper::limit_nodes(std::size_t most) {
+  state_->hierarchy_builder.limit_nodes(most);
 }
 
 const Shape& PoseShaper::shape(PoseTime at) {
-  if (extremes_) return make_root(at);
+  if (state_->extremes) {
+    state_->make_root(at);
+    return state_->shape;
+  }
   make_outline(at);
   return make_hierarchy();
 }
 
-const Shape& PoseShaper::make_root(PoseTime at) {
-  require_threshold(threshold_);
-  extremes_->find(skinner_.ground_pose(at));
-  hierarchy_builder_.root(extremes_->points(), extremes_->grid_step(), shape_.hierarchy);
-  return shape_;
-}
-
 const Outline& PoseShaper::make_outline(PoseTime at) {
-  assert(outline_builder_);
-  outline_builder_->build(skinner_.ground_pose(at), shape_.outline);
-  return shape_.outline;
+  assert(state_->outline_builder);
+  state_->outline_builder->build(state_->skinner.ground_pose(at), state_->shape.outline);
+  return state_->shape.outline;
 }
 
 const Shape& PoseShaper::make_hierarchy() {
-  hierarchy_builder_.contour(shape_.outline, threshold_, SplitRule::centroid, shape_.hierarchy, deepest_);
-  if (deepest_ == all_depths) hierarchy_builder_.add_primitives(shape_.hierarchy);
-  return shape_;
+  State& own = *state_;
+  own.hierarchy_builder.contour(own.shape.outline, own.threshold, SplitRule::centroid, own.shape.hierarchy,
+                                own.deepest);
+  if (own.deepest == all_depths) own.hierarchy_builder.add_primitives(own.shape.hierarchy);
+  return own.shape;
 }
 
 }  // namespace bch

@@ -10,7 +10,7 @@
 #include "layout/base/rounding.hpp"
 #include "layout/culling/cut_lanes.hpp"
 
-namespace bch {
+namespace bch::detail {
 namespace {
 
 using Lanes = CutLanes<xsimd::sse2>;
@@ -197,11 +197,11 @@ float Flattener::outer_radius(const Group& group) const {
 }
 
 Supports Flattener::supports() const {
-  return bch::supports(x_.data(), y_.data(), radius_.data(), count_, hierarchy_->reach);
+  return detail::supports(x_.data(), y_.data(), radius_.data(), count_, hierarchy_->reach);
 }
 
 Outer Flattener::outer(const Profile& profile) const {
-  return bch::outer(profile, x_.data(), y_.data(), radius_.data(), count_, hierarchy_->reach);
+  return detail::outer(profile, x_.data(), y_.data(), radius_.data(), count_, hierarchy_->reach);
 }
 
 Bvh8 bvh8(const Hierarchy& hierarchy, std::uint32_t depth) {
@@ -212,4 +212,4 @@ Bvh8 bvh8(const Hierarchy& hierarchy, std::uint32_t depth) {
   return tree;
 }
 
-}  // namespace bch
+}  // namespace bch::detail

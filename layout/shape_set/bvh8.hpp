@@ -7,12 +7,13 @@
 #include <cstdint>
 #include <vector>
 
+#include <bch/hierarchy.hpp>
+
 #include "layout/culling/profile.hpp"
 #include "layout/culling/supports.hpp"
 #include "layout/format/shape_set_view.hpp"
-#include "layout/hierarchy/hierarchy.hpp"
 
-namespace bch {
+namespace bch::detail {
 
 /// One cut of a hierarchy as a tree of blocks over the cut's discs, with all nodes above the cut. Every disc is the
 /// hierarchy's own, the smallest of what its node holds: pruning by it is part of the answer's definition.
@@ -99,4 +100,4 @@ class Flattener {
   std::vector<Group> level_, next_;
 };
 
-}  // namespace bch
+}  // namespace bch::detail

@@ -1,16 +1,21 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include "layout/shape_set/dynamic_shape_set.hpp"
+#include <bch/dynamic_shape_set.hpp>
 
 #include <algorithm>
 #include <limits>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #include "layout/shape_set/flat_shape.hpp"
+#include "layout/shape_set/shape_storage.hpp"
 
 namespace bch {
+
+using namespace detail;
+
 namespace {
 
 bool fits(const ShapeExtent& part, const ShapeExtent& whole) {
@@ -41,80 +46,117 @@ bool has_single_disc(const FlatShape& flat) {
 
 }  // namespace
 
-DynamicShapeSet::DynamicShapeSet(const ShapeSet& start)
-    : plan_(start.plan()), places_(start.shape_count()), set_({}, nullptr) {
+struct DynamicShapeSet::State {
+  struct Place {
+    ShapeExtent begin, size;
+  };
+
+  explicit State(const ShapeSet& start);
+  void copy(const ShapeArrays& arrays);
+  void require(std::uint32_t shape, const FlatShape& flat) const;
+  bool try_replace(std::uint32_t shape, const FlatShape& flat);
+  void replace(std::uint32_t shape, const FlatShape& flat);
+  void make_place(std::uint32_t shape, const ShapeExtent& needed, const ShapeExtent& room);
+
+  ShapeSetPlan plan;
+  ShapeStorage storage;
+  std::vector<Place> places;           ///< per shape
+  ShapeExtent end{.rows = first_row};  ///< of all places
+  ShapeSet set;                        ///< stands on storage
+};
+
+DynamicShapeSet::State::State(const ShapeSet& start)
+    : plan(start.plan()), places(start.shape_count()), set(ShapeArrays(), nullptr) {
   copy(start.arrays());
-  set_ = ShapeSet(storage_.arrays(), nullptr);
+  set.refer_to(storage.arrays());
 }
 
 /// Shape by shape: they may lie in any order there, and closer to each other than places may.
-void DynamicShapeSet::copy(const ShapeArrays& arrays) {
-  storage_.depths.assign(arrays.depths.begin(), arrays.depths.end());
+void DynamicShapeSet::State::copy(const ShapeArrays& arrays) {
+  storage.depths.assign(arrays.depths.begin(), arrays.depths.end());
   if (arrays.trees.empty()) {
-    storage_.roots.assign(arrays.roots.begin(), arrays.roots.end());
+    storage.roots.assign(arrays.roots.begin(), arrays.roots.end());
     Place any;
     for_each_part([](std::size_t& part) { part = std::numeric_limits<std::size_t>::max(); }, any.size);
-    std::fill(places_.begin(), places_.end(), any);
+    std::fill(places.begin(), places.end(), any);
     return;
   }
-  storage_.resize(plan_, places_.size());
-  for (std::uint32_t shape = 0; shape < places_.size(); ++shape) {
+  storage.resize(plan, places.size());
+  for (std::uint32_t shape = 0; shape < places.size(); ++shape) {
     const FlatShape flat = flat_shape(arrays, shape);
     const ShapeExtent extent = extent_of(flat);
     make_place(shape, extent, extent);
-    storage_.put(shape, flat, places_[shape].begin);
+    storage.put(shape, flat, places[shape].begin);
   }
 }
 
-void DynamicShapeSet::require(std::uint32_t shape, const FlatShape& flat) const {
-  if (shape >= places_.size())
+void DynamicShapeSet::State::require(std::uint32_t shape, const FlatShape& flat) const {
+  if (shape >= places.size())
     throw std::out_of_range("dynamic shape set: shape " + std::to_string(shape) + " of " +
-                            std::to_string(places_.size()));
-  if (set_.roots_only()) {
-    if (flat.plan.depths != plan_.depths || has_more_than_a_disc(flat))
+                            std::to_string(places.size()));
+  if (set.roots_only()) {
+    if (flat.plan.depths != plan.depths || has_more_than_a_disc(flat))
       throw std::invalid_argument("dynamic shape set: it has single discs alone, and the shape has more");
-  } else if (flat.plan != plan_) {
+  } else if (flat.plan != plan) {
     throw std::invalid_argument("dynamic shape set: the shape was made flat with another plan");
   }
 }
 
-bool DynamicShapeSet::try_replace(std::uint32_t shape, const FlatShape& flat) {
+bool DynamicShapeSet::State::try_replace(std::uint32_t shape, const FlatShape& flat) {
   require(shape, flat);
-  if (!fits(extent_of(flat), places_[shape].size)) return false;
-  // Else set_ has to learn of single discs, or a kernel would not look for them; and that an outline is missing.
-  if (set_.view().rows_in_order && has_single_disc(flat)) return false;
-  if (set_.solid() && !set_.roots_only() && flat.outline.contours() == 0) return false;
-  storage_.put(shape, flat, places_[shape].begin);
+  if (!fits(extent_of(flat), places[shape].size)) return false;
+  // Else set has to learn of single discs, or a kernel would not look for them; and that an outline is missing.
+  if (set.view().rows_in_order && has_single_disc(flat)) return false;
+  if (set.solid() && !set.roots_only() && flat.outline.contours() == 0) return false;
+  storage.put(shape, flat, places[shape].begin);
   return true;
 }
 
-void DynamicShapeSet::replace(std::uint32_t shape, const FlatShape& flat) {
+void DynamicShapeSet::State::replace(std::uint32_t shape, const FlatShape& flat) {
   if (try_replace(shape, flat)) return;
   // The refresh also happens where an allocation fails half way.
   struct Refresh {
-    DynamicShapeSet& of;
-    ~Refresh() { of.set_ = ShapeSet(of.storage_.arrays(), nullptr); }
+    State& of;
+    ~Refresh() { of.set.refer_to(of.storage.arrays()); }
   };
   const Refresh refresh{*this};
   const ShapeExtent needed = extent_of(flat);
   ShapeExtent room = needed;
   for_each_part([](std::size_t& part) { part += part / 2; }, room);
   make_place(shape, needed, room);
-  storage_.put(shape, flat, places_[shape].begin);
+  storage.put(shape, flat, places[shape].begin);
 }
 
 /// Parts that have room enough stay where they are.
-void DynamicShapeSet::make_place(std::uint32_t shape, const ShapeExtent& needed, const ShapeExtent& room) {
-  auto [begin, size] = places_[shape];
+void DynamicShapeSet::State::make_place(std::uint32_t shape, const ShapeExtent& needed,
+                                        const ShapeExtent& room) {
+  auto [begin, size] = places[shape];
   ShapeExtent to_lines = room, grown;
   to_lines.nodes = next_line(room.nodes);
   for_each_part(
-      [](std::size_t& more, std::size_t part, std::size_t with_room, std::size_t end, std::size_t& from,
-         std::size_t& length) { more = grow(part, with_room, end, from, length); },
-      grown, needed, to_lines, end_, begin, size);
-  storage_.make_room(end_, grown);
-  places_[shape] = {begin, size};
-  for_each_part([](std::size_t& end, std::size_t more) { end += more; }, end_, grown);
+      [](std::size_t& more, std::size_t part, std::size_t with_room, std::size_t behind, std::size_t& from,
+         std::size_t& length) { more = grow(part, with_room, behind, from, length); },
+      grown, needed, to_lines, end, begin, size);
+  storage.make_room(end, grown);
+  places[shape] = {begin, size};
+  for_each_part([](std::size_t& part, std::size_t more) { part += more; }, end, grown);
+}
+
+DynamicShapeSet::DynamicShapeSet(const ShapeSet& start) : state_(std::make_unique<State>(start)) {}
+DynamicShapeSet::DynamicShapeSet(DynamicShapeSet&&) noexcept = default;
+DynamicShapeSet& DynamicShapeSet::operator=(DynamicShapeSet&&) noexcept = default;
+DynamicShapeSet::~DynamicShapeSet() = default;
+
+const ShapeSet& DynamicShapeSet::set() const noexcept {
+  return state_->set;
+}
+
+bool DynamicShapeSet::try_replace(std::uint32_t shape, const PreparedShape& by) {
+  return state_->try_replace(shape, by.flat());
+}
+
+void DynamicShapeSet::replace(std::uint32_t shape, const PreparedShape& by) {
+  state_->replace(shape, by.flat());
 }
 
 }  // namespace bch

@@ -11,7 +11,7 @@
 #include "layout/format/cut_discs.hpp"
 #include "layout/format/leaf_segments.hpp"
 
-namespace bch {
+namespace bch::detail {
 namespace {
 
 /// What ShapeStorage::put_level() was given.
@@ -113,4 +113,4 @@ FlatShape flat_shape(const ShapeArrays& arrays, std::size_t shape) {
   return flat;
 }
 
-}  // namespace bch
+}  // namespace bch::detail

@@ -5,11 +5,12 @@
 
 #include <cstddef>
 
-#include "layout/format/outline.hpp"
+#include <bch/outline.hpp>
+
 #include "layout/format/shape_arrays.hpp"
 #include "layout/shape_set/shape_flattener.hpp"
 
-namespace bch {
+namespace bch::detail {
 
 /// A shape of a set as ShapeStorage::put() was given it, but for its plan and its outline's grid step, which are not
 /// stored.
@@ -19,4 +20,4 @@ FlatShape flat_shape(const ShapeArrays& arrays, std::size_t shape);
 /// Reads a shape's outline from a set, without its grid step, which is not stored; without contours where the set has none.
 Outline outline_of(const ShapeArrays& arrays, std::size_t shape);
 
-}  // namespace bch
+}  // namespace bch::detail

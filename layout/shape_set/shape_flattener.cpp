@@ -13,7 +13,7 @@
 #include "layout/enclosing_disc/enclosing_disc.hpp"
 #include "layout/format/leaf_segments.hpp"
 
-namespace bch {
+namespace bch::detail {
 namespace {
 
 constexpr float infinity = std::numeric_limits<float>::infinity();
@@ -134,4 +134,4 @@ void ShapeFlattener::add_segments(const Hierarchy& hierarchy, FlatShape& flat) {
   }
 }
 
-}  // namespace bch
+}  // namespace bch::detail

@@ -6,12 +6,13 @@
 #include <cstddef>
 #include <vector>
 
+#include <bch/shape_set.hpp>
+
 #include "layout/culling/interior.hpp"
 #include "layout/culling/supports.hpp"
 #include "layout/shape_set/bvh8.hpp"
-#include "layout/shape_set/shape_set.hpp"
 
-namespace bch {
+namespace bch::detail {
 
 /// All that a set stores of a shape, before it has a place there.
 struct FlatShape {
@@ -55,4 +56,4 @@ class ShapeFlattener {
       held_;  ///< numbers of segments: of all by the outline's points, and of one leaf
 };
 
-}  // namespace bch
+}  // namespace bch::detail

@@ -1,15 +1,23 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include "layout/shape_set/shape_set.hpp"
-
+#include <algorithm>
+#include <cmath>
 #include <stdexcept>
 #include <string>
 #include <utility>
 
-#include "layout/shape_set/shape_set_builder.hpp"
+#include <bch/shape_set.hpp>
+#include <bch/shape_set_builder.hpp>
+
+#include "layout/base/rounding.hpp"
+#include "layout/format/cut_discs.hpp"
+#include "layout/format/shape_arrays.hpp"
 
 namespace bch {
+
+using namespace detail;
+
 namespace {
 
 bool rows_in_order(std::span<const Root> roots) {
@@ -27,12 +35,11 @@ bool is_solid(const ShapeArrays& arrays) {
 }
 
 ShapeSet build(std::span<const Shape> shapes, const ShapeSetPlan& plan) {
-  ShapeFlattener flattener(plan);
+  PreparedShape prepared(plan);
   ShapeSetBuilder builder(plan, shapes.size());
-  FlatShape flat;
   for (std::size_t s = 0; s < shapes.size(); ++s) {
-    flattener.flatten(shapes[s], s, flat);
-    builder.add(flat);
+    prepared.prepare(shapes[s], s);
+    builder.add(prepared);
   }
   return std::move(builder).finish();
 }
@@ -58,6 +65,12 @@ ShapeSetView view_of(const ShapeArrays& arrays) {
           .segment_margin = or_null(arrays.segment_margin)};
 }
 
+void require(bool is_there, const char* what, std::uint32_t index, std::uint32_t count) {
+  if (!is_there)
+    throw std::out_of_range(std::string("shape set: ") + what + " " + std::to_string(index) + " of " +
+                            std::to_string(count));
+}
+
 }  // namespace
 
 void validate(const ShapeSetPlan& plan) {
@@ -68,21 +81,82 @@ void validate(const ShapeSetPlan& plan) {
       throw std::invalid_argument("shape set: depth " + std::to_string(plan.depths[i]) + " does not ascend");
 }
 
+struct ShapeSet::State {
+  ShapeArrays arrays;
+  std::shared_ptr<const void> memory;
+  ShapeSetView view;
+  bool solid;
+};
+
 ShapeSet::ShapeSet(std::span<const Shape> shapes, const ShapeSetPlan& plan) : ShapeSet(build(shapes, plan)) {}
 
 ShapeSet::ShapeSet(const ShapeArrays& arrays, std::shared_ptr<const void> memory)
-    : arrays_(arrays), memory_(std::move(memory)), view_(view_of(arrays)), solid_(is_solid(arrays)) {}
+    : state_(new State{arrays, std::move(memory), view_of(arrays), is_solid(arrays)}) {}
+
+ShapeSet::ShapeSet(ShapeSet&&) noexcept = default;
+ShapeSet& ShapeSet::operator=(ShapeSet&&) noexcept = default;
+ShapeSet::~ShapeSet() = default;
+
+void ShapeSet::refer_to(const ShapeArrays& arrays) noexcept {
+  *state_ = {arrays, nullptr, view_of(arrays), is_solid(arrays)};
+}
+
+const ShapeSetView& ShapeSet::view() const noexcept {
+  return state_->view;
+}
+
+const ShapeArrays& ShapeSet::arrays() const noexcept {
+  return state_->arrays;
+}
+
+std::uint32_t ShapeSet::shape_count() const noexcept {
+  return state_->view.shape_count;
+}
+
+std::span<const std::uint32_t> ShapeSet::depths() const noexcept {
+  return state_->arrays.depths;
+}
+
+bool ShapeSet::solid() const noexcept {
+  return state_->solid;
+}
+
+bool ShapeSet::exact_leaves() const noexcept {
+  return !state_->arrays.leaf_segments.empty();
+}
+
+bool ShapeSet::roots_only() const noexcept {
+  return state_->arrays.trees.empty();
+}
 
 ShapeSetPlan ShapeSet::plan() const {
-  return {.depths = {arrays_.depths.begin(), arrays_.depths.end()},
-          .outlines = !arrays_.shape_contours.empty(),
-          .culling = !arrays_.support.empty()};
+  return {.depths = {depths().begin(), depths().end()},
+          .outlines = !arrays().shape_contours.empty(),
+          .culling = !arrays().support.empty()};
 }
 
 std::size_t ShapeSet::bytes() const noexcept {
   std::size_t all = 0;
-  for_each_array([&](const char*, const auto& span) { all += span.size_bytes(); }, arrays_);
-  return all - arrays_.depths.size_bytes();
+  for_each_array([&](const char*, const auto& span) { all += span.size_bytes(); }, arrays());
+  return all - depths().size_bytes();
+}
+
+std::vector<Disc> ShapeSet::discs(std::uint32_t shape, std::uint32_t level) const {
+  require(shape < shape_count(), "shape", shape, shape_count());
+  require(level < level_count(), "level", level, level_count());
+  const CutDiscs cut = cut_discs(view(), shape * level_count() + level);
+  std::vector<Disc> discs;
+  for (std::uint32_t i = 0; i < cut.count; ++i) discs.push_back({cut.x[i], cut.y[i], cut.radius[i]});
+  return discs;
+}
+
+float ShapeSet::reach(std::uint32_t shape) const {
+  require(shape < shape_count(), "shape", shape, shape_count());
+  double farthest = 0;
+  for (std::uint32_t level = 0; level < level_count(); ++level)
+    for (const auto& [x, y, radius] : discs(shape, level))
+      farthest = std::max(farthest, std::hypot(double{x}, double{y}) + double{radius});
+  return rounding::round_up(farthest * (1 + 0x1p-50));
 }
 
 }  // namespace bch

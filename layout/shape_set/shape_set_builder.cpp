@@ -1,13 +1,18 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include "layout/shape_set/shape_set_builder.hpp"
+#include <bch/shape_set_builder.hpp>
 
 #include <algorithm>
-#include <memory>
 #include <utility>
 
+#include "layout/shape_set/shape_flattener.hpp"
+#include "layout/shape_set/shape_storage.hpp"
+
 namespace bch {
+
+using namespace detail;
+
 namespace {
 
 /// So many shapes say how large the others are.
@@ -15,50 +20,95 @@ constexpr std::size_t sample = 64;
 
 }  // namespace
 
-ShapeSetBuilder::ShapeSetBuilder(const ShapeSetPlan& plan, std::size_t expected_shapes)
-    : plan_(plan), expected_shapes_(expected_shapes) {
-  validate(plan);
-  storage_.depths.assign(plan.depths.begin(), plan.depths.end());
+struct PreparedShape::State {
+  ShapeFlattener flattener;
+  FlatShape flat;
+};
+
+PreparedShape::PreparedShape(const ShapeSetPlan& plan) : state_(new State{ShapeFlattener(plan), {}}) {}
+PreparedShape::PreparedShape(PreparedShape&&) noexcept = default;
+PreparedShape& PreparedShape::operator=(PreparedShape&&) noexcept = default;
+PreparedShape::~PreparedShape() = default;
+
+void PreparedShape::prepare(const Shape& shape, std::size_t index) {
+  state_->flattener.flatten(shape, index, state_->flat);
 }
 
-void ShapeSetBuilder::add(const FlatShape& flat) {
-  if (shapes_ == sample && expected_shapes_ > sample) reserve();
+FlatShape& PreparedShape::flat() noexcept {
+  return state_->flat;
+}
+
+const FlatShape& PreparedShape::flat() const noexcept {
+  return state_->flat;
+}
+
+struct ShapeSetBuilder::State {
+  ShapeSetPlan plan;
+  std::size_t expected_shapes;
+  ShapeStorage storage;
+  std::size_t shapes = 0;
+  ShapeExtent end{.rows = first_row};
+
+  void add(const FlatShape& flat);
+  void reserve();
+  ShapeSet finish();
+};
+
+ShapeSetBuilder::ShapeSetBuilder(const ShapeSetPlan& plan, std::size_t expected_shapes)
+    : state_(new State{plan, expected_shapes, {}}) {
+  validate(plan);
+  state_->storage.depths.assign(plan.depths.begin(), plan.depths.end());
+}
+ShapeSetBuilder::ShapeSetBuilder(ShapeSetBuilder&&) noexcept = default;
+ShapeSetBuilder& ShapeSetBuilder::operator=(ShapeSetBuilder&&) noexcept = default;
+ShapeSetBuilder::~ShapeSetBuilder() = default;
+
+void ShapeSetBuilder::add(const PreparedShape& shape) {
+  state_->add(shape.flat());
+}
+
+ShapeSet ShapeSetBuilder::finish() && {
+  return state_->finish();
+}
+
+std::span<const float> ShapeSetBuilder::nodes() const noexcept {
+  const std::span<const float> all = state_->storage.nodes;
+  return all.empty() ? all : all.first(state_->end.nodes);
+}
+
+void ShapeSetBuilder::State::add(const FlatShape& flat) {
+  if (shapes == sample && expected_shapes > sample) reserve();
   const ShapeExtent size = extent_of(flat);
-  ShapeExtent at = end_;
-  at.nodes = next_line(end_.nodes);
-  storage_.resize(plan_, shapes_ + 1);
-  storage_.make_room(at, size);
-  storage_.put(shapes_++, flat, at);
-  for_each_part([](std::size_t& end, std::size_t from, std::size_t length) { end = from + length; }, end_, at,
-                size);
+  ShapeExtent at = end;
+  at.nodes = next_line(end.nodes);
+  storage.resize(plan, shapes + 1);
+  storage.make_room(at, size);
+  storage.put(shapes++, flat, at);
+  for_each_part([](std::size_t& behind, std::size_t from, std::size_t length) { behind = from + length; },
+                end, at, size);
 }
 
 /// Makes room for all shapes, estimated from those so far, and a quarter. Room that is never written to takes
 /// no memory.
-void ShapeSetBuilder::reserve() {
-  const std::size_t times = (expected_shapes_ * 5 / 4 + sample - 1) / sample;
-  ShapeExtent all = end_;
+void ShapeSetBuilder::State::reserve() {
+  const std::size_t times = (expected_shapes * 5 / 4 + sample - 1) / sample;
+  ShapeExtent all = end;
   for_each_part([=](std::size_t& part) { part *= times; }, all);
-  storage_.reserve(plan_, expected_shapes_, all);
+  storage.reserve(plan, expected_shapes, all);
 }
 
-std::span<const float> ShapeSetBuilder::nodes() const noexcept {
-  const std::span<const float> all = storage_.nodes;
-  return all.empty() ? all : all.first(end_.nodes);
-}
-
-ShapeSet ShapeSetBuilder::finish() && {
+ShapeSet ShapeSetBuilder::State::finish() {
   // An add() that threw may have left more.
-  storage_.resize(plan_, shapes_);
-  storage_.make_room(end_, {});
+  storage.resize(plan, shapes);
+  storage.make_room(end, {});
   // Single discs need blocks only to meet those that are not, and never contain what they do not overlap.
   const auto is_single = [](const Root& root) { return root.row == single_disc; };
-  if (std::all_of(storage_.roots.begin(), storage_.roots.end(), is_single)) {
+  if (std::all_of(storage.roots.begin(), storage.roots.end(), is_single)) {
     ShapeStorage roots_only;
-    roots_only.depths = std::move(storage_.depths), roots_only.roots = std::move(storage_.roots);
-    storage_ = std::move(roots_only);
+    roots_only.depths = std::move(storage.depths), roots_only.roots = std::move(storage.roots);
+    storage = std::move(roots_only);
   }
-  const auto kept = std::make_shared<const ShapeStorage>(std::move(storage_));
+  const auto kept = std::make_shared<const ShapeStorage>(std::move(storage));
   return ShapeSet(kept->arrays(), kept);
 }
 

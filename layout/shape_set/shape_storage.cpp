@@ -10,7 +10,7 @@
 
 #include "layout/base/rounding.hpp"
 
-namespace bch {
+namespace bch::detail {
 namespace {
 
 /// Blocks begin on cache lines; windows do not care.
@@ -178,4 +178,4 @@ void ShapeStorage::put_outline(std::size_t shape, const FlatShape& flat, const S
   std::copy(flat.leaf_segments.begin(), flat.leaf_segments.end(), leaf_segments.data() + at.segments);
 }
 
-}  // namespace bch
+}  // namespace bch::detail

@@ -10,7 +10,7 @@
 #include "layout/format/shape_arrays.hpp"
 #include "layout/shape_set/shape_flattener.hpp"
 
-namespace bch {
+namespace bch::detail {
 
 /// The extents of the parts of a shape that have no fixed size: how many elements, or where the first one is.
 struct ShapeExtent {
@@ -73,4 +73,4 @@ struct ShapeStorage {
   void put_outline(std::size_t shape, const FlatShape& flat, const ShapeExtent& at);
 };
 
-}  // namespace bch
+}  // namespace bch::detail

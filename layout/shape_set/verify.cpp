@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include "layout/shape_set/verify.hpp"
+#include <bch/verify.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -9,8 +9,7 @@
 #include "layout/shape_set/flat_shape.hpp"
 #include "layout/shape_set/verify_parts.hpp"
 
-namespace bch {
-namespace verification {
+namespace bch::detail::verification {
 
 std::string text_of(const Disc& disc) {
   std::string text = "(";
@@ -52,7 +51,11 @@ void verify_shape(const Look& look) {
 }
 
 }  // namespace
-}  // namespace verification
+}  // namespace bch::detail::verification
+
+namespace bch {
+
+using namespace detail;
 
 std::string text_of(const Finding& finding) {
   std::string text = "shape ";

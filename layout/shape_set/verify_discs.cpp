@@ -9,7 +9,7 @@
 
 // What follows from a shape's discs alone.
 
-namespace bch::verification {
+namespace bch::detail::verification {
 namespace {
 
 void verify_parts(const Look& look, std::uint32_t level) {
@@ -70,4 +70,4 @@ void verify_supports(const Look& look) {
                  static_cast<double>(expected[k]));
 }
 
-}  // namespace bch::verification
+}  // namespace bch::detail::verification

@@ -11,12 +11,13 @@
 #include "layout/culling/profile.hpp"
 #include "layout/culling/supports.hpp"
 #include "layout/enclosing_disc/enclosing_disc.hpp"
+#include "layout/format/contours.hpp"
 #include "layout/format/leaf_segments.hpp"
 #include "layout/shape_set/verify_parts.hpp"
 
 // What follows from a shape's outline, or, where it is not stored, what may not stick out of its discs.
 
-namespace bch::verification {
+namespace bch::detail::verification {
 namespace {
 
 constexpr float infinity = std::numeric_limits<float>::infinity();
@@ -286,4 +287,4 @@ void verify_hull(const Look& look) {
       look.say("extremes", no_level, "point " + std::to_string(k) + " sticks out of the discs");
 }
 
-}  // namespace bch::verification
+}  // namespace bch::detail::verification

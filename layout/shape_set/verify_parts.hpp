@@ -8,14 +8,16 @@
 #include <string>
 #include <vector>
 
+#include <bch/outline.hpp>
+#include <bch/shape_set.hpp>
+#include <bch/verify.hpp>
+
 #include "layout/base/shortest.hpp"
 #include "layout/format/cut_discs.hpp"
-#include "layout/format/outline.hpp"
-#include "layout/shape_set/shape_set.hpp"
-#include "layout/shape_set/verify.hpp"
+#include "layout/format/shape_arrays.hpp"
 
 /// The parts of verify(), and what they share.
-namespace bch::verification {
+namespace bch::detail::verification {
 
 /// A shape of a set that is verified, and the list that takes the findings.
 struct Look {
@@ -57,4 +59,4 @@ void verify_contours(const Look& look, const Outline& outline);
 void verify_cover(const Look& look, const Outline& outline, std::uint32_t level);
 void verify_segments(const Look& look);
 
-}  // namespace bch::verification
+}  // namespace bch::detail::verification

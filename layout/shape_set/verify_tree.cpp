@@ -10,7 +10,7 @@
 
 #include "layout/shape_set/verify_parts.hpp"
 
-namespace bch::verification {
+namespace bch::detail::verification {
 namespace {
 
 constexpr float infinity = std::numeric_limits<float>::infinity();
@@ -153,4 +153,4 @@ void verify_tree(const Look& look, std::uint32_t level) {
   tree.verify_blocks();
 }
 
-}  // namespace bch::verification
+}  // namespace bch::detail::verification

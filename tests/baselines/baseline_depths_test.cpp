@@ -8,8 +8,9 @@
 #include <cstdio>
 #include <string>
 
+#include <bch/default_characters.hpp>
+
 #include "baselines/oracle.hpp"
-#include "layout/default_character/default_characters.hpp"
 #include "tests/support/baseline_scene.hpp"
 
 // What theory says of limited depth and of coarser hierarchies: exact hits stay hits at every depth, and a

@@ -8,10 +8,11 @@
 #include <cstdio>
 #include <string>
 
+#include <bch/collide.hpp>
+
 #include "baselines/oracle.hpp"
 #include "baselines/placement.hpp"
 #include "baselines/reference.hpp"
-#include "kernel/collide/collide.hpp"
 #include "tests/support/baseline_scene.hpp"
 #include "tests/support/brute_force.hpp"
 #include "tests/support/character_shapes.hpp"

@@ -8,11 +8,12 @@
 #include <numbers>
 #include <vector>
 
+#include <bch/default_characters.hpp>
+
 #include "baselines/obb_overlap.hpp"
 #include "baselines/obb_tree.hpp"
 #include "baselines/rectangle_tree.hpp"
 #include "layout/character/skinning.hpp"
-#include "layout/default_character/default_characters.hpp"
 #include "tests/support/complaint.hpp"
 #include "tests/support/scenes.hpp"
 
@@ -100,7 +101,7 @@ TEST(ObbTree, HoldsWhatItIsBuiltFrom) {
     expect_sound(build_obb_tree(facets), facets.size());
   }
   const Character man = default_male();
-  Skinner skinner(man);
+  detail::Skinner skinner(man);
   const std::vector<Facet> facets = triangle_facets(skinner.pose({0, 1.5f}), man.triangles);
   const ObbTree tree = build_obb_tree(facets);
   expect_sound(tree, facets.size());

@@ -10,8 +10,9 @@
 #include <set>
 #include <string>
 
-#include "layout/default_character/default_characters.hpp"
-#include "layout/outline/union_outline.hpp"
+#include <bch/default_characters.hpp>
+#include <bch/outline_builder.hpp>
+
 #include "tests/support/baseline_scene.hpp"
 #include "tests/support/brute_force.hpp"
 #include "tests/support/complaint.hpp"

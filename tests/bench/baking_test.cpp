@@ -11,10 +11,12 @@
 #include <numeric>
 #include <string>
 
+#include <bch/default_characters.hpp>
+
 #include "bench/base/exit_codes.hpp"
 #include "bench/characters/baked_output.hpp"
 #include "layout/baked/file_bytes.hpp"
-#include "layout/default_character/default_characters.hpp"
+#include "layout/format/shape_set_view.hpp"
 #include "tests/support/baked_bytes.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -72,13 +74,13 @@ TEST(BakingOfRoots, AreThoseOfTheOutlines) {
   const ShapeSet all = bake_shapes(characters, poses, 0.01, {.depths = {0, all_depths}});
   ASSERT_EQ(roots.shape_count(), all.shape_count());
   for (std::uint32_t shape = 0; shape < roots.shape_count(); ++shape) {
-    const Root &one = roots.view().roots[shape], &other = all.view().roots[2 * shape];
+    const detail::Root &one = roots.view().roots[shape], &other = all.view().roots[2 * shape];
     EXPECT_TRUE(one.x == other.x && one.y == other.y && one.radius == other.radius) << shape;
   }
 }
 
 std::string content(const std::string& file) {
-  const FileBytes read = read_file(file);
+  const detail::FileBytes read = detail::read_file(file);
   return {reinterpret_cast<const char*>(read.bytes.data()), read.bytes.size()};
 }
 

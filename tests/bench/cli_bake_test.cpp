@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "layout/format/shape_set_view.hpp"
 #include "tests/support/baked_bytes.hpp"
 #include "tests/support/bch_run.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -77,7 +78,7 @@ TEST(Cli, InspectVerifiesABakedFile) {
 
 TEST(Cli, VerifyNamesALie) {
   BakedBytes bytes(ShapeSet(few_shapes(), {.outlines = true}), origins_of(3));
-  bytes.section<Profile>(baked::Section::profiles)[1].sectors[4].outer -= 0.01f;
+  bytes.section<detail::Profile>(detail::baked::Section::profiles)[1].sectors[4].outer -= 0.01f;
   bytes.seal();
   const TemporaryFolder folder;
   const std::string file = folder.write("lie.bch", bytes.text());

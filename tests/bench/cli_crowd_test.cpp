@@ -5,7 +5,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "kernel/runtime/implementation.hpp"
+#include <bch/query.hpp>
+
 #include "tests/support/bch_run.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -41,7 +42,7 @@ TEST(Cli, CrowdGivesTheSameAnswersEverywhere) {
   EXPECT_EQ(lines(first.csv), first.hits[3] + 1);
   EXPECT_EQ(first, small_crowd(folder, {"--threads", "3"}));
   EXPECT_NE(first, small_crowd(folder, {"--seed", "2"}));
-  for (const kernel::Implementation& row : kernel::implementations())
+  for (const Implementation& row : implementations())
     if (row.supported()) {
       EXPECT_EQ(first, small_crowd(folder, {"--isa", row.name})) << row.name;
     }

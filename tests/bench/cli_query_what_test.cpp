@@ -8,7 +8,8 @@
 #include <set>
 #include <sstream>
 
-#include "kernel/runtime/implementation.hpp"
+#include <bch/query.hpp>
+
 #include "tests/support/program_run.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -182,7 +183,7 @@ TEST_F(QueryWhat, AllPairsAreThoseThatCollide) {
 
 TEST_F(QueryWhat, EveryKernelWritesTheSame) {
   for (const char* what : {"collide", "clearance", "time-of-impact", "contacts", "penetration"})
-    for (const kernel::Implementation& row : kernel::implementations())
+    for (const Implementation& row : implementations())
       if (row.supported()) {
         EXPECT_EQ(run(what, {pairs, "--isa", row.name}).out, run(what, {pairs}).out) << what;
       }

@@ -12,9 +12,10 @@
 #include <cstring>
 #include <vector>
 
+#include <bch/default_characters.hpp>
+
 #include "bench/base/exit_codes.hpp"
 #include "bench/characters/character_bytes.hpp"
-#include "layout/default_character/default_characters.hpp"
 #include "tests/support/gltf_file.hpp"
 #include "tests/support/temporary_folder.hpp"
 

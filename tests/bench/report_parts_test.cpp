@@ -6,6 +6,9 @@
 #include <cmath>
 #include <numbers>
 
+#include <bch/default_characters.hpp>
+#include <bch/pose_shape.hpp>
+
 #include "bench/report/coverage.hpp"
 #include "bench/report/front.hpp"
 #include "bench/report/mesh_volume.hpp"
@@ -17,8 +20,7 @@
 #include "bench/report/words.hpp"
 #include "bench/workload/mesh_detail.hpp"
 #include "layout/character/eigen.hpp"
-#include "layout/default_character/default_characters.hpp"
-#include "layout/scene/pose_shape.hpp"
+#include "layout/character/skinning.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 // What experiments are made of.
@@ -141,7 +143,7 @@ struct People {
 
 People men(std::uint32_t poses) {
   const Character man = default_male();
-  Skinner skinner(man);
+  detail::Skinner skinner(man);
   PoseShaper shaper(man);
   People people;
   for (const PoseTime& at : sample_poses(man, poses)) {
@@ -207,7 +209,7 @@ TEST(ReportParts, ReliefStandsOutOfTheSurface) {
   EXPECT_TRUE(is_closed(relief.triangles));
   float farthest = 0;
   for (std::size_t v = 0; v < flat.vertices.size(); ++v) {
-    const float moved = (to_eigen(relief.vertices[v]) - to_eigen(flat.vertices[v])).norm();
+    const float moved = (detail::to_eigen(relief.vertices[v]) - detail::to_eigen(flat.vertices[v])).norm();
     EXPECT_TRUE(v >= man.vertices.size() || moved == 0) << v;
     farthest = std::max(farthest, moved);
   }

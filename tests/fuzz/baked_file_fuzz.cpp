@@ -5,11 +5,12 @@
 
 #include <vector>
 
+#include <bch/baked.hpp>
+#include <bch/verify.hpp>
+
 #include "layout/baked/checksum.hpp"
-#include "layout/baked/file.hpp"
 #include "layout/baked/format.hpp"
 #include "layout/base/aligned_vector.hpp"
-#include "layout/shape_set/verify.hpp"
 #include "tests/fuzz/target.hpp"
 #include "tests/support/all_queries.hpp"
 #include "tests/support/scenes.hpp"
@@ -17,27 +18,27 @@
 namespace bch::fuzz {
 namespace {
 
-using Image = AlignedVector<std::byte>;
+using Image = detail::AlignedVector<std::byte>;
 
 /// Makes the checksums of all sections that lie inside right, and the header's: else nothing but a good file
 /// would ever pass them.
 void seal(Image& image) {
-  baked::Preamble preamble;
+  detail::baked::Preamble preamble;
   if (image.size() < sizeof preamble) return;
   std::memcpy(&preamble, image.data(), sizeof preamble);
-  for (baked::SectionEntry& entry : preamble.entries) {
+  for (detail::baked::SectionEntry& entry : preamble.entries) {
     if (entry.element_size > 4096 || entry.count > image.size() || entry.offset > image.size()) continue;
     const std::size_t size = entry.count * entry.element_size;
-    const std::size_t whole = baked::padded(size);
+    const std::size_t whole = detail::baked::padded(size);
     if (whole > image.size() - entry.offset) continue;
-    entry.checksum = baked::checksum(std::span<const std::byte>(image).subspan(entry.offset, whole));
+    entry.checksum = detail::baked::checksum(std::span<const std::byte>(image).subspan(entry.offset, whole));
   }
   preamble.header.checksum = 0;
-  preamble.header.checksum = baked::checksum(preamble);
+  preamble.header.checksum = detail::baked::checksum(preamble);
   std::memcpy(image.data(), &preamble, sizeof preamble);
 }
 
-void query(const ShapeSet& set, const kernel::Implementation& implementation) {
+void query(const ShapeSet& set, const Implementation& implementation) {
   test::Crowd crowd;
   for (std::uint32_t s = 0; s < std::min(set.shape_count(), 6u); ++s)
     for (std::uint32_t level = 0; level < std::min(set.level_count(), 4u); ++level)
@@ -65,8 +66,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   if (mode % 2 == 1) fuzz::seal(image);
   try {
     const BakedShapes baked = load_baked(image, "file", nullptr);
-    const auto all = kernel::implementations();
-    const kernel::Implementation& implementation = all[mode / 2 % all.size()];
+    const auto all = implementations();
+    const Implementation& implementation = all[mode / 2 % all.size()];
     if (implementation.supported()) fuzz::query(baked.set, implementation);
   } catch (const BakedFileError&) {
   }

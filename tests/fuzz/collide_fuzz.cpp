@@ -7,8 +7,9 @@
 #include <cmath>
 #include <numbers>
 
+#include <bch/collide.hpp>
+
 #include "baselines/reference.hpp"
-#include "kernel/collide/collide.hpp"
 #include "layout/base/rounding.hpp"
 #include "tests/fuzz/target.hpp"
 #include "tests/support/scenes.hpp"
@@ -76,7 +77,7 @@ void check(const ShapeSet& set, const baselines::Reference& reference, const Age
             "the plain traversal answers like brute force");
   }
   std::vector<std::uint8_t> hits(pairs.size());
-  for (const kernel::Implementation& implementation : kernel::implementations()) {
+  for (const Implementation& implementation : implementations()) {
     if (!implementation.supported()) continue;
     collide(set, agents, pairs, hits, {semantics, &implementation});
     require(hits == expected, implementation.name);

@@ -48,10 +48,10 @@ void check(const cli::AgentTable& table, std::uint32_t shapes, std::uint32_t lev
   require(table.index_of.size() == count, "ids differ");
   for (std::size_t i = 0; i < count; ++i) {
     require(table.shape[i] < shapes, "shapes are in range");
-    require(std::abs(table.x[i]) <= rounding::largest_position &&
-                std::abs(table.y[i]) <= rounding::largest_position,
+    require(std::abs(table.x[i]) <= detail::rounding::largest_position &&
+                std::abs(table.y[i]) <= detail::rounding::largest_position,
             "positions are in range");
-    require(std::abs(table.heading[i]) <= rounding::largest_heading, "headings are in range");
+    require(std::abs(table.heading[i]) <= detail::rounding::largest_heading, "headings are in range");
     if (!table.level.empty()) require(table.level[i] < levels, "levels are in range");
     require(!cli::csv_field(table.id[i]).empty(), "ids are not empty");
   }

@@ -10,8 +10,9 @@
 #include <fstream>
 #include <string>
 
+#include <bch/import.hpp>
+
 #include "layout/character/skinning.hpp"
-#include "layout/import/import.hpp"
 #include "tests/fuzz/target.hpp"
 
 namespace bch::fuzz {
@@ -27,7 +28,7 @@ std::filesystem::path write(const std::uint8_t* data, std::size_t size) {
 
 void check(const Character& character) {
   validate(character);
-  Skinner skinner(character);
+  detail::Skinner skinner(character);
   skinner.pose({});
   for (const PoseTime& time : sample_poses(character, 3)) {
     try {

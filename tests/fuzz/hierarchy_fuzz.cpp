@@ -7,9 +7,11 @@
 #include <stdexcept>
 #include <utility>
 
+#include <bch/hierarchy.hpp>
+#include <bch/shape_set.hpp>
+
+#include "layout/format/contours.hpp"
 #include "layout/format/shape_validation.hpp"
-#include "layout/hierarchy/hierarchy.hpp"
-#include "layout/shape_set/shape_set.hpp"
 #include "tests/fuzz/target.hpp"
 #include "tests/support/hierarchy_checks.hpp"
 #include "tests/support/scenes.hpp"
@@ -42,7 +44,7 @@ void check_contours(Bytes& bytes) {
   const Outline outline = outline_of(bytes);
   validate(outline);
   // A small threshold would halve segments by the million.
-  const auto threshold = static_cast<float>(reach(outline.points) / (1 + bytes.below(64)));
+  const auto threshold = static_cast<float>(detail::reach(outline.points) / (1 + bytes.below(64)));
   for (const SplitRule rule : {SplitRule::centroid, SplitRule::centre}) {
     const Shape shape{outline, contour_hierarchy(outline, threshold, rule)};
     test::expect_covers_outline(shape.hierarchy, outline);

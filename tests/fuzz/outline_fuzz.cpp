@@ -7,9 +7,9 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "layout/outline/builder.hpp"
+#include <bch/outline_builder.hpp>
+
 #include "layout/outline/implementation.hpp"
-#include "layout/outline/union_outline.hpp"
 #include "tests/fuzz/target.hpp"
 #include "tests/support/outline_checks.hpp"
 #include "tests/support/outline_soups.hpp"
@@ -58,7 +58,7 @@ std::vector<std::array<std::uint32_t, 3>> without_points(const test::Soup& soup,
 void check(const test::Soup& soup) {
   const Outline outline = union_outline(soup.positions, soup.triangles);
   validate(outline);
-  for (const OutlineImplementation& implementation : outline_implementations()) {
+  for (const detail::OutlineImplementation& implementation : detail::outline_implementations()) {
     if (!implementation.supported()) continue;
     Outline other;
     OutlineBuilder builder(soup.triangles, soup.positions.size(), soup.positions, implementation);

@@ -157,10 +157,10 @@ void make_destructible(aiScene& scene) {
 
 void check(const Character& character) {
   validate(character);
-  Skinner skinner(character);
+  detail::Skinner skinner(character);
   for (const PoseTime& time : sample_poses(character, 3))
     for (const Vec3& position : skinner.pose(time))
-      require(to_eigen(position).allFinite(), "poses are finite");
+      require(detail::to_eigen(position).allFinite(), "poses are finite");
 }
 
 }  // namespace
@@ -174,7 +174,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   aiScene scene;
   fuzz::fill(bytes, scene);
   try {
-    fuzz::check(import_detail::character_of(import_detail::SceneFile("file", scene, reader), {}).character);
+    fuzz::check(
+        detail::importing::character_of(detail::importing::SceneFile("file", scene, reader), {}).character);
   } catch (const ImportError& error) {
     fuzz::require(std::string(error.what()).find('\n') == std::string::npos, "errors are one line");
   } catch (const std::invalid_argument&) {  // validate(), of which import_character() makes an ImportError

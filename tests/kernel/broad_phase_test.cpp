@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include "kernel/broad_phase/broad_phase.hpp"
+#include <bch/broad_phase.hpp>
 
 #include <gtest/gtest.h>
 #include <oneapi/tbb/global_control.h>
@@ -13,11 +13,13 @@
 #include <tuple>
 #include <utility>
 
-#include "kernel/collide/collide.hpp"
-#include "kernel/distance/clearance.hpp"
-#include "kernel/distance/time_of_impact.hpp"
+#include <bch/clearance.hpp>
+#include <bch/collide.hpp>
+#include <bch/time_of_impact.hpp>
+
 #include "layout/base/heading.hpp"
 #include "layout/base/rounding.hpp"
+#include "layout/format/shape_set_view.hpp"
 #include "tests/support/scenes.hpp"
 
 namespace bch {
@@ -58,15 +60,15 @@ struct Root {
 };
 
 std::vector<Root> roots(const ShapeSet& of, const Agents& agents, bool outer) {
-  const ShapeSetView view = of.view();
+  const detail::ShapeSetView view = of.view();
   std::vector<Root> all;
   for (std::size_t i = 0; i < agents.size(); ++i) {
     const std::size_t root = std::size_t{agents.shape[i]} * of.level_count() + agents.level[i];
-    const Rotation r = rotation(agents.heading[i]);
+    const detail::Rotation r = detail::rotation(agents.heading[i]);
     const double x = view.roots[root].x, y = view.roots[root].y;
     const double radius = outer && view.trees != nullptr ? view.trees[root].outer : view.roots[root].radius;
     all.push_back({r.cosine * x - r.sine * y, r.sine * x + r.cosine * y,
-                   radius + 128 * rounding::unit_roundoff * (std::abs(x) + std::abs(y) + radius)});
+                   radius + 128 * detail::rounding::unit_roundoff * (std::abs(x) + std::abs(y) + radius)});
   }
   return all;
 }

@@ -9,16 +9,17 @@
 #include <string>
 #include <vector>
 
-#include "kernel/collide/collide.hpp"
-#include "kernel/contact/contacts.hpp"
-#include "kernel/distance/clearance.hpp"
-#include "kernel/distance/time_of_impact.hpp"
-#include "kernel/penetration/penetration.hpp"
+#include <bch/clearance.hpp>
+#include <bch/collide.hpp>
+#include <bch/contacts.hpp>
+#include <bch/default_characters.hpp>
+#include <bch/outline_builder.hpp>
+#include <bch/penetration.hpp>
+#include <bch/time_of_impact.hpp>
+
 #include "layout/culling/interior.hpp"
 #include "layout/culling/interior_implementation.hpp"
-#include "layout/default_character/default_characters.hpp"
 #include "layout/hierarchy/builder.hpp"
-#include "layout/outline/builder.hpp"
 #include "layout/outline/implementation.hpp"
 #include "tests/support/scenes.hpp"
 
@@ -66,19 +67,23 @@ TEST_F(CleanRegisters, AfterQueries) {
     std::vector<Vec2> directions(pairs.size());
     std::vector<double> x(pairs.size(), 0.5), y(pairs.size(), -0.25);
     std::vector<Penetration> ways(pairs.size());
-    ContactTable table;
-    for (const kernel::Implementation& isa : kernel::implementations()) {
+    ContactFinder finder;
+    for (const Implementation& isa : implementations()) {
       if (!isa.supported()) continue;
       SCOPED_TRACE(std::string(isa.name) + ", " + std::to_string(count) + " pairs");
       for (const Semantics semantics : {Semantics::boundary, Semantics::solid})
         expect_clean("collide", [&] { collide(shapes, agents, pairs, hits, {semantics, &isa}); });
       for (const double limit : {0.0, 0.5, 10.0})
         expect_clean("clearance", [&] {
-          clearance(shapes, agents, pairs, {values, directions}, {limit, &isa});
+          clearance(shapes, agents, pairs, {values, directions},
+                    {.implementation = &isa, .max_distance = limit});
         });
-      expect_clean("time_of_impact", [&] { time_of_impact(shapes, agents, pairs, {x, y}, values, {&isa}); });
-      expect_clean("penetration", [&] { penetration(shapes, agents, pairs, 16, ways, {&isa}); });
-      expect_clean("contacts", [&] { contacts(shapes, agents, pairs, table, {&isa}); });
+      expect_clean("time_of_impact", [&] {
+        time_of_impact(shapes, agents, pairs, {x, y}, values, {.implementation = &isa});
+      });
+      expect_clean("penetration",
+                   [&] { penetration(shapes, agents, pairs, 16, ways, {.implementation = &isa}); });
+      expect_clean("contacts", [&] { finder.find(shapes, agents, pairs, {.implementation = &isa}); });
     }
   }
 }
@@ -86,21 +91,21 @@ TEST_F(CleanRegisters, AfterQueries) {
 TEST_F(CleanRegisters, AfterConstruction) {
   const Character character = default_male();
   Outline outline;
-  for (const OutlineImplementation& row : outline_implementations()) {
+  for (const detail::OutlineImplementation& row : detail::outline_implementations()) {
     if (!row.supported()) continue;
     OutlineBuilder builder(character.triangles, character.vertices.size(), character.vertices, row);
     expect_clean(std::string("outline, ") + row.name, [&] { builder.build(character.vertices, outline); });
   }
-  for (const DiscImplementation& row : disc_implementations()) {
+  for (const detail::DiscImplementation& row : detail::disc_implementations()) {
     if (!row.supported()) continue;
-    HierarchyBuilder builder(row);
+    detail::HierarchyBuilder builder(row);
     Hierarchy hierarchy;
     expect_clean(std::string("discs, ") + row.name,
                  [&] { builder.contour(outline, 0.01f, SplitRule::centroid, hierarchy); });
   }
-  for (const InteriorImplementation& row : interior_implementations()) {
+  for (const detail::InteriorImplementation& row : detail::interior_implementations()) {
     if (!row.supported()) continue;
-    InteriorBuilder builder(row);
+    detail::InteriorBuilder builder(row);
     expect_clean(std::string("interior, ") + row.name, [&] { builder.build(outline, 1.0); });
   }
 }

@@ -46,11 +46,11 @@ TEST(Clearance, OfSingleDiscs) {
     EXPECT_EQ(of.direction[3], (Vec2{-1, 0}));
     EXPECT_NEAR(of.distance[4], -0.5, 1e-5);  // an agent and itself
     EXPECT_EQ(of.direction[4], (Vec2{1, 0}));
-    EXPECT_EQ(of.nodes[4], (ClosestDiscs{0, 0}));
+    EXPECT_EQ(of.discs[4], (DiscPair{0, 0}));
     const auto limited = answers(set, crowd.agents(), pairs, 4);
     EXPECT_EQ(limited.distance[0], std::numeric_limits<float>::infinity());
     EXPECT_EQ(limited.direction[0], (Vec2{0, 0}));
-    EXPECT_EQ(limited.nodes[0], no_cut_nodes);
+    EXPECT_EQ(limited.discs[0], no_discs);
     const auto touching = answers(set, crowd.agents(), pairs, 0);
     EXPECT_EQ(touching.distance[2], of.distance[2]);
     EXPECT_EQ(touching.distance[0], std::numeric_limits<float>::infinity());
@@ -63,7 +63,7 @@ TEST(Clearance, AnswersThatAreNotAskedForChangeNoOthers) {
   const PairScene scene = random_scene(random, set, 3'000);
   const Answers all = answers(set, scene.crowd.agents(), scene.pairs, 0.5);
   std::vector<float> distance(scene.pairs.size());
-  clearance(set, scene.crowd.agents(), scene.pairs, {distance, {}, {}}, {0.5});
+  clearance(set, scene.crowd.agents(), scene.pairs, {distance, {}, {}}, {.max_distance = 0.5});
   EXPECT_EQ(distance, all.distance);
 }
 
@@ -78,7 +78,7 @@ TEST(Clearance, RejectsBadInputBeforeAnythingIsWritten) {
                                    double max_distance = 1) {
     std::fill(all.distance.begin(), all.distance.end(), 42.0f);
     try {
-      clearance(set, crowd.agents(), pairs, spans, {max_distance});
+      clearance(set, crowd.agents(), pairs, spans, {.max_distance = max_distance});
       FAIL() << "accepted; expected: " << message;
     } catch (const std::invalid_argument& error) {
       EXPECT_NE(std::string(error.what()).find(message), std::string::npos) << error.what();
@@ -96,8 +96,8 @@ TEST(Clearance, RejectsBadInputBeforeAnythingIsWritten) {
   expect_rejected("2 pairs but 1 distances", {all.distance});
   Answers two(2);
   expect_rejected("2 pairs but 1 directions", {two.distance, all.direction});
-  expect_rejected("2 pairs but 1 nodes", {two.distance, two.direction, all.nodes});
-  expect_rejected("2 pairs but 0 distances", {{}, two.direction, two.nodes});
+  expect_rejected("2 pairs but 1 discs", {two.distance, two.direction, all.discs});
+  expect_rejected("2 pairs but 0 distances", {{}, two.direction, two.discs});
 }
 
 }  // namespace

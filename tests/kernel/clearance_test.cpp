@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include "kernel/distance/clearance.hpp"
+#include <bch/clearance.hpp>
 
 #include <gtest/gtest.h>
 #include <oneapi/tbb/global_control.h>
@@ -14,9 +14,10 @@
 #include <utility>
 #include <vector>
 
+#include <bch/collide.hpp>
+
 #include "baselines/clearance_reference.hpp"
 #include "baselines/oracle.hpp"
-#include "kernel/collide/collide.hpp"
 #include "tests/support/clearances.hpp"
 #include "tests/support/differential.hpp"
 
@@ -41,14 +42,14 @@ class ClearanceDifferential : public test::Differential {
 
   void expect_equal_to_brute_force(const PairScene& scene, double max_distance, const std::string& what) {
     const Answers brute_force = answers(reference, scene, max_distance, Method::brute_force);
-    for (const auto& implementation : kernel::implementations()) {
+    for (const auto& implementation : implementations()) {
       if (!implementation.supported()) continue;
       const Answers of = answers(set, scene.crowd.agents(), scene.pairs, max_distance, &implementation);
       for (std::size_t i = 0; i < scene.pairs.size(); ++i)
         ASSERT_TRUE(of.same(i, brute_force, i))
             << what << ", " << implementation.name << ", pair " << i << ": " << of.distance[i] << " between "
-            << of.nodes[i].first << " and " << of.nodes[i].second << ", expected " << brute_force.distance[i]
-            << " between " << brute_force.nodes[i].first << " and " << brute_force.nodes[i].second;
+            << of.discs[i].first << " and " << of.discs[i].second << ", expected " << brute_force.distance[i]
+            << " between " << brute_force.discs[i].first << " and " << brute_force.discs[i].second;
     }
   }
 };
@@ -89,7 +90,7 @@ TEST_F(ClearanceDifferential, ManyShapesAnswerLikeOneOfEach) {
   const ShapeSet large(test::repeated(shapes), four_levels);
   for (std::size_t i = 0; i < scene.crowd.shape.size(); ++i)
     scene.crowd.shape[i] += static_cast<std::uint32_t>(i * shapes.size() % large.shape_count());
-  for (const auto& implementation : kernel::implementations()) {
+  for (const auto& implementation : implementations()) {
     if (!implementation.supported()) continue;
     const Answers of_many = answers(large, scene.crowd.agents(), scene.pairs, 0.5, &implementation);
     for (std::size_t i = 0; i < scene.pairs.size(); ++i)
@@ -148,7 +149,7 @@ TEST_F(ClearanceDifferential, ExchangedAgentsExchangeNodesAndTurnTheDirection) {
   for (std::size_t i = 0; i < scene.pairs.size(); ++i) {
     EXPECT_EQ(other.distance[i], one.distance[i]);
     EXPECT_EQ(other.direction[i], (Vec2{-one.direction[i].x, -one.direction[i].y}));
-    EXPECT_EQ(other.nodes[i], (ClosestDiscs{one.nodes[i].second, one.nodes[i].first}));
+    EXPECT_EQ(other.discs[i], (DiscPair{one.discs[i].second, one.discs[i].first}));
   }
 }
 
@@ -215,7 +216,7 @@ TEST_F(ClearanceDifferential, BoundsTheDistanceOfTheOutlines) {
         return static_cast<long double>(
             shape.hierarchy.nodes[cut(shape.hierarchy, all_depths)[node]].disc.radius);
       };
-      const long double ra = radius(shape_a, all.nodes[i].first), rb = radius(shape_b, all.nodes[i].second);
+      const long double ra = radius(shape_a, all.discs[i].first), rb = radius(shape_b, all.discs[i].second);
       const long double centres = found + ra + rb, reach = shape_a.hierarchy.reach + shape_b.hierarchy.reach;
       EXPECT_LE(exact - found, ra + rb + (ra * ra + rb * rb) / (2 * centres) + 4e-6L * (reach + centres))
           << i;
@@ -267,7 +268,7 @@ TEST_F(ClearanceDifferential, DirectionsAreUnitVectorsAlongWhichDiscsPart) {
     const std::vector<Pair> pair = {{0, 1}};
     const Answers after = answers(set, moved.agents(), pair, infinity);
     EXPECT_LE(after.distance[0], all.distance[i] + 0.00101f) << i;
-    if (after.nodes[0] == all.nodes[i]) {
+    if (after.discs[0] == all.discs[i]) {
       EXPECT_NEAR(after.distance[0] - all.distance[i], 0.001, 1e-5) << i;
     }
   }

@@ -6,12 +6,14 @@
 #include <array>
 #include <vector>
 
+#include <bch/clearance.hpp>
+#include <bch/collide.hpp>
+#include <bch/collide_all.hpp>
+#include <bch/contacts.hpp>
+#include <bch/time_of_impact.hpp>
+
 #include "baselines/reference.hpp"
-#include "kernel/collide/collide.hpp"
-#include "kernel/contact/contacts.hpp"
-#include "kernel/crowd/collide_all.hpp"
-#include "kernel/distance/clearance.hpp"
-#include "kernel/distance/time_of_impact.hpp"
+#include "layout/format/shape_set_view.hpp"
 #include "tests/support/scenes.hpp"
 
 // Agents of which points coincide that a kernel draws lines through: their positions, or the centres of their profiles.
@@ -33,7 +35,7 @@ Shape projection_beside_its_origin(test::Random& random) {
   return {{}, projected_hierarchy(vertices, triangles)};
 }
 
-class Coincidence : public testing::TestWithParam<const kernel::Implementation*> {
+class Coincidence : public testing::TestWithParam<const Implementation*> {
  protected:
   void SetUp() override {
     if (!GetParam()->supported()) GTEST_SKIP() << "this processor has no " << GetParam()->name;
@@ -66,7 +68,7 @@ TEST_P(Coincidence, OfPositionsOfShapesWithoutAnOutline) {
   std::vector<float> distances(count), times(count);
   clearance(set, agents, scene.pairs, {distances, {}}, {.implementation = GetParam()});
   const std::vector<double> nothing(count);
-  time_of_impact(set, agents, scene.pairs, {nothing, nothing}, times, {GetParam()});
+  time_of_impact(set, agents, scene.pairs, {nothing, nothing}, times, {.implementation = GetParam()});
   std::size_t colliding = 0;
   for (std::size_t i = 0; i < count; ++i) {
     const bool hit = discs.boundary(agents, scene.pairs[i], baselines::Method::brute_force);
@@ -87,7 +89,7 @@ TEST_P(Coincidence, OfCentresOfContoursOneInsideTheOther) {
   for (Vec2& p : smaller.points) p = {0.75f * p.x, 0.75f * p.y};
   const std::vector<Shape> shapes = {test::contour_shape(wedge), test::contour_shape(smaller)};
   const ShapeSet set(shapes, {{all_depths}, true});
-  const Profile* const profiles = set.view().profiles;
+  const detail::Profile* const profiles = set.view().profiles;
   ASSERT_EQ(profiles[0].y, 0);
   ASSERT_EQ(profiles[1].y, 0);
   test::PairScene scene;
@@ -116,9 +118,9 @@ TEST_P(Coincidence, OfPositions) {
     EXPECT_EQ(collide_in(set, scene, semantics), collide_in(plain, scene, semantics));
 }
 
-std::vector<const kernel::Implementation*> all_implementations() {
-  std::vector<const kernel::Implementation*> all;
-  for (const kernel::Implementation& each : kernel::implementations()) all.push_back(&each);
+std::vector<const Implementation*> all_implementations() {
+  std::vector<const Implementation*> all;
+  for (const Implementation& each : implementations()) all.push_back(&each);
   return all;
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include "kernel/crowd/collide_all.hpp"
+#include <bch/collide_all.hpp>
 
 #include <gtest/gtest.h>
 #include <oneapi/tbb/global_control.h>
@@ -21,12 +21,12 @@ namespace {
 using baselines::Method;
 using baselines::Reference;
 
-using Rows = std::vector<std::vector<std::uint32_t>>;
+using AllRows = std::vector<std::vector<std::uint32_t>>;
 
-Rows copy_of(const CollidingNeighbours& answer) {
-  Rows rows;
+AllRows copy_of(const Rows<std::uint32_t>& answer) {
+  AllRows rows;
   for (std::uint32_t i = 0; i + 1 < answer.offsets.size(); ++i) {
-    const auto row = answer.of(i);
+    const auto row = answer[i];
     rows.emplace_back(row.begin(), row.end());
   }
   return rows;
@@ -49,8 +49,8 @@ class CollideAll : public testing::Test {
   }
 
   /// Every agent against every other.
-  Rows expected(const Agents& agents, Semantics semantics) const {
-    Rows rows(agents.size());
+  AllRows expected(const Agents& agents, Semantics semantics) const {
+    AllRows rows(agents.size());
     for (std::uint32_t i = 0; i < agents.size(); ++i)
       for (std::uint32_t j = 0; j < agents.size(); ++j) {
         if (i == j) continue;
@@ -67,8 +67,8 @@ TEST_F(CollideAll, EqualsEveryAgentAgainstEveryOther) {
   for (const std::uint32_t size : {400u, 1u, 2u, 150u, 0u}) {
     const test::Crowd crowd = crowd_of(size, 30, size);
     for (const Semantics semantics : {Semantics::boundary, Semantics::solid}) {
-      const Rows rows = expected(crowd.agents(), semantics);
-      for (const auto& implementation : kernel::implementations()) {
+      const AllRows rows = expected(crowd.agents(), semantics);
+      for (const auto& implementation : implementations()) {
         if (!implementation.supported()) continue;
         EXPECT_EQ(copy_of(collider.collide_all(set, crowd.agents(), {semantics, &implementation})), rows)
             << size << " agents, " << implementation.name;
@@ -80,21 +80,21 @@ TEST_F(CollideAll, EqualsEveryAgentAgainstEveryOther) {
 TEST_F(CollideAll, AllInOnePlaceAndNobodyNearAnother) {
   CrowdCollider collider;
   const test::Crowd together = crowd_of(60, 0, 5), apart = crowd_of(60, 1e8, 6);
-  const Rows rows = copy_of(collider.collide_all(set, together.agents(), {Semantics::solid}));
+  const AllRows rows = copy_of(collider.collide_all(set, together.agents(), {Semantics::solid}));
   EXPECT_EQ(rows, expected(together.agents(), Semantics::solid));
   EXPECT_GT(rows[0].size(), 10u);
-  EXPECT_EQ(copy_of(collider.collide_all(set, apart.agents())), Rows(60));
+  EXPECT_EQ(copy_of(collider.collide_all(set, apart.agents())), AllRows(60));
 }
 
 TEST_F(CollideAll, AnyNumberOfThreads) {
   const test::Crowd crowd = crowd_of(20'000, 200, 7);
-  Rows alone;
+  AllRows alone;
   for (int threads = 1; threads <= 8; ++threads) {
     const tbb::global_control allow(tbb::global_control::max_allowed_parallelism, 8);
     tbb::task_arena arena(threads);
     arena.execute([&] {
       CrowdCollider collider;
-      const Rows rows = copy_of(collider.collide_all(set, crowd.agents()));
+      const AllRows rows = copy_of(collider.collide_all(set, crowd.agents()));
       if (alone.empty()) alone = rows;
       EXPECT_EQ(rows, alone) << threads << " threads";
     });

@@ -9,8 +9,9 @@
 #include <type_traits>
 #include <vector>
 
-#include "kernel/collide/collide.hpp"
-#include "kernel/crowd/collide_all.hpp"
+#include <bch/collide.hpp>
+#include <bch/collide_all.hpp>
+
 #include "tests/support/scenes.hpp"
 
 // What collide() refuses, and that it does nothing then.
@@ -78,7 +79,7 @@ TEST_F(BadInput, AFewOfManyAgents) {
   for (int i = 0; i < 98; ++i) crowd.add({0, 100.0 + 10 * i, 0, 0, 0});
   pairs = {{43, 40}, {41, 43}, {41, 40}};
   crowd.shape[39] = crowd.shape[42] = crowd.shape[44] = 2;
-  for (const kernel::Implementation& implementation : kernel::implementations()) {
+  for (const Implementation& implementation : implementations()) {
     if (!implementation.supported()) continue;
     QueryOptions options{.implementation = &implementation};
     std::vector<std::uint8_t> hits(pairs.size());
@@ -99,7 +100,7 @@ TEST_F(BadInput, AFewOfManyAgents) {
 TEST_F(BadInput, AnyValueInAnyPlaceOfABatch) {
   constexpr double nan = std::numeric_limits<double>::quiet_NaN(),
                    infinity = std::numeric_limits<double>::infinity();
-  for (const kernel::Implementation& implementation : kernel::implementations()) {
+  for (const Implementation& implementation : implementations()) {
     if (!implementation.supported()) continue;
     const QueryOptions options{.implementation = &implementation};
     for (const std::uint32_t size : {1, 2, 5, 15, 16, 17, 33, 255, 256, 257}) {
@@ -135,7 +136,7 @@ TEST_F(BadInput, AnyValueInAnyPlaceOfABatch) {
 }
 
 TEST_F(BadInput, TheLargestValuesAreValid) {
-  for (const kernel::Implementation& implementation : kernel::implementations()) {
+  for (const Implementation& implementation : implementations()) {
     if (!implementation.supported()) continue;
     for (const double far : {4.9e8, 5.1e8, 1e9}) {
       crowd = {};

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include "kernel/collide/collide.hpp"
+#include <bch/collide.hpp>
 
 #include <gtest/gtest.h>
 #include <oneapi/tbb/global_control.h>
@@ -13,6 +13,8 @@
 
 #include "baselines/oracle.hpp"
 #include "baselines/reference.hpp"
+#include "kernel/runtime/kernels.hpp"
+#include "layout/format/shape_set_view.hpp"
 #include "tests/support/differential.hpp"
 
 namespace bch {
@@ -26,7 +28,7 @@ using test::Random;
 const ShapeSetPlan plan{{0, 3, 6, all_depths}, true};
 
 std::vector<std::uint8_t> answers(const ShapeSet& set, const Agents& agents, std::span<const Pair> pairs,
-                                  Semantics semantics, const kernel::Implementation& implementation) {
+                                  Semantics semantics, const Implementation& implementation) {
   std::vector<std::uint8_t> hits(pairs.size(), 77);
   collide(set, agents, pairs, hits, {semantics, &implementation});
   return hits;
@@ -45,7 +47,7 @@ void expect_equal_to_brute_force(const ShapeSet& set, const Reference& reference
     const auto hits = std::count(expected.begin(), expected.end(), 1);
     EXPECT_GT(hits, 0) << what;
     EXPECT_LT(hits, std::ssize(expected)) << what;
-    for (const auto& implementation : kernel::implementations()) {
+    for (const auto& implementation : implementations()) {
       if (!implementation.supported()) continue;
       const auto hits_of = answers(set, agents, scene.pairs, semantics, implementation);
       for (std::size_t i = 0; i < expected.size(); ++i)
@@ -115,12 +117,11 @@ TEST_F(Differential, FarFromTheOriginTheAnswerIsTheSame) {
   for (int i = 0; i < 8; ++i) {
     PairScene scene = random_scene(random, set, 25'000);
     const auto at_origin =
-        answers(set, scene.crowd.agents(), scene.pairs, Semantics::solid, kernel::best_implementation());
+        answers(set, scene.crowd.agents(), scene.pairs, Semantics::solid, best_implementation());
     test::move_away(scene, 1e7, -8e8);
     expect_equal_to_brute_force(set, reference, scene, "far " + std::to_string(i));
-    EXPECT_EQ(
-        answers(set, scene.crowd.agents(), scene.pairs, Semantics::solid, kernel::best_implementation()),
-        at_origin);
+    EXPECT_EQ(answers(set, scene.crowd.agents(), scene.pairs, Semantics::solid, best_implementation()),
+              at_origin);
   }
 }
 
@@ -134,15 +135,15 @@ TEST_F(Differential, TheDepthFirstTraversalEqualsBruteForce) {
 TEST_F(Differential, BatchesOfEverySizeAndOffset) {
   PairScene scene = random_scene(random, set, 600);
   const Agents agents = scene.crowd.agents();
-  for (const auto& implementation : kernel::implementations()) {
+  for (const auto& implementation : implementations()) {
     if (!implementation.supported()) continue;
     const auto whole = answers(set, agents, scene.pairs, Semantics::solid, implementation);
     const std::size_t sizes[] = {0,
                                  1,
-                                 implementation.width - 1,
-                                 implementation.width,
-                                 implementation.width + 1,
-                                 3 * implementation.width,
+                                 implementation.kernels->width - 1,
+                                 implementation.kernels->width,
+                                 implementation.kernels->width + 1,
+                                 3 * implementation.kernels->width,
                                  255,
                                  256,
                                  257,
@@ -177,11 +178,10 @@ TEST_F(Differential, AnyNumberOfThreads) {
 TEST_F(Differential, TheOrderWithinAPairDoesNotMatter) {
   PairScene scene = tangent_scene(50'000);
   const auto hits =
-      answers(set, scene.crowd.agents(), scene.pairs, Semantics::boundary, kernel::best_implementation());
+      answers(set, scene.crowd.agents(), scene.pairs, Semantics::boundary, best_implementation());
   for (Pair& pair : scene.pairs) std::swap(pair.first, pair.second);
-  EXPECT_EQ(
-      answers(set, scene.crowd.agents(), scene.pairs, Semantics::boundary, kernel::best_implementation()),
-      hits);
+  EXPECT_EQ(answers(set, scene.crowd.agents(), scene.pairs, Semantics::boundary, best_implementation()),
+            hits);
 }
 
 /// Outlines that meet are found at every level, by every implementation.
@@ -198,7 +198,7 @@ TEST_F(Differential, NoOutlineCrossingIsMissed) {
   std::vector<std::uint8_t> meet;
   for (const Pair pair : scene.pairs) meet.push_back(crosses(agents, pair));
   EXPECT_GT(std::count(meet.begin(), meet.end(), 1), std::ssize(meet) / 3);
-  for (const auto& implementation : kernel::implementations()) {
+  for (const auto& implementation : implementations()) {
     if (!implementation.supported()) continue;
     const auto hits = answers(set, agents, scene.pairs, Semantics::boundary, implementation);
     for (std::size_t i = 0; i < hits.size(); ++i)
@@ -212,8 +212,8 @@ TEST_F(Differential, ShortcutsChangeNoAnswer) {
   EXPECT_LT(plain.bytes(), set.bytes());
   PairScene scene = tangent_scene(100'000);
   for (const Semantics semantics : {Semantics::boundary, Semantics::solid})
-    EXPECT_EQ(answers(plain, scene.crowd.agents(), scene.pairs, semantics, kernel::best_implementation()),
-              answers(set, scene.crowd.agents(), scene.pairs, semantics, kernel::best_implementation()));
+    EXPECT_EQ(answers(plain, scene.crowd.agents(), scene.pairs, semantics, best_implementation()),
+              answers(set, scene.crowd.agents(), scene.pairs, semantics, best_implementation()));
 }
 
 TEST(Solid, AShapeInsideAnotherIsFoundEverywhere) {
@@ -232,7 +232,7 @@ TEST(Solid, AShapeInsideAnotherIsFoundEverywhere) {
     scene.crowd.add({1, 3 + r * std::cos(angle), 4 + r * std::sin(angle), random.uniform(-3, 3), 0});
     scene.pairs.push_back({2 * i, 2 * i + 1});
   }
-  for (const auto& implementation : kernel::implementations()) {
+  for (const auto& implementation : implementations()) {
     if (!implementation.supported()) continue;
     const auto solid = answers(set, scene.crowd.agents(), scene.pairs, Semantics::solid, implementation);
     EXPECT_EQ(std::count(solid.begin(), solid.end(), 1), 4000) << implementation.name;
@@ -250,7 +250,7 @@ TEST(Levels, TheSingleCylinderNeedsNoBlocks) {
   test::Random random(4);
   const PairScene scene = random_scene(random, roots, 5'000);
   const Reference reference(shapes, {{0}, false});
-  for (const auto& implementation : kernel::implementations()) {
+  for (const auto& implementation : implementations()) {
     if (!implementation.supported()) continue;
     const auto hits = answers(roots, scene.crowd.agents(), scene.pairs, Semantics::boundary, implementation);
     for (std::size_t i = 0; i < hits.size(); ++i)
@@ -273,13 +273,13 @@ TEST(Collide, TouchingCountsAndAnAgentMeetsItself) {
 }
 
 TEST(Implementations, AreNamedAndEndWithOnesThatRunEverywhere) {
-  const auto all = kernel::implementations();
+  const auto all = implementations();
   ASSERT_EQ(all.size(), 4u);
   EXPECT_TRUE(all.back().supported());
-  EXPECT_EQ(kernel::implementation("scalar").width, 1u);
-  EXPECT_EQ(&kernel::implementation("sse2"), &all[2]);
+  EXPECT_EQ(implementation("scalar").kernels->width, 1u);
+  EXPECT_EQ(&implementation("sse2"), &all[2]);
   try {
-    kernel::implementation("neon");
+    implementation("neon");
     FAIL();
   } catch (const std::invalid_argument& error) {
     EXPECT_STREQ(error.what(), "no implementation 'neon' (known: avx512, avx2, sse2, scalar)");

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include "kernel/contact/contacts.hpp"
+#include <bch/contacts.hpp>
 
 #include <gtest/gtest.h>
 #include <oneapi/tbb/global_control.h>
@@ -12,9 +12,10 @@
 #include <stdexcept>
 #include <string>
 
+#include <bch/collide.hpp>
+#include <bch/default_characters.hpp>
+
 #include "baselines/contact_reference.hpp"
-#include "kernel/collide/collide.hpp"
-#include "layout/default_character/default_characters.hpp"
 #include "tests/support/character_shapes.hpp"
 #include "tests/support/differential.hpp"
 
@@ -26,25 +27,31 @@ using test::PairScene;
 
 const ShapeSetPlan plan{{0, 3, 6, all_depths}, false};
 
-ContactTable table_of(const ShapeSet& set, const Agents& agents, std::span<const Pair> pairs,
-                      const kernel::Implementation& implementation = kernel::best_implementation()) {
-  ContactTable table;
-  contacts(set, agents, pairs, table, {&implementation});
-  return table;
+/// Rows that own their memory.
+struct Table {
+  std::vector<std::uint64_t> offsets;
+  std::vector<DiscPair> contacts;
+
+  Table(const Rows<DiscPair>& rows = {})
+      : offsets(rows.offsets.begin(), rows.offsets.end()), contacts(rows.values.begin(), rows.values.end()) {}
+  Rows<DiscPair> rows() const { return {offsets, contacts}; }
+  friend bool operator==(const Table&, const Table&) = default;
+};
+
+Table table_of(const ShapeSet& set, const Agents& agents, std::span<const Pair> pairs,
+               const Implementation& implementation = best_implementation()) {
+  return ContactFinder().find(set, agents, pairs, {.implementation = &implementation});
 }
 
 /// Row after row, by every disc of one cut against every disc of the other.
-ContactTable brute_force(const CutLists& cuts, const Agents& agents, std::span<const Pair> pairs) {
-  ContactTable table{{0}, {}};
+Table brute_force(const CutLists& cuts, const Agents& agents, std::span<const Pair> pairs) {
+  Table table;
+  table.offsets = {0};
   for (const Pair pair : pairs) {
     for (const auto& [i, j] : baselines::contacts(cuts, agents, pair)) table.contacts.push_back({i, j});
     table.offsets.push_back(table.contacts.size());
   }
   return table;
-}
-
-bool operator==(const ContactTable& a, const ContactTable& b) {
-  return a.offsets == b.offsets && a.contacts == b.contacts;
 }
 
 class Contacts : public test::Differential {
@@ -54,9 +61,9 @@ class Contacts : public test::Differential {
   CutLists cuts{shapes, plan};
 
   void expect_brute_force(const PairScene& scene, const char* what) {
-    const ContactTable expected = brute_force(cuts, scene.crowd.agents(), scene.pairs);
+    const Table expected = brute_force(cuts, scene.crowd.agents(), scene.pairs);
     EXPECT_GT(expected.contacts.size(), scene.pairs.size() / 3);
-    for (const auto& implementation : kernel::implementations())
+    for (const auto& implementation : implementations())
       if (implementation.supported()) {
         EXPECT_TRUE(table_of(set, scene.crowd.agents(), scene.pairs, implementation) == expected)
             << what << ", " << implementation.name;
@@ -103,22 +110,22 @@ TEST_F(Contacts, AreThereWhereAgentsCollide) {
   const PairScene scene = tangent_scene(50'000);
   std::vector<std::uint8_t> hits(scene.pairs.size());
   collide(set, scene.crowd.agents(), scene.pairs, hits);
-  const ContactTable table = table_of(set, scene.crowd.agents(), scene.pairs);
-  for (std::size_t i = 0; i < hits.size(); ++i) ASSERT_EQ(table.of(i).empty(), hits[i] == 0) << i;
+  const Table table = table_of(set, scene.crowd.agents(), scene.pairs);
+  for (std::size_t i = 0; i < hits.size(); ++i) ASSERT_EQ(table.rows()[i].empty(), hits[i] == 0) << i;
 }
 
 TEST_F(Contacts, OfTheOtherOrderAreTheSameExchanged) {
   PairScene scene = tangent_scene(20'000);
-  const ContactTable table = table_of(set, scene.crowd.agents(), scene.pairs);
+  const Table table = table_of(set, scene.crowd.agents(), scene.pairs);
   for (Pair& pair : scene.pairs) std::swap(pair.first, pair.second);
-  const ContactTable other = table_of(set, scene.crowd.agents(), scene.pairs);
+  const Table other = table_of(set, scene.crowd.agents(), scene.pairs);
   for (std::size_t i = 0; i < scene.pairs.size(); ++i) {
     std::vector<DiscPair> exchanged;
-    for (const DiscPair& contact : other.of(i)) exchanged.push_back({contact.second, contact.first});
+    for (const DiscPair& contact : other.rows()[i]) exchanged.push_back({contact.second, contact.first});
     std::sort(exchanged.begin(), exchanged.end(), [](const DiscPair& a, const DiscPair& b) {
       return a.first < b.first || (a.first == b.first && a.second < b.second);
     });
-    const auto row = table.of(i);
+    const auto row = table.rows()[i];
     ASSERT_TRUE(std::equal(row.begin(), row.end(), exchanged.begin(), exchanged.end())) << i;
   }
 }
@@ -134,10 +141,10 @@ TEST_F(Contacts, OfCoincidentAgentsAndOfAnAgentWithItself) {
       crowd.add({shape, 1, 2, 3, level});
       pairs.insert(pairs.end(), {{agent, agent}, {agent + 1, agent}});
     }
-  const ContactTable table = table_of(set, crowd.agents(), pairs);
+  const Table table = table_of(set, crowd.agents(), pairs);
   EXPECT_TRUE(table == brute_force(cuts, crowd.agents(), pairs));
   for (std::size_t i = 0; i < pairs.size(); ++i) {
-    const auto row = table.of(i);
+    const auto row = table.rows()[i];
     EXPECT_EQ(std::count_if(row.begin(), row.end(), [](const DiscPair& c) { return c.first == c.second; }),
               std::ssize(cuts.of(crowd.agents(), pairs[i].first)));
   }
@@ -145,36 +152,38 @@ TEST_F(Contacts, OfCoincidentAgentsAndOfAnAgentWithItself) {
 
 TEST_F(Contacts, BatchesOfEverySizeAndAnyNumberOfThreads) {
   const PairScene scene = random_scene(random, set, 3'000);
-  const ContactTable whole = table_of(set, scene.crowd.agents(), scene.pairs);
+  const Table whole = table_of(set, scene.crowd.agents(), scene.pairs);
   const tbb::global_control allow(tbb::global_control::max_allowed_parallelism, 8);
   for (const int threads : {1, 2, 3, 8}) {
     tbb::task_arena arena(threads);
     arena.execute([&] {
-      ContactTable table;
+      ContactFinder finder;
       for (const std::size_t size : {0u, 1u, 15u, 16u, 17u, 255u, 256u, 257u, 3000u}) {
-        contacts(set, scene.crowd.agents(), std::span(scene.pairs).first(size), table);
+        const Rows<DiscPair> table =
+            finder.find(set, scene.crowd.agents(), std::span(scene.pairs).first(size));
         ASSERT_EQ(table.offsets.size(), size + 1);
         EXPECT_TRUE(std::equal(table.offsets.begin(), table.offsets.end(), whole.offsets.begin()));
-        ASSERT_EQ(table.contacts.size(), table.offsets[size]);
-        EXPECT_TRUE(std::equal(table.contacts.begin(), table.contacts.end(), whole.contacts.begin()));
+        ASSERT_EQ(table.values.size(), table.offsets[size]);
+        EXPECT_TRUE(std::equal(table.values.begin(), table.values.end(), whole.contacts.begin()));
       }
     });
   }
 }
 
-TEST_F(Contacts, BadInputLeavesTheTable) {
+TEST_F(Contacts, BadInputLeavesTheLastRows) {
   PairScene scene = random_scene(random, set, 10);
-  ContactTable table = table_of(set, scene.crowd.agents(), scene.pairs);
-  const ContactTable before = table;
+  ContactFinder finder;
+  const Rows<DiscPair> rows = finder.find(set, scene.crowd.agents(), scene.pairs);
+  const Table before = rows;
   scene.crowd.heading[7] = std::numeric_limits<double>::quiet_NaN();
   try {
-    contacts(set, scene.crowd.agents(), scene.pairs, table);
+    finder.find(set, scene.crowd.agents(), scene.pairs);
     FAIL();
   } catch (const std::invalid_argument& error) {
     EXPECT_NE(std::string(error.what()).find("pair 3: agent 7: heading nan"), std::string::npos)
         << error.what();
   }
-  EXPECT_TRUE(table == before);
+  EXPECT_TRUE(Table(rows) == before);
 }
 
 }  // namespace

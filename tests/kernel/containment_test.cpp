@@ -6,9 +6,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "kernel/collide/collide.hpp"
+#include <bch/collide.hpp>
+#include <bch/default_characters.hpp>
+
 #include "layout/base/heading.hpp"
-#include "layout/default_character/default_characters.hpp"
+#include "layout/format/contours.hpp"
 #include "tests/support/character_shapes.hpp"
 #include "tests/support/outline_checks.hpp"
 #include "tests/support/scenes.hpp"
@@ -31,7 +33,7 @@ Outline scaled(const Outline& outline, double factor) {
 
 /// Whether a corner of the second agent's outline is inside the first one's: then their areas meet.
 bool has_corner_inside(const Outline& outer, const Outline& inner, double x, double y, double heading) {
-  const Rotation turn = rotation(heading);
+  const detail::Rotation turn = detail::rotation(heading);
   return std::any_of(inner.points.begin(), inner.points.end(), [&](Vec2 p) {
     const double px = p.x, py = p.y;
     return test::inside(outer, x + turn.cosine * px - turn.sine * py, y + turn.sine * px + turn.cosine * py);
@@ -42,7 +44,7 @@ bool has_corner_inside(const Outline& outer, const Outline& inner, double x, dou
 test::PairScene copies_inside(test::Random& random, const Outline& big, const Outline& small) {
   test::PairScene scene;
   constexpr int raster = 40;
-  const double size = reach(big.points);
+  const double size = detail::reach(big.points);
   for (int j = 0; j < raster; ++j)
     for (int i = 0; i < raster; ++i) {
       const double x = size * (2.0 * i / raster - 1), y = size * (2.0 * j / raster - 1),
@@ -67,7 +69,7 @@ void expect_all_found(const std::vector<Shape>& poses) {
     const test::PairScene scene = copies_inside(random, pose.outline, small);
     ASSERT_GT(scene.pairs.size(), 100u);
     std::vector<std::uint8_t> solid(scene.pairs.size()), boundary(scene.pairs.size());
-    for (const auto& implementation : kernel::implementations()) {
+    for (const auto& implementation : implementations()) {
       if (!implementation.supported()) continue;
       collide(set, scene.crowd.agents(), scene.pairs, solid, {Semantics::solid, &implementation});
       EXPECT_EQ(std::count(solid.begin(), solid.end(), 0), 0) << implementation.name;
@@ -114,7 +116,7 @@ TEST(Containment, InsideIsWhatAContourGoesRoundAnOddNumberOfTimes) {
     std::size_t inside = 0, in_a_hole = 0;
     for (const bool culling : {false, true}) {
       const ShapeSet set(shapes, {{all_depths}, true, culling});
-      for (const auto& implementation : kernel::implementations()) {
+      for (const auto& implementation : implementations()) {
         if (!implementation.supported()) continue;
         collide(set, scene.crowd.agents(), scene.pairs, boundary, {Semantics::boundary, &implementation});
         collide(set, scene.crowd.agents(), scene.pairs, solid, {Semantics::solid, &implementation});

@@ -8,13 +8,14 @@
 #include <memory>
 #include <vector>
 
+#include <bch/collide.hpp>
+#include <bch/contacts.hpp>
+#include <bch/time_of_impact.hpp>
+
 #include "baselines/clearance_reference.hpp"
 #include "baselines/contact_reference.hpp"
 #include "baselines/reference.hpp"
 #include "baselines/time_of_impact_reference.hpp"
-#include "kernel/collide/collide.hpp"
-#include "kernel/contact/contacts.hpp"
-#include "kernel/distance/time_of_impact.hpp"
 #include "layout/shape_set/bvh8.hpp"
 #include "tests/support/clearances.hpp"
 #include "tests/support/scenes.hpp"
@@ -49,10 +50,10 @@ Shape comb(test::Random& random, std::uint32_t leaves) {
   return shape;
 }
 
-std::uint32_t levels(const Bvh8& tree, std::uint32_t node) {
-  if (node >= leaf_window) return 1;
+std::uint32_t levels(const detail::Bvh8& tree, std::uint32_t node) {
+  if (node >= detail::leaf_window) return 1;
   std::uint32_t below = 0;
-  for (std::uint32_t lane = 0; lane < block_width; ++lane)
+  for (std::uint32_t lane = 0; lane < detail::block_width; ++lane)
     if (std::isfinite(tree.blocks[node].discs.x[lane]))
       below = std::max(below, levels(tree, tree.blocks[node].child[lane]));
   return below + 1;
@@ -74,7 +75,7 @@ class DeepTrees : public testing::Test {
 
   template <class Compare>
   void on_every_implementation(Compare compare) const {
-    for (const kernel::Implementation& each : kernel::implementations())
+    for (const Implementation& each : implementations())
       if (each.supported()) compare(each);
   }
 
@@ -89,10 +90,10 @@ class DeepTrees : public testing::Test {
 TEST_F(DeepTrees, AreDeep) {
   std::uint32_t most = 0;
   for (const Shape& shape : shapes) {
-    const Bvh8 tree = bvh8(shape.hierarchy, all_depths);
+    const detail::Bvh8 tree = detail::bvh8(shape.hierarchy, all_depths);
     most = std::max(most, levels(tree, tree.top));
   }
-  EXPECT_EQ(most, most_wide_levels);
+  EXPECT_EQ(most, detail::most_wide_levels);
 }
 
 TEST_F(DeepTrees, CollideAndContacts) {
@@ -100,22 +101,23 @@ TEST_F(DeepTrees, CollideAndContacts) {
   const baselines::CutLists cuts(shapes, {});
   const baselines::LeafSegments segments(shapes, {}, Leaves::segments);
   std::vector<std::uint8_t> expected;
-  ContactTable expected_contacts{{0}, {}};
+  std::vector<std::uint64_t> offsets = {0};
+  std::vector<DiscPair> contacts;
   for (const Pair pair : scene.pairs) {
     expected.push_back(discs.boundary(agents(), pair, Method::brute_force));
     for (const auto& [i, j] : baselines::contacts(cuts, agents(), pair, &segments))
-      expected_contacts.contacts.push_back({i, j});
-    expected_contacts.offsets.push_back(expected_contacts.contacts.size());
+      contacts.push_back({i, j});
+    offsets.push_back(contacts.size());
   }
   EXPECT_GT(std::count(expected.begin(), expected.end(), 1), std::ssize(expected) / 6);
-  on_every_implementation([&](const kernel::Implementation& each) {
+  on_every_implementation([&](const Implementation& each) {
     std::vector<std::uint8_t> hits(scene.pairs.size());
     collide(*set, agents(), scene.pairs, hits, {.implementation = &each});
     EXPECT_EQ(hits, expected) << each.name;
-    ContactTable table;
-    contacts(*set, agents(), scene.pairs, table, {&each});
-    EXPECT_EQ(table.offsets, expected_contacts.offsets) << each.name;
-    EXPECT_TRUE(table.contacts == expected_contacts.contacts) << each.name;
+    ContactFinder finder;
+    const Rows<DiscPair> table = finder.find(*set, agents(), scene.pairs, {.implementation = &each});
+    EXPECT_TRUE(std::ranges::equal(table.offsets, offsets)) << each.name;
+    EXPECT_TRUE(std::ranges::equal(table.values, contacts)) << each.name;
   });
 }
 
@@ -123,7 +125,7 @@ TEST_F(DeepTrees, Clearance) {
   baselines::ClearanceReference reference(shapes, {});
   for (const double most : {0.05, 1e9}) {
     const test::Answers expected = test::answers(reference, scene, most, Method::brute_force);
-    on_every_implementation([&](const kernel::Implementation& each) {
+    on_every_implementation([&](const Implementation& each) {
       const test::Answers of = test::answers(*set, agents(), scene.pairs, most, &each);
       for (std::size_t i = 0; i < scene.pairs.size(); ++i)
         ASSERT_TRUE(of.same(i, expected, i)) << each.name << ", pair " << i;
@@ -147,7 +149,7 @@ TEST_F(DeepTrees, ClearanceOfMoreOpenStepsThanAreListed) {
   }();
   baselines::ClearanceReference reference({&thistle, 1}, {});
   const test::Answers expected = test::answers(reference, together, 1e9, Method::brute_force);
-  on_every_implementation([&](const kernel::Implementation& each) {
+  on_every_implementation([&](const Implementation& each) {
     const test::Answers of = test::answers(thistles, together.crowd.agents(), together.pairs, 1e9, &each);
     for (std::size_t i = 0; i < together.pairs.size(); ++i)
       ASSERT_TRUE(of.same(i, expected, i)) << each.name << ", pair " << i;
@@ -166,9 +168,9 @@ TEST_F(DeepTrees, TimeOfImpact) {
   const auto on_the_way =
       std::count_if(expected.begin(), expected.end(), [](float t) { return t > 0 && t <= 1; });
   EXPECT_GT(on_the_way, std::ssize(expected) / 6);
-  on_every_implementation([&](const kernel::Implementation& each) {
+  on_every_implementation([&](const Implementation& each) {
     std::vector<float> times(scene.pairs.size());
-    time_of_impact(*set, agents(), scene.pairs, {x, y}, times, {&each});
+    time_of_impact(*set, agents(), scene.pairs, {x, y}, times, {.implementation = &each});
     for (std::size_t i = 0; i < times.size(); ++i)
       ASSERT_EQ(times[i], expected[i]) << each.name << ", pair " << i;
   });

@@ -14,13 +14,14 @@
 #include <string>
 #include <vector>
 
-#include "kernel/broad_phase/broad_phase.hpp"
-#include "kernel/collide/collide.hpp"
-#include "kernel/contact/contacts.hpp"
-#include "kernel/crowd/collide_all.hpp"
-#include "kernel/distance/clearance.hpp"
-#include "kernel/distance/time_of_impact.hpp"
-#include "kernel/penetration/penetration.hpp"
+#include <bch/broad_phase.hpp>
+#include <bch/clearance.hpp>
+#include <bch/collide.hpp>
+#include <bch/collide_all.hpp>
+#include <bch/contacts.hpp>
+#include <bch/penetration.hpp>
+#include <bch/time_of_impact.hpp>
+
 #include "kernel/runtime/floating_point_state.hpp"
 #include "tests/support/scenes.hpp"
 
@@ -108,14 +109,14 @@ class Determinism : public testing::Test {
     }
   }
 
-  Hashes hashes(const kernel::Implementation* isa, std::size_t batch) const {
+  Hashes hashes(const Implementation* isa, std::size_t batch) const {
     AnswerBytes bytes;
     for (std::size_t i = 0; i < pairs.size(); i += batch)
       answer(isa, i, std::min(batch, pairs.size() - i), bytes);
     CrowdCollider collider;
     const auto all = collider.collide_all(set, crowd.agents(), {Semantics::solid, isa, Leaves::discs});
     bytes.add(AnswerBytes::neighbours, all.offsets);
-    bytes.add(AnswerBytes::neighbours, all.neighbours);
+    bytes.add(AnswerBytes::neighbours, all.values);
     return bytes.hashes();
   }
 
@@ -133,13 +134,12 @@ class Determinism : public testing::Test {
  private:
   /// Without what pads them, and rounded here, to nearest; penetration_test compares directions bit by bit.
   static void add_depths(const std::vector<Penetration>& ways, AnswerBytes& bytes) {
-    const kernel::FloatingPointStateGuard to_nearest;
+    const detail::FloatingPointStateGuard to_nearest;
     for (const auto& [depth, x, y] : ways)
       bytes.add(AnswerBytes::depths, std::array{depth, static_cast<float>(x), static_cast<float>(y)});
   }
 
-  void answer(const kernel::Implementation* isa, std::size_t begin, std::size_t size,
-              AnswerBytes& bytes) const {
+  void answer(const Implementation* isa, std::size_t begin, std::size_t size, AnswerBytes& bytes) const {
     const Agents agents = crowd.agents();
     const auto of = std::span(pairs).subspan(begin, size);
     std::vector<std::uint8_t> hits(size);
@@ -153,30 +153,30 @@ class Determinism : public testing::Test {
     }
     std::vector<float> values(size);
     std::vector<Vec2> directions(size);
-    std::vector<ClosestDiscs> nodes(size);
-    clearance(set, agents, of, {values, directions, nodes}, {1.5, isa});
+    std::vector<DiscPair> nodes(size);
+    clearance(set, agents, of, {values, directions, nodes}, {.implementation = isa, .max_distance = 1.5});
     bytes.add(AnswerBytes::distances, values);
     bytes.add(AnswerBytes::directions, directions);
     bytes.add(AnswerBytes::nodes, nodes);
     time_of_impact(set, agents, of, {std::span(x).subspan(begin, size), std::span(y).subspan(begin, size)},
-                   values, {isa});
+                   values, {.implementation = isa});
     bytes.add(AnswerBytes::times, values);
     std::vector<Penetration> ways(size);
-    penetration(set, agents, of, 16, ways, {isa});
+    penetration(set, agents, of, 16, ways, {.implementation = isa});
     add_depths(ways, bytes);
-    ContactTable table;
-    contacts(set, agents, of, table, {isa, Leaves::discs});
+    ContactFinder finder;
+    Rows<DiscPair> table = finder.find(set, agents, of, {.implementation = isa, .leaves = Leaves::discs});
     for (std::size_t i = 0; i < size; ++i)
       bytes.add(AnswerBytes::contact_counts, std::vector{table.offsets[i + 1] - table.offsets[i]});
-    bytes.add(AnswerBytes::contact_discs, table.contacts);
-    contacts(set, agents, of, table, {isa});
-    bytes.add(AnswerBytes::exact_contacts, table.contacts);
+    bytes.add(AnswerBytes::contact_discs, table.values);
+    table = finder.find(set, agents, of, {.implementation = isa});
+    bytes.add(AnswerBytes::exact_contacts, table.values);
   }
 };
 
 TEST_F(Determinism, OfInstructionSets) {
   EXPECT_GT(pairs.size(), 5'000u);
-  for (const auto& isa : kernel::implementations()) {
+  for (const auto& isa : implementations()) {
     if (isa.supported()) {
       EXPECT_EQ(hashes(&isa, pairs.size()), golden) << isa.name;
     }

@@ -10,13 +10,16 @@
 #include <string>
 #include <vector>
 
+#include <bch/collide.hpp>
+#include <bch/contacts.hpp>
+#include <bch/default_characters.hpp>
+
 #include "baselines/contact_reference.hpp"
 #include "baselines/oracle.hpp"
 #include "baselines/reference.hpp"
-#include "kernel/collide/collide.hpp"
-#include "kernel/contact/contacts.hpp"
 #include "layout/base/rounding.hpp"
-#include "layout/default_character/default_characters.hpp"
+#include "layout/format/shape_arrays.hpp"
+#include "layout/format/shape_set_view.hpp"
 #include "tests/support/character_shapes.hpp"
 #include "tests/support/differential.hpp"
 
@@ -121,7 +124,8 @@ Scene touching_scene(Random& random, const std::vector<Shape>& shapes, std::uint
     const Oracle exact = oracle(shapes, two.agents(), {0, 1});
     const double steps =
         static_cast<double>(shapes[a].outline.grid_step) + static_cast<double>(shapes[b].outline.grid_step);
-    const double beyond = static_cast<double>(exact.distance()) - rounding::outline_grid_steps * steps;
+    const double beyond =
+        static_cast<double>(exact.distance()) - detail::rounding::outline_grid_steps * steps;
     scene.truths.push_back({exact.cross(), beyond / reaches});
     const auto first = static_cast<std::uint32_t>(scene.crowd.shape.size());
     for (const std::size_t k : {0, 1}) scene.crowd.add({two.shape[k], two.x[k], two.y[k], two.heading[k], 0});
@@ -147,7 +151,7 @@ TEST_F(ExactLeaves, MissNoOutlinesThatMeetAndTakeNoOthersForMeeting) {
   std::size_t crossing = 0, near = 0, tested = 0;
   double largest = 0;
   for (const Scene& scene : scenes)
-    for (const auto& implementation : kernel::implementations()) {
+    for (const auto& implementation : implementations()) {
       if (!implementation.supported()) continue;
       const auto hits =
           answers(set, scene.crowd.agents(), scene.pairs, {Semantics::boundary, &implementation});
@@ -155,7 +159,7 @@ TEST_F(ExactLeaves, MissNoOutlinesThatMeetAndTakeNoOthersForMeeting) {
         const auto [cross, gap] = scene.truths[i];
         // A set's single discs decide for shapes that are one.
         const auto is_single = [&](std::uint32_t agent) {
-          return set.arrays().trees[scene.crowd.shape[agent]].segments == no_segments;
+          return set.arrays().trees[scene.crowd.shape[agent]].segments == detail::no_segments;
         };
         ASSERT_TRUE(!cross || hits[i]) << implementation.name << ", pair " << i;
         if (is_single(scene.pairs[i].first) || is_single(scene.pairs[i].second)) continue;
@@ -170,7 +174,8 @@ TEST_F(ExactLeaves, MissNoOutlinesThatMeetAndTakeNoOthersForMeeting) {
               crossing, near, largest);
   EXPECT_GT(crossing, tested / 4);
   EXPECT_GT(near, tested / 50);
-  const double most = rounding::segment_margin + rounding::terms::segment_place * rounding::unit_roundoff;
+  const double most = detail::rounding::segment_margin +
+                      detail::rounding::terms::segment_place * detail::rounding::unit_roundoff;
   EXPECT_LT(largest, most);
   EXPECT_GT(largest, 0.5 * most);
 }
@@ -189,7 +194,7 @@ TEST_F(ExactLeaves, EqualBruteForceWhereOutlinesTouch) {
       expected.push_back(ask(baselines::Method::brute_force));
       ASSERT_EQ(ask(baselines::Method::depth_first), expected.back());
     }
-    for (const auto& implementation : kernel::implementations())
+    for (const auto& implementation : implementations())
       if (implementation.supported()) {
         EXPECT_EQ(answers(set, agents, scene.pairs, {semantics, &implementation}), expected)
             << implementation.name;
@@ -215,15 +220,15 @@ TEST_F(ExactLeaves, DecideContactsAsWell) {
   const Agents agents = scene.crowd.agents();
   const baselines::CutLists cuts(shapes, {});
   const baselines::LeafSegments segments(shapes, {}, Leaves::segments);
-  for (const auto& implementation : kernel::implementations()) {
+  for (const auto& implementation : implementations()) {
     if (!implementation.supported()) continue;
-    ContactTable table;
-    contacts(set, agents, scene.pairs, table, {&implementation});
+    ContactFinder finder;
+    const Rows<DiscPair> table = finder.find(set, agents, scene.pairs, {.implementation = &implementation});
     const auto hits = answers(set, agents, scene.pairs, {Semantics::boundary, &implementation});
     for (std::size_t i = 0; i < hits.size(); ++i) {
-      ASSERT_EQ(table.of(i).empty(), hits[i] == 0) << implementation.name << ", pair " << i;
+      ASSERT_EQ(table[i].empty(), hits[i] == 0) << implementation.name << ", pair " << i;
       const auto expected = baselines::contacts(cuts, agents, scene.pairs[i], &segments);
-      const auto row = table.of(i);
+      const auto row = table[i];
       ASSERT_TRUE(std::equal(row.begin(), row.end(), expected.begin(), expected.end(),
                              [](const DiscPair& contact, const auto& discs) {
                                return contact.first == discs.first && contact.second == discs.second;
@@ -276,7 +281,8 @@ TEST(LeafSegments, OfAListDecideAsWell) {
                                      test::contour_shape(test::polygon({{0, 0}, {0.1f, 0}}))};
   const ShapeSet set(shapes);
   const auto words = set.arrays().leaf_segments;
-  EXPECT_TRUE(std::any_of(words.begin(), words.end(), [](std::uint32_t word) { return word >= leaf_list; }));
+  EXPECT_TRUE(
+      std::any_of(words.begin(), words.end(), [](std::uint32_t word) { return word >= detail::leaf_list; }));
   const std::vector<std::uint32_t> shape = {0, 1};
   const std::vector<Pair> pairs = {{0, 1}};
   const auto hit = [&](double y) {
@@ -294,7 +300,7 @@ TEST(LeafSegments, OfDenseOutlinesAreDiscs) {
   std::vector<Shape> shapes = {test::contour_shape(test::star(random, 20'000, 0.3, 0.31), 0.05f),
                                test::contour_shape(test::star(random, 40, 0.2, 0.4))};
   const ShapeSet set(shapes);
-  const Tree& dense = set.arrays().trees[0];
+  const detail::Tree& dense = set.arrays().trees[0];
   EXPECT_EQ(
       std::count(set.arrays().leaf_segments.begin(), set.arrays().leaf_segments.begin() + dense.count, 0u),
       dense.count);
@@ -335,9 +341,9 @@ TEST(ExactLeavesInput, IsChecked) {
   const std::vector<Pair> pairs = {{0, 1}};
   EXPECT_THROW(answers(set, {shape, zero, zero, zero}, pairs, {.leaves = static_cast<Leaves>(7)}),
                std::invalid_argument);
-  ContactTable table;
-  EXPECT_THROW(contacts(set, {shape, zero, zero, zero}, pairs, table, {.leaves = static_cast<Leaves>(7)}),
-               std::invalid_argument);
+  EXPECT_THROW(
+      ContactFinder().find(set, {shape, zero, zero, zero}, pairs, {.leaves = static_cast<Leaves>(7)}),
+      std::invalid_argument);
 }
 
 }  // namespace

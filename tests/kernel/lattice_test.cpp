@@ -9,13 +9,14 @@
 #include <span>
 #include <vector>
 
+#include <bch/clearance.hpp>
+#include <bch/collide.hpp>
+#include <bch/collide_all.hpp>
+#include <bch/contacts.hpp>
+#include <bch/penetration.hpp>
+#include <bch/time_of_impact.hpp>
+
 #include "baselines/oracle.hpp"
-#include "kernel/collide/collide.hpp"
-#include "kernel/contact/contacts.hpp"
-#include "kernel/crowd/collide_all.hpp"
-#include "kernel/distance/clearance.hpp"
-#include "kernel/distance/time_of_impact.hpp"
-#include "kernel/penetration/penetration.hpp"
 #include "tests/support/scenes.hpp"
 
 // Footprints with integer corners at integer positions and heading 0, as simulators have them. Many corners are exactly
@@ -100,7 +101,7 @@ class Lattice : public testing::Test {
 
 template <class Visit>
 void for_implementations(Visit visit) {
-  for (const auto& implementation : kernel::implementations())
+  for (const auto& implementation : implementations())
     if (implementation.supported()) visit(implementation);
 }
 
@@ -114,7 +115,7 @@ TEST_F(Lattice, CollisionsAreThoseOfTheOutlines) {
       boundary.push_back(cross), solid.push_back(cross || inside);
       crossing += cross, nested += inside, apart += !cross && !inside;
     }
-    for_implementations([&](const kernel::Implementation& implementation) {
+    for_implementations([&](const Implementation& implementation) {
       for (const ShapeSet& set : sets) {
         collide(set, scene.crowd.agents(), scene.pairs, found, {Semantics::boundary, &implementation});
         EXPECT_EQ(found, boundary) << implementation.name;
@@ -133,7 +134,7 @@ TEST_F(Lattice, ClearancesAreThoseOfTheOutlines) {
     std::vector<double> distance;
     for (const Pair pair : scene.pairs)
       distance.push_back(static_cast<double>(oracle(scene.crowd.agents(), pair).distance()));
-    for_implementations([&](const kernel::Implementation& implementation) {
+    for_implementations([&](const Implementation& implementation) {
       std::vector<float> found(scene.pairs.size());
       clearance(sets[0], scene.crowd.agents(), scene.pairs, {found, {}}, {.implementation = &implementation});
       for (std::size_t i = 0; i < found.size(); ++i) {
@@ -146,11 +147,12 @@ TEST_F(Lattice, ClearancesAreThoseOfTheOutlines) {
 
 TEST_F(Lattice, ContactsAreThereWhereOutlinesCross) {
   for_pairs_of_shapes([&](const test::PairScene& scene) {
-    for_implementations([&](const kernel::Implementation& implementation) {
-      ContactTable table;
-      contacts(sets[0], scene.crowd.agents(), scene.pairs, table, {&implementation});
+    for_implementations([&](const Implementation& implementation) {
+      ContactFinder finder;
+      const Rows<DiscPair> table =
+          finder.find(sets[0], scene.crowd.agents(), scene.pairs, {.implementation = &implementation});
       for (std::size_t i = 0; i < scene.pairs.size(); ++i)
-        ASSERT_EQ(!table.of(i).empty(), oracle(scene.crowd.agents(), scene.pairs[i]).cross())
+        ASSERT_EQ(!table[i].empty(), oracle(scene.crowd.agents(), scene.pairs[i]).cross())
             << implementation.name;
     });
   });
@@ -169,9 +171,9 @@ TEST_F(Lattice, TimeOfImpactsAreThoseOfTheOutlines) {
       time.push_back(truth.cross() ? 0 : static_cast<double>(truth.time_of_impact(x.back(), y.back())));
       meetings += time.back() > 0 && time.back() <= 1;
     }
-    for_implementations([&](const kernel::Implementation& implementation) {
+    for_implementations([&](const Implementation& implementation) {
       std::vector<float> found(scene.pairs.size());
-      time_of_impact(sets[0], agents, scene.pairs, {x, y}, found, {&implementation});
+      time_of_impact(sets[0], agents, scene.pairs, {x, y}, found, {.implementation = &implementation});
       for (std::size_t i = 0; i < found.size(); ++i) {
         ASSERT_LE(static_cast<double>(found[i]), time[i]) << implementation.name;
         if (found[i] > 1) continue;
@@ -214,9 +216,9 @@ TEST_F(Lattice, PenetrationsAreThoseOfTheBoxes) {
     const auto box = [&](std::uint32_t agent) {
       return Box(outlines[agents.shape[agent]], agents.x[agent], agents.y[agent]);
     };
-    for_implementations([&](const kernel::Implementation& implementation) {
+    for_implementations([&](const Implementation& implementation) {
       std::vector<Penetration> found(scene.pairs.size());
-      penetration(sets[0], agents, scene.pairs, 4, found, {&implementation});
+      penetration(sets[0], agents, scene.pairs, 4, found, {.implementation = &implementation});
       test::PairScene after = scene;
       for (std::size_t i = 0; i < found.size(); ++i) {
         const auto [first, second] = scene.pairs[i];
@@ -250,13 +252,13 @@ TEST_F(Lattice, NeighboursInACrowdAreThoseOfTheOutlines) {
     }
   EXPECT_NE(boundary, solid);
   CrowdCollider collider;
-  for_implementations([&](const kernel::Implementation& implementation) {
+  for_implementations([&](const Implementation& implementation) {
     for (const ShapeSet& set : sets)
       for (const Semantics semantics : {Semantics::boundary, Semantics::solid}) {
         const auto rows = collider.collide_all(set, crowd.agents(), {semantics, &implementation});
         const auto& expected = semantics == Semantics::solid ? solid : boundary;
         for (std::uint32_t i = 0; i < size; ++i) {
-          const auto row = rows.of(i);
+          const auto row = rows[i];
           EXPECT_TRUE(std::equal(row.begin(), row.end(), expected[i].begin(), expected[i].end()))
               << implementation.name << ", agent " << i;
         }

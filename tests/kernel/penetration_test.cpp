@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include "kernel/penetration/penetration.hpp"
+#include <bch/penetration.hpp>
 
 #include <gtest/gtest.h>
 #include <oneapi/tbb/global_control.h>
@@ -12,12 +12,13 @@
 #include <limits>
 #include <numbers>
 
+#include <bch/clearance.hpp>
+#include <bch/collide.hpp>
+#include <bch/default_characters.hpp>
+
 #include "baselines/oracle.hpp"
 #include "baselines/penetration_reference.hpp"
-#include "kernel/collide/collide.hpp"
-#include "kernel/distance/clearance.hpp"
 #include "layout/base/heading.hpp"
-#include "layout/default_character/default_characters.hpp"
 #include "tests/support/character_shapes.hpp"
 #include "tests/support/differential.hpp"
 #include "tests/support/penetrations.hpp"
@@ -71,7 +72,7 @@ class SeparatingAxisTest : public test::Differential {
     const auto same = [](const Penetration& a, const baselines::Way& b) {
       return a.depth == b.depth && a.x == b.x && a.y == b.y;
     };
-    for (const auto& implementation : kernel::implementations()) {
+    for (const auto& implementation : implementations()) {
       if (!implementation.supported()) continue;
       const auto found_best = best_of(k, set, scene, implementation);
       const auto found_given = along(directions, set, scene, implementation);
@@ -243,7 +244,7 @@ TEST_F(SeparatingAxisTest, LinesAcrossTheToldDirectionPartAgentsThatAreFarApart)
     const Agents agents = scene.crowd.agents();
     /// How far an agent's discs extend along a unit vector, from the origin of the world.
     const auto support = [&](std::uint32_t agent, Real x, Real y) {
-      const Rotation turn = rotation(agents.heading[agent]);
+      const detail::Rotation turn = detail::rotation(agents.heading[agent]);
       const Real c = turn.cosine, s = turn.sine;
       Real most = -HUGE_VALL;
       for (const Disc& disc : cuts.of(agents, agent)) {

@@ -6,12 +6,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include <bch/collide.hpp>
+#include <bch/default_characters.hpp>
+#include <bch/outline_builder.hpp>
+
 #include "baselines/oracle.hpp"
 #include "baselines/reference.hpp"
-#include "kernel/collide/collide.hpp"
 #include "layout/character/skinning.hpp"
-#include "layout/default_character/default_characters.hpp"
-#include "layout/outline/union_outline.hpp"
 #include "tests/support/character_shapes.hpp"
 #include "tests/support/hierarchy_checks.hpp"
 #include "tests/support/outline_checks.hpp"
@@ -51,7 +52,7 @@ void expect_no_crossing_missed(const std::vector<Character>& characters, std::ui
   std::vector<bool> crossing;
   for (const Pair& pair : scene.pairs) crossing.push_back(crosses(agents, pair));
   EXPECT_GT(std::count(crossing.begin(), crossing.end(), true), std::ssize(crossing) / 3);
-  for (const auto& implementation : kernel::implementations()) {
+  for (const auto& implementation : implementations()) {
     if (!implementation.supported()) continue;
     for (const Semantics semantics : {Semantics::boundary, Semantics::solid}) {
       std::vector<std::uint8_t> hits(pairs);
@@ -80,7 +81,7 @@ TEST(RealPoses, NoOutlineCrossingIsMissed) {
 /// Outline against sampling, hierarchy against the mesh, for some poses.
 void expect_sound_poses(const std::vector<Character>& characters, std::uint32_t poses) {
   for (const Character& character : characters) {
-    Skinner skinner(character);
+    detail::Skinner skinner(character);
     for (const PoseTime& time : sample_poses(character, poses)) {
       SCOPED_TRACE(character.name + ", clip " + std::to_string(time.clip) + ", " +
                    std::to_string(time.seconds) + " s");

@@ -11,8 +11,9 @@
 #include <cmath>
 #include <cstdlib>
 
+#include <bch/collide.hpp>
+
 #include "baselines/placement.hpp"
-#include "kernel/collide/collide.hpp"
 #include "layout/base/heading.hpp"
 #include "tests/support/near_tangent.hpp"
 
@@ -91,7 +92,7 @@ void count(Tally& tally, const NearTangent& pair, bool hit) {
   ++tally.false_positives;
   const double gap = pair.gap / pair.reaches();
   tally.largest_gap = std::max(tally.largest_gap, gap);
-  if (gap > rounding::price) ++tally.far_false_positives;
+  if (gap > detail::rounding::price) ++tally.far_false_positives;
 }
 
 void count_bare(Tally& tally, const NearTangent& pair) {
@@ -100,12 +101,12 @@ void count_bare(Tally& tally, const NearTangent& pair) {
   ++tally.bare_misses;
   tally.above += pair.above;
   tally.deepest_bare_miss =
-      std::max(tally.deepest_bare_miss, -pair.gap / (rounding::unit_roundoff * pair.reaches()));
+      std::max(tally.deepest_bare_miss, -pair.gap / (detail::rounding::unit_roundoff * pair.reaches()));
 }
 
-std::vector<const kernel::Implementation*> supported() {
-  std::vector<const kernel::Implementation*> rows;
-  for (const auto& implementation : kernel::implementations())
+std::vector<const Implementation*> supported() {
+  std::vector<const Implementation*> rows;
+  for (const auto& implementation : implementations())
     if (implementation.supported()) rows.push_back(&implementation);
   return rows;
 }
@@ -185,7 +186,7 @@ TEST(RoundingBound, TheSamePairsBreakABareTest) {
   EXPECT_GT(tally.bare_misses, tally.meeting / 20);
   EXPECT_GT(tally.above, tally.bare_misses / 10);
   EXPECT_GT(tally.deepest_bare_miss, 2);
-  EXPECT_LT(tally.deepest_bare_miss, rounding::terms::contact_error);
+  EXPECT_LT(tally.deepest_bare_miss, detail::rounding::terms::contact_error);
 }
 
 /// The largest error seen of every step that rounding.hpp bounds by name, as a share of that bound.
@@ -195,7 +196,7 @@ class Steps {
     const TwoAgents two(pair);
     const baselines::FloatPlacement place = baselines::float_placement(two.agents(), {0, 1});
     const QuadVector to = pair.a->rotation, by = pair.b->rotation, relative = turned_back(to, by);
-    namespace terms = rounding::terms;
+    namespace terms = detail::rounding::terms;
     note(0, float_unit(pair.a->heading), to, terms::heading);
     const QuadVector between{Quad{pair.x} - pair.at_x, Quad{pair.y} - pair.at_y},
         at = turned_back(to, between);
@@ -217,12 +218,12 @@ class Steps {
 
  private:
   static QuadVector float_unit(double heading) {
-    const UnitVector v = unit_vector(heading);
+    const detail::UnitVector v = detail::unit_vector(heading);
     return {v.cosine, v.sine};
   }
   static double length(QuadVector v) { return static_cast<double>(baselines::square_root(square(v))); }
   void note(int step, QuadVector computed, QuadVector exact, double bound_in_u) {
-    const double error = length(computed - exact) / rounding::unit_roundoff;
+    const double error = length(computed - exact) / detail::rounding::unit_roundoff;
     shares_[step] = std::max(shares_[step], error / bound_in_u);
   }
 
@@ -272,7 +273,7 @@ TEST(RoundingBound, HalvedSegmentsDriftLessThanDerived) {
   ASSERT_EQ(all.most().size(), 13u);
   for (int k = 1; k <= 13; ++k) {
     const double off = 2 * all.most()[static_cast<std::size_t>(k) - 1];
-    EXPECT_LE(off, rounding::terms::halved(k)) << k;
+    EXPECT_LE(off, detail::rounding::terms::halved(k)) << k;
     EXPECT_LE(off, (4 * k + 6) / 9.0) << k;
     EXPECT_GE(off, 0.9 * (4 * k + 1) / 9.0) << k;
   }

@@ -15,9 +15,10 @@
 #include <stdexcept>
 #include <vector>
 
-#include "kernel/broad_phase/broad_phase.hpp"
-#include "kernel/collide/collide.hpp"
-#include "kernel/crowd/collide_all.hpp"
+#include <bch/broad_phase.hpp>
+#include <bch/collide.hpp>
+#include <bch/collide_all.hpp>
+
 #include "tests/support/scenes.hpp"
 
 // Queries inside of a caller's own tasks.
@@ -26,15 +27,15 @@ namespace bch {
 namespace {
 
 /// An answer, kept.
-struct Rows {
+struct Kept {
   std::vector<std::uint64_t> begin;
   std::vector<std::uint32_t> neighbours;
 
-  explicit Rows(const CollidingNeighbours& found)
+  explicit Kept(const Rows<std::uint32_t>& found)
       : begin(found.offsets.begin(), found.offsets.end()),
-        neighbours(found.neighbours.begin(), found.neighbours.end()) {}
-  bool operator==(const CollidingNeighbours& found) const {
-    return std::ranges::equal(begin, found.offsets) && std::ranges::equal(neighbours, found.neighbours);
+        neighbours(found.values.begin(), found.values.end()) {}
+  bool operator==(const Rows<std::uint32_t>& found) const {
+    return std::ranges::equal(begin, found.offsets) && std::ranges::equal(neighbours, found.values);
   }
 };
 
@@ -106,7 +107,7 @@ TEST_F(TaskGroups, ATaskBesideAQueryMayThrow) {
 /// An object for each thread, as TBB's users have it: a thread that waits within a call does not begin another with it.
 TEST_F(TaskGroups, AnObjectAThreadIsEnough) {
   std::vector<test::Crowd> crowds;
-  std::vector<Rows> expected;
+  std::vector<Kept> expected;
   for (std::uint32_t k = 0; k < 4; ++k) {
     crowds.push_back(people(2'500 + 500 * k));
     CrowdCollider collider;

@@ -8,16 +8,18 @@
 #include <thread>
 #include <vector>
 
-#include "kernel/broad_phase/broad_phase.hpp"
+#include <bch/broad_phase.hpp>
+#include <bch/clearance.hpp>
+#include <bch/collide.hpp>
+#include <bch/collide_all.hpp>
+#include <bch/contacts.hpp>
+#include <bch/dynamic_shape_set.hpp>
+#include <bch/penetration.hpp>
+#include <bch/time_of_impact.hpp>
+
 #include "kernel/collide/answer.hpp"
-#include "kernel/contact/contacts.hpp"
-#include "kernel/crowd/collide_all.hpp"
 #include "kernel/crowd/neighbour_rows.hpp"
-#include "kernel/distance/clearance.hpp"
-#include "kernel/distance/time_of_impact.hpp"
-#include "kernel/penetration/penetration.hpp"
 #include "kernel/runtime/pair_validation.hpp"
-#include "layout/shape_set/dynamic_shape_set.hpp"
 #include "tests/support/clearances.hpp"
 #include "tests/support/scenes.hpp"
 
@@ -34,16 +36,16 @@ class Threads : public testing::Test {
   test::PairScene scene = random_scene(random, set, 4'999);
   Agents agents = scene.crowd.agents();
 
-  std::vector<std::uint8_t> answers(const kernel::Implementation& implementation, unsigned threads) {
+  std::vector<std::uint8_t> answers(const Implementation& implementation, unsigned threads) {
     std::vector<std::uint8_t> hits(scene.pairs.size());
-    kernel::Arguments arguments = kernel::arguments_for(set.view(), agents, scene.pairs);
+    detail::Arguments arguments = detail::arguments_for(set.view(), agents, scene.pairs);
     arguments.codes = hits.data();
     arguments.mark_near_misses = true;
     std::vector<std::thread> running;
     for (unsigned t = 0; t < threads; ++t)
       running.emplace_back([&, t] {
         const std::size_t n = hits.size();
-        kernel::answer(implementation, arguments, agents, n * t / threads, n * (t + 1) / threads);
+        detail::answer(implementation, arguments, agents, n * t / threads, n * (t + 1) / threads);
       });
     for (std::thread& thread : running) thread.join();
     return hits;
@@ -51,7 +53,7 @@ class Threads : public testing::Test {
 };
 
 TEST_F(Threads, RangesOfOneBatchDoNotMeet) {
-  for (const auto& implementation : kernel::implementations()) {
+  for (const auto& implementation : implementations()) {
     if (!implementation.supported()) continue;
     const auto alone = answers(implementation, 1);
     for (const unsigned threads : {2u, 3u, 8u})
@@ -60,10 +62,10 @@ TEST_F(Threads, RangesOfOneBatchDoNotMeet) {
 }
 
 TEST_F(Threads, ASetIsReadWhileAnotherIsBuilt) {
-  const auto expected = answers(kernel::implementation("sse2"), 1);
+  const auto expected = answers(implementation("sse2"), 1);
   std::vector<std::uint8_t> first, second;
-  std::thread reader([&] { first = answers(kernel::implementation("sse2"), 2); });
-  std::thread other_reader([&] { second = answers(kernel::best_implementation(), 2); });
+  std::thread reader([&] { first = answers(implementation("sse2"), 2); });
+  std::thread other_reader([&] { second = answers(best_implementation(), 2); });
   std::size_t bytes = 0;
   std::thread builder([&] { bytes = ShapeSet(shapes, {{0, all_depths}, true}).bytes(); });
   reader.join();
@@ -80,7 +82,8 @@ struct Everything {
   test::Answers clearances;
   std::vector<float> times;
   std::vector<Penetration> best, along;
-  ContactTable contacts;
+  std::vector<std::uint64_t> contact_offsets;
+  std::vector<DiscPair> contacts;
   std::vector<Pair> candidates;
   std::vector<std::uint64_t> begin;
   std::vector<std::uint32_t> neighbours;
@@ -101,12 +104,15 @@ struct Everything {
     time_of_impact(set, agents, pairs, {way, way}, times);
     penetration(set, agents, pairs, 8, best);
     penetration_along(set, agents, pairs, directions, along);
-    bch::contacts(set, agents, pairs, contacts);
+    ContactFinder finder;
+    const Rows<DiscPair> rows = finder.find(set, agents, pairs);
+    contact_offsets.assign(rows.offsets.begin(), rows.offsets.end());
+    contacts.assign(rows.values.begin(), rows.values.end());
     candidates = candidate_pairs(set, agents);
     CrowdCollider collider;
-    const CollidingNeighbours all = collider.collide_all(set, agents);
+    const Rows<std::uint32_t> all = collider.collide_all(set, agents);
     begin.assign(all.offsets.begin(), all.offsets.end());
-    neighbours.assign(all.neighbours.begin(), all.neighbours.end());
+    neighbours.assign(all.values.begin(), all.values.end());
   }
 
   void expect_same(const Everything& other) const {
@@ -117,8 +123,8 @@ struct Everything {
     EXPECT_EQ(times, other.times);
     EXPECT_EQ(best, other.best);
     EXPECT_EQ(along, other.along);
-    EXPECT_EQ(contacts.offsets, other.contacts.offsets);
-    EXPECT_EQ(contacts.contacts, other.contacts.contacts);
+    EXPECT_EQ(contact_offsets, other.contact_offsets);
+    EXPECT_EQ(contacts, other.contacts);
     EXPECT_EQ(candidates, other.candidates);
     EXPECT_EQ(begin, other.begin);
     EXPECT_EQ(neighbours, other.neighbours);
@@ -144,17 +150,16 @@ TEST_F(Threads, DifferentShapesAreReplacedAtTheSameTime) {
   std::vector<std::thread> running;
   for (std::uint32_t t = 0; t < 4; ++t)
     running.emplace_back([&, t] {
-      ShapeFlattener flattener(set.plan());
-      FlatShape flat;
+      PreparedShape prepared(set.plan());
       for (std::uint32_t shape = t; shape < set.shape_count(); shape += 4) {
-        flattener.flatten(shapes[shape], shape, flat);
-        EXPECT_TRUE(dynamic.try_replace(shape, flat));
+        prepared.prepare(shapes[shape], shape);
+        EXPECT_TRUE(dynamic.try_replace(shape, prepared));
       }
     });
   for (std::thread& thread : running) thread.join();
-  const auto expected = answers(kernel::best_implementation(), 1);
+  const auto expected = answers(best_implementation(), 1);
   set = ShapeSet(dynamic.set().arrays(), nullptr);
-  EXPECT_EQ(answers(kernel::best_implementation(), 1), expected);
+  EXPECT_EQ(answers(best_implementation(), 1), expected);
 }
 
 TEST_F(Threads, RowsOfNeighboursAreFilledAtTheSameTime) {
@@ -164,7 +169,7 @@ TEST_F(Threads, RowsOfNeighboursAreFilledAtTheSameTime) {
   const std::vector<std::uint8_t> hits(pairs.size(), 1);
   std::vector<std::uint64_t> begin(201);
   std::vector<std::uint32_t> neighbours(200 * 199);
-  const kernel::NeighbourRows rows{pairs, hits, begin, neighbours};
+  const detail::NeighbourRows rows{pairs, hits, begin, neighbours};
   const auto in_parts = [](std::size_t count, auto work) {
     std::vector<std::thread> running;
     for (std::size_t t = 0; t < 4; ++t)

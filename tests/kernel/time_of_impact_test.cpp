@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include "kernel/distance/time_of_impact.hpp"
+#include <bch/time_of_impact.hpp>
 
 #include <gtest/gtest.h>
 #include <oneapi/tbb/global_control.h>
@@ -13,10 +13,11 @@
 #include <string>
 #include <vector>
 
+#include <bch/clearance.hpp>
+#include <bch/collide.hpp>
+
 #include "baselines/oracle.hpp"
 #include "baselines/time_of_impact_reference.hpp"
-#include "kernel/collide/collide.hpp"
-#include "kernel/distance/clearance.hpp"
 #include "tests/support/differential.hpp"
 
 namespace bch {
@@ -37,9 +38,10 @@ struct Motion : PairScene {
 };
 
 std::vector<float> times(const ShapeSet& set, const Motion& motion,
-                         const kernel::Implementation* implementation = nullptr) {
+                         const Implementation* implementation = nullptr) {
   std::vector<float> all(motion.pairs.size(), -1);
-  time_of_impact(set, motion.crowd.agents(), motion.pairs, motion.displacements(), all, {implementation});
+  time_of_impact(set, motion.crowd.agents(), motion.pairs, motion.displacements(), all,
+                 {.implementation = implementation});
   return all;
 }
 
@@ -82,7 +84,7 @@ class TimeOfImpactDifferential : public test::Differential {
     const auto between =
         std::count_if(brute_force.begin(), brute_force.end(), [](float t) { return t > 0 && t <= 1; });
     EXPECT_GT(between, std::ssize(brute_force) / 20) << what;
-    for (const auto& implementation : kernel::implementations()) {
+    for (const auto& implementation : implementations()) {
       if (!implementation.supported()) continue;
       const std::vector<float> of = times(set, motion, &implementation);
       for (std::size_t i = 0; i < motion.pairs.size(); ++i)
@@ -152,7 +154,7 @@ TEST_F(TimeOfImpactDifferential, WithoutShortcuts) {
   const ShapeSet plain(shapes, {.depths = four_levels.depths, .culling = false});
   const Motion motion = approaching(20'000, 1);
   const std::vector<float> expected = times(set, motion);
-  for (const auto& implementation : kernel::implementations()) {
+  for (const auto& implementation : implementations()) {
     if (!implementation.supported()) continue;
     EXPECT_EQ(times(plain, motion, &implementation), expected) << implementation.name;
   }

@@ -8,14 +8,15 @@
 #include <memory>
 #include <vector>
 
+#include <bch/collide.hpp>
+#include <bch/collide_all.hpp>
+#include <bch/contacts.hpp>
+#include <bch/time_of_impact.hpp>
+
 #include "baselines/contact_reference.hpp"
 #include "baselines/penetration_reference.hpp"
 #include "baselines/reference.hpp"
 #include "baselines/time_of_impact_reference.hpp"
-#include "kernel/collide/collide.hpp"
-#include "kernel/contact/contacts.hpp"
-#include "kernel/crowd/collide_all.hpp"
-#include "kernel/distance/time_of_impact.hpp"
 #include "tests/support/clearances.hpp"
 #include "tests/support/penetrations.hpp"
 #include "tests/support/scenes.hpp"
@@ -143,7 +144,7 @@ class UnequalSizes : public testing::Test {
 
 template <class Visit>
 void for_implementations(Visit visit) {
-  for (const auto& implementation : kernel::implementations())
+  for (const auto& implementation : implementations())
     if (implementation.supported()) visit(implementation);
 }
 
@@ -154,7 +155,7 @@ TEST_F(UnequalSizes, CollisionsEqualBruteForce) {
       expected.push_back(discs->boundary(scene.crowd.agents(), pair, Method::brute_force));
     EXPECT_GT(std::count(expected.begin(), expected.end(), 1),
               static_cast<std::ptrdiff_t>(found.size() / 10));
-    for_implementations([&](const kernel::Implementation& implementation) {
+    for_implementations([&](const Implementation& implementation) {
       for (const ShapeSet& set : sets) {
         collide(set, scene.crowd.agents(), scene.pairs, found, {Semantics::boundary, &implementation});
         EXPECT_EQ(found, expected) << implementation.name;
@@ -168,7 +169,7 @@ TEST_F(UnequalSizes, SolidCollisionsEqualBruteForce) {
     std::vector<std::uint8_t> expected, found(scene.pairs.size());
     for (const Pair pair : scene.pairs)
       expected.push_back(discs->solid(scene.crowd.agents(), pair, Method::brute_force));
-    for_implementations([&](const kernel::Implementation& implementation) {
+    for_implementations([&](const Implementation& implementation) {
       for (const ShapeSet& set : sets) {
         collide(set, scene.crowd.agents(), scene.pairs, found, {Semantics::solid, &implementation});
         EXPECT_EQ(found, expected) << implementation.name;
@@ -180,12 +181,13 @@ TEST_F(UnequalSizes, SolidCollisionsEqualBruteForce) {
 TEST_F(UnequalSizes, ContactsEqualBruteForce) {
   const baselines::LeafSegments segments(shapes, plan, Leaves::segments);
   for (const PairScene& scene : scenes(test::samples(12'000)))
-    for_implementations([&](const kernel::Implementation& implementation) {
-      ContactTable table;
-      contacts(sets[0], scene.crowd.agents(), scene.pairs, table, {&implementation});
+    for_implementations([&](const Implementation& implementation) {
+      ContactFinder finder;
+      const Rows<DiscPair> table =
+          finder.find(sets[0], scene.crowd.agents(), scene.pairs, {.implementation = &implementation});
       for (std::size_t i = 0; i < scene.pairs.size(); ++i) {
         const auto expected = baselines::contacts(*cuts, scene.crowd.agents(), scene.pairs[i], &segments);
-        const auto found = table.of(i);
+        const auto found = table[i];
         ASSERT_TRUE(std::equal(
             found.begin(), found.end(), expected.begin(), expected.end(),
             [](const DiscPair& a, const auto& b) { return a.first == b.first && a.second == b.second; }))
@@ -198,7 +200,7 @@ TEST_F(UnequalSizes, ClearancesEqualBruteForce) {
   baselines::ClearanceReference reference(shapes, plan);
   for (const PairScene& scene : scenes(test::samples(12'000))) {
     const auto expected = test::answers(reference, scene, HUGE_VAL, Method::brute_force);
-    for_implementations([&](const kernel::Implementation& implementation) {
+    for_implementations([&](const Implementation& implementation) {
       const auto found = test::answers(sets[0], scene.crowd.agents(), scene.pairs, HUGE_VAL, &implementation);
       for (std::size_t i = 0; i < scene.pairs.size(); ++i)
         ASSERT_TRUE(found.same(i, expected, i)) << implementation.name << ", pair " << i;
@@ -218,8 +220,8 @@ TEST_F(UnequalSizes, TimeOfImpactsEqualBruteForce) {
       x.push_back(length * std::cos(angle)), y.push_back(length * std::sin(angle));
     }
     std::vector<float> found(scene.pairs.size());
-    for_implementations([&](const kernel::Implementation& implementation) {
-      time_of_impact(sets[0], agents, scene.pairs, {x, y}, found, {&implementation});
+    for_implementations([&](const Implementation& implementation) {
+      time_of_impact(sets[0], agents, scene.pairs, {x, y}, found, {.implementation = &implementation});
       for (std::size_t i = 0; i < found.size(); ++i)
         ASSERT_EQ(found[i], reference.query(agents, scene.pairs[i], x[i], y[i], Method::brute_force))
             << implementation.name << ", pair " << i;
@@ -254,11 +256,11 @@ TEST_F(UnequalSizes, NeighboursEqualBruteForce) {
       for (std::uint32_t j = 0; j < count; ++j)
         if (i != j && discs->boundary(scene.crowd.agents(), {i, j}, Method::brute_force))
           expected[i].push_back(j);
-    for_implementations([&](const kernel::Implementation& implementation) {
+    for_implementations([&](const Implementation& implementation) {
       const auto rows =
           collider.collide_all(sets[0], scene.crowd.agents(), {Semantics::boundary, &implementation});
       for (std::uint32_t i = 0; i < count; ++i) {
-        const auto row = rows.of(i);
+        const auto row = rows[i];
         EXPECT_TRUE(std::equal(row.begin(), row.end(), expected[i].begin(), expected[i].end()))
             << implementation.name << ", agent " << i;
       }

@@ -7,8 +7,10 @@
 #include <functional>
 #include <limits>
 
-#include "kernel/broad_phase/broad_phase.hpp"
+#include <bch/broad_phase.hpp>
+
 #include "layout/format/cut_discs.hpp"
+#include "layout/format/shape_set_view.hpp"
 #include "layout/format/shape_validation.hpp"
 #include "tests/support/all_queries.hpp"
 #include "tests/support/baked_bytes.hpp"
@@ -19,7 +21,7 @@
 namespace bch::test {
 namespace {
 
-using baked::Section;
+using detail::baked::Section;
 
 constexpr float infinity = std::numeric_limits<float>::infinity();
 constexpr float nan = std::numeric_limits<float>::quiet_NaN();
@@ -38,25 +40,25 @@ constexpr std::size_t deep_root = 2;
 
 std::span<float> top_block(BakedBytes& bytes) {
   return bytes.section<float>(Section::nodes)
-      .subspan(bytes.section<Tree>(Section::trees)[deep_root].top, block_floats);
+      .subspan(bytes.section<detail::Tree>(Section::trees)[deep_root].top, detail::block_floats);
 }
 
 void set_child(BakedBytes& bytes, std::uint32_t lane, std::uint32_t name) {
-  top_block(bytes)[3 * block_width + lane] = std::bit_cast<float>(name);
+  top_block(bytes)[3 * detail::block_width + lane] = std::bit_cast<float>(name);
 }
 
 /// The first name of a window that is followed.
 float& first_window(BakedBytes& bytes) {
-  for (float* block = top_block(bytes).data();; block += block_floats)
-    for (std::uint32_t lane = 0; lane < block_width; ++lane)
+  for (float* block = top_block(bytes).data();; block += detail::block_floats)
+    for (std::uint32_t lane = 0; lane < detail::block_width; ++lane)
       if (block[lane] != infinity &&
-          std::bit_cast<std::uint32_t>(block[3 * block_width + lane]) >= leaf_window)
-        return block[3 * block_width + lane];
+          std::bit_cast<std::uint32_t>(block[3 * detail::block_width + lane]) >= detail::leaf_window)
+        return block[3 * detail::block_width + lane];
 }
 
 std::vector<Crime> crimes() {
   const auto top = [](BakedBytes& b) -> std::uint32_t {
-    return b.section<Tree>(Section::trees)[deep_root].top;
+    return b.section<detail::Tree>(Section::trees)[deep_root].top;
   };
   const auto floats = [](Section section, std::size_t at, float value) {
     return [=](BakedBytes& b) { b.section<float>(section).data()[at] = value; };
@@ -69,9 +71,9 @@ std::vector<Crime> crimes() {
       {"depths 2: 0 does not ascend", word(Section::depths, 2, 0)},
       {"nodes", [=](BakedBytes& b) { set_child(b, 0, top(b)); }},
       {"", [=](BakedBytes& b) { set_child(b, 0, 0x7fffffe0); }},
-      {"", [=](BakedBytes& b) { set_child(b, 0, top(b) + 2 * block_floats); }},
+      {"", [=](BakedBytes& b) { set_child(b, 0, top(b) + 2 * detail::block_floats); }},
       {"", [=](BakedBytes& b) { set_child(b, 0, top(b) + 1); }},
-      {"windows at 0", [=](BakedBytes& b) { first_window(b) = std::bit_cast<float>(leaf_window); }},
+      {"windows at 0", [=](BakedBytes& b) { first_window(b) = std::bit_cast<float>(detail::leaf_window); }},
       {"to 2147483647", [=](BakedBytes& b) { first_window(b) = std::bit_cast<float>(~0u); }},
       {"trees 2: the first window",
        [](BakedBytes& b) {
@@ -79,46 +81,53 @@ std::vector<Crime> crimes() {
          name = std::bit_cast<float>(std::bit_cast<std::uint32_t>(name) + 1);
        }},
       {"begins with padding", [](BakedBytes& b) { top_block(b)[0] = infinity; }},
-      {"trees 2", [=](BakedBytes& b) { b.section<Tree>(Section::trees)[2].stride = ~0u; }},
-      {"trees 2", [=](BakedBytes& b) { b.section<Tree>(Section::trees)[2].stride = 7; }},
-      {"trees 2", [=](BakedBytes& b) { b.section<Tree>(Section::trees)[2].stride -= 1; }},
-      {"trees 2", [=](BakedBytes& b) { b.section<Tree>(Section::trees)[2].top = 0; }},
-      {"", [=](BakedBytes& b) { b.section<Tree>(Section::trees)[2].top = 0x7fffffff; }},
-      {"", [=](BakedBytes& b) { b.section<Tree>(Section::trees)[2].top = ~0u; }},
-      {"", [=](BakedBytes& b) { b.section<Tree>(Section::trees)[2].top |= leaf_window; }},
+      {"trees 2", [=](BakedBytes& b) { b.section<detail::Tree>(Section::trees)[2].stride = ~0u; }},
+      {"trees 2", [=](BakedBytes& b) { b.section<detail::Tree>(Section::trees)[2].stride = 7; }},
+      {"trees 2", [=](BakedBytes& b) { b.section<detail::Tree>(Section::trees)[2].stride -= 1; }},
+      {"trees 2", [=](BakedBytes& b) { b.section<detail::Tree>(Section::trees)[2].top = 0; }},
+      {"", [=](BakedBytes& b) { b.section<detail::Tree>(Section::trees)[2].top = 0x7fffffff; }},
+      {"", [=](BakedBytes& b) { b.section<detail::Tree>(Section::trees)[2].top = ~0u; }},
+      {"", [=](BakedBytes& b) { b.section<detail::Tree>(Section::trees)[2].top |= detail::leaf_window; }},
       {"holds a disc that is none", [](BakedBytes& b) { top_block(b)[0] = nan; }},
       {"holds a disc that is none", [](BakedBytes& b) { top_block(b)[0] = -infinity; }},
-      {"holds a disc that is none", [](BakedBytes& b) { top_block(b)[block_width] = infinity; }},
-      {"holds a disc that is none", [](BakedBytes& b) { top_block(b)[2 * block_width] = -0.1f; }},
-      {"holds a disc that is none", [](BakedBytes& b) { top_block(b)[2 * block_width] = infinity; }},
+      {"holds a disc that is none", [](BakedBytes& b) { top_block(b)[detail::block_width] = infinity; }},
+      {"holds a disc that is none", [](BakedBytes& b) { top_block(b)[2 * detail::block_width] = -0.1f; }},
+      {"holds a disc that is none", [](BakedBytes& b) { top_block(b)[2 * detail::block_width] = infinity; }},
       {"roots 0", floats(Section::roots, 2, -1.0f)},
       {"roots 0", floats(Section::roots, 2, 0.0f)},
       {"roots 1", floats(Section::roots, 4, nan)},
-      {"roots 1", [](BakedBytes& b) { b.section<Root>(Section::roots)[1].row = 2; }},
-      {"roots 5: row 3", [](BakedBytes& b) { b.section<Root>(Section::roots)[2].row = single_disc; }},
+      {"roots 1", [](BakedBytes& b) { b.section<detail::Root>(Section::roots)[1].row = 2; }},
+      {"roots 5: row 3",
+       [](BakedBytes& b) { b.section<detail::Root>(Section::roots)[2].row = detail::single_disc; }},
       {"support 3", floats(Section::support, 3, 1.0f)},
       {"reach 0", floats(Section::reach, 0, 0.0f)},
       {"reach 2", floats(Section::reach, 2, nan)},
       {"reach 1", floats(Section::reach, 1, 1e7f)},
       {"support 70", floats(Section::support, 70, nan)},
-      {"inscribed 1", [](BakedBytes& b) { b.section<DiscBlock>(Section::inscribed)[1].radius[3] = nan; }},
-      {"extremes 2", [](BakedBytes& b) { b.section<Extremes>(Section::extremes)[2].y[31] = infinity; }},
-      {"profiles 1", [](BakedBytes& b) { b.section<Profile>(Section::profiles)[1].y = infinity; }},
-      {"profiles 1", [](BakedBytes& b) { b.section<Profile>(Section::profiles)[1].sectors[31].inner = nan; }},
+      {"inscribed 1",
+       [](BakedBytes& b) { b.section<detail::DiscBlock>(Section::inscribed)[1].radius[3] = nan; }},
+      {"extremes 2",
+       [](BakedBytes& b) { b.section<detail::Extremes>(Section::extremes)[2].y[31] = infinity; }},
+      {"profiles 1", [](BakedBytes& b) { b.section<detail::Profile>(Section::profiles)[1].y = infinity; }},
       {"profiles 1",
-       [](BakedBytes& b) { b.section<Profile>(Section::profiles)[1].sectors[0].outer = infinity; }},
+       [](BakedBytes& b) { b.section<detail::Profile>(Section::profiles)[1].sectors[31].inner = nan; }},
       {"profiles 1",
-       [](BakedBytes& b) { b.section<Profile>(Section::profiles)[1].sectors[7].extent = infinity; }},
+       [](BakedBytes& b) { b.section<detail::Profile>(Section::profiles)[1].sectors[0].outer = infinity; }},
+      {"profiles 1",
+       [](BakedBytes& b) { b.section<detail::Profile>(Section::profiles)[1].sectors[7].extent = infinity; }},
       {"shape_contours 0", word(Section::shape_contours, 0, 1)},
       {"shape_contours 2", word(Section::shape_contours, 4, 0)},
       {"shape_contours 1: ends", word(Section::shape_contours, 3, 0)},
       {"shape_contours: 1000", word(Section::shape_contours, 5, 1000)},
-      {"contours 2", [](BakedBytes& b) { b.section<Contour>(Section::contours)[2].begin = 1; }},
-      {"contours: 4294967296", [](BakedBytes& b) { b.section<Contour>(Section::contours)[3].end = ~0u; }},
-      {"contours 1", [](BakedBytes& b) { b.section<Contour>(Section::contours)[1].end = 0; }},
-      {"contours 3", [](BakedBytes& b) { b.section<Contour>(Section::contours)[3].disc.radius = -1; }},
+      {"contours 2", [](BakedBytes& b) { b.section<detail::Contour>(Section::contours)[2].begin = 1; }},
+      {"contours: 4294967296",
+       [](BakedBytes& b) { b.section<detail::Contour>(Section::contours)[3].end = ~0u; }},
+      {"contours 1", [](BakedBytes& b) { b.section<detail::Contour>(Section::contours)[1].end = 0; }},
+      {"contours 3",
+       [](BakedBytes& b) { b.section<detail::Contour>(Section::contours)[3].disc.radius = -1; }},
       {"points 5", [](BakedBytes& b) { b.section<Vec2>(Section::points)[5].y = nan; }},
-      {"threshold", [](BakedBytes& b) { b.section<baked::Settings>(Section::settings)[0].threshold = -1; }},
+      {"threshold",
+       [](BakedBytes& b) { b.section<detail::baked::Settings>(Section::settings)[0].threshold = -1; }},
       {"origins 1: character",
        [](BakedBytes& b) { b.section<ShapeOrigin>(Section::origins)[1].character = 4; }},
       {"origins 2: clip", [](BakedBytes& b) { b.section<ShapeOrigin>(Section::origins)[2].clip = 4; }},
@@ -155,50 +164,51 @@ TEST(BakedContent, DamageIsCalledDamage) {
 
 TEST(BakedContent, TestsATreeOfSeveralBlocks) {
   BakedBytes bytes = sound_bytes();
-  ASSERT_LT(bytes.section<Tree>(Section::trees)[deep_root].top, leaf_window);
-  EXPECT_LT(std::bit_cast<std::uint32_t>(top_block(bytes)[block_names]), leaf_window);
+  ASSERT_LT(bytes.section<detail::Tree>(Section::trees)[deep_root].top, detail::leaf_window);
+  EXPECT_LT(std::bit_cast<std::uint32_t>(top_block(bytes)[detail::block_names]), detail::leaf_window);
 }
 
 /// A set of one tree in which only the first disc of every block is not padding. All discs are the same: two of the cut, and
 /// the root above them.
 struct Chain {
-  AlignedVector<std::uint32_t> depths{all_depths};
-  AlignedVector<Root> roots{{0, 0, 1, first_row}};
-  AlignedVector<Tree> trees;
-  AlignedVector<float> reach{1}, nodes;
+  detail::AlignedVector<std::uint32_t> depths{all_depths};
+  detail::AlignedVector<detail::Root> roots{{0, 0, 1, detail::first_row}};
+  detail::AlignedVector<detail::Tree> trees;
+  detail::AlignedVector<float> reach{1}, nodes;
 
   explicit Chain(std::uint32_t blocks) {
-    const std::uint32_t discs = blocks * block_floats;
-    const Tree& tree = trees.emplace_back(Tree{0, discs, block_width, 2, 1});
+    const std::uint32_t discs = blocks * detail::block_floats;
+    const detail::Tree& tree = trees.emplace_back(detail::Tree{0, discs, detail::block_width, 2, 1});
     const std::uint32_t root = tree.first_inner();
-    nodes.resize((root + 2) * inner_floats + block_floats);
-    for (std::uint32_t block = 0; block < discs; block += block_floats) {
-      const std::uint32_t next = block + block_floats;
+    nodes.resize((root + 2) * detail::inner_floats + detail::block_floats);
+    for (std::uint32_t block = 0; block < discs; block += detail::block_floats) {
+      const std::uint32_t next = block + detail::block_floats;
       put_discs(block, 1);
-      nodes[block + block_names] = std::bit_cast<float>(next == discs ? leaf_window + discs : next);
-      nodes[block + block_nodes] = std::bit_cast<float>(root);
+      nodes[block + detail::block_names] =
+          std::bit_cast<float>(next == discs ? detail::leaf_window + discs : next);
+      nodes[block + detail::block_nodes] = std::bit_cast<float>(root);
     }
     put_discs(discs, 2);
-    nodes[root * inner_floats + 2] = 1;
-    nodes[root * inner_floats + 3] = std::bit_cast<float>(above_cut_disc + root);
+    nodes[root * detail::inner_floats + 2] = 1;
+    nodes[root * detail::inner_floats + 3] = std::bit_cast<float>(detail::above_cut_disc + root);
   }
 
   void put_discs(std::uint32_t at, std::uint32_t count) {
-    std::fill(nodes.begin() + at + count, nodes.begin() + at + block_width, infinity);
-    std::fill_n(nodes.begin() + at + 2 * block_width, count, 1.0f);
+    std::fill(nodes.begin() + at + count, nodes.begin() + at + detail::block_width, infinity);
+    std::fill_n(nodes.begin() + at + 2 * detail::block_width, count, 1.0f);
   }
 
-  ShapeArrays arrays() const {
-    ShapeArrays all{};
+  detail::ShapeArrays arrays() const {
+    detail::ShapeArrays all{};
     all.depths = depths, all.roots = roots, all.trees = trees, all.reach = reach, all.nodes = nodes;
     return all;
   }
 };
 
 TEST(BakedContent, TreesAreNoDeeperThanStacks) {
-  for (std::uint32_t blocks = 1; blocks < 2 * most_wide_levels; ++blocks) {
+  for (std::uint32_t blocks = 1; blocks < 2 * detail::most_wide_levels; ++blocks) {
     const Chain chain(blocks);
-    if (blocks < most_wide_levels)
+    if (blocks < detail::most_wide_levels)
       EXPECT_NO_THROW(validate(chain.arrays())) << blocks;
     else
       EXPECT_THROW(validate(chain.arrays()), std::invalid_argument) << blocks;
@@ -206,9 +216,9 @@ TEST(BakedContent, TreesAreNoDeeperThanStacks) {
 }
 
 TEST(BakedContent, ArraysBeginOnCacheLines) {
-  const AlignedVector<std::uint32_t> depths = {all_depths};
-  const AlignedVector<Root> roots(3, Root{0, 0, 1, single_disc});
-  ShapeArrays arrays{};
+  const detail::AlignedVector<std::uint32_t> depths = {all_depths};
+  const detail::AlignedVector<detail::Root> roots(3, detail::Root{0, 0, 1, detail::single_disc});
+  detail::ShapeArrays arrays{};
   arrays.depths = depths;
   arrays.roots = roots;
   EXPECT_NO_THROW(validate(arrays));
@@ -219,7 +229,7 @@ TEST(BakedContent, ArraysBeginOnCacheLines) {
 TEST(BakedContent, ALevelHasAWindowOfDiscsAtLeast) {
   Chain chain(1);
   EXPECT_NO_THROW(validate(chain.arrays()));
-  chain.trees[0].stride = block_width - 1;
+  chain.trees[0].stride = detail::block_width - 1;
   EXPECT_THROW(validate(chain.arrays()), std::invalid_argument);
 }
 
@@ -232,7 +242,7 @@ void query(const ShapeSet& set, std::uint64_t seed) {
                random.uniform(0, 6), static_cast<std::uint8_t>(random.below(set.level_count()))});
   std::vector<Pair> pairs = candidate_pairs(set, crowd.agents());
   for (std::uint32_t i = 1; i < 24; ++i) pairs.push_back({0, i});
-  for (const kernel::Implementation& row : kernel::implementations()) {
+  for (const Implementation& row : implementations()) {
     if (!row.supported()) continue;
     ask_all(set, crowd.agents(), pairs, row);
     ask_all_of_a_dynamic_copy(set, crowd.agents(), pairs, row);
@@ -253,17 +263,17 @@ TEST(BakedContent, InnerDiscsAreNoLargerThanTheyNeed) {
   Random random(76);
   const std::vector<Shape> shapes = {contour_shape(star(random, 600, 0.2, 0.4), 0.002f)};
   BakedBytes bytes(ShapeSet(shapes, {}), origins_of(1));
-  const Tree tree = bytes.section<Tree>(Section::trees)[0];
-  ASSERT_GT(tree.discs, tree.top + 20 * block_floats);
+  const detail::Tree tree = bytes.section<detail::Tree>(Section::trees)[0];
+  ASSERT_GT(tree.discs, tree.top + 20 * detail::block_floats);
   for (const float radius : {0.5f, 1e3f, 1e6f}) {
     BakedBytes huge = bytes;
     const auto damaged = huge.section<float>(Section::nodes);
-    for (std::size_t block = tree.top; block < tree.discs; block += block_floats)
-      for (std::uint32_t i = 0; i < block_width; ++i)
-        if (damaged[block + i] != infinity) damaged[block + 2 * block_width + i] = radius;
+    for (std::size_t block = tree.top; block < tree.discs; block += detail::block_floats)
+      for (std::uint32_t i = 0; i < detail::block_width; ++i)
+        if (damaged[block + i] != infinity) damaged[block + 2 * detail::block_width + i] = radius;
     for (std::size_t k = 0; k + 1 < tree.count; ++k)
-      damaged[(tree.first_inner() + k) * inner_floats + 2] = radius;
-    huge.section<Root>(Section::roots)[0].radius = radius;
+      damaged[(tree.first_inner() + k) * detail::inner_floats + 2] = radius;
+    huge.section<detail::Root>(Section::roots)[0].radius = radius;
     huge.seal();
     EXPECT_NE(huge.error().find("than what is below it needs"), std::string::npos) << radius << huge.error();
   }

@@ -1,20 +1,22 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include "layout/baked/file.hpp"
+#include <bch/baked.hpp>
 
 #include <gtest/gtest.h>
 
 #include <cstring>
 #include <filesystem>
+#include <fstream>
 #include <limits>
 #include <new>
 
-#include "kernel/collide/collide.hpp"
-#include "kernel/contact/contacts.hpp"
-#include "kernel/distance/clearance.hpp"
-#include "kernel/distance/time_of_impact.hpp"
-#include "kernel/penetration/penetration.hpp"
+#include <bch/clearance.hpp>
+#include <bch/collide.hpp>
+#include <bch/contacts.hpp>
+#include <bch/penetration.hpp>
+#include <bch/time_of_impact.hpp>
+
 #include "layout/baked/checksum.hpp"
 #include "layout/baked/image.hpp"
 #include "tests/support/baked_bytes.hpp"
@@ -25,16 +27,16 @@
 namespace bch::test {
 namespace {
 
-using baked::Section;
+using detail::baked::Section;
 
 const ShapeSetPlan full_plan{.depths = {0, 3, all_depths}, .outlines = true, .culling = true};
 
-void expect_same(const ShapeArrays& loaded, const ShapeArrays& expected) {
-  baked::Arrays a{loaded, {}, {}, {}, {}}, b{expected, {}, {}, {}, {}};
+void expect_same(const detail::ShapeArrays& loaded, const detail::ShapeArrays& expected) {
+  detail::baked::Arrays a{loaded, {}, {}, {}, {}}, b{expected, {}, {}, {}, {}};
   std::vector<std::span<const std::byte>> sections;
-  baked::for_each_section(
+  detail::baked::for_each_section(
       a, [&](Section, const char*, const auto& span) { sections.push_back(std::as_bytes(span)); });
-  baked::for_each_section(b, [&](Section section, const char* name, const auto& span) {
+  detail::baked::for_each_section(b, [&](Section section, const char* name, const auto& span) {
     const auto bytes = sections[static_cast<std::size_t>(section)];
     ASSERT_EQ(bytes.size(), span.size_bytes()) << name;
     if (!bytes.empty()) {
@@ -58,7 +60,8 @@ void expect_same_measures(const ShapeSet& loaded, const ShapeSet& expected) {
   const PairScene scene = random_scene(random, expected, 300);
   const Agents agents = scene.crowd.agents();
   const std::vector<double> way(scene.pairs.size(), 0.5);
-  ContactTable table[2];
+  ContactFinder finder[2];
+  Rows<DiscPair> table[2];
   std::vector<Penetration> ways[2];
   std::vector<float> distances[2], times[2];
   std::vector<Vec2> directions(scene.pairs.size());
@@ -66,13 +69,13 @@ void expect_same_measures(const ShapeSet& loaded, const ShapeSet& expected) {
     const ShapeSet& set = i == 0 ? loaded : expected;
     ways[i].resize(scene.pairs.size()), distances[i].resize(scene.pairs.size()),
         times[i].resize(scene.pairs.size());
-    contacts(set, agents, scene.pairs, table[i]);
+    table[i] = finder[i].find(set, agents, scene.pairs);
     penetration(set, agents, scene.pairs, 8, ways[i]);
     clearance(set, agents, scene.pairs, {distances[i], directions});
     time_of_impact(set, agents, scene.pairs, {way, way}, times[i]);
   }
-  EXPECT_EQ(table[0].offsets, table[1].offsets);
-  EXPECT_TRUE(table[0].contacts == table[1].contacts);
+  EXPECT_TRUE(std::ranges::equal(table[0].offsets, table[1].offsets));
+  EXPECT_TRUE(std::ranges::equal(table[0].values, table[1].values));
   EXPECT_EQ(ways[0], ways[1]);
   EXPECT_EQ(distances[0], distances[1]);
   EXPECT_EQ(times[0], times[1]);
@@ -119,10 +122,10 @@ TEST(BakedFile, OutlivesItsName) {
 
 TEST(BakedFile, ImageRefusesWhatNobodyCouldLoad) {
   const ShapeSet set(few_shapes(), full_plan);
-  EXPECT_THROW(BakedImage(set, origins_of(2)), std::invalid_argument);
+  EXPECT_THROW(detail::BakedImage(set, origins_of(2)), std::invalid_argument);
   ShapeOrigins origins = origins_of(3);
   origins.names.resize(1);
-  EXPECT_THROW(BakedImage(set, origins), std::invalid_argument);
+  EXPECT_THROW(detail::BakedImage(set, origins), std::invalid_argument);
 }
 
 class SpoiledFile : public testing::Test {
@@ -149,7 +152,7 @@ TEST_F(SpoiledFile, TruncatedAtEveryByte) {
 
 /// The header agrees with the size, so that the sections have to be looked at.
 TEST_F(SpoiledFile, TruncatedWithAHeaderThatAgrees) {
-  for (std::size_t size = sizeof(baked::Preamble); size < bytes.size(); ++size) {
+  for (std::size_t size = sizeof(detail::baked::Preamble); size < bytes.size(); ++size) {
     bytes.preamble().header.file_size = size;
     bytes.seal_header();
     EXPECT_THROW(bytes.load_first(size), BakedFileError) << size;
@@ -169,7 +172,7 @@ TEST_F(SpoiledFile, TruncatedOnDisk) {
 }
 
 TEST_F(SpoiledFile, EveryBitOfTheHeader) {
-  for (std::size_t bit = 0; bit < 8 * (sizeof(baked::Preamble) + 32); ++bit) {
+  for (std::size_t bit = 0; bit < 8 * (sizeof(detail::baked::Preamble) + 32); ++bit) {
     const std::byte mask{static_cast<unsigned char>(1u << bit % 8)};
     bytes[bit / 8] ^= mask;
     EXPECT_NE(bytes.error(), "") << bit;
@@ -200,7 +203,7 @@ TEST_F(SpoiledFile, SaysWhatIsWrongWithTheHeader) {
   };
   with([&] { header.magic[1] = 'b'; }, "not a baked file");
   with([&] { header.version = 2; }, "version 2");
-  with([&] { header.byte_order = baked::other_byte_order; }, "byte order");
+  with([&] { header.byte_order = detail::baked::other_byte_order; }, "byte order");
   with([&] { header.byte_order = 7; }, "byte order");
   with([&] { header.file_size = ~std::uint64_t{0}; }, "18446744073709551615 bytes");
   with([&] { header.section_count = 19; }, "19 sections");
@@ -208,7 +211,7 @@ TEST_F(SpoiledFile, SaysWhatIsWrongWithTheHeader) {
 }
 
 TEST_F(SpoiledFile, SizesThatOverflow) {
-  for (std::uint32_t i = 0; i < baked::section_count; ++i) {
+  for (std::uint32_t i = 0; i < detail::baked::section_count; ++i) {
     auto& entry = bytes.preamble().entries[i];
     const auto sound = entry;
     const std::uint64_t size = entry.element_size;
@@ -241,7 +244,7 @@ TEST_F(SpoiledFile, SizesThatOverflow) {
 
 /// Times the elements' size they are the right size again.
 TEST_F(SpoiledFile, SizesThatAreRightModulo64Bits) {
-  for (baked::SectionEntry& entry : bytes.preamble().entries) {
+  for (detail::baked::SectionEntry& entry : bytes.preamble().entries) {
     const std::uint32_t power = entry.element_size & -entry.element_size;
     if (power == 1) continue;
     const auto sound = entry;
@@ -268,19 +271,20 @@ TEST(SectionChecksum, IsThatOfTheWhole) {
        {std::size_t{0}, std::size_t{64}, piece - 64, piece, piece + 64, 5 * piece + 192}) {
     std::vector<std::byte> section(size);
     for (std::byte& byte : section) byte = static_cast<std::byte>(random.below(256));
-    const std::uint64_t whole = baked::checksum(section);
-    EXPECT_EQ(baked::SectionChecksum(section).finish(), whole) << size;
+    const std::uint64_t whole = detail::baked::checksum(section);
+    EXPECT_EQ(detail::baked::SectionChecksum(section).finish(), whole) << size;
     for (int i = 0; i < 20; ++i) {
-      baked::SectionChecksum pieces(section);
+      detail::baked::SectionChecksum pieces(section);
       for (int step = 0; step < 5; ++step)
         pieces.reach(random.below(static_cast<std::uint32_t>(size) + 1000));
       EXPECT_EQ(pieces.finish(), whole) << size;
     }
-    baked::SectionChecksum beyond(section);
+    detail::baked::SectionChecksum beyond(section);
     beyond.reach(std::numeric_limits<std::size_t>::max());
     EXPECT_EQ(beyond.finish(), whole) << size;
     section.resize(size + 8);
-    EXPECT_EQ(baked::SectionChecksum(std::span(section).first(size)).finish(8), baked::checksum(section))
+    EXPECT_EQ(detail::baked::SectionChecksum(std::span(section).first(size)).finish(8),
+              detail::baked::checksum(section))
         << size;
   }
 }
@@ -299,7 +303,7 @@ TEST_F(SpoiledFile, SizesBeyondAllMemory) {
   constexpr std::uint64_t huge = std::uint64_t{4} << 40;
   const auto text = folder.write("text.bch", std::string(4096, 'x')),
              longer = folder.write("longer.bch", bytes.text());
-  baked::SectionEntry& names = bytes.entry(Section::names);
+  detail::baked::SectionEntry& names = bytes.entry(Section::names);
   names.count = huge - names.offset;
   bytes.preamble().header.file_size = huge;
   bytes.seal_header();
@@ -329,6 +333,40 @@ TEST(BakedFile, FileThatShrinksWhileItIsRead) {
   } catch (const BakedFileError& error) {
     EXPECT_NE(std::string(error.what()).find("shrank from 4096"), std::string::npos) << error.what();
   }
+}
+
+std::string text_of_file(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+TEST(SaveBaked, WritesTheBytesOfTheSetInPlaceOfAnotherFile) {
+  const TemporaryFolder folder;
+  const std::filesystem::path file = folder.path() / "people.bch";
+  std::ofstream(file) << "something else";
+  const ShapeSet set(few_shapes(), full_plan);
+  const ShapeOrigins origins = origins_of(set.shape_count());
+  save_baked(file, set, origins);
+  EXPECT_EQ(text_of_file(file), BakedBytes(set, origins).text());
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 1);
+  const BakedShapes loaded = load_baked(file, FileAccess::map);
+  EXPECT_EQ(loaded.origins, origins);
+  expect_same(loaded.set.arrays(), set.arrays());
+}
+
+TEST(SaveBaked, LeavesTheFileWhereItCannotWrite) {
+  const TemporaryFolder folder;
+  const ShapeSet set(few_shapes());
+  const std::filesystem::path nowhere = folder.path() / "no folder" / "people.bch";
+  EXPECT_EQ(complaint<BakedFileError>([&] { save_baked(nowhere, set); }),
+            nowhere.string() + ": No such file or directory");
+  const std::filesystem::path file = folder.path() / "people.bch";
+  std::ofstream(file) << "kept";
+  EXPECT_THROW(save_baked(file, set, origins_of(7)), std::invalid_argument);
+  EXPECT_EQ(text_of_file(file), "kept");
+  std::filesystem::create_directories(folder.path() / "folder" / "full");
+  EXPECT_THROW(save_baked(folder.path() / "folder", set), BakedFileError);
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 2);
 }
 
 }  // namespace

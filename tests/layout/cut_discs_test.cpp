@@ -5,6 +5,10 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <stdexcept>
+
+#include "tests/support/complaint.hpp"
 #include "tests/support/scenes.hpp"
 
 namespace bch {
@@ -19,18 +23,39 @@ TEST(CutDiscs, AreThoseOfTheCutInItsOrder) {
     const ShapeSet set(shapes, {depths, false});
     for (std::uint32_t shape = 0; shape < shapes.size(); ++shape)
       for (std::uint32_t level = 0; level < depths.size(); ++level) {
-        const CutDiscs discs = cut_discs(set.view(), shape * set.level_count() + level);
+        const detail::CutDiscs discs = detail::cut_discs(set.view(), shape * set.level_count() + level);
         const Hierarchy& hierarchy = shapes[shape].hierarchy;
         const std::vector<std::uint32_t> expected = cut(hierarchy, depths[level]);
         ASSERT_EQ(discs.count, expected.size());
         for (std::uint32_t i = 0; i < discs.count; ++i)
           ASSERT_EQ((Disc{discs.x[i], discs.y[i], discs.radius[i]}), hierarchy.nodes[expected[i]].disc);
-        ++(discs.count == 1 ? single : discs.count < block_width ? few : many);
+        const std::vector<Disc> copied = set.discs(shape, level);
+        ASSERT_EQ(copied.size(), discs.count);
+        for (std::uint32_t i = 0; i < discs.count; ++i) {
+          ASSERT_EQ(copied[i], hierarchy.nodes[expected[i]].disc);
+          const double x = copied[i].x, y = copied[i].y, radius = copied[i].radius;
+          ASSERT_LE(std::sqrt(x * x + y * y) + radius, static_cast<double>(set.reach(shape)));
+        }
+        ++(discs.count == 1 ? single : discs.count < detail::block_width ? few : many);
       }
   }
   EXPECT_GT(single, 24u);
   EXPECT_GT(few, 20u);
   EXPECT_GT(many, 20u);
+}
+
+TEST(ShapeSetDiscs, RejectIndicesOutOfRange) {
+  const ShapeSet set(test::synthetic_shapes(72, 3));
+  EXPECT_EQ(test::complaint<std::out_of_range>([&] { set.discs(3, 0); }), "shape set: shape 3 of 3");
+  EXPECT_EQ(test::complaint<std::out_of_range>([&] { set.discs(0, 1); }), "shape set: level 1 of 1");
+  EXPECT_EQ(test::complaint<std::out_of_range>([&] { set.reach(3); }), "shape set: shape 3 of 3");
+}
+
+/// A single disc reaches as far as it is large, about wherever it is.
+TEST(ShapeSetDiscs, ReachHoldsTheShape) {
+  const float radius = ShapeSet(std::vector<Shape>{{{}, fixed_cylinder(0.5f)}}).reach(0);
+  EXPECT_GE(radius, 0.5f);
+  EXPECT_LT(radius, 0.50001f);
 }
 
 }  // namespace

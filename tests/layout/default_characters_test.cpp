@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include "layout/default_character/default_characters.hpp"
+#include <bch/default_characters.hpp>
 
 #include <gtest/gtest.h>
 
@@ -54,7 +54,7 @@ struct Disc {
 };
 
 Vector2d ground(const Vec3& p) {
-  return to_eigen(p).head<2>().cast<double>();
+  return detail::to_eigen(p).head<2>().cast<double>();
 }
 
 Disc disc_through(const Vec3& a, const Vec3& b) {
@@ -94,7 +94,7 @@ double enclosing_radius(std::span<const Vec3> points) {
 }
 
 Vector3d exact(const Vec3& p) {
-  return to_eigen(p).cast<double>();
+  return detail::to_eigen(p).cast<double>();
 }
 
 double signed_volume(const Character& c) {
@@ -139,9 +139,9 @@ TEST_P(DefaultCharacter, IsValidAndTheSameEachTime) {
 TEST_P(DefaultCharacter, HasTheSizeOfThePaper) {
   EXPECT_GE(character.triangles.size(), 2800u);
   EXPECT_LE(character.triangles.size(), 2900u);
-  Skinner skinner(character);
+  detail::Skinner skinner(character);
   Eigen::AlignedBox3f box;
-  for (const Vec3& p : skinner.pose({})) box.extend(to_eigen(p));
+  for (const Vec3& p : skinner.pose({})) box.extend(detail::to_eigen(p));
   EXPECT_NEAR(box.max().z(), GetParam().stature, 0.01);
   EXPECT_NEAR(box.min().z(), 0, 0.002);
 }
@@ -179,7 +179,7 @@ TEST_P(DefaultCharacter, SkinHasTheVolumeOfAPersonAndNoFlatTriangle) {
 }
 
 float distance(const Vec3& p, const Vec3& q) {
-  return (to_eigen(p) - to_eigen(q)).norm();
+  return (detail::to_eigen(p) - detail::to_eigen(q)).norm();
 }
 
 TEST_P(DefaultCharacter, RestIsSymmetric) {
@@ -187,7 +187,7 @@ TEST_P(DefaultCharacter, RestIsSymmetric) {
     const Vec3 mirrored{p.x, -p.y, p.z};
     const bool found = std::any_of(character.vertices.begin(), character.vertices.end(),
                                    [&](const Vec3& q) { return distance(q, mirrored) < 1e-5f; });
-    EXPECT_TRUE(found) << to_eigen(p).transpose();
+    EXPECT_TRUE(found) << detail::to_eigen(p).transpose();
   }
 }
 
@@ -213,7 +213,7 @@ TEST_P(DefaultCharacter, ClipsLastAsLongAsThePapersAndAreOfItsKinds) {
 }
 
 TEST_P(DefaultCharacter, IsAsWideAsThePapers) {
-  Skinner skinner(character);
+  detail::Skinner skinner(character);
   const auto check = [&](const std::vector<PoseTime>& poses) {
     double sum = 0;
     double squares = 0;
@@ -239,7 +239,7 @@ TEST_P(DefaultCharacter, IsAsWideAsThePapers) {
 }
 
 TEST_P(DefaultCharacter, FeetStayOnTheGround) {
-  Skinner skinner(character);
+  detail::Skinner skinner(character);
   for (const PoseTime& at : sample_poses(character, 1000)) {
     float lowest = 1;
     for (const Vec3& p : skinner.pose(at)) lowest = std::min(lowest, p.z);
@@ -248,7 +248,7 @@ TEST_P(DefaultCharacter, FeetStayOnTheGround) {
 }
 
 TEST_P(DefaultCharacter, SkinDoesNotTear) {
-  Skinner skinner(character);
+  detail::Skinner skinner(character);
   const auto all = edges(character);
   for (const PoseTime& at : sample_poses(character, 200)) {
     const auto pose = skinner.pose(at);
@@ -256,13 +256,13 @@ TEST_P(DefaultCharacter, SkinDoesNotTear) {
       const float rest = distance(character.vertices[a], character.vertices[b]);
       ASSERT_LT(distance(pose[a], pose[b]), 2.5f * rest + 0.03f)
           << character.clips[at.clip].name << " at " << at.seconds << ", near "
-          << to_eigen(character.vertices[a]).transpose();
+          << detail::to_eigen(character.vertices[a]).transpose();
     }
   }
 }
 
 TEST_P(DefaultCharacter, MovesWithoutJumps) {
-  Skinner skinner(character);
+  detail::Skinner skinner(character);
   for (std::uint32_t clip = 0; clip < character.clips.size(); ++clip) {
     const float step = 1.0f / 16;
     std::vector<Vec3> before;

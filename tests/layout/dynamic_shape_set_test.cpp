@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include "layout/shape_set/dynamic_shape_set.hpp"
+#include <bch/dynamic_shape_set.hpp>
 
 #include <gtest/gtest.h>
 
@@ -9,9 +9,11 @@
 #include <ostream>
 #include <string>
 
-#include "kernel/broad_phase/broad_phase.hpp"
-#include "kernel/collide/collide.hpp"
+#include <bch/broad_phase.hpp>
+#include <bch/collide.hpp>
+
 #include "layout/format/shape_validation.hpp"
+#include "layout/shape_set/shape_storage.hpp"
 #include "tests/support/allocation_count.hpp"
 #include "tests/support/scenes.hpp"
 
@@ -33,7 +35,7 @@ using test::Random;
 std::vector<std::vector<std::uint8_t>> answers(const ShapeSet& set, const PairScene& scene, bool solid) {
   std::vector<std::vector<std::uint8_t>> all;
   for (const Semantics semantics : {Semantics::boundary, Semantics::solid})
-    for (const kernel::Implementation& row : kernel::implementations()) {
+    for (const Implementation& row : implementations()) {
       if (!row.supported() || (semantics == Semantics::solid && !solid)) continue;
       collide(set, scene.crowd.agents(), scene.pairs, all.emplace_back(scene.pairs.size()),
               {semantics, &row});
@@ -41,9 +43,9 @@ std::vector<std::vector<std::uint8_t>> answers(const ShapeSet& set, const PairSc
   return all;
 }
 
-FlatShape flat(const Shape& shape, const ShapeSetPlan& plan) {
-  FlatShape made;
-  ShapeFlattener(plan).flatten(shape, 0, made);
+PreparedShape flat(const Shape& shape, const ShapeSetPlan& plan) {
+  PreparedShape made(plan);
+  made.prepare(shape, 0);
   return made;
 }
 
@@ -98,7 +100,7 @@ TEST_P(DynamicShapes, MayBecomeSingleDiscs) {
 }
 
 TEST_P(DynamicShapes, TouchNoOther) {
-  const ShapeSetView before = dynamic.set().view();
+  const detail::ShapeSetView before = dynamic.set().view();
   const auto largest = std::max_element(present.begin(), present.end(), [](const Shape& a, const Shape& b) {
     return a.hierarchy.nodes.size() < b.hierarchy.nodes.size();
   });
@@ -110,14 +112,14 @@ TEST_P(DynamicShapes, TouchNoOther) {
 }
 
 TEST_P(DynamicShapes, NothingIsAllocatedOncePlacesAreLargeEnough) {
-  std::vector<FlatShape> flats;
+  std::vector<PreparedShape> flats;
   for (const Shape& shape : pool) flats.push_back(flat(shape, GetParam()));
   for (std::uint32_t shape = 0; shape < 12; ++shape)
-    for (const FlatShape& any : flats) dynamic.replace(shape, any);
+    for (const PreparedShape& any : flats) dynamic.replace(shape, any);
   const std::size_t bytes = dynamic.set().bytes();
   const std::size_t count = test::allocation_count();
   for (std::uint32_t shape = 0; shape < 12; ++shape)
-    for (const FlatShape& any : flats) EXPECT_TRUE(dynamic.try_replace(shape, any));
+    for (const PreparedShape& any : flats) EXPECT_TRUE(dynamic.try_replace(shape, any));
   EXPECT_EQ(test::allocation_count(), count);
   EXPECT_EQ(dynamic.set().bytes(), bytes);
 }
@@ -164,16 +166,16 @@ TEST(DynamicShapeSet, PlacesOfACopyDoNotReachIntoEachOther) {
   const ShapeSetPlan plan;
   const std::vector<Shape> shapes = {test::contour_shape(test::star(random, 61, 0.3, 0.5)),
                                      test::contour_shape(test::polygon({{0, 0}, {0.03f, 0}, {0, 0.04f}}))};
-  ShapeStorage tight;
+  detail::ShapeStorage tight;
   tight.depths.assign(plan.depths.begin(), plan.depths.end());
   tight.resize(plan, 2);
-  ShapeExtent end{.rows = first_row};
+  detail::ShapeExtent end{.rows = detail::first_row};
   for (std::size_t s = 0; s < 2; ++s) {
-    const FlatShape shape = flat(shapes[s], plan);
-    const ShapeExtent size = extent_of(shape);
+    const PreparedShape shape = flat(shapes[s], plan);
+    const detail::ShapeExtent size = detail::extent_of(shape.flat());
     tight.make_room(end, size);
-    tight.put(s, shape, end);
-    for_each_part([](std::size_t& sum, std::size_t more) { sum += more; }, end, size);
+    tight.put(s, shape.flat(), end);
+    detail::for_each_part([](std::size_t& sum, std::size_t more) { sum += more; }, end, size);
   }
   validate(tight.arrays());
   ASSERT_NE(tight.trees[1].top % 16, 0u);
@@ -183,11 +185,11 @@ TEST(DynamicShapeSet, PlacesOfACopyDoNotReachIntoEachOther) {
   DynamicShapeSet dynamic(start);
   EXPECT_EQ(answers(dynamic.set(), scene, false), expected);
   // As much as a place of the first shape may hold.
-  const ShapeExtent place = extent_of(flat(shapes[0], plan));
+  const detail::ShapeExtent place = detail::extent_of(flat(shapes[0], plan).flat());
   std::size_t most = 0;
   for (int i = 0; i < 400; ++i) {
-    const FlatShape shape = flat(test::contour_shape(test::star(random, 61, 0.3, 0.5)), plan);
-    if (dynamic.try_replace(0, shape)) most = std::max(most, extent_of(shape).nodes);
+    const PreparedShape shape = flat(test::contour_shape(test::star(random, 61, 0.3, 0.5)), plan);
+    if (dynamic.try_replace(0, shape)) most = std::max(most, detail::extent_of(shape.flat()).nodes);
   }
   EXPECT_GT(most, place.nodes);  // room that is left up to the next line
   ASSERT_TRUE(dynamic.try_replace(0, flat(shapes[0], plan)));
@@ -201,12 +203,12 @@ TEST(DynamicShapeSet, PlacesTakeLittleMoreThanTheLargestShapes) {
   const Outline outline = test::star(random, 500, 0.3, 0.5);
   DynamicShapeSet dynamic(ShapeSet(std::vector<Shape>{test::contour_shape(outline, 0.4f)}, plan));
   for (float threshold = 0.2f; threshold > 0.001f; threshold *= 0.9f) {
-    const FlatShape shape = flat(test::contour_shape(outline, threshold), plan);
+    const PreparedShape shape = flat(test::contour_shape(outline, threshold), plan);
     dynamic.replace(0, shape);
-    const ShapeArrays& arrays = dynamic.set().arrays();
-    const ShapeExtent size = extent_of(shape);
+    const detail::ShapeArrays& arrays = dynamic.set().arrays();
+    const detail::ShapeExtent size = detail::extent_of(shape.flat());
     EXPECT_LE(arrays.nodes.size(), 4.5 * static_cast<double>(size.nodes) + 64) << threshold;
-    EXPECT_EQ(arrays.support.size(), (first_row + 1) * support_stride);
+    EXPECT_EQ(arrays.support.size(), (detail::first_row + 1) * detail::support_stride);
     EXPECT_EQ(arrays.points.size(), size.points);
   }
 }

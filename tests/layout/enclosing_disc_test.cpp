@@ -11,6 +11,7 @@
 
 #include "baselines/welzl.hpp"
 #include "layout/enclosing_disc/enclosing_discs.hpp"
+#include "layout/format/contours.hpp"
 #include "tests/support/scenes.hpp"
 
 namespace bch {
@@ -47,10 +48,11 @@ double smallest_radius(const std::vector<Vec2>& points) {
 }
 
 void expect_smallest(const std::vector<Vec2>& points) {
-  const EnclosingDisc disc = smallest_enclosing_disc(points);
+  const detail::EnclosingDisc disc = detail::smallest_enclosing_disc(points);
   EXPECT_DOUBLE_EQ(disc.radius, radius_about(disc.centre.x, disc.centre.y, points))
       << points.size() << " points";
-  EXPECT_NEAR(disc.radius, smallest_radius(points), 2e-7 * reach(points)) << points.size() << " points";
+  EXPECT_NEAR(disc.radius, smallest_radius(points), 2e-7 * detail::reach(points))
+      << points.size() << " points";
 }
 
 TEST(EnclosingDisc, Examples) {
@@ -58,7 +60,7 @@ TEST(EnclosingDisc, Examples) {
   expect_smallest({{0, 0}, {2, 0}});
   expect_smallest({{0, 0}, {2, 0}, {1, 0.5f}});
   expect_smallest({{0, 0}, {2, 0}, {1, 2}});
-  EXPECT_EQ(smallest_enclosing_disc(std::vector<Vec2>{{0, 0}, {2, 0}}).radius, 1);
+  EXPECT_EQ(detail::smallest_enclosing_disc(std::vector<Vec2>{{0, 0}, {2, 0}}).radius, 1);
 }
 
 TEST(EnclosingDisc, DegeneratePointSets) {
@@ -95,7 +97,7 @@ TEST(EnclosingDisc, CocircularPointsOnTheGrid) {
 /// Sets of every size and kind: on a line, on a circle, few distinct points, anywhere.
 struct PointSets {
   std::vector<Vec2> points;
-  std::vector<PointRange> ranges;
+  std::vector<detail::PointRange> ranges;
 
   std::vector<Vec2> set(std::size_t i) const {
     return {points.begin() + ranges[i].begin, points.begin() + ranges[i].end};
@@ -123,15 +125,16 @@ TEST(EnclosingDiscs, HoldTheirPointsAndAreAsSmallAsWelzls) {
   bench::Welzl welzl;
   for (const double scale : {1e-6, 1.0, 1e6}) {
     const PointSets sets = random_sets(random, scale);
-    std::vector<SolvedDisc> discs(sets.ranges.size());
-    EnclosingDiscs().solve(sets.points, sets.ranges, discs);
+    std::vector<detail::SolvedDisc> discs(sets.ranges.size());
+    detail::EnclosingDiscs().solve(sets.points, sets.ranges, discs);
     for (std::size_t i = 0; i < discs.size(); ++i) {
       const std::vector<Vec2> points = sets.set(i);
       const double radius = std::sqrt(discs[i].square_radius);
       EXPECT_DOUBLE_EQ(radius, radius_about(discs[i].centre.x, discs[i].centre.y, points));
       const double smallest = std::sqrt(welzl(points).square_radius);
-      ASSERT_LE(radius, (1 + 1e-6) * smallest + 0x1p-24 * reach(points)) << points.size() << " points";
-      EXPECT_NEAR(radius, smallest_enclosing_disc(points).radius, 0x1p-24 * reach(points));
+      ASSERT_LE(radius, (1 + 1e-6) * smallest + 0x1p-24 * detail::reach(points))
+          << points.size() << " points";
+      EXPECT_NEAR(radius, detail::smallest_enclosing_disc(points).radius, 0x1p-24 * detail::reach(points));
     }
   }
 }
@@ -139,12 +142,12 @@ TEST(EnclosingDiscs, HoldTheirPointsAndAreAsSmallAsWelzls) {
 TEST(EnclosingDiscs, AreTheSameBitsOnEveryInstructionSet) {
   test::Random random(4);
   const PointSets sets = random_sets(random, 1);
-  std::vector<SolvedDisc> expected(sets.ranges.size());
-  EnclosingDiscs(disc_implementations().back()).solve(sets.points, sets.ranges, expected);
-  for (const DiscImplementation& implementation : disc_implementations()) {
+  std::vector<detail::SolvedDisc> expected(sets.ranges.size());
+  detail::EnclosingDiscs(detail::disc_implementations().back()).solve(sets.points, sets.ranges, expected);
+  for (const detail::DiscImplementation& implementation : detail::disc_implementations()) {
     if (!implementation.supported()) continue;
-    std::vector<SolvedDisc> discs(sets.ranges.size());
-    EnclosingDiscs(implementation).solve(sets.points, sets.ranges, discs);
+    std::vector<detail::SolvedDisc> discs(sets.ranges.size());
+    detail::EnclosingDiscs(implementation).solve(sets.points, sets.ranges, discs);
     for (std::size_t i = 0; i < discs.size(); ++i) {
       ASSERT_EQ(discs[i].centre, expected[i].centre) << implementation.name << ", set " << i;
       ASSERT_EQ(discs[i].square_radius, expected[i].square_radius) << implementation.name << ", set " << i;

@@ -9,8 +9,9 @@
 #include <limits>
 #include <stdexcept>
 
+#include <bch/outline_builder.hpp>
+
 #include "layout/hierarchy/builder.hpp"
-#include "layout/outline/builder.hpp"
 #include "tests/support/scenes.hpp"
 
 namespace bch {
@@ -44,12 +45,12 @@ Soup random_soup(test::Random& random, int kind) {
 /// What an outline makes of the same triangles; it may round crossings, and disagree about which of equal points decides.
 TEST(ExtremeVertices, DecideTheDiscAroundTheOutline) {
   test::Random random(81);
-  HierarchyBuilder builder;
+  detail::HierarchyBuilder builder;
   Hierarchy root, expected;
   Outline outline;
   for (int i = 0; i < 2000; ++i) {
     const Soup soup = random_soup(random, i % 5);
-    ExtremeVertices extremes(soup.triangles, soup.positions.size());
+    detail::ExtremeVertices extremes(soup.triangles, soup.positions.size());
     extremes.find(soup.positions);
     OutlineBuilder outlines(soup.triangles, soup.positions.size());
     outlines.build(soup.positions, outline);
@@ -75,7 +76,7 @@ TEST(ExtremeVertices, AreFewOfManyVertices) {
     soup.positions.push_back(
         {static_cast<float>(random.uniform(-1, 1)), static_cast<float>(random.uniform(-0.3, 0.3))});
   for (std::uint32_t i = 0; i + 2 < 3000; ++i) soup.triangles.push_back({i, i + 1, i + 2});
-  ExtremeVertices extremes(soup.triangles, soup.positions.size());
+  detail::ExtremeVertices extremes(soup.triangles, soup.positions.size());
   extremes.find(soup.positions);
   EXPECT_LT(extremes.points().size(), 300u);
 }
@@ -83,7 +84,7 @@ TEST(ExtremeVertices, AreFewOfManyVertices) {
 TEST(ExtremeVertices, RejectWhatHasNoReach) {
   const Triangles one = {{0, 1, 2}};
   std::vector<Vec2> positions(3);
-  ExtremeVertices extremes(one, 3);
+  detail::ExtremeVertices extremes(one, 3);
   EXPECT_THROW(extremes.find(positions), std::invalid_argument);
   positions[1].x = std::numeric_limits<float>::quiet_NaN();
   EXPECT_THROW(extremes.find(positions), std::invalid_argument);

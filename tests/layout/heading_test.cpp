@@ -21,12 +21,12 @@ TEST(Heading, IsWithinItsBoundsEverywhere) {
   for (int i = 0; i < 300'000; ++i) {
     const double size = std::exp2(random.uniform(-40, 29.8));
     const double heading = random.below(2) == 0 ? size : -size;
-    const Rotation exact = rotation(heading);
+    const detail::Rotation exact = detail::rotation(heading);
     const long double cosine = std::cos(static_cast<long double>(heading)),
                       sine = std::sin(static_cast<long double>(heading));
     ASSERT_LE(std::abs(static_cast<long double>(exact.cosine) - cosine), 2e-10L) << heading;
     ASSERT_LE(std::abs(static_cast<long double>(exact.sine) - sine), 2e-10L) << heading;
-    const UnitVector rounded = unit_vector(heading);
+    const detail::UnitVector rounded = detail::unit_vector(heading);
     ASSERT_LE(std::abs(static_cast<long double>(rounded.cosine) - cosine), to_float) << heading;
     ASSERT_LE(std::abs(static_cast<long double>(rounded.sine) - sine), to_float) << heading;
   }
@@ -36,7 +36,7 @@ TEST(Heading, IsWithinItsBoundsEverywhere) {
 TEST(Heading, PolynomialsAreWithinTheTermsTheyLeaveOut) {
   for (int i = -1000; i <= 1000; ++i) {
     const double heading = i * std::numbers::pi / 4000;
-    const Rotation at = rotation(heading);
+    const detail::Rotation at = detail::rotation(heading);
     const long double size = std::abs(static_cast<long double>(heading));
     EXPECT_LE(std::abs(at.sine - std::sin(static_cast<long double>(heading))),
               std::pow(size, 13) / 6.2e9L + 3e-16L)
@@ -49,7 +49,7 @@ TEST(Heading, PolynomialsAreWithinTheTermsTheyLeaveOut) {
 
 TEST(Heading, QuarterTurns) {
   for (int quarter = -9; quarter <= 9; ++quarter) {
-    const UnitVector u = unit_vector(quarter * std::numbers::pi / 2);
+    const detail::UnitVector u = detail::unit_vector(quarter * std::numbers::pi / 2);
     const int expected_cosine[] = {1, 0, -1, 0}, expected_sine[] = {0, 1, 0, -1};
     EXPECT_NEAR(u.cosine, expected_cosine[quarter & 3], 1e-14) << quarter;
     EXPECT_NEAR(u.sine, expected_sine[quarter & 3], 1e-14) << quarter;
@@ -57,12 +57,13 @@ TEST(Heading, QuarterTurns) {
 }
 
 TEST(Rounding, UpIsTheNextFloat) {
-  EXPECT_EQ(rounding::round_up(0), 0.0f);
-  EXPECT_EQ(rounding::round_up(1), 1.0f);
-  EXPECT_EQ(rounding::round_up(1 + 0x1p-40), std::nextafter(1.0f, 2.0f));
-  EXPECT_EQ(rounding::round_up(0.1), 0.1f);  // the float is above the double
-  EXPECT_EQ(rounding::round_up(0.3), std::bit_cast<float>(std::bit_cast<std::uint32_t>(0.3f) +
-                                                          (static_cast<double>(0.3f) < 0.3 ? 1u : 0u)));
+  EXPECT_EQ(detail::rounding::round_up(0), 0.0f);
+  EXPECT_EQ(detail::rounding::round_up(1), 1.0f);
+  EXPECT_EQ(detail::rounding::round_up(1 + 0x1p-40), std::nextafter(1.0f, 2.0f));
+  EXPECT_EQ(detail::rounding::round_up(0.1), 0.1f);  // the float is above the double
+  EXPECT_EQ(
+      detail::rounding::round_up(0.3),
+      std::bit_cast<float>(std::bit_cast<std::uint32_t>(0.3f) + (static_cast<double>(0.3f) < 0.3 ? 1u : 0u)));
 }
 
 }  // namespace

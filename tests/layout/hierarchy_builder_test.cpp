@@ -14,6 +14,7 @@
 #include <utility>
 
 #include "layout/base/rounding.hpp"
+#include "layout/culling/supports.hpp"
 #include "layout/shape_set/bvh8.hpp"
 #include "tests/support/allocation_count.hpp"
 #include "tests/support/character_shapes.hpp"
@@ -27,7 +28,7 @@ namespace bch {
 namespace {
 
 void expect_as_reference(const Outline& outline, float threshold) {
-  HierarchyBuilder builder;
+  detail::HierarchyBuilder builder;
   Hierarchy hierarchy;
   for (const SplitRule rule : {SplitRule::centroid, SplitRule::centre}) {
     builder.contour(outline, threshold, rule, hierarchy);
@@ -88,7 +89,7 @@ TEST(HierarchyBuilder, EqualsTheReferenceOnDegenerateOutlines) {
 TEST(HierarchyBuilder, EqualsTheReferenceWhereRoundingDecidesOnHalves) {
   test::Random random(38);
   const auto near = [&](double value) {
-    return static_cast<float>(value + random.uniform(-4, 4) * rounding::unit_roundoff);
+    return static_cast<float>(value + random.uniform(-4, 4) * detail::rounding::unit_roundoff);
   };
   for (int i = 0; i < 4000; ++i) {
     const double threshold = i % 2 == 0 ? 0.01 : 1e-7, angle = random.uniform(-4, 4);
@@ -106,7 +107,7 @@ TEST(HierarchyBuilder, EqualsTheReferenceWhereRoundingDecidesOnHalves) {
 
 /// Every disc of every cut, bit for bit.
 TEST(HierarchyBuilder, EndsAtTheDeepestDepth) {
-  HierarchyBuilder builder;
+  detail::HierarchyBuilder builder;
   Hierarchy whole, limited;
   const auto discs = [](const Hierarchy& hierarchy, std::uint32_t depth) {
     std::vector<Disc> all;
@@ -130,7 +131,7 @@ TEST(HierarchyBuilder, EndsAtTheDeepestDepth) {
 }
 
 TEST(HierarchyBuilder, LeavesNothingHalfDone) {
-  HierarchyBuilder builder;
+  detail::HierarchyBuilder builder;
   Hierarchy hierarchy;
   const Outline outline = test::synthetic_shapes(33, 1)[0].outline;
   builder.contour(outline, 0.01f, SplitRule::centroid, hierarchy);
@@ -150,10 +151,10 @@ TEST(HierarchyBuilder, LeavesNothingHalfDone) {
 /// Hierarchies and their levels; twice, and a second time without allocating.
 TEST(HierarchyBuilder, ReusesItsMemory) {
   const std::vector<Shape> shapes = test::synthetic_shapes(34, 64);
-  HierarchyBuilder builder;
-  Flattener flattener;
+  detail::HierarchyBuilder builder;
+  detail::Flattener flattener;
   Hierarchy hierarchy;
-  Bvh8 tree;
+  detail::Bvh8 tree;
   std::size_t before = 0;
   for (int round = 0; round < 2; ++round) {
     before = test::allocation_count();
@@ -171,24 +172,26 @@ TEST(HierarchyBuilder, ReusesItsMemory) {
 }
 
 TEST(Flattener, EqualsAFreshOne) {
-  Flattener flattener;
-  Bvh8 tree;
+  detail::Flattener flattener;
+  detail::Bvh8 tree;
   for (const Shape& shape : test::synthetic_shapes(35, 32)) {
     flattener.begin(shape.hierarchy);
     for (const std::uint32_t depth : {all_depths, 0u, 6u, 3u}) {
       flattener.flatten(depth, tree);
-      const Bvh8 fresh = bvh8(shape.hierarchy, depth);
+      const detail::Bvh8 fresh = detail::bvh8(shape.hierarchy, depth);
       EXPECT_EQ(tree.root, fresh.root);
       EXPECT_EQ(tree.is_single(), fresh.is_single());
       ASSERT_EQ(tree.blocks.size(), fresh.blocks.size());
       for (std::size_t i = 0; i < tree.blocks.size(); ++i)
-        EXPECT_EQ(std::memcmp(&tree.blocks[i], &fresh.blocks[i], sizeof(Bvh8::Block)), 0);
+        EXPECT_EQ(std::memcmp(&tree.blocks[i], &fresh.blocks[i], sizeof(detail::Bvh8::Block)), 0);
       EXPECT_EQ(tree.x, fresh.x);
       EXPECT_EQ(tree.y, fresh.y);
       EXPECT_EQ(tree.radius, fresh.radius);
       EXPECT_EQ(tree.outer, fresh.outer);
       ASSERT_EQ(tree.inner.size(), fresh.inner.size());
-      EXPECT_EQ(std::memcmp(tree.inner.data(), fresh.inner.data(), tree.inner.size() * sizeof(InnerNode)), 0);
+      EXPECT_EQ(
+          std::memcmp(tree.inner.data(), fresh.inner.data(), tree.inner.size() * sizeof(detail::InnerNode)),
+          0);
     }
   }
 }
@@ -206,17 +209,18 @@ TEST(HierarchyBuilder, NumbersInMessagesAreWhatTheyAre) {
 
 /// Against the definition in double: rounding takes at most 8 of the margin's 320 units.
 TEST(Flattener, SupportsAreThoseOfTheCut) {
-  Flattener flattener;
-  Bvh8 tree;
+  detail::Flattener flattener;
+  detail::Bvh8 tree;
   for (const Shape& shape : test::synthetic_shapes(36, 32)) {
     flattener.begin(shape.hierarchy);
     for (const std::uint32_t depth : {0u, 3u, 6u, all_depths}) {
       flattener.flatten(depth, tree);
-      const Supports heights = flattener.supports();
-      for (std::uint32_t k = 0; k < support_stride; ++k) {
+      const detail::Supports heights = flattener.supports();
+      for (std::uint32_t k = 0; k < detail::support_stride; ++k) {
         // All even directions twice over, then all odd ones.
-        const std::uint32_t direction = 2 * (k % (support_directions / 2)) + k / support_directions;
-        const double angle = 2 * std::acos(-1.0) * direction / support_directions;
+        const std::uint32_t direction =
+            2 * (k % (detail::support_directions / 2)) + k / detail::support_directions;
+        const double angle = 2 * std::acos(-1.0) * direction / detail::support_directions;
         double largest = -HUGE_VAL;
         for (const std::uint32_t node : cut(shape.hierarchy, depth)) {
           const Disc& disc = shape.hierarchy.nodes[node].disc;
@@ -224,9 +228,9 @@ TEST(Flattener, SupportsAreThoseOfTheCut) {
                                           std::sin(angle) * static_cast<double>(disc.y) +
                                           static_cast<double>(disc.radius));
         }
-        const double unit = rounding::unit_roundoff * shape.hierarchy.reach;
+        const double unit = detail::rounding::unit_roundoff * shape.hierarchy.reach;
         EXPECT_NEAR(static_cast<double>(heights[k]),
-                    largest + rounding::support_margin * shape.hierarchy.reach, 10 * unit)
+                    largest + detail::rounding::support_margin * shape.hierarchy.reach, 10 * unit)
             << "direction " << k;
       }
     }

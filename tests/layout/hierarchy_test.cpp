@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include "layout/hierarchy/hierarchy.hpp"
+#include <bch/hierarchy.hpp>
 
 #include <gtest/gtest.h>
 
@@ -32,11 +32,12 @@ TEST(ContourHierarchy, KeepsItsPromisesOnManyShapes) {
 
 TEST(ContourHierarchy, RootIsTheSmallestEnclosingDiscOfTheOutline) {
   for (const Shape& shape : test::synthetic_shapes(12, 40)) {
-    const double tight = smallest_enclosing_disc(shape.outline.points).radius;
+    const double tight = detail::smallest_enclosing_disc(shape.outline.points).radius;
     const double stored = shape.hierarchy.nodes[0].disc.radius;
     EXPECT_GE(stored, tight);
-    const double margins = rounding::query_margin * shape.hierarchy.reach +
-                           rounding::outline_grid_steps * static_cast<double>(shape.outline.grid_step);
+    const double margins =
+        detail::rounding::query_margin * shape.hierarchy.reach +
+        detail::rounding::outline_grid_steps * static_cast<double>(shape.outline.grid_step);
     EXPECT_LE(stored - tight, margins + 0x1p-22 * stored);
   }
 }
@@ -118,7 +119,8 @@ TEST(ContourHierarchy, RejectsAGridStepAboveTheReach) {
     outline.grid_step = step;
     EXPECT_THROW(contour_hierarchy(outline, 0.01f), std::invalid_argument) << step;
     Hierarchy hierarchy;
-    EXPECT_THROW(HierarchyBuilder().root(outline.points, step, hierarchy), std::invalid_argument) << step;
+    EXPECT_THROW(detail::HierarchyBuilder().root(outline.points, step, hierarchy), std::invalid_argument)
+        << step;
   }
 }
 

@@ -8,8 +8,9 @@
 #include <algorithm>
 #include <set>
 
+#include <bch/import.hpp>
+
 #include "layout/character/skinning.hpp"
-#include "layout/import/import.hpp"
 #include "tests/support/character_shapes.hpp"
 #include "tests/support/gltf_file.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -19,8 +20,8 @@
 namespace bch {
 namespace {
 
-using import_detail::ClipMatch;
-using import_detail::mismatch;
+using detail::importing::ClipMatch;
+using detail::importing::mismatch;
 
 std::vector<std::string> names(std::size_t count) {
   std::vector<std::string> list;

@@ -7,9 +7,10 @@
 #include <filesystem>
 #include <string_view>
 
+#include <bch/import.hpp>
+
 #include "layout/character/eigen.hpp"
 #include "layout/character/skinning.hpp"
-#include "layout/import/import.hpp"
 #include "tests/support/character_shapes.hpp"
 
 // Real files, found through the environment variable BCH_TEST_DATA; what they hold is written in the
@@ -42,14 +43,14 @@ class ImportData : public testing::Test {
   /// In every pose the character stands near its origin, upright, on the ground within a captured motion's
   /// error.
   static void expect_poses_in_place(const Character& c) {
-    Skinner skinner(c);
+    detail::Skinner skinner(c);
     for (std::uint32_t clip = 0; clip < c.clips.size(); ++clip)
       for (const float share : {0.0f, 0.13f, 0.29f, 0.5f, 0.61f, 0.77f, 0.92f, 1.0f}) {
         float reach = 0;
         Eigen::AlignedBox3f box;
         for (const Vec3& position : skinner.pose({clip, share * c.clips[clip].seconds})) {
-          reach = std::max(reach, to_eigen(position).head<2>().norm());
-          box.extend(to_eigen(position));
+          reach = std::max(reach, detail::to_eigen(position).head<2>().norm());
+          box.extend(detail::to_eigen(position));
         }
         const std::string place = c.name + ", " + c.clips[clip].name + " at " + std::to_string(share);
         EXPECT_LT(reach, 1.0f) << place;
@@ -139,13 +140,13 @@ TEST_F(ImportData, ClipIsIndependentOfTheUnitOfTheCharacter) {
   options.clip_files = {character("native/clip_walk.fbx")};
   const Character centimetres = import_character(character("native/generic_man.fbx"), options).character;
   const Character metres = import_character(character("generic_man_cmu.glb"), options).character;
-  Skinner in_centimetres(centimetres);
-  Skinner in_metres(metres);
+  detail::Skinner in_centimetres(centimetres);
+  detail::Skinner in_metres(metres);
   for (const float time : {0.0f, 0.4f, 0.9f, 1.3f}) {
-    const auto box = [&](Skinner& skinner, const Character& c) {
+    const auto box = [&](detail::Skinner& skinner, const Character& c) {
       Eigen::AlignedBox3f all;
       const auto clip = static_cast<std::uint32_t>(c.clips.size() - 1);
-      for (const Vec3& position : skinner.pose({clip, time})) all.extend(to_eigen(position));
+      for (const Vec3& position : skinner.pose({clip, time})) all.extend(detail::to_eigen(position));
       return all;
     };
     const Eigen::AlignedBox3f a = box(in_centimetres, centimetres);
@@ -158,7 +159,7 @@ TEST_F(ImportData, ClipIsIndependentOfTheUnitOfTheCharacter) {
 /// These captures are known to turn by more than a quarter: the shape must turn with them.
 TEST_F(ImportData, PosesKeepTheirYaw) {
   const Character c = import_character(character("rocketbox_male_2847_cmu.glb")).character;
-  Skinner skinner(c);
+  detail::Skinner skinner(c);
   const auto clip = static_cast<std::uint32_t>(
       std::find_if(c.clips.begin(), c.clips.end(),
                    [](const Clip& each) { return each.name == "walk_turn_142_04"; }) -
@@ -174,8 +175,8 @@ TEST_F(ImportData, PosesKeepTheirYaw) {
   Eigen::Vector2f first = Eigen::Vector2f::Zero();
   for (float time = 0; time < c.clips[clip].seconds; time += 0.25f) {
     const auto pose = skinner.pose({clip, time});
-    const Eigen::Vector3f across_now =
-        to_eigen(pose[static_cast<std::size_t>(right)]) - to_eigen(pose[static_cast<std::size_t>(left)]);
+    const Eigen::Vector3f across_now = detail::to_eigen(pose[static_cast<std::size_t>(right)]) -
+                                       detail::to_eigen(pose[static_cast<std::size_t>(left)]);
     const Eigen::Vector2f way = across_now.head<2>().normalized();
     if (time == 0) first = way;
     most_turned = std::min(most_turned, first.dot(way));
@@ -253,14 +254,14 @@ TEST_F(ImportData, NastyFilesAreRefusedForTheRightReason) {
 
 /// How far two characters' vertices are apart in the worst of some poses of their first clips.
 float farthest_apart(const Character& a, const Character& b) {
-  Skinner of_a(a), of_b(b);
+  detail::Skinner of_a(a), of_b(b);
   float farthest = 0;
   for (const float share : {0.0f, 0.1f, 0.35f, 0.6f, 0.9f, 1.0f}) {
     const auto pose_a = of_a.pose({0, share * a.clips.at(0).seconds});
     const auto pose_b = of_b.pose({0, share * b.clips.at(0).seconds});
     EXPECT_EQ(pose_a.size(), pose_b.size());
     for (std::size_t v = 0; v < pose_a.size(); ++v)
-      farthest = std::max(farthest, (to_eigen(pose_a[v]) - to_eigen(pose_b[v])).norm());
+      farthest = std::max(farthest, (detail::to_eigen(pose_a[v]) - detail::to_eigen(pose_b[v])).norm());
   }
   return farthest;
 }

@@ -6,7 +6,8 @@
 #include <cmath>
 #include <limits>
 
-#include "layout/import/import.hpp"
+#include <bch/import.hpp>
+
 #include "tests/support/gltf_file.hpp"
 #include "tests/support/temporary_folder.hpp"
 

@@ -7,7 +7,8 @@
 #include <filesystem>
 #include <string>
 
-#include "layout/import/import.hpp"
+#include <bch/import.hpp>
+
 #include "tests/support/gltf_file.hpp"
 #include "tests/support/temporary_folder.hpp"
 

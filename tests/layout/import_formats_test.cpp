@@ -7,9 +7,10 @@
 #include <bit>
 #include <cmath>
 
+#include <bch/import.hpp>
+
 #include "layout/character/eigen.hpp"
 #include "layout/character/skinning.hpp"
-#include "layout/import/import.hpp"
 #include "tests/support/gltf_file.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -39,13 +40,13 @@ class ImportFormats : public testing::Test {
   static void expect_equal_clips(const Character& character, std::uint32_t a, std::uint32_t b) {
     ASSERT_GT(character.clips.size(), std::max(a, b));
     ASSERT_EQ(character.clips[a].seconds, character.clips[b].seconds);
-    Skinner skinner_a(character);
-    Skinner skinner_b(character);
+    detail::Skinner skinner_a(character);
+    detail::Skinner skinner_b(character);
     for (const float share : {0.0f, 0.3f, 0.5f, 0.9f, 1.0f}) {
       const auto pose_a = skinner_a.pose({a, share * character.clips[a].seconds});
       const auto pose_b = skinner_b.pose({b, share * character.clips[b].seconds});
       for (std::size_t v = 0; v < pose_a.size(); ++v)
-        EXPECT_LT((to_eigen(pose_a[v]) - to_eigen(pose_b[v])).norm(), 1e-5f)
+        EXPECT_LT((detail::to_eigen(pose_a[v]) - detail::to_eigen(pose_b[v])).norm(), 1e-5f)
             << "vertex " << v << " at " << share;
     }
   }
@@ -54,7 +55,7 @@ class ImportFormats : public testing::Test {
   static Eigen::Vector3f end_of_way(const Character& character, std::uint32_t clip) {
     for (const Channel& channel : character.clips.at(clip).channels)
       if (static_cast<std::int32_t>(channel.joint) == character.root_joint)
-        return to_eigen(channel.positions.back().value);
+        return detail::to_eigen(channel.positions.back().value);
     throw std::logic_error("the root joint does not move");
   }
 };
@@ -84,8 +85,8 @@ TEST_F(ImportFormats, FbxSaysItsAxisAndUnit) {
     const auto [character, report] = import_character(file);
     EXPECT_NEAR(report.height, height * 0.0254f, 1e-5f) << "axis " << axis;
     EXPECT_TRUE(has_note(report, "inches -> metres (FBX unit scale factor 2.54)"));
-    EXPECT_GT(to_eigen(character.to_ground).linear().determinant(), 0);
-    Skinner skinner(character);
+    EXPECT_GT(detail::to_eigen(character.to_ground).linear().determinant(), 0);
+    detail::Skinner skinner(character);
     float bottom = 1e9f;
     for (const Vec3& position : skinner.pose({})) bottom = std::min(bottom, position.z);
     EXPECT_NEAR(bottom, lowest * 0.0254f, 1e-5f) << "axis " << axis << ", sign " << sign;
@@ -225,7 +226,7 @@ TEST_F(ImportFormats, Md5WithItsMotionInAnotherFile) {
   ASSERT_GE(character.root_joint, 0);
   EXPECT_EQ(character.joints[static_cast<std::size_t>(character.root_joint)].name, "hips");
   // 120 inches along x, and a quarter of a turn of the head about the vertical, which takes x into +-y.
-  Skinner skinner(character);
+  detail::Skinner skinner(character);
   const auto pose = skinner.pose({0, character.clips[0].seconds});
   float top_x = 0;
   float top_y = 0;

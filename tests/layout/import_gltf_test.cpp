@@ -7,9 +7,10 @@
 #include <cmath>
 #include <string>
 
+#include <bch/import.hpp>
+
 #include "layout/character/eigen.hpp"
 #include "layout/character/skinning.hpp"
-#include "layout/import/import.hpp"
 #include "tests/support/gltf_file.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -155,7 +156,7 @@ TEST_F(ImportGltf, WithoutInverseBindMatricesTheyAreIdentity) {
                  false))
           .character;
   for (const Bone& bone : c.bones) EXPECT_EQ(bone.inverse_bind, Affine3());
-  Skinner skinner(c);
+  detail::Skinner skinner(c);
   const auto pose = skinner.pose({});
   // The hips stand 1 m up and the head 1.5 m: feet at 0 come to 1, hands at 1.8 to 3.3.
   EXPECT_NEAR(pose[c.triangles[0][1]].z, 1.0f, 1e-6f);
@@ -168,7 +169,7 @@ TEST_F(ImportGltf, NodesOfOneNameAreTheirOwn) {
   strip.head = strip.hips = "body";  // as the node of the mesh
   const auto [character, report] = import(strip.text());
   EXPECT_EQ(report.bones, good_report.bones);
-  Skinner expected(good), skinner(character);
+  detail::Skinner expected(good), skinner(character);
   for (const float time : {0.0f, 0.7f, 2.0f}) {
     const auto wanted = expected.pose({0, time}), pose = skinner.pose({0, time});
     for (std::size_t v = 0; v < pose.size(); ++v) EXPECT_EQ(pose[v], wanted[v]);
@@ -196,7 +197,7 @@ struct Posed {
 };
 
 Posed posed(const Character& character, float seconds) {
-  Skinner skinner(character);
+  detail::Skinner skinner(character);
   const auto pose = skinner.pose({0, seconds});
   const Vec3 left = pose[character.triangles[0][2]], right = pose[character.triangles[1][2]];
   return {pose[character.triangles[0][0]].z, std::atan2(left.y - right.y, left.x - right.x)};
@@ -278,7 +279,7 @@ TEST_F(ImportGltf, CubicKeysOfAnotherFileTurnAndGrowWithItsSkeleton) {
   options.clip_files = {folder.write("other.gltf", other.text())};
   const Character c = import_character(folder.write("own.gltf", own.text()), options).character;
   ASSERT_EQ(c.clips.size(), 2u);
-  Skinner first(c), second(c);
+  detail::Skinner first(c), second(c);
   for (const float time : {0.3f, 0.5f, 1.0f, 1.7f}) {
     const auto wanted = first.pose({0, time});
     const auto pose = second.pose({1, time});
@@ -425,11 +426,12 @@ TEST_F(ImportGltf, StripsAndFansAreTriangles) {
         mode == 5 ? std::vector<std::uint16_t>{0, 1, 2, 3} : std::vector<std::uint16_t>{0, 1, 3, 2};
     const Character c = import(strip.text()).character;
     ASSERT_EQ(c.triangles.size(), 2u);
-    Skinner skinner(c);
+    detail::Skinner skinner(c);
     const auto pose = skinner.pose({});
     for (const auto& [x, y, z] : c.triangles) {  // both turn the same way
-      const Eigen::Vector3f corner = to_eigen(pose[x]);
-      EXPECT_LT((to_eigen(pose[y]) - corner).cross(to_eigen(pose[z]) - corner).y(), -0.4f) << mode;
+      const Eigen::Vector3f corner = detail::to_eigen(pose[x]);
+      EXPECT_LT((detail::to_eigen(pose[y]) - corner).cross(detail::to_eigen(pose[z]) - corner).y(), -0.4f)
+          << mode;
     }
   }
 }

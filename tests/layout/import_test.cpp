@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include "layout/import/import.hpp"
+#include <bch/import.hpp>
 
 #include <gtest/gtest.h>
 
@@ -43,11 +43,11 @@ std::string tetrahedron_obj(float width, float depth, float height, int up) {
 
 /// Positive for a character of right-handed corners 0, 1, 2, 3 as tetrahedron_obj() lists them.
 float signed_volume(const Character& character) {
-  Skinner skinner(character);
+  detail::Skinner skinner(character);
   const auto pose = skinner.pose({});
   float volume = 0;
   for (const auto& [a, b, c] : character.triangles)
-    volume += to_eigen(pose[a]).dot(to_eigen(pose[b]).cross(to_eigen(pose[c]))) / 6;
+    volume += detail::to_eigen(pose[a]).dot(detail::to_eigen(pose[b]).cross(detail::to_eigen(pose[c]))) / 6;
   return volume;
 }
 
@@ -71,7 +71,7 @@ TEST_F(Import, StaticMeshFollowsItsNodeAndPolygonsBecomeTriangles) {
   EXPECT_EQ(character.vertices.size(), 4u);
   EXPECT_EQ(report.bones, 1u);
   ASSERT_EQ(character.bones.size(), 1u);
-  EXPECT_TRUE(to_eigen(character.bones[0].inverse_bind).isApprox(Eigen::Affine3f::Identity()));
+  EXPECT_TRUE(detail::to_eigen(character.bones[0].inverse_bind).isApprox(Eigen::Affine3f::Identity()));
   EXPECT_EQ(character.root_joint, -1);
   EXPECT_EQ(report.dropped_faces, 1u);
   EXPECT_GE(report.dropped_vertices, 1u);
@@ -145,15 +145,15 @@ TEST_F(Import, SkinnedMeshPlaysItsClip) {
     ASSERT_GE(character.root_joint, 0);
     EXPECT_EQ(character.joints[static_cast<std::size_t>(character.root_joint)].name, "hips");
 
-    Skinner skinner(character);
+    detail::Skinner skinner(character);
     const auto pose = skinner.pose({0, 2.0f});
     // x of the file stays x; a turn about its y by 90 degrees takes x to its -z, which is the ground's y.
     const std::uint32_t foot = character.triangles[0][1];
     const std::uint32_t hand = character.triangles[0][2];
-    EXPECT_TRUE(to_eigen(pose[foot]).isApprox(Eigen::Vector3f(0.5f, 0, 0), 1e-5f))
-        << to_eigen(pose[foot]).transpose();
-    EXPECT_TRUE(to_eigen(pose[hand]).isApprox(Eigen::Vector3f(0, 0.5f, 1.8f), 1e-5f))
-        << to_eigen(pose[hand]).transpose();
+    EXPECT_TRUE(detail::to_eigen(pose[foot]).isApprox(Eigen::Vector3f(0.5f, 0, 0), 1e-5f))
+        << detail::to_eigen(pose[foot]).transpose();
+    EXPECT_TRUE(detail::to_eigen(pose[hand]).isApprox(Eigen::Vector3f(0, 0.5f, 1.8f), 1e-5f))
+        << detail::to_eigen(pose[hand]).transpose();
   }
 }
 
@@ -209,13 +209,13 @@ TEST_F(Import, RepairsTheOrderOfKeysAndTheNormOfRotations) {
   const auto [character, report] = import("odd.gltf", strip.text());
   EXPECT_TRUE(has_note(report, "2 lists of keys put in order")) << all_notes(report);
   EXPECT_TRUE(has_note(report, "3 rotations normalised")) << all_notes(report);
-  Skinner skinner(character);
-  Skinner expected(good);
+  detail::Skinner skinner(character);
+  detail::Skinner expected(good);
   for (const float time : {0.0f, 0.6f, 1.4f, 2.0f}) {
     const auto pose = skinner.pose({0, time});
     const auto wanted = expected.pose({0, time});
     for (std::size_t v = 0; v < pose.size(); ++v)
-      EXPECT_LT((to_eigen(pose[v]) - to_eigen(wanted[v])).norm(), 1e-5f);
+      EXPECT_LT((detail::to_eigen(pose[v]) - detail::to_eigen(wanted[v])).norm(), 1e-5f);
   }
 }
 
@@ -226,13 +226,13 @@ TEST_F(Import, MovesAClipThatStartsBeforeZero) {
   const auto [character, report] = import("early.gltf", strip.text());
   EXPECT_TRUE(has_note(report, "starts before time 0")) << all_notes(report);
   EXPECT_EQ(character.clips.at(0).seconds, 2.0f);
-  Skinner skinner(character);
-  Skinner expected(good);
+  detail::Skinner skinner(character);
+  detail::Skinner expected(good);
   for (const float time : {0.0f, 0.6f, 1.4f, 2.0f}) {
     const auto pose = skinner.pose({0, time});
     const auto wanted = expected.pose({0, time});
     for (std::size_t v = 0; v < pose.size(); ++v)
-      EXPECT_LT((to_eigen(pose[v]) - to_eigen(wanted[v])).norm(), 1e-5f);
+      EXPECT_LT((detail::to_eigen(pose[v]) - detail::to_eigen(wanted[v])).norm(), 1e-5f);
   }
 }
 
@@ -268,10 +268,10 @@ TEST_F(Import, EveryInstanceOfAMeshCounts) {
   ASSERT_EQ(character.vertices.size(), 6u);
   EXPECT_EQ(character.root_joint, -1);
   EXPECT_NEAR(report.height, 3.0f, 1e-6f);
-  Skinner skinner(character);
+  detail::Skinner skinner(character);
   const auto pose = skinner.pose({});
   const Eigen::Vector3f between =
-      to_eigen(pose[character.triangles[1][0]]) - to_eigen(pose[character.triangles[0][0]]);
+      detail::to_eigen(pose[character.triangles[1][0]]) - detail::to_eigen(pose[character.triangles[0][0]]);
   EXPECT_TRUE(between.isApprox(Eigen::Vector3f(-1, 0, 2), 1e-6f)) << between.transpose();
 }
 

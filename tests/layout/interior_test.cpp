@@ -11,6 +11,7 @@
 #include "layout/base/heading.hpp"
 #include "layout/base/rounding.hpp"
 #include "layout/culling/supports.hpp"
+#include "layout/format/contours.hpp"
 #include "tests/support/allocation_count.hpp"
 #include "tests/support/character_shapes.hpp"
 #include "tests/support/outline_checks.hpp"
@@ -24,11 +25,12 @@ using test::polygon;
 
 TEST(Supports, AreExtentsOfTheDiscsEnlarged) {
   const std::vector<Disc> discs = {{1, 0, 0.5f}, {-0.25f, 0.5f, 0.125f}};
-  const Supports heights = supports(discs, 1.5);
-  for (std::uint32_t at = 0; at < support_stride; ++at) {
+  const detail::Supports heights = detail::supports(discs, 1.5);
+  for (std::uint32_t at = 0; at < detail::support_stride; ++at) {
     // All even directions twice over, then all odd ones.
-    const std::uint32_t direction = 2 * (at % (support_directions / 2)) + (at >= support_directions ? 1 : 0);
-    const double angle = 2 * std::numbers::pi * direction / support_directions;
+    const std::uint32_t direction =
+        2 * (at % (detail::support_directions / 2)) + (at >= detail::support_directions ? 1 : 0);
+    const double angle = 2 * std::numbers::pi * direction / detail::support_directions;
     double extent = -HUGE_VAL;
     for (const Disc& d : discs)
       extent =
@@ -70,11 +72,11 @@ long double depth(Contour contour, float at_x, float at_y) {
 }
 
 /// How many there are; each is inside by what rounding.hpp asks for and not by much more.
-int expect_inside(const Outline& outline, double reach, const Interior& found) {
+int expect_inside(const Outline& outline, double reach, const detail::Interior& found) {
   const Contour contour = contour_of_most_area(outline);
-  const long double margin = rounding::query_margin * reach;
+  const long double margin = detail::rounding::query_margin * reach;
   int discs = 0;
-  for (std::uint32_t k = 0; k < block_width; ++k) {
+  for (std::uint32_t k = 0; k < detail::block_width; ++k) {
     if (std::isinf(found.x[k])) {
       EXPECT_EQ(found.radius[k], 0);
       continue;
@@ -89,8 +91,8 @@ int expect_inside(const Outline& outline, double reach, const Interior& found) {
 }
 
 int expect_inside(const Outline& outline) {
-  const double size = reach(outline.points);
-  return expect_inside(outline, size, interior(outline, size));
+  const double size = detail::reach(outline.points);
+  return expect_inside(outline, size, detail::interior(outline, size));
 }
 
 Outline scaled(Outline outline, double factor, double x = 0, double y = 0) {
@@ -101,7 +103,7 @@ Outline scaled(Outline outline, double factor, double x = 0, double y = 0) {
 }
 
 TEST(Interior, DiscsAreInsideTheLargestContour) {
-  InteriorBuilder builder;
+  detail::InteriorBuilder builder;
   int discs = 0;
   for (const Shape& shape : test::synthetic_shapes(51, 64))
     discs += expect_inside(shape.outline, shape.hierarchy.reach,
@@ -110,12 +112,12 @@ TEST(Interior, DiscsAreInsideTheLargestContour) {
 }
 
 void expect_full_blocks_inside(const std::vector<Character>& characters, std::uint32_t poses) {
-  InteriorBuilder builder;
+  detail::InteriorBuilder builder;
   for (const Character& character : characters)
     for (const Shape& shape : test::pose_shapes(character, poses))
       EXPECT_EQ(expect_inside(shape.outline, shape.hierarchy.reach,
                               builder.build(shape.outline, shape.hierarchy.reach)),
-                static_cast<int>(block_width));
+                static_cast<int>(detail::block_width));
 }
 
 TEST(Interior, DiscsAreInsideDefaultPoses) {
@@ -143,7 +145,7 @@ TEST(Interior, DiscsAreInsideContoursOfAnySize) {
 TEST(Interior, WhiskersAndPinchesCostNoDiscs) {
   const Outline whisker = polygon({{0, 0}, {1, 0}, {1, 1}, {5, 6}, {1, 1}, {0, 1}, {-4, 0.5f}, {0, 1}});
   EXPECT_EQ(expect_inside(whisker), 8);
-  EXPECT_GT(interior(whisker, 8).radius[0], 0.4f);
+  EXPECT_GT(detail::interior(whisker, 8).radius[0], 0.4f);
   const Outline pinch = polygon({{0, 0}, {1, 0}, {1, 1}, {2, 1}, {2, 3}, {1, 3}, {1, 1}, {0, 1}});
   EXPECT_EQ(expect_inside(pinch), 8);
   const Outline repeated =
@@ -162,13 +164,13 @@ TEST(Interior, WhatHasNoRoomHasNone) {
 
 TEST(Interior, WhatWasBuiltBeforeChangesNothingAndMemoryIsReused) {
   std::vector<Shape> shapes = test::synthetic_shapes(52, 48);
-  InteriorBuilder builder;
+  detail::InteriorBuilder builder;
   for (const Shape& shape : shapes) builder.build(shape.outline, shape.hierarchy.reach);
   for (const Shape& shape : shapes) {
     const std::size_t before = test::allocation_count();
-    const Interior again = builder.build(shape.outline, shape.hierarchy.reach);
+    const detail::Interior again = builder.build(shape.outline, shape.hierarchy.reach);
     EXPECT_EQ(test::allocation_count(), before);
-    const Interior fresh = interior(shape.outline, shape.hierarchy.reach);
+    const detail::Interior fresh = detail::interior(shape.outline, shape.hierarchy.reach);
     EXPECT_GT(test::allocation_count(), before);
     EXPECT_EQ(again.x, fresh.x);
     EXPECT_EQ(again.y, fresh.y);
@@ -185,13 +187,13 @@ TEST(Interior, DiscsOfPeopleWhoMeetOverlap) {
   std::vector<Shape> shapes;
   for (const Character& character : test::default_characters())
     for (Shape& shape : test::pose_shapes(character, 12)) shapes.push_back(std::move(shape));
-  std::vector<Interior> inside;
-  for (const Shape& shape : shapes) inside.push_back(interior(shape.outline, shape.hierarchy.reach));
+  std::vector<detail::Interior> inside;
+  for (const Shape& shape : shapes) inside.push_back(detail::interior(shape.outline, shape.hierarchy.reach));
   test::Random random(41);
   int meeting = 0, overlapping = 0;
   while (meeting < 3000) {
     const std::uint32_t a = random.below(24), b = random.below(24);
-    const Rotation turn = rotation(random.uniform(0, 2 * std::numbers::pi));
+    const detail::Rotation turn = detail::rotation(random.uniform(0, 2 * std::numbers::pi));
     const double x = random.uniform(-0.8, 0.8), y = random.uniform(-0.8, 0.8);
     const auto placed = [&](float px, float py) {
       const double from_x = static_cast<double>(px), from_y = static_cast<double>(py);
@@ -202,8 +204,8 @@ TEST(Interior, DiscsOfPeopleWhoMeetOverlap) {
     for (const Vec2 p : shapes[b].outline.points)
       meets = meets || test::inside(shapes[a].outline, placed(p.x, p.y)[0], placed(p.x, p.y)[1]);
     if (!meets) continue;
-    for (std::uint32_t i = 0; i < block_width; ++i)
-      for (std::uint32_t j = 0; j < block_width; ++j) {
+    for (std::uint32_t i = 0; i < detail::block_width; ++i)
+      for (std::uint32_t j = 0; j < detail::block_width; ++j) {
         const auto at = placed(inside[b].x[j], inside[b].y[j]);
         overlaps = overlaps || std::hypot(at[0] - static_cast<double>(inside[a].x[i]),
                                           at[1] - static_cast<double>(inside[a].y[i])) <=
@@ -224,13 +226,13 @@ TEST(Interior, EveryInstructionSetGivesTheSameBits) {
        {polygon({{0, 0}, {1, 0}, {1, 1}, {5, 6}, {1, 1}, {0, 1}, {-4, 0.5f}, {0, 1}}),
         polygon({{0, 0}, {1, 0}}), polygon({{1, 1}})})
     shapes.emplace_back().outline = outline;
-  InteriorBuilder plain(interior_implementations().back());
-  for (const InteriorImplementation& implementation : interior_implementations()) {
+  detail::InteriorBuilder plain(detail::interior_implementations().back());
+  for (const detail::InteriorImplementation& implementation : detail::interior_implementations()) {
     if (!implementation.supported()) continue;
-    InteriorBuilder builder(implementation);
+    detail::InteriorBuilder builder(implementation);
     for (const Shape& shape : shapes) {
-      const Interior found = builder.build(shape.outline, reach(shape.outline.points));
-      const Interior expected = plain.build(shape.outline, reach(shape.outline.points));
+      const detail::Interior found = builder.build(shape.outline, detail::reach(shape.outline.points));
+      const detail::Interior expected = plain.build(shape.outline, detail::reach(shape.outline.points));
       ASSERT_EQ(found.x, expected.x) << implementation.name;
       ASSERT_EQ(found.y, expected.y) << implementation.name;
       ASSERT_EQ(found.radius, expected.radius) << implementation.name;
@@ -241,17 +243,17 @@ TEST(Interior, EveryInstructionSetGivesTheSameBits) {
 }
 
 /// Against counting cell by cell, without culling data.
-void expect_best_choices(const InteriorLoops& loops) {
-  constexpr int cells = DiscCoverage::cells;
+void expect_best_choices(const detail::InteriorLoops& loops) {
+  constexpr int cells = detail::DiscCoverage::cells;
   test::Random random(9);
-  CandidateDiscs discs;
-  discs.count = most_touches;
+  detail::CandidateDiscs discs;
+  discs.count = detail::most_touches;
   for (std::uint32_t k = 0; k < discs.count; ++k) {
     discs.x[k] = static_cast<float>(random.uniform(-2, 34));
     discs.y[k] = static_cast<float>(random.uniform(-2, 34));
     discs.radius[k] = static_cast<float>(random.uniform(0, k % 8 == 0 ? 30 : 6));
   }
-  DiscCoverage coverage;
+  detail::DiscCoverage coverage;
   coverage.offer(loops, discs, 0.5f);
   std::vector<bool> covered(cells * cells), chosen(discs.count);
   const auto new_cells = [&](std::uint32_t k, bool cover) {
@@ -281,7 +283,7 @@ void expect_best_choices(const InteriorLoops& loops) {
 }
 
 TEST(DiscCoverage, ChoosesWhatAddsMost) {
-  for (const InteriorImplementation& implementation : interior_implementations()) {
+  for (const detail::InteriorImplementation& implementation : detail::interior_implementations()) {
     SCOPED_TRACE(implementation.name);
     if (implementation.supported()) expect_best_choices(implementation.loops);
   }
@@ -290,9 +292,9 @@ TEST(DiscCoverage, ChoosesWhatAddsMost) {
 TEST(Interior, ExtremesAreTheFarthestPoints) {
   test::Random random(3);
   const Outline outline = test::star(random, 40, 0.2, 0.5);
-  const Interior inside = interior(outline, 0.5);
-  for (std::uint32_t k = 0; k < extreme_stride; ++k) {
-    const double angle = 2 * std::numbers::pi * k / extreme_directions;
+  const detail::Interior inside = detail::interior(outline, 0.5);
+  for (std::uint32_t k = 0; k < detail::extreme_stride; ++k) {
+    const double angle = 2 * std::numbers::pi * k / detail::extreme_directions;
     const double c = std::cos(angle), s = std::sin(angle);
     double farthest = -HUGE_VAL;
     for (const Vec2& p : outline.points)

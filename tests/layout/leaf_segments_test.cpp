@@ -9,7 +9,9 @@
 #include <string>
 #include <vector>
 
-#include "layout/shape_set/shape_set.hpp"
+#include <bch/shape_set.hpp>
+
+#include "layout/format/shape_arrays.hpp"
 #include "tests/support/scenes.hpp"
 
 namespace bch {
@@ -20,15 +22,15 @@ TEST(LeafSegments, AreRunsOrLists) {
   std::vector<std::uint32_t> long_run(127);
   for (std::uint32_t i = 0; i < 127; ++i) long_run[i] = 50 + i;
   std::vector<std::uint32_t> words;
-  for (std::size_t i = 0; i < leaves.size(); ++i) add_leaf(leaves[i], i, leaves.size() + 1, words);
-  add_leaf(long_run, leaves.size(), leaves.size() + 1, words);
-  for (std::size_t i = 0; i < leaves.size(); ++i) EXPECT_EQ(segments_of(words, i), leaves[i]);
-  EXPECT_EQ(segments_of(words, leaves.size()), long_run);
-  EXPECT_EQ(leaf_segments_size(words, leaves.size() + 1), words.size());
+  for (std::size_t i = 0; i < leaves.size(); ++i) detail::add_leaf(leaves[i], i, leaves.size() + 1, words);
+  detail::add_leaf(long_run, leaves.size(), leaves.size() + 1, words);
+  for (std::size_t i = 0; i < leaves.size(); ++i) EXPECT_EQ(detail::segments_of(words, i), leaves[i]);
+  EXPECT_EQ(detail::segments_of(words, leaves.size()), long_run);
+  EXPECT_EQ(detail::leaf_segments_size(words, leaves.size() + 1), words.size());
   EXPECT_EQ(words.size(), 7 + 3 + 2 + 3);
   long_run.push_back(177);
-  add_leaf(long_run, 1, leaves.size() + 1, words);
-  EXPECT_TRUE(segments_of(words, 1).empty());
+  detail::add_leaf(long_run, 1, leaves.size() + 1, words);
+  EXPECT_TRUE(detail::segments_of(words, 1).empty());
 }
 
 TEST(Plans, WithoutOutlinesHaveNoExactLeaves) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include "layout/outline/builder.hpp"
+#include <bch/outline_builder.hpp>
 
 #include <gtest/gtest.h>
 
@@ -11,10 +11,10 @@
 #include <utility>
 #include <vector>
 
+#include <bch/default_characters.hpp>
+
 #include "layout/character/skinning.hpp"
-#include "layout/default_character/default_characters.hpp"
 #include "layout/outline/grid_geometry.hpp"
-#include "layout/outline/union_outline.hpp"
 #include "tests/support/allocation_count.hpp"
 #include "tests/support/outline_arrangement.hpp"
 #include "tests/support/outline_checks.hpp"
@@ -153,17 +153,17 @@ TEST(OutlineBuilder, RejectsWhatIsNotFiniteWhereverItIs) {
 
 TEST(Fraction, IsComparedExactly) {
   constexpr std::int64_t large = std::int64_t{1} << 49;
-  const Fraction smaller(large - 3, large - 2), larger(large - 2, large - 1);
+  const detail::Fraction smaller(large - 3, large - 2), larger(large - 2, large - 1);
   ASSERT_EQ(smaller.value, larger.value);
-  EXPECT_EQ(compare(smaller, larger), -1);
-  EXPECT_EQ(compare(larger, smaller), 1);
-  EXPECT_EQ(compare(Fraction(1, 3), Fraction(large / 3, large / 3 * 3)), 0);
-  EXPECT_EQ(compare(Fraction(0, 1), larger), -1);
+  EXPECT_EQ(detail::compare(smaller, larger), -1);
+  EXPECT_EQ(detail::compare(larger, smaller), 1);
+  EXPECT_EQ(detail::compare(detail::Fraction(1, 3), detail::Fraction(large / 3, large / 3 * 3)), 0);
+  EXPECT_EQ(detail::compare(detail::Fraction(0, 1), larger), -1);
 }
 
 TEST(OutlineBuilder, AllocatesNothingTheSecondTime) {
   const Character man = default_male();
-  Skinner skinner(man);
+  detail::Skinner skinner(man);
   OutlineBuilder builder(man.triangles, man.vertices.size(), man.vertices);
   Outline outline;
   for (const bool second : {false, true})

@@ -3,7 +3,8 @@
 
 #include <gtest/gtest.h>
 
-#include "layout/outline/builder.hpp"
+#include <bch/outline_builder.hpp>
+
 #include "layout/outline/implementation.hpp"
 #include "tests/support/allocation_count.hpp"
 #include "tests/support/island_soups.hpp"
@@ -111,7 +112,7 @@ TEST(OutlineIslands, CountsOneContourOfAChain) {
 TEST(OutlineIslands, EqualsItselfOnEveryInstructionSet) {
   const Soup soup = test::separate_triangles(20'000);
   const Outline expected = build(soup);
-  for (const OutlineImplementation& row : outline_implementations()) {
+  for (const detail::OutlineImplementation& row : detail::outline_implementations()) {
     if (!row.supported()) continue;
     Outline outline;
     OutlineBuilder(soup.triangles, soup.positions.size(), soup.positions, row).build(soup.positions, outline);

@@ -5,9 +5,9 @@
 
 #include <string>
 
+#include <bch/outline_builder.hpp>
+
 #include "layout/character/skinning.hpp"
-#include "layout/outline/builder.hpp"
-#include "layout/outline/union_outline.hpp"
 #include "tests/support/character_shapes.hpp"
 #include "tests/support/outline_checks.hpp"
 #include "tests/support/outline_clipper.hpp"
@@ -21,7 +21,7 @@ namespace {
 
 void expect_right_outlines(const std::vector<Character>& characters, std::uint32_t poses) {
   for (const Character& character : characters) {
-    Skinner skinner(character);
+    detail::Skinner skinner(character);
     OutlineBuilder builder(character.triangles, character.vertices.size(), character.vertices);
     Outline outline;
     for (const PoseTime& time : sample_poses(character, test::samples(poses))) {

@@ -10,7 +10,10 @@
 #include <utility>
 #include <vector>
 
-#include "layout/outline/union_outline.hpp"
+#include <bch/hierarchy.hpp>
+#include <bch/outline_builder.hpp>
+
+#include "tests/support/complaint.hpp"
 #include "tests/support/outline_checks.hpp"
 #include "tests/support/scenes.hpp"
 
@@ -210,6 +213,44 @@ TEST(UnionOutline, RandomSoups) {
     if (HasFailure()) FAIL() << "soup " << i;
   }
   EXPECT_GT(compared, 290);
+}
+
+const std::vector<Vec2> footprint = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+
+TEST(OutlineFromPolygons, TakesPolygonsEitherWayRoundAndClosedOrNot) {
+  const std::vector<Vec2> clockwise(footprint.rbegin(), footprint.rend());
+  std::vector<Vec2> closed = footprint;
+  closed.insert(closed.begin() + 2, closed[1]);  // a corner twice
+  closed.push_back(closed.front());
+  for (const std::vector<Vec2>& polygon : {footprint, clockwise, closed}) {
+    const Outline outline = outline_from_polygons(std::vector<std::vector<Vec2>>{polygon});
+    EXPECT_EQ(outline.points, footprint);
+    EXPECT_EQ(outline.contour_begin, (std::vector<std::uint32_t>{0, 4}));
+    EXPECT_EQ(outline.grid_step, 0);
+    EXPECT_EQ(area(outline), 1);
+  }
+}
+
+TEST(OutlineFromPolygons, KeepsPolygonsThatOverlapAndCross) {
+  const std::vector<Vec2> beside = {{0.5f, 0}, {2, 0}, {2, 1}}, bow = {{0, 0}, {3, 3}, {3, 0}, {0, 2}};
+  const Outline outline = outline_from_polygons(std::vector<std::vector<Vec2>>{footprint, beside, bow});
+  ASSERT_EQ(outline.contours(), 3u);
+  EXPECT_EQ(outline.contour(1).size(), 3u);
+  const Hierarchy hierarchy = contour_hierarchy(outline, 0.05f);
+  EXPECT_GT(hierarchy.nodes.size(), 50u);
+}
+
+TEST(OutlineFromPolygons, RejectsWhatIsNone) {
+  const auto expect = [](const std::string& message, const std::vector<std::vector<Vec2>>& polygons) {
+    EXPECT_EQ(test::complaint([&] { outline_from_polygons(polygons); }), message);
+  };
+  constexpr float nan = std::numeric_limits<float>::quiet_NaN();
+  expect("outline: there are no polygons", {});
+  expect("polygon 1: 2 different corners", {footprint, {{0, 0}, {1, 0}, {0, 0}}});
+  expect("polygon 0: 0 different corners", {{}});
+  expect("polygon 0: it has no area", {{{0, 0}, {1, 1}, {2, 2}}});
+  expect("polygon 1: corner 2 is not finite", {footprint, {{0, 0}, {1, 0}, {nan, 1}}});
+  expect("outline: reach 1414213.5623730961 m is outside 1e-6 to 1e6 m", {{{0, 0}, {1e6f, 0}, {1e6f, 1e6f}}});
 }
 
 }  // namespace

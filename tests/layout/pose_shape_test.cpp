@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include "layout/scene/pose_shape.hpp"
-
 #include <gtest/gtest.h>
 
 #include <stdexcept>
 #include <vector>
 
+#include <bch/outline_builder.hpp>
+#include <bch/pose_shape.hpp>
+
+#include "layout/character/skinning.hpp"
 #include "tests/support/allocation_count.hpp"
 #include "tests/support/character_shapes.hpp"
 #include "tests/support/test_characters.hpp"
@@ -27,11 +29,18 @@ void expect_equal(const Shape& shape, const Shape& expected) {
   }
 }
 
+/// A shape made by the functions that make one alone.
+Shape one_shape(detail::Skinner& skinner, PoseTime at, float threshold = 0.01f) {
+  Shape shape{union_outline(skinner.pose(at), skinner.character().triangles), {}};
+  shape.hierarchy = contour_hierarchy(shape.outline, threshold);
+  return shape;
+}
+
 void expect_as_one_by_one(const Character& character, float threshold) {
-  Skinner skinner(character);
+  detail::Skinner skinner(character);
   PoseShaper shaper(character, threshold);
   for (const PoseTime& time : sample_poses(character, 20))
-    expect_equal(shaper.shape(time), pose_shape(skinner, time, threshold));
+    expect_equal(shaper.shape(time), one_shape(skinner, time, threshold));
 }
 
 TEST(PoseShaper, MakesTheShapesThatAreMadeOneByOne) {
@@ -92,8 +101,8 @@ TEST(PoseShaper, RejectsWhatItsPartsReject) {
   EXPECT_THROW(PoseShaper(man, -1.0f, 0, false).shape({PoseTime::rest, 0}), std::invalid_argument);
   PoseShaper shaper(man);
   EXPECT_THROW(shaper.shape({static_cast<std::uint32_t>(man.clips.size()), 0}), std::invalid_argument);
-  Skinner skinner(man);
-  expect_equal(shaper.shape({PoseTime::rest, 0}), pose_shape(skinner, {PoseTime::rest, 0}));
+  detail::Skinner skinner(man);
+  expect_equal(shaper.shape({PoseTime::rest, 0}), one_shape(skinner, {PoseTime::rest, 0}));
 }
 
 }  // namespace

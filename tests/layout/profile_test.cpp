@@ -9,8 +9,12 @@
 #include <cmath>
 #include <limits>
 
+#include <bch/hierarchy.hpp>
+
 #include "layout/base/rounding.hpp"
-#include "layout/hierarchy/hierarchy.hpp"
+#include "layout/culling/interior.hpp"
+#include "layout/format/contours.hpp"
+#include "layout/format/shape_set_view.hpp"
 #include "tests/support/character_shapes.hpp"
 #include "tests/support/scenes.hpp"
 #include "tests/support/test_characters.hpp"
@@ -27,10 +31,10 @@ struct Direction {
 /// As kernels look it up.
 std::uint32_t sector_of(Direction d) {
   const auto x = static_cast<float>(d.x), y = static_cast<float>(d.y);
-  constexpr float quadrant = profile_sectors / 4;
+  constexpr float quadrant = detail::profile_sectors / 4;
   const float share = quadrant * std::abs(y) / (std::abs(x) + std::abs(y));
   const float half = x < 0 ? 2 * quadrant - share : share;
-  return static_cast<std::uint32_t>(y < 0 ? 4 * quadrant - half : half) % profile_sectors;
+  return static_cast<std::uint32_t>(y < 0 ? 4 * quadrant - half : half) % detail::profile_sectors;
 }
 
 /// At random, between sectors, and as little to either side as floats go.
@@ -40,7 +44,7 @@ std::vector<Direction> directions(test::Random& random) {
     const double angle = random.uniform(-4, 4);
     all.push_back({std::cos(angle), std::sin(angle)});
   }
-  constexpr int quadrant = profile_sectors / 4;
+  constexpr int quadrant = detail::profile_sectors / 4;
   for (int k = -quadrant; k < quadrant; ++k)
     for (const double aside : {-1e-7, -6e-8, 0.0, 6e-8, 1e-7}) {
       const double x = quadrant - std::abs(k), y = k, length = std::sqrt(x * x + y * y);
@@ -66,9 +70,9 @@ double depth(std::span<const Vec2> contour, double x, double y) {
   return inside ? nearest : -nearest;
 }
 
-Profile profile_of(const Shape& shape) {
+detail::Profile profile_of(const Shape& shape) {
   const double reach = shape.hierarchy.reach;
-  Profile result = profile(shape.outline, interior(shape.outline, reach), reach);
+  detail::Profile result = detail::profile(shape.outline, detail::interior(shape.outline, reach), reach);
   std::vector<float> x, y, radius;
   for (const std::uint32_t node : cut(shape.hierarchy, all_depths)) {
     const Disc& disc = shape.hierarchy.nodes[node].disc;
@@ -76,24 +80,25 @@ Profile profile_of(const Shape& shape) {
   }
   const auto count = static_cast<std::uint32_t>(x.size());
   x.resize(count + 4), y.resize(count + 4), radius.resize(count + 4);
-  const Outer found = outer(result, x.data(), y.data(), radius.data(), count, reach);
-  for (std::uint32_t k = 0; k < profile_sectors; ++k) result.sectors[k].outer = found[k];
+  const detail::Outer found = detail::outer(result, x.data(), y.data(), radius.data(), count, reach);
+  for (std::uint32_t k = 0; k < detail::profile_sectors; ++k) result.sectors[k].outer = found[k];
   return result;
 }
 
 /// What profile.cpp derives that these have to spare.
-constexpr double inner_margin = 86 * rounding::unit_roundoff, outer_margin = 110 * rounding::unit_roundoff,
-                 extent_margin = 86 * rounding::unit_roundoff;
+constexpr double inner_margin = 86 * detail::rounding::unit_roundoff,
+                 outer_margin = 110 * detail::rounding::unit_roundoff,
+                 extent_margin = 86 * detail::rounding::unit_roundoff;
 
 constexpr double widest_sector = 0.246;  ///< radians, those about a quadrant's middle
 
 /// Returns: of how many sectors something is known of the inside.
 std::uint32_t expect_sound(const Shape& shape, test::Random& random) {
-  const Profile profile = profile_of(shape);
+  const detail::Profile profile = profile_of(shape);
   const double reach = shape.hierarchy.reach;
-  const std::span<const Vec2> contour = largest_contour(shape.outline);
+  const std::span<const Vec2> contour = detail::largest_contour(shape.outline);
   for (const Direction& d : directions(random)) {
-    const Sector& sector = profile.sectors[sector_of(d)];
+    const detail::Sector& sector = profile.sectors[sector_of(d)];
     const auto along = [&](double x, double y) {
       return (x - static_cast<double>(profile.x)) * d.x + (y - static_cast<double>(profile.y)) * d.y;
     };
@@ -115,32 +120,32 @@ std::uint32_t expect_sound(const Shape& shape, test::Random& random) {
     EXPECT_LE(sector.extent, behind - extent_margin * reach);
   }
   return static_cast<std::uint32_t>(std::count_if(std::begin(profile.sectors), std::end(profile.sectors),
-                                                  [](const Sector& s) { return s.inner > 0; }));
+                                                  [](const detail::Sector& s) { return s.inner > 0; }));
 }
 
 TEST(Profile, IsSoundForShapesOfManyKinds) {
   test::Random random(71);
   std::uint32_t known = 0;
   for (const Shape& shape : test::synthetic_shapes(72, 64)) known += expect_sound(shape, random);
-  EXPECT_GT(known, 64 * profile_sectors / 2);
+  EXPECT_GT(known, 64 * detail::profile_sectors / 2);
 }
 
 TEST(Profile, IsSoundAndCompleteForPeople) {
   test::Random random(73);
   for (const Character& character : test::default_characters())
     for (const Shape& shape : test::pose_shapes(character, 10))
-      EXPECT_EQ(expect_sound(shape, random), profile_sectors);
+      EXPECT_EQ(expect_sound(shape, random), detail::profile_sectors);
 }
 
 TEST(Profile, IsAlmostTightForASquare) {
   Outline square;
   square.points = {{1, 1}, {3, 1}, {3, 3}, {1, 3}};
   square.contour_begin.push_back(4);
-  const Profile profile = profile_of({square, contour_hierarchy(square, 0.01f)});
+  const detail::Profile profile = profile_of({square, contour_hierarchy(square, 0.01f)});
   EXPECT_EQ(profile.x, 2);
   EXPECT_EQ(profile.y, 2);
-  for (std::uint32_t k = 0; k < profile_sectors; ++k) {
-    const Sector& sector = profile.sectors[k];
+  for (std::uint32_t k = 0; k < detail::profile_sectors; ++k) {
+    const detail::Sector& sector = profile.sectors[k];
     // Sides are nearest at multiples of a quadrant, corners halfway between.
     const std::uint32_t from_side = std::min(k % 8, 7 - k % 8);
     const double nearest = std::hypot(1, from_side / (8.0 - from_side));
@@ -158,15 +163,15 @@ void expect_notch_in_both(float side, float low, float high) {
   Outline notched;
   notched.points = {{-1, -1}, {1, -1}, {1, low}, {0.5f, 0}, {1, high}, {1, 1}, {-1, 1}};
   notched.contour_begin.push_back(7);
-  Profile found = profile(notched, {}, 1.5);
+  detail::Profile found = detail::profile(notched, {}, 1.5);
   // The tip moves the centre, and goes after it.
   for (int i = 0; i < 20; ++i) {
     notched.points[3].y = found.y + side * 1e-6f;
-    found = profile(notched, {}, 1.5);
+    found = detail::profile(notched, {}, 1.5);
   }
   EXPECT_NEAR(notched.points[3].y, found.y + side * 1e-6f, 2e-7);
   EXPECT_LT(found.sectors[0].inner, 0.5f - found.x) << side;
-  EXPECT_LT(found.sectors[profile_sectors - 1].inner, 0.5f - found.x) << side;
+  EXPECT_LT(found.sectors[detail::profile_sectors - 1].inner, 0.5f - found.x) << side;
   EXPECT_GT(found.sectors[0].inner, 0.49f - found.x) << side;
 }
 
@@ -181,7 +186,7 @@ TEST(Profile, KnowsNothingOfTheInsideWhereThereIsNoRoom) {
   Outline stroke;
   stroke.points = {{1, 1}, {2, 1.5f}};
   stroke.contour_begin.push_back(2);
-  for (const Sector& sector : profile_of({stroke, contour_hierarchy(stroke, 0.01f)}).sectors) {
+  for (const detail::Sector& sector : profile_of({stroke, contour_hierarchy(stroke, 0.01f)}).sectors) {
     EXPECT_EQ(sector.inner, -infinity);
     EXPECT_LT(sector.outer, 1.3f);
   }
@@ -189,7 +194,7 @@ TEST(Profile, KnowsNothingOfTheInsideWhereThereIsNoRoom) {
   Outline hook;
   hook.points = {{0, 0}, {4, 0}, {4, 4}, {0, 4}, {0, 3.9f}, {3.9f, 3.9f}, {3.9f, 0.1f}, {0, 0.1f}};
   hook.contour_begin.push_back(8);
-  for (const Sector& sector : profile_of({hook, contour_hierarchy(hook, 0.01f)}).sectors)
+  for (const detail::Sector& sector : profile_of({hook, contour_hierarchy(hook, 0.01f)}).sectors)
     EXPECT_EQ(sector.inner, -infinity);
 }
 
@@ -197,7 +202,7 @@ TEST(Profile, SaysNothingOfHowSeveralContoursNest) {
   Outline two;
   two.points = {{1, 1}, {2, 1}, {2, 2}, {-1, -1}, {-2, -1}, {-2, -2}};
   two.contour_begin = {0, 3, 6};
-  for (const Sector& sector : profile_of({two, contour_hierarchy(two, 0.01f)}).sectors)
+  for (const detail::Sector& sector : profile_of({two, contour_hierarchy(two, 0.01f)}).sectors)
     EXPECT_EQ(sector.extent, -infinity);
 }
 

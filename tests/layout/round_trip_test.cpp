@@ -8,10 +8,11 @@
 #include <filesystem>
 #include <numbers>
 
+#include <bch/default_characters.hpp>
+#include <bch/import.hpp>
+
 #include "layout/character/eigen.hpp"
 #include "layout/character/skinning.hpp"
-#include "layout/default_character/default_characters.hpp"
-#include "layout/import/import.hpp"
 #include "tests/support/character_shapes.hpp"
 #include "tests/support/scene_export.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -27,7 +28,7 @@ Eigen::Quaternionf turn(float angle, const Eigen::Vector3f& axis) {
 
 std::vector<Key<Quaternion>> keys(const std::vector<Key<Eigen::Quaternionf>>& turns) {
   std::vector<Key<Quaternion>> result;
-  for (const auto& [time, turn] : turns) result.push_back({time, quaternion(turn)});
+  for (const auto& [time, turn] : turns) result.push_back({time, detail::quaternion(turn)});
   return result;
 }
 
@@ -67,13 +68,13 @@ Character tube() {
   Character c;
   c.name = "tube";
   c.joints.resize(3);
-  c.joints[0] = {"hips", -1, affine3(Eigen::Translation3f(0, 0, 0.6f) * turn(pi / 2, {0, 1, 0}))};
-  c.joints[1] = {"spine", 0, affine3(Eigen::Translation3f(-0.4f, 0, 0) * turn(0.3f, {1, 2, 3}))};
-  c.joints[2] = {"head", 1, translation({-0.5f, 0.1f, 0})};
+  c.joints[0] = {"hips", -1, detail::affine3(Eigen::Translation3f(0, 0, 0.6f) * turn(pi / 2, {0, 1, 0}))};
+  c.joints[1] = {"spine", 0, detail::affine3(Eigen::Translation3f(-0.4f, 0, 0) * turn(0.3f, {1, 2, 3}))};
+  c.joints[2] = {"head", 1, detail::translation({-0.5f, 0.1f, 0})};
   Eigen::Affine3f to_root = Eigen::Affine3f::Identity();
   for (std::uint32_t j = 0; j < 3; ++j) {
-    to_root = to_root * to_eigen(c.joints[j].rest);
-    c.bones.push_back({j, affine3(to_root.inverse())});
+    to_root = to_root * detail::to_eigen(c.joints[j].rest);
+    c.bones.push_back({j, detail::affine3(to_root.inverse())});
   }
   c.root_joint = 0;
   add_tube_mesh(c);
@@ -82,9 +83,9 @@ Character tube() {
   clip.channels.resize(3);
   for (std::uint32_t j = 0; j < 3; ++j) clip.channels[j].joint = j;
   clip.channels[0].positions = {{0.0f, {0, 0, 0.6f}}, {0.7f, {0.5f, 0.1f, 0.65f}}, {2.0f, {3, 1, 0.6f}}};
-  const Eigen::Quaternionf hips(to_eigen(c.joints[0].rest).linear());
+  const Eigen::Quaternionf hips(detail::to_eigen(c.joints[0].rest).linear());
   clip.channels[0].rotations = keys({{0.0f, hips}, {1.0f, turn(1.2f, {0, 0, 1}) * hips}, {2.0f, hips}});
-  const Eigen::Quaternionf spine(to_eigen(c.joints[1].rest).linear());
+  const Eigen::Quaternionf spine(detail::to_eigen(c.joints[1].rest).linear());
   clip.channels[1].rotations = keys({{0.0f, spine}, {0.5f, spine * turn(0.6f, {0, 1, 0})}, {2.0f, spine}});
   clip.channels[2].rotations = keys({{0.0f, turn(0, {0, 0, 1})}, {2.0f, turn(-0.8f, {0, 0, 1})}});
   c.clips.push_back(clip);
@@ -98,16 +99,16 @@ Character tube() {
 }
 
 float largest_difference(const Character& a, const Character& b, PoseTime at) {
-  Skinner skin_a(a);
-  Skinner skin_b(b);
+  detail::Skinner skin_a(a);
+  detail::Skinner skin_b(b);
   const auto pose_a = skin_a.pose(at);
   const auto pose_b = skin_b.pose(at);
   float largest = 0;
   for (std::size_t t = 0; t < a.triangles.size(); ++t)
     for (std::size_t corner = 0; corner < 3; ++corner)
-      largest = std::max(
-          largest,
-          (to_eigen(pose_a[a.triangles[t][corner]]) - to_eigen(pose_b[b.triangles[t][corner]])).norm());
+      largest = std::max(largest, (detail::to_eigen(pose_a[a.triangles[t][corner]]) -
+                                   detail::to_eigen(pose_b[b.triangles[t][corner]]))
+                                      .norm());
   return largest;
 }
 
@@ -156,8 +157,8 @@ TEST(RoundTrip, KeepsTheFramesOfACharacterInCentimetresAndYUp) {
   // The same body, described in another frame.
   Eigen::Affine3f to_file = Eigen::Affine3f::Identity();
   to_file.linear() << 100, 0, 0, 0, 0, 100, 0, -100, 0;
-  c.to_ground = affine3(to_file.inverse());
-  Joint root{"file", -1, affine3(to_file)};
+  c.to_ground = detail::affine3(to_file.inverse());
+  Joint root{"file", -1, detail::affine3(to_file)};
   for (Joint& joint : c.joints) ++joint.parent;
   c.joints.insert(c.joints.begin(), root);
   for (Bone& bone : c.bones) ++bone.joint;
@@ -173,7 +174,8 @@ TEST(RoundTrip, KeepsSeveralBonesOfOneJoint) {
   // The upper half hangs on a second bone of the spine, whose mesh frame lies elsewhere.
   const auto second = static_cast<std::uint32_t>(c.bones.size());
   Bone shifted = c.bones[1];
-  shifted.inverse_bind = affine3(to_eigen(shifted.inverse_bind) * Eigen::Translation3f(0, 0, -5));
+  shifted.inverse_bind =
+      detail::affine3(detail::to_eigen(shifted.inverse_bind) * Eigen::Translation3f(0, 0, -5));
   c.bones.push_back(shifted);
   for (std::size_t v = c.vertices.size() / 2; v < c.vertices.size(); ++v) {
     c.vertices[v].z += 5;

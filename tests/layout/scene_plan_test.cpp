@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include "layout/scene/scene_plan.hpp"
+#include <bch/scene_plan.hpp>
 
 #include <gtest/gtest.h>
 
@@ -10,9 +10,10 @@
 #include <limits>
 #include <numbers>
 
-#include "kernel/collide/collide.hpp"
-#include "layout/scene/local_density.hpp"
-#include "layout/scene/pose_shape.hpp"
+#include <bch/collide.hpp>
+#include <bch/pose_shape.hpp>
+
+#include "layout/character/skinning.hpp"
 #include "tests/support/scenes.hpp"
 #include "tests/support/test_characters.hpp"
 
@@ -100,7 +101,7 @@ TEST(ScenePlan, LocalDensitiesEqualCounting) {
 /// Whatever the step, up to the very end of every clip.
 TEST(ScenePlan, NamesTimesThatClipsHave) {
   const Character character = test::default_characters().front();
-  Skinner skinner(character);
+  detail::Skinner skinner(character);
   for (const float step : {0.3f, 1.0f / 30, 0.7f, 100.0f})
     for (std::uint32_t clip = 0; clip < character.clips.size(); ++clip) {
       const float end = character.clips[clip].seconds;

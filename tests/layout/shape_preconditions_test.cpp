@@ -11,6 +11,7 @@
 #include <set>
 #include <string>
 
+#include "layout/format/shape_set_view.hpp"
 #include "layout/format/shape_validation.hpp"
 #include "layout/shape_set/shape_storage.hpp"
 #include "tests/support/baked_bytes.hpp"
@@ -25,52 +26,53 @@ constexpr float infinity = std::numeric_limits<float>::infinity();
 
 /// A set's arrays, to be damaged, and what does not fit into them.
 struct Arrays {
-  ShapeStorage own;
-  AlignedVector<float> beside;
-  std::function<void(ShapeArrays&)> last = [](ShapeArrays&) {};
+  detail::ShapeStorage own;
+  detail::AlignedVector<float> beside;
+  std::function<void(detail::ShapeArrays&)> last = [](detail::ShapeArrays&) {};
 
   explicit Arrays(const ShapeSetPlan& plan) {
     const ShapeSet set(few_shapes(), plan);
-    for_each_array([](const char*, auto& to, const auto& from) { to.assign(from.begin(), from.end()); }, own,
-                   set.arrays());
+    detail::for_each_array(
+        [](const char*, auto& to, const auto& from) { to.assign(from.begin(), from.end()); }, own,
+        set.arrays());
   }
 
-  ShapeArrays view() const {
-    ShapeArrays all = own.arrays();
+  detail::ShapeArrays view() const {
+    detail::ShapeArrays all = own.arrays();
     last(all);
     return all;
   }
   /// The first shape's finest level: a tree of several blocks.
   float* top_block() { return own.nodes.data() + own.trees[finest].top; }
-  float& name(float* block, std::uint32_t lane) { return block[block_names + lane]; }
+  float& name(float* block, std::uint32_t lane) { return block[detail::block_names + lane]; }
   /// The node above a disc of the finest level: x, y, radius and link.
   float* inner_node(std::uint32_t disc) {
-    return own.nodes.data() + (own.trees[finest].first_inner() + disc) * std::size_t{inner_floats};
+    return own.nodes.data() + (own.trees[finest].first_inner() + disc) * std::size_t{detail::inner_floats};
   }
   /// The first block all of whose names are windows.
   float* lowest_block() {
     float* block = top_block();
-    while (std::bit_cast<std::uint32_t>(name(block, 0)) < leaf_window) block += block_floats;
+    while (std::bit_cast<std::uint32_t>(name(block, 0)) < detail::leaf_window) block += detail::block_floats;
     return block;
   }
 
   /// The smallest radius of the finest level.
   float& smallest_disc() {
-    const Tree& tree = own.trees[finest];
-    const std::uint32_t first = std::bit_cast<std::uint32_t>(name(lowest_block(), 0)) & ~leaf_window;
+    const detail::Tree& tree = own.trees[finest];
+    const std::uint32_t first = std::bit_cast<std::uint32_t>(name(lowest_block(), 0)) & ~detail::leaf_window;
     float* radius = own.nodes.data() + first + 2 * std::size_t{tree.stride};
     return *std::min_element(radius, radius + tree.stride);
   }
 
   /// The first inner node of the finest level that no block has.
   std::uint32_t node_of_no_block() {
-    const Tree& tree = own.trees[finest];
+    const detail::Tree& tree = own.trees[finest];
     for (std::uint32_t k = 0;; ++k) {
       bool is_in_block = false;
-      for (std::size_t block = tree.top; block < tree.discs; block += block_floats)
-        for (std::uint32_t lane = 0; lane < block_width; ++lane)
-          is_in_block |=
-              std::bit_cast<std::uint32_t>(own.nodes[block + block_nodes + lane]) == tree.first_inner() + k;
+      for (std::size_t block = tree.top; block < tree.discs; block += detail::block_floats)
+        for (std::uint32_t lane = 0; lane < detail::block_width; ++lane)
+          is_in_block |= std::bit_cast<std::uint32_t>(own.nodes[block + detail::block_nodes + lane]) ==
+                         tree.first_inner() + k;
       if (!is_in_block) return k;
     }
   }
@@ -91,28 +93,29 @@ void add(float& name, std::uint32_t to) {
 void name_a_window_64_times(Arrays& a) {
   a.own = {};
   a.own.depths = {all_depths};
-  a.own.roots = {{0, 0, 1, first_row}};
-  const std::uint32_t discs = 9 * block_floats;
-  a.own.trees = {{0, discs, block_width, block_width, 1}};
+  a.own.roots = {{0, 0, 1, detail::first_row}};
+  const std::uint32_t discs = 9 * detail::block_floats;
+  a.own.trees = {{0, discs, detail::block_width, detail::block_width, 1}};
   a.own.reach = {1};
   const std::uint32_t first_inner = a.own.trees[0].first_inner();
-  a.own.nodes.resize((first_inner + block_width) * inner_floats + block_floats);
+  a.own.nodes.resize((first_inner + detail::block_width) * detail::inner_floats + detail::block_floats);
   const auto put_discs = [&](std::uint32_t at) {
-    std::fill_n(&a.own.nodes[at + 2 * block_width], block_width, 1.0f);
+    std::fill_n(&a.own.nodes[at + 2 * detail::block_width], detail::block_width, 1.0f);
   };
   for (std::uint32_t block = 0; block < 9; ++block) {
-    float* const x = &a.own.nodes[block * block_floats];
-    put_discs(block * block_floats);
-    for (std::uint32_t lane = 0; lane < block_width; ++lane) {
-      a.name(x, lane) = std::bit_cast<float>(block == 0 ? (lane + 1) * block_floats : leaf_window + discs);
-      x[block_nodes + lane] = std::bit_cast<float>(first_inner);
+    float* const x = &a.own.nodes[block * detail::block_floats];
+    put_discs(block * detail::block_floats);
+    for (std::uint32_t lane = 0; lane < detail::block_width; ++lane) {
+      a.name(x, lane) =
+          std::bit_cast<float>(block == 0 ? (lane + 1) * detail::block_floats : detail::leaf_window + discs);
+      x[detail::block_nodes + lane] = std::bit_cast<float>(first_inner);
     }
   }
   put_discs(discs);
-  for (std::uint32_t k = 0; k + 1 < block_width; ++k) {
-    float* const inner = &a.own.nodes[(first_inner + k) * inner_floats];
+  for (std::uint32_t k = 0; k + 1 < detail::block_width; ++k) {
+    float* const inner = &a.own.nodes[(first_inner + k) * detail::inner_floats];
     inner[2] = 1;
-    inner[3] = std::bit_cast<float>(first_inner + (k == 0 ? 0 : k - 1) + above_cut_disc);
+    inner[3] = std::bit_cast<float>(first_inner + (k == 0 ? 0 : k - 1) + detail::above_cut_disc);
   }
 }
 
@@ -121,17 +124,19 @@ const std::vector<Damage>& all_damage() {
       {"alignment",
        [](Arrays& a) {
          a.beside.assign(1 + a.own.reach.size(), 1.0f);
-         a.last = [&a](ShapeArrays& view) { view.reach = std::span<const float>(a.beside).subspan(1); };
+         a.last = [&a](detail::ShapeArrays& view) {
+           view.reach = std::span<const float>(a.beside).subspan(1);
+         };
        }},
       {"depths", [](Arrays& a) { a.own.depths[2] = a.own.depths[1]; }},
-      {"depths", [](Arrays& a) { a.last = [](ShapeArrays& view) { view.depths = {}; }; }},
+      {"depths", [](Arrays& a) { a.last = [](detail::ShapeArrays& view) { view.depths = {}; }; }},
       {"sizes", [](Arrays& a) { a.own.extremes.pop_back(); }},
       {"sizes", [](Arrays& a) { a.own.reach.clear(); }},
       {"sizes", [](Arrays& a) { a.own.shape_contours.pop_back(); }},
       {"sizes", [](Arrays& a) { a.own.segment_margin.pop_back(); }},
       {"sizes",  // more profiles than kernels can name
        [](Arrays& a) {
-         a.last = [](ShapeArrays& view) {
+         a.last = [](detail::ShapeArrays& view) {
            constexpr std::size_t shapes = 70'000'000;
            const auto many = [](auto& span) { span = {span.data(), shapes}; };
            view.depths = view.depths.first(1);
@@ -140,7 +145,7 @@ const std::vector<Damage>& all_damage() {
          };
        }},
       {"rows", [](Arrays& a) { a.own.roots[Arrays::finest].row += 1; }},
-      {"rows", [](Arrays& a) { a.own.support.resize(a.own.support.size() + support_stride); }},
+      {"rows", [](Arrays& a) { a.own.support.resize(a.own.support.size() + detail::support_stride); }},
       {"single depth",  // what made DynamicShapeSet copy roots without their trees
        [](Arrays& a) {
          a = Arrays({.depths = {all_depths}, .outlines = false});
@@ -151,7 +156,7 @@ const std::vector<Damage>& all_damage() {
          a = Arrays({.depths = {2, 5}});
          a.own.depths[0] = 0;
        }},
-      {"infinite rows", [](Arrays& a) { a.own.support[support_stride + 3] = 1; }},
+      {"infinite rows", [](Arrays& a) { a.own.support[detail::support_stride + 3] = 1; }},
       {"reaches", [](Arrays& a) { a.own.reach[1] = 0; }},
       {"roots",  // of others a tree has the like
        [](Arrays& a) {
@@ -180,7 +185,7 @@ const std::vector<Damage>& all_damage() {
       {"order of levels", [](Arrays& a) { a.own.trees[Arrays::finest] = a.own.trees[Arrays::finest - 1]; }},
       {"blocks", [](Arrays& a) { a.name(a.top_block(), 0) = std::bit_cast<float>(a.own.trees[2].top); }},
       {"blocks", [](Arrays& a) { a.top_block()[0] = infinity; }},
-      {"room", [](Arrays& a) { a.own.trees[Arrays::finest].stride = block_width - 1; }},
+      {"room", [](Arrays& a) { a.own.trees[Arrays::finest].stride = detail::block_width - 1; }},
       {"room", [](Arrays& a) { a.own.nodes.resize(a.own.nodes.size() - 1); }},
       {"windows", [](Arrays& a) { add(a.name(a.lowest_block(), 7), 4096); }},
       {"first window", [](Arrays& a) { add(a.name(a.lowest_block(), 0), 1); }},
@@ -188,7 +193,7 @@ const std::vector<Damage>& all_damage() {
       {"padding", [](Arrays& a) { a.lowest_block()[3] = infinity; }},
       {"numbers", [](Arrays& a) { a.smallest_disc() = 1e-12f; }},
       {"numbers", [](Arrays& a) { a.smallest_disc() *= -1; }},
-      {"single discs", [](Arrays& a) { a.own.roots[Arrays::finest - 1].row = single_disc; }},
+      {"single discs", [](Arrays& a) { a.own.roots[Arrays::finest - 1].row = detail::single_disc; }},
       {"single discs", [](Arrays& a) { a.own.roots[0].x += 0.01f; }},
       {"reach of a level", [](Arrays& a) { a.own.reach[0] = 100; }},
       {"inner nodes", [](Arrays& a) { a.own.roots[Arrays::finest].radius *= 8; }},
@@ -196,39 +201,39 @@ const std::vector<Damage>& all_damage() {
       {"inner nodes",  // a way that never ends
        [](Arrays& a) {
          const std::uint32_t k = a.node_of_no_block();
-         a.inner_node(k)[3] =
-             std::bit_cast<float>((std::bit_cast<std::uint32_t>(a.inner_node(k)[3]) & above_cut_disc) +
-                                  a.own.trees[Arrays::finest].first_inner() + k);
+         a.inner_node(k)[3] = std::bit_cast<float>(
+             (std::bit_cast<std::uint32_t>(a.inner_node(k)[3]) & detail::above_cut_disc) +
+             a.own.trees[Arrays::finest].first_inner() + k);
        }},
-      {"inner nodes", [](Arrays& a) { add(a.inner_node(a.node_of_no_block())[3], above_cut_disc); }},
+      {"inner nodes", [](Arrays& a) { add(a.inner_node(a.node_of_no_block())[3], detail::above_cut_disc); }},
       {"inner nodes",  // below the node above the one that it is below
        [](Arrays& a) {
          const std::uint32_t first = a.own.trees[Arrays::finest].first_inner();
          const auto above = [&](std::uint32_t k) {
-           return (std::bit_cast<std::uint32_t>(a.inner_node(k)[3]) & ~above_cut_disc) - first;
+           return (std::bit_cast<std::uint32_t>(a.inner_node(k)[3]) & ~detail::above_cut_disc) - first;
          };
          std::uint32_t k = 2;
          while (!(above(k) < k && above(above(k)) < above(k))) ++k;
          float& link = a.inner_node(k)[3];
-         link = std::bit_cast<float>((std::bit_cast<std::uint32_t>(link) & above_cut_disc) + first +
+         link = std::bit_cast<float>((std::bit_cast<std::uint32_t>(link) & detail::above_cut_disc) + first +
                                      above(above(k)));
        }},
-      {"nodes of blocks", [](Arrays& a) { a.lowest_block()[2 * block_width + 3] *= 1.01f; }},
+      {"nodes of blocks", [](Arrays& a) { a.lowest_block()[2 * detail::block_width + 3] *= 1.01f; }},
       {"nodes of blocks",  // the root's
        [](Arrays& a) {
          for (std::uint32_t field = 0; field < 3; ++field)
-           a.lowest_block()[field * block_width + 3] = (&a.own.roots[Arrays::finest].x)[field];
+           a.lowest_block()[field * detail::block_width + 3] = (&a.own.roots[Arrays::finest].x)[field];
        }},
-      {"nodes of blocks", [](Arrays& a) { add(a.lowest_block()[block_nodes + 3], 1); }},
+      {"nodes of blocks", [](Arrays& a) { add(a.lowest_block()[detail::block_nodes + 3], 1); }},
       {"segments of leaves",  // of the next shape
        [](Arrays& a) { a.own.leaf_segments[a.own.trees[Arrays::finest].segments] += a.own.contours[0].end; }},
       {"segments of leaves",  // a list beyond the array
-       [](Arrays& a) { a.own.leaf_segments.back() |= leaf_list; }},
+       [](Arrays& a) { a.own.leaf_segments.back() |= detail::leaf_list; }},
       {"segments of leaves",  // more than there are, again and again
        [](Arrays& a) {
-         const Tree& tree = a.own.trees[Arrays::finest];
+         const detail::Tree& tree = a.own.trees[Arrays::finest];
          for (std::uint32_t k = 0; k < tree.count; ++k)
-           a.own.leaf_segments[tree.segments + k] = std::uint32_t{3} << leaf_count_shift;
+           a.own.leaf_segments[tree.segments + k] = std::uint32_t{3} << detail::leaf_count_shift;
        }},
       {"segments of leaves", [](Arrays& a) { a.own.trees[Arrays::finest].segments += 1; }},
       {"segments of leaves", [](Arrays& a) { a.own.trees[Arrays::finest].points += 1; }},
@@ -236,9 +241,9 @@ const std::vector<Damage>& all_damage() {
        [](Arrays& a) {
          std::swap(a.own.trees[Arrays::finest].segments, a.own.trees[Arrays::finest - 1].segments);
        }},
-      {"segments of leaves", [](Arrays& a) { a.own.leaf_segments.push_back(1 << leaf_count_shift); }},
-      {"outer radii", [](Arrays& a) { a.lowest_block()[block_outer + 3] += 1; }},
-      {"outer radii", [](Arrays& a) { a.lowest_block()[block_outer + 3] = nan; }},
+      {"segments of leaves", [](Arrays& a) { a.own.leaf_segments.push_back(1 << detail::leaf_count_shift); }},
+      {"outer radii", [](Arrays& a) { a.lowest_block()[detail::block_outer + 3] += 1; }},
+      {"outer radii", [](Arrays& a) { a.lowest_block()[detail::block_outer + 3] = nan; }},
       {"outer radii", [](Arrays& a) { a.own.trees[Arrays::finest].outer += 1; }},
   };
   return all;
@@ -249,21 +254,22 @@ const std::set<std::string> relied_upon = {"depths", "sizes", "shape contours", 
                                            "blocks", "room",  "windows",        "numbers"};
 
 /// Runs the checks as validate() does, but for one. Returns: the name of the one that refuses; empty where none does.
-std::string refused_by(const ShapeArrays& arrays, const std::string& without, const std::string& stop_at) {
+std::string refused_by(const detail::ShapeArrays& arrays, const std::string& without,
+                       const std::string& stop_at) {
   std::string name;
-  const auto runs = [&](const Precondition& each) {
+  const auto runs = [&](const detail::Precondition& each) {
     name = each.name;
     return name != without;
   };
   try {
-    for (const Precondition& each : shape_preconditions()) {
+    for (const detail::Precondition& each : detail::shape_preconditions()) {
       if (each.name == stop_at) return {};
       if (each.check_set != nullptr && runs(each)) each.check_set(arrays);
     }
-    LevelNodes level{};
+    detail::LevelNodes level{};
     for (std::size_t root = 0; root < arrays.trees.size(); ++root) {
       level.root = root, level.begin = level.end, level.windows = {};
-      for (const Precondition& each : shape_preconditions()) {
+      for (const detail::Precondition& each : detail::shape_preconditions()) {
         if (each.name == stop_at) break;
         if (each.check_level != nullptr && runs(each)) each.check_level(arrays, level);
       }
@@ -276,7 +282,7 @@ std::string refused_by(const ShapeArrays& arrays, const std::string& without, co
 
 TEST(ShapePreconditions, HaveNamesOfTheirOwnAndOneCheckEach) {
   std::set<std::string> names;
-  for (const Precondition& each : shape_preconditions()) {
+  for (const detail::Precondition& each : detail::shape_preconditions()) {
     EXPECT_TRUE(names.insert(each.name).second) << each.name;
     EXPECT_TRUE((each.check_set == nullptr) != (each.check_level == nullptr)) << each.name;
     EXPECT_GT(std::string(each.says).size(), 20u) << each.name;
@@ -294,14 +300,14 @@ TEST(ShapePreconditions, EachRefusesWhatNoOtherDoes) {
     damaged.insert(damage.precondition);
     Arrays arrays({.depths = {0, 3, all_depths}, .outlines = true});
     damage.make(arrays);
-    const ShapeArrays view = arrays.view();
+    const detail::ShapeArrays view = arrays.view();
     EXPECT_THROW(validate(view), std::invalid_argument) << damage.precondition;
     EXPECT_EQ(refused_by(view, "", ""), damage.precondition);
     const bool others_may_run = !relied_upon.contains(damage.precondition);
     EXPECT_EQ(refused_by(view, damage.precondition, others_may_run ? "" : damage.precondition), "")
         << damage.precondition;
   }
-  for (const Precondition& each : shape_preconditions())
+  for (const detail::Precondition& each : detail::shape_preconditions())
     EXPECT_TRUE(damaged.contains(each.name)) << each.name << ": no damage violates it";
 }
 

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include "layout/shape_set/shape_set.hpp"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -11,8 +9,11 @@
 #include <string>
 #include <tuple>
 
+#include <bch/shape_set.hpp>
+#include <bch/shape_set_builder.hpp>
+
+#include "layout/hierarchy/subtrees.hpp"
 #include "layout/shape_set/bvh8.hpp"
-#include "layout/shape_set/shape_set_builder.hpp"
 #include "tests/support/baked_bytes.hpp"
 #include "tests/support/scenes.hpp"
 
@@ -23,10 +24,10 @@ namespace {
 /// below all nodes of the blocks above it (a window may show neighbours of its group as well).
 class Walk {
  public:
-  explicit Walk(const Bvh8& tree) : tree_(tree), reached_(tree.count) {
+  explicit Walk(const detail::Bvh8& tree) : tree_(tree), reached_(tree.count) {
     visit(tree.top, {}, 1);
     for (std::size_t i = 0; i < reached_.size(); ++i)
-      if (reached_[i]) discs.push_back(disc(leaf_window + static_cast<std::uint32_t>(i)));
+      if (reached_[i]) discs.push_back(disc(detail::leaf_window + static_cast<std::uint32_t>(i)));
   }
   std::vector<Disc> discs;
   std::uint32_t levels = 0;
@@ -34,25 +35,25 @@ class Walk {
  private:
   /// Of an inner node, or leaf_window + a cut disc's index.
   Disc disc(std::uint32_t node) const {
-    const std::uint32_t i = node & ~leaf_window;
-    if (node >= leaf_window) return {tree_.x[i], tree_.y[i], tree_.radius[i]};
+    const std::uint32_t i = node & ~detail::leaf_window;
+    if (node >= detail::leaf_window) return {tree_.x[i], tree_.y[i], tree_.radius[i]};
     return {tree_.inner[i].x, tree_.inner[i].y, tree_.inner[i].radius};
   }
 
-  std::uint32_t above(std::uint32_t inner) const { return tree_.inner[inner].link & ~above_cut_disc; }
+  std::uint32_t above(std::uint32_t inner) const { return tree_.inner[inner].link & ~detail::above_cut_disc; }
 
   bool is_above(std::uint32_t node, std::uint32_t i) const {
-    if (node >= leaf_window) return node == leaf_window + i;
-    std::uint32_t at = tree_.inner[i].link >= above_cut_disc ? i : i - 1;
+    if (node >= detail::leaf_window) return node == detail::leaf_window + i;
+    std::uint32_t at = tree_.inner[i].link >= detail::above_cut_disc ? i : i - 1;
     while (at != node && at != above(at)) at = above(at);
     return at == node;
   }
 
   void visit(std::uint32_t node, const std::vector<std::uint32_t>& nodes_above, std::uint32_t level) {
     levels = std::max(levels, level);
-    if (node & leaf_window) return reach(node & ~leaf_window, nodes_above);
-    const Bvh8::Block& block = tree_.blocks.at(node);
-    for (std::uint32_t lane = 0; lane < block_width; ++lane) {
+    if (node & detail::leaf_window) return reach(node & ~detail::leaf_window, nodes_above);
+    const detail::Bvh8::Block& block = tree_.blocks.at(node);
+    for (std::uint32_t lane = 0; lane < detail::block_width; ++lane) {
       const Disc in_block{block.discs.x[lane], block.discs.y[lane], block.discs.radius[lane]};
       if (std::isinf(in_block.x)) {
         EXPECT_EQ(in_block.radius, 0);
@@ -66,14 +67,14 @@ class Walk {
   }
 
   void reach(std::uint32_t first, const std::vector<std::uint32_t>& nodes_above) {
-    ASSERT_LE(first + block_width, tree_.x.size());
-    for (std::uint32_t i = first; i < std::min(first + block_width, tree_.count); ++i)
+    ASSERT_LE(first + detail::block_width, tree_.x.size());
+    for (std::uint32_t i = first; i < std::min(first + detail::block_width, tree_.count); ++i)
       if (std::all_of(nodes_above.begin(), nodes_above.end(),
                       [&](std::uint32_t node) { return is_above(node, i); }))
         reached_[i] = true;
   }
 
-  const Bvh8& tree_;
+  const detail::Bvh8& tree_;
   std::vector<bool> reached_;
 };
 
@@ -91,11 +92,11 @@ void expect_same_discs(std::vector<Disc> reached, const Hierarchy& hierarchy, st
 TEST(Bvh8, HoldsTheCutAndNothingElse) {
   for (const Shape& shape : test::synthetic_shapes(21, 32))
     for (std::uint32_t depth = 0; depth <= height(shape.hierarchy) + 1; ++depth) {
-      const Bvh8 tree = bvh8(shape.hierarchy, depth);
+      const detail::Bvh8 tree = detail::bvh8(shape.hierarchy, depth);
       const Walk walk(tree);
       EXPECT_EQ(tree.is_single(), walk.discs.size() == 1);
       expect_same_discs(walk.discs, shape.hierarchy, depth);
-      EXPECT_LE(walk.levels, most_wide_levels);
+      EXPECT_LE(walk.levels, detail::most_wide_levels);
     }
 }
 
@@ -103,16 +104,17 @@ TEST(Bvh8, HoldsTheCutAndNothingElse) {
 TEST(Bvh8, LinksLeadToTheRoot) {
   for (const Shape& shape : test::synthetic_shapes(22, 32))
     for (std::uint32_t depth = 0; depth <= height(shape.hierarchy) + 1; ++depth) {
-      const Bvh8 tree = bvh8(shape.hierarchy, depth);
+      const detail::Bvh8 tree = detail::bvh8(shape.hierarchy, depth);
       const std::vector<HierarchyNode>& nodes = shape.hierarchy.nodes;
-      const std::vector<std::uint32_t> discs = cut(shape.hierarchy, depth), ends = subtree_ends(nodes);
+      const std::vector<std::uint32_t> discs = cut(shape.hierarchy, depth),
+                                       ends = detail::subtree_ends(nodes);
       ASSERT_EQ(tree.inner.size(), discs.size());
       for (std::uint32_t i = 0; i < discs.size(); ++i) {
-        std::uint32_t at = tree.inner[i].link >= above_cut_disc ? i : i - 1;
+        std::uint32_t at = tree.inner[i].link >= detail::above_cut_disc ? i : i - 1;
         for (std::uint32_t node = discs[i]; node-- > 0;) {
           if (ends[node] <= discs[i]) continue;  // not above the disc
           EXPECT_EQ(nodes[node].disc, (Disc{tree.inner[at].x, tree.inner[at].y, tree.inner[at].radius}));
-          const std::uint32_t above = tree.inner[at].link & ~above_cut_disc;
+          const std::uint32_t above = tree.inner[at].link & ~detail::above_cut_disc;
           EXPECT_EQ(above == at, node == 0);
           at = above;
         }
@@ -142,8 +144,8 @@ Hierarchy comb(std::uint32_t leaves) {
 TEST(Bvh8, StaysShallowWhateverTheBinaryTree) {
   for (const std::uint32_t leaves : {2u, 8u, 9u, 100u, 113u, 5000u}) {
     const Hierarchy hierarchy = comb(leaves);
-    const Walk walk(bvh8(hierarchy, all_depths));
-    EXPECT_LE(walk.levels, most_wide_levels) << leaves;
+    const Walk walk(detail::bvh8(hierarchy, all_depths));
+    EXPECT_LE(walk.levels, detail::most_wide_levels) << leaves;
     expect_same_discs(walk.discs, hierarchy, all_depths);
   }
 }
@@ -154,10 +156,10 @@ TEST(ShapeSet, LevelsFollowThePlan) {
   EXPECT_EQ(set.shape_count(), 6u);
   EXPECT_EQ(set.level_count(), 3u);
   EXPECT_FALSE(set.solid());
-  const ShapeSetView view = set.view();
+  const detail::ShapeSetView view = set.view();
   for (std::uint32_t s = 0; s < 6; ++s) {
     const Disc& root = shapes[s].hierarchy.nodes[0].disc;
-    EXPECT_EQ(view.roots[3 * s].row, single_disc);
+    EXPECT_EQ(view.roots[3 * s].row, detail::single_disc);
     EXPECT_EQ((Disc{view.roots[3 * s].x, view.roots[3 * s].y, view.roots[3 * s].radius}), root);
     EXPECT_GE(view.roots[3 * s + 2].radius, root.radius);
   }
@@ -181,18 +183,17 @@ TEST(ShapeSet, BuildsOnlyWhatThePlanNames) {
 TEST(ShapeSet, IsTheSameHoweverManyShapesWereExpected) {
   const std::vector<Shape> shapes = test::synthetic_shapes(25, 90);
   const ShapeSetPlan plan{{0, 3, all_depths}, true};
-  ShapeFlattener flattener(plan);
-  FlatShape flat;
+  PreparedShape prepared(plan);
   const auto bytes = [&](std::size_t expected) {
     ShapeSetBuilder builder(plan, expected);
     for (std::size_t s = 0; s < shapes.size(); ++s) {
-      flattener.flatten(shapes[s], s, flat);
-      builder.add(flat);
+      prepared.prepare(shapes[s], s);
+      builder.add(prepared);
     }
     const std::vector<float> nodes(builder.nodes().begin(), builder.nodes().end());
     const ShapeSet set = std::move(builder).finish();
     EXPECT_TRUE(std::equal(nodes.begin(), nodes.end(), set.arrays().nodes.begin()));
-    EXPECT_EQ(set.arrays().nodes.size(), nodes.size() + block_floats);
+    EXPECT_EQ(set.arrays().nodes.size(), nodes.size() + detail::block_floats);
     return test::BakedBytes(set, {}).text();
   };
   const std::string unknown = bytes(0);
@@ -202,9 +203,9 @@ TEST(ShapeSet, IsTheSameHoweverManyShapesWereExpected) {
 TEST(ShapeSet, BuilderOfRootsHasNoNodes) {
   const ShapeSetPlan plan{{0}, true};
   ShapeSetBuilder builder(plan);
-  FlatShape flat;
-  ShapeFlattener(plan).flatten(test::synthetic_shapes(26, 1)[0], 0, flat);
-  builder.add(flat);
+  PreparedShape prepared(plan);
+  prepared.prepare(test::synthetic_shapes(26, 1)[0], 0);
+  builder.add(prepared);
   EXPECT_TRUE(builder.nodes().empty());
 }
 

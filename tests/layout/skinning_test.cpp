@@ -30,10 +30,10 @@ Character two_joints() {
   c.name = "two joints";
   c.joints.resize(2);
   c.joints[1].parent = 0;
-  c.joints[1].rest = translation({0, 0, 1});
+  c.joints[1].rest = detail::translation({0, 0, 1});
   c.bones.resize(2);
   c.bones[1].joint = 1;
-  c.bones[1].inverse_bind = translation({0, 0, -1});
+  c.bones[1].inverse_bind = detail::translation({0, 0, -1});
   c.root_joint = 0;
   c.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {0, 1, 1}};
   for (std::uint32_t v = 0; v < 6; ++v) {
@@ -48,7 +48,7 @@ Character two_joints() {
   clip.channels[0].positions = {{0.0f, {0, 0, 0}}, {2.0f, {4, 0, 0}}};
   clip.channels[1].joint = 1;
   const auto turn = [](float angle) {
-    return quaternion(Eigen::Quaternionf(Eigen::AngleAxisf(angle, Eigen::Vector3f::UnitZ())));
+    return detail::quaternion(Eigen::Quaternionf(Eigen::AngleAxisf(angle, Eigen::Vector3f::UnitZ())));
   };
   const float pi = std::numbers::pi_v<float>;
   clip.channels[1].rotations = {{0.0f, turn(0)}, {1.0f, turn(pi / 2)}, {2.0f, turn(pi)}};
@@ -59,17 +59,18 @@ Character two_joints() {
 TEST(Skinning, RestPoseIsTheBindPose) {
   const Character c = two_joints();
   validate(c);
-  Skinner skinner(c);
+  detail::Skinner skinner(c);
   const auto pose = skinner.pose({});
   for (std::size_t v = 0; v < c.vertices.size(); ++v) EXPECT_EQ(pose[v], c.vertices[v]);
 }
 
 TEST(Skinning, TakesOutTheWayButKeepsTheTurn) {
   const Character c = two_joints();
-  Skinner skinner(c);
+  detail::Skinner skinner(c);
   const auto pose = skinner.pose({0, 1.0f});
-  EXPECT_TRUE(to_eigen(pose[1]).isApprox(Eigen::Vector3f(1, 0, 0), 1e-6f));
-  EXPECT_TRUE(to_eigen(pose[4]).isApprox(Eigen::Vector3f(0, 1, 1), 1e-6f)) << to_eigen(pose[4]).transpose();
+  EXPECT_TRUE(detail::to_eigen(pose[1]).isApprox(Eigen::Vector3f(1, 0, 0), 1e-6f));
+  EXPECT_TRUE(detail::to_eigen(pose[4]).isApprox(Eigen::Vector3f(0, 1, 1), 1e-6f))
+      << detail::to_eigen(pose[4]).transpose();
 }
 
 TEST(Skinning, BlendsTheBonesOfAVertex) {
@@ -77,9 +78,10 @@ TEST(Skinning, BlendsTheBonesOfAVertex) {
   c.influence_begin = {0, 1, 2, 3, 4, 6, 7};
   c.influences = {{0, 1}, {0, 1}, {0, 1}, {1, 1}, {0, 0.5f}, {1, 0.5f}, {1, 1}};
   validate(c);
-  Skinner skinner(c);
+  detail::Skinner skinner(c);
   const auto pose = skinner.pose({0, 2.0f});
-  EXPECT_TRUE(to_eigen(pose[4]).isApprox(Eigen::Vector3f(0, 0, 1), 1e-6f)) << to_eigen(pose[4]).transpose();
+  EXPECT_TRUE(detail::to_eigen(pose[4]).isApprox(Eigen::Vector3f(0, 0, 1), 1e-6f))
+      << detail::to_eigen(pose[4]).transpose();
 }
 
 /// Linear blend skinning as it is written, in double and with the library's slerp.
@@ -88,7 +90,7 @@ class SlowSkinner {
   SlowSkinner(const Character& character, PoseTime at) : character_(character), at_(at) {
     for (std::size_t j = 0; j < character.joints.size(); ++j) {
       const std::int32_t parent = character.joints[j].parent;
-      const Eigen::Affine3d above = parent < 0 ? to_eigen(character.to_ground).cast<double>()
+      const Eigen::Affine3d above = parent < 0 ? detail::to_eigen(character.to_ground).cast<double>()
                                                : world_[static_cast<std::size_t>(parent)];
       world_.push_back(above * local(j));
     }
@@ -104,8 +106,8 @@ class SlowSkinner {
       const auto [bone, weight] = character_.influences[i];
       const auto& [joint, inverse_bind] = character_.bones[bone];
       sum += static_cast<double>(weight) *
-             (world_[joint] *
-              (to_eigen(inverse_bind).cast<double>() * to_eigen(character_.vertices[vertex]).cast<double>()));
+             (world_[joint] * (detail::to_eigen(inverse_bind).cast<double>() *
+                               detail::to_eigen(character_.vertices[vertex]).cast<double>()));
     }
     return sum;
   }
@@ -123,12 +125,13 @@ class SlowSkinner {
   }
   Eigen::Vector3d value(const std::vector<Key<Vec3>>& keys) const {
     return value(keys, [](const Vec3& a, const Vec3& b, double t) {
-      return Eigen::Vector3d((1 - t) * to_eigen(a).cast<double>() + t * to_eigen(b).cast<double>());
+      return Eigen::Vector3d((1 - t) * detail::to_eigen(a).cast<double>() +
+                             t * detail::to_eigen(b).cast<double>());
     });
   }
 
   Eigen::Affine3d local(std::size_t joint) const {
-    const Eigen::Affine3d rest = to_eigen(character_.joints[joint].rest).cast<double>();
+    const Eigen::Affine3d rest = detail::to_eigen(character_.joints[joint].rest).cast<double>();
     Eigen::Vector3d position = rest.translation();
     Eigen::Matrix3d rotation, scaling;
     rest.computeRotationScaling(&rotation, &scaling);
@@ -139,8 +142,9 @@ class SlowSkinner {
         if (!channel.scales.empty()) scaling = value(channel.scales).asDiagonal();
         if (!channel.rotations.empty())
           rotation = value(channel.rotations, [](const Quaternion& a, const Quaternion& b, double t) {
-            const Eigen::Quaterniond from = to_eigen(a).cast<double>();
-            return Eigen::Matrix3d(from.slerp(t, to_eigen(b).cast<double>()).normalized().toRotationMatrix());
+            const Eigen::Quaterniond from = detail::to_eigen(a).cast<double>();
+            return Eigen::Matrix3d(
+                from.slerp(t, detail::to_eigen(b).cast<double>()).normalized().toRotationMatrix());
           });
       }
     return Eigen::Affine3d(Eigen::Translation3d(position) * Eigen::Affine3d(rotation * scaling));
@@ -153,7 +157,7 @@ class SlowSkinner {
 };
 
 void expect_as_slowly(const Character& character) {
-  Skinner skinner(character);
+  detail::Skinner skinner(character);
   std::vector<PoseTime> times = sample_poses(character, 10);
   times.push_back({});
   for (const PoseTime& time : times) {
@@ -162,7 +166,7 @@ void expect_as_slowly(const Character& character) {
     const auto ground = skinner.ground_pose(time);
     ASSERT_EQ(ground.size(), pose.size());
     for (std::size_t v = 0; v < pose.size(); ++v) {
-      ASSERT_LT((to_eigen(pose[v]).cast<double>() - slow.position(v)).norm(), 5e-6)
+      ASSERT_LT((detail::to_eigen(pose[v]).cast<double>() - slow.position(v)).norm(), 5e-6)
           << character.name << " vertex " << v;
       ASSERT_EQ(ground[v], (Vec2{pose[v].x, pose[v].y})) << character.name << " vertex " << v;
     }
@@ -190,14 +194,14 @@ TEST(Skinning, BlendsManyBonesWithKeysAtAnyTimes) {
     Joint& joint = c.joints.emplace_back();
     joint.parent = static_cast<std::int32_t>(j / 2) - (j == 0);
     const Eigen::Affine3f rest(Eigen::Translation3f(uniform(), uniform(), uniform()) * rotation());
-    joint.rest = affine3(rest);
+    joint.rest = detail::affine3(rest);
     c.bones.emplace_back().joint = j;
-    c.bones.back().inverse_bind = affine3(rest.inverse());
+    c.bones.back().inverse_bind = detail::affine3(rest.inverse());
     Channel& channel = c.clips[0].channels[j];
     channel.joint = j;
     for (std::uint32_t k = 0; k <= j; ++k) {
       const float time = 2 * static_cast<float>(k) / static_cast<float>(j + 1);
-      if (j != 3) channel.rotations.push_back({time, quaternion(rotation())});
+      if (j != 3) channel.rotations.push_back({time, detail::quaternion(rotation())});
       if (j % 2 == 0) channel.positions.push_back({0.5f * time, {uniform(), uniform(), uniform()}});
       if (j % 3 == 0) channel.scales.push_back({time, {1, 1 + 0.1f * uniform(), 0.9f}});
     }
@@ -219,10 +223,10 @@ TEST(Skinning, BlendsManyBonesWithKeysAtAnyTimes) {
 TEST(Skinning, WithoutARootTheMiddleIsTheOrigin) {
   Character c = two_joints();
   c.root_joint = -1;
-  Skinner skinner(c);
+  detail::Skinner skinner(c);
   const auto pose = skinner.pose({0, 0.5f});
   Eigen::AlignedBox3f box;
-  for (const Vec3& position : pose) box.extend(to_eigen(position));
+  for (const Vec3& position : pose) box.extend(detail::to_eigen(position));
   EXPECT_LT(box.center().head<2>().norm(), 1e-6f);
   EXPECT_EQ(box.min().z(), 0);
   const auto ground = skinner.ground_pose({0, 0.5f});
@@ -240,7 +244,7 @@ TEST(Skinning, NamesTheFirstVertexThatIsNotFinite) {
   c.influence_begin = {0, 1, 3, 4, 5, 6, 7};
   c.influences = {{0, 1}, {0, 0.5f}, {1, 0.5f}, {0, 1}, {1, 1}, {1, 1}, {1, 1}};
   double_linear_part(c.bones[0]);
-  Skinner skinner(c);
+  detail::Skinner skinner(c);
   const std::string expected = "character 'two joints': posed vertex 2 is not finite";
   EXPECT_EQ(complaint<std::domain_error>([&] { skinner.pose({}); }), expected);
   EXPECT_EQ(complaint<std::domain_error>([&] { skinner.ground_pose({}); }), expected);
@@ -250,7 +254,7 @@ TEST(Skinning, AsksNothingOfHeightsThatNobodySees) {
   Character c = two_joints();
   c.vertices[3].z = 3e38f;
   for (Bone& bone : c.bones) double_linear_part(bone);
-  Skinner skinner(c);
+  detail::Skinner skinner(c);
   EXPECT_EQ(complaint<std::domain_error>([&] { skinner.pose({}); }),
             "character 'two joints': posed vertex 3 is not finite");
   EXPECT_EQ(complaint<std::domain_error>([&] { skinner.ground_pose({}); }), "accepted");
@@ -268,7 +272,7 @@ TEST(Slerp, TurnsAtConstantSpeedTheShorterWay) {
     const float t = std::uniform_real_distribution<float>(0, 1)(random);
     const Eigen::Quaterniond exact =
         a.cast<double>().normalized().slerp(static_cast<double>(t), b.cast<double>().normalized());
-    const Eigen::Quaterniond ours = slerp(quaternion(a), quaternion(b), t);
+    const Eigen::Quaterniond ours = detail::slerp(detail::quaternion(a), detail::quaternion(b), t);
     ASSERT_NEAR(std::abs(ours.dot(exact)), 1, 1e-13);
     ASSERT_LT(std::min((ours.coeffs() - exact.coeffs()).norm(), (ours.coeffs() + exact.coeffs()).norm()),
               3e-7);
@@ -278,14 +282,14 @@ TEST(Slerp, TurnsAtConstantSpeedTheShorterWay) {
 
 TEST(Slerp, BeginsAndEndsWhereItShould) {
   const Quaternion a, b{0, 0, 1, 0};
-  EXPECT_TRUE(slerp(a, b, 0).isApprox(to_eigen(a).cast<double>(), 1e-15));
-  EXPECT_TRUE(slerp(a, b, 1).isApprox(to_eigen(b).cast<double>(), 1e-15));
-  EXPECT_TRUE(slerp(a, a, 0.5f).isApprox(to_eigen(a).cast<double>(), 1e-15));
+  EXPECT_TRUE(detail::slerp(a, b, 0).isApprox(detail::to_eigen(a).cast<double>(), 1e-15));
+  EXPECT_TRUE(detail::slerp(a, b, 1).isApprox(detail::to_eigen(b).cast<double>(), 1e-15));
+  EXPECT_TRUE(detail::slerp(a, a, 0.5f).isApprox(detail::to_eigen(a).cast<double>(), 1e-15));
 }
 
 TEST(Skinning, RejectsTimesAndClipsThatAreNotThere) {
   const Character c = two_joints();
-  Skinner skinner(c);
+  detail::Skinner skinner(c);
   EXPECT_THROW(skinner.pose({1, 0.0f}), std::invalid_argument);
   EXPECT_THROW(skinner.pose({0, 2.5f}), std::invalid_argument);
   EXPECT_THROW(skinner.pose({0, std::numeric_limits<float>::quiet_NaN()}), std::invalid_argument);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include "layout/shape_set/verify.hpp"
+#include <bch/verify.hpp>
 
 #include <gtest/gtest.h>
 
@@ -10,8 +10,10 @@
 #include <cmath>
 #include <functional>
 
+#include <bch/dynamic_shape_set.hpp>
+
+#include "layout/format/shape_set_view.hpp"
 #include "layout/format/shape_validation.hpp"
-#include "layout/shape_set/dynamic_shape_set.hpp"
 #include "tests/support/baked_bytes.hpp"
 #include "tests/support/character_shapes.hpp"
 #include "tests/support/scenes.hpp"
@@ -22,7 +24,7 @@
 namespace bch::test {
 namespace {
 
-using baked::Section;
+using detail::baked::Section;
 
 const ShapeSetPlan plans[] = {{},
                               {{0}, false, false},
@@ -70,10 +72,10 @@ TEST(Verify, FindsNothingInADynamicSet) {
   const ShapeSetPlan plan{{0, 3, all_depths}, true};
   DynamicShapeSet dynamic(ShapeSet({pool.data(), 8}, plan));
   Random random(94);
-  FlatShape flat;
+  PreparedShape prepared(plan);
   for (int i = 0; i < 60; ++i) {
-    ShapeFlattener(plan).flatten(pool[random.below(40)], 0, flat);
-    dynamic.replace(random.below(8), flat);
+    prepared.prepare(pool[random.below(40)], 0);
+    dynamic.replace(random.below(8), prepared);
     expect_nothing(dynamic.set());
   }
 }
@@ -83,17 +85,19 @@ constexpr std::size_t finest = 2;
 /// The first block below the first shape's finest level all of whose names are windows.
 float* lowest_block(BakedBytes& bytes) {
   float* block =
-      bytes.section<float>(Section::nodes).data() + bytes.section<Tree>(Section::trees)[finest].top;
-  while (std::bit_cast<std::uint32_t>(block[block_names]) < leaf_window) block += block_floats;
+      bytes.section<float>(Section::nodes).data() + bytes.section<detail::Tree>(Section::trees)[finest].top;
+  while (std::bit_cast<std::uint32_t>(block[detail::block_names]) < detail::leaf_window)
+    block += detail::block_floats;
   return block;
 }
 
 /// The first disc of the finest level, and from it to its y.
 float* finest_discs(BakedBytes& bytes) {
-  return bytes.section<float>(Section::nodes).data() + bytes.section<Tree>(Section::trees)[finest].discs;
+  return bytes.section<float>(Section::nodes).data() +
+         bytes.section<detail::Tree>(Section::trees)[finest].discs;
 }
 std::uint32_t stride(BakedBytes& bytes) {
-  return bytes.section<Tree>(Section::trees)[finest].stride;
+  return bytes.section<detail::Tree>(Section::trees)[finest].stride;
 }
 
 struct Lie {
@@ -105,12 +109,14 @@ struct Lie {
 const std::vector<Lie>& lies() {
   static const std::vector<Lie> all = {
       {"depths", "discs at depth 1", [](BakedBytes& b) { b.section<std::uint32_t>(Section::depths)[1] = 1; }},
-      {"nodes", "needs", [](BakedBytes& b) { lowest_block(b)[block_outer] *= 0.9f; }},
-      {"nodes", "needs", [](BakedBytes& b) { b.section<Tree>(Section::trees)[finest].outer *= 1.01f; }},
-      {"nodes", "needs", [](BakedBytes& b) { b.section<Tree>(Section::trees)[finest].outer *= 0.99f; }},
+      {"nodes", "needs", [](BakedBytes& b) { lowest_block(b)[detail::block_outer] *= 0.9f; }},
+      {"nodes", "needs",
+       [](BakedBytes& b) { b.section<detail::Tree>(Section::trees)[finest].outer *= 1.01f; }},
+      {"nodes", "needs",
+       [](BakedBytes& b) { b.section<detail::Tree>(Section::trees)[finest].outer *= 0.99f; }},
       {"nodes", "is not below",
        [](BakedBytes& b) {
-         float& name = lowest_block(b)[block_names + 1];
+         float& name = lowest_block(b)[detail::block_names + 1];
          name = std::bit_cast<float>(std::bit_cast<std::uint32_t>(name) + 1);
        }},
       {"nodes", "sticks out of the one above",
@@ -120,33 +126,41 @@ const std::vector<Lie>& lies() {
       {"reach", "its discs say", [](BakedBytes& b) { b.section<float>(Section::reach)[1] *= 0.9f; }},
       {"reach", "the outline reaches", [](BakedBytes& b) { b.section<float>(Section::reach)[0] *= 1.001f; }},
       {"support", "number 11",
-       [](BakedBytes& b) { b.section<float>(Section::support)[first_row * support_stride + 11] -= 0.001f; }},
+       [](BakedBytes& b) {
+         b.section<float>(Section::support)[detail::first_row * detail::support_stride + 11] -= 0.001f;
+       }},
       {"support", "number 63",
-       [](BakedBytes& b) { b.section<float>(Section::support)[first_row * support_stride + 63] += 0.001f; }},
+       [](BakedBytes& b) {
+         b.section<float>(Section::support)[detail::first_row * detail::support_stride + 63] += 0.001f;
+       }},
       {"inscribed", "disc 2",
-       [](BakedBytes& b) { b.section<DiscBlock>(Section::inscribed)[0].radius[2] += 0.01f; }},
+       [](BakedBytes& b) { b.section<detail::DiscBlock>(Section::inscribed)[0].radius[2] += 0.01f; }},
       {"inscribed", "disc 1",
-       [](BakedBytes& b) { b.section<DiscBlock>(Section::inscribed)[1].x[1] += 0.5f; }},
+       [](BakedBytes& b) { b.section<detail::DiscBlock>(Section::inscribed)[1].x[1] += 0.5f; }},
       {"inscribed", "disc 0",
-       [](BakedBytes& b) { b.section<DiscBlock>(Section::inscribed)[1].y[0] -= 0.05f; }},
-      {"extremes", "point 5", [](BakedBytes& b) { b.section<Extremes>(Section::extremes)[0].x[5] += 0.01f; }},
+       [](BakedBytes& b) { b.section<detail::DiscBlock>(Section::inscribed)[1].y[0] -= 0.05f; }},
+      {"extremes", "point 5",
+       [](BakedBytes& b) { b.section<detail::Extremes>(Section::extremes)[0].x[5] += 0.01f; }},
       {"extremes", "point 20",  // one of the contour's, but on the other side
        [](BakedBytes& b) {
-         Extremes& extremes = b.section<Extremes>(Section::extremes)[0];
+         detail::Extremes& extremes = b.section<detail::Extremes>(Section::extremes)[0];
          extremes.x[20] = extremes.x[28], extremes.y[20] = extremes.y[28];
        }},
-      {"profiles", "centre", [](BakedBytes& b) { b.section<Profile>(Section::profiles)[0].x += 0.01f; }},
+      {"profiles", "centre",
+       [](BakedBytes& b) { b.section<detail::Profile>(Section::profiles)[0].x += 0.01f; }},
       {"profiles", "inner of sector 3",
-       [](BakedBytes& b) { b.section<Profile>(Section::profiles)[0].sectors[3].inner += 0.01f; }},
+       [](BakedBytes& b) { b.section<detail::Profile>(Section::profiles)[0].sectors[3].inner += 0.01f; }},
       {"profiles", "outer of sector 4",
-       [](BakedBytes& b) { b.section<Profile>(Section::profiles)[0].sectors[4].outer -= 0.01f; }},
+       [](BakedBytes& b) { b.section<detail::Profile>(Section::profiles)[0].sectors[4].outer -= 0.01f; }},
       {"profiles", "extent of sector 5",
-       [](BakedBytes& b) { b.section<Profile>(Section::profiles)[0].sectors[5].extent += 0.01f; }},
+       [](BakedBytes& b) { b.section<detail::Profile>(Section::profiles)[0].sectors[5].extent += 0.01f; }},
       {"profiles", "shallow_outer of sector 6",
-       [](BakedBytes& b) { b.section<Profile>(Section::profiles)[0].sectors[6].shallow_outer -= 0.01f; }},
+       [](BakedBytes& b) {
+         b.section<detail::Profile>(Section::profiles)[0].sectors[6].shallow_outer -= 0.01f;
+       }},
       {"contours", "contour 0",  // still about the points that it has
        [](BakedBytes& b) {
-         Contour& contour = b.section<Contour>(Section::contours)[0];
+         detail::Contour& contour = b.section<detail::Contour>(Section::contours)[0];
          const auto points = b.section<Vec2>(Section::points).subspan(0, contour.end);
          contour.disc.x += 0.05f;
          contour.disc.radius = 0;
@@ -158,7 +172,7 @@ const std::vector<Lie>& lies() {
       {"leaf_segments", "no leaves that name segment",
        [](BakedBytes& b) {
          std::uint32_t& word = b.section<std::uint32_t>(Section::leaf_segments)[5];
-         word = std::uint32_t{1} << leaf_count_shift | (word + 3) % 8;
+         word = std::uint32_t{1} << detail::leaf_count_shift | (word + 3) % 8;
        }},
       {"segment_margin", "is below what rounding needs",
        [](BakedBytes& b) { b.section<float>(Section::segment_margin)[0] *= 0.2f; }},
@@ -189,7 +203,8 @@ TEST(Verify, NamesTheLie) {
 
 TEST(Verify, SaysNoMoreThanItIsAskedFor) {
   BakedBytes bytes = honest();
-  for (float& height : bytes.section<float>(Section::support).subspan(first_row * support_stride))
+  for (float& height :
+       bytes.section<float>(Section::support).subspan(detail::first_row * detail::support_stride))
     height -= 0.1f;
   bytes.seal();
   const BakedShapes baked = bytes.load();
@@ -200,7 +215,7 @@ TEST(Verify, SaysNoMoreThanItIsAskedFor) {
 TEST(Verify, LooksAtRootsWithoutTrees) {
   const std::vector<Shape> shapes = {{{}, fixed_cylinder(0.25f)}};
   BakedBytes bytes(ShapeSet(shapes, {.depths = {0, 2}}), origins_of(1));
-  bytes.section<Root>(Section::roots)[1].radius = 0.3f;
+  bytes.section<detail::Root>(Section::roots)[1].radius = 0.3f;
   bytes.seal();
   const auto findings = verify(bytes.load().set);
   ASSERT_EQ(findings.size(), 1u);

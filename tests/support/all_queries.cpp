@@ -5,42 +5,43 @@
 
 #include <vector>
 
-#include "kernel/collide/collide.hpp"
-#include "kernel/contact/contacts.hpp"
-#include "kernel/crowd/collide_all.hpp"
-#include "kernel/distance/clearance.hpp"
-#include "kernel/distance/time_of_impact.hpp"
-#include "kernel/penetration/penetration.hpp"
-#include "layout/shape_set/dynamic_shape_set.hpp"
+#include <bch/clearance.hpp>
+#include <bch/collide.hpp>
+#include <bch/collide_all.hpp>
+#include <bch/contacts.hpp>
+#include <bch/dynamic_shape_set.hpp>
+#include <bch/penetration.hpp>
+#include <bch/time_of_impact.hpp>
+
 #include "layout/shape_set/flat_shape.hpp"
 
 namespace bch::test {
 
 void ask_all(const ShapeSet& set, const Agents& agents, std::span<const Pair> pairs,
-             const kernel::Implementation& implementation) {
+             const Implementation& implementation) {
   std::vector<std::uint8_t> hits(pairs.size());
   collide(set, agents, pairs, hits, {Semantics::boundary, &implementation});
   if (set.solid()) collide(set, agents, pairs, hits, {Semantics::solid, &implementation});
   CrowdCollider().collide_all(set, agents, {Semantics::boundary, &implementation});
-  ContactTable table;
-  contacts(set, agents, pairs, table, {&implementation});
+  ContactFinder().find(set, agents, pairs, {.implementation = &implementation});
   std::vector<Penetration> ways(pairs.size());
-  penetration(set, agents, pairs, 4, ways, {&implementation});
+  penetration(set, agents, pairs, 4, ways, {.implementation = &implementation});
   std::vector<float> values(pairs.size());
   std::vector<Vec2> directions(pairs.size());
-  std::vector<ClosestDiscs> nodes(pairs.size());
+  std::vector<DiscPair> nodes(pairs.size());
   clearance(set, agents, pairs, {values, directions, nodes}, {.implementation = &implementation});
   const std::vector<double> way(pairs.size(), 0.5);
   time_of_impact(set, agents, pairs, {way, way}, values, {.implementation = &implementation});
 }
 
 void ask_all_of_a_dynamic_copy(const ShapeSet& set, const Agents& agents, std::span<const Pair> pairs,
-                               const kernel::Implementation& implementation) {
+                               const Implementation& implementation) {
   DynamicShapeSet dynamic(set);
   ask_all(dynamic.set(), agents, pairs, implementation);
   if (set.roots_only() || set.shape_count() == 0) return;
-  FlatShape last = flat_shape(set.arrays(), set.shape_count() - 1);
-  last.plan = set.plan();
+  PreparedShape last(set.plan());
+  last.flat() = detail::flat_shape(set.arrays(), set.shape_count() - 1);
+  last.flat().plan = set.plan();
   dynamic.try_replace(set.shape_count() - 1, last);
   dynamic.replace(0, last);
   ask_all(dynamic.set(), agents, pairs, implementation);

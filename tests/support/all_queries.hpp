@@ -5,21 +5,20 @@
 
 #include <span>
 
-#include "kernel/runtime/implementation.hpp"
-#include "layout/format/agents.hpp"
-#include "layout/format/pair.hpp"
-#include "layout/shape_set/shape_set.hpp"
+#include <bch/agents.hpp>
+#include <bch/query.hpp>
+#include <bch/shape_set.hpp>
 
 namespace bch::test {
 
 /// Asks every query about pairs of a crowd, in every semantics that the set has, for tests that only check
 /// that all calls end.
 void ask_all(const ShapeSet& set, const Agents& agents, std::span<const Pair> pairs,
-             const kernel::Implementation& implementation);
+             const Implementation& implementation);
 
 /// Copies a set as DynamicShapeSet does, replaces a shape by another one's copy, in place and in a new place, and asks
 /// all queries before and after.
 void ask_all_of_a_dynamic_copy(const ShapeSet& set, const Agents& agents, std::span<const Pair> pairs,
-                               const kernel::Implementation& implementation);
+                               const Implementation& implementation);
 
 }  // namespace bch::test

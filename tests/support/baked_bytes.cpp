@@ -26,7 +26,7 @@ ShapeOrigins origins_of(std::size_t shapes) {
 }
 
 BakedBytes::BakedBytes(const ShapeSet& set, const ShapeOrigins& origins) {
-  const BakedImage image(set, origins);
+  const detail::BakedImage image(set, origins);
   for (const auto part : image.parts()) bytes_.insert(bytes_.end(), part.begin(), part.end());
 }
 
@@ -35,16 +35,16 @@ std::string BakedBytes::text() const {
 }
 
 void BakedBytes::seal() {
-  for (baked::SectionEntry& entry : preamble().entries) {
+  for (detail::baked::SectionEntry& entry : preamble().entries) {
     const std::size_t size = entry.count * entry.element_size;
-    entry.checksum =
-        baked::checksum(std::span<const std::byte>(bytes_).subspan(entry.offset, baked::padded(size)));
+    entry.checksum = detail::baked::checksum(
+        std::span<const std::byte>(bytes_).subspan(entry.offset, detail::baked::padded(size)));
   }
   seal_header();
 }
 
 void BakedBytes::seal_header() {
-  preamble().header.checksum = baked::checksum(preamble());
+  preamble().header.checksum = detail::baked::checksum(preamble());
 }
 
 BakedShapes BakedBytes::load() const {
@@ -52,7 +52,7 @@ BakedShapes BakedBytes::load() const {
 }
 
 BakedShapes BakedBytes::load_first(std::size_t size) const {
-  AlignedVector<std::byte> few(bytes_.begin(), bytes_.begin() + static_cast<std::ptrdiff_t>(size));
+  detail::AlignedVector<std::byte> few(bytes_.begin(), bytes_.begin() + static_cast<std::ptrdiff_t>(size));
   few.shrink_to_fit();
   return load_baked(few, "file", nullptr);
 }

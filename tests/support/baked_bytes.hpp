@@ -7,7 +7,8 @@
 #include <span>
 #include <string>
 
-#include "layout/baked/file.hpp"
+#include <bch/baked.hpp>
+
 #include "layout/baked/format.hpp"
 #include "layout/base/aligned_vector.hpp"
 
@@ -25,12 +26,12 @@ class BakedBytes {
   std::size_t size() const { return bytes_.size(); }
   std::byte& operator[](std::size_t i) { return bytes_[i]; }
   std::string text() const;
-  baked::Preamble& preamble() { return *reinterpret_cast<baked::Preamble*>(bytes_.data()); }
-  baked::SectionEntry& entry(baked::Section section) {
+  detail::baked::Preamble& preamble() { return *reinterpret_cast<detail::baked::Preamble*>(bytes_.data()); }
+  detail::baked::SectionEntry& entry(detail::baked::Section section) {
     return preamble().entries[static_cast<std::uint32_t>(section)];
   }
   template <class Element>
-  std::span<Element> section(baked::Section section) {
+  std::span<Element> section(detail::baked::Section section) {
     return {reinterpret_cast<Element*>(bytes_.data() + entry(section).offset), entry(section).count};
   }
   /// Makes all checksums right again, or the header's alone.
@@ -44,7 +45,7 @@ class BakedBytes {
   std::string error() const;
 
  private:
-  AlignedVector<std::byte> bytes_;
+  detail::AlignedVector<std::byte> bytes_;
 };
 
 }  // namespace bch::test

@@ -10,7 +10,9 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "layout/scene/pose_shape.hpp"
+#include <bch/pose_shape.hpp>
+
+#include "layout/character/skinning.hpp"
 
 namespace bch::test {
 namespace {
@@ -40,7 +42,7 @@ PairScene replayed_scene(const std::string& line, std::size_t bodies) {
 std::vector<baselines::Body> posed_bodies(const std::vector<Character>& characters, std::uint32_t poses) {
   std::vector<baselines::Body> bodies;
   for (const Character& character : characters) {
-    Skinner skinner(character);
+    detail::Skinner skinner(character);
     PoseShaper shaper(character);
     for (const PoseTime& time : sample_poses(character, poses)) {
       const auto positions = skinner.pose(time);

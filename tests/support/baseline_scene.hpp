@@ -8,8 +8,9 @@
 #include <string>
 #include <vector>
 
+#include <bch/character.hpp>
+
 #include "baselines/structure.hpp"
-#include "layout/character/character.hpp"
 #include "tests/support/scenes.hpp"
 
 // Characters in poses, all structures over them, and placements to ask about.

@@ -8,7 +8,7 @@
 
 #include <cstdlib>
 
-#include "layout/scene/pose_shape.hpp"
+#include <bch/pose_shape.hpp>
 
 namespace bch::test {
 

@@ -7,8 +7,8 @@
 #include <optional>
 #include <vector>
 
-#include "layout/character/character.hpp"
-#include "layout/shape_set/shape_set.hpp"
+#include <bch/character.hpp>
+#include <bch/shape_set.hpp>
 
 namespace bch::test {
 

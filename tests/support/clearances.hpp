@@ -8,8 +8,9 @@
 #include <span>
 #include <vector>
 
+#include <bch/clearance.hpp>
+
 #include "baselines/clearance_reference.hpp"
-#include "kernel/distance/clearance.hpp"
 #include "tests/support/scenes.hpp"
 
 namespace bch::test {
@@ -18,23 +19,24 @@ namespace bch::test {
 struct Answers {
   std::vector<float> distance;
   std::vector<Vec2> direction;
-  std::vector<ClosestDiscs> nodes;
+  std::vector<DiscPair> discs;
 
-  explicit Answers(std::size_t size = 0) : distance(size), direction(size), nodes(size) {}
-  ClearanceAnswers spans() { return {distance, direction, nodes}; }
+  explicit Answers(std::size_t size = 0) : distance(size), direction(size), discs(size) {}
+  ClearanceAnswers spans() { return {distance, direction, discs}; }
   /// Compares bits, not values: -0 is not 0.
   bool same(std::size_t i, const Answers& other, std::size_t k) const {
     const auto bits = [](float value) { return std::bit_cast<std::uint32_t>(value); };
     return bits(distance[i]) == bits(other.distance[k]) &&
            bits(direction[i].x) == bits(other.direction[k].x) &&
-           bits(direction[i].y) == bits(other.direction[k].y) && nodes[i] == other.nodes[k];
+           bits(direction[i].y) == bits(other.direction[k].y) && discs[i] == other.discs[k];
   }
 };
 
 inline Answers answers(const ShapeSet& set, const Agents& agents, std::span<const Pair> pairs,
-                       double max_distance, const kernel::Implementation* implementation = nullptr) {
+                       double max_distance, const Implementation* implementation = nullptr) {
   Answers all(pairs.size());
-  clearance(set, agents, pairs, all.spans(), {max_distance, implementation});
+  clearance(set, agents, pairs, all.spans(),
+            {.implementation = implementation, .max_distance = max_distance});
   return all;
 }
 
@@ -47,7 +49,7 @@ inline Answers answers(baselines::ClearanceReference& reference, const PairScene
         reference.query(scene.crowd.agents(), pair, max_distance, method);
     all.distance.push_back(distance);
     all.direction.push_back(direction);
-    all.nodes.push_back({first, second});
+    all.discs.push_back({first, second});
   }
   return all;
 }

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "layout/base/rounding.hpp"
+#include "layout/hierarchy/subtrees.hpp"
 
 namespace bch::test {
 namespace {
@@ -35,8 +36,8 @@ void expect_sound(const Hierarchy& hierarchy) {
   const auto& held = hierarchy.primitive_ranges;
   ASSERT_EQ(held.size(), nodes.size());
   EXPECT_EQ(held[0].end, hierarchy.primitives.size());
-  const std::vector<float> bounds = bounding_radii(hierarchy);
-  const std::vector<std::uint32_t> ends = subtree_ends(nodes);
+  const std::vector<float> bounds = detail::bounding_radii(hierarchy);
+  const std::vector<std::uint32_t> ends = detail::subtree_ends(nodes);
   EXPECT_EQ(ends[0], nodes.size());
   for (std::uint32_t i = 0; i < nodes.size(); ++i) {
     const HierarchyNode& node = nodes[i];

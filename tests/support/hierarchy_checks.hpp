@@ -3,7 +3,7 @@
 
 #pragma once
 
-#include "layout/hierarchy/hierarchy.hpp"
+#include <bch/hierarchy.hpp>
 
 namespace bch::test {
 

@@ -109,7 +109,7 @@ double near_gap(Random& random, double radii, double reaches) {
     case 0:
       return (static_cast<int>(random.below(129)) - 64) * 0x1p-52 * radii;
     case 1:
-      return random.uniform(-8, 8) * rounding::unit_roundoff * reaches;
+      return random.uniform(-8, 8) * detail::rounding::unit_roundoff * reaches;
     default:
       return (static_cast<int>(random.below(129)) - 64) * 0x1p-24 * radii;
   }

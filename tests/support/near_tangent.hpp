@@ -6,9 +6,10 @@
 #include <cstdint>
 #include <vector>
 
+#include <bch/shape_set.hpp>
+
 #include "baselines/exact_discs.hpp"
 #include "layout/base/rounding.hpp"
-#include "layout/shape_set/shape_set.hpp"
 #include "tests/support/scenes.hpp"
 
 namespace bch::test {

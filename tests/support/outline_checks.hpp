@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <span>
 
-#include "layout/format/outline.hpp"
+#include <bch/outline.hpp>
 
 namespace bch::test {
 

@@ -3,7 +3,8 @@
 
 #pragma once
 
-#include "layout/format/outline.hpp"
+#include <bch/outline.hpp>
+
 #include "tests/support/outline_checks.hpp"
 
 namespace bch::test {

@@ -7,7 +7,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "layout/format/outline.hpp"
+#include <bch/outline.hpp>
+
 #include "tests/support/outline_arrangement.hpp"
 #include "tests/support/scenes.hpp"
 

@@ -7,24 +7,25 @@
 #include <span>
 #include <vector>
 
-#include "kernel/penetration/penetration.hpp"
+#include <bch/penetration.hpp>
+
 #include "tests/support/scenes.hpp"
 
 namespace bch::test {
 
-inline std::vector<Penetration> best_of(
-    std::uint32_t k, const ShapeSet& set, const PairScene& scene,
-    const kernel::Implementation& implementation = kernel::best_implementation()) {
+inline std::vector<Penetration> best_of(std::uint32_t k, const ShapeSet& set, const PairScene& scene,
+                                        const Implementation& implementation = best_implementation()) {
   std::vector<Penetration> found(scene.pairs.size(), {-1, -1, -1});
-  penetration(set, scene.crowd.agents(), scene.pairs, k, found, {&implementation});
+  penetration(set, scene.crowd.agents(), scene.pairs, k, found, {.implementation = &implementation});
   return found;
 }
 
-inline std::vector<Penetration> along(
-    std::span<const Vec2> directions, const ShapeSet& set, const PairScene& scene,
-    const kernel::Implementation& implementation = kernel::best_implementation()) {
+inline std::vector<Penetration> along(std::span<const Vec2> directions, const ShapeSet& set,
+                                      const PairScene& scene,
+                                      const Implementation& implementation = best_implementation()) {
   std::vector<Penetration> found(scene.pairs.size(), {-1, -1, -1});
-  penetration_along(set, scene.crowd.agents(), scene.pairs, directions, found, {&implementation});
+  penetration_along(set, scene.crowd.agents(), scene.pairs, directions, found,
+                    {.implementation = &implementation});
   return found;
 }
 

@@ -11,6 +11,7 @@
 
 #include "baselines/welzl.hpp"
 #include "layout/base/rounding.hpp"
+#include "layout/format/contours.hpp"
 
 namespace bch::test {
 namespace {
@@ -37,9 +38,9 @@ using Segments = std::vector<Segment>;
 class Reference {
  public:
   Reference(const Outline& outline, double threshold, SplitRule rule) : threshold_(threshold), rule_(rule) {
-    hierarchy_.reach = reach(outline.points);
-    margin_ = rounding::query_margin * hierarchy_.reach +
-              rounding::outline_grid_steps * static_cast<double>(outline.grid_step);
+    hierarchy_.reach = detail::reach(outline.points);
+    margin_ = detail::rounding::query_margin * hierarchy_.reach +
+              detail::rounding::outline_grid_steps * static_cast<double>(outline.grid_step);
   }
 
   void add(const Segments& segments) {
@@ -75,7 +76,7 @@ class Reference {
       radius = std::max(radius, std::sqrt(dx * dx + dy * dy));
     }
     HierarchyNode node;
-    node.disc = {x, y, rounding::round_up(radius + margin_)};
+    node.disc = {x, y, detail::rounding::round_up(radius + margin_)};
     hierarchy_.primitive_ranges.push_back({static_cast<std::uint32_t>(hierarchy_.primitives.size()), 0});
     hierarchy_.nodes.push_back(node);
     return radius;

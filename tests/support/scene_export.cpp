@@ -66,7 +66,8 @@ struct SceneBuilder {
     Eigen::Affine3f z_up_to_y_up = Eigen::Affine3f::Identity();
     z_up_to_y_up.linear() << 1, 0, 0, 0, 0, 1, 0, -1, 0;
     scene->mRootNode = new aiNode("scene root");
-    scene->mRootNode->mTransformation = to_ai(affine3(z_up_to_y_up * to_eigen(character.to_ground)));
+    scene->mRootNode->mTransformation =
+        to_ai(detail::affine3(z_up_to_y_up * detail::to_eigen(character.to_ground)));
     auto* mesh_node = new aiNode("mesh node");
     mesh_node->mNumMeshes = 1;
     mesh_node->mMeshes = new unsigned[1]{0};
@@ -132,7 +133,7 @@ struct SceneBuilder {
     const Joint& joint = character.joints[channel.joint];
     Eigen::Matrix3f turn;
     Eigen::Matrix3f stretch;
-    const Eigen::Affine3f rest = to_eigen(joint.rest);
+    const Eigen::Affine3f rest = detail::to_eigen(joint.rest);
     rest.computeRotationScaling(&turn, &stretch);
     std::set<float> times;
     for (const auto& key : channel.positions) times.insert(key.time);
@@ -140,20 +141,22 @@ struct SceneBuilder {
     for (const auto& key : channel.scales) times.insert(key.time);
 
     const auto blend = [](const Vec3& x, const Vec3& y, float t) {
-      return vec3(to_eigen(x) + t * (to_eigen(y) - to_eigen(x)));
+      return detail::vec3(detail::to_eigen(x) + t * (detail::to_eigen(y) - detail::to_eigen(x)));
     };
     const auto blend_turns = [](const Quaternion& x, const Quaternion& y, float t) {
-      return quaternion(to_eigen(x).slerp(t, to_eigen(y)));
+      return detail::quaternion(detail::to_eigen(x).slerp(t, detail::to_eigen(y)));
     };
     std::vector<aiVectorKey> positions, scales;
     std::vector<aiQuatKey> rotations;
     for (const float time : times) {
       const double ticks = static_cast<double>(time) * ticks_per_second;
-      positions.emplace_back(ticks,
-                             to_ai(value_at(channel.positions, time, vec3(rest.translation()), blend)));
+      positions.emplace_back(
+          ticks, to_ai(value_at(channel.positions, time, detail::vec3(rest.translation()), blend)));
       rotations.emplace_back(
-          ticks, to_ai(value_at(channel.rotations, time, quaternion(Eigen::Quaternionf(turn)), blend_turns)));
-      scales.emplace_back(ticks, to_ai(value_at(channel.scales, time, vec3(stretch.diagonal()), blend)));
+          ticks, to_ai(value_at(channel.rotations, time, detail::quaternion(Eigen::Quaternionf(turn)),
+                                blend_turns)));
+      scales.emplace_back(ticks,
+                          to_ai(value_at(channel.scales, time, detail::vec3(stretch.diagonal()), blend)));
     }
     auto* out = new aiNodeAnim;
     out->mNodeName = joint.name;

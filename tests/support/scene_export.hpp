@@ -5,7 +5,7 @@
 
 #include <filesystem>
 
-#include "layout/character/character.hpp"
+#include <bch/character.hpp>
 
 namespace bch {
 

@@ -8,6 +8,8 @@
 #include <numbers>
 #include <utility>
 
+#include "layout/format/shape_set_view.hpp"
+
 namespace bch::test {
 namespace {
 
@@ -156,9 +158,9 @@ void Crowd::add(const Agent& agent) {
 }
 
 PairScene random_scene(Random& random, const ShapeSet& shapes, std::uint32_t pairs) {
-  const ShapeSetView view = shapes.view();
+  const detail::ShapeSetView view = shapes.view();
   const auto extent = [&](std::uint32_t shape) {
-    const Root& root = view.roots[(shape + 1) * view.level_count - 1];
+    const detail::Root& root = view.roots[(shape + 1) * view.level_count - 1];
     return std::hypot(static_cast<double>(root.x), static_cast<double>(root.y)) +
            static_cast<double>(root.radius);
   };

@@ -8,8 +8,8 @@
 #include <span>
 #include <vector>
 
-#include "layout/format/agents.hpp"
-#include "layout/shape_set/shape_set.hpp"
+#include <bch/agents.hpp>
+#include <bch/shape_set.hpp>
 
 namespace bch::test {
 

@@ -6,8 +6,8 @@
 #include <filesystem>
 #include <vector>
 
-#include "layout/default_character/default_characters.hpp"
-#include "layout/import/import.hpp"
+#include <bch/default_characters.hpp>
+#include <bch/import.hpp>
 
 namespace bch::test {
 

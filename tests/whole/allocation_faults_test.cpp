@@ -9,16 +9,20 @@
 #include <utility>
 #include <vector>
 
-#include "kernel/broad_phase/broad_phase.hpp"
-#include "kernel/contact/contacts.hpp"
-#include "kernel/crowd/collide_all.hpp"
-#include "kernel/distance/clearance.hpp"
-#include "layout/baked/file.hpp"
+#include <bch/baked.hpp>
+#include <bch/broad_phase.hpp>
+#include <bch/clearance.hpp>
+#include <bch/collide.hpp>
+#include <bch/collide_all.hpp>
+#include <bch/contacts.hpp>
+#include <bch/default_characters.hpp>
+#include <bch/dynamic_shape_set.hpp>
+#include <bch/outline_builder.hpp>
+#include <bch/pose_shape.hpp>
+#include <bch/shape_set_builder.hpp>
+
 #include "layout/baked/image.hpp"
-#include "layout/default_character/default_characters.hpp"
-#include "layout/scene/pose_shape.hpp"
-#include "layout/shape_set/dynamic_shape_set.hpp"
-#include "layout/shape_set/shape_set_builder.hpp"
+#include "layout/character/skinning.hpp"
 #include "tests/support/allocation_count.hpp"
 #include "tests/support/baked_bytes.hpp"
 #include "tests/support/scenes.hpp"
@@ -65,6 +69,12 @@ std::size_t fail_each(Act act) {
 
 const ShapeSetPlan plan{{0, 2, all_depths}, true};
 
+std::vector<PreparedShape> prepared(std::span<const Shape> shapes) {
+  std::vector<PreparedShape> all;
+  for (std::size_t s = 0; s < shapes.size(); ++s) all.emplace_back(plan).prepare(shapes[s], s);
+  return all;
+}
+
 class AllocationFaults : public testing::Test {
  protected:
   AllocationFaults() {
@@ -91,7 +101,7 @@ class AllocationFaults : public testing::Test {
 
 TEST_F(AllocationFaults, Outline) {
   const Character character = default_male();
-  Skinner skinner(character);
+  detail::Skinner skinner(character);
   const auto pose = skinner.pose({});
   const std::vector<Vec3> positions(pose.begin(), pose.end());
   EXPECT_GT(fail_each([&] {
@@ -124,14 +134,12 @@ TEST_F(AllocationFaults, SetBuilder) {
   // Enough that room is made for all that are expected.
   std::vector<Shape> many;
   while (many.size() < 70) many.insert(many.end(), shapes.begin(), shapes.end());
-  ShapeFlattener flattener(plan);
-  std::vector<FlatShape> flat(many.size());
-  for (std::size_t s = 0; s < many.size(); ++s) flattener.flatten(many[s], s, flat[s]);
+  const std::vector<PreparedShape> flat = prepared(many);
   const std::string expected = test::BakedBytes(ShapeSet(many, plan), {}).text();
   for (std::size_t after = 0;; ++after) {
     ShapeSetBuilder builder(plan, 100);
     std::size_t failures = 0;
-    for (const FlatShape& shape : flat) {
+    for (const PreparedShape& shape : flat) {
       test::fail_allocations(test::Failing::all, after);
       try {
         builder.add(shape);
@@ -152,9 +160,7 @@ TEST_F(AllocationFaults, SetBuilder) {
 
 /// What could not be added leaves nothing behind.
 TEST_F(AllocationFaults, SetBuilderThatFinishesWithoutAShape) {
-  ShapeFlattener flattener(plan);
-  std::vector<FlatShape> flat(shapes.size());
-  for (std::size_t s = 0; s < shapes.size(); ++s) flattener.flatten(shapes[s], s, flat[s]);
+  const std::vector<PreparedShape> flat = prepared(shapes);
   const ShapeSet fewer(std::span<const Shape>(shapes).first(shapes.size() - 1), plan);
   const std::string expected = test::BakedBytes(fewer, test::origins_of(shapes.size() - 1)).text();
   for (std::size_t after = 0;; ++after) {
@@ -177,8 +183,8 @@ TEST_F(AllocationFaults, SetBuilderThatFinishesWithoutAShape) {
 /// A shape that could not be replaced is the one before, and so are all others.
 TEST_F(AllocationFaults, DynamicSet) {
   test::Random random(92);
-  FlatShape large;
-  ShapeFlattener(plan).flatten(test::contour_shape(test::star(random, 200, 0.3, 0.5)), 0, large);
+  PreparedShape large(plan);
+  large.prepare(test::contour_shape(test::star(random, 200, 0.3, 0.5)), 0);
   const std::string expected = test::BakedBytes(set, test::origins_of(shapes.size())).text();
   for (std::size_t after = 0;; ++after) {
     DynamicShapeSet dynamic(set);
@@ -207,7 +213,7 @@ TEST_F(AllocationFaults, DynamicSet) {
 }
 
 TEST_F(AllocationFaults, Image) {
-  EXPECT_GT(fail_each([&] { BakedImage(set, test::origins_of(shapes.size())); }), 5u);
+  EXPECT_GT(fail_each([&] { detail::BakedImage(set, test::origins_of(shapes.size())); }), 5u);
 }
 
 TEST_F(AllocationFaults, Load) {
@@ -232,7 +238,7 @@ TEST_F(AllocationFaults, Pairs) {
 /// One that ran out of memory answers the next call.
 TEST_F(AllocationFaults, CrowdColliderAnswersTheNextCall) {
   const auto answer = CrowdCollider().collide_all(set, crowd.agents());
-  const std::size_t expected = answer.neighbours.size();
+  const std::size_t expected = answer.values.size();
   ASSERT_GT(expected, 100u);
   for (std::size_t after = 0;; ++after) {
     CrowdCollider collider;
@@ -242,7 +248,7 @@ TEST_F(AllocationFaults, CrowdColliderAnswersTheNextCall) {
     } catch (const std::bad_alloc&) {
     }
     const std::size_t failures = test::stop_failing_allocations();
-    ASSERT_EQ(collider.collide_all(set, crowd.agents()).neighbours.size(), expected) << after;
+    ASSERT_EQ(collider.collide_all(set, crowd.agents()).values.size(), expected) << after;
     if (failures > 0) continue;
     EXPECT_GT(after, 5u);
     return;
@@ -251,12 +257,7 @@ TEST_F(AllocationFaults, CrowdColliderAnswersTheNextCall) {
 
 TEST_F(AllocationFaults, Contacts) {
   const std::vector<Pair> pairs = candidate_pairs(set, crowd.agents());
-  fail_each_with_threads(
-      [&] {
-        ContactTable table;
-        contacts(set, crowd.agents(), pairs, table);
-      },
-      [] {}, 2);
+  fail_each_with_threads([&] { ContactFinder().find(set, crowd.agents(), pairs); }, [] {}, 2);
 }
 
 /// Answers that need no memory come without any, once TBB has its own.

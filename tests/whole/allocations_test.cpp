@@ -7,13 +7,14 @@
 
 #include <vector>
 
-#include "kernel/broad_phase/broad_phase.hpp"
-#include "kernel/collide/collide.hpp"
-#include "kernel/contact/contacts.hpp"
-#include "kernel/crowd/collide_all.hpp"
-#include "kernel/distance/clearance.hpp"
-#include "kernel/distance/time_of_impact.hpp"
-#include "kernel/penetration/penetration.hpp"
+#include <bch/broad_phase.hpp>
+#include <bch/clearance.hpp>
+#include <bch/collide.hpp>
+#include <bch/collide_all.hpp>
+#include <bch/contacts.hpp>
+#include <bch/penetration.hpp>
+#include <bch/time_of_impact.hpp>
+
 #include "tests/support/allocation_count.hpp"
 #include "tests/support/scenes.hpp"
 
@@ -71,15 +72,16 @@ TEST_P(Allocations, CollideNeedsNone) {
 TEST_P(Allocations, CollideAllKeepsItsMemory) {
   CrowdCollider collider;
   std::size_t neighbours = 0;
-  EXPECT_EQ(count([&] { neighbours = collider.collide_all(set, crowd.agents()).neighbours.size(); }), 0u);
+  EXPECT_EQ(count([&] { neighbours = collider.collide_all(set, crowd.agents()).values.size(); }), 0u);
   EXPECT_GT(neighbours, 20'000u);
 }
 
-TEST_P(Allocations, ContactsNeedTheirTableAlone) {
+TEST_P(Allocations, ContactsKeepTheirMemory) {
   const std::vector<Pair> pairs = some_pairs();
-  ContactTable table;
-  EXPECT_EQ(count([&] { contacts(set, crowd.agents(), pairs, table); }), 0u);
-  EXPECT_GT(table.contacts.size(), pairs.size());
+  ContactFinder finder;
+  std::size_t found = 0;
+  EXPECT_EQ(count([&] { found = finder.find(set, crowd.agents(), pairs).values.size(); }), 0u);
+  EXPECT_GT(found, pairs.size());
 }
 
 TEST_P(Allocations, PenetrationNeedsNone) {
@@ -94,9 +96,12 @@ TEST_P(Allocations, DistancesAndTimesNeedNone) {
   const std::vector<Pair> pairs = some_pairs();
   std::vector<float> values(pairs.size());
   std::vector<Vec2> directions(pairs.size());
-  std::vector<ClosestDiscs> nodes(pairs.size());
+  std::vector<DiscPair> nodes(pairs.size());
   const std::vector<double> way(pairs.size(), 0.5);
-  EXPECT_EQ(count([&] { clearance(set, crowd.agents(), pairs, {values, directions, nodes}, {0.5}); }), 0u);
+  EXPECT_EQ(count([&] {
+              clearance(set, crowd.agents(), pairs, {values, directions, nodes}, {.max_distance = 0.5});
+            }),
+            0u);
   EXPECT_EQ(count([&] { time_of_impact(set, crowd.agents(), pairs, {way, way}, values); }), 0u);
 }
 

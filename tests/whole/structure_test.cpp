@@ -52,7 +52,7 @@ bool is_wide(const fs::path& object) {
   return name.find("avx") != std::string::npos;
 }
 
-/// Each source file's includes, as written.
+/// Each source file's includes. Public headers, written <bch/...>, by where they are.
 std::map<fs::path, std::vector<std::string>> includes_below(const std::string& folder) {
   static const std::regex include(R"re(#include\s*[<"]([^>"]+)[>"])re");
   std::map<fs::path, std::vector<std::string>> includes;
@@ -60,8 +60,13 @@ std::map<fs::path, std::vector<std::string>> includes_below(const std::string& f
     if (entry.path().extension() != ".cpp" && entry.path().extension() != ".hpp") continue;
     const std::string text = read(entry.path());
     for (auto match = std::sregex_iterator(text.begin(), text.end(), include);
-         match != std::sregex_iterator(); ++match)
-      includes[entry.path()].push_back((*match)[1]);
+         match != std::sregex_iterator(); ++match) {
+      std::string name = (*match)[1];
+      for (const std::string library : {"layout/include/", "kernel/include/"})
+        if (name.starts_with("bch/") && fs::exists(fs::path(BCH_SOURCE) / (library + name)))
+          name = library + name;
+      includes[entry.path()].push_back(name);
+    }
   }
   return includes;
 }
@@ -137,6 +142,79 @@ TEST(Layers, IsaFilesIncludeOnlyKernelTemplates) {
     EXPECT_EQ(includes, std::vector<std::string>{"kernel/isa/row.hpp"}) << file;
   }
   EXPECT_EQ(found, 4u);
+}
+
+std::map<std::string, std::string> public_headers() {
+  std::map<std::string, std::string> texts;
+  for (const char* const folder : {"layout/include/bch", "kernel/include/bch"})
+    for (const auto& entry : fs::directory_iterator(fs::path(BCH_SOURCE) / folder))
+      texts[entry.path().filename().string()] = read(entry.path());
+  return texts;
+}
+
+/// What a public header declares in bch: its lines that begin in the first column are declarations.
+std::set<std::string> public_names(const std::string& header) {
+  static const std::regex declared(
+      R"(^(?:(?:struct|class|enum class) (\w+)(?: : [\w: ]+)?(?: final)? \{|using (\w+) =|(?! |namespace|template|//|\}|#)[\w:<>,&\* \[\]]*?[ &\*](\w+)(?:\(|\{|;| = )))");
+  static const std::regex macro(R"(^#define (\w+))");
+  std::set<std::string> names;
+  std::istringstream lines(header);
+  bool detail = false;
+  for (std::string line; std::getline(lines, line);) {
+    if (line.starts_with("namespace")) detail = line.find("detail") != std::string::npos;
+    std::smatch match;
+    if (std::regex_search(line, match, macro)) names.insert(match[1]);
+    if (detail || !std::regex_search(line, match, declared)) continue;
+    for (std::size_t i = 1; i < match.size(); ++i)
+      if (match[i].matched) names.insert(match[i]);
+  }
+  return names;
+}
+
+/// tests/whole/public_surface.txt is what users rely on: a line a header, with all that it declares. Who changes one changes the
+/// other, and the README's section "Changes".
+TEST(PublicSurface, IsWhatIsWrittenDown) {
+  std::string surface;
+  const auto headers = public_headers();
+  for (const auto& [name, text] : headers) {
+    surface += name + ":";
+    for (const std::string& declared : public_names(text)) surface += " " + declared;
+    surface += "\n";
+  }
+  EXPECT_EQ(surface, read(fs::path(BCH_SOURCE) / "tests/whole/public_surface.txt")) << surface;
+  EXPECT_LE(headers.size(), 25u);
+}
+
+TEST(PublicSurface, NeedsTheStandardLibraryAlone) {
+  std::size_t found = 0;
+  for (const char* const folder : {"layout/include", "kernel/include"})
+    for (const auto& [file, includes] : includes_below(folder))
+      for (const std::string& include : includes) {
+        ++found;
+        EXPECT_TRUE(
+            std::regex_match(include, std::regex("[a-z_]+|(layout|kernel)/include/bch/[a-z_]+\\.hpp")))
+            << file << " includes " << include;
+      }
+  EXPECT_GT(found, 50u);
+}
+
+/// Private headers declare nothing in bch itself, but for what they name of it ahead.
+TEST(PublicSurface, IsAllThatIsInTheNamespace) {
+  const std::regex block(R"(\nnamespace bch \{\n([^}]*)\})"), ahead(R"((struct|class) \w+;)");
+  std::size_t files = 0;
+  for (const char* const folder : {"layout", "kernel"})
+    for (const auto& [file, includes] : includes_below(folder)) {
+      if (file.extension() != ".hpp" || file.parent_path().filename() == "bch") continue;
+      ++files;
+      const std::string text = read(file);
+      for (auto found = std::sregex_iterator(text.begin(), text.end(), block);
+           found != std::sregex_iterator(); ++found) {
+        std::istringstream lines((*found)[1]);
+        for (std::string line; std::getline(lines, line);)
+          EXPECT_TRUE(line.empty() || std::regex_match(line, ahead)) << file << ": " << line;
+      }
+    }
+  EXPECT_GT(files, 80u);
 }
 
 /// Code that could be shared with other objects: weak symbols that are not data.

@@ -10,11 +10,11 @@
 #include <set>
 #include <vector>
 
-#include "kernel/broad_phase/broad_phase.hpp"
-#include "kernel/collide/collide.hpp"
-#include "kernel/distance/time_of_impact.hpp"
-#include "layout/default_character/default_characters.hpp"
-#include "layout/scene/pose_shape.hpp"
+#include <bch/broad_phase.hpp>
+#include <bch/collide.hpp>
+#include <bch/default_characters.hpp>
+#include <bch/pose_shape.hpp>
+#include <bch/time_of_impact.hpp>
 
 // Continuous motion: two groups of people walk through each other in steps of half a second. Who looks only at where a
 // step ends lets them pass through each other on the way; who asks for the time of impact stops them before.
@@ -139,7 +139,7 @@ class Stepper {
   static bch::ShapeSet reaches(const bch::ShapeSet& shapes) {
     std::vector<bch::Shape> discs;
     for (std::uint32_t i = 0; i < shapes.shape_count(); ++i)
-      discs.push_back({{}, bch::fixed_cylinder(shapes.view().reach[i] + static_cast<float>(step_length))});
+      discs.push_back({{}, bch::fixed_cylinder(shapes.reach(i) + static_cast<float>(step_length))});
     return bch::ShapeSet(discs);
   }
 

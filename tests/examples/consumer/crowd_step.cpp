@@ -8,10 +8,10 @@
 #include <random>
 #include <vector>
 
-#include "kernel/crowd/collide_all.hpp"
-#include "kernel/penetration/penetration.hpp"
-#include "layout/default_character/default_characters.hpp"
-#include "layout/scene/pose_shape.hpp"
+#include <bch/collide_all.hpp>
+#include <bch/default_characters.hpp>
+#include <bch/penetration.hpp>
+#include <bch/pose_shape.hpp>
 
 // A crowd step: people who stand in each other are pushed apart until nobody overlaps anybody. How closely they then
 // stand is what hierarchies are for: the same crowd is stepped with its single cylinders and with its outlines' discs.
@@ -52,11 +52,11 @@ class Pusher {
   /// Returns: how many pairs overlapped.
   std::size_t step(Crowd& crowd) {
     constexpr float longest = 0.1f, beyond = 0.001f;  // metres
-    const bch::CollidingNeighbours rows =
+    const bch::Rows<std::uint32_t> rows =
         collider_.collide_all(shapes_, crowd.agents(), {bch::Semantics::solid});
     pairs_.clear();
     for (std::uint32_t i = 0; i < crowd.x.size(); ++i)
-      for (const std::uint32_t j : rows.of(i))
+      for (const std::uint32_t j : rows[i])
         if (i < j) pairs_.push_back({i, j});
     ways_.resize(pairs_.size());
     bch::penetration(shapes_, crowd.agents(), pairs_, 32, ways_);

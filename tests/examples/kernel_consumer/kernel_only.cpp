@@ -1,15 +1,40 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include <bch/clearance.hpp>
+#include <bch/collide.hpp>
+#include <bch/outline.hpp>
+#include <bch/shape_set.hpp>
+
+#include <cstdio>
 #include <vector>
 
-#include "kernel/collide/collide.hpp"
-#include "layout/shape_set/shape_set.hpp"
+// Footprints: bodies that come from no mesh. A person with a trolley, and a pillar, by their polygons on the ground.
 
 int main() {
-  const std::vector<bch::Shape> shapes = {{{}, bch::fixed_cylinder(0.25f)}};
+  const std::vector<std::vector<bch::Vec2>> with_trolley = {
+      {{-0.15f, -0.25f}, {0.15f, -0.25f}, {0.15f, 0.25f}, {-0.15f, 0.25f}},
+      {{0.4f, -0.3f}, {1.2f, -0.3f}, {1.2f, 0.3f}, {0.4f, 0.3f}}};
+  const std::vector<std::vector<bch::Vec2>> pillar = {{{0.3f, 0}, {0, 0.3f}, {-0.3f, 0}, {0, -0.3f}}};
+
+  std::vector<bch::Shape> shapes;
+  for (const auto& polygons : {with_trolley, pillar}) {
+    bch::Outline outline = bch::outline_from_polygons(polygons);
+    bch::Hierarchy hierarchy = bch::contour_hierarchy(outline, 0.02f);
+    shapes.push_back({std::move(outline), std::move(hierarchy)});
+  }
   const bch::ShapeSet set(shapes);
-  const std::vector<std::uint32_t> shape = {0, 0, 0};
-  const std::vector<double> x = {0, 0.4, 0.6}, y = {0, 0, 0}, heading = {0, 0, 0};
-  const std::vector<bch::Pair> pairs = {{0, 1}, {0, 2}};
-  std::vector<std::uint8_t> hits(2);
-  bch::collide(set, {shape, x, y, heading}, pairs, hits);
-  return hits[0] == 1 && hits[1] == 0 ? 0 : 1;
+
+  // The second one walks towards the pillar, the first one stands beside it, between person and trolley.
+  const std::vector<std::uint32_t> shape = {0, 0, 1};
+  const std::vector<double> x = {-1, -2, -0.73}, y = {0, 0.4, 0.62}, heading = {0, 0.1, 0};
+  const std::vector<bch::Pair> pairs = {{0, 2}, {1, 2}};
+  std::vector<std::uint8_t> hits(pairs.size());
+  bch::collide(set, {shape, x, y, heading}, pairs, hits, {bch::Semantics::solid});
+  std::vector<float> distance(pairs.size());
+  bch::clearance(set, {shape, x, y, heading}, pairs, {distance});
+  for (std::size_t i = 0; i < pairs.size(); ++i)
+    std::printf("person %zu %s the pillar (%.2f m)\n", i, hits[i] ? "hits" : "passes",
+                static_cast<double>(distance[i]));
+  return hits[0] == 0 && hits[1] == 1 ? 0 : 1;
 }

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <bch/agents.hpp>
+#include <bch/shape_set.hpp>
+
+#include <memory>
+#include <span>
+#include <vector>
+
+namespace bch {
+
+/// Finds the pairs that a query has to test, and keeps its memory from call to call. One that was moved from
+/// can only be assigned to or destroyed.
+class BroadPhase {
+ public:
+  BroadPhase();
+  BroadPhase(BroadPhase&&) noexcept;
+  BroadPhase& operator=(BroadPhase&&) noexcept;
+  ~BroadPhase();
+
+  /// Returns every pair of agents whose root discs, at the agents' levels, can overlap or be within a margin
+  /// of each other: once each, first < second. No pair is missing that collide() answers with 1. With a
+  /// margin above 0, no pair is missing for which clearance() returns a distance of at most the margin, or
+  /// time_of_impact() a finite time where neither agent moves by more than half of the margin. The only other
+  /// pairs are those whose root discs miss that by a few millionths of the margin, of their radii and of
+  /// their shapes' reach, or by 2^-26 of the crowd's largest radius.
+  /// Units:   metres; the margin is from 0 to 2e9.
+  /// Order:   by place: along the rows of a grid, so that reading agents in the order of the pairs finds
+  ///          most of them in a cache, wherever they lie in memory. The same for any number of threads.
+  /// Sizes:   radii within a factor of four share a grid, others have grids of their own: a few large agents
+  ///          do not slow down many small ones. A cell is no smaller than 2^-30 of the crowd's extent.
+  /// Memory:  the pairs are valid until the next call. 72 bytes an agent and up to 24 a pair are kept; a call
+  ///          like an earlier one allocates nothing.
+  /// Errors:  throws std::invalid_argument like validate(shapes, agents), and on another margin.
+  /// Threads: runs in the caller's TBB arena; one call at a time. While it waits for its tasks the calling
+  ///          thread takes no others, so that an object for each of TBB's threads is enough.
+  std::span<const Pair> find(const ShapeSet& shapes, const Agents& agents, double margin = 0);
+
+ private:
+  struct Scratch;
+  std::unique_ptr<Scratch> scratch_;
+};
+
+/// The pairs of BroadPhase::find(), with memory that is given back.
+std::vector<Pair> candidate_pairs(const ShapeSet& shapes, const Agents& agents, double margin = 0);
+
+}  // namespace bch

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <bch/query.hpp>
+
+#include <span>
+
+namespace bch {
+
+/// What clearance() gives for the discs of a pair beyond max_distance.
+constexpr DiscPair no_discs{0xffffffff, 0xffffffff};
+
+/// The output arrays of clearance(). Empty directions and discs are not computed, which saves time.
+struct ClearanceAnswers {
+  std::span<float> distance;       ///< metres; infinite beyond max_distance
+  std::span<Vec2> direction = {};  ///< unit vectors; (0, 0) beyond max_distance
+  std::span<DiscPair> discs = {};  ///< the nearest ones; no_discs beyond max_distance
+};
+
+/// Measures how far apart the two agents of each pair are: the least gap between a disc of one's cut and a disc of the
+/// other's; negative where discs overlap, then the deepest overlap of two of them. With it the unit vector in
+/// the world from the first agent's nearest disc to the second's: moving the second agent along it, or the
+/// first one against it, widens that gap the fastest. Where the two centres coincide, (1, 0) from the agent
+/// with the lower index to the other.
+///
+/// Never larger than the distance of the outlines: an outline that crosses another has a clearance of at most
+/// 0. Below it by no more than r_A + r_B + (r_A^2 + r_B^2) / 2 D, with r the radii of the nearest discs and D
+/// = distance + r_A + r_B (below 3 cm for leaf discs of 1 cm), and 4 um per metre of the two shapes' reach
+/// and of D. The discs of the cuts alone count, not the nodes above them, so that a distance is one of two
+/// discs. Where collide() says 1 in boundary semantics, the distance is at most 0; where the distance is
+/// positive, it says 0. It may say 0 where discs overlap and nodes above them do not: a distance below 0 is
+/// no collision yet. The same bits on every processor, for any number of threads and any split of the batch;
+/// exchanging the agents of a pair exchanges the discs and negates the direction. Of gaps that are equal, the
+/// one with the first disc of the agent with the lower index counts, then that with the first disc of the
+/// other.
+///
+/// Options: max_distance, implementation.
+/// Shapes:  as many distances as pairs, directions and discs as many or none. An agent may be paired with
+///          itself.
+/// Errors:  throws std::invalid_argument, before anything is written, as collide() does, and on a
+///          max_distance that is negative or NaN.
+/// Threads: runs in the caller's TBB arena. Allocates nothing.
+void clearance(const ShapeSet& shapes, const Agents& agents, std::span<const Pair> pairs,
+               const ClearanceAnswers& answers, const QueryOptions& options = {});
+
+}  // namespace bch

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <bch/query.hpp>
+
+#include <memory>
+#include <span>
+
+namespace bch {
+
+/// Finds, for each pair of agents, all pairs of discs of their cuts, at their levels, that make a collision: they
+/// overlap, and so do all nodes above the one and above the other, and with exact leaves segments of theirs
+/// meet; see Semantics and Leaves. So a row is empty exactly where collide() answers 0 in boundary semantics
+/// with the same leaves. Rows are never cut short: contacts are counted, then written. Two equal cuts of n
+/// discs in one place have n^2 of them at most.
+///
+/// A row's deepest overlap does not begin at nothing when two agents come together, because nodes above
+/// decide as well: the cut discs may have overlapped for long when the last two of those begin to. Forces
+/// that have to be continuous take clearance() below 0, or penetration() of all pairs that are near.
+///
+/// The contacts are the same bits on every processor, for any number of threads. A pair in the other order
+/// has the same contacts with their two discs exchanged, sorted in that order.
+///
+/// Keeps its memory from call to call. One that was moved from can only be assigned to or destroyed.
+class ContactFinder {
+ public:
+  ContactFinder();
+  ContactFinder(ContactFinder&&) noexcept;
+  ContactFinder& operator=(ContactFinder&&) noexcept;
+  ~ContactFinder();
+
+  /// Finds the contacts of each pair: a row a pair, ordered by first discs, those of a first disc by their second ones.
+  /// Options: leaves, implementation.
+  /// Shapes:  an agent may be paired with itself: each disc then overlaps itself, and others.
+  /// Memory:  the rows are valid until the next call; a call like an earlier one allocates nothing.
+  /// Errors:  throws std::invalid_argument like collide(), before the rows of the last call are touched; std::bad_alloc or
+  ///          std::length_error where memory does not hold the contacts, and then those are gone.
+  /// Threads: runs in the caller's TBB arena; one call at a time.
+  Rows<DiscPair> find(const ShapeSet& shapes, const Agents& agents, std::span<const Pair> pairs,
+                      const QueryOptions& options = {});
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace bch

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <bch/agents.hpp>
+#include <bch/shape_set.hpp>
+
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <string_view>
+
+namespace bch::detail {
+struct Kernels;
+}
+
+namespace bch {
+
+// What all queries share. A query over pairs writes one result a pair into spans of the caller, and allocates nothing. Where a
+// pair or an agent can have many results, an object finds them and keeps them in its memory until its next call.
+
+/// The definition of a collision of two agents at their levels, independent of how trees are traversed.
+enum class Semantics {
+  /// Some disc of one's cut and some disc of the other's overlap, and every node above the one (itself
+  /// included) overlaps every node above the other. Discs are the smallest of what nodes hold, touching
+  /// counts. A point that two outlines have in common lies in all of them, so this is the tightest answer
+  /// that discs can give, and a deeper cut never adds a collision.
+  boundary,
+  solid,  ///< also where a contour of one outline lies inside the other outline
+};
+
+/// One compilation of the queries for an instruction set. All give the same bits.
+struct Implementation {
+  const char* name;              ///< "avx512", "avx2", "sse2" or "scalar"
+  bool (*supported)() noexcept;  ///< whether this processor and its operating system run it
+  const detail::Kernels* kernels;
+};
+
+/// Returns all implementations that were compiled, the best first; the last one runs everywhere.
+std::span<const Implementation> implementations() noexcept;
+
+/// Returns the first one that this processor supports. The environment variable BCH_ISA, read once, may name another.
+/// Errors:  throws std::invalid_argument if that one is unknown or not supported.
+const Implementation& best_implementation();
+
+/// Returns an implementation by its name.
+/// Errors:  throws std::invalid_argument on an unknown name, naming the known ones, or one that this processor does not run.
+const Implementation& implementation(std::string_view name);
+
+/// The options of every query. A query ignores those that do not concern it: its description names those that do.
+struct QueryOptions {
+  Semantics semantics = Semantics::boundary;  ///< of collide() and CrowdCollider
+  /// One of implementations(); null: best_implementation().
+  const Implementation* implementation = nullptr;
+  Leaves leaves = Leaves::segments;  ///< of collide(), CrowdCollider and ContactFinder
+  /// The largest distance of interest of clearance(), metres, not negative; may be infinite. Pairs farther apart get an
+  /// infinite distance and nothing else. The smaller the limit, the sooner they are rejected.
+  double max_distance = std::numeric_limits<double>::infinity();
+};
+
+/// Two discs by their numbers in the cuts of a pair's agents, in the order of ShapeSet::discs() and cut().
+struct DiscPair {
+  std::uint32_t first;   ///< of the pair's first agent
+  std::uint32_t second;  ///< of its second
+  friend bool operator==(const DiscPair&, const DiscPair&) = default;
+};
+
+/// Rows of different lengths that follow each other in one array (CSR): a view of the memory of what found them.
+template <class Value>
+struct Rows {
+  std::span<const std::uint64_t>
+      offsets;  ///< one more than rows: row i is values[offsets[i]] .. values[offsets[i + 1]]
+  std::span<const Value> values;
+
+  std::size_t size() const noexcept { return offsets.empty() ? 0 : offsets.size() - 1; }
+  std::span<const Value> operator[](std::size_t row) const noexcept {
+    return values.subspan(offsets[row], offsets[row + 1] - offsets[row]);
+  }
+};
+
+/// Throws the errors of collide() for the agents alone: sizes, shapes, levels, positions, headings.
+void validate(const ShapeSet& shapes, const Agents& agents);
+
+}  // namespace bch

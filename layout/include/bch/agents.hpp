@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+namespace bch {
+
+/// Two agents by index. Collisions do not depend on their order; other queries report about the first.
+struct Pair {
+  std::uint32_t first;
+  std::uint32_t second;
+  friend bool operator==(const Pair&, const Pair&) = default;
+};
+
+/// A crowd as a simulator holds it: one entry an agent in each span; nothing is copied.
+/// A heading turns a shape about its agent's position; 0 leaves it as its character was: the built-in ones then face +x,
+/// those of files stand as import.hpp says. How a clip turns its character's root stays in the shape.
+/// Units:   metres and radians, counter-clockwise, on the ground plane; |x|, |y| <= 1e9 m and |heading| <=
+///          1e9 rad.
+struct Agents {
+  std::span<const std::uint32_t> shape;  ///< index into the ShapeSet
+  std::span<const double> x;
+  std::span<const double> y;
+  std::span<const double> heading;
+  std::span<const std::uint8_t> level = {};  ///< index into the set's depths; empty: the last level for all
+
+  std::size_t size() const noexcept { return shape.size(); }
+  /// An agent's shape and level as one index, in what has an entry a level for every shape: shape * level_count + level.
+  std::size_t root(std::size_t agent, std::size_t level_count) const noexcept {
+    return shape[agent] * level_count + (level.empty() ? level_count - 1 : level[agent]);
+  }
+};
+
+}  // namespace bch

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <bch/shape_set.hpp>
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace bch {
+
+/// What a shape shows: names by their index in ShapeOrigins.
+struct ShapeOrigin {
+  static constexpr std::uint32_t rest_pose = 0xffffffff;
+
+  std::uint32_t character = 0;
+  std::uint32_t clip = rest_pose;
+  float seconds = 0;  ///< from the start of the clip
+  friend bool operator==(const ShapeOrigin&, const ShapeOrigin&) = default;
+};
+
+/// The characters, clips and times that the shapes of a set come from. Queries do not use them.
+struct ShapeOrigins {
+  double threshold = 0;              ///< of all hierarchies, metres; see contour_hierarchy()
+  std::vector<std::string> names;    ///< of characters and clips, as their files have them
+  std::vector<ShapeOrigin> origins;  ///< one a shape, or none at all
+  friend bool operator==(const ShapeOrigins&, const ShapeOrigins&) = default;
+};
+
+/// A baked file that cannot be read or believed. The message is one line that names the file and, where it applies,
+/// the section, the place in it and the value.
+class BakedFileError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+struct BakedShapes {
+  ShapeSet set;
+  ShapeOrigins origins;
+};
+
+enum class FileAccess {
+  read,  ///< into memory of our own: right whatever happens to the file meanwhile
+  map,   ///< no copy; for files that no process writes to or shortens while the set lives
+};
+
+/// Loads a set from a baked file, which it then stands on: nothing is parsed or copied. Checksums and content are checked first,
+/// so that a file made in bad faith, too, can give wrong answers at worst.
+/// Mapping: while the set lives, no process may write to a mapped file or make it shorter: bytes that were checked would change,
+///          and reading those that are gone ends the process by SIGBUS. To replace the file (write another, rename it over
+///          this) is fine: the mapping keeps the old one.
+/// Cost:    reading or mapping, a pass for the checksums and one for the content.
+/// Errors:  throws BakedFileError, std::bad_alloc.
+BakedShapes load_baked(const std::filesystem::path& file, FileAccess access = FileAccess::read);
+
+/// Loads a set from bytes in memory. They begin on a cache line and stay there, unchanged, while `memory`
+/// lives. `name` is what errors call them.
+BakedShapes load_baked(std::span<const std::byte> bytes, const std::string& name,
+                       std::shared_ptr<const void> memory);
+
+/// Writes a set as a baked file, under a name beside it until all is written; then the file gets its name, in place of another
+/// one. The same set gives the same bytes.
+/// Errors:  throws BakedFileError where the file cannot be written, and leaves none; std::invalid_argument where load_baked()
+///          would refuse it: a set() of a DynamicShapeSet of which a shape was replaced, origins of another number of
+///          shapes or with names that are not there.
+void save_baked(const std::filesystem::path& file, const ShapeSet& set, const ShapeOrigins& origins = {});
+
+}  // namespace bch

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <bch/geometry.hpp>
+
+namespace bch {
+
+/// A node of the skeleton. A parent stands before its children.
+struct Joint {
+  std::string name;
+  std::int32_t parent = -1;  ///< -1: a root
+  Affine3 rest;              ///< in the parent's frame, where a clip is silent
+};
+
+/// A value at a time in seconds.
+template <class Value>
+struct Key {
+  float time;
+  Value value;
+};
+
+/// How values between two keys are computed: linear blends them (rotations spherically), step keeps the earlier
+/// one, cubic is a Hermite spline through the keys with the curve's tangents.
+enum class Interpolation : std::uint8_t { linear, step, cubic };
+
+/// The derivatives of a value at a key, per second: before the key and behind it.
+template <class Value>
+struct Tangents {
+  Value in, out;
+};
+
+/// The course of one part of a channel between its keys. Tangents are there for cubic alone, one pair a key.
+template <class Value>
+struct Curve {
+  Interpolation interpolation = Interpolation::linear;
+  std::vector<Tangents<Value>> tangents;
+};
+
+/// The motion of one joint relative to its parent; keys in order of time. An empty list leaves
+/// that part of the joint's rest transform as it is.
+struct Channel {
+  std::uint32_t joint = 0;
+  std::vector<Key<Vec3>> positions;
+  std::vector<Key<Quaternion>> rotations;
+  std::vector<Key<Vec3>> scales;
+  Curve<Vec3> position_curve;
+  Curve<Quaternion> rotation_curve;  ///< cubic quaternions are normalised after they are blended
+  Curve<Vec3> scale_curve;
+};
+
+struct Clip {
+  std::string name;
+  float seconds = 0;
+  std::vector<Channel> channels;  ///< at most one a joint
+};
+
+/// What moves vertices: a joint, and the map from a mesh's own frame into that joint's frame at rest.
+struct Bone {
+  std::uint32_t joint = 0;
+  Affine3 inverse_bind;
+};
+
+struct Influence {
+  std::uint32_t bone;
+  float weight;
+};
+
+/// Everything about a character that does not depend on the pose: one mesh, a skeleton, clips.
+/// The meshes of a file are concatenated; a mesh that is only attached to a node follows one bone of
+/// weight 1.
+struct Character {
+  std::string name;
+  std::vector<Joint> joints;
+  std::vector<Bone> bones;
+  std::vector<Vec3> vertices;                  ///< in the frames that the bones' inverse_bind expects
+  std::vector<std::uint32_t> influence_begin;  ///< vertices.size() + 1 offsets into influences
+  std::vector<Influence> influences;           ///< weights of a vertex are positive and sum to 1
+  std::vector<std::array<std::uint32_t, 3>> triangles;
+  std::vector<Clip> clips;
+  Affine3 to_ground;  ///< file frame -> metres, z up
+  /// The joint whose point on the ground is a shape's origin; -1 for a mesh without skeleton, where it is the
+  /// middle of the bounding rectangle.
+  std::int32_t root_joint = -1;
+};
+
+/// Checks every promise above: indices, order of joints and keys, finite values, unit quaternions, tangents, weights.
+/// Errors:  throws std::invalid_argument naming the character, the place and the value.
+void validate(const Character& character);
+
+/// A pose of a character: a time in one of its clips, or the rest pose.
+struct PoseTime {
+  static constexpr std::uint32_t rest = 0xffffffff;
+  std::uint32_t clip = rest;
+  float seconds = 0;
+};
+
+/// `count` poses spread evenly over the character's clips laid end to end, each in the middle of its share;
+/// the same for the same arguments everywhere. A character without clips has one pose, the rest pose.
+std::vector<PoseTime> sample_poses(const Character& character, std::uint32_t count);
+
+}  // namespace bch

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <bch/shape_set.hpp>
+#include <bch/shape_set_builder.hpp>
+
+#include <cstdint>
+#include <memory>
+
+namespace bch {
+
+/// A set whose shapes are replaced while it lives, for characters whose poses are new in every frame. Queries take
+/// set() like any other, and answer as for a set that was built from the present shapes.
+///
+/// Each part of a shape (nodes, supports, contours, points) has a place of its own. One that outgrows it gets another,
+/// half as large again as it needs, behind all others, and leaves the old one empty. So after some frames every place is
+/// large enough and nothing is allocated any more; all places together take at most 4.5 times what the largest shapes
+/// need. One that was moved from can only be assigned to or destroyed.
+///
+///     PoseShaper shaper(character);                  // one of these a thread, and of the next
+///     PreparedShape prepared(dynamic.set().plan());
+///     prepared.prepare(shaper.shape({clip, seconds}), shape);
+///     if (!dynamic.try_replace(shape, prepared)) later.push_back(shape);  // for replace(), by one thread
+class DynamicShapeSet {
+ public:
+  /// Copies a set, another one's set() for instance, with its plan and without what that left empty. In a set of
+  /// single discs every shape stays one.
+  explicit DynamicShapeSet(const ShapeSet& start);
+  DynamicShapeSet(DynamicShapeSet&&) noexcept;
+  DynamicShapeSet& operator=(DynamicShapeSet&&) noexcept;
+  ~DynamicShapeSet();
+
+  /// The present shapes. Once one has been replaced this can be queried and copied, but not baked, because shapes need
+  /// not lie one behind the other any more: those of a copy do.
+  const ShapeSet& set() const noexcept;
+
+  /// Replaces a shape by one that was prepared with set().plan(), where that fits into its place. Threads may replace
+  /// different shapes at the same time, while no query runs. Allocates nothing.
+  /// Returns: whether it fitted. If not, the shape is the one before.
+  /// Errors:  throws std::out_of_range on an index out of range, std::invalid_argument on a shape of another plan.
+  bool try_replace(std::uint32_t shape, const PreparedShape& by);
+
+  /// Replaces a shape, if need be in a new place. For one thread alone: arrays may move, and views of set() from before
+  /// are void then. Takes time linear in the number of shapes where try_replace() would refuse.
+  /// Errors:  as try_replace(); std::length_error as ShapeSet. The shape is then the one before.
+  void replace(std::uint32_t shape, const PreparedShape& by);
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace bch

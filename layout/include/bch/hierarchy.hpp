@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <bch/geometry.hpp>
+#include <bch/outline.hpp>
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace bch {
+
+/// The depth of a cut that has no limit: its discs are the leaves.
+constexpr std::uint32_t all_depths = 0xffffffff;
+
+/// What leaves hold: a triangle, or a segment (c equals b), or a point (all equal).
+struct Primitive {
+  Vec2 a, b, c;
+};
+
+/// A node of the binary tree. Nodes stand in depth-first order: the first child of an inner node is the next
+/// node.
+struct HierarchyNode {
+  /// The smallest disc that encloses the node's primitives, enlarged only by what rounding.hpp derives. It need not hold
+  /// the discs of the nodes below.
+  Disc disc;
+  std::uint32_t second_child = 0;  ///< 0: a leaf
+
+  bool is_leaf() const { return second_child == 0; }
+};
+static_assert(sizeof(HierarchyNode) == 16);
+
+/// A run of primitives.
+struct PrimitiveRange {
+  std::uint32_t begin, end;
+};
+
+/// A bounding cylinder hierarchy of one shape: a binary tree of discs on the ground.
+/// Source:  Stuvel, Magnenat-Thalmann, Thalmann, Egges, van der Stappen, "Hierarchical structures for
+///          collision checking between virtual characters", Computer Animation and Virtual Worlds 25, 2014.
+struct Hierarchy {
+  std::vector<HierarchyNode> nodes;  ///< the root first; never empty
+  double reach = 0;                  ///< metres: largest distance of a primitive's point from the origin
+
+  // What nodes hold. Flat shapes and queries need none of it, so that builders fill it in where they are asked to, and
+  // leave it empty elsewhere.
+  std::vector<Primitive> primitives;  ///< in the order of the leaves
+  std::vector<std::uint32_t>
+      source;  ///< per primitive: index of the outline segment or triangle it comes from
+  std::vector<PrimitiveRange> primitive_ranges;  ///< per node: its primitives
+  bool of_segments = false;  ///< the primitives are an outline's segments or pieces of them, not triangles
+};
+
+/// Checks what others rely on: at least one node, children after their parents, discs that are finite, larger than 0 and
+/// about centres within the reach, a reach within the limits of rounding.hpp.
+/// Errors:  throws std::invalid_argument naming the node and the value.
+void validate(const Hierarchy& hierarchy);
+
+/// The place of the plane that divides a node's segments; its normal is the axis of the larger extent.
+enum class SplitRule {
+  centroid,  ///< through the centroid, weighted by length so that detailed parts do not pull it
+  centre,    ///< through the middle of the extent
+};
+
+/// The paper's contour hierarchy. A segment goes to the side of its midpoint; where one side would stay empty
+/// the other axis is tried, then the segments are halved by count. A lone segment longer than twice the
+/// threshold is halved; a node whose smallest enclosing disc has a radius below the threshold is a leaf, as
+/// is a lone segment.
+/// Units:   metres; the threshold is positive and finite.
+/// Returns: the hierarchy with its primitives.
+/// Errors:  throws std::invalid_argument on a bad outline, threshold or rule, std::length_error beyond 2^22 nodes.
+Hierarchy contour_hierarchy(const Outline& outline, float threshold, SplitRule rule = SplitRule::centroid);
+
+/// The paper's hierarchy over all projected triangles: the plane goes through the mean of the vertices, a
+/// triangle goes to the side of its centroid and is never cut; one triangle is a leaf.
+/// Returns: the hierarchy with its primitives.
+/// Errors:  throws std::invalid_argument on no triangles, an index out of range, a vertex of theirs that is not finite,
+///          or a reach outside rounding.hpp's domain. Vertices of no triangle do not count.
+Hierarchy projected_hierarchy(std::span<const Vec2> vertices,
+                              std::span<const std::array<std::uint32_t, 3>> triangles);
+
+/// The cylinder of crowd simulators with one radius for every pose, around the agent's position.
+/// Errors:  throws std::invalid_argument unless the radius is positive and within rounding.hpp's domain.
+Hierarchy fixed_cylinder(float radius);
+
+/// The nodes at a depth and the leaves above it, in depth-first order: a covering of the shape with one disc
+/// each. Depth 0 is the single cylinder; all_depths are the leaves.
+std::vector<std::uint32_t> cut(const Hierarchy& hierarchy, std::uint32_t depth);
+
+/// Edges on the longest way from the root to a leaf.
+std::uint32_t height(const Hierarchy& hierarchy);
+
+}  // namespace bch

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include <bch/character.hpp>
+
+namespace bch {
+
+/// A file that does not become a character. The message is one line: the file, a colon, the reason.
+class ImportError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+enum class UpAxis : std::uint8_t { x, y, z };
+
+/// What the caller knows better. Collada is in metres for `scale`, as assimp applies a Collada file's own
+/// unit.
+/// Up becomes z and nothing else turns: of a file that is y up, x stays and z becomes -y. Who faces +z there, as glTF has
+/// it, faces -y at heading 0, and walks along his heading less a quarter turn.
+struct ImportOptions {
+  std::optional<UpAxis> up;                       ///< instead of what the file says or what is guessed
+  std::optional<float> scale;                     ///< metres per unit of the file, likewise
+  std::vector<std::filesystem::path> clip_files;  ///< whose clips follow those of the file, in this order
+  bool force_clips = false;  ///< takes clips that belong to another skeleton, with a note; `--force-clips`
+  std::size_t most_triangles = 0x7fffffff;  ///< those of each instance of a mesh count; more are refused
+};
+
+struct ClipReport {
+  std::string name;
+  float seconds = 0;
+  std::size_t channels = 0;          ///< that move a joint of the character
+  std::size_t channels_in_file = 0;  ///< the rest moves cameras, helpers, joints that carry nothing
+};
+
+struct ImportReport {
+  std::string format;        ///< what read the file
+  std::size_t meshes = 0;    ///< instances that brought triangles
+  std::size_t vertices = 0;  ///< different in position or influences
+  std::size_t triangles = 0;
+  std::size_t dropped_faces = 0;     ///< points, lines, faces that name a vertex that is not there
+  std::size_t dropped_vertices = 0;  ///< used by no triangle
+  std::size_t bones = 0;             ///< joints that move vertices or are bones of a skin
+  float height = 0;                  ///< of the rest pose, metres
+  std::vector<ClipReport> clips;
+  std::vector<std::string> notes;  ///< a sentence for every conversion, guess and repair
+};
+
+struct ImportedCharacter {
+  Character character;
+  ImportReport report;
+};
+
+/// Reads glTF 2 itself, and by assimp FBX, Collada, MD5, IQM, OBJ, PLY and STL, and clips of these and of BVH. Of IQM, assimp reads the
+/// rest pose alone.
+/// Files:   up to 1 GiB. A file may name others that lie in the same folder, such as a glTF file's buffer; no
+///          further one is read, wherever a link or a path leads.
+/// Meshes:  all of the scene, instances included. Polygons are cut into triangles; vertices equal in position
+///          and influences become one; weights, each from 0 to 1 (1.001 for rounding), are normalised, and any
+///          number of them is kept. A vertex
+///          without weights in a mesh with bones takes those of the nearest vertex that has some.
+/// Frame:   to_ground leads to metres, z up, and never mirrors. Where neither file nor format tells the unit
+///          or the up axis, they are guessed from the rest pose, and a note says so.
+/// glTF:    the default scene. Required extensions are refused by name but for KHR_mesh_quantization,
+///          KHR_draco_mesh_compression and those of materials, textures and lights. Morph targets with weights
+///          other than 0 are refused.
+/// Joints:  the nodes that carry vertices, and the nodes above them. root_joint is the joint with which clips
+///          walk, in most skeletons the hips; -1 without bones.
+/// Clips:   those of other files are matched by joint name, any namespace ("mixamorig:") aside. They give the
+///          rotations of all joints they know, and the position of the topmost, scaled by the ratio of the
+///          skeletons' bone lengths, whatever their units; other joints keep the character's own lengths.
+///          A clip of another skeleton is refused unless force_clips is set. It is one if the two skeletons
+///          share no bone (two joints, one the parent of the other, by name), if less than half of the clip's
+///          channels move the character and its file has less than half of the character's joints, or if the
+///          joints are turned otherwise. A note names each such clip in which a pose reaches farther than 1.5
+///          times the rest pose.
+/// Returns: a character that validate() accepts; the same for the same files.
+/// Errors:  throws ImportError.
+ImportedCharacter import_character(const std::filesystem::path& file, const ImportOptions& options = {});
+
+}  // namespace bch

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <bch/outline.hpp>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+
+namespace bch::detail {
+struct OutlineImplementation;
+}
+
+namespace bch {
+
+/// Finds the outline of one mesh in pose after pose: the boundary of the unbounded face of the closed union
+/// of its triangles, seen from above.
+///
+/// Vertices are snapped to a grid of 2^-23 of the power of two above the reach (0.12 um for a person). On the
+/// grid the result is exact, but for points where edges cross: each is rounded to the nearest grid point.
+/// Every vertex of a triangle is inside the outline or within 1.5 grid steps of it. Triangles may be open,
+/// non-manifold, duplicated, degenerate. Holes are left out, also where they are closed by mere contact. A
+/// triangle without area is a whisker, walked there and back; one that is a point is left out.
+///
+/// The result depends on the union alone, not on how it is made of triangles: a contour begins at its
+/// lexicographically smallest vertex before rounding, no corner is straight, and contours are in the order of
+/// where they begin.
+class OutlineBuilder {
+ public:
+  /// Learns the mesh. The bind pose, if there is one, makes building fast: edges near each other are
+  /// processed together, and vertices at the same place are taken to stay together as long as a pose does not
+  /// separate them.
+  /// Shapes:  triangle indices are below `vertices`; the bind pose has as many positions, or none.
+  /// Errors:  throws std::invalid_argument on no triangles, an index out of range, a bind pose of another
+  ///          length or with a position that is not finite. Vertices that no triangle uses do not count.
+  OutlineBuilder(std::span<const std::array<std::uint32_t, 3>> triangles, std::size_t vertices,
+                 std::span<const Vec3> bind_pose = {});
+  OutlineBuilder(OutlineBuilder&&) noexcept;
+  OutlineBuilder& operator=(OutlineBuilder&&) noexcept;
+  ~OutlineBuilder();
+
+  /// Writes the outline of a pose into `outline`, whose memory is used again; allocates nothing once the
+  /// longest outline has been built.
+  /// Units:   metres; the ground is x-y.
+  /// Errors:  throws std::invalid_argument on another number of positions than of vertices, a coordinate that
+  ///          is not finite, a reach outside the domain of rounding.hpp, or when every triangle is a point.
+  void build(std::span<const Vec2> positions, Outline& outline);
+  /// Writes the outline of positions with heights, which may have any value.
+  void build(std::span<const Vec3> positions, Outline& outline);
+
+  // For the library's own parts, which alone know this type.
+
+  /// Uses a given implementation instead of the best. This processor has to support it.
+  OutlineBuilder(std::span<const std::array<std::uint32_t, 3>> triangles, std::size_t vertices,
+                 std::span<const Vec3> bind_pose, const detail::OutlineImplementation& implementation);
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+/// The outline of triangles that are seen once. OutlineBuilder says what an outline is, and finds those of one
+/// mesh in many poses much faster.
+/// Shapes:  triangle indices are below positions.size(); vertices that no triangle uses do not count.
+/// Errors:  throws std::invalid_argument on no triangles, an index out of range, a coordinate that is not
+///          finite, or a reach outside the domain of rounding.hpp.
+Outline union_outline(std::span<const Vec3> positions,
+                      std::span<const std::array<std::uint32_t, 3>> triangles);
+
+}  // namespace bch

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <bch/character.hpp>
+#include <bch/shape_set.hpp>
+
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <span>
+#include <vector>
+
+namespace bch {
+
+/// What a shape shows.
+struct ShapeSource {
+  std::uint32_t character = 0;  ///< index in a list that the scene has
+  PoseTime at;
+};
+
+/// An agent as a plan sees it.
+struct SceneAgent {
+  ShapeSource shows;
+  double distance = 0;  ///< metres, from the viewer
+  double density = 0;   ///< people per square metre around the agent: local_densities() tells it
+};
+
+/// The number of pairs from which on culling data pays off: the time to build it over the time that it saves
+/// of a pair of a crowd, by measurement (`bch_ratios --table plans`).
+constexpr double pairs_for_culling = 500;
+
+/// What will be asked of a scene.
+struct SceneUse {
+  /// Queries use the solid semantics, too.
+  bool solid = false;
+  /// What decides at the leaves of the level of all depths, if there is one.
+  Leaves leaves = Leaves::segments;
+  /// Level of detail: the cut depth of agents at a distance, all_depths where it does not matter. None: all_depths.
+  std::function<std::uint32_t(double metres)> depth = {};
+  /// Level of detail: the cut depth by the density around agents, for example depth_at_density(). If both
+  /// functions give a depth, the coarser counts.
+  std::function<std::uint32_t(double people_per_square_metre)> density_depth = {};
+  /// Seconds: times within a clip are rounded down to multiples of it, so that agents share shapes; 0: only those do
+  /// that show the very same.
+  float pose_step = 0;
+  /// About how many pairs a shape will be in before it is given up; few where each lives for one frame. From
+  /// pairs_for_culling on it gets culling data.
+  double pairs_per_shape = std::numeric_limits<double>::infinity();
+};
+
+/// What to build for a scene, each shape once, and what its agents ask for.
+struct ScenePlan {
+  ShapeSetPlan set;
+  std::vector<ShapeSource> shapes;         ///< in the order in which agents first show them
+  std::vector<std::uint32_t> agent_shape;  ///< one an agent: Agents::shape
+  std::vector<std::uint8_t> agent_level;   ///< one an agent: Agents::level
+};
+
+/// The cut depth that a density asks for, by measurement (`bch report --experiment detail`): the coarsest one that stops a
+/// walking person without need once a second at most; from where there is none, all_depths.
+std::uint32_t depth_at_density(double people_per_square_metre);
+
+/// Errors:  throws std::invalid_argument on a distance or density that is negative or not finite, naming the agent, a time that is
+///          not finite, a pose step that is negative or not finite, a number of pairs that is negative or NaN, and
+///          on more than 255 different depths.
+ScenePlan plan_scene(std::span<const SceneAgent> agents, const SceneUse& use = {});
+
+/// How dense a crowd is around each agent, people per square metre: those within `radius`, himself among them, over the area
+/// of that circle. At the rim of a crowd it is less than inside.
+/// Shapes:  x.size() == y.size(); one number an agent.
+/// Units:   metres. Takes time n log n beside the neighbours it counts.
+/// Errors:  throws std::invalid_argument on sizes that differ, a position that is not finite or beyond 1e9 m, naming the
+///          agent, and a radius that is not positive and finite.
+std::vector<double> local_densities(std::span<const double> x, std::span<const double> y, double radius = 2);
+
+}  // namespace bch

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <bch/geometry.hpp>
+#include <bch/hierarchy.hpp>
+#include <bch/outline.hpp>
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+namespace bch::detail {
+struct ShapeArrays;
+struct ShapeSetView;
+}  // namespace bch::detail
+
+namespace bch {
+
+/// One pose of a character.
+struct Shape {
+  Outline outline;
+  Hierarchy hierarchy;
+};
+
+/// What decides where leaves of two hierarchies overlap.
+enum class Leaves {
+  discs,  ///< that they do
+  /// Exact leaves: segments of the outlines in them come within the rounding margin of each other
+  /// (rounding.hpp, V). This applies to agents at the level of all depths whose shapes have segments there.
+  /// Otherwise, and for leaves of more than 127 segments, discs decide.
+  segments,
+};
+
+/// What a scene will use of its shapes; nothing else is built or stored.
+struct ShapeSetPlan {
+  /// The levels of detail: cut depths, ascending. Level k of every shape is its cut at depths[k].
+  std::vector<std::uint32_t> depths = {all_depths};
+  /// Keep the outlines: for the solid semantics, which sees one shape inside another, and for exact leaves, which the level of
+  /// all depths then has of shapes whose cut is more than one disc and whose hierarchy has its primitives.
+  bool outlines = true;
+  /// Keep what lets a query skip most traversals: supports and, of shapes with an outline, inscribed discs. They
+  /// change no answer; a set that answers few queries does without.
+  bool culling = true;
+  friend bool operator==(const ShapeSetPlan&, const ShapeSetPlan&) = default;
+};
+
+/// Errors:  throws std::invalid_argument on a plan without depths, with more than 255, or with depths out of order.
+void validate(const ShapeSetPlan& plan);
+
+/// The flat form of many shapes for batch queries: structure of arrays, aligned to cache lines, immutable. One that was
+/// moved from can only be assigned to or destroyed.
+class ShapeSet {
+ public:
+  /// Errors:  throws std::invalid_argument on a plan that validate() rejects and, naming the shape, on a hierarchy that
+  ///          validate() rejects, or an outline where the plan asks for one or for culling data; std::length_error beyond
+  ///          2^31 numbers in nodes.
+  explicit ShapeSet(std::span<const Shape> shapes, const ShapeSetPlan& plan = {});
+  ShapeSet(ShapeSet&&) noexcept;
+  ShapeSet& operator=(ShapeSet&&) noexcept;
+  ~ShapeSet();
+
+  std::uint32_t shape_count() const noexcept;
+  std::uint32_t level_count() const noexcept { return static_cast<std::uint32_t>(depths().size()); }
+  std::span<const std::uint32_t> depths() const noexcept;
+  /// Solid semantics can be asked: every shape has its outline here, or every cut is a single disc.
+  bool solid() const noexcept;
+  /// Some level of some shape has exact leaves.
+  bool exact_leaves() const noexcept;
+  /// Every cut is a single disc: there are roots and nothing else.
+  bool roots_only() const noexcept;
+  /// What is stored: of roots alone no more than the depths.
+  ShapeSetPlan plan() const;
+  std::size_t bytes() const noexcept;
+
+  /// Returns the discs of a shape's cut, in the order in which queries number them.
+  /// Errors:  throws std::out_of_range on an index out of range.
+  std::vector<Disc> discs(std::uint32_t shape, std::uint32_t level) const;
+  /// Returns the radius about an agent's position that holds its shape at every level and heading, metres.
+  /// Errors:  throws std::out_of_range on an index out of range.
+  float reach(std::uint32_t shape) const;
+
+  // For the library's own parts, which alone know these types.
+
+  /// Stands on arrays that live as long as `memory`, a mapped file say.
+  /// Precondition: validate(arrays) does not throw.
+  ShapeSet(const detail::ShapeArrays& arrays, std::shared_ptr<const void> memory);
+  /// Stands on other arrays from now on.
+  void refer_to(const detail::ShapeArrays& arrays) noexcept;
+  const detail::ShapeSetView& view() const noexcept;
+  const detail::ShapeArrays& arrays() const noexcept;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace bch

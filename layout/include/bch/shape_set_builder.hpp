@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <bch/shape_set.hpp>
+
+#include <cstddef>
+#include <memory>
+#include <span>
+
+namespace bch::detail {
+struct FlatShape;
+}
+
+namespace bch {
+
+/// A shape in its flat form, ready to take a place in a set. Making it takes nearly all the time that a set takes; it keeps its
+/// memory for the next one. One thread may use it at a time, and one that was moved from can only be assigned to or
+/// destroyed.
+class PreparedShape {
+ public:
+  /// `plan`: that of the set.
+  /// Errors:  throws std::invalid_argument on a bad plan.
+  explicit PreparedShape(const ShapeSetPlan& plan);
+  PreparedShape(PreparedShape&&) noexcept;
+  PreparedShape& operator=(PreparedShape&&) noexcept;
+  ~PreparedShape();
+
+  /// Makes a shape flat, in place of the one before.
+  /// Errors:  throws std::invalid_argument as ShapeSet does, naming the shape by `index`; prepare another then.
+  void prepare(const Shape& shape, std::size_t index);
+
+  /// For the library's own parts, which alone know this type.
+  detail::FlatShape& flat() noexcept;
+  const detail::FlatShape& flat() const noexcept;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+/// Builds a set shape by shape: the same one as from all shapes at once, byte for byte, without all of them in memory.
+/// One that was moved from can only be assigned to or destroyed.
+class ShapeSetBuilder {
+ public:
+  /// `expected_shapes`: how many there may be in the end, for the room that is made at once. More and fewer are right.
+  /// Errors:  throws std::invalid_argument on a bad plan.
+  explicit ShapeSetBuilder(const ShapeSetPlan& plan, std::size_t expected_shapes = 0);
+  ShapeSetBuilder(ShapeSetBuilder&&) noexcept;
+  ShapeSetBuilder& operator=(ShapeSetBuilder&&) noexcept;
+  ~ShapeSetBuilder();
+
+  /// Adds a shape that was prepared with the same plan.
+  /// Errors:  throws std::length_error beyond 2^31 numbers in nodes or 2^32 roots. What was added before is then as it was.
+  void add(const PreparedShape& shape);
+  /// Returns the set of the shapes that were added.
+  ShapeSet finish() &&;
+
+  /// For the library's own parts: the nodes of the shapes so far, as the set is going to have them, none for roots alone. Valid
+  /// until the next call of another function.
+  std::span<const float> nodes() const noexcept;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace bch

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <bch/shape_set.hpp>
+
+namespace bch {
+
+/// Something stored in a set that does not follow from the rest of it.
+struct Finding {
+  static constexpr std::uint32_t no_level = 0xffffffff;
+
+  std::uint32_t shape;
+  std::uint32_t level;  ///< or no_level, where the array has none
+  const char* array;    ///< as in ShapeArrays
+  std::string what;     ///< the value, its place, and what the rest asks for
+};
+
+/// "shape 3, level 1: nodes: ...".
+std::string text_of(const Finding& finding);
+
+/// Recomputes what a set stores of its shapes besides their discs and outlines, and compares. It checks that
+/// answers are right, where validate() checks that queries are safe.
+///
+/// - Nodes above the cut are such as the smallest discs of a part and of the whole are. The nodes of the blocks above a disc
+///   of the cut are above it, so that it is found, and their outer radii hold it and are no larger than that needs.
+/// - A level has at most as many discs as its depth allows and no fewer than the one before, and each of its discs
+///   belongs to one of the level before, as the smallest discs of a part and of the whole do.
+/// - Reaches, supports and the outer ends of profiles are those of the discs.
+/// - If outlines are stored, every level's discs cover them; the leaves that name a segment cover it, and
+///   margins are not below what rounding needs; contours' discs are the smallest; inscribed discs lie inside
+///   the largest contour; extremes are its farthest points; profiles are those of the outline. If they are
+///   not stored, inscribed discs, extremes and profiles are only checked not to stick out of the discs.
+///
+/// These facts do not follow from a set and are not checked: that discs and outlines are those of a
+/// character; that a disc is the smallest; and, without outlines, that no discs are missing.
+///
+/// Returns: what was found, shape after shape, at most so many; nothing for a set that this library made.
+/// Precondition: validate(set.arrays()) does not throw, or a DynamicShapeSet's set().
+/// Cost:    about as much as making the flat shapes from their hierarchies.
+std::vector<Finding> verify(const ShapeSet& set, std::size_t most = 100);
+
+}  // namespace bch

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+// The version of these headers. Until 1.0, a change of the public surface raises the minor number; the README's section
+// "Changes" lists it. The build reads the numbers from here.
+#define BCH_VERSION_MAJOR 0
+#define BCH_VERSION_MINOR 2
+#define BCH_VERSION_PATCH 0
+
+namespace bch {
+
+/// A version of the library.
+struct Version {
+  int major, minor, patch;
+  friend bool operator==(const Version&, const Version&) = default;
+};
+
+/// The version of these headers.
+constexpr Version header_version{BCH_VERSION_MAJOR, BCH_VERSION_MINOR, BCH_VERSION_PATCH};
+
+/// Returns the version of the library that the program is linked to.
+Version library_version() noexcept;
+
+}  // namespace bch
