@@ -152,21 +152,23 @@ std::map<std::string, std::string> public_headers() {
   return texts;
 }
 
-/// What a public header declares in bch: its lines that begin in the first column are declarations.
-std::set<std::string> public_names(const std::string& header) {
+/// What a public header declares in bch, and whether a comment stands above it: lines that begin in the first column are
+/// declarations.
+std::map<std::string, bool> public_names(const std::string& header) {
   static const std::regex declared(
       R"(^(?:(?:struct|class|enum class) (\w+)(?: : [\w: ]+)?(?: final)? \{|using (\w+) =|(?! |namespace|template|//|\}|#)[\w:<>,&\* \[\]]*?[ &\*](\w+)(?:\(|\{|;| = )))");
   static const std::regex macro(R"(^#define (\w+))");
-  std::set<std::string> names;
+  std::map<std::string, bool> names;
   std::istringstream lines(header);
-  bool detail = false;
+  bool detail = false, commented = false;
   for (std::string line; std::getline(lines, line);) {
     if (line.starts_with("namespace")) detail = line.find("detail") != std::string::npos;
     std::smatch match;
-    if (std::regex_search(line, match, macro)) names.insert(match[1]);
-    if (detail || !std::regex_search(line, match, declared)) continue;
-    for (std::size_t i = 1; i < match.size(); ++i)
-      if (match[i].matched) names.insert(match[i]);
+    if (std::regex_search(line, match, macro)) names[match[1]] = true;
+    if (!detail && std::regex_search(line, match, declared))
+      for (std::size_t i = 1; i < match.size(); ++i)
+        if (match[i].matched) names[match[i]] = commented;
+    if (!line.starts_with("template")) commented = line.starts_with("///");
   }
   return names;
 }
@@ -178,7 +180,10 @@ TEST(PublicSurface, IsWhatIsWrittenDown) {
   const auto headers = public_headers();
   for (const auto& [name, text] : headers) {
     surface += name + ":";
-    for (const std::string& declared : public_names(text)) surface += " " + declared;
+    for (const auto& [declared, commented] : public_names(text)) {
+      surface += " " + declared;
+      EXPECT_TRUE(commented) << name << ": " << declared << " has no comment";
+    }
     surface += "\n";
   }
   EXPECT_EQ(surface, read(fs::path(BCH_SOURCE) / "tests/whole/public_surface.txt")) << surface;

@@ -44,7 +44,7 @@ class BroadPhase {
   std::unique_ptr<Scratch> scratch_;
 };
 
-/// The pairs of BroadPhase::find(), with memory that is given back.
+/// Returns the pairs of BroadPhase::find(), with memory that is given back.
 std::vector<Pair> candidate_pairs(const ShapeSet& shapes, const Agents& agents, double margin = 0);
 
 }  // namespace bch

@@ -10,14 +10,9 @@
 
 namespace bch {
 
-/// The distance that the first agent of a pair has to move, and its direction; the second agent stays.
-struct Penetration {
-  float depth;  ///< metres, not negative; 0: a line across the direction separates the two
-  double x, y;  ///< the direction that the depth is measured along, in the world; a unit vector within 1e-9
-  friend bool operator==(const Penetration&, const Penetration&) = default;
-};
-
-/// The depth at which two agents A and B stand in each other along a direction u: how far A has to move along
+/// How far the first agent of a pair has to move to be free of the second, which stays, and in which direction.
+///
+/// The depth is the one at which two agents A and B stand in each other along a direction u: how far A has to move along
 /// u until no disc of its cut overlaps one of B's and neither outline encloses anything of the other, there
 /// or anywhere further along u.
 ///
@@ -25,16 +20,16 @@ struct Penetration {
 ///
 /// over the discs of the cuts. What this promises:
 ///
-/// *Enough.* A that has moved by s(u) or more lies behind a line across u, and B before it: discs, the
+/// - *Enough.* A that has moved by s(u) or more lies behind a line across u, and B before it: discs, the
 ///   outlines that they cover, and what those enclose. The depth is rounded up so that collide() then answers
 ///   0, in either semantics, if A's new position is right to 1e-7 of the two shapes' reach (in doubles: up to
 ///   1e8 m or so from the origin). Far apart, rounding the direction turns the line that separates them: in
 ///   float by centimetres at 1e6 m.
-/// *Continuous.* Where no point of an agent moves by more than m, by shifting or by turning, no a . u changes
+/// - *Continuous.* Where no point of an agent moves by more than m, by shifting or by turning, no a . u changes
 ///   by more, so the depth does not either; and no more than both together where both move. The smallest of
 ///   several directions inherits that. (Beside rounding: 1e-6 of the two shapes' reach, 4e-7 of the depth.)
-/// *Symmetric.* B has to move as far along -u as A along u: the same bits, the direction negated.
-/// *The least that is.* Let T be the largest t >= 0 at which a disc of A's cut still overlaps one of B's when
+/// - *Symmetric.* B has to move as far along -u as A along u: the same bits, the direction negated.
+/// - *The least that is.* Let T be the largest t >= 0 at which a disc of A's cut still overlaps one of B's when
 ///   A has moved by t u, or 0. Every f >= T that is continuous in this sense, in A's position alone, is at
 ///   least s(u): let s(u) belong to two discs, w be how far they are apart across u, and start at q, which is
 ///   n behind A along u and w beside it. From there the two discs touch last at n + s(u). So f(A) >= f(q) -
@@ -46,28 +41,34 @@ struct Penetration {
 /// discs overlap lies between the deepest overlap of two discs, which is clearance() below 0, as continuous
 /// and zero until there is one (for a force that grows from contact on), and this depth (for a correction of
 /// positions that is done at once).
-///
-/// The answer is the same bits on every processor, for any number of threads and any split of the batch. Only
-/// the difference of positions counts.
+struct Penetration {
+  float depth;  ///< metres, not negative; 0: a line across the direction separates the two
+  double x, y;  ///< the direction that the depth is measured along, in the world; a unit vector within 1e-9
+  friend bool operator==(const Penetration&, const Penetration&) = default;
+};
+
+/// Measures the depth of each pair along a direction of its own, of any length; the answer has it as a unit vector.
+/// The answer is the same bits on every processor, for any number of threads and any split of the batch. Only the
+/// difference of positions counts.
 /// Options: implementation.
-/// Shapes:  out.size() == pairs.size(); any set will do, solid plan or not. An agent may be paired with
+/// Shapes:  as many directions and answers as pairs; any set will do, solid plan or not. An agent may be paired with
 ///          itself: then it has to move by its own width.
-/// Errors:  throws std::invalid_argument, before out is touched, like collide(), and as said below.
+/// Errors:  throws std::invalid_argument, before out is touched, like collide(), and on a direction that is zero or not
+///          finite, naming the pair.
 /// Memory:  allocates nothing.
 /// Threads: runs in the caller's TBB arena.
-
-/// Along one direction a pair, of any length; the answer has it as a unit vector.
-/// Errors:  directions.size() is not pairs.size(); a direction that is zero or not finite, naming the pair.
 void penetration_along(const ShapeSet& shapes, const Agents& agents, std::span<const Pair> pairs,
                        std::span<const Vec2> directions, std::span<Penetration> out,
                        const QueryOptions& options = {});
 
-/// Along the best of `directions` evenly spread ones, the first of which is the x axis: that of the least
-/// depth. In a tie it is, for the agent of the lower index, the first one of 0, k / 2, 1, k / 2 + 1 ...
-/// Errors:  `directions` is odd, which would not be symmetric, below 2 or above most_directions.
+/// Measures the depth of each pair along the best of `directions` evenly spread ones, the first of which is the x axis:
+/// that of the least depth. In a tie it is, for the agent of the lower index, the first one of 0, k / 2, 1, k / 2 + 1 ...
+/// All else is as for penetration_along().
+/// Errors:  also on a number of directions that is odd, which would not be symmetric, below 2 or above most_directions.
 void penetration(const ShapeSet& shapes, const Agents& agents, std::span<const Pair> pairs,
                  std::uint32_t directions, std::span<Penetration> out, const QueryOptions& options = {});
 
+/// The largest number of directions that penetration() takes.
 constexpr std::uint32_t most_directions = 256;
 
 }  // namespace bch

@@ -80,7 +80,7 @@ struct Rows {
   }
 };
 
-/// Throws the errors of collide() for the agents alone: sizes, shapes, levels, positions, headings.
+/// Checks the agents of a query, with the errors of collide(): sizes, shapes, levels, positions, headings.
 void validate(const ShapeSet& shapes, const Agents& agents);
 
 }  // namespace bch

@@ -41,11 +41,13 @@ class BakedFileError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// What a baked file holds: a set, and what its shapes show.
 struct BakedShapes {
   ShapeSet set;
   ShapeOrigins origins;
 };
 
+/// How load_baked() gets at the bytes of a file.
 enum class FileAccess {
   read,  ///< into memory of our own: right whatever happens to the file meanwhile
   map,   ///< no copy; for files that no process writes to or shortens while the set lives

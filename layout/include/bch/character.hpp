@@ -55,6 +55,7 @@ struct Channel {
   Curve<Vec3> scale_curve;
 };
 
+/// A motion of a character: what its joints do from time 0 on.
 struct Clip {
   std::string name;
   float seconds = 0;
@@ -67,6 +68,7 @@ struct Bone {
   Affine3 inverse_bind;
 };
 
+/// The weight of one bone in the place of a vertex.
 struct Influence {
   std::uint32_t bone;
   float weight;
@@ -101,7 +103,7 @@ struct PoseTime {
   float seconds = 0;
 };
 
-/// `count` poses spread evenly over the character's clips laid end to end, each in the middle of its share;
+/// Returns `count` poses spread evenly over the character's clips laid end to end, each in the middle of its share;
 /// the same for the same arguments everywhere. A character without clips has one pose, the rest pose.
 std::vector<PoseTime> sample_poses(const Character& character, std::uint32_t count);
 

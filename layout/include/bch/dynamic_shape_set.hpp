@@ -32,7 +32,7 @@ class DynamicShapeSet {
   DynamicShapeSet& operator=(DynamicShapeSet&&) noexcept;
   ~DynamicShapeSet();
 
-  /// The present shapes. Once one has been replaced this can be queried and copied, but not baked, because shapes need
+  /// Returns the present shapes. Once one has been replaced this can be queried and copied, but not baked, because shapes need
   /// not lie one behind the other any more: those of a copy do.
   const ShapeSet& set() const noexcept;
 

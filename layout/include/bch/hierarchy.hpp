@@ -16,7 +16,7 @@ namespace bch {
 /// The depth of a cut that has no limit: its discs are the leaves.
 constexpr std::uint32_t all_depths = 0xffffffff;
 
-/// What leaves hold: a triangle, or a segment (c equals b), or a point (all equal).
+/// What a hierarchy encloses: a triangle, or a segment (c equals b), or a point (all equal).
 struct Primitive {
   Vec2 a, b, c;
 };
@@ -33,7 +33,7 @@ struct HierarchyNode {
 };
 static_assert(sizeof(HierarchyNode) == 16);
 
-/// A run of primitives.
+/// The primitives of a node, which follow each other in a hierarchy.
 struct PrimitiveRange {
   std::uint32_t begin, end;
 };
@@ -59,13 +59,13 @@ struct Hierarchy {
 /// Errors:  throws std::invalid_argument naming the node and the value.
 void validate(const Hierarchy& hierarchy);
 
-/// The place of the plane that divides a node's segments; its normal is the axis of the larger extent.
+/// Where the plane goes that divides a node's segments; its normal is the axis of the larger extent.
 enum class SplitRule {
   centroid,  ///< through the centroid, weighted by length so that detailed parts do not pull it
   centre,    ///< through the middle of the extent
 };
 
-/// The paper's contour hierarchy. A segment goes to the side of its midpoint; where one side would stay empty
+/// Builds the paper's contour hierarchy. A segment goes to the side of its midpoint; where one side would stay empty
 /// the other axis is tried, then the segments are halved by count. A lone segment longer than twice the
 /// threshold is halved; a node whose smallest enclosing disc has a radius below the threshold is a leaf, as
 /// is a lone segment.
@@ -74,7 +74,7 @@ enum class SplitRule {
 /// Errors:  throws std::invalid_argument on a bad outline, threshold or rule, std::length_error beyond 2^22 nodes.
 Hierarchy contour_hierarchy(const Outline& outline, float threshold, SplitRule rule = SplitRule::centroid);
 
-/// The paper's hierarchy over all projected triangles: the plane goes through the mean of the vertices, a
+/// Builds the paper's hierarchy over all projected triangles: the plane goes through the mean of the vertices, a
 /// triangle goes to the side of its centroid and is never cut; one triangle is a leaf.
 /// Returns: the hierarchy with its primitives.
 /// Errors:  throws std::invalid_argument on no triangles, an index out of range, a vertex of theirs that is not finite,
@@ -82,15 +82,15 @@ Hierarchy contour_hierarchy(const Outline& outline, float threshold, SplitRule r
 Hierarchy projected_hierarchy(std::span<const Vec2> vertices,
                               std::span<const std::array<std::uint32_t, 3>> triangles);
 
-/// The cylinder of crowd simulators with one radius for every pose, around the agent's position.
+/// Builds the cylinder of crowd simulators with one radius for every pose, around the agent's position.
 /// Errors:  throws std::invalid_argument unless the radius is positive and within rounding.hpp's domain.
 Hierarchy fixed_cylinder(float radius);
 
-/// The nodes at a depth and the leaves above it, in depth-first order: a covering of the shape with one disc
+/// Returns the nodes at a depth and the leaves above it, in depth-first order: a covering of the shape with one disc
 /// each. Depth 0 is the single cylinder; all_depths are the leaves.
 std::vector<std::uint32_t> cut(const Hierarchy& hierarchy, std::uint32_t depth);
 
-/// Edges on the longest way from the root to a leaf.
+/// Returns the number of edges on the longest way from the root to a leaf.
 std::uint32_t height(const Hierarchy& hierarchy);
 
 }  // namespace bch

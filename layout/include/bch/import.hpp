@@ -21,10 +21,11 @@ class ImportError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// The axis of a file's frame that points up.
 enum class UpAxis : std::uint8_t { x, y, z };
 
-/// What the caller knows better. Collada is in metres for `scale`, as assimp applies a Collada file's own
-/// unit.
+/// What the caller of import_character() knows better than the file, and its limits. Collada is in metres for `scale`, as
+/// assimp applies a Collada file's own unit.
 /// Up becomes z and nothing else turns: of a file that is y up, x stays and z becomes -y. Who faces +z there, as glTF has
 /// it, faces -y at heading 0, and walks along his heading less a quarter turn.
 struct ImportOptions {
@@ -35,6 +36,7 @@ struct ImportOptions {
   std::size_t most_triangles = 0x7fffffff;  ///< those of each instance of a mesh count; more are refused
 };
 
+/// What was taken of a clip.
 struct ClipReport {
   std::string name;
   float seconds = 0;
@@ -42,6 +44,7 @@ struct ClipReport {
   std::size_t channels_in_file = 0;  ///< the rest moves cameras, helpers, joints that carry nothing
 };
 
+/// What a file had, and what import_character() made of it.
 struct ImportReport {
   std::string format;        ///< what read the file
   std::size_t meshes = 0;    ///< instances that brought triangles
@@ -55,13 +58,14 @@ struct ImportReport {
   std::vector<std::string> notes;  ///< a sentence for every conversion, guess and repair
 };
 
+/// A character, and the report on its import.
 struct ImportedCharacter {
   Character character;
   ImportReport report;
 };
 
-/// Reads glTF 2 itself, and by assimp FBX, Collada, MD5, IQM, OBJ, PLY and STL, and clips of these and of BVH. Of IQM, assimp reads the
-/// rest pose alone.
+/// Reads a character from a file: glTF 2 itself, and by assimp FBX, Collada, MD5, IQM, OBJ, PLY and STL, and clips of these
+/// and of BVH. Of IQM, assimp reads the rest pose alone.
 /// Files:   up to 1 GiB. A file may name others that lie in the same folder, such as a glTF file's buffer; no
 ///          further one is read, wherever a link or a path leads.
 /// Meshes:  all of the scene, instances included. Polygons are cut into triangles; vertices equal in position

@@ -32,7 +32,7 @@ struct Outline {
   }
 };
 
-/// Area inside the contours, square metres; where contours overlap, the sum of theirs.
+/// Returns the area inside the contours, square metres; where contours overlap, the sum of theirs.
 double area(const Outline& outline);
 
 /// Makes an outline of footprints: polygons on the ground, for bodies that come from no mesh. They are closed from the last corner

@@ -63,7 +63,7 @@ class OutlineBuilder {
   std::unique_ptr<State> state_;
 };
 
-/// The outline of triangles that are seen once. OutlineBuilder says what an outline is, and finds those of one
+/// Finds the outline of triangles that are seen once. OutlineBuilder says what an outline is, and finds those of one
 /// mesh in many poses much faster.
 /// Shapes:  triangle indices are below positions.size(); vertices that no triangle uses do not count.
 /// Errors:  throws std::invalid_argument on no triangles, an index out of range, a coordinate that is not

@@ -18,17 +18,17 @@ namespace bch {
 /// can only be assigned to or destroyed.
 class PoseShaper {
  public:
-  /// The character must outlive this and must be valid (see validate()). `threshold`, in metres, is the radius below which a disc
-  /// is not divided. `deepest`: the largest of a plan's depths; hierarchies end there. `outlines`: whether to produce outlines
-  /// at depth 0, where no query needs them. Without, that depth takes the outermost vertices alone, a third of the time, and
-  /// shapes have no outlines; their root discs are the same.
+  /// Learns the mesh of a character, which must outlive this and must be valid (see validate()). `threshold`, in metres, is
+  /// the radius below which a disc is not divided. `deepest`: the largest of a plan's depths; hierarchies end there.
+  /// `outlines`: whether to produce outlines at depth 0, where no query needs them. Without, that depth takes the outermost
+  /// vertices alone, a third of the time, and shapes have no outlines; their root discs are the same.
   explicit PoseShaper(const Character& character, float threshold = 0.01f, std::uint32_t deepest = all_depths,
                       bool outlines = true);
   PoseShaper(PoseShaper&&) noexcept;
   PoseShaper& operator=(PoseShaper&&) noexcept;
   ~PoseShaper();
 
-  /// The most nodes of a hierarchy, 2^22 unless told: shapes of more throw std::length_error.
+  /// Sets the most nodes of a hierarchy, 2^22 unless told: shapes of more throw std::length_error.
   void limit_nodes(std::size_t most);
 
   /// Makes the shape of a pose: at a time of a clip, keys interpolated as the channels' curves say, times clamped to the first
@@ -39,10 +39,11 @@ class PoseShaper {
   ///          do, std::domain_error on a position that is not finite. The shape made before is lost.
   const Shape& shape(PoseTime at);
 
-  /// Makes the shape in two steps, for callers that need the outline alone or take the time of each:
-  /// make_outline() is about a pose, make_hierarchy() about the outline made last.
-  /// Preconditions: the shaper makes outlines.
+  /// Makes the outline of a pose, which is the first step of shape(), for callers that need the outline alone or take the time
+  /// of each step.
+  /// Precondition: the shaper makes outlines.
   const Outline& make_outline(PoseTime at);
+  /// Makes the shape of the outline made last, which is the second step.
   const Shape& make_hierarchy();
 
  private:

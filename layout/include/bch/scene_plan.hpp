@@ -33,7 +33,7 @@ constexpr double pairs_for_culling = 500;
 
 /// What will be asked of a scene.
 struct SceneUse {
-  /// Queries use the solid semantics, too.
+  /// Whether queries use the solid semantics, too.
   bool solid = false;
   /// What decides at the leaves of the level of all depths, if there is one.
   Leaves leaves = Leaves::segments;
@@ -42,8 +42,8 @@ struct SceneUse {
   /// Level of detail: the cut depth by the density around agents, for example depth_at_density(). If both
   /// functions give a depth, the coarser counts.
   std::function<std::uint32_t(double people_per_square_metre)> density_depth = {};
-  /// Seconds: times within a clip are rounded down to multiples of it, so that agents share shapes; 0: only those do
-  /// that show the very same.
+  /// The step, in seconds, to whose multiples times within a clip are rounded down, so that agents share shapes; 0: only
+  /// those do that show the very same.
   float pose_step = 0;
   /// About how many pairs a shape will be in before it is given up; few where each lives for one frame. From
   /// pairs_for_culling on it gets culling data.
@@ -58,17 +58,18 @@ struct ScenePlan {
   std::vector<std::uint8_t> agent_level;   ///< one an agent: Agents::level
 };
 
-/// The cut depth that a density asks for, by measurement (`bch report --experiment detail`): the coarsest one that stops a
-/// walking person without need once a second at most; from where there is none, all_depths.
+/// Returns the cut depth that a density asks for, by measurement (`bch report --experiment detail`): the coarsest one that
+/// stops a walking person without need once a second at most; from where there is none, all_depths.
 std::uint32_t depth_at_density(double people_per_square_metre);
 
+/// Plans which shapes a scene needs, each once, at which depths and with what beside.
 /// Errors:  throws std::invalid_argument on a distance or density that is negative or not finite, naming the agent, a time that is
 ///          not finite, a pose step that is negative or not finite, a number of pairs that is negative or NaN, and
 ///          on more than 255 different depths.
 ScenePlan plan_scene(std::span<const SceneAgent> agents, const SceneUse& use = {});
 
-/// How dense a crowd is around each agent, people per square metre: those within `radius`, himself among them, over the area
-/// of that circle. At the rim of a crowd it is less than inside.
+/// Measures how dense a crowd is around each agent, people per square metre: those within `radius`, himself among them, over
+/// the area of that circle. At the rim of a crowd it is less than inside.
 /// Shapes:  x.size() == y.size(); one number an agent.
 /// Units:   metres. Takes time n log n beside the neighbours it counts.
 /// Errors:  throws std::invalid_argument on sizes that differ, a position that is not finite or beyond 1e9 m, naming the

@@ -48,6 +48,7 @@ struct ShapeSetPlan {
   friend bool operator==(const ShapeSetPlan&, const ShapeSetPlan&) = default;
 };
 
+/// Checks a plan.
 /// Errors:  throws std::invalid_argument on a plan without depths, with more than 255, or with depths out of order.
 void validate(const ShapeSetPlan& plan);
 
@@ -55,6 +56,7 @@ void validate(const ShapeSetPlan& plan);
 /// moved from can only be assigned to or destroyed.
 class ShapeSet {
  public:
+  /// Makes shapes flat, each at all depths of a plan.
   /// Errors:  throws std::invalid_argument on a plan that validate() rejects and, naming the shape, on a hierarchy that
   ///          validate() rejects, or an outline where the plan asks for one or for culling data; std::length_error beyond
   ///          2^31 numbers in nodes.
@@ -66,13 +68,13 @@ class ShapeSet {
   std::uint32_t shape_count() const noexcept;
   std::uint32_t level_count() const noexcept { return static_cast<std::uint32_t>(depths().size()); }
   std::span<const std::uint32_t> depths() const noexcept;
-  /// Solid semantics can be asked: every shape has its outline here, or every cut is a single disc.
+  /// Whether solid semantics can be asked: every shape has its outline here, or every cut is a single disc.
   bool solid() const noexcept;
-  /// Some level of some shape has exact leaves.
+  /// Whether some level of some shape has exact leaves.
   bool exact_leaves() const noexcept;
-  /// Every cut is a single disc: there are roots and nothing else.
+  /// Whether every cut is a single disc: there are roots and nothing else.
   bool roots_only() const noexcept;
-  /// What is stored: of roots alone no more than the depths.
+  /// Returns the plan of what is stored: of roots alone no more than the depths.
   ShapeSetPlan plan() const;
   std::size_t bytes() const noexcept;
 

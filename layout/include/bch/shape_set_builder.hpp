@@ -20,7 +20,7 @@ namespace bch {
 /// destroyed.
 class PreparedShape {
  public:
-  /// `plan`: that of the set.
+  /// Takes the plan of the sets that the shapes are for.
   /// Errors:  throws std::invalid_argument on a bad plan.
   explicit PreparedShape(const ShapeSetPlan& plan);
   PreparedShape(PreparedShape&&) noexcept;
@@ -44,7 +44,8 @@ class PreparedShape {
 /// One that was moved from can only be assigned to or destroyed.
 class ShapeSetBuilder {
  public:
-  /// `expected_shapes`: how many there may be in the end, for the room that is made at once. More and fewer are right.
+  /// Begins an empty set of a plan. `expected_shapes`: how many there may be in the end, for the room that is made at once. More
+  /// and fewer are right.
   /// Errors:  throws std::invalid_argument on a bad plan.
   explicit ShapeSetBuilder(const ShapeSetPlan& plan, std::size_t expected_shapes = 0);
   ShapeSetBuilder(ShapeSetBuilder&&) noexcept;

@@ -22,7 +22,7 @@ struct Finding {
   std::string what;     ///< the value, its place, and what the rest asks for
 };
 
-/// "shape 3, level 1: nodes: ...".
+/// Returns a finding as one line: "shape 3, level 1: nodes: ...".
 std::string text_of(const Finding& finding);
 
 /// Recomputes what a set stores of its shapes besides their discs and outlines, and compares. It checks that
@@ -42,7 +42,7 @@ std::string text_of(const Finding& finding);
 /// character; that a disc is the smallest; and, without outlines, that no discs are missing.
 ///
 /// Returns: what was found, shape after shape, at most so many; nothing for a set that this library made.
-/// Precondition: validate(set.arrays()) does not throw, or a DynamicShapeSet's set().
+/// Precondition: the arrays of the set are safe to read, as those of every set that was built or loaded are.
 /// Cost:    about as much as making the flat shapes from their hierarchies.
 std::vector<Finding> verify(const ShapeSet& set, std::size_t most = 100);
 
