@@ -103,8 +103,8 @@ TEST(CliSystem, SmallStacksAreRefused) {
   const Arguments crowd{"crowd", "--agents", "100", "--poses", "1"};
   const Ending run = after("ulimit -s 64;", crowd);
   EXPECT_EQ(run.code, 2);
-  EXPECT_EQ(run.err, "bch: the stack is limited to 64 KiB (ulimit -s), and 256 are needed\n");
-  EXPECT_EQ(after("ulimit -s 256;", crowd).code, 0);
+  EXPECT_EQ(run.err, "bch: the stack is limited to 64 KiB (ulimit -s), and 320 are needed\n");
+  EXPECT_EQ(after("ulimit -s 320;", crowd).code, 0);
 }
 #endif
 

@@ -25,7 +25,7 @@ namespace bch {
 ///          range, a position or heading that is not finite or beyond the limits, an unknown semantics, solid
 ///          semantics on a set that was not planned for it, an implementation that this processor does not
 ///          run; the message names the agent or pair and the value.
-/// Threads: runs in the caller's TBB arena, where each thread needs 256 KiB of stack, for this and every
+/// Threads: runs in the caller's TBB arena, where each thread needs 320 KiB of stack, for this and every
 ///          other query. The rounding mode, treatment of denormals and traps that threads are set to do not
 ///          matter to any, and stay as they are. An exception or cancellation of tasks beside it does not
 ///          touch it.
