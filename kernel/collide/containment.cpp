@@ -3,32 +3,22 @@
 
 #include "kernel/collide/containment.hpp"
 
+#include "kernel/simd/transform.hpp"
 #include "layout/base/heading.hpp"
 #include "layout/base/rounding.hpp"
 
 namespace bch::detail {
 namespace {
 
-struct Point {
-  double x, y;
-};
+using Point = PointIn<double>;
+using Placement = TransformOf<double>;
 
-/// Maps from the frame of one agent into that of another.
-struct Placement {
-  Rotation turn;
-  Point origin;
-
-  Point operator()(Vec2 p) const {
-    const double x = p.x, y = p.y;
-    return {origin.x + (turn.cosine * x - turn.sine * y), origin.y + (turn.sine * x + turn.cosine * y)};
-  }
-};
-
+/// Returns the map from the frame of one agent into that of another.
 Placement placement(const Agents& agents, std::uint32_t of, std::uint32_t in) {
   const Rotation to = rotation(agents.heading[in]), from = rotation(agents.heading[of]);
   const double dx = agents.x[of] - agents.x[in], dy = agents.y[of] - agents.y[in];
-  return {{to.cosine * from.cosine + to.sine * from.sine, to.cosine * from.sine - to.sine * from.cosine},
-          {to.cosine * dx + to.sine * dy, to.cosine * dy - to.sine * dx}};
+  return {to.cosine * from.cosine + to.sine * from.sine, to.cosine * from.sine - to.sine * from.cosine,
+          to.cosine * dx + to.sine * dy, to.cosine * dy - to.sine * dx};
 }
 
 /// Returns whether p is inside, by the parity of the edges to its right. Whiskers are walked there and back
@@ -74,12 +64,14 @@ bool contains_contour_of(const ShapeSetView& shapes, std::uint32_t outer_shape, 
   const double slack = inside_slack * (static_cast<double>(shapes.reach[outer_shape]) +
                                        static_cast<double>(shapes.reach[inner_shape]));
   const ContourRange outer = shapes.shape_contours[outer_shape], inner = shapes.shape_contours[inner_shape];
+  const auto placed = [&](float x, float y) { return place.apply(double{x}, double{y}); };
   for (std::uint32_t i = inner.begin; i < inner.end; ++i) {
     const Contour& within = shapes.contours[i];
-    const Point centre = place({within.disc.x, within.disc.y});
+    const Vec2 first = shapes.points[within.begin];
+    const Point centre = placed(within.disc.x, within.disc.y);
     for (std::uint32_t o = outer.begin; o < outer.end; ++o)
       if (may_be_inside(shapes.contours[o].disc, within.disc, centre, slack) &&
-          inside(shapes.points, shapes.contours[o], place(shapes.points[within.begin])))
+          inside(shapes.points, shapes.contours[o], placed(first.x, first.y)))
         return true;
   }
   return false;

@@ -8,7 +8,6 @@
 
 #include "kernel/simd/ancestor_test.hpp"
 #include "kernel/simd/arguments.hpp"
-#include "kernel/simd/block_test.hpp"
 #include "kernel/simd/disc_pairs.hpp"
 #include "kernel/simd/segment_test.hpp"
 #include "kernel/simd/tree_nodes.hpp"

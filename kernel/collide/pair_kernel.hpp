@@ -8,8 +8,8 @@
 
 #include "kernel/collide/overlap_traversal.hpp"
 #include "kernel/simd/arguments.hpp"
-#include "kernel/simd/block_test.hpp"
 #include "kernel/simd/chunk_pairs.hpp"
+#include "kernel/simd/disc_pairs.hpp"
 #include "kernel/simd/lanes.hpp"
 #include "kernel/simd/placements.hpp"
 #include "kernel/simd/profile_test.hpp"
@@ -102,9 +102,7 @@ class PairKernel {
       Simd::template load_records<4>(&shapes_.roots->x, at_.root_b + k, b);
       Simd::store(reinterpret_cast<float*>(row_a_ + k), a[3]);
       Simd::store(reinterpret_cast<float*>(row_b_ + k), b[3]);
-      const Float c = Simd::load(at_.c + k), s = Simd::load(at_.s + k);
-      const Float x = Simd::load(at_.tx + k) + (c * b[0] - s * b[1]),
-                  y = Simd::load(at_.ty + k) + (s * b[0] + c * b[1]);
+      const auto [x, y] = at_.transforms(k).apply(b[0], b[1]);
       const std::uint32_t hits = overlaps<Simd>(x, y, b[2], a[0], a[1], a[2]);
       std::uint32_t open = 0;
       for (std::uint32_t lane = 0; lane < lanes(k); ++lane) {

@@ -10,7 +10,7 @@
 
 #include "kernel/simd/ancestor_test.hpp"
 #include "kernel/simd/arguments.hpp"
-#include "kernel/simd/block_test.hpp"
+#include "kernel/simd/disc_pairs.hpp"
 #include "kernel/simd/lanes.hpp"
 #include "kernel/simd/placements.hpp"
 #include "kernel/simd/segment_test.hpp"

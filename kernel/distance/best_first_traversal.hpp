@@ -5,9 +5,9 @@
 
 #include <cstdint>
 
-#include "kernel/simd/block_test.hpp"
 #include "kernel/simd/disc_pairs.hpp"
 #include "kernel/simd/lanes.hpp"
+#include "kernel/simd/transform.hpp"
 #include "kernel/simd/tree_nodes.hpp"
 #include "layout/format/shape_set_view.hpp"
 

@@ -86,10 +86,9 @@ class ClearanceKernel {
   };
   /// Returns the step from root disc to root disc, lane = pair.
   Step between_roots(std::uint32_t k) const noexcept {
-    const Float c = Simd::load(at_.c + k), s = Simd::load(at_.s + k);
-    const Float x = Simd::load(of_b_.field[0] + k), y = Simd::load(of_b_.field[1] + k);
-    return {Simd::load(at_.tx + k) + (c * x - s * y) - Simd::load(of_a_.field[0] + k),
-            Simd::load(at_.ty + k) + (s * x + c * y) - Simd::load(of_a_.field[1] + k),
+    const auto [x, y] =
+        at_.transforms(k).apply(Simd::load(of_b_.field[0] + k), Simd::load(of_b_.field[1] + k));
+    return {x - Simd::load(of_a_.field[0] + k), y - Simd::load(of_a_.field[1] + k),
             Simd::load(of_a_.field[2] + k) + Simd::load(of_b_.field[2] + k)};
   }
 

@@ -6,8 +6,8 @@
 #include <cstdint>
 
 #include "kernel/distance/best_first_traversal.hpp"
-#include "kernel/simd/block_test.hpp"
 #include "kernel/simd/disc_pairs.hpp"
+#include "kernel/simd/transform.hpp"
 #include "layout/format/shape_set_view.hpp"
 
 namespace bch::detail {

@@ -105,12 +105,11 @@ class TimeOfImpactKernel {
 
   /// Returns the time of a pair in a set in which every cut is a single disc.
   float time_of_roots(std::uint32_t pair) const noexcept {
-    const Transform at = at_.transform(pair);
     const Root &a = shapes_.roots[at_.root_a[pair]], &b = shapes_.roots[at_.root_b[pair]];
+    const auto [x, y] = at_.transform(pair).apply(b.x, b.y);
     Measure measure(x_[pair], y_[pair], 0);
-    measure.take(Measure::template time_of<double>(at.tx + (at.c * b.x - at.s * b.y) - a.x,
-                                                   at.ty + (at.s * b.x + at.c * b.y) - a.y,
-                                                   a.radius + b.radius, x_[pair], y_[pair]));
+    measure.take(
+        Measure::template time_of<double>(x - a.x, y - a.y, a.radius + b.radius, x_[pair], y_[pair]));
     return measure.time();
   }
 

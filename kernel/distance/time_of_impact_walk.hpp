@@ -7,9 +7,9 @@
 #include <cstdint>
 
 #include "kernel/distance/time_of_impact_measure.hpp"
-#include "kernel/simd/block_test.hpp"
 #include "kernel/simd/chunk_pairs.hpp"
 #include "kernel/simd/disc_pairs.hpp"
+#include "kernel/simd/transform.hpp"
 #include "kernel/simd/tree_nodes.hpp"
 #include "layout/format/shape_set_view.hpp"
 

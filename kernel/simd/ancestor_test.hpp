@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "kernel/simd/block_test.hpp"
+#include "kernel/simd/disc_pairs.hpp"
 #include "layout/base/rounding.hpp"
 #include "layout/format/shape_set_view.hpp"
 
@@ -66,8 +66,8 @@ class AncestorTest {
       : nodes_(nodes), trees_(trees), above_a_(above_a), above_b_(above_b) {
     a_ = disc(trees.a, disc_a);
     const Disc b = disc(trees.b, disc_b);
-    const auto [c, s, tx, ty] = trees.b_in_a;
-    b_ = {tx + (c * b.x - s * b.y), ty + (s * b.x + c * b.y), b.radius};
+    const auto [x, y] = trees.b_in_a.apply(b.x, b.y);
+    b_ = {x, y, b.radius};
     load(above_a, discs_a_), load(above_b, discs_b_);
   }
 
@@ -116,7 +116,7 @@ class AncestorTest {
   /// Decides most cases, with one test a node. The point is the one of the line of the centres that divides
   /// it as the radii do, so that it lies in both cut discs.
   Comparison compare_with_leaves() const noexcept {
-    const auto [c, s, tx, ty] = trees_.b_in_a;
+    const auto b_in_a = trees_.b_in_a.template in_lanes<Float>();
     const float share = a_.radius / (a_.radius + b_.radius);
     const Float x(a_.x + share * (b_.x - a_.x)), y(a_.y + share * (b_.y - a_.y));
     const Float margin(static_cast<float>(inside_margin) * trees_.reach), zero(0.0f);
@@ -128,10 +128,9 @@ class AncestorTest {
     for (std::uint32_t k = 0; k < length; k += Simd::width) {
       const Float ax = Simd::load(discs_a_.field[0] + k), ay = Simd::load(discs_a_.field[1] + k),
                   ar = Simd::load(discs_a_.field[2] + k);
-      const Float in_b_x = Simd::load(discs_b_.field[0] + k), in_b_y = Simd::load(discs_b_.field[1] + k),
-                  br = Simd::load(discs_b_.field[2] + k);
-      const Float bx = Float(tx) + (Float(c) * in_b_x - Float(s) * in_b_y),
-                  by = Float(ty) + (Float(s) * in_b_x + Float(c) * in_b_y);
+      const auto [bx, by] =
+          b_in_a.apply(Simd::load(discs_b_.field[0] + k), Simd::load(discs_b_.field[1] + k));
+      const Float br = Simd::load(discs_b_.field[2] + k);
       overlap &= overlaps<Simd>(Float(b_.x), Float(b_.y), Float(b_.radius), ax, ay, ar) &
                  overlaps<Simd>(bx, by, br, Float(a_.x), Float(a_.y), Float(a_.radius));
       share_point &= holds_point(ax, ay, ar) & holds_point(bx, by, br);

@@ -3,50 +3,88 @@
 
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 
-#include "kernel/simd/block_test.hpp"
 #include "kernel/simd/lanes.hpp"
+#include "kernel/simd/transform.hpp"
 #include "layout/format/shape_set_view.hpp"
 
 namespace bch::detail {
 
+/// Bits of the lanes in which discs a and b overlap, touching included.
+template <class Simd, class Float = typename Simd::Float>
+std::uint32_t overlaps(Float bx, Float by, Float br, Float ax, Float ay, Float ar) noexcept {
+  const Float x = bx - ax, y = by - ay, r = ar + br;
+  return Simd::bits(x * x + y * y <= r * r);
+}
+
+/// The location of eight discs: their x, and the distance in floats to each y and radius. The functions are
+/// always inlined, so that instruction sets share no function.
+struct Discs {
+  const float* x;
+  std::size_t to_y, to_radius;
+
+  [[gnu::always_inline]] const float* y() const noexcept { return x + to_y; }
+  [[gnu::always_inline]] const float* radius() const noexcept { return x + to_radius; }
+};
+
+/// Bits of pairs of eight discs by eight, bit 8 i + j for disc i of A and j of B: those of A's first, and of
+/// B's.
+constexpr std::uint64_t first_row_of_pairs = 0xff, first_column_of_pairs = 0x0101010101010101;
+
 /// Pairs of discs of two blocks.
 constexpr unsigned block_pairs = block_width * block_width;
 
-template <class Simd, class Visit>
+template <class Simd, unsigned count, class Visit>
 void visit_pairs_called(const Transform& b_in_a, Discs a, Discs b, Visit visit) noexcept;
 
-/// Visits the pairs of A's eight discs with B's eight, pair 8 i + j for disc i of A and j of B: calls
-/// visit(k, x, y, r) for every register, whose lanes are the pairs from k on. (x, y) leads from A's disc to
-/// B's in A's frame, r is the sum of radii. The operations are those of layout/base/rounding.hpp. Padding
-/// gives infinities and NaN. One lane at a time, inlined copies of it would fill the object file.
-template <class Simd, bool called = Simd::width == 1, class Visit>
+/// Visits the pairs of the first `count` of A's discs with those of B, four or all eight; pair count * i + j for disc i of A and j
+/// of B: calls visit(k, x, y, r) for every register, whose lanes are the pairs from k on. (x, y) leads from A's disc
+/// to B's in A's frame, r is the sum of radii. The operations are those of layout/base/rounding.hpp. Padding
+/// gives infinities and NaN. It is inlined because a call takes longer than a test, but not one lane at a time, when
+/// copies of it would fill the object file.
+template <class Simd, unsigned count = block_width, bool called = Simd::width == 1, class Visit>
 [[gnu::always_inline]] inline void visit_disc_pairs(const Transform& b_in_a, Discs a, Discs b,
                                                     Visit visit) noexcept {
-  if constexpr (called) return visit_pairs_called<Simd>(b_in_a, a, b, visit);
+  if constexpr (called) return visit_pairs_called<Simd, count>(b_in_a, a, b, visit);
   using Float = typename Simd::Float;
-  constexpr unsigned parts = Simd::width < block_width ? block_width / Simd::width : 1;
-  constexpr unsigned rows = Simd::width > block_width ? Simd::width / block_width : 1;
-  const Float c(b_in_a.c), s(b_in_a.s), tx(b_in_a.tx), ty(b_in_a.ty);
+  constexpr unsigned parts = Simd::width < count ? count / Simd::width : 1;
+  constexpr unsigned rows = Simd::width > count ? Simd::width / count : 1;
+  const auto placed = b_in_a.in_lanes<Float>();
   const auto ax = Simd::eight(a.x), ay = Simd::eight(a.y()), ar = Simd::eight(a.radius());
-  Float px[parts], py[parts], r[parts];
+  Float bx[parts], by[parts], br[parts];
 #pragma GCC unroll 8
   for (unsigned part = 0; part < parts; ++part) {
-    const Float x = Simd::template columns<block_width>(b.x, part),
-                y = Simd::template columns<block_width>(b.y(), part);
-    px[part] = tx + (c * x - s * y), py[part] = ty + (s * x + c * y);
-    r[part] = Simd::template columns<block_width>(b.radius(), part);
+    const auto [x, y] =
+        placed.apply(Simd::template columns<count>(b.x, part), Simd::template columns<count>(b.y(), part));
+    bx[part] = x, by[part] = y, br[part] = Simd::template columns<count>(b.radius(), part);
   }
 #pragma GCC unroll 8
-  for (unsigned row = 0; row < block_width; row += rows) {
-    const Float row_x = Simd::template row<block_width>(ax, row),
-                row_y = Simd::template row<block_width>(ay, row),
-                row_r = Simd::template row<block_width>(ar, row);
+  for (unsigned row = 0; row < count; row += rows) {
+    const Float row_x = Simd::template row<count>(ax, row), row_y = Simd::template row<count>(ay, row),
+                row_r = Simd::template row<count>(ar, row);
 #pragma GCC unroll 8
     for (unsigned part = 0; part < parts; ++part)
-      visit(row * block_width + part * Simd::width, px[part] - row_x, py[part] - row_y, row_r + r[part]);
+      visit(row * count + part * Simd::width, bx[part] - row_x, by[part] - row_y, row_r + br[part]);
   }
+}
+
+template <class Simd, unsigned count, class Visit>
+[[gnu::noinline]] void visit_pairs_called(const Transform& b_in_a, Discs a, Discs b, Visit visit) noexcept {
+  visit_disc_pairs<Simd, count, false>(b_in_a, a, b, visit);
+}
+
+/// Returns which of those pairs overlap, touching included: bit k for pair k.
+template <class Simd, unsigned count = block_width>
+[[gnu::always_inline]] inline std::uint64_t overlapping_discs(const Transform& b_in_a, Discs a,
+                                                              Discs b) noexcept {
+  using Float = typename Simd::Float;
+  std::uint64_t bits = 0;
+  visit_disc_pairs<Simd, count>(b_in_a, a, b, [&bits](unsigned k, Float x, Float y, Float r) {
+    bits |= std::uint64_t{Simd::bits(x * x + y * y <= r * r)} << k;
+  });
+  return bits;
 }
 
 /// One of those pairs, by the same operations.
@@ -57,9 +95,8 @@ template <class Simd>
 [[gnu::always_inline]] inline PlacedPair disc_pair(const Transform& b_in_a, Discs a, Discs b,
                                                    unsigned pair) noexcept {
   const unsigned i = pair / block_width, j = pair % block_width;
-  const float x = b.x[j], y = b.y()[j];
-  return {b_in_a.tx + (b_in_a.c * x - b_in_a.s * y) - a.x[i],
-          b_in_a.ty + (b_in_a.s * x + b_in_a.c * y) - a.y()[i], a.radius()[i] + b.radius()[j]};
+  const auto [x, y] = b_in_a.apply(b.x[j], b.y()[j]);
+  return {x - a.x[i], y - a.y()[i], a.radius()[i] + b.radius()[j]};
 }
 
 /// Returns the least of the pairs' values.
@@ -70,11 +107,6 @@ float least_value(const float* values) noexcept {
   for (unsigned k = Simd::width; k < block_pairs; k += Simd::width)
     least = xsimd::min(least, Simd::load(values + k));
   return Simd::least(least);
-}
-
-template <class Simd, class Visit>
-[[gnu::noinline]] void visit_pairs_called(const Transform& b_in_a, Discs a, Discs b, Visit visit) noexcept {
-  visit_disc_pairs<Simd, false>(b_in_a, a, b, visit);
 }
 
 /// The pairs whose values are at most so much.

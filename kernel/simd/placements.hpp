@@ -9,8 +9,8 @@
 #include <bch/agents.hpp>
 
 #include "kernel/simd/arguments.hpp"
-#include "kernel/simd/block_test.hpp"
 #include "kernel/simd/lanes.hpp"
+#include "kernel/simd/transform.hpp"
 #include "layout/base/heading.hpp"
 #include "layout/base/rounding.hpp"
 #include "layout/format/shape_set_view.hpp"
@@ -42,6 +42,10 @@ class Placements {
   }
 
   Transform transform(std::uint32_t pair) const noexcept { return {c[pair], s[pair], tx[pair], ty[pair]}; }
+  /// Returns those of the pairs from k on, lane = pair.
+  TransformOf<typename Simd::Float> transforms(std::uint32_t k) const noexcept {
+    return {Simd::load(c + k), Simd::load(s + k), Simd::load(tx + k), Simd::load(ty + k)};
+  }
 
   /// Returns A's heading.
   UnitVector heading(std::uint32_t pair) const noexcept { return {cosine_[pair], sine_[pair]}; }

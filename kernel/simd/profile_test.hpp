@@ -99,10 +99,10 @@ class ProfileTest {
 
   void find_sectors() noexcept {
     for (std::uint32_t k = 0; k < at_.whole_registers(); k += Simd::width) {
-      const Float c = Simd::load(at_.c + k), s = Simd::load(at_.s + k), zero(0.0f);
-      const Float bx = field(of_b_, 0, k), by = field(of_b_, 1, k);
-      const Float x = (Simd::load(at_.tx + k) + (c * bx - s * by)) - field(of_a_, 0, k);
-      const Float y = (Simd::load(at_.ty + k) + (s * bx + c * by)) - field(of_a_, 1, k);
+      const auto b_in_a = at_.transforms(k);
+      const auto centre = b_in_a.apply(field(of_b_, 0, k), field(of_b_, 1, k));
+      const Float c = b_in_a.c, s = b_in_a.s, zero(0.0f);
+      const Float x = centre.x - field(of_a_, 0, k), y = centre.y - field(of_a_, 1, k);
       Simd::store(distance_ + k, xsimd::sqrt(x * x + y * y));
       Simd::store(sector_a_ + k, sector(x, y));
       Simd::store(sector_b_ + k, sector(zero - (c * x + s * y), s * x - c * y));

@@ -5,8 +5,8 @@
 
 #include <cstdint>
 
-#include "kernel/simd/block_test.hpp"
 #include "kernel/simd/lanes.hpp"
+#include "kernel/simd/transform.hpp"
 #include "layout/base/rounding.hpp"
 #include "layout/format/shape_set_view.hpp"
 
@@ -117,9 +117,7 @@ class SegmentTest {
     return {tree.points, *list, list + 1};
   }
 
-  struct Point {
-    Double x, y;
-  };
+  using Point = PointIn<Double>;
   struct Pair {
     Point p0, p1, q0, q1;  ///< in A's frame
     Double margin;
@@ -138,17 +136,15 @@ class SegmentTest {
       Simd::widened(place[i], of_place[i]);
     }
     for (std::uint32_t part = 0; part < parts; ++part) {
-      const Double c = of_place[0][part], s = of_place[1][part], x = of_place[2][part], y = of_place[3][part];
-      const auto placed = [&](Double at_x, Double at_y) {
-        return Point{x + (c * at_x - s * at_y), y + (s * at_x + c * at_y)};
-      };
+      const TransformOf<Double> b_in_a{of_place[0][part], of_place[1][part], of_place[2][part],
+                                       of_place[3][part]};
       double margins[Simd::doubles];
       for (std::uint32_t lane = 0; lane < Simd::doubles; ++lane)
         margins[lane] = placed_[index_[k + part * Simd::doubles + lane]].margin;
       pairs[part] = {{of_p[0][part], of_p[1][part]},
                      {of_p[2][part], of_p[3][part]},
-                     placed(of_q[0][part], of_q[1][part]),
-                     placed(of_q[2][part], of_q[3][part]),
+                     b_in_a.apply(of_q[0][part], of_q[1][part]),
+                     b_in_a.apply(of_q[2][part], of_q[3][part]),
                      Simd::load(margins)};
     }
   }

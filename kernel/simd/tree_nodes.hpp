@@ -5,7 +5,7 @@
 
 #include <cstdint>
 
-#include "kernel/simd/block_test.hpp"
+#include "kernel/simd/disc_pairs.hpp"
 #include "layout/format/shape_set_view.hpp"
 
 namespace bch::detail {

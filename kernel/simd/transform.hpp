@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+namespace bch::detail {
+
+/// A point, or a register of points.
+template <class Float>
+struct PointIn {
+  Float x, y;
+};
+
+/// Maps from B's frame into A's: a rotation (c, s), then a translation; one, or a register of them. Every answer rests on the
+/// order of these operations, see layout/base/rounding.hpp: no other place may spell them. (Inlined for certain, so that
+/// instruction sets share no function.)
+template <class Float>
+struct TransformOf {
+  Float c, s, tx, ty;
+
+  [[gnu::always_inline]] PointIn<Float> apply(Float x, Float y) const noexcept {
+    return {tx + (c * x - s * y), ty + (s * x + c * y)};
+  }
+  /// The same one in every lane.
+  template <class Wide>
+  [[gnu::always_inline]] TransformOf<Wide> in_lanes() const noexcept {
+    return {Wide(c), Wide(s), Wide(tx), Wide(ty)};
+  }
+};
+using Transform = TransformOf<float>;
+
+}  // namespace bch::detail
