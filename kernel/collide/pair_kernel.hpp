@@ -26,7 +26,7 @@ namespace bch::detail {
 /// frame; decide by profiles along the line of the centres, and tell which of the rest will probably collide;
 /// separate the others by their supports; accept pairs whose inscribed discs overlap; walk the trees of what
 /// is left.
-template <class Simd, std::uint32_t chunk = pairs_per_chunk>
+template <class Simd>
 class PairKernel {
  public:
   static void run(const Arguments& arguments, std::size_t begin, std::size_t end) noexcept {
@@ -41,10 +41,8 @@ class PairKernel {
     kernel.walk_.run(0);
   }
 
-  /// Few pairs have a kernel of their own, whose loops have a length that the compiler knows.
+  /// Answers `count` pairs, at most a chunk, unless they may be invalid; see Kernels.
   static bool run_if_valid(const Arguments& arguments, std::uint32_t count) noexcept {
-    if constexpr (chunk > few_pairs)
-      if (count <= few_pairs) return PairKernel<Simd, few_pairs>::run_if_valid(arguments, count);
     PairKernel kernel(arguments);
     if (!kernel.at_.place_if_valid(arguments, count)) return false;
     kernel.answer_chunk(0);
@@ -54,6 +52,7 @@ class PairKernel {
 
  private:
   using Float = typename Simd::Float;
+  static constexpr std::uint32_t chunk = pairs_per_chunk;
   /// The room for open traversals: a chunk, and besides as many unfinished pairs as fit on the stack.
   static constexpr std::uint32_t open_walks = chunk + chunk * 7 / 8;
   using List = ChunkPairs<Simd, chunk>;
@@ -230,9 +229,9 @@ class PairKernel {
   const ShapeSetView shapes_;
   const std::uint8_t miss_;
   std::uint8_t* codes_ = nullptr;  ///< of the chunk
-  Placements<Simd, chunk> at_;
-  SeparatingAxisTest<Simd, chunk> axis_test_;
-  ProfileTest<Simd, chunk> profiles_;
+  Placements<Simd> at_;
+  SeparatingAxisTest<Simd> axis_test_;
+  ProfileTest<Simd> profiles_;
   alignas(64) std::uint32_t row_a_[chunk], row_b_[chunk];  ///< of the roots' supports; set by test_roots()
   std::uint32_t open_bits_[chunk / Simd::width], may_nest_[chunk / Simd::width];  ///< a register's pairs each
   List open_, near_, separated_, met_;

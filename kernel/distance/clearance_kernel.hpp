@@ -122,7 +122,7 @@ class ClearanceKernel {
   const ClearanceArguments& arguments_;
   const ShapeSetView shapes_;
   Placements<Simd> at_;
-  RecordFields<Simd, chunk> of_a_, of_b_;
+  RecordFields<Simd> of_a_, of_b_;
   alignas(64) float root_bound_[chunk];
   std::uint32_t searched_[Search::capacity];  ///< pairs of the chunk
   Search search_;

@@ -15,8 +15,8 @@
 
 namespace bch::detail {
 
-/// Checks whether agents are valid arguments of a query. It has no branch, so that the compiler uses the
-/// registers of the instruction set that `Simd` stands for.
+/// Checks whether agents are valid arguments of a query, which is defined here. It has no branch, so that the compiler
+/// uses the registers of the instruction set that `Simd` stands for.
 template <class Simd>
 class AgentCheck {
  public:

@@ -9,6 +9,7 @@
 
 #include <bch/query.hpp>
 
+#include "kernel/runtime/agent_check.hpp"
 #include "kernel/runtime/floating_point_state.hpp"
 #include "kernel/runtime/task_ranges.hpp"
 #include "kernel/runtime/validation.hpp"
@@ -22,6 +23,10 @@ constexpr std::size_t many_agents = 100'000;
 /// The number of shapes from which on these are prefetched: 2 MB. With 5 000 it spares a quarter of a query,
 /// with 200 it costs 2 to 6 %.
 constexpr std::uint32_t many_shapes = 500;
+
+bool is_valid(const Arguments& arguments, std::size_t agent) noexcept {
+  return AgentCheck<void>::passes(arguments, agent, agent + 1);
+}
 
 /// The lowest index in [0, count) for which `bad` holds, or count. `all_good(begin, end)` says quickly where
 /// there is nothing to find. Floats as for_ranges().
@@ -44,19 +49,19 @@ std::size_t first_bad_agent(const Implementation& implementation, const Argument
       [&](std::size_t begin, std::size_t end) {
         return implementation.kernels->check(arguments, begin, end);
       },
-      [&](std::size_t i) { return !is_valid(*arguments.shapes, agents, i); });
+      [&](std::size_t i) { return !is_valid(arguments, i); });
 }
 
-[[noreturn]] void reject_pair(const ShapeSetView& shapes, const Agents& agents, std::span<const Pair> pairs,
+[[noreturn]] void reject_pair(const Arguments& arguments, const Agents& agents, std::span<const Pair> pairs,
                               std::size_t i) {
   const std::string place = "pair " + std::to_string(i) + ": ";
   for (const std::uint32_t agent : {pairs[i].first, pairs[i].second}) {
     if (agent >= agents.size())
       throw std::invalid_argument(place + "agent " + std::to_string(agent) + " of " +
                                   std::to_string(agents.size()));
-    if (is_valid(shapes, agents, agent)) continue;
+    if (is_valid(arguments, agent)) continue;
     try {
-      reject(shapes, agents, agent);
+      reject(*arguments.shapes, agents, agent);
     } catch (const std::invalid_argument& error) {
       throw std::invalid_argument(place + error.what());
     }
@@ -107,7 +112,7 @@ void require_valid(const Implementation& implementation, const ShapeSetView& sha
   const Arguments arguments = arguments_for(shapes, agents, {});
   const bool all_agents_are_valid = agents.size() <= 2 * pairs.size() &&
                                     first_bad_agent(implementation, arguments, agents) == agents.size();
-  const auto is_bad = [&](std::uint32_t i) { return i >= agents.size() || !is_valid(shapes, agents, i); };
+  const auto is_bad = [&](std::uint32_t i) { return i >= agents.size() || !is_valid(arguments, i); };
   const std::size_t i = first_bad(
       pairs.size(),
       [&](std::size_t begin, std::size_t end) {
@@ -117,7 +122,7 @@ void require_valid(const Implementation& implementation, const ShapeSetView& sha
                                         implementation.kernels->check(arguments, low, high + std::size_t{1}));
       },
       [&](std::size_t k) { return is_bad(pairs[k].first) || is_bad(pairs[k].second); });
-  if (i < pairs.size()) reject_pair(shapes, agents, pairs, i);
+  if (i < pairs.size()) reject_pair(arguments, agents, pairs, i);
 }
 
 }  // namespace bch::detail

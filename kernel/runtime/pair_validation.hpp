@@ -31,7 +31,7 @@ Arguments arguments_for(const ShapeSetView& view, const Agents& agents, std::spa
 
 /// Requires that the agents that pairs name are valid; other agents need not be.
 /// Errors:  throws std::invalid_argument on sizes that differ, and naming the first pair with an index out of
-///          range or an agent that is_valid() rejects, and the value.
+///          range or an agent that AgentCheck does not pass, and the value.
 /// Threads: runs in the caller's TBB arena.
 void require_valid(const Implementation& implementation, const ShapeSetView& shapes, const Agents& agents,
                    std::span<const Pair> pairs);

@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "layout/base/rounding.hpp"
 #include "layout/base/shortest.hpp"
 
 namespace bch::detail {

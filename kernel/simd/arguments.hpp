@@ -15,8 +15,6 @@ struct ShapeSetView;
 
 /// Pairs that a kernel takes through its stages together.
 constexpr std::uint32_t pairs_per_chunk = 256;
-/// Pairs of a small batch: a register of floats, where that is widest.
-constexpr std::uint32_t few_pairs = 16;
 
 /// What a pair kernel reads and writes: plain pointers only, because every inline function that an ISA's
 /// object shares with other objects might be the copy that the linker keeps, compiled for a processor that is

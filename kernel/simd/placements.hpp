@@ -19,10 +19,10 @@ namespace bch::detail {
 
 /// The placements of the agents of a chunk of pairs: B seen from A, side by side. This is the first stage of
 /// the pair kernel.
-template <class Simd, std::uint32_t capacity = pairs_per_chunk>
+template <class Simd>
 class Placements {
  public:
-  static constexpr std::uint32_t chunk = capacity;
+  static constexpr std::uint32_t chunk = pairs_per_chunk;
 
   /// Places `size` pairs from `begin` on, at most a chunk.
   void place(const Arguments& in, std::size_t begin, std::uint32_t count) noexcept {
@@ -52,7 +52,6 @@ class Placements {
 
   /// The size, filled up to whole registers of floats.
   std::uint32_t whole_registers() const noexcept {
-    if constexpr (chunk == Simd::width) return chunk;
     return (size + Simd::width - 1) / Simd::width * Simd::width;
   }
 

@@ -13,7 +13,7 @@
 namespace bch::detail {
 
 /// Tests pairs by two profiles (layout/culling/profile.hpp) along the line of their centres; lane = pair.
-template <class Simd, std::uint32_t chunk>
+template <class Simd>
 class ProfileTest {
  public:
   /// The answers for a register's pairs.
@@ -24,7 +24,7 @@ class ProfileTest {
     std::uint32_t near = 0;      ///< they will probably collide
   };
 
-  ProfileTest(const ShapeSetView& shapes, const Placements<Simd, chunk>& at, bool prefetch) noexcept
+  ProfileTest(const ShapeSetView& shapes, const Placements<Simd>& at, bool prefetch) noexcept
       : shapes_(shapes), at_(at), prefetch_(prefetch) {}
 
   /// Finds, for all pairs of the chunk, the line of the centres, and the sectors of both profiles along it.
@@ -64,7 +64,8 @@ class ProfileTest {
 
  private:
   using Float = typename Simd::Float;
-  using Fields = RecordFields<Simd, chunk>;
+  using Fields = RecordFields<Simd>;
+  static constexpr std::uint32_t chunk = pairs_per_chunk;
   /// The unit of record indices, in floats: half a record. That is the largest scale that an address can
   /// hold; a larger one takes an additional instruction for each record.
   static constexpr std::size_t stride = 2;
@@ -120,7 +121,7 @@ class ProfileTest {
   }
 
   const ShapeSetView& shapes_;
-  const Placements<Simd, chunk>& at_;
+  const Placements<Simd>& at_;
   const bool prefetch_;
   alignas(64) std::uint32_t record_a_[chunk], record_b_[chunk];
   alignas(64) float distance_[chunk], sector_a_[chunk], sector_b_[chunk];

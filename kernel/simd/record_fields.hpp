@@ -5,13 +5,15 @@
 
 #include <cstdint>
 
+#include "kernel/simd/arguments.hpp"
+
 namespace bch::detail {
 
 /// Records of four floats, picked from a table by index, field by field: what lanes that stand for pairs need
 /// of tables.
-template <class Simd, std::uint32_t capacity>
+template <class Simd>
 struct RecordFields {
-  alignas(64) float field[4][capacity];
+  alignas(64) float field[4][pairs_per_chunk];
 
   static constexpr std::uint32_t records_ahead = 32;  ///< that are asked for, with `prefetch`
 

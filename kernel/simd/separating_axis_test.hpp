@@ -19,10 +19,10 @@ namespace bch::detail {
 /// pi - (B's turn in A's frame). psi = (offset + share) * D with 0 <= share <= 1, and a support between two
 /// directions is at most lower * (that of the one below) + upper * (that of the one above), the height of
 /// the corner of two supporting lines.
-template <class Simd, std::uint32_t chunk = pairs_per_chunk>
+template <class Simd>
 class SeparatingAxisTest {
  public:
-  SeparatingAxisTest(const ShapeSetView& shapes, const Placements<Simd, chunk>& at) noexcept
+  SeparatingAxisTest(const ShapeSetView& shapes, const Placements<Simd>& at) noexcept
       : shapes_(shapes), at_(at), rows_(shapes.support), row_a_(at.root_a), row_b_(at.root_b) {
     // This is right where rows are in order; see ShapeSetView.
     if (shapes.support != nullptr) rows_ += std::size_t{first_row} * support_stride;
@@ -116,6 +116,7 @@ class SeparatingAxisTest {
   }
 
  private:
+  static constexpr std::uint32_t chunk = pairs_per_chunk;
   using Float = typename Simd::Float;
   using Mask = typename Simd::Mask;
 
@@ -181,7 +182,7 @@ class SeparatingAxisTest {
       {c7, c5, c3, c1, c1, c3, c5, c7, -c7, -c5, -c3, -c1, -c1, -c3, -c5, -c7}};
 
   const ShapeSetView& shapes_;
-  const Placements<Simd, chunk>& at_;
+  const Placements<Simd>& at_;
   const float* rows_;
   const std::uint32_t *row_a_, *row_b_;  ///< per pair
   alignas(64) std::int32_t offset_[chunk];
