@@ -3,12 +3,12 @@
 
 #include <bch/query.hpp>
 
-#include <algorithm>
 #include <cstdlib>
 #include <stdexcept>
 #include <string>
 
 #include "kernel/runtime/kernels.hpp"
+#include "layout/base/instruction_set.hpp"
 
 namespace bch::detail {
 
@@ -19,28 +19,23 @@ extern const Kernels avx512_kernels, avx2_kernels, sse2_kernels, scalar_kernels;
 namespace bch {
 namespace {
 
-// The compiler's test asks the operating system too, whether it saves the wide
-// registers; xsimd 8.1's does not.
-std::span<const Implementation> table() noexcept {
-  static const Implementation rows[] = {
-      {"avx512", []() noexcept { return __builtin_cpu_supports("avx512f") != 0; }, &detail::avx512_kernels},
-      {"avx2", []() noexcept { return __builtin_cpu_supports("avx2") != 0; }, &detail::avx2_kernels},
-      {"sse2", []() noexcept { return true; }, &detail::sse2_kernels},
-      {"scalar", []() noexcept { return true; }, &detail::scalar_kernels},
-  };
-  return rows;
+constexpr Implementation row(const detail::InstructionSet& set, const detail::Kernels& kernels) {
+  return {set.name, set.supported, &kernels};
 }
+
+constexpr Implementation table[] = {
+    row(detail::avx512, detail::avx512_kernels), row(detail::avx2, detail::avx2_kernels),
+    row(detail::sse2, detail::sse2_kernels), row(detail::scalar, detail::scalar_kernels)};
 
 const Implementation& choose() {
   if (const char* name = std::getenv("BCH_ISA")) return implementation(name);
-  const auto rows = table();
-  return *std::find_if(rows.begin(), rows.end(), [](const Implementation& row) { return row.supported(); });
+  return detail::first_supported(table);
 }
 
 }  // namespace
 
 std::span<const Implementation> implementations() noexcept {
-  return table();
+  return table;
 }
 
 const Implementation& best_implementation() {
@@ -50,15 +45,15 @@ const Implementation& best_implementation() {
 
 const Implementation& implementation(std::string_view name) {
   std::string known;
-  for (const Implementation& row : table()) {
-    if (name != row.name) {
-      known += known.empty() ? row.name : std::string(", ") + row.name;
+  for (const Implementation& each : table) {
+    if (name != each.name) {
+      known += known.empty() ? each.name : std::string(", ") + each.name;
       continue;
     }
-    if (!row.supported())
+    if (!each.supported())
       throw std::invalid_argument("this processor does not run the implementation '" + std::string(name) +
                                   "'");
-    return row;
+    return each;
   }
   throw std::invalid_argument("no implementation '" + std::string(name) + "' (known: " + known + ")");
 }

@@ -3,20 +3,13 @@
 
 #include "layout/culling/interior_implementation.hpp"
 
-#include "layout/base/construction_implementation.hpp"
-
 namespace bch::detail {
 
-extern const InteriorLoops interior_avx512, interior_avx2, interior_sse2;
+extern const InteriorLoops interior_avx2, interior_sse2;
 
 namespace {
 
-// The compiler's test asks the operating system too, whether it saves the wide registers.
-const InteriorImplementation table[] = {
-    {"avx512", []() noexcept { return __builtin_cpu_supports("avx512f") != 0; }, interior_avx512},
-    {"avx2", []() noexcept { return __builtin_cpu_supports("avx2") != 0; }, interior_avx2},
-    {"sse2", []() noexcept { return true; }, interior_sse2},
-};
+const InteriorImplementation table[] = {{avx2, interior_avx2}, {sse2, interior_sse2}};
 
 }  // namespace
 
@@ -25,7 +18,7 @@ std::span<const InteriorImplementation> interior_implementations() noexcept {
 }
 
 const InteriorImplementation& best_interior_implementation() noexcept {
-  static const InteriorImplementation& best = best_for_construction(table);
+  static const InteriorImplementation& best = first_supported(table);
   return best;
 }
 

@@ -9,6 +9,8 @@
 
 #include <bch/geometry.hpp>
 
+#include "layout/base/instruction_set.hpp"
+
 namespace bch::detail {
 
 /// What the loops behind interior.hpp work on: plain pointers, because nothing of the standard library may be
@@ -54,16 +56,14 @@ struct InteriorLoops {
 };
 
 /// All give the same bits.
-struct InteriorImplementation {
-  const char* name;  ///< "avx512", "avx2" or "sse2"
-  bool (*supported)() noexcept;
+struct InteriorImplementation : InstructionSet {
   const InteriorLoops& loops;
 };
 
 /// All that were compiled, the best first; the last one runs everywhere.
 std::span<const InteriorImplementation> interior_implementations() noexcept;
 
-/// The fastest for construction that this processor supports.
+/// The best that this processor supports.
 const InteriorImplementation& best_interior_implementation() noexcept;
 
 }  // namespace bch::detail

@@ -5,27 +5,14 @@
 
 #include <algorithm>
 
-#include "layout/base/construction_implementation.hpp"
-
 namespace bch::detail {
 
 void solve_discs_sse2(const DiscSets&) noexcept;
 void solve_discs_avx2(const DiscSets&) noexcept;
-void solve_discs_avx512(const DiscSets&) noexcept;
 
 namespace {
 
-// The compiler's test asks the operating system too, whether it saves the wide registers.
-constexpr DiscImplementation table[] = {
-    {"avx512", []() noexcept { return __builtin_cpu_supports("avx512f") != 0; }, solve_discs_avx512},
-    {"avx2", []() noexcept { return __builtin_cpu_supports("avx2") != 0; }, solve_discs_avx2},
-    {"sse2", []() noexcept { return true; }, solve_discs_sse2},
-};
-
-const DiscImplementation& best_implementation() {
-  static const DiscImplementation& best = best_for_construction(table);
-  return best;
-}
+constexpr DiscImplementation table[] = {{avx2, solve_discs_avx2}, {sse2, solve_discs_sse2}};
 
 }  // namespace
 
@@ -33,7 +20,7 @@ std::span<const DiscImplementation> disc_implementations() noexcept {
   return table;
 }
 
-EnclosingDiscs::EnclosingDiscs() : EnclosingDiscs(best_implementation()) {}
+EnclosingDiscs::EnclosingDiscs() : EnclosingDiscs(first_supported(table)) {}
 
 EnclosingDiscs::EnclosingDiscs(const DiscImplementation& implementation) : implementation_(&implementation) {}
 

@@ -8,14 +8,13 @@
 #include <span>
 #include <vector>
 
+#include "layout/base/instruction_set.hpp"
 #include "layout/enclosing_disc/disc_sets.hpp"
 
 namespace bch::detail {
 
 /// One compilation of the solver; all give the same bits.
-struct DiscImplementation {
-  const char* name;  ///< "avx512", "avx2" or "sse2"
-  bool (*supported)() noexcept;
+struct DiscImplementation : InstructionSet {
   void (*solve)(const DiscSets& sets) noexcept;
 };
 

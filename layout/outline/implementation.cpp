@@ -3,9 +3,6 @@
 
 #include "layout/outline/implementation.hpp"
 
-#include <algorithm>
-#include <iterator>
-
 namespace bch::detail {
 
 void find_sides_sse2(const std::uint32_t*, std::size_t, const GridPoint*, std::uint8_t*) noexcept;
@@ -17,11 +14,9 @@ void test_near_avx2(const SegmentSearch&, const SearchedWay&, std::size_t) noexc
 
 namespace {
 
-// The compiler's test asks the operating system too, whether it saves the wide registers.
 constexpr OutlineImplementation table[] = {
-    {"avx2", []() noexcept { return __builtin_cpu_supports("avx2") != 0; }, find_sides_avx2, find_near_avx2,
-     test_near_avx2},
-    {"sse2", []() noexcept { return true; }, find_sides_sse2, find_near_sse2, test_near_sse2},
+    {avx2, find_sides_avx2, find_near_avx2, test_near_avx2},
+    {sse2, find_sides_sse2, find_near_sse2, test_near_sse2},
 };
 
 }  // namespace
@@ -31,8 +26,7 @@ std::span<const OutlineImplementation> outline_implementations() noexcept {
 }
 
 const OutlineImplementation& best_outline_implementation() noexcept {
-  static const OutlineImplementation& best = *std::find_if(
-      std::begin(table), std::end(table), [](const OutlineImplementation& row) { return row.supported(); });
+  static const OutlineImplementation& best = first_supported(table);
   return best;
 }
 

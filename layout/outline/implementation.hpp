@@ -5,14 +5,13 @@
 
 #include <span>
 
+#include "layout/base/instruction_set.hpp"
 #include "layout/outline/segment_search.hpp"
 
 namespace bch::detail {
 
 /// One compilation of outline_lanes.hpp, which says what the functions do; all give the same bits.
-struct OutlineImplementation {
-  const char* name;  ///< "avx2" or "sse2"
-  bool (*supported)() noexcept;
+struct OutlineImplementation : InstructionSet {
   void (*find_sides)(const std::uint32_t* corners, std::size_t count, const GridPoint* points,
                      std::uint8_t* sides) noexcept;
   std::size_t (*find_near)(const SegmentSearch& job, const SearchedWay& way) noexcept;

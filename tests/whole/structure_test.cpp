@@ -247,7 +247,7 @@ TEST(Objects, NoCodeForWideRegistersCanReplaceOtherCode) {
     EXPECT_TRUE(here.empty()) << object << ": " << *here.begin();
 #endif
   }
-  EXPECT_EQ(wide, 7u);
+  EXPECT_EQ(wide, 5u);
 }
 
 TEST(Objects, NothingThatComputesAnAnswerFusesMultiplyAndAdd) {

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <algorithm>
+#include <iterator>
+
+namespace bch::detail {
+
+/// What some code was compiled for.
+struct InstructionSet {
+  const char* name;
+  bool (*supported)() noexcept;  ///< whether this processor and its operating system run it
+};
+
+// The compiler's test asks the operating system too, whether it saves the wide registers; xsimd 8.1's does not.
+constexpr InstructionSet avx512{"avx512", []() noexcept { return __builtin_cpu_supports("avx512f") != 0; }};
+constexpr InstructionSet avx2{"avx2", []() noexcept { return __builtin_cpu_supports("avx2") != 0; }};
+constexpr InstructionSet sse2{"sse2", []() noexcept { return true; }};
+constexpr InstructionSet scalar{"scalar", []() noexcept { return true; }};
+
+/// Returns the first row of a table of implementations, the best first, that is supported.
+template <class Table>
+const auto& first_supported(const Table& table) noexcept {
+  return *std::find_if(std::begin(table), std::end(table), [](const auto& row) { return row.supported(); });
+}
+
+}  // namespace bch::detail
