@@ -9,7 +9,6 @@
 #include <array>
 #include <bit>
 #include <cmath>
-#include <numbers>
 #include <numeric>
 #include <stdexcept>
 #include <string>
@@ -135,7 +134,6 @@ void HierarchyBuilder::begin(double reach, double margin, double threshold, std:
   // Half the diagonal of its box bounds a node's radius, but for the rounding of the centre.
   const double half = std::max(0.0, threshold * (1 - 0x1p-40) - 2 * rounding::unit_roundoff * reach);
   sure_square_diagonal_ = 4 * half * half;
-  sure_diagonal_extent_ = 2 * std::numbers::sqrt2 * threshold * (1 + 0x1p-40);
   longest_square_length_ = largest_square(2 * threshold);
   items_.begin(items);
   even_halves_.begin(2 * threshold, reach);
@@ -221,13 +219,11 @@ bool HierarchyBuilder::add_node(const Open& open) {
 }
 
 /// Returns whether a node is a leaf. The disc about a box holds the node's disc, whose diameter is at least
-/// the box's longer side and the node's extent along a diagonal of the axes. The disc itself is computed only
-/// between these bounds.
+/// the box's longer side. The disc itself is computed only between these bounds.
 bool HierarchyBuilder::is_leaf(ItemList items, const SplitMeasure& box) {
   const double x = box.extent(0), y = box.extent(1);
   if (0.5 * std::max(x, y) >= threshold_) return false;
   if (x * x + y * y < sure_square_diagonal_) return true;
-  if (diagonal_extent(items_, items) > sure_diagonal_extent_) return false;
   gather_points(items);
   return smallest_enclosing_disc(std::span(points_).first(point_count_)).radius < threshold_;
 }

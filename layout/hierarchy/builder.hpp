@@ -88,7 +88,6 @@ class HierarchyBuilder {
 
   double margin_ = 0, threshold_ = 0;
   double sure_square_diagonal_ = 0;   ///< a node whose box has a shorter one is a leaf
-  double sure_diagonal_extent_ = 0;   ///< a node that extends farther is not
   double longest_square_length_ = 0;  ///< of a segment that is not halved
 
   SplitItems items_;

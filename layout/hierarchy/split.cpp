@@ -106,22 +106,6 @@ SplitMeasure measure(const SplitItems& items, ItemList list) {
   return result;
 }
 
-double diagonal_extent(const SplitItems& items, ItemList list) {
-  const __m128d none = _mm_set1_pd(HUGE_VAL);
-  __m128d low = none, minus_high = none;
-  for (const std::uint32_t i : list) {
-    const auto& [a, b, c] = items.primitives[i];
-    for (const Vec2 p : {a, b, c}) {
-      const double x = p.x, y = p.y;
-      const __m128d sums = _mm_setr_pd(x + y, x - y);
-      low = _mm_min_pd(low, sums);
-      minus_high = _mm_min_pd(minus_high, _mm_sub_pd(_mm_setzero_pd(), sums));
-    }
-  }
-  const __m128d minus_extent = _mm_add_pd(low, minus_high);
-  return -std::min(_mm_cvtsd_f64(minus_extent), _mm_cvtsd_f64(_mm_unpackhi_pd(minus_extent, minus_extent)));
-}
-
 std::size_t divide(const SplitItems& items, ItemList list, const SplitMeasure& whole, bool through_centre,
                    std::uint32_t* first_list, std::uint32_t* second_list, SplitMeasure& first,
                    SplitMeasure& second) {

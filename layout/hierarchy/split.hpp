@@ -26,9 +26,6 @@ using ItemList = std::span<const std::uint32_t>;
 /// One pass, the sums in order. At least one item.
 SplitMeasure measure(const SplitItems& items, ItemList list);
 
-/// How far items extend in x + y or in x - y, whichever is more: along a diagonal, times the root of two.
-double diagonal_extent(const SplitItems& items, ItemList list);
-
 /// Divides a node's items, two at least, so that those before a plane come first and both sides keep their
 /// order; neither side is empty. The plane's normal is the longer axis, or the other one where that would
 /// leave a side empty; where both would, the items are halved by count.
