@@ -12,7 +12,7 @@ namespace bch::baselines {
 
 /// A tree of boxes or rectangles, as a traversal walks it.
 template <class Node>
-struct BoxTree {
+struct BoxHierarchy {
   const Node* nodes;
   std::uint32_t height;  ///< edges on the longest way down
 };
@@ -21,7 +21,7 @@ struct BoxTree {
 /// max_depth overlap, or facets_meet(a, b) is true of the facets of two leaves whose boxes overlap.
 /// place(placement, node) brings a box of b into a's frame, boxes_overlap(node, placed) tests two boxes.
 template <class Node, class Counts, class FacetsMeet>
-bool any_facets_meet(const Placement& placement, const BoxTree<Node>& a, const BoxTree<Node>& b,
+bool any_facets_meet(const Placement& placement, const BoxHierarchy<Node>& a, const BoxHierarchy<Node>& b,
                      std::uint32_t max_depth, Counts counts, FacetsMeet facets_meet) {
   TraversalStack open(std::size_t{a.height} + b.height + 1);
   open.push({0, 0, 0, 0});

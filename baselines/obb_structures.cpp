@@ -71,7 +71,7 @@ struct BoxModel {
                    std::uint32_t max_depth, Counts counts) {
     using Node = typename decltype(Tree::nodes)::value_type;
     const Placement at = placement(agents, pair);
-    const BoxTree<Node> tree_a{a.tree.nodes.data(), a.tree.height},
+    const BoxHierarchy<Node> tree_a{a.tree.nodes.data(), a.tree.height},
         tree_b{b.tree.nodes.data(), b.tree.height};
     return any_facets_meet(at, tree_a, tree_b, max_depth, counts, [&](std::uint32_t p, std::uint32_t q) {
       return Facets::meet(a.tree.facets[p], b.tree.facets[q], at);

@@ -9,12 +9,12 @@
 namespace bch::detail {
 namespace {
 
-/// Decides the near misses among a kernel's codes.
-void decide_near_misses(const Arguments& arguments, const Agents& agents, std::size_t begin,
+/// Decides the pairs of which one outline may contain the other.
+void decide_containment(const Arguments& arguments, const Agents& agents, std::size_t begin,
                         std::size_t end) noexcept {
-  if (!arguments.mark_near_misses) return;
+  if (!arguments.solid) return;
   for (std::size_t i = begin; i < end; ++i)
-    if (arguments.codes[i] == near_miss)
+    if (arguments.codes[i] == may_contain)
       arguments.codes[i] =
           one_contains_other(*arguments.shapes, agents, arguments.pairs[i]) ? overlap : apart;
     else
@@ -26,7 +26,7 @@ void decide_near_misses(const Arguments& arguments, const Agents& agents, std::s
 void answer(const Implementation& implementation, const Arguments& arguments, const Agents& agents,
             std::size_t begin, std::size_t end) noexcept {
   implementation.kernels->run(arguments, begin, end);
-  decide_near_misses(arguments, agents, begin, end);
+  decide_containment(arguments, agents, begin, end);
 }
 
 bool answer_if_valid(const Implementation& implementation, const Arguments& arguments, const Agents& agents,
@@ -34,7 +34,7 @@ bool answer_if_valid(const Implementation& implementation, const Arguments& argu
   if (count == 0 || count > pairs_per_chunk ||
       !implementation.kernels->run_if_valid(arguments, static_cast<std::uint32_t>(count)))
     return false;
-  decide_near_misses(arguments, agents, 0, count);
+  decide_containment(arguments, agents, 0, count);
   return true;
 }
 

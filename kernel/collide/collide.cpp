@@ -36,7 +36,7 @@ void collide(const ShapeSet& shapes, const Agents& agents, std::span<const Pair>
   require_sizes(agents);
   Arguments arguments = arguments_for(view, agents, pairs);
   arguments.codes = hits.data();
-  arguments.mark_near_misses = solid;
+  arguments.solid = solid;
   arguments.exact_leaves = exact && shapes.exact_leaves();
   if (answer_if_valid(implementation, arguments, agents, pairs.size())) return;
   require_valid(implementation, view, agents, pairs);

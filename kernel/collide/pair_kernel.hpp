@@ -60,7 +60,7 @@ class PairKernel {
   explicit PairKernel(const Arguments& arguments) noexcept
       : in_(arguments),
         shapes_(*arguments.shapes),
-        miss_(arguments.mark_near_misses ? near_miss : apart),
+        miss_(arguments.solid ? may_contain : apart),
         axis_test_(shapes_, at_),
         profiles_(shapes_, at_, arguments.prefetch_shapes),
         walk_(shapes_, arguments) {}
@@ -138,7 +138,7 @@ class PairKernel {
     meet<block_width / 2>(near_);
     meet<block_width>(open_);
     separate(1);
-    if (!in_.mark_near_misses) reopen_what_may_nest();
+    if (!in_.solid) reopen_what_may_nest();
     for (std::uint32_t k = 0; k < separated_.size; ++k) codes_[separated_.pair[k]] = apart;
   }
 

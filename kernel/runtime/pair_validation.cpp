@@ -97,7 +97,7 @@ Arguments arguments_for(const ShapeSetView& view, const Agents& agents, std::spa
           .agent_level = agents.level.empty() ? nullptr : agents.level.data(),
           .pairs = pairs.data(),
           .codes = nullptr,
-          .mark_near_misses = false,
+          .solid = false,
           .exact_leaves = false,
           .prefetch_agents = agents.size() >= many_agents,
           .prefetch_shapes = view.shape_count >= many_shapes};

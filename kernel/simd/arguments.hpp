@@ -29,17 +29,17 @@ struct Arguments {
   const std::uint8_t* agent_level;  ///< null: the last level
   const Pair* pairs;
   std::uint8_t* codes;
-  bool mark_near_misses;  ///< write near_miss where it applies, else apart
-  bool exact_leaves;      ///< where both trees have segments, these decide; see Leaves
+  bool solid;         ///< write may_contain where it applies, else apart
+  bool exact_leaves;  ///< where both trees have segments, these decide; see Leaves
   // Ask for what is needed soon: there is more of it than a near cache holds.
   bool prefetch_agents = false, prefetch_shapes = false;
 };
 
 /// The result of a kernel for a pair.
 enum Code : std::uint8_t {
-  apart = 0,      ///< the cuts do not overlap, and neither outline holds the other, or that is not asked for
-  overlap = 1,    ///< discs of the cuts overlap
-  near_miss = 2,  ///< the cuts do not overlap, and one outline might hold the other
+  apart = 0,    ///< the cuts do not overlap, and neither outline holds the other, or that is not asked for
+  overlap = 1,  ///< discs of the cuts overlap
+  may_contain = 2,  ///< the cuts do not overlap, and one outline might hold the other
 };
 
 }  // namespace bch::detail
