@@ -71,7 +71,7 @@ class ContourLanes {
   /// A sector takes an equal share of |y| / (|x| + |y|). From the line at one end, which is at most `quadrant` long in
   /// those terms, a point is that share times (|x| + |y|) over its length away.
   void find_sectors(std::size_t i) noexcept {
-    constexpr double quadrant = profile_sectors / 4;
+    constexpr double quadrant = 0.25 * profile_sectors;
     const Batch x = load(x_, i), y = load(y_, i), zero(0.0);
     const Batch sum = xsimd::abs(x) + xsimd::abs(y);
     const Batch share = Batch(quadrant) * xsimd::abs(y) / (sum + Batch(not_zero));

@@ -137,8 +137,9 @@ std::uint32_t InteriorBuilder::offer_measured() {
       keep(candidates_, k);
       continue;
     }
-    grid.x[grid.count] = dilation + spacing * (static_cast<float>(k % row) + 0.5f);
-    grid.y[grid.count] = dilation + spacing * (static_cast<float>(k / row) + 0.5f);
+    const std::uint32_t column = k % row, line = k / row;
+    grid.x[grid.count] = dilation + spacing * (static_cast<float>(column) + 0.5f);
+    grid.y[grid.count] = dilation + spacing * (static_cast<float>(line) + 0.5f);
     grid.radius[grid.count++] = 0;
   }
   estimate_depths(*loops_, corners(), grid, depths_);

@@ -41,7 +41,7 @@ void ContourSamples::take(std::span<const float> x, std::span<const float> y) {
   begin_.resize(length_.size());
   double end = 0;
   for (std::uint32_t i = 0; i < length_.size(); ++i) {
-    edge[std::min(static_cast<std::uint32_t>(end / step + 0.5), count)] = i;
+    edge[std::min(static_cast<std::uint32_t>(std::floor(end / step + 0.5)), count)] = i;
     begin_[i] = end;
     end += static_cast<double>(length_[i]);
   }

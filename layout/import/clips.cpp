@@ -214,6 +214,7 @@ std::vector<Eigen::Vector3d> hull_of_positions(const Channel& channel) {
   const auto& keys = channel.positions;
   const auto& tangents = channel.position_curve.tangents;
   std::vector<Eigen::Vector3d> hull;
+  hull.reserve(keys.size() + 2 * tangents.size());
   for (const auto& key : keys) hull.push_back(to_eigen(key.value).cast<double>());
   for (std::size_t k = 1; k < tangents.size(); ++k) {
     const double third = (static_cast<double>(keys[k].time) - static_cast<double>(keys[k - 1].time)) / 3;
