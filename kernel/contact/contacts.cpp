@@ -24,6 +24,8 @@ struct ContactFinder::State {
   std::vector<DiscPair> contacts;
 
   void find(const Implementation& implementation, const Arguments& arguments, std::size_t pairs);
+  Rows<DiscPair> find(const ShapeSet& shapes, const Agents& agents, std::span<const Pair> pairs,
+                      const QueryOptions& options);
 };
 
 void ContactFinder::State::find(const Implementation& implementation, const Arguments& arguments,
@@ -45,13 +47,8 @@ void ContactFinder::State::find(const Implementation& implementation, const Argu
   });
 }
 
-ContactFinder::ContactFinder() : state_(std::make_unique<State>()) {}
-ContactFinder::ContactFinder(ContactFinder&&) noexcept = default;
-ContactFinder& ContactFinder::operator=(ContactFinder&&) noexcept = default;
-ContactFinder::~ContactFinder() = default;
-
-Rows<DiscPair> ContactFinder::find(const ShapeSet& shapes, const Agents& agents, std::span<const Pair> pairs,
-                                   const QueryOptions& options) {
+Rows<DiscPair> ContactFinder::State::find(const ShapeSet& shapes, const Agents& agents,
+                                          std::span<const Pair> pairs, const QueryOptions& options) {
   const FloatingPointStateGuard floats;
   const Implementation& implementation = chosen(options, "contacts");
   const bool exact = exact_leaves(options.leaves, "contacts");
@@ -60,12 +57,22 @@ Rows<DiscPair> ContactFinder::find(const ShapeSet& shapes, const Agents& agents,
   Arguments arguments = arguments_for(view, agents, pairs);
   arguments.exact_leaves = exact && shapes.exact_leaves();
   try {
-    state_->find(implementation, arguments, pairs.size());
+    find(implementation, arguments, pairs.size());
   } catch (...) {
-    *state_ = {};
+    *this = {};
     throw;
   }
-  return {state_->offsets, state_->contacts};
+  return {offsets, contacts};
+}
+
+ContactFinder::ContactFinder() : state_(std::make_unique<State>()) {}
+ContactFinder::ContactFinder(ContactFinder&&) noexcept = default;
+ContactFinder& ContactFinder::operator=(ContactFinder&&) noexcept = default;
+ContactFinder::~ContactFinder() = default;
+
+Rows<DiscPair> ContactFinder::find(const ShapeSet& shapes, const Agents& agents, std::span<const Pair> pairs,
+                                   const QueryOptions& options) {
+  return without_tasks_from_outside([&] { return state_->find(shapes, agents, pairs, options); });
 }
 
 }  // namespace bch

@@ -18,6 +18,7 @@
 #include <bch/broad_phase.hpp>
 #include <bch/collide.hpp>
 #include <bch/collide_all.hpp>
+#include <bch/contacts.hpp>
 
 #include "tests/support/scenes.hpp"
 
@@ -27,15 +28,16 @@ namespace bch {
 namespace {
 
 /// An answer, kept.
+template <class Value>
 struct Kept {
-  std::vector<std::uint64_t> begin;
-  std::vector<std::uint32_t> neighbours;
+  std::vector<std::uint64_t> offsets;
+  std::vector<std::remove_const_t<Value>> values;
 
-  explicit Kept(const Rows<std::uint32_t>& found)
-      : begin(found.offsets.begin(), found.offsets.end()),
-        neighbours(found.values.begin(), found.values.end()) {}
-  bool operator==(const Rows<std::uint32_t>& found) const {
-    return std::ranges::equal(begin, found.offsets) && std::ranges::equal(neighbours, found.values);
+  explicit Kept(const Rows<Value>& found)
+      : offsets(found.offsets.begin(), found.offsets.end()),
+        values(found.values.begin(), found.values.end()) {}
+  bool operator==(const Rows<Value>& found) const {
+    return std::ranges::equal(offsets, found.offsets) && std::ranges::equal(values, found.values);
   }
 };
 
@@ -105,29 +107,49 @@ TEST_F(TaskGroups, ATaskBesideAQueryMayThrow) {
 }
 
 /// An object for each thread, as TBB's users have it: a thread that waits within a call does not begin another with it.
-TEST_F(TaskGroups, AnObjectAThreadIsEnough) {
-  std::vector<test::Crowd> crowds;
-  std::vector<Kept> expected;
-  for (std::uint32_t k = 0; k < 4; ++k) {
-    crowds.push_back(people(2'500 + 500 * k));
-    CrowdCollider collider;
-    expected.emplace_back(collider.collide_all(set, crowds.back().agents()));
+template <class Object, class Ask>
+void expect_one_call_at_a_time(std::size_t questions, Ask ask) {
+  using Answer = Kept<typename decltype(ask(std::declval<Object&>(), 0).values)::value_type>;
+  std::vector<Answer> expected;
+  for (std::size_t k = 0; k < questions; ++k) {
+    Object object;
+    expected.emplace_back(ask(object, k));
   }
   const tbb::global_control more_than_processors(tbb::global_control::max_allowed_parallelism, 4);
   tbb::task_arena arena(4);
-  tbb::enumerable_thread_specific<CrowdCollider> colliders;
+  tbb::enumerable_thread_specific<Object> objects;
   tbb::enumerable_thread_specific<int> inside;
   std::atomic<int> nested = 0, wrong = 0;
   arena.execute([&] {
     tbb::parallel_for(std::size_t{0}, std::size_t{test::samples(1'200)}, [&](std::size_t i) {
-      const std::size_t k = i % crowds.size();
+      const std::size_t k = i % questions;
       nested += inside.local()++ != 0;
-      wrong += !(expected[k] == colliders.local().collide_all(set, crowds[k].agents()));
+      wrong += !(expected[k] == ask(objects.local(), k));
       --inside.local();
     });
   });
   EXPECT_EQ(nested, 0);
   EXPECT_EQ(wrong, 0);
+}
+
+TEST_F(TaskGroups, AColliderAThreadIsEnough) {
+  std::vector<test::Crowd> crowds;
+  for (std::uint32_t k = 0; k < 4; ++k) crowds.push_back(people(2'500 + 500 * k));
+  expect_one_call_at_a_time<CrowdCollider>(4, [&](CrowdCollider& collider, std::size_t k) {
+    return collider.collide_all(set, crowds[k].agents());
+  });
+}
+
+TEST_F(TaskGroups, AFinderOfContactsAThreadIsEnough) {
+  std::vector<test::Crowd> crowds;
+  std::vector<std::vector<Pair>> pairs;
+  for (std::uint32_t k = 0; k < 4; ++k) {
+    crowds.push_back(people(500 + 100 * k));
+    pairs.push_back(candidate_pairs(set, crowds.back().agents()));
+  }
+  expect_one_call_at_a_time<ContactFinder>(4, [&](ContactFinder& finder, std::size_t k) {
+    return finder.find(set, crowds[k].agents(), pairs[k]);
+  });
 }
 
 }  // namespace
