@@ -15,7 +15,7 @@ struct Way {
 };
 
 /// Returns the way until the first agent's discs lie behind a line across the direction and the other's
-/// before it. Tests one disc after the other, with the rounding of kernel/penetration/penetration.hpp. The
+/// before it. Tests one disc after the other, with the rounding of kernel/penetration/penetration.cpp. The
 /// result is the largest such way over all pairs of discs.
 Way penetration_along(const CutLists& cuts, const Agents& agents, Pair pair, Vec2 direction);
 

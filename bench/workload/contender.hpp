@@ -37,7 +37,7 @@ struct TimedQuery {
 /// Returns clearance(), with directions, and time_of_impact(). The references are scalar searches with the
 /// same pruning.
 std::span<const TimedQuery> distance_queries();
-/// Returns contacts(); penetration(), along the best of 16 directions; collide_all(), whose pairs are those of
+/// Returns ContactFinder::find(); penetration(), along the best of 16 directions; collide_all(), whose pairs are those of
 /// its broad phase. The reference is brute force; collide_all() has none, as that of collide() serves for it.
 std::span<const TimedQuery> response_queries();
 

@@ -36,7 +36,7 @@ class TimeOfImpactKernel {
   explicit TimeOfImpactKernel(const TimeOfImpactArguments& arguments) noexcept
       : arguments_(arguments),
         shapes_(*arguments.in.shapes),
-        penetration_(shapes_, at_),
+        axis_test_(shapes_, at_),
         walk_(shapes_.nodes, arguments.time) {}
 
   void answer_chunk(std::size_t begin, std::uint32_t size) noexcept {
@@ -73,12 +73,12 @@ class TimeOfImpactKernel {
     if (!shapes_.rows_in_order) {
       for (std::uint32_t k = 0; k < at_.size; ++k)
         row_a_[k] = shapes_.roots[at_.root_a[k]].row, row_b_[k] = shapes_.roots[at_.root_b[k]].row;
-      penetration_.use_rows(row_a_, row_b_);
+      axis_test_.use_rows(row_a_, row_b_);
     }
-    penetration_.place_directions();
+    axis_test_.place_directions();
     for (unsigned odd = 0; odd < 2; ++odd)
       open_.drop_if(open_, [this, odd](std::uint32_t pair) {
-        return penetration_.apart_on_the_way(pair, odd, x_[pair], y_[pair], slack(pair));
+        return axis_test_.apart_on_the_way(pair, odd, x_[pair], y_[pair], slack(pair));
       });
   }
 
@@ -117,7 +117,7 @@ class TimeOfImpactKernel {
   const ShapeSetView shapes_;
   alignas(64) float x_[chunk], y_[chunk];  ///< the chunk's ways
   Placements<Simd> at_;
-  SeparatingAxisTest<Simd> penetration_;
+  SeparatingAxisTest<Simd> axis_test_;
   std::uint32_t row_a_[chunk], row_b_[chunk];  ///< of the supports, where they are not in order
   ChunkPairs<Simd, chunk> open_;
   TimeOfImpactWalk<Simd> walk_;

@@ -115,7 +115,7 @@ void require_directions(std::span<const Vec2> directions, std::size_t pairs) {
     const auto [x, y] = directions[i];
     if (std::isfinite(x) && std::isfinite(y) && (x != 0 || y != 0)) continue;
     std::ostringstream message;
-    message << "pair " << i << ": direction (" << x << ", " << y << ") is none";
+    message << "penetration: pair " << i << ": direction (" << x << ", " << y << ") is none";
     throw std::invalid_argument(message.str());
   }
 }

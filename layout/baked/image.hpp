@@ -15,7 +15,7 @@
 
 namespace bch::detail {
 
-/// A set as the bytes of a baked file (baked_format.hpp), without a copy of its arrays.
+/// A set as the bytes of a baked file (format.hpp), without a copy of its arrays.
 class BakedImage {
  public:
   /// The set has to outlive this.

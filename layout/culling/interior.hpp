@@ -40,7 +40,7 @@ struct Interior {
 /// anything that may come in. Estimates in float do for that; then the depths of the chosen centres, and
 /// whether they are inside, are computed from the contour itself.
 ///
-/// Measured on bch_micro's colliding pairs, the built-in characters and two scanned ones: 95 % and 97 % have
+/// Measured on bch_ratios' colliding pairs, the built-in characters and two scanned ones: 95 % and 97 % have
 /// discs that overlap. Discs exchanged until none fits other such pairs better reach 97 % and 98 %. Without
 /// dilation it is 84 % and 91 %; from 0.075 to 0.15 of the width flat within 0.3 %. 4 discs decide 79 % and
 /// 86 %, 12 decide 98 % and 99 %, 16 decide 99 % and 99.5 %; more than 8 take further tests of 8 x 8 on every

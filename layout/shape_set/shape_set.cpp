@@ -150,7 +150,7 @@ std::vector<Disc> ShapeSet::discs(std::uint32_t shape, std::uint32_t level) cons
   return discs;
 }
 
-float ShapeSet::reach(std::uint32_t shape) const {
+float ShapeSet::bounding_radius(std::uint32_t shape) const {
   require(shape < shape_count(), "shape", shape, shape_count());
   double farthest = 0;
   for (std::uint32_t level = 0; level < level_count(); ++level)

@@ -34,7 +34,7 @@ TEST(CutDiscs, AreThoseOfTheCutInItsOrder) {
         for (std::uint32_t i = 0; i < discs.count; ++i) {
           ASSERT_EQ(copied[i], hierarchy.nodes[expected[i]].disc);
           const double x = copied[i].x, y = copied[i].y, radius = copied[i].radius;
-          ASSERT_LE(std::sqrt(x * x + y * y) + radius, static_cast<double>(set.reach(shape)));
+          ASSERT_LE(std::sqrt(x * x + y * y) + radius, static_cast<double>(set.bounding_radius(shape)));
         }
         ++(discs.count == 1 ? single : discs.count < detail::block_width ? few : many);
       }
@@ -48,12 +48,12 @@ TEST(ShapeSetDiscs, RejectIndicesOutOfRange) {
   const ShapeSet set(test::synthetic_shapes(72, 3));
   EXPECT_EQ(test::complaint<std::out_of_range>([&] { set.discs(3, 0); }), "shape set: shape 3 of 3");
   EXPECT_EQ(test::complaint<std::out_of_range>([&] { set.discs(0, 1); }), "shape set: level 1 of 1");
-  EXPECT_EQ(test::complaint<std::out_of_range>([&] { set.reach(3); }), "shape set: shape 3 of 3");
+  EXPECT_EQ(test::complaint<std::out_of_range>([&] { set.bounding_radius(3); }), "shape set: shape 3 of 3");
 }
 
 /// A single disc reaches as far as it is large, about wherever it is.
 TEST(ShapeSetDiscs, ReachHoldsTheShape) {
-  const float radius = ShapeSet(std::vector<Shape>{{{}, fixed_cylinder(0.5f)}}).reach(0);
+  const float radius = ShapeSet(std::vector<Shape>{{{}, fixed_cylinder(0.5f)}}).bounding_radius(0);
   EXPECT_GE(radius, 0.5f);
   EXPECT_LT(radius, 0.50001f);
 }

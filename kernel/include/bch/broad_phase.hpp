@@ -3,12 +3,12 @@
 
 #pragma once
 
-#include <bch/agents.hpp>
-#include <bch/shape_set.hpp>
-
 #include <memory>
 #include <span>
 #include <vector>
+
+#include <bch/agents.hpp>
+#include <bch/shape_set.hpp>
 
 namespace bch {
 
@@ -30,7 +30,7 @@ class BroadPhase {
   /// Units:   metres; the margin is from 0 to 2e9.
   /// Order:   by place: along the rows of a grid, so that reading agents in the order of the pairs finds
   ///          most of them in a cache, wherever they lie in memory. The same for any number of threads.
-  /// Sizes:   radii within a factor of four share a grid, others have grids of their own: a few large agents
+  /// Grid:    radii within a factor of four share a grid, others have grids of their own: a few large agents
   ///          do not slow down many small ones. A cell is no smaller than 2^-30 of the crowd's extent.
   /// Memory:  the pairs are valid until the next call. 72 bytes an agent and up to 24 a pair are kept; a call
   ///          like an earlier one allocates nothing.

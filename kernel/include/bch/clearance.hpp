@@ -3,9 +3,9 @@
 
 #pragma once
 
-#include <bch/query.hpp>
-
 #include <span>
+
+#include <bch/query.hpp>
 
 namespace bch {
 
@@ -22,7 +22,8 @@ struct ClearanceAnswers {
 /// Measures how far apart the two agents of each pair are: the least gap between a disc of one's cut and a disc of the
 /// other's; negative where discs overlap, then the deepest overlap of two of them. With it the unit vector in
 /// the world from the first agent's nearest disc to the second's: moving the second agent along it, or the
-/// first one against it, widens that gap the fastest. Where the two centres coincide, (1, 0) from the agent
+/// first one against it, widens that gap the fastest. (penetration() gives the way of the first agent, which is
+/// the opposite.) Where the two centres coincide, (1, 0) from the agent
 /// with the lower index to the other.
 ///
 /// Never larger than the distance of the outlines: an outline that crosses another has a clearance of at most
@@ -30,14 +31,14 @@ struct ClearanceAnswers {
 /// = distance + r_A + r_B (below 3 cm for leaf discs of 1 cm), and 4 um per metre of the two shapes' reach
 /// and of D. The discs of the cuts alone count, not the nodes above them, so that a distance is one of two
 /// discs. Where collide() says 1 in boundary semantics, the distance is at most 0; where the distance is
-/// positive, it says 0. It may say 0 where discs overlap and nodes above them do not: a distance below 0 is
-/// no collision yet. The same bits on every processor, for any number of threads and any split of the batch;
-/// exchanging the agents of a pair exchanges the discs and negates the direction. Of gaps that are equal, the
-/// one with the first disc of the agent with the lower index counts, then that with the first disc of the
-/// other.
+/// positive, it says 0 there. It may say 0 where discs overlap and nodes above them or the
+/// segments of exact leaves do not: a distance below 0 is no collision yet. The same bits on every processor,
+/// for any number of threads and any split of the batch; exchanging the agents of a pair exchanges the discs
+/// and negates the direction. Of gaps that are equal, the one with the first disc of the agent with the lower
+/// index counts, then that with the first disc of the other.
 ///
 /// Options: max_distance, implementation.
-/// Shapes:  as many distances as pairs, directions and discs as many or none. An agent may be paired with
+/// Sizes:   as many distances as pairs, directions and discs as many or none. An agent may be paired with
 ///          itself.
 /// Errors:  throws std::invalid_argument, before anything is written, as collide() does, and on a
 ///          max_distance that is negative or NaN.

@@ -3,28 +3,29 @@
 
 #pragma once
 
-#include <bch/query.hpp>
-
 #include <cstdint>
 #include <span>
+
+#include <bch/query.hpp>
 
 namespace bch {
 
 /// Answers each pair: 1 where the two agents collide at their levels, touching included, else 0.
 ///
 /// A collision is never missed. Agents whose outlines meet collide at every level, and those that do not
-/// collide at one level do not at a deeper one either. A false positive beyond the discs' own sizes needs a
-/// gap below 4 um per metre of the two shapes' reach (rounding.hpp). The answer is the same bits on every
+/// collide at one level do not at a deeper one either. A false positive has a gap
+/// of at most the sizes of two discs and 4 um per metre of the two shapes' reaches; between exact leaves, of at most 1.7 um
+/// per metre. The answer is the same bits on every
 /// processor, for any number of threads, any split of the batch and either order within a pair. Only the
 /// difference of positions counts: far from the origin the answer is that of the same placement at the
 /// origin.
 ///
 /// Options: semantics, leaves, implementation.
-/// Shapes:  hits.size() == pairs.size(); an agent may be paired with itself (it collides).
+/// Sizes:   hits.size() == pairs.size(); an agent may be paired with itself (it collides).
 /// Errors:  throws std::invalid_argument, before hits is touched, on sizes that differ, an index out of
-///          range, a position or heading that is not finite or beyond the limits, an unknown semantics, solid
+///          range, a position or heading that is not finite or beyond the limits, unknown semantics or leaves, solid
 ///          semantics on a set that was not planned for it, an implementation that this processor does not
-///          run; the message names the agent or pair and the value.
+///          run; the message names the agent or pair and the value. Agents that no pair names are not checked.
 /// Threads: runs in the caller's TBB arena, where each thread needs 320 KiB of stack, for this and every
 ///          other query. The rounding mode, treatment of denormals and traps that threads are set to do not
 ///          matter to any, and stay as they are. An exception or cancellation of tasks beside it does not

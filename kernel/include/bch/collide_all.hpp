@@ -3,10 +3,10 @@
 
 #pragma once
 
-#include <bch/query.hpp>
-
 #include <cstdint>
 #include <memory>
+
+#include <bch/query.hpp>
 
 namespace bch {
 
@@ -22,7 +22,7 @@ class CrowdCollider {
   /// Finds the colliding neighbours of every agent, a row an agent, ascending. j is a neighbour of i exactly if i and j
   /// differ and collide() answers 1 for them; so i is a neighbour of j, too. The answer is the same for any number of
   /// threads and every implementation.
-  /// Options: those of collide().
+  /// Options: those of collide(), which the broad phase does not need.
   /// Memory:  the answer is valid until the next call. Beside a BroadPhase's, 1 byte for each pair that it
   ///          finds, 8 an agent and 8 a colliding pair are kept; a call like an earlier one allocates
   ///          nothing.

@@ -3,10 +3,10 @@
 
 #pragma once
 
-#include <bch/query.hpp>
-
 #include <memory>
 #include <span>
+
+#include <bch/query.hpp>
 
 namespace bch {
 
@@ -33,11 +33,11 @@ class ContactFinder {
 
   /// Finds the contacts of each pair: a row a pair, ordered by first discs, those of a first disc by their second ones.
   /// Options: leaves, implementation.
-  /// Shapes:  an agent may be paired with itself: each disc then overlaps itself, and others.
+  /// Sizes:   an agent may be paired with itself: each disc then overlaps itself, and others.
   /// Memory:  the rows are valid until the next call; a call like an earlier one allocates nothing.
   /// Errors:  throws std::invalid_argument like collide(), before the rows of the last call are touched; std::bad_alloc or
   ///          std::length_error where memory does not hold the contacts, and then those are gone.
-  /// Threads: runs in the caller's TBB arena; one call at a time.
+  /// Threads: runs in the caller's TBB arena; one call at a time, as BroadPhase::find().
   Rows<DiscPair> find(const ShapeSet& shapes, const Agents& agents, std::span<const Pair> pairs,
                       const QueryOptions& options = {});
 

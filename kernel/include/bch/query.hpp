@@ -3,14 +3,14 @@
 
 #pragma once
 
-#include <bch/agents.hpp>
-#include <bch/shape_set.hpp>
-
 #include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <span>
 #include <string_view>
+
+#include <bch/agents.hpp>
+#include <bch/shape_set.hpp>
 
 namespace bch::detail {
 struct Kernels;
@@ -18,15 +18,20 @@ struct Kernels;
 
 namespace bch {
 
-// What all queries share. A query over pairs writes one result a pair into spans of the caller, and allocates nothing. Where a
+// What all queries share. A query over pairs writes one result per pair into spans of the caller, and allocates nothing. Where a
 // pair or an agent can have many results, an object finds them and keeps them in its memory until its next call.
+//
+// Threads: any number of queries may read one ShapeSet at once; nothing may replace its shapes meanwhile. The work runs in the
+//          caller's TBB arena: call from tbb::task_arena(n).execute() for n threads. Each thread needs 320 KiB of stack.
+//          While a query waits for its tasks, TBB may run other tasks on the thread, so hold no lock.
 
 /// The definition of a collision of two agents at their levels, independent of how trees are traversed.
 enum class Semantics {
   /// Some disc of one's cut and some disc of the other's overlap, and every node above the one (itself
   /// included) overlaps every node above the other. Discs are the smallest of what nodes hold, touching
   /// counts. A point that two outlines have in common lies in all of them, so this is the tightest answer
-  /// that discs can give, and a deeper cut never adds a collision.
+  /// that discs can give, and a deeper cut never adds a collision. With exact leaves (Leaves::segments, at the level
+  /// of all depths) two leaves count only where segments of theirs meet, too.
   boundary,
   solid,  ///< also where a contour of one outline lies inside the other outline
 };
@@ -49,10 +54,10 @@ const Implementation& best_implementation();
 /// Errors:  throws std::invalid_argument on an unknown name, naming the known ones, or one that this processor does not run.
 const Implementation& implementation(std::string_view name);
 
-/// The options of every query. A query ignores those that do not concern it: its description names those that do.
+/// The options of the queries. A query ignores those that do not concern it: its description names those that do.
 struct QueryOptions {
   Semantics semantics = Semantics::boundary;  ///< of collide() and CrowdCollider
-  /// One of implementations(); null: best_implementation().
+  /// One of implementations(); null: best_implementation(), which may throw where BCH_ISA is set.
   const Implementation* implementation = nullptr;
   Leaves leaves = Leaves::segments;  ///< of collide(), CrowdCollider and ContactFinder
   /// The largest distance of interest of clearance(), metres, not negative; may be infinite. Pairs farther apart get an
@@ -67,11 +72,11 @@ struct DiscPair {
   friend bool operator==(const DiscPair&, const DiscPair&) = default;
 };
 
-/// Rows of different lengths that follow each other in one array (CSR): a view of the memory of what found them.
+/// Rows of different lengths in one array (CSR): row i is values[offsets[i]] .. values[offsets[i + 1]]. It views the memory of
+/// the object that returned it.
 template <class Value>
 struct Rows {
-  std::span<const std::uint64_t>
-      offsets;  ///< one more than rows: row i is values[offsets[i]] .. values[offsets[i + 1]]
+  std::span<const std::uint64_t> offsets;  ///< one more than rows
   std::span<const Value> values;
 
   std::size_t size() const noexcept { return offsets.empty() ? 0 : offsets.size() - 1; }

@@ -3,9 +3,9 @@
 
 #pragma once
 
-#include <bch/query.hpp>
-
 #include <span>
+
+#include <bch/query.hpp>
 
 namespace bch {
 
@@ -21,18 +21,18 @@ struct Displacements {
 /// none do.
 ///
 /// The discs of the cuts alone count, not the nodes above them: whether these overlap changes on the way, and
-/// a time has to be no later than the outlines' contact. 0 where discs overlap now, as they do wherever
-/// collide() says 1, also where they move apart. A displacement of zero, in float, gives 0 where collide()
-/// says 1, and infinity elsewhere. The time is never later than the outlines' first contact. At that time the
-/// outlines are at most as far apart as clearance() may be below their distance: by the leaf discs' sizes,
-/// and 4 um per metre of way and of the two shapes' reach. So it is earlier than their contact by as long as
-/// they pass each other so closely, and it is finite where they only pass by so closely. The same bits on
+/// a time has to be no later than the outlines' contact. The time is 0 where discs of the cuts overlap already,
+/// also where the agents move apart. A displacement that is zero as a float gives 0 only where collide() with
+/// Leaves::discs and boundary semantics answers 1, and infinity otherwise. The time is never later than the
+/// outlines' first contact. At that time the outlines are at most as far apart as clearance() may be below
+/// their distance: by the leaf discs' sizes, and 4 um per metre of way and of the two shapes' reach. It may be
+/// early, or finite where the outlines only pass by: a pass within that distance counts as contact. The same bits on
 /// every processor, for any number of threads and any split of the batch, and for exchanged agents with the
 /// displacement negated. Solid semantics would add nothing: an agent that is inside has crossed the outline
 /// before, unless it starts there.
 ///
 /// Options: implementation.
-/// Shapes:  as many displacements in x, in y, and times as pairs. An agent may be paired with itself (0).
+/// Sizes:   as many displacements in x, in y, and times as pairs. An agent may be paired with itself (0).
 /// Errors:  throws std::invalid_argument, before anything is written, as collide() does, and on a
 ///          displacement that is not finite or beyond the limits.
 /// Threads: runs in the caller's TBB arena. Allocates nothing.

@@ -29,8 +29,7 @@ struct Agents {
   std::span<const std::uint8_t> level = {};  ///< index into the set's depths; empty: the last level for all
 
   std::size_t size() const noexcept { return shape.size(); }
-  /// Returns an agent's shape and level as one index, in what has an entry a level for every shape: shape * level_count +
-  /// level.
+  /// Returns the index of an agent's shape and level in arrays with level_count entries per shape.
   std::size_t root(std::size_t agent, std::size_t level_count) const noexcept {
     return shape[agent] * level_count + (level.empty() ? level_count - 1 : level[agent]);
   }

@@ -3,8 +3,6 @@
 
 #pragma once
 
-#include <bch/shape_set.hpp>
-
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -14,9 +12,11 @@
 #include <string>
 #include <vector>
 
+#include <bch/shape_set.hpp>
+
 namespace bch {
 
-/// What a shape shows: names by their index in ShapeOrigins.
+/// Which character, clip and time a baked shape was made from: names by their index in ShapeOrigins.
 struct ShapeOrigin {
   static constexpr std::uint32_t rest_pose = 0xffffffff;
 

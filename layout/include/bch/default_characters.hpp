@@ -14,7 +14,7 @@ namespace bch {
 ///
 /// Units:   metres, z up, facing +x at rest. The same bits at each call. Takes about ten milliseconds.
 ///
-/// Source:  body and motion after published measures (see body_shape.hpp, walking.cpp, stepping.cpp,
+/// Source:  body and motion after published measures (see layout/default_character: body_shape.hpp, walking.cpp, stepping.cpp,
 ///          idling.cpp); the paper is Stuvel et al., "Hierarchical structures for collision checking between
 ///          virtual characters", Computer Animation and Virtual Worlds 25, 2014.
 Character default_male();

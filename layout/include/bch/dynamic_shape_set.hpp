@@ -3,11 +3,11 @@
 
 #pragma once
 
-#include <bch/shape_set.hpp>
-#include <bch/shape_set_builder.hpp>
-
 #include <cstdint>
 #include <memory>
+
+#include <bch/shape_set.hpp>
+#include <bch/shape_set_builder.hpp>
 
 namespace bch {
 
@@ -25,7 +25,7 @@ namespace bch {
 ///     if (!dynamic.try_replace(shape, prepared)) later.push_back(shape);  // for replace(), by one thread
 class DynamicShapeSet {
  public:
-  /// Copies a set, another one's set() for instance, with its plan and without what that left empty. In a set of
+  /// Copies a set, another one's set() for instance, with its plan and without its unused gaps. In a set of
   /// single discs every shape stays one.
   explicit DynamicShapeSet(const ShapeSet& start);
   DynamicShapeSet(DynamicShapeSet&&) noexcept;
@@ -38,7 +38,8 @@ class DynamicShapeSet {
 
   /// Replaces a shape by one that was prepared with set().plan(), where that fits into its place. Threads may replace
   /// different shapes at the same time, while no query runs. Allocates nothing.
-  /// Returns: whether it fitted. If not, the shape is the one before.
+  /// Returns: whether it fitted; false, too, where it has no outline and the set is solid, or is the first single disc. The shape
+  ///          is then the one before.
   /// Errors:  throws std::out_of_range on an index out of range, std::invalid_argument on a shape of another plan.
   bool try_replace(std::uint32_t shape, const PreparedShape& by);
 

@@ -3,13 +3,13 @@
 
 #pragma once
 
-#include <bch/geometry.hpp>
-#include <bch/outline.hpp>
-
 #include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
+
+#include <bch/geometry.hpp>
+#include <bch/outline.hpp>
 
 namespace bch {
 
@@ -24,7 +24,7 @@ struct Primitive {
 /// A node of the binary tree. Nodes stand in depth-first order: the first child of an inner node is the next
 /// node.
 struct HierarchyNode {
-  /// The smallest disc that encloses the node's primitives, enlarged only by what rounding.hpp derives. It need not hold
+  /// The smallest disc that encloses the node's primitives, enlarged only by what rounding needs. It need not hold
   /// the discs of the nodes below.
   Disc disc;
   std::uint32_t second_child = 0;  ///< 0: a leaf
@@ -55,7 +55,7 @@ struct Hierarchy {
 };
 
 /// Checks what others rely on: at least one node, children after their parents, discs that are finite, larger than 0 and
-/// about centres within the reach, a reach within the limits of rounding.hpp.
+/// about centres within the reach, a reach of 1e-6 to 1e6 m.
 /// Errors:  throws std::invalid_argument naming the node and the value.
 void validate(const Hierarchy& hierarchy);
 
@@ -78,12 +78,12 @@ Hierarchy contour_hierarchy(const Outline& outline, float threshold, SplitRule r
 /// triangle goes to the side of its centroid and is never cut; one triangle is a leaf.
 /// Returns: the hierarchy with its primitives.
 /// Errors:  throws std::invalid_argument on no triangles, an index out of range, a vertex of theirs that is not finite,
-///          or a reach outside rounding.hpp's domain. Vertices of no triangle do not count.
+///          or a reach outside 1e-6 to 1e6 m. Vertices of no triangle do not count.
 Hierarchy projected_hierarchy(std::span<const Vec2> vertices,
                               std::span<const std::array<std::uint32_t, 3>> triangles);
 
 /// Builds the cylinder of crowd simulators with one radius for every pose, around the agent's position.
-/// Errors:  throws std::invalid_argument unless the radius is positive and within rounding.hpp's domain.
+/// Errors:  throws std::invalid_argument unless the radius is from 1e-6 to 1e6 m.
 Hierarchy fixed_cylinder(float radius);
 
 /// Returns the nodes at a depth and the leaves above it, in depth-first order: a covering of the shape with one disc

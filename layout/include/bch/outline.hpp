@@ -3,11 +3,11 @@
 
 #pragma once
 
-#include <bch/geometry.hpp>
-
 #include <cstdint>
 #include <span>
 #include <vector>
+
+#include <bch/geometry.hpp>
 
 namespace bch {
 
@@ -44,7 +44,7 @@ double area(const Outline& outline);
 Outline outline_from_polygons(std::span<const std::vector<Vec2>> polygons);
 
 /// Checks the promises that hierarchies and shape sets rely on: at least one contour, offsets in order, finite points, reach
-/// within the limits of rounding.hpp, no clockwise contour (of more area than rounding to the grid explains). All else that
+/// from 1e-6 to 1e6 m, no clockwise contour (of more area than rounding to the grid explains). All else that
 /// Outline allows needs no check.
 /// Cost:    linear.
 /// Returns: the reach of its points.

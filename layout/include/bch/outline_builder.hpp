@@ -3,13 +3,13 @@
 
 #pragma once
 
-#include <bch/outline.hpp>
-
 #include <array>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <span>
+
+#include <bch/outline.hpp>
 
 namespace bch::detail {
 struct OutlineImplementation;
@@ -34,7 +34,7 @@ class OutlineBuilder {
   /// Learns the mesh. The bind pose, if there is one, makes building fast: edges near each other are
   /// processed together, and vertices at the same place are taken to stay together as long as a pose does not
   /// separate them.
-  /// Shapes:  triangle indices are below `vertices`; the bind pose has as many positions, or none.
+  /// Sizes:   triangle indices are below `vertices`; the bind pose has as many positions, or none.
   /// Errors:  throws std::invalid_argument on no triangles, an index out of range, a bind pose of another
   ///          length or with a position that is not finite. Vertices that no triangle uses do not count.
   OutlineBuilder(std::span<const std::array<std::uint32_t, 3>> triangles, std::size_t vertices,
@@ -47,7 +47,7 @@ class OutlineBuilder {
   /// longest outline has been built.
   /// Units:   metres; the ground is x-y.
   /// Errors:  throws std::invalid_argument on another number of positions than of vertices, a coordinate that
-  ///          is not finite, a reach outside the domain of rounding.hpp, or when every triangle is a point.
+  ///          is not finite, a reach outside 1e-6 to 1e6 m, or when every triangle is a point.
   void build(std::span<const Vec2> positions, Outline& outline);
   /// Writes the outline of positions with heights, which may have any value.
   void build(std::span<const Vec3> positions, Outline& outline);
@@ -65,9 +65,9 @@ class OutlineBuilder {
 
 /// Finds the outline of triangles that are seen once. OutlineBuilder says what an outline is, and finds those of one
 /// mesh in many poses much faster.
-/// Shapes:  triangle indices are below positions.size(); vertices that no triangle uses do not count.
+/// Sizes:   triangle indices are below positions.size(); vertices that no triangle uses do not count.
 /// Errors:  throws std::invalid_argument on no triangles, an index out of range, a coordinate that is not
-///          finite, or a reach outside the domain of rounding.hpp.
+///          finite, or a reach outside 1e-6 to 1e6 m.
 Outline union_outline(std::span<const Vec3> positions,
                       std::span<const std::array<std::uint32_t, 3>> triangles);
 

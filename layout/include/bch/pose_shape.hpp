@@ -3,12 +3,12 @@
 
 #pragma once
 
-#include <bch/character.hpp>
-#include <bch/shape_set.hpp>
-
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+
+#include <bch/character.hpp>
+#include <bch/shape_set.hpp>
 
 namespace bch {
 

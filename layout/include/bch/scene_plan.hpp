@@ -3,18 +3,18 @@
 
 #pragma once
 
-#include <bch/character.hpp>
-#include <bch/shape_set.hpp>
-
 #include <cstdint>
 #include <functional>
 #include <limits>
 #include <span>
 #include <vector>
 
+#include <bch/character.hpp>
+#include <bch/shape_set.hpp>
+
 namespace bch {
 
-/// What a shape shows.
+/// Which character and pose a plan wants a shape of.
 struct ShapeSource {
   std::uint32_t character = 0;  ///< index in a list that the scene has
   PoseTime at;
@@ -70,7 +70,7 @@ ScenePlan plan_scene(std::span<const SceneAgent> agents, const SceneUse& use = {
 
 /// Measures how dense a crowd is around each agent, people per square metre: those within `radius`, himself among them, over
 /// the area of that circle. At the rim of a crowd it is less than inside.
-/// Shapes:  x.size() == y.size(); one number an agent.
+/// Sizes:   x.size() == y.size(); one number an agent.
 /// Units:   metres. Takes time n log n beside the neighbours it counts.
 /// Errors:  throws std::invalid_argument on sizes that differ, a position that is not finite or beyond 1e9 m, naming the
 ///          agent, and a radius that is not positive and finite.

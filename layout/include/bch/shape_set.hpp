@@ -3,15 +3,15 @@
 
 #pragma once
 
-#include <bch/geometry.hpp>
-#include <bch/hierarchy.hpp>
-#include <bch/outline.hpp>
-
 #include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <span>
 #include <vector>
+
+#include <bch/geometry.hpp>
+#include <bch/hierarchy.hpp>
+#include <bch/outline.hpp>
 
 namespace bch::detail {
 struct ShapeArrays;
@@ -20,7 +20,8 @@ struct ShapeSetView;
 
 namespace bch {
 
-/// One pose of a character.
+/// A body seen from above: a pose of a character, a footprint, a cylinder. The outline may be empty: then discs are its leaves, and
+/// unless every shape of a set is a single disc, the set cannot be asked for solid semantics.
 struct Shape {
   Outline outline;
   Hierarchy hierarchy;
@@ -29,8 +30,8 @@ struct Shape {
 /// What decides where leaves of two hierarchies overlap.
 enum class Leaves {
   discs,  ///< that they do
-  /// Exact leaves: segments of the outlines in them come within the rounding margin of each other
-  /// (rounding.hpp, V). This applies to agents at the level of all depths whose shapes have segments there.
+  /// Exact leaves: segments of the outlines in them come within the rounding margin of each other,
+  /// 1.7 um per metre of the reaches. This applies to agents at the level of all depths whose shapes have segments there.
   /// Otherwise, and for leaves of more than 127 segments, discs decide.
   segments,
 };
@@ -56,9 +57,9 @@ void validate(const ShapeSetPlan& plan);
 /// moved from can only be assigned to or destroyed.
 class ShapeSet {
  public:
-  /// Makes shapes flat, each at all depths of a plan.
+  /// Makes shapes flat, each at all depths of a plan, and copies what it needs of them.
   /// Errors:  throws std::invalid_argument on a plan that validate() rejects and, naming the shape, on a hierarchy that
-  ///          validate() rejects, or an outline where the plan asks for one or for culling data; std::length_error beyond
+  ///          validate() rejects, or on an outline that is there and that the plan uses; std::length_error beyond
   ///          2^31 numbers in nodes.
   explicit ShapeSet(std::span<const Shape> shapes, const ShapeSetPlan& plan = {});
   ShapeSet(ShapeSet&&) noexcept;
@@ -81,9 +82,10 @@ class ShapeSet {
   /// Returns the discs of a shape's cut, in the order in which queries number them.
   /// Errors:  throws std::out_of_range on an index out of range.
   std::vector<Disc> discs(std::uint32_t shape, std::uint32_t level) const;
-  /// Returns the radius about an agent's position that holds its shape at every level and heading, metres.
+  /// Returns the radius about an agent's position that holds all discs of its shape, at every level and heading, metres.
+  /// Cost:    linear in the discs, and allocates.
   /// Errors:  throws std::out_of_range on an index out of range.
-  float reach(std::uint32_t shape) const;
+  float bounding_radius(std::uint32_t shape) const;
 
   // For the library's own parts, which alone know these types.
 

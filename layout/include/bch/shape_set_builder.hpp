@@ -3,11 +3,11 @@
 
 #pragma once
 
-#include <bch/shape_set.hpp>
-
 #include <cstddef>
 #include <memory>
 #include <span>
+
+#include <bch/shape_set.hpp>
 
 namespace bch::detail {
 struct FlatShape;

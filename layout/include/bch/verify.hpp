@@ -18,7 +18,7 @@ struct Finding {
 
   std::uint32_t shape;
   std::uint32_t level;  ///< or no_level, where the array has none
-  const char* array;    ///< as in ShapeArrays
+  const char* array;    ///< its name, as findings and errors of loading have it
   std::string what;     ///< the value, its place, and what the rest asks for
 };
 
@@ -28,10 +28,11 @@ std::string text_of(const Finding& finding);
 /// Recomputes what a set stores of its shapes besides their discs and outlines, and compares. It checks that
 /// answers are right, where validate() checks that queries are safe.
 ///
-/// - Nodes above the cut are such as the smallest discs of a part and of the whole are. The nodes of the blocks above a disc
-///   of the cut are above it, so that it is found, and their outer radii hold it and are no larger than that needs.
+/// - A node above the cut and each node below it could be the smallest discs of a whole and of its part. The nodes of the
+///   blocks above a disc of the cut are above it, so that it is found, and their outer radii hold it and are no larger
+///   than that needs.
 /// - A level has at most as many discs as its depth allows and no fewer than the one before, and each of its discs
-///   belongs to one of the level before, as the smallest discs of a part and of the whole do.
+///   belongs to one of the level before: the two could be the smallest discs of a part and of a whole.
 /// - Reaches, supports and the outer ends of profiles are those of the discs.
 /// - If outlines are stored, every level's discs cover them; the leaves that name a segment cover it, and
 ///   margins are not below what rounding needs; contours' discs are the smallest; inscribed discs lie inside

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include <bch/baked.hpp>
-#include <bch/collide.hpp>
-
 #include <filesystem>
 #include <vector>
+
+#include <bch/baked.hpp>
+#include <bch/collide.hpp>
 
 // Shapes that were built once: a file is written, loaded without a copy, and asked.
 
@@ -14,7 +14,7 @@ int main() {
   const std::vector<bch::Shape> shapes = {{{}, bch::fixed_cylinder(0.25f)}};
   bch::save_baked(file, bch::ShapeSet(shapes));
   const bch::ShapeSet set = bch::load_baked(file, bch::FileAccess::map).set;
-  std::filesystem::remove(file);
+  std::filesystem::remove(file);  // the mapping keeps the bytes
 
   const std::vector<std::uint32_t> shape = {0, 0};
   const std::vector<double> x = {0, 0.4}, y = {0, 0}, heading = {0, 0};

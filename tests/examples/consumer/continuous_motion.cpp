@@ -67,11 +67,11 @@ void aim(Walkers& walkers, const std::vector<double>& last_part, std::mt19937_64
 
 class Stepper {
  public:
-  explicit Stepper(const bch::ShapeSet& shapes) : shapes_(shapes), reaches_(reaches(shapes)) {}
+  explicit Stepper(const bch::ShapeSet& shapes) : shapes_(shapes) {}
 
-  /// All pairs that may meet within a step: discs that hold the shapes wherever they are by then.
+  /// All pairs that may meet within a step, in which either goes a step's length at most.
   std::vector<bch::Pair> pairs(const Walkers& walkers) const {
-    return bch::candidate_pairs(reaches_, walkers.agents());
+    return bch::candidate_pairs(shapes_, walkers.agents(), 2 * step_length);
   }
 
   /// Who overlaps somebody at the end of his way does not go it.
@@ -136,15 +136,7 @@ class Stepper {
   }
 
  private:
-  static bch::ShapeSet reaches(const bch::ShapeSet& shapes) {
-    std::vector<bch::Shape> discs;
-    for (std::uint32_t i = 0; i < shapes.shape_count(); ++i)
-      discs.push_back({{}, bch::fixed_cylinder(shapes.reach(i) + static_cast<float>(step_length))});
-    return bch::ShapeSet(discs);
-  }
-
   const bch::ShapeSet& shapes_;
-  bch::ShapeSet reaches_;
 };
 
 /// Walks a crowd. Returns: how many pairs overlapped on the way; 1 where nobody gets anywhere.

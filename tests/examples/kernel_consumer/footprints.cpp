@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
+#include <cstdio>
+#include <vector>
+
 #include <bch/clearance.hpp>
 #include <bch/collide.hpp>
 #include <bch/outline.hpp>
 #include <bch/shape_set.hpp>
-
-#include <cstdio>
-#include <vector>
 
 // Footprints: bodies that come from no mesh. A person with a trolley, and a pillar, by their polygons on the ground.
 
@@ -25,12 +25,13 @@ int main() {
   }
   const bch::ShapeSet set(shapes);
 
-  // The second one walks towards the pillar, the first one stands beside it, between person and trolley.
+  // The first one has the pillar in the gap between person and trolley and does not touch it; the second one runs the trolley
+  // into it.
   const std::vector<std::uint32_t> shape = {0, 0, 1};
   const std::vector<double> x = {-1, -2, -0.73}, y = {0, 0.4, 0.62}, heading = {0, 0.1, 0};
   const std::vector<bch::Pair> pairs = {{0, 2}, {1, 2}};
   std::vector<std::uint8_t> hits(pairs.size());
-  bch::collide(set, {shape, x, y, heading}, pairs, hits, {bch::Semantics::solid});
+  bch::collide(set, {shape, x, y, heading}, pairs, hits, {.semantics = bch::Semantics::solid});
   std::vector<float> distance(pairs.size());
   bch::clearance(set, {shape, x, y, heading}, pairs, {distance});
   for (std::size_t i = 0; i < pairs.size(); ++i)
