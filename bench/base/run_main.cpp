@@ -23,7 +23,7 @@
 namespace bch::cli {
 namespace {
 
-constexpr rlim_t least_stack = 320;  ///< KiB, which queries need: <bch/collide.hpp>
+constexpr rlim_t least_stack = 320;  ///< KiB, which queries need: <bch/query.hpp>
 
 /// A stack that is too small ends the program by SIGSEGV somewhere in the work.
 void require_stack() {

@@ -11,7 +11,7 @@
 
 namespace bch::bench {
 
-/// Whether the build found libpolyclipping.
+/// Tells whether the build found libpolyclipping.
 extern const bool has_clipper;
 
 /// Returns the area of the union of a pose's triangles, seen from above and rounded to steps of a grid, by

@@ -26,17 +26,11 @@ using namespace detail;
 
 namespace {
 
-using detail::CrowdBounds;
-using detail::CrowdGrid;
-using detail::GridDisc;
-using detail::PairList;
-using detail::SortedDiscs;
-
 constexpr std::size_t grain = 2048;        ///< agents a task
 constexpr std::size_t block_discs = 1024;  ///< whose pairs a task finds
 
 CrowdBounds bounds(const ShapeSetView& shapes, const Agents& agents, double margin) {
-  return detail::reduce_ranges(
+  return reduce_ranges(
       agents.size(), grain, CrowdBounds(),
       [&](std::size_t begin, std::size_t end, CrowdBounds all) {
         all.add(detail::bounds(shapes, agents, margin, begin, end));
@@ -51,9 +45,9 @@ CrowdBounds bounds(const ShapeSetView& shapes, const Agents& agents, double marg
 }  // namespace
 
 /// What find() computes, stage by stage.
-struct BroadPhase::Scratch {
+struct BroadPhase::State {
   std::vector<GridDisc> placed;
-  detail::RadixSort<GridDisc> radix_sort;
+  RadixSort<GridDisc> radix_sort;
   SortedDiscs discs;
   /// Discs of a class.
   std::array<std::size_t, CrowdGrid::most_classes + 1> class_begin;
@@ -72,17 +66,17 @@ struct BroadPhase::Scratch {
   void gather_pairs(std::size_t blocks);
 };
 
-void BroadPhase::Scratch::sort_discs(const CrowdGrid& grid, const ShapeSetView& shapes, const Agents& agents,
-                                     double margin) {
+void BroadPhase::State::sort_discs(const CrowdGrid& grid, const ShapeSetView& shapes, const Agents& agents,
+                                   double margin) {
   placed.resize(agents.size());
-  detail::for_ranges(agents.size(), grain, [&](std::size_t begin, std::size_t end) {
+  for_ranges(agents.size(), grain, [&](std::size_t begin, std::size_t end) {
     grid.place(shapes, agents, margin, begin, end, placed.data());
   });
   const std::uint32_t classes = grid.class_count();
   radix_sort.sort(placed, static_cast<unsigned>(std::bit_width(grid.end_cell(classes - 1))),
                   [](const GridDisc& disc) { return disc.cell; });
   discs.resize(agents.size());
-  detail::for_ranges(agents.size(), grain, [&](std::size_t begin, std::size_t end) {
+  for_ranges(agents.size(), grain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) discs.set(i, placed[i]);
   });
   class_begin[0] = 0;
@@ -91,8 +85,8 @@ void BroadPhase::Scratch::sort_discs(const CrowdGrid& grid, const ShapeSetView& 
 }
 
 /// The pairs of discs begin .. end with later ones of their class and with all of coarser classes.
-void BroadPhase::Scratch::find_in_block(const CrowdGrid& grid, std::size_t begin, std::size_t end,
-                                        PairList& list) const {
+void BroadPhase::State::find_in_block(const CrowdGrid& grid, std::size_t begin, std::size_t end,
+                                      PairList& list) const {
   list.clear();
   for (std::uint32_t c = 0; c < grid.class_count(); ++c) {
     const std::size_t from = std::max(begin, class_begin[c]), to = std::min(end, class_begin[c + 1]);
@@ -104,8 +98,8 @@ void BroadPhase::Scratch::find_in_block(const CrowdGrid& grid, std::size_t begin
 
 /// Half of the neighbourhood, so that each pair is seen once: the rest of a cell and the one beside it are a
 /// run of discs, and so are the three cells above. Both runs only move forward.
-void BroadPhase::Scratch::find_in_class(const CrowdGrid& grid, std::uint32_t size_class, std::size_t begin,
-                                        std::size_t end, PairList& list) const {
+void BroadPhase::State::find_in_class(const CrowdGrid& grid, std::uint32_t size_class, std::size_t begin,
+                                      std::size_t end, PairList& list) const {
   const std::size_t class_end = class_begin[size_class + 1];
   const std::uint64_t up = grid.stride(size_class);
   const auto skip_below = [&](std::uint64_t cell, std::size_t i) {
@@ -127,8 +121,8 @@ void BroadPhase::Scratch::find_in_class(const CrowdGrid& grid, std::uint32_t siz
 }
 
 /// Searches all nine cells about a disc, in the grid of every coarser class.
-void BroadPhase::Scratch::find_larger(const CrowdGrid& grid, std::uint32_t size_class, std::size_t begin,
-                                      std::size_t end, PairList& list) const {
+void BroadPhase::State::find_larger(const CrowdGrid& grid, std::uint32_t size_class, std::size_t begin,
+                                    std::size_t end, PairList& list) const {
   for (std::uint32_t c = 0; c < size_class; ++c) {
     if (class_begin[c] == class_begin[c + 1]) continue;
     for (std::size_t i = begin; i < end;) {
@@ -145,11 +139,11 @@ void BroadPhase::Scratch::find_larger(const CrowdGrid& grid, std::uint32_t size_
   }
 }
 
-void BroadPhase::Scratch::gather_pairs(std::size_t blocks) {
+void BroadPhase::State::gather_pairs(std::size_t blocks) {
   found_begin.assign(blocks + 1, 0);
   for (std::size_t b = 0; b < blocks; ++b) found_begin[b + 1] = found_begin[b] + found[b].pairs().size();
   pairs.resize(found_begin[blocks]);
-  detail::for_ranges(blocks, 1, [&](std::size_t first, std::size_t last) {
+  for_ranges(blocks, 1, [&](std::size_t first, std::size_t last) {
     auto to = pairs.begin() + static_cast<std::ptrdiff_t>(found_begin[first]);
     for (std::size_t b = first; b < last; ++b)
       to = std::transform(found[b].pairs().begin(), found[b].pairs().end(), to, [](Pair pair) {
@@ -158,13 +152,13 @@ void BroadPhase::Scratch::gather_pairs(std::size_t blocks) {
   });
 }
 
-std::span<const Pair> BroadPhase::Scratch::find(const ShapeSetView& shapes, const Agents& agents,
-                                                double margin) {
+std::span<const Pair> BroadPhase::State::find(const ShapeSetView& shapes, const Agents& agents,
+                                              double margin) {
   const CrowdGrid grid(bounds(shapes, agents, margin));
   sort_discs(grid, shapes, agents, margin);
   const std::size_t blocks = (agents.size() + block_discs - 1) / block_discs;
   if (found.size() < blocks) found.resize(blocks);
-  detail::for_ranges(blocks, 1, [&](std::size_t first, std::size_t last) {
+  for_ranges(blocks, 1, [&](std::size_t first, std::size_t last) {
     for (std::size_t b = first; b < last; ++b) {
       const std::size_t begin = b * block_discs, end = std::min(begin + block_discs, agents.size());
       find_in_block(grid, begin, end, found[b]);
@@ -174,18 +168,18 @@ std::span<const Pair> BroadPhase::Scratch::find(const ShapeSetView& shapes, cons
   return pairs;
 }
 
-BroadPhase::BroadPhase() : scratch_(std::make_unique<Scratch>()) {}
+BroadPhase::BroadPhase() : state_(std::make_unique<State>()) {}
 BroadPhase::BroadPhase(BroadPhase&&) noexcept = default;
 BroadPhase& BroadPhase::operator=(BroadPhase&&) noexcept = default;
 BroadPhase::~BroadPhase() = default;
 
 std::span<const Pair> BroadPhase::find(const ShapeSet& shapes, const Agents& agents, double margin) {
-  const detail::FloatingPointStateGuard floats;
+  const FloatingPointStateGuard floats;
   validate(shapes, agents);
   if (!(margin >= 0 && margin <= 2 * rounding::largest_position))
     throw std::invalid_argument("broad phase: a margin of " + shortest(margin) + " m");
   if (agents.size() == 0) return {};
-  return detail::without_tasks_from_outside([&] { return scratch_->find(shapes.view(), agents, margin); });
+  return without_tasks_from_outside([&] { return state_->find(shapes.view(), agents, margin); });
 }
 
 std::vector<Pair> candidate_pairs(const ShapeSet& shapes, const Agents& agents, double margin) {

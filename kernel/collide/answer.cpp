@@ -31,7 +31,7 @@ void answer(const Implementation& implementation, const Arguments& arguments, co
 
 bool answer_if_valid(const Implementation& implementation, const Arguments& arguments, const Agents& agents,
                      std::size_t count) noexcept {
-  if (count == 0 || count > pairs_per_chunk ||
+  if (count == 0 || count > chunk_size ||
       !implementation.kernels->run_if_valid(arguments, static_cast<std::uint32_t>(count)))
     return false;
   decide_containment(arguments, agents, 0, count);

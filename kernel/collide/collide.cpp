@@ -30,14 +30,14 @@ void collide(const ShapeSet& shapes, const Agents& agents, std::span<const Pair>
   if (solid && !shapes.solid())
     throw std::invalid_argument(
         "collide: solid semantics needs outlines, and the set does not have that of every shape");
-  const bool exact = exact_leaves(options.leaves, "collide");
+  const bool exact = exact_leaves(shapes, options.leaves, "collide");
   const Implementation& implementation = chosen(options, "collide");
   const ShapeSetView& view = shapes.view();
   require_sizes(agents);
   Arguments arguments = arguments_for(view, agents, pairs);
   arguments.codes = hits.data();
   arguments.solid = solid;
-  arguments.exact_leaves = exact && shapes.exact_leaves();
+  arguments.exact_leaves = exact;
   if (answer_if_valid(implementation, arguments, agents, pairs.size())) return;
   require_valid(implementation, view, agents, pairs);
   for_ranges(pairs.size(), pairs_per_task, [&](std::size_t begin, std::size_t end) {

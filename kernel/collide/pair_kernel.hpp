@@ -30,13 +30,12 @@ template <class Simd>
 class PairKernel {
  public:
   static void run(const Arguments& arguments, std::size_t begin, std::size_t end) noexcept {
-    static_assert(sizeof(PairKernel) <= 256 * 1024, "what collide.hpp promises, and room for calls");
+    static_assert(sizeof(PairKernel) <= 256 * 1024, "what query.hpp promises, and room for calls");
     PairKernel kernel(arguments);
-    for (; begin < end; begin += chunk) {
-      kernel.at_.place(arguments, begin,
-                       end - begin < chunk ? static_cast<std::uint32_t>(end - begin) : chunk);
+    for (; begin < end; begin += chunk_size) {
+      kernel.at_.place(arguments, begin, end);
       kernel.answer_chunk(begin);
-      kernel.walk_.run(open_walks - chunk);
+      kernel.walk_.run(open_walks - chunk_size);
     }
     kernel.walk_.run(0);
   }
@@ -52,10 +51,9 @@ class PairKernel {
 
  private:
   using Float = typename Simd::Float;
-  static constexpr std::uint32_t chunk = pairs_per_chunk;
   /// The room for open traversals: a chunk, and besides as many unfinished pairs as fit on the stack.
-  static constexpr std::uint32_t open_walks = chunk + chunk * 7 / 8;
-  using List = ChunkPairs<Simd, chunk>;
+  static constexpr std::uint32_t open_walks = chunk_size + chunk_size * 7 / 8;
+  using List = ChunkPairs<Simd, chunk_size>;
 
   explicit PairKernel(const Arguments& arguments) noexcept
       : in_(arguments),
@@ -232,8 +230,9 @@ class PairKernel {
   Placements<Simd> at_;
   SeparatingAxisTest<Simd> axis_test_;
   ProfileTest<Simd> profiles_;
-  alignas(64) std::uint32_t row_a_[chunk], row_b_[chunk];  ///< of the roots' supports; set by test_roots()
-  std::uint32_t open_bits_[chunk / Simd::width], may_nest_[chunk / Simd::width];  ///< a register's pairs each
+  alignas(64) std::uint32_t row_a_[chunk_size], row_b_[chunk_size];  ///< supports; set by test_roots()
+  /// A register's pairs each.
+  std::uint32_t open_bits_[chunk_size / Simd::width], may_nest_[chunk_size / Simd::width];
   List open_, near_, separated_, met_;
   OverlapTraversal<Simd, open_walks> walk_;
 };

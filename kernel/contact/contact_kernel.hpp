@@ -76,10 +76,7 @@ class ContactKernel {
   static void for_pairs(const Arguments& in, std::size_t begin, std::size_t end, Use use) noexcept {
     ContactKernel kernel(in);
     for (; begin < end; begin += kernel.at_.size) {
-      const std::size_t left = end - begin;
-      kernel.at_.place(
-          in, begin,
-          left < Placements<Simd>::chunk ? static_cast<std::uint32_t>(left) : Placements<Simd>::chunk);
+      kernel.at_.place(in, begin, end);
       for (std::uint32_t k = 0; k < kernel.at_.size; ++k) {
         kernel.look_at(begin, k);
         use(kernel, begin + k);

@@ -3,6 +3,7 @@
 
 #include <bch/contacts.hpp>
 
+#include <numeric>
 #include <vector>
 
 #include "kernel/runtime/floating_point_state.hpp"
@@ -34,16 +35,11 @@ void ContactFinder::State::find(const Implementation& implementation, const Argu
   for_ranges(pairs, grain, [&](std::size_t begin, std::size_t end) {
     implementation.kernels->count_contacts(arguments, begin, end, offsets.data());
   });
-  std::uint64_t end = 0;
-  for (std::size_t i = 0; i < pairs; ++i) {
-    const std::uint64_t count = offsets[i];
-    offsets[i] = end;
-    end += count;
-  }
-  offsets[pairs] = end;
-  contacts.resize(end);
-  for_ranges(pairs, grain, [&](std::size_t begin, std::size_t end_of_range) {
-    implementation.kernels->fill_contacts(arguments, begin, end_of_range, offsets.data(), contacts.data());
+  offsets[pairs] = 0;
+  std::exclusive_scan(offsets.begin(), offsets.end(), offsets.begin(), std::uint64_t{0});
+  contacts.resize(offsets[pairs]);
+  for_ranges(pairs, grain, [&](std::size_t begin, std::size_t end) {
+    implementation.kernels->fill_contacts(arguments, begin, end, offsets.data(), contacts.data());
   });
 }
 
@@ -51,11 +47,11 @@ Rows<DiscPair> ContactFinder::State::find(const ShapeSet& shapes, const Agents& 
                                           std::span<const Pair> pairs, const QueryOptions& options) {
   const FloatingPointStateGuard floats;
   const Implementation& implementation = chosen(options, "contacts");
-  const bool exact = exact_leaves(options.leaves, "contacts");
+  const bool exact = exact_leaves(shapes, options.leaves, "contacts");
   const ShapeSetView& view = shapes.view();
   require_valid(implementation, view, agents, pairs);
   Arguments arguments = arguments_for(view, agents, pairs);
-  arguments.exact_leaves = exact && shapes.exact_leaves();
+  arguments.exact_leaves = exact;
   try {
     find(implementation, arguments, pairs.size());
   } catch (...) {

@@ -21,7 +21,7 @@ constexpr std::size_t grain = 4096;  ///< pairs or agents a task
 
 }  // namespace
 
-struct CrowdCollider::Scratch {
+struct CrowdCollider::State {
   BroadPhase broad_phase;
   std::vector<std::uint8_t> hits;
   std::vector<std::uint64_t> begin;
@@ -30,33 +30,30 @@ struct CrowdCollider::Scratch {
   Rows<std::uint32_t> collide_all(const ShapeSet& shapes, const Agents& agents, const QueryOptions& options);
 };
 
-CrowdCollider::CrowdCollider() : scratch_(std::make_unique<Scratch>()) {}
+CrowdCollider::CrowdCollider() : state_(std::make_unique<State>()) {}
 CrowdCollider::CrowdCollider(CrowdCollider&&) noexcept = default;
 CrowdCollider& CrowdCollider::operator=(CrowdCollider&&) noexcept = default;
 CrowdCollider::~CrowdCollider() = default;
 
-Rows<std::uint32_t> CrowdCollider::Scratch::collide_all(const ShapeSet& shapes, const Agents& agents,
-                                                        const QueryOptions& options) {
+Rows<std::uint32_t> CrowdCollider::State::collide_all(const ShapeSet& shapes, const Agents& agents,
+                                                      const QueryOptions& options) {
   const std::span<const Pair> pairs = broad_phase.find(shapes, agents);
   hits.resize(pairs.size());
   collide(shapes, agents, pairs, hits, options);
 
   begin.assign(agents.size() + 1, 0);
-  detail::NeighbourRows rows{pairs, hits, begin, {}};
-  detail::for_ranges(pairs.size(), grain,
-                     [&](std::size_t first, std::size_t last) { rows.count(first, last); });
+  NeighbourRows rows{pairs, hits, begin, {}};
+  for_ranges(pairs.size(), grain, [&](std::size_t first, std::size_t last) { rows.count(first, last); });
   neighbours.resize(rows.place());
   rows.neighbours = neighbours;
-  detail::for_ranges(pairs.size(), grain,
-                     [&](std::size_t first, std::size_t last) { rows.fill(first, last); });
-  detail::for_ranges(agents.size(), grain,
-                     [&](std::size_t first, std::size_t last) { rows.sort(first, last); });
+  for_ranges(pairs.size(), grain, [&](std::size_t first, std::size_t last) { rows.fill(first, last); });
+  for_ranges(agents.size(), grain, [&](std::size_t first, std::size_t last) { rows.sort(first, last); });
   return {begin, neighbours};
 }
 
 Rows<std::uint32_t> CrowdCollider::collide_all(const ShapeSet& shapes, const Agents& agents,
                                                const QueryOptions& options) {
-  return detail::without_tasks_from_outside([&] { return scratch_->collide_all(shapes, agents, options); });
+  return without_tasks_from_outside([&] { return state_->collide_all(shapes, agents, options); });
 }
 
 }  // namespace bch

@@ -21,23 +21,22 @@ template <class Simd>
 class ClearanceKernel {
  public:
   static void run(const ClearanceArguments& arguments, std::size_t begin, std::size_t end) noexcept {
-    static_assert(sizeof(ClearanceKernel) <= 256 * 1024, "what collide.hpp promises, and room for calls");
+    static_assert(sizeof(ClearanceKernel) <= 256 * 1024, "what query.hpp promises, and room for calls");
     ClearanceKernel kernel(arguments);
-    for (; begin < end; begin += chunk)
-      kernel.answer_chunk(begin, end - begin < chunk ? static_cast<std::uint32_t>(end - begin) : chunk);
+    for (; begin < end; begin += chunk_size) kernel.answer_chunk(begin, end);
   }
 
  private:
   using Float = typename Simd::Float;
   using Measure = ClearanceMeasure<Simd>;
   using Search = NearestSearch<Simd, Measure>;
-  static constexpr std::uint32_t chunk = Placements<Simd>::chunk;
 
   explicit ClearanceKernel(const ClearanceArguments& arguments) noexcept
       : arguments_(arguments), shapes_(*arguments.in.shapes), search_(shapes_.nodes) {}
 
-  void answer_chunk(std::size_t begin, std::uint32_t size) noexcept {
-    at_.place(arguments_.in, begin, size);
+  void answer_chunk(std::size_t begin, std::size_t end) noexcept {
+    at_.place(arguments_.in, begin, end);
+    const std::uint32_t size = at_.size;
     of_a_.template load<4>(&shapes_.roots->x, at_.root_a, at_.whole_registers(),
                            arguments_.in.prefetch_shapes);
     of_b_.template load<4>(&shapes_.roots->x, at_.root_b, at_.whole_registers(),
@@ -104,7 +103,7 @@ class ClearanceKernel {
 
   /// Answers pairs of a set in which every cut is a single disc.
   void answer_roots(NearestDiscs* nearest) noexcept {
-    alignas(64) float gap[chunk], x_of[chunk], y_of[chunk];
+    alignas(64) float gap[chunk_size], x_of[chunk_size], y_of[chunk_size];
     for (std::uint32_t k = 0; k < at_.size; k += Simd::width) {
       const auto [x, y, r] = between_roots(k);
       Simd::store(gap + k, Measure::gap(x, y, r));
@@ -123,7 +122,7 @@ class ClearanceKernel {
   const ShapeSetView shapes_;
   Placements<Simd> at_;
   RecordFields<Simd> of_a_, of_b_;
-  alignas(64) float root_bound_[chunk];
+  alignas(64) float root_bound_[chunk_size];
   std::uint32_t searched_[Search::capacity];  ///< pairs of the chunk
   Search search_;
 };

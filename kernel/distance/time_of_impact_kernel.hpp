@@ -22,16 +22,14 @@ template <class Simd>
 class TimeOfImpactKernel {
  public:
   static void run(const TimeOfImpactArguments& arguments, std::size_t begin, std::size_t end) noexcept {
-    static_assert(sizeof(TimeOfImpactKernel) <= 256 * 1024, "what collide.hpp promises, and room for calls");
+    static_assert(sizeof(TimeOfImpactKernel) <= 256 * 1024, "what query.hpp promises, and room for calls");
     TimeOfImpactKernel kernel(arguments);
-    for (; begin < end; begin += chunk)
-      kernel.answer_chunk(begin, end - begin < chunk ? static_cast<std::uint32_t>(end - begin) : chunk);
+    for (; begin < end; begin += chunk_size) kernel.answer_chunk(begin, end);
     kernel.walk_.run(0);
   }
 
  private:
   using Measure = TimeOfImpactMeasure<Simd>;
-  static constexpr std::uint32_t chunk = Placements<Simd>::chunk;
 
   explicit TimeOfImpactKernel(const TimeOfImpactArguments& arguments) noexcept
       : arguments_(arguments),
@@ -39,8 +37,9 @@ class TimeOfImpactKernel {
         axis_test_(shapes_, at_),
         walk_(shapes_.nodes, arguments.time) {}
 
-  void answer_chunk(std::size_t begin, std::uint32_t size) noexcept {
-    at_.place(arguments_.in, begin, size);
+  void answer_chunk(std::size_t begin, std::size_t end) noexcept {
+    at_.place(arguments_.in, begin, end);
+    const std::uint32_t size = at_.size;
     turn_ways(arguments_.x + begin, arguments_.y + begin);
     float* const time = arguments_.time + begin;
     open_.size = 0;
@@ -115,11 +114,11 @@ class TimeOfImpactKernel {
 
   const TimeOfImpactArguments& arguments_;
   const ShapeSetView shapes_;
-  alignas(64) float x_[chunk], y_[chunk];  ///< the chunk's ways
+  alignas(64) float x_[chunk_size], y_[chunk_size];  ///< the chunk's ways
   Placements<Simd> at_;
   SeparatingAxisTest<Simd> axis_test_;
-  std::uint32_t row_a_[chunk], row_b_[chunk];  ///< of the supports, where they are not in order
-  ChunkPairs<Simd, chunk> open_;
+  std::uint32_t row_a_[chunk_size], row_b_[chunk_size];  ///< of the supports, where they are not in order
+  ChunkPairs<Simd, chunk_size> open_;
   TimeOfImpactWalk<Simd> walk_;
 };
 

@@ -79,12 +79,12 @@ const Implementation& chosen(const QueryOptions& options, const char* query) {
   return *wanted;
 }
 
-bool exact_leaves(Leaves leaves, const char* query) {
+bool exact_leaves(const ShapeSet& shapes, Leaves leaves, const char* query) {
   if (leaves != Leaves::discs && leaves != Leaves::segments)
     throw std::invalid_argument(std::string(query) + ": no leaves are " +
                                 std::to_string(static_cast<int>(leaves)) +
                                 ", only discs (0) and segments (1)");
-  return leaves == Leaves::segments;
+  return leaves == Leaves::segments && shapes.exact_leaves();
 }
 
 Arguments arguments_for(const ShapeSetView& view, const Agents& agents, std::span<const Pair> pairs) {

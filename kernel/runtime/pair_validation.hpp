@@ -22,9 +22,9 @@ constexpr std::size_t pairs_per_task = 2048;
 /// Errors:  throws std::invalid_argument naming the query where this processor does not run it.
 const Implementation& chosen(const QueryOptions& options, const char* query);
 
-/// Returns whether `leaves` selects segments.
+/// Returns whether segments decide at some leaves: `leaves` selects them, and the set has them.
 /// Errors:  throws std::invalid_argument naming the query on a value that is none.
-bool exact_leaves(Leaves leaves, const char* query);
+bool exact_leaves(const ShapeSet& shapes, Leaves leaves, const char* query);
 
 /// Returns the input of a query. Everything has to outlive the arguments; `pairs` may be empty.
 Arguments arguments_for(const ShapeSetView& view, const Agents& agents, std::span<const Pair> pairs);

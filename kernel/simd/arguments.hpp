@@ -14,7 +14,7 @@ namespace bch::detail {
 struct ShapeSetView;
 
 /// Pairs that a kernel takes through its stages together.
-constexpr std::uint32_t pairs_per_chunk = 256;
+constexpr std::uint32_t chunk_size = 256;
 
 /// What a pair kernel reads and writes: plain pointers only, because every inline function that an ISA's
 /// object shares with other objects might be the copy that the linker keeps, compiled for a processor that is

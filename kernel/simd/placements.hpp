@@ -22,11 +22,9 @@ namespace bch::detail {
 template <class Simd>
 class Placements {
  public:
-  static constexpr std::uint32_t chunk = pairs_per_chunk;
-
-  /// Places `size` pairs from `begin` on, at most a chunk.
-  void place(const Arguments& in, std::size_t begin, std::uint32_t count) noexcept {
-    size = count;
+  /// Places the pairs from `begin` on, at most a chunk, and none from `end` on.
+  void place(const Arguments& in, std::size_t begin, std::size_t end) noexcept {
+    size = end - begin < chunk_size ? static_cast<std::uint32_t>(end - begin) : chunk_size;
     name_agents<false>(in, begin);
     in.prefetch_agents ? find_roots<true, false>(in) : find_roots<false, false>(in);
     turn<false>(in);
@@ -57,10 +55,10 @@ class Placements {
 
   std::uint32_t size = 0;
 
-  // Up to whole_registers(), lanes beyond the last pair repeat it.
-  alignas(64) float c[chunk], s[chunk], tx[chunk], ty[chunk];  ///< as in layout/base/rounding.hpp
-  std::uint32_t shape_a[chunk], shape_b[chunk];
-  std::uint32_t root_a[chunk], root_b[chunk];  ///< shape * level_count + level
+  // Up to whole_registers(), lanes beyond the last pair repeat it. The transform is as in layout/base/rounding.hpp.
+  alignas(64) float c[chunk_size], s[chunk_size], tx[chunk_size], ty[chunk_size];
+  std::uint32_t shape_a[chunk_size], shape_b[chunk_size];
+  std::uint32_t root_a[chunk_size], root_b[chunk_size];  ///< shape * level_count + level
 
  private:
   static constexpr std::uint32_t pairs_ahead = 32;  ///< that agents are prefetched
@@ -220,8 +218,8 @@ class Placements {
     return within == all;
   }
 
-  alignas(64) std::uint32_t a_[chunk], b_[chunk];  ///< agents, padded as above
-  alignas(64) float cosine_[chunk], sine_[chunk];
+  alignas(64) std::uint32_t a_[chunk_size], b_[chunk_size];  ///< agents, padded as above
+  alignas(64) float cosine_[chunk_size], sine_[chunk_size];
 };
 
 }  // namespace bch::detail

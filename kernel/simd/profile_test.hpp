@@ -65,7 +65,6 @@ class ProfileTest {
  private:
   using Float = typename Simd::Float;
   using Fields = RecordFields<Simd>;
-  static constexpr std::uint32_t chunk = pairs_per_chunk;
   /// The unit of record indices, in floats: half a record. That is the largest scale that an address can
   /// hold; a larger one takes an additional instruction for each record.
   static constexpr std::size_t stride = 2;
@@ -123,8 +122,8 @@ class ProfileTest {
   const ShapeSetView& shapes_;
   const Placements<Simd>& at_;
   const bool prefetch_;
-  alignas(64) std::uint32_t record_a_[chunk], record_b_[chunk];
-  alignas(64) float distance_[chunk], sector_a_[chunk], sector_b_[chunk];
+  alignas(64) std::uint32_t record_a_[chunk_size], record_b_[chunk_size];
+  alignas(64) float distance_[chunk_size], sector_a_[chunk_size], sector_b_[chunk_size];
   Fields of_a_, of_b_;
 };
 

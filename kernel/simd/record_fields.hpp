@@ -13,7 +13,7 @@ namespace bch::detail {
 /// of tables.
 template <class Simd>
 struct RecordFields {
-  alignas(64) float field[4][pairs_per_chunk];
+  alignas(64) float field[4][chunk_size];
 
   static constexpr std::uint32_t records_ahead = 32;  ///< that are asked for, with `prefetch`
 

@@ -40,7 +40,7 @@ class SeparatingAxisTest {
                                  1.4966058f,  2.4142136f,  5.0273395f};
     constexpr float cosine_of[] = {c1, c2, c3, c4, c5, c6, c7};
     constexpr float cotangent = 5.0273395f, one_over_sine = 5.1258309f;  // of D
-    alignas(64) float offset[chunk];
+    alignas(64) float offset[chunk_size];
     const Float zero(0.0f);
     const std::uint32_t count = at_.whole_registers();
     for (std::uint32_t k = 0; k < count; k += Simd::width) {
@@ -116,7 +116,6 @@ class SeparatingAxisTest {
   }
 
  private:
-  static constexpr std::uint32_t chunk = pairs_per_chunk;
   using Float = typename Simd::Float;
   using Mask = typename Simd::Mask;
 
@@ -185,8 +184,8 @@ class SeparatingAxisTest {
   const Placements<Simd>& at_;
   const float* rows_;
   const std::uint32_t *row_a_, *row_b_;  ///< per pair
-  alignas(64) std::int32_t offset_[chunk];
-  alignas(64) float lower_[chunk], upper_[chunk];
+  alignas(64) std::int32_t offset_[chunk_size];
+  alignas(64) float lower_[chunk_size], upper_[chunk_size];
 };
 
 }  // namespace bch::detail

@@ -21,7 +21,7 @@ struct TransformOf {
   [[gnu::always_inline]] PointIn<Float> apply(Float x, Float y) const noexcept {
     return {tx + (c * x - s * y), ty + (s * x + c * y)};
   }
-  /// The same one in every lane.
+  /// Returns the same one in every lane.
   template <class Wide>
   [[gnu::always_inline]] TransformOf<Wide> in_lanes() const noexcept {
     return {Wide(c), Wide(s), Wide(tx), Wide(ty)};

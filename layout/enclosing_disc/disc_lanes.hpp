@@ -33,6 +33,7 @@ class DiscLanes {
   using Batch = xsimd::batch<double, Arch>;
   using Mask = typename Batch::batch_bool_type;
   static constexpr std::size_t width = Batch::size;
+  static_assert(width <= disc_set_lanes);
 
   struct Point {
     Batch x, y;

@@ -41,6 +41,6 @@ struct DiscSets {
 };
 
 /// The widest registers' lanes.
-constexpr std::size_t disc_set_lanes = 8;
+constexpr std::size_t disc_set_lanes = 4;
 
 }  // namespace bch::detail

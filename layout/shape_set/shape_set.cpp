@@ -153,9 +153,11 @@ std::vector<Disc> ShapeSet::discs(std::uint32_t shape, std::uint32_t level) cons
 float ShapeSet::bounding_radius(std::uint32_t shape) const {
   require(shape < shape_count(), "shape", shape, shape_count());
   double farthest = 0;
-  for (std::uint32_t level = 0; level < level_count(); ++level)
-    for (const auto& [x, y, radius] : discs(shape, level))
-      farthest = std::max(farthest, std::hypot(double{x}, double{y}) + double{radius});
+  for (std::uint32_t level = 0; level < level_count(); ++level) {
+    const CutDiscs cut = cut_discs(view(), shape * level_count() + level);
+    for (std::uint32_t i = 0; i < cut.count; ++i)
+      farthest = std::max(farthest, std::hypot(double{cut.x[i]}, double{cut.y[i]}) + double{cut.radius[i]});
+  }
   return rounding::round_up(farthest * (1 + 0x1p-50));
 }
 

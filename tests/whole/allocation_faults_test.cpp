@@ -257,7 +257,12 @@ TEST_F(AllocationFaults, CrowdColliderAnswersTheNextCall) {
 
 TEST_F(AllocationFaults, Contacts) {
   const std::vector<Pair> pairs = candidate_pairs(set, crowd.agents());
-  fail_each_with_threads([&] { ContactFinder().find(set, crowd.agents(), pairs); }, [] {}, 2);
+  ContactFinder finder;
+  const std::size_t expected = ContactFinder().find(set, crowd.agents(), pairs).values.size();
+  ASSERT_GT(expected, 100u);
+  fail_each_with_threads([&] { ContactFinder().find(set, crowd.agents(), pairs); },
+                         [&] { EXPECT_EQ(finder.find(set, crowd.agents(), pairs).values.size(), expected); },
+                         2);
 }
 
 /// Answers that need no memory come without any, once TBB has its own.

@@ -40,8 +40,8 @@ class BroadPhase {
   std::span<const Pair> find(const ShapeSet& shapes, const Agents& agents, double margin = 0);
 
  private:
-  struct Scratch;
-  std::unique_ptr<Scratch> scratch_;
+  struct State;
+  std::unique_ptr<State> state_;
 };
 
 /// Returns the pairs of BroadPhase::find(), with memory that is given back.

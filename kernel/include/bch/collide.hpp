@@ -26,9 +26,8 @@ namespace bch {
 ///          range, a position or heading that is not finite or beyond the limits, unknown semantics or leaves, solid
 ///          semantics on a set that was not planned for it, an implementation that this processor does not
 ///          run; the message names the agent or pair and the value. Agents that no pair names are not checked.
-/// Threads: runs in the caller's TBB arena, where each thread needs 320 KiB of stack, for this and every
-///          other query. The rounding mode, treatment of denormals and traps that threads are set to do not
-///          matter to any, and stay as they are. An exception or cancellation of tasks beside it does not
+/// Threads: runs in the caller's TBB arena. The rounding mode, treatment of denormals and traps that threads are set to
+///          do not matter to any query, and stay as they are. An exception or cancellation of tasks beside it does not
 ///          touch it.
 void collide(const ShapeSet& shapes, const Agents& agents, std::span<const Pair> pairs,
              std::span<std::uint8_t> hits, const QueryOptions& options = {});

@@ -33,8 +33,8 @@ class CrowdCollider {
                                   const QueryOptions& options = {});
 
  private:
-  struct Scratch;
-  std::unique_ptr<Scratch> scratch_;
+  struct State;
+  std::unique_ptr<State> state_;
 };
 
 }  // namespace bch

@@ -59,7 +59,7 @@ struct Hierarchy {
 /// Errors:  throws std::invalid_argument naming the node and the value.
 void validate(const Hierarchy& hierarchy);
 
-/// Where the plane goes that divides a node's segments; its normal is the axis of the larger extent.
+/// Selects where the plane goes that divides a node's segments; its normal is the axis of the larger extent.
 enum class SplitRule {
   centroid,  ///< through the centroid, weighted by length so that detailed parts do not pull it
   centre,    ///< through the middle of the extent

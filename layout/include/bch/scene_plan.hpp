@@ -33,7 +33,7 @@ constexpr double pairs_for_culling = 500;
 
 /// What will be asked of a scene.
 struct SceneUse {
-  /// Whether queries use the solid semantics, too.
+  /// Queries use the solid semantics, too.
   bool solid = false;
   /// What decides at the leaves of the level of all depths, if there is one.
   Leaves leaves = Leaves::segments;

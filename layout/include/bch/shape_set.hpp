@@ -69,11 +69,11 @@ class ShapeSet {
   std::uint32_t shape_count() const noexcept;
   std::uint32_t level_count() const noexcept { return static_cast<std::uint32_t>(depths().size()); }
   std::span<const std::uint32_t> depths() const noexcept;
-  /// Whether solid semantics can be asked: every shape has its outline here, or every cut is a single disc.
+  /// Returns whether solid semantics can be asked: every shape has its outline here, or every cut is a single disc.
   bool solid() const noexcept;
-  /// Whether some level of some shape has exact leaves.
+  /// Returns whether some level of some shape has exact leaves.
   bool exact_leaves() const noexcept;
-  /// Whether every cut is a single disc: there are roots and nothing else.
+  /// Returns whether every cut is a single disc: there are roots and nothing else.
   bool roots_only() const noexcept;
   /// Returns the plan of what is stored: of roots alone no more than the depths.
   ShapeSetPlan plan() const;
@@ -83,7 +83,7 @@ class ShapeSet {
   /// Errors:  throws std::out_of_range on an index out of range.
   std::vector<Disc> discs(std::uint32_t shape, std::uint32_t level) const;
   /// Returns the radius about an agent's position that holds all discs of its shape, at every level and heading, metres.
-  /// Cost:    linear in the discs, and allocates.
+  /// Cost:    linear in the discs.
   /// Errors:  throws std::out_of_range on an index out of range.
   float bounding_radius(std::uint32_t shape) const;
 

@@ -16,8 +16,8 @@
 #include <bch/pose_shape.hpp>
 #include <bch/time_of_impact.hpp>
 
-// Continuous motion: two groups of people walk through each other in steps of half a second. Who looks only at where a
-// step ends lets them pass through each other on the way; who asks for the time of impact stops them before.
+// Continuous motion: two groups of people walk through each other in steps of half a second. A test of
+// where a step ends misses those who passed through each other on the way; time_of_impact() stops them at the contact.
 
 namespace {
 
