@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "layout/base/planes.hpp"
 #include "layout/outline/candidates.hpp"
 #include "layout/outline/contour_index.hpp"
 #include "layout/outline/grid_snap.hpp"
@@ -46,17 +47,19 @@ struct OutlineBuilder::State {
         topology(outline_topology(triangles, vertex_count, bind_pose)),
         points(topology.used.size()),
         candidates(topology, implementation),
-        walk(topology, candidates, implementation),
-        leftmost(topology.island_vertex.size()) {
-    outside.reserve(leftmost.size());
-    places.reserve(leftmost.size());
-    later.reserve(leftmost.size());
+        walk(implementation) {
+    const std::size_t islands = topology.island_vertex.size();
+    leftmost.reserve(islands), outside.reserve(islands), places.reserve(islands);
+    later.reserve(islands);
   }
 
   template <class Position>
+  double snap(std::span<const Position> positions);
+  template <class Position>
   void build(std::span<const Position> positions, Outline& outline);
-  void walk_all();
-  void find_outside();
+  Heights build(std::span<const Vec3> positions, std::span<const float> planes, std::span<Outline> slabs);
+  void walk_all(const CandidateList& list);
+  void find_outside(const CandidateList& list);
   void walk_outside();
   bool is_in_later_contour(GridPoint point) const;
   std::span<const Stretch> contour(std::size_t i) const {
@@ -72,6 +75,9 @@ struct OutlineBuilder::State {
   OutlineTopology topology;
   std::vector<GridPoint> points;
   OutlineCandidates candidates;
+  CandidateList whole;
+  PlaneCuts cuts;
+  std::vector<CandidateList> slab_lists;
   OutlineWalk walk;
   std::vector<Stretch> stretches;
   std::vector<std::size_t> contour_begin;
@@ -83,28 +89,53 @@ struct OutlineBuilder::State {
 };
 
 template <class Position>
-void OutlineBuilder::State::build(std::span<const Position> positions, Outline& outline) {
+double OutlineBuilder::State::snap(std::span<const Position> positions) {
   if (positions.size() != vertices)
     throw std::invalid_argument("outline: " + std::to_string(positions.size()) + " positions for " +
                                 std::to_string(vertices) + " vertices");
-  const double step = snap_to_grid(positions, topology.used, points);
-  candidates.find(topology, points);
-  if (candidates.segments().empty())
+  return snap_to_grid(positions, topology.used, points);
+}
+
+template <class Position>
+void OutlineBuilder::State::build(std::span<const Position> positions, Outline& outline) {
+  const double step = snap(positions);
+  candidates.find(topology, points, whole);
+  if (whole.segments().empty())
     throw std::invalid_argument("outline: every triangle is a point when seen from above");
-  walk_all();
+  walk_all(whole);
   write(step, outline);
 }
 
+Heights OutlineBuilder::State::build(std::span<const Vec3> positions, std::span<const float> planes,
+                                     std::span<Outline> slabs) {
+  if (slabs.size() != planes.size() + 1)
+    throw std::invalid_argument("outline: " + std::to_string(slabs.size()) + " slabs for " +
+                                std::to_string(planes.size()) + " planes");
+  require_planes(planes);
+  const double step = snap(positions);
+  cuts.cut(topology, positions, points, step, planes);
+  slab_lists.resize(slabs.size());
+  candidates.find(topology, points, cuts, slab_lists);
+  bool any = false;
+  for (std::size_t i = 0; i < slabs.size(); ++i) {
+    contour_begin.assign(1, 0);
+    if (!slab_lists[i].segments().empty()) walk_all(slab_lists[i]), any = true;
+    write(step, slabs[i]);
+  }
+  if (!any) throw std::invalid_argument("outline: every triangle is a point when seen from above");
+  return cuts.heights();
+}
+
 /// Finds all contours. An island is connected and no contour crosses it, so unless a contour has come along
-/// it, it is as a whole inside or outside, and any of its vertices tells. Of pieces that touch, the one with
+/// it, it is as a whole inside or outside, and any of its points tells. Of pieces that touch, the one with
 /// the leftmost vertex comes first.
-void OutlineBuilder::State::walk_all() {
+void OutlineBuilder::State::walk_all(const CandidateList& list) {
   stretches.clear();
   contour_begin.assign(1, 0);
-  walk.begin_pose();
-  walk_from(candidates.boxes().first_end(candidates.segments().data()));
+  walk.begin(list);
+  walk_from(list.boxes().first_end(list.segments().data()));
 
-  find_outside();
+  find_outside(list);
   if (!outside.empty()) walk_outside();
 }
 
@@ -122,22 +153,22 @@ void OutlineBuilder::State::walk_outside() {
 }
 
 /// Fills outside, in the order of the islands' leftmost vertices.
-void OutlineBuilder::State::find_outside() {
+void OutlineBuilder::State::find_outside(const CandidateList& list) {
   outside.clear();
-  for (std::uint32_t island = 0; island < leftmost.size(); ++island)
+  const std::span<const GridPoint> island_points = list.island_points();
+  for (std::uint32_t island = 0; island < island_points.size(); ++island)
     if (!walk.touched(island)) outside.push_back(island);
   if (outside.empty()) return;
   covers.clear();
   covers.add(contour(0));
-  std::erase_if(outside, [&](std::uint32_t island) {
-    return covers.covers(0, contour(0), points[topology.island_vertex[island]]);
-  });
+  std::erase_if(outside,
+                [&](std::uint32_t island) { return covers.covers(0, contour(0), island_points[island]); });
   if (outside.empty()) return;
 
-  std::fill(leftmost.begin(), leftmost.end(), beyond);
-  const std::span<const Segment> segments = candidates.segments();
+  leftmost.assign(island_points.size(), beyond);
+  const std::span<const Segment> segments = list.segments();
   for (std::size_t i = 0; i < segments.size(); ++i) {
-    GridPoint& first = leftmost[topology.island[candidates.vertex(i)]];
+    GridPoint& first = leftmost[list.island(i)];
     first = first_of(first, first_of(segments[i].a, segments[i].b));
   }
   // Islands without candidates are points, or see other islands named for the edges they share.
@@ -192,6 +223,11 @@ void OutlineBuilder::build(std::span<const Vec2> positions, Outline& outline) {
 
 void OutlineBuilder::build(std::span<const Vec3> positions, Outline& outline) {
   state_->build(positions, outline);
+}
+
+Heights OutlineBuilder::build(std::span<const Vec3> positions, std::span<const float> planes,
+                              std::span<Outline> slabs) {
+  return state_->build(positions, planes, slabs);
 }
 
 }  // namespace bch

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <bit>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -11,9 +12,42 @@
 #include "layout/outline/box_tree.hpp"
 #include "layout/outline/grid_geometry.hpp"
 #include "layout/outline/implementation.hpp"
+#include "layout/outline/plane_cuts.hpp"
 #include "layout/outline/topology.hpp"
 
 namespace bch::detail {
+
+/// Segments that may be part of an outline, found through the boxes around them. Each belongs to an island: a connected part
+/// of the union, which no contour crosses.
+class CandidateList {
+ public:
+  /// Begins an empty list with room for so many segments.
+  void begin(std::size_t room);
+  /// Adds a segment, unless it is a point. A point that goes through memory is best moved as one value; one that is not wanted
+  /// is overwritten by the next.
+  void add(GridPoint a, GridPoint b, std::uint32_t island) {
+    const auto from = std::bit_cast<std::uint64_t>(a), to = std::bit_cast<std::uint64_t>(b);
+    segments_[count_] = {std::bit_cast<GridPoint>(from), std::bit_cast<GridPoint>(to)};
+    islands_[count_] = island;
+    count_ += from != to;
+  }
+  /// Takes the islands, and a point of each.
+  void finish(std::span<const GridPoint> island_points);
+
+  std::span<const Segment> segments() const { return {segments_.data(), count_}; }  ///< none is a point
+  std::size_t room() const { return segments_.size(); }  ///< for segments, and a block more
+  std::span<std::uint32_t> islands() { return {islands_.data(), count_}; }  ///< of each segment
+  std::uint32_t island(std::size_t segment) const { return islands_[segment]; }
+  std::span<const GridPoint> island_points() const { return island_points_; }
+  const BoxTree& boxes() const { return boxes_; }
+
+ private:
+  std::vector<Segment> segments_;  ///< and room for a block more, as in the next
+  std::vector<std::uint32_t> islands_;
+  std::vector<GridPoint> island_points_;
+  std::size_t count_ = 0;
+  BoxTree boxes_;
+};
 
 /// The edges of a pose that may be part of its outline. A point inside an edge with triangles on both sides is
 /// inside the union, so only edges whose triangles all lie on one side remain (a triangle seen edge-on, or nearly,
@@ -23,24 +57,30 @@ class OutlineCandidates {
   OutlineCandidates(const OutlineTopology& topology, const OutlineImplementation& implementation);
 
   /// Finds those of the pose in which vertex i is at points[i]. Allocates nothing.
-  void find(const OutlineTopology& topology, std::span<const GridPoint> points);
+  void find(const OutlineTopology& topology, std::span<const GridPoint> points, CandidateList& list);
 
-  std::span<const Segment> segments() const { return {segments_.data(), count_}; }  ///< none is a point
-  std::uint32_t vertex(std::size_t segment) const { return vertices_[segment]; }    ///< at the segment's a
-  const BoxTree& boxes() const { return boxes_; }
+  /// Finds those of every slab of a pose that planes cut: of the part of the mesh that lies in it.
+  void find(const OutlineTopology& topology, std::span<const GridPoint> points, PlaneCuts& cuts,
+            std::span<CandidateList> slabs);
 
  private:
-  void add(std::span<const GridPoint> points, std::uint32_t a, std::uint32_t b);
-  void add_uses(std::span<const GridPoint> points, std::span<const OutlineTopology::EdgeUse> uses);
+  using EdgeUses = std::span<const OutlineTopology::EdgeUse>;
+
+  void find_sides(std::span<const GridPoint> points);
+  std::span<const std::uint32_t> choose(const OutlineTopology& topology);
+  void add_uses(std::span<const GridPoint> points, EdgeUses uses, const OutlineTopology& topology,
+                CandidateList& list) const;
+  std::uint8_t side_in_slab(std::uint32_t triangle, std::uint32_t slab, const PlaneCuts& cuts) const;
+  void add_edge(const OutlineTopology::ManifoldEdge& edge, const OutlineTopology::EdgeTriangles& triangles,
+                PlaneCuts& cuts, std::span<CandidateList> slabs) const;
+  void add_uses(EdgeUses uses, PlaneCuts& cuts, std::span<CandidateList> slabs) const;
 
   const OutlineImplementation* implementation_;
   std::vector<std::array<std::uint32_t, 3>> triangles_;  ///< and points up to a multiple of four
-  std::vector<std::uint8_t> sides_;                      ///< of each triangle
+  std::vector<std::uint8_t> sides_;                      ///< of each triangle; 0 of one that is cut
   std::vector<std::uint32_t> chosen_;                    ///< manifold edges
-  std::vector<Segment> segments_;                        ///< and room for a block more, as in the next
-  std::vector<std::uint32_t> vertices_;
-  std::size_t count_ = 0;
-  BoxTree boxes_;
+  std::vector<GridPoint> island_points_;
+  std::vector<std::uint32_t> numbers_;  ///< of islands, by the nodes that stand for them
 };
 
 }  // namespace bch::detail

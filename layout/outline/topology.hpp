@@ -36,7 +36,11 @@ struct OutlineTopology {
   std::vector<EdgeTriangles> manifold_triangles;
   std::vector<EdgeUse> uses;              ///< edge after edge
   std::vector<std::uint32_t> uses_begin;  ///< of each edge that is not manifold, and the end
-  std::vector<std::uint32_t> island;      ///< of each vertex: parts that share no vertex have different ones
+  std::size_t edges_of_uses() const { return uses_begin.size() - 1; }
+  std::span<const EdgeUse> uses_of(std::size_t edge) const {
+    return std::span(uses).subspan(uses_begin[edge], uses_begin[edge + 1] - uses_begin[edge]);
+  }
+  std::vector<std::uint32_t> island;  ///< of each vertex: parts that share no vertex have different ones
   std::vector<std::uint32_t> island_vertex;  ///< one vertex of each island
 };
 

@@ -39,28 +39,20 @@ std::int16_t cell(std::int32_t steps) {
 
 }  // namespace
 
-OutlineWalk::OutlineWalk(const OutlineTopology& topology, const OutlineCandidates& candidates,
-                         const OutlineImplementation& implementation)
-    : topology_(&topology),
-      candidates_(&candidates),
-      implementation_(&implementation),
-      near_(topology.manifold.size() + topology.uses.size() + boxes_per_block),
-      side_a_(near_.size()),
-      side_b_(near_.size()),
-      along_(near_.size()),
-      at_(near_.size()),
-      crossing_(near_.size() / 64 + 1),
-      ending_(near_.size() / 64 + 1),
-      touched_(topology.island_vertex.size()) {}
-
-void OutlineWalk::begin_pose() {
+void OutlineWalk::begin(const CandidateList& candidates) {
+  candidates_ = &candidates;
+  if (const std::size_t most = candidates.room(); near_.size() < most) {
+    near_.resize(most);
+    for (std::vector<double>* const each : {&side_a_, &side_b_, &along_, &at_}) each->resize(most);
+    for (std::vector<std::uint64_t>* const each : {&crossing_, &ending_}) each->resize(most / 64 + 1);
+  }
   candidates_->boxes().describe(search_);
   search_.segments = candidates_->segments().data();
   search_.near = near_.data();
   search_.side_a = side_a_.data(), search_.side_b = side_b_.data();
   search_.along = along_.data(), search_.at = at_.data();
   search_.crossing = crossing_.data(), search_.ending = ending_.data();
-  std::fill(touched_.begin(), touched_.end(), std::uint8_t{0});
+  touched_.assign(candidates.island_points().size(), 0);
   has_tree_ = candidates_->segments().size() >= many_candidates;
   if (has_tree_) tree_.assign(candidates_->segments());
 }
@@ -199,7 +191,7 @@ void OutlineWalk::take_first_direction(const Place& here, Stretch& next) {
 }
 
 void OutlineWalk::touch(std::uint32_t segment) {
-  touched_[topology_->island[candidates_->vertex(segment)]] = 1;
+  touched_[candidates_->island(segment)] = 1;
 }
 
 }  // namespace bch::detail

@@ -31,11 +31,10 @@ struct Stretch {
 /// candidates cut each other, so the first piece must come again, and it is the first that comes again.
 class OutlineWalk {
  public:
-  /// Both must outlive this and not change between begin_pose() and the last walk().
-  OutlineWalk(const OutlineTopology& topology, const OutlineCandidates& candidates,
-              const OutlineImplementation& implementation);
+  explicit OutlineWalk(const OutlineImplementation& implementation) : implementation_(&implementation) {}
 
-  void begin_pose();
+  /// Walks along these candidates from now on, which must not change before the last walk().
+  void begin(const CandidateList& candidates);
 
   /// Appends the stretches of the contour through a vertex that is the lexicographically smallest of its
   /// connected piece of the union, starting there.
@@ -55,13 +54,12 @@ class OutlineWalk {
   void take_first_direction(const Place& here, Stretch& next);
   void touch(std::uint32_t segment);
 
-  const OutlineTopology* topology_;
-  const OutlineCandidates* candidates_;
   const OutlineImplementation* implementation_;
+  const CandidateList* candidates_ = nullptr;
   std::vector<std::uint32_t> near_;
   std::vector<double> side_a_, side_b_, along_, at_;
   std::vector<std::uint64_t> crossing_, ending_;
-  SegmentSearch search_;        ///< with results in the arrays above
+  SegmentSearch search_{};      ///< with results in the arrays above
   std::size_t near_count_ = 0;  ///< candidates that the current stretch may meet
   std::vector<std::uint8_t> touched_;
   SegmentTree tree_;  ///< over the candidates, where they are many

@@ -3,6 +3,8 @@
 
 #pragma once
 
+#include <limits>
+
 namespace bch {
 
 /// A point or vector of the ground plane, metres.
@@ -42,6 +44,13 @@ struct Disc {
   float y = 0;
   float radius = 0;
   friend bool operator==(const Disc&, const Disc&) = default;
+};
+
+/// The heights that a body or a part of one takes, metres above the ground that its agent stands on. By default all.
+struct Heights {
+  float bottom = -std::numeric_limits<float>::infinity();
+  float top = std::numeric_limits<float>::infinity();
+  friend bool operator==(const Heights&, const Heights&) = default;
 };
 
 }  // namespace bch

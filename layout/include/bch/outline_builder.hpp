@@ -52,6 +52,16 @@ class OutlineBuilder {
   /// Writes the outline of positions with heights, which may have any value.
   void build(std::span<const Vec3> positions, Outline& outline);
 
+  /// Writes the outlines of the slabs that horizontal planes cut a pose into: of what lies between two of them, below the
+  /// first, and above the last. Triangles are cut. A slab that nothing lies in gets an outline without contours. A point that two
+  /// meshes share lies within 1.5 grid steps of both outlines of one slab, however the meshes lie to the planes; so a plane is half
+  /// a float step above its number.
+  /// Sizes:   slabs.size() == planes.size() + 1.
+  /// Units:   metres above the ground, ascending; at most 63 planes.
+  /// Returns: the heights of all vertices that triangles use.
+  /// Errors:  as the others; and on planes that are not finite or do not ascend, or a height that is not finite.
+  Heights build(std::span<const Vec3> positions, std::span<const float> planes, std::span<Outline> slabs);
+
   // For the library's own parts, which alone know this type.
 
   /// Uses a given implementation instead of the best. This processor has to support it.
