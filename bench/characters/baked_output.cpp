@@ -31,11 +31,13 @@ bool is_array(std::size_t part) {
 
 }  // namespace
 
-BakedOutput::BakedOutput(const std::string& file, std::size_t shapes, std::size_t levels)
-    : file_(file), nodes_offset_(detail::baked::nodes_offset(shapes, levels)) {}
+BakedOutput::BakedOutput(const std::string& file, std::size_t shapes, const ShapeSetPlan& plan)
+    : file_(file),
+      can_write_ahead_(file_.is_regular() && plan.slices.empty()),
+      nodes_offset_(detail::baked::nodes_offset(shapes, plan.depths.size())) {}
 
 void BakedOutput::write_ahead(std::span<const float> nodes) {
-  if (!file_.is_regular()) return;
+  if (!can_write_ahead_) return;
   const auto bytes = std::as_bytes(nodes);
   const std::uint64_t begin = nodes_offset_ + ahead_, end = (nodes_offset_ + bytes.size()) / piece * piece;
   if (end <= begin) return;
@@ -75,7 +77,7 @@ void BakedOutput::finish(const BakedShapes& baked) {
 BakedShapes bake_file(const std::string& file, std::span<const LoadedCharacter> characters,
                       std::span<const ShapeSource> sources, double threshold, const ShapeSetPlan& plan,
                       const CostLimits& limits) {
-  BakedOutput output(file, sources.size(), plan.depths.size());
+  BakedOutput output(file, sources.size(), plan);
   const auto write_ahead = [&](std::span<const float> nodes) { output.write_ahead(nodes); };
   BakedShapes baked{bake_shapes(characters, sources, threshold, plan, write_ahead, limits),
                     origins_of(characters, sources, threshold)};

@@ -22,7 +22,7 @@ class BakedOutput {
  public:
   /// Opens a file for a set of so many shapes and levels.
   /// Errors:  as OutputFile throws.
-  BakedOutput(const std::string& file, std::size_t shapes, std::size_t levels);
+  BakedOutput(const std::string& file, std::size_t shapes, const ShapeSetPlan& plan);
 
   /// Writes the nodes of the shapes so far, from the first one on; they must not change any more.
   void write_ahead(std::span<const float> nodes);
@@ -34,6 +34,7 @@ class BakedOutput {
   void write_arrays(const detail::ShapeArrays& shapes);
 
   OutputFile file_;
+  bool can_write_ahead_;  ///< where it is known how many parts stand before the nodes
   std::uint64_t nodes_offset_;
   std::size_t ahead_ = 0;  ///< bytes of nodes that are written
 };

@@ -31,7 +31,7 @@ ShapeSet bake_shapes(std::span<const LoadedCharacter> characters, std::span<cons
   ShapeSetBuilder builder(plan, sources.size());
   Progress progress("baking shapes", sources.size());
   tbb::enumerable_thread_specific<ShapeMaker> makers(
-      [&] { return ShapeMaker(characters, threshold, plan.depths.back(), false, limits); });
+      [&] { return ShapeMaker(characters, threshold, plan, limits); });
   // Shape i waits in place i % n. They leave in order and no more than n are on their way, so that the place is free
   // again. Indices alone go from stage to stage: the pipeline never destroys what it holds when a stage throws.
   const auto threads = static_cast<std::size_t>(tbb::this_task_arena::max_concurrency());

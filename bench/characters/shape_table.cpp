@@ -79,12 +79,11 @@ namespace {
 
 }  // namespace
 
-ShapeMaker::ShapeMaker(std::span<const LoadedCharacter> characters, double threshold, std::uint32_t deepest,
-                       bool outlines, const CostLimits& limits)
+ShapeMaker::ShapeMaker(std::span<const LoadedCharacter> characters, double threshold,
+                       const ShapeSetPlan& plan, const CostLimits& limits)
     : characters_(characters),
       threshold_(threshold),
-      deepest_(deepest),
-      outlines_(outlines || deepest > 0),
+      plan_(plan),
       limits_(limits),
       shapers_(characters.size()) {}
 
@@ -93,16 +92,18 @@ const Shape& ShapeMaker::make(const ShapeSource& source) {
   auto& shaper = shapers_[source.character];
   try {
     if (!shaper) {
-      shaper.emplace(from.character, static_cast<float>(threshold_), deepest_, outlines_);
+      shaper.emplace(from.character, plan_, static_cast<float>(threshold_));
       shaper->limit_nodes(limits_.nodes);
     }
     const auto begin = Clock::now();
-    const std::size_t contours = outlines_ ? shaper->make_outline(source.at).contours() : 0;
+    const Shape& shape = shaper->make_outlines(source.at);
+    std::size_t contours = shape.outline.contours();
+    for (const Shape& slab : shape.slabs) contours += slab.outline.contours();
     if (contours > limits_.contours)
       reject(from, source.at,
              "its outline has " + beyond_limit(contours, "contours", limits_.contours, "--max-contours"));
     const auto middle = Clock::now();
-    const Shape& shape = outlines_ ? shaper->make_hierarchy() : shaper->shape(source.at);
+    shaper->make_hierarchies();
     timing_ = {seconds_between(begin, middle), seconds_between(middle, Clock::now())};
     return shape;
   } catch (const std::length_error& error) {
@@ -114,7 +115,7 @@ const Shape& ShapeMaker::make(const ShapeSource& source) {
 }
 
 BuiltShapes build_shapes(std::span<const LoadedCharacter> characters, std::span<const ShapeSource> sources,
-                         double threshold, std::uint32_t deepest, const CostLimits& limits) {
+                         double threshold, const ShapeSetPlan& plan, const CostLimits& limits) {
   BuiltShapes built;
   built.shapes.resize(sources.size());
   std::vector<ShapeTiming> timings(sources.size());
@@ -122,7 +123,7 @@ BuiltShapes build_shapes(std::span<const LoadedCharacter> characters, std::span<
 
   // Learning a mesh takes as long as tens of shapes, so that a thread keeps what it learned.
   tbb::enumerable_thread_specific<ShapeMaker> makers(
-      [&] { return ShapeMaker(characters, threshold, deepest, true, limits); });
+      [&] { return ShapeMaker(characters, threshold, plan, limits); });
   tbb::parallel_for(std::size_t{0}, sources.size(), [&](std::size_t i) {
     ShapeMaker& maker = makers.local();
     built.shapes[i] = maker.make(sources[i]);

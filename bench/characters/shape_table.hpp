@@ -44,9 +44,9 @@ struct ShapeTiming {
 /// it is first asked for it. Not for two threads at a time. The characters must outlive it.
 class ShapeMaker {
  public:
-  /// `deepest` and `outlines` as of PoseShaper.
-  ShapeMaker(std::span<const LoadedCharacter> characters, double threshold, std::uint32_t deepest,
-             bool outlines = true, const CostLimits& limits = {});
+  /// `plan` as of PoseShaper.
+  ShapeMaker(std::span<const LoadedCharacter> characters, double threshold, const ShapeSetPlan& plan = {},
+             const CostLimits& limits = {});
 
   /// Makes a shape.
   /// Returns: the shape, until the next call.
@@ -59,8 +59,7 @@ class ShapeMaker {
  private:
   std::span<const LoadedCharacter> characters_;
   double threshold_;
-  std::uint32_t deepest_;
-  bool outlines_;
+  ShapeSetPlan plan_;
   CostLimits limits_;
   std::vector<std::optional<PoseShaper>> shapers_;
   ShapeTiming timing_;
@@ -75,6 +74,6 @@ struct BuiltShapes {
 /// Builds contour hierarchies, in parallel, with a progress bar.
 /// Errors:  as ShapeMaker throws.
 BuiltShapes build_shapes(std::span<const LoadedCharacter> characters, std::span<const ShapeSource> sources,
-                         double threshold, std::uint32_t deepest = all_depths, const CostLimits& limits = {});
+                         double threshold, const ShapeSetPlan& plan = {}, const CostLimits& limits = {});
 
 }  // namespace bch::cli

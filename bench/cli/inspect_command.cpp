@@ -68,8 +68,7 @@ ShapeSource at_index(const LoadedCharacter& from, std::span<const ShapeSource> s
 void inspect_shape(const InspectOptions& options, const LoadedCharacter& from, const ShapeSource& source) {
   const CostLimits& limits = options.shapes.limits;
   const CostGuard guard(limits, {&from, 1}, 1);
-  const BuiltShapes built =
-      build_shapes({&from, 1}, {&source, 1}, options.shapes.threshold, all_depths, limits);
+  const BuiltShapes built = build_shapes({&from, 1}, {&source, 1}, options.shapes.threshold, {}, limits);
   const std::size_t nodes = built.shapes.front().hierarchy.nodes.size();
   if (!options.svg.empty() && nodes > limits.drawn_nodes)
     throw InputError(fmt::format("{}: --svg would draw {}", from.source,
@@ -84,7 +83,7 @@ void inspect_table(const InspectOptions& options, const LoadedCharacter& from,
                    std::span<const ShapeSource> sources) {
   const CostLimits& limits = options.shapes.limits;
   const CostGuard guard(limits, {&from, 1}, sources.size());
-  const BuiltShapes built = build_shapes({&from, 1}, sources, options.shapes.threshold, all_depths, limits);
+  const BuiltShapes built = build_shapes({&from, 1}, sources, options.shapes.threshold, {}, limits);
   const ShapeTable table{sources, built.shapes};
   write_json(options.json, {{"character", json_of(from)}, {"shapes", json_of(from, table)}});
   write_standard_output(text_of(from) + text_of(from, table));

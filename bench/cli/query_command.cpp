@@ -135,8 +135,9 @@ void query_character(const QueryCommandOptions& options) {
   const Threads threads(options.answer.threads);
   const auto used = keep_used(sources, question.table);
   std::optional<CostGuard> guard(std::in_place, limits, std::span(&from, 1), used.size());
-  const BuiltShapes built = build_shapes({&from, 1}, used, options.shapes.threshold, depths.back(), limits);
-  const ShapeSet set(built.shapes, {depths, options.answer.need_outlines()});
+  const ShapeSetPlan plan{.depths = depths, .outlines = options.answer.need_outlines()};
+  const BuiltShapes built = build_shapes({&from, 1}, used, options.shapes.threshold, plan, limits);
+  const ShapeSet set(built.shapes, plan);
   guard.reset();
   answer(options, set, question);
 }

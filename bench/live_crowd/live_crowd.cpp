@@ -40,8 +40,7 @@ std::vector<ShapeSource> random_sources(std::span<const Character> characters, s
 
 LiveCrowd::Workshop::Workshop(std::span<const Character> characters, const ShapeSetPlan& plan)
     : prepared(plan) {
-  for (const Character& character : characters)
-    shapers.emplace_back(character, threshold, plan.depths.back(), false);
+  for (const Character& character : characters) shapers.emplace_back(character, plan, threshold);
 }
 
 const PreparedShape& LiveCrowd::Workshop::make(const ShapeSource& source, std::uint32_t shape) {
@@ -105,7 +104,7 @@ void LiveCrowd::build_shapes() {
 
 std::vector<std::uint8_t> LiveCrowd::hits_of_a_new_set() const {
   std::vector<PoseShaper> shapers;
-  for (const Character& character : characters_) shapers.emplace_back(character, threshold);
+  for (const Character& character : characters_) shapers.emplace_back(character, ShapeSetPlan(), threshold);
   std::vector<Shape> shapes;
   for (const ShapeSource& source : sources_) shapes.push_back(shapers[source.character].shape(source.at));
   std::vector<std::uint8_t> hits(pairs_.size());

@@ -62,7 +62,7 @@ class Planned {
                         std::hypot(crowd.x[i] - 0.5 * crowd.side, crowd.y[i] - 0.5 * crowd.side)});
     plan_ = plan_scene(agents, row.use);
     for (const cli::LoadedCharacter& character : scene.characters())
-      shapers_.emplace_back(character.character, threshold, plan_.set.depths.back(), false);
+      shapers_.emplace_back(character.character, plan_.set, threshold);
     prepared_.emplace(plan_.set);
     set_.emplace(build());
     hits_.resize(workload_.pairs.size());

@@ -45,10 +45,17 @@
 ///     points          Vec2        any     metres; after a contour's last point its first one again
 ///     leaf_segments   u32         any     see below; or none
 ///     segment_margin  f32         S or 0  metres, rounding.hpp; like shape_contours
+///     slices          f32         any     planes that cut bodies into slabs, metres, ascending; at most 63
+///     slab_parts      u32         any     see below; or none
+///     heights         Heights     S or 0  metres: a part's bottom and top, infinite where it has none
 ///     settings        Settings    1
 ///     origins         ShapeOrigin S or 0  what each shape shows
 ///     name_begin      u32         N + 1   name n is bytes [n] to [n + 1] of names
 ///     names           u8          any     UTF-8
+///
+/// Slices. Where there are planes, S is the number of parts. Shape s has in slab j the part slab_parts[s * J + j], where J is the number
+/// of planes and 1, or nothing, 2^32 - 1. Parts are numbered in the order in which they are named first; slabs of one shape that
+/// follow each other may share one.
 ///
 /// Rows. Root::row is 0 where the level's cut is a single disc; else 1, but for a shape's last level, which has the row
 /// after that of the shape before, from 2 on.
@@ -77,7 +84,7 @@ namespace bch::detail::baked {
 constexpr std::array<std::uint8_t, 8> magic{0x89, 'B', 'C', 'H', '\r', '\n', 0x1a, '\n'};
 constexpr std::uint32_t byte_order = 0x01020304;
 constexpr std::uint32_t other_byte_order = 0x04030201;
-constexpr std::uint32_t version = 4;
+constexpr std::uint32_t version = 5;
 constexpr std::size_t alignment = 64;
 
 struct FileHeader {
@@ -106,6 +113,9 @@ enum class Section : std::uint32_t {
   points,
   leaf_segments,
   segment_margin,
+  slices,
+  slab_parts,
+  heights,
   settings,
   origins,
   name_begin,

@@ -3,6 +3,7 @@
 
 #include "layout/base/planes.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
@@ -28,6 +29,21 @@ void require_planes(std::span<const float> planes) {
 
 double height_of(float plane) {
   return 0.5 * (double{plane} + double{std::nextafter(plane, std::numeric_limits<float>::infinity())});
+}
+
+/// A plane is above the float that names it, and below the next one.
+Heights heights_of_slab(Heights body, std::span<const float> planes, std::size_t slab) {
+  const float infinite = std::numeric_limits<float>::infinity();
+  Heights within = body;
+  if (slab < planes.size()) {
+    if (!(body.bottom <= planes[slab])) return {infinite, -infinite};
+    within.top = std::min(body.top, std::nextafter(planes[slab], infinite));
+  }
+  if (slab > 0) {
+    if (!(planes[slab - 1] < body.top)) return {infinite, -infinite};
+    within.bottom = std::max(body.bottom, planes[slab - 1]);
+  }
+  return within;
 }
 
 }  // namespace bch::detail

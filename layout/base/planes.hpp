@@ -6,6 +6,8 @@
 #include <cstddef>
 #include <span>
 
+#include <bch/geometry.hpp>
+
 namespace bch::detail {
 
 /// The most planes that cut a body: agents' parts are found by loops over slabs.
@@ -17,5 +19,9 @@ void require_planes(std::span<const float> planes);
 
 /// The height of a plane, between the float that names it and the next one, so that no vertex lies in it.
 double height_of(float plane);
+
+/// What of a body's heights lies in a slab: slab j is below plane j and above the one before. Rounded outward; above its top where
+/// nothing does.
+Heights heights_of_slab(Heights body, std::span<const float> planes, std::size_t slab);
 
 }  // namespace bch::detail

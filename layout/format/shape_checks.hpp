@@ -22,6 +22,9 @@ namespace bch::detail::shape_checks {
 void alignment(const ShapeArrays& a);
 void depths(const ShapeArrays& a);
 void sizes(const ShapeArrays& a);
+void slices(const ShapeArrays& a);
+void slab_parts(const ShapeArrays& a);
+void heights(const ShapeArrays& a);
 void rows(const ShapeArrays& a);
 void single_depth(const ShapeArrays& a);
 void infinite_rows(const ShapeArrays& a);

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include <cassert>
 #include <optional>
+#include <utility>
+#include <vector>
 
 #include <bch/outline_builder.hpp>
 #include <bch/pose_shape.hpp>
@@ -16,24 +17,46 @@ namespace bch {
 using namespace detail;
 
 struct PoseShaper::State {
+  ShapeSetPlan plan;
   float threshold;
-  std::uint32_t deepest;
   Skinner skinner;
   std::optional<OutlineBuilder> outline_builder;  ///< this or the next
   std::optional<ExtremeVertices> extremes;
   HierarchyBuilder hierarchy_builder;
+  std::vector<Outline> slab_outlines;
   Shape shape;
 
-  void make_root(PoseTime at) {
-    require_threshold(threshold);
-    extremes->find(skinner.ground_pose(at));
-    hierarchy_builder.root(extremes->points(), extremes->grid_step(), shape.hierarchy);
-  }
+  void make_outlines(PoseTime at);
+  void make_hierarchy(Shape& of);
 };
 
-PoseShaper::PoseShaper(const Character& character, float threshold, std::uint32_t deepest, bool outlines)
-    : state_(new State{threshold, deepest, Skinner(character), {}, {}, {}, {}}) {
-  if (deepest == 0 && !outlines)
+void PoseShaper::State::make_outlines(PoseTime at) {
+  if (extremes) return extremes->find(skinner.ground_pose(at));
+  if (plan.slices.empty() && !plan.heights)
+    return outline_builder->build(skinner.ground_pose(at), shape.outline);
+  const std::size_t slabs = plan.slices.size() + 1;
+  // Outlines change places with those of the shape, so that both keep their memory.
+  slab_outlines.resize(slabs);
+  shape.slabs.resize(plan.slices.empty() ? 0 : slabs);
+  shape.heights = outline_builder->build(skinner.pose(at), plan.slices, slab_outlines);
+  if (plan.slices.empty()) return std::swap(shape.outline, slab_outlines[0]);
+  for (std::size_t i = 0; i < slabs; ++i) std::swap(shape.slabs[i].outline, slab_outlines[i]);
+}
+
+void PoseShaper::State::make_hierarchy(Shape& of) {
+  if (extremes) {
+    require_threshold(threshold);
+    return hierarchy_builder.root(extremes->points(), extremes->grid_step(), of.hierarchy);
+  }
+  if (of.outline.contours() == 0) return of.hierarchy.nodes.clear();
+  hierarchy_builder.contour(of.outline, threshold, SplitRule::centroid, of.hierarchy, plan.depths.back());
+  if (plan.depths.back() == all_depths) hierarchy_builder.add_primitives(of.hierarchy);
+}
+
+PoseShaper::PoseShaper(const Character& character, const ShapeSetPlan& plan, float threshold)
+    : state_(new State{plan, threshold, Skinner(character), {}, {}, {}, {}, {}}) {
+  validate(plan);
+  if (plan.depths.back() == 0 && plan.slices.empty() && !plan.heights)
     state_->extremes.emplace(character.triangles, character.vertices.size());
   else
     state_->outline_builder.emplace(character.triangles, character.vertices.size(), character.vertices);
@@ -48,26 +71,20 @@ void PoseShaper::limit_nodes(std::size_t most) {
 }
 
 const Shape& PoseShaper::shape(PoseTime at) {
-  if (state_->extremes) {
-    state_->make_root(at);
-    return state_->shape;
-  }
-  make_outline(at);
-  return make_hierarchy();
+  make_outlines(at);
+  return make_hierarchies();
 }
 
-const Outline& PoseShaper::make_outline(PoseTime at) {
-  assert(state_->outline_builder);
-  state_->outline_builder->build(state_->skinner.ground_pose(at), state_->shape.outline);
-  return state_->shape.outline;
+const Shape& PoseShaper::make_outlines(PoseTime at) {
+  state_->make_outlines(at);
+  return state_->shape;
 }
 
-const Shape& PoseShaper::make_hierarchy() {
-  State& own = *state_;
-  own.hierarchy_builder.contour(own.shape.outline, own.threshold, SplitRule::centroid, own.shape.hierarchy,
-                                own.deepest);
-  if (own.deepest == all_depths) own.hierarchy_builder.add_primitives(own.shape.hierarchy);
-  return own.shape;
+const Shape& PoseShaper::make_hierarchies() {
+  Shape& shape = state_->shape;
+  if (shape.slabs.empty()) state_->make_hierarchy(shape);
+  for (Shape& slab : shape.slabs) state_->make_hierarchy(slab);
+  return shape;
 }
 
 }  // namespace bch

@@ -59,13 +59,13 @@ Bvh8 bvh8_of(const Root& root, const Tree& level, const float* nodes) {
 }
 
 /// What ShapeStorage::put_culling() was given.
-void take_culling(const ShapeArrays& arrays, std::size_t shape, std::uint32_t row, FlatShape& flat) {
+void take_culling(const ShapeArrays& arrays, std::size_t part, std::uint32_t row, FlatShape& flat) {
   if (row >= first_row)
     std::copy_n(arrays.support.data() + std::size_t{row} * support_stride, support_stride,
                 flat.supports.begin());
-  flat.profile = arrays.profiles[shape];
-  const DiscBlock& discs = arrays.inscribed[shape];
-  const Extremes& extremes = arrays.extremes[shape];
+  flat.profile = arrays.profiles[part];
+  const DiscBlock& discs = arrays.inscribed[part];
+  const Extremes& extremes = arrays.extremes[part];
   Interior& inside = flat.interior;
   std::copy_n(discs.x, block_width, inside.x.begin());
   std::copy_n(discs.y, block_width, inside.y.begin());
@@ -75,13 +75,13 @@ void take_culling(const ShapeArrays& arrays, std::size_t shape, std::uint32_t ro
 }
 
 /// What ShapeStorage::put_outline() was given.
-void take_outline(const ShapeArrays& arrays, std::size_t shape, FlatShape& flat) {
-  flat.outline = outline_of(arrays, shape);
-  const auto [begin, end] = arrays.shape_contours[shape];
+void take_outline(const ShapeArrays& arrays, std::size_t part, FlatShape& flat) {
+  flat.outline = outline_of(arrays, part);
+  const auto [begin, end] = arrays.shape_contours[part];
   for (const Contour& contour : arrays.contours.subspan(begin, end - begin))
     flat.contour_disc.push_back(contour.disc);
-  flat.segment_margin = arrays.segment_margin[shape];
-  const Tree& last_level = arrays.trees[(shape + 1) * arrays.depths.size() - 1];
+  flat.segment_margin = arrays.segment_margin[part];
+  const Tree& last_level = arrays.trees[(part + 1) * arrays.depths.size() - 1];
   if (last_level.segments == no_segments) return;
   const auto words = arrays.leaf_segments.subspan(last_level.segments);
   const auto own = words.first(leaf_segments_size(words, last_level.count));
@@ -90,10 +90,10 @@ void take_outline(const ShapeArrays& arrays, std::size_t shape, FlatShape& flat)
 
 }  // namespace
 
-Outline outline_of(const ShapeArrays& arrays, std::size_t shape) {
+Outline outline_of(const ShapeArrays& arrays, std::size_t part) {
   Outline outline;
   if (arrays.shape_contours.empty()) return outline;
-  const auto [begin, end] = arrays.shape_contours[shape];
+  const auto [begin, end] = arrays.shape_contours[part];
   for (const Contour& contour : arrays.contours.subspan(begin, end - begin)) {
     const auto points = arrays.points.subspan(contour.begin, contour.end - contour.begin);
     outline.points.insert(outline.points.end(), points.begin(), points.end());
@@ -102,15 +102,40 @@ Outline outline_of(const ShapeArrays& arrays, std::size_t shape) {
   return outline;
 }
 
-FlatShape flat_shape(const ShapeArrays& arrays, std::size_t shape) {
-  const std::size_t levels = arrays.depths.size(), first_root = shape * levels;
+FlatShape flat_shape(const ShapeArrays& arrays, std::size_t part) {
+  const std::size_t levels = arrays.depths.size(), first_root = part * levels;
   FlatShape flat;
-  flat.reach = static_cast<double>(arrays.reach[shape]);
-  for (std::size_t k = first_root; k < first_root + levels; ++k)
-    flat.levels.push_back(bvh8_of(arrays.roots[k], arrays.trees[k], arrays.nodes.data()));
-  if (!arrays.profiles.empty()) take_culling(arrays, shape, arrays.roots[first_root + levels - 1].row, flat);
-  if (!arrays.shape_contours.empty()) take_outline(arrays, shape, flat);
+  for (std::size_t k = first_root; k < first_root + levels; ++k) {
+    if (!arrays.trees.empty()) {
+      flat.levels.push_back(bvh8_of(arrays.roots[k], arrays.trees[k], arrays.nodes.data()));
+      continue;
+    }
+    const Root& root = arrays.roots[k];
+    flat.levels.emplace_back().root = {root.x, root.y, root.radius};
+    flat.levels.back().count = 1;
+  }
+  if (!arrays.reach.empty()) flat.reach = static_cast<double>(arrays.reach[part]);
+  if (!arrays.profiles.empty()) take_culling(arrays, part, arrays.roots[first_root + levels - 1].row, flat);
+  if (!arrays.shape_contours.empty()) take_outline(arrays, part, flat);
   return flat;
+}
+
+FlatBody flat_body(const ShapeArrays& arrays, std::size_t shape) {
+  FlatBody body;
+  const auto add = [&](std::size_t part) {
+    body.parts.push_back(flat_shape(arrays, part));
+    if (!arrays.heights.empty()) body.heights.push_back(arrays.heights[part]);
+    ++body.part_count;
+  };
+  if (arrays.slices.empty()) add(shape);
+  std::uint32_t last = no_part;
+  for (const std::uint32_t part :
+       arrays.slab_parts.subspan(arrays.slices.empty() ? 0 : shape * arrays.slab_count(),
+                                 arrays.slices.empty() ? 0 : arrays.slab_count())) {
+    if (part != no_part && part != last) add(last = part);
+    body.slab_parts.push_back(part == no_part ? part : static_cast<std::uint32_t>(body.part_count - 1));
+  }
+  return body;
 }
 
 }  // namespace bch::detail

@@ -8,7 +8,9 @@
 #include <stdexcept>
 #include <string>
 
+#include "layout/base/planes.hpp"
 #include "layout/base/rounding.hpp"
+#include "layout/base/shortest.hpp"
 #include "layout/culling/profile.hpp"
 #include "layout/enclosing_disc/enclosing_disc.hpp"
 #include "layout/format/leaf_segments.hpp"
@@ -20,7 +22,8 @@ constexpr float infinity = std::numeric_limits<float>::infinity();
 
 /// Checks the primitives of a hierarchy over the segments of an outline, as far as exact leaves use them.
 void require_segments(const Shape& shape) {
-  const auto& [outline, hierarchy] = shape;
+  const Outline& outline = shape.outline;
+  const Hierarchy& hierarchy = shape.hierarchy;
   if (!hierarchy.of_segments || outline.contours() == 0) return;
   if (hierarchy.primitive_ranges.size() != hierarchy.nodes.size())
     throw std::invalid_argument("hierarchy: " + std::to_string(hierarchy.primitive_ranges.size()) +
@@ -43,11 +46,48 @@ void require_segments(const Shape& shape) {
 
 ShapeFlattener::ShapeFlattener(const ShapeSetPlan& plan) : plan_(plan) {
   validate(plan);
+  plan_.heights |= !plan_.slices.empty();
 }
 
-void ShapeFlattener::flatten(const Shape& shape, std::size_t index, FlatShape& flat) {
-  require(shape, index);
+void ShapeFlattener::flatten(const Shape& shape, std::size_t index, FlatBody& flat) {
   flat.plan = plan_;
+  flat.part_count = 0;
+  flat.slab_parts.clear(), flat.heights.clear();
+  try {
+    if (!(shape.heights.bottom <= shape.heights.top))
+      throw std::invalid_argument("heights: from " + shortest(shape.heights.bottom) + " to " +
+                                  shortest(shape.heights.top) + " m");
+    plan_.slices.empty() ? add_part(shape, shape.heights, flat) : flatten_slabs(shape, flat);
+  } catch (const std::invalid_argument& error) {
+    throw std::invalid_argument("shape set: shape " + std::to_string(index) + ": " + error.what());
+  }
+}
+
+/// A shape without slabs is one part that every slab has which the shape reaches.
+void ShapeFlattener::flatten_slabs(const Shape& shape, FlatBody& flat) {
+  const std::size_t slabs = plan_.slices.size() + 1;
+  if (!shape.slabs.empty() && shape.slabs.size() != slabs)
+    throw std::invalid_argument("slices: " + std::to_string(shape.slabs.size()) + " slabs for " +
+                                std::to_string(slabs - 1) + " planes");
+  if (shape.slabs.empty()) add_part(shape, shape.heights, flat);
+  for (std::size_t i = 0; i < slabs; ++i) {
+    const Heights within = heights_of_slab(shape.heights, plan_.slices, i);
+    const bool has_part =
+        shape.slabs.empty() ? within.bottom <= within.top : !shape.slabs[i].hierarchy.nodes.empty();
+    if (has_part && !shape.slabs.empty()) add_part(shape.slabs[i], within, flat);
+    flat.slab_parts.push_back(has_part ? static_cast<std::uint32_t>(flat.part_count - 1) : no_part);
+  }
+  if (flat.part_count == 0) throw std::invalid_argument("slices: all slabs are empty");
+}
+
+void ShapeFlattener::add_part(const Shape& shape, Heights heights, FlatBody& flat) {
+  require(shape);
+  if (flat.parts.size() == flat.part_count) flat.parts.emplace_back();
+  flatten(shape, flat.parts[flat.part_count++]);
+  if (plan_.heights) flat.heights.push_back(heights);
+}
+
+void ShapeFlattener::flatten(const Shape& shape, FlatShape& flat) {
   flat.reach = shape.hierarchy.reach;
   add_levels(shape, flat);
   if (!plan_.outlines) return;
@@ -55,14 +95,10 @@ void ShapeFlattener::flatten(const Shape& shape, std::size_t index, FlatShape& f
   add_segments(shape.hierarchy, flat);
 }
 
-void ShapeFlattener::require(const Shape& shape, std::size_t index) const {
-  try {
-    validate(shape.hierarchy);
-    if (plan_.outlines) require_segments(shape);
-    if (shape.outline.contours() > 0 && (plan_.outlines || has_culling())) validate(shape.outline);
-  } catch (const std::invalid_argument& error) {
-    throw std::invalid_argument("shape set: shape " + std::to_string(index) + ": " + error.what());
-  }
+void ShapeFlattener::require(const Shape& shape) const {
+  validate(shape.hierarchy);
+  if (plan_.outlines) require_segments(shape);
+  if (shape.outline.contours() > 0 && (plan_.outlines || has_culling())) validate(shape.outline);
 }
 
 bool ShapeFlattener::has_culling() const {

@@ -14,9 +14,8 @@
 
 namespace bch::detail {
 
-/// All that a set stores of a shape, before it has a place there.
+/// All that a set stores of a part of a shape, before it has a place there.
 struct FlatShape {
-  ShapeSetPlan plan;
   double reach = 0;
   std::vector<Bvh8> levels;  ///< one a depth
   Supports supports;  ///< of the deepest level; this and the next two only with the plan's culling data
@@ -30,6 +29,15 @@ struct FlatShape {
       leaf_segments;  ///< of the last level, if that has exact leaves; see shape_set_view.hpp
 };
 
+/// The flat form of a shape: its only part, or those of its slabs.
+struct FlatBody {
+  ShapeSetPlan plan;
+  std::vector<FlatShape> parts;  ///< the first part_count; more keep their memory
+  std::size_t part_count = 0;
+  std::vector<std::uint32_t> slab_parts;  ///< of slices: which of these parts each slab has, or no_part
+  std::vector<Heights> heights;           ///< one a part, with the plan's heights or slices
+};
+
 /// Makes one shape after the other flat and reuses its memory. Nearly all the time that a set takes is spent
 /// here. One thread may use it at a time.
 class ShapeFlattener {
@@ -38,10 +46,13 @@ class ShapeFlattener {
   explicit ShapeFlattener(const ShapeSetPlan& plan);
 
   /// Errors:  throws std::invalid_argument as ShapeSet does, naming the shape by `index`.
-  void flatten(const Shape& shape, std::size_t index, FlatShape& flat);
+  void flatten(const Shape& shape, std::size_t index, FlatBody& flat);
 
  private:
-  void require(const Shape& shape, std::size_t index) const;
+  void flatten_slabs(const Shape& shape, FlatBody& flat);
+  void flatten(const Shape& shape, FlatShape& flat);
+  void add_part(const Shape& shape, Heights heights, FlatBody& flat);
+  void require(const Shape& shape) const;
   bool has_culling() const;
   void add_levels(const Shape& shape, FlatShape& flat);
   void add_interior(const Shape& shape, FlatShape& flat);

@@ -10,8 +10,10 @@
 #include <bch/shape_set.hpp>
 #include <bch/shape_set_builder.hpp>
 
+#include "layout/base/planes.hpp"
 #include "layout/base/rounding.hpp"
 #include "layout/format/cut_discs.hpp"
+#include "layout/format/parts.hpp"
 #include "layout/format/shape_arrays.hpp"
 
 namespace bch {
@@ -30,7 +32,11 @@ bool rows_in_order(std::span<const Root> roots) {
 bool is_solid(const ShapeArrays& arrays) {
   if (arrays.trees.empty()) return true;
   bool all = !arrays.shape_contours.empty();
-  for (const ContourRange& contours : arrays.shape_contours) all &= contours.begin < contours.end;
+  const auto look_at = [&](const ContourRange& contours) { all &= contours.begin < contours.end; };
+  if (arrays.slices.empty())
+    std::for_each(arrays.shape_contours.begin(), arrays.shape_contours.end(), look_at);
+  for (const std::uint32_t part : arrays.slab_parts)
+    if (part != no_part && !arrays.shape_contours.empty()) look_at(arrays.shape_contours[part]);
   return all;
 }
 
@@ -48,6 +54,8 @@ ShapeSetView view_of(const ShapeArrays& arrays) {
   // An empty section of a file has an address as well.
   const auto or_null = [](const auto& array) { return array.empty() ? nullptr : array.data(); };
   return {.shape_count = static_cast<std::uint32_t>(arrays.shape_count()),
+          .part_count = static_cast<std::uint32_t>(arrays.part_count()),
+          .slab_count = static_cast<std::uint32_t>(arrays.slab_count()),
           .level_count = static_cast<std::uint32_t>(arrays.depths.size()),
           .rows_in_order = rows_in_order(arrays.roots),
           .roots = or_null(arrays.roots),
@@ -62,7 +70,9 @@ ShapeSetView view_of(const ShapeArrays& arrays) {
           .contours = or_null(arrays.contours),
           .points = or_null(arrays.points),
           .leaf_segments = or_null(arrays.leaf_segments),
-          .segment_margin = or_null(arrays.segment_margin)};
+          .segment_margin = or_null(arrays.segment_margin),
+          .slab_parts = or_null(arrays.slab_parts),
+          .heights = or_null(arrays.heights)};
 }
 
 void require(bool is_there, const char* what, std::uint32_t index, std::uint32_t count) {
@@ -79,6 +89,9 @@ void validate(const ShapeSetPlan& plan) {
   for (std::size_t i = 1; i < plan.depths.size(); ++i)
     if (plan.depths[i] <= plan.depths[i - 1])
       throw std::invalid_argument("shape set: depth " + std::to_string(plan.depths[i]) + " does not ascend");
+  require_planes(plan.slices);
+  if (!plan.slices.empty() && !plan.outlines && plan.depths.back() > 0)
+    throw std::invalid_argument("slices: they need outlines");
 }
 
 struct ShapeSet::State {
@@ -117,6 +130,14 @@ std::span<const std::uint32_t> ShapeSet::depths() const noexcept {
   return state_->arrays.depths;
 }
 
+std::span<const float> ShapeSet::slices() const noexcept {
+  return state_->arrays.slices;
+}
+
+bool ShapeSet::has_heights() const noexcept {
+  return !state_->arrays.heights.empty();
+}
+
 bool ShapeSet::solid() const noexcept {
   return state_->solid;
 }
@@ -132,7 +153,9 @@ bool ShapeSet::roots_only() const noexcept {
 ShapeSetPlan ShapeSet::plan() const {
   return {.depths = {depths().begin(), depths().end()},
           .outlines = !arrays().shape_contours.empty(),
-          .culling = !arrays().support.empty()};
+          .culling = !arrays().support.empty(),
+          .slices = {slices().begin(), slices().end()},
+          .heights = has_heights()};
 }
 
 std::size_t ShapeSet::bytes() const noexcept {
@@ -141,11 +164,14 @@ std::size_t ShapeSet::bytes() const noexcept {
   return all - depths().size_bytes();
 }
 
-std::vector<Disc> ShapeSet::discs(std::uint32_t shape, std::uint32_t level) const {
+std::vector<Disc> ShapeSet::discs(std::uint32_t shape, std::uint32_t level, std::uint32_t slab) const {
   require(shape < shape_count(), "shape", shape, shape_count());
   require(level < level_count(), "level", level, level_count());
-  const CutDiscs cut = cut_discs(view(), shape * level_count() + level);
+  require(slab < slab_count(), "slab", slab, slab_count());
   std::vector<Disc> discs;
+  const std::uint32_t part = part_of(view(), shape, slab);
+  if (part == no_part) return discs;
+  const CutDiscs cut = cut_discs(view(), part * level_count() + level);
   for (std::uint32_t i = 0; i < cut.count; ++i) discs.push_back({cut.x[i], cut.y[i], cut.radius[i]});
   return discs;
 }
@@ -153,10 +179,13 @@ std::vector<Disc> ShapeSet::discs(std::uint32_t shape, std::uint32_t level) cons
 float ShapeSet::bounding_radius(std::uint32_t shape) const {
   require(shape < shape_count(), "shape", shape, shape_count());
   double farthest = 0;
-  for (std::uint32_t level = 0; level < level_count(); ++level) {
-    const CutDiscs cut = cut_discs(view(), shape * level_count() + level);
-    for (std::uint32_t i = 0; i < cut.count; ++i)
-      farthest = std::max(farthest, std::hypot(double{cut.x[i]}, double{cut.y[i]}) + double{cut.radius[i]});
+  for (std::uint32_t slab = 0; slab < slab_count(); ++slab) {
+    const std::uint32_t part = part_of(view(), shape, slab);
+    for (std::uint32_t level = 0; part != no_part && level < level_count(); ++level) {
+      const CutDiscs cut = cut_discs(view(), part * level_count() + level);
+      for (std::uint32_t i = 0; i < cut.count; ++i)
+        farthest = std::max(farthest, std::hypot(double{cut.x[i]}, double{cut.y[i]}) + double{cut.radius[i]});
+    }
   }
   return rounding::round_up(farthest * (1 + 0x1p-50));
 }

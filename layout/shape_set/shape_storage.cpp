@@ -28,6 +28,10 @@ std::size_t level_end(const Bvh8& tree, std::size_t begin) {
   return inner_begin(tree, first_disc) + tree.inner.size() * inner_floats;
 }
 
+bool keeps_heights(const ShapeSetPlan& plan) {
+  return plan.heights || !plan.slices.empty();
+}
+
 void require_numbers(std::size_t count, const char* what) {
   if (count > std::numeric_limits<std::uint32_t>::max())
     throw std::length_error(std::string("shape set: more than 2^32 ") + what);
@@ -53,32 +57,35 @@ ShapeArrays ShapeStorage::arrays() const {
   return arrays;
 }
 
-void ShapeStorage::reserve(const ShapeSetPlan& plan, std::size_t shapes, const ShapeExtent& extent) {
-  roots.reserve(shapes * plan.depths.size());
+void ShapeStorage::reserve(const ShapeSetPlan& plan, std::size_t parts, const ShapeExtent& extent) {
+  if (keeps_heights(plan)) heights.reserve(parts);
+  roots.reserve(parts * plan.depths.size());
   if (plan.depths.back() == 0) return;
-  trees.reserve(shapes * plan.depths.size());
+  trees.reserve(parts * plan.depths.size());
   nodes.reserve(std::min<std::size_t>(extent.nodes, leaf_window));
-  reach.reserve(shapes);
+  reach.reserve(parts);
   if (plan.culling) {
     support.reserve(extent.rows * support_stride);
-    inscribed.reserve(shapes), extremes.reserve(shapes), profiles.reserve(shapes);
+    inscribed.reserve(parts), extremes.reserve(parts), profiles.reserve(parts);
   }
   if (plan.outlines) {
-    shape_contours.reserve(shapes), segment_margin.reserve(shapes);
+    shape_contours.reserve(parts), segment_margin.reserve(parts);
     contours.reserve(extent.contours), points.reserve(extent.points);
     leaf_segments.reserve(extent.segments);
   }
 }
 
-void ShapeStorage::resize(const ShapeSetPlan& plan, std::size_t shapes) {
+void ShapeStorage::resize(const ShapeSetPlan& plan, std::size_t shapes, std::size_t parts) {
   const std::size_t levels = plan.depths.size();
-  require_numbers(shapes * levels, "roots");
-  roots.resize(shapes * levels);
+  require_numbers(parts * levels, "roots");
+  if (!plan.slices.empty()) slab_parts.resize(shapes * (plan.slices.size() + 1), no_part);
+  if (keeps_heights(plan)) heights.resize(parts);
+  roots.resize(parts * levels);
   if (plan.depths.back() == 0) return;
-  trees.resize(shapes * levels);
-  reach.resize(shapes);
-  if (plan.culling) inscribed.resize(shapes), extremes.resize(shapes), profiles.resize(shapes);
-  if (plan.outlines) shape_contours.resize(shapes), segment_margin.resize(shapes);
+  trees.resize(parts * levels);
+  reach.resize(parts);
+  if (plan.culling) inscribed.resize(parts), extremes.resize(parts), profiles.resize(parts);
+  if (plan.outlines) shape_contours.resize(parts), segment_margin.resize(parts);
 }
 
 void ShapeStorage::make_room(const ShapeExtent& at, const ShapeExtent& size) {
@@ -100,8 +107,16 @@ void ShapeStorage::make_room(const ShapeExtent& at, const ShapeExtent& size) {
   }
 }
 
-void ShapeStorage::put(std::size_t shape, const FlatShape& flat, const ShapeExtent& at) {
-  const std::size_t first_root = shape * depths.size();
+void ShapeStorage::put_slabs(std::size_t shape, std::size_t first_part, const FlatBody& body) {
+  std::uint32_t* out = slab_parts.data() + shape * body.slab_parts.size();
+  for (const std::uint32_t part : body.slab_parts)
+    *out++ = part == no_part ? part : static_cast<std::uint32_t>(first_part + part);
+  std::copy(body.heights.begin(), body.heights.end(),
+            heights.begin() + static_cast<std::ptrdiff_t>(first_part));
+}
+
+void ShapeStorage::put(std::size_t part, const FlatShape& flat, const ShapeExtent& at) {
+  const std::size_t first_root = part * depths.size();
   std::size_t node = at.nodes;
   for (std::size_t k = 0; k < flat.levels.size(); ++k) {
     const Bvh8& tree = flat.levels[k];
@@ -113,9 +128,9 @@ void ShapeStorage::put(std::size_t shape, const FlatShape& flat, const ShapeExte
     put_level(first_root + k, tree, node);
     node = level_end(tree, node);
   }
-  if (!reach.empty()) reach[shape] = rounding::round_up(flat.reach);
-  if (!profiles.empty()) put_culling(shape, flat, at);
-  if (!shape_contours.empty()) put_outline(shape, flat, at);
+  if (!reach.empty()) reach[part] = rounding::round_up(flat.reach);
+  if (!profiles.empty()) put_culling(part, flat, at);
+  if (!shape_contours.empty()) put_outline(part, flat, at);
 }
 
 void ShapeStorage::put_level(std::size_t root, const Bvh8& tree, std::size_t node) {
@@ -146,22 +161,22 @@ void ShapeStorage::put_level(std::size_t root, const Bvh8& tree, std::size_t nod
   }
 }
 
-void ShapeStorage::put_culling(std::size_t shape, const FlatShape& flat, const ShapeExtent& at) {
+void ShapeStorage::put_culling(std::size_t part, const FlatShape& flat, const ShapeExtent& at) {
   if (!flat.levels.back().is_single())
     std::copy(flat.supports.begin(), flat.supports.end(), support.data() + at.rows * support_stride);
-  profiles[shape] = flat.profile;
+  profiles[part] = flat.profile;
   const Interior& inside = flat.interior;
-  std::copy(inside.x.begin(), inside.x.end(), inscribed[shape].x);
-  std::copy(inside.y.begin(), inside.y.end(), inscribed[shape].y);
-  std::copy(inside.radius.begin(), inside.radius.end(), inscribed[shape].radius);
-  std::copy(inside.extreme_x.begin(), inside.extreme_x.end(), extremes[shape].x);
-  std::copy(inside.extreme_y.begin(), inside.extreme_y.end(), extremes[shape].y);
+  std::copy(inside.x.begin(), inside.x.end(), inscribed[part].x);
+  std::copy(inside.y.begin(), inside.y.end(), inscribed[part].y);
+  std::copy(inside.radius.begin(), inside.radius.end(), inscribed[part].radius);
+  std::copy(inside.extreme_x.begin(), inside.extreme_x.end(), extremes[part].x);
+  std::copy(inside.extreme_y.begin(), inside.extreme_y.end(), extremes[part].y);
 }
 
-void ShapeStorage::put_outline(std::size_t shape, const FlatShape& flat, const ShapeExtent& at) {
+void ShapeStorage::put_outline(std::size_t part, const FlatShape& flat, const ShapeExtent& at) {
   const auto contour = static_cast<std::uint32_t>(at.contours), point = static_cast<std::uint32_t>(at.points);
   const std::size_t count = flat.contour_disc.size();
-  shape_contours[shape] = {contour, contour + static_cast<std::uint32_t>(count)};
+  shape_contours[part] = {contour, contour + static_cast<std::uint32_t>(count)};
   const auto& begin = flat.outline.contour_begin;
   for (std::size_t c = 0; c < count; ++c) {
     const auto closed = static_cast<std::uint32_t>(point + c);
@@ -170,9 +185,9 @@ void ShapeStorage::put_outline(std::size_t shape, const FlatShape& flat, const S
     Vec2* const out = std::copy(of_contour.begin(), of_contour.end(), points.data() + closed + begin[c]);
     *out = of_contour.front();
   }
-  segment_margin[shape] = flat.segment_margin;
+  segment_margin[part] = flat.segment_margin;
   if (flat.leaf_segments.empty()) return;
-  Tree& last_level = trees[(shape + 1) * depths.size() - 1];
+  Tree& last_level = trees[(part + 1) * depths.size() - 1];
   last_level.segments = static_cast<std::uint32_t>(at.segments);
   last_level.points = point;
   std::copy(flat.leaf_segments.begin(), flat.leaf_segments.end(), leaf_segments.data() + at.segments);

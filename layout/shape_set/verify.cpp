@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "layout/format/parts.hpp"
 #include "layout/shape_set/flat_shape.hpp"
 #include "layout/shape_set/verify_parts.hpp"
 
@@ -30,10 +31,10 @@ double extent_of(const Root& root) {
          static_cast<double>(root.radius);
 }
 
-void verify_shape(const Look& look) {
+void verify_part(const Look& look) {
   verify_levels(look);
   if (look.set.roots_only()) return;
-  const Outline outline = outline_of(look.arrays(), look.shape);
+  const Outline outline = outline_of(look.arrays(), look.part);
   verify_reach(look);
   for (std::uint32_t level = 0; level < look.levels(); ++level) {
     verify_tree(look, level);
@@ -60,6 +61,7 @@ using namespace detail;
 std::string text_of(const Finding& finding) {
   std::string text = "shape ";
   text += std::to_string(finding.shape);
+  if (finding.slab != Finding::whole) text.append(", slab ").append(std::to_string(finding.slab));
   if (finding.level != Finding::no_level) text.append(", level ").append(std::to_string(finding.level));
   return text.append(": ").append(finding.array).append(": ").append(finding.what);
 }
@@ -67,11 +69,18 @@ std::string text_of(const Finding& finding) {
 std::vector<Finding> verify(const ShapeSet& set, std::size_t most) {
   std::vector<Finding> findings;
   const ShapeArrays& arrays = set.arrays();
-  for (std::uint32_t shape = 0; shape < set.shape_count() && findings.size() < most; ++shape) {
+  const auto verify_part = [&](std::uint32_t shape, std::uint32_t slab, std::uint32_t part) {
     const double reach = set.roots_only()
-                             ? verification::extent_of(arrays.roots[std::size_t{shape} * set.level_count()])
-                             : static_cast<double>(arrays.reach[shape]);
-    verification::verify_shape({set, findings, most, shape, reach});
+                             ? verification::extent_of(arrays.roots[std::size_t{part} * set.level_count()])
+                             : static_cast<double>(arrays.reach[part]);
+    verification::verify_part({set, findings, most, shape, slab, part, reach});
+  };
+  for (std::uint32_t shape = 0; shape < set.shape_count() && findings.size() < most; ++shape) {
+    if (set.slices().empty()) verify_part(shape, Finding::whole, shape);
+    std::uint32_t last = no_part;
+    for (std::uint32_t slab = 0; slab < set.slab_count() && !set.slices().empty(); ++slab)
+      if (const std::uint32_t part = part_of(set.view(), shape, slab); part != no_part && part != last)
+        verify_part(shape, slab, last = part);
   }
   return findings;
 }

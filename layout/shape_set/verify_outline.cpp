@@ -159,7 +159,7 @@ double beyond_supports(const Supports& heights, const Disc& disc) {
 }
 
 void verify_extremes(const Look& look, std::span<const Vec2> contour) {
-  const Extremes& stored = look.arrays().extremes[look.shape];
+  const Extremes& stored = look.arrays().extremes[look.part];
   for (std::uint32_t k = 0; k < extreme_stride; ++k) {
     const Vec2 p{stored.x[k], stored.y[k]};
     const Point along = direction(k % extreme_directions, extreme_directions);
@@ -194,7 +194,7 @@ void verify_cover(const Look& look, const Outline& outline, std::uint32_t level)
 
 void verify_segments(const Look& look) {
   const ShapeArrays& arrays = look.arrays();
-  const double margin = arrays.segment_margin[look.shape];
+  const double margin = arrays.segment_margin[look.part];
   if (margin + look.tolerance() * 0x1p-4 < rounding::segment_margin * look.reach)
     look.say("segment_margin", no_level, shortest(margin) + " m is below what rounding needs");
   const std::uint32_t level = look.levels() - 1;
@@ -206,7 +206,7 @@ void verify_segments(const Look& look) {
   for (std::uint32_t k = 0; k < cut.count; ++k)
     for (const std::uint32_t segment : segments_of(words, k)) leaves[tree.points + segment].push_back(k);
   if (std::count(words.begin(), words.begin() + cut.count, 0u) > 0) return;  // some name none
-  const auto [first, last] = arrays.shape_contours[look.shape];
+  const auto [first, last] = arrays.shape_contours[look.part];
   for (const Contour& contour : arrays.contours.subspan(first, last - first))
     for (std::uint32_t i = contour.begin; i < contour.end; ++i) {
       std::vector<float> x, y, radius;
@@ -220,8 +220,7 @@ void verify_segments(const Look& look) {
 
 void verify_contours(const Look& look, const Outline& outline) {
   for (std::size_t c = 0; c < outline.contours(); ++c) {
-    const std::uint32_t place =
-        look.arrays().shape_contours[look.shape].begin + static_cast<std::uint32_t>(c);
+    const std::uint32_t place = look.arrays().shape_contours[look.part].begin + static_cast<std::uint32_t>(c);
     const Disc& stored = look.arrays().contours[place].disc;
     const EnclosingDisc smallest = smallest_enclosing_disc(outline.contour(c));
     const Point off = point({stored.x, stored.y}) - point(smallest.centre);
@@ -239,13 +238,13 @@ void verify_contours(const Look& look, const Outline& outline) {
 }
 
 void verify_profile(const Look& look, const Outline& outline) {
-  const Profile& stored = look.arrays().profiles[look.shape];
+  const Profile& stored = look.arrays().profiles[look.part];
   verify_outer(look, stored);
   if (outline.contours() == 0) return verify_sectors(look, stored);
   // Made from the reach before it was rounded up.
   const float reach = std::nextafter(static_cast<float>(look.reach), 0.0f);
   const Profile expected =
-      profile(outline, interior_of(look.arrays(), look.shape), static_cast<double>(reach));
+      profile(outline, interior_of(look.arrays(), look.part), static_cast<double>(reach));
   const double off = length(point({stored.x, stored.y}) - point({expected.x, expected.y}));
   if (off > look.tolerance())
     return look.say(
@@ -256,7 +255,7 @@ void verify_profile(const Look& look, const Outline& outline) {
 
 void verify_inside(const Look& look, const Outline& outline) {
   const auto contour = largest_contour(outline);
-  const DiscBlock& discs = look.arrays().inscribed[look.shape];
+  const DiscBlock& discs = look.arrays().inscribed[look.part];
   for (std::uint32_t i = 0; i < block_width; ++i) {
     if (!(discs.x[i] < infinity)) continue;
     const Disc disc{discs.x[i], discs.y[i], discs.radius[i]};
@@ -272,7 +271,7 @@ void verify_inside(const Look& look, const Outline& outline) {
 void verify_hull(const Look& look) {
   const CutDiscs cut = look.cut(look.levels() - 1);
   const Supports heights = supports(cut.x, cut.y, cut.radius, cut.count, look.reach);
-  const DiscBlock& discs = look.arrays().inscribed[look.shape];
+  const DiscBlock& discs = look.arrays().inscribed[look.part];
   for (std::uint32_t i = 0; i < block_width; ++i) {
     const Disc disc{discs.x[i], discs.y[i], discs.radius[i]};
     if (disc.x < infinity && beyond_supports(heights, disc) > 0)
@@ -280,7 +279,7 @@ void verify_hull(const Look& look) {
                "disc " + std::to_string(i) + " at " + text_of(disc) + " sticks out of the discs");
   }
   // All 0 where the shape was made without an outline.
-  const Extremes& extremes = look.arrays().extremes[look.shape];
+  const Extremes& extremes = look.arrays().extremes[look.part];
   for (std::uint32_t k = 0; k < extreme_stride; ++k)
     if ((extremes.x[k] != 0 || extremes.y[k] != 0) &&
         beyond_supports(heights, {extremes.x[k], extremes.y[k], 0}) > 0)

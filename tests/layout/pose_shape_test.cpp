@@ -38,7 +38,7 @@ Shape one_shape(detail::Skinner& skinner, PoseTime at, float threshold = 0.01f) 
 
 void expect_as_one_by_one(const Character& character, float threshold) {
   detail::Skinner skinner(character);
-  PoseShaper shaper(character, threshold);
+  PoseShaper shaper(character, {}, threshold);
   for (const PoseTime& time : sample_poses(character, 20))
     expect_equal(shaper.shape(time), one_shape(skinner, time, threshold));
 }
@@ -58,7 +58,7 @@ TEST(RealPoses, AreMadeAsOneByOne) {
 
 /// Depth 0 without an outline: the same disc, bit for bit.
 void expect_root_as_with_outline(const Character& character, std::uint32_t poses) {
-  PoseShaper with(character, 0.01f, 0), without(character, 0.01f, 0, false);
+  PoseShaper with(character, {.depths = {0}, .heights = true}), without(character, {.depths = {0}});
   for (const PoseTime& time : sample_poses(character, poses)) {
     const Hierarchy &expected = with.shape(time).hierarchy, &root = without.shape(time).hierarchy;
     ASSERT_EQ(root.nodes.size(), 1u);
@@ -78,9 +78,9 @@ TEST(RealPoses, NeedNoOutlineForTheRootAlone) {
   for (const Character& character : test::real_characters(*data)) expect_root_as_with_outline(character, 50);
 }
 
-void expect_no_allocations_the_second_time(std::uint32_t deepest, bool outlines) {
+void expect_no_allocations_the_second_time(const ShapeSetPlan& plan) {
   const Character woman = default_female();
-  PoseShaper shaper(woman, 0.01f, deepest, outlines);
+  PoseShaper shaper(woman, plan);
   const std::vector<PoseTime> times = sample_poses(woman, 20);
   const std::size_t before = test::allocation_count();
   for (const PoseTime& time : times) shaper.shape(time);
@@ -91,14 +91,15 @@ void expect_no_allocations_the_second_time(std::uint32_t deepest, bool outlines)
 }
 
 TEST(PoseShaper, AllocatesNothingTheSecondTime) {
-  expect_no_allocations_the_second_time(all_depths, true);
-  expect_no_allocations_the_second_time(0, false);
+  expect_no_allocations_the_second_time({});
+  expect_no_allocations_the_second_time({.depths = {0}});
+  expect_no_allocations_the_second_time({.slices = {0.4f, 1}});
 }
 
 TEST(PoseShaper, RejectsWhatItsPartsReject) {
   const Character man = default_male();
-  EXPECT_THROW(PoseShaper(man, -1.0f).shape({PoseTime::rest, 0}), std::invalid_argument);
-  EXPECT_THROW(PoseShaper(man, -1.0f, 0, false).shape({PoseTime::rest, 0}), std::invalid_argument);
+  EXPECT_THROW(PoseShaper(man, {}, -1.0f).shape({PoseTime::rest, 0}), std::invalid_argument);
+  EXPECT_THROW(PoseShaper(man, {.depths = {0}}, -1.0f).shape({PoseTime::rest, 0}), std::invalid_argument);
   PoseShaper shaper(man);
   EXPECT_THROW(shaper.shape({static_cast<std::uint32_t>(man.clips.size()), 0}), std::invalid_argument);
   detail::Skinner skinner(man);

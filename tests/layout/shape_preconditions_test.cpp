@@ -144,6 +144,46 @@ const std::vector<Damage>& all_damage() {
            many(view.profiles), many(view.shape_contours), many(view.segment_margin);
          };
        }},
+      {"sizes",
+       [](Arrays& a) {
+         a = Arrays({.slices = {0.4f, 1}});
+         a.own.heights.pop_back();
+       }},
+      {"slices",
+       [](Arrays& a) {
+         a = Arrays({.slices = {0.4f, 1}});
+         a.own.slices[1] = a.own.slices[0];
+       }},
+      {"slices",
+       [](Arrays& a) {
+         a = Arrays({.outlines = false, .heights = true});
+         a.own.slices = {1};
+         a.own.slab_parts = {0, 0, 1, 1, 2, 2};
+       }},
+      {"slab parts",
+       [](Arrays& a) {
+         a.own.slab_parts = {0, 1, 2};
+       }},
+      {"slab parts",
+       [](Arrays& a) {
+         a = Arrays({.slices = {0.4f, 1}});
+         a.own.slab_parts[4] = 0;
+       }},
+      {"slab parts",
+       [](Arrays& a) {
+         a = Arrays({.slices = {0.4f, 1}});
+         std::fill_n(a.own.slab_parts.end() - 3, 3, detail::no_part);
+       }},
+      {"slab parts",
+       [](Arrays& a) {
+         a = Arrays({.slices = {0.4f, 1}});
+         std::fill_n(a.own.slab_parts.end() - 3, 3, 3u);
+       }},
+      {"heights",
+       [](Arrays& a) {
+         a = Arrays({.heights = true});
+         a.own.heights[1] = {2, 1};
+       }},
       {"rows", [](Arrays& a) { a.own.roots[Arrays::finest].row += 1; }},
       {"rows", [](Arrays& a) { a.own.support.resize(a.own.support.size() + detail::support_stride); }},
       {"single depth",  // what made DynamicShapeSet copy roots without their trees

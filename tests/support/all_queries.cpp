@@ -40,7 +40,7 @@ void ask_all_of_a_dynamic_copy(const ShapeSet& set, const Agents& agents, std::s
   ask_all(dynamic.set(), agents, pairs, implementation);
   if (set.roots_only() || set.shape_count() == 0) return;
   PreparedShape last(set.plan());
-  last.flat() = detail::flat_shape(set.arrays(), set.shape_count() - 1);
+  last.flat() = detail::flat_body(set.arrays(), set.shape_count() - 1);
   last.flat().plan = set.plan();
   dynamic.try_replace(set.shape_count() - 1, last);
   dynamic.replace(0, last);

@@ -18,12 +18,12 @@ namespace bch {
 /// can only be assigned to or destroyed.
 class PoseShaper {
  public:
-  /// Learns the mesh of a character, which must outlive this and must be valid (see validate()). `threshold`, in metres, is
-  /// the radius below which a disc is not divided. `deepest`: the largest of a plan's depths; hierarchies end there.
-  /// `outlines`: whether to produce outlines at depth 0, where no query needs them. Without, that depth takes the outermost
-  /// vertices alone, a third of the time, and shapes have no outlines; their root discs are the same.
-  explicit PoseShaper(const Character& character, float threshold = 0.01f, std::uint32_t deepest = all_depths,
-                      bool outlines = true);
+  /// Learns the mesh of a character, which must outlive this and must be valid (see validate()). Shapes are made for sets of a
+  /// plan: hierarchies end at its deepest cut, its slices cut the body, and where no query of the set needs an outline, because
+  /// there are roots alone, the outermost vertices do, in a third of the time. `threshold`, in metres, is the radius below
+  /// which a disc is not divided.
+  /// Errors:  throws std::invalid_argument on a bad plan.
+  explicit PoseShaper(const Character& character, const ShapeSetPlan& plan = {}, float threshold = 0.01f);
   PoseShaper(PoseShaper&&) noexcept;
   PoseShaper& operator=(PoseShaper&&) noexcept;
   ~PoseShaper();
@@ -34,17 +34,17 @@ class PoseShaper {
   /// Makes the shape of a pose: at a time of a clip, keys interpolated as the channels' curves say, times clamped to the first
   /// and last key. A clip that walks away leaves its shape where it is, while its yaw stays.
   /// Returns: the shape down to the deepest depth, until the next call; with primitives where that is all_depths, because exact
-  ///          leaves need them.
+  ///          leaves need them. With slices its slabs alone, each with outline and hierarchy; with these or the plan's
+  ///          heights, those of the body.
   /// Errors:  throws std::invalid_argument on a clip or a time that is not there and as OutlineBuilder and contour_hierarchy()
   ///          do, std::domain_error on a position that is not finite. The shape made before is lost.
   const Shape& shape(PoseTime at);
 
-  /// Makes the outline of a pose, which is the first step of shape(), for callers that need the outline alone or take the time
-  /// of each step.
-  /// Precondition: the shaper makes outlines.
-  const Outline& make_outline(PoseTime at);
-  /// Makes the shape of the outline made last, which is the second step.
-  const Shape& make_hierarchy();
+  /// Makes the outlines of a pose, which is the first step of shape(), for callers that need these alone or take the time of each
+  /// step. For roots alone there is nothing to do yet.
+  const Shape& make_outlines(PoseTime at);
+  /// Makes the hierarchies over the outlines made last, which is the second step.
+  const Shape& make_hierarchies();
 
  private:
   struct State;

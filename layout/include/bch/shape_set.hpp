@@ -25,6 +25,9 @@ namespace bch {
 struct Shape {
   Outline outline;
   Hierarchy hierarchy;
+  Heights heights = {};  ///< of the whole body; by default it takes part at every height
+  std::vector<Shape> slabs =
+      {};  ///< of a body that the planes of a plan cut: one a slab; of those that are empty nothing is set
 };
 
 /// What decides where leaves of two hierarchies overlap.
@@ -46,11 +49,19 @@ struct ShapeSetPlan {
   /// Keep what lets a query skip most traversals: supports and, of shapes with an outline, inscribed discs. They
   /// change no answer; a set that answers few queries does without.
   bool culling = true;
+  /// Cut bodies into slabs at these planes, metres above the ground that an agent stands on, ascending, at most 63; none: bodies are
+  /// whole. Two agents then collide where they do so in some slab, solid, so that an arm above a foot does not. Every shape
+  /// has the slabs that PoseShaper makes of these planes, or none: then it is the same at all of its heights. Slices need
+  /// outlines.
+  std::vector<float> slices = {};
+  /// Keep the heights of bodies, which agents at different heights need; see Agents::z. Slices have them anyway.
+  bool heights = false;
   friend bool operator==(const ShapeSetPlan&, const ShapeSetPlan&) = default;
 };
 
 /// Checks a plan.
-/// Errors:  throws std::invalid_argument on a plan without depths, with more than 255, or with depths out of order.
+/// Errors:  throws std::invalid_argument on a plan without depths, with more than 255, or with depths out of order; on more than
+///          63 slices, on slices that do not ascend or are beyond 1e6 m, and on slices of more than roots without outlines.
 void validate(const ShapeSetPlan& plan);
 
 /// The flat form of many shapes for batch queries: structure of arrays, aligned to cache lines, immutable. One that was
@@ -69,6 +80,10 @@ class ShapeSet {
   std::uint32_t shape_count() const noexcept;
   std::uint32_t level_count() const noexcept { return static_cast<std::uint32_t>(depths().size()); }
   std::span<const std::uint32_t> depths() const noexcept;
+  std::span<const float> slices() const noexcept;
+  std::uint32_t slab_count() const noexcept { return static_cast<std::uint32_t>(slices().size() + 1); }
+  /// Returns whether agents may have a z: the heights of bodies are kept.
+  bool has_heights() const noexcept;
   /// Returns whether solid semantics can be asked: every shape has its outline here, or every cut is a single disc.
   bool solid() const noexcept;
   /// Returns whether some level of some shape has exact leaves.
@@ -79,9 +94,9 @@ class ShapeSet {
   ShapeSetPlan plan() const;
   std::size_t bytes() const noexcept;
 
-  /// Returns the discs of a shape's cut, in the order in which queries number them.
+  /// Returns the discs of a shape's cut in a slab, in the order in which queries number them; none where the slab is empty.
   /// Errors:  throws std::out_of_range on an index out of range.
-  std::vector<Disc> discs(std::uint32_t shape, std::uint32_t level) const;
+  std::vector<Disc> discs(std::uint32_t shape, std::uint32_t level, std::uint32_t slab = 0) const;
   /// Returns the radius about an agent's position that holds all discs of its shape, at every level and heading, metres.
   /// Cost:    linear in the discs.
   /// Errors:  throws std::out_of_range on an index out of range.

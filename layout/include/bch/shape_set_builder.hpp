@@ -10,7 +10,7 @@
 #include <bch/shape_set.hpp>
 
 namespace bch::detail {
-struct FlatShape;
+struct FlatBody;
 }
 
 namespace bch {
@@ -32,8 +32,8 @@ class PreparedShape {
   void prepare(const Shape& shape, std::size_t index);
 
   /// For the library's own parts, which alone know this type.
-  detail::FlatShape& flat() noexcept;
-  const detail::FlatShape& flat() const noexcept;
+  detail::FlatBody& flat() noexcept;
+  const detail::FlatBody& flat() const noexcept;
 
  private:
   struct State;

@@ -14,9 +14,10 @@ namespace bch {
 
 /// Something stored in a set that does not follow from the rest of it.
 struct Finding {
-  static constexpr std::uint32_t no_level = 0xffffffff;
+  static constexpr std::uint32_t no_level = 0xffffffff, whole = 0xffffffff;
 
   std::uint32_t shape;
+  std::uint32_t slab;   ///< the first one with what was found; `whole` where bodies are
   std::uint32_t level;  ///< or no_level, where the array has none
   const char* array;    ///< its name, as findings and errors of loading have it
   std::string what;     ///< the value, its place, and what the rest asks for
