@@ -38,6 +38,8 @@ std::vector<Table> query_tables(Suite& suite, Scene& scene);
 std::vector<Table> shape_count_tables(Suite& suite, Scene& scene, std::uint32_t most);
 /// plans/<row>/<bake|query>.
 std::vector<Table> plan_tables(Suite& suite, Scene& scene);
+/// slices/<row>/<workload>/<leaves> and slices/<row>/build.
+std::vector<Table> slice_tables(Suite& suite, Scene& scene);
 /// construction/<character>/<instruction set>/<stage> of the characters, and growth/<triangles>/<stage> of
 /// the built-in man with fewer and with more triangles.
 std::vector<Table> build_tables(Suite& suite, Scene& scene);

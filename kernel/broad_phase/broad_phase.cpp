@@ -17,6 +17,7 @@
 #include "kernel/broad_phase/sorted_discs.hpp"
 #include "kernel/runtime/floating_point_state.hpp"
 #include "kernel/runtime/task_ranges.hpp"
+#include "kernel/simd/slab_pairs.hpp"
 #include "layout/base/rounding.hpp"
 #include "layout/base/shortest.hpp"
 
@@ -40,6 +41,14 @@ CrowdBounds bounds(const ShapeSetView& shapes, const Agents& agents, double marg
         a.add(b);
         return a;
       });
+}
+
+/// Returns whether parts of two agents are at the same height: those on different floors have none.
+bool heights_meet(const ShapeSetView& shapes, const Agents& agents, Pair pair) {
+  const auto [a, b] = pair;
+  std::uint32_t cursor = 0;
+  const SlabPairs<void> slab_pairs(shapes, agents.shape[a], agents.shape[b], agents.z[b] - agents.z[a]);
+  return slab_pairs.next(cursor).a != no_part;
 }
 
 }  // namespace
@@ -162,6 +171,7 @@ std::span<const Pair> BroadPhase::State::find(const ShapeSetView& shapes, const 
     for (std::size_t b = first; b < last; ++b) {
       const std::size_t begin = b * block_discs, end = std::min(begin + block_discs, agents.size());
       find_in_block(grid, begin, end, found[b]);
+      if (!agents.z.empty()) found[b].keep_if([&](Pair pair) { return heights_meet(shapes, agents, pair); });
     }
   });
   gather_pairs(blocks);

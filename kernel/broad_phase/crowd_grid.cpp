@@ -8,7 +8,9 @@
 
 #include "kernel/distance/clearance_terms.hpp"
 #include "layout/base/heading.hpp"
+#include "layout/base/planes.hpp"
 #include "layout/base/rounding.hpp"
+#include "layout/format/parts.hpp"
 
 namespace bch::detail {
 namespace {
@@ -43,6 +45,37 @@ double pruning_radius(const ShapeSetView& shapes, std::size_t root, double margi
   return radius + share_of_reach * reach + (0.5 + share_of_margin) * margin;
 }
 
+struct PruningDisc {
+  double x, y, radius;  ///< metres, in the shape's frame
+};
+
+/// The disc of an agent's root; of a body in slabs one around the discs of all.
+PruningDisc pruning_disc(const ShapeSetView& shapes, const Agents& agents, std::size_t agent, double margin) {
+  const auto of_root = [&](std::size_t root) -> PruningDisc {
+    return {static_cast<double>(shapes.roots[root].x), static_cast<double>(shapes.roots[root].y),
+            pruning_radius(shapes, root, margin)};
+  };
+  const std::size_t whole = agents.root(agent, shapes.level_count);
+  if (shapes.slab_parts == nullptr) return of_root(whole);
+  const std::size_t level = whole % shapes.level_count;
+  PruningDisc part[most_planes + 1];
+  std::size_t count = 0;
+  double left = 1e300, right = -1e300, low = 1e300, high = -1e300;
+  for (std::uint32_t slab = 0; slab < shapes.slab_count; ++slab) {
+    const std::uint32_t number = part_of(shapes, agents.shape[agent], slab);
+    if (number == no_part) continue;
+    const auto [x, y, r] = part[count++] = of_root(std::size_t{number} * shapes.level_count + level);
+    left = std::min(left, x - r), right = std::max(right, x + r);
+    low = std::min(low, y - r), high = std::max(high, y + r);
+  }
+  PruningDisc around{0.5 * (left + right), 0.5 * (low + high), 0};
+  for (std::size_t i = 0; i < count; ++i)
+    around.radius =
+        std::max(around.radius, std::hypot(part[i].x - around.x, part[i].y - around.y) + part[i].radius);
+  around.radius *= 1 + 0x1p-40;
+  return around;
+}
+
 }  // namespace
 
 void CrowdBounds::add(const CrowdBounds& other) noexcept {
@@ -59,10 +92,8 @@ CrowdBounds bounds(const ShapeSetView& shapes, const Agents& agents, double marg
                    std::size_t end) noexcept {
   CrowdBounds all;
   for (std::size_t i = begin; i < end; ++i) {
-    const std::size_t root = agents.root(i, shapes.level_count);
-    const double radius = pruning_radius(shapes, root, margin);
-    const double offset = std::abs(static_cast<double>(shapes.roots[root].x)) +
-                          std::abs(static_cast<double>(shapes.roots[root].y));
+    const auto [x, y, radius] = pruning_disc(shapes, agents, i, margin);
+    const double offset = std::abs(x) + std::abs(y);
     all.add({agents.x[i], agents.x[i], agents.y[i], agents.y[i], offset, radius, radius});
   }
   return all;
@@ -98,15 +129,13 @@ CrowdGrid::CrowdGrid(const CrowdBounds& crowd) noexcept {
 void CrowdGrid::place(const ShapeSetView& shapes, const Agents& agents, double margin, std::size_t begin,
                       std::size_t end, GridDisc* discs) const noexcept {
   for (std::size_t i = begin; i < end; ++i) {
-    const std::size_t root = agents.root(i, shapes.level_count);
-    const auto x = static_cast<double>(shapes.roots[root].x), y = static_cast<double>(shapes.roots[root].y);
+    const auto [x, y, radius] = pruning_disc(shapes, agents, i, margin);
     const Rotation turn = rotation(agents.heading[i]);
     const double offset_x = turn.cosine * x - turn.sine * y, offset_y = turn.sine * x + turn.cosine * y;
     // The corner is taken from the position first: far from the origin, adding the offset there would lose
     // it.
     const auto at_x = static_cast<std::uint64_t>(((agents.x[i] - corner_x_) + offset_x) * units_);
     const auto at_y = static_cast<std::uint64_t>(((agents.y[i] - corner_y_) + offset_y) * units_);
-    const double radius = pruning_radius(shapes, root, margin);
     std::uint32_t c = class_count_ - 1;
     while (radius > classes_[c].most_radius) --c;
     const std::uint32_t shift = cell_bits - class_bits * c;

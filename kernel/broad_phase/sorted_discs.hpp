@@ -84,6 +84,14 @@ class PairList {
  public:
   std::span<const Pair> pairs() const noexcept { return {pairs_.data(), size_}; }
   void clear() noexcept { size_ = 0; }
+  /// Keeps the pairs that pass a test.
+  template <class Test>
+  void keep_if(Test passes) {
+    const auto end = pairs_.begin() + static_cast<std::ptrdiff_t>(size_);
+    size_ = static_cast<std::size_t>(
+        std::remove_if(pairs_.begin(), end, [&](const Pair& pair) { return !passes(pair); }) -
+        pairs_.begin());
+  }
 
   /// The pairs of disc i with those of begin .. end that it overlaps.
   void add_overlapping(const SortedDiscs& discs, std::size_t i, std::size_t begin, std::size_t end) {

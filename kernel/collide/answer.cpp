@@ -3,38 +3,47 @@
 
 #include "kernel/collide/answer.hpp"
 
+#include <bch/agents.hpp>
+
 #include "kernel/collide/containment.hpp"
 #include "kernel/runtime/kernels.hpp"
+#include "layout/format/shape_set_view.hpp"
 
 namespace bch::detail {
 namespace {
 
+bool in_slabs(const Arguments& in) noexcept {
+  return in.shapes->slab_parts != nullptr || in.agent_z != nullptr;
+}
+
 /// Decides the pairs of which one outline may contain the other.
-void decide_containment(const Arguments& arguments, const Agents& agents, std::size_t begin,
-                        std::size_t end) noexcept {
-  if (!arguments.solid) return;
-  for (std::size_t i = begin; i < end; ++i)
-    if (arguments.codes[i] == may_contain)
-      arguments.codes[i] =
-          one_contains_other(*arguments.shapes, agents, arguments.pairs[i]) ? overlap : apart;
-    else
-      arguments.codes[i] &= overlap;
+void decide_containment(const Arguments& in, std::size_t begin, std::size_t end) noexcept {
+  if (!in.solid) return;
+  for (std::size_t i = begin; i < end; ++i) {
+    if (in.codes[i] != may_contain) {
+      in.codes[i] &= overlap;
+      continue;
+    }
+    const auto [a, b] = in.pairs[i];
+    in.codes[i] = one_contains_other(in, a, in.agent_shape[a], b, in.agent_shape[b]) ? overlap : apart;
+  }
 }
 
 }  // namespace
 
-void answer(const Implementation& implementation, const Arguments& arguments, const Agents& agents,
-            std::size_t begin, std::size_t end) noexcept {
+void answer(const Implementation& implementation, const Arguments& arguments, std::size_t begin,
+            std::size_t end) noexcept {
+  if (in_slabs(arguments)) return implementation.kernels->run_in_slabs(arguments, begin, end);
   implementation.kernels->run(arguments, begin, end);
-  decide_containment(arguments, agents, begin, end);
+  decide_containment(arguments, begin, end);
 }
 
-bool answer_if_valid(const Implementation& implementation, const Arguments& arguments, const Agents& agents,
+bool answer_if_valid(const Implementation& implementation, const Arguments& arguments,
                      std::size_t count) noexcept {
-  if (count == 0 || count > chunk_size ||
+  if (count == 0 || count > chunk_size || in_slabs(arguments) ||
       !implementation.kernels->run_if_valid(arguments, static_cast<std::uint32_t>(count)))
     return false;
-  decide_containment(arguments, agents, 0, count);
+  decide_containment(arguments, 0, count);
   return true;
 }
 

@@ -5,7 +5,6 @@
 
 #include <cstddef>
 
-#include <bch/agents.hpp>
 #include <bch/query.hpp>
 
 #include "kernel/simd/arguments.hpp"
@@ -14,13 +13,13 @@ namespace bch::detail {
 
 /// The work of one task: answers pairs begin .. end, each 0 or 1. Writes nothing but their codes, so that
 /// ranges may run at the same time.
-/// Preconditions: everything was validated; `agents` holds what `arguments` points to.
-void answer(const Implementation& implementation, const Arguments& arguments, const Agents& agents,
-            std::size_t begin, std::size_t end) noexcept;
+/// Precondition: everything was validated.
+void answer(const Implementation& implementation, const Arguments& arguments, std::size_t begin,
+            std::size_t end) noexcept;
 
 /// Answers all pairs, at most a chunk, when nothing but sizes was validated. Returns false, and writes
 /// nothing, where something may be invalid, or where there are more pairs or none.
-bool answer_if_valid(const Implementation& implementation, const Arguments& arguments, const Agents& agents,
+bool answer_if_valid(const Implementation& implementation, const Arguments& arguments,
                      std::size_t count) noexcept;
 
 }  // namespace bch::detail

@@ -19,11 +19,11 @@ using namespace detail;
 void collide(const ShapeSet& shapes, const Agents& agents, std::span<const Pair> pairs,
              std::span<std::uint8_t> hits, const QueryOptions& options) {
   const FloatingPointStateGuard floats;
-  const bool solid = options.semantics == Semantics::solid;
+  const bool in_slabs = !shapes.slices().empty(), solid = in_slabs || options.semantics == Semantics::solid;
   if (hits.size() != pairs.size())
     throw std::invalid_argument("collide: " + std::to_string(pairs.size()) + " pairs but " +
                                 std::to_string(hits.size()) + " hits");
-  if (!solid && options.semantics != Semantics::boundary)
+  if (options.semantics != Semantics::solid && options.semantics != Semantics::boundary)
     throw std::invalid_argument("collide: no semantics is " +
                                 std::to_string(static_cast<int>(options.semantics)) +
                                 ", only boundary (0) and solid (1)");
@@ -38,11 +38,10 @@ void collide(const ShapeSet& shapes, const Agents& agents, std::span<const Pair>
   arguments.codes = hits.data();
   arguments.solid = solid;
   arguments.exact_leaves = exact;
-  if (answer_if_valid(implementation, arguments, agents, pairs.size())) return;
+  if (answer_if_valid(implementation, arguments, pairs.size())) return;
   require_valid(implementation, view, agents, pairs);
-  for_ranges(pairs.size(), pairs_per_task, [&](std::size_t begin, std::size_t end) {
-    answer(implementation, arguments, agents, begin, end);
-  });
+  for_ranges(pairs.size(), pairs_per_task,
+             [&](std::size_t begin, std::size_t end) { answer(implementation, arguments, begin, end); });
 }
 
 }  // namespace bch

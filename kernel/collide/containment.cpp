@@ -6,6 +6,7 @@
 #include "kernel/simd/transform.hpp"
 #include "layout/base/heading.hpp"
 #include "layout/base/rounding.hpp"
+#include "layout/format/shape_set_view.hpp"
 
 namespace bch::detail {
 namespace {
@@ -14,9 +15,9 @@ using Point = PointIn<double>;
 using Placement = TransformOf<double>;
 
 /// Returns the map from the frame of one agent into that of another.
-Placement placement(const Agents& agents, std::uint32_t of, std::uint32_t in) {
-  const Rotation to = rotation(agents.heading[in]), from = rotation(agents.heading[of]);
-  const double dx = agents.x[of] - agents.x[in], dy = agents.y[of] - agents.y[in];
+Placement placement(const Arguments& in, std::uint32_t of, std::uint32_t to_agent) {
+  const Rotation to = rotation(in.agent_heading[to_agent]), from = rotation(in.agent_heading[of]);
+  const double dx = in.agent_x[of] - in.agent_x[to_agent], dy = in.agent_y[of] - in.agent_y[to_agent];
   return {to.cosine * from.cosine + to.sine * from.sine, to.cosine * from.sine - to.sine * from.cosine,
           to.cosine * dx + to.sine * dy, to.cosine * dy - to.sine * dx};
 }
@@ -59,11 +60,11 @@ bool may_be_inside(const Disc& outer, const Disc& inner, Point inner_centre, dou
   return x * x + y * y + r * r <= limit * limit;
 }
 
-bool contains_contour_of(const ShapeSetView& shapes, std::uint32_t outer_shape, std::uint32_t inner_shape,
+bool contains_contour_of(const ShapeSetView& shapes, std::uint32_t outer_part, std::uint32_t inner_part,
                          const Placement& place) {
-  const double slack = inside_slack * (static_cast<double>(shapes.reach[outer_shape]) +
-                                       static_cast<double>(shapes.reach[inner_shape]));
-  const ContourRange outer = shapes.shape_contours[outer_shape], inner = shapes.shape_contours[inner_shape];
+  const double slack = inside_slack * (static_cast<double>(shapes.reach[outer_part]) +
+                                       static_cast<double>(shapes.reach[inner_part]));
+  const ContourRange outer = shapes.shape_contours[outer_part], inner = shapes.shape_contours[inner_part];
   const auto placed = [&](float x, float y) { return place.apply(double{x}, double{y}); };
   for (std::uint32_t i = inner.begin; i < inner.end; ++i) {
     const Contour& within = shapes.contours[i];
@@ -79,10 +80,10 @@ bool contains_contour_of(const ShapeSetView& shapes, std::uint32_t outer_shape, 
 
 }  // namespace
 
-bool one_contains_other(const ShapeSetView& shapes, const Agents& agents, Pair pair) noexcept {
-  const auto [a, b] = pair;
-  return contains_contour_of(shapes, agents.shape[a], agents.shape[b], placement(agents, b, a)) ||
-         contains_contour_of(shapes, agents.shape[b], agents.shape[a], placement(agents, a, b));
+bool one_contains_other(const Arguments& in, std::uint32_t agent_a, std::uint32_t part_a,
+                        std::uint32_t agent_b, std::uint32_t part_b) noexcept {
+  return contains_contour_of(*in.shapes, part_a, part_b, placement(in, agent_b, agent_a)) ||
+         contains_contour_of(*in.shapes, part_b, part_a, placement(in, agent_a, agent_b));
 }
 
 }  // namespace bch::detail

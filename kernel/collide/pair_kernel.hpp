@@ -49,12 +49,6 @@ class PairKernel {
     return true;
   }
 
- private:
-  using Float = typename Simd::Float;
-  /// The room for open traversals: a chunk, and besides as many unfinished pairs as fit on the stack.
-  static constexpr std::uint32_t open_walks = chunk_size + chunk_size * 7 / 8;
-  using List = ChunkPairs<Simd, chunk_size>;
-
   explicit PairKernel(const Arguments& arguments) noexcept
       : in_(arguments),
         shapes_(*arguments.shapes),
@@ -62,6 +56,21 @@ class PairKernel {
         axis_test_(shapes_, at_),
         profiles_(shapes_, at_, arguments.prefetch_shapes),
         walk_(shapes_, arguments) {}
+
+  /// The pairs that answer_placed() is about.
+  Placements<Simd>& placements() noexcept { return at_; }
+  /// Answers pairs that somebody else placed. Codes from `begin` on are written by the end of finish().
+  void answer_placed(std::size_t begin) noexcept {
+    answer_chunk(begin);
+    walk_.run(open_walks - chunk_size);
+  }
+  void finish() noexcept { walk_.run(0); }
+
+ private:
+  using Float = typename Simd::Float;
+  /// The room for open traversals: a chunk, and besides as many unfinished pairs as fit on the stack.
+  static constexpr std::uint32_t open_walks = chunk_size + chunk_size * 7 / 8;
+  using List = ChunkPairs<Simd, chunk_size>;
 
   /// Answers the pairs that were placed.
   void answer_chunk(std::size_t begin) noexcept {

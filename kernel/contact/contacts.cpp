@@ -3,11 +3,14 @@
 
 #include <bch/contacts.hpp>
 
+#include <algorithm>
 #include <numeric>
+#include <utility>
 #include <vector>
 
 #include "kernel/runtime/floating_point_state.hpp"
 #include "kernel/runtime/pair_validation.hpp"
+#include "kernel/runtime/part_items.hpp"
 #include "kernel/runtime/task_ranges.hpp"
 
 namespace bch {
@@ -24,7 +27,11 @@ struct ContactFinder::State {
   std::vector<std::uint64_t> offsets;
   std::vector<DiscPair> contacts;
 
+  PartItems items;
+
   void find(const Implementation& implementation, const Arguments& arguments, std::size_t pairs);
+  void find_of_parts(const Implementation& implementation, const Arguments& whole, const Agents& agents,
+                     std::span<const Pair> pairs);
   Rows<DiscPair> find(const ShapeSet& shapes, const Agents& agents, std::span<const Pair> pairs,
                       const QueryOptions& options);
 };
@@ -43,6 +50,35 @@ void ContactFinder::State::find(const Implementation& implementation, const Argu
   });
 }
 
+/// Contacts of parts, pair by pair, numbered as discs of their bodies.
+void ContactFinder::State::find_of_parts(const Implementation& implementation, const Arguments& whole,
+                                         const Agents& agents, std::span<const Pair> pairs) {
+  items.expand(*whole.shapes, agents, pairs);
+  const ShapeSetView parts = parts_as_shapes(*whole.shapes);
+  const Agents part_agents = items.agents();
+  Arguments arguments = arguments_for(parts, part_agents, items.pairs());
+  arguments.exact_leaves = whole.exact_leaves;
+  find(implementation, arguments, items.size());
+  for_ranges(pairs.size(), grain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      for (std::size_t k = items.begin(i); k < items.begin(i + 1); ++k)
+        for (std::uint64_t c = offsets[k]; c < offsets[k + 1]; ++c) {
+          auto& [first, second] = contacts[c];
+          first += items.origin(k).first_disc_a, second += items.origin(k).first_disc_b;
+          if (pairs[i].second < pairs[i].first) std::swap(first, second);
+        }
+      const auto at = [&](std::size_t item) {
+        return contacts.begin() + static_cast<std::ptrdiff_t>(offsets[item]);
+      };
+      std::sort(at(items.begin(i)), at(items.begin(i + 1)), [](const DiscPair& a, const DiscPair& b) {
+        return std::pair(a.first, a.second) < std::pair(b.first, b.second);
+      });
+    }
+  });
+  for (std::size_t i = 0; i <= pairs.size(); ++i) offsets[i] = offsets[items.begin(i)];
+  offsets.resize(pairs.size() + 1);
+}
+
 Rows<DiscPair> ContactFinder::State::find(const ShapeSet& shapes, const Agents& agents,
                                           std::span<const Pair> pairs, const QueryOptions& options) {
   const FloatingPointStateGuard floats;
@@ -53,7 +89,10 @@ Rows<DiscPair> ContactFinder::State::find(const ShapeSet& shapes, const Agents& 
   Arguments arguments = arguments_for(view, agents, pairs);
   arguments.exact_leaves = exact;
   try {
-    find(implementation, arguments, pairs.size());
+    if (asks_parts(view, agents))
+      find_of_parts(implementation, arguments, agents, pairs);
+    else
+      find(implementation, arguments, pairs.size());
   } catch (...) {
     *this = {};
     throw;

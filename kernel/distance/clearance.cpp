@@ -7,10 +7,13 @@
 #include <cmath>
 #include <stdexcept>
 #include <string>
+#include <tuple>
+#include <vector>
 
 #include "kernel/distance/clearance_arguments.hpp"
 #include "kernel/runtime/floating_point_state.hpp"
 #include "kernel/runtime/pair_validation.hpp"
+#include "kernel/runtime/part_items.hpp"
 #include "kernel/runtime/task_ranges.hpp"
 #include "layout/base/shortest.hpp"
 
@@ -54,6 +57,42 @@ Vec2 direction(Pair pair, const NearestDiscs& nearest) {
   return {static_cast<float>(scale * world_x), static_cast<float>(scale * world_y)};
 }
 
+/// The same for bodies in slabs or at different heights: the nearest parts, in a tie those in the lowest slabs.
+void answer_parts(const Implementation& implementation, ClearanceArguments arguments,
+                  const ShapeSetView& parts, std::span<const Pair> pairs, const PartItems& items,
+                  const ClearanceAnswers& answers) {
+  std::vector<NearestDiscs> nearest(items.size());
+  const Agents agents = items.agents();
+  arguments.in = arguments_for(parts, agents, items.pairs());
+  arguments.nearest = nearest.data();
+  implementation.kernels->clearance(arguments, 0, items.size());
+  const auto is_before = [&](std::size_t a, std::size_t b) {
+    const auto key = [&](std::size_t i) {
+      const float distance =
+          nearest[i].a != no_node ? nearest[i].distance : std::numeric_limits<float>::infinity();
+      return std::tuple(distance, items.origin(i).slab_a, items.origin(i).slab_b);
+    };
+    return key(a) < key(b);
+  };
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    std::size_t best = items.begin(i);
+    for (std::size_t k = best + 1; k < items.begin(i + 1); ++k)
+      if (is_before(k, best)) best = k;
+    const bool found = items.begin(i) < items.begin(i + 1) && nearest[best].a != no_node;
+    const bool is_turned = pairs[i].second < pairs[i].first;
+    answers.distance[i] = found ? nearest[best].distance : std::numeric_limits<float>::infinity();
+    if (!answers.direction.empty())
+      answers.direction[i] = found ? direction(pairs[i], nearest[best]) : Vec2{0, 0};
+    if (answers.discs.empty()) continue;
+    answers.discs[i] = no_discs;
+    if (!found) continue;
+    const DiscPair local = nearest_discs(parts, agents, items.pairs()[best], nearest[best]);
+    const DiscPair discs{local.first + items.origin(best).first_disc_a,
+                         local.second + items.origin(best).first_disc_b};
+    answers.discs[i] = is_turned ? DiscPair{discs.second, discs.first} : discs;
+  }
+}
+
 /// The work of one task.
 void answer(const Implementation& implementation, ClearanceArguments arguments, const Agents& agents,
             std::span<const Pair> pairs, const ClearanceAnswers& answers) noexcept {
@@ -93,14 +132,20 @@ void clearance(const ShapeSet& shapes, const Agents& agents, std::span<const Pai
   const ShapeSetView& view = shapes.view();
   require_valid(implementation, view, agents, pairs);
 
+  const ShapeSetView parts = parts_as_shapes(view);
   ClearanceArguments arguments{arguments_for(view, agents, {}), limit_of(options.max_distance), nullptr};
   const auto part = [](auto span, std::size_t begin, std::size_t size) {
     return span.empty() ? span : span.subspan(begin, size);
   };
   for_pair_ranges(pairs.size(), grain, [&](std::size_t begin, std::size_t size) {
-    answer(implementation, arguments, agents, pairs.subspan(begin, size),
-           {part(answers.distance, begin, size), part(answers.direction, begin, size),
-            part(answers.discs, begin, size)});
+    const ClearanceAnswers its_answers{part(answers.distance, begin, size),
+                                       part(answers.direction, begin, size),
+                                       part(answers.discs, begin, size)};
+    const std::span<const Pair> its_pairs = pairs.subspan(begin, size);
+    if (!asks_parts(view, agents)) return answer(implementation, arguments, agents, its_pairs, its_answers);
+    PartItems items;
+    items.expand(view, agents, its_pairs);
+    answer_parts(implementation, arguments, parts, its_pairs, items, its_answers);
   });
 }
 

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "kernel/collide/pair_kernel.hpp"
+#include "kernel/collide/slab_kernel.hpp"
 #include "kernel/contact/contact_kernel.hpp"
 #include "kernel/distance/clearance_kernel.hpp"
 #include "kernel/distance/time_of_impact_kernel.hpp"
@@ -31,6 +32,10 @@ struct Row {
   static void run(const Arguments& arguments, std::size_t begin, std::size_t end) noexcept {
     [[maybe_unused]] const Guard guard;
     PairKernel<Simd>::run(arguments, begin, end);
+  }
+  static void run_in_slabs(const Arguments& arguments, std::size_t begin, std::size_t end) noexcept {
+    [[maybe_unused]] const Guard guard;
+    SlabKernel<Simd>::run(arguments, begin, end);
   }
   static bool run_if_valid(const Arguments& arguments, std::uint32_t count) noexcept {
     [[maybe_unused]] const Guard guard;
@@ -61,8 +66,9 @@ struct Row {
     TimeOfImpactKernel<Simd>::run(arguments, begin, end);
   }
 
-  static constexpr Kernels kernels{Simd::width,    check,         named,   run,       run_if_valid,
-                                   count_contacts, fill_contacts, extents, clearance, time_of_impact};
+  static constexpr Kernels kernels{Simd::width,  check,        named,          run,
+                                   run_in_slabs, run_if_valid, count_contacts, fill_contacts,
+                                   extents,      clearance,    time_of_impact};
 };
 
 }  // namespace bch::detail

@@ -13,7 +13,9 @@
 
 #include "kernel/runtime/floating_point_state.hpp"
 #include "kernel/runtime/pair_validation.hpp"
+#include "kernel/runtime/part_items.hpp"
 #include "kernel/runtime/task_ranges.hpp"
+#include "kernel/simd/slab_pairs.hpp"
 #include "layout/base/heading.hpp"
 #include "layout/base/rounding.hpp"
 #include "layout/format/cut_discs.hpp"
@@ -51,19 +53,34 @@ struct Extents {
   double reach;  ///< as in rounding.hpp
 };
 
+/// How far A has to move along each axis, or against it, until no disc of B is in its way.
+struct Depths {
+  double along[most_axes], against[most_axes];
+  double reach;  ///< of both
+
+  explicit Depths(std::uint32_t axes) {
+    std::fill_n(along, axes, -std::numeric_limits<double>::infinity());
+    std::fill_n(against, axes, -std::numeric_limits<double>::infinity());
+    reach = 0;
+  }
+};
+
 struct Query {
   const ShapeSetView shapes;
   const Agents& agents;
   const Implementation& implementation;
 
-  void measure(std::uint32_t agent, const Axes& axes, Extents& extents) const noexcept;
-  Penetration answer(Pair pair, const Axes& axes, bool both_ways, const Extents& a,
-                     const Extents& b) const noexcept;
+  void measure(std::uint32_t agent, std::uint32_t part, const Axes& axes, Extents& extents) const noexcept;
+  void compare(Pair pair, const Axes& axes, const Extents& a, const Extents& b,
+               Depths& depths) const noexcept;
+  void compare_parts(Pair pair, const Axes& axes, Depths& depths) const noexcept;
 };
 
-void Query::measure(std::uint32_t agent, const Axes& axes, Extents& extents) const noexcept {
+void Query::measure(std::uint32_t agent, std::uint32_t part, const Axes& axes,
+                    Extents& extents) const noexcept {
+  const std::uint32_t levels = shapes.level_count;
   const CutDiscs discs =
-      cut_discs(shapes, static_cast<std::uint32_t>(agents.root(agent, shapes.level_count)));
+      cut_discs(shapes, part * levels + (agents.level.empty() ? levels - 1 : agents.level[agent]));
   const Rotation turn = rotation(agents.heading[agent]);
   float x[most_axes], y[most_axes];
   for (std::uint32_t i = 0; i < axes.count; ++i) {
@@ -72,27 +89,50 @@ void Query::measure(std::uint32_t agent, const Axes& axes, Extents& extents) con
   }
   implementation.kernels->extents(discs, x, y, axes.count, extents.low, extents.high);
   // A set of single discs has no reaches.
-  extents.reach =
-      static_cast<double>(discs.count == 1 ? std::abs(discs.x[0]) + std::abs(discs.y[0]) + discs.radius[0]
-                                           : shapes.reach[agents.shape[agent]]);
+  extents.reach = static_cast<double>(
+      discs.count == 1 ? std::abs(discs.x[0]) + std::abs(discs.y[0]) + discs.radius[0] : shapes.reach[part]);
 }
 
 /// `a` belongs to the lower index, whatever the pair's order: so that both orders agree.
-Penetration Query::answer(Pair pair, const Axes& axes, bool both_ways, const Extents& a,
-                          const Extents& b) const noexcept {
+void Query::compare(Pair pair, const Axes& axes, const Extents& a, const Extents& b,
+                    Depths& depths) const noexcept {
   const auto [low, high] = std::minmax(pair.first, pair.second);
   const double dx = agents.x[high] - agents.x[low], dy = agents.y[high] - agents.y[low];
+  for (std::uint32_t i = 0; i < axes.count; ++i) {
+    const double between = dx * axes.x[i] + dy * axes.y[i];
+    const double along = static_cast<double>(b.high[i]) - static_cast<double>(a.low[i]) + between;
+    const double against = static_cast<double>(a.high[i]) - static_cast<double>(b.low[i]) - between;
+    depths.along[i] = std::max(depths.along[i], along);
+    depths.against[i] = std::max(depths.against[i], against);
+  }
+  depths.reach = std::max(depths.reach, a.reach + b.reach);
+}
+
+/// All parts that may meet have to come free.
+void Query::compare_parts(Pair pair, const Axes& axes, Depths& depths) const noexcept {
+  const auto [low, high] = std::minmax(pair.first, pair.second);
+  const double rise = agents.z.empty() ? 0 : agents.z[high] - agents.z[low];
+  const SlabPairs<void> slab_pairs(shapes, agents.shape[low], agents.shape[high], rise);
+  Extents a, b;
+  std::uint32_t cursor = 0;
+  for (auto parts = slab_pairs.next(cursor); parts.a != no_part; parts = slab_pairs.next(cursor)) {
+    measure(low, parts.a, axes, a);
+    measure(high, parts.b, axes, b);
+    compare(pair, axes, a, b, depths);
+  }
+}
+
+Penetration answer_of(Pair pair, const Axes& axes, bool both_ways, const Depths& depths) noexcept {
   double least = std::numeric_limits<double>::infinity(), x = 0, y = 0;
   const auto offer = [&](double depth, double along_x, double along_y) {
     if (depth < least) least = depth, x = along_x, y = along_y;
   };
   for (std::uint32_t i = 0; i < axes.count; ++i) {
-    const double ex = axes.x[i], ey = axes.y[i], along = dx * ex + dy * ey;
-    offer(static_cast<double>(b.high[i]) - static_cast<double>(a.low[i]) + along, ex, ey);
-    if (both_ways) offer(static_cast<double>(a.high[i]) - static_cast<double>(b.low[i]) - along, -ex, -ey);
+    offer(depths.along[i], axes.x[i], axes.y[i]);
+    if (both_ways) offer(depths.against[i], -axes.x[i], -axes.y[i]);
   }
   if (pair.second < pair.first) x = -x, y = -y;
-  const double depth = (least + margin * (a.reach + b.reach)) * lengthening;
+  const double depth = (least + margin * depths.reach) * lengthening;
   return {depth > 0 ? rounding::round_up(depth) : 0.0f, x, y};
 }
 
@@ -143,6 +183,7 @@ void penetration_along(const ShapeSet& shapes, const Agents& agents, std::span<c
   const FloatingPointStateGuard floats;
   const Query query = checked_query(shapes, agents, pairs, out, options);
   require_directions(directions, pairs.size());
+  const bool of_parts = asks_parts(query.shapes, agents);
   for_pair_ranges(pairs.size(), grain, [&](std::size_t begin, std::size_t size) {
     Axes axis;
     Extents a, b;
@@ -152,9 +193,15 @@ void penetration_along(const ShapeSet& shapes, const Agents& agents, std::span<c
       const double x = directions[i].x, y = directions[i].y;
       const double length = std::sqrt(x * x + y * y) * (pairs[i].second < pairs[i].first ? -1 : 1);
       axis.x[0] = x / length, axis.y[0] = y / length;
-      query.measure(low, axis, a);
-      query.measure(high, axis, b);
-      out[i] = query.answer(pairs[i], axis, false, a, b);
+      Depths depths(axis.count);
+      if (of_parts) {
+        query.compare_parts(pairs[i], axis, depths);
+      } else {
+        query.measure(low, agents.shape[low], axis, a);
+        query.measure(high, agents.shape[high], axis, b);
+        query.compare(pairs[i], axis, a, b, depths);
+      }
+      out[i] = answer_of(pairs[i], axis, false, depths);
     }
   });
 }
@@ -164,16 +211,23 @@ void penetration(const ShapeSet& shapes, const Agents& agents, std::span<const P
   const FloatingPointStateGuard floats;
   const Query query = checked_query(shapes, agents, pairs, out, options);
   const Axes axes = spread_axes(directions);
+  const bool of_parts = asks_parts(query.shapes, agents);
   for_pair_ranges(pairs.size(), grain, [&](std::size_t begin, std::size_t size) {
     Extents a, b;
     std::size_t measured = agents.size();
     for (std::size_t i = begin; i < begin + size; ++i) {
       const auto [low, high] = std::minmax(pairs[i].first, pairs[i].second);
-      // Pairs often come agent by agent.
-      if (measured != low) query.measure(low, axes, a);
-      measured = low;
-      query.measure(high, axes, b);
-      out[i] = query.answer(pairs[i], axes, true, a, b);
+      Depths depths(axes.count);
+      if (of_parts) {
+        query.compare_parts(pairs[i], axes, depths);
+      } else {
+        // Pairs often come agent by agent.
+        if (measured != low) query.measure(low, agents.shape[low], axes, a);
+        measured = low;
+        query.measure(high, agents.shape[high], axes, b);
+        query.compare(pairs[i], axes, a, b, depths);
+      }
+      out[i] = answer_of(pairs[i], axes, true, depths);
     }
   });
 }

@@ -23,6 +23,7 @@ class AgentCheck {
   static bool passes(const Arguments& in, std::size_t begin, std::size_t end) noexcept {
     return all_below(in.agent_shape, begin, end, in.shapes->shape_count) &
            all_within(in.agent_x, in.agent_y, in.agent_heading, begin, end) &
+           (in.agent_z == nullptr || all_within(in.agent_z, in.agent_z, in.agent_z, begin, end)) &
            (in.agent_level == nullptr || all_below(in.agent_level, begin, end, in.shapes->level_count));
   }
 

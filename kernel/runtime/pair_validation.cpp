@@ -95,6 +95,7 @@ Arguments arguments_for(const ShapeSetView& view, const Agents& agents, std::spa
           .agent_y = agents.y.data(),
           .agent_heading = agents.heading.data(),
           .agent_level = agents.level.empty() ? nullptr : agents.level.data(),
+          .agent_z = agents.z.empty() ? nullptr : agents.z.data(),
           .pairs = pairs.data(),
           .codes = nullptr,
           .solid = false,
@@ -109,6 +110,7 @@ Arguments arguments_for(const ShapeSetView& view, const Agents& agents, std::spa
 void require_valid(const Implementation& implementation, const ShapeSetView& shapes, const Agents& agents,
                    std::span<const Pair> pairs) {
   require_sizes(agents);
+  require_heights(shapes, agents);
   const Arguments arguments = arguments_for(shapes, agents, {});
   const bool all_agents_are_valid = agents.size() <= 2 * pairs.size() &&
                                     first_bad_agent(implementation, arguments, agents) == agents.size();
@@ -132,6 +134,7 @@ void bch::validate(const ShapeSet& shapes, const Agents& agents) {
   require_sizes(agents);
   const FloatingPointStateGuard floats;
   const ShapeSetView& view = shapes.view();
+  require_heights(view, agents);
   const Arguments arguments = arguments_for(view, agents, {});
   const std::size_t i = first_bad_agent(best_implementation(), arguments, agents);
   if (i < agents.size()) reject(view, agents, i);

@@ -24,8 +24,14 @@ void require_sizes(const Agents& agents) {
   require(agents.y.size(), "y", false);
   require(agents.heading.size(), "heading", false);
   require(agents.level.size(), "level", true);
+  require(agents.z.size(), "z", true);
   if (size > std::numeric_limits<std::uint32_t>::max())
     throw std::invalid_argument("agents: more than 2^32 - 1");
+}
+
+void require_heights(const ShapeSetView& shapes, const Agents& agents) {
+  if (!agents.z.empty() && shapes.heights == nullptr && shapes.shape_count > 0)
+    throw std::invalid_argument("agents: they have a z, and the set was planned without heights");
 }
 
 void reject(const ShapeSetView& shapes, const Agents& agents, std::size_t i) {
@@ -36,6 +42,8 @@ void reject(const ShapeSetView& shapes, const Agents& agents, std::size_t i) {
       return "level " + std::to_string(agents.level[i]) + " of " + std::to_string(shapes.level_count);
     if (!(std::abs(agents.heading[i]) <= rounding::largest_heading))
       return "heading " + shortest(agents.heading[i]) + " rad is not within +-1e9";
+    if (!agents.z.empty() && !(std::abs(agents.z[i]) <= rounding::largest_position))
+      return "z " + shortest(agents.z[i]) + " m is not within +-1e9";
     return "position (" + shortest(agents.x[i]) + ", " + shortest(agents.y[i]) + ") m is not within +-1e9";
   };
   throw std::invalid_argument("agent " + std::to_string(i) + ": " + why());

@@ -14,6 +14,9 @@ namespace bch::detail {
 /// Throws std::invalid_argument where the spans differ in length, or there are more than 2^32 - 1 agents.
 void require_sizes(const Agents& agents);
 
+/// Requires of agents with a z that the set keeps the heights of bodies.
+void require_heights(const ShapeSetView& shapes, const Agents& agents);
+
 /// Throws std::invalid_argument saying what is wrong with an agent that AgentCheck does not pass.
 [[noreturn]] void reject(const ShapeSetView& shapes, const Agents& agents, std::size_t i);
 

@@ -27,6 +27,7 @@ struct Arguments {
   const double* agent_y;
   const double* agent_heading;
   const std::uint8_t* agent_level;  ///< null: the last level
+  const double* agent_z;            ///< null: all stand on the same ground
   const Pair* pairs;
   std::uint8_t* codes;
   bool solid;         ///< write may_contain where it applies, else apart

@@ -53,6 +53,19 @@ class Placements {
     return (size + Simd::width - 1) / Simd::width * Simd::width;
   }
 
+  std::uint32_t agent_a(std::uint32_t pair) const noexcept { return a_[pair]; }
+  std::uint32_t agent_b(std::uint32_t pair) const noexcept { return b_[pair]; }
+
+  /// Takes what was written for so many pairs, and repeats the last one up to a whole register.
+  void fill_up(std::uint32_t count) noexcept {
+    size = count;
+    for (std::uint32_t k = count; count > 0 && k < whole_registers(); ++k) {
+      c[k] = c[count - 1], s[k] = s[count - 1], tx[k] = tx[count - 1], ty[k] = ty[count - 1];
+      shape_a[k] = shape_a[count - 1], shape_b[k] = shape_b[count - 1];
+      root_a[k] = root_a[count - 1], root_b[k] = root_b[count - 1];
+    }
+  }
+
   std::uint32_t size = 0;
 
   // Up to whole_registers(), lanes beyond the last pair repeat it. The transform is as in layout/base/rounding.hpp.

@@ -48,6 +48,7 @@
 ///     slices          f32         any     planes that cut bodies into slabs, metres, ascending; at most 63
 ///     slab_parts      u32         any     see below; or none
 ///     heights         Heights     S or 0  metres: a part's bottom and top, infinite where it has none
+///     hull_support    f32         any     64 a shape, the largest of its parts' supports; where there are slices and supports
 ///     settings        Settings    1
 ///     origins         ShapeOrigin S or 0  what each shape shows
 ///     name_begin      u32         N + 1   name n is bytes [n] to [n + 1] of names
@@ -116,6 +117,7 @@ enum class Section : std::uint32_t {
   slices,
   slab_parts,
   heights,
+  hull_support,
   settings,
   origins,
   name_begin,

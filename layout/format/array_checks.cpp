@@ -105,6 +105,8 @@ void sizes(const ShapeArrays& a) {
   require_size("segment_margin", a.segment_margin.size(), outlines ? shapes : 0);
   if (!outlines) require_size("leaf_segments", a.leaf_segments.size(), 0);
   if (!a.heights.empty() || !a.slices.empty()) require_size("heights", a.heights.size(), shapes);
+  require_size("hull_support", a.hull_support.size(),
+               culling && !a.slices.empty() ? a.shape_count() * support_stride : 0);
   if (a.leaf_segments.size() > most)
     throw std::invalid_argument("leaf_segments: " + std::to_string(a.leaf_segments.size()) + ", too many");
 }
@@ -187,6 +189,11 @@ void supports(const ShapeArrays& a) {
   if ((bad & top_bit) == 0) return;
   for (std::size_t i = first_row * support_stride; i < a.support.size(); ++i)
     if (!is_length(a.support[i])) reject("support", i, "not a length");
+}
+
+void hull_supports(const ShapeArrays& a) {
+  for (std::size_t i = 0; i < a.hull_support.size(); ++i)
+    if (!is_length(a.hull_support[i])) reject("hull_support", i, "not a length");
 }
 
 void inscribed(const ShapeArrays& a) {

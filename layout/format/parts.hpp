@@ -17,4 +17,26 @@ namespace bch::detail {
                                       : shapes.slab_parts[std::size_t{shape} * shapes.slab_count + slab];
 }
 
+/// Discs of a level of a part.
+inline std::uint32_t disc_count(const ShapeSetView& shapes, std::uint32_t part,
+                                std::uint32_t level) noexcept {
+  return shapes.trees == nullptr ? 1 : shapes.trees[std::size_t{part} * shapes.level_count + level].count;
+}
+
+/// The first part of a shape; the others follow it.
+inline std::uint32_t first_part(const ShapeSetView& shapes, std::uint32_t shape) noexcept {
+  std::uint32_t slab = 0;
+  while (part_of(shapes, shape, slab) == no_part) ++slab;
+  return part_of(shapes, shape, slab);
+}
+
+/// Where the discs of a part begin among those of its shape's cut.
+inline std::uint32_t first_disc(const ShapeSetView& shapes, std::uint32_t shape, std::uint32_t part,
+                                std::uint32_t level) noexcept {
+  std::uint32_t discs = 0;
+  for (std::uint32_t before = first_part(shapes, shape); before < part; ++before)
+    discs += disc_count(shapes, before, level);
+  return discs;
+}
+
 }  // namespace bch::detail

@@ -31,6 +31,7 @@ struct ShapeArrays {
   std::span<const float> slices;  ///< planes, ascending
   std::span<const std::uint32_t> slab_parts;
   std::span<const Heights> heights;
+  std::span<const float> hull_support;
 
   std::size_t part_count() const noexcept { return depths.empty() ? 0 : roots.size() / depths.size(); }
   std::size_t slab_count() const noexcept { return slices.size() + 1; }
@@ -60,6 +61,7 @@ void for_each_array(Visit visit, Sets&... sets) {
   visit("slices", sets.slices...);
   visit("slab_parts", sets.slab_parts...);
   visit("heights", sets.heights...);
+  visit("hull_support", sets.hull_support...);
 }
 
 }  // namespace bch::detail

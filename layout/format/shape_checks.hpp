@@ -31,6 +31,7 @@ void infinite_rows(const ShapeArrays& a);
 void reaches(const ShapeArrays& a);
 void roots(const ShapeArrays& a);
 void supports(const ShapeArrays& a);
+void hull_supports(const ShapeArrays& a);
 void inscribed(const ShapeArrays& a);
 void extremes(const ShapeArrays& a);
 void profiles(const ShapeArrays& a);

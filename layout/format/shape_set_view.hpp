@@ -161,8 +161,11 @@ struct ShapeSetView {
   const std::uint32_t* leaf_segments;  ///< words and lists, see Tree::segments; null where no tree has any
   const float* segment_margin;         ///< per shape, metres; see rounding.hpp, V; null without outlines
 
+  const std::uint8_t* slab_order;   ///< slabs, from the one that decides most pairs on; null without slices
   const std::uint32_t* slab_parts;  ///< index shape * slab_count + slab, or no_part; null without slices
-  const Heights* heights;           ///< per part; null without the plan's heights
+  const float*
+      hull_support;  ///< per shape, support_stride floats: the largest of its parts' supports; null without slices
+  const Heights* heights;  ///< per part; null without the plan's heights
 };
 
 }  // namespace bch::detail

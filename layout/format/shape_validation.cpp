@@ -32,6 +32,7 @@ constexpr Precondition all[] = {
     {"reaches", "Reaches are within the library's domain.", reaches, nullptr},
     {"roots", "Root discs are numbers of at most 1e7 m with a radius above 0.", roots, nullptr},
     {"supports", "Supports are numbers of at most 1e7 m.", supports, nullptr},
+    {"hull supports", "The supports of all parts of a shape are such numbers, too.", hull_supports, nullptr},
     {"inscribed discs", "Inscribed discs are such numbers, or padding.", inscribed, nullptr},
     {"extremes", "Farthest points are such numbers.", extremes, nullptr},
     {"profiles", "Profiles are such numbers, or minus infinity where nothing is known.", profiles, nullptr},

@@ -128,6 +128,8 @@ FlatBody flat_body(const ShapeArrays& arrays, std::size_t shape) {
     ++body.part_count;
   };
   if (arrays.slices.empty()) add(shape);
+  if (!arrays.hull_support.empty())
+    std::copy_n(arrays.hull_support.data() + shape * support_stride, support_stride, body.hull.begin());
   std::uint32_t last = no_part;
   for (const std::uint32_t part :
        arrays.slab_parts.subspan(arrays.slices.empty() ? 0 : shape * arrays.slab_count(),

@@ -78,6 +78,11 @@ void ShapeFlattener::flatten_slabs(const Shape& shape, FlatBody& flat) {
     flat.slab_parts.push_back(has_part ? static_cast<std::uint32_t>(flat.part_count - 1) : no_part);
   }
   if (flat.part_count == 0) throw std::invalid_argument("slices: all slabs are empty");
+  if (!has_culling()) return;
+  flat.hull = flat.parts[0].supports;
+  for (std::size_t k = 1; k < flat.part_count; ++k)
+    std::transform(flat.hull.begin(), flat.hull.end(), flat.parts[k].supports.begin(), flat.hull.begin(),
+                   [](float a, float b) { return std::max(a, b); });
 }
 
 void ShapeFlattener::add_part(const Shape& shape, Heights heights, FlatBody& flat) {

@@ -36,6 +36,7 @@ struct FlatBody {
   std::size_t part_count = 0;
   std::vector<std::uint32_t> slab_parts;  ///< of slices: which of these parts each slab has, or no_part
   std::vector<Heights> heights;           ///< one a part, with the plan's heights or slices
+  Supports hull;                          ///< of slices with culling data: the largest supports of all parts
 };
 
 /// Makes one shape after the other flat and reuses its memory. Nearly all the time that a set takes is spent

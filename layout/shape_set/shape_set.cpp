@@ -2,7 +2,9 @@
 // Copyright (c) 2026 the bch authors
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <numeric>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -12,6 +14,7 @@
 
 #include "layout/base/planes.hpp"
 #include "layout/base/rounding.hpp"
+#include "layout/format/contours.hpp"
 #include "layout/format/cut_discs.hpp"
 #include "layout/format/parts.hpp"
 #include "layout/format/shape_arrays.hpp"
@@ -50,7 +53,31 @@ ShapeSet build(std::span<const Shape> shapes, const ShapeSetPlan& plan) {
   return std::move(builder).finish();
 }
 
-ShapeSetView view_of(const ShapeArrays& arrays) {
+/// So many shapes say which slabs decide most pairs.
+constexpr std::size_t sample = 50;
+
+/// Puts slabs in the order of the areas of their largest contours: those decide most pairs, without traversal.
+std::array<std::uint8_t, most_planes + 1> slab_order(const ShapeArrays& arrays) {
+  std::array<std::uint8_t, most_planes + 1> order;
+  std::iota(order.begin(), order.end(), std::uint8_t{0});
+  std::array<double, most_planes + 1> covered{};
+  const std::size_t slabs = arrays.slab_count();
+  if (arrays.shape_contours.empty()) return order;
+  for (std::size_t i = 0; i < std::min(arrays.slab_parts.size(), sample * slabs); ++i) {
+    if (arrays.slab_parts[i] == no_part) continue;
+    const auto [begin, end] = arrays.shape_contours[arrays.slab_parts[i]];
+    double largest = 0;
+    for (const Contour& contour : arrays.contours.subspan(begin, end - begin))
+      largest =
+          std::max(largest, twice_area(arrays.points.subspan(contour.begin, contour.end - contour.begin)));
+    covered[i % slabs] += largest;
+  }
+  std::stable_sort(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(slabs),
+                   [&](std::uint8_t a, std::uint8_t b) { return covered[a] > covered[b]; });
+  return order;
+}
+
+ShapeSetView view_of(const ShapeArrays& arrays, const std::uint8_t* order) {
   // An empty section of a file has an address as well.
   const auto or_null = [](const auto& array) { return array.empty() ? nullptr : array.data(); };
   return {.shape_count = static_cast<std::uint32_t>(arrays.shape_count()),
@@ -71,7 +98,9 @@ ShapeSetView view_of(const ShapeArrays& arrays) {
           .points = or_null(arrays.points),
           .leaf_segments = or_null(arrays.leaf_segments),
           .segment_margin = or_null(arrays.segment_margin),
+          .slab_order = arrays.slices.empty() ? nullptr : order,
           .slab_parts = or_null(arrays.slab_parts),
+          .hull_support = or_null(arrays.hull_support),
           .heights = or_null(arrays.heights)};
 }
 
@@ -95,8 +124,20 @@ void validate(const ShapeSetPlan& plan) {
 }
 
 struct ShapeSet::State {
+  State(const ShapeArrays& of, std::shared_ptr<const void> keep) : memory(std::move(keep)) { refer_to(of); }
+  State(const State&) = delete;  // because view points here
+  State& operator=(const State&) = delete;
+
+  void refer_to(const ShapeArrays& of) noexcept {
+    arrays = of;
+    order = slab_order(arrays);
+    view = view_of(arrays, order.data());
+    solid = is_solid(arrays);
+  }
+
   ShapeArrays arrays;
   std::shared_ptr<const void> memory;
+  std::array<std::uint8_t, most_planes + 1> order;
   ShapeSetView view;
   bool solid;
 };
@@ -104,14 +145,15 @@ struct ShapeSet::State {
 ShapeSet::ShapeSet(std::span<const Shape> shapes, const ShapeSetPlan& plan) : ShapeSet(build(shapes, plan)) {}
 
 ShapeSet::ShapeSet(const ShapeArrays& arrays, std::shared_ptr<const void> memory)
-    : state_(new State{arrays, std::move(memory), view_of(arrays), is_solid(arrays)}) {}
+    : state_(new State(arrays, std::move(memory))) {}
 
 ShapeSet::ShapeSet(ShapeSet&&) noexcept = default;
 ShapeSet& ShapeSet::operator=(ShapeSet&&) noexcept = default;
 ShapeSet::~ShapeSet() = default;
 
 void ShapeSet::refer_to(const ShapeArrays& arrays) noexcept {
-  *state_ = {arrays, nullptr, view_of(arrays), is_solid(arrays)};
+  state_->memory = nullptr;
+  state_->refer_to(arrays);
 }
 
 const ShapeSetView& ShapeSet::view() const noexcept {
@@ -164,16 +206,35 @@ std::size_t ShapeSet::bytes() const noexcept {
   return all - depths().size_bytes();
 }
 
-std::vector<Disc> ShapeSet::discs(std::uint32_t shape, std::uint32_t level, std::uint32_t slab) const {
+std::vector<Disc> ShapeSet::discs(std::uint32_t shape, std::uint32_t level) const {
+  std::vector<Disc> discs;
+  std::uint32_t last = no_part;
+  for (std::uint32_t slab = 0; slab < slab_count(); ++slab) {
+    const std::uint32_t part = checked_part(shape, level, slab);
+    if (part == no_part || part == last) continue;
+    last = part;
+    const CutDiscs cut = cut_discs(view(), part * level_count() + level);
+    for (std::uint32_t i = 0; i < cut.count; ++i) discs.push_back({cut.x[i], cut.y[i], cut.radius[i]});
+  }
+  return discs;
+}
+
+std::vector<std::uint32_t> ShapeSet::slab_begin(std::uint32_t shape, std::uint32_t level) const {
+  std::vector<std::uint32_t> begin = {0};
+  std::uint32_t last = no_part;
+  for (std::uint32_t slab = 0; slab < slab_count(); ++slab) {
+    const std::uint32_t part = checked_part(shape, level, slab);
+    const bool is_new = part != no_part && part != last;
+    begin.push_back(begin.back() + (is_new ? disc_count(view(), part, level) : 0));
+    if (is_new) last = part;
+  }
+  return begin;
+}
+
+std::uint32_t ShapeSet::checked_part(std::uint32_t shape, std::uint32_t level, std::uint32_t slab) const {
   require(shape < shape_count(), "shape", shape, shape_count());
   require(level < level_count(), "level", level, level_count());
-  require(slab < slab_count(), "slab", slab, slab_count());
-  std::vector<Disc> discs;
-  const std::uint32_t part = part_of(view(), shape, slab);
-  if (part == no_part) return discs;
-  const CutDiscs cut = cut_discs(view(), part * level_count() + level);
-  for (std::uint32_t i = 0; i < cut.count; ++i) discs.push_back({cut.x[i], cut.y[i], cut.radius[i]});
-  return discs;
+  return part_of(view(), shape, slab);
 }
 
 float ShapeSet::bounding_radius(std::uint32_t shape) const {

@@ -84,6 +84,7 @@ void ShapeStorage::resize(const ShapeSetPlan& plan, std::size_t shapes, std::siz
   if (plan.depths.back() == 0) return;
   trees.resize(parts * levels);
   reach.resize(parts);
+  if (plan.culling && !plan.slices.empty()) hull_support.resize(shapes * support_stride);
   if (plan.culling) inscribed.resize(parts), extremes.resize(parts), profiles.resize(parts);
   if (plan.outlines) shape_contours.resize(parts), segment_margin.resize(parts);
 }
@@ -111,6 +112,8 @@ void ShapeStorage::put_slabs(std::size_t shape, std::size_t first_part, const Fl
   std::uint32_t* out = slab_parts.data() + shape * body.slab_parts.size();
   for (const std::uint32_t part : body.slab_parts)
     *out++ = part == no_part ? part : static_cast<std::uint32_t>(first_part + part);
+  if (!hull_support.empty())
+    std::copy(body.hull.begin(), body.hull.end(), hull_support.data() + shape * support_stride);
   std::copy(body.heights.begin(), body.heights.end(),
             heights.begin() + static_cast<std::ptrdiff_t>(first_part));
 }

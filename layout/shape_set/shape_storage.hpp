@@ -56,6 +56,7 @@ struct ShapeStorage {
   AlignedVector<float> slices;
   AlignedVector<std::uint32_t> slab_parts;
   AlignedVector<Heights> heights;
+  AlignedVector<float> hull_support;
 
   ShapeArrays arrays() const;
 
@@ -66,7 +67,7 @@ struct ShapeStorage {
   /// Makes the others end with such an extent behind this place.
   /// Errors:  throws std::length_error beyond 2^31 floats of nodes or 2^32 of the others.
   void make_room(const ShapeExtent& at, const ShapeExtent& size);
-  /// Writes which parts a shape has, the first of which has this number, and their heights.
+  /// Writes which parts a shape has, the first of which has this number, their heights, and what is common to all of them.
   void put_slabs(std::size_t shape, std::size_t first_part, const FlatBody& body);
   /// Writes a part; there has to be room. Of arrays without elements nothing is written. Different parts may be
   /// written at the same time.

@@ -45,7 +45,7 @@ class Threads : public testing::Test {
     for (unsigned t = 0; t < threads; ++t)
       running.emplace_back([&, t] {
         const std::size_t n = hits.size();
-        detail::answer(implementation, arguments, agents, n * t / threads, n * (t + 1) / threads);
+        detail::answer(implementation, arguments, n * t / threads, n * (t + 1) / threads);
       });
     for (std::thread& thread : running) thread.join();
     return hits;

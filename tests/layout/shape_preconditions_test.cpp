@@ -156,7 +156,7 @@ const std::vector<Damage>& all_damage() {
        }},
       {"slices",
        [](Arrays& a) {
-         a = Arrays({.outlines = false, .heights = true});
+         a = Arrays({.outlines = false, .culling = false, .heights = true});
          a.own.slices = {1};
          a.own.slab_parts = {0, 0, 1, 1, 2, 2};
        }},
@@ -178,6 +178,11 @@ const std::vector<Damage>& all_damage() {
        [](Arrays& a) {
          a = Arrays({.slices = {0.4f, 1}});
          std::fill_n(a.own.slab_parts.end() - 3, 3, 3u);
+       }},
+      {"hull supports",
+       [](Arrays& a) {
+         a = Arrays({.slices = {0.4f, 1}});
+         a.own.hull_support.back() = nan;
        }},
       {"heights",
        [](Arrays& a) {

@@ -65,8 +65,9 @@ struct Crowd {
   std::vector<std::uint32_t> shape;
   std::vector<double> x, y, heading;
   std::vector<std::uint8_t> level;
+  std::vector<double> z;  ///< or none
 
-  Agents agents() const { return {shape, x, y, heading, level}; }
+  Agents agents() const { return {shape, x, y, heading, level, z}; }
   struct Agent {
     std::uint32_t shape;
     double x, y, heading;

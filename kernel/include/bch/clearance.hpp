@@ -37,12 +37,15 @@ struct ClearanceAnswers {
 /// and negates the direction. Of gaps that are equal, the one with the first disc of the agent with the lower
 /// index counts, then that with the first disc of the other.
 ///
+/// Of bodies in slabs, or at different heights, the least of the parts that may meet; in a tie that of the lowest slabs. Where no
+/// parts may, the distance is infinite.
+///
 /// Options: max_distance, implementation.
 /// Sizes:   as many distances as pairs, directions and discs as many or none. An agent may be paired with
 ///          itself.
 /// Errors:  throws std::invalid_argument, before anything is written, as collide() does, and on a
 ///          max_distance that is negative or NaN.
-/// Threads: runs in the caller's TBB arena. Allocates nothing.
+/// Threads: runs in the caller's TBB arena. Allocates nothing, but for bodies in slabs or at different heights.
 void clearance(const ShapeSet& shapes, const Agents& agents, std::span<const Pair> pairs,
                const ClearanceAnswers& answers, const QueryOptions& options = {});
 

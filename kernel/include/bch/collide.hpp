@@ -20,6 +20,10 @@ namespace bch {
 /// difference of positions counts: far from the origin the answer is that of the same placement at the
 /// origin.
 ///
+/// Bodies in slabs (ShapeSetPlan::slices) collide where two of their slabs do, solid, whatever `semantics` says: inside a body
+/// crossing outlines alone mean nothing. Agents at different heights (Agents::z) collide where parts of them do whose heights
+/// meet. Meshes that have a point in common are hits in either case.
+///
 /// Options: semantics, leaves, implementation.
 /// Sizes:   hits.size() == pairs.size(); an agent may be paired with itself (it collides).
 /// Errors:  throws std::invalid_argument, before hits is touched, on sizes that differ, an index out of

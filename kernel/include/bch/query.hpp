@@ -56,7 +56,7 @@ const Implementation& implementation(std::string_view name);
 
 /// The options of the queries. A query ignores those that do not concern it: its description names those that do.
 struct QueryOptions {
-  Semantics semantics = Semantics::boundary;  ///< of collide() and CrowdCollider
+  Semantics semantics = Semantics::boundary;  ///< of collide() and CrowdCollider; sets with slices are solid
   /// One of implementations(); null: best_implementation(), which may throw where BCH_ISA is set.
   const Implementation* implementation = nullptr;
   Leaves leaves = Leaves::segments;  ///< of collide(), CrowdCollider and ContactFinder

@@ -19,7 +19,7 @@ struct Pair {
 /// A crowd as a simulator holds it: one entry an agent in each span; nothing is copied.
 /// A heading turns a shape about its agent's position; 0 leaves it as its character was: the built-in ones then face +x,
 /// those of files stand as import.hpp says. How a clip turns its character's root stays in the shape.
-/// Units:   metres and radians, counter-clockwise, on the ground plane; |x|, |y| <= 1e9 m and |heading| <=
+/// Units:   metres and radians, counter-clockwise, on the ground plane; |x|, |y|, |z| <= 1e9 m and |heading| <=
 ///          1e9 rad.
 struct Agents {
   std::span<const std::uint32_t> shape;  ///< index into the ShapeSet
@@ -27,6 +27,11 @@ struct Agents {
   std::span<const double> y;
   std::span<const double> heading;
   std::span<const std::uint8_t> level = {};  ///< index into the set's depths; empty: the last level for all
+  /// Heights of the grounds that agents stand on: floors, steps, a stage. Empty: one ground for all. Agents then meet only where their
+  /// heights do, and the set has to know those (ShapeSetPlan::heights, slices). In sets with slices, agents at one height
+  /// meet slab by slab; at two heights every two slabs count whose heights meet, and slabs of half a metre are then
+  /// as coarse as a cut at half as many planes.
+  std::span<const double> z = {};
 
   std::size_t size() const noexcept { return shape.size(); }
   /// Returns the index of an agent's shape and level in arrays with level_count entries per shape.

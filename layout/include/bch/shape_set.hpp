@@ -94,9 +94,13 @@ class ShapeSet {
   ShapeSetPlan plan() const;
   std::size_t bytes() const noexcept;
 
-  /// Returns the discs of a shape's cut in a slab, in the order in which queries number them; none where the slab is empty.
+  /// Returns the discs of a shape's cut, in the order in which queries number them: slab after slab, once where a body that is not
+  /// cut is the same in several.
   /// Errors:  throws std::out_of_range on an index out of range.
-  std::vector<Disc> discs(std::uint32_t shape, std::uint32_t level, std::uint32_t slab = 0) const;
+  std::vector<Disc> discs(std::uint32_t shape, std::uint32_t level) const;
+  /// Returns where each slab's discs are among these: of slab j from [j] to [j + 1], none where it is empty. A body that is not cut
+  /// has its discs in its first slab.
+  std::vector<std::uint32_t> slab_begin(std::uint32_t shape, std::uint32_t level) const;
   /// Returns the radius about an agent's position that holds all discs of its shape, at every level and heading, metres.
   /// Cost:    linear in the discs.
   /// Errors:  throws std::out_of_range on an index out of range.
@@ -113,6 +117,8 @@ class ShapeSet {
   const detail::ShapeArrays& arrays() const noexcept;
 
  private:
+  std::uint32_t checked_part(std::uint32_t shape, std::uint32_t level, std::uint32_t slab) const;
+
   struct State;
   std::unique_ptr<State> state_;
 };
