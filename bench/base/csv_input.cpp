@@ -147,24 +147,27 @@ void add_agent(const Place& place, AgentTable& table, const char* id, std::uint3
 AgentTable read_agents(const std::string& file, std::uint32_t shapes, std::uint32_t levels, bool moving) {
   AgentTable table;
   with_csv_errors(file, [&] {
-    Reader<8> reader(file, std::make_unique<TextBytes>(file));
-    reader.read_header(io::ignore_missing_column, "id", "shape", "x", "y", "heading", "level", "dx", "dy");
+    Reader<9> reader(file, std::make_unique<TextBytes>(file));
+    reader.read_header(io::ignore_missing_column, "id", "shape", "x", "y", "heading", "z", "level", "dx",
+                       "dy");
     const auto require_columns = [&](std::initializer_list<const char*> names) {
       for (const char* name : names)
         if (!reader.has_column(name)) throw InputError(fmt::format("{}:1: has no column '{}'", file, name));
     };
     require_columns({"id", "shape", "x", "y", "heading"});
+    const bool has_z = reader.has_column("z");
     const bool has_level = reader.has_column("level");
     const bool has_way = moving || reader.has_column("dx") || reader.has_column("dy");
     if (has_way) require_columns({"dx", "dy"});
-    char *id = nullptr, *shape = nullptr, *x = nullptr, *y = nullptr, *heading = nullptr, *level = nullptr,
-         *dx = nullptr, *dy = nullptr;
-    while (reader.read_row(id, shape, x, y, heading, level, dx, dy)) {
+    char *id = nullptr, *shape = nullptr, *x = nullptr, *y = nullptr, *heading = nullptr, *z = nullptr,
+         *level = nullptr, *dx = nullptr, *dy = nullptr;
+    while (reader.read_row(id, shape, x, y, heading, z, level, dx, dy)) {
       const Place place{file, reader.get_file_line()};
       add_agent(place, table, id, index_below(place, "shape", shape, shapes),
                 number_within(place, "x", x, detail::rounding::largest_position),
                 number_within(place, "y", y, detail::rounding::largest_position),
                 number_within(place, "heading", heading, detail::rounding::largest_heading));
+      if (has_z) table.z.push_back(number_within(place, "z", z, detail::rounding::largest_position));
       if (has_level)
         table.level.push_back(static_cast<std::uint8_t>(index_below(place, "level", level, levels)));
       if (!has_way) continue;

@@ -19,16 +19,17 @@ struct AgentTable {
   std::vector<std::uint32_t> shape;
   std::vector<double> x, y, heading;
   std::vector<std::uint8_t> level;  ///< empty without that column
+  std::vector<double> z;            ///< heights of the ground, metres; empty without that column
   std::vector<double> dx, dy;       ///< how far an agent moves, metres; empty without these columns
 
-  Agents agents() const { return {shape, x, y, heading, level}; }
+  Agents agents() const { return {shape, x, y, heading, level, z}; }
 };
 
 /// Both readers below take any order of columns, spaces around values, quotes as spreadsheets write them,
 /// empty lines, and either kind of line ending.
 /// Errors:  throw InputError naming file, line and value.
 
-/// Reads the columns id,shape,x,y,heading[,level][,dx,dy]. An id is any text, unique; shapes are below
+/// Reads the columns id,shape,x,y,heading[,z][,level][,dx,dy]. An id is any text, unique; shapes are below
 /// `shapes`, levels below `levels`, the rest within the limits of collide() and, for every two agents, of
 /// time_of_impact(). `moving`: dx and dy have to be there.
 AgentTable read_agents(const std::string& file, std::uint32_t shapes, std::uint32_t levels, bool moving);

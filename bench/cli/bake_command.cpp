@@ -25,13 +25,15 @@ struct BakeOptions {
   double rate = 0;  ///< poses a second; 0: a number of them
   ShapeOptions shapes;
   AnswerOptions answer;
+  bool heights = false;
 };
 
 void run_bake(const BakeOptions& options) {
   if (!is_baked(options.output))
     throw UsageError(
         fmt::format("--output: '{}' does not end in .bch, by which baked files are known", options.output));
-  const ShapeSetPlan plan{options.answer.cut_depths(), options.answer.need_outlines()};
+  ShapeSetPlan plan = plan_for(options.shapes, options.answer, options.answer.cut_depths());
+  plan.heights = options.heights;
   require_outputs({{"--output", options.output}}, options.shapes.inputs(options.characters));
   const CostLimits& limits = options.shapes.limits;
   // Before there are threads: see guarded_import().
@@ -66,6 +68,8 @@ std::function<void()> add_bake_command(CLI::App& program) {
       ->type_name("N")
       ->check(number_between(1e-3, 1e4))
       ->excludes("--poses");
+  command.add_flag("--heights", options->heights,
+                   "Keep the heights of bodies, for agents with a z; --slices do so anyway");
   options->answer.add_levels_to(command);
   return [options] { run_bake(*options); };
 }

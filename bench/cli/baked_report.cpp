@@ -11,6 +11,7 @@
 
 #include "bench/base/exit_codes.hpp"
 #include "bench/base/text.hpp"
+#include "layout/format/parts.hpp"
 #include "layout/format/shape_arrays.hpp"
 
 namespace bch::cli {
@@ -43,8 +44,17 @@ std::string clips_text(const ShapeOrigins& origins, std::uint32_t character) {
   return text;
 }
 
+/// The radius of a shape's root disc, of a body in slabs the largest.
 float root_radius(const ShapeSet& set, std::uint32_t shape) {
-  return set.arrays().roots[std::size_t{shape} * set.level_count()].radius;
+  float largest = 0;
+  for (std::uint32_t slab = 0; slab < set.slab_count(); ++slab)
+    if (const std::uint32_t part = detail::part_of(set.view(), shape, slab); part != detail::no_part)
+      largest = std::max(largest, set.arrays().roots[std::size_t{part} * set.level_count()].radius);
+  return largest;
+}
+
+std::string slices_text(const ShapeSet& set) {
+  return fmt::format("{} slabs, cut at {} m", set.slab_count(), fmt::join(set.slices(), ", "));
 }
 
 }  // namespace
@@ -70,9 +80,7 @@ BakedShapes load_baked_for(const std::string& file, const AnswerOptions& answer)
 }
 
 std::uint32_t disc_count(const ShapeSet& set, std::uint32_t shape, std::uint32_t level) {
-  const detail::ShapeArrays& arrays = set.arrays();
-  if (arrays.trees.empty()) return 1;
-  return arrays.trees[std::size_t{shape} * set.level_count() + level].count;
+  return set.slab_begin(shape, level).back();
 }
 
 std::string text_of(const std::string& file, const BakedShapes& baked) {
@@ -86,8 +94,10 @@ std::string text_of(const std::string& file, const BakedShapes& baked) {
        fmt::format("{}, {:.1f} kB each", grouped(set.shape_count()),
                    static_cast<double>(set.bytes()) / 1e3 / std::max(1.0, double{1} * set.shape_count())));
   line("depths", depths_text(set));
+  if (!set.slices().empty()) line("slices", slices_text(set));
+  if (set.has_heights() && set.slices().empty()) line("heights", "kept: agents may have a z");
   line("threshold", fmt::format("{:g} mm", baked.origins.threshold * 1e3));
-  line("semantics", set.solid() ? "boundary, solid" : "boundary");
+  line("semantics", !set.slices().empty() ? "solid" : set.solid() ? "boundary, solid" : "boundary");
   line("leaves", set.exact_leaves() ? "segments, discs" : "discs");
   std::map<std::uint32_t, bool> seen;
   for (const ShapeOrigin& origin : baked.origins.origins)
@@ -124,6 +134,9 @@ Json json_of(const std::string& file, const BakedShapes& baked) {
   Json json{{"source", file}, {"shape_count", set.shape_count()}, {"bytes", set.bytes()}};
   for (const std::uint32_t depth : set.depths()) json["depths"].push_back(depth_name(depth));
   json["threshold_m"] = shortest(static_cast<float>(origins.threshold));
+  json["slices_m"] = Json::array();
+  for (const float plane : set.slices()) json["slices_m"].push_back(shortest(plane));
+  json["heights"] = set.has_heights();
   json["solid"] = set.solid();
   json["exact_leaves"] = set.exact_leaves();
   json["shapes"] = Json::array();

@@ -66,8 +66,10 @@ std::string caption_of(const CrowdPicture& picture, const Window& window) {
                                ? fmt::format("All {:.1f} m × {:.1f} m", side, side)
                                : fmt::format("The middle {:.1f} m × {:.1f} m of {:.1f} m × {:.1f} m",
                                              window.width, window.height, side, side);
-  return fmt::format("{}, seen from above. Discs and collisions at depth {}.", part,
-                     depth_name(picture.answers.levels[picture.level].depth));
+  const std::size_t slabs = picture.shapes.front().slabs.size();
+  return fmt::format("{}, seen from above. Discs and collisions at depth {}{}.", part,
+                     depth_name(picture.answers.levels[picture.level].depth),
+                     slabs > 0 ? fmt::format(", slab by slab of {}", slabs) : "");
 }
 
 struct DrawnAgent {
@@ -76,8 +78,25 @@ struct DrawnAgent {
   State state = is_free;
   bool is_partner = false;  ///< collides, and its single cylinder overlaps that of a cleared agent
   std::vector<PixelDisc> discs;
-  std::vector<bool> overlaps;  ///< per disc
+  std::vector<std::size_t> slab;  ///< per disc
+  std::vector<bool> overlaps;     ///< per disc
+
+  void place_discs(std::uint32_t depth) {
+    for (std::size_t i = 0; i < std::max<std::size_t>(1, shape->slabs.size()); ++i) {
+      const Hierarchy& hierarchy = shape->slabs.empty() ? shape->hierarchy : shape->slabs[i].hierarchy;
+      if (hierarchy.nodes.empty()) continue;
+      const std::vector<PixelDisc> of_slab = placed_cut(placement, hierarchy, depth);
+      discs.insert(discs.end(), of_slab.begin(), of_slab.end());
+      slab.resize(discs.size(), i);
+    }
+  }
 };
+
+double reach_of(const Shape& shape) {
+  double reach = 0;
+  for (const Shape* part : parts_of(shape)) reach = std::max(reach, part->hierarchy.reach);
+  return reach;
+}
 
 class Scene {
  public:
@@ -108,7 +127,7 @@ void Scene::add_visible_agents(const CrowdPicture& picture) {
   drawn_index_.assign(crowd.size(), unseen);
   for (std::uint32_t i = 0; i < crowd.size(); ++i) {
     const Shape& shape = picture.shapes[crowd.shape[i]];
-    const double reach = 2 * shape.hierarchy.reach;
+    const double reach = 2 * reach_of(shape);
     const double x = crowd.x[i] - window.x, y = crowd.y[i] - window.y;
     if (x < -reach || y < -reach || x > window.width + reach || y > window.height + reach) continue;
     DrawnAgent agent{&shape,
@@ -119,8 +138,9 @@ void Scene::add_visible_agents(const CrowdPicture& picture) {
                      is_free,
                      false,
                      {},
+                     {},
                      {}};
-    agent.discs = placed_cut(agent.placement, shape.hierarchy, picture.answers.levels[picture.level].depth);
+    agent.place_discs(picture.answers.levels[picture.level].depth);
     agent.overlaps.resize(agent.discs.size());
     drawn_index_[i] = static_cast<std::uint32_t>(agents_.size());
     agents_.push_back(std::move(agent));
@@ -143,7 +163,8 @@ void Scene::colour_by_answers(const CrowdPicture& picture) {
     DrawnAgent &a = agents_[drawn_index_[first]], &b = agents_[drawn_index_[second]];
     for (std::size_t i = 0; i < a.discs.size(); ++i)
       for (std::size_t j = 0; j < b.discs.size(); ++j)
-        if (overlap(a.discs[i], b.discs[j])) a.overlaps[i] = true, b.overlaps[j] = true;
+        if (a.slab[i] == b.slab[j] && overlap(a.discs[i], b.discs[j]))
+          a.overlaps[i] = true, b.overlaps[j] = true;
   }
 }
 
@@ -167,7 +188,7 @@ void draw_overlaps(Svg& svg, const DrawnAgent& agent) {
 
 void draw_agent(Svg& svg, const DrawnAgent& agent) {
   svg.open_group({}, "shape");
-  draw_outline(svg, agent.placement, agent.shape->outline);
+  for (const Shape* part : parts_of(*agent.shape)) draw_outline(svg, agent.placement, part->outline);
   svg.close_group();
   svg.open_group({}, "discs");
   draw_discs(svg, agent.discs);
@@ -175,8 +196,10 @@ void draw_agent(Svg& svg, const DrawnAgent& agent) {
 }
 
 void draw_cylinder(Svg& svg, const DrawnAgent& agent) {
-  const PixelDisc disc = placed(agent.placement, agent.shape->hierarchy.nodes.front().disc);
-  svg.circle(disc.centre, disc.radius);
+  for (const Shape* part : parts_of(*agent.shape)) {
+    const PixelDisc disc = placed(agent.placement, part->hierarchy.nodes.front().disc);
+    svg.circle(disc.centre, disc.radius);
+  }
 }
 
 /// What matters most is drawn last.
@@ -205,7 +228,12 @@ void draw_key(Svg& svg, const CrowdPicture& picture, State state, double x, cons
               const char* second) {
   constexpr double icon = 44;
   const Shape& shape = picture.shapes.front();
-  const Disc root = shape.hierarchy.nodes.front().disc;
+  const std::vector<const Shape*> parts = parts_of(shape);
+  const auto root_of = [](const Shape* part) { return part->hierarchy.nodes.front().disc; };
+  const Disc root =
+      root_of(*std::max_element(parts.begin(), parts.end(), [&](const Shape* a, const Shape* b) {
+        return root_of(a).radius < root_of(b).radius;
+      }));
   const double scale = icon / 2 / static_cast<double>(root.radius);
   const double y = view_top + view_height + legend_height / 2;
   DrawnAgent agent{
@@ -217,9 +245,9 @@ void draw_key(Svg& svg, const CrowdPicture& picture, State state, double x, cons
       state,
       false,
       {},
+      {},
       {}};
-  agent.discs =
-      placed_cut(agent.placement, shape.hierarchy, std::min(picture.answers.levels[picture.level].depth, 4u));
+  agent.place_discs(std::min(picture.answers.levels[picture.level].depth, 4u));
   svg.open_group({}, state_name[state]);
   draw_agent(svg, agent);
   if (state == is_cleared) {

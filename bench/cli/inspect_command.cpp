@@ -68,14 +68,15 @@ ShapeSource at_index(const LoadedCharacter& from, std::span<const ShapeSource> s
 void inspect_shape(const InspectOptions& options, const LoadedCharacter& from, const ShapeSource& source) {
   const CostLimits& limits = options.shapes.limits;
   const CostGuard guard(limits, {&from, 1}, 1);
-  const BuiltShapes built = build_shapes({&from, 1}, {&source, 1}, options.shapes.threshold, {}, limits);
-  const std::size_t nodes = built.shapes.front().hierarchy.nodes.size();
+  const BuiltShapes built = build_shapes({&from, 1}, {&source, 1}, options.shapes.threshold,
+                                         {.slices = options.shapes.planes()}, limits);
+  const std::size_t nodes = nodes_of(built.shapes.front());
   if (!options.svg.empty() && nodes > limits.drawn_nodes)
     throw InputError(fmt::format("{}: --svg would draw {}", from.source,
                                  beyond_limit(nodes, "nodes", limits.drawn_nodes, "--max-drawn-nodes")));
-  const ShapeFacts facts = examine(built.shapes.front(), source, options.shape);
+  const ShapeFacts facts = examine(built.shapes.front(), source, options.shape, options.shapes.planes());
   write_json(options.json, {{"character", json_of(from)}, {"shape", json_of(from, facts)}});
-  if (!options.svg.empty()) write_file(options.svg, draw_depths(from, facts));
+  if (!options.svg.empty()) write_file(options.svg, draw_shape(from, facts));
   write_standard_output(text_of(from) + text_of(from, facts));
 }
 
@@ -83,7 +84,8 @@ void inspect_table(const InspectOptions& options, const LoadedCharacter& from,
                    std::span<const ShapeSource> sources) {
   const CostLimits& limits = options.shapes.limits;
   const CostGuard guard(limits, {&from, 1}, sources.size());
-  const BuiltShapes built = build_shapes({&from, 1}, sources, options.shapes.threshold, {}, limits);
+  const BuiltShapes built = build_shapes({&from, 1}, sources, options.shapes.threshold,
+                                         {.slices = options.shapes.planes()}, limits);
   const ShapeTable table{sources, built.shapes};
   write_json(options.json, {{"character", json_of(from)}, {"shapes", json_of(from, table)}});
   write_standard_output(text_of(from) + text_of(from, table));

@@ -40,21 +40,47 @@ std::size_t columns_for(std::size_t panels) {
   return panels > 4 && empty(5) < empty(4) ? 5 : 4;
 }
 
-/// Deeper discs stick out of the root's, so the frame is that of all of them.
-Layout lay_out(const ShapeFacts& facts) {
-  double left = 1e30, right = -1e30, low = 1e30, high = -1e30;
-  for (const HierarchyNode& node : facts.shape.hierarchy.nodes) {
-    const double x = static_cast<double>(node.disc.x), y = static_cast<double>(node.disc.y);
-    const double r = static_cast<double>(node.disc.radius);
-    left = std::min(left, x - r), right = std::max(right, x + r);
-    low = std::min(low, y - r), high = std::max(high, y + r);
+/// What a panel shows of a body.
+struct Panel {
+  std::string group, label;
+  const Shape* part;  ///< null: nothing
+  std::uint32_t depth;
+};
+
+std::vector<Panel> panels_of(const ShapeFacts& facts) {
+  std::vector<Panel> panels;
+  for (const DepthFacts& depth : facts.depths)
+    panels.push_back({fmt::format("depth-{}", depth.depth),
+                      fmt::format("depth {}: {} disc{}, {:.3f} m²", depth.depth, depth.discs,
+                                  depth.discs == 1 ? "" : "s", depth.area),
+                      &facts.shape, depth.depth});
+  // The highest slab first, as bodies stand.
+  for (std::size_t i = facts.slabs.size(); i-- > 0;) {
+    const SlabFacts& slab = facts.slabs[i];
+    panels.push_back({fmt::format("slab-{}", i),
+                      slab.nodes == 0 ? fmt::format("slab {}: nothing", i)
+                                      : fmt::format("{}, {} disc{}", text_of(slab.heights), slab.leaves,
+                                                    slab.leaves == 1 ? "" : "s"),
+                      slab.nodes == 0 ? nullptr : &facts.shape.slabs[i], all_depths});
   }
-  return {columns_for(facts.depths.size()), fill * panel / std::max(right - left, high - low),
-          (left + right) / 2, (low + high) / 2};
+  return panels;
 }
 
-void draw_panel(Svg& svg, const Layout& layout, const ShapeFacts& facts, std::size_t index) {
-  const DepthFacts& depth = facts.depths[index];
+/// Deeper discs stick out of the root's, so the frame is that of all of them.
+Layout lay_out(const ShapeFacts& facts, std::size_t panels) {
+  double left = 1e30, right = -1e30, low = 1e30, high = -1e30;
+  for (const Shape* part : parts_of(facts.shape))
+    for (const HierarchyNode& node : part->hierarchy.nodes) {
+      const double x = static_cast<double>(node.disc.x), y = static_cast<double>(node.disc.y);
+      const double r = static_cast<double>(node.disc.radius);
+      left = std::min(left, x - r), right = std::max(right, x + r);
+      low = std::min(low, y - r), high = std::max(high, y + r);
+    }
+  return {columns_for(panels), fill * panel / std::max(right - left, high - low), (left + right) / 2,
+          (low + high) / 2};
+}
+
+void draw_panel(Svg& svg, const Layout& layout, const Panel& shown, std::size_t index) {
   const Pixel corner{margin + static_cast<double>(index % layout.columns) * (panel + gap),
                      head + static_cast<double>(index / layout.columns) * (panel + label)};
   const Placement placement{
@@ -63,17 +89,17 @@ void draw_panel(Svg& svg, const Layout& layout, const ShapeFacts& facts, std::si
       0,
       layout.scale};
   svg.rectangle(corner, panel, panel, "panel");
-  svg.open_group(fmt::format("depth-{}", depth.depth));
-  svg.open_group({}, "outline");
-  draw_outline(svg, placement, facts.shape.outline);
+  svg.open_group(shown.group);
+  if (shown.part != nullptr) {
+    svg.open_group({}, "outline");
+    draw_outline(svg, placement, shown.part->outline);
+    svg.close_group();
+    svg.open_group({}, "discs");
+    draw_discs(svg, placed_cut(placement, shown.part->hierarchy, shown.depth));
+    svg.close_group();
+  }
   svg.close_group();
-  svg.open_group({}, "discs");
-  draw_discs(svg, placed_cut(placement, facts.shape.hierarchy, depth.depth));
-  svg.close_group();
-  svg.close_group();
-  svg.text({corner.x + panel / 2, corner.y + panel + 20}, "label",
-           fmt::format("depth {}: {} disc{}, {:.3f} m²", depth.depth, depth.discs,
-                       depth.discs == 1 ? "" : "s", depth.area));
+  svg.text({corner.x + panel / 2, corner.y + panel + 20}, "label", shown.label);
 }
 
 /// The round length that takes about a third of a panel, metres.
@@ -99,20 +125,27 @@ void draw_scale(Svg& svg, double right, double pixels_per_metre) {
 
 }  // namespace
 
-std::string draw_depths(const LoadedCharacter& character, const ShapeFacts& facts) {
-  const Layout layout = lay_out(facts);
-  const std::size_t panels = facts.depths.size(), rows = (panels + layout.columns - 1) / layout.columns;
-  const double width = 2 * margin + static_cast<double>(layout.columns) * (panel + gap) - gap;
+std::string draw_shape(const LoadedCharacter& character, const ShapeFacts& facts) {
+  const std::vector<Panel> panels = panels_of(facts);
+  const Layout layout = lay_out(facts, panels.size());
+  const std::size_t rows = (panels.size() + layout.columns - 1) / layout.columns;
+  const std::size_t filled = std::min(panels.size(), layout.columns);
+  const double width =
+      2 * margin + static_cast<double>(std::max<std::size_t>(filled, 3)) * (panel + gap) - gap;
   const double height = head + static_cast<double>(rows) * (panel + label) + 8;
   const std::string title = fmt::format("{}, {}", character.character.name, shape_title(character, facts));
   Svg svg(width, height, title, css);
   svg.text({margin, 38}, "title", title);
   svg.text(
       {margin, 62}, "caption",
-      fmt::format("Seen from above: outline of {:.3f} m², and the discs of its hierarchy cut at each depth.",
-                  facts.outline_area));
+      facts.slabs.empty()
+          ? fmt::format(
+                "Seen from above: outline of {:.3f} m², and the discs of its hierarchy cut at each depth.",
+                facts.outline_area)
+          : std::string(
+                "Seen from above, slab by slab: the outline of each, and the leaf discs of its hierarchy."));
   draw_scale(svg, width - margin, layout.scale);
-  for (std::size_t i = 0; i < panels; ++i) draw_panel(svg, layout, facts, i);
+  for (std::size_t i = 0; i < panels.size(); ++i) draw_panel(svg, layout, panels[i], i);
   return std::move(svg).finish();
 }
 

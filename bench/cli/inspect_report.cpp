@@ -3,9 +3,13 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "bench/base/disc_union_area.hpp"
+#include "bench/base/placed_shape.hpp"
 #include "bench/base/text.hpp"
 #include "bench/cli/inspection.hpp"
+#include "layout/base/planes.hpp"
 
 namespace bch::cli {
 namespace {
@@ -13,11 +17,33 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 std::size_t leaves(const Shape& shape) {
-  return (shape.hierarchy.nodes.size() + 1) / 2;
+  std::size_t count = 0;
+  for (const Shape* part : parts_of(shape)) count += (part->hierarchy.nodes.size() + 1) / 2;
+  return count;
 }
 
-double root_radius(const Shape& shape) {
-  return static_cast<double>(shape.hierarchy.nodes.front().disc.radius);
+/// Of a body in slabs the largest one.
+float root_radius(const Shape& shape) {
+  float largest = 0;
+  for (const Shape* part : parts_of(shape))
+    largest = std::max(largest, part->hierarchy.nodes.front().disc.radius);
+  return largest;
+}
+
+std::string slabs_text(const ShapeFacts& facts) {
+  std::string out = fmt::format("\n{:>6}  {:>16}  {:>8}  {:>9}  {:>6}  {:>6}  {:>9}  {:>10}\n", "slab",
+                                "heights", "contours", "area", "nodes", "leaves", "discs", "of outline");
+  for (std::size_t i = facts.slabs.size(); i-- > 0;) {
+    const SlabFacts& slab = facts.slabs[i];
+    if (slab.nodes == 0) {
+      out += fmt::format("{:>6}  {:>16}\n", i, "empty");
+      continue;
+    }
+    out += fmt::format("{:>6}  {:>16}  {:>8}  {:>6.4f} m2  {:>6}  {:>6}  {:>6.3f} m2  {:>10.2f}\n", i,
+                       text_of(slab.heights), slab.contours, slab.outline_area, slab.nodes, slab.leaves,
+                       slab.disc_area, slab.disc_area / slab.outline_area);
+  }
+  return out + "\nAreas are exact, of the leaf discs by the arcs of their union.\n";
 }
 
 double clip_seconds(const ImportReport& report) {
@@ -37,8 +63,8 @@ Json seconds_json(PoseTime at) {
 Json row_json(const LoadedCharacter& character, PoseTime at, const Shape& shape) {
   return {{"clip", at.clip == PoseTime::rest ? Json(nullptr) : Json(clip_name(character, at))},
           {"seconds", seconds_json(at)},
-          {"root_radius_m", shortest(shape.hierarchy.nodes.front().disc.radius)},
-          {"nodes", shape.hierarchy.nodes.size()},
+          {"root_radius_m", shortest(root_radius(shape))},
+          {"nodes", nodes_of(shape)},
           {"leaves", leaves(shape)}};
 }
 
@@ -53,8 +79,29 @@ Json contours_json(const Outline& outline) {
 
 }  // namespace
 
-ShapeFacts examine(const Shape& shape, const ShapeSource& source, std::optional<std::uint32_t> index) {
-  ShapeFacts facts{index, source, shape, area(shape.outline), {}};
+std::string text_of(const Heights& heights) {
+  // The ground is at 0.00, not at -0.00.
+  const auto rounded = [](float metres) { return std::round(100 * static_cast<double>(metres)) / 100 + 0.0; };
+  return fmt::format("{:.2f} to {:.2f} m", rounded(heights.bottom), rounded(heights.top));
+}
+
+std::size_t nodes_of(const Shape& shape) {
+  std::size_t count = 0;
+  for (const Shape* part : parts_of(shape)) count += part->hierarchy.nodes.size();
+  return count;
+}
+
+ShapeFacts examine(const Shape& shape, const ShapeSource& source, std::optional<std::uint32_t> index,
+                   std::span<const float> planes) {
+  ShapeFacts facts{index, source, shape, area(shape.outline), {}, {}};
+  for (std::size_t i = 0; i < shape.slabs.size(); ++i) {
+    const Shape& slab = shape.slabs[i];
+    const std::size_t nodes = slab.hierarchy.nodes.size();
+    facts.slabs.push_back({detail::heights_of_slab(shape.heights, planes, i), slab.outline.contours(), nodes,
+                           (nodes + 1) / 2, area(slab.outline),
+                           nodes == 0 ? 0 : union_area(discs_of(slab.hierarchy, all_depths))});
+  }
+  if (!shape.slabs.empty()) return facts;
   const std::uint32_t deepest = height(shape.hierarchy);
   for (std::uint32_t depth = 0; depth <= deepest; ++depth) {
     const std::vector<Disc> discs = discs_of(shape.hierarchy, depth);
@@ -121,12 +168,13 @@ std::string text_of(const LoadedCharacter& character, const ShapeTable& table) {
     const PoseTime at = table.sources[i].at;
     const Shape& shape = table.shapes[i];
     out += fmt::format("{:>6}  {:<{}}  {:>7.2f} s  {:>6.3f} m  {:>6}  {:>6}\n", i, shown_clip(character, at),
-                       widest, at.seconds, root_radius(shape), shape.hierarchy.nodes.size(), leaves(shape));
+                       widest, at.seconds, root_radius(shape), nodes_of(shape), leaves(shape));
   }
   return out;
 }
 
 std::string text_of(const LoadedCharacter& character, const ShapeFacts& facts) {
+  if (!facts.slabs.empty()) return fmt::format("\n{}\n", shape_title(character, facts)) + slabs_text(facts);
   const Outline& outline = facts.shape.outline;
   std::string out = fmt::format(
       "\n{}\n  outline   {}, {}, {:.4f} m2\n  hierarchy {}, {}\n\n", shape_title(character, facts),
@@ -180,6 +228,22 @@ Json json_of(const LoadedCharacter& character, const ShapeTable& table) {
 Json json_of(const LoadedCharacter& character, const ShapeFacts& facts) {
   Json json{{"shape", facts.index ? Json(*facts.index) : Json(nullptr)}};
   json.update(row_json(character, facts.source.at, facts.shape));
+  for (std::size_t i = 0; i < facts.slabs.size(); ++i) {
+    const SlabFacts& slab = facts.slabs[i];
+    if (slab.nodes == 0) {
+      json["slabs"].push_back(nullptr);
+      continue;
+    }
+    json["slabs"].push_back(
+        {{"bottom_m", shortest(slab.heights.bottom)},
+         {"top_m", shortest(slab.heights.top)},
+         {"nodes", slab.nodes},
+         {"leaves", slab.leaves},
+         {"outline",
+          {{"area_m2", slab.outline_area}, {"contours", contours_json(facts.shape.slabs[i].outline)}}},
+         {"disc_area_m2", slab.disc_area}});
+  }
+  if (!facts.slabs.empty()) return json;
   json["outline"] = {{"area_m2", facts.outline_area},
                      {"grid_step_m", facts.shape.outline.grid_step},
                      {"contours", contours_json(facts.shape.outline)}};

@@ -20,16 +20,32 @@ struct DepthFacts {
   double area = 0;         ///< of the union of the discs, square metres
 };
 
+/// Properties of one slab of a body.
+struct SlabFacts {
+  Heights heights;  ///< metres
+  std::size_t contours = 0, nodes = 0, leaves = 0;
+  double outline_area = 0, disc_area = 0;  ///< square metres; of the leaves' union
+};
+
+/// "0.40 to 1.00 m".
+std::string text_of(const Heights& heights);
+
 /// One shape in detail.
 struct ShapeFacts {
   std::optional<std::uint32_t> index;  ///< in the table; none for a free choice of time
   ShapeSource source;
   const Shape& shape;
   double outline_area = 0;
-  std::vector<DepthFacts> depths;  ///< 0 to the height
+  std::vector<DepthFacts> depths;  ///< 0 to the height; of whole bodies
+  std::vector<SlabFacts> slabs;    ///< of bodies that are cut
 };
 
-ShapeFacts examine(const Shape& shape, const ShapeSource& source, std::optional<std::uint32_t> index);
+/// `planes`: those that cut the body.
+ShapeFacts examine(const Shape& shape, const ShapeSource& source, std::optional<std::uint32_t> index,
+                   std::span<const float> planes);
+
+/// Returns the number of nodes, of all slabs together.
+std::size_t nodes_of(const Shape& shape);
 
 struct ShapeTable {
   std::span<const ShapeSource> sources;
@@ -46,8 +62,8 @@ nlohmann::ordered_json json_of(const LoadedCharacter& character);
 nlohmann::ordered_json json_of(const LoadedCharacter& character, const ShapeTable& table);
 nlohmann::ordered_json json_of(const LoadedCharacter& character, const ShapeFacts& facts);
 
-/// Draws one panel a depth: the outline filled, the discs over it.
-std::string draw_depths(const LoadedCharacter& character, const ShapeFacts& facts);
+/// Draws one panel a depth, or of a body in slabs one a slab: the outline filled, the discs over it.
+std::string draw_shape(const LoadedCharacter& character, const ShapeFacts& facts);
 
 /// Returns a title: "shape 3: walk at 1.25 s".
 std::string shape_title(const LoadedCharacter& character, const ShapeFacts& facts);

@@ -63,7 +63,7 @@ void require_absent(const CLI::App& command, std::initializer_list<const char*> 
 
 void require_unsettled(const CLI::App& command, const std::string& baked_file) {
   for (const char* option :
-       {"--clips", "--force-clips", "--up", "--scale", "--poses", "--threshold", "--depths",
+       {"--clips", "--force-clips", "--up", "--scale", "--poses", "--threshold", "--slices", "--depths",
         "--max-triangles", "--max-contours", "--max-nodes", "--max-seconds", "--max-memory"})
     if (command.get_option_no_throw(option) != nullptr)
       require_absent(command, {option}, baked_file + " has settled that");
@@ -108,7 +108,37 @@ void ShapeOptions::add_to(CLI::App& command) {
   command.add_option("--threshold", threshold, "A node with a smaller radius is not divided [0.01 m]")
       ->type_name("METRES")
       ->check(number_between(1e-4, 100));
+  command
+      .add_option(
+          "--slices", slices,
+          "Cut bodies at these heights in metres, as 0.4,1: an arm above a foot is no collision [whole]")
+      ->type_name("LIST");
   add_limits_to(command);
+}
+
+std::vector<float> ShapeOptions::planes() const {
+  std::vector<float> planes;
+  for (std::size_t begin = 0; !slices.empty() && begin <= slices.size();) {
+    const std::size_t end = std::min(slices.find(',', begin), slices.size());
+    const std::string word = slices.substr(begin, end - begin);
+    const auto height = parse_number(word);
+    if (!height) throw UsageError(fmt::format("--slices: '{}' is not a number", word));
+    planes.push_back(static_cast<float>(*height));
+    begin = end + 1;
+  }
+  try {
+    validate(ShapeSetPlan{.slices = planes});
+  } catch (const std::invalid_argument& error) {
+    throw UsageError(fmt::format("--slices: {}", error.what()));
+  }
+  return planes;
+}
+
+ShapeSetPlan plan_for(const ShapeOptions& shapes, const AnswerOptions& answer,
+                      std::vector<std::uint32_t> depths) {
+  std::vector<float> planes = shapes.planes();
+  const bool outlines = answer.need_outlines() || !planes.empty();
+  return {.depths = std::move(depths), .outlines = outlines, .slices = std::move(planes)};
 }
 
 void ShapeOptions::add_limits_to(CLI::App& command) {

@@ -25,9 +25,12 @@ struct ShapeOptions {
   double scale = 0;  ///< 0: what the file says
   std::uint32_t poses = 100;
   double threshold = 0.01;
+  std::string slices;  ///< empty: bodies are whole
   CostLimits limits;
 
   void add_to(CLI::App& command);
+  /// Returns the planes at which bodies are cut. Errors: throws UsageError naming the value.
+  std::vector<float> planes() const;
   ImportOptions import_options() const;
   /// Returns all files that are read: these, and the clips' files.
   std::vector<std::string> inputs(std::vector<std::string> files) const;
@@ -56,6 +59,10 @@ struct AnswerOptions {
 
 /// Parses a depth: a number, or "all".
 /// Errors:  throws UsageError naming the option.
+/// Returns the plan of a set that answers with these options.
+ShapeSetPlan plan_for(const ShapeOptions& shapes, const AnswerOptions& answer,
+                      std::vector<std::uint32_t> depths);
+
 std::uint32_t parse_depth(const std::string& option, const std::string& text);
 
 /// Refuses options that do not fit to others.

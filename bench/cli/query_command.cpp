@@ -135,7 +135,8 @@ void query_character(const QueryCommandOptions& options) {
   const Threads threads(options.answer.threads);
   const auto used = keep_used(sources, question.table);
   std::optional<CostGuard> guard(std::in_place, limits, std::span(&from, 1), used.size());
-  const ShapeSetPlan plan{.depths = depths, .outlines = options.answer.need_outlines()};
+  ShapeSetPlan plan = plan_for(options.shapes, options.answer, depths);
+  plan.heights = !question.table.z.empty();
   const BuiltShapes built = build_shapes({&from, 1}, used, options.shapes.threshold, plan, limits);
   const ShapeSet set(built.shapes, plan);
   guard.reset();
@@ -182,8 +183,10 @@ std::function<void()> add_query_command(CLI::App& program) {
   command.footer(
       "In AGENTS.csv an id is any text, shape the number that bch inspect gives it with the same --poses, x "
       "and y are\n"
-      "metres, heading is in radians, level an index into --depths (without that column: the last), dx and "
-      "dy\n"
+      "metres, heading is in radians, level an index into --depths (without that column: the last), z the "
+      "height of\n"
+      "the ground, metres, of which bodies have to keep their heights in a baked file (bake --heights), dx "
+      "and dy\n"
       "say how far the agent moves, in metres, without turning.\n"
       "Heading 0 leaves a shape as it stands in its file, where a y-up file's +z becomes -y. The built-in "
       "characters\n"
@@ -201,7 +204,7 @@ std::function<void()> add_query_command(CLI::App& program) {
       "--leaves these and contacts.\n"
       "Example: bch query default:female agents.csv pairs.csv > answers.csv");
   command.add_option("SHAPES", options->character, character_or_baked_help)->type_name("")->required();
-  command.add_option("AGENTS.csv", options->agents, "Columns id,shape,x,y,heading[,level][,dx,dy]")
+  command.add_option("AGENTS.csv", options->agents, "Columns id,shape,x,y,heading[,z][,level][,dx,dy]")
       ->type_name("")
       ->required();
   command.add_option("PAIRS.csv", options->pairs, "Columns first,second: ids of agents")->type_name("");
