@@ -12,18 +12,16 @@
 #include <bch/agents.hpp>
 
 #include "kernel/broad_phase/crowd_grid.hpp"
-#include "kernel/simd/lanes.hpp"
+#include "layout/simd/lanes.hpp"
 
 namespace bch::detail {
 
 /// Discs of a grid in the order of their cells, array by array.
 class SortedDiscs {
  public:
-  /// The registers are as wide as on every x86-64 processor. Most runs of neighbours are short: wider ones
-  /// would gain little.
-  using Int = xsimd::batch<std::int32_t, xsimd::sse2>;
-  using Float = xsimd::batch<float, xsimd::sse2>;
-  static constexpr std::size_t width = Float::size;
+  /// Most runs of neighbours are short: wider registers would gain little.
+  using Simd = BaseLanes;
+  static constexpr std::size_t width = Simd::width;
 
   std::size_t size() const noexcept { return cell_.size(); }
   std::uint64_t cell(std::size_t i) const noexcept { return cell_[i]; }
@@ -54,14 +52,14 @@ class SortedDiscs {
   /// Writes (agent of i, agent of j) for each j in begin .. end whose disc overlaps that of i.
   /// Returns: the end of what was written. There has to be room for end - begin + width pairs.
   Pair* write_overlapping(std::size_t i, std::size_t begin, std::size_t end, Pair* pairs) const noexcept {
-    const Int x(x_[i]), y(y_[i]);
-    const Float radius(radius_[i]);
+    const Simd::Ints x(x_[i]), y(y_[i]);
+    const Simd::Float radius(radius_[i]);
     const std::uint32_t agent = agent_[i];
     for (std::size_t first = begin; first < end; first += width) {
-      const Float dx = xsimd::to_float(Int::load_unaligned(x_.data() + first) - x);
-      const Float dy = xsimd::to_float(Int::load_unaligned(y_.data() + first) - y);
-      const Float r = Float::load_unaligned(radius_.data() + first) + radius;
-      auto hits = static_cast<unsigned>(_mm_movemask_ps(dx * dx + dy * dy <= r * r));
+      const Simd::Float dx = xsimd::to_float(Simd::load(x_.data() + first) - x);
+      const Simd::Float dy = xsimd::to_float(Simd::load(y_.data() + first) - y);
+      const Simd::Float r = Simd::load(radius_.data() + first) + radius;
+      std::uint32_t hits = Simd::bits(dx * dx + dy * dy <= r * r);
       hits &= (1u << std::min(width, end - first)) - 1;
       // Every lane writes and a hit moves on: no branch, as none could be foretold.
       for (std::size_t k = 0; k < width; ++k) {

@@ -10,11 +10,11 @@
 #include "kernel/simd/arguments.hpp"
 #include "kernel/simd/chunk_pairs.hpp"
 #include "kernel/simd/disc_pairs.hpp"
-#include "kernel/simd/lanes.hpp"
 #include "kernel/simd/placements.hpp"
 #include "kernel/simd/profile_test.hpp"
 #include "kernel/simd/separating_axis_test.hpp"
 #include "layout/format/shape_set_view.hpp"
+#include "layout/simd/lanes.hpp"
 
 namespace bch::detail {
 

@@ -11,12 +11,12 @@
 #include "kernel/simd/ancestor_test.hpp"
 #include "kernel/simd/arguments.hpp"
 #include "kernel/simd/disc_pairs.hpp"
-#include "kernel/simd/lanes.hpp"
 #include "kernel/simd/placements.hpp"
 #include "kernel/simd/segment_test.hpp"
 #include "kernel/simd/tree_nodes.hpp"
 #include "layout/format/cut_discs.hpp"
 #include "layout/format/shape_set_view.hpp"
+#include "layout/simd/lanes.hpp"
 
 namespace bch::detail {
 

@@ -6,10 +6,10 @@
 #include <cstdint>
 
 #include "kernel/simd/disc_pairs.hpp"
-#include "kernel/simd/lanes.hpp"
 #include "kernel/simd/transform.hpp"
 #include "kernel/simd/tree_nodes.hpp"
 #include "layout/format/shape_set_view.hpp"
+#include "layout/simd/lanes.hpp"
 
 namespace bch::detail {
 

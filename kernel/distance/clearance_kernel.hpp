@@ -9,9 +9,9 @@
 #include "kernel/distance/clearance_arguments.hpp"
 #include "kernel/distance/clearance_measure.hpp"
 #include "kernel/distance/nearest_search.hpp"
-#include "kernel/simd/lanes.hpp"
 #include "kernel/simd/placements.hpp"
 #include "kernel/simd/record_fields.hpp"
+#include "layout/simd/lanes.hpp"
 
 namespace bch::detail {
 

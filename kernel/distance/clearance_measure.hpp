@@ -8,7 +8,7 @@
 #include "kernel/distance/clearance_arguments.hpp"
 #include "kernel/distance/clearance_terms.hpp"
 #include "kernel/simd/disc_pairs.hpp"
-#include "kernel/simd/lanes.hpp"
+#include "layout/simd/lanes.hpp"
 
 namespace bch::detail {
 

@@ -6,7 +6,7 @@
 namespace bch::detail {
 namespace {
 
-struct ScalarLanes : Lanes<Scalar> {
+struct ScalarLanes : Lanes<Scalar, ScalarLanes> {
   struct Guard {};
   static double gather(const double* p, const std::uint32_t* index) noexcept { return p[*index]; }
   static std::uint32_t gather(const std::uint32_t* p, const std::uint32_t* index) noexcept {

@@ -5,8 +5,8 @@
 
 #include <cstdint>
 
-#include "kernel/simd/lanes.hpp"
 #include "layout/format/cut_discs.hpp"
+#include "layout/simd/lanes.hpp"
 
 namespace bch::detail {
 

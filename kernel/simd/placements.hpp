@@ -9,11 +9,11 @@
 #include <bch/agents.hpp>
 
 #include "kernel/simd/arguments.hpp"
-#include "kernel/simd/lanes.hpp"
 #include "kernel/simd/transform.hpp"
 #include "layout/base/heading.hpp"
 #include "layout/base/rounding.hpp"
 #include "layout/format/shape_set_view.hpp"
+#include "layout/simd/lanes.hpp"
 
 namespace bch::detail {
 

@@ -5,10 +5,10 @@
 
 #include <cstdint>
 
-#include "kernel/simd/lanes.hpp"
 #include "kernel/simd/transform.hpp"
 #include "layout/base/rounding.hpp"
 #include "layout/format/shape_set_view.hpp"
+#include "layout/simd/lanes.hpp"
 
 namespace bch::detail {
 

@@ -93,14 +93,16 @@ TEST(Layers, NothingLooksUp) {
 TEST(Layers, LibrariesStayInTheirRooms) {
   expect_no_include("layout", "assimp/", "^import/");
   expect_no_include("layout", "polyclipping/");
-  expect_no_include("layout", "xsimd/", "^(culling/(contour|cut|interior)|enclosing_disc/disc)_lanes");
+  expect_no_include("layout", "xsimd/",
+                    "^simd/any_lanes|^(culling/(contour|cut|interior)|enclosing_disc/disc)_lanes");
   expect_no_include("layout", "oneapi/tbb|tbb/");
   expect_no_include("layout", "Eigen/|layout/character/eigen",
                     "^(character|default_character|import)/.*cpp$|^character/(eigen|rotation_blend)|"
                     "^default_character/(body|human)_|^import/(scene|units)");
   expect_no_include("layout", "xxhash", "^baked/checksum");
   expect_no_include("kernel", "assimp/|Eigen/|polyclipping/");
-  expect_no_include("kernel", "xsimd/", "^simd/lanes");
+  expect_no_include("kernel", "xsimd/");
+  expect_no_include("kernel", "[a-z]mmintrin", "^runtime/floating_point_state");
   expect_no_include("baselines", "assimp/|xsimd/|oneapi/tbb|tbb/");
 }
 

@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+#include <xsimd/xsimd.hpp>
+
+namespace bch::detail {
+
+/// Table over the sets of four bits: the numbers of the bits that are set, 16 bits each from the lowest, and
+/// how many there are. (It is not a member, because members of a template would be data that objects share.)
+constexpr std::uint64_t numbers_of_set[] = {
+    0x0, 0x0,      0x1,      0x1'0000,      0x2,      0x2'0000,      0x2'0001,      0x2'0001'0000,
+    0x3, 0x3'0000, 0x3'0001, 0x3'0001'0000, 0x3'0002, 0x3'0002'0000, 0x3'0002'0001, 0x3'0002'0001'0000};
+constexpr std::uint64_t counts_of_set = 0x4332'3221'3221'2110;
+
+/// The vocabulary of SIMD, for any instruction set that xsimd knows: its batches with its functions (+, max, sqrt ...)
+/// and what stands here because xsimd 8.1 has no name for it. x86.hpp replaces what x86-64 has instructions for.
+/// `Own`: the type that derives from this. One of a file's anonymous namespace keeps other files from sharing what was
+/// compiled for that file's registers.
+template <class Arch, class Own>
+struct AnyLanes {
+  template <class T>
+  using Batch = xsimd::batch<T, Arch>;
+  using Float = Batch<float>;
+  using Double = Batch<double>;
+  using Ints = Batch<std::int32_t>;
+  using Words = Batch<std::uint32_t>;
+  using Mask = xsimd::batch_bool<float, Arch>;
+  static constexpr unsigned width = Float::size, doubles = Double::size;
+
+  /// Leaves the processor's registers as callers expect them, at the end.
+  struct Guard {};
+
+  template <class T>
+  static Batch<T> load(const T* p) noexcept {
+    return Batch<T>::load_unaligned(p);
+  }
+  template <class T>
+  static void store(T* p, Batch<T> v) noexcept {
+    v.store_unaligned(p);
+  }
+  static Float select(Mask mask, Float yes, Float no) noexcept { return xsimd::select(mask, yes, no); }
+
+  /// A register of these lanes.
+  template <class T, class... Lane>
+  [[gnu::always_inline]] static Batch<T> of(Lane... lane) noexcept {
+    typedef T Vector __attribute__((vector_size(sizeof(Batch<T>))));
+    return Batch<T>((typename Batch<T>::register_type)Vector{lane...});
+  }
+  /// What `p` has at each index, without a way through memory.
+  template <class T>
+  static Batch<T> gather(const T* p, const std::uint32_t* index) noexcept {
+    return gather(p, index, std::make_index_sequence<Batch<T>::size>());
+  }
+
+  /// Of each group of four lanes these: 0 to 3 of the first, 4 to 7 of the second.
+  template <unsigned... which>
+  static Float shuffle(Float first, Float second) noexcept {
+    return [=]<std::size_t... lane>(std::index_sequence<lane...>) {
+      constexpr unsigned four[] = {which...};
+      using Register = typename Float::register_type;
+      return Float(
+          __builtin_shufflevector(Register(first), Register(second),
+                                  lane / 4 * 4 + four[lane % 4] % 4 + four[lane % 4] / 4 * width...));
+    }
+    (std::make_index_sequence<width>());
+  }
+  /// Of each group of four lanes, in turn: the first ones of all four, the second ones ...
+  static void transpose(const Float (&from)[4], Float (&to)[4]) noexcept {
+    const Float low01 = shuffle<0, 4, 1, 5>(from[0], from[1]), low23 = shuffle<0, 4, 1, 5>(from[2], from[3]),
+                high01 = shuffle<2, 6, 3, 7>(from[0], from[1]),
+                high23 = shuffle<2, 6, 3, 7>(from[2], from[3]);
+    to[0] = shuffle<0, 1, 4, 5>(low01, low23), to[1] = shuffle<2, 3, 6, 7>(low01, low23);
+    to[2] = shuffle<0, 1, 4, 5>(high01, high23), to[3] = shuffle<2, 3, 6, 7>(high01, high23);
+  }
+
+  /// Four floats for each group of four lanes: those where at(group) points.
+  template <class At>
+  [[gnu::always_inline]] static Float fours(At at) noexcept {
+    return load(at(0));
+  }
+  /// Field after field of records of four floats, lane = record. They are picked from a table, each by an index of
+  /// strides from its beginning.
+  template <std::size_t stride>
+  static void load_records(const float* table, const std::uint32_t* index, Float (&field)[4]) noexcept {
+    Float record[4];
+#pragma GCC unroll 4
+    for (std::size_t i = 0; i < 4; ++i)
+      record[i] = Own::fours([=](std::size_t group) { return table + stride * index[4 * group + i]; });
+    transpose(record, field);
+  }
+
+  /// Bits of the lanes that are set.
+  template <class T>
+  static std::uint32_t bits(xsimd::batch_bool<T, Arch> mask) noexcept {
+    bool lane[Batch<T>::size];
+    mask.store_unaligned(lane);
+    std::uint32_t set = 0;
+    for (std::size_t i = 0; i < Batch<T>::size; ++i) set |= std::uint32_t{lane[i]} << i;
+    return set;
+  }
+  /// The least lane.
+  static float least(Float values) noexcept {
+    alignas(64) float lane[width];
+    values.store_aligned(lane);
+    for (const float each : lane) lane[0] = each < lane[0] ? each : lane[0];
+    return lane[0];
+  }
+
+  /// A register of floats from as many doubles.
+  static Float rounded(const Double (&v)[2]) noexcept {
+    alignas(64) double from[width];
+    v[0].store_aligned(from), v[1].store_aligned(from + doubles);
+    alignas(64) float to[width];
+    for (std::size_t i = 0; i < width; ++i) to[i] = static_cast<float>(from[i]);
+    return Float::load_aligned(to);
+  }
+  /// Its inverse.
+  static void widened(Float v, Double (&to)[2]) noexcept {
+    alignas(64) float from[width];
+    v.store_aligned(from);
+    alignas(64) double wide[width];
+    for (std::size_t i = 0; i < width; ++i) wide[i] = static_cast<double>(from[i]);
+    to[0] = Double::load_aligned(wide), to[1] = Double::load_aligned(wide + doubles);
+  }
+
+  /// The square root, for bounds: it is off by less than 3/4 of `rough`, relatively, for normal numbers, differently on
+  /// every processor, and NaN for numbers below 0.
+  static Float rough_root(Float x) noexcept {
+    return xsimd::sqrt(x);
+  }
+  static constexpr float rough = 0x1p-23f;
+
+  /// first + i for every set bit i, in order; a register's lanes of numbers may be written.
+  /// Returns: how many.
+  static std::uint32_t write_set(std::uint32_t bits, std::uint32_t first, std::uint16_t* to) noexcept {
+    std::uint32_t count = 0;
+    for (std::uint32_t i = 0; i < width; i += 4) {
+      const std::uint32_t four = bits >> i & 15;
+      const std::uint64_t numbers = numbers_of_set[four] + 0x1'0001'0001'0001 * (first + i);
+      __builtin_memcpy(to + count, &numbers, sizeof numbers);
+      count += static_cast<std::uint32_t>(counts_of_set >> 4 * four & 15);
+    }
+    return count;
+  }
+
+  // Of an outer product of blocks of eight or four, `row` gives part of the left side (disc i, or discs i and i + 1 where
+  // two rows fit), `columns` the matching right side.
+
+  static const float* eight(const float* p) noexcept {
+    return p;
+  }
+  template <unsigned count>
+  static Float row(const float* eight, unsigned i) noexcept {
+    static_assert(width <= count, "or else a row of its own");
+    return Float(eight[i]);
+  }
+  template <unsigned count>
+  static Float columns(const float* eight, unsigned part) noexcept {
+    return load(eight + part * width);
+  }
+
+ private:
+  template <class T, std::size_t... lane>
+  [[gnu::always_inline]] static Batch<T> gather(const T* p, const std::uint32_t* index,
+                                                std::index_sequence<lane...>) noexcept {
+    return of<T>(p[index[lane]]...);
+  }
+};
+
+/// AnyLanes, or those of the instruction set.
+template <class Arch, class Own>
+struct Lanes : AnyLanes<Arch, Own> {};
+
+}  // namespace bch::detail

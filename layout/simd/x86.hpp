@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <immintrin.h>
+
+#include "layout/simd/any_lanes.hpp"
+
+namespace bch::detail {
+
+/// The one place that names instructions of x86-64. The comments are those of AnyLanes.
+template <class Own>
+struct Lanes<xsimd::sse2, Own> : AnyLanes<xsimd::sse2, Own> {
+  using typename AnyLanes<xsimd::sse2, Own>::Float;
+  using typename AnyLanes<xsimd::sse2, Own>::Double;
+
+  static std::uint32_t bits(xsimd::batch_bool<float, xsimd::sse2> mask) noexcept {
+    return static_cast<std::uint32_t>(_mm_movemask_ps(mask));
+  }
+  static float least(Float values) noexcept {
+    const __m128 pairs = _mm_min_ps(values, _mm_movehl_ps(values, values));
+    return _mm_cvtss_f32(_mm_min_ss(pairs, _mm_shuffle_ps(pairs, pairs, 1)));
+  }
+  static Float rounded(const Double (&v)[2]) noexcept {
+    return _mm_movelh_ps(_mm_cvtpd_ps(v[0]), _mm_cvtpd_ps(v[1]));
+  }
+  static void widened(Float v, Double (&to)[2]) noexcept {
+    to[0] = _mm_cvtps_pd(v), to[1] = _mm_cvtps_pd(_mm_movehl_ps(v, v));
+  }
+  static constexpr float rough = 0x1p-11f;
+  static Float rough_root(Float x) noexcept { return x * xsimd::rsqrt(x); }
+};
+
+#if XSIMD_WITH_AVX2
+/// Two rows of four fit into one register.
+template <class Own>
+struct Lanes<xsimd::avx2, Own> : AnyLanes<xsimd::avx2, Own> {
+  using Base = AnyLanes<xsimd::avx2, Own>;
+  using typename Base::Double;
+  using typename Base::Float;
+
+  /// Leaves the registers' upper halves clean, which GCC 12 forgets on some ways out of a kernel: whatever the caller
+  /// then does with SSE instructions takes up to five times as long.
+  struct Guard {
+    ~Guard() { _mm256_zeroupper(); }
+  };
+  template <unsigned count>
+  static Float row(const float* eight, unsigned i) noexcept {
+    if constexpr (count == Base::width) return Float(eight[i]);
+    return _mm256_set_m128(_mm_set1_ps(eight[i + 1]), _mm_set1_ps(eight[i]));
+  }
+  template <unsigned count>
+  static Float columns(const float* eight, unsigned) noexcept {
+    if constexpr (count == Base::width) return Base::load(eight);
+    return _mm256_broadcast_ps(reinterpret_cast<const __m128*>(eight));
+  }
+  template <class At>
+  [[gnu::always_inline]] static Float fours(At at) noexcept {
+    return _mm256_set_m128(_mm_loadu_ps(at(1)), _mm_loadu_ps(at(0)));
+  }
+  static Float rounded(const Double (&v)[2]) noexcept {
+    return _mm256_set_m128(_mm256_cvtpd_ps(v[1]), _mm256_cvtpd_ps(v[0]));
+  }
+  static void widened(Float v, Double (&to)[2]) noexcept {
+    to[0] = _mm256_cvtps_pd(_mm256_castps256_ps128(v)), to[1] = _mm256_cvtps_pd(_mm256_extractf128_ps(v, 1));
+  }
+  static std::uint32_t bits(xsimd::batch_bool<float, xsimd::avx2> mask) noexcept {
+    return static_cast<std::uint32_t>(_mm256_movemask_ps(mask));
+  }
+  static float least(Float values) noexcept {
+    const __m128 fours = _mm_min_ps(_mm256_castps256_ps128(values), _mm256_extractf128_ps(values, 1));
+    const __m128 pairs = _mm_min_ps(fours, _mm_movehl_ps(fours, fours));
+    return _mm_cvtss_f32(_mm_min_ss(pairs, _mm_shuffle_ps(pairs, pairs, 1)));
+  }
+  static constexpr float rough = 0x1p-11f;
+  static Float rough_root(Float x) noexcept { return x * xsimd::rsqrt(x); }
+};
+#endif
+
+#if XSIMD_WITH_AVX512F
+/// Several rows of a block's outer product fit into one register: two of eight, four of four.
+template <class Own>
+struct Lanes<xsimd::avx512f, Own> : AnyLanes<xsimd::avx512f, Own> {
+  using Base = AnyLanes<xsimd::avx512f, Own>;
+  using typename Base::Double;
+  using typename Base::Float;
+
+  /// As that of AVX2.
+  struct Guard {
+    ~Guard() { _mm256_zeroupper(); }
+  };
+  static Float eight(const float* p) noexcept { return columns<8>(p, 0); }
+  template <unsigned count>
+  static Float row(Float eight, unsigned i) noexcept {
+    const auto k = [i](unsigned lane) { return static_cast<int>(i + lane / count); };
+    return _mm512_permutexvar_ps(_mm512_setr_epi32(k(0), k(1), k(2), k(3), k(4), k(5), k(6), k(7), k(8), k(9),
+                                                   k(10), k(11), k(12), k(13), k(14), k(15)),
+                                 eight);
+  }
+  template <unsigned count>
+  static Float columns(const float* eight, unsigned) noexcept {
+    if constexpr (count == 4) return _mm512_broadcast_f32x4(_mm_loadu_ps(eight));
+    return _mm512_castpd_ps(_mm512_broadcast_f64x4(_mm256_castps_pd(_mm256_loadu_ps(eight))));
+  }
+  static std::uint32_t write_set(std::uint32_t bits, std::uint32_t first, std::uint16_t* to) noexcept {
+    const __m512i lanes = _mm512_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
+    const __m512i all = _mm512_add_epi32(lanes, _mm512_set1_epi32(static_cast<int>(first)));
+    const __m512i set = _mm512_maskz_compress_epi32(static_cast<__mmask16>(bits), all);
+    _mm256_storeu_si256(reinterpret_cast<__m256i*>(to), _mm512_cvtepi32_epi16(set));
+    return static_cast<std::uint32_t>(__builtin_popcount(bits));
+  }
+  template <class At>
+  [[gnu::always_inline]] static Float fours(At at) noexcept {
+    __m512 all = _mm512_castps128_ps512(_mm_loadu_ps(at(0)));
+    all = _mm512_insertf32x4(all, _mm_loadu_ps(at(1)), 1);
+    all = _mm512_insertf32x4(all, _mm_loadu_ps(at(2)), 2);
+    return _mm512_insertf32x4(all, _mm_loadu_ps(at(3)), 3);
+  }
+  static Float rounded(const Double (&v)[2]) noexcept {
+    return _mm512_castpd_ps(
+        _mm512_insertf64x4(_mm512_castps_pd(_mm512_castps256_ps512(_mm512_cvtpd_ps(v[0]))),
+                           _mm256_castps_pd(_mm512_cvtpd_ps(v[1])), 1));
+  }
+  static void widened(Float v, Double (&to)[2]) noexcept {
+    to[0] = _mm512_cvtps_pd(_mm512_castps512_ps256(v));
+    to[1] = _mm512_cvtps_pd(_mm256_castpd_ps(_mm512_extractf64x4_pd(_mm512_castps_pd(v), 1)));
+  }
+  static std::uint32_t bits(xsimd::batch_bool<float, xsimd::avx512f> mask) noexcept { return mask.data; }
+  static float least(Float values) noexcept { return _mm512_reduce_min_ps(values); }
+  static constexpr float rough = 0x1p-13f;
+  static Float rough_root(Float x) noexcept { return x * Float(_mm512_rsqrt14_ps(x)); }
+};
+#endif
+
+}  // namespace bch::detail
