@@ -7,16 +7,16 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
-#include <xsimd/xsimd.hpp>
 
 #include <bch/geometry.hpp>
 
 #include "layout/format/shape_set_view.hpp"
+#include "layout/simd/lanes.hpp"
 
 namespace bch::detail {
 
 /// Some of a contour's segments, seen from a centre, with what can be computed of them without a branch.
-template <class Arch>
+template <class Simd>
 class ContourLanes {
  public:
   static constexpr std::size_t most = 64;
@@ -58,15 +58,15 @@ class ContourLanes {
   }
 
  private:
-  using Batch = xsimd::batch<double, Arch>;
+  using Batch = typename Simd::Double;
   /// Elements that fill up whole registers, also for the ends of segments.
   static constexpr std::size_t padding = Batch::size;
   using Array = std::array<double, most + 1 + padding>;
   /// Added to what is divided by, which may be 0 where what is divided is.
   static constexpr double not_zero = 1e-200;
 
-  static Batch load(const Array& of, std::size_t i) noexcept { return Batch::load_unaligned(&of[i]); }
-  static void store(Array& to, std::size_t i, const Batch& value) noexcept { value.store_unaligned(&to[i]); }
+  static Batch load(const Array& of, std::size_t i) noexcept { return Simd::load(&of[i]); }
+  static void store(Array& to, std::size_t i, const Batch& value) noexcept { Simd::store(&to[i], value); }
 
   /// A sector takes an equal share of |y| / (|x| + |y|). From the line at one end, which is at most `quadrant` long in
   /// those terms, a point is that share times (|x| + |y|) over its length away.

@@ -3,16 +3,14 @@
 
 #pragma once
 
-#include <emmintrin.h>
-
 #include <cstddef>
 #include <cstdint>
 #include <limits>
-#include <xsimd/xsimd.hpp>
 
 #include <bch/geometry.hpp>
 
 #include "layout/format/shape_set_view.hpp"
+#include "layout/simd/lanes.hpp"
 
 namespace bch::detail {
 
@@ -23,7 +21,7 @@ struct DiscRun {
 };
 
 /// Loops over a cut's discs.
-template <class Arch>
+template <class Simd>
 class CutLanes {
  public:
   /// The radius of the disc about a centre that holds a run, to 5 units in the last place.
@@ -32,9 +30,9 @@ class CutLanes {
     Batch most(0.0f);
     for_each(run, [&](const Batch& x, const Batch& y, const Batch& r, const Batch& there) {
       const Batch dx = x - centre_x, dy = y - centre_y;
-      most = xsimd::max(xsimd::sqrt(dx * dx + dy * dy) + (r + there), most);
+      most = Simd::max(xsimd::sqrt(dx * dx + dy * dy) + (r + there), most);
     });
-    return largest(most);
+    return -Simd::least(-most);
   }
 
   /// The run's extents along support_directions directions, to 6 units in the last place of its reach. Those of the
@@ -42,7 +40,7 @@ class CutLanes {
   /// share products.
   static void heights(const DiscRun& run, const float* cosine, const float* sine, float* height) noexcept {
     for (std::size_t k = 0; k < quadrant; k += Batch::size) {
-      const Batch c = Batch::load_unaligned(cosine + k), s = Batch::load_unaligned(sine + k);
+      const Batch c = Simd::load(cosine + k), s = Simd::load(sine + k);
       Batch h[4] = {Batch(-infinity), Batch(-infinity), Batch(-infinity), Batch(-infinity)};
       for (std::uint32_t i = 0; i < run.count; ++i) {
         const Batch x(run.x[i]), y(run.y[i]), r(run.radius[i]);
@@ -52,18 +50,18 @@ class CutLanes {
         h[2] = xsimd::max(h[2], r - along);
         h[3] = xsimd::max(h[3], r - across);
       }
-      for (std::size_t turn = 0; turn < 4; ++turn) h[turn].store_unaligned(height + turn * quadrant + k);
+      for (std::size_t turn = 0; turn < 4; ++turn) Simd::store(height + turn * quadrant + k, h[turn]);
     }
   }
 
  private:
-  using Batch = xsimd::batch<float, Arch>;
+  using Batch = typename Simd::Float;
   static constexpr float infinity = std::numeric_limits<float>::infinity();
   static constexpr std::size_t quadrant = support_directions / 4;
 
   /// Calls visit(x, y, radius, gap) for each register of the run. `gap` is 0 in the lanes of the run's discs
-  /// and NaN in the others. A minimum or maximum drops NaN when it comes first: that is one instruction,
-  /// where selecting is three.
+  /// and NaN in the others, which a maximum drops when it comes first: that is one instruction, where selecting
+  /// is three.
   template <class Visit>
   static void for_each(const DiscRun& run, Visit visit) {
     alignas(64) float lane[Batch::size];
@@ -71,15 +69,9 @@ class CutLanes {
     const Batch index = Batch::load_aligned(lane), gone(std::numeric_limits<float>::quiet_NaN());
     for (std::uint32_t i = 0; i < run.count; i += Batch::size) {
       const auto is_there = index < Batch(static_cast<float>(run.count - i));
-      visit(Batch::load_unaligned(run.x + i), Batch::load_unaligned(run.y + i),
-            Batch::load_unaligned(run.radius + i), xsimd::select(is_there, Batch(0.0f), gone));
+      visit(Simd::load(run.x + i), Simd::load(run.y + i), Simd::load(run.radius + i),
+            xsimd::select(is_there, Batch(0.0f), gone));
     }
-  }
-
-  static float largest(const Batch& values) {
-    static_assert(Batch::size == 4);
-    const __m128 two = _mm_max_ps(values, _mm_movehl_ps(values, values));
-    return _mm_cvtss_f32(_mm_max_ss(two, _mm_shuffle_ps(two, two, 1)));
   }
 };
 

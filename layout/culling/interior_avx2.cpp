@@ -6,11 +6,11 @@
 namespace bch::detail {
 namespace {
 
-struct Local {};
+struct Avx2Lanes : Lanes<xsimd::avx2, Avx2Lanes> {};
 
 }  // namespace
 
 extern const InteriorLoops interior_avx2;
-const InteriorLoops interior_avx2 = InteriorLanes<xsimd::avx2, Local>::loops();
+const InteriorLoops interior_avx2 = InteriorLanes<Avx2Lanes>::loops();
 
 }  // namespace bch::detail

@@ -5,18 +5,16 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <xsimd/xsimd.hpp>
 
 #include "layout/culling/interior_implementation.hpp"
+#include "layout/simd/lanes.hpp"
 
 namespace bch::detail {
 
 /// The loops that take most of the time of interior.hpp: over the points of a contour, with whatever is asked about it
 /// side by side in lanes, and over the rows of a raster. No float is summed across lanes, so that every instruction
 /// set gives the same bits. What belongs to an edge is computed once.
-/// `Local` is a type of the including file alone, so that no other file can share what was compiled for its
-/// registers.
-template <class Arch, class Local>
+template <class Simd>
 class InteriorLanes {
  public:
   static constexpr InteriorLoops loops() {
@@ -58,7 +56,7 @@ class InteriorLanes {
   static void find_nearest(const ContourPoints& contour, const PointLanes& from, float* square,
                            std::int32_t* edge) noexcept {
     for (std::uint32_t k = 0; k < from.count; k += width) {
-      const Floats at_x = Floats::load_unaligned(from.x + k), at_y = Floats::load_unaligned(from.y + k);
+      const Floats at_x = Simd::load(from.x + k), at_y = Simd::load(from.y + k);
       Floats least(HUGE_VALF), nearest(0.0f);
       for (std::size_t i = 0, before = contour.count - 1; i < contour.count; before = i++) {
         const Edge<float> line({contour.x[before], contour.y[before]}, {contour.x[i], contour.y[i]});
@@ -69,7 +67,7 @@ class InteriorLanes {
             xsimd::select(nearer, Floats(__builtin_bit_cast(float, static_cast<std::int32_t>(i))), nearest);
         least = xsimd::select(nearer, here, least);
       }
-      least.store_unaligned(square + k);
+      Simd::store(square + k, least);
       alignas(64) float bits[width];
       nearest.store_aligned(bits);
       __builtin_memcpy(edge + k, bits, sizeof bits);
@@ -77,11 +75,9 @@ class InteriorLanes {
   }
 
   static void find_extremes(const Vec2* contour, std::size_t count, const LineLanes& lines) noexcept {
-    constexpr std::size_t lanes = xsimd::batch<double, Arch>::size;
-    using Doubles = xsimd::batch<double, Arch>;
-    for (std::size_t k = 0; k < contour_lines; k += lanes) {
-      const Doubles cosine = Doubles::load_unaligned(lines.cosine + k),
-                    sine = Doubles::load_unaligned(lines.sine + k);
+    using Doubles = typename Simd::Double;
+    for (std::size_t k = 0; k < contour_lines; k += Simd::doubles) {
+      const Doubles cosine = Simd::load(lines.cosine + k), sine = Simd::load(lines.sine + k);
       Doubles least(HUGE_VAL), most(-HUGE_VAL), lowest(0.0), highest(0.0);
       for (std::size_t i = 0; i < count; ++i) {
         const Doubles index(static_cast<double>(i));
@@ -93,8 +89,8 @@ class InteriorLanes {
         highest = xsimd::select(more, index, highest);
         most = xsimd::select(more, along, most);
       }
-      lowest.store_unaligned(lines.lowest + k);
-      highest.store_unaligned(lines.highest + k);
+      Simd::store(lines.lowest + k, lowest);
+      Simd::store(lines.highest + k, highest);
     }
   }
 
@@ -109,7 +105,7 @@ class InteriorLanes {
     for (std::size_t j = 0; j < raster_rows; j += width, at = at + Floats(static_cast<float>(width))) {
       const Floats half = xsimd::sqrt(xsimd::max(square - at * at, Floats(0.0f)));
       const Cell begin(middle - half), end(middle + half);
-      (end.bit - begin.bit).store_unaligned(reinterpret_cast<std::int32_t*>(rows + j));
+      (begin.minus_bit - end.minus_bit).store_unaligned(reinterpret_cast<std::int32_t*>(rows + j));
       drawn = drawn + (end.index - begin.index);
     }
     alignas(64) std::int32_t cells[width];
@@ -132,26 +128,27 @@ class InteriorLanes {
   }
 
  private:
-  using Floats = xsimd::batch<float, Arch>;
-  using Ints = xsimd::batch<std::int32_t, Arch>;
-  static constexpr std::size_t width = Floats::size;
+  using Floats = typename Simd::Float;
+  using Ints = typename Simd::Ints;
+  static constexpr std::size_t width = Simd::width;
   /// The uncertainty of a square distance: points nearer than the rounding of coordinates tell nothing about
   /// a tangent disc.
   static constexpr float blur = 0x1p-16f;
 
   /// The first cell of every row whose centre is not before a coordinate, and its bit. The coordinate has
   /// half a cell added to it. Beyond the last cell there is no bit. The bit is made as a power of two in
-  /// float, because not every instruction set can shift lanes by lanes.
+  /// float, because not every instruction set can shift lanes by lanes; negative, so that the largest, 2^31,
+  /// can be converted.
   struct Cell {
-    Ints index, bit;
+    Ints index, minus_bit;
 
     explicit Cell(const Floats& coordinate) {
       const Floats past(static_cast<float>(raster_rows));
       const Floats cell = xsimd::min(xsimd::max(coordinate, Floats(0.0f)), past);
       index = xsimd::to_int(cell);
-      const Floats power = xsimd::bitwise_cast<Floats>((index + Ints(127)) << 23);
-      // The largest, 2^31, becomes the only number with its bit: what this conversion gives beyond its range.
-      bit = xsimd::to_int(xsimd::select(cell < past, power, Floats(0.0f)));
+      constexpr std::int32_t exponent_of_1 = 127, sign = 256;
+      const Floats power = xsimd::bitwise_cast<Floats>((index + Ints(exponent_of_1 + sign)) << 23);
+      minus_bit = xsimd::to_int(xsimd::select(cell < past, power, Floats(0.0f)));
     }
   };
 
@@ -162,7 +159,7 @@ class InteriorLanes {
 
   template <class Real>
   struct Edge {
-    using Batch = xsimd::batch<Real, Arch>;
+    using Batch = typename Simd::template Batch<Real>;
     Real x, y, dx, dy, over;
 
     Edge(Point<Real> a, Point<Real> b) : x(a.x), y(a.y), dx(b.x - a.x), dy(b.y - a.y) {
@@ -187,10 +184,9 @@ class InteriorLanes {
     Floats x[parts], y[parts], normal_x[parts], normal_y[parts], curvature[parts];
     for (std::size_t p = 0; p < parts; ++p) {
       const std::size_t k = first + p * width;
-      x[p] = Floats::load_unaligned(touches.x + k), y[p] = Floats::load_unaligned(touches.y + k);
-      normal_x[p] = Floats::load_unaligned(touches.normal_x + k);
-      normal_y[p] = Floats::load_unaligned(touches.normal_y + k);
-      curvature[p] = Floats::load_unaligned(half_curvature + k);
+      x[p] = Simd::load(touches.x + k), y[p] = Simd::load(touches.y + k);
+      normal_x[p] = Simd::load(touches.normal_x + k), normal_y[p] = Simd::load(touches.normal_y + k);
+      curvature[p] = Simd::load(half_curvature + k);
     }
     for (std::size_t i = 0; i < points.count; ++i)
       for (std::size_t p = 0; p < parts; ++p) {
@@ -198,13 +194,13 @@ class InteriorLanes {
         const Floats needed = (normal_x[p] * wx + normal_y[p] * wy) / (wx * wx + wy * wy + Floats(blur));
         curvature[p] = xsimd::max(curvature[p], needed);
       }
-    for (std::size_t p = 0; p < parts; ++p) curvature[p].store_unaligned(half_curvature + first + p * width);
+    for (std::size_t p = 0; p < parts; ++p) Simd::store(half_curvature + first + p * width, curvature[p]);
   }
 
   /// corner(i): the coordinates of point i of the contour's n.
   template <class Real, class Corner>
   static void measure_from(std::size_t n, Corner corner, const PointLanes& from, Real* square, Real* turns) {
-    using Batch = xsimd::batch<Real, Arch>;
+    using Batch = typename Simd::template Batch<Real>;
     const Batch one(Real(1)), minus_one(Real(-1));
     for (std::uint32_t k = 0; k < from.count; k += Batch::size) {
       alignas(64) Real x[Batch::size], y[Batch::size];
@@ -224,8 +220,8 @@ class InteriorLanes {
         const Batch side = xsimd::select(Batch(edge.dx) * py >= Batch(edge.dy) * px, one, minus_one);
         turned = turned + (one - begin * end) * side;
       }
-      least.store_unaligned(square + k);
-      turned.store_unaligned(turns + k);
+      Simd::store(square + k, least);
+      Simd::store(turns + k, turned);
     }
   }
 };

@@ -4,13 +4,7 @@
 #include "layout/culling/interior_lanes.hpp"
 
 namespace bch::detail {
-namespace {
-
-struct Local {};
-
-}  // namespace
-
 extern const InteriorLoops interior_sse2;
-const InteriorLoops interior_sse2 = InteriorLanes<xsimd::sse2, Local>::loops();
+const InteriorLoops interior_sse2 = InteriorLanes<BaseLanes>::loops();
 
 }  // namespace bch::detail

@@ -150,7 +150,7 @@ class Inside {
   }
 
  private:
-  using Segments = ContourLanes<xsimd::sse2>;  ///< of every x86-64 processor
+  using Segments = ContourLanes<BaseLanes>;
 
   /// Limits the inner distances by a segment, in the sectors that it crosses, counter-clockwise, and their
   /// neighbours. Most segments lie in one sector, and not in a neighbour made wider. In most of several
@@ -217,7 +217,7 @@ Outer outer(const Profile& profile, const float* x, const float* y, const float*
             double reach) {
   const Boundaries& to = boundaries();
   std::array<float, profile_sectors> heights;
-  CutLanes<xsimd::sse2>::heights({x, y, radius, count}, to.cosine.data(), to.sine.data(), heights.data());
+  CutLanes<BaseLanes>::heights({x, y, radius, count}, to.cosine.data(), to.sine.data(), heights.data());
   const auto centre_x = static_cast<double>(profile.x), centre_y = static_cast<double>(profile.y);
   std::array<double, profile_sectors + 1> height;
   for (std::uint32_t k = 0; k < profile_sectors; ++k)

@@ -34,8 +34,8 @@ static_assert(rounding::terms::support_float >= 1.5 * rounding::terms::root_2 + 
 Supports supports(const float* x, const float* y, const float* radius, std::uint32_t count, double reach) {
   static const Directions directions;
   std::array<float, support_directions> largest;
-  CutLanes<xsimd::sse2>::heights({x, y, radius, count}, directions.cosine.data(), directions.sine.data(),
-                                 largest.data());
+  CutLanes<BaseLanes>::heights({x, y, radius, count}, directions.cosine.data(), directions.sine.data(),
+                               largest.data());
   Supports heights;
   for (std::uint32_t k = 0; k < support_directions; ++k) {
     const std::uint32_t at = k % 2 * support_directions + k / 2;

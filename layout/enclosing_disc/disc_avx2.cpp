@@ -6,12 +6,12 @@
 namespace bch::detail {
 namespace {
 
-struct Local {};
+struct Avx2Lanes : Lanes<xsimd::avx2, Avx2Lanes> {};
 
 }  // namespace
 
 void solve_discs_avx2(const DiscSets& sets) noexcept {
-  DiscLanes<xsimd::avx2, Local>::solve(sets);
+  DiscLanes<Avx2Lanes>::solve(sets);
 }
 
 }  // namespace bch::detail

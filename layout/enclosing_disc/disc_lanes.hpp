@@ -3,21 +3,18 @@
 
 #pragma once
 
-#include <emmintrin.h>
-
 #include <cstddef>
 #include <cstdint>
-#include <xsimd/xsimd.hpp>
 
 #include "layout/enclosing_disc/disc_sets.hpp"
+#include "layout/simd/lanes.hpp"
 
 namespace bch::detail {
 
 /// Smallest enclosing discs of many point sets, one set a lane: disc_pivoting.hpp's algorithm without its
 /// branches, which cannot be predicted. A lane's operations do not depend on the width nor on its neighbours,
-/// so that every instruction set gives the same bits. `Local` is a type of the including file alone, so that
-/// no other file can share what was compiled for its registers.
-template <class Arch, class Local>
+/// so that every instruction set gives the same bits.
+template <class Simd>
 class DiscLanes {
  public:
   static void solve(const DiscSets& job) noexcept {
@@ -30,9 +27,9 @@ class DiscLanes {
   }
 
  private:
-  using Batch = xsimd::batch<double, Arch>;
+  using Batch = typename Simd::Double;
   using Mask = typename Batch::batch_bool_type;
-  static constexpr std::size_t width = Batch::size;
+  static constexpr std::size_t width = Simd::doubles;
   static_assert(width <= disc_set_lanes);
 
   struct Point {
@@ -188,43 +185,24 @@ class DiscLanes {
       count_ = most + 1;
       std::size_t k = 0;
       for (; k <= least; ++k)
-        for (std::size_t lane = 0; lane < width; lane += 2)
-          put(k, lane, columns[lane].first + k, columns[lane + 1].first + k);
+        for (std::size_t lane = 0; lane < width; ++lane) put(k, lane, columns[lane].first[k]);
       for (; k <= count_; ++k)
-        for (std::size_t lane = 0; lane < width; lane += 2) {
-          const auto [a, last_a] = columns[lane];
-          const auto [b, last_b] = columns[lane + 1];
-          if (k > last_a && k > last_b)
-            repeat(k, lane);
-          else
-            put(k, lane, a + (k < last_a ? k : last_a), b + (k < last_b ? k : last_b));
+        for (std::size_t lane = 0; lane < width; ++lane) {
+          const auto [first, last] = columns[lane];
+          put(k, lane, first[k < last ? k : last]);
         }
     }
 
     /// Which set is in a lane; the last one is also in those that are left over.
     std::size_t set(std::size_t lane) const { return begin_ + lane < end_ ? begin_ + lane : end_ - 1; }
 
-    /// Points k of two neighbouring lanes.
-    void put(std::size_t k, std::size_t lane, const Vec2* p, const Vec2* q) const {
-      // These two may alias what they read; those of doubles may not.
-      const __m128 bits = _mm_loadh_pi(_mm_loadl_pi(_mm_setzero_ps(), reinterpret_cast<const __m64*>(p)),
-                                       reinterpret_cast<const __m64*>(q));
-      const __m128 x = _mm_shuffle_ps(bits, bits, _MM_SHUFFLE(2, 0, 2, 0)),
-                   y = _mm_shuffle_ps(bits, bits, _MM_SHUFFLE(3, 1, 3, 1));
-      _mm_storeu_pd(job_.scratch + 2 * k * width + lane, _mm_cvtps_pd(x));
-      _mm_storeu_pd(job_.scratch + (2 * k + 1) * width + lane, _mm_cvtps_pd(y));
-    }
-
-    /// What the point before it is, in two neighbouring lanes.
-    void repeat(std::size_t k, std::size_t lane) const {
-      double* const x = job_.scratch + 2 * k * width + lane;
-      _mm_storeu_pd(x, _mm_loadu_pd(x - 2 * width));
-      _mm_storeu_pd(x + width, _mm_loadu_pd(x - width));
+    void put(std::size_t k, std::size_t lane, Vec2 point) const {
+      job_.scratch[2 * k * width + lane] = static_cast<double>(point.x);
+      job_.scratch[(2 * k + 1) * width + lane] = static_cast<double>(point.y);
     }
 
     Point point(std::size_t k) const {
-      return {Batch::load_unaligned(job_.scratch + 2 * k * width),
-              Batch::load_unaligned(job_.scratch + (2 * k + 1) * width)};
+      return {Simd::load(job_.scratch + 2 * k * width), Simd::load(job_.scratch + (2 * k + 1) * width)};
     }
 
     static void keep_farther(Farthest& best, const Point& p, const Batch& square) {

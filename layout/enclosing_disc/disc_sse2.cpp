@@ -4,14 +4,9 @@
 #include "layout/enclosing_disc/disc_lanes.hpp"
 
 namespace bch::detail {
-namespace {
-
-struct Local {};
-
-}  // namespace
 
 void solve_discs_sse2(const DiscSets& sets) noexcept {
-  DiscLanes<xsimd::sse2, Local>::solve(sets);
+  DiscLanes<BaseLanes>::solve(sets);
 }
 
 }  // namespace bch::detail

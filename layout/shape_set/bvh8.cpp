@@ -13,8 +13,6 @@
 namespace bch::detail {
 namespace {
 
-using Lanes = CutLanes<xsimd::sse2>;
-
 /// Discs that may be read beyond a run's.
 constexpr std::size_t padding = 16;
 
@@ -193,7 +191,8 @@ float Flattener::outer_radius(const Group& group) const {
   const DiscRun run{x_.data() + group.begin, y_.data() + group.begin, radius_.data() + group.begin,
                     group.size()};
   const Disc& node = hierarchy_->nodes[group.node].disc;
-  return rounding::round_up(static_cast<double>(Lanes::radius(run, {node.x, node.y})) * (1 + 0x1p-21));
+  return rounding::round_up(static_cast<double>(CutLanes<BaseLanes>::radius(run, {node.x, node.y})) *
+                            (1 + 0x1p-21));
 }
 
 Supports Flattener::supports() const {

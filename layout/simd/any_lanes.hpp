@@ -45,6 +45,10 @@ struct AnyLanes {
   }
   static Float select(Mask mask, Float yes, Float no) noexcept { return xsimd::select(mask, yes, no); }
 
+  /// The first where it is less (or more) than the second, which alone may be NaN in the result.
+  static Float min(Float first, Float second) noexcept { return select(first < second, first, second); }
+  static Float max(Float first, Float second) noexcept { return select(second < first, first, second); }
+
   /// A register of these lanes.
   template <class T, class... Lane>
   [[gnu::always_inline]] static Batch<T> of(Lane... lane) noexcept {

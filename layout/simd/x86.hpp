@@ -15,6 +15,8 @@ struct Lanes<xsimd::sse2, Own> : AnyLanes<xsimd::sse2, Own> {
   using typename AnyLanes<xsimd::sse2, Own>::Float;
   using typename AnyLanes<xsimd::sse2, Own>::Double;
 
+  static Float min(Float first, Float second) noexcept { return _mm_min_ps(first, second); }
+  static Float max(Float first, Float second) noexcept { return _mm_max_ps(first, second); }
   static std::uint32_t bits(xsimd::batch_bool<float, xsimd::sse2> mask) noexcept {
     return static_cast<std::uint32_t>(_mm_movemask_ps(mask));
   }

@@ -93,8 +93,7 @@ TEST(Layers, NothingLooksUp) {
 TEST(Layers, LibrariesStayInTheirRooms) {
   expect_no_include("layout", "assimp/", "^import/");
   expect_no_include("layout", "polyclipping/");
-  expect_no_include("layout", "xsimd/",
-                    "^simd/any_lanes|^(culling/(contour|cut|interior)|enclosing_disc/disc)_lanes");
+  expect_no_include("layout", "xsimd/", "^simd/any_lanes");
   expect_no_include("layout", "oneapi/tbb|tbb/");
   expect_no_include("layout", "Eigen/|layout/character/eigen",
                     "^(character|default_character|import)/.*cpp$|^character/(eigen|rotation_blend)|"
