@@ -3,9 +3,9 @@
 
 #pragma once
 
-#include <emmintrin.h>
-
 #include <bch/geometry.hpp>
+
+#include "layout/simd/lanes.hpp"
 
 namespace bch::detail {
 
@@ -23,16 +23,14 @@ struct AffineRows {
 
 /// The map that applies b first, then a.
 inline AffineRows operator*(const AffineRows& a, const AffineRows& b) {
+  using Simd = BaseLanes;
   AffineRows result;
   for (int i = 0; i < 3; ++i) {
-    const __m128d x = _mm_set1_pd(a.row[i][0]), y = _mm_set1_pd(a.row[i][1]), z = _mm_set1_pd(a.row[i][2]);
-    const auto half = [&](int j) {
-      return _mm_add_pd(
-          _mm_add_pd(_mm_mul_pd(x, _mm_load_pd(&b.row[0][j])), _mm_mul_pd(y, _mm_load_pd(&b.row[1][j]))),
-          _mm_mul_pd(z, _mm_load_pd(&b.row[2][j])));
-    };
-    _mm_store_pd(&result.row[i][0], half(0));
-    _mm_store_pd(&result.row[i][2], _mm_add_pd(half(2), _mm_set_pd(a.row[i][3], 0)));
+    const Simd::Double x(a.row[i][0]), y(a.row[i][1]), z(a.row[i][2]);
+    const auto of = [&](int k, int j) { return Simd::Double::load_aligned(&b.row[k][j]); };
+    const auto half = [&](int j) { return x * of(0, j) + y * of(1, j) + z * of(2, j); };
+    Simd::store(&result.row[i][0], half(0));
+    Simd::store(&result.row[i][2], half(2) + Simd::of<double>(0.0, a.row[i][3]));
   }
   return result;
 }

@@ -3,12 +3,15 @@
 
 #include "layout/character/rotation_blend.hpp"
 
-#include <emmintrin.h>
-
 #include <cmath>
+
+#include "layout/simd/lanes.hpp"
 
 namespace bch::detail {
 namespace {
+
+using Simd = BaseLanes;
+using Double = Simd::Double;
 
 /// A way with a cosine of at least that needs so many terms: the first one left out is below 1e-9.
 constexpr double nearest_to_series = 0.9;
@@ -17,38 +20,30 @@ constexpr int terms = 7;
 /// sin(t angle) / sin(angle) of two t, by what is missing of the angle's cosine to 1.
 /// Source:  D. Eberly, "A fast and accurate algorithm for computing SLERP", Journal of Graphics, GPU, and Game
 ///          Tools 15, 2011.
-__m128d shares(__m128d t, double missing) {
-  const __m128d one = _mm_set1_pd(1), square = _mm_mul_pd(t, t);
-  __m128d sum = one;
-  for (int i = terms; i > 0; --i) {
-    const __m128d factor =
-        _mm_mul_pd(_mm_sub_pd(_mm_set1_pd(i * i), square), _mm_set1_pd(missing * (1.0 / (i * (2 * i + 1)))));
-    sum = _mm_add_pd(one, _mm_mul_pd(factor, sum));
-  }
-  return _mm_mul_pd(t, sum);
+Double shares(Double t, double missing) {
+  const Double one(1.0), square = t * t;
+  Double sum = one;
+  for (int i = terms; i > 0; --i)
+    sum = one + (Double(i * i) - square) * Double(missing * (1.0 / (i * (2 * i + 1)))) * sum;
+  return t * sum;
 }
 
-/// A quaternion in two registers of every x86-64 processor.
+/// A quaternion in two registers.
 struct Four {
-  __m128d low, high;
+  Double half[2];
 
-  explicit Four(const Quaternion& q) {
-    const __m128 coefficients = _mm_loadu_ps(&q.x);
-    low = _mm_cvtps_pd(coefficients), high = _mm_cvtps_pd(_mm_movehl_ps(coefficients, coefficients));
-  }
-  Four(__m128d low_two, __m128d high_two) : low(low_two), high(high_two) {}
+  explicit Four(const Quaternion& q) { Simd::widened(Simd::load(&q.x), half); }
+  Four(Double low, Double high) : half{low, high} {}
 };
 
 Four operator+(const Four& a, const Four& b) {
-  return {_mm_add_pd(a.low, b.low), _mm_add_pd(a.high, b.high)};
+  return {a.half[0] + b.half[0], a.half[1] + b.half[1]};
 }
 Four operator*(double factor, const Four& q) {
-  const __m128d both = _mm_set1_pd(factor);
-  return {_mm_mul_pd(both, q.low), _mm_mul_pd(both, q.high)};
+  return {Double(factor) * q.half[0], Double(factor) * q.half[1]};
 }
 double dot(const Four& a, const Four& b) {
-  const __m128d sums = _mm_add_pd(_mm_mul_pd(a.low, b.low), _mm_mul_pd(a.high, b.high));
-  return _mm_cvtsd_f64(_mm_add_sd(sums, _mm_unpackhi_pd(sums, sums)));
+  return xsimd::hadd(a.half[0] * b.half[0] + a.half[1] * b.half[1]);
 }
 
 }  // namespace
@@ -64,12 +59,12 @@ Eigen::Quaterniond slerp(const Quaternion& a, const Quaternion& b, float t) {
     along = first_half ? 2 * along : 2 * along - 1;
     cosine = std::sqrt(0.5 + 0.5 * cosine);
   }
-  const __m128d share = shares(_mm_setr_pd(1 - along, along), 1 - cosine);
-  const Four sum = _mm_cvtsd_f64(share) * from + _mm_cvtsd_f64(_mm_unpackhi_pd(share, share)) * to;
+  const Double share = shares(Simd::of<double>(1 - along, along), 1 - cosine);
+  const Four sum = Simd::lane(share, 0) * from + Simd::lane(share, 1) * to;
   const Four unit = 1 / std::sqrt(dot(sum, sum)) * sum;
   Eigen::Quaterniond result;
-  _mm_storeu_pd(result.coeffs().data(), unit.low);
-  _mm_storeu_pd(result.coeffs().data() + 2, unit.high);
+  Simd::store(result.coeffs().data(), unit.half[0]);
+  Simd::store(result.coeffs().data() + 2, unit.half[1]);
   return result;
 }
 

@@ -183,23 +183,24 @@ class DiscLanes {
         most = column.last > most ? column.last : most;
       }
       count_ = most + 1;
+      double* to = job_.scratch;
+      const auto put = [&](auto point) {
+        Batch xy[2];
+        Simd::load_pairs(point, xy);
+        Simd::store(to, xy[0]), Simd::store(to + width, xy[1]);
+        to += 2 * width;
+      };
       std::size_t k = 0;
-      for (; k <= least; ++k)
-        for (std::size_t lane = 0; lane < width; ++lane) put(k, lane, columns[lane].first[k]);
+      for (; k <= least; ++k) put([&](std::size_t lane) { return columns[lane].first + k; });
       for (; k <= count_; ++k)
-        for (std::size_t lane = 0; lane < width; ++lane) {
+        put([&](std::size_t lane) {
           const auto [first, last] = columns[lane];
-          put(k, lane, first[k < last ? k : last]);
-        }
+          return first + (k < last ? k : last);
+        });
     }
 
     /// Which set is in a lane; the last one is also in those that are left over.
     std::size_t set(std::size_t lane) const { return begin_ + lane < end_ ? begin_ + lane : end_ - 1; }
-
-    void put(std::size_t k, std::size_t lane, Vec2 point) const {
-      job_.scratch[2 * k * width + lane] = static_cast<double>(point.x);
-      job_.scratch[(2 * k + 1) * width + lane] = static_cast<double>(point.y);
-    }
 
     Point point(std::size_t k) const {
       return {Simd::load(job_.scratch + 2 * k * width), Simd::load(job_.scratch + (2 * k + 1) * width)};

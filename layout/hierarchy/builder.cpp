@@ -3,8 +3,6 @@
 
 #include "layout/hierarchy/builder.hpp"
 
-#include <emmintrin.h>
-
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -249,8 +247,8 @@ void HierarchyBuilder::add_halves(Vec2 a, Vec2 b, std::uint32_t below) {
     const std::uint32_t node = add_node();
     const Vec2 middle = middle_of(a, b);
     set_centre(nodes_[node], middle);
-    const __m128d square = _mm_set1_pd(std::max(square_distance(a, middle), square_distance(b, middle)));
-    OutwardRadii(margin_).write(square, nodes_[node], nodes_[node]);
+    OutwardRadii(margin_).write(std::max(square_distance(a, middle), square_distance(b, middle)),
+                                nodes_[node]);
     if (below > 0 && square_distance(a, b) > longest_square_length_ && !(middle == a) && !(middle == b)) {
       halves_[open_count++] = {node, --below, b};
       b = middle;
@@ -309,12 +307,10 @@ void HierarchyBuilder::solve(std::span<const Vec2> points) {
   discs_.resize(sets_.size());
   solver_.solve(points, sets_, discs_);
   const OutwardRadii radii(margin_);
-  const auto node = [&](std::size_t i) -> HierarchyNode& { return nodes_[unsolved_[i].node]; };
-  for (std::size_t i = 0; i < discs_.size(); i += 2) {
-    const std::size_t next = i + 1 < discs_.size() ? i + 1 : i;
-    set_centre(node(i), discs_[i].centre);
-    set_centre(node(next), discs_[next].centre);
-    radii.write(_mm_setr_pd(discs_[i].square_radius, discs_[next].square_radius), node(i), node(next));
+  for (std::size_t i = 0; i < discs_.size(); ++i) {
+    HierarchyNode& node = nodes_[unsolved_[i].node];
+    set_centre(node, discs_[i].centre);
+    radii.write(discs_[i].square_radius, node);
   }
 }
 

@@ -3,8 +3,6 @@
 
 #include "layout/hierarchy/halves.hpp"
 
-#include <emmintrin.h>
-
 #include <algorithm>
 #include <limits>
 #include <utility>
@@ -14,36 +12,33 @@
 namespace bch::detail {
 namespace {
 
-/// Both coordinates side by side, in a register of every x86-64 processor.
-__m128d widened(Vec2 p) {
-  return _mm_setr_pd(static_cast<double>(p.x), static_cast<double>(p.y));
-}
+using Float = BaseLanes::Float;
 
-/// The larger of two squared lengths, in the lower lane.
-__m128d larger_square(__m128d a, __m128d b) {
-  const __m128d aa = _mm_mul_pd(a, a), bb = _mm_mul_pd(b, b);
-  const __m128d sums = _mm_add_pd(_mm_unpacklo_pd(aa, bb), _mm_unpackhi_pd(aa, bb));
-  return _mm_max_sd(sums, _mm_unpackhi_pd(sums, sums));
+struct Point {
+  double x, y;
+
+  Point(Vec2 p) : x(static_cast<double>(p.x)), y(static_cast<double>(p.y)) {}
+};
+
+double square_distance(Point a, Point b) {
+  const double x = a.x - b.x, y = a.y - b.y;
+  return x * x + y * y;
 }
 
 /// Writes the nodes of a piece, by its ends, that is still to be halved so often; the first one is `number` of all.
-/// Returns: the square of the first one's radius, which remains to be written, in the lower lane.
 template <int halvings>
-__m128d write_piece(__m128d a, __m128d b, const OutwardRadii& radii, HierarchyNode* node,
-                    std::uint32_t number) {
-  const __m128 rounded = _mm_cvtpd_ps(_mm_mul_pd(_mm_set1_pd(0.5), _mm_add_pd(a, b)));
-  const __m128d middle = _mm_cvtps_pd(rounded);
-  _mm_storel_pi(reinterpret_cast<__m64*>(&node->disc), rounded);
+void write_piece(Point a, Point b, const OutwardRadii& radii, HierarchyNode* node, std::uint32_t number) {
+  const Vec2 middle{static_cast<float>(0.5 * (a.x + b.x)), static_cast<float>(0.5 * (a.y + b.y))};
+  node->disc.x = middle.x, node->disc.y = middle.y;
+  radii.write(std::max(square_distance(a, middle), square_distance(b, middle)), *node);
   if constexpr (halvings == 0) {
     node->second_child = 0;
   } else {
     constexpr std::uint32_t second = EvenHalves::nodes(halvings - 1) + 1;
     node->second_child = number + second;
-    const __m128d of_first = write_piece<halvings - 1>(a, middle, radii, node + 1, number + 1);
-    const __m128d of_second = write_piece<halvings - 1>(middle, b, radii, node + second, number + second);
-    radii.write(_mm_unpacklo_pd(of_first, of_second), node[1], node[second]);
+    write_piece<halvings - 1>(a, middle, radii, node + 1, number + 1);
+    write_piece<halvings - 1>(middle, b, radii, node + second, number + second);
   }
-  return larger_square(_mm_sub_pd(a, middle), _mm_sub_pd(b, middle));
 }
 
 /// The slack for halving by length, in units of u times the reach. After three halvings a midpoint is off by
@@ -72,35 +67,21 @@ void EvenHalves::begin(double longest, double reach) {
   for (auto& of_a_kind : segments_) of_a_kind.clear();
 }
 
-void EvenHalves::write_halvings(__m128 lengths, std::uint8_t* halvings) const {
-  __m128i sure = _mm_setzero_si128(), possible = sure;
-  const auto count = [&](__m128i& sum, float limit) {
-    sum = _mm_sub_epi32(sum, _mm_castps_si128(_mm_cmpgt_ps(lengths, _mm_set1_ps(limit))));
-  };
+void EvenHalves::write_halvings(Float lengths, std::uint8_t* halvings) const {
+  Float sure(0.0f), possible(0.0f);
   for (std::size_t k = 0; k < surely_long_.size(); ++k)
-    count(sure, surely_long_[k]), count(possible, surely_short_[k]);
-  const __m128i is_even = _mm_cmpeq_epi32(sure, possible);
-  const __m128i four =
-      _mm_or_si128(_mm_and_si128(is_even, sure), _mm_andnot_si128(is_even, _mm_set1_epi32(uneven)));
-  const __m128i bytes = _mm_packus_epi16(_mm_packs_epi32(four, four), four);
-  const int packed = _mm_cvtsi128_si32(bytes);
-  __builtin_memcpy(halvings, &packed, sizeof packed);
+    sure = sure + Float(Float(surely_long_[k]) < lengths),
+    possible = possible + Float(Float(surely_short_[k]) < lengths);
+  std::int32_t four[BaseLanes::width];
+  BaseLanes::store(four, xsimd::to_int(xsimd::select(sure == possible, sure, Float(uneven))));
+  for (const std::int32_t each : four) *halvings++ = static_cast<std::uint8_t>(each);
 }
 
 void EvenHalves::write(const std::vector<Primitive>& segments, const OutwardRadii& radii,
                        std::vector<HierarchyNode>& nodes) const {
   const auto write_all = [&]<int halvings>() {
-    const std::vector<Segment>& all = segments_[halvings];
-    const auto write_one = [&](const Segment& segment) {
-      const Primitive& whole = segments[segment.source];
-      return write_piece<halvings>(widened(whole.a), widened(whole.b), radii, &nodes[segment.node],
-                                   segment.node);
-    };
-    for (std::size_t i = 0; i < all.size(); i += 2) {
-      const Segment &first = all[i], &second = i + 1 < all.size() ? all[i + 1] : first;
-      radii.write(_mm_unpacklo_pd(write_one(first), write_one(second)), nodes[first.node],
-                  nodes[second.node]);
-    }
+    for (const auto [node, source] : segments_[halvings])
+      write_piece<halvings>(segments[source].a, segments[source].b, radii, &nodes[node], node);
   };
   [&]<int... halvings>(std::integer_sequence<int, halvings...>) {
     (write_all.template operator()<halvings>(), ...);

@@ -3,38 +3,29 @@
 
 #include "layout/hierarchy/split_items.hpp"
 
-#include <emmintrin.h>
-
 #include <algorithm>
 
 namespace bch::detail {
 namespace {
 
-constexpr std::size_t width = 4;
+using Simd = BaseLanes;
+using Float = Simd::Float;
+constexpr std::size_t width = Simd::width;
 
-/// Coordinates of four points in a row.
-struct Four {
-  __m128 x, y;
+struct Points {
+  Float x, y;
 
-  explicit Four(const Vec2* points) {
-    const __m128 low = _mm_loadu_ps(&points[0].x), high = _mm_loadu_ps(&points[2].x);
-    x = _mm_shuffle_ps(low, high, _MM_SHUFFLE(2, 0, 2, 0));
-    y = _mm_shuffle_ps(low, high, _MM_SHUFFLE(3, 1, 3, 1));
+  explicit Points(const Vec2* first) {
+    Simd::load_pairs([=](std::size_t i) { return first + i; }, x, y);
   }
 };
 
-__m128 negated(__m128 value) {
-  return _mm_xor_ps(value, _mm_set1_ps(-0.0f));
-}
-
 /// Lane k of each register becomes item k's fields, from a given one on.
-void store_fields(float* fields, __m128 a, __m128 b, __m128 c, __m128 d) {
+void store_fields(float* fields, Float a, Float b, Float c, Float d) {
   constexpr std::size_t stride = sizeof(SplitItem) / sizeof(float);
-  _MM_TRANSPOSE4_PS(a, b, c, d);
-  _mm_store_ps(fields, a);
-  _mm_store_ps(fields + stride, b);
-  _mm_store_ps(fields + 2 * stride, c);
-  _mm_store_ps(fields + 3 * stride, d);
+  Float of_item[4];
+  Simd::transpose({a, b, c, d}, of_item);
+  for (std::size_t k = 0; k < width; ++k) of_item[k].store_aligned(fields + k * stride);
 }
 
 }  // namespace
@@ -53,18 +44,14 @@ void SplitItems::add_contour(std::span<const Vec2> points, const EvenHalves& hal
   for (std::size_t i = 0; i < points.size(); i += width) {
     const Vec2* const ends = ring_.data() + i;
     const std::size_t at = count + i;
-    const Four a(ends), b(ends + 1);
-    const __m128 x = _mm_sub_ps(b.x, a.x), y = _mm_sub_ps(b.y, a.y);
-    const __m128 length = _mm_sqrt_ps(_mm_add_ps(_mm_mul_ps(x, x), _mm_mul_ps(y, y)));
-    const __m128 half = _mm_set1_ps(0.5f);
-    const __m128 middle_x = _mm_mul_ps(half, _mm_add_ps(a.x, b.x)),
-                 middle_y = _mm_mul_ps(half, _mm_add_ps(a.y, b.y));
-    store_fields(items[at].box, _mm_min_ps(a.x, b.x), _mm_min_ps(a.y, b.y), negated(_mm_max_ps(a.x, b.x)),
-                 negated(_mm_max_ps(a.y, b.y)));
-    store_fields(items[at].sums, _mm_mul_ps(length, middle_x), _mm_mul_ps(length, middle_y), length,
-                 _mm_setzero_ps());
-    _mm_storeu_ps(&middle[0][at], middle_x);
-    _mm_storeu_ps(&middle[1][at], middle_y);
+    const Points a(ends), b(ends + 1);
+    const Float x = b.x - a.x, y = b.y - a.y, length = xsimd::sqrt(x * x + y * y), half(0.5f);
+    const Float middle_x = half * (a.x + b.x), middle_y = half * (a.y + b.y);
+    store_fields(items[at].box, Simd::min(a.x, b.x), Simd::min(a.y, b.y), -Simd::max(a.x, b.x),
+                 -Simd::max(a.y, b.y));
+    store_fields(items[at].sums, length * middle_x, length * middle_y, length, Float(0.0f));
+    Simd::store(&middle[0][at], middle_x);
+    Simd::store(&middle[1][at], middle_y);
     halves.write_halvings(length, &halvings[at]);
     for (std::size_t k = 0; k < width; ++k) primitives[at + k] = {ends[k], ends[k + 1], ends[k + 1]};
   }

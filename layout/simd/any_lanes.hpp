@@ -49,6 +49,15 @@ struct AnyLanes {
   static Float min(Float first, Float second) noexcept { return select(first < second, first, second); }
   static Float max(Float first, Float second) noexcept { return select(second < first, first, second); }
 
+  /// NaN in the lanes that are set, and 0 in those that are not; the other lanes stay.
+  static Float hide(Mask mask, Float v) noexcept { return select(mask, Float(__builtin_nanf("")), v); }
+  static Float keep(Mask mask, Float v) noexcept { return select(mask, v, Float(0.0f)); }
+
+  /// One lane of floats or doubles.
+  template <class T>
+  static T lane(Batch<T> v, unsigned i) noexcept {
+    return v.data[i];
+  }
   /// A register of these lanes.
   template <class T, class... Lane>
   [[gnu::always_inline]] static Batch<T> of(Lane... lane) noexcept {
@@ -80,6 +89,24 @@ struct AnyLanes {
                 high23 = shuffle<2, 6, 3, 7>(from[2], from[3]);
     to[0] = shuffle<0, 1, 4, 5>(low01, low23), to[1] = shuffle<2, 3, 6, 7>(low01, low23);
     to[2] = shuffle<0, 1, 4, 5>(high01, high23), to[3] = shuffle<2, 3, 6, 7>(high01, high23);
+  }
+
+  /// The first and the second ones of pairs of floats (or of what has their size), lane = pair: at(lane) points to one.
+  template <class At>
+  static void load_pairs(At at, Float& first, Float& second) noexcept {
+    const auto half = [&]<std::size_t... i>(std::size_t from, std::index_sequence<i...>) {
+      return xsimd::bitwise_cast<Float>(of<double>(pair(at(4 * (i / 2) + i % 2 + from))...));
+    };
+    const Float low = half(0, std::make_index_sequence<doubles>()),
+                high = half(2, std::make_index_sequence<doubles>());
+    first = shuffle<0, 2, 4, 6>(low, high), second = shuffle<1, 3, 5, 7>(low, high);
+  }
+  /// The same, as doubles.
+  template <class At>
+  static void load_pairs(At at, Double (&to)[2]) noexcept {
+    static_assert(doubles == 2);
+    const auto both = xsimd::bitwise_cast<Float>(of<double>(pair(at(0)), pair(at(1))));
+    Own::widened(shuffle<0, 2, 1, 3>(both, both), to);
   }
 
   /// Four floats for each group of four lanes: those where at(group) points.
@@ -166,6 +193,16 @@ struct AnyLanes {
   template <unsigned count>
   static Float columns(const float* eight, unsigned part) noexcept {
     return load(eight + part * width);
+  }
+
+  /// A pair of floats, or of what has their size: their eight bytes.
+  typedef double Pair __attribute__((may_alias, aligned(4)));
+  static double pair(const void* p) noexcept {
+    return *static_cast<const Pair*>(p);
+  }
+  /// Stores lanes 2 i and 2 i + 1.
+  static void store_pair(void* p, Float v, unsigned i) noexcept {
+    *static_cast<Pair*>(p) = lane(xsimd::bitwise_cast<Double>(v), i);
   }
 
  private:

@@ -17,6 +17,12 @@ struct Lanes<xsimd::sse2, Own> : AnyLanes<xsimd::sse2, Own> {
 
   static Float min(Float first, Float second) noexcept { return _mm_min_ps(first, second); }
   static Float max(Float first, Float second) noexcept { return _mm_max_ps(first, second); }
+  static Float hide(xsimd::batch_bool<float, xsimd::sse2> mask, Float v) noexcept {
+    return _mm_or_ps(mask, v);
+  }
+  static Float keep(xsimd::batch_bool<float, xsimd::sse2> mask, Float v) noexcept {
+    return _mm_and_ps(mask, v);
+  }
   static std::uint32_t bits(xsimd::batch_bool<float, xsimd::sse2> mask) noexcept {
     return static_cast<std::uint32_t>(_mm_movemask_ps(mask));
   }
@@ -56,6 +62,16 @@ struct Lanes<xsimd::avx2, Own> : AnyLanes<xsimd::avx2, Own> {
   static Float columns(const float* eight, unsigned) noexcept {
     if constexpr (count == Base::width) return Base::load(eight);
     return _mm256_broadcast_ps(reinterpret_cast<const __m128*>(eight));
+  }
+  using Base::load_pairs;
+  template <class At>
+  static void load_pairs(At at, Double (&to)[2]) noexcept {
+    const auto two = [&](std::size_t i) {
+      return _mm_castpd_ps(_mm_setr_pd(Base::pair(at(i)), Base::pair(at(i + 1))));
+    };
+    const __m128 low = two(0), high = two(2);
+    to[0] = _mm256_cvtps_pd(_mm_shuffle_ps(low, high, _MM_SHUFFLE(2, 0, 2, 0)));
+    to[1] = _mm256_cvtps_pd(_mm_shuffle_ps(low, high, _MM_SHUFFLE(3, 1, 3, 1)));
   }
   template <class At>
   [[gnu::always_inline]] static Float fours(At at) noexcept {
