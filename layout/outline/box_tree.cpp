@@ -3,8 +3,6 @@
 
 #include "layout/outline/box_tree.hpp"
 
-#include <emmintrin.h>
-
 #include <algorithm>
 #include <limits>
 
@@ -23,58 +21,24 @@ void set(BoxBlock& block, std::size_t number, const CellBox& box) {
   block.max_x[number] = box.max_x, block.max_y[number] = box.max_y;
 }
 
-/// Eight pairs (x, y) of cells, from four times two of them in every other lane of 32 bits.
-struct Eight {
-  __m128i x, y;
-
-  Eight(__m128i p, __m128i q, __m128i r, __m128i s) {
-    const auto even_lanes = [](__m128i v, __m128i w) {
-      return _mm_castps_si128(
-          _mm_shuffle_ps(_mm_castsi128_ps(v), _mm_castsi128_ps(w), _MM_SHUFFLE(2, 0, 2, 0)));
-    };
-    const __m128i low = even_lanes(p, q), high = even_lanes(r, s);
-    x = _mm_packs_epi32(_mm_srai_epi32(_mm_slli_epi32(low, 16), 16),
-                        _mm_srai_epi32(_mm_slli_epi32(high, 16), 16));
-    y = _mm_packs_epi32(_mm_srai_epi32(low, 16), _mm_srai_epi32(high, 16));
-  }
-};
-
-/// The boxes of eight segments, from number `first` of the block.
-void set_eight(BoxBlock& block, std::size_t first, const Segment* segments) {
-  __m128i smaller[4], larger[4];  // of two segments' ends, each twice
-  for (int i = 0; i < 4; ++i) {
-    const auto cells = [segments](int s) {
-      return _mm_srai_epi32(_mm_loadu_si128(reinterpret_cast<const __m128i*>(segments + s)), cell_bits);
-    };
-    const __m128i ends = _mm_packs_epi32(cells(2 * i), cells(2 * i + 1));
-    const __m128i others = _mm_shuffle_epi32(ends, _MM_SHUFFLE(2, 3, 0, 1));
-    smaller[i] = _mm_min_epi16(ends, others);
-    larger[i] = _mm_max_epi16(ends, others);
-  }
-  const Eight low(smaller[0], smaller[1], smaller[2], smaller[3]);
-  const Eight high(larger[0], larger[1], larger[2], larger[3]);
-  const auto store = [first](std::int16_t* cells, __m128i eight) {
-    _mm_store_si128(reinterpret_cast<__m128i*>(cells + first), eight);
+void set(BoxBlock& block, const Segment* segments) {
+  const auto cell = [](std::int32_t coordinate) {
+    return static_cast<std::int16_t>(coordinate >> cell_bits);
   };
-  store(block.min_x, low.x), store(block.min_y, low.y);
-  store(block.max_x, high.x), store(block.max_y, high.y);
-}
-
-template <class Choose>
-std::int16_t fold(const std::int16_t* cells, Choose choose) {
-  const auto* halves = reinterpret_cast<const __m128i*>(cells);
-  __m128i all = choose(_mm_load_si128(halves), _mm_load_si128(halves + 1));
-  all = choose(all, _mm_shuffle_epi32(all, _MM_SHUFFLE(1, 0, 3, 2)));
-  all = choose(all, _mm_shuffle_epi32(all, _MM_SHUFFLE(2, 3, 0, 1)));
-  all = choose(all, _mm_srli_epi32(all, 16));
-  return static_cast<std::int16_t>(_mm_cvtsi128_si32(all));
+  for (std::size_t i = 0; i < boxes_per_block; ++i) {
+    const auto& [a, b] = segments[i];
+    block.min_x[i] = cell(std::min(a.x, b.x)), block.min_y[i] = cell(std::min(a.y, b.y));
+    block.max_x[i] = cell(std::max(a.x, b.x)), block.max_y[i] = cell(std::max(a.y, b.y));
+  }
 }
 
 CellBox around(const BoxBlock& block) {
-  const auto smallest = [](__m128i a, __m128i b) { return _mm_min_epi16(a, b); };
-  const auto largest = [](__m128i a, __m128i b) { return _mm_max_epi16(a, b); };
-  return {fold(block.min_x, smallest), fold(block.min_y, smallest), fold(block.max_x, largest),
-          fold(block.max_y, largest)};
+  CellBox box{highest, highest, lowest, lowest};
+  for (std::size_t i = 0; i < boxes_per_block; ++i) {
+    box.min_x = std::min(box.min_x, block.min_x[i]), box.min_y = std::min(box.min_y, block.min_y[i]);
+    box.max_x = std::max(box.max_x, block.max_x[i]), box.max_y = std::max(box.max_y, block.max_y[i]);
+  }
+  return box;
 }
 
 /// Sets boxes that meet nothing from that number on.
@@ -98,8 +62,7 @@ void BoxTree::reserve(std::size_t segments) {
 void BoxTree::assign(const Segment* segments, std::size_t count) {
   const std::size_t blocks = divided(count, boxes_per_block);
   blocks_.resize(blocks);
-  for (std::size_t b = 0; b < blocks; ++b)
-    for (const std::size_t half : {0, 8}) set_eight(blocks_[b], half, segments + boxes_per_block * b + half);
+  for (std::size_t b = 0; b < blocks; ++b) set(blocks_[b], segments + boxes_per_block * b);
   clear_from(count, blocks_);
   groups_.resize(groups_in_a_word * divided(blocks, groups_in_a_word * boxes_per_block));
   for (std::size_t b = 0; b < blocks; ++b)

@@ -72,7 +72,7 @@ OutlineCandidates::OutlineCandidates(const OutlineTopology& topology,
     : implementation_(&implementation),
       triangles_(topology.triangles),
       chosen_(topology.manifold.size() + 1) {
-  while (triangles_.size() % 4 != 0) triangles_.push_back({0, 0, 0});
+  while (triangles_.size() % triangles_together != 0) triangles_.push_back({0, 0, 0});
   sides_.resize(triangles_.size());
 }
 

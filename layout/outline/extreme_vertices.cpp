@@ -3,19 +3,21 @@
 
 #include "layout/outline/extreme_vertices.hpp"
 
-#include <emmintrin.h>
-
 #include <algorithm>
 #include <cmath>
 
 #include "layout/enclosing_disc/disc_pivoting.hpp"
 #include "layout/outline/grid_snap.hpp"
+#include "layout/simd/lanes.hpp"
 
 namespace bch::detail {
 namespace {
 
+using Simd = BaseLanes;
+using Float = Simd::Float;
+
 /// Vertices whose squares fill a register.
-constexpr std::size_t block = 4;
+constexpr std::size_t block = Simd::width;
 /// A square, in float of coordinates that float holds, is off by less than this share of it.
 constexpr double slack = 0x1p-20;
 static_assert(slack >= (2 + 1 + 1) * 0x1p-24, "the differences, their squares, the sum");
@@ -25,15 +27,12 @@ constexpr double near_enough = 1.01;
 constexpr int most_looks = 4;
 
 /// The squares of four points' distances.
-__m128 squares_of(const GridPoint* points, __m128 from) {
-  const auto two = [&](const GridPoint* first) {
-    const __m128i steps = _mm_loadu_si128(reinterpret_cast<const __m128i*>(first));
-    const __m128 way = _mm_sub_ps(_mm_cvtepi32_ps(steps), from);
-    return _mm_mul_ps(way, way);
-  };
-  const __m128 low = two(points), high = two(points + 2);
-  return _mm_add_ps(_mm_shuffle_ps(low, high, _MM_SHUFFLE(2, 0, 2, 0)),
-                    _mm_shuffle_ps(low, high, _MM_SHUFFLE(3, 1, 3, 1)));
+Float squares_of(const GridPoint* points, Float from_x, Float from_y) {
+  Float x, y;
+  Simd::load_pairs([=](std::size_t i) { return points + i; }, x, y);
+  x = xsimd::to_float(xsimd::bitwise_cast<Simd::Ints>(x)) - from_x;
+  y = xsimd::to_float(xsimd::bitwise_cast<Simd::Ints>(y)) - from_y;
+  return x * x + y * y;
 }
 
 }  // namespace
@@ -74,19 +73,16 @@ void ExtremeVertices::find(std::span<const Vec2> positions) {
 
 /// Which is the farthest, as far as floats tell.
 std::size_t ExtremeVertices::farthest_from(double x, double y, std::vector<float>& squares) const {
-  const __m128 half = _mm_cvtpd_ps(_mm_setr_pd(x, y)), from = _mm_movelh_ps(half, half);
-  __m128 largest = _mm_setzero_ps();
+  const Float from_x(static_cast<float>(x)), from_y(static_cast<float>(y));
+  Float largest(0.0f);
   for (std::size_t i = 0; i < grid_.size(); i += block) {
-    const __m128 four = squares_of(&grid_[i], from);
-    _mm_storeu_ps(&squares[i], four);
-    largest = _mm_max_ps(largest, four);
+    const Float four = squares_of(&grid_[i], from_x, from_y);
+    Simd::store(&squares[i], four);
+    largest = Simd::max(largest, four);
   }
-  alignas(16) float lanes[block];
-  _mm_store_ps(lanes, largest);
-  const float most = *std::max_element(lanes, lanes + block);
-  const __m128 sought = _mm_set1_ps(most);
+  const float most = -Simd::least(-largest);
   std::size_t i = 0;
-  while (_mm_movemask_ps(_mm_cmpeq_ps(_mm_loadu_ps(&squares[i]), sought)) == 0) i += block;
+  while (Simd::bits(Simd::load(&squares[i]) == Float(most)) == 0) i += block;
   while (squares[i] != most) ++i;
   return i;
 }
@@ -94,11 +90,10 @@ std::size_t ExtremeVertices::farthest_from(double x, double y, std::vector<float
 /// Those that are as far as that from the middle or from the origin.
 void ExtremeVertices::keep(float from_middle, float from_origin) {
   points_.clear();
-  const __m128 middle = _mm_set1_ps(from_middle), origin = _mm_set1_ps(from_origin);
+  const Float middle(from_middle), origin(from_origin);
   for (std::size_t i = 0; i < grid_.size(); i += block) {
-    const __m128 far = _mm_or_ps(_mm_cmpge_ps(_mm_loadu_ps(&from_middle_[i]), middle),
-                                 _mm_cmpge_ps(_mm_loadu_ps(&from_origin_[i]), origin));
-    const int bits = _mm_movemask_ps(far);
+    const std::uint32_t bits =
+        Simd::bits((Simd::load(&from_middle_[i]) >= middle) | (Simd::load(&from_origin_[i]) >= origin));
     if (bits == 0) continue;
     for (std::size_t k = 0; k < block; ++k)
       if ((bits >> k & 1) != 0)

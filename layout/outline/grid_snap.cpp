@@ -3,27 +3,27 @@
 
 #include "layout/outline/grid_snap.hpp"
 
-#include <emmintrin.h>
-
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <limits>
 #include <stdexcept>
 #include <string>
 
 #include "layout/base/rounding.hpp"
 #include "layout/base/shortest.hpp"
+#include "layout/simd/lanes.hpp"
 
 namespace bch::detail {
 namespace {
 
 constexpr int grid_bits = 23;
 
-/// Eight bytes: behind the last vertex there need not be more than its height.
-template <class Position>
-__m128i load(const Position& position) {
-  return _mm_loadl_epi64(reinterpret_cast<const __m128i*>(&position));
+using Simd = BaseLanes;
+using Float = Simd::Float;
+
+/// Two pairs (x, y).
+Float join(const void* p, const void* q) {
+  return xsimd::bitwise_cast<Float>(Simd::of<double>(Simd::pair(p), Simd::pair(q)));
 }
 
 /// (x, y) of some of the vertices, in the order of their numbers.
@@ -34,14 +34,11 @@ class Chosen {
       : positions_(positions), used_(used) {}
 
   std::size_t size() const { return used_.size(); }
-  __m128 two(std::size_t i) const { return join(at(i), at(i + 1)); }
-  __m128 one_twice(std::size_t i) const { return join(at(i), at(i)); }
+  Float two(std::size_t i) const { return join(at(i), at(i + 1)); }
+  Float one_twice(std::size_t i) const { return join(at(i), at(i)); }
 
  private:
-  const Position& at(std::size_t i) const { return positions_[used_[i]]; }
-  static __m128 join(const Position& p, const Position& q) {
-    return _mm_castsi128_ps(_mm_unpacklo_epi64(load(p), load(q)));
-  }
+  const Position* at(std::size_t i) const { return &positions_[used_[i]]; }
 
   std::span<const Position> positions_;
   std::span<const std::uint32_t> used_;
@@ -53,11 +50,8 @@ class All {
   explicit All(std::span<const Vec2> positions) : positions_(positions) {}
 
   std::size_t size() const { return positions_.size(); }
-  __m128 two(std::size_t i) const { return _mm_loadu_ps(&positions_[i].x); }
-  __m128 one_twice(std::size_t i) const {
-    const __m128i one = load(positions_[i]);
-    return _mm_castsi128_ps(_mm_unpacklo_epi64(one, one));
-  }
+  Float two(std::size_t i) const { return Simd::load(&positions_[i].x); }
+  Float one_twice(std::size_t i) const { return join(&positions_[i], &positions_[i]); }
 
  private:
   std::span<const Vec2> positions_;
@@ -66,20 +60,18 @@ class All {
 /// The largest |x| or |y|, or NaN if there is one. In several chains, because each waits for its last maximum.
 template <class Vertices>
 float largest_coordinate(const Vertices& vertices) {
-  const __m128 magnitude = _mm_castsi128_ps(_mm_set1_epi32(0x7fffffff));
-  __m128 largest[2] = {_mm_setzero_ps(), _mm_setzero_ps()}, not_a_number = _mm_setzero_ps();
-  const auto offer = [&](__m128 first, __m128 second) {
-    not_a_number = _mm_or_ps(not_a_number, _mm_cmpunord_ps(first, second));
-    largest[0] = _mm_max_ps(largest[0], _mm_and_ps(first, magnitude));
-    largest[1] = _mm_max_ps(largest[1], _mm_and_ps(second, magnitude));
+  Float largest[2] = {Float(0.0f), Float(0.0f)};
+  Simd::Mask not_a_number(false);
+  const auto offer = [&](Float first, Float second) {
+    not_a_number = not_a_number | xsimd::isnan(first) | xsimd::isnan(second);
+    largest[0] = Simd::max(xsimd::abs(first), largest[0]);
+    largest[1] = Simd::max(xsimd::abs(second), largest[1]);
   };
   std::size_t i = 0;
   for (; i + 3 < vertices.size(); i += 4) offer(vertices.two(i), vertices.two(i + 2));
   for (; i < vertices.size(); ++i) offer(vertices.one_twice(i), vertices.one_twice(i));
-  if (_mm_movemask_ps(not_a_number) != 0) return std::numeric_limits<float>::quiet_NaN();
-  alignas(16) float lanes[4];
-  _mm_store_ps(lanes, _mm_max_ps(largest[0], largest[1]));
-  return *std::max_element(std::begin(lanes), std::end(lanes));
+  if (Simd::bits(not_a_number) != 0) return std::numeric_limits<float>::quiet_NaN();
+  return -Simd::least(-Simd::max(largest[0], largest[1]));
 }
 
 bool is_in_domain(float reach) {
@@ -100,13 +92,12 @@ template <class Position>
 /// the conversion rounds halves to even.
 template <class Vertices>
 void snap(const Vertices& vertices, double steps_per_metre, std::span<GridPoint> points) {
-  const __m128 scale = _mm_set1_ps(static_cast<float>(steps_per_metre));
+  const Float scale(static_cast<float>(steps_per_metre));
   const std::size_t last = vertices.size() - 1;
   for (std::size_t i = 0; i < last; i += 2)
-    _mm_storeu_si128(reinterpret_cast<__m128i*>(&points[i]),
-                     _mm_cvtps_epi32(_mm_mul_ps(vertices.two(i), scale)));
-  _mm_storel_epi64(reinterpret_cast<__m128i*>(&points[last]),
-                   _mm_cvtps_epi32(_mm_mul_ps(vertices.one_twice(last), scale)));
+    Simd::store(&points[i].x, xsimd::nearbyint_as_int(vertices.two(i) * scale));
+  const auto end = xsimd::nearbyint_as_int(vertices.one_twice(last) * scale);
+  Simd::store_pair(&points[last], xsimd::bitwise_cast<Float>(end), 0);
 }
 
 template <class Vertices, class Position>

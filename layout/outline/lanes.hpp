@@ -7,23 +7,41 @@
 #include <cstdint>
 
 #include "layout/outline/segment_search.hpp"
+#include "layout/simd/lanes.hpp"
 
 namespace bch::detail {
 
 /// The two loops of an outline that take most of its time, several triangles or segments a register.
 /// What an outline is made of is exact (grid_geometry.hpp), so that every instruction set gives the same bits; the
-/// quotient is rounded correctly on each. `Registers` is a type of the including file alone, so that no other file can
-/// share what was compiled for its registers.
-template <class Registers>
+/// quotient is rounded correctly on each.
+template <class Simd>
 class OutlineLanes {
  public:
   /// Which way the corners of triangles go round: bit 0 for counter-clockwise, bit 1 for clockwise, none where
-  /// they are on a line, or so close to one that it is left open. `count` is a multiple of four.
+  /// they are on a line, or so close to one that it is left open. `count` is a multiple of triangles_together.
+  /// A turn's two terms are products of differences, which floats hold, rounded to floats. Rounding keeps order, so the
+  /// larger one is; where they are then equal, it is left open. Exact products take as long, because the loads decide.
   static void find_sides(const std::uint32_t* corners, std::size_t count, const GridPoint* points,
                          std::uint8_t* sides) noexcept {
-    for (std::size_t t = 0; t < count; t += 4) {
-      const std::uint32_t four = Registers::sides_of_four(corners + 3 * t, points);
-      __builtin_memcpy(sides + t, &four, sizeof four);
+    static_assert(triangles_together % Simd::width == 0);
+    for (std::size_t t = 0; t < count; t += Simd::width) {
+      const auto corner = [&](std::size_t k, Ints& x, Ints& y) {
+        Floats bits_x, bits_y;
+        Simd::load_pairs([=](std::size_t i) { return points + corners[3 * (t + i) + k]; }, bits_x, bits_y);
+        x = xsimd::bitwise_cast<Ints>(bits_x), y = xsimd::bitwise_cast<Ints>(bits_y);
+      };
+      Ints ax, ay, bx, by, cx, cy;
+      corner(0, ax, ay), corner(1, bx, by), corner(2, cx, cy);
+      const Floats plus = xsimd::to_float(bx - ax) * xsimd::to_float(cy - ay),
+                   minus = xsimd::to_float(by - ay) * xsimd::to_float(cx - ax);
+      const std::uint32_t left = Simd::bits(minus < plus), right = Simd::bits(plus < minus);
+      // Four bits spread to the lowest bits of four bytes.
+      constexpr std::uint32_t spread = 0x00204081, lowest = 0x01010101;
+      for (std::size_t i = 0; i < Simd::width; i += 4) {
+        const std::uint32_t four =
+            ((left >> i & 15) * spread & lowest) | ((right >> i & 15) * spread & lowest) << 1;
+        __builtin_memcpy(sides + t + i, &four, sizeof four);
+      }
     }
   }
 
@@ -55,32 +73,50 @@ class OutlineLanes {
   }
 
  private:
-  using Doubles = typename Registers::Doubles;
-  using Cells = typename Registers::Cells;
-  static constexpr std::size_t width = Registers::width;
-  static constexpr std::size_t bits_per_box = Registers::bits_per_box;
-  static constexpr std::size_t bits_per_block = bits_per_box * boxes_per_block;
-  static constexpr std::size_t groups_together = 64 / bits_per_block;
+  using Floats = typename Simd::Float;
+  using Doubles = typename Simd::Double;
+  using Ints = typename Simd::Ints;
+  using Cells = typename Simd::template Batch<std::int16_t>;
+  static constexpr std::size_t width = Simd::doubles;
 
   struct Found {
     std::uint64_t crossing, ending;
+  };
+
+  /// The box of the way in every lane.
+  struct Box {
+    Cells min_x, min_y, max_x, max_y;
+
+    explicit Box(const SearchedWay& way) noexcept
+        : min_x(way.min_x), min_y(way.min_y), max_x(way.max_x), max_y(way.max_y) {}
+
+    /// Bits of a block's boxes that it meets.
+    std::uint32_t meets(const BoxBlock& block) const noexcept {
+      std::uint32_t apart = 0;
+      for (std::size_t i = 0; i < boxes_per_block; i += Cells::size)
+        apart |= Simd::bits((Cells::load_aligned(block.min_x + i) > max_x) |
+                            (Cells::load_aligned(block.min_y + i) > max_y) |
+                            (min_x > Cells::load_aligned(block.max_x + i)) |
+                            (min_y > Cells::load_aligned(block.max_y + i)))
+                 << i;
+      return apart ^ 0xffff;
+    }
   };
 
   /// Writes the segments whose boxes meet that of the way, and zeros to fill a register: one candidate more, or
   /// one twice, does no harm.
   /// Returns: how many.
   static std::size_t find_meeting(const SegmentSearch& job, const SearchedWay& way) noexcept {
-    const Cells box(way);
+    const Box box(way);
     std::uint32_t* end = job.near;
-    for (std::size_t group = 0; group < job.group_count; group += groups_together) {
+    for (std::size_t group = 0; group < job.group_count; group += groups_in_a_word) {
       std::uint64_t open = 0;
-      for (std::size_t i = 0; i < groups_together; ++i)
-        open |= std::uint64_t{Registers::meeting(job.groups[group + i], box)} << bits_per_block * i;
+      for (std::size_t i = 0; i < groups_in_a_word; ++i)
+        open |= std::uint64_t{box.meets(job.groups[group + i])} << boxes_per_block * i;
       const BoxBlock* blocks = job.blocks + boxes_per_block * group;
       for (; open != 0; open &= open - 1) {
-        const std::size_t block = static_cast<std::size_t>(__builtin_ctzll(open)) / bits_per_box;
-        end = append(Registers::meeting(blocks[block], box),
-                     boxes_per_block * (boxes_per_block * group + block), end);
+        const auto block = static_cast<std::size_t>(__builtin_ctzll(open));
+        end = append(box.meets(blocks[block]), boxes_per_block * (boxes_per_block * group + block), end);
       }
     }
     for (std::size_t i = 0; i < width; ++i) end[i] = 0;
@@ -92,12 +128,12 @@ class OutlineLanes {
   static std::uint32_t* append(std::uint32_t open, std::size_t first, std::uint32_t* end) noexcept {
     constexpr std::size_t written_in_any_case = 3;
     constexpr std::uint64_t none = std::uint64_t{1} << 63;
-    const std::size_t count = Registers::boxes(open);
+    const std::size_t count = Simd::count(open);
     std::uint64_t left = open | none;
     const auto take = [&] {
       const auto bit = static_cast<std::size_t>(__builtin_ctzll(left | none));
       left &= left - 1;
-      return static_cast<std::uint32_t>(first + bit / bits_per_box);
+      return static_cast<std::uint32_t>(first + bit);
     };
     for (std::size_t i = 0; i < written_in_any_case; ++i) end[i] = take();
     for (std::size_t i = written_in_any_case; i < count; ++i) end[i] = take();
@@ -109,32 +145,35 @@ class OutlineLanes {
     Doubles from_x, from_y, to_x, to_y, way_x, way_y, at;
 
     explicit Line(const SearchedWay& way) noexcept
-        : from_x(Registers::all(way.from_x)),
-          from_y(Registers::all(way.from_y)),
-          to_x(Registers::all(way.to_x)),
-          to_y(Registers::all(way.to_y)),
+        : from_x(way.from_x),
+          from_y(way.from_y),
+          to_x(way.to_x),
+          to_y(way.to_y),
           way_x(to_x - from_x),
           way_y(to_y - from_y),
-          at(Registers::all(way.at)) {}
+          at(way.at) {}
 
     Found test(const SegmentSearch& job, std::size_t i) const noexcept {
-      const auto ends = Registers::load(job.segments, job.near + i);
-      const Doubles ax = ends.ax - from_x, ay = ends.ay - from_y, bx = ends.bx - from_x,
-                    by = ends.by - from_y;
+      static_assert(sizeof(Segment) == 4 * sizeof(std::int32_t));
+      Doubles end[4];
+      Simd::template load_integers<4>(&job.segments->a.x, job.near + i, end);
+      const Doubles zero(0.0), ax = end[0] - from_x, ay = end[1] - from_y, bx = end[2] - from_x,
+                               by = end[3] - from_y;
       const Doubles side_a = way_x * ay - way_y * ax, side_b = way_x * by - way_y * bx;
-      const auto a_right = side_a < 0, b_right = side_b < 0;
+      const auto a_right = side_a < zero, b_right = side_b < zero;
       const Doubles turn = bx * ay - by * ax, difference = side_a - side_b;
-      const Doubles along = a_right ? -turn : turn, whole = a_right ? -difference : difference;
+      const Doubles along = xsimd::select(a_right, -turn, turn),
+                    whole = xsimd::select(a_right, -difference, difference);
       const Doubles quotient = along / whole;
-      const auto crossing = (a_right ^ b_right) & (along > 0) & (along < whole) & (quotient >= at);
-      Registers::store(job.side_a + i, side_a);
-      Registers::store(job.side_b + i, side_b);
-      Registers::store(job.along + i, along);
-      Registers::store(job.at + i, quotient);
+      const auto crossing = (a_right ^ b_right) & (along > zero) & (along < whole) & (quotient >= at);
+      Simd::store(job.side_a + i, side_a);
+      Simd::store(job.side_b + i, side_b);
+      Simd::store(job.along + i, along);
+      Simd::store(job.at + i, quotient);
 
-      const Doubles cx = ends.ax - to_x, cy = ends.ay - to_y, dx = ends.bx - to_x, dy = ends.by - to_y;
-      const auto ending = (cx * dy == cy * dx) & (cx * dx + cy * dy <= 0);
-      return {Registers::bits_of(crossing), Registers::bits_of(ending)};
+      const Doubles cx = end[0] - to_x, cy = end[1] - to_y, dx = end[2] - to_x, dy = end[3] - to_y;
+      const auto ending = (cx * dy == cy * dx) & (cx * dx + cy * dy <= zero);
+      return {Simd::bits(crossing), Simd::bits(ending)};
     }
   };
 };

@@ -26,6 +26,9 @@ struct alignas(64) BoxBlock {
   std::int16_t max_x[boxes_per_block], max_y[boxes_per_block];
 };
 
+/// Lists of triangles are filled up to a multiple of that.
+constexpr std::size_t triangles_together = 8;
+
 /// At most so many groups are searched together: the bits of their boxes fit a word.
 constexpr std::size_t groups_in_a_word = 4;
 

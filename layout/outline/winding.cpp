@@ -3,17 +3,19 @@
 
 #include "layout/outline/winding.hpp"
 
-#include <emmintrin.h>
-
 #include <algorithm>
 #include <bit>
 #include <optional>
 
+#include "layout/simd/lanes.hpp"
+
 namespace bch::detail {
 namespace {
 
+using Simd = BaseLanes;
+
 /// The number of stretches that are tested together.
-constexpr std::size_t width = 4;
+constexpr std::size_t width = Simd::width;
 /// Stretches with a box of their own, by which most of a long contour is left aside.
 constexpr std::size_t part_size = 64;
 static_assert(part_size % width == 0);
@@ -39,22 +41,15 @@ struct ContourPart {
 /// nothing where the point is on it. The ray meets no stretch that is below or above the point, or behind it, by more
 /// than what is rounded.
 std::optional<int> winding(const ContourPart& part, GridPoint point) {
-  const __m128i low = _mm_set1_epi32(point.y - 2), high = _mm_set1_epi32(point.y + 2),
-                behind = _mm_set1_epi32(point.x - 2);
-  const auto load = [](const std::int32_t* four) {
-    return _mm_loadu_si128(reinterpret_cast<const __m128i*>(four));
-  };
+  const Simd::Ints low(point.y - 2), high(point.y + 2), behind(point.x - 2);
   const auto& contour = part.contour;
   int turns = 0;
   for (std::size_t i = part.first; i < part.last; i += width) {
-    const __m128i y = load(part.y + i), next_y = load(part.y + i + 1);
-    const __m128i is_high = _mm_or_si128(_mm_cmpgt_epi32(y, low), _mm_cmpgt_epi32(next_y, low)),
-                  is_low = _mm_or_si128(_mm_cmplt_epi32(y, high), _mm_cmplt_epi32(next_y, high)),
-                  is_ahead = _mm_or_si128(_mm_cmpgt_epi32(load(part.x + i), behind),
-                                          _mm_cmpgt_epi32(load(part.x + i + 1), behind));
-    const __m128i is_near = _mm_and_si128(_mm_and_si128(is_high, is_low), is_ahead);
-    for (int open = _mm_movemask_ps(_mm_castsi128_ps(is_near)); open != 0; open &= open - 1) {
-      const std::size_t k = i + static_cast<std::size_t>(std::countr_zero(static_cast<unsigned>(open)));
+    const Simd::Ints y = Simd::load(part.y + i), next_y = Simd::load(part.y + i + 1);
+    const auto is_high = (y > low) | (next_y > low), is_low = (high > y) | (high > next_y),
+               is_ahead = (Simd::load(part.x + i) > behind) | (Simd::load(part.x + i + 1) > behind);
+    for (std::uint32_t open = Simd::bits(is_high & is_low & is_ahead); open != 0; open &= open - 1) {
+      const std::size_t k = i + static_cast<std::size_t>(std::countr_zero(open));
       if (k >= part.last) break;
       const Place &begin = contour[k].begin, &end = contour[k + 1 < contour.size() ? k + 1 : 0].begin;
       const std::int64_t side = cross(begin.direction(), point - begin.from);

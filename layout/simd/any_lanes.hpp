@@ -125,6 +125,17 @@ struct AnyLanes {
     transpose(record, field);
   }
 
+  /// The same of records of four integers, as doubles.
+  template <std::size_t stride>
+  static void load_integers(const std::int32_t* table, const std::uint32_t* index,
+                            Double (&field)[4]) noexcept {
+    for (std::size_t i = 0; i < 4; ++i) {
+      double lane[doubles];
+      for (std::size_t k = 0; k < doubles; ++k) lane[k] = table[stride * index[k] + i];
+      field[i] = load(lane);
+    }
+  }
+
   /// Bits of the lanes that are set.
   template <class T>
   static std::uint32_t bits(xsimd::batch_bool<T, Arch> mask) noexcept {
@@ -133,6 +144,10 @@ struct AnyLanes {
     std::uint32_t set = 0;
     for (std::size_t i = 0; i < Batch<T>::size; ++i) set |= std::uint32_t{lane[i]} << i;
     return set;
+  }
+  /// How many bits are set, of the lowest 16.
+  static std::size_t count(std::uint32_t bits) noexcept {
+    return static_cast<std::size_t>(__builtin_popcount(bits));
   }
   /// The least lane.
   static float least(Float values) noexcept {

@@ -26,6 +26,32 @@ struct Lanes<xsimd::sse2, Own> : AnyLanes<xsimd::sse2, Own> {
   static std::uint32_t bits(xsimd::batch_bool<float, xsimd::sse2> mask) noexcept {
     return static_cast<std::uint32_t>(_mm_movemask_ps(mask));
   }
+  static std::uint32_t bits(xsimd::batch_bool<double, xsimd::sse2> mask) noexcept {
+    return static_cast<std::uint32_t>(_mm_movemask_pd(mask));
+  }
+  static std::uint32_t bits(xsimd::batch_bool<std::int32_t, xsimd::sse2> mask) noexcept {
+    return static_cast<std::uint32_t>(_mm_movemask_ps(_mm_castsi128_ps(mask)));
+  }
+  static std::uint32_t bits(xsimd::batch_bool<std::int16_t, xsimd::sse2> mask) noexcept {
+    return static_cast<std::uint32_t>(_mm_movemask_epi8(_mm_packs_epi16(mask, _mm_setzero_si128())));
+  }
+  static std::size_t count(std::uint32_t bits) noexcept {
+    bits -= bits >> 1 & 0x5555;
+    bits = (bits & 0x3333) + (bits >> 2 & 0x3333);
+    bits = (bits + (bits >> 4)) & 0x0f0f;
+    return (bits + (bits >> 8)) & 0x1f;
+  }
+  template <std::size_t stride>
+  static void load_integers(const std::int32_t* table, const std::uint32_t* index,
+                            Double (&field)[4]) noexcept {
+    const auto record = [=](std::size_t i) {
+      return _mm_loadu_si128((const __m128i*)(table + stride * index[i]));
+    };
+    const __m128i low = _mm_unpacklo_epi32(record(0), record(1)),
+                  high = _mm_unpackhi_epi32(record(0), record(1));
+    field[0] = _mm_cvtepi32_pd(low), field[1] = _mm_cvtepi32_pd(_mm_unpackhi_epi64(low, low));
+    field[2] = _mm_cvtepi32_pd(high), field[3] = _mm_cvtepi32_pd(_mm_unpackhi_epi64(high, high));
+  }
   static float least(Float values) noexcept {
     const __m128 pairs = _mm_min_ps(values, _mm_movehl_ps(values, values));
     return _mm_cvtss_f32(_mm_min_ss(pairs, _mm_shuffle_ps(pairs, pairs, 1)));
@@ -85,6 +111,29 @@ struct Lanes<xsimd::avx2, Own> : AnyLanes<xsimd::avx2, Own> {
   }
   static std::uint32_t bits(xsimd::batch_bool<float, xsimd::avx2> mask) noexcept {
     return static_cast<std::uint32_t>(_mm256_movemask_ps(mask));
+  }
+  static std::uint32_t bits(xsimd::batch_bool<double, xsimd::avx2> mask) noexcept {
+    return static_cast<std::uint32_t>(_mm256_movemask_pd(mask));
+  }
+  static std::uint32_t bits(xsimd::batch_bool<std::int16_t, xsimd::avx2> mask) noexcept {
+    const __m256i all = mask;
+    return static_cast<std::uint32_t>(
+        _mm_movemask_epi8(_mm_packs_epi16(_mm256_castsi256_si128(all), _mm256_extracti128_si256(all, 1))));
+  }
+  template <std::size_t stride>
+  static void load_integers(const std::int32_t* table, const std::uint32_t* index,
+                            Double (&field)[4]) noexcept {
+    const auto record = [=](std::size_t i) {
+      return _mm_loadu_si128((const __m128i*)(table + stride * index[i]));
+    };
+    const __m128i low01 = _mm_unpacklo_epi32(record(0), record(1)),
+                  low23 = _mm_unpacklo_epi32(record(2), record(3)),
+                  high01 = _mm_unpackhi_epi32(record(0), record(1)),
+                  high23 = _mm_unpackhi_epi32(record(2), record(3));
+    field[0] = _mm256_cvtepi32_pd(_mm_unpacklo_epi64(low01, low23));
+    field[1] = _mm256_cvtepi32_pd(_mm_unpackhi_epi64(low01, low23));
+    field[2] = _mm256_cvtepi32_pd(_mm_unpacklo_epi64(high01, high23));
+    field[3] = _mm256_cvtepi32_pd(_mm_unpackhi_epi64(high01, high23));
   }
   static float least(Float values) noexcept {
     const __m128 fours = _mm_min_ps(_mm256_castps256_ps128(values), _mm256_extractf128_ps(values, 1));
