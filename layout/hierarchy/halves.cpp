@@ -8,36 +8,40 @@
 #include <utility>
 
 #include "layout/base/rounding.hpp"
+#include "layout/simd/lanes.hpp"
 
 namespace bch::detail {
 namespace {
 
-using Float = BaseLanes::Float;
+using Simd = BaseLanes;
+/// Both coordinates side by side.
+using Point = Simd::Double;
 
-struct Point {
-  double x, y;
+Point widened(Vec2 p) {
+  return Simd::of<double>(static_cast<double>(p.x), static_cast<double>(p.y));
+}
 
-  Point(Vec2 p) : x(static_cast<double>(p.x)), y(static_cast<double>(p.y)) {}
-};
-
-double square_distance(Point a, Point b) {
-  const double x = a.x - b.x, y = a.y - b.y;
-  return x * x + y * y;
+double larger_square(Point a, Point b) {
+  const Point aa = a * a, bb = b * b, sums = xsimd::zip_lo(aa, bb) + xsimd::zip_hi(aa, bb);
+  return std::max(Simd::lane(sums, 0), Simd::lane(sums, 1));
 }
 
 /// Writes the nodes of a piece, by its ends, that is still to be halved so often; the first one is `number` of all.
 template <int halvings>
 void write_piece(Point a, Point b, const OutwardRadii& radii, HierarchyNode* node, std::uint32_t number) {
-  const Vec2 middle{static_cast<float>(0.5 * (a.x + b.x)), static_cast<float>(0.5 * (a.y + b.y))};
-  node->disc.x = middle.x, node->disc.y = middle.y;
-  radii.write(std::max(square_distance(a, middle), square_distance(b, middle)), *node);
+  const Point exact = Point(0.5) * (a + b);
+  const Simd::Float rounded = Simd::rounded({exact, exact});
+  Point middle[2];
+  Simd::widened(rounded, middle);
+  Simd::store_pair(&node->disc, rounded, 0);
+  radii.write(larger_square(a - middle[0], b - middle[0]), *node);
   if constexpr (halvings == 0) {
     node->second_child = 0;
   } else {
     constexpr std::uint32_t second = EvenHalves::nodes(halvings - 1) + 1;
     node->second_child = number + second;
-    write_piece<halvings - 1>(a, middle, radii, node + 1, number + 1);
-    write_piece<halvings - 1>(middle, b, radii, node + second, number + second);
+    write_piece<halvings - 1>(a, middle[0], radii, node + 1, number + 1);
+    write_piece<halvings - 1>(middle[0], b, radii, node + second, number + second);
   }
 }
 
@@ -67,21 +71,23 @@ void EvenHalves::begin(double longest, double reach) {
   for (auto& of_a_kind : segments_) of_a_kind.clear();
 }
 
-void EvenHalves::write_halvings(Float lengths, std::uint8_t* halvings) const {
-  Float sure(0.0f), possible(0.0f);
-  for (std::size_t k = 0; k < surely_long_.size(); ++k)
-    sure = sure + Float(Float(surely_long_[k]) < lengths),
-    possible = possible + Float(Float(surely_short_[k]) < lengths);
-  std::int32_t four[BaseLanes::width];
-  BaseLanes::store(four, xsimd::to_int(xsimd::select(sure == possible, sure, Float(uneven))));
-  for (const std::int32_t each : four) *halvings++ = static_cast<std::uint8_t>(each);
+void EvenHalves::write_halvings(const float* lengths, std::uint8_t* halvings) const {
+  std::int32_t times[4];  // in words, so that the loop fills registers
+  for (std::size_t i = 0; i < 4; ++i) {
+    std::int32_t sure = 0, possible = 0;
+    for (std::size_t k = 0; k < surely_long_.size(); ++k)
+      sure += lengths[i] > surely_long_[k], possible += lengths[i] > surely_short_[k];
+    times[i] = sure == possible ? sure : uneven;
+  }
+  for (std::size_t i = 0; i < 4; ++i) halvings[i] = static_cast<std::uint8_t>(times[i]);
 }
 
 void EvenHalves::write(const std::vector<Primitive>& segments, const OutwardRadii& radii,
                        std::vector<HierarchyNode>& nodes) const {
   const auto write_all = [&]<int halvings>() {
     for (const auto [node, source] : segments_[halvings])
-      write_piece<halvings>(segments[source].a, segments[source].b, radii, &nodes[node], node);
+      write_piece<halvings>(widened(segments[source].a), widened(segments[source].b), radii, &nodes[node],
+                            node);
   };
   [&]<int... halvings>(std::integer_sequence<int, halvings...>) {
     (write_all.template operator()<halvings>(), ...);

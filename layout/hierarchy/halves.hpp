@@ -10,7 +10,6 @@
 #include <bch/hierarchy.hpp>
 
 #include "layout/hierarchy/outward_radii.hpp"
-#include "layout/simd/lanes.hpp"
 
 namespace bch::detail {
 
@@ -28,7 +27,7 @@ class EvenHalves {
   void begin(double longest, double reach);
   /// How often segments of four lengths, rounded to float, are halved: `uneven` where that is too often, or rounding
   /// may decide.
-  void write_halvings(BaseLanes::Float lengths, std::uint8_t* halvings) const;
+  void write_halvings(const float* lengths, std::uint8_t* halvings) const;
   /// Leaves room for a segment's nodes. `source`: its index.
   void add(int halvings, std::uint32_t node, std::uint32_t source) {
     segments_[static_cast<std::size_t>(halvings)].push_back({node, source});

@@ -5,6 +5,8 @@
 
 #include <algorithm>
 
+#include "layout/simd/lanes.hpp"
+
 namespace bch::detail {
 namespace {
 
@@ -52,7 +54,9 @@ void SplitItems::add_contour(std::span<const Vec2> points, const EvenHalves& hal
     store_fields(items[at].sums, length * middle_x, length * middle_y, length, Float(0.0f));
     Simd::store(&middle[0][at], middle_x);
     Simd::store(&middle[1][at], middle_y);
-    halves.write_halvings(length, &halvings[at]);
+    float lengths[width];
+    Simd::store(lengths, length);
+    halves.write_halvings(lengths, &halvings[at]);
     for (std::size_t k = 0; k < width; ++k) primitives[at + k] = {ends[k], ends[k + 1], ends[k + 1]};
   }
   count += points.size();

@@ -151,27 +151,21 @@ struct AnyLanes {
   }
   /// The least lane.
   static float least(Float values) noexcept {
-    alignas(64) float lane[width];
-    values.store_aligned(lane);
-    for (const float each : lane) lane[0] = each < lane[0] ? each : lane[0];
-    return lane[0];
+    float result = lane(values, 0);
+    for (unsigned i = 1; i < width; ++i) result = lane(values, i) < result ? lane(values, i) : result;
+    return result;
   }
 
-  /// A register of floats from as many doubles.
+  /// A register of floats from as many doubles, and back.
   static Float rounded(const Double (&v)[2]) noexcept {
-    alignas(64) double from[width];
-    v[0].store_aligned(from), v[1].store_aligned(from + doubles);
-    alignas(64) float to[width];
-    for (std::size_t i = 0; i < width; ++i) to[i] = static_cast<float>(from[i]);
-    return Float::load_aligned(to);
+    float to[width];
+    for (unsigned i = 0; i < width; ++i) to[i] = static_cast<float>(lane(v[i / doubles], i % doubles));
+    return load(to);
   }
-  /// Its inverse.
   static void widened(Float v, Double (&to)[2]) noexcept {
-    alignas(64) float from[width];
-    v.store_aligned(from);
-    alignas(64) double wide[width];
-    for (std::size_t i = 0; i < width; ++i) wide[i] = static_cast<double>(from[i]);
-    to[0] = Double::load_aligned(wide), to[1] = Double::load_aligned(wide + doubles);
+    double wide[width];
+    for (unsigned i = 0; i < width; ++i) wide[i] = static_cast<double>(lane(v, i));
+    to[0] = load(wide), to[1] = load(wide + doubles);
   }
 
   /// The square root, for bounds: it is off by less than 3/4 of `rough`, relatively, for normal numbers, differently on

@@ -101,8 +101,16 @@ TEST(Layers, LibrariesStayInTheirRooms) {
   expect_no_include("layout", "xxhash", "^baked/checksum");
   expect_no_include("kernel", "assimp/|Eigen/|polyclipping/");
   expect_no_include("kernel", "xsimd/");
-  expect_no_include("kernel", "[a-z]mmintrin", "^runtime/floating_point_state");
   expect_no_include("baselines", "assimp/|xsimd/|oneapi/tbb|tbb/");
+}
+
+TEST(Layers, OneFileNamesInstructions) {
+  const std::regex instruction(R"(\b_mm\d*_|[a-z]mmintrin\.h)"), exempt("simd/x86|floating_point_state");
+  for (const char* const top : {"layout", "kernel"})
+    for (const auto& [file, includes] : includes_below(top))
+      if (!std::regex_search(file.string(), exempt)) {
+        EXPECT_FALSE(std::regex_search(read(file), instruction)) << file;
+      }
 }
 
 /// Folders include each other one way only: what is left when those that need no others are taken away, again and again, is a

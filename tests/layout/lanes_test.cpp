@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include "layout/simd/lanes.hpp"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <bit>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "tests/support/scenes.hpp"
+
+namespace bch::detail {
+namespace {
+
+/// What holds for any instruction set, compiled for that of BaseLanes, which has instructions of its own instead.
+struct PlainLanes : AnyLanes<xsimd::sse2, PlainLanes> {};
+using Float = BaseLanes::Float;
+using Double = BaseLanes::Double;
+
+constexpr float infinity = std::numeric_limits<float>::infinity();
+constexpr float nan = std::numeric_limits<float>::quiet_NaN();
+
+template <class Batch>
+std::array<std::uint64_t, 2> bits_of(Batch v) {
+  return std::bit_cast<std::array<std::uint64_t, 2>>(v);
+}
+
+/// Every two of these stand in one lane, beside others.
+std::vector<std::array<Float, 2>> pairs() {
+  const float values[] = {0.0f, -0.0f, 1.0f, -1.0f, 2.5f, 0x1p-140f, 0x1p100f, infinity, -infinity, nan};
+  std::vector<std::array<Float, 2>> all;
+  for (const float a : values)
+    for (const float b : values)
+      all.push_back({BaseLanes::of<float>(a, b, 3.0f, a), BaseLanes::of<float>(b, a, b, 2.0f)});
+  return all;
+}
+
+TEST(Lanes, AreTheSameWithInstructionsOfTheirOwn) {
+  for (const auto& [a, b] : pairs()) {
+    EXPECT_EQ(bits_of(BaseLanes::min(a, b)), bits_of(PlainLanes::min(a, b)));
+    EXPECT_EQ(bits_of(BaseLanes::max(a, b)), bits_of(PlainLanes::max(a, b)));
+    const auto less = a < b;
+    EXPECT_EQ(BaseLanes::bits(less), PlainLanes::bits(less));
+    EXPECT_EQ(bits_of(BaseLanes::keep(less, a)), bits_of(PlainLanes::keep(less, a)));
+    EXPECT_EQ(bits_of(BaseLanes::min(BaseLanes::hide(less, a), b)),
+              bits_of(PlainLanes::min(PlainLanes::hide(less, a), b)));
+    Double wide[2], plain[2];
+    BaseLanes::widened(a, wide), PlainLanes::widened(a, plain);
+    EXPECT_EQ(bits_of(wide[0]), bits_of(plain[0]));
+    EXPECT_EQ(bits_of(wide[1]), bits_of(plain[1]));
+    EXPECT_EQ(bits_of(BaseLanes::rounded(wide)), bits_of(PlainLanes::rounded(plain)));
+    EXPECT_EQ(BaseLanes::bits(wide[0] < wide[1]), PlainLanes::bits(wide[0] < wide[1]));
+    if (BaseLanes::bits(xsimd::isnan(a)) == 0) {
+      EXPECT_EQ(BaseLanes::least(a), PlainLanes::least(a));
+    }
+  }
+}
+
+TEST(Lanes, CountAndTakeIntegers) {
+  test::Random random(1);
+  using Shorts = BaseLanes::Batch<std::int16_t>;
+  for (int i = 0; i < 1000; ++i) {
+    const auto bits = static_cast<std::uint32_t>(random.below(1 << 16));
+    EXPECT_EQ(BaseLanes::count(bits), PlainLanes::count(bits)) << bits;
+    std::int16_t shorts[Shorts::size];
+    std::int32_t integers[16];
+    for (std::int16_t& each : shorts) each = static_cast<std::int16_t>(static_cast<int>(random.below(8)) - 4);
+    for (std::int32_t& each : integers) each = static_cast<std::int32_t>(random.below(1 << 30)) - (1 << 29);
+    const auto less = BaseLanes::load(shorts) > Shorts(std::int16_t{0});
+    EXPECT_EQ(BaseLanes::bits(less), PlainLanes::bits(less));
+    const auto below = BaseLanes::load(integers) > BaseLanes::Ints(0);
+    EXPECT_EQ(BaseLanes::bits(below), PlainLanes::bits(below));
+    const std::uint32_t index[] = {static_cast<std::uint32_t>(random.below(4)),
+                                   static_cast<std::uint32_t>(random.below(4))};
+    Double field[4], plain[4];
+    BaseLanes::load_integers<4>(integers, index, field), PlainLanes::load_integers<4>(integers, index, plain);
+    for (int f = 0; f < 4; ++f) EXPECT_EQ(bits_of(field[f]), bits_of(plain[f]));
+  }
+}
+
+TEST(Lanes, GoWhereTheirNamesSay) {
+  const float table[] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
+  const std::uint32_t index[] = {3, 0, 2, 1};
+  const auto expect = [](Float v, std::array<float, 4> lanes) { EXPECT_EQ(bits_of(v), bits_of(lanes)); };
+  expect(BaseLanes::gather(table, index), {3, 0, 2, 1});
+  expect(BaseLanes::shuffle<0, 3, 5, 6>(BaseLanes::load(table), BaseLanes::load(table + 4)), {0, 3, 5, 6});
+  Float field[4], first, second;
+  BaseLanes::load_records<4>(table, index, field);
+  expect(field[0], {12, 0, 8, 4});
+  expect(field[3], {15, 3, 11, 7});
+  BaseLanes::load_pairs([&](std::size_t i) { return table + 2 * index[i]; }, first, second);
+  expect(first, {6, 0, 4, 2});
+  expect(second, {7, 1, 5, 3});
+  Double wide[2];
+  BaseLanes::load_pairs([&](std::size_t i) { return table + 2 * index[i]; }, wide);
+  expect(BaseLanes::rounded(wide), {6, 0, 7, 1});
+  float pair[3] = {0, 0, 9};
+  BaseLanes::store_pair(pair, BaseLanes::load(table), 1);
+  EXPECT_EQ((std::array{pair[0], pair[1], pair[2]}), (std::array{2.0f, 3.0f, 9.0f}));
+  EXPECT_EQ(BaseLanes::lane(BaseLanes::load(table), 2), 2);
+}
+
+}  // namespace
+}  // namespace bch::detail
