@@ -76,10 +76,9 @@ class OutlineCandidates {
   void add_uses(EdgeUses uses, PlaneCuts& cuts, std::span<CandidateList> slabs) const;
 
   const OutlineImplementation* implementation_;
-  std::vector<std::array<std::uint32_t, 3>>
-      triangles_;                      ///< and points up to a multiple of triangles_together
-  std::vector<std::uint8_t> sides_;    ///< of each triangle; 0 of one that is cut
-  std::vector<std::uint32_t> chosen_;  ///< manifold edges
+  std::vector<std::array<std::uint32_t, 3>> triangles_;  ///< and points that fill them up
+  std::vector<std::uint8_t> sides_;                      ///< of each triangle; 0 of one that is cut
+  std::vector<std::uint32_t> chosen_;                    ///< manifold edges
   std::vector<GridPoint> island_points_;
   std::vector<std::uint32_t> numbers_;  ///< of islands, by the nodes that stand for them
 };

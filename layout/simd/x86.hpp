@@ -9,7 +9,8 @@
 
 namespace bch::detail {
 
-/// The one place that names instructions of x86-64. The comments are those of AnyLanes.
+/// The one place that names instructions of x86-64. What they do is said in AnyLanes, and tests/layout/lanes_test.cpp
+/// compares them with that.
 template <class Own>
 struct Lanes<xsimd::sse2, Own> : AnyLanes<xsimd::sse2, Own> {
   using typename AnyLanes<xsimd::sse2, Own>::Float;
