@@ -68,7 +68,7 @@ ShapeOrigins origins_of(std::span<const LoadedCharacter> characters, std::span<c
     origins.names.push_back(file_name(character));
     for (const Clip& clip : character.character.clips) origins.names.push_back(clip.name);
   }
-  for (const auto& [character, at] : sources) {
+  for (const auto& [character, at, whole] : sources) {
     const std::uint32_t name = first_name[character];
     origins.origins.push_back(
         {name, at.clip == PoseTime::rest ? ShapeOrigin::rest_pose : name + 1 + at.clip, at.seconds});

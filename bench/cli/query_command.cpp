@@ -146,6 +146,10 @@ void query_character(const QueryCommandOptions& options) {
 void query_baked(const QueryCommandOptions& options) {
   const BakedShapes baked = load_baked_for(options.character, options.answer);
   Question question = read_question(options, baked.set.shape_count(), baked.set.level_count());
+  if (!question.table.z.empty() && !baked.set.has_heights())
+    throw InputError(
+        options.character +
+        ": was baked without heights, which agents with a z need; bake it with --heights or --slices");
   const Threads threads(options.answer.threads);
   answer(options, baked.set, question);
 }

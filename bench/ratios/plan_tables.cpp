@@ -76,7 +76,8 @@ class Planned {
   ShapeSet build() {
     ShapeSetBuilder builder(plan_.set, plan_.shapes.size());
     for (std::size_t i = 0; i < plan_.shapes.size(); ++i) {
-      prepared_->prepare(shapers_[plan_.shapes[i].character].shape(plan_.shapes[i].at), i);
+      prepared_->prepare(shapers_[plan_.shapes[i].character].shape(plan_.shapes[i].at, plan_.shapes[i].whole),
+                         i);
       builder.add(*prepared_);
     }
     return std::move(builder).finish();

@@ -9,6 +9,7 @@
 
 #include <bch/collide.hpp>
 #include <bch/pose_shape.hpp>
+#include <bch/scene_plan.hpp>
 #include <bch/shape_set_builder.hpp>
 
 #include "baselines/slab_bodies.hpp"
@@ -22,24 +23,16 @@ constexpr float threshold = 0.01f;  ///< metres
 constexpr std::array workloads = {std::string_view("crowd"), std::string_view("near_miss"),
                                   std::string_view("colliding")};
 
-/// What a row may cost, times the whole body: time in a crowd with discs and with segments, time to build, bytes of a shape.
+/// What a number of slabs may cost, times the whole body: time in a crowd with discs and with segments, time to build; and bytes.
 struct Row {
-  const char* name;
-  std::vector<float> slices;
+  std::uint32_t slabs;
   double discs, segments, build;
   double bytes;  ///< 0: nothing is asked of the row
 };
-
-const std::vector<Row>& rows() {
-  static const std::vector<Row> all = {
-      {"whole", {}, 1, 1, 1, 0},
-      {"2: 0.6", {0.6f}, 0, 0, 0, 0},
-      {"3: 0.4, 1.0", {0.4f, 1.0f}, 2.0, 2.4, 2.2, 15 * 1024},
-      {"4: 0.4, 0.85, 1.05", {0.4f, 0.85f, 1.05f}, 2.8, 3.3, 2.8, 19 * 1024},
-      {"8", {0.35f, 0.7f, 0.85f, 0.95f, 1.05f, 1.2f, 1.45f}, 5, 6, 4.5, 36 * 1024},
-  };
-  return all;
-}
+constexpr Row rows[] = {
+    {1, 0, 0, 0, 0},           {2, 0, 0, 0, 0}, {3, 2.0, 2.4, 2.2, 15 * 1024}, {4, 2.8, 3.3, 2.8, 19 * 1024},
+    {8, 5, 6, 4.5, 36 * 1024},
+};
 
 /// The scene's poses in slabs.
 class Sliced {
@@ -51,7 +44,7 @@ class Sliced {
     set_.emplace(build());
   }
 
-  ShapeSetPlan plan() const { return {.slices = row_.slices}; }
+  ShapeSetPlan plan() const { return {.slices = standing_slices(row_.slabs)}; }
 
   const Shape& shape(const ShapeSource& source) { return shapers_[source.character].shape(source.at); }
 
@@ -69,9 +62,7 @@ class Sliced {
     const QueryOptions query{.semantics = Semantics::solid, .leaves = leaves};
     const auto hits = std::make_shared<Hits>(workload.pairs.size());
     collide(*set_, workload.agents(), workload.pairs, *hits, query);
-    if (shapes_.empty())
-      for (const ShapeSource& source : scene_.sources()) shapes_.push_back(shape(source));
-    const baselines::SlabBodies reference(shapes_, plan(), leaves);
+    const baselines::SlabBodies reference(scene_.shapes_in_slabs(row_.slabs), plan(), leaves);
     std::size_t count = 0;
     for (std::size_t i = 0; i < hits->size(); ++i) {
       count += (*hits)[i];
@@ -93,7 +84,6 @@ class Sliced {
   std::vector<PoseShaper> shapers_;
   std::optional<PreparedShape> prepared_;
   std::optional<ShapeSet> set_;
-  std::vector<Shape> shapes_;
 };
 
 std::string row_name(std::size_t row, std::string_view what) {
@@ -109,8 +99,8 @@ void print_slices(const Results& results) {
   for (const std::string_view workload : workloads) fmt::print(" {} |", workload);
   fmt::print(
       " hits in the crowd | us to build a shape | bytes of a shape |\n|---|---|---|---|---|---|---|\n");
-  for (std::size_t i = 0; i < rows().size(); ++i) {
-    fmt::print("| {} |", rows()[i].name);
+  for (std::size_t i = 0; i < std::size(rows); ++i) {
+    fmt::print("| {} |", rows[i].slabs);
     for (const std::string_view workload : workloads)
       fmt::print(" {:.1f} / {:.1f} |", results.at(query_name(i, workload, Leaves::discs)).nanoseconds,
                  results.at(query_name(i, workload, Leaves::segments)).nanoseconds);
@@ -122,10 +112,10 @@ void print_slices(const Results& results) {
   const auto times_whole = [&](const std::string& name, const std::string& of_whole) {
     return results.at(name).nanoseconds / results.at(of_whole).nanoseconds;
   };
-  for (std::size_t i = 0; i < rows().size(); ++i) {
-    const Row& row = rows()[i];
+  for (std::size_t i = 0; i < std::size(rows); ++i) {
+    const Row& row = rows[i];
     if (row.bytes == 0) continue;
-    fmt::print("{} slabs over the whole body:\n", row.slices.size() + 1);
+    fmt::print("{} slabs over the whole body:\n", row.slabs);
     for (const Leaves leaves : {Leaves::discs, Leaves::segments}) {
       const double ratio = times_whole(query_name(i, "crowd", leaves), query_name(0, "crowd", leaves));
       fmt::print("  crowd, {:8} {:6.2f} x   {}\n", name_of(leaves), ratio,
@@ -141,8 +131,8 @@ void print_slices(const Results& results) {
 }  // namespace
 
 std::vector<Table> slice_tables(Suite& suite, Scene& scene) {
-  for (std::size_t i = 0; i < rows().size(); ++i) {
-    const Shared<Sliced> sliced([&scene, i] { return std::make_shared<Sliced>(scene, rows()[i]); });
+  for (std::size_t i = 0; i < std::size(rows); ++i) {
+    const Shared<Sliced> sliced([&scene, i] { return std::make_shared<Sliced>(scene, rows[i]); });
     for (const std::string_view workload : workloads)
       for (const Leaves leaves : {Leaves::discs, Leaves::segments})
         suite.add(query_name(i, workload, leaves), [sliced, &scene, workload, leaves]() -> Contender {

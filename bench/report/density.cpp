@@ -6,6 +6,8 @@
 
 #include <atomic>
 
+#include <bch/scene_plan.hpp>
+
 #include "bench/report/experiment.hpp"
 #include "bench/report/packing.hpp"
 #include "bench/report/subject.hpp"
@@ -43,6 +45,9 @@ std::vector<Row> rows_of(Run& run) {
   }
   for (const std::uint32_t depth : {3u, 6u, 9u, all_depths})
     rows.push_back({cut_name(depth), ShapeSet(shapes, {{depth}, true})});
+  for (const std::uint32_t slabs : compared_slabs)
+    rows.push_back({slabs_name(slabs, Leaves::segments),
+                    ShapeSet(run.scene().shapes_in_slabs(slabs), {.slices = standing_slices(slabs)})});
   for (const Freedom freedom : {Freedom::headings, Freedom::poses})
     for (const std::uint32_t depth : {0u, 3u, all_depths})
       rows.push_back({cut_name(depth), ShapeSet(shapes, {{depth}, true}), freedom});

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <map>
 
+#include <bch/scene_plan.hpp>
+
 #include "bench/report/experiment.hpp"
 #include "bench/report/subject.hpp"
 #include "bench/report/words.hpp"
@@ -27,6 +29,12 @@ constexpr Row rows[] = {
     {"BCH outline by centre", not_told}, {"BCH projected", not_told}, {"OBB outline", 4, true},
     {"OBB projected", not_told},         {"OBB full mesh", 0},
 };
+
+/// Where people in slabs are detected.
+std::vector<double> contacts_in_slabs(Run& run, const SlideCases& cases, std::uint32_t slabs, Leaves leaves) {
+  const ShapeSet set(run.scene().shapes_in_slabs(slabs), {.slices = standing_slices(slabs)});
+  return cases.contacts(set, leaves);
+}
 
 /// What is common to all rows of a table.
 struct Tables {
@@ -111,7 +119,15 @@ void run_experiment(Run& run) {
     const std::vector<double> distances = cases.distances(*run.distances(), places);
     add(run, row, places, distances, out);
     if (row.in_groups) add_groups(run, row, groups, distances, out.groups);
-    run.done(++done / static_cast<double>(std::size(rows)));
+    run.done(++done / static_cast<double>(std::size(rows) + std::size(compared_slabs)));
+  }
+  for (const std::uint32_t slabs : compared_slabs) {
+    for (const Leaves how : {Leaves::discs, Leaves::segments}) {
+      const std::vector<double> places = contacts_in_slabs(run, cases, slabs, how);
+      const std::string name = slabs_name(slabs, how);
+      add(run, {name, not_told}, places, cases.distances(*run.distances(), places), out);
+    }
+    run.done(++done / static_cast<double>(std::size(rows) + std::size(compared_slabs)));
   }
   run.write("distance", out.summary);
   run.write("distance_cases", out.cases);

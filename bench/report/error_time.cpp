@@ -5,7 +5,10 @@
 
 #include <deque>
 
+#include <bch/scene_plan.hpp>
+
 #include "baselines/reference.hpp"
+#include "baselines/slab_bodies.hpp"
 #include "bench/base/text.hpp"
 #include "bench/report/coverage.hpp"
 #include "bench/report/experiment.hpp"
@@ -90,6 +93,29 @@ void add_kernel(Run& run, double threshold, Points& points) {
                               segments ? exact : excess});
       }
     if (first) points.all.push_back({"BCH outline", depth, threshold, "boundary", "single", slow, excess});
+  }
+}
+
+/// Adds the kernel over bodies in slabs, whose answers are compared with those of every pair of slabs by itself.
+void add_slabs(Run& run, Points& points) {
+  for (const std::uint32_t slabs : compared_slabs) {
+    const std::vector<Shape>& shapes = run.scene().shapes_in_slabs(slabs);
+    const ShapeSetPlan plan{.slices = standing_slices(slabs)};
+    const ShapeSet& set = points.sets.emplace_back(shapes, plan);
+    for (const Leaves leaves : {Leaves::discs, Leaves::segments}) {
+      const Subject subject = subject_of(set, {.semantics = Semantics::solid, .leaves = leaves});
+      const baselines::SlabBodies reference(shapes, plan, leaves);
+      for (const std::string_view name : workloads) {
+        const bench::Workload& workload = run.scene().workload(name);
+        const bench::Hits hits = answers(subject, workload);
+        for (std::size_t i = 0; i < hits.size(); ++i)
+          if ((hits[i] != 0) !=
+              reference.collide(workload.agents(), workload.pairs[i], baselines::Method::depth_first))
+            bench::require_right(slabs_name(slabs, leaves), workload, fmt::format("pair {} differs", i));
+      }
+      points.all.push_back({slabs_name(slabs, leaves), all_depths, 0.01, "solid",
+                            leaves == Leaves::segments ? "double" : "single", subject, unknown});
+    }
   }
 }
 
@@ -188,6 +214,7 @@ void run_experiment(Run& run) {
   for (const double threshold : full ? std::vector{0.01, 0.005, 0.02, 0.04} : std::vector{0.01, 0.04})
     add_kernel(run, threshold, points);
   run.done(0.1);
+  add_slabs(run, points);
   add_others(run, points);
   run.done(0.15);
   const Table table = table_of(run, points);

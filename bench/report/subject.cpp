@@ -46,6 +46,10 @@ double time_run(const std::function<void()>& call, int threads) {
 
 }  // namespace
 
+std::string slabs_name(std::uint32_t slabs, Leaves leaves) {
+  return fmt::format("BCH in {} slabs{}", slabs, leaves == Leaves::discs ? " with discs" : "");
+}
+
 std::string cut_name(std::uint32_t depth) {
   return depth == 0 ? "single cylinder" : "BCH outline to depth " + cli::depth_name(depth);
 }

@@ -21,6 +21,10 @@ namespace bch::report {
 constexpr std::string_view kernel_name = "BCH outline in the batch kernel";
 /// The name of the batch kernel with exact leaves.
 constexpr std::string_view exact_leaves_name = "BCH outline with exact leaves";
+/// Returns the name of the kernel over bodies in so many slabs, with exact leaves or discs: "BCH in 3 slabs", "BCH in 3 slabs with discs".
+std::string slabs_name(std::uint32_t slabs, Leaves leaves);
+/// The numbers of slabs that are compared.
+constexpr std::uint32_t compared_slabs[] = {2, 3, 4, 8};
 constexpr std::string_view leaf_discs_name =
     "BCH projected leaf discs";  ///< without the exact tests of its triangles
 

@@ -45,6 +45,8 @@ class Scene {
   std::uint32_t poses() const { return options_.poses; }  ///< of a character
   const std::vector<ShapeSource>& sources();
   const std::vector<Shape>& shapes();
+  /// Returns the shapes in slabs: as standing_slices() cuts people.
+  const std::vector<Shape>& shapes_in_slabs(std::uint32_t slabs);
   const std::vector<baselines::Body>& bodies();
   /// Returns a set of the finest level alone, with all that queries may ask.
   const ShapeSet& set();
@@ -64,6 +66,7 @@ class Scene {
   std::vector<cli::LoadedCharacter> characters_;
   std::vector<ShapeSource> sources_;
   std::vector<Shape> shapes_;
+  std::map<std::uint32_t, std::vector<Shape>> shapes_in_slabs_;
   std::vector<baselines::Body> bodies_;
   std::optional<ShapeSet> set_;
   std::map<std::string, std::unique_ptr<baselines::Structure>, std::less<>> structures_;

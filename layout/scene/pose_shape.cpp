@@ -26,20 +26,21 @@ struct PoseShaper::State {
   std::vector<Outline> slab_outlines;
   Shape shape;
 
-  void make_outlines(PoseTime at);
+  void make_outlines(PoseTime at, bool whole);
   void make_hierarchy(Shape& of);
 };
 
-void PoseShaper::State::make_outlines(PoseTime at) {
+void PoseShaper::State::make_outlines(PoseTime at, bool whole) {
   if (extremes) return extremes->find(skinner.ground_pose(at));
   if (plan.slices.empty() && !plan.heights)
     return outline_builder->build(skinner.ground_pose(at), shape.outline);
-  const std::size_t slabs = plan.slices.size() + 1;
+  const std::span<const float> planes = whole ? std::span<const float>() : plan.slices;
+  const std::size_t slabs = planes.size() + 1;
   // Outlines change places with those of the shape, so that both keep their memory.
   slab_outlines.resize(slabs);
-  shape.slabs.resize(plan.slices.empty() ? 0 : slabs);
-  shape.heights = outline_builder->build(skinner.pose(at), plan.slices, slab_outlines);
-  if (plan.slices.empty()) return std::swap(shape.outline, slab_outlines[0]);
+  shape.slabs.resize(planes.empty() ? 0 : slabs);
+  shape.heights = outline_builder->build(skinner.pose(at), planes, slab_outlines);
+  if (planes.empty()) return std::swap(shape.outline, slab_outlines[0]);
   for (std::size_t i = 0; i < slabs; ++i) std::swap(shape.slabs[i].outline, slab_outlines[i]);
 }
 
@@ -70,13 +71,13 @@ void PoseShaper::limit_nodes(std::size_t most) {
   state_->hierarchy_builder.limit_nodes(most);
 }
 
-const Shape& PoseShaper::shape(PoseTime at) {
-  make_outlines(at);
+const Shape& PoseShaper::shape(PoseTime at, bool whole) {
+  make_outlines(at, whole);
   return make_hierarchies();
 }
 
-const Shape& PoseShaper::make_outlines(PoseTime at) {
-  state_->make_outlines(at);
+const Shape& PoseShaper::make_outlines(PoseTime at, bool whole) {
+  state_->make_outlines(at, whole);
   return state_->shape;
 }
 

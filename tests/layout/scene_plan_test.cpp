@@ -169,6 +169,37 @@ TEST(ScenePlan, ChangesNoAnswer) {
     }
 }
 
+/// Agents who are near are cut, those who are far are not, and each shape is there once.
+TEST(ScenePlan, CutsWhoIsNear) {
+  test::Random random(94);
+  const std::vector<SceneAgent> agents = walkers(400, random);
+  const SceneUse use{.slices = standing_slices(3), .whole_from = 12};
+  const ScenePlan plan = plan_scene(agents, use);
+  EXPECT_EQ(plan.set.slices, standing_slices(3));
+  EXPECT_TRUE(plan.set.heights && plan.set.outlines);
+  std::size_t whole = 0;
+  for (std::size_t i = 0; i < agents.size(); ++i) {
+    EXPECT_EQ(plan.shapes[plan.agent_shape[i]].whole, agents[i].distance >= 12) << i;
+    whole += plan.shapes[plan.agent_shape[i]].whole;
+  }
+  EXPECT_GT(whole, 50u);
+  EXPECT_LT(whole, 350u);
+  EXPECT_FALSE(plan_scene(agents).shapes[0].whole);
+
+  const std::vector<Character> characters = test::default_characters();
+  std::vector<PoseShaper> shapers;
+  for (const Character& character : characters) shapers.emplace_back(character, plan.set);
+  std::vector<Shape> shapes;
+  for (const ShapeSource& source : plan.shapes)
+    shapes.push_back(shapers[source.character].shape(source.at, source.whole));
+  const ShapeSet set(shapes, plan.set);
+  for (std::uint32_t s = 0; s < set.shape_count(); ++s)
+    EXPECT_EQ(shapes[s].slabs.empty(), plan.shapes[s].whole);
+  EXPECT_EQ(set.plan(), plan.set);
+  EXPECT_THROW(plan_scene(agents, {.slices = {1, 0.5f}}), std::invalid_argument);
+  EXPECT_THROW(plan_scene(agents, {.whole_from = -1}), std::invalid_argument);
+}
+
 TEST(ScenePlan, RejectsWhatIsNoNumber) {
   const auto plan = [](const SceneAgent& agent) { return plan_scene(std::vector<SceneAgent>{{}, agent}); };
   EXPECT_THROW(plan({{}, -1}), std::invalid_argument);

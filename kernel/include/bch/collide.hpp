@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <span>
+#include <vector>
 
 #include <bch/query.hpp>
 
@@ -35,5 +36,16 @@ namespace bch {
 ///          touch it.
 void collide(const ShapeSet& shapes, const Agents& agents, std::span<const Pair> pairs,
              std::span<std::uint8_t> hits, const QueryOptions& options = {});
+
+/// Chooses the planes of so many slabs that clear most false collisions of a crowd of given bodies, among those that these are cut
+/// at. Bodies stand at random in each other's reach; of two that are seen to collide from above, and in no slab between
+/// neighbouring planes, all of whose overlaps a plane has to part. One plane is chosen after the other, and then each again
+/// until none is better elsewhere.
+/// Sizes:   each body has a slab more than there are planes: PoseShaper makes them with ShapeSetPlan::slices = planes, 5 cm apart
+///          for instance; a hundred poses tell enough.
+/// Returns: slabs - 1 of the planes, ascending; all of them where there are no more. The same for the same arguments.
+/// Errors:  throws std::invalid_argument on no bodies, on no slabs, and as ShapeSet does.
+std::vector<float> best_slices(std::span<const Shape> bodies, std::span<const float> planes,
+                               std::uint32_t slabs);
 
 }  // namespace bch

@@ -38,11 +38,12 @@ class PoseShaper {
   ///          heights, those of the body.
   /// Errors:  throws std::invalid_argument on a clip or a time that is not there and as OutlineBuilder and contour_hierarchy()
   ///          do, std::domain_error on a position that is not finite. The shape made before is lost.
-  const Shape& shape(PoseTime at);
+  /// `whole`: does not cut the body, whatever the plan's slices; it is then one part at all of its heights.
+  const Shape& shape(PoseTime at, bool whole = false);
 
   /// Makes the outlines of a pose, which is the first step of shape(), for callers that need these alone or take the time of each
   /// step. For roots alone there is nothing to do yet.
-  const Shape& make_outlines(PoseTime at);
+  const Shape& make_outlines(PoseTime at, bool whole = false);
   /// Makes the hierarchies over the outlines made last, which is the second step.
   const Shape& make_hierarchies();
 

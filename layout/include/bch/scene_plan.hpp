@@ -18,6 +18,7 @@ namespace bch {
 struct ShapeSource {
   std::uint32_t character = 0;  ///< index in a list that the scene has
   PoseTime at;
+  bool whole = false;  ///< not cut, in a set with slices: PoseShaper::shape(at, true)
 };
 
 /// An agent as a plan sees it.
@@ -42,6 +43,12 @@ struct SceneUse {
   /// Level of detail: the cut depth by the density around agents, for example depth_at_density(). If both
   /// functions give a depth, the coarser counts.
   std::function<std::uint32_t(double people_per_square_metre)> density_depth = {};
+  /// Planes that cut the bodies of agents who are near, for example standing_slices(3); none: bodies are whole.
+  std::vector<float> slices = {};
+  /// Level of detail: agents from this distance on, metres, are whole bodies, which cost and clear less.
+  double whole_from = std::numeric_limits<double>::infinity();
+  /// Agents stand at different heights; see Agents::z.
+  bool heights = false;
   /// The step, in seconds, to whose multiples times within a clip are rounded down, so that agents share shapes; 0: only
   /// those do that show the very same.
   float pose_step = 0;
@@ -62,10 +69,15 @@ struct ScenePlan {
 /// stops a walking person without need once a second at most; from where there is none, all_depths.
 std::uint32_t depth_at_density(double people_per_square_metre);
 
+/// Returns planes that clear most false collisions of standing people about 1.75 m tall, metres, for 1, 2, 3, 4 or 8 slabs, by
+/// measurement (`bch_ratios --table slices`, `bch report --experiment error_time`); best_slices() finds those of other bodies.
+/// Errors:  throws std::invalid_argument on another number.
+std::vector<float> standing_slices(std::uint32_t slabs);
+
 /// Plans which shapes a scene needs, each once, at which depths and with what beside.
 /// Errors:  throws std::invalid_argument on a distance or density that is negative or not finite, naming the agent, a time that is
-///          not finite, a pose step that is negative or not finite, a number of pairs that is negative or NaN, and
-///          on more than 255 different depths.
+///          not finite, a pose step that is negative or not finite, a number of pairs that is negative or NaN, a
+///          distance of whole bodies that is negative or NaN, slices that a plan may not have, and on more than 255 different depths.
 ScenePlan plan_scene(std::span<const SceneAgent> agents, const SceneUse& use = {});
 
 /// Measures how dense a crowd is around each agent, people per square metre: those within `radius`, himself among them, over

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "tests/support/bch_run.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+// `--slices` and heights, from baking to answers.
+
+namespace bch::test {
+namespace {
+
+std::string agents_at_heights(int side, int shapes) {
+  std::ostringstream csv;
+  csv << "id,shape,x,y,z,heading\n";
+  for (int i = 0; i < side * side; ++i)
+    csv << i << ',' << i % shapes << ',' << 0.43 * (i % side) << ',' << 0.41 * (i / side) << ','
+        << 0.4 * (i % 3) << ',' << 0.7 * i << '\n';
+  return csv.str();
+}
+
+TEST(Cli, BakedSlabsAnswerLikeTheirCharacter) {
+  const TemporaryFolder folder;
+  const std::string baked = folder.file("female.bch"),
+                    agents = folder.write("agents.csv", agents_at_heights(9, 5));
+  const Arguments how{"--poses", "5", "--slices", "0.4,1.0"};
+  ASSERT_EQ(bch({"bake", "default:female", "-o", baked}, how).code, 0);
+  for (const Arguments& what : {Arguments{"--all-pairs"}, Arguments{"--all-pairs", "--what", "contacts"},
+                                Arguments{"--all-pairs", "--what", "penetration"},
+                                Arguments{"--all-pairs", "--what", "clearance", "--max-distance", "0.2"}}) {
+    Arguments of_character{"query", "default:female", agents}, of_file{"query", baked, agents};
+    of_character.insert(of_character.end(), what.begin(), what.end());
+    of_file.insert(of_file.end(), what.begin(), what.end());
+    const Ending expected = bch(of_character, how), run = bch(of_file);
+    ASSERT_EQ(expected.code, 0) << expected.err;
+    EXPECT_EQ(run.out, expected.out) << run.err;
+    EXPECT_GT(lines(run.out), 20u);
+  }
+}
+
+TEST(Cli, SlicesClearCollisions) {
+  const TemporaryFolder folder;
+  const auto hits = [&](const Arguments& more) {
+    const std::string json = folder.file("crowd.json");
+    const Ending run =
+        bch({"crowd", "--agents", "300", "--poses", "5", "--depths", "all", "--json", json}, more);
+    EXPECT_EQ(run.code, 0) << run.err;
+    return read_json(json)["levels"].back()["hits"].get<std::size_t>();
+  };
+  const std::size_t whole = hits({}), three = hits({"--slices", "0.4,1"}),
+                    eight = hits({"--slices", "0.35,0.7,0.85,0.95,1.05,1.2,1.45"});
+  EXPECT_LT(three, whole);
+  EXPECT_LT(eight, three);
+  EXPECT_GT(eight, whole / 3);
+}
+
+TEST(Cli, SlabsAreDrawn) {
+  const TemporaryFolder folder;
+  const std::string svg = folder.file("slabs.svg"), crowd = folder.file("crowd.svg");
+  const Arguments slices{"--slices", "0.4,1,2.5"};
+  const Ending shape = bch({"inspect", "default:male", "--shape", "0", "--svg", svg}, slices);
+  ASSERT_EQ(shape.code, 0) << shape.err;
+  EXPECT_NE(shape.out.find("empty"), std::string::npos) << shape.out;
+  const std::string drawn = read_text(svg);
+  for (const char* panel : {"slab-0", "slab-1", "slab-2", "slab-3", "slab 3: nothing"})
+    EXPECT_NE(drawn.find(panel), std::string::npos) << panel;
+  ASSERT_EQ(bch({"crowd", "--agents", "60", "--poses", "3", "--svg", crowd}, slices).code, 0);
+  EXPECT_NE(read_text(crowd).find("slab by slab"), std::string::npos);
+}
+
+TEST(Cli, BakedSlabsAreDescribedAndVerified) {
+  const TemporaryFolder folder;
+  const std::string baked = folder.file("male.bch"), json = folder.file("male.json");
+  ASSERT_EQ(bch({"bake", "default:male", "--poses", "4", "--slices", "0.4,1", "-o", baked}).code, 0);
+  const Ending run = bch({"inspect", baked, "--verify", "--json", json});
+  EXPECT_EQ(run.code, 0) << run.err;
+  EXPECT_NE(run.out.find("3 slabs, cut at 0.4, 1 m"), std::string::npos) << run.out;
+  const auto described = read_json(json);
+  EXPECT_EQ(described["slices_m"].size(), 2u);
+  EXPECT_EQ(described["heights"], true);
+}
+
+TEST(Cli, HeightsHaveToBeBaked) {
+  const TemporaryFolder folder;
+  const std::string baked = folder.file("man.bch"),
+                    agents = folder.write("agents.csv", agents_at_heights(4, 2));
+  ASSERT_EQ(bch({"bake", "default:male", "--poses", "2", "-o", baked}).code, 0);
+  expect_failure(bch({"query", baked, agents, "--all-pairs"}), 3,
+                 {"man.bch", "baked without heights", "--heights"});
+  ASSERT_EQ(bch({"bake", "default:male", "--poses", "2", "--heights", "-o", baked}).code, 0);
+  EXPECT_EQ(bch({"query", baked, agents, "--all-pairs"}).code, 0);
+}
+
+TEST(Cli, BadSlicesAreRefused) {
+  for (const auto& [list, word] :
+       {std::pair("1,0.4", "does not ascend"), {"0.4,,1", "not a number"}, {"x", "'x'"}})
+    expect_failure(bch({"crowd", "--slices", list}), 2, {"--slices", word});
+}
+
+}  // namespace
+}  // namespace bch::test
