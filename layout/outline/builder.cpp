@@ -4,12 +4,15 @@
 #include <bch/outline_builder.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "layout/base/planes.hpp"
+#include "layout/base/rounding.hpp"
+#include "layout/format/contours.hpp"
 #include "layout/outline/candidates.hpp"
 #include "layout/outline/contour_index.hpp"
 #include "layout/outline/grid_snap.hpp"
@@ -35,6 +38,15 @@ GridBox box_around(std::span<const Stretch> contour) {
   GridBox box = empty_box;
   for (const Stretch& stretch : contour) enlarge(box, {stretch.rounded_begin, stretch.rounded_begin});
   return {{box.low.x - 1, box.low.y - 1}, {box.high.x + 1, box.high.y + 1}};
+}
+
+/// A shape has a reach of 1e-6 m at least. What of a body lies nearer to its axis in a slab gets a whisker of that length.
+void reach_far_enough(Outline& outline) {
+  if (outline.contours() == 0 || reach(outline.points) >= rounding::smallest_reach) return;
+  const auto steps = static_cast<float>(std::ceil(2 * rounding::smallest_reach / static_cast<double>(outline.grid_step)));
+  outline.points.push_back({0, 0});
+  outline.points.push_back({steps * outline.grid_step, 0});
+  outline.contour_begin.push_back(static_cast<std::uint32_t>(outline.points.size()));
 }
 
 }  // namespace
@@ -121,6 +133,7 @@ Heights OutlineBuilder::State::build(std::span<const Vec3> positions, std::span<
     contour_begin.assign(1, 0);
     if (!slab_lists[i].segments().empty()) walk_all(slab_lists[i]), any = true;
     write(step, slabs[i]);
+    reach_far_enough(slabs[i]);
   }
   if (!any) throw std::invalid_argument("outline: every triangle is a point when seen from above");
   return cuts.heights();
