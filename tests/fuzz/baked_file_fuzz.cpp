@@ -43,6 +43,8 @@ void query(const ShapeSet& set, const Implementation& implementation) {
   for (std::uint32_t s = 0; s < std::min(set.shape_count(), 6u); ++s)
     for (std::uint32_t level = 0; level < std::min(set.level_count(), 4u); ++level)
       crowd.add({s, 0.1 * level, 0.05 * s, 0.7 * level, static_cast<std::uint8_t>(level)});
+  if (set.has_heights())
+    for (std::size_t i = 0; i < crowd.x.size(); ++i) crowd.z.push_back(0.3 * static_cast<double>(i % 3));
   const Agents agents = crowd.agents();
   std::vector<Pair> pairs;
   for (std::uint32_t a = 0; a < agents.size(); ++a)
