@@ -5,6 +5,8 @@
 
 #include <algorithm>
 
+#include <bch/scene_plan.hpp>
+
 #include "bench/base/text.hpp"
 #include "bench/report/experiment.hpp"
 #include "bench/report/subject.hpp"
@@ -51,6 +53,13 @@ void add_character(Run& run, const cli::LoadedCharacter& loaded, Table& table) {
   };
   for (const std::uint32_t depth : {0u, 3u, 6u, all_depths})
     add(cut_name(depth), cases.contacts(ShapeSet(posed.shapes, {{depth}})));
+  const std::vector<ShapeSource> sources =
+      cli::list_random_shapes({&loaded, 1}, posed.shapes.size(), run.seed());
+  for (const std::uint32_t slabs : {3u, 8u}) {
+    const ShapeSetPlan plan{.slices = standing_slices(slabs)};
+    const ShapeSet set(cli::build_shapes({&loaded, 1}, sources, threshold, plan).shapes, plan);
+    add(slabs_name(slabs, Leaves::segments), cases.contacts(set, Leaves::segments));
+  }
   add("OBB outline", cases.contacts(*baselines::kind("obb_contour").build(posed.bodies, {}), all_depths));
 }
 

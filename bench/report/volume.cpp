@@ -4,13 +4,17 @@
 #include <oneapi/tbb/parallel_for.h>
 
 #include <cmath>
+#include <limits>
 #include <numbers>
+
+#include <bch/scene_plan.hpp>
 
 #include "bench/base/disc_union_area.hpp"
 #include "bench/report/coverage.hpp"
 #include "bench/report/experiment.hpp"
 #include "bench/report/paper_volume.hpp"
 #include "bench/report/subject.hpp"
+#include "layout/base/planes.hpp"
 
 // Represented volume: figure 7 and table 1 of the paper, and what cuts over the outline cover. All shapes are cylinders over
 // the ground, so that their volumes are to each other as their areas are.
@@ -66,6 +70,29 @@ void add_outline(Run& run, const std::string& character, std::span<const Shape> 
              exact.deviation, exact.mean, exact.deviation, quartiles(apart).median, quartiles(apart).high});
 }
 
+/// Adds the volumes of slabs, each as high as it is: those of their outlines, which exact leaves represent.
+void add_slabs(Run& run, const std::string& character, std::span<const Shape> whole, std::size_t begin,
+               std::uint32_t slabs, Table& table) {
+  const std::vector<float> planes = standing_slices(slabs);
+  std::vector<double> normalised;
+  for (std::size_t i = 0; i < whole.size(); ++i) {
+    const Shape& shape = run.scene().shapes_in_slabs(slabs)[begin + i];
+    const auto height = [](const Heights& heights) {
+      return static_cast<double>(heights.top) - static_cast<double>(heights.bottom);
+    };
+    double volume = 0;
+    for (std::size_t j = 0; j < shape.slabs.size(); ++j)
+      if (shape.slabs[j].outline.contours() > 0)
+        volume += area(shape.slabs[j].outline) * height(detail::heights_of_slab(shape.heights, planes, j));
+    const double radius = static_cast<double>(whole[i].hierarchy.nodes[0].disc.radius);
+    normalised.push_back(volume / (std::numbers::pi * radius * radius * height(shape.heights)));
+  }
+  constexpr double none = std::numeric_limits<double>::quiet_NaN();
+  const Estimate exact = estimate(normalised, run.seed());
+  table.add({character, slabs_name(slabs, Leaves::segments), exact.mean, exact.low, exact.high,
+             quartiles(normalised).median, exact.deviation, none, none, none, none});
+}
+
 void run_experiment(Run& run) {
   measure_paper_volumes(run);
   Table table({"character", "structure", "normalised volume", "95 % low", "95 % high", "median",
@@ -82,6 +109,8 @@ void run_experiment(Run& run) {
     for (const std::uint32_t depth : depths)
       add_depth(run, cli::file_name(character), of_one, depth, table, poses);
     add_outline(run, cli::file_name(character), of_one, table);
+    for (const std::uint32_t slabs : compared_slabs)
+      add_slabs(run, cli::file_name(character), of_one, begin, slabs, table);
     begin = end;
     run.done(static_cast<double>(c + 1) / static_cast<double>(run.scene().characters().size()));
   }
