@@ -17,9 +17,9 @@
 #include <bch/shape_set_builder.hpp>
 
 #include "baselines/slab_bodies.hpp"
-#include "tests/support/character_shapes.hpp"
 #include "tests/support/complaint.hpp"
 #include "tests/support/scenes.hpp"
+#include "tests/support/slab_scenes.hpp"
 #include "tests/support/test_characters.hpp"
 
 // Bodies in slabs, and at different heights, against the definition: every pair of parts by brute force.
@@ -29,36 +29,13 @@ namespace {
 
 using baselines::Method;
 using baselines::SlabBodies;
+using test::bodies;
+using test::eight_slabs;
+using test::levels_of;
 using test::PairScene;
+using test::raise;
 using test::Random;
-
-const std::vector<float> three = {0.4f, 1.0f}, eight = {0.35f, 0.7f, 0.85f, 0.95f, 1.05f, 1.2f, 1.45f};
-
-ShapeSetPlan levels_of(std::vector<float> slices, bool culling = true) {
-  return {.depths = {0, 3, all_depths}, .culling = culling, .slices = std::move(slices)};
-}
-
-/// People in poses, with slabs, and bodies of other kinds that are the same from their bottom to their top.
-std::vector<Shape> bodies(Random& random, const ShapeSetPlan& plan) {
-  std::vector<Shape> shapes;
-  for (const Character& character : test::default_characters()) {
-    PoseShaper shaper(character, plan);
-    for (const PoseTime& time : sample_poses(character, 8)) shapes.push_back(shaper.shape(time));
-  }
-  for (Shape& shape : test::synthetic_shapes(26, 12)) {
-    const auto bottom = static_cast<float>(random.uniform(-0.5, 1.5));
-    shape.heights = {bottom, bottom + static_cast<float>(random.uniform(0, 1))};
-    if (random.below(3) == 0) shape.heights = {};
-    shapes.push_back(std::move(shape));
-  }
-  return shapes;
-}
-
-/// Gives half of the agents heights of their own.
-void raise(Random& random, PairScene& scene) {
-  for (std::size_t i = 0; i < scene.crowd.x.size(); ++i)
-    scene.crowd.z.push_back(random.below(2) == 0 ? 5 : 5 + random.uniform(-1, 1));
-}
+using test::three_slabs;
 
 std::vector<std::uint8_t> answers(const ShapeSet& set, const PairScene& scene,
                                   const QueryOptions& options = {}) {
@@ -94,8 +71,8 @@ class Slabs : public testing::TestWithParam<std::vector<float>> {
   SlabBodies reference{shapes, plan};
 };
 
-INSTANTIATE_TEST_SUITE_P(Three, Slabs, testing::Values(three));
-INSTANTIATE_TEST_SUITE_P(Eight, Slabs, testing::Values(eight));
+INSTANTIATE_TEST_SUITE_P(Three, Slabs, testing::Values(three_slabs));
+INSTANTIATE_TEST_SUITE_P(Eight, Slabs, testing::Values(eight_slabs));
 INSTANTIATE_TEST_SUITE_P(Two, Slabs, testing::Values(std::vector<float>{0.6f}));
 
 TEST_P(Slabs, EqualBruteForce) {
@@ -285,16 +262,17 @@ TEST(Slices, RejectsWhatIsWrong) {
   EXPECT_EQ(complaint({.outlines = false, .slices = {1}}), "slices: they need outlines");
   EXPECT_EQ(complaint({.slices = std::vector<float>(64, 1)}), "slices: 64 planes, more than 63");
   Random random(1);
-  const std::vector<Shape> three_slabs = bodies(random, levels_of(three));
-  EXPECT_EQ(complaint(levels_of(eight), three_slabs), "shape set: shape 0: slices: 3 slabs for 7 planes");
+  const std::vector<Shape> cut_shapes = bodies(random, levels_of(three_slabs));
+  EXPECT_EQ(complaint(levels_of(eight_slabs), cut_shapes),
+            "shape set: shape 0: slices: 3 slabs for 7 planes");
   std::vector<Shape> empty(1);
   empty[0].slabs.resize(2);
   EXPECT_EQ(complaint({.slices = {1}}, empty), "shape set: shape 0: slices: all slabs are empty");
-  std::vector<Shape> upside_down = {three_slabs.back()};
+  std::vector<Shape> upside_down = {cut_shapes.back()};
   upside_down[0].heights = {1, 0};
   EXPECT_EQ(complaint({.slices = {1}}, upside_down), "shape set: shape 0: heights: from 1 to 0 m");
 
-  const ShapeSet flat(std::vector<Shape>{three_slabs.back()}), cut(three_slabs, levels_of(three));
+  const ShapeSet flat(std::vector<Shape>{cut_shapes.back()}), cut(cut_shapes, levels_of(three_slabs));
   PairScene scene;
   scene.crowd.add({0, 0, 0, 0, 0}), scene.crowd.add({0, 0, 0, 0, 0});
   scene.pairs = {{0, 1}};
@@ -309,7 +287,7 @@ TEST(Slices, RejectsWhatIsWrong) {
 
 TEST(Slices, SayWhereTheirDiscsAre) {
   Random random(2);
-  const ShapeSetPlan plan = levels_of(three);
+  const ShapeSetPlan plan = levels_of(three_slabs);
   const std::vector<Shape> shapes = bodies(random, plan);
   const ShapeSet set(shapes, plan);
   for (std::uint32_t s = 0; s < set.shape_count(); ++s) {
