@@ -28,8 +28,10 @@ struct ContactFinder::State {
   std::vector<DiscPair> contacts;
 
   PartItems items;
+  std::vector<std::uint64_t> item_offsets;  ///< as many as items, of which pairs may have none
 
-  void find(const Implementation& implementation, const Arguments& arguments, std::size_t pairs);
+  void find(const Implementation& implementation, const Arguments& arguments, std::size_t pairs,
+            std::vector<std::uint64_t>& begins);
   void find_of_parts(const Implementation& implementation, const Arguments& whole, const Agents& agents,
                      std::span<const Pair> pairs);
   Rows<DiscPair> find(const ShapeSet& shapes, const Agents& agents, std::span<const Pair> pairs,
@@ -37,16 +39,16 @@ struct ContactFinder::State {
 };
 
 void ContactFinder::State::find(const Implementation& implementation, const Arguments& arguments,
-                                std::size_t pairs) {
-  offsets.resize(pairs + 1);
+                                std::size_t pairs, std::vector<std::uint64_t>& begins) {
+  begins.resize(pairs + 1);
   for_ranges(pairs, grain, [&](std::size_t begin, std::size_t end) {
-    implementation.kernels->count_contacts(arguments, begin, end, offsets.data());
+    implementation.kernels->count_contacts(arguments, begin, end, begins.data());
   });
-  offsets[pairs] = 0;
-  std::exclusive_scan(offsets.begin(), offsets.end(), offsets.begin(), std::uint64_t{0});
-  contacts.resize(offsets[pairs]);
+  begins[pairs] = 0;
+  std::exclusive_scan(begins.begin(), begins.end(), begins.begin(), std::uint64_t{0});
+  contacts.resize(begins[pairs]);
   for_ranges(pairs, grain, [&](std::size_t begin, std::size_t end) {
-    implementation.kernels->fill_contacts(arguments, begin, end, offsets.data(), contacts.data());
+    implementation.kernels->fill_contacts(arguments, begin, end, begins.data(), contacts.data());
   });
 }
 
@@ -58,25 +60,25 @@ void ContactFinder::State::find_of_parts(const Implementation& implementation, c
   const Agents part_agents = items.agents();
   Arguments arguments = arguments_for(parts, part_agents, items.pairs());
   arguments.exact_leaves = whole.exact_leaves;
-  find(implementation, arguments, items.size());
+  find(implementation, arguments, items.size(), item_offsets);
   for_ranges(pairs.size(), grain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       for (std::size_t k = items.begin(i); k < items.begin(i + 1); ++k)
-        for (std::uint64_t c = offsets[k]; c < offsets[k + 1]; ++c) {
+        for (std::uint64_t c = item_offsets[k]; c < item_offsets[k + 1]; ++c) {
           auto& [first, second] = contacts[c];
           first += items.origin(k).first_disc_a, second += items.origin(k).first_disc_b;
           if (pairs[i].second < pairs[i].first) std::swap(first, second);
         }
       const auto at = [&](std::size_t item) {
-        return contacts.begin() + static_cast<std::ptrdiff_t>(offsets[item]);
+        return contacts.begin() + static_cast<std::ptrdiff_t>(item_offsets[item]);
       };
       std::sort(at(items.begin(i)), at(items.begin(i + 1)), [](const DiscPair& a, const DiscPair& b) {
         return std::pair(a.first, a.second) < std::pair(b.first, b.second);
       });
     }
   });
-  for (std::size_t i = 0; i <= pairs.size(); ++i) offsets[i] = offsets[items.begin(i)];
   offsets.resize(pairs.size() + 1);
+  for (std::size_t i = 0; i <= pairs.size(); ++i) offsets[i] = item_offsets[items.begin(i)];
 }
 
 Rows<DiscPair> ContactFinder::State::find(const ShapeSet& shapes, const Agents& agents,
@@ -92,7 +94,7 @@ Rows<DiscPair> ContactFinder::State::find(const ShapeSet& shapes, const Agents& 
     if (asks_parts(view, agents))
       find_of_parts(implementation, arguments, agents, pairs);
     else
-      find(implementation, arguments, pairs.size());
+      find(implementation, arguments, pairs.size(), offsets);
   } catch (...) {
     *this = {};
     throw;
