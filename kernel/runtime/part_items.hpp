@@ -23,7 +23,7 @@ inline bool asks_parts(const ShapeSetView& shapes, const Agents& agents) noexcep
 ShapeSetView parts_as_shapes(const ShapeSetView& shapes) noexcept;
 
 /// Pairs of parts as pairs of agents of a set whose shapes are parts, for kernels that know nothing of slabs. The items of a pair
-/// follow each other; of each the agent of the lower index is that of the pair.
+/// follow each other, each two parts once; of each the agent of the lower index is that of the pair.
 class PartItems {
  public:
   /// An item's pair, and where its parts are: slabs, and the numbers of their first discs among those of their bodies.
@@ -44,6 +44,8 @@ class PartItems {
   std::size_t begin(std::size_t pair) const noexcept { return begin_[pair]; }
 
  private:
+  /// Returns whether items from `begin` on have two parts already.
+  bool is_listed(std::size_t begin, std::uint32_t part_a, std::uint32_t part_b) const;
   void add(const Agents& agents, std::uint32_t agent, std::uint32_t part, std::uint8_t level);
 
   std::vector<std::uint32_t> part_;
