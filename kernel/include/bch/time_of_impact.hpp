@@ -38,7 +38,7 @@ struct Displacements {
 /// Sizes:   as many displacements in x, in y, and times as pairs. An agent may be paired with itself (0).
 /// Errors:  throws std::invalid_argument, before anything is written, as collide() does, and on a
 ///          displacement that is not finite or beyond the limits.
-/// Threads: runs in the caller's TBB arena. Allocates nothing.
+/// Threads: runs in the caller's TBB arena. Allocates nothing, but for bodies in slabs or at different heights.
 /// Source:  the slide of the paper's experiment, in one query instead of small steps.
 void time_of_impact(const ShapeSet& shapes, const Agents& agents, std::span<const Pair> pairs,
                     const Displacements& displacements, std::span<float> times,
