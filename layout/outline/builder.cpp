@@ -12,7 +12,6 @@
 
 #include "layout/base/planes.hpp"
 #include "layout/base/rounding.hpp"
-#include "layout/format/contours.hpp"
 #include "layout/outline/candidates.hpp"
 #include "layout/outline/contour_index.hpp"
 #include "layout/outline/grid_snap.hpp"
@@ -40,13 +39,17 @@ GridBox box_around(std::span<const Stretch> contour) {
   return {{box.low.x - 1, box.low.y - 1}, {box.high.x + 1, box.high.y + 1}};
 }
 
-/// A shape has a reach of 1e-6 m at least. What of a body lies nearer to its axis in a slab gets a whisker of that length.
-void reach_far_enough(Outline& outline) {
-  if (outline.contours() == 0 || reach(outline.points) >= rounding::smallest_reach) return;
-  const auto steps = static_cast<float>(std::ceil(2 * rounding::smallest_reach / static_cast<double>(outline.grid_step)));
-  outline.points.push_back({0, 0});
-  outline.points.push_back({steps * outline.grid_step, 0});
-  outline.contour_begin.push_back(static_cast<std::uint32_t>(outline.points.size()));
+/// A slab may hold no more of a body than a tip at the origin, while outlines have a smallest reach. That becomes a square which
+/// holds it. (The grid is finer than the square: a coarser one has no points so near but the origin.)
+void keep_reach(Outline& slab) {
+  constexpr float half = 0x1p-19f;
+  static_assert(static_cast<double>(half) > rounding::smallest_reach);
+  const bool is_reached = std::any_of(slab.points.begin(), slab.points.end(), [](Vec2 p) {
+    return std::hypot(double{p.x}, double{p.y}) >= rounding::smallest_reach;
+  });
+  if (slab.points.empty() || is_reached) return;
+  slab.points.assign({{-half, -half}, {half, -half}, {half, half}, {-half, half}});
+  slab.contour_begin.assign({0, 4});
 }
 
 }  // namespace
@@ -133,7 +136,7 @@ Heights OutlineBuilder::State::build(std::span<const Vec3> positions, std::span<
     contour_begin.assign(1, 0);
     if (!slab_lists[i].segments().empty()) walk_all(slab_lists[i]), any = true;
     write(step, slabs[i]);
-    reach_far_enough(slabs[i]);
+    keep_reach(slabs[i]);
   }
   if (!any) throw std::invalid_argument("outline: every triangle is a point when seen from above");
   return cuts.heights();

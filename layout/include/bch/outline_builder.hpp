@@ -55,7 +55,7 @@ class OutlineBuilder {
   /// Writes the outlines of the slabs that horizontal planes cut a pose into: of what lies between two of them, below the
   /// first, and above the last. Triangles are cut. A slab that nothing lies in gets an outline without contours. A point that two
   /// meshes share lies within 1.5 grid steps of both outlines of one slab, however the meshes lie to the planes; so a plane is half
-  /// a float step above its number.
+  /// a float step above its number. Of a slab that reaches less than 1e-6 m from the origin the outline is a square of 4 um.
   /// Sizes:   slabs.size() == planes.size() + 1.
   /// Units:   metres above the ground, ascending; at most 63 planes.
   /// Returns: the heights of all vertices that triangles use.
