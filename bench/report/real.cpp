@@ -54,7 +54,7 @@ void add_character(Run& run, const cli::LoadedCharacter& loaded, Table& table) {
   for (const std::uint32_t depth : {0u, 3u, 6u, all_depths})
     add(cut_name(depth), cases.contacts(ShapeSet(posed.shapes, {{depth}})));
   const std::vector<ShapeSource> sources =
-      cli::list_random_shapes({&loaded, 1}, posed.shapes.size(), run.seed());
+      cli::list_random_shapes({&loaded, 1}, std::min(run.sizes().poses, most_poses), run.seed());
   for (const std::uint32_t slabs : {3u, 8u}) {
     const ShapeSetPlan plan{.slices = standing_slices(slabs)};
     const ShapeSet set(cli::build_shapes({&loaded, 1}, sources, threshold, plan).shapes, plan);

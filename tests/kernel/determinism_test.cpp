@@ -38,6 +38,12 @@ const Hashes golden{0x5a2185e3105413a1, 0xb001f2145d76abf1, 0x0df165085461f9bf, 
                     0xe67190d710f1ec09, 0xebec44f58f6fc63e, 0x05d25bd83e461c8b, 0x8a060f5623b47a02,
                     0x80ad28f139efe06b};
 
+/// The same of bodies in slabs, half of them at heights of their own.
+const Hashes golden_in_slabs{0xe88815e591d446b5, 0xe88815e591d446b5, 0xde0b4d31d1ba4baf, 0x10d54fdfe552c312,
+                             0xd6315e2775ef89e4, 0xdd2a441365de5f93, 0x176504ed511a8a7e, 0x5096fe125a9432b4,
+                             0x25c0855873678901, 0x52cc99c3a5b22b3f, 0xb9c20e9647f0689d, 0xb9c20e9647f0689d,
+                             0x60036c157316f25e};
+
 /// In this order, bytes of all answers.
 class AnswerBytes {
  public:
@@ -92,7 +98,9 @@ constexpr FloatState odd_states[] = {{"denormals are zero, both ways", 0x1f80 | 
                                      {"towards zero", 0x1f80 | 0x6000},
                                      {"traps", 0x1f80 & ~0x680u}};
 
-class Determinism : public testing::Test {
+enum class Bodies { whole, in_slabs };
+
+class Determinism : public testing::TestWithParam<Bodies> {
  protected:
   Determinism() {
     test::Random random(62);
@@ -102,6 +110,9 @@ class Determinism : public testing::Test {
     // Apart by less than the least normal number.
     crowd.add({16, 30, 0, 0, 0});
     crowd.add({16, 30, 1e-40, 0, 0});
+    // Half of them on the same ground.
+    for (std::size_t i = 0; i < crowd.x.size() && in_slabs; ++i)
+      crowd.z.push_back(random.below(2) == 0 ? 0 : random.uniform(-1, 1));
     pairs = candidate_pairs(set, crowd.agents());
     for (std::size_t i = 0; i < pairs.size(); ++i) {
       x.push_back(random.uniform(-2, 2)), y.push_back(random.uniform(-2, 2));
@@ -125,8 +136,27 @@ class Determinism : public testing::Test {
     all.push_back(test::contour_shape(test::polygon({{-1, -1}, {1, -1}, {1, 1}, {-1, 1}})));
     return all;
   }
+  /// Each of them above others, some without a slab, and some not cut.
+  static std::vector<Shape> shapes_in_slabs() {
+    const std::vector<Shape> parts = shapes();
+    std::vector<Shape> all;
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+      Shape& body = all.emplace_back();
+      if (i % 5 == 4) body = parts[i];
+      body.heights = {0.1f * static_cast<float>(i % 3), 1.4f + 0.1f * static_cast<float>(i % 4)};
+      if (i % 5 == 4) continue;
+      body.slabs = {parts[(i + 6) % parts.size()], parts[(i + 11) % parts.size()], parts[i]};
+      if (i % 5 == 3) body.slabs[i % 3] = {};
+    }
+    return all;
+  }
 
-  const ShapeSet set{shapes(), {{0, 3, all_depths}, true}};
+  const Hashes& expected() const { return in_slabs ? golden_in_slabs : golden; }
+
+  const bool in_slabs = GetParam() == Bodies::in_slabs;
+  const ShapeSet set{
+      in_slabs ? shapes_in_slabs() : shapes(),
+      {.depths = {0, 3, all_depths}, .slices = in_slabs ? std::vector{0.5f, 1.2f} : std::vector<float>()}};
   test::Crowd crowd;
   std::vector<Pair> pairs;
   std::vector<double> x, y;
@@ -174,26 +204,30 @@ class Determinism : public testing::Test {
   }
 };
 
-TEST_F(Determinism, OfInstructionSets) {
+INSTANTIATE_TEST_SUITE_P(Whole, Determinism, testing::Values(Bodies::whole));
+INSTANTIATE_TEST_SUITE_P(InSlabs, Determinism, testing::Values(Bodies::in_slabs));
+
+TEST_P(Determinism, OfInstructionSets) {
   EXPECT_GT(pairs.size(), 5'000u);
   for (const auto& isa : implementations()) {
     if (isa.supported()) {
-      EXPECT_EQ(hashes(&isa, pairs.size()), golden) << isa.name;
+      EXPECT_EQ(hashes(&isa, pairs.size()), expected()) << isa.name;
     }
   }
 }
 
-TEST_F(Determinism, OfThreadsAndBatches) {
+TEST_P(Determinism, OfThreadsAndBatches) {
   const tbb::global_control allow(tbb::global_control::max_allowed_parallelism, 32);
   for (const int threads : {1, 2, 3, 8, 32}) {
     tbb::task_arena arena(threads);
     for (const std::size_t batch : {pairs.size(), std::size_t{2049}, std::size_t{100}})
-      arena.execute([&] { EXPECT_EQ(hashes(nullptr, batch), golden) << threads << " threads, " << batch; });
+      arena.execute(
+          [&] { EXPECT_EQ(hashes(nullptr, batch), expected()) << threads << " threads, " << batch; });
   }
 }
 
 /// New arenas give the state of the thread that makes them to their workers.
-TEST_F(Determinism, OfTheThreadsFloatingPointState) {
+TEST_P(Determinism, OfTheThreadsFloatingPointState) {
   const tbb::global_control allow(tbb::global_control::max_allowed_parallelism, 4);
   const unsigned before = _mm_getcsr();
   for (const FloatState& state : odd_states) {
@@ -205,7 +239,7 @@ TEST_F(Determinism, OfTheThreadsFloatingPointState) {
       arena.execute([&] { here = hashes(nullptr, pairs.size()), after = _mm_getcsr(); });
     }
     _mm_setcsr(before);
-    EXPECT_EQ(here, golden) << state.name;
+    EXPECT_EQ(here, expected()) << state.name;
     EXPECT_EQ(after & ~flags, state.bits) << state.name;
   }
 }

@@ -23,7 +23,8 @@ namespace bch {
 ///
 /// Bodies in slabs (ShapeSetPlan::slices) collide where two of their slabs do, solid, whatever `semantics` says: inside a body
 /// crossing outlines alone mean nothing. Agents at different heights (Agents::z) collide where parts of them do whose heights
-/// meet. Meshes that have a point in common are hits in either case.
+/// meet. Meshes that have a point in common are hits in either case, but for lone triangles that are points on the grid of
+/// OutlineBuilder, which outlines leave out.
 ///
 /// Options: semantics, leaves, implementation.
 /// Sizes:   hits.size() == pairs.size(); an agent may be paired with itself (it collides).
