@@ -73,7 +73,7 @@ class PairKernel {
   using List = ChunkPairs<Simd, chunk_size>;
 
   /// Answers the pairs that were placed.
-  void answer_chunk(std::size_t begin) noexcept {
+  [[gnu::always_inline]] void answer_chunk(std::size_t begin) noexcept {
     codes_ = in_.codes + begin;
     open_.size = near_.size = 0;
     if (shapes_.support == nullptr || !shapes_.rows_in_order) {
@@ -138,7 +138,7 @@ class PairKernel {
 
   /// Leaves the pairs open that only a walk can decide. Those that are not separated have the code for it by
   /// now.
-  void take_culling() noexcept {
+  [[gnu::noinline]] void take_culling() noexcept {
     compare_profiles();
     axis_test_.place_directions();
     separate(0);

@@ -159,7 +159,7 @@ class SlabKernel {
   }
 
   /// Pairs that go through their rounds together: more than a chunk, because a round ends when the last traversal does.
-  static constexpr std::uint32_t group_size = chunk_size;
+  static constexpr std::uint32_t group_size = 2 * chunk_size;
 
   const Arguments& in_;
   Arguments for_parts_;

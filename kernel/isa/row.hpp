@@ -20,6 +20,8 @@ namespace bch::detail {
 template <class Simd>
 struct Row {
   using Guard [[maybe_unused]] = typename Simd::Guard;
+  /// Bodies in slabs have stages of their own, so that what they call does not decide what is inlined for whole bodies.
+  struct ForSlabs : Simd {};
 
   static bool check(const Arguments& arguments, std::size_t begin, std::size_t end) noexcept {
     [[maybe_unused]] const Guard guard;
@@ -35,7 +37,7 @@ struct Row {
   }
   static void run_in_slabs(const Arguments& arguments, std::size_t begin, std::size_t end) noexcept {
     [[maybe_unused]] const Guard guard;
-    SlabKernel<Simd>::run(arguments, begin, end);
+    SlabKernel<ForSlabs>::run(arguments, begin, end);
   }
   static bool run_if_valid(const Arguments& arguments, std::uint32_t count) noexcept {
     [[maybe_unused]] const Guard guard;

@@ -165,8 +165,8 @@ class Placements {
 
   /// layout/base/heading.cpp, in lanes.
   template <bool check>
-  static UnitVectors unit_vectors(const double* heading, const std::uint32_t* agent,
-                                  Magnitudes<check>& magnitudes) noexcept {
+  [[gnu::always_inline]] static UnitVectors unit_vectors(const double* heading, const std::uint32_t* agent,
+                                                         Magnitudes<check>& magnitudes) noexcept {
     namespace h = heading_constants;
     const auto round_to_integer = [](Double x) {
       return (x + Double(h::round_to_integer)) - Double(h::round_to_integer);
