@@ -4,7 +4,7 @@ set logscale x
 set xlabel pairs." pair, one thread (ns)"
 set ylabel error
 set yrange [0:*]
-set bmargin screen 0.41
+set bmargin screen 0.455
 set format x "%.0f"
 slabs = '"BCH in 2 slabs" "BCH in 3 slabs" "BCH in 4 slabs" "BCH in 8 slabs"'
 kinds = '"BCH outline in the batch kernel" "BCH outline with exact leaves" "BCH outline" "BCH projected" "OBB outline" "OBB outline in 2D" "OBB full mesh" "OBB projected"'

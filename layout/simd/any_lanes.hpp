@@ -117,7 +117,8 @@ struct AnyLanes {
   /// Field after field of records of four floats, lane = record. They are picked from a table, each by an index of
   /// strides from its beginning.
   template <std::size_t stride>
-  [[gnu::always_inline]] static void load_records(const float* table, const std::uint32_t* index, Float (&field)[4]) noexcept {
+  [[gnu::always_inline]] static void load_records(const float* table, const std::uint32_t* index,
+                                                  Float (&field)[4]) noexcept {
     Float record[4];
 #pragma GCC unroll 4
     for (std::size_t i = 0; i < 4; ++i)

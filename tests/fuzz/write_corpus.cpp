@@ -62,7 +62,8 @@ void add_tables(Folder folder) {
   folder.add(tables(head, "id,shape,x,y,heading,level\n\"a\"\"b\",0,0,0,0,0\n\n", ""));
   folder.add(tables(moving, "id,shape,x,y,heading,dx,dy\na,0,0,0,0,0.5,-1e9\nb,0,1,1,0,,0\n", ""));
   folder.add(tables(head, columns + "ana,0,0,0,0\n" + nul + "b,1,0.3,0,1\n", pairs));
-  folder.add(tables(head, "id,shape,x,y,z,heading\nana,0,0,0,3,0\nb,1,0,0,-1e9,1\n\"c,d\",2,0,0,nan,1\n", pairs));
+  folder.add(
+      tables(head, "id,shape,x,y,z,heading\nana,0,0,0,3,0\nb,1,0,0,-1e9,1\n\"c,d\",2,0,0,nan,1\n", pairs));
   folder.add(tables(head, columns + "ana,0,1" + nul + "000,0,0\nb,0,0,0,0\n", pairs));
   folder.add(tables(head, columns + "a,0,0,0,0\n", "first,second\na,a\n" + nul + "b,a\n"));
   folder.add(tables(head, columns + "\x1b[2J\r\x7f\xc2\x9b,0,0,0,0\n\xe2\x80\xae\xff\xed\xa0\x80,0,1,1,0\n",
@@ -76,7 +77,10 @@ void add_lines(Folder folder) {
   const char* const lines[] = {
       "bake man.glb woman.glb --poses 200 --threshold 0.02 --depths 0,3,all --semantics solid",
       "bake a --clips b --clips c --up z --scale 1e-2 --threads 4 --isa sse2",
-      "bake --depths 3,2 a --isa none --poses -1 --threshold nan", "bake --help", "-- bake --up=w a", "crowd --slices 0.4,1.0 --heights",
+      "bake --depths 3,2 a --isa none --poses -1 --threshold nan",
+      "bake --help",
+      "-- bake --up=w a",
+      "crowd --slices 0.4,1.0 --heights",
       "inspect a --slices 1,,0.4"};
   for (std::string line : lines) {
     for (char& c : line)
