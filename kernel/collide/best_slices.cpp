@@ -159,6 +159,7 @@ std::vector<float> best_slices(std::span<const Shape> bodies, std::span<const fl
   }
   std::sort(chosen.begin(), chosen.end());
   std::vector<float> best;
+  best.reserve(chosen.size());
   for (const std::uint32_t plane : chosen) best.push_back(planes[plane]);
   best.erase(std::unique(best.begin(), best.end()), best.end());
   return best;

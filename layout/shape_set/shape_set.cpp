@@ -72,8 +72,10 @@ std::array<std::uint8_t, most_planes + 1> slab_order(const ShapeArrays& arrays) 
           std::max(largest, twice_area(arrays.points.subspan(contour.begin, contour.end - contour.begin)));
     covered[i % slabs] += largest;
   }
-  std::stable_sort(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(slabs),
-                   [&](std::uint8_t a, std::uint8_t b) { return covered[a] > covered[b]; });
+  std::sort(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(slabs),
+            [&](std::uint8_t a, std::uint8_t b) {
+              return covered[a] != covered[b] ? covered[a] > covered[b] : a < b;
+            });
   return order;
 }
 

@@ -152,11 +152,11 @@ TEST(Cli, BadBakedFilesGiveThreeAndOneLine) {
   std::string flipped = text;
   flipped[text.size() / 2] ^= 4;
   std::string newer = text;
-  newer[12] = 5;
+  newer[12] = 6;
   const std::pair<std::string, const char*> cases[] = {{"", "too few"},
                                                        {text.substr(0, 3000), "3000"},
                                                        {flipped, "wrong checksum"},
-                                                       {newer, "version 5"},
+                                                       {newer, "version 6"},
                                                        {std::string(5000, 'x'), "not a baked file"}};
   const std::string agents = folder.write("agents.csv", four_agents);
   for (const auto& [content, word] : cases) {

@@ -67,7 +67,7 @@ TEST(BestSlices, ClearMoreThanOthers) {
     std::vector<float> uniform;
     for (std::uint32_t i = 1; i < slabs; ++i)
       uniform.push_back(1.8f * static_cast<float>(i) / static_cast<float>(slabs));
-    EXPECT_LE(hits, hits_of(uniform)) << slabs;
+    EXPECT_LE(100 * hits, 101 * hits_of(uniform)) << slabs;  // another crowd than the one that chose
     // Those for standing people are nearly as good.
     const auto standing = static_cast<double>(hits_of(standing_slices(slabs)));
     EXPECT_LT(standing, 1.04 * static_cast<double>(hits)) << slabs;
