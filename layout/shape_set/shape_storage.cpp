@@ -114,8 +114,7 @@ void ShapeStorage::put_slabs(std::size_t shape, std::size_t first_part, const Fl
     *out++ = part == no_part ? part : static_cast<std::uint32_t>(first_part + part);
   if (!hull_support.empty())
     std::copy(body.hull.begin(), body.hull.end(), hull_support.data() + shape * support_stride);
-  std::copy(body.heights.begin(), body.heights.end(),
-            heights.begin() + static_cast<std::ptrdiff_t>(first_part));
+  std::copy(body.heights.begin(), body.heights.end(), heights.data() + (heights.empty() ? 0 : first_part));
 }
 
 void ShapeStorage::put(std::size_t part, const FlatShape& flat, const ShapeExtent& at) {
