@@ -2,16 +2,15 @@
 // Copyright (c) 2026 the bch authors
 
 #include "bench/characters/crowd.hpp"
+#include "layout/base/random.hpp"
 
 #include <cmath>
 #include <numbers>
 
-#include "bench/base/random.hpp"
-
 namespace bch::cli {
 
 Crowd place_crowd(std::uint32_t agents, double density, std::uint32_t shapes, std::uint64_t seed) {
-  Random random(seed);
+  detail::Random random(seed);
   Crowd crowd;
   crowd.side = std::sqrt(agents / density);
   for (std::uint32_t i = 0; i < agents; ++i) {

@@ -13,7 +13,7 @@
 
 #include "bench/base/exit_codes.hpp"
 #include "bench/base/progress.hpp"
-#include "bench/base/random.hpp"
+#include "layout/base/random.hpp"
 
 namespace bch::cli {
 namespace {
@@ -38,7 +38,7 @@ std::vector<ShapeSource> list_shapes(std::span<const LoadedCharacter> characters
 std::vector<ShapeSource> list_random_shapes(std::span<const LoadedCharacter> characters, std::uint32_t poses,
                                             std::uint64_t seed) {
   constexpr std::uint32_t finer = 100;  // a random time is one of so many even ones a pose
-  Random random(seed);
+  detail::Random random(seed);
   std::vector<ShapeSource> sources;
   for (std::uint32_t c = 0; c < characters.size(); ++c) {
     const Character& character = characters[c].character;

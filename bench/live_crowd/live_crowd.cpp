@@ -9,9 +9,9 @@
 
 #include <bch/collide.hpp>
 
-#include "bench/base/random.hpp"
 #include "bench/base/stopwatch.hpp"
 #include "layout/base/heading.hpp"
+#include "layout/base/random.hpp"
 
 namespace bch::bench {
 namespace {
@@ -21,7 +21,7 @@ constexpr double speed = 1.3;       ///< metres a second
 constexpr float threshold = 0.01f;  ///< metres
 
 std::vector<ShapeSource> random_sources(std::span<const Character> characters, std::uint32_t agents) {
-  cli::Random random(71);
+  detail::Random random(71);
   std::vector<ShapeSource> sources;
   for (std::uint32_t i = 0; i < agents; ++i) {
     const std::uint32_t character = random.below(static_cast<std::uint32_t>(characters.size()));

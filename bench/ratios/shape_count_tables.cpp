@@ -6,10 +6,10 @@
 #include <cmath>
 #include <memory>
 
-#include "bench/base/random.hpp"
 #include "bench/base/text.hpp"
 #include "bench/ratios/ratios.hpp"
 #include "bench/workload/answer_checks.hpp"
+#include "layout/base/random.hpp"
 #include "layout/hierarchy/builder.hpp"
 
 namespace bch::bench {
@@ -28,7 +28,7 @@ constexpr Row rows[] = {{5'000, 1.8}, {50'000, 3}};
 /// Copies of the scene's outlines, each stretched a little along x and y, on the grid: as different in memory as
 /// further poses would be.
 std::vector<Shape> stretched(std::span<const Shape> shapes, std::uint32_t count) {
-  cli::Random random(17);
+  detail::Random random(17);
   detail::HierarchyBuilder builder;
   std::vector<Shape> copies(count);
   for (std::uint32_t i = 0; i < count; ++i) {

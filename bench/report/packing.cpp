@@ -11,8 +11,8 @@
 #include <bch/collide_all.hpp>
 #include <bch/penetration.hpp>
 
-#include "bench/base/random.hpp"
 #include "bench/characters/crowd.hpp"
+#include "layout/base/random.hpp"
 
 namespace bch::report {
 namespace {
@@ -165,7 +165,7 @@ class Packing {
   std::uint32_t people_;
   Freedom freedom_;
   std::uint32_t poses_;
-  cli::Random random_;
+  detail::Random random_;
   cli::Crowd crowd_;
   CrowdCollider collider_;
   std::vector<Pair> pairs_;

@@ -41,7 +41,7 @@ struct PairOfCase {
 }  // namespace
 
 SlideCases::SlideCases(std::span<const Shape> shapes, std::uint32_t cases, std::uint64_t seed) {
-  cli::Random random(seed);
+  detail::Random random(seed);
   const auto count = static_cast<std::uint32_t>(shapes.size());
   for (std::uint32_t i = 0; i < cases; ++i) {
     double reach = 0;
@@ -64,7 +64,7 @@ SlideCases::SlideCases(std::span<const Shape> shapes, std::uint32_t cases, std::
   }
 }
 
-void SlideCases::draw(cli::Random& random, std::size_t of) {
+void SlideCases::draw(detail::Random& random, std::size_t of) {
   crowd_.heading[2 * of] = random.uniform(2 * std::numbers::pi);
   crowd_.heading[2 * of + 1] = random.uniform(2 * std::numbers::pi);
   crowd_.y[2 * of] = random.uniform(2 * most_beside) - most_beside;

@@ -11,8 +11,8 @@
 
 #include "baselines/pair_distances.hpp"
 #include "baselines/structure.hpp"
-#include "bench/base/random.hpp"
 #include "bench/characters/crowd.hpp"
+#include "layout/base/random.hpp"
 
 namespace bch::report {
 
@@ -41,7 +41,7 @@ class SlideCases {
   std::vector<double> distances(const baselines::PairDistances& bodies, std::span<const double> places) const;
 
  private:
-  void draw(cli::Random& random, std::size_t of);
+  void draw(detail::Random& random, std::size_t of);
   /// `meet`: whether the two of some agents do; not before so many steps.
   template <class Meet>
   double contact(std::size_t of, double first_step, Meet meet) const;

@@ -2,12 +2,11 @@
 // Copyright (c) 2026 the bch authors
 
 #include "bench/report/statistics.hpp"
+#include "layout/base/random.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
-
-#include "bench/base/random.hpp"
 
 namespace bch::report {
 namespace {
@@ -44,7 +43,7 @@ Estimate estimate(std::span<const double> values, std::uint64_t seed) {
   const auto count = static_cast<std::uint32_t>(values.size());
   const double deviation = count > 1 ? std::sqrt(squares / (count - 1)) : 0;
 
-  cli::Random random(seed);
+  detail::Random random(seed);
   std::vector<double> means(resamples), sample(count);
   for (double& of_sample : means) {
     for (double& value : sample) value = values[random.below(count)];

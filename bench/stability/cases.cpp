@@ -14,7 +14,7 @@
 namespace bch::bench {
 namespace {
 
-using cli::Random;
+using detail::Random;
 
 using Setups = std::vector<StabilitySetup>;
 using Specimens = std::vector<Specimen>;

@@ -14,7 +14,7 @@
 namespace bch::bench {
 namespace {
 
-using cli::Random;
+using detail::Random;
 
 /// Agents 2 i and 2 i + 1 are pair i.
 struct Batch {

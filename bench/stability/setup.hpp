@@ -22,17 +22,17 @@ struct StabilitySetup {
   double conditioning = 0;
   bool outside = false;    ///< of the documented domain
   std::uint32_t cost = 1;  ///< only one in so many pairs is tried, at least 20
-  std::function<std::vector<Specimen>(cli::Random&)> make = [](cli::Random& random) {
+  std::function<std::vector<Specimen>(detail::Random&)> make = [](detail::Random& random) {
     return usual_specimens(random, 1);
   };
   /// Makes the shapes of the second agent; null: as of the first.
-  std::function<std::vector<Specimen>(cli::Random&)> make_other = nullptr;
+  std::function<std::vector<Specimen>(detail::Random&)> make_other = nullptr;
   Placing placing = Placing::contact;
   double x = 0, y = 0;              ///< of the first agent
   double apart_x = 0, apart_y = 0;  ///< the second agent's position from there, where they are apart
-  std::function<double(cli::Random&)> heading = nullptr;  ///< null: all directions
+  std::function<double(detail::Random&)> heading = nullptr;  ///< null: all directions
   /// Draws a gap from the sum of two radii and the sum of the reaches; null: gaps of all sizes.
-  std::function<double(cli::Random&, double radii, double reaches)> gap = nullptr;
+  std::function<double(detail::Random&, double radii, double reaches)> gap = nullptr;
 };
 
 /// Returns the distance from a value to the next float or double.

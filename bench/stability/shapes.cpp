@@ -14,7 +14,7 @@
 namespace bch::bench {
 namespace {
 
-using cli::Random;
+using detail::Random;
 
 constexpr double pi = std::numbers::pi;
 

@@ -9,7 +9,7 @@
 #include <bch/shape_set.hpp>
 
 #include "baselines/exact_discs.hpp"
-#include "bench/base/random.hpp"
+#include "layout/base/random.hpp"
 
 namespace bch::bench {
 
@@ -34,14 +34,14 @@ Specimen contour_specimen(std::vector<Vec2> points, double threshold);
 Specimen triangle_specimen(const std::vector<Vec2>& corners, double threshold);
 
 /// Returns corners around (x, y) at distances within [inner, outer], y divided by `slenderness`.
-std::vector<Vec2> ring(cli::Random& random, std::uint32_t corners, double inner, double outer, double x = 0,
-                       double y = 0, double slenderness = 1);
+std::vector<Vec2> ring(detail::Random& random, std::uint32_t corners, double inner, double outer,
+                       double x = 0, double y = 0, double slenderness = 1);
 
 /// Returns outlines of few and many corners about their origin and beside it, and strokes, each of this
 /// reach.
-std::vector<Specimen> usual_specimens(cli::Random& random, double reach);
+std::vector<Specimen> usual_specimens(detail::Random& random, double reach);
 
 enum class Soup { collinear, duplicate, folded, needle };
-std::vector<Specimen> soup_specimens(cli::Random& random, Soup kind);
+std::vector<Specimen> soup_specimens(detail::Random& random, Soup kind);
 
 }  // namespace bch::bench

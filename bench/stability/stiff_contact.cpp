@@ -9,14 +9,14 @@
 #include <cmath>
 #include <numbers>
 
-#include "bench/base/random.hpp"
 #include "bench/base/text.hpp"
 #include "bench/stability/stiff_world.hpp"
+#include "layout/base/random.hpp"
 
 namespace bch::bench {
 namespace {
 
-using cli::Random;
+using detail::Random;
 
 constexpr double pi = std::numbers::pi;
 constexpr DepthMeasure measures[] = {DepthMeasure::penetration, DepthMeasure::discs, DepthMeasure::centres};

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "bench/base/random.hpp"
+#include "layout/base/random.hpp"
 #include "layout/character/eigen.hpp"
 
 namespace bch::bench {
@@ -58,7 +58,7 @@ class Relief {
   }
 
  private:
-  cli::Random random_{5};
+  detail::Random random_{5};
   std::vector<Eigen::Vector3f> normals_;
 };
 

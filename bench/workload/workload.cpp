@@ -12,8 +12,8 @@
 
 #include <bch/broad_phase.hpp>
 
-#include "bench/base/random.hpp"
 #include "layout/base/heading.hpp"
+#include "layout/base/random.hpp"
 
 namespace bch::bench {
 namespace {
@@ -42,7 +42,7 @@ void add(cli::Crowd& crowd, std::uint32_t shape, Point at, double heading) {
   crowd.heading.push_back(heading);
 }
 
-void add_candidate(cli::Random& random, std::span<const Shape> shapes, cli::Crowd& crowd) {
+void add_candidate(detail::Random& random, std::span<const Shape> shapes, cli::Crowd& crowd) {
   const auto count = static_cast<std::uint32_t>(shapes.size());
   const std::uint32_t a = random.below(count), b = random.below(count);
   const double heading_a = random.uniform(2 * std::numbers::pi);
@@ -76,7 +76,7 @@ Workload random_pairs(std::string_view name, std::uint64_t seed, std::span<const
                       std::uint32_t pairs, const std::function<bool(const Agents&, Pair)>& wanted) {
   Workload workload{std::string(name), {}, {}};
   workload.crowd.side = world;
-  cli::Random random(seed);
+  detail::Random random(seed);
   for (std::uint32_t in_vain = 0; workload.pairs.size() < pairs;) {
     if (in_vain++ == most_candidates)
       throw std::runtime_error(

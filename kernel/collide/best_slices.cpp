@@ -12,6 +12,7 @@
 #include <bch/collide.hpp>
 
 #include "layout/base/planes.hpp"
+#include "layout/base/random.hpp"
 
 namespace bch {
 
@@ -20,22 +21,7 @@ using namespace detail;
 namespace {
 
 constexpr std::uint32_t sample = 4000;  ///< pairs of bodies
-
-/// splitmix64 (Steele, Lea, Flood 2014).
-class Random {
- public:
-  double uniform(double below) { return below * static_cast<double>(next() >> 11) * 0x1p-53; }
-  std::uint32_t index(std::size_t below) { return static_cast<std::uint32_t>(next() % below); }
-
- private:
-  std::uint64_t next() {
-    std::uint64_t z = state_ += 0x9e3779b97f4a7c15;
-    z = (z ^ z >> 30) * 0xbf58476d1ce4e5b9;
-    z = (z ^ z >> 27) * 0x94d049bb133111eb;
-    return z ^ z >> 31;
-  }
-  std::uint64_t state_ = 26;
-};
+constexpr std::uint64_t seed = 26;
 
 /// The slabs of two bodies that overlap, from the lower of the two to the higher: a plane between them parts these.
 struct Span {
@@ -89,7 +75,8 @@ class Sample {
 
   /// Places two bodies at random. Returns where slabs of theirs overlap; nothing where they do not, or in the same slab.
   Spans draw(Random& random) {
-    const std::uint32_t a = random.index(bodies_), b = random.index(bodies_);
+    const auto any_body = [&] { return static_cast<std::uint32_t>(random.next() % bodies_); };
+    const std::uint32_t a = any_body(), b = any_body();
     const double angle = random.uniform(2 * std::numbers::pi),
                  distance = 2 * reach_ * std::sqrt(random.uniform(1));
     const double x = distance * std::cos(angle), y = distance * std::sin(angle);
@@ -142,7 +129,7 @@ std::vector<float> best_slices(std::span<const Shape> bodies, std::span<const fl
   if (slabs == 0) throw std::invalid_argument("best slices: no slabs");
   if (slabs > planes.size()) return {planes.begin(), planes.end()};
   Sample from(bodies, planes.size() + 1);
-  Random random;
+  Random random(seed);
   std::vector<Spans> pairs;
   for (std::uint32_t i = 0; i < sample; ++i)
     if (Spans spans = from.draw(random); !spans.empty()) pairs.push_back(std::move(spans));

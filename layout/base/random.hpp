@@ -5,7 +5,7 @@
 
 #include <cstdint>
 
-namespace bch::cli {
+namespace bch::detail {
 
 /// splitmix64 (Steele, Lea, Flood 2014): the same numbers everywhere for a seed, where the distributions of
 /// the standard library differ between vendors.
@@ -32,4 +32,4 @@ class Random {
   std::uint64_t state_;
 };
 
-}  // namespace bch::cli
+}  // namespace bch::detail
