@@ -11,6 +11,7 @@
 #include <functional>
 
 #include <bch/dynamic_shape_set.hpp>
+#include <bch/pose_shape.hpp>
 
 #include "layout/format/shape_set_view.hpp"
 #include "layout/format/shape_validation.hpp"
@@ -65,6 +66,26 @@ TEST(Verify, FindsNothingInShapesWithoutOutlines) {
   shapes.push_back({{}, fixed_cylinder(0.25f)});
   for (const ShapeSetPlan& plan : plans)
     if (!plan.outlines) expect_nothing(ShapeSet(shapes, plan));
+}
+
+TEST(Verify, LooksAtEverySlab) {
+  const ShapeSetPlan plan{.depths = {0, 3, all_depths}, .slices = {0.4f, 1}};
+  const Character man = default_characters()[0];
+  PoseShaper shaper(man, plan);
+  std::vector<Shape> shapes;
+  for (const PoseTime& time : sample_poses(man, 5)) shapes.push_back(shaper.shape(time));
+  shapes.push_back(synthetic_shapes(97, 1)[0]);
+  const ShapeSet set(shapes, plan);
+  expect_nothing(set);
+  BakedBytes bytes(set, {});
+  bytes.section<float>(Section::hull_support)[detail::support_stride + 6] -= 0.01f;
+  bytes.seal();
+  const std::vector<Finding> findings = verify(bytes.load().set);
+  ASSERT_FALSE(findings.empty());
+  EXPECT_EQ(findings[0].shape, 1u);
+  EXPECT_EQ(findings[0].array, std::string("hull_support"));
+  EXPECT_NE(text_of(findings[0]).find("shape 1, slab "), std::string::npos) << text_of(findings[0]);
+  EXPECT_NE(text_of(findings[0]).find("number 6 is "), std::string::npos) << text_of(findings[0]);
 }
 
 TEST(Verify, FindsNothingInADynamicSet) {

@@ -34,7 +34,8 @@ std::string text_of(const Finding& finding);
 ///   than that needs.
 /// - A level has at most as many discs as its depth allows and no fewer than the one before, and each of its discs
 ///   belongs to one of the level before: the two could be the smallest discs of a part and of a whole.
-/// - Reaches, supports and the outer ends of profiles are those of the discs.
+/// - Reaches, supports and the outer ends of profiles are those of the discs. The supports of a body in slabs
+///   are not below those of its parts.
 /// - If outlines are stored, every level's discs cover them; the leaves that name a segment cover it, and
 ///   margins are not below what rounding needs; contours' discs are the smallest; inscribed discs lie inside
 ///   the largest contour; extremes are its farthest points; profiles are those of the outline. If they are
