@@ -47,9 +47,9 @@ std::string clips_text(const ShapeOrigins& origins, std::uint32_t character) {
 /// The radius of a shape's root disc, of a body in slabs the largest.
 float root_radius(const ShapeSet& set, std::uint32_t shape) {
   float largest = 0;
-  for (std::uint32_t slab = 0; slab < set.slab_count(); ++slab)
-    if (const std::uint32_t part = detail::part_of(set.view(), shape, slab); part != detail::no_part)
-      largest = std::max(largest, set.arrays().roots[std::size_t{part} * set.level_count()].radius);
+  detail::visit_parts(set.view(), shape, [&](std::uint32_t part, std::uint32_t) {
+    largest = std::max(largest, set.arrays().roots[std::size_t{part} * set.level_count()].radius);
+  });
   return largest;
 }
 

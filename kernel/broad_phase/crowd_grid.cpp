@@ -61,13 +61,11 @@ PruningDisc pruning_disc(const ShapeSetView& shapes, const Agents& agents, std::
   PruningDisc part[most_planes + 1];
   std::size_t count = 0;
   double left = 1e300, right = -1e300, low = 1e300, high = -1e300;
-  for (std::uint32_t slab = 0; slab < shapes.slab_count; ++slab) {
-    const std::uint32_t number = part_of(shapes, agents.shape[agent], slab);
-    if (number == no_part) continue;
+  visit_parts(shapes, agents.shape[agent], [&](std::uint32_t number, std::uint32_t) {
     const auto [x, y, r] = part[count++] = of_root(std::size_t{number} * shapes.level_count + level);
     left = std::min(left, x - r), right = std::max(right, x + r);
     low = std::min(low, y - r), high = std::max(high, y + r);
-  }
+  });
   PruningDisc around{0.5 * (left + right), 0.5 * (low + high), 0};
   for (std::size_t i = 0; i < count; ++i)
     around.radius =

@@ -209,47 +209,37 @@ std::size_t ShapeSet::bytes() const noexcept {
 }
 
 std::vector<Disc> ShapeSet::discs(std::uint32_t shape, std::uint32_t level) const {
+  require(shape < shape_count(), "shape", shape, shape_count());
+  require(level < level_count(), "level", level, level_count());
   std::vector<Disc> discs;
-  std::uint32_t last = no_part;
-  for (std::uint32_t slab = 0; slab < slab_count(); ++slab) {
-    const std::uint32_t part = checked_part(shape, level, slab);
-    if (part == no_part || part == last) continue;
-    last = part;
+  visit_parts(view(), shape, [&](std::uint32_t part, std::uint32_t) {
     const CutDiscs cut = cut_discs(view(), part * level_count() + level);
     for (std::uint32_t i = 0; i < cut.count; ++i) discs.push_back({cut.x[i], cut.y[i], cut.radius[i]});
-  }
+  });
   return discs;
 }
 
 std::vector<std::uint32_t> ShapeSet::slab_begin(std::uint32_t shape, std::uint32_t level) const {
-  std::vector<std::uint32_t> begin = {0};
-  std::uint32_t last = no_part;
-  for (std::uint32_t slab = 0; slab < slab_count(); ++slab) {
-    const std::uint32_t part = checked_part(shape, level, slab);
-    const bool is_new = part != no_part && part != last;
-    begin.push_back(begin.back() + (is_new ? disc_count(view(), part, level) : 0));
-    if (is_new) last = part;
-  }
-  return begin;
-}
-
-std::uint32_t ShapeSet::checked_part(std::uint32_t shape, std::uint32_t level, std::uint32_t slab) const {
   require(shape < shape_count(), "shape", shape, shape_count());
   require(level < level_count(), "level", level, level_count());
-  return part_of(view(), shape, slab);
+  std::vector<std::uint32_t> begin(slab_count() + 1, 0);
+  visit_parts(view(), shape, [&](std::uint32_t part, std::uint32_t slab) {
+    begin[slab + 1] = disc_count(view(), part, level);
+  });
+  std::partial_sum(begin.begin(), begin.end(), begin.begin());
+  return begin;
 }
 
 float ShapeSet::bounding_radius(std::uint32_t shape) const {
   require(shape < shape_count(), "shape", shape, shape_count());
   double farthest = 0;
-  for (std::uint32_t slab = 0; slab < slab_count(); ++slab) {
-    const std::uint32_t part = part_of(view(), shape, slab);
-    for (std::uint32_t level = 0; part != no_part && level < level_count(); ++level) {
+  visit_parts(view(), shape, [&](std::uint32_t part, std::uint32_t) {
+    for (std::uint32_t level = 0; level < level_count(); ++level) {
       const CutDiscs cut = cut_discs(view(), part * level_count() + level);
       for (std::uint32_t i = 0; i < cut.count; ++i)
         farthest = std::max(farthest, std::hypot(double{cut.x[i]}, double{cut.y[i]}) + double{cut.radius[i]});
     }
-  }
+  });
   return rounding::round_up(farthest * (1 + 0x1p-50));
 }
 

@@ -75,13 +75,10 @@ std::vector<Finding> verify(const ShapeSet& set, std::size_t most) {
                              : static_cast<double>(arrays.reach[part]);
     verification::verify_part({set, findings, most, shape, slab, part, reach});
   };
-  for (std::uint32_t shape = 0; shape < set.shape_count() && findings.size() < most; ++shape) {
-    if (set.slices().empty()) verify_part(shape, Finding::whole, shape);
-    std::uint32_t last = no_part;
-    for (std::uint32_t slab = 0; slab < set.slab_count() && !set.slices().empty(); ++slab)
-      if (const std::uint32_t part = part_of(set.view(), shape, slab); part != no_part && part != last)
-        verify_part(shape, slab, last = part);
-  }
+  for (std::uint32_t shape = 0; shape < set.shape_count() && findings.size() < most; ++shape)
+    visit_parts(set.view(), shape, [&](std::uint32_t part, std::uint32_t slab) {
+      verify_part(shape, set.slices().empty() ? Finding::whole : slab, part);
+    });
   return findings;
 }
 

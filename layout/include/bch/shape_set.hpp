@@ -117,8 +117,6 @@ class ShapeSet {
   const detail::ShapeArrays& arrays() const noexcept;
 
  private:
-  std::uint32_t checked_part(std::uint32_t shape, std::uint32_t level, std::uint32_t slab) const;
-
   struct State;
   std::unique_ptr<State> state_;
 };
