@@ -31,8 +31,8 @@ class SlabKernel {
       : in_(arguments),
         for_parts_(with_codes(arguments, part_codes_)),
         hull_view_(hulls_as_shapes(*arguments.shapes)),
-        hulls_(hull_view_, whole_),
-        kernel_(for_parts_) {}
+        kernel_(for_parts_),
+        hulls_(hull_view_, kernel_.placements()) {}
 
   static Arguments with_codes(Arguments arguments, std::uint8_t* codes) noexcept {
     arguments.codes = codes;
@@ -55,7 +55,7 @@ class SlabKernel {
 
   /// Places a chunk, and opens the pairs that no line separates.
   void place(std::uint32_t first, std::size_t begin, std::size_t end) noexcept {
-    Placements<Simd>& at = whole_;
+    Placements<Simd>& at = kernel_.placements();
     at.place(in_, begin, end);
     const bool has_hulls = in_.shapes->hull_support != nullptr;
     const std::uint32_t levels = in_.shapes->level_count;
@@ -164,7 +164,7 @@ class SlabKernel {
   const Arguments& in_;
   Arguments for_parts_;
   ShapeSetView hull_view_;
-  Placements<Simd> whole_;
+  PairKernel<Simd> kernel_;
   SeparatingAxisTest<Simd> hulls_;
   std::uint8_t* codes_ = nullptr;  ///< of the group
   std::uint32_t open_count_ = 0, nested_count_ = 0;
@@ -172,7 +172,6 @@ class SlabKernel {
   std::uint8_t part_codes_[group_size];
   Placed placed_[group_size];
   PartPair parts_[group_size], nested_[group_size];
-  PairKernel<Simd> kernel_;
 };
 
 }  // namespace bch::detail

@@ -23,7 +23,7 @@ class AgentCheck {
   static bool passes(const Arguments& in, std::size_t begin, std::size_t end) noexcept {
     return all_below(in.agent_shape, begin, end, in.shapes->shape_count) &
            all_within(in.agent_x, in.agent_y, in.agent_heading, begin, end) &
-           (in.agent_z == nullptr || all_within(in.agent_z, in.agent_z, in.agent_z, begin, end)) &
+           (in.agent_z == nullptr || all_within(in.agent_z, begin, end)) &
            (in.agent_level == nullptr || all_below(in.agent_level, begin, end, in.shapes->level_count));
   }
 
@@ -49,6 +49,12 @@ class AgentCheck {
       beyond += !(__builtin_fabs(y[i]) <= rounding::largest_position);
       beyond += !(__builtin_fabs(heading[i]) <= rounding::largest_heading);
     }
+    return beyond == 0;
+  }
+
+  static bool all_within(const double* z, std::size_t begin, std::size_t end) noexcept {
+    std::uint64_t beyond = 0;
+    for (std::size_t i = begin; i < end; ++i) beyond += !(__builtin_fabs(z[i]) <= rounding::largest_position);
     return beyond == 0;
   }
 

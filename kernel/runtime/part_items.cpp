@@ -32,7 +32,6 @@ void PartItems::expand(const ShapeSetView& shapes, const Agents& agents, std::sp
     const std::uint8_t level_a = level_of(a), level_b = level_of(b);
     std::uint32_t cursor = 0;
     for (auto parts = slab_pairs.next(cursor); parts.a != no_part; parts = slab_pairs.next(cursor)) {
-      if (is_listed(begin_.back(), parts.a, parts.b)) continue;
       const auto first = static_cast<std::uint32_t>(part_.size());
       add(agents, a, parts.a, level_a), add(agents, b, parts.b, level_b);
       pairs_.push_back({first, first + 1});
@@ -42,11 +41,6 @@ void PartItems::expand(const ShapeSetView& shapes, const Agents& agents, std::sp
     }
   }
   begin_.push_back(pairs_.size());
-}
-
-bool PartItems::is_listed(std::size_t begin, std::uint32_t part_a, std::uint32_t part_b) const {
-  return std::any_of(pairs_.begin() + static_cast<std::ptrdiff_t>(begin), pairs_.end(),
-                     [&](Pair item) { return part_[item.first] == part_a && part_[item.second] == part_b; });
 }
 
 void PartItems::add(const Agents& agents, std::uint32_t agent, std::uint32_t part, std::uint8_t level) {

@@ -19,7 +19,7 @@ inline bool asks_parts(const ShapeSetView& shapes, const Agents& agents) noexcep
   return shapes.slab_parts != nullptr || !agents.z.empty();
 }
 
-/// The same set with its parts as shapes.
+/// Returns the same set with its parts as shapes.
 ShapeSetView parts_as_shapes(const ShapeSetView& shapes) noexcept;
 
 /// Pairs of parts as pairs of agents of a set whose shapes are parts, for kernels that know nothing of slabs. The items of a pair
@@ -40,12 +40,10 @@ class PartItems {
   Agents agents() const noexcept { return {part_, x_, y_, heading_, level_}; }
   std::span<const Pair> pairs() const noexcept { return pairs_; }
   const Origin& origin(std::size_t item) const noexcept { return origins_[item]; }
-  /// Where the items of a pair begin; for the number of pairs, where all end.
+  /// Returns where the items of a pair begin; for the number of pairs, where all end.
   std::size_t begin(std::size_t pair) const noexcept { return begin_[pair]; }
 
  private:
-  /// Returns whether items from `begin` on have two parts already.
-  bool is_listed(std::size_t begin, std::uint32_t part_a, std::uint32_t part_b) const;
   void add(const Agents& agents, std::uint32_t agent, std::uint32_t part, std::uint8_t level);
 
   std::vector<std::uint32_t> part_;

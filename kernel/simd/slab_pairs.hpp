@@ -11,8 +11,8 @@
 namespace bch::detail {
 
 /// Finds which parts of two shapes may meet: at equal heights those of the same slab, else those of any two slabs; and their
-/// heights have to meet. Each pair of parts comes once, or twice where slabs that do not follow each other share it. (`Simd`
-/// keeps instruction sets from sharing a function.)
+/// heights have to meet. Each pair of parts comes once, with the lowest slabs that have it. (`Simd` keeps instruction sets from
+/// sharing a function.)
 template <class Simd>
 class SlabPairs {
  public:
@@ -30,11 +30,10 @@ class SlabPairs {
     const std::uint32_t slabs = shapes_.slab_count, end = rise_ == 0 ? slabs : slabs * slabs;
     while (cursor < end) {
       const std::uint32_t at = cursor++;
-      const std::uint32_t i = rise_ == 0 ? at : at / slabs, j = rise_ == 0 ? at : at % slabs;
-      const Parts parts = parts_of(slab(i), slab(j));
-      if (parts.a == no_part || parts.b == no_part || !heights_meet(parts)) continue;
-      if (at > 0 && is_repeated(i, j, parts)) continue;
-      return parts;
+      const Parts parts =
+          rise_ == 0 ? parts_of(slab(at), slab(at)) : parts_of(slab(at / slabs), slab(at % slabs));
+      if (parts.a != no_part && parts.b != no_part && heights_meet(parts) && !is_lower_down(parts))
+        return parts;
     }
     return {no_part, no_part, 0, 0};
   }
@@ -47,14 +46,11 @@ class SlabPairs {
     return {part_of(shapes_, shape_a_, slab_a), part_of(shapes_, shape_b_, slab_b), slab_a, slab_b};
   }
 
-  /// Returns whether the step before had the same parts: those of a body that is the same at all of its heights.
-  bool is_repeated(std::uint32_t i, std::uint32_t j, const Parts& parts) const noexcept {
-    if (rise_ == 0) {
-      const Parts before = parts_of(slab(i - 1), slab(j - 1));
-      return before.a == parts.a && before.b == parts.b;
-    }
-    return (j > 0 && part_of(shapes_, shape_b_, slab(j - 1)) == parts.b) ||
-           (i > 0 && part_of(shapes_, shape_a_, slab(i - 1)) == parts.a);
+  /// Returns whether lower slabs have the same parts: a body that is not cut has one in slabs that follow each other.
+  bool is_lower_down(const Parts& parts) const noexcept {
+    const bool a = parts.slab_a > 0 && part_of(shapes_, shape_a_, parts.slab_a - 1) == parts.a,
+               b = parts.slab_b > 0 && part_of(shapes_, shape_b_, parts.slab_b - 1) == parts.b;
+    return rise_ == 0 ? a && b : a || b;
   }
 
   /// Heights that touch meet. The slack is for the rounding of the sums: heights are within 1e6 m or infinite.

@@ -37,8 +37,8 @@ struct ClearanceAnswers {
 /// and negates the direction. Of gaps that are equal, the one with the first disc of the agent with the lower
 /// index counts, then that with the first disc of the other.
 ///
-/// Of bodies in slabs, or at different heights, the least of the parts that may meet; in a tie that of the lowest slabs. Where no
-/// parts may, the distance is infinite.
+/// Bodies in slabs, or at different heights, have the least distance of the parts that may meet; in a tie that of the lowest
+/// slabs. Where no parts may, it is infinite.
 ///
 /// Options: max_distance, implementation.
 /// Sizes:   as many distances as pairs, directions and discs as many or none. An agent may be paired with

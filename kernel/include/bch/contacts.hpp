@@ -23,7 +23,7 @@ namespace bch {
 /// The contacts are the same bits on every processor, for any number of threads. A pair in the other order
 /// has the same contacts with their two discs exchanged, sorted in that order.
 ///
-/// Of bodies in slabs the discs of two slabs that may meet make contacts; ShapeSet::slab_begin() tells the slab of a disc.
+/// Bodies in slabs have the contacts of all slabs that may meet; ShapeSet::slab_begin() tells the slab of a disc.
 ///
 /// Keeps its memory from call to call. One that was moved from can only be assigned to or destroyed.
 class ContactFinder {

@@ -35,7 +35,7 @@ namespace bch {
 ///   n behind A along u and w beside it. From there the two discs touch last at n + s(u). So f(A) >= f(q) -
 ///   |q - A| >= n + s(u) - sqrt(n^2 + w^2), for every n.
 ///
-/// Of bodies in slabs, or at different heights, s(u) is the largest of the parts that may meet, and 0 where none may.
+/// Bodies in slabs, or at different heights, have the largest s(u) of the parts that may meet, and 0 where none may.
 ///
 /// The price: the depth may be positive where nothing overlaps yet, as one may reach around the other. Along
 /// a given direction nothing that is zero there can be continuous: if A touches B from behind, it has all of

@@ -31,8 +31,8 @@ struct Displacements {
 /// displacement negated. Solid semantics would add nothing: an agent that is inside has crossed the outline
 /// before, unless it starts there.
 ///
-/// Of bodies in slabs, or at different heights, the first time of the parts that may meet; 0 where bodies in slabs collide now, in solid
-/// semantics with Leaves::discs.
+/// Bodies in slabs, or at different heights, touch when the first parts do that may meet; and at 0 where bodies in slabs collide
+/// now, in solid semantics with Leaves::discs.
 ///
 /// Options: implementation.
 /// Sizes:   as many displacements in x, in y, and times as pairs. An agent may be paired with itself (0).
