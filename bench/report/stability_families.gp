@@ -1,9 +1,9 @@
 # The errors of three tests against what a family of hard cases varies: a picture for each family, by `bch stability`.
 load "style.gp"
 set terminal svg size 1320,420 dynamic font "Helvetica,Arial,sans-serif,14" background rgb "white"
-families = "offset scale ratio ladder_float ladder_double rotation slender contour"
-titles = '"Far from the origin" "Small and large shapes" "A large and a small shape" "A ladder of gaps, float" "A ladder of gaps, double" "Tiny, odd and large headings" "Slender shapes" "Outlines of few and many corners"'
-axes = '"distance of the agents from the origin, metres" "reach of the shapes, metres" "ratio of their reaches" "gap, units in the last place of a float" "gap, units in the last place of a double" "heading, radians" "length by width" "corners"'
+families = "offset scale ratio ladder_float ladder_double rotation slender contour slabs heights"
+titles = '"Far from the origin" "Small and large shapes" "A large and a small shape" "A ladder of gaps, float" "A ladder of gaps, double" "Tiny, odd and large headings" "Slender shapes" "Outlines of few and many corners" "Bodies in slabs" "One on top of the other"'
+axes = '"distance of the agents from the origin, metres" "reach of the shapes, metres" "ratio of their reaches" "gap, units in the last place of a float" "gap, units in the last place of a double" "heading, radians" "length by width" "corners" "slabs" "height of the ground, metres"'
 tests = "float double bch"
 names = '"plain float" "plain double" "bch"'
 set datafile missing NaN
@@ -28,11 +28,12 @@ do for [f=1:words(families)] {
   set yrange [*:*]
   stats "stability.csv" using (inside(column("conditioning"))) nooutput
   set xrange [STATS_min:STATS_max]
-  if (strstrt(family, "ladder") == 0) {
+  linear = strstrt("ladder_float ladder_double slabs", family) > 0
+  if (!linear) {
     set logscale x
     set format x "10^{%T}"
   }
-  if (strstrt(family, "ladder") == 0 && STATS_min == 0) {
+  if (!linear && STATS_min == 0) {
     # A logarithm has no place for zero: it stands at the left edge.
     stats "stability.csv" using (inside(column("conditioning") > 0 ? column("conditioning") : NaN)) nooutput
     zero = STATS_min / 10

@@ -131,6 +131,31 @@ Setups contour_setups() {
   return setups;
 }
 
+Setups slab_setups() {
+  Setups setups;
+  for (const std::uint32_t slabs : {2u, 3u, 4u, 8u, 16u, 64u}) {
+    StabilitySetup& setup = setups.emplace_back(named(slabs));
+    setup.make = [slabs](Random& random) { return slab_specimens(random, slabs); };
+    for (std::uint32_t plane = 1; plane < slabs; ++plane)
+      setup.plan.slices.push_back(2 * static_cast<float>(plane) / static_cast<float>(slabs));
+    setup.cost = std::max(1u, slabs / 4);
+  }
+  return setups;
+}
+
+Setups height_setups() {
+  Setups setups;
+  for (const double height : {0.0, 1.0, 1e2, 1e4, 1e6, 1e8, 9.9e8, 1.1e9}) {
+    StabilitySetup& setup = setups.emplace_back(named(height));
+    setup.make = prism_specimens;
+    setup.plan.heights = true;
+    setup.placing = Placing::stacked;
+    setup.z = height;
+    setup.outside = height > 1e9;
+  }
+  return setups;
+}
+
 Setups triangle_setups() {
   Setups setups;
   const std::pair<const char*, Soup> kinds[] = {{"collinear", Soup::collinear},
@@ -231,6 +256,8 @@ constexpr FamilySetups all_families[] = {
     {{"rotation", "Tiny, odd and large headings", "heading, radians"}, rotation_setups},
     {{"slender", "Slender shapes", "length by width"}, slender_setups},
     {{"contour", "Outlines of few and many corners", "corners"}, contour_setups},
+    {{"slabs", "Bodies in slabs", "slabs"}, slab_setups},
+    {{"heights", "One on top of the other", "height of the ground, metres"}, height_setups},
     {{"triangles", "Triangles without area, in meshes", nullptr}, triangle_setups},
     {{"coincident", "One shape twice at one place", nullptr}, coincident_setups},
     {{"extremes", "The ends of the range", nullptr}, extreme_setups},

@@ -19,12 +19,13 @@ using detail::Random;
 /// Agents 2 i and 2 i + 1 are pair i.
 struct Batch {
   std::vector<std::uint32_t> shape;
-  std::vector<double> x, y, heading;
+  std::vector<double> x, y, heading, z;
   std::vector<Pair> pairs;
 
   void add(const PlacedSpecimen& placed, std::uint32_t index) {
     shape.push_back(index);
     x.push_back(placed.x), y.push_back(placed.y), heading.push_back(placed.heading);
+    z.push_back(placed.z);
   }
   void add_pair() {
     const auto second = static_cast<std::uint32_t>(shape.size() - 1);
@@ -32,7 +33,9 @@ struct Batch {
   }
   std::vector<std::uint8_t> hits(const ShapeSet& set) const {
     std::vector<std::uint8_t> answers(pairs.size());
-    collide(set, {shape, x, y, heading}, pairs, answers, {.leaves = Leaves::discs});
+    Agents agents{shape, x, y, heading};
+    if (set.has_heights()) agents.z = z;
+    collide(set, agents, pairs, answers, {.leaves = Leaves::discs});
     return answers;
   }
 };
@@ -61,17 +64,17 @@ struct Stock {
     const auto all = static_cast<std::uint32_t>(specimens.size());
     return all == first ? random.below(first) : first + random.below(all - first);
   }
-  ShapeSet set() const {
+  ShapeSet set(const ShapeSetPlan& plan) const {
     std::vector<Shape> shapes;
     for (const Specimen& specimen : specimens) shapes.push_back(specimen.shape);
-    return ShapeSet(shapes);
+    return ShapeSet(shapes, plan);
   }
 };
 
 class Runner {
  public:
   Runner(const StabilitySetup& setup, StabilityRow& row, std::uint64_t seed)
-      : setup_(setup), row_(row), random_(seed), stock_(setup, random_), set_(stock_.set()) {}
+      : setup_(setup), row_(row), random_(seed), stock_(setup, random_), set_(stock_.set(setup.plan)) {}
 
   void run(std::uint32_t pairs) {
     if (setup_.outside) return ask_outside();
@@ -93,7 +96,8 @@ class Runner {
 
   /// Nothing is asked about what is true there.
   void ask_outside() {
-    for (int i = 0; i < 2; ++i) batch_.add({&stock_.specimens[0], setup_.x, setup_.y, heading()}, 0);
+    for (int i = 0; i < 2; ++i)
+      batch_.add({&stock_.specimens[0], setup_.x, setup_.y, heading(), setup_.z}, 0);
     batch_.add_pair();
     batch_.hits(set_);
   }
@@ -101,8 +105,9 @@ class Runner {
   Trial make_trial(std::uint32_t one, std::uint32_t other) {
     const double to = heading();
     const double by = setup_.placing == Placing::coincident && random_.below(2) == 0 ? to : heading();
-    const PlacedSpecimen a{&stock_.specimens[one], setup_.x, setup_.y, to};
-    return {a, {&stock_.specimens[other], setup_.x + setup_.apart_x, setup_.y + setup_.apart_y, by}};
+    const PlacedSpecimen a{&stock_.specimens[one], setup_.x, setup_.y, to, setup_.z};
+    return {a,
+            {&stock_.specimens[other], setup_.x + setup_.apart_x, setup_.y + setup_.apart_y, by, setup_.z}};
   }
 
   void place(Trial& trial, bool outlines) {
@@ -110,6 +115,8 @@ class Runner {
     if (setup_.placing == Placing::coincident) {
       trial.b.x += (static_cast<double>(random_.below(3)) - 1) * double_step(setup_.x);
       trial.b.y += (static_cast<double>(random_.below(3)) - 1) * double_step(setup_.y);
+    } else if (setup_.placing == Placing::stacked) {
+      trial.put_on_top(gap(trial.reaches() / 4, trial.reaches()));
     } else if (setup_.placing == Placing::contact && outlines) {
       trial.put_outlines_in_contact(x, y, gap(trial.reaches() / 4, trial.reaches()));
     } else if (setup_.placing == Placing::contact) {

@@ -13,6 +13,7 @@ namespace bch::bench {
 enum class Placing {
   contact,     ///< half of the pairs with discs, half with outlines near contact
   coincident,  ///< one shape twice, at one place or some bits beside it
+  stacked,     ///< one above the other
   apart,       ///< as far as the setup says
 };
 
@@ -27,8 +28,9 @@ struct StabilitySetup {
   };
   /// Makes the shapes of the second agent; null: as of the first.
   std::function<std::vector<Specimen>(detail::Random&)> make_other = nullptr;
+  ShapeSetPlan plan = {};
   Placing placing = Placing::contact;
-  double x = 0, y = 0;              ///< of the first agent
+  double x = 0, y = 0, z = 0;       ///< of the first agent
   double apart_x = 0, apart_y = 0;  ///< the second agent's position from there, where they are apart
   std::function<double(detail::Random&)> heading = nullptr;  ///< null: all directions
   /// Draws a gap from the sum of two radii and the sum of the reaches; null: gaps of all sizes.

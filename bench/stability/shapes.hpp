@@ -13,13 +13,18 @@
 
 namespace bch::bench {
 
-/// A shape with its exact discs and geometry.
-struct Specimen {
-  Shape shape;
+/// What a shape is at some heights: one of its slabs, or the whole of it.
+struct SpecimenPart {
   baselines::ExactCut discs;  ///< of its leaves and all nodes above
   Outline geometry;           ///< what must be covered: its outline, or the triangles it was made from
+};
 
-  double reach() const { return shape.hierarchy.reach; }
+/// A shape with the exact discs and the geometry of its parts.
+struct Specimen {
+  Shape shape;
+  std::vector<SpecimenPart> parts;  ///< one a slab, or one
+
+  double reach() const;
 };
 
 /// The functions below make specimens.
@@ -36,6 +41,11 @@ Specimen triangle_specimen(const std::vector<Vec2>& corners, double threshold);
 /// Returns corners around (x, y) at distances within [inner, outer], y divided by `slenderness`.
 std::vector<Vec2> ring(detail::Random& random, std::uint32_t corners, double inner, double outer,
                        double x = 0, double y = 0, double slenderness = 1);
+
+/// Makes bodies in slabs: rings of their own about one axis, none of which can lie inside another.
+std::vector<Specimen> slab_specimens(detail::Random& random, std::uint32_t slabs);
+/// Makes prisms a metre or two high, which begin above the ground.
+std::vector<Specimen> prism_specimens(detail::Random& random);
 
 /// Returns outlines of few and many corners about their origin and beside it, and strokes, each of this
 /// reach.

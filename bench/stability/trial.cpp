@@ -29,8 +29,11 @@ std::vector<DoubleDisc> in_double(const ExactCut& cut) {
   return rounded;
 }
 
-ExactCut posed(const PlacedSpecimen& placed) {
-  return placed.specimen->discs.posed(baselines::quad_rotation(placed.heading));
+std::vector<ExactCut> posed(const PlacedSpecimen& placed) {
+  std::vector<ExactCut> cuts;
+  for (const SpecimenPart& part : placed.specimen->parts)
+    cuts.push_back(part.discs.posed(baselines::quad_rotation(placed.heading)));
+  return cuts;
 }
 
 /// What is said of every two discs, one of either cut or above it, put together with what is said of the pairs of all discs
@@ -78,6 +81,7 @@ struct Overlap {
   double begin, end;
   std::size_t i, j;
   double along, across;
+  std::size_t part = 0;
 
   bool some() const { return begin <= end; }
 };
@@ -88,7 +92,11 @@ Overlap common(const Overlap& one, const Overlap& other) {
   return both;
 }
 
-/// The last two of the cuts to overlap as b moves along (x, y).
+bool ends_later(const Overlap& one, const Overlap& other) {
+  return one.some() && (!other.some() || one.end > other.end);
+}
+
+/// The last two of the cuts to overlap as b moves along (x, y). Where they do is said from a's agent to b's.
 Overlap last_overlap(const ExactCut& cut_a, const ExactCut& cut_b, double x, double y) {
   const auto a = in_double(cut_a), b = in_double(cut_b);
   // The line goes through where the centres of two discs of the cuts are one point, so that some discs overlap on it.
@@ -103,10 +111,10 @@ Overlap last_overlap(const ExactCut& cut_a, const ExactCut& cut_b, double x, dou
     const double along = std::sqrt(square), middle = dx * x + dy * y;
     return {middle - along, middle + along, i, j, along / radii, across / radii};
   };
-  return PairsWithAbove<Overlap>(cut_a, cut_b, overlap, common)
-      .least([](const Overlap& one, const Overlap& other) {
-        return one.some() && (!other.some() || one.end > other.end);
-      });
+  Overlap last = PairsWithAbove<Overlap>(cut_a, cut_b, overlap, common).least(ends_later);
+  const double start = from_x * x + from_y * y;
+  last.begin += start, last.end += start;
+  return last;
 }
 
 /// Returns the largest gap of two discs and all above them, as far as they count; exactly. `at` leads from
@@ -126,15 +134,48 @@ Quad largest_gap(const ExactCut& a, std::uint32_t disc_a, const ExactCut& b, std
   return largest;
 }
 
-/// The plain test: discs in the world's coordinates, everything in one type.
+/// Returns Trial::gap() of two cuts.
+Quad gap_of_discs(const ExactCut& a, const ExactCut& b, QuadVector at, double reaches) {
+  const double x = static_cast<double>(at.x), y = static_cast<double>(at.y);
+  const auto discs_a = in_double(a), discs_b = in_double(b);
+  const auto rough = [&](std::size_t i, std::size_t j) {
+    const double dx = x + discs_b[j].x - discs_a[i].x, dy = y + discs_b[j].y - discs_a[i].y;
+    return std::sqrt(dx * dx + dy * dy) - (discs_a[i].radius + discs_b[j].radius);
+  };
+  const auto larger = [](double one, double other) { return std::max(one, other); };
+  const PairsWithAbove<double> gaps(a, b, rough, larger);
+  const double least = gaps.least(std::less<>());
+  // What double may have mistaken for it is asked again.
+  const double doubt = 1e-14 * (reaches + std::abs(x) + std::abs(y));
+  if (std::abs(least) > 1000 * doubt) return least;
+  Quad exact = 1e300;
+  for (const std::uint32_t i : a.cut)
+    for (const std::uint32_t j : b.cut) {
+      if (gaps(i, j) > least + 2 * doubt) continue;
+      const auto counts = [&](std::uint32_t p, std::uint32_t q) {
+        return rough(p, q) >= gaps(i, j) - 2 * doubt;
+      };
+      exact = std::min(exact, largest_gap(a, i, b, j, at, counts));
+    }
+  return exact;
+}
+
+/// Returns how far the heights of two agents are apart, metres; exactly.
+Quad gap_of_heights(const PlacedSpecimen& a, const PlacedSpecimen& b) {
+  const Heights of_a = a.specimen->shape.heights, of_b = b.specimen->shape.heights;
+  const Quad rise = Quad{b.z} - Quad{a.z};
+  return std::max(Quad{of_b.bottom} + rise - Quad{of_a.top}, Quad{of_a.bottom} - Quad{of_b.top} - rise);
+}
+
+/// The plain test of two parts: discs in the world's coordinates, everything in one type.
 template <class Real>
 class PlainDiscs {
  public:
-  explicit PlainDiscs(const PlacedSpecimen& placed) : cut_(placed.specimen->discs) {
+  PlainDiscs(const PlacedSpecimen& placed, const SpecimenPart& part) : cut_(part.discs) {
     const QuadVector turn = baselines::quad_rotation(static_cast<double>(static_cast<Real>(placed.heading)));
     const Real c = static_cast<Real>(turn.x), s = static_cast<Real>(turn.y);
     const Real at_x = static_cast<Real>(placed.x), at_y = static_cast<Real>(placed.y);
-    for (const ExactDisc& disc : placed.specimen->discs.discs) {
+    for (const ExactDisc& disc : cut_.discs) {
       const Real x = static_cast<Real>(disc.centre.x), y = static_cast<Real>(disc.centre.y);
       discs_.push_back({at_x + (c * x - s * y), at_y + (s * x + c * y), static_cast<Real>(disc.radius)});
     }
@@ -157,6 +198,23 @@ class PlainDiscs {
   const ExactCut& cut_;
   std::vector<Disc> discs_;
 };
+
+template <class Real>
+bool plain_heights_meet(const PlacedSpecimen& a, const PlacedSpecimen& b) {
+  const auto at = [](const PlacedSpecimen& placed, float height) {
+    return static_cast<Real>(static_cast<Real>(placed.z) + static_cast<Real>(height));
+  };
+  const Heights of_a = a.specimen->shape.heights, of_b = b.specimen->shape.heights;
+  return at(a, of_a.bottom) <= at(b, of_b.top) && at(b, of_b.bottom) <= at(a, of_a.top);
+}
+
+template <class Real>
+bool plain_hit(const PlacedSpecimen& a, const PlacedSpecimen& b) {
+  if (!plain_heights_meet<Real>(a, b)) return false;
+  for (std::size_t i = 0; i < a.specimen->parts.size(); ++i)
+    if (PlainDiscs<Real>(a, a.specimen->parts[i]).hit(PlainDiscs<Real>(b, b.specimen->parts[i]))) return true;
+  return false;
+}
 
 /// The part of an outline that goes far along a direction, segment by segment, where there is too much of it to look at all.
 Outline front(const Outline& outline, const PlacedSpecimen& placed, double x, double y) {
@@ -185,21 +243,29 @@ Outline front(const Outline& outline, const PlacedSpecimen& placed, double x, do
   return part;
 }
 
-baselines::Oracle oracle(const PlacedSpecimen& a, const PlacedSpecimen& b, double x, double y) {
+/// Makes the oracle of a slab of two agents, of which (x, y) leads from a to b.
+baselines::Oracle oracle(const PlacedSpecimen& a, const PlacedSpecimen& b, std::size_t part, double x,
+                         double y) {
   const std::uint32_t shape[] = {0, 1};
   const double at_x[] = {a.x, b.x}, at_y[] = {a.y, b.y}, heading[] = {a.heading, b.heading};
-  return {front(a.specimen->geometry, a, x, y), front(b.specimen->geometry, b, -x, -y),
+  return {front(a.specimen->parts[part].geometry, a, x, y),
+          front(b.specimen->parts[part].geometry, b, -x, -y),
           baselines::exact_placement({shape, at_x, at_y, heading}, 0, 1)};
 }
 
 }  // namespace
 
 Trial::Trial(const PlacedSpecimen& first, const PlacedSpecimen& second)
-    : a(first), b(second), cut_a_(posed(first)), cut_b_(posed(second)) {}
+    : a(first), b(second), cuts_a_(posed(first)), cuts_b_(posed(second)) {}
 
 void Trial::put_discs_in_contact(double x, double y, const std::function<double(double)>& gap) {
-  const Overlap last = last_overlap(cut_a_, cut_b_, x, y);
-  const ExactDisc &p = cut_a_.discs[last.i], &q = cut_b_.discs[last.j];
+  Overlap last = last_overlap(cuts_a_[0], cuts_b_[0], x, y);
+  for (std::size_t part = 1; part < cuts_a_.size(); ++part) {
+    Overlap next = last_overlap(cuts_a_[part], cuts_b_[part], x, y);
+    next.part = part;
+    if (ends_later(next, last)) last = next;
+  }
+  const ExactDisc &p = cuts_a_[last.part].discs[last.i], &q = cuts_b_[last.part].discs[last.j];
   const QuadVector line{x * last.along - y * last.across, y * last.along + x * last.across};
   const Quad radii = p.radius + q.radius;
   const Quad stretch = (radii + gap(static_cast<double>(radii))) / baselines::square_root(square(line));
@@ -214,50 +280,42 @@ void Trial::put_outlines_in_contact(double x, double y, double gap) {
   away.x = a.x + far * x, away.y = a.y + far * y;
   // In a's frame it is a that moves.
   const QuadVector way = turned_back(baselines::quad_rotation(a.heading), {far * x, far * y});
-  const long double time =
-      oracle(a, away, x, y).time_of_impact(static_cast<long double>(way.x), static_cast<long double>(way.y));
+  long double time = 2;
+  for (std::size_t part = 0; part < cuts_a_.size(); ++part)
+    time =
+        std::min(time, oracle(a, away, part, x, y)
+                           .time_of_impact(static_cast<long double>(way.x), static_cast<long double>(way.y)));
   const double distance = time <= 1 ? static_cast<double>(far * (1 - time)) : 0;
   b.x = a.x + (distance + gap) * x;
   b.y = a.y + (distance + gap) * y;
 }
 
+void Trial::put_on_top(double gap) {
+  const Quad between = Quad{a.specimen->shape.heights.top} - Quad{b.specimen->shape.heights.bottom};
+  b.z = static_cast<double>(Quad{a.z} + between + Quad{gap});
+}
+
 double Trial::gap() const {
-  const QuadVector at = shift(a, b);
-  const double x = static_cast<double>(at.x), y = static_cast<double>(at.y);
-  const auto discs_a = in_double(cut_a_), discs_b = in_double(cut_b_);
-  const auto rough = [&](std::size_t i, std::size_t j) {
-    const double dx = x + discs_b[j].x - discs_a[i].x, dy = y + discs_b[j].y - discs_a[i].y;
-    return std::sqrt(dx * dx + dy * dy) - (discs_a[i].radius + discs_b[j].radius);
-  };
-  const auto larger = [](double one, double other) { return std::max(one, other); };
-  const PairsWithAbove<double> gaps(cut_a_, cut_b_, rough, larger);
-  const double least = gaps.least(std::less<>());
-  // What double may have mistaken for it is asked again.
-  const double doubt = 1e-14 * (reaches() + std::abs(x) + std::abs(y));
-  if (std::abs(least) > 1000 * doubt) return least;
-  Quad exact = 1e300;
-  for (const std::uint32_t i : cut_a_.cut)
-    for (const std::uint32_t j : cut_b_.cut) {
-      if (gaps(i, j) > least + 2 * doubt) continue;
-      const auto counts = [&](std::uint32_t p, std::uint32_t q) {
-        return rough(p, q) >= gaps(i, j) - 2 * doubt;
-      };
-      exact = std::min(exact, largest_gap(cut_a_, i, cut_b_, j, at, counts));
-    }
-  return static_cast<double>(exact);
+  Quad least = 1e300;
+  for (std::size_t part = 0; part < cuts_a_.size(); ++part)
+    least = std::min(least, gap_of_discs(cuts_a_[part], cuts_b_[part], shift(a, b), reaches()));
+  return static_cast<double>(std::max(least, gap_of_heights(a, b)));
 }
 
 bool Trial::outlines_meet() const {
   const double dx = b.x - a.x, dy = b.y - a.y, length = std::hypot(dx, dy);
-  return length > 0 ? oracle(a, b, dx / length, dy / length).cross() : oracle(a, b, 1, 0).cross();
+  const double x = length > 0 ? dx / length : 1, y = length > 0 ? dy / length : 0;
+  for (std::size_t part = 0; part < cuts_a_.size(); ++part)
+    if (oracle(a, b, part, x, y).cross()) return true;
+  return false;
 }
 
 bool Trial::plain_float_hit() const {
-  return PlainDiscs<float>(a).hit(PlainDiscs<float>(b));
+  return plain_hit<float>(a, b);
 }
 
 bool Trial::plain_double_hit() const {
-  return PlainDiscs<double>(a).hit(PlainDiscs<double>(b));
+  return plain_hit<double>(a, b);
 }
 
 }  // namespace bch::bench

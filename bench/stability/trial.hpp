@@ -12,6 +12,7 @@ namespace bch::bench {
 struct PlacedSpecimen {
   const Specimen* specimen;
   double x, y, heading;
+  double z = 0;
 };
 
 /// Two agents with the exact answers about them, and the answers of simple tests.
@@ -21,17 +22,20 @@ class Trial {
 
   PlacedSpecimen a, b;
 
-  /// Moves b along the direction (x, y), a unit vector, to where the two collide last by their discs. From
-  /// there it moves b along the line of the centres of the two discs that separate the agents there, which
-  /// may be discs above the cuts, by the gap for the sum of their radii. Correct to the rounding of b's
-  /// position.
+  /// Moves b along the direction (x, y), a unit vector, to where the two collide last by their discs, in any
+  /// slab. From there it moves b along the line of the centres of the two discs that separate the agents
+  /// there, which may be discs above the cuts, by the gap for the sum of their radii. Correct to the rounding
+  /// of b's position.
   void put_discs_in_contact(double x, double y, const std::function<double(double radii)>& gap);
   /// Moves b along the direction to where the outlines touch last, and by `gap` further.
   void put_outlines_in_contact(double x, double y, double gap);
+  /// Moves b up to where it stands on a's top, and by `gap` further. Both have heights.
+  void put_on_top(double gap);
 
   /// Returns how far the two are from colliding by their tight discs, metres. For a choice of one disc of
   /// each cut, take the largest gap between the first one or a disc above it and the second one or a disc
-  /// above it; the result is the least value over all such choices. Its sign is exact.
+  /// above it; the result is the least value over all such choices, of all slabs; or how far their heights are
+  /// apart, if that is more. Its sign is exact.
   double gap() const;
   bool outlines_meet() const;
 
@@ -41,7 +45,8 @@ class Trial {
   double reaches() const { return a.specimen->reach() + b.specimen->reach(); }
 
  private:
-  baselines::ExactCut cut_a_, cut_b_;  ///< in the world's axes about their agents
+  using Cuts = std::vector<baselines::ExactCut>;
+  Cuts cuts_a_, cuts_b_;  ///< per part, in the world's axes about their agents
 };
 
 }  // namespace bch::bench
