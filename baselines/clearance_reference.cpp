@@ -48,6 +48,10 @@ Vec2 direction(const Agents& agents, Pair pair, const Step& at) {
 
 }  // namespace
 
+Clearance at_least_zero(const Clearance& clearance) {
+  return clearance.distance <= 0 ? Clearance{0, {0, 0}, none, none} : clearance;
+}
+
 Clearance ClearanceReference::query(const Agents& agents, Pair pair, double max_distance, Method method) {
   const auto [first, second] = std::minmax(pair.first, pair.second);
   const CutTrees::Tree &a = trees_.tree(agents, first), &b = trees_.tree(agents, second);

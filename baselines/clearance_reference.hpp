@@ -19,7 +19,10 @@ struct Clearance {
   std::uint32_t first, second;  ///< of the cuts
 };
 
-/// Clearances pair by pair and disc by disc, written apart from the kernel, which has to give the same bits.
+/// Returns what clearance() says with Overlap::zero of a pair that has such an answer.
+Clearance at_least_zero(const Clearance& clearance);
+
+/// Clearances with Overlap::deepest, pair by pair and disc by disc, written apart from the kernel, which has to give the same bits.
 class ClearanceReference {
  public:
   ClearanceReference(std::span<const Shape> shapes, const ShapeSetPlan& plan) : trees_(shapes, plan) {}

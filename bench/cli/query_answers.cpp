@@ -95,9 +95,9 @@ std::string time_of_impact_rows(const QueryInput& input) {
 constexpr QueryKind kinds[] = {
     {"collide", "hit", "1 where the agents collide, else 0", collide_rows},
     {"clearance", "distance,x,y",
-     "the least gap, in metres, of a disc of each, below 0 where they\n"
-     "                 overlap, and the unit vector from the first one's to the second's; inf,0,0\n"
-     "                 beyond --max-distance",
+     "the least gap, in metres, of a disc of each, and the unit vector from\n"
+     "                 the first one's to the second's; 0,0,0 where discs overlap, but for\n"
+     "                 --overlap deepest; inf,0,0 beyond --max-distance",
      clearance_rows},
     {"time-of-impact", "time",
      "from 0 to 1, when the agents touch first while each moves by its dx\n"

@@ -37,6 +37,7 @@ struct QueryCommandOptions {
   std::uint32_t directions = 16;
   std::string direction;  ///< empty: the best of many
   double max_distance = HUGE_VAL;
+  std::string overlap = "zero";
   ShapeOptions shapes;
   AnswerOptions answer;
 
@@ -115,6 +116,7 @@ void answer(const QueryCommandOptions& options, const ShapeSet& set, Question& q
   auto& [table, pairs] = question;
   QueryOptions how = options.answer.query_options();
   how.max_distance = options.max_distance;
+  how.overlap = options.overlap == "zero" ? Overlap::zero : Overlap::deepest;
   if (options.all_pairs)
     pairs = std::isfinite(options.max_distance) ? near_pairs(set, table, how)
                                                 : colliding_pairs(set, table.agents(), how);
@@ -160,7 +162,8 @@ void run_query(const CLI::App& command, const QueryCommandOptions& options) {
                                        : "PAIRS.csv or --all-pairs is missing");
   if (options.what != "penetration")
     require_absent(command, {"--directions", "--direction"}, "belongs to --what penetration");
-  if (options.what != "clearance") require_absent(command, {"--max-distance"}, "belongs to --what clearance");
+  if (options.what != "clearance")
+    require_absent(command, {"--max-distance", "--overlap"}, "belongs to --what clearance");
   if (options.what != "collide" && !options.all_pairs)
     require_absent(command, {"--semantics"}, "belongs to --what collide and to --all-pairs");
   if (options.what != "collide" && options.what != "contacts" && !options.all_pairs)
@@ -235,6 +238,11 @@ std::function<void()> add_query_command(CLI::App& program) {
                   "Of a clearance, metres: pairs farther apart are only told to be so [no limit]")
       ->type_name("M")
       ->check(number_between(0, 2 * detail::rounding::largest_position));
+  command
+      .add_option("--overlap", options->overlap,
+                  "Of a clearance, where discs overlap: zero, or the deepest overlap of two, below 0 [zero]")
+      ->type_name("NAME")
+      ->check(one_of({"zero", "deepest"}));
   options->shapes.add_to(command);
   options->answer.add_to(command);
   return [options, &command] { run_query(command, *options); };

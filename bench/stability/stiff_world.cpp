@@ -107,7 +107,7 @@ std::span<const Penetration> Depths::of(const Agents& agents, std::span<const Pa
 void Depths::measure_discs(const Agents& agents, std::span<const Pair> pairs) {
   distance_.resize(pairs.size()), direction_.resize(pairs.size());
   clearance(stiff_shapes(), agents, pairs, {.distance = distance_, .direction = direction_},
-            {.max_distance = 0});
+            {.max_distance = 0, .overlap = Overlap::deepest});
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     const auto [x, y] = direction_[i];  // to the second agent
     found_[i] = {std::max(-distance_[i], 0.0f), -static_cast<double>(x), -static_cast<double>(y)};

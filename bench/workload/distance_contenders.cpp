@@ -29,8 +29,8 @@ Contender clearance_reference(Scene& scene, const Workload& workload) {
   const auto reference = std::make_shared<baselines::ClearanceReference>(scene.shapes(), ShapeSetPlan{});
   const auto call = [reference, &workload, answers] {
     for (std::size_t i = 0; i < workload.pairs.size(); ++i) {
-      const auto nearest = reference->query(workload.agents(), workload.pairs[i], clearance_limit,
-                                            baselines::Method::depth_first);
+      const auto nearest = baselines::at_least_zero(reference->query(
+          workload.agents(), workload.pairs[i], clearance_limit, baselines::Method::depth_first));
       answers->distance[i] = nearest.distance, answers->direction[i] = nearest.direction;
     }
   };

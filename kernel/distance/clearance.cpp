@@ -5,11 +5,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 #include <string>
 #include <tuple>
 #include <vector>
 
+#include "kernel/collide/answer.hpp"
 #include "kernel/distance/clearance_arguments.hpp"
 #include "kernel/runtime/floating_point_state.hpp"
 #include "kernel/runtime/pair_validation.hpp"
@@ -57,57 +59,116 @@ Vec2 direction(Pair pair, const NearestDiscs& nearest) {
   return {static_cast<float>(scale * world_x), static_cast<float>(scale * world_y)};
 }
 
-/// The same for bodies in slabs or at different heights: the nearest parts, in a tie those in the lowest slabs.
-void answer_parts(const Implementation& implementation, ClearanceArguments arguments,
-                  const ShapeSetView& parts, std::span<const Pair> pairs, const PartItems& items,
-                  const ClearanceAnswers& answers) {
-  std::vector<NearestDiscs> nearest(items.size());
-  const Agents agents = items.agents();
-  arguments.in = arguments_for(parts, agents, items.pairs());
-  arguments.nearest = nearest.data();
-  implementation.kernels->clearance(arguments, 0, items.size());
-  const auto is_before = [&](std::size_t a, std::size_t b) {
-    const auto key = [&](std::size_t i) {
-      const float distance =
-          nearest[i].a != no_node ? nearest[i].distance : std::numeric_limits<float>::infinity();
-      return std::tuple(distance, items.origin(i).slab_a, items.origin(i).slab_b);
-    };
-    return key(a) < key(b);
-  };
-  for (std::size_t i = 0; i < pairs.size(); ++i) {
-    std::size_t best = items.begin(i);
-    for (std::size_t k = best + 1; k < items.begin(i + 1); ++k)
-      if (is_before(k, best)) best = k;
-    const bool found = items.begin(i) < items.begin(i + 1) && nearest[best].a != no_node;
-    const bool is_turned = pairs[i].second < pairs[i].first;
-    answers.distance[i] = found ? nearest[best].distance : std::numeric_limits<float>::infinity();
-    if (!answers.direction.empty())
-      answers.direction[i] = found ? direction(pairs[i], nearest[best]) : Vec2{0, 0};
-    if (answers.discs.empty()) continue;
-    answers.discs[i] = no_discs;
-    if (!found) continue;
-    const DiscPair local = nearest_discs(parts, agents, items.pairs()[best], nearest[best]);
-    const DiscPair discs{local.first + items.origin(best).first_disc_a,
-                         local.second + items.origin(best).first_disc_b};
-    answers.discs[i] = is_turned ? DiscPair{discs.second, discs.first} : discs;
-  }
-}
+/// Writes the answers of a range of pairs.
+class RangeAnswers {
+ public:
+  RangeAnswers(const Implementation& implementation, const ClearanceArguments& arguments,
+               const Agents& agents, std::span<const Pair> pairs, const ClearanceAnswers& answers) noexcept
+      : implementation_(implementation),
+        arguments_(arguments),
+        shapes_(*arguments.in.shapes),
+        agents_(agents),
+        pairs_(pairs),
+        answers_(answers) {}
 
-/// The work of one task.
-void answer(const Implementation& implementation, ClearanceArguments arguments, const Agents& agents,
-            std::span<const Pair> pairs, const ClearanceAnswers& answers) noexcept {
-  NearestDiscs nearest[grain];
-  arguments.in.pairs = pairs.data();
-  arguments.nearest = nearest;
-  implementation.kernels->clearance(arguments, 0, pairs.size());
-  for (std::size_t i = 0; i < pairs.size(); ++i) {
-    const bool found = nearest[i].a != no_node;
-    answers.distance[i] = found ? nearest[i].distance : std::numeric_limits<float>::infinity();
-    if (!answers.direction.empty()) answers.direction[i] = direction(pairs[i], nearest[i]);
-    if (!answers.discs.empty())
-      answers.discs[i] = nearest_discs(*arguments.in.shapes, agents, pairs[i], nearest[i]);
+  /// At most `grain` pairs.
+  void write() {
+    drop_what_collides();
+    asks_parts(shapes_, agents_) ? search_parts() : search_shapes();
   }
-}
+
+ private:
+  /// Answers what collides, and lists the other pairs. A set of roots alone is as quickly searched.
+  void drop_what_collides() noexcept {
+    std::uint8_t hits[grain] = {};
+    if (arguments_.enough == 0 && shapes_.trees != nullptr) {
+      Arguments in = arguments_.in;
+      in.pairs = pairs_.data(), in.codes = hits;
+      detail::answer(implementation_, in, 0, pairs_.size());
+    }
+    for (std::size_t i = 0; i < pairs_.size(); ++i) {
+      if (hits[i] != 0) put(i, 0, {0, 0}, no_discs);
+      open_[open_count_] = pairs_[i];
+      index_[open_count_] = static_cast<std::uint16_t>(i);
+      open_count_ += hits[i] == 0;
+    }
+  }
+
+  void search_shapes() noexcept {
+    NearestDiscs nearest[grain];
+    arguments_.in.pairs = open_;
+    arguments_.nearest = nearest;
+    implementation_.kernels->clearance(arguments_, 0, open_count_);
+    for (std::size_t k = 0; k < open_count_; ++k)
+      put(k, nearest[k], [&] { return nearest_discs(shapes_, agents_, open_[k], nearest[k]); });
+  }
+
+  /// Bodies in slabs or at different heights: the nearest parts, in a tie those in the lowest slabs.
+  void search_parts() {
+    PartItems items;
+    items.expand(shapes_, agents_, {open_, open_count_});
+    std::vector<NearestDiscs> nearest(items.size());
+    const Agents agents = items.agents();
+    const ShapeSetView parts = parts_as_shapes(shapes_);
+    ClearanceArguments arguments = arguments_;
+    arguments.in = arguments_for(parts, agents, items.pairs());
+    arguments.nearest = nearest.data();
+    implementation_.kernels->clearance(arguments, 0, items.size());
+    const auto is_before = [&](std::size_t a, std::size_t b) {
+      const auto key = [&](std::size_t i) {
+        const float distance =
+            nearest[i].a != no_node ? nearest[i].distance : std::numeric_limits<float>::infinity();
+        return std::tuple(distance, items.origin(i).slab_a, items.origin(i).slab_b);
+      };
+      return key(a) < key(b);
+    };
+    for (std::size_t k = 0; k < open_count_; ++k) {
+      std::size_t best = items.begin(k);
+      for (std::size_t i = best + 1; i < items.begin(k + 1); ++i)
+        if (is_before(i, best)) best = i;
+      if (items.begin(k) == items.begin(k + 1)) {
+        put_beyond(index_[k]);
+        continue;
+      }
+      put(k, nearest[best], [&] {
+        const DiscPair local = nearest_discs(parts, agents, items.pairs()[best], nearest[best]);
+        const DiscPair discs{local.first + items.origin(best).first_disc_a,
+                             local.second + items.origin(best).first_disc_b};
+        return open_[k].second < open_[k].first ? DiscPair{discs.second, discs.first} : discs;
+      });
+    }
+  }
+
+  /// Writes the answer for an open pair.
+  template <class DiscsOf>
+  void put(std::size_t k, const NearestDiscs& nearest, DiscsOf discs_of) noexcept {
+    const std::size_t i = index_[k];
+    if (nearest.a == no_node) return put_beyond(i);
+    if (nearest.distance <= arguments_.enough) return put(i, 0, {0, 0}, no_discs);
+    put(i, nearest.distance, answers_.direction.empty() ? Vec2{} : direction(open_[k], nearest),
+        answers_.discs.empty() ? no_discs : discs_of());
+  }
+
+  void put_beyond(std::size_t i) noexcept {
+    put(i, std::numeric_limits<float>::infinity(), {0, 0}, no_discs);
+  }
+
+  void put(std::size_t i, float distance, Vec2 direction, DiscPair discs) noexcept {
+    answers_.distance[i] = distance;
+    if (!answers_.direction.empty()) answers_.direction[i] = direction;
+    if (!answers_.discs.empty()) answers_.discs[i] = discs;
+  }
+
+  const Implementation& implementation_;
+  ClearanceArguments arguments_;
+  const ShapeSetView& shapes_;
+  const Agents& agents_;
+  const std::span<const Pair> pairs_;
+  const ClearanceAnswers& answers_;
+  std::size_t open_count_ = 0;
+  Pair open_[grain + 1];            ///< the pairs that are not answered yet, and room for one that is
+  std::uint16_t index_[grain + 1];  ///< of each
+};
 
 void require_answers(const ClearanceAnswers& answers, std::size_t pairs) {
   const auto require = [pairs](std::size_t size, const char* name, bool optional) {
@@ -128,12 +189,17 @@ void clearance(const ShapeSet& shapes, const Agents& agents, std::span<const Pai
   require_answers(answers, pairs.size());
   if (!(options.max_distance >= 0))
     throw std::invalid_argument("clearance: a max_distance of " + shortest(options.max_distance) + " m");
+  if (options.overlap != Overlap::zero && options.overlap != Overlap::deepest)
+    throw std::invalid_argument("clearance: no overlap is " +
+                                std::to_string(static_cast<int>(options.overlap)) +
+                                ", only zero (0) and deepest (1)");
   const Implementation& implementation = chosen(options, "clearance");
   const ShapeSetView& view = shapes.view();
   require_valid(implementation, view, agents, pairs);
 
-  const ShapeSetView parts = parts_as_shapes(view);
-  ClearanceArguments arguments{arguments_for(view, agents, {}), limit_of(options.max_distance), nullptr};
+  const float enough = options.overlap == Overlap::zero ? 0 : -std::numeric_limits<float>::infinity();
+  const ClearanceArguments arguments{arguments_for(view, agents, {}), limit_of(options.max_distance), enough,
+                                     nullptr};
   const auto part = [](auto span, std::size_t begin, std::size_t size) {
     return span.empty() ? span : span.subspan(begin, size);
   };
@@ -141,11 +207,7 @@ void clearance(const ShapeSet& shapes, const Agents& agents, std::span<const Pai
     const ClearanceAnswers its_answers{part(answers.distance, begin, size),
                                        part(answers.direction, begin, size),
                                        part(answers.discs, begin, size)};
-    const std::span<const Pair> its_pairs = pairs.subspan(begin, size);
-    if (!asks_parts(view, agents)) return answer(implementation, arguments, agents, its_pairs, its_answers);
-    PartItems items;
-    items.expand(view, agents, its_pairs);
-    answer_parts(implementation, arguments, parts, its_pairs, items, its_answers);
+    RangeAnswers(implementation, arguments, agents, pairs.subspan(begin, size), its_answers).write();
   });
 }
 

@@ -45,7 +45,7 @@ class ClearanceKernel {
     if (shapes_.trees == nullptr) return answer_roots(nearest);
     for (std::uint32_t k = 0; k < size; k += Simd::width) bound_roots(k);
     for (std::uint32_t pair = 0; pair < size; ++pair) {
-      const Measure measure(arguments_.limit, reach(pair));
+      const Measure measure(arguments_.limit, arguments_.enough, reach(pair));
       nearest[pair] = answer(pair, measure);
       if (!(root_bound_[pair] <= arguments_.limit)) continue;
       searched_[search_.size()] = pair;

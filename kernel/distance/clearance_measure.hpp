@@ -39,9 +39,10 @@ class ClearanceMeasure {
  public:
   using Float = typename Simd::Float;
 
-  /// `reach` is S, metres.
-  ClearanceMeasure(float limit, float reach) noexcept : slack_(slack_per_reach * reach) {
-    set({limit, no_node, no_node});
+  /// `reach` is S, metres. A gap at or below `enough` ends the search; nothing is nearer.
+  ClearanceMeasure(float limit, float enough, float reach) noexcept
+      : enough_(enough), slack_(slack_per_reach * reach) {
+    look_within({limit, no_node, no_node});
   }
   ClearanceMeasure() = default;
 
@@ -111,12 +112,18 @@ class ClearanceMeasure {
   }
 
   void set(const Nearest& nearest) noexcept {
+    look_within(nearest);
+    // No comparison with these holds.
+    if (nearest.distance <= enough_) nearest_.distance = -__builtin_inff(), most_ = __builtin_nanf("");
+  }
+
+  void look_within(const Nearest& nearest) noexcept {
     nearest_ = nearest;
     most_ = nearest.distance + of_best * __builtin_fabsf(nearest.distance) + slack_;
   }
 
   Nearest nearest_;
-  float slack_;
+  float enough_, slack_;
   float most_;  ///< what is compared with instead of the best
 };
 

@@ -121,7 +121,11 @@ TEST_F(QueryWhat, ClearanceSaysHowFarAndWhichWay) {
   const Rows all = rows("clearance", header, {pairs});
   ASSERT_EQ(all.size(), 3u);
   EXPECT_EQ(all[0][0], "b");
-  EXPECT_LT(number(all[0][2]), 0);
+  EXPECT_EQ(all[0], (std::vector<std::string>{"b", "a", "0", "0", "0"}));
+  const Rows deepest = rows("clearance", header, {pairs, "--overlap", "deepest"});
+  EXPECT_LT(number(deepest[0][2]), 0);
+  EXPECT_NEAR(std::hypot(number(deepest[0][3]), number(deepest[0][4])), 1, 1e-6);
+  EXPECT_EQ((Rows{deepest[1], deepest[2]}), (Rows{all[1], all[2]}));
   EXPECT_LE(number(all[1][2]), 0.05);
   EXPECT_NEAR(number(all[1][2]), 0.05, 0.025);  // the discs' sizes
   EXPECT_NEAR(number(all[1][3]), 0, 0.4);
@@ -201,6 +205,8 @@ TEST_F(QueryWhat, WrongWordsGiveTwo) {
       {{"--what", "contacts", "--semantics", "boundary"}, "--semantics"},
       {{"--max-distance", "1"}, "--max-distance"},
       {{"--what", "clearance", "--max-distance", "-1"}, "--max-distance"},
+      {{"--what", "collide", "--overlap", "zero"}, "--overlap"},
+      {{"--what", "clearance", "--overlap", "least"}, "--overlap"},
       {{"--what", "clearance", "--max-distance", "nan"}, "--max-distance"},
       {{"--what", "penetration", "--directions", "0"}, "--directions"},
       {{"--what", "penetration", "--directions", "5"}, "5"},

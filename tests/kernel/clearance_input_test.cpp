@@ -57,13 +57,37 @@ TEST(Clearance, OfSingleDiscs) {
   }
 }
 
+/// What overlaps has a distance of 0 and nothing else; what does not, the same answer for either.
+TEST(Clearance, OverlapIsZeroByDefault) {
+  const ShapeSet set(test::synthetic_shapes(6, 8), four_levels);
+  Random random(8);
+  const PairScene scene = random_scene(random, set, 3'000);
+  Answers all(scene.pairs.size());
+  clearance(set, scene.crowd.agents(), scene.pairs, all.spans());
+  const Answers deepest = answers(set, scene.crowd.agents(), scene.pairs, infinity);
+  std::size_t overlapping = 0;
+  for (std::size_t i = 0; i < scene.pairs.size(); ++i) {
+    if (deepest.distance[i] > 0) {
+      ASSERT_TRUE(all.same(i, deepest, i)) << i;
+      continue;
+    }
+    ++overlapping;
+    EXPECT_EQ(all.distance[i], 0) << i;
+    EXPECT_EQ(all.direction[i], (Vec2{0, 0})) << i;
+    EXPECT_EQ(all.discs[i], no_discs) << i;
+  }
+  EXPECT_GT(overlapping, 500u);
+  EXPECT_LT(overlapping, 2'500u);
+}
+
 TEST(Clearance, AnswersThatAreNotAskedForChangeNoOthers) {
   const ShapeSet set(test::synthetic_shapes(6, 8), four_levels);
   Random random(7);
   const PairScene scene = random_scene(random, set, 3'000);
   const Answers all = answers(set, scene.crowd.agents(), scene.pairs, 0.5);
   std::vector<float> distance(scene.pairs.size());
-  clearance(set, scene.crowd.agents(), scene.pairs, {distance, {}, {}}, {.max_distance = 0.5});
+  clearance(set, scene.crowd.agents(), scene.pairs, {distance, {}, {}},
+            {.max_distance = 0.5, .overlap = Overlap::deepest});
   EXPECT_EQ(distance, all.distance);
 }
 
@@ -75,10 +99,10 @@ TEST(Clearance, RejectsBadInputBeforeAnythingIsWritten) {
   std::vector<Pair> pairs = {{0, 1}};
   Answers all(1);
   const auto expect_rejected = [&](const std::string& message, const ClearanceAnswers& spans,
-                                   double max_distance = 1) {
+                                   double max_distance = 1, Overlap overlap = Overlap::zero) {
     std::fill(all.distance.begin(), all.distance.end(), 42.0f);
     try {
-      clearance(set, crowd.agents(), pairs, spans, {.max_distance = max_distance});
+      clearance(set, crowd.agents(), pairs, spans, {.max_distance = max_distance, .overlap = overlap});
       FAIL() << "accepted; expected: " << message;
     } catch (const std::invalid_argument& error) {
       EXPECT_NE(std::string(error.what()).find(message), std::string::npos) << error.what();
@@ -87,6 +111,7 @@ TEST(Clearance, RejectsBadInputBeforeAnythingIsWritten) {
   };
   expect_rejected("max_distance of nan", all.spans(), std::nan(""));
   expect_rejected("max_distance of -0.5", all.spans(), -0.5);
+  expect_rejected("no overlap is 2", all.spans(), 1, Overlap{2});
   crowd.x[1] = std::nan("");
   expect_rejected("pair 0: agent 1: position (nan, 0)", all.spans());
   crowd.x[1] = 1;

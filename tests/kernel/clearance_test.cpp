@@ -41,10 +41,17 @@ class ClearanceDifferential : public test::Differential {
   ClearanceReference reference{shapes, four_levels};
 
   void expect_equal_to_brute_force(const PairScene& scene, double max_distance, const std::string& what) {
-    const Answers brute_force = answers(reference, scene, max_distance, Method::brute_force);
+    const Answers deepest = answers(reference, scene, max_distance, Method::brute_force);
+    expect_equal(scene, max_distance, Overlap::deepest, deepest, what);
+    expect_equal(scene, max_distance, Overlap::zero, test::at_least_zero(deepest), what + ", at least 0");
+  }
+
+  void expect_equal(const PairScene& scene, double max_distance, Overlap overlap, const Answers& brute_force,
+                    const std::string& what) {
     for (const auto& implementation : implementations()) {
       if (!implementation.supported()) continue;
-      const Answers of = answers(set, scene.crowd.agents(), scene.pairs, max_distance, &implementation);
+      const Answers of =
+          answers(set, scene.crowd.agents(), scene.pairs, max_distance, &implementation, overlap);
       for (std::size_t i = 0; i < scene.pairs.size(); ++i)
         ASSERT_TRUE(of.same(i, brute_force, i))
             << what << ", " << implementation.name << ", pair " << i << ": " << of.distance[i] << " between "

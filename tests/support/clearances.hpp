@@ -15,7 +15,7 @@
 
 namespace bch::test {
 
-/// The results of clearance() for some pairs.
+/// The results of clearance() for some pairs, with Overlap::deepest where nothing is said.
 struct Answers {
   std::vector<float> distance;
   std::vector<Vec2> direction;
@@ -33,11 +33,25 @@ struct Answers {
 };
 
 inline Answers answers(const ShapeSet& set, const Agents& agents, std::span<const Pair> pairs,
-                       double max_distance, const Implementation* implementation = nullptr) {
+                       double max_distance, const Implementation* implementation = nullptr,
+                       Overlap overlap = Overlap::deepest) {
   Answers all(pairs.size());
   clearance(set, agents, pairs, all.spans(),
-            {.implementation = implementation, .max_distance = max_distance});
+            {.implementation = implementation, .max_distance = max_distance, .overlap = overlap});
   return all;
+}
+
+/// Returns what Overlap::zero makes of such answers.
+inline Answers at_least_zero(const Answers& all) {
+  Answers zero;
+  for (std::size_t i = 0; i < all.distance.size(); ++i) {
+    const auto [distance, direction, first, second] = baselines::at_least_zero(
+        {all.distance[i], all.direction[i], all.discs[i].first, all.discs[i].second});
+    zero.distance.push_back(distance);
+    zero.direction.push_back(direction);
+    zero.discs.push_back({first, second});
+  }
+  return zero;
 }
 
 /// Asks the scalar reference for the answers to all pairs of a scene.

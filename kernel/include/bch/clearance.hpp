@@ -9,22 +9,24 @@
 
 namespace bch {
 
-/// What clearance() gives for the discs of a pair beyond max_distance.
+/// What clearance() gives for the discs of a pair that is beyond max_distance, or that overlaps.
 constexpr DiscPair no_discs{0xffffffff, 0xffffffff};
 
 /// The output arrays of clearance(). Empty directions and discs are not computed, which saves time.
 struct ClearanceAnswers {
   std::span<float> distance;       ///< metres; infinite beyond max_distance
-  std::span<Vec2> direction = {};  ///< unit vectors; (0, 0) beyond max_distance
-  std::span<DiscPair> discs = {};  ///< the nearest ones; no_discs beyond max_distance
+  std::span<Vec2> direction = {};  ///< unit vectors; (0, 0) beyond max_distance, and where the distance is 0
+  std::span<DiscPair> discs = {};  ///< the nearest ones; no_discs for the same pairs
 };
 
 /// Measures how far apart the two agents of each pair are: the least gap between a disc of one's cut and a disc of the
-/// other's; negative where discs overlap, then the deepest overlap of two of them. With it the unit vector in
-/// the world from the first agent's nearest disc to the second's: moving the second agent along it, or the
-/// first one against it, widens that gap the fastest. (penetration() gives the way of the first agent, which is
-/// the opposite.) Where the two centres coincide, (1, 0) from the agent
-/// with the lower index to the other.
+/// other's, or 0 where discs overlap. With it the unit vector in the world from the first agent's nearest disc to the
+/// second's: moving the second agent along it, or the first one against it, widens that gap the fastest.
+/// (penetration() gives the way of the first agent, which is the opposite.)
+///
+/// With Overlap::deepest the distance of discs that overlap is negative, that of the two that do so the deepest, and the
+/// direction leads from one centre to the other, or, where these coincide, it is (1, 0) from the agent with the lower index to
+/// the other. The depth is limited by the radii of the discs, so that with fine cuts penetration() says more.
 ///
 /// Never larger than the distance of the outlines: an outline that crosses another has a clearance of at most
 /// 0. Below it by no more than r_A + r_B + (r_A^2 + r_B^2) / 2 D, with r the radii of the nearest discs and D
@@ -32,7 +34,7 @@ struct ClearanceAnswers {
 /// and of D. The discs of the cuts alone count, not the nodes above them, so that a distance is one of two
 /// discs. Where collide() says 1 in boundary semantics, the distance is at most 0; where the distance is
 /// positive, it says 0 there. It may say 0 where discs overlap and nodes above them or the
-/// segments of exact leaves do not: a distance below 0 is no collision yet. The same bits on every processor,
+/// segments of exact leaves do not: a distance of 0 is no collision yet. The same bits on every processor,
 /// for any number of threads and any split of the batch; exchanging the agents of a pair exchanges the discs
 /// and negates the direction. Of gaps that are equal, the one with the first disc of the agent with the lower
 /// index counts, then that with the first disc of the other.
@@ -40,11 +42,11 @@ struct ClearanceAnswers {
 /// Bodies in slabs, or at different heights, have the least distance of the parts that may meet; in a tie that of the lowest
 /// slabs. Where no parts may, it is infinite.
 ///
-/// Options: max_distance, implementation.
+/// Options: max_distance, overlap, implementation.
 /// Sizes:   as many distances as pairs, directions and discs as many or none. An agent may be paired with
 ///          itself.
 /// Errors:  throws std::invalid_argument, before anything is written, as collide() does, and on a
-///          max_distance that is negative or NaN.
+///          max_distance that is negative or NaN, or an overlap that is neither.
 /// Threads: runs in the caller's TBB arena. Allocates nothing, but for bodies in slabs or at different heights.
 void clearance(const ShapeSet& shapes, const Agents& agents, std::span<const Pair> pairs,
                const ClearanceAnswers& answers, const QueryOptions& options = {});

@@ -54,6 +54,12 @@ const Implementation& best_implementation();
 /// Errors:  throws std::invalid_argument on an unknown name, naming the known ones, or one that this processor does not run.
 const Implementation& implementation(std::string_view name);
 
+/// What clearance() says of pairs of which discs overlap.
+enum class Overlap {
+  zero,  ///< a distance of 0, without a direction or discs: what collides costs hardly more than in collide()
+  deepest,  ///< the deepest overlap of two discs, below 0, and its direction: a depth for forces where cuts are coarse
+};
+
 /// The options of the queries. A query ignores those that do not concern it: its description names those that do.
 struct QueryOptions {
   Semantics semantics = Semantics::boundary;  ///< of collide() and CrowdCollider; sets with slices are solid
@@ -63,6 +69,7 @@ struct QueryOptions {
   /// The largest distance of interest of clearance(), metres, not negative; may be infinite. Pairs farther apart get an
   /// infinite distance and nothing else. The smaller the limit, the sooner they are rejected.
   double max_distance = std::numeric_limits<double>::infinity();
+  Overlap overlap = Overlap::zero;  ///< of clearance()
 };
 
 /// Two discs by their numbers in the cuts of a pair's agents, in the order of ShapeSet::discs() and cut().
