@@ -77,4 +77,30 @@ Clearance ClearanceReference::query(const Agents& agents, Pair pair, double max_
   return {nearest.gap, towards, nearest.b, nearest.a};
 }
 
+bool ClearanceReference::within(const Agents& agents, Pair pair, double distance, Method method) {
+  const auto [first, second] = std::minmax(pair.first, pair.second);
+  const CutTrees::Tree &a = trees_.tree(agents, first), &b = trees_.tree(agents, second);
+  const FloatPlacement place = float_placement(agents, pair);
+  const float gap = detail::rounding::round_up(std::min(distance, 1e10) * (1 + 0x1p-19));
+  const auto is_near = [](const Step& at, float most) {
+    const float sum = at.radius_sum * (1 + 0x1p-19f) + most;
+    return at.x * at.x + at.y * at.y <= sum * sum;
+  };
+  if (method == Method::brute_force) {
+    for (const Disc& of_a : a.discs)
+      for (const Disc& of_b : b.discs)
+        if (is_near(step(place, of_a, of_b), gap)) return true;
+    return false;
+  }
+  // What bounds say by being 0: that they may be near. One hit ends the search.
+  bool found = false;
+  const float bound_gap = gap + 0x1p-17f * (a.reach + b.reach + gap);
+  search(
+      place, a.nodes.data(), b.nodes.data(), open_,
+      [&](const Step& at) { return is_near(at, bound_gap) ? 0.0f : 1.0f; },
+      [&] { return found ? -1.0f : 0.0f; },
+      [&](std::uint32_t, std::uint32_t, const Step& at) { found = found || is_near(at, gap); });
+  return found;
+}
+
 }  // namespace bch::baselines

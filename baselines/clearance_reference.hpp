@@ -31,6 +31,9 @@ class ClearanceReference {
   /// than the nearest so far. Not for two threads at a time.
   Clearance query(const Agents& agents, Pair pair, double max_distance, Method method);
 
+  /// Returns what within() says of a pair in boundary semantics.
+  bool within(const Agents& agents, Pair pair, double distance, Method method);
+
  private:
   CutTrees trees_;
   std::vector<OpenPair> open_;

@@ -34,12 +34,16 @@ double plain_part(double value) {
   return std::abs(value) < 1e-15 ? 0 : value;
 }
 
-std::string collide_rows(const QueryInput& input) {
-  std::vector<std::uint8_t> hits(input.pairs.size());
-  collide(input.set, input.table.agents(), input.pairs, hits, input.options);
+std::string hit_rows(const QueryInput& input, const std::vector<std::uint8_t>& hits) {
   std::string out;
   for (std::size_t i = 0; i < hits.size(); ++i) out += fmt::format("{},{:d}\n", ids(input, i), hits[i]);
   return out;
+}
+
+std::string collide_rows(const QueryInput& input) {
+  std::vector<std::uint8_t> hits(input.pairs.size());
+  collide(input.set, input.table.agents(), input.pairs, hits, input.options);
+  return hit_rows(input, hits);
 }
 
 std::string contact_rows(const QueryInput& input) {
@@ -79,6 +83,12 @@ std::string clearance_rows(const QueryInput& input) {
   return out;
 }
 
+std::string within_rows(const QueryInput& input) {
+  std::vector<std::uint8_t> hits(input.pairs.size());
+  within(input.set, input.table.agents(), input.pairs, {&input.options.max_distance, 1}, hits, input.options);
+  return hit_rows(input, hits);
+}
+
 std::string time_of_impact_rows(const QueryInput& input) {
   std::vector<double> x, y;
   for (const auto [first, second] : input.pairs) {
@@ -99,6 +109,7 @@ constexpr QueryKind kinds[] = {
      "                 the first one's to the second's; 0,0,0 where discs overlap, but for\n"
      "                 --overlap deepest; inf,0,0 beyond --max-distance",
      clearance_rows},
+    {"within", "hit", "1 where the agents come within --max-distance of each other, else 0", within_rows},
     {"time-of-impact", "time",
      "from 0 to 1, when the agents touch first while each moves by its dx\n"
      "                 and dy; inf: they do not",

@@ -162,14 +162,21 @@ void run_query(const CLI::App& command, const QueryCommandOptions& options) {
                                        : "PAIRS.csv or --all-pairs is missing");
   if (options.what != "penetration")
     require_absent(command, {"--directions", "--direction"}, "belongs to --what penetration");
-  if (options.what != "clearance")
-    require_absent(command, {"--max-distance", "--overlap"}, "belongs to --what clearance");
-  if (options.what != "collide" && !options.all_pairs)
-    require_absent(command, {"--semantics"}, "belongs to --what collide and to --all-pairs");
+  const bool within = options.what == "within";
+  if (options.what != "clearance") require_absent(command, {"--overlap"}, "belongs to --what clearance");
+  if (options.what != "clearance" && !within)
+    require_absent(command, {"--max-distance"}, "belongs to --what clearance and --what within");
+  if (within && !std::isfinite(options.max_distance))
+    throw UsageError("--max-distance: --what within needs one");
+  if (options.what != "collide" && !within && !options.all_pairs)
+    require_absent(command, {"--semantics"}, "belongs to --what collide, --what within and --all-pairs");
   if (options.what != "collide" && options.what != "contacts" && !options.all_pairs)
     require_absent(command, {"--leaves"}, "belongs to --what collide, --what contacts and --all-pairs");
-  if (std::isfinite(options.max_distance))
-    require_absent(command, {"--semantics", "--leaves"}, "--max-distance is about discs, whatever is inside");
+  if (std::isfinite(options.max_distance)) {
+    require_absent(command, {"--leaves"}, "--max-distance is about discs");
+    if (!within)
+      require_absent(command, {"--semantics"}, "--max-distance is about discs, whatever is inside");
+  }
   if (query_kind(options.what).moving)
     require_absent(command, {"--all-pairs"}, "agents that collide now touch at once");
   if (!options.direction.empty()) require_absent(command, {"--directions"}, "--direction names the only one");
@@ -203,12 +210,10 @@ std::function<void()> add_query_command(CLI::App& program) {
       "the direction in which they walk plus pi/2.\n"
       "Writes a line for each line of PAIRS.csv, in that order, or what --what says:\n" +
       query_help() +
-      "clearance, time-of-impact and penetration look at the discs of the cuts, which cover outlines. An "
-      "agent "
-      "inside another\n"
-      "may be clear of it. --semantics concerns collide and the pairs that --all-pairs finds without "
-      "--max-distance,\n"
-      "--leaves these and contacts.\n"
+      "clearance, within, time-of-impact and penetration look at the discs of the cuts, which cover "
+      "outlines. An\n"
+      "agent inside another may be clear of it. --semantics concerns collide, within and the pairs that\n"
+      "--all-pairs finds without --max-distance, --leaves these and contacts.\n"
       "Example: bch query default:female agents.csv pairs.csv > answers.csv");
   command.add_option("SHAPES", options->character, character_or_baked_help)->type_name("")->required();
   command.add_option("AGENTS.csv", options->agents, "Columns id,shape,x,y,heading[,z][,level][,dx,dy]")
@@ -235,7 +240,7 @@ std::function<void()> add_query_command(CLI::App& program) {
       ->type_name("X,Y");
   command
       .add_option("--max-distance", options->max_distance,
-                  "Of a clearance, metres: pairs farther apart are only told to be so [no limit]")
+                  "Metres: how near is within; a clearance beyond it is inf [no limit]")
       ->type_name("M")
       ->check(number_between(0, 2 * detail::rounding::largest_position));
   command

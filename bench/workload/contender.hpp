@@ -34,7 +34,7 @@ struct TimedQuery {
   Contender (*reference)(Scene&, const Workload&);  ///< may be null
 };
 
-/// Returns clearance(), with directions, and time_of_impact(). The references are scalar searches with the
+/// Returns clearance(), with directions, within(), and time_of_impact(). The references are scalar searches with the
 /// same pruning.
 std::span<const TimedQuery> distance_queries();
 /// Returns ContactFinder::find(); penetration(), along the best of 16 directions; collide_all(), whose pairs are those of

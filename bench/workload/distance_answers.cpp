@@ -34,6 +34,15 @@ std::string wrong_clearances(Scene& scene, const Workload& workload, const Clear
   return {};
 }
 
+std::string wrong_within(Scene& scene, const Workload& workload, const Hits& answers) {
+  baselines::ClearanceReference reference(scene.shapes(), {});
+  for (std::size_t i = 0; i < workload.pairs.size(); ++i)
+    if (answers[i] != reference.within(workload.agents(), workload.pairs[i], personal_space,
+                                       baselines::Method::brute_force))
+      return fmt::format("pair {}: {}, and brute force says otherwise", i, answers[i]);
+  return {};
+}
+
 std::string wrong_distances(Scene& scene, const Workload& workload, const std::vector<double>& distances) {
   Clearances all(workload.pairs.size());
   clearance(scene.set(), workload.agents(), workload.pairs, all.spans());

@@ -16,6 +16,7 @@
 namespace bch::bench {
 
 constexpr double clearance_limit = 0.5;  ///< metres
+constexpr double personal_space = 0.1;   ///< metres, that within() asks for
 constexpr double walking_speed = 1.3;    ///< metres a second, along the heading
 constexpr double walking_time = 0.5;     ///< seconds
 
@@ -39,6 +40,7 @@ struct Ways {
 /// The functions below say where answers differ from brute force over all discs, on every pair; empty:
 /// nowhere.
 std::string wrong_clearances(Scene& scene, const Workload& workload, const Clearances& answers);
+std::string wrong_within(Scene& scene, const Workload& workload, const Hits& answers);
 /// Checks distances of outlines, which clearances bound.
 std::string wrong_distances(Scene& scene, const Workload& workload, const std::vector<double>& distances);
 std::string wrong_times_of_impact(Scene& scene, const Workload& workload, const std::vector<float>& times);

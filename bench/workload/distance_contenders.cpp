@@ -39,6 +39,30 @@ Contender clearance_reference(Scene& scene, const Workload& workload) {
   return {call, workload.pairs.size()};
 }
 
+Contender within_kernel(Scene& scene, const Workload& workload, const Implementation& implementation) {
+  const auto answers = std::make_shared<Hits>(workload.pairs.size());
+  const auto call = [&set = scene.set(), &workload, answers, &implementation] {
+    within(set, workload.agents(), workload.pairs, {&personal_space, 1}, *answers,
+           {.implementation = &implementation});
+  };
+  call();
+  require_right(implementation.name, workload, wrong_within(scene, workload, *answers));
+  return {call, workload.pairs.size()};
+}
+
+Contender within_reference(Scene& scene, const Workload& workload) {
+  const auto answers = std::make_shared<Hits>(workload.pairs.size());
+  const auto reference = std::make_shared<baselines::ClearanceReference>(scene.shapes(), ShapeSetPlan{});
+  const auto call = [reference, &workload, answers] {
+    for (std::size_t i = 0; i < workload.pairs.size(); ++i)
+      (*answers)[i] = reference->within(workload.agents(), workload.pairs[i], personal_space,
+                                        baselines::Method::depth_first);
+  };
+  call();
+  require_right("scalar search", workload, wrong_within(scene, workload, *answers));
+  return {call, workload.pairs.size()};
+}
+
 Contender time_of_impact_kernel(Scene& scene, const Workload& workload,
                                 const Implementation& implementation) {
   const auto times = std::make_shared<std::vector<float>>(workload.pairs.size());
@@ -67,6 +91,7 @@ Contender time_of_impact_reference(Scene& scene, const Workload& workload) {
 }
 
 constexpr TimedQuery queries[] = {{"clearance", clearance_kernel, clearance_reference},
+                                  {"within", within_kernel, within_reference},
                                   {"time_of_impact", time_of_impact_kernel, time_of_impact_reference}};
 
 }  // namespace

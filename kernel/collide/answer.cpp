@@ -34,7 +34,8 @@ void decide_containment(const Arguments& in, std::size_t begin, std::size_t end)
 void answer(const Implementation& implementation, const Arguments& arguments, std::size_t begin,
             std::size_t end) noexcept {
   if (in_slabs(arguments)) return implementation.kernels->run_in_slabs(arguments, begin, end);
-  implementation.kernels->run(arguments, begin, end);
+  const Kernels& kernels = *implementation.kernels;
+  (arguments.distances != nullptr ? kernels.run_within : kernels.run)(arguments, begin, end);
   decide_containment(arguments, begin, end);
 }
 

@@ -19,17 +19,10 @@ using namespace detail;
 void collide(const ShapeSet& shapes, const Agents& agents, std::span<const Pair> pairs,
              std::span<std::uint8_t> hits, const QueryOptions& options) {
   const FloatingPointStateGuard floats;
-  const bool in_slabs = !shapes.slices().empty(), solid = in_slabs || options.semantics == Semantics::solid;
   if (hits.size() != pairs.size())
     throw std::invalid_argument("collide: " + std::to_string(pairs.size()) + " pairs but " +
                                 std::to_string(hits.size()) + " hits");
-  if (options.semantics != Semantics::solid && options.semantics != Semantics::boundary)
-    throw std::invalid_argument("collide: no semantics is " +
-                                std::to_string(static_cast<int>(options.semantics)) +
-                                ", only boundary (0) and solid (1)");
-  if (solid && !shapes.solid())
-    throw std::invalid_argument(
-        "collide: solid semantics needs outlines, and the set does not have that of every shape");
+  const bool solid = is_solid(shapes, options.semantics, "collide");
   const bool exact = exact_leaves(shapes, options.leaves, "collide");
   const Implementation& implementation = chosen(options, "collide");
   const ShapeSetView& view = shapes.view();

@@ -5,10 +5,12 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <type_traits>
 
 #include "kernel/simd/ancestor_test.hpp"
 #include "kernel/simd/arguments.hpp"
 #include "kernel/simd/disc_pairs.hpp"
+#include "kernel/simd/gaps.hpp"
 #include "kernel/simd/segment_test.hpp"
 #include "kernel/simd/tree_nodes.hpp"
 #include "layout/format/shape_set_view.hpp"
@@ -29,18 +31,21 @@ class OverlapTraversal {
         codes_(arguments.codes),
         prefetch_(arguments.prefetch_shapes),
         exact_leaves_(arguments.exact_leaves),
+        leaves_alone_(arguments.distances != nullptr),
         segments_(shapes, open_) {}
 
   /// `pair` is where the answer goes in codes, `miss` what it is unless a walk finds an overlap.
-  /// `reach`: of the two shapes together. `margin`: of their segments, 0 where discs decide.
+  /// `reach`: of the two shapes together. `margin`: of their segments, 0 where discs decide. `gaps` are looked at where
+  /// KnowsGaps.
   void add(std::size_t pair, std::uint8_t miss, const Transform& b_in_a, std::uint32_t root_a,
-           std::uint32_t root_b, float reach, double margin) noexcept {
+           std::uint32_t root_b, float reach, double margin, Gaps gaps) noexcept {
     const Tree a = shapes_.trees[root_a], b = shapes_.trees[root_b];
     if (a.segments == no_segments || b.segments == no_segments) margin = 0;
     // Slots are numbered when they are first needed, because small batches need few.
     if (size_ == numbered_) slots_[size_] = static_cast<std::uint16_t>(numbered_++);
     const std::uint32_t slot = slots_[size_++];
-    open_[slot] = {b_in_a, a.top, b.top, a.stride, b.stride, root_a, root_b, reach, 0, pair, margin};
+    open_[slot] = {b_in_a, a.top, b.top, a.stride, b.stride, root_a, root_b, reach, 0, pair, margin, {}};
+    if constexpr (KnowsGaps<Simd>) open_[slot].gaps = gaps;
     frames_[slot][0] = {0, 0, 0};
     codes_[pair] = miss;
   }
@@ -58,6 +63,8 @@ class OverlapTraversal {
   /// Every test descends on one side at least, and neither side has more levels than this.
   static constexpr std::uint32_t most_frames = 2 * most_wide_levels;
 
+  struct NoGaps {};
+
   /// A pair being walked, with the two nodes to test next.
   struct Open {
     Transform b_in_a;
@@ -68,6 +75,7 @@ class OverlapTraversal {
     std::uint32_t top;  ///< frame
     std::size_t pair;
     double margin;  ///< 0, or segments decide where leaves overlap: metres
+    [[no_unique_address]] std::conditional_t<KnowsGaps<Simd>, Gaps, NoGaps> gaps;
   };
 
   /// Two nodes whose discs overlap at the set bits (8 i + j: disc i of A, disc j of B), none of which was
@@ -105,6 +113,11 @@ class OverlapTraversal {
   [[gnu::always_inline]] std::uint64_t overlaps_of(const Open& pair, std::uint32_t a,
                                                    std::uint32_t b) const noexcept {
     const float* const nodes = shapes_.nodes;
+    if constexpr (KnowsGaps<Simd>)
+      if (leaves_alone_)
+        return near_discs<Simd>(pair.b_in_a, Nodes::outer_discs(nodes, a, pair.stride_a),
+                                Nodes::outer_discs(nodes, b, pair.stride_b), near_radii,
+                                (a & b) >= leaf_window ? pair.gaps.leaf : pair.gaps.bound);
     return overlapping_discs<Simd>(pair.b_in_a, Nodes::discs(nodes, a, pair.stride_a),
                                    Nodes::discs(nodes, b, pair.stride_b));
   }
@@ -112,6 +125,7 @@ class OverlapTraversal {
   /// Takes the hits of leaves away whose segments do not meet or whose ancestors do not all overlap, but for
   /// a pair's first that stays.
   [[gnu::always_inline]] void verify() noexcept {
+    if (KnowsGaps<Simd> && leaves_alone_) return;
     std::uint16_t found[verified_together + 1];
     std::uint32_t count = 0;
     for (std::uint32_t k = 0; k < size_; ++k) {
@@ -261,6 +275,7 @@ class OverlapTraversal {
   const ShapeSetView& shapes_;
   std::uint8_t* const codes_;
   const bool prefetch_, exact_leaves_;
+  const bool leaves_alone_;  ///< leaf discs within their gap are a hit, whatever is above them
   std::uint32_t size_ = 0, numbered_ = 0;
   std::uint16_t slots_[capacity];  ///< a permutation: first those of open pairs, then free ones
   Open open_[capacity];

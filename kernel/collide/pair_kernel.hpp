@@ -90,13 +90,19 @@ class PairKernel {
     for (std::uint32_t k = 0; k < open_.size; ++k) {
       const std::uint32_t pair = open_.pair[k];
       walk_.add(begin + pair, miss(pair), at_.transform(pair), at_.root_a[pair], at_.root_b[pair],
-                shapes_.reach[at_.shape_a[pair]] + shapes_.reach[at_.shape_b[pair]], segment_margin(pair));
+                shapes_.reach[at_.shape_a[pair]] + shapes_.reach[at_.shape_b[pair]], segment_margin(pair),
+                gaps_of(pair));
     }
   }
 
   double segment_margin(std::uint32_t pair) const noexcept {
     if (!in_.exact_leaves) return 0;
     return detail::segment_margin<Simd>(shapes_, at_.shape_a[pair], at_.shape_b[pair]);
+  }
+
+  Gaps gaps_of(std::uint32_t pair) const noexcept {
+    if constexpr (KnowsGaps<Simd>) return {at_.gap[pair], at_.bound_gap[pair]};
+    return {0, 0};
   }
 
   /// Root disc against root disc, lane = pair. Where both cuts are single discs, that is the answer.
@@ -109,15 +115,25 @@ class PairKernel {
       Simd::store(reinterpret_cast<float*>(row_a_ + k), a[3]);
       Simd::store(reinterpret_cast<float*>(row_b_ + k), b[3]);
       const auto [x, y] = at_.transforms(k).apply(b[0], b[1]);
-      const std::uint32_t hits = overlaps<Simd>(x, y, b[2], a[0], a[1], a[2]);
+      const std::uint32_t hits = roots_overlap(k, x - a[0], y - a[1], a[2] + b[2]);
       std::uint32_t open = 0;
       for (std::uint32_t lane = 0; lane < lanes(k); ++lane) {
-        const std::uint32_t decided = both_are_single(k + lane), hit = hits >> lane & 1;
+        const std::uint32_t decided = both_are_single(k + lane);
+        // Leaf discs that come within a distance may stick out of the roots.
+        const std::uint32_t hit = (hits >> lane & 1) | (is_about_gaps() & (decided ^ 1));
         codes_[k + lane] = static_cast<std::uint8_t>(hit * overlap);
         open |= (hit & (decided ^ 1)) << lane;
       }
       open_bits_[k / Simd::width] = open;
     }
+  }
+
+  std::uint32_t is_about_gaps() const noexcept { return KnowsGaps<Simd> && in_.distances != nullptr; }
+
+  [[gnu::always_inline]] std::uint32_t roots_overlap(std::uint32_t k, Float x, Float y,
+                                                     Float r) const noexcept {
+    if constexpr (KnowsGaps<Simd>) r = r * Float(is_about_gaps() ? near_radii : 1) + Simd::load(at_.gap + k);
+    return Simd::bits(x * x + y * y <= r * r);
   }
 
   std::uint32_t both_are_single(std::uint32_t k) const noexcept {
@@ -216,8 +232,10 @@ class PairKernel {
   /// Returns whether the areas meet by their inscribed discs. See layout/culling/interior.hpp.
   template <unsigned count>
   std::uint32_t inscribed_discs_overlap(std::uint32_t pair) const noexcept {
-    return overlapping_discs<Simd, count>(at_.transform(pair), inscribed(at_.shape_a[pair]),
-                                          inscribed(at_.shape_b[pair])) != 0;
+    const Discs a = inscribed(at_.shape_a[pair]), b = inscribed(at_.shape_b[pair]);
+    if constexpr (KnowsGaps<Simd>)
+      return near_discs<Simd, count>(at_.transform(pair), a, b, 1, sure_gap * at_.gap[pair]) != 0;
+    return overlapping_discs<Simd, count>(at_.transform(pair), a, b) != 0;
   }
 
   [[gnu::always_inline]] void prefetch_inscribed(std::uint32_t pair) const noexcept {

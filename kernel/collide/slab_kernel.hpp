@@ -41,6 +41,7 @@ class SlabKernel {
 
   void answer_group(std::size_t begin, std::size_t end) noexcept {
     codes_ = in_.codes + begin;
+    begin_ = begin;
     open_count_ = nested_count_ = 0;
     for (std::uint32_t first = 0; first < group_size && begin + first < end; first += chunk_size)
       place(first, begin + first, end);
@@ -57,7 +58,7 @@ class SlabKernel {
   void place(std::uint32_t first, std::size_t begin, std::size_t end) noexcept {
     Placements<Simd>& at = kernel_.placements();
     at.place(in_, begin, end);
-    const bool has_hulls = in_.shapes->hull_support != nullptr;
+    const bool has_hulls = in_.shapes->hull_support != nullptr && in_.distances == nullptr;
     const std::uint32_t levels = in_.shapes->level_count;
     if (has_hulls) {
       hulls_.use_rows(at.shape_a, at.shape_b);
@@ -115,6 +116,7 @@ class SlabKernel {
       at.ty[k] = placed.b_in_a.ty;
       at.shape_a[k] = a, at.shape_b[k] = b;
       at.root_a[k] = a * levels + placed.level_a, at.root_b[k] = b * levels + placed.level_b;
+      at.set_gaps(k, in_, begin_ + pair);
     }
     at.fill_up(k);
     kernel_.answer_placed(first);
@@ -166,7 +168,8 @@ class SlabKernel {
   ShapeSetView hull_view_;
   PairKernel<Simd> kernel_;
   SeparatingAxisTest<Simd> hulls_;
-  std::uint8_t* codes_ = nullptr;  ///< of the group
+  std::size_t begin_ = 0;          ///< of the group
+  std::uint8_t* codes_ = nullptr;  ///< of it
   std::uint32_t open_count_ = 0, nested_count_ = 0;
   std::uint16_t open_[group_size];
   std::uint8_t part_codes_[group_size];

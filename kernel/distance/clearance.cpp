@@ -28,8 +28,6 @@ namespace {
 /// Pairs a task.
 constexpr std::size_t grain = 1024;
 
-constexpr float largest_limit = 1e10f;  ///< beyond the distance of any two agents
-
 /// The largest float that is not above max_distance.
 float limit_of(double max_distance) {
   const float nearest = static_cast<float>(std::min(max_distance, static_cast<double>(largest_limit)));
@@ -94,7 +92,8 @@ class RangeAnswers {
     }
   }
 
-  void search_shapes() noexcept {
+  /// Not inlined, so that what it keeps on the stack is not there beside the other kernel.
+  [[gnu::noinline]] void search_shapes() noexcept {
     NearestDiscs nearest[grain];
     arguments_.in.pairs = open_;
     arguments_.nearest = nearest;

@@ -12,6 +12,8 @@ namespace bch::detail {
 /// Beyond every length, squared length and time that a kernel computes of valid agents.
 constexpr float far_beyond = 0x1p66f;
 
+constexpr float largest_limit = 1e10f;  ///< beyond the distance of any two agents
+
 constexpr std::uint32_t no_node = 0xffffffff;
 
 /// The result of a kernel for a pair. The agent with the lower index is A.

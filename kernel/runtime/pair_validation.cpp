@@ -79,6 +79,19 @@ const Implementation& chosen(const QueryOptions& options, const char* query) {
   return *wanted;
 }
 
+bool is_solid(const ShapeSet& shapes, Semantics semantics, const char* query) {
+  if (semantics != Semantics::solid && semantics != Semantics::boundary)
+    throw std::invalid_argument(std::string(query) + ": no semantics is " +
+                                std::to_string(static_cast<int>(semantics)) +
+                                ", only boundary (0) and solid (1)");
+  const bool solid = semantics == Semantics::solid || !shapes.slices().empty();
+  if (solid && !shapes.solid())
+    throw std::invalid_argument(
+        std::string(query) +
+        ": solid semantics needs outlines, and the set does not have that of every shape");
+  return solid;
+}
+
 bool exact_leaves(const ShapeSet& shapes, Leaves leaves, const char* query) {
   if (leaves != Leaves::discs && leaves != Leaves::segments)
     throw std::invalid_argument(std::string(query) + ": no leaves are " +
@@ -97,6 +110,7 @@ Arguments arguments_for(const ShapeSetView& view, const Agents& agents, std::spa
           .agent_level = agents.level.empty() ? nullptr : agents.level.data(),
           .agent_z = agents.z.empty() ? nullptr : agents.z.data(),
           .pairs = pairs.data(),
+          .distances = nullptr,
           .codes = nullptr,
           .solid = false,
           .exact_leaves = false,

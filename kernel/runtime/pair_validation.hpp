@@ -22,6 +22,10 @@ constexpr std::size_t pairs_per_task = 2048;
 /// Errors:  throws std::invalid_argument naming the query where this processor does not run it.
 const Implementation& chosen(const QueryOptions& options, const char* query);
 
+/// Returns whether a query answers in solid semantics: that is selected, or bodies are in slabs.
+/// Errors:  throws std::invalid_argument naming the query on a value that is none, and where the set lacks outlines for it.
+bool is_solid(const ShapeSet& shapes, Semantics semantics, const char* query);
+
 /// Returns whether segments decide at some leaves: `leaves` selects them, and the set has them.
 /// Errors:  throws std::invalid_argument naming the query on a value that is none.
 bool exact_leaves(const ShapeSet& shapes, Leaves leaves, const char* query);

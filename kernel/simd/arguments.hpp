@@ -29,6 +29,7 @@ struct Arguments {
   const std::uint8_t* agent_level;  ///< null: the last level
   const double* agent_z;            ///< null: all stand on the same ground
   const Pair* pairs;
+  const float* distances;  ///< per pair, see Gaps; null: which pairs collide is asked
   std::uint8_t* codes;
   bool solid;         ///< write may_contain where it applies, else apart
   bool exact_leaves;  ///< where both trees have segments, these decide; see Leaves
@@ -39,7 +40,7 @@ struct Arguments {
 /// The result of a kernel for a pair.
 enum Code : std::uint8_t {
   apart = 0,    ///< the cuts do not overlap, and neither outline holds the other, or that is not asked for
-  overlap = 1,  ///< discs of the cuts overlap
+  overlap = 1,  ///< discs of the cuts overlap, or come within the distance of the pair
   may_contain = 2,  ///< the cuts do not overlap, and one outline might hold the other
 };
 

@@ -75,6 +75,19 @@ template <class Simd, unsigned count, class Visit>
   visit_disc_pairs<Simd, count, false>(b_in_a, a, b, visit);
 }
 
+/// Returns which of those pairs have a gap of at most so much, with their radii times a factor; see Gaps.
+template <class Simd, unsigned count = block_width>
+[[gnu::always_inline]] inline std::uint64_t near_discs(const Transform& b_in_a, Discs a, Discs b,
+                                                       float factor, float gap) noexcept {
+  using Float = typename Simd::Float;
+  std::uint64_t bits = 0;
+  visit_disc_pairs<Simd, count>(b_in_a, a, b, [&bits, factor, gap](unsigned k, Float x, Float y, Float r) {
+    const Float sum = r * Float(factor) + Float(gap);
+    bits |= std::uint64_t{Simd::bits(x * x + y * y <= sum * sum)} << k;
+  });
+  return bits;
+}
+
 /// Returns which of those pairs overlap, touching included: bit k for pair k.
 template <class Simd, unsigned count = block_width>
 [[gnu::always_inline]] inline std::uint64_t overlapping_discs(const Transform& b_in_a, Discs a,

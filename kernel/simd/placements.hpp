@@ -9,6 +9,7 @@
 #include <bch/agents.hpp>
 
 #include "kernel/simd/arguments.hpp"
+#include "kernel/simd/gaps.hpp"
 #include "kernel/simd/transform.hpp"
 #include "layout/base/heading.hpp"
 #include "layout/base/rounding.hpp"
@@ -28,6 +29,9 @@ class Placements {
     name_agents<false>(in, begin);
     in.prefetch_agents ? find_roots<true, false>(in) : find_roots<false, false>(in);
     turn<false>(in);
+    if constexpr (KnowsGaps<Simd>)
+      for (std::uint32_t k = 0; k < whole_registers(); ++k)
+        set_gaps(k, in, begin + (k < size ? k : size - 1));
   }
 
   /// Places pairs that were not validated. Returns false unless everything is surely valid; then no other
@@ -53,6 +57,17 @@ class Placements {
     return (size + Simd::width - 1) / Simd::width * Simd::width;
   }
 
+  /// Sets the gaps of two shapes, of the pair with that index in the batch.
+  void set_gaps(std::uint32_t k, const Arguments& in, std::size_t pair) noexcept {
+    gap[k] = bound_gap[k] = 0;
+    if (in.distances == nullptr) return;
+    // Of roots alone there is nothing to bound.
+    const float* const reach = in.shapes->reach;
+    const auto [leaf, bound] =
+        gaps<Simd>(in.distances[pair], reach == nullptr ? 0 : reach[shape_a[k]] + reach[shape_b[k]]);
+    gap[k] = leaf, bound_gap[k] = bound;
+  }
+
   std::uint32_t agent_a(std::uint32_t pair) const noexcept { return a_[pair]; }
   std::uint32_t agent_b(std::uint32_t pair) const noexcept { return b_[pair]; }
 
@@ -63,6 +78,7 @@ class Placements {
       c[k] = c[count - 1], s[k] = s[count - 1], tx[k] = tx[count - 1], ty[k] = ty[count - 1];
       shape_a[k] = shape_a[count - 1], shape_b[k] = shape_b[count - 1];
       root_a[k] = root_a[count - 1], root_b[k] = root_b[count - 1];
+      if constexpr (KnowsGaps<Simd>) gap[k] = gap[count - 1], bound_gap[k] = bound_gap[count - 1];
     }
   }
 
@@ -71,7 +87,8 @@ class Placements {
   // Up to whole_registers(), lanes beyond the last pair repeat it. The transform is as in layout/base/rounding.hpp.
   alignas(64) float c[chunk_size], s[chunk_size], tx[chunk_size], ty[chunk_size];
   std::uint32_t shape_a[chunk_size], shape_b[chunk_size];
-  std::uint32_t root_a[chunk_size], root_b[chunk_size];  ///< shape * level_count + level
+  std::uint32_t root_a[chunk_size], root_b[chunk_size];      ///< shape * level_count + level
+  alignas(64) float gap[chunk_size], bound_gap[chunk_size];  ///< see Gaps; set where KnowsGaps
 
  private:
   static constexpr std::uint32_t pairs_ahead = 32;  ///< that agents are prefetched

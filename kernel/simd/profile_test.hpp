@@ -18,8 +18,8 @@ class ProfileTest {
  public:
   /// The answers for a register's pairs.
   struct Answers {
-    std::uint32_t apart = 0;     ///< a line separates the cuts
-    std::uint32_t meet = 0;      ///< areas of the largest contours meet
+    std::uint32_t apart = 0;     ///< a line separates the cuts, by more than the gap
+    std::uint32_t meet = 0;      ///< areas of the largest contours meet, or are within the gap of each other
     std::uint32_t may_nest = 0;  ///< a contour of one may lie inside one of the other
     std::uint32_t near = 0;      ///< they will probably collide
   };
@@ -54,7 +54,11 @@ class ProfileTest {
   Answers answers(std::uint32_t k) const noexcept {
     const Float distance = Simd::load(distance_ + k), coincident(1e-20f);
     const Float outer_a = field(of_a_, 1, k), outer_b = field(of_b_, 1, k);
-    const Float inner = field(of_a_, 0, k) + field(of_b_, 0, k), outer = outer_a + outer_b;
+    Float inner = field(of_a_, 0, k) + field(of_b_, 0, k), outer = outer_a + outer_b;
+    if constexpr (KnowsGaps<Simd>) {
+      inner = inner + Float(sure_gap) * Simd::load(at_.gap + k);
+      outer = outer + Simd::load(at_.bound_gap + k);
+    }
     return {.apart = Simd::bits(xsimd::max(coincident, outer) < distance),
             .meet = Simd::bits(distance <= inner),
             .may_nest = Simd::bits(distance <= xsimd::max(coincident, outer_a - field(of_b_, 2, k))) |

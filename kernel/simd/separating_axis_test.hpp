@@ -73,8 +73,12 @@ class SeparatingAxisTest {
   /// Returns whether a line across one of A's even directions, or of its odd ones, separates the pair.
   std::uint32_t apart(std::uint32_t pair, unsigned odd) const noexcept {
     std::uint32_t parted = 0;
-    look_along(pair, odd,
-               [&](unsigned, Float distance, Float reach) { parted |= Simd::bits(reach < distance); });
+    Float gap(0.0f);
+    if constexpr (KnowsGaps<Simd>) gap = Float(at_.bound_gap[pair]);
+    look_along(pair, odd, [&](unsigned, Float distance, Float reach) {
+      if constexpr (KnowsGaps<Simd>) reach = reach + gap;
+      parted |= Simd::bits(reach < distance);
+    });
     return parted != 0;
   }
 

@@ -185,6 +185,15 @@ TEST_F(QueryWhat, AllPairsAreThoseThatCollide) {
   EXPECT_FALSE(rows("contacts", "first,second,first_disc,second_disc", {"--all-pairs"}).empty());
 }
 
+TEST_F(QueryWhat, WithinSaysWhoIsAsNear) {
+  const std::string header = "first,second,hit";
+  EXPECT_EQ(rows("within", header, {pairs, "--max-distance", "0.1"}),
+            (Rows{{"b", "a", "1"}, {"a", "c", "1"}, {"a", "d", "0"}}));
+  EXPECT_EQ(rows("within", header, {pairs, "--max-distance", "0"}), rows("collide", header, {pairs}));
+  EXPECT_EQ(rows("within", header, {"--all-pairs", "--max-distance", "0.5", "--semantics", "solid"}).size(),
+            3u);
+}
+
 TEST_F(QueryWhat, EveryKernelWritesTheSame) {
   for (const char* what : {"collide", "clearance", "time-of-impact", "contacts", "penetration"})
     for (const Implementation& row : implementations())
@@ -204,6 +213,8 @@ TEST_F(QueryWhat, WrongWordsGiveTwo) {
       {{"--what", "clearance", "--semantics", "solid"}, "--semantics"},
       {{"--what", "contacts", "--semantics", "boundary"}, "--semantics"},
       {{"--max-distance", "1"}, "--max-distance"},
+      {{"--what", "within"}, "--max-distance"},
+      {{"--what", "within", "--max-distance", "1", "--leaves", "discs"}, "--leaves"},
       {{"--what", "clearance", "--max-distance", "-1"}, "--max-distance"},
       {{"--what", "collide", "--overlap", "zero"}, "--overlap"},
       {{"--what", "clearance", "--overlap", "least"}, "--overlap"},

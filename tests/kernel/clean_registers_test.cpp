@@ -78,6 +78,7 @@ TEST_F(CleanRegisters, AfterQueries) {
           clearance(shapes, agents, pairs, {values, directions},
                     {.implementation = &isa, .max_distance = limit});
         });
+      expect_clean("within", [&] { within(shapes, agents, pairs, x, hits, {.implementation = &isa}); });
       expect_clean("time_of_impact", [&] {
         time_of_impact(shapes, agents, pairs, {x, y}, values, {.implementation = &isa});
       });

@@ -126,6 +126,31 @@ TEST_P(SlabQueries, ClearancesAreTheLeastOfParts) {
   EXPECT_GT(never_meet, 50u);
 }
 
+TEST_P(SlabQueries, WithinLooksAtAllParts) {
+  std::size_t misses = 0;
+  for (const MovingScene& scene : scenes(3'000)) {
+    const Agents agents = scene.crowd.agents();
+    std::vector<double> distances;
+    std::vector<std::uint8_t> expected;
+    for (const Pair pair : scene.pairs) {
+      const double clearance = reference.clearance(agents, pair, HUGE_VAL).distance;
+      const bool is_near = random.below(2) == 0 && clearance > 0 && clearance < HUGE_VAL;
+      distances.push_back(is_near ? clearance * (1 + random.uniform(-2e-6, 0.5e-6)) : random.uniform(0, 0.5));
+      expected.push_back(reference.within(agents, pair, distances.back()));
+      misses += expected.back() == 0;
+    }
+    expect_of_all(
+        scene,
+        [&](const Implementation& implementation) {
+          std::vector<std::uint8_t> found(scene.pairs.size());
+          within(set, agents, scene.pairs, distances, found, {.implementation = &implementation});
+          return found;
+        },
+        [&](const std::vector<std::uint8_t>& found, std::size_t i) { return found[i] == expected[i]; });
+  }
+  EXPECT_GT(misses, 1'000u);
+}
+
 /// Walls: discs of all slabs are the same, so that all of them are as near.
 TEST_P(SlabQueries, OfEqualGapsThoseInTheLowestSlabsCount) {
   if (GetParam().empty()) GTEST_SKIP() << "there are no slabs";

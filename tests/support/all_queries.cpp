@@ -31,6 +31,7 @@ void ask_all(const ShapeSet& set, const Agents& agents, std::span<const Pair> pa
   std::vector<DiscPair> nodes(pairs.size());
   clearance(set, agents, pairs, {values, directions, nodes}, {.implementation = &implementation});
   const std::vector<double> way(pairs.size(), 0.5);
+  within(set, agents, pairs, way, hits, {.implementation = &implementation});
   time_of_impact(set, agents, pairs, {way, way}, values, {.implementation = &implementation});
 }
 

@@ -61,6 +61,12 @@ baselines::Clearance PartReferences::clearance(const Agents& agents, Pair pair, 
   return {best.distance, {-best.direction.x, -best.direction.y}, best.second, best.first};
 }
 
+bool PartReferences::within(const Agents& agents, Pair pair, double distance) {
+  for (const SlabBodies::PartPair& parts : bodies_.part_pairs(agents, in_order(pair)))
+    if (nearest_.within(parts.agents(), {0, 1}, distance, Method::depth_first)) return true;
+  return are_cut_ && bodies_.collide(agents, pair, Method::depth_first);
+}
+
 float PartReferences::time(const Agents& agents, Pair pair, double x, double y) {
   if (are_cut_ && bodies_.collide(agents, pair, Method::depth_first)) return 0;
   const double sign = in_order(pair) == pair ? 1 : -1;

@@ -33,6 +33,7 @@ class PartReferences {
   PartReferences(std::span<const Shape> shapes, const ShapeSetPlan& plan, const ShapeSet& set);
 
   baselines::Clearance clearance(const Agents& agents, Pair pair, double max_distance);
+  bool within(const Agents& agents, Pair pair, double distance);
   float time(const Agents& agents, Pair pair, double x, double y);
   std::vector<DiscPair> contacts(const Agents& agents, Pair pair, Leaves leaves);
 

@@ -103,6 +103,8 @@ TEST_P(Allocations, DistancesAndTimesNeedNone) {
             }),
             0u);
   EXPECT_EQ(count([&] { time_of_impact(set, crowd.agents(), pairs, {way, way}, values); }), 0u);
+  std::vector<std::uint8_t> hits(pairs.size());
+  EXPECT_EQ(count([&] { within(set, crowd.agents(), pairs, way, hits); }), 0u);
 }
 
 INSTANTIATE_TEST_SUITE_P(Threads, Allocations, testing::Values(1, 2, 4));

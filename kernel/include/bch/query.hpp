@@ -62,7 +62,8 @@ enum class Overlap {
 
 /// The options of the queries. A query ignores those that do not concern it: its description names those that do.
 struct QueryOptions {
-  Semantics semantics = Semantics::boundary;  ///< of collide() and CrowdCollider; sets with slices are solid
+  Semantics semantics =
+      Semantics::boundary;  ///< of collide(), CrowdCollider and within(); sets with slices are solid
   /// One of implementations(); null: best_implementation(), which may throw where BCH_ISA is set.
   const Implementation* implementation = nullptr;
   Leaves leaves = Leaves::segments;  ///< of collide(), CrowdCollider and ContactFinder

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+#include <bch/clearance.hpp>
+
+#include "kernel/collide/answer.hpp"
+#include "kernel/distance/clearance_arguments.hpp"
+#include "kernel/runtime/floating_point_state.hpp"
+#include "kernel/runtime/pair_validation.hpp"
+#include "kernel/runtime/task_ranges.hpp"
+#include "kernel/simd/gaps.hpp"
+#include "layout/base/shortest.hpp"
+
+namespace bch {
+
+using namespace detail;
+
+namespace {
+
+/// Returns the part of a gap that a distance makes, rounded up; see Gaps.
+float enlarged(double distance) noexcept {
+  return rounding::round_up(std::min(distance, static_cast<double>(largest_limit)) * (1 + gap_share));
+}
+
+void require_distances(std::span<const double> distances, std::size_t pairs) {
+  if (distances.size() != 1 && distances.size() != pairs)
+    throw std::invalid_argument("within: " + std::to_string(pairs) + " pairs but " +
+                                std::to_string(distances.size()) + " distances");
+  for (std::size_t i = 0; i < distances.size(); ++i)
+    if (!(distances[i] >= 0))
+      throw std::invalid_argument(
+          "within: " + (distances.size() == 1 ? "" : "pair " + std::to_string(i) + ": ") + "a distance of " +
+          shortest(distances[i]) + " m");
+}
+
+}  // namespace
+
+void within(const ShapeSet& shapes, const Agents& agents, std::span<const Pair> pairs,
+            std::span<const double> distances, std::span<std::uint8_t> answers, const QueryOptions& options) {
+  const FloatingPointStateGuard floats;
+  if (answers.size() != pairs.size())
+    throw std::invalid_argument("within: " + std::to_string(pairs.size()) + " pairs but " +
+                                std::to_string(answers.size()) + " answers");
+  require_distances(distances, pairs.size());
+  const bool solid = is_solid(shapes, options.semantics, "within");
+  const Implementation& implementation = chosen(options, "within");
+  require_valid(implementation, shapes.view(), agents, pairs);
+  for_pair_ranges(pairs.size(), pairs_per_task, [&](std::size_t begin, std::size_t size) {
+    float enlarged_distances[pairs_per_task];
+    for (std::size_t i = 0; i < size; ++i)
+      enlarged_distances[i] = enlarged(distances[distances.size() == 1 ? 0 : begin + i]);
+    Arguments arguments = arguments_for(shapes.view(), agents, pairs.subspan(begin, size));
+    arguments.distances = enlarged_distances;
+    arguments.codes = answers.data() + begin;
+    arguments.solid = solid;
+    answer(implementation, arguments, 0, size);
+  });
+}
+
+}  // namespace bch
