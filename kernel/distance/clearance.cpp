@@ -13,6 +13,7 @@
 
 #include "kernel/collide/answer.hpp"
 #include "kernel/distance/clearance_arguments.hpp"
+#include "kernel/distance/nearest_discs.hpp"
 #include "kernel/runtime/floating_point_state.hpp"
 #include "kernel/runtime/pair_validation.hpp"
 #include "kernel/runtime/part_items.hpp"
@@ -32,29 +33,6 @@ constexpr std::size_t grain = 1024;
 float limit_of(double max_distance) {
   const float nearest = static_cast<float>(std::min(max_distance, static_cast<double>(largest_limit)));
   return static_cast<double>(nearest) > max_distance ? std::nextafter(nearest, -1.0f) : nearest;
-}
-
-DiscPair nearest_discs(const ShapeSetView& shapes, const Agents& agents, Pair pair,
-                       const NearestDiscs& nearest) {
-  if (nearest.a == no_node) return no_discs;
-  const auto index = [&](std::uint32_t agent, std::uint32_t node) {
-    if (shapes.trees == nullptr) return node;
-    return node - shapes.trees[agents.root(agent, shapes.level_count)].discs;
-  };
-  const auto [a, b] = std::minmax(pair.first, pair.second);
-  const DiscPair nodes{index(a, nearest.a), index(b, nearest.b)};
-  return pair.second < pair.first ? DiscPair{nodes.second, nodes.first} : nodes;
-}
-
-/// Returns the direction of a clearance. It is computed in double, where squares do not underflow.
-Vec2 direction(Pair pair, const NearestDiscs& nearest) {
-  if (nearest.a == no_node) return {0, 0};
-  const double x = nearest.x, y = nearest.y;
-  const double sign = pair.second < pair.first ? -1 : 1;
-  if (x == 0 && y == 0) return {static_cast<float>(sign), 0};
-  const double c = nearest.cosine, s = nearest.sine, world_x = c * x - s * y, world_y = s * x + c * y;
-  const double scale = sign / std::sqrt(world_x * world_x + world_y * world_y);
-  return {static_cast<float>(scale * world_x), static_cast<float>(scale * world_y)};
 }
 
 /// Writes the answers of a range of pairs.
@@ -85,7 +63,7 @@ class RangeAnswers {
       detail::answer(implementation_, in, 0, pairs_.size());
     }
     for (std::size_t i = 0; i < pairs_.size(); ++i) {
-      if (hits[i] != 0) put(i, 0, {0, 0}, no_discs);
+      if (hits[i] != 0) put_alone(i, 0);
       open_[open_count_] = pairs_[i];
       index_[open_count_] = static_cast<std::uint16_t>(i);
       open_count_ += hits[i] == 0;
@@ -99,7 +77,7 @@ class RangeAnswers {
     arguments_.nearest = nearest;
     implementation_.kernels->clearance(arguments_, 0, open_count_);
     for (std::size_t k = 0; k < open_count_; ++k)
-      put(k, nearest[k], [&] { return nearest_discs(shapes_, agents_, open_[k], nearest[k]); });
+      put(k, {shapes_, agents_, in_order(open_[k]), nearest[k]}, {0, 0});
   }
 
   /// Bodies in slabs or at different heights: the nearest parts, in a tie those in the lowest slabs.
@@ -126,36 +104,47 @@ class RangeAnswers {
       for (std::size_t i = best + 1; i < items.begin(k + 1); ++i)
         if (is_before(i, best)) best = i;
       if (items.begin(k) == items.begin(k + 1)) {
-        put_beyond(index_[k]);
+        put_alone(index_[k], std::numeric_limits<float>::infinity());
         continue;
       }
-      put(k, nearest[best], [&] {
-        const DiscPair local = nearest_discs(parts, agents, items.pairs()[best], nearest[best]);
-        const DiscPair discs{local.first + items.origin(best).first_disc_a,
-                             local.second + items.origin(best).first_disc_b};
-        return open_[k].second < open_[k].first ? DiscPair{discs.second, discs.first} : discs;
-      });
+      put(k, {parts, agents, items.pairs()[best], nearest[best]},
+          {items.origin(best).first_disc_a, items.origin(best).first_disc_b});
     }
   }
 
-  /// Writes the answer for an open pair.
-  template <class DiscsOf>
-  void put(std::size_t k, const NearestDiscs& nearest, DiscsOf discs_of) noexcept {
+  static Pair in_order(Pair pair) noexcept {
+    return pair.first <= pair.second ? pair : Pair{pair.second, pair.first};
+  }
+
+  /// Writes the answer for an open pair. `first`: the numbers of the first discs of what was found.
+  void put(std::size_t k, const FoundDiscs& found, DiscPair first) noexcept {
     const std::size_t i = index_[k];
-    if (nearest.a == no_node) return put_beyond(i);
-    if (nearest.distance <= arguments_.enough) return put(i, 0, {0, 0}, no_discs);
-    put(i, nearest.distance, answers_.direction.empty() ? Vec2{} : direction(open_[k], nearest),
-        answers_.discs.empty() ? no_discs : discs_of());
+    const NearestDiscs& nearest = found.nearest;
+    if (nearest.a == no_node) return put_alone(i, std::numeric_limits<float>::infinity());
+    if (nearest.distance <= arguments_.enough) return put_alone(i, 0);
+    const bool is_turned = open_[k].second < open_[k].first;
+    answers_.distance[i] = nearest.distance;
+    if (!answers_.direction.empty()) {
+      const Vec2 way = direction(nearest);
+      answers_.direction[i] = is_turned ? Vec2{-way.x, -way.y} : way;
+    }
+    if (!answers_.discs.empty()) {
+      const DiscPair local = numbers(found);
+      const DiscPair discs{local.first + first.first, local.second + first.second};
+      answers_.discs[i] = is_turned ? DiscPair{discs.second, discs.first} : discs;
+    }
+    if (!answers_.points.empty()) {
+      const NearestPoints at = points(found);
+      answers_.points[i] = is_turned ? NearestPoints{at.second, at.first} : at;
+    }
   }
 
-  void put_beyond(std::size_t i) noexcept {
-    put(i, std::numeric_limits<float>::infinity(), {0, 0}, no_discs);
-  }
-
-  void put(std::size_t i, float distance, Vec2 direction, DiscPair discs) noexcept {
+  /// Writes a distance without anything beside it.
+  void put_alone(std::size_t i, float distance) noexcept {
     answers_.distance[i] = distance;
-    if (!answers_.direction.empty()) answers_.direction[i] = direction;
-    if (!answers_.discs.empty()) answers_.discs[i] = discs;
+    if (!answers_.direction.empty()) answers_.direction[i] = {0, 0};
+    if (!answers_.discs.empty()) answers_.discs[i] = no_discs;
+    if (!answers_.points.empty()) answers_.points[i] = {};
   }
 
   const Implementation& implementation_;
@@ -178,6 +167,7 @@ void require_answers(const ClearanceAnswers& answers, std::size_t pairs) {
   require(answers.distance.size(), "distances", false);
   require(answers.direction.size(), "directions", true);
   require(answers.discs.size(), "discs", true);
+  require(answers.points.size(), "points", true);
 }
 
 }  // namespace
@@ -204,8 +194,8 @@ void clearance(const ShapeSet& shapes, const Agents& agents, std::span<const Pai
   };
   for_pair_ranges(pairs.size(), grain, [&](std::size_t begin, std::size_t size) {
     const ClearanceAnswers its_answers{part(answers.distance, begin, size),
-                                       part(answers.direction, begin, size),
-                                       part(answers.discs, begin, size)};
+                                       part(answers.direction, begin, size), part(answers.discs, begin, size),
+                                       part(answers.points, begin, size)};
     RangeAnswers(implementation, arguments, agents, pairs.subspan(begin, size), its_answers).write();
   });
 }

@@ -51,6 +51,15 @@ TEST(Clearance, OfSingleDiscs) {
     EXPECT_EQ(limited.distance[0], std::numeric_limits<float>::infinity());
     EXPECT_EQ(limited.direction[0], (Vec2{0, 0}));
     EXPECT_EQ(limited.discs[0], no_discs);
+    std::vector<float> distance(pairs.size());
+    std::vector<NearestPoints> points(pairs.size(), {{1, 1}, {1, 1}});
+    clearance(set, crowd.agents(), pairs, {.distance = distance, .points = points}, {.max_distance = 4.5});
+    EXPECT_NEAR(points[0].first.x, 0.15, 1e-5);
+    EXPECT_NEAR(points[0].first.y, 0.2, 1e-5);
+    EXPECT_NEAR(points[0].second.x, -0.3, 1e-5);
+    EXPECT_NEAR(points[0].second.y, -0.4, 1e-5);
+    EXPECT_EQ(points[1], (NearestPoints{points[0].second, points[0].first}));
+    EXPECT_EQ(points[2], NearestPoints{});  // they overlap
     const auto touching = answers(set, crowd.agents(), pairs, 0);
     EXPECT_EQ(touching.distance[2], of.distance[2]);
     EXPECT_EQ(touching.distance[0], std::numeric_limits<float>::infinity());
@@ -122,6 +131,8 @@ TEST(Clearance, RejectsBadInputBeforeAnythingIsWritten) {
   Answers two(2);
   expect_rejected("2 pairs but 1 directions", {two.distance, all.direction});
   expect_rejected("2 pairs but 1 discs", {two.distance, two.direction, all.discs});
+  std::vector<NearestPoints> one(1);
+  expect_rejected("2 pairs but 1 points", {.distance = two.distance, .points = one});
   expect_rejected("2 pairs but 0 distances", {{}, two.direction, two.discs});
 }
 

@@ -258,6 +258,52 @@ TEST(Clearance, OfTipsIsTheDistanceOfTheOutlinesLessTheMargin) {
   }
 }
 
+std::vector<NearestPoints> points_of(const ShapeSet& set, const PairScene& scene, const Answers& all) {
+  std::vector<float> distance(scene.pairs.size());
+  std::vector<NearestPoints> points(scene.pairs.size());
+  clearance(set, scene.crowd.agents(), scene.pairs, {.distance = distance, .points = points},
+            {.overlap = Overlap::deepest});
+  EXPECT_EQ(distance, all.distance);
+  return points;
+}
+
+/// They lie on the edges of the nearest discs, along the direction, and are as far apart as the distance says.
+TEST_F(ClearanceDifferential, PointsAreThoseOfTheNearestDiscs) {
+  const PairScene scene = random_scene(random, set, 5'000);
+  const test::Crowd& crowd = scene.crowd;
+  const Answers all = answers(set, crowd.agents(), scene.pairs, infinity);
+  const std::vector<NearestPoints> points = points_of(set, scene, all);
+  for (std::size_t i = 0; i < scene.pairs.size(); ++i) {
+    const auto [a, b] = scene.pairs[i];
+    const double x = all.direction[i].x, y = all.direction[i].y;
+    const auto expect_edge = [&](std::uint32_t agent, std::uint32_t number, Vec2 point, double sign) {
+      const Disc disc = set.discs(crowd.shape[agent], crowd.level[agent])[number];
+      const double c = std::cos(crowd.heading[agent]), s = std::sin(crowd.heading[agent]),
+                   r = sign * double{disc.radius}, disc_x = disc.x, disc_y = disc.y;
+      EXPECT_NEAR(point.x, c * disc_x - s * disc_y + r * x, 1e-6) << i;
+      EXPECT_NEAR(point.y, s * disc_x + c * disc_y + r * y, 1e-6) << i;
+    };
+    expect_edge(a, all.discs[i].first, points[i].first, 1);
+    expect_edge(b, all.discs[i].second, points[i].second, -1);
+    const auto [way_x, way_y] = test::way_between(points[i], crowd, scene.pairs[i]);
+    EXPECT_NEAR(way_x * x + way_y * y, all.distance[i], 32e-6) << i;
+    EXPECT_NEAR(way_x * y - way_y * x, 0, 32e-6) << i;
+  }
+}
+
+TEST_F(ClearanceDifferential, PointsAreTheSameFarFromTheOriginAndInTheOtherOrder) {
+  PairScene scene = random_scene(random, set, 5'000);
+  test::move_away(scene, 0, 0);
+  const Answers all = answers(set, scene.crowd.agents(), scene.pairs, infinity);
+  const std::vector<NearestPoints> points = points_of(set, scene, all);
+  test::move_away(scene, 1e7, -8e8);
+  EXPECT_EQ(points_of(set, scene, all), points);
+  for (Pair& pair : scene.pairs) std::swap(pair.first, pair.second);
+  const std::vector<NearestPoints> exchanged = points_of(set, scene, all);
+  for (std::size_t i = 0; i < points.size(); ++i)
+    ASSERT_EQ(exchanged[i], (NearestPoints{points[i].second, points[i].first})) << i;
+}
+
 /// Moving the second agent along the direction widens the gap of the nearest discs by as much.
 TEST_F(ClearanceDifferential, DirectionsAreUnitVectorsAlongWhichDiscsPart) {
   const PairScene scene = random_scene(random, set, 5'000);

@@ -36,13 +36,13 @@ using Hashes = std::vector<std::uint64_t>;
 const Hashes golden{0x5a2185e3105413a1, 0xb001f2145d76abf1, 0x0df165085461f9bf, 0x22e4be2a917a2aab,
                     0x6208885fb451fee7, 0xbf5f940cfee4332d, 0x21c4d2cab484c549, 0x04ad4df0d6203a5b,
                     0xe67190d710f1ec09, 0xebec44f58f6fc63e, 0x05d25bd83e461c8b, 0x8a060f5623b47a02,
-                    0x80ad28f139efe06b, 0x3e31e529b39f4241, 0x7f9a152dbae87b47};
+                    0x80ad28f139efe06b, 0x3e31e529b39f4241, 0x7f9a152dbae87b47, 0x474ff4b30d34137b};
 
 /// The same of bodies in slabs, half of them at heights of their own.
 const Hashes golden_in_slabs{0xe88815e591d446b5, 0xe88815e591d446b5, 0xde0b4d31d1ba4baf, 0x10d54fdfe552c312,
                              0xd6315e2775ef89e4, 0xdd2a441365de5f93, 0x176504ed511a8a7e, 0x5096fe125a9432b4,
                              0x25c0855873678901, 0x52cc99c3a5b22b3f, 0xb9c20e9647f0689d, 0xb9c20e9647f0689d,
-                             0x60036c157316f25e, 0x31cc379e31d4fd7b, 0xb39697c888f3b248};
+                             0x60036c157316f25e, 0x31cc379e31d4fd7b, 0xb39697c888f3b248, 0x4baf52ca4b8a2de};
 
 /// In this order, bytes of all answers.
 class AnswerBytes {
@@ -62,10 +62,11 @@ class AnswerBytes {
     exact_solid,
     exact_contacts,
     distances_or_zero,
-    within
+    within,
+    nearest_points
   };
 
-  AnswerBytes() : bytes_(within + 1) {}
+  AnswerBytes() : bytes_(nearest_points + 1) {}
 
   template <class Values>
   void add(Query query, const Values& values) {
@@ -191,7 +192,10 @@ class Determinism : public testing::TestWithParam<Bodies> {
     bytes.add(AnswerBytes::distances, values);
     bytes.add(AnswerBytes::directions, directions);
     bytes.add(AnswerBytes::nodes, nodes);
-    clearance(set, agents, of, {values}, {.implementation = isa, .max_distance = 1.5});
+    std::vector<NearestPoints> points(size);
+    clearance(set, agents, of, {.distance = values, .points = points},
+              {.implementation = isa, .max_distance = 1.5});
+    bytes.add(AnswerBytes::nearest_points, points);
     bytes.add(AnswerBytes::distances_or_zero, values);
     constexpr double personal_space = 0.1;
     within(set, agents, of, {&personal_space, 1}, hits, {.implementation = isa});

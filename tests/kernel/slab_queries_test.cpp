@@ -126,6 +126,28 @@ TEST_P(SlabQueries, ClearancesAreTheLeastOfParts) {
   EXPECT_GT(never_meet, 50u);
 }
 
+TEST_P(SlabQueries, PointsAreAsFarApartAsTheDistanceSays) {
+  const MovingScene scene = scene_of(3'000, true);
+  std::vector<float> distance(scene.pairs.size());
+  std::vector<Vec2> direction(scene.pairs.size());
+  std::vector<NearestPoints> points(scene.pairs.size());
+  clearance(set, scene.crowd.agents(), scene.pairs,
+            {.distance = distance, .direction = direction, .points = points});
+  std::size_t apart = 0;
+  for (std::size_t i = 0; i < scene.pairs.size(); ++i) {
+    if (distance[i] == 0 || distance[i] == never) {
+      ASSERT_EQ(points[i], NearestPoints{}) << i;
+      continue;
+    }
+    ++apart;
+    const auto [x, y] = test::way_between(points[i], scene.crowd, scene.pairs[i]);
+    const double length = distance[i], along_x = direction[i].x, along_y = direction[i].y;
+    ASSERT_NEAR(x, length * along_x, 3e-5) << i;
+    ASSERT_NEAR(y, length * along_y, 3e-5) << i;
+  }
+  EXPECT_GT(apart, 200u);
+}
+
 TEST_P(SlabQueries, WithinLooksAtAllParts) {
   std::size_t misses = 0;
   for (const MovingScene& scene : scenes(3'000)) {

@@ -41,6 +41,16 @@ inline Answers answers(const ShapeSet& set, const Agents& agents, std::span<cons
   return all;
 }
 
+/// Returns the way from the nearest point of a pair's first agent to that of the second, metres.
+struct Way {
+  double x, y;
+};
+inline Way way_between(const NearestPoints& points, const Crowd& crowd, Pair pair) {
+  const auto& [first, second] = points;
+  return {crowd.x[pair.second] - crowd.x[pair.first] + (double{second.x} - double{first.x}),
+          crowd.y[pair.second] - crowd.y[pair.first] + (double{second.y} - double{first.y})};
+}
+
 /// Returns what Overlap::zero makes of such answers.
 inline Answers at_least_zero(const Answers& all) {
   Answers zero;

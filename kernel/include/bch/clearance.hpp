@@ -13,17 +13,27 @@ namespace bch {
 /// What clearance() gives for the discs of a pair that is beyond max_distance, or that overlaps.
 constexpr DiscPair no_discs{0xffffffff, 0xffffffff};
 
-/// The output arrays of clearance(). Empty directions and discs are not computed, which saves time.
+/// The points of two agents that are nearest to each other, each from its own agent's position, in the world's axes, metres: the
+/// lever arms of a contact, at 1e9 m as at the origin.
+struct NearestPoints {
+  Vec2 first, second;
+  friend bool operator==(const NearestPoints&, const NearestPoints&) = default;
+};
+
+/// The output arrays of clearance(). Those that are empty are not computed, which saves time.
 struct ClearanceAnswers {
   std::span<float> distance;       ///< metres; infinite beyond max_distance
   std::span<Vec2> direction = {};  ///< unit vectors; (0, 0) beyond max_distance, and where the distance is 0
   std::span<DiscPair> discs = {};  ///< the nearest ones; no_discs for the same pairs
+  std::span<NearestPoints> points = {};  ///< of these discs; (0, 0) for the same pairs
 };
 
 /// Measures how far apart the two agents of each pair are: the least gap between a disc of one's cut and a disc of the
 /// other's, or 0 where discs overlap. With it the unit vector in the world from the first agent's nearest disc to the
 /// second's: moving the second agent along it, or the first one against it, widens that gap the fastest.
-/// (penetration() gives the way of the first agent, which is the opposite.)
+/// (penetration() gives the way of the first agent, which is the opposite.) And the points of the two discs that are nearest to
+/// each other, for a response to the contact: along the direction they are as far apart as the distance says, but for 4 um
+/// per metre of the two shapes' reach and of the distance.
 ///
 /// With Overlap::deepest the distance of discs that overlap is negative, that of the two that do so the deepest, and the
 /// direction leads from one centre to the other, or, where these coincide, it is (1, 0) from the agent with the lower index to
@@ -44,7 +54,7 @@ struct ClearanceAnswers {
 /// slabs. Where no parts may, it is infinite.
 ///
 /// Options: max_distance, overlap, implementation.
-/// Sizes:   as many distances as pairs, directions and discs as many or none. An agent may be paired with
+/// Sizes:   as many distances as pairs, directions, discs and points as many or none. An agent may be paired with
 ///          itself.
 /// Errors:  throws std::invalid_argument, before anything is written, as collide() does, and on a
 ///          max_distance that is negative or NaN, or an overlap that is neither.
