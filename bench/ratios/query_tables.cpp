@@ -20,8 +20,17 @@ std::string_view best() {
   return best_implementation().name;
 }
 
-const Timing& collide_in_crowd(const Results& results) {
-  return results.at(collide_name("crowd", disc_query, best()));
+const Timing& collide_in(std::string_view workload, const Results& results) {
+  return results.at(collide_name(workload, disc_query, best()));
+}
+
+void print_over_collide(const Results& results, std::string_view query, std::string_view workload,
+                        const std::string& title, double most) {
+  const Timing &collide = collide_in(workload, results), &own = results.at(name_of(query, workload, best()));
+  const double times = own.nanoseconds / collide.nanoseconds;
+  fmt::print("{}, {}, {}: {} pairs, {:.1f} ns over collide's {:.1f}: {:.2f} x   {}\n", title, workload,
+             best(), cli::grouped(own.items), own.nanoseconds, collide.nanoseconds, times,
+             verdict_at_most(times, most));
 }
 
 /// What is asked of a query: how many times the time of collide() in the crowd at most, and over a scalar search.
@@ -31,11 +40,7 @@ struct Bars {
 
 void print_distance(const Results& results, std::string_view query, const std::string& title,
                     const Bars& bars) {
-  const Timing &collide = collide_in_crowd(results), &own = results.at(name_of(query, "crowd", best()));
-  const double times = own.nanoseconds / collide.nanoseconds;
-  fmt::print("{}, crowd, {}: {} pairs, {:.1f} ns over collide's {:.1f}: {:.2f} x   {}\n", title, best(),
-             cli::grouped(own.items), own.nanoseconds, collide.nanoseconds, times,
-             verdict_at_most(times, bars.most_times_collide));
+  print_over_collide(results, query, "crowd", title, bars.most_times_collide);
   const Timing& scalar = results.at(name_of(query, "near_miss", "reference"));
   fmt::print("{}, near_miss: {} pairs; scalar search {:.1f} ns\n", title, cli::grouped(scalar.items),
              scalar.nanoseconds);
@@ -65,6 +70,8 @@ void print_over_fcl(const Results& results) {
 
 void print_distances(const Results& results) {
   print_distance(results, "clearance", fmt::format("clearance within {:g} m", clearance_limit), {6, 12});
+  print_over_collide(results, "clearance", "candidates",
+                     fmt::format("clearance within {:g} m", clearance_limit), 8);
   print_distance(results, "within", fmt::format("whether within {:g} m", personal_space), {1.3, 0});
   print_distance(results, "time_of_impact", fmt::format("time of impact within {:g} s", walking_time),
                  {4, 10});
@@ -72,7 +79,7 @@ void print_distances(const Results& results) {
 }
 
 void print_responses(const Results& results) {
-  const Timing& collide = collide_in_crowd(results);
+  const Timing& collide = collide_in("crowd", results);
   fmt::print("response, crowd, {}: {} pairs\n", best(), cli::grouped(collide.items));
   for (const TimedQuery& query : response_queries()) {
     const double own = results.at(name_of(query.name, "crowd", best())).nanoseconds;
@@ -118,8 +125,9 @@ std::vector<Table> query_tables(Suite& suite, Scene& scene) {
   const std::string collide = fmt::format("^{}$", collide_name("crowd", disc_query, best()));
   const std::string one_thread = "/[a-z0-9_]+$";
   return {{"distances",
-           fmt::format("{}|^(clearance|within|time_of_impact)/(crowd/{}$|near_miss{})", collide, best(),
-                       one_thread),
+           fmt::format(
+               "{}|^{}$|^(clearance|within|time_of_impact)/(crowd/{}$|near_miss{})|^clearance/candidates/{}$",
+               collide, collide_name("candidates", disc_query, best()), best(), one_thread, best()),
            print_distances},
           {"responses",
            fmt::format("{}|^(contacts|penetration|collide_all)/crowd/({}|reference)$", collide, best()),

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "baselines/reference.hpp"
+#include "bench/workload/distance_answers.hpp"
 #include "layout/character/skinning.hpp"
 
 namespace bch::bench {
@@ -100,6 +101,7 @@ Workload Scene::make_workload(std::string_view name) {
                         });
   }
   if (name == "crowd") return crowd_pairs(set(), options_.sizes.agents);
+  if (name == "candidates") return crowd_pairs(set(), options_.sizes.agents, clearance_limit);
   if (name == "paper500" || name == "paper500_cached")
     return repeated(name, workload("colliding"), paper_cases, options_.sizes.pairs,
                     name == "paper500_cached");

@@ -18,8 +18,8 @@
 namespace bch::bench {
 namespace {
 
-constexpr std::string_view names[] = {"colliding", "near_miss", "no_hit",
-                                      "crowd",     "paper500",  "paper500_cached"};
+constexpr std::string_view names[] = {"colliding",  "near_miss", "no_hit",         "crowd",
+                                      "candidates", "paper500",  "paper500_cached"};
 constexpr double world = 100;                         ///< metres: where pairs with agents of their own stand
 constexpr std::uint32_t most_candidates = 1'000'000;  ///< without one that is wanted
 
@@ -95,10 +95,11 @@ Workload random_pairs(std::string_view name, std::uint64_t seed, std::span<const
   return workload;
 }
 
-Workload crowd_pairs(const ShapeSet& set, std::uint32_t agents) {
-  Workload workload{
-      "crowd", cli::place_crowd(agents, agents_per_square_metre, set.shape_count(), crowd_seed), {}};
-  workload.pairs = candidate_pairs(set, workload.agents());
+Workload crowd_pairs(const ShapeSet& set, std::uint32_t agents, double margin) {
+  Workload workload{margin > 0 ? "candidates" : "crowd",
+                    cli::place_crowd(agents, agents_per_square_metre, set.shape_count(), crowd_seed),
+                    {}};
+  workload.pairs = candidate_pairs(set, workload.agents(), margin);
   return workload;
 }
 

@@ -37,6 +37,7 @@ struct WorkloadSizes {
 ///   near_miss     distinct pairs whose root discs overlap while the meshes do not intersect
 ///   no_hit        distinct pairs whose root discs overlap while their contour hierarchies do not
 ///   crowd         the broad phase's pairs of a crowd at 3 agents per square metre
+///   candidates    those of the same crowd with a margin of 0.5 m
 ///   paper500      the paper's protocol: 500 colliding cases in sequence, over and over
 ///   paper500_cached  the same cases, each repeated before the next: the paper shows that order and leaves it out of its
 ///                    results
@@ -55,7 +56,8 @@ Workload random_pairs(std::string_view name, std::uint64_t seed, std::span<const
 constexpr double agents_per_square_metre = 3;
 constexpr std::uint64_t crowd_seed = 34;
 
-Workload crowd_pairs(const ShapeSet& set, std::uint32_t agents);
+/// Returns the crowd, or with a margin the candidates.
+Workload crowd_pairs(const ShapeSet& set, std::uint32_t agents, double margin = 0);
 
 /// Repeats the first `cases` pairs of a workload, `pairs` in all. Cached: each case over and over, then the
 /// next; else the cases in sequence, over and over.

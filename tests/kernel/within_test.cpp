@@ -9,6 +9,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <ostream>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -46,6 +47,9 @@ struct SetKind {
   const char* name;
   ShapeSetPlan plan;
 };
+void PrintTo(const SetKind& kind, std::ostream* out) {
+  *out << kind.name;
+}
 const SetKind set_kinds[] = {{"FourLevels", test::four_levels},
                              {"OneLevel", {}},
                              {"NoCulling", {.depths = {0, 3, 6, all_depths}, .culling = false}},
