@@ -78,7 +78,7 @@ TEST_F(Threads, ASetIsReadWhileAnotherIsBuilt) {
 
 /// All that can be asked of a scene, in calls that share nothing but the shapes and the agents.
 struct Everything {
-  std::vector<std::uint8_t> boundary, solid;
+  std::vector<std::uint8_t> boundary, solid, near;
   test::Answers clearances;
   std::vector<float> times;
   std::vector<Penetration> best, along;
@@ -91,6 +91,7 @@ struct Everything {
   Everything(const ShapeSet& set, const test::PairScene& scene)
       : boundary(scene.pairs.size()),
         solid(boundary),
+        near(boundary),
         times(boundary.size()),
         best(boundary.size()),
         along(best) {
@@ -101,6 +102,7 @@ struct Everything {
     collide(set, agents, pairs, boundary);
     collide(set, agents, pairs, solid, {Semantics::solid});
     clearances = test::answers(set, agents, pairs, 0.5);
+    within(set, agents, pairs, std::vector<double>(pairs.size(), 0.1), near);
     time_of_impact(set, agents, pairs, {way, way}, times);
     penetration(set, agents, pairs, 8, best);
     penetration_along(set, agents, pairs, directions, along);
@@ -118,6 +120,7 @@ struct Everything {
   void expect_same(const Everything& other) const {
     EXPECT_EQ(boundary, other.boundary);
     EXPECT_EQ(solid, other.solid);
+    EXPECT_EQ(near, other.near);
     for (std::size_t i = 0; i < boundary.size(); ++i)
       EXPECT_TRUE(clearances.same(i, other.clearances, i)) << i;
     EXPECT_EQ(times, other.times);

@@ -62,13 +62,13 @@ struct ClearanceAnswers {
 void clearance(const ShapeSet& shapes, const Agents& agents, std::span<const Pair> pairs,
                const ClearanceAnswers& answers, const QueryOptions& options = {});
 
-/// Answers whether the two agents of each pair come closer to each other than a distance, or that close: 1 where a disc of one's
-/// cut is within it of a disc of the other's, else 0. This is collide() with larger discs, and takes about as long, where
-/// clearance() takes several times as much. In solid semantics an agent inside another's outline is within every distance of it;
-/// bodies in slabs are asked so whatever the options say, as in collide().
+/// Answers whether the two agents of each pair come as close to each other as a distance: 1 where a disc of one's cut is within
+/// it of a disc of the other's, else 0. This is collide() with larger discs, and takes about as long, where
+/// clearance() takes several times as much. In solid semantics an agent inside another's outline is within every distance of it.
+/// Bodies in slabs are asked so whatever the options say, as in collide(), and distances are those of parts that may meet.
 ///
-/// Where clearance() says a distance of at most the one asked for, the answer is 1, and so it is where outlines, or the
-/// meshes of bodies in slabs, are as close. Where the answer is 1 in boundary semantics, clearance() is at most the distance asked
+/// Where clearance() says a distance of at most the one asked for, the answer is 1, and so it is where outlines are as
+/// close. Where the answer is 1 in boundary semantics, clearance() is at most the distance asked
 /// for and 1.4 um per metre of that and of the radii of their largest discs. The same bits on every processor, for any number
 /// of threads and any split of the batch, and for either order of a pair.
 ///
