@@ -124,10 +124,7 @@ class RangeAnswers {
     if (nearest.distance <= arguments_.enough) return put_alone(i, 0);
     const bool is_turned = open_[k].second < open_[k].first;
     answers_.distance[i] = nearest.distance;
-    if (!answers_.direction.empty()) {
-      const Vec2 way = direction(nearest);
-      answers_.direction[i] = is_turned ? Vec2{-way.x, -way.y} : way;
-    }
+    if (!answers_.direction.empty()) answers_.direction[i] = direction(nearest, is_turned ? -1 : 1);
     if (!answers_.discs.empty()) {
       const DiscPair local = numbers(found);
       const DiscPair discs{local.first + first.first, local.second + first.second};

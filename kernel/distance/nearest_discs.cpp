@@ -15,11 +15,11 @@ struct Vector {
   double x, y;
 };
 
-Vector line(const NearestDiscs& nearest) {
+Vector line(const NearestDiscs& nearest, double sign) {
   const double x = nearest.x, y = nearest.y;
-  if (x == 0 && y == 0) return {1, 0};
+  if (x == 0 && y == 0) return {sign, 0};
   const double c = nearest.cosine, s = nearest.sine, world_x = c * x - s * y, world_y = s * x + c * y;
-  const double scale = 1 / std::sqrt(world_x * world_x + world_y * world_y);
+  const double scale = sign / std::sqrt(world_x * world_x + world_y * world_y);
   return {scale * world_x, scale * world_y};
 }
 
@@ -48,13 +48,13 @@ DiscPair numbers(const FoundDiscs& found) {
   return {number(found.pair.first, found.nearest.a), number(found.pair.second, found.nearest.b)};
 }
 
-Vec2 direction(const NearestDiscs& nearest) {
-  const auto [x, y] = line(nearest);
+Vec2 direction(const NearestDiscs& nearest, double sign) {
+  const auto [x, y] = line(nearest, sign);
   return {static_cast<float>(x), static_cast<float>(y)};
 }
 
 NearestPoints points(const FoundDiscs& found) {
-  const Vector along = line(found.nearest);
+  const Vector along = line(found.nearest, 1);
   return {end(found, found.pair.first, found.nearest.a, along),
           end(found, found.pair.second, found.nearest.b, {-along.x, -along.y})};
 }

@@ -22,8 +22,9 @@ struct FoundDiscs {
 /// Returns the numbers of the discs in the cuts.
 DiscPair numbers(const FoundDiscs& found);
 
-/// Returns the unit vector from one disc to the other.
-Vec2 direction(const NearestDiscs& nearest);
+/// Returns the unit vector from one disc to the other, or with a sign of -1 that from the second to the first; (sign, 0)
+/// where their centres coincide.
+Vec2 direction(const NearestDiscs& nearest, double sign);
 
 /// Returns the discs' points that are nearest to each other.
 NearestPoints points(const FoundDiscs& found);
