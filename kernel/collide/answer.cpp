@@ -35,7 +35,7 @@ void answer(const Implementation& implementation, const Arguments& arguments, st
             std::size_t end) noexcept {
   if (in_slabs(arguments)) return implementation.kernels->run_in_slabs(arguments, begin, end);
   const Kernels& kernels = *implementation.kernels;
-  (arguments.distances != nullptr ? kernels.run_within : kernels.run)(arguments, begin, end);
+  (arguments.gaps != nullptr ? kernels.run_within : kernels.run)(arguments, begin, end);
   decide_containment(arguments, begin, end);
 }
 

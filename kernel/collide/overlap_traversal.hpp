@@ -31,7 +31,7 @@ class OverlapTraversal {
         codes_(arguments.codes),
         prefetch_(arguments.prefetch_shapes),
         exact_leaves_(arguments.exact_leaves),
-        leaves_alone_(arguments.distances != nullptr),
+        leaves_alone_(arguments.gaps != nullptr),
         segments_(shapes, open_) {}
 
   /// `pair` is where the answer goes in codes, `miss` what it is unless a walk finds an overlap.

@@ -19,7 +19,7 @@
 namespace bch::detail {
 
 /// The pair query, written once. `Simd` is a Lanes<Arch> with bits(). Every float operation that decides an
-/// answer is one of those listed in layout/base/rounding.hpp, in that order, so that all instantiations and
+/// answer is one of those listed in layout/base/rounding.hpp, or in Gaps, in that order, so that all instantiations and
 /// the scalar reference agree bit for bit; what only saves work is conservative.
 ///
 /// Pairs are answered in chunks, stage by stage, and each stage leaves fewer of them open: place B in A's
@@ -128,7 +128,7 @@ class PairKernel {
     }
   }
 
-  std::uint32_t is_about_gaps() const noexcept { return KnowsGaps<Simd> && in_.distances != nullptr; }
+  std::uint32_t is_about_gaps() const noexcept { return KnowsGaps<Simd> && in_.gaps != nullptr; }
 
   [[gnu::always_inline]] std::uint32_t roots_overlap(std::uint32_t k, Float x, Float y,
                                                      Float r) const noexcept {
@@ -223,8 +223,8 @@ class PairKernel {
     return may_nest_[pair / Simd::width] >> pair % Simd::width & 1;
   }
 
-  /// Reopens pairs whose areas meet but whose outlines may not cross. Outlines of areas that meet cross
-  /// unless one holds the other, which boundary semantics does not count.
+  /// Reopens pairs whose areas meet but whose outlines may not cross. Outlines of areas that meet, or are within a gap, do so
+  /// themselves unless one holds the other, which boundary semantics does not count.
   void reopen_what_may_nest() noexcept {
     met_.drop_if(open_, [&](std::uint32_t pair) { return axis_test_.contours_stick_out(pair); });
   }

@@ -29,7 +29,7 @@ struct NearestDiscs {
 struct ClearanceArguments {
   Arguments in;           ///< without codes
   float limit;            ///< distances above it are not looked for; below far_beyond
-  float enough;           ///< one at or below it ends a search, and is then given as -infinity
+  float enough;           ///< one at or below it ends a search of trees, and is then given as -infinity
   NearestDiscs* nearest;  ///< as many as pairs
 };
 

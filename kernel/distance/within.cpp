@@ -22,8 +22,8 @@ using namespace detail;
 
 namespace {
 
-/// Returns the part of a gap that a distance makes, rounded up; see Gaps.
-float enlarged(double distance) noexcept {
+/// Returns the gap of leaf discs that a distance makes; see Gaps.
+float gap_of(double distance) noexcept {
   return rounding::round_up(std::min(distance, static_cast<double>(largest_limit)) * (1 + gap_share));
 }
 
@@ -51,11 +51,10 @@ void within(const ShapeSet& shapes, const Agents& agents, std::span<const Pair> 
   const Implementation& implementation = chosen(options, "within");
   require_valid(implementation, shapes.view(), agents, pairs);
   for_pair_ranges(pairs.size(), pairs_per_task, [&](std::size_t begin, std::size_t size) {
-    float enlarged_distances[pairs_per_task];
-    for (std::size_t i = 0; i < size; ++i)
-      enlarged_distances[i] = enlarged(distances[distances.size() == 1 ? 0 : begin + i]);
+    float gaps[pairs_per_task];
+    for (std::size_t i = 0; i < size; ++i) gaps[i] = gap_of(distances[distances.size() == 1 ? 0 : begin + i]);
     Arguments arguments = arguments_for(shapes.view(), agents, pairs.subspan(begin, size));
-    arguments.distances = enlarged_distances;
+    arguments.gaps = gaps;
     arguments.codes = answers.data() + begin;
     arguments.solid = solid;
     answer(implementation, arguments, 0, size);

@@ -110,7 +110,7 @@ Arguments arguments_for(const ShapeSetView& view, const Agents& agents, std::spa
           .agent_level = agents.level.empty() ? nullptr : agents.level.data(),
           .agent_z = agents.z.empty() ? nullptr : agents.z.data(),
           .pairs = pairs.data(),
-          .distances = nullptr,
+          .gaps = nullptr,
           .codes = nullptr,
           .solid = false,
           .exact_leaves = false,

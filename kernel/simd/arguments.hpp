@@ -29,7 +29,7 @@ struct Arguments {
   const std::uint8_t* agent_level;  ///< null: the last level
   const double* agent_z;            ///< null: all stand on the same ground
   const Pair* pairs;
-  const float* distances;  ///< per pair, see Gaps; null: which pairs collide is asked
+  const float* gaps;  ///< per pair, the leaf's of Gaps; null: which pairs collide is asked
   std::uint8_t* codes;
   bool solid;         ///< write may_contain where it applies, else apart
   bool exact_leaves;  ///< where both trees have segments, these decide; see Leaves

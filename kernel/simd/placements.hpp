@@ -60,11 +60,11 @@ class Placements {
   /// Sets the gaps of two shapes, of the pair with that index in the batch.
   void set_gaps(std::uint32_t k, const Arguments& in, std::size_t pair) noexcept {
     gap[k] = bound_gap[k] = 0;
-    if (in.distances == nullptr) return;
+    if (in.gaps == nullptr) return;
     // Of roots alone there is nothing to bound.
     const float* const reach = in.shapes->reach;
     const auto [leaf, bound] =
-        gaps<Simd>(in.distances[pair], reach == nullptr ? 0 : reach[shape_a[k]] + reach[shape_b[k]]);
+        gaps<Simd>(in.gaps[pair], reach == nullptr ? 0 : reach[shape_a[k]] + reach[shape_b[k]]);
     gap[k] = leaf, bound_gap[k] = bound;
   }
 

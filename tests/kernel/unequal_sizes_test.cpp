@@ -208,6 +208,28 @@ TEST_F(UnequalSizes, ClearancesEqualBruteForce) {
   }
 }
 
+TEST_F(UnequalSizes, WithinEqualsBruteForce) {
+  baselines::ClearanceReference reference(shapes, plan);
+  for (const PairScene& scene : scenes(test::samples(12'000))) {
+    const Agents agents = scene.crowd.agents();
+    const auto apart = test::answers(sets[0], agents, scene.pairs, HUGE_VAL);
+    std::vector<double> distances;
+    std::vector<std::uint8_t> expected, found(scene.pairs.size());
+    for (std::size_t i = 0; i < scene.pairs.size(); ++i) {
+      const double clearance = std::max(0.0, static_cast<double>(apart.distance[i]));
+      const double any = std::pow(10, random.uniform(-30, 9));
+      distances.push_back(random.below(4) == 0 ? any : clearance * (1 + random.uniform(-2e-6, 0.5e-6)));
+      expected.push_back(reference.within(agents, scene.pairs[i], distances[i], Method::brute_force));
+    }
+    for (const ShapeSet& set : sets)
+      for_implementations([&](const Implementation& implementation) {
+        within(set, agents, scene.pairs, distances, found, {.implementation = &implementation});
+        for (std::size_t i = 0; i < found.size(); ++i)
+          ASSERT_EQ(found[i], expected[i]) << implementation.name << ", pair " << i << ", " << distances[i];
+      });
+  }
+}
+
 TEST_F(UnequalSizes, TimeOfImpactsEqualBruteForce) {
   baselines::TimeOfImpactReference reference(shapes, plan);
   for (const PairScene& scene : scenes(test::samples(12'000))) {

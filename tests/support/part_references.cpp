@@ -63,7 +63,7 @@ baselines::Clearance PartReferences::clearance(const Agents& agents, Pair pair, 
 
 bool PartReferences::within(const Agents& agents, Pair pair, double distance) {
   for (const SlabBodies::PartPair& parts : bodies_.part_pairs(agents, in_order(pair)))
-    if (nearest_.within(parts.agents(), {0, 1}, distance, Method::depth_first)) return true;
+    if (nearest_.within(parts.agents(), {0, 1}, distance, Method::brute_force)) return true;
   return are_cut_ && bodies_.collide(agents, pair, Method::depth_first);
 }
 

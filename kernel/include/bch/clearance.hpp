@@ -10,7 +10,7 @@
 
 namespace bch {
 
-/// What clearance() gives for the discs of a pair that is beyond max_distance, or that overlaps.
+/// What clearance() gives for the discs of a pair that is beyond max_distance, or that overlaps with Overlap::zero.
 constexpr DiscPair no_discs{0xffffffff, 0xffffffff};
 
 /// The points of two agents that are nearest to each other, each from its own agent's position, in the world's axes, metres: the
@@ -22,9 +22,10 @@ struct NearestPoints {
 
 /// The output arrays of clearance(). Those that are empty are not computed, which saves time.
 struct ClearanceAnswers {
-  std::span<float> distance;       ///< metres; infinite beyond max_distance
-  std::span<Vec2> direction = {};  ///< unit vectors; (0, 0) beyond max_distance, and where the distance is 0
-  std::span<DiscPair> discs = {};  ///< the nearest ones; no_discs for the same pairs
+  std::span<float> distance;  ///< metres; infinite beyond max_distance
+  std::span<Vec2> direction =
+      {};  ///< unit vectors; (0, 0) beyond max_distance, and with Overlap::zero where discs overlap
+  std::span<DiscPair> discs = {};        ///< the nearest ones; no_discs for the same pairs
   std::span<NearestPoints> points = {};  ///< of these discs; (0, 0) for the same pairs
 };
 
@@ -63,20 +64,21 @@ void clearance(const ShapeSet& shapes, const Agents& agents, std::span<const Pai
                const ClearanceAnswers& answers, const QueryOptions& options = {});
 
 /// Answers whether the two agents of each pair come as close to each other as a distance: 1 where a disc of one's cut is within
-/// it of a disc of the other's, else 0. This is collide() with larger discs, and takes about as long, where
-/// clearance() takes several times as much. In solid semantics an agent inside another's outline is within every distance of it.
+/// it of a disc of the other's, else 0. This takes the stages of collide(), and with culling data about its
+/// time, where clearance() takes several times as much. Leaf discs alone count, as in clearance(), so that within a distance of 0
+/// is more than what collides. In solid semantics an agent inside another's outline is within every distance of it.
 /// Bodies in slabs are asked so whatever the options say, as in collide(), and distances are those of parts that may meet.
 ///
-/// Where clearance() says a distance of at most the one asked for, the answer is 1, and so it is where outlines are as
+/// Where clearance() says a finite distance of at most the one asked for, the answer is 1, and so it is where outlines are as
 /// close. Where the answer is 1 in boundary semantics, clearance() is at most the distance asked
-/// for and 1.4 um per metre of that and of the radii of their largest discs. The same bits on every processor, for any number
+/// for, plus 1.4 um per metre of that and of the radii of their largest discs. The same bits on every processor, for any number
 /// of threads and any split of the batch, and for either order of a pair.
 ///
 /// Options: semantics, implementation.
 /// Units:   distances are metres, not negative; an infinite one includes every pair of which parts may meet.
 /// Sizes:   one distance for all pairs, or as many as pairs; as many answers as pairs.
 /// Errors:  throws std::invalid_argument, before anything is written, as collide() does, and on a distance that is negative or
-///          NaN, naming its pair.
+///          NaN, naming the pair where each has one.
 /// Threads: runs in the caller's TBB arena. Allocates nothing.
 void within(const ShapeSet& shapes, const Agents& agents, std::span<const Pair> pairs,
             std::span<const double> distances, std::span<std::uint8_t> answers,
