@@ -139,14 +139,14 @@ TEST_P(Within, EqualsBruteForce) {
 }
 
 TEST_P(Within, EqualsBruteForceFarFromTheOrigin) {
-  PairScene scene = scene_of(5'000);
+  PairScene scene = scene_of(4'000);
   const std::vector<double> distances = near_clearances(scene);
   test::move_away(scene, 1e7, -8e8);
   expect_equal_to_brute_force(scene, distances);
 }
 
 TEST_P(Within, TheReferencesAgree) {
-  const PairScene scene = scene_of(5'000);
+  const PairScene scene = scene_of(4'000);
   const std::vector<double> distances = near_clearances(scene);
   for (std::size_t i = 0; i < scene.pairs.size(); ++i)
     ASSERT_EQ(reference.within(scene.crowd.agents(), scene.pairs[i], distances[i], Method::brute_force),
@@ -202,7 +202,7 @@ TEST_P(Within, OneDistanceServesAllPairs) {
 }
 
 TEST_P(Within, BatchesThreadsAndTheOrderOfAPairDoNotMatter) {
-  PairScene scene = scene_of(5'000);
+  PairScene scene = scene_of(4'000);
   const std::vector<double> distances = near_clearances(scene);
   const Hits whole = hits_within(set, scene, distances);
   for (const std::size_t size : {0, 1, 17, 255, 257, 2049})
