@@ -12,6 +12,14 @@
 namespace bch::bench {
 namespace {
 
+/// Makes a contender of a call whose answers are right. `wrong()` says what is wrong with them.
+template <class Call, class Wrong>
+Contender checked(std::string_view name, const Workload& workload, Call call, Wrong wrong) {
+  call();
+  require_right(name, workload, wrong());
+  return {call, workload.pairs.size()};
+}
+
 Contender clearance_kernel(Scene& scene, const Workload& workload, const Implementation& implementation) {
   const auto answers = std::make_shared<Clearances>(workload.pairs.size());
   const auto call = [&set = scene.set(), &workload, answers,
@@ -19,9 +27,8 @@ Contender clearance_kernel(Scene& scene, const Workload& workload, const Impleme
                          QueryOptions{.implementation = &implementation, .max_distance = clearance_limit}] {
     clearance(set, workload.agents(), workload.pairs, answers->spans(), options);
   };
-  call();
-  require_right(implementation.name, workload, wrong_clearances(scene, workload, *answers));
-  return {call, workload.pairs.size()};
+  return checked(implementation.name, workload, call,
+                 [&] { return wrong_clearances(scene, workload, *answers); });
 }
 
 Contender clearance_reference(Scene& scene, const Workload& workload) {
@@ -34,9 +41,8 @@ Contender clearance_reference(Scene& scene, const Workload& workload) {
       answers->distance[i] = nearest.distance, answers->direction[i] = nearest.direction;
     }
   };
-  call();
-  require_right("scalar search", workload, wrong_clearances(scene, workload, *answers));
-  return {call, workload.pairs.size()};
+  return checked("scalar search", workload, call,
+                 [&] { return wrong_clearances(scene, workload, *answers); });
 }
 
 Contender within_kernel(Scene& scene, const Workload& workload, const Implementation& implementation) {
@@ -45,9 +51,8 @@ Contender within_kernel(Scene& scene, const Workload& workload, const Implementa
     within(set, workload.agents(), workload.pairs, {&personal_space, 1}, *answers,
            {.implementation = &implementation});
   };
-  call();
-  require_right(implementation.name, workload, wrong_within(scene, workload, *answers));
-  return {call, workload.pairs.size()};
+  return checked(implementation.name, workload, call,
+                 [&] { return wrong_within(scene, workload, *answers); });
 }
 
 Contender within_reference(Scene& scene, const Workload& workload) {
@@ -58,9 +63,7 @@ Contender within_reference(Scene& scene, const Workload& workload) {
       (*answers)[i] = reference->within(workload.agents(), workload.pairs[i], personal_space,
                                         baselines::Method::depth_first);
   };
-  call();
-  require_right("scalar search", workload, wrong_within(scene, workload, *answers));
-  return {call, workload.pairs.size()};
+  return checked("scalar search", workload, call, [&] { return wrong_within(scene, workload, *answers); });
 }
 
 Contender time_of_impact_kernel(Scene& scene, const Workload& workload,
@@ -71,9 +74,8 @@ Contender time_of_impact_kernel(Scene& scene, const Workload& workload,
     time_of_impact(set, workload.agents(), workload.pairs, ways->displacements(), *times,
                    {.implementation = &implementation});
   };
-  call();
-  require_right(implementation.name, workload, wrong_times_of_impact(scene, workload, *times));
-  return {call, workload.pairs.size()};
+  return checked(implementation.name, workload, call,
+                 [&] { return wrong_times_of_impact(scene, workload, *times); });
 }
 
 Contender time_of_impact_reference(Scene& scene, const Workload& workload) {
@@ -85,9 +87,8 @@ Contender time_of_impact_reference(Scene& scene, const Workload& workload) {
       (*times)[i] = reference->query(workload.agents(), workload.pairs[i], ways->x[i], ways->y[i],
                                      baselines::Method::depth_first);
   };
-  call();
-  require_right("scalar search", workload, wrong_times_of_impact(scene, workload, *times));
-  return {call, workload.pairs.size()};
+  return checked("scalar search", workload, call,
+                 [&] { return wrong_times_of_impact(scene, workload, *times); });
 }
 
 constexpr TimedQuery queries[] = {{"clearance", clearance_kernel, clearance_reference},
@@ -109,9 +110,7 @@ Contender fcl_distance_contender(Scene& scene, const Workload& workload, bool wa
     for (std::size_t i = 0; i < workload.pairs.size(); ++i)
       (*distances)[i] = fcl->query(workload.agents(), workload.pairs[i]);
   };
-  call();
-  require_right("FCL", workload, wrong_distances(scene, workload, *distances));
-  return {call, workload.pairs.size()};
+  return checked("FCL", workload, call, [&] { return wrong_distances(scene, workload, *distances); });
 }
 
 }  // namespace bch::bench

@@ -3,9 +3,6 @@
 
 #include <bch/collide.hpp>
 
-#include <stdexcept>
-#include <string>
-
 #include "kernel/collide/answer.hpp"
 #include "kernel/runtime/floating_point_state.hpp"
 #include "kernel/runtime/pair_validation.hpp"
@@ -19,9 +16,7 @@ using namespace detail;
 void collide(const ShapeSet& shapes, const Agents& agents, std::span<const Pair> pairs,
              std::span<std::uint8_t> hits, const QueryOptions& options) {
   const FloatingPointStateGuard floats;
-  if (hits.size() != pairs.size())
-    throw std::invalid_argument("collide: " + std::to_string(pairs.size()) + " pairs but " +
-                                std::to_string(hits.size()) + " hits");
+  require_as_many("collide", pairs.size(), hits.size(), "hits");
   const bool solid = is_solid(shapes, options.semantics, "collide");
   const bool exact = exact_leaves(shapes, options.leaves, "collide");
   const Implementation& implementation = chosen(options, "collide");

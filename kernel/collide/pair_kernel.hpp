@@ -34,6 +34,7 @@ class PairKernel {
     PairKernel kernel(arguments);
     for (; begin < end; begin += chunk_size) {
       kernel.at_.place(arguments, begin, end);
+      if constexpr (KnowsGaps<Simd>) kernel.at_.set_all_gaps(arguments, begin);
       kernel.answer_chunk(begin);
       kernel.walk_.run(open_walks - chunk_size);
     }

@@ -62,6 +62,7 @@ class SlabKernel {
     const bool has_hulls = in_.shapes->hull_support != nullptr && in_.gaps == nullptr;
     const std::uint32_t levels = in_.shapes->level_count;
     if (has_hulls) {
+      at.set_all_gaps(in_, begin);  // none
       hulls_.use_rows(at.shape_a, at.shape_b);
       hulls_.place_directions();
     }

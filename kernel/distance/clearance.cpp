@@ -11,7 +11,7 @@
 #include <tuple>
 #include <vector>
 
-#include "kernel/collide/answer.hpp"
+#include "kernel/distance/apart_pairs.hpp"
 #include "kernel/distance/clearance_arguments.hpp"
 #include "kernel/distance/nearest_discs.hpp"
 #include "kernel/runtime/floating_point_state.hpp"
@@ -26,8 +26,7 @@ using namespace detail;
 
 namespace {
 
-/// Pairs a task.
-constexpr std::size_t grain = 1024;
+constexpr std::size_t grain = ApartPairs::capacity;
 
 /// The largest float that is not above max_distance.
 float limit_of(double max_distance) {
@@ -49,41 +48,31 @@ class RangeAnswers {
 
   /// At most `grain` pairs.
   void write() {
-    drop_what_collides();
+    // A set of roots alone is as quickly searched.
+    if (arguments_.enough == 0 && shapes_.trees != nullptr) {
+      open_.take_apart(implementation_, arguments_.in, pairs_);
+      for (std::size_t i = 0; i < pairs_.size(); ++i) put_alone(i, 0);
+    } else {
+      open_.take_all(pairs_);
+    }
     asks_parts(shapes_, agents_) ? search_parts() : search_shapes();
   }
 
  private:
-  /// Answers what collides, and lists the other pairs. A set of roots alone is as quickly searched.
-  void drop_what_collides() noexcept {
-    std::uint8_t hits[grain] = {};
-    if (arguments_.enough == 0 && shapes_.trees != nullptr) {
-      Arguments in = arguments_.in;
-      in.pairs = pairs_.data(), in.codes = hits;
-      detail::answer(implementation_, in, 0, pairs_.size());
-    }
-    for (std::size_t i = 0; i < pairs_.size(); ++i) {
-      if (hits[i] != 0) put_alone(i, 0);
-      open_[open_count_] = pairs_[i];
-      index_[open_count_] = static_cast<std::uint16_t>(i);
-      open_count_ += hits[i] == 0;
-    }
-  }
-
   /// Not inlined, so that what it keeps on the stack is not there beside the other kernel.
   [[gnu::noinline]] void search_shapes() noexcept {
     NearestDiscs nearest[grain];
-    arguments_.in.pairs = open_;
+    arguments_.in.pairs = open_.pairs().data();
     arguments_.nearest = nearest;
-    implementation_.kernels->clearance(arguments_, 0, open_count_);
-    for (std::size_t k = 0; k < open_count_; ++k)
-      put(k, {shapes_, agents_, in_order(open_[k]), nearest[k]}, {0, 0});
+    implementation_.kernels->clearance(arguments_, 0, open_.size());
+    for (std::size_t k = 0; k < open_.size(); ++k)
+      put(k, {shapes_, agents_, in_order(open_.pairs()[k]), nearest[k]}, {0, 0});
   }
 
   /// Bodies in slabs or at different heights: the nearest parts, in a tie those in the lowest slabs.
   void search_parts() {
     PartItems items;
-    items.expand(shapes_, agents_, {open_, open_count_});
+    items.expand(shapes_, agents_, open_.pairs());
     std::vector<NearestDiscs> nearest(items.size());
     const Agents agents = items.agents();
     const ShapeSetView parts = parts_as_shapes(shapes_);
@@ -99,12 +88,12 @@ class RangeAnswers {
       };
       return key(a) < key(b);
     };
-    for (std::size_t k = 0; k < open_count_; ++k) {
+    for (std::size_t k = 0; k < open_.size(); ++k) {
       std::size_t best = items.begin(k);
       for (std::size_t i = best + 1; i < items.begin(k + 1); ++i)
         if (is_before(i, best)) best = i;
       if (items.begin(k) == items.begin(k + 1)) {
-        put_alone(index_[k], std::numeric_limits<float>::infinity());
+        put_alone(open_.index(k), std::numeric_limits<float>::infinity());
         continue;
       }
       put(k, {parts, agents, items.pairs()[best], nearest[best]},
@@ -118,11 +107,11 @@ class RangeAnswers {
 
   /// Writes the answer for an open pair. `first`: the numbers of the first discs of what was found.
   void put(std::size_t k, const FoundDiscs& found, DiscPair first) noexcept {
-    const std::size_t i = index_[k];
+    const std::size_t i = open_.index(k);
     const NearestDiscs& nearest = found.nearest;
     if (nearest.a == no_node) return put_alone(i, std::numeric_limits<float>::infinity());
     if (nearest.distance <= arguments_.enough) return put_alone(i, 0);
-    const bool is_turned = open_[k].second < open_[k].first;
+    const bool is_turned = open_.pairs()[k].second < open_.pairs()[k].first;
     answers_.distance[i] = nearest.distance;
     if (!answers_.direction.empty()) answers_.direction[i] = direction(nearest, is_turned ? -1 : 1);
     if (!answers_.discs.empty()) {
@@ -150,21 +139,17 @@ class RangeAnswers {
   const Agents& agents_;
   const std::span<const Pair> pairs_;
   const ClearanceAnswers& answers_;
-  std::size_t open_count_ = 0;
-  Pair open_[grain + 1];            ///< the pairs that are not answered yet, and room for one that is
-  std::uint16_t index_[grain + 1];  ///< of each
+  ApartPairs open_;  ///< not answered yet
 };
 
 void require_answers(const ClearanceAnswers& answers, std::size_t pairs) {
-  const auto require = [pairs](std::size_t size, const char* name, bool optional) {
-    if (size == pairs || (optional && size == 0)) return;
-    throw std::invalid_argument("clearance: " + std::to_string(pairs) + " pairs but " + std::to_string(size) +
-                                " " + name);
+  const auto require = [pairs](std::size_t size, const char* name) {
+    if (size != 0) require_as_many("clearance", pairs, size, name);
   };
-  require(answers.distance.size(), "distances", false);
-  require(answers.direction.size(), "directions", true);
-  require(answers.discs.size(), "discs", true);
-  require(answers.points.size(), "points", true);
+  require_as_many("clearance", pairs, answers.distance.size(), "distances");
+  require(answers.direction.size(), "directions");
+  require(answers.discs.size(), "discs");
+  require(answers.points.size(), "points");
 }
 
 }  // namespace
@@ -175,10 +160,7 @@ void clearance(const ShapeSet& shapes, const Agents& agents, std::span<const Pai
   require_answers(answers, pairs.size());
   if (!(options.max_distance >= 0))
     throw std::invalid_argument("clearance: a max_distance of " + shortest(options.max_distance) + " m");
-  if (options.overlap != Overlap::zero && options.overlap != Overlap::deepest)
-    throw std::invalid_argument("clearance: no overlap is " +
-                                std::to_string(static_cast<int>(options.overlap)) +
-                                ", only zero (0) and deepest (1)");
+  require_choice("clearance", "overlap is", static_cast<int>(options.overlap), "zero (0) and deepest (1)");
   const Implementation& implementation = chosen(options, "clearance");
   const ShapeSetView& view = shapes.view();
   require_valid(implementation, view, agents, pairs);

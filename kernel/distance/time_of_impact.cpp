@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "kernel/distance/apart_pairs.hpp"
 #include "kernel/distance/time_of_impact_arguments.hpp"
 #include "kernel/runtime/floating_point_state.hpp"
 #include "kernel/runtime/pair_validation.hpp"
@@ -24,8 +25,7 @@ using namespace detail;
 
 namespace {
 
-/// Pairs a task.
-constexpr std::size_t grain = 1024;
+constexpr std::size_t grain = ApartPairs::capacity;
 
 /// Bodies in slabs or at different heights meet where their first parts do.
 void find_first(const Implementation& implementation, const TimeOfImpactArguments& whole,
@@ -49,52 +49,32 @@ void find_first(const Implementation& implementation, const TimeOfImpactArgument
   }
 }
 
-/// The work of one task. Most overlapping pairs are found sooner by collide(), which has culling data for
-/// that.
+/// The work of one task.
 void answer(const Implementation& implementation, TimeOfImpactArguments arguments, const Agents& agents,
             std::span<const Pair> pairs, const double* x, const double* y, float* times) {
-  std::uint8_t codes[grain];
-  arguments.in.pairs = pairs.data();
-  arguments.in.codes = codes;
-  const bool of_parts = asks_parts(*arguments.in.shapes, agents);
-  (of_parts ? implementation.kernels->run_in_slabs : implementation.kernels->run)(arguments.in, 0,
-                                                                                  pairs.size());
-
-  Pair open[grain];
-  std::uint32_t which[grain];
+  ApartPairs open;
+  open.take_apart(implementation, arguments.in, pairs);
   float way_x[grain], way_y[grain], found[grain];
-  std::size_t count = 0;
-  // There are two loops, neither of which has a branch that depends on an answer.
-  for (std::uint32_t i = 0; i < pairs.size(); ++i) {
-    times[i] = 0;
-    which[count] = i;
-    count += codes[i] == apart;
-  }
-  for (std::size_t k = 0; k < count; ++k) {
-    const std::uint32_t i = which[k];
+  for (std::size_t k = 0; k < open.size(); ++k) {
+    const std::size_t i = open.index(k);
     const auto [first, second] = pairs[i];
     const double sign = second < first ? -1 : 1;
     way_x[k] = static_cast<float>(sign * x[i]), way_y[k] = static_cast<float>(sign * y[i]);
-    open[k] = pairs[i];
   }
-  arguments.in.pairs = open;
+  arguments.in.pairs = open.pairs().data();
   arguments.x = way_x, arguments.y = way_y, arguments.time = found;
-  if (of_parts)
-    find_first(implementation, arguments, agents, {open, count}, way_x, way_y, found);
+  if (asks_parts(*arguments.in.shapes, agents))
+    find_first(implementation, arguments, agents, open.pairs(), way_x, way_y, found);
   else
-    implementation.kernels->time_of_impact(arguments, 0, count);
-  for (std::size_t k = 0; k < count; ++k) times[which[k]] = found[k];
+    implementation.kernels->time_of_impact(arguments, 0, open.size());
+  std::fill_n(times, pairs.size(), 0.0f);
+  for (std::size_t k = 0; k < open.size(); ++k) times[open.index(k)] = found[k];
 }
 
 void require_sizes(const Displacements& displacements, std::size_t times, std::size_t pairs) {
-  const auto require = [pairs](std::size_t size, const char* name) {
-    if (size != pairs)
-      throw std::invalid_argument("time_of_impact: " + std::to_string(pairs) + " pairs but " +
-                                  std::to_string(size) + " " + name);
-  };
-  require(displacements.x.size(), "displacements in x");
-  require(displacements.y.size(), "displacements in y");
-  require(times, "times");
+  require_as_many("time_of_impact", pairs, displacements.x.size(), "displacements in x");
+  require_as_many("time_of_impact", pairs, displacements.y.size(), "displacements in y");
+  require_as_many("time_of_impact", pairs, times, "times");
 }
 
 void require_valid(const Displacements& displacements) {

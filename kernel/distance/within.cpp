@@ -28,9 +28,7 @@ float gap_of(double distance) noexcept {
 }
 
 void require_distances(std::span<const double> distances, std::size_t pairs) {
-  if (distances.size() != 1 && distances.size() != pairs)
-    throw std::invalid_argument("within: " + std::to_string(pairs) + " pairs but " +
-                                std::to_string(distances.size()) + " distances");
+  if (distances.size() != 1) require_as_many("within", pairs, distances.size(), "distances");
   for (std::size_t i = 0; i < distances.size(); ++i)
     if (!(distances[i] >= 0))
       throw std::invalid_argument(
@@ -43,9 +41,7 @@ void require_distances(std::span<const double> distances, std::size_t pairs) {
 void within(const ShapeSet& shapes, const Agents& agents, std::span<const Pair> pairs,
             std::span<const double> distances, std::span<std::uint8_t> answers, const QueryOptions& options) {
   const FloatingPointStateGuard floats;
-  if (answers.size() != pairs.size())
-    throw std::invalid_argument("within: " + std::to_string(pairs.size()) + " pairs but " +
-                                std::to_string(answers.size()) + " answers");
+  require_as_many("within", pairs.size(), answers.size(), "answers");
   require_distances(distances, pairs.size());
   const bool solid = is_solid(shapes, options.semantics, "within");
   const Implementation& implementation = chosen(options, "within");

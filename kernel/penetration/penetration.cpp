@@ -148,9 +148,7 @@ Query checked_query(const ShapeSet& shapes, const Agents& agents, std::span<cons
 }
 
 void require_directions(std::span<const Vec2> directions, std::size_t pairs) {
-  if (directions.size() != pairs)
-    throw std::invalid_argument("penetration: " + std::to_string(pairs) + " pairs but " +
-                                std::to_string(directions.size()) + " directions");
+  require_as_many("penetration", pairs, directions.size(), "directions");
   for (std::size_t i = 0; i < pairs; ++i) {
     const auto [x, y] = directions[i];
     if (std::isfinite(x) && std::isfinite(y) && (x != 0 || y != 0)) continue;

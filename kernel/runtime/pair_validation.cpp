@@ -79,11 +79,20 @@ const Implementation& chosen(const QueryOptions& options, const char* query) {
   return *wanted;
 }
 
+void require_as_many(const char* query, std::size_t pairs, std::size_t size, const char* what) {
+  if (size != pairs)
+    throw std::invalid_argument(std::string(query) + ": " + std::to_string(pairs) + " pairs but " +
+                                std::to_string(size) + " " + what);
+}
+
+void require_choice(const char* query, const char* what, int value, const char* words) {
+  if (value != 0 && value != 1)
+    throw std::invalid_argument(std::string(query) + ": no " + what + " " + std::to_string(value) +
+                                ", only " + words);
+}
+
 bool is_solid(const ShapeSet& shapes, Semantics semantics, const char* query) {
-  if (semantics != Semantics::solid && semantics != Semantics::boundary)
-    throw std::invalid_argument(std::string(query) + ": no semantics is " +
-                                std::to_string(static_cast<int>(semantics)) +
-                                ", only boundary (0) and solid (1)");
+  require_choice(query, "semantics is", static_cast<int>(semantics), "boundary (0) and solid (1)");
   const bool solid = semantics == Semantics::solid || !shapes.slices().empty();
   if (solid && !shapes.solid())
     throw std::invalid_argument(
@@ -93,10 +102,7 @@ bool is_solid(const ShapeSet& shapes, Semantics semantics, const char* query) {
 }
 
 bool exact_leaves(const ShapeSet& shapes, Leaves leaves, const char* query) {
-  if (leaves != Leaves::discs && leaves != Leaves::segments)
-    throw std::invalid_argument(std::string(query) + ": no leaves are " +
-                                std::to_string(static_cast<int>(leaves)) +
-                                ", only discs (0) and segments (1)");
+  require_choice(query, "leaves are", static_cast<int>(leaves), "discs (0) and segments (1)");
   return leaves == Leaves::segments && shapes.exact_leaves();
 }
 

@@ -22,6 +22,11 @@ constexpr std::size_t pairs_per_task = 2048;
 /// Errors:  throws std::invalid_argument naming the query where this processor does not run it.
 const Implementation& chosen(const QueryOptions& options, const char* query);
 
+/// Requires that a query was given as many values as pairs, and that an option is 0 or 1.
+/// Errors of both: throw std::invalid_argument naming the query, what is wrong, and in `words` the two that there are.
+void require_as_many(const char* query, std::size_t pairs, std::size_t size, const char* what);
+void require_choice(const char* query, const char* what, int value, const char* words);
+
 /// Returns whether a query answers in solid semantics: that is selected, or bodies are in slabs.
 /// Errors:  throws std::invalid_argument naming the query on a value that is none, and where the set lacks outlines for it.
 bool is_solid(const ShapeSet& shapes, Semantics semantics, const char* query);

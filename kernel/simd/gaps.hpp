@@ -48,7 +48,7 @@ Gaps gaps(float leaf, float reach) noexcept {
   return {leaf, leaf + static_cast<float>(gap_bound_share) * (reach + leaf)};
 }
 
-/// Whether the stages of a pair query know of gaps. Those of collide() for whole bodies do not.
+/// Holds for the stages of a pair query that know of gaps. Those of collide() for whole bodies do not.
 template <class Simd>
 concept KnowsGaps = requires {
   Simd::knows_gaps;

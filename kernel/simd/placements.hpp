@@ -29,9 +29,6 @@ class Placements {
     name_agents<false>(in, begin);
     in.prefetch_agents ? find_roots<true, false>(in) : find_roots<false, false>(in);
     turn<false>(in);
-    if constexpr (KnowsGaps<Simd>)
-      for (std::uint32_t k = 0; k < whole_registers(); ++k)
-        set_gaps(k, in, begin + (k < size ? k : size - 1));
   }
 
   /// Places pairs that were not validated. Returns false unless everything is surely valid; then no other
@@ -57,6 +54,10 @@ class Placements {
     return (size + Simd::width - 1) / Simd::width * Simd::width;
   }
 
+  /// Sets the gaps of all pairs, the first of which has that index in the batch.
+  void set_all_gaps(const Arguments& in, std::size_t begin) noexcept {
+    for (std::uint32_t k = 0; k < whole_registers(); ++k) set_gaps(k, in, begin + (k < size ? k : size - 1));
+  }
   /// Sets the gaps of two shapes, of the pair with that index in the batch.
   void set_gaps(std::uint32_t k, const Arguments& in, std::size_t pair) noexcept {
     gap[k] = bound_gap[k] = 0;
@@ -87,8 +88,9 @@ class Placements {
   // Up to whole_registers(), lanes beyond the last pair repeat it. The transform is as in layout/base/rounding.hpp.
   alignas(64) float c[chunk_size], s[chunk_size], tx[chunk_size], ty[chunk_size];
   std::uint32_t shape_a[chunk_size], shape_b[chunk_size];
-  std::uint32_t root_a[chunk_size], root_b[chunk_size];      ///< shape * level_count + level
-  alignas(64) float gap[chunk_size], bound_gap[chunk_size];  ///< see Gaps; set where KnowsGaps
+  std::uint32_t root_a[chunk_size], root_b[chunk_size];  ///< shape * level_count + level
+  alignas(64) float gap[chunk_size],
+      bound_gap[chunk_size];  ///< see Gaps; where KnowsGaps, by the two functions
 
  private:
   static constexpr std::uint32_t pairs_ahead = 32;  ///< that agents are prefetched

@@ -34,9 +34,8 @@ struct Box {
 /// Returns the radius about (x, y) that holds discs.
 double radius_about(double x, double y, std::span<const Disc> discs) noexcept {
   double radius = 0;
-  for (const Disc& disc : discs) {
+  for (const Disc& disc : discs)
     radius = std::max(radius, length(double{disc.x} - x, double{disc.y} - y) + double{disc.radius});
-  }
   return radius;
 }
 

@@ -69,8 +69,8 @@ void clearance(const ShapeSet& shapes, const Agents& agents, std::span<const Pai
 /// is more than what collides. In solid semantics an agent inside another's outline is within every distance of it.
 /// Bodies in slabs are asked so whatever the options say, as in collide(), and distances are those of parts that may meet.
 ///
-/// Where clearance() says a finite distance of at most the one asked for, the answer is 1, and so it is where outlines are as
-/// close. Where the answer is 1 in boundary semantics, clearance() is at most the distance asked
+/// The answer is 1 where clearance() says a finite distance of at most the one asked for, and where outlines are as close.
+/// Where the answer is 1 in boundary semantics, clearance() is at most the distance asked
 /// for, plus 1.4 um per metre of that and of the radii of their largest discs. The same bits on every processor, for any number
 /// of threads and any split of the batch, and for either order of a pair.
 ///
