@@ -33,9 +33,11 @@ void decide_containment(const Arguments& in, std::size_t begin, std::size_t end)
 
 void answer(const Implementation& implementation, const Arguments& arguments, std::size_t begin,
             std::size_t end) noexcept {
-  if (in_slabs(arguments)) return implementation.kernels->run_in_slabs(arguments, begin, end);
   const Kernels& kernels = *implementation.kernels;
-  (arguments.gaps != nullptr ? kernels.run_within : kernels.run)(arguments, begin, end);
+  const bool about_gaps = arguments.gaps != nullptr;
+  if (in_slabs(arguments))
+    return (about_gaps ? kernels.run_within_in_slabs : kernels.run_in_slabs)(arguments, begin, end);
+  (about_gaps ? kernels.run_within : kernels.run)(arguments, begin, end);
   decide_containment(arguments, begin, end);
 }
 

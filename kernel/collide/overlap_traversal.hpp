@@ -31,7 +31,6 @@ class OverlapTraversal {
         codes_(arguments.codes),
         prefetch_(arguments.prefetch_shapes),
         exact_leaves_(arguments.exact_leaves),
-        leaves_alone_(arguments.gaps != nullptr),
         segments_(shapes, open_) {}
 
   /// `pair` is where the answer goes in codes, `miss` what it is unless a walk finds an overlap.
@@ -114,10 +113,9 @@ class OverlapTraversal {
                                                    std::uint32_t b) const noexcept {
     const float* const nodes = shapes_.nodes;
     if constexpr (KnowsGaps<Simd>)
-      if (leaves_alone_)
-        return near_discs<Simd>(pair.b_in_a, Nodes::outer_discs(nodes, a, pair.stride_a),
-                                Nodes::outer_discs(nodes, b, pair.stride_b), near_radii,
-                                (a & b) >= leaf_window ? pair.gaps.leaf : pair.gaps.bound);
+      return near_discs<Simd>(pair.b_in_a, Nodes::outer_discs(nodes, a, pair.stride_a),
+                              Nodes::outer_discs(nodes, b, pair.stride_b), near_radii,
+                              (a & b) >= leaf_window ? pair.gaps.leaf : pair.gaps.bound);
     return overlapping_discs<Simd>(pair.b_in_a, Nodes::discs(nodes, a, pair.stride_a),
                                    Nodes::discs(nodes, b, pair.stride_b));
   }
@@ -125,7 +123,8 @@ class OverlapTraversal {
   /// Takes the hits of leaves away whose segments do not meet or whose ancestors do not all overlap, but for
   /// a pair's first that stays.
   [[gnu::always_inline]] void verify() noexcept {
-    if (KnowsGaps<Simd> && leaves_alone_) return;
+    // Leaf discs within their gap are a hit, whatever is above them.
+    if constexpr (KnowsGaps<Simd>) return;
     std::uint16_t found[verified_together + 1];
     std::uint32_t count = 0;
     for (std::uint32_t k = 0; k < size_; ++k) {
@@ -275,7 +274,6 @@ class OverlapTraversal {
   const ShapeSetView& shapes_;
   std::uint8_t* const codes_;
   const bool prefetch_, exact_leaves_;
-  const bool leaves_alone_;  ///< leaf discs within their gap are a hit, whatever is above them
   std::uint32_t size_ = 0, numbered_ = 0;
   std::uint16_t slots_[capacity];  ///< a permutation: first those of open pairs, then free ones
   Open open_[capacity];

@@ -121,7 +121,7 @@ class PairKernel {
       for (std::uint32_t lane = 0; lane < lanes(k); ++lane) {
         const std::uint32_t decided = both_are_single(k + lane);
         // Leaf discs that come within a distance may stick out of the roots.
-        const std::uint32_t hit = (hits >> lane & 1) | (is_about_gaps() & (decided ^ 1));
+        const std::uint32_t hit = (hits >> lane & 1) | (KnowsGaps<Simd> & (decided ^ 1));
         codes_[k + lane] = static_cast<std::uint8_t>(hit * overlap);
         open |= (hit & (decided ^ 1)) << lane;
       }
@@ -129,11 +129,9 @@ class PairKernel {
     }
   }
 
-  std::uint32_t is_about_gaps() const noexcept { return KnowsGaps<Simd> && in_.gaps != nullptr; }
-
   [[gnu::always_inline]] std::uint32_t roots_overlap(std::uint32_t k, Float x, Float y,
                                                      Float r) const noexcept {
-    if constexpr (KnowsGaps<Simd>) r = r * Float(is_about_gaps() ? near_radii : 1) + Simd::load(at_.gap + k);
+    if constexpr (KnowsGaps<Simd>) r = r * Float(near_radii) + Simd::load(at_.gap + k);
     return Simd::bits(x * x + y * y <= r * r);
   }
 

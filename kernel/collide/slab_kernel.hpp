@@ -59,10 +59,9 @@ class SlabKernel {
     Placements<Simd>& at = kernel_.placements();
     at.place(in_, begin, end);
     // They have no room for gaps: the reach that these need is that of a part.
-    const bool has_hulls = in_.shapes->hull_support != nullptr && in_.gaps == nullptr;
+    const bool has_hulls = in_.shapes->hull_support != nullptr && !KnowsGaps<Simd>;
     const std::uint32_t levels = in_.shapes->level_count;
     if (has_hulls) {
-      at.set_all_gaps(in_, begin);  // none
       hulls_.use_rows(at.shape_a, at.shape_b);
       hulls_.place_directions();
     }
@@ -118,7 +117,7 @@ class SlabKernel {
       at.ty[k] = placed.b_in_a.ty;
       at.shape_a[k] = a, at.shape_b[k] = b;
       at.root_a[k] = a * levels + placed.level_a, at.root_b[k] = b * levels + placed.level_b;
-      at.set_gaps(k, in_, begin_ + pair);
+      if constexpr (KnowsGaps<Simd>) at.set_gaps(k, in_, begin_ + pair);
     }
     at.fill_up(k);
     kernel_.answer_placed(first);

@@ -20,9 +20,10 @@ namespace bch::detail {
 template <class Simd>
 struct Row {
   using Guard [[maybe_unused]] = typename Simd::Guard;
-  /// Bodies in slabs, and questions about distances, have stages of their own, so that collide() of whole bodies does not pay
-  /// for what only these need.
-  struct General : Simd {
+  /// Bodies in slabs have stages of their own, so that what they call does not decide what is inlined for whole bodies.
+  struct ForSlabs : Simd {};
+  /// Questions about distances have theirs, so that collide() does not pay for what only these need.
+  struct WithGaps : Simd {
     static constexpr bool knows_gaps = true;
   };
 
@@ -40,11 +41,15 @@ struct Row {
   }
   static void run_in_slabs(const Arguments& arguments, std::size_t begin, std::size_t end) noexcept {
     [[maybe_unused]] const Guard guard;
-    SlabKernel<General>::run(arguments, begin, end);
+    SlabKernel<ForSlabs>::run(arguments, begin, end);
   }
   static void run_within(const Arguments& arguments, std::size_t begin, std::size_t end) noexcept {
     [[maybe_unused]] const Guard guard;
-    PairKernel<General>::run(arguments, begin, end);
+    PairKernel<WithGaps>::run(arguments, begin, end);
+  }
+  static void run_within_in_slabs(const Arguments& arguments, std::size_t begin, std::size_t end) noexcept {
+    [[maybe_unused]] const Guard guard;
+    SlabKernel<WithGaps>::run(arguments, begin, end);
   }
   static bool run_if_valid(const Arguments& arguments, std::uint32_t count) noexcept {
     [[maybe_unused]] const Guard guard;
@@ -75,9 +80,9 @@ struct Row {
     TimeOfImpactKernel<Simd>::run(arguments, begin, end);
   }
 
-  static constexpr Kernels kernels{Simd::width,   check,      named,        run,
-                                   run_in_slabs,  run_within, run_if_valid, count_contacts,
-                                   fill_contacts, extents,    clearance,    time_of_impact};
+  static constexpr Kernels kernels{
+      Simd::width,  check,          named,         run,     run_in_slabs, run_within,    run_within_in_slabs,
+      run_if_valid, count_contacts, fill_contacts, extents, clearance,    time_of_impact};
 };
 
 }  // namespace bch::detail

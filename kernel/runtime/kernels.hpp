@@ -34,11 +34,11 @@ struct Kernels {
   /// Writes the codes of pairs begin .. end; see Arguments. Keeps up to 256 KiB
   /// on the stack, and needs no other memory.
   void (*run)(const Arguments& arguments, std::size_t begin, std::size_t end) noexcept;
-  /// Does the same for bodies in slabs or at different heights, also where distances are asked about, with up to 300 KiB.
-  /// Codes are answers there: 0 or 1.
+  /// Does the same for bodies in slabs or at different heights, with up to 300 KiB. Codes are answers there: 0 or 1.
   void (*run_in_slabs)(const Arguments& arguments, std::size_t begin, std::size_t end) noexcept;
-  /// Writes the codes of pairs begin .. end where distances are asked about, of whole bodies at one height.
+  /// Do the same as these two where distances are asked about.
   void (*run_within)(const Arguments& arguments, std::size_t begin, std::size_t end) noexcept;
+  void (*run_within_in_slabs)(const Arguments& arguments, std::size_t begin, std::size_t end) noexcept;
   /// Writes the codes of the first `count` pairs, one or more and at most a
   /// chunk, when neither pairs nor agents were validated. Returns false, and
   /// writes nothing, unless they are surely valid. It is meant for small

@@ -7,8 +7,7 @@
 
 namespace bch::detail {
 
-/// The gaps between discs of a pair up to which within() says 1 and looks further. Both are 0 where it is asked whether
-/// the two collide.
+/// The gaps between discs of a pair up to which within() says 1 and looks further.
 ///
 /// Notation of layout/base/rounding.hpp; d is the distance of the question, r = r_A + r_B, and of two leaf discs, alone,
 ///
@@ -48,7 +47,7 @@ Gaps gaps(float leaf, float reach) noexcept {
   return {leaf, leaf + static_cast<float>(gap_bound_share) * (reach + leaf)};
 }
 
-/// Holds for the stages of a pair query that know of gaps. Those of collide() for whole bodies do not.
+/// Holds for the stages of within(). Those of collide() know of no gaps, and do not pay for them.
 template <class Simd>
 concept KnowsGaps = requires {
   Simd::knows_gaps;

@@ -60,8 +60,6 @@ class Placements {
   }
   /// Sets the gaps of two shapes, of the pair with that index in the batch.
   void set_gaps(std::uint32_t k, const Arguments& in, std::size_t pair) noexcept {
-    gap[k] = bound_gap[k] = 0;
-    if (in.gaps == nullptr) return;
     // Of roots alone there is nothing to bound.
     const float* const reach = in.shapes->reach;
     const auto [leaf, bound] =
