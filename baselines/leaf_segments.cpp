@@ -57,12 +57,6 @@ Segment segment_of(const Outline& outline, std::uint32_t number) {
   return {exact(outline.points[number]), exact(outline.points[next])};
 }
 
-double margin_of(const Shape& shape) {
-  return static_cast<double>(detail::rounding::round_up(
-      detail::rounding::segment_margin * shape.hierarchy.reach +
-      detail::rounding::outline_grid_steps * static_cast<double>(shape.outline.grid_step)));
-}
-
 }  // namespace
 
 bool segments_meet(Segment p, Segment q, double margin) noexcept {
@@ -103,6 +97,21 @@ bool LeafSegments::meet(const FloatPlacement& place, const Agents& agents, Pair 
       if (segments_meet(segment_of(a.outline, a.hierarchy.source[i]), of_b, margin)) return true;
     }
   return false;
+}
+
+std::vector<std::array<Point2, 2>> LeafSegments::segments_of(const Shape& shape, std::uint32_t node) {
+  std::vector<Segment> segments;
+  const auto [begin, end] = shape.hierarchy.primitive_ranges[node];
+  if (end - begin > detail::most_leaf_segments) return segments;
+  for (std::uint32_t i = begin; i < end; ++i)
+    segments.push_back(segment_of(shape.outline, shape.hierarchy.source[i]));
+  return segments;
+}
+
+double LeafSegments::margin_of(const Shape& shape) {
+  return static_cast<double>(detail::rounding::round_up(
+      detail::rounding::segment_margin * shape.hierarchy.reach +
+      detail::rounding::outline_grid_steps * static_cast<double>(shape.outline.grid_step)));
 }
 
 }  // namespace bch::baselines

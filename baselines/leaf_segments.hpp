@@ -30,6 +30,11 @@ class LeafSegments {
   /// Returns whether segments decide if leaves of a pair of agents overlap.
   bool decide(const Agents& agents, Pair pair) const;
 
+  /// Returns the segments of a leaf, a node of a shape's hierarchy; none where these are too many to decide.
+  static std::vector<std::array<Point2, 2>> segments_of(const Shape& shape, std::uint32_t node);
+  /// Returns a shape's part of the margin within which segments meet, metres.
+  static double margin_of(const Shape& shape);
+
   /// Returns whether segments of two leaves meet. The leaves are nodes of the hierarchies of the agent with
   /// the lower index (`node_a`) and of the other agent (`node_b`).
   /// Precondition: decide().

@@ -11,7 +11,7 @@
 
 #include <bch/broad_phase.hpp>
 #include <bch/clearance.hpp>
-#include <bch/collide_all.hpp>
+#include <bch/collide.hpp>
 #include <bch/penetration.hpp>
 
 #include "bench/base/csv_input.hpp"

@@ -8,7 +8,6 @@
 #include <vector>
 
 #include <bch/collide.hpp>
-#include <bch/collide_all.hpp>
 #include <bch/penetration.hpp>
 
 #include "bench/characters/crowd.hpp"

@@ -8,7 +8,7 @@
 
 #include <bch/broad_phase.hpp>
 #include <bch/clearance.hpp>
-#include <bch/collide_all.hpp>
+#include <bch/collide.hpp>
 #include <bch/penetration.hpp>
 
 #include "bench/stability/stiff_contact.hpp"

@@ -8,7 +8,7 @@
 #include <stdexcept>
 #include <vector>
 
-#include <bch/collide_all.hpp>
+#include <bch/collide.hpp>
 #include <bch/contacts.hpp>
 #include <bch/penetration.hpp>
 

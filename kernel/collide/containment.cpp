@@ -22,20 +22,6 @@ Placement placement(const Arguments& in, std::uint32_t of, std::uint32_t to_agen
           to.cosine * dx + to.sine * dy, to.cosine * dy - to.sine * dx};
 }
 
-/// Returns whether p is inside, by the parity of the edges to its right. Whiskers are walked there and back
-/// and cancel.
-bool inside(const Vec2* points, const Contour& contour, Point p) {
-  bool odd = false;
-  for (std::uint32_t i = contour.begin, before = contour.end - 1; i < contour.end; before = i++) {
-    const double ax = points[before].x, ay = points[before].y;
-    const double bx = points[i].x, by = points[i].y;
-    if ((ay > p.y) == (by > p.y)) continue;
-    const double side = (bx - ax) * (p.y - ay) - (by - ay) * (p.x - ax);
-    odd ^= (by > ay) == (side > 0);
-  }
-  return odd;
-}
-
 /// The slack of may_be_inside(), times both shapes' reaches, in the terms of layout/base/rounding.hpp. The
 /// outer disc holds its contour whatever is rounded. The inner disc's centre is rounded to float, by u |c|,
 /// which makes d and r larger by as much, and r is rounded up: sqrt(d^2 + r^2) is too large by at most
@@ -72,13 +58,26 @@ bool contains_contour_of(const ShapeSetView& shapes, std::uint32_t outer_part, s
     const Point centre = placed(within.disc.x, within.disc.y);
     for (std::uint32_t o = outer.begin; o < outer.end; ++o)
       if (may_be_inside(shapes.contours[o].disc, within.disc, centre, slack) &&
-          inside(shapes.points, shapes.contours[o], placed(first.x, first.y)))
+          contour_holds(shapes.points, shapes.contours[o], placed(first.x, first.y)))
         return true;
   }
   return false;
 }
 
 }  // namespace
+
+/// By the parity of the edges to its right. Whiskers are walked there and back and cancel.
+bool contour_holds(const Vec2* points, const Contour& contour, PointIn<double> p) noexcept {
+  bool odd = false;
+  for (std::uint32_t i = contour.begin, before = contour.end - 1; i < contour.end; before = i++) {
+    const double ax = points[before].x, ay = points[before].y;
+    const double bx = points[i].x, by = points[i].y;
+    if ((ay > p.y) == (by > p.y)) continue;
+    const double side = (bx - ax) * (p.y - ay) - (by - ay) * (p.x - ax);
+    odd ^= (by > ay) == (side > 0);
+  }
+  return odd;
+}
 
 bool one_contains_other(const Arguments& in, std::uint32_t agent_a, std::uint32_t part_a,
                         std::uint32_t agent_b, std::uint32_t part_b) noexcept {

@@ -6,8 +6,13 @@
 #include <cstdint>
 
 #include "kernel/simd/arguments.hpp"
+#include "kernel/simd/transform.hpp"
+#include "layout/format/shape_set_view.hpp"
 
 namespace bch::detail {
+
+/// Returns whether a contour holds a point that is not on it; both are in the shape's frame.
+bool contour_holds(const Vec2* points, const Contour& contour, PointIn<double> p) noexcept;
 
 /// Returns whether a contour of one agent's part lies inside the other's, for two agents whose parts have cuts that do not
 /// overlap.

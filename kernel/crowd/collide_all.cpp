@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include <bch/collide_all.hpp>
-
 #include <vector>
 
 #include <bch/broad_phase.hpp>
 #include <bch/collide.hpp>
+#include <bch/obstacles.hpp>
 
 #include "kernel/crowd/neighbour_rows.hpp"
+#include "kernel/obstacles/obstacle_rows.hpp"
 #include "kernel/runtime/task_ranges.hpp"
 
 namespace bch {
@@ -26,6 +26,7 @@ struct CrowdCollider::State {
   std::vector<std::uint8_t> hits;
   std::vector<std::uint64_t> begin;
   std::vector<std::uint32_t> neighbours;
+  ObstacleRows obstacle_rows;
 
   Rows<std::uint32_t> collide_all(const ShapeSet& shapes, const Agents& agents, const QueryOptions& options);
 };
@@ -54,6 +55,14 @@ Rows<std::uint32_t> CrowdCollider::State::collide_all(const ShapeSet& shapes, co
 Rows<std::uint32_t> CrowdCollider::collide_all(const ShapeSet& shapes, const Agents& agents,
                                                const QueryOptions& options) {
   return without_tasks_from_outside([&] { return state_->collide_all(shapes, agents, options); });
+}
+
+CrowdCollisions CrowdCollider::collide_all(const ShapeSet& shapes, const Agents& agents,
+                                           const ObstacleSet& obstacles, const QueryOptions& options) {
+  return without_tasks_from_outside([&]() -> CrowdCollisions {
+    const Rows<std::uint32_t> neighbours = state_->collide_all(shapes, agents, options);
+    return {neighbours, state_->obstacle_rows.find(shapes, agents, obstacles, options)};
+  });
 }
 
 }  // namespace bch

@@ -8,6 +8,8 @@
 #include "kernel/contact/contact_kernel.hpp"
 #include "kernel/distance/clearance_kernel.hpp"
 #include "kernel/distance/time_of_impact_kernel.hpp"
+#include "kernel/obstacles/box_query.hpp"
+#include "kernel/obstacles/obstacle_kernel.hpp"
 #include "kernel/penetration/extent_kernel.hpp"
 #include "kernel/runtime/agent_check.hpp"
 #include "kernel/runtime/kernels.hpp"
@@ -79,10 +81,24 @@ struct Row {
     [[maybe_unused]] const Guard guard;
     TimeOfImpactKernel<Simd>::run(arguments, begin, end);
   }
+  static std::uint32_t find_boxes(const BoxTreeView& tree, const Box& box, std::uint32_t* found,
+                                  std::uint32_t room) noexcept {
+    [[maybe_unused]] const Guard guard;
+    return BoxQuery<Simd>::run(tree, box, found, room);
+  }
+  static bool touches(const ObstacleArguments& arguments) noexcept {
+    [[maybe_unused]] const Guard guard;
+    return ObstacleKernel<Simd>(arguments).touches();
+  }
+  static void find_gap(const ObstacleArguments& arguments, double enough, ObstacleGap& best) noexcept {
+    [[maybe_unused]] const Guard guard;
+    ObstacleKernel<Simd>(arguments).find_gap(enough, best);
+  }
 
   static constexpr Kernels kernels{
-      Simd::width,  check,          named,         run,     run_in_slabs, run_within,    run_within_in_slabs,
-      run_if_valid, count_contacts, fill_contacts, extents, clearance,    time_of_impact};
+      Simd::width,         check,        named,          run,           run_in_slabs, run_within,
+      run_within_in_slabs, run_if_valid, count_contacts, fill_contacts, extents,      clearance,
+      time_of_impact,      find_boxes,   touches,        find_gap};
 };
 
 }  // namespace bch::detail

@@ -15,7 +15,11 @@ namespace bch::detail {
 
 struct CutDiscs;
 struct Arguments;
+struct Box;
+struct BoxTreeView;
 struct ClearanceArguments;
+struct ObstacleArguments;
+struct ObstacleGap;
 struct TimeOfImpactArguments;
 
 /// The lowest agent of some, and the highest. Of none, the lowest is above the
@@ -62,6 +66,13 @@ struct Kernels {
   /// Writes the times of impact of those pairs begin .. end that do not overlap
   /// now; see TimeOfImpactArguments.
   void (*time_of_impact)(const TimeOfImpactArguments& arguments, std::size_t begin, std::size_t end) noexcept;
+  /// Writes which boxes of a tree overlap a box, at most `room`; see BoxQuery. Returns how many do.
+  std::uint32_t (*find_boxes)(const BoxTreeView& tree, const Box& box, std::uint32_t* found,
+                              std::uint32_t room) noexcept;
+  /// Returns whether a part of an agent touches the segments of an obstacle; see ObstacleKernel.
+  bool (*touches)(const ObstacleArguments& arguments) noexcept;
+  /// Finds the least gap between a disc of a part and one of the segments, until it is at most `enough`.
+  void (*find_gap)(const ObstacleArguments& arguments, double enough, ObstacleGap& best) noexcept;
 };
 
 }  // namespace bch::detail

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 
+#include "kernel/simd/leaf_segments.hpp"
 #include "kernel/simd/transform.hpp"
 #include "layout/base/rounding.hpp"
 #include "layout/format/shape_set_view.hpp"
@@ -35,14 +36,14 @@ class SegmentTest {
  public:
   /// `placed`: what add() names by index.
   SegmentTest(const ShapeSetView& shapes, const Placed* placed) noexcept
-      : words_(shapes.leaf_segments), points_(shapes.points), placed_(placed) {}
+      : leaves_{shapes.leaf_segments}, points_(shapes.points), placed_(placed) {}
 
   /// Asks for the words of a leaf window, or for the points that they name.
   [[gnu::always_inline]] void prefetch_words(const Tree& tree, std::uint32_t window) const noexcept {
-    __builtin_prefetch(word(tree, window & ~leaf_window));
+    __builtin_prefetch(leaves_.word(tree, window & ~leaf_window));
   }
   [[gnu::always_inline]] void prefetch_points(const Tree& tree, std::uint32_t window) const noexcept {
-    const std::uint32_t* const words = word(tree, window & ~leaf_window);
+    const std::uint32_t* const words = leaves_.word(tree, window & ~leaf_window);
     const std::uint32_t last = tree.count < block_width ? tree.count - 1 : block_width - 1;
     const std::uint32_t asked[] = {0, last / 2, last};
     for (const std::uint32_t i : asked)
@@ -56,7 +57,7 @@ class SegmentTest {
   template <class Use>
   [[gnu::always_inline]] void add(std::uint32_t placed, const Tree& a, std::uint32_t leaf_a, const Tree& b,
                                   std::uint32_t leaf_b, std::uint32_t owner, Use use) noexcept {
-    const Segments of_a = segments(a, leaf_a), of_b = segments(b, leaf_b);
+    const auto of_a = leaves_.segments(a, leaf_a), of_b = leaves_.segments(b, leaf_b);
     if (of_a.count * of_b.count == 0) [[unlikely]]
       return use(owner, Meeting::near);
     for (std::uint32_t i = 0; i < of_a.count; ++i)
@@ -94,28 +95,6 @@ class SegmentTest {
   static constexpr std::uint32_t capacity = 64;
   static_assert(capacity % Simd::width == 0);
   static_assert(sizeof(Placed) % sizeof(double) == 0 && alignof(Placed) == alignof(double));
-
-  /// Returns the word of a leaf, by the place of its disc.
-  const std::uint32_t* word(const Tree& tree, std::uint32_t leaf) const noexcept {
-    return words_ + tree.segments + (leaf - tree.discs);
-  }
-
-  /// The segments of a leaf, by the points where they begin.
-  struct Segments {
-    std::uint32_t first, count;
-    const std::uint32_t* listed;  ///< counted from the first; null: they follow each other
-
-    std::uint32_t point(std::uint32_t i) const noexcept {
-      return first + (listed == nullptr ? i : listed[i]);
-    }
-  };
-  Segments segments(const Tree& tree, std::uint32_t leaf) const noexcept {
-    const std::uint32_t of_leaf = *word(tree, leaf);
-    if (of_leaf < leaf_list) [[likely]]
-      return {tree.points + (of_leaf & leaf_first_mask), of_leaf >> leaf_count_shift, nullptr};
-    const std::uint32_t* const list = words_ + tree.segments + (of_leaf & ~leaf_list);
-    return {tree.points, *list, list + 1};
-  }
 
   using Point = PointIn<Double>;
   struct Pair {
@@ -217,7 +196,7 @@ class SegmentTest {
     return x * x + y * y;
   }
 
-  const std::uint32_t* const words_;
+  const LeafSegments<Simd> leaves_;
   const Vec2* const points_;
   const Placed* const placed_;
   std::uint32_t size_ = 0;

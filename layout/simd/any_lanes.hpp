@@ -169,6 +169,13 @@ struct AnyLanes {
     to[0] = load(wide), to[1] = load(wide + doubles);
   }
 
+  /// A register of doubles from as many floats.
+  static Double wide(const float* p) noexcept {
+    double lane[doubles];
+    for (unsigned i = 0; i < doubles; ++i) lane[i] = static_cast<double>(p[i]);
+    return load(lane);
+  }
+
   /// The square root, for bounds: it is off by less than 3/4 of `rough`, relatively, for normal numbers, differently on
   /// every processor, and NaN for numbers below 0.
   static Float rough_root(Float x) noexcept {

@@ -25,6 +25,7 @@ struct Lanes<Scalar, Own> {
     return value;
   }
   static Double load(const double* p) noexcept { return *p; }
+  static Double wide(const float* p) noexcept { return static_cast<double>(load(p)); }
   static void store(float* p, Float v) noexcept { __builtin_memcpy(p, &v, sizeof v); }
   static void store(double* p, Double v) noexcept { *p = v; }
   static void store(std::uint32_t* p, Words v) noexcept { *p = v; }

@@ -63,6 +63,9 @@ struct Lanes<xsimd::sse2, Own> : AnyLanes<xsimd::sse2, Own> {
   static void widened(Float v, Double (&to)[2]) noexcept {
     to[0] = _mm_cvtps_pd(v), to[1] = _mm_cvtps_pd(_mm_movehl_ps(v, v));
   }
+  static Double wide(const float* p) noexcept {
+    return _mm_cvtps_pd(_mm_castpd_ps(_mm_set_sd(AnyLanes<xsimd::sse2, Own>::pair(p))));
+  }
   static constexpr float rough = 0x1p-11f;
   static Float rough_root(Float x) noexcept { return x * xsimd::rsqrt(x); }
 };
@@ -110,6 +113,7 @@ struct Lanes<xsimd::avx2, Own> : AnyLanes<xsimd::avx2, Own> {
   static void widened(Float v, Double (&to)[2]) noexcept {
     to[0] = _mm256_cvtps_pd(_mm256_castps256_ps128(v)), to[1] = _mm256_cvtps_pd(_mm256_extractf128_ps(v, 1));
   }
+  static Double wide(const float* p) noexcept { return _mm256_cvtps_pd(_mm_loadu_ps(p)); }
   static std::uint32_t bits(xsimd::batch_bool<float, xsimd::avx2> mask) noexcept {
     return static_cast<std::uint32_t>(_mm256_movemask_ps(mask));
   }
@@ -194,7 +198,9 @@ struct Lanes<xsimd::avx512f, Own> : AnyLanes<xsimd::avx512f, Own> {
     to[0] = _mm512_cvtps_pd(_mm512_castps512_ps256(v));
     to[1] = _mm512_cvtps_pd(_mm256_castpd_ps(_mm512_extractf64x4_pd(_mm512_castps_pd(v), 1)));
   }
+  static Double wide(const float* p) noexcept { return _mm512_cvtps_pd(_mm256_loadu_ps(p)); }
   static std::uint32_t bits(xsimd::batch_bool<float, xsimd::avx512f> mask) noexcept { return mask.data; }
+  static std::uint32_t bits(xsimd::batch_bool<double, xsimd::avx512f> mask) noexcept { return mask.data; }
   static float least(Float values) noexcept { return _mm512_reduce_min_ps(values); }
   static constexpr float rough = 0x1p-13f;
   static Float rough_root(Float x) noexcept { return x * Float(_mm512_rsqrt14_ps(x)); }

@@ -8,7 +8,6 @@
 
 #include <bch/clearance.hpp>
 #include <bch/collide.hpp>
-#include <bch/collide_all.hpp>
 #include <bch/contacts.hpp>
 #include <bch/time_of_impact.hpp>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include <bch/collide_all.hpp>
+#include <bch/collide.hpp>
 
 #include <gtest/gtest.h>
 #include <oneapi/tbb/global_control.h>

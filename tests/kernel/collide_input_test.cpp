@@ -10,7 +10,6 @@
 #include <vector>
 
 #include <bch/collide.hpp>
-#include <bch/collide_all.hpp>
 
 #include "tests/support/scenes.hpp"
 

@@ -11,7 +11,6 @@
 
 #include <bch/clearance.hpp>
 #include <bch/collide.hpp>
-#include <bch/collide_all.hpp>
 #include <bch/contacts.hpp>
 #include <bch/penetration.hpp>
 #include <bch/time_of_impact.hpp>

@@ -11,7 +11,6 @@
 
 #include <bch/broad_phase.hpp>
 #include <bch/collide.hpp>
-#include <bch/collide_all.hpp>
 #include <bch/dynamic_shape_set.hpp>
 #include <bch/pose_shape.hpp>
 #include <bch/shape_set_builder.hpp>

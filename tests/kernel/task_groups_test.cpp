@@ -17,7 +17,6 @@
 
 #include <bch/broad_phase.hpp>
 #include <bch/collide.hpp>
-#include <bch/collide_all.hpp>
 #include <bch/contacts.hpp>
 
 #include "tests/support/scenes.hpp"

@@ -11,7 +11,6 @@
 #include <bch/broad_phase.hpp>
 #include <bch/clearance.hpp>
 #include <bch/collide.hpp>
-#include <bch/collide_all.hpp>
 #include <bch/contacts.hpp>
 #include <bch/dynamic_shape_set.hpp>
 #include <bch/penetration.hpp>

@@ -9,7 +9,6 @@
 #include <vector>
 
 #include <bch/collide.hpp>
-#include <bch/collide_all.hpp>
 #include <bch/contacts.hpp>
 #include <bch/time_of_impact.hpp>
 

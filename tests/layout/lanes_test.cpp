@@ -52,6 +52,10 @@ TEST(Lanes, AreTheSameWithInstructionsOfTheirOwn) {
     BaseLanes::widened(a, wide), PlainLanes::widened(a, plain);
     EXPECT_EQ(bits_of(wide[0]), bits_of(plain[0]));
     EXPECT_EQ(bits_of(wide[1]), bits_of(plain[1]));
+    float floats[BaseLanes::width];
+    BaseLanes::store(floats, a);
+    EXPECT_EQ(bits_of(BaseLanes::wide(floats)), bits_of(plain[0]));
+    EXPECT_EQ(bits_of(PlainLanes::wide(floats)), bits_of(plain[0]));
     EXPECT_EQ(bits_of(BaseLanes::rounded(wide)), bits_of(PlainLanes::rounded(plain)));
     EXPECT_EQ(BaseLanes::bits(wide[0] < wide[1]), PlainLanes::bits(wide[0] < wide[1]));
     if (BaseLanes::bits(xsimd::isnan(a)) == 0) {

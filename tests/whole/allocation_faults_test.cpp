@@ -13,7 +13,6 @@
 #include <bch/broad_phase.hpp>
 #include <bch/clearance.hpp>
 #include <bch/collide.hpp>
-#include <bch/collide_all.hpp>
 #include <bch/contacts.hpp>
 #include <bch/default_characters.hpp>
 #include <bch/dynamic_shape_set.hpp>

@@ -10,7 +10,6 @@
 #include <bch/broad_phase.hpp>
 #include <bch/clearance.hpp>
 #include <bch/collide.hpp>
-#include <bch/collide_all.hpp>
 #include <bch/contacts.hpp>
 #include <bch/penetration.hpp>
 #include <bch/time_of_impact.hpp>

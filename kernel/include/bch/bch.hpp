@@ -19,8 +19,8 @@
 #include <bch/broad_phase.hpp>
 #include <bch/clearance.hpp>
 #include <bch/collide.hpp>
-#include <bch/collide_all.hpp>
 #include <bch/contacts.hpp>
+#include <bch/obstacles.hpp>
 #include <bch/penetration.hpp>
 #include <bch/query.hpp>
 #include <bch/time_of_impact.hpp>

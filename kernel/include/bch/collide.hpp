@@ -4,12 +4,16 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
 #include <bch/query.hpp>
 
 namespace bch {
+
+/// Obstacles that do not move, of <bch/obstacles.hpp>.
+class ObstacleSet;
 
 /// Answers each pair: 1 where the two agents collide at their levels, touching included, else 0.
 ///
@@ -37,6 +41,44 @@ namespace bch {
 ///          touch it.
 void collide(const ShapeSet& shapes, const Agents& agents, std::span<const Pair> pairs,
              std::span<std::uint8_t> hits, const QueryOptions& options = {});
+
+/// The neighbours and obstacles that agents collide with, a row an agent, ascending.
+struct CrowdCollisions {
+  Rows<std::uint32_t> agents, obstacles;
+};
+
+/// Finds who of a crowd collides with whom: broad and narrow phase in one call. Keeps its memory from call to call.
+/// One that was moved from can only be assigned to or destroyed.
+class CrowdCollider {
+ public:
+  CrowdCollider();
+  CrowdCollider(CrowdCollider&&) noexcept;
+  CrowdCollider& operator=(CrowdCollider&&) noexcept;
+  ~CrowdCollider();
+
+  /// Finds the colliding neighbours of every agent, a row an agent, ascending. j is a neighbour of i exactly if i and j
+  /// differ and collide() answers 1 for them; so i is a neighbour of j, too. The answer is the same for any number of
+  /// threads and every implementation.
+  /// Options: those of collide(), which the broad phase does not need.
+  /// Memory:  the answer is valid until the next call. Beside a BroadPhase's, 1 byte for each pair that it
+  ///          finds, 8 an agent and 8 a colliding pair are kept; a call like an earlier one allocates
+  ///          nothing.
+  /// Errors:  throws std::invalid_argument like validate(shapes, agents) and collide(); the last answer is
+  ///          then gone.
+  /// Threads: runs in the caller's TBB arena; one call at a time, as BroadPhase::find().
+  Rows<std::uint32_t> collide_all(const ShapeSet& shapes, const Agents& agents,
+                                  const QueryOptions& options = {});
+
+  /// Finds the colliding neighbours of every agent in the same way, and beside them the obstacles, by their numbers, that it collides with. It
+  /// has some exactly if collide() with obstacles answers 1.
+  /// Memory:  4 bytes for each obstacle of an agent's are kept as well.
+  CrowdCollisions collide_all(const ShapeSet& shapes, const Agents& agents, const ObstacleSet& obstacles,
+                              const QueryOptions& options = {});
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
 
 /// Chooses the planes of so many slabs that clear most false collisions of a crowd of given bodies, among those that these are cut
 /// at. Bodies stand at random in each other's reach; of two that are seen to collide from above, and in no slab between

@@ -8,7 +8,7 @@
 #include <random>
 #include <vector>
 
-#include <bch/collide_all.hpp>
+#include <bch/collide.hpp>
 #include <bch/default_characters.hpp>
 #include <bch/penetration.hpp>
 #include <bch/pose_shape.hpp>

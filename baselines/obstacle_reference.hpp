@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <bch/agents.hpp>
+#include <bch/shape_set.hpp>
+
+#include "baselines/cut_lists.hpp"
+#include "baselines/leaf_segments.hpp"
+
+namespace bch::baselines {
+
+/// An obstacle as a list of segments, ax, ay, bx and by each, and whether these enclose what belongs to it.
+struct ReferenceObstacle {
+  std::vector<std::array<double, 4>> segments;
+  bool is_area = false;
+};
+
+/// Brute force over all discs and all segments, by the definitions in <bch/obstacles.hpp>.
+class ObstacleReference {
+ public:
+  /// Shapes and levels as in a ShapeSet. The shapes must outlive this.
+  ObstacleReference(std::span<const Shape> shapes, const ShapeSetPlan& plan, Leaves leaves)
+      : shapes_(shapes), cuts_(shapes, plan), segments_(shapes, plan, leaves) {}
+
+  bool collides(const Agents& agents, std::uint32_t agent, const ReferenceObstacle& obstacle) const;
+
+  /// The least gap; of equal ones the first disc, then the first segment, numbered through all obstacles.
+  struct Gap {
+    double gap;
+    std::uint32_t disc, segment;
+  };
+  Gap gap(const Agents& agents, std::uint32_t agent, std::span<const ReferenceObstacle> obstacles) const;
+
+  /// Returns whether an area holds the centre of a disc of the cut.
+  bool holds_a_centre(const Agents& agents, std::uint32_t agent, const ReferenceObstacle& obstacle) const;
+
+ private:
+  std::span<const Shape> shapes_;
+  CutLists cuts_;
+  LeafSegments segments_;
+};
+
+}  // namespace bch::baselines

@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string_view>
+
+#include <bch/clearance.hpp>
+#include <bch/penetration.hpp>
+#include <bch/query.hpp>
+#include <bch/time_of_impact.hpp>
+
+namespace bch::detail {
+struct ObstacleView;
+}
+
+namespace bch {
+
+/// Obstacles in arrays of the caller: points, paths of points, and obstacles of paths, each by where it begins (CSR). A path of one point
+/// is a post without extent, one without points is nothing.
+/// Units:   metres in the world; |x|, |y| <= 1e9.
+struct ObstacleArrays {
+  std::span<const double> x, y;                 ///< the points of all paths
+  std::span<const std::uint64_t> path_offsets;  ///< path p has points [p] .. [p + 1]; one more than paths
+  std::span<const std::uint64_t> obstacle_offsets =
+      {};                                      ///< obstacle o has paths [o] .. [o + 1]; empty: one each
+  std::span<const std::uint8_t> is_area = {};  ///< by obstacle, see ObstacleSet; empty: none is
+};
+
+/// The meaning of polygons in a file.
+enum class Polygons {
+  solid,     ///< an obstacle that holds what it encloses
+  walkable,  ///< the floor that agents walk on: its rings are walls, as lines
+};
+
+/// Obstacles that do not move: walls, pillars, furniture. Each is a set of points of the ground, of infinite height:
+///
+/// - a line has its paths, open polylines, and nothing else;
+/// - an area, a polygon, has its paths, rings that close themselves, and what they enclose by the rule of even and odd: the first
+///   ring is the polygon's border, and others are holes in it.
+///
+/// Obstacles may cross, touch, nest and repeat each other and themselves. Segments are numbered in the order of the paths. One
+/// that was moved from can only be assigned to or destroyed.
+/// Threads: any number of queries may read one at once.
+class ObstacleSet {
+ public:
+  /// Copies the obstacles and sorts their segments into a tree of boxes.
+  /// Cost:    0.5 s for 10^6 segments, and 100 bytes for each.
+  /// Errors:  throws std::invalid_argument on sizes that differ, offsets that descend or lead beyond what there is, and a point that is not finite
+  ///          or beyond the limits, naming it; std::length_error beyond 2^31 segments.
+  explicit ObstacleSet(const ObstacleArrays& obstacles);
+  ObstacleSet(ObstacleSet&&) noexcept;
+  ObstacleSet& operator=(ObstacleSet&&) noexcept;
+  ~ObstacleSet();
+
+  std::uint32_t obstacle_count() const noexcept;
+  std::uint32_t segment_count() const noexcept;
+  /// Returns the obstacle that a segment belongs to.
+  /// Errors:  throws std::out_of_range on an index out of range.
+  std::uint32_t obstacle_of(std::uint32_t segment) const;
+
+  /// For the library's own parts, which alone know this type.
+  const detail::ObstacleView& view() const noexcept;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+/// Reads obstacles from well-known text, as JuPedSim and geographic information systems write it: any number of POLYGON,
+/// MULTIPOLYGON, LINESTRING, MULTILINESTRING and GEOMETRYCOLLECTION, one after the other. Each polygon and each line is an
+/// obstacle.
+/// Errors:  throws std::invalid_argument on text that is not, with its line and column, what stands there and what was
+///          expected; and as ObstacleSet does.
+ObstacleSet obstacles_from_wkt(std::string_view text, Polygons polygons = Polygons::solid);
+
+// Queries of agents against obstacles. Each answers every agent, with the options and promises of the query of the same name that
+// takes pairs: defined without a traversal, the same bits on every processor, never a miss, far from the origin as at it. A disc overlaps an
+// obstacle where its centre is at most its radius away from it; distances are computed in double. The price beside the sizes of
+// discs is 4 um per metre of an agent's reach and 1e-15 of the distance to the ends of a segment. A body in slabs meets an obstacle where some part of
+// it does, and an agent's height does not matter.
+//
+// Sizes:   one answer an agent.
+// Errors:  throw std::invalid_argument, before anything is written, as validate(shapes, agents) and the query that takes pairs.
+// Threads: run in the caller's TBB arena.
+// Memory:  some kilobytes a task.
+
+/// Answers each agent: 1 where it collides with an obstacle, touching included, else 0. A disc of its cut overlaps the
+/// obstacle then, and so does every node above it. With exact leaves the outline in that disc does, too. An agent inside an
+/// area always collides; in solid semantics so does one whose outline holds a whole path of an obstacle.
+void collide(const ShapeSet& shapes, const Agents& agents, const ObstacleSet& obstacles,
+             std::span<std::uint8_t> hits, const QueryOptions& options = {});
+
+/// Answers each agent: 1 where a disc of its cut comes as close to an obstacle as a distance, else 0; one distance for all
+/// agents, or one each. It is 1 where clearance() without a limit is at most the distance, but for rounding that to float.
+void within(const ShapeSet& shapes, const Agents& agents, const ObstacleSet& obstacles,
+            std::span<const double> distances, std::span<std::uint8_t> answers,
+            const QueryOptions& options = {});
+
+/// Measures how far each agent is from the nearest obstacle: the least gap between a disc of its cut and a segment, 0 where they
+/// overlap or an area holds a disc. The direction leads from the agent to the obstacle. `discs` has the agent's disc and the
+/// segment, of equal gaps the first disc and then the first segment. `points` are both from the agent's position.
+/// With Overlap::deepest the distance of a disc that a segment crosses is negative, and its direction is that to the segment's nearest point,
+/// (1, 0) where that is the disc's centre; an agent that an area holds clear of its segments is as far from those as they are.
+void clearance(const ShapeSet& shapes, const Agents& agents, const ObstacleSet& obstacles,
+               const ClearanceAnswers& answers, const QueryOptions& options = {});
+
+/// Measures how far each agent has to move to be free of one segment of the obstacles, and in which direction: of the
+/// segments that discs of its cut touch, the one from which that is the farthest. It moves at right angles to the segment, out of
+/// an area, or to the side of a line that is nearer, until no disc beside the segment is across it any more. An agent that an area
+/// holds clear of its segments moves out over the nearest one. The depth is 0, and the direction (0, 0), where nothing is touched. In
+/// corners, ask again after the move.
+void penetration(const ShapeSet& shapes, const Agents& agents, const ObstacleSet& obstacles,
+                 std::span<Penetration> out, const QueryOptions& options = {});
+
+/// Finds when each agent first touches an obstacle on its way: the least t in [0, 1] at which a disc of its cut overlaps one, when the
+/// agent has moved by t times its displacement without turning; infinity where none does.
+void time_of_impact(const ShapeSet& shapes, const Agents& agents, const Displacements& displacements,
+                    const ObstacleSet& obstacles, std::span<float> times, const QueryOptions& options = {});
+
+}  // namespace bch

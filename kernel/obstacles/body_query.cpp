@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include "kernel/obstacles/body_query.hpp"
+
+#include <algorithm>
+
+#include "kernel/collide/containment.hpp"
+#include "kernel/obstacles/part_tree.hpp"
+#include "kernel/runtime/kernels.hpp"
+#include "kernel/simd/leaf_segments.hpp"
+#include "kernel/simd/tree_nodes.hpp"
+
+namespace bch::detail {
+namespace {
+
+using Vector = ObstaclePlace::Vector;
+
+bool any_touches(std::span<const LocalSegment> segments, double x, double y, double radius) noexcept {
+  return std::any_of(segments.begin(), segments.end(),
+                     [&](const LocalSegment& segment) { return segment.touches(x, y, radius); });
+}
+
+/// Tells whether an area holds points that are clear of its segments. The first one is compared with the whole area, and
+/// others by the way from there.
+class AreaSide {
+ public:
+  AreaSide(NearSegments& near, const ObstaclePlace& place, std::span<const LocalSegment> segments,
+           std::uint32_t obstacle) noexcept
+      : near_(near), place_(place), segments_(segments), obstacle_(obstacle) {}
+
+  bool holds(Vec2 point) {
+    const Vector at = place_.turned(double{point.x}, double{point.y});
+    if (!is_known_) {
+      is_known_ = true, first_ = at;
+      return first_is_inside(point);
+    }
+    const Vector way{at.x - first_.x, at.y - first_.y};
+    const double square = way.x * way.x + way.y * way.y;
+    bool odd = false;
+    for (const LocalSegment& segment : segments_) {
+      const WorldSegment& world = near_.obstacles().segments[segment.slot];
+      odd ^= crosses(first_, way, square, {world.ax - place_.x, world.ay - place_.y},
+                     {world.bx - place_.x, world.by - place_.y});
+    }
+    return odd;
+  }
+
+ private:
+  bool first_is_inside(Vec2 point) {
+    for (const std::uint32_t slot : near_.areas_about(place_, point))
+      if (near_.obstacles().areas[slot] == obstacle_) return near_.holds(slot, place_, point);
+    return false;
+  }
+
+  NearSegments& near_;
+  const ObstaclePlace& place_;
+  std::span<const LocalSegment> segments_;
+  std::uint32_t obstacle_;
+  bool is_known_ = false;
+  Vector first_{};  ///< outside, or else it was the answer
+};
+
+}  // namespace
+
+bool BodyQuery::touches(const PlacedPart& part, std::span<const LocalSegment> segments,
+                        bool exact_leaves) const noexcept {
+  return implementation_.kernels->touches({&shapes_, part.root_index(), segments.data(),
+                                           static_cast<std::uint32_t>(segments.size()), exact_leaves});
+}
+
+/// What is below a node that no segment touches is all on the side where its centre is. Of a leaf of which the disc is touched and the outline
+/// is not, a point of that tells.
+bool BodyQuery::area_holds(const PlacedPart& part, std::span<const LocalSegment> segments,
+                           std::uint32_t obstacle, bool exact_leaves) {
+  const PartTree<void> own(shapes_, part.root_index());
+  const Tree& tree = own.tree;
+  AreaSide area(near_, part.place, segments, obstacle);
+  const bool has_segments = exact_leaves && tree.segments != no_segments;
+  const Root& root = part.root();
+  if (!any_touches(segments, double{root.x}, double{root.y}, double{root.radius}))
+    return area.holds(part.centre());
+  std::uint32_t open[7 * most_wide_levels + 1], count = 0;
+  open[count++] = tree.top;
+  while (count != 0) {
+    const std::uint32_t node = open[--count];
+    const Discs discs = TreeNodes<void>::discs(own.nodes, node, tree.stride);
+    for (unsigned lane = 0; lane < block_width; ++lane) {
+      const float x = discs.x[lane], y = discs.y()[lane];
+      if (!(x < __builtin_inff())) continue;
+      if (!any_touches(segments, double{x}, double{y}, double{discs.radius()[lane]})) {
+        if (area.holds({x, y})) return true;
+      } else if (node < leaf_window) {
+        open[count++] = TreeNodes<void>::child(own.nodes, node, lane);
+      } else if (has_segments) {
+        const LeafSegments<void> leaves{shapes_.leaf_segments};
+        const auto list = leaves.segments(tree, (node & ~leaf_window) + lane);
+        if (list.count != 0 && area.holds(shapes_.points[list.point(0)])) return true;
+      }
+    }
+  }
+  return false;
+}
+
+bool BodyQuery::outline_holds(const PlacedPart& part, std::span<const LocalSegment> segments) const noexcept {
+  if (shapes_.shape_contours == nullptr) return false;
+  const ContourRange contours = shapes_.shape_contours[part.part];
+  for (const LocalSegment& segment : segments) {
+    if (near_.obstacles().begins_path[segment.number] == 0) continue;
+    const WorldSegment& world = near_.obstacles().segments[segment.slot];
+    const auto [x, y] = part.place.turned_back(world.ax - part.place.x, world.ay - part.place.y);
+    for (std::uint32_t i = contours.begin; i < contours.end; ++i)
+      if (contour_holds(shapes_.points, shapes_.contours[i], {x, y})) return true;
+  }
+  return false;
+}
+
+bool BodyQuery::has_segment_of(std::uint32_t obstacle) noexcept {
+  const auto found = near_.found();
+  return std::any_of(found.begin(), found.end(),
+                     [&](const LocalSegment& segment) { return near_.obstacle_of(segment) == obstacle; });
+}
+
+std::uint32_t BodyQuery::area_that_holds(const PlacedPart& part) {
+  std::uint32_t area = no_obstacle;
+  const auto take = [&](std::uint32_t obstacle) { return area = obstacle, false; };
+  near_.any_obstacle([&](std::span<const LocalSegment> segments, std::uint32_t obstacle) {
+    return near_.obstacles().is_area[obstacle] != 0 && area_holds(part, segments, obstacle, false) &&
+           !take(obstacle);
+  });
+  if (area == no_obstacle) visit_areas_beyond(part, take);
+  return area;
+}
+
+}  // namespace bch::detail

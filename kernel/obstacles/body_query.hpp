@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <bch/query.hpp>
+
+#include "kernel/obstacles/near_segments.hpp"
+#include "layout/format/parts.hpp"
+
+namespace bch::detail {
+
+/// A part of an agent's body.
+struct PlacedPart {
+  const ShapeSetView& shapes;
+  const ObstaclePlace& place;
+  std::uint32_t shape, part, level;
+
+  std::uint32_t root_index() const noexcept { return part * shapes.level_count + level; }
+  const Root& root() const noexcept { return shapes.roots[root_index()]; }
+  Vec2 centre() const noexcept { return {root().x, root().y}; }
+  /// Returns the radius about the centre that holds all discs of the cut.
+  double outer_radius() const noexcept {
+    return double{shapes.trees == nullptr ? root().radius : shapes.trees[root_index()].outer};
+  }
+};
+
+constexpr std::uint32_t no_obstacle = 0xffffffff;
+
+/// The stages that answer an agent's queries against obstacles; it keeps its memory from agent to agent.
+class BodyQuery {
+ public:
+  BodyQuery(const Implementation& implementation, const ShapeSetView& shapes, const Agents& agents,
+            const ObstacleView& obstacles) noexcept
+      : implementation_(implementation), shapes_(shapes), agents_(agents), near_(implementation, obstacles) {}
+
+  NearSegments& near() noexcept { return near_; }
+  const NearSegments& near() const noexcept { return near_; }
+
+  /// Calls visit(part) for every part of an agent's body.
+  template <class Visit>
+  void visit_parts(std::uint32_t agent, Visit visit) {
+    const ObstaclePlace place{agents_.x[agent], agents_.y[agent], rotation(agents_.heading[agent])};
+    const std::uint32_t shape = agents_.shape[agent];
+    const std::uint32_t level = agents_.level.empty() ? shapes_.level_count - 1 : agents_.level[agent];
+    bch::detail::visit_parts(shapes_, shape, [&](std::uint32_t part, std::uint32_t) {
+      visit(PlacedPart{shapes_, place, shape, part, level});
+    });
+  }
+
+  /// The meaning of collide().
+  struct Meaning {
+    bool exact_leaves, solid;
+  };
+  /// Calls found(obstacle) for obstacles that a part collides with, each once, until it returns false.
+  template <class Found>
+  void visit_hits(const PlacedPart& part, Meaning meaning, Found found) {
+    near_.find(part.place, part.centre(), part.outer_radius());
+    const bool stop = near_.any_obstacle([&](std::span<const LocalSegment> segments, std::uint32_t obstacle) {
+      const bool hit = touches(part, segments, meaning.exact_leaves) ||
+                       (near_.obstacles().is_area[obstacle] != 0 &&
+                        area_holds(part, segments, obstacle, meaning.exact_leaves)) ||
+                       (meaning.solid && outline_holds(part, segments));
+      return hit && !found(obstacle);
+    });
+    if (!stop) visit_areas_beyond(part, found);
+  }
+
+  /// Returns an area that holds a disc of a part clear of its segments, or no_obstacle. Precondition: near() found all segments
+  /// within the root's disc.
+  std::uint32_t area_that_holds(const PlacedPart& part);
+
+ private:
+  bool touches(const PlacedPart& part, std::span<const LocalSegment> segments,
+               bool exact_leaves) const noexcept;
+  /// Returns whether an area, whose segments next to a part these are, holds something of it that they do not touch.
+  bool area_holds(const PlacedPart& part, std::span<const LocalSegment> segments, std::uint32_t obstacle,
+                  bool exact_leaves);
+  /// Returns whether the outline of a part holds where a path begins, which it does not touch.
+  bool outline_holds(const PlacedPart& part, std::span<const LocalSegment> segments) const noexcept;
+
+  /// Calls found(obstacle) for the areas that hold a part and have no segment next to it, until it returns false.
+  template <class Found>
+  bool visit_areas_beyond(const PlacedPart& part, Found found) {
+    for (const std::uint32_t slot : near_.areas_about(part.place, part.centre())) {
+      const std::uint32_t area = near_.obstacles().areas[slot];
+      if (!has_segment_of(area) && near_.holds(slot, part.place, part.centre()) && !found(area)) return true;
+    }
+    return false;
+  }
+  bool has_segment_of(std::uint32_t obstacle) noexcept;
+
+  const Implementation& implementation_;
+  const ShapeSetView& shapes_;
+  const Agents& agents_;
+  NearSegments near_;
+};
+
+}  // namespace bch::detail

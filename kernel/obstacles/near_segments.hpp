@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <bch/geometry.hpp>
+#include <bch/query.hpp>
+
+#include "kernel/obstacles/obstacle_arguments.hpp"
+#include "layout/base/heading.hpp"
+
+namespace bch::detail {
+
+/// Where an agent stands.
+struct ObstaclePlace {
+  double x, y;
+  Rotation turn;
+
+  /// Returns a vector of the agent's frame in the axes of the world, and the other way.
+  struct Vector {
+    double x, y;
+  };
+  Vector turned(double at_x, double at_y) const noexcept {
+    return {turn.cosine * at_x - turn.sine * at_y, turn.sine * at_x + turn.cosine * at_y};
+  }
+  Vector turned_back(double at_x, double at_y) const noexcept {
+    return {turn.cosine * at_x + turn.sine * at_y, turn.cosine * at_y - turn.sine * at_x};
+  }
+};
+
+/// Finds the segments and areas of obstacles that are near a disc, and keeps its memory from one to the next.
+class NearSegments {
+ public:
+  NearSegments(const Implementation& implementation, const ObstacleView& obstacles) noexcept
+      : implementation_(implementation), obstacles_(obstacles) {}
+
+  const ObstacleView& obstacles() const noexcept { return obstacles_; }
+
+  /// Finds all segments within a distance of a point of the agent's frame, as long as that moves by `way` (in the world); in the order of their
+  /// numbers, so that those of an obstacle follow each other.
+  std::span<LocalSegment> find(const ObstaclePlace& place, Vec2 centre, double distance,
+                               ObstaclePlace::Vector way = {0, 0});
+  std::span<LocalSegment> found() noexcept { return found_; }
+
+  /// Calls visit(segments) for every obstacle of those that were found, until it returns true. Returns: whether it did.
+  template <class Visit>
+  bool any_obstacle(Visit visit) {
+    for (std::size_t begin = 0, end; begin < found_.size(); begin = end) {
+      const std::uint32_t obstacle = obstacle_of(found_[begin]);
+      for (end = begin + 1; end < found_.size() && obstacle_of(found_[end]) == obstacle;) ++end;
+      if (visit(std::span<const LocalSegment>(found_).subspan(begin, end - begin), obstacle)) return true;
+    }
+    return false;
+  }
+
+  /// Returns the areas whose boxes hold a point of the agent's frame.
+  std::span<const std::uint32_t> areas_about(const ObstaclePlace& place, Vec2 point);
+  /// Returns whether an area holds such a point, which is none of its border: by the parity of the segments that a ray crosses.
+  bool holds(std::uint32_t area_slot, const ObstaclePlace& place, Vec2 point);
+
+  std::uint32_t obstacle_of(const LocalSegment& segment) const noexcept {
+    return obstacles_.obstacles[segment.number];
+  }
+
+ private:
+  std::span<const std::uint32_t> query(const BoxTreeView& tree, const Box& box,
+                                       std::vector<std::uint32_t>& slots);
+
+  const Implementation& implementation_;
+  const ObstacleView& obstacles_;
+  std::vector<std::uint32_t> slots_, areas_;
+  std::vector<LocalSegment> found_;
+};
+
+/// Returns whether the way from one point to another crosses a segment, all in one frame. A vertex on the line of the way belongs to one side of it, for both of
+/// its segments, so that the parity of a ring's crossings tells whether the way leaves what it encloses. Neither end of the way may
+/// be next to the segment. `square`: that of the way's length; infinite: a ray.
+bool crosses(ObstaclePlace::Vector from, ObstaclePlace::Vector way, double square, ObstaclePlace::Vector a,
+             ObstaclePlace::Vector b) noexcept;
+
+}  // namespace bch::detail

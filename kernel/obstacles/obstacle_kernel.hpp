@@ -1,0 +1,258 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <cstdint>
+
+#include "kernel/obstacles/obstacle_arguments.hpp"
+#include "kernel/obstacles/part_tree.hpp"
+#include "kernel/simd/ancestor_test.hpp"
+#include "kernel/simd/leaf_segments.hpp"
+#include "kernel/simd/tree_nodes.hpp"
+#include "layout/simd/lanes.hpp"
+
+namespace bch::detail {
+
+/// The tree of a part of a body against segments of obstacles, in double; see LocalSegment. Eight discs are compared with a segment at a
+/// time.
+template <class Simd>
+class ObstacleKernel {
+ public:
+  explicit ObstacleKernel(const ObstacleArguments& in) noexcept
+      : in_(in), part_(*in.shapes, in.root), nodes_(part_.nodes), tree_(part_.tree) {}
+
+  /// Returns whether a disc of the cut and all nodes above it touch the segments, and the outline in that disc does where
+  /// exact leaves decide.
+  bool touches() noexcept {
+    const bool exact = in_.exact_leaves && tree_.segments != no_segments;
+    std::uint32_t open = 0;
+    nodes_open_[open++] = tree_.top;
+    while (open != 0) {
+      const std::uint32_t node = nodes_open_[--open];
+      const Discs discs = TreeNodes<Simd>::discs(nodes_, node, tree_.stride);
+      for (std::uint32_t hits = touching(discs); hits != 0; hits &= hits - 1) {
+        const auto lane = static_cast<unsigned>(__builtin_ctz(hits));
+        if (node < leaf_window) {
+          nodes_open_[open++] = TreeNodes<Simd>::child(nodes_, node, lane);
+        } else {
+          const std::uint32_t disc = (node & ~leaf_window) + lane;
+          if ((!exact || outline_touches(disc)) && ancestors_touch(disc)) return true;
+        }
+      }
+    }
+    return false;
+  }
+
+  /// Finds the least gap between a disc of the cut and a segment. The search ends at one of at most `enough`. The segment that is
+  /// nearest to the root comes first: few others improve on it.
+  void find_gap(double enough, ObstacleGap& best) noexcept {
+    std::uint32_t first = 0;
+    double least = __builtin_inf();
+    for (std::uint32_t i = 0; i < in_.count; ++i) {
+      const double square = square_from_root(in_.segments[i]);
+      if (square < least) least = square, first = i;
+    }
+    if (in_.count != 0) find_gap(in_.segments[first], enough, best);
+    for (std::uint32_t i = 0; i < in_.count && !is_enough(enough, best); ++i)
+      if (i != first) find_gap(in_.segments[i], enough, best);
+  }
+
+ private:
+  using Double = typename Simd::Double;
+  /// A step leaves seven brothers behind at most.
+  static constexpr std::uint32_t most_open = 7 * most_wide_levels + 1;
+
+  static Double square_distance(const LocalSegment& segment, Double x, Double y) noexcept {
+    const Double along = segment.along(x, y), across = segment.across(x, y);
+    const Double beyond =
+        xsimd::max(xsimd::max(Double(segment.from) - along, along - Double(segment.to)), Double(0.0));
+    return across * across + beyond * beyond;
+  }
+
+  std::uint32_t touching(Discs discs) const noexcept {
+    std::uint32_t bits = 0;
+    for (unsigned k = 0; k < block_width; k += Simd::doubles) {
+      const Double x = Simd::wide(discs.x + k), y = Simd::wide(discs.y() + k),
+                   r = Simd::wide(discs.radius() + k);
+      for (std::uint32_t i = 0; i < in_.count; ++i) {
+        const Double limit = r + Double(in_.segments[i].slack);
+        bits |= Simd::bits(square_distance(in_.segments[i], x, y) <= limit * limit) << k;
+      }
+    }
+    return bits;
+  }
+
+  bool any_touches(double x, double y, double radius) const noexcept {
+    for (std::uint32_t i = 0; i < in_.count; ++i)
+      if (in_.segments[i].touches(x, y, radius)) return true;
+    return false;
+  }
+
+  /// `disc`: its place among the nodes.
+  bool ancestors_touch(std::uint32_t disc) const noexcept {
+    if (tree_.count == 1) return true;
+    AncestorPath<Simd> path;
+    path.begin(nodes_, tree_, disc);
+    for (std::uint32_t k = 1; k < AncestorPath<Simd>::length; ++k) path.step(nodes_, k);
+    for (;; path.go_up(nodes_)) {
+      for (std::uint32_t k = 0; k < AncestorPath<Simd>::length; ++k) {
+        if (k != 0 && path.node[k] == path.node[k - 1]) return true;
+        const float* const node = nodes_ + std::size_t{path.node[k]} * inner_floats;
+        if (!any_touches(double{node[0]}, double{node[1]}, double{node[2]})) return false;
+      }
+      if (path.ends_at_root(nodes_)) return true;
+    }
+  }
+
+  bool outline_touches(std::uint32_t disc) const noexcept {
+    const LeafSegments<Simd> leaves{in_.shapes->leaf_segments};
+    const auto list = leaves.segments(tree_, disc);
+    if (list.count == 0) return true;
+    const double margin = in_.shapes->segment_margin[in_.root / in_.shapes->level_count];
+    for (std::uint32_t i = 0; i < list.count; ++i) {
+      const Vec2* const point = in_.shapes->points + list.point(i);
+      for (std::uint32_t k = 0; k < in_.count; ++k)
+        if (meet(point[0], point[1], in_.segments[k], margin)) return true;
+    }
+    return false;
+  }
+
+  struct Point {
+    double x, y;
+  };
+  static double square_distance(Point p, Point from, Point to) noexcept {
+    const double x = to.x - from.x, y = to.y - from.y, px = p.x - from.x, py = p.y - from.y;
+    const double square = x * x + y * y;
+    double share = square > 0 ? (px * x + py * y) / square : 0;
+    share = share < 0 ? 0 : share > 1 ? 1 : share;
+    const double dx = px - share * x, dy = py - share * y;
+    return dx * dx + dy * dy;
+  }
+
+  /// Returns whether two segments come within a margin of each other: they cross, or an end of one is as near to the other. Where
+  /// rounding hides a crossing, an end is next to the other segment.
+  static bool meet(const Vec2& first, const Vec2& second, const LocalSegment& segment,
+                   double margin) noexcept {
+    const Point p{segment.along(double{first.x}, double{first.y}),
+                  segment.across(double{first.x}, double{first.y})},
+        q{segment.along(double{second.x}, double{second.y}),
+          segment.across(double{second.x}, double{second.y})};
+    const double limit = margin + segment.slack;
+    // Most are farther than that on one side.
+    if ((p.y > limit && q.y > limit) || (p.y < -limit && q.y < -limit)) return false;
+    const Point from{segment.from, 0}, to{segment.to, 0};
+    const auto side = [&](Point end) { return (q.x - p.x) * (end.y - p.y) - (q.y - p.y) * (end.x - p.x); };
+    if ((p.y > 0) != (q.y > 0) && (side(from) > 0) != (side(to) > 0)) return true;
+    const double square = limit * limit;
+    return square_distance(p, from, to) <= square || square_distance(q, from, to) <= square ||
+           square_distance(from, p, q) <= square || square_distance(to, p, q) <= square;
+  }
+
+  /// A block, and the bounds of what is below its nodes.
+  struct Frame {
+    alignas(64) double bound[block_width];
+    std::uint32_t node, open;
+  };
+
+  static bool is_enough(double enough, const ObstacleGap& best) noexcept {
+    return best.segment != nullptr && best.gap <= enough;
+  }
+
+  double square_from_root(const LocalSegment& segment) const noexcept {
+    const Root& root = in_.shapes->roots[in_.root];
+    return segment.square_distance(double{root.x}, double{root.y});
+  }
+
+  /// Returns the limit of bounds: above it, nothing below comes up to the best. Bounds are off by some 2^-50 of what they are made
+  /// of.
+  double limit_of(const LocalSegment& segment, const ObstacleGap& best) const noexcept {
+    const Root& root = in_.shapes->roots[in_.root];
+    const double size = double{tree_.outer} + __builtin_fabs(double{root.x}) + __builtin_fabs(double{root.y});
+    return best.gap + segment.slack + 0x1p-40 * (size + __builtin_fabs(best.gap));
+  }
+
+  /// Visits what has the least bound first.
+  void find_gap(const LocalSegment& segment, double enough, ObstacleGap& best) noexcept {
+    double limit = limit_of(segment, best);
+    const double reach = double{tree_.outer} + limit;
+    if (reach < 0 || square_from_root(segment) > reach * reach) return;
+    Frame* top = frames_;
+    std::uint32_t node = tree_.top;
+    for (;;) {
+      if (node >= leaf_window) {
+        if (take(segment, node, best)) limit = limit_of(segment, best);
+        if (is_enough(enough, best)) return;
+      } else {
+        bound(segment, node, *top++);
+      }
+      for (;; --top) {
+        if (top == frames_) return;
+        Frame& frame = top[-1];
+        const unsigned lane = least(frame);
+        if (frame.open == 0 || frame.bound[lane] > limit) continue;
+        frame.open &= ~(1u << lane);
+        node = TreeNodes<Simd>::child(nodes_, frame.node, lane);
+        break;
+      }
+    }
+  }
+
+  void bound(const LocalSegment& segment, std::uint32_t node, Frame& frame) const noexcept {
+    const Discs discs = TreeNodes<Simd>::outer_discs(nodes_, node, tree_.stride);
+    frame.node = node, frame.open = 0;
+    for (unsigned k = 0; k < block_width; k += Simd::doubles) {
+      const Double gap = gaps(segment, discs, k);
+      Simd::store(frame.bound + k, gap);
+      frame.open |= Simd::bits(gap < Double(__builtin_inf())) << k;  // not padding
+    }
+  }
+
+  static Double gaps(const LocalSegment& segment, Discs discs, unsigned k) noexcept {
+    return xsimd::sqrt(square_distance(segment, Simd::wide(discs.x + k), Simd::wide(discs.y() + k))) -
+           (Simd::wide(discs.radius() + k) + Double(segment.slack));
+  }
+
+  /// The open lane with the least bound.
+  static unsigned least(const Frame& frame) noexcept {
+    std::uint32_t left = frame.open;
+    unsigned found = 0;
+    for (double bound = __builtin_inf(); left != 0; left &= left - 1) {
+      const auto lane = static_cast<unsigned>(__builtin_ctz(left));
+      if (frame.bound[lane] < bound) bound = frame.bound[lane], found = lane;
+    }
+    return found;
+  }
+
+  /// Takes what improves on the best from a leaf window. Returns: whether anything does.
+  bool take(const LocalSegment& segment, std::uint32_t node, ObstacleGap& best) const noexcept {
+    const Discs discs = TreeNodes<Simd>::discs(nodes_, node, tree_.stride);
+    alignas(64) double gap[block_width];
+    std::uint32_t near = 0;
+    for (unsigned k = 0; k < block_width; k += Simd::doubles) {
+      const Double value = gaps(segment, discs, k);
+      Simd::store(gap + k, value);
+      near |= Simd::bits(value <= Double(best.gap)) << k;
+    }
+    const std::uint32_t first = (node & ~leaf_window) - tree_.discs;
+    bool improved = false;
+    for (; near != 0; near &= near - 1) {
+      const auto lane = static_cast<unsigned>(__builtin_ctz(near));
+      const std::uint32_t disc = first + lane;
+      const bool before = disc != best.disc ? disc < best.disc : segment.number < best.number;
+      if (!(gap[lane] < best.gap || (gap[lane] == best.gap && before))) continue;
+      best = {gap[lane], disc, segment.number, &segment};
+      improved = true;
+    }
+    return improved;
+  }
+
+  const ObstacleArguments& in_;
+  const PartTree<Simd> part_;
+  const float* const nodes_;
+  const Tree& tree_;
+  std::uint32_t nodes_open_[most_open];
+  Frame frames_[most_wide_levels];
+};
+
+}  // namespace bch::detail

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include "kernel/obstacles/obstacle_rows.hpp"
+
+#include <algorithm>
+
+#include "kernel/obstacles/query_input.hpp"
+
+namespace bch::detail {
+
+Rows<std::uint32_t> ObstacleRows::find(const ShapeSet& shapes, const Agents& agents,
+                                       const ObstacleSet& obstacles, const QueryOptions& options) {
+  const FloatingPointStateGuard floats;
+  const BodyQuery::Meaning meaning = meaning_of(shapes, options);
+  const Implementation& implementation = chosen(options, "collide");
+  validate(shapes, agents);
+  const std::size_t count = (agents.size() + agents_per_task - 1) / agents_per_task;
+  if (blocks_.size() < count) blocks_.resize(count);
+  offsets_.assign(agents.size() + 1, 0);
+  for_ranges(count, 1, [&](std::size_t first, std::size_t last) {
+    BodyQuery body(implementation, shapes.view(), agents, obstacles.view());
+    for (std::size_t block = first; block < last; ++block) {
+      std::vector<std::uint32_t>& found = blocks_[block];
+      found.clear();
+      const std::size_t end = std::min((block + 1) * agents_per_task, agents.size());
+      for (std::size_t agent = block * agents_per_task; agent < end; ++agent) {
+        const auto begin = static_cast<std::ptrdiff_t>(found.size());
+        body.visit_parts(static_cast<std::uint32_t>(agent), [&](const PlacedPart& part) {
+          body.visit_hits(part, meaning,
+                          [&](std::uint32_t obstacle) { return found.push_back(obstacle), true; });
+        });
+        // Parts may collide with the same one.
+        std::sort(found.begin() + begin, found.end());
+        found.erase(std::unique(found.begin() + begin, found.end()), found.end());
+        offsets_[agent + 1] = found.size() - static_cast<std::size_t>(begin);
+      }
+    }
+  });
+  for (std::size_t i = 0; i < agents.size(); ++i) offsets_[i + 1] += offsets_[i];
+  values_.clear();
+  for (std::size_t block = 0; block < count; ++block)
+    values_.insert(values_.end(), blocks_[block].begin(), blocks_[block].end());
+  return {offsets_, values_};
+}
+
+}  // namespace bch::detail

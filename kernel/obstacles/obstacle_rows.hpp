@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <bch/obstacles.hpp>
+
+namespace bch::detail {
+
+/// Finds the obstacles that each agent collides with, and keeps its memory from call to call.
+class ObstacleRows {
+ public:
+  /// Returns a row an agent, ascending, valid until the next call. Errors: as collide() with obstacles.
+  Rows<std::uint32_t> find(const ShapeSet& shapes, const Agents& agents, const ObstacleSet& obstacles,
+                           const QueryOptions& options);
+
+ private:
+  std::vector<std::vector<std::uint32_t>> blocks_;  ///< what a task found, one agent after the other
+  std::vector<std::uint64_t> offsets_;
+  std::vector<std::uint32_t> values_;
+};
+
+}  // namespace bch::detail

@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include <bch/obstacles.hpp>
+
+#include "kernel/obstacles/box_tree_memory.hpp"
+#include "kernel/obstacles/segment.hpp"
+#include "layout/base/rounding.hpp"
+#include "layout/base/shortest.hpp"
+
+namespace bch {
+
+using namespace detail;
+
+namespace {
+
+[[noreturn]] void reject(const std::string& why) {
+  throw std::invalid_argument("obstacles: " + why);
+}
+
+void require_offsets(std::span<const std::uint64_t> offsets, std::size_t values, const char* name,
+                     const char* what) {
+  if (offsets.empty() || offsets.front() != 0 || offsets.back() != values)
+    reject(std::string(name) + " do not lead from 0 to " + std::to_string(values) + " " + what);
+  for (std::size_t i = 1; i < offsets.size(); ++i)
+    if (offsets[i] < offsets[i - 1])
+      reject(std::string(name) + ": " + std::to_string(offsets[i]) + " after " +
+             std::to_string(offsets[i - 1]));
+}
+
+void require_valid(const ObstacleArrays& in) {
+  if (in.x.size() != in.y.size())
+    reject(std::to_string(in.x.size()) + " values of x but " + std::to_string(in.y.size()) + " of y");
+  require_offsets(in.path_offsets, in.x.size(), "path offsets", "points");
+  const std::size_t paths = in.path_offsets.size() - 1;
+  if (!in.obstacle_offsets.empty()) require_offsets(in.obstacle_offsets, paths, "obstacle offsets", "paths");
+  const std::size_t obstacles = in.obstacle_offsets.empty() ? paths : in.obstacle_offsets.size() - 1;
+  if (!in.is_area.empty() && in.is_area.size() != obstacles)
+    reject(std::to_string(obstacles) + " obstacles but " + std::to_string(in.is_area.size()) +
+           " values of is_area");
+  const auto good = [](double length) { return std::abs(length) <= rounding::largest_position; };
+  for (std::size_t i = 0; i < in.x.size(); ++i)
+    if (!good(in.x[i]) || !good(in.y[i]))
+      reject("point " + std::to_string(i) + ": (" + shortest(in.x[i]) + ", " + shortest(in.y[i]) +
+             ") m is not within +-1e9");
+  if (in.x.size() + paths >= std::numeric_limits<std::int32_t>::max())
+    throw std::length_error("obstacles: more than 2^31 segments");
+}
+
+Box box_of(const WorldSegment& s) {
+  return {std::min(s.ax, s.bx), std::min(s.ay, s.by), std::max(s.ax, s.bx), std::max(s.ay, s.by)};
+}
+
+/// Twice the area that a ring encloses, about its first point; negative where it is clockwise.
+double twice_area(std::span<const double> x, std::span<const double> y) {
+  double area = 0;
+  for (std::size_t i = 1; i + 1 < x.size(); ++i)
+    area += (x[i] - x[0]) * (y[i + 1] - y[0]) - (x[i + 1] - x[0]) * (y[i] - y[0]);
+  return area;
+}
+
+/// Segments by their numbers, and what is known of each.
+struct Segments {
+  std::vector<WorldSegment> ends;
+  std::vector<std::uint32_t> obstacle;
+  std::vector<std::uint8_t> begins_path;
+  std::vector<std::int8_t> outside;
+
+  void add_path(std::span<const double> x, std::span<const double> y, std::uint32_t of, bool is_ring,
+                bool is_hole) {
+    if (x.empty()) return;
+    const bool left_is_outside = (twice_area(x, y) < 0) != is_hole;
+    const std::size_t first = ends.size();
+    const auto add = [&](std::size_t a, std::size_t b) {
+      ends.push_back({x[a], y[a], x[b], y[b]});
+      obstacle.push_back(of);
+      begins_path.push_back(ends.size() == first + 1);
+      outside.push_back(is_ring ? (left_is_outside ? 1 : -1) : 0);
+    };
+    for (std::size_t i = 1; i < x.size(); ++i) add(i - 1, i);
+    const std::size_t last = x.size() - 1;
+    if (last == 0 || (is_ring && (x[0] != x[last] || y[0] != y[last]))) add(last, 0);
+  }
+};
+
+}  // namespace
+
+struct ObstacleSet::State {
+  State(Segments&& segments, std::vector<std::uint8_t>&& areas);
+
+  std::vector<std::uint32_t> obstacle;
+  std::vector<std::uint8_t> begins_path, is_area;
+  std::vector<std::int8_t> outside;
+  std::vector<std::uint32_t> areas;  ///< in the order of the tree of areas, after it is made
+  std::vector<Box> area_boxes;
+  BoxTreeMemory segment_tree, area_tree;
+  std::vector<WorldSegment> ends;
+  ObstacleView view;
+
+ private:
+  static std::vector<Box> boxes_of(const Segments& segments);
+  /// Finds the areas that have segments, and returns their boxes.
+  std::vector<Box> find_areas(const Segments& segments);
+};
+
+std::vector<Box> ObstacleSet::State::boxes_of(const Segments& segments) {
+  std::vector<Box> boxes;
+  boxes.reserve(segments.ends.size());
+  for (const WorldSegment& segment : segments.ends) boxes.push_back(box_of(segment));
+  return boxes;
+}
+
+std::vector<Box> ObstacleSet::State::find_areas(const Segments& segments) {
+  for (std::size_t i = 0; i < segments.ends.size(); ++i) {
+    if (is_area[segments.obstacle[i]] == 0) continue;
+    const Box box = box_of(segments.ends[i]);
+    if (areas.empty() || areas.back() != segments.obstacle[i])
+      areas.push_back(segments.obstacle[i]), area_boxes.push_back(box);
+    Box& all = area_boxes.back();
+    all = {std::min(all.low_x, box.low_x), std::min(all.low_y, box.low_y), std::max(all.high_x, box.high_x),
+           std::max(all.high_y, box.high_y)};
+  }
+  return area_boxes;
+}
+
+ObstacleSet::State::State(Segments&& segments, std::vector<std::uint8_t>&& is_area_of)
+    : is_area(std::move(is_area_of)), segment_tree(boxes_of(segments)), area_tree(find_areas(segments)) {
+  for (const std::uint32_t number : segment_tree.order) ends.push_back(segments.ends[number]);
+  std::vector<std::uint32_t> sorted_areas;
+  std::vector<Box> sorted_boxes;
+  for (const std::uint32_t i : area_tree.order)
+    sorted_areas.push_back(areas[i]), sorted_boxes.push_back(area_boxes[i]);
+  areas = std::move(sorted_areas), area_boxes = std::move(sorted_boxes);
+  obstacle = std::move(segments.obstacle), begins_path = std::move(segments.begins_path);
+  outside = std::move(segments.outside);
+  view = {segment_tree.view,
+          area_tree.view,
+          ends.data(),
+          segment_tree.order.data(),
+          obstacle.data(),
+          is_area.data(),
+          begins_path.data(),
+          outside.data(),
+          areas.data(),
+          area_boxes.data(),
+          static_cast<std::uint32_t>(ends.size()),
+          static_cast<std::uint32_t>(is_area.size())};
+}
+
+ObstacleSet::ObstacleSet(const ObstacleArrays& in) {
+  require_valid(in);
+  const std::size_t paths = in.path_offsets.size() - 1;
+  const bool alone = in.obstacle_offsets.empty();
+  std::vector<std::uint8_t> is_area(alone ? paths : in.obstacle_offsets.size() - 1);
+  Segments segments;
+  for (std::uint32_t o = 0; o < is_area.size(); ++o) {
+    is_area[o] = !in.is_area.empty() && in.is_area[o] != 0;
+    const std::size_t first = alone ? o : in.obstacle_offsets[o],
+                      end = alone ? o + 1 : in.obstacle_offsets[o + 1];
+    for (std::size_t p = first; p < end; ++p) {
+      const std::size_t begin = in.path_offsets[p], size = in.path_offsets[p + 1] - begin;
+      segments.add_path(in.x.subspan(begin, size), in.y.subspan(begin, size), o, is_area[o] != 0, p != first);
+    }
+  }
+  state_ = std::make_unique<State>(std::move(segments), std::move(is_area));
+}
+
+ObstacleSet::ObstacleSet(ObstacleSet&&) noexcept = default;
+ObstacleSet& ObstacleSet::operator=(ObstacleSet&&) noexcept = default;
+ObstacleSet::~ObstacleSet() = default;
+
+std::uint32_t ObstacleSet::obstacle_count() const noexcept {
+  return state_->view.obstacle_count;
+}
+
+std::uint32_t ObstacleSet::segment_count() const noexcept {
+  return state_->view.segment_count;
+}
+
+std::uint32_t ObstacleSet::obstacle_of(std::uint32_t segment) const {
+  return state_->obstacle.at(segment);
+}
+
+const ObstacleView& ObstacleSet::view() const noexcept {
+  return state_->view;
+}
+
+}  // namespace bch

@@ -1,0 +1,221 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <string>
+
+#include <bch/obstacles.hpp>
+
+#include "kernel/obstacles/query_input.hpp"
+#include "kernel/runtime/kernels.hpp"
+#include "layout/base/rounding.hpp"
+#include "layout/base/shortest.hpp"
+#include "layout/format/cut_discs.hpp"
+
+namespace bch {
+
+using namespace detail;
+
+namespace detail {
+
+void require_an_answer_each(const char* query, const Agents& agents, std::size_t size, const char* what) {
+  if (size != agents.size())
+    throw std::invalid_argument(std::string(query) + ": " + std::to_string(agents.size()) + " agents but " +
+                                std::to_string(size) + " " + what);
+}
+
+BodyQuery::Meaning meaning_of(const ShapeSet& shapes, const QueryOptions& options) {
+  return {exact_leaves(shapes, options.leaves, "collide"), is_solid(shapes, options.semantics, "collide")};
+}
+
+}  // namespace detail
+
+namespace {
+
+using Vector = ObstaclePlace::Vector;
+
+/// The nearest obstacle of an agent's parts so far.
+struct NearestObstacle {
+  double gap;                          ///< metres; of nothing found, the limit
+  std::uint32_t disc = 0, number = 0;  ///< of the whole body; of the segment
+  LocalSegment segment = {};
+  Disc body_disc = {};
+  ObstaclePlace place = {};
+  bool is_found = false, is_near_enough = false;
+};
+
+/// Distances of all agents: what clearance() and within() share.
+class GapQuery {
+ public:
+  GapQuery(const Implementation& implementation, const ShapeSetView& shapes) noexcept
+      : implementation_(implementation), shapes_(shapes) {}
+
+  /// Finds the least gap of at most `limit`, metres. The search ends where one is at most `enough`, or where `areas` count and one
+  /// holds the agent.
+  NearestObstacle find(BodyQuery& body, std::uint32_t agent, double limit, double enough, bool areas) const {
+    NearestObstacle nearest{.gap = std::min(limit, farthest)};
+    body.visit_parts(agent, [&](const PlacedPart& part) {
+      if (nearest.is_near_enough) return;
+      find_in(body, part, enough, nearest);
+      nearest.is_near_enough =
+          (nearest.is_found && nearest.gap <= enough) || (areas && body.area_that_holds(part) != no_obstacle);
+    });
+    return nearest;
+  }
+
+ private:
+  /// No gap is larger.
+  static constexpr double farthest = 8 * rounding::largest_position;
+
+  void find_in(BodyQuery& body, const PlacedPart& part, double enough, NearestObstacle& nearest) const {
+    const std::span<LocalSegment> segments = near_segments(body.near(), part, nearest.gap);
+    // Discs of parts before come first where gaps are equal.
+    const std::uint32_t last = nearest.is_found ? 0 : no_disc;
+    ObstacleGap best{nearest.gap, last, last, nearest.is_found ? &nearest.segment : nullptr};
+    implementation_.kernels->find_gap(
+        {&shapes_, part.root_index(), segments.data(), static_cast<std::uint32_t>(segments.size()), false},
+        enough, best);
+    if (best.segment == nullptr || best.segment == &nearest.segment) return;
+    const CutDiscs discs = cut_discs(shapes_, part.root_index());
+    nearest = {.gap = best.gap,
+               .disc = first_disc(shapes_, part.shape, part.part, part.level) + best.disc,
+               .number = best.number,
+               .segment = *best.segment,
+               .body_disc = {discs.x[best.disc], discs.y[best.disc], discs.radius[best.disc]},
+               .place = part.place,
+               .is_found = true};
+  }
+
+  /// Finds the segments that may be within a gap of a part. Where that is large, the search goes outward: the nearest one that is
+  /// found bounds it.
+  static std::span<LocalSegment> near_segments(NearSegments& near, const PlacedPart& part, double limit) {
+    const Vec2 centre = part.centre();
+    const double outer = part.outer_radius();
+    for (double gap = first_step; gap < limit; gap *= 4) {
+      const std::span<LocalSegment> found = near.find(part.place, centre, outer + gap);
+      if (found.empty()) continue;
+      double least = std::numeric_limits<double>::infinity();
+      for (const LocalSegment& segment : found)
+        least = std::min(least, segment.square_distance(double{centre.x}, double{centre.y}));
+      // Some disc is at most `outer` from the centre, and none reaches farther.
+      const double enough = 2 * outer + std::sqrt(least);
+      return enough <= outer + gap ? found : near.find(part.place, centre, enough);
+    }
+    return near.find(part.place, centre, outer + limit);
+  }
+  static constexpr double first_step = 2;  ///< metres
+
+  const Implementation& implementation_;
+  const ShapeSetView& shapes_;
+};
+
+/// Returns the largest float that is not above a gap.
+float rounded_down(double gap) noexcept {
+  const float nearest = static_cast<float>(gap);
+  return double{nearest} > gap ? std::nextafter(nearest, -std::numeric_limits<float>::infinity()) : nearest;
+}
+
+/// The vector from a disc's centre to the nearest point of a segment, in the agent's frame.
+Vector to_nearest_point(const LocalSegment& segment, const Disc& disc) noexcept {
+  const double x = disc.x, y = disc.y;
+  const double along = segment.along(x, y), aside = -segment.across(x, y);
+  const double forward = std::clamp(along, segment.from, segment.to) - along;
+  return {forward * segment.x - aside * segment.y, forward * segment.y + aside * segment.x};
+}
+
+Vec2 to_float(Vector v) noexcept {
+  return {static_cast<float>(v.x), static_cast<float>(v.y)};
+}
+
+/// Writes the answers for what was found.
+void put(const ClearanceAnswers& answers, std::size_t i, const NearestObstacle& nearest) {
+  answers.distance[i] = rounded_down(nearest.gap);
+  const Disc& disc = nearest.body_disc;
+  const Vector way = to_nearest_point(nearest.segment, disc);
+  const double length = std::sqrt(way.x * way.x + way.y * way.y);
+  const Vector turned = nearest.place.turned(way.x, way.y),
+               centre = nearest.place.turned(double{disc.x}, double{disc.y});
+  const Vector unit = length > 0 ? Vector{turned.x / length, turned.y / length} : Vector{1, 0};
+  if (!answers.direction.empty()) answers.direction[i] = to_float(unit);
+  if (!answers.discs.empty()) answers.discs[i] = {nearest.disc, nearest.number};
+  if (!answers.points.empty()) {
+    const double r = disc.radius;
+    answers.points[i] = {to_float({centre.x + r * unit.x, centre.y + r * unit.y}),
+                         to_float({centre.x + turned.x, centre.y + turned.y})};
+  }
+}
+
+/// Writes a distance without more.
+void put_alone(const ClearanceAnswers& answers, std::size_t i, float distance) {
+  answers.distance[i] = distance;
+  if (!answers.direction.empty()) answers.direction[i] = {0, 0};
+  if (!answers.discs.empty()) answers.discs[i] = no_discs;
+  if (!answers.points.empty()) answers.points[i] = {};
+}
+
+}  // namespace
+
+void collide(const ShapeSet& shapes, const Agents& agents, const ObstacleSet& obstacles,
+             std::span<std::uint8_t> hits, const QueryOptions& options) {
+  const FloatingPointStateGuard floats;
+  require_an_answer_each("collide", agents, hits.size(), "hits");
+  const BodyQuery::Meaning meaning = meaning_of(shapes, options);
+  const Implementation& implementation = chosen(options, "collide");
+  validate(shapes, agents);
+  for_agents(implementation, shapes, agents, obstacles, [&](BodyQuery& body, std::uint32_t agent) {
+    bool hit = false;
+    body.visit_parts(agent, [&](const PlacedPart& part) {
+      if (!hit) body.visit_hits(part, meaning, [&](std::uint32_t) { return hit = true, false; });
+    });
+    hits[agent] = hit;
+  });
+}
+
+void within(const ShapeSet& shapes, const Agents& agents, const ObstacleSet& obstacles,
+            std::span<const double> distances, std::span<std::uint8_t> answers, const QueryOptions& options) {
+  const FloatingPointStateGuard floats;
+  require_an_answer_each("within", agents, answers.size(), "answers");
+  if (distances.size() != 1) require_an_answer_each("within", agents, distances.size(), "distances");
+  for (std::size_t i = 0; i < distances.size(); ++i)
+    if (!(distances[i] >= 0))
+      throw std::invalid_argument(
+          "within: " + (distances.size() == 1 ? "" : "agent " + std::to_string(i) + ": ") + "a distance of " +
+          shortest(distances[i]) + " m");
+  const Implementation& implementation = chosen(options, "within");
+  validate(shapes, agents);
+  const GapQuery query(implementation, shapes.view());
+  for_agents(implementation, shapes, agents, obstacles, [&](BodyQuery& body, std::uint32_t agent) {
+    const double distance = distances[distances.size() == 1 ? 0 : agent];
+    const NearestObstacle nearest = query.find(body, agent, distance, distance, true);
+    answers[agent] = nearest.is_near_enough;
+  });
+}
+
+void clearance(const ShapeSet& shapes, const Agents& agents, const ObstacleSet& obstacles,
+               const ClearanceAnswers& answers, const QueryOptions& options) {
+  const FloatingPointStateGuard floats;
+  require_an_answer_each("clearance", agents, answers.distance.size(), "distances");
+  if (!answers.direction.empty())
+    require_an_answer_each("clearance", agents, answers.direction.size(), "directions");
+  if (!answers.discs.empty()) require_an_answer_each("clearance", agents, answers.discs.size(), "discs");
+  if (!answers.points.empty()) require_an_answer_each("clearance", agents, answers.points.size(), "points");
+  if (!(options.max_distance >= 0))
+    throw std::invalid_argument("clearance: a max_distance of " + shortest(options.max_distance) + " m");
+  require_choice("clearance", "overlap is", static_cast<int>(options.overlap), "zero (0) and deepest (1)");
+  const Implementation& implementation = chosen(options, "clearance");
+  validate(shapes, agents);
+  const bool zero = options.overlap == Overlap::zero;
+  const double enough = zero ? 0 : -std::numeric_limits<double>::infinity();
+  const GapQuery query(implementation, shapes.view());
+  for_agents(implementation, shapes, agents, obstacles, [&](BodyQuery& body, std::uint32_t agent) {
+    const NearestObstacle nearest = query.find(body, agent, options.max_distance, enough, zero);
+    if (nearest.is_near_enough) return put_alone(answers, agent, 0);
+    if (!nearest.is_found) return put_alone(answers, agent, std::numeric_limits<float>::infinity());
+    put(answers, agent, nearest);
+  });
+}
+
+}  // namespace bch

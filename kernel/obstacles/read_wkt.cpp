@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include <algorithm>
+#include <cctype>
+#include <charconv>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include <bch/obstacles.hpp>
+
+#include "layout/base/rounding.hpp"
+
+namespace bch {
+namespace {
+
+/// Obstacles as they are read.
+struct ReadObstacles {
+  std::vector<double> x, y;
+  std::vector<std::uint64_t> path_offsets{0}, obstacle_offsets{0};
+  std::vector<std::uint8_t> is_area;
+
+  void end_path() { path_offsets.push_back(x.size()); }
+  void end_obstacle(bool area) {
+    obstacle_offsets.push_back(path_offsets.size() - 1);
+    is_area.push_back(area);
+  }
+};
+
+/// Reads geometries by recursive descent. The grammar is that of OGC's simple features, and Z, M and ZM behind a name: further
+/// coordinates, which do not matter here.
+class WktReader {
+ public:
+  WktReader(std::string_view text, bool walkable) : text_(text), walkable_(walkable) {}
+
+  ReadObstacles read() {
+    for (skip_space(); at_ < text_.size(); skip_space()) geometry(0);
+    return std::move(read_);
+  }
+
+ private:
+  /// More than anybody nests; a call of geometry() takes a hundred bytes of stack.
+  static constexpr int most_nested = 100;
+  static constexpr const char* known =
+      "POLYGON, MULTIPOLYGON, LINESTRING, MULTILINESTRING or GEOMETRYCOLLECTION";
+
+  [[noreturn]] void reject(const std::string& expected) const { reject_at(at_, expected); }
+  [[noreturn]] void reject_at(std::size_t at, const std::string& expected) const {
+    const std::string_view before = text_.substr(0, at);
+    const auto line = 1 + std::count(before.begin(), before.end(), '\n');
+    const std::size_t column = at - (before.rfind('\n') + 1) + 1;  // npos + 1 is 0
+    std::size_t end = at;
+    while (end < text_.size() && end < at + 20 && is_of_token(text_[end])) ++end;
+    const std::string found = at == text_.size()
+                                  ? "the end of the text"
+                                  : "'" + std::string(text_.substr(at, std::max(end, at + 1) - at)) + "'";
+    throw std::invalid_argument("WKT: line " + std::to_string(line) + ", column " + std::to_string(column) +
+                                ": expected " + expected + ", found " + found);
+  }
+
+  static bool is_of_token(char c) {
+    return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '.' || c == '-' || c == '+' || c == '_';
+  }
+
+  void skip_space() {
+    while (at_ < text_.size() && std::isspace(static_cast<unsigned char>(text_[at_])) != 0) ++at_;
+  }
+
+  /// Takes a character, if it is next.
+  bool take(char c) {
+    skip_space();
+    if (at_ == text_.size() || text_[at_] != c) return false;
+    ++at_;
+    return true;
+  }
+
+  /// Reads a word in capital letters; none leaves it empty.
+  std::string word() {
+    skip_space();
+    std::string letters;
+    while (at_ < text_.size() && std::isalpha(static_cast<unsigned char>(text_[at_])) != 0)
+      letters += static_cast<char>(std::toupper(static_cast<unsigned char>(text_[at_++])));
+    return letters;
+  }
+  bool take(std::string_view wanted) {
+    const std::size_t before = at_;
+    if (word() == wanted) return true;
+    at_ = before;
+    return false;
+  }
+
+  /// Reads "(one, one ...)" or EMPTY.
+  template <class One>
+  void list(const char* what, One one) {
+    if (take("EMPTY")) return;
+    if (!take('(')) reject(std::string("'(' before ") + what + ", or EMPTY");
+    do one();
+    while (take(','));
+    if (!take(')')) reject("',' or ')'");
+  }
+
+  void geometry(int depth) {
+    skip_space();
+    const std::size_t begin = at_;
+    const std::string name = word();
+    coordinates_ = take("ZM") ? 4 : take("Z") || take("M") ? 3 : 2;
+    if (name == "POLYGON") {
+      polygon();
+    } else if (name == "MULTIPOLYGON") {
+      list("polygons", [&] { polygon(); });
+    } else if (name == "LINESTRING") {
+      line();
+    } else if (name == "MULTILINESTRING") {
+      list("lines", [&] { line(); });
+    } else if (name == "GEOMETRYCOLLECTION") {
+      if (depth == most_nested) reject_at(begin, "fewer collections in each other");
+      list("geometries", [&] { geometry(depth + 1); });
+    } else {
+      reject_at(begin, known);
+    }
+  }
+
+  void polygon() {
+    list("rings", [&] {
+      const std::size_t first = read_.x.size();
+      points();
+      // A line does not close itself.
+      const std::size_t last = read_.x.size() - 1;
+      if (walkable_ && last > first && (read_.x[first] != read_.x[last] || read_.y[first] != read_.y[last]))
+        read_.x.push_back(read_.x[first]), read_.y.push_back(read_.y[first]);
+      read_.end_path();
+      if (walkable_) read_.end_obstacle(false);
+    });
+    if (!walkable_ && read_.obstacle_offsets.back() != read_.path_offsets.size() - 1)
+      read_.end_obstacle(true);
+  }
+
+  void line() {
+    points();
+    read_.end_path();
+    read_.end_obstacle(false);
+  }
+
+  void points() {
+    list("points", [&] {
+      read_.x.push_back(number());
+      read_.y.push_back(number());
+      for (int i = 2; i < coordinates_; ++i) number();
+    });
+  }
+
+  double number() {
+    skip_space();
+    const std::size_t begin = at_;
+    if (at_ < text_.size() && text_[at_] == '+') ++at_;
+    double value = 0;
+    const auto [end, error] = std::from_chars(text_.data() + at_, text_.data() + text_.size(), value);
+    if (error == std::errc::invalid_argument || (end != text_.data() + text_.size() && is_of_token(*end)))
+      reject_at(begin, "a number");
+    if (error != std::errc() || !(std::abs(value) <= detail::rounding::largest_position))
+      reject_at(begin, "a number within +-1e9");
+    at_ = static_cast<std::size_t>(end - text_.data());
+    return value;
+  }
+
+  std::string_view text_;
+  bool walkable_;
+  std::size_t at_ = 0;
+  int coordinates_ = 2;
+  ReadObstacles read_;
+};
+
+}  // namespace
+
+ObstacleSet obstacles_from_wkt(std::string_view text, Polygons polygons) {
+  if (polygons != Polygons::solid && polygons != Polygons::walkable)
+    throw std::invalid_argument("obstacles: no polygons are " + std::to_string(static_cast<int>(polygons)) +
+                                ", only solid (0) and walkable (1)");
+  const ReadObstacles read = WktReader(text, polygons == Polygons::walkable).read();
+  return ObstacleSet({read.x, read.y, read.path_offsets, read.obstacle_offsets, read.is_area});
+}
+
+}  // namespace bch

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <cstdint>
+
+#include "kernel/obstacles/box_tree.hpp"
+
+namespace bch::detail {
+
+/// A segment of an obstacle in the frame of an agent, by its line: `along` it and `across` it are the coordinates of a point.
+///
+/// Rounding, in the notation of layout/base/rounding.hpp. All is done in double, with headings that are within 3e-10 of the exact
+/// ones, which moves what is within the reach P of an agent by 0.006 u P: published radii have room for 16.5 u P of queries
+/// (contact_error). What double rounds is in proportion to the ends' distance d from the agent: 2^-53 of it for each of the
+/// subtraction of positions, the direction (three roundings), two products and a sum: less than 8 * 2^-53 |d| together, which
+/// `slack` has twice. So a disc whose outline meets the segment passes touches(), and a gap is never larger than that of the outlines.
+struct LocalSegment {
+  double x, y;      ///< the unit vector along it
+  double offset;    ///< across of the whole line, from the agent's position
+  double from, to;  ///< along of its ends
+  double slack;     ///< metres
+  std::uint32_t slot, number;
+
+  template <class Real>
+  [[gnu::always_inline]] Real along(Real at_x, Real at_y) const noexcept {
+    return Real(x) * at_x + Real(y) * at_y;
+  }
+  template <class Real>
+  [[gnu::always_inline]] Real across(Real at_x, Real at_y) const noexcept {
+    return Real(x) * at_y - Real(y) * at_x - Real(offset);
+  }
+  /// The square of the distance from a point; a lane's in ObstacleKernel takes the same operations.
+  [[gnu::always_inline]] double square_distance(double at_x, double at_y) const noexcept {
+    const double at = along(at_x, at_y), aside = across(at_x, at_y);
+    const double before = from - at, behind = at - to;
+    double beyond = before < behind ? behind : before;
+    beyond = beyond < 0 ? 0 : beyond;
+    return aside * aside + beyond * beyond;
+  }
+  [[gnu::always_inline]] bool touches(double at_x, double at_y, double radius) const noexcept {
+    const double limit = radius + slack;
+    return square_distance(at_x, at_y) <= limit * limit;
+  }
+};
+
+constexpr double slack_share = 0x1p-49;
+static_assert(slack_share >= 2 * 8 * 0x1p-53);
+
+/// An end of a segment, metres in the world.
+struct WorldSegment {
+  double ax, ay, bx, by;
+};
+
+/// All of an ObstacleSet. A slot is a segment's place in the tree, a number that in the caller's arrays.
+struct ObstacleView {
+  BoxTreeView segment_tree, area_tree;  ///< of the boxes of segments and of areas
+  const WorldSegment* segments;         ///< by slot
+  const std::uint32_t* numbers;         ///< by slot
+  const std::uint32_t* obstacles;       ///< by number
+  const std::uint8_t* is_area;          ///< by obstacle
+  const std::uint8_t* begins_path;      ///< by number
+  const std::int8_t*
+      outside;  ///< by number: the side of it that is outside of its area, 1 the left one; 0 of a line
+  const std::uint32_t* areas;  ///< by slot of the tree of areas: the obstacle
+  const Box* area_boxes;       ///< by the same slot
+  std::uint32_t segment_count, obstacle_count;
+};
+
+}  // namespace bch::detail

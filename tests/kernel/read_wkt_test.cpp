@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <bch/hierarchy.hpp>
+#include <bch/obstacles.hpp>
+
+#include "tests/support/complaint.hpp"
+#include "tests/support/scenes.hpp"
+
+namespace bch {
+namespace {
+
+std::string complaint_about(const std::string& text) {
+  return test::complaint([&] { obstacles_from_wkt(text); });
+}
+
+/// The obstacle of every segment.
+std::vector<std::uint32_t> obstacles_of(const ObstacleSet& set) {
+  std::vector<std::uint32_t> obstacles;
+  for (std::uint32_t i = 0; i < set.segment_count(); ++i) obstacles.push_back(set.obstacle_of(i));
+  return obstacles;
+}
+
+/// Returns which obstacles a small disc at a place collides with.
+bool collides_at(const ObstacleSet& set, double x, double y) {
+  const std::vector<Shape> disc = {{{}, fixed_cylinder(0.01f)}};
+  const ShapeSet shapes(disc);
+  test::Crowd crowd;
+  crowd.add({0, x, y, 0, 0});
+  std::uint8_t hit;
+  collide(shapes, crowd.agents(), set, {&hit, 1});
+  return hit != 0;
+}
+
+TEST(ReadWkt, TakesEveryKind) {
+  const ObstacleSet set = obstacles_from_wkt(
+      "POLYGON((0 0, 4 0, 4 4, 0 4, 0 0), (1 1, 3 1, 3 3, 1 3, 1 1))\n"
+      "linestring (10 0,11 0.5 , 1.2e1 -0.5)\n"
+      "MULTIPOLYGON (((20 0, 21 0, 21 1)), ((30 0, 31 0, 31 1, 30 0)))\n"
+      "GEOMETRYCOLLECTION(MULTILINESTRING((40 0, 41 0),(40 1, 41 1)), GEOMETRYCOLLECTION EMPTY,\n"
+      "  POLYGON ZM ((50 0 7 8, 51 0 7 8, 51 1 7 8, 50 0 7 8)), LINESTRING Z(60 0 5,61 0 5))\n"
+      "POLYGON EMPTY\tLINESTRING M (70 +1 3, 71 1 3)");
+  EXPECT_EQ(set.obstacle_count(), 9u);
+  EXPECT_EQ(obstacles_of(set), (std::vector<std::uint32_t>{0, 0, 0, 0, 0, 0, 0, 0, 1, 1, 2, 2,
+                                                           2, 3, 3, 3, 4, 5, 6, 6, 6, 7, 8}));
+  EXPECT_TRUE(collides_at(set, 0.5, 0.5));
+  EXPECT_FALSE(collides_at(set, 2, 2));  // the hole
+  EXPECT_TRUE(collides_at(set, 20.8, 0.4));
+  EXPECT_TRUE(collides_at(set, 40.5, 1));
+  EXPECT_FALSE(collides_at(set, 40.5, 0.5));
+  EXPECT_TRUE(collides_at(set, 70.5, 1));
+}
+
+TEST(ReadWkt, TakesPolygonsAsFloors) {
+  const std::string text = "POLYGON((0 0, 4 0, 4 4, 0 4, 0 0), (1 1, 3 1, 3 3, 1 3))";
+  const ObstacleSet walls = obstacles_from_wkt(text, Polygons::walkable);
+  EXPECT_EQ(walls.obstacle_count(), 2u);  // rings
+  EXPECT_EQ(walls.segment_count(), 8u);
+  EXPECT_FALSE(collides_at(walls, 0.5, 0.5));
+  EXPECT_TRUE(collides_at(walls, 0, 2));
+  EXPECT_TRUE(collides_at(walls, 1, 2));  // the side that closes the hole
+  EXPECT_TRUE(collides_at(obstacles_from_wkt(text), 0.5, 0.5));
+}
+
+TEST(ReadWkt, NamesThePlaceOfAnError) {
+  EXPECT_EQ(complaint_about("POINT (1 2)"),
+            "WKT: line 1, column 1: expected POLYGON, MULTIPOLYGON, LINESTRING, MULTILINESTRING or "
+            "GEOMETRYCOLLECTION, found 'POINT'");
+  EXPECT_EQ(complaint_about("LINESTRING (1 2, 3)"), "WKT: line 1, column 19: expected a number, found ')'");
+  EXPECT_EQ(complaint_about("LINESTRING (1 2, 3 4 5)"),
+            "WKT: line 1, column 22: expected ',' or ')', found '5'");
+  EXPECT_EQ(complaint_about("LINESTRING (1 2,\n  3 4x)"),
+            "WKT: line 2, column 5: expected a number, found '4x'");
+  EXPECT_EQ(complaint_about("POLYGON ((0 0, 1 0, 1 1)"),
+            "WKT: line 1, column 25: expected ',' or ')', found the end of the text");
+  EXPECT_EQ(complaint_about("POLYGON (0 0, 1 0)"),
+            "WKT: line 1, column 10: expected '(' before points, or EMPTY, found '0'");
+  EXPECT_EQ(complaint_about("\n\nLINESTRING(0 0, nan 1)"),
+            "WKT: line 3, column 17: expected a number within +-1e9, found 'nan'");
+  EXPECT_EQ(complaint_about("LINESTRING(0 0, 1e400 1)"),
+            "WKT: line 1, column 17: expected a number within +-1e9, found '1e400'");
+  EXPECT_EQ(complaint_about("LINESTRING(0 0, 2e9 1)"),
+            "WKT: line 1, column 17: expected a number within +-1e9, found '2e9'");
+  EXPECT_EQ(complaint_about("GEOMETRYCOLLECTION(LINESTRING(0 0, 1 1); LINESTRING(0 0, 1 1))"),
+            "WKT: line 1, column 40: expected ',' or ')', found ';'");
+  std::string deep;
+  for (int i = 0; i < 101; ++i) deep += "GEOMETRYCOLLECTION(";
+  EXPECT_EQ(complaint_about(deep),
+            "WKT: line 1, column 1901: expected fewer collections in each other, found 'GEOMETRYCOLLECTION'");
+  EXPECT_EQ(test::complaint([] { obstacles_from_wkt("", static_cast<Polygons>(2)); }),
+            "obstacles: no polygons are 2, only solid (0) and walkable (1)");
+}
+
+/// Text that is cut anywhere is read or rejected, and so is one with a byte that is another.
+TEST(ReadWkt, SurvivesDamage) {
+  const std::string text =
+      "POLYGON ZM((0 0 1 1, 4.5e0 0 1 1), (1 1 1 1)) GEOMETRYCOLLECTION(LINESTRING(1 2,-3 4), MULTIPOLYGON "
+      "EMPTY)";
+  for (std::size_t size = 0; size < text.size(); ++size) complaint_about(text.substr(0, size));
+  test::Random random(2901);
+  std::size_t accepted = 0;
+  for (std::uint32_t i = 0; i < test::samples(20'000); ++i) {
+    std::string damaged = text;
+    for (std::uint32_t k = random.below(3) + 1; k > 0; --k)
+      damaged[random.below(static_cast<std::uint32_t>(text.size()))] = static_cast<char>(random.below(256));
+    accepted += complaint_about(damaged) == "accepted";
+  }
+  EXPECT_GT(accepted, 0u);
+  EXPECT_LT(accepted, test::samples(10'000));
+}
+
+}  // namespace
+}  // namespace bch

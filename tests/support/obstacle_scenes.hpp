@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <bch/obstacles.hpp>
+
+#include "baselines/obstacle_reference.hpp"
+#include "tests/support/scenes.hpp"
+
+namespace bch::test {
+
+/// Obstacles in arrays, and the same for brute force.
+struct ObstacleScene {
+  std::vector<double> x, y;
+  std::vector<std::uint64_t> path_offsets{0}, obstacle_offsets{0};
+  std::vector<std::uint8_t> is_area;
+  std::vector<baselines::ReferenceObstacle> reference;
+
+  struct Point {
+    double x, y;
+  };
+  void add_path(const std::vector<Point>& points, bool is_ring);
+  void end_obstacle(bool area);
+  ObstacleSet set() const { return ObstacleSet({x, y, path_offsets, obstacle_offsets, is_area}); }
+
+ private:
+  baselines::ReferenceObstacle open_;
+};
+
+/// Draws obstacles of all kinds in a square of half a width: walls, collinear and repeated pieces, posts, polygons with holes, nested and
+/// crossing themselves, about (x, y).
+ObstacleScene obstacle_scene(Random& random, std::uint32_t count, double half, double x = 0, double y = 0);
+
+/// Draws agents of all shapes and levels in a square of half a width.
+Crowd crowd_about(Random& random, const ShapeSet& shapes, std::uint32_t count, double half, double x = 0,
+                  double y = 0);
+
+}  // namespace bch::test
