@@ -34,6 +34,8 @@ std::vector<Table> call_tables(Suite& suite, Scene& scene);
 std::vector<Table> crowd_tables(Suite& suite, Scene& scene);
 /// <query>/<workload>/<instruction set|reference>[/threads:<n>]: the queries beside collide().
 std::vector<Table> query_tables(Suite& suite, Scene& scene);
+/// obstacles/<query>: a crowd on a floor plan.
+std::vector<Table> obstacle_tables(Suite& suite, Scene& scene);
 /// shapes/<count>: a crowd of so many different shapes, up to `most`.
 std::vector<Table> shape_count_tables(Suite& suite, Scene& scene, std::uint32_t most);
 /// plans/<row>/<bake|query>.

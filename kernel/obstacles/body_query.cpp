@@ -118,7 +118,7 @@ bool BodyQuery::outline_holds(const PlacedPart& part, std::span<const LocalSegme
 bool BodyQuery::has_segment_of(std::uint32_t obstacle) noexcept {
   const auto found = near_.found();
   return std::any_of(found.begin(), found.end(),
-                     [&](const LocalSegment& segment) { return near_.obstacle_of(segment) == obstacle; });
+                     [&](const LocalSegment& segment) { return segment.obstacle == obstacle; });
 }
 
 std::uint32_t BodyQuery::area_that_holds(const PlacedPart& part) {

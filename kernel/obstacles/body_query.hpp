@@ -86,6 +86,7 @@ class BodyQuery {
   /// Calls found(obstacle) for the areas that hold a part and have no segment next to it, until it returns false.
   template <class Found>
   bool visit_areas_beyond(const PlacedPart& part, Found found) {
+    if (2 * double{part.root().radius} > near_.obstacles().widest_area) return false;
     for (const std::uint32_t slot : near_.areas_about(part.place, part.centre())) {
       const std::uint32_t area = near_.obstacles().areas[slot];
       if (!has_segment_of(area) && near_.holds(slot, part.place, part.centre()) && !found(area)) return true;

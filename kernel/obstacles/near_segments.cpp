@@ -19,22 +19,23 @@ double rounding_of(const ObstaclePlace& place) noexcept {
   return 0x1p-50 * (std::abs(place.x) + std::abs(place.y));
 }
 
-LocalSegment local(const ObstaclePlace& place, const WorldSegment& world) noexcept {
-  const double way_x = world.bx - world.ax, way_y = world.by - world.ay;
-  const double length = std::sqrt(way_x * way_x + way_y * way_y);
-  // One without length has any direction.
-  const double x = length > 0 ? way_x / length : 1, y = length > 0 ? way_y / length : 0;
+/// Returns a segment in the frame of an agent, if it is within a distance of a point there, or next to it.
+/// Returns: whether it is.
+bool is_near(const ObstaclePlace& place, const WorldSegment& world, std::uint32_t slot, Vector centre,
+             double distance, LocalSegment& to) noexcept {
   const double dx = world.ax - place.x, dy = world.ay - place.y;
-  const auto [along_x, along_y] = place.turned_back(x, y);
-  const double from = dx * x + dy * y;
-  return {along_x,
-          along_y,
-          dy * x - dx * y,
-          from,
-          from + length,
-          slack_share * (std::abs(dx) + std::abs(dy) + length),
-          0,
-          0};
+  const double from = dx * world.x + dy * world.y;
+  const Vector along = place.turned_back(world.x, world.y);
+  to = {along.x,
+        along.y,
+        dy * world.x - dx * world.y,
+        from,
+        from + world.length,
+        slack_share * (std::abs(dx) + std::abs(dy) + world.length),
+        slot,
+        world.number,
+        world.obstacle};
+  return to.touches(centre.x, centre.y, distance);
 }
 
 }  // namespace
@@ -67,15 +68,15 @@ std::span<LocalSegment> NearSegments::find(const ObstaclePlace& place, Vec2 cent
   const double wide = distance + rounding_of(place) + 0x1p-50 * (std::abs(way.x) + std::abs(way.y));
   const Box box{place.x + x + std::min(way.x, 0.0) - wide, place.y + y + std::min(way.y, 0.0) - wide,
                 place.x + x + std::max(way.x, 0.0) + wide, place.y + y + std::max(way.y, 0.0) + wide};
-  found_.clear();
   const bool moves = way.x != 0 || way.y != 0;
-  for (const std::uint32_t slot : query(obstacles_.segment_tree, box, slots_)) {
-    LocalSegment segment = local(place, obstacles_.segments[slot]);
-    if (!moves && !segment.touches(centre.x, centre.y, distance)) continue;
-    segment.slot = slot, segment.number = obstacles_.numbers[slot];
-    found_.push_back(segment);
-  }
-  if (found_.size() > 1)
+  const Vector middle{double{centre.x}, double{centre.y}};
+  const std::span<const std::uint32_t> slots = query(obstacles_.segment_tree, box, slots_);
+  if (memory_.size() < slots.size()) memory_.resize(2 * slots.size());
+  std::size_t size = 0;
+  for (const std::uint32_t slot : slots)
+    size += is_near(place, obstacles_.segments[slot], slot, middle, distance, memory_[size]) || moves;
+  found_ = std::span(memory_).first(size);
+  if (size > 1)
     std::sort(found_.begin(), found_.end(),
               [](const LocalSegment& a, const LocalSegment& b) { return a.number < b.number; });
   return found_;
@@ -94,10 +95,11 @@ bool NearSegments::holds(std::uint32_t area_slot, const ObstaclePlace& place, Ve
   const Box ray{place.x + from.x - wide, y - wide, obstacles_.area_boxes[area_slot].high_x, y + wide};
   bool odd = false;
   for (const std::uint32_t slot : query(obstacles_.segment_tree, ray, slots_)) {
-    if (obstacles_.obstacles[obstacles_.numbers[slot]] != obstacles_.areas[area_slot]) continue;
-    const auto& [ax, ay, bx, by] = obstacles_.segments[slot];
-    odd ^= crosses(from, {1, 0}, std::numeric_limits<double>::infinity(), {ax - place.x, ay - place.y},
-                   {bx - place.x, by - place.y});
+    const WorldSegment& segment = obstacles_.segments[slot];
+    if (segment.obstacle != obstacles_.areas[area_slot]) continue;
+    odd ^=
+        crosses(from, {1, 0}, std::numeric_limits<double>::infinity(),
+                {segment.ax - place.x, segment.ay - place.y}, {segment.bx - place.x, segment.by - place.y});
   }
   return odd;
 }

@@ -44,14 +44,14 @@ class NearSegments {
   /// numbers, so that those of an obstacle follow each other.
   std::span<LocalSegment> find(const ObstaclePlace& place, Vec2 centre, double distance,
                                ObstaclePlace::Vector way = {0, 0});
-  std::span<LocalSegment> found() noexcept { return found_; }
+  std::span<LocalSegment> found() const noexcept { return found_; }
 
   /// Calls visit(segments) for every obstacle of those that were found, until it returns true. Returns: whether it did.
   template <class Visit>
   bool any_obstacle(Visit visit) {
     for (std::size_t begin = 0, end; begin < found_.size(); begin = end) {
-      const std::uint32_t obstacle = obstacle_of(found_[begin]);
-      for (end = begin + 1; end < found_.size() && obstacle_of(found_[end]) == obstacle;) ++end;
+      const std::uint32_t obstacle = found_[begin].obstacle;
+      for (end = begin + 1; end < found_.size() && found_[end].obstacle == obstacle;) ++end;
       if (visit(std::span<const LocalSegment>(found_).subspan(begin, end - begin), obstacle)) return true;
     }
     return false;
@@ -62,10 +62,6 @@ class NearSegments {
   /// Returns whether an area holds such a point, which is none of its border: by the parity of the segments that a ray crosses.
   bool holds(std::uint32_t area_slot, const ObstaclePlace& place, Vec2 point);
 
-  std::uint32_t obstacle_of(const LocalSegment& segment) const noexcept {
-    return obstacles_.obstacles[segment.number];
-  }
-
  private:
   std::span<const std::uint32_t> query(const BoxTreeView& tree, const Box& box,
                                        std::vector<std::uint32_t>& slots);
@@ -73,7 +69,8 @@ class NearSegments {
   const Implementation& implementation_;
   const ObstacleView& obstacles_;
   std::vector<std::uint32_t> slots_, areas_;
-  std::vector<LocalSegment> found_;
+  std::vector<LocalSegment> memory_;
+  std::span<LocalSegment> found_;
 };
 
 /// Returns whether the way from one point to another crosses a segment, all in one frame. A vertex on the line of the way belongs to one side of it, for both of

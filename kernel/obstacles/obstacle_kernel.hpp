@@ -9,6 +9,7 @@
 #include "kernel/obstacles/part_tree.hpp"
 #include "kernel/simd/ancestor_test.hpp"
 #include "kernel/simd/leaf_segments.hpp"
+#include "kernel/simd/segment_test.hpp"
 #include "kernel/simd/tree_nodes.hpp"
 #include "layout/simd/lanes.hpp"
 
@@ -37,7 +38,8 @@ class ObstacleKernel {
           nodes_open_[open++] = TreeNodes<Simd>::child(nodes_, node, lane);
         } else {
           const std::uint32_t disc = (node & ~leaf_window) + lane;
-          if ((!exact || outline_touches(disc)) && ancestors_touch(disc)) return true;
+          const Meeting meeting = exact ? outline_meets(disc) : Meeting::near;
+          if (meeting == Meeting::sure || (meeting == Meeting::near && ancestors_touch(disc))) return true;
         }
       }
     }
@@ -105,17 +107,20 @@ class ObstacleKernel {
     }
   }
 
-  bool outline_touches(std::uint32_t disc) const noexcept {
+  Meeting outline_meets(std::uint32_t disc) const noexcept {
     const LeafSegments<Simd> leaves{in_.shapes->leaf_segments};
     const auto list = leaves.segments(tree_, disc);
-    if (list.count == 0) return true;
+    if (list.count == 0) return Meeting::near;
     const double margin = in_.shapes->segment_margin[in_.root / in_.shapes->level_count];
-    for (std::uint32_t i = 0; i < list.count; ++i) {
+    Meeting most = Meeting::none;
+    for (std::uint32_t i = 0; i < list.count && most != Meeting::sure; ++i) {
       const Vec2* const point = in_.shapes->points + list.point(i);
-      for (std::uint32_t k = 0; k < in_.count; ++k)
-        if (meet(point[0], point[1], in_.segments[k], margin)) return true;
+      for (std::uint32_t k = 0; k < in_.count; ++k) {
+        const Meeting meeting = meet(point[0], point[1], in_.segments[k], margin);
+        most = meeting > most ? meeting : most;
+      }
     }
-    return false;
+    return most;
   }
 
   struct Point {
@@ -130,23 +135,32 @@ class ObstacleKernel {
     return dx * dx + dy * dy;
   }
 
-  /// Returns whether two segments come within a margin of each other: they cross, or an end of one is as near to the other. Where
-  /// rounding hides a crossing, an end is next to the other segment.
-  static bool meet(const Vec2& first, const Vec2& second, const LocalSegment& segment,
-                   double margin) noexcept {
+  /// Segments meet where they cross, or an end of one is within a margin of the other: where rounding hides a crossing, an end is
+  /// next to the other segment. A crossing is sure where all ends are beyond the other's line by the margin, beside which errors of double
+  /// are nothing.
+  static Meeting meet(const Vec2& first, const Vec2& second, const LocalSegment& segment,
+                      double margin) noexcept {
     const Point p{segment.along(double{first.x}, double{first.y}),
                   segment.across(double{first.x}, double{first.y})},
         q{segment.along(double{second.x}, double{second.y}),
           segment.across(double{second.x}, double{second.y})};
     const double limit = margin + segment.slack;
     // Most are farther than that on one side.
-    if ((p.y > limit && q.y > limit) || (p.y < -limit && q.y < -limit)) return false;
+    if ((p.y > limit && q.y > limit) || (p.y < -limit && q.y < -limit)) return Meeting::none;
     const Point from{segment.from, 0}, to{segment.to, 0};
-    const auto side = [&](Point end) { return (q.x - p.x) * (end.y - p.y) - (q.y - p.y) * (end.x - p.x); };
-    if ((p.y > 0) != (q.y > 0) && (side(from) > 0) != (side(to) > 0)) return true;
+    const double x = q.x - p.x, y = q.y - p.y;
+    const double side_from = x * (from.y - p.y) - y * (from.x - p.x),
+                 side_to = x * (to.y - p.y) - y * (to.x - p.x);
+    if ((p.y > 0) != (q.y > 0) && (side_from > 0) != (side_to > 0)) {
+      const double beyond = limit * (__builtin_fabs(x) + __builtin_fabs(y));
+      const bool sure = __builtin_fabs(p.y) > limit && __builtin_fabs(q.y) > limit &&
+                        __builtin_fabs(side_from) > beyond && __builtin_fabs(side_to) > beyond;
+      return sure ? Meeting::sure : Meeting::near;
+    }
     const double square = limit * limit;
-    return square_distance(p, from, to) <= square || square_distance(q, from, to) <= square ||
-           square_distance(from, p, q) <= square || square_distance(to, p, q) <= square;
+    const bool near = square_distance(p, from, to) <= square || square_distance(q, from, to) <= square ||
+                      square_distance(from, p, q) <= square || square_distance(to, p, q) <= square;
+    return near ? Meeting::near : Meeting::none;
   }
 
   /// A block, and the bounds of what is below its nodes.

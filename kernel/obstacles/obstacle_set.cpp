@@ -54,6 +54,13 @@ void require_valid(const ObstacleArrays& in) {
     throw std::length_error("obstacles: more than 2^31 segments");
 }
 
+WorldSegment segment_of(double ax, double ay, double bx, double by, std::uint32_t number,
+                        std::uint32_t obstacle) {
+  const double x = bx - ax, y = by - ay, length = std::sqrt(x * x + y * y);
+  if (!(length > 0)) return {ax, ay, bx, by, 1, 0, 0, number, obstacle};
+  return {ax, ay, bx, by, x / length, y / length, length, number, obstacle};
+}
+
 Box box_of(const WorldSegment& s) {
   return {std::min(s.ax, s.bx), std::min(s.ay, s.by), std::max(s.ax, s.bx), std::max(s.ay, s.by)};
 }
@@ -69,7 +76,6 @@ double twice_area(std::span<const double> x, std::span<const double> y) {
 /// Segments by their numbers, and what is known of each.
 struct Segments {
   std::vector<WorldSegment> ends;
-  std::vector<std::uint32_t> obstacle;
   std::vector<std::uint8_t> begins_path;
   std::vector<std::int8_t> outside;
 
@@ -79,8 +85,7 @@ struct Segments {
     const bool left_is_outside = (twice_area(x, y) < 0) != is_hole;
     const std::size_t first = ends.size();
     const auto add = [&](std::size_t a, std::size_t b) {
-      ends.push_back({x[a], y[a], x[b], y[b]});
-      obstacle.push_back(of);
+      ends.push_back(segment_of(x[a], y[a], x[b], y[b], static_cast<std::uint32_t>(ends.size()), of));
       begins_path.push_back(ends.size() == first + 1);
       outside.push_back(is_ring ? (left_is_outside ? 1 : -1) : 0);
     };
@@ -95,9 +100,9 @@ struct Segments {
 struct ObstacleSet::State {
   State(Segments&& segments, std::vector<std::uint8_t>&& areas);
 
-  std::vector<std::uint32_t> obstacle;
   std::vector<std::uint8_t> begins_path, is_area;
   std::vector<std::int8_t> outside;
+  std::vector<std::uint32_t> obstacle_of;
   std::vector<std::uint32_t> areas;  ///< in the order of the tree of areas, after it is made
   std::vector<Box> area_boxes;
   BoxTreeMemory segment_tree, area_tree;
@@ -119,10 +124,10 @@ std::vector<Box> ObstacleSet::State::boxes_of(const Segments& segments) {
 
 std::vector<Box> ObstacleSet::State::find_areas(const Segments& segments) {
   for (std::size_t i = 0; i < segments.ends.size(); ++i) {
-    if (is_area[segments.obstacle[i]] == 0) continue;
+    if (is_area[segments.ends[i].obstacle] == 0) continue;
     const Box box = box_of(segments.ends[i]);
-    if (areas.empty() || areas.back() != segments.obstacle[i])
-      areas.push_back(segments.obstacle[i]), area_boxes.push_back(box);
+    if (areas.empty() || areas.back() != segments.ends[i].obstacle)
+      areas.push_back(segments.ends[i].obstacle), area_boxes.push_back(box);
     Box& all = area_boxes.back();
     all = {std::min(all.low_x, box.low_x), std::min(all.low_y, box.low_y), std::max(all.high_x, box.high_x),
            std::max(all.high_y, box.high_y)};
@@ -132,26 +137,29 @@ std::vector<Box> ObstacleSet::State::find_areas(const Segments& segments) {
 
 ObstacleSet::State::State(Segments&& segments, std::vector<std::uint8_t>&& is_area_of)
     : is_area(std::move(is_area_of)), segment_tree(boxes_of(segments)), area_tree(find_areas(segments)) {
+  for (const WorldSegment& segment : segments.ends) obstacle_of.push_back(segment.obstacle);
   for (const std::uint32_t number : segment_tree.order) ends.push_back(segments.ends[number]);
   std::vector<std::uint32_t> sorted_areas;
   std::vector<Box> sorted_boxes;
   for (const std::uint32_t i : area_tree.order)
     sorted_areas.push_back(areas[i]), sorted_boxes.push_back(area_boxes[i]);
   areas = std::move(sorted_areas), area_boxes = std::move(sorted_boxes);
-  obstacle = std::move(segments.obstacle), begins_path = std::move(segments.begins_path);
+  begins_path = std::move(segments.begins_path);
   outside = std::move(segments.outside);
-  view = {segment_tree.view,
-          area_tree.view,
-          ends.data(),
-          segment_tree.order.data(),
-          obstacle.data(),
-          is_area.data(),
-          begins_path.data(),
-          outside.data(),
-          areas.data(),
-          area_boxes.data(),
-          static_cast<std::uint32_t>(ends.size()),
-          static_cast<std::uint32_t>(is_area.size())};
+  double widest = 0;
+  for (const Box& box : area_boxes)
+    widest = std::max(widest, std::min(box.high_x - box.low_x, box.high_y - box.low_y));
+  view = {.segment_tree = segment_tree.view,
+          .area_tree = area_tree.view,
+          .segments = ends.data(),
+          .is_area = is_area.data(),
+          .begins_path = begins_path.data(),
+          .outside = outside.data(),
+          .widest_area = widest,
+          .areas = areas.data(),
+          .area_boxes = area_boxes.data(),
+          .segment_count = static_cast<std::uint32_t>(ends.size()),
+          .obstacle_count = static_cast<std::uint32_t>(is_area.size())};
 }
 
 ObstacleSet::ObstacleSet(const ObstacleArrays& in) {
@@ -185,7 +193,7 @@ std::uint32_t ObstacleSet::segment_count() const noexcept {
 }
 
 std::uint32_t ObstacleSet::obstacle_of(std::uint32_t segment) const {
-  return state_->obstacle.at(segment);
+  return state_->obstacle_of.at(segment);
 }
 
 const ObstacleView& ObstacleSet::view() const noexcept {

@@ -84,7 +84,7 @@ WayOut way_out(BodyQuery& body, const PlacedPart& part) {
   for (double distance = part.outer_radius(); nearest == nullptr; distance *= 4)
     for (const LocalSegment& segment : body.near().find(part.place, centre, distance)) {
       const double square = segment.square_distance(double{centre.x}, double{centre.y});
-      if (body.near().obstacle_of(segment) == area && square < least) least = square, nearest = &segment;
+      if (segment.obstacle == area && square < least) least = square, nearest = &segment;
     }
   return way_over(body, part, *nearest, true);
 }

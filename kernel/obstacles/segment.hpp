@@ -21,7 +21,7 @@ struct LocalSegment {
   double offset;    ///< across of the whole line, from the agent's position
   double from, to;  ///< along of its ends
   double slack;     ///< metres
-  std::uint32_t slot, number;
+  std::uint32_t slot, number, obstacle;
 
   template <class Real>
   [[gnu::always_inline]] Real along(Real at_x, Real at_y) const noexcept {
@@ -48,21 +48,23 @@ struct LocalSegment {
 constexpr double slack_share = 0x1p-49;
 static_assert(slack_share >= 2 * 8 * 0x1p-53);
 
-/// An end of a segment, metres in the world.
+/// A segment in the world: its ends, the unit vector from the one to the other, which is (1, 0) where they are the same, and its
+/// length, metres.
 struct WorldSegment {
   double ax, ay, bx, by;
+  double x, y, length;
+  std::uint32_t number, obstacle;
 };
 
 /// All of an ObstacleSet. A slot is a segment's place in the tree, a number that in the caller's arrays.
 struct ObstacleView {
   BoxTreeView segment_tree, area_tree;  ///< of the boxes of segments and of areas
   const WorldSegment* segments;         ///< by slot
-  const std::uint32_t* numbers;         ///< by slot
-  const std::uint32_t* obstacles;       ///< by number
   const std::uint8_t* is_area;          ///< by obstacle
   const std::uint8_t* begins_path;      ///< by number
   const std::int8_t*
-      outside;  ///< by number: the side of it that is outside of its area, 1 the left one; 0 of a line
+      outside;         ///< by number: the side of it that is outside of its area, 1 the left one; 0 of a line
+  double widest_area;  ///< metres: no area holds a disc with a larger diameter
   const std::uint32_t* areas;  ///< by slot of the tree of areas: the obstacle
   const Box* area_boxes;       ///< by the same slot
   std::uint32_t segment_count, obstacle_count;
