@@ -18,9 +18,10 @@
 namespace bch::cli {
 namespace {
 
-/// The two ids that begin each line.
-std::string ids(const QueryInput& input, std::size_t pair) {
-  const auto [first, second] = input.pairs[pair];
+/// The ids that begin each line: two, or one of an agent against obstacles.
+std::string ids(const QueryInput& input, std::size_t i) {
+  if (input.obstacles != nullptr) return csv_field(input.table.id[i]);
+  const auto [first, second] = input.pairs[i];
   return csv_field(input.table.id[first]) + "," + csv_field(input.table.id[second]);
 }
 
@@ -41,8 +42,12 @@ std::string hit_rows(const QueryInput& input, const std::vector<std::uint8_t>& h
 }
 
 std::string collide_rows(const QueryInput& input) {
-  std::vector<std::uint8_t> hits(input.pairs.size());
-  collide(input.set, input.table.agents(), input.pairs, hits, input.options);
+  std::vector<std::uint8_t> hits(input.size());
+  const Agents agents = input.table.agents();
+  if (input.obstacles != nullptr)
+    collide(input.set, agents, *input.obstacles, hits, input.options);
+  else
+    collide(input.set, agents, input.pairs, hits, input.options);
   return hit_rows(input, hits);
 }
 
@@ -57,9 +62,11 @@ std::string contact_rows(const QueryInput& input) {
 }
 
 std::string penetration_rows(const QueryInput& input) {
-  std::vector<Penetration> ways(input.pairs.size());
+  std::vector<Penetration> ways(input.size());
   const Agents agents = input.table.agents();
-  if (input.direction) {
+  if (input.obstacles != nullptr) {
+    penetration(input.set, agents, *input.obstacles, ways, input.options);
+  } else if (input.direction) {
     const std::vector<Vec2> along(input.pairs.size(), *input.direction);
     penetration_along(input.set, agents, input.pairs, along, ways, input.options);
   } else {
@@ -73,9 +80,13 @@ std::string penetration_rows(const QueryInput& input) {
 }
 
 std::string clearance_rows(const QueryInput& input) {
-  std::vector<float> distance(input.pairs.size());
-  std::vector<Vec2> direction(input.pairs.size());
-  clearance(input.set, input.table.agents(), input.pairs, {distance, direction}, input.options);
+  std::vector<float> distance(input.size());
+  std::vector<Vec2> direction(input.size());
+  const Agents agents = input.table.agents();
+  if (input.obstacles != nullptr)
+    clearance(input.set, agents, *input.obstacles, {distance, direction}, input.options);
+  else
+    clearance(input.set, agents, input.pairs, {distance, direction}, input.options);
   std::string out;
   for (std::size_t i = 0; i < distance.size(); ++i)
     out += fmt::format("{},{},{},{}\n", ids(input, i), plain(distance[i]), plain(direction[i].x),
@@ -84,19 +95,27 @@ std::string clearance_rows(const QueryInput& input) {
 }
 
 std::string within_rows(const QueryInput& input) {
-  std::vector<std::uint8_t> hits(input.pairs.size());
-  within(input.set, input.table.agents(), input.pairs, {&input.options.max_distance, 1}, hits, input.options);
+  std::vector<std::uint8_t> hits(input.size());
+  const std::span<const double> distance(&input.options.max_distance, 1);
+  const Agents agents = input.table.agents();
+  if (input.obstacles != nullptr)
+    within(input.set, agents, *input.obstacles, distance, hits, input.options);
+  else
+    within(input.set, agents, input.pairs, distance, hits, input.options);
   return hit_rows(input, hits);
 }
 
 std::string time_of_impact_rows(const QueryInput& input) {
-  std::vector<double> x, y;
-  for (const auto [first, second] : input.pairs) {
-    x.push_back(input.table.dx[first] - input.table.dx[second]);
-    y.push_back(input.table.dy[first] - input.table.dy[second]);
+  const AgentTable& table = input.table;
+  std::vector<float> time(input.size());
+  if (input.obstacles != nullptr) {
+    time_of_impact(input.set, table.agents(), {table.dx, table.dy}, *input.obstacles, time, input.options);
+  } else {
+    std::vector<double> x, y;
+    for (const auto [first, second] : input.pairs)
+      x.push_back(table.dx[first] - table.dx[second]), y.push_back(table.dy[first] - table.dy[second]);
+    time_of_impact(input.set, table.agents(), input.pairs, {x, y}, time, input.options);
   }
-  std::vector<float> time(input.pairs.size());
-  time_of_impact(input.set, input.table.agents(), input.pairs, {x, y}, time, input.options);
   std::string out;
   for (std::size_t i = 0; i < time.size(); ++i) out += fmt::format("{},{}\n", ids(input, i), time[i]);
   return out;
@@ -117,7 +136,7 @@ constexpr QueryKind kinds[] = {
     {"contacts", "first_disc,second_disc",
      "a line for each two discs that overlap, by their\n"
      "                 numbers in the agents' cuts, from 0 on, depth first",
-     contact_rows},
+     contact_rows, false, false},
     {"penetration", "depth,x,y",
      "how far, in metres, and where to, as a unit vector, the first agent\n"
      "                 has to move until a line separates the two, 0 where one does; with --direction,\n"
@@ -134,6 +153,10 @@ std::span<const QueryKind> query_kinds() {
 const QueryKind& query_kind(const std::string& name) {
   return *std::find_if(std::begin(kinds), std::end(kinds),
                        [&](const QueryKind& kind) { return kind.name == name; });
+}
+
+const char* subject_columns(const ObstacleSet* obstacles) {
+  return obstacles == nullptr ? "first,second" : "id";
 }
 
 std::string query_help() {

@@ -9,6 +9,7 @@
 
 #include <bch/collide.hpp>
 #include <bch/geometry.hpp>
+#include <bch/obstacles.hpp>
 
 #include "bench/base/csv_input.hpp"
 
@@ -20,8 +21,11 @@ struct QueryInput {
   const AgentTable& table;
   std::span<const Pair> pairs;
   QueryOptions options;
-  std::uint32_t directions;       ///< of a penetration
-  std::optional<Vec2> direction;  ///< of a penetration: the only one
+  std::uint32_t directions;                ///< of a penetration
+  std::optional<Vec2> direction;           ///< of a penetration: the only one
+  const ObstacleSet* obstacles = nullptr;  ///< all agents against these, in place of pairs
+
+  std::size_t size() const { return obstacles == nullptr ? pairs.size() : table.id.size(); }
 };
 
 /// One of the questions that --what names.
@@ -29,15 +33,19 @@ struct QueryKind {
   const char* name;
   const char* columns;  ///< beside first,second
   const char* help;     ///< what they are, in the words of --help
-  /// The answer as CSV, without the header, in the order of the pairs.
+  /// The answer as CSV, without the header, in the order of the pairs or agents.
   std::string (*rows)(const QueryInput& input);
-  bool moving = false;  ///< asks how agents move
+  bool moving = false;       ///< asks how agents move
+  bool of_obstacles = true;  ///< can be asked about obstacles
 };
 
 /// Returns all kinds of queries; the first is the default.
 std::span<const QueryKind> query_kinds();
 
 const QueryKind& query_kind(const std::string& name);
+
+/// Returns the names of the first columns: what an answer is about.
+const char* subject_columns(const ObstacleSet* obstacles);
 
 /// Returns the help on all kinds of queries, a line for each.
 std::string query_help();

@@ -19,6 +19,7 @@
 #include "bench/base/number.hpp"
 #include "bench/base/output.hpp"
 #include "bench/base/threads.hpp"
+#include "bench/base/wkt_input.hpp"
 #include "bench/characters/cost_guard.hpp"
 #include "bench/characters/shape_table.hpp"
 #include "bench/cli/baked_report.hpp"
@@ -31,8 +32,8 @@ namespace bch::cli {
 namespace {
 
 struct QueryCommandOptions {
-  std::string character, agents, pairs;
-  bool all_pairs = false;
+  std::string character, agents, pairs, obstacles;
+  bool all_pairs = false, walkable = false;
   std::string what = query_kinds().front().name;
   std::uint32_t directions = 16;
   std::string direction;  ///< empty: the best of many
@@ -101,6 +102,7 @@ std::vector<Pair> colliding_pairs(const ShapeSet& set, const Agents& agents, con
 struct Question {
   AgentTable table;
   std::vector<Pair> pairs;
+  std::optional<ObstacleSet> obstacles = {};
 };
 
 /// Files first, so that a wrong value does not wait for shapes to be built.
@@ -108,12 +110,17 @@ Question read_question(const QueryCommandOptions& options, std::size_t shapes, s
   Question question{read_agents(options.agents, static_cast<std::uint32_t>(shapes),
                                 static_cast<std::uint32_t>(levels), query_kind(options.what).moving),
                     {}};
-  if (!options.all_pairs) question.pairs = read_pairs(options.pairs, question.table);
+  if (!options.obstacles.empty())
+    question.obstacles =
+        read_obstacles(options.obstacles, options.walkable ? Polygons::walkable : Polygons::solid);
+  else if (!options.all_pairs)
+    question.pairs = read_pairs(options.pairs, question.table);
   return question;
 }
 
 void answer(const QueryCommandOptions& options, const ShapeSet& set, Question& question) {
-  auto& [table, pairs] = question;
+  auto& [table, pairs, obstacle_set] = question;
+  const ObstacleSet* const obstacles = obstacle_set ? &*obstacle_set : nullptr;
   QueryOptions how = options.answer.query_options();
   how.max_distance = options.max_distance;
   how.overlap = options.overlap == "zero" ? Overlap::zero : Overlap::deepest;
@@ -121,8 +128,9 @@ void answer(const QueryCommandOptions& options, const ShapeSet& set, Question& q
     pairs = std::isfinite(options.max_distance) ? near_pairs(set, table, how)
                                                 : colliding_pairs(set, table.agents(), how);
   const QueryKind& kind = query_kind(options.what);
-  write_standard_data(fmt::format("first,second,{}\n", kind.columns) +
-                      kind.rows({set, table, pairs, how, options.directions, options.only_direction()}));
+  write_standard_data(
+      fmt::format("{},{}\n", subject_columns(obstacles), kind.columns) +
+      kind.rows({set, table, pairs, how, options.directions, options.only_direction(), obstacles}));
 }
 
 void query_character(const QueryCommandOptions& options) {
@@ -157,9 +165,17 @@ void query_baked(const QueryCommandOptions& options) {
 }
 
 void run_query(const CLI::App& command, const QueryCommandOptions& options) {
-  if (options.all_pairs == !options.pairs.empty())
-    throw UsageError(options.all_pairs ? "PAIRS.csv and --all-pairs: name one of them"
-                                       : "PAIRS.csv or --all-pairs is missing");
+  const bool of_obstacles = !options.obstacles.empty();
+  const int named = int{options.all_pairs} + int{!options.pairs.empty()} + int{of_obstacles};
+  if (named != 1)
+    throw UsageError(named > 1 ? "PAIRS.csv, --all-pairs and --obstacles: name one of them"
+                               : "PAIRS.csv, --all-pairs or --obstacles is missing");
+  if (!of_obstacles) require_absent(command, {"--walkable"}, "belongs to --obstacles");
+  if (of_obstacles) {
+    require_absent(command, {"--directions", "--direction"}, "obstacles have directions of their own");
+    if (!query_kind(options.what).of_obstacles)
+      throw UsageError(fmt::format("--what: '{}' cannot be asked about --obstacles", options.what));
+  }
   if (options.what != "penetration")
     require_absent(command, {"--directions", "--direction"}, "belongs to --what penetration");
   const bool within = options.what == "within";
@@ -183,7 +199,8 @@ void run_query(const CLI::App& command, const QueryCommandOptions& options) {
   if (options.directions % 2 != 0)
     throw UsageError(fmt::format("--directions: '{}' is odd", options.directions));
   options.only_direction();
-  require_outputs({}, options.shapes.inputs({options.character, options.agents, options.pairs}));
+  require_outputs(
+      {}, options.shapes.inputs({options.character, options.agents, options.pairs, options.obstacles}));
   if (!is_baked(options.character)) return query_character(options);
   require_unsettled(command, options.character);
   query_baked(options);
@@ -214,6 +231,8 @@ std::function<void()> add_query_command(CLI::App& program) {
       "outlines. An\n"
       "agent inside another may be clear of it. --semantics concerns collide, within and the pairs that\n"
       "--all-pairs finds without --max-distance, --leaves these and contacts.\n"
+      "With --obstacles each answer is about an agent and what is there: its columns are id,... instead of "
+      "first,second,...\n"
       "Example: bch query default:female agents.csv pairs.csv > answers.csv");
   command.add_option("SHAPES", options->character, character_or_baked_help)->type_name("")->required();
   command.add_option("AGENTS.csv", options->agents, "Columns id,shape,x,y,heading[,z][,level][,dx,dy]")
@@ -223,6 +242,13 @@ std::function<void()> add_query_command(CLI::App& program) {
   command.add_flag(
       "--all-pairs", options->all_pairs,
       "Instead of PAIRS.csv: all pairs that collide, or of clearances all within --max-distance");
+  command
+      .add_option(
+          "--obstacles", options->obstacles,
+          "Instead of PAIRS.csv: walls and polygons in well-known text, which all agents are asked about")
+      ->type_name("FILE.wkt");
+  command.add_flag("--walkable", options->walkable,
+                   "The polygons of --obstacles are floors to walk on: their borders are walls");
   std::vector<std::string> names;
   for (const QueryKind& kind : query_kinds()) names.emplace_back(kind.name);
   command.add_option("--what", options->what, fmt::format("{} [{}]", fmt::join(names, ", "), names.front()))

@@ -6,6 +6,7 @@
 #include <limits>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #include <bch/obstacles.hpp>
 
@@ -31,63 +32,126 @@ struct WayOut {
   Vector direction = {0, 0};  ///< in the world
 };
 
-/// Returns how far a part has to move towards a side of a segment, 1 the left one, until none of its discs is across: of those
-/// beside the segment, or of all.
-double depth_towards(int side, const LocalSegment& segment, const CutDiscs& discs, bool all) noexcept {
+/// What of the line of a segment counts.
+struct Range {
+  double from, to;  ///< along it
+};
+constexpr Range everywhere{-infinity, infinity};
+
+/// Returns how far discs beside the range have to move towards a side of a segment, 1 the left one, until none is across.
+double depth_towards(int side, const LocalSegment& segment, Range range, const CutDiscs& discs) noexcept {
   double depth = 0;
   for (std::uint32_t i = 0; i < discs.count; ++i) {
     const double x = discs.x[i], y = discs.y[i], r = double{discs.radius[i]} + segment.slack;
     const double along = segment.along(x, y);
-    if (all || (along >= segment.from - r && along <= segment.to + r))
+    if (along >= range.from - r && along <= range.to + r)
       depth = std::max(depth, r - side * segment.across(x, y));
   }
   return depth;
 }
 
-WayOut way_over(const BodyQuery& body, const PlacedPart& part, const LocalSegment& segment, bool all) {
-  const CutDiscs discs = cut_discs(part.shapes, part.root_index());
-  int side = body.near().obstacles().outside[segment.number];
-  double depth = depth_towards(side == 0 ? 1 : side, segment, discs, all);
-  if (side == 0) {
-    const double right = depth_towards(-1, segment, discs, all);
-    side = right < depth ? -1 : 1;
-    depth = std::min(depth, right);
-  }
-  // Positions are right to some 2^-53 of themselves, and the directions that callers round to float to u.
-  const double margin = 0x1p-20 * part.outer_radius() + 2 * segment.slack;
-  return {(depth + margin) * (1 + 0x1p-22), part.place.turned(-side * segment.y, side * segment.x)};
-}
+/// The ways out of the obstacles that a part touches.
+class WaysOut {
+ public:
+  WaysOut(BodyQuery& body, const PlacedPart& part)
+      : body_(body), part_(part), discs_(cut_discs(part.shapes, part.root_index())) {}
 
-bool is_touched(const LocalSegment& segment, const CutDiscs& discs) noexcept {
-  for (std::uint32_t i = 0; i < discs.count; ++i)
-    if (segment.touches(double{discs.x[i]}, double{discs.y[i]}, double{discs.radius[i]})) return true;
-  return false;
-}
-
-/// Returns the way out of the segments that a part touches, the farthest; or out of an area that holds it.
-WayOut way_out(BodyQuery& body, const PlacedPart& part) {
-  WayOut farthest;
-  const CutDiscs discs = cut_discs(part.shapes, part.root_index());
-  bool is_any_touched = false;
-  for (const LocalSegment& segment : body.near().find(part.place, part.centre(), part.outer_radius())) {
-    if (!is_touched(segment, discs)) continue;
-    is_any_touched = true;
-    const WayOut way = way_over(body, part, segment, false);
-    if (way.depth > farthest.depth) farthest = way;
+  /// Returns the farthest of the ways out of each obstacle.
+  WayOut farthest() {
+    WayOut farthest;
+    bool is_any_touched = false;
+    body_.near().find(part_.place, part_.centre(), part_.outer_radius());
+    body_.near().any_obstacle([&](std::span<const LocalSegment> segments, std::uint32_t) {
+      touched_.clear();
+      for (const LocalSegment& segment : segments)
+        if (is_touched(segment)) touched_.push_back(&segment);
+      if (touched_.empty()) return false;
+      is_any_touched = true;
+      const WayOut way = shortest(segments);
+      if (way.depth > farthest.depth) farthest = way;
+      return false;
+    });
+    if (is_any_touched) return farthest;
+    const std::uint32_t area = body_.area_that_holds(part_);
+    return area == no_obstacle ? farthest : over(nearest_of(area), everywhere);
   }
-  if (is_any_touched) return farthest;
-  const std::uint32_t area = body.area_that_holds(part);
-  if (area == no_obstacle) return farthest;
-  const LocalSegment* nearest = nullptr;
-  double least = infinity;
-  const Vec2 centre = part.centre();
-  for (double distance = part.outer_radius(); nearest == nullptr; distance *= 4)
-    for (const LocalSegment& segment : body.near().find(part.place, centre, distance)) {
-      const double square = segment.square_distance(double{centre.x}, double{centre.y});
-      if (segment.obstacle == area && square < least) least = square, nearest = &segment;
+
+ private:
+  bool is_touched(const LocalSegment& segment) const noexcept {
+    for (std::uint32_t i = 0; i < discs_.count; ++i)
+      if (segment.touches(double{discs_.x[i]}, double{discs_.y[i]}, double{discs_.radius[i]})) return true;
+    return false;
+  }
+
+  /// Returns the shortest way out of an obstacle: over a segment that is touched, or one that has all of those behind it.
+  WayOut shortest(std::span<const LocalSegment> segments) const {
+    WayOut shortest{infinity, {}};
+    for (const LocalSegment& segment : segments) {
+      const Touched touched = touched_from(segment);
+      const int side = body_.near().obstacles().outside[segment.number];
+      const bool is_behind = side != 0 && (side > 0 ? touched.left : -touched.right) <= segment.slack;
+      if (!is_behind && !is_touched(segment)) continue;
+      const WayOut way = over(segment, side == 0 ? touched.range : everywhere);
+      if (way.depth < shortest.depth) shortest = way;
     }
-  return way_over(body, part, *nearest, true);
-}
+    return shortest;
+  }
+
+  const WorldSegment& in_world(const LocalSegment& segment) const noexcept {
+    return body_.near().obstacles().segments[segment.slot];
+  }
+
+  /// Where the touched segments of an obstacle are, along a line and across it: how far to the left and to the right.
+  struct Touched {
+    Range range{infinity, -infinity};
+    double left = -infinity, right = infinity;
+  };
+  Touched touched_from(const LocalSegment& segment) const noexcept {
+    Touched touched;
+    const WorldSegment& line = in_world(segment);
+    for (const LocalSegment* const other : touched_) {
+      const WorldSegment& world = in_world(*other);
+      for (const auto& [x, y] : {Vector{world.ax, world.ay}, Vector{world.bx, world.by}}) {
+        const double dx = x - line.ax, dy = y - line.ay;
+        const double along = segment.from + dx * line.x + dy * line.y, across = line.x * dy - line.y * dx;
+        touched.range = {std::min(touched.range.from, along), std::max(touched.range.to, along)};
+        touched.left = std::max(touched.left, across), touched.right = std::min(touched.right, across);
+      }
+    }
+    return touched;
+  }
+
+  WayOut over(const LocalSegment& segment, Range range) const {
+    int side = body_.near().obstacles().outside[segment.number];
+    double depth = depth_towards(side == 0 ? 1 : side, segment, range, discs_);
+    if (side == 0) {
+      const double right = depth_towards(-1, segment, range, discs_);
+      side = right < depth ? -1 : 1;
+      depth = std::min(depth, right);
+    }
+    // Positions are right to some 2^-53 of themselves, and the depth is rounded to float.
+    const double margin = 0x1p-20 * part_.outer_radius() + 2 * segment.slack;
+    const WorldSegment& world = in_world(segment);
+    return {(depth + margin) * (1 + 0x1p-22), {-side * world.y, side * world.x}};
+  }
+
+  const LocalSegment& nearest_of(std::uint32_t area) {
+    const Vec2 centre = part_.centre();
+    const LocalSegment* nearest = nullptr;
+    double least = infinity;
+    for (double distance = part_.outer_radius(); nearest == nullptr; distance *= 4)
+      for (const LocalSegment& segment : body_.near().find(part_.place, centre, distance)) {
+        const double square = segment.square_distance(double{centre.x}, double{centre.y});
+        if (segment.obstacle == area && square < least) least = square, nearest = &segment;
+      }
+    return *nearest;
+  }
+
+  BodyQuery& body_;
+  const PlacedPart& part_;
+  const CutDiscs discs_;
+  std::vector<const LocalSegment*> touched_;
+};
 
 /// A disc on its way beside a segment: the least t in [0, 1] at which it touches that, or infinity. Every quotient is of lengths
 /// that were not subtracted from each other where they are large.
@@ -183,7 +247,7 @@ void penetration(const ShapeSet& shapes, const Agents& agents, const ObstacleSet
   for_agents(implementation, shapes, agents, obstacles, [&](BodyQuery& body, std::uint32_t agent) {
     WayOut farthest;
     body.visit_parts(agent, [&](const PlacedPart& part) {
-      const WayOut way = way_out(body, part);
+      const WayOut way = WaysOut(body, part).farthest();
       if (way.depth > farthest.depth) farthest = way;
     });
     const auto [depth, direction] = farthest;

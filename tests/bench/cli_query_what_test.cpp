@@ -247,4 +247,44 @@ TEST_F(QueryWhat, HelpNamesEveryColumn) {
 }
 
 }  // namespace
+TEST_F(QueryWhat, ObstaclesInPlaceOfPairs) {
+  // b stands in a pillar, c on the wall that a walks to, 0.05 m before it; d is alone.
+  const std::string walls = folder.write(
+      "walls.wkt", "POLYGON((0.6 -0.1, 0.8 -0.1, 0.8 0.1, 0.6 0.1, 0.6 -0.1))\nLINESTRING(-1 0.2, 0 0.2)\n");
+  const Arguments against{"--obstacles", walls};
+  EXPECT_EQ(rows("collide", "id,hit", against), (Rows{{"a", "0"}, {"b", "1"}, {"c", "1"}, {"d", "0"}}));
+  const Rows apart = rows("clearance", "id,distance,x,y", against);
+  ASSERT_EQ(apart.size(), 4u);
+  EXPECT_NEAR(number(apart[0][1]), 0.05, 0.02);
+  EXPECT_NEAR(number(apart[0][3]), 1, 1e-6);
+  EXPECT_EQ(apart[1], (std::vector<std::string>{"b", "0", "0", "0"}));
+  EXPECT_EQ(rows("within", "id,hit", {"--obstacles", walls, "--max-distance", "0.06"}),
+            (Rows{{"a", "1"}, {"b", "1"}, {"c", "1"}, {"d", "0"}}));
+  const Rows times = rows("time-of-impact", "id,time", against);
+  EXPECT_NEAR(number(times[0][1]), 0.05 / 0.15, 0.15);
+  EXPECT_EQ(times[1][1], "0");
+  EXPECT_EQ(times[3][1], "inf");
+  const Rows ways = rows("penetration", "id,depth,x,y", against);
+  EXPECT_EQ(ways[0], (std::vector<std::string>{"a", "0", "0", "0"}));
+  EXPECT_NEAR(number(ways[1][1]), 0.05, 0.02);
+  EXPECT_EQ(ways[1][2], "-1");
+  EXPECT_EQ(ways[1][3], "0");
+  // On a floor the pillar's border is a wall.
+  EXPECT_EQ(rows("collide", "id,hit", {"--obstacles", walls, "--walkable"}),
+            (Rows{{"a", "0"}, {"b", "1"}, {"c", "1"}, {"d", "0"}}));
+}
+
+TEST_F(QueryWhat, ObstaclesThatAreNone) {
+  const std::string bad = folder.write("bad.wkt", "LINESTRING(0 0,\n 1)");
+  const Ending ending = run("collide", {"--obstacles", bad});
+  EXPECT_EQ(ending.code, 3);
+  EXPECT_EQ(ending.err, "bch: " + bad + ": WKT: line 2, column 3: expected a number, found ')'\n");
+  EXPECT_EQ(run("collide", {"--obstacles", (folder.path() / "absent.wkt").string()}).code, 3);
+  expect_usage_error({"--obstacles", bad}, "name one of them");
+  expect_usage_error({"--walkable"}, "belongs to --obstacles");
+  EXPECT_EQ(run("contacts", {"--obstacles", bad}).code, 2);
+  EXPECT_EQ(run("penetration", {"--obstacles", bad, "--directions", "4"}).code, 2);
+  EXPECT_EQ(run("collide", {}).code, 2);
+}
+
 }  // namespace bch::test

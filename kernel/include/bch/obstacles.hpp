@@ -109,11 +109,12 @@ void within(const ShapeSet& shapes, const Agents& agents, const ObstacleSet& obs
 void clearance(const ShapeSet& shapes, const Agents& agents, const ObstacleSet& obstacles,
                const ClearanceAnswers& answers, const QueryOptions& options = {});
 
-/// Measures how far each agent has to move to be free of one segment of the obstacles, and in which direction: of the
-/// segments that discs of its cut touch, the one from which that is the farthest. It moves at right angles to the segment, out of
-/// an area, or to the side of a line that is nearer, until no disc beside the segment is across it any more. An agent that an area
-/// holds clear of its segments moves out over the nearest one. The depth is 0, and the direction (0, 0), where nothing is touched. In
-/// corners, ask again after the move.
+/// Measures how far each agent has to move to be free of an obstacle, and in which direction: of those that discs of its cut
+/// touch, the one from which that is the farthest. It moves at right angles to a segment: out of an area, until no disc is across the
+/// line of one that has the touched ones behind it; or to either side of a line, until no disc beside what is touched is across. The segment is
+/// the one over which the way is the shortest. An agent that an area holds clear of its segments moves out over the nearest one.
+/// A convex area and a single segment are left for good; in the corners of others, and among several, ask again after the move. The
+/// depth is 0, and the direction (0, 0), where nothing is touched.
 void penetration(const ShapeSet& shapes, const Agents& agents, const ObstacleSet& obstacles,
                  std::span<Penetration> out, const QueryOptions& options = {});
 

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <string>
+
+#include <bch/obstacles.hpp>
+
+namespace bch::cli {
+
+/// Reads obstacles from a file of well-known text.
+/// Errors:  throws InputError naming the file, and of text that is none line and column.
+ObstacleSet read_obstacles(const std::string& file, Polygons polygons);
+
+}  // namespace bch::cli
