@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -17,6 +18,7 @@
 #include <bch/shape_set.hpp>
 
 #include "layout/hierarchy/discs.hpp"
+#include "tests/support/complaint.hpp"
 #include "tests/support/scenes.hpp"
 
 // Shapes of discs of one's own, and what queries say of them, against plain loops over all discs.
@@ -188,6 +190,142 @@ TEST(ShapeFromDiscs, RejectsWhatIsNoDisc) {
   expect_rejected({{2e6f, 0, 1}}, "reach");
   expect_rejected({{0, 0, 1e-8f}}, "reach");
   expect_rejected(std::vector<Disc>(5'000, Disc{0, 0, 1}), "5000 discs");
+}
+
+Capsule random_capsule(Random& random, double size) {
+  const auto coordinate = [&] { return static_cast<float>(random.uniform(-size, size)); };
+  const Vec2 a{coordinate(), coordinate()};
+  const Vec2 b = random.below(5) == 0 ? a : Vec2{coordinate(), coordinate()};
+  return {a, b, static_cast<float>(size * std::exp(random.uniform(-3, 0)))};
+}
+
+double distance_from(const Capsule& capsule, double x, double y) {
+  const double ax = capsule.a.x, ay = capsule.a.y, bx = capsule.b.x, by = capsule.b.y;
+  const double ux = bx - ax, uy = by - ay, square = ux * ux + uy * uy;
+  const double share = square > 0 ? std::clamp(((x - ax) * ux + (y - ay) * uy) / square, 0.0, 1.0) : 0.0;
+  return std::hypot(x - ax - share * ux, y - ay - share * uy) - static_cast<double>(capsule.radius);
+}
+
+/// The outline's sides are outside of the capsule, and within the tolerance of it.
+TEST(ShapeFromCapsules, OutlinesHoldThem) {
+  Random random(2806);
+  for (int k = 0; k < 300; ++k) {
+    const Capsule capsule = random_capsule(random, std::exp(random.uniform(-4, 2)));
+    const double tolerance = static_cast<double>(capsule.radius) * std::exp(random.uniform(-8, -1));
+    const Shape shape = shape_from_capsules({&capsule, 1}, static_cast<float>(tolerance));
+    ASSERT_EQ(shape.outline.contours(), 1u);
+    const std::vector<Vec2>& points = shape.outline.points;
+    double around = 0;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const Vec2 from = points[i], to = points[(i + 1) % points.size()];
+      for (int step = 0; step < 10; ++step) {
+        const double share = step / 10.0;
+        const double x = (1 - share) * static_cast<double>(from.x) + share * static_cast<double>(to.x),
+                     y = (1 - share) * static_cast<double>(from.y) + share * static_cast<double>(to.y);
+        const double gap = distance_from(capsule, x, y);
+        ASSERT_GE(gap, 0) << k;
+        ASSERT_LE(gap, tolerance) << k;
+      }
+      around += static_cast<double>(from.x) * static_cast<double>(to.y) -
+                static_cast<double>(to.x) * static_cast<double>(from.y);
+    }
+    EXPECT_GT(around, 0);
+  }
+}
+
+/// Bodies of capsules collide where their capsules do, in solid semantics, but for the tolerance.
+TEST(ShapeFromCapsules, CollideAsTheyDo) {
+  Random random(2807);
+  constexpr float tolerance = 0.002f;
+  std::vector<std::vector<Capsule>> bodies;
+  std::vector<Shape> shapes;
+  for (std::uint32_t i = 0; i < 12; ++i) {
+    auto& body = bodies.emplace_back();
+    for (std::uint32_t k = 0; k < 1 + i % 4; ++k) body.push_back(random_capsule(random, 0.3));
+    shapes.push_back(shape_from_capsules(body, tolerance));
+  }
+  const ShapeSet set(shapes);
+  test::PairScene scene = random_scene(random, set, 4'000);
+  const Agents agents = scene.crowd.agents();
+  std::vector<std::uint8_t> hits(scene.pairs.size());
+  collide(set, agents, scene.pairs, hits, {.semantics = Semantics::solid});
+  std::size_t colliding = 0, apart = 0;
+  for (std::size_t k = 0; k < scene.pairs.size(); ++k) {
+    const auto [a, b] = scene.pairs[k];
+    const auto placed = [&](std::uint32_t agent, const Vec2& point) {
+      const double c = std::cos(agents.heading[agent]), s = std::sin(agents.heading[agent]);
+      const double x = point.x, y = point.y;
+      // About the first agent, so that float holds it.
+      return Vec2{static_cast<float>(agents.x[agent] - agents.x[a] + c * x - s * y),
+                  static_cast<float>(agents.y[agent] - agents.y[a] + s * x + c * y)};
+    };
+    double gap = HUGE_VAL;
+    for (const Capsule& p : bodies[agents.shape[a]])
+      for (const Capsule& q : bodies[agents.shape[b]]) {
+        const Capsule one{placed(a, p.a), placed(a, p.b), p.radius},
+            other{placed(b, q.a), placed(b, q.b), q.radius};
+        const auto ends = [](const Capsule& of, const Capsule& with) {
+          return std::min(distance_from(of, with.a.x, with.a.y), distance_from(of, with.b.x, with.b.y)) -
+                 static_cast<double>(with.radius);
+        };
+        const auto side = [](Vec2 from, Vec2 to, Vec2 of) {
+          return (double{to.x} - double{from.x}) * (double{of.y} - double{from.y}) -
+                 (double{to.y} - double{from.y}) * (double{of.x} - double{from.x});
+        };
+        const bool cross = (side(one.a, one.b, other.a) > 0) != (side(one.a, one.b, other.b) > 0) &&
+                           (side(other.a, other.b, one.a) > 0) != (side(other.a, other.b, one.b) > 0);
+        gap = std::min({gap, ends(one, other), ends(other, one), cross ? -1.0 : HUGE_VAL});
+      }
+    if (gap < -1e-5) {
+      ASSERT_EQ(hits[k], 1) << k;
+      ++colliding;
+    } else if (gap > 2 * double{tolerance} + 1e-5) {
+      ASSERT_EQ(hits[k], 0) << k;
+      ++apart;
+    }
+  }
+  EXPECT_GT(colliding, test::samples(500));
+  EXPECT_GT(apart, test::samples(500));
+}
+
+/// Polygons, capsules, discs and a set of people's shapes are asked about each other at every level.
+TEST(ShapesOfOnesOwn, MixWithOthers) {
+  Random random(2808);
+  std::vector<Shape> shapes = test::synthetic_shapes(2809, 4);
+  const std::vector<std::vector<Vec2>> chair = {{{-0.4f, -0.3f}, {0.4f, -0.3f}, {0.4f, 0.3f}, {-0.4f, 0.3f}},
+                                                {{0.3f, -0.1f}, {0.6f, -0.1f}, {0.6f, 0.1f}, {0.3f, 0.1f}}};
+  shapes.push_back(shape_from_polygons(chair));
+  EXPECT_EQ(shapes.back().outline.contours(), 2u);
+  const Capsule arms[] = {{{-0.3f, 0}, {0.3f, 0}, 0.1f}, {{0, 0}, {0, 0.4f}, 0.05f}};
+  shapes.push_back(shape_from_capsules(arms));
+  const ShapeSet set(shapes, {.depths = {0, 3, all_depths}});
+  EXPECT_TRUE(set.solid());
+  EXPECT_TRUE(set.exact_leaves());
+  test::PairScene scene = random_scene(random, set, 4'000);
+  std::vector<std::vector<std::uint8_t>> hits;
+  for (std::uint8_t level = 0; level < 3; ++level) {
+    for (std::uint8_t& each : scene.crowd.level) each = level;
+    collide(set, scene.crowd.agents(), scene.pairs, hits.emplace_back(scene.pairs.size()));
+  }
+  for (std::size_t i = 0; i < scene.pairs.size(); ++i) {
+    EXPECT_LE(hits[1][i], hits[0][i]) << i;
+    EXPECT_LE(hits[2][i], hits[1][i]) << i;
+  }
+}
+
+TEST(ShapeFromCapsules, RejectsWhatIsNone) {
+  const auto complaint = [](const std::vector<Capsule>& capsules, float tolerance = 0.001f) {
+    return test::complaint([&] { shape_from_capsules(capsules, tolerance); });
+  };
+  const Capsule good{{0, 0}, {1, 0}, 0.1f};
+  EXPECT_EQ(complaint({}), "shape: no capsules");
+  EXPECT_EQ(complaint({good, {{0, 0}, {1, 0}, 0}}), "shape: capsule 1 of 0 m is none, or not finite");
+  EXPECT_EQ(complaint({{{0, std::nanf("")}, {1, 0}, 1}}), "shape: capsule 0 of 1 m is none, or not finite");
+  EXPECT_EQ(complaint({good}, 0), "shape: a tolerance of 0 m");
+  EXPECT_EQ(complaint({good}, -1), "shape: a tolerance of -1 m");
+  EXPECT_EQ(complaint({good}, 1e-9f), "shape: capsule 0: a tolerance of 1e-09 m is too small for its size");
+  EXPECT_EQ(complaint({good}, 1e-6f), "accepted");
+  EXPECT_NE(test::complaint([] { shape_from_polygons({}); }), "accepted");
 }
 
 }  // namespace

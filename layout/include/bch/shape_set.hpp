@@ -38,6 +38,26 @@ struct Shape {
 ///          on a reach outside 1e-6 to 1e6 m.
 Shape shape_from_discs(std::span<const Disc> discs);
 
+/// Makes a shape of polygons of one's own, a wheelchair's or a cart's say, as outline_from_polygons() takes them. Its exact leaves
+/// are the polygons themselves.
+/// Units:   metres; the threshold is that of contour_hierarchy().
+/// Errors:  throws std::invalid_argument as these two do.
+Shape shape_from_polygons(std::span<const std::vector<Vec2>> polygons, float threshold = 0.01f);
+
+/// The points within a radius of a segment of the ground plane, metres, in the shape's frame.
+struct Capsule {
+  Vec2 a, b;
+  float radius;
+};
+
+/// Makes a shape of capsules of one's own, as the limbs of a body. The outline goes round each of them along polygons that hold it, and
+/// are nowhere farther from it than a tolerance.
+/// Units:   metres; the tolerance is more than 2^-20 of the capsules' reach, the threshold that of contour_hierarchy().
+/// Errors:  throws std::invalid_argument on none, on a capsule that is not finite or without a radius, naming it, on a tolerance that is not
+///          positive or too small, and as shape_from_polygons().
+Shape shape_from_capsules(std::span<const Capsule> capsules, float tolerance = 0.001f,
+                          float threshold = 0.01f);
+
 /// What decides where leaves of two hierarchies overlap.
 enum class Leaves {
   discs,  ///< that they do
