@@ -20,28 +20,27 @@ namespace bch::bench {
 namespace {
 
 constexpr std::uint64_t plan_seed = 35;
+constexpr double density = 1;  ///< agents, and segments, per square metre
 constexpr double most_collide = 60, most_clearance = 200, needed_over_brute_force = 500;
 constexpr std::uint32_t checked_agents = 100;  ///< by brute force over everything
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// The benchmark's crowd on a floor plan with as many segments as agents.
+/// A crowd on a floor plan with as many segments as agents.
 struct Floor {
   Scene& scene;
-  const Workload& crowd;
+  cli::Crowd crowd;
   FloorPlan plan;
   ObstacleSet obstacles;
   baselines::ObstacleReference reference;
 
   explicit Floor(Scene& in)
       : scene(in),
-        crowd(in.workload("crowd")),
-        plan(floor_plan(static_cast<std::uint32_t>(crowd.crowd.size()), crowd.crowd.side, plan_seed)),
+        crowd(cli::place_crowd(in.agents(), density, in.set().shape_count(), crowd_seed)),
+        plan(floor_plan(in.agents(), crowd.side, plan_seed)),
         obstacles(plan.set()),
         reference(in.shapes(), {}, Leaves::segments) {}
 
-  std::uint32_t checked() const {
-    return std::min(checked_agents, static_cast<std::uint32_t>(crowd.crowd.size()));
-  }
+  std::uint32_t checked() const { return std::min(checked_agents, static_cast<std::uint32_t>(crowd.size())); }
   bool collides(std::uint32_t agent) const {
     return std::any_of(plan.reference.begin(), plan.reference.end(), [&](const auto& obstacle) {
       return reference.collides(crowd.agents(), agent, obstacle);
@@ -62,7 +61,7 @@ struct Floor {
 };
 
 Contender collide_contender(const std::shared_ptr<Floor>& floor) {
-  const auto hits = std::make_shared<Hits>(floor->crowd.crowd.size());
+  const auto hits = std::make_shared<Hits>(floor->crowd.size());
   const auto call = [floor, hits] {
     collide(floor->scene.set(), floor->crowd.agents(), floor->obstacles, *hits);
   };
@@ -73,7 +72,7 @@ Contender collide_contender(const std::shared_ptr<Floor>& floor) {
 }
 
 Contender clearance_contender(const std::shared_ptr<Floor>& floor, double limit) {
-  const auto answers = std::make_shared<Clearances>(floor->crowd.crowd.size());
+  const auto answers = std::make_shared<Clearances>(floor->crowd.size());
   const auto call = [floor, answers, limit] {
     clearance(floor->scene.set(), floor->crowd.agents(), floor->obstacles, answers->spans(),
               {.max_distance = limit});

@@ -12,7 +12,7 @@
 namespace bch::bench {
 namespace {
 
-constexpr double room = 4.5, door = 1, pillar = 0.2;  ///< metres
+constexpr double room = 6, door = 1, pillar = 0.2;  ///< metres
 constexpr std::uint32_t corners = 8;
 
 void add(FloorPlan& plan, const std::vector<double>& x, const std::vector<double>& y, bool is_area) {

@@ -22,7 +22,7 @@ struct FloorPlan {
   ObstacleSet set() const { return ObstacleSet({x, y, path_offsets, {}, is_area}); }
 };
 
-/// Draws rooms with a side of 4.5 m or so and doors of 1 m, and octagonal pillars, in [0, side) by [0, side): so many segments in all, two
+/// Draws rooms with a side of 6 m or so and doors of 1 m, and octagonal pillars, in [0, side) by [0, side): so many segments in all, two
 /// fifths of them of pillars. Walls are lines in pieces of one length, as scans and outlines of curved walls are.
 FloorPlan floor_plan(std::uint32_t segments, double side, std::uint64_t seed);
 

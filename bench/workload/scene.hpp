@@ -43,6 +43,7 @@ class Scene {
 
   const std::vector<cli::LoadedCharacter>& characters();
   std::uint32_t poses() const { return options_.poses; }  ///< of a character
+  std::uint32_t agents() const { return options_.sizes.agents; }  ///< of a crowd
   const std::vector<ShapeSource>& sources();
   const std::vector<Shape>& shapes();
   /// Returns the shapes in slabs: as standing_slices() cuts people.

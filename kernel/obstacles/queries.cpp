@@ -94,7 +94,7 @@ class GapQuery {
   static std::span<LocalSegment> near_segments(NearSegments& near, const PlacedPart& part, double limit) {
     const Vec2 centre = part.centre();
     const double outer = part.outer_radius();
-    for (double gap = first_step; gap < limit; gap *= 4) {
+    for (double gap = first_step; gap < limit; gap *= 2) {
       const std::span<LocalSegment> found = near.find(part.place, centre, outer + gap);
       if (found.empty()) continue;
       double least = std::numeric_limits<double>::infinity();
@@ -106,7 +106,7 @@ class GapQuery {
     }
     return near.find(part.place, centre, outer + limit);
   }
-  static constexpr double first_step = 2;  ///< metres
+  static constexpr double first_step = 0.5;  ///< metres
 
   const Implementation& implementation_;
   const ShapeSetView& shapes_;

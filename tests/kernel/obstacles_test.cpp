@@ -11,6 +11,7 @@
 #include <limits>
 #include <numbers>
 #include <ostream>
+#include <utility>
 #include <vector>
 
 #include <bch/collide.hpp>
@@ -265,6 +266,33 @@ TEST_F(Obstacles, InsideAnOutline) {
     EXPECT_EQ(std::vector<std::uint32_t>(rows.obstacles[0].begin(), rows.obstacles[0].end()),
               (std::vector<std::uint32_t>{0, 1}));
   }
+}
+
+/// The rule of even and odd where a ray goes through vertices: each belongs to one side of it.
+TEST_F(Obstacles, HoldWhatIsLevelWithTheirVertices) {
+  const std::vector<Shape> disc = {{{}, fixed_cylinder(0.125f)}};
+  const ShapeSet discs(disc);
+  // A diamond; teeth whose tips are level with what stands before them; a notch.
+  const std::vector<double> x = {1, 0, -1, 0, 4, 5, 6, 7, 8, 8, 4, 4, 5, 5, 4},
+                            y = {0, 1, 0, -1, 1, 0, 1, 0, 1, 2, 2, -3, -3, -2, -2.5};
+  const std::vector<std::uint64_t> paths = {0, 4, 11, 15};
+  const std::vector<std::uint8_t> areas = {1, 1, 1};
+  Crowd crowd;
+  for (const auto& [at_x, at_y] : {std::pair{0.0, 0.0},
+                                   {-2.0, 0.0},
+                                   {2.0, 0.0},
+                                   {-2.0, 1.0},
+                                   {2.0, 1.0},
+                                   {5.0, 1.0},
+                                   {6.0, 1.5},
+                                   {-2.0, -3.0},
+                                   {3.0, -2.5},
+                                   {4.7, -2.5},
+                                   {9.0, 1.0}})
+    crowd.add({0, at_x, at_y, 0, 0});
+  std::vector<std::uint8_t> hits(crowd.x.size());
+  collide(discs, crowd.agents(), ObstacleSet({x, y, paths, {}, areas}), hits);
+  EXPECT_EQ(hits, (std::vector<std::uint8_t>{1, 0, 0, 0, 0, 1, 1, 0, 0, 1, 0}));
 }
 
 /// A body in slabs collides where one of its parts does, as a shape of its own.
