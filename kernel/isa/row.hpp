@@ -86,6 +86,11 @@ struct Row {
     [[maybe_unused]] const Guard guard;
     return BoxQuery<Simd>::run(tree, box, found, room);
   }
+  static std::uint32_t step_boxes(const BoxBlock* blocks, const Box* queries, const BoxHit* in,
+                                  std::uint32_t count, BoxHit* out) noexcept {
+    [[maybe_unused]] const Guard guard;
+    return BoxQuery<Simd>::step(blocks, queries, in, count, out);
+  }
   static bool touches(const ObstacleArguments& arguments) noexcept {
     [[maybe_unused]] const Guard guard;
     return ObstacleKernel<Simd>(arguments).touches();
@@ -98,7 +103,7 @@ struct Row {
   static constexpr Kernels kernels{
       Simd::width,         check,        named,          run,           run_in_slabs, run_within,
       run_within_in_slabs, run_if_valid, count_contacts, fill_contacts, extents,      clearance,
-      time_of_impact,      find_boxes,   touches,        find_gap};
+      time_of_impact,      find_boxes,   step_boxes,     touches,       find_gap};
 };
 
 }  // namespace bch::detail

@@ -19,6 +19,7 @@ struct PlacedPart {
   const ShapeSetView& shapes;
   const ObstaclePlace& place;
   std::uint32_t shape, part, level;
+  std::size_t number;  ///< among the parts that were prepared
 
   std::uint32_t root_index() const noexcept { return part * shapes.level_count + level; }
   const Root& root() const noexcept { return shapes.roots[root_index()]; }
@@ -41,14 +42,36 @@ class BodyQuery {
   NearSegments& near() noexcept { return near_; }
   const NearSegments& near() const noexcept { return near_; }
 
-  /// Calls visit(part) for every part of an agent's body.
+  /// Asks for the obstacles about many agents at once, begin .. end: those within a margin of their parts' outer discs, which
+  /// near_part() then returns.
+  void prepare(std::uint32_t begin, std::uint32_t end, double margin) {
+    queries_.clear(), first_query_.clear();
+    margin_ = margin, begin_ = begin;
+    for (std::uint32_t agent = begin; agent < end; ++agent) {
+      first_query_.push_back(queries_.size());
+      const ObstaclePlace place{agents_.x[agent], agents_.y[agent], rotation(agents_.heading[agent])};
+      const std::uint32_t shape = agents_.shape[agent], level = level_of(agent);
+      bch::detail::visit_parts(shapes_, shape, [&](std::uint32_t part, std::uint32_t) {
+        const PlacedPart placed{shapes_, place, shape, part, level, 0};
+        queries_.push_back({place, placed.centre(), placed.outer_radius() + margin});
+      });
+    }
+    near_.prepare(queries_);
+  }
+
+  /// Returns the segments within the margin of prepare() of a part's outer disc.
+  std::span<LocalSegment> near_part(const PlacedPart& part) {
+    return near_.take(part.number, part.place, part.centre(), part.outer_radius() + margin_);
+  }
+
+  /// Calls visit(part) for every part of the body of an agent that was prepared.
   template <class Visit>
   void visit_parts(std::uint32_t agent, Visit visit) {
-    const ObstaclePlace place{agents_.x[agent], agents_.y[agent], rotation(agents_.heading[agent])};
-    const std::uint32_t shape = agents_.shape[agent];
-    const std::uint32_t level = agents_.level.empty() ? shapes_.level_count - 1 : agents_.level[agent];
+    std::size_t number = first_query_[agent - begin_];
+    const std::uint32_t shape = agents_.shape[agent], level = level_of(agent);
     bch::detail::visit_parts(shapes_, shape, [&](std::uint32_t part, std::uint32_t) {
-      visit(PlacedPart{shapes_, place, shape, part, level});
+      visit(PlacedPart{shapes_, queries_[number].place, shape, part, level, number});
+      ++number;
     });
   }
 
@@ -59,7 +82,7 @@ class BodyQuery {
   /// Calls found(obstacle) for obstacles that a part collides with, each once, until it returns false.
   template <class Found>
   void visit_hits(const PlacedPart& part, Meaning meaning, Found found) {
-    near_.find(part.place, part.centre(), part.outer_radius());
+    near_part(part);
     const bool stop = near_.any_obstacle([&](std::span<const LocalSegment> segments, std::uint32_t obstacle) {
       const bool hit = touches(part, segments, meaning.exact_leaves) ||
                        (near_.obstacles().is_area[obstacle] != 0 &&
@@ -75,6 +98,10 @@ class BodyQuery {
   std::uint32_t area_that_holds(const PlacedPart& part);
 
  private:
+  std::uint32_t level_of(std::uint32_t agent) const noexcept {
+    return agents_.level.empty() ? shapes_.level_count - 1 : agents_.level[agent];
+  }
+
   bool touches(const PlacedPart& part, std::span<const LocalSegment> segments,
                bool exact_leaves) const noexcept;
   /// Returns whether an area, whose segments next to a part these are, holds something of it that they do not touch.
@@ -99,6 +126,10 @@ class BodyQuery {
   const ShapeSetView& shapes_;
   const Agents& agents_;
   NearSegments near_;
+  std::vector<NearQuery> queries_;
+  std::vector<std::size_t> first_query_;  ///< by agent
+  double margin_ = 0;
+  std::uint32_t begin_ = 0;  ///< the first agent that was prepared
 };
 
 }  // namespace bch::detail

@@ -40,6 +40,23 @@ class BoxQuery {
     return count;
   }
 
+  /// Tests blocks of one level for many queries: writes which boxes of the blocks that `in` names overlap those of the queries, in the order
+  /// of `in`. It has no branch that depends on an answer. There has to be room for 8 * (count + 1) hits.
+  /// Returns: how many there are.
+  static std::uint32_t step(const BoxBlock* blocks, const Box* queries, const BoxHit* in, std::uint32_t count,
+                            BoxHit* out) noexcept {
+    std::uint32_t size = 0;
+    for (std::uint32_t k = 0; k < count; ++k) {
+      const auto [query, block] = in[k];
+      const std::uint32_t hits = overlapping(blocks[block], queries[query]);
+      for (unsigned i = 0; i < 8; ++i) {
+        out[size] = {query, 8 * block + i};
+        size += hits >> i & 1;
+      }
+    }
+    return size;
+  }
+
  private:
   static std::uint32_t overlapping(const BoxBlock& block, const Box& box) noexcept {
     using Double = typename Simd::Double;

@@ -27,4 +27,9 @@ struct Box {
   double low_x, low_y, high_x, high_y;
 };
 
+/// A node of a tree, or one of its boxes, and the number of the query that asks about it.
+struct BoxHit {
+  std::uint32_t query, place;
+};
+
 }  // namespace bch::detail

@@ -38,6 +38,15 @@ bool is_near(const ObstaclePlace& place, const WorldSegment& world, std::uint32_
   return to.touches(centre.x, centre.y, distance);
 }
 
+/// Returns a box about a disc on its way.
+Box box_about(const ObstaclePlace& place, Vec2 centre, double distance, Vector way) noexcept {
+  const auto [dx, dy] = place.turned(double{centre.x}, double{centre.y});
+  const double x = place.x + dx, y = place.y + dy;
+  const double wide = distance + rounding_of(place) + 0x1p-50 * (std::abs(way.x) + std::abs(way.y));
+  return {x + std::min(way.x, 0.0) - wide, y + std::min(way.y, 0.0) - wide, x + std::max(way.x, 0.0) + wide,
+          y + std::max(way.y, 0.0) + wide};
+}
+
 }  // namespace
 
 bool crosses(Vector from, Vector way, double square, Vector a, Vector b) noexcept {
@@ -64,22 +73,55 @@ std::span<const std::uint32_t> NearSegments::query(const BoxTreeView& tree, cons
 
 std::span<LocalSegment> NearSegments::find(const ObstaclePlace& place, Vec2 centre, double distance,
                                            Vector way) {
-  const auto [x, y] = place.turned(centre.x, centre.y);
-  const double wide = distance + rounding_of(place) + 0x1p-50 * (std::abs(way.x) + std::abs(way.y));
-  const Box box{place.x + x + std::min(way.x, 0.0) - wide, place.y + y + std::min(way.y, 0.0) - wide,
-                place.x + x + std::max(way.x, 0.0) + wide, place.y + y + std::max(way.y, 0.0) + wide};
-  const bool moves = way.x != 0 || way.y != 0;
+  return collect(query(obstacles_.segment_tree, box_about(place, centre, distance, way), slots_), place,
+                 centre, distance, way.x != 0 || way.y != 0);
+}
+
+/// `all`: also those that are farther from where the disc is now.
+std::span<LocalSegment> NearSegments::collect(std::span<const std::uint32_t> slots,
+                                              const ObstaclePlace& place, Vec2 centre, double distance,
+                                              bool all) {
   const Vector middle{double{centre.x}, double{centre.y}};
-  const std::span<const std::uint32_t> slots = query(obstacles_.segment_tree, box, slots_);
-  if (memory_.size() < slots.size()) memory_.resize(2 * slots.size());
+  if (memory_.size() < slots.size() + 1) memory_.resize(2 * slots.size() + 1);
   std::size_t size = 0;
   for (const std::uint32_t slot : slots)
-    size += is_near(place, obstacles_.segments[slot], slot, middle, distance, memory_[size]) || moves;
+    size += is_near(place, obstacles_.segments[slot], slot, middle, distance, memory_[size]) | all;
   found_ = std::span(memory_).first(size);
   if (size > 1)
     std::sort(found_.begin(), found_.end(),
               [](const LocalSegment& a, const LocalSegment& b) { return a.number < b.number; });
   return found_;
+}
+
+void NearSegments::prepare(std::span<const NearQuery> queries) {
+  const BoxTreeView& tree = obstacles_.segment_tree;
+  boxes_.clear();
+  for (const NearQuery& query : queries)
+    boxes_.push_back(box_about(query.place, query.centre, query.distance, {0, 0}));
+  std::uint32_t size = 0;
+  if (hits_.size() < queries.size()) hits_.resize(queries.size());
+  if (tree.levels != 0)
+    for (std::uint32_t i = 0; i < queries.size(); ++i) hits_[size++] = {i, 0};
+  for (std::uint32_t level = tree.levels; level-- > 0;) {
+    const std::size_t room = 8 * (std::size_t{size} + 1);
+    if (next_.size() < room) next_.resize(2 * room);
+    size = implementation_.kernels->step_boxes(tree.blocks + tree.level_begin[level], boxes_.data(),
+                                               hits_.data(), size, next_.data());
+    hits_.swap(next_);
+  }
+  prepared_.clear(), prepared_begin_.clear();
+  for (std::uint32_t i = 0, k = 0; i < queries.size(); ++i) {
+    prepared_begin_.push_back(k);
+    for (; k < size && hits_[k].query == i; ++k) prepared_.push_back(hits_[k].place);
+  }
+  prepared_begin_.push_back(size);
+}
+
+std::span<LocalSegment> NearSegments::take(std::size_t query, const ObstaclePlace& place, Vec2 centre,
+                                           double distance) {
+  const std::uint32_t begin = prepared_begin_[query];
+  return collect(std::span(prepared_).subspan(begin, prepared_begin_[query + 1] - begin), place, centre,
+                 distance, false);
 }
 
 std::span<const std::uint32_t> NearSegments::areas_about(const ObstaclePlace& place, Vec2 point) {

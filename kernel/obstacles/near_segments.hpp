@@ -32,6 +32,13 @@ struct ObstaclePlace {
   }
 };
 
+/// A disc that is asked about, of an agent's frame.
+struct NearQuery {
+  ObstaclePlace place;
+  Vec2 centre;
+  double distance;
+};
+
 /// Finds the segments and areas of obstacles that are near a disc, and keeps its memory from one to the next.
 class NearSegments {
  public:
@@ -39,6 +46,11 @@ class NearSegments {
       : implementation_(implementation), obstacles_(obstacles) {}
 
   const ObstacleView& obstacles() const noexcept { return obstacles_; }
+
+  /// Finds the segments whose boxes overlap each of many discs, for take().
+  void prepare(std::span<const NearQuery> queries);
+  /// Returns what find() finds for one of the queries of prepare().
+  std::span<LocalSegment> take(std::size_t query, const ObstaclePlace& place, Vec2 centre, double distance);
 
   /// Finds all segments within a distance of a point of the agent's frame, as long as that moves by `way` (in the world); in the order of their
   /// numbers, so that those of an obstacle follow each other.
@@ -68,7 +80,14 @@ class NearSegments {
 
   const Implementation& implementation_;
   const ObstacleView& obstacles_;
+  std::span<LocalSegment> collect(std::span<const std::uint32_t> slots, const ObstaclePlace& place,
+                                  Vec2 centre, double distance, bool all);
+
   std::vector<std::uint32_t> slots_, areas_;
+  std::vector<Box> boxes_;
+  std::vector<BoxHit> hits_, next_;
+  std::vector<std::uint32_t> prepared_;
+  std::vector<std::uint32_t> prepared_begin_;
   std::vector<LocalSegment> memory_;
   std::span<LocalSegment> found_;
 };

@@ -24,17 +24,17 @@ Rows<std::uint32_t> ObstacleRows::find(const ShapeSet& shapes, const Agents& age
       std::vector<std::uint32_t>& found = blocks_[block];
       found.clear();
       const std::size_t end = std::min((block + 1) * agents_per_task, agents.size());
-      for (std::size_t agent = block * agents_per_task; agent < end; ++agent) {
+      for_prepared(body, block * agents_per_task, end, 0, [&](std::uint32_t agent) {
         const auto begin = static_cast<std::ptrdiff_t>(found.size());
-        body.visit_parts(static_cast<std::uint32_t>(agent), [&](const PlacedPart& part) {
+        body.visit_parts(agent, [&](const PlacedPart& part) {
           body.visit_hits(part, meaning,
                           [&](std::uint32_t obstacle) { return found.push_back(obstacle), true; });
         });
         // Parts may collide with the same one.
         std::sort(found.begin() + begin, found.end());
         found.erase(std::unique(found.begin() + begin, found.end()), found.end());
-        offsets_[agent + 1] = found.size() - static_cast<std::size_t>(begin);
-      }
+        offsets_[agent + std::size_t{1}] = found.size() - static_cast<std::size_t>(begin);
+      });
     }
   });
   for (std::size_t i = 0; i < agents.size(); ++i) offsets_[i + 1] += offsets_[i];

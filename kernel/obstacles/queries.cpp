@@ -50,6 +50,9 @@ struct NearestObstacle {
 /// Distances of all agents: what clearance() and within() share.
 class GapQuery {
  public:
+  /// The margin to prepare agents with.
+  static double margin(double limit) noexcept { return std::min(limit, first_step); }
+
   GapQuery(const Implementation& implementation, const ShapeSetView& shapes) noexcept
       : implementation_(implementation), shapes_(shapes) {}
 
@@ -67,11 +70,12 @@ class GapQuery {
   }
 
  private:
+  static constexpr double first_step = 0.5;  ///< metres
   /// No gap is larger.
   static constexpr double farthest = 8 * rounding::largest_position;
 
   void find_in(BodyQuery& body, const PlacedPart& part, double enough, NearestObstacle& nearest) const {
-    const std::span<LocalSegment> segments = near_segments(body.near(), part, nearest.gap);
+    const std::span<LocalSegment> segments = near_segments(body, part, nearest.gap);
     // Discs of parts before come first where gaps are equal.
     const std::uint32_t last = nearest.is_found ? 0 : no_disc;
     ObstacleGap best{nearest.gap, last, last, nearest.is_found ? &nearest.segment : nullptr};
@@ -91,22 +95,23 @@ class GapQuery {
 
   /// Finds the segments that may be within a gap of a part. Where that is large, the search goes outward: the nearest one that is
   /// found bounds it.
-  static std::span<LocalSegment> near_segments(NearSegments& near, const PlacedPart& part, double limit) {
+  static std::span<LocalSegment> near_segments(BodyQuery& body, const PlacedPart& part, double limit) {
     const Vec2 centre = part.centre();
     const double outer = part.outer_radius();
+    std::span<LocalSegment> found = body.near_part(part);
     for (double gap = first_step; gap < limit; gap *= 2) {
-      const std::span<LocalSegment> found = near.find(part.place, centre, outer + gap);
-      if (found.empty()) continue;
-      double least = std::numeric_limits<double>::infinity();
-      for (const LocalSegment& segment : found)
-        least = std::min(least, segment.square_distance(double{centre.x}, double{centre.y}));
-      // Some disc is at most `outer` from the centre, and none reaches farther.
-      const double enough = 2 * outer + std::sqrt(least);
-      return enough <= outer + gap ? found : near.find(part.place, centre, enough);
+      if (!found.empty()) {
+        double least = std::numeric_limits<double>::infinity();
+        for (const LocalSegment& segment : found)
+          least = std::min(least, segment.square_distance(double{centre.x}, double{centre.y}));
+        // Some disc is at most `outer` from the centre, and none reaches farther.
+        const double enough = 2 * outer + std::sqrt(least);
+        return enough <= outer + gap ? found : body.near().find(part.place, centre, enough);
+      }
+      found = body.near().find(part.place, centre, outer + std::min(2 * gap, limit));
     }
-    return near.find(part.place, centre, outer + limit);
+    return found;
   }
-  static constexpr double first_step = 0.5;  ///< metres
 
   const Implementation& implementation_;
   const ShapeSetView& shapes_;
@@ -165,7 +170,7 @@ void collide(const ShapeSet& shapes, const Agents& agents, const ObstacleSet& ob
   const BodyQuery::Meaning meaning = meaning_of(shapes, options);
   const Implementation& implementation = chosen(options, "collide");
   validate(shapes, agents);
-  for_agents(implementation, shapes, agents, obstacles, [&](BodyQuery& body, std::uint32_t agent) {
+  for_agents(implementation, shapes, agents, obstacles, 0, [&](BodyQuery& body, std::uint32_t agent) {
     bool hit = false;
     body.visit_parts(agent, [&](const PlacedPart& part) {
       if (!hit) body.visit_hits(part, meaning, [&](std::uint32_t) { return hit = true, false; });
@@ -187,11 +192,13 @@ void within(const ShapeSet& shapes, const Agents& agents, const ObstacleSet& obs
   const Implementation& implementation = chosen(options, "within");
   validate(shapes, agents);
   const GapQuery query(implementation, shapes.view());
-  for_agents(implementation, shapes, agents, obstacles, [&](BodyQuery& body, std::uint32_t agent) {
-    const double distance = distances[distances.size() == 1 ? 0 : agent];
-    const NearestObstacle nearest = query.find(body, agent, distance, distance, true);
-    answers[agent] = nearest.is_near_enough;
-  });
+  const double most = distances.empty() ? 0 : *std::max_element(distances.begin(), distances.end());
+  for_agents(implementation, shapes, agents, obstacles, GapQuery::margin(most),
+             [&](BodyQuery& body, std::uint32_t agent) {
+               const double distance = distances[distances.size() == 1 ? 0 : agent];
+               const NearestObstacle nearest = query.find(body, agent, distance, distance, true);
+               answers[agent] = nearest.is_near_enough;
+             });
 }
 
 void clearance(const ShapeSet& shapes, const Agents& agents, const ObstacleSet& obstacles,
@@ -210,12 +217,14 @@ void clearance(const ShapeSet& shapes, const Agents& agents, const ObstacleSet& 
   const bool zero = options.overlap == Overlap::zero;
   const double enough = zero ? 0 : -std::numeric_limits<double>::infinity();
   const GapQuery query(implementation, shapes.view());
-  for_agents(implementation, shapes, agents, obstacles, [&](BodyQuery& body, std::uint32_t agent) {
-    const NearestObstacle nearest = query.find(body, agent, options.max_distance, enough, zero);
-    if (nearest.is_near_enough) return put_alone(answers, agent, 0);
-    if (!nearest.is_found) return put_alone(answers, agent, std::numeric_limits<float>::infinity());
-    put(answers, agent, nearest);
-  });
+  for_agents(implementation, shapes, agents, obstacles, GapQuery::margin(options.max_distance),
+             [&](BodyQuery& body, std::uint32_t agent) {
+               const NearestObstacle nearest = query.find(body, agent, options.max_distance, enough, zero);
+               if (nearest.is_near_enough) return put_alone(answers, agent, 0);
+               if (!nearest.is_found)
+                 return put_alone(answers, agent, std::numeric_limits<float>::infinity());
+               put(answers, agent, nearest);
+             });
 }
 
 }  // namespace bch

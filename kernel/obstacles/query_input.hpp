@@ -23,13 +23,27 @@ void require_an_answer_each(const char* query, const Agents& agents, std::size_t
 /// Returns what collide() means with these options. Errors: throws std::invalid_argument as collide().
 BodyQuery::Meaning meaning_of(const ShapeSet& shapes, const QueryOptions& options);
 
-/// Answers agents one after the other: calls answer(body, agent) for each, with a BodyQuery that tasks of agents share.
+/// Agents that are prepared together: enough to hide the latency of the tree of boxes, few enough for a near cache.
+constexpr std::size_t agents_together = 64;
+
+/// Calls answer(agent) for agents begin .. end, for which a body's query is prepared with a margin, metres.
+template <class Answer>
+void for_prepared(BodyQuery& body, std::size_t begin, std::size_t end, double margin, Answer answer) {
+  for (std::size_t first = begin; first < end; first += agents_together) {
+    const auto from = static_cast<std::uint32_t>(first),
+               to = static_cast<std::uint32_t>(std::min(first + agents_together, end));
+    body.prepare(from, to, margin);
+    for (std::uint32_t agent = from; agent < to; ++agent) answer(agent);
+  }
+}
+
+/// Calls answer(body, agent) for all agents, in tasks.
 template <class Answer>
 void for_agents(const Implementation& implementation, const ShapeSet& shapes, const Agents& agents,
-                const ObstacleSet& obstacles, Answer answer) {
+                const ObstacleSet& obstacles, double margin, Answer answer) {
   for_ranges(agents.size(), agents_per_task, [&](std::size_t begin, std::size_t end) {
     BodyQuery body(implementation, shapes.view(), agents, obstacles.view());
-    for (std::size_t i = begin; i < end; ++i) answer(body, static_cast<std::uint32_t>(i));
+    for_prepared(body, begin, end, margin, [&](std::uint32_t agent) { answer(body, agent); });
   });
 }
 

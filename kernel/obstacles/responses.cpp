@@ -60,7 +60,7 @@ class WaysOut {
   WayOut farthest() {
     WayOut farthest;
     bool is_any_touched = false;
-    body_.near().find(part_.place, part_.centre(), part_.outer_radius());
+    body_.near_part(part_);
     body_.near().any_obstacle([&](std::span<const LocalSegment> segments, std::uint32_t) {
       touched_.clear();
       for (const LocalSegment& segment : segments)
@@ -210,7 +210,7 @@ void find_time(const PlacedPart& part, const LocalSegment& segment, Vector way, 
 
 double impact(BodyQuery& body, const PlacedPart& part, Vector way_in_world) {
   const Vec2 centre = part.centre();
-  body.near().find(part.place, centre, part.outer_radius());
+  body.near_part(part);
   if (body.area_that_holds(part) != no_obstacle) return 0;
   const Vector way = part.place.turned_back(way_in_world.x, way_in_world.y);
   double best = infinity;
@@ -244,7 +244,7 @@ void penetration(const ShapeSet& shapes, const Agents& agents, const ObstacleSet
   require_an_answer_each("penetration", agents, out.size(), "answers");
   const Implementation& implementation = chosen(options, "penetration");
   validate(shapes, agents);
-  for_agents(implementation, shapes, agents, obstacles, [&](BodyQuery& body, std::uint32_t agent) {
+  for_agents(implementation, shapes, agents, obstacles, 0, [&](BodyQuery& body, std::uint32_t agent) {
     WayOut farthest;
     body.visit_parts(agent, [&](const PlacedPart& part) {
       const WayOut way = WaysOut(body, part).farthest();
@@ -262,7 +262,7 @@ void time_of_impact(const ShapeSet& shapes, const Agents& agents, const Displace
   require_valid(displacements, agents);
   const Implementation& implementation = chosen(options, "time_of_impact");
   validate(shapes, agents);
-  for_agents(implementation, shapes, agents, obstacles, [&](BodyQuery& body, std::uint32_t agent) {
+  for_agents(implementation, shapes, agents, obstacles, 0, [&](BodyQuery& body, std::uint32_t agent) {
     double best = infinity;
     body.visit_parts(agent, [&](const PlacedPart& part) {
       best = std::min(best, impact(body, part, {displacements.x[agent], displacements.y[agent]}));

@@ -16,6 +16,8 @@ namespace bch::detail {
 struct CutDiscs;
 struct Arguments;
 struct Box;
+struct BoxBlock;
+struct BoxHit;
 struct BoxTreeView;
 struct ClearanceArguments;
 struct ObstacleArguments;
@@ -69,6 +71,9 @@ struct Kernels {
   /// Writes which boxes of a tree overlap a box, at most `room`; see BoxQuery. Returns how many do.
   std::uint32_t (*find_boxes)(const BoxTreeView& tree, const Box& box, std::uint32_t* found,
                               std::uint32_t room) noexcept;
+  /// Writes which boxes of a level's blocks overlap those of many queries; see BoxQuery. Returns how many do.
+  std::uint32_t (*step_boxes)(const BoxBlock* blocks, const Box* queries, const BoxHit* in,
+                              std::uint32_t count, BoxHit* out) noexcept;
   /// Returns whether a part of an agent touches the segments of an obstacle; see ObstacleKernel.
   bool (*touches)(const ObstacleArguments& arguments) noexcept;
   /// Finds the least gap between a disc of a part and one of the segments, until it is at most `enough`.

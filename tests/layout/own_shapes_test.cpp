@@ -251,7 +251,7 @@ TEST(ShapeFromCapsules, CollideAsTheyDo) {
   collide(set, agents, scene.pairs, hits, {.semantics = Semantics::solid});
   std::size_t colliding = 0, apart = 0;
   for (std::size_t k = 0; k < scene.pairs.size(); ++k) {
-    const auto [a, b] = scene.pairs[k];
+    const std::uint32_t a = scene.pairs[k].first, b = scene.pairs[k].second;
     const auto placed = [&](std::uint32_t agent, const Vec2& point) {
       const double c = std::cos(agents.heading[agent]), s = std::sin(agents.heading[agent]);
       const double x = point.x, y = point.y;
