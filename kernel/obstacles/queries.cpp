@@ -74,43 +74,38 @@ class GapQuery {
   /// No gap is larger.
   static constexpr double farthest = 8 * rounding::largest_position;
 
+  /// Where the limit is large the search goes outward, until no segment that was not looked at can be nearer than what was found.
   void find_in(BodyQuery& body, const PlacedPart& part, double enough, NearestObstacle& nearest) const {
-    const std::span<LocalSegment> segments = near_segments(body, part, nearest.gap);
+    const double outer = part.outer_radius();
     // Discs of parts before come first where gaps are equal.
-    const std::uint32_t last = nearest.is_found ? 0 : no_disc;
-    ObstacleGap best{nearest.gap, last, last, nearest.is_found ? &nearest.segment : nullptr};
+    std::uint32_t disc = nearest.is_found ? 0 : no_disc, number = disc;
+    std::span<const LocalSegment> segments = body.near_part(part);
+    for (double seen = margin(nearest.gap);;) {
+      search(part, segments, enough, disc, number, nearest);
+      if (nearest.gap <= seen || (nearest.is_found && nearest.gap <= enough)) return;
+      seen = nearest.is_found ? nearest.gap : std::min(2 * seen, nearest.gap);
+      segments = body.near().find(part.place, part.centre(), outer + seen);
+    }
+  }
+
+  /// Searches segments for what is nearer, or comes before `disc` of the part and segment `number` where it is as near.
+  void search(const PlacedPart& part, std::span<const LocalSegment> segments, double enough,
+              std::uint32_t& disc, std::uint32_t& number, NearestObstacle& nearest) const {
+    const LocalSegment* const before = nearest.is_found ? &nearest.segment : nullptr;
+    ObstacleGap best{nearest.gap, disc, number, before};
     implementation_.kernels->find_gap(
         {&shapes_, part.root_index(), segments.data(), static_cast<std::uint32_t>(segments.size()), false},
         enough, best);
-    if (best.segment == nullptr || best.segment == &nearest.segment) return;
+    if (best.segment == before) return;
+    disc = best.disc, number = best.number;
     const CutDiscs discs = cut_discs(shapes_, part.root_index());
     nearest = {.gap = best.gap,
-               .disc = first_disc(shapes_, part.shape, part.part, part.level) + best.disc,
-               .number = best.number,
+               .disc = first_disc(shapes_, part.shape, part.part, part.level) + disc,
+               .number = number,
                .segment = *best.segment,
-               .body_disc = {discs.x[best.disc], discs.y[best.disc], discs.radius[best.disc]},
+               .body_disc = {discs.x[disc], discs.y[disc], discs.radius[disc]},
                .place = part.place,
                .is_found = true};
-  }
-
-  /// Finds the segments that may be within a gap of a part. Where that is large, the search goes outward: the nearest one that is
-  /// found bounds it.
-  static std::span<LocalSegment> near_segments(BodyQuery& body, const PlacedPart& part, double limit) {
-    const Vec2 centre = part.centre();
-    const double outer = part.outer_radius();
-    std::span<LocalSegment> found = body.near_part(part);
-    for (double gap = first_step; gap < limit; gap *= 2) {
-      if (!found.empty()) {
-        double least = std::numeric_limits<double>::infinity();
-        for (const LocalSegment& segment : found)
-          least = std::min(least, segment.square_distance(double{centre.x}, double{centre.y}));
-        // Some disc is at most `outer` from the centre, and none reaches farther.
-        const double enough = 2 * outer + std::sqrt(least);
-        return enough <= outer + gap ? found : body.near().find(part.place, centre, enough);
-      }
-      found = body.near().find(part.place, centre, outer + std::min(2 * gap, limit));
-    }
-    return found;
   }
 
   const Implementation& implementation_;
