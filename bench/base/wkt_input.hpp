@@ -10,7 +10,7 @@
 namespace bch::cli {
 
 /// Reads obstacles from a file of well-known text.
-/// Errors:  throws InputError naming the file, and of text that is none line and column.
+/// Errors:  throws InputError with the file's name; for malformed text also line and column.
 ObstacleSet read_obstacles(const std::string& file, Polygons polygons);
 
 }  // namespace bch::cli

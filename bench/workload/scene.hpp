@@ -42,7 +42,7 @@ class Scene {
   explicit Scene(SceneOptions options);
 
   const std::vector<cli::LoadedCharacter>& characters();
-  std::uint32_t poses() const { return options_.poses; }  ///< of a character
+  std::uint32_t poses() const { return options_.poses; }          ///< of a character
   std::uint32_t agents() const { return options_.sizes.agents; }  ///< of a crowd
   const std::vector<ShapeSource>& sources();
   const std::vector<Shape>& shapes();

@@ -8,6 +8,7 @@
 #include "kernel/collide/containment.hpp"
 #include "kernel/obstacles/part_tree.hpp"
 #include "kernel/runtime/kernels.hpp"
+#include "kernel/simd/ancestor_test.hpp"
 #include "kernel/simd/leaf_segments.hpp"
 #include "kernel/simd/tree_nodes.hpp"
 
@@ -58,8 +59,32 @@ class AreaSide {
   std::span<const LocalSegment> segments_;
   std::uint32_t obstacle_;
   bool is_known_ = false;
-  Vector first_{};  ///< outside, or else it was the answer
+  Vector first_{};  ///< the first point, which is outside: had it been inside, the search would have ended
 };
+
+/// Returns whether an area holds what is in a leaf whose disc is touched. `disc`: its place among the nodes.
+bool leaf_is_held(const ShapeSetView& shapes, const PartTree<void>& own, std::uint32_t disc,
+                  bool has_segments, std::span<const LocalSegment> segments, AreaSide& area) {
+  if (has_segments) {
+    const LeafSegments<void> leaves{shapes.leaf_segments};
+    const auto list = leaves.segments(own.tree, disc);
+    for (std::uint32_t i = 0; i < list.count; ++i)
+      if (area.holds(shapes.points[list.point(i)])) return true;
+    if (list.count != 0) return false;
+  }
+  if (own.tree.count == 1) return false;
+  AncestorPath<void> path;
+  path.begin(own.nodes, own.tree, disc);
+  for (;;) {
+    const float* const node = own.nodes + std::size_t{path.node[0]} * inner_floats;
+    if (!any_touches(segments, double{node[0]}, double{node[1]}, double{node[2]}) &&
+        area.holds({node[0], node[1]}))
+      return true;
+    path.step(own.nodes, 1);
+    if (path.node[1] == path.node[0]) return false;
+    path.node[0] = path.node[1];
+  }
+}
 
 }  // namespace
 
@@ -69,8 +94,9 @@ bool BodyQuery::touches(const PlacedPart& part, std::span<const LocalSegment> se
                                            static_cast<std::uint32_t>(segments.size()), exact_leaves});
 }
 
-/// What is below a node that no segment touches is all on the side where its centre is. Of a leaf of which the disc is touched and the outline
-/// is not, a point of that tells.
+/// Where no segment touches a node, everything below it is on the side of the border on which its centre is. Where they touch a leaf's disc and
+/// not the outline in it, the points of that tell. Where discs decide, a node above a touched leaf may be untouched: blocks do not have all
+/// nodes.
 bool BodyQuery::area_holds(const PlacedPart& part, std::span<const LocalSegment> segments,
                            std::uint32_t obstacle, bool exact_leaves) {
   const PartTree<void> own(shapes_, part.root_index());
@@ -92,10 +118,8 @@ bool BodyQuery::area_holds(const PlacedPart& part, std::span<const LocalSegment>
         if (area.holds({x, y})) return true;
       } else if (node < leaf_window) {
         open[count++] = TreeNodes<void>::child(own.nodes, node, lane);
-      } else if (has_segments) {
-        const LeafSegments<void> leaves{shapes_.leaf_segments};
-        const auto list = leaves.segments(tree, (node & ~leaf_window) + lane);
-        if (list.count != 0 && area.holds(shapes_.points[list.point(0)])) return true;
+      } else if (leaf_is_held(shapes_, own, (node & ~leaf_window) + lane, has_segments, segments, area)) {
+        return true;
       }
     }
   }
@@ -123,12 +147,17 @@ bool BodyQuery::has_segment_of(std::uint32_t obstacle) noexcept {
 
 std::uint32_t BodyQuery::area_that_holds(const PlacedPart& part) {
   std::uint32_t area = no_obstacle;
-  const auto take = [&](std::uint32_t obstacle) { return area = obstacle, false; };
   near_.any_obstacle([&](std::span<const LocalSegment> segments, std::uint32_t obstacle) {
-    return near_.obstacles().is_area[obstacle] != 0 && area_holds(part, segments, obstacle, false) &&
-           !take(obstacle);
+    if (near_.obstacles().is_area[obstacle] == 0 || !area_holds(part, segments, obstacle, false))
+      return false;
+    area = obstacle;
+    return true;
   });
-  if (area == no_obstacle) visit_areas_beyond(part, take);
+  if (area == no_obstacle)
+    visit_areas_beyond(part, [&](std::uint32_t obstacle) {
+      area = obstacle;
+      return false;
+    });
   return area;
 }
 

@@ -40,7 +40,6 @@ class BodyQuery {
       : implementation_(implementation), shapes_(shapes), agents_(agents), near_(implementation, obstacles) {}
 
   NearSegments& near() noexcept { return near_; }
-  const NearSegments& near() const noexcept { return near_; }
 
   /// Asks for the obstacles about many agents at once, begin .. end: those within a margin of their parts' outer discs, which
   /// near_part() then returns.
@@ -96,6 +95,8 @@ class BodyQuery {
   /// Returns an area that holds a disc of a part clear of its segments, or no_obstacle. Precondition: near() found all segments
   /// within the root's disc.
   std::uint32_t area_that_holds(const PlacedPart& part);
+  /// Returns whether the outline of a part holds where a path begins, which it does not touch.
+  bool outline_holds(const PlacedPart& part, std::span<const LocalSegment> segments) const noexcept;
 
  private:
   std::uint32_t level_of(std::uint32_t agent) const noexcept {
@@ -107,8 +108,6 @@ class BodyQuery {
   /// Returns whether an area, whose segments next to a part these are, holds something of it that they do not touch.
   bool area_holds(const PlacedPart& part, std::span<const LocalSegment> segments, std::uint32_t obstacle,
                   bool exact_leaves);
-  /// Returns whether the outline of a part holds where a path begins, which it does not touch.
-  bool outline_holds(const PlacedPart& part, std::span<const LocalSegment> segments) const noexcept;
 
   /// Calls found(obstacle) for the areas that hold a part and have no segment next to it, until it returns false.
   template <class Found>

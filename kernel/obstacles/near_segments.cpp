@@ -14,7 +14,7 @@ namespace {
 
 using Vector = ObstaclePlace::Vector;
 
-/// What sums of coordinates may be off by; a box is enlarged by it.
+/// What sums of coordinates may be off by; a box is enlarged by it, and by what slack adds to a distance.
 double rounding_of(const ObstaclePlace& place) noexcept {
   return 0x1p-50 * (std::abs(place.x) + std::abs(place.y));
 }
@@ -42,7 +42,8 @@ bool is_near(const ObstaclePlace& place, const WorldSegment& world, std::uint32_
 Box box_about(const ObstaclePlace& place, Vec2 centre, double distance, Vector way) noexcept {
   const auto [dx, dy] = place.turned(double{centre.x}, double{centre.y});
   const double x = place.x + dx, y = place.y + dy;
-  const double wide = distance + rounding_of(place) + 0x1p-50 * (std::abs(way.x) + std::abs(way.y));
+  const double wide =
+      distance * (1 + 8 * slack_share) + rounding_of(place) + 0x1p-50 * (std::abs(way.x) + std::abs(way.y));
   return {x + std::min(way.x, 0.0) - wide, y + std::min(way.y, 0.0) - wide, x + std::max(way.x, 0.0) + wide,
           y + std::max(way.y, 0.0) + wide};
 }

@@ -20,10 +20,10 @@ struct ObstaclePlace {
   double x, y;
   Rotation turn;
 
-  /// Returns a vector of the agent's frame in the axes of the world, and the other way.
   struct Vector {
     double x, y;
   };
+  /// Rotates a vector from the agent's frame into the world; turned_back() is the inverse.
   Vector turned(double at_x, double at_y) const noexcept {
     return {turn.cosine * at_x - turn.sine * at_y, turn.sine * at_x + turn.cosine * at_y};
   }

@@ -19,7 +19,7 @@ struct ObstacleArguments {
   bool exact_leaves;  ///< where the tree has segments, these decide
 };
 
-/// The nearest of discs and segments. A gap as large as one that stands here is taken where disc and number come first.
+/// The smallest gap found so far. An equal gap replaces it if its disc, then its segment, has a lower number.
 struct ObstacleGap {
   double gap;                   ///< metres
   std::uint32_t disc;           ///< of the part's cut

@@ -12,6 +12,7 @@
 
 #include "kernel/obstacles/box_tree_memory.hpp"
 #include "kernel/obstacles/segment.hpp"
+#include "kernel/runtime/floating_point_state.hpp"
 #include "layout/base/rounding.hpp"
 #include "layout/base/shortest.hpp"
 
@@ -50,19 +51,23 @@ void require_valid(const ObstacleArrays& in) {
     if (!good(in.x[i]) || !good(in.y[i]))
       reject("point " + std::to_string(i) + ": (" + shortest(in.x[i]) + ", " + shortest(in.y[i]) +
              ") m is not within +-1e9");
-  if (in.x.size() + paths >= std::numeric_limits<std::int32_t>::max())
-    throw std::length_error("obstacles: more than 2^31 segments");
+  if (in.x.size() + paths + obstacles >= std::numeric_limits<std::int32_t>::max())
+    throw std::length_error("obstacles: more than 2^31 points, paths and obstacles");
 }
 
 WorldSegment segment_of(double ax, double ay, double bx, double by, std::uint32_t number,
                         std::uint32_t obstacle) {
   const double x = bx - ax, y = by - ay, length = std::sqrt(x * x + y * y);
-  if (!(length > 0)) return {ax, ay, bx, by, 1, 0, 0, number, obstacle};
+  // Squares of what is shorter lose bits.
+  if (!(length > 1e-150)) return {ax, ay, bx, by, 1, 0, 0, number, obstacle};
   return {ax, ay, bx, by, x / length, y / length, length, number, obstacle};
 }
 
+/// Returns the box of a segment, enlarged by what LocalSegment::slack can add for its length.
 Box box_of(const WorldSegment& s) {
-  return {std::min(s.ax, s.bx), std::min(s.ay, s.by), std::max(s.ax, s.bx), std::max(s.ay, s.by)};
+  const double slack = 8 * slack_share * s.length;
+  return {std::min(s.ax, s.bx) - slack, std::min(s.ay, s.by) - slack, std::max(s.ax, s.bx) + slack,
+          std::max(s.ay, s.by) + slack};
 }
 
 /// Twice the area that a ring encloses, about its first point; negative where it is clockwise.
@@ -77,8 +82,9 @@ double twice_area(std::span<const double> x, std::span<const double> y) {
 struct Segments {
   std::vector<WorldSegment> ends;
   std::vector<std::uint8_t> begins_path;
-  std::vector<std::int8_t> outside;
+  std::vector<std::int16_t> outside;
 
+  void reserve(std::size_t size) { ends.reserve(size), begins_path.reserve(size), outside.reserve(size); }
   void add_path(std::span<const double> x, std::span<const double> y, std::uint32_t of, bool is_ring,
                 bool is_hole) {
     if (x.empty()) return;
@@ -101,7 +107,7 @@ struct ObstacleSet::State {
   State(Segments&& segments, std::vector<std::uint8_t>&& areas);
 
   std::vector<std::uint8_t> begins_path, is_area;
-  std::vector<std::int8_t> outside;
+  std::vector<std::int16_t> outside;
   std::vector<std::uint32_t> obstacle_of;
   std::vector<std::uint32_t> areas;  ///< in the order of the tree of areas, after it is made
   std::vector<Box> area_boxes;
@@ -163,18 +169,22 @@ ObstacleSet::State::State(Segments&& segments, std::vector<std::uint8_t>&& is_ar
 }
 
 ObstacleSet::ObstacleSet(const ObstacleArrays& in) {
+  const FloatingPointStateGuard floats;
   require_valid(in);
   const std::size_t paths = in.path_offsets.size() - 1;
   const bool alone = in.obstacle_offsets.empty();
   std::vector<std::uint8_t> is_area(alone ? paths : in.obstacle_offsets.size() - 1);
   Segments segments;
+  segments.reserve(in.x.size() + paths);
   for (std::uint32_t o = 0; o < is_area.size(); ++o) {
     is_area[o] = !in.is_area.empty() && in.is_area[o] != 0;
     const std::size_t first = alone ? o : in.obstacle_offsets[o],
                       end = alone ? o + 1 : in.obstacle_offsets[o + 1];
+    const std::size_t first_segment = segments.ends.size();
     for (std::size_t p = first; p < end; ++p) {
       const std::size_t begin = in.path_offsets[p], size = in.path_offsets[p + 1] - begin;
-      segments.add_path(in.x.subspan(begin, size), in.y.subspan(begin, size), o, is_area[o] != 0, p != first);
+      segments.add_path(in.x.subspan(begin, size), in.y.subspan(begin, size), o, is_area[o] != 0,
+                        segments.ends.size() != first_segment);
     }
   }
   state_ = std::make_unique<State>(std::move(segments), std::move(is_area));

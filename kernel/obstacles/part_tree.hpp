@@ -22,7 +22,8 @@ struct PartTree {
       return;
     }
     const Root& only = shapes.roots[root];
-    for (float& number : window_) number = __builtin_inff();
+    for (float& number : window_) number = 0;
+    for (unsigned lane = 0; lane < block_width; ++lane) window_[lane] = __builtin_inff();
     window_[0] = only.x, window_[block_width] = only.y, window_[2 * block_width] = only.radius;
     nodes = window_, tree = {leaf_window, 0, block_width, 1, only.radius};
   }

@@ -56,15 +56,22 @@ class GapQuery {
   GapQuery(const Implementation& implementation, const ShapeSetView& shapes) noexcept
       : implementation_(implementation), shapes_(shapes) {}
 
-  /// Finds the least gap of at most `limit`, metres. The search ends where one is at most `enough`, or where `areas` count and one
-  /// holds the agent.
-  NearestObstacle find(BodyQuery& body, std::uint32_t agent, double limit, double enough, bool areas) const {
+  /// What counts as near enough beside gaps.
+  struct Inside {
+    bool areas;     ///< an area that holds the agent
+    bool outlines;  ///< a path that the agent's outline holds
+  };
+
+  /// Finds the least gap of at most `limit`, metres. The search ends where one is at most `enough`, or what counts is inside.
+  NearestObstacle find(BodyQuery& body, std::uint32_t agent, double limit, double enough,
+                       Inside inside) const {
     NearestObstacle nearest{.gap = std::min(limit, farthest)};
     body.visit_parts(agent, [&](const PlacedPart& part) {
       if (nearest.is_near_enough) return;
       find_in(body, part, enough, nearest);
-      nearest.is_near_enough =
-          (nearest.is_found && nearest.gap <= enough) || (areas && body.area_that_holds(part) != no_obstacle);
+      nearest.is_near_enough = (nearest.is_found && nearest.gap <= enough) ||
+                               (inside.areas && body.area_that_holds(part) != no_obstacle) ||
+                               (inside.outlines && body.outline_holds(part, body.near().found()));
     });
     return nearest;
   }
@@ -184,6 +191,7 @@ void within(const ShapeSet& shapes, const Agents& agents, const ObstacleSet& obs
       throw std::invalid_argument(
           "within: " + (distances.size() == 1 ? "" : "agent " + std::to_string(i) + ": ") + "a distance of " +
           shortest(distances[i]) + " m");
+  const bool solid = is_solid(shapes, options.semantics, "within");
   const Implementation& implementation = chosen(options, "within");
   validate(shapes, agents);
   const GapQuery query(implementation, shapes.view());
@@ -191,7 +199,7 @@ void within(const ShapeSet& shapes, const Agents& agents, const ObstacleSet& obs
   for_agents(implementation, shapes, agents, obstacles, GapQuery::margin(most),
              [&](BodyQuery& body, std::uint32_t agent) {
                const double distance = distances[distances.size() == 1 ? 0 : agent];
-               const NearestObstacle nearest = query.find(body, agent, distance, distance, true);
+               const NearestObstacle nearest = query.find(body, agent, distance, distance, {true, solid});
                answers[agent] = nearest.is_near_enough;
              });
 }
@@ -212,14 +220,14 @@ void clearance(const ShapeSet& shapes, const Agents& agents, const ObstacleSet& 
   const bool zero = options.overlap == Overlap::zero;
   const double enough = zero ? 0 : -std::numeric_limits<double>::infinity();
   const GapQuery query(implementation, shapes.view());
-  for_agents(implementation, shapes, agents, obstacles, GapQuery::margin(options.max_distance),
-             [&](BodyQuery& body, std::uint32_t agent) {
-               const NearestObstacle nearest = query.find(body, agent, options.max_distance, enough, zero);
-               if (nearest.is_near_enough) return put_alone(answers, agent, 0);
-               if (!nearest.is_found)
-                 return put_alone(answers, agent, std::numeric_limits<float>::infinity());
-               put(answers, agent, nearest);
-             });
+  for_agents(
+      implementation, shapes, agents, obstacles, GapQuery::margin(options.max_distance),
+      [&](BodyQuery& body, std::uint32_t agent) {
+        const NearestObstacle nearest = query.find(body, agent, options.max_distance, enough, {zero, false});
+        if (nearest.is_near_enough) return put_alone(answers, agent, 0);
+        if (!nearest.is_found) return put_alone(answers, agent, std::numeric_limits<float>::infinity());
+        put(answers, agent, nearest);
+      });
 }
 
 }  // namespace bch

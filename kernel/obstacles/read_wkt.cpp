@@ -22,8 +22,12 @@ struct ReadObstacles {
   std::vector<std::uint64_t> path_offsets{0}, obstacle_offsets{0};
   std::vector<std::uint8_t> is_area;
 
-  void end_path() { path_offsets.push_back(x.size()); }
+  /// Ends a path, or an obstacle of paths; there is none where nothing was read for it.
+  void end_path() {
+    if (path_offsets.back() != x.size()) path_offsets.push_back(x.size());
+  }
   void end_obstacle(bool area) {
+    if (obstacle_offsets.back() == path_offsets.size() - 1) return;
     obstacle_offsets.push_back(path_offsets.size() - 1);
     is_area.push_back(area);
   }
@@ -126,15 +130,20 @@ class WktReader {
     list("rings", [&] {
       const std::size_t first = read_.x.size();
       points();
-      // A line does not close itself.
-      const std::size_t last = read_.x.size() - 1;
-      if (walkable_ && last > first && (read_.x[first] != read_.x[last] || read_.y[first] != read_.y[last]))
-        read_.x.push_back(read_.x[first]), read_.y.push_back(read_.y[first]);
+      if (walkable_) close(first);
       read_.end_path();
       if (walkable_) read_.end_obstacle(false);
     });
-    if (!walkable_ && read_.obstacle_offsets.back() != read_.path_offsets.size() - 1)
-      read_.end_obstacle(true);
+    if (!walkable_) read_.end_obstacle(true);
+  }
+
+  /// Repeats the first point of a ring at its end: a line does not close itself.
+  void close(std::size_t first) {
+    const std::size_t end = read_.x.size();
+    if (end <= first + 1 || (read_.x[first] == read_.x[end - 1] && read_.y[first] == read_.y[end - 1]))
+      return;
+    const double x = read_.x[first], y = read_.y[first];
+    read_.x.push_back(x), read_.y.push_back(y);
   }
 
   void line() {
@@ -154,7 +163,7 @@ class WktReader {
   double number() {
     skip_space();
     const std::size_t begin = at_;
-    if (at_ < text_.size() && text_[at_] == '+') ++at_;
+    if (text_.substr(at_).starts_with('+') && !text_.substr(at_).starts_with("+-")) ++at_;
     double value = 0;
     const auto [end, error] = std::from_chars(text_.data() + at_, text_.data() + text_.size(), value);
     if (error == std::errc::invalid_argument || (end != text_.data() + text_.size() && is_of_token(*end)))

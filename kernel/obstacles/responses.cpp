@@ -32,7 +32,7 @@ struct WayOut {
   Vector direction = {0, 0};  ///< in the world
 };
 
-/// What of the line of a segment counts.
+/// The stretch of a segment's line on which discs count.
 struct Range {
   double from, to;  ///< along it
 };
@@ -67,7 +67,7 @@ class WaysOut {
         if (is_touched(segment)) touched_.push_back(&segment);
       if (touched_.empty()) return false;
       is_any_touched = true;
-      const WayOut way = shortest(segments);
+      const WayOut way = is_post() ? from_post(*touched_.front()) : shortest(segments);
       if (way.depth > farthest.depth) farthest = way;
       return false;
     });
@@ -83,10 +83,47 @@ class WaysOut {
     return false;
   }
 
+  static bool has_length(const LocalSegment& segment) noexcept { return segment.from < segment.to; }
+
+  /// Returns whether no segment that is touched has a direction.
+  bool is_post() const noexcept {
+    return std::none_of(touched_.begin(), touched_.end(),
+                        [](const LocalSegment* segment) { return has_length(*segment); });
+  }
+
+  /// Returns the way away from a point: that of the disc that overlaps it the deepest.
+  WayOut from_post(const LocalSegment& post) const {
+    // The point in the agent's frame, and the disc.
+    const double px = post.from * post.x - post.offset * post.y,
+                 py = post.from * post.y + post.offset * post.x;
+    double deepest = infinity, ux = 1, uy = 0;
+    for (std::uint32_t i = 0; i < discs_.count; ++i) {
+      const double dx = double{discs_.x[i]} - px, dy = double{discs_.y[i]} - py;
+      const double length = std::sqrt(dx * dx + dy * dy), gap = length - double{discs_.radius[i]};
+      if (gap >= deepest) continue;
+      deepest = gap;
+      ux = length > 0 ? dx / length : 1, uy = length > 0 ? dy / length : 0;
+    }
+    // A line through the point, which has the disc on its left.
+    LocalSegment across = post;
+    across.x = uy, across.y = -ux;
+    across.from = across.to = px * across.x + py * across.y;
+    across.offset = px * ux + py * uy;
+    const double depth = depth_towards(1, across, {across.from, across.to}, discs_);
+    return {with_margin(depth, across), part_.place.turned(ux, uy)};
+  }
+
+  double with_margin(double depth, const LocalSegment& segment) const noexcept {
+    // For the rounding of the depth to float, and of the new position.
+    const double margin = 0x1p-20 * part_.outer_radius() + 2 * segment.slack;
+    return (depth + margin) * (1 + 0x1p-22);
+  }
+
   /// Returns the shortest way out of an obstacle: over a segment that is touched, or one that has all of those behind it.
   WayOut shortest(std::span<const LocalSegment> segments) const {
     WayOut shortest{infinity, {}};
     for (const LocalSegment& segment : segments) {
+      if (!has_length(segment)) continue;
       const Touched touched = touched_from(segment);
       const int side = body_.near().obstacles().outside[segment.number];
       const bool is_behind = side != 0 && (side > 0 ? touched.left : -touched.right) <= segment.slack;
@@ -129,10 +166,8 @@ class WaysOut {
       side = right < depth ? -1 : 1;
       depth = std::min(depth, right);
     }
-    // Positions are right to some 2^-53 of themselves, and the depth is rounded to float.
-    const double margin = 0x1p-20 * part_.outer_radius() + 2 * segment.slack;
     const WorldSegment& world = in_world(segment);
-    return {(depth + margin) * (1 + 0x1p-22), {-side * world.y, side * world.x}};
+    return {with_margin(depth, segment), {-side * world.y, side * world.x}};
   }
 
   const LocalSegment& nearest_of(std::uint32_t area) {
@@ -142,7 +177,8 @@ class WaysOut {
     for (double distance = part_.outer_radius(); nearest == nullptr; distance *= 4)
       for (const LocalSegment& segment : body_.near().find(part_.place, centre, distance)) {
         const double square = segment.square_distance(double{centre.x}, double{centre.y});
-        if (segment.obstacle == area && square < least) least = square, nearest = &segment;
+        if (segment.obstacle == area && has_length(segment) && square < least)
+          least = square, nearest = &segment;
       }
     return *nearest;
   }
@@ -212,6 +248,8 @@ double impact(BodyQuery& body, const PlacedPart& part, Vector way_in_world) {
   const Vec2 centre = part.centre();
   body.near_part(part);
   if (body.area_that_holds(part) != no_obstacle) return 0;
+  const bool is_solid = part.shapes.slab_parts != nullptr;
+  if (is_solid && body.outline_holds(part, body.near().found())) return 0;
   const Vector way = part.place.turned_back(way_in_world.x, way_in_world.y);
   double best = infinity;
   for (const LocalSegment& segment : body.near().find(part.place, centre, part.outer_radius(), way_in_world))

@@ -62,7 +62,7 @@ struct ObstacleView {
   const WorldSegment* segments;         ///< by slot
   const std::uint8_t* is_area;          ///< by obstacle
   const std::uint8_t* begins_path;      ///< by number
-  const std::int8_t*
+  const std::int16_t*
       outside;         ///< by number: the side of it that is outside of its area, 1 the left one; 0 of a line
   double widest_area;  ///< metres: no area holds a disc with a larger diameter
   const std::uint32_t* areas;  ///< by slot of the tree of areas: the obstacle

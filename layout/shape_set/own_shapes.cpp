@@ -10,6 +10,7 @@
 #include <string>
 
 #include "layout/base/heading.hpp"
+#include "layout/base/rounding.hpp"
 #include "layout/base/shortest.hpp"
 #include "layout/hierarchy/discs.hpp"
 
@@ -18,7 +19,7 @@ namespace {
 
 /// What rounding corners to float may move them by, times their distance from the origin, and to spare.
 constexpr double corner_rounding = 0x1p-22;
-constexpr int most_corners = 4096;
+constexpr int most_corners = 6144;  ///< 6 * 2^10
 
 /// A capsule as numbers to compute with.
 struct ExactCapsule {
@@ -26,9 +27,7 @@ struct ExactCapsule {
 
   explicit ExactCapsule(const Capsule& of)
       : ax(of.a.x), ay(of.a.y), bx(of.b.x), by(of.b.y), radius(of.radius) {}
-  bool is_valid() const {
-    return radius > 0 && std::isfinite(ax + bx) && std::isfinite(ay + by) && std::isfinite(radius);
-  }
+  bool is_valid() const { return radius > 0 && reach() <= detail::rounding::largest_reach; }
   /// Returns the largest distance of a point from the origin, at least.
   double reach() const { return std::max(std::abs(ax) + std::abs(ay), std::abs(bx) + std::abs(by)) + radius; }
 };
@@ -87,7 +86,7 @@ Shape shape_from_capsules(std::span<const Capsule> capsules, float tolerance, fl
     };
     const ExactCapsule capsule(capsules[i]);
     if (!capsule.is_valid())
-      reject(" of " + detail::shortest(capsules[i].radius) + " m is none, or not finite");
+      reject(" of " + detail::shortest(capsules[i].radius) + " m is none, or beyond 1e6 m");
     polygons.push_back(polygon_about(capsule, double{tolerance}));
     if (polygons.back().empty())
       reject(": a tolerance of " + detail::shortest(tolerance) + " m is too small for its size");

@@ -17,7 +17,10 @@ namespace bch {
 namespace {
 
 std::string complaint_about(const std::string& text) {
-  return test::complaint([&] { obstacles_from_wkt(text); });
+  const std::string of_floors = test::complaint([&] { obstacles_from_wkt(text, Polygons::walkable); });
+  const std::string complaint = test::complaint([&] { obstacles_from_wkt(text); });
+  EXPECT_EQ(complaint, of_floors);
+  return complaint;
 }
 
 /// The obstacle of every segment.
@@ -27,7 +30,7 @@ std::vector<std::uint32_t> obstacles_of(const ObstacleSet& set) {
   return obstacles;
 }
 
-/// Returns which obstacles a small disc at a place collides with.
+/// Returns whether a small disc at a place collides with an obstacle.
 bool collides_at(const ObstacleSet& set, double x, double y) {
   const std::vector<Shape> disc = {{{}, fixed_cylinder(0.01f)}};
   const ShapeSet shapes(disc);
@@ -68,7 +71,19 @@ TEST(ReadWkt, TakesPolygonsAsFloors) {
   EXPECT_TRUE(collides_at(obstacles_from_wkt(text), 0.5, 0.5));
 }
 
+TEST(ReadWkt, LeavesOutWhatIsEmpty) {
+  const std::string text =
+      "POLYGON(EMPTY) LINESTRING EMPTY POLYGON(EMPTY, (0 0, 1 0, 1 1)) MULTIPOLYGON((EMPTY), EMPTY)";
+  for (const Polygons polygons : {Polygons::solid, Polygons::walkable}) {
+    const ObstacleSet set = obstacles_from_wkt(text, polygons);
+    EXPECT_EQ(set.obstacle_count(), 1u);
+    EXPECT_EQ(set.segment_count(), 3u);
+  }
+}
+
 TEST(ReadWkt, NamesThePlaceOfAnError) {
+  EXPECT_EQ(complaint_about("LINESTRING (1 2, +-3 4)"),
+            "WKT: line 1, column 18: expected a number, found '+-3'");
   EXPECT_EQ(complaint_about("POINT (1 2)"),
             "WKT: line 1, column 1: expected POLYGON, MULTIPOLYGON, LINESTRING, MULTILINESTRING or "
             "GEOMETRYCOLLECTION, found 'POINT'");

@@ -319,8 +319,8 @@ TEST(ShapeFromCapsules, RejectsWhatIsNone) {
   };
   const Capsule good{{0, 0}, {1, 0}, 0.1f};
   EXPECT_EQ(complaint({}), "shape: no capsules");
-  EXPECT_EQ(complaint({good, {{0, 0}, {1, 0}, 0}}), "shape: capsule 1 of 0 m is none, or not finite");
-  EXPECT_EQ(complaint({{{0, std::nanf("")}, {1, 0}, 1}}), "shape: capsule 0 of 1 m is none, or not finite");
+  EXPECT_EQ(complaint({good, {{0, 0}, {1, 0}, 0}}), "shape: capsule 1 of 0 m is none, or beyond 1e6 m");
+  EXPECT_EQ(complaint({{{0, std::nanf("")}, {1, 0}, 1}}), "shape: capsule 0 of 1 m is none, or beyond 1e6 m");
   EXPECT_EQ(complaint({good}, 0), "shape: a tolerance of 0 m");
   EXPECT_EQ(complaint({good}, -1), "shape: a tolerance of -1 m");
   EXPECT_EQ(complaint({good}, 1e-9f), "shape: capsule 0: a tolerance of 1e-09 m is too small for its size");

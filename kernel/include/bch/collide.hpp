@@ -71,7 +71,7 @@ class CrowdCollider {
 
   /// Finds the colliding neighbours of every agent in the same way, and beside them the obstacles, by their numbers, that it collides with. It
   /// has some exactly if collide() with obstacles answers 1.
-  /// Memory:  4 bytes for each obstacle of an agent's are kept as well.
+  /// Memory:  8 bytes for each obstacle of an agent's are kept as well, and a call allocates what collide() with obstacles does.
   CrowdCollisions collide_all(const ShapeSet& shapes, const Agents& agents, const ObstacleSet& obstacles,
                               const QueryOptions& options = {});
 

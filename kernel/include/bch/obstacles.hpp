@@ -20,8 +20,8 @@ struct ObstacleView;
 
 namespace bch {
 
-/// Obstacles in arrays of the caller: points, paths of points, and obstacles of paths, each by where it begins (CSR). A path of one point
-/// is a post without extent, one without points is nothing.
+/// Obstacles in arrays of the caller: points, paths of points, and obstacles of paths, each by where it begins (CSR). A path of one
+/// point is a post; one without points is nothing.
 /// Units:   metres in the world; |x|, |y| <= 1e9.
 struct ObstacleArrays {
   std::span<const double> x, y;                 ///< the points of all paths
@@ -37,21 +37,22 @@ enum class Polygons {
   walkable,  ///< the floor that agents walk on: its rings are walls, as lines
 };
 
-/// Obstacles that do not move: walls, pillars, furniture. Each is a set of points of the ground, of infinite height:
+/// Obstacles that do not move: walls, pillars, furniture. Each is a set of points of the ground, of infinite height.
 ///
-/// - a line has its paths, open polylines, and nothing else;
-/// - an area, a polygon, has its paths, rings that close themselves, and what they enclose by the rule of even and odd: the first
-///   ring is the polygon's border, and others are holes in it.
+/// - A line is one or more open polylines.
+/// - An area is one or more rings, which close themselves, and the points that they enclose by the even-odd rule: the first ring is the
+///   border of a polygon, and the others are holes in it.
 ///
-/// Obstacles may cross, touch, nest and repeat each other and themselves. Segments are numbered in the order of the paths. One
-/// that was moved from can only be assigned to or destroyed.
+/// Obstacles may cross, touch, nest and repeat each other and themselves; penetration() alone wants polygons that are simple.
+/// Segments are numbered in the order of the paths. An object that was moved from can only be assigned to or destroyed.
 /// Threads: any number of queries may read one at once.
 class ObstacleSet {
  public:
   /// Copies the obstacles and sorts their segments into a tree of boxes.
-  /// Cost:    0.5 s for 10^6 segments, and 100 bytes for each.
+  /// Cost:    0.5 s for 10^6 segments, and 120 bytes for each.
   /// Errors:  throws std::invalid_argument on sizes that differ, offsets that descend or lead beyond what there is, and a point that is not finite
-  ///          or beyond the limits, naming it; std::length_error beyond 2^31 segments.
+  ///          or beyond the limits, naming it; std::length_error beyond 2^31 points, paths
+  ///          and obstacles.
   explicit ObstacleSet(const ObstacleArrays& obstacles);
   ObstacleSet(ObstacleSet&&) noexcept;
   ObstacleSet& operator=(ObstacleSet&&) noexcept;
@@ -73,30 +74,33 @@ class ObstacleSet {
 
 /// Reads obstacles from well-known text, as JuPedSim and geographic information systems write it: any number of POLYGON,
 /// MULTIPOLYGON, LINESTRING, MULTILINESTRING and GEOMETRYCOLLECTION, one after the other. Each polygon and each line is an
-/// obstacle.
+/// obstacle, of walkable polygons each ring; what is empty is none.
 /// Errors:  throws std::invalid_argument on text that is not, with its line and column, what stands there and what was
 ///          expected; and as ObstacleSet does.
 ObstacleSet obstacles_from_wkt(std::string_view text, Polygons polygons = Polygons::solid);
 
-// Queries of agents against obstacles. Each answers every agent, with the options and promises of the query of the same name that
-// takes pairs: defined without a traversal, the same bits on every processor, never a miss, far from the origin as at it. A disc overlaps an
-// obstacle where its centre is at most its radius away from it; distances are computed in double. The price beside the sizes of
-// discs is 4 um per metre of an agent's reach and 1e-15 of the distance to the ends of a segment. A body in slabs meets an obstacle where some part of
-// it does, and an agent's height does not matter.
+// Queries of agents against obstacles. Each answers every agent as the query of the same name answers pairs: defined without a traversal, the
+// same bits on every processor and for any number of threads, never a miss, far from the origin as at it. A disc overlaps an obstacle where
+// its centre is at most its radius away from it; distances are computed in double. What a false positive costs beside the sizes of
+// discs is a gap of 4 um per metre of an agent's reach and 1e-14 of the distance to the ends of a segment. A body in slabs meets an obstacle
+// where some part of it does, and an agent's height does not matter.
 //
 // Sizes:   one answer an agent.
-// Errors:  throw std::invalid_argument, before anything is written, as validate(shapes, agents) and the query that takes pairs.
+// Errors:  throw std::invalid_argument, before anything is written, as validate(shapes, agents) and the query of pairs.
 // Threads: run in the caller's TBB arena.
-// Memory:  some kilobytes a task.
+// Memory:  in proportion to the segments that are near 64 agents, for each task.
 
 /// Answers each agent: 1 where it collides with an obstacle, touching included, else 0. A disc of its cut overlaps the
 /// obstacle then, and so does every node above it. With exact leaves the outline in that disc does, too. An agent inside an
 /// area always collides; in solid semantics so does one whose outline holds a whole path of an obstacle.
+/// Options: semantics, leaves, implementation.
 void collide(const ShapeSet& shapes, const Agents& agents, const ObstacleSet& obstacles,
              std::span<std::uint8_t> hits, const QueryOptions& options = {});
 
 /// Answers each agent: 1 where a disc of its cut comes as close to an obstacle as a distance, else 0; one distance for all
-/// agents, or one each. It is 1 where clearance() without a limit is at most the distance, but for rounding that to float.
+/// agents, or one each. It is 1 where clearance() without a limit is at most the distance, but for rounding that to float; in
+/// solid semantics also where the agent's outline holds a whole path.
+/// Options: semantics, implementation.
 void within(const ShapeSet& shapes, const Agents& agents, const ObstacleSet& obstacles,
             std::span<const double> distances, std::span<std::uint8_t> answers,
             const QueryOptions& options = {});
@@ -105,21 +109,26 @@ void within(const ShapeSet& shapes, const Agents& agents, const ObstacleSet& obs
 /// overlap or an area holds a disc. The direction leads from the agent to the obstacle. `discs` has the agent's disc and the
 /// segment, of equal gaps the first disc and then the first segment. `points` are both from the agent's position.
 /// With Overlap::deepest the distance of a disc that a segment crosses is negative, and its direction is that to the segment's nearest point,
-/// (1, 0) where that is the disc's centre; an agent that an area holds clear of its segments is as far from those as they are.
+/// (1, 0) where that is the disc's centre. An agent that an area holds clear of its segments is as far from those as they are.
+/// Options: max_distance, overlap, implementation.
 void clearance(const ShapeSet& shapes, const Agents& agents, const ObstacleSet& obstacles,
                const ClearanceAnswers& answers, const QueryOptions& options = {});
 
-/// Measures how far each agent has to move to be free of an obstacle, and in which direction: of those that discs of its cut
-/// touch, the one from which that is the farthest. It moves at right angles to a segment: out of an area, until no disc is across the
-/// line of one that has the touched ones behind it; or to either side of a line, until no disc beside what is touched is across. The segment is
-/// the one over which the way is the shortest. An agent that an area holds clear of its segments moves out over the nearest one.
-/// A convex area and a single segment are left for good; in the corners of others, and among several, ask again after the move. The
-/// depth is 0, and the direction (0, 0), where nothing is touched.
+/// Measures how far each agent has to move to leave an obstacle, and in which direction. Every move is at right angles to one
+/// segment. Out of an area, it goes across the line of a side to the side's outer face until all discs have passed it. Away from a
+/// line, it goes to either side until no disc overlaps the touched stretch, and away from a post along the disc that is nearest to it. Of all such moves
+/// the shortest counts. An agent that touches several obstacles gets the one with the longest move; one that an area holds clear of its segments
+/// goes over the nearest of them. One move frees an agent of a convex area or a single segment, if
+/// its new position is right to 1e-7 of its reach; elsewhere call again. The depth is
+/// 0, and the direction (0, 0), where nothing is touched.
+/// Options: implementation.
 void penetration(const ShapeSet& shapes, const Agents& agents, const ObstacleSet& obstacles,
                  std::span<Penetration> out, const QueryOptions& options = {});
 
 /// Finds when each agent first touches an obstacle on its way: the least t in [0, 1] at which a disc of its cut overlaps one, when the
-/// agent has moved by t times its displacement without turning; infinity where none does.
+/// agent has moved by t times its displacement without turning; infinity where none does. It is 0 inside an area, and where the outline of a body in slabs
+/// holds a whole path.
+/// Options: implementation.
 void time_of_impact(const ShapeSet& shapes, const Agents& agents, const Displacements& displacements,
                     const ObstacleSet& obstacles, std::span<float> times, const QueryOptions& options = {});
 

@@ -53,7 +53,7 @@ struct Capsule {
 /// Makes a shape of capsules of one's own, as the limbs of a body. The outline goes round each of them along polygons that hold it, and
 /// are nowhere farther from it than a tolerance.
 /// Units:   metres; the tolerance is more than 2^-20 of the capsules' reach, the threshold that of contour_hierarchy().
-/// Errors:  throws std::invalid_argument on none, on a capsule that is not finite or without a radius, naming it, on a tolerance that is not
+/// Errors:  throws std::invalid_argument on none, on a capsule without a radius or beyond 1e6 m, naming it, on a tolerance that is not
 ///          positive or too small, and as shape_from_polygons().
 Shape shape_from_capsules(std::span<const Capsule> capsules, float tolerance = 0.001f,
                           float threshold = 0.01f);
