@@ -47,11 +47,10 @@ std::vector<Line> lines_of(const Agents& agents, std::uint32_t agent, const Refe
   return lines;
 }
 
-/// Returns whether the obstacle encloses a point of an agent's frame, by even and odd.
-bool encloses(const ReferenceObstacle& obstacle, const Agents& agents, std::uint32_t agent, double x,
-              double y) {
+/// Returns whether the obstacle encloses a point of an agent's frame, by even and odd. `turn`: the agent's.
+bool encloses(const ReferenceObstacle& obstacle, const Agents& agents, std::uint32_t agent,
+              const detail::Rotation& turn, double x, double y) {
   if (!obstacle.is_area) return false;
-  const detail::Rotation turn = detail::rotation(agents.heading[agent]);
   const double px = turn.cosine * x - turn.sine * y, py = turn.sine * x + turn.cosine * y;
   bool odd = false;
   for (const auto& [ax, ay, bx, by] : obstacle.segments) {
@@ -85,9 +84,10 @@ bool meet(const std::array<Point2, 2>& ends, const Line& line, double margin) {
 bool ObstacleReference::collides(const Agents& agents, std::uint32_t agent,
                                  const ReferenceObstacle& obstacle) const {
   const std::vector<Line> lines = lines_of(agents, agent, obstacle);
+  const detail::Rotation turn = detail::rotation(agents.heading[agent]);
   const auto overlaps = [&](const Disc& disc) {
     return std::any_of(lines.begin(), lines.end(), [&](const Line& line) { return line.touches(disc); }) ||
-           encloses(obstacle, agents, agent, disc.x, disc.y);
+           encloses(obstacle, agents, agent, turn, disc.x, disc.y);
   };
   const CutList& list = cuts_.list(agents, agent);
   const bool exact = segments_.decide(agents, {agent, agent});
@@ -99,7 +99,7 @@ bool ObstacleReference::collides(const Agents& agents, std::uint32_t agent,
     return std::any_of(segments.begin(), segments.end(), [&](const std::array<Point2, 2>& ends) {
       return std::any_of(lines.begin(), lines.end(),
                          [&](const Line& line) { return meet(ends, line, margin); }) ||
-             encloses(obstacle, agents, agent, ends[0].x, ends[0].y);
+             encloses(obstacle, agents, agent, turn, ends[0].x, ends[0].y);
     });
   };
   for (std::size_t i = 0; i < list.discs.size(); ++i) {
@@ -131,8 +131,10 @@ ObstacleReference::Gap ObstacleReference::gap(const Agents& agents, std::uint32_
 bool ObstacleReference::holds_a_centre(const Agents& agents, std::uint32_t agent,
                                        const ReferenceObstacle& obstacle) const {
   const std::span<const Disc> discs = cuts_.of(agents, agent);
-  return std::any_of(discs.begin(), discs.end(),
-                     [&](const Disc& disc) { return encloses(obstacle, agents, agent, disc.x, disc.y); });
+  const detail::Rotation turn = detail::rotation(agents.heading[agent]);
+  return std::any_of(discs.begin(), discs.end(), [&](const Disc& disc) {
+    return encloses(obstacle, agents, agent, turn, disc.x, disc.y);
+  });
 }
 
 }  // namespace bch::baselines
