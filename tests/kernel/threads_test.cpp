@@ -13,6 +13,7 @@
 #include <bch/collide.hpp>
 #include <bch/contacts.hpp>
 #include <bch/dynamic_shape_set.hpp>
+#include <bch/obstacles.hpp>
 #include <bch/penetration.hpp>
 #include <bch/time_of_impact.hpp>
 
@@ -85,7 +86,8 @@ struct Everything {
   std::vector<DiscPair> contacts;
   std::vector<Pair> candidates;
   std::vector<std::uint64_t> begin;
-  std::vector<std::uint32_t> neighbours;
+  std::vector<std::uint32_t> neighbours, obstacles;
+  std::vector<float> from_walls;
 
   Everything(const ShapeSet& set, const test::PairScene& scene)
       : boundary(scene.pairs.size()),
@@ -93,7 +95,8 @@ struct Everything {
         near(boundary),
         times(boundary.size()),
         best(boundary.size()),
-        along(best) {
+        along(best),
+        from_walls(scene.crowd.x.size()) {
     const Agents agents = scene.crowd.agents();
     const std::span<const Pair> pairs = scene.pairs;
     const std::vector<double> way(pairs.size(), 0.5);
@@ -114,6 +117,11 @@ struct Everything {
     const Rows<std::uint32_t> all = collider.collide_all(set, agents);
     begin.assign(all.offsets.begin(), all.offsets.end());
     neighbours.assign(all.values.begin(), all.values.end());
+    static const ObstacleSet walls =
+        obstacles_from_wkt("LINESTRING(-20 0, 20 1) POLYGON((-2 -2, 2 -2, 2 2, -2 2))");
+    const CrowdCollisions with_walls = collider.collide_all(set, agents, walls);
+    obstacles.assign(with_walls.obstacles.values.begin(), with_walls.obstacles.values.end());
+    clearance(set, agents, walls, {from_walls});
   }
 
   void expect_same(const Everything& other) const {
@@ -130,6 +138,8 @@ struct Everything {
     EXPECT_EQ(candidates, other.candidates);
     EXPECT_EQ(begin, other.begin);
     EXPECT_EQ(neighbours, other.neighbours);
+    EXPECT_EQ(obstacles, other.obstacles);
+    EXPECT_EQ(from_walls, other.from_walls);
   }
 };
 

@@ -9,12 +9,34 @@
 #include <bch/collide.hpp>
 #include <bch/contacts.hpp>
 #include <bch/dynamic_shape_set.hpp>
+#include <bch/obstacles.hpp>
 #include <bch/penetration.hpp>
 #include <bch/time_of_impact.hpp>
 
 #include "layout/shape_set/flat_shape.hpp"
 
 namespace bch::test {
+namespace {
+
+/// A wall, and a pillar on it.
+void ask_all_of_obstacles(const ShapeSet& set, const Agents& agents, const QueryOptions& options) {
+  const ObstacleSet obstacles =
+      obstacles_from_wkt("LINESTRING(-9 0.1, 9 0.2) POLYGON((-1 -1, 1 -1, 1 1, -1 1))");
+  std::vector<std::uint8_t> hits(agents.size());
+  std::vector<Penetration> ways(agents.size());
+  std::vector<float> values(agents.size());
+  std::vector<Vec2> directions(agents.size());
+  std::vector<DiscPair> discs(agents.size());
+  const std::vector<double> way(agents.size(), 0.5);
+  collide(set, agents, obstacles, hits, options);
+  within(set, agents, obstacles, way, hits, options);
+  clearance(set, agents, obstacles, {values, directions, discs}, options);
+  penetration(set, agents, obstacles, ways, options);
+  time_of_impact(set, agents, {way, way}, obstacles, values, options);
+  CrowdCollider().collide_all(set, agents, obstacles, options);
+}
+
+}  // namespace
 
 void ask_all(const ShapeSet& set, const Agents& agents, std::span<const Pair> pairs,
              const Implementation& implementation) {
@@ -32,6 +54,7 @@ void ask_all(const ShapeSet& set, const Agents& agents, std::span<const Pair> pa
   const std::vector<double> way(pairs.size(), 0.5);
   within(set, agents, pairs, way, hits, {.implementation = &implementation});
   time_of_impact(set, agents, pairs, {way, way}, values, {.implementation = &implementation});
+  ask_all_of_obstacles(set, agents, {.implementation = &implementation});
 }
 
 void ask_all_of_a_dynamic_copy(const ShapeSet& set, const Agents& agents, std::span<const Pair> pairs,

@@ -16,6 +16,7 @@
 #include <bch/contacts.hpp>
 #include <bch/default_characters.hpp>
 #include <bch/dynamic_shape_set.hpp>
+#include <bch/obstacles.hpp>
 #include <bch/outline_builder.hpp>
 #include <bch/pose_shape.hpp>
 #include <bch/shape_set_builder.hpp>
@@ -262,6 +263,24 @@ TEST_F(AllocationFaults, Contacts) {
   fail_each_with_threads([&] { ContactFinder().find(set, crowd.agents(), pairs); },
                          [&] { EXPECT_EQ(finder.find(set, crowd.agents(), pairs).values.size(), expected); },
                          2);
+}
+
+constexpr const char* walls =
+    "LINESTRING(0 0, 5 5, 9 1) POLYGON((2 2, 4 2, 4 4, 2 4), (2.5 2.5, 3 2.5, 3 3)) LINESTRING(1 9, 9 9, 9 "
+    "1)";
+
+TEST_F(AllocationFaults, Obstacles) {
+  EXPECT_GT(fail_each([] { obstacles_from_wkt(walls); }, [] {}), 10u);
+  const ObstacleSet obstacles = obstacles_from_wkt(walls);
+  std::vector<std::uint8_t> hits(crowd.x.size());
+  CrowdCollider collider;
+  const auto answer = [&] {
+    return collider.collide_all(set, crowd.agents(), obstacles).obstacles.values.size();
+  };
+  const std::size_t expected = answer();
+  ASSERT_GT(expected, 0u);
+  fail_each_with_threads([&] { collide(set, crowd.agents(), obstacles, hits); },
+                         [&] { EXPECT_EQ(answer(), expected); }, 2);
 }
 
 /// Answers that need no memory come without any, once TBB has its own.

@@ -81,8 +81,8 @@ ObstacleSet obstacles_from_wkt(std::string_view text, Polygons polygons = Polygo
 
 // Queries of agents against obstacles. Each answers every agent as the query of the same name answers pairs: defined without a traversal, the
 // same bits on every processor and for any number of threads, never a miss, far from the origin as at it. A disc overlaps an obstacle where
-// its centre is at most its radius away from it; distances are computed in double. What a false positive costs beside the sizes of
-// discs is a gap of 4 um per metre of an agent's reach and 1e-14 of the distance to the ends of a segment. A body in slabs meets an obstacle
+// its centre is at most its radius away from it; distances are computed in double. A false positive has a gap of at most the sizes of
+// discs, 4 um per metre of an agent's reach, and 1e-14 of the distance to the ends of a segment. A body in slabs meets an obstacle
 // where some part of it does, and an agent's height does not matter.
 //
 // Sizes:   one answer an agent.
