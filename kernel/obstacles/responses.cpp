@@ -73,7 +73,8 @@ class WaysOut {
     });
     if (is_any_touched) return farthest;
     const std::uint32_t area = body_.area_that_holds(part_);
-    return area == no_obstacle ? farthest : over(nearest_of(area), everywhere);
+    const LocalSegment* const nearest = area == no_obstacle ? nullptr : nearest_of(area);
+    return nearest == nullptr ? farthest : over(*nearest, everywhere);
   }
 
  private:
@@ -170,17 +171,20 @@ class WaysOut {
     return {with_margin(depth, segment), {-side * world.y, side * world.x}};
   }
 
-  const LocalSegment& nearest_of(std::uint32_t area) {
+  /// Returns the segment of an area that is the nearest to the part's centre. There is none where a set has numbers that are no lengths.
+  const LocalSegment* nearest_of(std::uint32_t area) {
+    constexpr double least_step = 1e-3, farthest = 16 * rounding::largest_position;  // metres
     const Vec2 centre = part_.centre();
     const LocalSegment* nearest = nullptr;
     double least = infinity;
-    for (double distance = part_.outer_radius(); nearest == nullptr; distance *= 4)
+    for (double distance = std::max(least_step, part_.outer_radius());
+         nearest == nullptr && distance < farthest; distance *= 4)
       for (const LocalSegment& segment : body_.near().find(part_.place, centre, distance)) {
         const double square = segment.square_distance(double{centre.x}, double{centre.y});
         if (segment.obstacle == area && has_length(segment) && square < least)
           least = square, nearest = &segment;
       }
-    return *nearest;
+    return nearest;
   }
 
   BodyQuery& body_;

@@ -418,6 +418,30 @@ TEST_F(Obstacles, HoldAPartOfAnOutline) {
   }
 }
 
+/// A leaf has outlines on both sides of a border that meets neither.
+TEST_F(Obstacles, HoldAPartOfALeaf) {
+  const auto triangle = [](float x) {
+    return std::vector<Vec2>{{x + 0.1f, 0}, {x - 0.05f, 0.0866f}, {x - 0.05f, -0.0866f}};
+  };
+  const std::vector<std::vector<Vec2>> four = {triangle(-1.15f), triangle(-0.85f), triangle(0.85f),
+                                               triangle(1.15f)};
+  const std::vector<Shape> shape = {shape_from_polygons(four, 0.5f)};
+  const ShapeSet leaves(shape);
+  ASSERT_TRUE(leaves.exact_leaves());
+  ASSERT_EQ(leaves.discs(0, 0).size(), 2u);
+  for (const double middle : {-1.15, -0.85, 0.85, 1.15}) {
+    ObstacleScene scene;
+    scene.add_path({{middle - 0.11, -0.1}, {middle + 0.11, -0.1}, {middle + 0.11, 0.1}, {middle - 0.11, 0.1}},
+                   true);
+    scene.end_obstacle(true);
+    Crowd crowd;
+    crowd.add({0, 0, 0, 0, 0});
+    std::uint8_t hit = 0;
+    collide(leaves, crowd.agents(), scene.set(), {&hit, 1});
+    EXPECT_EQ(hit, 1) << middle;
+  }
+}
+
 /// Repeated points are no sides, and a post is left the way that a disc is beside it.
 TEST_F(Obstacles, AreLeftAcrossRealSides) {
   const std::vector<Shape> disc = {{{}, fixed_cylinder(0.25f)}};
