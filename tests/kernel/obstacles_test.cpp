@@ -444,7 +444,7 @@ TEST_F(Obstacles, HoldAPartOfALeaf) {
 
 /// Repeated points are no sides, and a post is left the way that a disc is beside it.
 TEST_F(Obstacles, AreLeftAcrossRealSides) {
-  const std::vector<Shape> disc = {{{}, fixed_cylinder(0.25f)}};
+  const std::vector<Shape> disc = {{{}, fixed_cylinder(0.3f)}};
   const ShapeSet discs(disc);
   const std::vector<double> x = {0, 1, 1, 0, 0, 5, 5, 5}, y = {0, 0, 1, 1, 1, 0, 0, 2};
   const std::vector<std::uint64_t> paths = {0, 5, 8};
@@ -453,16 +453,16 @@ TEST_F(Obstacles, AreLeftAcrossRealSides) {
   crowd.add({0, -0.1, 0.75, 0.5, 0}), crowd.add({0, 5.2, 0.1, 0.5, 0});
   std::vector<Penetration> ways(2);
   penetration(discs, crowd.agents(), ObstacleSet({x, y, paths, {}, areas}), ways);
-  EXPECT_NEAR(ways[0].depth, 0.15, 1e-5);
+  EXPECT_NEAR(ways[0].depth, 0.2, 1e-5);
   EXPECT_EQ(ways[0].x, -1);
-  EXPECT_NEAR(ways[1].depth, 0.05, 1e-5);
+  EXPECT_NEAR(ways[1].depth, 0.1, 1e-5);
   EXPECT_EQ(ways[1].x, 1);
   const std::vector<double> post_x = {0}, post_y = {0};
   const std::vector<std::uint64_t> post = {0, 1};
   for (std::size_t k = 0; k < 2; ++k) crowd.x[k] = 0.144 * (k == 0 ? 1 : -1), crowd.y[k] = 0.192;
   penetration(discs, crowd.agents(), ObstacleSet({post_x, post_y, post}), ways);
   for (std::size_t k = 0; k < 2; ++k) {
-    EXPECT_NEAR(ways[k].depth, 0.01, 1e-5);
+    EXPECT_NEAR(ways[k].depth, 0.06, 1e-5);
     EXPECT_NEAR(ways[k].x, k == 0 ? 0.6 : -0.6, 1e-6);
     EXPECT_NEAR(ways[k].y, 0.8, 1e-6);
   }
