@@ -49,7 +49,7 @@ enum class Polygons {
 class ObstacleSet {
  public:
   /// Copies the obstacles and sorts their segments into a tree of boxes.
-  /// Cost:    0.5 s for 10^6 segments, and 120 bytes for each.
+  /// Cost:    1 s for 10^6 segments, and 120 bytes for each.
   /// Errors:  throws std::invalid_argument on sizes that differ, offsets that descend or lead beyond what there is, and a point that is not finite
   ///          or beyond the limits, naming it; std::length_error beyond 2^31 points, paths
   ///          and obstacles.
