@@ -41,13 +41,19 @@ std::string hit_rows(const QueryInput& input, const std::vector<std::uint8_t>& h
   return out;
 }
 
+/// Asks about obstacles, where there are some, or pairs: what queries take in the same place.
+template <class Query>
+void ask(const QueryInput& input, Query query) {
+  if (input.obstacles != nullptr)
+    query(*input.obstacles);
+  else
+    query(input.pairs);
+}
+
 std::string collide_rows(const QueryInput& input) {
   std::vector<std::uint8_t> hits(input.size());
-  const Agents agents = input.table.agents();
-  if (input.obstacles != nullptr)
-    collide(input.set, agents, *input.obstacles, hits, input.options);
-  else
-    collide(input.set, agents, input.pairs, hits, input.options);
+  ask(input,
+      [&](const auto& about) { collide(input.set, input.table.agents(), about, hits, input.options); });
   return hit_rows(input, hits);
 }
 
@@ -82,11 +88,9 @@ std::string penetration_rows(const QueryInput& input) {
 std::string clearance_rows(const QueryInput& input) {
   std::vector<float> distance(input.size());
   std::vector<Vec2> direction(input.size());
-  const Agents agents = input.table.agents();
-  if (input.obstacles != nullptr)
-    clearance(input.set, agents, *input.obstacles, {distance, direction}, input.options);
-  else
-    clearance(input.set, agents, input.pairs, {distance, direction}, input.options);
+  ask(input, [&](const auto& about) {
+    clearance(input.set, input.table.agents(), about, ClearanceAnswers{distance, direction}, input.options);
+  });
   std::string out;
   for (std::size_t i = 0; i < distance.size(); ++i)
     out += fmt::format("{},{},{},{}\n", ids(input, i), plain(distance[i]), plain(direction[i].x),
@@ -97,11 +101,9 @@ std::string clearance_rows(const QueryInput& input) {
 std::string within_rows(const QueryInput& input) {
   std::vector<std::uint8_t> hits(input.size());
   const std::span<const double> distance(&input.options.max_distance, 1);
-  const Agents agents = input.table.agents();
-  if (input.obstacles != nullptr)
-    within(input.set, agents, *input.obstacles, distance, hits, input.options);
-  else
-    within(input.set, agents, input.pairs, distance, hits, input.options);
+  ask(input, [&](const auto& about) {
+    within(input.set, input.table.agents(), about, distance, hits, input.options);
+  });
   return hit_rows(input, hits);
 }
 

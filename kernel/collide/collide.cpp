@@ -16,7 +16,7 @@ using namespace detail;
 void collide(const ShapeSet& shapes, const Agents& agents, std::span<const Pair> pairs,
              std::span<std::uint8_t> hits, const QueryOptions& options) {
   const FloatingPointStateGuard floats;
-  require_as_many("collide", pairs.size(), hits.size(), "hits");
+  require_as_many({"collide", "pair", pairs.size()}, hits.size(), "hits");
   const bool solid = is_solid(shapes, options.semantics, "collide");
   const bool exact = exact_leaves(shapes, options.leaves, "collide");
   const Implementation& implementation = chosen(options, "collide");

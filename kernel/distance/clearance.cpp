@@ -6,19 +6,18 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <stdexcept>
-#include <string>
 #include <tuple>
 #include <vector>
 
 #include "kernel/distance/apart_pairs.hpp"
 #include "kernel/distance/clearance_arguments.hpp"
+#include "kernel/distance/distance_input.hpp"
 #include "kernel/distance/nearest_discs.hpp"
 #include "kernel/runtime/floating_point_state.hpp"
 #include "kernel/runtime/pair_validation.hpp"
 #include "kernel/runtime/part_items.hpp"
 #include "kernel/runtime/task_ranges.hpp"
-#include "layout/base/shortest.hpp"
+#include "layout/base/rounding.hpp"
 
 namespace bch {
 
@@ -27,12 +26,6 @@ using namespace detail;
 namespace {
 
 constexpr std::size_t grain = ApartPairs::capacity;
-
-/// The largest float that is not above max_distance.
-float limit_of(double max_distance) {
-  const float nearest = static_cast<float>(std::min(max_distance, static_cast<double>(largest_limit)));
-  return static_cast<double>(nearest) > max_distance ? std::nextafter(nearest, -1.0f) : nearest;
-}
 
 /// Writes the answers of a range of pairs.
 class RangeAnswers {
@@ -51,7 +44,7 @@ class RangeAnswers {
     // A set of roots alone is as quickly searched.
     if (arguments_.enough == 0 && shapes_.trees != nullptr) {
       open_.take_apart(implementation_, arguments_.in, pairs_);
-      for (std::size_t i = 0; i < pairs_.size(); ++i) put_alone(i, 0);
+      for (std::size_t i = 0; i < pairs_.size(); ++i) put_alone(answers_, i, 0);
     } else {
       open_.take_all(pairs_);
     }
@@ -93,7 +86,7 @@ class RangeAnswers {
       for (std::size_t i = best + 1; i < items.begin(k + 1); ++i)
         if (is_before(i, best)) best = i;
       if (items.begin(k) == items.begin(k + 1)) {
-        put_alone(open_.index(k), std::numeric_limits<float>::infinity());
+        put_alone(answers_, open_.index(k), std::numeric_limits<float>::infinity());
         continue;
       }
       put(k, {parts, agents, items.pairs()[best], nearest[best]},
@@ -109,8 +102,8 @@ class RangeAnswers {
   void put(std::size_t k, const FoundDiscs& found, DiscPair first) noexcept {
     const std::size_t i = open_.index(k);
     const NearestDiscs& nearest = found.nearest;
-    if (nearest.a == no_node) return put_alone(i, std::numeric_limits<float>::infinity());
-    if (nearest.distance <= arguments_.enough) return put_alone(i, 0);
+    if (nearest.a == no_node) return put_alone(answers_, i, std::numeric_limits<float>::infinity());
+    if (nearest.distance <= arguments_.enough) return put_alone(answers_, i, 0);
     const bool is_turned = open_.pairs()[k].second < open_.pairs()[k].first;
     answers_.distance[i] = nearest.distance;
     if (!answers_.direction.empty()) answers_.direction[i] = direction(nearest, is_turned ? -1 : 1);
@@ -125,14 +118,6 @@ class RangeAnswers {
     }
   }
 
-  /// Writes a distance without anything beside it.
-  void put_alone(std::size_t i, float distance) noexcept {
-    answers_.distance[i] = distance;
-    if (!answers_.direction.empty()) answers_.direction[i] = {0, 0};
-    if (!answers_.discs.empty()) answers_.discs[i] = no_discs;
-    if (!answers_.points.empty()) answers_.points[i] = {};
-  }
-
   const Implementation& implementation_;
   ClearanceArguments arguments_;
   const ShapeSetView& shapes_;
@@ -142,32 +127,20 @@ class RangeAnswers {
   ApartPairs open_;  ///< not answered yet
 };
 
-void require_answers(const ClearanceAnswers& answers, std::size_t pairs) {
-  const auto require = [pairs](std::size_t size, const char* name) {
-    if (size != 0) require_as_many("clearance", pairs, size, name);
-  };
-  require_as_many("clearance", pairs, answers.distance.size(), "distances");
-  require(answers.direction.size(), "directions");
-  require(answers.discs.size(), "discs");
-  require(answers.points.size(), "points");
-}
-
 }  // namespace
 
 void clearance(const ShapeSet& shapes, const Agents& agents, std::span<const Pair> pairs,
                const ClearanceAnswers& answers, const QueryOptions& options) {
   const FloatingPointStateGuard floats;
-  require_answers(answers, pairs.size());
-  if (!(options.max_distance >= 0))
-    throw std::invalid_argument("clearance: a max_distance of " + shortest(options.max_distance) + " m");
-  require_choice("clearance", "overlap is", static_cast<int>(options.overlap), "zero (0) and deepest (1)");
+  require_valid({"clearance", "pair", pairs.size()}, answers, options);
   const Implementation& implementation = chosen(options, "clearance");
   const ShapeSetView& view = shapes.view();
   require_valid(implementation, view, agents, pairs);
 
   const float enough = options.overlap == Overlap::zero ? 0 : -std::numeric_limits<float>::infinity();
-  const ClearanceArguments arguments{arguments_for(view, agents, {}), limit_of(options.max_distance), enough,
-                                     nullptr};
+  const ClearanceArguments arguments{
+      arguments_for(view, agents, {}),
+      rounding::round_down(std::min(options.max_distance, double{largest_limit})), enough, nullptr};
   const auto part = [](auto span, std::size_t begin, std::size_t size) {
     return span.empty() ? span : span.subspan(begin, size);
   };

@@ -4,20 +4,16 @@
 #include <bch/time_of_impact.hpp>
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
-#include <sstream>
-#include <stdexcept>
-#include <string>
 #include <vector>
 
 #include "kernel/distance/apart_pairs.hpp"
+#include "kernel/distance/distance_input.hpp"
 #include "kernel/distance/time_of_impact_arguments.hpp"
 #include "kernel/runtime/floating_point_state.hpp"
 #include "kernel/runtime/pair_validation.hpp"
 #include "kernel/runtime/part_items.hpp"
 #include "kernel/runtime/task_ranges.hpp"
-#include "layout/base/rounding.hpp"
 
 namespace bch {
 
@@ -71,33 +67,15 @@ void answer(const Implementation& implementation, TimeOfImpactArguments argument
   for (std::size_t k = 0; k < open.size(); ++k) times[open.index(k)] = found[k];
 }
 
-void require_sizes(const Displacements& displacements, std::size_t times, std::size_t pairs) {
-  require_as_many("time_of_impact", pairs, displacements.x.size(), "displacements in x");
-  require_as_many("time_of_impact", pairs, displacements.y.size(), "displacements in y");
-  require_as_many("time_of_impact", pairs, times, "times");
-}
-
-void require_valid(const Displacements& displacements) {
-  const auto good = [](double length) { return std::abs(length) <= rounding::largest_position; };
-  for (std::size_t i = 0; i < displacements.x.size(); ++i) {
-    if (good(displacements.x[i]) && good(displacements.y[i])) continue;
-    std::ostringstream message;
-    message << "time_of_impact: pair " << i << ": displacement (" << displacements.x[i] << ", "
-            << displacements.y[i] << ") m is not within +-1e9";
-    throw std::invalid_argument(message.str());
-  }
-}
-
 }  // namespace
 
 void time_of_impact(const ShapeSet& shapes, const Agents& agents, std::span<const Pair> pairs,
                     const Displacements& displacements, std::span<float> times, const QueryOptions& options) {
   const FloatingPointStateGuard floats;
-  require_sizes(displacements, times.size(), pairs.size());
+  require_valid({"time_of_impact", "pair", pairs.size()}, displacements, times.size());
   const Implementation& implementation = chosen(options, "time_of_impact");
   const ShapeSetView& view = shapes.view();
   require_valid(implementation, view, agents, pairs);
-  require_valid(displacements);
 
   TimeOfImpactArguments arguments{arguments_for(view, agents, {}), nullptr, nullptr, nullptr};
   arguments.in.solid = view.slab_parts != nullptr;

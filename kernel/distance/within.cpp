@@ -3,18 +3,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
-#include <string>
 
 #include <bch/clearance.hpp>
 
 #include "kernel/collide/answer.hpp"
 #include "kernel/distance/clearance_arguments.hpp"
+#include "kernel/distance/distance_input.hpp"
 #include "kernel/runtime/floating_point_state.hpp"
 #include "kernel/runtime/pair_validation.hpp"
 #include "kernel/runtime/task_ranges.hpp"
 #include "kernel/simd/gaps.hpp"
-#include "layout/base/shortest.hpp"
 
 namespace bch {
 
@@ -27,22 +25,14 @@ float gap_of(double distance) noexcept {
   return rounding::round_up(std::min(distance, static_cast<double>(largest_limit)) * (1 + gap_share));
 }
 
-void require_distances(std::span<const double> distances, std::size_t pairs) {
-  if (distances.size() != 1) require_as_many("within", pairs, distances.size(), "distances");
-  for (std::size_t i = 0; i < distances.size(); ++i)
-    if (!(distances[i] >= 0))
-      throw std::invalid_argument(
-          "within: " + (distances.size() == 1 ? "" : "pair " + std::to_string(i) + ": ") + "a distance of " +
-          shortest(distances[i]) + " m");
-}
-
 }  // namespace
 
 void within(const ShapeSet& shapes, const Agents& agents, std::span<const Pair> pairs,
             std::span<const double> distances, std::span<std::uint8_t> answers, const QueryOptions& options) {
   const FloatingPointStateGuard floats;
-  require_as_many("within", pairs.size(), answers.size(), "answers");
-  require_distances(distances, pairs.size());
+  const Asked asked{"within", "pair", pairs.size()};
+  require_as_many(asked, answers.size(), "answers");
+  require_distances(asked, distances);
   const bool solid = is_solid(shapes, options.semantics, "within");
   const Implementation& implementation = chosen(options, "within");
   require_valid(implementation, shapes.view(), agents, pairs);

@@ -81,15 +81,10 @@ struct Row {
     [[maybe_unused]] const Guard guard;
     TimeOfImpactKernel<Simd>::run(arguments, begin, end);
   }
-  static std::uint32_t find_boxes(const BoxTreeView& tree, const Box& box, std::uint32_t* found,
-                                  std::uint32_t room) noexcept {
+  static std::uint32_t overlapping_boxes(const BoxBlock* blocks, const Box* queries, const BoxHit* in,
+                                         std::uint32_t count, BoxHit* out) noexcept {
     [[maybe_unused]] const Guard guard;
-    return BoxQuery<Simd>::run(tree, box, found, room);
-  }
-  static std::uint32_t step_boxes(const BoxBlock* blocks, const Box* queries, const BoxHit* in,
-                                  std::uint32_t count, BoxHit* out) noexcept {
-    [[maybe_unused]] const Guard guard;
-    return BoxQuery<Simd>::step(blocks, queries, in, count, out);
+    return BoxQuery<Simd>::run(blocks, queries, in, count, out);
   }
   static bool touches(const ObstacleArguments& arguments) noexcept {
     [[maybe_unused]] const Guard guard;
@@ -101,9 +96,9 @@ struct Row {
   }
 
   static constexpr Kernels kernels{
-      Simd::width,         check,        named,          run,           run_in_slabs, run_within,
-      run_within_in_slabs, run_if_valid, count_contacts, fill_contacts, extents,      clearance,
-      time_of_impact,      find_boxes,   step_boxes,     touches,       find_gap};
+      Simd::width,  check,          named,         run,     run_in_slabs, run_within,     run_within_in_slabs,
+      run_if_valid, count_contacts, fill_contacts, extents, clearance,    time_of_impact, overlapping_boxes,
+      touches,      find_gap};
 };
 
 }  // namespace bch::detail

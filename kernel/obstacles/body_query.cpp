@@ -17,9 +17,8 @@ namespace {
 
 using Vector = ObstaclePlace::Vector;
 
-bool any_touches(std::span<const LocalSegment> segments, double x, double y, double radius) noexcept {
-  return std::any_of(segments.begin(), segments.end(),
-                     [&](const LocalSegment& segment) { return segment.touches(x, y, radius); });
+bool is_touched(std::span<const LocalSegment> segments, float x, float y, float radius) noexcept {
+  return any_touches(segments.data(), segments.size(), double{x}, double{y}, double{radius});
 }
 
 /// Tells whether an area holds points that are clear of its segments. The first one is compared with the whole area, and
@@ -77,9 +76,7 @@ bool leaf_is_held(const ShapeSetView& shapes, const PartTree<void>& own, std::ui
   path.begin(own.nodes, own.tree, disc);
   for (;;) {
     const float* const node = own.nodes + std::size_t{path.node[0]} * inner_floats;
-    if (!any_touches(segments, double{node[0]}, double{node[1]}, double{node[2]}) &&
-        area.holds({node[0], node[1]}))
-      return true;
+    if (!is_touched(segments, node[0], node[1], node[2]) && area.holds({node[0], node[1]})) return true;
     path.step(own.nodes, 1);
     if (path.node[1] == path.node[0]) return false;
     path.node[0] = path.node[1];
@@ -104,8 +101,7 @@ bool BodyQuery::area_holds(const PlacedPart& part, std::span<const LocalSegment>
   AreaSide area(near_, part.place, segments, obstacle);
   const bool has_segments = exact_leaves && tree.segments != no_segments;
   const Root& root = part.root();
-  if (!any_touches(segments, double{root.x}, double{root.y}, double{root.radius}))
-    return area.holds(part.centre());
+  if (!is_touched(segments, root.x, root.y, root.radius)) return area.holds(part.centre());
   std::uint32_t open[7 * most_wide_levels + 1], count = 0;
   open[count++] = tree.top;
   while (count != 0) {
@@ -114,7 +110,7 @@ bool BodyQuery::area_holds(const PlacedPart& part, std::span<const LocalSegment>
     for (unsigned lane = 0; lane < block_width; ++lane) {
       const float x = discs.x[lane], y = discs.y()[lane];
       if (!(x < __builtin_inff())) continue;
-      if (!any_touches(segments, double{x}, double{y}, double{discs.radius()[lane]})) {
+      if (!is_touched(segments, x, y, discs.radius()[lane])) {
         if (area.holds({x, y})) return true;
       } else if (node < leaf_window) {
         open[count++] = TreeNodes<void>::child(own.nodes, node, lane);

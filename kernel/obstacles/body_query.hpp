@@ -45,7 +45,7 @@ class BodyQuery {
   /// near_part() then returns.
   void prepare(std::uint32_t begin, std::uint32_t end, double margin) {
     queries_.clear(), first_query_.clear();
-    margin_ = margin, begin_ = begin;
+    begin_ = begin;
     for (std::uint32_t agent = begin; agent < end; ++agent) {
       first_query_.push_back(queries_.size());
       const ObstaclePlace place{agents_.x[agent], agents_.y[agent], rotation(agents_.heading[agent])};
@@ -59,9 +59,7 @@ class BodyQuery {
   }
 
   /// Returns the segments within the margin of prepare() of a part's outer disc.
-  std::span<LocalSegment> near_part(const PlacedPart& part) {
-    return near_.take(part.number, part.place, part.centre(), part.outer_radius() + margin_);
-  }
+  std::span<LocalSegment> near_part(const PlacedPart& part) { return near_.take(part.number); }
 
   /// Calls visit(part) for every part of the body of an agent that was prepared.
   template <class Visit>
@@ -127,8 +125,7 @@ class BodyQuery {
   NearSegments near_;
   std::vector<NearQuery> queries_;
   std::vector<std::size_t> first_query_;  ///< by agent
-  double margin_ = 0;
-  std::uint32_t begin_ = 0;  ///< the first agent that was prepared
+  std::uint32_t begin_ = 0;               ///< the first agent that was prepared
 };
 
 }  // namespace bch::detail

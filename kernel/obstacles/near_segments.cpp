@@ -14,13 +14,13 @@ namespace {
 
 using Vector = ObstaclePlace::Vector;
 
-/// What sums of coordinates may be off by; a box is enlarged by it, and by what slack adds to a distance.
+/// Returns what sums of coordinates may be off by.
 double rounding_of(const ObstaclePlace& place) noexcept {
   return 0x1p-50 * (std::abs(place.x) + std::abs(place.y));
 }
 
-/// Returns a segment in the frame of an agent, if it is within a distance of a point there, or next to it.
-/// Returns: whether it is.
+/// Places a segment in the frame of an agent.
+/// Returns: whether it is within a distance of a point there, but for its slack.
 bool is_near(const ObstaclePlace& place, const WorldSegment& world, std::uint32_t slot, Vector centre,
              double distance, LocalSegment& to) noexcept {
   const double dx = world.ax - place.x, dy = world.ay - place.y;
@@ -38,7 +38,7 @@ bool is_near(const ObstaclePlace& place, const WorldSegment& world, std::uint32_
   return to.touches(centre.x, centre.y, distance);
 }
 
-/// Returns a box about a disc on its way.
+/// Returns a box about a disc on its way, enlarged by what is rounded, and by what slack adds to the distance.
 Box box_about(const ObstaclePlace& place, Vec2 centre, double distance, Vector way) noexcept {
   const auto [dx, dy] = place.turned(double{centre.x}, double{centre.y});
   const double x = place.x + dx, y = place.y + dy;
@@ -60,16 +60,29 @@ bool crosses(Vector from, Vector way, double square, Vector a, Vector b) noexcep
   return along > 0 && along < square;
 }
 
+std::uint32_t NearSegments::descend(const BoxTreeView& tree) {
+  if (tree.levels == 0) return 0;
+  const auto count = static_cast<std::uint32_t>(boxes_.size());
+  if (hits_.size() < count) hits_.resize(count);
+  for (std::uint32_t i = 0; i < count; ++i) hits_[i] = {i, 0};
+  std::uint32_t size = count;
+  for (std::uint32_t level = tree.levels; level-- > 0;) {
+    const std::size_t room = 8 * (std::size_t{size} + 1);
+    if (next_.size() < room) next_.resize(2 * room);
+    size = implementation_.kernels->overlapping_boxes(tree.blocks + tree.level_begin[level], boxes_.data(),
+                                                      hits_.data(), size, next_.data());
+    hits_.swap(next_);
+  }
+  return size;
+}
+
 std::span<const std::uint32_t> NearSegments::query(const BoxTreeView& tree, const Box& box,
                                                    std::vector<std::uint32_t>& slots) {
-  constexpr std::size_t least = 64;
-  if (slots.size() < least) slots.resize(least);
-  for (;;) {
-    const std::uint32_t count = implementation_.kernels->find_boxes(tree, box, slots.data(),
-                                                                    static_cast<std::uint32_t>(slots.size()));
-    if (count <= slots.size()) return {slots.data(), count};
-    slots.resize(std::max<std::size_t>(count, 2 * slots.size()));
-  }
+  boxes_.assign(1, box);
+  const std::uint32_t size = descend(tree);
+  slots.clear();
+  for (std::uint32_t k = 0; k < size; ++k) slots.push_back(hits_[k].place);
+  return slots;
 }
 
 std::span<LocalSegment> NearSegments::find(const ObstaclePlace& place, Vec2 centre, double distance,
@@ -78,7 +91,7 @@ std::span<LocalSegment> NearSegments::find(const ObstaclePlace& place, Vec2 cent
                  centre, distance, way.x != 0 || way.y != 0);
 }
 
-/// `all`: also those that are farther from where the disc is now.
+/// Places segments and sorts them. `all`: also those that are farther from where the disc is now.
 std::span<LocalSegment> NearSegments::collect(std::span<const std::uint32_t> slots,
                                               const ObstaclePlace& place, Vec2 centre, double distance,
                                               bool all) {
@@ -95,21 +108,11 @@ std::span<LocalSegment> NearSegments::collect(std::span<const std::uint32_t> slo
 }
 
 void NearSegments::prepare(std::span<const NearQuery> queries) {
-  const BoxTreeView& tree = obstacles_.segment_tree;
+  queries_ = queries;
   boxes_.clear();
   for (const NearQuery& query : queries)
     boxes_.push_back(box_about(query.place, query.centre, query.distance, {0, 0}));
-  std::uint32_t size = 0;
-  if (hits_.size() < queries.size()) hits_.resize(queries.size());
-  if (tree.levels != 0)
-    for (std::uint32_t i = 0; i < queries.size(); ++i) hits_[size++] = {i, 0};
-  for (std::uint32_t level = tree.levels; level-- > 0;) {
-    const std::size_t room = 8 * (std::size_t{size} + 1);
-    if (next_.size() < room) next_.resize(2 * room);
-    size = implementation_.kernels->step_boxes(tree.blocks + tree.level_begin[level], boxes_.data(),
-                                               hits_.data(), size, next_.data());
-    hits_.swap(next_);
-  }
+  const std::uint32_t size = descend(obstacles_.segment_tree);
   prepared_.clear(), prepared_begin_.clear();
   for (std::uint32_t i = 0, k = 0; i < queries.size(); ++i) {
     prepared_begin_.push_back(k);
@@ -118,8 +121,8 @@ void NearSegments::prepare(std::span<const NearQuery> queries) {
   prepared_begin_.push_back(size);
 }
 
-std::span<LocalSegment> NearSegments::take(std::size_t query, const ObstaclePlace& place, Vec2 centre,
-                                           double distance) {
+std::span<LocalSegment> NearSegments::take(std::size_t query) {
+  const auto& [place, centre, distance] = queries_[query];
   const std::uint32_t begin = prepared_begin_[query];
   return collect(std::span(prepared_).subspan(begin, prepared_begin_[query + 1] - begin), place, centre,
                  distance, false);

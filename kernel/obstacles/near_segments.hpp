@@ -15,7 +15,7 @@
 
 namespace bch::detail {
 
-/// Where an agent stands.
+/// The position of an agent, and how it is turned.
 struct ObstaclePlace {
   double x, y;
   Rotation turn;
@@ -47,10 +47,10 @@ class NearSegments {
 
   const ObstacleView& obstacles() const noexcept { return obstacles_; }
 
-  /// Finds the segments whose boxes overlap each of many discs, for take().
+  /// Finds the segments whose boxes overlap each of many discs, for take(), which the discs have to outlive.
   void prepare(std::span<const NearQuery> queries);
   /// Returns what find() finds for one of the queries of prepare().
-  std::span<LocalSegment> take(std::size_t query, const ObstaclePlace& place, Vec2 centre, double distance);
+  std::span<LocalSegment> take(std::size_t query);
 
   /// Finds all segments within a distance of a point of the agent's frame, as long as that moves by `way` (in the world); in the order of their
   /// numbers, so that those of an obstacle follow each other.
@@ -75,19 +75,21 @@ class NearSegments {
   bool holds(std::uint32_t area_slot, const ObstaclePlace& place, Vec2 point);
 
  private:
+  /// Finds the boxes of a tree that overlap `boxes_`, level by level. Returns: how many of hits_ these are, query after query.
+  std::uint32_t descend(const BoxTreeView& tree);
+  /// Finds those that overlap one box.
   std::span<const std::uint32_t> query(const BoxTreeView& tree, const Box& box,
                                        std::vector<std::uint32_t>& slots);
-
-  const Implementation& implementation_;
-  const ObstacleView& obstacles_;
   std::span<LocalSegment> collect(std::span<const std::uint32_t> slots, const ObstaclePlace& place,
                                   Vec2 centre, double distance, bool all);
 
+  const Implementation& implementation_;
+  const ObstacleView& obstacles_;
   std::vector<std::uint32_t> slots_, areas_;
   std::vector<Box> boxes_;
   std::vector<BoxHit> hits_, next_;
-  std::vector<std::uint32_t> prepared_;
-  std::vector<std::uint32_t> prepared_begin_;
+  std::span<const NearQuery> queries_;
+  std::vector<std::uint32_t> prepared_, prepared_begin_;  ///< slots, and where those of a query begin
   std::vector<LocalSegment> memory_;
   std::span<LocalSegment> found_;
 };

@@ -85,12 +85,6 @@ class ObstacleKernel {
     return bits;
   }
 
-  bool any_touches(double x, double y, double radius) const noexcept {
-    for (std::uint32_t i = 0; i < in_.count; ++i)
-      if (in_.segments[i].touches(x, y, radius)) return true;
-    return false;
-  }
-
   /// `disc`: its place among the nodes.
   bool ancestors_touch(std::uint32_t disc) const noexcept {
     if (tree_.count == 1) return true;
@@ -101,7 +95,8 @@ class ObstacleKernel {
       for (std::uint32_t k = 0; k < AncestorPath<Simd>::length; ++k) {
         if (k != 0 && path.node[k] == path.node[k - 1]) return true;
         const float* const node = nodes_ + std::size_t{path.node[k]} * inner_floats;
-        if (!any_touches(double{node[0]}, double{node[1]}, double{node[2]})) return false;
+        if (!any_touches(in_.segments, in_.count, double{node[0]}, double{node[1]}, double{node[2]}))
+          return false;
       }
       if (path.ends_at_root(nodes_)) return true;
     }

@@ -4,15 +4,13 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <stdexcept>
-#include <string>
 
 #include <bch/obstacles.hpp>
 
+#include "kernel/distance/distance_input.hpp"
 #include "kernel/obstacles/query_input.hpp"
 #include "kernel/runtime/kernels.hpp"
 #include "layout/base/rounding.hpp"
-#include "layout/base/shortest.hpp"
 #include "layout/format/cut_discs.hpp"
 
 namespace bch {
@@ -20,12 +18,6 @@ namespace bch {
 using namespace detail;
 
 namespace detail {
-
-void require_an_answer_each(const char* query, const Agents& agents, std::size_t size, const char* what) {
-  if (size != agents.size())
-    throw std::invalid_argument(std::string(query) + ": " + std::to_string(agents.size()) + " agents but " +
-                                std::to_string(size) + " " + what);
-}
 
 BodyQuery::Meaning meaning_of(const ShapeSet& shapes, const QueryOptions& options) {
   return {exact_leaves(shapes, options.leaves, "collide"), is_solid(shapes, options.semantics, "collide")};
@@ -119,13 +111,7 @@ class GapQuery {
   const ShapeSetView& shapes_;
 };
 
-/// Returns the largest float that is not above a gap.
-float rounded_down(double gap) noexcept {
-  const float nearest = static_cast<float>(gap);
-  return double{nearest} > gap ? std::nextafter(nearest, -std::numeric_limits<float>::infinity()) : nearest;
-}
-
-/// The vector from a disc's centre to the nearest point of a segment, in the agent's frame.
+/// Returns the vector from a disc's centre to the nearest point of a segment, in the agent's frame.
 Vector to_nearest_point(const LocalSegment& segment, const Disc& disc) noexcept {
   const double x = disc.x, y = disc.y;
   const double along = segment.along(x, y), aside = -segment.across(x, y);
@@ -139,7 +125,7 @@ Vec2 to_float(Vector v) noexcept {
 
 /// Writes the answers for what was found.
 void put(const ClearanceAnswers& answers, std::size_t i, const NearestObstacle& nearest) {
-  answers.distance[i] = rounded_down(nearest.gap);
+  answers.distance[i] = rounding::round_down(nearest.gap);
   const Disc& disc = nearest.body_disc;
   const Vector way = to_nearest_point(nearest.segment, disc);
   const double length = std::sqrt(way.x * way.x + way.y * way.y);
@@ -155,20 +141,12 @@ void put(const ClearanceAnswers& answers, std::size_t i, const NearestObstacle& 
   }
 }
 
-/// Writes a distance without more.
-void put_alone(const ClearanceAnswers& answers, std::size_t i, float distance) {
-  answers.distance[i] = distance;
-  if (!answers.direction.empty()) answers.direction[i] = {0, 0};
-  if (!answers.discs.empty()) answers.discs[i] = no_discs;
-  if (!answers.points.empty()) answers.points[i] = {};
-}
-
 }  // namespace
 
 void collide(const ShapeSet& shapes, const Agents& agents, const ObstacleSet& obstacles,
              std::span<std::uint8_t> hits, const QueryOptions& options) {
   const FloatingPointStateGuard floats;
-  require_an_answer_each("collide", agents, hits.size(), "hits");
+  require_as_many({"collide", "agent", agents.size()}, hits.size(), "hits");
   const BodyQuery::Meaning meaning = meaning_of(shapes, options);
   const Implementation& implementation = chosen(options, "collide");
   validate(shapes, agents);
@@ -184,13 +162,9 @@ void collide(const ShapeSet& shapes, const Agents& agents, const ObstacleSet& ob
 void within(const ShapeSet& shapes, const Agents& agents, const ObstacleSet& obstacles,
             std::span<const double> distances, std::span<std::uint8_t> answers, const QueryOptions& options) {
   const FloatingPointStateGuard floats;
-  require_an_answer_each("within", agents, answers.size(), "answers");
-  if (distances.size() != 1) require_an_answer_each("within", agents, distances.size(), "distances");
-  for (std::size_t i = 0; i < distances.size(); ++i)
-    if (!(distances[i] >= 0))
-      throw std::invalid_argument(
-          "within: " + (distances.size() == 1 ? "" : "agent " + std::to_string(i) + ": ") + "a distance of " +
-          shortest(distances[i]) + " m");
+  const Asked asked{"within", "agent", agents.size()};
+  require_as_many(asked, answers.size(), "answers");
+  require_distances(asked, distances);
   const bool solid = is_solid(shapes, options.semantics, "within");
   const Implementation& implementation = chosen(options, "within");
   validate(shapes, agents);
@@ -207,14 +181,7 @@ void within(const ShapeSet& shapes, const Agents& agents, const ObstacleSet& obs
 void clearance(const ShapeSet& shapes, const Agents& agents, const ObstacleSet& obstacles,
                const ClearanceAnswers& answers, const QueryOptions& options) {
   const FloatingPointStateGuard floats;
-  require_an_answer_each("clearance", agents, answers.distance.size(), "distances");
-  if (!answers.direction.empty())
-    require_an_answer_each("clearance", agents, answers.direction.size(), "directions");
-  if (!answers.discs.empty()) require_an_answer_each("clearance", agents, answers.discs.size(), "discs");
-  if (!answers.points.empty()) require_an_answer_each("clearance", agents, answers.points.size(), "points");
-  if (!(options.max_distance >= 0))
-    throw std::invalid_argument("clearance: a max_distance of " + shortest(options.max_distance) + " m");
-  require_choice("clearance", "overlap is", static_cast<int>(options.overlap), "zero (0) and deepest (1)");
+  require_valid({"clearance", "agent", agents.size()}, answers, options);
   const Implementation& implementation = chosen(options, "clearance");
   validate(shapes, agents);
   const bool zero = options.overlap == Overlap::zero;

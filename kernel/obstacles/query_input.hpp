@@ -17,9 +17,6 @@ namespace bch::detail {
 
 constexpr std::size_t agents_per_task = 256;
 
-/// Requires as many values as agents, or throws std::invalid_argument naming the query.
-void require_an_answer_each(const char* query, const Agents& agents, std::size_t size, const char* what);
-
 /// Returns what collide() means with these options. Errors: throws std::invalid_argument as collide().
 BodyQuery::Meaning meaning_of(const ShapeSet& shapes, const QueryOptions& options);
 

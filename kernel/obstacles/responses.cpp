@@ -4,17 +4,15 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <stdexcept>
-#include <string>
 #include <vector>
 
 #include <bch/obstacles.hpp>
 
+#include "kernel/distance/distance_input.hpp"
 #include "kernel/obstacles/part_tree.hpp"
 #include "kernel/obstacles/query_input.hpp"
 #include "kernel/simd/tree_nodes.hpp"
 #include "layout/base/rounding.hpp"
-#include "layout/base/shortest.hpp"
 #include "layout/format/cut_discs.hpp"
 
 namespace bch {
@@ -193,7 +191,7 @@ class WaysOut {
   std::vector<const LocalSegment*> touched_;
 };
 
-/// A disc on its way beside a segment: the least t in [0, 1] at which it touches that, or infinity. Every quotient is of lengths
+/// Returns when a disc on its way touches a segment: the least t in [0, 1], or infinity. Every quotient is of lengths
 /// that were not subtracted from each other where they are large.
 double touch_time(const LocalSegment& segment, const Disc& disc, Vector way) noexcept {
   const double x = disc.x, y = disc.y, r = double{disc.radius} + segment.slack;
@@ -248,6 +246,7 @@ void find_time(const PlacedPart& part, const LocalSegment& segment, Vector way, 
   }
 }
 
+/// Returns when a part on its way touches an obstacle, or infinity.
 double impact(BodyQuery& body, const PlacedPart& part, Vector way_in_world) {
   const Vec2 centre = part.centre();
   body.near_part(part);
@@ -261,29 +260,12 @@ double impact(BodyQuery& body, const PlacedPart& part, Vector way_in_world) {
   return best;
 }
 
-/// Returns the largest float that is not above a time.
-float rounded_down(double time) noexcept {
-  const float nearest = static_cast<float>(time);
-  return double{nearest} > time ? std::nextafter(nearest, -1.0f) : nearest;
-}
-
-void require_valid(const Displacements& displacements, const Agents& agents) {
-  require_an_answer_each("time_of_impact", agents, displacements.x.size(), "displacements in x");
-  require_an_answer_each("time_of_impact", agents, displacements.y.size(), "displacements in y");
-  const auto good = [](double length) { return std::abs(length) <= rounding::largest_position; };
-  for (std::size_t i = 0; i < displacements.x.size(); ++i)
-    if (!good(displacements.x[i]) || !good(displacements.y[i]))
-      throw std::invalid_argument("time_of_impact: agent " + std::to_string(i) + ": displacement (" +
-                                  shortest(displacements.x[i]) + ", " + shortest(displacements.y[i]) +
-                                  ") m is not within +-1e9");
-}
-
 }  // namespace
 
 void penetration(const ShapeSet& shapes, const Agents& agents, const ObstacleSet& obstacles,
                  std::span<Penetration> out, const QueryOptions& options) {
   const FloatingPointStateGuard floats;
-  require_an_answer_each("penetration", agents, out.size(), "answers");
+  require_as_many({"penetration", "agent", agents.size()}, out.size(), "answers");
   const Implementation& implementation = chosen(options, "penetration");
   validate(shapes, agents);
   for_agents(implementation, shapes, agents, obstacles, 0, [&](BodyQuery& body, std::uint32_t agent) {
@@ -300,8 +282,7 @@ void penetration(const ShapeSet& shapes, const Agents& agents, const ObstacleSet
 void time_of_impact(const ShapeSet& shapes, const Agents& agents, const Displacements& displacements,
                     const ObstacleSet& obstacles, std::span<float> times, const QueryOptions& options) {
   const FloatingPointStateGuard floats;
-  require_an_answer_each("time_of_impact", agents, times.size(), "times");
-  require_valid(displacements, agents);
+  require_valid({"time_of_impact", "agent", agents.size()}, displacements, times.size());
   const Implementation& implementation = chosen(options, "time_of_impact");
   validate(shapes, agents);
   for_agents(implementation, shapes, agents, obstacles, 0, [&](BodyQuery& body, std::uint32_t agent) {
@@ -309,7 +290,7 @@ void time_of_impact(const ShapeSet& shapes, const Agents& agents, const Displace
     body.visit_parts(agent, [&](const PlacedPart& part) {
       best = std::min(best, impact(body, part, {displacements.x[agent], displacements.y[agent]}));
     });
-    times[agent] = rounded_down(best);
+    times[agent] = rounding::round_down(best);
   });
 }
 

@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 
 #include "kernel/obstacles/box_tree.hpp"
@@ -44,6 +45,14 @@ struct LocalSegment {
     return square_distance(at_x, at_y) <= limit * limit;
   }
 };
+
+/// Returns whether one of so many segments touches a disc. (Inlined for certain, so that instruction sets share no function.)
+[[gnu::always_inline]] inline bool any_touches(const LocalSegment* segments, std::size_t count, double x,
+                                               double y, double radius) noexcept {
+  for (std::size_t i = 0; i < count; ++i)
+    if (segments[i].touches(x, y, radius)) return true;
+  return false;
+}
 
 constexpr double slack_share = 0x1p-49;
 static_assert(slack_share >= 2 * 8 * 0x1p-53);

@@ -148,7 +148,7 @@ Query checked_query(const ShapeSet& shapes, const Agents& agents, std::span<cons
 }
 
 void require_directions(std::span<const Vec2> directions, std::size_t pairs) {
-  require_as_many("penetration", pairs, directions.size(), "directions");
+  require_as_many({"penetration", "pair", pairs}, directions.size(), "directions");
   for (std::size_t i = 0; i < pairs; ++i) {
     const auto [x, y] = directions[i];
     if (std::isfinite(x) && std::isfinite(y) && (x != 0 || y != 0)) continue;

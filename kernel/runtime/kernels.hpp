@@ -18,7 +18,6 @@ struct Arguments;
 struct Box;
 struct BoxBlock;
 struct BoxHit;
-struct BoxTreeView;
 struct ClearanceArguments;
 struct ObstacleArguments;
 struct ObstacleGap;
@@ -68,12 +67,9 @@ struct Kernels {
   /// Writes the times of impact of those pairs begin .. end that do not overlap
   /// now; see TimeOfImpactArguments.
   void (*time_of_impact)(const TimeOfImpactArguments& arguments, std::size_t begin, std::size_t end) noexcept;
-  /// Writes which boxes of a tree overlap a box, at most `room`; see BoxQuery. Returns how many do.
-  std::uint32_t (*find_boxes)(const BoxTreeView& tree, const Box& box, std::uint32_t* found,
-                              std::uint32_t room) noexcept;
   /// Writes which boxes of a level's blocks overlap those of many queries; see BoxQuery. Returns how many do.
-  std::uint32_t (*step_boxes)(const BoxBlock* blocks, const Box* queries, const BoxHit* in,
-                              std::uint32_t count, BoxHit* out) noexcept;
+  std::uint32_t (*overlapping_boxes)(const BoxBlock* blocks, const Box* queries, const BoxHit* in,
+                                     std::uint32_t count, BoxHit* out) noexcept;
   /// Returns whether a part of an agent touches the segments of an obstacle; see ObstacleKernel.
   bool (*touches)(const ObstacleArguments& arguments) noexcept;
   /// Finds the least gap between a disc of a part and one of the segments, until it is at most `enough`.

@@ -79,10 +79,10 @@ const Implementation& chosen(const QueryOptions& options, const char* query) {
   return *wanted;
 }
 
-void require_as_many(const char* query, std::size_t pairs, std::size_t size, const char* what) {
-  if (size != pairs)
-    throw std::invalid_argument(std::string(query) + ": " + std::to_string(pairs) + " pairs but " +
-                                std::to_string(size) + " " + what);
+void require_as_many(const Asked& asked, std::size_t size, const char* what) {
+  if (size != asked.count)
+    throw std::invalid_argument(std::string(asked.query) + ": " + std::to_string(asked.count) + " " +
+                                asked.one + "s but " + std::to_string(size) + " " + what);
 }
 
 void require_choice(const char* query, const char* what, int value, const char* words) {

@@ -22,9 +22,16 @@ constexpr std::size_t pairs_per_task = 2048;
 /// Errors:  throws std::invalid_argument naming the query where this processor does not run it.
 const Implementation& chosen(const QueryOptions& options, const char* query);
 
-/// Requires that a query was given as many values as pairs, and that an option is 0 or 1.
+/// What a query answers, and how many of them.
+struct Asked {
+  const char* query;
+  const char* one;  ///< "pair" or "agent"
+  std::size_t count;
+};
+
+/// Requires that a query was given as many values as it answers, and that an option is 0 or 1.
 /// Errors of both: throw std::invalid_argument naming the query, what is wrong, and in `words` the two that there are.
-void require_as_many(const char* query, std::size_t pairs, std::size_t size, const char* what);
+void require_as_many(const Asked& asked, std::size_t size, const char* what);
 void require_choice(const char* query, const char* what, int value, const char* words);
 
 /// Returns whether a query answers in solid semantics: that is selected, or bodies are in slabs.

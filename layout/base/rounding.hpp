@@ -4,7 +4,9 @@
 #pragma once
 
 #include <bit>
+#include <cmath>
 #include <cstdint>
+#include <limits>
 
 /// How far discs are enlarged so that a query in float never misses what the exact outlines hit: the proof.
 /// tests/kernel/rounding_test.cpp measures every step and attacks the whole with exact arithmetic.
@@ -241,6 +243,14 @@ inline float round_up(double value) {
   const float nearest = static_cast<float>(value);
   return std::bit_cast<float>(std::bit_cast<std::uint32_t>(nearest) +
                               std::uint32_t{static_cast<double>(nearest) < value});
+}
+
+/// Returns the largest float that is not above a value.
+inline float round_down(double value) {
+  const float nearest = static_cast<float>(value);
+  return static_cast<double>(nearest) > value
+             ? std::nextafter(nearest, -std::numeric_limits<float>::infinity())
+             : nearest;
 }
 
 }  // namespace bch::detail::rounding

@@ -388,11 +388,12 @@ TEST_F(Obstacles, HoldWhatIsLevelWithTheirVertices) {
   EXPECT_EQ(hits, (std::vector<std::uint8_t>{1, 0, 0, 0, 0, 1, 1, 0, 0, 1, 0}));
 }
 
+std::vector<Vec2> triangle(float x) {
+  return {{x + 0.1f, 0}, {x - 0.05f, 0.0866f}, {x - 0.05f, -0.0866f}};
+}
+
 /// An area holds one of two contours: discs above it are inside, those below stick out of it, and the whole body is crossed.
 TEST_F(Obstacles, HoldAPartOfAnOutline) {
-  const auto triangle = [](float x) {
-    return std::vector<Vec2>{{x + 0.1f, 0}, {x - 0.05f, 0.0866f}, {x - 0.05f, -0.0866f}};
-  };
   const std::vector<std::vector<Vec2>> pair = {triangle(-1), triangle(1)};
   std::vector<Shape> both = {shape_from_polygons(pair)};
   // One leaf holds both.
@@ -420,9 +421,6 @@ TEST_F(Obstacles, HoldAPartOfAnOutline) {
 
 /// A leaf has outlines on both sides of a border that meets neither.
 TEST_F(Obstacles, HoldAPartOfALeaf) {
-  const auto triangle = [](float x) {
-    return std::vector<Vec2>{{x + 0.1f, 0}, {x - 0.05f, 0.0866f}, {x - 0.05f, -0.0866f}};
-  };
   const std::vector<std::vector<Vec2>> four = {triangle(-1.15f), triangle(-0.85f), triangle(0.85f),
                                                triangle(1.15f)};
   const std::vector<Shape> shape = {shape_from_polygons(four, 0.5f)};

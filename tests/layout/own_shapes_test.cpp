@@ -149,6 +149,17 @@ TEST(ShapeFromDiscs, QueriesAreThoseOfAllPairsOfDiscs) {
   EXPECT_LT(colliding, hits.size() * 4 / 5);
 }
 
+/// Answers the pairs of a scene at each of three levels.
+std::vector<std::vector<std::uint8_t>> hits_at_levels(Random& random, const ShapeSet& set) {
+  test::PairScene scene = random_scene(random, set, 4'000);
+  std::vector<std::vector<std::uint8_t>> hits;
+  for (std::uint8_t level = 0; level < 3; ++level) {
+    for (std::uint8_t& each : scene.crowd.level) each = level;
+    collide(set, scene.crowd.agents(), scene.pairs, hits.emplace_back(scene.pairs.size()));
+  }
+  return hits;
+}
+
 /// A deeper level never adds a collision, and characters of other kinds are in the same set.
 TEST(ShapeFromDiscs, MixesWithOtherShapesAtAllLevels) {
   Random random(2804);
@@ -156,14 +167,9 @@ TEST(ShapeFromDiscs, MixesWithOtherShapesAtAllLevels) {
   for (std::uint32_t i = 0; i < 6; ++i) shapes.push_back(shape_from_discs(random_discs(random, 3 + 7 * i)));
   const ShapeSet set(shapes, {{0, 2, all_depths}});
   EXPECT_FALSE(set.solid());
-  test::PairScene scene = random_scene(random, set, 4'000);
-  std::vector<std::vector<std::uint8_t>> hits;
-  for (std::uint8_t level = 0; level < 3; ++level) {
-    for (std::uint8_t& each : scene.crowd.level) each = level;
-    collide(set, scene.crowd.agents(), scene.pairs, hits.emplace_back(scene.pairs.size()));
-  }
+  const auto hits = hits_at_levels(random, set);
   std::size_t cleared = 0;
-  for (std::size_t i = 0; i < scene.pairs.size(); ++i) {
+  for (std::size_t i = 0; i < hits[0].size(); ++i) {
     EXPECT_LE(hits[1][i], hits[0][i]) << i;
     EXPECT_LE(hits[2][i], hits[1][i]) << i;
     cleared += hits[2][i] != hits[0][i];
@@ -301,13 +307,8 @@ TEST(ShapesOfOnesOwn, MixWithOthers) {
   const ShapeSet set(shapes, {.depths = {0, 3, all_depths}});
   EXPECT_TRUE(set.solid());
   EXPECT_TRUE(set.exact_leaves());
-  test::PairScene scene = random_scene(random, set, 4'000);
-  std::vector<std::vector<std::uint8_t>> hits;
-  for (std::uint8_t level = 0; level < 3; ++level) {
-    for (std::uint8_t& each : scene.crowd.level) each = level;
-    collide(set, scene.crowd.agents(), scene.pairs, hits.emplace_back(scene.pairs.size()));
-  }
-  for (std::size_t i = 0; i < scene.pairs.size(); ++i) {
+  const auto hits = hits_at_levels(random, set);
+  for (std::size_t i = 0; i < hits[0].size(); ++i) {
     EXPECT_LE(hits[1][i], hits[0][i]) << i;
     EXPECT_LE(hits[2][i], hits[1][i]) << i;
   }

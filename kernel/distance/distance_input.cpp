@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include "kernel/distance/distance_input.hpp"
+
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+#include "layout/base/rounding.hpp"
+#include "layout/base/shortest.hpp"
+
+namespace bch::detail {
+namespace {
+
+/// Begins the message about one of what is asked.
+std::string place(const Asked& asked, std::size_t i) {
+  return std::string(asked.query) + ": " + asked.one + " " + std::to_string(i) + ": ";
+}
+
+}  // namespace
+
+void require_valid(const Asked& asked, const ClearanceAnswers& answers, const QueryOptions& options) {
+  const auto require = [&](std::size_t size, const char* name) {
+    if (size != 0) require_as_many(asked, size, name);
+  };
+  require_as_many(asked, answers.distance.size(), "distances");
+  require(answers.direction.size(), "directions");
+  require(answers.discs.size(), "discs");
+  require(answers.points.size(), "points");
+  if (!(options.max_distance >= 0))
+    throw std::invalid_argument(std::string(asked.query) + ": a max_distance of " +
+                                shortest(options.max_distance) + " m");
+  require_choice(asked.query, "overlap is", static_cast<int>(options.overlap), "zero (0) and deepest (1)");
+}
+
+void require_distances(const Asked& asked, std::span<const double> distances) {
+  const bool one_for_all = distances.size() == 1;
+  if (!one_for_all) require_as_many(asked, distances.size(), "distances");
+  for (std::size_t i = 0; i < distances.size(); ++i)
+    if (!(distances[i] >= 0))
+      throw std::invalid_argument((one_for_all ? std::string(asked.query) + ": " : place(asked, i)) +
+                                  "a distance of " + shortest(distances[i]) + " m");
+}
+
+void require_valid(const Asked& asked, const Displacements& displacements, std::size_t times) {
+  require_as_many(asked, displacements.x.size(), "displacements in x");
+  require_as_many(asked, displacements.y.size(), "displacements in y");
+  require_as_many(asked, times, "times");
+  const auto good = [](double length) { return std::abs(length) <= rounding::largest_position; };
+  for (std::size_t i = 0; i < displacements.x.size(); ++i)
+    if (!good(displacements.x[i]) || !good(displacements.y[i]))
+      throw std::invalid_argument(place(asked, i) + "displacement (" + shortest(displacements.x[i]) + ", " +
+                                  shortest(displacements.y[i]) + ") m is not within +-1e9");
+}
+
+void put_alone(const ClearanceAnswers& answers, std::size_t i, float distance) noexcept {
+  answers.distance[i] = distance;
+  if (!answers.direction.empty()) answers.direction[i] = {0, 0};
+  if (!answers.discs.empty()) answers.discs[i] = no_discs;
+  if (!answers.points.empty()) answers.points[i] = {};
+}
+
+}  // namespace bch::detail

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <span>
+
+#include <bch/clearance.hpp>
+#include <bch/time_of_impact.hpp>
+
+#include "kernel/runtime/pair_validation.hpp"
+
+namespace bch::detail {
+
+// The input of queries about distances, of pairs and of agents against obstacles.
+// Errors: each throws std::invalid_argument naming the query, the pair or agent where each has a value, and the value.
+
+/// Requires of clearance() the sizes of its answers, and its options.
+void require_valid(const Asked& asked, const ClearanceAnswers& answers, const QueryOptions& options);
+/// Requires of within() one distance, or as many as it answers, none of them negative or NaN.
+void require_distances(const Asked& asked, std::span<const double> distances);
+/// Requires of time_of_impact() the sizes of displacements and times, and displacements within the limits.
+void require_valid(const Asked& asked, const Displacements& displacements, std::size_t times);
+
+/// Writes the distance of a pair or an agent without anything beside it.
+void put_alone(const ClearanceAnswers& answers, std::size_t i, float distance) noexcept;
+
+}  // namespace bch::detail
