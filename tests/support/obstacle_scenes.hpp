@@ -3,6 +3,8 @@
 
 #pragma once
 
+#include <gtest/gtest.h>
+
 #include <cstdint>
 #include <vector>
 
@@ -38,5 +40,13 @@ ObstacleScene obstacle_scene(Random& random, std::uint32_t count, double half, d
 /// Draws agents of all shapes and levels in a square of half a width.
 Crowd crowd_about(Random& random, const ShapeSet& shapes, std::uint32_t count, double half, double x = 0,
                   double y = 0);
+
+/// The shapes and the set that tests of obstacles ask about.
+class ObstacleTest : public testing::Test {
+ protected:
+  Random random{2801};
+  std::vector<Shape> shapes = synthetic_shapes(2802, 40);
+  ShapeSet set{shapes, {.depths = {0, 3, 6, all_depths}}};
+};
 
 }  // namespace bch::test

@@ -1,0 +1,240 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+// Which agents touch obstacles, and which are held by areas: cases that random scenes do not have.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <numbers>
+#include <utility>
+#include <vector>
+
+#include <bch/collide.hpp>
+#include <bch/obstacles.hpp>
+
+#include "baselines/leaf_segments.hpp"
+#include "baselines/quad.hpp"
+#include "tests/support/obstacle_scenes.hpp"
+#include "tests/support/scenes.hpp"
+
+namespace bch {
+namespace {
+
+using Obstacles = test::ObstacleTest;
+using test::Crowd;
+using test::ObstacleScene;
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+using baselines::Quad;
+using baselines::QuadVector;
+
+int sign(Quad value) {
+  return value > 0 ? 1 : value < 0 ? -1 : 0;
+}
+Quad side(QuadVector a, QuadVector b, QuadVector p) {
+  return (b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x);
+}
+/// Segments that are not collinear.
+bool cross(QuadVector a, QuadVector b, QuadVector p, QuadVector q) {
+  return sign(side(a, b, p)) * sign(side(a, b, q)) <= 0 && sign(side(p, q, a)) * sign(side(p, q, b)) <= 0;
+}
+
+/// Returns the distance of a point from a segment.
+double distance_of(QuadVector p, QuadVector from, QuadVector to) {
+  const auto plain = [](Quad value) { return static_cast<long double>(value); };
+  const long double x = plain(to.x - from.x), y = plain(to.y - from.y), px = plain(p.x - from.x),
+                    py = plain(p.y - from.y);
+  const long double square = x * x + y * y, along = px * x + py * y;
+  const long double share = square > 0 ? std::clamp(along / square, 0.0L, 1.0L) : 0.0L;
+  return static_cast<double>(std::hypot(px - share * x, py - share * y));
+}
+
+/// Returns the distance of a placed outline from a wall that it does not meet.
+double distance_of(const std::vector<QuadVector>& points, const Outline& outline, QuadVector a,
+                   QuadVector b) {
+  double least = infinity;
+  for (std::size_t contour = 0; contour < outline.contours(); ++contour) {
+    const std::size_t begin = outline.contour_begin[contour], end = outline.contour_begin[contour + 1];
+    for (std::size_t i = begin; i < end; ++i) {
+      const QuadVector p = points[i], q = points[i + 1 == end ? begin : i + 1];
+      least = std::min({least, distance_of(p, a, b), distance_of(a, p, q), distance_of(b, p, q)});
+    }
+  }
+  return least;
+}
+
+/// A vertex of an outline next to a wall, within the last bits: where 113-bit arithmetic says that outline and wall meet, the answer
+/// is a hit at every level; where they are farther apart than the price, exact leaves say that they do not.
+TEST_F(Obstacles, NeverMissWhatTouches) {
+  std::size_t touching = 0, apart = 0;
+  for (std::uint32_t k = 0; k < test::samples(200'000); ++k) {
+    const std::uint32_t number = random.below(static_cast<std::uint32_t>(shapes.size()));
+    const Shape& shape = shapes[number];
+    const double far = random.below(3) == 0 ? 1e8 : 0;
+    Crowd crowd;
+    const double px = far + random.uniform(-5, 5), py = random.uniform(-5, 5),
+                 heading = random.uniform(-4, 4);
+    for (std::uint8_t level = 0; level < 4; ++level) crowd.add({number, px, py, heading, level});
+    const QuadVector turn = baselines::quad_rotation(heading);
+    std::vector<QuadVector> points;
+    for (const Vec2& point : shape.outline.points)
+      points.push_back(QuadVector{Quad{px}, Quad{py}} + turned(turn, {Quad{static_cast<double>(point.x)},
+                                                                      Quad{static_cast<double>(point.y)}}));
+    // The wall stands on the side of the shape that a direction shows, or anywhere.
+    const double angle = random.uniform(-4, 4), c = std::cos(angle), s = std::sin(angle);
+    std::size_t vertex = 0;
+    for (std::size_t i = 0; i < points.size(); ++i)
+      if (points[i].x * c + points[i].y * s > points[vertex].x * c + points[vertex].y * s) vertex = i;
+    if (random.below(4) == 0) vertex = random.below(static_cast<std::uint32_t>(points.size()));
+    const double nudge =
+        random.below(2) == 0 ? 0 : random.uniform(-1, 1) * std::exp2(-10.0 - random.below(40));
+    const double at_x = static_cast<double>(points[vertex].x) + nudge * c,
+                 at_y = static_cast<double>(points[vertex].y) + nudge * s;
+    const double long_way = random.below(4) == 0 ? 1e7 : 3, before = random.uniform(0, long_way),
+                 behind = random.below(4) == 0 ? 0 : random.uniform(0, long_way);
+    const std::vector<double> x = {at_x - before * -s, at_x + behind * -s},
+                              y = {at_y - before * c, at_y + behind * c};
+    const std::vector<std::uint64_t> paths = {0, 2};
+    std::vector<std::uint8_t> hits(4);
+    collide(set, crowd.agents(), ObstacleSet({x, y, paths}), hits);
+    bool meet = false;
+    const QuadVector a{Quad{x[0]}, Quad{y[0]}}, b{Quad{x[1]}, Quad{y[1]}};
+    for (std::size_t contour = 0; contour < shape.outline.contours(); ++contour) {
+      const std::size_t begin = shape.outline.contour_begin[contour],
+                        end = shape.outline.contour_begin[contour + 1];
+      for (std::size_t i = begin; i < end && !meet; ++i) {
+        meet = cross(a, b, points[i], points[i + 1 == end ? begin : i + 1]);
+      }
+    }
+    if (meet) {
+      ASSERT_EQ(hits, std::vector<std::uint8_t>(4, 1)) << k;
+      ++touching;
+    } else {
+      const double far_end =
+          std::abs(x[0] - px) + std::abs(x[1] - px) + std::abs(y[0] - py) + std::abs(y[1] - py);
+      const double price = 1.01 * baselines::LeafSegments::margin_of(shape) + 1e-14 * far_end;
+      ASSERT_TRUE(hits.back() == 0 || shape.hierarchy.nodes.size() == 1 ||
+                  distance_of(points, shape.outline, a, b) <= price)
+          << k;
+      apart += hits.back() == 0;
+    }
+    for (std::size_t level = 1; level < 4; ++level) ASSERT_LE(hits[level], hits[level - 1]) << k;
+  }
+  EXPECT_GT(touching, test::samples(50'000));
+  EXPECT_GT(apart, test::samples(5'000));
+}
+
+/// The pole of a lamp within an outline is seen in solid semantics alone; a post in a ring's hole never.
+TEST_F(Obstacles, InsideAnOutline) {
+  const Shape square = test::contour_shape(test::polygon({{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}));
+  const ShapeSet squares({&square, 1});
+  Crowd crowd;
+  crowd.add({0, 5, 5, 0.2, 0});
+  const std::vector<double> x = {5.1, 5.2, 5.1, 4.5}, y = {5, 5, 5.1, 4.6};
+  const std::vector<std::uint64_t> paths = {0, 3, 4};
+  for (const bool is_area : {false, true}) {
+    const std::vector<std::uint8_t> areas = {is_area, 0};
+    const ObstacleSet obstacles({x, y, paths, {}, areas});
+    std::vector<std::uint8_t> hits(1);
+    collide(squares, crowd.agents(), obstacles, hits);
+    EXPECT_EQ(hits[0], 0);
+    collide(squares, crowd.agents(), obstacles, hits, {.semantics = Semantics::solid});
+    EXPECT_EQ(hits[0], 1);
+    const double near = 0.01;
+    within(squares, crowd.agents(), obstacles, {&near, 1}, hits);
+    EXPECT_EQ(hits[0], 0);
+    within(squares, crowd.agents(), obstacles, {&near, 1}, hits, {.semantics = Semantics::solid});
+    EXPECT_EQ(hits[0], 1);
+    CrowdCollider collider;
+    const auto rows =
+        collider.collide_all(squares, crowd.agents(), obstacles, {.semantics = Semantics::solid});
+    EXPECT_EQ(std::vector<std::uint32_t>(rows.obstacles[0].begin(), rows.obstacles[0].end()),
+              (std::vector<std::uint32_t>{0, 1}));
+  }
+}
+
+/// The rule of even and odd where a ray goes through vertices: each belongs to one side of it.
+TEST_F(Obstacles, HoldWhatIsLevelWithTheirVertices) {
+  const std::vector<Shape> disc = {{{}, fixed_cylinder(0.125f)}};
+  const ShapeSet discs(disc);
+  // A diamond; teeth whose tips are level with what stands before them; a notch.
+  const std::vector<double> x = {1, 0, -1, 0, 4, 5, 6, 7, 8, 8, 4, 4, 5, 5, 4},
+                            y = {0, 1, 0, -1, 1, 0, 1, 0, 1, 2, 2, -3, -3, -2, -2.5};
+  const std::vector<std::uint64_t> paths = {0, 4, 11, 15};
+  const std::vector<std::uint8_t> areas = {1, 1, 1};
+  Crowd crowd;
+  for (const auto& [at_x, at_y] : {std::pair{0.0, 0.0},
+                                   {-2.0, 0.0},
+                                   {2.0, 0.0},
+                                   {-2.0, 1.0},
+                                   {2.0, 1.0},
+                                   {5.0, 1.0},
+                                   {6.0, 1.5},
+                                   {-2.0, -3.0},
+                                   {3.0, -2.5},
+                                   {4.7, -2.5},
+                                   {9.0, 1.0}})
+    crowd.add({0, at_x, at_y, 0, 0});
+  std::vector<std::uint8_t> hits(crowd.x.size());
+  collide(discs, crowd.agents(), ObstacleSet({x, y, paths, {}, areas}), hits);
+  EXPECT_EQ(hits, (std::vector<std::uint8_t>{1, 0, 0, 0, 0, 1, 1, 0, 0, 1, 0}));
+}
+
+std::vector<Vec2> triangle(float x) {
+  return {{x + 0.1f, 0}, {x - 0.05f, 0.0866f}, {x - 0.05f, -0.0866f}};
+}
+
+/// An area holds one of two contours: discs above it are inside, those below stick out of it, and the whole body is crossed.
+TEST_F(Obstacles, HoldAPartOfAnOutline) {
+  const std::vector<std::vector<Vec2>> pair = {triangle(-1), triangle(1)};
+  std::vector<Shape> both = {shape_from_polygons(pair)};
+  // One leaf holds both.
+  both.push_back(shape_from_polygons(pair, 3));
+  const ShapeSet set_of_both(both, {.depths = {0, 1, 2, 3, 4, all_depths}});
+  for (const double side : {-1.0, 1.0}) {
+    ObstacleScene scene;
+    std::vector<ObstacleScene::Point> ring;
+    for (int k = 0; k < 32; ++k) {
+      const double angle = 2 * std::numbers::pi * k / 32, radius = 0.105 / std::cos(std::numbers::pi / 32);
+      ring.push_back({side + radius * std::cos(angle), radius * std::sin(angle)});
+    }
+    scene.add_path(ring, true);
+    scene.end_obstacle(true);
+    Crowd crowd;
+    for (std::uint32_t shape = 0; shape < 2; ++shape)
+      for (std::uint8_t level = 0; level < 6; ++level) crowd.add({shape, 0, 0, 0, level});
+    std::vector<std::uint8_t> hits(crowd.x.size());
+    for (const Leaves leaves : {Leaves::discs, Leaves::segments}) {
+      collide(set_of_both, crowd.agents(), scene.set(), hits, {.leaves = leaves});
+      EXPECT_EQ(hits, std::vector<std::uint8_t>(hits.size(), 1)) << side;
+    }
+  }
+}
+
+/// A leaf has outlines on both sides of a border that meets neither.
+TEST_F(Obstacles, HoldAPartOfALeaf) {
+  const std::vector<std::vector<Vec2>> four = {triangle(-1.15f), triangle(-0.85f), triangle(0.85f),
+                                               triangle(1.15f)};
+  const std::vector<Shape> shape = {shape_from_polygons(four, 0.5f)};
+  const ShapeSet leaves(shape);
+  ASSERT_TRUE(leaves.exact_leaves());
+  ASSERT_EQ(leaves.discs(0, 0).size(), 2u);
+  for (const double middle : {-1.15, -0.85, 0.85, 1.15}) {
+    ObstacleScene scene;
+    scene.add_path({{middle - 0.11, -0.1}, {middle + 0.11, -0.1}, {middle + 0.11, 0.1}, {middle - 0.11, 0.1}},
+                   true);
+    scene.end_obstacle(true);
+    Crowd crowd;
+    crowd.add({0, 0, 0, 0, 0});
+    std::uint8_t hit = 0;
+    collide(leaves, crowd.agents(), scene.set(), {&hit, 1});
+    EXPECT_EQ(hit, 1) << middle;
+  }
+}
+}  // namespace
+}  // namespace bch
