@@ -105,7 +105,7 @@ TEST(Sizes, AnAntMeetsAnElephant) {
   const ShapeSet set(shapes, levels);
   const Reference reference(shapes, levels);
   for (int i = 0; i < 2; ++i) {
-    PairScene scene = random_scene(random, set, 5'000);
+    PairScene scene = random_scene(random, set, test::samples(2'000));
     make_tangent(random, scene, [&](const Agents& agents, Pair pair) {
       return reference.boundary(agents, pair, Method::brute_force);
     });

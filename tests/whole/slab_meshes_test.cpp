@@ -259,7 +259,8 @@ bool has_points(const test::Soup& soup, const Shape& shape) {
 
 TEST_F(NoMiss, OfSoups) {
   const std::vector<float> heights = {0.0f, 0.375f, 0.8125f, 1.125f, 1.5625f, 2.6875f};
-  for (int round = 0; round < 200; ++round) {
+  const std::uint32_t rounds = test::samples(200);
+  for (std::uint32_t round = 0; round < rounds; ++round) {
     const std::uint32_t begin = random.below(4), count = 1 + random.below(5 - begin);
     const ShapeSetPlan plan = cut_at({heights.begin() + begin, heights.begin() + begin + count});
     std::vector<Body> bodies;
