@@ -40,21 +40,18 @@ struct Sides {
   }
 };
 
-bool is_near(Point2 point, const Segment& segment, double margin) {
+double square_distance(Point2 point, const Segment& segment) {
   const Point2 way = minus(segment[1], segment[0]), to = minus(point, segment[0]);
   const double square = way.x * way.x + way.y * way.y;
   double share = 0;
   if (square > 0) share = std::clamp((to.x * way.x + to.y * way.y) / square, 0.0, 1.0);
   const double x = to.x - share * way.x, y = to.y - share * way.y;
-  return x * x + y * y <= margin * margin;
+  return x * x + y * y;
 }
 
-/// Segment `number` of an outline leads from its point of that number to the next one of the contour.
-Segment segment_of(const Outline& outline, std::uint32_t number) {
-  const auto& begin = outline.contour_begin;
-  const auto after = std::upper_bound(begin.begin(), begin.end(), number);
-  const std::uint32_t next = number + 1 == *after ? *(after - 1) : number + 1;
-  return {exact(outline.points[number]), exact(outline.points[next])};
+double square_of_ends(const Segment& p, const Segment& q) {
+  return std::min({square_distance(p[0], q), square_distance(p[1], q), square_distance(q[0], p),
+                   square_distance(q[1], p)});
 }
 
 }  // namespace
@@ -63,8 +60,19 @@ bool segments_meet(Segment p, Segment q, double margin) noexcept {
   const Sides of_p(p, q, margin), of_q(q, p, margin);
   if (of_p.on_one_side() || of_q.on_one_side()) return false;
   if (of_p.on_both_sides() && of_q.on_both_sides()) return true;
-  return is_near(p[0], q, margin) || is_near(p[1], q, margin) || is_near(q[0], p, margin) ||
-         is_near(q[1], p, margin);
+  return square_of_ends(p, q) <= margin * margin;
+}
+
+float segment_gap(Segment p, Segment q, double margin) noexcept {
+  if (Sides(p, q, margin).on_both_sides() && Sides(q, p, margin).on_both_sides()) return 0;
+  return static_cast<float>(std::max(std::sqrt(square_of_ends(p, q)) * (1 - 0x1p-21) - margin, 0.0));
+}
+
+Segment LeafSegments::segment(const Outline& outline, std::uint32_t number) {
+  const auto& begin = outline.contour_begin;
+  const auto after = std::upper_bound(begin.begin(), begin.end(), number);
+  const std::uint32_t next = number + 1 == *after ? *(after - 1) : number + 1;
+  return {exact(outline.points[number]), exact(outline.points[next])};
 }
 
 LeafSegments::LeafSegments(std::span<const Shape> shapes, const ShapeSetPlan& plan, Leaves leaves)
@@ -92,9 +100,9 @@ bool LeafSegments::meet(const FloatPlacement& place, const Agents& agents, Pair 
   if (std::max(end_a - begin_a, end_b - begin_b) > detail::most_leaf_segments) return true;
   for (std::uint32_t i = begin_a; i < end_a; ++i)
     for (std::uint32_t j = begin_b; j < end_b; ++j) {
-      Segment of_b = segment_of(b.outline, b.hierarchy.source[j]);
+      Segment of_b = segment(b.outline, b.hierarchy.source[j]);
       for (Point2& end : of_b) end = in_a.place(end.x, end.y);
-      if (segments_meet(segment_of(a.outline, a.hierarchy.source[i]), of_b, margin)) return true;
+      if (segments_meet(segment(a.outline, a.hierarchy.source[i]), of_b, margin)) return true;
     }
   return false;
 }
@@ -104,7 +112,7 @@ std::vector<std::array<Point2, 2>> LeafSegments::segments_of(const Shape& shape,
   const auto [begin, end] = shape.hierarchy.primitive_ranges[node];
   if (end - begin > detail::most_leaf_segments) return segments;
   for (std::uint32_t i = begin; i < end; ++i)
-    segments.push_back(segment_of(shape.outline, shape.hierarchy.source[i]));
+    segments.push_back(segment(shape.outline, shape.hierarchy.source[i]));
   return segments;
 }
 

@@ -20,6 +20,9 @@ namespace bch::baselines {
 /// give the same bits.
 bool segments_meet(std::array<Point2, 2> p, std::array<Point2, 2> q, double margin) noexcept;
 
+/// Returns how far apart two segments are, metres, less the margin and what kernel/distance/segment_gaps.hpp takes off; not below 0.
+float segment_gap(std::array<Point2, 2> p, std::array<Point2, 2> q, double margin) noexcept;
+
 /// Exact leaves, straight from outlines and hierarchies. The class finds which segments the leaves of shapes
 /// hold, and whether those of two leaves meet.
 class LeafSegments {
@@ -30,6 +33,8 @@ class LeafSegments {
   /// Returns whether segments decide if leaves of a pair of agents overlap.
   bool decide(const Agents& agents, Pair pair) const;
 
+  /// Returns a segment of an outline: it leads from the point of that number to the next one of the contour.
+  static std::array<Point2, 2> segment(const Outline& outline, std::uint32_t number);
   /// Returns the segments of a leaf, a node of a shape's hierarchy; none where these are too many to decide.
   static std::vector<std::array<Point2, 2>> segments_of(const Shape& shape, std::uint32_t node);
   /// Returns a shape's part of the margin within which segments meet, metres.

@@ -12,7 +12,7 @@
 #include "kernel/distance/apart_pairs.hpp"
 #include "kernel/distance/clearance_arguments.hpp"
 #include "kernel/distance/distance_input.hpp"
-#include "kernel/distance/nearest_discs.hpp"
+#include "kernel/distance/nearest_features.hpp"
 #include "kernel/runtime/floating_point_state.hpp"
 #include "kernel/runtime/pair_validation.hpp"
 #include "kernel/runtime/part_items.hpp"
@@ -54,7 +54,7 @@ class RangeAnswers {
  private:
   /// Not inlined, so that what it keeps on the stack is not there beside the other kernel.
   [[gnu::noinline]] void search_shapes() noexcept {
-    NearestDiscs nearest[grain];
+    NearestFeatures nearest[grain];
     arguments_.in.pairs = open_.pairs().data();
     arguments_.nearest = nearest;
     implementation_.kernels->clearance(arguments_, 0, open_.size());
@@ -66,11 +66,12 @@ class RangeAnswers {
   void search_parts() {
     PartItems items;
     items.expand(shapes_, agents_, open_.pairs());
-    std::vector<NearestDiscs> nearest(items.size());
+    std::vector<NearestFeatures> nearest(items.size());
     const Agents agents = items.agents();
     const ShapeSetView parts = parts_as_shapes(shapes_);
     ClearanceArguments arguments = arguments_;
     arguments.in = arguments_for(parts, agents, items.pairs());
+    arguments.in.exact_leaves = arguments_.in.exact_leaves;
     arguments.nearest = nearest.data();
     implementation_.kernels->clearance(arguments, 0, items.size());
     const auto is_before = [&](std::size_t a, std::size_t b) {
@@ -99,21 +100,21 @@ class RangeAnswers {
   }
 
   /// Writes the answer for an open pair. `first`: the numbers of the first discs of what was found.
-  void put(std::size_t k, const FoundDiscs& found, DiscPair first) noexcept {
+  void put(std::size_t k, const FoundFeatures& found, DiscPair first) noexcept {
     const std::size_t i = open_.index(k);
-    const NearestDiscs& nearest = found.nearest;
+    const NearestFeatures& nearest = found.nearest();
     if (nearest.a == no_node) return put_alone(answers_, i, std::numeric_limits<float>::infinity());
     if (nearest.distance <= arguments_.enough) return put_alone(answers_, i, 0);
     const bool is_turned = open_.pairs()[k].second < open_.pairs()[k].first;
     answers_.distance[i] = nearest.distance;
-    if (!answers_.direction.empty()) answers_.direction[i] = direction(nearest, is_turned ? -1 : 1);
+    if (!answers_.direction.empty()) answers_.direction[i] = found.direction(is_turned ? -1 : 1);
     if (!answers_.discs.empty()) {
-      const DiscPair local = numbers(found);
+      const DiscPair local = found.numbers();
       const DiscPair discs{local.first + first.first, local.second + first.second};
       answers_.discs[i] = is_turned ? DiscPair{discs.second, discs.first} : discs;
     }
     if (!answers_.points.empty()) {
-      const NearestPoints at = points(found);
+      const NearestPoints at = found.points();
       answers_.points[i] = is_turned ? NearestPoints{at.second, at.first} : at;
     }
   }
@@ -138,9 +139,13 @@ void clearance(const ShapeSet& shapes, const Agents& agents, std::span<const Pai
   require_valid(implementation, view, agents, pairs);
 
   const float enough = options.overlap == Overlap::zero ? 0 : -std::numeric_limits<float>::infinity();
-  const ClearanceArguments arguments{
-      arguments_for(view, agents, {}),
-      rounding::round_down(std::min(options.max_distance, double{largest_limit})), enough, nullptr};
+  // How deep discs overlap is asked of discs.
+  const bool of_segments =
+      exact_leaves(shapes, options.distance_leaves, "clearance") && options.overlap == Overlap::zero;
+  ClearanceArguments arguments{arguments_for(view, agents, {}),
+                               rounding::round_down(std::min(options.max_distance, double{largest_limit})),
+                               enough, nullptr};
+  arguments.in.exact_leaves = of_segments;
   const auto part = [](auto span, std::size_t begin, std::size_t size) {
     return span.empty() ? span : span.subspan(begin, size);
   };

@@ -16,21 +16,23 @@ constexpr float largest_limit = 1e10f;  ///< beyond the distance of any two agen
 
 constexpr std::uint32_t no_node = 0xffffffff;
 
-/// The result of a kernel for a pair. The agent with the lower index is A.
-struct NearestDiscs {
+/// What is nearest to each other of two agents: two discs, or two segments of their outlines. The agent with the lower index is A.
+struct NearestFeatures {
   float distance;  ///< metres
-  std::uint32_t a,
-      b;       ///< where the discs stand among ShapeSetView::nodes; 0 in a set of roots alone; or no_node
-  float x, y;  ///< from A's centre to B's, in A's frame
+  bool are_segments;
+  /// Where the discs stand among ShapeSetView::nodes, 0 in a set of roots alone; or the points where the segments begin; or no_node.
+  std::uint32_t a, b;
+  // Of discs:
+  float x, y;          ///< from A's centre to B's, in A's frame
   float cosine, sine;  ///< of A's heading
 };
 
 /// The input and output of a clearance kernel. These are plain pointers for the reason that Arguments states.
 struct ClearanceArguments {
-  Arguments in;           ///< without codes
-  float limit;            ///< distances above it are not looked for; below far_beyond
-  float enough;           ///< one at or below it ends a search of trees, and is then given as -infinity
-  NearestDiscs* nearest;  ///< as many as pairs
+  Arguments in;              ///< without codes; with exact_leaves, of which trees have segments
+  float limit;               ///< distances above it are not looked for; below far_beyond
+  float enough;              ///< one at or below it ends a search of trees, and is then given as -infinity
+  NearestFeatures* nearest;  ///< as many as pairs
 };
 
 }  // namespace bch::detail

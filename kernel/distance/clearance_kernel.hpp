@@ -9,13 +9,15 @@
 #include "kernel/distance/clearance_arguments.hpp"
 #include "kernel/distance/clearance_measure.hpp"
 #include "kernel/distance/nearest_search.hpp"
+#include "kernel/distance/segment_gaps.hpp"
 #include "kernel/simd/placements.hpp"
 #include "kernel/simd/record_fields.hpp"
+#include "kernel/simd/segment_test.hpp"
 #include "layout/simd/lanes.hpp"
 
 namespace bch::detail {
 
-/// The nearest discs of every pair. Chunk by chunk: places B in A's frame, bounds the gap by the root discs,
+/// Finds the nearest discs of every pair, or with exact leaves the nearest segments. Chunk by chunk: places B in A's frame, bounds the gap by the root discs,
 /// one pair a lane, and walks the trees of the pairs that may be within the limit.
 template <class Simd>
 class ClearanceKernel {
@@ -32,7 +34,7 @@ class ClearanceKernel {
   using Search = NearestSearch<Simd, Measure>;
 
   explicit ClearanceKernel(const ClearanceArguments& arguments) noexcept
-      : arguments_(arguments), shapes_(*arguments.in.shapes), search_(shapes_.nodes) {}
+      : arguments_(arguments), shapes_(*arguments.in.shapes), segments_(shapes_), search_(shapes_.nodes) {}
 
   void answer_chunk(std::size_t begin, std::size_t end) noexcept {
     at_.place(arguments_.in, begin, end);
@@ -41,13 +43,13 @@ class ClearanceKernel {
                            arguments_.in.prefetch_shapes);
     of_b_.template load<4>(&shapes_.roots->x, at_.root_b, at_.whole_registers(),
                            arguments_.in.prefetch_shapes);
-    NearestDiscs* const nearest = arguments_.nearest + begin;
+    NearestFeatures* const nearest = arguments_.nearest + begin;
     if (shapes_.trees == nullptr) return answer_roots(nearest);
     for (std::uint32_t k = 0; k < size; k += Simd::width) bound_roots(k);
     for (std::uint32_t pair = 0; pair < size; ++pair) {
-      const Measure measure(arguments_.limit, arguments_.enough, reach(pair));
+      const Measure measure = this->measure(pair);
       nearest[pair] = answer(pair, measure);
-      if (!(root_bound_[pair] <= arguments_.limit)) continue;
+      if (!(root_bound_[pair] <= measure.best())) continue;
       searched_[search_.size()] = pair;
       search_.add(at_.transform(pair), shapes_.trees[at_.root_a[pair]], shapes_.trees[at_.root_b[pair]],
                   measure);
@@ -56,16 +58,16 @@ class ClearanceKernel {
     answer_searched(nearest);
   }
 
-  void answer_searched(NearestDiscs* nearest) noexcept {
+  void answer_searched(NearestFeatures* nearest) noexcept {
     search_.run();
     for (std::uint32_t k = 0; k < search_.size(); ++k)
       nearest[searched_[k]] = answer(searched_[k], search_.measure(k));
     search_.clear();
   }
 
-  NearestDiscs answer(std::uint32_t pair, const Measure& measure) const noexcept {
-    const auto [distance, a, b] = measure.nearest();
-    if (a == no_node) return {distance, a, b, 0, 0, 1, 0};
+  NearestFeatures answer(std::uint32_t pair, const Measure& measure) const noexcept {
+    const auto [distance, are_discs, a, b] = measure.nearest();
+    if (!are_discs) return {distance, a != no_node, a, b, 0, 0, 1, 0};
     const auto disc = [this](std::uint32_t place, std::uint32_t root) {
       const std::size_t stride = shapes_.trees[root].stride;
       return Discs{shapes_.nodes + place, stride, 2 * stride};
@@ -73,7 +75,15 @@ class ClearanceKernel {
     const auto [x, y, r] =
         disc_pair<Simd>(at_.transform(pair), disc(a, at_.root_a[pair]), disc(b, at_.root_b[pair]), 0);
     const auto [cosine, sine] = at_.heading(pair);
-    return {distance, a, b, x, y, cosine, sine};
+    return {distance, false, a, b, x, y, cosine, sine};
+  }
+
+  Measure measure(std::uint32_t pair) noexcept {
+    const Tree &a = shapes_.trees[at_.root_a[pair]], &b = shapes_.trees[at_.root_b[pair]];
+    const bool exact = arguments_.in.exact_leaves && a.segments != no_segments && b.segments != no_segments;
+    if (!exact) return {arguments_.limit, arguments_.enough, reach(pair), nullptr, {}};
+    const double margin = segment_margin<Simd>(shapes_, at_.shape_a[pair], at_.shape_b[pair]);
+    return {arguments_.limit, arguments_.enough, reach(pair), &segments_, {&a, &b, margin}};
   }
 
   float reach(std::uint32_t pair) const noexcept {
@@ -102,7 +112,7 @@ class ClearanceKernel {
   }
 
   /// Answers pairs of a set in which every cut is a single disc.
-  void answer_roots(NearestDiscs* nearest) noexcept {
+  void answer_roots(NearestFeatures* nearest) noexcept {
     alignas(64) float gap[chunk_size], x_of[chunk_size], y_of[chunk_size];
     for (std::uint32_t k = 0; k < at_.size; k += Simd::width) {
       const auto [x, y, r] = between_roots(k);
@@ -114,7 +124,7 @@ class ClearanceKernel {
       const bool within = gap[k] <= arguments_.limit;
       const std::uint32_t node = within ? 0 : no_node;
       const auto [cosine, sine] = at_.heading(k);
-      nearest[k] = {gap[k], node, node, x_of[k], y_of[k], cosine, sine};
+      nearest[k] = {gap[k], false, node, node, x_of[k], y_of[k], cosine, sine};
     }
   }
 
@@ -124,6 +134,7 @@ class ClearanceKernel {
   RecordFields<Simd> of_a_, of_b_;
   alignas(64) float root_bound_[chunk_size];
   std::uint32_t searched_[Search::capacity];  ///< pairs of the chunk
+  SegmentGaps<Simd> segments_;
   Search search_;
 };
 

@@ -7,6 +7,7 @@
 
 #include "kernel/distance/clearance_arguments.hpp"
 #include "kernel/distance/clearance_terms.hpp"
+#include "kernel/distance/segment_gaps.hpp"
 #include "kernel/simd/disc_pairs.hpp"
 #include "layout/simd/lanes.hpp"
 
@@ -39,20 +40,24 @@ class ClearanceMeasure {
  public:
   using Float = typename Simd::Float;
 
-  /// `reach` is S, metres. A gap at or below `enough` ends the search; nothing is nearer.
-  ClearanceMeasure(float limit, float enough, float reach) noexcept
-      : enough_(enough), slack_(slack_per_reach * reach) {
-    look_within({limit, no_node, no_node});
+  /// `reach` is S, metres. A gap at or below `enough` ends the search; nothing is nearer. `segments`: measures between the
+  /// segments that leaves hold; null: between discs.
+  ClearanceMeasure(float limit, float enough, float reach, SegmentGaps<Simd>* segments,
+                   const SegmentedPair& trees) noexcept
+      : segments_(segments), trees_(trees), enough_(enough), slack_(slack_per_reach * reach) {
+    look_within({limit, false, no_node, no_node});
   }
   ClearanceMeasure() = default;
 
-  /// Discs by where they stand among the nodes; or no_node.
+  /// Discs by where they stand among the nodes, segments by where they begin among the points; or no_node.
   struct Nearest {
     float distance;
+    bool are_discs;
     std::uint32_t a, b;
   };
   const Nearest& nearest() const noexcept { return nearest_; }
-  float best() const noexcept { return nearest_.distance; }
+  /// Returns the largest gap of leaf discs that may hold what is nearer than the best.
+  float best() const noexcept { return best_; }
 
   Float bound(Float x, Float y, Float r) const noexcept { return rough_gap(x, y, r + Float(slack_)); }
   static Float bound(Float x, Float y, Float r, Float reach) noexcept {
@@ -76,7 +81,10 @@ class ClearanceMeasure {
     const float least = least_value<Simd>(gaps);
     if (!(least <= best())) return;
     const unsigned k = first_within<Simd>(gaps, least);
-    offer({least, first_a + k / block_width, first_b + k % block_width});
+    if (segments_ == nullptr)
+      offer({least, true, first_a + k / block_width, first_b + k % block_width});
+    else
+      meet_segments(at, gaps, k, first_a, first_b);
   }
 
   /// Returns the gaps of one register's pairs of single discs.
@@ -105,24 +113,50 @@ class ClearanceMeasure {
     return Simd::select(square <= Float(far_beyond), root - r, Float(far_beyond));
   }
 
-  /// Takes what is less than the best or comes before it.
+  /// Segments of the leaves with the least gap come first: few others improve on them.
+  [[gnu::noinline]] void meet_segments(const Transform& at, const float* gaps, unsigned least,
+                                       std::uint32_t first_a, std::uint32_t first_b) noexcept {
+    const auto take = [this](float distance, std::uint32_t a, std::uint32_t b) {
+      offer({distance, false, a, b});
+    };
+    const auto add = [&](unsigned k) {
+      const std::uint32_t a = first_a + k / block_width, b = first_b + k % block_width;
+      if (!segments_->add(at, trees_, a, b, nearest_.distance, take))
+        offer({gaps[k] < 0 ? 0 : gaps[k], true, a, b});
+    };
+    add(least);
+    segments_->finish(at, trees_, nearest_.distance, take);
+    std::uint64_t left = all_within<Simd>(gaps, best_) & ~(std::uint64_t{1} << least);
+    for (; left != 0; left &= left - 1) add(static_cast<unsigned>(__builtin_ctzll(left)));
+    segments_->finish(at, trees_, nearest_.distance, take);
+  }
+
+  /// Takes what is less than the best or comes before it: segments before discs, then the lower numbers.
   void offer(const Nearest& other) noexcept {
-    const bool before = other.a < nearest_.a || (other.a == nearest_.a && other.b < nearest_.b);
-    if (other.distance < nearest_.distance || (other.distance == nearest_.distance && before)) set(other);
+    if (other.distance > nearest_.distance) return;
+    const bool is_before = other.are_discs != nearest_.are_discs ? nearest_.are_discs
+                           : other.a != nearest_.a               ? other.a < nearest_.a
+                                                                 : other.b < nearest_.b;
+    if (other.distance < nearest_.distance || is_before || nearest_.a == no_node) set(other);
   }
 
   void set(const Nearest& nearest) noexcept {
     look_within(nearest);
     // No comparison with these holds.
-    if (nearest.distance <= enough_) nearest_.distance = -__builtin_inff(), most_ = __builtin_nanf("");
+    if (nearest.distance <= enough_)
+      nearest_.distance = best_ = -__builtin_inff(), most_ = __builtin_nanf("");
   }
 
   void look_within(const Nearest& nearest) noexcept {
     nearest_ = nearest;
-    most_ = nearest.distance + of_best * __builtin_fabsf(nearest.distance) + slack_;
+    best_ = segments_ == nullptr ? nearest.distance : SegmentGaps<Simd>::most_gap(trees_, nearest.distance);
+    most_ = best_ + of_best * __builtin_fabsf(best_) + slack_;
   }
 
+  SegmentGaps<Simd>* segments_;
+  SegmentedPair trees_;
   Nearest nearest_;
+  float best_;
   float enough_, slack_;
   float most_;  ///< what is compared with instead of the best
 };

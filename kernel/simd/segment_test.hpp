@@ -6,8 +6,8 @@
 #include <cstdint>
 
 #include "kernel/simd/leaf_segments.hpp"
+#include "kernel/simd/segment_pairs.hpp"
 #include "kernel/simd/transform.hpp"
-#include "layout/base/rounding.hpp"
 #include "layout/format/shape_set_view.hpp"
 #include "layout/simd/lanes.hpp"
 
@@ -90,77 +90,46 @@ class SegmentTest {
  private:
   using Float = typename Simd::Float;
   using Double = typename Simd::Double;
-  static constexpr std::uint32_t parts =
-      Simd::width / Simd::doubles;  ///< registers of doubles for one of floats
+  using Ends = SegmentEnds<Simd>;
+  static constexpr std::uint32_t parts = Ends::parts;
   static constexpr std::uint32_t capacity = 64;
   static_assert(capacity % Simd::width == 0);
   static_assert(sizeof(Placed) % sizeof(double) == 0 && alignof(Placed) == alignof(double));
 
-  using Point = PointIn<Double>;
-  struct Pair {
-    Point p0, p1, q0, q1;  ///< in A's frame
+  struct MarginPair : SegmentPair<Simd> {
     Double margin;
   };
 
   /// Loads the pairs of a register of floats, in registers of doubles.
-  void load(std::uint32_t k, Pair (&pairs)[parts]) const noexcept {
-    Float p[4], q[4], place[4];
-    Simd::template load_records<2>(&points_->x, segment_a_ + k, p);
-    Simd::template load_records<2>(&points_->x, segment_b_ + k, q);
+  void load(std::uint32_t k, MarginPair (&pairs)[parts]) const noexcept {
+    const Ends p = Ends::load(points_, segment_a_ + k), q = Ends::load(points_, segment_b_ + k);
+    Float place[4];
     Simd::template load_records<sizeof(Placed) / sizeof(float)>(&placed_->b_in_a.c, index_ + k, place);
-    Double of_p[4][parts], of_q[4][parts], of_place[4][parts];
-    for (unsigned i = 0; i < 4; ++i) {
-      Simd::widened(p[i], of_p[i]);
-      Simd::widened(q[i], of_q[i]);
-      Simd::widened(place[i], of_place[i]);
-    }
+    Double of_place[4][parts];
+    for (unsigned i = 0; i < 4; ++i) Simd::widened(place[i], of_place[i]);
     for (std::uint32_t part = 0; part < parts; ++part) {
       const TransformOf<Double> b_in_a{of_place[0][part], of_place[1][part], of_place[2][part],
                                        of_place[3][part]};
       double margins[Simd::doubles];
       for (std::uint32_t lane = 0; lane < Simd::doubles; ++lane)
         margins[lane] = placed_[index_[k + part * Simd::doubles + lane]].margin;
-      pairs[part] = {{of_p[0][part], of_p[1][part]},
-                     {of_p[2][part], of_p[3][part]},
-                     b_in_a.apply(of_q[0][part], of_q[1][part]),
-                     b_in_a.apply(of_q[2][part], of_q[3][part]),
-                     Simd::load(margins)};
+      pairs[part] = {Ends::pair(p, q, b_in_a, part), Simd::load(margins)};
     }
-  }
-
-  static Point way(Point from, Point to) noexcept { return {to.x - from.x, to.y - from.y}; }
-
-  /// The sides of the line of one segment on which the ends of another lie.
-  struct Sides {
-    Double high, low;  ///< of both ends, the larger and the smaller
-    Double margin;     ///< what counts at least as the margin's distance from the line
-  };
-  static Sides sides(Point from, Point to, Point first, Point second, Double margin) noexcept {
-    const Point along = way(from, to), to_first = way(from, first), to_second = way(from, second);
-    const Double of_first = along.x * to_first.y - along.y * to_first.x,
-                 of_second = along.x * to_second.y - along.y * to_second.x;
-    return {xsimd::max(of_first, of_second), xsimd::min(of_first, of_second),
-            margin * (xsimd::abs(along.x) + xsimd::abs(along.y))};
   }
 
   /// Two numbers a pair, which say by being above 0 that a line separates the segments, and that they surely
   /// cross.
   /// Returns: bits of the pairs of which the first number may not be.
   std::uint32_t test(std::uint32_t k) noexcept {
-    Pair pairs[parts];
+    MarginPair pairs[parts];
     load(k, pairs);
-    const Double zero(0.0), share(rounding::sure_share);
-    const auto beside = [&](const Sides& of) { return xsimd::max(of.low, zero - of.high) - of.margin; };
-    const auto across = [&](const Sides& of) {
-      return xsimd::min(of.high, zero - of.low) - share * of.margin;
-    };
     Double apart[parts];
     for (std::uint32_t part = 0; part < parts; ++part) {
-      const auto& [p0, p1, q0, q1, margin] = pairs[part];
-      const Sides of_p = sides(p0, p1, q0, q1, margin), of_q = sides(q0, q1, p0, p1, margin);
-      apart[part] = xsimd::max(beside(of_p), beside(of_q));
+      const auto of_p = pairs[part].sides_of_p(pairs[part].margin),
+                 of_q = pairs[part].sides_of_q(pairs[part].margin);
+      apart[part] = xsimd::max(of_p.beside(), of_q.beside());
       Simd::store(apart_ + k + part * Simd::doubles, apart[part]);
-      Simd::store(sure_ + k + part * Simd::doubles, xsimd::min(across(of_p), across(of_q)));
+      Simd::store(sure_ + k + part * Simd::doubles, xsimd::min(of_p.across(), of_q.across()));
     }
     return Simd::bits(Simd::rounded(apart) <= Float(0.0f));
   }
@@ -173,27 +142,14 @@ class SegmentTest {
   /// Returns whether the segments of a pair come within the margin. It computes the register of the pairs
   /// from k on for one of them, `lane`. About one in ten thousand pairs comes to this.
   [[gnu::noinline]] Meeting near(std::uint32_t k, std::uint32_t lane) noexcept {
-    Pair pairs[parts];
+    MarginPair pairs[parts];
     load(k, pairs);
     double beyond[Simd::width];
     for (std::uint32_t part = 0; part < parts; ++part) {
-      const auto& [p0, p1, q0, q1, margin] = pairs[part];
-      const Double nearest = xsimd::min(xsimd::min(square_distance(p0, q0, q1), square_distance(p1, q0, q1)),
-                                        xsimd::min(square_distance(q0, p0, p1), square_distance(q1, p0, p1)));
-      Simd::store(beyond + part * Simd::doubles, nearest - margin * margin);
+      const Double margin = pairs[part].margin;
+      Simd::store(beyond + part * Simd::doubles, pairs[part].square_of_ends() - margin * margin);
     }
     return beyond[lane - k] <= 0 ? Meeting::near : Meeting::none;
-  }
-
-  /// Returns the square of the distance from a point to the nearest one of a segment.
-  static Double square_distance(Point p, Point from, Point to) noexcept {
-    const Point along = way(from, to), to_p = way(from, p);
-    // A segment without length has a share of 0, by a number that is less than every other square.
-    const Double square = xsimd::max(along.x * along.x + along.y * along.y, Double(1e-300));
-    const Double share =
-        xsimd::max(xsimd::min((to_p.x * along.x + to_p.y * along.y) / square, Double(1.0)), Double(0.0));
-    const Double x = to_p.x - share * along.x, y = to_p.y - share * along.y;
-    return x * x + y * y;
   }
 
   const LeafSegments<Simd> leaves_;

@@ -268,7 +268,7 @@ std::vector<NearestPoints> points_of(const ShapeSet& set, const PairScene& scene
 }
 
 /// They lie on the edges of the nearest discs, along the direction, and are as far apart as the distance says.
-TEST_F(ClearanceDifferential, PointsAreThoseOfTheNearestDiscs) {
+TEST_F(ClearanceDifferential, PointsAreThoseOfTheNearestFeatures) {
   const PairScene scene = random_scene(random, set, 5'000);
   const test::Crowd& crowd = scene.crowd;
   const Answers all = answers(set, crowd.agents(), scene.pairs, infinity);

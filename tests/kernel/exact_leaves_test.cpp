@@ -22,6 +22,7 @@
 #include "layout/format/shape_set_view.hpp"
 #include "tests/support/character_shapes.hpp"
 #include "tests/support/differential.hpp"
+#include "tests/support/touching_scene.hpp"
 
 // Exact leaves: that leaf segments decide like brute force over all segments, miss no outlines that meet, and take no others
 // for meeting than those within the promised gap.
@@ -30,8 +31,9 @@ namespace bch {
 namespace {
 
 using baselines::Oracle;
-using test::Crowd;
+using test::oracle;
 using test::Random;
+using Scene = test::TouchingScene;
 
 std::vector<std::uint8_t> answers(const ShapeSet& set, const Agents& agents, std::span<const Pair> pairs,
                                   QueryOptions options = {}) {
@@ -40,104 +42,10 @@ std::vector<std::uint8_t> answers(const ShapeSet& set, const Agents& agents, std
   return hits;
 }
 
-Oracle oracle(const std::vector<Shape>& shapes, const Agents& agents, Pair pair) {
-  return Oracle(shapes[agents.shape[pair.first]].outline, shapes[agents.shape[pair.second]].outline,
-                baselines::exact_placement(agents, pair.first, pair.second));
-}
-
-/// Outlines of few corners, of sizes from a millimetre to 100 m, up to ten sizes away from their origins: stars, slivers,
-/// whiskers and single points, one contour or several. Discs are an eighth of them or much smaller.
-std::vector<Shape> simple_shapes(Random& random, std::uint32_t count) {
-  std::vector<Shape> shapes;
-  while (shapes.size() < count) {
-    const double size = std::pow(10.0, random.uniform(-3, 2));
-    const double x = random.below(2) * random.uniform(-10, 10) * size,
-                 y = random.below(2) * random.uniform(-10, 10) * size;
-    const auto point = [&] {
-      return Vec2{static_cast<float>(x + random.uniform(-size, size)),
-                  static_cast<float>(y + random.uniform(-size, size))};
-    };
-    Outline outline;
-    switch (random.below(4)) {
-      case 0:
-        outline = test::polygon({point(), point()});
-        break;  // there and back
-      case 1:
-        outline = test::counter_clockwise(test::polygon({point(), point(), point()}));
-        break;
-      case 2:
-        outline = test::star(random, 3 + random.below(6), 0.2 * size, size, x, y);
-        break;
-      default:
-        outline = test::counter_clockwise(test::polygon({point(), point(), point()}));
-        test::append(outline, test::polygon({point()}));
-        test::append(outline, test::counter_clockwise(test::polygon({point(), point(), point()})));
-    }
-    const double threshold = size * std::pow(2.0, -1.0 - random.below(6));
-    shapes.push_back(test::contour_shape(outline, static_cast<float>(threshold)));
-  }
-  return shapes;
-}
-
-/// How near to each other the agents of a pair are put, and what the outlines then do.
-struct Truth {
-  bool cross;
-  double gap;  ///< metres per metre of both reaches, beside the steps of the grid
-};
-
-struct Scene {
-  Crowd crowd;
-  std::vector<Pair> pairs;
-  std::vector<Truth> truths;
-};
-
-/// Pairs of which the second agent is slid up to the first touch of the outlines, and left there, but for a gap of any
-/// magnitude, either way.
-Scene touching_scene(Random& random, const std::vector<Shape>& shapes, std::uint32_t count) {
-  Scene scene;
-  for (std::uint32_t i = 0; i < count; ++i) {
-    const auto shape = [&] { return random.below(static_cast<std::uint32_t>(shapes.size())); };
-    const std::uint32_t a = shape(), b = shape();
-    const double reaches = shapes[a].hierarchy.reach + shapes[b].hierarchy.reach;
-    const double turn = random.uniform(0, 2 * std::numbers::pi), c = std::cos(turn), s = std::sin(turn);
-    const double at_x = random.uniform(-1, 1) * reaches * 1e3, at_y = random.uniform(-1, 1) * reaches * 1e3;
-    const auto heading = [&] {
-      return random.below(4) == 0 ? 0.5 * std::numbers::pi * random.below(4) : random.uniform(-9, 9);
-    };
-    Crowd two;
-    two.add({a, at_x, at_y, heading(), 0});
-    two.add({b, at_x + 3 * reaches * c, at_y + 3 * reaches * s, heading(), 0});
-    const double beside = random.uniform(-1, 1) * reaches;
-    two.x[1] -= beside * s, two.y[1] += beside * c;
-    // The first one's way towards it, in its own frame: the oracle moves that one.
-    const double frame_c = std::cos(two.heading[0]), frame_s = std::sin(two.heading[0]);
-    const long double x = 6 * reaches * (frame_c * c + frame_s * s),
-                      y = 6 * reaches * (frame_c * s - frame_s * c);
-    const long double time = oracle(shapes, two.agents(), {0, 1}).time_of_impact(x, y);
-    if (!std::isfinite(time)) continue;
-    const double gap = (random.below(3) == 0   ? 0
-                        : random.below(2) == 0 ? 1
-                                               : -1) *
-                       reaches * std::pow(10.0, random.uniform(-10, -3));
-    const double way = static_cast<double>(6 * static_cast<long double>(reaches) * time) - gap;
-    two.x[1] -= way * c, two.y[1] -= way * s;
-    const Oracle exact = oracle(shapes, two.agents(), {0, 1});
-    const double steps =
-        static_cast<double>(shapes[a].outline.grid_step) + static_cast<double>(shapes[b].outline.grid_step);
-    const double beyond =
-        static_cast<double>(exact.distance()) - detail::rounding::outline_grid_steps * steps;
-    scene.truths.push_back({exact.cross(), beyond / reaches});
-    const auto first = static_cast<std::uint32_t>(scene.crowd.shape.size());
-    for (const std::size_t k : {0, 1}) scene.crowd.add({two.shape[k], two.x[k], two.y[k], two.heading[k], 0});
-    scene.pairs.push_back(i % 2 == 0 ? Pair{first, first + 1} : Pair{first + 1, first});
-  }
-  return scene;
-}
-
 class ExactLeaves : public testing::Test {
  protected:
   Random random{2401};
-  std::vector<Shape> shapes = simple_shapes(random, 600);
+  std::vector<Shape> shapes = test::simple_shapes(random, 600);
   ShapeSet set{shapes};
 };
 
@@ -146,7 +54,7 @@ TEST_F(ExactLeaves, MissNoOutlinesThatMeetAndTakeNoOthersForMeeting) {
   std::vector<Scene> scenes(blocks);
   tbb::parallel_for(0u, blocks, [&](std::uint32_t i) {
     Random own(2402 + i);
-    scenes[i] = touching_scene(own, shapes, test::samples(5'000));
+    scenes[i] = test::touching_scene(own, shapes, test::samples(5'000));
   });
   std::size_t crossing = 0, near = 0, tested = 0;
   double largest = 0;

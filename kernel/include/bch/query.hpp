@@ -71,6 +71,9 @@ struct QueryOptions {
   /// infinite distance and nothing else. The smaller the limit, the sooner they are rejected.
   double max_distance = std::numeric_limits<double>::infinity();
   Overlap overlap = Overlap::zero;  ///< of clearance()
+  /// What clearance() of pairs measures between: discs, up to 3 cm less than outlines are apart and several times as quick; or, where both
+  /// shapes have exact leaves, the segments of their outlines. Overlap::deepest is about discs in any case.
+  Leaves distance_leaves = Leaves::discs;
 };
 
 /// Two discs by their numbers in the cuts of a pair's agents, in the order of ShapeSet::discs() and cut().

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include <bch/agents.hpp>
+#include <bch/shape_set.hpp>
+
+#include "baselines/cut_lists.hpp"
+#include "baselines/leaf_segments.hpp"
+
+namespace bch::baselines {
+
+/// The distances of clearance() with exact leaves, all segments against all: written apart from the kernel, which has to give the same bits.
+class SegmentClearance {
+ public:
+  /// Shapes and levels as in a ShapeSet. The shapes must outlive this.
+  SegmentClearance(std::span<const Shape> shapes, const ShapeSetPlan& plan);
+
+  /// Returns the distance in metres, infinite beyond the limit; nothing where segments do not decide.
+  std::optional<float> distance(const Agents& agents, Pair pair, double max_distance) const;
+
+ private:
+  /// What the leaves of a shape hold.
+  struct Leaves {
+    std::vector<std::uint32_t> segments;  ///< of all leaves that do not have too many
+    std::vector<std::uint32_t> coarse;    ///< leaves that have
+  };
+  float least_gap(const FloatPlacement& place, const Agents& agents, Pair in_order) const;
+
+  std::span<const Shape> shapes_;
+  CutLists cuts_;
+  LeafSegments segments_;
+  std::vector<Leaves> leaves_;  ///< per shape
+};
+
+}  // namespace bch::baselines

@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include "kernel/distance/nearest_features.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "kernel/simd/leaf_segments.hpp"
+#include "layout/base/heading.hpp"
+#include "layout/simd/lanes.hpp"
+
+namespace bch::detail {
+namespace {
+
+template <class Vector>
+Vector turned(Rotation by, Vector v) {
+  const auto [c, s] = by;
+  return {c * v.x - s * v.y, s * v.x + c * v.y};
+}
+
+template <class Vector>
+Vec2 rounded(Vector v) {
+  return {static_cast<float>(v.x), static_cast<float>(v.y)};
+}
+
+/// Returns the share of a way at which it is nearest to a point, from where it begins.
+template <class Vector>
+double nearest_share(Vector way, Vector to_point) {
+  const double square = way.x * way.x + way.y * way.y;
+  return square > 0 ? std::clamp((to_point.x * way.x + to_point.y * way.y) / square, 0.0, 1.0) : 0;
+}
+
+}  // namespace
+
+FoundFeatures::Disc FoundFeatures::disc(std::uint32_t agent, std::uint32_t place) const noexcept {
+  const Root& alone = shapes_.roots[root(agent)];
+  if (shapes_.trees == nullptr) return {double{alone.x}, double{alone.y}, double{alone.radius}};
+  const std::size_t stride = shapes_.trees[root(agent)].stride;
+  const float* const x = shapes_.nodes + place;
+  return {double{x[0]}, double{x[stride]}, double{x[2 * stride]}};
+}
+
+FoundFeatures::Segment FoundFeatures::segment(std::uint32_t point) const noexcept {
+  const Vec2 from = shapes_.points[point], to = shapes_.points[point + 1];
+  return {
+      {double{from.x}, double{from.y}}, {double{to.x} - double{from.x}, double{to.y} - double{from.y}}, 0};
+}
+
+/// Segments that do not meet are nearest at an end of one.
+FoundFeatures::Segments FoundFeatures::segments() const {
+  const auto [first, second] = pair_;
+  Segments found{segment(nearest_.a), segment(nearest_.b), {}};
+  const Rotation of_a = rotation(agents_.heading[first]), of_b = rotation(agents_.heading[second]);
+  const Vector way_a = turned(of_a, found.a.way), way_b = turned(of_b, found.b.way);
+  const Vector from_a = turned(of_a, found.a.from), from_b = turned(of_b, found.b.from);
+  const Vector apart{agents_.x[second] - agents_.x[first] + (from_b.x - from_a.x),
+                     agents_.y[second] - agents_.y[first] + (from_b.y - from_a.y)};
+  const auto between = [&](double share_a, double share_b) {
+    return Vector{apart.x + share_b * way_b.x - share_a * way_a.x,
+                  apart.y + share_b * way_b.y - share_a * way_a.y};
+  };
+  double least = std::numeric_limits<double>::infinity();
+  const auto take = [&](double share_a, double share_b) {
+    const Vector at = between(share_a, share_b);
+    const double square = at.x * at.x + at.y * at.y;
+    if (square >= least) return;
+    least = square, found.a.share = share_a, found.b.share = share_b, found.between = at;
+  };
+  for (const double end : {0.0, 1.0}) {
+    const Vector to_b = between(0, end), to_a = between(end, 0);
+    take(nearest_share(way_a, to_b), end);
+    take(end, nearest_share(way_b, Vector{-to_a.x, -to_a.y}));
+  }
+  return found;
+}
+
+FoundFeatures::Vector FoundFeatures::between() const {
+  if (nearest_.are_segments) return segments().between;
+  return turned({double{nearest_.cosine}, double{nearest_.sine}},
+                Vector{double{nearest_.x}, double{nearest_.y}});
+}
+
+FoundFeatures::Vector FoundFeatures::along(double sign) const {
+  const auto [x, y] = between();
+  if (x == 0 && y == 0) return {sign, 0};
+  const double scale = sign / std::sqrt(x * x + y * y);
+  return {scale * x, scale * y};
+}
+
+Vec2 FoundFeatures::direction(double sign) const {
+  return rounded(along(sign));
+}
+
+/// Returns where an agent's disc goes as far as it does along a unit vector.
+Vec2 FoundFeatures::end(std::uint32_t agent, std::uint32_t place, Vector unit) const {
+  const Disc of = disc(agent, place);
+  const auto [x, y] = turned(rotation(agents_.heading[agent]), Vector{of.x, of.y});
+  return rounded(Vector{x + of.radius * unit.x, y + of.radius * unit.y});
+}
+
+NearestPoints FoundFeatures::points() const {
+  const auto [first, second] = pair_;
+  if (nearest_.are_segments) {
+    const Segments of = segments();
+    return {rounded(turned(rotation(agents_.heading[first]), of.a.nearest())),
+            rounded(turned(rotation(agents_.heading[second]), of.b.nearest()))};
+  }
+  const Vector unit = along(1);
+  return {end(first, nearest_.a, unit), end(second, nearest_.b, {-unit.x, -unit.y})};
+}
+
+std::uint32_t FoundFeatures::leaf(std::uint32_t agent, std::uint32_t point, Vector at) const {
+  const Tree& tree = shapes_.trees[root(agent)];
+  const LeafSegments<BaseLanes> leaves{shapes_.leaf_segments};
+  std::uint32_t found = no_node;
+  double least = std::numeric_limits<double>::infinity();
+  for (std::uint32_t number = 0; number < tree.count; ++number) {
+    const auto list = leaves.segments(tree, tree.discs + number);
+    bool holds = false;
+    for (std::uint32_t i = 0; i < list.count; ++i) holds = holds || list.point(i) == point;
+    if (!holds) continue;
+    const auto [x, y, radius] = disc(agent, tree.discs + number);
+    const double gap = std::sqrt((at.x - x) * (at.x - x) + (at.y - y) * (at.y - y)) - radius;
+    if (gap < least) least = gap, found = number;
+  }
+  return found;
+}
+
+DiscPair FoundFeatures::numbers() const {
+  const auto [first, second] = pair_;
+  if (nearest_.are_segments) {
+    const Segments of = segments();
+    return {leaf(first, nearest_.a, of.a.nearest()), leaf(second, nearest_.b, of.b.nearest())};
+  }
+  const auto number = [&](std::uint32_t agent, std::uint32_t place) {
+    return shapes_.trees == nullptr ? place : place - shapes_.trees[root(agent)].discs;
+  };
+  return {number(first, nearest_.a), number(second, nearest_.b)};
+}
+
+}  // namespace bch::detail

@@ -1,0 +1,341 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <utility>
+#include <vector>
+
+#include <bch/clearance.hpp>
+#include <bch/collide.hpp>
+#include <bch/default_characters.hpp>
+
+#include "baselines/clearance_reference.hpp"
+#include "baselines/segment_clearance.hpp"
+#include "layout/base/rounding.hpp"
+#include "tests/support/character_shapes.hpp"
+#include "tests/support/clearances.hpp"
+#include "tests/support/differential.hpp"
+#include "tests/support/touching_scene.hpp"
+
+// clearance() with exact leaves: the distance of the outlines.
+
+namespace bch {
+namespace {
+
+using test::PairScene;
+using test::Random;
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// All outputs.
+struct Found : test::Answers {
+  explicit Found(std::size_t size) : Answers(size), points(size) {}
+  std::vector<NearestPoints> points;
+
+  bool same(std::size_t i, const Found& other, std::size_t k) const {
+    return Answers::same(i, other, k) && points[i] == other.points[k];
+  }
+};
+
+Found find(const ShapeSet& set, const PairScene& scene, QueryOptions options = {}) {
+  options.distance_leaves = Leaves::segments;
+  Found found(scene.pairs.size());
+  clearance(set, scene.crowd.agents(), scene.pairs,
+            {found.distance, found.direction, found.discs, found.points}, options);
+  return found;
+}
+
+/// The distances of all segments, or of discs where a shape has no segments at its level.
+class Expected {
+ public:
+  Expected(std::span<const Shape> shapes, const ShapeSetPlan& plan)
+      : segments_(shapes, plan), discs_(shapes, plan) {}
+
+  float distance(const Agents& agents, Pair pair, double max_distance) {
+    if (const auto of_segments = segments_.distance(agents, pair, max_distance)) return *of_segments;
+    return baselines::at_least_zero(discs_.query(agents, pair, max_distance, baselines::Method::depth_first))
+        .distance;
+  }
+
+ private:
+  baselines::SegmentClearance segments_;
+  baselines::ClearanceReference discs_;
+};
+
+class SegmentClearance : public test::Differential {
+ protected:
+  SegmentClearance() : Differential(2701, test::four_levels) {}
+
+  /// Brings three of four agents to the level of all depths, which has segments.
+  void refine(PairScene& scene) {
+    for (std::uint8_t& level : scene.crowd.level)
+      if (random.below(4) != 0) level = 3;
+  }
+
+  void expect_equal_to_brute_force(const PairScene& scene, double max_distance) {
+    std::vector<float> distances;
+    for (const Pair pair : scene.pairs)
+      distances.push_back(expected.distance(scene.crowd.agents(), pair, max_distance));
+    const Found first = find(set, scene, {.max_distance = max_distance});
+    for (const auto& implementation : implementations()) {
+      if (!implementation.supported()) continue;
+      const Found found = find(set, scene, {.implementation = &implementation, .max_distance = max_distance});
+      for (std::size_t i = 0; i < scene.pairs.size(); ++i) {
+        ASSERT_EQ(found.distance[i], distances[i]) << implementation.name << ", pair " << i;
+        ASSERT_TRUE(found.same(i, first, i)) << implementation.name << ", pair " << i;
+      }
+    }
+  }
+
+  Expected expected{shapes, test::four_levels};
+};
+
+TEST_F(SegmentClearance, OfRandomPairsEqualsBruteForce) {
+  for (const double max_distance : {infinity, 0.5, 0.05, 0.0}) {
+    PairScene scene = random_scene(random, set, 25'000);
+    refine(scene);
+    expect_equal_to_brute_force(scene, max_distance);
+  }
+}
+
+TEST_F(SegmentClearance, OfTangentPairsEqualsBruteForce) {
+  for (const double max_distance : {infinity, 0.5, 0.02, 1e-6}) {
+    PairScene scene = tangent_scene(25'000);
+    refine(scene);
+    expect_equal_to_brute_force(scene, max_distance);
+  }
+}
+
+TEST_F(SegmentClearance, FarFromTheOriginAndFarApartEqualsBruteForce) {
+  PairScene scene = random_scene(random, set, 8'000);
+  refine(scene);
+  test::move_away(scene, 0, 0);
+  const Found at_origin = find(set, scene);
+  test::move_away(scene, 1e7, -8e8);
+  expect_equal_to_brute_force(scene, infinity);
+  const Found far = find(set, scene);
+  for (std::size_t i = 0; i < scene.pairs.size(); ++i) EXPECT_TRUE(far.same(i, at_origin, i)) << i;
+  for (const double apart : {30.0, 1e4, 1.4e9}) {
+    // From so far away that rounding hides a body, all leaves are equally near.
+    scene = random_scene(random, set, apart > 1e9 ? 200 : 3'000);
+    refine(scene);
+    for (std::size_t i = 1; i < scene.crowd.x.size(); i += 2) scene.crowd.x[i] -= apart;
+    if (apart > 1e9)
+      for (double& x : scene.crowd.x) x += 0.5e9;
+    expect_equal_to_brute_force(scene, infinity);
+    expect_equal_to_brute_force(scene, apart);
+  }
+}
+
+TEST_F(SegmentClearance, OfExchangedAgentsIsExchanged) {
+  PairScene scene = tangent_scene(10'000);
+  refine(scene);
+  const Found one = find(set, scene);
+  for (Pair& pair : scene.pairs) std::swap(pair.first, pair.second);
+  const Found other = find(set, scene);
+  for (std::size_t i = 0; i < scene.pairs.size(); ++i) {
+    EXPECT_EQ(other.distance[i], one.distance[i]);
+    EXPECT_EQ(other.direction[i], (Vec2{-one.direction[i].x, -one.direction[i].y}));
+    EXPECT_EQ(other.discs[i], (DiscPair{one.discs[i].second, one.discs[i].first}));
+    EXPECT_EQ(other.points[i], (NearestPoints{one.points[i].second, one.points[i].first}));
+  }
+}
+
+TEST_F(SegmentClearance, OfManyShapesAndInPartsIsTheSame) {
+  PairScene scene = random_scene(random, set, 5'000);
+  refine(scene);
+  const Found whole = find(set, scene, {.max_distance = 0.5});
+  for (const std::size_t size : {0, 1, 3, 17, 255, 1025}) {
+    PairScene part{scene.crowd, {scene.pairs.begin() + 62, scene.pairs.begin() + 62 + size}};
+    const Found found = find(set, part, {.max_distance = 0.5});
+    for (std::size_t i = 0; i < size; ++i) EXPECT_TRUE(found.same(i, whole, 62 + i)) << size;
+  }
+  const ShapeSet large(test::repeated(shapes), test::four_levels);
+  for (std::size_t i = 0; i < scene.crowd.shape.size(); ++i)
+    scene.crowd.shape[i] += static_cast<std::uint32_t>(i * shapes.size() % large.shape_count());
+  const Found of_many = find(large, scene, {.max_distance = 0.5});
+  for (std::size_t i = 0; i < scene.pairs.size(); ++i) EXPECT_TRUE(of_many.same(i, whole, i)) << i;
+}
+
+/// The same question in the same words: what collides has no distance, and what has one does not collide.
+TEST_F(SegmentClearance, AgreesWithCollide) {
+  for (PairScene scene : {random_scene(random, set, 50'000), tangent_scene(50'000)}) {
+    refine(scene);
+    std::vector<std::uint8_t> hits(scene.pairs.size());
+    collide(set, scene.crowd.agents(), scene.pairs, hits);
+    const Found found = find(set, scene);
+    const auto has_segments = [&](std::uint32_t agent) {
+      return scene.crowd.level[agent] == 3 && shapes[scene.crowd.shape[agent]].hierarchy.nodes.size() > 1;
+    };
+    std::size_t of_segments = 0, touching = 0;
+    for (std::size_t i = 0; i < hits.size(); ++i) {
+      if (hits[i]) {
+        ASSERT_EQ(found.distance[i], 0) << i;
+      } else if (has_segments(scene.pairs[i].first) && has_segments(scene.pairs[i].second)) {
+        ++of_segments;
+        touching += found.distance[i] == 0;
+      }
+    }
+    EXPECT_GT(of_segments, hits.size() / 8);
+    EXPECT_LT(touching, of_segments / 10'000);
+  }
+}
+
+TEST_F(SegmentClearance, DeepestOverlapsAreThoseOfDiscs) {
+  const PairScene scene = tangent_scene(5'000);
+  const Found found = find(set, scene, {.overlap = Overlap::deepest});
+  const test::Answers of_discs = test::answers(set, scene.crowd.agents(), scene.pairs, infinity);
+  for (std::size_t i = 0; i < scene.pairs.size(); ++i) ASSERT_TRUE(found.Answers::same(i, of_discs, i)) << i;
+}
+
+/// Returns how far a point of an agent, as clearance() gives it, is from a segment of its outline.
+double distance_from_outline(const Shape& shape, double heading, Vec2 point) {
+  const double c = std::cos(heading), s = std::sin(heading), x = point.x, y = point.y;
+  const double own_x = c * x + s * y, own_y = c * y - s * x;
+  double least = infinity;
+  const Outline& outline = shape.outline;
+  for (std::uint32_t i = 0; i < outline.points.size(); ++i) {
+    const auto [from, to] = baselines::LeafSegments::segment(outline, i);
+    const double way_x = to.x - from.x, way_y = to.y - from.y, square = way_x * way_x + way_y * way_y;
+    const double share =
+        square > 0 ? std::clamp(((own_x - from.x) * way_x + (own_y - from.y) * way_y) / square, 0.0, 1.0) : 0;
+    least = std::min(least, std::hypot(own_x - from.x - share * way_x, own_y - from.y - share * way_y));
+  }
+  return least;
+}
+
+/// Never larger than the distance of the outlines, and below it by no more than clearance.hpp says; and all outputs belong together.
+void expect_distances_of_outlines(const std::vector<Shape>& shapes, const PairScene& scene,
+                                  const Found& found) {
+  std::size_t apart = 0;
+  for (std::size_t i = 0; i < scene.pairs.size(); ++i) {
+    const Pair pair = scene.pairs[i];
+    const Shape &a = shapes[scene.crowd.shape[pair.first]], &b = shapes[scene.crowd.shape[pair.second]];
+    const long double exact = test::oracle(shapes, scene.crowd.agents(), pair).distance();
+    ASSERT_LE(found.distance[i], exact) << i;
+    const bool segments = a.hierarchy.nodes.size() > 1 && b.hierarchy.nodes.size() > 1;
+    if (!segments) continue;
+    const long double reach = a.hierarchy.reach + b.hierarchy.reach,
+                      steps = static_cast<long double>(a.outline.grid_step) + b.outline.grid_step,
+                      most = 1.4e-6L * reach + detail::rounding::outline_grid_steps * steps + 0.9e-6L * exact;
+    ASSERT_LE(exact - found.distance[i], most) << i;
+    if (found.distance[i] == 0) {
+      EXPECT_EQ(found.discs[i], no_discs);
+      EXPECT_EQ(found.direction[i], (Vec2{0, 0}));
+      EXPECT_EQ(found.points[i], NearestPoints{});
+      continue;
+    }
+    ++apart;
+    const auto slack = static_cast<double>(most);
+    EXPECT_LE(distance_from_outline(a, scene.crowd.heading[pair.first], found.points[i].first), slack) << i;
+    EXPECT_LE(distance_from_outline(b, scene.crowd.heading[pair.second], found.points[i].second), slack) << i;
+    const auto [way_x, way_y] = test::way_between(found.points[i], scene.crowd, pair);
+    const double x = found.direction[i].x, y = found.direction[i].y, distance = found.distance[i];
+    EXPECT_NEAR(std::hypot(x, y), 1, 1e-6) << i;
+    EXPECT_NEAR(way_x * x + way_y * y, distance, slack) << i;
+    EXPECT_NEAR(way_x * y - way_y * x, 0, slack) << i;
+    // The named discs hold the points.
+    const auto expect_in_disc = [&](const Shape& shape, std::uint32_t agent, std::uint32_t number,
+                                    Vec2 point) {
+      const Disc disc = shape.hierarchy.nodes[cut(shape.hierarchy, all_depths)[number]].disc;
+      const double c = std::cos(scene.crowd.heading[agent]), s = std::sin(scene.crowd.heading[agent]);
+      const double px = point.x, py = point.y;
+      const double from_x = c * px + s * py - double{disc.x}, from_y = c * py - s * px - double{disc.y};
+      EXPECT_LE(std::hypot(from_x, from_y), double{disc.radius} + slack) << i;
+    };
+    expect_in_disc(a, pair.first, found.discs[i].first, found.points[i].first);
+    expect_in_disc(b, pair.second, found.discs[i].second, found.points[i].second);
+  }
+  EXPECT_GT(apart, scene.pairs.size() / 10);
+}
+
+TEST(SegmentClearanceOfOutlines, IsTheirDistanceForAnySize) {
+  Random random(2702);
+  const std::vector<Shape> shapes = test::simple_shapes(random, 400);
+  const ShapeSet set(shapes);
+  const test::TouchingScene scene = test::touching_scene(random, shapes, test::samples(60'000));
+  expect_distances_of_outlines(shapes, scene, find(set, scene));
+}
+
+TEST(SegmentClearanceOfOutlines, IsTheirDistanceFarApart) {
+  Random random(2703);
+  const std::vector<Shape> shapes = test::simple_shapes(random, 400);
+  const ShapeSet set(shapes);
+  PairScene scene;
+  for (std::uint32_t i = 0; i < test::samples(20'000); ++i) {
+    const auto shape = [&] { return random.below(400); };
+    const double length = std::pow(10, random.uniform(-3, 5)), angle = random.uniform(-4, 4);
+    const std::uint32_t a = shape(), b = shape();
+    scene.crowd.add({a, 0, 0, random.uniform(-4, 4), 0});
+    scene.crowd.add({b, length * std::cos(angle), length * std::sin(angle), random.uniform(-4, 4), 0});
+    scene.pairs.push_back(i % 2 == 0 ? Pair{2 * i, 2 * i + 1} : Pair{2 * i + 1, 2 * i});
+  }
+  expect_distances_of_outlines(shapes, scene, find(set, scene));
+}
+
+TEST(SegmentClearanceOfOutlines, IsTheirDistanceForPeople) {
+  const std::vector<Shape> shapes = test::pose_shapes(default_male(), 12);
+  const ShapeSet set(shapes);
+  Random random(2704);
+  PairScene scene = random_scene(random, set, 2'000);
+  scene.crowd.level.clear();
+  expect_distances_of_outlines(shapes, scene, find(set, scene));
+}
+
+/// Equal distances: copies of one polygon with parallel sides, at places on a grid. The first segments count, on every processor.
+TEST(SegmentClearanceOfOutlines, NamesTheFirstOfEquallyNearSegments) {
+  const std::vector<Shape> shapes = {
+      test::contour_shape(test::polygon({{-0.5f, -0.25f}, {0.5f, -0.25f}, {0.5f, 0.25f}, {-0.5f, 0.25f}}))};
+  const ShapeSet set(shapes);
+  Random random(2705);
+  PairScene scene;
+  for (std::uint32_t i = 0; i < test::samples(5'000); ++i) {
+    const double quarter = 1.5707963267948966 * random.below(4);
+    const auto at = [&] { return 0.25 * (static_cast<int>(random.below(17)) - 8); };
+    scene.crowd.add({0, at(), at(), quarter, 0});
+    scene.crowd.add({0, at(), at(), quarter, 0});
+    scene.pairs.push_back({2 * i, 2 * i + 1});
+  }
+  const Found first = find(set, scene);
+  Expected expected(shapes, {});
+  for (const auto& implementation : implementations()) {
+    if (!implementation.supported()) continue;
+    const Found found = find(set, scene, {.implementation = &implementation});
+    for (std::size_t i = 0; i < scene.pairs.size(); ++i) {
+      ASSERT_TRUE(found.same(i, first, i)) << implementation.name << ", pair " << i;
+      ASSERT_EQ(found.distance[i], expected.distance(scene.crowd.agents(), scene.pairs[i], infinity)) << i;
+    }
+  }
+}
+
+/// Discs decide where a leaf has too many segments.
+TEST(SegmentClearanceOfOutlines, OfDenseOnesIsThatOfDiscs) {
+  Random random(2706);
+  const std::vector<Shape> shapes = {test::contour_shape(test::star(random, 20'000, 0.3, 0.31), 0.05f),
+                                     test::contour_shape(test::star(random, 40, 0.2, 0.4))};
+  const ShapeSet set(shapes);
+  const PairScene scene = random_scene(random, set, 1'000);
+  Expected expected(shapes, {});
+  const Found found = find(set, scene);
+  for (std::size_t i = 0; i < scene.pairs.size(); ++i)
+    ASSERT_EQ(found.distance[i], expected.distance(scene.crowd.agents(), scene.pairs[i], infinity)) << i;
+}
+
+TEST(SegmentClearanceOfOutlines, LeavesAreChecked) {
+  const std::vector<Shape> shapes = test::synthetic_shapes(2707, 2);
+  const ShapeSet set(shapes);
+  Random random(2708);
+  const PairScene scene = random_scene(random, set, 2);
+  std::vector<float> distance(2);
+  EXPECT_THROW(clearance(set, scene.crowd.agents(), scene.pairs, {distance},
+                         {.distance_leaves = static_cast<Leaves>(7)}),
+               std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace bch
