@@ -6,8 +6,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "baselines/clearance_reference.hpp"
+#include "baselines/segment_clearance.hpp"
 #include "baselines/time_of_impact_reference.hpp"
 #include "layout/base/heading.hpp"
 
@@ -30,6 +32,24 @@ std::string wrong_clearances(Scene& scene, const Workload& workload, const Clear
     if (answers.distance[i] != expected.distance || answers.direction[i] != expected.direction)
       return fmt::format("pair {}: {} m where brute force says {} m", i, answers.distance[i],
                          expected.distance);
+  }
+  return {};
+}
+
+std::string wrong_exact_clearances(Scene& scene, const Workload& workload, const Clearances& answers) {
+  constexpr std::size_t compared = 64;
+  const baselines::SegmentClearance reference(scene.shapes(), {});
+  Clearances of_discs(workload.pairs.size());
+  clearance(scene.set(), workload.agents(), workload.pairs, of_discs.spans());
+  for (std::size_t i = 0; i < workload.pairs.size(); ++i) {
+    const float distance = answers.distance[i], least = of_discs.distance[i];
+    const bool is_beyond = least + 0.04f > static_cast<float>(clearance_limit) && std::isinf(distance);
+    if (!is_beyond && (distance < least - 1e-5f || distance > least + 0.04f))
+      return fmt::format("pair {}: {} m where discs are {} m apart", i, distance, least);
+    if (i % compared != 0) continue;
+    const auto expected = reference.distance(workload.agents(), workload.pairs[i], clearance_limit);
+    if (expected && distance != *expected)
+      return fmt::format("pair {}: {} m where brute force says {} m", i, distance, *expected);
   }
   return {};
 }

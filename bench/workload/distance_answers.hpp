@@ -40,6 +40,8 @@ struct Ways {
 /// The functions below say where answers differ from brute force over all discs, on every pair; empty:
 /// nowhere.
 std::string wrong_clearances(Scene& scene, const Workload& workload, const Clearances& answers);
+/// Checks clearances of exact leaves: all of them against those of discs, and one in 64 against brute force over all segments.
+std::string wrong_exact_clearances(Scene& scene, const Workload& workload, const Clearances& answers);
 std::string wrong_within(Scene& scene, const Workload& workload, const Hits& answers);
 /// Checks distances of outlines, which clearances bound.
 std::string wrong_distances(Scene& scene, const Workload& workload, const std::vector<double>& distances);

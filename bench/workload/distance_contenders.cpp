@@ -31,6 +31,19 @@ Contender clearance_kernel(Scene& scene, const Workload& workload, const Impleme
                  [&] { return wrong_clearances(scene, workload, *answers); });
 }
 
+Contender exact_clearance_kernel(Scene& scene, const Workload& workload,
+                                 const Implementation& implementation) {
+  const auto answers = std::make_shared<Clearances>(workload.pairs.size());
+  const auto call = [&set = scene.set(), &workload, answers,
+                     options = QueryOptions{.implementation = &implementation,
+                                            .max_distance = clearance_limit,
+                                            .distance_leaves = Leaves::segments}] {
+    clearance(set, workload.agents(), workload.pairs, answers->spans(), options);
+  };
+  return checked(implementation.name, workload, call,
+                 [&] { return wrong_exact_clearances(scene, workload, *answers); });
+}
+
 Contender clearance_reference(Scene& scene, const Workload& workload) {
   const auto answers = std::make_shared<Clearances>(workload.pairs.size());
   const auto reference = std::make_shared<baselines::ClearanceReference>(scene.shapes(), ShapeSetPlan{});
@@ -92,6 +105,7 @@ Contender time_of_impact_reference(Scene& scene, const Workload& workload) {
 }
 
 constexpr TimedQuery queries[] = {{"clearance", clearance_kernel, clearance_reference},
+                                  {"exact_clearance", exact_clearance_kernel, nullptr},
                                   {"within", within_kernel, within_reference},
                                   {"time_of_impact", time_of_impact_kernel, time_of_impact_reference}};
 

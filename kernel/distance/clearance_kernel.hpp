@@ -60,6 +60,7 @@ class ClearanceKernel {
 
   void answer_searched(NearestFeatures* nearest) noexcept {
     search_.run();
+    segments_.finish();
     for (std::uint32_t k = 0; k < search_.size(); ++k)
       nearest[searched_[k]] = answer(searched_[k], search_.measure(k));
     search_.clear();
@@ -78,12 +79,15 @@ class ClearanceKernel {
     return {distance, false, a, b, x, y, cosine, sine};
   }
 
+  /// Returns what the next search of the kernel is to measure.
   Measure measure(std::uint32_t pair) noexcept {
+    Measure measure(arguments_.limit, arguments_.enough, reach(pair));
     const Tree &a = shapes_.trees[at_.root_a[pair]], &b = shapes_.trees[at_.root_b[pair]];
-    const bool exact = arguments_.in.exact_leaves && a.segments != no_segments && b.segments != no_segments;
-    if (!exact) return {arguments_.limit, arguments_.enough, reach(pair), nullptr, {}};
+    if (!arguments_.in.exact_leaves || a.segments == no_segments || b.segments == no_segments) return measure;
     const double margin = segment_margin<Simd>(shapes_, at_.shape_a[pair], at_.shape_b[pair]);
-    return {arguments_.limit, arguments_.enough, reach(pair), &segments_, {&a, &b, margin}};
+    segments_.place(search_.size(), at_.transform(pair), margin);
+    measure.use_segments(&segments_, search_.size(), a, b, margin);
+    return measure;
   }
 
   float reach(std::uint32_t pair) const noexcept {
@@ -134,7 +138,8 @@ class ClearanceKernel {
   RecordFields<Simd> of_a_, of_b_;
   alignas(64) float root_bound_[chunk_size];
   std::uint32_t searched_[Search::capacity];  ///< pairs of the chunk
-  SegmentGaps<Simd> segments_;
+  typename Measure::Segments segments_;
+  static_assert(Measure::Segments::most_searches == Search::capacity);
   Search search_;
 };
 

@@ -40,14 +40,22 @@ class ClearanceMeasure {
  public:
   using Float = typename Simd::Float;
 
-  /// `reach` is S, metres. A gap at or below `enough` ends the search; nothing is nearer. `segments`: measures between the
-  /// segments that leaves hold; null: between discs.
-  ClearanceMeasure(float limit, float enough, float reach, SegmentGaps<Simd>* segments,
-                   const SegmentedPair& trees) noexcept
-      : segments_(segments), trees_(trees), enough_(enough), slack_(slack_per_reach * reach) {
+  using Segments = SegmentGaps<Simd, ClearanceMeasure>;
+
+  /// `reach` is S, metres. A gap at or below `enough` ends the search; nothing is nearer.
+  ClearanceMeasure(float limit, float enough, float reach) noexcept
+      : enough_(enough), slack_(slack_per_reach * reach) {
     look_within({limit, false, no_node, no_node});
   }
   ClearanceMeasure() = default;
+
+  /// Measures between the segments of two trees that have some, as that number of the searches of `segments`.
+  void use_segments(Segments* segments, std::uint32_t number, const Tree& a, const Tree& b,
+                    double margin) noexcept {
+    segments_ = segments, number_ = number, tree_a_ = &a, tree_b_ = &b;
+    margin_ = static_cast<float>(margin);
+    look_within(nearest_);
+  }
 
   /// Discs by where they stand among the nodes, segments by where they begin among the points; or no_node.
   struct Nearest {
@@ -75,17 +83,20 @@ class ClearanceMeasure {
   /// Takes all gaps of two windows at once, because a branch on whether one is below the best so far is
   /// unpredictable.
   void meet(const Transform& at, Discs a, Discs b, std::uint32_t first_a, std::uint32_t first_b) noexcept {
+    if (segments_ != nullptr) return meet_segments(at, a, b, first_a, first_b);
     alignas(64) float gaps[block_pairs];
     visit_disc_pairs<Simd>(
         at, a, b, [&](unsigned k, Float x, Float y, Float r) { Simd::store(gaps + k, gap(x, y, r)); });
     const float least = least_value<Simd>(gaps);
     if (!(least <= best())) return;
     const unsigned k = first_within<Simd>(gaps, least);
-    if (segments_ == nullptr)
-      offer({least, true, first_a + k / block_width, first_b + k % block_width});
-    else
-      meet_segments(at, gaps, k, first_a, first_b);
+    take_discs(least, first_a + k / block_width, first_b + k % block_width);
   }
+
+  const Tree& tree_a() const noexcept { return *tree_a_; }
+  const Tree& tree_b() const noexcept { return *tree_b_; }
+  void take_discs(float gap, std::uint32_t a, std::uint32_t b) noexcept { offer({gap, true, a, b}); }
+  void take_segments(float gap, std::uint32_t a, std::uint32_t b) noexcept { offer({gap, false, a, b}); }
 
   /// Returns the gaps of one register's pairs of single discs.
   static Float gap(Float x, Float y, Float r) noexcept {
@@ -96,7 +107,7 @@ class ClearanceMeasure {
 
  private:
   static constexpr float slack_per_reach = 0x1p-18f;
-  static constexpr float near = 1 - 0x1p-20f, nearer = 1 - 0x1p-18f;
+  static constexpr float near = 1 - 0x1p-20f, nearer = 1 - 0x1p-18f, longer = 1 + 0x1p-20f;
   static constexpr float of_square = 1 - 0x1p-17f, of_best = 0x1p-21f;
 
   static constexpr double u = rounding::unit_roundoff;
@@ -113,22 +124,23 @@ class ClearanceMeasure {
     return Simd::select(square <= Float(far_beyond), root - r, Float(far_beyond));
   }
 
-  /// Segments of the leaves with the least gap come first: few others improve on them.
-  [[gnu::noinline]] void meet_segments(const Transform& at, const float* gaps, unsigned least,
-                                       std::uint32_t first_a, std::uint32_t first_b) noexcept {
-    const auto take = [this](float distance, std::uint32_t a, std::uint32_t b) {
-      offer({distance, false, a, b});
-    };
-    const auto add = [&](unsigned k) {
-      const std::uint32_t a = first_a + k / block_width, b = first_b + k % block_width;
-      if (!segments_->add(at, trees_, a, b, nearest_.distance, take))
-        offer({gaps[k] < 0 ? 0 : gaps[k], true, a, b});
-    };
-    add(least);
-    segments_->finish(at, trees_, nearest_.distance, take);
-    std::uint64_t left = all_within<Simd>(gaps, best_) & ~(std::uint64_t{1} << least);
-    for (; left != 0; left &= left - 1) add(static_cast<unsigned>(__builtin_ctzll(left)));
-    segments_->finish(at, trees_, nearest_.distance, take);
+  /// Bounds what is nearest by the discs, and puts the leaves by that may hold it.
+  [[gnu::noinline]] void meet_segments(const Transform& at, Discs a, Discs b, std::uint32_t first_a,
+                                       std::uint32_t first_b) noexcept {
+    alignas(64) float gaps[block_pairs], squares[block_pairs];
+    visit_disc_pairs<Simd>(at, a, b, [&](unsigned k, Float x, Float y, Float r) {
+      const Float square = x * x + y * y;
+      Simd::store(gaps + k, gap(x, y, r));
+      Simd::store(squares + k, Simd::select(square <= Float(far_beyond), square + r * r, Float(far_beyond)));
+    });
+    if (!(least_value<Simd>(gaps) <= best_)) return;
+    const float most = __builtin_sqrtf(least_value<Simd>(squares)) * longer + slack_;
+    const float bound = Segments::most_gap(margin_, most);
+    if (bound < best_) bound_by(bound);
+    for (std::uint64_t left = all_within<Simd>(gaps, best_); left != 0; left &= left - 1) {
+      const auto k = static_cast<unsigned>(__builtin_ctzll(left));
+      segments_->add(number_, *this, first_a + k / block_width, first_b + k % block_width, gaps[k]);
+    }
   }
 
   /// Takes what is less than the best or comes before it: segments before discs, then the lower numbers.
@@ -149,12 +161,18 @@ class ClearanceMeasure {
 
   void look_within(const Nearest& nearest) noexcept {
     nearest_ = nearest;
-    best_ = segments_ == nullptr ? nearest.distance : SegmentGaps<Simd>::most_gap(trees_, nearest.distance);
-    most_ = best_ + of_best * __builtin_fabsf(best_) + slack_;
+    bound_by(segments_ == nullptr ? nearest.distance : Segments::most_gap(margin_, nearest.distance));
   }
 
-  SegmentGaps<Simd>* segments_;
-  SegmentedPair trees_;
+  void bound_by(float gap) noexcept {
+    best_ = gap;
+    most_ = gap + of_best * __builtin_fabsf(gap) + slack_;
+  }
+
+  Segments* segments_ = nullptr;
+  const Tree *tree_a_, *tree_b_;
+  std::uint32_t number_;
+  float margin_;
   Nearest nearest_;
   float best_;
   float enough_, slack_;

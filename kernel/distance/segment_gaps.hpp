@@ -5,8 +5,6 @@
 
 #include <cstdint>
 
-#include "kernel/distance/clearance_terms.hpp"
-#include "kernel/simd/leaf_segments.hpp"
 #include "kernel/simd/segment_pairs.hpp"
 #include "kernel/simd/transform.hpp"
 #include "layout/base/rounding.hpp"
@@ -15,9 +13,9 @@
 
 namespace bch::detail {
 
-/// The trees of two agents that both have segments, and the margin of both shapes, metres; see rounding.hpp, V.
-struct SegmentedPair {
-  const Tree *a, *b;
+/// Where the shapes of two agents are, and the margin of both, metres; see rounding.hpp, V.
+struct PlacedSegments {
+  Transform b_in_a;
   double margin;
 };
 
@@ -29,96 +27,109 @@ struct SegmentedPair {
 /// where s is the least distance of an end from the other segment, and m the margin of exact leaves; w = 0 where they surely cross.
 ///
 /// Never too large. With D the distance of the outlines, |d| <= D + S, the placed ends are off by (turn) u |b| + (position) u |d|
-/// <= 8.9 u S + 4.6 u D, and the grids; m holds what is of S and of the grids. Near takes off 8 u, of which 4.6 are for D and 1 for the
-/// rounding of w. Where segments cross that do not surely do so, s is at most m, as V says.
-/// So w is 0 where exact leaves let collide() say 1.
+/// <= 8.9 u S + 4.6 u D, and the grids; m holds what is of S and of the grids. Near takes off 8 u, of which 4.6 are for D and 1 for
+/// the rounding of w. Where segments cross that do not surely do so, s is at most m, as V says. So w is 0 where exact leaves let
+/// collide() say 1.
 ///
 /// Below D by no more than m, 8.9 u S, the grids, and (4.6 + 8 + 1) u D: (segment_price), and 0.9 um per metre of D.
 ///
-/// Which leaves have to be looked at. The nearest points of two outlines lie in two leaves that hold their segments. The gap of the discs of these
-/// is at most D, see ClearanceMeasure, and so at most w + 2 m + 14 u D: most_gap().
-template <class Simd>
-class SegmentGaps {
+/// Which leaves have to be looked at. The nearest points of two outlines lie in two leaves that hold their segments. The gap of the
+/// discs of these is at most D, see ClearanceMeasure, and so at most w + 2 m + 14 u D: most_gap(). And some pair of leaves has a w of at most
+/// sqrt(D'^2 + r_A^2 + r_B^2), where D' is the distance of the centres: half of a smallest disc, whichever, has a point of what it holds on
+/// its edge, and so one that is no farther from a point at D' than sqrt(D'^2 + r^2). So what is nearest is sought among discs
+/// alone, and the leaves that may hold it are put by until the search ends, when few of them are left.
+///
+/// `Search`: what one pair of agents is sought with; it has
+///
+///     const Tree &tree_a(), &tree_b()
+///     float best()                                      gaps of leaves above it are of no interest
+///     void take_segments(float w, uint32 a, uint32 b)   named by the points where they begin
+///     void take_discs(float gap, uint32 a, uint32 b)    of leaves with too many segments
+template <class Simd, class Search>
+class SegmentGaps : private SegmentBatch<Simd, PlacedSegments> {
  public:
+  static constexpr std::uint32_t most_searches = 32;  ///< whose leaves are put by at a time
+
   explicit SegmentGaps(const ShapeSetView& shapes) noexcept
-      : leaves_{shapes.leaf_segments}, points_(shapes.points) {}
+      : SegmentBatch<Simd, PlacedSegments>(shapes, places_) {}
+
+  /// Says where the shapes of a search are.
+  void place(std::uint32_t search, const Transform& b_in_a, double margin) noexcept {
+    places_[search] = {b_in_a, margin};
+  }
 
   /// Returns the largest gap of discs whose segments may have a gap of at most `best`.
-  static float most_gap(const SegmentedPair& trees, float best) noexcept {
-    return best * (1 + of_distance) + static_cast<float>(trees.margin) * 2.001f;
+  static float most_gap(float margin, float best) noexcept {
+    return best * (1 + of_distance) + margin * 2.001f;
   }
 
-  /// Collects all segments of a leaf of A with all of a leaf of B, named by the places of their discs. Measures those that were collected
-  /// before where there is no room for more. take(gap, a, b) is called for pairs that are at most `best` apart, now or in
-  /// finish(); segments are named by the points where they begin.
-  /// Returns: false where a leaf has too many, so that discs decide.
-  template <class Take>
-  bool add(const Transform& b_in_a, const SegmentedPair& trees, std::uint32_t leaf_a, std::uint32_t leaf_b,
-           const float& best, Take take) noexcept {
-    const auto of_a = leaves_.segments(*trees.a, leaf_a), of_b = leaves_.segments(*trees.b, leaf_b);
-    if (of_a.count * of_b.count == 0) return false;
-    for (std::uint32_t i = 0; i < of_a.count; ++i)
-      for (std::uint32_t j = 0; j < of_b.count; ++j) {
-        if (size_ == capacity) finish(b_in_a, trees, best, take);
-        a_[size_] = of_a.point(i), b_[size_++] = of_b.point(j);
-      }
-    return true;
+  /// Puts two leaves by, with the gap of their discs. `search` has to stay where it is until finish().
+  void add(std::uint32_t number, Search& search, std::uint32_t leaf_a, std::uint32_t leaf_b,
+           float gap) noexcept {
+    if (open_size_ == open_capacity) finish();
+    open_[open_size_++] = {&search, number, leaf_a, leaf_b, gap};
   }
 
-  /// Measures all that were collected.
-  template <class Take>
-  [[gnu::noinline]] void finish(const Transform& b_in_a, const SegmentedPair& trees, const float& best,
-                                Take take) noexcept {
-    for (std::uint32_t k = size_; k % Simd::width != 0; ++k) a_[k] = a_[size_ - 1], b_[k] = b_[size_ - 1];
-    for (std::uint32_t k = 0; k < size_; k += Simd::width) {
-      float gap[Simd::width];
-      for (std::uint32_t bits = measure(b_in_a, trees.margin, k, best, gap); bits != 0; bits &= bits - 1) {
-        const auto lane = static_cast<unsigned>(__builtin_ctz(bits));
-        take(gap[lane], a_[k + lane], b_[k + lane]);
-      }
+  /// Measures all that were put by and may still be nearest.
+  [[gnu::noinline]] void finish() noexcept {
+    for (std::uint32_t i = 0; i < open_size_; ++i) {
+      const Leaves& leaves = open_[i];
+      Search& search = *leaves.search;
+      if (leaves.gap > search.best()) continue;
+      if (!this->collect(leaves.number, search.tree_a(), leaves.a, search.tree_b(), leaves.b, i,
+                         [this] { measure_all(); }))
+        search.take_discs(leaves.gap < 0 ? 0 : leaves.gap, leaves.a, leaves.b);
     }
-    size_ = 0;
+    measure_all();
+    open_size_ = 0;
   }
 
  private:
+  using Batch = SegmentBatch<Simd, PlacedSegments>;
   using Float = typename Simd::Float;
   using Double = typename Simd::Double;
-  using Ends = SegmentEnds<Simd>;
-  static constexpr std::uint32_t capacity = 64;
-  static_assert(capacity % Simd::width == 0);
+  using Batch::parts, Batch::owner_, Batch::segment_a_, Batch::segment_b_;
+  static constexpr std::uint32_t open_capacity = 1024;
 
   static constexpr double near = 1 - 0x1p-21;
   static constexpr float of_distance = 0x1p-19f;
-  static_assert((1 - near) >= (clearance_terms::r::position + 2) * rounding::unit_roundoff);
-  static_assert(double{of_distance} >= (2 * clearance_terms::r::position + 8 + 4) * rounding::unit_roundoff);
-  static_assert(rounding::segment_margin >=
-                (clearance_terms::r::segment_place + clearance_terms::r::higher) * rounding::unit_roundoff);
+  static constexpr double u = rounding::unit_roundoff;
+  static_assert((1 - near) >= (rounding::terms::position + 2) * u);
+  static_assert(double{of_distance} >= (2 * rounding::terms::position + 8 + 4) * u);
+  static_assert(rounding::segment_margin >= (rounding::terms::segment_place + rounding::terms::higher) * u);
 
-  /// Measures a register of pairs. Repeated ones at its end change nothing.
-  /// Returns: bits of those whose gap is at most `best`.
-  std::uint32_t measure(const Transform& b_in_a, double margin, std::uint32_t k, float best,
-                        float* gap) const noexcept {
-    const Ends p = Ends::load(points_, a_ + k), q = Ends::load(points_, b_ + k);
-    const TransformOf<Double> placed{Double(double{b_in_a.c}), Double(double{b_in_a.s}),
-                                     Double(double{b_in_a.tx}), Double(double{b_in_a.ty})};
-    Double gaps[Ends::parts], sure[Ends::parts];
-    for (std::uint32_t part = 0; part < Ends::parts; ++part) {
-      const SegmentPair<Simd> pair = Ends::pair(p, q, placed, part);
-      sure[part] =
-          xsimd::min(pair.sides_of_p(Double(margin)).across(), pair.sides_of_q(Double(margin)).across());
-      gaps[part] =
-          xsimd::max(xsimd::sqrt(pair.square_of_ends()) * Double(near) - Double(margin), Double(0.0));
-    }
-    const Float is_sure = Simd::rounded(sure);
-    const Float of_pairs = Simd::select(is_sure > Float(0.0f), Float(0.0f), Simd::rounded(gaps));
-    Simd::store(gap, of_pairs);
-    return Simd::bits(of_pairs <= Float(best));
+  struct Leaves {
+    Search* search;
+    std::uint32_t number, a, b;
+    float gap;
+  };
+
+  [[gnu::noinline]] void measure_all() noexcept {
+    float gap[Simd::width];
+    this->test_all([&](std::uint32_t k) { return measure(k, gap); },
+                   [&](std::uint32_t k, unsigned lane) {
+                     Search& search = *open_[owner_[k + lane]].search;
+                     search.take_segments(gap[lane], segment_a_[k + lane], segment_b_[k + lane]);
+                   });
   }
 
-  const LeafSegments<Simd> leaves_;
-  const Vec2* const points_;
-  std::uint32_t size_ = 0;
-  std::uint32_t a_[capacity], b_[capacity];  ///< points where segments begin
+  /// Measures a register of pairs. Returns: bits of all of them.
+  std::uint32_t measure(std::uint32_t k, float* gap) const noexcept {
+    typename Batch::Pair pairs[parts];
+    this->load(k, pairs);
+    Double gaps[parts], sure[parts];
+    for (std::uint32_t part = 0; part < parts; ++part) {
+      const auto& pair = pairs[part];
+      sure[part] = xsimd::min(pair.sides_of_p(pair.margin).across(), pair.sides_of_q(pair.margin).across());
+      gaps[part] = xsimd::max(xsimd::sqrt(pair.square_of_ends()) * Double(near) - pair.margin, Double(0.0));
+    }
+    Simd::store(gap, Simd::select(Simd::rounded(sure) > Float(0.0f), Float(0.0f), Simd::rounded(gaps)));
+    return ~std::uint32_t{0} >> (32 - Simd::width);
+  }
+
+  PlacedSegments places_[most_searches];
+  std::uint32_t open_size_ = 0;
+  Leaves open_[open_capacity];
 };
 
 }  // namespace bch::detail

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 
+#include "kernel/simd/leaf_segments.hpp"
 #include "kernel/simd/transform.hpp"
 #include "layout/base/rounding.hpp"
 #include "layout/format/shape_set_view.hpp"
@@ -65,30 +66,94 @@ struct SegmentPair {
   }
 };
 
-/// The ends of a register of segments, named by the points where they begin, in registers of doubles.
-template <class Simd>
-struct SegmentEnds {
+/// Collects pairs of segments of leaves, one of either shape, for a test of many side by side. `Placed` has a Transform b_in_a and a
+/// double margin, which is that of both shapes together.
+template <class Simd, class Placed>
+class SegmentBatch {
+ public:
+  /// `placed`: what add() names by index.
+  SegmentBatch(const ShapeSetView& shapes, const Placed* placed) noexcept
+      : leaves_{shapes.leaf_segments}, points_(shapes.points), placed_(placed) {}
+
+ protected:
+  using Float = typename Simd::Float;
   using Double = typename Simd::Double;
   static constexpr std::uint32_t parts =
       Simd::width / Simd::doubles;  ///< registers of doubles for one of floats
+  static constexpr std::uint32_t capacity = 64;
+  static_assert(capacity % Simd::width == 0);
+  static_assert(sizeof(Placed) % sizeof(double) == 0 && alignof(Placed) == alignof(double));
 
-  Double end[4][parts];  ///< x and y of the first, then of the second
-
-  static SegmentEnds load(const Vec2* points, const std::uint32_t* begin) noexcept {
-    typename Simd::Float of[4];
-    Simd::template load_records<2>(&points->x, begin, of);
-    SegmentEnds ends;
-    for (unsigned i = 0; i < 4; ++i) Simd::widened(of[i], ends.end[i]);
-    return ends;
+  /// Collects all segments of a leaf of A with all of a leaf of B, named by the places of their discs among
+  /// ShapeSetView::nodes; calls finish() before where there is no room for more. Both trees have segments.
+  /// Returns: false where a leaf has too many, so that discs decide.
+  template <class Finish>
+  [[gnu::always_inline]] bool collect(std::uint32_t placed, const Tree& a, std::uint32_t leaf_a,
+                                      const Tree& b, std::uint32_t leaf_b, std::uint32_t owner,
+                                      Finish finish) noexcept {
+    const auto of_a = leaves_.segments(a, leaf_a), of_b = leaves_.segments(b, leaf_b);
+    if (of_a.count * of_b.count == 0) [[unlikely]]
+      return false;
+    for (std::uint32_t i = 0; i < of_a.count; ++i)
+      for (std::uint32_t j = 0; j < of_b.count; ++j) {
+        if (size_ == capacity) [[unlikely]]
+          finish();
+        segment_a_[size_] = of_a.point(i), segment_b_[size_] = of_b.point(j);
+        index_[size_] = placed;
+        owner_[size_++] = owner;
+      }
+    return true;
   }
 
-  static SegmentPair<Simd> pair(const SegmentEnds& p, const SegmentEnds& q, const TransformOf<Double>& b_in_a,
-                                std::uint32_t part) noexcept {
-    return {{p.end[0][part], p.end[1][part]},
-            {p.end[2][part], p.end[3][part]},
-            b_in_a.apply(q.end[0][part], q.end[1][part]),
-            b_in_a.apply(q.end[2][part], q.end[3][part])};
+  /// Calls test(k) for every register of pairs, which returns bits of lanes, and use(k, lane) for those that are set.
+  template <class Test, class Use>
+  [[gnu::always_inline]] void test_all(Test test, Use use) noexcept {
+    for (std::uint32_t k = size_; k % Simd::width != 0; ++k)
+      segment_a_[k] = segment_a_[size_ - 1], segment_b_[k] = segment_b_[size_ - 1],
+      index_[k] = index_[size_ - 1];
+    for (std::uint32_t k = 0; k < size_; k += Simd::width) {
+      std::uint32_t open = test(k);
+      if (size_ - k < Simd::width) open &= (std::uint32_t{1} << (size_ - k)) - 1;
+      for (; open != 0; open &= open - 1) use(k, static_cast<unsigned>(__builtin_ctz(open)));
+    }
+    size_ = 0;
   }
+
+  struct Pair : SegmentPair<Simd> {
+    Double margin;
+  };
+  /// Loads the pairs of a register of floats, in registers of doubles.
+  void load(std::uint32_t k, Pair (&pairs)[parts]) const noexcept {
+    Float p[4], q[4], place[4];
+    Simd::template load_records<2>(&points_->x, segment_a_ + k, p);
+    Simd::template load_records<2>(&points_->x, segment_b_ + k, q);
+    Simd::template load_records<sizeof(Placed) / sizeof(float)>(&placed_->b_in_a.c, index_ + k, place);
+    Double of_p[4][parts], of_q[4][parts], of_place[4][parts];
+    for (unsigned i = 0; i < 4; ++i) {
+      Simd::widened(p[i], of_p[i]);
+      Simd::widened(q[i], of_q[i]);
+      Simd::widened(place[i], of_place[i]);
+    }
+    for (std::uint32_t part = 0; part < parts; ++part) {
+      const TransformOf<Double> b_in_a{of_place[0][part], of_place[1][part], of_place[2][part],
+                                       of_place[3][part]};
+      double margins[Simd::doubles];
+      for (std::uint32_t lane = 0; lane < Simd::doubles; ++lane)
+        margins[lane] = placed_[index_[k + part * Simd::doubles + lane]].margin;
+      pairs[part] = {{{of_p[0][part], of_p[1][part]},
+                      {of_p[2][part], of_p[3][part]},
+                      b_in_a.apply(of_q[0][part], of_q[1][part]),
+                      b_in_a.apply(of_q[2][part], of_q[3][part])},
+                     Simd::load(margins)};
+    }
+  }
+
+  const LeafSegments<Simd> leaves_;
+  const Vec2* const points_;
+  const Placed* const placed_;
+  std::uint32_t size_ = 0;
+  std::uint32_t segment_a_[capacity], segment_b_[capacity];  ///< points where they begin
+  std::uint32_t index_[capacity], owner_[capacity];
 };
 
 }  // namespace bch::detail

@@ -27,16 +27,13 @@ double segment_margin(const ShapeSetView& shapes, std::uint32_t shape_a, std::ui
   return of_a + of_b;
 }
 
-/// Exact leaves: collects pairs of segments, one of either shape, and tests them side by side, lane = pair.
+/// Exact leaves: tests whether segments of leaves meet, lane = pair.
 /// Every operation is one in double of a fixed sequence, which baselines/ writes down again;
 /// layout/base/rounding.hpp, V, says why no two outlines that meet are missed.
-/// `Placed`: has a Transform b_in_a and a double margin, which is that of both shapes together.
 template <class Simd, class Placed>
-class SegmentTest {
+class SegmentTest : private SegmentBatch<Simd, Placed> {
  public:
-  /// `placed`: what add() names by index.
-  SegmentTest(const ShapeSetView& shapes, const Placed* placed) noexcept
-      : leaves_{shapes.leaf_segments}, points_(shapes.points), placed_(placed) {}
+  using SegmentBatch<Simd, Placed>::SegmentBatch;
 
   /// Asks for the words of a leaf window, or for the points that they name.
   [[gnu::always_inline]] void prefetch_words(const Tree& tree, std::uint32_t window) const noexcept {
@@ -50,79 +47,35 @@ class SegmentTest {
       __builtin_prefetch(points_ + tree.points + (words[i] & leaf_first_mask));
   }
 
-  /// Collects all segments of a leaf of A with all of a leaf of B, named by the places of their discs among
-  /// ShapeSetView::nodes. Tests those that were collected before where there is no room for more. Both trees
-  /// have segments. `use(owner, meeting)` is called for each pair of segments that meets, now or in finish(),
-  /// and for leaves of too many segments as if some met.
+  /// Collects all segments of a leaf of A with all of a leaf of B. `use(owner, meeting)` is called for each pair of segments that
+  /// meets, now or in finish(), and for leaves of too many segments as if some met.
   template <class Use>
   [[gnu::always_inline]] void add(std::uint32_t placed, const Tree& a, std::uint32_t leaf_a, const Tree& b,
                                   std::uint32_t leaf_b, std::uint32_t owner, Use use) noexcept {
-    const auto of_a = leaves_.segments(a, leaf_a), of_b = leaves_.segments(b, leaf_b);
-    if (of_a.count * of_b.count == 0) [[unlikely]]
-      return use(owner, Meeting::near);
-    for (std::uint32_t i = 0; i < of_a.count; ++i)
-      for (std::uint32_t j = 0; j < of_b.count; ++j) {
-        if (size_ == capacity) [[unlikely]]
-          finish(use);
-        segment_a_[size_] = of_a.point(i), segment_b_[size_] = of_b.point(j);
-        index_[size_] = placed;
-        owner_[size_++] = owner;
-      }
+    if (!this->collect(placed, a, leaf_a, b, leaf_b, owner, [&] { finish(use); })) [[unlikely]]
+      use(owner, Meeting::near);
   }
 
   /// Tests all that were collected.
   template <class Use>
   [[gnu::noinline]] void finish(Use use) noexcept {
-    for (std::uint32_t k = size_; k % Simd::width != 0; ++k)
-      segment_a_[k] = segment_a_[size_ - 1], segment_b_[k] = segment_b_[size_ - 1],
-      index_[k] = index_[size_ - 1];
-    for (std::uint32_t k = 0; k < size_; k += Simd::width) {
-      std::uint32_t open = test(k);
-      if (size_ - k < Simd::width) open &= (std::uint32_t{1} << (size_ - k)) - 1;
-      for (; open != 0; open &= open - 1) {
-        const std::uint32_t lane = k + static_cast<unsigned>(__builtin_ctz(open));
-        use(owner_[lane], meeting(k, lane));
-      }
-    }
-    size_ = 0;
+    this->test_all([this](std::uint32_t k) { return test(k); },
+                   [&](std::uint32_t k, unsigned lane) { use(owner_[k + lane], meeting(k, k + lane)); });
   }
 
  private:
+  using Batch = SegmentBatch<Simd, Placed>;
   using Float = typename Simd::Float;
   using Double = typename Simd::Double;
-  using Ends = SegmentEnds<Simd>;
-  static constexpr std::uint32_t parts = Ends::parts;
-  static constexpr std::uint32_t capacity = 64;
-  static_assert(capacity % Simd::width == 0);
-  static_assert(sizeof(Placed) % sizeof(double) == 0 && alignof(Placed) == alignof(double));
-
-  struct MarginPair : SegmentPair<Simd> {
-    Double margin;
-  };
-
-  /// Loads the pairs of a register of floats, in registers of doubles.
-  void load(std::uint32_t k, MarginPair (&pairs)[parts]) const noexcept {
-    const Ends p = Ends::load(points_, segment_a_ + k), q = Ends::load(points_, segment_b_ + k);
-    Float place[4];
-    Simd::template load_records<sizeof(Placed) / sizeof(float)>(&placed_->b_in_a.c, index_ + k, place);
-    Double of_place[4][parts];
-    for (unsigned i = 0; i < 4; ++i) Simd::widened(place[i], of_place[i]);
-    for (std::uint32_t part = 0; part < parts; ++part) {
-      const TransformOf<Double> b_in_a{of_place[0][part], of_place[1][part], of_place[2][part],
-                                       of_place[3][part]};
-      double margins[Simd::doubles];
-      for (std::uint32_t lane = 0; lane < Simd::doubles; ++lane)
-        margins[lane] = placed_[index_[k + part * Simd::doubles + lane]].margin;
-      pairs[part] = {Ends::pair(p, q, b_in_a, part), Simd::load(margins)};
-    }
-  }
+  using Batch::leaves_, Batch::points_, Batch::owner_, Batch::parts, Batch::capacity;
+  using typename Batch::Pair;
 
   /// Two numbers a pair, which say by being above 0 that a line separates the segments, and that they surely
   /// cross.
   /// Returns: bits of the pairs of which the first number may not be.
   std::uint32_t test(std::uint32_t k) noexcept {
-    MarginPair pairs[parts];
-    load(k, pairs);
+    Pair pairs[parts];
+    this->load(k, pairs);
     Double apart[parts];
     for (std::uint32_t part = 0; part < parts; ++part) {
       const auto of_p = pairs[part].sides_of_p(pairs[part].margin),
@@ -142,8 +95,8 @@ class SegmentTest {
   /// Returns whether the segments of a pair come within the margin. It computes the register of the pairs
   /// from k on for one of them, `lane`. About one in ten thousand pairs comes to this.
   [[gnu::noinline]] Meeting near(std::uint32_t k, std::uint32_t lane) noexcept {
-    MarginPair pairs[parts];
-    load(k, pairs);
+    Pair pairs[parts];
+    this->load(k, pairs);
     double beyond[Simd::width];
     for (std::uint32_t part = 0; part < parts; ++part) {
       const Double margin = pairs[part].margin;
@@ -152,12 +105,6 @@ class SegmentTest {
     return beyond[lane - k] <= 0 ? Meeting::near : Meeting::none;
   }
 
-  const LeafSegments<Simd> leaves_;
-  const Vec2* const points_;
-  const Placed* const placed_;
-  std::uint32_t size_ = 0;
-  std::uint32_t segment_a_[capacity], segment_b_[capacity];  ///< points where they begin
-  std::uint32_t index_[capacity], owner_[capacity];
   double apart_[capacity], sure_[capacity];
 };
 
