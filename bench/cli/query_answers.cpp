@@ -88,13 +88,22 @@ std::string penetration_rows(const QueryInput& input) {
 std::string clearance_rows(const QueryInput& input) {
   std::vector<float> distance(input.size());
   std::vector<Vec2> direction(input.size());
+  std::vector<NearestPoints> points(input.points ? input.size() : 0);
   ask(input, [&](const auto& about) {
-    clearance(input.set, input.table.agents(), about, ClearanceAnswers{distance, direction}, input.options);
+    clearance(input.set, input.table.agents(), about,
+              ClearanceAnswers{.distance = distance, .direction = direction, .points = points},
+              input.options);
   });
   std::string out;
-  for (std::size_t i = 0; i < distance.size(); ++i)
-    out += fmt::format("{},{},{},{}\n", ids(input, i), plain(distance[i]), plain(direction[i].x),
+  for (std::size_t i = 0; i < distance.size(); ++i) {
+    out += fmt::format("{},{},{},{}", ids(input, i), plain(distance[i]), plain(direction[i].x),
                        plain(direction[i].y));
+    if (input.points) {
+      const auto& [first, second] = points[i];
+      out += fmt::format(",{},{},{},{}", plain(first.x), plain(first.y), plain(second.x), plain(second.y));
+    }
+    out += "\n";
+  }
   return out;
 }
 
@@ -126,9 +135,9 @@ std::string time_of_impact_rows(const QueryInput& input) {
 constexpr QueryKind kinds[] = {
     {"collide", "hit", "1 where the agents collide, else 0", collide_rows},
     {"clearance", "distance,x,y",
-     "the least gap, in metres, of a disc of each, and the unit vector from\n"
-     "                 the first one's to the second's; 0,0,0 where discs overlap, but for\n"
-     "                 --overlap deepest; inf,0,0 beyond --max-distance",
+     "the least gap, in metres, of a disc of each, with --leaves segments of\n"
+     "                 their outlines, and the unit vector from the first one's to the second's;\n"
+     "                 0,0,0 where they overlap, but for --overlap deepest; inf,0,0 beyond --max-distance",
      clearance_rows},
     {"within", "hit", "1 where the agents come within --max-distance of each other, else 0", within_rows},
     {"time-of-impact", "time",

@@ -23,6 +23,7 @@ struct QueryInput {
   QueryOptions options;
   std::uint32_t directions;                ///< of a penetration
   std::optional<Vec2> direction;           ///< of a penetration: the only one
+  bool points;                             ///< of a clearance: with point_columns
   const ObstacleSet* obstacles = nullptr;  ///< all agents against these, in place of pairs
 
   std::size_t size() const { return obstacles == nullptr ? pairs.size() : table.id.size(); }
@@ -38,6 +39,9 @@ struct QueryKind {
   bool moving = false;       ///< asks how agents move
   bool of_obstacles = true;  ///< can be asked about obstacles
 };
+
+/// More columns of a clearance.
+constexpr const char* point_columns = ",first_x,first_y,second_x,second_y";
 
 /// Returns all kinds of queries; the first is the default.
 std::span<const QueryKind> query_kinds();

@@ -39,6 +39,7 @@ struct QueryCommandOptions {
   std::string direction;  ///< empty: the best of many
   double max_distance = HUGE_VAL;
   std::string overlap = "zero";
+  bool points = false;
   ShapeOptions shapes;
   AnswerOptions answer;
 
@@ -124,13 +125,15 @@ void answer(const QueryCommandOptions& options, const ShapeSet& set, Question& q
   QueryOptions how = options.answer.query_options();
   how.max_distance = options.max_distance;
   how.overlap = options.overlap == "zero" ? Overlap::zero : Overlap::deepest;
+  how.distance_leaves = options.answer.leaves == "segments" ? Leaves::segments : Leaves::discs;
   if (options.all_pairs)
     pairs = std::isfinite(options.max_distance) ? near_pairs(set, table, how)
                                                 : colliding_pairs(set, table.agents(), how);
   const QueryKind& kind = query_kind(options.what);
-  write_standard_data(
-      fmt::format("{},{}\n", subject_columns(obstacles), kind.columns) +
-      kind.rows({set, table, pairs, how, options.directions, options.only_direction(), obstacles}));
+  write_standard_data(fmt::format("{},{}{}\n", subject_columns(obstacles), kind.columns,
+                                  options.points ? point_columns : "") +
+                      kind.rows({set, table, pairs, how, options.directions, options.only_direction(),
+                                 options.points, obstacles}));
 }
 
 void query_character(const QueryCommandOptions& options) {
@@ -164,6 +167,20 @@ void query_baked(const QueryCommandOptions& options) {
   answer(options, baked.set, question);
 }
 
+/// Requires that --leaves concerns the question.
+void require_leaves_of(const CLI::App& command, const QueryCommandOptions& options) {
+  if (options.what == "clearance") {
+    if (!options.obstacles.empty())
+      require_absent(command, {"--leaves"}, "obstacles are measured from discs");
+    if (options.overlap != "zero") require_absent(command, {"--leaves"}, "--overlap deepest is about discs");
+  } else if (std::isfinite(options.max_distance)) {
+    require_absent(command, {"--leaves"}, "--what within is about discs");
+  } else if (options.what != "collide" && options.what != "contacts" && !options.all_pairs) {
+    require_absent(command, {"--leaves"},
+                   "belongs to --what collide, --what contacts, --what clearance and --all-pairs");
+  }
+}
+
 void run_query(const CLI::App& command, const QueryCommandOptions& options) {
   const bool of_obstacles = !options.obstacles.empty();
   const int named = int{options.all_pairs} + int{!options.pairs.empty()} + int{of_obstacles};
@@ -179,20 +196,17 @@ void run_query(const CLI::App& command, const QueryCommandOptions& options) {
   if (options.what != "penetration")
     require_absent(command, {"--directions", "--direction"}, "belongs to --what penetration");
   const bool within = options.what == "within";
-  if (options.what != "clearance") require_absent(command, {"--overlap"}, "belongs to --what clearance");
+  if (options.what != "clearance")
+    require_absent(command, {"--overlap", "--points"}, "belongs to --what clearance");
   if (options.what != "clearance" && !within)
     require_absent(command, {"--max-distance"}, "belongs to --what clearance and --what within");
   if (within && !std::isfinite(options.max_distance))
     throw UsageError("--max-distance: --what within needs one");
   if (options.what != "collide" && !within && !options.all_pairs)
     require_absent(command, {"--semantics"}, "belongs to --what collide, --what within and --all-pairs");
-  if (options.what != "collide" && options.what != "contacts" && !options.all_pairs)
-    require_absent(command, {"--leaves"}, "belongs to --what collide, --what contacts and --all-pairs");
-  if (std::isfinite(options.max_distance)) {
-    require_absent(command, {"--leaves"}, "--max-distance is about discs");
-    if (!within)
-      require_absent(command, {"--semantics"}, "--max-distance is about discs, whatever is inside");
-  }
+  require_leaves_of(command, options);
+  if (std::isfinite(options.max_distance) && !within)
+    require_absent(command, {"--semantics"}, "--max-distance is about distances, whatever is inside");
   if (query_kind(options.what).moving)
     require_absent(command, {"--all-pairs"}, "agents that collide now touch at once");
   if (!options.direction.empty()) require_absent(command, {"--directions"}, "--direction names the only one");
@@ -227,10 +241,12 @@ std::function<void()> add_query_command(CLI::App& program) {
       "the direction in which they walk plus pi/2.\n"
       "Writes a line for each line of PAIRS.csv, in that order, or what --what says:\n" +
       query_help() +
-      "clearance, within, time-of-impact and penetration look at the discs of the cuts, which cover "
-      "outlines. An\n"
-      "agent inside another may be clear of it. --semantics concerns collide, within and the pairs that\n"
-      "--all-pairs finds without --max-distance, --leaves these and contacts.\n"
+      "within, time-of-impact, penetration and, without --leaves segments, clearance look at the discs of "
+      "the cuts,\n"
+      "which cover outlines. An agent inside another may be clear of it. --semantics concerns collide, "
+      "within "
+      "and the\n"
+      "pairs that --all-pairs finds without --max-distance, --leaves these, contacts and clearance.\n"
       "With --obstacles each answer is about an agent and what is there: its columns are id,... instead of "
       "first,second,...\n"
       "Example: bch query default:female agents.csv pairs.csv > answers.csv");
@@ -274,6 +290,8 @@ std::function<void()> add_query_command(CLI::App& program) {
                   "Of a clearance, where discs overlap: zero, or the deepest overlap of two, below 0 [zero]")
       ->type_name("NAME")
       ->check(one_of({"zero", "deepest"}));
+  command.add_flag("--points", options->points,
+                   "Of a clearance: also the nearest points, in metres from their agents, of obstacles too");
   options->shapes.add_to(command);
   options->answer.add_to(command);
   return [options, &command] { run_query(command, *options); };

@@ -145,6 +145,28 @@ TEST_F(QueryWhat, ClearanceSaysHowFarAndWhichWay) {
   EXPECT_LE(number(within[2][2]), 0.5);
 }
 
+TEST_F(QueryWhat, ClearanceOfSegmentsIsThatOfOutlines) {
+  const std::string header = "first,second,distance,x,y", more = ",first_x,first_y,second_x,second_y";
+  const Rows discs = rows("clearance", header, {pairs}),
+             exact = rows("clearance", header, {pairs, "--leaves", "segments"});
+  EXPECT_EQ(exact[0], discs[0]);
+  for (const std::size_t i : {1, 2}) {
+    EXPECT_GT(number(exact[i][2]), number(discs[i][2]));
+    EXPECT_LT(number(exact[i][2]), number(discs[i][2]) + 0.03);
+  }
+  EXPECT_NEAR(number(exact[1][2]), 0.05, 1e-5);
+  EXPECT_EQ(
+      rows("clearance", header, {"--all-pairs", "--max-distance", "0.05", "--leaves", "segments"}).size(),
+      3u);
+  const Rows with_points = rows("clearance", header + more, {pairs, "--leaves", "segments", "--points"});
+  ASSERT_EQ(with_points.size(), 3u);
+  const std::vector<std::string>& of_c = with_points[1];
+  EXPECT_EQ((std::vector<std::string>(of_c.begin(), of_c.begin() + 5)), exact[1]);
+  EXPECT_NEAR(number(of_c[6]) + number(of_c[2]), number(of_c[8]) + 0.35, 1e-4);
+  EXPECT_EQ((std::vector<std::string>(with_points[0].begin() + 5, with_points[0].end())),
+            (std::vector<std::string>{"0", "0", "0", "0"}));
+}
+
 TEST_F(QueryWhat, TimeOfImpactSaysWhenTheyTouch) {
   const Rows all = rows("time-of-impact", "first,second,time", {pairs});
   ASSERT_EQ(all.size(), 3u);
@@ -207,7 +229,9 @@ TEST_F(QueryWhat, WrongWordsGiveTwo) {
       {{"--what", "depth"}, "depth"},
       {{"--what", "separation"}, "penetration"},
       {{"--what", "contact-time"}, "time-of-impact"},
-      {{"--what", "clearance", "--leaves", "discs"}, "--leaves"},
+      {{"--what", "clearance", "--leaves", "discs", "--overlap", "deepest"}, "--leaves"},
+      {{"--what", "penetration", "--leaves", "discs"}, "--leaves"},
+      {{"--what", "within", "--max-distance", "1", "--points"}, "--points"},
       {{"--what", "contacts", "--directions", "4"}, "--directions"},
       {{"--direction", "1,0"}, "--direction"},
       {{"--what", "clearance", "--semantics", "solid"}, "--semantics"},

@@ -35,13 +35,15 @@ using Hashes = std::vector<std::uint64_t>;
 const Hashes golden{0x5a2185e3105413a1, 0xb001f2145d76abf1, 0x0df165085461f9bf, 0x22e4be2a917a2aab,
                     0x6208885fb451fee7, 0xbf5f940cfee4332d, 0x21c4d2cab484c549, 0x04ad4df0d6203a5b,
                     0xe67190d710f1ec09, 0xebec44f58f6fc63e, 0x05d25bd83e461c8b, 0x8a060f5623b47a02,
-                    0x80ad28f139efe06b, 0x3e31e529b39f4241, 0x7f9a152dbae87b47, 0x474ff4b30d34137b};
+                    0x80ad28f139efe06b, 0x3e31e529b39f4241, 0x7f9a152dbae87b47, 0x474ff4b30d34137b,
+                    0x4300aeca5fb31fd4, 0x57e90261ba3dc136, 0x599a05e49b921b23, 0x451a8360c25b5820};
 
 /// The same of bodies in slabs, half of them at heights of their own.
 const Hashes golden_in_slabs{0xe88815e591d446b5, 0xe88815e591d446b5, 0xde0b4d31d1ba4baf, 0x10d54fdfe552c312,
                              0xd6315e2775ef89e4, 0xdd2a441365de5f93, 0x176504ed511a8a7e, 0x5096fe125a9432b4,
                              0x25c0855873678901, 0x52cc99c3a5b22b3f, 0xb9c20e9647f0689d, 0xb9c20e9647f0689d,
-                             0x60036c157316f25e, 0x31cc379e31d4fd7b, 0xb39697c888f3b248, 0x4baf52ca4b8a2de};
+                             0x60036c157316f25e, 0x31cc379e31d4fd7b, 0xb39697c888f3b248, 0x4baf52ca4b8a2de,
+                             0x2ea497b3ea979e26, 0xc70111ff5b034fad, 0x1cb3493fcb379366, 0x873467c549ef41be};
 
 /// In this order, bytes of all answers.
 class AnswerBytes {
@@ -62,10 +64,14 @@ class AnswerBytes {
     exact_contacts,
     distances_or_zero,
     within,
-    nearest_points
+    nearest_points,
+    exact_distances,
+    exact_directions,
+    exact_nodes,
+    exact_points
   };
 
-  AnswerBytes() : bytes_(nearest_points + 1) {}
+  AnswerBytes() : bytes_(exact_points + 1) {}
 
   template <class Values>
   void add(Query query, const Values& values) {
@@ -196,6 +202,12 @@ class Determinism : public testing::TestWithParam<Bodies> {
               {.implementation = isa, .max_distance = 1.5});
     bytes.add(AnswerBytes::nearest_points, points);
     bytes.add(AnswerBytes::distances_or_zero, values);
+    clearance(set, agents, of, {values, directions, nodes, points},
+              {.implementation = isa, .max_distance = 1.5, .distance_leaves = Leaves::segments});
+    bytes.add(AnswerBytes::exact_distances, values);
+    bytes.add(AnswerBytes::exact_directions, directions);
+    bytes.add(AnswerBytes::exact_nodes, nodes);
+    bytes.add(AnswerBytes::exact_points, points);
     constexpr double personal_space = 0.1;
     within(set, agents, of, {&personal_space, 1}, hits, {.implementation = isa});
     bytes.add(AnswerBytes::within, hits);

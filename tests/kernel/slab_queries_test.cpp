@@ -127,6 +127,26 @@ TEST_P(SlabQueries, ClearancesAreTheLeastOfParts) {
   EXPECT_GT(never_meet, pairs / 60);
 }
 
+TEST_P(SlabQueries, ExactClearancesAreTheLeastOfParts) {
+  for (const MovingScene& scene : scenes(test::samples(1'000)))
+    for (const double max_distance : {HUGE_VAL, 0.3, 0.0}) {
+      std::vector<float> expected;
+      for (const Pair pair : scene.pairs)
+        expected.push_back(reference.exact_clearance(scene.crowd.agents(), pair, max_distance));
+      expect_of_all(
+          scene,
+          [&](const Implementation& implementation) {
+            std::vector<float> distance(scene.pairs.size());
+            clearance(set, scene.crowd.agents(), scene.pairs, {distance},
+                      {.implementation = &implementation,
+                       .max_distance = max_distance,
+                       .distance_leaves = Leaves::segments});
+            return distance;
+          },
+          [&](const std::vector<float>& found, std::size_t i) { return found[i] == expected[i]; });
+    }
+}
+
 TEST_P(SlabQueries, PointsAreAsFarApartAsTheDistanceSays) {
   const MovingScene scene = scene_of(3'000, true);
   std::vector<float> distance(scene.pairs.size());

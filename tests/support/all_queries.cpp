@@ -51,6 +51,9 @@ void ask_all(const ShapeSet& set, const Agents& agents, std::span<const Pair> pa
   std::vector<Vec2> directions(pairs.size());
   std::vector<DiscPair> nodes(pairs.size());
   clearance(set, agents, pairs, {values, directions, nodes}, {.implementation = &implementation});
+  std::vector<NearestPoints> points(pairs.size());
+  clearance(set, agents, pairs, {values, directions, nodes, points},
+            {.implementation = &implementation, .distance_leaves = Leaves::segments});
   const std::vector<double> way(pairs.size(), 0.5);
   within(set, agents, pairs, way, hits, {.implementation = &implementation});
   time_of_impact(set, agents, pairs, {way, way}, values, {.implementation = &implementation});

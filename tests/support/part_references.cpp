@@ -41,6 +41,7 @@ PartReferences::PartReferences(std::span<const Shape> shapes, const ShapeSetPlan
       levels_(plan.depths.size()),
       bodies_(shapes, plan, Leaves::discs),
       nearest_(bodies_.parts(), plan),
+      outlines_(bodies_.parts(), plan),
       first_(bodies_.parts(), plan),
       cuts_(bodies_.parts(), plan),
       segments_(bodies_.parts(), plan, Leaves::segments),
@@ -59,6 +60,20 @@ baselines::Clearance PartReferences::clearance(const Agents& agents, Pair pair, 
   }
   if (ordered == pair || best.distance == never) return best;
   return {best.distance, {-best.direction.x, -best.direction.y}, best.second, best.first};
+}
+
+float PartReferences::exact_clearance(const Agents& agents, Pair pair, double max_distance) {
+  float least = never;
+  for (const SlabBodies::PartPair& parts : bodies_.part_pairs(agents, in_order(pair))) {
+    const Agents both = parts.agents();
+    const auto of_outlines = outlines_.distance(both, {0, 1}, max_distance);
+    const auto of_discs = [&] {
+      return baselines::at_least_zero(nearest_.query(both, {0, 1}, max_distance, Method::brute_force))
+          .distance;
+    };
+    least = std::min(least, of_outlines ? *of_outlines : of_discs());
+  }
+  return least;
 }
 
 bool PartReferences::within(const Agents& agents, Pair pair, double distance) {

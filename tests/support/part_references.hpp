@@ -14,6 +14,7 @@
 
 #include "baselines/clearance_reference.hpp"
 #include "baselines/contact_reference.hpp"
+#include "baselines/segment_clearance.hpp"
 #include "baselines/slab_bodies.hpp"
 #include "baselines/time_of_impact_reference.hpp"
 
@@ -33,6 +34,8 @@ class PartReferences {
   PartReferences(std::span<const Shape> shapes, const ShapeSetPlan& plan, const ShapeSet& set);
 
   baselines::Clearance clearance(const Agents& agents, Pair pair, double max_distance);
+  /// Returns the distance with exact leaves, metres.
+  float exact_clearance(const Agents& agents, Pair pair, double max_distance);
   bool within(const Agents& agents, Pair pair, double distance);
   float time(const Agents& agents, Pair pair, double x, double y);
   std::vector<DiscPair> contacts(const Agents& agents, Pair pair, Leaves leaves);
@@ -55,6 +58,7 @@ class PartReferences {
   std::size_t levels_;
   baselines::SlabBodies bodies_;
   baselines::ClearanceReference nearest_;
+  baselines::SegmentClearance outlines_;
   baselines::TimeOfImpactReference first_;
   baselines::CutLists cuts_;
   baselines::LeafSegments segments_;

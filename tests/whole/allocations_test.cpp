@@ -98,11 +98,12 @@ TEST_P(Allocations, DistancesAndTimesNeedNone) {
   std::vector<DiscPair> nodes(pairs.size());
   std::vector<NearestPoints> points(pairs.size());
   const std::vector<double> way(pairs.size(), 0.5);
-  EXPECT_EQ(
-      count([&] {
-        clearance(set, crowd.agents(), pairs, {values, directions, nodes, points}, {.max_distance = 0.5});
-      }),
-      0u);
+  for (const Leaves leaves : {Leaves::discs, Leaves::segments})
+    EXPECT_EQ(count([&] {
+                clearance(set, crowd.agents(), pairs, {values, directions, nodes, points},
+                          {.max_distance = 0.5, .distance_leaves = leaves});
+              }),
+              0u);
   EXPECT_EQ(count([&] { time_of_impact(set, crowd.agents(), pairs, {way, way}, values); }), 0u);
   std::vector<std::uint8_t> hits(pairs.size());
   EXPECT_EQ(count([&] { within(set, crowd.agents(), pairs, way, hits); }), 0u);

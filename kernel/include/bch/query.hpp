@@ -71,8 +71,8 @@ struct QueryOptions {
   /// infinite distance and nothing else. The smaller the limit, the sooner they are rejected.
   double max_distance = std::numeric_limits<double>::infinity();
   Overlap overlap = Overlap::zero;  ///< of clearance()
-  /// What clearance() of pairs measures between: discs, up to 3 cm less than outlines are apart and several times as quick; or, where both
-  /// shapes have exact leaves, the segments of their outlines. Overlap::deepest is about discs in any case.
+  /// What clearance() of pairs measures between: discs, or segments of the outlines where both shapes have exact leaves. Segments give the
+  /// distance of the outlines, discs up to 3 cm less in about a seventh of the time.
   Leaves distance_leaves = Leaves::discs;
 };
 
