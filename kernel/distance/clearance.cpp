@@ -41,7 +41,7 @@ class RangeAnswers {
 
   /// At most `grain` pairs.
   void write() {
-    // A set of roots alone is as quickly searched.
+    // A set of roots alone is as quickly searched. Segments are measured only of pairs that do not collide.
     if (arguments_.enough == 0 && shapes_.trees != nullptr) {
       open_.take_apart(implementation_, arguments_.in, pairs_);
       for (std::size_t i = 0; i < pairs_.size(); ++i) put_alone(answers_, i, 0);

@@ -24,12 +24,12 @@ struct PlacedSegments {
 ///
 ///     w = max(0, s * near - m)        near = 1 - 2^-21, then rounded to float
 ///
-/// where s is the least distance of an end from the other segment, and m the margin of exact leaves; w = 0 where they surely cross.
+/// where s is the least distance of an end from the other segment, and m the margin of exact leaves. Pairs for which collide() says 1 have
+/// a distance of 0 and are not asked about here, so that no segments cross.
 ///
 /// Never too large. With D the distance of the outlines, |d| <= D + S, the placed ends are off by (turn) u |b| + (position) u |d|
 /// <= 8.9 u S + 4.6 u D, and the grids; m holds what is of S and of the grids. Near takes off 8 u, of which 4.6 are for D and 1 for
-/// the rounding of w. Where segments cross that do not surely do so, s is at most m, as V says. So w is 0 where exact leaves let
-/// collide() say 1.
+/// the rounding of w.
 ///
 /// Below D by no more than m, 8.9 u S, the grids, and (4.6 + 8 + 1) u D: (segment_price), and 0.9 um per metre of D.
 ///
@@ -117,13 +117,12 @@ class SegmentGaps : private SegmentBatch<Simd, PlacedSegments> {
   std::uint32_t measure(std::uint32_t k, float* gap) const noexcept {
     typename Batch::Pair pairs[parts];
     this->load(k, pairs);
-    Double gaps[parts], sure[parts];
+    Double gaps[parts];
     for (std::uint32_t part = 0; part < parts; ++part) {
       const auto& pair = pairs[part];
-      sure[part] = xsimd::min(pair.sides_of_p(pair.margin).across(), pair.sides_of_q(pair.margin).across());
       gaps[part] = xsimd::max(xsimd::sqrt(pair.square_of_ends()) * Double(near) - pair.margin, Double(0.0));
     }
-    Simd::store(gap, Simd::select(Simd::rounded(sure) > Float(0.0f), Float(0.0f), Simd::rounded(gaps)));
+    Simd::store(gap, Simd::rounded(gaps));
     return ~std::uint32_t{0} >> (32 - Simd::width);
   }
 
