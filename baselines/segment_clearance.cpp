@@ -29,14 +29,21 @@ SegmentClearance::SegmentClearance(std::span<const Shape> shapes, const ShapeSet
   }
 }
 
-std::optional<float> SegmentClearance::distance(const Agents& agents, Pair pair, double max_distance) const {
+std::optional<SegmentClearance::Nearest> SegmentClearance::nearest(const Agents& agents, Pair pair) const {
   if (!segments_.decide(agents, pair)) return std::nullopt;
   const auto [first, second] = std::minmax(pair.first, pair.second);
-  const float gap = least_gap(float_placement(agents, pair), agents, {first, second});
-  return static_cast<double>(gap) <= max_distance ? gap : std::numeric_limits<float>::infinity();
+  return least_gap(float_placement(agents, pair), agents, {first, second});
 }
 
-float SegmentClearance::least_gap(const FloatPlacement& place, const Agents& agents, Pair in_order) const {
+std::optional<float> SegmentClearance::distance(const Agents& agents, Pair pair, double max_distance) const {
+  const std::optional<Nearest> found = nearest(agents, pair);
+  if (!found) return std::nullopt;
+  return static_cast<double>(found->distance) <= max_distance ? found->distance
+                                                              : std::numeric_limits<float>::infinity();
+}
+
+SegmentClearance::Nearest SegmentClearance::least_gap(const FloatPlacement& place, const Agents& agents,
+                                                      Pair in_order) const {
   const auto [first, second] = in_order;
   const std::uint32_t shape_a = agents.shape[first], shape_b = agents.shape[second];
   const Shape &a = shapes_[shape_a], &b = shapes_[shape_b];
@@ -49,11 +56,13 @@ float SegmentClearance::least_gap(const FloatPlacement& place, const Agents& age
     segments_b.push_back(LeafSegments::segment(b.outline, number));
     for (Point2& end : segments_b.back()) end = in_a.place(end.x, end.y);
   }
-  float least = std::numeric_limits<float>::infinity();
+  Nearest least{std::numeric_limits<float>::infinity(), none, none};
   for (const std::uint32_t number : of_a.segments) {
     const std::array<Point2, 2> segment = LeafSegments::segment(a.outline, number);
-    for (const std::array<Point2, 2>& other : segments_b)
-      least = std::min(least, segment_gap(segment, other, margin));
+    for (std::size_t j = 0; j < segments_b.size(); ++j) {
+      const float gap = segment_gap(segment, segments_b[j], margin);
+      if (gap < least.distance) least = {gap, number, of_b.segments[j]};
+    }
   }
   // Discs decide where a leaf has too many.
   const auto discs_a = cuts_.of(agents, first), discs_b = cuts_.of(agents, second);
@@ -62,7 +71,7 @@ float SegmentClearance::least_gap(const FloatPlacement& place, const Agents& age
     const float x = place.x + (place.cosine * q.x - place.sine * q.y) - p.x,
                 y = place.y + (place.sine * q.x + place.cosine * q.y) - p.y;
     const float gap = std::sqrt(x * x + y * y) * (1 - 0x1p-20f) - (p.radius + q.radius);
-    least = std::min(least, std::max(gap, 0.0f));
+    if (std::max(gap, 0.0f) < least.distance) least = {std::max(gap, 0.0f), none, none};
   };
   for (const std::uint32_t i : of_a.coarse)
     for (std::uint32_t j = 0; j < discs_b.size(); ++j) take_discs(i, j);

@@ -22,6 +22,15 @@ class SegmentClearance {
   /// Shapes and levels as in a ShapeSet. The shapes must outlive this.
   SegmentClearance(std::span<const Shape> shapes, const ShapeSetPlan& plan);
 
+  /// Two segments by their numbers in the outlines, that of the agent with the lower index first; of discs none.
+  struct Nearest {
+    float distance;  ///< metres
+    std::uint32_t a, b;
+  };
+  static constexpr std::uint32_t none = 0xffffffff;
+
+  /// Returns what is nearest, in a tie the first; nothing where segments do not decide.
+  std::optional<Nearest> nearest(const Agents& agents, Pair pair) const;
   /// Returns the distance in metres, infinite beyond the limit; nothing where segments do not decide.
   std::optional<float> distance(const Agents& agents, Pair pair, double max_distance) const;
 
@@ -31,7 +40,7 @@ class SegmentClearance {
     std::vector<std::uint32_t> segments;  ///< of all leaves that do not have too many
     std::vector<std::uint32_t> coarse;    ///< leaves that have
   };
-  float least_gap(const FloatPlacement& place, const Agents& agents, Pair in_order) const;
+  Nearest least_gap(const FloatPlacement& place, const Agents& agents, Pair in_order) const;
 
   std::span<const Shape> shapes_;
   CutLists cuts_;

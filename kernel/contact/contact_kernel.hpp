@@ -46,14 +46,27 @@ class ContactKernel {
     });
   }
 
+  /// Appends the contacts of pairs to those at offsets[begin], as far as there is room, and writes where each pair's end.
+  /// Returns: one past the last pair that was answered.
+  static std::size_t append(const Arguments& in, std::size_t begin, std::size_t end, std::uint64_t* offsets,
+                            DiscPair* contacts, std::uint64_t room) noexcept {
+    ContactKernel kernel(in);
+    while (begin < end) {
+      kernel.at_.place(in, begin, end);
+      for (std::uint32_t k = 0; k < kernel.at_.size; ++k, ++begin) {
+        kernel.look_at(begin - k, k);
+        if (room - offsets[begin] < std::uint64_t{kernel.rows_.count} * kernel.columns_.count) return begin;
+        const DiscPair* const last = kernel.place_all(contacts + offsets[begin]);
+        offsets[begin + 1] = static_cast<std::uint64_t>(last - contacts);
+      }
+    }
+    return end;
+  }
+
   static void fill(const Arguments& in, std::size_t begin, std::size_t end, const std::uint64_t* offsets,
                    DiscPair* contacts) noexcept {
     for_pairs(in, begin, end, [=](ContactKernel& kernel, std::size_t pair) {
-      DiscPair* out = contacts + offsets[pair];
-      if (offsets[pair + 1] == offsets[pair]) return;
-      kernel.for_row_windows([&](std::uint32_t rows, std::uint64_t mask, const Nodes& columns) {
-        out = kernel.place_rows(rows, mask, columns, out);
-      });
+      if (offsets[pair + 1] != offsets[pair]) kernel.place_all(contacts + offsets[pair]);
     });
   }
 
@@ -198,6 +211,22 @@ class ContactKernel {
     return seen < block_width ? seen : block_width;
   }
 
+  /// Places all contacts of a pair. Returns: one past the last.
+  DiscPair* place_all(DiscPair* out) const noexcept {
+    if ((rows_.top & columns_.top) >= leaf_window) {
+      std::uint64_t hits = verified(rows_.top, columns_.top, overlaps_of(rows_.top, columns_.top));
+      for (; hits != 0; hits &= hits - 1) {
+        const auto bit = static_cast<unsigned>(__builtin_ctzll(hits));
+        *out++ = {bit / block_width, bit % block_width};
+      }
+      return out;
+    }
+    for_row_windows([&](std::uint32_t rows, std::uint64_t mask, const Nodes& columns) {
+      out = place_rows(rows, mask, columns, out);
+    });
+    return out;
+  }
+
   /// Returns: one past the last that was placed.
   DiscPair* place_rows(std::uint32_t rows, std::uint64_t mask, const Nodes& columns,
                        DiscPair* out) const noexcept {
@@ -237,9 +266,11 @@ class ContactKernel {
   }
 
   /// Returns the hits of two leaf windows that their ancestors confirm. Where every cut is a single disc,
-  /// there is nothing above them.
+  /// there is nothing above them, and nodes that hold their discs have nothing to say.
   std::uint64_t verified(std::uint32_t rows, std::uint32_t columns, std::uint64_t hits) const noexcept {
     if (shapes_.trees == nullptr) return hits;
+    const bool held = (rows_.nodes_hold_discs & columns_.nodes_hold_discs) != 0;
+    if (held && placed_.margin == 0) return hits;
     std::uint64_t verified = 0;
     for (; hits != 0; hits &= hits - 1) {
       const auto bit = static_cast<unsigned>(__builtin_ctzll(hits));

@@ -8,10 +8,13 @@
 #include <utility>
 #include <vector>
 
+#include <bch/broad_phase.hpp>
+
 #include "kernel/runtime/floating_point_state.hpp"
 #include "kernel/runtime/pair_validation.hpp"
 #include "kernel/runtime/part_items.hpp"
 #include "kernel/runtime/task_ranges.hpp"
+#include "layout/format/shape_arrays.hpp"
 
 namespace bch {
 
@@ -20,6 +23,14 @@ using namespace detail;
 namespace {
 
 constexpr std::size_t grain = 256;  ///< pairs a task; each may have thousands of contacts
+
+/// A set of bodies of few discs, and as many pairs as one thread answers before others would have begun: each takes about as long as
+/// placing two agents.
+constexpr std::size_t light_floats = 64, most_light_pairs = 2048;
+bool is_light(const ShapeSet& shapes, std::size_t pairs) {
+  const ShapeArrays& arrays = shapes.arrays();
+  return pairs <= most_light_pairs && arrays.nodes.size() <= light_floats * arrays.trees.size();
+}
 
 }  // namespace
 
@@ -30,12 +41,19 @@ struct ContactFinder::State {
   PartItems items;
   std::vector<std::uint64_t> item_offsets;  ///< as many as items, of which pairs may have none
 
+  BroadPhase broad_phase;
+
   void find(const Implementation& implementation, const Arguments& arguments, std::size_t pairs,
             std::vector<std::uint64_t>& begins);
+  void find_of_few_discs(const Implementation& implementation, const Arguments& arguments, std::size_t pairs);
   void find_of_parts(const Implementation& implementation, const Arguments& whole, const Agents& agents,
                      std::span<const Pair> pairs);
   Rows<DiscPair> find(const ShapeSet& shapes, const Agents& agents, std::span<const Pair> pairs,
                       const QueryOptions& options);
+  CrowdContacts find_all(const ShapeSet& shapes, const Agents& agents, const QueryOptions& options);
+  /// Everything was validated.
+  Rows<DiscPair> find_valid(const ShapeSet& shapes, const Agents& agents, std::span<const Pair> pairs,
+                            const Implementation& implementation, bool exact);
 };
 
 void ContactFinder::State::find(const Implementation& implementation, const Arguments& arguments,
@@ -81,25 +99,56 @@ void ContactFinder::State::find_of_parts(const Implementation& implementation, c
   for (std::size_t i = 0; i <= pairs.size(); ++i) offsets[i] = item_offsets[items.begin(i)];
 }
 
-Rows<DiscPair> ContactFinder::State::find(const ShapeSet& shapes, const Agents& agents,
-                                          std::span<const Pair> pairs, const QueryOptions& options) {
-  const FloatingPointStateGuard floats;
-  const Implementation& implementation = chosen(options, "contacts");
-  const bool exact = exact_leaves(shapes, options.leaves, "contacts");
+/// In one pass, with memory for as many contacts as there were before.
+void ContactFinder::State::find_of_few_discs(const Implementation& implementation, const Arguments& arguments,
+                                             std::size_t pairs) {
+  constexpr std::size_t least_room = block_width * block_width;
+  offsets.resize(pairs + 1);
+  offsets[0] = 0;
+  for (std::size_t done = 0;;) {
+    done = implementation.kernels->append_contacts(arguments, done, pairs, offsets.data(), contacts.data(),
+                                                   contacts.size());
+    if (done == pairs) return;
+    contacts.resize(2 * contacts.size() + least_room);
+  }
+}
+
+Rows<DiscPair> ContactFinder::State::find_valid(const ShapeSet& shapes, const Agents& agents,
+                                                std::span<const Pair> pairs,
+                                                const Implementation& implementation, bool exact) {
   const ShapeSetView& view = shapes.view();
-  require_valid(implementation, view, agents, pairs);
   Arguments arguments = arguments_for(view, agents, pairs);
   arguments.exact_leaves = exact;
   try {
     if (asks_parts(view, agents))
       find_of_parts(implementation, arguments, agents, pairs);
+    else if (is_light(shapes, pairs.size()))
+      find_of_few_discs(implementation, arguments, pairs.size());
     else
       find(implementation, arguments, pairs.size(), offsets);
   } catch (...) {
     *this = {};
     throw;
   }
-  return {offsets, contacts};
+  return {offsets, std::span(contacts).first(offsets.back())};
+}
+
+Rows<DiscPair> ContactFinder::State::find(const ShapeSet& shapes, const Agents& agents,
+                                          std::span<const Pair> pairs, const QueryOptions& options) {
+  const FloatingPointStateGuard floats;
+  const Implementation& implementation = chosen(options, "contacts");
+  const bool exact = exact_leaves(shapes, options.leaves, "contacts");
+  require_valid(implementation, shapes.view(), agents, pairs);
+  return find_valid(shapes, agents, pairs, implementation, exact);
+}
+
+CrowdContacts ContactFinder::State::find_all(const ShapeSet& shapes, const Agents& agents,
+                                             const QueryOptions& options) {
+  const FloatingPointStateGuard floats;
+  const Implementation& implementation = chosen(options, "contacts");
+  const bool exact = exact_leaves(shapes, options.leaves, "contacts");
+  const std::span<const Pair> pairs = broad_phase.find(shapes, agents);
+  return {pairs, find_valid(shapes, agents, pairs, implementation, exact)};
 }
 
 ContactFinder::ContactFinder() : state_(std::make_unique<State>()) {}
@@ -110,6 +159,11 @@ ContactFinder::~ContactFinder() = default;
 Rows<DiscPair> ContactFinder::find(const ShapeSet& shapes, const Agents& agents, std::span<const Pair> pairs,
                                    const QueryOptions& options) {
   return without_tasks_from_outside([&] { return state_->find(shapes, agents, pairs, options); });
+}
+
+CrowdContacts ContactFinder::find_all(const ShapeSet& shapes, const Agents& agents,
+                                      const QueryOptions& options) {
+  return without_tasks_from_outside([&] { return state_->find_all(shapes, agents, options); });
 }
 
 }  // namespace bch

@@ -62,6 +62,12 @@ struct Row {
     [[maybe_unused]] const Guard guard;
     ContactKernel<Simd>::count(arguments, begin, end, counts);
   }
+  static std::size_t append_contacts(const Arguments& arguments, std::size_t begin, std::size_t end,
+                                     std::uint64_t* offsets, DiscPair* contacts,
+                                     std::uint64_t room) noexcept {
+    [[maybe_unused]] const Guard guard;
+    return ContactKernel<Simd>::append(arguments, begin, end, offsets, contacts, room);
+  }
   static void fill_contacts(const Arguments& arguments, std::size_t begin, std::size_t end,
                             const std::uint64_t* offsets, DiscPair* contacts) noexcept {
     [[maybe_unused]] const Guard guard;
@@ -95,10 +101,23 @@ struct Row {
     ObstacleKernel<Simd>(arguments).find_gap(enough, best);
   }
 
-  static constexpr Kernels kernels{
-      Simd::width,  check,          named,         run,     run_in_slabs, run_within,     run_within_in_slabs,
-      run_if_valid, count_contacts, fill_contacts, extents, clearance,    time_of_impact, overlapping_boxes,
-      touches,      find_gap};
+  static constexpr Kernels kernels{Simd::width,
+                                   check,
+                                   named,
+                                   run,
+                                   run_in_slabs,
+                                   run_within,
+                                   run_within_in_slabs,
+                                   run_if_valid,
+                                   count_contacts,
+                                   append_contacts,
+                                   fill_contacts,
+                                   extents,
+                                   clearance,
+                                   time_of_impact,
+                                   overlapping_boxes,
+                                   touches,
+                                   find_gap};
 };
 
 }  // namespace bch::detail

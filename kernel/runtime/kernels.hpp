@@ -53,6 +53,10 @@ struct Kernels {
   /// .. counts[end].
   void (*count_contacts)(const Arguments& arguments, std::size_t begin, std::size_t end,
                          std::uint64_t* counts) noexcept;
+  /// Writes the contacts of pairs from `begin` on behind those that end at offsets[begin], as far as `room` contacts
+  /// are enough, and where those of each pair end. Returns one past the last pair that was answered.
+  std::size_t (*append_contacts)(const Arguments& arguments, std::size_t begin, std::size_t end,
+                                 std::uint64_t* offsets, DiscPair* contacts, std::uint64_t room) noexcept;
   /// Writes the contacts of pair i to contacts[offsets[i]] ..
   /// contacts[offsets[i + 1]].
   void (*fill_contacts)(const Arguments& arguments, std::size_t begin, std::size_t end,

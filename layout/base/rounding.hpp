@@ -141,6 +141,10 @@
 /// piece that is a point on the grid becomes a whisker of one step. Heights of agents at different grounds are compared in double
 /// with a slack of 1e-9 m and 2^-50 of the difference, beside which the rounding of two sums of lengths up to 1e6 m is nothing. The
 /// grid is that of the whole mesh, so that the prices above hold with the reaches of whole bodies.
+///
+/// VIII. Nodes that hold the discs below them, as those of bodies made of discs do, overlap wherever the discs do, if there is room to
+/// spare, (held_room). The float test accepts discs with D <= r_A + r_B + (query_error) S. With R >= |C - c| + r + room, the nodes are at most
+/// R_A + R_B - room_A - room_B + (query_error) S apart, and the test accepts what is at most R_A + R_B - (query_error) S apart.
 namespace bch::detail::rounding {
 
 constexpr double unit_roundoff = 0x1p-24;
@@ -216,6 +220,10 @@ static_assert(segment_margin >= (terms::segment_place + terms::higher) * unit_ro
 constexpr double sure_share = 0.7;
 static_assert(terms::root_2 * sure_share < 1);
 static_assert(sure_share * segment_margin >= (terms::segment_place + terms::higher) * unit_roundoff);
+
+/// The room of nodes about the discs that they hold, times the shape's reach: twice (query_error), and what checking it rounds.
+constexpr double held_room = 47 * unit_roundoff;
+static_assert(held_room >= 2 * (terms::query_error + 8 * terms::higher) * unit_roundoff);
 
 /// Snapping moves a vertex by sqrt(1/2) grid steps, and rounding a crossing to the grid by as much again.
 constexpr double outline_grid_steps = 1.5;

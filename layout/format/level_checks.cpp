@@ -129,13 +129,14 @@ void blocks(const ShapeArrays& a, LevelNodes& level) {
 }
 
 void room(const ShapeArrays& a, LevelNodes& level) {
-  const auto [top, discs, stride, count, outer, segments, points] = tree(a, level);
+  const auto [top, discs, stride, count, outer, segments, points, nodes_hold_discs] = tree(a, level);
   const std::uint64_t after_discs = level.discs + 3 * std::uint64_t{stride};
   level.end =
       (after_discs + inner_floats - 1) / inner_floats * inner_floats + inner_floats * std::uint64_t{count};
   if (discs != level.discs || count < 1 || stride != std::max(count, block_width) ||
       level.end + block_floats > a.nodes.size())
     reject("trees", level.root, std::to_string(count) + " discs do not fit");
+  if (nodes_hold_discs > 1) reject("trees", level.root, "whether nodes hold discs is neither 0 nor 1");
 }
 
 void windows(const ShapeArrays& a, LevelNodes& level) {

@@ -75,6 +75,9 @@ struct Tree {
   float outer;                           ///< metres: the root's outer radius
   std::uint32_t segments = no_segments;  ///< where the words of the leaves are among leaf_segments, or that
   std::uint32_t points = 0;              ///< with segments: where the shape's points are
+  /// 1: every node above a cut disc holds it with room to spare, so that nodes overlap wherever their discs do; see
+  /// layout/base/rounding.hpp, VIII.
+  std::uint32_t nodes_hold_discs = 0;
 
   /// Number of the first inner node: the number of floats from `nodes` on, by four. (Inlined for certain, so that
   /// instruction sets share no function.)

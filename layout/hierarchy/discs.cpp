@@ -49,7 +49,7 @@ double least_at(double low, double high, Of of) noexcept {
   return low + (high - low) / 2;
 }
 
-/// Returns the smallest disc that holds discs. The radius about a point is convex, also where it is the least for a given x.
+/// Returns the smallest disc that holds discs, but for the margin. The radius about a point is convex, also where it is the least for a given x.
 Disc smallest_disc(std::span<const Disc> discs, double margin) {
   Disc disc = discs[0];
   if (discs.size() > 1) {
@@ -81,14 +81,18 @@ std::size_t best_split(std::span<const Disc> discs) {
   return best;
 }
 
-void add_nodes(std::span<const Disc> discs, double margin, Hierarchy& hierarchy) {
+/// Inner nodes hold the discs with room to spare; see layout/base/rounding.hpp, VIII.
+void add_nodes(std::span<const Disc> discs, Hierarchy& hierarchy) {
+  constexpr double of_leaves = rounding::query_margin,
+                   of_others = of_leaves + rounding::held_room + 4 * rounding::unit_roundoff;
   const std::size_t node = hierarchy.nodes.size();
-  hierarchy.nodes.push_back({smallest_disc(discs, margin)});
-  if (discs.size() == 1) return;
+  const bool is_leaf = discs.size() == 1;
+  hierarchy.nodes.push_back({smallest_disc(discs, (is_leaf ? of_leaves : of_others) * hierarchy.reach)});
+  if (is_leaf) return;
   const std::size_t first = best_split(discs);
-  add_nodes(discs.first(first), margin, hierarchy);
+  add_nodes(discs.first(first), hierarchy);
   hierarchy.nodes[node].second_child = static_cast<std::uint32_t>(hierarchy.nodes.size());
-  add_nodes(discs.subspan(first), margin, hierarchy);
+  add_nodes(discs.subspan(first), hierarchy);
 }
 
 }  // namespace
@@ -109,7 +113,7 @@ Hierarchy disc_hierarchy(std::span<const Disc> discs) {
   require_reach(reach);
   Hierarchy hierarchy;
   hierarchy.reach = reach;
-  add_nodes(discs, rounding::query_margin * reach, hierarchy);
+  add_nodes(discs, hierarchy);
   return hierarchy;
 }
 

@@ -9,6 +9,7 @@
 
 #include "layout/base/rounding.hpp"
 #include "layout/culling/cut_lanes.hpp"
+#include "layout/shape_set/held_discs.hpp"
 
 namespace bch::detail {
 namespace {
@@ -74,6 +75,8 @@ void Flattener::flatten(std::uint32_t depth, Bvh8& tree) {
   tree.y.assign(y_.begin(), y_.begin() + padded);
   tree.radius.assign(radius_.begin(), radius_.begin() + padded);
   take_inner(tree);
+  tree.nodes_hold_discs =
+      nodes_hold_discs({x_.data(), y_.data(), radius_.data(), count_}, tree.inner, hierarchy_->reach);
   if (!grow(&Flattener::subtrees, tree)) grow(&Flattener::even_runs, tree);
 }
 

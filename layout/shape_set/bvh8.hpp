@@ -35,6 +35,7 @@ struct Bvh8 {
   std::uint32_t top;                ///< as `child`
   Disc root;                        ///< the hierarchy's
   float outer;                      ///< the radius about the root's centre that holds the cut's discs
+  bool nodes_hold_discs;            ///< see held_discs.hpp
 
   bool is_single() const { return count == 1; }
 };

@@ -20,6 +20,7 @@ Bvh8 bvh8_of(const Root& root, const Tree& level, const float* nodes) {
   tree.root = {root.x, root.y, root.radius};
   tree.count = level.count;
   tree.outer = level.outer;
+  tree.nodes_hold_discs = level.nodes_hold_discs != 0;
   const std::uint32_t begin = level.top < leaf_window ? level.top : level.discs;
   const auto local = [&](std::uint32_t name) {
     return name < leaf_window ? (name - begin) / block_floats : name - level.discs;

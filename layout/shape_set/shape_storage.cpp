@@ -142,6 +142,7 @@ void ShapeStorage::put_level(std::size_t root, const Bvh8& tree, std::size_t nod
   };
   trees[root] = {name(tree.top), static_cast<std::uint32_t>(first_disc),
                  static_cast<std::uint32_t>(tree.x.size()), tree.count, tree.outer};
+  trees[root].nodes_hold_discs = tree.nodes_hold_discs;
   const std::uint32_t first_inner = trees[root].first_inner();
   float* out = nodes.data() + node;
   for (const Bvh8::Block& block : tree.blocks) {

@@ -8,6 +8,7 @@
 #include <limits>
 #include <vector>
 
+#include "layout/shape_set/held_discs.hpp"
 #include "layout/shape_set/verify_parts.hpp"
 
 namespace bch::detail::verification {
@@ -35,6 +36,11 @@ class LevelTree {
   void verify_parts() const {
     for (std::uint32_t i = 0; i < cut_.count; ++i) require_part(leaf_window + i, above_disc_[i]);
     for (std::uint32_t i = 0; i + 1 < cut_.count; ++i) require_part(i, above(i));
+  }
+
+  void verify_held_discs() const {
+    if (tree_.nodes_hold_discs != 0 && !nodes_hold_discs(cut_, inner_, 0.999 * look_.reach))
+      look_.say("trees", level_, "a node does not hold the discs below it, as the tree says");
   }
 
   void verify_blocks() {
@@ -150,6 +156,7 @@ void verify_tree(const Look& look, std::uint32_t level) {
   if (look.arrays().roots[look.root(level)].row == single_disc) return;
   LevelTree tree(look, level);
   tree.verify_parts();
+  tree.verify_held_discs();
   tree.verify_blocks();
 }
 

@@ -8,14 +8,18 @@
 #include <oneapi/tbb/task_arena.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <stdexcept>
 #include <string>
 
+#include <bch/broad_phase.hpp>
 #include <bch/collide.hpp>
 #include <bch/default_characters.hpp>
 
 #include "baselines/contact_reference.hpp"
+#include "layout/format/shape_arrays.hpp"
+#include "layout/format/shape_set_view.hpp"
 #include "tests/support/character_shapes.hpp"
 #include "tests/support/differential.hpp"
 
@@ -89,6 +93,71 @@ TEST_F(Contacts, OfPeople) {
   set = ShapeSet(shapes, plan);
   cuts = CutLists(shapes, plan);
   expect_brute_force(random_scene(random, set, 5'000), "people");
+}
+
+/// Makes a body of discs in no order: its nodes hold them.
+Shape body_of_discs(test::Random& random, std::uint32_t count) {
+  const double size = std::pow(10, random.uniform(-3, 1));
+  std::vector<Disc> discs;
+  while (discs.size() < count)
+    discs.push_back({static_cast<float>(random.uniform(-size, size)),
+                     static_cast<float>(random.uniform(-size, size)),
+                     static_cast<float>(random.uniform(0.02, 0.4) * size)});
+  return shape_from_discs(discs);
+}
+
+/// Hits of such bodies are not verified; brute force does.
+TEST_F(Contacts, OfBodiesOfDiscs) {
+  for (const std::uint32_t most : {8u, 40u}) {
+    shapes.clear();
+    for (std::uint32_t i = 0; i < 40; ++i) shapes.push_back(body_of_discs(random, 1 + random.below(most)));
+    set = ShapeSet(shapes, plan);
+    cuts = CutLists(shapes, plan);
+    discs = baselines::Reference(shapes, plan);
+    const std::uint32_t levels = set.level_count();
+    for (std::uint32_t i = 0; i < shapes.size(); ++i)
+      EXPECT_EQ(set.arrays().trees[i * levels + levels - 1].nodes_hold_discs, 1u) << i;
+    expect_brute_force(random_scene(random, set, 25'000), "bodies of discs");
+    expect_brute_force(tangent_scene(25'000), "bodies of discs, near tangent");
+    // Few pairs of light shapes are answered in one pass.
+    expect_brute_force(random_scene(random, set, 1'500), "few");
+  }
+}
+
+/// Broad and narrow phase, in any set: the same as one after the other.
+TEST_F(Contacts, OfACrowdAreThoseOfItsCandidates) {
+  std::vector<Shape> few_discs;
+  for (std::uint32_t i = 0; i < 10; ++i) few_discs.push_back(body_of_discs(random, 5));
+  const ShapeSet sets[] = {ShapeSet(shapes, plan), ShapeSet(few_discs),
+                           ShapeSet(few_discs, {.heights = true})};
+  for (const ShapeSet& of : sets) {
+    ContactFinder finder;
+    for (const std::uint32_t count : {0u, 1u, 150u, 700u, 20u}) {
+      test::Crowd crowd;
+      const double extent = std::sqrt(count) / 2;
+      for (std::uint32_t i = 0; i < count; ++i)
+        crowd.add({random.below(of.shape_count()), random.uniform(0, extent), random.uniform(0, extent),
+                   random.uniform(-4, 4), static_cast<std::uint8_t>(random.below(of.level_count()))});
+      if (of.has_heights())
+        for (std::uint32_t i = 0; i < count; ++i) crowd.z.push_back(random.below(2));
+      const std::vector<Pair> pairs = candidate_pairs(of, crowd.agents());
+      const CrowdContacts found = finder.find_all(of, crowd.agents());
+      EXPECT_TRUE(std::equal(pairs.begin(), pairs.end(), found.pairs.begin(), found.pairs.end())) << count;
+      EXPECT_TRUE(Table(found.contacts) == table_of(of, crowd.agents(), pairs)) << count;
+      EXPECT_EQ(found.contacts.size(), pairs.size());
+      EXPECT_EQ(found.contacts.values.empty(), count < 2) << count;
+    }
+  }
+}
+
+TEST_F(Contacts, OfACrowdAreChecked) {
+  test::Crowd crowd;
+  crowd.add({0, 0, 0, 0, 0});
+  crowd.add({set.shape_count(), 0, 0, 0, 0});
+  EXPECT_THROW(ContactFinder().find_all(set, crowd.agents()), std::invalid_argument);
+  crowd.shape[1] = 0;
+  EXPECT_THROW(ContactFinder().find_all(set, crowd.agents(), {.leaves = static_cast<Leaves>(5)}),
+               std::invalid_argument);
 }
 
 TEST(DiscPair, IsEqualWhereBothDiscsAre) {

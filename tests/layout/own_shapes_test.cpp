@@ -17,6 +17,7 @@
 #include <bch/hierarchy.hpp>
 #include <bch/shape_set.hpp>
 
+#include "layout/base/rounding.hpp"
 #include "layout/hierarchy/discs.hpp"
 #include "tests/support/complaint.hpp"
 #include "tests/support/scenes.hpp"
@@ -79,8 +80,9 @@ TEST(ShapeFromDiscs, NodesAreTheSmallestDiscs) {
     for (int i = 0; i < 200; ++i) {
       const double root_x = root.x, root_y = root.y, away = 0.3 * std::exp(random.uniform(-8, 0)),
                    angle = random.uniform(-4, 4);
-      EXPECT_LE(root.radius, radius_about(root_x + away * std::cos(angle), root_y + away * std::sin(angle)) +
-                                 3e-6 * hierarchy.reach)
+      EXPECT_LE(root.radius,
+                radius_about(root_x + away * std::cos(angle), root_y + away * std::sin(angle)) +
+                    (detail::rounding::query_margin + detail::rounding::held_room + 1e-6) * hierarchy.reach)
           << k;
     }
   }

@@ -263,6 +263,21 @@ TEST_F(AllocationFaults, Contacts) {
   fail_each_with_threads([&] { ContactFinder().find(set, crowd.agents(), pairs); },
                          [&] { EXPECT_EQ(finder.find(set, crowd.agents(), pairs).values.size(), expected); },
                          2);
+  const std::vector<Disc> body = {{0, 0, 0.3f}, {0, 0.3f, 0.2f}};
+  const ShapeSet bodies(std::vector<Shape>(1, shape_from_discs(body)));
+  test::Crowd people;
+  for (std::uint32_t i = 0; i < 100; ++i) people.add({0, 0.4 * (i % 10), 0.4 * (i / 10), 0, 0});
+  const auto of_crowd = [&](ContactFinder& of) {
+    return of.find_all(bodies, people.agents()).contacts.values.size();
+  };
+  const std::size_t of_people = of_crowd(finder);
+  ASSERT_GT(of_people, 100u);
+  fail_each_with_threads(
+      [&] {
+        ContactFinder own;
+        of_crowd(own);
+      },
+      [&] { EXPECT_EQ(of_crowd(finder), of_people); }, 2);
 }
 
 constexpr const char* walls =

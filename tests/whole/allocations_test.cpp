@@ -83,6 +83,18 @@ TEST_P(Allocations, ContactsKeepTheirMemory) {
   EXPECT_GT(found, pairs.size());
 }
 
+TEST_P(Allocations, ContactsOfACrowdOfBodiesOfDiscsKeepTheirMemory) {
+  const std::vector<Disc> body = {
+      {0, 0, 0.2f}, {0, 0.15f, 0.15f}, {0, -0.15f, 0.15f}, {0, 0.3f, 0.1f}, {0, -0.3f, 0.1f}};
+  const ShapeSet bodies(std::vector<Shape>(1, shape_from_discs(body)));
+  test::Crowd people;
+  for (std::uint32_t i = 0; i < 150; ++i) people.add({0, 0.4 * (i % 15), 0.5 * (i / 15), 0.1 * i, 0});
+  ContactFinder finder;
+  std::size_t found = 0;
+  EXPECT_EQ(count([&] { found = finder.find_all(bodies, people.agents()).contacts.values.size(); }), 0u);
+  EXPECT_GT(found, 150u);
+}
+
 TEST_P(Allocations, PenetrationNeedsNone) {
   const std::vector<Pair> pairs = some_pairs();
   const std::vector<Vec2> directions(pairs.size(), Vec2{1, 2});

@@ -10,6 +10,12 @@
 
 namespace bch {
 
+/// The contacts of a crowd: a row for each pair of agents whose root discs overlap, which may be empty.
+struct CrowdContacts {
+  std::span<const Pair> pairs;  ///< first < second, in the order of BroadPhase::find()
+  Rows<DiscPair> contacts;      ///< as ContactFinder::find() gives them for these pairs
+};
+
 /// Finds, for each pair of agents, all pairs of discs of their cuts, at their levels, that make a collision: they
 /// overlap, and so do all nodes above the one and above the other, and with exact leaves segments of theirs
 /// meet; see Semantics and Leaves. So a row is empty exactly where collide() answers 0 in boundary semantics
@@ -24,6 +30,8 @@ namespace bch {
 /// has the same contacts with their two discs exchanged, sorted in that order.
 ///
 /// Bodies in slabs have the contacts of all slabs that may meet; ShapeSet::slab_begin() tells the slab of a disc.
+///
+/// For bodies of discs (shape_from_discs()) these are all overlaps of their discs: the contacts of a mechanical crowd model.
 ///
 /// Keeps its memory from call to call. One that was moved from can only be assigned to or destroyed.
 class ContactFinder {
@@ -42,6 +50,14 @@ class ContactFinder {
   /// Threads: runs in the caller's TBB arena; one call at a time, as BroadPhase::find().
   Rows<DiscPair> find(const ShapeSet& shapes, const Agents& agents, std::span<const Pair> pairs,
                       const QueryOptions& options = {});
+
+  /// Finds all contacts of a crowd: broad and narrow phase in one call.
+  /// Options: leaves, implementation.
+  /// Memory:  pairs and rows are valid until the next call; a call like an earlier one allocates nothing, unless bodies are in slabs
+  ///          or at different heights.
+  /// Errors:  throws std::invalid_argument like validate(shapes, agents) and find(); the last answer is then gone.
+  /// Threads: as find().
+  CrowdContacts find_all(const ShapeSet& shapes, const Agents& agents, const QueryOptions& options = {});
 
  private:
   struct State;
