@@ -27,9 +27,9 @@ constexpr const char* footer =
     "Google Benchmark's own options work, too: --benchmark_filter=<regex>, --benchmark_list_tests=true,\n"
     "--benchmark_format=json ... With any of them its own report takes the place of the tables. It tells\n"
     "of more benchmarks than they do; those of a table are --table NAME's.";
-constexpr const char* tables[] = {"kernel",    "leaves",       "peers",     "calls",  "crowd",
-                                  "distances", "responses",    "obstacles", "shapes", "plans",
-                                  "slices",    "construction", "growth",    "load",   "paper"};
+constexpr const char* tables[] = {"kernel",       "leaves",    "peers",  "calls",  "crowd", "distances",
+                                  "responses",    "obstacles", "bodies", "shapes", "plans", "slices",
+                                  "construction", "growth",    "load",   "paper"};
 
 struct Options {
   SceneOptions scene;
@@ -47,7 +47,7 @@ std::vector<Table> add_all(Suite& suite, Scene& scene, const Options& options) {
   std::vector<Table> all;
   for (const std::vector<Table>& some :
        {collide_tables(suite, scene), call_tables(suite, scene), crowd_tables(suite, scene),
-        query_tables(suite, scene), obstacle_tables(suite, scene),
+        query_tables(suite, scene), obstacle_tables(suite, scene), body_tables(suite),
         shape_count_tables(suite, scene, options.most_shapes), plan_tables(suite, scene),
         slice_tables(suite, scene), build_tables(suite, scene), load_tables(suite, scene)})
     all.insert(all.end(), some.begin(), some.end());
