@@ -135,8 +135,7 @@ class ClearanceMeasure {
     });
     if (!(least_value<Simd>(gaps) <= best_)) return;
     const float most = __builtin_sqrtf(least_value<Simd>(squares)) * longer + slack_;
-    const float bound = Segments::most_gap(margin_, most);
-    if (bound < best_) bound_by(bound);
+    if (most_gap(most) < best_) bound_by(most_gap(most));
     for (std::uint64_t left = all_within<Simd>(gaps, best_); left != 0; left &= left - 1) {
       const auto k = static_cast<unsigned>(__builtin_ctzll(left));
       segments_->add(number_, *this, first_a + k / block_width, first_b + k % block_width, gaps[k]);
@@ -153,7 +152,9 @@ class ClearanceMeasure {
   }
 
   void set(const Nearest& nearest) noexcept {
-    look_within(nearest);
+    nearest_ = nearest;
+    const float gap = most_gap(nearest.distance);
+    if (gap < best_) bound_by(gap);
     // No comparison with these holds.
     if (nearest.distance <= enough_)
       nearest_.distance = best_ = -__builtin_inff(), most_ = __builtin_nanf("");
@@ -161,7 +162,12 @@ class ClearanceMeasure {
 
   void look_within(const Nearest& nearest) noexcept {
     nearest_ = nearest;
-    bound_by(segments_ == nullptr ? nearest.distance : Segments::most_gap(margin_, nearest.distance));
+    bound_by(most_gap(nearest.distance));
+  }
+
+  /// Returns the largest gap of leaf discs that may hold what is as near.
+  float most_gap(float distance) const noexcept {
+    return segments_ == nullptr ? distance : Segments::most_gap(margin_, distance);
   }
 
   void bound_by(float gap) noexcept {
