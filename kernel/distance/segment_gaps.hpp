@@ -88,7 +88,7 @@ class SegmentGaps : private SegmentBatch<Simd, PlacedSegments> {
   using Batch = SegmentBatch<Simd, PlacedSegments>;
   using Float = typename Simd::Float;
   using Double = typename Simd::Double;
-  using Batch::parts, Batch::owner_, Batch::segment_a_, Batch::segment_b_;
+  using Batch::parts;
   static constexpr std::uint32_t open_capacity = 1024;
 
   static constexpr double near = 1 - 0x1p-21;
@@ -108,8 +108,8 @@ class SegmentGaps : private SegmentBatch<Simd, PlacedSegments> {
     float gap[Simd::width];
     this->test_all([&](std::uint32_t k) { return measure(k, gap); },
                    [&](std::uint32_t k, unsigned lane) {
-                     Search& search = *open_[owner_[k + lane]].search;
-                     search.take_segments(gap[lane], segment_a_[k + lane], segment_b_[k + lane]);
+                     Search& search = *open_[this->owner(k + lane)].search;
+                     search.take_segments(gap[lane], this->segment_a(k + lane), this->segment_b(k + lane));
                    });
   }
 

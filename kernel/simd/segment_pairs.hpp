@@ -75,6 +75,18 @@ class SegmentBatch {
   SegmentBatch(const ShapeSetView& shapes, const Placed* placed) noexcept
       : leaves_{shapes.leaf_segments}, points_(shapes.points), placed_(placed) {}
 
+  /// Asks for the words of a leaf window, or for the points that they name.
+  [[gnu::always_inline]] void prefetch_words(const Tree& tree, std::uint32_t window) const noexcept {
+    __builtin_prefetch(leaves_.word(tree, window & ~leaf_window));
+  }
+  [[gnu::always_inline]] void prefetch_points(const Tree& tree, std::uint32_t window) const noexcept {
+    const std::uint32_t* const words = leaves_.word(tree, window & ~leaf_window);
+    const std::uint32_t last = tree.count < block_width ? tree.count - 1 : block_width - 1;
+    const std::uint32_t asked[] = {0, last / 2, last};
+    for (const std::uint32_t i : asked)
+      __builtin_prefetch(points_ + tree.points + (words[i] & leaf_first_mask));
+  }
+
  protected:
   using Float = typename Simd::Float;
   using Double = typename Simd::Double;
@@ -119,6 +131,11 @@ class SegmentBatch {
     size_ = 0;
   }
 
+  /// What was collected at place k: its owner, and the points where the segments begin.
+  std::uint32_t owner(std::uint32_t k) const noexcept { return owner_[k]; }
+  std::uint32_t segment_a(std::uint32_t k) const noexcept { return segment_a_[k]; }
+  std::uint32_t segment_b(std::uint32_t k) const noexcept { return segment_b_[k]; }
+
   struct Pair : SegmentPair<Simd> {
     Double margin;
   };
@@ -148,11 +165,12 @@ class SegmentBatch {
     }
   }
 
+ private:
   const LeafSegments<Simd> leaves_;
   const Vec2* const points_;
   const Placed* const placed_;
   std::uint32_t size_ = 0;
-  std::uint32_t segment_a_[capacity], segment_b_[capacity];  ///< points where they begin
+  std::uint32_t segment_a_[capacity], segment_b_[capacity];
   std::uint32_t index_[capacity], owner_[capacity];
 };
 

@@ -33,19 +33,8 @@ double segment_margin(const ShapeSetView& shapes, std::uint32_t shape_a, std::ui
 template <class Simd, class Placed>
 class SegmentTest : private SegmentBatch<Simd, Placed> {
  public:
-  using SegmentBatch<Simd, Placed>::SegmentBatch;
-
-  /// Asks for the words of a leaf window, or for the points that they name.
-  [[gnu::always_inline]] void prefetch_words(const Tree& tree, std::uint32_t window) const noexcept {
-    __builtin_prefetch(leaves_.word(tree, window & ~leaf_window));
-  }
-  [[gnu::always_inline]] void prefetch_points(const Tree& tree, std::uint32_t window) const noexcept {
-    const std::uint32_t* const words = leaves_.word(tree, window & ~leaf_window);
-    const std::uint32_t last = tree.count < block_width ? tree.count - 1 : block_width - 1;
-    const std::uint32_t asked[] = {0, last / 2, last};
-    for (const std::uint32_t i : asked)
-      __builtin_prefetch(points_ + tree.points + (words[i] & leaf_first_mask));
-  }
+  using SegmentBatch<Simd, Placed>::SegmentBatch, SegmentBatch<Simd, Placed>::prefetch_words,
+      SegmentBatch<Simd, Placed>::prefetch_points;
 
   /// Collects all segments of a leaf of A with all of a leaf of B. `use(owner, meeting)` is called for each pair of segments that
   /// meets, now or in finish(), and for leaves of too many segments as if some met.
@@ -60,14 +49,14 @@ class SegmentTest : private SegmentBatch<Simd, Placed> {
   template <class Use>
   [[gnu::noinline]] void finish(Use use) noexcept {
     this->test_all([this](std::uint32_t k) { return test(k); },
-                   [&](std::uint32_t k, unsigned lane) { use(owner_[k + lane], meeting(k, k + lane)); });
+                   [&](std::uint32_t k, unsigned lane) { use(this->owner(k + lane), meeting(k, k + lane)); });
   }
 
  private:
   using Batch = SegmentBatch<Simd, Placed>;
   using Float = typename Simd::Float;
   using Double = typename Simd::Double;
-  using Batch::leaves_, Batch::points_, Batch::owner_, Batch::parts, Batch::capacity;
+  using Batch::parts, Batch::capacity;
   using typename Batch::Pair;
 
   /// Two numbers a pair, which say by being above 0 that a line separates the segments, and that they surely
