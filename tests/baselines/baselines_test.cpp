@@ -44,12 +44,12 @@ class Suite {
   }
 
   void check_random(std::uint64_t seed, std::uint32_t pairs) {
-    scene_ = test::placements(seed, bodies_, pairs);
+    scene_ = test::placements(seed, bodies_, test::samples(pairs));
     check("random", seed);
   }
 
   void check_touching(std::uint64_t seed, std::uint32_t pairs) {
-    scene_ = test::placements(seed, bodies_, pairs);
+    scene_ = test::placements(seed, bodies_, test::samples(pairs));
     test::slide_to_contact(seed, scene_,
                            {&of("obb_full"), &of("obb_contour"), &of("obb_projected"), &of("reference")});
     check("touching", seed);

@@ -132,9 +132,9 @@ class Answers {
 
 TEST(Answer, OfSyntheticShapes) {
   Answers answers(synthetic_bodies(2401, 40));
-  PairScene random = test::placements(2402, answers.bodies, 8'000);
+  PairScene random = test::placements(2402, answers.bodies, test::samples(8'000));
   answers.check(random, 2402);
-  PairScene tangent = test::placements(2403, answers.bodies, 8'000);
+  PairScene tangent = test::placements(2403, answers.bodies, test::samples(8'000));
   answers.bring_to_contact(2404, tangent);
   answers.check(tangent, 2403);
 }

@@ -73,7 +73,7 @@ TEST_F(Differential, RandomPairs) {
 }
 
 TEST_F(Differential, NearTangentPairs) {
-  for (int i = 0; i < 16; ++i) {
+  for (std::uint32_t i = 0; i < test::samples(16); ++i) {
     PairScene scene = tangent_scene(25'000);
     expect_equal_to_brute_force(set, reference, scene, "near tangent " + std::to_string(i));
   }

@@ -122,7 +122,7 @@ TEST_F(SegmentClearance, FarFromTheOriginAndFarApartEqualsBruteForce) {
   for (std::size_t i = 0; i < scene.pairs.size(); ++i) EXPECT_TRUE(far.same(i, at_origin, i)) << i;
   for (const double apart : {30.0, 1e4, 1.4e9}) {
     // From so far away that rounding hides a body, all leaves are equally near.
-    scene = random_scene(random, set, apart > 1e9 ? 200 : 3'000);
+    scene = random_scene(random, set, test::samples(apart > 1e9 ? 200 : 3'000));
     refine(scene);
     for (std::size_t i = 1; i < scene.crowd.x.size(); i += 2) scene.crowd.x[i] -= apart;
     if (apart > 1e9)

@@ -254,7 +254,7 @@ TEST_P(SlabQueries, TimesAreZeroWhereBodiesCollide) {
 
 TEST_P(SlabQueries, ContactsAreThoseOfAllParts) {
   ContactFinder finder;
-  for (const MovingScene& scene : scenes(1'500))
+  for (const MovingScene& scene : scenes(test::samples(1'500)))
     for (const Leaves leaves : {Leaves::segments, Leaves::discs}) {
       std::vector<std::vector<DiscPair>> expected;
       std::size_t touching = 0;

@@ -85,7 +85,7 @@ TEST_P(Slabs, EqualBruteForceAtHeights) {
 }
 
 TEST_P(Slabs, EqualBruteForceNearTangent) {
-  PairScene scene = random_scene(random, set, 4'000);
+  PairScene scene = random_scene(random, set, test::samples(4'000));
   make_tangent(random, scene, [&](const Agents& agents, Pair pair) {
     return reference.collide(agents, pair, Method::depth_first);
   });
