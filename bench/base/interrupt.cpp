@@ -97,10 +97,6 @@ void leave_at_once(int code, const std::string& line) {
   leave_saying(code, "bch: " + printable_line(line) + "\n");
 }
 
-void forget_signals() {
-  for_each_ending_signal([](int number) { signal(number, SIG_DFL); });
-}
-
 RemovedOnSignal::RemovedOnSignal(int folder, std::string_view name) {
   if (name.size() > longest_name) throw std::length_error("name too long: " + std::string(name));
   unfinished = nullptr;

@@ -15,9 +15,6 @@ namespace bch::cli {
 /// beyond the user's limit is an error of write(), like a full disk.
 void clean_up_on_signals();
 
-/// Gives those signals their default effect again, for a child process, which has no file to remove.
-void forget_signals();
-
 /// Ends the program at once, from any thread, whatever the others do: removes the file under construction, writes a line
 /// to standard error, and leaves with that code.
 [[noreturn]] void leave_at_once(int code, const std::string& line);

@@ -11,7 +11,6 @@
 #include <bch/default_characters.hpp>
 
 #include "bench/base/exit_codes.hpp"
-#include "bench/characters/guarded_import.hpp"
 #include "layout/character/skinning.hpp"
 
 namespace bch::cli {
@@ -84,7 +83,7 @@ LoadedCharacter load_character(const std::string& source, const ImportOptions& o
   if (is_baked(source)) throw InputError(source + ": is a baked file, where a character is expected");
   if (source.starts_with(built_in_prefix)) return built_in(source, options);
   try {
-    ImportedCharacter imported = guarded_import(source, options);
+    ImportedCharacter imported = import_in_child(source, options);
     return {source, std::move(imported.character), std::move(imported.report)};
   } catch (const ImportError& error) {
     throw ImportError(with_own_option(error.what()));

@@ -36,7 +36,7 @@ void run_bake(const BakeOptions& options) {
   plan.heights = options.heights;
   require_outputs({{"--output", options.output}}, options.shapes.inputs(options.characters));
   const CostLimits& limits = options.shapes.limits;
-  // Before there are threads: see guarded_import().
+  // Before there are threads: see import_in_child().
   const auto characters = load_characters(options.characters, options.shapes.import_options());
   const Threads threads(options.answer.threads);
   const auto sources = options.rate > 0 ? list_shapes_at_rate(characters, options.rate)

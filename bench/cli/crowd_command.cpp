@@ -72,7 +72,7 @@ void run_crowd_of_characters(const CrowdOptions& options) {
   require_outputs_of(options);
 
   const CostLimits& limits = options.shapes.limits;
-  // Before there are threads: see guarded_import().
+  // Before there are threads: see import_in_child().
   const auto characters = load_characters(options.characters, options.shapes.import_options());
   const Threads threads(options.answer.threads);
   const auto sources = list_shapes(characters, options.shapes.poses);

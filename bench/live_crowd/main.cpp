@@ -71,7 +71,7 @@ int run(int argc, char** argv) {
                              std::string(cli::character_help) + " (repeatable) [male, female]", "FILE");
   if (!cli::parse_command_line(program, argc, argv)) return cli::exit_success;
 
-  // Before there are threads: see guarded_import().
+  // Before there are threads: see import_in_child().
   std::vector<Character> characters;
   for (cli::LoadedCharacter& loaded : cli::load_characters(options.characters, {}))
     characters.push_back(std::move(loaded.character));

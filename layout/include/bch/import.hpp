@@ -3,9 +3,11 @@
 
 #pragma once
 
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -90,5 +92,25 @@ struct ImportedCharacter {
 /// Returns: a character that validate() accepts; the same for the same files.
 /// Errors:  throws ImportError.
 ImportedCharacter import_character(const std::filesystem::path& file, const ImportOptions& options = {});
+
+/// What import_in_child() may take.
+struct ImportLimits {
+  std::chrono::milliseconds time{60'000};
+  /// Bytes of address space beyond what this process has when the import begins. Builds with sanitizers, which need
+  /// far more, set no such limit.
+  std::size_t memory = std::size_t{2} << 30;
+  std::function<bool()> go_on =
+      {};  ///< asked twenty times a second by the caller's thread; false ends the import
+};
+
+/// Imports a character as import_character() does, from a file that is not trusted: assimp crashes on some malformed
+/// ones. A child process reads the file, within limits, and hands over the character; nothing of assimp runs in this
+/// process.
+/// Errors:  throws ImportError, also on a file that crashes or exhausts the child; std::runtime_error where there can be no
+///          child.
+/// Threads: the child has the caller's thread alone. A lock of a library other than the C library that another thread holds at that
+///          moment, stays locked there, and the import may then end by its time.
+ImportedCharacter import_in_child(const std::filesystem::path& file, const ImportOptions& options = {},
+                                  const ImportLimits& limits = {});
 
 }  // namespace bch

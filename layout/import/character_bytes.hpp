@@ -8,7 +8,7 @@
 
 #include <bch/import.hpp>
 
-namespace bch::cli {
+namespace bch::detail {
 
 /// Writes a character and its report as bytes, for another process of the same program.
 std::string to_bytes(ImportedCharacter imported);
@@ -18,4 +18,4 @@ std::string to_bytes(ImportedCharacter imported);
 /// Errors:  throws std::invalid_argument on bytes that to_bytes() does not write.
 ImportedCharacter imported_from(std::span<const char> bytes);
 
-}  // namespace bch::cli
+}  // namespace bch::detail

@@ -10,8 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "bench/base/exit_codes.hpp"
-#include "bench/characters/guarded_import.hpp"
+#include "layout/import/guarded_import.hpp"
 #include "tests/support/character_shapes.hpp"
 #include "tests/support/gltf_file.hpp"
 #include "tests/support/scenes.hpp"
@@ -19,7 +18,7 @@
 
 // Damaged models by the thousand: each is a valid character, or a line.
 
-namespace bch::cli {
+namespace bch::detail {
 namespace {
 
 namespace fs = std::filesystem;
@@ -77,7 +76,7 @@ std::string damaged(std::string bytes, test::Random& random) {
 }
 
 /// Than the program gives, so that files which exhaust it take less long.
-constexpr ImportLimits less{std::chrono::seconds(5), std::size_t{512} << 20};
+const ImportLimits less{std::chrono::seconds(5), std::size_t{512} << 20};
 
 struct Outcomes {
   std::size_t read = 0, refused = 0, stopped = 0;
@@ -90,12 +89,12 @@ void import_damaged(const fs::path& file, Outcomes& outcomes) {
     validate(guarded_import(file.string(), read, less).character);
     ++outcomes.read;
     return;
+  } catch (const ImportStopped& error) {
+    message = error.what();
+    ++outcomes.stopped;
   } catch (const ImportError& error) {
     message = error.what();
     ++outcomes.refused;
-  } catch (const InputError& error) {
-    message = error.what();
-    ++outcomes.stopped;
   }
   EXPECT_EQ(message.find('\n'), std::string::npos) << message;
   EXPECT_TRUE(message.starts_with(file.string() + ": ")) << message;
@@ -127,4 +126,4 @@ INSTANTIATE_TEST_SUITE_P(Parts, ImportDamage, testing::Range(0u, 8u));
 INSTANTIATE_TEST_SUITE_P(DISABLED_More, ImportDamage, testing::Range(8u, 40u));
 
 }  // namespace
-}  // namespace bch::cli
+}  // namespace bch::detail

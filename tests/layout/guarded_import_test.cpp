@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include "bench/characters/guarded_import.hpp"
+#include "layout/import/guarded_import.hpp"
 
 #include <gtest/gtest.h>
 #include <signal.h>
@@ -14,27 +14,26 @@
 
 #include <bch/default_characters.hpp>
 
-#include "bench/base/exit_codes.hpp"
-#include "bench/characters/character_bytes.hpp"
+#include "layout/import/character_bytes.hpp"
 #include "tests/support/gltf_file.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 // A parser that goes wrong in any way: what is left is one line, and a process that goes on.
 
-namespace bch::cli {
+namespace bch::detail {
 namespace {
 
 using Read = std::function<ImportedCharacter()>;
 
-constexpr ImportLimits little_memory{.memory = std::size_t{256} << 20};
-constexpr ImportLimits little_time{.time = std::chrono::milliseconds(300)};
+const ImportLimits little_memory{.memory = std::size_t{256} << 20};
+const ImportLimits little_time{.time = std::chrono::milliseconds(300)};
 
 void expect_rejected(const Read& read, const std::string& reason,
                      const ImportLimits& limits = little_memory) {
   try {
     guarded_import("a.glb", read, limits);
     ADD_FAILURE() << "accepted";
-  } catch (const InputError& error) {
+  } catch (const ImportStopped& error) {
     const std::string message = error.what();
     EXPECT_TRUE(message.starts_with("a.glb: ")) << message;
     EXPECT_NE(message.find(reason), std::string::npos) << message;
@@ -55,7 +54,7 @@ TEST(GuardedImport, ACharacterArrivesAsItWasRead) {
   strip.turns.assign(12, 0.5f);
   const std::string file = folder.write("strip.gltf", strip.text());
   const std::string direct = to_bytes(import_character(file));
-  EXPECT_EQ(to_bytes(guarded_import(file, ImportOptions{})), direct);
+  EXPECT_EQ(to_bytes(import_in_child(file)), direct);
   const ImportedCharacter again = imported_from(direct);
   EXPECT_EQ(to_bytes(again), direct);
   EXPECT_EQ(again.character.clips.at(0).channels.size(), 2u);
@@ -69,7 +68,7 @@ TEST(GuardedImport, ACharacterArrivesAsItWasRead) {
 
 TEST(GuardedImport, ErrorsOfTheImportAreItsOwn) {
   try {
-    guarded_import("/nowhere/a.glb", ImportOptions{});
+    import_in_child("/nowhere/a.glb");
     ADD_FAILURE() << "accepted";
   } catch (const ImportError& error) {
     EXPECT_STREQ(error.what(), "/nowhere/a.glb: no such file");
@@ -97,6 +96,21 @@ TEST(GuardedImport, Hangs) {
         while (true) pause();
       },
       "more than 0.3 seconds", little_time);
+}
+
+TEST(GuardedImport, CallersMayEndIt) {
+  int asked = 0;
+  const ImportLimits limits{.go_on = [&] { return ++asked < 4; }};
+  expect_rejected([]() -> ImportedCharacter { return pause(), good(); }, "cancelled", limits);
+  EXPECT_EQ(asked, 5);
+}
+
+/// A program may have said that it does not care for its children.
+TEST(GuardedImport, WithoutNewsOfTheChildsEnd) {
+  signal(SIGCHLD, SIG_IGN);
+  EXPECT_EQ(guarded_import("a.glb", good).character.triangles, good().character.triangles);
+  expect_rejected([]() -> ImportedCharacter { std::abort(); }, "gives up on it");
+  signal(SIGCHLD, SIG_DFL);
 }
 
 #ifndef BCH_SANITIZED  // which have no limit of memory
@@ -161,4 +175,4 @@ TEST(GuardedImport, TheNextFileIsReadAfterABadOne) {
 }
 
 }  // namespace
-}  // namespace bch::cli
+}  // namespace bch::detail

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include "bench/characters/character_bytes.hpp"
+#include "layout/import/character_bytes.hpp"
 
 #include <array>
 #include <cstring>
 #include <stdexcept>
 #include <type_traits>
 
-namespace bch::cli {
+namespace bch::detail {
 namespace {
 
 class Writer {
@@ -138,4 +138,4 @@ ImportedCharacter imported_from(std::span<const char> bytes) {
   return imported;
 }
 
-}  // namespace bch::cli
+}  // namespace bch::detail

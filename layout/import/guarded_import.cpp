@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include "bench/characters/guarded_import.hpp"
+#include "layout/import/guarded_import.hpp"
 
 #include <fcntl.h>
-#include <fmt/format.h>
 #include <poll.h>
 #include <signal.h>
 #include <sys/prctl.h>
@@ -12,6 +11,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <fstream>
@@ -19,14 +19,14 @@
 #include <stdexcept>
 #include <string_view>
 
-#include "bench/base/exit_codes.hpp"
-#include "bench/base/interrupt.hpp"
-#include "bench/characters/character_bytes.hpp"
+#include "layout/base/shortest.hpp"
+#include "layout/import/character_bytes.hpp"
 
-namespace bch::cli {
+namespace bch::detail {
 namespace {
 
 using Clock = std::chrono::steady_clock;
+using namespace std::chrono_literals;
 
 /// How the child's words begin.
 enum Answer : char { character = 'c', import_error = 'e', no_memory = 'm' };
@@ -68,10 +68,18 @@ std::string answer(const std::function<ImportedCharacter()>& read) {
   }
 }
 
+/// Gives signals their default effect again, for a child that has none of what its parent's handlers need. Those that
+/// terminals send to both are for the parent.
+void forget_signals() {
+  for (int number = 1; number <= SIGRTMAX; ++number)
+    if (number != SIGKILL && number != SIGSTOP) signal(number, SIG_DFL);
+  for (const int number : {SIGINT, SIGHUP, SIGTSTP, SIGXFSZ}) signal(number, SIG_IGN);
+}
+
 [[noreturn]] void run_child(const std::function<ImportedCharacter()>& read, const ImportLimits& limits,
                             int to) {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
-  forget_signals();  // this program's handlers, and a sanitizer's
+  forget_signals();
   // The parent speaks for both.
   const int nowhere = open("/dev/null", O_WRONLY | O_CLOEXEC);
   dup2(nowhere, STDOUT_FILENO);
@@ -115,64 +123,73 @@ class Child {
   Child(const Child&) = delete;
   Child& operator=(const Child&) = delete;
 
-  /// All that it says until it ends, or the first bytes beyond `most`; nothing when the time is over.
-  std::optional<std::string> listen(Clock::time_point until, std::size_t most) const {
+  /// Returns all that it says until it ends, or the first bytes beyond the limit; nothing when the time is over or the
+  /// caller does not want to go on.
+  std::optional<std::string> listen(const ImportLimits& limits) const {
+    const Clock::time_point until = Clock::now() + limits.time;
     std::string bytes;
     char part[1 << 16];
-    while (true) {
-      const auto left = std::chrono::ceil<std::chrono::milliseconds>(until - Clock::now()).count();
+    while (Clock::now() < until && (!limits.go_on || limits.go_on())) {
+      const auto left = std::chrono::ceil<std::chrono::milliseconds>(until - Clock::now());
       pollfd waiting{from_, POLLIN, 0};
-      const int ready = left > 0 ? poll(&waiting, 1, static_cast<int>(left)) : 0;
-      if (ready == 0) return std::nullopt;
+      const int ready = poll(&waiting, 1, static_cast<int>(std::clamp(left, 0ms, asked_every).count()));
+      if (ready == 0) continue;
       const ssize_t got = ready < 0 ? -1 : ::read(from_, part, sizeof part);
       if (got < 0 && errno == EINTR) continue;
       if (got < 0) fail("the importing process was lost");
       if (got == 0) return bytes;
       bytes.append(part, static_cast<std::size_t>(got));
-      if (bytes.size() > most) return bytes;
+      if (bytes.size() > limits.memory) return bytes;
     }
+    return std::nullopt;
   }
 
+  /// Waits for its end.
+  /// Returns: its status; 0 where the program lets nobody see it, by ignoring SIGCHLD.
   int wait() {
     int status = 0;
     while (waitpid(pid_, &status, 0) < 0)
-      if (errno != EINTR) fail("the importing process was lost");
+      if (errno == ECHILD)
+        break;
+      else if (errno != EINTR)
+        fail("the importing process was lost");
     pid_ = 0;
     return status;
   }
 
  private:
+  static constexpr std::chrono::milliseconds asked_every{50};
   pid_t pid_ = 0;
   int from_ = -1;
 
   [[noreturn]] static void fail(const char* what) {
-    throw std::runtime_error(fmt::format("{}: {}", what, std::strerror(errno)));
+    throw std::runtime_error(std::string(what) + ": " + std::strerror(errno));
   }
 };
 
 std::string seconds(const ImportLimits& limits) {
-  return fmt::format("reading it takes more than {:g} seconds",
-                     static_cast<double>(limits.time.count()) / 1000);
+  return "reading it takes more than " + shortest(static_cast<double>(limits.time.count()) / 1000) +
+         " seconds";
 }
 
 std::string gibibytes(const ImportLimits& limits) {
-  return fmt::format("reading it takes more than {:g} GiB of memory",
-                     static_cast<double>(limits.memory) / static_cast<double>(1 << 30));
+  return "reading it takes more than " +
+         shortest(static_cast<double>(limits.memory) / static_cast<double>(1 << 30)) + " GiB of memory";
 }
 
 }  // namespace
 
 ImportedCharacter guarded_import(const std::string& file, const std::function<ImportedCharacter()>& read,
                                  const ImportLimits& limits) {
-  const auto reject = [&](const std::string& reason) -> void { throw InputError(file + ": " + reason); };
+  const auto reject = [&](const std::string& reason) -> void { throw ImportStopped(file + ": " + reason); };
   Child child(read, limits);
-  const std::optional<std::string> words = child.listen(Clock::now() + limits.time, limits.memory);
-  if (!words) reject(seconds(limits));
+  const std::optional<std::string> words = child.listen(limits);
+  if (!words) reject(limits.go_on && !limits.go_on() ? "reading it was cancelled" : seconds(limits));
   if (words->size() > limits.memory) reject(gibibytes(limits));
   const int status = child.wait();
   if (WIFSIGNALED(status) && WTERMSIG(status) == SIGXCPU) reject(seconds(limits));
   if (WIFSIGNALED(status))
-    reject(fmt::format("malformed: the importer crashes on it (signal {})", WTERMSIG(status)));
+    reject("malformed: the importer crashes on it (signal " + std::to_string(WTERMSIG(status)) + ")");
   if (WEXITSTATUS(status) != 0 || words->empty()) reject("malformed: the importer gives up on it");
   switch (words->front()) {
     case no_memory:
@@ -186,12 +203,18 @@ ImportedCharacter guarded_import(const std::string& file, const std::function<Im
   try {
     return imported_from(std::span(*words).subspan(1));
   } catch (const std::invalid_argument& error) {
-    throw InputError(fmt::format("{}: malformed: {}", file, error.what()));
+    throw ImportStopped(file + ": malformed: " + error.what());
   }
 }
 
-ImportedCharacter guarded_import(const std::string& file, const ImportOptions& options) {
-  return guarded_import(file, [&] { return import_character(file, options); });
+}  // namespace bch::detail
+
+namespace bch {
+
+ImportedCharacter import_in_child(const std::filesystem::path& file, const ImportOptions& options,
+                                  const ImportLimits& limits) {
+  return detail::guarded_import(
+      file.string(), [&] { return import_character(file, options); }, limits);
 }
 
-}  // namespace bch::cli
+}  // namespace bch
