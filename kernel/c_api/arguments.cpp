@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include "kernel/c_api/arguments.hpp"
+
+#include <oneapi/tbb/global_control.h>
+#include <oneapi/tbb/task_arena.h>
+#include <sys/stat.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <memory>
+
+namespace bch::c_api {
+
+void check_size(const void* given, std::size_t known, const char* argument) {
+  uint32_t size;
+  std::memcpy(&size, given, sizeof size);
+  const auto* const bytes = static_cast<const unsigned char*>(given);
+  const bool absurd = size < sizeof size || size > 4096;
+  if (absurd || std::any_of(bytes + std::min<std::size_t>(size, known), bytes + size,
+                            [](unsigned char b) { return b != 0; }))
+    throw Failure(BCH_INVALID_ARGUMENT,
+                  std::string(argument) + "->size is " + std::to_string(size) +
+                      (absurd ? "" : ", and fields that this version does not know are set"));
+}
+
+void require_file(const char* path) {
+  struct stat file;
+  if (stat(path, &file) != 0 && errno == ENOENT)
+    throw Failure(BCH_FILE_NOT_FOUND, std::string(path) + ": no such file");
+}
+
+Agents agents_of(const bch_agents* given) {
+  const bch_agents agents = sized(&required(given, "agents"), bch_agents BCH_AGENTS_INIT, "agents");
+  const auto of = [&](auto* values, const char* name) { return array_of(values, agents.count, name); };
+  Agents all{of(agents.shape, "agents->shape"), of(agents.x, "agents->x"), of(agents.y, "agents->y"),
+             of(agents.heading, "agents->heading")};
+  if (agents.level != nullptr) all.level = of(agents.level, "agents->level");
+  if (agents.z != nullptr) all.z = of(agents.z, "agents->z");
+  return all;
+}
+
+ShapeSetPlan plan_of(const bch_plan* given) {
+  const bch_plan plan = sized<bch_plan>(given, BCH_PLAN_INIT, "plan");
+  ShapeSetPlan all{
+      .outlines = plan.outlines != 0, .culling = plan.culling != 0, .heights = plan.heights != 0};
+  const auto depths = array_of(plan.depths, plan.depth_count, "plan->depths");
+  if (!depths.empty()) all.depths.assign(depths.begin(), depths.end());
+  const auto slices = array_of(plan.slices, plan.slice_count, "plan->slices");
+  all.slices.assign(slices.begin(), slices.end());
+  validate(all);
+  return all;
+}
+
+float threshold_of(const bch_plan* given) {
+  const float threshold = sized<bch_plan>(given, BCH_PLAN_INIT, "plan").threshold;
+  if (!(threshold > 0 && threshold <= 1e6f))
+    throw Failure(BCH_INVALID_ARGUMENT, "plan->threshold is " + std::to_string(threshold));
+  return threshold;
+}
+
+CallOptions options_of(const bch_query_options* given) {
+  const bch_query_options options = sized<bch_query_options>(given, BCH_QUERY_OPTIONS_INIT, "options");
+  QueryOptions query{
+      .semantics = one_of(options.semantics, Semantics::solid, "options->semantics"),
+      .implementation = options.implementation == nullptr ? nullptr : &implementation(options.implementation),
+      .leaves = one_of(options.leaves, Leaves::segments, "options->leaves"),
+      .max_distance = options.max_distance,
+      .overlap = one_of(options.overlap, Overlap::deepest, "options->overlap"),
+      .distance_leaves = one_of(options.distance_leaves, Leaves::segments, "options->distance_leaves")};
+  return {query, options.threads};
+}
+
+namespace {
+
+constexpr std::uint32_t most_threads = 1024;
+
+/// The arena that a thread asked for last. It is the thread's own, so that its calls do not wait for those of others.
+struct Arena {
+  std::uint32_t threads = 0;
+  std::unique_ptr<tbb::task_arena> arena;
+};
+thread_local Arena last;
+
+}  // namespace
+
+void on_threads(std::uint32_t threads, const std::function<void()>& work) {
+  if (threads == 0) return work();
+  if (threads > most_threads)
+    throw Failure(BCH_INVALID_ARGUMENT,
+                  "threads is " + std::to_string(threads) + ", more than " + std::to_string(most_threads));
+  // TBB would print a line about those that it does not have.
+  threads = std::min(threads, static_cast<std::uint32_t>(tbb::global_control::active_value(
+                                  tbb::global_control::max_allowed_parallelism)));
+  if (last.threads != threads) {
+    last.threads = 0;
+    last.arena = std::make_unique<tbb::task_arena>(static_cast<int>(threads));
+    last.threads = threads;
+  }
+  last.arena->execute(work);
+}
+
+}  // namespace bch::c_api

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <cstddef>
+#include <cstring>
+#include <functional>
+#include <span>
+#include <string>
+
+#include <bch/query.hpp>
+#include <bch/shape_set.hpp>
+
+#include "kernel/c_api/failure.hpp"
+
+namespace bch::c_api {
+
+/// Checks a pointer of the caller.
+/// Errors:  throws Failure naming the argument where it is NULL.
+template <class Value>
+Value& required(Value* pointer, const char* argument) {
+  if (pointer == nullptr) throw Failure(BCH_INVALID_ARGUMENT, std::string(argument) + " is NULL");
+  return *pointer;
+}
+
+/// Checks that there is a file.
+/// Errors:  throws Failure with BCH_FILE_NOT_FOUND.
+void require_file(const char* path);
+
+/// Views an array of the caller.
+/// Errors:  throws Failure naming the argument where it is NULL and not empty, or longer than memory.
+template <class Value>
+std::span<Value> array_of(Value* values, std::size_t count, const char* argument) {
+  if (count > PTRDIFF_MAX / sizeof(Value))
+    throw Failure(BCH_INVALID_ARGUMENT, std::string(argument) + " has " + std::to_string(count) + " entries");
+  if (count > 0) required(values, argument);
+  return {values, count};
+}
+
+/// Views an array of the caller as one of the library's own type, which has the same members one after the other.
+template <class Own, class Value>
+auto same_array(Value* values, std::size_t count, const char* argument) {
+  using Target = std::conditional_t<std::is_const_v<Value>, const Own, Own>;
+  static_assert(sizeof(Own) == sizeof(Value) && alignof(Own) == alignof(Value));
+  return std::span<Target>(reinterpret_cast<Target*>(array_of(values, count, argument).data()), count);
+}
+
+/// Checks the size that a struct begins with, for a library that knows `known` bytes of it.
+/// Errors:  throws Failure naming the argument, on a size below that of its first version's size itself, and where a later version's
+///          fields say anything.
+void check_size(const void* given, std::size_t known, const char* argument);
+
+/// Reads a struct of the caller's version: what it does not have stays as in `defaults`, which NULL means as well.
+template <class Struct>
+Struct sized(const Struct* given, Struct defaults, const char* argument) {
+  if (given == nullptr) return defaults;
+  check_size(given, sizeof(Struct), argument);
+  std::memcpy(&defaults, given, given->size < sizeof(Struct) ? given->size : sizeof(Struct));
+  return defaults;
+}
+
+/// Writes a struct of the caller's version.
+template <class Struct>
+void fill(Struct* to, Struct values, const char* argument) {
+  check_size(&required(to, argument), SIZE_MAX, argument);
+  values.size = to->size;
+  std::memcpy(to, &values, to->size < sizeof(Struct) ? to->size : sizeof(Struct));
+}
+
+/// Returns the enumerator of a number.
+/// Errors:  throws Failure naming the argument, beyond the last one.
+template <class Enum>
+Enum one_of(int32_t value, Enum last, const char* argument) {
+  if (value < 0 || value > static_cast<int32_t>(last))
+    throw Failure(BCH_INVALID_ARGUMENT, std::string(argument) + " is " + std::to_string(value));
+  return static_cast<Enum>(value);
+}
+
+Agents agents_of(const bch_agents* agents);
+ShapeSetPlan plan_of(const bch_plan* plan);
+float threshold_of(const bch_plan* plan);
+
+/// The options of a call, and how many threads it asks for.
+struct CallOptions {
+  QueryOptions query;
+  std::uint32_t threads;
+};
+CallOptions options_of(const bch_query_options* options);
+
+/// Runs work on so many threads, with the caller's thread among them; 0: on those of TBB's arena that it is in.
+void on_threads(std::uint32_t threads, const std::function<void()>& work);
+
+}  // namespace bch::c_api

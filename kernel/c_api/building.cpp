@@ -1,0 +1,272 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include <oneapi/tbb/enumerable_thread_specific.h>
+
+#include <array>
+
+#include <bch/shape_set_builder.hpp>
+
+#include "kernel/c_api/arguments.hpp"
+#include "kernel/c_api/objects.hpp"
+#include "kernel/c_api/outlines.hpp"
+#include "kernel/c_api/posing.hpp"
+#include "kernel/c_api/work.hpp"
+#include "kernel/runtime/ordered_build.hpp"
+
+struct bch_shape_set_builder {
+  explicit bch_shape_set_builder(const bch_plan* given)
+      : plan(bch::c_api::plan_of(given)), threshold(bch::c_api::threshold_of(given)), prepared(plan) {
+    clear();
+  }
+
+  const bch::ShapeSetPlan plan;
+  const float threshold;
+  bch::PreparedShape prepared;
+  std::unique_ptr<bch::ShapeSetBuilder> builder;
+  bch::ShapeOrigins origins;
+
+  void clear() {
+    builder = std::make_unique<bch::ShapeSetBuilder>(plan);
+    origins = {static_cast<double>(threshold), {}, {}};
+  }
+};
+
+namespace bch::c_api {
+namespace {
+
+/// Returns the number of a name among those of a set's origins, where it is the last one or new.
+uint32_t number_of(ShapeOrigins& origins, const std::string& name) {
+  if (origins.names.empty() || origins.names.back() != name) origins.names.push_back(name);
+  return static_cast<uint32_t>(origins.names.size() - 1);
+}
+
+/// What the poses of a character are called: its name, then those of its clips.
+ShapeOrigin origin_of(ShapeOrigins& origins, const std::string& name, const Character& character,
+                      PoseTime at) {
+  if (at.clip == PoseTime::rest) return {number_of(origins, name), ShapeOrigin::rest_pose, 0};
+  const auto first = static_cast<uint32_t>(origins.names.size());
+  const std::size_t clips = character.clips.size();
+  // As it stands there already where the character was the last one to be added.
+  const bool known = first > clips && origins.names[first - clips - 1] == name;
+  if (!known) {
+    origins.names.push_back(name);
+    for (const Clip& clip : character.clips) origins.names.push_back(clip.name);
+  }
+  const uint32_t number = known ? first - static_cast<uint32_t>(clips) - 1 : first;
+  return {number, number + 1 + at.clip, at.seconds};
+}
+
+void add(bch_shape_set_builder& to, const Shape& shape, ShapeOrigin origin) {
+  to.prepared.prepare(shape, to.origins.origins.size());
+  to.origins.origins.reserve(to.origins.origins.size() + 1);
+  to.builder->add(to.prepared);
+  to.origins.origins.push_back(origin);
+}
+
+/// Adds a body of the caller's own, which has no pose.
+void add_own(bch_shape_set_builder* handle, const char* kind, const bch_heights* heights,
+             const std::function<Shape(const bch_shape_set_builder&)>& make) {
+  bch_shape_set_builder& to = object_of(handle, "builder");
+  Shape shape = make(to);
+  if (heights != nullptr) shape.heights = {heights->bottom, heights->top};
+  add(to, shape, {number_of(to.origins, kind), ShapeOrigin::rest_pose, 0});
+}
+
+void add_poses(bch_shape_set_builder& to, const bch_character& of, std::span<const bch_pose> poses,
+               const bch_work* given) {
+  Work work(given, poses.size());
+  const Character& character = *of.character;
+  tbb::enumerable_thread_specific<PoseShaper> shapers(
+      [&] { return PoseShaper(character, to.plan, to.threshold); });
+  on_threads(work.threads(), [&] {
+    detail::add_in_order(
+        *to.builder, to.plan, poses.size(),
+        [&](std::size_t i) -> const Shape& {
+          const Shape& shape = shape_of_pose(shapers.local(), poses[i], i);
+          work.part_done();
+          return shape;
+        },
+        [](std::size_t) {});
+  });
+  work.all_done();
+  for (const bch_pose& pose : poses)
+    to.origins.origins.push_back(origin_of(to.origins, of.name, character, {pose.clip, pose.seconds}));
+}
+
+std::vector<std::vector<Vec2>> polygons_of(const bch_vec2* corners, const uint64_t* offsets,
+                                           size_t polygons) {
+  const auto begin = array_of(offsets, polygons + 1, "offsets");
+  std::vector<std::vector<Vec2>> all;
+  for (std::size_t i = 0; i < polygons; ++i) {
+    if (begin[i] > begin[i + 1])
+      throw Failure(BCH_INVALID_ARGUMENT,
+                    "offsets[" + std::to_string(i + 1) + "] is less than the one before");
+    const auto of = same_array<Vec2>(corners + begin[i], begin[i + 1] - begin[i], "corners");
+    all.emplace_back(of.begin(), of.end());
+  }
+  return all;
+}
+
+/// A mesh is a character of one joint, at the agent's position, which all vertices follow.
+Character character_of_mesh(std::span<const bch_vec3> positions, std::span<const uint32_t> corners) {
+  Character character;
+  character.name = "mesh";
+  character.joints.push_back({"origin", -1, {}});
+  character.bones.push_back({});
+  character.root_joint = 0;
+  for (const bch_vec3& position : positions) {
+    character.influence_begin.push_back(static_cast<uint32_t>(character.influences.size()));
+    character.influences.push_back({0, 1});
+    character.vertices.push_back({position.x, position.y, position.z});
+  }
+  character.influence_begin.push_back(static_cast<uint32_t>(character.influences.size()));
+  for (std::size_t i = 0; i + 2 < corners.size(); i += 3)
+    character.triangles.push_back({corners[i], corners[i + 1], corners[i + 2]});
+  validate(character);
+  return character;
+}
+
+}  // namespace
+}  // namespace bch::c_api
+
+using namespace bch;
+using namespace bch::c_api;
+
+bch_status bch_pose_shaper_create(const bch_character* character, const bch_plan* plan,
+                                  bch_pose_shaper** shaper) {
+  return guarded([&] {
+    required(shaper, "shaper");
+    hand_out(std::make_unique<bch_pose_shaper>(object_of(character, "character"), plan_of(plan),
+                                               threshold_of(plan)),
+             shaper);
+  });
+}
+
+bch_status bch_pose_shaper_make(bch_pose_shaper* handle, bch_pose pose, int32_t whole) {
+  return guarded([&] {
+    bch_pose_shaper& shaper = object_of(handle, "shaper");
+    shaper.made = nullptr;
+    shaper.at = {pose.clip, pose.seconds};
+    shaper.made = &shaper.shaper.shape(shaper.at, whole != 0);
+  });
+}
+
+bch_status bch_pose_shaper_get_outline(const bch_pose_shaper* handle, uint32_t slab, bch_outline* outline) {
+  return guarded([&] {
+    const Shape& shape = made_by(object_of(handle, "shaper"));
+    OutlineWriter to(outline);
+    const auto add = [&](const Outline& one) {
+      for (std::size_t i = 0; i < one.contours(); ++i) to.add(one.contour(i));
+    };
+    if (shape.slabs.empty()) add(shape.outline);
+    for (std::size_t i = 0; i < shape.slabs.size(); ++i)
+      if (slab == BCH_ALL_SLABS || slab == i) add(shape.slabs[i].outline);
+    if (slab != BCH_ALL_SLABS && slab > 0 && slab >= shape.slabs.size())
+      throw Failure(BCH_OUT_OF_RANGE, "slab is " + std::to_string(slab));
+    to.finish();
+  });
+}
+
+bch_status bch_pose_shaper_free(bch_pose_shaper* shaper) {
+  return free_object(shaper, "shaper");
+}
+
+bch_status bch_shape_set_builder_create(const bch_plan* plan, bch_shape_set_builder** builder) {
+  return guarded([&] {
+    required(builder, "builder");
+    hand_out(std::make_unique<bch_shape_set_builder>(plan), builder);
+  });
+}
+
+bch_status bch_shape_set_builder_add_poses(bch_shape_set_builder* handle, const bch_character* character,
+                                           const bch_pose* poses, size_t count, const bch_work* work) {
+  return guarded([&] {
+    bch_shape_set_builder& builder = object_of(handle, "builder");
+    const bch_character& of = object_of(character, "character");
+    const auto all = array_of(poses, count, "poses");
+    check_poses(*of.character, all);
+    try {
+      add_poses(builder, of, all, work);
+    } catch (...) {
+      builder.clear();
+      throw;
+    }
+  });
+}
+
+bch_status bch_shape_set_builder_add_shape(bch_shape_set_builder* handle, const bch_pose_shaper* shaper) {
+  return guarded([&] {
+    bch_shape_set_builder& builder = object_of(handle, "builder");
+    const bch_pose_shaper& by = object_of(shaper, "shaper");
+    add(builder, made_by(by), origin_of(builder.origins, by.name, *by.character, by.at));
+  });
+}
+
+bch_status bch_shape_set_builder_add_polygons(bch_shape_set_builder* builder, const bch_vec2* corners,
+                                              const uint64_t* offsets, size_t polygons,
+                                              const bch_heights* heights) {
+  return guarded([&] {
+    add_own(builder, "polygons", heights, [&](const bch_shape_set_builder& to) {
+      return shape_from_polygons(polygons_of(corners, offsets, polygons), to.threshold);
+    });
+  });
+}
+
+bch_status bch_shape_set_builder_add_capsules(bch_shape_set_builder* builder, const bch_capsule* capsules,
+                                              size_t count, float tolerance, const bch_heights* heights) {
+  return guarded([&] {
+    add_own(builder, "capsules", heights, [&](const bch_shape_set_builder& to) {
+      return shape_from_capsules(same_array<Capsule>(capsules, count, "capsules"), tolerance, to.threshold);
+    });
+  });
+}
+
+bch_status bch_shape_set_builder_add_discs(bch_shape_set_builder* builder, const bch_disc* discs,
+                                           size_t count, const bch_heights* heights) {
+  return guarded([&] {
+    add_own(builder, "discs", heights, [&](const bch_shape_set_builder&) {
+      return shape_from_discs(same_array<Disc>(discs, count, "discs"));
+    });
+  });
+}
+
+bch_status bch_shape_set_builder_add_cylinder(bch_shape_set_builder* builder, float radius,
+                                              const bch_heights* heights) {
+  return guarded([&] {
+    add_own(builder, "cylinder", heights, [&](const bch_shape_set_builder&) {
+      Shape shape;  // made first: GCC 12 would destroy a braced one twice where the next line throws
+      shape.hierarchy = fixed_cylinder(radius);
+      return shape;
+    });
+  });
+}
+
+bch_status bch_shape_set_builder_add_mesh(bch_shape_set_builder* handle, const bch_vec3* positions,
+                                          size_t position_count, const uint32_t* triangles,
+                                          size_t triangle_count) {
+  return guarded([&] {
+    bch_shape_set_builder& builder = object_of(handle, "builder");
+    if (triangle_count > SIZE_MAX / 3) throw Failure(BCH_INVALID_ARGUMENT, "triangle_count is too large");
+    const Character mesh = character_of_mesh(array_of(positions, position_count, "positions"),
+                                             array_of(triangles, 3 * triangle_count, "triangles"));
+    PoseShaper shaper(mesh, builder.plan, builder.threshold);
+    add(builder, shaper.shape({}), {number_of(builder.origins, "mesh"), ShapeOrigin::rest_pose, 0});
+  });
+}
+
+bch_status bch_shape_set_builder_finish(bch_shape_set_builder* handle, bch_shape_set** set) {
+  return guarded([&] {
+    bch_shape_set_builder& builder = object_of(handle, "builder");
+    required(set, "set");
+    auto next = std::make_unique<ShapeSetBuilder>(builder.plan);
+    std::swap(next, builder.builder);
+    BakedShapes made{std::move(*next).finish(), std::move(builder.origins)};
+    builder.clear();
+    hand_out(std::make_unique<bch_shape_set>(std::move(made)), set);
+  });
+}
+
+bch_status bch_shape_set_builder_free(bch_shape_set_builder* builder) {
+  return free_object(builder, "builder");
+}

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <bch/clearance.hpp>
+#include <bch/penetration.hpp>
+
+#include "kernel/c_api/arguments.hpp"
+#include "kernel/c_api/objects.hpp"
+
+namespace bch::c_api {
+
+/// What every query is asked: a set, agents, options.
+struct Call {
+  Call(const bch_shape_set* set, const bch_agents* of, const bch_query_options* given)
+      : shapes(object_of(set, "set").set), agents(agents_of(of)) {
+    const CallOptions all = options_of(given);
+    options = all.query;
+    threads = all.threads;
+  }
+
+  const ShapeSet& shapes;
+  const Agents agents;
+  QueryOptions options;
+  std::uint32_t threads;
+
+  /// Asks on the threads that the options want.
+  template <class Ask>
+  void run(Ask ask) const {
+    threads == 0 ? ask() : on_threads(threads, ask);
+  }
+};
+
+/// What a query of pairs is asked.
+struct PairCall : Call {
+  PairCall(const bch_shape_set* set, const bch_agents* of, const bch_pair* asked, std::size_t count,
+           const bch_query_options* given)
+      : Call(set, of, given), pairs(same_array<Pair>(asked, count, "pairs")) {}
+
+  const std::span<const Pair> pairs;
+};
+
+/// Views the output arrays of a clearance of `count` pairs or agents.
+inline ClearanceAnswers clearance_answers(const bch_clearance_out* given, std::size_t count) {
+  const bch_clearance_out out =
+      sized(&required(given, "out"), bch_clearance_out BCH_CLEARANCE_OUT_INIT, "out");
+  ClearanceAnswers answers{array_of(out.distance, count, "out->distance")};
+  if (out.direction != nullptr) answers.direction = same_array<Vec2>(out.direction, count, "out->direction");
+  if (out.discs != nullptr) answers.discs = same_array<DiscPair>(out.discs, count, "out->discs");
+  if (out.points != nullptr) answers.points = same_array<NearestPoints>(out.points, count, "out->points");
+  return answers;
+}
+
+inline std::span<Penetration> penetrations(bch_penetration_depth* depths, std::size_t count) {
+  return same_array<Penetration>(depths, count, "depths");
+}
+
+}  // namespace bch::c_api

@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include <oneapi/tbb/concurrent_vector.h>
+#include <oneapi/tbb/enumerable_thread_specific.h>
+#include <oneapi/tbb/parallel_for.h>
+
+#include <list>
+
+#include <bch/dynamic_shape_set.hpp>
+
+#include "kernel/c_api/arguments.hpp"
+#include "kernel/c_api/objects.hpp"
+#include "kernel/c_api/posing.hpp"
+#include "kernel/c_api/work.hpp"
+
+namespace bch::c_api {
+namespace {
+
+/// What a thread makes shapes with. It keeps what it learned of characters.
+class Workshop {
+ public:
+  explicit Workshop(const ShapeSetPlan& plan) : plan_(plan), prepared_(plan) {}
+
+  const PreparedShape& make(const std::shared_ptr<const Character>& character, float threshold,
+                            const bch_pose& pose, std::size_t i, uint32_t shape) {
+    prepared_.prepare(shape_of_pose(shaper(character, threshold), pose, i), shape);
+    return prepared_;
+  }
+
+ private:
+  struct Learned {
+    std::shared_ptr<const Character> character;
+    float threshold;
+    PoseShaper shaper;
+  };
+  const ShapeSetPlan plan_;
+  PreparedShape prepared_;
+  std::list<Learned> learned_;
+
+  PoseShaper& shaper(const std::shared_ptr<const Character>& character, float threshold) {
+    for (Learned& each : learned_)
+      if (each.character == character && each.threshold == threshold) return each.shaper;
+    return learned_.emplace_back(character, threshold, PoseShaper(*character, plan_, threshold)).shaper;
+  }
+};
+
+}  // namespace
+}  // namespace bch::c_api
+
+struct bch_dynamic_shape_set {
+  explicit bch_dynamic_shape_set(const bch::ShapeSet& start)
+      : dynamic(start),
+        plan(dynamic.set().plan()),
+        lent(std::make_unique<bch_shape_set>(dynamic.set())),
+        workshops([this] { return bch::c_api::Workshop(plan); }) {}
+
+  bch::DynamicShapeSet dynamic;
+  const bch::ShapeSetPlan plan;
+  std::unique_ptr<bch_shape_set> lent;
+  tbb::enumerable_thread_specific<bch::c_api::Workshop> workshops;
+};
+
+namespace bch::c_api {
+namespace {
+
+void check_shapes(const ShapeSet& set, std::span<const uint32_t> shapes) {
+  std::vector<bool> named(set.shape_count());
+  for (std::size_t i = 0; i < shapes.size(); ++i) {
+    const std::string which = "shapes[" + std::to_string(i) + "] is " + std::to_string(shapes[i]);
+    if (shapes[i] >= named.size())
+      throw Failure(BCH_OUT_OF_RANGE, which + " of " + std::to_string(named.size()));
+    if (named[shapes[i]]) throw Failure(BCH_INVALID_ARGUMENT, which + ", as one before");
+    named[shapes[i]] = true;
+  }
+}
+
+void replace_poses(bch_dynamic_shape_set& set, const bch_character& of, std::span<const uint32_t> shapes,
+                   std::span<const bch_pose> poses, float threshold, const bch_work* given) {
+  Work work(given, shapes.size());
+  const auto make = [&](std::size_t i) -> const PreparedShape& {
+    return set.workshops.local().make(of.character, threshold, poses[i], i, shapes[i]);
+  };
+  tbb::concurrent_vector<std::size_t> outgrown;
+  on_threads(work.threads(), [&] {
+    tbb::parallel_for(std::size_t{0}, shapes.size(), [&](std::size_t i) {
+      if (!set.dynamic.try_replace(shapes[i], make(i))) outgrown.push_back(i);
+      work.part_done();
+    });
+  });
+  for (const std::size_t i : outgrown) set.dynamic.replace(shapes[i], make(i));
+  work.all_done();
+}
+
+}  // namespace
+}  // namespace bch::c_api
+
+using namespace bch;
+using namespace bch::c_api;
+
+bch_status bch_dynamic_shape_set_create(const bch_shape_set* start, bch_dynamic_shape_set** set) {
+  return guarded([&] {
+    required(set, "set");
+    auto made = std::make_unique<bch_dynamic_shape_set>(object_of(start, "start").set);
+    registry::add(made->lent.get(), kind_of(made->lent.get()));
+    try {
+      hand_out(std::move(made), set);
+    } catch (...) {
+      registry::remove(made->lent.get());
+      throw;
+    }
+  });
+}
+
+bch_status bch_dynamic_shape_set_get_shapes(const bch_dynamic_shape_set* set, const bch_shape_set** shapes) {
+  return guarded([&] {
+    const bch_shape_set* const lent = object_of(set, "set").lent.get();
+    required(shapes, "shapes") = lent;
+  });
+}
+
+bch_status bch_dynamic_shape_set_replace(bch_dynamic_shape_set* handle, uint32_t shape,
+                                         const bch_pose_shaper* shaper) {
+  return guarded([&] {
+    bch_dynamic_shape_set& set = object_of(handle, "set");
+    PreparedShape prepared(set.plan);
+    prepared.prepare(made_by(object_of(shaper, "shaper")), shape);
+    set.dynamic.replace(shape, prepared);
+  });
+}
+
+bch_status bch_dynamic_shape_set_replace_poses(bch_dynamic_shape_set* handle, const bch_character* character,
+                                               const uint32_t* shapes, const bch_pose* poses, size_t count,
+                                               float threshold, const bch_work* work) {
+  return guarded([&] {
+    bch_dynamic_shape_set& set = object_of(handle, "set");
+    const bch_character& of = object_of(character, "character");
+    const auto which = array_of(shapes, count, "shapes");
+    const auto at = array_of(poses, count, "poses");
+    check_shapes(set.dynamic.set(), which);
+    check_poses(*of.character, at);
+    if (!(threshold > 0 && threshold <= 1e6f))
+      throw Failure(BCH_INVALID_ARGUMENT, "threshold is " + std::to_string(threshold));
+    replace_poses(set, of, which, at, threshold, work);
+  });
+}
+
+bch_status bch_dynamic_shape_set_free(bch_dynamic_shape_set* set) {
+  return guarded([&] {
+    if (set != nullptr) registry::remove(object_of(set, "set").lent.get());
+    take_back(set, "set");
+  });
+}

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <memory>
+#include <string>
+#include <string_view>
+
+#include "kernel/c_api/failure.hpp"
+
+namespace bch::c_api {
+
+/// The objects of the C interface that live. A pointer from outside is looked up before it is read, so that one that was
+/// freed, or is of another kind, is an error.
+namespace registry {
+void add(const void* object, std::string_view kind);
+void remove(const void* object) noexcept;
+bool contains(const void* object, std::string_view kind) noexcept;
+}  // namespace registry
+
+// The names of handles' types.
+constexpr std::string_view kind_of(const bch_character*) {
+  return "bch_character";
+}
+constexpr std::string_view kind_of(const bch_shape_set*) {
+  return "bch_shape_set";
+}
+constexpr std::string_view kind_of(const bch_pose_shaper*) {
+  return "bch_pose_shaper";
+}
+constexpr std::string_view kind_of(const bch_shape_set_builder*) {
+  return "bch_shape_set_builder";
+}
+constexpr std::string_view kind_of(const bch_dynamic_shape_set*) {
+  return "bch_dynamic_shape_set";
+}
+constexpr std::string_view kind_of(const bch_broad_phase*) {
+  return "bch_broad_phase";
+}
+constexpr std::string_view kind_of(const bch_crowd_collider*) {
+  return "bch_crowd_collider";
+}
+constexpr std::string_view kind_of(const bch_contact_finder*) {
+  return "bch_contact_finder";
+}
+constexpr std::string_view kind_of(const bch_obstacles*) {
+  return "bch_obstacles";
+}
+
+/// Returns the object of a handle.
+/// Errors:  throws Failure naming the argument, on NULL and on what is no living object of this kind.
+template <class Object>
+Object& object_of(Object* handle, const char* argument) {
+  if (handle == nullptr) throw Failure(BCH_INVALID_ARGUMENT, std::string(argument) + " is NULL");
+  if (!registry::contains(handle, kind_of(handle)))
+    throw Failure(BCH_INVALID_ARGUMENT, std::string(argument) + " is no living " +
+                                            std::string(kind_of(handle)) + "; was it freed?");
+  return *handle;
+}
+
+/// Hands an object out.
+template <class Object>
+void hand_out(std::unique_ptr<Object> object, Object** to) {
+  registry::add(object.get(), kind_of(object.get()));
+  *to = object.release();
+}
+
+/// Deletes the object of a handle; NULL is none.
+/// Errors:  as object_of().
+template <class Object>
+void take_back(Object* handle, const char* argument) {
+  if (handle == nullptr) return;
+  object_of(handle, argument);
+  registry::remove(handle);
+  delete handle;
+}
+
+/// The function of the C interface that frees an object.
+template <class Object>
+bch_status free_object(Object* handle, const char* argument) noexcept {
+  return guarded([&] { take_back(handle, argument); });
+}
+
+}  // namespace bch::c_api

@@ -1,0 +1,558 @@
+/* SPDX-License-Identifier: MIT
+ * Copyright (c) 2026 the bch authors */
+
+#ifndef BCH_BCH_H
+#define BCH_BCH_H
+
+#include <math.h>
+#include <stddef.h>
+#include <stdint.h>
+
+/** @file
+ * The C interface of bch, in C99, for programs of other compilers and languages. It offers what the C++ headers do; these
+ * say more about each answer.
+ *
+ * Results:  every function that can fail returns a bch_status and writes its results through its last arguments. On any
+ *           other status than BCH_OK nothing has been written, and bch_last_error() says what is wrong.
+ * Handles:  an object is a pointer that a function hands out and that the free function of its kind takes back; NULL is
+ *           nothing to free. A function that gets a pointer which is no living object of that kind returns BCH_INVALID_ARGUMENT. An
+ *           object that others need, such as the set that a borrowed pointer comes from, has to live as long as they do.
+ * Structs:  those that begin with `size` may grow at their end in later versions: initialise them by the macro of their
+ *           name, which fills in the size and the defaults. NULL in place of options means the defaults.
+ * Arrays:   they are the caller's, are neither copied nor kept, and may be NULL where they are empty. Units are metres and radians.
+ * Threads:  functions may be called from any thread. Objects that a function does not take as const are for one thread at a
+ *           time; a set of shapes and obstacles answer any number of threads at once.
+ * Memory:   no function throws, ends the program or prints. An allocation that fails is BCH_NO_MEMORY.
+ */
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+#if defined(__GNUC__)
+#define BCH_API __attribute__((visibility("default")))
+#else
+#define BCH_API
+#endif
+
+/* Basics ------------------------------------------------------------------------------------------------------------ */
+
+/** The version of this binary interface. Programs that were built with one version run with every library that has the same. */
+#define BCH_ABI_VERSION 1
+
+/** Returns the version of the binary interface of the library that is loaded. */
+BCH_API uint32_t bch_abi_version(void);
+/** Returns the version of the library that is loaded, such as "0.3.0". */
+BCH_API const char* bch_version(void);
+
+/** What a function says of its success. */
+typedef int32_t bch_status;
+enum {
+  BCH_OK = 0,
+  BCH_INVALID_ARGUMENT = 1, /**< an argument that makes no sense; the message names it, an index and the value */
+  BCH_OUT_OF_RANGE = 2,     /**< an index beyond what there is */
+  BCH_TOO_LARGE = 3,        /**< more than the library's limits hold */
+  BCH_NO_MEMORY = 4,
+  BCH_FILE_NOT_FOUND = 5,
+  BCH_BAD_FILE = 6,  /**< a file that cannot be read, believed or written */
+  BCH_CANCELLED = 7, /**< a callback asked for it */
+  BCH_INTERNAL = 8   /**< a fault of the library */
+};
+/** Returns the name of a status, "BCH_OK" for instance; that of an unknown one is "unknown". */
+BCH_API const char* bch_status_name(bch_status status);
+/** Returns what was wrong in the calling thread's last call that failed, as one line; empty where none has. The text stays until the next one. */
+BCH_API const char* bch_last_error(void);
+
+/** A point or vector of the ground plane. */
+typedef struct bch_vec2 {
+  float x, y;
+} bch_vec2;
+/** A point of space; z is up. */
+typedef struct bch_vec3 {
+  float x, y, z;
+} bch_vec3;
+/** A disc on the ground. */
+typedef struct bch_disc {
+  float x, y, radius;
+} bch_disc;
+/** The points within a radius of a segment of the ground plane. */
+typedef struct bch_capsule {
+  bch_vec2 a, b;
+  float radius;
+} bch_capsule;
+/** The heights that a body takes above the ground that its agent stands on. */
+typedef struct bch_heights {
+  float bottom, top;
+} bch_heights;
+
+/** Is called now and then on the thread of the caller while a function works: `done` of `total` parts are ready; a total of 0 is
+ * not known. Any other answer than 0 cancels the function, which then returns BCH_CANCELLED. */
+typedef int32_t (*bch_progress)(void* user, uint64_t done, uint64_t total);
+
+/** How long work is done. */
+typedef struct bch_work {
+  uint32_t size;         /**< sizeof(bch_work) */
+  uint32_t threads;      /**< 0: one for each processor */
+  bch_progress progress; /**< or NULL */
+  void* user;            /**< for progress */
+} bch_work;
+#define BCH_WORK_INIT \
+  { sizeof(bch_work), 0, NULL, NULL }
+
+/* Characters -------------------------------------------------------------------------------------------------------- */
+
+/** A character: a mesh, a skeleton and clips. */
+typedef struct bch_character bch_character;
+
+/** The built-in characters. */
+enum { BCH_MALE = 0, BCH_FEMALE = 1, BCH_BULKY_MALE = 2 };
+/** Makes a built-in character, who needs no file. */
+BCH_API bch_status bch_character_default(int32_t which, bch_character** character);
+
+/** What the caller knows better than a character's file. */
+typedef struct bch_import_options {
+  uint32_t size;                 /**< sizeof(bch_import_options) */
+  int32_t up;                    /**< the axis that points up, 0, 1 or 2 for x, y or z; -1: what the file says, or a guess */
+  float scale;                   /**< metres for a unit of the file; 0: what the file says, or a guess */
+  int32_t force_clips;           /**< not 0: also takes clips that belong to another skeleton */
+  const char* const* clip_files; /**< paths of files whose clips follow those of the character's own file */
+  size_t clip_file_count;
+  uint64_t most_triangles; /**< files of more are refused */
+  double seconds;          /**< the longest time that reading may take */
+  uint64_t memory;         /**< bytes that reading may take */
+  bch_progress progress;   /**< or NULL; hears of no parts, and can cancel */
+  void* user;              /**< for progress */
+} bch_import_options;
+#define BCH_IMPORT_OPTIONS_INIT \
+  { sizeof(bch_import_options), -1, 0, 0, NULL, 0, 0x7fffffff, 60, (uint64_t)2 << 30, NULL, NULL }
+/** Reads a character from a file (glTF 2, FBX, Collada, MD5, IQM, OBJ, PLY, STL). A child process does, within limits, so that a
+ * malformed file cannot harm this one. */
+BCH_API bch_status bch_character_import(const char* path, const bch_import_options* options,
+                                        bch_character** character);
+
+/** What there is of a character. */
+typedef struct bch_character_info {
+  uint32_t size;    /**< sizeof(bch_character_info) */
+  uint32_t joints;
+  uint32_t clips;
+  float height;     /**< of the rest pose, metres; 0 for the built-in ones, who tell none */
+  uint64_t vertices;
+  uint64_t triangles;
+  const char* name;  /**< lives as long as the character, like the next */
+  const char* notes; /**< of the import: a line for every conversion, guess and repair */
+} bch_character_info;
+#define BCH_CHARACTER_INFO_INIT \
+  { sizeof(bch_character_info), 0, 0, 0, 0, 0, NULL, NULL }
+/** Tells what there is of a character. */
+BCH_API bch_status bch_character_get_info(const bch_character* character, bch_character_info* info);
+/** Tells the name and the length of a clip; either may be NULL. The name lives as long as the character. */
+BCH_API bch_status bch_character_get_clip(const bch_character* character, uint32_t clip, const char** name,
+                                          float* seconds);
+
+/** A pose of a character: a time in one of its clips. */
+typedef struct bch_pose {
+  uint32_t clip; /**< or BCH_REST_POSE */
+  float seconds; /**< from the start of the clip */
+} bch_pose;
+#define BCH_REST_POSE 0xffffffffu
+/** Spreads poses evenly over all clips. Writes `count` of them; of a character without clips all are the rest pose. */
+BCH_API bch_status bch_character_sample_poses(const bch_character* character, uint32_t count, bch_pose* poses);
+/** Frees a character. Shapers that were made of it go on. */
+BCH_API bch_status bch_character_free(bch_character* character);
+
+/* Sets of shapes ---------------------------------------------------------------------------------------------------- */
+
+/** Shapes of bodies, ready to be queried. */
+typedef struct bch_shape_set bch_shape_set;
+
+/** The depth of a level that has all discs of a shape. */
+#define BCH_ALL_DEPTHS 0xffffffffu
+
+/** What a scene will use of its shapes; nothing else is built or stored. */
+typedef struct bch_plan {
+  uint32_t size;          /**< sizeof(bch_plan) */
+  int32_t outlines;       /**< not 0: keep outlines, for solid semantics and exact leaves */
+  int32_t culling;        /**< not 0: keep what lets queries skip most of their work; changes no answer */
+  int32_t heights;        /**< not 0: keep the heights of bodies, for agents at different heights */
+  const uint32_t* depths; /**< levels of detail, ascending; NULL: BCH_ALL_DEPTHS alone */
+  size_t depth_count;
+  const float* slices; /**< heights of planes that cut bodies into slabs, ascending, at most 63 */
+  size_t slice_count;
+  float threshold; /**< the radius below which discs are not divided */
+} bch_plan;
+#define BCH_PLAN_INIT \
+  { sizeof(bch_plan), 1, 1, 0, NULL, 0, NULL, 0, 0.01f }
+
+/** How a file gets into memory. */
+enum {
+  BCH_READ = 0, /**< it is read: right whatever happens to the file meanwhile */
+  BCH_MAP = 1   /**< it is mapped: no copy, for files that no process writes to or shortens while the set lives */
+};
+/** Loads a set from a baked file. */
+BCH_API bch_status bch_shape_set_load(const char* path, int32_t access, bch_shape_set** set);
+/** Writes a set as a baked file, whole or not at all. */
+BCH_API bch_status bch_shape_set_save(const bch_shape_set* set, const char* path);
+
+/** What there is of a set. */
+typedef struct bch_shape_set_info {
+  uint32_t size; /**< sizeof(bch_shape_set_info) */
+  uint32_t shapes;
+  uint32_t levels;
+  uint32_t slabs;       /**< 1: bodies are whole */
+  int32_t has_heights;  /**< agents may have a z */
+  int32_t solid;        /**< solid semantics can be asked */
+  int32_t exact_leaves; /**< some level of some shape has them */
+  uint64_t bytes;
+  const uint32_t* depths; /**< one a level; lives as long as the set, like the next */
+  const float* slices;    /**< slabs - 1 planes */
+} bch_shape_set_info;
+#define BCH_SHAPE_SET_INFO_INIT \
+  { sizeof(bch_shape_set_info), 0, 0, 0, 0, 0, 0, 0, NULL, NULL }
+/** Tells what there is of a set. */
+BCH_API bch_status bch_shape_set_get_info(const bch_shape_set* set, bch_shape_set_info* info);
+
+/** Which character and pose a shape was made from. */
+typedef struct bch_shape_origin {
+  const char* character; /**< lives as long as the set, like the next; NULL where the set does not know */
+  const char* clip;      /**< NULL: the rest pose */
+  float seconds;         /**< from the start of the clip */
+} bch_shape_origin;
+/** Tells where a shape comes from. */
+BCH_API bch_status bch_shape_set_get_origin(const bch_shape_set* set, uint32_t shape, bch_shape_origin* origin);
+/** Tells the radius about an agent's position that holds all of its shape at every level and heading. */
+BCH_API bch_status bch_shape_set_get_radius(const bch_shape_set* set, uint32_t shape, float* radius);
+/** Tells the discs of a shape at a level, in the order in which queries number them. Writes at most `capacity`, and how many there
+ * are to `count`. */
+BCH_API bch_status bch_shape_set_get_discs(const bch_shape_set* set, uint32_t shape, uint32_t level,
+                                           bch_disc* discs, size_t capacity, size_t* count);
+/** Tells where the discs of each slab begin among those of bch_shape_set_get_discs(): slabs + 1 numbers. */
+BCH_API bch_status bch_shape_set_get_slab_offsets(const bch_shape_set* set, uint32_t shape, uint32_t level,
+                                                  uint32_t* offsets);
+
+/** Closed contours: contour i has points offsets[i] to offsets[i + 1]. */
+typedef struct bch_outline {
+  uint32_t size; /**< sizeof(bch_outline) */
+  bch_vec2* points;
+  size_t point_capacity;
+  uint64_t* offsets;
+  size_t offset_capacity;
+  size_t point_count;  /**< how many there are, whatever the capacity */
+  size_t offset_count; /**< contours + 1 */
+} bch_outline;
+#define BCH_OUTLINE_INIT \
+  { sizeof(bch_outline), NULL, 0, NULL, 0, 0, 0 }
+/** Tells the outline of a shape, in one of its slabs or, for BCH_ALL_SLABS, of all of them. Writes as many points and offsets as fit, and
+ * how many there are. A set without outlines has none. */
+BCH_API bch_status bch_shape_set_get_outline(const bch_shape_set* set, uint32_t shape, uint32_t slab,
+                                             bch_outline* outline);
+#define BCH_ALL_SLABS 0xffffffffu
+
+/** Is called with one line for each finding. */
+typedef void (*bch_finding)(void* user, const char* line);
+/** Checks that what a set stores of its shapes follows from their discs and outlines, for files from elsewhere. Calls `finding`, which
+ * may be NULL, for at most `most` findings, and tells how many these were. */
+BCH_API bch_status bch_shape_set_verify(const bch_shape_set* set, size_t most, bch_finding finding, void* user,
+                                        size_t* count);
+/** Frees a set. */
+BCH_API bch_status bch_shape_set_free(bch_shape_set* set);
+
+/* Building sets ----------------------------------------------------------------------------------------------------- */
+
+/** Makes shapes of one character in pose after pose. */
+typedef struct bch_pose_shaper bch_pose_shaper;
+/** Makes a shaper of a character for sets of a plan. */
+BCH_API bch_status bch_pose_shaper_create(const bch_character* character, const bch_plan* plan,
+                                          bch_pose_shaper** shaper);
+/** Makes the shape of a pose, in place of the one before. `whole`, if not 0, does not cut it, whatever the plan's slices. */
+BCH_API bch_status bch_pose_shaper_make(bch_pose_shaper* shaper, bch_pose pose, int32_t whole);
+/** Tells the outline of the shape that was made last; see bch_shape_set_get_outline(). */
+BCH_API bch_status bch_pose_shaper_get_outline(const bch_pose_shaper* shaper, uint32_t slab, bch_outline* outline);
+/** Frees a shaper. */
+BCH_API bch_status bch_pose_shaper_free(bch_pose_shaper* shaper);
+
+/** Builds a set shape by shape. Shapes are numbered in the order in which they are added. */
+typedef struct bch_shape_set_builder bch_shape_set_builder;
+/** Begins a set of a plan. */
+BCH_API bch_status bch_shape_set_builder_create(const bch_plan* plan, bch_shape_set_builder** builder);
+/** Adds the shapes of a character's poses, which many threads make. After an error or a cancellation none of them has been added. */
+BCH_API bch_status bch_shape_set_builder_add_poses(bch_shape_set_builder* builder, const bch_character* character,
+                                                   const bch_pose* poses, size_t count, const bch_work* work);
+/** Adds the shape that a shaper made last. */
+BCH_API bch_status bch_shape_set_builder_add_shape(bch_shape_set_builder* builder, const bch_pose_shaper* shaper);
+/** Adds a body of polygons: polygon i has corners offsets[i] to offsets[i + 1], in the agent's frame, either way round. `heights` may be
+ * NULL: it then takes part at every height, as for the next functions. */
+BCH_API bch_status bch_shape_set_builder_add_polygons(bch_shape_set_builder* builder, const bch_vec2* corners,
+                                                      const uint64_t* offsets, size_t polygons,
+                                                      const bch_heights* heights);
+/** Adds a body of capsules, whose outline is nowhere farther from them than a tolerance. */
+BCH_API bch_status bch_shape_set_builder_add_capsules(bch_shape_set_builder* builder, const bch_capsule* capsules,
+                                                      size_t count, float tolerance, const bch_heights* heights);
+/** Adds a body of discs, which queries number as they are given. */
+BCH_API bch_status bch_shape_set_builder_add_discs(bch_shape_set_builder* builder, const bch_disc* discs,
+                                                   size_t count, const bch_heights* heights);
+/** Adds a cylinder about the agent's position. */
+BCH_API bch_status bch_shape_set_builder_add_cylinder(bch_shape_set_builder* builder, float radius,
+                                                      const bch_heights* heights);
+/** Adds a mesh, z up, as it is: three indices of positions a triangle. Slices cut it. */
+BCH_API bch_status bch_shape_set_builder_add_mesh(bch_shape_set_builder* builder, const bch_vec3* positions,
+                                                  size_t position_count, const uint32_t* triangles,
+                                                  size_t triangle_count);
+/** Makes the set of all shapes that were added. The builder is empty afterwards, and begins another set of its plan. */
+BCH_API bch_status bch_shape_set_builder_finish(bch_shape_set_builder* builder, bch_shape_set** set);
+/** Frees a builder. */
+BCH_API bch_status bch_shape_set_builder_free(bch_shape_set_builder* builder);
+
+/** A set whose shapes are replaced while it lives, for characters whose poses are new in every frame. */
+typedef struct bch_dynamic_shape_set bch_dynamic_shape_set;
+/** Copies a set into one whose shapes can be replaced. */
+BCH_API bch_status bch_dynamic_shape_set_create(const bch_shape_set* start, bch_dynamic_shape_set** set);
+/** Lends the present shapes for queries. The set belongs to the dynamic one and is not freed; no query may run while shapes are replaced. */
+BCH_API bch_status bch_dynamic_shape_set_get_shapes(const bch_dynamic_shape_set* set,
+                                                    const bch_shape_set** shapes);
+/** Replaces a shape by the one that a shaper of the set's plan made last. */
+BCH_API bch_status bch_dynamic_shape_set_replace(bch_dynamic_shape_set* set, uint32_t shape,
+                                                 const bch_pose_shaper* shaper);
+/** Replaces many shapes by poses of a character, which many threads make: shapes[i], each named once, by poses[i]. `threshold` is that of bch_plan. After an
+ * error or a cancellation some shapes are new, and others as they were. */
+BCH_API bch_status bch_dynamic_shape_set_replace_poses(bch_dynamic_shape_set* set, const bch_character* character,
+                                                       const uint32_t* shapes, const bch_pose* poses, size_t count,
+                                                       float threshold, const bch_work* work);
+/** Frees a dynamic set, and the set that it lent. */
+BCH_API bch_status bch_dynamic_shape_set_free(bch_dynamic_shape_set* set);
+
+/* Queries of pairs -------------------------------------------------------------------------------------------------- */
+
+/** A crowd in arrays of the caller, one entry an agent in each. */
+typedef struct bch_agents {
+  uint32_t size;         /**< sizeof(bch_agents) */
+  const uint32_t* shape; /**< index into the set */
+  const double* x;
+  const double* y;
+  const double* heading; /**< counter-clockwise; 0 leaves a shape as it is */
+  const uint8_t* level;  /**< index into the set's depths; NULL: the last one for all */
+  const double* z;       /**< heights of the grounds that agents stand on; NULL: one ground for all */
+  size_t count;
+} bch_agents;
+#define BCH_AGENTS_INIT \
+  { sizeof(bch_agents), NULL, NULL, NULL, NULL, NULL, NULL, 0 }
+
+/** Two agents by index. */
+typedef struct bch_pair {
+  uint32_t first, second;
+} bch_pair;
+
+enum {
+  BCH_BOUNDARY = 0, /**< agents collide where outlines cross or touch */
+  BCH_SOLID = 1     /**< and where one outline is inside the other */
+};
+enum {
+  BCH_DISCS = 0,   /**< leaves meet where their discs overlap */
+  BCH_SEGMENTS = 1 /**< and segments of the outlines in them meet, at the level of all depths */
+};
+enum {
+  BCH_OVERLAP_ZERO = 0,   /**< overlapping discs have a distance of 0 */
+  BCH_OVERLAP_DEEPEST = 1 /**< they have the deepest overlap of two, below 0 */
+};
+/** The options of all queries. A query ignores those that do not concern it. */
+typedef struct bch_query_options {
+  uint32_t size;           /**< sizeof(bch_query_options) */
+  int32_t semantics;       /**< BCH_BOUNDARY or BCH_SOLID; sets with slices are solid */
+  int32_t leaves;          /**< of collisions and contacts: BCH_SEGMENTS or BCH_DISCS */
+  int32_t distance_leaves; /**< of clearance: BCH_DISCS or BCH_SEGMENTS; deepest overlaps are those of discs */
+  int32_t overlap;         /**< of clearance: BCH_OVERLAP_ZERO or BCH_OVERLAP_DEEPEST */
+  uint32_t threads;        /**< 0: one for each processor; the answer is the same for any number */
+  double max_distance;     /**< of clearance: farther pairs get an infinite distance */
+  const char* implementation; /**< one of bch_implementation_name(); NULL: the best; the answer is the same for all */
+} bch_query_options;
+#define BCH_QUERY_OPTIONS_INIT                                                                                   \
+  {                                                                                                              \
+    sizeof(bch_query_options), BCH_BOUNDARY, BCH_SEGMENTS, BCH_DISCS, BCH_OVERLAP_ZERO, 0, (double)INFINITY, NULL \
+  }
+
+/** Returns the name of the i-th implementation, the best first: "avx512", "avx2", "sse2", "scalar"; NULL beyond the last. */
+BCH_API const char* bch_implementation_name(uint32_t i);
+/** Returns whether this processor runs the i-th implementation: 1 or 0. */
+BCH_API int32_t bch_implementation_supported(uint32_t i);
+
+/** Checks the agents of a query: what bch_collide() would refuse of them. */
+BCH_API bch_status bch_validate_agents(const bch_shape_set* set, const bch_agents* agents);
+
+/** Answers for each pair whether its agents collide: 1 or 0 in `hits`, one a pair. */
+BCH_API bch_status bch_collide(const bch_shape_set* set, const bch_agents* agents, const bch_pair* pairs,
+                               size_t count, const bch_query_options* options, uint8_t* hits);
+/** Answers for each pair whether its agents come as close as a distance: 1 or 0 in `answers`. There is one distance for all pairs, or
+ * one each. */
+BCH_API bch_status bch_within(const bch_shape_set* set, const bch_agents* agents, const bch_pair* pairs,
+                              size_t count, const double* distances, size_t distance_count,
+                              const bch_query_options* options, uint8_t* answers);
+
+/** Two discs by their numbers in the cuts of a pair's agents. */
+typedef struct bch_disc_pair {
+  uint32_t first, second;
+} bch_disc_pair;
+/** What stands for no disc. */
+#define BCH_NO_DISC 0xffffffffu
+/** The nearest points of two agents, each from its agent's position in the world's axes. */
+typedef struct bch_nearest_points {
+  bch_vec2 first, second;
+} bch_nearest_points;
+/** The output arrays of bch_clearance(), one entry a pair. Those that are NULL are not computed. */
+typedef struct bch_clearance_out {
+  uint32_t size;              /**< sizeof(bch_clearance_out) */
+  float* distance;            /**< metres; infinite beyond the largest distance. Not NULL */
+  bch_vec2* direction;        /**< from the first agent's nearest point to the second's; (0, 0) where there is none */
+  bch_disc_pair* discs;       /**< the nearest discs, or leaves; BCH_NO_DISC where there are none */
+  bch_nearest_points* points; /**< the nearest points; (0, 0) where there are none */
+} bch_clearance_out;
+#define BCH_CLEARANCE_OUT_INIT \
+  { sizeof(bch_clearance_out), NULL, NULL, NULL, NULL }
+/** Measures how far apart the agents of each pair are. */
+BCH_API bch_status bch_clearance(const bch_shape_set* set, const bch_agents* agents, const bch_pair* pairs,
+                                 size_t count, const bch_query_options* options, const bch_clearance_out* out);
+
+/** How far the first agent of a pair has to move to be free of the second, and in which direction, as a unit vector. */
+typedef struct bch_penetration_depth {
+  float depth;
+  float unused;
+  double x, y;
+} bch_penetration_depth;
+/** Measures how far the first agent of each pair has to move, along the best of so many evenly spread directions: an even number from
+ * 2 to 256; 16 to 32 are usual. */
+BCH_API bch_status bch_penetration(const bch_shape_set* set, const bch_agents* agents, const bch_pair* pairs,
+                                   size_t count, uint32_t directions, const bch_query_options* options,
+                                   bch_penetration_depth* depths);
+/** Measures how far the first agent of each pair has to move along a direction of its own, of any length. */
+BCH_API bch_status bch_penetration_along(const bch_shape_set* set, const bch_agents* agents, const bch_pair* pairs,
+                                         size_t count, const bch_vec2* directions,
+                                         const bch_query_options* options, bch_penetration_depth* depths);
+/** Finds when the agents of each pair first touch while the first moves by (x, y) relative to the second: from 0 to 1, or
+ * infinity. */
+BCH_API bch_status bch_time_of_impact(const bch_shape_set* set, const bch_agents* agents, const bch_pair* pairs,
+                                      size_t count, const double* x, const double* y,
+                                      const bch_query_options* options, float* times);
+
+/* Queries of crowds -------------------------------------------------------------------------------------------------- */
+
+/** Finds pairs that may collide. */
+typedef struct bch_broad_phase bch_broad_phase;
+/** Makes a broad phase, which keeps its memory from call to call. */
+BCH_API bch_status bch_broad_phase_create(bch_broad_phase** broad_phase);
+/** Finds every pair of agents whose root discs overlap or come within a margin: once each, first < second. The pairs stay until the next
+ * call. */
+BCH_API bch_status bch_broad_phase_find(bch_broad_phase* broad_phase, const bch_shape_set* set,
+                                        const bch_agents* agents, double margin, const bch_query_options* options,
+                                        const bch_pair** pairs, size_t* count);
+/** Frees a broad phase and its pairs. */
+BCH_API bch_status bch_broad_phase_free(bch_broad_phase* broad_phase);
+
+/** Obstacles that do not move. */
+typedef struct bch_obstacles bch_obstacles;
+
+/** Rows of numbers in one array: row i is values[offsets[i]] to values[offsets[i + 1]]. */
+typedef struct bch_index_rows {
+  size_t rows;
+  const uint64_t* offsets;
+  const uint32_t* values;
+} bch_index_rows;
+
+/** Finds who of a crowd collides with whom. */
+typedef struct bch_crowd_collider bch_crowd_collider;
+/** Makes a collider, which keeps its memory from call to call. */
+BCH_API bch_status bch_crowd_collider_create(bch_crowd_collider** collider);
+/** Finds the colliding neighbours of every agent, a row an agent, ascending, and, with obstacles, which of those it collides with. `obstacles` and
+ * `touched` are NULL, or neither is. The rows stay until the next call. */
+BCH_API bch_status bch_crowd_collider_collide_all(bch_crowd_collider* collider, const bch_shape_set* set,
+                                                  const bch_agents* agents, const bch_obstacles* obstacles,
+                                                  const bch_query_options* options, bch_index_rows* neighbours,
+                                                  bch_index_rows* touched);
+/** Frees a collider and its rows. */
+BCH_API bch_status bch_crowd_collider_free(bch_crowd_collider* collider);
+
+/** Rows of pairs of discs, a row a pair of agents. */
+typedef struct bch_contact_rows {
+  size_t rows;
+  const bch_pair* pairs; /**< one a row */
+  const uint64_t* offsets;
+  const bch_disc_pair* values;
+} bch_contact_rows;
+/** Finds all discs of two agents that touch. */
+typedef struct bch_contact_finder bch_contact_finder;
+/** Makes a finder, which keeps its memory from call to call. */
+BCH_API bch_status bch_contact_finder_create(bch_contact_finder** finder);
+/** Finds the contacts of given pairs, a row a pair. The rows stay until the next call, `pairs` are those given. */
+BCH_API bch_status bch_contact_finder_find(bch_contact_finder* finder, const bch_shape_set* set,
+                                           const bch_agents* agents, const bch_pair* pairs, size_t count,
+                                           const bch_query_options* options, bch_contact_rows* contacts);
+/** Finds the contacts of a whole crowd: a row for each pair of agents whose root discs overlap. The rows and pairs stay until the next
+ * call. */
+BCH_API bch_status bch_contact_finder_find_all(bch_contact_finder* finder, const bch_shape_set* set,
+                                               const bch_agents* agents, const bch_query_options* options,
+                                               bch_contact_rows* contacts);
+/** Frees a finder and its rows. */
+BCH_API bch_status bch_contact_finder_free(bch_contact_finder* finder);
+
+/* Obstacles --------------------------------------------------------------------------------------------------------- */
+
+/** Obstacles in arrays: paths of points, and obstacles of paths, each by where it begins. */
+typedef struct bch_obstacle_arrays {
+  uint32_t size;   /**< sizeof(bch_obstacle_arrays) */
+  const double* x; /**< the points of all paths */
+  const double* y;
+  const uint64_t* path_offsets; /**< path p has points [p] to [p + 1] */
+  size_t path_count;
+  const uint64_t* obstacle_offsets; /**< obstacle o has paths [o] to [o + 1]; NULL: one each */
+  size_t obstacle_count;            /**< without offsets as many as paths */
+  const uint8_t* is_area;           /**< 1: the obstacle's rings enclose it; NULL: none is an area */
+} bch_obstacle_arrays;
+#define BCH_OBSTACLE_ARRAYS_INIT \
+  { sizeof(bch_obstacle_arrays), NULL, NULL, NULL, 0, NULL, 0, NULL }
+/** Makes obstacles of arrays. */
+BCH_API bch_status bch_obstacles_create(const bch_obstacle_arrays* arrays, bch_obstacles** obstacles);
+/** Makes obstacles of well-known text. `walkable`, if not 0: polygons are the floor, and their rings are walls. */
+BCH_API bch_status bch_obstacles_from_wkt(const char* text, int32_t walkable, bch_obstacles** obstacles);
+/** Tells how many obstacles and segments there are. Either may be NULL. */
+BCH_API bch_status bch_obstacles_get_counts(const bch_obstacles* obstacles, uint32_t* obstacle_count,
+                                            uint32_t* segment_count);
+/** Tells the obstacle that a segment belongs to. */
+BCH_API bch_status bch_obstacles_get_owner(const bch_obstacles* obstacles, uint32_t segment, uint32_t* obstacle);
+/** Frees obstacles. */
+BCH_API bch_status bch_obstacles_free(bch_obstacles* obstacles);
+
+/* Each of these answers every agent as the query of pairs with the same name answers a pair. */
+
+/** Answers for each agent whether it collides with an obstacle. */
+BCH_API bch_status bch_obstacles_collide(const bch_shape_set* set, const bch_agents* agents,
+                                         const bch_obstacles* obstacles, const bch_query_options* options,
+                                         uint8_t* hits);
+/** Answers for each agent whether an obstacle is as near as a distance; one distance for all agents, or one each. */
+BCH_API bch_status bch_obstacles_within(const bch_shape_set* set, const bch_agents* agents,
+                                        const bch_obstacles* obstacles, const double* distances,
+                                        size_t distance_count, const bch_query_options* options, uint8_t* answers);
+/** Measures how far each agent is from the nearest obstacle; `discs` has the agent's disc and the obstacle's segment. */
+BCH_API bch_status bch_obstacles_clearance(const bch_shape_set* set, const bch_agents* agents,
+                                           const bch_obstacles* obstacles, const bch_query_options* options,
+                                           const bch_clearance_out* out);
+/** Measures how far each agent has to move to leave an obstacle. */
+BCH_API bch_status bch_obstacles_penetration(const bch_shape_set* set, const bch_agents* agents,
+                                             const bch_obstacles* obstacles, const bch_query_options* options,
+                                             bch_penetration_depth* depths);
+/** Finds when each agent first touches an obstacle while it moves by (x, y): from 0 to 1, or infinity. */
+BCH_API bch_status bch_obstacles_time_of_impact(const bch_shape_set* set, const bch_agents* agents,
+                                                const double* x, const double* y, const bch_obstacles* obstacles,
+                                                const bch_query_options* options, float* times);
+
+/* Scenes ------------------------------------------------------------------------------------------------------------ */
+
+/** Measures how dense a crowd is around each agent, people per square metre: those within a radius over the area of that circle. */
+BCH_API bch_status bch_local_densities(const double* x, const double* y, size_t count, double radius,
+                                       double* densities);
+/** Tells the cut depth that a density asks for. */
+BCH_API bch_status bch_depth_at_density(double people_per_square_metre, uint32_t* depth);
+/** Tells planes that clear most false collisions of standing people, for 1, 2, 3, 4 or 8 slabs: writes slabs - 1 of them. */
+BCH_API bch_status bch_standing_slices(uint32_t slabs, float* slices);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

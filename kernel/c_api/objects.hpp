@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include <bch/baked.hpp>
+#include <bch/character.hpp>
+#include <bch/import.hpp>
+#include <bch/pose_shape.hpp>
+#include <bch/shape_set_builder.hpp>
+
+#include "kernel/c_api/handles.hpp"
+
+// What stands behind the handles that several files use.
+
+struct bch_character {
+  std::shared_ptr<const bch::Character> character;
+  std::string name;
+  bch::ImportReport report = {};
+  std::string notes = {};  ///< of the report, a line each
+};
+
+/// A set of its own, or one that a dynamic set lends.
+struct bch_shape_set {
+  explicit bch_shape_set(bch::BakedShapes baked)
+      : own(std::make_unique<bch::BakedShapes>(std::move(baked))), set(own->set), slices(set.plan().slices) {}
+  explicit bch_shape_set(const bch::ShapeSet& lent) : set(lent), slices(set.plan().slices) {}
+
+  const std::unique_ptr<const bch::BakedShapes> own;
+  const bch::ShapeSet& set;
+  const std::vector<float> slices;
+};
+
+struct bch_pose_shaper {
+  bch_pose_shaper(const bch_character& of, const bch::ShapeSetPlan& plan, float threshold)
+      : character(of.character), name(of.name), shaper(*character, plan, threshold) {}
+
+  const std::shared_ptr<const bch::Character> character;
+  const std::string name;
+  bch::PoseShaper shaper;
+  const bch::Shape* made = nullptr;
+  bch::PoseTime at = {};
+};

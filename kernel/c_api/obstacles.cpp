@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include "kernel/c_api/obstacles.hpp"
+
+#include "kernel/c_api/calls.hpp"
+
+using namespace bch;
+using namespace bch::c_api;
+
+namespace {
+
+ObstacleArrays arrays_of(const bch_obstacle_arrays* given) {
+  const bch_obstacle_arrays arrays =
+      sized(&required(given, "arrays"), bch_obstacle_arrays BCH_OBSTACLE_ARRAYS_INIT, "arrays");
+  ObstacleArrays all;
+  if (arrays.path_count == 0) return all;
+  all.path_offsets = array_of(arrays.path_offsets, arrays.path_count + 1, "arrays->path_offsets");
+  const std::size_t points = all.path_offsets.back();
+  all.x = array_of(arrays.x, points, "arrays->x");
+  all.y = array_of(arrays.y, points, "arrays->y");
+  std::size_t obstacles = arrays.path_count;
+  if (arrays.obstacle_offsets != nullptr) {
+    obstacles = arrays.obstacle_count;
+    all.obstacle_offsets = array_of(arrays.obstacle_offsets, obstacles + 1, "arrays->obstacle_offsets");
+  }
+  if (arrays.is_area != nullptr) all.is_area = array_of(arrays.is_area, obstacles, "arrays->is_area");
+  return all;
+}
+
+/// What a query about obstacles is asked.
+struct ObstacleCall : Call {
+  ObstacleCall(const bch_shape_set* set, const bch_agents* of, const bch_obstacles* given,
+               const bch_query_options* wanted)
+      : Call(set, of, wanted), obstacles(object_of(given, "obstacles").set) {}
+
+  const ObstacleSet& obstacles;
+};
+
+}  // namespace
+
+bch_status bch_obstacles_create(const bch_obstacle_arrays* arrays, bch_obstacles** obstacles) {
+  return guarded([&] {
+    required(obstacles, "obstacles");
+    hand_out(std::make_unique<bch_obstacles>(bch_obstacles{ObstacleSet(arrays_of(arrays))}), obstacles);
+  });
+}
+
+bch_status bch_obstacles_from_wkt(const char* text, int32_t walkable, bch_obstacles** obstacles) {
+  return guarded([&] {
+    required(obstacles, "obstacles");
+    const Polygons polygons = walkable != 0 ? Polygons::walkable : Polygons::solid;
+    hand_out(
+        std::make_unique<bch_obstacles>(bch_obstacles{obstacles_from_wkt(&required(text, "text"), polygons)}),
+        obstacles);
+  });
+}
+
+bch_status bch_obstacles_get_counts(const bch_obstacles* obstacles, uint32_t* obstacle_count,
+                                    uint32_t* segment_count) {
+  return guarded([&] {
+    const ObstacleSet& set = object_of(obstacles, "obstacles").set;
+    if (obstacle_count != nullptr) *obstacle_count = set.obstacle_count();
+    if (segment_count != nullptr) *segment_count = set.segment_count();
+  });
+}
+
+bch_status bch_obstacles_get_owner(const bch_obstacles* obstacles, uint32_t segment, uint32_t* obstacle) {
+  return guarded([&] {
+    const std::uint32_t owner = object_of(obstacles, "obstacles").set.obstacle_of(segment);
+    required(obstacle, "obstacle") = owner;
+  });
+}
+
+bch_status bch_obstacles_free(bch_obstacles* obstacles) {
+  return free_object(obstacles, "obstacles");
+}
+
+bch_status bch_obstacles_collide(const bch_shape_set* set, const bch_agents* agents,
+                                 const bch_obstacles* obstacles, const bch_query_options* options,
+                                 uint8_t* hits) {
+  return guarded([&] {
+    const ObstacleCall call(set, agents, obstacles, options);
+    const auto to = array_of(hits, call.agents.size(), "hits");
+    call.run([&] { collide(call.shapes, call.agents, call.obstacles, to, call.options); });
+  });
+}
+
+bch_status bch_obstacles_within(const bch_shape_set* set, const bch_agents* agents,
+                                const bch_obstacles* obstacles, const double* distances,
+                                size_t distance_count, const bch_query_options* options, uint8_t* answers) {
+  return guarded([&] {
+    const ObstacleCall call(set, agents, obstacles, options);
+    const auto near = array_of(distances, distance_count, "distances");
+    const auto to = array_of(answers, call.agents.size(), "answers");
+    call.run([&] { within(call.shapes, call.agents, call.obstacles, near, to, call.options); });
+  });
+}
+
+bch_status bch_obstacles_clearance(const bch_shape_set* set, const bch_agents* agents,
+                                   const bch_obstacles* obstacles, const bch_query_options* options,
+                                   const bch_clearance_out* out) {
+  return guarded([&] {
+    const ObstacleCall call(set, agents, obstacles, options);
+    const ClearanceAnswers to = clearance_answers(out, call.agents.size());
+    call.run([&] { clearance(call.shapes, call.agents, call.obstacles, to, call.options); });
+  });
+}
+
+bch_status bch_obstacles_penetration(const bch_shape_set* set, const bch_agents* agents,
+                                     const bch_obstacles* obstacles, const bch_query_options* options,
+                                     bch_penetration_depth* depths) {
+  return guarded([&] {
+    const ObstacleCall call(set, agents, obstacles, options);
+    const auto to = penetrations(depths, call.agents.size());
+    call.run([&] { penetration(call.shapes, call.agents, call.obstacles, to, call.options); });
+  });
+}
+
+bch_status bch_obstacles_time_of_impact(const bch_shape_set* set, const bch_agents* agents, const double* x,
+                                        const double* y, const bch_obstacles* obstacles,
+                                        const bch_query_options* options, float* times) {
+  return guarded([&] {
+    const ObstacleCall call(set, agents, obstacles, options);
+    const std::size_t count = call.agents.size();
+    const Displacements ways{array_of(x, count, "x"), array_of(y, count, "y")};
+    const auto to = array_of(times, count, "times");
+    call.run([&] { time_of_impact(call.shapes, call.agents, ways, call.obstacles, to, call.options); });
+  });
+}

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <string>
+
+#include "kernel/c_api/objects.hpp"
+
+namespace bch::c_api {
+
+/// Returns the shape that a shaper made last.
+inline const Shape& made_by(const bch_pose_shaper& shaper) {
+  if (shaper.made == nullptr) throw Failure(BCH_INVALID_ARGUMENT, "shaper has made no shape");
+  return *shaper.made;
+}
+
+/// Checks that a character has the clips of all poses.
+inline void check_poses(const Character& character, std::span<const bch_pose> poses) {
+  for (std::size_t i = 0; i < poses.size(); ++i)
+    if (poses[i].clip != BCH_REST_POSE && poses[i].clip >= character.clips.size())
+      throw Failure(BCH_OUT_OF_RANGE, "poses[" + std::to_string(i) + "].clip is " +
+                                          std::to_string(poses[i].clip) + " of " +
+                                          std::to_string(character.clips.size()));
+}
+
+/// Makes the shape of a pose.
+/// Errors:  names the pose.
+inline const Shape& shape_of_pose(PoseShaper& shaper, const bch_pose& pose, std::size_t i) {
+  try {
+    return shaper.shape({pose.clip, pose.seconds});
+  } catch (const std::logic_error& error) {
+    const bool large = dynamic_cast<const std::length_error*>(&error) != nullptr;
+    throw Failure(large ? BCH_TOO_LARGE : BCH_INVALID_ARGUMENT,
+                  "poses[" + std::to_string(i) + "]: " + error.what());
+  }
+}
+
+}  // namespace bch::c_api

@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include <bch/baked.hpp>
+#include <bch/verify.hpp>
+
+#include "kernel/c_api/arguments.hpp"
+#include "kernel/c_api/objects.hpp"
+#include "kernel/c_api/outlines.hpp"
+#include "layout/format/shape_set_view.hpp"
+
+namespace bch::c_api {
+namespace {
+
+const ShapeSet& set_of(const bch_shape_set* set) {
+  return object_of(set, "set").set;
+}
+
+void check_shape(const ShapeSet& set, uint32_t shape) {
+  if (shape >= set.shape_count())
+    throw Failure(BCH_OUT_OF_RANGE,
+                  "shape is " + std::to_string(shape) + " of " + std::to_string(set.shape_count()));
+}
+
+/// Adds the contours of a shape's part in a slab.
+void add_slab(const detail::ShapeSetView& view, uint32_t shape, uint32_t slab, OutlineWriter& to) {
+  const uint32_t part = view.slab_parts == nullptr ? shape : view.slab_parts[shape * view.slab_count + slab];
+  if (part == detail::no_part || view.shape_contours == nullptr) return;
+  const detail::ContourRange range = view.shape_contours[part];
+  for (uint32_t i = range.begin; i < range.end; ++i) {
+    const detail::Contour& contour = view.contours[i];
+    to.add({view.points + contour.begin, view.points + contour.end});
+  }
+}
+
+void get_outline(const ShapeSet& set, uint32_t shape, uint32_t slab, OutlineWriter& to) {
+  const bool all = slab == BCH_ALL_SLABS;
+  if (!all && slab >= set.slab_count())
+    throw Failure(BCH_OUT_OF_RANGE,
+                  "slab is " + std::to_string(slab) + " of " + std::to_string(set.slab_count()));
+  for (uint32_t k = all ? 0 : slab; k < (all ? set.slab_count() : slab + 1); ++k)
+    add_slab(set.view(), shape, k, to);
+}
+
+bch_shape_origin origin_of(const ShapeOrigins& origins, uint32_t shape) {
+  if (origins.origins.empty()) return {nullptr, nullptr, 0};
+  const ShapeOrigin& origin = origins.origins[shape];
+  const bool rest = origin.clip == ShapeOrigin::rest_pose;
+  return {origins.names[origin.character].c_str(), rest ? nullptr : origins.names[origin.clip].c_str(),
+          origin.seconds};
+}
+
+}  // namespace
+}  // namespace bch::c_api
+
+using namespace bch;
+using namespace bch::c_api;
+
+bch_status bch_shape_set_load(const char* path, int32_t access, bch_shape_set** set) {
+  return guarded([&] {
+    required(path, "path");
+    required(set, "set");
+    const FileAccess how = one_of(access, FileAccess::map, "access");
+    require_file(path);
+    hand_out(std::make_unique<bch_shape_set>(load_baked(path, how)), set);
+  });
+}
+
+bch_status bch_shape_set_save(const bch_shape_set* handle, const char* path) {
+  return guarded([&] {
+    const bch_shape_set& set = object_of(handle, "set");
+    save_baked(&required(path, "path"), set.set, set.own ? set.own->origins : ShapeOrigins{});
+  });
+}
+
+bch_status bch_shape_set_get_info(const bch_shape_set* handle, bch_shape_set_info* info) {
+  return guarded([&] {
+    const bch_shape_set& of = object_of(handle, "set");
+    bch_shape_set_info all = BCH_SHAPE_SET_INFO_INIT;
+    all.shapes = of.set.shape_count();
+    all.levels = of.set.level_count();
+    all.slabs = of.set.slab_count();
+    all.has_heights = of.set.has_heights();
+    all.solid = of.set.solid();
+    all.exact_leaves = of.set.exact_leaves();
+    all.bytes = of.set.bytes();
+    all.depths = of.set.depths().data();
+    all.slices = of.slices.data();
+    fill(info, all, "info");
+  });
+}
+
+bch_status bch_shape_set_get_origin(const bch_shape_set* handle, uint32_t shape, bch_shape_origin* origin) {
+  return guarded([&] {
+    const bch_shape_set& set = object_of(handle, "set");
+    required(origin, "origin");
+    check_shape(set.set, shape);
+    *origin = set.own ? origin_of(set.own->origins, shape) : bch_shape_origin{nullptr, nullptr, 0};
+  });
+}
+
+bch_status bch_shape_set_get_radius(const bch_shape_set* set, uint32_t shape, float* radius) {
+  return guarded([&] {
+    const float found = set_of(set).bounding_radius(shape);
+    required(radius, "radius") = found;
+  });
+}
+
+bch_status bch_shape_set_get_discs(const bch_shape_set* set, uint32_t shape, uint32_t level, bch_disc* discs,
+                                   size_t capacity, size_t* count) {
+  return guarded([&] {
+    const std::vector<Disc> all = set_of(set).discs(shape, level);
+    const auto to = same_array<Disc>(discs, capacity, "discs");
+    required(count, "count") = all.size();
+    std::copy_n(all.begin(), std::min(to.size(), all.size()), to.begin());
+  });
+}
+
+bch_status bch_shape_set_get_slab_offsets(const bch_shape_set* set, uint32_t shape, uint32_t level,
+                                          uint32_t* offsets) {
+  return guarded([&] {
+    const std::vector<std::uint32_t> begin = set_of(set).slab_begin(shape, level);
+    std::copy(begin.begin(), begin.end(), &required(offsets, "offsets"));
+  });
+}
+
+bch_status bch_shape_set_get_outline(const bch_shape_set* handle, uint32_t shape, uint32_t slab,
+                                     bch_outline* outline) {
+  return guarded([&] {
+    const ShapeSet& set = set_of(handle);
+    check_shape(set, shape);
+    OutlineWriter to(outline);
+    get_outline(set, shape, slab, to);
+    to.finish();
+  });
+}
+
+bch_status bch_shape_set_verify(const bch_shape_set* set, size_t most, bch_finding finding, void* user,
+                                size_t* count) {
+  return guarded([&] {
+    required(count, "count");
+    const std::vector<Finding> found = verify(set_of(set), most);
+    if (finding != nullptr)
+      for (const Finding& each : found) finding(user, text_of(each).c_str());
+    *count = found.size();
+  });
+}
+
+bch_status bch_shape_set_free(bch_shape_set* set) {
+  return guarded([&] {
+    if (set != nullptr && !object_of(set, "set").own)
+      throw Failure(BCH_INVALID_ARGUMENT, "set belongs to a bch_dynamic_shape_set, which frees it");
+    take_back(set, "set");
+  });
+}

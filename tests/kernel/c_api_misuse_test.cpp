@@ -1,0 +1,222 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "tests/support/c_api.hpp"
+#include "tests/support/scenes.hpp"
+
+// What callers get wrong is a status and a line, and nothing is written.
+
+namespace bch {
+namespace {
+
+using test::expect_ok;
+
+class CApiMisuse : public testing::Test {
+ protected:
+  const test::OwnedSet set = test::c_set(ShapeSet(test::synthetic_shapes(283, 3)));
+  test::Crowd crowd = [] {
+    test::Crowd two;
+    two.add({0, 0, 0, 0, 0}), two.add({1, 0.1, 0, 0, 0});
+    return two;
+  }();
+  bch_agents agents = test::c_agents(crowd);
+  const bch_pair pair{0, 1};
+  bch_query_options options = BCH_QUERY_OPTIONS_INIT;
+  std::uint8_t hit = 77;
+
+  bch_status ask() { return bch_collide(set.get(), &agents, &pair, 1, &options, &hit); }
+
+  /// Expects an error whose message has a word, and that nothing was written.
+  void expect_error(bch_status status, bch_status expected, const std::string& word) {
+    EXPECT_EQ(status, expected) << bch_status_name(status);
+    const std::string message = bch_last_error();
+    EXPECT_NE(message.find(word), std::string::npos) << message;
+    EXPECT_EQ(message.find('\n'), std::string::npos) << message;
+    EXPECT_EQ(hit, 77);
+  }
+};
+
+TEST_F(CApiMisuse, StatusesHaveNames) {
+  for (bch_status status = BCH_OK; status <= BCH_INTERNAL; ++status)
+    EXPECT_TRUE(std::string(bch_status_name(status)).starts_with("BCH_")) << status;
+  EXPECT_STREQ(bch_status_name(BCH_INTERNAL), "BCH_INTERNAL");
+  EXPECT_STREQ(bch_status_name(BCH_INTERNAL + 1), "unknown");
+  EXPECT_STREQ(bch_status_name(-1), "unknown");
+  EXPECT_EQ(bch_abi_version(), static_cast<std::uint32_t>(BCH_ABI_VERSION));
+}
+
+TEST_F(CApiMisuse, PointersThatAreNull) {
+  expect_error(bch_collide(nullptr, &agents, &pair, 1, nullptr, &hit), BCH_INVALID_ARGUMENT, "set is NULL");
+  expect_error(bch_collide(set.get(), nullptr, &pair, 1, nullptr, &hit), BCH_INVALID_ARGUMENT,
+               "agents is NULL");
+  expect_error(bch_collide(set.get(), &agents, nullptr, 1, nullptr, &hit), BCH_INVALID_ARGUMENT,
+               "pairs is NULL");
+  expect_error(bch_collide(set.get(), &agents, &pair, 1, nullptr, nullptr), BCH_INVALID_ARGUMENT,
+               "hits is NULL");
+  expect_error(bch_shape_set_load(nullptr, 0, nullptr), BCH_INVALID_ARGUMENT, "path is NULL");
+  expect_error(bch_broad_phase_create(nullptr), BCH_INVALID_ARGUMENT, "broad_phase is NULL");
+  expect_error(bch_obstacles_from_wkt(nullptr, 0, nullptr), BCH_INVALID_ARGUMENT, "is NULL");
+  agents.heading = nullptr;
+  expect_error(ask(), BCH_INVALID_ARGUMENT, "agents->heading is NULL");
+  // Nothing to do is no mistake.
+  agents = test::c_agents(crowd);
+  expect_ok(bch_collide(set.get(), &agents, nullptr, 0, nullptr, nullptr));
+  expect_ok(bch_shape_set_free(nullptr));
+}
+
+TEST_F(CApiMisuse, ObjectsThatAreNot) {
+  bch_broad_phase* phase = nullptr;
+  expect_ok(bch_broad_phase_create(&phase));
+  const bch_pair* pairs = nullptr;
+  std::size_t count = 0;
+  expect_error(bch_broad_phase_find(reinterpret_cast<bch_broad_phase*>(set.get()), set.get(), &agents, 0,
+                                    nullptr, &pairs, &count),
+               BCH_INVALID_ARGUMENT, "broad_phase is no living bch_broad_phase");
+  expect_ok(bch_broad_phase_free(phase));
+  expect_error(bch_broad_phase_free(phase), BCH_INVALID_ARGUMENT, "was it freed?");
+  expect_error(bch_broad_phase_find(phase, set.get(), &agents, 0, nullptr, &pairs, &count),
+               BCH_INVALID_ARGUMENT, "was it freed?");
+  EXPECT_EQ(pairs, nullptr);
+}
+
+TEST_F(CApiMisuse, TheSetThatADynamicOneLends) {
+  bch_dynamic_shape_set* dynamic = nullptr;
+  const bch_shape_set* lent = nullptr;
+  expect_ok(bch_dynamic_shape_set_create(set.get(), &dynamic));
+  expect_ok(bch_dynamic_shape_set_get_shapes(dynamic, &lent));
+  expect_ok(bch_collide(lent, &agents, &pair, 1, nullptr, &hit));
+  hit = 77;
+  expect_error(bch_shape_set_free(const_cast<bch_shape_set*>(lent)), BCH_INVALID_ARGUMENT, "belongs to");
+  expect_ok(bch_dynamic_shape_set_free(dynamic));
+  expect_error(bch_collide(lent, &agents, &pair, 1, nullptr, &hit), BCH_INVALID_ARGUMENT,
+               "no living bch_shape_set");
+}
+
+/// Structs of callers that were built with other versions.
+TEST_F(CApiMisuse, SizesOfThePastAndOfTheFuture) {
+  struct {
+    bch_query_options known = BCH_QUERY_OPTIONS_INIT;
+    std::uint64_t later[2] = {0, 0};
+  } future;
+  future.known.size = sizeof future;
+  expect_ok(bch_collide(set.get(), &agents, &pair, 1, &future.known, &hit));
+  EXPECT_EQ(hit, 1);
+  hit = 77;
+  future.later[1] = 5;
+  expect_error(
+      bch_collide(set.get(), &agents, &pair, 1, &future.known, &hit), BCH_INVALID_ARGUMENT,
+      "options->size is " + std::to_string(sizeof future) + ", and fields that this version does not know");
+
+  // Of the past: what it does not have yet is as if it had been left alone.
+  options.semantics = 99;
+  options.size = offsetof(bch_query_options, semantics);
+  expect_ok(ask());
+  hit = 77;
+  options.size = sizeof options;
+  expect_error(ask(), BCH_INVALID_ARGUMENT, "options->semantics is 99");
+  for (const std::uint32_t size : {0u, 3u, 5000u}) {
+    options.size = size;
+    expect_error(ask(), BCH_INVALID_ARGUMENT, "options->size is " + std::to_string(size));
+  }
+
+  bch_shape_set_info info = BCH_SHAPE_SET_INFO_INIT;
+  info.bytes = 123;
+  info.size = offsetof(bch_shape_set_info, bytes);
+  expect_ok(bch_shape_set_get_info(set.get(), &info));
+  EXPECT_EQ(info.bytes, 123u);
+  EXPECT_EQ(info.size, offsetof(bch_shape_set_info, bytes));
+  EXPECT_GT(info.shapes, 0u);
+}
+
+TEST_F(CApiMisuse, ValuesAndTheirPlaces) {
+  crowd.x[1] = std::nan("");
+  expect_error(ask(), BCH_INVALID_ARGUMENT, "agent 1");
+  crowd.x[1] = 0;
+  crowd.shape[0] = 50;
+  expect_error(ask(), BCH_INVALID_ARGUMENT, "50");
+  expect_error(bch_validate_agents(set.get(), &agents), BCH_INVALID_ARGUMENT, "50");
+  crowd.shape[0] = 0;
+  const bch_pair beyond{0, 2};
+  expect_error(bch_collide(set.get(), &agents, &beyond, 1, nullptr, &hit), BCH_INVALID_ARGUMENT, "pair 0");
+  options.threads = 100'000;
+  expect_error(ask(), BCH_INVALID_ARGUMENT, "threads is 100000");
+  options.threads = 0, options.implementation = "mmx";
+  expect_error(ask(), BCH_INVALID_ARGUMENT, "mmx");
+  options.implementation = nullptr, options.leaves = 2;
+  expect_error(ask(), BCH_INVALID_ARGUMENT, "options->leaves is 2");
+  options.leaves = 0;
+  bch_disc disc;
+  std::size_t count = 9;
+  expect_error(bch_shape_set_get_discs(set.get(), 50, 0, &disc, 1, &count), BCH_OUT_OF_RANGE, "50");
+  EXPECT_EQ(count, 9u);
+  expect_error(bch_collide(set.get(), &agents, &pair, SIZE_MAX / 2, nullptr, &hit), BCH_INVALID_ARGUMENT,
+               "pairs has " + std::to_string(SIZE_MAX / 2));
+  bch_shape_set* none = nullptr;
+  expect_error(bch_shape_set_load("/nowhere/a.bch", BCH_READ, &none), BCH_FILE_NOT_FOUND,
+               "/nowhere/a.bch: no such");
+  expect_error(bch_shape_set_load("/", BCH_READ, &none), BCH_BAD_FILE, "/");
+  expect_error(bch_shape_set_save(set.get(), "/nowhere/a.bch"), BCH_BAD_FILE, "/nowhere/a.bch");
+  EXPECT_EQ(none, nullptr);
+}
+
+TEST_F(CApiMisuse, PlansAndBodies) {
+  bch_plan plan = BCH_PLAN_INIT;
+  bch_shape_set_builder* builder = nullptr;
+  const float slices[] = {1, 0.5f};
+  plan.slices = slices, plan.slice_count = 2;
+  expect_error(bch_shape_set_builder_create(&plan, &builder), BCH_INVALID_ARGUMENT, "slice");
+  plan = BCH_PLAN_INIT;
+  plan.threshold = -1;
+  expect_error(bch_shape_set_builder_create(&plan, &builder), BCH_INVALID_ARGUMENT, "plan->threshold");
+  plan.threshold = 0.01f;
+  expect_ok(bch_shape_set_builder_create(&plan, &builder));
+  const bch_vec2 corners[] = {{0, 0}, {1, 0}, {1, 1}};
+  const std::uint64_t offsets[] = {0, 3}, wrong[] = {3, 0};
+  expect_error(bch_shape_set_builder_add_polygons(builder, corners, wrong, 1, nullptr), BCH_INVALID_ARGUMENT,
+               "offsets[1]");
+  expect_error(bch_shape_set_builder_add_polygons(builder, corners, offsets, 0, nullptr),
+               BCH_INVALID_ARGUMENT, "");
+  expect_error(bch_shape_set_builder_add_cylinder(builder, -1, nullptr), BCH_INVALID_ARGUMENT, "-1");
+  bch_character* man = nullptr;
+  expect_ok(bch_character_default(BCH_MALE, &man));
+  const bch_pose poses[] = {{0, 0}, {1'000, 0}};
+  expect_error(bch_shape_set_builder_add_poses(builder, man, poses, 2, nullptr), BCH_OUT_OF_RANGE,
+               "poses[1].clip is 1000");
+  bch_dynamic_shape_set* dynamic = nullptr;
+  expect_ok(bch_dynamic_shape_set_create(set.get(), &dynamic));
+  const std::uint32_t twice[] = {0, 0};
+  const bch_pose rest[] = {{BCH_REST_POSE, 0}, {BCH_REST_POSE, 0}};
+  expect_error(bch_dynamic_shape_set_replace_poses(dynamic, man, twice, rest, 2, 0.01f, nullptr),
+               BCH_INVALID_ARGUMENT, "shapes[1] is 0, as one before");
+  bch_pose_shaper* shaper = nullptr;
+  expect_ok(bch_pose_shaper_create(man, nullptr, &shaper));
+  expect_error(bch_dynamic_shape_set_replace(dynamic, 0, shaper), BCH_INVALID_ARGUMENT,
+               "shaper has made no shape");
+  expect_error(bch_character_default(7, &man), BCH_INVALID_ARGUMENT, "which is 7");
+  expect_ok(bch_pose_shaper_free(shaper));
+  expect_ok(bch_dynamic_shape_set_free(dynamic));
+  expect_ok(bch_character_free(man));
+  expect_ok(bch_shape_set_builder_free(builder));
+}
+
+TEST_F(CApiMisuse, EachThreadHasItsLastError) {
+  expect_error(bch_collide(nullptr, &agents, &pair, 1, nullptr, &hit), BCH_INVALID_ARGUMENT, "set is NULL");
+  std::thread([&] {
+    EXPECT_STREQ(bch_last_error(), "");
+    expect_error(bch_collide(set.get(), nullptr, &pair, 1, nullptr, &hit), BCH_INVALID_ARGUMENT,
+                 "agents is NULL");
+  }).join();
+  EXPECT_STREQ(bch_last_error(), "set is NULL");
+  expect_ok(ask());
+  EXPECT_STREQ(bch_last_error(), "set is NULL");
+}
+
+}  // namespace
+}  // namespace bch

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <memory>
+#include <string>
+
+#include <bch/bch.h>
+#include <bch/baked.hpp>
+
+#include "tests/support/scenes.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+namespace bch::test {
+
+/// Frees an object of the C interface at its end.
+template <class Object, bch_status (*free)(Object*)>
+struct Freed {
+  void operator()(Object* object) const { EXPECT_EQ(free(object), BCH_OK) << bch_last_error(); }
+};
+template <class Object, bch_status (*free)(Object*)>
+using Owned = std::unique_ptr<Object, Freed<Object, free>>;
+using OwnedSet = Owned<bch_shape_set, bch_shape_set_free>;
+using OwnedBuilder = Owned<bch_shape_set_builder, bch_shape_set_builder_free>;
+using OwnedCharacter = Owned<bch_character, bch_character_free>;
+using OwnedShaper = Owned<bch_pose_shaper, bch_pose_shaper_free>;
+using OwnedDynamicSet = Owned<bch_dynamic_shape_set, bch_dynamic_shape_set_free>;
+using OwnedBroadPhase = Owned<bch_broad_phase, bch_broad_phase_free>;
+using OwnedCollider = Owned<bch_crowd_collider, bch_crowd_collider_free>;
+using OwnedFinder = Owned<bch_contact_finder, bch_contact_finder_free>;
+using OwnedObstacles = Owned<bch_obstacles, bch_obstacles_free>;
+
+inline void expect_ok(bch_status status) {
+  EXPECT_EQ(status, BCH_OK) << bch_status_name(status) << ": " << bch_last_error();
+}
+
+/// Takes what a function of the C interface hands out by its last argument.
+template <class Handle, class Make>
+Handle made(Make make) {
+  typename Handle::pointer object = nullptr;
+  expect_ok(make(&object));
+  return Handle(object);
+}
+
+/// The same set for the C interface, by way of a file.
+inline OwnedSet c_set(const ShapeSet& set) {
+  const TemporaryFolder folder;
+  const std::string file = folder.file("shapes.bch");
+  save_baked(file, set);
+  return made<OwnedSet>([&](bch_shape_set** to) { return bch_shape_set_load(file.c_str(), BCH_READ, to); });
+}
+
+inline bch_agents c_agents(const Crowd& crowd) {
+  bch_agents agents = BCH_AGENTS_INIT;
+  agents.shape = crowd.shape.data(), agents.x = crowd.x.data(), agents.y = crowd.y.data();
+  agents.heading = crowd.heading.data(), agents.level = crowd.level.data();
+  agents.z = crowd.z.empty() ? nullptr : crowd.z.data();
+  agents.count = crowd.x.size();
+  return agents;
+}
+
+inline const bch_pair* c_pairs(const std::vector<Pair>& pairs) {
+  return reinterpret_cast<const bch_pair*>(pairs.data());
+}
+
+}  // namespace bch::test
