@@ -1,0 +1,133 @@
+# SPDX-License-Identifier: MIT
+# Copyright (c) 2026 the bch authors
+
+"""Collision checks between characters in dense crowds.
+
+Make or load a set of shapes, describe a crowd by arrays, and ask:
+
+>>> import bch, numpy as np
+>>> people = bch.bake([bch.default_male(), bch.default_female()], poses=50)
+>>> n = 1000
+>>> random = np.random.default_rng(1)
+>>> crowd = bch.Agents(
+...     random.integers(len(people), size=n, dtype=np.uint32),
+...     random.uniform(0, 20, n), random.uniform(0, 20, n), random.uniform(-3, 3, n))
+>>> pairs = bch.candidate_pairs(people, crowd, margin=0.5)
+>>> hit = bch.collide(people, crowd, pairs)
+>>> gap = bch.clearance(people, crowd, pairs, max_distance=0.5)
+
+Lengths are metres and angles radians. Arrays pass without a copy where their type and layout fit; otherwise an error says
+what is wanted. Every query runs without the interpreter's lock, so that Python threads run at the same time.
+"""
+
+from . import plot
+from ._arrays import DISC, PENETRATION, POSE
+from ._crowds import (
+    BroadPhase,
+    ContactFinder,
+    Contacts,
+    CrowdCollider,
+    Rows,
+    candidate_pairs,
+    collide_all,
+    contacts,
+)
+from ._library import (
+    ArgumentError,
+    ArrayError,
+    Error,
+    FileError,
+    FileMissing,
+    OutOfMemory,
+    RangeError,
+    SizeError,
+    implementations,
+    lib as _lib,
+)
+from ._obstacles import Obstacles
+from ._queries import (
+    Agents,
+    Nearest,
+    clearance,
+    collide,
+    local_densities,
+    nearest,
+    penetration,
+    time_of_impact,
+    within,
+)
+from ._shapes import (
+    ALL_DEPTHS,
+    REST_POSE,
+    Character,
+    Clip,
+    DynamicShapeSet,
+    Origin,
+    Plan,
+    PoseShaper,
+    ShapeSet,
+    ShapeSetBuilder,
+    bake,
+    default_bulky_male,
+    default_female,
+    default_male,
+    depth_at_density,
+    import_character,
+    standing_slices,
+)
+
+__version__: str = _lib.bch_version().decode()
+__all__ = [
+    "ALL_DEPTHS",
+    "Agents",
+    "ArgumentError",
+    "ArrayError",
+    "BroadPhase",
+    "Character",
+    "Clip",
+    "ContactFinder",
+    "Contacts",
+    "CrowdCollider",
+    "DISC",
+    "DynamicShapeSet",
+    "Error",
+    "FileError",
+    "FileMissing",
+    "Nearest",
+    "Obstacles",
+    "Origin",
+    "OutOfMemory",
+    "PENETRATION",
+    "POSE",
+    "Plan",
+    "PoseShaper",
+    "REST_POSE",
+    "RangeError",
+    "Rows",
+    "ShapeSet",
+    "ShapeSetBuilder",
+    "SizeError",
+    "bake",
+    "candidate_pairs",
+    "clearance",
+    "collide",
+    "collide_all",
+    "contacts",
+    "default_bulky_male",
+    "default_female",
+    "default_male",
+    "depth_at_density",
+    "implementations",
+    "import_character",
+    "local_densities",
+    "nearest",
+    "penetration",
+    "plot",
+    "standing_slices",
+    "time_of_impact",
+    "within",
+]
+
+for _name in __all__:  # what help() and tracebacks call them
+    if hasattr(globals()[_name], "__module__"):
+        globals()[_name].__module__ = "bch"

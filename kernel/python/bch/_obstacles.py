@@ -1,0 +1,99 @@
+# SPDX-License-Identifier: MIT
+# Copyright (c) 2026 the bch authors
+
+"""Walls, pillars, furniture: obstacles that do not move."""
+
+from __future__ import annotations
+
+import ctypes
+from typing import Any, Optional, Tuple
+
+from . import _library
+from ._arrays import Float64, UInt8, UInt64, f8, given, u1, u8
+from ._library import Handle, check, lib
+
+
+class Obstacles:
+    """Obstacles that do not move; queries take them in place of pairs.
+
+    A line is one or more open polylines. An area is one or more rings, which close themselves, and what they enclose by the
+    even-odd rule: holes are further rings.
+
+    Parameters
+    ----------
+    x, y : (n,) float64
+        The points of all paths, metres.
+    path_offsets : (p + 1,) uint64
+        Path i has points path_offsets[i] to path_offsets[i + 1].
+    obstacle_offsets : (o + 1,) uint64, optional
+        Obstacle i has paths obstacle_offsets[i] to obstacle_offsets[i + 1]; by default one each.
+    is_area : (o,) uint8, optional
+        1 for areas; by default all are lines.
+    """
+
+    __slots__ = ("_handle", "_pointer")
+
+    def __init__(
+        self,
+        x: Float64,
+        y: Float64,
+        path_offsets: UInt64,
+        obstacle_offsets: Optional[UInt64] = None,
+        is_area: Optional[UInt8] = None,
+    ) -> None:
+        paths = len(path_offsets) - 1
+        obstacles = paths if obstacle_offsets is None else len(obstacle_offsets) - 1
+        n = int(path_offsets[-1]) if paths >= 0 else 0
+        arrays = _library.ObstacleArrays(
+            x=given(x, f8, (n,), "x"),
+            y=given(y, f8, (n,), "y"),
+            path_offsets=given(path_offsets, u8, (None,), "path_offsets"),
+            path_count=max(paths, 0),
+            obstacle_offsets=None
+            if obstacle_offsets is None
+            else given(obstacle_offsets, u8, (None,), "obstacle_offsets"),
+            obstacle_count=max(obstacles, 0),
+            is_area=None if is_area is None else given(is_area, u1, (obstacles,), "is_area"),
+        )
+        self._take(Handle("obstacles", "create", ctypes.addressof(arrays)))
+
+    @classmethod
+    def from_wkt(cls, text: Any, walkable: bool = False) -> Obstacles:
+        """Read obstacles from well-known text, or from what has some, such as a shapely geometry.
+
+        Parameters
+        ----------
+        text : str, or an object with an attribute `wkt`
+            POLYGON, MULTIPOLYGON, LINESTRING, MULTILINESTRING, GEOMETRYCOLLECTION, any number of them.
+        walkable : bool
+            Polygons are the floor that agents walk on, and their rings are walls; else they are solid.
+        """
+        made = cls.__new__(cls)
+        made._take(Handle("obstacles", "from_wkt", str(getattr(text, "wkt", text)).encode(), int(walkable)))
+        return made
+
+    def _take(self, handle: Handle) -> None:
+        self._handle = handle
+        self._pointer: int = handle.pointer
+
+    def __len__(self) -> int:
+        return self._counts()[0]
+
+    @property
+    def segment_count(self) -> int:
+        """The number of segments of all paths."""
+        return self._counts()[1]
+
+    def owner(self, segment: int) -> int:
+        """Return the obstacle that a segment belongs to."""
+        owner = ctypes.c_uint32()
+        check(lib.bch_obstacles_get_owner(self._pointer, segment, ctypes.byref(owner)))
+        return owner.value
+
+    def _counts(self) -> Tuple[int, int]:
+        obstacles, segments = ctypes.c_uint32(), ctypes.c_uint32()
+        check(lib.bch_obstacles_get_counts(self._pointer, ctypes.byref(obstacles), ctypes.byref(segments)))
+        return obstacles.value, segments.value
+
+    def __repr__(self) -> str:
+        return f"<bch.Obstacles: {len(self)} of {self.segment_count} segments>"

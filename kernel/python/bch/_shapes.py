@@ -1,0 +1,560 @@
+# SPDX-License-Identifier: MIT
+# Copyright (c) 2026 the bch authors
+
+"""Characters, and the sets of shapes that queries are asked about."""
+
+from __future__ import annotations
+
+import ctypes
+import os
+from ctypes import byref, c_char_p, c_float, c_size_t, c_uint32
+from typing import Any, List, NamedTuple, Optional, Sequence, Tuple, Union
+
+import numpy as np
+import numpy.typing as npt
+
+from . import _library
+from ._arrays import DISC, POSE, Float32, Records, UInt32, address, copied, f4, given, u4, u8
+from ._library import ArgumentError, Handle, check, lib
+from ._progress import Watched
+
+Path = Union[str, "os.PathLike[str]"]
+#: The depth of a level that has all discs of a shape.
+ALL_DEPTHS = 0xFFFFFFFF
+#: The clip of a pose that is none.
+REST_POSE = 0xFFFFFFFF
+_ALL_SLABS = 0xFFFFFFFF
+
+
+class Plan(NamedTuple):
+    """What a scene will use of its shapes; nothing else is built or stored."""
+
+    depths: Sequence[int] = (ALL_DEPTHS,)  #: levels of detail, ascending: cut depths of the hierarchies
+    slices: Sequence[float] = ()  #: heights of planes that cut bodies into slabs, metres, ascending
+    outlines: bool = True  #: keep outlines, for solid semantics and exact leaves
+    culling: bool = True  #: keep what lets queries skip most of their work; changes no answer
+    heights: bool = False  #: keep the heights of bodies, for agents at different heights
+    threshold: float = 0.01  #: the radius below which discs are not divided, metres
+
+
+class _CPlan:
+    """A plan as the library takes it, with the arrays that it names."""
+
+    def __init__(self, plan: Plan) -> None:
+        self.depths = np.array(plan.depths, u4)
+        self.slices = np.array(plan.slices, f4)
+        self.struct = _library.Plan(
+            outlines=plan.outlines,
+            culling=plan.culling,
+            heights=plan.heights,
+            depths=address(self.depths),
+            depth_count=len(self.depths),
+            slices=address(self.slices),
+            slice_count=len(self.slices),
+            threshold=plan.threshold,
+        )
+        self._pointer = ctypes.addressof(self.struct)
+
+
+def standing_slices(slabs: int) -> List[float]:
+    """Return planes that clear most false collisions of standing people, for 1, 2, 3, 4 or 8 slabs.
+
+    Returns
+    -------
+    list of float
+        slabs - 1 heights, metres, for `Plan.slices`.
+    """
+    planes = np.empty(max(slabs - 1, 0), f4)
+    check(lib.bch_standing_slices(slabs, address(planes)))
+    return [float(plane) for plane in planes]
+
+
+def depth_at_density(people_per_square_metre: float) -> int:
+    """Return the cut depth that a density of people asks for."""
+    depth = c_uint32()
+    check(lib.bch_depth_at_density(people_per_square_metre, byref(depth)))
+    return depth.value
+
+
+def _contours(get: Any, *of: int) -> List[Float32]:
+    outline = _library.Outline()
+    check(get(*of, byref(outline)))
+    points, offsets = np.empty((outline.point_count, 2), f4), np.empty(outline.offset_count, u8)
+    outline.points, outline.point_capacity = address(points), len(points)
+    outline.offsets, outline.offset_capacity = address(offsets), len(offsets)
+    check(get(*of, byref(outline)))
+    return [points[int(begin) : int(end)] for begin, end in zip(offsets[:-1], offsets[1:])]
+
+
+class Clip(NamedTuple):
+    """A motion of a character."""
+
+    name: str
+    seconds: float
+
+
+class Character:
+    """A mesh, a skeleton and clips. `default_male`, `default_female` and `import_character` make one."""
+
+    __slots__ = ("_handle", "_pointer", "name", "notes", "joints", "vertices", "triangles", "height", "clips")
+
+    def __init__(self, handle: Handle) -> None:
+        self._handle = handle
+        self._pointer: int = handle.pointer
+        info = _library.CharacterInfo()
+        check(lib.bch_character_get_info(self._pointer, byref(info)))
+        self.name: str = info.name.decode(errors="replace")
+        self.notes: List[str] = info.notes.decode(errors="replace").splitlines()
+        self.joints, self.vertices, self.triangles = info.joints, info.vertices, info.triangles
+        self.height: float = info.height
+        self.clips: List[Clip] = [self._clip(i) for i in range(info.clips)]
+
+    def _clip(self, i: int) -> Clip:
+        name, seconds = c_char_p(), c_float()
+        check(lib.bch_character_get_clip(self._pointer, i, byref(name), byref(seconds)))
+        return Clip((name.value or b"").decode(errors="replace"), seconds.value)
+
+    def sample_poses(self, count: int) -> Records:
+        """Return so many poses, spread evenly over all clips.
+
+        Returns
+        -------
+        (count,) POSE
+            Records of clip and seconds.
+        """
+        poses = np.empty(count, POSE)
+        check(lib.bch_character_sample_poses(self._pointer, count, address(poses)))
+        return poses
+
+    def __repr__(self) -> str:
+        return f"<bch.Character {self.name!r}: {self.triangles} triangles, {len(self.clips)} clips>"
+
+
+def default_male() -> Character:
+    """Make the built-in man, who is 1.88 m tall and needs no file."""
+    return Character(Handle("character", "default", 0))
+
+
+def default_female() -> Character:
+    """Make the built-in woman, who is 1.74 m tall and needs no file."""
+    return Character(Handle("character", "default", 1))
+
+
+def default_bulky_male() -> Character:
+    """Make the built-in bulky man, who needs no file."""
+    return Character(Handle("character", "default", 2))
+
+
+def import_character(
+    path: Path,
+    *,
+    up: Optional[str] = None,
+    scale: float = 0.0,
+    clip_files: Sequence[Path] = (),
+    force_clips: bool = False,
+    most_triangles: int = 0x7FFFFFFF,
+    seconds: float = 60.0,
+    memory: int = 2 << 30,
+) -> Character:
+    """Read a character from a file: glTF 2, FBX, Collada, MD5, IQM, OBJ, PLY or STL.
+
+    A child process reads the file, within limits, so that a malformed one cannot harm this one. Ctrl-C ends it.
+
+    Parameters
+    ----------
+    path : path
+    up : {"x", "y", "z"}, optional
+        The axis that points up, instead of what the file says.
+    scale : float
+        Metres for a unit of the file; 0: what the file says, or a guess. The character's `notes` tell.
+    clip_files : sequence of paths
+        Files whose clips follow those of the character's own file.
+    force_clips : bool
+        Take clips that belong to another skeleton.
+    most_triangles, seconds, memory
+        Limits; memory in bytes.
+    """
+    files = (c_char_p * len(clip_files))(*[os.fsencode(file) for file in clip_files])
+    if up not in (None, "x", "y", "z"):
+        raise ArgumentError(f"up is {up!r}; it is 'x', 'y' or 'z'")
+    with Watched("importing", False) as watched:
+        options = _library.ImportOptions(
+            up=-1 if up is None else "xyz".index(up),
+            scale=scale,
+            force_clips=force_clips,
+            clip_files=files,
+            clip_file_count=len(clip_files),
+            most_triangles=most_triangles,
+            seconds=seconds,
+            memory=memory,
+            progress=watched.callback,
+        )
+        return Character(
+            Handle("character", "import", os.fsencode(path), byref(options), checked=watched.run)
+        )
+
+
+def _as_poses(poses: Any, name: str = "poses") -> Records:
+    array: Records = np.asarray(poses, POSE) if isinstance(poses, (list, tuple)) else poses
+    given(array, POSE, (None,), name)
+    return array
+
+
+class PoseShaper:
+    """Makes the outlines of a character in pose after pose.
+
+    Parameters
+    ----------
+    character : Character
+    plan : Plan
+        Its slices cut the body.
+    """
+
+    __slots__ = ("_handle", "_pointer")
+
+    def __init__(self, character: Character, plan: Plan = Plan()) -> None:
+        c_plan = _CPlan(plan)
+        self._handle = Handle("pose_shaper", "create", character._pointer, c_plan._pointer)
+        self._pointer: int = self._handle.pointer
+
+    def outline(self, clip: int = REST_POSE, seconds: float = 0.0, slab: Optional[int] = None) -> List[Float32]:
+        """Return the outline of a pose: closed contours, counter-clockwise, of points in metres.
+
+        Parameters
+        ----------
+        clip : int
+            A clip by its place in `Character.clips`, or REST_POSE.
+        seconds : float
+            The time from the start of the clip.
+        slab : int, optional
+            One of the slabs between the plan's slices; by default all of them.
+        """
+        check(lib.bch_pose_shaper_make(self._pointer, _library.Pose(clip, seconds), 0))
+        return _contours(lib.bch_pose_shaper_get_outline, self._pointer, _ALL_SLABS if slab is None else slab)
+
+
+class Origin(NamedTuple):
+    """Which character, clip and time a shape was made from; None where a set does not know, or for the rest pose."""
+
+    character: Optional[str]
+    clip: Optional[str]
+    seconds: float
+
+
+class ShapeSet:
+    """Shapes of bodies, ready to be queried. Any number of threads may query one at once.
+
+    `ShapeSet.load` maps a baked file, `bake` makes one of characters, and `ShapeSetBuilder` one of bodies of your own.
+    """
+
+    __slots__ = ("_owner", "_pointer", "shape_count", "depths", "slices", "has_heights", "solid", "exact_leaves", "nbytes")
+
+    def __init__(self, pointer: int, owner: Any) -> None:
+        self._owner = owner
+        self._pointer = pointer
+        info = _library.ShapeSetInfo()
+        check(lib.bch_shape_set_get_info(pointer, byref(info)))
+        self.shape_count: int = info.shapes
+        self.depths: Tuple[int, ...] = tuple(copied(info.depths, u4, (info.levels,)).tolist())
+        self.slices: Tuple[float, ...] = tuple(copied(info.slices, f4, (info.slabs - 1,)).tolist())
+        self.has_heights, self.solid = bool(info.has_heights), bool(info.solid)
+        self.exact_leaves, self.nbytes = bool(info.exact_leaves), int(info.bytes)
+
+    @classmethod
+    def load(cls, path: Path, mapped: bool = True) -> ShapeSet:
+        """Load a baked file.
+
+        Parameters
+        ----------
+        path : path
+        mapped : bool
+            Map the file instead of reading it: no copy, and no process may write to it or shorten it while the set lives.
+        """
+        handle = Handle("shape_set", "load", os.fsencode(path), int(mapped))
+        return cls(handle.pointer, handle)
+
+    @classmethod
+    def from_polygons(
+        cls,
+        bodies: Sequence[Sequence[npt.ArrayLike]],
+        *,
+        heights: Optional[Sequence[Tuple[float, float]]] = None,
+        plan: Plan = Plan(),
+    ) -> ShapeSet:
+        """Make a set of footprints.
+
+        Parameters
+        ----------
+        bodies : sequence of sequences of (k, 2) arrays
+            The polygons of each body, metres, about the agent's position; either way round.
+        heights : sequence of (bottom, top), optional
+            The heights that each body takes, metres; by default all.
+        plan : Plan
+        """
+        builder = ShapeSetBuilder(plan)
+        for i, polygons in enumerate(bodies):
+            builder.add_polygons(polygons, heights=None if heights is None else heights[i])
+        return builder.finish()
+
+    def save(self, path: Path) -> None:
+        """Write the set as a baked file, whole or not at all."""
+        check(lib.bch_shape_set_save(self._pointer, os.fsencode(path)))
+
+    def __len__(self) -> int:
+        return self.shape_count
+
+    @property
+    def slab_count(self) -> int:
+        """The number of slabs that bodies are cut into; 1: bodies are whole."""
+        return len(self.slices) + 1
+
+    def discs(self, shape: int, level: int = -1) -> Records:
+        """Return the discs of a shape at a level, in the order in which queries number them.
+
+        Parameters
+        ----------
+        shape : int
+        level : int
+            Index into `depths`; negative ones count from the end.
+
+        Returns
+        -------
+        (n,) DISC
+            Records of x, y and radius, metres.
+        """
+        number = level + len(self.depths) if level < 0 else level
+        count = c_size_t()
+        check(lib.bch_shape_set_get_discs(self._pointer, shape, number, None, 0, byref(count)))
+        discs = np.empty(count.value, DISC)
+        check(lib.bch_shape_set_get_discs(self._pointer, shape, number, address(discs), len(discs), byref(count)))
+        return discs
+
+    def outline(self, shape: int, slab: Optional[int] = None) -> List[Float32]:
+        """Return the outline of a shape: closed contours, counter-clockwise, of points in metres.
+
+        Parameters
+        ----------
+        shape : int
+        slab : int, optional
+            One of the slabs; by default all of them.
+
+        Returns
+        -------
+        list of (k, 2) float32
+        """
+        return _contours(lib.bch_shape_set_get_outline, self._pointer, shape, _ALL_SLABS if slab is None else slab)
+
+    def radius(self, shape: int) -> float:
+        """Return the radius about an agent's position that holds all of its shape at every heading, metres."""
+        radius = c_float()
+        check(lib.bch_shape_set_get_radius(self._pointer, shape, byref(radius)))
+        return radius.value
+
+    def origin(self, shape: int) -> Origin:
+        """Return which character, clip and time a shape was made from."""
+        origin = _library.ShapeOrigin()
+        check(lib.bch_shape_set_get_origin(self._pointer, shape, byref(origin)))
+        character, clip = (None if name is None else name.decode() for name in (origin.character, origin.clip))
+        return Origin(character, clip, origin.seconds)
+
+    def verify(self, most: int = 100) -> List[str]:
+        """Check that what is stored of the shapes follows from their discs and outlines, for files from elsewhere.
+
+        Returns
+        -------
+        list of str
+            A line for each finding, at most so many; none for sets that the library made.
+        """
+        lines: List[str] = []
+        callback = _library.Finding(lambda _, line: lines.append(line.decode(errors="replace")))
+        count = c_size_t()
+        check(lib.bch_shape_set_verify(self._pointer, most, callback, None, byref(count)))
+        return lines
+
+    def __repr__(self) -> str:
+        slabs = f", {self.slab_count} slabs" if self.slices else ""
+        return f"<bch.ShapeSet of {self.shape_count} shapes, {len(self.depths)} levels{slabs}, {self.nbytes / 1e6:.1f} MB>"
+
+
+def _optional_heights(heights: Optional[Tuple[float, float]]) -> Any:
+    return None if heights is None else byref(_library.Heights(*heights))
+
+
+class ShapeSetBuilder:
+    """Builds a set body by body. Shapes are numbered in the order in which they are added.
+
+    Parameters
+    ----------
+    plan : Plan
+    """
+
+    __slots__ = ("_handle", "_pointer")
+
+    def __init__(self, plan: Plan = Plan()) -> None:
+        c_plan = _CPlan(plan)
+        self._handle = Handle("shape_set_builder", "create", c_plan._pointer)
+        self._pointer: int = self._handle.pointer
+
+    def add_poses(self, character: Character, poses: Any, *, threads: int = 0, progress: bool = False) -> None:
+        """Add the shapes of a character's poses, which all processors make. Ctrl-C ends it; the builder is then empty.
+
+        Parameters
+        ----------
+        character : Character
+        poses : (n,) POSE, or a sequence of (clip, seconds)
+        threads : int
+            0: all processors.
+        progress : bool
+            Show a bar, on a terminal.
+        """
+        array = _as_poses(poses)
+        with Watched(f"baking {character.name}", progress) as watched:
+            work = _library.Work(threads=threads, progress=watched.callback)
+            watched.run(
+                lib.bch_shape_set_builder_add_poses(
+                    self._pointer, character._pointer, address(array), len(array), byref(work)
+                )
+            )
+
+    def add_polygons(
+        self, polygons: Sequence[npt.ArrayLike], *, heights: Optional[Tuple[float, float]] = None
+    ) -> None:
+        """Add a body of polygons: (k, 2) corners in metres, about the agent's position, either way round."""
+        corners = [np.asarray(polygon, f4).reshape(-1, 2) for polygon in polygons]
+        offsets = np.zeros(len(corners) + 1, u8)
+        offsets[1:] = np.cumsum([len(each) for each in corners])
+        points = np.concatenate(corners) if corners else np.empty((0, 2), f4)
+        check(
+            lib.bch_shape_set_builder_add_polygons(
+                self._pointer, address(points), address(offsets), len(corners), _optional_heights(heights)
+            )
+        )
+
+    def add_capsules(
+        self, capsules: npt.ArrayLike, *, tolerance: float = 0.001, heights: Optional[Tuple[float, float]] = None
+    ) -> None:
+        """Add a body of capsules: (k, 5) numbers, x and y of one end, of the other, and a radius, metres."""
+        array = np.ascontiguousarray(np.asarray(capsules, f4).reshape(-1, 5))
+        check(
+            lib.bch_shape_set_builder_add_capsules(
+                self._pointer, address(array), len(array), tolerance, _optional_heights(heights)
+            )
+        )
+
+    def add_discs(self, discs: npt.ArrayLike, *, heights: Optional[Tuple[float, float]] = None) -> None:
+        """Add a body of discs: (k, 3) numbers, x, y and radius, metres. Queries number them as they are given."""
+        array = np.ascontiguousarray(np.asarray(discs, f4).reshape(-1, 3))
+        check(lib.bch_shape_set_builder_add_discs(self._pointer, address(array), len(array), _optional_heights(heights)))
+
+    def add_cylinder(self, radius: float, *, heights: Optional[Tuple[float, float]] = None) -> None:
+        """Add a cylinder about the agent's position."""
+        check(lib.bch_shape_set_builder_add_cylinder(self._pointer, radius, _optional_heights(heights)))
+
+    def add_mesh(self, positions: npt.ArrayLike, triangles: npt.ArrayLike) -> None:
+        """Add a mesh as it is: (n, 3) positions in metres, z up, and (t, 3) indices of them. Slices cut it."""
+        points = np.ascontiguousarray(np.asarray(positions, f4).reshape(-1, 3))
+        corners = np.ascontiguousarray(np.asarray(triangles, u4).reshape(-1, 3))
+        check(
+            lib.bch_shape_set_builder_add_mesh(
+                self._pointer, address(points), len(points), address(corners), len(corners)
+            )
+        )
+
+    def finish(self) -> ShapeSet:
+        """Return the set of all that was added. The builder is then empty."""
+        handle = Handle("shape_set_builder", "finish", self._pointer, free="shape_set")
+        return ShapeSet(handle.pointer, handle)
+
+
+def bake(
+    characters: Union[Character, Sequence[Character]],
+    poses: Union[int, Sequence[Any]] = 100,
+    *,
+    plan: Plan = Plan(),
+    path: Optional[Path] = None,
+    threads: int = 0,
+    progress: bool = False,
+) -> ShapeSet:
+    """Make a set of characters in many poses, and write it as a baked file.
+
+    Ctrl-C ends it and leaves no file.
+
+    Parameters
+    ----------
+    characters : Character, or a sequence of them
+    poses : int, or a sequence
+        So many poses of each, spread evenly over its clips; or for each character an (n,) POSE array.
+    plan : Plan
+    path : path, optional
+        Where to write the set.
+    threads : int
+        0: all processors. The bytes are the same for any number.
+    progress : bool
+        Show a bar, on a terminal.
+
+    Returns
+    -------
+    ShapeSet
+        The shapes of one character after the other.
+    """
+    people = [characters] if isinstance(characters, Character) else list(characters)
+    builder = ShapeSetBuilder(plan)
+    for i, character in enumerate(people):
+        each = character.sample_poses(poses) if isinstance(poses, int) else poses[i]
+        builder.add_poses(character, each, threads=threads, progress=progress)
+    made = builder.finish()
+    if path is not None:
+        made.save(path)
+    return made
+
+
+class DynamicShapeSet:
+    """A set whose shapes are replaced while it lives, for characters whose poses are new in every frame.
+
+    Parameters
+    ----------
+    start : ShapeSet
+        What it has to begin with, and its plan.
+    """
+
+    __slots__ = ("_handle", "_pointer", "shapes")
+
+    def __init__(self, start: ShapeSet) -> None:
+        self._handle = Handle("dynamic_shape_set", "create", start._pointer)
+        self._pointer: int = self._handle.pointer
+        lent = ctypes.c_void_p()
+        check(lib.bch_dynamic_shape_set_get_shapes(self._pointer, byref(lent)))
+        #: The present shapes, for queries.
+        self.shapes = ShapeSet(lent.value or 0, self._handle)
+
+    def replace(
+        self,
+        character: Character,
+        shapes: UInt32,
+        poses: Any,
+        *,
+        threshold: float = 0.01,
+        threads: int = 0,
+    ) -> None:
+        """Replace shapes by poses of a character, which all processors make. No query may run meanwhile.
+
+        Parameters
+        ----------
+        character : Character
+        shapes : (n,) uint32
+            Which shapes, each once.
+        poses : (n,) POSE, or a sequence of (clip, seconds)
+        threshold : float
+            The radius below which discs are not divided, metres.
+        threads : int
+            0: all processors.
+        """
+        array = _as_poses(poses)
+        which = given(shapes, u4, (len(array),), "shapes")
+        with Watched("posing", False) as watched:
+            work = _library.Work(threads=threads, progress=watched.callback)
+            watched.run(
+                lib.bch_dynamic_shape_set_replace_poses(
+                    self._pointer, character._pointer, which, address(array), len(array), threshold, byref(work)
+                )
+            )

@@ -1,0 +1,30 @@
+# SPDX-License-Identifier: MIT
+# Copyright (c) 2026 the bch authors
+
+"""First query: a crowd, who of it collides, and a picture of it. Writes first_query.png."""
+
+import bch
+import matplotlib.pyplot as plt
+import numpy as np
+
+people = bch.bake(
+    [bch.default_male(), bch.default_female()], poses=50, plan=bch.Plan(depths=(3, bch.ALL_DEPTHS))
+)
+
+n = 40
+random = np.random.default_rng(2014)
+crowd = bch.Agents(
+    shape=random.integers(len(people), size=n, dtype=np.uint32),
+    x=random.uniform(0, 5, n),
+    y=random.uniform(0, 4, n),
+    heading=random.uniform(-np.pi, np.pi, n),
+)
+
+pairs = bch.candidate_pairs(people, crowd)
+hit = bch.collide(people, crowd, pairs)
+print(f"{len(pairs)} pairs of {n} people may collide, {hit.sum()} do")
+
+figure, ax = plt.subplots(figsize=(7, 6), layout="constrained")
+bch.plot.crowd(ax, people, crowd, discs=0)
+ax.set_title(f"{hit.sum()} collisions, and the discs at depth 3")
+figure.savefig("first_query.png", dpi=120)

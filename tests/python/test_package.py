@@ -1,0 +1,253 @@
+# SPDX-License-Identifier: MIT
+# Copyright (c) 2026 the bch authors
+
+"""Manners of the package: errors, sets and characters, interrupts, memory, documentation."""
+
+import gc
+import inspect
+import os
+import pty
+import signal
+import subprocess
+import sys
+import tempfile
+import textwrap
+import time
+import tracemalloc
+import unittest
+from pathlib import Path
+
+import bch
+import numpy as np
+
+
+def squares(n=2):
+    """A set of squares of 1, 2 ... metres, and n agents on a line."""
+    bodies = [[[(-k, -k), (k, -k), (k, k), (-k, k)]] for k in (0.5, 1.0)]
+    shapes = bch.ShapeSet.from_polygons(bodies, plan=bch.Plan(heights=True), heights=[(0.0, 1.0), (0.0, 2.0)])
+    agents = bch.Agents(np.zeros(n, np.uint32), 0.9 * np.arange(n), np.zeros(n), np.zeros(n))
+    return shapes, agents
+
+
+class Errors(unittest.TestCase):
+    def setUp(self):
+        self.shapes, self.agents = squares()
+        self.pairs = np.array([[0, 1]], np.uint32)
+
+    def expect(self, kind, words, call, *arguments, **named):
+        with self.assertRaises(kind) as caught:
+            call(*arguments, **named)
+        self.assertIsInstance(caught.exception, bch.Error)
+        for word in words:
+            self.assertIn(word, str(caught.exception))
+
+    def test_arrays(self):
+        collide = lambda pairs, **more: bch.collide(self.shapes, self.agents, pairs, **more)
+        for wrong, words in (
+            (self.pairs.astype(np.int64), ["pairs is an array of int64", "(1, 2)", "uint32", "(n, 2)"]),
+            (np.zeros((4, 3), np.uint32), ["(4, 3)"]),
+            (np.zeros((4, 4), np.uint32)[:, ::2], ["not contiguous"]),
+            ([[0, 1]], ["a list"]),
+        ):
+            self.expect(TypeError, words, collide, wrong)
+        self.expect(TypeError, ["out is an array of uint8"], collide, self.pairs, out=np.empty(1, np.uint8))
+        read_only = np.empty(1, bool)
+        read_only.flags.writeable = False
+        self.expect(TypeError, ["out is read-only"], collide, self.pairs, out=read_only)
+        x = np.zeros(2)
+        self.expect(TypeError, ["heading", "float32"], bch.Agents, self.agents.shape, x, x, x.astype(np.float32))
+        self.expect(TypeError, ["y", "(3,)", "(2,)"], bch.Agents, self.agents.shape, x, np.zeros(3), x)
+
+    def test_values(self):
+        collide = lambda **more: bch.collide(self.shapes, self.agents, self.pairs, **more)
+        self.expect(ValueError, ["semantics is 'firm'", "'solid'"], collide, semantics="firm")
+        self.expect(ValueError, ["threads is -1"], collide, threads=-1)
+        self.expect(ValueError, ["mmx"], collide, implementation="mmx")
+        self.agents.x[1] = np.nan
+        self.expect(ValueError, ["agent 1"], collide)
+        self.agents.x[1] = 0
+        self.agents.shape[0] = 9
+        self.expect(ValueError, ["9"], collide)
+        self.expect(IndexError, ["7"], self.shapes.discs, 7)
+        self.expect(IndexError, ["7"], self.shapes.outline, 7)
+        self.expect(ValueError, ["directions is 300"], bch.penetration, self.shapes, self.agents, self.pairs, 300)
+        self.expect(ValueError, ["LINE"], bch.Obstacles.from_wkt, "LINE")
+
+    def test_files(self):
+        with tempfile.TemporaryDirectory() as folder:
+            missing, wrong = Path(folder) / "a.bch", Path(folder) / "b.bch"
+            wrong.write_text("not a set")
+            self.expect(FileNotFoundError, ["a.bch"], bch.ShapeSet.load, missing)
+            self.expect(OSError, ["b.bch"], bch.ShapeSet.load, wrong)
+            self.expect(FileNotFoundError, ["a.glb"], bch.import_character, Path(folder) / "a.glb")
+            self.expect(OSError, ["b.bch"], bch.import_character, wrong)
+            self.expect(OSError, ["nowhere"], self.shapes.save, Path(folder) / "nowhere" / "c.bch")
+
+    def test_a_library_that_is_not_there(self):
+        environment = dict(os.environ, BCH_LIBRARY="/nowhere/libbch.so")
+        ended = subprocess.run([sys.executable, "-c", "import bch"], env=environment, capture_output=True, text=True)
+        self.assertEqual(ended.returncode, 1)
+        self.assertIn("ImportError: bch: /nowhere/libbch.so", ended.stderr)
+
+
+class Sets(unittest.TestCase):
+    def test_own_bodies(self):
+        shapes, _ = squares()
+        self.assertEqual((len(shapes), shapes.depths, shapes.slices, shapes.has_heights), (2, (bch.ALL_DEPTHS,), (), True))
+        (contour,) = shapes.outline(1)
+        self.assertEqual(sorted(map(tuple, contour.tolist())), [(-1, -1), (-1, 1), (1, -1), (1, 1)])
+        self.assertAlmostEqual(shapes.radius(1), 2**0.5, places=2)
+        self.assertEqual(shapes.discs(0).dtype, bch.ShapeSet.discs(shapes, 0).dtype)
+        self.assertEqual(shapes.verify(), [])
+        builder = bch.ShapeSetBuilder()
+        builder.add_discs([(0, 0, 0.2), (0.3, 0, 0.1)])
+        builder.add_cylinder(0.25)
+        builder.add_capsules([(-0.2, 0, 0.2, 0, 0.1)])
+        builder.add_mesh([(0, 0, 0), (1, 0, 0), (1, 1, 1)], [(0, 1, 2)])
+        own = builder.finish()
+        np.testing.assert_allclose(own.discs(0)["x"], [0, 0.3], atol=1e-6)
+        self.assertEqual([own.origin(i).character for i in range(4)], ["discs", "cylinder", "capsules", "mesh"])
+        self.assertEqual(len(builder.finish()), 0)
+
+    def test_heights(self):
+        shapes, agents = squares()
+        pairs = np.array([[0, 1]], np.uint32)
+        above = bch.Agents(agents.shape, agents.x, agents.y, agents.heading, z=np.array([0.0, 1.5]))
+        self.assertTrue(bch.collide(shapes, agents, pairs)[0])
+        self.assertFalse(bch.collide(shapes, above, pairs)[0])
+
+    def test_baking(self):
+        female = bch.default_female()
+        self.assertEqual(female.clips[0].name, "walk")
+        plan = bch.Plan(depths=(0, 3, bch.ALL_DEPTHS), slices=bch.standing_slices(3))
+        with tempfile.TemporaryDirectory() as folder:
+            path = Path(folder) / "women.bch"
+            made = bch.bake(female, poses=8, plan=plan, path=path)
+            loaded = bch.ShapeSet.load(path)
+            self.assertEqual(os.listdir(folder), ["women.bch"])
+        self.assertEqual(loaded.origin(5), made.origin(5))
+        self.assertEqual(made.origin(5).character, "default:female")
+        self.assertEqual((loaded.depths, loaded.slab_count), (plan.depths, 3))
+        whole = {tuple(p) for contour in loaded.outline(2) for p in contour.tolist()}
+        parts = {tuple(p) for slab in range(3) for contour in loaded.outline(2, slab) for p in contour.tolist()}
+        self.assertEqual(whole, parts)
+        poses = female.sample_poses(8)
+        outline = bch.PoseShaper(female).outline(int(poses[2]["clip"]), float(poses[2]["seconds"]))
+        np.testing.assert_array_equal(outline[0], bch.bake(female, poses=[poses[2:3]]).outline(0)[0])
+
+    def test_replacing(self):
+        male = bch.default_male()
+        poses = male.sample_poses(6)
+        dynamic = bch.DynamicShapeSet(bch.bake(male, poses=[poses[:3]]))
+        dynamic.replace(male, np.array([2, 0, 1], np.uint32), poses[3:])
+        later = bch.bake(male, poses=[poses[3:]])
+        for shape, of in ((2, 0), (0, 1), (1, 2)):
+            np.testing.assert_array_equal(dynamic.shapes.discs(shape), later.discs(of))
+        with self.assertRaisesRegex(ValueError, "as one before"):
+            dynamic.replace(male, np.array([1, 1], np.uint32), poses[:2])
+        shapes = dynamic.shapes
+        del dynamic
+        self.assertEqual(len(shapes.outline(0)), len(later.outline(1)))  # it keeps what it stands on
+
+    def test_densities(self):
+        x = np.array([0.0, 1.0, 50.0])
+        np.testing.assert_allclose(bch.local_densities(x, np.zeros(3)), np.array([2, 2, 1]) / (4 * np.pi))
+        self.assertGreaterEqual(bch.depth_at_density(0.1), 0)
+
+
+class Interrupts(unittest.TestCase):
+    def test_baking_ends_and_leaves_no_file(self):
+        with tempfile.TemporaryDirectory() as folder:
+            script = f"""
+                import bch
+                print("begin", flush=True)
+                bch.bake(bch.default_male(), poses=200_000, path={folder + "/people.bch"!r})
+            """
+            baking = subprocess.Popen(
+                [sys.executable, "-c", textwrap.dedent(script)], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
+            )
+            self.assertEqual(baking.stdout.readline(), "begin\n")
+            time.sleep(0.5)
+            baking.send_signal(signal.SIGINT)
+            _, errors = baking.communicate(timeout=60)
+            self.assertIn("KeyboardInterrupt", errors)
+            self.assertEqual(os.listdir(folder), [])
+
+    def test_a_bar_on_a_terminal(self):
+        script = "import bch; bch.bake(bch.default_male(), poses=3000, progress=True)"
+        terminal, other = pty.openpty()
+        subprocess.run([sys.executable, "-c", script], stderr=other, check=True)
+        os.close(other)
+        shown = b""
+        try:
+            while part := os.read(terminal, 4096):
+                shown += part
+        except OSError:
+            pass  # the end of a terminal that nobody writes to
+        os.close(terminal)
+        self.assertIn(b"baking default:male", shown)
+        ended = subprocess.run([sys.executable, "-c", script], capture_output=True)
+        self.assertEqual((ended.stdout, ended.stderr), (b"", b""))
+
+
+class Memory(unittest.TestCase):
+    def test_calls_with_out_allocate_nothing(self):
+        n = 50_000
+        shapes, agents = squares(n)
+        pairs = np.stack([np.arange(n - 1), np.arange(1, n)], axis=1).astype(np.uint32)
+        hits, gaps = np.empty(len(pairs), bool), np.empty(len(pairs), np.float32)
+        depths = np.empty(len(pairs), bch.PENETRATION)
+        ways = np.ones(len(pairs))
+
+        def ask():
+            bch.collide(shapes, agents, pairs, out=hits)
+            bch.within(shapes, agents, pairs, ways, out=hits)
+            bch.clearance(shapes, agents, pairs, max_distance=0.5, out=gaps)
+            bch.penetration(shapes, agents, pairs, out=depths)
+            bch.time_of_impact(shapes, agents, pairs, ways, ways, out=gaps)
+
+        ask()
+        tracemalloc.start()
+        ask()
+        gc.collect()
+        before, _ = tracemalloc.get_traced_memory()
+        tracemalloc.reset_peak()
+        for _ in range(10):
+            ask()
+        gc.collect()
+        after, peak = tracemalloc.get_traced_memory()
+        tracemalloc.stop()
+        # Structs and numbers of a call, of which numpy keeps some for the next; the smallest answer takes 50 kB.
+        self.assertLess(after - before, 10_000)
+        self.assertLess(peak - before, 20_000)
+
+    def test_objects_are_freed(self):
+        statm = Path("/proc/self/statm")
+        resident = lambda: int(statm.read_text().split()[1]) * os.sysconf("SC_PAGESIZE")
+        people = bch.bake(bch.default_male(), poses=200)
+        make = lambda: bch.DynamicShapeSet(people).shapes
+        for _ in range(5):
+            make()
+        before = resident()
+        for _ in range(50):
+            make()
+        self.assertLess(resident() - before, 10 * people.nbytes)
+
+
+class Documentation(unittest.TestCase):
+    def test_everything_public_explains_itself(self):
+        for name in bch.__all__:
+            thing = getattr(bch, name)
+            if not callable(thing):
+                continue
+            self.assertTrue(inspect.getdoc(thing), name)
+            if inspect.isfunction(thing) and inspect.signature(thing).parameters:
+                text = inspect.getdoc(thing)
+                self.assertTrue("Parameters" in text or len(inspect.signature(thing).parameters) == 1, name)
+            for member, function in inspect.getmembers(thing, inspect.isfunction):
+                if not member.startswith("_") and function.__module__.startswith("bch"):
+                    self.assertTrue(inspect.getdoc(function), f"{name}.{member}")
+
+
+if __name__ == "__main__":
+    unittest.main()
