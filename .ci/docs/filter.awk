@@ -11,7 +11,16 @@ name ~ /\.md$/ {
 
 # Examples: the comment that says what one shows, and nothing of its code.
 name ~ /\.cpp$/ { print FNR == 1 ? "/** \\example " name : FNR == 2 ? "\\details" : /^\/\/ / ? substr($0, 3) : ""; next }
-END { if (name ~ /\.cpp$/) print "*/" }
+END { if (name ~ /\.(cpp|c)$/) print "*/" }
+name ~ /\.c$/ {
+  text = /^\/\* [^S].*\*\/$/ ? substr($0, 4, length($0) - 6) : ""
+  print (FNR == 1 ? "/** \\example " name " \\details " : "") text
+  next
+}
+
+# The C interface: one header, one module.
+name ~ /\.h$/ { print FNR == 1 ? "/** \\defgroup h_bch c_api: the C interface" : FNR == 2 ? "\\{ */" : $0; next }
+END { if (name ~ /\.h$/) print "/** \\} */" }
 
 # Headers: each is a module in the place of its first four lines. Its description is what it declares, with links but for names
 # that others declare, too.
