@@ -86,6 +86,21 @@ bch_status bch_character_default(int32_t which, bch_character** character) {
   });
 }
 
+bch_status bch_character_pedestrian(int32_t sex, double stature, double shoulders,
+                                    bch_character** character) {
+  return guarded([&] {
+    required(character, "character");
+    const Sex of = one_of(sex, Sex::male, "sex");
+    hand_out(character_of(default_pedestrian(of, stature, shoulders),
+                          of == Sex::male ? "pedestrian:male" : "pedestrian:female"),
+             character);
+  });
+}
+
+double bch_pedestrian_strides_per_second(double metres_per_second) {
+  return pedestrian_strides_per_second(metres_per_second);
+}
+
 bch_status bch_character_import(const char* path, const bch_import_options* options,
                                 bch_character** character) {
   return guarded([&] {

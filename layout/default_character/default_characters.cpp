@@ -1,8 +1,14 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
 #include <bch/default_characters.hpp>
 
+#include "layout/base/shortest.hpp"
 #include "layout/character/eigen.hpp"
 #include "layout/default_character/body_weights.hpp"
 #include "layout/default_character/parametric_body.hpp"
@@ -64,7 +70,40 @@ void add_clips(Character& character, const Manner& m) {
   add("idle think", 6, Travel::authored, idling(m, Idle::think));
 }
 
+/// Scales a character's metres.
+void scale(Character& character, float factor) {
+  for (auto& row : character.to_ground.rows)
+    for (float& number : row) number *= factor;
+}
+
 }  // namespace
+
+double pedestrian_strides_per_second(double metres_per_second) {
+  return 0.5 * (1.3 + 0.5 * metres_per_second);
+}
+
+Character default_pedestrian(Sex sex, double stature, double shoulders) {
+  if (!(stature >= 0.8 && stature <= 2.4))
+    throw std::invalid_argument("stature of a pedestrian is " + shortest(stature) +
+                                ", not from 0.8 to 2.4 m");
+  if (!(std::abs(shoulders) <= 1))
+    throw std::invalid_argument("shoulders of a pedestrian are turned by " + shortest(shoulders) +
+                                ", not from -1 to 1");
+  const BodyShape shape = sex == Sex::male ? male_shape() : female_shape();
+  const JointPositions joints = joint_positions(shape);
+  Character character = at_rest(sex == Sex::male ? "pedestrian male" : "pedestrian female", shape, joints);
+  const Manner manner{joints, shape.stature, 1, 1, 0.05, 0.8, 0.15, 1};
+  for (std::uint32_t k = 0; k < pedestrian_speeds; ++k) {
+    const double speed = k * pedestrian_speed_step;
+    // The body walks as it is drawn, and is scaled below.
+    const Stride stride{speed * shape.stature / stature, pedestrian_strides_per_second(speed), shoulders};
+    character.clips.push_back(bake(character, joints, "walk " + shortest(static_cast<float>(speed)) + " m/s",
+                                   2, Travel::authored, striding(manner, stride)));
+  }
+  character.root_joint = static_cast<std::int32_t>(joint_index(BodyJoint::head));
+  scale(character, static_cast<float>(stature / shape.stature));
+  return character;
+}
 
 Character default_male() {
   const BodyShape shape = male_shape();

@@ -27,6 +27,14 @@ struct Gait {
 
 Motion walking(const Manner& manner, const Gait& gait);
 
+/// Walking at a speed, from standing to a fast walk, by where the feet are: one on the ground stays where it is.
+struct Stride {
+  double speed;  ///< metres a second
+  double strides_per_second;
+  double shoulders = 0;  ///< how far they are turned against the way, radians, counter-clockwise
+};
+Motion striding(const Manner& manner, const Stride& stride);
+
 /// Steps about the own axis; `direction` is 1 to the left, -1 to the right.
 Motion turning(const Manner& manner, double direction);
 Motion side_stepping(const Manner& manner, double direction);

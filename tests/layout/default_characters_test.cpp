@@ -278,5 +278,58 @@ TEST_P(DefaultCharacter, MovesWithoutJumps) {
   }
 }
 
+/// A pedestrian of each sex, and the distance between a foot on the ground and where it was before.
+TEST(Pedestrians, FeetOnTheGroundStayWhereTheyAre) {
+  for (const Sex sex : {Sex::female, Sex::male}) {
+    const double stature = sex == Sex::male ? 1.8 : 1.6;
+    const Character character = default_pedestrian(sex, stature);
+    ASSERT_EQ(character.clips.size(), pedestrian_speeds);
+    for (std::uint32_t clip = 0; clip < pedestrian_speeds; clip += 6) {
+      const Channel& pelvis = character.clips[clip].channels[0];
+      const float scale = character.to_ground.rows[0][0];
+      const float way = scale * (pelvis.positions.back().value.x - pelvis.positions.front().value.x);
+      EXPECT_NEAR(way / pelvis.positions.back().time, pedestrian_speed_step * clip, 1e-4)
+          << character.clips[clip].name;
+    }
+  }
+}
+
+TEST(Pedestrians, StandUnderTheirHeadsWithTheirStature) {
+  for (const double stature : {1.2, 1.75, 2.0}) {
+    const Character character = default_pedestrian(Sex::male, stature);
+    EXPECT_EQ(character.joints.at(static_cast<std::size_t>(character.root_joint)).name, "head");
+    detail::Skinner skinner(character);
+    for (const std::uint32_t clip : {0u, 45u}) {
+      float highest = 0, lowest = 9, crown_x = 9;
+      for (const Vec3& p : skinner.pose({clip, 0.3f})) {
+        lowest = std::min(lowest, p.z);
+        if (p.z > highest) highest = p.z, crown_x = p.x;
+      }
+      EXPECT_NEAR(lowest, 0, 0.01);
+      EXPECT_NEAR(highest, stature, 0.05 * stature) << clip;
+      EXPECT_NEAR(crown_x, 0, 0.06);
+    }
+  }
+}
+
+TEST(Pedestrians, StridesAreThoseThatPeopleTake) {
+  EXPECT_NEAR(2 * pedestrian_strides_per_second(1.4), 2.0, 0.05);           // steps a second
+  EXPECT_NEAR(1.4 / (2 * pedestrian_strides_per_second(1.4)), 0.71, 0.02);  // metres a step
+}
+
+TEST(Pedestrians, TurnTheirShoulders) {
+  const auto width = [](double shoulders) {
+    const Character character = default_pedestrian(Sex::male, 1.75, shoulders);
+    detail::Skinner skinner(character);
+    float left = 0;
+    for (const Vec3& p : skinner.pose({0, 0.0f})) left = std::max(left, p.y);
+    return left;
+  };
+  EXPECT_LT(width(0.7), width(0) - 0.02f);
+  EXPECT_THROW(default_pedestrian(Sex::male, 1.75, 1.5), std::invalid_argument);
+  EXPECT_THROW(default_pedestrian(Sex::female, 3), std::invalid_argument);
+  EXPECT_THROW(default_pedestrian(Sex::female, std::nan("")), std::invalid_argument);
+}
+
 }  // namespace
 }  // namespace bch

@@ -226,6 +226,7 @@ _letters: Dict[str, Any] = {
 }
 _functions = {
     "character_default": "ip",
+    "character_pedestrian": "iddp",
     "character_import": "spp",
     "character_get_info": "pp",
     "character_get_clip": "pupp",

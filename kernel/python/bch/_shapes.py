@@ -145,6 +145,25 @@ def default_bulky_male() -> Character:
     return Character(Handle("character", "default", 2))
 
 
+def default_pedestrian(sex: str = "male", stature: float = 1.75, shoulders: float = 0.0) -> Character:
+    """Make a pedestrian for recorded and simulated crowds: the built-in man or woman of a stature.
+
+    Clip k is one stride at 0.03 k m/s, from 0 to 2.19 m/s, which begins with the left heel's contact. Arms are kept close, and
+    the shape stands under the head, which is what cameras track.
+
+    Parameters
+    ----------
+    sex : {"female", "male"}
+    stature : float
+        Metres, from 0.8 to 2.4.
+    shoulders : float
+        How far the shoulders are turned against the way, radians, counter-clockwise.
+    """
+    if sex not in ("female", "male"):
+        raise ArgumentError(f"sex is {sex!r}; it is 'female' or 'male'")
+    return Character(Handle("character", "pedestrian", int(sex == "male"), stature, shoulders))
+
+
 def import_character(
     path: Path,
     *,

@@ -109,6 +109,15 @@ enum { BCH_MALE = 0, BCH_FEMALE = 1, BCH_BULKY_MALE = 2 };
 /** Makes a built-in character, who needs no file. */
 BCH_API bch_status bch_character_default(int32_t which, bch_character** character);
 
+/** The sexes of pedestrians. */
+enum { BCH_PEDESTRIAN_FEMALE = 0, BCH_PEDESTRIAN_MALE = 1 };
+/** Makes a pedestrian of a stature in metres, for recorded and simulated crowds: clip k is one stride at k * BCH_PEDESTRIAN_SPEED_STEP, in
+ * metres a second, from 0 to 2.19. The shape stands under the head. `shoulders` are turned against the way, radians. */
+BCH_API bch_status bch_character_pedestrian(int32_t sex, double stature, double shoulders, bch_character** character);
+#define BCH_PEDESTRIAN_SPEED_STEP 0.03
+/** Returns the strides, of two steps each, that a pedestrian takes in a second. */
+BCH_API double bch_pedestrian_strides_per_second(double metres_per_second);
+
 /** What the caller knows better than a character's file. */
 typedef struct bch_import_options {
   uint32_t size;                 /**< sizeof(bch_import_options) */
