@@ -25,6 +25,12 @@ void check_size(const void* given, std::size_t known, const char* argument) {
                       (absurd ? "" : ", and fields that this version does not know are set"));
 }
 
+void check_index(std::size_t index, std::size_t count, const char* argument) {
+  if (index >= count)
+    throw Failure(BCH_OUT_OF_RANGE,
+                  std::string(argument) + " is " + std::to_string(index) + " of " + std::to_string(count));
+}
+
 void require_file(const char* path) {
   struct stat file;
   if (stat(path, &file) != 0 && errno == ENOENT)

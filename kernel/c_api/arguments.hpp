@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <cstring>
 #include <functional>
 #include <span>
@@ -38,6 +39,12 @@ std::span<Value> array_of(Value* values, std::size_t count, const char* argument
   return {values, count};
 }
 
+/// Views an array that says where each of `count` parts of another one begins, and where the last one ends.
+inline std::span<const uint64_t> offsets_of(const uint64_t* offsets, std::size_t count,
+                                            const char* argument) {
+  return array_of(offsets, count < SIZE_MAX ? count + 1 : count, argument);  // which no memory holds
+}
+
 /// Views an array of the caller as one of the library's own type, which has the same members one after the other.
 template <class Own, class Value>
 auto same_array(Value* values, std::size_t count, const char* argument) {
@@ -67,6 +74,10 @@ void fill(Struct* to, Struct values, const char* argument) {
   values.size = to->size;
   std::memcpy(to, &values, to->size < sizeof(Struct) ? to->size : sizeof(Struct));
 }
+
+/// Checks an index.
+/// Errors:  throws Failure with BCH_OUT_OF_RANGE, naming the argument.
+void check_index(std::size_t index, std::size_t count, const char* argument);
 
 /// Returns the enumerator of a number.
 /// Errors:  throws Failure naming the argument, beyond the last one.

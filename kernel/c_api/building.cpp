@@ -13,11 +13,12 @@
 #include "kernel/c_api/posing.hpp"
 #include "kernel/c_api/work.hpp"
 #include "kernel/runtime/ordered_build.hpp"
+#include "layout/shape_set/builder_end.hpp"
 
 struct bch_shape_set_builder {
   explicit bch_shape_set_builder(const bch_plan* given)
       : plan(bch::c_api::plan_of(given)), threshold(bch::c_api::threshold_of(given)), prepared(plan) {
-    clear();
+    clear(std::make_unique<bch::ShapeSetBuilder>(plan));
   }
 
   const bch::ShapeSetPlan plan;
@@ -26,8 +27,8 @@ struct bch_shape_set_builder {
   std::unique_ptr<bch::ShapeSetBuilder> builder;
   bch::ShapeOrigins origins;
 
-  void clear() {
-    builder = std::make_unique<bch::ShapeSetBuilder>(plan);
+  void clear(std::unique_ptr<bch::ShapeSetBuilder> empty) noexcept {
+    builder = std::move(empty);
     origins = {static_cast<double>(threshold), {}, {}};
   }
 };
@@ -48,7 +49,10 @@ ShapeOrigin origin_of(ShapeOrigins& origins, const std::string& name, const Char
   const auto first = static_cast<uint32_t>(origins.names.size());
   const std::size_t clips = character.clips.size();
   // As it stands there already where the character was the last one to be added.
-  const bool known = first > clips && origins.names[first - clips - 1] == name;
+  const auto last = origins.names.end() - static_cast<std::ptrdiff_t>(std::min<std::size_t>(first, clips));
+  const bool known = first > clips && last[-1] == name &&
+                     std::equal(last, origins.names.end(), character.clips.begin(),
+                                [](const std::string& clip, const Clip& of) { return clip == of.name; });
   if (!known) {
     origins.names.push_back(name);
     for (const Clip& clip : character.clips) origins.names.push_back(clip.name);
@@ -57,20 +61,45 @@ ShapeOrigin origin_of(ShapeOrigins& origins, const std::string& name, const Char
   return {number, number + 1 + at.clip, at.seconds};
 }
 
-void add(bch_shape_set_builder& to, const Shape& shape, ShapeOrigin origin) {
-  to.prepared.prepare(shape, to.origins.origins.size());
-  to.origins.origins.reserve(to.origins.origins.size() + 1);
-  to.builder->add(to.prepared);
-  to.origins.origins.push_back(origin);
+/// Adds shapes, all of them or, where that fails, none.
+template <class Add>
+void all_or_none(bch_shape_set_builder& to, Add add) {
+  const detail::BuilderEnd end = to.builder->end();
+  const std::size_t names = to.origins.names.size(), origins = to.origins.origins.size();
+  try {
+    add();
+  } catch (...) {
+    to.builder->go_back(end);
+    to.origins.names.resize(names);
+    to.origins.origins.resize(origins);
+    throw;
+  }
 }
 
-/// Adds a body of the caller's own, which has no pose.
+/// Adds a shape. `origin_in(origins)` names where it comes from.
+template <class OriginIn>
+void add(bch_shape_set_builder& to, const Shape& shape, OriginIn origin_in) {
+  to.prepared.prepare(shape, to.origins.origins.size());
+  all_or_none(to, [&] {
+    to.origins.origins.push_back(origin_in(to.origins));
+    to.builder->add(to.prepared);
+  });
+}
+
+/// Adds a shape that has no pose.
+void add_without_pose(bch_shape_set_builder& to, const char* kind, const Shape& shape) {
+  add(to, shape, [&](ShapeOrigins& in) {
+    return ShapeOrigin{number_of(in, kind), ShapeOrigin::rest_pose, 0};
+  });
+}
+
+/// Adds a body of the caller's own.
 void add_own(bch_shape_set_builder* handle, const char* kind, const bch_heights* heights,
              const std::function<Shape(const bch_shape_set_builder&)>& make) {
   bch_shape_set_builder& to = object_of(handle, "builder");
   Shape shape = make(to);
   if (heights != nullptr) shape.heights = {heights->bottom, heights->top};
-  add(to, shape, {number_of(to.origins, kind), ShapeOrigin::rest_pose, 0});
+  add_without_pose(to, kind, shape);
 }
 
 void add_poses(bch_shape_set_builder& to, const bch_character& of, std::span<const bch_pose> poses,
@@ -96,13 +125,15 @@ void add_poses(bch_shape_set_builder& to, const bch_character& of, std::span<con
 
 std::vector<std::vector<Vec2>> polygons_of(const bch_vec2* corners, const uint64_t* offsets,
                                            size_t polygons) {
-  const auto begin = array_of(offsets, polygons + 1, "offsets");
-  std::vector<std::vector<Vec2>> all;
-  for (std::size_t i = 0; i < polygons; ++i) {
+  const auto begin = offsets_of(offsets, polygons, "offsets");
+  for (std::size_t i = 0; i < polygons; ++i)
     if (begin[i] > begin[i + 1])
       throw Failure(BCH_INVALID_ARGUMENT,
                     "offsets[" + std::to_string(i + 1) + "] is less than the one before");
-    const auto of = same_array<Vec2>(corners + begin[i], begin[i + 1] - begin[i], "corners");
+  const auto points = same_array<Vec2>(corners, begin.back(), "corners");
+  std::vector<std::vector<Vec2>> all;
+  for (std::size_t i = 0; i < polygons; ++i) {
+    const auto of = points.subspan(begin[i], begin[i + 1] - begin[i]);
     all.emplace_back(of.begin(), of.end());
   }
   return all;
@@ -155,6 +186,8 @@ bch_status bch_pose_shaper_make(bch_pose_shaper* handle, bch_pose pose, int32_t 
 bch_status bch_pose_shaper_get_outline(const bch_pose_shaper* handle, uint32_t slab, bch_outline* outline) {
   return guarded([&] {
     const Shape& shape = made_by(object_of(handle, "shaper"));
+    if (slab != BCH_ALL_SLABS && slab > 0 && slab >= shape.slabs.size())
+      throw Failure(BCH_OUT_OF_RANGE, "slab is " + std::to_string(slab));
     OutlineWriter to(outline);
     const auto add = [&](const Outline& one) {
       for (std::size_t i = 0; i < one.contours(); ++i) to.add(one.contour(i));
@@ -162,8 +195,6 @@ bch_status bch_pose_shaper_get_outline(const bch_pose_shaper* handle, uint32_t s
     if (shape.slabs.empty()) add(shape.outline);
     for (std::size_t i = 0; i < shape.slabs.size(); ++i)
       if (slab == BCH_ALL_SLABS || slab == i) add(shape.slabs[i].outline);
-    if (slab != BCH_ALL_SLABS && slab > 0 && slab >= shape.slabs.size())
-      throw Failure(BCH_OUT_OF_RANGE, "slab is " + std::to_string(slab));
     to.finish();
   });
 }
@@ -186,12 +217,7 @@ bch_status bch_shape_set_builder_add_poses(bch_shape_set_builder* handle, const 
     const bch_character& of = object_of(character, "character");
     const auto all = array_of(poses, count, "poses");
     check_poses(*of.character, all);
-    try {
-      add_poses(builder, of, all, work);
-    } catch (...) {
-      builder.clear();
-      throw;
-    }
+    all_or_none(builder, [&] { add_poses(builder, of, all, work); });
   });
 }
 
@@ -199,7 +225,7 @@ bch_status bch_shape_set_builder_add_shape(bch_shape_set_builder* handle, const 
   return guarded([&] {
     bch_shape_set_builder& builder = object_of(handle, "builder");
     const bch_pose_shaper& by = object_of(shaper, "shaper");
-    add(builder, made_by(by), origin_of(builder.origins, by.name, *by.character, by.at));
+    add(builder, made_by(by), [&](ShapeOrigins& in) { return origin_of(in, by.name, *by.character, by.at); });
   });
 }
 
@@ -251,7 +277,7 @@ bch_status bch_shape_set_builder_add_mesh(bch_shape_set_builder* handle, const b
     const Character mesh = character_of_mesh(array_of(positions, position_count, "positions"),
                                              array_of(triangles, 3 * triangle_count, "triangles"));
     PoseShaper shaper(mesh, builder.plan, builder.threshold);
-    add(builder, shaper.shape({}), {number_of(builder.origins, "mesh"), ShapeOrigin::rest_pose, 0});
+    add_without_pose(builder, "mesh", shaper.shape({}));
   });
 }
 
@@ -260,10 +286,18 @@ bch_status bch_shape_set_builder_finish(bch_shape_set_builder* handle, bch_shape
     bch_shape_set_builder& builder = object_of(handle, "builder");
     required(set, "set");
     auto next = std::make_unique<ShapeSetBuilder>(builder.plan);
-    std::swap(next, builder.builder);
-    BakedShapes made{std::move(*next).finish(), std::move(builder.origins)};
-    builder.clear();
-    hand_out(std::make_unique<bch_shape_set>(std::move(made)), set);
+    // All that may need memory comes first, so that the shapes are here or there.
+    bch_shape_set* made = nullptr;
+    hand_out(std::make_unique<bch_shape_set>(BakedShapes{ShapeSetBuilder(builder.plan).finish(), {}}), &made);
+    try {
+      made->own->set = std::move(*builder.builder).finish();
+    } catch (...) {
+      take_back(made, "set");
+      throw;
+    }
+    made->own->origins = std::move(builder.origins);
+    builder.clear(std::move(next));
+    *set = made;
   });
 }
 

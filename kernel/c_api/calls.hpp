@@ -28,7 +28,7 @@ struct Call {
   /// Asks on the threads that the options want.
   template <class Ask>
   void run(Ask ask) const {
-    threads == 0 ? ask() : on_threads(threads, ask);
+    threads == 0 ? ask() : on_threads(threads, std::ref(ask));  // which needs no memory
   }
 };
 

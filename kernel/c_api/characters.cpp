@@ -129,7 +129,9 @@ bch_status bch_character_get_info(const bch_character* handle, bch_character_inf
 bch_status bch_character_get_clip(const bch_character* character, uint32_t clip, const char** name,
                                   float* seconds) {
   return guarded([&] {
-    const Clip& found = object_of(character, "character").character->clips.at(clip);
+    const std::vector<Clip>& clips = object_of(character, "character").character->clips;
+    check_index(clip, clips.size(), "clip");
+    const Clip& found = clips[clip];
     if (name != nullptr) *name = found.name.c_str();
     if (seconds != nullptr) *seconds = found.seconds;
   });

@@ -30,8 +30,11 @@ class Workshop {
 
  private:
   struct Learned {
-    std::shared_ptr<const Character> character;
-    float threshold;
+    Learned(const std::shared_ptr<const Character>& of, const ShapeSetPlan& plan, float down_to)
+        : character(of), threshold(down_to), shaper(*of, plan, down_to) {}
+
+    const std::shared_ptr<const Character> character;
+    const float threshold;
     PoseShaper shaper;
   };
   const ShapeSetPlan plan_;
@@ -41,7 +44,7 @@ class Workshop {
   PoseShaper& shaper(const std::shared_ptr<const Character>& character, float threshold) {
     for (Learned& each : learned_)
       if (each.character == character && each.threshold == threshold) return each.shaper;
-    return learned_.emplace_back(character, threshold, PoseShaper(*character, plan_, threshold)).shaper;
+    return learned_.emplace_back(character, plan_, threshold).shaper;
   }
 };
 
@@ -102,11 +105,12 @@ bch_status bch_dynamic_shape_set_create(const bch_shape_set* start, bch_dynamic_
   return guarded([&] {
     required(set, "set");
     auto made = std::make_unique<bch_dynamic_shape_set>(object_of(start, "start").set);
-    registry::add(made->lent.get(), kind_of(made->lent.get()));
+    const bch_shape_set* const lent = made->lent.get();
+    registry::add(lent, kind_of(lent));
     try {
       hand_out(std::move(made), set);
     } catch (...) {
-      registry::remove(made->lent.get());
+      registry::remove(lent);
       throw;
     }
   });

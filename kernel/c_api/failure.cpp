@@ -19,7 +19,8 @@ thread_local char last_error[2048] = "";
 
 bch_status remember(bch_status status, const char* message) noexcept {
   const std::size_t size = std::min(std::strlen(message), sizeof last_error - 1);
-  std::memcpy(last_error, message, size);
+  // One line, whatever a path or a text has.
+  std::replace_copy(message, message + size, last_error, '\n', ' ');
   last_error[size] = '\0';
   return status;
 }

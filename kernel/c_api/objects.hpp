@@ -27,10 +27,13 @@ struct bch_character {
 /// A set of its own, or one that a dynamic set lends.
 struct bch_shape_set {
   explicit bch_shape_set(bch::BakedShapes baked)
-      : own(std::make_unique<bch::BakedShapes>(std::move(baked))), set(own->set), slices(set.plan().slices) {}
-  explicit bch_shape_set(const bch::ShapeSet& lent) : set(lent), slices(set.plan().slices) {}
+      : own(std::make_unique<bch::BakedShapes>(std::move(baked))),
+        set(own->set),
+        slices(set.slices().begin(), set.slices().end()) {}
+  explicit bch_shape_set(const bch::ShapeSet& lent)
+      : set(lent), slices(set.slices().begin(), set.slices().end()) {}
 
-  const std::unique_ptr<const bch::BakedShapes> own;
+  const std::unique_ptr<bch::BakedShapes> own;
   const bch::ShapeSet& set;
   const std::vector<float> slices;
 };

@@ -15,14 +15,14 @@ ObstacleArrays arrays_of(const bch_obstacle_arrays* given) {
       sized(&required(given, "arrays"), bch_obstacle_arrays BCH_OBSTACLE_ARRAYS_INIT, "arrays");
   ObstacleArrays all;
   if (arrays.path_count == 0) return all;
-  all.path_offsets = array_of(arrays.path_offsets, arrays.path_count + 1, "arrays->path_offsets");
+  all.path_offsets = offsets_of(arrays.path_offsets, arrays.path_count, "arrays->path_offsets");
   const std::size_t points = all.path_offsets.back();
   all.x = array_of(arrays.x, points, "arrays->x");
   all.y = array_of(arrays.y, points, "arrays->y");
   std::size_t obstacles = arrays.path_count;
   if (arrays.obstacle_offsets != nullptr) {
     obstacles = arrays.obstacle_count;
-    all.obstacle_offsets = array_of(arrays.obstacle_offsets, obstacles + 1, "arrays->obstacle_offsets");
+    all.obstacle_offsets = offsets_of(arrays.obstacle_offsets, obstacles, "arrays->obstacle_offsets");
   }
   if (arrays.is_area != nullptr) all.is_area = array_of(arrays.is_area, obstacles, "arrays->is_area");
   return all;
@@ -67,8 +67,9 @@ bch_status bch_obstacles_get_counts(const bch_obstacles* obstacles, uint32_t* ob
 
 bch_status bch_obstacles_get_owner(const bch_obstacles* obstacles, uint32_t segment, uint32_t* obstacle) {
   return guarded([&] {
-    const std::uint32_t owner = object_of(obstacles, "obstacles").set.obstacle_of(segment);
-    required(obstacle, "obstacle") = owner;
+    const ObstacleSet& set = object_of(obstacles, "obstacles").set;
+    check_index(segment, set.segment_count(), "segment");
+    required(obstacle, "obstacle") = set.obstacle_of(segment);
   });
 }
 

@@ -17,9 +17,7 @@ const ShapeSet& set_of(const bch_shape_set* set) {
 }
 
 void check_shape(const ShapeSet& set, uint32_t shape) {
-  if (shape >= set.shape_count())
-    throw Failure(BCH_OUT_OF_RANGE,
-                  "shape is " + std::to_string(shape) + " of " + std::to_string(set.shape_count()));
+  check_index(shape, set.shape_count(), "shape");
 }
 
 /// Adds the contours of a shape's part in a slab.
@@ -35,9 +33,6 @@ void add_slab(const detail::ShapeSetView& view, uint32_t shape, uint32_t slab, O
 
 void get_outline(const ShapeSet& set, uint32_t shape, uint32_t slab, OutlineWriter& to) {
   const bool all = slab == BCH_ALL_SLABS;
-  if (!all && slab >= set.slab_count())
-    throw Failure(BCH_OUT_OF_RANGE,
-                  "slab is " + std::to_string(slab) + " of " + std::to_string(set.slab_count()));
   for (uint32_t k = all ? 0 : slab; k < (all ? set.slab_count() : slab + 1); ++k)
     add_slab(set.view(), shape, k, to);
 }
@@ -129,6 +124,7 @@ bch_status bch_shape_set_get_outline(const bch_shape_set* handle, uint32_t shape
   return guarded([&] {
     const ShapeSet& set = set_of(handle);
     check_shape(set, shape);
+    if (slab != BCH_ALL_SLABS) check_index(slab, set.slab_count(), "slab");
     OutlineWriter to(outline);
     get_outline(set, shape, slab, to);
     to.finish();

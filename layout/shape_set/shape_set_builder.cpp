@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "layout/shape_set/builder_end.hpp"
 #include "layout/shape_set/shape_flattener.hpp"
 #include "layout/shape_set/shape_storage.hpp"
 
@@ -17,6 +18,14 @@ namespace {
 
 /// So many shapes say how large the others are.
 constexpr std::size_t sample = 64;
+
+/// Returns those of a set's arrays that a set of roots alone has.
+ShapeArrays roots_of(const ShapeArrays& all) {
+  ShapeArrays roots;
+  roots.depths = all.depths, roots.roots = all.roots;
+  roots.slices = all.slices, roots.slab_parts = all.slab_parts, roots.heights = all.heights;
+  return roots;
+}
 
 }  // namespace
 
@@ -46,11 +55,11 @@ struct ShapeSetBuilder::State {
   ShapeSetPlan plan;
   std::size_t expected_shapes;
   ShapeStorage storage;
-  std::size_t shapes = 0, parts = 0;
-  ShapeExtent end{.rows = first_row};
+  BuilderEnd end = {};
 
   void add(const FlatBody& flat);
   void reserve();
+  void go_back(const BuilderEnd& to) noexcept;
   ShapeSet finish();
 };
 
@@ -74,52 +83,69 @@ ShapeSet ShapeSetBuilder::finish() && {
 
 std::span<const float> ShapeSetBuilder::nodes() const noexcept {
   const std::span<const float> all = state_->storage.nodes;
-  return all.empty() ? all : all.first(state_->end.nodes);
+  return all.empty() ? all : all.first(state_->end.extent.nodes);
 }
 
-/// What throws leaves the counts and the end as they were.
+BuilderEnd ShapeSetBuilder::end() const noexcept {
+  return state_->end;
+}
+
+void ShapeSetBuilder::go_back(const BuilderEnd& to) noexcept {
+  state_->go_back(to);
+}
+
+/// What throws leaves the end as it was.
 void ShapeSetBuilder::State::add(const FlatBody& flat) {
-  if (shapes == sample && expected_shapes > sample) reserve();
-  storage.resize(plan, shapes + 1, parts + flat.part_count);
-  ShapeExtent behind_all = end;
+  if (end.shapes == sample && expected_shapes > sample) reserve();
+  storage.resize(plan, end.shapes + 1, end.parts + flat.part_count);
+  ShapeExtent behind_all = end.extent;
   for (std::size_t k = 0; k < flat.part_count; ++k) {
     const ShapeExtent size = extent_of(flat.parts[k]);
     ShapeExtent at = behind_all;
     at.nodes = next_line(at.nodes);
     storage.make_room(at, size);
-    storage.put(parts + k, flat.parts[k], at);
+    storage.put(end.parts + k, flat.parts[k], at);
     for_each_part([](std::size_t& behind, std::size_t from, std::size_t length) { behind = from + length; },
                   behind_all, at, size);
   }
-  storage.put_slabs(shapes, parts, flat);
-  end = behind_all;
-  ++shapes, parts += flat.part_count;
+  storage.put_slabs(end.shapes, end.parts, flat);
+  end = {end.shapes + 1, end.parts + flat.part_count, behind_all};
 }
 
 /// Makes room for all shapes, estimated from those so far, and a quarter. Room that is never written to takes
 /// no memory.
 void ShapeSetBuilder::State::reserve() {
   const std::size_t times = (expected_shapes * 5 / 4 + sample - 1) / sample;
-  ShapeExtent all = end;
+  ShapeExtent all = end.extent;
   for_each_part([=](std::size_t& part) { part *= times; }, all);
-  storage.reserve(plan, expected_shapes * parts / sample, all);
+  storage.reserve(plan, expected_shapes * end.parts / sample, all);
 }
 
+/// Every array gets shorter, so that what is added next finds zeros between shapes as behind those that stay.
+void ShapeSetBuilder::State::go_back(const BuilderEnd& to) noexcept {
+  end = to;
+  storage.shorten(end.extent);
+  storage.resize(plan, end.shapes, end.parts);
+}
+
+/// What throws leaves the shapes as they were: the arrays change hands at the end, and their elements stay where they are.
 ShapeSet ShapeSetBuilder::State::finish() {
   // An add() that threw may have left more.
-  storage.resize(plan, shapes, parts);
-  storage.make_room(end, {});
+  storage.resize(plan, end.shapes, end.parts);
+  storage.make_room(end.extent, {});
   // Single discs need blocks only to meet those that are not, and never contain what they do not overlap.
   const auto is_single = [](const Root& root) { return root.row == single_disc; };
-  if (std::all_of(storage.roots.begin(), storage.roots.end(), is_single)) {
-    ShapeStorage roots_only;
-    roots_only.depths = std::move(storage.depths), roots_only.roots = std::move(storage.roots);
-    roots_only.slices = std::move(storage.slices), roots_only.slab_parts = std::move(storage.slab_parts);
-    roots_only.heights = std::move(storage.heights);
-    storage = std::move(roots_only);
+  const bool roots_only = std::all_of(storage.roots.begin(), storage.roots.end(), is_single);
+  const auto kept = std::make_shared<ShapeStorage>();
+  ShapeSet set(roots_only ? roots_of(storage.arrays()) : storage.arrays(), kept);
+  if (!roots_only) {
+    *kept = std::move(storage);
+    return set;
   }
-  const auto kept = std::make_shared<const ShapeStorage>(std::move(storage));
-  return ShapeSet(kept->arrays(), kept);
+  kept->depths = std::move(storage.depths), kept->roots = std::move(storage.roots);
+  kept->slices = std::move(storage.slices), kept->slab_parts = std::move(storage.slab_parts);
+  kept->heights = std::move(storage.heights);
+  return set;
 }
 
 }  // namespace bch

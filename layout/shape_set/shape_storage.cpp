@@ -108,6 +108,15 @@ void ShapeStorage::make_room(const ShapeExtent& at, const ShapeExtent& size) {
   }
 }
 
+void ShapeStorage::shorten(const ShapeExtent& end) noexcept {
+  const auto cut = [](auto& array, std::size_t size) { array.resize(std::min(array.size(), size)); };
+  cut(nodes, end.nodes);
+  cut(support, end.rows * support_stride);
+  cut(contours, end.contours);
+  cut(points, end.points);
+  cut(leaf_segments, end.segments);
+}
+
 void ShapeStorage::put_slabs(std::size_t shape, std::size_t first_part, const FlatBody& body) {
   std::uint32_t* out = slab_parts.data() + shape * body.slab_parts.size();
   for (const std::uint32_t part : body.slab_parts)

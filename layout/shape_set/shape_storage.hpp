@@ -67,6 +67,8 @@ struct ShapeStorage {
   /// Makes the others end with such an extent behind this place.
   /// Errors:  throws std::length_error beyond 2^31 floats of nodes or 2^32 of the others.
   void make_room(const ShapeExtent& at, const ShapeExtent& size);
+  /// Makes the others end at this place at the latest. Allocates nothing.
+  void shorten(const ShapeExtent& end) noexcept;
   /// Writes which parts a shape has, the first of which has this number, their heights, and what is common to all of them.
   void put_slabs(std::size_t shape, std::size_t first_part, const FlatBody& body);
   /// Writes a part; there has to be room. Of arrays without elements nothing is written. Different parts may be

@@ -218,14 +218,21 @@ TEST(CApiBuilding, CallersHearOfProgressAndCancel) {
   const auto builder = builder_of(nullptr);
   expect_ok(bch_shape_set_builder_add_poses(builder.get(), character.get(), poses.data(), 400, &work));
   EXPECT_EQ(heard.last, 400u);
-  heard = {0, 0, 1};
-  EXPECT_EQ(bch_shape_set_builder_add_poses(builder.get(), character.get(), poses.data(), 400, &work),
-            BCH_CANCELLED);
-  EXPECT_LT(heard.last, 400u);
-  const auto empty = finished(builder);
-  bch_shape_set_info info = BCH_SHAPE_SET_INFO_INIT;
-  expect_ok(bch_shape_set_get_info(empty.get(), &info));
-  EXPECT_EQ(info.shapes, 0u);
+  finished(builder);
+
+  // The shapes that were added before are there, as if nothing had been tried.
+  for (const std::size_t before : {0, 2}) {
+    const auto other = builder_of(nullptr);
+    for (const auto& to : {builder.get(), other.get()})
+      expect_ok(bch_shape_set_builder_add_poses(to, character.get(), poses.data(), before, nullptr));
+    heard = {0, 0, 1};
+    EXPECT_EQ(bch_shape_set_builder_add_poses(builder.get(), character.get(), poses.data(), 400, &work),
+              BCH_CANCELLED);
+    EXPECT_LT(heard.last, 400u);
+    for (const auto& to : {builder.get(), other.get()})
+      expect_ok(bch_shape_set_builder_add_poses(to, character.get(), &poses[100], 1, nullptr));
+    EXPECT_EQ(bytes_of(finished(builder).get()), bytes_of(finished(other).get())) << before;
+  }
 }
 
 TEST(CApiBuilding, CharactersOfFilesAreImported) {

@@ -161,6 +161,7 @@ TEST_F(CApiMisuse, ValuesAndTheirPlaces) {
   bch_shape_set* none = nullptr;
   expect_error(bch_shape_set_load("/nowhere/a.bch", BCH_READ, &none), BCH_FILE_NOT_FOUND,
                "/nowhere/a.bch: no such");
+  expect_error(bch_shape_set_load("/nowhere/a\nb", BCH_READ, &none), BCH_FILE_NOT_FOUND, "/nowhere/a b");
   expect_error(bch_shape_set_load("/", BCH_READ, &none), BCH_BAD_FILE, "/");
   expect_error(bch_shape_set_save(set.get(), "/nowhere/a.bch"), BCH_BAD_FILE, "/nowhere/a.bch");
   EXPECT_EQ(none, nullptr);
@@ -204,6 +205,54 @@ TEST_F(CApiMisuse, PlansAndBodies) {
   expect_ok(bch_dynamic_shape_set_free(dynamic));
   expect_ok(bch_character_free(man));
   expect_ok(bch_shape_set_builder_free(builder));
+}
+
+/// Arrays of offsets name the lengths of others.
+TEST_F(CApiMisuse, Offsets) {
+  bch_shape_set_builder* builder = nullptr;
+  expect_ok(bch_shape_set_builder_create(nullptr, &builder));
+  const std::uint64_t second[] = {1, 4}, whole[] = {0, 3};
+  const bch_vec2 corners[] = {{0, 0}, {1, 0}, {1, 1}};
+  expect_error(bch_shape_set_builder_add_polygons(builder, nullptr, second, 1, nullptr), BCH_INVALID_ARGUMENT,
+               "corners is NULL");
+  expect_error(bch_shape_set_builder_add_polygons(builder, corners, whole, SIZE_MAX, nullptr),
+               BCH_INVALID_ARGUMENT, "offsets has");
+  expect_ok(bch_shape_set_builder_free(builder));
+  const double x[] = {0, 1, 1}, y[] = {0, 0, 1};
+  bch_obstacle_arrays arrays = BCH_OBSTACLE_ARRAYS_INIT;
+  arrays.x = x, arrays.y = y, arrays.path_offsets = whole, arrays.path_count = SIZE_MAX;
+  bch_obstacles* obstacles = nullptr;
+  expect_error(bch_obstacles_create(&arrays, &obstacles), BCH_INVALID_ARGUMENT, "arrays->path_offsets has");
+  arrays.path_count = 1, arrays.obstacle_offsets = whole, arrays.obstacle_count = SIZE_MAX;
+  expect_error(bch_obstacles_create(&arrays, &obstacles), BCH_INVALID_ARGUMENT,
+               "arrays->obstacle_offsets has");
+  arrays.obstacle_offsets = nullptr;
+  expect_ok(bch_obstacles_create(&arrays, &obstacles));
+  std::uint32_t owner = 9;
+  expect_error(bch_obstacles_get_owner(obstacles, 77, &owner), BCH_OUT_OF_RANGE, "segment is 77 of 2");
+  EXPECT_EQ(owner, 9u);
+  expect_ok(bch_obstacles_free(obstacles));
+}
+
+TEST_F(CApiMisuse, OutlinesOfSlabsThatAreNot) {
+  bch_vec2 point{8, 9};
+  std::uint64_t offset = 7;
+  bch_outline outline = BCH_OUTLINE_INIT;
+  outline.points = &point, outline.point_capacity = 1, outline.offsets = &offset, outline.offset_capacity = 1;
+  bch_character* man = nullptr;
+  bch_pose_shaper* shaper = nullptr;
+  expect_ok(bch_character_default(BCH_MALE, &man));
+  expect_ok(bch_pose_shaper_create(man, nullptr, &shaper));
+  expect_ok(bch_pose_shaper_make(shaper, {BCH_REST_POSE, 0}, 0));
+  expect_error(bch_pose_shaper_get_outline(shaper, 1, &outline), BCH_OUT_OF_RANGE, "slab is 1");
+  expect_error(bch_shape_set_get_outline(set.get(), 0, 1, &outline), BCH_OUT_OF_RANGE, "slab is 1");
+  EXPECT_EQ(point.x, 8);
+  EXPECT_EQ(offset, 7u);
+  EXPECT_EQ(outline.offset_count, 0u);
+  const char* name = nullptr;
+  expect_error(bch_character_get_clip(man, 1'000, &name, nullptr), BCH_OUT_OF_RANGE, "clip is 1000 of");
+  expect_ok(bch_pose_shaper_free(shaper));
+  expect_ok(bch_character_free(man));
 }
 
 TEST_F(CApiMisuse, EachThreadHasItsLastError) {

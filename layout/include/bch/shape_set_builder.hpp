@@ -10,8 +10,9 @@
 #include <bch/shape_set.hpp>
 
 namespace bch::detail {
+struct BuilderEnd;
 struct FlatBody;
-}
+}  // namespace bch::detail
 
 namespace bch {
 
@@ -55,12 +56,16 @@ class ShapeSetBuilder {
   /// Adds a shape that was prepared with the same plan.
   /// Errors:  throws std::length_error beyond 2^31 numbers in nodes or 2^32 roots. What was added before is then as it was.
   void add(const PreparedShape& shape);
-  /// Returns the set of the shapes that were added.
+  /// Returns the set of the shapes that were added. Where memory runs out they stay.
   ShapeSet finish() &&;
 
   /// For the library's own parts: the nodes of the shapes so far, as the set is going to have them, none for roots alone. Valid
   /// until the next call of another function.
   std::span<const float> nodes() const noexcept;
+  /// Returns where the set ends at present, for go_back().
+  detail::BuilderEnd end() const noexcept;
+  /// Ends the set there again, as if nothing had been added since. Allocates nothing.
+  void go_back(const detail::BuilderEnd& to) noexcept;
 
  private:
   struct State;

@@ -22,7 +22,8 @@
  * Arrays:   they are the caller's, are neither copied nor kept, and may be NULL where they are empty. Units are metres and radians.
  * Threads:  functions may be called from any thread. Objects that a function does not take as const are for one thread at a
  *           time; a set of shapes and obstacles answer any number of threads at once.
- * Memory:   no function throws, ends the program or prints. An allocation that fails is BCH_NO_MEMORY.
+ * Memory:   no function throws, ends the program or prints. An allocation that fails is BCH_NO_MEMORY; answers about obstacles may then have
+ *           been written in part.
  */
 
 #ifdef __cplusplus
@@ -283,7 +284,8 @@ BCH_API bch_status bch_pose_shaper_free(bch_pose_shaper* shaper);
 typedef struct bch_shape_set_builder bch_shape_set_builder;
 /** Begins a set of a plan. */
 BCH_API bch_status bch_shape_set_builder_create(const bch_plan* plan, bch_shape_set_builder** builder);
-/** Adds the shapes of a character's poses, which many threads make. After an error or a cancellation none of them has been added. */
+/** Adds the shapes of a character's poses, which many threads make. After an error or a cancellation none of them has been added, and
+ * those that were before are still there. */
 BCH_API bch_status bch_shape_set_builder_add_poses(bch_shape_set_builder* builder, const bch_character* character,
                                                    const bch_pose* poses, size_t count, const bch_work* work);
 /** Adds the shape that a shaper made last. */
@@ -306,7 +308,8 @@ BCH_API bch_status bch_shape_set_builder_add_cylinder(bch_shape_set_builder* bui
 BCH_API bch_status bch_shape_set_builder_add_mesh(bch_shape_set_builder* builder, const bch_vec3* positions,
                                                   size_t position_count, const uint32_t* triangles,
                                                   size_t triangle_count);
-/** Makes the set of all shapes that were added. The builder is empty afterwards, and begins another set of its plan. */
+/** Makes the set of all shapes that were added. The builder is empty afterwards, and begins another set of its plan; after an error it is as
+ * it was. */
 BCH_API bch_status bch_shape_set_builder_finish(bch_shape_set_builder* builder, bch_shape_set** set);
 /** Frees a builder. */
 BCH_API bch_status bch_shape_set_builder_free(bch_shape_set_builder* builder);

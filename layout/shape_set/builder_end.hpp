@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <cstddef>
+
+#include "layout/shape_set/shape_storage.hpp"
+
+namespace bch::detail {
+
+/// Where a set that is being built ends: how many shapes and parts there are, and where the next one begins.
+struct BuilderEnd {
+  std::size_t shapes = 0, parts = 0;
+  ShapeExtent extent{.rows = first_row};
+};
+
+}  // namespace bch::detail
