@@ -36,8 +36,9 @@ void SplitItems::begin(std::size_t most) {
   count = 0;
   const std::size_t room = most + width;
   if (items.size() >= room) return;
-  items.resize(room), primitives.resize(room), halvings.resize(room);
+  primitives.resize(room), halvings.resize(room);
   for (auto& of_axis : middle) of_axis.resize(room);
+  items.resize(room);  // the last one, which tells that the others have room
 }
 
 void SplitItems::add_contour(std::span<const Vec2> points, const EvenHalves& halves) {

@@ -54,9 +54,9 @@ void number_islands(PlaneCuts& cuts, std::vector<std::uint32_t>& number, Candida
 void CandidateList::begin(std::size_t room) {
   count_ = 0;
   if (segments_.size() >= room + boxes_per_block) return;
-  segments_.resize(room + boxes_per_block);
-  islands_.resize(segments_.size());
-  boxes_.reserve(segments_.size());
+  islands_.resize(room + boxes_per_block);
+  boxes_.reserve(room + boxes_per_block);
+  segments_.resize(room + boxes_per_block);  // the last one, which tells that the others have room
 }
 
 void CandidateList::finish(std::span<const GridPoint> island_points) {

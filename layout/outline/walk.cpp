@@ -42,9 +42,9 @@ std::int16_t cell(std::int32_t steps) {
 void OutlineWalk::begin(const CandidateList& candidates) {
   candidates_ = &candidates;
   if (const std::size_t most = candidates.room(); near_.size() < most) {
-    near_.resize(most);
     for (std::vector<double>* const each : {&side_a_, &side_b_, &along_, &at_}) each->resize(most);
     for (std::vector<std::uint64_t>* const each : {&crossing_, &ending_}) each->resize(most / 64 + 1);
+    near_.resize(most);  // the last one, which tells that the others have room
   }
   candidates_->boxes().describe(search_);
   search_.segments = candidates_->segments().data();

@@ -125,6 +125,35 @@ TEST_F(AllocationFaults, ShapesOfAPoseGoOnAfterwards) {
             20u);
 }
 
+/// A shaper that ran out of memory makes the same shape later, at whichever allocation it was.
+TEST_F(AllocationFaults, AShaperMakesTheShapeThatItCouldNot) {
+  const Character character = default_female();
+  const PoseTime at = sample_poses(character, 3)[1];
+  for (const std::vector<float>& slices : {std::vector<float>{}, {0.5f, 1.2f}}) {
+    const ShapeSetPlan of_shaper{.slices = slices};
+    const auto content = [&](const Shape& shape) {
+      return test::BakedBytes(ShapeSet({&shape, 1}, of_shaper), {}).text();
+    };
+    const std::string expected = content(PoseShaper(character, of_shaper).shape(at));
+    for (std::size_t after = 0;; ++after) {
+      PoseShaper shaper(character, of_shaper);
+      bool thrown = false;
+      test::fail_allocations(test::Failing::one, after);
+      try {
+        shaper.shape(at);
+      } catch (const std::bad_alloc&) {
+        thrown = true;
+      }
+      const bool failed = test::stop_failing_allocations() > 0;
+      EXPECT_EQ(thrown, failed);
+      ASSERT_EQ(content(shaper.shape(at)), expected) << after;
+      if (failed) continue;
+      EXPECT_GT(after, 20u);
+      break;
+    }
+  }
+}
+
 TEST_F(AllocationFaults, Set) {
   EXPECT_GT(fail_each([&] { ShapeSet(shapes, plan); }), 15u);
 }
