@@ -29,6 +29,8 @@ class LevelTree {
     inner_.resize(cut_.count);
     std::memcpy(inner_.data(), nodes() + std::size_t{tree_.first_inner()} * inner_floats,
                 inner_.size() * sizeof(InnerNode));
+    for (InnerNode& node : inner_)  // links are within the level from here on
+      node.link = (node.link & above_cut_disc) | ((node.link - tree_.first_inner()) & ~above_cut_disc);
     for (std::uint32_t i = 0; i < cut_.count; ++i)
       above_disc_.push_back(i - (inner_[i].link < above_cut_disc));
   }
@@ -64,9 +66,7 @@ class LevelTree {
   };
 
   const float* nodes() const { return look_.arrays().nodes.data(); }
-  std::uint32_t above(std::uint32_t i) const {
-    return (inner_[i].link & ~above_cut_disc) - tree_.first_inner();
-  }
+  std::uint32_t above(std::uint32_t i) const { return inner_[i].link & ~above_cut_disc; }
   Disc disc(std::uint32_t node) const {
     const std::uint32_t i = node & ~leaf_window;
     if (node < leaf_window) return {inner_[i].x, inner_[i].y, inner_[i].radius};

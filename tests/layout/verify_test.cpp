@@ -68,6 +68,25 @@ TEST(Verify, FindsNothingInShapesWithoutOutlines) {
     if (!plan.outlines) expect_nothing(ShapeSet(shapes, plan));
 }
 
+/// Their nodes hold their discs, as their trees say.
+TEST(Verify, LooksAtBodiesOfDiscs) {
+  std::vector<Disc> body;
+  for (int i = 0; i < 12; ++i)
+    body.push_back({0.125f * static_cast<float>(i), 0.0625f * static_cast<float>(i % 3), 0.25f});
+  const std::vector<Shape> shapes(2, shape_from_discs(body));
+  for (const ShapeSetPlan& plan : plans) expect_nothing(ShapeSet(shapes, plan));
+  // A disc that is large enough to be beyond the nodes above it, though it touches the same others.
+  BakedBytes bytes(ShapeSet(shapes), origins_of(2));
+  const detail::Tree& tree = bytes.section<detail::Tree>(Section::trees)[1];
+  ASSERT_NE(tree.nodes_hold_discs, 0u);
+  bytes.section<float>(Section::nodes)[tree.discs + 2 * tree.stride + 1] += 0.125f;
+  bytes.seal();
+  bool said = false;
+  for (const Finding& finding : verify(bytes.load().set, 50))
+    said |= finding.what.find("does not hold the discs below it") != std::string::npos;
+  EXPECT_TRUE(said);
+}
+
 TEST(Verify, LooksAtEverySlab) {
   const ShapeSetPlan plan{.depths = {0, 3, all_depths}, .slices = {0.4f, 1}};
   const Character man = default_characters()[0];
