@@ -44,17 +44,15 @@ const Implementation& best_implementation() {
 }
 
 const Implementation& implementation(std::string_view name) {
-  std::string known;
   for (const Implementation& each : table) {
-    if (name != each.name) {
-      known += known.empty() ? each.name : std::string(", ") + each.name;
-      continue;
-    }
+    if (name != each.name) continue;
     if (!each.supported())
       throw std::invalid_argument("this processor does not run the implementation '" + std::string(name) +
                                   "'");
     return each;
   }
+  std::string known;
+  for (const Implementation& each : table) known += known.empty() ? each.name : std::string(", ") + each.name;
   throw std::invalid_argument("no implementation '" + std::string(name) + "' (known: " + known + ")");
 }
 
