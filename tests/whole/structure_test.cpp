@@ -271,6 +271,28 @@ TEST(Objects, NothingThatComputesAnAnswerFusesMultiplyAndAdd) {
   EXPECT_GE(multiplications, 2u);  // the disassembly is really looked at
 }
 
+#ifdef BCH_C_LIBRARY
+/// The shared library exports what bch.h declares: no more, no less.
+TEST(Objects, TheLibraryExportsTheFunctionsOfItsHeader) {
+  const std::string header = read(fs::path(BCH_SOURCE) / "kernel/c_api/include/bch/bch.h");
+  static const std::regex function(R"(\nBCH_API [\w *]*?\b(bch_\w+)\()");
+  std::set<std::string> declared, exported;
+  for (auto match = std::sregex_iterator(header.begin(), header.end(), function);
+       match != std::sregex_iterator(); ++match)
+    declared.insert((*match)[1]);
+  std::size_t marks = 0;
+  for (std::size_t at = 0; (at = header.find("\nBCH_API ", at)) != std::string::npos; ++at) ++marks;
+  EXPECT_EQ(declared.size(), marks);
+  EXPECT_GT(declared.size(), 50u);
+  std::istringstream lines(output_of("nm -D --defined-only '" BCH_C_LIBRARY "'"));
+  for (std::string address, type, name; lines >> address >> type >> name;) {
+    EXPECT_EQ(type, "T") << name;
+    exported.insert(name);
+  }
+  EXPECT_EQ(exported, declared);
+}
+#endif
+
 TEST(Readme, ShowsTheLinesThatCiRuns) {
   const std::string ci = read(fs::path(BCH_SOURCE) / ".ci/run");
   const std::string readme = read(fs::path(BCH_SOURCE) / "README.md");
