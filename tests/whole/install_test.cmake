@@ -1,21 +1,23 @@
 # Installs the build given by BUILD into a fresh folder WORK, builds the projects outside against it, and runs them.
-# Usage: cmake -DBUILD=... -DTESTS=... -DWORK=... -DCOMPILER=... -DFLAGS=... -P install_test.cmake
+# Usage: cmake -DBUILD=... -DTESTS=... -DWORK=... -DCOMPILER=... -DFLAGS=... [-DC_COMPILER=... if there is the C interface]
+#   -P install_test.cmake
 include(${CMAKE_CURRENT_LIST_DIR}/run.cmake)
 
 file(REMOVE_RECURSE ${WORK})
 
-# The README's example, its CMakeLists.txt and the commands about them, as they stand there: read_block(variable language
-# word) takes the first block of a language that has a word.
-file(READ ${TESTS}/../README.md readme)
-function(read_block variable language word)
-  if(NOT readme MATCHES "```${language}\n([^`]*${word}[^`]*)```")
-    message(FATAL_ERROR "README.md has no block of ${language} with '${word}'")
+# read_block(variable file language word) takes the first block of a language that has a word, as it stands in a file.
+function(read_block variable file language word)
+  file(READ ${TESTS}/../${file} text)
+  if(NOT text MATCHES "```${language}\n([^`]*${word}[^`]*)```")
+    message(FATAL_ERROR "${file} has no block of ${language} with '${word}'")
   endif()
   set(${variable} "${CMAKE_MATCH_1}" PARENT_SCOPE)
 endfunction()
-read_block(example cpp "int main")
-read_block(lists cmake "find_package")
-read_block(commands sh "cmake --install")
+
+# The README's example, its CMakeLists.txt and the commands about them.
+read_block(example README.md cpp "int main")
+read_block(lists README.md cmake "find_package")
+read_block(commands README.md sh "cmake --install")
 file(WRITE ${WORK}/example/example.cpp "${example}")
 file(WRITE ${WORK}/example/CMakeLists.txt "${lists}")
 file(MAKE_DIRECTORY ${WORK}/build)
@@ -40,8 +42,8 @@ foreach(header IN LISTS headers)
   endif()
 endforeach()
 
-set(settings -G Ninja -DCMAKE_PREFIX_PATH=${WORK}/bch -DCMAKE_BUILD_TYPE=Release "-DCMAKE_CXX_FLAGS=${FLAGS}"
-  -DCMAKE_CXX_COMPILER=${COMPILER})
+set(general -G Ninja -DCMAKE_PREFIX_PATH=${WORK}/bch -DCMAKE_BUILD_TYPE=Release)
+set(settings ${general} "-DCMAKE_CXX_FLAGS=${FLAGS}" -DCMAKE_CXX_COMPILER=${COMPILER})
 foreach(project consumer kernel_consumer)
   run(${CMAKE_COMMAND} -S ${TESTS}/examples/${project} -B ${WORK}/${project} ${settings}
     -DCMAKE_EXE_LINKER_FLAGS=-Wl,--no-as-needed)  # ldd is to show what is linked, used or not
@@ -71,7 +73,7 @@ cmake_minimum_required(VERSION 3.25)
 project(components LANGUAGES CXX)
 separate_arguments(ASKED)
 find_package(bch REQUIRED ${ASKED})
-foreach(component shapes kernel baked characters import flying)
+foreach(component shapes kernel baked characters import c flying)
   if(bch_${component}_FOUND)
     message(STATUS "component: ${component}")
   endif()
@@ -89,6 +91,8 @@ endfunction()
 set(optional "-DASKED=COMPONENTS baked OPTIONAL_COMPONENTS import flying")
 set(required "-DASKED=COMPONENTS import")
 expect_components("shapes;kernel" ${CMAKE_COMMAND} ${configure} -B ${WORK}/none)
+set(without_TBB ${CMAKE_COMMAND} -DCMAKE_DISABLE_FIND_PACKAGE_TBB=ON)
+run_wrong("TBB" ${without_TBB} ${configure} -B ${WORK}/without_TBB)
 expect_components("shapes;kernel;baked;characters;import" ${CMAKE_COMMAND} ${configure} -B ${WORK}/all ${optional})
 expect_components("shapes;kernel;baked;characters;import" ${CMAKE_COMMAND} -DCMAKE_DISABLE_FIND_PACKAGE_Eigen3=ON
   ${configure} -B ${WORK}/without_Eigen3 ${optional})
@@ -101,3 +105,38 @@ foreach(package PkgConfig assimp)
 endforeach()
 run_wrong("bch has no component 'flying', only shapes, "
   ${CMAKE_COMMAND} ${configure} -B ${WORK}/flying "-DASKED=COMPONENTS flying")
+
+if(NOT C_COMPILER)
+  return()
+endif()
+# The C interface. Its header reads nothing but C's library, and compiles alone as C and, above, as C++.
+file(STRINGS ${WORK}/bch/include/bch/bch.h includes REGEX "# *include")
+if(NOT includes STREQUAL "#include <math.h>;#include <stddef.h>;#include <stdint.h>")
+  message(FATAL_ERROR "bch.h reads ${includes}")
+endif()
+file(WRITE ${WORK}/alone.c "#include <bch/bch.h>\n")
+run(${C_COMPILER} -std=c99 -Wall -Wextra -Wpedantic -Werror -I${WORK}/bch/include -fsyntax-only ${WORK}/alone.c)
+
+# The chapter's example is the one that is built, by the chapter's command and in CMake.
+set(chapter kernel/c_api/README.md)
+read_block(example ${chapter} c "int main")
+file(READ ${TESTS}/examples/c/example.c kept)
+if(NOT example STREQUAL kept)
+  message(FATAL_ERROR "the example of ${chapter} is not that of tests/examples/c")
+endif()
+read_block(command ${chapter} sh "pkg-config")
+file(WRITE ${WORK}/c/example.c "${example}")
+run(${CMAKE_COMMAND} -E env HOME=${WORK} sh -ec "cd '${WORK}/c'\n${command}")
+run(${CMAKE_COMMAND} -S ${TESTS}/examples/c -B ${WORK}/c_consumer ${general} -DCMAKE_C_COMPILER=${C_COMPILER}
+  -DCMAKE_DISABLE_FIND_PACKAGE_TBB=ON)  # the library alone needs it
+run(${CMAKE_COMMAND} --build ${WORK}/c_consumer)
+file(GLOB library ${WORK}/bch/lib/libbch.so.? ${WORK}/bch/lib/*/libbch.so.?)
+cmake_path(GET library PARENT_PATH folder)
+foreach(program c/example c_consumer/example)
+  run(${CMAKE_COMMAND} -E env LD_LIBRARY_PATH=${folder} ${WORK}/${program})
+  if(NOT output MATCHES "^agent 0 collides with 1 others: 1\nagent 1 collides with 1 others: 0\nagent 2 collides with 0 others:\nagent 3 collides with 0 others:\n$")
+    message(FATAL_ERROR "unexpected answers of ${program}:\n${output}")
+  endif()
+endforeach()
+expect_components("c" ${without_TBB} ${configure} -B ${WORK}/c_alone "-DASKED=COMPONENTS c")
+expect_components("shapes;kernel;c" ${CMAKE_COMMAND} ${configure} -B ${WORK}/c_too "-DASKED=COMPONENTS kernel c")
