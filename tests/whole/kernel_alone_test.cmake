@@ -6,7 +6,7 @@ include(${CMAKE_CURRENT_LIST_DIR}/run.cmake)
 set(settings -G Ninja -DCMAKE_BUILD_TYPE=Debug "-DCMAKE_CXX_FLAGS=${FLAGS}" -DCMAKE_CXX_COMPILER=${COMPILER}
   -DCMAKE_PREFIX_PATH=${WORK}/prefix)
 set(alone -DBCH_XXHASH_INCLUDE_DIR=/nonexistent)
-foreach(component BAKED CHARACTERS IMPORT BASELINES BENCH TESTS)
+foreach(component BAKED CHARACTERS IMPORT TRAJECTORIES BASELINES BENCH TESTS)
   list(APPEND alone -DBCH_BUILD_${component}=OFF)
 endforeach()
 foreach(package Eigen3 PkgConfig fcl CLI11 nlohmann_json fmt benchmark GTest)

@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include "layout/trajectory/jupedsim.hpp"
+
+#include <cmath>
+#include <optional>
+#include <string>
+
+#include "layout/base/shortest.hpp"
+#include "layout/trajectory/numbers.hpp"
+#include "layout/trajectory/sqlite_database.hpp"
+
+namespace bch::detail::trajectory {
+namespace {
+
+constexpr std::int64_t newest_version = 3;
+/// A row's cell takes no less, with its place in a page's list of cells.
+constexpr std::int64_t least_bytes_a_row = 8;
+
+enum Column : int { frame, id, pos_x, pos_y, ori_x, ori_y };
+constexpr const char* column_names[] = {"frame", "id", "pos_x", "pos_y", "ori_x", "ori_y"};
+
+class JuPedSim final : public RowSource {
+ public:
+  JuPedSim(const std::filesystem::path& file, const TrajectoryOptions& options)
+      : places_{file, false}, database_(places_), metres_(options.unit.value_or(1)) {
+    require_tables();
+    read_metadata(options);
+    read_geometry();
+    const std::string table = "trajectory_data";
+    for (const int column : {frame, id, pos_x, pos_y})
+      if (!database_.has_column(table, column_names[column]))
+        places_.reject("table trajectory_data has no column " + std::string(column_names[column]));
+    has_orientation_ = database_.has_column(table, "ori_x") && database_.has_column(table, "ori_y");
+    most_rows_ = static_cast<std::uint64_t>(database_.bytes() / least_bytes_a_row);
+    // In the order of the file, whatever indices say that there is.
+    rows_.emplace(database_, std::string("SELECT frame, id, pos_x, pos_y") +
+                                 (has_orientation_ ? ", ori_x, ori_y" : "") +
+                                 " FROM trajectory_data NOT INDEXED");
+  }
+
+  const Places& places() const override { return places_; }
+  Recording recording() const override { return recording_; }
+
+  std::size_t read(std::span<Row> rows) override {
+    std::size_t count = 0;
+    for (; count < rows.size() && !at_end_; ++count) {
+      at_end_ = !rows_->step();
+      if (at_end_) break;
+      if (++number_ > most_rows_) places_.reject("is damaged: has more rows than fit into it");
+      rows[count] = row();
+    }
+    return count;
+  }
+
+  void rewind() override {
+    rows_->reset();
+    number_ = 0;
+    at_end_ = false;
+  }
+
+ private:
+  Places places_;
+  SqliteDatabase database_;
+  double metres_;
+  Recording recording_;
+  std::optional<SqliteStatement> rows_;
+  bool has_orientation_ = false, at_end_ = false;
+  std::int64_t version_ = 0;
+  std::uint64_t number_ = 0, most_rows_ = 0;
+
+  void require_tables() {
+    for (const char* const table : {"metadata", "trajectory_data"})
+      if (!database_.has_table(table))
+        places_.reject(std::string("is no JuPedSim file: has no table ") + table);
+  }
+
+  std::optional<std::string> metadata(const std::string& key) const {
+    SqliteStatement value(database_, "SELECT value FROM metadata WHERE key = '" + key + "'");
+    if (!value.step()) return std::nullopt;
+    return std::string(value.text(0));
+  }
+
+  void read_metadata(const TrajectoryOptions& options) {
+    const std::string text = metadata("version").value_or("");
+    version_ = whole_number_from(text).value_or(0);
+    if (version_ < 1 || version_ > newest_version)
+      places_.reject("is of version " + shown(text) + " of JuPedSim's files; 1 to 3 are read");
+    recording_.format = "JuPedSim SQLite, version " + std::to_string(version_);
+    const std::optional<std::string> rate = metadata("fps");
+    if (!rate || options.fps) return;
+    const std::optional<double> fps = number_from(*rate);
+    if (!fps) places_.reject("the frame rate " + shown(*rate) + " in its metadata is not a number");
+    recording_.rate = checked_fps(places_, *fps, "the frame rate in its metadata");
+  }
+
+  /// Takes the geometry of the first frame.
+  void read_geometry() {
+    if (!database_.has_table("geometry")) {
+      recording_.assumptions.emplace_back("There are no walls: the file has no geometry.");
+      return;
+    }
+    const bool by_frame = version_ > 1 && database_.has_table("frame_data");
+    std::string which = " ORDER BY rowid LIMIT 1";
+    if (by_frame) which = " WHERE hash = (SELECT geometry_hash FROM frame_data ORDER BY frame LIMIT 1)";
+    SqliteStatement geometry(database_, "SELECT wkt FROM geometry" + which);
+    if (geometry.step())
+      recording_.geometry = geometry.text(0);
+    else
+      recording_.assumptions.emplace_back("There are no walls: the file has no geometry.");
+    SqliteStatement count(database_, by_frame ? "SELECT count(DISTINCT geometry_hash) FROM frame_data"
+                                              : "SELECT count(DISTINCT wkt) FROM geometry");
+    if (count.step() && count.integer(0) > 1)
+      recording_.assumptions.push_back("The geometry of the first frame is that of all: the file has " +
+                                       std::to_string(count.integer(0)) + ", which differ.");
+  }
+
+  [[noreturn]] void reject(Column column, const std::string& reason) const {
+    places_.reject(number_,
+                   std::string(column_names[column]) + " " + shown(rows_->text(column)) + " " + reason);
+  }
+
+  std::int64_t integer(Column column) const {
+    if (rows_->type(column) != SQLITE_INTEGER) reject(column, "is not an integer");
+    return rows_->integer(column);
+  }
+
+  double real(Column column) const {
+    const int type = rows_->type(column);
+    if (type != SQLITE_FLOAT && type != SQLITE_INTEGER) reject(column, "is not a number");
+    return rows_->real(column);
+  }
+
+  double coordinate(Column column) const {
+    const double metres = real(column) * metres_;
+    if (!is_coordinate(metres)) reject(column, coordinate_fault(metres));
+    return metres;
+  }
+
+  /// (0, 0) and NULL say nothing.
+  float heading() const {
+    if (rows_->type(ori_x) == SQLITE_NULL || rows_->type(ori_y) == SQLITE_NULL) return unknown;
+    const double x = real(ori_x), y = real(ori_y);
+    if (!std::isfinite(x)) reject(ori_x, "is not finite");
+    if (!std::isfinite(y)) reject(ori_y, "is not finite");
+    return x == 0 && y == 0 ? unknown : static_cast<float>(std::atan2(y, x));
+  }
+
+  Row row() const {
+    Row row;
+    row.number = number_;
+    row.key = integer(frame);
+    if (row.key > largest_frame || row.key < -largest_frame) reject(frame, "is not within +-1e15");
+    row.id = integer(id);
+    row.x = coordinate(pos_x);
+    row.y = coordinate(pos_y);
+    if (has_orientation_) row.heading = heading();
+    return row;
+  }
+};
+
+}  // namespace
+
+std::unique_ptr<RowSource> open_jupedsim(const std::filesystem::path& file,
+                                         const TrajectoryOptions& options) {
+  return std::make_unique<JuPedSim>(file, options);
+}
+
+}  // namespace bch::detail::trajectory

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <charconv>
+#include <cmath>
+#include <cstdint>
+#include <optional>
+#include <string_view>
+
+// Private to the readers of recordings: numbers of text files.
+
+namespace bch::detail::trajectory {
+
+/// Reads a number that is all of a text, infinities and NaN included.
+inline std::optional<double> number_from(std::string_view text) {
+  if (text.starts_with('+') && !text.starts_with("+-")) text.remove_prefix(1);
+  double value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (end != text.data() + text.size() || error == std::errc::invalid_argument) return std::nullopt;
+  if (error != std::errc()) value = INFINITY;  // or closer to 0 than any double, which nobody writes
+  return value;
+}
+
+/// Reads a whole number that is all of a text; "12.0" is one, too.
+inline std::optional<std::int64_t> whole_number_from(std::string_view text) {
+  std::int64_t whole = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), whole);
+  if (error == std::errc() && end == text.data() + text.size()) return whole;
+  const std::optional<double> number = number_from(text);
+  constexpr double largest = 0x1p53;
+  if (!number || !(std::abs(*number) <= largest) || std::trunc(*number) != *number) return std::nullopt;
+  return static_cast<std::int64_t>(*number);
+}
+
+}  // namespace bch::detail::trajectory

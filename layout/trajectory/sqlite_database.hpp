@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <sqlite3.h>
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <string_view>
+
+#include "layout/trajectory/row.hpp"
+
+// Private to the readers of recordings: SQLite files that are not trusted. The only user of SQLite.
+
+namespace bch::detail::trajectory {
+
+class SqliteDatabase;
+
+/// A query and its current row.
+class SqliteStatement {
+ public:
+  SqliteStatement(const SqliteDatabase& database, const std::string& sql);
+
+  /// Goes to the next row.
+  /// Returns: whether there is one.
+  /// Errors:  throws TrajectoryError.
+  bool step();
+  /// Goes back before the first row.
+  void reset() { sqlite3_reset(handle_.get()); }
+
+  sqlite3_stmt* get() const { return handle_.get(); }
+  int type(int column) const { return sqlite3_column_type(handle_.get(), column); }
+  std::int64_t integer(int column) const { return sqlite3_column_int64(handle_.get(), column); }
+  double real(int column) const { return sqlite3_column_double(handle_.get(), column); }
+  /// A value as text, as long as the row is there; empty for NULL.
+  std::string_view text(int column) const;
+
+ private:
+  struct Finalize {
+    void operator()(sqlite3_stmt* handle) const { sqlite3_finalize(handle); }
+  };
+  const SqliteDatabase* database_;
+  std::unique_ptr<sqlite3_stmt, Finalize> handle_;
+};
+
+/// A database that is only read: within limits, without triggers, views, extensions or other files, in one transaction, so that
+/// all queries see the same.
+/// Errors:  all functions throw TrajectoryError.
+class SqliteDatabase {
+ public:
+  explicit SqliteDatabase(const Places& places);
+
+  const Places& places() const { return *places_; }
+  sqlite3* get() const { return handle_.get(); }
+
+  /// Whether there is a table of that name.
+  /// Errors:  also on a view or a virtual table of that name, and on tables that compute columns.
+  bool has_table(const std::string& name) const;
+  /// Whether a table has a column.
+  bool has_column(const std::string& table, std::string_view column) const;
+  /// The size of all of its pages.
+  std::int64_t bytes() const;
+
+  /// Throws what SQLite says is wrong.
+  [[noreturn]] void fail() const;
+
+ private:
+  struct Close {
+    void operator()(sqlite3* handle) const { sqlite3_close(handle); }
+  };
+  const Places* places_;
+  std::unique_ptr<sqlite3, Close> handle_;
+
+  void restrict_it() const;
+  void run(const char* sql) const;
+};
+
+}  // namespace bch::detail::trajectory

@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include "layout/trajectory/table.hpp"
+
+#include <cmath>
+#include <utility>
+
+#include "layout/base/rounding.hpp"
+#include "layout/trajectory/fields.hpp"
+#include "layout/trajectory/numbers.hpp"
+#include "layout/trajectory/table_layout.hpp"
+
+namespace bch::detail::trajectory {
+namespace {
+
+class Table final : public RowSource {
+ public:
+  Table(const std::filesystem::path& file, const TrajectoryOptions& options)
+      : places_{file, true}, lines_(places_), layout_(table_layout(places_, lines_, options)) {
+    rewind();
+  }
+
+  const Places& places() const override { return places_; }
+
+  Recording recording() const override {
+    Recording all = layout_.recording;
+    heights_.describe(all.assumptions);
+    return all;
+  }
+
+  std::size_t read(std::span<Row> rows) override {
+    std::size_t count = 0;
+    for (std::string_view line; count < rows.size() && lines_.next(line);) {
+      if (lines_.number() < layout_.first_line || line.empty() || is_comment(line)) continue;
+      if (is_blank(line.front()) && trimmed(line).empty()) continue;
+      rows[count] = Row();
+      parse(line, rows[count]);
+      ++count;
+    }
+    return count;
+  }
+
+  void rewind() override { lines_.rewind(); }
+
+ private:
+  Places places_;
+  LineReader lines_;
+  TableLayout layout_;
+  Heights heights_;
+
+  [[noreturn]] void reject(const std::string& reason) const { places_.reject(lines_.number(), reason); }
+  [[noreturn]] void reject(std::size_t column, std::string_view value, const std::string& reason) const {
+    reject(layout_.columns.names[column] + " " + shown(value) + " " + reason);
+  }
+
+  void parse(std::string_view line, Row& row) {
+    row.number = lines_.number();
+    Fields fields(line, layout_.separator);
+    const std::size_t columns = layout_.columns.roles.size();
+    const std::size_t wanted = layout_.has_all_columns ? columns : layout_.columns.needed;
+    std::size_t column = 0;
+    for (std::string_view field; column < wanted && fields.next(field); ++column) take(column, field, row);
+    std::string_view more;
+    const bool has_more = layout_.has_all_columns && column == wanted && fields.next(more);
+    if (fields.is_broken()) reject("a quote is not closed, or something follows it");
+    if (column < wanted)
+      reject("has " + std::to_string(column) + " values, not " + std::to_string(wanted) + ": " + shown(line));
+    if (has_more) reject("has more values than the header has columns, the next is " + shown(more));
+  }
+
+  void take(std::size_t column, std::string_view field, Row& row) {
+    switch (layout_.columns.roles[column]) {
+      case Role::none:
+        break;
+      case Role::id:
+        row.id = whole_number(column, field);
+        break;
+      case Role::frame:
+        row.key = whole_number(column, field);
+        if (std::abs(row.key) > largest_frame || row.key == INT64_MIN)
+          reject(column, field, "is not within +-1e15");
+        break;
+      case Role::time:
+        row.key = microseconds_of(column, field);
+        break;
+      case Role::x:
+        row.x = coordinate(column, field);
+        break;
+      case Role::y:
+        row.y = coordinate(column, field);
+        break;
+      case Role::height:
+        if (const double height = finite_or_nan(column, field); !std::isnan(height))
+          row.stature = heights_.take(height * layout_.height_metres);
+        break;
+      case Role::heading:
+        row.heading = heading(column, field);
+        break;
+    }
+  }
+
+  std::int64_t whole_number(std::size_t column, std::string_view field) const {
+    const std::optional<std::int64_t> number = whole_number_from(field);
+    if (!number) reject(column, field, "is not a whole number");
+    return *number;
+  }
+
+  double number(std::size_t column, std::string_view field) const {
+    const std::optional<double> value = number_from(field);
+    if (!value) reject(column, field, "is not a number");
+    return *value;
+  }
+
+  double coordinate(std::size_t column, std::string_view field) const {
+    const double metres = number(column, field) * layout_.metres;
+    if (!is_coordinate(metres)) reject(column, field, coordinate_fault(metres));
+    return metres;
+  }
+
+  std::int64_t microseconds_of(std::size_t column, std::string_view field) const {
+    const double time = number(column, field) * layout_.seconds * microseconds;
+    if (!(std::abs(time) <= static_cast<double>(largest_frame)))
+      reject(column, field, std::isfinite(time) ? "is not within +-1e9 s" : "is not finite");
+    return std::llround(time);
+  }
+
+  /// A number that a row may lack.
+  double finite_or_nan(std::size_t column, std::string_view field) const {
+    const double value = field.empty() ? std::numeric_limits<double>::quiet_NaN() : number(column, field);
+    if (std::isinf(value)) reject(column, field, "is not finite");
+    return value;
+  }
+
+  float heading(std::size_t column, std::string_view field) const {
+    const double radians = finite_or_nan(column, field);
+    if (std::abs(radians) > rounding::largest_heading) reject(column, field, "is not within +-1e9");
+    return static_cast<float>(radians);
+  }
+};
+
+}  // namespace
+
+std::unique_ptr<RowSource> open_table(const std::filesystem::path& file, const TrajectoryOptions& options) {
+  return std::make_unique<Table>(file, options);
+}
+
+}  // namespace bch::detail::trajectory

@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include "layout/trajectory/table_layout.hpp"
+
+#include <algorithm>
+#include <numeric>
+#include <string>
+#include <utility>
+
+#include "layout/trajectory/comment_header.hpp"
+#include "layout/trajectory/fields.hpp"
+#include "layout/trajectory/numbers.hpp"
+
+namespace bch::detail::trajectory {
+namespace {
+
+constexpr std::string_view juelich_columns = "id frame x y z", eth_columns = "frame id x y";
+
+/// Whether the fields of a line could be a row of numbers, judged by its first.
+bool begins_with_number(std::string_view line, char separator) {
+  std::string_view first;
+  return Fields(line, separator).next(first) && number_from(first).has_value();
+}
+
+/// The steps between numbers of a column, by their greatest common divisor.
+class ColumnSteps {
+ public:
+  void add(std::int64_t number) {
+    if (any_) divisor_ = std::gcd(divisor_, std::clamp<std::int64_t>(number, -most, most) - last_);
+    last_ = std::clamp<std::int64_t>(number, -most, most);
+    any_ = true;
+  }
+  std::int64_t divisor() const { return divisor_; }
+
+ private:
+  static constexpr std::int64_t most = std::int64_t{1} << 53;
+  bool any_ = false;
+  std::int64_t last_ = 0, divisor_ = 0;
+};
+
+class LayoutFinder {
+ public:
+  LayoutFinder(const Places& places, LineReader& lines, const TrajectoryOptions& options)
+      : places_(places), lines_(lines), options_(options) {}
+
+  TableLayout find() {
+    skip_comments();
+    layout_.separator = separator_of(line_);
+    if (begins_with_number(line_, layout_.separator))
+      without_header();
+    else
+      with_header();
+    settle_units();
+    return std::move(layout_);
+  }
+
+ private:
+  const Places& places_;
+  LineReader& lines_;
+  const TrajectoryOptions& options_;
+  CommentHeader comments_;
+  TableLayout layout_;
+  std::string_view line_;
+  bool needs_unit_ = false;
+
+  /// Goes to the first line that is no comment and not empty.
+  void skip_comments() {
+    while (lines_.next(line_)) {
+      if (is_comment(line_))
+        comments_.read(places_, lines_.number(), line_);
+      else if (!trimmed(line_).empty())
+        return;
+    }
+    places_.reject(lines_.number() == 0 ? "is empty" : "has no rows");
+  }
+
+  void set_columns(std::span<const ColumnName> names, std::uint64_t line) {
+    layout_.columns = columns_of(places_, line, names, options_.unit.has_value());
+  }
+
+  void with_header() {
+    const bool is_csv = layout_.separator != ' ';
+    const std::uint64_t line = lines_.number();
+    std::vector<ColumnName> names = column_names(options_.columns ? *options_.columns : std::string(line_),
+                                                 options_.columns ? '#' : layout_.separator);
+    if (!options_.columns && !is_csv &&
+        std::none_of(names.begin(), names.end(),
+                     [](const ColumnName& column) { return role_of(column.name) != Role::none; }))
+      places_.reject(line, shown(line_) + " is neither a row of numbers nor a header");
+    layout_.recording.format = is_csv ? "CSV" : "text with a header";
+    layout_.has_all_columns = is_csv;
+    const bool is_pathfinder = take_units(names);
+    set_columns(names, line);
+    if (is_pathfinder) {
+      layout_.recording.format = "Pathfinder CSV";
+      for (Role& role : layout_.columns.roles)  // z is the floor's
+        if (role == Role::height) role = Role::none;
+    }
+    layout_.recording.rate = comments_.fps;
+  }
+
+  /// Reads the line below a header, of rows or of units.
+  /// Returns: whether it was one of units.
+  bool take_units(std::vector<ColumnName>& names) {
+    std::string_view below;
+    do
+      if (!lines_.next(below)) places_.reject("has no rows");
+    while (trimmed(below).empty());
+    layout_.first_line = lines_.number();
+    const std::vector<std::string_view> units = fields_of(below, layout_.separator);
+    if (units.size() != names.size() || std::any_of(units.begin(), units.end(), [](std::string_view field) {
+          return number_from(field).has_value();
+        }))
+      return false;
+    ++layout_.first_line;
+    for (std::size_t i = 0; i < names.size(); ++i)
+      if (names[i].unit.empty()) names[i].unit = lower_case(units[i]);
+    return true;
+  }
+
+  void without_header() {
+    layout_.first_line = lines_.number();
+    layout_.recording.rate = comments_.fps;
+    const std::size_t columns = fields_of(line_, layout_.separator).size();
+    layout_.recording.format = comments_.any ? "PeTrack text" : "text without a header";
+    std::vector<ColumnName> names = comments_.names;
+    std::uint64_t line = comments_.names_line;
+    if (options_.columns || names.empty()) {
+      names = column_names(options_.columns ? std::string_view(*options_.columns) : default_columns(columns),
+                           '#');
+      line = layout_.first_line;
+    }
+    if (names.size() > columns) names.resize(columns);
+    set_columns(names, line);
+    const bool is_eth = !comments_.any && columns == 4 && layout_.columns.roles.front() == Role::frame;
+    if (is_eth) layout_.recording.format = "ETH/UCY columns";
+    needs_unit_ = !comments_.any && !is_eth;
+  }
+
+  std::string_view default_columns(std::size_t columns) {
+    if (layout_.separator != ' ')
+      places_.reject(layout_.first_line,
+                     "has no header: --columns has to name the columns, such as id,frame,x,y");
+    if (columns != 4 || comments_.any) return juelich_columns;
+    return four_columns();
+  }
+
+  /// Tells ids from frames by the steps of the first rows.
+  std::string_view four_columns() {
+    constexpr int most_rows = 4096;
+    ColumnSteps first, second;
+    for (int row = 0; row < most_rows; ++row) {
+      const std::vector<std::string_view> fields = fields_of(line_, layout_.separator);
+      const auto number = [&](std::size_t i) {
+        return i < fields.size() ? whole_number_from(fields[i]) : std::nullopt;
+      };
+      const std::optional<std::int64_t> one = number(0), other = number(1);
+      if (one && other) {
+        first.add(*one);
+        second.add(*other);
+      }
+      if (!lines_.next(line_)) break;
+    }
+    if (first.divisor() > 1 && second.divisor() == 1) return eth_columns;
+    if (first.divisor() == 1 && second.divisor() > 1) return juelich_columns;
+    places_.reject(
+        "has four columns without a header: --columns has to say whether they are frame,id,x,y or "
+        "id,frame,x,y");
+  }
+
+  void settle_units() {
+    std::vector<std::string>& assumptions = layout_.recording.assumptions;
+    const Columns& columns = layout_.columns;
+    std::optional<double> metres = columns.metres ? columns.metres : comments_.metres;
+    if (options_.unit) metres = options_.unit;
+    if (!metres && needs_unit_)
+      places_.reject(
+          options_.fps
+              ? "says no unit: --unit has to give its metres, such as 0.01 for cm"
+              : "says no unit and no frame rate: --unit has to give its metres, such as 0.01 for cm, and "
+                "--fps the frame numbers a second");
+    if (!metres) assumptions.emplace_back("Coordinates are in metres; the file does not say their unit.");
+    layout_.metres = metres.value_or(1);
+    layout_.height_metres = options_.unit ? *options_.unit : columns.height_metres.value_or(layout_.metres);
+    if (!columns.has(Role::time)) return;
+    layout_.recording.clock = Clock::times;
+    if (!columns.seconds) assumptions.emplace_back("Times are in seconds; the file does not say their unit.");
+    layout_.seconds = columns.seconds.value_or(1);
+  }
+};
+
+}  // namespace
+
+TableLayout table_layout(const Places& places, LineReader& lines, const TrajectoryOptions& options) {
+  return LayoutFinder(places, lines, options).find();
+}
+
+}  // namespace bch::detail::trajectory

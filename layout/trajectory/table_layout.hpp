@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <cstdint>
+
+#include "layout/trajectory/columns.hpp"
+#include "layout/trajectory/line_reader.hpp"
+#include "layout/trajectory/trajectory.hpp"
+
+// Private to the readers of recordings: where the rows of a text begin, and what their columns are.
+
+namespace bch::detail::trajectory {
+
+struct TableLayout {
+  Recording recording;
+  char separator = ' ';
+  Columns columns;
+  double metres = 1, height_metres = 1;  ///< a unit
+  double seconds = 1;                    ///< likewise
+  std::uint64_t first_line = 1;          ///< with a row
+  bool has_all_columns = false;          ///< every row has as many fields as there are columns
+};
+
+inline bool is_comment(std::string_view line) {
+  return line.starts_with('#');
+}
+
+/// Reads the beginning of a text: PeTrack's and Juelich's, with comments or without a header; CSV with a header, Pathfinder's
+/// among it; ETH/UCY's columns. These have four columns without a header, where Juelich's may have four, too; they are told
+/// by the steps between different numbers in the first 4096 rows: frames of ETH/UCY, in the first column, have a common divisor above
+/// 1, as each tenth is there, and ids, in the second, have none; where it is the other way round, ids come first.
+/// Errors:  throws TrajectoryError on what is none of these, and where a unit is not known.
+TableLayout table_layout(const Places& places, LineReader& lines, const TrajectoryOptions& options);
+
+}  // namespace bch::detail::trajectory

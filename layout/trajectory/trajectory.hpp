@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace bch::detail {
+
+/// A recording that cannot be read. The message is one line: the file, the row or line where there is one, the reason with
+/// the value.
+class TrajectoryError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// A person in a frame of a recording.
+struct TrackedPerson {
+  std::int64_t id;
+  double x, y;    ///< metres, within +-1e8
+  float heading;  ///< radians, counter-clockwise from +x; NaN where the file does not say
+  float stature;  ///< the person's height in metres, from 1 to 2.5; NaN where the file does not say
+};
+
+/// What the caller of open_trajectory() knows better than the file.
+struct TrajectoryOptions {
+  std::optional<double> fps;           ///< frame numbers a second, instead of what the file says
+  std::optional<double> unit;          ///< metres for a unit of the file, likewise
+  std::optional<std::string> columns;  ///< of text and CSV: their names in order, as "frame,id,x,y"
+  std::size_t sort_memory = std::size_t{32} << 20;  ///< bytes of rows that are sorted at a time
+};
+
+/// What a recording is, known before its first frame is read.
+struct TrajectoryInfo {
+  std::string format;    ///< such as "JuPedSim SQLite, version 2"
+  double fps = 0;        ///< frame numbers a second: a frame's time is its number / fps
+  std::string geometry;  ///< the walkable area as WKT, or empty
+  std::vector<std::string>
+      assumptions;  ///< a sentence each: what the file does not say, and what is taken for it
+  std::uint64_t rows = 0;
+  std::int64_t first_frame = 0, last_frame = 0;
+  std::uint64_t people = 0;  ///< different ids; 0 where they are more than 2^20, which are not counted
+};
+
+/// Reads a recording frame by frame.
+class TrajectoryReader {
+ public:
+  TrajectoryReader() = default;
+  TrajectoryReader(const TrajectoryReader&) = delete;
+  TrajectoryReader& operator=(const TrajectoryReader&) = delete;
+  virtual ~TrajectoryReader() = default;
+
+  virtual const TrajectoryInfo& info() const = 0;
+
+  /// Reads the people of the next frame that has any, by ascending id.
+  /// Returns: whether there was one.
+  /// Errors:  throws TrajectoryError.
+  virtual bool next(std::int64_t& frame, std::vector<TrackedPerson>& people) = 0;
+};
+
+/// Opens a recording, whose format is told by its content: JuPedSim's SQLite (versions 1 to 3), PeTrack's and Juelich's text,
+/// HDF5 of the Pedestrian Dynamics Data Archive, Pathfinder's CSV, CSV with a header, TrajNet++'s ndjson, ETH/UCY columns.
+/// The file is read once to its end, to check it and to learn what info() says, and again for the frames; it is not trusted.
+/// Memory:  grows with the people of a frame and with options.sort_memory, not with the rows. Files whose frames are out of
+///          order are sorted through a file without a name in the folder for temporary files, 48 bytes a row.
+/// Errors:  throws TrajectoryError; also where fps or unit are needed and neither file nor options say them.
+std::unique_ptr<TrajectoryReader> open_trajectory(const std::filesystem::path& file,
+                                                  const TrajectoryOptions& options = {});
+
+}  // namespace bch::detail
