@@ -121,6 +121,6 @@ int main(int argc, char** argv) {
   add_lines({argv[1], "options"});
   add_gltf({argv[1], "gltf"});
   std::uint64_t seed = 10;
-  for (const char* target : {"scene", "outline", "hierarchy", "collide"})
+  for (const char* target : {"scene", "outline", "hierarchy", "collide", "c_api"})
     add_noise({argv[1], target}, ++seed);
 }
