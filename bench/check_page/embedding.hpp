@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <concepts>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <nlohmann/json_fwd.hpp>
+#include <span>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <vector>
+
+// How data lie in a page so that scripts can read them and nothing in them can become markup.
+
+namespace bch::cli {
+
+/// Returns how many characters that many bytes take in base64.
+constexpr std::size_t base64_size(std::size_t bytes) {
+  return (bytes + 2) / 3 * 4;
+}
+
+/// Writes bytes in base64 (RFC 4648, section 4).
+std::string base64(std::span<const std::byte> bytes);
+
+/// Writes JSON that may stand in a script element: without "<", ">" and "&", which are written as \u003c and so on.
+/// Bytes of texts that are not UTF-8 are replaced.
+std::string script_json(const nlohmann::ordered_json& json);
+
+/// Returns the element data-NAME, whose text is JSON.
+std::string json_block(std::string_view name, const nlohmann::ordered_json& json);
+
+/// Returns the element data-NAME, whose text is the numbers in base64, least significant byte first; its attribute
+/// data-type names the type as "u16", "i32" or "f64".
+std::string number_block(std::string_view name, std::string_view type, std::span<const std::byte> bytes);
+
+/// Names the type of a number as number_block() does.
+template <class Number>
+constexpr const char* number_type() {
+  constexpr bool is_signed = std::is_signed_v<Number>;
+  if constexpr (std::floating_point<Number>)
+    return sizeof(Number) == 8 ? "f64" : "f32";
+  else
+    return sizeof(Number) == 1   ? (is_signed ? "i8" : "u8")
+           : sizeof(Number) == 2 ? (is_signed ? "i16" : "u16")
+                                 : (is_signed ? "i32" : "u32");
+}
+
+template <class Number>
+std::string number_block(std::string_view name, const std::vector<Number>& numbers) {
+  return number_block(name, number_type<Number>(), std::as_bytes(std::span(numbers)));
+}
+
+/// Writes numbers as 16 bits if `narrow`, else as 32 bits.
+inline std::string index_block(std::string_view name, const std::vector<std::uint32_t>& numbers,
+                               bool narrow) {
+  if (!narrow) return number_block(name, numbers);
+  std::vector<std::uint16_t> shorter(numbers.size());
+  for (std::size_t i = 0; i < numbers.size(); ++i) shorter[i] = static_cast<std::uint16_t>(numbers[i]);
+  return number_block(name, shorter);
+}
+
+}  // namespace bch::cli

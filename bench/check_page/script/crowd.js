@@ -1,0 +1,175 @@
+// People: bodies, or dots where these would be too small to see.
+
+const crowdContext = element("crowd").getContext("2d");
+const dotBelow = 12;      // pixels: smaller people are dots
+const outlinedFrom = 22;  // pixels: smaller bodies have no outline unless they overlap
+
+/** Rows of the current frame that the view shows, by how they are drawn; filled anew for each frame. */
+const drawn = {bodies: [], hits: [], dots: [], hitDots: []};
+
+function sortRows() {
+  for (const list of Object.values(drawn)) list.length = 0;
+  const left = groundX(0), right = groundX(view.width), bottom = groundY(view.height), top = groundY(0);
+  const frame = player.frame;
+  for (let row = frames.begin[frame]; row < frames.begin[frame + 1]; ++row) {
+    const x = placeX(row), y = placeY(row), radius = shapes.radius[people.shape[row]];
+    if (x + radius < left || x - radius > right || y + radius < bottom || y - radius > top) continue;
+    const isDot = 2 * radius * view.scale < dotBelow;
+    if (people.marks[row] !== 0) (isDot ? drawn.hitDots : drawn.hits).push(row);
+    else (isDot ? drawn.dots : drawn.bodies).push(row);
+  }
+}
+
+function drawDots(context, rows, radius) {
+  context.beginPath();
+  for (const row of rows) {
+    const x = screenX(placeX(row)), y = screenY(placeY(row));
+    context.moveTo(x + radius, y);
+    context.arc(x, y, radius, 0, 2 * Math.PI);
+  }
+}
+
+function drawSmallPeople(context) {
+  const radius = Math.max(1.5, 0.2 * view.scale);
+  drawDots(context, drawn.dots, radius);
+  context.fillStyle = colours["body-line"];
+  context.fill();
+  drawDots(context, drawn.hitDots, radius + 1);
+  context.fillStyle = colours.hit;
+  context.fill();
+  drawDots(context, drawn.hitDots, radius + 3);
+  context.strokeStyle = colours.hit;
+  context.lineWidth = 1.2;
+  context.stroke();
+}
+
+/** Turns the context into the frame of the person in a row. */
+function enter(context, row) {
+  const heading = headingOf(row), scale = view.scale * view.ratio;
+  const cosine = Math.cos(heading) * scale, sine = Math.sin(heading) * scale;
+  context.setTransform(cosine, -sine, -sine, -cosine, screenX(placeX(row)) * view.ratio,
+    screenY(placeY(row)) * view.ratio);
+}
+
+const leave = (context) => context.setTransform(view.ratio, 0, 0, view.ratio, 0, 0);
+
+function drawBodies(context) {
+  context.fillStyle = colours.body;
+  context.strokeStyle = colours["body-line"];
+  context.lineWidth = 1 / view.scale;
+  for (const row of drawn.bodies) {
+    const shape = people.shape[row], path = bodyPath(shape, view.scale);
+    enter(context, row);
+    context.fill(path);
+    if (2 * shapes.radius[shape] * view.scale >= outlinedFrom) context.stroke(path);
+  }
+}
+
+function drawHits(context) {
+  context.fillStyle = colours["hit-fill"];
+  context.strokeStyle = colours.hit;
+  const width = Math.min(Math.max(view.scale * 0.03, 1.8), 3.2), dash = [5 / view.scale, 4 / view.scale];
+  context.lineWidth = width / view.scale;
+  for (const row of drawn.hits) {
+    const path = bodyPath(people.shape[row], view.scale);
+    enter(context, row);
+    context.fill(path);
+    if (people.marks[row] === marks.inWall) context.setLineDash(dash);
+    context.stroke(path);
+    context.setLineDash([]);
+  }
+}
+
+/** Lines from the places of bodies to where they look, all in one path. */
+function drawHeadings(context, rows, colour) {
+  context.beginPath();
+  for (const row of rows) {
+    const x = screenX(placeX(row)), y = screenY(placeY(row)), heading = headingOf(row), length = 0.2 * view.scale;
+    context.moveTo(x, y);
+    context.lineTo(x + Math.cos(heading) * length, y - Math.sin(heading) * length);
+  }
+  context.strokeStyle = colour;
+  context.lineWidth = 1;
+  context.stroke();
+}
+
+function drawDiscs(context) {
+  context.lineWidth = 1 / view.scale;
+  context.globalAlpha = 0.7;
+  for (const [rows, colour] of [[drawn.bodies, "body-line"], [drawn.hits, "hit"]]) {
+    context.strokeStyle = colours[colour];
+    for (const row of rows) {
+      enter(context, row);
+      context.stroke(discsOf(people.shape[row]));
+    }
+  }
+  context.globalAlpha = 1;
+}
+
+const trailSeconds = 10;
+
+/** Where the selected person came from, fainter with time. */
+function drawTrail(context) {
+  if (selection.who < 0) return;
+  let x, y, drawing = false;
+  context.strokeStyle = colours.accent;
+  context.lineWidth = 2;
+  context.lineCap = "round";
+  const now = frames.seconds[player.frame], first = frameAt(now - trailSeconds);
+  for (let frame = first; frame <= player.frame; ++frame) {
+    const row = rowOf(frame, selection.who);
+    if (row >= 0 && drawing) {
+      context.globalAlpha = 0.1 + 0.7 * Math.max(0, 1 - (now - frames.seconds[frame]) / trailSeconds);
+      context.beginPath();
+      context.moveTo(x, y);
+      context.lineTo(screenX(placeX(row)), screenY(placeY(row)));
+      context.stroke();
+    }
+    drawing = row >= 0;
+    if (drawing) [x, y] = [screenX(placeX(row)), screenY(placeY(row))];
+  }
+  context.globalAlpha = 1;
+}
+
+function drawRing(context, x, y, radius, width) {
+  context.beginPath();
+  context.arc(screenX(x), screenY(y), radius, 0, 2 * Math.PI);
+  context.strokeStyle = colours.accent;
+  context.lineWidth = width;
+  context.stroke();
+}
+
+/** Rings around the selected person, the one under the pointer, and the place of the event. */
+function drawRings(context) {
+  for (const [who, width] of [[selection.hovered, 1.2], [selection.who, 2]]) {
+    const row = who < 0 ? -1 : rowOf(player.frame, who);
+    if (row < 0) continue;
+    drawRing(context, placeX(row), placeY(row),
+      Math.max(8, (shapes.radius[people.shape[row]] + 0.06) * view.scale), width);
+  }
+  if (selection.event === null) return;
+  const {x, y} = selection.event, radius = Math.max(14, 0.75 * view.scale);
+  context.setLineDash([3, 4]);
+  drawRing(context, x, y, radius, 1.2);
+  context.setLineDash([]);
+}
+
+function drawCrowd() {
+  const context = crowdContext;
+  leave(context);
+  context.clearRect(0, 0, view.width, view.height);
+  if (frames.count === 0) return;
+  sortRows();
+  drawTrail(context);
+  drawSmallPeople(context);
+  context.lineJoin = "round";
+  drawBodies(context);
+  drawHits(context);
+  if (player.discs) drawDiscs(context);
+  leave(context);
+  if (view.scale >= 50) {
+    drawHeadings(context, drawn.bodies, colours["body-line"]);
+    drawHeadings(context, drawn.hits, colours.hit);
+  }
+  drawRings(context);
+}

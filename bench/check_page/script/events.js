@@ -1,0 +1,112 @@
+// The list of overlaps.
+
+const listed = {order: [], shown: 0, byDepth: true};
+const rowsAtATime = 100;
+
+const depthText = (metres) => (metres * 100).toFixed(1) + " cm";
+const lastsText = (seconds) => seconds < 9.995 ? seconds.toFixed(2) + " s" : seconds.toFixed(1) + " s";
+const pairText = (event) => event.first + (event.isWall ? " in a wall" : " and " + event.second);
+const deepest = events.reduce((most, event) => Math.max(most, event.depth), 0);
+
+function sortEvents(byDepth) {
+  listed.byDepth = byDepth;
+  listed.order = [...events];
+  if (byDepth) listed.order.sort((a, b) => b.depth - a.depth || a.from - b.from);
+  else listed.order.sort((a, b) => a.from - b.from || b.depth - a.depth);
+  element("by-depth").setAttribute("aria-pressed", String(byDepth));
+  element("by-time").setAttribute("aria-pressed", String(!byDepth));
+  listed.shown = 0;
+  element("event-list").replaceChildren();
+  showMoreEvents(rowsAtATime);
+  markEvent();
+}
+
+function part(name, className, text) {
+  const node = document.createElement(name);
+  node.className = className;
+  node.textContent = text;
+  return node;
+}
+
+function depthBar(event) {
+  const bar = document.createElement("meter");
+  bar.max = deepest || 1;
+  bar.value = event.depth;
+  bar.setAttribute("aria-hidden", "true");
+  return bar;
+}
+
+function eventRow(event) {
+  const item = document.createElement("li"), button = document.createElement("button");
+  button.type = "button";
+  button.dataset.index = event.index;
+  button.append(part("span", "pair", pairText(event)), part("span", "depth", depthText(event.depth)),
+    part("span", "when", "from " + clockText(event.from) + " for " + lastsText(event.to - event.from)), depthBar(event));
+  button.addEventListener("click", (click) => {
+    jumpToEvent(event.index);
+    if (click.detail > 0) button.blur();  // so that the space bar plays
+  });
+  item.append(button);
+  return item;
+}
+
+function showMoreEvents(count) {
+  const more = listed.order.slice(listed.shown, listed.shown + count);
+  element("event-list").append(...more.map(eventRow));
+  listed.shown += more.length;
+  element("more-events").hidden = listed.shown >= listed.order.length;
+}
+
+/** Marks the row of the event that is shown. */
+function markEvent() {
+  for (const button of document.querySelectorAll("#event-list button[aria-current]"))
+    button.removeAttribute("aria-current");
+  if (selection.event === null) return;
+  const place = listed.order.indexOf(selection.event);
+  if (place >= listed.shown) showMoreEvents(place - listed.shown + rowsAtATime);
+  const button = element("event-list").children[place].firstChild;
+  button.setAttribute("aria-current", "true");
+  // On a phone the list lies below the picture, which should stay in sight.
+  const aside = document.querySelector("aside");
+  if (aside.scrollHeight > aside.clientHeight + 1) button.scrollIntoView({block: "nearest"});
+}
+
+/** Shows an event, by its place in the program's list, where it is deepest. */
+function jumpToEvent(index) {
+  const event = events[index];
+  if (event === undefined) return;
+  pause();
+  follow(false);
+  view.fitted = false;
+  selection.event = event;
+  listed.last = event;
+  if (frames.count > 0) seek(frames.seconds[nearestFrame(event.worst)]);
+  moveView(event.x, event.y, Math.max(view.scale, Math.min(view.width, view.height) / 6));
+  markEvent();
+}
+
+/** The event of the list that follows the one shown last, or comes before it. */
+function nextEvent(by) {
+  if (events.length === 0) return;
+  const at = listed.last ? listed.order.indexOf(listed.last) + by : 0;
+  jumpToEvent(listed.order[Math.min(Math.max(at, 0), listed.order.length - 1)].index);
+}
+
+function noteOfEvents() {
+  if (meta.allEvents === 0) return "Nobody overlaps anybody, and nobody is in a wall.";
+  if (events.length < meta.allEvents)
+    return "The " + grouped(events.length) + " deepest of " + grouped(meta.allEvents) + ".";
+  return "";
+}
+
+function startEvents() {
+  const note = noteOfEvents();
+  element("events-note").textContent = note;
+  element("events-note").hidden = note === "";
+  element("events-title").textContent = "Events" + (meta.allEvents > 0 ? " (" + grouped(meta.allEvents) + ")" : "");
+  element("by-depth").parentNode.hidden = events.length === 0;
+  element("by-depth").addEventListener("click", () => sortEvents(true));
+  element("by-time").addEventListener("click", () => sortEvents(false));
+  element("more-events").addEventListener("click", () => showMoreEvents(rowsAtATime));
+  sortEvents(true);
+}

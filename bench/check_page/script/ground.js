@@ -1,0 +1,73 @@
+// The picture's ground: a grid with its metres, and walls. It is drawn anew only when the view changes.
+
+const colours = {};
+function readColours() {
+  const style = getComputedStyle(document.documentElement);
+  for (const name of ["ground", "grid", "line", "ink", "quiet", "accent", "hit", "hit-fill", "body", "body-line", "wall"])
+    colours[name] = style.getPropertyValue("--" + name).trim();
+  colours.font = "11px " + getComputedStyle(document.body).fontFamily;
+}
+
+/** The step of 1, 2 or 5 times a power of ten that is not narrower than so many pixels. */
+function roundStep(least) {
+  const power = 10 ** Math.floor(Math.log10(least));
+  return [1, 2, 5, 10].map((m) => m * power).find((step) => step >= least);
+}
+
+/** Calls visit(pixel, metres of the recording) for each line of the grid that the view shows. */
+function forGrid(step, from, to, corner, toScreen, visit) {
+  const first = Math.ceil((from + corner) / step), last = Math.floor((to + corner) / step);
+  for (let i = first; i <= last; ++i) visit(Math.round(toScreen(i * step - corner)) + 0.5, i * step);
+}
+
+function drawGrid(context) {
+  const step = roundStep(64 / view.scale), digits = step < 1 ? Math.ceil(-Math.log10(step) - 1e-9) : 0;
+  const left = groundX(0), right = groundX(view.width), bottom = groundY(view.height), top = groundY(0);
+  context.strokeStyle = colours.grid;
+  context.lineWidth = 1;
+  context.beginPath();
+  forGrid(step, left, right, meta.corner[0], screenX, (x) => { context.moveTo(x, 0); context.lineTo(x, view.height); });
+  forGrid(step, bottom, top, meta.corner[1], screenY, (y) => { context.moveTo(0, y); context.lineTo(view.width, y); });
+  context.stroke();
+  drawRuler(context, step, digits);
+}
+
+function drawRuler(context, step, digits) {
+  const left = groundX(0), right = groundX(view.width), bottom = groundY(view.height), top = groundY(0);
+  context.font = colours.font;
+  context.fillStyle = colours.quiet;
+  context.textBaseline = "alphabetic";
+  context.textAlign = "center";
+  forGrid(step, left, right, meta.corner[0], screenX, (x, metres) => {
+    if (x > 44 && x < view.width - 44) context.fillText(metres.toFixed(digits), x, view.height - 8);
+  });
+  context.textAlign = "right";
+  context.fillText("metres", view.width - 10, view.height - 8);
+  context.textAlign = "left";
+  forGrid(step, bottom, top, meta.corner[1], screenY, (y, metres) => {
+    if (y > 40 && y < view.height - 24) context.fillText(metres.toFixed(digits), 8, y - 4);
+  });
+}
+
+function drawWalls(context) {
+  context.strokeStyle = colours.wall;
+  context.lineWidth = Math.min(Math.max(view.scale * 0.04, 1.5), 4);
+  context.lineJoin = context.lineCap = "round";
+  context.beginPath();
+  for (let wall = 0; wall + 1 < walls.begin.length; ++wall)
+    for (let i = walls.begin[wall]; i < walls.begin[wall + 1]; ++i) {
+      const x = screenX(walls.points[2 * i] / 1000), y = screenY(walls.points[2 * i + 1] / 1000);
+      if (i === walls.begin[wall]) context.moveTo(x, y);
+      else context.lineTo(x, y);
+    }
+  context.stroke();
+}
+
+function drawGround() {
+  const context = element("ground").getContext("2d", {alpha: false});
+  context.setTransform(view.ratio, 0, 0, view.ratio, 0, 0);
+  context.fillStyle = colours.ground;
+  context.fillRect(0, 0, view.width, view.height);
+  drawGrid(context);
+  drawWalls(context);
+}

@@ -1,0 +1,133 @@
+// Time: which frame is shown, and the loop that draws.
+
+const player = {time: frames.start, frame: 0, playing: false, speed: 1, discs: false, last: 0, waiting: false};
+const ticks = [];  // times of the latest animation frames while playing
+
+function draw() {
+  if (view.changed) drawGround();
+  view.changed = false;
+  drawCrowd();
+}
+
+function requestDraw() {
+  if (player.waiting) return;
+  player.waiting = true;
+  requestAnimationFrame(tick);
+}
+
+function tick(now) {
+  player.waiting = false;
+  if (player.playing) advance(now);
+  draw();
+  if (player.playing) requestDraw();
+}
+
+function advance(now) {
+  ticks.push(now);
+  while (ticks.length > 1 && now - ticks[0] > 1000) ticks.shift();
+  // A page that was hidden goes on where it stopped.
+  const passed = Math.min((now - player.last) / 1000, 0.25) * player.speed;
+  player.last = now;
+  showTime(player.time + Math.max(passed, 0));
+  if (player.time >= frames.end) pause();
+}
+
+/** Shows the last frame up to a time, which is brought into the recording. */
+function showTime(seconds) {
+  player.time = Math.min(Math.max(seconds, frames.start), frames.end);
+  const frame = frameAt(player.time);
+  if (frame !== player.frame) {
+    player.frame = frame;
+    frameChanged();
+  }
+  showClock();
+}
+
+function frameChanged() {
+  showNow();
+  showCard();
+  if (selection.following) keepInMiddle();
+  if (selection.event !== null && !player.playing) return;
+  if (selection.event !== null && player.time > selection.event.to + 2) selection.event = null;
+}
+
+function seek(seconds) {
+  showTime(seconds);
+  requestDraw();
+}
+
+function play() {
+  if (player.playing || frames.count === 0) return;
+  if (player.time >= frames.end) showTime(frames.start);
+  player.playing = true;
+  player.last = performance.now();
+  ticks.length = 0;
+  showPlaying();
+  requestDraw();
+}
+
+function pause() {
+  player.playing = false;
+  showPlaying();
+}
+
+const togglePlaying = () => player.playing ? pause() : play();
+
+function stepFrame(by) {
+  pause();
+  const frame = Math.min(Math.max(player.frame + by, 0), frames.count - 1);
+  if (frames.count > 0) seek(frames.seconds[frame]);
+}
+
+/** Animation frames a second over the latest second of playing. */
+function frameRate() {
+  return ticks.length < 2 ? 0 : 1000 * (ticks.length - 1) / (ticks[ticks.length - 1] - ticks[0]);
+}
+
+function showPlaying() {
+  element("play").setAttribute("aria-label", player.playing ? "Pause" : "Play");
+  element("play-icon").setAttribute("href", player.playing ? "#icon-pause" : "#icon-play");
+}
+
+function setText(node, text) {
+  if (node.textContent !== text) node.textContent = text;
+}
+
+function showClock() {
+  setText(element("clock"), clockText(player.time) + " / " + clockText(frames.end));
+  const part = frames.end > frames.start ? (player.time - frames.start) / (frames.end - frames.start) : 0;
+  if (document.activeElement !== scrub || player.playing || Math.abs(scrub.value - part) > 1e-9) scrub.value = part;
+  placeCursor(part);
+}
+
+function showNow() {
+  if (frames.count === 0) return;
+  let hits = 0;
+  const first = frames.begin[player.frame], last = frames.begin[player.frame + 1];
+  for (let row = first; row < last; ++row) hits += people.marks[row] !== 0 ? 1 : 0;
+  const now = element("now");
+  setText(element("clock-frame"), "frame " + grouped(frames.number[player.frame]));
+  setText(now, counted(last - first, "person", "people") + ", " + (hits > 0 ? hits + " overlapping" : "none overlapping"));
+  now.classList.toggle("some", hits > 0);
+}
+
+function setSpeed(speed) {
+  player.speed = speed;
+  element("speed").value = String(speed);
+}
+
+/** The next speed of the list, up or down. */
+function changeSpeed(by) {
+  const choice = element("speed"), at = choice.selectedIndex + by;
+  if (at >= 0 && at < choice.options.length) setSpeed(Number(choice.options[at].value));
+}
+
+const scrub = element("scrub");
+
+function listenToTransport() {
+  element("play").addEventListener("click", togglePlaying);
+  element("frame-back").addEventListener("click", () => stepFrame(-1));
+  element("frame-on").addEventListener("click", () => stepFrame(1));
+  element("speed").addEventListener("change", (event) => setSpeed(Number(event.target.value)));
+  scrub.addEventListener("input", () => seek(frames.start + scrub.value * (frames.end - frames.start)));
+}

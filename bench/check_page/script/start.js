@@ -1,0 +1,64 @@
+// Puts the page together, and offers what tests need.
+
+const ordinal = (number) => number + ({1: "st", 2: "nd", 3: "rd"}[number % 100 > 10 && number % 100 < 14 ? 0 : number % 10] ?? "th");
+
+function summary() {
+  const parts = [counted(new Set(people.who).size, "person", "people"), clockText(frames.end - frames.start)];
+  if (meta.fps > 0) parts.push(Number(meta.fps.toFixed(2)) + " frames a second");
+  parts.push(counted(meta.frames, "frame", "frames"));
+  if (meta.step > 1) parts.push("every " + ordinal(meta.step) + " frame shown");
+  return parts.join(" · ");
+}
+
+function showFacts() {
+  element("summary").textContent = summary();
+  for (const [name, value] of meta.facts) {
+    const term = document.createElement("dt"), text = document.createElement("dd");
+    term.textContent = name;
+    text.textContent = value;
+    element("fact-list").append(term, text);
+  }
+  element("facts").hidden = meta.facts.length === 0;
+  element("discs").hidden = element("help-discs").hidden = element("help-discs-text").hidden = !hasDiscs;
+  element("legend-wall").hidden = walls.points.length === 0;
+}
+
+/** People in the frame that is shown, in the recording's coordinates. */
+function peopleNow() {
+  const list = [];
+  if (frames.count === 0) return list;
+  for (let row = frames.begin[player.frame]; row < frames.begin[player.frame + 1]; ++row)
+    list.push({id: meta.ids[people.who[row]], x: placeX(row) + meta.corner[0], y: placeY(row) + meta.corner[1],
+      heading: headingOf(row), speed: people.speed[row] / 1000, shape: meta.shapes[people.shape[row]],
+      overlaps: (people.marks[row] & marks.overlaps) !== 0, inWall: (people.marks[row] & marks.inWall) !== 0});
+  return list;
+}
+
+function start() {
+  showFacts();
+  listenToKeys();
+  applyTheme();
+  listenToStage();
+  listenToTransport();
+  listenToPeople();
+  listenToTimeline();
+  startEvents();
+  showTime(frames.start);
+  showNow();
+  showPlaying();
+  resizeStage();
+}
+
+window.bchPage = Object.freeze({
+  time: () => player.time,
+  frame: () => frames.number[player.frame],
+  isPlaying: () => player.playing,
+  seek, play, pause, setSpeed, jumpToEvent, frameRate,
+  people: peopleNow,
+  events: () => events.length,
+  view: () => ({x: view.x + meta.corner[0], y: view.y + meta.corner[1], scale: view.scale}),
+  setView: (x, y, scale) => { view.fitted = false; setView(x - meta.corner[0], y - meta.corner[1], scale); },
+  select: (id) => select(meta.ids.indexOf(id)),
+});
+
+start();

@@ -1,0 +1,307 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <cstdio>
+#include <fstream>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <numbers>
+#include <set>
+#include <string>
+#include <vector>
+
+#include <bch/bch.hpp>
+
+#include "bench/base/disc_union_area.hpp"
+#include "bench/check_page/check_page.hpp"
+#include "layout/base/random.hpp"
+
+// Writes the page of a recording that it makes up, for tests in a browser, and what the page should show as JSON: two
+// groups walk through each other along a corridor with a pillar. Whoever has left it comes back as somebody else.
+// Usage: check_page_sample PAGE.html EXPECTED.json [PEOPLE FRAMES [MOST_BYTES]]
+
+namespace bch::test {
+namespace {
+
+constexpr double fps = 25;
+constexpr std::uint32_t phases = 24;
+constexpr double stride = 1.05;  // seconds
+
+struct Corridor {
+  double length, width;
+};
+
+/// The recording's origin is far from that of the coordinates.
+constexpr double origin_x = 1200, origin_y = -350;
+
+std::vector<std::vector<cli::PagePoint>> walls_of(const Corridor& corridor) {
+  std::vector<std::vector<cli::PagePoint>> walls;
+  for (const double y : {0.0, corridor.width})
+    walls.push_back({{origin_x, origin_y + y}, {origin_x + corridor.length, origin_y + y}});
+  std::vector<cli::PagePoint> pillar;
+  for (int i = 0; i <= 4; ++i) {
+    const double turn = (i + 0.5) * std::numbers::pi / 2;
+    pillar.push_back({origin_x + corridor.length / 2 + 0.6 * std::cos(turn),
+                      origin_y + corridor.width / 2 + 0.6 * std::sin(turn)});
+  }
+  pillar.back() = pillar.front();
+  walls.push_back(pillar);
+  return walls;
+}
+
+ObstacleSet obstacles_of(const std::vector<std::vector<cli::PagePoint>>& walls) {
+  std::vector<double> x, y;
+  std::vector<std::uint64_t> offsets{0};
+  for (const auto& wall : walls) {
+    for (const auto& point : wall) {
+      x.push_back(point.x);
+      y.push_back(point.y);
+    }
+    offsets.push_back(x.size());
+  }
+  return ObstacleSet({.x = x, .y = y, .path_offsets = offsets});
+}
+
+/// Man and woman in the phases of their stride.
+struct Poses {
+  std::vector<Shape> shapes;
+  std::vector<cli::PageShape> drawn;
+};
+
+Poses poses() {
+  Poses all;
+  const std::vector<std::pair<std::string, Character>> characters{{"man", default_male()},
+                                                                  {"woman", default_female()}};
+  for (const auto& character : characters) {
+    PoseShaper shaper(character.second);
+    for (std::uint32_t phase = 0; phase < phases; ++phase) {
+      all.shapes.push_back(shaper.shape({0, static_cast<float>(stride * phase / phases)}));
+      cli::PageShape& drawn = all.drawn.emplace_back();
+      char part[16];
+      std::snprintf(part, sizeof part, "%.2f", static_cast<double>(phase) / phases);
+      drawn.name = character.first + ", walking, " + part + " of the stride";
+      const Outline& outline = all.shapes.back().outline;
+      for (std::size_t i = 0; i < outline.contours(); ++i)
+        drawn.contours.emplace_back(outline.contour(i).begin(), outline.contour(i).end());
+      drawn.discs = cli::discs_of(all.shapes.back().hierarchy, 3);
+    }
+  }
+  return all;
+}
+
+struct Walker {
+  double start, lane, sway, speed, phase;
+  bool east;
+};
+
+std::vector<Walker> walkers(std::uint32_t count, const Corridor& corridor) {
+  detail::Random random(29);
+  std::vector<Walker> all;
+  for (std::uint32_t i = 0; i < count; ++i)
+    all.push_back({random.uniform(corridor.length), 0.35 + random.uniform(corridor.width - 0.7),
+                   random.uniform(0.25), 0.7 + random.uniform(0.8), random.uniform(2 * std::numbers::pi),
+                   i % 2 == 0});
+  return all;
+}
+
+/// A crowd in the arrays that queries take, and ids.
+struct Crowd {
+  std::vector<std::int64_t> id;
+  std::vector<std::uint32_t> shape;
+  std::vector<double> x, y, heading, speed;
+
+  Agents agents() const { return {shape, x, y, heading}; }
+};
+
+Crowd crowd_at(const std::vector<Walker>& walkers, const Corridor& corridor, double seconds) {
+  Crowd crowd;
+  for (std::size_t i = 0; i < walkers.size(); ++i) {
+    const Walker& w = walkers[i];
+    const double walked = w.start + w.speed * seconds, laps = std::floor(walked / corridor.length);
+    const double along = walked - laps * corridor.length, swing = 0.9 * seconds + w.phase;
+    const double across = w.sway * std::cos(swing) * 0.9;
+    crowd.id.push_back(static_cast<std::int64_t>(i + 1 + walkers.size() * static_cast<std::size_t>(laps)));
+    crowd.x.push_back(origin_x + (w.east ? along : corridor.length - along));
+    crowd.y.push_back(origin_y + w.lane + w.sway * std::sin(swing));
+    crowd.heading.push_back(std::atan2(across, w.east ? w.speed : -w.speed));
+    crowd.speed.push_back(std::hypot(across, w.speed));
+    const double stride_part = seconds * w.speed / 1.35 / stride + w.phase;
+    crowd.shape.push_back((w.phase > 3 ? phases : 0) +
+                          static_cast<std::uint32_t>(stride_part * phases) % phases);
+  }
+  return crowd;
+}
+
+/// A pair of ids, or an id and nothing for a wall.
+using Key = std::pair<std::int64_t, std::int64_t>;
+constexpr std::int64_t wall_key = -1;
+
+/// What people do in each other, from frame to frame.
+class Events {
+ public:
+  void add(Key key, double seconds, float depth, cli::PagePoint at) {
+    seen_.insert(key);
+    const auto [open, is_new] = open_.try_emplace(
+        key,
+        cli::PageEvent{key.first, key.second, key.second == wall_key, seconds, seconds, seconds, depth, at});
+    cli::PageEvent& event = open->second;
+    event.to = seconds;
+    if (depth <= event.depth) return;
+    event.depth = depth;
+    event.worst = seconds;
+    event.at = at;
+  }
+  void end_frame() {
+    for (auto open = open_.begin(); open != open_.end();) {
+      const bool is_over = !seen_.contains(open->first);
+      if (is_over) done_.push_back(open->second);
+      open = is_over ? open_.erase(open) : std::next(open);
+    }
+    seen_.clear();
+  }
+  const std::vector<cli::PageEvent>& done() const { return done_; }
+
+ private:
+  std::map<Key, cli::PageEvent> open_;
+  std::set<Key> seen_;
+  std::vector<cli::PageEvent> done_;
+};
+
+/// A frame that has been checked.
+struct Checked {
+  std::vector<cli::PagePerson> people;
+  std::vector<cli::PageOverlap> overlaps;
+};
+
+class Recording {
+ public:
+  Recording(std::uint32_t people, const Corridor& corridor)
+      : corridor_(corridor), walkers_(walkers(people, corridor)), poses_(poses()), set_(poses_.shapes) {}
+
+  cli::PageShape drawn(std::uint32_t shape) const { return poses_.drawn.at(shape); }
+  const Events& events() const { return events_; }
+
+  Checked frame(double seconds) {
+    const Crowd crowd = crowd_at(walkers_, corridor_, seconds);
+    const CrowdCollisions hits = collider_.collide_all(set_, crowd.agents(), obstacles_);
+    Checked checked;
+    for (std::uint32_t i = 0; i < crowd.id.size(); ++i) {
+      checked.people.push_back({crowd.id[i], crowd.shape[i], place(crowd, i),
+                                static_cast<float>(crowd.heading[i]), static_cast<float>(crowd.speed[i]),
+                                !hits.agents[i].empty(), !hits.obstacles[i].empty()});
+      if (!hits.obstacles[i].empty()) {
+        checked.overlaps.push_back({crowd.id[i], 0, true});
+        events_.add({crowd.id[i], wall_key}, seconds, 0.05f, place(crowd, i));
+      }
+    }
+    add_pairs(crowd, hits.agents, seconds, checked);
+    events_.end_frame();
+    return checked;
+  }
+
+ private:
+  static cli::PagePoint place(const Crowd& crowd, std::uint32_t i) { return {crowd.x[i], crowd.y[i]}; }
+
+  void add_pairs(const Crowd& crowd, const Rows<std::uint32_t>& rows, double seconds, Checked& checked) {
+    std::vector<Pair> pairs;
+    for (std::uint32_t i = 0; i < crowd.id.size(); ++i)
+      for (const std::uint32_t j : rows[i])
+        if (i < j) pairs.push_back({i, j});
+    std::vector<Penetration> depths(pairs.size());
+    penetration(set_, crowd.agents(), pairs, 16, depths);
+    for (std::size_t k = 0; k < pairs.size(); ++k) {
+      const auto [i, j] = pairs[k];
+      checked.overlaps.push_back({crowd.id[i], crowd.id[j], false});
+      events_.add({crowd.id[i], crowd.id[j]}, seconds, depths[k].depth,
+                  {(crowd.x[i] + crowd.x[j]) / 2, (crowd.y[i] + crowd.y[j]) / 2});
+    }
+  }
+
+  Corridor corridor_;
+  std::vector<Walker> walkers_;
+  Poses poses_;
+  ShapeSet set_;
+  ObstacleSet obstacles_ = obstacles_of(walls_of(corridor_));
+  CrowdCollider collider_;
+  Events events_;
+};
+
+nlohmann::json expected_frame(const cli::PageFrame& frame) {
+  nlohmann::json people = nlohmann::json::array();
+  for (const cli::PagePerson& person : frame.people)
+    people.push_back({person.id, person.at.x, person.at.y, person.overlaps, person.in_wall});
+  return {{"frame", frame.frame}, {"seconds", frame.seconds}, {"people", people}};
+}
+
+nlohmann::json expected_events(const std::vector<cli::PageEvent>& events) {
+  nlohmann::json list = nlohmann::json::array();
+  for (const cli::PageEvent& event : events)
+    list.push_back({{"first", event.first},
+                    {"second", event.second},
+                    {"wall", event.is_wall},
+                    {"worst", event.worst},
+                    {"depth", event.depth},
+                    {"x", event.at.x},
+                    {"y", event.at.y}});
+  return list;
+}
+
+cli::PageFacts facts_of(const Corridor& corridor, std::uint32_t people) {
+  return {"corridor <b>& pillar</b></script><script>throw 1</script>",
+          fps,
+          {{"file", "corridor.txt"},
+           {"people at a time", std::to_string(people)},
+           {"bodies", "built-in man and woman, walking"},
+           {"depth of the cut", "all"},
+           {"headings", "as recorded"},
+           {"<i>markup</i>", "</script><img src=x onerror=throw(2)>"}},
+          walls_of(corridor)};
+}
+
+void write(const char* name, const std::string& text) {
+  std::ofstream stream(name, std::ios::binary);
+  stream << text;
+  if (!stream.flush()) throw std::runtime_error(std::string("cannot write ") + name);
+}
+
+/// The arguments from the third on, where they are given.
+std::uint32_t number(int argc, char** argv, int i, std::uint32_t otherwise) {
+  return i < argc ? static_cast<std::uint32_t>(std::stoul(argv[i])) : otherwise;
+}
+
+void write_sample(int argc, char** argv) {
+  const std::uint32_t people = number(argc, argv, 3, 60), count = number(argc, argv, 4, 200);
+  const double side = std::sqrt(people / 1.1 / 1.8);
+  const Corridor corridor{1.8 * side, side};
+  Recording recording(people, corridor);
+  cli::CheckPage page(
+      facts_of(corridor, people), [&](std::uint32_t shape) { return recording.drawn(shape); },
+      number(argc, argv, 5, cli::CheckPage::default_most_bytes));
+  nlohmann::json frames = nlohmann::json::array();
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const Checked checked = recording.frame(i / fps);
+    const cli::PageFrame frame{500 + i, i / fps, checked.people, checked.overlaps};
+    page.add_frame(frame);
+    if (people <= 100) frames.push_back(expected_frame(frame));
+  }
+  const auto& events = recording.events().done();
+  const std::uint64_t step = page.step();
+  write(argv[1], std::move(page).finish(events));
+  write(argv[2],
+        nlohmann::json{{"step", step}, {"frames", frames}, {"events", expected_events(events)}}.dump());
+}
+
+}  // namespace
+}  // namespace bch::test
+
+int main(int argc, char** argv) try {
+  if (argc < 3)
+    throw std::runtime_error("usage: check_page_sample PAGE.html EXPECTED.json [PEOPLE FRAMES [MOST_BYTES]]");
+  bch::test::write_sample(argc, argv);
+} catch (const std::exception& error) {
+  std::fprintf(stderr, "check_page_sample: %s\n", error.what());
+  return 1;
+}
