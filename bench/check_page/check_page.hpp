@@ -28,7 +28,7 @@ struct PagePoint {
 struct PagePerson {
   std::int64_t id = 0;      ///< that of the recording, unique in a frame
   std::uint32_t shape = 0;  ///< any number that the source of shapes knows
-  PagePoint at;             ///< finite
+  PagePoint at = {};        ///< finite
   float heading = 0;        ///< radians, counter-clockwise from the x axis
   float speed = 0;          ///< metres per second
   bool overlaps = false;    ///< with somebody
@@ -64,7 +64,7 @@ struct PageEvent {
 struct PageShape {
   std::string name;
   std::vector<std::vector<Vec2>> contours;
-  std::vector<Disc> discs;  ///< those of a level, which the page shows on demand; may be empty
+  std::vector<Disc> discs = {};  ///< those of a level, which the page shows on demand; may be empty
 };
 
 /// Tells what a shape looks like, once for each number.
@@ -75,8 +75,9 @@ using PageShapeSource = std::function<PageShape(std::uint32_t shape)>;
 struct PageFacts {
   std::string title;
   double fps = 0;  ///< frames of the recording per second; 0 where it has no rate
-  std::vector<std::pair<std::string, std::string>> facts;  ///< names and values, in the order of the page
-  std::vector<std::vector<PagePoint>> walls;               ///< lines; a ring ends where it begins
+  std::vector<std::pair<std::string, std::string>> facts =
+      {};                                          ///< names and values, in the order of the page
+  std::vector<std::vector<PagePoint>> walls = {};  ///< lines; a ring ends where it begins
 };
 
 /// Collects the frames of a recording for a page. Where the page would become too large, every second frame that was

@@ -21,7 +21,7 @@
 
 // Writes the page of a recording that it makes up, for tests in a browser, and what the page should show as JSON: two
 // groups walk through each other along a corridor with a pillar. Whoever has left it comes back as somebody else.
-// Usage: check_page_sample PAGE.html EXPECTED.json [PEOPLE FRAMES [MOST_BYTES]]
+// Usage: check_page_sample PAGE.html EXPECTED.json [PEOPLE [FRAMES [PEOPLE_PER_100_M2 [MOST_BYTES [TITLE]]]]]
 
 namespace bch::test {
 namespace {
@@ -97,13 +97,18 @@ struct Walker {
   bool east;
 };
 
+/// They walk in lanes, east and west by turns, nearly as fast as those before them.
 std::vector<Walker> walkers(std::uint32_t count, const Corridor& corridor) {
   detail::Random random(29);
+  const auto lanes = static_cast<std::uint32_t>(corridor.width / 0.95);
   std::vector<Walker> all;
-  for (std::uint32_t i = 0; i < count; ++i)
-    all.push_back({random.uniform(corridor.length), 0.35 + random.uniform(corridor.width - 0.7),
-                   random.uniform(0.25), 0.7 + random.uniform(0.8), random.uniform(2 * std::numbers::pi),
-                   i % 2 == 0});
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const std::uint32_t lane = i % lanes, place = i / lanes;
+    const double apart = corridor.length * lanes / count;
+    all.push_back({(place + 0.5 + random.uniform(0.3)) * apart, (lane + 0.5) * corridor.width / lanes,
+                   random.uniform(0.2), 1.1 + 0.05 * (lane % 4) + random.uniform(0.2),
+                   random.uniform(2 * std::numbers::pi), lane % 2 == 0});
+  }
   return all;
 }
 
@@ -122,7 +127,7 @@ Crowd crowd_at(const std::vector<Walker>& walkers, const Corridor& corridor, dou
     const Walker& w = walkers[i];
     const double walked = w.start + w.speed * seconds, laps = std::floor(walked / corridor.length);
     const double along = walked - laps * corridor.length, swing = 0.9 * seconds + w.phase;
-    const double across = w.sway * std::cos(swing) * 0.9;
+    const double across = 0.9 * w.sway * std::cos(swing);
     crowd.id.push_back(static_cast<std::int64_t>(i + 1 + walkers.size() * static_cast<std::size_t>(laps)));
     crowd.x.push_back(origin_x + (w.east ? along : corridor.length - along));
     crowd.y.push_back(origin_y + w.lane + w.sway * std::sin(swing));
@@ -194,7 +199,7 @@ class Recording {
                                 !hits.agents[i].empty(), !hits.obstacles[i].empty()});
       if (!hits.obstacles[i].empty()) {
         checked.overlaps.push_back({crowd.id[i], 0, true});
-        events_.add({crowd.id[i], wall_key}, seconds, 0.05f, place(crowd, i));
+        events_.add({crowd.id[i], wall_key}, seconds, 0.01f, place(crowd, i));
       }
     }
     add_pairs(crowd, hits.agents, seconds, checked);
@@ -249,8 +254,8 @@ nlohmann::json expected_events(const std::vector<cli::PageEvent>& events) {
   return list;
 }
 
-cli::PageFacts facts_of(const Corridor& corridor, std::uint32_t people) {
-  return {"corridor <b>& pillar</b></script><script>throw 1</script>",
+cli::PageFacts facts_of(const Corridor& corridor, std::uint32_t people, const std::string& title) {
+  return {title,
           fps,
           {{"file", "corridor.txt"},
            {"people at a time", std::to_string(people)},
@@ -274,12 +279,14 @@ std::uint32_t number(int argc, char** argv, int i, std::uint32_t otherwise) {
 
 void write_sample(int argc, char** argv) {
   const std::uint32_t people = number(argc, argv, 3, 60), count = number(argc, argv, 4, 200);
-  const double side = std::sqrt(people / 1.1 / 1.8);
-  const Corridor corridor{1.8 * side, side};
+  const double area = 100.0 * people / number(argc, argv, 5, 90), width = std::sqrt(area / 1.8);
+  const Corridor corridor{1.8 * width, width};
   Recording recording(people, corridor);
   cli::CheckPage page(
-      facts_of(corridor, people), [&](std::uint32_t shape) { return recording.drawn(shape); },
-      number(argc, argv, 5, cli::CheckPage::default_most_bytes));
+      facts_of(corridor, people,
+               argc > 7 ? argv[7] : "corridor <b>& pillar</b></script><script>throw 1</script>"),
+      [&](std::uint32_t shape) { return recording.drawn(shape); },
+      number(argc, argv, 6, cli::CheckPage::default_most_bytes));
   nlohmann::json frames = nlohmann::json::array();
   for (std::uint32_t i = 0; i < count; ++i) {
     const Checked checked = recording.frame(i / fps);
@@ -288,10 +295,8 @@ void write_sample(int argc, char** argv) {
     if (people <= 100) frames.push_back(expected_frame(frame));
   }
   const auto& events = recording.events().done();
-  const std::uint64_t step = page.step();
   write(argv[1], std::move(page).finish(events));
-  write(argv[2],
-        nlohmann::json{{"step", step}, {"frames", frames}, {"events", expected_events(events)}}.dump());
+  write(argv[2], nlohmann::json{{"frames", frames}, {"events", expected_events(events)}}.dump());
 }
 
 }  // namespace
@@ -299,7 +304,9 @@ void write_sample(int argc, char** argv) {
 
 int main(int argc, char** argv) try {
   if (argc < 3)
-    throw std::runtime_error("usage: check_page_sample PAGE.html EXPECTED.json [PEOPLE FRAMES [MOST_BYTES]]");
+    throw std::runtime_error(
+        "usage: check_page_sample PAGE.html EXPECTED.json [PEOPLE [FRAMES [PEOPLE_PER_100_M2 [MOST_BYTES "
+        "[TITLE]]]]]");
   bch::test::write_sample(argc, argv);
 } catch (const std::exception& error) {
   std::fprintf(stderr, "check_page_sample: %s\n", error.what());

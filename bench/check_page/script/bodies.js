@@ -12,27 +12,49 @@ shapes.radius = Float32Array.from({length: shapes.count}, (_, shape) => {
   return most || 0.25;
 });
 
-/** Points of a contour that are at least a distance, in metres, from those before them. */
-function thinned(contour, distance) {
-  const kept = [];
-  let x = Infinity, y = Infinity;
-  for (let i = shapes.points[contour]; i < shapes.points[contour + 1]; ++i) {
-    const px = shapes.xy[2 * i] / 1000, py = shapes.xy[2 * i + 1] / 1000;
-    if (Math.hypot(px - x, py - y) < distance) continue;
-    kept.push(px, py);
-    x = px;
-    y = py;
-  }
-  return kept;
+/** What most bodies measure, so that all of them change to dots together, whatever their pose. */
+shapes.typicalRadius = shapes.count > 0 ? shapes.radius.slice().sort()[shapes.count >> 1] : 0.4;
+const sizeOf = (shape) => 2 * (shapes.radius[shape] < 2 * shapes.typicalRadius ? shapes.typicalRadius : shapes.radius[shape]);
+
+/** The points of a contour in metres, the first one once more at the end. */
+function closedContour(contour) {
+  const points = [];
+  for (let i = shapes.points[contour]; i < shapes.points[contour + 1]; ++i)
+    points.push([shapes.xy[2 * i] / 1000, shapes.xy[2 * i + 1] / 1000]);
+  if (points.length > 0) points.push(points[0]);
+  return points;
 }
 
-function outlinePath(shape, distance) {
+function distanceFromSegment([px, py], [ax, ay], [bx, by]) {
+  const dx = bx - ax, dy = by - ay, length2 = dx * dx + dy * dy;
+  const along = length2 > 0 ? Math.min(Math.max(((px - ax) * dx + (py - ay) * dy) / length2, 0), 1) : 0;
+  return Math.hypot(px - ax - along * dx, py - ay - along * dy);
+}
+
+/** Adds to `kept` the points after the first one that describe a line within a tolerance (Douglas and Peucker). */
+function simplify(points, first, last, tolerance, kept) {
+  let farthest = tolerance, at = -1;
+  for (let i = first + 1; i < last; ++i) {
+    const distance = distanceFromSegment(points[i], points[first], points[last]);
+    if (distance > farthest) [farthest, at] = [distance, i];
+  }
+  if (at < 0) {
+    kept.push(points[last]);
+    return;
+  }
+  simplify(points, first, at, tolerance, kept);
+  simplify(points, at, last, tolerance, kept);
+}
+
+function outlinePath(shape, tolerance) {
   const path = new Path2D();
   for (let contour = shapes.contours[shape]; contour < shapes.contours[shape + 1]; ++contour) {
-    const points = thinned(contour, distance);
-    if (points.length < 6) continue;
-    path.moveTo(points[0], points[1]);
-    for (let i = 2; i < points.length; i += 2) path.lineTo(points[i], points[i + 1]);
+    const points = closedContour(contour), kept = [];
+    if (points.length < 4) continue;
+    simplify(points, 0, points.length - 1, tolerance, kept);
+    if (kept.length < 3) continue;
+    path.moveTo(...kept[0]);
+    for (const point of kept.slice(1)) path.lineTo(...point);
     path.closePath();
   }
   return path;
@@ -54,10 +76,13 @@ function cached(make) {
   return (shape) => paths[shape] ??= make(shape);
 }
 
-const finePath = cached((shape) => outlinePath(shape, 0));
-const coarsePath = cached((shape) => outlinePath(shape, 0.05));
 const discsOf = cached(discPath);
 const hasDiscs = shapes.discs.length > 0;
 
-const coarseBelow = 60;  // pixels a metre, where 0.05 m are 3 pixels
-const bodyPath = (shape, scale) => scale < coarseBelow ? coarsePath(shape) : finePath(shape);
+const finestDetail = 9;  // outlines have points for 2^9 pixels a metre
+const detailLevels = Array.from({length: finestDetail + 1}, (_, detail) =>
+  cached((shape) => outlinePath(shape, detail === finestDetail ? 0 : outlineError / 2 ** (detail + 0.5))));
+const outlineError = 0.7;  // pixels, about
+
+/** The paths of shapes with as much detail as so many pixels a metre show. */
+const bodyPaths = (scale) => detailLevels[Math.min(Math.max(Math.floor(Math.log2(scale)), 0), finestDetail)];

@@ -14,7 +14,7 @@ function sortRows() {
   for (let row = frames.begin[frame]; row < frames.begin[frame + 1]; ++row) {
     const x = placeX(row), y = placeY(row), radius = shapes.radius[people.shape[row]];
     if (x + radius < left || x - radius > right || y + radius < bottom || y - radius > top) continue;
-    const isDot = 2 * radius * view.scale < dotBelow;
+    const isDot = sizeOf(people.shape[row]) * view.scale < dotBelow;
     if (people.marks[row] !== 0) (isDot ? drawn.hitDots : drawn.hits).push(row);
     else (isDot ? drawn.dots : drawn.bodies).push(row);
   }
@@ -54,14 +54,15 @@ function enter(context, row) {
 const leave = (context) => context.setTransform(view.ratio, 0, 0, view.ratio, 0, 0);
 
 function drawBodies(context) {
-  context.fillStyle = colours.body;
+  const paths = bodyPaths(view.scale), isOutlined = 2 * shapes.typicalRadius * view.scale >= outlinedFrom;
+  context.fillStyle = colours[isOutlined ? "body" : "body-small"];
   context.strokeStyle = colours["body-line"];
   context.lineWidth = 1 / view.scale;
   for (const row of drawn.bodies) {
-    const shape = people.shape[row], path = bodyPath(shape, view.scale);
+    const path = paths(people.shape[row]);
     enter(context, row);
     context.fill(path);
-    if (2 * shapes.radius[shape] * view.scale >= outlinedFrom) context.stroke(path);
+    if (isOutlined) context.stroke(path);
   }
 }
 
@@ -70,8 +71,9 @@ function drawHits(context) {
   context.strokeStyle = colours.hit;
   const width = Math.min(Math.max(view.scale * 0.03, 1.8), 3.2), dash = [5 / view.scale, 4 / view.scale];
   context.lineWidth = width / view.scale;
+  const paths = bodyPaths(view.scale);
   for (const row of drawn.hits) {
-    const path = bodyPath(people.shape[row], view.scale);
+    const path = paths(people.shape[row]);
     enter(context, row);
     context.fill(path);
     if (people.marks[row] === marks.inWall) context.setLineDash(dash);
@@ -80,17 +82,19 @@ function drawHits(context) {
   }
 }
 
-/** Lines from the places of bodies to where they look, all in one path. */
+/** Small triangles that point to where bodies are heading, all in one path. */
 function drawHeadings(context, rows, colour) {
   context.beginPath();
   for (const row of rows) {
-    const x = screenX(placeX(row)), y = screenY(placeY(row)), heading = headingOf(row), length = 0.2 * view.scale;
-    context.moveTo(x, y);
-    context.lineTo(x + Math.cos(heading) * length, y - Math.sin(heading) * length);
+    const x = screenX(placeX(row)), y = screenY(placeY(row)), heading = headingOf(row);
+    const along = Math.cos(heading) * view.scale, across = Math.sin(heading) * view.scale;
+    context.moveTo(x + 0.1 * along, y - 0.1 * across);
+    context.lineTo(x - 0.05 * along - 0.06 * across, y + 0.05 * across - 0.06 * along);
+    context.lineTo(x - 0.05 * along + 0.06 * across, y + 0.05 * across + 0.06 * along);
+    context.closePath();
   }
-  context.strokeStyle = colour;
-  context.lineWidth = 1;
-  context.stroke();
+  context.fillStyle = colour;
+  context.fill();
 }
 
 function drawDiscs(context) {
@@ -114,7 +118,7 @@ function drawTrail(context) {
   let x, y, drawing = false;
   context.strokeStyle = colours.accent;
   context.lineWidth = 2;
-  context.lineCap = "round";
+  context.lineCap = "butt";
   const now = frames.seconds[player.frame], first = frameAt(now - trailSeconds);
   for (let frame = first; frame <= player.frame; ++frame) {
     const row = rowOf(frame, selection.who);
@@ -139,7 +143,23 @@ function drawRing(context, x, y, radius, width) {
   context.stroke();
 }
 
-/** Rings around the selected person, the one under the pointer, and the place of the event. */
+/** Traces the two of an event, and where it is deepest. */
+function drawEvent(context) {
+  const {whos, x, y} = selection.event;
+  context.strokeStyle = colours.accent;
+  for (const row of whos.map((who) => rowOf(player.frame, who))) {
+    if (row < 0) continue;
+    enter(context, row);
+    context.lineWidth = 2.2 / view.scale;
+    context.stroke(bodyPaths(view.scale)(people.shape[row]));
+  }
+  leave(context);
+  context.setLineDash([3, 4]);
+  drawRing(context, x, y, Math.max(14, 0.75 * view.scale), 1.2);
+  context.setLineDash([]);
+}
+
+/** Rings around the selected person and the one under the pointer. */
 function drawRings(context) {
   for (const [who, width] of [[selection.hovered, 1.2], [selection.who, 2]]) {
     const row = who < 0 ? -1 : rowOf(player.frame, who);
@@ -147,11 +167,6 @@ function drawRings(context) {
     drawRing(context, placeX(row), placeY(row),
       Math.max(8, (shapes.radius[people.shape[row]] + 0.06) * view.scale), width);
   }
-  if (selection.event === null) return;
-  const {x, y} = selection.event, radius = Math.max(14, 0.75 * view.scale);
-  context.setLineDash([3, 4]);
-  drawRing(context, x, y, radius, 1.2);
-  context.setLineDash([]);
 }
 
 function drawCrowd() {
@@ -162,7 +177,7 @@ function drawCrowd() {
   sortRows();
   drawTrail(context);
   drawSmallPeople(context);
-  context.lineJoin = "round";
+  context.lineJoin = view.scale < 100 ? "bevel" : "round";  // round ones take twice the time
   drawBodies(context);
   drawHits(context);
   if (player.discs) drawDiscs(context);
@@ -171,5 +186,6 @@ function drawCrowd() {
     drawHeadings(context, drawn.bodies, colours["body-line"]);
     drawHeadings(context, drawn.hits, colours.hit);
   }
+  if (selection.event !== null) drawEvent(context);
   drawRings(context);
 }

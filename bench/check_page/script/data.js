@@ -43,10 +43,13 @@ const series = {seconds: block("series-seconds"), overlapping: block("series-ove
 
 const walls = {begin: block("walls-begin"), points: block("walls")};
 
-/** The list of events, as its rows say; `index` is the place in the program's list. */
+const numberOfId = new Map(meta.ids.map((id, number) => [id, number]));
+
+/** The list of events, as its rows say; `index` is the place in the list, `whos` are the numbers of its people. */
 const events = meta.events.map(([first, second, from, to, worst, depth, x, y], index) =>
   ({index, first, second, isWall: second === null, from, to, worst, depth: depth ?? 0,
-    x: x - meta.corner[0], y: y - meta.corner[1]}));
+    x: x - meta.corner[0], y: y - meta.corner[1],
+    whos: [first, second].map((id) => numberOfId.get(id)).filter((who) => who !== undefined)}));
 
 // Places of the page are metres from meta.corner.
 const placeX = (row) => people.x[row] / 1000;

@@ -1,7 +1,8 @@
 // The list of overlaps.
 
 const listed = {order: [], shown: 0, byDepth: true};
-const rowsAtATime = 100;
+const isNarrow = matchMedia("(max-width: 860px)");
+const rowsAtATime = () => isNarrow.matches ? 20 : 100;  // what lies below should not be too far away
 
 const depthText = (metres) => (metres * 100).toFixed(1) + " cm";
 const lastsText = (seconds) => seconds < 9.995 ? seconds.toFixed(2) + " s" : seconds.toFixed(1) + " s";
@@ -17,7 +18,7 @@ function sortEvents(byDepth) {
   element("by-time").setAttribute("aria-pressed", String(!byDepth));
   listed.shown = 0;
   element("event-list").replaceChildren();
-  showMoreEvents(rowsAtATime);
+  showMoreEvents(rowsAtATime());
   markEvent();
 }
 
@@ -63,12 +64,16 @@ function markEvent() {
     button.removeAttribute("aria-current");
   if (selection.event === null) return;
   const place = listed.order.indexOf(selection.event);
-  if (place >= listed.shown) showMoreEvents(place - listed.shown + rowsAtATime);
+  if (place >= listed.shown) showMoreEvents(place - listed.shown + rowsAtATime());
   const button = element("event-list").children[place].firstChild;
   button.setAttribute("aria-current", "true");
   // On a phone the list lies below the picture, which should stay in sight.
-  const aside = document.querySelector("aside");
-  if (aside.scrollHeight > aside.clientHeight + 1) button.scrollIntoView({block: "nearest"});
+  if (!isNarrow.matches) button.scrollIntoView({block: "nearest"});
+}
+
+function forgetEvent() {
+  selection.event = null;
+  markEvent();
 }
 
 /** Shows an event, by its place in the program's list, where it is deepest. */
@@ -103,10 +108,10 @@ function startEvents() {
   const note = noteOfEvents();
   element("events-note").textContent = note;
   element("events-note").hidden = note === "";
-  element("events-title").textContent = "Events" + (meta.allEvents > 0 ? " (" + grouped(meta.allEvents) + ")" : "");
+  element("events-count").textContent = meta.allEvents > 0 ? grouped(meta.allEvents) : "";
   element("by-depth").parentNode.hidden = events.length === 0;
   element("by-depth").addEventListener("click", () => sortEvents(true));
   element("by-time").addEventListener("click", () => sortEvents(false));
-  element("more-events").addEventListener("click", () => showMoreEvents(rowsAtATime));
+  element("more-events").addEventListener("click", () => showMoreEvents(rowsAtATime()));
   sortEvents(true);
 }

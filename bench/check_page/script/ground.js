@@ -1,9 +1,10 @@
-// The picture's ground: a grid with its metres, and walls. It is drawn anew only when the view changes.
+// What only the view changes: a grid and walls below the crowd, the grid's metres above it.
 
 const colours = {};
 function readColours() {
   const style = getComputedStyle(document.documentElement);
-  for (const name of ["ground", "grid", "line", "ink", "quiet", "accent", "hit", "hit-fill", "body", "body-line", "wall"])
+  for (const name of ["ground", "grid", "line", "ink", "quiet", "accent", "hit", "hit-fill", "body", "body-small",
+    "body-line", "wall"])
     colours[name] = style.getPropertyValue("--" + name).trim();
   colours.font = "11px " + getComputedStyle(document.body).fontFamily;
 }
@@ -20,8 +21,10 @@ function forGrid(step, from, to, corner, toScreen, visit) {
   for (let i = first; i <= last; ++i) visit(Math.round(toScreen(i * step - corner)) + 0.5, i * step);
 }
 
+const gridStep = () => roundStep(64 / view.scale);
+
 function drawGrid(context) {
-  const step = roundStep(64 / view.scale), digits = step < 1 ? Math.ceil(-Math.log10(step) - 1e-9) : 0;
+  const step = gridStep();
   const left = groundX(0), right = groundX(view.width), bottom = groundY(view.height), top = groundY(0);
   context.strokeStyle = colours.grid;
   context.lineWidth = 1;
@@ -29,23 +32,33 @@ function drawGrid(context) {
   forGrid(step, left, right, meta.corner[0], screenX, (x) => { context.moveTo(x, 0); context.lineTo(x, view.height); });
   forGrid(step, bottom, top, meta.corner[1], screenY, (y) => { context.moveTo(0, y); context.lineTo(view.width, y); });
   context.stroke();
-  drawRuler(context, step, digits);
 }
 
-function drawRuler(context, step, digits) {
+/** Writes text that stands out from whatever is behind it. */
+function writeOver(context, text, x, y) {
+  context.strokeText(text, x, y);
+  context.fillText(text, x, y);
+}
+
+function drawRuler() {
+  const context = element("ruler").getContext("2d"), step = gridStep();
+  const digits = step < 1 ? Math.ceil(-Math.log10(step) - 1e-9) : 0;
+  context.setTransform(view.ratio, 0, 0, view.ratio, 0, 0);
+  context.clearRect(0, 0, view.width, view.height);
   const left = groundX(0), right = groundX(view.width), bottom = groundY(view.height), top = groundY(0);
   context.font = colours.font;
   context.fillStyle = colours.quiet;
+  context.strokeStyle = colours.ground;
+  context.lineWidth = 3;
+  context.lineJoin = "round";
   context.textBaseline = "alphabetic";
   context.textAlign = "center";
   forGrid(step, left, right, meta.corner[0], screenX, (x, metres) => {
-    if (x > 44 && x < view.width - 44) context.fillText(metres.toFixed(digits), x, view.height - 8);
+    if (x > 44 && x < view.width - 24) writeOver(context, metres.toFixed(digits) + " m", x, view.height - 8);
   });
-  context.textAlign = "right";
-  context.fillText("metres", view.width - 10, view.height - 8);
   context.textAlign = "left";
   forGrid(step, bottom, top, meta.corner[1], screenY, (y, metres) => {
-    if (y > 40 && y < view.height - 24) context.fillText(metres.toFixed(digits), 8, y - 4);
+    if (y > 40 && y < view.height - 24) writeOver(context, metres.toFixed(digits) + " m", 8, y - 4);
   });
 }
 
@@ -70,4 +83,5 @@ function drawGround() {
   context.fillRect(0, 0, view.width, view.height);
   drawGrid(context);
   drawWalls(context);
+  drawRuler();
 }

@@ -21,8 +21,7 @@ const keys = {
 };
 
 function deselect() {
-  selection.event = null;
-  markEvent();
+  forgetEvent();
   select(-1);
 }
 

@@ -1,6 +1,6 @@
 // Time: which frame is shown, and the loop that draws.
 
-const player = {time: frames.start, frame: 0, playing: false, speed: 1, discs: false, last: 0, waiting: false};
+const player = {time: frames.start, frame: 0, playing: false, speed: 1, discs: false, last: 0, told: 0, waiting: false};
 const ticks = [];  // times of the latest animation frames while playing
 
 function draw() {
@@ -35,20 +35,23 @@ function advance(now) {
 /** Shows the last frame up to a time, which is brought into the recording. */
 function showTime(seconds) {
   player.time = Math.min(Math.max(seconds, frames.start), frames.end);
-  const frame = frameAt(player.time);
-  if (frame !== player.frame) {
-    player.frame = frame;
-    frameChanged();
-  }
-  showClock();
+  const frame = frameAt(player.time), isNew = frame !== player.frame;
+  player.frame = frame;
+  if (isNew && selection.following) keepInMiddle();
+  showPosition();
+  if (!player.playing || player.last - player.told > textEvery) tell();
 }
 
-function frameChanged() {
+const textEvery = 100;  // milliseconds: nobody reads faster, and texts take time
+
+/** Writes what the current frame has. */
+function tell() {
+  player.told = player.last;
+  showClock();
   showNow();
   showCard();
-  if (selection.following) keepInMiddle();
-  if (selection.event !== null && !player.playing) return;
-  if (selection.event !== null && player.time > selection.event.to + 2) selection.event = null;
+  const isOver = selection.event !== null && player.playing && player.time > selection.event.to + 2;
+  if (isOver) forgetEvent();
 }
 
 function seek(seconds) {
@@ -69,6 +72,7 @@ function play() {
 function pause() {
   player.playing = false;
   showPlaying();
+  tell();
 }
 
 const togglePlaying = () => player.playing ? pause() : play();
@@ -93,11 +97,15 @@ function setText(node, text) {
   if (node.textContent !== text) node.textContent = text;
 }
 
-function showClock() {
-  setText(element("clock"), clockText(player.time) + " / " + clockText(frames.end));
-  const part = frames.end > frames.start ? (player.time - frames.start) / (frames.end - frames.start) : 0;
-  if (document.activeElement !== scrub || player.playing || Math.abs(scrub.value - part) > 1e-9) scrub.value = part;
+function showPosition() {
+  const part = partOf(player.time);
+  scrub.value = part;
   placeCursor(part);
+}
+
+function showClock() {
+  setText(element("clock"), clockText(player.time));
+  scrub.setAttribute("aria-valuetext", clockText(player.time));
 }
 
 function showNow() {
@@ -105,9 +113,10 @@ function showNow() {
   let hits = 0;
   const first = frames.begin[player.frame], last = frames.begin[player.frame + 1];
   for (let row = first; row < last; ++row) hits += people.marks[row] !== 0 ? 1 : 0;
-  const now = element("now");
+  const now = element("now-hits");
   setText(element("clock-frame"), "frame " + grouped(frames.number[player.frame]));
-  setText(now, counted(last - first, "person", "people") + ", " + (hits > 0 ? hits + " overlapping" : "none overlapping"));
+  setText(element("now-people"), counted(last - first, "person", "people"));
+  setText(now, (hits > 0 ? grouped(hits) : "none") + " overlapping");
   now.classList.toggle("some", hits > 0);
 }
 

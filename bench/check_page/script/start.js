@@ -18,6 +18,7 @@ function showFacts() {
     text.textContent = value;
     element("fact-list").append(term, text);
   }
+  element("clock-end").textContent = "/ " + clockText(frames.end);
   element("facts").hidden = meta.facts.length === 0;
   element("discs").hidden = element("help-discs").hidden = element("help-discs-text").hidden = !hasDiscs;
   element("legend-wall").hidden = walls.points.length === 0;
@@ -44,7 +45,6 @@ function start() {
   listenToTimeline();
   startEvents();
   showTime(frames.start);
-  showNow();
   showPlaying();
   resizeStage();
 }
@@ -58,7 +58,7 @@ window.bchPage = Object.freeze({
   events: () => events.length,
   view: () => ({x: view.x + meta.corner[0], y: view.y + meta.corner[1], scale: view.scale}),
   setView: (x, y, scale) => { view.fitted = false; setView(x - meta.corner[0], y - meta.corner[1], scale); },
-  select: (id) => select(meta.ids.indexOf(id)),
+  select: (id) => select(numberOfId.get(id) ?? -1),
 });
 
 start();

@@ -23,14 +23,25 @@ function columnsOf(width) {
   return columns;
 }
 
+/** An area with a line along its top. */
 function drawBars(context, width, height) {
-  const columns = columnsOf(width), base = height - chart.bottom, room = base - chart.top;
-  context.fillStyle = colours.hit;
-  for (let column = 0; column < columns.length; ++column) {
-    if (columns[column] === 0) continue;
-    const tall = Math.max(1.5, room * columns[column] / mostOverlapping);
-    context.fillRect(column, base - tall, 1, tall);
+  const columns = columnsOf(width), base = height - chart.bottom, room = base - chart.top - 2;
+  const topOf = (count) => base - (count === 0 ? 0 : Math.max(2, room * count / mostOverlapping));
+  context.beginPath();
+  context.moveTo(0, base);
+  for (let column = 0; column < width; ++column) {
+    context.lineTo(column, topOf(columns[column]));
+    context.lineTo(column + 1, topOf(columns[column]));
   }
+  context.strokeStyle = colours.hit;
+  context.lineWidth = 1.2;
+  if (mostOverlapping > 0) context.stroke();
+  context.lineTo(width, base);
+  context.closePath();
+  context.globalAlpha = 0.22;
+  context.fillStyle = colours.hit;
+  context.fill();
+  context.globalAlpha = 1;
   context.fillStyle = colours.line;
   context.fillRect(0, base, width, 1);
 }

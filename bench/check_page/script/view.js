@@ -42,17 +42,21 @@ function zoomAbout(px, py, factor) {
 
 const zoomBy = (factor) => moveView(view.x, view.y, Math.min(Math.max(view.scale * factor, leastScale), mostScale));
 
+/** Pixels beside the fitted picture, for the buttons and the ruler. */
+const border = {right: 60, bottom: 20};
+
 function fittedScale() {
   const margin = 1.2;
-  return Math.min(view.width / (bounds.right - bounds.left + margin),
-    (view.height - 24) / (bounds.top - bounds.bottom + margin));
+  return Math.min((view.width - border.right) / (bounds.right - bounds.left + margin),
+    (view.height - border.bottom) / (bounds.top - bounds.bottom + margin));
 }
 
 function fit(atOnce) {
   follow(false);
   view.fitted = true;
-  (atOnce ? setView : moveView)((bounds.left + bounds.right) / 2, (bounds.bottom + bounds.top) / 2 - 8 / fittedScale(),
-    fittedScale());
+  const scale = Math.max(fittedScale(), leastScale);
+  (atOnce ? setView : moveView)((bounds.left + bounds.right + border.right / scale) / 2,
+    (bounds.bottom + bounds.top - border.bottom / scale) / 2, scale);
 }
 
 function resizeStage() {
@@ -60,7 +64,7 @@ function resizeStage() {
   view.width = stage.clientWidth || box.width;
   view.height = stage.clientHeight || box.height;
   const ratio = Math.min(window.devicePixelRatio || 1, 2);
-  for (const canvas of [element("ground"), element("crowd")]) {
+  for (const canvas of [element("ground"), element("crowd"), element("ruler")]) {
     canvas.width = Math.round(view.width * ratio);
     canvas.height = Math.round(view.height * ratio);
   }
