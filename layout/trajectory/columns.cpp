@@ -4,7 +4,7 @@
 #include "layout/trajectory/columns.hpp"
 
 #include <algorithm>
-#include <array>
+#include <utility>
 
 #include "layout/trajectory/fields.hpp"
 
@@ -176,7 +176,13 @@ std::optional<double> metres_of(std::string_view unit) {
 
 std::vector<ColumnName> column_names(std::string_view line, char separator) {
   std::vector<ColumnName> names;
-  for (const std::string_view word : words_of(line, separator)) names.push_back(named(word));
+  for (const std::string_view word : words_of(line, separator)) {
+    ColumnName name = named(word);
+    if (name.name.empty() && !name.unit.empty() && !names.empty())  // "x [m]" where blanks separate names
+      names.back().unit = std::move(name.unit);
+    else
+      names.push_back(std::move(name));
+  }
   return names;
 }
 

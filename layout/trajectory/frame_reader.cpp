@@ -20,7 +20,8 @@ constexpr std::size_t batch_rows = 4096;
 constexpr std::size_t most_people = 1'000'000;
 
 std::string position(const Row& row) {
-  return "(" + shortest(row.x) + ", " + shortest(row.y) + ")";
+  std::string text = "(";
+  return text += shortest(row.x) + ", " + shortest(row.y) + ")";
 }
 
 }  // namespace

@@ -34,10 +34,11 @@ class JuPedSim final : public RowSource {
         places_.reject("table trajectory_data has no column " + std::string(column_names[column]));
     has_orientation_ = database_.has_column(table, "ori_x") && database_.has_column(table, "ori_y");
     most_rows_ = static_cast<std::uint64_t>(database_.bytes() / least_bytes_a_row);
-    // In the order of the file, whatever indices say that there is.
-    rows_.emplace(database_, std::string("SELECT frame, id, pos_x, pos_y") +
-                                 (has_orientation_ ? ", ori_x, ori_y" : "") +
-                                 " FROM trajectory_data NOT INDEXED");
+    // In the order of the file, whatever indices there are.
+    const std::string from = " FROM trajectory_data NOT INDEXED";
+    keys_.emplace(database_, "SELECT frame, id" + from);
+    rows_.emplace(database_, "SELECT frame, id, pos_x, pos_y" +
+                                 std::string(has_orientation_ ? ", ori_x, ori_y" : "") + from);
   }
 
   const Places& places() const override { return places_; }
@@ -45,16 +46,18 @@ class JuPedSim final : public RowSource {
 
   std::size_t read(std::span<Row> rows) override {
     std::size_t count = 0;
-    for (; count < rows.size() && !at_end_; ++count) {
-      at_end_ = !rows_->step();
-      if (at_end_) break;
-      if (++number_ > most_rows_) places_.reject("is damaged: has more rows than fit into it");
-      rows[count] = row();
-    }
+    for (; count < rows.size() && step(*rows_); ++count) rows[count] = row();
+    return count;
+  }
+
+  std::size_t read_keys(std::span<Row> rows) override {
+    std::size_t count = 0;
+    for (; count < rows.size() && step(*keys_); ++count) rows[count] = keys(*keys_);
     return count;
   }
 
   void rewind() override {
+    keys_->reset();
     rows_->reset();
     number_ = 0;
     at_end_ = false;
@@ -65,7 +68,7 @@ class JuPedSim final : public RowSource {
   SqliteDatabase database_;
   double metres_;
   Recording recording_;
-  std::optional<SqliteStatement> rows_;
+  std::optional<SqliteStatement> keys_, rows_;
   bool has_orientation_ = false, at_end_ = false;
   std::int64_t version_ = 0;
   std::uint64_t number_ = 0, most_rows_ = 0;
@@ -116,14 +119,21 @@ class JuPedSim final : public RowSource {
                                        std::to_string(count.integer(0)) + ", which differ.");
   }
 
-  [[noreturn]] void reject(Column column, const std::string& reason) const {
-    places_.reject(number_,
-                   std::string(column_names[column]) + " " + shown(rows_->text(column)) + " " + reason);
+  bool step(SqliteStatement& statement) {
+    if (at_end_) return false;
+    at_end_ = !statement.step();
+    if (!at_end_ && ++number_ > most_rows_) places_.reject("is damaged: has more rows than fit into it");
+    return !at_end_;
   }
 
-  std::int64_t integer(Column column) const {
-    if (rows_->type(column) != SQLITE_INTEGER) reject(column, "is not an integer");
-    return rows_->integer(column);
+  [[noreturn]] void reject(const SqliteStatement& row, Column column, const std::string& reason) const {
+    places_.reject(number_, std::string(column_names[column]) + " " + shown(row.text(column)) + " " + reason);
+  }
+  [[noreturn]] void reject(Column column, const std::string& reason) const { reject(*rows_, column, reason); }
+
+  std::int64_t integer(const SqliteStatement& row, Column column) const {
+    if (row.type(column) != SQLITE_INTEGER) reject(row, column, "is not an integer");
+    return row.integer(column);
   }
 
   double real(Column column) const {
@@ -147,12 +157,17 @@ class JuPedSim final : public RowSource {
     return x == 0 && y == 0 ? unknown : static_cast<float>(std::atan2(y, x));
   }
 
-  Row row() const {
+  Row keys(const SqliteStatement& from) const {
     Row row;
     row.number = number_;
-    row.key = integer(frame);
-    if (row.key > largest_frame || row.key < -largest_frame) reject(frame, "is not within +-1e15");
-    row.id = integer(id);
+    row.key = integer(from, frame);
+    if (row.key > largest_frame || row.key < -largest_frame) reject(from, frame, "is not within +-1e15");
+    row.id = integer(from, id);
+    return row;
+  }
+
+  Row row() const {
+    Row row = keys(*rows_);
     row.x = coordinate(pos_x);
     row.y = coordinate(pos_y);
     if (has_orientation_) row.heading = heading();

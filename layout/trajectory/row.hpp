@@ -74,6 +74,8 @@ class RowStream {
   /// Fills the front of a span.
   /// Returns: how many rows were read; 0 at the end.
   virtual std::size_t read(std::span<Row> rows) = 0;
+  /// Like read(), of which the keys and ids alone are wanted, and the rest may be left out unchecked.
+  virtual std::size_t read_keys(std::span<Row> rows) { return read(rows); }
   /// Goes back before the first row.
   virtual void rewind() = 0;
 };

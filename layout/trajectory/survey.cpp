@@ -41,7 +41,7 @@ void Survey::add(const Row& row) {
 
 bool survey_ordered(RowStream& rows, Survey& survey) {
   std::vector<Row> batch(4096);
-  while (const std::size_t count = rows.read(batch))
+  while (const std::size_t count = rows.read_keys(batch))
     for (std::size_t i = 0; i < count; ++i) {
       if (survey.rows > 0 && batch[i].key < survey.last) return false;
       survey.add(batch[i]);

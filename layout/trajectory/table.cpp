@@ -78,7 +78,7 @@ class Table final : public RowSource {
         break;
       case Role::frame:
         row.key = whole_number(column, field);
-        if (std::abs(row.key) > largest_frame || row.key == INT64_MIN)
+        if (row.key > largest_frame || row.key < -largest_frame)
           reject(column, field, "is not within +-1e15");
         break;
       case Role::time:

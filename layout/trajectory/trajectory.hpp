@@ -67,7 +67,7 @@ class TrajectoryReader {
 
 /// Opens a recording, whose format is told by its content: JuPedSim's SQLite (versions 1 to 3), PeTrack's and Juelich's text,
 /// HDF5 of the Pedestrian Dynamics Data Archive, Pathfinder's CSV, CSV with a header, TrajNet++'s ndjson, ETH/UCY columns.
-/// The file is read once to its end, to check it and to learn what info() says, and again for the frames; it is not trusted.
+/// The file is read once to its end, to learn what info() says, and again for the frames. It is not trusted.
 /// Memory:  grows with the people of a frame and with options.sort_memory, not with the rows. Files whose frames are out of
 ///          order are sorted through a file without a name in the folder for temporary files, 48 bytes a row.
 /// Errors:  throws TrajectoryError; also where fps or unit are needed and neither file nor options say them.

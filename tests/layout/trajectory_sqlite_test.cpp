@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include <gtest/gtest.h>
+#include <sqlite3.h>
+
+#include <fstream>
+#include <iterator>
+#include <string>
+#include <utility>
+
+#include "tests/support/recordings.hpp"
+#include "tests/support/scenes.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+// Recordings of JuPedSim.
+
+namespace bch {
+namespace {
+
+using test::ReadRecording;
+using test::text_of;
+
+/// What a file of JuPedSim is made of.
+struct JuPedSimFile {
+  std::string version = "2", fps = "25.0";
+  std::string trajectory =
+      "CREATE TABLE trajectory_data(frame INTEGER NOT NULL, id INTEGER NOT NULL, pos_x REAL NOT NULL, pos_y "
+      "REAL NOT NULL, "
+      "ori_x REAL NOT NULL, ori_y REAL NOT NULL);";
+  std::string rows = "(0,1,1.5,2,0,1),(0,2,3,4,0,0),(1,1,1.75,2,-1,0)";
+  std::string geometry =
+      "CREATE TABLE geometry(hash INTEGER NOT NULL, wkt TEXT NOT NULL);"
+      "CREATE TABLE frame_data(frame INTEGER NOT NULL, geometry_hash INTEGER NOT NULL);"
+      "INSERT INTO geometry VALUES(-7,'POLYGON ((0 0, 1 0, 1 1, 0 0))');"
+      "INSERT INTO frame_data VALUES(0,-7),(1,-7);";
+
+  std::string sql() const {
+    return "CREATE TABLE metadata(key TEXT NOT NULL UNIQUE PRIMARY KEY, value TEXT NOT NULL);"
+           "INSERT INTO metadata VALUES('version','" +
+           version + "'),('fps','" + fps + "');" + trajectory + geometry +
+           (rows.empty() ? "" : "INSERT INTO trajectory_data VALUES" + rows + ";") +
+           "CREATE INDEX frame_id_idx ON trajectory_data(frame, id);";
+  }
+};
+
+class JuPedSimFiles : public testing::Test {
+ protected:
+  TemporaryFolder folder;
+
+  ReadRecording read(const JuPedSimFile& file) const {
+    test::write_sqlite(folder.file("f"), file.sql());
+    ReadRecording recording = test::read_recording(folder.file("f"));
+    test::expect_sound(recording);
+    return recording;
+  }
+  std::string complaint(const std::string& sql) const {
+    test::write_sqlite(folder.file("f"), sql);
+    return test::trajectory_complaint(folder.file("f"));
+  }
+  std::string complaint(const JuPedSimFile& file) const { return complaint(file.sql()); }
+};
+
+TEST_F(JuPedSimFiles, OfVersions1To3AreRead) {
+  JuPedSimFile file;
+  const ReadRecording second = read(file);
+  EXPECT_EQ(second.info.format, "JuPedSim SQLite, version 2");
+  EXPECT_EQ(second.info.fps, 25);
+  EXPECT_EQ(second.info.geometry, "POLYGON ((0 0, 1 0, 1 1, 0 0))");
+  EXPECT_TRUE(second.info.assumptions.empty());
+  EXPECT_EQ(text_of(second), "0 1 1.5 2 1.5707964 -\n0 2 3 4 - -\n1 1 1.75 2 3.1415927 -\n");
+
+  file.version = "3";
+  file.trajectory =
+      "CREATE TABLE trajectory_data(frame INTEGER NOT NULL, id INTEGER NOT NULL, pos_x REAL NOT NULL, pos_y "
+      "REAL NOT NULL);";
+  file.rows = "(1,1,1.5,2),(0,1,3,4)";
+  const ReadRecording third = read(file);
+  EXPECT_EQ(third.info.format, "JuPedSim SQLite, version 3");
+  EXPECT_EQ(text_of(third), "0 1 3 4 - -\n1 1 1.5 2 - -\n");
+
+  file = {};
+  file.version = "1";
+  file.geometry = "CREATE TABLE geometry(wkt TEXT NOT NULL); INSERT INTO geometry VALUES('POLYGON EMPTY');";
+  EXPECT_EQ(read(file).info.geometry, "POLYGON EMPTY");
+}
+
+TEST_F(JuPedSimFiles, MayHaveSeveralGeometriesOrNone) {
+  JuPedSimFile file;
+  file.geometry += "INSERT INTO geometry VALUES(5,'POLYGON EMPTY'); INSERT INTO frame_data VALUES(-1,5);";
+  const ReadRecording several = read(file);
+  EXPECT_EQ(several.info.geometry, "POLYGON EMPTY");
+  EXPECT_EQ(several.info.assumptions,
+            std::vector<std::string>{
+                "The geometry of the first frame is that of all: the file has 2, which differ."});
+  for (const char* const none : {"", "CREATE TABLE geometry(hash INTEGER, wkt TEXT);"}) {
+    file.geometry = none;
+    EXPECT_EQ(read(file).info.assumptions,
+              std::vector<std::string>{"There are no walls: the file has no geometry."});
+  }
+}
+
+TEST_F(JuPedSimFiles, NameTheRowThatIsWrong) {
+  const std::pair<const char*, const char*> cases[] = {
+      {"(0,1,9e999,2,0,0)", "row 4: pos_x 'Inf' is not finite"},
+      {"(0,1,1e9,2,0,0)", "row 4: pos_x '1000000000.0' is not within +-1e8 m"},
+      {"(0,1,'a',2,0,0)", "row 4: pos_x 'a' is not a number"},
+      {"(0,1,1,x'00',0,0)", "row 4: pos_y ' ' is not a number"},
+      {"(0.5,1,1,2,0,0)", "row 4: frame '0.5' is not an integer"},
+      {"(0,'b',1,2,0,0)", "row 4: id 'b' is not an integer"},
+      {"(2000000000000000,1,1,2,0,0)", "row 4: frame '2000000000000000' is not within +-1e15"},
+      {"(0,3,1,2,-9e999,0)", "row 4: ori_x '-Inf' is not finite"},
+      {"(0,3,1,2,0,'c')", "row 4: ori_y 'c' is not a number"},
+      {"(0,1,1.5,2,0,1)", "row 4: repeats row 1, person 1 in frame 0"},
+      {"(1,1,1.5,2,0,1)",
+       "row 4: person 1 is at two places in frame 1, here at (1.5, 2), by row 3 at (1.75, 2)"},
+  };
+  for (const auto& [row, message] : cases) {
+    JuPedSimFile file;
+    file.rows += "," + std::string(row);
+    EXPECT_EQ(complaint(file), std::string("f: ") + message) << row;
+  }
+  JuPedSimFile nulls;
+  nulls.trajectory = "CREATE TABLE trajectory_data(frame, id, pos_x, pos_y, ori_x, ori_y);";
+  nulls.rows = "(0,1,1,2,NULL,NULL),(0,2,NULL,2,0,0)";
+  EXPECT_EQ(complaint(nulls), "f: row 2: pos_x '' is not a number");
+}
+
+TEST_F(JuPedSimFiles, AreRefusedByOneLine) {
+  JuPedSimFile file;
+  file.version = "4";
+  EXPECT_EQ(complaint(file), "f: is of version '4' of JuPedSim's files; 1 to 3 are read");
+  file.version = "two";
+  EXPECT_EQ(complaint(file), "f: is of version 'two' of JuPedSim's files; 1 to 3 are read");
+  file = {};
+  file.fps = "0";
+  EXPECT_EQ(complaint(file),
+            "f: the frame rate in its metadata is 0 frames a second, not above 0 and at most 10000");
+  file.fps = "fast";
+  EXPECT_EQ(complaint(file), "f: the frame rate 'fast' in its metadata is not a number");
+  EXPECT_EQ(complaint(JuPedSimFile().sql() + "DELETE FROM metadata WHERE key='fps'"),
+            "f: says no frame rate: --fps has to give the frame numbers a second");
+  EXPECT_EQ(complaint(JuPedSimFile().sql() + "DELETE FROM trajectory_data"), "f: has no rows");
+  EXPECT_EQ(complaint("CREATE TABLE a(b)"), "f: is no JuPedSim file: has no table metadata");
+  EXPECT_EQ(complaint("CREATE TABLE metadata(key, value)"),
+            "f: is no JuPedSim file: has no table trajectory_data");
+  EXPECT_EQ(complaint("CREATE TABLE metadata(key, value); INSERT INTO metadata VALUES('version', '1');"
+                      "CREATE TABLE trajectory_data(frame, id, pos_x)"),
+            "f: table trajectory_data has no column pos_y");
+}
+
+TEST_F(JuPedSimFiles, HaveTablesAndNothingElse) {
+  EXPECT_EQ(complaint("CREATE TABLE metadata(key, value); CREATE VIEW trajectory_data AS SELECT 1 AS frame"),
+            "f: trajectory_data is not a plain table: 'CREATE VIEW trajectory_data AS SELECT 1 ...'");
+  EXPECT_EQ(complaint("CREATE VIRTUAL TABLE metadata USING fts4(key, value)"),
+            "f: metadata is not a plain table: 'CREATE VIRTUAL TABLE metadata USING fts4...'");
+  EXPECT_EQ(complaint("CREATE TABLE metadata(key, value AS (key || key))"),
+            "f: column 'value' of metadata is computed, not stored");
+}
+
+TEST_F(JuPedSimFiles, AreNotReadWhileLocked) {
+  test::write_sqlite(folder.file("f"), JuPedSimFile().sql());
+  sqlite3* other = nullptr;
+  ASSERT_EQ(sqlite3_open(folder.file("f").c_str(), &other), SQLITE_OK);
+  ASSERT_EQ(sqlite3_exec(other, "BEGIN EXCLUSIVE", nullptr, nullptr, nullptr), SQLITE_OK);
+  EXPECT_EQ(test::trajectory_complaint(folder.file("f")),
+            "f: is locked by another program: database is locked");
+  sqlite3_close(other);
+  EXPECT_EQ(test::trajectory_complaint(folder.file("f")), "accepted");
+}
+
+TEST_F(JuPedSimFiles, ThatAreDamagedAreReadOrRefused) {
+  JuPedSimFile file;
+  for (int frame = 2; frame < 300; ++frame)
+    for (const char* const person : {"1", "2", "3"})
+      file.rows += ",(" + std::to_string(frame) + "," + person + ",1.5,2,0,1)";
+  test::write_sqlite(folder.file("f"), file.sql());
+  std::ifstream stream(folder.file("f"), std::ios::binary);
+  const std::string bytes{std::istreambuf_iterator<char>(stream), {}};
+  ASSERT_GT(bytes.size(), 20'000u);
+  const std::string whole = text_of(test::read_recording(folder.file("f")));
+  for (std::size_t size = 16; size < bytes.size(); size += 997) {
+    const std::filesystem::path part = folder.write("g", bytes.substr(0, size));
+    if (test::trajectory_complaint(part) == "accepted") {  // what lacks is of the index
+      EXPECT_EQ(text_of(test::read_recording(part)), whole) << size;
+    }
+  }
+  test::Random random(1);
+  std::uint32_t refused = 0;
+  for (std::uint32_t i = 0; i < test::samples(1000); ++i) {
+    std::string damaged = bytes;
+    for (int flips = 0; flips < 4; ++flips)
+      damaged[random.below(static_cast<std::uint32_t>(bytes.size()))] ^=
+          static_cast<char>(1 << random.below(8));
+    refused += test::trajectory_complaint(folder.write("g", damaged)) != "accepted";
+  }
+  EXPECT_GT(refused, 0u);
+}
+
+}  // namespace
+}  // namespace bch

@@ -1,0 +1,370 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "tests/support/recordings.hpp"
+#include "tests/support/scenes.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+// Recordings as text, CSV and ndjson.
+
+namespace bch {
+namespace {
+
+using detail::TrajectoryOptions;
+using test::ReadRecording;
+using test::text_of;
+
+class Trajectories : public testing::Test {
+ protected:
+  TemporaryFolder folder;
+
+  ReadRecording read(const std::string& text, const TrajectoryOptions& options = {}) const {
+    ReadRecording recording = test::read_recording(folder.write("f", text), options);
+    test::expect_sound(recording);
+    return recording;
+  }
+  std::string complaint(const std::string& text, const TrajectoryOptions& options = {}) const {
+    return test::trajectory_complaint(folder.write("f", text), options);
+  }
+};
+
+std::string assumptions_of(const ReadRecording& recording) {
+  std::string all;
+  for (const std::string& sentence : recording.info.assumptions) all += sentence + "\n";
+  return all;
+}
+
+constexpr const char* metres_assumed = "Coordinates are in metres; the file does not say their unit.\n";
+constexpr const char* height_assumed = "z is the person's height where it is from 1 to 2.5 m.\n";
+constexpr const char* not_heights = "z below 1 m or above 2.5 m is not a person's height, and is ignored.\n";
+
+TEST_F(Trajectories, OfPeTrackSayTheirRateAndUnit) {
+  const ReadRecording recording = read(
+      "# PeTrack project: a\n# framerate: 25 fps\n# id frame x/cm y/cm z/cm\n1 7 150 -20 "
+      "176\n2\t7\t0\t0\t30\r\n\n1 8 160 -20 180\n");
+  EXPECT_EQ(text_of(recording), "7 1 1.5 -0.2 - 1.76\n7 2 0 0 - -\n8 1 1.6 -0.2 - 1.8\n");
+  EXPECT_EQ(recording.info.format, "PeTrack text");
+  EXPECT_EQ(recording.info.fps, 25);
+  EXPECT_EQ(assumptions_of(recording), std::string(height_assumed) + not_heights);
+}
+
+TEST_F(Trajectories, OfJuelichMayBeWrittenInManyWays) {
+  const std::string rows = "1 0 2 3 0.5\n";
+  for (const char* const header :
+       {"#framerate: 16\n# ID\tframe\tX\tY\tZ\n",
+        "#description: a\n#framerate: 16.00\n#geometry: a.xml\n#ID\tFR\tX\tY\tZ\n",
+        "# Framerate: 16fps\n#X,Y,Z: the agents coordinates (in metres)\n#ID\tFR\tX\tY\tZ\tA\n",
+        "# framerate: 16\n", "# framerate: 16 fps\n# id frame x [in m] y [in m] z [in m]\n",
+        "# framerate: 16\n# PersID Frame X/m Y/m Z/m\n\n"}) {
+    const ReadRecording recording = read(header + rows);
+    EXPECT_EQ(text_of(recording), "0 1 2 3 - -\n") << header;
+    EXPECT_EQ(recording.info.fps, 16) << header;
+    const bool says_unit = std::string(header).find("m]") != std::string::npos ||
+                           std::string(header).find("/m") != std::string::npos ||
+                           std::string(header).find("metres") != std::string::npos;
+    EXPECT_EQ(assumptions_of(recording), std::string(says_unit ? "" : metres_assumed) + not_heights)
+        << header;
+  }
+  EXPECT_EQ(text_of(read("# framerate: 8\n# frame id y/cm x/cm\n3 1 100 200\n")), "3 1 2 1 - -\n");
+  EXPECT_EQ(text_of(read("# framerate: 8\n# id frame x [in cm] y [in cm]\n3 1 100 200 further\n")),
+            "1 3 1 2 - -\n");
+  EXPECT_EQ(text_of(read("# framerate: 8\n# X,Y: coordinates (in cm)\n3 1 100 200")), "1 3 1 2 - -\n");
+}
+
+TEST_F(Trajectories, WithoutAHeaderAreAskedAbout) {
+  const std::string text = "1 43 79.5 774 183\n1 44 79 764 183\n";
+  EXPECT_EQ(complaint(text),
+            "f: says no unit and no frame rate: --unit has to give its metres, such as 0.01 for cm, and "
+            "--fps the frame numbers "
+            "a second");
+  EXPECT_EQ(complaint(text, {.fps = 16, .unit = {}, .columns = {}}),
+            "f: says no unit: --unit has to give its metres, such as 0.01 for cm");
+  EXPECT_EQ(complaint(text, {.fps = {}, .unit = 0.01, .columns = {}}),
+            "f: says no frame rate: --fps has to give the frame numbers a second");
+  const ReadRecording recording = read(text, {.fps = 16, .unit = 0.01, .columns = {}});
+  EXPECT_EQ(text_of(recording), "43 1 0.795 7.74 - 1.83\n44 1 0.79 7.640000000000001 - 1.83\n");
+  EXPECT_EQ(recording.info.format, "text without a header");
+  EXPECT_EQ(recording.info.fps, 16);
+}
+
+TEST_F(Trajectories, OptionsWinOverTheFile) {
+  const ReadRecording recording =
+      read("# framerate: 25 fps\n# id frame x/m y/m\n1 7 150 -20\n", {.fps = 10, .unit = 0.5, .columns = {}});
+  EXPECT_EQ(text_of(recording), "7 1 75 -10 - -\n");
+  EXPECT_EQ(recording.info.fps, 10);
+  EXPECT_EQ(text_of(read("a,b,c,d\n1,2,3,4\n", {.fps = 1, .unit = 1, .columns = "y,x,id,frame"})),
+            "4 3 2 1 - -\n");
+  EXPECT_EQ(text_of(read("1,2,3,4\n", {.fps = 1, .unit = 1, .columns = "y,x,id,frame"})), "4 3 2 1 - -\n");
+  EXPECT_EQ(text_of(read("1 2 3 4 5\n", {.fps = 1, .unit = 1, .columns = "y,x,what,id,frame"})),
+            "5 4 2 1 - -\n");
+}
+
+TEST_F(Trajectories, OfFourColumnsAreToldBySteps) {
+  const TrajectoryOptions rate{.fps = 25, .unit = {}, .columns = {}};
+  const ReadRecording eth = read("780.0\t1.0\t8.46\t3.59\n790.0\t1.0\t9.57\t3.79\n790.0\t2.0\t1\t2\n", rate);
+  EXPECT_EQ(text_of(eth), "780 1 8.46 3.59 - -\n790 1 9.57 3.79 - -\n790 2 1 2 - -\n");
+  EXPECT_EQ(eth.info.format, "ETH/UCY columns");
+  EXPECT_EQ(assumptions_of(eth), metres_assumed);
+  EXPECT_EQ(complaint("780 1 8.46 3.59\n790 2 9.57 3.79\n"),
+            "f: says no frame rate: --fps has to give the frame numbers a second");
+
+  const std::string juelich = "1 0 1 2\n1 10 3 4\n2 0 5 6\n", unclear = "1 0 1 2\n1 1 3 4\n2 0 5 6\n";
+  EXPECT_EQ(text_of(read(juelich, {.fps = 25, .unit = 1, .columns = {}})),
+            "0 1 1 2 - -\n0 2 5 6 - -\n10 1 3 4 - -\n");
+  EXPECT_EQ(complaint(unclear, rate),
+            "f: has four columns without a header: --columns has to say whether they are frame,id,x,y or "
+            "id,frame,x,y");
+  EXPECT_EQ(text_of(read(unclear, {.fps = 25, .unit = {}, .columns = "frame,id,x,y"})),
+            "1 0 1 2 - -\n1 1 3 4 - -\n2 0 5 6 - -\n");
+  EXPECT_EQ(text_of(read(unclear, {.fps = 25, .unit = 1, .columns = "id,frame,x,y"})),
+            "0 1 1 2 - -\n0 2 5 6 - -\n1 1 3 4 - -\n");
+}
+
+TEST_F(Trajectories, OfCsvHaveColumnsByName) {
+  const TrajectoryOptions rate{.fps = 10, .unit = {}, .columns = {}};
+  const ReadRecording recording = read(
+      "\xef\xbb\xbf"
+      "ID,Frame,v_x,x,y,Heading,height\n7,0,9,1,2,-0.5,1.8\n8,0,nan,3,4,,\n9, 0 , 9,\"5\",+6,nan,nan\n",
+      rate);
+  EXPECT_EQ(text_of(recording), "0 7 1 2 -0.5 1.8\n0 8 3 4 - -\n0 9 5 6 - -\n");
+  EXPECT_EQ(recording.info.format, "CSV");
+  EXPECT_EQ(assumptions_of(recording), std::string(metres_assumed) + height_assumed);
+  EXPECT_EQ(text_of(read("agent;frame;x [cm];y [cm]\n1;2;300;400\n", rate)), "2 1 3 4 - -\n");
+  EXPECT_EQ(text_of(read("agent frame x y\n1 2 3 4\n", rate)), "2 1 3 4 - -\n");
+  EXPECT_EQ(text_of(read("# framerate: 5\nagent,frame,x,y,name\n1,2,3,4,\"a, \"\"b\"\" c\"\n")),
+            "2 1 3 4 - -\n");
+}
+
+TEST_F(Trajectories, OfTimesGetTheRateThatFitsAll) {
+  const ReadRecording even = read("id,t,x,y\n1,0,1,2\n2,0,1,3\n1,0.5,1,2\n1,0.775,1,2\n1,2,1,2\n");
+  EXPECT_EQ(even.info.fps, 40);
+  EXPECT_EQ(text_of(even), "0 1 1 2 - -\n0 2 1 3 - -\n20 1 1 2 - -\n31 1 1 2 - -\n80 1 1 2 - -\n");
+  EXPECT_EQ(
+      assumptions_of(even),
+      std::string(metres_assumed) + "Times are in seconds; the file does not say their unit.\n" +
+          "The frame rate is taken for 40, the smallest rate at which every time is that of a frame.\n");
+  const ReadRecording rounded =
+      read("id,time [s],x/m,y/m\n1,0,1,2\n1,0.0333,1,2\n1,0.0667,1,2\n1,0.1,1,2\n1,0.1333,1,2\n");
+  EXPECT_EQ(rounded.info.fps, 30);
+  EXPECT_EQ(rounded.frames.back().number, 4);
+  EXPECT_EQ(assumptions_of(rounded), "The frame rate is taken for 30, that of most steps of time.\n");
+  const ReadRecording given =
+      read("id,time/ms,x,y\n1,0,1,2\n1,1500,1,2\n", {.fps = 4, .unit = 1, .columns = {}});
+  EXPECT_EQ(text_of(given), "0 1 1 2 - -\n6 1 1 2 - -\n");
+  EXPECT_EQ(complaint("id,t,x,y\n1,5,1,2\n"),
+            "f: has a single time, and so no frame rate: --fps has to give it");
+  // Frames count where both are there.
+  EXPECT_EQ(text_of(read("id,t,frame,x,y\n1,oops,3,1,2\n", {.fps = 4, .unit = 1, .columns = {}})),
+            "3 1 1 2 - -\n");
+}
+
+TEST_F(Trajectories, OfPathfinderHaveALineOfUnits) {
+  const ReadRecording recording = read(
+      "\"t\",\"id\",\"name\",\"x\",\"y\",\"z\",\"location\"\n\"s\",\"\",\"\",\"m\",\"m\",\"m\",\"\"\n"
+      "0.000000,0,\"00001\",-10.5,-2,1.5,\"Room, 07\"\n0.500000,0,\"00001\",-10,-2,1.5,\"\"\n");
+  EXPECT_EQ(recording.info.format, "Pathfinder CSV");
+  EXPECT_EQ(text_of(recording), "0 0 -10.5 -2 - -\n1 0 -10 -2 - -\n");
+  EXPECT_EQ(recording.info.fps, 2);
+}
+
+TEST_F(Trajectories, OfTrajNetHaveFramesOfAFinerRate) {
+  const ReadRecording recording = read(
+      "{\"scene\": {\"id\": 0, \"p\": 1, \"s\": 10, \"e\": 30, \"fps\": 2.5, \"tag\": [4, [\"a]\\\"\"]]}}\n"
+      "{\"track\": {\"f\": 20, \"p\": 1, \"x\": 8.46, \"y\": -3.5}}\n\n"
+      "{\"track\":{\"p\":2,\"f\":10,\"x\":1e1,\"y\":3,\"prediction_number\":0,\"scene_id\":0}}\n"
+      "{\"track\": {\"f\": 30, \"p\": 1, \"x\": 9, \"y\": 3, \"prediction_number\": null}}\n"
+      "{\"track\": {\"f\": 30, \"p\": 1, \"x\": 7, \"y\": 3, \"prediction_number\": 1}}\n");
+  EXPECT_EQ(recording.info.format, "TrajNet++ ndjson");
+  EXPECT_EQ(text_of(recording), "10 2 10 3 - -\n20 1 8.46 -3.5 - -\n30 1 9 3 - -\n");
+  EXPECT_EQ(recording.info.fps, 25);
+  EXPECT_EQ(assumptions_of(recording),
+            "The first prediction of each scene counts: 1 rows of others are left out.\n"
+            "The frame rate of 2.5 is that of rows, whose frame numbers go up by 10: there are 25 frame "
+            "numbers a second.\n");
+  const std::string alone = "{\"track\": {\"f\": 20, \"p\": 1, \"x\": 8, \"y\": 3}}";
+  EXPECT_EQ(complaint(alone), "f: says no frame rate: --fps has to give the frame numbers a second");
+  EXPECT_EQ(read(alone, {.fps = 5, .unit = {}, .columns = {}}).info.fps, 5);
+}
+
+TEST_F(Trajectories, AreTheSameInAnyOrderAndWithAnyMemory) {
+  test::Random random(1);
+  std::vector<std::string> rows;
+  for (int frame = -20; frame < 60; ++frame)
+    for (int id = 0; id < 40; ++id)
+      if (random.below(3) > 0)
+        rows.push_back(std::to_string(id) + " " + std::to_string(frame) + " " +
+                       std::to_string(random.uniform(-9, 9)) + " 1 1." + std::to_string(10 + id) + "\n");
+  const auto text = [&] {
+    std::string all = "# framerate: 25\n# id frame x/m y/m z/m\n";
+    for (const std::string& row : rows) all += row;
+    return all;
+  };
+  const std::string expected = text_of(read(text()));
+  EXPECT_EQ(static_cast<std::size_t>(std::count(expected.begin(), expected.end(), '\n')), rows.size());
+  for (int order = 0; order < 4; ++order) {
+    if (order == 1)
+      std::stable_sort(rows.begin(), rows.end(),
+                       [](const auto& a, const auto& b) { return std::stoi(a) < std::stoi(b); });
+    if (order == 2) std::reverse(rows.begin(), rows.end());
+    if (order == 3)
+      for (std::size_t i = rows.size(); i > 1; --i)
+        std::swap(rows[i - 1], rows[random.below(static_cast<std::uint32_t>(i))]);
+    for (const std::size_t memory : {0, 1000, 5000, 1 << 25})
+      EXPECT_EQ(text_of(read(text(), {.fps = {}, .unit = {}, .columns = {}, .sort_memory = memory})),
+                expected)
+          << order << " " << memory;
+  }
+}
+
+TEST_F(Trajectories, OfTimesOutOfOrderGetTheSameRate) {
+  const std::string header = "id,t,x/m,y/m\n";
+  std::string ordered, reversed;
+  for (int i = 0; i < 200; ++i) {
+    const std::string row = "1," + std::to_string(i * 0.04) + ",1,2\n";
+    ordered += row;
+    reversed = row + reversed;
+  }
+  EXPECT_EQ(read(header + ordered).info.fps, 25);
+  const ReadRecording sorted =
+      read(header + reversed, {.fps = {}, .unit = {}, .columns = {}, .sort_memory = 0});
+  EXPECT_EQ(sorted.info.fps, 25);
+  EXPECT_EQ(text_of(sorted), text_of(read(header + ordered)));
+}
+
+TEST_F(Trajectories, NameTheRowThatIsWrong) {
+  const std::string petrack = "# framerate: 25\n# id frame x/m y/m z/m\n1 0 1 2 1.7\n";
+  const std::pair<const char*, const char*> cases[] = {
+      {"1 1 nan 2 1.7\n", "f:4: x 'nan' is not finite"},
+      {"1 1 1 -inf 1.7\n", "f:4: y '-inf' is not finite"},
+      {"1 1 1 2e400 1.7\n", "f:4: y '2e400' is not finite"},
+      {"1 1 1e8 -1.1e8 1.7\n", "f:4: y '-1.1e8' is not within +-1e8 m"},
+      {"\n# a comment\n1 1 1 2 inf\n", "f:6: z 'inf' is not finite"},
+      {"1 1 1\n", "f:4: has 3 values, not 5: '1 1 1'"},
+      {"1 1 1 2 1.", "accepted"},
+      {"1 1 1 2\n", "f:4: has 4 values, not 5: '1 1 1 2'"},
+      {"1.5 1 1 2 1.7\n", "f:4: id '1.5' is not a whole number"},
+      {"1 one 1 2 1.7\n", "f:4: frame 'one' is not a whole number"},
+      {"1 1 1 2,5 1.7\n", "f:4: y '2,5' is not a number"},
+      {"1 1 \x1b[2J 2 1.7\n", "f:4: x ' [2J' is not a number"},
+      {"1 2000000000000000 1 2 1.7\n", "f:4: frame '2000000000000000' is not within +-1e15"},
+      {"1 -9223372036854775808 1 2 1.7\n", "f:4: frame '-9223372036854775808' is not within +-1e15"},
+      {"9223372036854775807 1 1 2 1.7\n", "accepted"},
+      {"9223372036854775808 1 1 2 1.7\n", "f:4: id '9223372036854775808' is not a whole number"},
+      {"1 0 1 2 1.7\n", "f:4: repeats line 3, person 1 in frame 0"},
+      {"2 0 1 2 1.7\n1 0 1 2.5 1.7\n",
+       "f:5: person 1 is at two places in frame 0, here at (1, 2.5), by line 3 at (1, 2)"},
+  };
+  for (const auto& [row, message] : cases) EXPECT_EQ(complaint(petrack + row), message) << row;
+  EXPECT_EQ(complaint(petrack + std::string("1 1 1 2\0 1.7\n", 13)), "f:4: has a NUL byte: is not text");
+  EXPECT_EQ(complaint(petrack + std::string(70'000, '1')), "f:4: is longer than 65536 bytes");
+  EXPECT_EQ(complaint(petrack + "1 1 " + std::string(200, '7') + " 2 1\n"),
+            "f:4: x '" + std::string(40, '7') + "...' is not within +-1e8 m");
+}
+
+TEST_F(Trajectories, AreRefusedByOneLine) {
+  const TrajectoryOptions rate{.fps = 10, .unit = {}, .columns = {}};
+  EXPECT_EQ(complaint(""), "f: is empty");
+  EXPECT_EQ(complaint("\n\n"), "f: has no rows");
+  EXPECT_EQ(complaint("# framerate: 25\n"), "f: has no rows");
+  EXPECT_EQ(complaint("id,frame,x,y\n", rate), "f: has no rows");
+  EXPECT_EQ(complaint("\xff\xfe"
+                      "1"),
+            "f:1: is UTF-16, not UTF-8");
+  EXPECT_EQ(complaint("Dear all\n", rate), "f:1: 'Dear all' is neither a row of numbers nor a header");
+  EXPECT_EQ(complaint("id,frame,x\n1,2,3\n", rate), "f:1: has no column called 'y', only 'id, frame, x'");
+  EXPECT_EQ(complaint("id,x,y\n1,2,3\n", rate),
+            "f:1: has no column called 'frame', nor one called 'time', only 'id, x, y'");
+  EXPECT_EQ(complaint("id,agent,frame,x,y\n1,2,3,4,5\n", rate),
+            "f:1: has two columns for the same, the second is 'agent'");
+  EXPECT_EQ(complaint("id,frame,x/ft,y/ft\n1,2,3,4\n", rate),
+            "f:1: the unit 'ft' of column 'x' is not known: --unit has to give its metres");
+  EXPECT_EQ(complaint("id,frame,x/m,y/cm\n1,2,3,4\n", rate), "f:1: x and y are of different units");
+  EXPECT_EQ(complaint("id,time/h,x,y\n1,2,3,4\n", rate), "f:1: the unit 'h' of time is not known");
+  EXPECT_EQ(complaint("id,frame,x,y\n1,2,3\n", rate), "f:2: has 3 values, not 4: '1,2,3'");
+  EXPECT_EQ(complaint("id,frame,x,y\n1,2,3,4,5\n", rate),
+            "f:2: has more values than the header has columns, the next is '5'");
+  EXPECT_EQ(complaint("id,frame,x,y\n1,2,3,\"4\n", rate),
+            "f:2: a quote is not closed, or something follows it");
+  EXPECT_EQ(complaint("id,t,x,y\n1,2e9,3,4\n", rate), "f:2: t '2e9' is not within +-1e9 s");
+  EXPECT_EQ(complaint("id,t,x,y\n1,nan,3,4\n", rate), "f:2: t 'nan' is not finite");
+  EXPECT_EQ(complaint("id,frame,x,y,heading\n1,2,3,4,2e9\n", rate), "f:2: heading '2e9' is not within +-1e9");
+  EXPECT_EQ(complaint("id,t,x,y\n1,1,3,4\n1,1.01,3,5\n", rate),
+            "f:3: person 1 is at two places in frame 10, here at (3, 5), by line 2 at (3, 4)");
+  EXPECT_EQ(complaint("1,2,3,4\n", rate),
+            "f:1: has no header: --columns has to name the columns, such as id,frame,x,y");
+  EXPECT_EQ(complaint("1 2 3\n", rate), "f:1: has no column called 'y', only 'id, frame, x'");
+  EXPECT_EQ(test::trajectory_complaint(folder.path()), folder.path().filename().string() + ": is not a file");
+  EXPECT_EQ(test::trajectory_complaint(folder.file("none")),
+            "none: cannot be opened: No such file or directory");
+}
+
+TEST_F(Trajectories, NeedARateAndAUnitThatMakeSense) {
+  const std::string rows = "# id frame x/m y/m\n1 0 1 2\n";
+  for (const char* const rate : {"0", "-5", "10001", "nan", "inf", "1e-400"})
+    EXPECT_EQ(complaint("# framerate: " + std::string(rate) + " fps\n" + rows),
+              "f:1: the frame rate '" + std::string(rate) + " fps' is not above 0 and at most 10000");
+  EXPECT_EQ(complaint("# framerate: many\n" + rows), "f:1: the frame rate 'many' is not a number");
+  EXPECT_EQ(complaint(rows), "f: says no frame rate: --fps has to give the frame numbers a second");
+  EXPECT_EQ(complaint(rows, {.fps = 0, .unit = {}, .columns = {}}),
+            "f: the frame rate of --fps is 0 frames a second, not above 0 and at most 10000");
+  EXPECT_EQ(complaint(rows, {.fps = 25, .unit = 0, .columns = {}}),
+            "f: the unit of --unit is 0 m, not above 0");
+}
+
+TEST_F(Trajectories, OfTrajNetNameTheLineThatIsWrong) {
+  const std::string first = "{\"scene\": {\"fps\": 2.5}}\n";
+  const std::pair<const char*, const char*> cases[] = {
+      {"{\"track\": {\"f\": 20, \"p\": 1, \"x\": 8.46, \"y\": -3.5}",
+       "is not an object of JSON: '{\"track\": {\"f\": 20, \"p\": 1, \"x\": 8.46, \"...'"},
+      {"{\"track\": {\"f\": 20, \"p\": 1}}", "has no 'x'"},
+      {"{\"track\": {\"f\": 2.5, \"p\": 1, \"x\": 1, \"y\": 2}}", "f '2.5' is not a whole number"},
+      {"{\"track\": {\"f\": 2e15, \"p\": 1, \"x\": 1, \"y\": 2}}", "f '2e15' is not within +-1e15"},
+      {"{\"track\": {\"f\": 2, \"p\": 1, \"x\": NaN, \"y\": 2}}", "x 'NaN' is not finite"},
+      {"{\"track\": {\"f\": 2, \"p\": 1, \"x\": [1], \"y\": 2}}", "x '[1]' is not a number"},
+      {"{\"track\": {\"f\": 2, \"p\": 1, \"x\": 1e9, \"y\": 2}}", "x '1e9' is not within +-1e8 m"},
+      {"{\"track\": []}", "is not an object of JSON: '{\"track\": []}'"},
+      {"{\"truck\": {}}", "'truck' is neither a track nor a scene"},
+      {"[]", "is not an object of JSON: '[]'"},
+      {"{\"scene\": {\"fps\": 0}}", "fps '0' is not above 0 and at most 10000"},
+      {"{\"scene\": {\"fps\": 3}}", "fps '3' differs from 2.5 of earlier scenes"},
+      {"{\"scene\": {\"fps\": 2.5}} 1", "is not an object of JSON: '{\"scene\": {\"fps\": 2.5}} 1'"},
+  };
+  for (const auto& [line, message] : cases)
+    EXPECT_EQ(complaint(first + line + "\n"), std::string("f:2: ") + message);
+  EXPECT_EQ(complaint(first), "f: has no rows");
+}
+
+TEST_F(Trajectories, MayHaveManyPeopleAndFarFrames) {
+  std::string text = "# framerate: 1\n# id frame x/m y/m\n";
+  for (int id = 20'000; id > 0; --id) text += std::to_string(id) + " -1000000000000000 1 2\n";
+  text += "5 1000000000000000 1 2\n";
+  const ReadRecording recording = read(text);
+  EXPECT_EQ(recording.info.people, 20'000u);
+  EXPECT_EQ(recording.frames.size(), 2u);
+  EXPECT_EQ(recording.frames[0].people.front().id, 1);
+}
+
+TEST_F(Trajectories, LeaveNoFileBehind) {
+  const std::string text = "# framerate: 1\n# id frame x/m y/m\n1 1 1 1\n1 0 1 1\n";
+  std::string rows;
+  for (int i = 2; i < 100; ++i) rows += "1 " + std::to_string(i) + " 1 1\n";
+  ASSERT_EQ(setenv("TMPDIR", folder.file("tmp").c_str(), 1), 0);
+  const TrajectoryOptions little{.fps = {}, .unit = {}, .columns = {}, .sort_memory = 0};
+  folder.write("f", text + rows);
+  EXPECT_THROW(test::read_recording(folder.file("f"), little),
+               detail::TrajectoryError);  // there is no folder
+  std::filesystem::create_directory(folder.file("tmp"));
+  test::expect_sound(test::read_recording(folder.file("f"), little));
+  EXPECT_TRUE(std::filesystem::is_empty(folder.file("tmp")));
+  unsetenv("TMPDIR");
+}
+
+}  // namespace
+}  // namespace bch

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "layout/trajectory/trajectory.hpp"
+
+namespace bch::test {
+
+/// A frame of a recording.
+struct RecordedFrame {
+  std::int64_t number = 0;
+  std::vector<detail::TrackedPerson> people;
+};
+
+/// A recording that was read to its end.
+struct ReadRecording {
+  detail::TrajectoryInfo info;
+  std::vector<RecordedFrame> frames;
+};
+
+ReadRecording read_recording(const std::filesystem::path& file,
+                             const detail::TrajectoryOptions& options = {});
+
+/// Expects what holds of every recording: frames ascend, ids within them too, numbers are in range, and info() tells the truth.
+void expect_sound(const ReadRecording& recording);
+
+/// A line for each person and frame: "frame id x y heading stature", with - for NaN.
+std::string text_of(const ReadRecording& recording);
+
+/// Returns the message of the TrajectoryError that reading throws, the folder left out; "accepted" where there is none.
+std::string trajectory_complaint(const std::filesystem::path& file,
+                                 const detail::TrajectoryOptions& options = {});
+
+/// Makes a SQLite file by statements, in place of one that may be there.
+void write_sqlite(const std::filesystem::path& file, const std::string& sql);
+
+}  // namespace bch::test
