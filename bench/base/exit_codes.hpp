@@ -12,6 +12,7 @@ namespace bch::cli {
 
 enum ExitCode : int {
   exit_success = 0,
+  exit_failed = 1,     ///< a check that failed, as its user asked for
   exit_usage = 2,      ///< the command line makes no sense
   exit_bad_input = 3,  ///< a file cannot be read, believed or written
   exit_internal = 4,   ///< a fault of the program, or no memory left
@@ -20,6 +21,12 @@ enum ExitCode : int {
 
 /// An error in the command line, which leads to exit_usage. The message is one line.
 class UsageError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// A check that failed, which leads to exit_failed. The message is one line.
+class CheckFailed : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };

@@ -19,6 +19,7 @@
 
 #include "bench/base/exit_codes.hpp"
 #include "bench/base/printable.hpp"
+#include "layout/trajectory/trajectory.hpp"
 
 namespace bch::cli {
 namespace {
@@ -55,6 +56,10 @@ int run_main(const char* program, const std::function<int()>& run) {
     return run();
   } catch (const UsageError& error) {
     return report(exit_usage, error.what());
+  } catch (const CheckFailed& error) {
+    return report(exit_failed, error.what());
+  } catch (const detail::TrajectoryError& error) {
+    return report(exit_bad_input, error.what());
   } catch (const InputError& error) {
     return report(exit_bad_input, error.what());
   } catch (const InputErrors& errors) {

@@ -21,7 +21,8 @@ constexpr const char* description =
     "Lengths are in metres, headings in radians, counter-clockwise; the ground plane is x-y.";
 constexpr const char* footer =
     "Data goes to standard output, messages to standard error.\n"
-    "Exit codes: 0 success; 2 usage; 3 a file that cannot be read, believed or written; 4 internal error;\n"
+    "Exit codes: 0 success; 1 a check that fails (check --fail-above); 2 usage; 3 a file that cannot be "
+    "read, believed or written; 4 internal error;\n"
     "            128 + N ended by signal N (129 hang-up, 130 interrupt, 143 termination).\n"
     "No half-written file stays behind.";
 
@@ -32,13 +33,14 @@ int run(int argc, char** argv) {
   program.require_subcommand(1);
   program.get_formatter()->column_width(24);
   const std::pair<const char*, std::function<void()>> commands[] = {
-      {"bake", add_bake_command(program)},       {"crowd", add_crowd_command(program)},
-      {"inspect", add_inspect_command(program)}, {"query", add_query_command(program)},
-      {"report", add_report_command(program)},   {"stability", add_stability_command(program)},
+      {"bake", add_bake_command(program)},           {"check", add_check_command(program)},
+      {"crowd", add_crowd_command(program)},         {"inspect", add_inspect_command(program)},
+      {"query", add_query_command(program)},         {"report", add_report_command(program)},
+      {"stability", add_stability_command(program)},
   };
   const std::string word = argc > 1 ? argv[1] : "-";
   if (word[0] != '-' && std::ranges::none_of(commands, [&](const auto& one) { return one.first == word; }))
-    throw UsageError("no command '" + word + "' (bake, crowd, inspect, query, report, stability)");
+    throw UsageError("no command '" + word + "' (bake, check, crowd, inspect, query, report, stability)");
   if (!parse_command_line(program, argc, argv)) return exit_success;
   for (const auto& [name, command] : commands)
     if (program.got_subcommand(name)) command();

@@ -55,15 +55,19 @@ double cpp_clearance(const void* set, const CppScene* scene, double limit, float
   const ShapeSet& shapes = static_cast<const BakedShapes*>(set)->set;
   const Agents agents = agents_of(scene);
   return nanoseconds([&] {
-    clearance(shapes, agents, {scene->pairs, scene->count}, {{distance, scene->count}}, {.max_distance = limit});
+    clearance(shapes, agents, {scene->pairs, scene->count}, {{distance, scene->count}},
+              {.max_distance = limit});
   });
 }
 
-double cpp_time_of_impact(const void* set, const CppScene* scene, const double* x, const double* y, float* times) {
+double cpp_time_of_impact(const void* set, const CppScene* scene, const double* x, const double* y,
+                          float* times) {
   const ShapeSet& shapes = static_cast<const BakedShapes*>(set)->set;
   const Agents agents = agents_of(scene);
   const std::size_t n = scene->count;
-  return nanoseconds([&] { time_of_impact(shapes, agents, {scene->pairs, n}, {{x, n}, {y, n}}, {times, n}); });
+  return nanoseconds([&] {
+    time_of_impact(shapes, agents, {scene->pairs, n}, {{x, n}, {y, n}}, {times, n});
+  });
 }
 
 double cpp_collide_all(const void* set, const CppScene* scene, std::uint64_t* found) {

@@ -11,6 +11,8 @@
 #include <cerrno>
 #include <memory>
 
+#include "layout/base/shortest.hpp"
+
 namespace bch::c_api {
 
 void check_size(const void* given, std::size_t known, const char* argument) {
@@ -62,7 +64,7 @@ ShapeSetPlan plan_of(const bch_plan* given) {
 float threshold_of(const bch_plan* given) {
   const float threshold = sized<bch_plan>(given, BCH_PLAN_INIT, "plan").threshold;
   if (!(threshold > 0 && threshold <= 1e6f))
-    throw Failure(BCH_INVALID_ARGUMENT, "plan->threshold is " + std::to_string(threshold));
+    throw Failure(BCH_INVALID_ARGUMENT, "plan->threshold is " + detail::shortest(threshold));
   return threshold;
 }
 

@@ -13,6 +13,7 @@
 #include "kernel/c_api/objects.hpp"
 #include "kernel/c_api/posing.hpp"
 #include "kernel/c_api/work.hpp"
+#include "layout/base/shortest.hpp"
 
 namespace bch::c_api {
 namespace {
@@ -144,7 +145,7 @@ bch_status bch_dynamic_shape_set_replace_poses(bch_dynamic_shape_set* handle, co
     check_shapes(set.dynamic.set(), which);
     check_poses(*of.character, at);
     if (!(threshold > 0 && threshold <= 1e6f))
-      throw Failure(BCH_INVALID_ARGUMENT, "threshold is " + std::to_string(threshold));
+      throw Failure(BCH_INVALID_ARGUMENT, "threshold is " + detail::shortest(threshold));
     replace_poses(set, of, which, at, threshold, work);
   });
 }

@@ -11,6 +11,8 @@
 #include <bch/import.hpp>
 #include <bch/version.hpp>
 
+#include "layout/trajectory/trajectory.hpp"
+
 namespace bch::c_api {
 namespace {
 
@@ -37,6 +39,8 @@ bch_status status_of_exception() noexcept {
   } catch (const Failure& error) {
     return remember(error.status, error.what());
   } catch (const BakedFileError& error) {
+    return remember(BCH_BAD_FILE, error.what());
+  } catch (const detail::TrajectoryError& error) {
     return remember(BCH_BAD_FILE, error.what());
   } catch (const ImportError& error) {
     return remember(BCH_BAD_FILE, error.what());

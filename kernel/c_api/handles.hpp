@@ -44,6 +44,12 @@ constexpr std::string_view kind_of(const bch_crowd_collider*) {
 constexpr std::string_view kind_of(const bch_contact_finder*) {
   return "bch_contact_finder";
 }
+constexpr std::string_view kind_of(const bch_trajectory*) {
+  return "bch_trajectory";
+}
+constexpr std::string_view kind_of(const bch_check*) {
+  return "bch_check";
+}
 constexpr std::string_view kind_of(const bch_obstacles*) {
   return "bch_obstacles";
 }

@@ -14,6 +14,8 @@ ObstacleArrays arrays_of(const bch_obstacle_arrays* given) {
   const bch_obstacle_arrays arrays =
       sized(&required(given, "arrays"), bch_obstacle_arrays BCH_OBSTACLE_ARRAYS_INIT, "arrays");
   ObstacleArrays all;
+  static constexpr std::uint64_t none = 0;
+  all.path_offsets = {&none, 1};
   if (arrays.path_count == 0) return all;
   all.path_offsets = offsets_of(arrays.path_offsets, arrays.path_count, "arrays->path_offsets");
   const std::size_t points = all.path_offsets.back();
@@ -118,8 +120,8 @@ bch_status bch_obstacles_penetration(const bch_shape_set* set, const bch_agents*
   });
 }
 
-bch_status bch_obstacles_time_of_impact(const bch_shape_set* set, const bch_agents* agents, const double* x,
-                                        const double* y, const bch_obstacles* obstacles,
+bch_status bch_obstacles_time_of_impact(const bch_shape_set* set, const bch_agents* agents,
+                                        const bch_obstacles* obstacles, const double* x, const double* y,
                                         const bch_query_options* options, float* times) {
   return guarded([&] {
     const ObstacleCall call(set, agents, obstacles, options);

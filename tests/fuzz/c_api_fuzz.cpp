@@ -451,7 +451,7 @@ void ask_obstacles(Program& by) {
   if (kinds & 4)
     depths.check(bch_obstacles_penetration(set, scene.of, walls, by.options(), by.array(depths.values)));
   if (kinds & 8)
-    times.check(bch_obstacles_time_of_impact(set, scene.of, by.array(scene.way), scene.way, walls,
+    times.check(bch_obstacles_time_of_impact(set, scene.of, walls, by.array(scene.way), scene.way,
                                              by.options(), by.array(times.values)));
   if (kinds & 16)
     out.check(bch_obstacles_clearance(set, scene.of, walls, by.options(), by.array(out.of(by))));

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cstring>
+#include <sstream>
 #include <string>
 #include <thread>
 #include <vector>
@@ -17,6 +18,12 @@ namespace bch {
 namespace {
 
 using test::expect_ok;
+
+std::string about(const char* what, std::size_t number) {
+  std::ostringstream text;
+  text << what << number;
+  return text.str();
+}
 
 class CApiMisuse : public testing::Test {
  protected:
@@ -110,9 +117,8 @@ TEST_F(CApiMisuse, SizesOfThePastAndOfTheFuture) {
   EXPECT_EQ(hit, 1);
   hit = 77;
   future.later[1] = 5;
-  expect_error(
-      bch_collide(set.get(), &agents, &pair, 1, &future.known, &hit), BCH_INVALID_ARGUMENT,
-      "options->size is " + std::to_string(sizeof future) + ", and fields that this version does not know");
+  expect_error(bch_collide(set.get(), &agents, &pair, 1, &future.known, &hit), BCH_INVALID_ARGUMENT,
+               about("options->size is ", sizeof future) + ", and fields that this version does not know");
 
   // Of the past: what it does not have yet is as if it had been left alone.
   options.semantics = 99;
@@ -123,7 +129,7 @@ TEST_F(CApiMisuse, SizesOfThePastAndOfTheFuture) {
   expect_error(ask(), BCH_INVALID_ARGUMENT, "options->semantics is 99");
   for (const std::uint32_t size : {0u, 3u, 5000u}) {
     options.size = size;
-    expect_error(ask(), BCH_INVALID_ARGUMENT, "options->size is " + std::to_string(size));
+    expect_error(ask(), BCH_INVALID_ARGUMENT, about("options->size is ", size));
   }
 
   bch_shape_set_info info = BCH_SHAPE_SET_INFO_INIT;
@@ -157,7 +163,7 @@ TEST_F(CApiMisuse, ValuesAndTheirPlaces) {
   expect_error(bch_shape_set_get_discs(set.get(), 50, 0, &disc, 1, &count), BCH_OUT_OF_RANGE, "50");
   EXPECT_EQ(count, 9u);
   expect_error(bch_collide(set.get(), &agents, &pair, SIZE_MAX / 2, nullptr, &hit), BCH_INVALID_ARGUMENT,
-               "pairs has " + std::to_string(SIZE_MAX / 2));
+               about("pairs has ", SIZE_MAX / 2));
   bch_shape_set* none = nullptr;
   expect_error(bch_shape_set_load("/nowhere/a.bch", BCH_READ, &none), BCH_FILE_NOT_FOUND,
                "/nowhere/a.bch: no such");

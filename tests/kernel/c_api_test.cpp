@@ -272,7 +272,7 @@ TEST_P(CApi, AnswersAboutObstaclesAreThoseOfTheLibrary) {
   expect_same_depths(depths, c_depths);
   const std::vector<double> way_x(n, 1.5), way_y(n, -0.5);
   time_of_impact(set, agents, {way_x, way_y}, walls, distance);
-  expect_ok(bch_obstacles_time_of_impact(c_set.get(), &of, way_x.data(), way_y.data(), c_walls.get(),
+  expect_ok(bch_obstacles_time_of_impact(c_set.get(), &of, c_walls.get(), way_x.data(), way_y.data(),
                                          &options, c_distance.data()));
   EXPECT_EQ(distance, c_distance);
 }

@@ -26,7 +26,8 @@ class Folder {
   template <class Value>
   void write(const std::string& name, std::span<const Value> values) const {
     std::ofstream stream(file(name), std::ios::binary);
-    stream.write(reinterpret_cast<const char*>(values.data()), static_cast<std::streamsize>(values.size_bytes()));
+    stream.write(reinterpret_cast<const char*>(values.data()),
+                 static_cast<std::streamsize>(values.size_bytes()));
     if (!stream.flush()) throw std::runtime_error("cannot write " + file(name).string());
   }
   template <class Value>
@@ -36,7 +37,8 @@ class Folder {
   /// Depths, and the directions' components.
   void write(const std::string& name, const std::vector<Penetration>& depths) const {
     std::vector<double> numbers;
-    for (const auto& [depth, x, y] : depths) numbers.insert(numbers.end(), {static_cast<double>(depth), x, y});
+    for (const auto& [depth, x, y] : depths)
+      numbers.insert(numbers.end(), {static_cast<double>(depth), x, y});
     write(name, numbers);
   }
 

@@ -11,7 +11,9 @@ import signal
 import subprocess
 import sys
 import tempfile
+import pickle
 import textwrap
+import threading
 import time
 import tracemalloc
 import unittest
@@ -47,6 +49,8 @@ class Errors(unittest.TestCase):
             (self.pairs.astype(np.int64), ["pairs is an array of int64", "(1, 2)", "uint32", "(n, 2)"]),
             (np.zeros((4, 3), np.uint32), ["(4, 3)"]),
             (np.zeros((4, 4), np.uint32)[:, ::2], ["not contiguous"]),
+            (np.ma.masked_array(self.pairs, mask=True), ["masked"]),
+            (np.frombuffer(bytes(9), np.uint32, 2, 1).reshape(1, 2), ["not aligned"]),
             ([[0, 1]], ["a list"]),
         ):
             self.expect(TypeError, words, collide, wrong)
@@ -71,7 +75,61 @@ class Errors(unittest.TestCase):
         self.expect(IndexError, ["7"], self.shapes.discs, 7)
         self.expect(IndexError, ["7"], self.shapes.outline, 7)
         self.expect(ValueError, ["directions is 300"], bch.penetration, self.shapes, self.agents, self.pairs, 300)
+        self.expect(IndexError, ["shape is 4294967296"], self.shapes.discs, 2**32)
+        self.expect(IndexError, ["slab is -1"], self.shapes.outline, 0, -1)
+        self.expect(ValueError, ["a depth is -1"], bch.ShapeSetBuilder, bch.Plan([-1]))
+        self.expect(ValueError, ["NUL"], bch.Obstacles.from_wkt, "LINESTRING(0 0, 1 1)\0")
+        self.expect(ValueError, ["NUL"], self.shapes.save, "a\0b")
+        self.expect(ValueError, ["nan"], bch.depth_at_density, float("nan"))
+        with self.assertRaises(TypeError):
+            bch.ShapeSetBuilder(bch.Plan([1.7]))
         self.expect(ValueError, ["LINE"], bch.Obstacles.from_wkt, "LINE")
+
+    def test_other_objects(self):
+        dynamic = bch.DynamicShapeSet(self.shapes)
+        self.expect(TypeError, ["agents is a ShapeSet", "bch.Agents"], bch.collide, self.shapes, self.shapes, self.pairs)
+        self.expect(TypeError, ["shapes is a DynamicShapeSet", ".shapes"], bch.collide, dynamic, self.agents, self.pairs)
+        self.expect(TypeError, ["obstacles is a str"], bch.collide_all, self.shapes, self.agents, "POLYGON")
+        with self.assertRaises(AttributeError):
+            self.agents.x = np.zeros(2)
+        walls = bch.Obstacles.from_wkt("LINESTRING(0 0, 1 1)")
+        self.expect(ValueError, ["directions are for pairs"], bch.penetration, self.shapes, self.agents, walls, 8)
+
+    def test_bodies(self):
+        builder = bch.ShapeSetBuilder()
+        for add, wrong in (
+            (builder.add_discs, np.zeros((3, 2))),
+            (builder.add_discs, [1.0, 2.0, 3.0]),
+            (lambda value: builder.add_polygons([value]), np.zeros((4, 3))),
+            (lambda value: builder.add_mesh(np.zeros((3, 3)), value), [(0, 1, 2, 3)]),
+            (lambda value: builder.add_mesh(np.zeros((3, 3)), value), [(0, 1.9, 2.2)]),
+            (lambda value: builder.add_poses(bch.default_male(), value), [0, 1, 2]),
+        ):
+            self.expect(TypeError, [], add, wrong)
+        self.expect(ValueError, ["heights"], builder.add_cylinder, 0.3, heights=(0, 1))
+        self.assertEqual(len(builder.finish()), 0)
+
+    def test_objects_of_other_threads(self):
+        """Two threads that use one collider get answers or an error, and no crash."""
+        shapes, agents = squares(3000)
+        collider, results = bch.CrowdCollider(), []
+
+        def ask():
+            for _ in range(30):
+                try:
+                    results.append(len(collider.collide_all(shapes, agents).values))
+                except bch.Error as error:
+                    results.append(str(error))
+
+        asking = [threading.Thread(target=ask) for _ in range(4)]
+        for thread in asking:
+            thread.start()
+        for thread in asking:
+            thread.join()
+        expected = len(bch.collide_all(shapes, agents).values)
+        busy = "this CrowdCollider is in use by another thread; each thread needs one of its own"
+        self.assertLessEqual(set(results), {expected, busy})
+        self.assertIn(expected, results)
 
     def test_files(self):
         with tempfile.TemporaryDirectory() as folder:
@@ -133,14 +191,14 @@ class Sets(unittest.TestCase):
         self.assertEqual(whole, parts)
         poses = female.sample_poses(8)
         outline = bch.PoseShaper(female).outline(int(poses[2]["clip"]), float(poses[2]["seconds"]))
-        np.testing.assert_array_equal(outline[0], bch.bake(female, poses=[poses[2:3]]).outline(0)[0])
+        np.testing.assert_array_equal(outline[0], bch.bake(female, poses=poses[2:3]).outline(0)[0])
 
     def test_replacing(self):
         male = bch.default_male()
         poses = male.sample_poses(6)
-        dynamic = bch.DynamicShapeSet(bch.bake(male, poses=[poses[:3]]))
+        dynamic = bch.DynamicShapeSet(bch.bake(male, poses=poses[:3]))
         dynamic.replace(male, np.array([2, 0, 1], np.uint32), poses[3:])
-        later = bch.bake(male, poses=[poses[3:]])
+        later = bch.bake(male, poses=poses[3:])
         for shape, of in ((2, 0), (0, 1), (1, 2)):
             np.testing.assert_array_equal(dynamic.shapes.discs(shape), later.discs(of))
         with self.assertRaisesRegex(ValueError, "as one before"):
@@ -149,10 +207,81 @@ class Sets(unittest.TestCase):
         del dynamic
         self.assertEqual(len(shapes.outline(0)), len(later.outline(1)))  # it keeps what it stands on
 
+    def test_numbers_of_numpy(self):
+        shapes, agents = squares()
+        pairs = np.array([[0, 1]], np.uint32)
+        self.assertEqual(len(bch.bake(bch.default_male(), poses=np.int64(3))), 3)
+        self.assertTrue(bch.within(shapes, agents, pairs, np.float32(0.1))[0])
+        self.assertEqual(len(bch.penetration(shapes, agents, pairs, np.int64(8))), 1)
+        male = bch.default_male()
+        self.assertEqual(len(bch.bake(male, poses=male.sample_poses(4))), 4)
+        self.assertEqual(len(bch.bake(male, poses=[(0, 0.5), (0, 0.7)])), 2)
+        with self.assertRaisesRegex(ValueError, "of 1 characters, and there are 2"):
+            bch.bake([male, male], poses=[male.sample_poses(2)])
+        self.assertEqual(len(bch.Obstacles(np.empty(0), np.empty(0), np.zeros(1, np.uint64))), 0)
+
+    def test_copies(self):
+        shapes, agents = squares(5)
+        again = pickle.loads(pickle.dumps(agents))
+        np.testing.assert_array_equal(again.x, agents.x)
+        with self.assertRaisesRegex(TypeError, "save"):
+            pickle.dumps(shapes)
+
+    def test_pedestrians(self):
+        woman = bch.default_pedestrian("female", 1.62)
+        self.assertEqual((woman.name, len(woman.clips)), ("pedestrian:female", 74))
+        self.assertEqual(woman.clips[46].name, "walk 1.38 m/s")
+        with self.assertRaisesRegex(ValueError, "stature"):
+            bch.default_pedestrian("male", 5.0)
+
     def test_densities(self):
         x = np.array([0.0, 1.0, 50.0])
         np.testing.assert_allclose(bch.local_densities(x, np.zeros(3)), np.array([2, 2, 1]) / (4 * np.pi))
         self.assertGreaterEqual(bch.depth_at_density(0.1), 0)
+
+
+class Recordings(unittest.TestCase):
+    """Two people who walk through each other."""
+
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = tempfile.TemporaryDirectory()
+        cls.path = Path(cls.folder.name) / "two.csv"
+        lines = ["id,time,x,y"]
+        for k in range(100):
+            lines += [f"7,{k / 25},{-2.4 + 0.048 * k:.4f},0", f"5,{k / 25},{2.4 - 0.048 * k:.4f},0.1"]
+        cls.path.write_text("\n".join(lines) + "\n")
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.folder.cleanup()
+
+    def test_reading(self):
+        trajectory = bch.read_trajectory(self.path, unit=1)
+        self.assertEqual((len(trajectory.rows), trajectory.rows.dtype, trajectory.fps), (200, bch.TRACKED, 25.0))
+        self.assertEqual(trajectory.rows["id"][:4].tolist(), [5, 7, 5, 7])
+        self.assertAlmostEqual(trajectory.rows["x"][1], -2.4)
+        self.assertTrue(np.isnan(trajectory.rows["heading"]).all())
+        with self.assertRaises(FileNotFoundError):
+            bch.read_trajectory("/nowhere.txt")
+
+    def test_checking(self):
+        found = bch.check(self.path, unit=1, max_distance=0.5)
+        worst = found.events[np.argmax(found.events["depth"])]
+        self.assertEqual((worst["first"], worst["second"], worst["kind"]), (5, 7, bch.OVERLAP))
+        self.assertLess(abs(worst["worst"] - 50), 5)
+        self.assertEqual(len(found.frames), 100)
+        self.assertEqual(found.frames["overlapping"].sum(), found.summary["overlapping"])
+        self.assertEqual(found.summary["person_frames"], 200)
+        gaps = found.pairs[found.pairs["kind"] == bch.NEAR]
+        self.assertTrue((gaps["gap"] <= 0.5).all() and len(gaps) > 5)
+        again = bch.check(self.path, unit=1, max_distance=0.5, threads=1)
+        for one, other in zip(found[:3], again[:3]):
+            self.assertEqual(one.tobytes(), other.tobytes())
+        free = bch.check(self.path, unit=1, walls=bch.Obstacles.from_wkt("LINESTRING(-9 0.6, 9 0.6)"))
+        self.assertEqual(free.summary["in_walls"], 0)
+        with self.assertRaisesRegex(TypeError, "walls is a str"):
+            bch.check(self.path, walls="LINESTRING(0 0, 1 1)")
 
 
 class Interrupts(unittest.TestCase):
@@ -170,7 +299,8 @@ class Interrupts(unittest.TestCase):
             time.sleep(0.5)
             baking.send_signal(signal.SIGINT)
             _, errors = baking.communicate(timeout=60)
-            self.assertIn("KeyboardInterrupt", errors)
+            self.assertTrue(errors.rstrip().endswith("KeyboardInterrupt"), errors)
+            self.assertNotIn("ignored", errors)
             self.assertEqual(os.listdir(folder), [])
 
     def test_a_bar_on_a_terminal(self):
@@ -238,7 +368,7 @@ class Documentation(unittest.TestCase):
     def test_everything_public_explains_itself(self):
         for name in bch.__all__:
             thing = getattr(bch, name)
-            if not callable(thing):
+            if not (inspect.isfunction(thing) or inspect.isclass(thing)):
                 continue
             self.assertTrue(inspect.getdoc(thing), name)
             if inspect.isfunction(thing) and inspect.signature(thing).parameters:

@@ -86,8 +86,7 @@ void write_sqlite(const std::filesystem::path& file, const std::string& sql) {
   statements += sql;
   sqlite3* database = nullptr;
   const bool made = sqlite3_open(file.c_str(), &database) == SQLITE_OK &&
-                    sqlite3_exec(database, statements.c_str(),
-                                 nullptr, nullptr, nullptr) == SQLITE_OK;
+                    sqlite3_exec(database, statements.c_str(), nullptr, nullptr, nullptr) == SQLITE_OK;
   const std::string reason = made ? "" : sqlite3_errmsg(database);
   sqlite3_close(database);
   if (!made) throw std::runtime_error(reason + ": " + sql);

@@ -246,7 +246,9 @@ TEST_F(CApiAllocationFaults, Finish) {
                 expect_ok(bch_shape_set_free(made));
                 const bch_disc discs[] = {{0, 0, 0.25f}, {0, 0.25f, 0.125f}};
                 expect_ok(bch_shape_set_builder_add_discs(builder.get(), discs, 2, nullptr));
-                if (alone) EXPECT_EQ(finished(builder), expected);
+                if (alone) {
+                  EXPECT_EQ(finished(builder), expected);
+                }
               }),
               5u);
   }

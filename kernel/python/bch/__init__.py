@@ -48,6 +48,7 @@ from ._obstacles import Obstacles
 from ._queries import (
     Agents,
     Nearest,
+    Pairs,
     clearance,
     collide,
     local_densities,
@@ -56,6 +57,7 @@ from ._queries import (
     time_of_impact,
     within,
 )
+from ._recordings import NEAR, OVERLAP, PASS, TRACKED, WALL, Check, Trajectory, check, dataframe, read_trajectory
 from ._shapes import (
     ALL_DEPTHS,
     REST_POSE,
@@ -85,6 +87,7 @@ __all__ = [
     "ArrayError",
     "BroadPhase",
     "Character",
+    "Check",
     "Clip",
     "ContactFinder",
     "Contacts",
@@ -94,12 +97,16 @@ __all__ = [
     "Error",
     "FileError",
     "FileMissing",
+    "NEAR",
     "Nearest",
+    "OVERLAP",
     "Obstacles",
     "Origin",
     "OutOfMemory",
+    "PASS",
     "PENETRATION",
     "POSE",
+    "Pairs",
     "Plan",
     "PoseShaper",
     "REST_POSE",
@@ -108,12 +115,17 @@ __all__ = [
     "ShapeSet",
     "ShapeSetBuilder",
     "SizeError",
+    "TRACKED",
+    "Trajectory",
+    "WALL",
     "bake",
     "candidate_pairs",
+    "check",
     "clearance",
     "collide",
     "collide_all",
     "contacts",
+    "dataframe",
     "default_bulky_male",
     "default_female",
     "default_male",
@@ -125,11 +137,13 @@ __all__ = [
     "nearest",
     "penetration",
     "plot",
+    "read_trajectory",
     "standing_slices",
     "time_of_impact",
     "within",
 ]
 
-for _name in __all__:  # what help() and tracebacks call them
-    if hasattr(globals()[_name], "__module__"):
-        globals()[_name].__module__ = "bch"
+for _name in __all__:  # what tracebacks and help() call functions and errors
+    _thing = globals()[_name]
+    if callable(_thing) and (not isinstance(_thing, type) or issubclass(_thing, Error)):
+        _thing.__module__ = "bch"

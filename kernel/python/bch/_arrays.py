@@ -4,12 +4,14 @@
 """What goes into the library and comes out of it: arrays by their addresses, and dtypes of what they hold."""
 
 import ctypes
+import operator
+import os
 from typing import Any, Optional, Tuple
 
 import numpy as np
 import numpy.typing as npt
 
-from ._library import ArrayError
+from ._library import ArgumentError, ArrayError, RangeError
 
 UInt8 = npt.NDArray[np.uint8]
 UInt32 = npt.NDArray[np.uint32]
@@ -21,6 +23,7 @@ Records = npt.NDArray[np.void]
 Shape = Tuple[Optional[int], ...]
 
 u1, u4, u8 = np.dtype(np.uint8), np.dtype(np.uint32), np.dtype(np.uint64)
+i4, i8 = np.dtype(np.int32), np.dtype(np.int64)
 f4, f8, b1 = np.dtype(np.float32), np.dtype(np.float64), np.dtype(np.bool_)
 
 #: A disc on the ground, metres.
@@ -39,7 +42,10 @@ def address(array: npt.NDArray[Any]) -> int:
 def _words(array: Any) -> str:
     if not isinstance(array, np.ndarray):
         return f"a {type(array).__name__}"
+    if isinstance(array, np.ma.MaskedArray):
+        return "a masked array"
     layout = "" if array.flags.c_contiguous else ", not contiguous"
+    layout += "" if array.flags.aligned else ", not aligned"
     return f"an array of {array.dtype} with shape {array.shape}{layout}"
 
 
@@ -47,9 +53,16 @@ def _shape_words(shape: Shape) -> str:
     return "(" + ", ".join("n" if length is None else str(length) for length in shape) + ("," if len(shape) == 1 else "") + ")"
 
 
+def _dtype_words(dtype: np.dtype[Any]) -> str:
+    names = {DISC: "bch.DISC", POSE: "bch.POSE", PENETRATION: "bch.PENETRATION", b1: "bool"}
+    return names.get(dtype, dtype.name)
+
+
 def fits(array: Any, dtype: np.dtype[Any], shape: Shape) -> bool:
     """Return whether an array can pass without a copy."""
-    if not isinstance(array, np.ndarray) or array.dtype != dtype or not array.flags.c_contiguous:
+    if not isinstance(array, np.ndarray) or array.dtype != dtype or isinstance(array, np.ma.MaskedArray):
+        return False
+    if not (array.flags.c_contiguous and array.flags.aligned):
         return False
     found = array.shape
     return len(found) == len(shape) and all(want is None or want == has for want, has in zip(shape, found))
@@ -58,11 +71,11 @@ def fits(array: Any, dtype: np.dtype[Any], shape: Shape) -> bool:
 def given(array: Any, dtype: np.dtype[Any], shape: Shape, name: str) -> int:
     """Return the address of an array of the caller, or raise an error that says what is wanted instead."""
     if not fits(array, dtype, shape):
-        raise ArrayError(
-            f"{name} is {_words(array)}; wanted is a C-contiguous array of {dtype} with shape {_shape_words(shape)}, "
-            f"such as numpy.ascontiguousarray({name}, numpy.{dtype})"
-        )
-    return address(array)
+        wanted = f"wanted is a C-contiguous array of {_dtype_words(dtype)} with shape {_shape_words(shape)}"
+        if name.startswith("out"):
+            raise ArrayError(f"{name} is {_words(array)}; {wanted}, such as numpy.empty makes")
+        raise ArrayError(f"{name} is {_words(array)}; {wanted}; numpy.ascontiguousarray converts")
+    return array.ctypes.data  # type: ignore[no-any-return]
 
 
 def result(out: Optional[npt.NDArray[Any]], dtype: np.dtype[Any], shape: Tuple[int, ...], name: str = "out") -> npt.NDArray[Any]:
@@ -75,18 +88,46 @@ def result(out: Optional[npt.NDArray[Any]], dtype: np.dtype[Any], shape: Tuple[i
     return out
 
 
+def index(value: Any, name: str, end: int) -> int:
+    """Return a whole number from 0 to below an end, or raise an error that names it."""
+    number = operator.index(value)
+    if not 0 <= number < end:
+        raise RangeError(f"{name} is {number}, not from 0 to {end - 1}")
+    return number
+
+
+def bounded(value: Any, name: str, low: int, high: int) -> int:
+    """Return a whole number within bounds, or raise an error that names it."""
+    number = operator.index(value)
+    if not low <= number <= high:
+        raise ArgumentError(f"{name} is {number}, not from {low} to {high}")
+    return number
+
+
+def table(values: Any, dtype: np.dtype[Any], columns: int, name: str) -> npt.NDArray[Any]:
+    """Return rows of so many numbers as an array, for calls that take lists and convert."""
+    array = np.asarray(values)
+    whole = dtype.kind == "u"
+    if array.ndim != 2 or array.shape[1] != columns or array.dtype.kind not in ("iu" if whole else "iuf"):
+        kind = "whole numbers" if whole else "numbers"
+        raise ArrayError(f"{name} is {_words(array)}; wanted are rows of {columns} {kind}")
+    if whole and array.size > 0 and not (array.min() >= 0 and array.max() < 2**32):
+        raise RangeError(f"{name} has {array.min()} and {array.max()}, which are no indices")
+    return np.ascontiguousarray(array, dtype)
+
+
+def encoded(text: Any, name: str) -> bytes:
+    """Return a text or a path as the library takes it."""
+    code = os.fsencode(text)
+    if b"\0" in code:
+        raise ArgumentError(f"{name} has a NUL character")
+    return code
+
+
 def copied(pointer: Optional[int], dtype: np.dtype[Any], shape: Tuple[int, ...]) -> npt.NDArray[Any]:
     """Return a copy of memory of the library."""
-    return view(pointer, dtype, shape).copy()
-
-
-def view(pointer: Optional[int], dtype: np.dtype[Any], shape: Tuple[int, ...]) -> npt.NDArray[Any]:
-    """Return an array over memory of the library, as long as that is there."""
     size = int(np.prod(shape, dtype=np.int64)) * dtype.itemsize
     if size == 0 or pointer is None:
         return np.empty(shape, dtype)
-    array: npt.NDArray[Any] = np.frombuffer(
-        memoryview((ctypes.c_char * size).from_address(pointer)), dtype
-    ).reshape(shape)
-    array.flags.writeable = False
-    return array
+    memory = memoryview((ctypes.c_char * size).from_address(pointer))
+    return np.frombuffer(memory, dtype).reshape(shape).copy()

@@ -8,64 +8,75 @@ from __future__ import annotations
 import ctypes
 import math
 from ctypes import byref
-from typing import Any, Iterator, NamedTuple, Optional, Tuple
+from typing import Any, Iterator, Optional, Tuple, Union, overload
 
-import numpy.typing as npt
+import numpy as np
 
 from . import _library
-from ._arrays import UInt32, UInt64, copied, given, u4, u8, view
-from ._library import Handle, check, lib
+from ._arrays import UInt32, UInt64, copied, given, index, u4, u8
+from ._library import ArrayError, Exclusive, Handle, check, lib
 from ._obstacles import Obstacles
-from ._queries import Agents, options
+from ._queries import Agents, Leaves, Semantics, options, pointers
 from ._shapes import ShapeSet
 
 
-class Rows(NamedTuple):
-    """Rows of different lengths in one array: row i is values[offsets[i]:offsets[i + 1]]. `row(i)` returns it."""
+class Rows:
+    """Rows of different lengths in one array: row i is values[offsets[i]:offsets[i + 1]].
 
-    offsets: UInt64  #: (rows + 1,)
-    values: UInt32
+    `len(rows)` is their number, `rows[i]` a row, and iterating gives one after the other.
 
-    def row(self, i: int) -> UInt32:
-        """Return a row."""
-        return self.values[int(self.offsets[i]) : int(self.offsets[i + 1])]
+    Attributes
+    ----------
+    offsets : (n + 1,) uint64
+    values : (m,) or (m, 2) uint32
+    """
+
+    __slots__ = ("offsets", "values")
+
+    def __init__(self, offsets: UInt64, values: UInt32) -> None:
+        self.offsets, self.values = offsets, values
+
+    def __len__(self) -> int:
+        return len(self.offsets) - 1
+
+    def __getitem__(self, i: int) -> UInt32:
+        number = index(i + len(self) if i < 0 else i, "row", len(self))
+        return self.values[int(self.offsets[number]) : int(self.offsets[number + 1])]
+
+    def __iter__(self) -> Iterator[UInt32]:
+        return (self[i] for i in range(len(self)))
 
     @property
-    def rows(self) -> int:
-        """The number of rows."""
-        return len(self.offsets) - 1
+    def counts(self) -> UInt64:
+        """The length of each row, (n,) uint64."""
+        return np.diff(self.offsets)
+
+    def __repr__(self) -> str:
+        return f"<bch.Rows: {len(self)} of {len(self.values)} values>"
 
 
 def _rows(found: Any, shape: Tuple[int, ...] = ()) -> Rows:
-    offsets = copied(found.offsets, u8, (found.rows + 1,)) if found.offsets else copied(None, u8, (1,)) * 0
+    offsets = copied(found.offsets, u8, (found.rows + 1,)) if found.offsets else np.zeros(1, u8)
     return Rows(offsets, copied(found.values, u4, (int(offsets[-1]), *shape)))
 
 
 class BroadPhase:
-    """Finds pairs of agents that may collide. It keeps its memory from call to call; one thread may use it at a time."""
+    """Finds pairs of agents that may collide. It keeps its memory from call to call; each thread needs one of its own."""
 
-    __slots__ = ("_handle",)
+    __slots__ = ("_handle", "_exclusive")
 
     def __init__(self) -> None:
-        self._handle = Handle("broad_phase", "create")
+        self._handle, self._exclusive = Handle("broad_phase", "create"), Exclusive("BroadPhase")
 
-    def find(
-        self, shapes: ShapeSet, agents: Agents, margin: float = 0.0, *, threads: int = 0, copy: bool = True
-    ) -> UInt32:
-        """Find the pairs as `candidate_pairs` does.
-
-        Parameters
-        ----------
-        shapes, agents, margin, threads
-            As for `candidate_pairs`.
-        copy : bool
-            False: return the memory of this object, read-only, which the next call overwrites.
-        """
+    def find(self, shapes: ShapeSet, agents: Agents, margin: float = 0.0, *, threads: int = 0) -> UInt32:
+        """Find the pairs as `candidate_pairs` does."""
+        set_at, agents_at = pointers(shapes, agents)
         how, _ = options(threads=threads)
         pairs, count = ctypes.c_void_p(), ctypes.c_size_t()
-        handle = self._handle.pointer
-        check(lib.bch_broad_phase_find(handle, shapes._pointer, agents._pointer, margin, how, byref(pairs), byref(count)))
-        return (copied if copy else view)(pairs.value, u4, (count.value, 2))
+        with self._exclusive:
+            handle = self._handle.pointer
+            check(lib.bch_broad_phase_find(handle, set_at, agents_at, float(margin), how, byref(pairs), byref(count)))
+            return copied(pairs.value, u4, (count.value, 2))
 
 
 def candidate_pairs(shapes: ShapeSet, agents: Agents, margin: float = 0.0, *, threads: int = 0) -> UInt32:
@@ -91,108 +102,151 @@ def candidate_pairs(shapes: ShapeSet, agents: Agents, margin: float = 0.0, *, th
 
 
 class CrowdCollider:
-    """Finds who of a crowd collides with whom. It keeps its memory from call to call; one thread may use it at a time."""
+    """Finds who of a crowd collides with whom. It keeps its memory from call to call; each thread needs one of its own."""
 
-    __slots__ = ("_handle",)
+    __slots__ = ("_handle", "_exclusive")
 
     def __init__(self) -> None:
-        self._handle = Handle("crowd_collider", "create")
+        self._handle, self._exclusive = Handle("crowd_collider", "create"), Exclusive("CrowdCollider")
 
+    @overload
     def collide_all(
         self,
         shapes: ShapeSet,
         agents: Agents,
+        obstacles: None = None,
         *,
-        semantics: str = "boundary",
-        leaves: str = "segments",
+        semantics: Semantics = "boundary",
+        leaves: Leaves = "segments",
         threads: int = 0,
         implementation: Optional[str] = None,
-    ) -> Rows:
-        """Find the colliding neighbours of every agent as `collide_all` does."""
-        how, _ = options(semantics, leaves, "zero", math.inf, threads, implementation)
-        found = _library.IndexRows()
-        check(
-            lib.bch_crowd_collider_collide_all(
-                self._handle.pointer, shapes._pointer, agents._pointer, None, how, byref(found), None
-            )
-        )
-        return _rows(found)
+    ) -> Rows: ...
 
-    def collide_all_with(
+    @overload
+    def collide_all(
         self,
         shapes: ShapeSet,
         agents: Agents,
         obstacles: Obstacles,
         *,
-        semantics: str = "boundary",
-        leaves: str = "segments",
+        semantics: Semantics = "boundary",
+        leaves: Leaves = "segments",
         threads: int = 0,
         implementation: Optional[str] = None,
-    ) -> Tuple[Rows, Rows]:
-        """Find the colliding neighbours of every agent, and the obstacles that it collides with."""
+    ) -> Tuple[Rows, Rows]: ...
+
+    def collide_all(
+        self,
+        shapes: ShapeSet,
+        agents: Agents,
+        obstacles: Optional[Obstacles] = None,
+        *,
+        semantics: Semantics = "boundary",
+        leaves: Leaves = "segments",
+        threads: int = 0,
+        implementation: Optional[str] = None,
+    ) -> Union[Rows, Tuple[Rows, Rows]]:
+        """Find who collides with whom as the function `collide_all` does."""
+        set_at, agents_at = pointers(shapes, agents)
         how, _ = options(semantics, leaves, "zero", math.inf, threads, implementation)
         found, touched = _library.IndexRows(), _library.IndexRows()
-        check(
-            lib.bch_crowd_collider_collide_all(
-                self._handle.pointer,
-                shapes._pointer,
-                agents._pointer,
-                obstacles._pointer,
-                how,
-                byref(found),
-                byref(touched),
+        if obstacles is not None and not isinstance(obstacles, Obstacles):
+            raise ArrayError(f"obstacles is a {type(obstacles).__name__}; wanted is a bch.Obstacles")
+        walls = None if obstacles is None else obstacles._pointer
+        with self._exclusive:
+            status = lib.bch_crowd_collider_collide_all(
+                self._handle.pointer, set_at, agents_at, walls, how, byref(found), None if walls is None else byref(touched)
             )
-        )
-        return _rows(found), _rows(touched)
+            check(status)
+            return _rows(found) if walls is None else (_rows(found), _rows(touched))
+
+
+@overload
+def collide_all(
+    shapes: ShapeSet,
+    agents: Agents,
+    obstacles: None = None,
+    *,
+    semantics: Semantics = "boundary",
+    leaves: Leaves = "segments",
+    threads: int = 0,
+    implementation: Optional[str] = None,
+) -> Rows: ...
+
+
+@overload
+def collide_all(
+    shapes: ShapeSet,
+    agents: Agents,
+    obstacles: Obstacles,
+    *,
+    semantics: Semantics = "boundary",
+    leaves: Leaves = "segments",
+    threads: int = 0,
+    implementation: Optional[str] = None,
+) -> Tuple[Rows, Rows]: ...
 
 
 def collide_all(
     shapes: ShapeSet,
     agents: Agents,
+    obstacles: Optional[Obstacles] = None,
     *,
-    semantics: str = "boundary",
-    leaves: str = "segments",
+    semantics: Semantics = "boundary",
+    leaves: Leaves = "segments",
     threads: int = 0,
     implementation: Optional[str] = None,
-) -> Rows:
+) -> Union[Rows, Tuple[Rows, Rows]]:
     """Find the colliding neighbours of every agent of a crowd, in one call.
 
     Parameters
     ----------
     shapes : ShapeSet
     agents : Agents
+    obstacles : Obstacles, optional
+        Also find which of these each agent collides with.
     semantics, leaves, threads, implementation
         As for `collide`.
 
     Returns
     -------
-    Rows
-        A row an agent: the indices of those whom it collides with, ascending.
+    Rows, or (Rows, Rows) with obstacles
+        A row an agent: the indices of those whom it collides with, ascending; and of the obstacles.
     """
-    return CrowdCollider().collide_all(
-        shapes, agents, semantics=semantics, leaves=leaves, threads=threads, implementation=implementation
-    )
+    how = {"semantics": semantics, "leaves": leaves, "threads": threads, "implementation": implementation}
+    return CrowdCollider().collide_all(shapes, agents, obstacles, **how)  # type: ignore[call-overload,no-any-return]
 
 
-class Contacts(NamedTuple):
-    """The discs of two agents that touch, a row a pair."""
+class Contacts:
+    """The discs of two agents that touch, a row for each pair of agents.
 
-    pairs: UInt32  #: (n, 2), agents
-    offsets: UInt64  #: (n + 1,)
-    discs: UInt32  #: (m, 2), a disc of each, as `ShapeSet.discs` numbers them
+    Attributes
+    ----------
+    pairs : (n, 2) uint32
+        Agents.
+    discs : Rows
+        For each of these pairs rows of a disc of each, as `ShapeSet.discs` numbers them.
+    """
 
-    def row(self, i: int) -> UInt32:
-        """Return the contacts of a pair, (k, 2)."""
-        return self.discs[int(self.offsets[i]) : int(self.offsets[i + 1])]
+    __slots__ = ("pairs", "discs")
+
+    def __init__(self, pairs: UInt32, discs: Rows) -> None:
+        self.pairs, self.discs = pairs, discs
+
+    def __len__(self) -> int:
+        return len(self.pairs)
+
+    def __repr__(self) -> str:
+        return f"<bch.Contacts: {len(self.discs.values)} of {len(self)} pairs>"
 
 
 class ContactFinder:
-    """Finds all discs of two agents that touch. It keeps its memory from call to call; one thread may use it at a time."""
+    """Finds all discs of two agents that touch. It keeps its memory from call to call; each thread needs one of its own."""
 
-    __slots__ = ("_handle",)
+    __slots__ = ("_handle", "_exclusive")
 
     def __init__(self) -> None:
-        self._handle = Handle("contact_finder", "create")
+        self._handle, self._exclusive = Handle("contact_finder", "create"), Exclusive("ContactFinder")
 
     def find(
         self,
@@ -200,25 +254,22 @@ class ContactFinder:
         agents: Agents,
         pairs: Optional[UInt32] = None,
         *,
-        leaves: str = "segments",
+        leaves: Leaves = "segments",
         threads: int = 0,
         implementation: Optional[str] = None,
     ) -> Contacts:
         """Find the contacts as `contacts` does."""
+        set_at, agents_at = pointers(shapes, agents)
         how, _ = options("boundary", leaves, "zero", math.inf, threads, implementation)
         found = _library.ContactRows()
         handle = self._handle.pointer
-        if pairs is None:
-            check(lib.bch_contact_finder_find_all(handle, shapes._pointer, agents._pointer, how, byref(found)))
-        else:
-            where = given(pairs, u4, (None, 2), "pairs")
-            check(
-                lib.bch_contact_finder_find(
-                    handle, shapes._pointer, agents._pointer, where, len(pairs), how, byref(found)
-                )
-            )
-        rows = _rows(found, (2,))
-        return Contacts(copied(found.pairs, u4, (found.rows, 2)), rows.offsets, rows.values)
+        with self._exclusive:
+            if pairs is None:
+                check(lib.bch_contact_finder_find_all(handle, set_at, agents_at, how, byref(found)))
+            else:
+                where = given(pairs, u4, (None, 2), "pairs")
+                check(lib.bch_contact_finder_find(handle, set_at, agents_at, where, len(pairs), how, byref(found)))
+            return Contacts(copied(found.pairs, u4, (found.rows, 2)), _rows(found, (2,)))
 
 
 def contacts(
@@ -226,7 +277,7 @@ def contacts(
     agents: Agents,
     pairs: Optional[UInt32] = None,
     *,
-    leaves: str = "segments",
+    leaves: Leaves = "segments",
     threads: int = 0,
     implementation: Optional[str] = None,
 ) -> Contacts:

@@ -5,7 +5,8 @@
 
 import ctypes
 import os
-from ctypes import POINTER, c_char_p, c_double, c_float, c_int32, c_size_t, c_uint32, c_uint64, c_void_p
+import threading
+from ctypes import POINTER, c_char_p, c_double, c_float, c_int32, c_int64, c_size_t, c_uint32, c_uint64, c_void_p
 from pathlib import Path
 from typing import Any, Callable, Dict, List, Type
 
@@ -21,7 +22,7 @@ class ArgumentError(Error, ValueError):
 
 
 class ArrayError(Error, TypeError):
-    """An array of another type, shape or layout than a call takes."""
+    """An array of another type, shape or layout than a call takes, or something else in place of an object."""
 
 
 class RangeError(Error, IndexError):
@@ -213,6 +214,54 @@ class ObstacleArrays(_Sized):
     ]
 
 
+class TrajectoryOptions(_Sized):
+    _fields_ = [("size", c_uint32), ("fps", c_double), ("unit", c_double), ("columns", c_char_p)]
+
+
+class TrajectoryInfo(_Sized):
+    _fields_ = [
+        ("size", c_uint32),
+        ("fps", c_double),
+        ("rows", c_uint64),
+        ("people", c_uint64),
+        ("first_frame", c_int64),
+        ("last_frame", c_int64),
+        ("format", c_char_p),
+        ("geometry", c_char_p),
+        ("assumptions", c_char_p),
+    ]
+
+
+class CheckOptions(_Sized):
+    _fields_ = [
+        ("size", c_uint32),
+        ("threads", c_uint32),
+        ("slices", c_void_p),
+        ("slice_count", c_size_t),
+        ("max_distance", c_double),
+        ("walls", c_void_p),
+        ("without_walls", c_int32),
+        ("progress", Progress),
+        ("user", c_void_p),
+    ]
+
+
+class CheckSummary(_Sized):
+    _fields_ = [
+        ("size", c_uint32),
+        ("shapes", c_uint32),
+        ("fps", c_double),
+        ("frames", c_uint64),
+        ("people", c_uint64),
+        ("person_frames", c_uint64),
+        ("overlapping", c_uint64),
+        ("in_walls", c_uint64),
+        ("guessed_headings", c_uint64),
+        ("near_pairs", c_uint64),
+        ("overlapping_near_pairs", c_uint64),
+    ]
+
+
 # Parameters by letters: p pointer or handle, n size_t, u uint32, i int32, f float, d double, s text, P pose.
 _letters: Dict[str, Any] = {
     "p": c_void_p,
@@ -287,6 +336,16 @@ _functions = {
     "obstacles_clearance": "ppppp",
     "obstacles_penetration": "ppppp",
     "obstacles_time_of_impact": "ppppppp",
+    "trajectory_open": "spp",
+    "trajectory_get_info": "pp",
+    "trajectory_read": "ppnp",
+    "trajectory_free": "p",
+    "check_run": "ppp",
+    "check_get_summary": "pp",
+    "check_get_frames": "ppp",
+    "check_get_pairs": "ppp",
+    "check_get_events": "ppp",
+    "check_free": "p",
     "local_densities": "ppndp",
     "depth_at_density": "dp",
     "standing_slices": "up",
@@ -299,7 +358,7 @@ def _load() -> ctypes.CDLL:
     try:
         library = ctypes.CDLL(path)
     except OSError as error:
-        raise ImportError(f"bch: {error} (it needs Debian's libtbb12, libassimp5 and libdraco7)") from None
+        raise ImportError(f"bch: {error} (it needs Debian's libtbb12, libassimp5, libdraco7, libsqlite3-0)") from None
     if library.bch_abi_version() != ABI_VERSION:
         raise ImportError(f"bch: {path} has another interface ({library.bch_abi_version()}) than this package ({ABI_VERSION})")
     for name, parameters in _functions.items():
@@ -338,6 +397,22 @@ class Handle:
         if self.pointer:
             self._free(self.pointer)
             self.pointer = 0
+
+
+class Exclusive:
+    """Refuses the second thread that would use an object at the same time."""
+
+    __slots__ = ("_name", "_lock")
+
+    def __init__(self, name: str) -> None:
+        self._name, self._lock = name, threading.Lock()
+
+    def __enter__(self) -> None:
+        if not self._lock.acquire(blocking=False):
+            raise Error(f"this {self._name} is in use by another thread; each thread needs one of its own")
+
+    def __exit__(self, *_: Any) -> None:
+        self._lock.release()
 
 
 def implementations() -> List[str]:

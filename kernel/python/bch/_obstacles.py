@@ -9,7 +9,7 @@ import ctypes
 from typing import Any, Optional, Tuple
 
 from . import _library
-from ._arrays import Float64, UInt8, UInt64, f8, given, u1, u8
+from ._arrays import Float64, UInt8, UInt64, encoded, f8, given, index, u1, u8
 from ._library import Handle, check, lib
 
 
@@ -66,10 +66,10 @@ class Obstacles:
         text : str, or an object with an attribute `wkt`
             POLYGON, MULTIPOLYGON, LINESTRING, MULTILINESTRING, GEOMETRYCOLLECTION, any number of them.
         walkable : bool
-            Polygons are the floor that agents walk on, and their rings are walls; else they are solid.
+            Polygons are the floor that agents walk on, and their rings are walls, lines that have no inside; else they are solid.
         """
         made = cls.__new__(cls)
-        made._take(Handle("obstacles", "from_wkt", str(getattr(text, "wkt", text)).encode(), int(walkable)))
+        made._take(Handle("obstacles", "from_wkt", encoded(getattr(text, "wkt", text), "text"), int(walkable)))
         return made
 
     def _take(self, handle: Handle) -> None:
@@ -87,7 +87,8 @@ class Obstacles:
     def owner(self, segment: int) -> int:
         """Return the obstacle that a segment belongs to."""
         owner = ctypes.c_uint32()
-        check(lib.bch_obstacles_get_owner(self._pointer, segment, ctypes.byref(owner)))
+        number = index(segment, "segment", self.segment_count)
+        check(lib.bch_obstacles_get_owner(self._pointer, number, ctypes.byref(owner)))
         return owner.value
 
     def _counts(self) -> Tuple[int, int]:

@@ -3,9 +3,12 @@
 
 """Progress of work that takes a while, on a terminal, and its end by Ctrl-C."""
 
+from __future__ import annotations
+
+import signal
 import sys
-import time
-from types import TracebackType
+import threading
+from types import FrameType, TracebackType
 from typing import Any, Optional, Type
 
 from . import _library
@@ -13,45 +16,45 @@ from ._library import CANCELLED, check
 
 
 class Watched:
-    """A call that can be interrupted, with a bar on standard error.
+    """A call that Ctrl-C ends, with a bar on standard error.
 
-    The library calls back on the thread of the caller, where Python handles signals. What is raised there ends the work, and is
-    raised again when the library has returned.
+    The library calls back on the thread of the caller, where Python handles signals. Nothing may be raised there: an interrupt is
+    remembered, ends the work, and is raised when the library has returned.
     """
 
     def __init__(self, what: str, shown: bool) -> None:
         self.callback = _library.Progress(self._advance)
         self._what, self._shown = what, shown and sys.stderr.isatty()
-        self._raised: Optional[BaseException] = None
+        self._interrupted = False
         self._bar: Any = None
-        self._begin = time.monotonic()
+        self._before: Any = None
 
     def run(self, status: int) -> None:
         """Raise what ended the work, an error or an interrupt."""
         self._close()
-        if status == CANCELLED and self._raised is not None:
-            raise self._raised
+        if status == CANCELLED:
+            raise KeyboardInterrupt
         check(status)
 
-    def _advance(self, _: Any, done: int, total: int) -> int:
-        try:
-            if self._shown:
-                self._draw(done, total)
-            return 0
-        except BaseException as error:  # an interrupt as well: nothing may leave a callback
-            self._raised = error
-            return 1
+    def _interrupt(self, _number: int, _frame: Optional[FrameType]) -> None:
+        self._interrupted = True
 
-    def _draw(self, done: int, total: int) -> None:
-        if self._bar is None:
-            self._bar = _bar(self._what, total)
-        self._bar.update(done - self._bar.n)
+    def _advance(self, _user: Any, done: int, total: int) -> int:
+        if self._shown and not self._interrupted:
+            if self._bar is None:
+                self._bar = _bar(self._what, total)
+            self._bar.update(done - self._bar.n)
+        return int(self._interrupted)
 
     def _close(self) -> None:
         if self._bar is not None:
             self._bar.close()
+            self._bar = None
 
-    def __enter__(self) -> "Watched":
+    def __enter__(self) -> Watched:
+        main = threading.current_thread() is threading.main_thread()
+        if main and signal.getsignal(signal.SIGINT) is signal.default_int_handler:
+            self._before = signal.signal(signal.SIGINT, self._interrupt)
         return self
 
     def __exit__(
@@ -61,6 +64,10 @@ class Watched:
         trace: Optional[TracebackType],
     ) -> None:
         self._close()
+        if self._before is not None:
+            signal.signal(signal.SIGINT, self._before)
+        if self._interrupted and kind is None:  # after the last call back
+            raise KeyboardInterrupt
 
 
 class _Bar:

@@ -8,7 +8,7 @@ from __future__ import annotations
 import ctypes
 import functools
 import math
-from typing import Any, Dict, NamedTuple, Optional, Tuple, Union
+from typing import Any, Dict, Literal, NamedTuple, Optional, Tuple, Union
 
 import numpy as np
 import numpy.typing as npt
@@ -24,6 +24,7 @@ from ._arrays import (
     UInt32,
     address,
     b1,
+    bounded,
     f4,
     f8,
     given,
@@ -31,7 +32,7 @@ from ._arrays import (
     u1,
     u4,
 )
-from ._library import ArgumentError, check, lib
+from ._library import ArgumentError, ArrayError, check, lib
 from ._obstacles import Obstacles
 from ._shapes import ShapeSet
 
@@ -39,7 +40,7 @@ from ._shapes import ShapeSet
 class Agents:
     """A crowd as a simulation holds it: one entry an agent in each array.
 
-    The arrays are viewed, not copied: what is written into them later is seen by the next query.
+    The arrays are viewed, not copied: what is written into them later, as in `agents.x[:] += dx`, is seen by the next query.
 
     Parameters
     ----------
@@ -48,14 +49,15 @@ class Agents:
     x, y : (n,) float64
         Positions, metres, within 1e9 m.
     heading : (n,) float64
-        Angles by which shapes are turned about their positions, radians, counter-clockwise.
+        Angles by which shapes are turned about their positions, radians, counter-clockwise. The built-in characters face +x
+        at 0; those of files stand as their files say.
     level : (n,) uint8, optional
         Index into the set's depths; by default the last level for all.
     z : (n,) float64, optional
         Heights of the grounds that agents stand on, metres; by default one ground for all.
     """
 
-    __slots__ = ("shape", "x", "y", "heading", "level", "z", "_struct", "_pointer")
+    __slots__ = ("_arrays", "_struct", "_pointer")
 
     def __init__(
         self,
@@ -66,10 +68,11 @@ class Agents:
         level: Optional[UInt8] = None,
         z: Optional[Float64] = None,
     ) -> None:
+        shapes = given(shape, u4, (None,), "shape")
         n = len(shape)
-        self.shape, self.x, self.y, self.heading, self.level, self.z = shape, x, y, heading, level, z
+        self._arrays = (shape, x, y, heading, level, z)
         self._struct = _library.Agents(
-            shape=given(shape, u4, (None,), "shape"),
+            shape=shapes,
             x=given(x, f8, (n,), "x"),
             y=given(y, f8, (n,), "y"),
             heading=given(heading, f8, (n,), "heading"),
@@ -79,13 +82,51 @@ class Agents:
         )
         self._pointer: int = ctypes.addressof(self._struct)
 
+    # The arrays themselves: write into them to move people.
+
+    @property
+    def shape(self) -> UInt32:
+        """Index of each agent's shape in the set, (n,) uint32."""
+        return self._arrays[0]
+
+    @property
+    def x(self) -> Float64:
+        """Positions, (n,) float64, metres."""
+        return self._arrays[1]
+
+    @property
+    def y(self) -> Float64:
+        """Positions, (n,) float64, metres."""
+        return self._arrays[2]
+
+    @property
+    def heading(self) -> Float64:
+        """Angles by which shapes are turned, (n,) float64, radians."""
+        return self._arrays[3]
+
+    @property
+    def level(self) -> Optional[UInt8]:
+        """Index into the set's depths, (n,) uint8, or None."""
+        return self._arrays[4]
+
+    @property
+    def z(self) -> Optional[Float64]:
+        """Heights of the grounds, (n,) float64, metres, or None."""
+        return self._arrays[5]
+
     def __len__(self) -> int:
-        return len(self.shape)
+        return len(self._arrays[0])
+
+    def __reduce__(self) -> Tuple[Any, ...]:
+        return Agents, self._arrays
 
     def __repr__(self) -> str:
         return f"<bch.Agents of {len(self)}>"
 
 
+Semantics = Literal["boundary", "solid"]
+Leaves = Literal["discs", "segments"]
+Overlap = Literal["zero", "deepest"]
 _semantics: Dict[str, int] = {"boundary": 0, "solid": 1}
 _leaves: Dict[str, int] = {"discs": 0, "segments": 1}
 _overlaps: Dict[str, int] = {"zero": 0, "deepest": 1}
@@ -99,23 +140,21 @@ def _one_of(words: Dict[str, int], word: str, name: str) -> int:
 
 @functools.lru_cache(maxsize=256)
 def options(
-    semantics: str = "boundary",
-    leaves: str = "segments",
-    overlap: str = "zero",
+    semantics: Semantics = "boundary",
+    leaves: Leaves = "segments",
+    overlap: Overlap = "zero",
     max_distance: float = math.inf,
     threads: int = 0,
     implementation: Optional[str] = None,
-    distance_leaves: str = "discs",
+    distance_leaves: Leaves = "discs",
 ) -> Tuple[int, _library.QueryOptions]:
     """Return the address of a struct of options, and the struct."""
-    if not 0 <= threads <= 1024:
-        raise ArgumentError(f"threads is {threads}; it is from 0, for all processors, to 1024")
     struct = _library.QueryOptions(
         semantics=_one_of(_semantics, semantics, "semantics"),
         leaves=_one_of(_leaves, leaves, "leaves"),
         distance_leaves=_one_of(_leaves, distance_leaves, "leaves"),
         overlap=_one_of(_overlaps, overlap, "overlap"),
-        threads=threads,
+        threads=bounded(threads, "threads", 0, 1024),
         max_distance=max_distance,
         implementation=None if implementation is None else implementation.encode(),
     )
@@ -126,11 +165,22 @@ def options(
 Pairs = Union[UInt32, Obstacles]
 
 
-def _asked(agents: Agents, pairs: Pairs) -> Tuple[int, int]:
-    """Return the address of pairs or obstacles, and the number of answers."""
+def pointers(shapes: ShapeSet, agents: Agents) -> Tuple[int, int]:
+    """Return the addresses of a set and of agents, for which nothing else may stand."""
+    if not isinstance(shapes, ShapeSet):
+        hint = "; ask about its .shapes" if hasattr(shapes, "shapes") else ""
+        raise ArrayError(f"shapes is a {type(shapes).__name__}; wanted is a bch.ShapeSet{hint}")
+    if not isinstance(agents, Agents):
+        raise ArrayError(f"agents is a {type(agents).__name__}; wanted is a bch.Agents")
+    return shapes._pointer, agents._pointer
+
+
+def _asked(shapes: ShapeSet, agents: Agents, pairs: Pairs) -> Tuple[int, int, int, int]:
+    """Return the addresses of what is asked, and the number of answers."""
+    set_at, agents_at = pointers(shapes, agents)
     if isinstance(pairs, Obstacles):
-        return pairs._pointer, len(agents)
-    return given(pairs, u4, (None, 2), "pairs"), len(pairs)
+        return set_at, agents_at, pairs._pointer, len(agents)
+    return set_at, agents_at, given(pairs, u4, (None, 2), "pairs"), len(pairs)
 
 
 def collide(
@@ -138,8 +188,8 @@ def collide(
     agents: Agents,
     pairs: Pairs,
     *,
-    semantics: str = "boundary",
-    leaves: str = "segments",
+    semantics: Semantics = "boundary",
+    leaves: Leaves = "segments",
     threads: int = 0,
     implementation: Optional[str] = None,
     out: Optional[Bool] = None,
@@ -170,13 +220,13 @@ def collide(
     -------
     (n,) bool
     """
-    where, n = _asked(agents, pairs)
+    set_at, agents_at, where, n = _asked(shapes, agents, pairs)
     hits = result(out, b1, (n,))
     how, _ = options(semantics, leaves, "zero", math.inf, threads, implementation)
     if isinstance(pairs, Obstacles):
-        check(lib.bch_obstacles_collide(shapes._pointer, agents._pointer, where, how, address(hits)))
+        check(lib.bch_obstacles_collide(set_at, agents_at, where, how, address(hits)))
     else:
-        check(lib.bch_collide(shapes._pointer, agents._pointer, where, n, how, address(hits)))
+        check(lib.bch_collide(set_at, agents_at, where, n, how, address(hits)))
     return hits
 
 
@@ -186,7 +236,7 @@ def within(
     pairs: Pairs,
     distance: Union[float, Float64],
     *,
-    semantics: str = "boundary",
+    semantics: Semantics = "boundary",
     threads: int = 0,
     implementation: Optional[str] = None,
     out: Optional[Bool] = None,
@@ -209,15 +259,16 @@ def within(
     -------
     (n,) bool
     """
-    where, n = _asked(agents, pairs)
+    set_at, agents_at, where, n = _asked(shapes, agents, pairs)
     answers = result(out, b1, (n,))
     how, _ = options(semantics, "segments", "zero", math.inf, threads, implementation)
-    near = np.array([distance], f8) if isinstance(distance, (int, float)) else distance
+    near = np.array([distance], f8) if np.ndim(distance) == 0 else distance
+    assert isinstance(near, np.ndarray)
     at = given(near, f8, (len(near),), "distance")
     if isinstance(pairs, Obstacles):
-        status = lib.bch_obstacles_within(shapes._pointer, agents._pointer, where, at, len(near), how, address(answers))
+        status = lib.bch_obstacles_within(set_at, agents_at, where, at, len(near), how, address(answers))
     else:
-        status = lib.bch_within(shapes._pointer, agents._pointer, where, n, at, len(near), how, address(answers))
+        status = lib.bch_within(set_at, agents_at, where, n, at, len(near), how, address(answers))
     check(status)
     return answers
 
@@ -241,7 +292,7 @@ def _measure(
     discs: Optional[UInt32] = None,
     points: Optional[Float32] = None,
 ) -> None:
-    where, n = _asked(agents, pairs)
+    set_at, agents_at, where, n = _asked(shapes, agents, pairs)
     to = _library.ClearanceOut(
         distance=address(distance),
         direction=None if direction is None else address(direction),
@@ -250,9 +301,9 @@ def _measure(
     )
     at = ctypes.addressof(to)
     if isinstance(pairs, Obstacles):
-        check(lib.bch_obstacles_clearance(shapes._pointer, agents._pointer, where, how, at))
+        check(lib.bch_obstacles_clearance(set_at, agents_at, where, how, at))
     else:
-        check(lib.bch_clearance(shapes._pointer, agents._pointer, where, n, how, at))
+        check(lib.bch_clearance(set_at, agents_at, where, n, how, at))
 
 
 def clearance(
@@ -261,15 +312,16 @@ def clearance(
     pairs: Pairs,
     *,
     max_distance: float = math.inf,
-    leaves: str = "discs",
-    overlap: str = "zero",
+    leaves: Leaves = "discs",
+    overlap: Overlap = "zero",
     threads: int = 0,
     implementation: Optional[str] = None,
     out: Optional[Float32] = None,
 ) -> Float32:
     """Measure how far apart the two agents of each pair are.
 
-    The distance is never larger than that of the outlines, and 0 where they overlap.
+    The distance is never larger than that of the outlines, and 0 where they cross or touch. An agent wholly inside another is as far
+    from him as the outlines are: `collide` with semantics="solid" tells that.
 
     Parameters
     ----------
@@ -280,7 +332,7 @@ def clearance(
         Metres. Pairs farther apart get infinity; the smaller the limit, the faster.
     leaves : {"discs", "segments"}
         "discs": up to 3 cm less than the outlines' distance. "segments": the outlines' distance itself, in about seven
-        times the time.
+        times the time, between shapes that have outlines, at the level of all depths.
     overlap : {"zero", "deepest"}
         "deepest": where discs overlap, the deepest overlap of two, below 0.
     threads, implementation
@@ -292,7 +344,7 @@ def clearance(
     (n,) float32
         Metres.
     """
-    n = len(agents) if isinstance(pairs, Obstacles) else len(pairs)
+    n = _asked(shapes, agents, pairs)[3]
     distance = result(out, f4, (n,))
     how, _ = options("boundary", "segments", overlap, max_distance, threads, implementation, leaves)
     _measure(shapes, agents, pairs, how, distance)
@@ -305,8 +357,8 @@ def nearest(
     pairs: Pairs,
     *,
     max_distance: float = math.inf,
-    leaves: str = "discs",
-    overlap: str = "zero",
+    leaves: Leaves = "discs",
+    overlap: Overlap = "zero",
     threads: int = 0,
     implementation: Optional[str] = None,
     out: Optional[Nearest] = None,
@@ -326,7 +378,7 @@ def nearest(
         Directions and points are 0, and discs 0xffffffff, where there are none: beyond `max_distance`, and where agents
         overlap unless `overlap` is "deepest".
     """
-    n = len(agents) if isinstance(pairs, Obstacles) else len(pairs)
+    n = _asked(shapes, agents, pairs)[3]
     found = Nearest(
         result(None if out is None else out.distance, f4, (n,), "out.distance"),
         result(None if out is None else out.direction, f4, (n, 2), "out.direction"),
@@ -370,19 +422,20 @@ def penetration(
     (n,) PENETRATION
         Records of depth, x and y: metres, and a unit vector.
     """
-    where, n = _asked(agents, pairs)
+    set_at, agents_at, where, n = _asked(shapes, agents, pairs)
     depths = result(out, PENETRATION, (n,))
     how, _ = options("boundary", "segments", "zero", math.inf, threads, implementation)
     to = address(depths)
     if isinstance(pairs, Obstacles):
-        check(lib.bch_obstacles_penetration(shapes._pointer, agents._pointer, where, how, to))
-    elif isinstance(directions, int):
-        if not 0 <= directions <= 256:
-            raise ArgumentError(f"directions is {directions}; it is even, from 2 to 256")
-        check(lib.bch_penetration(shapes._pointer, agents._pointer, where, n, directions, how, to))
+        if isinstance(directions, np.ndarray) or directions != 16:
+            raise ArgumentError("directions are for pairs; obstacles have directions of their own")
+        check(lib.bch_obstacles_penetration(set_at, agents_at, where, how, to))
+    elif not isinstance(directions, np.ndarray):
+        count = bounded(directions, "directions", 2, 256)
+        check(lib.bch_penetration(set_at, agents_at, where, n, count, how, to))
     else:
         along = given(directions, f4, (n, 2), "directions")
-        check(lib.bch_penetration_along(shapes._pointer, agents._pointer, where, n, along, how, to))
+        check(lib.bch_penetration_along(set_at, agents_at, where, n, along, how, to))
     return depths
 
 
@@ -390,8 +443,8 @@ def time_of_impact(
     shapes: ShapeSet,
     agents: Agents,
     pairs: Pairs,
-    x: Float64,
-    y: Float64,
+    dx: Float64,
+    dy: Float64,
     *,
     threads: int = 0,
     implementation: Optional[str] = None,
@@ -399,14 +452,14 @@ def time_of_impact(
 ) -> Float32:
     """Find when the two agents of each pair first touch while they move without turning.
 
-    The time is never later than the outlines' first contact.
+    The time is never later than the outlines' first contact. Inside another's outline there is none until outlines meet.
 
     Parameters
     ----------
     shapes : ShapeSet
     agents : Agents
     pairs : (n, 2) uint32, or Obstacles
-    x, y : (n,) float64
+    dx, dy : (n,) float64
         The way of the first agent of each pair relative to the second, or of each agent among obstacles, metres.
     threads, implementation
         As for `collide`.
@@ -417,14 +470,14 @@ def time_of_impact(
     (n,) float32
         The share of the way, from 0 to 1, after which they touch; infinity where they do not.
     """
-    where, n = _asked(agents, pairs)
+    set_at, agents_at, where, n = _asked(shapes, agents, pairs)
     times = result(out, f4, (n,))
     how, _ = options("boundary", "segments", "zero", math.inf, threads, implementation)
-    to_x, to_y = given(x, f8, (n,), "x"), given(y, f8, (n,), "y")
+    to_x, to_y = given(dx, f8, (n,), "dx"), given(dy, f8, (n,), "dy")
     if isinstance(pairs, Obstacles):
-        check(lib.bch_obstacles_time_of_impact(shapes._pointer, agents._pointer, to_x, to_y, where, how, address(times)))
+        check(lib.bch_obstacles_time_of_impact(set_at, agents_at, where, to_x, to_y, how, address(times)))
     else:
-        check(lib.bch_time_of_impact(shapes._pointer, agents._pointer, where, n, to_x, to_y, how, address(times)))
+        check(lib.bch_time_of_impact(set_at, agents_at, where, n, to_x, to_y, how, address(times)))
     return times
 
 

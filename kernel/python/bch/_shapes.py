@@ -14,8 +14,24 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _library
-from ._arrays import DISC, POSE, Float32, Records, UInt32, address, copied, f4, given, u4, u8
-from ._library import ArgumentError, Handle, check, lib
+from ._arrays import (
+    DISC,
+    POSE,
+    Float32,
+    Records,
+    UInt32,
+    address,
+    bounded,
+    copied,
+    encoded,
+    f4,
+    given,
+    index,
+    table,
+    u4,
+    u8,
+)
+from ._library import ArgumentError, ArrayError, Exclusive, Handle, check, lib
 from ._progress import Watched
 
 Path = Union[str, "os.PathLike[str]"]
@@ -41,8 +57,8 @@ class _CPlan:
     """A plan as the library takes it, with the arrays that it names."""
 
     def __init__(self, plan: Plan) -> None:
-        self.depths = np.array(plan.depths, u4)
-        self.slices = np.array(plan.slices, f4)
+        self.depths = np.array([bounded(depth, "a depth", 0, ALL_DEPTHS) for depth in plan.depths], u4)
+        self.slices = np.array([float(plane) for plane in plan.slices], f4)
         self.struct = _library.Plan(
             outlines=plan.outlines,
             culling=plan.culling,
@@ -64,13 +80,15 @@ def standing_slices(slabs: int) -> List[float]:
     list of float
         slabs - 1 heights, metres, for `Plan.slices`.
     """
-    planes = np.empty(max(slabs - 1, 0), f4)
+    planes = np.empty(bounded(slabs, "slabs", 1, 64) - 1, f4)
     check(lib.bch_standing_slices(slabs, address(planes)))
     return [float(plane) for plane in planes]
 
 
 def depth_at_density(people_per_square_metre: float) -> int:
-    """Return the cut depth that a density of people asks for."""
+    """Return the cut depth that a density asks for, people per square metre."""
+    if not 0 <= people_per_square_metre < float("inf"):
+        raise ArgumentError(f"people_per_square_metre is {people_per_square_metre}")
     depth = c_uint32()
     check(lib.bch_depth_at_density(people_per_square_metre, byref(depth)))
     return depth.value
@@ -122,7 +140,7 @@ class Character:
         (count,) POSE
             Records of clip and seconds.
         """
-        poses = np.empty(count, POSE)
+        poses = np.empty(bounded(count, "count", 0, 2**31), POSE)
         check(lib.bch_character_sample_poses(self._pointer, count, address(poses)))
         return poses
 
@@ -171,9 +189,9 @@ def import_character(
     scale: float = 0.0,
     clip_files: Sequence[Path] = (),
     force_clips: bool = False,
-    most_triangles: int = 0x7FFFFFFF,
-    seconds: float = 60.0,
-    memory: int = 2 << 30,
+    max_triangles: int = 0x7FFFFFFF,
+    timeout: float = 60.0,
+    memory_limit: int = 2 << 30,
 ) -> Character:
     """Read a character from a file: glTF 2, FBX, Collada, MD5, IQM, OBJ, PLY or STL.
 
@@ -190,10 +208,10 @@ def import_character(
         Files whose clips follow those of the character's own file.
     force_clips : bool
         Take clips that belong to another skeleton.
-    most_triangles, seconds, memory
-        Limits; memory in bytes.
+    max_triangles, timeout, memory_limit
+        Limits of what reading may take; seconds, and bytes.
     """
-    files = (c_char_p * len(clip_files))(*[os.fsencode(file) for file in clip_files])
+    files = (c_char_p * len(clip_files))(*[encoded(file, "a clip file") for file in clip_files])
     if up not in (None, "x", "y", "z"):
         raise ArgumentError(f"up is {up!r}; it is 'x', 'y' or 'z'")
     with Watched("importing", False) as watched:
@@ -203,20 +221,29 @@ def import_character(
             force_clips=force_clips,
             clip_files=files,
             clip_file_count=len(clip_files),
-            most_triangles=most_triangles,
-            seconds=seconds,
-            memory=memory,
+            most_triangles=bounded(max_triangles, "max_triangles", 1, 2**63 - 1),
+            seconds=timeout,
+            memory=bounded(memory_limit, "memory_limit", 1, 2**63 - 1),
             progress=watched.callback,
         )
         return Character(
-            Handle("character", "import", os.fsencode(path), byref(options), checked=watched.run)
+            Handle("character", "import", encoded(path, "path"), byref(options), checked=watched.run)
         )
 
 
 def _as_poses(poses: Any, name: str = "poses") -> Records:
-    array: Records = np.asarray(poses, POSE) if isinstance(poses, (list, tuple)) else poses
+    if isinstance(poses, (list, tuple)):
+        pairs = [pose.item() if isinstance(pose, np.void) else pose for pose in poses]
+        if not all(isinstance(pair, tuple) and len(pair) == 2 for pair in pairs):
+            raise ArrayError(f"{name} is a {type(poses).__name__} of others than (clip, seconds)")
+        return np.array(pairs, POSE)
+    array: Records = poses
     given(array, POSE, (None,), name)
     return array
+
+
+def _slab(slab: Optional[int], count: int) -> int:
+    return _ALL_SLABS if slab is None else index(slab, "slab", count)
 
 
 class PoseShaper:
@@ -229,10 +256,12 @@ class PoseShaper:
         Its slices cut the body.
     """
 
-    __slots__ = ("_handle", "_pointer")
+    __slots__ = ("_handle", "_pointer", "_clips", "_slabs", "_exclusive")
 
     def __init__(self, character: Character, plan: Plan = Plan()) -> None:
         c_plan = _CPlan(plan)
+        self._clips, self._slabs = len(character.clips), len(plan.slices) + 1
+        self._exclusive = Exclusive("PoseShaper")
         self._handle = Handle("pose_shaper", "create", character._pointer, c_plan._pointer)
         self._pointer: int = self._handle.pointer
 
@@ -248,8 +277,11 @@ class PoseShaper:
         slab : int, optional
             One of the slabs between the plan's slices; by default all of them.
         """
-        check(lib.bch_pose_shaper_make(self._pointer, _library.Pose(clip, seconds), 0))
-        return _contours(lib.bch_pose_shaper_get_outline, self._pointer, _ALL_SLABS if slab is None else slab)
+        number = REST_POSE if clip == REST_POSE else index(clip, "clip", self._clips)
+        which = _slab(slab, self._slabs)
+        with self._exclusive:
+            check(lib.bch_pose_shaper_make(self._pointer, _library.Pose(number, seconds), 0))
+            return _contours(lib.bch_pose_shaper_get_outline, self._pointer, which)
 
 
 class Origin(NamedTuple):
@@ -287,9 +319,10 @@ class ShapeSet:
         ----------
         path : path
         mapped : bool
-            Map the file instead of reading it: no copy, and no process may write to it or shorten it while the set lives.
+            Map the file instead of reading it: no copy, and no process may write to it or shorten it while the set lives (that
+            would end this one). To replace it by another one is fine.
         """
-        handle = Handle("shape_set", "load", os.fsencode(path), int(mapped))
+        handle = Handle("shape_set", "load", encoded(path, "path"), int(mapped))
         return cls(handle.pointer, handle)
 
     @classmethod
@@ -317,7 +350,7 @@ class ShapeSet:
 
     def save(self, path: Path) -> None:
         """Write the set as a baked file, whole or not at all."""
-        check(lib.bch_shape_set_save(self._pointer, os.fsencode(path)))
+        check(lib.bch_shape_set_save(self._pointer, encoded(path, "path")))
 
     def __len__(self) -> int:
         return self.shape_count
@@ -341,7 +374,8 @@ class ShapeSet:
         (n,) DISC
             Records of x, y and radius, metres.
         """
-        number = level + len(self.depths) if level < 0 else level
+        shape = index(shape, "shape", self.shape_count)
+        number = index(level + len(self.depths) if level < 0 else level, "level", len(self.depths))
         count = c_size_t()
         check(lib.bch_shape_set_get_discs(self._pointer, shape, number, None, 0, byref(count)))
         discs = np.empty(count.value, DISC)
@@ -361,20 +395,26 @@ class ShapeSet:
         -------
         list of (k, 2) float32
         """
-        return _contours(lib.bch_shape_set_get_outline, self._pointer, shape, _ALL_SLABS if slab is None else slab)
+        shape = index(shape, "shape", self.shape_count)
+        return _contours(lib.bch_shape_set_get_outline, self._pointer, shape, _slab(slab, self.slab_count))
 
     def radius(self, shape: int) -> float:
         """Return the radius about an agent's position that holds all of its shape at every heading, metres."""
         radius = c_float()
+        shape = index(shape, "shape", self.shape_count)
         check(lib.bch_shape_set_get_radius(self._pointer, shape, byref(radius)))
         return radius.value
 
     def origin(self, shape: int) -> Origin:
         """Return which character, clip and time a shape was made from."""
         origin = _library.ShapeOrigin()
+        shape = index(shape, "shape", self.shape_count)
         check(lib.bch_shape_set_get_origin(self._pointer, shape, byref(origin)))
         character, clip = (None if name is None else name.decode() for name in (origin.character, origin.clip))
         return Origin(character, clip, origin.seconds)
+
+    def __reduce__(self) -> Any:
+        raise TypeError("a bch.ShapeSet cannot be pickled; save() it, and load() the file elsewhere, which maps it")
 
     def verify(self, most: int = 100) -> List[str]:
         """Check that what is stored of the shapes follows from their discs and outlines, for files from elsewhere.
@@ -387,7 +427,7 @@ class ShapeSet:
         lines: List[str] = []
         callback = _library.Finding(lambda _, line: lines.append(line.decode(errors="replace")))
         count = c_size_t()
-        check(lib.bch_shape_set_verify(self._pointer, most, callback, None, byref(count)))
+        check(lib.bch_shape_set_verify(self._pointer, bounded(most, "most", 0, 2**31), callback, None, byref(count)))
         return lines
 
     def __repr__(self) -> str:
@@ -395,27 +435,36 @@ class ShapeSet:
         return f"<bch.ShapeSet of {self.shape_count} shapes, {len(self.depths)} levels{slabs}, {self.nbytes / 1e6:.1f} MB>"
 
 
-def _optional_heights(heights: Optional[Tuple[float, float]]) -> Any:
-    return None if heights is None else byref(_library.Heights(*heights))
-
-
 class ShapeSetBuilder:
     """Builds a set body by body. Shapes are numbered in the order in which they are added.
+
+    Bodies of your own may take a range of heights, (bottom, top) in metres, where the plan keeps heights or has slices; by default they
+    take part at every height.
 
     Parameters
     ----------
     plan : Plan
     """
 
-    __slots__ = ("_handle", "_pointer")
+    __slots__ = ("_handle", "_pointer", "_exclusive", "_has_heights")
 
     def __init__(self, plan: Plan = Plan()) -> None:
         c_plan = _CPlan(plan)
         self._handle = Handle("shape_set_builder", "create", c_plan._pointer)
         self._pointer: int = self._handle.pointer
+        self._exclusive = Exclusive("ShapeSetBuilder")
+        self._has_heights = plan.heights or len(plan.slices) > 0
+
+    def _heights(self, heights: Optional[Tuple[float, float]]) -> Any:
+        if heights is None:
+            return None
+        if not self._has_heights:
+            raise ArgumentError("heights are for plans that keep them: Plan(heights=True), or one with slices")
+        bottom, top = heights
+        return byref(_library.Heights(bottom, top))
 
     def add_poses(self, character: Character, poses: Any, *, threads: int = 0, progress: bool = False) -> None:
-        """Add the shapes of a character's poses, which all processors make. Ctrl-C ends it; the builder is then empty.
+        """Add the shapes of a character's poses, which all processors make. Ctrl-C ends it, and none of them is added.
 
         Parameters
         ----------
@@ -427,8 +476,8 @@ class ShapeSetBuilder:
             Show a bar, on a terminal.
         """
         array = _as_poses(poses)
-        with Watched(f"baking {character.name}", progress) as watched:
-            work = _library.Work(threads=threads, progress=watched.callback)
+        with self._exclusive, Watched(f"baking {character.name}", progress) as watched:
+            work = _library.Work(threads=bounded(threads, "threads", 0, 1024), progress=watched.callback)
             watched.run(
                 lib.bch_shape_set_builder_add_poses(
                     self._pointer, character._pointer, address(array), len(array), byref(work)
@@ -439,55 +488,63 @@ class ShapeSetBuilder:
         self, polygons: Sequence[npt.ArrayLike], *, heights: Optional[Tuple[float, float]] = None
     ) -> None:
         """Add a body of polygons: (k, 2) corners in metres, about the agent's position, either way round."""
-        corners = [np.asarray(polygon, f4).reshape(-1, 2) for polygon in polygons]
+        corners = [table(polygon, f4, 2, "a polygon") for polygon in polygons]
         offsets = np.zeros(len(corners) + 1, u8)
         offsets[1:] = np.cumsum([len(each) for each in corners])
         points = np.concatenate(corners) if corners else np.empty((0, 2), f4)
-        check(
-            lib.bch_shape_set_builder_add_polygons(
-                self._pointer, address(points), address(offsets), len(corners), _optional_heights(heights)
+        with self._exclusive:
+            check(
+                lib.bch_shape_set_builder_add_polygons(
+                    self._pointer, address(points), address(offsets), len(corners), self._heights(heights)
+                )
             )
-        )
 
     def add_capsules(
         self, capsules: npt.ArrayLike, *, tolerance: float = 0.001, heights: Optional[Tuple[float, float]] = None
     ) -> None:
         """Add a body of capsules: (k, 5) numbers, x and y of one end, of the other, and a radius, metres."""
-        array = np.ascontiguousarray(np.asarray(capsules, f4).reshape(-1, 5))
-        check(
-            lib.bch_shape_set_builder_add_capsules(
-                self._pointer, address(array), len(array), tolerance, _optional_heights(heights)
+        array = table(capsules, f4, 5, "capsules")
+        with self._exclusive:
+            check(
+                lib.bch_shape_set_builder_add_capsules(
+                    self._pointer, address(array), len(array), tolerance, self._heights(heights)
+                )
             )
-        )
 
     def add_discs(self, discs: npt.ArrayLike, *, heights: Optional[Tuple[float, float]] = None) -> None:
-        """Add a body of discs: (k, 3) numbers, x, y and radius, metres. Queries number them as they are given."""
-        array = np.ascontiguousarray(np.asarray(discs, f4).reshape(-1, 3))
-        check(lib.bch_shape_set_builder_add_discs(self._pointer, address(array), len(array), _optional_heights(heights)))
+        """Add a body of discs: (k, 3) numbers, x, y and radius in metres, or (k,) DISC. Queries number them as they are given."""
+        given_discs = np.asarray(discs)
+        if given_discs.dtype == DISC:
+            given_discs = np.stack([given_discs[name] for name in ("x", "y", "radius")], axis=-1)
+        array = table(given_discs, f4, 3, "discs")
+        with self._exclusive:
+            check(lib.bch_shape_set_builder_add_discs(self._pointer, address(array), len(array), self._heights(heights)))
 
     def add_cylinder(self, radius: float, *, heights: Optional[Tuple[float, float]] = None) -> None:
-        """Add a cylinder about the agent's position."""
-        check(lib.bch_shape_set_builder_add_cylinder(self._pointer, radius, _optional_heights(heights)))
+        """Add a cylinder about the agent's position, of a radius in metres."""
+        with self._exclusive:
+            check(lib.bch_shape_set_builder_add_cylinder(self._pointer, radius, self._heights(heights)))
 
     def add_mesh(self, positions: npt.ArrayLike, triangles: npt.ArrayLike) -> None:
         """Add a mesh as it is: (n, 3) positions in metres, z up, and (t, 3) indices of them. Slices cut it."""
-        points = np.ascontiguousarray(np.asarray(positions, f4).reshape(-1, 3))
-        corners = np.ascontiguousarray(np.asarray(triangles, u4).reshape(-1, 3))
-        check(
-            lib.bch_shape_set_builder_add_mesh(
-                self._pointer, address(points), len(points), address(corners), len(corners)
+        points, corners = table(positions, f4, 3, "positions"), table(triangles, u4, 3, "triangles")
+        with self._exclusive:
+            check(
+                lib.bch_shape_set_builder_add_mesh(
+                    self._pointer, address(points), len(points), address(corners), len(corners)
+                )
             )
-        )
 
     def finish(self) -> ShapeSet:
         """Return the set of all that was added. The builder is then empty."""
-        handle = Handle("shape_set_builder", "finish", self._pointer, free="shape_set")
+        with self._exclusive:
+            handle = Handle("shape_set_builder", "finish", self._pointer, free="shape_set")
         return ShapeSet(handle.pointer, handle)
 
 
 def bake(
     characters: Union[Character, Sequence[Character]],
-    poses: Union[int, Sequence[Any]] = 100,
+    poses: Any = 100,
     *,
     plan: Plan = Plan(),
     path: Optional[Path] = None,
@@ -501,8 +558,9 @@ def bake(
     Parameters
     ----------
     characters : Character, or a sequence of them
-    poses : int, or a sequence
-        So many poses of each, spread evenly over its clips; or for each character an (n,) POSE array.
+    poses : int, or poses
+        So many poses of each, spread evenly over its clips; or an (n,) POSE array or a sequence of (clip, seconds), and for several
+        characters a sequence of those, one each.
     plan : Plan
     path : path, optional
         Where to write the set.
@@ -516,11 +574,17 @@ def bake(
     ShapeSet
         The shapes of one character after the other.
     """
-    people = [characters] if isinstance(characters, Character) else list(characters)
+    alone = isinstance(characters, Character)
+    people: List[Character] = [characters] if isinstance(characters, Character) else list(characters)
+    if isinstance(poses, (int, np.integer)):
+        each = [character.sample_poses(int(poses)) for character in people]
+    else:
+        each = [poses] if alone else list(poses)
+    if len(each) != len(people):
+        raise ArgumentError(f"poses has those of {len(each)} characters, and there are {len(people)}")
     builder = ShapeSetBuilder(plan)
-    for i, character in enumerate(people):
-        each = character.sample_poses(poses) if isinstance(poses, int) else poses[i]
-        builder.add_poses(character, each, threads=threads, progress=progress)
+    for character, of_character in zip(people, each):
+        builder.add_poses(character, of_character, threads=threads, progress=progress)
     made = builder.finish()
     if path is not None:
         made.save(path)
@@ -536,9 +600,10 @@ class DynamicShapeSet:
         What it has to begin with, and its plan.
     """
 
-    __slots__ = ("_handle", "_pointer", "shapes")
+    __slots__ = ("_handle", "_pointer", "_exclusive", "shapes")
 
     def __init__(self, start: ShapeSet) -> None:
+        self._exclusive = Exclusive("DynamicShapeSet")
         self._handle = Handle("dynamic_shape_set", "create", start._pointer)
         self._pointer: int = self._handle.pointer
         lent = ctypes.c_void_p()
@@ -570,8 +635,8 @@ class DynamicShapeSet:
         """
         array = _as_poses(poses)
         which = given(shapes, u4, (len(array),), "shapes")
-        with Watched("posing", False) as watched:
-            work = _library.Work(threads=threads, progress=watched.callback)
+        with self._exclusive, Watched("posing", False) as watched:
+            work = _library.Work(threads=bounded(threads, "threads", 0, 1024), progress=watched.callback)
             watched.run(
                 lib.bch_dynamic_shape_set_replace_poses(
                     self._pointer, character._pointer, which, address(array), len(array), threshold, byref(work)

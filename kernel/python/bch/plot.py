@@ -53,7 +53,7 @@ def crowd(
     from matplotlib.path import Path
 
     if hits is None:
-        hits = np.diff(collide_all(shapes, agents).offsets) > 0
+        hits = collide_all(shapes, agents).counts > 0
     patches, colours, circles = [], [], []
     for i in range(len(agents)):
         shape = int(agents.shape[i])

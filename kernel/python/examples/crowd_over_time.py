@@ -12,7 +12,7 @@ man = bch.default_male()
 walk = next(i for i, clip in enumerate(man.clips) if clip.name == "walk")
 phases, stride = 32, 1.0
 poses = [(walk, stride * k / phases) for k in range(phases)]
-people = bch.bake(man, poses=[poses])
+people = bch.bake(man, poses=poses)
 
 # 30 people walk east, and 30 west.
 n, speed, step = 60, 1.3, 0.1
@@ -32,7 +32,7 @@ colliding, where = [], []
 for time in times:
     shape[:] = (phase + time / stride * phases) % phases
     rows = collider.collide_all(people, crowd)
-    who = np.diff(rows.offsets) > 0
+    who = rows.counts > 0
     colliding.append(who.sum())
     where.append(np.stack([x[who], y[who]], axis=1))
     if abs(time - 5) < step / 2:

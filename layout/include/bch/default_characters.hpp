@@ -29,9 +29,10 @@ Character default_bulky_male();
 /// Whose body a pedestrian has.
 enum class Sex { female, male };
 
-/// The speeds at which pedestrians walk, from 0 to 2.19 m/s: clip k of theirs is at k * pedestrian_speed_step.
+/// The number of speeds at which pedestrians walk, from 0 to 2.19 m/s.
 constexpr std::uint32_t pedestrian_speeds = 74;
-constexpr double pedestrian_speed_step = 0.03;  ///< metres a second
+/// What their speeds differ by, metres a second: clip k of theirs is at k of these.
+constexpr double pedestrian_speed_step = 0.03;
 
 /// Returns a pedestrian for recorded and simulated crowds: the built-in man or woman of a stature, who walks at every speed, keeps his
 /// arms close, and stands under his head, which is what cameras track. Each clip has the stride at one speed, which begins with the left

@@ -19,7 +19,8 @@
  *           object that others need, such as the set that a borrowed pointer comes from, has to live as long as they do.
  * Structs:  those that begin with `size` may grow at their end in later versions: initialise them by the macro of their
  *           name, which fills in the size and the defaults. NULL in place of options means the defaults.
- * Arrays:   they are the caller's, are neither copied nor kept, and may be NULL where they are empty. Units are metres and radians.
+ * Arrays:   they are the caller's, packed, are neither copied nor kept, and may be NULL where they are empty. Units are metres and
+ *           radians; a heading of 0 leaves a shape as it is, and the built-in characters then face +x.
  * Threads:  functions may be called from any thread. Objects that a function does not take as const are for one thread at a
  *           time; a set of shapes and obstacles answer any number of threads at once.
  * Memory:   no function throws, ends the program or prints. An allocation that fails is BCH_NO_MEMORY; answers about obstacles may then have
@@ -51,7 +52,7 @@ typedef int32_t bch_status;
 enum {
   BCH_OK = 0,
   BCH_INVALID_ARGUMENT = 1, /**< an argument that makes no sense; the message names it, an index and the value */
-  BCH_OUT_OF_RANGE = 2,     /**< an index beyond what there is */
+  BCH_OUT_OF_RANGE = 2,     /**< an index argument beyond what there is; one within an array is BCH_INVALID_ARGUMENT */
   BCH_TOO_LARGE = 3,        /**< more than the library's limits hold */
   BCH_NO_MEMORY = 4,
   BCH_FILE_NOT_FOUND = 5,
@@ -251,11 +252,12 @@ typedef struct bch_outline {
 } bch_outline;
 #define BCH_OUTLINE_INIT \
   { sizeof(bch_outline), NULL, 0, NULL, 0, 0, 0 }
+/** The slab that stands for all of them. */
+#define BCH_ALL_SLABS 0xffffffffu
 /** Tells the outline of a shape, in one of its slabs or, for BCH_ALL_SLABS, of all of them. Writes as many points and offsets as fit, and
  * how many there are. A set without outlines has none. */
 BCH_API bch_status bch_shape_set_get_outline(const bch_shape_set* set, uint32_t shape, uint32_t slab,
                                              bch_outline* outline);
-#define BCH_ALL_SLABS 0xffffffffu
 
 /** Is called with one line for each finding. */
 typedef void (*bch_finding)(void* user, const char* line);
@@ -365,7 +367,9 @@ enum {
   BCH_OVERLAP_ZERO = 0,   /**< overlapping discs have a distance of 0 */
   BCH_OVERLAP_DEEPEST = 1 /**< they have the deepest overlap of two, below 0 */
 };
-/** The options of all queries. A query ignores those that do not concern it. */
+/** The options of all queries. Initialise them by BCH_QUERY_OPTIONS_INIT: zeros are not the defaults. A query ignores those that do not
+ * concern it: all have threads and implementation; bch_collide(), the crowd collider and the obstacles' collide semantics and leaves;
+ * bch_within() semantics; the contact finder leaves; bch_clearance() max_distance, overlap and distance_leaves. */
 typedef struct bch_query_options {
   uint32_t size;           /**< sizeof(bch_query_options) */
   int32_t semantics;       /**< BCH_BOUNDARY or BCH_SOLID; sets with slices are solid */
@@ -424,8 +428,8 @@ BCH_API bch_status bch_clearance(const bch_shape_set* set, const bch_agents* age
 
 /** How far the first agent of a pair has to move to be free of the second, and in which direction, as a unit vector. */
 typedef struct bch_penetration_depth {
-  float depth;
-  float unused;
+  float depth;  /**< metres */
+  float unused; /**< not written */
   double x, y;
 } bch_penetration_depth;
 /** Measures how far the first agent of each pair has to move, along the best of so many evenly spread directions: an even number from
@@ -550,8 +554,135 @@ BCH_API bch_status bch_obstacles_penetration(const bch_shape_set* set, const bch
                                              bch_penetration_depth* depths);
 /** Finds when each agent first touches an obstacle while it moves by (x, y): from 0 to 1, or infinity. */
 BCH_API bch_status bch_obstacles_time_of_impact(const bch_shape_set* set, const bch_agents* agents,
-                                                const double* x, const double* y, const bch_obstacles* obstacles,
+                                                const bch_obstacles* obstacles, const double* x, const double* y,
                                                 const bch_query_options* options, float* times);
+
+/* Recordings -------------------------------------------------------------------------------------------------------- */
+
+/** A recording of people: their places, frame by frame. */
+typedef struct bch_trajectory bch_trajectory;
+/** What the caller knows better than the file. */
+typedef struct bch_trajectory_options {
+  uint32_t size;       /**< sizeof(bch_trajectory_options) */
+  double fps;          /**< frames a second; 0: what the file says */
+  double unit;         /**< metres for a unit of the file; 0: what the file says */
+  const char* columns; /**< of text and CSV: their names in order, as "frame,id,x,y"; NULL: what the file says */
+} bch_trajectory_options;
+#define BCH_TRAJECTORY_OPTIONS_INIT \
+  { sizeof(bch_trajectory_options), 0, 0, NULL }
+/** Opens a recording: JuPedSim's SQLite, PeTrack's and Juelich's text, the Pedestrian Dynamics Data Archive's HDF5, Pathfinder's CSV,
+ * TrajNet++ and ETH/UCY, CSV with a header, told by its content. */
+BCH_API bch_status bch_trajectory_open(const char* path, const bch_trajectory_options* options,
+                                       bch_trajectory** trajectory);
+/** What a recording is. */
+typedef struct bch_trajectory_info {
+  uint32_t size; /**< sizeof(bch_trajectory_info) */
+  double fps;    /**< frames a second */
+  uint64_t rows;
+  uint64_t people; /**< different ids; 0 where they are too many to be counted */
+  int64_t first_frame;
+  int64_t last_frame;
+  const char* format;      /**< such as "JuPedSim SQLite, version 2"; lives as long as the trajectory, like the next */
+  const char* geometry;    /**< the walkable area as well-known text, or empty */
+  const char* assumptions; /**< a line for each thing that the file does not say, and what was taken for it */
+} bch_trajectory_info;
+#define BCH_TRAJECTORY_INFO_INIT \
+  { sizeof(bch_trajectory_info), 0, 0, 0, 0, 0, NULL, NULL, NULL }
+/** Tells what a recording is. */
+BCH_API bch_status bch_trajectory_get_info(const bch_trajectory* trajectory, bch_trajectory_info* info);
+/** A person in a frame. */
+typedef struct bch_tracked_person {
+  int64_t frame;
+  int64_t id;
+  double x, y;   /**< metres */
+  float heading; /**< radians; NaN where the file does not say */
+  float stature; /**< the person's height, metres; NaN where the file does not say */
+} bch_tracked_person;
+/** Reads the people of the next frames, as many whole frames as fit; none at the end. */
+BCH_API bch_status bch_trajectory_read(bch_trajectory* trajectory, bch_tracked_person* people, size_t capacity,
+                                       size_t* count);
+/** Frees a recording. */
+BCH_API bch_status bch_trajectory_free(bch_trajectory* trajectory);
+
+/** A check of a recording: who runs into whom. */
+typedef struct bch_check bch_check;
+/** What a check is asked. */
+typedef struct bch_check_options {
+  uint32_t size;              /**< sizeof(bch_check_options) */
+  uint32_t threads;           /**< 0: one for each processor */
+  const float* slices;        /**< heights of planes that cut bodies into slabs, metres */
+  size_t slice_count;         /**< 0: bodies are whole */
+  double max_distance;        /**< gaps up to that are told, metres; 0: overlaps alone */
+  const bch_obstacles* walls; /**< NULL: those of the recording */
+  int32_t without_walls;      /**< not 0: none are asked about */
+  bch_progress progress;      /**< or NULL */
+  void* user;                 /**< for progress */
+} bch_check_options;
+#define BCH_CHECK_OPTIONS_INIT \
+  { sizeof(bch_check_options), 0, NULL, 0, 0, NULL, 0, NULL, NULL }
+/** Puts a walking pedestrian on every row of a recording that has not been read from, and finds who runs into whom. */
+BCH_API bch_status bch_check_run(bch_trajectory* trajectory, const bch_check_options* options, bch_check** check);
+/** What there is to tell of a whole recording. */
+typedef struct bch_check_summary {
+  uint32_t size;   /**< sizeof(bch_check_summary) */
+  uint32_t shapes; /**< different poses */
+  double fps;
+  uint64_t frames;
+  uint64_t people;
+  uint64_t person_frames;
+  uint64_t overlapping;            /**< person-frames in overlap with somebody */
+  uint64_t in_walls;               /**< and with a wall */
+  uint64_t guessed_headings;       /**< person-frames whose heading is that of before */
+  uint64_t near_pairs;             /**< pairs of a frame within 1.2 m */
+  uint64_t overlapping_near_pairs; /**< and those of them that overlap */
+} bch_check_summary;
+#define BCH_CHECK_SUMMARY_INIT \
+  { sizeof(bch_check_summary), 0, 0, 0, 0, 0, 0, 0, 0, 0, 0 }
+/** Tells the summary. */
+BCH_API bch_status bch_check_get_summary(const bch_check* check, bch_check_summary* summary);
+
+enum {
+  BCH_CHECK_NEAR = 0,    /**< two people within the largest distance */
+  BCH_CHECK_OVERLAP = 1, /**< who overlap */
+  BCH_CHECK_PASS = 2,    /**< who do between this frame and the next, and in neither */
+  BCH_CHECK_WALL = 3     /**< a person and a wall */
+};
+/** A frame of a check. */
+typedef struct bch_check_frame {
+  int64_t frame;
+  double seconds;
+  uint32_t people, overlapping, overlapping_pairs, in_walls;
+  float density; /**< the mean of people per square metre within a metre of each */
+  float unused;
+} bch_check_frame;
+/** Two people of a frame, or a person and a wall. */
+typedef struct bch_check_pair {
+  int64_t frame;
+  int64_t first, second; /**< ids; `second` is the number of a wall */
+  float depth;           /**< how far the first has to move to be free, metres */
+  float gap;             /**< how far they are apart, metres */
+  float x, y;            /**< where the first has to move */
+  int32_t kind;          /**< BCH_CHECK_OVERLAP ... */
+  int32_t unused;
+} bch_check_pair;
+/** Two people who overlap in frames one after the other. */
+typedef struct bch_check_event {
+  int64_t first, second;   /**< ids */
+  int64_t from, to, worst; /**< frames; in the last they overlap the deepest */
+  double x, y;             /**< where the first is then, metres */
+  float depth;             /**< how deep they then overlap, metres */
+  uint32_t frames;
+  int32_t kind; /**< BCH_CHECK_OVERLAP, BCH_CHECK_PASS or BCH_CHECK_WALL */
+  int32_t unused;
+} bch_check_event;
+/** Tells all frames; they live as long as the check, like the next. */
+BCH_API bch_status bch_check_get_frames(const bch_check* check, const bch_check_frame** frames, size_t* count);
+/** Tells all pairs, frame after frame. */
+BCH_API bch_status bch_check_get_pairs(const bch_check* check, const bch_check_pair** pairs, size_t* count);
+/** Tells all events, by their first frames. */
+BCH_API bch_status bch_check_get_events(const bch_check* check, const bch_check_event** events, size_t* count);
+/** Frees a check. */
+BCH_API bch_status bch_check_free(bch_check* check);
 
 /* Scenes ------------------------------------------------------------------------------------------------------------ */
 

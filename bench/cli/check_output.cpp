@@ -1,0 +1,221 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include "bench/cli/check_output.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "bench/base/text.hpp"
+
+namespace bch::cli {
+
+using namespace detail;
+
+namespace {
+
+constexpr std::size_t worst_events = 10;
+
+double percent(std::uint64_t part, std::uint64_t whole) {
+  return whole == 0 ? 0 : 100 * static_cast<double>(part) / static_cast<double>(whole);
+}
+
+const char* kind_of(const CheckedPair& pair) {
+  return pair.is_wall ? "wall" : pair.passing ? "pass" : pair.overlap ? "overlap" : "near";
+}
+
+const char* kind_of(const OverlapEvent& event) {
+  return event.is_wall ? "wall" : event.depth < 0 ? "pass" : "overlap";
+}
+
+/// The deepest ones first; of equal ones as they are.
+std::vector<OverlapEvent> worst_of(const CheckSummary& summary) {
+  std::vector<OverlapEvent> worst = summary.events;
+  std::stable_sort(worst.begin(), worst.end(),
+                   [](const OverlapEvent& a, const OverlapEvent& b) { return a.depth > b.depth; });
+  worst.resize(std::min(worst.size(), worst_events));
+  return worst;
+}
+
+std::string line(const char* what, const std::string& text) {
+  return fmt::format("{:<12}{}\n", what, printable_line(text));
+}
+
+std::string facts(const CheckedRecording& recording, const CheckSummary& summary) {
+  const double fps = recording.info.fps;
+  const double seconds = static_cast<double>(summary.last_frame - summary.first_frame) / fps;
+  std::string text =
+      line("recording",
+           fmt::format("{}: {}, {:g} frames a second", recording.file, recording.info.format, fps)) +
+      line("people", fmt::format("{} in {} ({:.1f} s), {} person-frames", grouped(summary.people),
+                                 counted(summary.frames, "frame"), seconds, grouped(summary.all.people))) +
+      line("bodies",
+           fmt::format("built-in pedestrians, {}, {}",
+                       recording.slabs == 1 ? "whole" : fmt::format("cut into {} slabs", recording.slabs),
+                       counted(summary.shapes, "pose"))) +
+      line("headings", fmt::format("{:.1f} % guessed: people who stand keep the last one",
+                                   percent(summary.guessed, summary.all.people)));
+  for (const std::string& assumption : recording.info.assumptions) text += line("assumed", assumption);
+  return text;
+}
+
+std::string count_line(const std::string& name, const OverlapCount& count, double fps) {
+  std::string text = fmt::format("{:>9} {:>11.1f} {:>8.2f} %", name, static_cast<double>(count.people) / fps,
+                                 percent(count.overlapping, count.people));
+  for (const std::uint64_t disc : count.discs)
+    text += fmt::format(" {:>8.2f} %", percent(disc, count.people));
+  return text + "\n";
+}
+
+std::string density_table(const CheckSummary& summary, double fps) {
+  std::string text = fmt::format(
+      "\nShare of person-seconds in overlap, by people per square metre; beside it what discs would say:\n"
+      "{:>9} {:>11} {:>10}",
+      "density", "person-s", "bodies");
+  for (const double radius : compared_discs) text += fmt::format(" {:>10}", fmt::format("{:.2f} m", radius));
+  text += "\n";
+  for (std::size_t k = 0; k < density_classes.size(); ++k) {
+    const bool last = k + 1 == density_classes.size();
+    const std::string name = last ? fmt::format("{:g}-", density_classes[k])
+                                  : fmt::format("{:g}-{:g}", density_classes[k], density_classes[k + 1]);
+    if (summary.by_density[k].people > 0) text += count_line(name, summary.by_density[k], fps);
+  }
+  return text + count_line("all", summary.all, fps);
+}
+
+std::string worst_table(const CheckSummary& summary, double fps) {
+  if (summary.events.empty()) return "\nNobody overlaps anybody.\n";
+  std::string text =
+      fmt::format("\n{}, {} of them between two frames. The deepest:\n{:>10} {:>10} {:>9} {:>9} {:>9}\n",
+                  counted(summary.events.size(), "event"), grouped(summary.passings), "first", "second",
+                  "from, s", "for, s", "depth, m");
+  for (const OverlapEvent& event : worst_of(summary))
+    text +=
+        fmt::format("{:>10} {:>10} {:>9.2f} {:>9.2f} {:>9.3f}\n", event.first,
+                    event.is_wall ? fmt::format("wall {}", event.second) : fmt::format("{}", event.second),
+                    static_cast<double>(event.from) / fps,
+                    static_cast<double>(event.to - event.from + 1) / fps, std::max(0.0f, event.depth));
+  return text;
+}
+
+nlohmann::ordered_json json_of(const OverlapCount& count) {
+  nlohmann::ordered_json discs;
+  for (std::size_t k = 0; k < compared_discs.size(); ++k)
+    discs.push_back({{"radius", compared_discs[k]},
+                     {"overlapping", count.discs[k]},
+                     {"pairs_within_1.2_m", count.disc_pairs[k]}});
+  return {{"person_frames", count.people},
+          {"overlapping", count.overlapping},
+          {"in_walls", count.in_walls},
+          {"pairs_within_1.2_m", count.near_pairs},
+          {"overlapping_pairs_within_1.2_m", count.overlapping_pairs},
+          {"discs", discs}};
+}
+
+}  // namespace
+
+StreamedTable::StreamedTable(const std::string& file, const char* columns) {
+  if (!file.empty()) file_.emplace(file);
+  add(columns);
+}
+
+void StreamedTable::add(const std::string& lines) {
+  constexpr std::size_t piece = std::size_t{1} << 20;
+  if (!file_) return;
+  waiting_ += lines;
+  if (waiting_.size() < piece) return;
+  file_->write(waiting_);
+  waiting_.clear();
+}
+
+void StreamedTable::commit() {
+  if (!file_) return;
+  file_->write(waiting_);
+  file_->commit();
+}
+
+std::string frame_line(const CheckedFrame& frame) {
+  std::size_t overlapping = 0, in_walls = 0, pairs = 0;
+  double density = 0;
+  for (const CheckedPerson& person : frame.people) {
+    overlapping += person.overlaps, in_walls += person.in_wall;
+    density += static_cast<double>(person.density);
+  }
+  for (const CheckedPair& pair : frame.pairs) pairs += pair.overlap && !pair.is_wall;
+  return fmt::format("{},{:.4f},{},{:.3f},{},{},{}\n", frame.frame, frame.seconds, frame.people.size(),
+                     frame.people.empty() ? 0 : density / static_cast<double>(frame.people.size()),
+                     overlapping, pairs, in_walls);
+}
+
+std::string pair_lines(const CheckedFrame& frame) {
+  std::string lines;
+  for (const CheckedPair& pair : frame.pairs)
+    lines += fmt::format("{},{:.4f},{},{},{},{:.4f},{:.4f},{:.4f},{:.4f}\n", frame.frame, frame.seconds,
+                         pair.first, pair.second, kind_of(pair), pair.depth, pair.gap, pair.x + 0.0f,
+                         pair.y + 0.0f);
+  return lines;
+}
+
+std::string event_lines(const CheckSummary& summary, double fps) {
+  std::string lines;
+  for (const OverlapEvent& event : summary.events)
+    lines += fmt::format(
+        "{},{},{},{:.4f},{:.4f},{},{:.4f},{:.4f},{:.3f},{:.3f}\n", event.first, event.second, kind_of(event),
+        static_cast<double>(event.from) / fps, static_cast<double>(event.to) / fps, event.frames,
+        static_cast<double>(event.worst) / fps, std::max(0.0f, event.depth), event.x, event.y);
+  return lines;
+}
+
+double percent_in_overlap(const CheckSummary& summary) {
+  return percent(summary.all.overlapping, summary.all.people);
+}
+
+std::string check_text(const CheckedRecording& recording, const CheckSummary& summary) {
+  const double fps = recording.info.fps;
+  std::string text = facts(recording, summary);
+  text += line("overlaps",
+               fmt::format("{:.2f} % of person-seconds; of neighbours within 1.2 m, {:.2f} % of pairs",
+                           percent_in_overlap(summary),
+                           percent(summary.all.overlapping_pairs, summary.all.near_pairs)));
+  if (recording.walls)
+    text += line("walls", fmt::format("{:.2f} % of person-seconds in one",
+                                      percent(summary.all.in_walls, summary.all.people)));
+  return text + density_table(summary, fps) + worst_table(summary, fps);
+}
+
+nlohmann::ordered_json check_json(const CheckedRecording& recording, const CheckSummary& summary) {
+  nlohmann::ordered_json densities, events;
+  for (std::size_t k = 0; k < density_classes.size(); ++k) {
+    nlohmann::ordered_json of = json_of(summary.by_density[k]);
+    of["from_people_per_m2"] = density_classes[k];
+    densities.push_back(of);
+  }
+  for (const OverlapEvent& event : summary.events)
+    events.push_back({{"first", event.first},
+                      {"second", event.second},
+                      {"kind", kind_of(event)},
+                      {"from_frame", event.from},
+                      {"to_frame", event.to},
+                      {"frames", event.frames},
+                      {"worst_frame", event.worst},
+                      {"depth", std::max(0.0f, event.depth)},
+                      {"x", event.x},
+                      {"y", event.y}});
+  return {{"file", recording.file},
+          {"format", recording.info.format},
+          {"fps", recording.info.fps},
+          {"assumptions", recording.info.assumptions},
+          {"slabs", recording.slabs},
+          {"people", summary.people},
+          {"frames", summary.frames},
+          {"first_frame", summary.first_frame},
+          {"last_frame", summary.last_frame},
+          {"guessed_headings", summary.guessed},
+          {"all", json_of(summary.all)},
+          {"by_density", densities},
+          {"events", events}};
+}
+
+}  // namespace bch::cli

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include "bench/cli/recording_page.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include <bch/obstacles.hpp>
+
+#include "kernel/obstacles/segment.hpp"
+#include "layout/format/shape_set_view.hpp"
+
+namespace bch::cli {
+
+using namespace detail;
+
+namespace {
+
+/// The segments of the floor's borders.
+std::vector<std::vector<PagePoint>> lines_of(const std::string& floor) {
+  std::vector<std::vector<PagePoint>> lines;
+  if (floor.empty()) return lines;
+  const ObstacleSet walls = obstacles_from_wkt(floor, Polygons::walkable);
+  for (std::uint32_t i = 0; i < walls.segment_count(); ++i) {
+    const WorldSegment& segment = walls.view().segments[i];
+    lines.push_back({{segment.ax, segment.ay}, {segment.bx, segment.by}});
+  }
+  return lines;
+}
+
+PageFacts facts_of(const CheckedRecording& recording) {
+  PageFacts facts{recording.file, recording.info.fps};
+  facts.facts = {
+      {"format", recording.info.format},
+      {"people", fmt::format("{}", recording.info.people)},
+      {"bodies", recording.slabs == 1 ? std::string("built-in pedestrians, whole")
+                                      : fmt::format("built-in pedestrians in {} slabs", recording.slabs)}};
+  for (const std::string& assumption : recording.info.assumptions)
+    facts.facts.emplace_back("assumed", assumption);
+  facts.walls = lines_of(recording.floor);
+  return facts;
+}
+
+}  // namespace
+
+RecordingPage::RecordingPage(const CheckedRecording& recording)
+    : fps_(recording.info.fps),
+      page_(facts_of(recording), [this](std::uint32_t number) { return shape(number); }) {}
+
+PageShape RecordingPage::shape(std::uint32_t number) const {
+  PageShape shape{"pedestrian", {}};
+  const ShapeSetView view = shapes_->view();
+  for (std::uint32_t slab = 0; slab < view.slab_count; ++slab) {
+    const std::uint32_t part =
+        view.slab_parts == nullptr ? number : view.slab_parts[number * view.slab_count + slab];
+    if (part == no_part) continue;
+    for (std::uint32_t i = view.shape_contours[part].begin; i < view.shape_contours[part].end; ++i)
+      shape.contours.emplace_back(view.points + view.contours[i].begin, view.points + view.contours[i].end);
+  }
+  return shape;
+}
+
+void RecordingPage::add(const CheckedFrame& frame, const ShapeSet& shapes) {
+  shapes_ = &shapes;
+  people_.clear(), overlaps_.clear();
+  for (const CheckedPerson& person : frame.people)
+    people_.push_back({person.walker.id,
+                       person.shape,
+                       {person.walker.x, person.walker.y},
+                       static_cast<float>(person.walker.heading),
+                       static_cast<float>(person.walker.speed),
+                       person.overlaps,
+                       person.in_wall});
+  for (const CheckedPair& pair : frame.pairs)
+    if (pair.overlap) overlaps_.push_back({pair.first, pair.second, pair.is_wall});
+  page_.add_frame({frame.frame, frame.seconds, people_, overlaps_});
+}
+
+std::string RecordingPage::finish(const CheckSummary& summary) && {
+  std::vector<PageEvent> events;
+  const auto seconds = [&](std::int64_t frame) { return static_cast<double>(frame) / fps_; };
+  for (const OverlapEvent& event : summary.events)
+    events.push_back({event.first,
+                      event.second,
+                      event.is_wall,
+                      seconds(event.from),
+                      seconds(event.to),
+                      seconds(event.worst),
+                      std::max(0.0f, event.depth),
+                      {event.x, event.y}});
+  return std::move(page_).finish(events);
+}
+
+}  // namespace bch::cli

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "bench/check_page/check_page.hpp"
+#include "bench/cli/check_output.hpp"
+
+namespace bch::cli {
+
+/// The page of a recording, which is filled while that is checked.
+class RecordingPage {
+ public:
+  explicit RecordingPage(const CheckedRecording& recording);
+  void add(const detail::CheckedFrame& frame, const ShapeSet& shapes);
+  std::string finish(const detail::CheckSummary& summary) &&;
+
+ private:
+  PageShape shape(std::uint32_t number) const;
+
+  const double fps_;
+  const ShapeSet* shapes_ = nullptr;  ///< those of the frame that is added
+  std::vector<PagePerson> people_;
+  std::vector<PageOverlap> overlaps_;
+  CheckPage page_;
+};
+
+}  // namespace bch::cli

@@ -1,0 +1,230 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include <limits>
+
+#include "kernel/c_api/arguments.hpp"
+#include "kernel/c_api/handles.hpp"
+#include "kernel/c_api/obstacles.hpp"
+#include "kernel/check/check.hpp"
+#include "layout/trajectory/trajectory.hpp"
+
+struct bch_trajectory {
+  std::unique_ptr<bch::detail::TrajectoryReader> reader;
+  std::string assumptions;  ///< a line each
+  std::int64_t frame = 0;   ///< of the people who wait
+  std::vector<bch::detail::TrackedPerson> waiting = {};
+};
+
+struct bch_check {
+  std::vector<bch_check_frame> frames;
+  std::vector<bch_check_pair> pairs;
+  std::vector<bch_check_event> events;
+  bch_check_summary summary = BCH_CHECK_SUMMARY_INIT;
+};
+
+namespace bch::c_api {
+namespace {
+
+using namespace bch::detail;
+
+std::unique_ptr<bch_trajectory> open(const char* path, const bch_trajectory_options& given) {
+  TrajectoryOptions options;
+  if (given.fps != 0) options.fps = given.fps;
+  if (given.unit != 0) options.unit = given.unit;
+  if (given.columns != nullptr) options.columns = given.columns;
+  require_file(path);
+  auto trajectory = std::make_unique<bch_trajectory>();
+  trajectory->reader = open_trajectory(path, options);
+  for (const std::string& line : trajectory->reader->info().assumptions)
+    trajectory->assumptions += line + "\n";
+  return trajectory;
+}
+
+/// Writes whole frames as long as they fit.
+std::size_t read(bch_trajectory& trajectory, std::span<bch_tracked_person> to) {
+  std::size_t count = 0;
+  while (true) {
+    if (trajectory.waiting.empty() && !trajectory.reader->next(trajectory.frame, trajectory.waiting))
+      return count;
+    if (count + trajectory.waiting.size() > to.size()) break;
+    for (const TrackedPerson& person : trajectory.waiting)
+      to[count++] = {trajectory.frame, person.id, person.x, person.y, person.heading, person.stature};
+    trajectory.waiting.clear();
+  }
+  if (count == 0)
+    throw Failure(BCH_INVALID_ARGUMENT, "capacity is " + std::to_string(to.size()) + ", and frame " +
+                                            std::to_string(trajectory.frame) + " has " +
+                                            std::to_string(trajectory.waiting.size()) + " people");
+  return count;
+}
+
+bch_check_pair pair_of(const CheckedPair& pair) {
+  const std::int32_t kind = pair.is_wall   ? BCH_CHECK_WALL
+                            : pair.passing ? BCH_CHECK_PASS
+                            : pair.overlap ? BCH_CHECK_OVERLAP
+                                           : BCH_CHECK_NEAR;
+  return {pair.frame, pair.first, pair.second, pair.depth, pair.gap, pair.x, pair.y, kind, 0};
+}
+
+bch_check_frame frame_of(const CheckedFrame& frame) {
+  bch_check_frame to{
+      frame.frame, frame.seconds, static_cast<std::uint32_t>(frame.people.size()), 0, 0, 0, 0, 0};
+  double density = 0;
+  for (const CheckedPerson& person : frame.people) {
+    to.overlapping += person.overlaps;
+    to.in_walls += person.in_wall;
+    density += static_cast<double>(person.density);
+  }
+  for (const CheckedPair& pair : frame.pairs) to.overlapping_pairs += pair.overlap && !pair.is_wall;
+  if (!frame.people.empty())
+    to.density = static_cast<float>(density / static_cast<double>(frame.people.size()));
+  return to;
+}
+
+bch_check_event event_of(const OverlapEvent& event) {
+  const std::int32_t kind = event.is_wall     ? BCH_CHECK_WALL
+                            : event.depth < 0 ? BCH_CHECK_PASS
+                                              : BCH_CHECK_OVERLAP;
+  return {event.first,  event.second, event.from, event.to,
+          event.worst,  event.x,      event.y,    std::max(0.0f, event.depth),
+          event.frames, kind,         0};
+}
+
+bch_check_summary summary_of(const CheckSummary& of, const TrajectoryInfo& info) {
+  bch_check_summary to = BCH_CHECK_SUMMARY_INIT;
+  to.shapes = of.shapes;
+  to.fps = info.fps;
+  to.frames = of.frames;
+  to.people = of.people;
+  to.person_frames = of.all.people;
+  to.overlapping = of.all.overlapping;
+  to.in_walls = of.all.in_walls;
+  to.guessed_headings = of.guessed;
+  to.near_pairs = of.all.near_pairs;
+  to.overlapping_near_pairs = of.all.overlapping_pairs;
+  return to;
+}
+
+/// The walls of the caller, or those of the recording.
+std::optional<ObstacleSet> own_walls(const bch_check_options& options, const TrajectoryInfo& info) {
+  if (options.walls != nullptr || options.without_walls != 0 || info.geometry.empty()) return std::nullopt;
+  return obstacles_from_wkt(info.geometry, Polygons::walkable);
+}
+
+std::unique_ptr<bch_check> run_check(bch_trajectory& trajectory, const bch_check_options& given) {
+  if (!trajectory.waiting.empty())
+    throw Failure(BCH_INVALID_ARGUMENT, "trajectory has been read from; open it again");
+  CheckOptions options;
+  const auto slices = array_of(given.slices, given.slice_count, "options->slices");
+  options.plan.slices.assign(slices.begin(), slices.end());
+  if (!(given.max_distance >= 0 && given.max_distance <= 10))
+    throw Failure(BCH_INVALID_ARGUMENT, "options->max_distance is " + std::to_string(given.max_distance));
+  options.max_distance = given.max_distance;
+  const std::optional<ObstacleSet> walls = own_walls(given, trajectory.reader->info());
+  options.walls = given.walls != nullptr ? &object_of(given.walls, "options->walls").set
+                  : walls                ? &*walls
+                                         : nullptr;
+
+  auto made = std::make_unique<bch_check>();
+  const TrajectoryInfo& info = trajectory.reader->info();
+  on_threads(given.threads, [&] {
+    const CheckSummary summary =
+        check(*trajectory.reader, options, [&](const CheckedFrame& frame, const ShapeSet&) {
+          made->frames.push_back(frame_of(frame));
+          for (const CheckedPair& pair : frame.pairs) made->pairs.push_back(pair_of(pair));
+          const auto done = static_cast<std::uint64_t>(frame.frame - info.first_frame),
+                     total = static_cast<std::uint64_t>(info.last_frame - info.first_frame);
+          if (given.progress != nullptr && given.progress(given.user, done, total) != 0)
+            throw Failure(BCH_CANCELLED, "cancelled by the caller");
+        });
+    made->summary = summary_of(summary, info);
+    for (const OverlapEvent& event : summary.events) made->events.push_back(event_of(event));
+  });
+  return made;
+}
+
+}  // namespace
+}  // namespace bch::c_api
+
+using namespace bch::c_api;
+
+bch_status bch_trajectory_open(const char* path, const bch_trajectory_options* options,
+                               bch_trajectory** trajectory) {
+  return guarded([&] {
+    required(path, "path");
+    required(trajectory, "trajectory");
+    hand_out(open(path, sized<bch_trajectory_options>(options, BCH_TRAJECTORY_OPTIONS_INIT, "options")),
+             trajectory);
+  });
+}
+
+bch_status bch_trajectory_get_info(const bch_trajectory* handle, bch_trajectory_info* to) {
+  return guarded([&] {
+    const bch_trajectory& trajectory = object_of(handle, "trajectory");
+    const bch::detail::TrajectoryInfo& info = trajectory.reader->info();
+    bch_trajectory_info all = BCH_TRAJECTORY_INFO_INIT;
+    all.fps = info.fps;
+    all.rows = info.rows;
+    all.people = info.people;
+    all.first_frame = info.first_frame;
+    all.last_frame = info.last_frame;
+    all.format = info.format.c_str();
+    all.geometry = info.geometry.c_str();
+    all.assumptions = trajectory.assumptions.c_str();
+    fill(to, all, "info");
+  });
+}
+
+bch_status bch_trajectory_read(bch_trajectory* trajectory, bch_tracked_person* people, size_t capacity,
+                               size_t* count) {
+  return guarded([&] {
+    required(count, "count");
+    *count = read(object_of(trajectory, "trajectory"), array_of(people, capacity, "people"));
+  });
+}
+
+bch_status bch_trajectory_free(bch_trajectory* trajectory) {
+  return free_object(trajectory, "trajectory");
+}
+
+bch_status bch_check_run(bch_trajectory* trajectory, const bch_check_options* options, bch_check** check) {
+  return guarded([&] {
+    required(check, "check");
+    hand_out(run_check(object_of(trajectory, "trajectory"),
+                       sized<bch_check_options>(options, BCH_CHECK_OPTIONS_INIT, "options")),
+             check);
+  });
+}
+
+bch_status bch_check_get_summary(const bch_check* check, bch_check_summary* summary) {
+  return guarded([&] { fill(summary, object_of(check, "check").summary, "summary"); });
+}
+
+bch_status bch_check_get_frames(const bch_check* check, const bch_check_frame** frames, size_t* count) {
+  return guarded([&] {
+    const auto& all = object_of(check, "check").frames;
+    required(frames, "frames"), required(count, "count");
+    *frames = all.data(), *count = all.size();
+  });
+}
+
+bch_status bch_check_get_pairs(const bch_check* check, const bch_check_pair** pairs, size_t* count) {
+  return guarded([&] {
+    const auto& all = object_of(check, "check").pairs;
+    required(pairs, "pairs"), required(count, "count");
+    *pairs = all.data(), *count = all.size();
+  });
+}
+
+bch_status bch_check_get_events(const bch_check* check, const bch_check_event** events, size_t* count) {
+  return guarded([&] {
+    const auto& all = object_of(check, "check").events;
+    required(events, "events"), required(count, "count");
+    *events = all.data(), *count = all.size();
+  });
+}
+
+bch_status bch_check_free(bch_check* check) {
+  return free_object(check, "check");
+}

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include <bch/broad_phase.hpp>
+#include <bch/obstacles.hpp>
+
+#include "kernel/check/walker_shapes.hpp"
+#include "kernel/check/walkers.hpp"
+
+namespace bch::detail {
+
+/// What a check of a recording is asked.
+struct CheckOptions {
+  ShapeSetPlan plan = {};   ///< one level; slices cut the bodies
+  double max_distance = 0;  ///< gaps up to that are measured, metres; 0: none are
+  const ObstacleSet* walls = nullptr;
+  std::size_t people_at_once =
+      50'000;  ///< about so many, of many frames; the answers are the same for any number
+};
+
+/// Two people of a frame, or a person and a wall, who are near each other.
+struct CheckedPair {
+  std::int64_t frame;
+  std::int64_t first, second;  ///< ids; `second` is a wall's number where `is_wall`
+  bool is_wall;
+  bool overlap;  ///< the two overlap in this frame
+  bool passing;  ///< they do between this frame and the next, and in neither of them
+  float depth;   ///< how far the first has to move to be free, metres
+  float gap;   ///< how far they are apart, metres; 0 where they overlap, infinite beyond the largest distance
+  float x, y;  ///< where the first has to move
+};
+
+/// A person of a frame, as he was checked.
+struct CheckedPerson {
+  Walker walker;
+  std::uint32_t shape;
+  float density;  ///< people per square metre within a metre of him
+  bool overlaps;  ///< somebody, in this frame
+  bool in_wall;
+};
+
+/// A frame that was checked.
+struct CheckedFrame {
+  std::int64_t frame;
+  double seconds;  ///< from frame 0
+  std::span<const CheckedPerson> people;
+  std::span<const CheckedPair> pairs;
+};
+
+/// The radii of discs whose answer is told beside, metres, and the classes of density, people per square metre.
+constexpr std::array<double, 4> compared_discs{0.2, 0.25, 0.3, 0.4};
+constexpr std::array<double, 6> density_classes{0, 1, 2, 3, 4, 6};
+
+/// Person-frames, and how many of them overlap.
+struct OverlapCount {
+  std::uint64_t people = 0, overlapping = 0, in_walls = 0;
+  std::array<std::uint64_t, compared_discs.size()> discs{};
+  std::uint64_t near_pairs = 0, overlapping_pairs = 0;  ///< of those within 1.2 m
+  std::array<std::uint64_t, compared_discs.size()> disc_pairs{};
+};
+
+/// Two people who overlap in frames one after the other.
+struct OverlapEvent {
+  std::int64_t first, second;
+  bool is_wall;
+  std::int64_t from, to, worst;  ///< frames
+  std::uint32_t frames;
+  float depth;  ///< the largest
+  double x, y;  ///< where the first person then is, metres
+};
+
+/// What there is to tell of a whole recording.
+struct CheckSummary {
+  std::uint64_t frames = 0, people = 0, guessed = 0, passings = 0;
+  std::int64_t first_frame = 0, last_frame = 0;
+  OverlapCount all;
+  std::array<OverlapCount, density_classes.size()> by_density;
+  std::vector<OverlapEvent> events;  ///< by their first frames, then ids
+  std::uint32_t shapes = 0;
+};
+
+/// Puts a walking person on every row of a recording and finds who runs into whom. Reads frame after frame; memory grows with the people, and with
+/// those of some frames. `seen`, which may be empty, hears of every frame in turn.
+/// Threads: runs in the caller's TBB arena. The same answers for any number of threads.
+CheckSummary check(TrajectoryReader& reader, const CheckOptions& options,
+                   const std::function<void(const CheckedFrame&, const ShapeSet&)>& seen = {});
+
+}  // namespace bch::detail

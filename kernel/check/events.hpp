@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <compare>
+#include <cstdint>
+#include <map>
+#include <vector>
+
+#include "kernel/check/check.hpp"
+
+namespace bch::detail {
+
+/// Joins overlaps of frames one after the other to events.
+class EventLog {
+ public:
+  /// Takes the overlaps of the next frame, and where the first person of each is.
+  void add(const CheckedFrame& frame);
+  /// Returns all events, by their first frames, then ids.
+  std::vector<OverlapEvent> finish();
+
+ private:
+  struct Who {
+    std::int64_t first, second;
+    bool is_wall;
+    auto operator<=>(const Who&) const = default;
+  };
+  std::map<Who, OverlapEvent> open_;
+  std::vector<OverlapEvent> closed_;
+};
+
+}  // namespace bch::detail

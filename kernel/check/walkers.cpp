@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include "kernel/check/walkers.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <bch/default_characters.hpp>
+
+#include "layout/base/random.hpp"
+
+namespace bch::detail {
+namespace {
+
+constexpr double smoothing = 0.4;  ///< seconds before and after
+constexpr double standing = 0.15;  ///< metres a second: who is slower has no direction
+
+Random random_of(std::int64_t id) {
+  return Random(0x9e3779b97f4a7c15u ^ static_cast<std::uint64_t>(id));
+}
+
+}  // namespace
+
+bool is_female_by_id(std::int64_t id) {
+  return random_of(id).below(2) == 0;
+}
+
+/// About normal, by the sum of uniform numbers: means and deviations of adults in Europe, to two digits.
+double stature_by_id(std::int64_t id, bool is_female) {
+  Random random = random_of(id);
+  random.next();  // that which the sex is drawn from
+  double sum = -6;
+  for (int i = 0; i < 12; ++i) sum += random.uniform(1);
+  return is_female ? 1.66 + 0.065 * sum : 1.79 + 0.07 * sum;
+}
+
+WalkerReader::WalkerReader(TrajectoryReader& reader)
+    : reader_(reader),
+      fps_(reader.info().fps),
+      window_(std::max<std::int64_t>(1, std::llround(smoothing * fps_))) {}
+
+bool WalkerReader::read_one() {
+  Frame next;
+  if (at_end_ || !reader_.next(next.frame, next.people)) {
+    at_end_ = true;
+    return false;
+  }
+  for (const TrackedPerson& person : next.people)
+    tracks_[person.id].places.push_back({next.frame, person.x, person.y});
+  ahead_.push_back(std::move(next));
+  return true;
+}
+
+Walker WalkerReader::walk(const TrackedPerson& person, std::int64_t frame) {
+  Track& track = tracks_[person.id];
+  // Those before the window go, but for the last one before this frame, which recordings of few frames need.
+  while (track.places.size() > 1 && track.places[0].frame < frame - window_ && track.places[1].frame < frame)
+    track.places.pop_front();
+  const Place first = track.places.front();
+  auto last = std::find_if(track.places.begin(), track.places.end(),
+                           [&](const Place& place) { return place.frame > frame + window_; });
+  if (last == track.places.end() || std::prev(last)->frame > frame) --last;
+  const double seconds = static_cast<double>(last->frame - first.frame) / fps_;
+  const double dx = last->x - first.x, dy = last->y - first.y;
+  const double speed = seconds > 0 ? std::sqrt(dx * dx + dy * dy) / seconds : 0;
+
+  Walker walker{
+      person.id, person.x, person.y, track.heading, speed, track.phase, 0, is_female_by_id(person.id), false};
+  walker.stature = std::isnan(person.stature) ? stature_by_id(person.id, walker.is_female)
+                                              : static_cast<double>(person.stature);
+  const bool told = !std::isnan(person.heading), moves = speed > standing;
+  if (told || moves) {
+    track.heading = told ? static_cast<double>(person.heading) : std::atan2(dy, dx);
+    track.has_heading = true;
+  }
+  if (!track.has_walked) track.phase = random_of(person.id).uniform(1);
+  const double since = track.has_walked ? static_cast<double>(frame - track.last_frame) / fps_ : 0;
+  track.has_walked = true;
+  if (speed > 0.05) track.phase += since * pedestrian_strides_per_second(speed);
+  track.phase -= std::floor(track.phase);
+  track.last_frame = frame;
+  walker.heading = track.heading;
+  walker.phase = track.phase;
+  walker.is_guessed = !told && !moves;
+  return walker;
+}
+
+/// Who has not moved yet faces the way in which the others walk.
+void WalkerReader::face_the_crowd(WalkerFrame& frame) {
+  double x = 0, y = 0;
+  for (const Walker& walker : frame.people)
+    if (!walker.is_guessed) x += std::cos(walker.heading), y += std::sin(walker.heading);
+  if (x == 0 && y == 0) return;
+  for (Walker& walker : frame.people)
+    if (walker.is_guessed && !tracks_[walker.id].has_heading) walker.heading = std::atan2(y, x);
+}
+
+bool WalkerReader::next(WalkerFrame& frame) {
+  while (ahead_.empty() || ahead_.back().frame <= ahead_.front().frame + window_)
+    if (!read_one()) break;
+  if (ahead_.empty()) return false;
+  const Frame now = std::move(ahead_.front());
+  ahead_.pop_front();
+  frame.frame = now.frame;
+  frame.people.clear();
+  for (const TrackedPerson& person : now.people) frame.people.push_back(walk(person, now.frame));
+  face_the_crowd(frame);
+  return true;
+}
+
+}  // namespace bch::detail

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <unordered_map>
+#include <vector>
+
+#include "layout/trajectory/trajectory.hpp"
+
+namespace bch::detail {
+
+/// A person of a recording in a frame, and how he walks.
+struct Walker {
+  std::int64_t id;
+  double x, y;     ///< metres
+  double heading;  ///< radians
+  double speed;    ///< metres a second, smoothed
+  double phase;    ///< share of a stride, 0 to 1, from the left heel's contact on
+  double stature;  ///< metres
+  bool is_female;
+  bool is_guessed;  ///< the heading is neither of the file nor of a person who walks
+};
+
+/// The people of a frame, by ascending id.
+struct WalkerFrame {
+  std::int64_t frame = 0;
+  std::vector<Walker> people;
+};
+
+/// Reads a recording and finds how its people walk: speeds from positions 0.4 s before and after,
+/// or from the next ones where there are none so near, headings from the file or from the
+/// way of a person who walks, held while he stands, and strides that go on with the distance. Memory grows with the people, and with those of
+/// the frames within 0.4 s.
+class WalkerReader {
+ public:
+  /// `reader` has to live as long as this.
+  explicit WalkerReader(TrajectoryReader& reader);
+
+  /// Reads the next frame. Returns false at the end.
+  bool next(WalkerFrame& frame);
+
+ private:
+  struct Place {
+    std::int64_t frame;
+    double x, y;
+  };
+  /// What is known of a person: his last places, and how he walked last.
+  struct Track {
+    std::deque<Place> places;
+    double heading = 0, phase = 0;
+    std::int64_t last_frame = 0;
+    bool has_heading = false, has_walked = false;
+  };
+  struct Frame {
+    std::int64_t frame;
+    std::vector<TrackedPerson> people;
+  };
+
+  bool read_one();
+  Walker walk(const TrackedPerson& person, std::int64_t frame);
+  void face_the_crowd(WalkerFrame& frame);
+
+  TrajectoryReader& reader_;
+  const double fps_;
+  const std::int64_t window_;  ///< frames before and after
+  bool at_end_ = false;
+  std::deque<Frame> ahead_;
+  std::unordered_map<std::int64_t, Track> tracks_;
+};
+
+/// Returns a stature for a person whose file has none, and whether the body is a woman's, both by the id: the same in every run.
+double stature_by_id(std::int64_t id, bool is_female);
+bool is_female_by_id(std::int64_t id);
+
+}  // namespace bch::detail

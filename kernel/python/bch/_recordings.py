@@ -1,0 +1,169 @@
+# SPDX-License-Identifier: MIT
+# Copyright (c) 2026 the bch authors
+
+"""Recordings of people, and checks of them: who runs into whom."""
+
+from __future__ import annotations
+
+import ctypes
+from ctypes import byref
+from typing import Any, Dict, List, NamedTuple, Optional, Sequence
+
+import numpy as np
+
+from . import _library
+from ._arrays import Records, address, bounded, copied, encoded, f4, f8, i4, i8, u4
+from ._library import ArrayError, Handle, check as _check, lib
+from ._obstacles import Obstacles
+from ._progress import Watched
+from ._shapes import Path
+
+#: A person in a frame: metres and radians, NaN where the file does not say.
+TRACKED = np.dtype([("frame", i8), ("id", i8), ("x", f8), ("y", f8), ("heading", f4), ("stature", f4)])
+#: The kinds of pairs and events of a check.
+NEAR, OVERLAP, PASS, WALL = 0, 1, 2, 3
+_FRAME = np.dtype(
+    [("frame", i8), ("seconds", f8), ("people", u4), ("overlapping", u4), ("overlapping_pairs", u4), ("in_walls", u4)]
+    + [("density", f4), ("_", f4)]
+)
+_PAIR = np.dtype(
+    [("frame", i8), ("first", i8), ("second", i8), ("depth", f4), ("gap", f4), ("x", f4), ("y", f4), ("kind", i4)]
+    + [("_", i4)]
+)
+_EVENT = np.dtype(
+    [("first", i8), ("second", i8), ("from", i8), ("to", i8), ("worst", i8), ("x", f8), ("y", f8), ("depth", f4)]
+    + [("frames", u4), ("kind", i4), ("_", i4)]
+)
+
+
+def dataframe(records: Records) -> Any:
+    """Return a structured array as a dataframe of pandas, where that is installed: a column for each field."""
+    import pandas
+
+    return pandas.DataFrame({name: records[name] for name in records.dtype.names or () if name != "_"})
+
+
+class Trajectory(NamedTuple):
+    """A recording of people."""
+
+    rows: Records  #: (n,) TRACKED, frame after frame, in each by ascending id
+    fps: float  #: frames a second
+    format: str  #: such as "JuPedSim SQLite, version 2"
+    geometry: str  #: the walkable area as well-known text, or empty
+    assumptions: List[str]  #: what the file does not say, and what was taken for it
+
+
+def _open(path: Path, fps: Optional[float], unit: Optional[float], columns: Optional[str]) -> Handle:
+    options = _library.TrajectoryOptions(
+        fps=fps or 0.0, unit=unit or 0.0, columns=None if columns is None else encoded(columns, "columns")
+    )
+    return Handle("trajectory", "open", encoded(path, "path"), byref(options))
+
+
+def _info(handle: Handle) -> _library.TrajectoryInfo:
+    info = _library.TrajectoryInfo()
+    _check(lib.bch_trajectory_get_info(handle.pointer, byref(info)))
+    return info
+
+
+def read_trajectory(
+    path: Path, *, fps: Optional[float] = None, unit: Optional[float] = None, columns: Optional[str] = None
+) -> Trajectory:
+    """Read a recording: JuPedSim, PeTrack, Pedestrian Dynamics Data Archive, Pathfinder, TrajNet++, ETH/UCY or CSV.
+
+    Parameters
+    ----------
+    path : path
+    fps : float, optional
+        Frames a second, instead of what the file says.
+    unit : float, optional
+        Metres for a unit of the file, instead of what it says: 0.01 for centimetres.
+    columns : str, optional
+        The columns of text and CSV in order, as "frame,id,x,y".
+    """
+    handle = _open(path, fps, unit, columns)
+    info = _info(handle)
+    rows = np.empty(info.rows, TRACKED)
+    count = ctypes.c_size_t()
+    done = 0
+    while done < len(rows):
+        rest = rows[done:]
+        _check(lib.bch_trajectory_read(handle.pointer, address(rest), len(rest), byref(count)))
+        if count.value == 0:
+            break
+        done += count.value
+    lines = info.assumptions.decode(errors="replace").splitlines()
+    return Trajectory(rows[:done], info.fps, info.format.decode(), info.geometry.decode(errors="replace"), lines)
+
+
+class Check(NamedTuple):
+    """Who runs into whom in a recording. Ids are those of the file, depths and places metres."""
+
+    events: Records  #: first, second, from, to, worst (frames), x, y, depth, frames, kind: overlaps of frames in a row
+    frames: Records  #: frame, seconds, people, overlapping, overlapping_pairs, in_walls, density
+    pairs: Records  #: frame, first, second, depth, gap, x, y, kind: who is near whom
+    summary: Dict[str, Any]  #: of the whole recording: person_frames, overlapping, near_pairs ...
+
+
+def _records(get: Any, handle: Handle, dtype: "np.dtype[Any]") -> Records:
+    pointer, count = ctypes.c_void_p(), ctypes.c_size_t()
+    _check(get(handle.pointer, byref(pointer), byref(count)))
+    return copied(pointer.value, dtype, (count.value,))
+
+
+def check(
+    path: Path,
+    *,
+    slices: Sequence[float] = (),
+    max_distance: float = 0.0,
+    walls: Optional[Obstacles] = None,
+    fps: Optional[float] = None,
+    unit: Optional[float] = None,
+    columns: Optional[str] = None,
+    threads: int = 0,
+    progress: bool = False,
+) -> Check:
+    """Put a walking pedestrian on every row of a recording, and find who runs into whom. Ctrl-C ends it.
+
+    Parameters
+    ----------
+    path : path
+    slices : sequence of float
+        Heights of planes that cut bodies into slabs, metres, as `standing_slices` gives; by default bodies are whole.
+    max_distance : float
+        Also tell gaps up to that, metres.
+    walls : Obstacles, optional
+        Instead of the geometry of the recording.
+    fps, unit, columns
+        As for `read_trajectory`.
+    threads : int
+        0: all processors. The answer is the same for any number.
+    progress : bool
+        Show a bar, on a terminal.
+
+    Returns
+    -------
+    Check
+    """
+    if walls is not None and not isinstance(walls, Obstacles):
+        raise ArrayError(f"walls is a {type(walls).__name__}; wanted is a bch.Obstacles")
+    trajectory = _open(path, fps, unit, columns)
+    planes = np.array([float(plane) for plane in slices], f4)
+    with Watched("checking", progress) as watched:
+        options = _library.CheckOptions(
+            threads=bounded(threads, "threads", 0, 1024),
+            slices=address(planes),
+            slice_count=len(planes),
+            max_distance=max_distance,
+            walls=None if walls is None else walls._pointer,
+            progress=watched.callback,
+        )
+        handle = Handle("check", "run", trajectory.pointer, byref(options), checked=watched.run)
+    summary = _library.CheckSummary()
+    _check(lib.bch_check_get_summary(handle.pointer, byref(summary)))
+    return Check(
+        _records(lib.bch_check_get_events, handle, _EVENT),
+        _records(lib.bch_check_get_frames, handle, _FRAME),
+        _records(lib.bch_check_get_pairs, handle, _PAIR),
+        {name: getattr(summary, name) for name, *_ in _library.CheckSummary._fields_ if name != "size"},
+    )

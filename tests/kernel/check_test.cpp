@@ -1,0 +1,316 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include "kernel/check/check.hpp"
+
+#include <gtest/gtest.h>
+#include <oneapi/tbb/task_arena.h>
+
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <sstream>
+#include <vector>
+
+#include <bch/default_characters.hpp>
+#include <bch/pose_shape.hpp>
+
+#include "tests/support/scenes.hpp"
+
+// Recordings that are made up, of which it is known who runs into whom.
+
+namespace bch::detail {
+namespace {
+
+constexpr float unknown = std::numeric_limits<float>::quiet_NaN();
+
+/// A recording in memory.
+class MadeUp : public TrajectoryReader {
+ public:
+  explicit MadeUp(double fps) { info_.fps = fps; }
+
+  void add(std::int64_t frame, TrackedPerson person) { frames_[frame].push_back(person); }
+  /// Somebody who walks straight on from frame 0 for so many frames.
+  void walk(std::int64_t id, double x, double y, double speed_x, double speed_y, int frames) {
+    for (int k = 0; k < frames; ++k)
+      add(k, {id, x + speed_x * k / info_.fps, y + speed_y * k / info_.fps, unknown, 1.75f});
+  }
+  void rewind() { next_ = frames_.begin(); }
+
+  const TrajectoryInfo& info() const override { return info_; }
+  bool next(std::int64_t& frame, std::vector<TrackedPerson>& people) override {
+    if (next_ == frames_.end()) return false;
+    frame = next_->first, people = next_->second;
+    std::ranges::sort(people, {}, &TrackedPerson::id);
+    ++next_;
+    return true;
+  }
+
+ private:
+  TrajectoryInfo info_;
+  std::map<std::int64_t, std::vector<TrackedPerson>> frames_;
+  std::map<std::int64_t, std::vector<TrackedPerson>>::iterator next_;
+};
+
+std::vector<WalkerFrame> walkers_of(MadeUp& recording) {
+  recording.rewind();
+  WalkerReader reader(recording);
+  std::vector<WalkerFrame> all;
+  for (WalkerFrame frame; reader.next(frame);) all.push_back(frame);
+  return all;
+}
+
+TEST(Walkers, HaveTheirSpeedAndDirection) {
+  MadeUp recording(25);
+  recording.walk(3, 0, 0, 0.6, 0.8, 100);
+  const auto frames = walkers_of(recording);
+  ASSERT_EQ(frames.size(), 100u);
+  for (std::size_t k = 0; k < frames.size(); ++k) {
+    const Walker& walker = frames[k].people.at(0);
+    EXPECT_EQ(frames[k].frame, static_cast<std::int64_t>(k));
+    EXPECT_NEAR(walker.speed, 1, 1e-9);
+    EXPECT_NEAR(walker.heading, std::atan2(0.8, 0.6), 1e-9);
+    EXPECT_FALSE(walker.is_guessed);
+    EXPECT_FLOAT_EQ(static_cast<float>(walker.stature), 1.75f);
+    if (k == 0) continue;
+    const double step = walker.phase - frames[k - 1].people[0].phase;
+    EXPECT_NEAR(step - std::floor(step), pedestrian_strides_per_second(1) / 25, 1e-9);
+  }
+}
+
+TEST(Walkers, KeepTheirHeadingWhileTheyStand) {
+  MadeUp recording(25);
+  recording.walk(1, 0, 0, 0, 1, 50);
+  for (int k = 50; k < 100; ++k) recording.add(k, {1, 0, 1.96, unknown, unknown});
+  recording.walk(2, 5, 5, 0, 0, 100);  // never moves
+  std::size_t guessed = 0;
+  for (const WalkerFrame& frame : walkers_of(recording)) {
+    EXPECT_NEAR(frame.people[0].heading, std::numbers::pi / 2, 1e-9) << frame.frame;
+    EXPECT_NEAR(frame.people[1].heading, frame.frame < 50 ? std::numbers::pi / 2 : frame.people[1].heading,
+                1e-9);
+    EXPECT_TRUE(frame.people[1].is_guessed);
+    guessed += frame.people[0].is_guessed;
+  }
+  EXPECT_NEAR(static_cast<double>(guessed), 42, 3);  // from when half of the smoothing says that he stands
+}
+
+/// As recordings of simulators are that write a frame a second.
+TEST(Walkers, OfFewFramesHaveASpeedToo) {
+  MadeUp recording(40);
+  for (int k = 0; k < 10; ++k) recording.add(40 * k, {1, 1.2 * k, 0, unknown, unknown});
+  for (const WalkerFrame& frame : walkers_of(recording)) {
+    EXPECT_NEAR(frame.people[0].speed, 1.2, 1e-9) << frame.frame;
+    EXPECT_FALSE(frame.people[0].is_guessed);
+  }
+}
+
+TEST(Walkers, TakeHeadingsOfTheFile) {
+  MadeUp recording(10);
+  for (int k = 0; k < 20; ++k) recording.add(k, {1, 0.1 * k, 0, 1.5f, 1.6f});
+  for (const WalkerFrame& frame : walkers_of(recording)) {
+    EXPECT_FLOAT_EQ(static_cast<float>(frame.people[0].heading), 1.5f);
+    EXPECT_FALSE(frame.people[0].is_guessed);
+  }
+}
+
+TEST(Walkers, WithoutAStatureHaveOneByTheirIds) {
+  double women = 0, men = 0;
+  std::size_t count = 0;
+  for (std::int64_t id = 0; id < 4'000; ++id) {
+    const double stature = stature_by_id(id, is_female_by_id(id));
+    EXPECT_GT(stature, 1.3);
+    EXPECT_LT(stature, 2.2);
+    (is_female_by_id(id) ? women : men) += stature;
+    count += is_female_by_id(id);
+  }
+  EXPECT_NEAR(static_cast<double>(count), 2'000, 150);
+  EXPECT_NEAR(women / static_cast<double>(count), 1.66, 0.01);
+  EXPECT_NEAR(men / (4'000 - static_cast<double>(count)), 1.79, 0.01);
+}
+
+CheckSummary check_of(MadeUp& recording, const CheckOptions& options = {}) {
+  recording.rewind();
+  return check(recording, options);
+}
+
+TEST(Check, PeopleWhoWalkThroughEachOtherAreAnEvent) {
+  MadeUp recording(25);
+  recording.walk(7, -3, 0, 1.2, 0, 125);
+  recording.walk(5, 3, 0.1, -1.2, 0, 125);
+  recording.walk(9, 0, 8, 0, 0.5, 125);
+  const CheckSummary summary = check_of(recording);
+  ASSERT_GE(summary.events.size(), 1u);  // hands and feet may touch before
+  std::uint32_t frames = 0;
+  OverlapEvent event = summary.events[0];
+  for (const OverlapEvent& each : summary.events) {
+    frames += each.frames;
+    if (each.depth > event.depth) event = each;
+  }
+  EXPECT_EQ(event.first, 5);
+  EXPECT_EQ(event.second, 7);
+  EXPECT_FALSE(event.is_wall);
+  EXPECT_NEAR(static_cast<double>(event.worst), 62, 4);  // where they meet
+  EXPECT_LT(event.from, event.worst);
+  EXPECT_GT(event.to, event.worst);
+  EXPECT_EQ(event.frames, event.to - event.from + 1);
+  EXPECT_GT(event.depth, 0.2f);
+  EXPECT_EQ(summary.people, 3u);
+  EXPECT_EQ(summary.frames, 125u);
+  EXPECT_EQ(summary.all.people, 375u);
+  EXPECT_EQ(summary.all.overlapping, 2 * frames);
+  EXPECT_EQ(summary.all.overlapping_pairs, frames);
+  EXPECT_EQ(summary.all.discs[3], 2u * 16);  // centres nearer than 0.8 m
+}
+
+TEST(Check, NobodyPassesThroughAnybodyUnseen) {
+  MadeUp recording(1);  // a frame a second: they are metres apart before and after
+  recording.walk(1, -3, 0, 2, 0, 4);
+  recording.walk(2, 3, 0, -2, 0, 4);
+  const CheckSummary summary = check_of(recording);
+  EXPECT_EQ(summary.passings, 1u);
+  ASSERT_EQ(summary.events.size(), 1u);
+  EXPECT_EQ(summary.events[0].from, 1);
+  EXPECT_LT(summary.events[0].depth, 0);
+  EXPECT_EQ(summary.all.overlapping, 0u);
+}
+
+TEST(Check, WallsAreMet) {
+  MadeUp recording(25);
+  recording.walk(4, -2, 0, 1, 0, 100);
+  const ObstacleSet walls = obstacles_from_wkt("POLYGON((-9 -9, 0 -9, 0 9, -9 9))", Polygons::walkable);
+  CheckOptions options;
+  options.walls = &walls;
+  const CheckSummary summary = check_of(recording, options);
+  ASSERT_EQ(summary.events.size(), 1u);
+  EXPECT_TRUE(summary.events[0].is_wall);
+  EXPECT_EQ(summary.events[0].first, 4);
+  EXPECT_NEAR(static_cast<double>(summary.events[0].worst), 50, 8);
+  EXPECT_EQ(summary.all.in_walls, summary.events[0].frames);
+}
+
+/// People who walk straight on in a square.
+void add_crowd(MadeUp& recording, std::uint32_t people, int frames) {
+  test::Random random(291);
+  for (std::uint32_t i = 0; i < people; ++i) {
+    const double angle = random.uniform(-3, 3), speed = random.uniform(0, 1.6);
+    recording.walk(1 + 3 * i, random.uniform(0, 8), random.uniform(0, 8), speed * std::cos(angle),
+                   speed * std::sin(angle), frames);
+  }
+}
+
+/// All that is told of a recording, as text.
+std::string told(MadeUp& recording, const CheckOptions& options) {
+  std::ostringstream text;
+  recording.rewind();
+  const CheckSummary summary =
+      check(recording, options, [&](const CheckedFrame& frame, const ShapeSet& shapes) {
+        text << frame.frame << ":";
+        for (const CheckedPerson& person : frame.people) {
+          EXPECT_LT(person.shape, shapes.shape_count());
+          text << " " << person.walker.id << "/" << person.density << "/" << person.overlaps;
+        }
+        for (const CheckedPair& pair : frame.pairs)
+          text << " " << pair.first << "-" << pair.second << " " << pair.depth << " " << pair.gap << " "
+               << pair.x << " " << pair.passing;
+        text << "\n";
+      });
+  for (const OverlapEvent& event : summary.events)
+    text << event.first << " " << event.from << " " << event.worst << "\n";
+  text << summary.all.overlapping_pairs;
+  return text.str();
+}
+
+TEST(Check, IsTheSameForAnyNumberOfThreadsAndFramesAtOnce) {
+  MadeUp recording(10);
+  add_crowd(recording, 60, static_cast<int>(test::samples(80)));
+  CheckOptions options;
+  options.max_distance = 0.3;
+  const std::string expected = told(recording, options);
+  EXPECT_GT(expected.size(), 10'000u);
+  for (const std::size_t at_once : {std::size_t{1}, std::size_t{500}, std::size_t{1'000'000}})
+    for (const int threads : {1, 2}) {
+      options.people_at_once = at_once;
+      tbb::task_arena arena(threads);
+      arena.execute([&] { EXPECT_TRUE(told(recording, options) == expected) << at_once << " " << threads; });
+    }
+}
+
+TEST(Check, SlabsClearSomeOfTheOverlaps) {
+  MadeUp recording(10);
+  add_crowd(recording, 60, static_cast<int>(test::samples(80)));
+  CheckOptions options;
+  const std::uint64_t whole = check_of(recording, options).all.overlapping_pairs;
+  options.plan.slices = {0.4f, 0.85f, 1.05f};
+  const std::uint64_t in_slabs = check_of(recording, options).all.overlapping_pairs;
+  EXPECT_GT(in_slabs, whole / 3);
+  EXPECT_LT(in_slabs, whole);
+}
+
+bool inside(const Outline& outline, Vec2 p) {
+  bool odd = false;
+  for (std::size_t k = 0; k < outline.contours(); ++k) {
+    const auto contour = outline.contour(k);
+    for (std::size_t i = 0; i < contour.size(); ++i) {
+      const Vec2 a = contour[i], b = contour[(i + 1) % contour.size()];
+      if ((a.y > p.y) != (b.y > p.y) && p.x < a.x + (b.x - a.x) * (p.y - a.y) / (b.y - a.y)) odd = !odd;
+    }
+  }
+  return odd;
+}
+
+double distance(Vec2 p, Vec2 from, Vec2 to) {
+  const double x = static_cast<double>(to.x - from.x), y = static_cast<double>(to.y - from.y),
+               px = static_cast<double>(p.x - from.x), py = static_cast<double>(p.y - from.y);
+  const double share = std::clamp((px * x + py * y) / std::max(x * x + y * y, 1e-12), 0.0, 1.0);
+  return std::hypot(px - share * x, py - share * y);
+}
+
+/// How far what one outline encloses sticks out of the other, metres. (Where an arm meets the body, what it goes round is suddenly inside:
+/// that is no movement.)
+double farthest(const Outline& a, const Outline& b) {
+  double most = 0;
+  for (const Vec2& p : a.points) {
+    if (inside(b, p)) continue;
+    double least = 1e9;
+    for (std::size_t k = 0; k < b.contours(); ++k) {
+      const auto contour = b.contour(k);
+      for (std::size_t i = 0; i < contour.size(); ++i)
+        least = std::min(least, distance(p, contour[i], contour[(i + 1) % contour.size()]));
+    }
+    most = std::max(most, least);
+  }
+  return most;
+}
+
+/// Of the pose that is built and that of a walker's own phase and speed, to either of which half a step is missing.
+TEST(WalkerPoses, ChangeOutlinesByNoMoreThanACentimetre) {
+  double by_phase = 0, by_speed = 0;
+  for (const bool is_female : {false, true}) {
+    const Character person = default_pedestrian(is_female ? Sex::female : Sex::male, 1.7);
+    PoseShaper shaper(person), other(person);
+    for (std::uint32_t clip = 0; clip < pedestrian_speeds; clip += 5) {
+      Walker walker{1, 0, 0, 0, pedestrian_speed_step * clip, 0, 1.7, is_female, false};
+      const auto at = [&](std::uint32_t k) {
+        return PoseTime{
+            k, static_cast<float>(walker.phase / pedestrian_strides_per_second(pedestrian_speed_step * k))};
+      };
+      for (walker.phase = 0.003; walker.phase < 1; walker.phase += 0.09) {
+        const Outline own = shaper.shape(at(clip)).outline;
+        const Outline built = other.shape(WalkerPose(walker, Shoulders::straight).at()).outline;
+        by_phase = std::max({by_phase, farthest(built, own), farthest(own, built)});
+        if (clip + 1 == pedestrian_speeds) continue;
+        const Outline faster = other.shape(at(clip + 1)).outline;
+        by_speed = std::max({by_speed, farthest(own, faster) / 2, farthest(faster, own) / 2});
+      }
+    }
+  }
+  EXPECT_LT(by_phase, 0.01);
+  EXPECT_LT(by_speed, 0.01);
+  EXPECT_GT(std::min(by_phase, by_speed), 0.001);
+  RecordProperty("mm_by_phase", std::to_string(1000 * by_phase));
+  std::printf("phases change outlines by %.1f mm at most, speeds by %.1f mm\n", 1000 * by_phase,
+              1000 * by_speed);
+}
+
+}  // namespace
+}  // namespace bch::detail
