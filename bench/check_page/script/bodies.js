@@ -46,18 +46,39 @@ function simplify(points, first, last, tolerance, kept) {
   simplify(points, at, last, tolerance, kept);
 }
 
-function outlinePath(shape, tolerance) {
-  const path = new Path2D();
+/** The contours of a shape with the points that it takes within a tolerance. */
+function simplifiedContours(shape, tolerance) {
+  const contours = [];
   for (let contour = shapes.contours[shape]; contour < shapes.contours[shape + 1]; ++contour) {
     const points = closedContour(contour), kept = [];
     if (points.length < 4) continue;
     simplify(points, 0, points.length - 1, tolerance, kept);
-    if (kept.length < 3) continue;
-    path.moveTo(...kept[0]);
-    for (const point of kept.slice(1)) path.lineTo(...point);
+    if (kept.length >= 3) contours.push(kept);
+  }
+  return contours;
+}
+
+function pathOf(contours) {
+  const path = new Path2D();
+  for (const points of contours) {
+    path.moveTo(...points[0]);
+    for (const point of points.slice(1)) path.lineTo(...point);
     path.closePath();
   }
   return path;
+}
+
+/** Moves the sides of a contour, which is counter-clockwise, inwards; corners by twice that at most. */
+function inset(points, distance) {
+  const normals = points.map(([ax, ay], i) => {
+    const [bx, by] = points[(i + 1) % points.length], length = Math.hypot(bx - ax, by - ay) || 1;
+    return [(ay - by) / length, (bx - ax) / length];
+  });
+  return points.map(([x, y], i) => {
+    const [ax, ay] = normals[(i + points.length - 1) % points.length], [bx, by] = normals[i];
+    const part = distance / Math.max(1 + ax * bx + ay * by, 0.5);
+    return [x + (ax + bx) * part, y + (ay + by) * part];
+  });
 }
 
 function discPath(shape) {
@@ -79,10 +100,20 @@ function cached(make) {
 const discsOf = cached(discPath);
 const hasDiscs = shapes.discs.length > 0;
 
-const finestDetail = 9;  // outlines have points for 2^9 pixels a metre
-const detailLevels = Array.from({length: finestDetail + 1}, (_, detail) =>
-  cached((shape) => outlinePath(shape, detail === finestDetail ? 0 : outlineError / 2 ** (detail + 0.5))));
-const outlineError = 0.7;  // pixels, about
+// Outlines have details for 2^0, 2^1, ... pixels a metre, and all points from 2^9 on.
+const finestDetail = 9, outlineError = 0.7, rimWidth = 2.4;  // pixels, about
+const detailOf = (scale) => Math.min(Math.max(Math.floor(Math.log2(scale)), 0), finestDetail);
+const pixelAt = (detail) => 2 ** -(detail + 0.5);
+const toleranceAt = (detail) => detail === finestDetail ? 0 : outlineError * pixelAt(detail);
 
-/** The paths of shapes with as much detail as so many pixels a metre show. */
-const bodyPaths = (scale) => detailLevels[Math.min(Math.max(Math.floor(Math.log2(scale)), 0), finestDetail)];
+const outlinePaths = Array.from({length: finestDetail + 1}, (_, detail) =>
+  cached((shape) => pathOf(simplifiedContours(shape, toleranceAt(detail)))));
+const insetPaths = (pixels) => Array.from({length: finestDetail + 1}, (_, detail) =>
+  cached((shape) => pathOf(simplifiedContours(shape, toleranceAt(detail))
+    .map((points) => inset(points, pixels * pixelAt(detail))))));
+const innerPaths = insetPaths(rimWidth), boldPaths = insetPaths(-0.5 * rimWidth);
+
+/** The paths of shapes with as much detail as so many pixels a metre show, what a rim leaves of them, and larger ones. */
+const bodyPaths = (scale) => outlinePaths[detailOf(scale)];
+const withoutRim = (scale) => innerPaths[detailOf(scale)];
+const boldBodies = (scale) => boldPaths[detailOf(scale)];
