@@ -132,7 +132,7 @@ std::string CheckPage::State::fixed_blocks() const {
 
 std::string CheckPage::State::meta_block(std::span<const PageEvent> events) {
   Json ids = Json::array();
-  for (const std::int64_t id : frames.ids().keys()) ids.push_back(json_id(id));
+  for (const std::int64_t id : frames.ids()) ids.push_back(json_id(id));
   return json_block("meta", {{"fps", facts.fps},
                              {"step", frames.step()},
                              {"frames", frames.seen()},

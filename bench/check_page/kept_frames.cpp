@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numbers>
 #include <span>
+#include <utility>
 
 #include "bench/check_page/embedding.hpp"
 #include "bench/check_page/rounded.hpp"
@@ -92,7 +93,18 @@ bool KeptFrames::halve() {
   keep_every_second(seconds_);
   keep_every_second(people_begin_, people_);
   keep_every_second(overlaps_begin_, overlaps_);
+  forget_unused_ids();
   return true;
+}
+
+void KeptFrames::forget_unused_ids() {
+  const Numbering<std::int64_t> all = std::exchange(ids_, {});
+  const auto renumbered = [&](std::uint32_t number) { return ids_.number(all.keys()[number]); };
+  for (Person& person : people_) person.who = renumbered(person.who);
+  for (Overlap& overlap : overlaps_) {
+    overlap.first = renumbered(overlap.first);
+    if (overlap.second != wall_number) overlap.second = renumbered(overlap.second);
+  }
 }
 
 PagePoint KeptFrames::corner() const {
@@ -108,10 +120,10 @@ std::size_t KeptFrames::block_size() const {
   const std::size_t id = narrow_ids() ? 2 : 4, shape = narrow_shapes() ? 2 : 4,
                     place = narrow_places() ? 4 : 8;
   constexpr std::size_t heading_speed_marks = 5, frame = 2 * sizeof(double) + 2 * sizeof(std::uint32_t);
-  constexpr std::size_t tag = 100, tags = 12, id_digits = 20;
+  constexpr std::size_t tag = 100, tags = 12, id_digits = 8;
   return base64_size(people_.size() * (id + shape + place + heading_speed_marks) + overlaps_.size() * 2 * id +
                      size() * frame) +
-         tags * tag + ids_.keys().size() * id_digits;
+         tags * tag + ids().size() * id_digits;
 }
 
 std::string KeptFrames::people_blocks() const {

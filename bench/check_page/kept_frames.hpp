@@ -44,8 +44,9 @@ class KeptFrames {
   std::uint64_t seen() const { return seen_; }  ///< frames that were added
   std::size_t size() const { return numbers_.size(); }
 
-  /// Numbers that appeared: the frames hold the places in these tables.
-  Numbering<std::int64_t>& ids() { return ids_; }
+  /// Ids of the frames that are kept: these hold the places in this table.
+  const std::vector<std::int64_t>& ids() const { return ids_.keys(); }
+  /// Shapes of all frames that ever were kept.
   const std::vector<std::uint32_t>& shapes() const { return shapes_.keys(); }
 
   /// The corner of the least coordinates, which places are relative to.
@@ -74,7 +75,8 @@ class KeptFrames {
 
   Person kept(const PagePerson& person);
   Place place_of(PagePoint at);
-  bool narrow_ids() const { return ids_.keys().size() < 0xffff; }
+  void forget_unused_ids();
+  bool narrow_ids() const { return ids().size() < 0xffff; }
   bool narrow_shapes() const { return shapes().size() <= 0xffff; }
   bool narrow_places() const;
   std::string people_blocks() const;

@@ -250,6 +250,22 @@ TEST(CheckPage, KeepsOneFrameThatIsTooLarge) {
   EXPECT_EQ(Blocks(html)("frame"), std::vector<double>{100});
 }
 
+TEST(CheckPage, ForgetsPeopleOfDroppedFrames) {
+  std::vector<Frame> frames = random_frames(1000, 10, 30);
+  std::int64_t id = 0;
+  for (Frame& frame : frames) {
+    frame.overlaps.clear();
+    for (PagePerson& person : frame.people) person.id = ++id;
+    frame.overlaps.push_back({id, id - 1, false});
+  }
+  const std::string html = page_of(frames, 250'000);
+  EXPECT_LE(html.size(), 250'000u);
+  const auto step = Blocks(html).meta()["step"].get<std::size_t>();
+  EXPECT_GT(step, 1u);
+  expect_frames(html, frames, step);
+  EXPECT_EQ(Blocks(html).meta()["ids"].size(), Blocks(html)("who").size());
+}
+
 TEST(CheckPage, TimelineTellsOfFramesThatAreDropped) {
   std::vector<Frame> frames = random_frames(101, 40, 30);
   for (Frame& frame : frames)

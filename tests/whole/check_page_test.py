@@ -272,6 +272,13 @@ class Page(unittest.TestCase):
         self.find("#zoom-in").click()
         self.wait(lambda: abs(self.js("bchPage.view().scale") - 1.5 * before["scale"]) < 1e-6, "the view does not arrive")
 
+    def test_empty_recording(self):
+        page, _ = self.write("empty", 60, 0)
+        self.open(page)
+        self.assertEqual(self.js("bchPage.people()"), [])
+        self.press(Keys.SPACE, Keys.ARROW_RIGHT, "n", "+", "0", Keys.END)
+        self.assertEqual(self.find("#events-note").text, "Nobody overlaps anybody, and nobody is in a wall.")
+
     def test_thinned_recording(self):
         page, expected = self.write("thinned", 60, 200, 90, 180_000)
         self.assertLessEqual(page.stat().st_size, 180_000)

@@ -106,6 +106,7 @@ function drawRims(context) {
 
 /** People in walls alone: a dashed rim. */
 function drawWallHits(context) {
+  if (view.scale < rimFrom) return fillAll(context, drawn.wallHits, boldBodies(view.scale), colours.hit);
   const paths = bodyPaths(view.scale);
   context.fillStyle = colours["hit-fill"];
   context.strokeStyle = colours.hit;

@@ -93,9 +93,9 @@ function partnersOf(frame, who) {
 
 /** Minutes, seconds and hundredths. */
 function clockText(seconds) {
-  const hundredths = Math.max(0, Math.round(seconds * 100));
+  const hundredths = Math.round(Math.abs(seconds) * 100), sign = seconds < 0 && hundredths > 0 ? "-" : "";
   const two = (number) => String(number).padStart(2, "0");
-  return Math.floor(hundredths / 6000) + ":" + two(Math.floor(hundredths / 100) % 60) + "." + two(hundredths % 100);
+  return sign + Math.floor(hundredths / 6000) + ":" + two(Math.floor(hundredths / 100) % 60) + "." + two(hundredths % 100);
 }
 
 const grouped = (number) => String(number).replace(/\B(?=(\d{3})+$)/g, " ");

@@ -43,10 +43,7 @@ function eventRow(event) {
   button.dataset.index = event.index;
   button.append(part("span", "pair", pairText(event)), part("span", "depth", depthText(event.depth)),
     part("span", "when", "from " + clockText(event.from) + " for " + lastsText(event.to - event.from)), depthBar(event));
-  button.addEventListener("click", (click) => {
-    jumpToEvent(event.index);
-    if (click.detail > 0) button.blur();  // so that the space bar plays
-  });
+  button.addEventListener("click", () => jumpToEvent(event.index));
   item.append(button);
   return item;
 }

@@ -79,6 +79,10 @@ function switchTheme() {
 function listenToKeys() {
   chosenTheme = ["dark", "light"].includes(storedTheme()) ? storedTheme() : null;
   document.addEventListener("keydown", keyDown);
+  document.addEventListener("click", (event) => {
+    // After a click the space bar plays; buttons that were reached by keys keep it.
+    if (event.detail > 0) event.target.closest?.("main button")?.blur();
+  });
   systemDark.addEventListener("change", applyTheme);
   element("theme").addEventListener("click", switchTheme);
   element("discs").addEventListener("click", toggleDiscs);
