@@ -42,12 +42,12 @@ function zoomAbout(px, py, factor) {
 
 const zoomBy = (factor) => moveView(view.x, view.y, Math.min(Math.max(view.scale * factor, leastScale), mostScale));
 
-/** Pixels beside the fitted picture, for the buttons and the ruler. */
-const border = {right: 60, bottom: 20};
+/** Pixels beside the fitted picture, for the ruler and the buttons. */
+const border = {left: 46, right: 60, bottom: 20};
 
 function fittedScale() {
   const margin = 1.2;
-  return Math.min((view.width - border.right) / (bounds.right - bounds.left + margin),
+  return Math.min((view.width - border.left - border.right) / (bounds.right - bounds.left + margin),
     (view.height - border.bottom) / (bounds.top - bounds.bottom + margin));
 }
 
@@ -55,7 +55,7 @@ function fit(atOnce) {
   follow(false);
   view.fitted = true;
   const scale = Math.max(fittedScale(), leastScale);
-  (atOnce ? setView : moveView)((bounds.left + bounds.right + border.right / scale) / 2,
+  (atOnce ? setView : moveView)((bounds.left + bounds.right + (border.right - border.left) / scale) / 2,
     (bounds.bottom + bounds.top - border.bottom / scale) / 2, scale);
 }
 
