@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <utility>
 
 #include <bch/obstacles.hpp>
@@ -32,7 +33,7 @@ std::vector<std::vector<PagePoint>> lines_of(const std::string& floor) {
 }
 
 PageFacts facts_of(const CheckedRecording& recording) {
-  PageFacts facts{recording.file, recording.info.fps};
+  PageFacts facts{std::filesystem::path(recording.file).filename().string(), recording.info.fps};
   facts.facts = {
       {"format", recording.info.format},
       {"people", fmt::format("{}", recording.info.people)},

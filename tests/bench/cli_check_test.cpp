@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "tests/support/bch_run.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+// `bch check`.
+
+namespace bch::test {
+namespace {
+
+/// Two people who walk through each other in 4 s, and a third who is never near them.
+std::string two_who_meet() {
+  std::string text = "# framerate: 25\n# id frame x/m y/m z/m\n";
+  for (int k = 0; k < 100; ++k)
+    text += fmt::format("7 {0} {1:.3f} 0 1.8\n5 {0} {2:.3f} 0.1 1.7\n12 {0} 3 {3:.3f} 1.6\n", k,
+                        -2.4 + 0.048 * k, 2.4 - 0.048 * k, 5 + 0.04 * k);
+  return text;
+}
+
+TEST(Cli, CheckTellsWhoRunsIntoWhom) {
+  const TemporaryFolder folder;
+  const std::string file = folder.write("two.txt", two_who_meet());
+  const std::string events = folder.file("events.csv"), frames = folder.file("frames.csv"),
+                    pairs = folder.file("pairs.csv"), json = folder.file("check.json"),
+                    page = folder.file("check.html");
+  const Ending run = bch({"check", file, "--events", events, "--frames", frames, "--pairs", pairs, "--json",
+                          json, "--html", page, "--max-distance", "0.5"});
+  EXPECT_EQ(run.code, 0) << run.err;
+  EXPECT_EQ(run.err, "");
+  for (const char* const words :
+       {"PeTrack text, 25 frames a second", "3 in 100 frames (4.0 s), 300 person-frames",
+        "% of person-seconds", "0.40 m", "The deepest:"})
+    EXPECT_NE(run.out.find(words), std::string::npos) << words << "\n" << run.out;
+
+  const nlohmann::json summary = read_json(json);
+  EXPECT_EQ(summary["people"], 3);
+  EXPECT_EQ(summary["all"]["person_frames"], 300);
+  EXPECT_GT(summary["all"]["overlapping"], 10);
+  const nlohmann::json& event = summary["events"].at(0);
+  EXPECT_EQ(event["first"], 5);
+  EXPECT_EQ(event["second"], 7);
+  EXPECT_EQ(event["kind"], "overlap");
+  EXPECT_EQ(lines(read_text(events)), 1 + summary["events"].size());
+  EXPECT_TRUE(
+      read_text(events).starts_with("first,second,kind,from,to,frames,worst,depth,x,y\n5,7,overlap,"));
+  EXPECT_EQ(lines(read_text(frames)), 101u);
+  EXPECT_NE(read_text(frames).find("\n50,2.0000,3,"), std::string::npos);
+  EXPECT_NE(read_text(pairs).find(",5,7,near,"), std::string::npos);
+  EXPECT_NE(read_text(page).find("two.txt"), std::string::npos);
+  EXPECT_EQ(read_text(page).find(folder.path().string()), std::string::npos);
+}
+
+TEST(Cli, CheckWritesTheSameForAnyNumberOfThreads) {
+  const TemporaryFolder folder;
+  const std::string file = folder.write("two.txt", two_who_meet());
+  std::vector<std::string> written;
+  for (const char* const threads : {"1", "2"}) {
+    const std::string pairs = folder.file("pairs.csv"), page = folder.file("check.html");
+    const Ending run =
+        bch({"check", file, "--pairs", pairs, "--html", page, "--slices", "0.4,1", "--threads", threads});
+    EXPECT_EQ(run.code, 0) << run.err;
+    written.push_back(run.out + read_text(pairs) + read_text(page));
+  }
+  EXPECT_TRUE(written[0] == written[1]);
+}
+
+TEST(Cli, CheckFailsWhereItsUserWantsItTo) {
+  const TemporaryFolder folder;
+  const std::string file = folder.write("two.txt", two_who_meet());
+  EXPECT_EQ(bch({"check", file, "--fail-above", "50"}).code, 0);
+  const Ending run = bch({"check", file, "--fail-above", "1"});
+  EXPECT_EQ(run.code, 1);
+  EXPECT_NE(run.out.find("overlaps"), std::string::npos);
+  EXPECT_NE(run.err.find("more than 1 %"), std::string::npos) << run.err;
+}
+
+TEST(Cli, CheckMeetsWalls) {
+  const TemporaryFolder folder;
+  const std::string file = folder.write("two.txt", two_who_meet());
+  const std::string floor = folder.write("floor.wkt", "POLYGON((-9 -9, 2.8 -9, 2.8 20, -9 20))");
+  const Ending run = bch({"check", file, "--walls", floor});
+  EXPECT_EQ(run.code, 0) << run.err;
+  EXPECT_NE(run.out.find("wall 0"), std::string::npos) << run.out;
+}
+
+TEST(Cli, CheckRefusesWhatItCannotRead) {
+  const TemporaryFolder folder;
+  const std::string unknown = folder.write("no.txt", "1 0 10 20 180\n1 1 11 21 180\n");
+  expect_failure(bch({"check", unknown}), 3, {"no.txt", "--unit", "--fps"});
+  EXPECT_EQ(bch({"check", unknown, "--unit", "cm", "--fps", "16"}).code, 0);
+  expect_failure(bch({"check", unknown, "--unit", "parsec", "--fps", "16"}), 2, {"--unit", "parsec"});
+  expect_failure(bch({"check", folder.file("absent.txt")}), 3, {"absent.txt"});
+  const std::string page = folder.file("check.html");
+  const std::string twice =
+      folder.write("twice.txt", "# framerate: 25\n# id frame x/m y/m\n1 0 1 1\n1 0 2 2\n");
+  expect_failure(bch({"check", twice, "--html", page}), 3, {"twice.txt", "1"});
+  EXPECT_FALSE(std::filesystem::exists(page));
+  expect_failure(bch({"check", twice, "--events", twice}), 2, {"--events"});
+}
+
+}  // namespace
+}  // namespace bch::test
