@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -31,10 +32,12 @@ struct TrackedPerson {
 
 /// What the caller of open_trajectory() knows better than the file.
 struct TrajectoryOptions {
-  std::optional<double> fps;           ///< frame numbers a second, instead of what the file says
-  std::optional<double> unit;          ///< metres for a unit of the file, likewise
-  std::optional<std::string> columns;  ///< of text and CSV: their names in order, as "frame,id,x,y"
+  std::optional<double> fps = {};           ///< frame numbers a second, instead of what the file says
+  std::optional<double> unit = {};          ///< metres for a unit of the file, likewise
+  std::optional<std::string> columns = {};  ///< of text and CSV: their names in order, as "frame,id,x,y"
   std::size_t sort_memory = std::size_t{32} << 20;  ///< bytes of rows that are sorted at a time
+  /// With the process that reads HDF5, as long as it says nothing.
+  std::chrono::milliseconds patience{30'000};
 };
 
 /// What a recording is, known before its first frame is read.

@@ -47,19 +47,18 @@ TEST_P(TrajectoryData, IsRead) {
 
 INSTANTIATE_TEST_SUITE_P(
     Files, TrajectoryData,
-    testing::Values(
-        Expected{"juelich_bottleneck_040_c_56_h.txt", "PeTrack text", 25, 63'110, 75},
-        Expected{"juelich_unidirectional_uo-050-180-180.txt",
-                 "text without a header",
-                 16,
-                 9'712,
-                 61,
-                 {.fps = 16, .unit = 0.01, .columns = {}}},
-        Expected{"single_file_n56_cam1.csv", "CSV", 25, 2'391, 53, {.fps = 25, .unit = {}, .columns = {}}},
-        Expected{"jpscore_corner_traj.txt", "PeTrack text", 16, 18'704, 137},
-        Expected{"jupedsim_v2_demo.sqlite", "JuPedSim SQLite, version 2", 25, 8'083, 30},
-        Expected{"jupedsim_v1.sqlite", "JuPedSim SQLite, version 1", 25, 65'482, 75},
-        Expected{"pathfinder.csv", "Pathfinder CSV", 40, 12'120, 150}),
+    testing::Values(Expected{"juelich_bottleneck_040_c_56_h.txt", "PeTrack text", 25, 63'110, 75},
+                    Expected{"juelich_unidirectional_uo-050-180-180.txt",
+                             "text without a header",
+                             16,
+                             9'712,
+                             61,
+                             {.fps = 16, .unit = 0.01}},
+                    Expected{"single_file_n56_cam1.csv", "CSV", 25, 2'391, 53, {.fps = 25}},
+                    Expected{"jpscore_corner_traj.txt", "PeTrack text", 16, 18'704, 137},
+                    Expected{"jupedsim_v2_demo.sqlite", "JuPedSim SQLite, version 2", 25, 8'083, 30},
+                    Expected{"jupedsim_v1.sqlite", "JuPedSim SQLite, version 1", 25, 65'482, 75},
+                    Expected{"pathfinder.csv", "Pathfinder CSV", 40, 12'120, 150}),
     [](const auto& parameter) {
       std::string name;
       for (const char c : std::string(parameter.param.file))

@@ -117,7 +117,7 @@ TEST_F(JuPedSimFiles, NameTheRowThatIsWrong) {
   };
   for (const auto& [row, message] : cases) {
     JuPedSimFile file;
-    file.rows += "," + std::string(row);
+    file.rows.append(",").append(row);
     EXPECT_EQ(complaint(file), std::string("f: ") + message) << row;
   }
   JuPedSimFile nulls;
@@ -173,7 +173,7 @@ TEST_F(JuPedSimFiles, ThatAreDamagedAreReadOrRefused) {
   JuPedSimFile file;
   for (int frame = 2; frame < 300; ++frame)
     for (const char* const person : {"1", "2", "3"})
-      file.rows += ",(" + std::to_string(frame) + "," + person + ",1.5,2,0,1)";
+      file.rows.append(",(").append(std::to_string(frame)).append(",").append(person).append(",1.5,2,0,1)");
   test::write_sqlite(folder.file("f"), file.sql());
   std::ifstream stream(folder.file("f"), std::ios::binary);
   const std::string bytes{std::istreambuf_iterator<char>(stream), {}};

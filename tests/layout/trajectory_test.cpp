@@ -84,11 +84,11 @@ TEST_F(Trajectories, WithoutAHeaderAreAskedAbout) {
             "f: says no unit and no frame rate: --unit has to give its metres, such as 0.01 for cm, and "
             "--fps the frame numbers "
             "a second");
-  EXPECT_EQ(complaint(text, {.fps = 16, .unit = {}, .columns = {}}),
+  EXPECT_EQ(complaint(text, {.fps = 16}),
             "f: says no unit: --unit has to give its metres, such as 0.01 for cm");
-  EXPECT_EQ(complaint(text, {.fps = {}, .unit = 0.01, .columns = {}}),
+  EXPECT_EQ(complaint(text, {.unit = 0.01}),
             "f: says no frame rate: --fps has to give the frame numbers a second");
-  const ReadRecording recording = read(text, {.fps = 16, .unit = 0.01, .columns = {}});
+  const ReadRecording recording = read(text, {.fps = 16, .unit = 0.01});
   EXPECT_EQ(text_of(recording), "43 1 0.795 7.74 - 1.83\n44 1 0.79 7.640000000000001 - 1.83\n");
   EXPECT_EQ(recording.info.format, "text without a header");
   EXPECT_EQ(recording.info.fps, 16);
@@ -96,7 +96,7 @@ TEST_F(Trajectories, WithoutAHeaderAreAskedAbout) {
 
 TEST_F(Trajectories, OptionsWinOverTheFile) {
   const ReadRecording recording =
-      read("# framerate: 25 fps\n# id frame x/m y/m\n1 7 150 -20\n", {.fps = 10, .unit = 0.5, .columns = {}});
+      read("# framerate: 25 fps\n# id frame x/m y/m\n1 7 150 -20\n", {.fps = 10, .unit = 0.5});
   EXPECT_EQ(text_of(recording), "7 1 75 -10 - -\n");
   EXPECT_EQ(recording.info.fps, 10);
   EXPECT_EQ(text_of(read("a,b,c,d\n1,2,3,4\n", {.fps = 1, .unit = 1, .columns = "y,x,id,frame"})),
@@ -107,7 +107,7 @@ TEST_F(Trajectories, OptionsWinOverTheFile) {
 }
 
 TEST_F(Trajectories, OfFourColumnsAreToldBySteps) {
-  const TrajectoryOptions rate{.fps = 25, .unit = {}, .columns = {}};
+  const TrajectoryOptions rate{.fps = 25};
   const ReadRecording eth = read("780.0\t1.0\t8.46\t3.59\n790.0\t1.0\t9.57\t3.79\n790.0\t2.0\t1\t2\n", rate);
   EXPECT_EQ(text_of(eth), "780 1 8.46 3.59 - -\n790 1 9.57 3.79 - -\n790 2 1 2 - -\n");
   EXPECT_EQ(eth.info.format, "ETH/UCY columns");
@@ -116,19 +116,18 @@ TEST_F(Trajectories, OfFourColumnsAreToldBySteps) {
             "f: says no frame rate: --fps has to give the frame numbers a second");
 
   const std::string juelich = "1 0 1 2\n1 10 3 4\n2 0 5 6\n", unclear = "1 0 1 2\n1 1 3 4\n2 0 5 6\n";
-  EXPECT_EQ(text_of(read(juelich, {.fps = 25, .unit = 1, .columns = {}})),
-            "0 1 1 2 - -\n0 2 5 6 - -\n10 1 3 4 - -\n");
+  EXPECT_EQ(text_of(read(juelich, {.fps = 25, .unit = 1})), "0 1 1 2 - -\n0 2 5 6 - -\n10 1 3 4 - -\n");
   EXPECT_EQ(complaint(unclear, rate),
             "f: has four columns without a header: --columns has to say whether they are frame,id,x,y or "
             "id,frame,x,y");
-  EXPECT_EQ(text_of(read(unclear, {.fps = 25, .unit = {}, .columns = "frame,id,x,y"})),
+  EXPECT_EQ(text_of(read(unclear, {.fps = 25, .columns = "frame,id,x,y"})),
             "1 0 1 2 - -\n1 1 3 4 - -\n2 0 5 6 - -\n");
   EXPECT_EQ(text_of(read(unclear, {.fps = 25, .unit = 1, .columns = "id,frame,x,y"})),
             "0 1 1 2 - -\n0 2 5 6 - -\n1 1 3 4 - -\n");
 }
 
 TEST_F(Trajectories, OfCsvHaveColumnsByName) {
-  const TrajectoryOptions rate{.fps = 10, .unit = {}, .columns = {}};
+  const TrajectoryOptions rate{.fps = 10};
   const ReadRecording recording = read(
       "\xef\xbb\xbf"
       "ID,Frame,v_x,x,y,Heading,height\n7,0,9,1,2,-0.5,1.8\n8,0,nan,3,4,,\n9, 0 , 9,\"5\",+6,nan,nan\n",
@@ -155,14 +154,12 @@ TEST_F(Trajectories, OfTimesGetTheRateThatFitsAll) {
   EXPECT_EQ(rounded.info.fps, 30);
   EXPECT_EQ(rounded.frames.back().number, 4);
   EXPECT_EQ(assumptions_of(rounded), "The frame rate is taken for 30, that of most steps of time.\n");
-  const ReadRecording given =
-      read("id,time/ms,x,y\n1,0,1,2\n1,1500,1,2\n", {.fps = 4, .unit = 1, .columns = {}});
+  const ReadRecording given = read("id,time/ms,x,y\n1,0,1,2\n1,1500,1,2\n", {.fps = 4, .unit = 1});
   EXPECT_EQ(text_of(given), "0 1 1 2 - -\n6 1 1 2 - -\n");
   EXPECT_EQ(complaint("id,t,x,y\n1,5,1,2\n"),
             "f: has a single time, and so no frame rate: --fps has to give it");
   // Frames count where both are there.
-  EXPECT_EQ(text_of(read("id,t,frame,x,y\n1,oops,3,1,2\n", {.fps = 4, .unit = 1, .columns = {}})),
-            "3 1 1 2 - -\n");
+  EXPECT_EQ(text_of(read("id,t,frame,x,y\n1,oops,3,1,2\n", {.fps = 4, .unit = 1})), "3 1 1 2 - -\n");
 }
 
 TEST_F(Trajectories, OfPathfinderHaveALineOfUnits) {
@@ -190,7 +187,7 @@ TEST_F(Trajectories, OfTrajNetHaveFramesOfAFinerRate) {
             "numbers a second.\n");
   const std::string alone = "{\"track\": {\"f\": 20, \"p\": 1, \"x\": 8, \"y\": 3}}";
   EXPECT_EQ(complaint(alone), "f: says no frame rate: --fps has to give the frame numbers a second");
-  EXPECT_EQ(read(alone, {.fps = 5, .unit = {}, .columns = {}}).info.fps, 5);
+  EXPECT_EQ(read(alone, {.fps = 5}).info.fps, 5);
 }
 
 TEST_F(Trajectories, AreTheSameInAnyOrderAndWithAnyMemory) {
@@ -217,9 +214,7 @@ TEST_F(Trajectories, AreTheSameInAnyOrderAndWithAnyMemory) {
       for (std::size_t i = rows.size(); i > 1; --i)
         std::swap(rows[i - 1], rows[random.below(static_cast<std::uint32_t>(i))]);
     for (const std::size_t memory : {0, 1000, 5000, 1 << 25})
-      EXPECT_EQ(text_of(read(text(), {.fps = {}, .unit = {}, .columns = {}, .sort_memory = memory})),
-                expected)
-          << order << " " << memory;
+      EXPECT_EQ(text_of(read(text(), {.sort_memory = memory})), expected) << order << " " << memory;
   }
 }
 
@@ -232,8 +227,7 @@ TEST_F(Trajectories, OfTimesOutOfOrderGetTheSameRate) {
     reversed = row + reversed;
   }
   EXPECT_EQ(read(header + ordered).info.fps, 25);
-  const ReadRecording sorted =
-      read(header + reversed, {.fps = {}, .unit = {}, .columns = {}, .sort_memory = 0});
+  const ReadRecording sorted = read(header + reversed, {.sort_memory = 0});
   EXPECT_EQ(sorted.info.fps, 25);
   EXPECT_EQ(text_of(sorted), text_of(read(header + ordered)));
 }
@@ -269,7 +263,7 @@ TEST_F(Trajectories, NameTheRowThatIsWrong) {
 }
 
 TEST_F(Trajectories, AreRefusedByOneLine) {
-  const TrajectoryOptions rate{.fps = 10, .unit = {}, .columns = {}};
+  const TrajectoryOptions rate{.fps = 10};
   EXPECT_EQ(complaint(""), "f: is empty");
   EXPECT_EQ(complaint("\n\n"), "f: has no rows");
   EXPECT_EQ(complaint("# framerate: 25\n"), "f: has no rows");
@@ -312,10 +306,9 @@ TEST_F(Trajectories, NeedARateAndAUnitThatMakeSense) {
               "f:1: the frame rate '" + std::string(rate) + " fps' is not above 0 and at most 10000");
   EXPECT_EQ(complaint("# framerate: many\n" + rows), "f:1: the frame rate 'many' is not a number");
   EXPECT_EQ(complaint(rows), "f: says no frame rate: --fps has to give the frame numbers a second");
-  EXPECT_EQ(complaint(rows, {.fps = 0, .unit = {}, .columns = {}}),
+  EXPECT_EQ(complaint(rows, {.fps = 0}),
             "f: the frame rate of --fps is 0 frames a second, not above 0 and at most 10000");
-  EXPECT_EQ(complaint(rows, {.fps = 25, .unit = 0, .columns = {}}),
-            "f: the unit of --unit is 0 m, not above 0");
+  EXPECT_EQ(complaint(rows, {.fps = 25, .unit = 0}), "f: the unit of --unit is 0 m, not above 0");
 }
 
 TEST_F(Trajectories, OfTrajNetNameTheLineThatIsWrong) {
@@ -356,7 +349,7 @@ TEST_F(Trajectories, LeaveNoFileBehind) {
   std::string rows;
   for (int i = 2; i < 100; ++i) rows += "1 " + std::to_string(i) + " 1 1\n";
   ASSERT_EQ(setenv("TMPDIR", folder.file("tmp").c_str(), 1), 0);
-  const TrajectoryOptions little{.fps = {}, .unit = {}, .columns = {}, .sort_memory = 0};
+  const TrajectoryOptions little{.sort_memory = 0};
   folder.write("f", text + rows);
   EXPECT_THROW(test::read_recording(folder.file("f"), little),
                detail::TrajectoryError);  // there is no folder

@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <cmath>
+#include <fstream>
+#include <iterator>
+#include <limits>
+#include <string>
+
+#include "tests/support/archive_file.hpp"
+#include "tests/support/character_shapes.hpp"
+#include "tests/support/recordings.hpp"
+#include "tests/support/scenes.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+// Recordings of the Pedestrian Dynamics Data Archive.
+
+namespace bch {
+namespace {
+
+using test::ArchiveFile;
+using test::ReadRecording;
+using test::text_of;
+using Storage = ArchiveFile::Storage;
+
+class ArchiveFiles : public testing::Test {
+ protected:
+  TemporaryFolder folder;
+
+  ReadRecording read(const ArchiveFile& file, const detail::TrajectoryOptions& options = {}) const {
+    file.write(folder.file("f"));
+    ReadRecording recording = test::read_recording(folder.file("f"), options);
+    test::expect_sound(recording);
+    return recording;
+  }
+  std::string complaint(const ArchiveFile& file) const {
+    file.write(folder.file("f"));
+    return test::trajectory_complaint(folder.file("f"));
+  }
+};
+
+std::string bytes_of(const std::filesystem::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+constexpr const char* rows = "0 1 1.5 2 - 1.76\n0 2 3 4 - -\n1 1 1.75 2 - 1.76\n";
+
+TEST_F(ArchiveFiles, AreRead) {
+  ArchiveFile file;
+  const ReadRecording recording = read(file);
+  EXPECT_EQ(recording.info.format, "HDF5 of the Pedestrian Dynamics Data Archive");
+  EXPECT_EQ(recording.info.fps, 25);
+  EXPECT_EQ(recording.info.geometry, "POLYGON ((0 0, 1 0, 1 1, 0 0))");
+  EXPECT_EQ(text_of(recording), rows);
+  EXPECT_EQ(recording.info.assumptions.size(), 2u);  // on heights
+  file.fixed_text = true;
+  EXPECT_EQ(read(file).info.geometry, "POLYGON ((0 0, 1 0, 1 1, 0 0))");
+  file.geometry.reset();
+  EXPECT_EQ(read(file).info.assumptions.front(), "There are no walls: the file has no geometry.");
+  file.floats = true;
+  EXPECT_EQ(text_of(read(file)), rows);
+  file.storage = Storage::deflated;
+  EXPECT_EQ(text_of(read(file)), rows);
+  file.fps.reset();
+  EXPECT_EQ(read(file, {.fps = 8, .unit = 0.5}).frames[0].people[1].y, 2);
+}
+
+TEST_F(ArchiveFiles, MayHaveMoreRowsThanABatch) {
+  ArchiveFile file;
+  file.rows.clear();
+  for (std::int64_t frame = 5'000; frame > 0; --frame)
+    for (std::int64_t id = 0; id < 3; ++id)
+      file.rows.push_back({id, frame, 0.25 * static_cast<double>(frame), 1, 1.5});
+  const ReadRecording recording = read(file);
+  EXPECT_EQ(recording.info.rows, 15'000u);
+  EXPECT_EQ(recording.frames[41].people[2].x, 10.5);
+  file.rows.push_back({2, 7, 3, 1, 1.5});
+  EXPECT_EQ(complaint(file),
+            "f: row 15001: person 2 is at two places in frame 7, here at (3, 1), by row 14982 at (1.75, 1)");
+}
+
+TEST_F(ArchiveFiles, AreRefusedByOneLine) {
+  ArchiveFile file;
+  file.name = "positions";
+  EXPECT_EQ(complaint(file), "f: has no dataset 'trajectory'");
+  file = {};
+  file.z = "height";
+  EXPECT_EQ(complaint(file), "f: the records of 'trajectory' have no 'z'");
+  file = {};
+  file.x_is_integer = true;
+  EXPECT_EQ(complaint(file), "f: 'x' of 'trajectory' is not a floating-point number");
+  file = {};
+  file.is_plane = true;
+  EXPECT_EQ(complaint(file), "f: the dataset 'trajectory' is not one-dimensional");
+  file = {};
+  file.fps_is_text = true;
+  EXPECT_EQ(complaint(file), "f: the attribute 'fps' is not a number");
+  file = {};
+  file.fps = 0;
+  EXPECT_EQ(complaint(file), "f: the attribute 'fps' is 0 frames a second, not above 0 and at most 10000");
+  file.fps = 20'000;
+  EXPECT_EQ(complaint(file),
+            "f: the attribute 'fps' is 20000 frames a second, not above 0 and at most 10000");
+  file.fps.reset();
+  EXPECT_EQ(complaint(file), "f: says no frame rate: --fps has to give the frame numbers a second");
+  file = {};
+  file.rows.clear();
+  EXPECT_EQ(complaint(file), "f: has no rows");
+  file = {};
+  file.rows[1].y = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(complaint(file), "f: row 2: y 'nan' is not finite");
+  file.rows[1].y = 2e8;
+  EXPECT_EQ(complaint(file), "f: row 2: y '2e+08' is not within +-1e8 m");
+  file.rows[1].y = 2;
+  file.rows[2].frame = std::numeric_limits<std::int64_t>::min();
+  EXPECT_EQ(complaint(file), "f: row 3: frame '-9223372036854775808' is not within +-1e15");
+}
+
+TEST_F(ArchiveFiles, LieInOneFileAndNeedNoPlugin) {
+  ArchiveFile file;
+  file.storage = Storage::external_link;
+  EXPECT_EQ(complaint(file), "f: 'trajectory' is a link to elsewhere");
+  file.storage = Storage::soft_link;
+  EXPECT_EQ(complaint(file), "f: 'trajectory' is a link to elsewhere");
+  file.storage = Storage::external_file;
+  EXPECT_EQ(complaint(file), "f: the dataset 'trajectory' lies in other files");
+  file.storage = Storage::scaled;
+  EXPECT_EQ(complaint(file),
+            "f: the dataset 'trajectory' uses filter 5; deflate, shuffle and fletcher32 are read");
+  file.storage = Storage::big_chunks;
+  EXPECT_EQ(complaint(file), "f: the dataset 'trajectory' has chunks of more than 32 MiB");
+}
+
+TEST_F(ArchiveFiles, ThatAreDamagedAreReadOrRefused) {
+  ArchiveFile file;
+  file.write(folder.file("f"));
+  const std::string bytes = bytes_of(folder.file("f"));
+  ASSERT_GT(bytes.size(), 2'000u);
+  for (std::size_t size = 8; size < bytes.size(); size += 1 + bytes.size() / 40) {
+    const std::string message = test::trajectory_complaint(folder.write("g", bytes.substr(0, size)));
+    EXPECT_TRUE(message.starts_with("g: ")) << size << ": " << message;
+  }
+  // The library looks for ever at some heaps of texts.
+  const detail::TrajectoryOptions hasty{.patience = std::chrono::milliseconds(300)};
+  test::Random random(1);
+  std::uint32_t refused = 0;
+  for (std::uint32_t i = 0; i < test::samples(800); ++i) {
+    std::string damaged = bytes;
+    for (int flips = 0; flips < 4; ++flips)
+      damaged[8 + random.below(static_cast<std::uint32_t>(bytes.size() - 8))] ^=
+          static_cast<char>(1 << random.below(8));
+    refused += test::trajectory_complaint(folder.write("g", damaged), hasty) != "accepted";
+  }
+  EXPECT_GT(refused, 0u);
+}
+
+TEST_F(ArchiveFiles, OfTheArchiveAreRead) {
+  const auto data = test::test_data();
+  if (!data) GTEST_SKIP() << "BCH_TEST_DATA is not set: no real files to read";
+  const ReadRecording recording = test::read_recording(*data / "trajectories/data_archive_00_01a.h5");
+  test::expect_sound(recording);
+  EXPECT_EQ(recording.info.rows, 30'701u);
+  EXPECT_EQ(recording.info.people, 46u);
+  EXPECT_EQ(recording.info.fps, 25);
+  EXPECT_TRUE(recording.info.geometry.starts_with("POLYGON ((-4 -4, -4 6, "));
+}
+
+}  // namespace
+}  // namespace bch
