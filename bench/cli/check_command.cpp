@@ -85,6 +85,7 @@ void run_check(const CheckCommandOptions& options) {
   how.plan.slices = options.shapes.planes();
   how.max_distance = options.max_distance;
   how.walls = walls ? &*walls : nullptr;
+  how.coarse = reader->info().rows < detail::coarse_from ? 1 : 3;
   const CheckedRecording recording{options.file, reader->info(),
                                    static_cast<std::uint32_t>(how.plan.slices.size() + 1), walls.has_value(),
                                    walls_text(options, reader->info())};

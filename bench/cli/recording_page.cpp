@@ -51,8 +51,10 @@ RecordingPage::RecordingPage(const CheckedRecording& recording)
     : fps_(recording.info.fps),
       page_(facts_of(recording), [this](std::uint32_t number) { return shape(number); }) {}
 
-PageShape RecordingPage::shape(std::uint32_t number) const {
+/// The page asks for the shape of a person that is being added.
+PageShape RecordingPage::shape(std::uint32_t pose) const {
   PageShape shape{"pedestrian", {}};
+  const std::uint32_t number = pose - first_pose_;
   const ShapeSetView view = shapes_->view();
   for (std::uint32_t slab = 0; slab < view.slab_count; ++slab) {
     const std::uint32_t part =
@@ -66,10 +68,11 @@ PageShape RecordingPage::shape(std::uint32_t number) const {
 
 void RecordingPage::add(const CheckedFrame& frame, const ShapeSet& shapes) {
   shapes_ = &shapes;
+  if (!frame.people.empty()) first_pose_ = frame.people[0].pose - frame.people[0].shape;
   people_.clear(), overlaps_.clear();
   for (const CheckedPerson& person : frame.people)
     people_.push_back({person.walker.id,
-                       person.shape,
+                       person.pose,
                        {person.walker.x, person.walker.y},
                        static_cast<float>(person.walker.heading),
                        static_cast<float>(person.walker.speed),

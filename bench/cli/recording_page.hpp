@@ -19,10 +19,11 @@ class RecordingPage {
   std::string finish(const detail::CheckSummary& summary) &&;
 
  private:
-  PageShape shape(std::uint32_t number) const;
+  PageShape shape(std::uint32_t pose) const;
 
   const double fps_;
   const ShapeSet* shapes_ = nullptr;  ///< those of the frame that is added
+  std::uint32_t first_pose_ = 0;      ///< of these
   std::vector<PagePerson> people_;
   std::vector<PageOverlap> overlaps_;
   CheckPage page_;

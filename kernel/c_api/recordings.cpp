@@ -126,6 +126,7 @@ std::unique_ptr<bch_check> run_check(bch_trajectory& trajectory, const bch_check
                   : walls                ? &*walls
                                          : nullptr;
 
+  options.coarse = trajectory.reader->info().rows < coarse_from ? 1 : 3;
   auto made = std::make_unique<bch_check>();
   const TrajectoryInfo& info = trajectory.reader->info();
   on_threads(given.threads, [&] {

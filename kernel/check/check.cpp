@@ -147,7 +147,7 @@ void Checker::turn_shoulders(const FrameBlock& block) {
 void Checker::pose(const FrameBlock& block) {
   poses_.clear();
   for (std::size_t i = 0; i < block.people().size(); ++i)
-    poses_.emplace_back(block.people()[i], shoulders_[i]);
+    poses_.emplace_back(block.people()[i], shoulders_[i], options_.coarse);
   shape_.resize(poses_.size());
   shapes_.find(poses_, shape_);
 }
@@ -289,8 +289,8 @@ void Checker::count(const FrameBlock& block, std::size_t people) {
 void Checker::tell(const FrameBlock& block, std::size_t frame, double fps) {
   people_.clear();
   for (std::size_t i = block.begin(frame); i < block.begin(frame + 1); ++i)
-    people_.push_back(
-        {block.people()[i], shape_[i], static_cast<float>(density_[i]), overlaps_[i] != 0, in_wall_[i] != 0});
+    people_.push_back({block.people()[i], shape_[i], shapes_.given_up() + shape_[i],
+                       static_cast<float>(density_[i]), overlaps_[i] != 0, in_wall_[i] != 0});
   const auto of_frame =
       std::ranges::equal_range(checked_, static_cast<std::int64_t>(frame), {}, &CheckedPair::frame);
   of_frame_.assign(of_frame.begin(), of_frame.end());
@@ -325,7 +325,7 @@ void Checker::check(const FrameBlock& block, bool at_end, double fps) {
 CheckSummary Checker::finish() {
   summary_.events = events_.finish();
   summary_.people = ids_.size();
-  summary_.shapes = shapes_.set().shape_count();
+  summary_.shapes = shapes_.given_up() + shapes_.set().shape_count();
   return std::move(summary_);
 }
 

@@ -26,8 +26,10 @@ struct CheckOptions {
   ShapeSetPlan plan = {};   ///< one level; slices cut the bodies
   double max_distance = 0;  ///< gaps up to that are measured, metres; 0: none are
   const ObstacleSet* walls = nullptr;
+  std::uint32_t coarse =
+      1;  ///< 1: neither speed nor phase of a pose is off by what moves an outline by 1 cm; 3: by 3 cm
   std::size_t people_at_once =
-      50'000;  ///< about so many, of many frames; the answers are the same for any number
+      100'000;  ///< about so many, of many frames; the answers are the same for any number
 };
 
 /// Two people of a frame, or a person and a wall, who are near each other.
@@ -45,11 +47,15 @@ struct CheckedPair {
 /// A person of a frame, as he was checked.
 struct CheckedPerson {
   Walker walker;
-  std::uint32_t shape;
-  float density;  ///< people per square metre within a metre of him
-  bool overlaps;  ///< somebody, in this frame
+  std::uint32_t shape;  ///< in the set that is handed over with the frame
+  std::uint32_t pose;   ///< a number that nobody in another pose has, in the whole recording
+  float density;        ///< people per square metre within a metre of him
+  bool overlaps;        ///< somebody, in this frame
   bool in_wall;
 };
+
+/// Recordings of more rows than that are checked with coarser poses, so that these are still few beside the rows.
+constexpr std::uint64_t coarse_from = 300'000;
 
 /// A frame that was checked.
 struct CheckedFrame {

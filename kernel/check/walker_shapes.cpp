@@ -20,22 +20,27 @@ namespace {
 
 constexpr double shortest_stature = 0.9, stature_step = 1.04;
 constexpr std::uint32_t stature_classes = 25;  // up to 2.3 m
-constexpr float threshold = 0.01f;
+constexpr float threshold = 0.02f;             ///< metres; segments decide who overlaps, discs how deep
 
 /// The number of phases at a speed: feet go faster, relative to the body, the faster people walk.
-std::uint32_t phases_at(std::uint32_t speed) {
-  return static_cast<std::uint32_t>(32 + 200 * pedestrian_speed_step * speed);
+std::uint32_t phases_at(std::uint32_t clip, std::uint32_t coarse) {
+  return static_cast<std::uint32_t>(28 + 170 * pedestrian_speed_step * clip) / coarse;
+}
+
+/// The nearest multiple of a number.
+std::uint32_t rounded(double value, std::uint32_t step) {
+  return static_cast<std::uint32_t>(std::round(value / step)) * step;
 }
 
 }  // namespace
 
-WalkerPose::WalkerPose(const Walker& walker, Shoulders held) : is_female(walker.is_female), shoulders(held) {
+WalkerPose::WalkerPose(const Walker& walker, Shoulders held, std::uint32_t coarse)
+    : is_female(walker.is_female), shoulders(held) {
   const double size =
       std::log(std::max(walker.stature, shortest_stature) / shortest_stature) / std::log(stature_step);
-  stature = std::min<std::uint32_t>(static_cast<std::uint32_t>(std::lround(size)), stature_classes - 1);
-  clip = static_cast<std::uint32_t>(
-      std::min(std::round(walker.speed / pedestrian_speed_step), pedestrian_speeds - 1.0));
-  const std::uint32_t phases = phases_at(clip);
+  stature = std::min(rounded(size, coarse), stature_classes - 1);
+  clip = std::min(rounded(walker.speed / pedestrian_speed_step, coarse), pedestrian_speeds - 1);
+  phases = phases_at(clip, coarse);
   phase = std::min(static_cast<std::uint32_t>(walker.phase * phases), phases - 1);
 }
 
@@ -52,7 +57,7 @@ double WalkerPose::metres() const noexcept {
 }
 
 PoseTime WalkerPose::at() const noexcept {
-  const double share = (phase + 0.5) / phases_at(clip);
+  const double share = (phase + 0.5) / phases;
   return {clip, static_cast<float>(share / pedestrian_strides_per_second(clip * pedestrian_speed_step))};
 }
 
@@ -102,6 +107,11 @@ void WalkerShapes::build(std::span<const WalkerPose> poses) {
 }
 
 void WalkerShapes::find(std::span<const WalkerPose> poses, std::span<std::uint32_t> shapes) {
+  if (set_->shape_count() > most_shapes) {
+    given_up_ += set_->shape_count();
+    *set_ = ShapeSet(std::span<const Shape>(), plan_);
+    number_of_.clear();
+  }
   std::vector<WalkerPose> missing;
   for (std::size_t i = 0; i < poses.size(); ++i) {
     const auto next = static_cast<std::uint32_t>(set_->shape_count() + missing.size());

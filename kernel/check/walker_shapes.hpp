@@ -27,24 +27,31 @@ struct WalkerPose {
   Shoulders shoulders;
   std::uint32_t clip;  ///< of default_pedestrian()
   std::uint32_t phase;
+  std::uint32_t phases;  ///< of which it is one
 
-  WalkerPose(const Walker& walker, Shoulders shoulders);
+  /// `coarse`: multiplies the steps of speed and phase, and the exponent of that of stature: 1 or 3.
+  WalkerPose(const Walker& walker, Shoulders shoulders, std::uint32_t coarse = 1);
   std::uint64_t key() const noexcept;
   std::uint64_t body() const noexcept;  ///< the same for all that one character has
   double metres() const noexcept;       ///< of the stature
   PoseTime at() const noexcept;
 };
 
-/// The shapes of pedestrians in all poses that were asked for so far, each built once, on all threads.
+/// The shapes of pedestrians in the poses that were asked for, built on all threads and kept for the next time. Where they become many,
+/// all are given up, and those that are asked for again are built again.
 class WalkerShapes {
  public:
+  static constexpr std::uint32_t most_shapes = 40'000;  ///< kept from one call of find() to the next
+
   explicit WalkerShapes(const ShapeSetPlan& plan);
   ~WalkerShapes();
 
-  /// Finds the shape of each pose, and builds those that are new.
+  /// Finds the shape of each pose, as its index in set(), and builds those that are new.
   void find(std::span<const WalkerPose> poses, std::span<std::uint32_t> shapes);
-  /// Returns the shapes so far; they keep their numbers.
+  /// Returns the shapes, which stay until the next call of find().
   const ShapeSet& set() const noexcept { return *set_; }
+  /// Returns how many shapes were given up: their number and an index in set() are a number that no other shape has.
+  std::uint32_t given_up() const noexcept { return given_up_; }
 
  private:
   struct Workshop;
@@ -54,6 +61,7 @@ class WalkerShapes {
 
   const ShapeSetPlan plan_;
   std::unique_ptr<ShapeSet> set_;
+  std::uint32_t given_up_ = 0;
   std::unordered_map<std::uint64_t, std::uint32_t> number_of_;
   std::unordered_map<std::uint64_t, std::unique_ptr<const Character>> characters_;
 };

@@ -43,13 +43,15 @@ TEST(Cli, CheckTellsWhoRunsIntoWhom) {
   EXPECT_EQ(summary["people"], 3);
   EXPECT_EQ(summary["all"]["person_frames"], 300);
   EXPECT_GT(summary["all"]["overlapping"], 10);
-  const nlohmann::json& event = summary["events"].at(0);
-  EXPECT_EQ(event["first"], 5);
-  EXPECT_EQ(event["second"], 7);
-  EXPECT_EQ(event["kind"], "overlap");
+  std::size_t overlaps = 0;
+  for (const nlohmann::json& event : summary["events"]) {
+    EXPECT_EQ(event["first"], 5);
+    EXPECT_EQ(event["second"], 7);
+    overlaps += event["kind"] == "overlap";
+  }
+  EXPECT_GT(overlaps, 0u);
   EXPECT_EQ(lines(read_text(events)), 1 + summary["events"].size());
-  EXPECT_TRUE(
-      read_text(events).starts_with("first,second,kind,from,to,frames,worst,depth,x,y\n5,7,overlap,"));
+  EXPECT_TRUE(read_text(events).starts_with("first,second,kind,from,to,frames,worst,depth,x,y\n5,7,"));
   EXPECT_EQ(lines(read_text(frames)), 101u);
   EXPECT_NE(read_text(frames).find("\n50,2.0000,3,"), std::string::npos);
   EXPECT_NE(read_text(pairs).find(",5,7,near,"), std::string::npos);
