@@ -29,7 +29,7 @@ bool before(const Row& a, const Row& b) {
 
 std::filesystem::path folder() {
   std::error_code error;
-  const std::filesystem::path path = std::filesystem::temp_directory_path(error);
+  std::filesystem::path path = std::filesystem::temp_directory_path(error);
   if (error) throw TrajectoryError("the folder for temporary files is not there: " + error.message());
   return path;
 }

@@ -4,9 +4,6 @@
 // Tables of agents and pairs, of any bytes: each is refused with an InputError, or every value is in range. What is
 // shown of them has no control characters.
 
-#include <sys/mman.h>
-#include <unistd.h>
-
 #include <cmath>
 #include <string>
 
@@ -14,27 +11,11 @@
 #include "bench/base/exit_codes.hpp"
 #include "bench/base/printable.hpp"
 #include "layout/base/rounding.hpp"
+#include "tests/fuzz/memory_file.hpp"
 #include "tests/fuzz/target.hpp"
 
 namespace bch::fuzz {
 namespace {
-
-/// A file without a folder.
-class MemoryFile {
- public:
-  explicit MemoryFile(const std::string& text) : descriptor_(memfd_create("table", 0)) {
-    require(descriptor_ >= 0, "a file in memory can be made");
-    require(write(descriptor_, text.data(), text.size()) == static_cast<ssize_t>(text.size()),
-            "a file in memory can be written");
-  }
-  ~MemoryFile() { close(descriptor_); }
-  MemoryFile(const MemoryFile&) = delete;
-  MemoryFile& operator=(const MemoryFile&) = delete;
-  std::string path() const { return "/proc/self/fd/" + std::to_string(descriptor_); }
-
- private:
-  int descriptor_;
-};
 
 void check(const cli::AgentTable& table, std::uint32_t shapes, std::uint32_t levels) {
   const std::size_t count = table.id.size();

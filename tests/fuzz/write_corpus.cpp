@@ -101,6 +101,31 @@ void add_gltf(Folder folder) {
   folder.add(strip.text());
 }
 
+/// Texts of each format; the byte before them chooses options.
+void add_recordings(Folder folder) {
+  folder.add(
+      "\2# framerate: 25 fps\n# id frame x/m y/m z/m\n1 1 1.5 -2 1.76\n1 0 1e1 +2 0.3\n2\t0\t1\t2\t1.5\n");
+  folder.add(
+      "\3"
+      "1 43 79.035 774.009 183.02\n2 43 79 764 183\n1 44 79 764 183\n");
+  folder.add(
+      "\1"
+      "780.0\t1.0\t8.46\t3.59\n790.0\t1.0\t9.57\t3.79\n790.0\t2.0\t1\t2\n");
+  folder.add(
+      "\5"
+      "1 0.04 1 2 3 1.7\n2 0.08 1 2 nan 0\n");
+  folder.add(std::string(1, '\0') +
+             "\"t\",\"id\",\"name\",\"x\",\"y\",\"z\"\n\"s\",\"\",\"\",\"m\",\"m\",\"m\"\n"
+             "0.5,1,\"a, \"\"b\"\"\",1,2,0.02\n0.0,1,\"\",1,2,0.02\n");
+  folder.add("\1ID,Frame,x [cm],y [cm],heading,height\n1,2,3,4,0.5,1.8\n2,2,3,4,,\n");
+  folder.add(std::string(1, '\0') +
+             "{\"scene\": {\"id\": 0, \"fps\": 2.5, \"tag\": [4, [2]]}}\n"
+             "{\"track\": {\"f\": 20, \"p\": 1, \"x\": 8.46, \"y\": -3.5, \"prediction_number\": 0}}\n"
+             "{\"track\": {\"f\": 10, \"p\": 1, \"x\": 1, \"y\": 2, \"prediction_number\": 1}}\n"
+             "{\"track\": {\"f\": 10, \"p\": 1, \"x\": 1, \"y\": 2}}\n");
+  folder.add(std::string(1, '\0') + "id,time/ms,x,y\n1,0,1,2\n1,33,1,2\n1,67,1,2\n");
+}
+
 void add_noise(Folder folder, std::uint64_t seed) {
   Random random(seed);
   for (const std::uint32_t size : {40u, 150u, 300u, 600u, 1200u}) {
@@ -120,6 +145,7 @@ int main(int argc, char** argv) {
   add_tables({argv[1], "csv"});
   add_lines({argv[1], "options"});
   add_gltf({argv[1], "gltf"});
+  add_recordings({argv[1], "trajectory_text"});
   std::uint64_t seed = 10;
   for (const char* target : {"scene", "outline", "hierarchy", "collide", "c_api"})
     add_noise({argv[1], target}, ++seed);
