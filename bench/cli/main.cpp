@@ -22,7 +22,8 @@ constexpr const char* description =
 constexpr const char* footer =
     "Data goes to standard output, messages to standard error.\n"
     "Exit codes: 0 success; 1 a check that fails (check --fail-above); 2 usage; 3 a file that cannot be "
-    "read, believed or written; 4 internal error;\n"
+    "read, believed\n"
+    "            or written; 4 internal error;\n"
     "            128 + N ended by signal N (129 hang-up, 130 interrupt, 143 termination).\n"
     "No half-written file stays behind.";
 
