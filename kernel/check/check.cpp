@@ -291,9 +291,10 @@ void Checker::tell(const FrameBlock& block, std::size_t frame, double fps) {
   for (std::size_t i = block.begin(frame); i < block.begin(frame + 1); ++i)
     people_.push_back({block.people()[i], shape_[i], shapes_.given_up() + shape_[i],
                        static_cast<float>(density_[i]), overlaps_[i] != 0, in_wall_[i] != 0});
-  const auto of_frame =
-      std::ranges::equal_range(checked_, static_cast<std::int64_t>(frame), {}, &CheckedPair::frame);
-  of_frame_.assign(of_frame.begin(), of_frame.end());
+  const auto in_order = [](const CheckedPair& pair, std::int64_t number) { return pair.frame < number; };
+  const auto number = static_cast<std::int64_t>(frame);
+  of_frame_.assign(std::lower_bound(checked_.begin(), checked_.end(), number, in_order),
+                   std::lower_bound(checked_.begin(), checked_.end(), number + 1, in_order));
   for (CheckedPair& pair : of_frame_) {
     pair.frame = block.frame(frame);
     summary_.passings += pair.passing;
