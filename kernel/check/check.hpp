@@ -71,11 +71,14 @@ constexpr std::array<double, 6> density_classes{0, 1, 2, 3, 4, 6};
 
 /// Person-frames, and how many of them overlap.
 struct OverlapCount {
-  std::uint64_t people = 0, overlapping = 0, in_walls = 0;
+  std::uint64_t people = 0, guessed = 0, overlapping = 0, in_walls = 0;
   std::array<std::uint64_t, compared_discs.size()> discs{};
   std::uint64_t near_pairs = 0, overlapping_pairs = 0;  ///< of those within 1.2 m
   std::array<std::uint64_t, compared_discs.size()> disc_pairs{};
+
+  OverlapCount& operator+=(const OverlapCount& other);
 };
+using OverlapCounts = std::array<OverlapCount, density_classes.size()>;
 
 /// Two people who overlap in frames one after the other.
 struct OverlapEvent {
@@ -92,14 +95,15 @@ struct CheckSummary {
   std::uint64_t frames = 0, people = 0, guessed = 0, passings = 0;
   std::int64_t first_frame = 0, last_frame = 0;
   OverlapCount all;
-  std::array<OverlapCount, density_classes.size()> by_density;
+  OverlapCounts by_density;
   std::vector<OverlapEvent> events;  ///< by their first frames, then ids
   std::uint32_t shapes = 0;
 };
 
 /// Puts a walking person on every row of a recording and finds who runs into whom. Reads frame after frame; memory grows with the people, and with
-/// those of some frames. `seen`, which may be empty, hears of every frame in turn.
-/// Threads: runs in the caller's TBB arena. The same answers for any number of threads.
+/// those of some frames. `seen`, which may be empty, hears of every frame in turn, on the caller's thread.
+/// Threads: runs in the caller's TBB arena, and reads on any of its threads, what comes next while it checks. The same answers for any
+///          number of threads.
 CheckSummary check(TrajectoryReader& reader, const CheckOptions& options,
                    const std::function<void(const CheckedFrame&, const ShapeSet&)>& seen = {});
 

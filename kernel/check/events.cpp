@@ -4,38 +4,44 @@
 #include "kernel/check/events.hpp"
 
 #include <algorithm>
-#include <iterator>
 #include <tuple>
 
 namespace bch::detail {
+namespace {
+
+/// Who it is about; the order of the pairs of a frame.
+template <class Overlap>
+auto who(const Overlap& overlap) {
+  return std::tie(overlap.first, overlap.is_wall, overlap.second);
+}
+
+}  // namespace
 
 void EventLog::add(const CheckedFrame& frame) {
+  still_open_.clear();
+  auto open = open_.begin();
+  auto person = frame.people.begin();
   for (const CheckedPair& pair : frame.pairs) {
     if (!pair.overlap && !pair.passing) continue;
-    const auto who =
-        std::lower_bound(frame.people.begin(), frame.people.end(), pair.first,
-                         [](const CheckedPerson& a, std::int64_t id) { return a.walker.id < id; });
-    const auto [entry, is_new] = open_.try_emplace({pair.first, pair.second, pair.is_wall});
-    OverlapEvent& event = entry->second;
-    if (is_new)
-      event = {pair.first, pair.second, pair.is_wall, frame.frame, frame.frame, frame.frame, 0, -1, 0, 0};
+    for (; open != open_.end() && who(*open) < who(pair); ++open) closed_.push_back(*open);
+    while (person->walker.id != pair.first) ++person;
+    const bool goes_on = open != open_.end() && who(*open) == who(pair);
+    OverlapEvent& event =
+        still_open_.emplace_back(goes_on ? *open++
+                                         : OverlapEvent{pair.first, pair.second, pair.is_wall, frame.frame,
+                                                        frame.frame, frame.frame, 0, -1, 0, 0});
     event.to = frame.frame;
     ++event.frames;
     if (pair.overlap && pair.depth > event.depth)
-      event.depth = pair.depth, event.worst = frame.frame, event.x = who->walker.x, event.y = who->walker.y;
+      event.depth = pair.depth, event.worst = frame.frame, event.x = person->walker.x,
+      event.y = person->walker.y;
   }
-  for (auto entry = open_.begin(); entry != open_.end();) {
-    const auto next = std::next(entry);
-    if (entry->second.to != frame.frame) {
-      closed_.push_back(entry->second);
-      open_.erase(entry);
-    }
-    entry = next;
-  }
+  closed_.insert(closed_.end(), open, open_.end());
+  open_.swap(still_open_);
 }
 
 std::vector<OverlapEvent> EventLog::finish() {
-  for (const auto& [who, event] : open_) closed_.push_back(event);
+  closed_.insert(closed_.end(), open_.begin(), open_.end());
   open_.clear();
   std::sort(closed_.begin(), closed_.end(), [](const OverlapEvent& a, const OverlapEvent& b) {
     return std::tie(a.from, a.first, a.is_wall, a.second) < std::tie(b.from, b.first, b.is_wall, b.second);

@@ -3,9 +3,6 @@
 
 #pragma once
 
-#include <compare>
-#include <cstdint>
-#include <map>
 #include <vector>
 
 #include "kernel/check/check.hpp"
@@ -21,12 +18,7 @@ class EventLog {
   std::vector<OverlapEvent> finish();
 
  private:
-  struct Who {
-    std::int64_t first, second;
-    bool is_wall;
-    auto operator<=>(const Who&) const = default;
-  };
-  std::map<Who, OverlapEvent> open_;
+  std::vector<OverlapEvent> open_, still_open_;  ///< in the order of a frame's pairs
   std::vector<OverlapEvent> closed_;
 };
 

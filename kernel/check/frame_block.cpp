@@ -4,7 +4,6 @@
 #include "kernel/check/frame_block.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 namespace bch::detail {
 namespace {
@@ -14,21 +13,14 @@ constexpr double farthest = 4e8;       ///< of a block's frames from each other
 
 }  // namespace
 
-std::size_t FrameBlock::find(std::size_t i, std::int64_t id) const noexcept {
-  const auto people = people_of(i);
-  const auto found =
-      std::lower_bound(people.begin(), people.end(), id,
-                       [](const Walker& walker, std::int64_t wanted) { return walker.id < wanted; });
-  if (found == people.end() || found->id != id) return people_.size();
-  return begin_[i] + static_cast<std::size_t>(found - people.begin());
-}
-
-void FrameBlock::keep_last() {
-  if (frames_.size() < 2) return;
-  const std::int64_t last = frames_.back();
-  people_.erase(people_.begin(), people_.begin() + static_cast<std::ptrdiff_t>(begin_[frames_.size() - 1]));
-  frames_ = {last};
-  begin_ = {0, people_.size()};
+void FrameBlock::begin_with_last_of(const FrameBlock& before) {
+  frames_.clear(), people_.clear();
+  begin_ = {0};
+  if (before.frames() == 0) return;
+  frames_.push_back(before.frames_.back());
+  people_.assign(before.people_.begin() + static_cast<std::ptrdiff_t>(before.begin(before.frames() - 1)),
+                 before.people_.end());
+  begin_.push_back(people_.size());
 }
 
 void FrameBlock::add(const WalkerFrame& frame) {
@@ -37,8 +29,8 @@ void FrameBlock::add(const WalkerFrame& frame) {
   begin_.push_back(people_.size());
 }
 
-bool FrameBlock::read(WalkerReader& reader, std::size_t people) {
-  keep_last();
+bool FrameBlock::read(WalkerReader& reader, std::size_t people, const FrameBlock& before) {
+  begin_with_last_of(before);
   WalkerFrame next;
   bool at_end = false;
   while (!at_end && (people_.size() < people || frames_.size() < 2)) {
@@ -46,19 +38,19 @@ bool FrameBlock::read(WalkerReader& reader, std::size_t people) {
     if (!at_end) add(next);
   }
   place();
+  next_of_.assign(people_.size(), nobody);
+  for (std::size_t i = 0; i + 1 < frames_.size(); ++i) find_next(i);
   return at_end;
 }
 
-double FrameBlock::longest_step() const noexcept {
-  double square = 0;
-  for (std::size_t i = 0; i + 1 < frames(); ++i)
-    for (const Walker& walker : people_of(i)) {
-      const std::size_t next = find(i + 1, walker.id);
-      if (next == people_.size()) continue;
-      const double dx = people_[next].x - walker.x, dy = people_[next].y - walker.y;
-      square = std::max(square, dx * dx + dy * dy);
-    }
-  return std::sqrt(square);
+/// Both frames are in the order of ids.
+void FrameBlock::find_next(std::size_t frame) {
+  std::size_t next = begin_[frame + 1];
+  for (std::size_t i = begin_[frame]; i < begin_[frame + 1]; ++i) {
+    while (next < begin_[frame + 2] && people_[next].id < people_[i].id) ++next;
+    if (next < begin_[frame + 2] && people_[next].id == people_[i].id)
+      next_of_[i] = static_cast<std::uint32_t>(next);
+  }
 }
 
 void FrameBlock::place() {
@@ -66,14 +58,15 @@ void FrameBlock::place() {
   for (const Walker& walker : people_) low = std::min(low, walker.x), high = std::max(high, walker.x);
   const double spacing =
       std::min(high - low + between_frames, farthest / static_cast<double>(frames_.size()));
-  x_.clear(), y_.clear(), heading_.clear(), own_x_.clear(), frame_of_.clear();
+  x_.clear(), y_.clear(), heading_.clear(), apart_x_.clear(), frame_of_.clear();
   for (std::size_t i = 0; i < frames_.size(); ++i)
-    for (const Walker& walker : people_of(i)) {
-      x_.push_back(walker.x + spacing * static_cast<double>(i));
+    for (std::size_t k = begin_[i]; k < begin_[i + 1]; ++k) {
+      const Walker& walker = people_[k];
+      x_.push_back(walker.x);
       y_.push_back(walker.y);
       heading_.push_back(walker.heading);
-      own_x_.push_back(walker.x);
-      frame_of_.push_back(i);
+      apart_x_.push_back(walker.x + spacing * static_cast<double>(i));
+      frame_of_.push_back(static_cast<std::uint32_t>(i));
     }
 }
 

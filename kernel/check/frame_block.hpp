@@ -14,45 +14,44 @@
 
 namespace bch::detail {
 
-/// Frames that are checked at once, as one crowd: each stands far from the others, so that only people of the same frame meet. The
-/// last one is there for what happens between it and the one before.
+/// Frames one behind the other that are checked at once. The last one is there for what happens between it and the one before.
 class FrameBlock {
  public:
+  /// Stands for nobody.
+  static constexpr std::uint32_t nobody = 0xffff'ffff;
+
   std::size_t frames() const noexcept { return frames_.size(); }
   std::int64_t frame(std::size_t i) const noexcept { return frames_[i]; }
   /// Returns where the people of frame i begin, and, for i = frames(), their number.
   std::size_t begin(std::size_t i) const noexcept { return begin_[i]; }
-  std::size_t frame_of(std::size_t person) const noexcept { return frame_of_[person]; }
   std::span<const Walker> people() const noexcept { return people_; }
-  std::span<const Walker> people_of(std::size_t i) const noexcept {
-    return people().subspan(begin_[i], begin_[i + 1] - begin_[i]);
-  }
-  /// Returns the person of frame i with an id, or the number of all people where there is none.
-  std::size_t find(std::size_t i, std::int64_t id) const noexcept;
+  /// By person: the frame, and the same person in the frame behind it, or nobody.
+  std::span<const std::uint32_t> frame_of() const noexcept { return frame_of_; }
+  std::span<const std::uint32_t> next_of() const noexcept { return next_of_; }
 
-  /// Reads frames until there are about so many people, behind the last frame of those before. Returns whether the recording ends with
-  /// this block.
-  bool read(WalkerReader& reader, std::size_t people);
+  /// Reads frames until there are about so many people. They begin with the last frame of the block before, if there was one.
+  /// Returns whether the recording ends with this block.
+  bool read(WalkerReader& reader, std::size_t people, const FrameBlock& before);
 
-  /// Returns the longest way of a person from one of the frames to the next, metres.
-  double longest_step() const noexcept;
-
-  /// The people as agents, frames far from each other.
+  /// The people as agents.
   std::span<const double> x() const noexcept { return x_; }
   std::span<const double> y() const noexcept { return y_; }
   std::span<const double> heading() const noexcept { return heading_; }
-  /// Where they are in the recording.
-  std::span<const double> own_x() const noexcept { return own_x_; }
+  /// Where they are if every frame stands far from the others, so that people of one frame alone are neighbours. (Where the places of a
+  /// frame are hundreds of kilometres from each other, there are others.)
+  std::span<const double> apart_x() const noexcept { return apart_x_; }
 
  private:
-  void keep_last();
+  void begin_with_last_of(const FrameBlock& before);
   void add(const WalkerFrame& frame);
   void place();
+  void find_next(std::size_t frame);
 
   std::vector<std::int64_t> frames_;
-  std::vector<std::size_t> begin_{0}, frame_of_;
+  std::vector<std::size_t> begin_;
+  std::vector<std::uint32_t> frame_of_, next_of_;
   std::vector<Walker> people_;
-  std::vector<double> x_, y_, heading_, own_x_;
+  std::vector<double> x_, y_, heading_, apart_x_;
 };
 
 }  // namespace bch::detail

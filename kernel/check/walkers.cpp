@@ -46,14 +46,16 @@ bool WalkerReader::read_one() {
     at_end_ = true;
     return false;
   }
-  for (const TrackedPerson& person : next.people)
-    tracks_[person.id].places.push_back({next.frame, person.x, person.y});
+  for (const TrackedPerson& person : next.people) {
+    Track& track = tracks_[person.id];
+    track.places.push_back({next.frame, person.x, person.y});
+    next.tracks.push_back(&track);
+  }
   ahead_.push_back(std::move(next));
   return true;
 }
 
-Walker WalkerReader::walk(const TrackedPerson& person, std::int64_t frame) {
-  Track& track = tracks_[person.id];
+Walker WalkerReader::walk(const TrackedPerson& person, Track& track, std::int64_t frame) const {
   // Those before the window go, but for the last one before this frame, which recordings of few frames need.
   while (track.places.size() > 1 && track.places[0].frame < frame - window_ && track.places[1].frame < frame)
     track.places.pop_front();
@@ -87,13 +89,15 @@ Walker WalkerReader::walk(const TrackedPerson& person, std::int64_t frame) {
 }
 
 /// Who has not moved yet faces the way in which the others walk.
-void WalkerReader::face_the_crowd(WalkerFrame& frame) {
+void WalkerReader::face_the_crowd(WalkerFrame& frame, const std::vector<Track*>& tracks) const {
+  if (std::all_of(tracks.begin(), tracks.end(), [](const Track* track) { return track->has_heading; }))
+    return;
   double x = 0, y = 0;
   for (const Walker& walker : frame.people)
     if (!walker.is_guessed) x += std::cos(walker.heading), y += std::sin(walker.heading);
   if (x == 0 && y == 0) return;
-  for (Walker& walker : frame.people)
-    if (walker.is_guessed && !tracks_[walker.id].has_heading) walker.heading = std::atan2(y, x);
+  for (std::size_t i = 0; i < tracks.size(); ++i)
+    if (!tracks[i]->has_heading) frame.people[i].heading = std::atan2(y, x);
 }
 
 bool WalkerReader::next(WalkerFrame& frame) {
@@ -104,8 +108,9 @@ bool WalkerReader::next(WalkerFrame& frame) {
   ahead_.pop_front();
   frame.frame = now.frame;
   frame.people.clear();
-  for (const TrackedPerson& person : now.people) frame.people.push_back(walk(person, now.frame));
-  face_the_crowd(frame);
+  for (std::size_t i = 0; i < now.people.size(); ++i)
+    frame.people.push_back(walk(now.people[i], *now.tracks[i], now.frame));
+  face_the_crowd(frame, now.tracks);
   return true;
 }
 

@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <deque>
 #include <unordered_map>
@@ -41,6 +42,8 @@ class WalkerReader {
 
   /// Reads the next frame. Returns false at the end.
   bool next(WalkerFrame& frame);
+  /// Returns how many different people were read.
+  std::size_t people() const noexcept { return tracks_.size(); }
 
  private:
   struct Place {
@@ -57,11 +60,12 @@ class WalkerReader {
   struct Frame {
     std::int64_t frame;
     std::vector<TrackedPerson> people;
+    std::vector<Track*> tracks;  ///< of the people
   };
 
   bool read_one();
-  Walker walk(const TrackedPerson& person, std::int64_t frame);
-  void face_the_crowd(WalkerFrame& frame);
+  Walker walk(const TrackedPerson& person, Track& track, std::int64_t frame) const;
+  void face_the_crowd(WalkerFrame& frame, const std::vector<Track*>& tracks) const;
 
   TrajectoryReader& reader_;
   const double fps_;

@@ -1,0 +1,303 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include "kernel/check/frame_run.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <tuple>
+
+#include <bch/clearance.hpp>
+#include <bch/collide.hpp>
+#include <bch/hierarchy.hpp>
+#include <bch/penetration.hpp>
+#include <bch/time_of_impact.hpp>
+
+namespace bch::detail {
+namespace {
+
+constexpr std::uint32_t directions = 32;
+constexpr double near_distance = 1.2, density_distance = 1;  ///< metres
+constexpr double crowded = 4;        ///< people per square metre: from there on they turn their shoulders
+constexpr double beside = 0.6;       ///< metres: for somebody who is so near at a side
+constexpr double farthest_step = 6;  ///< metres, of two people together; beyond, it is a jump and no way
+/// Metres: nobody passes through a body, an arm included, who moves by less than that.
+constexpr double thinnest = 0.05;
+constexpr double pi = std::numbers::pi;
+
+const ShapeSet& near_discs() {
+  static const ShapeSet discs = [] {
+    Shape disc;
+    disc.hierarchy = fixed_cylinder(static_cast<float>(near_distance / 2));
+    return ShapeSet({&disc, 1});
+  }();
+  return discs;
+}
+
+bool by_place(Pair a, Pair b) {
+  return a.first != b.first ? a.first < b.first : a.second < b.second;
+}
+
+constexpr double square(double value) {
+  return value * value;
+}
+
+/// A bit for each of the compared discs that are nearer than they are wide.
+std::uint8_t discs_of(double square_distance) {
+  std::uint8_t bits = 0;
+  for (std::size_t k = 0; k < compared_discs.size(); ++k)
+    bits |= static_cast<std::uint8_t>((square_distance < square(2 * compared_discs[k])) << k);
+  return bits;
+}
+
+std::size_t density_class(double density) {
+  std::size_t found = 0;
+  while (found + 1 < density_classes.size() && density >= density_classes[found + 1]) ++found;
+  return found;
+}
+
+/// How far a shoulder has to be turned for somebody at a side: that on his side goes back where he is ahead, and forward where he is
+/// behind.
+Shoulders turned_for(double bearing) {
+  const double off = std::abs(bearing);
+  if (off < pi / 4 || off > 3 * pi / 4) return Shoulders::straight;
+  return (bearing > 0) == (off < pi / 2) ? Shoulders::left : Shoulders::right;
+}
+
+}  // namespace
+
+Agents FrameRun::agents(std::span<const std::uint32_t> shapes, std::size_t end) const {
+  const std::size_t count = end - begin_;
+  return {shapes.subspan(begin_, count), block_->x().subspan(begin_, count),
+          block_->y().subspan(begin_, count), block_->heading().subspan(begin_, count)};
+}
+
+double FrameRun::square_distance(Pair pair) const {
+  const double *x = block_->x().data() + begin_, *y = block_->y().data() + begin_;
+  return square(x[pair.first] - x[pair.second]) + square(y[pair.first] - y[pair.second]);
+}
+
+/// Returns the longest way of a person to the next frame, metres.
+double FrameRun::longest_step() const {
+  const auto x = block_->x(), y = block_->y();
+  double longest = 0;
+  for (std::size_t i = begin_; i < end_; ++i) {
+    const std::size_t next = block_->next_of()[i];
+    if (next == FrameBlock::nobody) continue;
+    longest = std::max(longest, square(x[next] - x[i]) + square(y[next] - y[i]));
+  }
+  return std::sqrt(longest);
+}
+
+/// What is known of any two people, who are neither in overlap nor near each other yet.
+CheckedPair FrameRun::checked(Pair pair) const {
+  const auto people = own(block_->people());
+  return {block_->frame(own(block_->frame_of())[pair.first]),
+          people[pair.first].id,
+          people[pair.second].id,
+          false,
+          false,
+          false,
+          0,
+          0,
+          0,
+          0};
+}
+
+void FrameRun::look(const FrameBlock& block, std::size_t first, std::size_t last) {
+  block_ = &block;
+  first_ = first, last_ = last;
+  begin_ = block.begin(first), end_ = block.begin(last);
+  find_near();
+  turn_shoulders();
+  poses_.clear();
+  for (std::size_t i = 0; i < size(); ++i)
+    poses_.emplace_back(block.people()[begin_ + i], shoulders_[i], options_.coarse);
+}
+
+/// Finds who is within 1.2 m of whom, what discs say of them, and how many are within 1 m.
+void FrameRun::find_near() {
+  zeros_.resize(size());
+  const std::span<const Pair> found = near_phase_.find(
+      near_discs(), {zeros_, own(block_->apart_x()), own(block_->y()), own(block_->heading())});
+  const auto frame_of = own(block_->frame_of());
+  near_.clear();
+  in_discs_.assign(size(), 0);
+  near_count_.assign(size(), 1);
+  for (const Pair pair : found) {
+    const double distance = square_distance(pair);
+    if (distance > square(near_distance) || frame_of[pair.first] != frame_of[pair.second]) continue;
+    near_.push_back(pair);
+    const std::uint8_t discs = discs_of(distance);
+    const bool is_within = distance <= square(density_distance);
+    for (const std::uint32_t i : {pair.first, pair.second})
+      in_discs_[i] |= discs, near_count_[i] += is_within;
+  }
+  density_.clear();
+  for (const std::uint32_t count : near_count_)
+    density_.push_back(static_cast<double>(count) / (pi * square(density_distance)));
+}
+
+/// Finds who turns his shoulders: in a crowd, for whoever is nearest, if he is at a side; of equally near ones, for the first.
+void FrameRun::turn_shoulders() {
+  const auto people = own(block_->people());
+  std::vector<double> least(size(), square(beside));
+  std::vector<std::uint32_t> nearest(size(), 0);
+  for (const Pair pair : near_) {
+    const double distance = square_distance(pair);
+    const auto offer = [&](std::uint32_t i, std::uint32_t other) {
+      if (density_[i] < crowded || std::tie(distance, other) >= std::tie(least[i], nearest[i])) return;
+      least[i] = distance, nearest[i] = other;
+    };
+    offer(pair.first, pair.second), offer(pair.second, pair.first);
+  }
+  shoulders_.assign(size(), Shoulders::straight);
+  for (std::size_t i = 0; i < size(); ++i) {
+    if (least[i] == square(beside)) continue;
+    const Walker& other = people[nearest[i]];
+    const double bearing = std::atan2(other.y - people[i].y, other.x - people[i].x) - people[i].heading;
+    shoulders_[i] = turned_for(bearing - 2 * pi * std::round(bearing / (2 * pi)));
+  }
+}
+
+void FrameRun::ask(const WalkerShapes& walker_shapes, std::span<const std::uint32_t> shapes) {
+  const ShapeSet& set = walker_shapes.set();
+  const Agents all = agents(shapes, end_);
+  checked_.clear();
+  ask_pairs(set, all);
+  ask_depths(set, all);
+  ask_between(set, all, agents(shapes, block_->begin(std::min(last_ + 1, block_->frames()))));
+  ask_walls(set, all);
+  std::sort(checked_.begin(), checked_.end(), [](const CheckedPair& a, const CheckedPair& b) {
+    return std::tie(a.frame, a.first, a.is_wall, a.second, a.passing) <
+           std::tie(b.frame, b.first, b.is_wall, b.second, b.passing);
+  });
+  tell_people(walker_shapes, all);
+  count();
+}
+
+/// Finds who overlaps, and who does not but may be within the largest distance or touch before the next frame.
+void FrameRun::ask_pairs(const ShapeSet& set, const Agents& all) {
+  const double margin = std::max(options_.max_distance, std::min(2 * longest_step(), farthest_step));
+  const std::span<const Pair> found =
+      body_phase_.find(set, {all.shape, own(block_->apart_x()), all.y, all.heading}, margin);
+  answers_.resize(found.size());
+  collide(set, all, found, answers_, {.semantics = Semantics::solid});
+  const auto frame_of = own(block_->frame_of());
+  hits_.clear(), apart_.clear();
+  for (std::size_t i = 0; i < found.size(); ++i)
+    if (frame_of[found[i].first] == frame_of[found[i].second])
+      (answers_[i] != 0 ? hits_ : apart_).push_back(found[i]);
+  std::sort(hits_.begin(), hits_.end(), by_place);
+}
+
+/// Measures how deep people overlap, and how far others are apart.
+void FrameRun::ask_depths(const ShapeSet& set, const Agents& all) {
+  std::vector<Penetration> depths(hits_.size());
+  penetration(set, all, hits_, directions, depths);
+  overlaps_.assign(size(), 0);
+  for (std::size_t i = 0; i < hits_.size(); ++i) {
+    overlaps_[hits_[i].first] = overlaps_[hits_[i].second] = 1;
+    CheckedPair& pair = checked_.emplace_back(checked(hits_[i]));
+    pair.overlap = true;
+    pair.depth = depths[i].depth;
+    pair.x = static_cast<float>(depths[i].x), pair.y = static_cast<float>(depths[i].y);
+  }
+  if (options_.max_distance <= 0) return;
+  std::vector<float> gaps(apart_.size());
+  clearance(set, all, apart_, {gaps}, {.max_distance = options_.max_distance});
+  for (std::size_t i = 0; i < apart_.size(); ++i)
+    if (std::isfinite(gaps[i])) checked_.emplace_back(checked(apart_[i])).gap = gaps[i];
+}
+
+/// Finds who passes through whom between two frames: people who do not overlap in either.
+void FrameRun::ask_between(const ShapeSet& set, const Agents& all, const Agents& with_next) {
+  const auto next_of = own(block_->next_of());
+  std::vector<Pair> moving, later;
+  std::vector<double> x, y;
+  for (const Pair pair : apart_) {
+    const std::uint32_t first = next_of[pair.first], second = next_of[pair.second];
+    if (first == FrameBlock::nobody || second == FrameBlock::nobody) continue;
+    const Walker *from = block_->people().data() + begin_, *to = block_->people().data();
+    const double dx = to[first].x - from[pair.first].x - to[second].x + from[pair.second].x,
+                 dy = to[first].y - from[pair.first].y - to[second].y + from[pair.second].y;
+    if (dx * dx + dy * dy < thinnest * thinnest) continue;
+    moving.push_back(pair);
+    const auto begin = static_cast<std::uint32_t>(begin_);
+    later.push_back({first - begin, second - begin});
+    x.push_back(dx), y.push_back(dy);
+  }
+  std::vector<float> times(moving.size());
+  time_of_impact(set, all, moving, {x, y}, times);
+  // Discs decide about times, so that they have to be clear of each other before and after: who touches now, or then, does not pass.
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < moving.size(); ++i)
+    if (times[i] > 0 && times[i] < 1) moving[kept] = moving[i], later[kept++] = later[i];
+  later.resize(kept);
+  answers_.resize(kept);
+  collide(set, with_next, later, answers_, {.semantics = Semantics::solid, .leaves = Leaves::discs});
+  for (std::size_t i = 0; i < kept; ++i)
+    if (answers_[i] == 0) checked_.emplace_back(checked(moving[i])).passing = true;
+}
+
+void FrameRun::ask_walls(const ShapeSet& set, const Agents& all) {
+  in_wall_.assign(size(), 0);
+  if (options_.walls == nullptr) return;
+  collide(set, all, *options_.walls, in_wall_, {.semantics = Semantics::solid});
+  std::vector<std::uint32_t> who, shape;
+  std::vector<double> x, y, heading;
+  for (std::uint32_t i = 0; i < size(); ++i)
+    if (in_wall_[i] != 0) {
+      who.push_back(i), shape.push_back(all.shape[i]);
+      x.push_back(all.x[i]), y.push_back(all.y[i]), heading.push_back(all.heading[i]);
+    }
+  std::vector<Penetration> depths(who.size());
+  std::vector<float> gaps(who.size());
+  std::vector<DiscPair> nearest(who.size());
+  penetration(set, {shape, x, y, heading}, *options_.walls, depths);
+  clearance(set, {shape, x, y, heading}, *options_.walls, {.distance = gaps, .discs = nearest},
+            {.overlap = Overlap::deepest});
+  for (std::size_t k = 0; k < who.size(); ++k) {
+    const std::uint32_t segment = nearest[k].second;
+    CheckedPair& pair = checked_.emplace_back(checked({who[k], who[k]}));
+    pair.second = segment == no_discs.second ? 0 : options_.walls->obstacle_of(segment);
+    pair.is_wall = pair.overlap = true;
+    pair.depth = depths[k].depth;
+    pair.x = static_cast<float>(depths[k].x), pair.y = static_cast<float>(depths[k].y);
+  }
+}
+
+void FrameRun::tell_people(const WalkerShapes& walker_shapes, const Agents& all) {
+  const auto people = own(block_->people());
+  checked_people_.clear();
+  for (std::size_t i = 0; i < size(); ++i)
+    checked_people_.push_back({people[i], all.shape[i], walker_shapes.given_up() + all.shape[i],
+                               static_cast<float>(density_[i]), overlaps_[i] != 0, in_wall_[i] != 0});
+}
+
+void FrameRun::count() {
+  counts_ = {};
+  const auto people = own(block_->people());
+  for (std::size_t i = 0; i < size(); ++i) {
+    OverlapCount& to = counts_[density_class(density_[i])];
+    ++to.people;
+    to.guessed += people[i].is_guessed;
+    to.overlapping += overlaps_[i];
+    to.in_walls += in_wall_[i];
+    for (std::size_t k = 0; k < compared_discs.size(); ++k) to.discs[k] += in_discs_[i] >> k & 1;
+  }
+  const auto of_pair = [&](Pair pair) -> OverlapCount& {
+    return counts_[density_class(std::max(density_[pair.first], density_[pair.second]))];
+  };
+  for (const Pair pair : near_) {
+    OverlapCount& to = of_pair(pair);
+    ++to.near_pairs;
+    const std::uint8_t discs = discs_of(square_distance(pair));
+    for (std::size_t k = 0; k < compared_discs.size(); ++k) to.disc_pairs[k] += discs >> k & 1;
+  }
+  for (const Pair pair : hits_)
+    of_pair(pair).overlapping_pairs += square_distance(pair) <= square(near_distance);
+}
+
+}  // namespace bch::detail

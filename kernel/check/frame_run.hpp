@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <bch/broad_phase.hpp>
+
+#include "kernel/check/check.hpp"
+#include "kernel/check/frame_block.hpp"
+
+namespace bch::detail {
+
+/// Some frames of a block, one behind the other, which one task checks: enough people for the batches of the kernel, few enough for a
+/// cache. Indices are of the people of these frames. Keeps its memory for the next ones.
+class FrameRun {
+ public:
+  /// `options` has to live as long as this.
+  explicit FrameRun(const CheckOptions& options) : options_(options) {}
+
+  /// Takes frames first .. last of a block, which has to live as long as the next calls; finds who is near whom and which poses people
+  /// are in.
+  void look(const FrameBlock& block, std::size_t first, std::size_t last);
+  std::span<const WalkerPose> poses() const noexcept { return poses_; }
+  /// Finds who overlaps or passes whom, and counts. `shapes`: of all people of the block.
+  void ask(const WalkerShapes& walker_shapes, std::span<const std::uint32_t> shapes);
+
+  std::size_t first() const noexcept { return first_; }
+  std::size_t last() const noexcept { return last_; }
+  std::span<const CheckedPerson> people() const noexcept { return checked_people_; }
+  /// By frame, then ids.
+  std::span<const CheckedPair> pairs() const noexcept { return checked_; }
+  const OverlapCounts& counts() const noexcept { return counts_; }
+
+ private:
+  std::size_t size() const noexcept { return end_ - begin_; }
+  template <class Value>
+  std::span<Value> own(std::span<Value> of_block) const noexcept {
+    return of_block.subspan(begin_, size());
+  }
+  Agents agents(std::span<const std::uint32_t> shapes, std::size_t end) const;
+  double longest_step() const;
+  double square_distance(Pair pair) const;
+  CheckedPair checked(Pair pair) const;
+
+  void find_near();
+  void turn_shoulders();
+  void ask_pairs(const ShapeSet& set, const Agents& all);
+  void ask_depths(const ShapeSet& set, const Agents& all);
+  void ask_between(const ShapeSet& set, const Agents& all, const Agents& with_next);
+  void ask_walls(const ShapeSet& set, const Agents& all);
+  void tell_people(const WalkerShapes& walker_shapes, const Agents& all);
+  void count();
+
+  const CheckOptions& options_;
+  const FrameBlock* block_ = nullptr;
+  std::size_t first_ = 0, last_ = 0;  ///< frames
+  std::size_t begin_ = 0, end_ = 0;   ///< people of the block
+  BroadPhase near_phase_, body_phase_;
+  std::vector<std::uint32_t> zeros_, near_count_;
+  std::vector<double> density_;
+  std::vector<Shoulders> shoulders_;
+  std::vector<WalkerPose> poses_;
+  std::vector<Pair> near_, hits_;
+  std::vector<Pair> apart_;  ///< may touch before the next frame, but do not in this one
+  std::vector<std::uint8_t> answers_, in_wall_;
+  std::vector<std::uint8_t> overlaps_, in_discs_;  ///< by person; the latter a bit for each of compared_discs
+  std::vector<CheckedPair> checked_;
+  std::vector<CheckedPerson> checked_people_;
+  OverlapCounts counts_;
+};
+
+}  // namespace bch::detail
