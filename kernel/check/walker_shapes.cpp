@@ -10,10 +10,8 @@
 
 #include <bch/default_characters.hpp>
 #include <bch/pose_shape.hpp>
-#include <bch/shape_set_builder.hpp>
 
 #include "kernel/runtime/ordered_build.hpp"
-#include "layout/shape_set/flat_shape.hpp"
 
 namespace bch::detail {
 namespace {
@@ -21,6 +19,8 @@ namespace {
 constexpr double shortest_stature = 0.9, stature_step = 1.04;
 constexpr std::uint32_t stature_classes = 25;  // up to 2.3 m
 constexpr float threshold = 0.02f;             ///< metres; segments decide who overlaps, discs how deep
+constexpr std::size_t expected_shapes =
+    30'000;  ///< about the most; room for them takes no memory before there are
 
 /// The number of phases at a speed: feet go faster, relative to the body, the faster people walk.
 std::uint32_t phases_at(std::uint32_t clip, std::uint32_t coarse) {
@@ -73,7 +73,7 @@ struct WalkerShapes::Workshop {
 };
 
 WalkerShapes::WalkerShapes(const ShapeSetPlan& plan)
-    : plan_(plan), set_(std::make_unique<ShapeSet>(std::span<const Shape>(), plan)) {}
+    : plan_(plan), builder_(plan, expected_shapes), set_(&builder_.set()) {}
 WalkerShapes::~WalkerShapes() = default;
 
 const Character& WalkerShapes::character(const WalkerPose& pose) {
@@ -89,27 +89,21 @@ const Character& WalkerShapes::character(const WalkerPose& pose) {
 void WalkerShapes::build(std::span<const WalkerPose> poses) {
   std::vector<const Character*> characters;
   for (const WalkerPose& pose : poses) characters.push_back(&character(pose));
-  ShapeSetBuilder builder(plan_, set_->shape_count() + poses.size());
-  PreparedShape copied(plan_);
-  for (std::uint32_t i = 0; i < set_->shape_count(); ++i) {
-    copied.flat() = flat_body(set_->arrays(), i);
-    copied.flat().plan = plan_;
-    builder.add(copied);
-  }
   tbb::enumerable_thread_specific<Workshop> workshops;
   add_in_order(
-      builder, plan_, poses.size(),
+      builder_, plan_, poses.size(),
       [&](std::size_t i) -> const Shape& {
         return workshops.local().shaper(*characters[i], plan_).shape(poses[i].at());
       },
       [](std::size_t) {});
-  *set_ = std::move(builder).finish();
+  set_ = &builder_.set();
 }
 
 void WalkerShapes::find(std::span<const WalkerPose> poses, std::span<std::uint32_t> shapes) {
-  if (set_->shape_count() > most_shapes) {
+  if (set_->bytes() > most_bytes) {
     given_up_ += set_->shape_count();
-    *set_ = ShapeSet(std::span<const Shape>(), plan_);
+    builder_ = ShapeSetBuilder(plan_, expected_shapes);
+    set_ = &builder_.set();
     number_of_.clear();
   }
   std::vector<WalkerPose> missing;

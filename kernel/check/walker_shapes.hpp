@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -11,6 +12,7 @@
 
 #include <bch/character.hpp>
 #include <bch/shape_set.hpp>
+#include <bch/shape_set_builder.hpp>
 
 #include "kernel/check/walkers.hpp"
 
@@ -41,7 +43,8 @@ struct WalkerPose {
 /// all are given up, and those that are asked for again are built again.
 class WalkerShapes {
  public:
-  static constexpr std::uint32_t most_shapes = 40'000;  ///< kept from one call of find() to the next
+  /// Kept from one call of find() to the next: some 23 000 shapes of whole bodies.
+  static constexpr std::size_t most_bytes = std::size_t{256} << 20;
 
   explicit WalkerShapes(const ShapeSetPlan& plan);
   ~WalkerShapes();
@@ -60,7 +63,8 @@ class WalkerShapes {
   const Character& character(const WalkerPose& pose);
 
   const ShapeSetPlan plan_;
-  std::unique_ptr<ShapeSet> set_;
+  ShapeSetBuilder builder_;
+  const ShapeSet* set_;  ///< the builder's
   std::uint32_t given_up_ = 0;
   std::unordered_map<std::uint64_t, std::uint32_t> number_of_;
   std::unordered_map<std::uint64_t, std::unique_ptr<const Character>> characters_;

@@ -67,25 +67,24 @@ Walker WalkerReader::walk(const TrackedPerson& person, Track& track, std::int64_
   const double dx = last->x - first.x, dy = last->y - first.y;
   const double speed = seconds > 0 ? std::sqrt(dx * dx + dy * dy) / seconds : 0;
 
-  Walker walker{
-      person.id, person.x, person.y, track.heading, speed, track.phase, 0, is_female_by_id(person.id), false};
-  walker.stature = std::isnan(person.stature) ? stature_by_id(person.id, walker.is_female)
-                                              : static_cast<double>(person.stature);
   const bool told = !std::isnan(person.heading), moves = speed > standing;
   if (told || moves) {
     track.heading = told ? static_cast<double>(person.heading) : std::atan2(dy, dx);
     track.has_heading = true;
   }
-  if (!track.has_walked) track.phase = random_of(person.id).uniform(1);
+  if (!track.has_walked) {
+    track.phase = random_of(person.id).uniform(1);
+    track.is_female = is_female_by_id(person.id);
+    track.stature = stature_by_id(person.id, track.is_female);
+  }
   const double since = track.has_walked ? static_cast<double>(frame - track.last_frame) / fps_ : 0;
   track.has_walked = true;
   if (speed > 0.05) track.phase += since * pedestrian_strides_per_second(speed);
   track.phase -= std::floor(track.phase);
   track.last_frame = frame;
-  walker.heading = track.heading;
-  walker.phase = track.phase;
-  walker.is_guessed = !told && !moves;
-  return walker;
+  const double stature = std::isnan(person.stature) ? track.stature : static_cast<double>(person.stature);
+  return {person.id,   person.x, person.y,        track.heading,  speed,
+          track.phase, stature,  track.is_female, !told && !moves};
 }
 
 /// Who has not moved yet faces the way in which the others walk.

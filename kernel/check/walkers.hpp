@@ -53,9 +53,9 @@ class WalkerReader {
   /// What is known of a person: his last places, and how he walked last.
   struct Track {
     std::deque<Place> places;
-    double heading = 0, phase = 0;
+    double heading = 0, phase = 0, stature = 0;  ///< the latter where the file has none
     std::int64_t last_frame = 0;
-    bool has_heading = false, has_walked = false;
+    bool is_female = false, has_heading = false, has_walked = false;
   };
   struct Frame {
     std::int64_t frame;

@@ -56,10 +56,13 @@ struct ShapeSetBuilder::State {
   std::size_t expected_shapes;
   ShapeStorage storage;
   BuilderEnd end = {};
+  ShapeSet set = {ShapeArrays(), nullptr};  ///< stands on storage
 
   void add(const FlatBody& flat);
   void reserve();
   void go_back(const BuilderEnd& to) noexcept;
+  void close();
+  bool roots_only() const;
   ShapeSet finish();
 };
 
@@ -75,6 +78,13 @@ ShapeSetBuilder::~ShapeSetBuilder() = default;
 
 void ShapeSetBuilder::add(const PreparedShape& shape) {
   state_->add(shape.flat());
+}
+
+const ShapeSet& ShapeSetBuilder::set() {
+  state_->close();
+  const ShapeArrays all = state_->storage.arrays();
+  state_->set.refer_to(state_->roots_only() ? roots_of(all) : all);
+  return state_->set;
 }
 
 ShapeSet ShapeSetBuilder::finish() && {
@@ -128,24 +138,32 @@ void ShapeSetBuilder::State::go_back(const BuilderEnd& to) noexcept {
   storage.resize(plan, end.shapes, end.parts);
 }
 
-/// What throws leaves the shapes as they were: the arrays change hands at the end, and their elements stay where they are.
-ShapeSet ShapeSetBuilder::State::finish() {
-  // An add() that threw may have left more.
+/// Makes the arrays end where the shapes do. An add() that threw may have left more.
+void ShapeSetBuilder::State::close() {
   storage.resize(plan, end.shapes, end.parts);
   storage.make_room(end.extent, {});
-  // Single discs need blocks only to meet those that are not, and never contain what they do not overlap.
-  const auto is_single = [](const Root& root) { return root.row == single_disc; };
-  const bool roots_only = std::all_of(storage.roots.begin(), storage.roots.end(), is_single);
+}
+
+/// Single discs need blocks only to meet those that are not, and never contain what they do not overlap.
+bool ShapeSetBuilder::State::roots_only() const {
+  return std::all_of(storage.roots.begin(), storage.roots.end(),
+                     [](const Root& root) { return root.row == single_disc; });
+}
+
+/// What throws leaves the shapes as they were: the arrays change hands at the end, and their elements stay where they are.
+ShapeSet ShapeSetBuilder::State::finish() {
+  close();
+  const bool only_roots = roots_only();
   const auto kept = std::make_shared<ShapeStorage>();
-  ShapeSet set(roots_only ? roots_of(storage.arrays()) : storage.arrays(), kept);
-  if (!roots_only) {
+  ShapeSet whole(only_roots ? roots_of(storage.arrays()) : storage.arrays(), kept);
+  if (!only_roots) {
     *kept = std::move(storage);
-    return set;
+    return whole;
   }
   kept->depths = std::move(storage.depths), kept->roots = std::move(storage.roots);
   kept->slices = std::move(storage.slices), kept->slab_parts = std::move(storage.slab_parts);
   kept->heights = std::move(storage.heights);
-  return set;
+  return whole;
 }
 
 }  // namespace bch

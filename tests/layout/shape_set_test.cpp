@@ -200,6 +200,24 @@ TEST(ShapeSet, IsTheSameHoweverManyShapesWereExpected) {
   for (const std::size_t expected : {65, 90, 100000}) EXPECT_EQ(bytes(expected), unknown) << expected;
 }
 
+TEST(ShapeSet, OfABuilderSoFarIsThatOfItsShapes) {
+  for (const ShapeSetPlan& plan : {ShapeSetPlan{{0, 3, all_depths}, true}, ShapeSetPlan{{0}, true}}) {
+    const std::vector<Shape> shapes = test::synthetic_shapes(27, 70);
+    const std::span<const Shape> all(shapes);
+    ShapeSetBuilder builder(plan, 70);
+    PreparedShape prepared(plan);
+    const auto bytes = [](const ShapeSet& set) { return test::BakedBytes(set, {}).text(); };
+    EXPECT_EQ(bytes(builder.set()), bytes(ShapeSet(all.first(0), plan)));
+    for (std::size_t s = 0; s < shapes.size(); ++s) {
+      prepared.prepare(shapes[s], s);
+      builder.add(prepared);
+      if (s % 23 != 0) continue;
+      EXPECT_EQ(bytes(builder.set()), bytes(ShapeSet(all.first(s + 1), plan))) << s;
+    }
+    EXPECT_EQ(bytes(std::move(builder).finish()), bytes(ShapeSet(shapes, plan)));
+  }
+}
+
 TEST(ShapeSet, BuilderOfRootsHasNoNodes) {
   const ShapeSetPlan plan{{0}, true};
   ShapeSetBuilder builder(plan);

@@ -56,6 +56,8 @@ class ShapeSetBuilder {
   /// Adds a shape that was prepared with the same plan.
   /// Errors:  throws std::length_error beyond 2^31 numbers in nodes or 2^32 roots. What was added before is then as it was.
   void add(const PreparedShape& shape);
+  /// Returns the set of the shapes so far, for queries until the next call of another function, after which more may be added.
+  const ShapeSet& set();
   /// Returns the set of the shapes that were added. Where memory runs out they stay.
   ShapeSet finish() &&;
 
