@@ -3,6 +3,7 @@
 
 #include "kernel/check/walker_shapes.hpp"
 
+#include <oneapi/tbb/concurrent_queue.h>
 #include <oneapi/tbb/enumerable_thread_specific.h>
 
 #include <algorithm>
@@ -12,6 +13,7 @@
 #include <bch/pose_shape.hpp>
 
 #include "kernel/runtime/ordered_build.hpp"
+#include "kernel/runtime/task_ranges.hpp"
 
 namespace bch::detail {
 namespace {
@@ -19,6 +21,7 @@ namespace {
 constexpr double shortest_stature = 0.9, stature_step = 1.04;
 constexpr std::uint32_t stature_classes = 25;  // up to 2.3 m
 constexpr float threshold = 0.02f;             ///< metres; segments decide who overlaps, discs how deep
+constexpr std::size_t lookups = 4096;          ///< of poses, a task
 constexpr std::size_t expected_shapes =
     30'000;  ///< about the most; room for them takes no memory before there are
 
@@ -61,14 +64,28 @@ PoseTime WalkerPose::at() const noexcept {
   return {clip, static_cast<float>(share / pedestrian_strides_per_second(clip * pedestrian_speed_step))};
 }
 
-/// What a thread makes shapes with: it learns each body once.
-struct WalkerShapes::Workshop {
-  std::unordered_map<const Character*, PoseShaper> shapers;
+/// A character, and the shapers of it that no thread has. They are few, because threads take poses as they come, of many bodies.
+struct WalkerShapes::Body {
+  std::unique_ptr<const Character> character;
+  tbb::concurrent_queue<std::unique_ptr<PoseShaper>> shapers;
+};
 
-  PoseShaper& shaper(const Character& character, const ShapeSetPlan& plan) {
-    const auto found = shapers.find(&character);
-    return found != shapers.end() ? found->second
-                                  : shapers.try_emplace(&character, character, plan, threshold).first->second;
+/// What a thread makes shapes with: the shaper of a body, until it makes one of another.
+struct WalkerShapes::Workshop {
+  Body* body = nullptr;
+  std::unique_ptr<PoseShaper> shaper;
+
+  ~Workshop() { leave(); }
+  void leave() {
+    if (shaper) body->shapers.push(std::move(shaper));
+  }
+  PoseShaper& shaper_of(Body& wanted, const ShapeSetPlan& plan) {
+    if (body == &wanted) return *shaper;
+    leave();
+    body = &wanted;
+    if (!body->shapers.try_pop(shaper))
+      shaper = std::make_unique<PoseShaper>(*body->character, plan, threshold);
+    return *shaper;
   }
 };
 
@@ -76,24 +93,35 @@ WalkerShapes::WalkerShapes(const ShapeSetPlan& plan)
     : plan_(plan), builder_(plan, expected_shapes), set_(&builder_.set()) {}
 WalkerShapes::~WalkerShapes() = default;
 
-const Character& WalkerShapes::character(const WalkerPose& pose) {
-  auto& found = characters_[pose.body()];
+/// Makes those that are new on all threads.
+std::vector<WalkerShapes::Body*> WalkerShapes::bodies_of(std::span<const WalkerPose> poses) {
   constexpr double turn[] = {0, 0.7, -0.7};  // radians; of Shoulders
-  if (!found)
-    found = std::make_unique<const Character>(
-        default_pedestrian(pose.is_female ? Sex::female : Sex::male, pose.metres(),
-                           turn[static_cast<std::size_t>(pose.shoulders)]));
-  return *found;
+  std::vector<Body*> bodies, made;
+  std::vector<const WalkerPose*> wanted;
+  for (const WalkerPose& pose : poses) {
+    auto& body = bodies_[pose.body()];
+    if (!body) {
+      body = std::make_unique<Body>();
+      made.push_back(body.get()), wanted.push_back(&pose);
+    }
+    bodies.push_back(body.get());
+  }
+  for_ranges(made.size(), 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i)
+      made[i]->character = std::make_unique<const Character>(
+          default_pedestrian(wanted[i]->is_female ? Sex::female : Sex::male, wanted[i]->metres(),
+                             turn[static_cast<std::size_t>(wanted[i]->shoulders)]));
+  });
+  return bodies;
 }
 
 void WalkerShapes::build(std::span<const WalkerPose> poses) {
-  std::vector<const Character*> characters;
-  for (const WalkerPose& pose : poses) characters.push_back(&character(pose));
+  const std::vector<Body*> bodies = bodies_of(poses);
   tbb::enumerable_thread_specific<Workshop> workshops;
   add_in_order(
       builder_, plan_, poses.size(),
       [&](std::size_t i) -> const Shape& {
-        return workshops.local().shaper(*characters[i], plan_).shape(poses[i].at());
+        return workshops.local().shaper_of(*bodies[i], plan_).shape(poses[i].at());
       },
       [](std::size_t) {});
   set_ = &builder_.set();
@@ -106,8 +134,16 @@ void WalkerShapes::find(std::span<const WalkerPose> poses, std::span<std::uint32
     set_ = &builder_.set();
     number_of_.clear();
   }
+  constexpr std::uint32_t none = 0xffff'ffff;
+  for_ranges(poses.size(), lookups, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const auto found = number_of_.find(poses[i].key());
+      shapes[i] = found == number_of_.end() ? none : found->second;
+    }
+  });
   std::vector<WalkerPose> missing;
   for (std::size_t i = 0; i < poses.size(); ++i) {
+    if (shapes[i] != none) continue;
     const auto next = static_cast<std::uint32_t>(set_->shape_count() + missing.size());
     const auto [entry, is_new] = number_of_.emplace(poses[i].key(), next);
     if (is_new) missing.push_back(poses[i]);

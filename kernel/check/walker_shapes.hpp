@@ -57,17 +57,18 @@ class WalkerShapes {
   std::uint32_t given_up() const noexcept { return given_up_; }
 
  private:
+  struct Body;
   struct Workshop;
 
   void build(std::span<const WalkerPose> poses);
-  const Character& character(const WalkerPose& pose);
+  std::vector<Body*> bodies_of(std::span<const WalkerPose> poses);
 
   const ShapeSetPlan plan_;
   ShapeSetBuilder builder_;
   const ShapeSet* set_;  ///< the builder's
   std::uint32_t given_up_ = 0;
   std::unordered_map<std::uint64_t, std::uint32_t> number_of_;
-  std::unordered_map<std::uint64_t, std::unique_ptr<const Character>> characters_;
+  std::unordered_map<std::uint64_t, std::unique_ptr<Body>> bodies_;
 };
 
 }  // namespace bch::detail
