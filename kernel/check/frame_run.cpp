@@ -4,6 +4,7 @@
 #include "kernel/check/frame_run.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <tuple>
@@ -51,10 +52,9 @@ std::uint8_t discs_of(double square_distance) {
   return bits;
 }
 
-std::size_t density_class(double density) {
-  std::size_t found = 0;
-  while (found + 1 < density_classes.size() && density >= density_classes[found + 1]) ++found;
-  return found;
+std::uint8_t density_class(double density) {
+  const auto next = std::upper_bound(density_classes.begin() + 1, density_classes.end(), density);
+  return static_cast<std::uint8_t>(next - density_classes.begin() - 1);
 }
 
 /// How far a shoulder has to be turned for somebody at a side: that on his side goes back where he is ahead, and forward where he is
@@ -122,21 +122,23 @@ void FrameRun::find_near() {
   const std::span<const Pair> found = near_phase_.find(
       near_discs(), {zeros_, own(block_->apart_x()), own(block_->y()), own(block_->heading())});
   const auto frame_of = own(block_->frame_of());
-  near_.clear();
+  near_.clear(), near_in_discs_.clear();
   in_discs_.assign(size(), 0);
   near_count_.assign(size(), 1);
   for (const Pair pair : found) {
     const double distance = square_distance(pair);
     if (distance > square(near_distance) || frame_of[pair.first] != frame_of[pair.second]) continue;
-    near_.push_back(pair);
     const std::uint8_t discs = discs_of(distance);
+    near_.push_back(pair), near_in_discs_.push_back(discs);
     const bool is_within = distance <= square(density_distance);
     for (const std::uint32_t i : {pair.first, pair.second})
       in_discs_[i] |= discs, near_count_[i] += is_within;
   }
-  density_.clear();
-  for (const std::uint32_t count : near_count_)
+  density_.clear(), density_class_.clear();
+  for (const std::uint32_t count : near_count_) {
     density_.push_back(static_cast<double>(count) / (pi * square(density_distance)));
+    density_class_.push_back(density_class(density_.back()));
+  }
 }
 
 /// Finds who turns his shoulders: in a crowd, for whoever is nearest, if he is at a side; of equally near ones, for the first.
@@ -277,27 +279,29 @@ void FrameRun::tell_people(const WalkerShapes& walker_shapes, const Agents& all)
 }
 
 void FrameRun::count() {
+  // How many people and pairs of each class are in each set of discs.
+  constexpr std::size_t sets = std::size_t{1} << compared_discs.size();
+  std::array<std::array<std::uint64_t, sets>, density_classes.size()> people{}, pairs{};
   counts_ = {};
-  const auto people = own(block_->people());
   for (std::size_t i = 0; i < size(); ++i) {
-    OverlapCount& to = counts_[density_class(density_[i])];
-    ++to.people;
-    to.guessed += people[i].is_guessed;
+    OverlapCount& to = counts_[density_class_[i]];
+    ++people[density_class_[i]][in_discs_[i]];
+    to.guessed += block_->people()[begin_ + i].is_guessed;
     to.overlapping += overlaps_[i];
     to.in_walls += in_wall_[i];
-    for (std::size_t k = 0; k < compared_discs.size(); ++k) to.discs[k] += in_discs_[i] >> k & 1;
   }
-  const auto of_pair = [&](Pair pair) -> OverlapCount& {
-    return counts_[density_class(std::max(density_[pair.first], density_[pair.second]))];
+  const auto class_of = [&](Pair pair) {
+    return std::max(density_class_[pair.first], density_class_[pair.second]);
   };
-  for (const Pair pair : near_) {
-    OverlapCount& to = of_pair(pair);
-    ++to.near_pairs;
-    const std::uint8_t discs = discs_of(square_distance(pair));
-    for (std::size_t k = 0; k < compared_discs.size(); ++k) to.disc_pairs[k] += discs >> k & 1;
-  }
+  for (std::size_t i = 0; i < near_.size(); ++i) ++pairs[class_of(near_[i])][near_in_discs_[i]];
   for (const Pair pair : hits_)
-    of_pair(pair).overlapping_pairs += square_distance(pair) <= square(near_distance);
+    counts_[class_of(pair)].overlapping_pairs += square_distance(pair) <= square(near_distance);
+  for (std::size_t c = 0; c < density_classes.size(); ++c)
+    for (std::size_t set = 0; set < sets; ++set) {
+      counts_[c].people += people[c][set], counts_[c].near_pairs += pairs[c][set];
+      for (std::size_t k = 0; k < compared_discs.size(); ++k)
+        if (set >> k & 1) counts_[c].discs[k] += people[c][set], counts_[c].disc_pairs[k] += pairs[c][set];
+    }
 }
 
 }  // namespace bch::detail

@@ -63,12 +63,15 @@ class FrameRun {
   BroadPhase near_phase_, body_phase_;
   std::vector<std::uint32_t> zeros_, near_count_;
   std::vector<double> density_;
+  std::vector<std::uint8_t> density_class_;
   std::vector<Shoulders> shoulders_;
   std::vector<WalkerPose> poses_;
   std::vector<Pair> near_, hits_;
+  std::vector<std::uint8_t> near_in_discs_;
   std::vector<Pair> apart_;  ///< may touch before the next frame, but do not in this one
   std::vector<std::uint8_t> answers_, in_wall_;
-  std::vector<std::uint8_t> overlaps_, in_discs_;  ///< by person; the latter a bit for each of compared_discs
+  std::vector<std::uint8_t> overlaps_,
+      in_discs_;  ///< by person; that and near_in_discs_ have a bit for each of compared_discs
   std::vector<CheckedPair> checked_;
   std::vector<CheckedPerson> checked_people_;
   OverlapCounts counts_;

@@ -60,9 +60,9 @@ Walker WalkerReader::walk(const TrackedPerson& person, Track& track, std::int64_
   while (track.places.size() > 1 && track.places[0].frame < frame - window_ && track.places[1].frame < frame)
     track.places.pop_front();
   const Place first = track.places.front();
-  auto last = std::find_if(track.places.begin(), track.places.end(),
-                           [&](const Place& place) { return place.frame > frame + window_; });
-  if (last == track.places.end() || std::prev(last)->frame > frame) --last;
+  // The last one within the window, or, where there is none, the next.
+  auto last = std::prev(track.places.end());
+  while (last->frame > frame + window_ && std::prev(last)->frame > frame) --last;
   const double seconds = static_cast<double>(last->frame - first.frame) / fps_;
   const double dx = last->x - first.x, dy = last->y - first.y;
   const double speed = seconds > 0 ? std::sqrt(dx * dx + dy * dy) / seconds : 0;
