@@ -6,7 +6,6 @@
 #include <fstream>
 #include <iterator>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 
@@ -101,9 +100,10 @@ void run_check(const CheckCommandOptions& options) {
         if (page) page->add(frame, shapes);
       });
 
-  events.add(event_lines(summary, recording.info.fps));
+  for (const detail::OverlapEvent& event : summary.events)
+    if (events) events.add(event_line(event, recording.info.fps));
   frames.commit(), pairs.commit(), events.commit();
-  write_json(options.json, check_json(recording, summary));
+  write_check_json(options.json, recording, summary);
   if (page) write_file(options.html, std::move(*page).finish(summary));
   write_standard_output(check_text(recording, summary));
   if (percent_in_overlap(summary) > options.fail_above)

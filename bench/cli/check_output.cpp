@@ -32,10 +32,13 @@ const char* kind_of(const OverlapEvent& event) {
 
 /// The deepest ones first; of equal ones as they are.
 std::vector<OverlapEvent> worst_of(const CheckSummary& summary) {
-  std::vector<OverlapEvent> worst = summary.events;
-  std::stable_sort(worst.begin(), worst.end(),
-                   [](const OverlapEvent& a, const OverlapEvent& b) { return a.depth > b.depth; });
-  worst.resize(std::min(worst.size(), worst_events));
+  std::vector<OverlapEvent> worst;
+  for (const OverlapEvent& event : summary.events) {
+    const auto place = std::upper_bound(worst.begin(), worst.end(), event,
+                                        [](const auto& a, const auto& b) { return a.depth > b.depth; });
+    worst.insert(place, event);
+    if (worst.size() > worst_events) worst.pop_back();
+  }
   return worst;
 }
 
@@ -116,6 +119,49 @@ nlohmann::ordered_json json_of(const OverlapCount& count) {
           {"discs", discs}};
 }
 
+/// All but the events.
+nlohmann::ordered_json json_of(const CheckedRecording& recording, const CheckSummary& summary) {
+  nlohmann::ordered_json densities;
+  for (std::size_t k = 0; k < density_classes.size(); ++k) {
+    nlohmann::ordered_json of = json_of(summary.by_density[k]);
+    of["from_people_per_m2"] = density_classes[k];
+    densities.push_back(of);
+  }
+  return {{"file", recording.file},           {"format", recording.info.format},
+          {"fps", recording.info.fps},        {"assumptions", recording.info.assumptions},
+          {"slabs", recording.slabs},         {"people", summary.people},
+          {"frames", summary.frames},         {"first_frame", summary.first_frame},
+          {"last_frame", summary.last_frame}, {"guessed_headings", summary.guessed},
+          {"all", json_of(summary.all)},      {"by_density", densities}};
+}
+
+nlohmann::ordered_json json_of(const OverlapEvent& event) {
+  return {{"first", event.first},
+          {"second", event.second},
+          {"kind", kind_of(event)},
+          {"from_frame", event.from},
+          {"to_frame", event.to},
+          {"frames", event.frames},
+          {"worst_frame", event.worst},
+          {"depth", std::max(0.0f, event.depth)},
+          {"x", event.x},
+          {"y", event.y}};
+}
+
+std::string json_text(const nlohmann::ordered_json& json) {
+  return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+}
+
+/// Indents all lines of a text by two steps.
+std::string indented(const std::string& text) {
+  std::string lines = "    ";
+  for (const char letter : text) {
+    lines += letter;
+    if (letter == '\n') lines += "    ";
+  }
+  return lines;
+}
+
 }  // namespace
 
 StreamedTable::StreamedTable(const std::string& file, const char* columns) {
@@ -160,14 +206,11 @@ std::string pair_lines(const CheckedFrame& frame) {
   return lines;
 }
 
-std::string event_lines(const CheckSummary& summary, double fps) {
-  std::string lines;
-  for (const OverlapEvent& event : summary.events)
-    lines += fmt::format(
-        "{},{},{},{:.4f},{:.4f},{},{:.4f},{:.4f},{:.3f},{:.3f}\n", event.first, event.second, kind_of(event),
-        static_cast<double>(event.from) / fps, static_cast<double>(event.to) / fps, event.frames,
-        static_cast<double>(event.worst) / fps, std::max(0.0f, event.depth), event.x, event.y);
-  return lines;
+std::string event_line(const OverlapEvent& event, double fps) {
+  return fmt::format("{},{},{},{:.4f},{:.4f},{},{:.4f},{:.4f},{:.3f},{:.3f}\n", event.first, event.second,
+                     kind_of(event), static_cast<double>(event.from) / fps,
+                     static_cast<double>(event.to) / fps, event.frames,
+                     static_cast<double>(event.worst) / fps, std::max(0.0f, event.depth), event.x, event.y);
 }
 
 double percent_in_overlap(const CheckSummary& summary) {
@@ -187,37 +230,18 @@ std::string check_text(const CheckedRecording& recording, const CheckSummary& su
   return text + density_table(summary, fps) + worst_table(summary, fps);
 }
 
-nlohmann::ordered_json check_json(const CheckedRecording& recording, const CheckSummary& summary) {
-  nlohmann::ordered_json densities, events;
-  for (std::size_t k = 0; k < density_classes.size(); ++k) {
-    nlohmann::ordered_json of = json_of(summary.by_density[k]);
-    of["from_people_per_m2"] = density_classes[k];
-    densities.push_back(of);
-  }
+void write_check_json(const std::string& file, const CheckedRecording& recording,
+                      const CheckSummary& summary) {
+  if (file.empty()) return;
+  // Without the brace at its end.
+  std::string head = json_text(json_of(recording, summary));
+  head.resize(head.size() - 2);
+  StreamedTable json(file, "");
+  json.add(head + ",\n  \"events\": [");
   for (const OverlapEvent& event : summary.events)
-    events.push_back({{"first", event.first},
-                      {"second", event.second},
-                      {"kind", kind_of(event)},
-                      {"from_frame", event.from},
-                      {"to_frame", event.to},
-                      {"frames", event.frames},
-                      {"worst_frame", event.worst},
-                      {"depth", std::max(0.0f, event.depth)},
-                      {"x", event.x},
-                      {"y", event.y}});
-  return {{"file", recording.file},
-          {"format", recording.info.format},
-          {"fps", recording.info.fps},
-          {"assumptions", recording.info.assumptions},
-          {"slabs", recording.slabs},
-          {"people", summary.people},
-          {"frames", summary.frames},
-          {"first_frame", summary.first_frame},
-          {"last_frame", summary.last_frame},
-          {"guessed_headings", summary.guessed},
-          {"all", json_of(summary.all)},
-          {"by_density", densities},
-          {"events", events}};
+    json.add((&event == summary.events.data() ? "\n" : ",\n") + indented(json_text(json_of(event))));
+  json.add(summary.events.empty() ? "]\n}\n" : "\n  ]\n}\n");
+  json.commit();
 }
 
 }  // namespace bch::cli

@@ -3,7 +3,6 @@
 
 #pragma once
 
-#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 
@@ -41,13 +40,14 @@ constexpr const char* event_columns = "first,second,kind,from,to,frames,worst,de
 /// Returns the line of a frame, or of each of its pairs.
 std::string frame_line(const detail::CheckedFrame& frame);
 std::string pair_lines(const detail::CheckedFrame& frame);
-/// Returns a line for each event.
-std::string event_lines(const detail::CheckSummary& summary, double fps);
+/// Returns the line of an event.
+std::string event_line(const detail::OverlapEvent& event, double fps);
 
 /// Returns the summary for people.
 std::string check_text(const CheckedRecording& recording, const detail::CheckSummary& summary);
-/// Returns all of it for programs.
-nlohmann::ordered_json check_json(const CheckedRecording& recording, const detail::CheckSummary& summary);
+/// Writes all of it for programs; without a name nothing. Events go to the file one by one, because there may be millions.
+void write_check_json(const std::string& file, const CheckedRecording& recording,
+                      const detail::CheckSummary& summary);
 
 /// Returns the share of person-frames in overlap, in percent.
 double percent_in_overlap(const detail::CheckSummary& summary);
