@@ -29,7 +29,7 @@ constexpr const char* footer =
     "of more benchmarks than they do; those of a table are --table NAME's.";
 constexpr const char* tables[] = {"kernel",       "leaves",    "peers",  "calls",  "crowd", "distances",
                                   "responses",    "obstacles", "bodies", "shapes", "plans", "slices",
-                                  "construction", "growth",    "load",   "paper"};
+                                  "construction", "growth",    "load",   "checks", "paper"};
 
 struct Options {
   SceneOptions scene;
@@ -49,7 +49,8 @@ std::vector<Table> add_all(Suite& suite, Scene& scene, const Options& options) {
        {collide_tables(suite, scene), call_tables(suite, scene), crowd_tables(suite, scene),
         query_tables(suite, scene), obstacle_tables(suite, scene), body_tables(suite),
         shape_count_tables(suite, scene, options.most_shapes), plan_tables(suite, scene),
-        slice_tables(suite, scene), build_tables(suite, scene), load_tables(suite, scene)})
+        slice_tables(suite, scene), build_tables(suite, scene), load_tables(suite, scene),
+        check_tables(suite)})
     all.insert(all.end(), some.begin(), some.end());
   std::vector<Table> wanted;
   for (const char* name : tables)

@@ -49,6 +49,8 @@ std::vector<Table> slice_tables(Suite& suite, Scene& scene);
 std::vector<Table> build_tables(Suite& suite, Scene& scene);
 /// load/<part>: a baked file of the scene's poses, in the file cache.
 std::vector<Table> load_tables(Suite& suite, Scene& scene);
+/// check/<crowd>/<frames>[/threads:<n>]: whole recordings, in memory.
+std::vector<Table> check_tables(Suite& suite);
 
 /// Returns the name of a benchmark of collide().
 std::string collide_name(std::string_view workload, const QueryOptions& query,

@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <stdexcept>
+
+#include "bench/ratios/ratios.hpp"
+#include "bench/workload/contender.hpp"
+#include "kernel/check/check.hpp"
+#include "layout/base/random.hpp"
+
+namespace bch::bench {
+namespace {
+
+using namespace detail;
+
+constexpr std::uint32_t people = 5000;
+constexpr double density = 3, fps = 25;
+constexpr std::size_t few_frames = 400, many_frames = 800, checked_frames = 4;
+constexpr int threads = 2;
+constexpr double needed_millions = 2;  ///< person-frames a second
+
+struct Position {
+  double x, y;  ///< metres
+};
+
+double drawn(std::uint32_t person, std::uint32_t what, double bound) {
+  return Random(std::uint64_t{16} * person + what).uniform(bound);
+}
+
+/// A lattice of people who sway, and walk on in waves: slower where they are pushed together.
+Position in_waves(std::uint32_t person, double seconds) {
+  static const double spacing = 1 / std::sqrt(density * std::sqrt(0.75));
+  static const auto columns = static_cast<std::uint32_t>(std::ceil(std::sqrt(people)));
+  const std::uint32_t row = person / columns, column = person % columns;
+  const double x = spacing * (column + 0.5 * (row % 2)), y = spacing * std::sqrt(0.75) * row;
+  const auto sway = [&](std::uint32_t axis) {
+    return drawn(person, axis, 0.06) *
+           std::sin((0.4 + drawn(person, 2 + axis, 0.8)) * seconds + drawn(person, 4 + axis, 6.28));
+  };
+  return {x + sway(0) + 0.6 * seconds - 1.7 * std::cos(0.3 * seconds + 0.1 * x), y + sway(1)};
+}
+
+/// People who walk through each other, and turn round at the sides of a square.
+Position at_random(std::uint32_t person, double seconds) {
+  static const double side = std::sqrt(people / density);
+  const double way = (0.2 + drawn(person, 0, 1.4)) * seconds, angle = drawn(person, 1, 6.28);
+  const auto fold = [](double at) { return side - std::abs(std::fmod(std::abs(at), 2 * side) - side); };
+  return {fold(drawn(person, 2, side) + way * std::cos(angle)),
+          fold(drawn(person, 3, side) + way * std::sin(angle))};
+}
+
+struct Crowd {
+  const char* name;
+  const char* words;
+  Position (*place)(std::uint32_t person, double seconds);
+};
+constexpr Crowd crowds[] = {{"in_waves", "one way, in waves", in_waves},
+                            {"at_random", "through each other", at_random}};
+
+/// A recording in memory, so that no file is read.
+class Recording final : public TrajectoryReader {
+ public:
+  explicit Recording(const Crowd& crowd) : frames_(many_frames) {
+    constexpr float unknown = std::numeric_limits<float>::quiet_NaN();
+    info_.fps = fps;
+    for (std::size_t k = 0; k < frames_.size(); ++k)
+      for (std::uint32_t i = 0; i < people; ++i) {
+        const Position at = crowd.place(i, static_cast<double>(k) / fps);
+        frames_[k].push_back({i, at.x, at.y, unknown, unknown});
+      }
+  }
+
+  const std::vector<std::vector<TrackedPerson>>& frames() const { return frames_; }
+  /// Goes back to the first of so many frames.
+  void rewind(std::size_t frames) { next_ = 0, end_ = frames; }
+
+  const TrajectoryInfo& info() const override { return info_; }
+  bool next(std::int64_t& frame, std::vector<TrackedPerson>& of_frame) override {
+    if (next_ == end_) return false;
+    frame = static_cast<std::int64_t>(next_);
+    of_frame = frames_[next_++];
+    return true;
+  }
+
+ private:
+  TrajectoryInfo info_;
+  std::vector<std::vector<TrackedPerson>> frames_;
+  std::size_t next_ = 0, end_ = 0;
+};
+
+CheckSummary run(Recording& recording, std::size_t frames) {
+  recording.rewind(frames);
+  CheckOptions options;
+  options.coarse = 3;  // as for files of so many rows
+  return check(recording, options);
+}
+
+/// Compares the pairs within 1.2 m with those that a loop over all pairs finds.
+void require_same(Recording& recording) {
+  std::uint64_t near = 0;
+  for (std::size_t k = 0; k < checked_frames; ++k) {
+    const auto& frame = recording.frames()[k];
+    for (std::size_t i = 0; i < frame.size(); ++i)
+      for (std::size_t j = 0; j < i; ++j) {
+        const double x = frame[i].x - frame[j].x, y = frame[i].y - frame[j].y;
+        near += x * x + y * y <= 1.2 * 1.2;
+      }
+  }
+  const CheckSummary summary = run(recording, checked_frames);
+  if (summary.all.near_pairs != near)
+    throw std::runtime_error(
+        fmt::format("check: {} pairs within 1.2 m where a loop finds {}", summary.all.near_pairs, near));
+}
+
+std::string name_of(const Crowd& crowd, std::size_t frames) {
+  return with_threads(fmt::format("check/{}/{}", crowd.name, frames), threads);
+}
+
+void print_checks(const Results& results) {
+  fmt::print(
+      "checks of {} people, {:g} a square metre, whole bodies, reading aside, million person-frames a "
+      "second\n",
+      people, density);
+  for (const Crowd& crowd : crowds)
+    for (const std::size_t frames : {few_frames, many_frames}) {
+      const Timing& timing = results.at(name_of(crowd, frames));
+      const double millions = 1e3 / timing.nanoseconds;
+      fmt::print("  {:20}{} frames, {:.0f} % in overlap, {:5.0f} poses built: {:.2f}   {}\n", crowd.words,
+                 frames, timing.counters.at("percent"), timing.counters.at("poses"), millions,
+                 verdict(millions, needed_millions));
+    }
+}
+
+}  // namespace
+
+std::vector<Table> check_tables(Suite& suite) {
+  for (const Crowd& crowd : crowds) {
+    const Shared<Recording> shared([&crowd] { return std::make_shared<Recording>(crowd); });
+    for (const std::size_t frames : {few_frames, many_frames})
+      suite.add(
+          name_of(crowd, frames),
+          [shared, frames]() -> Contender {
+            const std::shared_ptr<Recording> recording = shared.get();
+            require_same(*recording);
+            const CheckSummary summary = run(*recording, frames);
+            const auto rows = static_cast<double>(summary.all.people);
+            return {[recording, frames] { run(*recording, frames); },
+                    summary.all.people,
+                    {{"percent", 100 * static_cast<double>(summary.all.overlapping) / rows},
+                     {"poses", summary.shapes}}};
+          },
+          threads);
+  }
+  return {{"checks", "^check/", print_checks}};
+}
+
+}  // namespace bch::bench
