@@ -27,6 +27,11 @@ void check_size(const void* given, std::size_t known, const char* argument) {
                       (absurd ? "" : ", and fields that this version does not know are set"));
 }
 
+void reject_cut(std::uint32_t size, const char* argument) {
+  throw Failure(BCH_INVALID_ARGUMENT,
+                std::string(argument) + "->size is " + std::to_string(size) + ", inside a member");
+}
+
 void check_index(std::size_t index, std::size_t count, const char* argument) {
   if (index >= count)
     throw Failure(BCH_OUT_OF_RANGE,

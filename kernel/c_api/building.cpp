@@ -4,12 +4,14 @@
 #include <oneapi/tbb/enumerable_thread_specific.h>
 
 #include <array>
+#include <optional>
 
 #include <bch/shape_set_builder.hpp>
 
 #include "kernel/c_api/arguments.hpp"
 #include "kernel/c_api/objects.hpp"
 #include "kernel/c_api/outlines.hpp"
+#include "kernel/c_api/own_characters.hpp"
 #include "kernel/c_api/posing.hpp"
 #include "kernel/c_api/work.hpp"
 #include "kernel/runtime/ordered_build.hpp"
@@ -61,6 +63,16 @@ ShapeOrigin origin_of(ShapeOrigins& origins, const std::string& name, const Char
   return {number, number + 1 + at.clip, at.seconds};
 }
 
+/// The same where characters take turns: `known` is what was answered before about this one.
+ShapeOrigin origin_of(ShapeOrigins& origins, const bch_character& of, const bch_pose& at,
+                      std::optional<ShapeOrigin>& known) {
+  if (known && at.clip == BCH_REST_POSE) return {known->character, ShapeOrigin::rest_pose, 0};
+  if (known && known->clip != ShapeOrigin::rest_pose)
+    return {known->character, known->character + 1 + at.clip, at.seconds};
+  known = origin_of(origins, of.name, *of.character, {at.clip, at.seconds});
+  return *known;
+}
+
 /// Adds shapes, all of them or, where that fails, none.
 template <class Add>
 void all_or_none(bch_shape_set_builder& to, Add add) {
@@ -102,25 +114,61 @@ void add_own(bch_shape_set_builder* handle, const char* kind, const bch_heights*
   add_without_pose(to, kind, shape);
 }
 
-void add_poses(bch_shape_set_builder& to, const bch_character& of, std::span<const bch_pose> poses,
-               const bch_work* given) {
-  Work work(given, poses.size());
-  const Character& character = *of.character;
-  tbb::enumerable_thread_specific<PoseShaper> shapers(
-      [&] { return PoseShaper(character, to.plan, to.threshold); });
+/// What a thread makes shapes of several characters with.
+class Shapers {
+ public:
+  Shapers(std::span<const bch_character* const> characters, const bch_shape_set_builder& to)
+      : characters_(characters), to_(to), shapers_(characters.size()) {}
+
+  PoseShaper& of(std::uint32_t character) {
+    std::optional<PoseShaper>& shaper = shapers_[character];
+    if (!shaper) shaper.emplace(*characters_[character]->character, to_.plan, to_.threshold);
+    return *shaper;
+  }
+
+ private:
+  std::span<const bch_character* const> characters_;
+  const bch_shape_set_builder& to_;
+  std::vector<std::optional<PoseShaper>> shapers_;
+};
+
+/// Adds the shapes of poses. `source_of(i)` tells the i-th.
+template <class SourceOf>
+void add_poses(bch_shape_set_builder& to, std::span<const bch_character* const> characters, std::size_t count,
+               SourceOf source_of, const bch_work* given) {
+  Work work(given, count);
+  tbb::enumerable_thread_specific<Shapers> shapers([&] { return Shapers(characters, to); });
   on_threads(work.threads(), [&] {
     detail::add_in_order(
-        *to.builder, to.plan, poses.size(),
+        *to.builder, to.plan, count,
         [&](std::size_t i) -> const Shape& {
-          const Shape& shape = shape_of_pose(shapers.local(), poses[i], i);
+          const bch_shape_source source = source_of(i);
+          const Shape& shape =
+              shape_of_pose(shapers.local().of(source.character), source.at, i, source.whole != 0);
           work.part_done();
           return shape;
         },
         [](std::size_t) {});
   });
   work.all_done();
-  for (const bch_pose& pose : poses)
-    to.origins.origins.push_back(origin_of(to.origins, of.name, character, {pose.clip, pose.seconds}));
+  std::vector<std::optional<ShapeOrigin>> known(characters.size());
+  for (std::size_t i = 0; i < count; ++i) {
+    const bch_shape_source source = source_of(i);
+    to.origins.origins.push_back(
+        origin_of(to.origins, *characters[source.character], source.at, known[source.character]));
+  }
+}
+
+void check_sources(std::span<const bch_character* const> characters,
+                   std::span<const bch_shape_source> sources) {
+  for (const bch_character* const character : characters) object_of(character, "a character of characters");
+  for (std::size_t i = 0; i < sources.size(); ++i) {
+    if (sources[i].character >= characters.size())
+      throw Failure(BCH_OUT_OF_RANGE, "sources[" + std::to_string(i) + "].character is " +
+                                          std::to_string(sources[i].character) + " of " +
+                                          std::to_string(characters.size()));
+    check_pose(*characters[sources[i].character]->character, sources[i].at, i);
+  }
 }
 
 std::vector<std::vector<Vec2>> polygons_of(const bch_vec2* corners, const uint64_t* offsets,
@@ -137,25 +185,6 @@ std::vector<std::vector<Vec2>> polygons_of(const bch_vec2* corners, const uint64
     all.emplace_back(of.begin(), of.end());
   }
   return all;
-}
-
-/// A mesh is a character of one joint, at the agent's position, which all vertices follow.
-Character character_of_mesh(std::span<const bch_vec3> positions, std::span<const uint32_t> corners) {
-  Character character;
-  character.name = "mesh";
-  character.joints.push_back({"origin", -1, {}});
-  character.bones.push_back({});
-  character.root_joint = 0;
-  for (const bch_vec3& position : positions) {
-    character.influence_begin.push_back(static_cast<uint32_t>(character.influences.size()));
-    character.influences.push_back({0, 1});
-    character.vertices.push_back({position.x, position.y, position.z});
-  }
-  character.influence_begin.push_back(static_cast<uint32_t>(character.influences.size()));
-  for (std::size_t i = 0; i + 2 < corners.size(); i += 3)
-    character.triangles.push_back({corners[i], corners[i + 1], corners[i + 2]});
-  validate(character);
-  return character;
 }
 
 }  // namespace
@@ -217,7 +246,31 @@ bch_status bch_shape_set_builder_add_poses(bch_shape_set_builder* handle, const 
     const bch_character& of = object_of(character, "character");
     const auto all = array_of(poses, count, "poses");
     check_poses(*of.character, all);
-    all_or_none(builder, [&] { add_poses(builder, of, all, work); });
+    const bch_character* const characters[] = {&of};
+    all_or_none(builder, [&] {
+      add_poses(
+          builder, characters, count,
+          [&](std::size_t i) {
+            return bch_shape_source{0, all[i], 0};
+          },
+          work);
+    });
+  });
+}
+
+bch_status bch_shape_set_builder_add_sources(bch_shape_set_builder* handle,
+                                             const bch_character* const* characters, size_t character_count,
+                                             const bch_shape_source* sources, size_t count,
+                                             const bch_work* work) {
+  return guarded([&] {
+    bch_shape_set_builder& builder = object_of(handle, "builder");
+    const auto of = array_of(characters, character_count, "characters");
+    const auto all = array_of(sources, count, "sources");
+    check_sources(of, all);
+    all_or_none(builder, [&] {
+      add_poses(
+          builder, of, count, [&](std::size_t i) { return all[i]; }, work);
+    });
   });
 }
 

@@ -3,6 +3,9 @@
 
 #pragma once
 
+#include <algorithm>
+#include <vector>
+
 #include <bch/clearance.hpp>
 #include <bch/penetration.hpp>
 
@@ -24,6 +27,9 @@ struct Call {
   const Agents agents;
   QueryOptions options;
   std::uint32_t threads;
+
+  /// Whether bodies meet part by part, for which some queries need memory.
+  bool in_parts() const { return shapes.slab_count() > 1 || !agents.z.empty(); }
 
   /// Asks on the threads that the options want.
   template <class Ask>
@@ -50,6 +56,39 @@ inline ClearanceAnswers clearance_answers(const bch_clearance_out* given, std::s
   if (out.discs != nullptr) answers.discs = same_array<DiscPair>(out.discs, count, "out->discs");
   if (out.points != nullptr) answers.points = same_array<NearestPoints>(out.points, count, "out->points");
   return answers;
+}
+
+/// Answers of a query that needs memory on its way: they are kept here until all are there, so that nothing has been written for
+/// the caller where memory runs out.
+template <class Value>
+class Kept {
+ public:
+  explicit Kept(std::span<Value> to) : to_(to), answers_(to.size()) {}
+
+  std::span<Value> answers() { return answers_; }
+  void deliver() const { std::copy(answers_.begin(), answers_.end(), to_.begin()); }
+
+ private:
+  const std::span<Value> to_;
+  std::vector<Value> answers_;
+};
+
+/// Asks `ask(answers)` for answers, and delivers all of them or none.
+template <class Value, class Ask>
+void all_or_none(std::span<Value> to, Ask ask) {
+  Kept kept(to);
+  ask(kept.answers());
+  kept.deliver();
+}
+
+template <class Ask>
+void all_or_none(const ClearanceAnswers& to, Ask ask) {
+  Kept distance(to.distance);
+  Kept direction(to.direction);
+  Kept discs(to.discs);
+  Kept points(to.points);
+  ask(ClearanceAnswers{distance.answers(), direction.answers(), discs.answers(), points.answers()});
+  distance.deliver(), direction.deliver(), discs.deliver(), points.deliver();
 }
 
 inline std::span<Penetration> penetrations(bch_penetration_depth* depths, std::size_t count) {

@@ -50,6 +50,9 @@ constexpr std::string_view kind_of(const bch_trajectory*) {
 constexpr std::string_view kind_of(const bch_check*) {
   return "bch_check";
 }
+constexpr std::string_view kind_of(const bch_scene_plan*) {
+  return "bch_scene_plan";
+}
 constexpr std::string_view kind_of(const bch_obstacles*) {
   return "bch_obstacles";
 }

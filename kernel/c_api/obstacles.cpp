@@ -36,6 +36,12 @@ struct ObstacleCall : Call {
                const bch_query_options* wanted)
       : Call(set, of, wanted), obstacles(object_of(given, "obstacles").set) {}
 
+  /// Asks for answers about all agents, which come whole or not at all.
+  template <class To, class Ask>
+  void ask(To to, Ask ask_into) const {
+    all_or_none(to, [&](const auto& answers) { run([&] { ask_into(answers); }); });
+  }
+
   const ObstacleSet& obstacles;
 };
 
@@ -85,7 +91,7 @@ bch_status bch_obstacles_collide(const bch_shape_set* set, const bch_agents* age
   return guarded([&] {
     const ObstacleCall call(set, agents, obstacles, options);
     const auto to = array_of(hits, call.agents.size(), "hits");
-    call.run([&] { collide(call.shapes, call.agents, call.obstacles, to, call.options); });
+    call.ask(to, [&](auto into) { collide(call.shapes, call.agents, call.obstacles, into, call.options); });
   });
 }
 
@@ -96,7 +102,8 @@ bch_status bch_obstacles_within(const bch_shape_set* set, const bch_agents* agen
     const ObstacleCall call(set, agents, obstacles, options);
     const auto near = array_of(distances, distance_count, "distances");
     const auto to = array_of(answers, call.agents.size(), "answers");
-    call.run([&] { within(call.shapes, call.agents, call.obstacles, near, to, call.options); });
+    call.ask(to,
+             [&](auto into) { within(call.shapes, call.agents, call.obstacles, near, into, call.options); });
   });
 }
 
@@ -106,7 +113,9 @@ bch_status bch_obstacles_clearance(const bch_shape_set* set, const bch_agents* a
   return guarded([&] {
     const ObstacleCall call(set, agents, obstacles, options);
     const ClearanceAnswers to = clearance_answers(out, call.agents.size());
-    call.run([&] { clearance(call.shapes, call.agents, call.obstacles, to, call.options); });
+    call.ask(to, [&](const auto& into) {
+      clearance(call.shapes, call.agents, call.obstacles, into, call.options);
+    });
   });
 }
 
@@ -116,7 +125,8 @@ bch_status bch_obstacles_penetration(const bch_shape_set* set, const bch_agents*
   return guarded([&] {
     const ObstacleCall call(set, agents, obstacles, options);
     const auto to = penetrations(depths, call.agents.size());
-    call.run([&] { penetration(call.shapes, call.agents, call.obstacles, to, call.options); });
+    call.ask(to,
+             [&](auto into) { penetration(call.shapes, call.agents, call.obstacles, into, call.options); });
   });
 }
 
@@ -128,6 +138,8 @@ bch_status bch_obstacles_time_of_impact(const bch_shape_set* set, const bch_agen
     const std::size_t count = call.agents.size();
     const Displacements ways{array_of(x, count, "x"), array_of(y, count, "y")};
     const auto to = array_of(times, count, "times");
-    call.run([&] { time_of_impact(call.shapes, call.agents, ways, call.obstacles, to, call.options); });
+    call.ask(to, [&](auto into) {
+      time_of_impact(call.shapes, call.agents, ways, call.obstacles, into, call.options);
+    });
   });
 }

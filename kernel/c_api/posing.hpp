@@ -17,20 +17,24 @@ inline const Shape& made_by(const bch_pose_shaper& shaper) {
   return *shaper.made;
 }
 
+/// Checks that a character has the clip of a pose.
+inline void check_pose(const Character& character, const bch_pose& pose, std::size_t i) {
+  if (pose.clip != BCH_REST_POSE && pose.clip >= character.clips.size())
+    throw Failure(BCH_OUT_OF_RANGE, "poses[" + std::to_string(i) + "].clip is " + std::to_string(pose.clip) +
+                                        " of " + std::to_string(character.clips.size()));
+}
+
 /// Checks that a character has the clips of all poses.
 inline void check_poses(const Character& character, std::span<const bch_pose> poses) {
-  for (std::size_t i = 0; i < poses.size(); ++i)
-    if (poses[i].clip != BCH_REST_POSE && poses[i].clip >= character.clips.size())
-      throw Failure(BCH_OUT_OF_RANGE, "poses[" + std::to_string(i) + "].clip is " +
-                                          std::to_string(poses[i].clip) + " of " +
-                                          std::to_string(character.clips.size()));
+  for (std::size_t i = 0; i < poses.size(); ++i) check_pose(character, poses[i], i);
 }
 
 /// Makes the shape of a pose.
 /// Errors:  names the pose.
-inline const Shape& shape_of_pose(PoseShaper& shaper, const bch_pose& pose, std::size_t i) {
+inline const Shape& shape_of_pose(PoseShaper& shaper, const bch_pose& pose, std::size_t i,
+                                  bool whole = false) {
   try {
-    return shaper.shape({pose.clip, pose.seconds});
+    return shaper.shape({pose.clip, pose.seconds}, whole);
   } catch (const std::logic_error& error) {
     const bool large = dynamic_cast<const std::length_error*>(&error) != nullptr;
     throw Failure(large ? BCH_TOO_LARGE : BCH_INVALID_ARGUMENT,

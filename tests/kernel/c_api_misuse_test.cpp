@@ -132,7 +132,27 @@ TEST_F(CApiMisuse, SizesOfThePastAndOfTheFuture) {
     expect_error(ask(), BCH_INVALID_ARGUMENT, about("options->size is ", size));
   }
 
+  // No version ends inside a member.
+  options = BCH_QUERY_OPTIONS_INIT;
+  static_assert(offsetof(bch_query_options, max_distance) == 24 && sizeof options == 40);
+  for (std::uint32_t size = 4; size <= sizeof options; ++size) {
+    options.size = size;
+    if (size % 4 == 0 && size != 28 && size != 36) {
+      expect_ok(ask());
+      hit = 77;
+    } else {
+      expect_error(ask(), BCH_INVALID_ARGUMENT, about("options->size is ", size) + ", inside a member");
+    }
+  }
+  bch_clearance_out cut = BCH_CLEARANCE_OUT_INIT;
+  cut.size = offsetof(bch_clearance_out, points) + 4;
+  expect_error(bch_clearance(set.get(), &agents, &pair, 1, nullptr, &cut), BCH_INVALID_ARGUMENT,
+               "inside a member");
+
   bch_shape_set_info info = BCH_SHAPE_SET_INFO_INIT;
+  info.size = offsetof(bch_shape_set_info, bytes) + 4;
+  expect_error(bch_shape_set_get_info(set.get(), &info), BCH_INVALID_ARGUMENT, "inside a member");
+  EXPECT_EQ(info.shapes, 0u);
   info.bytes = 123;
   info.size = offsetof(bch_shape_set_info, bytes);
   expect_ok(bch_shape_set_get_info(set.get(), &info));

@@ -31,6 +31,7 @@ using OwnedDynamicSet = Owned<bch_dynamic_shape_set, bch_dynamic_shape_set_free>
 using OwnedBroadPhase = Owned<bch_broad_phase, bch_broad_phase_free>;
 using OwnedCollider = Owned<bch_crowd_collider, bch_crowd_collider_free>;
 using OwnedFinder = Owned<bch_contact_finder, bch_contact_finder_free>;
+using OwnedScenePlan = Owned<bch_scene_plan, bch_scene_plan_free>;
 using OwnedObstacles = Owned<bch_obstacles, bch_obstacles_free>;
 
 inline void expect_ok(bch_status status) {

@@ -411,14 +411,91 @@ TEST_F(CApiAllocationFaults, Obstacles) {
             5u);
   const auto walls = made<test::OwnedObstacles>(read);
   std::vector<std::uint8_t> hits(agents.count);
+  EXPECT_GT(
+      fail_each([&](Attempt& attempt) {
+        hits.assign(hits.size(), 77);
+        attempt(
+            [&] { return bch_obstacles_collide(set.get(), &agents, walls.get(), &one_thread, hits.data()); },
+            [&] { return std::count(hits.begin(), hits.end(), 77) == 100; });
+        EXPECT_EQ(std::count(hits.begin(), hits.end(), 77), 0);
+      }),
+      1u);
+  // Answers of several arrays are there, or in none of them.
+  const float none = 77;
+  std::vector<float> distance(agents.count);
+  std::vector<bch_vec2> direction(agents.count);
+  bch_clearance_out out = BCH_CLEARANCE_OUT_INIT;
+  out.distance = distance.data(), out.direction = direction.data();
   EXPECT_GT(fail_each([&](Attempt& attempt) {
-              hits.assign(hits.size(), 77);
-              attempt([&] {
-                return bch_obstacles_collide(set.get(), &agents, walls.get(), &one_thread, hits.data());
-              });
-              EXPECT_EQ(std::count(hits.begin(), hits.end(), 77), 0);
+              distance.assign(agents.count, none), direction.assign(agents.count, {none, none});
+              attempt(
+                  [&] { return bch_obstacles_clearance(set.get(), &agents, walls.get(), &one_thread, &out); },
+                  [&] {
+                    return std::count(distance.begin(), distance.end(), none) == 100 &&
+                           std::all_of(direction.begin(), direction.end(),
+                                       [&](const bch_vec2& of) { return of.x == none && of.y == none; });
+                  });
+              EXPECT_EQ(std::count(distance.begin(), distance.end(), none), 0);
             }),
-            1u);
+            2u);
+}
+
+/// Pairs of bodies at different heights, for which clearances and times need memory.
+TEST_F(CApiAllocationFaults, PairsAtDifferentHeights) {
+  const std::vector<Pair> pairs = candidate_pairs(set_of_shapes, crowd.agents(), 1);
+  crowd.z.assign(crowd.x.size(), 0);
+  crowd.z[1] = 0.5;
+  agents = test::c_agents(crowd);
+  std::vector<float> answers(pairs.size());
+  const std::vector<double> way(pairs.size(), 0.5);
+  bch_clearance_out out = BCH_CLEARANCE_OUT_INIT;
+  out.distance = answers.data();
+  for (const bool times : {false, true})
+    EXPECT_GT(fail_each([&](Attempt& attempt) {
+                answers.assign(answers.size(), 77);
+                const auto left = [&] {
+                  return static_cast<std::size_t>(std::count(answers.begin(), answers.end(), 77));
+                };
+                attempt(
+                    [&] {
+                      return times
+                                 ? bch_time_of_impact(set.get(), &agents, test::c_pairs(pairs), pairs.size(),
+                                                      way.data(), way.data(), &one_thread, answers.data())
+                                 : bch_clearance(set.get(), &agents, test::c_pairs(pairs), pairs.size(),
+                                                 &one_thread, &out);
+                    },
+                    [&] { return left() == answers.size(); });
+                EXPECT_EQ(left(), 0u);
+              }),
+              2u);
+}
+
+TEST_F(CApiAllocationFaults, Scenes) {
+  const auto character = man();
+  const bch_character* const people[] = {character.get()};
+  const bch_shape_source sources[] = {{0, {BCH_REST_POSE, 0}, 1}, {0, {0, 0}, 0}};
+  bch_work work = BCH_WORK_INIT;
+  work.threads = 1;
+  EXPECT_GT(fail_each_adding(
+                [&](bch_shape_set_builder* to) {
+                  return bch_shape_set_builder_add_sources(to, people, 1, sources, 2, &work);
+                },
+                11),
+            20u);
+  const bch_pose poses[] = {{0, 0}, {0, 1}, {BCH_REST_POSE, 0}};
+  bch_scene_agents of = BCH_SCENE_AGENTS_INIT;
+  of.poses = poses, of.count = 3;
+  EXPECT_GT(fail_each_making([&](bch_scene_plan** to) { return bch_scene_plan_create(&of, nullptr, to); },
+                             bch_scene_plan_free),
+            5u);
+  const bch_vec3 positions[] = {{1, 0, 0}, {2, 0, 0}, {2, 1, 0}};
+  const std::uint32_t triangles[] = {0, 1, 2};
+  bch_character_arrays arrays = BCH_CHARACTER_ARRAYS_INIT;
+  arrays.vertices = positions, arrays.vertex_count = 3, arrays.triangles = triangles,
+  arrays.triangle_count = 1;
+  EXPECT_GT(fail_each_making([&](bch_character** to) { return bch_character_create(&arrays, to); },
+                             bch_character_free),
+            5u);
 }
 
 TEST_F(CApiAllocationFaults, WhatASetTells) {

@@ -23,8 +23,8 @@
  *           radians; a heading of 0 leaves a shape as it is, and the built-in characters then face +x.
  * Threads:  functions may be called from any thread. Objects that a function does not take as const are for one thread at a
  *           time; a set of shapes and obstacles answer any number of threads at once.
- * Memory:   no function throws, ends the program or prints. An allocation that fails is BCH_NO_MEMORY; answers about obstacles may then have
- *           been written in part.
+ * Memory:   no function throws, ends the program or prints. An allocation that fails is BCH_NO_MEMORY. Queries of pairs make none, but
+ *           for clearances and times of bodies in slabs or at different heights.
  */
 
 #ifdef __cplusplus
@@ -119,6 +119,68 @@ BCH_API bch_status bch_character_pedestrian(int32_t sex, double stature, double 
 #define BCH_PEDESTRIAN_SPEED_STEP 0.03
 /** Returns the strides, of two steps each, that a pedestrian takes in a second. */
 BCH_API double bch_pedestrian_strides_per_second(double metres_per_second);
+
+/** An affine map takes a point to rows * (x, y, z, 1): each row is one of the linear part and its share of the translation. */
+typedef struct bch_affine3 {
+  float rows[3][4];
+} bch_affine3;
+/** The weight of a bone in the place of a vertex. */
+typedef struct bch_influence {
+  uint32_t bone;
+  float weight; /**< positive; those of a vertex sum to 1 */
+} bch_influence;
+enum {
+  BCH_LINEAR = 0, /**< blends two keys, rotations spherically */
+  BCH_STEP = 1,   /**< keeps the earlier key */
+  BCH_CUBIC = 2   /**< a Hermite spline with tangents; rotations are normalised after they are blended */
+};
+/** How a part of a joint's transform moves: keys in order of time. Without keys that part stays as it is at rest. */
+typedef struct bch_curve {
+  const float* times;  /**< seconds from the start of the clip */
+  const float* values; /**< a key after the other: x, y, z, and w of rotations, which are unit quaternions */
+  const float* tangents; /**< of cubic curves alone: of each key that before it and that behind it, per second, as values are */
+  size_t count;          /**< of keys */
+  int32_t interpolation; /**< BCH_LINEAR, BCH_STEP or BCH_CUBIC */
+} bch_curve;
+/** The motion of one joint relative to its parent. */
+typedef struct bch_channel {
+  uint32_t joint;
+  bch_curve positions, rotations, scales;
+} bch_channel;
+/** A motion of a character. */
+typedef struct bch_clip {
+  const char* name; /**< or NULL */
+  float seconds;
+  const bch_channel* channels; /**< at most one a joint */
+  size_t channel_count;
+} bch_clip;
+/** A character in arrays of the caller. Joints are the nodes of the skeleton; bones are what moves vertices: a joint each, and the map from
+ * the vertices' frame into that joint's frame at rest. Without joints it is a mesh that stands still, about the agent's position. */
+typedef struct bch_character_arrays {
+  uint32_t size;      /**< sizeof(bch_character_arrays) */
+  int32_t root_joint; /**< whose point on the ground is a shape's origin; -1: the middle of the mesh's bounding rectangle */
+  const char* name;   /**< or NULL */
+  const bch_vec3* vertices;
+  size_t vertex_count;
+  const uint32_t* triangles; /**< three vertices each */
+  size_t triangle_count;
+  const int32_t* parents;    /**< of joints: an earlier joint, or -1 */
+  const bch_affine3* rests;  /**< of joints, in the parent's frame; NULL: none is moved */
+  const char* const* joint_names; /**< or NULL */
+  size_t joint_count;
+  const uint32_t* bone_joints;
+  const bch_affine3* inverse_binds; /**< of bones; NULL: vertices are in the joints' frames */
+  size_t bone_count;
+  const uint64_t* influence_offsets; /**< vertex v follows influences [v] to [v + 1]; NULL: all follow the first bone */
+  const bch_influence* influences;
+  const bch_clip* clips;
+  size_t clip_count;
+  const bch_affine3* to_ground; /**< from the joints' frame to metres, z up; NULL: that is theirs */
+} bch_character_arrays;
+#define BCH_CHARACTER_ARRAYS_INIT \
+  { sizeof(bch_character_arrays), -1, NULL, NULL, 0, NULL, 0, NULL, NULL, NULL, 0, NULL, NULL, 0, NULL, NULL, NULL, 0, NULL }
+/** Makes a character of arrays, which are copied. */
+BCH_API bch_status bch_character_create(const bch_character_arrays* arrays, bch_character** character);
 
 /** What the caller knows better than a character's file. */
 typedef struct bch_import_options {
@@ -290,6 +352,17 @@ BCH_API bch_status bch_shape_set_builder_create(const bch_plan* plan, bch_shape_
  * those that were before are still there. */
 BCH_API bch_status bch_shape_set_builder_add_poses(bch_shape_set_builder* builder, const bch_character* character,
                                                    const bch_pose* poses, size_t count, const bch_work* work);
+/** Which character in which pose a shape shows. */
+typedef struct bch_shape_source {
+  uint32_t character; /**< index in a list of characters */
+  bch_pose at;
+  int32_t whole; /**< not 0: it is not cut, whatever the plan's slices */
+} bch_shape_source;
+/** Adds the shapes of poses of several characters, as bch_shape_set_builder_add_poses() does of one. */
+BCH_API bch_status bch_shape_set_builder_add_sources(bch_shape_set_builder* builder,
+                                                     const bch_character* const* characters,
+                                                     size_t character_count, const bch_shape_source* sources,
+                                                     size_t count, const bch_work* work);
 /** Adds the shape that a shaper made last. */
 BCH_API bch_status bch_shape_set_builder_add_shape(bch_shape_set_builder* builder, const bch_pose_shaper* shaper);
 /** Adds a body of polygons: polygon i has corners offsets[i] to offsets[i + 1], in the agent's frame, either way round. `heights` may be
@@ -429,7 +502,7 @@ BCH_API bch_status bch_clearance(const bch_shape_set* set, const bch_agents* age
 /** How far the first agent of a pair has to move to be free of the second, and in which direction, as a unit vector. */
 typedef struct bch_penetration_depth {
   float depth;  /**< metres */
-  float unused; /**< not written */
+  float unused; /**< of no meaning */
   double x, y;
 } bch_penetration_depth;
 /** Measures how far the first agent of each pair has to move, along the best of so many evenly spread directions: an even number from
@@ -693,6 +766,53 @@ BCH_API bch_status bch_local_densities(const double* x, const double* y, size_t 
 BCH_API bch_status bch_depth_at_density(double people_per_square_metre, uint32_t* depth);
 /** Tells planes that clear most false collisions of standing people, for 1, 2, 3, 4 or 8 slabs: writes slabs - 1 of them. */
 BCH_API bch_status bch_standing_slices(uint32_t slabs, float* slices);
+/** Chooses the planes of so many slabs that clear most false collisions of a crowd of given bodies, among `planes`, 5 cm apart for instance: body i is
+ * characters[i] in poses[i], a hundred tell enough. Writes slabs - 1 of the planes, ascending, or all where there are no more, and how
+ * many to `slice_count`. */
+BCH_API bch_status bch_best_slices(const bch_character* const* characters, const bch_pose* poses, size_t count,
+                                   const float* planes, size_t plane_count, uint32_t slabs, float* slices,
+                                   size_t* slice_count);
+
+/** The agents of a scene that is planned, one entry an agent in each array. */
+typedef struct bch_scene_agents {
+  uint32_t size;             /**< sizeof(bch_scene_agents) */
+  const uint32_t* character; /**< index in a list of characters; NULL: all are the first */
+  const bch_pose* poses;
+  const double* distance; /**< metres from the viewer; NULL: 0 */
+  const uint32_t* depth;  /**< level of detail: the cut depth that an agent needs; NULL: BCH_ALL_DEPTHS */
+  size_t count;
+} bch_scene_agents;
+#define BCH_SCENE_AGENTS_INIT \
+  { sizeof(bch_scene_agents), NULL, NULL, NULL, NULL, 0 }
+/** What will be asked of a scene. */
+typedef struct bch_scene_use {
+  uint32_t size;       /**< sizeof(bch_scene_use) */
+  int32_t solid;       /**< not 0: queries use solid semantics, too */
+  int32_t leaves;      /**< BCH_SEGMENTS or BCH_DISCS at the level of all depths */
+  int32_t heights;     /**< not 0: agents stand at different heights */
+  const float* slices; /**< planes that cut the bodies of agents who are near */
+  size_t slice_count;
+  double whole_from;      /**< agents from this distance on are whole bodies, metres */
+  double pairs_per_shape; /**< about how many pairs a shape will be in before it is given up; few where each lives for one frame */
+  float pose_step; /**< seconds, to whose multiples times are rounded down so that agents share shapes; 0: they are not */
+} bch_scene_use;
+#define BCH_SCENE_USE_INIT \
+  { sizeof(bch_scene_use), 0, BCH_SEGMENTS, 0, NULL, 0, (double)INFINITY, (double)INFINITY, 0 }
+/** What to build for a scene, each shape once, and which shape and level its agents have. */
+typedef struct bch_scene_plan bch_scene_plan;
+/** Plans which shapes a scene needs, at which depths and with what beside. */
+BCH_API bch_status bch_scene_plan_create(const bch_scene_agents* agents, const bch_scene_use* use,
+                                         bch_scene_plan** plan);
+/** Tells the plan of the set to build; its arrays live as long as the scene plan, like the next. */
+BCH_API bch_status bch_scene_plan_get_set(const bch_scene_plan* plan, bch_plan* set);
+/** Tells the shapes to build, for bch_shape_set_builder_add_sources(). */
+BCH_API bch_status bch_scene_plan_get_shapes(const bch_scene_plan* plan, const bch_shape_source** shapes,
+                                             size_t* count);
+/** Tells the shape and the level of each agent, for bch_agents. */
+BCH_API bch_status bch_scene_plan_get_agents(const bch_scene_plan* plan, const uint32_t** shape,
+                                             const uint8_t** level, size_t* count);
+/** Frees a plan. */
+BCH_API bch_status bch_scene_plan_free(bch_scene_plan* plan);
 
 #ifdef __cplusplus
 }
