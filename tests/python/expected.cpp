@@ -144,6 +144,64 @@ void answer_crowd(const Scene& scene, const Folder& to) {
   to.write("wall_time_of_impact", distance);
 }
 
+/// A post that bends in the middle, as the test in Python makes it.
+Character bending_post() {
+  Character of;
+  of.name = "post";
+  of.joints = {{"foot", -1, {}}, {"knee", 0, {{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 1}}}}};
+  of.bones = {{0, {}}, {1, {{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, -1}}}}};
+  of.vertices = {{-0.25f, 0, 0}, {0.25f, 0, 0}, {0.25f, 0.125f, 1}, {-0.25f, 0.125f, 1}, {0, 0.25f, 2}};
+  of.triangles = {{0, 1, 2}, {0, 2, 3}, {3, 2, 4}};
+  of.influence_begin = {0, 1, 2, 4, 6, 7};
+  of.influences = {{0, 1}, {0, 1}, {0, 0.5f}, {1, 0.5f}, {0, 0.25f}, {1, 0.75f}, {1, 1}};
+  Channel channel;
+  channel.joint = 1;
+  channel.positions = {{0, {0, 0, 1}}, {1, {0, 0.5f, 1}}};
+  channel.position_curve = {Interpolation::cubic, {{{0, 0, 0}, {1, 0, 0}}, {{0, 1, 0}, {0, 0, 0}}}};
+  channel.rotations = {{0, {0, 0, 0, 1}}, {1, {0, 0.6f, 0, 0.8f}}};
+  channel.scales = {{0, {1, 1, 1}}, {0.5f, {1, 2, 1}}};
+  channel.scale_curve.interpolation = Interpolation::step;
+  of.clips = {{"bend", 1, {channel}}};
+  of.root_joint = 0;
+  validate(of);
+  return of;
+}
+
+void make_scenes(const Folder& to) {
+  const Character post = bending_post();
+  PoseShaper bent(post);
+  std::vector<Shape> posts;
+  for (const PoseTime& at : {PoseTime{}, {0, 0.25f}, {0, 0.75f}}) posts.push_back(bent.shape(at));
+  save_baked(to.file("posts.bch"), ShapeSet(posts));
+
+  const Character people[] = {default_male(), default_female()};
+  std::vector<SceneAgent> agents;
+  for (std::uint32_t i = 0; i < 100; ++i)
+    agents.push_back({{i % 2, {i % 3, 0.25f * static_cast<float>(i % 7)}}, 0.3 * i, 0.05 * i});
+  const ScenePlan plan = plan_scene(agents, {.density_depth = depth_at_density,
+                                             .slices = standing_slices(3),
+                                             .whole_from = 20,
+                                             .pose_step = 0.5f,
+                                             .pairs_per_shape = 20});
+  to.write("agent_shape", plan.agent_shape);
+  to.write("agent_level", plan.agent_level);
+  PoseShaper shapers[] = {PoseShaper(people[0], plan.set), PoseShaper(people[1], plan.set)};
+  std::vector<Shape> shapes;
+  for (const ShapeSource& source : plan.shapes)
+    shapes.push_back(shapers[source.character].shape(source.at, source.whole));
+  save_baked(to.file("scene.bch"), ShapeSet(shapes, plan.set));
+
+  std::vector<float> planes;
+  for (int i = 1; i < 18; ++i) planes.push_back(0.1f * static_cast<float>(i));
+  std::vector<Shape> bodies;
+  for (const Character& character : people) {
+    PoseShaper shaper(character, {.slices = planes});
+    for (const PoseTime& at : sample_poses(character, 5)) bodies.push_back(shaper.shape(at));
+  }
+  to.write("planes", planes);
+  to.write("best_slices", best_slices(bodies, planes, 3));
+}
+
 }  // namespace
 }  // namespace bch
 
@@ -154,5 +212,6 @@ int main(int argc, char** argv) {
   write_scene(scene, to);
   answer_pairs(scene, to);
   answer_crowd(scene, to);
+  make_scenes(to);
   return 0;
 }

@@ -114,6 +114,63 @@ class Answers(unittest.TestCase):
         self.assertEqual((len(same), same.segment_count, same.owner(3)), (2, 5, 1))
         self.expect(bch.collide(self.shapes, self.agents, same), "wall_collide")
 
+    def expect_set(self, found, name):
+        expected = bch.ShapeSet.load(Path(self.folder.name) / name)
+        self.assertEqual((len(found), found.depths, found.slices), (len(expected), expected.depths, expected.slices))
+        for shape in range(len(found)):
+            for level in range(len(found.depths)):
+                np.testing.assert_array_equal(found.discs(shape, level), expected.discs(shape, level))
+            for one, other in zip(found.outline(shape), expected.outline(shape)):
+                np.testing.assert_array_equal(one, other)
+
+    def test_characters_of_arrays(self):
+        up = np.eye(4)[:3]
+        up[2, 3] = 1
+        down = up.copy()
+        down[2, 3] = -1
+        bend = bch.Channel(
+            1,
+            positions=bch.Curve([0, 1], [(0, 0, 1), (0, 0.5, 1)], "cubic", [[(0, 0, 0), (1, 0, 0)], [(0, 1, 0), (0, 0, 0)]]),
+            rotations=bch.Curve([0, 1], [(0, 0, 0, 1), (0, 0.6, 0, 0.8)]),
+            scales=bch.Curve([0, 0.5], [(1, 1, 1), (1, 2, 1)], "step"),
+        )
+        post = bch.make_character(
+            [(-0.25, 0, 0), (0.25, 0, 0), (0.25, 0.125, 1), (-0.25, 0.125, 1), (0, 0.25, 2)],
+            [(0, 1, 2), (0, 2, 3), (3, 2, 4)],
+            name="post",
+            joints=[bch.Joint("foot"), bch.Joint("knee", 0, up)],
+            bones=[bch.Bone(0), bch.Bone(1, down)],
+            vertex_bones=[(0, 1)] * 5,
+            weights=[(1, 0), (1, 0), (0.5, 0.5), (0.25, 0.75), (0, 1)],
+            motions=[bch.Motion("bend", 1.0, [bend])],
+            root_joint=0,
+        )
+        self.assertEqual((post.name, post.joints, post.clips), ("post", 2, [bch.Clip("bend", 1.0)]))
+        self.expect_set(bch.bake(post, [(bch.REST_POSE, 0), (0, 0.25), (0, 0.75)]), "posts.bch")
+
+    def test_scenes(self):
+        i = np.arange(100)
+        poses = np.empty(100, bch.POSE)
+        poses["clip"], poses["seconds"] = i % 3, 0.25 * (i % 7)
+        plan = bch.plan_scene(
+            poses,
+            character=(i % 2).astype(np.uint32),
+            distance=0.3 * i,
+            depth=bch.depth_at_density(0.05 * i),
+            slices=bch.standing_slices(3),
+            whole_from=20,
+            pose_step=0.5,
+            pairs_per_shape=20,
+        )
+        self.expect(plan.shape, "agent_shape")
+        self.expect(plan.level, "agent_level")
+        people = [bch.default_male(), bch.default_female()]
+        made = plan.build(people)
+        self.expect_set(made, "scene.bch")
+        self.assertEqual({made.origin(k).character for k in range(len(made))}, {"default:male", "default:female"})
+        best = bch.best_slices(people, self.read("planes", "f4"), 3, poses=5)
+        self.expect(np.array(best, "f4"), "best_slices")
+
     def test_arrays_of_the_caller(self):
         """Results go into `out` itself, and agents that move are seen."""
         n = len(self.pairs)

@@ -78,6 +78,27 @@ class Errors(unittest.TestCase):
         self.expect(IndexError, ["shape is 4294967296"], self.shapes.discs, 2**32)
         self.expect(IndexError, ["slab is -1"], self.shapes.outline, 0, -1)
         self.expect(ValueError, ["a depth is -1"], bch.ShapeSetBuilder, bch.Plan([-1]))
+
+    def test_characters_and_scenes(self):
+        mesh = ([(0, 0, 0), (1, 0, 0), (1, 1, 1)], [(0, 1, 2)])
+        make = lambda **more: bch.make_character(*mesh, **more)
+        self.assertEqual(make().triangles, 1)
+        self.expect(TypeError, ["vertices"], bch.make_character, [(0, 0)], mesh[1])
+        self.expect(ValueError, ["weights", "None"], make, weights=np.ones((3, 1)))
+        self.expect(TypeError, ["weights has 2 rows", "3 vertices"], make, weights=np.ones((2, 1)), vertex_bones=[[0], [0]])
+        self.expect(ValueError, ["vertex 0", "sum to 0.5"], make, weights=np.full((3, 1), 0.5), vertex_bones=[[0]] * 3)
+        self.expect(TypeError, ["the rest of joint 0", "(2, 2)"], make, joints=[bch.Joint(rest=np.eye(2))])
+        bent = lambda *curve: [bch.Motion("a", 1.0, [bch.Channel(0, bch.Curve(*curve))])]
+        self.expect(ValueError, ["interpolation is 'round'"], make, motions=bent([0], [(0, 0, 0)], "round"))
+        self.expect(TypeError, ["tangents", "(1, 2, 3)"], make, motions=bent([0], [(0, 0, 0)], "cubic"))
+        self.expect(TypeError, ["times", "(2,)"], make, motions=bent([0, 1], [(0, 0, 0)]))
+        self.expect(ValueError, ["out of order"], make, motions=bent([1, 0], [(0, 0, 0)] * 2))
+        self.expect(TypeError, ["distance", "float64"], bch.plan_scene, [(0, 0.0)], distance=np.zeros(1, "f4"))
+        self.expect(ValueError, ["agent 0", "-1"], bch.plan_scene, [(0, 0.0)], distance=-np.ones(1))
+        self.expect(ValueError, ["leaves is 'round'"], bch.plan_scene, [(0, 0.0)], leaves="round")
+        plan = bch.plan_scene([(0, 0.0)], character=np.array([1], np.uint32))
+        self.expect(IndexError, ["sources[0].character is 1 of 1"], plan.build, [make()])
+        self.expect(ValueError, ["slabs is 0"], bch.best_slices, make(), [0.5], 0)
         self.expect(ValueError, ["NUL"], bch.Obstacles.from_wkt, "LINESTRING(0 0, 1 1)\0")
         self.expect(ValueError, ["NUL"], self.shapes.save, "a\0b")
         self.expect(ValueError, ["nan"], bch.depth_at_density, float("nan"))
@@ -231,6 +252,7 @@ class Sets(unittest.TestCase):
         woman = bch.default_pedestrian("female", 1.62)
         self.assertEqual((woman.name, len(woman.clips)), ("pedestrian:female", 74))
         self.assertEqual(woman.clips[46].name, "walk 1.38 m/s")
+        self.assertAlmostEqual(bch.pedestrian_strides_per_second(1.4), 1.0)
         with self.assertRaisesRegex(ValueError, "stature"):
             bch.default_pedestrian("male", 5.0)
 

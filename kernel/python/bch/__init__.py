@@ -21,7 +21,8 @@ what is wanted. Every query runs without the interpreter's lock, so that Python 
 """
 
 from . import plot
-from ._arrays import DISC, PENETRATION, POSE
+from ._arrays import DISC, PENETRATION, POSE, SOURCE
+from ._characters import Bone, Channel, Curve, Joint, Motion, make_character
 from ._crowds import (
     BroadPhase,
     ContactFinder,
@@ -58,6 +59,7 @@ from ._queries import (
     within,
 )
 from ._recordings import NEAR, OVERLAP, PASS, TRACKED, WALL, Check, Trajectory, check, dataframe, read_trajectory
+from ._scenes import ScenePlan, best_slices, plan_scene
 from ._shapes import (
     ALL_DEPTHS,
     REST_POSE,
@@ -76,6 +78,7 @@ from ._shapes import (
     default_pedestrian,
     depth_at_density,
     import_character,
+    pedestrian_strides_per_second,
     standing_slices,
 )
 
@@ -85,18 +88,23 @@ __all__ = [
     "Agents",
     "ArgumentError",
     "ArrayError",
+    "Bone",
     "BroadPhase",
+    "Channel",
     "Character",
     "Check",
     "Clip",
     "ContactFinder",
     "Contacts",
     "CrowdCollider",
+    "Curve",
     "DISC",
     "DynamicShapeSet",
     "Error",
     "FileError",
     "FileMissing",
+    "Joint",
+    "Motion",
     "NEAR",
     "Nearest",
     "OVERLAP",
@@ -112,6 +120,8 @@ __all__ = [
     "REST_POSE",
     "RangeError",
     "Rows",
+    "SOURCE",
+    "ScenePlan",
     "ShapeSet",
     "ShapeSetBuilder",
     "SizeError",
@@ -119,6 +129,7 @@ __all__ = [
     "Trajectory",
     "WALL",
     "bake",
+    "best_slices",
     "candidate_pairs",
     "check",
     "clearance",
@@ -134,8 +145,11 @@ __all__ = [
     "implementations",
     "import_character",
     "local_densities",
+    "make_character",
     "nearest",
+    "pedestrian_strides_per_second",
     "penetration",
+    "plan_scene",
     "plot",
     "read_trajectory",
     "standing_slices",

@@ -30,6 +30,8 @@ f4, f8, b1 = np.dtype(np.float32), np.dtype(np.float64), np.dtype(np.bool_)
 DISC = np.dtype([("x", f4), ("y", f4), ("radius", f4)])
 #: A time in a clip of a character; clip 0xffffffff is the rest pose.
 POSE = np.dtype([("clip", u4), ("seconds", f4)])
+#: Which character, by its place in a list, in which pose a shape shows; `whole`, if not 0: no slices cut it.
+SOURCE = np.dtype([("character", u4), ("clip", u4), ("seconds", f4), ("whole", i4)])
 #: How far the first agent of a pair has to move, metres, and in which direction, a unit vector.
 PENETRATION = np.dtype({"names": ["depth", "x", "y"], "formats": [f4, f8, f8], "offsets": [0, 8, 16], "itemsize": 24})
 
@@ -54,7 +56,7 @@ def _shape_words(shape: Shape) -> str:
 
 
 def _dtype_words(dtype: np.dtype[Any]) -> str:
-    names = {DISC: "bch.DISC", POSE: "bch.POSE", PENETRATION: "bch.PENETRATION", b1: "bool"}
+    names = {DISC: "bch.DISC", POSE: "bch.POSE", SOURCE: "bch.SOURCE", PENETRATION: "bch.PENETRATION", b1: "bool"}
     return names.get(dtype, dtype.name)
 
 

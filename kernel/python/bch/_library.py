@@ -99,6 +99,78 @@ class ImportOptions(_Sized):
     ]
 
 
+class Curve(ctypes.Structure):
+    _fields_ = [
+        ("times", c_void_p),
+        ("values", c_void_p),
+        ("tangents", c_void_p),
+        ("count", c_size_t),
+        ("interpolation", c_int32),
+    ]
+
+
+class Channel(ctypes.Structure):
+    _fields_ = [("joint", c_uint32), ("positions", Curve), ("rotations", Curve), ("scales", Curve)]
+
+
+class Clip(ctypes.Structure):
+    _fields_ = [
+        ("name", c_char_p),
+        ("seconds", c_float),
+        ("channels", POINTER(Channel)),
+        ("channel_count", c_size_t),
+    ]
+
+
+class CharacterArrays(_Sized):
+    _fields_ = [
+        ("size", c_uint32),
+        ("root_joint", c_int32),
+        ("name", c_char_p),
+        ("vertices", c_void_p),
+        ("vertex_count", c_size_t),
+        ("triangles", c_void_p),
+        ("triangle_count", c_size_t),
+        ("parents", c_void_p),
+        ("rests", c_void_p),
+        ("joint_names", POINTER(c_char_p)),
+        ("joint_count", c_size_t),
+        ("bone_joints", c_void_p),
+        ("inverse_binds", c_void_p),
+        ("bone_count", c_size_t),
+        ("influence_offsets", c_void_p),
+        ("influences", c_void_p),
+        ("clips", POINTER(Clip)),
+        ("clip_count", c_size_t),
+        ("to_ground", c_void_p),
+    ]
+
+
+class SceneAgents(_Sized):
+    _fields_ = [
+        ("size", c_uint32),
+        ("character", c_void_p),
+        ("poses", c_void_p),
+        ("distance", c_void_p),
+        ("depth", c_void_p),
+        ("count", c_size_t),
+    ]
+
+
+class SceneUse(_Sized):
+    _fields_ = [
+        ("size", c_uint32),
+        ("solid", c_int32),
+        ("leaves", c_int32),
+        ("heights", c_int32),
+        ("slices", c_void_p),
+        ("slice_count", c_size_t),
+        ("whole_from", c_double),
+        ("pairs_per_shape", c_double),
+        ("pose_step", c_float),
+    ]
+
+
 class CharacterInfo(_Sized):
     _fields_ = [
         ("size", c_uint32),
@@ -276,6 +348,7 @@ _letters: Dict[str, Any] = {
 _functions = {
     "character_default": "ip",
     "character_pedestrian": "iddp",
+    "character_create": "pp",
     "character_import": "spp",
     "character_get_info": "pp",
     "character_get_clip": "pupp",
@@ -297,6 +370,7 @@ _functions = {
     "pose_shaper_free": "p",
     "shape_set_builder_create": "pp",
     "shape_set_builder_add_poses": "pppnp",
+    "shape_set_builder_add_sources": "ppnpnp",
     "shape_set_builder_add_shape": "pp",
     "shape_set_builder_add_polygons": "pppnp",
     "shape_set_builder_add_capsules": "ppnfp",
@@ -349,6 +423,12 @@ _functions = {
     "local_densities": "ppndp",
     "depth_at_density": "dp",
     "standing_slices": "up",
+    "best_slices": "ppnpnupp",
+    "scene_plan_create": "ppp",
+    "scene_plan_get_set": "pp",
+    "scene_plan_get_shapes": "ppp",
+    "scene_plan_get_agents": "pppp",
+    "scene_plan_free": "p",
 }
 
 
@@ -367,6 +447,8 @@ def _load() -> ctypes.CDLL:
         function.restype = c_int32
     for name in ("bch_last_error", "bch_version", "bch_implementation_name"):
         getattr(library, name).restype = c_char_p
+    library.bch_pedestrian_strides_per_second.argtypes = [c_double]
+    library.bch_pedestrian_strides_per_second.restype = c_double
     return library
 
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 import ctypes
 import os
 from ctypes import byref, c_char_p, c_float, c_size_t, c_uint32
-from typing import Any, List, NamedTuple, Optional, Sequence, Tuple, Union
+from typing import Any, List, NamedTuple, Optional, Sequence, Tuple, Union, overload
 
 import numpy as np
 import numpy.typing as npt
@@ -17,7 +17,9 @@ from . import _library
 from ._arrays import (
     DISC,
     POSE,
+    SOURCE,
     Float32,
+    Float64,
     Records,
     UInt32,
     address,
@@ -85,8 +87,14 @@ def standing_slices(slabs: int) -> List[float]:
     return [float(plane) for plane in planes]
 
 
-def depth_at_density(people_per_square_metre: float) -> int:
-    """Return the cut depth that a density asks for, people per square metre."""
+@overload
+def depth_at_density(people_per_square_metre: float) -> int: ...
+@overload
+def depth_at_density(people_per_square_metre: Float64) -> UInt32: ...
+def depth_at_density(people_per_square_metre: Union[float, Float64]) -> Union[int, UInt32]:
+    """Return the cut depth that a density asks for, people per square metre; of an array those of all."""
+    if isinstance(people_per_square_metre, np.ndarray):
+        return np.array([depth_at_density(float(density)) for density in people_per_square_metre], u4)
     if not 0 <= people_per_square_metre < float("inf"):
         raise ArgumentError(f"people_per_square_metre is {people_per_square_metre}")
     depth = c_uint32()
@@ -148,6 +156,10 @@ class Character:
         return f"<bch.Character {self.name!r}: {self.triangles} triangles, {len(self.clips)} clips>"
 
 
+def _pointers(characters: Sequence[Character]) -> Any:
+    return (ctypes.c_void_p * len(characters))(*[character._pointer for character in characters])
+
+
 def default_male() -> Character:
     """Make the built-in man, who is 1.88 m tall and needs no file."""
     return Character(Handle("character", "default", 0))
@@ -180,6 +192,11 @@ def default_pedestrian(sex: str = "male", stature: float = 1.75, shoulders: floa
     if sex not in ("female", "male"):
         raise ArgumentError(f"sex is {sex!r}; it is 'female' or 'male'")
     return Character(Handle("character", "pedestrian", int(sex == "male"), stature, shoulders))
+
+
+def pedestrian_strides_per_second(speed: float) -> float:
+    """Return the strides, of two steps each, that a pedestrian takes in a second at a speed in m/s."""
+    return float(lib.bch_pedestrian_strides_per_second(speed))
 
 
 def import_character(
@@ -265,7 +282,9 @@ class PoseShaper:
         self._handle = Handle("pose_shaper", "create", character._pointer, c_plan._pointer)
         self._pointer: int = self._handle.pointer
 
-    def outline(self, clip: int = REST_POSE, seconds: float = 0.0, slab: Optional[int] = None) -> List[Float32]:
+    def outline(
+        self, clip: int = REST_POSE, seconds: float = 0.0, slab: Optional[int] = None, *, whole: bool = False
+    ) -> List[Float32]:
         """Return the outline of a pose: closed contours, counter-clockwise, of points in metres.
 
         Parameters
@@ -276,11 +295,13 @@ class PoseShaper:
             The time from the start of the clip.
         slab : int, optional
             One of the slabs between the plan's slices; by default all of them.
+        whole : bool
+            Do not cut the body.
         """
         number = REST_POSE if clip == REST_POSE else index(clip, "clip", self._clips)
         which = _slab(slab, self._slabs)
         with self._exclusive:
-            check(lib.bch_pose_shaper_make(self._pointer, _library.Pose(number, seconds), 0))
+            check(lib.bch_pose_shaper_make(self._pointer, _library.Pose(number, seconds), int(whole)))
             return _contours(lib.bch_pose_shaper_get_outline, self._pointer, which)
 
 
@@ -481,6 +502,31 @@ class ShapeSetBuilder:
             watched.run(
                 lib.bch_shape_set_builder_add_poses(
                     self._pointer, character._pointer, address(array), len(array), byref(work)
+                )
+            )
+
+    def add_sources(
+        self, characters: Sequence[Character], sources: Records, *, threads: int = 0, progress: bool = False
+    ) -> None:
+        """Add the shapes of poses of several characters, as `plan_scene` tells them. Ctrl-C ends it, and none of them is added.
+
+        Parameters
+        ----------
+        characters : sequence of Character
+        sources : (n,) SOURCE
+            Records of character, clip, seconds and whole; a character by its place in `characters`.
+        threads : int
+            0: all processors.
+        progress : bool
+            Show a bar, on a terminal.
+        """
+        which = given(sources, SOURCE, (None,), "sources")
+        pointers = _pointers(characters)
+        with self._exclusive, Watched("baking", progress) as watched:
+            work = _library.Work(threads=bounded(threads, "threads", 0, 1024), progress=watched.callback)
+            watched.run(
+                lib.bch_shape_set_builder_add_sources(
+                    self._pointer, pointers, len(pointers), which, len(sources), byref(work)
                 )
             )
 

@@ -1,0 +1,183 @@
+# SPDX-License-Identifier: MIT
+# Copyright (c) 2026 the bch authors
+
+"""What to build for a scene, and where to cut bodies."""
+
+from __future__ import annotations
+
+import math
+from ctypes import byref, c_size_t, c_void_p
+from typing import Any, List, Optional, Sequence, Union
+
+import numpy as np
+import numpy.typing as npt
+
+from . import _library
+from ._arrays import POSE, SOURCE, Float64, Records, UInt8, UInt32, address, bounded, copied, f4, f8, given, u1, u4
+from ._library import ArgumentError, Handle, check, lib
+from ._shapes import Character, Plan, ShapeSet, ShapeSetBuilder, _as_poses, _pointers
+
+
+class ScenePlan:
+    """What to build for a scene, each shape once, and what its agents ask for. `plan_scene` makes one.
+
+    Attributes
+    ----------
+    plan : Plan
+        The plan of the set.
+    sources : (s,) SOURCE
+        The shapes, for `ShapeSetBuilder.add_sources`.
+    shape : (n,) uint32
+        The shape of each agent, for `Agents`.
+    level : (n,) uint8
+        The level of each agent.
+    """
+
+    __slots__ = ("plan", "sources", "shape", "level")
+
+    def __init__(self, handle: Handle) -> None:
+        of, first, second, count = _library.Plan(), c_void_p(), c_void_p(), c_size_t()
+        check(lib.bch_scene_plan_get_set(handle.pointer, byref(of)))
+        self.plan = Plan(
+            depths=tuple(copied(of.depths, u4, (of.depth_count,)).tolist()),
+            slices=tuple(copied(of.slices, f4, (of.slice_count,)).tolist()),
+            outlines=bool(of.outlines),
+            culling=bool(of.culling),
+            heights=bool(of.heights),
+        )
+        check(lib.bch_scene_plan_get_shapes(handle.pointer, byref(first), byref(count)))
+        self.sources: Records = copied(first.value, SOURCE, (count.value,))
+        check(lib.bch_scene_plan_get_agents(handle.pointer, byref(first), byref(second), byref(count)))
+        self.shape: UInt32 = copied(first.value, u4, (count.value,))
+        self.level: UInt8 = copied(second.value, u1, (count.value,))
+
+    def build(self, characters: Sequence[Character], *, threads: int = 0, progress: bool = False) -> ShapeSet:
+        """Make the set of the planned shapes.
+
+        Parameters
+        ----------
+        characters : sequence of Character
+            Those that `plan_scene` was told by their places.
+        threads : int
+            0: all processors.
+        progress : bool
+            Show a bar, on a terminal.
+        """
+        builder = ShapeSetBuilder(self.plan)
+        builder.add_sources(characters, self.sources, threads=threads, progress=progress)
+        return builder.finish()
+
+    def __repr__(self) -> str:
+        return f"<bch.ScenePlan of {len(self.sources)} shapes for {len(self.shape)} agents>"
+
+
+def plan_scene(
+    poses: Any,
+    *,
+    character: Optional[UInt32] = None,
+    distance: Optional[Float64] = None,
+    depth: Optional[UInt32] = None,
+    solid: bool = False,
+    leaves: str = "segments",
+    slices: Sequence[float] = (),
+    whole_from: float = math.inf,
+    heights: bool = False,
+    pose_step: float = 0.0,
+    pairs_per_shape: float = math.inf,
+) -> ScenePlan:
+    """Plan which shapes the agents of a scene need, each once, at which depths and with what beside.
+
+    Parameters
+    ----------
+    poses : (n,) POSE, or a sequence of (clip, seconds)
+        One an agent.
+    character : (n,) uint32, optional
+        Each agent's character, by its place in a list; by default the first.
+    distance : (n,) float64, optional
+        From the viewer, metres.
+    depth : (n,) uint32, optional
+        Level of detail: the cut depth that each agent needs, as `depth_at_density` tells; by default ALL_DEPTHS.
+    solid : bool
+        Queries use solid semantics, too.
+    leaves : {"segments", "discs"}
+        What decides at the leaves of the level of all depths.
+    slices : sequence of float
+        Planes that cut the bodies of agents who are near, such as `standing_slices(3)`, metres.
+    whole_from : float
+        Agents from this distance on are whole bodies, metres.
+    heights : bool
+        Agents stand at different heights.
+    pose_step : float
+        Seconds, to whose multiples times are rounded down, so that agents share shapes; 0: they are not.
+    pairs_per_shape : float
+        About how many pairs a shape will be in before it is given up; few where each lives for one frame.
+    """
+    if leaves not in ("discs", "segments"):
+        raise ArgumentError(f"leaves is {leaves!r}; it is 'segments' or 'discs'")
+    array = _as_poses(poses)
+    n = len(array)
+    planes = np.array([float(plane) for plane in slices], f4)
+    agents = _library.SceneAgents(
+        character=None if character is None else given(character, u4, (n,), "character"),
+        poses=address(array),
+        distance=None if distance is None else given(distance, f8, (n,), "distance"),
+        depth=None if depth is None else given(depth, u4, (n,), "depth"),
+        count=n,
+    )
+    use = _library.SceneUse(
+        solid=solid,
+        leaves=int(leaves == "segments"),
+        heights=heights,
+        slices=address(planes),
+        slice_count=len(planes),
+        whole_from=whole_from,
+        pairs_per_shape=pairs_per_shape,
+        pose_step=pose_step,
+    )
+    return ScenePlan(Handle("scene_plan", "create", byref(agents), byref(use)))
+
+
+def best_slices(
+    characters: Union[Character, Sequence[Character]],
+    planes: npt.ArrayLike,
+    slabs: int,
+    *,
+    poses: int = 50,
+) -> List[float]:
+    """Choose the planes of so many slabs that clear most false collisions of a crowd of given bodies.
+
+    Parameters
+    ----------
+    characters : Character, or a sequence of them
+    planes : (p,) array
+        What to choose among: heights in metres, ascending, 5 cm apart for instance.
+    slabs : int
+    poses : int
+        How many poses of each character to look at; a hundred in all tell enough.
+
+    Returns
+    -------
+    list of float
+        slabs - 1 heights, metres, for `Plan.slices`; all planes where there are no more.
+    """
+    people = [characters] if isinstance(characters, Character) else list(characters)
+    each = [character.sample_poses(poses) for character in people]
+    among = np.array(planes, f4, ndmin=1)
+    if among.ndim != 1:
+        raise ArgumentError(f"planes has shape {among.shape}; wanted is (p,)")
+    chosen, count = np.empty(len(among), f4), c_size_t()
+    all_poses = np.concatenate(each) if each else np.empty(0, POSE)
+    pointers = _pointers([character for character, of in zip(people, each) for _ in of])
+    check(
+        lib.bch_best_slices(
+            pointers,
+            address(all_poses),
+            len(all_poses),
+            address(among),
+            len(among),
+            bounded(slabs, "slabs", 1, 2**32 - 1),
+            address(chosen),
+            byref(count),
+        )
+    )
+    return [float(plane) for plane in chosen[: count.value]]
