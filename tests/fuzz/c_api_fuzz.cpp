@@ -194,6 +194,16 @@ bch_pose pose_of(Program& by) {
   return {by.chance(2) ? BCH_REST_POSE : by.index(20), by.number<float>()};
 }
 
+void choose_slices(Program& by) {
+  const bch_character* const characters[] = {by.handle<bch_character>(), by.handle<bch_character>()};
+  const bch_pose poses[] = {{BCH_REST_POSE, 0}, pose_of(by)};
+  const float planes[] = {0, 0.25f, by.number<float>()};
+  Answers<float> slices;
+  std::size_t count = 0;
+  slices.check(bch_best_slices(by.array(characters), by.array(poses), by.count(2), by.array(planes),
+                               by.count(3), by.index(4), by.array(slices.values), by.array(&count)));
+}
+
 /// Cancels after so many calls. An older version has no user.
 std::int32_t hear(void* user, std::uint64_t, std::uint64_t) {
   return user != nullptr && (*static_cast<std::uint8_t*>(user))-- == 0;
@@ -208,6 +218,7 @@ void pose(Program& by) {
       bch_shape_set_builder_add_shape(by.handle<bch_shape_set_builder>(), by.handle<bch_pose_shaper>()));
   Program::succeeded(bch_dynamic_shape_set_replace(by.handle<bch_dynamic_shape_set>(), by.index(4),
                                                    by.handle<bch_pose_shaper>()));
+  if (by.chance(4)) choose_slices(by);
   const bch_pose poses[] = {pose_of(by), pose_of(by)};
   const std::uint32_t shapes[] = {by.index(4), by.index(4)};
   std::uint8_t calls_left = by.bytes.take<std::uint8_t>();
@@ -219,6 +230,102 @@ void pose(Program& by) {
   Program::succeeded(bch_dynamic_shape_set_replace_poses(by.handle<bch_dynamic_shape_set>(), man(by),
                                                          by.array(shapes), by.array(poses), by.count(2),
                                                          by.chance(8) ? by.number<float>() : 0.25f, how));
+}
+
+/// A small character: a mesh, up to two joints, one clip.
+void make_character(Program& by) {
+  bch_vec3 vertices[most];
+  std::uint32_t corners[3 * most], bones[2] = {0, by.index(2)};
+  for (bch_vec3& one : vertices) one = {by.number<float>(), by.number<float>(), by.number<float>()};
+  for (std::uint32_t& one : corners) one = by.index(4);
+  const std::int32_t parents[] = {-1, by.chance(16) ? by.bytes.take<std::int32_t>() : 0};
+  std::uint64_t begin[most + 1];
+  bch_influence influences[most];
+  for (std::uint32_t v = 0; v <= most; ++v) begin[v] = by.chance(64) ? by.bytes.below(most) : v;
+  for (bch_influence& one : influences) one = {by.index(2), by.chance(32) ? by.number<float>() : 1};
+  float times[2] = {0, by.number<float>()}, values[8] = {0, 0, 0, 1, 0, 0, 0, 1}, tangents[16]{};
+  tangents[by.bytes.below(16)] = by.number<float>();
+  const auto interpolation = static_cast<std::int32_t>(by.index(3));
+  const auto curve = [&] {
+    return bch_curve{by.array(times), by.array(values), by.array(tangents), by.count(2), interpolation};
+  };
+  const bch_channel channel{by.index(2), by.chance(2) ? curve() : bch_curve{},
+                            by.chance(2) ? curve() : bch_curve{}, by.chance(2) ? curve() : bch_curve{}};
+  const bch_clip clip{by.chance(2) ? "walk" : nullptr, by.number<float>(), by.array(&channel), by.count(1)};
+  Versioned<bch_character_arrays> arrays{};
+  arrays.known = BCH_CHARACTER_ARRAYS_INIT;
+  arrays.known.vertices = by.array(vertices), arrays.known.vertex_count = by.chance(16) ? by.count(most) : 4;
+  arrays.known.triangles = by.array(corners), arrays.known.triangle_count = by.count(most);
+  if (by.chance(2)) {
+    arrays.known.parents = by.array(parents), arrays.known.joint_count = by.count(2);
+    arrays.known.bone_joints = by.array(bones), arrays.known.bone_count = by.count(2);
+    arrays.known.root_joint = static_cast<std::int32_t>(by.index(3)) - 1;
+  }
+  if (by.chance(2)) arrays.known.influence_offsets = begin, arrays.known.influences = by.array(influences);
+  if (by.chance(2)) arrays.known.clips = by.array(&clip), arrays.known.clip_count = by.count(1);
+  const bch_character_arrays* const of = by.sized(arrays);
+  by.make<bch_character>(
+      [&](bch_character** to) { return bch_character_create(by.array(of), by.array(to)); });
+}
+
+void add_sources(Program& by) {
+  const bch_character* const characters[] = {by.handle<bch_character>(), by.handle<bch_character>()};
+  bch_shape_source sources[4];
+  for (bch_shape_source& one : sources)
+    one = {by.index(2), {by.chance(2) ? BCH_REST_POSE : by.index(2), by.number<float>()}, 0};
+  sources[0].whole = by.bytes.below(2);
+  Versioned<bch_work> work{};
+  work.known = {0, 1, nullptr, nullptr};
+  Program::succeeded(bch_shape_set_builder_add_sources(by.handle<bch_shape_set_builder>(),
+                                                       by.array(characters), by.count(2), by.array(sources),
+                                                       by.count(4), by.sized(work)));
+}
+
+void plan_scene(Program& by) {
+  std::uint32_t character[most], depth[most];
+  bch_pose poses[most];
+  double distance[most];
+  float slices[] = {0, by.number<float>()};
+  for (std::uint32_t i = 0; i < most; ++i) {
+    character[i] = by.index(2), depth[i] = by.chance(2) ? BCH_ALL_DEPTHS : by.index(4);
+    poses[i] = {BCH_REST_POSE, by.number<float>()}, distance[i] = std::abs(by.number<double>());
+  }
+  Versioned<bch_scene_agents> agents{};
+  agents.known = {0,
+                  by.chance(2) ? character : nullptr,
+                  by.array(poses),
+                  by.chance(2) ? distance : nullptr,
+                  by.chance(2) ? depth : nullptr,
+                  by.count(most)};
+  Versioned<bch_scene_use> use{};
+  use.known = BCH_SCENE_USE_INIT;
+  use.known.solid = by.bytes.below(2), use.known.leaves = static_cast<std::int32_t>(by.index(2));
+  use.known.slices = by.array(slices), use.known.slice_count = by.count(2);
+  if (by.chance(4)) use.known.whole_from = by.number<double>(), use.known.pose_step = by.number<float>();
+  const bch_scene_agents* const of = by.sized(agents);
+  const bch_scene_use* const how = by.sized(use);
+  by.make<bch_scene_plan>(
+      [&](bch_scene_plan** to) { return bch_scene_plan_create(of, by.array(how), by.array(to)); });
+}
+
+void read_plan(Program& by) {
+  const bch_scene_plan* const plan = by.handle<bch_scene_plan>();
+  Versioned<bch_plan> set{};
+  set.known = BCH_PLAN_INIT;
+  if (Program::succeeded(bch_scene_plan_get_set(plan, by.array(by.sized(set)))) && by.chance(2))
+    by.make<bch_shape_set_builder>(
+        [&](bch_shape_set_builder** to) { return bch_shape_set_builder_create(&set.known, to); });
+  const bch_shape_source* shapes = nullptr;
+  std::size_t count = 0;
+  if (Program::succeeded(bch_scene_plan_get_shapes(plan, by.array(&shapes), by.array(&count))))
+    Program::succeeded(bch_shape_set_builder_add_sources(by.handle<bch_shape_set_builder>(), nullptr, 0,
+                                                         shapes, count, nullptr));
+  const std::uint32_t* shape = nullptr;
+  const std::uint8_t* level = nullptr;
+  if (Program::succeeded(
+          bch_scene_plan_get_agents(plan, by.array(&shape), by.array(&level), by.array(&count))))
+    for (std::size_t i = 0; i < count; ++i)
+      require(shape[i] < most && level[i] < most, "few shapes and levels");
 }
 
 void make_dynamic(Program& by) {
@@ -509,6 +616,10 @@ constexpr Step steps[] = {make_builder,
                           add_polygons,
                           add_round_bodies,
                           add_mesh,
+                          make_character,
+                          add_sources,
+                          plan_scene,
+                          read_plan,
                           finish,
                           ask_pairs,
                           ask_pairs,
@@ -532,6 +643,8 @@ constexpr Step steps[] = {make_builder,
                           free_one<bch_broad_phase, bch_broad_phase_free>,
                           free_one<bch_crowd_collider, bch_crowd_collider_free>,
                           free_one<bch_contact_finder, bch_contact_finder_free>,
+                          free_one<bch_character, bch_character_free>,
+                          free_one<bch_scene_plan, bch_scene_plan_free>,
                           free_one<bch_obstacles, bch_obstacles_free>};
 
 }  // namespace

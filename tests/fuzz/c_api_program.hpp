@@ -124,15 +124,14 @@ class Program {
     }
   }
 
-  /// Gives a struct a size: the right one mostly, one of the past, of the future or absurd. Structs have fields of up to 8
-  /// bytes, none of which a version cuts.
+  /// Gives a struct a size: the right one mostly, one of the past, of the future, absurd, or one that cuts a member.
   template <class Struct>
   Struct* sized(Versioned<Struct>& of) {
     std::memset(of.later, 0, sizeof of.later);
     of.known.size = sizeof of.known;
     if (!chance(32)) return &of.known;
     const std::uint32_t kind = bytes.below(5);
-    if (kind == 0) of.known.size = 8 * (1 + bytes.below(sizeof of.known / 8));
+    if (kind == 0) of.known.size = 4 + bytes.below(sizeof of.known - 4);
     if (kind == 1) of.known.size = bytes.below(4);
     if (kind == 2) of.known.size = 4097 + bytes.take<std::uint8_t>();
     if (kind >= 3) of.known.size = sizeof of.known + bytes.below(sizeof of.later + 1);
@@ -162,7 +161,8 @@ class Program {
 
   std::tuple<Objects<bch_shape_set>, Objects<bch_pose_shaper>, Objects<bch_shape_set_builder>,
              Objects<bch_dynamic_shape_set>, Objects<bch_broad_phase>, Objects<bch_crowd_collider>,
-             Objects<bch_contact_finder>, Objects<bch_obstacles>, Objects<bch_character>>
+             Objects<bch_contact_finder>, Objects<bch_obstacles>, Objects<bch_character>,
+             Objects<bch_scene_plan>>
       objects_;
   std::vector<void*> all_;
   Versioned<bch_query_options> options_{};
@@ -211,6 +211,8 @@ inline Program::~Program() {
   free_all(bch_crowd_collider_free);
   free_all(bch_contact_finder_free);
   free_all(bch_obstacles_free);
+  free_all(bch_character_free);
+  free_all(bch_scene_plan_free);
 }
 
 }  // namespace bch::fuzz
