@@ -57,7 +57,7 @@ std::string facts(const CheckedRecording& recording, const CheckSummary& summary
       line("bodies",
            fmt::format("built-in pedestrians, {}, {}",
                        recording.slabs == 1 ? "whole" : fmt::format("cut into {} slabs", recording.slabs),
-                       counted(summary.shapes, "pose"))) +
+                       counted(summary.poses.size(), "pose"))) +
       line("poses", fmt::format("within {} cm of each person's speed and phase",
                                 recording.info.rows < coarse_from ? 1 : 3)) +
       line("headings", fmt::format("{:.1f} % guessed: people who stand keep the last one",

@@ -93,7 +93,7 @@ bch_check_event event_of(const OverlapEvent& event) {
 
 bch_check_summary summary_of(const CheckSummary& of, const TrajectoryInfo& info) {
   bch_check_summary to = BCH_CHECK_SUMMARY_INIT;
-  to.shapes = of.shapes;
+  to.shapes = static_cast<std::uint32_t>(of.poses.size());
   to.fps = info.fps;
   to.frames = of.frames;
   to.people = of.people;

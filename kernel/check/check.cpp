@@ -25,7 +25,7 @@ class Checker {
   Checker(const CheckOptions& options, const std::function<void(const CheckedFrame&, const ShapeSet&)>& seen)
       : options_(options), seen_(seen), shapes_(options.plan) {}
 
-  /// Checks all frames of a block but the last one, which the next block begins with; at the end that one, too.
+  /// Checks all frames of a block but the last one, which the next block begins with or nobody asks for; at the end that one, too.
   void check(const FrameBlock& block, bool at_end, double fps);
   CheckSummary finish(std::size_t people);
 
@@ -71,7 +71,10 @@ void Checker::pose(std::size_t runs) {
   for (std::size_t k = 0; k < runs; ++k)
     poses_.insert(poses_.end(), runs_[k]->poses().begin(), runs_[k]->poses().end());
   shape_.resize(poses_.size());
+  const std::uint32_t known = shapes_.given_up() + shapes_.set().shape_count();
   shapes_.find(poses_, shape_);
+  for (std::size_t i = 0; i < poses_.size(); ++i)
+    if (shapes_.given_up() + shape_[i] >= known) summary_.poses.insert(poses_[i].key());
 }
 
 /// Tells the frames of a run, and joins its overlaps to events.
@@ -112,7 +115,6 @@ CheckSummary Checker::finish(std::size_t people) {
   summary_.guessed = summary_.all.guessed;
   summary_.events = events_.finish();
   summary_.people = people;
-  summary_.shapes = shapes_.given_up() + shapes_.set().shape_count();
   return std::move(summary_);
 }
 
@@ -158,7 +160,7 @@ CheckSummary check(TrajectoryReader& reader, const CheckOptions& options,
                    const std::function<void(const CheckedFrame&, const ShapeSet&)>& seen) {
   const FloatingPointStateGuard floats;
   const double fps = reader.info().fps;
-  WalkerReader walkers(reader);
+  WalkerReader walkers(reader, options.frames);
   Checker checker(options, seen);
   FrameBlock now, next;
   bool at_end = now.read(walkers, options.people_at_once, {});
@@ -168,7 +170,7 @@ CheckSummary check(TrajectoryReader& reader, const CheckOptions& options,
     reading.wait();
     std::swap(now, next);
   }
-  if (now.frames() > 0) checker.check(now, true, fps);
+  if (now.frames() > 0) checker.check(now, !walkers.is_behind(), fps);
   return checker.finish(walkers.people());
 }
 

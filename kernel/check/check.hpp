@@ -9,6 +9,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <span>
 #include <utility>
 #include <vector>
@@ -28,6 +29,7 @@ struct CheckOptions {
   const ObstacleSet* walls = nullptr;
   std::uint32_t coarse =
       1;  ///< 1: neither speed nor phase of a pose is off by what moves an outline by 1 cm; 3: by 3 cm
+  FrameInterval frames = {};  ///< these are checked; all before them are read, because people hold headings
   std::size_t people_at_once =
       100'000;  ///< about so many, of many frames; the answers are the same for any number
 };
@@ -90,14 +92,14 @@ struct OverlapEvent {
   double x, y;  ///< where the first person then is, metres
 };
 
-/// What there is to tell of a whole recording.
+/// What there is to tell of a recording, or of an interval of its frames: people are then those until its end.
 struct CheckSummary {
   std::uint64_t frames = 0, people = 0, guessed = 0, passings = 0;
   std::int64_t first_frame = 0, last_frame = 0;
   OverlapCount all;
   OverlapCounts by_density;
   std::vector<OverlapEvent> events;  ///< by their first frames, then ids
-  std::uint32_t shapes = 0;
+  std::set<std::uint64_t> poses;     ///< keys of all that people were in
 };
 
 /// Puts a walking person on every row of a recording and finds who runs into whom. Reads frame after frame; memory grows with the people, and with
@@ -106,5 +108,9 @@ struct CheckSummary {
 ///          number of threads.
 CheckSummary check(TrajectoryReader& reader, const CheckOptions& options,
                    const std::function<void(const CheckedFrame&, const ShapeSet&)>& seen = {});
+
+/// Joins what there is to tell of a recording's intervals, all of them one behind the other, to that of the whole: the same as if it had been
+/// checked at once. Overlaps that go on from one to the next are one event.
+CheckSummary join(std::span<const CheckSummary> intervals);
 
 }  // namespace bch::detail

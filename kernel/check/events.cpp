@@ -43,10 +43,14 @@ void EventLog::add(const CheckedFrame& frame) {
 std::vector<OverlapEvent> EventLog::finish() {
   closed_.insert(closed_.end(), open_.begin(), open_.end());
   open_.clear();
-  std::sort(closed_.begin(), closed_.end(), [](const OverlapEvent& a, const OverlapEvent& b) {
+  sort_events(closed_);
+  return std::move(closed_);
+}
+
+void sort_events(std::vector<OverlapEvent>& events) {
+  std::sort(events.begin(), events.end(), [](const OverlapEvent& a, const OverlapEvent& b) {
     return std::tie(a.from, a.first, a.is_wall, a.second) < std::tie(b.from, b.first, b.is_wall, b.second);
   });
-  return std::move(closed_);
 }
 
 }  // namespace bch::detail

@@ -22,4 +22,7 @@ class EventLog {
   std::vector<OverlapEvent> closed_;
 };
 
+/// Sorts events by their first frames, then ids.
+void sort_events(std::vector<OverlapEvent>& events);
+
 }  // namespace bch::detail

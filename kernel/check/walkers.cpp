@@ -35,10 +35,11 @@ double stature_by_id(std::int64_t id, bool is_female) {
   return is_female ? 1.66 + 0.065 * sum : 1.79 + 0.07 * sum;
 }
 
-WalkerReader::WalkerReader(TrajectoryReader& reader)
+WalkerReader::WalkerReader(TrajectoryReader& reader, FrameInterval wanted)
     : reader_(reader),
       fps_(reader.info().fps),
-      window_(std::max<std::int64_t>(1, std::llround(smoothing * fps_))) {}
+      window_(std::max<std::int64_t>(1, std::llround(smoothing * fps_))),
+      wanted_(wanted) {}
 
 bool WalkerReader::read_one() {
   Frame next;
@@ -99,7 +100,8 @@ void WalkerReader::face_the_crowd(WalkerFrame& frame, const std::vector<Track*>&
     if (!tracks[i]->has_heading) frame.people[i].heading = std::atan2(y, x);
 }
 
-bool WalkerReader::next(WalkerFrame& frame) {
+/// Lets people walk on to the next frame, wanted or not.
+bool WalkerReader::walk_on(WalkerFrame& frame) {
   while (ahead_.empty() || ahead_.back().frame <= ahead_.front().frame + window_)
     if (!read_one()) break;
   if (ahead_.empty()) return false;
@@ -110,6 +112,15 @@ bool WalkerReader::next(WalkerFrame& frame) {
   for (std::size_t i = 0; i < now.people.size(); ++i)
     frame.people.push_back(walk(now.people[i], *now.tracks[i], now.frame));
   face_the_crowd(frame, now.tracks);
+  return true;
+}
+
+bool WalkerReader::next(WalkerFrame& frame) {
+  if (is_behind_) return false;
+  do {
+    if (!walk_on(frame)) return false;
+  } while (frame.frame < wanted_.from);
+  is_behind_ = frame.frame >= wanted_.to;
   return true;
 }
 

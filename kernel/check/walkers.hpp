@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <deque>
+#include <limits>
 #include <unordered_map>
 #include <vector>
 
@@ -31,6 +32,12 @@ struct WalkerFrame {
   std::vector<Walker> people;
 };
 
+/// Frames whose numbers are in [from, to).
+struct FrameInterval {
+  std::int64_t from = std::numeric_limits<std::int64_t>::min();
+  std::int64_t to = std::numeric_limits<std::int64_t>::max();
+};
+
 /// Reads a recording and finds how its people walk: speeds from positions 0.4 s before and after,
 /// or from the next ones where there are none so near, headings from the file or from the
 /// way of a person who walks, held while he stands, and strides that go on with the distance. Memory grows with the people, and with those of
@@ -38,10 +45,12 @@ struct WalkerFrame {
 class WalkerReader {
  public:
   /// `reader` has to live as long as this.
-  explicit WalkerReader(TrajectoryReader& reader);
+  explicit WalkerReader(TrajectoryReader& reader, FrameInterval wanted = {});
 
-  /// Reads the next frame. Returns false at the end.
+  /// Reads the next frame that is wanted. The first one behind these follows, too. Returns false at the end.
   bool next(WalkerFrame& frame);
+  /// Returns whether the last frame that was read is the one behind those wanted.
+  bool is_behind() const noexcept { return is_behind_; }
   /// Returns how many different people were read.
   std::size_t people() const noexcept { return tracks_.size(); }
 
@@ -64,13 +73,15 @@ class WalkerReader {
   };
 
   bool read_one();
+  bool walk_on(WalkerFrame& frame);
   Walker walk(const TrackedPerson& person, Track& track, std::int64_t frame) const;
   void face_the_crowd(WalkerFrame& frame, const std::vector<Track*>& tracks) const;
 
   TrajectoryReader& reader_;
   const double fps_;
   const std::int64_t window_;  ///< frames before and after
-  bool at_end_ = false;
+  const FrameInterval wanted_;
+  bool at_end_ = false, is_behind_ = false;
   std::deque<Frame> ahead_;
   std::unordered_map<std::int64_t, Track> tracks_;
 };

@@ -235,6 +235,44 @@ TEST(Check, IsTheSameForAnyNumberOfThreadsAndFramesAtOnce) {
     }
 }
 
+/// All of a summary, but the coordinates of events' places.
+std::string text_of(const CheckSummary& summary) {
+  std::ostringstream text;
+  text << summary.frames << " " << summary.people << " " << summary.guessed << " " << summary.passings << " "
+       << summary.first_frame << " " << summary.last_frame << "\n";
+  for (const OverlapCount& count : summary.by_density)
+    text << count.people << " " << count.overlapping << " " << count.near_pairs << " " << count.disc_pairs[2]
+         << " " << count.overlapping_pairs << "\n";
+  text << summary.all.people << " " << summary.all.overlapping_pairs << "\n";
+  for (const OverlapEvent& event : summary.events)
+    text << event.first << " " << event.second << " " << event.is_wall << " " << event.from << " " << event.to
+         << " " << event.worst << " " << event.frames << " " << event.depth << " " << event.x << "\n";
+  for (const std::uint64_t pose : summary.poses) text << pose << " ";
+  return text.str();
+}
+
+TEST(Check, IntervalsJoinToTheWhole) {
+  MadeUp recording(10);
+  const int frames = static_cast<int>(test::samples(80));
+  add_crowd(recording, 60, frames);
+  recording.walk(1000, 4, 4, 0, 0,
+                 3 * frames);  // people for whom events span all intervals, and frames go on
+  recording.walk(1001, 4.1, 4, 0, 0, 3 * frames);
+  const ObstacleSet walls = obstacles_from_wkt("POLYGON((0 0, 8 0, 8 8, 0 8))", Polygons::walkable);
+  CheckOptions options;
+  options.walls = &walls;
+  const std::string expected = text_of(check_of(recording, options));
+  for (const std::int64_t parts : {2, 7, frames}) {
+    options.people_at_once = parts % 2 == 0 ? 100'000 : 400;
+    std::vector<CheckSummary> intervals(1);  // without a frame
+    for (std::int64_t k = 0; k < parts; ++k) {
+      options.frames = {3 * frames * k / parts, 3 * frames * (k + 1) / parts};
+      intervals.push_back(check_of(recording, options));
+    }
+    EXPECT_EQ(text_of(join(intervals)), expected) << parts;
+  }
+}
+
 TEST(Check, SlabsClearSomeOfTheOverlaps) {
   MadeUp recording(10);
   add_crowd(recording, 60, static_cast<int>(test::samples(80)));
