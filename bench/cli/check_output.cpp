@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "bench/base/exit_codes.hpp"
 #include "bench/base/text.hpp"
 
 namespace bch::cli {
@@ -184,6 +185,28 @@ void StreamedTable::commit() {
   file_->commit();
 }
 
+std::vector<OutputOption> CheckOutputs::files() const {
+  return {{"--events", events}, {"--frames", frames}, {"--pairs", pairs}, {"--json", json}};
+}
+
+CheckTables::CheckTables(const CheckOutputs& outputs)
+    : frames(outputs.frames, frame_columns),
+      pairs(outputs.pairs, pair_columns),
+      events(outputs.events, event_columns),
+      json(outputs.json) {}
+
+void CheckTables::add(const CheckedFrame& frame) {
+  if (frames) frames.add(frame_line(frame));
+  if (pairs) pairs.add(pair_lines(frame));
+}
+
+void CheckTables::finish(const CheckedRecording& recording, const CheckSummary& summary) {
+  for (const OverlapEvent& event : summary.events)
+    if (events) events.add(event_line(event, recording.info.fps));
+  frames.commit(), pairs.commit(), events.commit();
+  write_check_json(json, recording, summary);
+}
+
 std::string frame_line(const CheckedFrame& frame) {
   std::size_t overlapping = 0, in_walls = 0, pairs = 0;
   double density = 0;
@@ -242,6 +265,13 @@ void write_check_json(const std::string& file, const CheckedRecording& recording
     json.add((&event == summary.events.data() ? "\n" : ",\n") + indented(json_text(json_of(event))));
   json.add(summary.events.empty() ? "]\n}\n" : "\n  ]\n}\n");
   json.commit();
+}
+
+void tell(const CheckedRecording& recording, const CheckSummary& summary, const CheckOutputs& outputs) {
+  write_standard_output(check_text(recording, summary));
+  if (percent_in_overlap(summary) > outputs.fail_above)
+    throw CheckFailed(fmt::format("{}: {:.2f} % of person-seconds in overlap, more than {:g} %",
+                                  recording.file, percent_in_overlap(summary), outputs.fail_above));
 }
 
 }  // namespace bch::cli

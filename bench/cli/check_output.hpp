@@ -5,7 +5,9 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
+#include "bench/base/output.hpp"
 #include "bench/base/output_file.hpp"
 #include "kernel/check/check.hpp"
 
@@ -37,6 +39,25 @@ constexpr const char* frame_columns = "frame,seconds,people,density,overlapping,
 constexpr const char* pair_columns = "frame,seconds,first,second,kind,depth,gap,x,y\n";
 constexpr const char* event_columns = "first,second,kind,from,to,frames,worst,depth,x,y\n";
 
+/// Where the answers of a check go; an empty name is no file.
+struct CheckOutputs {
+  std::string events, frames, pairs, json;
+  double fail_above = 100;  ///< percent of person-seconds
+
+  std::vector<OutputOption> files() const;
+};
+
+/// The tables of a check.
+struct CheckTables {
+  StreamedTable frames, pairs, events;
+  std::string json;
+
+  explicit CheckTables(const CheckOutputs& outputs);
+  void add(const detail::CheckedFrame& frame);
+  /// Writes what is told of the whole, and gives all files their names.
+  void finish(const CheckedRecording& recording, const detail::CheckSummary& summary);
+};
+
 /// Returns the line of a frame, or of each of its pairs.
 std::string frame_line(const detail::CheckedFrame& frame);
 std::string pair_lines(const detail::CheckedFrame& frame);
@@ -51,5 +72,10 @@ void write_check_json(const std::string& file, const CheckedRecording& recording
 
 /// Returns the share of person-frames in overlap, in percent.
 double percent_in_overlap(const detail::CheckSummary& summary);
+
+/// Writes the summary to standard output.
+/// Errors:  throws CheckFailed where more person-seconds are in overlap than outputs.fail_above.
+void tell(const CheckedRecording& recording, const detail::CheckSummary& summary,
+          const CheckOutputs& outputs);
 
 }  // namespace bch::cli

@@ -25,6 +25,7 @@
 #include "bench/cli/baked_report.hpp"
 #include "bench/cli/commands.hpp"
 #include "bench/cli/options.hpp"
+#include "bench/cli/part_options.hpp"
 #include "bench/cli/query_answers.hpp"
 #include "layout/base/rounding.hpp"
 
@@ -40,6 +41,8 @@ struct QueryCommandOptions {
   double max_distance = HUGE_VAL;
   std::string overlap = "zero";
   bool points = false;
+  PartOptions part;
+  std::optional<Part> only;  ///< of pairs, or of agents by obstacles
   ShapeOptions shapes;
   AnswerOptions answer;
 
@@ -50,10 +53,10 @@ struct QueryCommandOptions {
 std::optional<Vec2> QueryCommandOptions::only_direction() const {
   if (direction.empty()) return std::nullopt;
   const std::size_t comma = direction.find(',');
-  const auto part = [](const std::string& text) { return parse_number(text).value_or(HUGE_VAL); };
-  const auto x = static_cast<float>(part(direction.substr(0, comma)));
+  const auto value = [](const std::string& text) { return parse_number(text).value_or(HUGE_VAL); };
+  const auto x = static_cast<float>(value(direction.substr(0, comma)));
   const auto y =
-      static_cast<float>(comma == std::string::npos ? HUGE_VAL : part(direction.substr(comma + 1)));
+      static_cast<float>(comma == std::string::npos ? HUGE_VAL : value(direction.substr(comma + 1)));
   if (!std::isfinite(x) || !std::isfinite(y) || (x == 0 && y == 0))
     throw UsageError(fmt::format("--direction: '{}' is not X,Y with a length", direction));
   return Vec2{x, y};
@@ -106,6 +109,27 @@ struct Question {
   std::optional<ObstacleSet> obstacles = {};
 };
 
+/// Keeps a part of the agents.
+void keep_only(AgentTable& table, const Part& part) {
+  const auto [begin, end] = part.share_of(table.id.size());
+  const auto keep = [first = begin, last = end](auto& column) {
+    if (column.empty()) return;
+    column.erase(column.begin() + static_cast<std::ptrdiff_t>(last), column.end());
+    column.erase(column.begin(), column.begin() + static_cast<std::ptrdiff_t>(first));
+  };
+  keep(table.id), keep(table.shape), keep(table.level);
+  for (std::vector<double>* column : {&table.x, &table.y, &table.heading, &table.z, &table.dx, &table.dy})
+    keep(*column);
+}
+
+/// Keeps a part of what is asked.
+void keep_only(Question& question, const Part& part) {
+  if (question.obstacles) return keep_only(question.table, part);
+  const auto [begin, end] = part.share_of(question.pairs.size());
+  question.pairs = {question.pairs.begin() + static_cast<std::ptrdiff_t>(begin),
+                    question.pairs.begin() + static_cast<std::ptrdiff_t>(end)};
+}
+
 /// Files first, so that a wrong value does not wait for shapes to be built.
 Question read_question(const QueryCommandOptions& options, std::size_t shapes, std::size_t levels) {
   Question question{read_agents(options.agents, static_cast<std::uint32_t>(shapes),
@@ -116,10 +140,12 @@ Question read_question(const QueryCommandOptions& options, std::size_t shapes, s
         read_obstacles(options.obstacles, options.walkable ? Polygons::walkable : Polygons::solid);
   else if (!options.all_pairs)
     question.pairs = read_pairs(options.pairs, question.table);
+  if (options.only) keep_only(question, *options.only);
   return question;
 }
 
-void answer(const QueryCommandOptions& options, const ShapeSet& set, Question& question) {
+/// Returns the table of answers.
+std::string answer(const QueryCommandOptions& options, const ShapeSet& set, Question& question) {
   auto& [table, pairs, obstacle_set] = question;
   const ObstacleSet* const obstacles = obstacle_set ? &*obstacle_set : nullptr;
   QueryOptions how = options.answer.query_options();
@@ -130,13 +156,13 @@ void answer(const QueryCommandOptions& options, const ShapeSet& set, Question& q
     pairs = std::isfinite(options.max_distance) ? near_pairs(set, table, how)
                                                 : colliding_pairs(set, table.agents(), how);
   const QueryKind& kind = query_kind(options.what);
-  write_standard_data(fmt::format("{},{}{}\n", subject_columns(obstacles), kind.columns,
-                                  options.points ? point_columns : "") +
-                      kind.rows({set, table, pairs, how, options.directions, options.only_direction(),
-                                 options.points, obstacles}));
+  return fmt::format("{},{}{}\n", subject_columns(obstacles), kind.columns,
+                     options.points ? point_columns : "") +
+         kind.rows({set, table, pairs, how, options.directions, options.only_direction(), options.points,
+                    obstacles});
 }
 
-void query_character(const QueryCommandOptions& options) {
+std::string query_character(const QueryCommandOptions& options) {
   std::vector<std::uint32_t> depths = options.answer.cut_depths();
   const CostLimits& limits = options.shapes.limits;
   const LoadedCharacter from = load_character(options.character, options.shapes.import_options());
@@ -153,10 +179,10 @@ void query_character(const QueryCommandOptions& options) {
   const BuiltShapes built = build_shapes({&from, 1}, used, options.shapes.threshold, plan, limits);
   const ShapeSet set(built.shapes, plan);
   guard.reset();
-  answer(options, set, question);
+  return answer(options, set, question);
 }
 
-void query_baked(const QueryCommandOptions& options) {
+std::string query_baked(const QueryCommandOptions& options) {
   const BakedShapes baked = load_baked_for(options.character, options.answer);
   Question question = read_question(options, baked.set.shape_count(), baked.set.level_count());
   if (!question.table.z.empty() && !baked.set.has_heights())
@@ -164,7 +190,7 @@ void query_baked(const QueryCommandOptions& options) {
         options.character +
         ": was baked without heights, which agents with a z need; bake it with --heights or --slices");
   const Threads threads(options.answer.threads);
-  answer(options, baked.set, question);
+  return answer(options, baked.set, question);
 }
 
 /// Requires that --leaves concerns the question.
@@ -179,6 +205,27 @@ void require_leaves_of(const CLI::App& command, const QueryCommandOptions& optio
     require_absent(command, {"--leaves"},
                    "belongs to --what collide, --what contacts, --what clearance and --all-pairs");
   }
+}
+
+std::string answers(const CLI::App& command, const QueryCommandOptions& options) {
+  if (!is_baked(options.character)) return query_character(options);
+  require_unsettled(command, options.character);
+  return query_baked(options);
+}
+
+/// Answers a part of what is asked, unless that is done already.
+void query_part(const CLI::App& command, QueryCommandOptions options,
+                const std::vector<std::string>& inputs) {
+  require_absent(command, {"--all-pairs"}, "the pairs of all agents are found at once, not in parts");
+  const PartFiles files = options.part.files();
+  const nlohmann::ordered_json run = run_of(command, inputs);
+  if (files.is_done(run)) return write_standard_output(files.done_line());
+  options.only = files.part();
+  const std::string table = answers(command, options);
+  files.begin();
+  write_file(files.file(answers_kind), table);
+  files.finish(run, {}, {answers_kind});
+  write_standard_output(fmt::format("{}: {}\n", files.part().name(), files.manifest()));
 }
 
 void run_query(const CLI::App& command, const QueryCommandOptions& options) {
@@ -213,11 +260,11 @@ void run_query(const CLI::App& command, const QueryCommandOptions& options) {
   if (options.directions % 2 != 0)
     throw UsageError(fmt::format("--directions: '{}' is odd", options.directions));
   options.only_direction();
-  require_outputs(
-      {}, options.shapes.inputs({options.character, options.agents, options.pairs, options.obstacles}));
-  if (!is_baked(options.character)) return query_character(options);
-  require_unsettled(command, options.character);
-  query_baked(options);
+  const std::vector<std::string> inputs =
+      options.shapes.inputs({options.character, options.agents, options.pairs, options.obstacles});
+  require_outputs({}, inputs);
+  if (options.part.are_given()) return query_part(command, options, inputs);
+  write_standard_data(answers(command, options));
 }
 
 }  // namespace
@@ -292,6 +339,7 @@ std::function<void()> add_query_command(CLI::App& program) {
       ->check(one_of({"zero", "deepest"}));
   command.add_flag("--points", options->points,
                    "Of a clearance: also the nearest points, in metres from their agents, of obstacles too");
+  options->part.add_to(command);
   options->shapes.add_to(command);
   options->answer.add_to(command);
   return [options, &command] { run_query(command, *options); };

@@ -4,6 +4,7 @@
 #include "layout/baked/checksum.hpp"
 
 #include <algorithm>
+#include <vector>
 
 #define XXH_INLINE_ALL
 #include <xxhash.h>
@@ -23,6 +24,19 @@ std::uint64_t checksum(Preamble preamble) {
 
 std::uint64_t checksum(std::span<const std::byte> section_with_zeros) {
   return XXH3_64bits(section_with_zeros.data(), section_with_zeros.size());
+}
+
+StreamChecksum checksum(std::istream& stream) {
+  XXH3_state_t xxh3;
+  XXH3_64bits_reset(&xxh3);
+  std::vector<char> bytes(piece);
+  std::uint64_t all = 0;
+  while (stream.read(bytes.data(), static_cast<std::streamsize>(piece)) || stream.gcount() > 0) {
+    const auto count = static_cast<std::size_t>(stream.gcount());
+    XXH3_64bits_update(&xxh3, bytes.data(), count);
+    all += count;
+  }
+  return {all, XXH3_64bits_digest(&xxh3)};
 }
 
 struct SectionChecksum::State {

@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <istream>
 #include <memory>
 #include <span>
 
@@ -15,6 +16,12 @@ namespace bch::detail::baked {
 /// Returns the checksum of a file's first bytes.
 std::uint64_t checksum(Preamble preamble);
 std::uint64_t checksum(std::span<const std::byte> section_with_zeros);
+
+/// What a stream has left, up to its end.
+struct StreamChecksum {
+  std::uint64_t bytes, checksum;
+};
+StreamChecksum checksum(std::istream& stream);
 
 /// A section's checksum, 64 bits of XXH3, computed piece by piece. The code that reads a piece next finds it
 /// in a near cache, and a large section is read from memory once.

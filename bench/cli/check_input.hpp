@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <bch/obstacles.hpp>
+
+#include "bench/cli/check_output.hpp"
+#include "bench/cli/options.hpp"
+#include "kernel/check/check.hpp"
+
+namespace bch::cli {
+
+/// What is checked, and how: all that the answers depend on.
+struct CheckInput {
+  std::string file, walls, unit, columns;
+  double fps = 0;  ///< 0: what the file says
+  double max_distance = 0;
+  ShapeOptions shapes;  ///< of which slices alone are asked for
+
+  void add_to(CLI::App& command);
+  std::vector<std::string> files() const { return {file, walls}; }
+};
+
+/// Adds the options of where answers go.
+void add_outputs_to(CLI::App& command, CheckOutputs& outputs);
+
+/// A recording that is open, with its walls.
+struct OpenedCheck {
+  std::unique_ptr<detail::TrajectoryReader> reader;
+  std::optional<ObstacleSet> walls;
+  CheckedRecording recording;
+
+  /// Errors:  throws UsageError, InputError, TrajectoryError.
+  explicit OpenedCheck(const CheckInput& input);
+  /// Returns what to ask detail::check(); as long as this lives.
+  detail::CheckOptions options(const CheckInput& input) const;
+};
+
+}  // namespace bch::cli

@@ -1,0 +1,225 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include "bench/cli/parts.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <charconv>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+#include "bench/base/exit_codes.hpp"
+#include "bench/base/output.hpp"
+#include "layout/baked/checksum.hpp"
+
+namespace bch::cli {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+constexpr int manifest_version = 1;
+constexpr std::uint32_t most_parts = 1'000'000;
+constexpr const char* manifest_ending = ".manifest.json";
+
+/// Reads a number from 1 to most_parts, or 0 where it is none.
+std::uint32_t part_number(std::string_view text) {
+  std::uint32_t number = 0;
+  const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  return error == std::errc() && stop == text.data() + text.size() && number <= most_parts ? number : 0;
+}
+
+Json read_manifest(const std::string& file) {
+  std::ifstream stream(file, std::ios::binary);
+  if (!stream) throw InputError(file + ": cannot be read: " + std::strerror(errno));
+  Json manifest = Json::parse(stream, nullptr, false);
+  if (!manifest.is_object() || manifest.value("bch_part", Json()) != manifest_version)
+    throw InputError(file + ": is not the manifest of a part");
+  return manifest;
+}
+
+/// Checks that a part's files have the bytes that its manifest says.
+void require_whole(const PartFiles& part, const Json& manifest) {
+  for (const Json& wanted : manifest.at("files")) {
+    const std::string name = wanted.at("file");
+    const fs::path file = fs::path(part.manifest()).parent_path() / name;
+    if (name.find('/') != std::string::npos)
+      throw InputError(part.manifest() + ": '" + name + "' is elsewhere");
+    if (identity_of_file(file, name) != wanted)
+      throw InputError(file.string() + ": is not what " + part.part().name() + " wrote");
+  }
+}
+
+struct FoundPart {
+  PartFiles files;
+  Json manifest;
+};
+
+/// Reads a manifest and checks its part.
+FoundPart find_part(const std::string& file) {
+  const Json manifest = read_manifest(file);
+  try {
+    const Part part{manifest.at("part"), manifest.at("of")};
+    if (part.number == 0 || part.number > part.count) throw InputError(file + ": is damaged");
+    const PartFiles files(fs::path(file).parent_path(), part);
+    if (fs::path(files.manifest()).filename() != fs::path(file).filename())
+      throw InputError(file + ": is " + part.name() + ", and has the name of another");
+    require_whole(files, manifest);
+    return {files, manifest};
+  } catch (const Json::exception&) {
+    throw InputError(file + ": is damaged");
+  }
+}
+
+/// A folder's manifests take its place.
+std::vector<std::string> manifests_of(const std::vector<std::string>& names) {
+  std::vector<std::string> manifests;
+  for (const std::string& name : names) {
+    std::error_code none;
+    if (!fs::is_directory(name, none)) {
+      manifests.push_back(name);
+      continue;
+    }
+    const std::size_t before = manifests.size();
+    for (const fs::directory_entry& entry : fs::directory_iterator(name))
+      if (entry.path().filename().string().ends_with(manifest_ending)) manifests.push_back(entry.path());
+    if (manifests.size() == before) throw InputError(name + ": has no parts");
+  }
+  std::sort(manifests.begin(), manifests.end());
+  return manifests;
+}
+
+/// What differs between two runs, for people.
+std::string difference(const Json& a, const Json& b) {
+  for (const auto& [key, value] : a.items())
+    if (b.value(key, Json()) != value)
+      return fmt::format("{} {} there and {} here", key, value.dump(), b.value(key, Json()).dump());
+  return "more is said of it";
+}
+
+}  // namespace
+
+std::pair<std::uint64_t, std::uint64_t> Part::share_of(std::uint64_t items) const {
+  const auto begin = [&](std::uint64_t k) { return items / count * k + items % count * k / count; };
+  return {begin(number - 1), begin(number)};
+}
+
+std::string Part::name() const {
+  return fmt::format("part {} of {}", number, count);
+}
+
+Part parse_part(const std::string& text) {
+  const std::size_t slash = std::min(text.find('/'), text.size());
+  const Part part{part_number(text.substr(0, slash)),
+                  slash == text.size() ? 0 : part_number(text.substr(slash + 1))};
+  if (part.number == 0 || part.number > part.count)
+    throw UsageError(fmt::format("--part: '{}' is not I/N, part I of N, such as 2/8", text));
+  return part;
+}
+
+Json identity_of_file(const std::string& file, const std::string& name) {
+  std::ifstream stream(file, std::ios::binary);
+  if (!stream) throw InputError(file + ": cannot be read: " + std::strerror(errno));
+  const auto [bytes, checksum] = detail::baked::checksum(stream);
+  if (stream.bad()) throw InputError(file + ": cannot be read: " + std::strerror(errno));
+  return {{"file", name}, {"bytes", bytes}, {"xxh3", fmt::format("{:016x}", checksum)}};
+}
+
+Json run_of(const std::string& command, const Json& options, const std::vector<std::string>& inputs) {
+  Json files = Json::array();
+  for (const std::string& input : inputs)
+    if (fs::is_regular_file(input)) files.push_back(identity_of_file(input, input));
+  const Json run{{"command", command}, {"version", BCH_VERSION}, {"options", options}, {"inputs", files}};
+  try {
+    static_cast<void>(run.dump());
+  } catch (const Json::type_error&) {
+    throw InputError("a file's name or an option is not UTF-8, as manifests of parts are");
+  }
+  return run;
+}
+
+PartFiles::PartFiles(std::string folder, Part part) : folder_(std::move(folder)), part_(part) {}
+
+std::string PartFiles::file(const std::string& kind) const {
+  return fs::path(folder_) / fmt::format("part-{}-of-{}.{}", part_.number, part_.count, kind);
+}
+
+bool PartFiles::is_done(const Json& run) const {
+  if (!fs::exists(manifest())) return false;
+  try {
+    return find_part(manifest()).manifest.at("run") == run;
+  } catch (const InputError&) {
+    return false;
+  }
+}
+
+std::string PartFiles::done_line() const {
+  return fmt::format("{} is done already: {}\n", part_.name(), manifest());
+}
+
+void PartFiles::begin() const {
+  make_folder(folder_);
+  fs::remove(manifest());
+}
+
+void PartFiles::finish(const Json& run, const Json& share, const std::vector<std::string>& kinds) const {
+  Json files = Json::array();
+  for (const std::string& kind : kinds)
+    files.push_back(identity_of_file(file(kind), fs::path(file(kind)).filename()));
+  write_json(manifest(), {{"bch_part", manifest_version},
+                          {"part", part_.number},
+                          {"of", part_.count},
+                          {"share", share},
+                          {"run", run},
+                          {"files", files}});
+}
+
+WholeRun find_parts(const std::vector<std::string>& names) {
+  std::vector<FoundPart> found;
+  for (const std::string& file : manifests_of(names)) found.push_back(find_part(file));
+  std::sort(found.begin(), found.end(), [](const FoundPart& a, const FoundPart& b) {
+    return a.files.part().number < b.files.part().number;
+  });
+  WholeRun whole{found[0].manifest.at("run"), {}, {}};
+  const std::string first = found[0].files.manifest();
+  const std::uint32_t count = found[0].files.part().count;
+  for (const auto& [files, manifest] : found) {
+    const auto [number, of] = files.part();
+    const std::uint32_t next = static_cast<std::uint32_t>(whole.parts.size()) + 1;
+    if (of != count)
+      throw InputError(fmt::format("{}: is one of {}, but {} one of {}", files.manifest(), of, first, count));
+    if (manifest.at("run") != whole.run)
+      throw InputError(fmt::format("{}: another run than {}: {}", files.manifest(), first,
+                                   difference(whole.run, manifest.at("run"))));
+    if (number < next)
+      throw InputError(fmt::format("{}: {} is there twice", files.manifest(), files.part().name()));
+    if (number > next)
+      throw InputError(fmt::format("{} is missing, of the run of {}", Part{next, count}.name(), first));
+    whole.parts.push_back(files);
+    whole.files.push_back(files.manifest());
+    for (const Json& file : manifest.at("files"))
+      whole.files.push_back(fs::path(files.manifest()).parent_path() / std::string(file.at("file")));
+  }
+  if (whole.parts.size() < count)
+    throw InputError(fmt::format("{} is missing, of the run of {}",
+                                 Part{static_cast<std::uint32_t>(whole.parts.size()) + 1, count}.name(),
+                                 first));
+  return whole;
+}
+
+std::string joined_tables(const WholeRun& whole, const std::string& kind) {
+  std::string all;
+  for (const PartFiles& part : whole.parts) {
+    std::ifstream stream(part.file(kind), std::ios::binary);
+    const std::string table{std::istreambuf_iterator<char>(stream), {}};
+    all += all.empty() ? table : table.substr(table.find('\n') + 1);
+  }
+  return all;
+}
+
+}  // namespace bch::cli
