@@ -1,0 +1,279 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <cstdlib>
+#include <filesystem>
+#include <optional>
+#include <thread>
+
+#include "tests/support/bch_run.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+// `bch check --part`, `bch query --part` and `bch merge`.
+
+namespace bch::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// People who walk through each other; two stand in each other all the time.
+std::string crossing_people(int frames = 60) {
+  std::string text = "# framerate: 10\n# id frame x/m y/m z/m\n";
+  for (int k = 0; k < frames; ++k) {
+    text += fmt::format("90 {0} 9 0 1.7\n91 {0} 9.1 0 1.8\n", k);
+    for (int i = 0; i < 5; ++i)
+      text += fmt::format("{1} {0} {2:.3f} {3} 1.8\n{4} {0} {5:.3f} {6} 1.7\n", k, 10 + i, -3.6 + 0.12 * k,
+                          0.9 * i, 20 + i, 3.6 - 0.12 * k - 0.3 * i, 0.9 * i + 0.1);
+  }
+  return text;
+}
+
+/// All that a run writes; the outputs of one run, or of a merge.
+std::string told(const TemporaryFolder& folder, Arguments arguments) {
+  const Arguments kinds{"events", "frames", "pairs", "json"};
+  for (const std::string& kind : kinds) {
+    arguments.push_back("--" + kind);
+    arguments.push_back(folder.file(kind));
+  }
+  const Ending run = bch(arguments);
+  EXPECT_EQ(run.code, 0) << run.err;
+  EXPECT_EQ(run.err, "");
+  std::string all = run.out;
+  for (const std::string& kind : kinds) all += read_text(folder.file(kind)), fs::remove(folder.file(kind));
+  return all;
+}
+
+Ending do_part(const Arguments& command, int number, int count, const fs::path& into,
+               const Streams& streams = {}) {
+  return bch(command, {"--part", fmt::format("{}/{}", number, count), "--into", into}, streams);
+}
+
+void do_parts(const Arguments& command, int count, const fs::path& into) {
+  for (int k = 1; k <= count; ++k) {
+    const Ending run = do_part(command, k, count, into);
+    EXPECT_EQ(run.code, 0) << run.err;
+    EXPECT_TRUE(run.out.starts_with(fmt::format("part {} of {}: ", k, count))) << run.out;
+  }
+}
+
+void expect_parts_make_the_run(const Arguments& command, const std::vector<int>& counts) {
+  const TemporaryFolder folder;
+  const std::string expected = told(folder, command);
+  EXPECT_GT(expected.size(), 2'000u);
+  for (const int count : counts) {
+    const fs::path parts = folder.file(fmt::format("{}", count));
+    do_parts(command, count, parts);
+    EXPECT_TRUE(told(folder, {"merge", parts}) == expected) << command[1] << " in " << count;
+  }
+}
+
+TEST(CliParts, MakeTheBytesOfOneRun) {
+  const TemporaryFolder folder;
+  const std::string file = folder.write("people.txt", crossing_people());
+  const std::string floor = folder.write("floor.wkt", "POLYGON((-9 -9, 9.2 -9, 9.2 20, -9 20))");
+  expect_parts_make_the_run({"check", file, "--walls", floor, "--max-distance", "0.3"}, {1, 2, 3, 7});
+  const std::string few = folder.write("few.txt", crossing_people(9));
+  expect_parts_make_the_run({"check", few, "--slices", "0.4,1"}, {11});
+}
+
+TEST(CliParts, OfRealRecordingsToo) {
+  const char* const data = std::getenv("BCH_TEST_DATA");
+  if (!data) GTEST_SKIP() << "BCH_TEST_DATA is not set: no real files to read";
+  const fs::path folder = fs::path(data) / "trajectories";
+  expect_parts_make_the_run({"check", folder / "single_file_n56_cam1.csv", "--fps", "25"}, {3});
+#ifndef BCH_SANITIZED
+  expect_parts_make_the_run({"check", folder / "juelich_bottleneck_040_c_56_h.txt"}, {1, 2, 3, 7});
+#endif
+}
+
+TEST(CliParts, OfQueriesMakeTheBytesOfOneRun) {
+  const TemporaryFolder folder;
+  const std::string shapes = folder.write("box.obj", box),
+                    floor = folder.write("floor.wkt", "POLYGON((-9 -9, 1 -9, 1 20, -9 20))");
+  std::string agents = "id,shape,x,y,heading\n", pairs = "first,second\n";
+  for (int i = 0; i < 40; ++i) agents += fmt::format("\"a,{0}\",0,{1:.2f},0,{0}\n", i, 0.2 * (i % 7));
+  for (int i = 0; i < 100; ++i) pairs += fmt::format("\"a,{}\",\"a,{}\"\n", i % 40, (i * 7 + 1) % 40);
+  const std::string agents_file = folder.write("agents.csv", agents),
+                    pairs_file = folder.write("pairs.csv", pairs);
+  for (Arguments command : {Arguments{"query", shapes, agents_file, pairs_file, "--what", "contacts"},
+                            Arguments{"query", shapes, agents_file, "--obstacles", floor}}) {
+    command.insert(command.end(), as_metres.begin(), as_metres.end());
+    const std::string expected = bch(command).out;
+    EXPECT_GT(lines(expected), 40u);
+    for (const int count : {2, 7}) {
+      const fs::path parts = folder.file(fmt::format("{}-{}", command[3].size(), count));
+      do_parts(command, count, parts);
+      const Ending merged = bch({"merge", parts});
+      EXPECT_EQ(merged.out, expected) << count;
+      EXPECT_EQ(do_part(command, 1, count, parts).out.find("part 1 of"), 0u);
+    }
+  }
+  expect_failure(do_part({"query", shapes, agents_file, "--all-pairs"}, 1, 2, folder.file("all")), 2,
+                 {"--all-pairs"});
+}
+
+TEST(CliParts, AreNotDoneAgainUnlessTheyAreOfAnotherRun) {
+  const TemporaryFolder folder;
+  const std::string file = folder.write("people.txt", crossing_people());
+  const fs::path parts = folder.file("parts"), manifest = parts / "part-2-of-3.manifest.json";
+  do_parts({"check", file}, 3, parts);
+  const auto written = fs::last_write_time(manifest);
+  const Ending again = do_part({"check", file}, 2, 3, parts);
+  EXPECT_EQ(again.code, 0);
+  EXPECT_EQ(again.out, "part 2 of 3 is done already: " + manifest.string() + "\n");
+  EXPECT_EQ(fs::last_write_time(manifest), written);
+  EXPECT_EQ(do_part({"check", file, "--threads", "1"}, 2, 3, parts).out, again.out);
+
+  fs::resize_file(parts / "part-2-of-3.pairs.csv", 5);
+  expect_failure(bch({"merge", parts}), 3, {"part-2-of-3.pairs.csv", "part 2 of 3"});
+  EXPECT_NE(do_part({"check", file}, 2, 3, parts).out, again.out);
+  EXPECT_EQ(bch({"merge", parts}).code, 0);
+  EXPECT_NE(do_part({"check", file, "--max-distance", "0.1"}, 2, 3, parts).out, again.out);
+  expect_failure(bch({"merge", parts}), 3, {"part-2-of-3.manifest.json", "another run", "0.1"});
+}
+
+TEST(CliParts, ThatDoNotMakeARunAreNamed) {
+  const TemporaryFolder folder;
+  const std::string file = folder.write("people.txt", crossing_people());
+  const fs::path parts = folder.file("parts"), second = parts / "part-2-of-3.manifest.json",
+                 json = folder.file("check.json");
+  do_parts({"check", file}, 3, parts);
+  const std::string manifest = read_text(second);
+  const auto expect = [&](const Arguments& words) {
+    expect_failure(bch({"merge", parts, "--json", json}), 3, words);
+    EXPECT_FALSE(fs::exists(json));
+  };
+  for (const char* const damaged :
+       {"", "{}", "[1]", "{\"bch_part\": 1}", "{\"bch_part\": 1, \"part\": -1}"}) {
+    folder.write("parts/" + second.filename().string(), damaged);
+    expect({"part-2-of-3.manifest.json"});
+  }
+  std::string elsewhere = manifest;
+  elsewhere.replace(elsewhere.find("\"part-2-of-3.frames.csv"), 1, "\"../parts/");
+  folder.write("parts/" + second.filename().string(), elsewhere);
+  expect({"part-2-of-3.manifest.json", "../parts/part-2-of-3.frames.csv"});
+  fs::remove(second);
+  expect({"part 2 of 3 is missing"});
+  folder.write("parts/" + second.filename().string(), manifest);
+  fs::copy_file(second, parts / "part-1-of-3.manifest.json", fs::copy_options::overwrite_existing);
+  expect({"part-1-of-3.manifest.json", "part 2 of 3"});
+  fs::remove(parts / "part-1-of-3.manifest.json");
+  EXPECT_EQ(do_part({"check", file}, 1, 3, parts).code, 0);
+
+  // A recording that was changed meanwhile, one of other parts, one that is there twice, an output that is a part.
+  folder.write("people.txt", crossing_people() + "90 60 9 0 1.7\n");
+  EXPECT_EQ(do_part({"check", file}, 3, 3, parts).code, 0);
+  expect({"part-3-of-3.manifest.json", "another run", "inputs"});
+  folder.write("people.txt", crossing_people());
+  EXPECT_EQ(do_part({"check", file}, 3, 3, parts).code, 0);
+  const std::string last = parts / "part-3-of-3.manifest.json";
+  expect_failure(bch({"merge", parts, last}), 3, {"part-3-of-3.manifest.json", "twice"});
+  expect_failure(bch({"merge", parts, "--json", last}), 2, {"--json", "input"});
+  EXPECT_EQ(do_part({"check", file}, 1, 4, parts).code, 0);
+  expect({"part-1-of-4", "one of"});
+  fs::remove(parts / "part-1-of-4.manifest.json");
+  EXPECT_EQ(bch({"merge", parts, "--json", json, "--fail-above", "1"}).code, 1);
+}
+
+TEST(CliParts, OfWrongOptionsAreRefused) {
+  const TemporaryFolder folder;
+  const std::string file = folder.write("people.txt", crossing_people());
+  for (const char* const part : {"0/3", "4/3", "1", "1/", "/3", "a/3", "1/3/3", "1/99999999"})
+    expect_failure(bch({"check", file, "--part", part, "--into", folder.file("p")}), 2, {"--part", part});
+  expect_failure(bch({"check", file, "--part", "1/3"}), 2, {"--into"});
+  expect_failure(bch({"check", file, "--into", folder.file("p")}), 2, {"--part"});
+  expect_failure(bch({"check", file, "--part", "1/3", "--into", folder.file("p"), "--json", "a"}), 2,
+                 {"--json", "bch merge"});
+  expect_failure(bch({"check", file, "--part", "1/3", "--into", folder.file("p"), "--html", "a"}), 2,
+                 {"--html"});
+  expect_failure(bch({"merge", folder.path()}), 3, {"no parts"});
+  expect_failure(bch({"merge", folder.file("absent")}), 3, {"absent"});
+}
+
+/// What is in a folder, without hidden files.
+std::size_t shown_files(const fs::path& folder) {
+  std::size_t count = 0;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder))
+    count += entry.path().filename().string()[0] != '.';
+  return count;
+}
+
+TEST(CliParts, LeaveNothingHalfDoneOnAFullDisk) {
+  const TemporaryFolder folder;
+  const std::string file = folder.write("people.txt", crossing_people());
+  const fs::path parts = folder.file("parts");
+  EXPECT_EQ(do_part({"check", file}, 1, 2, parts).code, 0);
+  for (const std::size_t bytes : {200, 2'500}) {
+    Streams streams;
+    streams.largest_file = bytes;
+    expect_failure(do_part({"check", file}, 2, 2, parts, streams), 3, {"part-2-of-2"});
+    EXPECT_FALSE(fs::exists(parts / "part-2-of-2.manifest.json"));
+  }
+  for (const fs::directory_entry& entry : fs::directory_iterator(parts))
+    EXPECT_NE(entry.path().filename().string()[0], '.') << entry;
+  expect_failure(bch({"merge", parts}), 3, {"part 2 of 2 is missing"});
+  EXPECT_NE(do_part({"check", file}, 1, 2, parts).out.find("done already"), std::string::npos);
+  EXPECT_EQ(do_part({"check", file}, 2, 2, parts).code, 0);
+  EXPECT_EQ(told(folder, {"merge", parts}), told(folder, {"check", file}));
+}
+
+/// Starts a part and kills it once it writes.
+void kill_a_part(const std::string& file, const fs::path& parts) {
+  const pid_t child = fork();
+  if (child == 0) {
+    const int nowhere = open("/dev/null", O_RDWR);
+    dup2(nowhere, STDOUT_FILENO), dup2(nowhere, STDERR_FILENO);
+    execl(BCH_PROGRAM, BCH_PROGRAM, "check", file.c_str(), "--part", "2/2", "--into", parts.c_str(), nullptr);
+    _exit(127);
+  }
+  const auto writes = [&] {
+    for (const fs::directory_entry& entry : fs::directory_iterator(parts))
+      if (entry.path().filename().string()[0] == '.') return true;
+    return false;
+  };
+  for (int tries = 0; tries < 60'000 && !writes(); ++tries)
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  kill(child, SIGKILL);
+  int status = 0;
+  waitpid(child, &status, 0);
+  EXPECT_TRUE(WIFSIGNALED(status)) << "the part was done before it was killed";
+}
+
+TEST(CliParts, ThatAreKilledAreDoneAgain) {
+  const TemporaryFolder folder;
+  const std::string file = folder.write("people.txt", crossing_people());
+  const fs::path parts = folder.file("parts");
+  EXPECT_EQ(do_part({"check", file}, 1, 2, parts).code, 0);
+  const std::size_t before = shown_files(parts);
+  kill_a_part(file, parts);
+  EXPECT_EQ(shown_files(parts), before);
+  expect_failure(bch({"merge", parts}), 3, {"part 2 of 2 is missing"});
+  EXPECT_NE(do_part({"check", file}, 1, 2, parts).out.find("done already"), std::string::npos);
+  EXPECT_EQ(do_part({"check", file}, 2, 2, parts).code, 0);
+  EXPECT_EQ(told(folder, {"merge", parts}), told(folder, {"check", file}));
+}
+
+TEST(CliParts, OfBadInputAreNotWritten) {
+  const TemporaryFolder folder;
+  const std::string file = folder.write("people.txt", crossing_people());
+  const fs::path parts = folder.file("parts");
+  EXPECT_EQ(do_part({"check", file}, 1, 2, parts).code, 0);
+  const std::size_t before = shown_files(parts);
+  folder.write("people.txt", crossing_people() + "90 59 9 0 1.7\n");
+  expect_failure(do_part({"check", file}, 2, 2, parts), 3, {"people.txt"});
+  EXPECT_EQ(shown_files(parts), before);
+  folder.write("people.txt", crossing_people());
+  EXPECT_EQ(do_part({"check", file}, 2, 2, parts).code, 0);
+  EXPECT_EQ(bch({"merge", parts}).code, 0);
+}
+
+}  // namespace
+}  // namespace bch::test
