@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <mpi.h>
+
+#include <CLI/CLI.hpp>
+#include <functional>
+
+namespace bch::cli {
+
+/// A crowd that walks on all ranks, and what each of them did. Returns what runs the command.
+std::function<void()> add_crowd_command(CLI::App& program, MPI_Comm comm);
+
+/// How a crowd of any size would be cut, by counting alone; on rank 0. Returns what runs the command.
+std::function<void()> add_simulate_command(CLI::App& program, MPI_Comm comm);
+
+}  // namespace bch::cli

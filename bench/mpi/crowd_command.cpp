@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include <fmt/format.h>
+#include <sys/resource.h>
+
+#include <cmath>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <bch/baked.hpp>
+#include <bch/collide.hpp>
+#include <bch/distributed_crowd.hpp>
+
+#include "bench/base/exit_codes.hpp"
+#include "bench/base/median.hpp"
+#include "bench/base/output.hpp"
+#include "bench/base/threads.hpp"
+#include "bench/cli/options.hpp"
+#include "bench/mpi/commands.hpp"
+#include "bench/mpi/rank_report.hpp"
+#include "bench/mpi/scenery.hpp"
+#include "kernel/distributed/agreement.hpp"
+#include "layout/base/random.hpp"
+
+namespace bch::cli {
+namespace {
+
+constexpr double stride = 1.3 / 30;           ///< metres a step
+constexpr std::uint32_t steps_to_settle = 3;  ///< all agents migrate, then the crowd is cut by pairs
+
+struct Options {
+  std::string file, kind = "uniform", json;
+  std::uint32_t agents = 100'000, steps = 10, threads = 1;
+  double density = 3, imbalance = DistributedCrowdOptions{}.imbalance;
+  bool is_plain = false;
+};
+
+double occupied_bytes() {
+  rusage usage;
+  getrusage(RUSAGE_SELF, &usage);
+  return 1024 * static_cast<double>(usage.ru_maxrss);
+}
+
+std::uint64_t hash(std::uint32_t first, std::uint32_t second) {
+  return detail::Random(std::uint64_t{first} << 32 | second).next();
+}
+
+/// The numbers of the agents that a rank draws: every so many-th, from everywhere.
+std::vector<CrowdAgent> draw_agents(const Options& options, std::uint32_t shapes, int rank, int size) {
+  const Scenery scenery(options.kind, options.agents, options.density);
+  std::vector<CrowdAgent> agents;
+  agents.reserve(options.agents / static_cast<std::uint32_t>(size) + 1);
+  for (std::uint64_t i = static_cast<std::uint64_t>(rank); i < options.agents;
+       i += static_cast<std::uint64_t>(size))
+    agents.push_back(scenery.agent(i, shapes));
+  return agents;
+}
+
+void walk_on(std::vector<CrowdAgent>& agents) {
+  for (CrowdAgent& agent : agents)
+    agent.x += stride * std::cos(agent.heading), agent.y += stride * std::sin(agent.heading);
+}
+
+/// The crowd of all ranks.
+class RankWalk {
+ public:
+  RankWalk(MPI_Comm comm, const ShapeSet& shapes, std::vector<CrowdAgent> agents, double imbalance)
+      : crowd_(comm, shapes, std::move(agents), {.imbalance = imbalance}) {}
+  void step() { crowd_.update(), pairs_ = crowd_.collide_all(); }
+  void move() { walk_on(crowd_.agents()); }
+  CrowdCounters counters() const { return crowd_.counters(); }
+  void count(double& collisions, std::uint64_t& digest) const {
+    collisions += static_cast<double>(pairs_.size());
+    for (const Pair& pair : pairs_) digest += hash(pair.first, pair.second);
+  }
+
+ private:
+  DistributedCrowd crowd_;
+  std::span<const Pair> pairs_;
+};
+
+/// The same crowd in one process, asked by CrowdCollider: what the above is compared with.
+class PlainWalk {
+ public:
+  PlainWalk(const ShapeSet& shapes, std::vector<CrowdAgent> agents)
+      : shapes_(shapes), agents_(std::move(agents)) {
+    for (const CrowdAgent& agent : agents_) {
+      shape_.push_back(agent.shape), level_.push_back(agent.level);
+      heading_.push_back(agent.heading);
+    }
+    x_.resize(agents_.size()), y_.resize(agents_.size());
+    place();
+  }
+  void step() { rows_ = collider_.collide_all(shapes_, {shape_, x_, y_, heading_, level_}); }
+  void move() { walk_on(agents_), place(); }
+  CrowdCounters counters() const { return {.agents = agents_.size()}; }
+  void count(double& collisions, std::uint64_t& digest) const {
+    for (std::uint32_t i = 0; i < rows_.size(); ++i)
+      for (const std::uint32_t j : rows_[i])
+        if (i < j) ++collisions, digest += hash(i, j);
+  }
+
+ private:
+  void place() {
+    for (std::size_t i = 0; i < agents_.size(); ++i) x_[i] = agents_[i].x, y_[i] = agents_[i].y;
+  }
+
+  const ShapeSet& shapes_;
+  std::vector<CrowdAgent> agents_;
+  std::vector<std::uint32_t> shape_;
+  std::vector<double> x_, y_, heading_;
+  std::vector<std::uint8_t> level_;
+  CrowdCollider collider_;
+  Rows<std::uint32_t> rows_;
+};
+
+/// Walks, and reports of the steps after those to settle; `before`: what the process occupied already.
+template <class Walk>
+CrowdReport report_of(Walk& walk, MPI_Comm comm, std::uint32_t steps, double before) {
+  CrowdReport report;
+  report.steps = static_cast<double>(steps);
+  RankReport here;
+  std::vector<double> seconds;
+  for (std::uint32_t i = 0; i < steps + steps_to_settle; ++i, walk.move()) {
+    MPI_Barrier(comm);
+    const double begin = MPI_Wtime();
+    walk.step();
+    double took = MPI_Wtime() - begin;
+    walk.count(report.collisions, report.digest);
+    MPI_Allreduce(MPI_IN_PLACE, &took, 1, MPI_DOUBLE, MPI_MAX, comm);
+    if (i < steps_to_settle) continue;
+    seconds.push_back(took);
+    here.add(walk.counters(), report.steps);
+  }
+  here.memory_bytes = occupied_bytes() - before;
+  MPI_Allreduce(MPI_IN_PLACE, &report.collisions, 1, MPI_DOUBLE, MPI_SUM, comm);
+  MPI_Allreduce(MPI_IN_PLACE, &report.digest, 1, MPI_UINT64_T, MPI_SUM, comm);
+  report.step_seconds = median(seconds);
+  report.cuts = walk.counters().cuts;
+  report.ranks = gather(comm, here);
+  return report;
+}
+
+CrowdReport walk_crowd(const Options& options, MPI_Comm comm, int rank, int size) {
+  std::optional<BakedShapes> baked;
+  std::vector<CrowdAgent> agents;
+  double before = 0;
+  detail::agree(comm, [&] {
+    baked.emplace(load_baked(options.file, FileAccess::map));
+    before = occupied_bytes();
+    agents = draw_agents(options, baked->set.shape_count(), rank, size);
+    for (CrowdAgent& agent : agents) agent.level = static_cast<std::uint8_t>(baked->set.level_count() - 1);
+  });
+  if (options.is_plain) {
+    PlainWalk walk(baked->set, std::move(agents));
+    return report_of(walk, comm, options.steps, before);
+  }
+  RankWalk walk(comm, baked->set, std::move(agents), options.imbalance);
+  return report_of(walk, comm, options.steps, before);
+}
+
+void run(const Options& options, MPI_Comm comm) {
+  int rank, size;
+  MPI_Comm_rank(comm, &rank);
+  MPI_Comm_size(comm, &size);
+  if (options.is_plain && size > 1) throw UsageError("--plain: one process, and there are several ranks");
+  const Threads threads(options.threads);
+  const CrowdReport report = walk_crowd(options, comm, rank, size);
+  detail::agree(comm, [&] {
+    if (rank != 0) return;
+    write_standard_output(text(report));
+    write_json(options.json, to_json(report));
+  });
+}
+
+}  // namespace
+
+std::function<void()> add_crowd_command(CLI::App& program, MPI_Comm comm) {
+  const auto options = std::make_shared<Options>();
+  CLI::App& command =
+      *program.add_subcommand("crowd", "A crowd that walks on all ranks: what each of them did");
+  command.add_option("file", options->file, "Shapes, baked by bch bake; every rank maps them")
+      ->type_name("FILE")
+      ->required();
+  command.add_option("--agents", options->agents, "Agents in all [100000]")
+      ->type_name("N")
+      ->check(whole_between(1, 4'000'000'000));
+  command.add_option("--kind", options->kind, "uniform, spot (a dense place), stadium or street [uniform]")
+      ->type_name("NAME")
+      ->check(one_of(scenery_kinds));
+  command.add_option("--density", options->density, "Agents a square metre [3]")
+      ->type_name("D")
+      ->check(number_between(1e-6, 1e3));
+  command.add_option("--steps", options->steps, "Steps that are counted [10]")
+      ->type_name("N")
+      ->check(whole_between(1, 1'000'000));
+  command
+      .add_option("--imbalance", options->imbalance,
+                  "The most pairs of a rank over the mean, or the crowd is cut anew [1.04]")
+      ->type_name("R")
+      ->check(number_between(1, 1e6));
+  command.add_option("--threads", options->threads, "Threads of a rank [1]")
+      ->type_name("N")
+      ->check(whole_between(1, 1024));
+  command.add_flag("--plain", options->is_plain, "One process without MPI's part, to compare with");
+  command.add_option("--json", options->json, "Write the report as JSON")->type_name("FILE");
+  return [options, comm] { run(*options, comm); };
+}
+
+}  // namespace bch::cli

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include "bench/mpi/scenery.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "layout/base/random.hpp"
+
+namespace bch::cli {
+
+using std::numbers::pi;
+
+namespace {
+
+constexpr double street_width = 10, block = 100;
+
+bool in_street(double across) {
+  return across - block * std::floor(across / block) < street_width;
+}
+
+}  // namespace
+
+const std::vector<std::string> scenery_kinds = {"uniform", "spot", "stadium", "street"};
+
+Scenery::Scenery(const std::string& kind, std::uint64_t agents, double density) : agents_(agents) {
+  const double area = static_cast<double>(agents) / density, half = std::sqrt(area) / 2;
+  const auto square = [](double share, double half_side) {
+    return Layer{share, 4 * half_side * half_side, half_side, false, false, 0, 0, 0, 0};
+  };
+  const auto ring = [&](double share, double times_density, double inner, double x) {
+    const double ring_area = share * area / times_density;
+    const double outer = std::sqrt(ring_area / (pi * (1 - inner * inner)));
+    return Layer{share, ring_area, 0, false, false, inner * outer, outer, x, x};
+  };
+  const auto streets = [&](bool rows) {
+    const double half_side = std::sqrt(area / 2 * (block / street_width)) / 2;
+    return Layer{0.5, area / 2, half_side, rows, !rows, 0, 0, 0, 0};
+  };
+  if (kind == "spot")
+    layers_ = {square(0.75, half * std::sqrt(0.75)), ring(0.25, 4, 0, half / 3)};
+  else if (kind == "stadium")
+    layers_ = {square(0.5, half), ring(0.5, 2, 0.5, 0)};
+  else if (kind == "street")
+    layers_ = {streets(true), streets(false)};
+  else
+    layers_ = {square(1, half)};
+}
+
+bool Scenery::Layer::holds(double px, double py) const {
+  if (outer > 0) {
+    const double squared = (px - x) * (px - x) + (py - y) * (py - y);
+    return squared <= outer * outer && squared >= inner * inner;
+  }
+  return std::abs(px) <= half_side && std::abs(py) <= half_side && (!rows || in_street(py)) &&
+         (!columns || in_street(px));
+}
+
+CrowdAgent Scenery::agent(std::uint64_t number, std::uint32_t shapes) const {
+  detail::Random random(number);
+  const double chosen = random.uniform(1);
+  const Layer& layer = chosen < layers_[0].share ? layers_[0] : layers_.back();
+  CrowdAgent agent;
+  agent.heading = 2 * pi * random.uniform(1);
+  agent.id = static_cast<std::uint32_t>(number);
+  agent.shape = static_cast<std::uint32_t>(random.uniform(1) * shapes);
+  do {  // streets are a tenth of their square, rings at least a half of theirs
+    const double reach = layer.outer > 0 ? layer.outer : layer.half_side;
+    agent.x = layer.x + reach * (2 * random.uniform(1) - 1);
+    agent.y = layer.y + reach * (2 * random.uniform(1) - 1);
+  } while (!layer.holds(agent.x, agent.y));
+  return agent;
+}
+
+double Scenery::density(double x, double y) const {
+  double sum = 0;
+  for (const Layer& layer : layers_)
+    if (layer.holds(x, y)) sum += layer.share * static_cast<double>(agents_) / layer.area;
+  return sum;
+}
+
+double Scenery::half_side() const {
+  double most = 0;
+  for (const Layer& layer : layers_) most = std::max({most, layer.half_side, layer.x + layer.outer});
+  return most;
+}
+
+}  // namespace bch::cli

@@ -1,0 +1,325 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+#include <utility>
+
+#include <bch/broad_phase.hpp>
+#include <bch/clearance.hpp>
+#include <bch/collide.hpp>
+#include <bch/distributed_crowd.hpp>
+
+#include "kernel/distributed/agreement.hpp"
+#include "kernel/distributed/cut.hpp"
+#include "kernel/distributed/exchange.hpp"
+#include "kernel/distributed/halo.hpp"
+#include "kernel/distributed/owned_pairs.hpp"
+#include "kernel/distributed/session.hpp"
+#include "kernel/runtime/task_ranges.hpp"
+#include "layout/base/rounding.hpp"
+
+namespace bch {
+
+using namespace detail;
+
+namespace {
+
+/// How much a pair weighs more than an agent. Ranks are to answer as many pairs; agents who meet nobody are to be shared out as well.
+constexpr std::uint64_t pair_weight = 32;
+constexpr double most_squares = 16;  ///< that a reach may span
+
+/// Adds the seconds of its lifetime.
+class Stopwatch {
+ public:
+  explicit Stopwatch(double& seconds) : seconds_(seconds), begin_(MPI_Wtime()) { seconds_ = 0; }
+  ~Stopwatch() { seconds_ = MPI_Wtime() - begin_; }
+  Stopwatch(const Stopwatch&) = delete;
+  Stopwatch& operator=(const Stopwatch&) = delete;
+
+ private:
+  double& seconds_;
+  double begin_;
+};
+
+[[noreturn]] void reject(const CrowdAgent& agent, const char* field, double value, const char* limits) {
+  std::ostringstream message;
+  message << "agent " << agent.id << ": " << field << " is " << value << ", not " << limits;
+  throw std::invalid_argument(message.str());
+}
+
+/// What would lead an agent astray before a query looks at it: places, shapes. The rest is validated by the queries.
+void require_valid(const CrowdAgent& agent, const ShapeSet& shapes, bool heights) {
+  constexpr double most = rounding::largest_position;
+  if (!(std::abs(agent.x) <= most)) reject(agent, "x", agent.x, "within 1e9 m");
+  if (!(std::abs(agent.y) <= most)) reject(agent, "y", agent.y, "within 1e9 m");
+  if (heights && !(std::abs(agent.z) <= most)) reject(agent, "z", agent.z, "within 1e9 m");
+  if (!(std::abs(agent.heading) <= rounding::largest_heading))
+    reject(agent, "heading", agent.heading, "within 1e9 rad");
+  if (agent.shape >= shapes.shape_count()) reject(agent, "shape", agent.shape, "one of the set");
+  if (agent.level >= shapes.level_count()) reject(agent, "level", agent.level, "one of the set");
+}
+
+std::vector<double> radii_of(const ShapeSet& shapes) {
+  std::vector<double> radii;
+  for (std::uint32_t shape = 0; shape < shapes.shape_count(); ++shape)
+    radii.push_back(shapes.bounding_radius(shape));
+  return radii;
+}
+
+double largest(const std::vector<double>& radii) {
+  return radii.empty() ? 0 : *std::ranges::max_element(radii);
+}
+
+/// How near an agent and any other may have to be looked at, by the agent's shape. Enlarged by more than what is rounded in
+/// comparing positions with squares, and by more than the broad phase's margins.
+std::vector<double> reaches(const std::vector<double>& radii, double margin) {
+  std::vector<double> metres;
+  for (const double radius : radii) metres.push_back((radius + largest(radii) + margin) * (1 + 1e-5) + 1e-5);
+  return metres;
+}
+
+MPI_Comm with_threads(MPI_Comm comm) {
+  int provided;
+  MPI_Query_thread(&provided);
+  require_threads(provided);
+  return comm;
+}
+
+}  // namespace
+
+struct DistributedCrowd::State {
+  State(MPI_Comm of, const ShapeSet& set, std::vector<CrowdAgent> mine, const DistributedCrowdOptions& how)
+      : comm(with_threads(of)),
+        whole(true),
+        copied(how.heights),
+        shapes(set),
+        options(how),
+        agents(std::move(mine)) {
+    agree(comm.get(), [&] { prepare(); });
+  }
+
+  void prepare();
+  void require_margin(double metres) const;
+  void update();
+  void cut_where_unbalanced();
+  std::vector<Weight> weights() const;
+  Outbox leaving();
+  void migrate();
+  Outbox copies();
+  void exchange_halo();
+  void find_pairs(double metres);
+  std::size_t index(std::int32_t rank) const { return static_cast<std::size_t>(rank); }
+
+  OwnComm comm;
+  AgentType whole,
+      copied;  ///< agents that leave with all that is known of them; copies with what queries need
+  const ShapeSet& shapes;
+  DistributedCrowdOptions options;
+  std::vector<double> radii, reach;
+  double side = 1, margin = 0;
+  std::vector<CrowdAgent> agents, halo;
+  Cut cut;
+  double promised = 1;  ///< the imbalance that the last cut could not avoid
+  CellOwners owners;
+  NeighbourGraph graph;
+  CrowdColumns columns;
+  BroadPhase broad_phase;
+  std::vector<Pair> pairs, colliding;
+  std::vector<std::uint8_t> hits;
+  std::vector<float> metres;
+  std::vector<CrowdDistance> near;
+  CrowdCounters counters;
+};
+
+void DistributedCrowd::State::prepare() {
+  radii = radii_of(shapes);
+  if (!(options.cell >= 0 && options.cell <= 1e6))
+    throw std::invalid_argument("the cell is not from 0 to 1e6 m");
+  if (!(options.imbalance >= 1)) throw std::invalid_argument("an imbalance below 1 cannot be");
+  if (options.heights && !shapes.has_heights())
+    throw std::invalid_argument("agents have heights, and the set does not know those of bodies");
+  side = std::max(1.0, options.cell > 0 ? options.cell : 4 * largest(radii));
+}
+
+void DistributedCrowd::State::require_margin(double wanted) const {
+  if (wanted >= 0 && largest(radii) * 2 + wanted <= most_squares * side) return;
+  std::ostringstream message;
+  message << "a margin of " << wanted << " m: not positive, or with the largest radii more than "
+          << most_squares << " squares of " << side << " m";
+  throw std::invalid_argument(message.str());
+}
+
+void DistributedCrowd::State::update() {
+  cut_where_unbalanced();
+  migrate();
+  exchange_halo();
+  agree(comm.get(), [&] { columns.assign(agents, halo, options.heights); });
+  pairs.clear();
+  counters.agents = agents.size();
+  counters.halo = halo.size();
+}
+
+/// Weighs the agents of the last update, where they stood then; before the first one, all agents alike.
+std::vector<Weight> DistributedCrowd::State::weights() const {
+  std::vector<Weight> all;
+  if (counters.cuts == 0) {
+    for (const CrowdAgent& agent : agents) all.push_back({curve_key(cell_at(agent.x, agent.y, side)), 1});
+    return all;
+  }
+  for (std::size_t i = 0; i < columns.owned; ++i)
+    all.push_back({curve_key(cell_at(columns.x[i], columns.y[i], side)), 1});
+  for (const Pair& pair : pairs) all[pair.first].weight += pair_weight;
+  return all;
+}
+
+void DistributedCrowd::State::cut_where_unbalanced() {
+  const Stopwatch watch(counters.cut_seconds);
+  std::uint64_t most = pairs.size(), sum = pairs.size();
+  MPI_Allreduce(MPI_IN_PLACE, &most, 1, MPI_UINT64_T, MPI_MAX, comm.get());
+  MPI_Allreduce(MPI_IN_PLACE, &sum, 1, MPI_UINT64_T, MPI_SUM, comm.get());
+  const double parts = comm.size();
+  counters.imbalance = sum == 0 ? 1 : static_cast<double>(most) * parts / static_cast<double>(sum);
+  if (counters.cuts > 0 && counters.imbalance <= options.imbalance * promised) return;
+  std::vector<Weight> mine;
+  agree(comm.get(), [&] { mine = weights(); });
+  cut = cut_evenly(comm.get(), std::move(mine), promised);
+  ++counters.cuts;
+  graph.reset();
+  agree(comm.get(), [&] { owners.reset(cut, static_cast<std::int32_t>(std::ceil(largest(reach) / side))); });
+}
+
+/// Takes the agents that stand on others' squares away from this rank's.
+Outbox DistributedCrowd::State::leaving() {
+  std::vector<std::int32_t> owner(agents.size());
+  Outbox out{{}, std::vector<int>(index(comm.size()), 0)};
+  for (std::size_t i = 0; i < agents.size(); ++i) {
+    owner[i] = owners[cell_at(agents[i].x, agents[i].y, side)].rank;
+    if (owner[i] != comm.rank()) ++out.counts[index(owner[i])];
+  }
+  std::vector<std::size_t> place(out.counts.size() + 1, 0);
+  for (std::size_t rank = 0; rank < out.counts.size(); ++rank)
+    place[rank + 1] = place[rank] + static_cast<std::size_t>(out.counts[rank]);
+  out.agents.resize(place.back());
+  std::size_t stay = 0;
+  for (std::size_t i = 0; i < agents.size(); ++i)
+    (owner[i] == comm.rank() ? agents[stay++] : out.agents[place[index(owner[i])]++]) = agents[i];
+  agents.resize(stay);
+  return out;
+}
+
+void DistributedCrowd::State::migrate() {
+  const Stopwatch watch(counters.migration_seconds);
+  counters.arrived = counters.migration_bytes = 0;
+  if (comm.size() == 1) return;
+  Outbox out;
+  agree(comm.get(), [&] { out = leaving(); });
+  const std::size_t stayed = agents.size();
+  exchange_with_all(comm, whole, out, agents);
+  counters.arrived = agents.size() - stayed;
+  counters.migration_bytes = out.agents.size() * whole.bytes();
+}
+
+/// Collects the copies that others need, rank by rank.
+Outbox DistributedCrowd::State::copies() {
+  std::vector<Copy> all;
+  find_copies(agents, {reach, side, comm.rank()}, owners, all);
+  std::ranges::stable_sort(all, {}, &Copy::rank);
+  Outbox out{{}, std::vector<int>(index(comm.size()), 0)};
+  for (const Copy& copy : all) {
+    out.agents.push_back(agents[copy.agent]);
+    ++out.counts[index(copy.rank)];
+  }
+  return out;
+}
+
+void DistributedCrowd::State::exchange_halo() {
+  const Stopwatch watch(counters.halo_seconds);
+  halo.clear();
+  if (comm.size() == 1) return;
+  Outbox out;
+  std::vector<char> receivers;
+  agree(comm.get(), [&] {
+    out = copies();
+    for (const int count : out.counts) receivers.push_back(count > 0);
+  });
+  graph.include(comm, receivers);
+  std::vector<int> counts;
+  for (const int rank : graph.ranks()) counts.push_back(out.counts[index(rank)]);
+  out.counts = counts;
+  graph.exchange(comm, copied, out, halo);
+  counters.halo_bytes = out.agents.size() * copied.bytes();
+  counters.neighbours = static_cast<std::uint32_t>(graph.ranks().size());
+}
+
+void DistributedCrowd::State::find_pairs(double apart) {
+  const Stopwatch watch(counters.pairs_seconds);
+  keep_owned(columns, broad_phase.find(shapes, columns.agents(), apart), pairs);
+  counters.pairs = pairs.size();
+}
+
+DistributedCrowd::DistributedCrowd(MPI_Comm comm, const ShapeSet& shapes, std::vector<CrowdAgent> agents,
+                                   const DistributedCrowdOptions& options)
+    : state_(std::make_unique<State>(comm, shapes, std::move(agents), options)) {}
+DistributedCrowd::DistributedCrowd(DistributedCrowd&&) noexcept = default;
+DistributedCrowd& DistributedCrowd::operator=(DistributedCrowd&&) noexcept = default;
+DistributedCrowd::~DistributedCrowd() = default;
+
+std::vector<CrowdAgent>& DistributedCrowd::agents() noexcept {
+  return state_->agents;
+}
+
+std::span<const CrowdAgent> DistributedCrowd::halo() const noexcept {
+  return state_->halo;
+}
+
+void DistributedCrowd::update(double margin) {
+  State& state = *state_;
+  agree(state.comm.get(), [&] {
+    state.require_margin(margin);
+    for (const CrowdAgent& agent : state.agents) require_valid(agent, state.shapes, state.options.heights);
+    const double before = largest(state.reach);
+    state.reach = reaches(state.radii, margin);
+    state.margin = margin;
+    if (before != largest(state.reach))
+      state.owners.reset(state.cut, static_cast<std::int32_t>(std::ceil(largest(state.reach) / state.side)));
+  });
+  state.update();
+}
+
+std::span<const Pair> DistributedCrowd::collide_all(const QueryOptions& options) {
+  State& state = *state_;
+  agree(state.comm.get(), [&] {
+    without_tasks_from_outside([&] {
+      state.find_pairs(0);
+      const Stopwatch watch(state.counters.answer_seconds);
+      state.hits.resize(state.pairs.size());
+      collide(state.shapes, state.columns.agents(), state.pairs, state.hits, options);
+      keep_hits(state.columns, state.pairs, state.hits, state.colliding);
+    });
+  });
+  return state.colliding;
+}
+
+std::span<const CrowdDistance> DistributedCrowd::clearances(const QueryOptions& options) {
+  State& state = *state_;
+  agree(state.comm.get(), [&] {
+    if (!(options.max_distance <= state.margin))
+      throw std::invalid_argument("clearances beyond the margin of the last update()");
+    without_tasks_from_outside([&] {
+      state.find_pairs(options.max_distance);
+      const Stopwatch watch(state.counters.answer_seconds);
+      state.metres.resize(state.pairs.size());
+      clearance(state.shapes, state.columns.agents(), state.pairs, {.distance = state.metres}, options);
+      keep_near(state.columns, state.pairs, state.metres, state.near);
+    });
+  });
+  return state.near;
+}
+
+const CrowdCounters& DistributedCrowd::counters() const noexcept {
+  return state_->counters;
+}
+
+}  // namespace bch

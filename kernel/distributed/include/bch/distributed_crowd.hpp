@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <mpi.h>
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include <bch/agents.hpp>
+#include <bch/query.hpp>
+#include <bch/shape_set.hpp>
+
+namespace bch {
+
+/// An error on one rank, on which all ranks agreed: each throws it with the same message, which names the rank.
+class RankError : public std::runtime_error {
+ public:
+  RankError(int failed, const std::string& message) : std::runtime_error(message), rank(failed) {}
+  const int rank;  ///< where it happened; the lowest of several
+};
+
+/// An agent of a crowd that several processes share.
+/// Units:   those of Agents.
+struct CrowdAgent {
+  double x = 0, y = 0, z = 0, heading = 0;
+  std::uint32_t id = 0;     ///< its own in the whole crowd, whichever rank owns it
+  std::uint32_t shape = 0;  ///< index into the ShapeSet, which is the same on every rank
+  std::uint8_t level = 0;   ///< index into the set's depths
+};
+
+/// Two agents by their ids, first < second, and how far apart they are.
+struct CrowdDistance {
+  std::uint32_t first, second;
+  float metres;
+  friend bool operator==(const CrowdDistance&, const CrowdDistance&) = default;
+};
+
+/// How a crowd is divided among ranks.
+struct DistributedCrowdOptions {
+  double cell = 0;  ///< metres: the side of the squares that ranks own; 0: four times the largest radius
+  double imbalance = 1.04;  ///< the most pairs of a rank over the mean, beyond which the crowd is cut anew
+  bool heights =
+      false;  ///< whether agents stand at different heights: z counts, and the set has to know those of bodies
+};
+
+/// What a rank did in the last update() and the last query, to judge scale by.
+struct CrowdCounters {
+  std::uint64_t agents = 0;           ///< that it owns
+  std::uint64_t halo = 0;             ///< copies of others' agents that it was sent
+  std::uint64_t pairs = 0;            ///< candidates that it answered
+  std::uint64_t arrived = 0;          ///< agents that came from other ranks
+  std::uint64_t migration_bytes = 0;  ///< sent
+  std::uint64_t halo_bytes = 0;       ///< sent
+  std::uint32_t neighbours = 0;       ///< ranks with which it exchanges halos
+  std::uint32_t cuts = 0;             ///< how often the crowd was cut, since it was made
+  double imbalance = 1;  ///< the most pairs of a rank over the mean, when update() looked at the last query
+  double cut_seconds = 0, migration_seconds = 0, halo_seconds = 0;  ///< of update()
+  double pairs_seconds = 0, answer_seconds = 0;                     ///< of the query: broad phase, kernel
+};
+
+/// A crowd on all ranks of a communicator. Each agent belongs to one rank: that of the square of the ground on which it
+/// stands. Squares follow each other along a Hilbert curve, and a rank owns those between two cuts of it, which are placed so that
+/// all ranks answer as many pairs.
+///
+///     bch::DistributedCrowd crowd(MPI_COMM_WORLD, shapes, agents);  // any agents on any rank
+///     for (;;) {
+///       crowd.update();                                             // each to its rank, and neighbours' copies
+///       for (const bch::Pair& pair : crowd.collide_all()) ...       // ids
+///       for (bch::CrowdAgent& agent : crowd.agents()) ...           // moves
+///     }
+///
+/// The answer is that of one process: the pairs of all ranks together are those of CrowdCollider, each on one rank, the owner of
+/// the lower id. The same for any number of ranks and threads, and wherever the crowd is cut.
+///
+/// All calls but agents(), halo() and counters() are collective: each rank makes them, in the same order, with the same options.
+/// Errors:  where a rank throws, for bad input or want of memory, all throw RankError with its message. The crowd can then only
+///          be destroyed. Where a rank ends or does not make the call, MPI ends the others or they wait, as with MPI's own calls.
+/// Threads: runs in the caller's TBB arena; MPI is called from the calling thread alone, and has to be initialised for
+///          MPI_THREAD_FUNNELED at least. Two threads must not use one crowd at once.
+class DistributedCrowd {
+ public:
+  /// Takes the agents that this rank knows, each known by one rank; update() brings them to their owners.
+  /// Lifetime: the set outlives the crowd. It is the same on every rank: a baked file that each of them maps, for instance.
+  /// Errors:  as all calls; std::runtime_error where MPI was not initialised for threads.
+  DistributedCrowd(MPI_Comm comm, const ShapeSet& shapes, std::vector<CrowdAgent> agents,
+                   const DistributedCrowdOptions& options = {});
+  DistributedCrowd(DistributedCrowd&&) noexcept;
+  DistributedCrowd& operator=(DistributedCrowd&&) noexcept;
+  ~DistributedCrowd();
+
+  /// Returns the agents of this rank, which a simulator moves, adds and takes away as it likes; update() comes after. Their order
+  /// changes in update().
+  std::vector<CrowdAgent>& agents() noexcept;
+  /// Returns copies of other ranks' agents that come as near to this rank's squares as its agents may reach, as they were in the last
+  /// update().
+  std::span<const CrowdAgent> halo() const noexcept;
+
+  /// Brings every agent to its owner and copies to those who need them. Cuts the crowd anew where the last query's pairs are
+  /// unbalanced.
+  /// Units:   metres; the margin is how far apart agents may be that clearances() is asked about, from 0 to 1e6, the same on all ranks.
+  /// Errors:  names the agent, by its id, and the value that is not one of an agent.
+  void update(double margin = 0);
+
+  /// Returns the pairs of ids that collide, first < second, of which this rank owns the first; as of the last update().
+  /// Options: those of collide().
+  /// Memory:  the answer is valid until the next call of a query.
+  std::span<const Pair> collide_all(const QueryOptions& options = {});
+  /// Returns the pairs of ids that are at most max_distance apart, likewise, with their clearance.
+  /// Options: those of clearance(); max_distance is at most the margin of the last update().
+  std::span<const CrowdDistance> clearances(const QueryOptions& options);
+
+  const CrowdCounters& counters() const noexcept;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace bch

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include "kernel/distributed/owned_pairs.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+#include "kernel/runtime/task_ranges.hpp"
+
+namespace bch::detail {
+namespace {
+
+constexpr std::size_t grain = 1 << 15;  ///< agents or pairs a task
+
+/// Keeps those of `count` items, in their order, for which keep(i) is true: write(i) is what is kept of one.
+template <class Kept, class Keep, class Write>
+void compact(std::size_t count, std::vector<Kept>& kept, const Keep& keep, const Write& write) {
+  std::vector<std::size_t> begins((count + grain - 1) / grain + 1, 0);
+  const auto block = [&](std::size_t b) { return std::pair(b * grain, std::min(count, (b + 1) * grain)); };
+  for_ranges(begins.size() - 1, 1, [&](std::size_t first, std::size_t last) {
+    for (std::size_t b = first; b < last; ++b)
+      for (auto [i, end] = block(b); i < end; ++i) begins[b + 1] += keep(i) ? 1 : 0;
+  });
+  for (std::size_t b = 1; b < begins.size(); ++b) begins[b] += begins[b - 1];
+  kept.resize(begins.back());
+  for_ranges(begins.size() - 1, 1, [&](std::size_t first, std::size_t last) {
+    for (std::size_t b = first, place = begins[b]; b < last; ++b)
+      for (auto [i, end] = block(b); i < end; ++i)
+        if (keep(i)) kept[place++] = write(i);
+  });
+}
+
+Pair lower_first(const CrowdColumns& columns, Pair pair) {
+  return columns.id[pair.first] < columns.id[pair.second] ? pair : Pair{pair.second, pair.first};
+}
+
+}  // namespace
+
+void CrowdColumns::assign(std::span<const CrowdAgent> own, std::span<const CrowdAgent> copies, bool heights) {
+  owned = own.size();
+  const std::size_t size = own.size() + copies.size();
+  for (auto* const column : {&id, &shape}) column->resize(size);
+  for (auto* const column : {&x, &y, &heading}) column->resize(size);
+  z.resize(heights ? size : 0);
+  level.resize(size);
+  for_ranges(size, grain, [&](std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i) {
+      const CrowdAgent& agent = i < owned ? own[i] : copies[i - owned];
+      id[i] = agent.id, shape[i] = agent.shape, level[i] = agent.level;
+      x[i] = agent.x, y[i] = agent.y, heading[i] = agent.heading;
+      if (heights) z[i] = agent.z;
+    }
+  });
+}
+
+void keep_owned(const CrowdColumns& columns, std::span<const Pair> candidates, std::vector<Pair>& owned) {
+  compact(
+      candidates.size(), owned,
+      [&](std::size_t i) { return lower_first(columns, candidates[i]).first < columns.owned; },
+      [&](std::size_t i) { return lower_first(columns, candidates[i]); });
+}
+
+void keep_hits(const CrowdColumns& columns, std::span<const Pair> pairs, std::span<const std::uint8_t> hits,
+               std::vector<Pair>& ids) {
+  compact(
+      pairs.size(), ids, [&](std::size_t i) { return hits[i] != 0; },
+      [&](std::size_t i) {
+        return Pair{columns.id[pairs[i].first], columns.id[pairs[i].second]};
+      });
+}
+
+void keep_near(const CrowdColumns& columns, std::span<const Pair> pairs, std::span<const float> distances,
+               std::vector<CrowdDistance>& near) {
+  compact(
+      pairs.size(), near,
+      [&](std::size_t i) { return distances[i] < std::numeric_limits<float>::infinity(); },
+      [&](std::size_t i) {
+        return CrowdDistance{columns.id[pairs[i].first], columns.id[pairs[i].second], distances[i]};
+      });
+}
+
+}  // namespace bch::detail

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <bch/distributed_crowd.hpp>
+
+namespace bch::detail {
+
+/// The agents of a rank, its own and then the copies of others', as queries take them.
+struct CrowdColumns {
+  std::vector<std::uint32_t> id, shape;
+  std::vector<double> x, y, z, heading;
+  std::vector<std::uint8_t> level;
+  std::size_t owned = 0;  ///< how many are the rank's own
+
+  void assign(std::span<const CrowdAgent> own, std::span<const CrowdAgent> copies, bool heights);
+  Agents agents() const { return {shape, x, y, heading, level, z}; }
+};
+
+/// Finds the pairs that a rank answers among candidates, those whose lower id is its own, and puts the lower id first.
+void keep_owned(const CrowdColumns& columns, std::span<const Pair> candidates, std::vector<Pair>& owned);
+
+/// Writes the ids of pairs that are hit.
+void keep_hits(const CrowdColumns& columns, std::span<const Pair> pairs, std::span<const std::uint8_t> hits,
+               std::vector<Pair>& ids);
+
+/// Writes the ids and distances of pairs with a finite one.
+void keep_near(const CrowdColumns& columns, std::span<const Pair> pairs, std::span<const float> distances,
+               std::vector<CrowdDistance>& near);
+
+}  // namespace bch::detail
