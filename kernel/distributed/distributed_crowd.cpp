@@ -168,8 +168,8 @@ std::vector<Weight> DistributedCrowd::State::weights() const {
     for (const CrowdAgent& agent : agents) all.push_back({curve_key(cell_at(agent.x, agent.y, side)), 1});
     return all;
   }
-  for (std::size_t i = 0; i < columns.owned; ++i)
-    all.push_back({curve_key(cell_at(columns.x[i], columns.y[i], side)), 1});
+  for (std::size_t i = 0; i < columns.id.size(); ++i)
+    all.push_back({curve_key(cell_at(columns.x[i], columns.y[i], side)), columns.is_own[i]});
   for (const Pair& pair : pairs) all[pair.first].weight += pair_weight;
   return all;
 }
@@ -215,9 +215,14 @@ void DistributedCrowd::State::migrate() {
   if (comm.size() == 1) return;
   Outbox out;
   agree(comm.get(), [&] { out = leaving(); });
-  const std::size_t stayed = agents.size();
+  const auto stayed = static_cast<std::ptrdiff_t>(agents.size());
   exchange_with_all(comm, whole, out, agents);
-  counters.arrived = agents.size() - stayed;
+  agree(comm.get(), [&] {
+    const auto arrived = agents.begin() + stayed;
+    std::ranges::sort(arrived, agents.end(), {}, &CrowdAgent::id);
+    std::ranges::inplace_merge(agents, arrived, {}, &CrowdAgent::id);
+  });
+  counters.arrived = agents.size() - static_cast<std::size_t>(stayed);
   counters.migration_bytes = out.agents.size() * whole.bytes();
 }
 
@@ -249,6 +254,7 @@ void DistributedCrowd::State::exchange_halo() {
   for (const int rank : graph.ranks()) counts.push_back(out.counts[index(rank)]);
   out.counts = counts;
   graph.exchange(comm, copied, out, halo);
+  std::ranges::sort(halo, {}, &CrowdAgent::id);
   counters.halo_bytes = out.agents.size() * copied.bytes();
   counters.neighbours = static_cast<std::uint32_t>(graph.ranks().size());
 }
@@ -279,6 +285,8 @@ void DistributedCrowd::update(double margin) {
   agree(state.comm.get(), [&] {
     state.require_margin(margin);
     for (const CrowdAgent& agent : state.agents) require_valid(agent, state.shapes, state.options.heights);
+    if (!std::ranges::is_sorted(state.agents, {}, &CrowdAgent::id))
+      std::ranges::sort(state.agents, {}, &CrowdAgent::id);
     const double before = largest(state.reach);
     state.reach = reaches(state.radii, margin);
     state.margin = margin;

@@ -32,34 +32,48 @@ void compact(std::size_t count, std::vector<Kept>& kept, const Keep& keep, const
   });
 }
 
-Pair lower_first(const CrowdColumns& columns, Pair pair) {
-  return columns.id[pair.first] < columns.id[pair.second] ? pair : Pair{pair.second, pair.first};
-}
-
 }  // namespace
 
-void CrowdColumns::assign(std::span<const CrowdAgent> own, std::span<const CrowdAgent> copies, bool heights) {
-  owned = own.size();
-  const std::size_t size = own.size() + copies.size();
+void CrowdColumns::resize(std::size_t size, bool heights) {
   for (auto* const column : {&id, &shape}) column->resize(size);
   for (auto* const column : {&x, &y, &heading}) column->resize(size);
+  for (auto* const column : {&level, &is_own}) column->resize(size);
   z.resize(heights ? size : 0);
-  level.resize(size);
-  for_ranges(size, grain, [&](std::size_t first, std::size_t last) {
+}
+
+void CrowdColumns::set(std::size_t i, const CrowdAgent& agent, bool own) {
+  id[i] = agent.id, shape[i] = agent.shape, level[i] = agent.level, is_own[i] = own;
+  x[i] = agent.x, y[i] = agent.y, heading[i] = agent.heading;
+  if (!z.empty()) z[i] = agent.z;
+}
+
+void CrowdColumns::assign(std::span<const CrowdAgent> own, std::span<const CrowdAgent> copies, bool heights) {
+  resize(own.size() + copies.size(), heights);
+  const auto copies_before = [&](std::size_t i) {  // those that go before one of our own
+    if (i == 0) return std::size_t{0};
+    if (i == own.size()) return copies.size();
+    return static_cast<std::size_t>(std::ranges::lower_bound(copies, own[i].id, {}, &CrowdAgent::id) -
+                                    copies.begin());
+  };
+  if (own.empty()) {
+    for (std::size_t i = 0; i < copies.size(); ++i) set(i, copies[i], false);
+    return;
+  }
+  for_ranges(own.size(), grain, [&](std::size_t first, std::size_t last) {
+    std::size_t copy = copies_before(first);
+    const std::size_t end = copies_before(last);
     for (std::size_t i = first; i < last; ++i) {
-      const CrowdAgent& agent = i < owned ? own[i] : copies[i - owned];
-      id[i] = agent.id, shape[i] = agent.shape, level[i] = agent.level;
-      x[i] = agent.x, y[i] = agent.y, heading[i] = agent.heading;
-      if (heights) z[i] = agent.z;
+      for (; copy < end && copies[copy].id < own[i].id; ++copy) set(i + copy, copies[copy], false);
+      set(i + copy, own[i], true);
     }
+    for (; copy < end; ++copy) set(last + copy, copies[copy], false);
   });
 }
 
 void keep_owned(const CrowdColumns& columns, std::span<const Pair> candidates, std::vector<Pair>& owned) {
   compact(
-      candidates.size(), owned,
-      [&](std::size_t i) { return lower_first(columns, candidates[i]).first < columns.owned; },
-      [&](std::size_t i) { return lower_first(columns, candidates[i]); });
+      candidates.size(), owned, [&](std::size_t i) { return columns.is_own[candidates[i].first] != 0; },
+      [&](std::size_t i) { return candidates[i]; });
 }
 
 void keep_hits(const CrowdColumns& columns, std::span<const Pair> pairs, std::span<const std::uint8_t> hits,

@@ -12,18 +12,23 @@
 
 namespace bch::detail {
 
-/// The agents of a rank, its own and then the copies of others', as queries take them.
+/// The agents of a rank and the copies of others', as queries take them: in the order of their ids, as one process has them,
+/// because of two agents the first one's place in memory decides whose frame a pair is looked at in.
 struct CrowdColumns {
   std::vector<std::uint32_t> id, shape;
   std::vector<double> x, y, z, heading;
-  std::vector<std::uint8_t> level;
-  std::size_t owned = 0;  ///< how many are the rank's own
+  std::vector<std::uint8_t> level, is_own;
 
+  /// Precondition: both in the order of their ids.
   void assign(std::span<const CrowdAgent> own, std::span<const CrowdAgent> copies, bool heights);
   Agents agents() const { return {shape, x, y, heading, level, z}; }
+
+ private:
+  void resize(std::size_t size, bool heights);
+  void set(std::size_t i, const CrowdAgent& agent, bool own);
 };
 
-/// Finds the pairs that a rank answers among candidates, those whose lower id is its own, and puts the lower id first.
+/// Finds the pairs that a rank answers among candidates: those whose first agent, which has the lower id, is its own.
 void keep_owned(const CrowdColumns& columns, std::span<const Pair> candidates, std::vector<Pair>& owned);
 
 /// Writes the ids of pairs that are hit.

@@ -75,8 +75,9 @@ struct CrowdCounters {
 ///       for (bch::CrowdAgent& agent : crowd.agents()) ...           // moves
 ///     }
 ///
-/// The answer is that of one process: the pairs of all ranks together are those of CrowdCollider, each on one rank, the owner of
-/// the lower id. The same for any number of ranks and threads, and wherever the crowd is cut.
+/// The answer is that of one process which has all agents in the order of their ids, bit by bit: the pairs of all ranks together are
+/// those of CrowdCollider, each on one rank, the owner of the lower id. It is the same for any number of ranks and threads, and wherever
+/// the crowd is cut.
 ///
 /// All calls but agents(), halo() and counters() are collective: each rank makes them, in the same order, with the same options.
 /// Errors:  where a rank throws, for bad input or want of memory, all throw RankError with its message. The crowd can then only
@@ -94,8 +95,8 @@ class DistributedCrowd {
   DistributedCrowd& operator=(DistributedCrowd&&) noexcept;
   ~DistributedCrowd();
 
-  /// Returns the agents of this rank, which a simulator moves, adds and takes away as it likes; update() comes after. Their order
-  /// changes in update().
+  /// Returns the agents of this rank, which a simulator moves, adds and takes away as it likes; update() comes after, and puts them in
+  /// the order of their ids.
   std::vector<CrowdAgent>& agents() noexcept;
   /// Returns copies of other ranks' agents that come as near to this rank's squares as its agents may reach, as they were in the last
   /// update().

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "tests/support/bch_run.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+namespace bch {
+namespace {
+
+using test::Arguments;
+using test::Ending;
+
+/// What mpirun needs as root, and with more ranks than cores.
+const Arguments mpirun{"--allow-run-as-root", "--oversubscribe"};
+
+Ending run(const Arguments& arguments) {
+  Arguments all = mpirun;
+  all.insert(all.end(), arguments.begin(), arguments.end());
+  return test::run_program(BCH_MPIRUN, all);
+}
+
+std::size_t count(const std::string& text, const std::string& word) {
+  std::size_t found = 0;
+  for (std::size_t at = 0; (at = text.find(word, at)) != std::string::npos; ++at) ++found;
+  return found;
+}
+
+class BchMpi : public testing::Test {
+ protected:
+  void SetUp() override {
+    const Ending baked = test::bch({"bake", "default:male", "--poses", "6", "-o", people});
+    ASSERT_EQ(baked.code, 0) << baked.err;
+  }
+
+  Arguments crowd(const std::string& ranks, const Arguments& more = {}) const {
+    Arguments all{"-n", ranks, BCH_MPI_PROGRAM, "crowd", people, "--agents", "2000", "--steps", "2"};
+    all.insert(all.end(), more.begin(), more.end());
+    return all;
+  }
+
+  TemporaryFolder folder;
+  const std::string people = folder.file("people.bch").string();
+  const std::string report = folder.file("report.json").string();
+};
+
+TEST_F(BchMpi, ReportsOfEveryRankWhatItDid) {
+  for (const std::string kind : {"spot", "stadium", "street"}) {
+    const Ending plain = run(crowd("1", {"--kind", kind, "--plain", "--json", report}));
+    ASSERT_EQ(plain.code, 0) << plain.err;
+    const nlohmann::json expected = test::read_json(report);
+    const Ending three = run(crowd("3", {"--kind", kind, "--json", report}));
+    ASSERT_EQ(three.code, 0) << three.err;
+    const nlohmann::json found = test::read_json(report);
+    EXPECT_GT(expected["collisions"], 100);
+    EXPECT_EQ(found["collisions"], expected["collisions"]);
+    EXPECT_EQ(found["digest"], expected["digest"]);
+    EXPECT_EQ(found["agents"], 2000);
+    EXPECT_EQ(found["ranks"].size(), 3u);
+    EXPECT_NE(three.out.find("2 000 agents on 3 ranks"), std::string::npos) << three.out;
+    EXPECT_NE(three.out.find("digest " + found["digest"].get<std::string>()), std::string::npos);
+  }
+}
+
+TEST_F(BchMpi, AFileThatOneRankCannotReadEndsAllWithOneLine) {
+  Arguments both = crowd("1");
+  for (const char* const word : {":", "-n", "1", BCH_MPI_PROGRAM, "crowd", "nowhere.bch"})
+    both.emplace_back(word);
+  const Ending run_of_both = run(both);
+  EXPECT_EQ(run_of_both.code, 3) << run_of_both.err;
+  EXPECT_EQ(count(run_of_both.err, "bch_mpi: rank 1: nowhere.bch"), 1u) << run_of_both.err;
+  EXPECT_EQ(count(run_of_both.err, "bch_mpi: "), 1u) << run_of_both.err;
+  EXPECT_EQ(run_of_both.out, "");
+}
+
+TEST_F(BchMpi, AReportThatCannotBeWrittenEndsAllWithOneLine) {
+  const Ending full = run(crowd("2", {"--json", "/dev/full"}));
+  EXPECT_EQ(full.code, 3) << full.err;
+  EXPECT_EQ(count(full.err, "bch_mpi: rank 0: /dev/full"), 1u) << full.err;
+  EXPECT_EQ(count(full.err, "bch_mpi: "), 1u) << full.err;
+}
+
+TEST_F(BchMpi, AWrongCommandLineIsOneLine) {
+  const Ending wrong = run({"-n", "3", BCH_MPI_PROGRAM, "fly"});
+  EXPECT_EQ(wrong.code, 2) << wrong.err;
+  EXPECT_EQ(count(wrong.err, "bch_mpi: "), 1u) << wrong.err;
+}
+
+TEST(FailingRank, ThatThrowsEndsAll) {
+  const Ending ending = run({"-n", "3", BCH_FAILING_RANK, "throw"});
+  EXPECT_EQ(ending.code, 7) << ending.err;
+  EXPECT_EQ(count(ending.err, "failing_rank: rank 1: the simulator has a fault"), 1u) << ending.err;
+  EXPECT_EQ(count(ending.err, "failing_rank: "), 1u) << ending.err;
+}
+
+TEST(FailingRank, ThatIsKilledEndsAll) {
+  const Ending ending = run({"-n", "3", BCH_FAILING_RANK, "kill"});
+  EXPECT_NE(ending.code, 0);
+  EXPECT_NE(ending.err.find("rank 1"), std::string::npos) << ending.err;
+  EXPECT_NE(ending.err.find("signal 9"), std::string::npos) << ending.err;
+}
+
+}  // namespace
+}  // namespace bch

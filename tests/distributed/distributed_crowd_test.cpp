@@ -1,0 +1,368 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include <bch/distributed_crowd.hpp>
+
+#include <gtest/gtest.h>
+#include <oneapi/tbb/global_control.h>
+
+#include <algorithm>
+#include <cmath>
+#include <compare>
+#include <limits>
+#include <numeric>
+#include <vector>
+
+#include <bch/broad_phase.hpp>
+#include <bch/clearance.hpp>
+#include <bch/collide.hpp>
+
+#include "kernel/distributed/session.hpp"
+#include "tests/support/complaint.hpp"
+#include "tests/support/scenes.hpp"
+
+// Every rank runs these tests, all with the same random numbers: each knows the whole crowd and what one process answers. Tests
+// only EXPECT, because a rank that left one early would leave the others waiting.
+
+namespace bch {
+namespace {
+
+using test::Random;
+
+int rank() {
+  int rank;
+  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+  return rank;
+}
+
+int ranks() {
+  int ranks;
+  MPI_Comm_size(MPI_COMM_WORLD, &ranks);
+  return ranks;
+}
+
+struct Answer {
+  std::uint32_t first, second;
+  float metres;  ///< 0 of collisions
+  friend auto operator<=>(const Answer&, const Answer&) = default;
+};
+using Answers = std::vector<Answer>;
+
+/// The values of all ranks, on each of them.
+template <class Value>
+std::vector<Value> of_all_ranks(const std::vector<Value>& mine) {
+  std::vector<int> sizes(static_cast<std::size_t>(ranks())), begins(sizes);
+  const int size = static_cast<int>(mine.size() * sizeof(Value));
+  MPI_Allgather(&size, 1, MPI_INT, sizes.data(), 1, MPI_INT, MPI_COMM_WORLD);
+  std::exclusive_scan(sizes.begin(), sizes.end(), begins.begin(), 0);
+  std::vector<Value> all(static_cast<std::size_t>(begins.back() + sizes.back()) / sizeof(Value));
+  MPI_Allgatherv(mine.data(), size, MPI_BYTE, all.data(), sizes.data(), begins.data(), MPI_BYTE,
+                 MPI_COMM_WORLD);
+  return all;
+}
+
+Answers sorted(Answers answers) {
+  std::ranges::sort(answers);
+  return answers;
+}
+
+Answers collisions(DistributedCrowd& crowd, const QueryOptions& options = {}) {
+  Answers mine;
+  for (const Pair& pair : crowd.collide_all(options)) mine.push_back({pair.first, pair.second, 0});
+  return sorted(of_all_ranks(mine));
+}
+
+Answers clearances(DistributedCrowd& crowd, const QueryOptions& options) {
+  Answers mine;
+  for (const CrowdDistance& one : crowd.clearances(options))
+    mine.push_back({one.first, one.second, one.metres});
+  return sorted(of_all_ranks(mine));
+}
+
+/// The whole crowd, as one process has it: in the order of ids.
+struct World {
+  std::vector<CrowdAgent> agents;
+  bool has_heights = false;
+
+  /// The agents that a rank begins with: one here, one there, in no order.
+  std::vector<CrowdAgent> dealt() const {
+    std::vector<CrowdAgent> mine;
+    for (std::size_t i = 0; i < agents.size(); ++i)
+      if (i % static_cast<std::size_t>(ranks()) == static_cast<std::size_t>(rank()))
+        mine.push_back(agents[i]);
+    std::ranges::reverse(mine);
+    return mine;
+  }
+
+  test::Crowd columns() const {
+    test::Crowd crowd;
+    for (const CrowdAgent& agent : agents) {
+      crowd.add({agent.shape, agent.x, agent.y, agent.heading, agent.level});
+      if (has_heights) crowd.z.push_back(agent.z);
+    }
+    return crowd;
+  }
+
+  Answer answer(Pair pair, float metres) const {
+    return {agents[pair.first].id, agents[pair.second].id, metres};
+  }
+
+  Answers collisions(const ShapeSet& set, const QueryOptions& options = {}) const {
+    const test::Crowd crowd = columns();
+    const std::vector<Pair> pairs = candidate_pairs(set, crowd.agents());
+    std::vector<std::uint8_t> hits(pairs.size());
+    collide(set, crowd.agents(), pairs, hits, options);
+    Answers answers;
+    for (std::size_t i = 0; i < pairs.size(); ++i)
+      if (hits[i] != 0) answers.push_back(answer(pairs[i], 0));
+    return sorted(answers);
+  }
+
+  Answers clearances(const ShapeSet& set, const QueryOptions& options) const {
+    const test::Crowd crowd = columns();
+    const std::vector<Pair> pairs = candidate_pairs(set, crowd.agents(), options.max_distance);
+    std::vector<float> metres(pairs.size());
+    clearance(set, crowd.agents(), pairs, {.distance = metres}, options);
+    Answers answers;
+    for (std::size_t i = 0; i < pairs.size(); ++i)
+      if (std::isfinite(metres[i])) answers.push_back(answer(pairs[i], metres[i]));
+    return sorted(answers);
+  }
+};
+
+/// Moves each agent in the world, and on whichever rank owns it, by the same.
+template <class Move>
+void move_all(World& world, DistributedCrowd& crowd, const Move& move) {
+  for (CrowdAgent& agent : world.agents) move(agent);
+  for (CrowdAgent& agent : crowd.agents()) move(agent);
+}
+
+/// Random numbers of an agent's own.
+Random random_of(const CrowdAgent& agent, std::uint64_t seed) {
+  return Random(seed << 32 | agent.id);
+}
+
+class Distributed : public testing::Test {
+ protected:
+  static constexpr std::uint32_t count = 1500;
+  const ShapeSet set{test::synthetic_shapes(91, 24), {{0, 3, all_depths}, true}};  // up to 4 m
+
+  /// Agents in a square; their ids are not those of their places in memory.
+  World world(double side, std::uint32_t agents = count, std::uint64_t seed = 5) const {
+    Random random(seed);
+    World world;
+    for (std::uint32_t i = 0; i < agents; ++i) {
+      CrowdAgent agent{.heading = random.uniform(-4, 4), .id = (i * 7919u) % 65521u};
+      agent.x = random.uniform(-side / 2, side / 2), agent.y = random.uniform(-side / 2, side / 2);
+      agent.shape = random.below(set.shape_count());
+      agent.level = static_cast<std::uint8_t>(random.below(set.level_count()));
+      world.agents.push_back(agent);
+    }
+    std::ranges::sort(world.agents, {}, &CrowdAgent::id);
+    return world;
+  }
+
+  /// Expects the answers of one process, and each agent on one rank.
+  void expect_same(const World& world, DistributedCrowd& crowd, double margin = 0.5) const {
+    crowd.update(margin);
+    EXPECT_EQ(collisions(crowd), world.collisions(set));
+    EXPECT_EQ(collisions(crowd, {.semantics = Semantics::solid}),
+              world.collisions(set, {.semantics = Semantics::solid}));
+    const QueryOptions near{.max_distance = margin};
+    EXPECT_EQ(clearances(crowd, near), world.clearances(set, near));
+    std::vector<std::uint32_t> ids, expected;
+    for (const CrowdAgent& agent : crowd.agents()) ids.push_back(agent.id);
+    for (const CrowdAgent& agent : world.agents) expected.push_back(agent.id);
+    ids = of_all_ranks(ids);
+    std::ranges::sort(ids), std::ranges::sort(expected);
+    EXPECT_EQ(ids, expected);
+  }
+};
+
+TEST_F(Distributed, AnswersLikeOneProcessWhileAgentsWalk) {
+  World all = world(60);
+  EXPECT_GT(all.collisions(set).size(), 500u);
+  DistributedCrowd crowd(MPI_COMM_WORLD, set, all.dealt(), {.cell = 4});
+  for (std::uint64_t step = 0; step < 6; ++step) {
+    expect_same(all, crowd, step % 2 == 0 ? 0.5 : 1.5);
+    move_all(all, crowd, [](CrowdAgent& agent) {
+      agent.x += 0.7 * std::cos(agent.heading), agent.y += 0.7 * std::sin(agent.heading);
+    });
+  }
+}
+
+TEST_F(Distributed, AnswersLikeOneProcessFarFromTheOrigin) {
+  World all = world(60);
+  for (CrowdAgent& agent : all.agents) agent.x = std::floor(agent.x * 0x1p20) * 0x1p-20;
+  for (CrowdAgent& agent : all.agents) agent.y = std::floor(agent.y * 0x1p20) * 0x1p-20;
+  const Answers here = all.collisions(set);
+  for (CrowdAgent& agent : all.agents) agent.x += 1e8, agent.y -= 1e8;
+  DistributedCrowd crowd(MPI_COMM_WORLD, set, all.dealt());
+  expect_same(all, crowd);
+  EXPECT_EQ(collisions(crowd), here);
+}
+
+TEST_F(Distributed, AgentsStandOnBordersOfSquares) {
+  for (const double origin : {0.0, 4096.0}) {
+    World all = world(60);
+    for (CrowdAgent& agent : all.agents) {
+      Random random = random_of(agent, 7);
+      for (double* const place : {&agent.x, &agent.y}) {
+        *place = 2 * std::floor(*place / 2) + origin;
+        const std::uint32_t side = random.below(3);
+        if (side > 0) *place = std::nextafter(*place, side == 1 ? -1e9 : 1e9);
+      }
+    }
+    DistributedCrowd crowd(MPI_COMM_WORLD, set, all.dealt(), {.cell = 2});
+    expect_same(all, crowd);
+  }
+}
+
+TEST_F(Distributed, AgentsJumpAcrossTheWorld) {
+  World all = world(40, 600);
+  DistributedCrowd crowd(MPI_COMM_WORLD, set, all.dealt());
+  for (std::uint64_t step = 0; step < 5; ++step) {
+    expect_same(all, crowd);
+    move_all(all, crowd, [step](CrowdAgent& agent) {
+      Random random = random_of(agent, 100 + step);
+      const double far = random.below(4) == 0 ? 1e9 - 40 : 0;  // to the corner of all that is allowed
+      agent.x = far + random.uniform(-20, 20), agent.y = random.uniform(-20, 20) - far;
+    });
+  }
+}
+
+TEST_F(Distributed, RanksMayBeEmpty) {
+  for (const std::uint32_t agents : {0u, 1u, 5u}) {
+    World all = world(3, agents);
+    DistributedCrowd crowd(MPI_COMM_WORLD, set,
+                           rank() == ranks() - 1 ? all.agents : std::vector<CrowdAgent>{});
+    for (int step = 0; step < 2; ++step) expect_same(all, crowd);
+  }
+}
+
+TEST_F(Distributed, AllMayStandInOnePlace) {
+  World all = world(60, 60);
+  for (CrowdAgent& agent : all.agents) agent.x = agent.y = 3;
+  DistributedCrowd crowd(MPI_COMM_WORLD, set, all.dealt());
+  for (int step = 0; step < 3; ++step) expect_same(all, crowd);
+  EXPECT_LE(crowd.counters().cuts, 2u);  // a square cannot be cut: that does not help a second time
+}
+
+TEST_F(Distributed, CutsAnewWhereTheCrowdIsDense) {
+  const ShapeSet points(test::synthetic_shapes(91, 24), {{0}, false});
+  World all = world(200, 3000);
+  for (CrowdAgent& agent : all.agents) agent.level = 0;
+  DistributedCrowd crowd(MPI_COMM_WORLD, points, all.dealt(), {.cell = 2});
+  for (std::uint32_t step = 0; step < 8; ++step) {
+    crowd.update();
+    EXPECT_EQ(collisions(crowd), all.collisions(points));
+    if (step == 2)  // a third of all meet in a corner
+      move_all(all, crowd, [](CrowdAgent& agent) {
+        if (agent.id % 3 == 0) agent.x = 70 + agent.x / 8, agent.y = 70 + agent.y / 8;
+      });
+  }
+  crowd.update();
+  EXPECT_LT(crowd.counters().imbalance, ranks() < 7 ? 1.1 : 1.5);  // of a square's pairs, which are many here
+  EXPECT_GE(crowd.counters().cuts, ranks() > 1 ? 2u : 1u);
+  EXPECT_LE(crowd.counters().cuts, 6u);
+}
+
+TEST_F(Distributed, AgentsComeAndGo) {
+  World all = world(40, 800);
+  DistributedCrowd crowd(MPI_COMM_WORLD, set, all.dealt());
+  crowd.update();
+  const auto leaves = [](const CrowdAgent& agent) { return agent.id % 5 == 0; };
+  std::erase_if(all.agents, leaves);
+  std::erase_if(crowd.agents(), leaves);
+  CrowdAgent comes = all.agents.front();
+  comes.id = 70'000, comes.x += 0.1;
+  all.agents.push_back(comes);
+  if (rank() == ranks() / 2) crowd.agents().push_back(comes);
+  expect_same(all, crowd);
+}
+
+TEST_F(Distributed, AgentsStandAtDifferentHeights) {
+  std::vector<Shape> shapes = test::synthetic_shapes(91, 24);
+  for (Shape& shape : shapes) shape.heights = {0, 1.75f};
+  const ShapeSet bodies(shapes, {.heights = true});
+  World all = world(40, 800);
+  all.has_heights = true;
+  for (CrowdAgent& agent : all.agents) agent.z = 0.5 * random_of(agent, 3).below(8), agent.level = 0;
+  DistributedCrowd crowd(MPI_COMM_WORLD, bodies, all.dealt(), {.heights = true});
+  crowd.update();
+  const Answers answers = collisions(crowd);
+  EXPECT_EQ(answers, all.collisions(bodies));
+  all.has_heights = false;
+  EXPECT_LT(answers.size(), all.collisions(bodies).size());
+}
+
+TEST_F(Distributed, CountsWhatIsSent) {
+  World all = world(60);
+  DistributedCrowd crowd(MPI_COMM_WORLD, set, all.dealt());
+  crowd.update();
+  crowd.collide_all();
+  const CrowdCounters& counters = crowd.counters();
+  EXPECT_EQ(counters.agents, crowd.agents().size());
+  EXPECT_EQ(counters.halo, crowd.halo().size());
+  std::uint64_t sums[] = {counters.agents,          counters.halo_bytes,   counters.halo * 33,
+                          counters.migration_bytes, counters.arrived * 41, counters.pairs};
+  MPI_Allreduce(MPI_IN_PLACE, sums, 6, MPI_UINT64_T, MPI_SUM, MPI_COMM_WORLD);
+  EXPECT_EQ(sums[0], count);
+  EXPECT_EQ(sums[1], sums[2]);  // x, y, heading, id, shape, level
+  EXPECT_EQ(sums[3], sums[4]);  // and z
+  EXPECT_EQ(sums[5], candidate_pairs(set, all.columns().agents()).size());
+  EXPECT_EQ(sums[1] > 0, ranks() > 1);
+}
+
+/// What all ranks say where one of them, or all, cannot do as they are asked.
+template <class Call>
+std::string complaint_of_ranks(const Call& call) {
+  return test::complaint<RankError>(call);
+}
+
+TEST_F(Distributed, WhatIsWrongOnOneRankIsAnErrorOnAll) {
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  const std::string last = "rank " + std::to_string(ranks() - 1) + ": agent 17: ";
+  const auto complaint_about = [&](CrowdAgent agent, const DistributedCrowdOptions& options = {}) {
+    DistributedCrowd crowd(MPI_COMM_WORLD, set, world(20, 100).dealt(), options);
+    crowd.update();
+    if (rank() == ranks() - 1) crowd.agents().push_back(agent);
+    return complaint_of_ranks([&] { crowd.update(); });
+  };
+  EXPECT_EQ(complaint_about({.x = nan, .id = 17}), last + "x is nan, not within 1e9 m");
+  EXPECT_EQ(complaint_about({.y = -2e9, .id = 17}), last + "y is -2e+09, not within 1e9 m");
+  EXPECT_EQ(complaint_about({.heading = nan, .id = 17}), last + "heading is nan, not within 1e9 rad");
+  EXPECT_EQ(complaint_about({.id = 17, .shape = 24}), last + "shape is 24, not one of the set");
+  EXPECT_EQ(complaint_about({.id = 17, .level = 3}), last + "level is 3, not one of the set");
+  EXPECT_EQ(complaint_about({.z = nan, .id = 17}), "accepted");
+}
+
+TEST_F(Distributed, WhatMakesNoSenseIsAnError) {
+  const auto made_with = [&](const DistributedCrowdOptions& options) {
+    return complaint_of_ranks([&] { DistributedCrowd(MPI_COMM_WORLD, set, {}, options); });
+  };
+  EXPECT_EQ(made_with({.cell = -1}), "rank 0: the cell is not from 0 to 1e6 m");
+  EXPECT_EQ(made_with({.imbalance = 0.5}), "rank 0: an imbalance below 1 cannot be");
+  EXPECT_EQ(made_with({.heights = true}),
+            "rank 0: agents have heights, and the set does not know those of bodies");
+  DistributedCrowd crowd(MPI_COMM_WORLD, set, {}, {.cell = 2});
+  for (const double margin : {-1.0, 100.0, std::numeric_limits<double>::quiet_NaN()})
+    EXPECT_NE(complaint_of_ranks([&] { crowd.update(margin); }).find("rank 0: a margin of "),
+              std::string::npos);
+  crowd.update(0.5);
+  EXPECT_EQ(complaint_of_ranks([&] { crowd.clearances({.max_distance = 0.6}); }),
+            "rank 0: clearances beyond the margin of the last update()");
+}
+
+}  // namespace
+}  // namespace bch
+
+int main(int argc, char** argv) {
+  const bch::detail::Session session(argc, argv);
+  const tbb::global_control one(tbb::global_control::max_allowed_parallelism, session.size() == 1 ? 2 : 1);
+  testing::InitGoogleTest(&argc, argv);
+  if (session.rank() != 0)  // whose lines are enough; failures of others are seen by their exit code
+    delete testing::UnitTest::GetInstance()->listeners().Release(
+        testing::UnitTest::GetInstance()->listeners().default_result_printer());
+  return RUN_ALL_TESTS();
+}
