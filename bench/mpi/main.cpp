@@ -2,6 +2,7 @@
 // Copyright (c) 2026 the bch authors
 
 #include <fmt/format.h>
+#include <malloc.h>
 
 #include <algorithm>
 #include <functional>
@@ -66,6 +67,7 @@ int run_rank(const Session& session, int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  mallopt(M_MMAP_THRESHOLD, 1 << 20);  // arrays that outgrow their place leave no holes
   return run_main("bch_mpi", [&] {
     const Session session(argc, argv);
     bool is_agreed = false;

@@ -16,6 +16,7 @@
 #include "kernel/distributed/exchange.hpp"
 #include "kernel/distributed/halo.hpp"
 #include "kernel/distributed/owned_pairs.hpp"
+#include "kernel/distributed/room.hpp"
 #include "kernel/distributed/session.hpp"
 #include "kernel/runtime/task_ranges.hpp"
 #include "layout/base/rounding.hpp"
@@ -164,6 +165,7 @@ void DistributedCrowd::State::update() {
 /// Weighs the agents of the last update, where they stood then; before the first one, all agents alike.
 std::vector<Weight> DistributedCrowd::State::weights() const {
   std::vector<Weight> all;
+  all.reserve(std::max(agents.size(), columns.id.size()));
   if (counters.cuts == 0) {
     for (const CrowdAgent& agent : agents) all.push_back({curve_key(cell_at(agent.x, agent.y, side)), 1});
     return all;
@@ -302,7 +304,7 @@ std::span<const Pair> DistributedCrowd::collide_all(const QueryOptions& options)
     without_tasks_from_outside([&] {
       state.find_pairs(0);
       const Stopwatch watch(state.counters.answer_seconds);
-      state.hits.resize(state.pairs.size());
+      resize_with_room(state.hits, state.pairs.size());
       collide(state.shapes, state.columns.agents(), state.pairs, state.hits, options);
       keep_hits(state.columns, state.pairs, state.hits, state.colliding);
     });
@@ -318,7 +320,7 @@ std::span<const CrowdDistance> DistributedCrowd::clearances(const QueryOptions& 
     without_tasks_from_outside([&] {
       state.find_pairs(options.max_distance);
       const Stopwatch watch(state.counters.answer_seconds);
-      state.metres.resize(state.pairs.size());
+      resize_with_room(state.metres, state.pairs.size());
       clearance(state.shapes, state.columns.agents(), state.pairs, {.distance = state.metres}, options);
       keep_near(state.columns, state.pairs, state.metres, state.near);
     });
