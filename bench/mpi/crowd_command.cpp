@@ -32,10 +32,10 @@ namespace {
 constexpr double stride = 1.3 / 30;           ///< metres a step
 constexpr std::uint32_t steps_to_settle = 3;  ///< all agents migrate, then the crowd is cut by pairs
 
-struct Options {
+struct WalkOptions {
   std::string file, kind = "uniform", json;
   std::uint32_t agents = 100'000, steps = 10, threads = 1;
-  double density = 3, imbalance = DistributedCrowdOptions{}.imbalance;
+  double density = 3, imbalance = DistributedCrowdOptions{}.imbalance, agent_pairs = 0;
   bool is_plain = false;
 };
 
@@ -50,7 +50,7 @@ std::uint64_t hash(std::uint32_t first, std::uint32_t second) {
 }
 
 /// The numbers of the agents that a rank draws: every so many-th, from everywhere.
-std::vector<CrowdAgent> draw_agents(const Options& options, std::uint32_t shapes, int rank, int size) {
+std::vector<CrowdAgent> draw_agents(const WalkOptions& options, std::uint32_t shapes, int rank, int size) {
   const Scenery scenery(options.kind, options.agents, options.density);
   std::vector<CrowdAgent> agents;
   agents.reserve(options.agents / static_cast<std::uint32_t>(size) + 1);
@@ -68,8 +68,9 @@ void walk_on(std::vector<CrowdAgent>& agents) {
 /// The crowd of all ranks.
 class RankWalk {
  public:
-  RankWalk(MPI_Comm comm, const ShapeSet& shapes, std::vector<CrowdAgent> agents, double imbalance)
-      : crowd_(comm, shapes, std::move(agents), {.imbalance = imbalance}) {}
+  RankWalk(MPI_Comm comm, const ShapeSet& shapes, std::vector<CrowdAgent> agents, const WalkOptions& options)
+      : crowd_(comm, shapes, std::move(agents),
+               {.imbalance = options.imbalance, .agent_pairs = options.agent_pairs}) {}
   void step() { crowd_.update(), pairs_ = crowd_.collide_all(); }
   void move() { walk_on(crowd_.agents()); }
   CrowdCounters counters() const { return crowd_.counters(); }
@@ -145,7 +146,7 @@ CrowdReport report_of(Walk& walk, MPI_Comm comm, std::uint32_t steps, double bef
   return report;
 }
 
-CrowdReport walk_crowd(const Options& options, MPI_Comm comm, int rank, int size) {
+CrowdReport walk_crowd(const WalkOptions& options, MPI_Comm comm, int rank, int size) {
   std::optional<BakedShapes> baked;
   std::vector<CrowdAgent> agents;
   double before = 0;
@@ -159,11 +160,11 @@ CrowdReport walk_crowd(const Options& options, MPI_Comm comm, int rank, int size
     PlainWalk walk(baked->set, std::move(agents));
     return report_of(walk, comm, options.steps, before);
   }
-  RankWalk walk(comm, baked->set, std::move(agents), options.imbalance);
+  RankWalk walk(comm, baked->set, std::move(agents), options);
   return report_of(walk, comm, options.steps, before);
 }
 
-void run(const Options& options, MPI_Comm comm) {
+void run(const WalkOptions& options, MPI_Comm comm) {
   int rank, size;
   MPI_Comm_rank(comm, &rank);
   MPI_Comm_size(comm, &size);
@@ -180,7 +181,7 @@ void run(const Options& options, MPI_Comm comm) {
 }  // namespace
 
 std::function<void()> add_crowd_command(CLI::App& program, MPI_Comm comm) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<WalkOptions>();
   CLI::App& command =
       *program.add_subcommand("crowd", "A crowd that walks on all ranks: what each of them did");
   command.add_option("file", options->file, "Shapes, baked by bch bake; every rank maps them")
@@ -203,6 +204,11 @@ std::function<void()> add_crowd_command(CLI::App& program, MPI_Comm comm) {
                   "The most pairs of a rank over the mean, or the crowd is cut anew [1.04]")
       ->type_name("R")
       ->check(number_between(1, 1e6));
+  command
+      .add_option("--agent-pairs", options->agent_pairs,
+                  "As how many pairs an agent counts there; 1.3 balances time [0]")
+      ->type_name("N")
+      ->check(number_between(0, 1000));
   command.add_option("--threads", options->threads, "Threads of a rank [1]")
       ->type_name("N")
       ->check(whole_between(1, 1024));

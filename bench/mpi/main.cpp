@@ -36,10 +36,11 @@ int run_command(const Session& session, int argc, char** argv) {
   program.get_formatter()->column_width(24);
   const std::pair<const char*, std::function<void()>> commands[] = {
       {"crowd", add_crowd_command(program, session.comm())},
+      {"simulate", add_simulate_command(program, session.comm())},
   };
   const std::string word = argc > 1 ? argv[1] : "-";
   if (word[0] != '-' && std::ranges::none_of(commands, [&](const auto& one) { return one.first == word; }))
-    throw UsageError("no command '" + word + "' (crowd)");
+    throw UsageError("no command '" + word + "' (crowd, simulate)");
   if (argc > 1 && word[0] == '-' && session.rank() != 0) return exit_success;  // help and version once
   if (!parse_command_line(program, argc, argv)) return exit_success;
   for (const auto& [name, command] : commands)

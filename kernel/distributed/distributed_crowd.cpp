@@ -27,7 +27,7 @@ using namespace detail;
 
 namespace {
 
-/// How much a pair weighs more than an agent. Ranks are to answer as many pairs; agents who meet nobody are to be shared out as well.
+/// What a pair weighs, and an agent 1 more than the pairs that it counts for: those who meet nobody are to be shared out as well.
 constexpr std::uint64_t pair_weight = 32;
 constexpr double most_squares = 16;  ///< that a reach may span
 
@@ -104,6 +104,9 @@ struct DistributedCrowd::State {
   void prepare();
   void require_margin(double metres) const;
   void update();
+  std::uint64_t agent_weight() const {
+    return 1 + static_cast<std::uint64_t>(options.agent_pairs * static_cast<double>(pair_weight));
+  }
   void cut_where_unbalanced();
   std::vector<Weight> weights() const;
   Outbox leaving();
@@ -139,6 +142,8 @@ void DistributedCrowd::State::prepare() {
   if (!(options.cell >= 0 && options.cell <= 1e6))
     throw std::invalid_argument("the cell is not from 0 to 1e6 m");
   if (!(options.imbalance >= 1)) throw std::invalid_argument("an imbalance below 1 cannot be");
+  if (!(options.agent_pairs >= 0 && options.agent_pairs <= 1000))
+    throw std::invalid_argument("an agent does not count as so many pairs");
   if (options.heights && !shapes.has_heights())
     throw std::invalid_argument("agents have heights, and the set does not know those of bodies");
   side = std::max(1.0, options.cell > 0 ? options.cell : 4 * largest(radii));
@@ -171,14 +176,16 @@ std::vector<Weight> DistributedCrowd::State::weights() const {
     return all;
   }
   for (std::size_t i = 0; i < columns.id.size(); ++i)
-    all.push_back({curve_key(cell_at(columns.x[i], columns.y[i], side)), columns.is_own[i]});
+    all.push_back({curve_key(cell_at(columns.x[i], columns.y[i], side)), columns.is_own[i] * agent_weight()});
   for (const Pair& pair : pairs) all[pair.first].weight += pair_weight;
   return all;
 }
 
 void DistributedCrowd::State::cut_where_unbalanced() {
   const Stopwatch watch(counters.cut_seconds);
-  std::uint64_t most = pairs.size(), sum = pairs.size();
+  std::uint64_t most =
+      pairs.empty() ? 0 : pair_weight * pairs.size() + (agent_weight() - 1) * counters.agents;
+  std::uint64_t sum = most;
   MPI_Allreduce(MPI_IN_PLACE, &most, 1, MPI_UINT64_T, MPI_MAX, comm.get());
   MPI_Allreduce(MPI_IN_PLACE, &sum, 1, MPI_UINT64_T, MPI_SUM, comm.get());
   const double parts = comm.size();

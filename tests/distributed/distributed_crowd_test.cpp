@@ -182,7 +182,7 @@ class Distributed : public testing::Test {
 TEST_F(Distributed, AnswersLikeOneProcessWhileAgentsWalk) {
   World all = world(60);
   EXPECT_GT(all.collisions(set).size(), 500u);
-  DistributedCrowd crowd(MPI_COMM_WORLD, set, all.dealt(), {.cell = 4});
+  DistributedCrowd crowd(MPI_COMM_WORLD, set, all.dealt(), {.cell = 4, .agent_pairs = 1.3});
   for (std::uint64_t step = 0; step < 6; ++step) {
     expect_same(all, crowd, step % 2 == 0 ? 0.5 : 1.5);
     move_all(all, crowd, [](CrowdAgent& agent) {
@@ -343,6 +343,7 @@ TEST_F(Distributed, WhatMakesNoSenseIsAnError) {
   };
   EXPECT_EQ(made_with({.cell = -1}), "rank 0: the cell is not from 0 to 1e6 m");
   EXPECT_EQ(made_with({.imbalance = 0.5}), "rank 0: an imbalance below 1 cannot be");
+  EXPECT_EQ(made_with({.agent_pairs = -1}), "rank 0: an agent does not count as so many pairs");
   EXPECT_EQ(made_with({.heights = true}),
             "rank 0: agents have heights, and the set does not know those of bodies");
   DistributedCrowd crowd(MPI_COMM_WORLD, set, {}, {.cell = 2});

@@ -44,9 +44,10 @@ struct CrowdDistance {
 /// How a crowd is divided among ranks.
 struct DistributedCrowdOptions {
   double cell = 0;  ///< metres: the side of the squares that ranks own; 0: four times the largest radius
-  double imbalance = 1.04;  ///< the most pairs of a rank over the mean, beyond which the crowd is cut anew
-  bool heights =
-      false;  ///< whether agents stand at different heights: z counts, and the set has to know those of bodies
+  double imbalance =
+      1.04;  ///< the most that a rank has to do over the mean, beyond which the crowd is cut anew
+  double agent_pairs = 0;  ///< as how many pairs an agent counts there: 0 balances pairs, about 1.3 time
+  bool heights = false;    ///< whether z counts; the set has to know the heights of bodies then
 };
 
 /// What a rank did in the last update() and the last query, to judge scale by.
@@ -59,7 +60,7 @@ struct CrowdCounters {
   std::uint64_t halo_bytes = 0;       ///< sent
   std::uint32_t neighbours = 0;       ///< ranks with which it exchanges halos
   std::uint32_t cuts = 0;             ///< how often the crowd was cut, since it was made
-  double imbalance = 1;  ///< the most pairs of a rank over the mean, when update() looked at the last query
+  double imbalance = 1;  ///< the most that a rank did in the last query over the mean, as update() saw it
   double cut_seconds = 0, migration_seconds = 0, halo_seconds = 0;  ///< of update()
   double pairs_seconds = 0, answer_seconds = 0;                     ///< of the query: broad phase, kernel
 };
