@@ -10,6 +10,9 @@
 
 namespace bch::cli {
 
+/// A check of a recording in parts, which ranks take in turn. Returns what runs the command.
+std::function<void()> add_check_command(CLI::App& program, MPI_Comm comm);
+
 /// A crowd that walks on all ranks, and what each of them did. Returns what runs the command.
 std::function<void()> add_crowd_command(CLI::App& program, MPI_Comm comm);
 

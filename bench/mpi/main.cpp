@@ -35,12 +35,13 @@ int run_command(const Session& session, int argc, char** argv) {
   program.require_subcommand(1);
   program.get_formatter()->column_width(24);
   const std::pair<const char*, std::function<void()>> commands[] = {
+      {"check", add_check_command(program, session.comm())},
       {"crowd", add_crowd_command(program, session.comm())},
       {"simulate", add_simulate_command(program, session.comm())},
   };
   const std::string word = argc > 1 ? argv[1] : "-";
   if (word[0] != '-' && std::ranges::none_of(commands, [&](const auto& one) { return one.first == word; }))
-    throw UsageError("no command '" + word + "' (crowd, simulate)");
+    throw UsageError("no command '" + word + "' (check, crowd, simulate)");
   if (argc > 1 && word[0] == '-' && session.rank() != 0) return exit_success;  // help and version once
   if (!parse_command_line(program, argc, argv)) return exit_success;
   for (const auto& [name, command] : commands)
@@ -60,6 +61,8 @@ int run_rank(const Session& session, int argc, char** argv) {
     return run_command(session, argc, argv);
   } catch (const bch::RankError& error) {
     return end_together(session, InputError(error.what()), exit_bad_input);
+  } catch (const CheckFailed& error) {
+    return end_together(session, error, exit_failed);
   } catch (const UsageError& error) {  // all see the same command line
     return end_together(session, error, exit_usage);
   }

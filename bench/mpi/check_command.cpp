@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "bench/base/exit_codes.hpp"
+#include "bench/base/output.hpp"
+#include "bench/base/threads.hpp"
+#include "bench/cli/check_parts.hpp"
+#include "bench/cli/part_options.hpp"
+#include "bench/mpi/commands.hpp"
+#include "kernel/distributed/agreement.hpp"
+
+namespace bch::cli {
+namespace {
+
+struct CheckRanksOptions {
+  CheckInput input;
+  CheckOutputs outputs;
+  std::string folder;
+  std::uint32_t parts = 0;  ///< 0: as many as ranks
+  std::uint32_t threads = 1;
+};
+
+/// Writes the answers of all parts. Returns why the check fails, as its user asked for, or nothing.
+std::string merge_all(const CheckRanksOptions& options, std::uint32_t count) {
+  std::vector<std::string> manifests;
+  for (std::uint32_t k = 1; k <= count; ++k)
+    manifests.push_back(PartFiles(options.folder, {k, count}).manifest());
+  try {
+    merge_check(find_parts(manifests), options.outputs);
+    return {};
+  } catch (const CheckFailed& error) {
+    return error.what();
+  }
+}
+
+void check_on_ranks(const CLI::App& command, const CheckRanksOptions& options, MPI_Comm comm) {
+  int rank = 0, size = 1;
+  MPI_Comm_rank(comm, &rank);
+  MPI_Comm_size(comm, &size);
+  const std::uint32_t count = options.parts == 0 ? static_cast<std::uint32_t>(size) : options.parts;
+  const Threads threads(options.threads);
+  detail::agree(comm, [&] {
+    if (rank == 0) require_outputs(options.outputs.files(), options.input.files());
+    const nlohmann::ordered_json run = run_of(command, options.input.files());
+    for (std::uint32_t k = static_cast<std::uint32_t>(rank); k < count; k += static_cast<std::uint32_t>(size))
+      check_part(options.input, {options.folder, {k + 1, count}}, run);
+  });
+  std::string failure;
+  detail::agree(comm, [&] {
+    if (rank == 0) failure = merge_all(options, count);
+  });
+  int fails = failure.empty() ? 0 : 1;
+  MPI_Bcast(&fails, 1, MPI_INT, 0, comm);
+  if (fails != 0) throw CheckFailed(failure);
+}
+
+}  // namespace
+
+std::function<void()> add_check_command(CLI::App& program, MPI_Comm comm) {
+  const auto options = std::make_shared<CheckRanksOptions>();
+  CLI::App& command = *program.add_subcommand("check", "bch check, of which every rank does its parts");
+  command.footer(
+      "Writes the bytes that bch check writes. Parts stay in the folder, and those that are there, whole and "
+      "of "
+      "the same\n"
+      "run, are not done again; bch check --part makes the same ones.\n"
+      "Example: mpirun -n 16 bch_mpi check long.sqlite --into parts --parts 64 --json check.json");
+  options->input.add_to(command);
+  add_outputs_to(command, options->outputs);
+  command.add_option("--into", options->folder, "The folder of parts, which all ranks see")
+      ->type_name("DIR")
+      ->required();
+  command.add_option("--parts", options->parts, "Parts in all, which ranks take in turn [as many as ranks]")
+      ->type_name("N")
+      ->check(whole_between(1, 1'000'000));
+  command.add_option("--threads", options->threads, "Threads of a rank [1]")
+      ->type_name("N")
+      ->check(whole_between(1, 1024));
+  return [options, &command, comm] { check_on_ranks(command, *options, comm); };
+}
+
+}  // namespace bch::cli

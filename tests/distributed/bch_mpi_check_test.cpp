@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <sstream>
+#include <string>
+
+#include "tests/support/bch_run.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+// `bch_mpi check`.
+
+namespace bch {
+namespace {
+
+namespace fs = std::filesystem;
+using test::Arguments;
+using test::Ending;
+
+/// Two people who walk through each other, and two who stand in each other.
+std::string meeting_people() {
+  std::ostringstream text;
+  text << "# framerate: 10\n# id frame x/m y/m z/m\n";
+  for (int k = 0; k < 30; ++k)
+    text << 7 << " " << k << " " << -1.5 + 0.1 * k << " 0 1.8\n"
+         << 5 << " " << k << " " << 1.5 - 0.1 * k << " 0.1 1.7\n"
+         << 8 << " " << k << " 6 0 1.7\n"
+         << 9 << " " << k << " 6.1 0 1.8\n";
+  return text.str();
+}
+
+class BchMpiCheck : public testing::Test {
+ protected:
+  const std::string& recording() const { return recording_; }
+  Arguments check(const std::string& ranks, const std::string& file, const Arguments& more = {}) const {
+    Arguments all{"-n", ranks, BCH_MPI_PROGRAM, "check", file, "--into", parts, "--json", json};
+    all.insert(all.end(), more.begin(), more.end());
+    return all;
+  }
+  static Ending run(Arguments arguments) {
+    const Arguments as_root{"--allow-run-as-root", "--oversubscribe"};
+    arguments.insert(arguments.begin(), as_root.begin(), as_root.end());
+    return test::run_program(BCH_MPIRUN, arguments);
+  }
+  static void expect_one_line(const Ending& ending, int code, const std::string& line) {
+    EXPECT_EQ(ending.code, code) << ending.err;
+    const std::size_t at = ending.err.find("bch_mpi: ");
+    EXPECT_EQ(ending.err.find("bch_mpi: " + line), at) << ending.err;
+    EXPECT_EQ(ending.err.find("bch_mpi: ", at + 1), std::string::npos) << ending.err;
+  }
+
+  TemporaryFolder folder;
+  const std::string recording_ = folder.write("people.txt", meeting_people());
+  const std::string parts = folder.file("parts"), json = folder.file("check.json");
+};
+
+TEST_F(BchMpiCheck, WritesWhatOneProcessWrites) {
+  const std::string expected_json = folder.file("expected.json");
+  const Ending expected = test::bch({"check", recording(), "--json", expected_json});
+  for (const char* const ranks : {"1", "3"}) {
+    const Ending found = run(check(ranks, recording()));
+    EXPECT_EQ(found.code, 0) << found.err;
+    EXPECT_EQ(found.out, expected.out);
+    EXPECT_EQ(test::read_text(json), test::read_text(expected_json));
+  }
+  // Parts that bch did need not be done again.
+  for (const char* const part : {"1/5", "2/5", "3/5", "4/5"})
+    EXPECT_EQ(test::bch({"check", recording(), "--part", part, "--into", parts}).code, 0);
+  const auto before = fs::last_write_time(fs::path(parts) / "part-2-of-5.manifest.json");
+  EXPECT_EQ(run(check("2", recording(), {"--parts", "5"})).out, expected.out);
+  EXPECT_EQ(fs::last_write_time(fs::path(parts) / "part-2-of-5.manifest.json"), before);
+  expect_one_line(run(check("2", recording(), {"--fail-above", "1"})), 1, recording());
+}
+
+TEST_F(BchMpiCheck, FaultsOfOneRankEndAllWithOneLineAndKeepParts) {
+  Arguments both = check("1", recording());
+  for (const std::string& word : check("1", folder.file("absent.txt"))) {
+    if (word == "-n") both.emplace_back(":");
+    both.push_back(word);
+  }
+  expect_one_line(run(both), 3, "rank 1: " + folder.file("absent.txt").string());
+  EXPECT_TRUE(fs::exists(fs::path(parts) / "part-1-of-2.manifest.json"));
+  EXPECT_FALSE(fs::exists(fs::path(parts) / "part-2-of-2.manifest.json"));
+  EXPECT_FALSE(fs::exists(json));
+  expect_one_line(run(check("2", recording(), {"--frames", "/dev/full"})), 3, "rank 0: /dev/full");
+  EXPECT_FALSE(fs::exists(json));
+  EXPECT_EQ(run(check("2", recording())).code, 0);
+}
+
+}  // namespace
+}  // namespace bch
