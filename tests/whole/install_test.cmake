@@ -1,6 +1,6 @@
 # Installs the build given by BUILD into a fresh folder WORK, builds the projects outside against it, and runs them.
 # Usage: cmake -DBUILD=... -DTESTS=... -DWORK=... -DCOMPILER=... -DFLAGS=... [-DC_COMPILER=... if there is the C interface]
-#   -P install_test.cmake
+#   [-DMPIRUN=... -DMPI_HEADERS=... if there is the crowd on MPI] -P install_test.cmake
 include(${CMAKE_CURRENT_LIST_DIR}/run.cmake)
 
 file(REMOVE_RECURSE ${WORK})
@@ -27,7 +27,7 @@ if(NOT output MATCHES "agent 0 collides with 1 others: 1\nagent 1 collides with 
   message(FATAL_ERROR "unexpected answers:\n${output}")
 endif()
 
-# Each installed header compiles alone, and reads no header but the standard library's and its own.
+# Each installed header compiles alone, and reads no header but the standard library's, its own, and that of the crowd on MPI MPI's.
 file(GLOB headers RELATIVE ${WORK}/bch/include ${WORK}/bch/include/*/*)
 list(LENGTH headers count)
 if(count LESS 20)
@@ -35,8 +35,12 @@ if(count LESS 20)
 endif()
 foreach(header IN LISTS headers)
   file(WRITE ${WORK}/alone.cpp "#include <${header}>\n")
-  run(${COMPILER} -std=c++20 -Wall -Wextra -Werror -I${WORK}/bch/include -fsyntax-only ${WORK}/alone.cpp)
-  run(${COMPILER} -std=c++20 -I${WORK}/bch/include -M ${WORK}/alone.cpp)
+  set(others)
+  if(header STREQUAL "bch/distributed_crowd.hpp")
+    separate_arguments(others UNIX_COMMAND "${MPI_HEADERS}")
+  endif()
+  run(${COMPILER} -std=c++20 -Wall -Wextra -Werror -I${WORK}/bch/include ${others} -fsyntax-only ${WORK}/alone.cpp)
+  run(${COMPILER} -std=c++20 -I${WORK}/bch/include ${others} -M ${WORK}/alone.cpp)
   if(NOT header MATCHES "^bch/" OR output MATCHES "[^ ]*/(Eigen|eigen3|xsimd|tbb|oneapi|assimp|layout|kernel)/[^ ]*")
     message(FATAL_ERROR "${header} is installed, and reads ${CMAKE_MATCH_0}")
   endif()
@@ -66,6 +70,21 @@ foreach(program consumer/baked kernel_consumer/footprints)
     message(FATAL_ERROR "${program} drags in more than TBB:\n${output}")
   endif()
 endforeach()
+
+# The example of a crowd on MPI, by its chapter's lines.
+if(MPIRUN)
+  set(chapter kernel/distributed/README.md)
+  read_block(example ${chapter} cpp "int main")
+  read_block(lists ${chapter} cmake "find_package")
+  file(WRITE ${WORK}/mpi/city.cpp "${example}")
+  file(WRITE ${WORK}/mpi/CMakeLists.txt "${lists}")
+  run(${CMAKE_COMMAND} -S ${WORK}/mpi -B ${WORK}/mpi/build ${settings})
+  run(${CMAKE_COMMAND} --build ${WORK}/mpi/build)
+  run(${MPIRUN} --allow-run-as-root --oversubscribe -n 3 ${WORK}/mpi/build/city)
+  if(NOT output MATCHES "2 collisions of 4 agents")
+    message(FATAL_ERROR "unexpected answers of the crowd on MPI:\n${output}")
+  endif()
+endif()
 
 # Without components there are shapes and the kernel. A component that lacks a package is left out where it is optional, and named where it is not.
 file(WRITE ${WORK}/components/CMakeLists.txt [[
