@@ -86,16 +86,16 @@ std::string table(const SimulationOptions& options) {
 }
 
 void add_model_options(CLI::App& command, SimulationOptions& options) {
-  const auto add = [&](const char* name, double& value, const char* type, const char* what) {
+  const auto add = [&](const char* name, double& value, const char* type, const char* what, double low = 0) {
     command.add_option(name, value, fmt::format("{} [{}]", what, value))
         ->type_name(type)
-        ->check(number_between(0, 1e9));
+        ->check(number_between(low, 1e9));
   };
   add("--agent-pairs", options.agent_pairs, "N", "As how many pairs an agent counts for the cut");
   add("--agent-ns", options.agent_ns, "NS", "What an agent takes beside its pairs, nanoseconds");
   add("--pair-ns", options.pair_ns, "NS", "What a pair takes, nanoseconds");
   add("--latency-us", options.microseconds, "US", "What a message takes, microseconds");
-  add("--gigabits", options.gigabits, "G", "What a rank sends in a second, gigabits; not 0");
+  add("--gigabits", options.gigabits, "G", "What a rank sends in a second, gigabits", 1e-3);
 }
 
 }  // namespace

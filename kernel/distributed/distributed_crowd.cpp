@@ -77,6 +77,7 @@ double largest(const std::vector<double>& radii) {
 /// comparing positions with squares, and by more than the broad phase's margins.
 std::vector<double> reaches(const std::vector<double>& radii, double margin) {
   std::vector<double> metres;
+  metres.reserve(radii.size());
   for (const double radius : radii) metres.push_back((radius + largest(radii) + margin) * (1 + 1e-5) + 1e-5);
   return metres;
 }
