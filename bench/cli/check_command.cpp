@@ -28,8 +28,8 @@ void check_whole(const CheckCommandOptions& options) {
   std::vector<OutputOption> files = options.outputs.files();
   files.push_back({"--html", options.html});
   require_outputs(files, options.input.files());
+  const OpenedCheck opened(options.input);  // before there are threads: see import_in_child()
   const Threads threads(options.threads);
-  const OpenedCheck opened(options.input);
   CheckTables tables(options.outputs);
   std::optional<RecordingPage> page;
   if (!options.html.empty()) page.emplace(opened.recording);

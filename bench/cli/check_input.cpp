@@ -11,6 +11,7 @@
 #include "bench/base/exit_codes.hpp"
 #include "bench/base/number.hpp"
 #include "bench/base/wkt_input.hpp"
+#include "bench/characters/characters.hpp"
 
 namespace bch::cli {
 namespace {
@@ -52,7 +53,34 @@ std::optional<ObstacleSet> walls_of(const CheckInput& input, const detail::Traje
   }
 }
 
+/// Characters of one's own.
+detail::Cast cast_of(const CheckInput& input) {
+  detail::Cast cast;
+  for (LoadedCharacter& loaded : load_characters(input.characters, input.shapes.import_options())) {
+    try {
+      cast.push_back(detail::cast_member(std::move(loaded.character), file_name(loaded)));
+    } catch (const std::invalid_argument& error) {
+      throw InputError(error.what());
+    }
+  }
+  return cast;
+}
+
+/// What a recording says of itself, and what was found out about the characters.
+detail::TrajectoryInfo info_of(const detail::TrajectoryReader& reader, const detail::Cast& cast) {
+  detail::TrajectoryInfo info = reader.info();
+  for (const auto& member : cast)
+    info.assumptions.insert(info.assumptions.end(), member.assumptions.begin(), member.assumptions.end());
+  return info;
+}
+
 }  // namespace
+
+std::vector<std::string> CheckInput::files() const {
+  std::vector<std::string> files = shapes.inputs(characters);
+  files.insert(files.end(), {file, walls});
+  return files;
+}
 
 void CheckInput::add_to(CLI::App& command) {
   command.add_option("FILE", file, "Trajectories")->type_name("")->required();
@@ -68,8 +96,26 @@ void CheckInput::add_to(CLI::App& command) {
   command.add_option("--walls", walls, "The floor to walk on, in well-known text, instead of the file's own")
       ->type_name("FILE.wkt");
   command
+      .add_option("--character", characters,
+                  "People have the bodies of these characters, by their ids (repeatable) [built-in]")
+      ->type_name("FILE")
+      ->allow_extra_args(false);
+  command
+      .add_option("--clips", shapes.clips,
+                  "Add the clips of this file to the characters, matched by bone name (repeatable)")
+      ->type_name("FILE")
+      ->allow_extra_args(false);
+  command
       .add_option("--slices", shapes.slices, "Cut bodies at these heights, metres, into slabs [whole bodies]")
       ->type_name("H,H...");
+  command.add_option("--depth", depth, "Depth of the bodies' hierarchies: 0, 1, 2 ... or all [all]")
+      ->type_name("N");
+  command
+      .add_option(
+          "--leaves", leaves,
+          "What decides at depth all: segments of the outlines, or discs, up to 2 cm sooner [segments]")
+      ->type_name("NAME")
+      ->check(one_of({"segments", "discs"}));
   command
       .add_option("--max-distance", max_distance,
                   "Metres: --pairs also has gaps up to that [0: overlaps alone]")
@@ -96,14 +142,23 @@ void add_outputs_to(CLI::App& command, CheckOutputs& outputs) {
 }
 
 OpenedCheck::OpenedCheck(const CheckInput& input)
-    : reader(detail::open_trajectory(input.file, trajectory_options(input))),
+    : cast(cast_of(input)),
+      reader(detail::open_trajectory(input.file, trajectory_options(input))),
       walls(walls_of(input, reader->info())),
-      recording{input.file, reader->info(), static_cast<std::uint32_t>(input.shapes.planes().size() + 1),
-                walls.has_value(), walls_text(input, reader->info())} {}
+      recording{input.file,
+                info_of(*reader, cast),
+                static_cast<std::uint32_t>(input.shapes.planes().size() + 1),
+                parse_depth("--depth", input.depth),
+                input.leaves == "discs" ? Leaves::discs : Leaves::segments,
+                static_cast<std::uint32_t>(cast.size()),
+                walls.has_value(),
+                walls_text(input, reader->info())} {}
 
 detail::CheckOptions OpenedCheck::options(const CheckInput& input) const {
   detail::CheckOptions how;
-  how.plan.slices = input.shapes.planes();
+  how.plan = {.depths = {recording.depth}, .slices = input.shapes.planes()};
+  how.leaves = recording.leaves;
+  how.cast = cast;
   how.max_distance = input.max_distance;
   how.walls = walls ? &*walls : nullptr;
   how.coarse = recording.info.rows < detail::coarse_from ? 1 : 3;

@@ -22,17 +22,20 @@ struct CheckInput {
   std::string file, walls, unit, columns;
   double fps = 0;  ///< 0: what the file says
   double max_distance = 0;
-  ShapeOptions shapes;  ///< of which slices alone are asked for
+  ShapeOptions shapes;  ///< of which slices and clips alone are asked for
+  std::vector<std::string> characters;
+  std::string depth = "all", leaves = "segments";
 
   void add_to(CLI::App& command);
-  std::vector<std::string> files() const { return {file, walls}; }
+  std::vector<std::string> files() const;
 };
 
 /// Adds the options of where answers go.
 void add_outputs_to(CLI::App& command, CheckOutputs& outputs);
 
-/// A recording that is open, with its walls.
+/// A recording that is open, with its walls and the characters that people have.
 struct OpenedCheck {
+  detail::Cast cast;
   std::unique_ptr<detail::TrajectoryReader> reader;
   std::optional<ObstacleSet> walls;
   CheckedRecording recording;

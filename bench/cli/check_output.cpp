@@ -55,10 +55,7 @@ std::string facts(const CheckedRecording& recording, const CheckSummary& summary
            fmt::format("{}: {}, {:g} frames a second", recording.file, recording.info.format, fps)) +
       line("people", fmt::format("{} in {} ({:.1f} s), {} person-frames", grouped(summary.people),
                                  counted(summary.frames, "frame"), seconds, grouped(summary.all.people))) +
-      line("bodies",
-           fmt::format("built-in pedestrians, {}, {}",
-                       recording.slabs == 1 ? "whole" : fmt::format("cut into {} slabs", recording.slabs),
-                       counted(summary.poses.size(), "pose"))) +
+      line("bodies", fmt::format("{}, {}", bodies_text(recording), counted(summary.poses.size(), "pose"))) +
       line("poses", fmt::format("within {} cm of each person's speed and phase",
                                 recording.info.rows < coarse_from ? 1 : 3)) +
       line("headings", fmt::format("{:.1f} % guessed: people who stand keep the last one",
@@ -128,12 +125,21 @@ nlohmann::ordered_json json_of(const CheckedRecording& recording, const CheckSum
     of["from_people_per_m2"] = density_classes[k];
     densities.push_back(of);
   }
-  return {{"file", recording.file},           {"format", recording.info.format},
-          {"fps", recording.info.fps},        {"assumptions", recording.info.assumptions},
-          {"slabs", recording.slabs},         {"people", summary.people},
-          {"frames", summary.frames},         {"first_frame", summary.first_frame},
-          {"last_frame", summary.last_frame}, {"guessed_headings", summary.guessed},
-          {"all", json_of(summary.all)},      {"by_density", densities}};
+  return {{"file", recording.file},
+          {"format", recording.info.format},
+          {"fps", recording.info.fps},
+          {"assumptions", recording.info.assumptions},
+          {"slabs", recording.slabs},
+          {"depth", depth_name(recording.depth)},
+          {"leaves", recording.leaves == Leaves::segments ? "segments" : "discs"},
+          {"characters", recording.characters},
+          {"people", summary.people},
+          {"frames", summary.frames},
+          {"first_frame", summary.first_frame},
+          {"last_frame", summary.last_frame},
+          {"guessed_headings", summary.guessed},
+          {"all", json_of(summary.all)},
+          {"by_density", densities}};
 }
 
 nlohmann::ordered_json json_of(const OverlapEvent& event) {
@@ -234,6 +240,16 @@ std::string event_line(const OverlapEvent& event, double fps) {
                      kind_of(event), static_cast<double>(event.from) / fps,
                      static_cast<double>(event.to) / fps, event.frames,
                      static_cast<double>(event.worst) / fps, std::max(0.0f, event.depth), event.x, event.y);
+}
+
+std::string bodies_text(const CheckedRecording& recording) {
+  const bool exact = recording.depth == all_depths && recording.leaves == Leaves::segments;
+  return fmt::format(
+      "{}, {}, {}",
+      recording.characters == 0 ? std::string("built-in pedestrians")
+                                : counted(recording.characters, "character"),
+      recording.slabs == 1 ? "whole" : fmt::format("cut into {} slabs", recording.slabs),
+      exact ? "their outlines" : fmt::format("discs of depth {}", depth_name(recording.depth)));
 }
 
 double percent_in_overlap(const CheckSummary& summary) {

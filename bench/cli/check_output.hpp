@@ -30,7 +30,9 @@ class StreamedTable {
 struct CheckedRecording {
   std::string file;
   detail::TrajectoryInfo info;
-  std::uint32_t slabs;
+  std::uint32_t slabs, depth;
+  Leaves leaves;
+  std::uint32_t characters;  ///< of one's own; 0: built-in pedestrians
   bool walls;
   std::string floor;  ///< to walk on, as well-known text, or empty
 };
@@ -69,6 +71,9 @@ std::string check_text(const CheckedRecording& recording, const detail::CheckSum
 /// Writes all of it for programs; without a name nothing. Events go to the file one by one, because there may be millions.
 void write_check_json(const std::string& file, const CheckedRecording& recording,
                       const detail::CheckSummary& summary);
+
+/// Returns what the bodies are, in a few words.
+std::string bodies_text(const CheckedRecording& recording);
 
 /// Returns the share of person-frames in overlap, in percent.
 double percent_in_overlap(const detail::CheckSummary& summary);

@@ -105,14 +105,22 @@ CheckSummary summary_of(const Json& json) {
 }
 
 Json kept(const CheckedRecording& recording) {
-  return {{"file", recording.file},      {"format", recording.info.format},
-          {"fps", recording.info.fps},   {"assumptions", recording.info.assumptions},
-          {"rows", recording.info.rows}, {"slabs", recording.slabs},
+  return {{"file", recording.file},
+          {"format", recording.info.format},
+          {"fps", recording.info.fps},
+          {"assumptions", recording.info.assumptions},
+          {"rows", recording.info.rows},
+          {"slabs", recording.slabs},
+          {"depth", recording.depth},
+          {"leaves", recording.leaves},
+          {"characters", recording.characters},
           {"walls", recording.walls}};
 }
 
 CheckedRecording recording_of(const Json& json) {
-  CheckedRecording recording{json.at("file"), {}, json.at("slabs"), json.at("walls"), {}};
+  CheckedRecording recording{
+      json.at("file"),  {}, json.at("slabs"), json.at("depth"), json.at("leaves"), json.at("characters"),
+      json.at("walls"), {}};
   json.at("format").get_to(recording.info.format), json.at("fps").get_to(recording.info.fps);
   json.at("assumptions").get_to(recording.info.assumptions), json.at("rows").get_to(recording.info.rows);
   return recording;

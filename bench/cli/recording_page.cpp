@@ -6,7 +6,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
+#include <numbers>
 #include <utility>
 
 #include <bch/obstacles.hpp>
@@ -34,15 +36,38 @@ std::vector<std::vector<PagePoint>> lines_of(const std::string& floor) {
 
 PageFacts facts_of(const CheckedRecording& recording) {
   PageFacts facts{std::filesystem::path(recording.file).filename().string(), recording.info.fps};
-  facts.facts = {
-      {"format", recording.info.format},
-      {"people", fmt::format("{}", recording.info.people)},
-      {"bodies", recording.slabs == 1 ? std::string("built-in pedestrians, whole")
-                                      : fmt::format("built-in pedestrians in {} slabs", recording.slabs)}};
+  facts.facts = {{"format", recording.info.format},
+                 {"people", fmt::format("{}", recording.info.people)},
+                 {"bodies", bodies_text(recording)}};
   for (const std::string& assumption : recording.info.assumptions)
     facts.facts.emplace_back("assumed", assumption);
   facts.walls = lines_of(recording.floor);
   return facts;
+}
+
+/// A disc as a contour, for a body that has no outline because it is one.
+std::vector<Vec2> contour_of(const Disc& disc) {
+  constexpr int corners = 48;
+  std::vector<Vec2> contour;
+  for (int k = 0; k < corners; ++k) {
+    const float angle = 2 * std::numbers::pi_v<float> * static_cast<float>(k) / corners;
+    contour.push_back({disc.x + disc.radius * std::cos(angle), disc.y + disc.radius * std::sin(angle)});
+  }
+  return contour;
+}
+
+/// The outlines of a shape, of all its slabs. A set of depth 0 has none.
+std::vector<std::vector<Vec2>> contours_of(const ShapeSetView& view, std::uint32_t shape) {
+  std::vector<std::vector<Vec2>> contours;
+  if (view.shape_contours == nullptr) return contours;
+  for (std::uint32_t slab = 0; slab < view.slab_count; ++slab) {
+    const std::uint32_t part =
+        view.slab_parts == nullptr ? shape : view.slab_parts[shape * view.slab_count + slab];
+    if (part == no_part) continue;
+    for (std::uint32_t i = view.shape_contours[part].begin; i < view.shape_contours[part].end; ++i)
+      contours.emplace_back(view.points + view.contours[i].begin, view.points + view.contours[i].end);
+  }
+  return contours;
 }
 
 }  // namespace
@@ -53,16 +78,12 @@ RecordingPage::RecordingPage(const CheckedRecording& recording)
 
 /// The page asks for the shape of a person that is being added.
 PageShape RecordingPage::shape(std::uint32_t pose) const {
-  PageShape shape{"pedestrian", {}};
   const std::uint32_t number = pose - first_pose_;
-  const ShapeSetView view = shapes_->view();
-  for (std::uint32_t slab = 0; slab < view.slab_count; ++slab) {
-    const std::uint32_t part =
-        view.slab_parts == nullptr ? number : view.slab_parts[number * view.slab_count + slab];
-    if (part == no_part) continue;
-    for (std::uint32_t i = view.shape_contours[part].begin; i < view.shape_contours[part].end; ++i)
-      shape.contours.emplace_back(view.points + view.contours[i].begin, view.points + view.contours[i].end);
-  }
+  PageShape shape{"pedestrian", contours_of(shapes_->view(), number)};
+  if (shapes_->depths()[0] == all_depths) return shape;
+  shape.discs = shapes_->discs(number, 0);
+  if (shape.contours.empty())
+    for (const Disc& disc : shape.discs) shape.contours.push_back(contour_of(disc));
   return shape;
 }
 

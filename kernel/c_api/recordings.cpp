@@ -5,6 +5,7 @@
 
 #include "kernel/c_api/arguments.hpp"
 #include "kernel/c_api/handles.hpp"
+#include "kernel/c_api/objects.hpp"
 #include "kernel/c_api/obstacles.hpp"
 #include "kernel/check/check.hpp"
 #include "layout/trajectory/trajectory.hpp"
@@ -112,15 +113,29 @@ std::optional<ObstacleSet> own_walls(const bch_check_options& options, const Tra
   return obstacles_from_wkt(info.geometry, Polygons::walkable);
 }
 
+/// The characters of the caller.
+Cast cast_of(const bch_check_options& options) {
+  Cast cast;
+  for (const bch_character* character :
+       array_of(options.characters, options.character_count, "options->characters")) {
+    const bch_character& own = object_of(character, "options->characters");
+    cast.push_back(cast_member(*own.character, own.name));
+  }
+  return cast;
+}
+
 std::unique_ptr<bch_check> run_check(bch_trajectory& trajectory, const bch_check_options& given) {
   if (!trajectory.waiting.empty())
     throw Failure(BCH_INVALID_ARGUMENT, "trajectory has been read from; open it again");
   CheckOptions options;
   const auto slices = array_of(given.slices, given.slice_count, "options->slices");
   options.plan.slices.assign(slices.begin(), slices.end());
+  options.plan.depths = {given.depth};
+  options.leaves = one_of(given.leaves, Leaves::segments, "options->leaves");
   if (!(given.max_distance >= 0 && given.max_distance <= 10))
     throw Failure(BCH_INVALID_ARGUMENT, "options->max_distance is " + std::to_string(given.max_distance));
   options.max_distance = given.max_distance;
+  options.cast = cast_of(given);
   const std::optional<ObstacleSet> walls = own_walls(given, trajectory.reader->info());
   options.walls = given.walls != nullptr ? &object_of(given.walls, "options->walls").set
                   : walls                ? &*walls

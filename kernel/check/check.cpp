@@ -23,7 +23,7 @@ constexpr std::size_t run_people = 4096;  ///< of a task, about
 class Checker {
  public:
   Checker(const CheckOptions& options, const std::function<void(const CheckedFrame&, const ShapeSet&)>& seen)
-      : options_(options), seen_(seen), shapes_(options.plan) {}
+      : options_(options), seen_(seen), shapes_(options_.plan, options_.cast) {}
 
   /// Checks all frames of a block but the last one, which the next block begins with or nobody asks for; at the end that one, too.
   void check(const FrameBlock& block, bool at_end, double fps);

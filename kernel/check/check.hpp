@@ -24,12 +24,14 @@ namespace bch::detail {
 
 /// What a check of a recording is asked.
 struct CheckOptions {
-  ShapeSetPlan plan = {};   ///< one level; slices cut the bodies
-  double max_distance = 0;  ///< gaps up to that are measured, metres; 0: none are
+  ShapeSetPlan plan = {};            ///< one level, of any depth; slices cut the bodies
+  Leaves leaves = Leaves::segments;  ///< what decides who overlaps, where the level has all depths
+  double max_distance = 0;           ///< gaps up to that are measured, metres; 0: none are
   const ObstacleSet* walls = nullptr;
   std::uint32_t coarse =
       1;  ///< 1: neither speed nor phase of a pose is off by what moves an outline by 1 cm; 3: by 3 cm
   FrameInterval frames = {};  ///< these are checked; all before them are read, because people hold headings
+  Cast cast = {};  ///< whose bodies people have; where it is empty, pedestrians'
   std::size_t people_at_once =
       100'000;  ///< about so many, of many frames; the answers are the same for any number
 };

@@ -113,7 +113,7 @@ void FrameRun::look(const FrameBlock& block, std::size_t first, std::size_t last
   turn_shoulders();
   poses_.clear();
   for (std::size_t i = 0; i < size(); ++i)
-    poses_.emplace_back(block.people()[begin_ + i], shoulders_[i], options_.coarse);
+    poses_.emplace_back(block.people()[begin_ + i], shoulders_[i], options_.coarse, options_.cast);
 }
 
 /// Finds who is within 1.2 m of whom, what discs say of them, and how many are within 1 m.
@@ -185,7 +185,7 @@ void FrameRun::ask_pairs(const ShapeSet& set, const Agents& all) {
   const std::span<const Pair> found =
       body_phase_.find(set, {all.shape, own(block_->apart_x()), all.y, all.heading}, margin);
   answers_.resize(found.size());
-  collide(set, all, found, answers_, {.semantics = Semantics::solid});
+  collide(set, all, found, answers_, {.semantics = Semantics::solid, .leaves = options_.leaves});
   const auto frame_of = own(block_->frame_of());
   hits_.clear(), apart_.clear();
   for (std::size_t i = 0; i < found.size(); ++i)
@@ -246,7 +246,7 @@ void FrameRun::ask_between(const ShapeSet& set, const Agents& all, const Agents&
 void FrameRun::ask_walls(const ShapeSet& set, const Agents& all) {
   in_wall_.assign(size(), 0);
   if (options_.walls == nullptr) return;
-  collide(set, all, *options_.walls, in_wall_, {.semantics = Semantics::solid});
+  collide(set, all, *options_.walls, in_wall_, {.semantics = Semantics::solid, .leaves = options_.leaves});
   std::vector<std::uint32_t> who, shape;
   std::vector<double> x, y, heading;
   for (std::uint32_t i = 0; i < size(); ++i)

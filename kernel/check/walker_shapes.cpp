@@ -35,16 +35,31 @@ std::uint32_t rounded(double value, std::uint32_t step) {
   return static_cast<std::uint32_t>(std::round(value / step)) * step;
 }
 
+Character character_of(const WalkerPose& pose, const Cast& cast) {
+  constexpr double turn[] = {0, 0.7, -0.7};  // radians; of Shoulders
+  if (pose.member != WalkerPose::built_in) return scaled(cast[pose.member], pose.metres());
+  return default_pedestrian(pose.is_female ? Sex::female : Sex::male, pose.metres(),
+                            turn[static_cast<std::size_t>(pose.shoulders)]);
+}
+
 }  // namespace
 
-WalkerPose::WalkerPose(const Walker& walker, Shoulders held, std::uint32_t coarse)
+WalkerPose::WalkerPose(const Walker& walker, Shoulders held, std::uint32_t coarse, const Cast& cast)
     : is_female(walker.is_female), shoulders(held) {
   const double size =
       std::log(std::max(walker.stature, shortest_stature) / shortest_stature) / std::log(stature_step);
   stature = std::min(rounded(size, coarse), stature_classes - 1);
+  if (!cast.empty()) {
+    member = member_by_id(walker.id, cast);
+    const CastPose pose = cast_pose(cast[member], walker, coarse);
+    clip = pose.clip, phase = pose.phase, seconds = pose.seconds;
+    return;
+  }
   clip = std::min(rounded(walker.speed / pedestrian_speed_step, coarse), pedestrian_speeds - 1);
-  phases = phases_at(clip, coarse);
+  const std::uint32_t phases = phases_at(clip, coarse);
   phase = std::min(static_cast<std::uint32_t>(walker.phase * phases), phases - 1);
+  const double share = (phase + 0.5) / phases;
+  seconds = static_cast<float>(share / pedestrian_strides_per_second(clip * pedestrian_speed_step));
 }
 
 std::uint64_t WalkerPose::key() const noexcept {
@@ -52,6 +67,7 @@ std::uint64_t WalkerPose::key() const noexcept {
 }
 
 std::uint64_t WalkerPose::body() const noexcept {
+  if (member != built_in) return (std::uint64_t{1} << 16) + std::uint64_t{member} * stature_classes + stature;
   return (std::uint64_t{stature} * 2 + is_female) * 3 + static_cast<std::uint64_t>(shoulders);
 }
 
@@ -60,8 +76,7 @@ double WalkerPose::metres() const noexcept {
 }
 
 PoseTime WalkerPose::at() const noexcept {
-  const double share = (phase + 0.5) / phases;
-  return {clip, static_cast<float>(share / pedestrian_strides_per_second(clip * pedestrian_speed_step))};
+  return {clip, seconds};
 }
 
 /// A character, and the shapers of it that no thread has. They are few, because threads take poses as they come, of many bodies.
@@ -89,13 +104,12 @@ struct WalkerShapes::Workshop {
   }
 };
 
-WalkerShapes::WalkerShapes(const ShapeSetPlan& plan)
-    : plan_(plan), builder_(plan, expected_shapes), set_(&builder_.set()) {}
+WalkerShapes::WalkerShapes(const ShapeSetPlan& plan, const Cast& cast)
+    : plan_(plan), cast_(cast), builder_(plan, expected_shapes), set_(&builder_.set()) {}
 WalkerShapes::~WalkerShapes() = default;
 
 /// Makes those that are new on all threads.
 std::vector<WalkerShapes::Body*> WalkerShapes::bodies_of(std::span<const WalkerPose> poses) {
-  constexpr double turn[] = {0, 0.7, -0.7};  // radians; of Shoulders
   std::vector<Body*> bodies, made;
   std::vector<const WalkerPose*> wanted;
   for (const WalkerPose& pose : poses) {
@@ -108,9 +122,7 @@ std::vector<WalkerShapes::Body*> WalkerShapes::bodies_of(std::span<const WalkerP
   }
   for_ranges(made.size(), 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i)
-      made[i]->character = std::make_unique<const Character>(
-          default_pedestrian(wanted[i]->is_female ? Sex::female : Sex::male, wanted[i]->metres(),
-                             turn[static_cast<std::size_t>(wanted[i]->shoulders)]));
+      made[i]->character = std::make_unique<const Character>(character_of(*wanted[i], cast_));
   });
   return bodies;
 }

@@ -14,6 +14,7 @@
 #include <bch/shape_set.hpp>
 #include <bch/shape_set_builder.hpp>
 
+#include "kernel/check/walker_cast.hpp"
 #include "kernel/check/walkers.hpp"
 
 namespace bch::detail {
@@ -24,29 +25,34 @@ enum class Shoulders : std::uint8_t { straight, left, right };
 /// A walker's pose, of the finitely many that are built: statures in steps of 4 %, and speeds and
 /// phases so near each other that neither is off by what moves an outline by a centimetre.
 struct WalkerPose {
+  static constexpr std::uint32_t built_in = 0xffff'ffff;
+
+  std::uint32_t member = built_in;  ///< of the cast
   bool is_female;
   std::uint32_t stature;  ///< class
   Shoulders shoulders;
-  std::uint32_t clip;  ///< of default_pedestrian()
+  std::uint32_t clip;  ///< of default_pedestrian(), or of the cast's character
   std::uint32_t phase;
-  std::uint32_t phases;  ///< of which it is one
+  float seconds;  ///< of the clip
 
-  /// `coarse`: multiplies the steps of speed and phase, and the exponent of that of stature: 1 or 3.
-  WalkerPose(const Walker& walker, Shoulders shoulders, std::uint32_t coarse = 1);
+  /// `coarse`: multiplies the steps of speed and phase, and the exponent of that of stature: 1 or 3. `cast`: whose
+  /// bodies people have; where it is empty, pedestrians'. Those of the cast do not turn their shoulders.
+  WalkerPose(const Walker& walker, Shoulders shoulders, std::uint32_t coarse = 1, const Cast& cast = {});
   std::uint64_t key() const noexcept;
   std::uint64_t body() const noexcept;  ///< the same for all that one character has
   double metres() const noexcept;       ///< of the stature
   PoseTime at() const noexcept;
 };
 
-/// The shapes of pedestrians in the poses that were asked for, built on all threads and kept for the next time. Where they become many,
+/// The shapes of people in the poses that were asked for, built on all threads and kept for the next time. Where they become many,
 /// all are given up, and those that are asked for again are built again.
 class WalkerShapes {
  public:
   /// Kept from one call of find() to the next: some 23 000 shapes of whole bodies.
   static constexpr std::size_t most_bytes = std::size_t{256} << 20;
 
-  explicit WalkerShapes(const ShapeSetPlan& plan);
+  /// `cast` has to live as long as this.
+  WalkerShapes(const ShapeSetPlan& plan, const Cast& cast);
   ~WalkerShapes();
 
   /// Finds the shape of each pose, as its index in set(), and builds those that are new.
@@ -64,6 +70,7 @@ class WalkerShapes {
   std::vector<Body*> bodies_of(std::span<const WalkerPose> poses);
 
   const ShapeSetPlan plan_;
+  const Cast& cast_;
   ShapeSetBuilder builder_;
   const ShapeSet* set_;  ///< the builder's
   std::uint32_t given_up_ = 0;

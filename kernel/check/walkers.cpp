@@ -75,17 +75,29 @@ Walker WalkerReader::walk(const TrackedPerson& person, Track& track, std::int64_
   }
   if (!track.has_walked) {
     track.phase = random_of(person.id).uniform(1);
+    track.way = 100 * track.phase;
     track.is_female = is_female_by_id(person.id);
     track.stature = stature_by_id(person.id, track.is_female);
   }
   const double since = track.has_walked ? static_cast<double>(frame - track.last_frame) / fps_ : 0;
   track.has_walked = true;
   if (speed > 0.05) track.phase += since * pedestrian_strides_per_second(speed);
+  track.way += since * speed;
   track.phase -= std::floor(track.phase);
   track.last_frame = frame;
   const double stature = std::isnan(person.stature) ? track.stature : static_cast<double>(person.stature);
-  return {person.id,   person.x, person.y,        track.heading,  speed,
-          track.phase, stature,  track.is_female, !told && !moves};
+  return {
+      person.id,
+      person.x,
+      person.y,
+      track.heading,
+      speed,
+      track.phase,
+      stature,
+      track.is_female,
+      !told && !moves,
+      track.way,
+      static_cast<double>(frame) / fps_ + static_cast<double>(static_cast<std::uint64_t>(person.id) % 97)};
 }
 
 /// Who has not moved yet faces the way in which the others walk.

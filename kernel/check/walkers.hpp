@@ -23,7 +23,9 @@ struct Walker {
   double phase;    ///< share of a stride, 0 to 1, from the left heel's contact on
   double stature;  ///< metres
   bool is_female;
-  bool is_guessed;  ///< the heading is neither of the file nor of a person who walks
+  bool is_guessed;     ///< the heading is neither of the file nor of a person who walks
+  double way = 0;      ///< metres that he has walked, from a place of his own on
+  double seconds = 0;  ///< from a time of his own on
 };
 
 /// The people of a frame, by ascending id.
@@ -62,7 +64,7 @@ class WalkerReader {
   /// What is known of a person: his last places, and how he walked last.
   struct Track {
     std::deque<Place> places;
-    double heading = 0, phase = 0, stature = 0;  ///< the latter where the file has none
+    double heading = 0, phase = 0, way = 0, stature = 0;  ///< the latter where the file has none
     std::int64_t last_frame = 0;
     bool is_female = false, has_heading = false, has_walked = false;
   };

@@ -4,6 +4,7 @@
 #include "layout/trajectory/columns.hpp"
 
 #include <algorithm>
+#include <numbers>
 #include <utility>
 
 #include "layout/trajectory/fields.hpp"
@@ -41,7 +42,8 @@ constexpr NamedRole roles[] = {{"id", Role::id},
                                {"z", Role::height},
                                {"height", Role::height},
                                {"stature", Role::height},
-                               {"heading", Role::heading}};
+                               {"heading", Role::heading},
+                               {"angle", Role::heading}};
 
 struct NamedUnit {
   std::string_view name;
@@ -61,6 +63,13 @@ constexpr NamedUnit lengths[] = {{"m", 1},
                                  {"centimeters", 0.01}};
 constexpr NamedUnit durations[] = {{"s", 1},       {"sec", 1},   {"second", 1},
                                    {"seconds", 1}, {"ms", 1e-3}, {"us", 1e-6}};
+
+constexpr NamedUnit angles[] = {{"rad", 1},
+                                {"radians", 1},
+                                {"deg", std::numbers::pi / 180},
+                                {"degree", std::numbers::pi / 180},
+                                {"degrees", std::numbers::pi / 180},
+                                {"\u00b0", std::numbers::pi / 180}};
 
 std::optional<double> find(std::span<const NamedUnit> units, std::string_view name) {
   if (name.starts_with("in ")) name = trimmed(name.substr(3));
@@ -119,10 +128,12 @@ class ColumnFinder {
       places_.reject(line_, "has two columns for the same, the second is " + shown(column.name));
     columns_.roles.push_back(role);
     columns_.names.push_back(column.name);
+    columns_.has_angle |= role == Role::heading && column.name == "angle";
     if (column.unit.empty()) return;
     if (role == Role::x || role == Role::y) take_length(column);
     if (role == Role::height) columns_.height_metres = find(lengths, column.unit);
     if (role == Role::time) take_duration(column);
+    if (role == Role::heading) take_angle(column);
   }
 
   Columns finish() {
@@ -160,6 +171,13 @@ class ColumnFinder {
     if (columns_.metres && *columns_.metres != *metres)
       places_.reject(line_, "x and y are of different units");
     columns_.metres = metres;
+  }
+
+  void take_angle(const ColumnName& column) {
+    columns_.radians = find(angles, column.unit);
+    if (!columns_.radians)
+      places_.reject(line_,
+                     "the unit " + shown(column.unit) + " of column " + shown(column.name) + " is not known");
   }
 
   void take_duration(const ColumnName& column) {

@@ -39,6 +39,8 @@ struct Columns {
   std::optional<double> metres;    ///< a unit of x and y
   std::optional<double> height_metres;
   std::optional<double> seconds;  ///< a unit of time
+  std::optional<double> radians;  ///< a unit of the heading
+  bool has_angle = false;         ///< the heading is called angle, which is in degrees where no unit is said
   std::size_t needed = 0;         ///< columns up to the last that matters
 
   bool has(Role role) const;

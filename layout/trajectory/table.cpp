@@ -133,7 +133,7 @@ class Table final : public RowSource {
   }
 
   float heading(std::size_t column, std::string_view field) const {
-    const double radians = finite_or_nan(column, field);
+    const double radians = finite_or_nan(column, field) * layout_.radians;
     if (std::abs(radians) > rounding::largest_heading) reject(column, field, "is not within +-1e9");
     return static_cast<float>(radians);
   }

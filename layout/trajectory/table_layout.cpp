@@ -4,6 +4,7 @@
 #include "layout/trajectory/table_layout.hpp"
 
 #include <algorithm>
+#include <numbers>
 #include <numeric>
 #include <string>
 #include <utility>
@@ -183,6 +184,9 @@ class LayoutFinder {
     if (!metres) assumptions.emplace_back("Coordinates are in metres; the file does not say their unit.");
     layout_.metres = metres.value_or(1);
     layout_.height_metres = options_.unit ? *options_.unit : columns.height_metres.value_or(layout_.metres);
+    layout_.radians = columns.radians.value_or(columns.has_angle ? std::numbers::pi / 180 : 1);
+    if (columns.has_angle && !columns.radians)
+      assumptions.emplace_back("Angles are headings in degrees; the file does not say their unit.");
     if (!columns.has(Role::time)) return;
     layout_.recording.clock = Clock::times;
     if (!columns.seconds) assumptions.emplace_back("Times are in seconds; the file does not say their unit.");

@@ -73,6 +73,46 @@ TEST(Cli, CheckWritesTheSameForAnyNumberOfThreads) {
   EXPECT_TRUE(written[0] == written[1]);
 }
 
+TEST(Cli, CheckAsksAtADepth) {
+  const TemporaryFolder folder;
+  const std::string file = folder.write("two.txt", two_who_meet());
+  std::vector<std::uint64_t> overlapping;
+  for (const char* const depth : {"0", "4", "all"}) {
+    const std::string json = folder.file("check.json"), page = folder.file("check.html");
+    const Ending run =
+        bch({"check", file, "--depth", depth, "--leaves", "discs", "--json", json, "--html", page});
+    EXPECT_EQ(run.code, 0) << run.err;
+    EXPECT_NE(run.out.find(fmt::format("whole, discs of depth {}", depth)), std::string::npos) << run.out;
+    EXPECT_EQ(read_json(json)["depth"], depth);
+    overlapping.push_back(read_json(json)["all"]["overlapping"]);
+  }
+  EXPECT_GT(overlapping[0], overlapping[1]);
+  EXPECT_GE(overlapping[1], overlapping[2]);
+  EXPECT_EQ(bch({"check", file, "--depth", "deep"}).code, 2);
+  EXPECT_EQ(bch({"check", file, "--leaves", "twigs"}).code, 2);
+}
+
+TEST(Cli, CheckTakesCharactersOfOnesOwn) {
+  const TemporaryFolder folder;
+  const std::string file = folder.write("two.txt", two_who_meet());
+  std::vector<std::string> written;
+  for (const char* const threads : {"1", "2"}) {
+    const std::string json = folder.file("check.json");
+    const Ending run = bch({"check", "--character", "default:bulky", "--character", "default:female", file,
+                            "--json", json, "--threads", threads});
+    EXPECT_EQ(run.code, 0) << run.err;
+    EXPECT_NE(run.out.find("2 characters, whole, their outlines"), std::string::npos) << run.out;
+    EXPECT_NE(run.out.find("default:bulky: walks, by its feet, at "), std::string::npos) << run.out;
+    EXPECT_GT(read_json(json)["all"]["overlapping"], 10);
+    written.push_back(run.out + read_text(json));
+  }
+  EXPECT_TRUE(written[0] == written[1]);
+  const std::string stick = folder.write("stick.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  const Ending run = bch({"check", file, "--character", stick});
+  EXPECT_EQ(run.code, 3);
+  EXPECT_NE(run.err.find("stick.obj: none of its clips walks straight on"), std::string::npos) << run.err;
+}
+
 TEST(Cli, CheckFailsWhereItsUserWantsItTo) {
   const TemporaryFolder folder;
   const std::string file = folder.write("two.txt", two_who_meet());

@@ -284,6 +284,61 @@ TEST(Check, SlabsClearSomeOfTheOverlaps) {
   EXPECT_LT(in_slabs, whole);
 }
 
+/// A deeper cut never adds an overlap, and segments add none to discs. (Discs of 2 cm at the leaves.)
+TEST(Check, IsAskedAtADepth) {
+  MadeUp recording(10);
+  add_crowd(recording, 60, static_cast<int>(test::samples(40)));
+  CheckOptions options;
+  options.leaves = Leaves::discs;
+  std::uint64_t before = std::numeric_limits<std::uint64_t>::max();
+  for (const std::uint32_t depth : {0u, 3u, 6u, all_depths}) {
+    options.plan.depths = {depth};
+    const std::uint64_t pairs = check_of(recording, options).all.overlapping_pairs;
+    EXPECT_LT(pairs, before) << depth;
+    before = pairs;
+  }
+  options.leaves = Leaves::segments;
+  EXPECT_LT(check_of(recording, options).all.overlapping_pairs, before);
+}
+
+/// Clips of characters walk at the speed and in the direction of their feet, and the distance drives them.
+TEST(Cast, WalksAsItsClipsSay) {
+  constexpr double speed = 1.2;
+  Character person = default_pedestrian(Sex::male, 1.8);
+  const auto clip = static_cast<std::uint32_t>(std::lround(speed / pedestrian_speed_step));
+  person.clips = {person.clips[0], person.clips[clip / 2], person.clips[clip]};
+  // Facing -y, as most files do.
+  for (std::size_t k = 0; k < 4; ++k) {
+    std::swap(person.to_ground.rows[0][k], person.to_ground.rows[1][k]);
+    person.to_ground.rows[1][k] *= -1;
+  }
+  const CastMember member = cast_member(person, "somebody");
+  EXPECT_NEAR(member.height, 1.8, 0.05);
+  ASSERT_EQ(member.walks.size(), 2u);
+  EXPECT_NEAR(member.walks[0].speed, speed / 2, 0.1);
+  EXPECT_NEAR(member.walks[1].speed, speed, 0.1);
+  ASSERT_EQ(member.idles.size(), 1u);
+  Walker walker{1, 0, 0, 0, speed, 0, member.height, false, false};
+  EXPECT_EQ(cast_pose(member, walker, 1).clip, 2u);
+  const double seconds = static_cast<double>(person.clips[2].seconds);
+  walker.way = 100.5 * seconds * member.walks[1].speed;
+  EXPECT_NEAR(static_cast<double>(cast_pose(member, walker, 1).seconds), seconds / 2, 0.03);
+  walker.speed = 0.4;
+  EXPECT_EQ(cast_pose(member, walker, 1).clip, 1u);
+  walker.speed = 0.1;
+  EXPECT_EQ(cast_pose(member, walker, 1).clip, 0u);
+  const CastMember half = cast_member(scaled(member, member.height / 2), "half of him");
+  EXPECT_NEAR(half.height, member.height / 2, 1e-3);
+  EXPECT_NEAR(half.walks[1].speed, member.walks[1].speed / 2, 1e-3);
+  // It walks along +x, as those people do that need no turn.
+  const CastMember straight = cast_member(default_pedestrian(Sex::male, 1.8), "him");
+  for (std::size_t row = 0; row < 3; ++row)
+    for (std::size_t k = 0; k < 4; ++k)
+      EXPECT_NEAR(member.character.to_ground.rows[row][k], straight.character.to_ground.rows[row][k], 0.02);
+  person.clips = {};
+  EXPECT_THROW(cast_member(person, "nobody"), std::invalid_argument);
+}
+
 bool inside(const Outline& outline, Vec2 p) {
   bool odd = false;
   for (std::size_t k = 0; k < outline.contours(); ++k) {

@@ -78,6 +78,18 @@ TEST_F(Trajectories, OfJuelichMayBeWrittenInManyWays) {
   EXPECT_EQ(text_of(read("# framerate: 8\n# X,Y: coordinates (in cm)\n3 1 100 200")), "1 3 1 2 - -\n");
 }
 
+TEST_F(Trajectories, HaveAnglesAsHeadings) {
+  const std::string rate = "# framerate: 8\n", row = "3 1 1 2 0 0.2 0.3 57.29577951308232 100\n";
+  const ReadRecording juelich = read(rate + "# ID\tFR\tX/m\tY/m\tZ/m\tA/m\tB/m\tANGLE\tCOLOR\n" + row);
+  EXPECT_EQ(text_of(juelich), "1 3 1 2 1 -\n");
+  EXPECT_NE(assumptions_of(juelich).find("Angles are headings in degrees"), std::string::npos);
+  EXPECT_EQ(text_of(read("id,frame,x,y,angle [rad]\n3,1,1,2,0.5\n", {.fps = 8})), "1 3 1 2 0.5 -\n");
+  EXPECT_EQ(text_of(read("id,frame,x,y,heading (deg)\n3,1,1,2,-57.29577951308232\n", {.fps = 8})),
+            "1 3 1 2 -1 -\n");
+  EXPECT_EQ(complaint("id,frame,x,y,heading [gon]\n3,1,1,2,9\n", {.fps = 8}),
+            "f:1: the unit 'gon' of column 'heading' is not known");
+}
+
 TEST_F(Trajectories, WithoutAHeaderAreAskedAbout) {
   const std::string text = "1 43 79.5 774 183\n1 44 79 764 183\n";
   EXPECT_EQ(complaint(text),

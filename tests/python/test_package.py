@@ -302,6 +302,17 @@ class Recordings(unittest.TestCase):
             self.assertEqual(one.tobytes(), other.tobytes())
         free = bch.check(self.path, unit=1, walls=bch.Obstacles.from_wkt("LINESTRING(-9 0.6, 9 0.6)"))
         self.assertEqual(free.summary["in_walls"], 0)
+        pairs = lambda **more: bch.check(self.path, unit=1, **more).summary["overlapping_near_pairs"]
+        counts = [pairs(depth=0), pairs(depth=3), pairs(leaves="discs"), pairs()]
+        self.assertEqual(counts, sorted(counts, reverse=True))
+        self.assertGreater(counts[0], counts[2])
+        own = bch.check(self.path, unit=1, characters=[bch.default_male(), bch.default_female()])
+        self.assertGreater(own.summary["overlapping_near_pairs"], 0)
+        self.assertNotEqual(own.pairs.tobytes(), found.pairs[found.pairs["kind"] != bch.NEAR].tobytes())
+        with self.assertRaisesRegex(TypeError, "characters has a str"):
+            bch.check(self.path, unit=1, characters=["default:male"])
+        with self.assertRaisesRegex(ValueError, "leaves is 'discs and segments'"):
+            bch.check(self.path, unit=1, leaves="discs and segments")
         with self.assertRaisesRegex(TypeError, "walls is a str"):
             bch.check(self.path, walls="LINESTRING(0 0, 1 1)")
 

@@ -315,6 +315,10 @@ class CheckOptions(_Sized):
         ("without_walls", c_int32),
         ("progress", Progress),
         ("user", c_void_p),
+        ("depth", c_uint32),
+        ("leaves", c_int32),
+        ("characters", c_void_p),
+        ("character_count", c_size_t),
     ]
 
 

@@ -16,7 +16,8 @@ from ._arrays import Records, address, bounded, copied, encoded, f4, f8, i4, i8,
 from ._library import ArrayError, Handle, check as _check, lib
 from ._obstacles import Obstacles
 from ._progress import Watched
-from ._shapes import Path
+from ._queries import Leaves, _leaves, _one_of
+from ._shapes import ALL_DEPTHS, Character, Path
 
 #: A person in a frame: metres and radians, NaN where the file does not say.
 TRACKED = np.dtype([("frame", i8), ("id", i8), ("x", f8), ("y", f8), ("heading", f4), ("stature", f4)])
@@ -114,7 +115,10 @@ def _records(get: Any, handle: Handle, dtype: "np.dtype[Any]") -> Records:
 def check(
     path: Path,
     *,
+    characters: Sequence[Character] = (),
     slices: Sequence[float] = (),
+    depth: int = ALL_DEPTHS,
+    leaves: Leaves = "segments",
     max_distance: float = 0.0,
     walls: Optional[Obstacles] = None,
     fps: Optional[float] = None,
@@ -123,13 +127,20 @@ def check(
     threads: int = 0,
     progress: bool = False,
 ) -> Check:
-    """Put a walking pedestrian on every row of a recording, and find who runs into whom. Ctrl-C ends it.
+    """Put a walking person on every row of a recording, and find who runs into whom. Ctrl-C ends it.
 
     Parameters
     ----------
     path : path
+    characters : sequence of Character
+        Whose bodies people have, by their ids and scaled to their statures; by default built-in pedestrians. Each has a
+        clip that walks straight on, and should have one that stands.
     slices : sequence of float
         Heights of planes that cut bodies into slabs, metres, as `standing_slices` gives; by default bodies are whole.
+    depth : int
+        Of the bodies' hierarchies: 0 is a disc for each body, ALL_DEPTHS the body itself.
+    leaves : {"segments", "discs"}
+        What decides at all depths: segments of the outlines, or discs about them.
     max_distance : float
         Also tell gaps up to that, metres.
     walls : Obstacles, optional
@@ -147,13 +158,21 @@ def check(
     """
     if walls is not None and not isinstance(walls, Obstacles):
         raise ArrayError(f"walls is a {type(walls).__name__}; wanted is a bch.Obstacles")
+    for character in characters:
+        if not isinstance(character, Character):
+            raise ArrayError(f"characters has a {type(character).__name__}; wanted is a bch.Character")
     trajectory = _open(path, fps, unit, columns)
+    cast = (ctypes.c_void_p * len(characters))(*(character._pointer for character in characters))
     planes = np.array([float(plane) for plane in slices], f4)
     with Watched("checking", progress) as watched:
         options = _library.CheckOptions(
             threads=bounded(threads, "threads", 0, 1024),
             slices=address(planes),
             slice_count=len(planes),
+            depth=bounded(depth, "depth", 0, ALL_DEPTHS),
+            characters=ctypes.cast(cast, ctypes.c_void_p),
+            character_count=len(characters),
+            leaves=_one_of(_leaves, leaves, "leaves"),
             max_distance=max_distance,
             walls=None if walls is None else walls._pointer,
             progress=watched.callback,

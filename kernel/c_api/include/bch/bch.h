@@ -690,10 +690,14 @@ typedef struct bch_check_options {
   int32_t without_walls;      /**< not 0: none are asked about */
   bch_progress progress;      /**< or NULL */
   void* user;                 /**< for progress */
+  uint32_t depth;             /**< of the bodies' hierarchies */
+  int32_t leaves;             /**< BCH_SEGMENTS or BCH_DISCS: what decides at BCH_ALL_DEPTHS */
+  const bch_character* const* characters; /**< whose bodies people have, by their ids; each has a clip that walks straight on */
+  size_t character_count;                 /**< 0: built-in pedestrians */
 } bch_check_options;
 #define BCH_CHECK_OPTIONS_INIT \
-  { sizeof(bch_check_options), 0, NULL, 0, 0, NULL, 0, NULL, NULL }
-/** Puts a walking pedestrian on every row of a recording that has not been read from, and finds who runs into whom. */
+  { sizeof(bch_check_options), 0, NULL, 0, 0, NULL, 0, NULL, NULL, BCH_ALL_DEPTHS, BCH_SEGMENTS, NULL, 0 }
+/** Puts a walking person on every row of a recording that has not been read from, and finds who runs into whom. */
 BCH_API bch_status bch_check_run(bch_trajectory* trajectory, const bch_check_options* options, bch_check** check);
 /** What there is to tell of a whole recording. */
 typedef struct bch_check_summary {

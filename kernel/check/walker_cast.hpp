@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <bch/character.hpp>
+
+#include "kernel/check/walkers.hpp"
+
+namespace bch::detail {
+
+/// A clip in which a character walks straight on, or stands.
+struct CastClip {
+  std::uint32_t clip;
+  double speed;          ///< metres a second, at the character's own height
+  std::uint32_t phases;  ///< so many that half a step between two moves no vertex by more than a centimetre
+};
+
+/// A character of one's own as the people of a recording have it: it walks along +x.
+struct CastMember {
+  std::string name;
+  Character character;
+  double height;                ///< in its first walk, metres
+  std::vector<CastClip> walks;  ///< by ascending speed; never empty
+  std::vector<CastClip> idles;  ///< may be empty: who stands then stops in the slowest walk
+  std::vector<std::string> assumptions;
+};
+
+/// Finds which clips of a character walk, how fast and where to, by the foot on the ground: that goes back under the body
+/// as fast as the body goes forward, also in a clip that walks on the spot. A clip in which it mostly does so in one direction,
+/// at 0.3 m/s or more, is a walk; one in which it hardly moves and something else does is an idle; the others, which turn, are
+/// left out, and so are walks of another direction than most.
+/// Errors:  throws std::invalid_argument, naming the character, where no clip is a walk.
+CastMember cast_member(Character character, const std::string& name);
+
+/// The characters of one's own in a recording.
+using Cast = std::vector<CastMember>;
+
+/// Returns which of them a person has, by the id: the same in every run.
+std::uint32_t member_by_id(std::int64_t id, const Cast& cast);
+
+/// A clip of a character, and a phase of it.
+struct CastPose {
+  std::uint32_t clip;  ///< of the character
+  std::uint32_t phase;
+  float seconds;  ///< of the phase, in the clip
+};
+
+/// Returns how a walker moves: in the walk of the nearest speed, as far in it as he has walked, or in an idle while he stands.
+/// `coarse`: divides the number of phases.
+CastPose cast_pose(const CastMember& member, const Walker& walker, std::uint32_t coarse);
+
+/// Returns a character of a stature in metres.
+Character scaled(const CastMember& member, double stature);
+
+}  // namespace bch::detail
