@@ -69,8 +69,10 @@ void run_report(const CLI::App& command, ReportOptions& options) {
     require_report_outputs(options, page);
     if (options.quick) options.report.sizes = report::quick_sizes;
     options.report.command = command_of(options);
-    if (const char* data = std::getenv("BCH_TEST_DATA"); data != nullptr && *data != '\0')
+    if (const char* data = std::getenv("BCH_TEST_DATA"); data != nullptr && *data != '\0') {
       options.report.real_characters = std::filesystem::path(data) / "characters";
+      options.report.recordings = std::filesystem::path(data) / "trajectories";
+    }
     report::run_report(options.report);
   }
   write_standard_output(page.string() + "\n");
@@ -84,7 +86,8 @@ std::function<void()> add_report_command(CLI::App& program) {
       *program.add_subcommand("report", "Run the paper's experiments, and write a page about them");
   command.footer(
       "Writes DIR/report.html, one page with all charts and tables, and the tables as CSV and JSON files.\n"
-      "Charts need gnuplot. Real characters are those in $BCH_TEST_DATA/characters, if it is set.\n"
+      "Charts need gnuplot. Real characters are those in $BCH_TEST_DATA/characters, recordings of people\n"
+      "those in $BCH_TEST_DATA/trajectories, if it is set.\n"
       "On two cores all takes about 15 minutes, 2 with --quick.\n"
       "Example: bch report --out report --quick");
   command.add_option("--out", options->report.folder, "Folder for the page and its tables")

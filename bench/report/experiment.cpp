@@ -7,10 +7,11 @@
 
 namespace bch::report {
 
-Run::Run(bench::Scene& scene, std::span<const cli::LoadedCharacter> real_characters, const Sizes& sizes,
-         std::uint64_t seed, Write write, Done done)
+Run::Run(bench::Scene& scene, std::span<const cli::LoadedCharacter> real_characters,
+         std::filesystem::path recordings, const Sizes& sizes, std::uint64_t seed, Write write, Done done)
     : scene_(scene),
       real_characters_(real_characters),
+      recordings_(std::move(recordings)),
       sizes_(sizes),
       seed_(seed),
       contestants_(scene),
@@ -26,7 +27,8 @@ std::span<const Experiment> experiments() {
   static const Experiment all[] = {error_time_experiment, construction_experiment, query_time_experiment,
                                    distance_experiment,   real_experiment,         depth_experiment,
                                    volume_experiment,     threshold_experiment,    mesh_detail_experiment,
-                                   density_experiment,    detail_experiment,       stability_experiment};
+                                   density_experiment,    detail_experiment,       recordings_experiment,
+                                   stability_experiment};
   return all;
 }
 

@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <filesystem>
 #include <functional>
 #include <memory>
 #include <span>
@@ -26,11 +27,12 @@ struct Sizes {
   std::uint32_t runs = 9;         ///< of what is timed
   std::uint32_t people = 1'000;   ///< that are packed
   std::uint32_t packings = 3;
-  std::uint32_t contacts = 400;  ///< that are near, of a row of the stability tables
-  double pressed = 4;            ///< seconds of penalty forces
+  std::uint32_t contacts = 400;    ///< that are near, of a row of the stability tables
+  double pressed = 4;              ///< seconds of penalty forces
+  std::uint64_t rows = 1'000'000;  ///< of a recording; longer ones are left out
 };
 constexpr Sizes full_sizes;
-constexpr Sizes quick_sizes{20, 2'000, 2'000, 100, 3, 200, 2, 40, 1};
+constexpr Sizes quick_sizes{20, 2'000, 2'000, 100, 3, 200, 2, 40, 1, 20'000};
 
 /// The context of an experiment: what it runs on and where its tables go.
 class Run {
@@ -39,12 +41,14 @@ class Run {
   using Done = std::function<void(double share)>;
 
   /// Keeps references to the scene and to the real characters.
-  Run(bench::Scene& scene, std::span<const cli::LoadedCharacter> real_characters, const Sizes& sizes,
-      std::uint64_t seed, Write write, Done done);
+  Run(bench::Scene& scene, std::span<const cli::LoadedCharacter> real_characters,
+      std::filesystem::path recordings, const Sizes& sizes, std::uint64_t seed, Write write, Done done);
 
   bench::Scene& scene() { return scene_; }
   /// Returns the real characters; none where there is no folder of them.
   std::span<const cli::LoadedCharacter> real_characters() const { return real_characters_; }
+  /// Returns the folder of recordings; it need not be there.
+  const std::filesystem::path& recordings() const { return recordings_; }
   const Sizes& sizes() const { return sizes_; }
   std::uint64_t seed() const { return seed_; }
   Contestants& contestants() { return contestants_; }
@@ -60,6 +64,7 @@ class Run {
  private:
   bench::Scene& scene_;
   std::span<const cli::LoadedCharacter> real_characters_;
+  std::filesystem::path recordings_;
   Sizes sizes_;
   std::uint64_t seed_;
   Contestants contestants_;
@@ -91,6 +96,6 @@ std::span<const Experiment> experiments();
 
 extern const Experiment construction_experiment, query_time_experiment, distance_experiment, depth_experiment,
     volume_experiment, threshold_experiment, mesh_detail_experiment, error_time_experiment,
-    density_experiment, detail_experiment, real_experiment, stability_experiment;
+    density_experiment, detail_experiment, real_experiment, recordings_experiment, stability_experiment;
 
 }  // namespace bch::report

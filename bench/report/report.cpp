@@ -51,6 +51,7 @@ Table facts_of(const Options& options) {
   for (const std::string& one : options.characters) characters += (characters.empty() ? "" : ", ") + one;
   table.add({"characters", characters});
   table.add({"real characters", options.real_characters.string()});
+  table.add({"recordings", options.recordings.string()});
   table.add({"seed", options.seed});
   const Sizes& sizes = options.sizes;
   table.add({"poses of a character", sizes.poses});
@@ -123,7 +124,7 @@ void run_report(const Options& options) {
            ++shown)
         progress.advance();
     };
-    Run run(scene, real, options.sizes, options.seed, write, done);
+    Run run(scene, real, options.recordings, options.sizes, options.seed, write, done);
     if (!experiment->needs_distances || run.distances() != nullptr) experiment->run(run);
     done(1);
     before += experiment->seconds;

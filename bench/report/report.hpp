@@ -15,6 +15,7 @@ struct Options {
   std::filesystem::path folder;
   std::vector<std::string> characters = {"default:male", "default:female"};
   std::filesystem::path real_characters;  ///< a folder of them; empty: none
+  std::filesystem::path recordings;       ///< a folder of those of the test data; empty: none
   std::vector<std::string> experiments;   ///< none: all
   Sizes sizes = full_sizes;
   std::uint64_t seed = 1;

@@ -200,6 +200,31 @@ TEST(Report, RealCharactersAreMeasured) {
   }
 }
 
+/// Tighter bodies overlap less, and take longer than a disc.
+TEST(Report, RecordedPeopleOverlapLessTheTighterTheirBodies) {
+  const auto data = test::test_data();
+  if (!data) GTEST_SKIP() << "BCH_TEST_DATA is not set: no recordings to check";
+  const TemporaryFolder folder;
+  Options options;
+  options.folder = folder.path();
+  options.sizes = smallest;
+  options.sizes.rows = 3'000;
+  options.experiments = {"recordings"};
+  options.recordings = *data / "trajectories";
+  run_report(options);
+  expect_shows_table(test::read_text(folder.file("report.html")), folder, "recordings");
+  const Table table = read_table(folder.file("recordings.csv"));
+  double before = 100;
+  for (const char* const bodies :
+       {"single cylinder of the pose", "depth 3", "depth 6", "all depths", "segments", "4 slabs"}) {
+    const double share = table.number({{"structure", bodies}}, "in overlap (% of neighbours)");
+    EXPECT_LE(share, before) << bodies;
+    EXPECT_GT(table.number({{"structure", bodies}}, "ns/pair"), 0) << bodies;
+    before = share;
+  }
+  EXPECT_GT(table.number({{"structure", "fixed cylinder 0.40 m"}}, "in overlap (% of neighbours)"), before);
+}
+
 TEST(Report, ExperimentsHaveNamesAndSectionsOfTheirOwn) {
   std::set<std::string_view> names;
   const TemporaryFolder folder;
