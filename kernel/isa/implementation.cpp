@@ -12,7 +12,7 @@
 
 namespace bch::detail {
 
-extern const Kernels avx512_kernels, avx2_kernels, sse2_kernels, scalar_kernels;
+extern const Kernels avx512_kernels, avx2_kernels, sse2_kernels, neon_kernels, scalar_kernels;
 
 }  // namespace bch::detail
 
@@ -24,8 +24,9 @@ constexpr Implementation row(const detail::InstructionSet& set, const detail::Ke
 }
 
 constexpr Implementation table[] = {
-    row(detail::avx512, detail::avx512_kernels), row(detail::avx2, detail::avx2_kernels),
-    row(detail::sse2, detail::sse2_kernels), row(detail::scalar, detail::scalar_kernels)};
+    BCH_ON_X86(row(detail::avx512, detail::avx512_kernels), row(detail::avx2, detail::avx2_kernels),
+               row(detail::sse2, detail::sse2_kernels), )
+        BCH_ON_NEON(row(detail::neon, detail::neon_kernels), ) row(detail::scalar, detail::scalar_kernels)};
 
 const Implementation& choose() {
   if (const char* name = std::getenv("BCH_ISA")) return implementation(name);

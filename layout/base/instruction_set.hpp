@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <iterator>
 
+#include "layout/base/processor.hpp"
+
 namespace bch::detail {
 
 /// What some code was compiled for.
@@ -14,11 +16,24 @@ struct InstructionSet {
   bool (*supported)() noexcept;  ///< whether this processor and its operating system run it
 };
 
+constexpr bool everywhere() noexcept {
+  return true;
+}
+constexpr InstructionSet scalar{"scalar", everywhere};
+
+#if BCH_X86
 // The compiler's test asks the operating system too, whether it saves the wide registers; xsimd 8.1's does not.
 constexpr InstructionSet avx512{"avx512", []() noexcept { return __builtin_cpu_supports("avx512f") != 0; }};
 constexpr InstructionSet avx2{"avx2", []() noexcept { return __builtin_cpu_supports("avx2") != 0; }};
-constexpr InstructionSet sse2{"sse2", []() noexcept { return true; }};
-constexpr InstructionSet scalar{"scalar", []() noexcept { return true; }};
+constexpr InstructionSet sse2{"sse2", everywhere};
+/// Of BaseLanes: what every processor of this kind has.
+constexpr InstructionSet base = sse2;
+#elif BCH_NEON
+constexpr InstructionSet neon{"neon", everywhere};
+constexpr InstructionSet base = neon;
+#else
+constexpr InstructionSet base = scalar;
+#endif
 
 /// Returns the first row of a table of implementations, the best first, that is supported.
 template <class Table>

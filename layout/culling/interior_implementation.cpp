@@ -5,11 +5,11 @@
 
 namespace bch::detail {
 
-extern const InteriorLoops interior_avx2, interior_sse2;
+extern const InteriorLoops interior_avx2, interior_base;
 
 namespace {
 
-const InteriorImplementation table[] = {{avx2, interior_avx2}, {sse2, interior_sse2}};
+const InteriorImplementation table[] = {BCH_ON_X86({avx2, interior_avx2}, ){base, interior_base}};
 
 }  // namespace
 

@@ -7,12 +7,12 @@
 
 namespace bch::detail {
 
-void solve_discs_sse2(const DiscSets&) noexcept;
+void solve_discs_base(const DiscSets&) noexcept;
 void solve_discs_avx2(const DiscSets&) noexcept;
 
 namespace {
 
-constexpr DiscImplementation table[] = {{avx2, solve_discs_avx2}, {sse2, solve_discs_sse2}};
+constexpr DiscImplementation table[] = {BCH_ON_X86({avx2, solve_discs_avx2}, ){base, solve_discs_base}};
 
 }  // namespace
 

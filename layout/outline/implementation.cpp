@@ -5,18 +5,18 @@
 
 namespace bch::detail {
 
-void find_sides_sse2(const std::uint32_t*, std::size_t, const GridPoint*, std::uint8_t*) noexcept;
+void find_sides_base(const std::uint32_t*, std::size_t, const GridPoint*, std::uint8_t*) noexcept;
 void find_sides_avx2(const std::uint32_t*, std::size_t, const GridPoint*, std::uint8_t*) noexcept;
-std::size_t find_near_sse2(const SegmentSearch&, const SearchedWay&) noexcept;
+std::size_t find_near_base(const SegmentSearch&, const SearchedWay&) noexcept;
 std::size_t find_near_avx2(const SegmentSearch&, const SearchedWay&) noexcept;
-void test_near_sse2(const SegmentSearch&, const SearchedWay&, std::size_t) noexcept;
+void test_near_base(const SegmentSearch&, const SearchedWay&, std::size_t) noexcept;
 void test_near_avx2(const SegmentSearch&, const SearchedWay&, std::size_t) noexcept;
 
 namespace {
 
 constexpr OutlineImplementation table[] = {
-    {avx2, find_sides_avx2, find_near_avx2, test_near_avx2},
-    {sse2, find_sides_sse2, find_near_sse2, test_near_sse2},
+    BCH_ON_X86({avx2, find_sides_avx2, find_near_avx2, test_near_avx2}, ){base, find_sides_base,
+                                                                          find_near_base, test_near_base},
 };
 
 }  // namespace

@@ -6,7 +6,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <utility>
-#include <xsimd/xsimd.hpp>
+
+#include "layout/simd/batches.hpp"
 
 namespace bch::detail {
 

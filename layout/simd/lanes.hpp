@@ -3,7 +3,11 @@
 
 #pragma once
 
+#include "layout/base/processor.hpp"
+#include "layout/simd/any_lanes.hpp"
+#if BCH_X86
 #include "layout/simd/x86.hpp"
+#endif
 
 namespace bch::detail {
 
@@ -50,7 +54,7 @@ struct Lanes<Scalar, Own> {
 };
 
 /// The lanes of registers that every processor has.
-struct BaseLanes : Lanes<xsimd::sse2, BaseLanes> {};
+struct BaseLanes : Lanes<BaseArch, BaseLanes> {};
 
 /// Calls each(k) for k below a count of whole registers, so that the compiler sees how many a register has
 /// and adds no loops for what it does not fill: those take longer than all of a small batch.

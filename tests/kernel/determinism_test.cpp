@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 #include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/task_arena.h>
-#include <xmmintrin.h>
 #define XXH_INLINE_ALL  // nothing is linked
 #include <xxhash.h>
 
@@ -22,6 +21,7 @@
 #include <bch/time_of_impact.hpp>
 
 #include "kernel/runtime/floating_point_state.hpp"
+#include "tests/support/float_state.hpp"
 #include "tests/support/scenes.hpp"
 
 // The answers to one crowd as hashes, the same for every compiler, optimisation, processor, instruction set, number of
@@ -93,18 +93,6 @@ struct Asked {
   Leaves leaves;
   AnswerBytes::Query query;
 };
-
-/// As MXCSR says it.
-struct FloatState {
-  const char* name;
-  unsigned bits;
-};
-constexpr unsigned flags = 0x3f;
-constexpr FloatState odd_states[] = {{"denormals are zero, both ways", 0x1f80 | 0x8040},
-                                     {"down", 0x1f80 | 0x2000},
-                                     {"up", 0x1f80 | 0x4000},
-                                     {"towards zero", 0x1f80 | 0x6000},
-                                     {"traps", 0x1f80 & ~0x680u}};
 
 enum class Bodies { whole, in_slabs };
 
@@ -254,18 +242,18 @@ TEST_P(Determinism, OfThreadsAndBatches) {
 /// New arenas give the state of the thread that makes them to their workers.
 TEST_P(Determinism, OfTheThreadsFloatingPointState) {
   const tbb::global_control allow(tbb::global_control::max_allowed_parallelism, 4);
-  const unsigned before = _mm_getcsr();
-  for (const FloatState& state : odd_states) {
+  const unsigned before = test::float_state();
+  for (const test::FloatState& state : test::odd_float_states()) {
     Hashes here;
     unsigned after = 0;
-    _mm_setcsr(state.bits);
+    test::set_float_state(state.bits);
     {
       tbb::task_arena arena(4);
-      arena.execute([&] { here = hashes(nullptr, pairs.size()), after = _mm_getcsr(); });
+      arena.execute([&] { here = hashes(nullptr, pairs.size()), after = test::float_state(); });
     }
-    _mm_setcsr(before);
+    test::set_float_state(before);
     EXPECT_EQ(here, expected()) << state.name;
-    EXPECT_EQ(after & ~flags, state.bits) << state.name;
+    EXPECT_EQ(after, state.bits) << state.name;
   }
 }
 

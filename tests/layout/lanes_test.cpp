@@ -17,7 +17,7 @@ namespace bch::detail {
 namespace {
 
 /// What holds for any instruction set, compiled for that of BaseLanes, which has instructions of its own instead.
-struct PlainLanes : AnyLanes<xsimd::sse2, PlainLanes> {};
+struct PlainLanes : AnyLanes<BaseArch, PlainLanes> {};
 using Float = BaseLanes::Float;
 using Double = BaseLanes::Double;
 
@@ -62,6 +62,34 @@ TEST(Lanes, AreTheSameWithInstructionsOfTheirOwn) {
       EXPECT_EQ(BaseLanes::least(a), PlainLanes::least(a));
     }
   }
+}
+
+/// As x86 has it, with NaN and with zeros of both signs; other processors have other instructions.
+TEST(Lanes, HaveTheSecondAsMinimumAndMaximumWhereNeitherIsLess) {
+  for (const auto& [a, b] : pairs()) {
+    EXPECT_EQ(bits_of(xsimd::min(a, b)), bits_of(xsimd::select(a < b, a, b)));
+    EXPECT_EQ(bits_of(xsimd::max(a, b)), bits_of(xsimd::select(b < a, a, b)));
+    Double first[2], second[2];
+    BaseLanes::widened(a, first), BaseLanes::widened(b, second);
+    for (int i = 0; i < 2; ++i) {
+      EXPECT_EQ(bits_of(xsimd::min(first[i], second[i])),
+                bits_of(xsimd::select(first[i] < second[i], first[i], second[i])));
+      EXPECT_EQ(bits_of(xsimd::max(first[i], second[i])),
+                bits_of(xsimd::select(second[i] < first[i], first[i], second[i])));
+    }
+  }
+}
+
+/// The least integer can be converted, and halves go to the even one.
+TEST(Lanes, AreConvertedToIntegersWithinTheirRange) {
+  const Float v = BaseLanes::of<float>(-0x1p31f, 2.5f, 3.5f, -2.5f);
+  std::int32_t integers[4];
+  BaseLanes::store(integers, xsimd::to_int(v));
+  EXPECT_EQ((std::array{integers[0], integers[1], integers[2], integers[3]}),
+            (std::array{std::numeric_limits<std::int32_t>::min(), 2, 3, -2}));
+  BaseLanes::store(integers, xsimd::nearbyint_as_int(v));
+  EXPECT_EQ((std::array{integers[0], integers[1], integers[2], integers[3]}),
+            (std::array{std::numeric_limits<std::int32_t>::min(), 2, 4, -2}));
 }
 
 TEST(Lanes, CountAndTakeIntegers) {

@@ -38,7 +38,7 @@ enum class Semantics {
 
 /// One compilation of the queries for an instruction set. All give the same bits.
 struct Implementation {
-  const char* name;              ///< "avx512", "avx2", "sse2" or "scalar"
+  const char* name;              ///< "avx512", "avx2", "sse2", "neon" or "scalar"
   bool (*supported)() noexcept;  ///< whether this processor and its operating system run it
   const detail::Kernels* kernels;
 };

@@ -4,7 +4,7 @@
 #include "layout/culling/interior_lanes.hpp"
 
 namespace bch::detail {
-extern const InteriorLoops interior_sse2;
-const InteriorLoops interior_sse2 = InteriorLanes<BaseLanes>::loops();
+extern const InteriorLoops interior_base;
+const InteriorLoops interior_base = InteriorLanes<BaseLanes>::loops();
 
 }  // namespace bch::detail

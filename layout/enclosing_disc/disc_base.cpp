@@ -5,7 +5,7 @@
 
 namespace bch::detail {
 
-void solve_discs_sse2(const DiscSets& sets) noexcept {
+void solve_discs_base(const DiscSets& sets) noexcept {
   DiscLanes<BaseLanes>::solve(sets);
 }
 

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include "kernel/isa/row.hpp"
+
+namespace bch::detail {
+namespace {
+
+struct NeonLanes : Lanes<NeonArch, NeonLanes> {};
+
+}  // namespace
+
+extern const Kernels neon_kernels;
+constinit const Kernels neon_kernels = Row<NeonLanes>::kernels;
+
+}  // namespace bch::detail

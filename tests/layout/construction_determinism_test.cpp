@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include <gtest/gtest.h>
+#define XXH_INLINE_ALL  // nothing is linked
+#include <xxhash.h>
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <bch/default_characters.hpp>
+#include <bch/pose_shape.hpp>
+#include <bch/shape_set.hpp>
+
+#include "tests/support/baked_bytes.hpp"
+#include "tests/support/scenes.hpp"
+
+// What construction makes, as hashes of baked files: the same bytes for every compiler, optimisation and processor. Where
+// they change on purpose, so do these.
+
+namespace bch {
+namespace {
+
+std::uint64_t hash_of(const std::vector<Shape>& shapes, const ShapeSetPlan& plan) {
+  const std::string bytes = test::BakedBytes(ShapeSet(shapes, plan), {}).text();
+  return XXH3_64bits(bytes.data(), bytes.size());
+}
+
+std::uint64_t hash_of(const Character& character, const ShapeSetPlan& plan) {
+  PoseShaper shaper(character, plan);
+  std::vector<Shape> shapes;
+  for (const PoseTime& time : sample_poses(character, 3)) shapes.push_back(shaper.shape(time));
+  return hash_of(shapes, plan);
+}
+
+/// Shapes of outlines that are given, without characters: no function of the standard library has a part in them.
+TEST(ConstructionDeterminism, OfHierarchiesAndSets) {
+  EXPECT_EQ(hash_of(test::synthetic_shapes(7, 16), {{0, 3, all_depths}, true}), 0x1343e192b080c518);
+}
+
+TEST(ConstructionDeterminism, OfCharactersInPoses) {
+  EXPECT_EQ(hash_of(default_male(), {.depths = {0, 3, all_depths}}), 0xaaf92277fbde86d0);
+  EXPECT_EQ(hash_of(default_female(), {.depths = {0, all_depths}, .slices = {0.4f, 1.0f}}),
+            0x35aa319d68406f16);
+}
+
+}  // namespace
+}  // namespace bch
