@@ -192,7 +192,10 @@ void AnswerOptions::add_levels_to(CLI::App& command) {
 
 void AnswerOptions::add_to(CLI::App& command) {
   add_levels_to(command);
-  command.add_option("--isa", isa, "Kernel: avx512, avx2, sse2 or scalar [the best that runs here]")
+  std::vector<std::string_view> names;
+  for (const Implementation& each : implementations()) names.push_back(each.name);
+  command
+      .add_option("--isa", isa, fmt::format("Kernel: {} [the best that runs here]", fmt::join(names, ", ")))
       ->type_name("NAME");
 }
 

@@ -10,6 +10,7 @@
 #include "bench/base/text.hpp"
 #include "bench/ratios/ratios.hpp"
 #include "kernel/runtime/kernels.hpp"
+#include "layout/base/instruction_set.hpp"
 
 namespace bch::bench {
 namespace {
@@ -17,11 +18,11 @@ namespace {
 struct Requirement {
   std::string_view workload;
   Semantics semantics;
-  double avx512, avx2, sse2;  ///< times the reference
+  double avx512, avx2, base;  ///< times the reference
   double aim;                 ///< for avx512
 
   double needed(std::string_view implementation) const {
-    return implementation == "avx512" ? avx512 : implementation == "avx2" ? avx2 : sse2;
+    return implementation == "avx512" ? avx512 : implementation == "avx2" ? avx2 : base;
   }
 };
 
@@ -78,7 +79,7 @@ void print_kernel(const Results& results) {
       return results.at(collide_name(row.workload, query, set));
     };
     fmt::print("{}, {}: {} pairs, {} hits; reference {:.1f} ns\n", row.workload, name_of(row.semantics),
-               cli::grouped(reference.items), grouped(of("sse2").counters.at("hits")), reference.nanoseconds);
+               cli::grouped(reference.items), grouped(of(base_implementation()).counters.at("hits")), reference.nanoseconds);
     for (const std::string& set : wide_implementations()) {
       const double taken = of(set).nanoseconds, ratio = reference.nanoseconds / taken;
       const std::string aim = set == "avx512" ? fmt::format(", aim {:g}", row.aim) : "";
@@ -100,10 +101,10 @@ void print_leaves(const Results& results) {
     const auto of = [&, workload = workload, semantics = semantics](const std::string& set, Leaves leaves) {
       return results.at(collide_name(workload, {.semantics = semantics, .leaves = leaves}, set));
     };
-    const Timing with_discs = of("sse2", Leaves::discs);
+    const Timing with_discs = of(base_implementation(), Leaves::discs);
     fmt::print("exact leaves, {}, {}: {} pairs, {} hits with discs, {} with segments\n", workload,
                name_of(semantics), cli::grouped(with_discs.items), grouped(with_discs.counters.at("hits")),
-               grouped(of("sse2", Leaves::segments).counters.at("hits")));
+               grouped(of(base_implementation(), Leaves::segments).counters.at("hits")));
     for (const std::string& set : wide_implementations()) {
       const double discs = of(set, Leaves::discs).nanoseconds,
                    segments = of(set, Leaves::segments).nanoseconds;
@@ -184,6 +185,10 @@ std::vector<int> thread_counts() {
 
 std::string with_threads(const std::string& name, int threads) {
   return threads == 1 ? name : fmt::format("{}/threads:{}", name, threads);
+}
+
+std::string base_implementation() {
+  return std::string(detail::base.name);
 }
 
 std::vector<std::string> wide_implementations() {

@@ -59,6 +59,8 @@ std::string collide_name(std::string_view workload, const QueryOptions& query,
 std::vector<int> thread_counts();
 /// Returns a name as a benchmark's that is timed by so many threads.
 std::string with_threads(const std::string& name, int threads);
+/// Returns the name of the instruction set that every processor of this kind has.
+std::string base_implementation();
 /// Returns the names of the instruction sets that run here and are wider than one lane.
 std::vector<std::string> wide_implementations();
 
