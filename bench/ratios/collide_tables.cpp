@@ -79,7 +79,8 @@ void print_kernel(const Results& results) {
       return results.at(collide_name(row.workload, query, set));
     };
     fmt::print("{}, {}: {} pairs, {} hits; reference {:.1f} ns\n", row.workload, name_of(row.semantics),
-               cli::grouped(reference.items), grouped(of(base_implementation()).counters.at("hits")), reference.nanoseconds);
+               cli::grouped(reference.items), grouped(of(base_implementation()).counters.at("hits")),
+               reference.nanoseconds);
     for (const std::string& set : wide_implementations()) {
       const double taken = of(set).nanoseconds, ratio = reference.nanoseconds / taken;
       const std::string aim = set == "avx512" ? fmt::format(", aim {:g}", row.aim) : "";
