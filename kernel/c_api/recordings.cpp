@@ -2,6 +2,7 @@
 // Copyright (c) 2026 the bch authors
 
 #include <limits>
+#include <span>
 
 #include "kernel/c_api/arguments.hpp"
 #include "kernel/c_api/handles.hpp"
@@ -22,6 +23,7 @@ struct bch_check {
   std::vector<bch_check_pair> pairs;
   std::vector<bch_check_event> events;
   bch_check_summary summary = BCH_CHECK_SUMMARY_INIT;
+  std::string assumptions;  ///< a line each
 };
 
 namespace bch::c_api {
@@ -115,9 +117,9 @@ std::optional<ObstacleSet> own_walls(const bch_check_options& options, const Tra
 
 /// The characters of the caller.
 Cast cast_of(const bch_check_options& options) {
+  if (options.character_count > 0) required(options.characters, "options->characters");
   Cast cast;
-  for (const bch_character* character :
-       array_of(options.characters, options.character_count, "options->characters")) {
+  for (const bch_character* character : std::span(options.characters, options.character_count)) {
     const bch_character& own = object_of(character, "options->characters");
     cast.push_back(cast_member(*own.character, own.name));
   }
@@ -143,6 +145,9 @@ std::unique_ptr<bch_check> run_check(bch_trajectory& trajectory, const bch_check
 
   options.coarse = trajectory.reader->info().rows < coarse_from ? 1 : 3;
   auto made = std::make_unique<bch_check>();
+  made->assumptions = trajectory.assumptions;
+  for (const CastMember& member : options.cast)
+    for (const std::string& line : member.assumptions) made->assumptions += line + "\n";
   const TrajectoryInfo& info = trajectory.reader->info();
   on_threads(given.threads, [&] {
     const CheckSummary summary =
@@ -215,6 +220,13 @@ bch_status bch_check_run(bch_trajectory* trajectory, const bch_check_options* op
 
 bch_status bch_check_get_summary(const bch_check* check, bch_check_summary* summary) {
   return guarded([&] { fill(summary, object_of(check, "check").summary, "summary"); });
+}
+
+bch_status bch_check_get_assumptions(const bch_check* check, const char** assumptions) {
+  return guarded([&] {
+    required(assumptions, "assumptions");
+    *assumptions = object_of(check, "check").assumptions.c_str();
+  });
 }
 
 bch_status bch_check_get_frames(const bch_check* check, const bch_check_frame** frames, size_t* count) {

@@ -308,6 +308,8 @@ class Recordings(unittest.TestCase):
         self.assertGreater(counts[0], counts[2])
         own = bch.check(self.path, unit=1, characters=[bch.default_male(), bch.default_female()])
         self.assertGreater(own.summary["overlapping_near_pairs"], 0)
+        self.assertEqual(own.assumptions[: len(found.assumptions)], found.assumptions)
+        self.assertTrue(any("walks, by its feet, at " in line for line in own.assumptions))
         self.assertNotEqual(own.pairs.tobytes(), found.pairs[found.pairs["kind"] != bch.NEAR].tobytes())
         with self.assertRaisesRegex(TypeError, "characters has a str"):
             bch.check(self.path, unit=1, characters=["default:male"])

@@ -420,6 +420,7 @@ _functions = {
     "trajectory_free": "p",
     "check_run": "ppp",
     "check_get_summary": "pp",
+    "check_get_assumptions": "pp",
     "check_get_frames": "ppp",
     "check_get_pairs": "ppp",
     "check_get_events": "ppp",

@@ -104,6 +104,7 @@ class Check(NamedTuple):
     frames: Records  #: frame, seconds, people, overlapping, overlapping_pairs, in_walls, density
     pairs: Records  #: frame, first, second, depth, gap, x, y, kind: who is near whom
     summary: Dict[str, Any]  #: of the whole recording: person_frames, overlapping, near_pairs ...
+    assumptions: List[str]  #: what the file does not say, and what was found out about characters
 
 
 def _records(get: Any, handle: Handle, dtype: "np.dtype[Any]") -> Records:
@@ -180,9 +181,12 @@ def check(
         handle = Handle("check", "run", trajectory.pointer, byref(options), checked=watched.run)
     summary = _library.CheckSummary()
     _check(lib.bch_check_get_summary(handle.pointer, byref(summary)))
+    lines = ctypes.c_char_p()
+    _check(lib.bch_check_get_assumptions(handle.pointer, byref(lines)))
     return Check(
         _records(lib.bch_check_get_events, handle, _EVENT),
         _records(lib.bch_check_get_frames, handle, _FRAME),
         _records(lib.bch_check_get_pairs, handle, _PAIR),
         {name: getattr(summary, name) for name, *_ in _library.CheckSummary._fields_ if name != "size"},
+        (lines.value or b"").decode(errors="replace").splitlines(),
     )

@@ -717,6 +717,9 @@ typedef struct bch_check_summary {
   { sizeof(bch_check_summary), 0, 0, 0, 0, 0, 0, 0, 0, 0, 0 }
 /** Tells the summary. */
 BCH_API bch_status bch_check_get_summary(const bch_check* check, bch_check_summary* summary);
+/** Tells what was taken for what the recording does not say, and what was found out about characters: a line each. The text lives as long
+ * as the check. */
+BCH_API bch_status bch_check_get_assumptions(const bch_check* check, const char** assumptions);
 
 enum {
   BCH_CHECK_NEAR = 0,    /**< two people within the largest distance */
