@@ -95,16 +95,18 @@ void CheckInput::add_to(CLI::App& command) {
       ->type_name("UNIT");
   command.add_option("--walls", walls, "The floor to walk on, in well-known text, instead of the file's own")
       ->type_name("FILE.wkt");
-  command
-      .add_option("--character", characters,
-                  "People have the bodies of these characters, by their ids (repeatable) [built-in]")
-      ->type_name("FILE")
-      ->allow_extra_args(false);
+  CLI::Option* const character =
+      command
+          .add_option("--character", characters,
+                      "People have the bodies of these characters, by their ids (repeatable) [built-in]")
+          ->type_name("FILE")
+          ->allow_extra_args(false);
   command
       .add_option("--clips", shapes.clips,
                   "Add the clips of this file to the characters, matched by bone name (repeatable)")
       ->type_name("FILE")
-      ->allow_extra_args(false);
+      ->allow_extra_args(false)
+      ->needs(character);
   command
       .add_option("--slices", shapes.slices, "Cut bodies at these heights, metres, into slabs [whole bodies]")
       ->type_name("H,H...");

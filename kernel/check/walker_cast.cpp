@@ -23,7 +23,7 @@ constexpr double same_way = 0.95;         ///< the least cosine between a walk a
 constexpr double still =
     0.02;  ///< metres a second of any vertex: a clip without motion, often of arms spread out
 constexpr double half_step = 0.01;  ///< metres: no vertex moves by more
-constexpr std::uint32_t most_phases = 4096, most_clips = 65'535;
+constexpr std::uint32_t most_phases = 65'535, most_clips = 65'535;
 constexpr double standing = 0.15;  ///< metres a second: who is slower stands
 
 /// How a clip moves.

@@ -108,6 +108,7 @@ TEST(Cli, CheckTakesCharactersOfOnesOwn) {
   }
   EXPECT_TRUE(written[0] == written[1]);
   const std::string stick = folder.write("stick.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  EXPECT_EQ(bch({"check", file, "--clips", stick}).code, 2);  // of whom?
   const Ending run = bch({"check", file, "--character", stick});
   EXPECT_EQ(run.code, 3);
   EXPECT_NE(run.err.find("stick.obj: none of its clips walks straight on"), std::string::npos) << run.err;
