@@ -59,6 +59,7 @@ void LineReader::begin_text() {
 std::string_view LineReader::take(std::size_t length, std::size_t and_end) {
   std::string_view line(buffer_.data() + begin_, length);
   begin_ += length + and_end;
+  has_end_ = and_end > 0;
   ++number_;
   if (line.size() > longest_line) places_.reject(number_, "is longer than 65536 bytes");
   if (has_nul_ && line.find('\0') != std::string_view::npos)

@@ -28,6 +28,8 @@ class LineReader {
   bool next(std::string_view& line);
   /// The number of the line that was read last, from 1.
   std::uint64_t number() const { return number_; }
+  /// Whether a line end stands behind that line; it may lack at the end of the file.
+  bool has_end() const { return has_end_; }
   void rewind();
 
  private:
@@ -36,7 +38,7 @@ class LineReader {
   std::vector<char> buffer_;
   std::size_t begin_ = 0, end_ = 0;  ///< what is read but not yet given
   std::uint64_t number_ = 0;
-  bool at_end_ = false, begun_ = false, has_nul_ = false;
+  bool at_end_ = false, begun_ = false, has_nul_ = false, has_end_ = false;
 
   void fill();
   void begin_text();

@@ -26,6 +26,10 @@ class Table final : public RowSource {
   Recording recording() const override {
     Recording all = layout_.recording;
     heights_.describe(all.assumptions);
+    if (unended_ > 0)
+      all.assumptions.push_back(
+          "The last row, " + places_.row(unended_) +
+          ", has no line end and is read as it stands; a file that was cut off looks so.");
     return all;
   }
 
@@ -36,6 +40,7 @@ class Table final : public RowSource {
       if (is_blank(line.front()) && trimmed(line).empty()) continue;
       rows[count] = Row();
       parse(line, rows[count]);
+      if (!lines_.has_end()) unended_ = lines_.number();
       ++count;
     }
     return count;
@@ -48,6 +53,7 @@ class Table final : public RowSource {
   LineReader lines_;
   TableLayout layout_;
   Heights heights_;
+  std::uint64_t unended_ = 0;  ///< the number of the last row where no line end follows it
 
   [[noreturn]] void reject(const std::string& reason) const { places_.reject(lines_.number(), reason); }
   [[noreturn]] void reject(std::size_t column, std::string_view value, const std::string& reason) const {

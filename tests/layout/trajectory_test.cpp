@@ -55,6 +55,15 @@ TEST_F(Trajectories, OfPeTrackSayTheirRateAndUnit) {
   EXPECT_EQ(assumptions_of(recording), std::string(height_assumed) + not_heights);
 }
 
+TEST_F(Trajectories, ThatEndWithoutALineEndMayHaveBeenCut) {
+  const std::string text = "# framerate: 25\n# id frame x/m y/m\n1 0 2 3\n1 1 2 3.25";
+  EXPECT_EQ(assumptions_of(read(text + "\n")), "");
+  EXPECT_EQ(
+      assumptions_of(read(text)),
+      "The last row, line 4, has no line end and is read as it stands; a file that was cut off looks so.\n");
+  EXPECT_EQ(assumptions_of(read(text + "\n# the end")), "");
+}
+
 TEST_F(Trajectories, OfJuelichMayBeWrittenInManyWays) {
   const std::string rows = "1 0 2 3 0.5\n";
   for (const char* const header :
