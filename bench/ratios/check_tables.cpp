@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <memory>
@@ -18,7 +19,7 @@ namespace {
 
 using namespace detail;
 
-constexpr std::uint32_t people = 5000;
+constexpr std::uint32_t most_people = 5000;
 constexpr double density = 3, fps = 25;
 constexpr std::size_t few_frames = 400, many_frames = 800, checked_frames = 4;
 constexpr int threads = 2;
@@ -33,9 +34,9 @@ double drawn(std::uint32_t person, std::uint32_t what, double bound) {
 }
 
 /// A lattice of people who sway, and walk on in waves: slower where they are pushed together.
-Position in_waves(std::uint32_t person, double seconds) {
-  static const double spacing = 1 / std::sqrt(density * std::sqrt(0.75));
-  static const auto columns = static_cast<std::uint32_t>(std::ceil(std::sqrt(people)));
+Position in_waves(std::uint32_t people, std::uint32_t person, double seconds) {
+  const double spacing = 1 / std::sqrt(density * std::sqrt(0.75));
+  const auto columns = static_cast<std::uint32_t>(std::ceil(std::sqrt(people)));
   const std::uint32_t row = person / columns, column = person % columns;
   const double x = spacing * (column + 0.5 * (row % 2)), y = spacing * std::sqrt(0.75) * row;
   const auto sway = [&](std::uint32_t axis) {
@@ -46,8 +47,8 @@ Position in_waves(std::uint32_t person, double seconds) {
 }
 
 /// People who walk through each other, and turn round at the sides of a square.
-Position at_random(std::uint32_t person, double seconds) {
-  static const double side = std::sqrt(people / density);
+Position at_random(std::uint32_t people, std::uint32_t person, double seconds) {
+  const double side = std::sqrt(people / density);
   const double way = (0.2 + drawn(person, 0, 1.4)) * seconds, angle = drawn(person, 1, 6.28);
   const auto fold = [](double at) { return side - std::abs(std::fmod(std::abs(at), 2 * side) - side); };
   return {fold(drawn(person, 2, side) + way * std::cos(angle)),
@@ -57,7 +58,7 @@ Position at_random(std::uint32_t person, double seconds) {
 struct Crowd {
   const char* name;
   const char* words;
-  Position (*place)(std::uint32_t person, double seconds);
+  Position (*place)(std::uint32_t people, std::uint32_t person, double seconds);
 };
 constexpr Crowd crowds[] = {{"in_waves", "one way, in waves", in_waves},
                             {"at_random", "through each other", at_random}};
@@ -65,12 +66,12 @@ constexpr Crowd crowds[] = {{"in_waves", "one way, in waves", in_waves},
 /// A recording in memory, so that no file is read.
 class Recording final : public TrajectoryReader {
  public:
-  explicit Recording(const Crowd& crowd) : frames_(many_frames) {
+  Recording(const Crowd& crowd, std::uint32_t people) : frames_(many_frames) {
     constexpr float unknown = std::numeric_limits<float>::quiet_NaN();
     info_.fps = fps;
     for (std::size_t k = 0; k < frames_.size(); ++k)
       for (std::uint32_t i = 0; i < people; ++i) {
-        const Position at = crowd.place(i, static_cast<double>(k) / fps);
+        const Position at = crowd.place(people, i, static_cast<double>(k) / fps);
         frames_[k].push_back({i, at.x, at.y, unknown, unknown});
       }
   }
@@ -121,7 +122,7 @@ std::string name_of(const Crowd& crowd, std::size_t frames) {
   return with_threads(fmt::format("check/{}/{}", crowd.name, frames), threads);
 }
 
-void print_checks(const Results& results) {
+void print_checks(const Results& results, std::uint32_t people) {
   fmt::print(
       "checks of {} people, {:g} a square metre, whole bodies, reading aside, million person-frames a "
       "second\n",
@@ -138,9 +139,10 @@ void print_checks(const Results& results) {
 
 }  // namespace
 
-std::vector<Table> check_tables(Suite& suite) {
+std::vector<Table> check_tables(Suite& suite, Scene& scene) {
+  const std::uint32_t people = std::min(most_people, scene.agents());
   for (const Crowd& crowd : crowds) {
-    const Shared<Recording> shared([&crowd] { return std::make_shared<Recording>(crowd); });
+    const Shared<Recording> shared([&crowd, people] { return std::make_shared<Recording>(crowd, people); });
     for (const std::size_t frames : {few_frames, many_frames})
       suite.add(
           name_of(crowd, frames),
@@ -156,7 +158,7 @@ std::vector<Table> check_tables(Suite& suite) {
           },
           threads);
   }
-  return {{"checks", "^check/", print_checks}};
+  return {{"checks", "^check/", [people](const Results& results) { print_checks(results, people); }}};
 }
 
 }  // namespace bch::bench

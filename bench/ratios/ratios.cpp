@@ -50,7 +50,7 @@ std::vector<Table> add_all(Suite& suite, Scene& scene, const Options& options) {
         query_tables(suite, scene), obstacle_tables(suite, scene), body_tables(suite),
         shape_count_tables(suite, scene, options.most_shapes), plan_tables(suite, scene),
         slice_tables(suite, scene), build_tables(suite, scene), load_tables(suite, scene),
-        check_tables(suite)})
+        check_tables(suite, scene)})
     all.insert(all.end(), some.begin(), some.end());
   std::vector<Table> wanted;
   for (const char* name : tables)

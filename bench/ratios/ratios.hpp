@@ -50,7 +50,7 @@ std::vector<Table> build_tables(Suite& suite, Scene& scene);
 /// load/<part>: a baked file of the scene's poses, in the file cache.
 std::vector<Table> load_tables(Suite& suite, Scene& scene);
 /// check/<crowd>/<frames>[/threads:<n>]: whole recordings, in memory.
-std::vector<Table> check_tables(Suite& suite);
+std::vector<Table> check_tables(Suite& suite, Scene& scene);
 
 /// Returns the name of a benchmark of collide().
 std::string collide_name(std::string_view workload, const QueryOptions& query,
