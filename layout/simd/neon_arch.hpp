@@ -3,6 +3,8 @@
 
 #pragma once
 
+#include <arm_neon.h>
+
 #include <xsimd/types/xsimd_neon64_register.hpp>
 
 namespace xsimd {
@@ -13,7 +15,8 @@ class batch;
 namespace bch::detail {
 
 /// NEON with the minimum and maximum of other processors: the second where neither is less, as where one is NaN or both
-/// are 0. NEON's instructions give NaN, and tell the zeros apart.
+/// are 0. NEON's instructions give NaN, and tell the zeros apart. Roots and quotients of floats are rounded as IEEE 754 says:
+/// those of xsimd 8.1 are estimates, off in the last bit.
 struct NeonArch : xsimd::neon64 {};
 
 }  // namespace bch::detail
@@ -45,6 +48,15 @@ template <class A, class T>
 inline batch<T, A> max(batch<T, A> const& first, batch<T, A> const& second,
                        requires_arch<bch::detail::NeonArch>) noexcept {
   return select(second < first, first, second);
+}
+template <class A>
+inline batch<float, A> sqrt(batch<float, A> const& v, requires_arch<bch::detail::NeonArch>) noexcept {
+  return vsqrtq_f32(v);
+}
+template <class A>
+inline batch<float, A> div(batch<float, A> const& first, batch<float, A> const& second,
+                           requires_arch<bch::detail::NeonArch>) noexcept {
+  return vdivq_f32(first, second);
 }
 
 }  // namespace kernel

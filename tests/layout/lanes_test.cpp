@@ -80,6 +80,28 @@ TEST(Lanes, HaveTheSecondAsMinimumAndMaximumWhereNeitherIsLess) {
   }
 }
 
+/// xsimd's own of NEON are estimates.
+TEST(Lanes, HaveRootsAndQuotientsAsOneLaneHasThem) {
+  test::Random random(2);
+  for (int i = 0; i < 1000; ++i) {
+    float lane[2][4], root[4], quotient[4];
+    for (auto& row : lane)
+      for (float& each : row) each = static_cast<float>(random.uniform(1e-3, 1e3));
+    for (int k = 0; k < 4; ++k) root[k] = std::sqrt(lane[0][k]), quotient[k] = lane[0][k] / lane[1][k];
+    const Float a = BaseLanes::load(lane[0]), b = BaseLanes::load(lane[1]);
+    EXPECT_EQ(bits_of(xsimd::sqrt(a)), bits_of(BaseLanes::load(root)));
+    EXPECT_EQ(bits_of(a / b), bits_of(BaseLanes::load(quotient)));
+    Double wide[2], other[2];
+    BaseLanes::widened(a, wide), BaseLanes::widened(b, other);
+    for (int h = 0; h < 2; ++h)
+      for (unsigned k = 0; k < 2; ++k) {
+        EXPECT_EQ(BaseLanes::lane(xsimd::sqrt(wide[h]), k), std::sqrt(BaseLanes::lane(wide[h], k)));
+        EXPECT_EQ(BaseLanes::lane(wide[h] / other[h], k),
+                  BaseLanes::lane(wide[h], k) / BaseLanes::lane(other[h], k));
+      }
+  }
+}
+
 /// The least integer can be converted, and halves go to the even one.
 TEST(Lanes, AreConvertedToIntegersWithinTheirRange) {
   const Float v = BaseLanes::of<float>(-0x1p31f, 2.5f, 3.5f, -2.5f);
