@@ -34,7 +34,8 @@ void require_file(const char* path);
 /// Errors:  throws Failure naming the argument where it is NULL and not empty, or longer than memory.
 template <class Value>
 std::span<Value> array_of(Value* values, std::size_t count, const char* argument) {
-  if (count > PTRDIFF_MAX / sizeof(Value))
+  using One = Value[1];  // not Value, which may be a pointer: clang-tidy takes its size for a mistake
+  if (count > PTRDIFF_MAX / sizeof(One))
     throw Failure(BCH_INVALID_ARGUMENT, std::string(argument) + " has " + std::to_string(count) + " entries");
   if (count > 0) required(values, argument);
   return {values, count};

@@ -25,11 +25,10 @@ consteval std::size_t member_count() {
 /// Returns whether the first `size` bytes of a struct end inside one of these members.
 template <class Struct, class... Members>
 bool cuts_one_of(const Struct& of, std::size_t size, const Members&... members) {
-  const auto place = [&](const auto& member) {
-    return static_cast<std::size_t>(reinterpret_cast<const char*>(&member) -
-                                    reinterpret_cast<const char*>(&of));
+  const auto place = [&](const auto* at) {
+    return static_cast<std::size_t>(reinterpret_cast<const char*>(at) - reinterpret_cast<const char*>(&of));
   };
-  return ((place(members) < size && size < place(members) + sizeof members) || ...);
+  return ((place(&members) < size && size < place(&members + 1)) || ...);
 }
 
 /// Returns whether the first `size` bytes of a struct end inside a member of it.
