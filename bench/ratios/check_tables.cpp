@@ -50,7 +50,7 @@ Position in_waves(std::uint32_t people, std::uint32_t person, double seconds) {
 Position at_random(std::uint32_t people, std::uint32_t person, double seconds) {
   const double side = std::sqrt(people / density);
   const double way = (0.2 + drawn(person, 0, 1.4)) * seconds, angle = drawn(person, 1, 6.28);
-  const auto fold = [](double at) { return side - std::abs(std::fmod(std::abs(at), 2 * side) - side); };
+  const auto fold = [side](double at) { return side - std::abs(std::fmod(std::abs(at), 2 * side) - side); };
   return {fold(drawn(person, 2, side) + way * std::cos(angle)),
           fold(drawn(person, 3, side) + way * std::sin(angle))};
 }
