@@ -112,12 +112,7 @@ void CheckInput::add_to(CLI::App& command) {
       ->type_name("H,H...");
   command.add_option("--depth", depth, "Depth of the bodies' hierarchies: 0, 1, 2 ... or all [all]")
       ->type_name("N");
-  command
-      .add_option(
-          "--leaves", leaves,
-          "What decides at depth all: segments of the outlines, or discs, up to 2 cm sooner [segments]")
-      ->type_name("NAME")
-      ->check(one_of({"segments", "discs"}));
+  add_leaves_option(command, leaves, 2);
   command
       .add_option("--max-distance", max_distance,
                   "Metres: --pairs also has gaps up to that [0: overlaps alone]")

@@ -41,7 +41,7 @@ constexpr const char* frame_columns = "frame,seconds,people,density,overlapping,
 constexpr const char* pair_columns = "frame,seconds,first,second,kind,depth,gap,x,y\n";
 constexpr const char* event_columns = "first,second,kind,from,to,frames,worst,depth,x,y\n";
 
-/// Where the answers of a check go; an empty name is no file.
+/// The files that the answers of a check go to; an empty name is none.
 struct CheckOutputs {
   std::string events, frames, pairs, json;
   double fail_above = 100;  ///< percent of person-seconds

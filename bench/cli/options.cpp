@@ -173,6 +173,17 @@ std::vector<std::string> ShapeOptions::inputs(std::vector<std::string> files) co
   return files;
 }
 
+void add_leaves_option(CLI::App& command, std::string& leaves, int centimetres) {
+  command
+      .add_option(
+          "--leaves", leaves,
+          fmt::format("What decides at depth all: segments of the outlines, or discs, up to {} cm sooner "
+                      "[segments]",
+                      centimetres))
+      ->type_name("NAME")
+      ->check(one_of({"segments", "discs"}));
+}
+
 void AnswerOptions::add_levels_to(CLI::App& command) {
   command.add_option("--depths", depths, "Levels of detail: cut depths, ascending [0,3,6,all]")
       ->type_name("LIST");
@@ -181,12 +192,7 @@ void AnswerOptions::add_levels_to(CLI::App& command) {
                   "boundary: outlines cross; solid: or one contains the other [boundary]")
       ->type_name("NAME")
       ->check(one_of({"boundary", "solid"}));
-  command
-      .add_option(
-          "--leaves", leaves,
-          "What decides at depth all: segments of the outlines, or discs, up to 1 cm sooner [segments]")
-      ->type_name("NAME")
-      ->check(one_of({"segments", "discs"}));
+  add_leaves_option(command, leaves, 1);
   add_threads_option(command, threads);
 }
 

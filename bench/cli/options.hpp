@@ -75,6 +75,8 @@ void require_absent(const CLI::App& command, std::initializer_list<const char*> 
 void require_unsettled(const CLI::App& command, const std::string& baked_file);
 
 void add_threads_option(CLI::App& command, std::uint32_t& threads);
+/// Adds the option of what decides at the deepest level. `centimetres`: by how much sooner discs do.
+void add_leaves_option(CLI::App& command, std::string& leaves, int centimetres);
 /// Adds the option --seed, which chooses `what`.
 void add_seed_option(CLI::App& command, std::uint64_t& seed, const std::string& what);
 

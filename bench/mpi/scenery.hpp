@@ -15,7 +15,7 @@ namespace bch::cli {
 /// at twice the density around half of it; street, all in streets of 10 m, 100 m apart.
 extern const std::vector<std::string> scenery_kinds;
 
-/// Where the agents of a crowd are. Each agent is drawn by its number alone, so that a rank needs no other's.
+/// Places the agents of a crowd. Each agent is drawn by its number alone, so that a rank needs no other's.
 class Scenery {
  public:
   /// Units:   agents a square metre.

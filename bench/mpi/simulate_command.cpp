@@ -17,12 +17,12 @@
 #include "bench/mpi/commands.hpp"
 #include "bench/mpi/cut_simulation.hpp"
 #include "kernel/distributed/agreement.hpp"
+#include "kernel/distributed/exchange.hpp"
 
 namespace bch::cli {
 namespace {
 
-constexpr double copy_bytes = 33, migrant_bytes = 41;  ///< see the chapter
-constexpr int collectives = 10;                        ///< of all ranks in a step
+constexpr int collectives = 10;  ///< of all ranks in a step
 
 struct SimulationOptions {
   std::string file;
@@ -40,6 +40,9 @@ struct Figures {
 };
 
 Figures figures_of(const std::vector<SimulatedRank>& ranks, const SimulationOptions& options) {
+  const detail::AgentType copied(false), whole(true);
+  const auto copy_bytes = static_cast<double>(copied.bytes()),
+             migrant_bytes = static_cast<double>(whole.bytes());
   Figures all;
   const double tree = collectives * std::log2(static_cast<double>(ranks.size())) * options.microseconds;
   for (const SimulatedRank& rank : ranks) {

@@ -28,7 +28,7 @@ struct Call {
   QueryOptions options;
   std::uint32_t threads;
 
-  /// Whether bodies meet part by part, for which some queries need memory.
+  /// Returns whether bodies meet part by part, for which some queries need memory.
   bool in_parts() const { return shapes.slab_count() > 1 || !agents.z.empty(); }
 
   /// Asks on the threads that the options want.

@@ -7,15 +7,6 @@
 #include <tuple>
 
 namespace bch::detail {
-namespace {
-
-/// Who it is about; the order of the pairs of a frame.
-template <class Overlap>
-auto who(const Overlap& overlap) {
-  return std::tie(overlap.first, overlap.is_wall, overlap.second);
-}
-
-}  // namespace
 
 void EventLog::add(const CheckedFrame& frame) {
   still_open_.clear();

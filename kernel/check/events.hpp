@@ -3,11 +3,18 @@
 
 #pragma once
 
+#include <tuple>
 #include <vector>
 
 #include "kernel/check/check.hpp"
 
 namespace bch::detail {
+
+/// Returns whom an overlap is about, a pair of a frame or an event: what the pairs of a frame are in the order of.
+template <class Overlap>
+auto who(const Overlap& overlap) {
+  return std::tie(overlap.first, overlap.is_wall, overlap.second);
+}
 
 /// Joins overlaps of frames one after the other to events.
 class EventLog {

@@ -25,7 +25,7 @@ class FrameBlock {
   /// Returns where the people of frame i begin, and, for i = frames(), their number.
   std::size_t begin(std::size_t i) const noexcept { return begin_[i]; }
   std::span<const Walker> people() const noexcept { return people_; }
-  /// By person: the frame, and the same person in the frame behind it, or nobody.
+  /// Returns, by person, the frame, and the same person in the frame behind it, or nobody.
   std::span<const std::uint32_t> frame_of() const noexcept { return frame_of_; }
   std::span<const std::uint32_t> next_of() const noexcept { return next_of_; }
 
@@ -37,7 +37,7 @@ class FrameBlock {
   std::span<const double> x() const noexcept { return x_; }
   std::span<const double> y() const noexcept { return y_; }
   std::span<const double> heading() const noexcept { return heading_; }
-  /// Where they are if every frame stands far from the others, so that people of one frame alone are neighbours. (Where the places of a
+  /// Returns where they are if every frame stands far from the others, so that people of one frame alone are neighbours. (Where the places of a
   /// frame are hundreds of kilometres from each other, there are others.)
   std::span<const double> apart_x() const noexcept { return apart_x_; }
 

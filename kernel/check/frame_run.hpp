@@ -32,7 +32,7 @@ class FrameRun {
   std::size_t first() const noexcept { return first_; }
   std::size_t last() const noexcept { return last_; }
   std::span<const CheckedPerson> people() const noexcept { return checked_people_; }
-  /// By frame, then ids.
+  /// Returns who overlaps or passes whom, by frame, then ids.
   std::span<const CheckedPair> pairs() const noexcept { return checked_; }
   const OverlapCounts& counts() const noexcept { return counts_; }
 

@@ -2,7 +2,6 @@
 // Copyright (c) 2026 the bch authors
 
 #include <algorithm>
-#include <tuple>
 #include <utility>
 
 #include "kernel/check/check.hpp"
@@ -10,11 +9,6 @@
 
 namespace bch::detail {
 namespace {
-
-/// Who it is about.
-auto who(const OverlapEvent& event) {
-  return std::tie(event.first, event.is_wall, event.second);
-}
 
 /// Goes on with an event in the next interval. Of equally deep frames the first one is the worst.
 void go_on(OverlapEvent& event, const OverlapEvent& later) {
@@ -32,7 +26,7 @@ class EventChain {
   std::vector<OverlapEvent> finish();
 
  private:
-  std::vector<OverlapEvent> open_;  ///< as long as the interval's last frame; by who they are about
+  std::vector<OverlapEvent> open_;  ///< still in the last frame of the interval; ordered by who()
   std::vector<OverlapEvent> closed_;
 };
 
