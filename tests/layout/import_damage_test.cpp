@@ -76,7 +76,7 @@ std::string damaged(std::string bytes, test::Random& random) {
 }
 
 /// Than the program gives, so that files which exhaust it take less long.
-const ImportLimits less{std::chrono::seconds(5), std::size_t{512} << 20};
+const ImportLimits less{std::chrono::seconds(2), std::size_t{512} << 20};
 
 struct Outcomes {
   std::size_t read = 0, refused = 0, stopped = 0;
