@@ -19,10 +19,11 @@ double rounding_of(const ObstaclePlace& place) noexcept {
   return 0x1p-50 * (std::abs(place.x) + std::abs(place.y));
 }
 
-/// Places a segment in the frame of an agent.
+/// Places the segment in a slot in the frame of an agent.
 /// Returns: whether it is within a distance of a point there, but for its slack.
-bool is_near(const ObstaclePlace& place, const WorldSegment& world, std::uint32_t slot, Vector centre,
-             double distance, LocalSegment& to) noexcept {
+bool is_near(const ObstaclePlace& place, Vec2 centre, double distance, const WorldSegment* segments,
+             std::uint32_t slot, LocalSegment& to) noexcept {
+  const WorldSegment& world = segments[slot];
   const double dx = world.ax - place.x, dy = world.ay - place.y;
   const double from = dx * world.x + dy * world.y;
   const Vector along = place.turned_back(world.x, world.y);
@@ -35,7 +36,7 @@ bool is_near(const ObstaclePlace& place, const WorldSegment& world, std::uint32_
         slot,
         world.number,
         world.obstacle};
-  return to.touches(centre.x, centre.y, distance);
+  return to.touches(double{centre.x}, double{centre.y}, distance);
 }
 
 /// Returns a box about a disc on its way, enlarged by what is rounded, and by what slack adds to the distance.
@@ -87,45 +88,44 @@ std::span<const std::uint32_t> NearSegments::query(const BoxTreeView& tree, cons
 
 std::span<LocalSegment> NearSegments::find(const ObstaclePlace& place, Vec2 centre, double distance,
                                            Vector way) {
-  return collect(query(obstacles_.segment_tree, box_about(place, centre, distance, way), slots_), place,
-                 centre, distance, way.x != 0 || way.y != 0);
-}
-
-/// Places segments and sorts them. `all`: also those that are farther from where the disc is now.
-std::span<LocalSegment> NearSegments::collect(std::span<const std::uint32_t> slots,
-                                              const ObstaclePlace& place, Vec2 centre, double distance,
-                                              bool all) {
-  const Vector middle{double{centre.x}, double{centre.y}};
-  if (memory_.size() < slots.size() + 1) memory_.resize(2 * slots.size() + 1);
-  std::size_t size = 0;
-  for (const std::uint32_t slot : slots)
-    size += is_near(place, obstacles_.segments[slot], slot, middle, distance, memory_[size]) | all;
-  found_ = std::span(memory_).first(size);
-  if (size > 1)
-    std::sort(found_.begin(), found_.end(),
-              [](const LocalSegment& a, const LocalSegment& b) { return a.number < b.number; });
-  return found_;
+  boxes_.assign(1, box_about(place, centre, distance, way));
+  const std::uint32_t size = descend(obstacles_.segment_tree);
+  if (memory_.size() <= size) memory_.resize(std::size_t{size} + 1);
+  const bool moves = way.x != 0 || way.y != 0;
+  std::size_t count = 0;
+  for (std::uint32_t k = 0; k < size; ++k)
+    count += is_near(place, centre, distance, obstacles_.segments, hits_[k].place, memory_[count]) | moves;
+  return sorted(std::span(memory_).first(count));
 }
 
 void NearSegments::prepare(std::span<const NearQuery> queries) {
-  queries_ = queries;
   boxes_.clear();
   for (const NearQuery& query : queries)
     boxes_.push_back(box_about(query.place, query.centre, query.distance, {0, 0}));
   const std::uint32_t size = descend(obstacles_.segment_tree);
-  prepared_.clear(), prepared_begin_.clear();
-  for (std::uint32_t i = 0, k = 0; i < queries.size(); ++i) {
-    prepared_begin_.push_back(k);
-    for (; k < size && hits_[k].query == i; ++k) prepared_.push_back(hits_[k].place);
+  if (prepared_.size() <= size) prepared_.resize(std::size_t{size} + 1);
+  prepared_end_.assign(queries.size() + 1, 0);
+  std::uint32_t count = 0;
+  for (std::uint32_t k = 0; k < size; ++k) {
+    const auto& [place, centre, distance] = queries[hits_[k].query];
+    count += is_near(place, centre, distance, obstacles_.segments, hits_[k].place, prepared_[count]);
+    prepared_end_[hits_[k].query + 1] = count;
   }
-  prepared_begin_.push_back(size);
+  // Those of which no box was found end where the ones before do.
+  for (std::size_t i = 0; i < queries.size(); ++i)
+    prepared_end_[i + 1] = std::max(prepared_end_[i], prepared_end_[i + 1]);
 }
 
 std::span<LocalSegment> NearSegments::take(std::size_t query) {
-  const auto& [place, centre, distance] = queries_[query];
-  const std::uint32_t begin = prepared_begin_[query];
-  return collect(std::span(prepared_).subspan(begin, prepared_begin_[query + 1] - begin), place, centre,
-                 distance, false);
+  const std::uint32_t begin = prepared_end_[query];
+  return sorted(std::span(prepared_).subspan(begin, prepared_end_[query + 1] - begin));
+}
+
+std::span<LocalSegment> NearSegments::sorted(std::span<LocalSegment> segments) {
+  if (segments.size() > 1)
+    std::sort(segments.begin(), segments.end(),
+              [](const LocalSegment& a, const LocalSegment& b) { return a.number < b.number; });
+  return found_ = segments;
 }
 
 std::span<const std::uint32_t> NearSegments::areas_about(const ObstaclePlace& place, Vec2 point) {

@@ -47,7 +47,7 @@ class NearSegments {
 
   const ObstacleView& obstacles() const noexcept { return obstacles_; }
 
-  /// Finds the segments whose boxes overlap each of many discs, for take(), which the discs have to outlive.
+  /// Finds the segments within each of many discs, for take().
   void prepare(std::span<const NearQuery> queries);
   /// Returns what find() finds for one of the queries of prepare().
   std::span<LocalSegment> take(std::size_t query);
@@ -80,17 +80,16 @@ class NearSegments {
   /// Finds those that overlap one box.
   std::span<const std::uint32_t> query(const BoxTreeView& tree, const Box& box,
                                        std::vector<std::uint32_t>& slots);
-  std::span<LocalSegment> collect(std::span<const std::uint32_t> slots, const ObstaclePlace& place,
-                                  Vec2 centre, double distance, bool all);
+  /// Sorts the segments that were found by their numbers.
+  std::span<LocalSegment> sorted(std::span<LocalSegment> segments);
 
   const Implementation& implementation_;
   const ObstacleView& obstacles_;
   std::vector<std::uint32_t> slots_, areas_;
   std::vector<Box> boxes_;
   std::vector<BoxHit> hits_, next_;
-  std::span<const NearQuery> queries_;
-  std::vector<std::uint32_t> prepared_, prepared_begin_;  ///< slots, and where those of a query begin
-  std::vector<LocalSegment> memory_;
+  std::vector<LocalSegment> memory_, prepared_;  ///< of find() and of prepare()
+  std::vector<std::uint32_t> prepared_end_;      ///< where those of the queries before one end
   std::span<LocalSegment> found_;
 };
 

@@ -26,6 +26,7 @@ class ObstacleKernel {
   /// Returns whether a disc of the cut and all nodes above it touch the segments, and the outline in that disc does where
   /// exact leaves decide.
   bool touches() noexcept {
+    if (in_.shapes->inscribed != nullptr && any_goes_in()) return true;
     const bool exact = in_.exact_leaves && tree_.segments != no_segments;
     std::uint32_t open = 0;
     nodes_open_[open++] = tree_.top;
@@ -70,6 +71,33 @@ class ObstacleKernel {
     const Double beyond =
         xsimd::max(xsimd::max(Double(segment.from) - along, along - Double(segment.to)), Double(0.0));
     return across * across + beyond * beyond;
+  }
+
+  /// Returns whether a segment leads from outside of the root disc, which holds the outline, into a disc inscribed in its largest
+  /// contour: so it crosses that contour, which is a hit at every level.
+  bool any_goes_in() const noexcept {
+    const float* const inscribed = in_.shapes->inscribed[in_.root / in_.shapes->level_count].x;
+    const Discs discs{inscribed, block_width, 2 * block_width};
+    std::uint32_t inside = 0;
+    for (std::uint32_t i = 0; i < in_.count; ++i) {
+      const LocalSegment& segment = in_.segments[i];
+      if (!begins_or_ends_outside(segment)) continue;
+      for (unsigned k = 0; k < block_width; k += Simd::doubles) {
+        const Double left = Simd::wide(discs.radius() + k) - Double(segment.slack);
+        const Double square = square_distance(segment, Simd::wide(discs.x + k), Simd::wide(discs.y() + k));
+        inside |= Simd::bits((Double(0.0) < left) & (square <= left * left));
+      }
+    }
+    return inside != 0;
+  }
+
+  bool begins_or_ends_outside(const LocalSegment& segment) const noexcept {
+    const Root& root = in_.shapes->roots[in_.root];
+    const double x = double{root.x}, y = double{root.y}, limit = double{root.radius} + segment.slack;
+    const double along = segment.along(x, y), across = segment.across(x, y);
+    const double from = segment.from - along, to = segment.to - along;
+    const double farther = from * from < to * to ? to : from;
+    return farther * farther + across * across > limit * limit;
   }
 
   std::uint32_t touching(Discs discs) const noexcept {
