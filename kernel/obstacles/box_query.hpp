@@ -15,23 +15,38 @@ template <class Simd>
 class BoxQuery {
  public:
   /// Tests blocks of one level for many queries: writes which boxes of the blocks that `in` names overlap those of the queries, in the order
-  /// of `in`. It has no branch that depends on an answer. There has to be room for 8 * (count + 1) hits.
+  /// of `in`. It has no branch that depends on an answer. There has to be room for 8 * count hits.
   /// Returns: how many there are.
   static std::uint32_t run(const BoxBlock* blocks, const Box* queries, const BoxHit* in, std::uint32_t count,
                            BoxHit* out) noexcept {
     std::uint32_t size = 0;
-    for (std::uint32_t k = 0; k < count; ++k) {
-      const auto [query, block] = in[k];
-      const std::uint32_t hits = overlapping(blocks[block], queries[query]);
-      for (unsigned i = 0; i < 8; ++i) {
-        out[size] = {query, 8 * block + i};
-        size += hits >> i & 1;
-      }
+    for (std::uint32_t begin = 0; begin < count; begin += blocks_together) {
+      const std::uint32_t left = count - begin;
+      size += test(blocks, queries, in + begin, left < blocks_together ? left : blocks_together, out + size);
     }
     return size;
   }
 
  private:
+  static constexpr std::uint32_t blocks_together = 256;
+
+  static std::uint32_t test(const BoxBlock* blocks, const Box* queries, const BoxHit* in, std::uint32_t count,
+                            BoxHit* out) noexcept {
+    // Eight a block, and what a register writes beyond.
+    std::uint16_t found[8 * blocks_together + Simd::width];
+    std::uint32_t size = 0;
+    for (std::uint32_t k = 0; k < count; ++k) {
+      const std::uint32_t bits = overlapping(blocks[in[k].place], queries[in[k].query]);
+      for (std::uint32_t i = 0; i < 8; i += Simd::width)
+        size += Simd::write_set(bits >> i, 8 * k + i, found + size);
+    }
+    for (std::uint32_t i = 0; i < size; ++i) {
+      const auto [query, block] = in[found[i] / 8];
+      out[i] = {query, 8 * block + found[i] % 8};
+    }
+    return size;
+  }
+
   static std::uint32_t overlapping(const BoxBlock& block, const Box& box) noexcept {
     using Double = typename Simd::Double;
     std::uint32_t bits = 0;

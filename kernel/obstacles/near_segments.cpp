@@ -68,7 +68,7 @@ std::uint32_t NearSegments::descend(const BoxTreeView& tree) {
   for (std::uint32_t i = 0; i < count; ++i) hits_[i] = {i, 0};
   std::uint32_t size = count;
   for (std::uint32_t level = tree.levels; level-- > 0;) {
-    const std::size_t room = 8 * (std::size_t{size} + 1);
+    const std::size_t room = 8 * std::size_t{size};
     if (next_.size() < room) next_.resize(2 * room);
     size = implementation_.kernels->overlapping_boxes(tree.blocks + tree.level_begin[level], boxes_.data(),
                                                       hits_.data(), size, next_.data());
