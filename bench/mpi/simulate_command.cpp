@@ -40,7 +40,7 @@ struct Figures {
 };
 
 Figures figures_of(const std::vector<SimulatedRank>& ranks, const SimulationOptions& options) {
-  const detail::AgentType copied(false), whole(true);
+  const detail::AgentType copied(false, false), whole(true, false);
   const auto copy_bytes = static_cast<double>(copied.bytes()),
              migrant_bytes = static_cast<double>(whole.bytes());
   Figures all;

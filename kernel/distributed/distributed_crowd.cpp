@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <sstream>
 #include <utility>
 
@@ -11,15 +12,16 @@
 #include <bch/collide.hpp>
 #include <bch/distributed_crowd.hpp>
 
+#include "kernel/distributed/agent_validation.hpp"
 #include "kernel/distributed/agreement.hpp"
 #include "kernel/distributed/cut.hpp"
 #include "kernel/distributed/exchange.hpp"
 #include "kernel/distributed/halo.hpp"
 #include "kernel/distributed/owned_pairs.hpp"
+#include "kernel/distributed/posed_shapes.hpp"
 #include "kernel/distributed/room.hpp"
 #include "kernel/distributed/session.hpp"
 #include "kernel/runtime/task_ranges.hpp"
-#include "layout/base/rounding.hpp"
 
 namespace bch {
 
@@ -34,8 +36,8 @@ constexpr double most_squares = 16;  ///< that a reach may span
 /// Adds the seconds of its lifetime.
 class Stopwatch {
  public:
-  explicit Stopwatch(double& seconds) : seconds_(seconds), begin_(MPI_Wtime()) { seconds_ = 0; }
-  ~Stopwatch() { seconds_ = MPI_Wtime() - begin_; }
+  explicit Stopwatch(double& seconds) : seconds_(seconds), begin_(MPI_Wtime()) {}
+  ~Stopwatch() { seconds_ += MPI_Wtime() - begin_; }
   Stopwatch(const Stopwatch&) = delete;
   Stopwatch& operator=(const Stopwatch&) = delete;
 
@@ -43,24 +45,6 @@ class Stopwatch {
   double& seconds_;
   double begin_;
 };
-
-[[noreturn]] void reject(const CrowdAgent& agent, const char* field, double value, const char* limits) {
-  std::ostringstream message;
-  message << "agent " << agent.id << ": " << field << " is " << value << ", not " << limits;
-  throw std::invalid_argument(message.str());
-}
-
-/// What would lead an agent astray before a query looks at it: places, shapes. The rest is validated by the queries.
-void require_valid(const CrowdAgent& agent, const ShapeSet& shapes, bool heights) {
-  constexpr double most = rounding::largest_position;
-  if (!(std::abs(agent.x) <= most)) reject(agent, "x", agent.x, "within 1e9 m");
-  if (!(std::abs(agent.y) <= most)) reject(agent, "y", agent.y, "within 1e9 m");
-  if (heights && !(std::abs(agent.z) <= most)) reject(agent, "z", agent.z, "within 1e9 m");
-  if (!(std::abs(agent.heading) <= rounding::largest_heading))
-    reject(agent, "heading", agent.heading, "within 1e9 rad");
-  if (agent.shape >= shapes.shape_count()) reject(agent, "shape", agent.shape, "one of the set");
-  if (agent.level >= shapes.level_count()) reject(agent, "level", agent.level, "one of the set");
-}
 
 std::vector<double> radii_of(const ShapeSet& shapes) {
   std::vector<double> radii;
@@ -93,18 +77,39 @@ MPI_Comm with_threads(MPI_Comm comm) {
 
 struct DistributedCrowd::State {
   State(MPI_Comm of, const ShapeSet& set, std::vector<CrowdAgent> mine, const DistributedCrowdOptions& how)
-      : comm(with_threads(of)),
-        whole(true),
-        copied(how.heights),
-        shapes(set),
-        options(how),
-        agents(std::move(mine)) {
-    agree(comm.get(), [&] { prepare(); });
+      : State(of, false, std::move(mine), how) {
+    baked = &set;
+    agree(comm.get(), [&] {
+      radii = radii_of(set);
+      prepare(set.has_heights());
+    });
   }
+  State(MPI_Comm of, std::span<const Character> characters, const ShapeSetPlan& plan,
+        std::vector<CrowdAgent> mine, const DistributedCrowdOptions& how)
+      : State(of, true, std::move(mine), how) {
+    agree(comm.get(), [&] {
+      for (const Character& character : characters) validate(character);
+      posed.emplace(characters, plan);
+      const std::vector<CrowdAgent> samples = sampled_agents(characters);
+      posed->add(samples);
+      radii = posed->radii(samples);
+      prepare(plan.heights || !plan.slices.empty());
+    });
+  }
+  State(MPI_Comm of, bool poses, std::vector<CrowdAgent> mine, const DistributedCrowdOptions& how)
+      : comm(with_threads(of)),
+        whole(true, poses),
+        copied(how.heights, poses),
+        options(how),
+        agents(std::move(mine)) {}
 
-  void prepare();
+  void prepare(bool has_heights);
+  const ShapeSet& shapes() const { return posed ? posed->set() : *baked; }
+  void look_at_agents() const;
+  void sort_agents();
   void require_margin(double metres) const;
-  void update();
+  std::int32_t ring() const { return static_cast<std::int32_t>(std::ceil(largest(reach) / side)); }
+  void update(double apart);
   std::uint64_t agent_weight() const {
     return 1 + static_cast<std::uint64_t>(options.agent_pairs * static_cast<double>(pair_weight));
   }
@@ -112,15 +117,19 @@ struct DistributedCrowd::State {
   std::vector<Weight> weights() const;
   Outbox leaving();
   void migrate();
+  void make_own_poses(double apart);
+  void learn_reach(double apart);
   Outbox copies();
   void exchange_halo();
+  void fill_columns();
   void find_pairs(double metres);
   std::size_t index(std::int32_t rank) const { return static_cast<std::size_t>(rank); }
 
   OwnComm comm;
   AgentType whole,
       copied;  ///< agents that leave with all that is known of them; copies with what queries need
-  const ShapeSet& shapes;
+  const ShapeSet* baked = nullptr;   ///< where agents have shapes of a set
+  std::optional<PosedShapes> posed;  ///< where they are characters
   DistributedCrowdOptions options;
   std::vector<double> radii, reach;
   double side = 1, margin = 0;
@@ -138,14 +147,13 @@ struct DistributedCrowd::State {
   CrowdCounters counters;
 };
 
-void DistributedCrowd::State::prepare() {
-  radii = radii_of(shapes);
+void DistributedCrowd::State::prepare(bool has_heights) {
   if (!(options.cell >= 0 && options.cell <= 1e6))
     throw std::invalid_argument("the cell is not from 0 to 1e6 m");
   if (!(options.imbalance >= 1)) throw std::invalid_argument("an imbalance below 1 cannot be");
   if (!(options.agent_pairs >= 0 && options.agent_pairs <= 1000))
     throw std::invalid_argument("an agent does not count as so many pairs");
-  if (options.heights && !shapes.has_heights())
+  if (options.heights && !has_heights)
     throw std::invalid_argument("agents have heights, and the set does not know those of bodies");
   side = std::max(1.0, options.cell > 0 ? options.cell : 4 * largest(radii));
 }
@@ -158,14 +166,67 @@ void DistributedCrowd::State::require_margin(double wanted) const {
   throw std::invalid_argument(message.str());
 }
 
-void DistributedCrowd::State::update() {
+void DistributedCrowd::State::look_at_agents() const {
+  for (const CrowdAgent& agent : agents) {
+    require_valid(agent, options.heights);
+    if (posed)
+      require_valid(agent, *posed);
+    else
+      require_valid(agent, *baked);
+  }
+}
+
+void DistributedCrowd::State::sort_agents() {
+  if (!std::ranges::is_sorted(agents, {}, &CrowdAgent::id)) std::ranges::sort(agents, {}, &CrowdAgent::id);
+}
+
+void DistributedCrowd::State::update(double apart) {
+  counters.cut_seconds = counters.migration_seconds = counters.halo_seconds = counters.poses_seconds = 0;
+  agree(comm.get(), [&] {
+    look_at_agents(), sort_agents();
+    if (!posed) learn_reach(apart);
+  });
   cut_where_unbalanced();
   migrate();
+  if (posed) make_own_poses(apart);
   exchange_halo();
-  agree(comm.get(), [&] { columns.assign(agents, halo, options.heights); });
+  fill_columns();
   pairs.clear();
   counters.agents = agents.size();
   counters.halo = halo.size();
+}
+
+/// Makes the shapes of the rank's own agents. How far those of all ranks reach, character by character, says who needs copies.
+void DistributedCrowd::State::make_own_poses(double apart) {
+  const Stopwatch watch(counters.poses_seconds);
+  agree(comm.get(), [&] {
+    without_tasks_from_outside([&] {
+      posed->clear();
+      posed->add(agents);
+      radii = posed->radii(agents);
+    });
+  });
+  MPI_Allreduce(MPI_IN_PLACE, radii.data(), static_cast<int>(radii.size()), MPI_DOUBLE, MPI_MAX, comm.get());
+  agree(comm.get(), [&] { learn_reach(apart); });
+}
+
+void DistributedCrowd::State::learn_reach(double apart) {
+  require_margin(apart);
+  const std::int32_t before = ring();
+  reach = reaches(radii, apart);
+  margin = apart;
+  if (ring() != before) owners.reset(cut, ring());
+}
+
+void DistributedCrowd::State::fill_columns() {
+  agree(comm.get(), [&] {
+    columns.assign(agents, halo, options.heights);
+    if (!posed) return;
+    const Stopwatch watch(counters.poses_seconds);
+    without_tasks_from_outside([&] { posed->add(halo); });
+    columns.number_shapes(agents.size());
+    counters.poses = columns.id.size();
+  });
 }
 
 /// Weighs the agents of the last update, where they stood then; before the first one, all agents alike.
@@ -197,7 +258,7 @@ void DistributedCrowd::State::cut_where_unbalanced() {
   cut = cut_evenly(comm.get(), std::move(mine), promised);
   ++counters.cuts;
   graph.reset();
-  agree(comm.get(), [&] { owners.reset(cut, static_cast<std::int32_t>(std::ceil(largest(reach) / side))); });
+  agree(comm.get(), [&] { owners.reset(cut, ring()); });
 }
 
 /// Takes the agents that stand on others' squares away from this rank's.
@@ -270,14 +331,19 @@ void DistributedCrowd::State::exchange_halo() {
 }
 
 void DistributedCrowd::State::find_pairs(double apart) {
+  counters.pairs_seconds = counters.answer_seconds = 0;
   const Stopwatch watch(counters.pairs_seconds);
-  keep_owned(columns, broad_phase.find(shapes, columns.agents(), apart), pairs);
+  keep_owned(columns, broad_phase.find(shapes(), columns.agents(), apart), pairs);
   counters.pairs = pairs.size();
 }
 
 DistributedCrowd::DistributedCrowd(MPI_Comm comm, const ShapeSet& shapes, std::vector<CrowdAgent> agents,
                                    const DistributedCrowdOptions& options)
     : state_(std::make_unique<State>(comm, shapes, std::move(agents), options)) {}
+DistributedCrowd::DistributedCrowd(MPI_Comm comm, std::span<const Character> characters,
+                                   const ShapeSetPlan& plan, std::vector<CrowdAgent> agents,
+                                   const DistributedCrowdOptions& options)
+    : state_(std::make_unique<State>(comm, characters, plan, std::move(agents), options)) {}
 DistributedCrowd::DistributedCrowd(DistributedCrowd&&) noexcept = default;
 DistributedCrowd& DistributedCrowd::operator=(DistributedCrowd&&) noexcept = default;
 DistributedCrowd::~DistributedCrowd() = default;
@@ -291,19 +357,7 @@ std::span<const CrowdAgent> DistributedCrowd::halo() const noexcept {
 }
 
 void DistributedCrowd::update(double margin) {
-  State& state = *state_;
-  agree(state.comm.get(), [&] {
-    state.require_margin(margin);
-    for (const CrowdAgent& agent : state.agents) require_valid(agent, state.shapes, state.options.heights);
-    if (!std::ranges::is_sorted(state.agents, {}, &CrowdAgent::id))
-      std::ranges::sort(state.agents, {}, &CrowdAgent::id);
-    const double before = largest(state.reach);
-    state.reach = reaches(state.radii, margin);
-    state.margin = margin;
-    if (before != largest(state.reach))
-      state.owners.reset(state.cut, static_cast<std::int32_t>(std::ceil(largest(state.reach) / state.side)));
-  });
-  state.update();
+  state_->update(margin);
 }
 
 std::span<const Pair> DistributedCrowd::collide_all(const QueryOptions& options) {
@@ -313,7 +367,7 @@ std::span<const Pair> DistributedCrowd::collide_all(const QueryOptions& options)
       state.find_pairs(0);
       const Stopwatch watch(state.counters.answer_seconds);
       resize_with_room(state.hits, state.pairs.size());
-      collide(state.shapes, state.columns.agents(), state.pairs, state.hits, options);
+      collide(state.shapes(), state.columns.agents(), state.pairs, state.hits, options);
       keep_hits(state.columns, state.pairs, state.hits, state.colliding);
     });
   });
@@ -329,7 +383,7 @@ std::span<const CrowdDistance> DistributedCrowd::clearances(const QueryOptions& 
       state.find_pairs(options.max_distance);
       const Stopwatch watch(state.counters.answer_seconds);
       resize_with_room(state.metres, state.pairs.size());
-      clearance(state.shapes, state.columns.agents(), state.pairs, {.distance = state.metres}, options);
+      clearance(state.shapes(), state.columns.agents(), state.pairs, {.distance = state.metres}, options);
       keep_near(state.columns, state.pairs, state.metres, state.near);
     });
   });

@@ -25,13 +25,15 @@ int sum_of(std::span<const int> counts) {
 
 }  // namespace
 
-AgentType::AgentType(bool heights) {
-  const MPI_Datatype types[] = {MPI_DOUBLE, MPI_DOUBLE, MPI_UINT32_T, MPI_UINT8_T};
-  const int lengths[] = {heights ? 3 : 2, 1, 2, 1};  // x, y, z; heading; id, shape; level
-  const MPI_Aint places[] = {offsetof(CrowdAgent, x), offsetof(CrowdAgent, heading), offsetof(CrowdAgent, id),
-                             offsetof(CrowdAgent, level)};
+AgentType::AgentType(bool heights, bool poses) {
+  constexpr std::size_t pose = offsetof(CrowdAgent, pose);
+  const MPI_Datatype types[] = {MPI_DOUBLE, MPI_DOUBLE, MPI_UINT32_T, MPI_UINT8_T, MPI_UINT32_T, MPI_FLOAT};
+  const int lengths[] = {heights ? 3 : 2, 1, 2, 1, poses, poses};  // x, y, z; heading; id, shape; level; pose
+  const MPI_Aint places[] = {offsetof(CrowdAgent, x),         offsetof(CrowdAgent, heading),
+                             offsetof(CrowdAgent, id),        offsetof(CrowdAgent, level),
+                             pose + offsetof(PoseTime, clip), pose + offsetof(PoseTime, seconds)};
   MPI_Datatype fields;
-  MPI_Type_create_struct(4, lengths, places, types, &fields);
+  MPI_Type_create_struct(6, lengths, places, types, &fields);
   MPI_Type_create_resized(fields, 0, sizeof(CrowdAgent), &type_);
   MPI_Type_free(&fields);
   MPI_Type_commit(&type_);

@@ -16,8 +16,8 @@ namespace bch::detail {
 /// How MPI sends an agent: the fields that are needed, without what lies between them.
 class AgentType {
  public:
-  /// `heights`: whether z is one of them.
-  explicit AgentType(bool heights);
+  /// Whether z and the pose are among them.
+  AgentType(bool heights, bool poses);
   ~AgentType();
   AgentType(const AgentType&) = delete;
   AgentType& operator=(const AgentType&) = delete;

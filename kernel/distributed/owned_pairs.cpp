@@ -71,6 +71,11 @@ void CrowdColumns::assign(std::span<const CrowdAgent> own, std::span<const Crowd
   });
 }
 
+void CrowdColumns::number_shapes(std::size_t own) {
+  std::uint32_t next_own = 0, next_copy = static_cast<std::uint32_t>(own);
+  for (std::size_t i = 0; i < shape.size(); ++i) shape[i] = is_own[i] != 0 ? next_own++ : next_copy++;
+}
+
 void keep_owned(const CrowdColumns& columns, std::span<const Pair> candidates, std::vector<Pair>& owned) {
   compact(
       candidates.size(), owned, [&](std::size_t i) { return columns.is_own[candidates[i].first] != 0; },

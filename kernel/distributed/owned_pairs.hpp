@@ -21,6 +21,8 @@ struct CrowdColumns {
 
   /// Precondition: both in the order of their ids.
   void assign(std::span<const CrowdAgent> own, std::span<const CrowdAgent> copies, bool heights);
+  /// Gives each agent a shape of its own: first those of the rank's agents, then those of the copies, in the order of their ids.
+  void number_shapes(std::size_t own);
   Agents agents() const { return {shape, x, y, heading, level, z}; }
 
  private:

@@ -11,6 +11,8 @@
 
 #include <bch/shape_set_builder.hpp>
 
+#include "kernel/runtime/floating_point_state.hpp"
+
 namespace bch::detail {
 
 /// The number of shapes a thread that are being built or wait for one before them. It is large enough that
@@ -36,6 +38,7 @@ void add_in_order(ShapeSetBuilder& builder, const ShapeSetPlan& plan, std::size_
     return next++;
   };
   const auto build = [&](std::size_t i) -> std::size_t {
+    const FloatingPointStateGuard floats;
     places[i % places.size()].prepare(make(i), i);
     return i;
   };

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include <bch/agents.hpp>
+#include <bch/character.hpp>
 #include <bch/query.hpp>
 #include <bch/shape_set.hpp>
 
@@ -30,8 +31,9 @@ class RankError : public std::runtime_error {
 struct CrowdAgent {
   double x = 0, y = 0, z = 0, heading = 0;
   std::uint32_t id = 0;     ///< its own in the whole crowd, whichever rank owns it
-  std::uint32_t shape = 0;  ///< index into the ShapeSet, which is the same on every rank
-  std::uint8_t level = 0;   ///< index into the set's depths
+  std::uint32_t shape = 0;  ///< index into the ShapeSet or the characters, the same on every rank
+  std::uint8_t level = 0;   ///< index into the depths of the set or the plan
+  PoseTime pose = {};       ///< of a character; with a ShapeSet nobody looks at it, and it does not travel
 };
 
 /// Two agents by their ids, first < second, and how far apart they are.
@@ -46,8 +48,9 @@ struct DistributedCrowdOptions {
   double cell = 0;  ///< metres: the side of the squares that ranks own; 0: four times the largest radius
   double imbalance =
       1.04;  ///< the most that a rank has to do over the mean, beyond which the crowd is cut anew
-  double agent_pairs = 0;  ///< as how many pairs an agent counts there: 0 balances pairs, about 1.3 time
-  bool heights = false;    ///< whether z counts; the set has to know the heights of bodies then
+  /// As how many pairs an agent counts there: 0 balances pairs, about 1.3 time; of characters, who are posed anew, about POSED.
+  double agent_pairs = 0;
+  bool heights = false;  ///< whether z counts; the set has to know the heights of bodies then
 };
 
 /// What a rank did in the last update() and the last query, to judge scale by.
@@ -55,6 +58,7 @@ struct CrowdCounters {
   std::uint64_t agents = 0;           ///< that it owns
   std::uint64_t halo = 0;             ///< copies of others' agents that it was sent
   std::uint64_t pairs = 0;            ///< candidates that it answered
+  std::uint64_t poses = 0;            ///< shapes of poses that it made, copies' too
   std::uint64_t arrived = 0;          ///< agents that came from other ranks
   std::uint64_t migration_bytes = 0;  ///< sent
   std::uint64_t halo_bytes = 0;       ///< sent
@@ -62,6 +66,7 @@ struct CrowdCounters {
   std::uint32_t cuts = 0;             ///< how often the crowd was cut, since it was made
   double imbalance = 1;  ///< the most that a rank did in the last query over the mean, as update() saw it
   double cut_seconds = 0, migration_seconds = 0, halo_seconds = 0;  ///< of update()
+  double poses_seconds = 0;                                         ///< of update(), where poses are made
   double pairs_seconds = 0, answer_seconds = 0;                     ///< of the query: broad phase, kernel
 };
 
@@ -80,6 +85,9 @@ struct CrowdCounters {
 /// those of CrowdCollider, each on one rank, the owner of the lower id. It is the same for any number of ranks and threads, and wherever
 /// the crowd is cut.
 ///
+/// Agents have shapes of a set, or are characters that are posed anew in every step. Then update() makes the shapes of poses on each
+/// rank that needs them, so that no shape ever travels: character, clip and time do, 12 bytes.
+///
 /// All calls but agents(), halo() and counters() are collective: each rank makes them, in the same order, with the same options.
 /// Errors:  where a rank throws, for bad input or want of memory, all throw RankError with its message. The crowd can then only
 ///          be destroyed. Where a rank ends or does not make the call, MPI ends the others or they wait, as with MPI's own calls.
@@ -92,6 +100,12 @@ class DistributedCrowd {
   /// Errors:  as all calls; std::runtime_error where MPI was not initialised for threads.
   DistributedCrowd(MPI_Comm comm, const ShapeSet& shapes, std::vector<CrowdAgent> agents,
                    const DistributedCrowdOptions& options = {});
+  /// Takes agents who are characters, each in a pose of its own, likewise; their `shape` is an index into the characters. Poses
+  /// become shapes as by PoseShaper and ShapeSet with this plan.
+  /// Lifetime: the characters outlive the crowd. They and the plan are the same on every rank.
+  /// Errors:  besides, on a character or plan that is not valid.
+  DistributedCrowd(MPI_Comm comm, std::span<const Character> characters, const ShapeSetPlan& plan,
+                   std::vector<CrowdAgent> agents, const DistributedCrowdOptions& options = {});
   DistributedCrowd(DistributedCrowd&&) noexcept;
   DistributedCrowd& operator=(DistributedCrowd&&) noexcept;
   ~DistributedCrowd();

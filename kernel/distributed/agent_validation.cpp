@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include "kernel/distributed/agent_validation.hpp"
+
+#include <cmath>
+#include <sstream>
+#include <stdexcept>
+
+#include "layout/base/rounding.hpp"
+
+namespace bch::detail {
+namespace {
+
+[[noreturn]] void reject(const CrowdAgent& agent, const char* field, double value, const char* limits) {
+  std::ostringstream message;
+  message << "agent " << agent.id << ": " << field << " is " << value << ", not " << limits;
+  throw std::invalid_argument(message.str());
+}
+
+}  // namespace
+
+void require_valid(const CrowdAgent& agent, bool heights) {
+  constexpr double most = rounding::largest_position;
+  if (!(std::abs(agent.x) <= most)) reject(agent, "x", agent.x, "within 1e9 m");
+  if (!(std::abs(agent.y) <= most)) reject(agent, "y", agent.y, "within 1e9 m");
+  if (heights && !(std::abs(agent.z) <= most)) reject(agent, "z", agent.z, "within 1e9 m");
+  if (!(std::abs(agent.heading) <= rounding::largest_heading))
+    reject(agent, "heading", agent.heading, "within 1e9 rad");
+}
+
+void require_valid(const CrowdAgent& agent, const ShapeSet& shapes) {
+  if (agent.shape >= shapes.shape_count()) reject(agent, "shape", agent.shape, "one of the set");
+  if (agent.level >= shapes.level_count()) reject(agent, "level", agent.level, "one of the set");
+}
+
+void require_valid(const CrowdAgent& agent, const PosedShapes& shapes) {
+  if (agent.shape >= shapes.characters().size()) reject(agent, "shape", agent.shape, "one of the characters");
+  if (agent.level >= shapes.plan().depths.size()) reject(agent, "level", agent.level, "one of the plan");
+  if (agent.pose.clip == PoseTime::rest) return;
+  const std::vector<Clip>& clips = shapes.characters()[agent.shape].clips;
+  if (agent.pose.clip >= clips.size()) reject(agent, "clip", agent.pose.clip, "one of the character's");
+  if (!(agent.pose.seconds >= 0 && agent.pose.seconds <= clips[agent.pose.clip].seconds))
+    reject(agent, "time", static_cast<double>(agent.pose.seconds), "within the clip");
+}
+
+}  // namespace bch::detail

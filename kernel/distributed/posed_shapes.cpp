@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include "kernel/distributed/posed_shapes.hpp"
+
+#include <algorithm>
+
+#include "kernel/runtime/ordered_build.hpp"
+#include "kernel/runtime/task_ranges.hpp"
+#include "layout/shape_set/builder_end.hpp"
+
+namespace bch::detail {
+namespace {
+
+constexpr std::uint32_t samples = 16;  ///< poses of a character
+constexpr std::size_t grain = 256;     ///< shapes a task
+
+}  // namespace
+
+PosedShapes::PosedShapes(std::span<const Character> characters, const ShapeSetPlan& plan)
+    : characters_(characters),
+      plan_(plan),
+      shapers_([count = characters.size()] { return Shapers(count); }),
+      builder_(plan),
+      set_(&builder_.set()) {}
+
+void PosedShapes::clear() {
+  builder_.go_back({});
+  set_ = &builder_.set();
+}
+
+void PosedShapes::add(std::span<const CrowdAgent> agents) {
+  const auto make = [&](std::size_t i) -> const Shape& {
+    std::optional<PoseShaper>& shaper = shapers_.local()[agents[i].shape];
+    if (!shaper) shaper.emplace(characters_[agents[i].shape], plan_);
+    return shaper->shape(agents[i].pose);
+  };
+  add_in_order(builder_, plan_, agents.size(), make, [](std::size_t) {});
+  set_ = &builder_.set();
+}
+
+std::vector<double> PosedShapes::radii(std::span<const CrowdAgent> agents) const {
+  std::vector<double> of_agent(agents.size()), of_character(characters_.size(), 0);
+  for_ranges(agents.size(), grain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i)
+      of_agent[i] = set_->bounding_radius(static_cast<std::uint32_t>(i));
+  });
+  for (std::size_t i = 0; i < agents.size(); ++i) {
+    double& radius = of_character[agents[i].shape];
+    radius = std::max(radius, of_agent[i]);
+  }
+  return of_character;
+}
+
+std::vector<CrowdAgent> sampled_agents(std::span<const Character> characters) {
+  std::vector<CrowdAgent> agents;
+  for (std::uint32_t i = 0; i < characters.size(); ++i)
+    for (const PoseTime& pose : sample_poses(characters[i], samples))
+      agents.push_back({.shape = i, .pose = pose});
+  return agents;
+}
+
+}  // namespace bch::detail

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <oneapi/tbb/enumerable_thread_specific.h>
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include <bch/distributed_crowd.hpp>
+#include <bch/pose_shape.hpp>
+#include <bch/shape_set_builder.hpp>
+
+namespace bch::detail {
+
+/// The shapes of a rank's agents and of the copies of others', one each, made of their poses on all threads. A set is built anew in
+/// the memory of the last one: how many agents a rank has changes from step to step.
+class PosedShapes {
+ public:
+  /// Precondition: the characters outlive this, and are valid.
+  /// Errors:  throws std::invalid_argument on a bad plan.
+  PosedShapes(std::span<const Character> characters, const ShapeSetPlan& plan);
+
+  /// Takes all shapes away.
+  void clear();
+  /// Adds the shapes of agents, in their order.
+  /// Precondition: their characters and poses are there.
+  void add(std::span<const CrowdAgent> agents);
+  /// Returns, for each character, the radius about an agent that holds all of its shapes; 0 where it has none. `agents`: those that
+  /// were added first.
+  std::vector<double> radii(std::span<const CrowdAgent> agents) const;
+  const ShapeSet& set() const { return *set_; }
+  const ShapeSetPlan& plan() const { return plan_; }
+  std::span<const Character> characters() const { return characters_; }
+
+ private:
+  /// What a thread makes shapes with: a shaper of each character that it came across.
+  using Shapers = std::vector<std::optional<PoseShaper>>;
+
+  std::span<const Character> characters_;
+  ShapeSetPlan plan_;
+  tbb::enumerable_thread_specific<Shapers> shapers_;
+  ShapeSetBuilder builder_;
+  const ShapeSet* set_;  ///< the builder's
+};
+
+/// Returns agents of every character in poses from all of its clips, which say how far its poses reach.
+std::vector<CrowdAgent> sampled_agents(std::span<const Character> characters);
+
+}  // namespace bch::detail
