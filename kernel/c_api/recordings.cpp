@@ -137,7 +137,8 @@ std::unique_ptr<bch_check> run_check(bch_trajectory& trajectory, const bch_check
   if (!(given.max_distance >= 0 && given.max_distance <= 10))
     throw Failure(BCH_INVALID_ARGUMENT, "options->max_distance is " + std::to_string(given.max_distance));
   options.max_distance = given.max_distance;
-  options.cast = cast_of(given);
+  const Cast cast = cast_of(given);
+  options.cast = cast;
   const std::optional<ObstacleSet> walls = own_walls(given, trajectory.reader->info());
   options.walls = given.walls != nullptr ? &object_of(given.walls, "options->walls").set
                   : walls                ? &*walls
@@ -146,7 +147,7 @@ std::unique_ptr<bch_check> run_check(bch_trajectory& trajectory, const bch_check
   options.coarse = trajectory.reader->info().rows < coarse_from ? 1 : 3;
   auto made = std::make_unique<bch_check>();
   made->assumptions = trajectory.assumptions;
-  for (const CastMember& member : options.cast)
+  for (const CastMember& member : cast)
     for (const std::string& line : member.assumptions) made->assumptions += line + "\n";
   const TrajectoryInfo& info = trajectory.reader->info();
   on_threads(given.threads, [&] {

@@ -31,7 +31,7 @@ struct CheckOptions {
   std::uint32_t coarse =
       1;  ///< 1: neither speed nor phase of a pose is off by what moves an outline by 1 cm; 3: by 3 cm
   FrameInterval frames = {};  ///< these are checked; all before them are read, because people hold headings
-  Cast cast = {};             ///< whose bodies people have; where it is empty, pedestrians'
+  CastView cast = {};         ///< whose bodies people have; where it is empty, pedestrians'
   std::size_t people_at_once =
       100'000;  ///< about so many, of many frames; the answers are the same for any number
 };

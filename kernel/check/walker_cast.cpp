@@ -155,7 +155,7 @@ CastMember cast_member(Character character, const std::string& name) {
   return member;
 }
 
-std::uint32_t member_by_id(std::int64_t id, const Cast& cast) {
+std::uint32_t member_by_id(std::int64_t id, CastView cast) {
   Random random(0x2545f4914f6cdd1du ^ static_cast<std::uint64_t>(id));
   return random.below(static_cast<std::uint32_t>(cast.size()));
 }

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -37,11 +38,12 @@ struct CastMember {
 /// Errors:  throws std::invalid_argument, naming the character, where no clip is a walk.
 CastMember cast_member(Character character, const std::string& name);
 
-/// The characters of one's own in a recording.
+/// The characters of one's own in a recording, and a view of them, which they outlive.
 using Cast = std::vector<CastMember>;
+using CastView = std::span<const CastMember>;
 
 /// Returns which of them a person has, by the id: the same in every run.
-std::uint32_t member_by_id(std::int64_t id, const Cast& cast);
+std::uint32_t member_by_id(std::int64_t id, CastView cast);
 
 /// A clip of a character, and a phase of it.
 struct CastPose {

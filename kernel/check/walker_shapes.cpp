@@ -35,7 +35,7 @@ std::uint32_t rounded(double value, std::uint32_t step) {
   return static_cast<std::uint32_t>(std::round(value / step)) * step;
 }
 
-Character character_of(const WalkerPose& pose, const Cast& cast) {
+Character character_of(const WalkerPose& pose, CastView cast) {
   constexpr double turn[] = {0, 0.7, -0.7};  // radians; of Shoulders
   if (pose.member != WalkerPose::built_in) return scaled(cast[pose.member], pose.metres());
   return default_pedestrian(pose.is_female ? Sex::female : Sex::male, pose.metres(),
@@ -44,7 +44,7 @@ Character character_of(const WalkerPose& pose, const Cast& cast) {
 
 }  // namespace
 
-WalkerPose::WalkerPose(const Walker& walker, Shoulders held, std::uint32_t coarse, const Cast& cast)
+WalkerPose::WalkerPose(const Walker& walker, Shoulders held, std::uint32_t coarse, CastView cast)
     : is_female(walker.is_female), shoulders(held) {
   const double size =
       std::log(std::max(walker.stature, shortest_stature) / shortest_stature) / std::log(stature_step);
@@ -104,7 +104,7 @@ struct WalkerShapes::Workshop {
   }
 };
 
-WalkerShapes::WalkerShapes(const ShapeSetPlan& plan, const Cast& cast)
+WalkerShapes::WalkerShapes(const ShapeSetPlan& plan, CastView cast)
     : plan_(plan), cast_(cast), builder_(plan, expected_shapes), set_(&builder_.set()) {}
 WalkerShapes::~WalkerShapes() = default;
 

@@ -37,7 +37,7 @@ struct WalkerPose {
 
   /// `coarse`: multiplies the steps of speed and phase, and the exponent of that of stature: 1 or 3. `cast`: whose
   /// bodies people have; where it is empty, pedestrians'. Those of the cast do not turn their shoulders.
-  WalkerPose(const Walker& walker, Shoulders shoulders, std::uint32_t coarse = 1, const Cast& cast = {});
+  WalkerPose(const Walker& walker, Shoulders shoulders, std::uint32_t coarse = 1, CastView cast = {});
   std::uint64_t key() const noexcept;
   std::uint64_t body() const noexcept;  ///< the same for all that one character has
   double metres() const noexcept;       ///< of the stature
@@ -51,8 +51,7 @@ class WalkerShapes {
   /// Kept from one call of find() to the next: some 23 000 shapes of whole bodies.
   static constexpr std::size_t most_bytes = std::size_t{256} << 20;
 
-  /// `cast` has to live as long as this.
-  WalkerShapes(const ShapeSetPlan& plan, const Cast& cast);
+  WalkerShapes(const ShapeSetPlan& plan, CastView cast);
   ~WalkerShapes();
 
   /// Finds the shape of each pose, as its index in set(), and builds those that are new.
@@ -70,7 +69,7 @@ class WalkerShapes {
   std::vector<Body*> bodies_of(std::span<const WalkerPose> poses);
 
   const ShapeSetPlan plan_;
-  const Cast& cast_;
+  const CastView cast_;
   ShapeSetBuilder builder_;
   const ShapeSet* set_;  ///< the builder's
   std::uint32_t given_up_ = 0;
