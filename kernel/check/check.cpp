@@ -22,8 +22,12 @@ constexpr std::size_t run_people = 4096;  ///< of a task, about
 /// Checks blocks of frames.
 class Checker {
  public:
-  Checker(const CheckOptions& options, const std::function<void(const CheckedFrame&, const ShapeSet&)>& seen)
-      : options_(options), seen_(seen), shapes_(options_.plan, options_.cast) {}
+  Checker(const TrajectoryInfo& info, const CheckOptions& options,
+          const std::function<void(const CheckedFrame&, const ShapeSet&)>& seen)
+      : options_(options),
+        motions_(cast_motions(info.motions, options_.cast)),
+        seen_(seen),
+        shapes_(options_.plan, options_.cast) {}
 
   /// Checks all frames of a block but the last one, which the next block begins with or nobody asks for; at the end that one, too.
   void check(const FrameBlock& block, bool at_end, double fps);
@@ -35,6 +39,7 @@ class Checker {
   void tell(const FrameBlock& block, const FrameRun& run, double fps);
 
   const CheckOptions options_;
+  const std::vector<CastMotion> motions_;
   const std::function<void(const CheckedFrame&, const ShapeSet&)>& seen_;
   WalkerShapes shapes_;
   CheckSummary summary_;
@@ -59,7 +64,7 @@ std::vector<std::size_t> run_begins(const FrameBlock& block, std::size_t frames)
 std::size_t Checker::look(const FrameBlock& block, std::size_t frames) {
   const std::vector<std::size_t> begins = run_begins(block, frames);
   const std::size_t runs = begins.size() - 1;
-  while (runs_.size() < runs) runs_.push_back(std::make_unique<FrameRun>(options_));
+  while (runs_.size() < runs) runs_.push_back(std::make_unique<FrameRun>(options_, motions_));
   for_ranges(runs, 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) runs_[k]->look(block, begins[k], begins[k + 1]);
   });
@@ -161,7 +166,7 @@ CheckSummary check(TrajectoryReader& reader, const CheckOptions& options,
   const FloatingPointStateGuard floats;
   const double fps = reader.info().fps;
   WalkerReader walkers(reader, options.frames);
-  Checker checker(options, seen);
+  Checker checker(reader.info(), options, seen);
   FrameBlock now, next;
   bool at_end = now.read(walkers, options.people_at_once, {});
   while (!at_end) {

@@ -105,9 +105,10 @@ struct CheckSummary {
 };
 
 /// Puts a walking person on every row of a recording and finds who runs into whom. Reads frame after frame; memory grows with the people, and with
-/// those of some frames. `seen`, which may be empty, hears of every frame in turn, on the caller's thread.
+/// those of some frames. Characters and clips that rows name are taken from the cast. `seen`, which may be empty, hears of every frame in turn, on the caller's thread.
 /// Threads: runs in the caller's TBB arena, and reads on any of its threads, what comes next while it checks. The same answers for any
 ///          number of threads.
+/// Errors:  throws TrajectoryError, also where rows name what the cast does not have.
 CheckSummary check(TrajectoryReader& reader, const CheckOptions& options,
                    const std::function<void(const CheckedFrame&, const ShapeSet&)>& seen = {});
 

@@ -113,7 +113,7 @@ void FrameRun::look(const FrameBlock& block, std::size_t first, std::size_t last
   turn_shoulders();
   poses_.clear();
   for (std::size_t i = 0; i < size(); ++i)
-    poses_.emplace_back(block.people()[begin_ + i], shoulders_[i], options_.coarse, options_.cast);
+    poses_.emplace_back(block.people()[begin_ + i], shoulders_[i], options_.coarse, options_.cast, motions_);
 }
 
 /// Finds who is within 1.2 m of whom, what discs say of them, and how many are within 1 m.

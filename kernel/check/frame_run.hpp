@@ -19,8 +19,9 @@ namespace bch::detail {
 /// cache. Indices are of the people of these frames. Keeps its memory for the next ones.
 class FrameRun {
  public:
-  /// `options` has to live as long as this.
-  explicit FrameRun(const CheckOptions& options) : options_(options) {}
+  /// `options` and `motions`, those that rows name, have to live as long as this.
+  FrameRun(const CheckOptions& options, std::span<const CastMotion> motions)
+      : options_(options), motions_(motions) {}
 
   /// Takes frames first .. last of a block, which has to live as long as the next calls; finds who is near whom and which poses people
   /// are in.
@@ -57,6 +58,7 @@ class FrameRun {
   void count();
 
   const CheckOptions& options_;
+  const std::span<const CastMotion> motions_;
   const FrameBlock* block_ = nullptr;
   std::size_t first_ = 0, last_ = 0;  ///< frames
   std::size_t begin_ = 0, end_ = 0;   ///< people of the block

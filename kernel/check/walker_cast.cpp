@@ -80,15 +80,18 @@ Movement movement_of(Skinner& skinner, std::uint32_t clip) {
   return movement;
 }
 
-CastClip clip_of(std::uint32_t clip, double seconds, const Movement& movement) {
+CastClip clip_of(const Clip& clip, const Movement& movement) {
+  const double seconds = static_cast<double>(clip.seconds);
   const double phases = std::ceil(seconds * movement.fastest / (2 * half_step));
-  return {clip, std::sqrt(movement.x * movement.x + movement.y * movement.y),
-          static_cast<std::uint32_t>(std::clamp(phases, 1.0, double{most_phases}))};
+  return {clip.name, seconds, 0, static_cast<std::uint32_t>(std::clamp(phases, 1.0, double{most_phases}))};
+}
+
+double speed_of(const Movement& movement) {
+  return std::sqrt(movement.x * movement.x + movement.y * movement.y);
 }
 
 bool walks(const Movement& movement) {
-  const double speed = std::sqrt(movement.x * movement.x + movement.y * movement.y);
-  return speed >= slowest_walk && speed >= straight * movement.speed;
+  return speed_of(movement) >= slowest_walk && speed_of(movement) >= straight * movement.speed;
 }
 
 /// Turns what leads to the ground by the angle whose cosine and sine are c and s, and multiplies it by a factor.
@@ -109,7 +112,7 @@ std::vector<std::string> assumptions_of(const CastMember& member, std::size_t le
   speeds.precision(2);
   speeds << member.name << ": walks, by its feet, at ";
   for (std::size_t i = 0; i < member.walks.size(); ++i)
-    speeds << (i > 0 ? ", " : "") << member.walks[i].speed;
+    speeds << (i > 0 ? ", " : "") << member.clips[member.walks[i]].speed;
   speeds << " m/s, " << member.height << " m tall";
   std::vector<std::string> all{std::move(speeds).str()};
   if (member.idles.empty())
@@ -125,7 +128,7 @@ std::vector<std::string> assumptions_of(const CastMember& member, std::size_t le
 }  // namespace
 
 CastMember cast_member(Character character, const std::string& name) {
-  CastMember member{name, std::move(character), 0, {}, {}, {}};
+  CastMember member{name, std::move(character), 0, {}, {}, {}, {}};
   Skinner skinner(member.character);
   const auto clips =
       static_cast<std::uint32_t>(std::min<std::size_t>(member.character.clips.size(), most_clips));
@@ -138,17 +141,18 @@ CastMember cast_member(Character character, const std::string& name) {
   const double length = std::sqrt(x * x + y * y);
   for (std::uint32_t k = 0; k < clips; ++k) {
     const Movement& movement = movements[k];
-    const CastClip clip = clip_of(k, static_cast<double>(member.character.clips[k].seconds), movement);
-    if (walks(movement) && x * movement.x + y * movement.y >= same_way * length * clip.speed)
-      member.walks.push_back(clip);
+    CastClip& clip = member.clips.emplace_back(clip_of(member.character.clips[k], movement));
+    if (walks(movement) && x * movement.x + y * movement.y >= same_way * length * speed_of(movement))
+      clip.speed = speed_of(movement), member.walks.push_back(k);
     else if (movement.speed < fastest_idle && movement.fastest > still)
-      member.idles.push_back(clip);
+      member.idles.push_back(k);
   }
   if (member.walks.empty())
     throw std::invalid_argument(name + ": none of its clips walks straight on, as people in recordings do");
-  member.height = movements[member.walks[0].clip].height;
-  std::stable_sort(member.walks.begin(), member.walks.end(),
-                   [](const CastClip& a, const CastClip& b) { return a.speed < b.speed; });
+  member.height = movements[member.walks[0]].height;
+  std::stable_sort(member.walks.begin(), member.walks.end(), [&](std::uint32_t a, std::uint32_t b) {
+    return member.clips[a].speed < member.clips[b].speed;
+  });
   turn(member.character.to_ground, x / length, -y / length, 1);
   member.assumptions =
       assumptions_of(member, member.character.clips.size() - member.walks.size() - member.idles.size());
@@ -160,23 +164,44 @@ std::uint32_t member_by_id(std::int64_t id, CastView cast) {
   return random.below(static_cast<std::uint32_t>(cast.size()));
 }
 
-CastPose cast_pose(const CastMember& member, const Walker& walker, std::uint32_t coarse) {
-  const bool stands = walker.speed < standing;
-  const double size = walker.stature / member.height;
-  const auto& clips = stands && !member.idles.empty() ? member.idles : member.walks;
+namespace {
+
+/// The clip of a walker whose row names none.
+std::uint32_t clip_by_speed(const CastMember& member, const Walker& walker, double size) {
+  if (walker.speed < standing && !member.idles.empty())
+    return member
+        .idles[static_cast<std::size_t>(static_cast<std::uint64_t>(walker.id) % member.idles.size())];
+  const auto speed = [&](std::size_t k) { return member.clips[member.walks[k]].speed; };
   std::size_t at = 0;
-  if (&clips == &member.idles)
-    at = static_cast<std::size_t>(static_cast<std::uint64_t>(walker.id) % clips.size());
-  else
-    while (at + 1 < clips.size() && walker.speed * 2 > size * (clips[at].speed + clips[at + 1].speed)) ++at;
-  const CastClip& clip = clips[at];
-  const double seconds = std::max(1e-3, static_cast<double>(member.character.clips[clip.clip].seconds));
-  const double turns =
-      &clips == &member.idles ? walker.seconds / seconds : walker.way / (size * clip.speed * seconds);
+  while (at + 1 < member.walks.size() && walker.speed * 2 > size * (speed(at) + speed(at + 1))) ++at;
+  return member.walks[at];
+}
+
+/// How often a walker has gone through a clip: by the time that his row says, else by the way, else by the time.
+double turns_of(const CastClip& clip, const Walker& walker, double size) {
+  const double seconds = std::max(1e-3, clip.seconds);
+  if (!std::isnan(walker.clip_seconds)) return static_cast<double>(walker.clip_seconds) / seconds;
+  return clip.speed > 0 ? walker.way / (size * clip.speed * seconds) : walker.seconds / seconds;
+}
+
+}  // namespace
+
+CastPose cast_pose(CastView cast, std::span<const CastMotion> motions, const Walker& walker,
+                   std::uint32_t coarse) {
+  const CastMotion* const motion =
+      walker.motion == TrackedPerson::no_motion ? nullptr : &motions[walker.motion];
+  const std::uint32_t member =
+      motion != nullptr && motion->member ? *motion->member : member_by_id(walker.id, cast);
+  const CastMember& body = cast[member];
+  const double size = walker.stature / body.height;
+  const bool is_named = motion != nullptr && !motion->clips.empty();
+  const std::uint32_t at = is_named ? motion->clips[member] : clip_by_speed(body, walker, size);
+  const CastClip& clip = body.clips[at];
   const std::uint32_t phases = std::max(1u, clip.phases / coarse);
+  const double turns = turns_of(clip, walker, size);
   const double share = turns - std::floor(turns);
   const std::uint32_t phase = std::min(static_cast<std::uint32_t>(share * phases), phases - 1);
-  return {clip.clip, phase, static_cast<float>((phase + 0.5) / phases * seconds)};
+  return {member, at, phase, static_cast<float>((phase + 0.5) / phases * clip.seconds)};
 }
 
 Character scaled(const CastMember& member, double stature) {

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -14,10 +15,11 @@
 
 namespace bch::detail {
 
-/// A clip in which a character walks straight on, or stands.
+/// A clip of a character.
 struct CastClip {
-  std::uint32_t clip;
-  double speed;          ///< metres a second, at the character's own height
+  std::string name;
+  double seconds;        ///< from its beginning to where it begins again
+  double speed;          ///< at which the character walks in it, at its own height, metres a second
   std::uint32_t phases;  ///< so many that half a step between two moves no vertex by more than a centimetre
 };
 
@@ -25,9 +27,11 @@ struct CastClip {
 struct CastMember {
   std::string name;
   Character character;
-  double height;                ///< in its first walk, metres
-  std::vector<CastClip> walks;  ///< by ascending speed; never empty
-  std::vector<CastClip> idles;  ///< may be empty: who stands then stops in the slowest walk
+  double height;                     ///< in its first walk, metres
+  std::vector<CastClip> clips;       ///< of the character
+  std::vector<std::uint32_t> walks;  ///< those in which it walks straight on, by ascending speed; never empty
+  std::vector<std::uint32_t>
+      idles;  ///< in which it stands; may be empty: who stands then stops in the slowest walk
   std::vector<std::string> assumptions;
 };
 
@@ -45,16 +49,30 @@ using CastView = std::span<const CastMember>;
 /// Returns which of them a person has, by the id: the same in every run.
 std::uint32_t member_by_id(std::int64_t id, CastView cast);
 
+/// The body and the clip that rows of a recording name.
+struct CastMotion {
+  std::optional<std::uint32_t> member;  ///< else one by the id
+  std::vector<std::uint32_t> clips;     ///< of each member; empty: by the speed
+};
+
+/// Finds what the rows of a recording name among the characters. A character is called as its file is, with or without what follows the last
+/// dot, and a clip as the file calls it.
+/// Errors:  throws TrajectoryError, naming the file, the line and the name, on what is not there, and on a clip that a row names without a
+///          character and that one of them does not have.
+std::vector<CastMotion> cast_motions(std::span<const NamedMotion> named, CastView cast);
+
 /// A clip of a character, and a phase of it.
 struct CastPose {
-  std::uint32_t clip;  ///< of the character
+  std::uint32_t member;  ///< of the cast
+  std::uint32_t clip;    ///< of the character
   std::uint32_t phase;
   float seconds;  ///< of the phase, in the clip
 };
 
-/// Returns how a walker moves: in the walk of the nearest speed, as far in it as he has walked, or in an idle while he stands.
-/// `coarse`: divides the number of phases.
-CastPose cast_pose(const CastMember& member, const Walker& walker, std::uint32_t coarse);
+/// Returns how a walker moves: as his row says, else in the walk of the nearest speed, as far in it as he has walked, or in an idle while he
+/// stands. `motions`: what cast_motions() found. `coarse`: divides the number of phases.
+CastPose cast_pose(CastView cast, std::span<const CastMotion> motions, const Walker& walker,
+                   std::uint32_t coarse);
 
 /// Returns a character of a stature in metres.
 Character scaled(const CastMember& member, double stature);

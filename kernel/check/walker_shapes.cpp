@@ -44,15 +44,15 @@ Character character_of(const WalkerPose& pose, CastView cast) {
 
 }  // namespace
 
-WalkerPose::WalkerPose(const Walker& walker, Shoulders held, std::uint32_t coarse, CastView cast)
+WalkerPose::WalkerPose(const Walker& walker, Shoulders held, std::uint32_t coarse, CastView cast,
+                       std::span<const CastMotion> motions)
     : is_female(walker.is_female), shoulders(held) {
   const double size =
       std::log(std::max(walker.stature, shortest_stature) / shortest_stature) / std::log(stature_step);
   stature = std::min(rounded(size, coarse), stature_classes - 1);
   if (!cast.empty()) {
-    member = member_by_id(walker.id, cast);
-    const CastPose pose = cast_pose(cast[member], walker, coarse);
-    clip = pose.clip, phase = pose.phase, seconds = pose.seconds;
+    const CastPose pose = cast_pose(cast, motions, walker, coarse);
+    member = pose.member, clip = pose.clip, phase = pose.phase, seconds = pose.seconds;
     return;
   }
   clip = std::min(rounded(walker.speed / pedestrian_speed_step, coarse), pedestrian_speeds - 1);

@@ -36,8 +36,9 @@ struct WalkerPose {
   float seconds;  ///< of the clip
 
   /// `coarse`: multiplies the steps of speed and phase, and the exponent of that of stature: 1 or 3. `cast`: whose
-  /// bodies people have; where it is empty, pedestrians'. Those of the cast do not turn their shoulders.
-  WalkerPose(const Walker& walker, Shoulders shoulders, std::uint32_t coarse = 1, CastView cast = {});
+  /// bodies people have; where it is empty, pedestrians'. `motions`: those that rows name. Those of the cast do not turn their shoulders.
+  WalkerPose(const Walker& walker, Shoulders shoulders, std::uint32_t coarse = 1, CastView cast = {},
+             std::span<const CastMotion> motions = {});
   std::uint64_t key() const noexcept;
   std::uint64_t body() const noexcept;  ///< the same for all that one character has
   double metres() const noexcept;       ///< of the stature

@@ -86,18 +86,19 @@ Walker WalkerReader::walk(const TrackedPerson& person, Track& track, std::int64_
   track.phase -= std::floor(track.phase);
   track.last_frame = frame;
   const double stature = std::isnan(person.stature) ? track.stature : static_cast<double>(person.stature);
-  return {
-      person.id,
-      person.x,
-      person.y,
-      track.heading,
-      speed,
-      track.phase,
-      stature,
-      track.is_female,
-      !told && !moves,
-      track.way,
-      static_cast<double>(frame) / fps_ + static_cast<double>(static_cast<std::uint64_t>(person.id) % 97)};
+  return {person.id,
+          person.x,
+          person.y,
+          track.heading,
+          speed,
+          track.phase,
+          stature,
+          track.is_female,
+          !told && !moves,
+          track.way,
+          static_cast<double>(frame) / fps_ + static_cast<double>(static_cast<std::uint64_t>(person.id) % 97),
+          person.motion,
+          person.clip_seconds};
 }
 
 /// Who has not moved yet faces the way in which the others walk.

@@ -26,6 +26,9 @@ struct Walker {
   bool is_guessed;     ///< the heading is neither of the file nor of a person who walks
   double way = 0;      ///< metres that he has walked, from a place of his own on
   double seconds = 0;  ///< from a time of his own on
+  std::uint32_t motion = TrackedPerson::no_motion;  ///< that the file names
+  float clip_seconds =
+      std::numeric_limits<float>::quiet_NaN();  ///< of its clip; NaN where the file does not say
 };
 
 /// The people of a frame, by ascending id.

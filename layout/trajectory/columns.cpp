@@ -43,7 +43,10 @@ constexpr NamedRole roles[] = {{"id", Role::id},
                                {"height", Role::height},
                                {"stature", Role::height},
                                {"heading", Role::heading},
-                               {"angle", Role::heading}};
+                               {"angle", Role::heading},
+                               {"character", Role::character},
+                               {"clip", Role::clip},
+                               {"clip_time", Role::clip_time}};
 
 struct NamedUnit {
   std::string_view name;
@@ -132,18 +135,19 @@ class ColumnFinder {
     if (column.unit.empty()) return;
     if (role == Role::x || role == Role::y) take_length(column);
     if (role == Role::height) columns_.height_metres = find(lengths, column.unit);
-    if (role == Role::time) take_duration(column);
+    if (role == Role::time) take_duration(column, columns_.seconds);
+    if (role == Role::clip_time) take_duration(column, columns_.clip_seconds);
     if (role == Role::heading) take_angle(column);
   }
 
   Columns finish() {
     const bool has_frames = columns_.has(Role::frame);
-    for (Role& role : columns_.roles)
-      if (has_frames && role == Role::time) role = Role::none;
+    if (has_frames) settle_time();
     require(Role::id, "'id'");
     if (!has_frames) require(Role::time, "'frame', nor one called 'time'");
     require(Role::x, "'x'");
     require(Role::y, "'y'");
+    if (columns_.has(Role::clip_time)) require(Role::clip, "'clip', whose time 'clip_time' is");
     for (std::size_t i = 0; i < columns_.roles.size(); ++i)
       if (columns_.roles[i] != Role::none) columns_.needed = i + 1;
     return std::move(columns_);
@@ -180,9 +184,18 @@ class ColumnFinder {
                      "the unit " + shown(column.unit) + " of column " + shown(column.name) + " is not known");
   }
 
-  void take_duration(const ColumnName& column) {
-    columns_.seconds = find(durations, column.unit);
-    if (!columns_.seconds) places_.reject(line_, "the unit " + shown(column.unit) + " of time is not known");
+  /// Beside frames a time is that of the row's clip, or does not matter.
+  void settle_time() {
+    columns_.has_frames_and_time =
+        columns_.has(Role::time) && columns_.has(Role::clip) && !columns_.has(Role::clip_time);
+    if (columns_.has_frames_and_time) columns_.clip_seconds = columns_.seconds;
+    for (Role& role : columns_.roles)
+      if (role == Role::time) role = columns_.has_frames_and_time ? Role::clip_time : Role::none;
+  }
+
+  void take_duration(const ColumnName& column, std::optional<double>& seconds) {
+    seconds = find(durations, column.unit);
+    if (!seconds) places_.reject(line_, "the unit " + shown(column.unit) + " of time is not known");
   }
 };
 

@@ -17,7 +17,7 @@
 
 namespace bch::detail::trajectory {
 
-enum class Role : std::uint8_t { none, id, frame, time, x, y, height, heading };
+enum class Role : std::uint8_t { none, id, frame, time, x, y, height, heading, character, clip, clip_time };
 
 /// The name of a column, in small letters, and its unit, as in "x/cm", "x [cm]" or "x(cm)".
 struct ColumnName {
@@ -38,15 +38,17 @@ struct Columns {
   std::vector<std::string> names;  ///< likewise, for messages
   std::optional<double> metres;    ///< a unit of x and y
   std::optional<double> height_metres;
-  std::optional<double> seconds;  ///< a unit of time
-  std::optional<double> radians;  ///< a unit of the heading
-  bool has_angle = false;         ///< the heading is called angle, which is in degrees where no unit is said
-  std::size_t needed = 0;         ///< columns up to the last that matters
+  std::optional<double> seconds;       ///< a unit of time
+  std::optional<double> clip_seconds;  ///< a unit of the time in a clip
+  bool has_frames_and_time = false;    ///< so that the time is the clip's
+  std::optional<double> radians;       ///< a unit of the heading
+  bool has_angle = false;  ///< the heading is called angle, which is in degrees where no unit is said
+  std::size_t needed = 0;  ///< columns up to the last that matters
 
   bool has(Role role) const;
 };
 
-/// Finds out what named columns are. Where there are frames, times do not matter.
+/// Finds out what named columns are. Where there are frames, a time is that of the row's clip, if there is one, or does not matter.
 /// Errors:  throws TrajectoryError, naming the line, on columns that lack, are there twice, or are of an unknown unit, unless the
 ///          unit is given.
 Columns columns_of(const Places& places, std::uint64_t line, std::span<const ColumnName> names,

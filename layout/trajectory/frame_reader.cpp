@@ -38,6 +38,7 @@ FrameReader::FrameReader(std::unique_ptr<RowSource> source, const TrajectoryOpti
   info_.format = std::move(recording.format);
   info_.geometry = std::move(recording.geometry);
   info_.assumptions = std::move(recording.assumptions);
+  info_.motions = std::move(recording.motions);
   info_.rows = found.rows;
   info_.people = found.ids.count();
   settle_rate(recording, found, options);
@@ -114,7 +115,9 @@ bool FrameReader::fill() {
   const std::size_t count = rows().read(batch_);
   left_ = std::span<const Row>(batch_).first(count);
   for (const Row& row : left_) {
-    if (rows_read_ > 0 && row.key < last_key_) source_->places().reject("changed while it was read");
+    const bool is_known = row.motion == TrackedPerson::no_motion || row.motion < info_.motions.size();
+    if (!is_known || (rows_read_ > 0 && row.key < last_key_))
+      source_->places().reject("changed while it was read");
     last_key_ = row.key;
     ++rows_read_;
   }
@@ -162,7 +165,8 @@ bool FrameReader::next(std::int64_t& frame, std::vector<TrackedPerson>& people) 
   gather(frame);
   check_frame(frame);
   people.reserve(frame_rows_.size());
-  for (const Row& row : frame_rows_) people.push_back({row.id, row.x, row.y, row.heading, row.stature});
+  for (const Row& row : frame_rows_)
+    people.push_back({row.id, row.x, row.y, row.heading, row.stature, row.motion, row.clip_seconds});
   return true;
 }
 

@@ -30,13 +30,17 @@ std::string Places::row(std::uint64_t number) const {
   return (has_lines ? "line " : "row ") + std::to_string(number);
 }
 
+std::string Places::at(std::uint64_t number) const {
+  std::string text = one_line(file.string());
+  return text.append(has_lines ? ":" : ": ").append(has_lines ? std::to_string(number) : row(number));
+}
+
 void Places::reject(const std::string& reason) const {
   throw TrajectoryError(one_line(file.string() + ": " + reason));
 }
 
 void Places::reject(std::uint64_t number, const std::string& reason) const {
-  if (!has_lines) reject(row(number) + ": " + reason);
-  throw TrajectoryError(one_line(file.string() + ":" + std::to_string(number) + ": " + reason));
+  throw TrajectoryError(one_line(at(number) + ": " + reason));
 }
 
 std::string coordinate_fault(double metres) {

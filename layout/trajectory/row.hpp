@@ -13,6 +13,8 @@
 #include <string_view>
 #include <vector>
 
+#include "layout/trajectory/trajectory.hpp"
+
 // Private to the readers of recordings: rows, in the order of a file.
 
 namespace bch::detail::trajectory {
@@ -29,8 +31,9 @@ struct Row {
   std::int64_t key = 0;  ///< a frame's number, or microseconds
   std::int64_t id = 0;
   double x = 0, y = 0;  ///< metres
-  float heading = unknown, stature = unknown;
-  std::uint64_t number = 0;  ///< of its line or row in the file, from 1
+  float heading = unknown, stature = unknown, clip_seconds = unknown;
+  std::uint32_t motion = TrackedPerson::no_motion;  ///< index into Recording::motions
+  std::uint64_t number = 0;                         ///< of its line or row in the file, from 1
 };
 
 /// Text from a file for a message: in quotes, without control characters, not long.
@@ -43,6 +46,8 @@ struct Places {
 
   /// "line 12" or "row 12".
   std::string row(std::uint64_t number) const;
+  /// The file with that, as messages begin.
+  std::string at(std::uint64_t number) const;
   [[noreturn]] void reject(const std::string& reason) const;
   [[noreturn]] void reject(std::uint64_t number, const std::string& reason) const;
 };
@@ -61,6 +66,7 @@ struct Recording {
   std::vector<std::string> assumptions;
   Clock clock = Clock::frames;
   std::optional<double> rate;  ///< frames or steps a second
+  std::vector<NamedMotion> motions;
 };
 
 /// Rows in an order of their own.

@@ -21,7 +21,7 @@
 namespace bch::detail::trajectory {
 namespace {
 
-static_assert(std::is_trivially_copyable_v<Row> && sizeof(Row) == 48);
+static_assert(std::is_trivially_copyable_v<Row> && sizeof(Row) == 56);
 
 bool before(const Row& a, const Row& b) {
   return std::tie(a.key, a.id, a.number) < std::tie(b.key, b.id, b.number);

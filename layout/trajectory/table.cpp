@@ -8,11 +8,14 @@
 
 #include "layout/base/rounding.hpp"
 #include "layout/trajectory/fields.hpp"
+#include "layout/trajectory/motion_table.hpp"
 #include "layout/trajectory/numbers.hpp"
 #include "layout/trajectory/table_layout.hpp"
 
 namespace bch::detail::trajectory {
 namespace {
+
+constexpr double largest_clip_time = 1e6;  // seconds
 
 class Table final : public RowSource {
  public:
@@ -26,6 +29,7 @@ class Table final : public RowSource {
   Recording recording() const override {
     Recording all = layout_.recording;
     heights_.describe(all.assumptions);
+    all.motions = motions_.all();
     if (unended_ > 0)
       all.assumptions.push_back(
           "The last row, " + places_.row(unended_) +
@@ -53,7 +57,9 @@ class Table final : public RowSource {
   LineReader lines_;
   TableLayout layout_;
   Heights heights_;
-  std::uint64_t unended_ = 0;  ///< the number of the last row where no line end follows it
+  MotionTable motions_;
+  std::string_view character_, clip_;  ///< of the row that is read
+  std::uint64_t unended_ = 0;          ///< the number of the last row where no line end follows it
 
   [[noreturn]] void reject(const std::string& reason) const { places_.reject(lines_.number(), reason); }
   [[noreturn]] void reject(std::size_t column, std::string_view value, const std::string& reason) const {
@@ -62,6 +68,7 @@ class Table final : public RowSource {
 
   void parse(std::string_view line, Row& row) {
     row.number = lines_.number();
+    character_ = clip_ = {};
     Fields fields(line, layout_.separator);
     const std::size_t columns = layout_.columns.roles.size();
     const std::size_t wanted = layout_.has_all_columns ? columns : layout_.columns.needed;
@@ -73,6 +80,7 @@ class Table final : public RowSource {
     if (column < wanted)
       reject("has " + std::to_string(column) + " values, not " + std::to_string(wanted) + ": " + shown(line));
     if (has_more) reject("has more values than the header has columns, the next is " + shown(more));
+    row.motion = motions_.find(character_, clip_, places_, row.number);
   }
 
   void take(std::size_t column, std::string_view field, Row& row) {
@@ -102,6 +110,15 @@ class Table final : public RowSource {
         break;
       case Role::heading:
         row.heading = heading(column, field);
+        break;
+      case Role::character:
+        character_ = field;
+        break;
+      case Role::clip:
+        clip_ = field;
+        break;
+      case Role::clip_time:
+        row.clip_seconds = clip_seconds(column, field);
         break;
     }
   }
@@ -136,6 +153,12 @@ class Table final : public RowSource {
     const double value = field.empty() ? std::numeric_limits<double>::quiet_NaN() : number(column, field);
     if (std::isinf(value)) reject(column, field, "is not finite");
     return value;
+  }
+
+  float clip_seconds(std::size_t column, std::string_view field) const {
+    const double seconds = finite_or_nan(column, field) * layout_.clip_seconds;
+    if (std::abs(seconds) > largest_clip_time) reject(column, field, "is not within +-1e6 s");
+    return static_cast<float>(seconds);
   }
 
   float heading(std::size_t column, std::string_view field) const {

@@ -187,6 +187,11 @@ class LayoutFinder {
     layout_.radians = columns.radians.value_or(columns.has_angle ? std::numbers::pi / 180 : 1);
     if (columns.has_angle && !columns.radians)
       assumptions.emplace_back("Angles are headings in degrees; the file does not say their unit.");
+    layout_.clip_seconds = columns.clip_seconds.value_or(1);
+    if (columns.has_frames_and_time)
+      assumptions.emplace_back("Times are those of the clips that rows name, because there are frames.");
+    if (columns.has(Role::clip_time) && !columns.clip_seconds)
+      assumptions.emplace_back("Times of clips are in seconds; the file does not say their unit.");
     if (!columns.has(Role::time)) return;
     layout_.recording.clock = Clock::times;
     if (!columns.seconds) assumptions.emplace_back("Times are in seconds; the file does not say their unit.");

@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <stdexcept>
@@ -22,12 +23,22 @@ class TrajectoryError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// The body that a row of a file names for its person, and the clip that it plays; one of the two may be empty.
+struct NamedMotion {
+  std::string character, clip;
+  std::string place;  ///< where it stands first, for messages: the file and the line
+};
+
 /// A person in a frame of a recording.
 struct TrackedPerson {
+  static constexpr std::uint32_t no_motion = 0xffff'ffff;
+
   std::int64_t id;
   double x, y;    ///< metres, within +-1e8
   float heading;  ///< radians, counter-clockwise from +x; NaN where the file does not say
   float stature;  ///< the person's height in metres, from 1 to 2.5; NaN where the file does not say
+  std::uint32_t motion = no_motion;                              ///< index into TrajectoryInfo::motions
+  float clip_seconds = std::numeric_limits<float>::quiet_NaN();  ///< of the motion's clip, likewise
 };
 
 /// What the caller of open_trajectory() knows better than the file.
@@ -47,6 +58,7 @@ struct TrajectoryInfo {
   std::string geometry;  ///< the walkable area as WKT, or empty
   std::vector<std::string>
       assumptions;  ///< a sentence each: what the file does not say, and what is taken for it
+  std::vector<NamedMotion> motions;  ///< all that rows name, in the order of the file; at most 4096
   std::uint64_t rows = 0;
   std::int64_t first_frame = 0, last_frame = 0;
   std::uint64_t people = 0;  ///< different ids; 0 where they are more than 2^20, which are not counted
@@ -72,7 +84,7 @@ class TrajectoryReader {
 /// HDF5 of the Pedestrian Dynamics Data Archive, Pathfinder's CSV, CSV with a header, TrajNet++'s ndjson, ETH/UCY columns.
 /// The file is read once to its end, to learn what info() says, and again for the frames. It is not trusted.
 /// Memory:  grows with the people of a frame and with options.sort_memory, not with the rows. Files whose frames are out of
-///          order are sorted through a file without a name in the folder for temporary files, 48 bytes a row.
+///          order are sorted through a file without a name in the folder for temporary files, 56 bytes a row.
 /// Errors:  throws TrajectoryError; also where fps or unit are needed and neither file nor options say them.
 std::unique_ptr<TrajectoryReader> open_trajectory(const std::filesystem::path& file,
                                                   const TrajectoryOptions& options = {});

@@ -114,6 +114,23 @@ TEST(Cli, CheckTakesCharactersOfOnesOwn) {
   EXPECT_NE(run.err.find("stick.obj: none of its clips walks straight on"), std::string::npos) << run.err;
 }
 
+TEST(Cli, CheckPlaysWhatRowsName) {
+  const TemporaryFolder folder;
+  std::string rows = "frame,id,x,y,character,clip,time\n";
+  for (int k = 0; k < 25; ++k)
+    rows += fmt::format("{0},1,0,{1:.2f},default:male,walk,{2:.2f}\n{0},2,1,{1:.2f},default:female,,\n", k,
+                        0.04 * k, 0.01 * k);
+  const std::string file = folder.write("named.csv", rows);
+  const std::vector<std::string> check{"check",       file,           "--fps",       "25",
+                                       "--character", "default:male", "--character", "default:female"};
+  const Ending run = bch(check);
+  EXPECT_EQ(run.code, 0) << run.err;
+  EXPECT_NE(run.out.find("Times are those of the clips that rows name"), std::string::npos) << run.out;
+  expect_failure(bch({"check", file, "--fps", "25"}), 3, {"named.csv:2", "'default:male'", "--character"});
+  expect_failure(bch({"check", file, "--fps", "25", "--character", "default:male"}), 3,
+                 {"named.csv:3", "'default:female'"});
+}
+
 TEST(Cli, CheckFailsWhereItsUserWantsItTo) {
   const TemporaryFolder folder;
   const std::string file = folder.write("two.txt", two_who_meet());

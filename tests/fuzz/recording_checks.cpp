@@ -13,7 +13,7 @@
 namespace bch::fuzz {
 namespace {
 
-void check_people(const std::vector<detail::TrackedPerson>& people) {
+void check_people(const std::vector<detail::TrackedPerson>& people, std::size_t motions) {
   require(!people.empty(), "frames have people");
   for (std::size_t i = 0; i < people.size(); ++i) {
     const detail::TrackedPerson& person = people[i];
@@ -22,6 +22,8 @@ void check_people(const std::vector<detail::TrackedPerson>& people) {
     require(std::isnan(person.heading) || std::abs(person.heading) <= 1e9f, "headings are in range");
     require(std::isnan(person.stature) || (person.stature >= 1 && person.stature <= 2.5f),
             "people are of a height");
+    require(person.motion == detail::TrackedPerson::no_motion || person.motion < motions,
+            "motions are among those that were told");
   }
 }
 
@@ -46,7 +48,7 @@ void check_recording(const std::filesystem::path& file, const detail::Trajectory
       require(frame > last, "frames ascend");
       require(frame >= info.first_frame && frame <= info.last_frame,
               "frames are within those that were told");
-      check_people(people);
+      check_people(people, info.motions.size());
       rows += people.size();
     }
     require(rows == info.rows && last == info.last_frame, "all rows are read");

@@ -18,7 +18,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   if ((choice & 1) != 0) options.fps = 25;
   if ((choice & 2) != 0) options.unit = 0.01;
   if ((choice & 4) != 0)
-    options.columns = (choice & 8) != 0 ? "frame,id,x,y" : "id,time [s],x/m,y/m,heading,z";
+    options.columns =
+        (choice & 8) != 0 ? "frame,id,x,y" : "id,time [s],x/m,y/m,heading,z,character,clip,clip_time/ms";
   options.sort_memory = 0;
   const std::string text(bytes.rest().begin(), bytes.rest().end());
   if (text.starts_with("SQLite format 3") || text.starts_with("\x89HDF")) return 0;

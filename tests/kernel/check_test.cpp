@@ -315,21 +315,21 @@ TEST(Cast, WalksAsItsClipsSay) {
   const CastMember member = cast_member(person, "somebody");
   EXPECT_NEAR(member.height, 1.8, 0.05);
   ASSERT_EQ(member.walks.size(), 2u);
-  EXPECT_NEAR(member.walks[0].speed, speed / 2, 0.1);
-  EXPECT_NEAR(member.walks[1].speed, speed, 0.1);
+  EXPECT_NEAR(member.clips[member.walks[0]].speed, speed / 2, 0.1);
+  EXPECT_NEAR(member.clips[member.walks[1]].speed, speed, 0.1);
   ASSERT_EQ(member.idles.size(), 1u);
   Walker walker{1, 0, 0, 0, speed, 0, member.height, false, false};
-  EXPECT_EQ(cast_pose(member, walker, 1).clip, 2u);
+  EXPECT_EQ(cast_pose({&member, 1}, {}, walker, 1).clip, 2u);
   const double seconds = static_cast<double>(person.clips[2].seconds);
-  walker.way = 100.5 * seconds * member.walks[1].speed;
-  EXPECT_NEAR(static_cast<double>(cast_pose(member, walker, 1).seconds), seconds / 2, 0.03);
+  walker.way = 100.5 * seconds * member.clips[member.walks[1]].speed;
+  EXPECT_NEAR(static_cast<double>(cast_pose({&member, 1}, {}, walker, 1).seconds), seconds / 2, 0.03);
   walker.speed = 0.4;
-  EXPECT_EQ(cast_pose(member, walker, 1).clip, 1u);
+  EXPECT_EQ(cast_pose({&member, 1}, {}, walker, 1).clip, 1u);
   walker.speed = 0.1;
-  EXPECT_EQ(cast_pose(member, walker, 1).clip, 0u);
+  EXPECT_EQ(cast_pose({&member, 1}, {}, walker, 1).clip, 0u);
   const CastMember half = cast_member(scaled(member, member.height / 2), "half of him");
   EXPECT_NEAR(half.height, member.height / 2, 1e-3);
-  EXPECT_NEAR(half.walks[1].speed, member.walks[1].speed / 2, 1e-3);
+  EXPECT_NEAR(half.clips[half.walks[1]].speed, member.clips[member.walks[1]].speed / 2, 1e-3);
   // It walks along +x, as those people do that need no turn.
   const CastMember straight = cast_member(default_pedestrian(Sex::male, 1.8), "him");
   for (std::size_t row = 0; row < 3; ++row)
@@ -337,6 +337,41 @@ TEST(Cast, WalksAsItsClipsSay) {
       EXPECT_NEAR(member.character.to_ground.rows[row][k], straight.character.to_ground.rows[row][k], 0.02);
   person.clips = {};
   EXPECT_THROW(cast_member(person, "nobody"), std::invalid_argument);
+}
+
+std::string complaint(const NamedMotion& named, const Cast& cast) {
+  try {
+    cast_motions({&named, 1}, cast);
+  } catch (const TrajectoryError& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+/// Rows choose the body, the clip and the time in it; what they leave open is chosen as without them.
+TEST(Cast, PlaysWhatRowsName) {
+  Cast cast;
+  for (const char* const name : {"a.glb", "b.glb"}) cast.push_back(cast_member(default_male(), name));
+  const auto seconds = [&](std::uint32_t clip) { return cast[0].clips[clip].seconds; };
+  const std::vector<NamedMotion> named{{"b", cast[0].clips[1].name, "f:1"}, {"a.glb", "", "f:2"}};
+  const auto motions = cast_motions(named, cast);
+  Walker walker{1, 0, 0, 0, 1.2, 0, 1.75, false, false};
+  walker.motion = 0, walker.clip_seconds = static_cast<float>(3.25 * seconds(1));
+  CastPose pose = cast_pose(cast, motions, walker, 1);
+  EXPECT_EQ(pose.member, 1u);
+  EXPECT_EQ(pose.clip, 1u);
+  EXPECT_NEAR(static_cast<double>(pose.seconds), seconds(1) / 4, seconds(1) / cast[0].clips[1].phases);
+  walker.motion = 1, walker.clip_seconds = unknown;
+  pose = cast_pose(cast, motions, walker, 1);
+  EXPECT_EQ(pose.member, 0u);
+  EXPECT_TRUE(std::ranges::count(cast[0].walks, pose.clip));
+  EXPECT_EQ(complaint({"c.glb", "", "f:7"}, cast), "f:7: character 'c.glb' is none of 'a.glb', 'b.glb'");
+  EXPECT_TRUE(
+      complaint({"", "fly", "f:8"}, cast).starts_with("f:8: clip 'fly' is not in 'a.glb', which has "));
+  EXPECT_EQ(complaint({"", "fly", "f:8"}, {}),
+            "f:8: clip 'fly' needs a file that has it: --character has to name it");
+  cast[1].name = "a.fbx";
+  EXPECT_EQ(complaint({"a", "", "f:9"}, cast), "f:9: character 'a' may be several of 'a.glb', 'a.fbx'");
 }
 
 bool inside(const Outline& outline, Vec2 p) {

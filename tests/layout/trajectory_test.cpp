@@ -4,10 +4,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "layout/base/shortest.hpp"
 #include "tests/support/recordings.hpp"
 #include "tests/support/scenes.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -53,6 +55,48 @@ TEST_F(Trajectories, OfPeTrackSayTheirRateAndUnit) {
   EXPECT_EQ(recording.info.format, "PeTrack text");
   EXPECT_EQ(recording.info.fps, 25);
   EXPECT_EQ(assumptions_of(recording), std::string(height_assumed) + not_heights);
+}
+
+/// "character/clip" and the place of each that rows name, and by row which one it is and the time in it.
+std::string motions_of(const ReadRecording& recording) {
+  std::string all;
+  for (const auto& motion : recording.info.motions)
+    all += motion.character + "/" + motion.clip + " at" + motion.place.substr(motion.place.rfind(':')) + "\n";
+  for (const auto& frame : recording.frames)
+    for (const auto& person : frame.people)
+      all += (person.motion == detail::TrackedPerson::no_motion ? "-" : std::to_string(person.motion)) + " " +
+             (std::isnan(person.clip_seconds) ? "-" : detail::shortest(person.clip_seconds)) + "\n";
+  return all;
+}
+
+TEST_F(Trajectories, OfCsvMayNameCharactersAndClips) {
+  const std::string rows =
+      "1,1,0,0,man.glb,\"walk, slowly\",0.5\n0,1,0,0,,run,\n0,2,5,5,,,\n1,2,5,5,man.glb,,1\n";
+  const std::string expected = "man.glb/walk, slowly at:2\n/run at:3\nman.glb/ at:5\n1 -\n- -\n0 0.5\n2 1\n";
+  const ReadRecording recording =
+      read("frame,id,x/m,y/m,character,clip,time\n" + rows, {.fps = 10, .sort_memory = 0});
+  EXPECT_EQ(motions_of(recording), expected);
+  EXPECT_EQ(assumptions_of(recording),
+            "Times are those of the clips that rows name, because there are frames.\n"
+            "Times of clips are in seconds; the file does not say their unit.\n");
+  EXPECT_EQ(motions_of(read("time/s,id,x/m,y/m,character,clip,clip_time/s\n" + rows)), expected);
+  EXPECT_EQ(motions_of(read("frame,id,x,y,time\n0,1,0,0,x\n", {.fps = 10})), "- -\n");  // of no clip
+}
+
+TEST_F(Trajectories, NameNoMoreThanCanBe) {
+  const std::string header = "frame,id,x/m,y/m,clip,clip_time\n";
+  const TrajectoryOptions at_ten{.fps = 10};
+  EXPECT_EQ(complaint(header + "0,1,0,0,walk,soon\n", at_ten), "f:2: clip_time 'soon' is not a number");
+  EXPECT_EQ(complaint(header + "0,1,0,0,walk,1e7\n", at_ten), "f:2: clip_time '1e7' is not within +-1e6 s");
+  EXPECT_EQ(complaint(header + "0,1,0,0," + std::string(256, 'a') + ",1\n", at_ten),
+            "f:2: the name '" + std::string(40, 'a') + "...' has more than 255 bytes");
+  EXPECT_EQ(complaint("frame,id,x,y,clip_time\n0,1,0,0,1\n", at_ten),
+            "f:1: has no column called 'clip', whose time 'clip_time' is, only 'frame, id, x, y, clip_time'");
+  std::string many = header;
+  for (int k = 0; k <= 4096; ++k) many += std::to_string(k) + ",1,0,0,clip" + std::to_string(k) + ",\n";
+  EXPECT_EQ(
+      complaint(many, at_ten),
+      "f:4098: character '' and clip 'clip4096' are beyond the 4096 different pairs that a file may name");
 }
 
 TEST_F(Trajectories, ThatEndWithoutALineEndMayHaveBeenCut) {
