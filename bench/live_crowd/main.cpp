@@ -59,12 +59,13 @@ void print_row(std::span<const Character> characters, std::uint32_t agents, std:
 
 int run(int argc, char** argv) {
   CLI::App program(
-      "A crowd in which every character is posed, outlined, divided and tested anew in every frame.",
+      "Measures a crowd whose characters are all posed anew in every frame: poses, outlines, trees, broad "
+      "phase, queries.",
       "bch_live_crowd");
   Options options;
   program.add_option("--agents", options.agents, "Agents (repeatable) [300, 1000]")
       ->check(CLI::Range(1u, 1'000'000u));
-  program.add_option("--frames", options.frames, "Frames of which the medians are taken [200]")
+  program.add_option("--frames", options.frames, "Frames; each time is their median [200]")
       ->check(CLI::Range(1u, 1'000'000u));
   program.add_option("--threads", options.threads, "Threads [all]")->check(CLI::Range(1u, 1024u));
   cli::add_repeatable_option(program, "--character", options.characters,
@@ -77,7 +78,8 @@ int run(int argc, char** argv) {
     characters.push_back(std::move(loaded.character));
   const cli::Threads threads(options.threads);
   fmt::print(
-      "# {}, medians of {}\n\n| agents | depth | frames per second | ms a frame | shapes | pairs | answers | "
+      "# {}, medians of {}\n\n| agents | depth | frames per second | ms a frame | of it shapes | broad phase "
+      "| queries | "
       "collisions |\n"
       "|---|---|---|---|---|---|---|---|\n",
       cli::counted(threads.count, "thread"), cli::counted(options.frames, "frame"));

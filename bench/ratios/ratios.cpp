@@ -19,14 +19,16 @@ namespace bch::bench {
 namespace {
 
 constexpr const char* description =
-    "How many times as fast as the plain traversal the kernel is, and what is asked of it. All of a table "
-    "is\n"
-    "measured in turn, so that the ratios hold on a machine that is not quiet; every answer is checked\n"
-    "before it is timed.";
+    "Measures the kernel against the scalar reference, and prints tables of times and ratios. The rows of a "
+    "table\n"
+    "take turns, so that ratios hold on a busy machine, too. Every answer is checked before it is timed.";
 constexpr const char* footer =
-    "Google Benchmark's own options work, too: --benchmark_filter=<regex>, --benchmark_list_tests=true,\n"
-    "--benchmark_format=json ... With any of them its own report takes the place of the tables. It tells\n"
-    "of more benchmarks than they do; those of a table are --table NAME's.";
+    "Any option of Google Benchmark, such as --benchmark_filter=<regex> or --benchmark_format=json, replaces "
+    "the\n"
+    "tables by that library's own report, which has more benchmarks (--benchmark_list_tests=true names "
+    "them).\n"
+    "PASS and \"needs\" compare a number with the project's goal for it.\n"
+    "Example: bch_ratios --table kernel --table leaves";
 constexpr const char* tables[] = {"kernel",       "leaves",    "peers",  "calls",  "crowd", "distances",
                                   "responses",    "obstacles", "bodies", "shapes", "plans", "slices",
                                   "construction", "growth",    "load",   "checks", "paper"};
@@ -100,18 +102,21 @@ void add_options(CLI::App& program, Options& options) {
   program.add_option("--poses", options.scene.poses, "Poses of a character [100]")
       ->type_name("N")
       ->check(CLI::Range(1u, 100'000u));
-  program.add_option("--pairs", options.scene.sizes.pairs, "Pairs of a workload, the crowd's aside [20000]")
+  program.add_option("--pairs", options.scene.sizes.pairs, "Pairs of each workload but the crowd [20000]")
       ->type_name("N")
       ->check(CLI::Range(1u, 10'000'000u));
   program.add_option("--agents", options.scene.sizes.agents, "Agents of the crowd [10000]")
       ->type_name("N")
       ->check(CLI::Range(2u, 1'000'000u));
-  program.add_option("--runs", options.runs, "Runs of which the medians are taken [9]")
+  program.add_option("--runs", options.runs, "Runs; each time is their median [9]")
       ->type_name("N")
       ->check(CLI::Range(1u, 1000u));
-  program.add_option("--shapes", options.most_shapes, "Leave out rows of more shapes [50000]")
+  program
+      .add_option("--shapes", options.most_shapes,
+                  "Of --table shapes: leave out rows with more shapes than N [50000]")
       ->type_name("N");
-  cli::add_repeatable_option(program, "--table", options.tables, "One table alone (repeatable) [all]", "NAME")
+  cli::add_repeatable_option(program, "--table", options.tables, "Print this table alone (repeatable) [all]",
+                             "NAME")
       .check(CLI::IsMember(std::vector<std::string>(std::begin(tables), std::end(tables))));
 }
 
