@@ -186,7 +186,7 @@ std::map<std::string, bool> public_names(const std::string& header) {
 }
 
 /// tests/whole/public_surface.txt is what users rely on: a line a header, with all that it declares. Who changes one changes the
-/// other, and the README's section "Changes".
+/// other, and CHANGELOG.md.
 TEST(PublicSurface, IsWhatIsWrittenDown) {
   std::string surface;
   const auto headers = public_headers();

@@ -17,8 +17,8 @@ struct Pair {
 };
 
 /// A crowd as a simulator holds it: one entry an agent in each span; nothing is copied.
-/// A heading turns a shape about its agent's position; 0 leaves it as its character was: the built-in ones then face +x,
-/// those of files stand as import.hpp says. How a clip turns its character's root stays in the shape.
+/// A heading turns a shape about its agent's position. At 0 the built-in characters face +x, and those of files stand as
+/// import.hpp says. A turn of the root within a clip is part of the shape, not of the heading.
 /// Units:   metres and radians, counter-clockwise, on the ground plane; |x|, |y|, |z| <= 1e9 m and |heading| <=
 ///          1e9 rad.
 struct Agents {
@@ -27,14 +27,14 @@ struct Agents {
   std::span<const double> y;
   std::span<const double> heading;
   std::span<const std::uint8_t> level = {};  ///< index into the set's depths; empty: the last level for all
-  /// Heights of the grounds that agents stand on: floors, steps, a stage. Empty: one ground for all. Agents then meet only where their
-  /// heights do, and the set has to know those (ShapeSetPlan::heights, slices). In sets with slices, agents at one height
-  /// meet slab by slab; at two heights every two slabs count whose heights meet, and slabs of half a metre are then
-  /// as coarse as a cut at half as many planes.
+  /// Heights of the grounds that agents stand on: floors, steps, a stage. Empty: one ground for all. Agents with a z meet only
+  /// where their heights do, which the set has to know (ShapeSetPlan::heights, slices). In sets with slices, agents at one height
+  /// are compared slab by slab, agents at two heights in all pairs of slabs whose heights meet: slabs of half a metre are then
+  /// as coarse as those of half as many planes.
   std::span<const double> z = {};
 
   std::size_t size() const noexcept { return shape.size(); }
-  /// Returns the index of an agent's shape and level in arrays with level_count entries per shape.
+  /// Returns the index of an agent's root, that of its shape and level, in arrays with level_count entries per shape.
   std::size_t root(std::size_t agent, std::size_t level_count) const noexcept {
     return shape[agent] * level_count + (level.empty() ? level_count - 1 : level[agent]);
   }

@@ -16,7 +16,7 @@
 
 namespace bch {
 
-/// Which character, clip and time a baked shape was made from: names by their index in ShapeOrigins.
+/// The character, clip and time that a baked shape was made from; names by their index in ShapeOrigins.
 struct ShapeOrigin {
   static constexpr std::uint32_t rest_pose = 0xffffffff;
 
@@ -34,8 +34,8 @@ struct ShapeOrigins {
   friend bool operator==(const ShapeOrigins&, const ShapeOrigins&) = default;
 };
 
-/// A baked file that cannot be read or believed. The message is one line that names the file and, where it applies,
-/// the section, the place in it and the value.
+/// The error of a baked file that cannot be read, written or trusted. The message is one line that names the file and, where it
+/// applies, the section, the place in it and the value.
 class BakedFileError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -47,14 +47,14 @@ struct BakedShapes {
   ShapeOrigins origins;
 };
 
-/// How load_baked() gets at the bytes of a file.
+/// How load_baked() accesses the bytes of a file.
 enum class FileAccess {
-  read,  ///< into memory of our own: right whatever happens to the file meanwhile
-  map,   ///< no copy; for files that no process writes to or shortens while the set lives
+  read,  ///< copies them into memory: safe whatever happens to the file afterwards
+  map,   ///< maps them without a copy: for files that no process writes to or shortens while the set lives
 };
 
-/// Loads a set from a baked file, which it then stands on: nothing is parsed or copied. Checksums and content are checked first,
-/// so that a file made in bad faith, too, can give wrong answers at worst.
+/// Loads a set from a baked file. The set views the file's bytes; nothing is parsed. Checksums and content are checked first,
+/// so even a malicious file can give wrong answers at worst.
 /// Mapping: while the set lives, no process may write to a mapped file or make it shorter: bytes that were checked would change,
 ///          and reading those that are gone ends the process by SIGBUS. To replace the file (write another, rename it over
 ///          this) is fine: the mapping keeps the old one.
@@ -62,13 +62,13 @@ enum class FileAccess {
 /// Errors:  throws BakedFileError, std::bad_alloc.
 BakedShapes load_baked(const std::filesystem::path& file, FileAccess access = FileAccess::read);
 
-/// Loads a set from bytes in memory. They begin on a cache line and stay there, unchanged, while `memory`
-/// lives. `name` is what errors call them.
+/// Loads a set from bytes in memory, which begin on a cache line and stay unchanged while `memory` lives. Errors call
+/// them `name`.
 BakedShapes load_baked(std::span<const std::byte> bytes, const std::string& name,
                        std::shared_ptr<const void> memory);
 
-/// Writes a set as a baked file, under a name beside it until all is written; then the file gets its name, in place of another
-/// one. The same set gives the same bytes.
+/// Writes a set as a baked file: under a temporary name beside it, and renames that over `file` once it is whole. The same set
+/// gives the same bytes.
 /// Errors:  throws BakedFileError where the file cannot be written, and leaves none; std::invalid_argument where load_baked()
 ///          would refuse it: a set() of a DynamicShapeSet of which a shape was replaced, origins of another number of
 ///          shapes or with names that are not there.

@@ -16,7 +16,7 @@ namespace bch {
 struct Joint {
   std::string name;
   std::int32_t parent = -1;  ///< -1: a root
-  Affine3 rest;              ///< in the parent's frame, where a clip is silent
+  Affine3 rest;              ///< the transform in the parent's frame, where a clip does not move the joint
 };
 
 /// A value at a time in seconds.
@@ -30,13 +30,13 @@ struct Key {
 /// one, cubic is a Hermite spline through the keys with the curve's tangents.
 enum class Interpolation : std::uint8_t { linear, step, cubic };
 
-/// The derivatives of a value at a key, per second: before the key and behind it.
+/// The derivatives of a value at a key, per second: `in` just before the key, `out` just after it.
 template <class Value>
 struct Tangents {
   Value in, out;
 };
 
-/// The course of one part of a channel between its keys. Tangents are there for cubic alone, one pair a key.
+/// The interpolation of one part of a channel between its keys. Only cubic has tangents, one pair a key.
 template <class Value>
 struct Curve {
   Interpolation interpolation = Interpolation::linear;
@@ -55,20 +55,20 @@ struct Channel {
   Curve<Vec3> scale_curve;
 };
 
-/// A motion of a character: what its joints do from time 0 on.
+/// A motion of a character, from time 0 on.
 struct Clip {
   std::string name;
   float seconds = 0;
   std::vector<Channel> channels;  ///< at most one a joint
 };
 
-/// What moves vertices: a joint, and the map from a mesh's own frame into that joint's frame at rest.
+/// A bone, which moves vertices: a joint, and the map from a mesh's own frame into that joint's frame at rest.
 struct Bone {
   std::uint32_t joint = 0;
   Affine3 inverse_bind;
 };
 
-/// The weight of one bone in the place of a vertex.
+/// The share of one bone in the position of a vertex (linear blend skinning).
 struct Influence {
   std::uint32_t bone;
   float weight;

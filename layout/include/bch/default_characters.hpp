@@ -9,7 +9,7 @@
 
 namespace bch {
 
-/// Returns the built-in man, who needs no file. He is 1.88 m tall, the woman of default_female() 1.74 m. Each is one
+/// Returns the built-in man. He is 1.88 m tall, the woman of default_female() 1.74 m. Each is one
 /// closed skin of about 2 850 triangles with 27 joints and 212 s of walking, turning, side-stepping and idling. They stand
 /// in for the two characters of the paper's table 1 and were tuned to its statistics: the smallest disc around a pose seen
 /// from above has a mean radius of 0.42 m (man) and 0.34 m (woman) and a deviation of about 0.05 m.
@@ -31,7 +31,7 @@ enum class Sex { female, male };
 
 /// The number of speeds at which pedestrians walk, from 0 to 2.19 m/s.
 constexpr std::uint32_t pedestrian_speeds = 74;
-/// What their speeds differ by, metres a second: clip k of theirs is at k of these.
+/// The step of these speeds, metres a second: clip k of a pedestrian walks at k steps.
 constexpr double pedestrian_speed_step = 0.03;
 
 /// Returns a pedestrian for recorded and simulated crowds: the built-in man or woman of a stature, who walks at every speed, keeps his

@@ -14,12 +14,12 @@ namespace bch {
 /// A set whose shapes are replaced while it lives, for characters whose poses are new in every frame. Queries take
 /// set() like any other, and answer as for a set that was built from the present shapes.
 ///
-/// Each part of a shape (nodes, supports, contours, points) has a place of its own. One that outgrows it gets another,
-/// half as large again as it needs, behind all others, and leaves the old one empty. So after some frames every place is
+/// Each array of a shape (nodes, supports, contours, points) has a place of fixed size. An array that outgrows its place moves
+/// to a new one at the end, 1.5 times as large as it needs. So after some frames every place is
 /// large enough and nothing is allocated any more; all places together take at most 4.5 times what the largest shapes
 /// need. One that was moved from can only be assigned to or destroyed.
 ///
-///     PoseShaper shaper(character);                  // one of these a thread, and of the next
+///     PoseShaper shaper(character);                  // each thread has its own shaper and prepared shape
 ///     PreparedShape prepared(dynamic.set().plan());
 ///     prepared.prepare(shaper.shape({clip, seconds}), shape);
 ///     if (!dynamic.try_replace(shape, prepared)) later.push_back(shape);  // for replace(), by one thread
@@ -32,14 +32,14 @@ class DynamicShapeSet {
   DynamicShapeSet& operator=(DynamicShapeSet&&) noexcept;
   ~DynamicShapeSet();
 
-  /// Returns the present shapes. Once one has been replaced this can be queried and copied, but not baked, because shapes need
-  /// not lie one behind the other any more: those of a copy do.
+  /// Returns the present shapes. Once a shape has been replaced, the set can be queried and copied but not baked, because its
+  /// arrays may have gaps. To bake it, copy it.
   const ShapeSet& set() const noexcept;
 
   /// Replaces a shape by one that was prepared with set().plan(), where that fits into its place. Threads may replace
   /// different shapes at the same time, while no query runs. Allocates nothing.
-  /// Returns: whether it fitted; false, too, where it has no outline and the set is solid, or is the first single disc. The shape
-  ///          is then the one before.
+  /// Returns: whether it fitted. If not, the set is unchanged and replace() is needed: also for a shape without outline in a solid
+  ///          set, and for the first single disc.
   /// Errors:  throws std::out_of_range on an index out of range, std::invalid_argument on a shape of another plan.
   bool try_replace(std::uint32_t shape, const PreparedShape& by);
 

@@ -16,7 +16,7 @@ namespace bch {
 /// The depth of a cut that has no limit: its discs are the leaves.
 constexpr std::uint32_t all_depths = 0xffffffff;
 
-/// What a hierarchy encloses: a triangle, or a segment (c equals b), or a point (all equal).
+/// A primitive that a hierarchy encloses: a triangle, or a segment (c equals b), or a point (all equal).
 struct Primitive {
   Vec2 a, b, c;
 };
@@ -45,8 +45,7 @@ struct Hierarchy {
   std::vector<HierarchyNode> nodes;  ///< the root first; never empty
   double reach = 0;                  ///< metres: largest distance of a primitive's point from the origin
 
-  // What nodes hold. Flat shapes and queries need none of it, so that builders fill it in where they are asked to, and
-  // leave it empty elsewhere.
+  // The primitives of nodes. Exact leaves need them; builders leave them empty where nobody asked for them.
   std::vector<Primitive> primitives;  ///< in the order of the leaves
   std::vector<std::uint32_t>
       source;  ///< per primitive: index of the outline segment or triangle it comes from
@@ -54,12 +53,12 @@ struct Hierarchy {
   bool of_segments = false;  ///< the primitives are an outline's segments or pieces of them, not triangles
 };
 
-/// Checks what others rely on: at least one node, children after their parents, discs that are finite, larger than 0 and
-/// about centres within the reach, a reach of 1e-6 to 1e6 m.
+/// Checks what other functions rely on: at least one node, children after their parents, finite discs with a radius above 0 and
+/// a centre within the reach, a reach of 1e-6 to 1e6 m.
 /// Errors:  throws std::invalid_argument naming the node and the value.
 void validate(const Hierarchy& hierarchy);
 
-/// Selects where the plane goes that divides a node's segments; its normal is the axis of the larger extent.
+/// The position of the plane that divides a node's segments; its normal is the axis of the larger extent.
 enum class SplitRule {
   centroid,  ///< through the centroid, weighted by length so that detailed parts do not pull it
   centre,    ///< through the middle of the extent

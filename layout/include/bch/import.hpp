@@ -17,7 +17,7 @@
 
 namespace bch {
 
-/// A file that does not become a character. The message is one line: the file, a colon, the reason.
+/// The error of a file that cannot be imported. The message is one line: the file, a colon, the reason.
 class ImportError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -26,10 +26,10 @@ class ImportError : public std::runtime_error {
 /// The axis of a file's frame that points up.
 enum class UpAxis : std::uint8_t { x, y, z };
 
-/// What the caller of import_character() knows better than the file, and its limits. Collada is in metres for `scale`, as
-/// assimp applies a Collada file's own unit.
-/// Up becomes z and nothing else turns: of a file that is y up, x stays and z becomes -y. Who faces +z there, as glTF has
-/// it, faces -y at heading 0, and walks along his heading less a quarter turn.
+/// The options of import_character(): what to take instead of what the file says, and limits. Collada counts as metres for
+/// `scale`, because assimp applies a Collada file's own unit.
+/// Up becomes z and nothing else turns: in a file that is y up, x stays and z becomes -y. So a character that faces +z there, as
+/// in glTF, faces -y at heading 0 and walks along its heading less a quarter turn.
 struct ImportOptions {
   std::optional<UpAxis> up;                       ///< instead of what the file says or what is guessed
   std::optional<float> scale;                     ///< metres per unit of the file, likewise
@@ -38,7 +38,7 @@ struct ImportOptions {
   std::size_t most_triangles = 0x7fffffff;  ///< those of each instance of a mesh count; more are refused
 };
 
-/// What was taken of a clip.
+/// The part of a clip that was imported.
 struct ClipReport {
   std::string name;
   float seconds = 0;
@@ -46,7 +46,7 @@ struct ClipReport {
   std::size_t channels_in_file = 0;  ///< the rest moves cameras, helpers, joints that carry nothing
 };
 
-/// What a file had, and what import_character() made of it.
+/// The report of import_character(): what a file had, and what became of it.
 struct ImportReport {
   std::string format;        ///< what read the file
   std::size_t meshes = 0;    ///< instances that brought triangles
@@ -93,7 +93,7 @@ struct ImportedCharacter {
 /// Errors:  throws ImportError.
 ImportedCharacter import_character(const std::filesystem::path& file, const ImportOptions& options = {});
 
-/// What import_in_child() may take.
+/// The limits of import_in_child().
 struct ImportLimits {
   std::chrono::milliseconds time{60'000};
   /// Bytes of address space beyond what this process has when the import begins. Builds with sanitizers, which need
@@ -103,13 +103,12 @@ struct ImportLimits {
       {};  ///< asked twenty times a second by the caller's thread; false ends the import
 };
 
-/// Imports a character as import_character() does, from a file that is not trusted: assimp crashes on some malformed
-/// ones. A child process reads the file, within limits, and hands over the character; nothing of assimp runs in this
-/// process.
+/// Imports a character from an untrusted file, as import_character() does: assimp crashes on some malformed ones. A child process
+/// reads the file within limits and returns the character; no code of assimp runs in this process.
 /// Errors:  throws ImportError, also on a file that crashes or exhausts the child; std::runtime_error where there can be no
 ///          child.
-/// Threads: the child has the caller's thread alone. A lock of a library other than the C library that another thread holds at that
-///          moment, stays locked there, and the import may then end by its time.
+/// Threads: the child is a fork with the caller's thread alone. A lock that another thread holds at that moment stays locked in it,
+///          except the C library's own, and the import may then run into its time limit.
 ImportedCharacter import_in_child(const std::filesystem::path& file, const ImportOptions& options = {},
                                   const ImportLimits& limits = {});
 

@@ -15,9 +15,9 @@ namespace bch {
 /// not contain each other (holes are left out), and cross themselves by a rounding to the grid at most. A whisker, the
 /// trace of a triangle seen edge-on, is a contour (or part of one) that goes there and back.
 ///
-/// Outlines from elsewhere may have contours that touch, cross or overlap themselves or each other, and contours inside
-/// others. Boundary semantics sees every segment. Inside, for the solid semantics, is what some contour goes round an odd
-/// number of times. Clockwise contours are refused, because they stand for holes, which are to be left out.
+/// Outlines from elsewhere may have contours that touch, cross, overlap or contain themselves or each other. Boundary semantics
+/// tests every segment. For solid semantics a point is inside where some contour winds round it an odd number of times.
+/// Clockwise contours are refused: they stand for holes, which are to be left out.
 struct Outline {
   std::vector<Vec2> points;  ///< metres, in the shape's frame; taken as they are, on a grid or not
   std::vector<std::uint32_t> contour_begin = {0};  ///< contours + 1 offsets into points

@@ -31,9 +31,8 @@ namespace bch {
 /// where they begin.
 class OutlineBuilder {
  public:
-  /// Learns the mesh. The bind pose, if there is one, makes building fast: edges near each other are
-  /// processed together, and vertices at the same place are taken to stay together as long as a pose does not
-  /// separate them.
+  /// Prepares the mesh. A bind pose makes building fast: edges near each other in it are processed
+  /// together, and vertices at one place in it are merged in every pose that does not separate them.
   /// Sizes:   triangle indices are below `vertices`; the bind pose has as many positions, or none.
   /// Errors:  throws std::invalid_argument on no triangles, an index out of range, a bind pose of another
   ///          length or with a position that is not finite. Vertices that no triangle uses do not count.
@@ -52,10 +51,10 @@ class OutlineBuilder {
   /// Writes the outline of positions with heights, which may have any value.
   void build(std::span<const Vec3> positions, Outline& outline);
 
-  /// Writes the outlines of the slabs that horizontal planes cut a pose into: of what lies between two of them, below the
-  /// first, and above the last. Triangles are cut. A slab that nothing lies in gets an outline without contours. A point that two
-  /// meshes share lies within 1.5 grid steps of both outlines of one slab, however the meshes lie to the planes; so a plane is half
-  /// a float step above its number. Of a slab that reaches less than 1e-6 m from the origin the outline is a square of 4 um.
+  /// Writes the outlines of the slabs that horizontal planes cut a pose into: below the first plane, between neighbouring ones,
+  /// and above the last. Triangles are cut. An empty slab gets an outline without contours, one that reaches less than 1e-6 m
+  /// from the origin a square of 4 um. A point that two meshes share lies within 1.5 grid steps of both outlines of one slab,
+  /// wherever the planes are, because a plane is half a float step above its number.
   /// Sizes:   slabs.size() == planes.size() + 1.
   /// Units:   metres above the ground, ascending; at most 63 planes.
   /// Returns: the heights of all vertices that triangles use.

@@ -12,16 +12,15 @@
 
 namespace bch {
 
-/// Makes shapes of one character in pose after pose: poses it, finds the outline of the union of its triangles, and builds the
-/// contour hierarchy that splits at the centroid. It learns the mesh when it is made and keeps its memory: nothing is
-/// allocated for a pose once the largest shape has been made. One thread may use it at a time, and one that was moved from
-/// can only be assigned to or destroyed.
+/// Makes shapes of one character in pose after pose: poses the mesh, finds the outline of the union of its triangles, and builds
+/// the contour hierarchy that splits at the centroid. Keeps its memory: a pose allocates nothing once the largest shape has been
+/// made. One thread may use it at a time, and one that was moved from can only be assigned to or destroyed.
 class PoseShaper {
  public:
-  /// Learns the mesh of a character, which must outlive this and must be valid (see validate()). Shapes are made for sets of a
-  /// plan: hierarchies end at its deepest cut, its slices cut the body, and where no query of the set needs an outline, because
-  /// there are roots alone, the outermost vertices do, in a third of the time. `threshold`, in metres, is the radius below
-  /// which a disc is not divided.
+  /// Prepares the mesh of a character, which must outlive this and must be valid (see validate()). Shapes are made for sets of a
+  /// plan: hierarchies end at its deepest cut, and its slices cut the body. A plan of depth 0 alone needs no outlines: the
+  /// outermost vertices give its discs in a third of the time. `threshold`, in metres, is the radius below which a disc is
+  /// not divided.
   /// Errors:  throws std::invalid_argument on a bad plan.
   explicit PoseShaper(const Character& character, const ShapeSetPlan& plan = {}, float threshold = 0.01f);
   PoseShaper(PoseShaper&&) noexcept;
@@ -32,7 +31,7 @@ class PoseShaper {
   void limit_nodes(std::size_t most);
 
   /// Makes the shape of a pose: at a time of a clip, keys interpolated as the channels' curves say, times clamped to the first
-  /// and last key. A clip that walks away leaves its shape where it is, while its yaw stays.
+  /// and last key. The root's way over the ground is removed from the shape; its turn stays in it.
   /// Returns: the shape down to the deepest depth, until the next call; with primitives where that is all_depths, because exact
   ///          leaves need them. With slices its slabs alone, each with outline and hierarchy; with these or the plan's
   ///          heights, those of the body.
@@ -41,10 +40,10 @@ class PoseShaper {
   /// `whole`: does not cut the body, whatever the plan's slices; it is then one part at all of its heights.
   const Shape& shape(PoseTime at, bool whole = false);
 
-  /// Makes the outlines of a pose, which is the first step of shape(), for callers that need these alone or take the time of each
-  /// step. For roots alone there is nothing to do yet.
+  /// Makes the outlines of a pose, the first step of shape(), for callers that need outlines alone or time each step. Does nothing
+  /// for a plan of depth 0 alone.
   const Shape& make_outlines(PoseTime at, bool whole = false);
-  /// Makes the hierarchies over the outlines made last, which is the second step.
+  /// Makes the hierarchies over the outlines made last, the second step of shape().
   const Shape& make_hierarchies();
 
  private:

@@ -14,25 +14,25 @@
 
 namespace bch {
 
-/// Which character and pose a plan wants a shape of.
+/// The character and pose of a shape that a scene needs.
 struct ShapeSource {
   std::uint32_t character = 0;  ///< index in a list that the scene has
   PoseTime at;
   bool whole = false;  ///< not cut, in a set with slices: PoseShaper::shape(at, true)
 };
 
-/// An agent as a plan sees it.
+/// An agent of a scene to plan.
 struct SceneAgent {
   ShapeSource shows;
   double distance = 0;  ///< metres, from the viewer
   double density = 0;   ///< people per square metre around the agent: local_densities() tells it
 };
 
-/// The number of pairs from which on culling data pays off: the time to build it over the time that it saves
-/// of a pair of a crowd, by measurement (`bch_ratios --table plans`).
+/// The number of pairs of a shape from which culling data pays: the time to build it over the time that it saves a pair
+/// of a crowd, measured by `bch_ratios --table plans`.
 constexpr double pairs_for_culling = 500;
 
-/// What will be asked of a scene.
+/// The queries and levels of detail that a scene is planned for.
 struct SceneUse {
   /// Queries use the solid semantics, too.
   bool solid = false;
@@ -49,15 +49,15 @@ struct SceneUse {
   double whole_from = std::numeric_limits<double>::infinity();
   /// Agents stand at different heights; see Agents::z.
   bool heights = false;
-  /// The step, in seconds, to whose multiples times within a clip are rounded down, so that agents share shapes; 0: only
-  /// those do that show the very same.
+  /// Times within a clip are rounded down to multiples of this step, in seconds, so that agents share shapes; 0: agents share
+  /// only equal poses.
   float pose_step = 0;
-  /// About how many pairs a shape will be in before it is given up; few where each lives for one frame. From
-  /// pairs_for_culling on it gets culling data.
+  /// The expected number of pairs that a shape is in before it is replaced; few where shapes live for one frame. From
+  /// pairs_for_culling on, shapes get culling data.
   double pairs_per_shape = std::numeric_limits<double>::infinity();
 };
 
-/// What to build for a scene, each shape once, and what its agents ask for.
+/// The shapes to build for a scene, each once, and the shape and level of each agent.
 struct ScenePlan {
   ShapeSetPlan set;
   std::vector<ShapeSource> shapes;         ///< in the order in which agents first show them
@@ -65,8 +65,8 @@ struct ScenePlan {
   std::vector<std::uint8_t> agent_level;   ///< one an agent: Agents::level
 };
 
-/// Returns the cut depth that a density asks for, by measurement (`bch report --experiment detail`): the coarsest one that
-/// stops a walking person without need once a second at most; from where there is none, all_depths.
+/// Returns the cut depth that a density needs, by measurement (`bch report --experiment detail`): the coarsest one whose false
+/// collisions stop a walking person at most once a second; all_depths where no depth does.
 std::uint32_t depth_at_density(double people_per_square_metre);
 
 /// Returns planes that clear most false collisions of standing people about 1.75 m tall, metres, for 1, 2, 3, 4 or 8 slabs, by
@@ -80,8 +80,8 @@ std::vector<float> standing_slices(std::uint32_t slabs);
 ///          distance of whole bodies that is negative or NaN, slices that a plan may not have, and on more than 255 different depths.
 ScenePlan plan_scene(std::span<const SceneAgent> agents, const SceneUse& use = {});
 
-/// Measures how dense a crowd is around each agent, people per square metre: those within `radius`, himself among them, over
-/// the area of that circle. At the rim of a crowd it is less than inside.
+/// Measures the density around each agent, in people per square metre: the number of agents within `radius`, itself included,
+/// over the area of that circle. It is lower at the edge of a crowd.
 /// Sizes:   x.size() == y.size(); one number an agent.
 /// Units:   metres. Takes time n log n beside the neighbours it counts.
 /// Errors:  throws std::invalid_argument on sizes that differ, a position that is not finite or beyond 1e9 m, naming the

@@ -20,25 +20,25 @@ struct ShapeSetView;
 
 namespace bch {
 
-/// A body seen from above: a pose of a character, a footprint, a cylinder. The outline may be empty: then discs are its leaves, and
-/// unless every shape of a set is a single disc, the set cannot be asked for solid semantics.
+/// A body seen from above: a pose of a character, a footprint, a cylinder. The outline may be empty. Discs then decide at the leaves,
+/// and a set of such shapes has no solid semantics, unless each shape is a single disc.
 struct Shape {
   Outline outline;
   Hierarchy hierarchy;
   Heights heights = {};  ///< of the whole body; by default it takes part at every height
   std::vector<Shape> slabs =
-      {};  ///< of a body that the planes of a plan cut: one a slab; of those that are empty nothing is set
+      {};  ///< of a body cut by a plan's slices: one a slab, default-made where it is empty
 };
 
-/// Makes a shape of discs of one's own, as the three to fifty of a body in mechanical models of crowds. They stay what they are, enlarged
-/// by the rounding margin alone, and queries number them as they are given. It has no outline. Discs that stand
-/// side by side should follow each other: the nodes of the hierarchy hold neighbours in that order.
+/// Makes a shape of given discs, such as the three to fifty of a body in mechanical crowd models. The discs are enlarged
+/// by the rounding margin alone, and queries number them as they are given. The shape has no outline. Neighbouring discs
+/// should follow each other: nodes of the hierarchy group them in that order.
 /// Cost:    6 ms for 50 discs.
 /// Errors:  throws std::invalid_argument on none or more than 4096, on a disc that is not finite or without a radius, naming it, or
 ///          on a reach outside 1e-6 to 1e6 m.
 Shape shape_from_discs(std::span<const Disc> discs);
 
-/// Makes a shape of polygons of one's own, a wheelchair's or a cart's say, as outline_from_polygons() takes them. Its exact leaves
+/// Makes a shape of given polygons, a wheelchair's for instance, as outline_from_polygons() takes them. Its exact leaves
 /// are the polygons themselves.
 /// Units:   metres; the threshold is that of contour_hierarchy().
 /// Errors:  throws std::invalid_argument as these two do.
@@ -50,18 +50,18 @@ struct Capsule {
   float radius;
 };
 
-/// Makes a shape of capsules of one's own, as the limbs of a body. The outline goes round each of them along polygons that hold it, and
-/// are nowhere farther from it than a tolerance.
+/// Makes a shape of given capsules, such as the limbs of a body. The outline encloses each capsule in a polygon that is nowhere
+/// farther from it than a tolerance.
 /// Units:   metres; the tolerance is more than 2^-20 of the capsules' reach, the threshold that of contour_hierarchy().
 /// Errors:  throws std::invalid_argument on none, on a capsule without a radius or beyond 1e6 m, naming it, on a tolerance that is not
 ///          positive or too small, and as shape_from_polygons().
 Shape shape_from_capsules(std::span<const Capsule> capsules, float tolerance = 0.001f,
                           float threshold = 0.01f);
 
-/// What decides where leaves of two hierarchies overlap.
+/// What makes two leaves meet.
 enum class Leaves {
-  discs,  ///< that they do
-  /// Exact leaves: segments of the outlines in them come within the rounding margin of each other,
+  discs,  ///< their discs overlap
+  /// Exact leaves: besides, segments of the outlines in them come within the rounding margin of each other,
   /// 1.7 um per metre of the reaches. This applies to agents at the level of all depths whose shapes have segments there.
   /// Otherwise, and for leaves of more than 127 segments, discs decide.
   segments,
@@ -71,16 +71,16 @@ enum class Leaves {
 struct ShapeSetPlan {
   /// The levels of detail: cut depths, ascending. Level k of every shape is its cut at depths[k].
   std::vector<std::uint32_t> depths = {all_depths};
-  /// Keep the outlines: for the solid semantics, which sees one shape inside another, and for exact leaves, which the level of
-  /// all depths then has of shapes whose cut is more than one disc and whose hierarchy has its primitives.
+  /// Keep the outlines, which solid semantics and exact leaves need. Exact leaves exist at the level of all depths, for shapes
+  /// whose cut is more than one disc and whose hierarchy has its primitives.
   bool outlines = true;
-  /// Keep what lets a query skip most traversals: supports and, of shapes with an outline, inscribed discs. They
-  /// change no answer; a set that answers few queries does without.
+  /// Keep culling data, which lets queries skip most traversals: supports and, of shapes with an outline, inscribed discs.
+  /// It changes no answer, and does not pay for a set that answers few queries.
   bool culling = true;
   /// Cut bodies into slabs at these planes, metres above the ground that an agent stands on, ascending, at most 63; none: bodies are
-  /// whole. Two agents then collide where they do so in some slab, solid, so that an arm above a foot does not. Every shape
-  /// has the slabs that PoseShaper makes of these planes, or none: then it is the same at all of its heights. Slices need
-  /// outlines.
+  /// whole. Two agents then collide where they do in some slab, in solid semantics, so an arm above a foot is no collision. Every
+  /// shape has either the slabs that PoseShaper makes of these planes, or none: it is then the same at all of its heights.
+  /// Slices need outlines.
   std::vector<float> slices = {};
   /// Keep the heights of bodies, which agents at different heights need; see Agents::z. Slices have them anyway.
   bool heights = false;
@@ -89,7 +89,7 @@ struct ShapeSetPlan {
 
 /// Checks a plan.
 /// Errors:  throws std::invalid_argument on a plan without depths, with more than 255, or with depths out of order; on more than
-///          63 slices, on slices that do not ascend or are beyond 1e6 m, and on slices of more than roots without outlines.
+///          63 slices, on slices that do not ascend or are beyond 1e6 m, and on slices without outlines, unless depth 0 is alone.
 void validate(const ShapeSetPlan& plan);
 
 /// The flat form of many shapes for batch queries: structure of arrays, aligned to cache lines, immutable. One that was
@@ -122,12 +122,12 @@ class ShapeSet {
   ShapeSetPlan plan() const;
   std::size_t bytes() const noexcept;
 
-  /// Returns the discs of a shape's cut, in the order in which queries number them: slab after slab, once where a body that is not
-  /// cut is the same in several.
+  /// Returns the discs of a shape's cut, in the order in which queries number them: slab after slab, those of a body that is not
+  /// cut once.
   /// Errors:  throws std::out_of_range on an index out of range.
   std::vector<Disc> discs(std::uint32_t shape, std::uint32_t level) const;
-  /// Returns where each slab's discs are among these: of slab j from [j] to [j + 1], none where it is empty. A body that is not cut
-  /// has its discs in its first slab.
+  /// Returns the offsets of slabs in discs(): slab j has those from [j] to [j + 1]. A body that is not cut has its discs in its
+  /// first slab.
   std::vector<std::uint32_t> slab_begin(std::uint32_t shape, std::uint32_t level) const;
   /// Returns the radius about an agent's position that holds all discs of its shape, at every level and heading, metres.
   /// Cost:    linear in the discs.
@@ -136,10 +136,10 @@ class ShapeSet {
 
   // For the library's own parts, which alone know these types.
 
-  /// Stands on arrays that live as long as `memory`, a mapped file say.
+  /// Views arrays that live as long as `memory`, a mapped file for instance.
   /// Precondition: validate(arrays) does not throw.
   ShapeSet(const detail::ShapeArrays& arrays, std::shared_ptr<const void> memory);
-  /// Stands on other arrays from now on.
+  /// Views other arrays from now on.
   void refer_to(const detail::ShapeArrays& arrays) noexcept;
   const detail::ShapeSetView& view() const noexcept;
   const detail::ShapeArrays& arrays() const noexcept;

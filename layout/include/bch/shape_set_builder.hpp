@@ -16,8 +16,8 @@ struct FlatBody;
 
 namespace bch {
 
-/// A shape in its flat form, ready to take a place in a set. Making it takes nearly all the time that a set takes; it keeps its
-/// memory for the next one. One thread may use it at a time, and one that was moved from can only be assigned to or
+/// A shape in its flat form, ready to be added to a set. Preparing shapes is nearly all the work of making a set; an object keeps
+/// its memory for the next shape. One thread may use it at a time, and one that was moved from can only be assigned to or
 /// destroyed.
 class PreparedShape {
  public:
@@ -41,12 +41,11 @@ class PreparedShape {
   std::unique_ptr<State> state_;
 };
 
-/// Builds a set shape by shape: the same one as from all shapes at once, byte for byte, without all of them in memory.
+/// Builds a set shape by shape, without all shapes in memory: the same set, byte for byte, as ShapeSet makes of all at once.
 /// One that was moved from can only be assigned to or destroyed.
 class ShapeSetBuilder {
  public:
-  /// Begins an empty set of a plan. `expected_shapes`: how many there may be in the end, for the room that is made at once. More
-  /// and fewer are right.
+  /// Begins an empty set of a plan. `expected_shapes` is an estimate for which memory is reserved; any number may be added.
   /// Errors:  throws std::invalid_argument on a bad plan.
   explicit ShapeSetBuilder(const ShapeSetPlan& plan, std::size_t expected_shapes = 0);
   ShapeSetBuilder(ShapeSetBuilder&&) noexcept;
@@ -56,7 +55,7 @@ class ShapeSetBuilder {
   /// Adds a shape that was prepared with the same plan.
   /// Errors:  throws std::length_error beyond 2^31 numbers in nodes or 2^32 roots. What was added before is then as it was.
   void add(const PreparedShape& shape);
-  /// Returns the set of the shapes so far, for queries until the next call of another function, after which more may be added.
+  /// Returns the set of the shapes so far. It can be queried until the next call of another function; more shapes may follow.
   const ShapeSet& set();
   /// Returns the set of the shapes that were added. Where memory runs out they stay.
   ShapeSet finish() &&;
@@ -64,9 +63,9 @@ class ShapeSetBuilder {
   /// For the library's own parts: the nodes of the shapes so far, as the set is going to have them, none for roots alone. Valid
   /// until the next call of another function.
   std::span<const float> nodes() const noexcept;
-  /// Returns where the set ends at present, for go_back().
+  /// Returns the present end of the set, for go_back().
   detail::BuilderEnd end() const noexcept;
-  /// Ends the set there again, as if nothing had been added since. Allocates nothing.
+  /// Removes all that was added since end() returned `to`. Allocates nothing.
   void go_back(const detail::BuilderEnd& to) noexcept;
 
  private:

@@ -12,7 +12,7 @@
 
 namespace bch {
 
-/// Something stored in a set that does not follow from the rest of it.
+/// A stored value that contradicts the rest of its set.
 struct Finding {
   static constexpr std::uint32_t no_level = 0xffffffff, whole = 0xffffffff;
 
@@ -26,8 +26,8 @@ struct Finding {
 /// Returns a finding as one line: "shape 3, level 1: nodes: ...".
 std::string text_of(const Finding& finding);
 
-/// Recomputes what a set stores of its shapes besides their discs and outlines, and compares. It checks that
-/// answers are right, where validate() checks that queries are safe.
+/// Checks that a set gives right answers: recomputes from discs and outlines all else that it stores, and compares. (Loading
+/// checks only that queries are safe.)
 ///
 /// - A node above the cut and each node below it could be the smallest discs of a whole and of its part. The nodes of the
 ///   blocks above a disc of the cut are above it, so that it is found, and their outer radii hold it and are no larger
@@ -44,7 +44,7 @@ std::string text_of(const Finding& finding);
 /// These facts do not follow from a set and are not checked: that discs and outlines are those of a
 /// character; that a disc is the smallest; and, without outlines, that no discs are missing.
 ///
-/// Returns: what was found, shape after shape, at most so many; nothing for a set that this library made.
+/// Returns: at most `most` findings, shape after shape; none for a set that this library made.
 /// Precondition: the arrays of the set are safe to read, as those of every set that was built or loaded are.
 /// Cost:    about as much as making the flat shapes from their hierarchies.
 std::vector<Finding> verify(const ShapeSet& set, std::size_t most = 100);

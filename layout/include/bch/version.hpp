@@ -3,8 +3,8 @@
 
 #pragma once
 
-/// The version of these headers. Until 1.0, a change of the public surface raises the minor number; the README's section
-/// "Changes" lists it. The build reads the numbers from here.
+/// The version of these headers. Until 1.0, a change of the public surface raises the minor number; CHANGELOG.md lists the
+/// changes. The build reads the numbers from here.
 #define BCH_VERSION_MAJOR 0
 #define BCH_VERSION_MINOR 3
 #define BCH_VERSION_PATCH 0
