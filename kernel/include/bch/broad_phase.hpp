@@ -21,15 +21,15 @@ class BroadPhase {
   BroadPhase& operator=(BroadPhase&&) noexcept;
   ~BroadPhase();
 
-  /// Returns every pair of agents whose root discs, at the agents' levels, can overlap or be within a margin
-  /// of each other: once each, first < second. No pair is missing that collide() answers with 1. With a
-  /// margin above 0, no pair is missing for which clearance() returns a distance of at most the margin, or
-  /// time_of_impact() a finite time where neither agent moves by more than half of the margin. The only other
-  /// pairs are those whose root discs miss that by a few millionths of the margin, of their radii and of
-  /// their shapes' reach, or by 2^-26 of the crowd's largest radius.
+  /// Returns every pair of agents whose root discs, at the agents' levels, overlap or come within a margin
+  /// of each other: once each, first < second. So it has every pair that collide() answers with 1, and every
+  /// pair for which clearance() returns at most the margin. For time_of_impact() the margin is twice the
+  /// longest way of an agent. The only other pairs are those whose root discs miss the margin by a few
+  /// millionths of the margin, of their radii and of their shapes' reach, or by 2^-26 of the crowd's largest
+  /// radius.
   /// Units:   metres; the margin is from 0 to 2e9.
-  /// Order:   by place: along the rows of a grid, so that reading agents in the order of the pairs finds
-  ///          most of them in a cache, wherever they lie in memory. The same for any number of threads.
+  /// Order:   by place, along the rows of a grid: agents of neighbouring pairs are then mostly in cache. The
+  ///          same for any number of threads.
   /// Grid:    radii within a factor of four share a grid, others have grids of their own: a few large agents
   ///          do not slow down many small ones. A cell is no smaller than 2^-30 of the crowd's extent.
   /// Memory:  the pairs are valid until the next call. 72 bytes an agent and up to 24 a pair are kept; a call
@@ -44,7 +44,7 @@ class BroadPhase {
   std::unique_ptr<State> state_;
 };
 
-/// Returns the pairs of BroadPhase::find(), with memory that is given back.
+/// Returns the pairs of BroadPhase::find() in a vector of their own, for single calls.
 std::vector<Pair> candidate_pairs(const ShapeSet& shapes, const Agents& agents, double margin = 0);
 
 }  // namespace bch

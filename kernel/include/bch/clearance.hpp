@@ -10,7 +10,7 @@
 
 namespace bch {
 
-/// What clearance() gives for the discs of a pair that is beyond max_distance, or that overlaps with Overlap::zero.
+/// The discs of clearance() for a pair that is beyond max_distance, or that overlaps with Overlap::zero.
 constexpr DiscPair no_discs{0xffffffff, 0xffffffff};
 
 /// The points of two agents that are nearest to each other, each from its own agent's position, in the world's axes, metres: the
@@ -20,7 +20,7 @@ struct NearestPoints {
   friend bool operator==(const NearestPoints&, const NearestPoints&) = default;
 };
 
-/// The output arrays of clearance(). Those that are empty are not computed, which saves time.
+/// The output arrays of clearance(). Empty ones are not computed, which saves time.
 struct ClearanceAnswers {
   std::span<float> distance;  ///< metres; infinite beyond max_distance
   std::span<Vec2> direction =
@@ -30,15 +30,15 @@ struct ClearanceAnswers {
 };
 
 /// Measures how far apart the two agents of each pair are: the least gap between a disc of one's cut and a disc of the
-/// other's, or 0 where discs overlap. With it the unit vector in the world from the first agent's nearest disc to the
-/// second's: moving the second agent along it, or the first one against it, widens that gap the fastest.
-/// (penetration() gives the way of the first agent, which is the opposite.) And the points of the two discs that are nearest to
-/// each other, for a response to the contact: along the direction they are as far apart as the distance says, but for 4 um
+/// other's, or 0 where discs overlap. The direction is the unit vector in the world from the first agent's nearest disc to the
+/// second's: moving the second agent along it, or the first one against it, widens the gap the fastest.
+/// (penetration() gives the opposite: where the first agent moves.) The points are those of the two discs that are nearest to
+/// each other, for contact responses: along the direction they are as far apart as the distance says, but for 4 um
 /// per metre of the two shapes' reach and of the distance.
 ///
-/// With Overlap::deepest the distance of discs that overlap is negative, that of the two that do so the deepest, and the
-/// direction leads from one centre to the other, or, where these coincide, it is (1, 0) from the agent with the lower index to
-/// the other. The depth is limited by the radii of the discs, so that with fine cuts penetration() says more.
+/// With Overlap::deepest the distance of overlapping agents is negative: the deepest overlap of two discs. The direction then leads
+/// from one centre to the other or, where these coincide, is (1, 0) from the agent with the lower index to
+/// the other. The radii of the discs limit the depth, so with fine cuts penetration() says more.
 ///
 /// With distance_leaves = Leaves::segments, where both shapes have exact leaves, the distance is that of the outlines: the least of a
 /// segment of one and a segment of the other, and 0 where they come within the margin of exact leaves. It is never larger than that of
@@ -47,8 +47,8 @@ struct ClearanceAnswers {
 /// them. Of equal distances the one with the first segment counts. Leaves of more than 127 segments are measured as discs, after
 /// all segments. Where collide() says 1 for such agents the distance is 0, where it is positive collide() says 0 in boundary semantics.
 ///
-/// Of discs, it is never larger than the distance of the outlines: an outline that crosses another has a clearance of at most
-/// 0. Below it by no more than r_A + r_B + (r_A^2 + r_B^2) / 2 D, with r the radii of the nearest discs and D
+/// A distance of discs is never larger than that of the outlines: outlines that cross have a clearance of at most
+/// 0. It is below that by no more than r_A + r_B + (r_A^2 + r_B^2) / 2 D, with r the radii of the nearest discs and D
 /// = distance + r_A + r_B (below 3 cm for leaf discs of 1 cm), and 4 um per metre of the two shapes' reach
 /// and of D. The discs of the cuts alone count, not the nodes above them, so that a distance is one of two
 /// discs. Where collide() says 1 in boundary semantics, the distance is at most 0; where the distance is
@@ -71,12 +71,12 @@ void clearance(const ShapeSet& shapes, const Agents& agents, std::span<const Pai
                const ClearanceAnswers& answers, const QueryOptions& options = {});
 
 /// Answers whether the two agents of each pair come as close to each other as a distance: 1 where a disc of one's cut is within
-/// it of a disc of the other's, else 0. This takes the stages of collide(), and with culling data about its
-/// time, where clearance() takes several times as much. Leaf discs alone count, as in clearance(), so that within a distance of 0
-/// is more than what collides, whatever distance_leaves says. In solid semantics an agent inside another's outline is within every distance of it.
-/// Bodies in slabs are asked so whatever the options say, as in collide(), and distances are those of parts that may meet.
+/// it of a disc of the other's, else 0. With culling data it takes about the time of collide(), clearance() several times as much.
+/// The discs of the cuts alone count, whatever distance_leaves says, as in clearance(): more pairs are within a distance of 0 than
+/// collide. In solid semantics an agent inside another's outline is within every distance of it. Bodies in slabs have solid
+/// semantics, as in collide(), and distances are those of parts that may meet.
 ///
-/// The answer is 1 where clearance() says a finite distance of at most the one asked for, and where outlines are as close.
+/// The answer is 1 wherever clearance() returns a finite distance of at most the given one, and wherever outlines are as close.
 /// Where the answer is 1 in boundary semantics, clearance() is at most the distance asked
 /// for, plus 1.4 um per metre of that and of the radii of their largest discs. The same bits on every processor, for any number
 /// of threads and any split of the batch, and for either order of a pair.

@@ -17,17 +17,16 @@ class ObstacleSet;
 
 /// Answers each pair: 1 where the two agents collide at their levels, touching included, else 0.
 ///
-/// A collision is never missed. Agents whose outlines meet collide at every level, and those that do not
-/// collide at one level do not at a deeper one either. A false positive has a gap
-/// of at most the sizes of two discs and 4 um per metre of the two shapes' reaches; between exact leaves, of at most 1.7 um
-/// per metre. The answer is the same bits on every
-/// processor, for any number of threads, any split of the batch and either order within a pair. Only the
-/// difference of positions counts: far from the origin the answer is that of the same placement at the
-/// origin.
+/// A collision is never missed: agents whose outlines meet collide at every level, and those that do not
+/// collide at one level do not at a deeper one either. A false positive has a gap of at most the sizes of two
+/// discs and 4 um per metre of the two shapes' reaches; between exact leaves, of at most 1.7 um per metre. The
+/// answer is the same bits on every processor, for any number of threads, any split of the batch and either
+/// order within a pair. Only the difference of positions counts, so answers far from the origin are those at
+/// the origin.
 ///
-/// Bodies in slabs (ShapeSetPlan::slices) collide where two of their slabs do, solid, whatever `semantics` says: inside a body
-/// crossing outlines alone mean nothing. Agents at different heights (Agents::z) collide where parts of them do whose heights
-/// meet. Meshes that have a point in common are hits in either case, but for lone triangles that are points on the grid of
+/// Bodies in slabs (ShapeSetPlan::slices) collide where two of their slabs do, always in solid semantics: a limb can lie inside a
+/// torso without their outlines crossing. Agents at different heights (Agents::z) collide where parts of them do whose heights
+/// meet. In either case meshes that have a point in common are hits, except at lone triangles that are points on the grid of
 /// OutlineBuilder, which outlines leave out.
 ///
 /// Options: semantics, leaves, implementation.
@@ -36,9 +35,8 @@ class ObstacleSet;
 ///          range, a position or heading that is not finite or beyond the limits, unknown semantics or leaves, solid
 ///          semantics on a set that was not planned for it, an implementation that this processor does not
 ///          run; the message names the agent or pair and the value. Agents that no pair names are not checked.
-/// Threads: runs in the caller's TBB arena. The rounding mode, treatment of denormals and traps that threads are set to
-///          do not matter to any query, and stay as they are. An exception or cancellation of tasks beside it does not
-///          touch it.
+/// Threads: runs in the caller's TBB arena, isolated from the cancellation of the caller's task group. Rounding mode, treatment
+///          of denormals and traps of the threads do not matter to any query, and stay as they are.
 void collide(const ShapeSet& shapes, const Agents& agents, std::span<const Pair> pairs,
              std::span<std::uint8_t> hits, const QueryOptions& options = {});
 
@@ -47,7 +45,7 @@ struct CrowdCollisions {
   Rows<std::uint32_t> agents, obstacles;
 };
 
-/// Finds who of a crowd collides with whom: broad and narrow phase in one call. Keeps its memory from call to call.
+/// Finds all collisions of a crowd: broad and narrow phase in one call. Keeps its memory from call to call.
 /// One that was moved from can only be assigned to or destroyed.
 class CrowdCollider {
  public:
@@ -69,8 +67,8 @@ class CrowdCollider {
   Rows<std::uint32_t> collide_all(const ShapeSet& shapes, const Agents& agents,
                                   const QueryOptions& options = {});
 
-  /// Finds the colliding neighbours of every agent in the same way, and beside them the obstacles, by their numbers, that it collides with. It
-  /// has some exactly if collide() with obstacles answers 1.
+  /// Finds the colliding neighbours of every agent, as above, and the numbers of the obstacles that it collides with: none exactly
+  /// where collide() with obstacles answers 0.
   /// Memory:  8 bytes for each obstacle of an agent's are kept as well, and a call allocates what collide() with obstacles does.
   CrowdCollisions collide_all(const ShapeSet& shapes, const Agents& agents, const ObstacleSet& obstacles,
                               const QueryOptions& options = {});
@@ -80,10 +78,10 @@ class CrowdCollider {
   std::unique_ptr<State> state_;
 };
 
-/// Chooses the planes of so many slabs that clear most false collisions of a crowd of given bodies, among those that these are cut
-/// at. Bodies stand at random in each other's reach; of two that are seen to collide from above, and in no slab between
-/// neighbouring planes, all of whose overlaps a plane has to part. One plane is chosen after the other, and then each again
-/// until none is better elsewhere.
+/// Chooses, among `planes`, those that clear most false collisions of given bodies when they cut them into so many slabs.
+/// The sample is random pairs of bodies in each other's reach which collide as seen from above, but in no slab between
+/// neighbouring planes. Chosen planes clear a pair if each two of its overlapping slabs have one between them. The search is greedy:
+/// one plane after the other, then each anew until no exchange clears more.
 /// Sizes:   each body has a slab more than there are planes: PoseShaper makes them with ShapeSetPlan::slices = planes, 5 cm apart
 ///          for instance; a hundred poses tell enough.
 /// Returns: slabs - 1 of the planes, ascending; all of them where there are no more. The same for the same arguments.

@@ -22,9 +22,9 @@ struct CrowdContacts {
 /// with the same leaves. Rows are never cut short: contacts are counted, then written. Two equal cuts of n
 /// discs in one place have n^2 of them at most.
 ///
-/// A row's deepest overlap does not begin at nothing when two agents come together, because nodes above
-/// decide as well: the cut discs may have overlapped for long when the last two of those begin to. Forces
-/// that have to be continuous take clearance() below 0, or penetration() of all pairs that are near.
+/// The deepest overlap of a row does not grow from 0 when two agents come together, because nodes above
+/// decide as well: cut discs may already overlap deeply when their last two ancestors begin to. Forces
+/// that have to be continuous take clearance() with Overlap::deepest, or penetration() of all pairs that are near.
 ///
 /// The contacts are the same bits on every processor, for any number of threads. A pair in the other order
 /// has the same contacts with their two discs exchanged, sorted in that order.

@@ -27,9 +27,9 @@ namespace bch {
 
 /// The definition of a collision of two agents at their levels, independent of how trees are traversed.
 enum class Semantics {
-  /// Some disc of one's cut and some disc of the other's overlap, and every node above the one (itself
-  /// included) overlaps every node above the other. Discs are the smallest of what nodes hold, touching
-  /// counts. A point that two outlines have in common lies in all of them, so this is the tightest answer
+  /// Outlines cross or touch, as far as discs tell: some disc of one's cut overlaps some disc of the other's, and every node
+  /// above the one (itself included) overlaps every node above the other. Discs are the smallest around their primitives;
+  /// touching counts. A point that two outlines have in common lies in all of them, so this is the tightest answer
   /// that discs can give, and a deeper cut never adds a collision. With exact leaves (Leaves::segments, at the level
   /// of all depths) two leaves count only where segments of theirs meet, too.
   boundary,
@@ -46,21 +46,22 @@ struct Implementation {
 /// Returns all implementations that were compiled, the best first; the last one runs everywhere.
 std::span<const Implementation> implementations() noexcept;
 
-/// Returns the first one that this processor supports. The environment variable BCH_ISA, read once, may name another.
-/// Errors:  throws std::invalid_argument if that one is unknown or not supported.
+/// Returns the first implementation that this processor supports, or the one that the environment variable BCH_ISA names, which is
+/// read once.
+/// Errors:  throws std::invalid_argument if BCH_ISA names an unknown or unsupported one.
 const Implementation& best_implementation();
 
 /// Returns an implementation by its name.
 /// Errors:  throws std::invalid_argument on an unknown name, naming the known ones, or one that this processor does not run.
 const Implementation& implementation(std::string_view name);
 
-/// What clearance() says of pairs of which discs overlap.
+/// The answer of clearance() for pairs whose discs overlap.
 enum class Overlap {
-  zero,  ///< a distance of 0, without a direction or discs: what collides costs hardly more than in collide()
+  zero,  ///< a distance of 0, without a direction or discs: such pairs cost hardly more than in collide()
   deepest,  ///< the deepest overlap of two discs, below 0, and its direction: a depth for forces where cuts are coarse
 };
 
-/// The options of the queries. A query ignores those that do not concern it: its description names those that do.
+/// The options of all queries. Each query's comment names those that it uses; it ignores the others.
 struct QueryOptions {
   Semantics semantics =
       Semantics::boundary;  ///< of collide(), CrowdCollider and within(); sets with slices are solid
@@ -71,8 +72,9 @@ struct QueryOptions {
   /// infinite distance and nothing else. The smaller the limit, the sooner they are rejected.
   double max_distance = std::numeric_limits<double>::infinity();
   Overlap overlap = Overlap::zero;  ///< of clearance()
-  /// What clearance() of pairs measures between: discs, or segments of the outlines where both shapes have exact leaves. Segments give the
-  /// distance of the outlines, discs up to 3 cm less in about a seventh of the time. With Overlap::deepest discs are measured in any case.
+  /// Whether clearance() of pairs measures between discs, or between segments of the outlines where both shapes have exact leaves.
+  /// Segments give the distance of the outlines, discs up to 3 cm less in about a seventh of the time. Overlap::deepest always
+  /// measures discs.
   Leaves distance_leaves = Leaves::discs;
 };
 

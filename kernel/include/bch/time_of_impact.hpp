@@ -16,17 +16,15 @@ struct Displacements {
   std::span<const double> x, y;
 };
 
-/// Finds when two agents first touch while they move. The time of a pair is the least t in [0, 1] at which
-/// discs of their cuts touch if the first agent has moved by t times its displacement. It is infinity where
-/// none do.
+/// Finds when the two agents of each pair first touch while they move without turning: the least t in [0, 1] at which
+/// discs of their cuts touch when the first agent has moved by t times its displacement, or infinity.
 ///
 /// The discs of the cuts alone count, not the nodes above them: whether these overlap changes on the way, and
 /// a time has to be no later than the outlines' contact. The time is 0 where discs of the cuts overlap already,
 /// also where the agents move apart. A displacement that is zero as a float gives 0 only where collide() with
 /// Leaves::discs and boundary semantics answers 1, and infinity otherwise. The time is never later than the
-/// outlines' first contact. At that time the outlines are at most as far apart as clearance() may be below
-/// their distance: by the leaf discs' sizes, and 4 um per metre of way and of the two shapes' reach. It may be
-/// early, or finite where the outlines only pass by: a pass within that distance counts as contact. The same bits on
+/// outlines' first contact. At that time the outlines are at most the leaf discs' sizes and 4 um per metre of way and of
+/// the two shapes' reach apart. So it may be early, or finite where the outlines only pass each other within that distance. The same bits on
 /// every processor, for any number of threads and any split of the batch, and for exchanged agents with the
 /// displacement negated. Solid semantics would add nothing: an agent that is inside has crossed the outline
 /// before, unless it starts there.
@@ -39,7 +37,7 @@ struct Displacements {
 /// Errors:  throws std::invalid_argument, before anything is written, as collide() does, and on a
 ///          displacement that is not finite or beyond the limits.
 /// Threads: runs in the caller's TBB arena. Allocates nothing, but for bodies in slabs or at different heights.
-/// Source:  the slide of the paper's experiment, in one query instead of small steps.
+/// Source:  the slide of the paper's experiment, which the paper makes in small steps.
 void time_of_impact(const ShapeSet& shapes, const Agents& agents, std::span<const Pair> pairs,
                     const Displacements& displacements, std::span<float> times,
                     const QueryOptions& options = {});
