@@ -12,19 +12,20 @@
  * The C interface of bch, in C99, for programs of other compilers and languages. It offers what the C++ headers do; these
  * say more about each answer.
  *
- * Results:  every function that can fail returns a bch_status and writes its results through its last arguments. On any
- *           other status than BCH_OK nothing has been written, and bch_last_error() says what is wrong.
- * Handles:  an object is a pointer that a function hands out and that the free function of its kind takes back; NULL is
- *           nothing to free. A function that gets a pointer which is no living object of that kind returns BCH_INVALID_ARGUMENT. An
- *           object that others need, such as the set that a borrowed pointer comes from, has to live as long as they do.
+ * Results:  every function that can fail returns a bch_status and writes its results through its last arguments. Unless it
+ *           returns BCH_OK, nothing has been written, and bch_last_error() says what is wrong.
+ * Handles:  an object is a pointer that a function creates and that the free function of its kind frees; freeing NULL does
+ *           nothing. A function that gets a pointer which is no living object of that kind returns BCH_INVALID_ARGUMENT. An
+ *           object that lent a pointer has to live as long as that pointer is used.
  * Structs:  those that begin with `size` may grow at their end in later versions: initialise them by the macro of their
  *           name, which fills in the size and the defaults. NULL in place of options means the defaults.
- * Arrays:   they are the caller's, packed, are neither copied nor kept, and may be NULL where they are empty. Units are metres and
- *           radians; a heading of 0 leaves a shape as it is, and the built-in characters then face +x.
+ * Arrays:   they are the caller's and packed. They are neither copied nor kept, and may be NULL where they are empty.
+ * Units:    metres and radians, counter-clockwise; a heading of 0 leaves a shape as it is, and the built-in characters then
+ *           face +x.
  * Threads:  functions may be called from any thread. Objects that a function does not take as const are for one thread at a
  *           time; a set of shapes and obstacles answer any number of threads at once.
- * Memory:   no function throws, ends the program or prints. An allocation that fails is BCH_NO_MEMORY. Queries of pairs make none, but
- *           for clearances and times of bodies in slabs or at different heights.
+ * Memory:   a failed allocation gives BCH_NO_MEMORY. Queries of pairs allocate nothing, except clearances and times of impact of
+ *           bodies in slabs or at different heights. No function throws, ends the program or prints.
  */
 
 #ifdef __cplusplus
@@ -47,7 +48,7 @@ BCH_API uint32_t bch_abi_version(void);
 /** Returns the version of the library that is loaded, such as "0.3.0". */
 BCH_API const char* bch_version(void);
 
-/** What a function says of its success. */
+/** The status that a function returns. */
 typedef int32_t bch_status;
 enum {
   BCH_OK = 0,
@@ -56,7 +57,7 @@ enum {
   BCH_TOO_LARGE = 3,        /**< more than the library's limits hold */
   BCH_NO_MEMORY = 4,
   BCH_FILE_NOT_FOUND = 5,
-  BCH_BAD_FILE = 6,  /**< a file that cannot be read, believed or written */
+  BCH_BAD_FILE = 6,  /**< a file that cannot be read, trusted or written */
   BCH_CANCELLED = 7, /**< a callback asked for it */
   BCH_INTERNAL = 8   /**< a fault of the library */
 };
@@ -87,11 +88,11 @@ typedef struct bch_heights {
   float bottom, top;
 } bch_heights;
 
-/** Is called now and then on the thread of the caller while a function works: `done` of `total` parts are ready; a total of 0 is
- * not known. Any other answer than 0 cancels the function, which then returns BCH_CANCELLED. */
+/** A callback for progress, called on the caller's thread while a function works: `done` of `total` parts are ready; a total of 0 is
+ * unknown. Returning anything but 0 cancels the function, which then returns BCH_CANCELLED. */
 typedef int32_t (*bch_progress)(void* user, uint64_t done, uint64_t total);
 
-/** How long work is done. */
+/** How functions that take long do their work: on how many threads, and with which callback. */
 typedef struct bch_work {
   uint32_t size;         /**< sizeof(bch_work) */
   uint32_t threads;      /**< 0: one for each processor */
@@ -124,7 +125,7 @@ BCH_API double bch_pedestrian_strides_per_second(double metres_per_second);
 typedef struct bch_affine3 {
   float rows[3][4];
 } bch_affine3;
-/** The weight of a bone in the place of a vertex. */
+/** The share of a bone in the position of a vertex. */
 typedef struct bch_influence {
   uint32_t bone;
   float weight; /**< positive; those of a vertex sum to 1 */
@@ -182,7 +183,7 @@ typedef struct bch_character_arrays {
 /** Makes a character of arrays, which are copied. */
 BCH_API bch_status bch_character_create(const bch_character_arrays* arrays, bch_character** character);
 
-/** What the caller knows better than a character's file. */
+/** The options of an import: what to take instead of what the file says, and limits. */
 typedef struct bch_import_options {
   uint32_t size;                 /**< sizeof(bch_import_options) */
   int32_t up;                    /**< the axis that points up, 0, 1 or 2 for x, y or z; -1: what the file says, or a guess */
@@ -198,12 +199,12 @@ typedef struct bch_import_options {
 } bch_import_options;
 #define BCH_IMPORT_OPTIONS_INIT \
   { sizeof(bch_import_options), -1, 0, 0, NULL, 0, 0x7fffffff, 60, (uint64_t)2 << 30, NULL, NULL }
-/** Reads a character from a file (glTF 2, FBX, Collada, MD5, IQM, OBJ, PLY, STL). A child process does, within limits, so that a
- * malformed file cannot harm this one. */
+/** Reads a character from a file (glTF 2, FBX, Collada, MD5, IQM, OBJ, PLY, STL), in a child process and within limits, so a
+ * malformed file cannot harm this process. */
 BCH_API bch_status bch_character_import(const char* path, const bch_import_options* options,
                                         bch_character** character);
 
-/** What there is of a character. */
+/** The sizes, names and notes of a character. */
 typedef struct bch_character_info {
   uint32_t size;    /**< sizeof(bch_character_info) */
   uint32_t joints;
@@ -216,7 +217,7 @@ typedef struct bch_character_info {
 } bch_character_info;
 #define BCH_CHARACTER_INFO_INIT \
   { sizeof(bch_character_info), 0, 0, 0, 0, 0, NULL, NULL }
-/** Tells what there is of a character. */
+/** Tells the sizes, names and notes of a character. */
 BCH_API bch_status bch_character_get_info(const bch_character* character, bch_character_info* info);
 /** Tells the name and the length of a clip; either may be NULL. The name lives as long as the character. */
 BCH_API bch_status bch_character_get_clip(const bch_character* character, uint32_t clip, const char** name,
@@ -228,9 +229,9 @@ typedef struct bch_pose {
   float seconds; /**< from the start of the clip */
 } bch_pose;
 #define BCH_REST_POSE 0xffffffffu
-/** Spreads poses evenly over all clips. Writes `count` of them; of a character without clips all are the rest pose. */
+/** Writes `count` poses spread evenly over all clips; those of a character without clips are the rest pose. */
 BCH_API bch_status bch_character_sample_poses(const bch_character* character, uint32_t count, bch_pose* poses);
-/** Frees a character. Shapers that were made of it go on. */
+/** Frees a character. Shapers that were made of it stay valid. */
 BCH_API bch_status bch_character_free(bch_character* character);
 
 /* Sets of shapes ---------------------------------------------------------------------------------------------------- */
@@ -256,17 +257,17 @@ typedef struct bch_plan {
 #define BCH_PLAN_INIT \
   { sizeof(bch_plan), 1, 1, 0, NULL, 0, NULL, 0, 0.01f }
 
-/** How a file gets into memory. */
+/** How the bytes of a file are accessed. */
 enum {
-  BCH_READ = 0, /**< it is read: right whatever happens to the file meanwhile */
-  BCH_MAP = 1   /**< it is mapped: no copy, for files that no process writes to or shortens while the set lives */
+  BCH_READ = 0, /**< copied into memory: safe whatever happens to the file afterwards */
+  BCH_MAP = 1   /**< mapped without a copy: for files that no process writes to or shortens while the set lives */
 };
 /** Loads a set from a baked file. */
 BCH_API bch_status bch_shape_set_load(const char* path, int32_t access, bch_shape_set** set);
 /** Writes a set as a baked file, whole or not at all. */
 BCH_API bch_status bch_shape_set_save(const bch_shape_set* set, const char* path);
 
-/** What there is of a set. */
+/** The sizes and levels of a set, and what can be asked of it. */
 typedef struct bch_shape_set_info {
   uint32_t size; /**< sizeof(bch_shape_set_info) */
   uint32_t shapes;
@@ -281,10 +282,10 @@ typedef struct bch_shape_set_info {
 } bch_shape_set_info;
 #define BCH_SHAPE_SET_INFO_INIT \
   { sizeof(bch_shape_set_info), 0, 0, 0, 0, 0, 0, 0, NULL, NULL }
-/** Tells what there is of a set. */
+/** Tells the sizes and levels of a set, and what can be asked of it. */
 BCH_API bch_status bch_shape_set_get_info(const bch_shape_set* set, bch_shape_set_info* info);
 
-/** Which character and pose a shape was made from. */
+/** The character and pose that a shape was made from. */
 typedef struct bch_shape_origin {
   const char* character; /**< lives as long as the set, like the next; NULL where the set does not know */
   const char* clip;      /**< NULL: the rest pose */
@@ -314,17 +315,17 @@ typedef struct bch_outline {
 } bch_outline;
 #define BCH_OUTLINE_INIT \
   { sizeof(bch_outline), NULL, 0, NULL, 0, 0, 0 }
-/** The slab that stands for all of them. */
+/** In place of a slab: all of them. */
 #define BCH_ALL_SLABS 0xffffffffu
 /** Tells the outline of a shape, in one of its slabs or, for BCH_ALL_SLABS, of all of them. Writes as many points and offsets as fit, and
  * how many there are. A set without outlines has none. */
 BCH_API bch_status bch_shape_set_get_outline(const bch_shape_set* set, uint32_t shape, uint32_t slab,
                                              bch_outline* outline);
 
-/** Is called with one line for each finding. */
+/** A callback that gets one line for each finding. */
 typedef void (*bch_finding)(void* user, const char* line);
-/** Checks that what a set stores of its shapes follows from their discs and outlines, for files from elsewhere. Calls `finding`, which
- * may be NULL, for at most `most` findings, and tells how many these were. */
+/** Recomputes from discs and outlines all else that a set stores, and compares: for files from elsewhere. Calls `finding`, which
+ * may be NULL, for at most `most` differences, and tells how many these were. */
 BCH_API bch_status bch_shape_set_verify(const bch_shape_set* set, size_t most, bch_finding finding, void* user,
                                         size_t* count);
 /** Frees a set. */
@@ -352,7 +353,7 @@ BCH_API bch_status bch_shape_set_builder_create(const bch_plan* plan, bch_shape_
  * those that were before are still there. */
 BCH_API bch_status bch_shape_set_builder_add_poses(bch_shape_set_builder* builder, const bch_character* character,
                                                    const bch_pose* poses, size_t count, const bch_work* work);
-/** Which character in which pose a shape shows. */
+/** The character and pose that a shape shows. */
 typedef struct bch_shape_source {
   uint32_t character; /**< index in a list of characters */
   bch_pose at;
@@ -383,8 +384,8 @@ BCH_API bch_status bch_shape_set_builder_add_cylinder(bch_shape_set_builder* bui
 BCH_API bch_status bch_shape_set_builder_add_mesh(bch_shape_set_builder* builder, const bch_vec3* positions,
                                                   size_t position_count, const uint32_t* triangles,
                                                   size_t triangle_count);
-/** Makes the set of all shapes that were added. The builder is empty afterwards, and begins another set of its plan; after an error it is as
- * it was. */
+/** Makes the set of all shapes that were added. The builder is then empty and can build another set of its plan; after an error it
+ * is as it was. */
 BCH_API bch_status bch_shape_set_builder_finish(bch_shape_set_builder* builder, bch_shape_set** set);
 /** Frees a builder. */
 BCH_API bch_status bch_shape_set_builder_free(bch_shape_set_builder* builder);
@@ -434,15 +435,18 @@ enum {
 };
 enum {
   BCH_DISCS = 0,   /**< leaves meet where their discs overlap */
-  BCH_SEGMENTS = 1 /**< and segments of the outlines in them meet, at the level of all depths */
+  BCH_SEGMENTS = 1 /**< at the level of all depths, segments of the outlines in them have to meet as well */
 };
 enum {
-  BCH_OVERLAP_ZERO = 0,   /**< overlapping discs have a distance of 0 */
-  BCH_OVERLAP_DEEPEST = 1 /**< they have the deepest overlap of two, below 0 */
+  BCH_OVERLAP_ZERO = 0,   /**< the clearance of overlapping agents is 0 */
+  BCH_OVERLAP_DEEPEST = 1 /**< it is negative, the deepest overlap of two discs */
 };
-/** The options of all queries. Initialise them by BCH_QUERY_OPTIONS_INIT: zeros are not the defaults. A query ignores those that do not
- * concern it: all have threads and implementation; bch_collide(), the crowd collider and the obstacles' collide semantics and leaves;
- * bch_within() semantics; the contact finder leaves; bch_clearance() max_distance, overlap and distance_leaves. */
+/** The options of all queries. Initialise them by BCH_QUERY_OPTIONS_INIT: zeros are not the defaults. Every query uses threads and
+ * implementation, and ignores what is not listed here:
+ * - bch_collide(), bch_obstacles_collide() and the crowd collider use semantics and leaves,
+ * - bch_within() and bch_obstacles_within() semantics,
+ * - the contact finder leaves,
+ * - bch_clearance() and bch_obstacles_clearance() max_distance and overlap, the first one distance_leaves, too. */
 typedef struct bch_query_options {
   uint32_t size;           /**< sizeof(bch_query_options) */
   int32_t semantics;       /**< BCH_BOUNDARY or BCH_SOLID; sets with slices are solid */
@@ -463,7 +467,7 @@ BCH_API const char* bch_implementation_name(uint32_t i);
 /** Returns whether this processor runs the i-th implementation: 1 or 0. */
 BCH_API int32_t bch_implementation_supported(uint32_t i);
 
-/** Checks the agents of a query: what bch_collide() would refuse of them. */
+/** Checks the agents of a query, with the errors of bch_collide(). */
 BCH_API bch_status bch_validate_agents(const bch_shape_set* set, const bch_agents* agents);
 
 /** Answers for each pair whether its agents collide: 1 or 0 in `hits`, one a pair. */
@@ -479,7 +483,7 @@ BCH_API bch_status bch_within(const bch_shape_set* set, const bch_agents* agents
 typedef struct bch_disc_pair {
   uint32_t first, second;
 } bch_disc_pair;
-/** What stands for no disc. */
+/** In place of a disc's number: none. */
 #define BCH_NO_DISC 0xffffffffu
 /** The nearest points of two agents, each from its agent's position in the world's axes. */
 typedef struct bch_nearest_points {
@@ -502,11 +506,11 @@ BCH_API bch_status bch_clearance(const bch_shape_set* set, const bch_agents* age
 /** How far the first agent of a pair has to move to be free of the second, and in which direction, as a unit vector. */
 typedef struct bch_penetration_depth {
   float depth;  /**< metres */
-  float unused; /**< of no meaning */
-  double x, y;
+  float unused; /**< padding */
+  double x, y;  /**< where the first agent moves, a unit vector */
 } bch_penetration_depth;
-/** Measures how far the first agent of each pair has to move, along the best of so many evenly spread directions: an even number from
- * 2 to 256; 16 to 32 are usual. */
+/** Measures how far the first agent of each pair has to move to be free, along the best of `directions` evenly spread ones: an even
+ * number from 2 to 256; 16 to 32 are usual. */
 BCH_API bch_status bch_penetration(const bch_shape_set* set, const bch_agents* agents, const bch_pair* pairs,
                                    size_t count, uint32_t directions, const bch_query_options* options,
                                    bch_penetration_depth* depths);
@@ -766,16 +770,16 @@ BCH_API bch_status bch_check_free(bch_check* check);
 
 /* Scenes ------------------------------------------------------------------------------------------------------------ */
 
-/** Measures how dense a crowd is around each agent, people per square metre: those within a radius over the area of that circle. */
+/** Measures the density around each agent, people per square metre: the agents within a radius, over the area of that circle. */
 BCH_API bch_status bch_local_densities(const double* x, const double* y, size_t count, double radius,
                                        double* densities);
-/** Tells the cut depth that a density asks for. */
+/** Tells the coarsest cut depth whose false collisions stop a walking person at most once a second at a density. */
 BCH_API bch_status bch_depth_at_density(double people_per_square_metre, uint32_t* depth);
 /** Tells planes that clear most false collisions of standing people, for 1, 2, 3, 4 or 8 slabs: writes slabs - 1 of them. */
 BCH_API bch_status bch_standing_slices(uint32_t slabs, float* slices);
-/** Chooses the planes of so many slabs that clear most false collisions of a crowd of given bodies, among `planes`, 5 cm apart for instance: body i is
- * characters[i] in poses[i], a hundred tell enough. Writes slabs - 1 of the planes, ascending, or all where there are no more, and how
- * many to `slice_count`. */
+/** Chooses, among `planes`, those that clear most false collisions of given bodies when they cut them into so many slabs. Body i is
+ * characters[i] in poses[i]; a hundred bodies and planes 5 cm apart are enough. Writes slabs - 1 of the planes, ascending, or all
+ * where there are no more, and how many to `slice_count`. */
 BCH_API bch_status bch_best_slices(const bch_character* const* characters, const bch_pose* poses, size_t count,
                                    const float* planes, size_t plane_count, uint32_t slabs, float* slices,
                                    size_t* slice_count);
@@ -791,7 +795,7 @@ typedef struct bch_scene_agents {
 } bch_scene_agents;
 #define BCH_SCENE_AGENTS_INIT \
   { sizeof(bch_scene_agents), NULL, NULL, NULL, NULL, 0 }
-/** What will be asked of a scene. */
+/** The queries and levels of detail that a scene is planned for. */
 typedef struct bch_scene_use {
   uint32_t size;       /**< sizeof(bch_scene_use) */
   int32_t solid;       /**< not 0: queries use solid semantics, too */
@@ -800,12 +804,12 @@ typedef struct bch_scene_use {
   const float* slices; /**< planes that cut the bodies of agents who are near */
   size_t slice_count;
   double whole_from;      /**< agents from this distance on are whole bodies, metres */
-  double pairs_per_shape; /**< about how many pairs a shape will be in before it is given up; few where each lives for one frame */
-  float pose_step; /**< seconds, to whose multiples times are rounded down so that agents share shapes; 0: they are not */
+  double pairs_per_shape; /**< expected pairs of a shape before it is replaced; few where shapes live for one frame */
+  float pose_step; /**< times are rounded down to multiples of it, in seconds, so that agents share shapes; 0: they are not */
 } bch_scene_use;
 #define BCH_SCENE_USE_INIT \
   { sizeof(bch_scene_use), 0, BCH_SEGMENTS, 0, NULL, 0, (double)INFINITY, (double)INFINITY, 0 }
-/** What to build for a scene, each shape once, and which shape and level its agents have. */
+/** The shapes to build for a scene, each once, and the shape and level of each agent. */
 typedef struct bch_scene_plan bch_scene_plan;
 /** Plans which shapes a scene needs, at which depths and with what beside. */
 BCH_API bch_status bch_scene_plan_create(const bch_scene_agents* agents, const bch_scene_use* use,
