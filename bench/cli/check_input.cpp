@@ -5,13 +5,16 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <fstream>
 #include <iterator>
+#include <numbers>
 
 #include "bench/base/exit_codes.hpp"
 #include "bench/base/number.hpp"
 #include "bench/base/wkt_input.hpp"
 #include "bench/characters/characters.hpp"
+#include "kernel/check/baked_cast.hpp"
 
 namespace bch::cli {
 namespace {
@@ -53,9 +56,46 @@ std::optional<ObstacleSet> walls_of(const CheckInput& input, const detail::Traje
   }
 }
 
+/// The baked set that people have their shapes of, if that is asked for.
+/// Errors:  throws UsageError where something else is asked for beside it, or where only it would have an effect.
+std::optional<BakedShapes> baked_of(const CheckInput& input) {
+  if (std::none_of(input.characters.begin(), input.characters.end(), is_baked)) {
+    if (!input.clip_speeds.empty() || input.facing != 0)
+      throw UsageError("--clip-speed and --facing are for a baked set, --character NAME.bch");
+    return std::nullopt;
+  }
+  const std::string& file = input.characters[0];
+  if (input.characters.size() > 1)
+    throw UsageError("--character: " + file + " and others: a baked set has all characters of a check");
+  if (!input.shapes.clips.empty() || !input.shapes.slices.empty() || input.depth != "all")
+    throw UsageError("--clips, --slices and --depth: " + file + " is baked already");
+  return load_baked(file);
+}
+
+std::vector<detail::ClipSpeed> clip_speeds_of(const CheckInput& input) {
+  std::vector<detail::ClipSpeed> speeds;
+  for (const std::string& text : input.clip_speeds) {
+    const std::size_t equals = std::min(text.rfind('='), text.size());
+    const std::optional<double> speed =
+        equals == text.size() ? std::nullopt : parse_number(text.substr(equals + 1));
+    if (!speed || !(*speed >= 0 && *speed <= 20))
+      throw UsageError(
+          fmt::format("--clip-speed: '{}' is not a clip and a speed of 0 to 20 m/s, as walk=1.3", text));
+    speeds.push_back({text.substr(0, equals), *speed});
+  }
+  return speeds;
+}
+
 /// Characters of one's own.
-detail::Cast cast_of(const CheckInput& input) {
+detail::Cast cast_of(const CheckInput& input, const std::optional<BakedShapes>& baked) {
   detail::Cast cast;
+  if (baked) {
+    try {
+      return detail::baked_cast(*baked, input.characters[0], clip_speeds_of(input));
+    } catch (const std::invalid_argument& error) {
+      throw InputError(error.what());
+    }
+  }
   for (LoadedCharacter& loaded : load_characters(input.characters, input.shapes.import_options())) {
     try {
       cast.push_back(detail::cast_member(std::move(loaded.character), file_name(loaded)));
@@ -67,11 +107,22 @@ detail::Cast cast_of(const CheckInput& input) {
 }
 
 /// What a recording says of itself, and what was found out about the characters.
-detail::TrajectoryInfo info_of(const detail::TrajectoryReader& reader, const detail::Cast& cast) {
+detail::TrajectoryInfo info_of(const CheckInput& input, const detail::TrajectoryReader& reader,
+                               const OpenedCheck& opened) {
+  const detail::Cast& cast = opened.cast;
   detail::TrajectoryInfo info = reader.info();
+  if (opened.baked)
+    info.assumptions.push_back(
+        fmt::format("{}: people face {:g} degrees from +x (--facing)", input.characters[0], input.facing));
   for (const auto& member : cast)
     info.assumptions.insert(info.assumptions.end(), member.assumptions.begin(), member.assumptions.end());
   return info;
+}
+
+/// Segments, where they are asked for and there.
+Leaves leaves_of(const CheckInput& input, const std::optional<BakedShapes>& baked) {
+  const bool has_segments = !baked || baked->set.exact_leaves();
+  return input.leaves == "discs" || !has_segments ? Leaves::discs : Leaves::segments;
 }
 
 }  // namespace
@@ -95,10 +146,23 @@ void CheckInput::add_to(CLI::App& command) {
       ->type_name("UNIT");
   command.add_option("--walls", walls, "The floor to walk on, in well-known text, instead of the file's own")
       ->type_name("FILE.wkt");
+  add_bodies_to(command);
+  command.add_option("--depth", depth, "Depth of the bodies' hierarchies: 0, 1, 2 ... or all [all]")
+      ->type_name("N");
+  add_leaves_option(command, leaves, 2);
+  command
+      .add_option("--max-distance", max_distance,
+                  "Metres: --pairs also has gaps up to that [0: overlaps alone]")
+      ->type_name("M")
+      ->check(number_between(0, 10));
+}
+
+void CheckInput::add_bodies_to(CLI::App& command) {
   CLI::Option* const character =
       command
-          .add_option("--character", characters,
-                      "People have the bodies of these characters, by their ids (repeatable) [built-in]")
+          .add_option(
+              "--character", characters,
+              "People have these bodies, by their ids or as rows name them (repeatable), or one baked set")
           ->type_name("FILE")
           ->allow_extra_args(false);
   command
@@ -110,14 +174,16 @@ void CheckInput::add_to(CLI::App& command) {
   command
       .add_option("--slices", shapes.slices, "Cut bodies at these heights, metres, into slabs [whole bodies]")
       ->type_name("H,H...");
-  command.add_option("--depth", depth, "Depth of the bodies' hierarchies: 0, 1, 2 ... or all [all]")
-      ->type_name("N");
-  add_leaves_option(command, leaves, 2);
   command
-      .add_option("--max-distance", max_distance,
-                  "Metres: --pairs also has gaps up to that [0: overlaps alone]")
-      ->type_name("M")
-      ->check(number_between(0, 10));
+      .add_option("--clip-speed", clip_speeds,
+                  "Of a baked set: how fast people walk in a clip, 0 where they stand (repeatable)")
+      ->type_name("CLIP=M/S")
+      ->allow_extra_args(false)
+      ->needs(character);
+  command.add_option("--facing", facing, "Of a baked set: where people face, counter-clockwise from +x [0]")
+      ->type_name("DEGREES")
+      ->check(number_between(-360, 360))
+      ->needs(character);
 }
 
 void add_outputs_to(CLI::App& command, CheckOutputs& outputs) {
@@ -139,23 +205,28 @@ void add_outputs_to(CLI::App& command, CheckOutputs& outputs) {
 }
 
 OpenedCheck::OpenedCheck(const CheckInput& input)
-    : cast(cast_of(input)),
+    : baked(baked_of(input)),
+      cast(cast_of(input, baked)),
       reader(detail::open_trajectory(input.file, trajectory_options(input))),
       walls(walls_of(input, reader->info())),
-      recording{input.file,
-                info_of(*reader, cast),
-                static_cast<std::uint32_t>(input.shapes.planes().size() + 1),
-                parse_depth("--depth", input.depth),
-                input.leaves == "discs" ? Leaves::discs : Leaves::segments,
-                static_cast<std::uint32_t>(cast.size()),
-                walls.has_value(),
-                walls_text(input, reader->info())} {}
+      recording{
+          input.file,
+          info_of(input, *reader, *this),
+          baked ? baked->set.slab_count() : static_cast<std::uint32_t>(input.shapes.planes().size() + 1),
+          baked ? baked->set.depths().back() : parse_depth("--depth", input.depth),
+          leaves_of(input, baked),
+          static_cast<std::uint32_t>(cast.size()),
+          baked.has_value(),
+          walls.has_value(),
+          walls_text(input, reader->info())} {}
 
 detail::CheckOptions OpenedCheck::options(const CheckInput& input) const {
   detail::CheckOptions how;
   how.plan = {.depths = {recording.depth}, .slices = input.shapes.planes()};
   how.leaves = recording.leaves;
   how.cast = cast;
+  how.baked = baked ? &baked->set : nullptr;
+  how.facing = input.facing * std::numbers::pi / 180;
   how.max_distance = input.max_distance;
   how.walls = walls ? &*walls : nullptr;
   how.coarse = recording.info.rows < detail::coarse_from ? 1 : 3;

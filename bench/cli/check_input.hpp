@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include <bch/baked.hpp>
 #include <bch/obstacles.hpp>
 
 #include "bench/cli/check_output.hpp"
@@ -25,9 +26,14 @@ struct CheckInput {
   ShapeOptions shapes;  ///< of which slices and clips alone are asked for
   std::vector<std::string> characters;
   std::string depth = "all", leaves = "segments";
+  std::vector<std::string> clip_speeds;  ///< NAME=SPEED each; these and the next of a baked set alone
+  double facing = 0;                     ///< degrees
 
   void add_to(CLI::App& command);
   std::vector<std::string> files() const;
+
+ private:
+  void add_bodies_to(CLI::App& command);
 };
 
 /// Adds the options of where answers go.
@@ -35,6 +41,7 @@ void add_outputs_to(CLI::App& command, CheckOutputs& outputs);
 
 /// A recording that is open, with its walls and the characters that people have.
 struct OpenedCheck {
+  std::optional<BakedShapes> baked;
   detail::Cast cast;
   std::unique_ptr<detail::TrajectoryReader> reader;
   std::optional<ObstacleSet> walls;

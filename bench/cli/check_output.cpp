@@ -56,9 +56,12 @@ std::string facts(const CheckedRecording& recording, const CheckSummary& summary
       line("people", fmt::format("{} in {} ({:.1f} s), {} person-frames", grouped(summary.people),
                                  counted(summary.frames, "frame"), seconds, grouped(summary.all.people))) +
       line("bodies", fmt::format("{}, {}", bodies_text(recording), counted(summary.poses.size(), "pose"))) +
-      line("poses", fmt::format("within {} cm of each person's {}", recording.info.rows < coarse_from ? 1 : 3,
-                                recording.characters == 0 ? "speed and phase"
-                                                          : "phase, in the walk of the nearest speed")) +
+      line("poses",
+           recording.baked
+               ? std::string("those of the baked set")
+               : fmt::format("within {} cm of each person's {}", recording.info.rows < coarse_from ? 1 : 3,
+                             recording.characters == 0 ? "speed and phase"
+                                                       : "phase, in the walk of the nearest speed")) +
       line("headings", fmt::format("{:.1f} % guessed: people who stand keep the last one",
                                    percent(summary.guessed, summary.all.people)));
   for (const std::string& assumption : recording.info.assumptions) text += line("assumed", assumption);

@@ -33,6 +33,7 @@ struct CheckedRecording {
   std::uint32_t slabs, depth;
   Leaves leaves;
   std::uint32_t characters;  ///< of one's own; 0: built-in pedestrians
+  bool baked;                ///< those are of a baked set
   bool walls;
   std::string floor;  ///< to walk on, as well-known text, or empty
 };

@@ -114,13 +114,20 @@ Json kept(const CheckedRecording& recording) {
           {"depth", recording.depth},
           {"leaves", recording.leaves},
           {"characters", recording.characters},
+          {"baked", recording.baked},
           {"walls", recording.walls}};
 }
 
 CheckedRecording recording_of(const Json& json) {
-  CheckedRecording recording{
-      json.at("file"),  {}, json.at("slabs"), json.at("depth"), json.at("leaves"), json.at("characters"),
-      json.at("walls"), {}};
+  CheckedRecording recording{json.at("file"),
+                             {},
+                             json.at("slabs"),
+                             json.at("depth"),
+                             json.at("leaves"),
+                             json.at("characters"),
+                             json.at("baked"),
+                             json.at("walls"),
+                             {}};
   json.at("format").get_to(recording.info.format), json.at("fps").get_to(recording.info.fps);
   json.at("assumptions").get_to(recording.info.assumptions), json.at("rows").get_to(recording.info.rows);
   return recording;

@@ -80,8 +80,8 @@ RecordingPage::RecordingPage(const CheckedRecording& recording)
 PageShape RecordingPage::shape(std::uint32_t pose) const {
   const std::uint32_t number = pose - first_pose_;
   PageShape shape{"pedestrian", contours_of(shapes_->view(), number)};
-  if (shapes_->depths()[0] == all_depths) return shape;
-  shape.discs = shapes_->discs(number, 0);
+  if (shapes_->depths().back() == all_depths) return shape;
+  shape.discs = shapes_->discs(number, shapes_->level_count() - 1);
   if (shape.contours.empty())
     for (const Disc& disc : shape.discs) shape.contours.push_back(contour_of(disc));
   return shape;

@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
+#include <cmath>
 #include <limits>
+#include <numbers>
 #include <span>
 
 #include "kernel/c_api/arguments.hpp"
 #include "kernel/c_api/handles.hpp"
 #include "kernel/c_api/objects.hpp"
 #include "kernel/c_api/obstacles.hpp"
+#include "kernel/check/baked_cast.hpp"
 #include "kernel/check/check.hpp"
 #include "layout/trajectory/trajectory.hpp"
 
@@ -115,8 +118,29 @@ std::optional<ObstacleSet> own_walls(const bch_check_options& options, const Tra
   return obstacles_from_wkt(info.geometry, Polygons::walkable);
 }
 
+/// The characters of a baked set.
+Cast baked_cast_of(const bch_check_options& options) {
+  if (options.character_count > 0)
+    throw Failure(BCH_INVALID_ARGUMENT, "options->baked and options->characters are both given");
+  const bch_shape_set& set = object_of(options.baked, "options->baked");
+  if (set.own == nullptr)
+    throw Failure(BCH_INVALID_ARGUMENT, "options->baked does not say which clips its shapes show");
+  if (!(std::abs(options.facing) <= 2 * std::numbers::pi))
+    throw Failure(BCH_INVALID_ARGUMENT, "options->facing is " + std::to_string(options.facing));
+  std::vector<ClipSpeed> speeds;
+  for (const bch_clip_speed& given :
+       array_of(options.clip_speeds, options.clip_speed_count, "options->clip_speeds")) {
+    required(given.clip, "options->clip_speeds");
+    if (!(given.speed >= 0 && given.speed <= 20))
+      throw Failure(BCH_INVALID_ARGUMENT, "options->clip_speeds has " + std::to_string(given.speed));
+    speeds.push_back({given.clip, given.speed});
+  }
+  return baked_cast(*set.own, "options->baked", speeds);
+}
+
 /// The characters of the caller.
 Cast cast_of(const bch_check_options& options) {
+  if (options.baked != nullptr) return baked_cast_of(options);
   if (options.character_count > 0) required(options.characters, "options->characters");
   Cast cast;
   for (const bch_character* character : std::span(options.characters, options.character_count)) {
@@ -139,6 +163,8 @@ std::unique_ptr<bch_check> run_check(bch_trajectory& trajectory, const bch_check
   options.max_distance = given.max_distance;
   const Cast cast = cast_of(given);
   options.cast = cast;
+  options.baked = given.baked == nullptr ? nullptr : &object_of(given.baked, "options->baked").set;
+  options.facing = given.baked == nullptr ? 0 : given.facing;
   const std::optional<ObstacleSet> walls = own_walls(given, trajectory.reader->info());
   options.walls = given.walls != nullptr ? &object_of(given.walls, "options->walls").set
                   : walls                ? &*walls

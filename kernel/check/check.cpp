@@ -27,7 +27,7 @@ class Checker {
       : options_(options),
         motions_(cast_motions(info.motions, options_.cast)),
         seen_(seen),
-        shapes_(options_.plan, options_.cast) {}
+        shapes_(options_.plan, options_.cast, options_.baked) {}
 
   /// Checks all frames of a block but the last one, which the next block begins with or nobody asks for; at the end that one, too.
   void check(const FrameBlock& block, bool at_end, double fps);
@@ -76,10 +76,7 @@ void Checker::pose(std::size_t runs) {
   for (std::size_t k = 0; k < runs; ++k)
     poses_.insert(poses_.end(), runs_[k]->poses().begin(), runs_[k]->poses().end());
   shape_.resize(poses_.size());
-  const std::uint32_t known = shapes_.given_up() + shapes_.set().shape_count();
-  shapes_.find(poses_, shape_);
-  for (std::size_t i = 0; i < poses_.size(); ++i)
-    if (shapes_.given_up() + shape_[i] >= known) summary_.poses.insert(poses_[i].key());
+  for (const WalkerPose& pose : shapes_.find(poses_, shape_)) summary_.poses.insert(pose.key());
 }
 
 /// Tells the frames of a run, and joins its overlaps to events.
@@ -165,7 +162,7 @@ CheckSummary check(TrajectoryReader& reader, const CheckOptions& options,
                    const std::function<void(const CheckedFrame&, const ShapeSet&)>& seen) {
   const FloatingPointStateGuard floats;
   const double fps = reader.info().fps;
-  WalkerReader walkers(reader, options.frames);
+  WalkerReader walkers(reader, options.frames, options.facing);
   Checker checker(reader.info(), options, seen);
   FrameBlock now, next;
   bool at_end = now.read(walkers, options.people_at_once, {});

@@ -32,6 +32,9 @@ struct CheckOptions {
       1;  ///< 1: neither speed nor phase of a pose is off by what moves an outline by 1 cm; 3: by 3 cm
   FrameInterval frames = {};  ///< these are checked; all before them are read, because people hold headings
   CastView cast = {};         ///< whose bodies people have; where it is empty, pedestrians'
+  const ShapeSet* baked =
+      nullptr;        ///< their shapes, of baked_cast(): of its last level, so that the plan does not matter
+  double facing = 0;  ///< radians: where the shapes of baked people face, which others do to 0
   std::size_t people_at_once =
       100'000;  ///< about so many, of many frames; the answers are the same for any number
 };

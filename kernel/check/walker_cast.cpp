@@ -184,6 +184,21 @@ double turns_of(const CastClip& clip, const Walker& walker, double size) {
   return clip.speed > 0 ? walker.way / (size * clip.speed * seconds) : walker.seconds / seconds;
 }
 
+/// The baked pose nearest to a share of a clip, behind whose last one the first follows.
+std::uint32_t nearest_baked(const CastClip& clip, double share) {
+  const auto seconds = static_cast<float>(share * clip.seconds);
+  const auto& poses = clip.baked;
+  const auto after = std::upper_bound(poses.begin(), poses.end(), seconds,
+                                      [](float time, const BakedPose& pose) { return time < pose.seconds; });
+  const auto period = static_cast<float>(clip.seconds);
+  const bool is_last = after == poses.end(), is_first = after == poses.begin();
+  const BakedPose& next = is_last ? poses.front() : *after;
+  const BakedPose& before = is_first ? poses.back() : *(after - 1);
+  const float to_next = next.seconds + (is_last ? period : 0) - seconds,
+              to_before = seconds - before.seconds + (is_first ? period : 0);
+  return static_cast<std::uint32_t>((to_next < to_before ? &next : &before) - poses.data());
+}
+
 }  // namespace
 
 CastPose cast_pose(CastView cast, std::span<const CastMotion> motions, const Walker& walker,
@@ -193,13 +208,17 @@ CastPose cast_pose(CastView cast, std::span<const CastMotion> motions, const Wal
   const std::uint32_t member =
       motion != nullptr && motion->member ? *motion->member : member_by_id(walker.id, cast);
   const CastMember& body = cast[member];
-  const double size = walker.stature / body.height;
+  const double size = body.height > 0 ? walker.stature / body.height : 1;
   const bool is_named = motion != nullptr && !motion->clips.empty();
   const std::uint32_t at = is_named ? motion->clips[member] : clip_by_speed(body, walker, size);
   const CastClip& clip = body.clips[at];
-  const std::uint32_t phases = std::max(1u, clip.phases / coarse);
   const double turns = turns_of(clip, walker, size);
   const double share = turns - std::floor(turns);
+  if (!clip.baked.empty()) {
+    const std::uint32_t phase = nearest_baked(clip, share);
+    return {member, at, phase, clip.baked[phase].seconds};
+  }
+  const std::uint32_t phases = std::max(1u, clip.phases / coarse);
   const std::uint32_t phase = std::min(static_cast<std::uint32_t>(share * phases), phases - 1);
   return {member, at, phase, static_cast<float>((phase + 0.5) / phases * clip.seconds)};
 }

@@ -15,19 +15,27 @@
 
 namespace bch::detail {
 
+/// A shape of a baked set, and its time in the clip.
+struct BakedPose {
+  float seconds;
+  std::uint32_t shape;
+};
+
 /// A clip of a character.
 struct CastClip {
   std::string name;
   double seconds;        ///< from its beginning to where it begins again
   double speed;          ///< at which the character walks in it, at its own height, metres a second
   std::uint32_t phases;  ///< so many that half a step between two moves no vertex by more than a centimetre
+  std::vector<BakedPose> baked = {};  ///< of a member of a baked set, by time: its phases
 };
 
-/// A character of one's own as the people of a recording have it: it walks along +x.
+/// A character of one's own as the people of a recording have it: it walks along +x, but for those of a baked set, which have the
+/// size and the direction that they were baked with.
 struct CastMember {
   std::string name;
-  Character character;
-  double height;                     ///< in its first walk, metres
+  Character character;               ///< empty where it is baked
+  double height;                     ///< in its first walk, metres; 0 where it is baked
   std::vector<CastClip> clips;       ///< of the character
   std::vector<std::uint32_t> walks;  ///< those in which it walks straight on, by ascending speed; never empty
   std::vector<std::uint32_t>

@@ -52,6 +52,7 @@ WalkerPose::WalkerPose(const Walker& walker, Shoulders held, std::uint32_t coars
   stature = std::min(rounded(size, coarse), stature_classes - 1);
   if (!cast.empty()) {
     const CastPose pose = cast_pose(cast, motions, walker, coarse);
+    if (cast[pose.member].height == 0) stature = 0;  // as it was baked
     member = pose.member, clip = pose.clip, phase = pose.phase, seconds = pose.seconds;
     return;
   }
@@ -104,8 +105,12 @@ struct WalkerShapes::Workshop {
   }
 };
 
-WalkerShapes::WalkerShapes(const ShapeSetPlan& plan, CastView cast)
-    : plan_(plan), cast_(cast), builder_(plan, expected_shapes), set_(&builder_.set()) {}
+WalkerShapes::WalkerShapes(const ShapeSetPlan& plan, CastView cast, const ShapeSet* baked)
+    : plan_(plan),
+      cast_(cast),
+      builder_(plan, expected_shapes),
+      baked_(baked),
+      set_(baked != nullptr ? baked : &builder_.set()) {}
 WalkerShapes::~WalkerShapes() = default;
 
 /// Makes those that are new on all threads.
@@ -139,13 +144,16 @@ void WalkerShapes::build(std::span<const WalkerPose> poses) {
   set_ = &builder_.set();
 }
 
-void WalkerShapes::find(std::span<const WalkerPose> poses, std::span<std::uint32_t> shapes) {
-  if (set_->bytes() > most_bytes) {
-    given_up_ += set_->shape_count();
-    builder_ = ShapeSetBuilder(plan_, expected_shapes);
-    set_ = &builder_.set();
-    number_of_.clear();
-  }
+void WalkerShapes::give_up() {
+  given_up_ += set_->shape_count();
+  builder_ = ShapeSetBuilder(plan_, expected_shapes);
+  set_ = &builder_.set();
+  number_of_.clear();
+}
+
+std::span<const WalkerPose> WalkerShapes::find(std::span<const WalkerPose> poses,
+                                               std::span<std::uint32_t> shapes) {
+  if (baked_ == nullptr && set_->bytes() > most_bytes) give_up();
   constexpr std::uint32_t none = 0xffff'ffff;
   for_ranges(poses.size(), lookups, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
@@ -153,15 +161,18 @@ void WalkerShapes::find(std::span<const WalkerPose> poses, std::span<std::uint32
       shapes[i] = found == number_of_.end() ? none : found->second;
     }
   });
-  std::vector<WalkerPose> missing;
+  new_.clear();
   for (std::size_t i = 0; i < poses.size(); ++i) {
     if (shapes[i] != none) continue;
-    const auto next = static_cast<std::uint32_t>(set_->shape_count() + missing.size());
-    const auto [entry, is_new] = number_of_.emplace(poses[i].key(), next);
-    if (is_new) missing.push_back(poses[i]);
+    const WalkerPose& pose = poses[i];
+    const auto next = baked_ != nullptr ? cast_[pose.member].clips[pose.clip].baked[pose.phase].shape
+                                        : static_cast<std::uint32_t>(set_->shape_count() + new_.size());
+    const auto [entry, is_new] = number_of_.emplace(pose.key(), next);
+    if (is_new) new_.push_back(pose);
     shapes[i] = entry->second;
   }
-  if (!missing.empty()) build(missing);
+  if (baked_ == nullptr && !new_.empty()) build(new_);
+  return new_;
 }
 
 }  // namespace bch::detail

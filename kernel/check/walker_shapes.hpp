@@ -52,11 +52,13 @@ class WalkerShapes {
   /// Kept from one call of find() to the next: some 23 000 shapes of whole bodies.
   static constexpr std::size_t most_bytes = std::size_t{256} << 20;
 
-  WalkerShapes(const ShapeSetPlan& plan, CastView cast);
+  /// `baked`: the shapes of a cast that is baked, which live as long as this, or nullptr.
+  WalkerShapes(const ShapeSetPlan& plan, CastView cast, const ShapeSet* baked = nullptr);
   ~WalkerShapes();
 
   /// Finds the shape of each pose, as its index in set(), and builds those that are new.
-  void find(std::span<const WalkerPose> poses, std::span<std::uint32_t> shapes);
+  /// Returns: the poses that are new, or were given up.
+  std::span<const WalkerPose> find(std::span<const WalkerPose> poses, std::span<std::uint32_t> shapes);
   /// Returns the shapes, which stay until the next call of find().
   const ShapeSet& set() const noexcept { return *set_; }
   /// Returns how many shapes were given up: their number and an index in set() are a number that no other shape has.
@@ -66,13 +68,16 @@ class WalkerShapes {
   struct Body;
   struct Workshop;
 
+  void give_up();
   void build(std::span<const WalkerPose> poses);
   std::vector<Body*> bodies_of(std::span<const WalkerPose> poses);
 
   const ShapeSetPlan plan_;
   const CastView cast_;
   ShapeSetBuilder builder_;
-  const ShapeSet* set_;  ///< the builder's
+  const ShapeSet* const baked_;
+  const ShapeSet* set_;  ///< the builder's, or those that are baked
+  std::vector<WalkerPose> new_;
   std::uint32_t given_up_ = 0;
   std::unordered_map<std::uint64_t, std::uint32_t> number_of_;
   std::unordered_map<std::uint64_t, std::unique_ptr<Body>> bodies_;

@@ -35,11 +35,12 @@ double stature_by_id(std::int64_t id, bool is_female) {
   return is_female ? 1.66 + 0.065 * sum : 1.79 + 0.07 * sum;
 }
 
-WalkerReader::WalkerReader(TrajectoryReader& reader, FrameInterval wanted)
+WalkerReader::WalkerReader(TrajectoryReader& reader, FrameInterval wanted, double facing)
     : reader_(reader),
       fps_(reader.info().fps),
       window_(std::max<std::int64_t>(1, std::llround(smoothing * fps_))),
-      wanted_(wanted) {}
+      wanted_(wanted),
+      facing_(facing) {}
 
 bool WalkerReader::read_one() {
   Frame next;
@@ -125,6 +126,7 @@ bool WalkerReader::walk_on(WalkerFrame& frame) {
   for (std::size_t i = 0; i < now.people.size(); ++i)
     frame.people.push_back(walk(now.people[i], *now.tracks[i], now.frame));
   face_the_crowd(frame, now.tracks);
+  for (Walker& walker : frame.people) walker.heading -= facing_;
   return true;
 }
 

@@ -18,7 +18,7 @@ namespace bch::detail {
 struct Walker {
   std::int64_t id;
   double x, y;     ///< metres
-  double heading;  ///< radians
+  double heading;  ///< radians, by which his shape is turned
   double speed;    ///< metres a second, smoothed
   double phase;    ///< share of a stride, 0 to 1, from the left heel's contact on
   double stature;  ///< metres
@@ -50,7 +50,8 @@ struct FrameInterval {
 class WalkerReader {
  public:
   /// `reader` has to live as long as this.
-  explicit WalkerReader(TrajectoryReader& reader, FrameInterval wanted = {});
+  /// `facing`: where shapes face that are not turned, radians.
+  explicit WalkerReader(TrajectoryReader& reader, FrameInterval wanted = {}, double facing = 0);
 
   /// Reads the next frame that is wanted. The first one behind these follows, too. Returns false at the end.
   bool next(WalkerFrame& frame);
@@ -86,6 +87,7 @@ class WalkerReader {
   const double fps_;
   const std::int64_t window_;  ///< frames before and after
   const FrameInterval wanted_;
+  const double facing_;
   bool at_end_ = false, is_behind_ = false;
   std::deque<Frame> ahead_;
   std::unordered_map<std::int64_t, Track> tracks_;

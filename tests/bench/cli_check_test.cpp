@@ -114,6 +114,38 @@ TEST(Cli, CheckTakesCharactersOfOnesOwn) {
   EXPECT_NE(run.err.find("stick.obj: none of its clips walks straight on"), std::string::npos) << run.err;
 }
 
+TEST(Cli, CheckTakesABakedSet) {
+  const TemporaryFolder folder;
+  const std::string file = folder.write("two.txt", two_who_meet()), people = folder.file("people.bch");
+  ASSERT_EQ(
+      bch({"bake", "default:male", "default:female", "--poses", "200", "--depths", "0,all", "-o", people})
+          .code,
+      0);
+  std::vector<std::string> written;
+  for (const char* const threads : {"1", "2"}) {
+    const std::string json = folder.file("check.json"), page = folder.file("check.html");
+    const Ending run = bch({"check", file, "--character", people, "--clip-speed", "walk=1.3", "--json", json,
+                            "--html", page, "--threads", threads});
+    EXPECT_EQ(run.code, 0) << run.err;
+    for (const char* const words : {"2 characters, whole, their outlines", "those of the baked set",
+                                    "people face 0 degrees", "default:male: walks in walk at 1.3 m/s"})
+      EXPECT_NE(run.out.find(words), std::string::npos) << words << "\n" << run.out;
+    EXPECT_GT(read_json(json)["all"]["overlapping"], 10);
+    written.push_back(run.out + read_text(json) + read_text(page));
+  }
+  EXPECT_TRUE(written[0] == written[1]);
+  const auto refused = [&](int code, std::vector<std::string> more, const char* words) {
+    more.insert(more.begin(), {"check", file});
+    expect_failure(bch(more), code, {words});
+  };
+  refused(3, {"--character", people}, "--clip-speed");
+  refused(3, {"--character", people, "--clip-speed", "hop=1"}, "has no clip called hop");
+  refused(2, {"--character", people, "--clip-speed", "walk"}, "'walk'");
+  refused(2, {"--character", people, "--depth", "3"}, "baked already");
+  refused(2, {"--character", people, "--character", "default:male"}, "a baked set has all characters");
+  refused(2, {"--character", "default:male", "--facing", "90"}, "baked set");
+}
+
 TEST(Cli, CheckPlaysWhatRowsName) {
   const TemporaryFolder folder;
   std::string rows = "frame,id,x,y,character,clip,time\n";

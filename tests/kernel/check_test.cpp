@@ -15,6 +15,7 @@
 #include <bch/default_characters.hpp>
 #include <bch/pose_shape.hpp>
 
+#include "kernel/check/baked_cast.hpp"
 #include "tests/support/scenes.hpp"
 
 // Recordings that are made up, of which it is known who runs into whom.
@@ -372,6 +373,92 @@ TEST(Cast, PlaysWhatRowsName) {
             "f:8: clip 'fly' needs a file that has it: --character has to name it");
   cast[1].name = "a.fbx";
   EXPECT_EQ(complaint({"a", "", "f:9"}, cast), "f:9: character 'a' may be several of 'a.glb', 'a.fbx'");
+}
+
+/// Shapes of a clip of the built-in man, and of another, turned by an angle, at 20 a second.
+BakedShapes baked_man(double turn) {
+  Character man = default_male();
+  for (std::size_t k = 0; k < 4; ++k) {
+    const float x = man.to_ground.rows[0][k], y = man.to_ground.rows[1][k];
+    const auto c = static_cast<float>(std::cos(turn)), s = static_cast<float>(std::sin(turn));
+    man.to_ground.rows[0][k] = c * x - s * y, man.to_ground.rows[1][k] = s * x + c * y;
+  }
+  const auto clip_of = [&](const char* name) {
+    return static_cast<std::uint32_t>(std::ranges::find(man.clips, name, &Clip::name) - man.clips.begin());
+  };
+  ShapeOrigins origins{0.02, {"man.glb", "walk", "idle phone"}, {}};
+  PoseShaper shaper(man);
+  std::vector<Shape> shapes;
+  for (const std::uint32_t name : {1u, 2u})
+    for (int k = 0; k < 20;
+         ++k) {  // a clip that walks has a second's steps, and one that stands is cut short
+      const float seconds = static_cast<float>(k) / 20;
+      shapes.push_back(shaper.shape({clip_of(origins.names[name].c_str()), seconds}));
+      origins.origins.push_back({0, name, seconds});
+    }
+  return {ShapeSet(shapes), origins};
+}
+
+TEST(BakedCast, MovesAsItsShapesAndSpeedsSay) {
+  const BakedShapes baked = baked_man(0);
+  const std::vector<ClipSpeed> speeds{{"walk", 1.3}, {"idle phone", 0}};
+  const Cast cast = baked_cast(baked, "people.bch", speeds);
+  ASSERT_EQ(cast.size(), 1u);
+  Walker walker{1, 0, 0, 0, 1.2, 0, 1.75, false, false};
+  const auto shape_at = [&](double way) {
+    walker.way = way;
+    const CastPose pose = cast_pose(cast, {}, walker, 1);
+    return cast[0].clips[pose.clip].baked[pose.phase].shape;
+  };
+  EXPECT_EQ(shape_at(0), 0u);
+  EXPECT_EQ(shape_at(1.3 * 0.501), 10u);
+  EXPECT_EQ(shape_at(1.3 * 0.524), 10u);  // and not the one behind
+  EXPECT_EQ(shape_at(1.3 * 0.526), 11u);
+  EXPECT_EQ(shape_at(1.3 * 0.974), 19u);
+  EXPECT_EQ(shape_at(1.3 * 0.976), 0u);  // round again
+  EXPECT_EQ(shape_at(1.3 * 7.1), 2u);
+  walker.speed = 0, walker.seconds = 0.25;
+  EXPECT_EQ(shape_at(0), 25u);
+}
+
+/// What was baked another way round, and is said to be so, gives the same answers.
+TEST(BakedCast, FacesWhereItIsSaidTo) {
+  MadeUp recording(10);
+  add_crowd(recording, 40, static_cast<int>(test::samples(40)));
+  const std::vector<ClipSpeed> speeds{{"walk", 1.3}};
+  std::vector<std::uint64_t> pairs;
+  for (const double turn : {0.0, 1.1}) {
+    const BakedShapes baked = baked_man(turn);
+    const Cast cast = baked_cast(baked, "people.bch", speeds);
+    CheckOptions options;
+    options.cast = cast, options.baked = &baked.set, options.facing = turn;
+    const CheckSummary summary = check_of(recording, options);
+    pairs.push_back(summary.all.overlapping_pairs);
+    EXPECT_EQ(summary.poses.size(), 20u);
+    options.facing += 1.5;
+    EXPECT_NE(check_of(recording, options).all.overlapping_pairs, pairs.back());
+  }
+  EXPECT_NEAR(static_cast<double>(pairs[0]), static_cast<double>(pairs[1]), 1);  // by the outline's grid
+}
+
+std::string baked_complaint(const BakedShapes& baked, const std::vector<ClipSpeed>& speeds) {
+  try {
+    baked_cast(baked, "p.bch", speeds);
+  } catch (const std::invalid_argument& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+TEST(BakedCast, RefusesWhatItCannotKnow) {
+  BakedShapes baked = baked_man(0);
+  EXPECT_EQ(baked_complaint(baked, {{"hop", 1}}), "p.bch: has no clip called hop");
+  EXPECT_EQ(
+      baked_complaint(baked, {{"walk", 0}}),
+      "p.bch: does not say how fast people walk in its clips: --clip-speed has to, as walk=1.3; those of "
+      "man.glb are walk, idle phone");
+  baked.origins.origins.clear();
+  EXPECT_EQ(baked_complaint(baked, {}), "p.bch: does not say which clips and times its shapes show");
 }
 
 bool inside(const Outline& outline, Vec2 p) {

@@ -311,6 +311,14 @@ class Recordings(unittest.TestCase):
         self.assertEqual(own.assumptions[: len(found.assumptions)], found.assumptions)
         self.assertTrue(any("walks, by its feet, at " in line for line in own.assumptions))
         self.assertNotEqual(own.pairs.tobytes(), found.pairs[found.pairs["kind"] != bch.NEAR].tobytes())
+        baked = bch.bake([bch.default_male()], poses=100)
+        with self.assertRaisesRegex(ValueError, "does not say how fast people walk"):
+            bch.check(self.path, unit=1, characters=baked)
+        with self.assertRaisesRegex(TypeError, "clip_speeds and facing are for"):
+            bch.check(self.path, unit=1, facing=1.5)
+        of_set = bch.check(self.path, unit=1, characters=baked, clip_speeds={"walk": 1.3})
+        self.assertGreater(of_set.summary["overlapping_near_pairs"], 0)
+        self.assertTrue(any("walks in walk at 1.3 m/s" in line for line in of_set.assumptions))
         with self.assertRaisesRegex(TypeError, "characters has a str"):
             bch.check(self.path, unit=1, characters=["default:male"])
         with self.assertRaisesRegex(ValueError, "leaves is 'discs and segments'"):

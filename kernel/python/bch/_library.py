@@ -304,6 +304,10 @@ class TrajectoryInfo(_Sized):
     ]
 
 
+class ClipSpeed(ctypes.Structure):
+    _fields_ = [("clip", c_char_p), ("speed", c_double)]
+
+
 class CheckOptions(_Sized):
     _fields_ = [
         ("size", c_uint32),
@@ -319,6 +323,10 @@ class CheckOptions(_Sized):
         ("leaves", c_int32),
         ("characters", c_void_p),
         ("character_count", c_size_t),
+        ("baked", c_void_p),
+        ("clip_speeds", c_void_p),
+        ("clip_speed_count", c_size_t),
+        ("facing", c_double),
     ]
 
 

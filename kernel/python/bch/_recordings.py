@@ -7,7 +7,8 @@ from __future__ import annotations
 
 import ctypes
 from ctypes import byref
-from typing import Any, Dict, List, NamedTuple, Optional, Sequence
+from types import MappingProxyType
+from typing import Any, Dict, List, Mapping, NamedTuple, Optional, Sequence, Union
 
 import numpy as np
 
@@ -17,7 +18,7 @@ from ._library import ArrayError, Handle, check as _check, lib
 from ._obstacles import Obstacles
 from ._progress import Watched
 from ._queries import Leaves, _leaves, _one_of
-from ._shapes import ALL_DEPTHS, Character, Path
+from ._shapes import ALL_DEPTHS, Character, Path, ShapeSet
 
 #: A person in a frame: metres and radians, NaN where the file does not say.
 TRACKED = np.dtype([("frame", i8), ("id", i8), ("x", f8), ("y", f8), ("heading", f4), ("stature", f4)])
@@ -116,7 +117,9 @@ def _records(get: Any, handle: Handle, dtype: "np.dtype[Any]") -> Records:
 def check(
     path: Path,
     *,
-    characters: Sequence[Character] = (),
+    characters: Union[Sequence[Character], ShapeSet] = (),
+    clip_speeds: Mapping[str, float] = MappingProxyType({}),
+    facing: float = 0.0,
     slices: Sequence[float] = (),
     depth: int = ALL_DEPTHS,
     leaves: Leaves = "segments",
@@ -133,9 +136,14 @@ def check(
     Parameters
     ----------
     path : path
-    characters : sequence of Character
-        Whose bodies people have, by their ids and scaled to their statures; by default built-in pedestrians. Each has a
-        clip that walks straight on, and should have one that stands.
+    characters : sequence of Character, or ShapeSet
+        Whose bodies people have, by their ids, or as rows name them, and scaled to their statures; by default built-in pedestrians.
+        Each has a clip that walks straight on, and should have one that stands. Or a set that was loaded or baked: people then have
+        its shapes, at its last level and as large as they are, and `slices` and `depth` have no effect.
+    clip_speeds : mapping of str to float
+        Of a baked set: how fast people walk in the clips of a name, metres a second; 0: they stand.
+    facing : float
+        Of a baked set: where people face, radians counter-clockwise from +x.
     slices : sequence of float
         Heights of planes that cut bodies into slabs, metres, as `standing_slices` gives; by default bodies are whole.
     depth : int
@@ -159,11 +167,17 @@ def check(
     """
     if walls is not None and not isinstance(walls, Obstacles):
         raise ArrayError(f"walls is a {type(walls).__name__}; wanted is a bch.Obstacles")
-    for character in characters:
+    baked, own = (characters, ()) if isinstance(characters, ShapeSet) else (None, characters)
+    for character in own:
         if not isinstance(character, Character):
             raise ArrayError(f"characters has a {type(character).__name__}; wanted is a bch.Character")
+    if baked is None and (clip_speeds or facing):
+        raise ArrayError("clip_speeds and facing are for characters of a bch.ShapeSet")
     trajectory = _open(path, fps, unit, columns)
-    cast = (ctypes.c_void_p * len(characters))(*(character._pointer for character in characters))
+    cast = (ctypes.c_void_p * len(own))(*(character._pointer for character in own))
+    speeds = (_library.ClipSpeed * len(clip_speeds))(
+        *(_library.ClipSpeed(encoded(clip, "clip_speeds"), speed) for clip, speed in clip_speeds.items())
+    )
     planes = np.array([float(plane) for plane in slices], f4)
     with Watched("checking", progress) as watched:
         options = _library.CheckOptions(
@@ -172,7 +186,11 @@ def check(
             slice_count=len(planes),
             depth=bounded(depth, "depth", 0, ALL_DEPTHS),
             characters=ctypes.cast(cast, ctypes.c_void_p),
-            character_count=len(characters),
+            character_count=len(own),
+            baked=None if baked is None else baked._pointer,
+            clip_speeds=ctypes.cast(speeds, ctypes.c_void_p),
+            clip_speed_count=len(speeds),
+            facing=facing,
             leaves=_one_of(_leaves, leaves, "leaves"),
             max_distance=max_distance,
             walls=None if walls is None else walls._pointer,

@@ -683,6 +683,11 @@ BCH_API bch_status bch_trajectory_free(bch_trajectory* trajectory);
 
 /** A check of a recording: who runs into whom. */
 typedef struct bch_check bch_check;
+/** How fast people walk in the clips of a name. */
+typedef struct bch_clip_speed {
+  const char* clip;
+  double speed; /**< metres a second; 0: they stand */
+} bch_clip_speed;
 /** What a check is asked. */
 typedef struct bch_check_options {
   uint32_t size;              /**< sizeof(bch_check_options) */
@@ -698,9 +703,13 @@ typedef struct bch_check_options {
   int32_t leaves;             /**< BCH_SEGMENTS or BCH_DISCS: what decides at BCH_ALL_DEPTHS */
   const bch_character* const* characters; /**< whose bodies people have, by their ids; each has a clip that walks straight on */
   size_t character_count;                 /**< 0: built-in pedestrians */
+  const bch_shape_set* baked; /**< or NULL: a set that was loaded or baked, whose shapes people have, at its last level; no characters then */
+  const bch_clip_speed* clip_speeds; /**< of the baked set, which does not say how fast people walk in its clips */
+  size_t clip_speed_count;
+  double facing; /**< of the baked set: where people face, radians from +x */
 } bch_check_options;
 #define BCH_CHECK_OPTIONS_INIT \
-  { sizeof(bch_check_options), 0, NULL, 0, 0, NULL, 0, NULL, NULL, BCH_ALL_DEPTHS, BCH_SEGMENTS, NULL, 0 }
+  { sizeof(bch_check_options), 0, NULL, 0, 0, NULL, 0, NULL, NULL, BCH_ALL_DEPTHS, BCH_SEGMENTS, NULL, 0, NULL, NULL, 0, 0 }
 /** Puts a walking person on every row of a recording that has not been read from, and finds who runs into whom. */
 BCH_API bch_status bch_check_run(bch_trajectory* trajectory, const bch_check_options* options, bch_check** check);
 /** What there is to tell of a whole recording. */
