@@ -53,10 +53,10 @@ void run_bake(const BakeOptions& options) {
 
 std::function<void()> add_bake_command(CLI::App& program) {
   const auto options = std::make_shared<BakeOptions>();
-  CLI::App& command =
-      *program.add_subcommand("bake", "Build shapes once, into a file that queries load at once");
+  CLI::App& command = *program.add_subcommand(
+      "bake", "Build shapes and write them into a file, which the other commands load");
   command.footer(
-      "The other commands take the file in place of a character; it holds no more than queries need.\n"
+      "query, crowd and inspect take the file in place of a character; it holds only what queries need.\n"
       "With --semantics boundary --leaves discs it holds no outlines, and is about a quarter smaller.\n"
       "Example: bch bake man.glb woman.glb --rate 30 --depths 0,all -o people.bch");
   command.add_option("FILE", options->characters, character_help)->type_name("")->required();
@@ -64,7 +64,7 @@ std::function<void()> add_bake_command(CLI::App& program) {
       ->type_name("FILE")
       ->required();
   options->shapes.add_to(command);
-  command.add_option("--rate", options->rate, "Instead of --poses: so many poses a second, of every clip")
+  command.add_option("--rate", options->rate, "Instead of --poses: N poses for each second of every clip")
       ->type_name("N")
       ->check(number_between(1e-3, 1e4))
       ->excludes("--poses");

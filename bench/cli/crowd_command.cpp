@@ -109,10 +109,12 @@ void run_crowd(const CLI::App& command, const CrowdOptions& options) {
 
 std::function<void()> add_crowd_command(CLI::App& program) {
   const auto options = std::make_shared<CrowdOptions>();
-  CLI::App& command = *program.add_subcommand("crowd", "Place a random crowd and find its collisions");
+  CLI::App& command =
+      *program.add_subcommand("crowd", "Place a random crowd and count its collisions at each depth");
   command.footer(
-      "Agents take their shapes evenly from all poses of all characters, so that one of few poses is seen "
-      "seldom.\n"
+      "For each depth, prints the pairs that collide, and the share of the cylinders' collisions that it "
+      "clears.\n"
+      "Shapes are drawn evenly from the poses of all characters: a character with fewer poses appears less.\n"
       "Example: bch crowd --agents 2000 --density 1 --svg crowd.svg");
   command.add_option("--agents", options->agents, "How many agents [10000]")
       ->type_name("N")
@@ -131,7 +133,7 @@ std::function<void()> add_crowd_command(CLI::App& program) {
   command.add_option("--svg", options->svg, "Draw the middle of the crowd from above")->type_name("FILE");
   command
       .add_option("--svg-depth", options->svg_depth,
-                  "Draw the discs of this one of --depths [6, else the last]")
+                  "Of --svg: draw the discs of this depth, one of --depths [6, else the last]")
       ->type_name("DEPTH");
   return [options, &command] { run_crowd(command, *options); };
 }

@@ -130,8 +130,7 @@ void run_inspect(const CLI::App& command, const InspectOptions& options) {
 
 std::function<void()> add_inspect_command(CLI::App& program) {
   const auto options = std::make_shared<InspectOptions>();
-  CLI::App& command =
-      *program.add_subcommand("inspect", "Show what a character or baked file holds, and its shapes");
+  CLI::App& command = *program.add_subcommand("inspect", "Show a character or baked file and its shapes");
   command.footer(
       "Reads glTF 2, FBX, Collada, MD5, IQM, OBJ, PLY and STL, and clips of these and of BVH.\n"
       "A file is refused if reading it crashes or takes more than 2 GiB or 60 s.\n"
@@ -147,7 +146,7 @@ std::function<void()> add_inspect_command(CLI::App& program) {
   command.add_flag(
       "--verify", options->verify,
       "Recompute what a baked file stores besides its discs and outlines, and name what differs");
-  command.add_option("--json", options->json, "Write the same, and all points of a shape's outline")
+  command.add_option("--json", options->json, "Write the same as JSON, with all points of a shape's outline")
       ->type_name("FILE");
   command.add_option("--svg", options->svg, "Draw the shape: a panel for each depth of its hierarchy")
       ->type_name("FILE");

@@ -32,7 +32,7 @@ void run_merge(const CLI::App& command, const MergeOptions& options) {
 std::function<void()> add_merge_command(CLI::App& program) {
   const auto options = std::make_shared<MergeOptions>();
   CLI::App& command =
-      *program.add_subcommand("merge", "Make one run of the parts that check --part or query --part wrote");
+      *program.add_subcommand("merge", "Join the parts that check --part or query --part wrote");
   command.footer(
       "Writes the bytes that one run would write. All parts have to be there, whole, and of the same run: "
       "the "

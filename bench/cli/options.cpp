@@ -111,7 +111,7 @@ void ShapeOptions::add_to(CLI::App& command) {
   command
       .add_option(
           "--slices", slices,
-          "Cut bodies at these heights in metres, as 0.4,1: an arm above a foot is no collision [whole]")
+          "Cut bodies at these heights, metres, such as 0.4,1: an arm above a foot is no collision [whole]")
       ->type_name("LIST");
   add_limits_to(command);
 }
@@ -149,7 +149,7 @@ void ShapeOptions::add_limits_to(CLI::App& command) {
   const auto add_count = [&](const char* name, std::size_t& value, const char* what) {
     add(name, value, "N", fmt::format("{} [{}]", what, value), whole_between(1, 1'000'000'000));
   };
-  add_count("--max-triangles", limits.triangles, "Triangles of a file, those of each instance of a mesh");
+  add_count("--max-triangles", limits.triangles, "Triangles of a file, counted for each instance of a mesh");
   add_count("--max-contours", limits.contours, "Contours of the outline of a pose");
   add_count("--max-nodes", limits.nodes, "Nodes of the hierarchy of a pose");
   add("--max-seconds", limits.seconds, "SECONDS", "Time to build and write shapes [60 s, and 1 s a shape]",
@@ -177,7 +177,7 @@ void add_leaves_option(CLI::App& command, std::string& leaves, int centimetres) 
   command
       .add_option(
           "--leaves", leaves,
-          fmt::format("What decides at depth all: segments of the outlines, or discs, up to {} cm sooner "
+          fmt::format("At depth all, test segments of the outlines, or discs, which hit up to {} cm earlier "
                       "[segments]",
                       centimetres))
       ->type_name("NAME")
@@ -188,8 +188,9 @@ void AnswerOptions::add_levels_to(CLI::App& command) {
   command.add_option("--depths", depths, "Levels of detail: cut depths, ascending [0,3,6,all]")
       ->type_name("LIST");
   command
-      .add_option("--semantics", semantics,
-                  "boundary: outlines cross; solid: or one contains the other [boundary]")
+      .add_option(
+          "--semantics", semantics,
+          "Collide where outlines cross: boundary; or also where one contains the other: solid [boundary]")
       ->type_name("NAME")
       ->check(one_of({"boundary", "solid"}));
   add_leaves_option(command, leaves, 1);

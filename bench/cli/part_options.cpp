@@ -18,11 +18,11 @@ constexpr std::array without_answers{"--part",   "--into",   "--parts", "--threa
 }  // namespace
 
 void PartOptions::add_to(CLI::App& command) {
-  command.add_option("--part", part, "Do part I of N alone; bch merge makes one run of all")
+  command.add_option("--part", part, "Do only part I of N, such as 1/8; bch merge joins all parts")
       ->type_name("I/N");
   command
       .add_option("--into", folder,
-                  "Of --part: the folder of parts; one that is there already is not done again")
+                  "Of --part: the folder for parts; a part that is whole there is not done again")
       ->type_name("DIR");
 }
 

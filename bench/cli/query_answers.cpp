@@ -135,9 +135,10 @@ std::string time_of_impact_rows(const QueryInput& input) {
 constexpr QueryKind kinds[] = {
     {"collide", "hit", "1 where the agents collide, else 0", collide_rows},
     {"clearance", "distance,x,y",
-     "the least gap, in metres, of a disc of each, with --leaves segments of\n"
-     "                 their outlines, and the unit vector from the first one's to the second's;\n"
-     "                 0,0,0 where they overlap, but for --overlap deepest; inf,0,0 beyond --max-distance",
+     "the least gap between their discs or, with --leaves segments,\n"
+     "                 their outlines, metres, and the unit vector from the first to the second; 0,0,0 "
+     "where\n"
+     "                 they overlap, unless --overlap deepest; inf,0,0 beyond --max-distance",
      clearance_rows},
     {"within", "hit", "1 where the agents come within --max-distance of each other, else 0", within_rows},
     {"time-of-impact", "time",

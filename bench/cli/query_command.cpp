@@ -273,29 +273,27 @@ std::function<void()> add_query_command(CLI::App& program) {
   const auto options = std::make_shared<QueryCommandOptions>();
   CLI::App& command = *program.add_subcommand("query", "Answer pairs of agents from CSV files, as CSV");
   command.footer(
-      "In AGENTS.csv an id is any text, shape the number that bch inspect gives it with the same --poses, x "
-      "and y are\n"
-      "metres, heading is in radians, level an index into --depths (without that column: the last), z the "
-      "height of\n"
-      "the ground, metres, of which bodies have to keep their heights in a baked file (bake --heights), dx "
-      "and dy\n"
-      "say how far the agent moves, in metres, without turning.\n"
-      "Heading 0 leaves a shape as it stands in its file, where a y-up file's +z becomes -y. The built-in "
-      "characters\n"
-      "then face +x. People who face +z in a y-up file (as in glTF), or -y in a z-up one, face -y: their "
-      "heading "
-      "is\n"
-      "the direction in which they walk plus pi/2.\n"
-      "Writes a line for each line of PAIRS.csv, in that order, or what --what says:\n" +
+      "Columns of AGENTS.csv:\n"
+      "  id             any text\n"
+      "  shape          the number that bch inspect prints, with the same --poses\n"
+      "  x,y            position, metres\n"
+      "  heading        radians; at 0 a built-in character faces +x, and one of a file stands as in the "
+      "file,\n"
+      "                 where a y-up file's +z becomes -y. People who face +z in a y-up file (as in glTF), "
+      "or\n"
+      "                 -y in a z-up one, have the direction in which they walk plus pi/2\n"
+      "  level          an index into --depths [the last]\n"
+      "  z              height of the ground, metres; a baked file has to keep heights (bake --heights)\n"
+      "  dx,dy          how far the agent moves, metres, without turning; for time-of-impact\n"
+      "Output of --what, a line for each line of PAIRS.csv in its order, unless said otherwise:\n" +
       query_help() +
-      "within, time-of-impact, penetration and, without --leaves segments, clearance look at the discs of "
-      "the cuts,\n"
-      "which cover outlines. An agent inside another may be clear of it. --semantics concerns collide, "
-      "within "
-      "and the\n"
-      "pairs that --all-pairs finds without --max-distance, --leaves these, contacts and clearance.\n"
-      "With --obstacles each answer is about an agent and what is there: its columns are id,... instead of "
-      "first,second,...\n"
+      "collide and contacts test what --leaves names. within, time-of-impact and penetration look at the "
+      "discs\n"
+      "of the cuts, and so does clearance without --leaves segments: discs cover more than outlines, so "
+      "agents\n"
+      "0 m apart need not collide. --semantics is for collide, within and --all-pairs without "
+      "--max-distance.\n"
+      "With --obstacles each line is about an agent and the obstacles: id,... instead of first,second,...\n"
       "Example: bch query default:female agents.csv pairs.csv > answers.csv");
   command.add_option("SHAPES", options->character, character_or_baked_help)->type_name("")->required();
   command.add_option("AGENTS.csv", options->agents, "Columns id,shape,x,y,heading[,z][,level][,dx,dy]")
@@ -304,41 +302,42 @@ std::function<void()> add_query_command(CLI::App& program) {
   command.add_option("PAIRS.csv", options->pairs, "Columns first,second: ids of agents")->type_name("");
   command.add_flag(
       "--all-pairs", options->all_pairs,
-      "Instead of PAIRS.csv: all pairs that collide, or of clearances all within --max-distance");
+      "Instead of PAIRS.csv: all pairs that collide or, of clearance, come within --max-distance");
   command
-      .add_option(
-          "--obstacles", options->obstacles,
-          "Instead of PAIRS.csv: walls and polygons in well-known text, which all agents are asked about")
+      .add_option("--obstacles", options->obstacles,
+                  "Instead of PAIRS.csv: ask all agents about these walls and polygons, in well-known text")
       ->type_name("FILE.wkt");
   command.add_flag("--walkable", options->walkable,
                    "The polygons of --obstacles are floors to walk on: their borders are walls");
   std::vector<std::string> names;
   for (const QueryKind& kind : query_kinds()) names.emplace_back(kind.name);
-  command.add_option("--what", options->what, fmt::format("{} [{}]", fmt::join(names, ", "), names.front()))
+  command
+      .add_option("--what", options->what,
+                  fmt::format("The question: {} [{}]", fmt::join(names, ", "), names.front()))
       ->type_name("NAME")
       ->check(one_of(names, {{"separation", "penetration"}, {"contact-time", "time-of-impact"}}));
   command
       .add_option("--directions", options->directions,
-                  "Of a penetration: along the best of so many, evenly spread, an even number [16]")
+                  "Of penetration: try N evenly spread directions, an even number, and take the best [16]")
       ->type_name("N")
       ->check(whole_between(2, most_directions));
   command
-      .add_option(
-          "--direction", options->direction,
-          "Of a penetration: along this one instead, of any length, until the first lies beyond the second")
+      .add_option("--direction", options->direction,
+                  "Of penetration: move along this direction instead, of any length")
       ->type_name("X,Y");
   command
       .add_option("--max-distance", options->max_distance,
-                  "Metres: how near is within; a clearance beyond it is inf [no limit]")
+                  "Metres: of within the distance; of clearance the limit, beyond which it is inf [no limit]")
       ->type_name("M")
       ->check(number_between(0, 2 * detail::rounding::largest_position));
   command
-      .add_option("--overlap", options->overlap,
-                  "Of a clearance, where discs overlap: zero, or the deepest overlap of two, below 0 [zero]")
+      .add_option(
+          "--overlap", options->overlap,
+          "Of clearance, where discs overlap: zero, or deepest: the deepest overlap of two, below 0 [zero]")
       ->type_name("NAME")
       ->check(one_of({"zero", "deepest"}));
   command.add_flag("--points", options->points,
-                   "Of a clearance: also the nearest points, in metres from their agents, of obstacles too");
+                   "Of clearance: also the nearest points, from the positions of their agents, metres");
   options->part.add_to(command);
   options->shapes.add_to(command);
   options->answer.add_to(command);

@@ -88,16 +88,17 @@ std::function<void()> add_report_command(CLI::App& program) {
       "Writes DIR/report.html, one page with all charts and tables, and the tables as CSV and JSON files.\n"
       "Charts need gnuplot. Real characters are those in $BCH_TEST_DATA/characters, recordings of people\n"
       "those in $BCH_TEST_DATA/trajectories, if it is set.\n"
-      "On two cores all takes about 15 minutes, 2 with --quick.\n"
+      "All experiments take about 15 minutes on two cores, 2 with --quick.\n"
       "Example: bch report --out report --quick");
   command.add_option("--out", options->report.folder, "Folder for the page and its tables")
       ->type_name("DIR")
       ->required();
-  command.add_flag("--quick", options->quick, "Fewer poses, pairs, cases and runs");
+  command.add_flag("--quick", options->quick, "Measure fewer poses, pairs, cases and runs");
   add_repeatable_option(command, "--character", options->characters,
                         std::string(character_help) + " (repeatable) [male, female]", "FILE");
-  add_repeatable_option(command, "--experiment", options->report.experiments,
-                        "One experiment alone (repeatable) [all]", "NAME")
+  add_repeatable_option(
+      command, "--experiment", options->report.experiments,
+      "Run this experiment alone, such as density; a wrong name lists all (repeatable) [all]", "NAME")
       .check(one_of(experiment_names()));
   add_seed_option(command, options->report.seed, "cases, packings and resamples");
   command.add_flag("--page", options->page, "Measure nothing: make the page again from the tables in DIR");

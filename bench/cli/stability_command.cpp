@@ -113,17 +113,21 @@ std::function<void()> add_stability_command(CLI::App& program) {
   CLI::App& command =
       *program.add_subcommand("stability", "Judge collision tests on hard cases by exact arithmetic");
   command.footer(
-      "Pairs of agents that are about to collide by discs, half of the gaps within 64 units in the last\n"
-      "place of a float, half of all magnitudes; and by outlines. Plain tests have positions, headings and\n"
-      "discs in the world's coordinates. Fails if bch misses anything or hits beyond its documented gap.\n"
-      "With --stiff instead: depths as springs of penalty forces, how large a time step may be and what it "
-      "costs.\n"
+      "Compares bch and plain tests in float and double with exact arithmetic, on pairs of agents that "
+      "nearly\n"
+      "touch: half of the gaps are within 64 units in the last place of a float, half of all magnitudes. "
+      "Plain\n"
+      "tests take discs in world coordinates. Fails if bch misses a collision or a hit has more than the gap "
+      "that\n"
+      "its documentation allows. With --stiff instead: depths as springs of penalty forces, their largest "
+      "stable\n"
+      "time step and the energy that they create.\n"
       "Example: bch stability --out stability");
-  command.add_option("--pairs", options->pairs, "Pairs of every row [2000]")
+  command.add_option("--pairs", options->pairs, "Pairs for each row of the table [2000]")
       ->type_name("N")
       ->check(whole_between(20, 10'000'000));
-  command.add_flag("--quick", options->quick, "200 pairs of every row; less of --stiff, too");
-  command.add_flag("--stiff", options->stiff, "Agents that are driven into each other, which takes minutes");
+  command.add_flag("--quick", options->quick, "200 pairs for each row; fewer runs of --stiff");
+  command.add_flag("--stiff", options->stiff, "Drive agents into each other instead; takes minutes");
   add_seed_option(command, options->seed, "shapes and placements");
   add_threads_option(command, options->threads);
   command.add_option("--csv", options->csv, "Write the table as CSV")->type_name("FILE");

@@ -62,7 +62,8 @@ void check_on_ranks(const CLI::App& command, const CheckRanksOptions& options, M
 
 std::function<void()> add_check_command(CLI::App& program, MPI_Comm comm) {
   const auto options = std::make_shared<CheckRanksOptions>();
-  CLI::App& command = *program.add_subcommand("check", "bch check, of which every rank does its parts");
+  CLI::App& command = *program.add_subcommand(
+      "check", "Check a recording as bch check does, its parts divided among the ranks");
   command.footer(
       "Writes the bytes that bch check writes. Parts stay in the folder, and those that are there, whole and "
       "of "

@@ -182,8 +182,8 @@ void run(const WalkOptions& options, MPI_Comm comm) {
 
 std::function<void()> add_crowd_command(CLI::App& program, MPI_Comm comm) {
   const auto options = std::make_shared<WalkOptions>();
-  CLI::App& command =
-      *program.add_subcommand("crowd", "A crowd that walks on all ranks: what each of them did");
+  CLI::App& command = *program.add_subcommand(
+      "crowd", "Walk a crowd that is divided among the ranks, and report the work and time of each");
   command.add_option("file", options->file, "Shapes, baked by bch bake; every rank maps them")
       ->type_name("FILE")
       ->required();
@@ -196,23 +196,23 @@ std::function<void()> add_crowd_command(CLI::App& program, MPI_Comm comm) {
   command.add_option("--density", options->density, "Agents a square metre [3]")
       ->type_name("D")
       ->check(number_between(1e-6, 1e3));
-  command.add_option("--steps", options->steps, "Steps that are counted [10]")
+  command.add_option("--steps", options->steps, "Steps that are measured [10]")
       ->type_name("N")
       ->check(whole_between(1, 1'000'000));
   command
       .add_option("--imbalance", options->imbalance,
-                  "The most pairs of a rank over the mean, or the crowd is cut anew [1.04]")
+                  "Divide the crowd anew where a rank has more than R times the mean of pairs [1.04]")
       ->type_name("R")
       ->check(number_between(1, 1e6));
   command
       .add_option("--agent-pairs", options->agent_pairs,
-                  "As how many pairs an agent counts there; 1.3 balances time [0]")
+                  "Weight of an agent in pairs when work is balanced; 1.3 balances time [0]")
       ->type_name("N")
       ->check(number_between(0, 1000));
   command.add_option("--threads", options->threads, "Threads of a rank [1]")
       ->type_name("N")
       ->check(whole_between(1, 1024));
-  command.add_flag("--plain", options->is_plain, "One process without MPI's part, to compare with");
+  command.add_flag("--plain", options->is_plain, "Answer by CrowdCollider in one process, for comparison");
   command.add_option("--json", options->json, "Write the report as JSON")->type_name("FILE");
   return [options, comm] { run(*options, comm); };
 }

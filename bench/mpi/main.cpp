@@ -22,10 +22,10 @@ using namespace bch::cli;
 using bch::detail::Session;
 
 constexpr const char* description =
-    "A crowd on several processes, which MPI starts: mpirun -n 4 bch_mpi crowd people.bch\n"
+    "Queries of crowds on many processes, started by MPI: mpirun -n 4 bch_mpi crowd people.bch\n"
     "Lengths are in metres, headings in radians, counter-clockwise; the ground plane is x-y.";
 constexpr const char* footer =
-    "Rank 0 writes what there is to say. Where one rank fails, all end with one message that names it.\n"
+    "Rank 0 writes all output. Where one rank fails, all end with one message that names it.\n"
     "Exit codes are those of bch.";
 
 int run_command(const Session& session, int argc, char** argv) {

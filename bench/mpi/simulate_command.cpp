@@ -94,11 +94,11 @@ void add_model_options(CLI::App& command, SimulationOptions& options) {
         ->type_name(type)
         ->check(number_between(low, 1e9));
   };
-  add("--agent-pairs", options.agent_pairs, "N", "As how many pairs an agent counts for the cut");
-  add("--agent-ns", options.agent_ns, "NS", "What an agent takes beside its pairs, nanoseconds");
-  add("--pair-ns", options.pair_ns, "NS", "What a pair takes, nanoseconds");
-  add("--latency-us", options.microseconds, "US", "What a message takes, microseconds");
-  add("--gigabits", options.gigabits, "G", "What a rank sends in a second, gigabits", 1e-3);
+  add("--agent-pairs", options.agent_pairs, "N", "Weight of an agent in pairs when work is balanced");
+  add("--agent-ns", options.agent_ns, "NS", "Time of an agent beside its pairs, nanoseconds");
+  add("--pair-ns", options.pair_ns, "NS", "Time of a pair, nanoseconds");
+  add("--latency-us", options.microseconds, "US", "Time of a message, microseconds");
+  add("--gigabits", options.gigabits, "G", "Bandwidth of a rank, gigabits a second", 1e-3);
 }
 
 }  // namespace
@@ -106,7 +106,8 @@ void add_model_options(CLI::App& command, SimulationOptions& options) {
 std::function<void()> add_simulate_command(CLI::App& program, MPI_Comm comm) {
   const auto options = std::make_shared<SimulationOptions>();
   CLI::App& command = *program.add_subcommand(
-      "simulate", "How a crowd of any size would be cut, by counting alone: imbalance, halos, traffic");
+      "simulate",
+      "Predict imbalance, halos and traffic of a crowd of any size, on one process, without queries");
   command.add_option("file", options->file, "Shapes, baked by bch bake: their radii count")
       ->type_name("FILE")
       ->required();
