@@ -72,8 +72,8 @@ struct ImportedCharacter {
 ///          further one is read, wherever a link or a path leads.
 /// Meshes:  all of the scene, instances included. Polygons are cut into triangles; vertices equal in position
 ///          and influences become one; weights, each from 0 to 1 (1.001 for rounding), are normalised, and any
-///          number of them is kept. A vertex
-///          without weights in a mesh with bones takes those of the nearest vertex that has some.
+///          number of them is kept. A vertex without weights in a mesh with bones takes those of the nearest
+///          vertex that has some.
 /// Frame:   to_ground leads to metres, z up, and never mirrors. Where neither file nor format tells the unit
 ///          or the up axis, they are guessed from the rest pose, and a note says so.
 /// glTF:    the default scene. Required extensions are refused by name but for KHR_mesh_quantization,
@@ -84,11 +84,11 @@ struct ImportedCharacter {
 /// Clips:   those of other files are matched by joint name, any namespace ("mixamorig:") aside. They give the
 ///          rotations of all joints they know, and the position of the topmost, scaled by the ratio of the
 ///          skeletons' bone lengths, whatever their units; other joints keep the character's own lengths.
-///          A clip of another skeleton is refused unless force_clips is set. It is one if the two skeletons
-///          share no bone (two joints, one the parent of the other, by name), if less than half of the clip's
-///          channels move the character and its file has less than half of the character's joints, or if the
-///          joints are turned otherwise. A note names each such clip in which a pose reaches farther than 1.5
-///          times the rest pose.
+///          A clip of another skeleton is refused unless force_clips is set. The skeleton counts as another if
+///          it shares no bone with the character's (two joints, one the parent of the other, by name), if less
+///          than half of the clip's channels move the character and its file has less than half of the
+///          character's joints, or if its joints are oriented differently at rest. A note names each clip of
+///          another file in which a pose reaches farther than 1.5 times the rest pose.
 /// Returns: a character that validate() accepts; the same for the same files.
 /// Errors:  throws ImportError.
 ImportedCharacter import_character(const std::filesystem::path& file, const ImportOptions& options = {});

@@ -29,11 +29,10 @@ std::string text_of(const Finding& finding);
 /// Checks that a set gives right answers: recomputes from discs and outlines all else that it stores, and compares. (Loading
 /// checks only that queries are safe.)
 ///
-/// - A node above the cut and each node below it could be the smallest discs of a whole and of its part. The nodes of the
-///   blocks above a disc of the cut are above it, so that it is found, and their outer radii hold it and are no larger
-///   than that needs.
-/// - A level has at most as many discs as its depth allows and no fewer than the one before, and each of its discs
-///   belongs to one of the level before: the two could be the smallest discs of a part and of a whole.
+/// - The discs of a node and of its child could be the smallest ones around a set of points and around a part of it. Every
+///   disc of the cut is found: it lies below the block nodes that lead to it, and their outer radii cover it and no more.
+/// - A level has at most as many discs as its depth allows and no fewer than the level before. Each of its discs belongs to
+///   one of the level before, and could be the smallest disc around a part of that one's points.
 /// - Reaches, supports and the outer ends of profiles are those of the discs. The supports of a body in slabs
 ///   are not below those of its parts.
 /// - If outlines are stored, every level's discs cover them; the leaves that name a segment cover it, and
