@@ -87,7 +87,7 @@ struct ImportedCharacter {
 ///          A clip of another skeleton is refused unless force_clips is set. The skeleton counts as another if
 ///          it shares no bone with the character's (two joints, one the parent of the other, by name), if less
 ///          than half of the clip's channels move the character and its file has less than half of the
-///          character's joints, or if its joints are oriented differently at rest. A note names each clip of
+///          character's joints, or if its bones point in other directions. A note names each clip of
 ///          another file in which a pose reaches farther than 1.5 times the rest pose.
 /// Returns: a character that validate() accepts; the same for the same files.
 /// Errors:  throws ImportError.
