@@ -42,4 +42,47 @@ void time_of_impact(const ShapeSet& shapes, const Agents& agents, std::span<cons
                     const Displacements& displacements, std::span<float> times,
                     const QueryOptions& options = {});
 
+/// Where a motion is at a time. Between two keys it goes straight on and turns evenly: by the difference of their headings, the long way
+/// round, too.
+struct PathKey {
+  double time, x, y, heading;  ///< seconds, metres in the world, radians
+};
+
+/// An agent who goes along a path and plays a clip. Before the first key of the path, and after the last one, the agent stands there.
+struct Motion {
+  const AnimatedShape* shape;
+  std::span<const PathKey> path;  ///< at least one key, ascending
+  double clip_begin =
+      0;  ///< the time at which the clip is at its beginning; one that does not loop stands still before and after it
+};
+
+/// Times that motions are looked at, both included.
+struct TimeInterval {
+  double from, to;
+};
+
+/// Finds when two motions first touch: the earliest time of an interval at which their solids overlap (see AnimatedShape), infinity where
+/// they do not. Paths, turning and discs are as they are at every real time, not sampled.
+///
+/// The time is never later than the first contact. At that time the solids are at most the tolerance apart, and 2 um for each metre of
+/// both reaches and what double rounds of positions and times, below 1e-14 of these (of times at the greatest speed). So it is early
+/// by at most the tolerance over the speed at which they come together, and finite where they only pass by that closely. The same bits on
+/// every processor, for any number of threads, any split of the batch and exchanged motions; a later end of the interval changes no time.
+///
+/// Units:   seconds within +-1e6, metres within +-1e9, headings within +-1e9 rad, a turn of at most 1e3 rad from key to key.
+/// Sizes:   as many times as pairs, which name motions by index. A motion may be paired with itself.
+/// Errors:  throws std::invalid_argument, before anything is written, on sizes that differ, an index out of range, an interval that ends
+///          before it begins or is not within these units, a tolerance below 1e-6 m, and, naming the motion and key, on a shape or a path that is
+///          missing, keys that do not ascend or are not within these units.
+/// Threads: runs in the caller's TBB arena. Allocates for the motions and for each task.
+void first_contact(std::span<const Motion> motions, std::span<const Pair> pairs, const TimeInterval& interval,
+                   std::span<double> times, double tolerance = 0.005);
+
+/// Returns until when a motion has contact with none of others: the least of what first_contact() says of it and each of them.
+/// Cost:    pairs behind one that touches early are looked at until then alone.
+/// Errors:  as first_contact(); the motion itself is named as the one behind the others.
+/// Threads: one; several may ask at once.
+double free_until(const Motion& motion, std::span<const Motion> others, const TimeInterval& interval,
+                  double tolerance = 0.005);
+
 }  // namespace bch

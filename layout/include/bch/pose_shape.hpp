@@ -6,7 +6,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
-#include <vector>
 
 #include <bch/character.hpp>
 #include <bch/shape_set.hpp>
@@ -50,22 +49,6 @@ class PoseShaper {
  private:
   struct State;
   std::unique_ptr<State> state_;
-};
-
-/// Discs that move through a part of a clip: rings of them lie along the outline, and each goes straight on from key to key, its
-/// centre and its radius linear in time. What they hold at a time is the discs and what the polygons of the rings' centres go
-/// round. Consecutive discs of a ring, the last and the first too, overlap at every key, and so at all times between.
-struct AnimatedChunk {
-  std::vector<double> times;     ///< of the keys, at least two, ascending; seconds of the clip
-  std::uint32_t disc_count = 0;  ///< discs at each key
-  std::vector<Disc> keys;        ///< times.size() * disc_count, key by key; in the shape's frame, metres
-  std::vector<std::uint32_t> ring_ends;  ///< where rings end among the discs, ascending
-};
-
-/// A clip as moving discs: chunks that follow one another in time, each beginning when the one before it ends.
-struct AnimatedDiscs {
-  std::vector<AnimatedChunk> chunks;  ///< from the clip's beginning to its end
-  bool loops = false;                 ///< whether the clip's last pose is its first one
 };
 
 }  // namespace bch

@@ -14,6 +14,7 @@
 #include <bch/outline.hpp>
 
 namespace bch::detail {
+struct AnimatedTree;
 struct ShapeArrays;
 struct ShapeSetView;
 }  // namespace bch::detail
@@ -57,6 +58,56 @@ struct Capsule {
 ///          positive or too small, and as shape_from_polygons().
 Shape shape_from_capsules(std::span<const Capsule> capsules, float tolerance = 0.001f,
                           float threshold = 0.01f);
+
+/// Discs that move through a part of a clip: rings of them lie along the outline, and each goes straight on from key to key, its
+/// centre and its radius linear in time. What they hold at a time is the discs and what the polygons of the rings' centres go
+/// round. Consecutive discs of a ring, the last and the first too, overlap at every key, and so at all times between.
+struct AnimatedChunk {
+  std::vector<double> times;     ///< of the keys, at least two, ascending; seconds of the clip
+  std::uint32_t disc_count = 0;  ///< discs at each key
+  std::vector<Disc> keys;        ///< times.size() * disc_count, key by key; in the shape's frame, metres
+  std::vector<std::uint32_t>
+      ring_ends;  ///< the end of each ring among the discs, ascending; the last is disc_count. None: discs alone
+};
+
+/// A clip as moving discs: chunks that follow one another in time, each beginning when the one before it ends.
+struct AnimatedDiscs {
+  std::vector<AnimatedChunk> chunks;  ///< from the clip's beginning to its end
+  bool loops = false;                 ///< whether the clip's last pose is its first one
+};
+
+/// A body that moves by itself, seen from above: a clip of a character, or moving discs of one's own. Its solid at a time is its discs,
+/// and what the polygons of its rings' centres go round. Discs stand in a tree whose nodes are discs that move as these do, and hold
+/// them at every time. Where a chunk ends and the next one begins the discs of both count. Times before its beginning and after its end are these, or, where it loops, those of another round.
+/// One that was moved from can only be assigned to or destroyed.
+class AnimatedShape {
+ public:
+  /// Checks moving discs and builds the tree over them.
+  /// Cost:    1 ms for 200 discs at 10 keys.
+  /// Errors:  throws std::invalid_argument, naming the chunk, on none, on fewer than two keys, on times that are not finite, not
+  ///          within +-1e6 s, do not ascend or leave a gap; on none or more than 4096 discs, or another number of them than in
+  ///          the keys; naming the disc and key, on one that is not finite or of a radius below 0, or that does not overlap the next
+  ///          one of its ring; on rings that do not ascend or end before or after the last disc, and on a reach outside 1e-6 to 1e6 m.
+  explicit AnimatedShape(const AnimatedDiscs& discs);
+  AnimatedShape(AnimatedShape&&) noexcept;
+  AnimatedShape& operator=(AnimatedShape&&) noexcept;
+  ~AnimatedShape();
+
+  double begin() const noexcept;  ///< seconds of the clip
+  double end() const noexcept;
+  bool loops() const noexcept;
+  /// Returns the radius about the agent's position that holds all discs at every time, metres.
+  double reach() const noexcept;
+  std::size_t bytes() const noexcept;
+  /// Returns the discs at a time, in the order in which they were given.
+  std::vector<Disc> discs(double seconds) const;
+
+  /// For the library's own parts, which alone know the type.
+  const detail::AnimatedTree& tree() const noexcept { return *tree_; }
+
+ private:
+  std::unique_ptr<detail::AnimatedTree> tree_;
+};
 
 /// What makes two leaves meet.
 enum class Leaves {

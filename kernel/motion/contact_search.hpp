@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "kernel/motion/moving_body.hpp"
+#include "kernel/motion/placed_nodes.hpp"
+
+namespace bch::detail {
+
+/// Finds the first contacts of two motions, pair after pair, and keeps its memory meanwhile.
+///
+/// Time is cut where a path or a clip has a key. Between two keys of the paths bodies come as near as their reaches for an
+/// interval at most, which a square root tells; there alone the clips' keys are gone through. From key to key every disc moves straight on but
+/// for what turning bends, so that the first time at which two nodes may touch is a root, too, and the trees are descended where
+/// there is one before the earliest contact of leaves so far. What bends more than half the tolerance is halved in time, but only where
+/// a contact is found.
+///
+/// Never late: discs are enlarged by what their ways may bend, and by `slack_`, which holds what double rounds:
+///
+///     (time)      2^-27 s at the greatest speed of any disc: a time of the motion becomes one of the clip and a share of an interval by
+///                 fewer than 16 roundings of at most 4e6 s
+///     (position)  2^-48 of the coordinates: blends of two keys, and their difference
+///     (turn)      4e-10 of the reaches: rotation()
+///     (root)      2^-20 of the reaches, which is more than all but (time) and (position): a computed root is that of a polynomial
+///                 whose coefficients are off by 2^-50 of (6 reaches)^2 at most, because nothing is placed that is farther away than
+///                 the reaches. The square of what discs are enlarged by is 32 times as much, so that it is no later than
+///                 where the discs themselves touch.
+///
+/// At the time that is found, two discs are at most twice as far apart as both were enlarged.
+///
+/// Where no discs overlap, what one body's rings go round holds another one's ring wholly or not at all. That begins in the beginning, or where
+/// a chunk begins, and is asked then; between, a ring would have to pass through the other one's discs.
+class ContactSearch {
+ public:
+  explicit ContactSearch(double tolerance) : tolerance_(tolerance) {}
+
+  /// Returns the first contact from one time to another, or infinity. Contacts up to `to` do not depend on it.
+  double first(const MotionFacts& a, const MotionFacts& b, double from, double to);
+
+ private:
+  double first_near(double from, double end, double to);
+  double first_between(double from, double end);
+  double first_of_nodes();
+  double first_touch(std::uint32_t i, std::uint32_t j, double last) noexcept {
+    return first_overlap(nodes_a_[i], nodes_b_[j], room_, last);
+  }
+  void open(std::uint32_t i, std::uint32_t j, double last);
+  bool nested_at_begin();
+
+  struct Open {
+    std::uint32_t i, j;
+    double time;
+  };
+
+  double tolerance_;
+  double reach_a_ = 0, reach_b_ = 0, slack_ = 0;
+  double room_ = 0;  ///< what two discs are enlarged by in an interval
+  MovingBody* a_ = nullptr;
+  MovingBody* b_ = nullptr;
+  std::uint32_t looked_inside_ = 0;  ///< chunks of both that had begun
+  PlacedNodes nodes_a_, nodes_b_;
+  std::vector<Open> open_;
+};
+
+}  // namespace bch::detail

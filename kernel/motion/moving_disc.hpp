@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <cmath>
+#include <limits>
+
+namespace bch::detail {
+
+/// A disc that moves straight on for a time from 0 to 1: where it begins, and how far it comes.
+struct MovingDisc {
+  double x, y, radius;
+  double way_x, way_y, growth;
+
+  double radius_at_end() const noexcept { return radius + growth; }
+};
+
+constexpr double never = std::numeric_limits<double>::infinity();
+
+/// Returns the first time from 0 to `last` at which two discs are at most `room` apart, or never. It is the first root of the square of
+/// the centres' distance less that of what the radii reach, f(s) = a s^2 + 2 b s + c, where c > 0: c / (-b + sqrt(b^2 - a c)), whatever
+/// the sign of a.
+inline double first_overlap(const MovingDisc& one, const MovingDisc& other, double room,
+                            double last) noexcept {
+  const double x = one.x - other.x, y = one.y - other.y, r = one.radius + other.radius + room;
+  const double c = x * x + y * y - r * r;
+  if (c <= 0) return 0;
+  const double way_x = one.way_x - other.way_x, way_y = one.way_y - other.way_y,
+               growth = one.growth + other.growth;
+  const double a = way_x * way_x + way_y * way_y - growth * growth;
+  const double b = x * way_x + y * way_y - r * growth;
+  if (b >= 0 && a >= 0) return never;
+  const double square = b * b - a * c;
+  if (square < 0) return never;
+  const double divisor = std::sqrt(square) - b;
+  return c <= last * divisor ? c / divisor : never;
+}
+
+}  // namespace bch::detail

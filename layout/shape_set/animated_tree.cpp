@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include "layout/shape_set/animated_tree.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <span>
+
+#include "layout/base/rounding.hpp"
+
+namespace bch::detail {
+namespace {
+
+double length(double x, double y) noexcept {
+  return std::sqrt(x * x + y * y);
+}
+
+struct Box {
+  double low_x = HUGE_VAL, low_y = HUGE_VAL, high_x = -HUGE_VAL, high_y = -HUGE_VAL;
+
+  void add(const Disc& disc) noexcept {
+    const double x = disc.x, y = disc.y, r = disc.radius;
+    low_x = std::min(low_x, x - r), high_x = std::max(high_x, x + r);
+    low_y = std::min(low_y, y - r), high_y = std::max(high_y, y + r);
+  }
+  double size() const noexcept { return length(high_x - low_x, high_y - low_y); }
+};
+
+/// Where a range of discs falls into two, and what that costs: the sizes of both parts, times their discs.
+struct Split {
+  std::vector<std::uint32_t> order;
+  std::size_t first = 0;
+  double cost = HUGE_VAL;
+};
+
+class Builder {
+ public:
+  explicit Builder(const AnimatedChunk& chunk) : chunk_(chunk) {
+    tree_.times = chunk.times;
+    tree_.ring_ends = chunk.ring_ends;
+    tree_.leaf_of_disc.resize(chunk.disc_count);
+    const std::size_t keys = chunk.times.size(), looked_at = std::min<std::size_t>(keys, most_keys);
+    for (std::size_t i = 0; i < looked_at; ++i) sampled_keys_.push_back(i * (keys - 1) / (looked_at - 1));
+  }
+
+  AnimatedTreeChunk build() {
+    std::vector<std::uint32_t> all(chunk_.disc_count);
+    std::iota(all.begin(), all.end(), 0u);
+    by_node_.reserve((2 * all.size() - 1) * chunk_.times.size());
+    add_node(all);
+    transpose();
+    find_steps();
+    return std::move(tree_);
+  }
+
+ private:
+  static constexpr std::size_t most_keys = 8;  ///< that a split looks at
+
+  const Disc& disc(std::size_t key, std::uint32_t i) const {
+    return chunk_.keys[key * chunk_.disc_count + i];
+  }
+
+  void add_node(std::span<const std::uint32_t> discs) {
+    const std::size_t node = tree_.second_child.size();
+    tree_.second_child.push_back(0);
+    for (std::size_t key = 0; key < chunk_.times.size(); ++key) by_node_.push_back(disc_about(key, discs));
+    if (discs.size() == 1) {
+      tree_.leaf_of_disc[discs[0]] = static_cast<std::uint32_t>(node);
+      return;
+    }
+    const Split split = best_split(discs);
+    add_node(std::span(split.order).first(split.first));
+    tree_.second_child[node] = static_cast<std::uint32_t>(tree_.second_child.size());
+    add_node(std::span(split.order).subspan(split.first));
+  }
+
+  /// Returns a small disc that holds discs: its centre goes from the middle of their box towards the farthest one, by less and less
+  /// (Badoiu, Clarkson 2003).
+  Disc disc_about(std::size_t key, std::span<const std::uint32_t> discs) const {
+    if (discs.size() == 1) return disc(key, discs[0]);
+    Box box;
+    for (const std::uint32_t i : discs) box.add(disc(key, i));
+    double x = (box.low_x + box.high_x) / 2, y = (box.low_y + box.high_y) / 2, least = HUGE_VAL;
+    Disc best;
+    for (int step = 4; step < 16; ++step) {
+      const Disc centre{static_cast<float>(x), static_cast<float>(y), 0};
+      double radius = 0, away = 0;
+      const Disc* farthest = nullptr;
+      for (const std::uint32_t i : discs) {
+        const Disc& each = disc(key, i);
+        const double distance = length(double{each.x} - double{centre.x}, double{each.y} - double{centre.y});
+        if (distance + double{each.radius} <= radius && farthest != nullptr) continue;
+        radius = distance + double{each.radius}, away = distance, farthest = &each;
+      }
+      if (radius < least) least = radius, best = centre;
+      if (away == 0) break;
+      // As far as the farthest point of that disc draws it, towards which its centre lies.
+      const double share = radius / away / step;
+      x += (double{farthest->x} - x) * share, y += (double{farthest->y} - y) * share;
+    }
+    best.radius = rounding::round_up(least * (1 + 0x1p-48));
+    return best;
+  }
+
+  /// Discs without rings stay in their order, by which queries number them. Others may be sorted along an axis.
+  Split best_split(std::span<const std::uint32_t> discs) const {
+    Split best;
+    try_order({discs.begin(), discs.end()}, best);
+    if (chunk_.ring_ends.empty()) return best;
+    for (float Disc::*const axis : {&Disc::x, &Disc::y}) {
+      std::vector<std::uint32_t> order(discs.begin(), discs.end());
+      std::vector<double> along(chunk_.disc_count, 0.0);
+      for (const std::uint32_t i : discs)
+        for (const std::size_t key : sampled_keys_) along[i] += double{disc(key, i).*axis};
+      std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
+        return along[a] != along[b] ? along[a] < along[b] : a < b;
+      });
+      try_order(std::move(order), best);
+    }
+    return best;
+  }
+
+  void try_order(std::vector<std::uint32_t> order, Split& best) const {
+    const std::size_t count = order.size();
+    std::vector<double> cost(count, 0.0);  // of a split before each
+    for (const std::size_t key : sampled_keys_) {
+      Box first, rest;
+      for (std::size_t i = 1; i < count; ++i) {
+        first.add(disc(key, order[i - 1])), rest.add(disc(key, order[count - i]));
+        cost[i] += first.size() * static_cast<double>(i);
+        cost[count - i] += rest.size() * static_cast<double>(i);
+      }
+    }
+    const auto least = std::min_element(cost.begin() + 1, cost.end());
+    if (*least < best.cost) best = {std::move(order), static_cast<std::size_t>(least - cost.begin()), *least};
+  }
+
+  /// From the keys of node after node to the nodes of key after key.
+  void transpose() {
+    const std::size_t nodes = tree_.nodes(), keys = chunk_.times.size();
+    tree_.keys.resize(nodes * keys);
+    for (std::size_t node = 0; node < nodes; ++node)
+      for (std::size_t key = 0; key < keys; ++key)
+        tree_.keys[key * nodes + node] = by_node_[node * keys + key];
+  }
+
+  void find_steps() {
+    for (std::size_t key = 0; key + 1 < chunk_.times.size(); ++key) {
+      double step = 0;
+      const Disc *from = tree_.key(key), *to = tree_.key(key + 1);
+      for (std::size_t i = 0; i < tree_.nodes(); ++i)
+        step =
+            std::max(step, length(double{to[i].x} - double{from[i].x}, double{to[i].y} - double{from[i].y}));
+      tree_.steps.push_back(rounding::round_up(step * (1 + 0x1p-48)));
+    }
+  }
+
+  const AnimatedChunk& chunk_;
+  AnimatedTreeChunk tree_;
+  std::vector<std::size_t> sampled_keys_;
+  std::vector<Disc> by_node_;
+};
+
+}  // namespace
+
+AnimatedTreeChunk animated_tree_chunk(const AnimatedChunk& chunk) {
+  return Builder(chunk).build();
+}
+
+KeyPlace key_place(const AnimatedTree& tree, double seconds) noexcept {
+  const auto& chunks = tree.chunks;
+  std::size_t chunk = chunks.size() - 1;
+  while (chunk > 0 && seconds < chunks[chunk].times.front()) --chunk;
+  const std::vector<double>& times = chunks[chunk].times;
+  const auto after = std::upper_bound(times.begin() + 1, times.end() - 1, seconds);
+  const double from = after[-1], to = *after;
+  return {chunk, static_cast<std::size_t>(after - times.begin() - 1),
+          std::clamp((seconds - from) / (to - from), 0.0, 1.0)};
+}
+
+double time_in_clip(const AnimatedTree& tree, double seconds) noexcept {
+  const double begin = tree.begin(), length = tree.end() - begin;
+  if (!tree.loops) return seconds;
+  return seconds - std::floor((seconds - begin) / length) * length;
+}
+
+}  // namespace bch::detail

@@ -1,0 +1,238 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include <gtest/gtest.h>
+#include <oneapi/tbb/task_arena.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include <bch/time_of_impact.hpp>
+
+#include "tests/support/complaint.hpp"
+#include "tests/support/moving_bodies.hpp"
+#include "tests/support/scenes.hpp"
+
+// The first contact of two motions, against the solids sampled densely, and where a formula tells it.
+
+namespace bch {
+namespace {
+
+using test::MotionCase;
+using test::Random;
+using test::still_disc;
+
+constexpr double never = std::numeric_limits<double>::infinity();
+
+double contact_of(const MotionCase& a, const MotionCase& b, const TimeInterval& interval,
+                  double tolerance = 0.005) {
+  const std::vector<Motion> motions = {a.motion(), b.motion()};
+  const std::vector<Pair> pairs = {{0, 1}};
+  std::vector<double> times(1);
+  first_contact(motions, pairs, interval, times, tolerance);
+  return times[0];
+}
+
+MotionCase disc_on(float radius, std::vector<PathKey> path) {
+  return {still_disc(radius), std::move(path)};
+}
+
+/// Returns a motion of a disc that fits into another body, and begins at its middle.
+MotionCase small_motion_in(const MotionCase& other, Random& random) {
+  const PathKey begin = other.path.front();
+  return disc_on(0.005f, {begin, {3, random.uniform(-2, 2), random.uniform(-2, 2), 0}});
+}
+
+/// Returns a ring of discs about the origin, that stands still for a second.
+AnimatedDiscs ring(double size, std::uint32_t count) {
+  AnimatedChunk chunk{{0, 1}, count, {}, {count}};
+  for (std::uint32_t i = 0; i < 2 * count; ++i) {
+    const double angle = 2 * 3.14159265358979 * i / count;
+    chunk.keys.push_back({static_cast<float>(size * std::cos(angle)),
+                          static_cast<float>(size * std::sin(angle)),
+                          static_cast<float>(1.1 * size * std::sin(3.15 / count))});
+  }
+  return {{chunk}, false};
+}
+
+TEST(FirstContact, IsNeverLaterThanAnySampleAndEarlyByTheToleranceAtMost) {
+  Random random(3101);
+  int contacts = 0, passes = 0, nested = 0;
+  for (std::uint32_t i = 0; i < test::samples(1500); ++i) {
+    const MotionCase a = test::random_motion(random),
+                     b = i % 8 == 0 ? small_motion_in(a, random) : test::random_motion(random);
+    const double tolerance = std::exp(random.uniform(-9, -3)), from = i % 8 == 0 ? a.path.front().time : -2,
+                 to = 3;
+    const double found = contact_of(a, b, {from, to}, tolerance);
+    for (double time = from; time < std::min(found, to); time += 0.001)
+      ASSERT_FALSE(test::meeting_at(a, b, time).overlap()) << i << ": at " << time << ", found " << found;
+    ++(found < never ? contacts : passes);
+    if (found == never) continue;
+    for (int k = 1; k <= 100 && found - 1e-5 * k >= from; ++k)
+      ASSERT_FALSE(test::meeting_at(a, b, found - 1e-5 * k).overlap())
+          << i << ": " << k << " before " << found;
+    // Just behind, too: a chunk may begin there.
+    const test::Meeting meeting = test::meeting_at(a, b, found),
+                        behind = test::meeting_at(a, b, found + 1e-9);
+    nested += meeting.nested || behind.nested;
+    EXPECT_TRUE(meeting.nested || behind.nested || std::min(meeting.gap, behind.gap) <= tolerance + 2e-5)
+        << i << ": gaps of " << meeting.gap << " and " << behind.gap << " at " << found;
+  }
+  EXPECT_GT(contacts, static_cast<int>(test::samples(500)));
+  EXPECT_GT(passes, static_cast<int>(test::samples(250)));
+  EXPECT_GT(nested, 0);
+}
+
+/// Discs of 0.2 m and 0.3 m that come together at 2 m a second from 10 m apart, and pass at a distance aside.
+TEST(FirstContact, OfTwoDiscsIsThatOfTheFormula) {
+  const MotionCase stands = disc_on(0.2f, {{0, 0, 0, 1}});
+  for (const double aside : {0.0, 0.3, 0.49, 0.499999}) {
+    const MotionCase comes = disc_on(0.3f, {{0, -10, aside, 0}, {10, 10, aside, 0}});
+    const double expected = 5 - std::sqrt(0.25 - aside * aside) / 2;
+    EXPECT_NEAR(contact_of(stands, comes, {0, 10}), expected, aside < 0.49 ? 2e-6 : 1e-3) << aside;
+    EXPECT_LE(contact_of(stands, comes, {0, 10}), expected) << aside;
+    EXPECT_EQ(contact_of(stands, comes, {0, 4}), never);
+    EXPECT_EQ(contact_of(stands, comes, {5, 10}), 5);
+    EXPECT_EQ(contact_of(stands, comes, {5.3, 10}), never);
+  }
+  EXPECT_EQ(contact_of(stands, disc_on(0.3f, {{0, -10, 0.6, 0}, {10, 10, 0.6, 0}}), {0, 10}), never);
+}
+
+/// A disc 1 m away from the agent goes round as the agent turns by 20 rad in 10 s, and meets one that stands there.
+TEST(FirstContact, FollowsWhatTurns) {
+  const MotionCase turns{still_disc(0.1f, 1, 0), {{0, 0, 0, 0}, {10, 0, 0, 20}}};
+  for (const double angle : {0.5, 2.0, 6.0}) {
+    const MotionCase stands = disc_on(0.1f, {{0, std::cos(angle), std::sin(angle), 0}});
+    const double expected = (angle - 2 * std::asin(0.1)) / 2;
+    for (const double tolerance : {0.1, 0.005, 1e-5}) {
+      const double found = contact_of(turns, stands, {0, 10}, tolerance);
+      EXPECT_LE(found, expected) << angle;
+      EXPECT_GE(found, expected - tolerance / 1.9 - 1e-5) << angle;
+    }
+  }
+}
+
+TEST(FirstContact, SeesWhoIsInsideFromTheBeginningAndWhoComesThroughTheRing) {
+  const MotionCase around{ring(1, 40), {{0, 3, 4, 0}}};
+  EXPECT_EQ(contact_of(around, disc_on(0.1f, {{0, 3, 4, 0}}), {0.25, 1}), 0.25);
+  const double edge = 4 - 1.1 * std::sin(3.15 / 40) - 0.1;  // of two metres on the way to the middle
+  const double found = contact_of(around, disc_on(0.1f, {{0, 8, 4, 0}, {5, 3, 4, 0}}), {0, 5});
+  EXPECT_NEAR(found, edge, 1e-5);
+  AnimatedDiscs without = ring(1, 40);
+  without.chunks[0].ring_ends.clear();
+  const MotionCase discs_alone{std::move(without), {{0, 3, 4, 0}}};
+  EXPECT_EQ(contact_of(discs_alone, disc_on(0.1f, {{0, 3, 4, 0}}), {0, 1}), never);
+}
+
+/// Discs of one chunk are far away, those of the next go round somebody who stands there.
+TEST(FirstContact, SeesWhoIsInsideWhereAChunkBegins) {
+  AnimatedDiscs discs = ring(1, 40);
+  AnimatedChunk before{{-1, 0}, 1, {{0, 5, 0.1f}, {0, 5, 0.1f}}, {1}};
+  discs.chunks.insert(discs.chunks.begin(), before);
+  discs.loops = true;
+  const MotionCase around{std::move(discs), {{0, 0, 0, 0}}, 7};
+  const MotionCase inside = disc_on(0.1f, {{0, 0, 0, 0}});
+  EXPECT_EQ(contact_of(around, inside, {7.5, 20}), 8);
+  EXPECT_EQ(contact_of(around, inside, {7.5, 7.9}), never);
+  EXPECT_EQ(contact_of(around, inside, {1.5, 20}), 2);  // the round before
+}
+
+TEST(FirstContact, TellsTheSameToAnyThreadsSplitOrderAndLaterEnd) {
+  Random random(3102);
+  std::vector<MotionCase> cases;
+  for (int i = 0; i < 40; ++i) cases.push_back(test::random_motion(random));
+  std::vector<Motion> motions;
+  for (const MotionCase& each : cases) motions.push_back(each.motion());
+  std::vector<Pair> pairs, exchanged;
+  for (std::uint32_t i = 0; i < test::samples(600); ++i) {
+    pairs.push_back({random.below(40), random.below(40)});
+    exchanged.push_back({pairs.back().second, pairs.back().first});
+  }
+  const auto times_of = [&](std::span<const Pair> asked, double to, int threads) {
+    std::vector<double> times(asked.size());
+    tbb::task_arena(threads).execute([&] { first_contact(motions, asked, {-2, to}, times); });
+    return times;
+  };
+  const std::vector<double> times = times_of(pairs, 3, 1);
+  EXPECT_EQ(times_of(pairs, 3, 8), times);
+  EXPECT_EQ(times_of(exchanged, 3, 8), times);
+  const std::vector<double> later = times_of(pairs, 30, 8), sooner = times_of(pairs, 0, 8);
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    if (times[i] < never) {
+      EXPECT_EQ(later[i], times[i]);
+    }
+    EXPECT_EQ(sooner[i], times[i] <= 0 ? times[i] : never);
+    EXPECT_EQ(times_of(std::span(pairs).subspan(i, 1), 3, 1)[0], times[i]);
+  }
+  const std::span<const Motion> others = std::span(motions).subspan(1);
+  double first = never;
+  for (std::uint32_t i = 1; i < 40; ++i) {
+    double time = 0;
+    first_contact(motions, std::vector<Pair>{{0, i}}, {-2, 3}, {&time, 1});
+    first = std::min(first, time);
+  }
+  EXPECT_EQ(free_until(motions[0], others, {-2, 3}), first);
+  EXPECT_EQ(free_until(motions[0], {}, {-2, 3}), never);
+}
+
+TEST(FirstContact, IsThatOfTheOriginFarFromIt) {
+  Random random(3103);
+  for (std::uint32_t i = 0; i < test::samples(100); ++i) {
+    MotionCase a = test::random_motion(random), b = test::random_motion(random);
+    const double here = contact_of(a, b, {-2, 3});
+    for (MotionCase* const each : {&a, &b})
+      for (PathKey& key : each->path) key.x += 1e8, key.y -= 1e8;
+    const double there = contact_of(a, b, {-2, 3});
+    if (here == never || there == never) continue;  // a pass by the tolerance is one here and none there
+    EXPECT_LT(test::meeting_at(a, b, there).gap, 0.0051);
+  }
+}
+
+TEST(FirstContact, RefusesWhatIsNoMotion) {
+  const MotionCase good = disc_on(0.1f, {{0, 0, 0, 0}, {1, 1, 0, 0}});
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  std::vector<double> times(1);
+  const auto said_of = [&](const Motion& motion, TimeInterval interval = {0, 1}, double tolerance = 0.005) {
+    const std::vector<Motion> motions = {good.motion(), motion};
+    return test::complaint([&] {
+      first_contact(motions, std::vector<Pair>{{0, 1}}, interval, times, tolerance);
+    });
+  };
+  const auto with_path = [&](std::vector<PathKey> path) { return said_of({&good.shape, path, 0}); };
+  EXPECT_EQ(said_of(good.motion()), "accepted");
+  EXPECT_EQ(said_of({nullptr, good.path, 0}), "first_contact: motion 1: no shape");
+  EXPECT_EQ(said_of({&good.shape, good.path, nan}),
+            "first_contact: motion 1: its clip begins at nan s, not within +-1e6");
+  EXPECT_EQ(with_path({}), "first_contact: motion 1: a path without keys");
+  EXPECT_EQ(with_path({{0, 0, 0, 0}, {0, 0, 0, 0}}),
+            "first_contact: motion 1: key 1 of its path at 0 s after one at 0 s");
+  EXPECT_EQ(with_path({{nan, 0, 0, 0}}),
+            "first_contact: motion 1: key 0 of its path at nan s, not within +-1e6");
+  EXPECT_EQ(with_path({{0, 2e9, 0, 0}}),
+            "first_contact: motion 1: key 0 of its path at (2e+09, 0) m, not within +-1e9");
+  EXPECT_EQ(with_path({{0, 0, 0, nan}}),
+            "first_contact: motion 1: key 0 of its path with a heading of nan rad, not within +-1e9");
+  EXPECT_EQ(with_path({{0, 0, 0, 0}, {1, 0, 0, 1001}}),
+            "first_contact: motion 1: key 1 of its path turns by more than 1000 rad, to 1001");
+  EXPECT_EQ(said_of(good.motion(), {1, 0}), "first_contact: from 1 s to 0 s is no interval within +-1e6 s");
+  EXPECT_EQ(said_of(good.motion(), {nan, 0}),
+            "first_contact: from nan s to 0 s is no interval within +-1e6 s");
+  EXPECT_EQ(said_of(good.motion(), {0, 1}, 0), "first_contact: a tolerance of 0 m, not 1e-6 or more");
+  EXPECT_EQ(said_of(good.motion(), {0, 1}, nan), "first_contact: a tolerance of nan m, not 1e-6 or more");
+  EXPECT_EQ(test::complaint([&] {
+              first_contact(std::vector<Motion>{good.motion()}, std::vector<Pair>{{0, 1}}, {0, 1}, times);
+            }),
+            "first_contact: pair 0: motion 1 of 1");
+  EXPECT_NE(test::complaint([&] { first_contact({}, {}, {0, 1}, times); }), "accepted");
+  EXPECT_EQ(test::complaint([&] {
+              free_until(Motion{nullptr, good.path, 0}, std::vector<Motion>{good.motion()}, {0, 1});
+            }),
+            "free_until: motion 1: no shape");
+}
+
+}  // namespace
+}  // namespace bch

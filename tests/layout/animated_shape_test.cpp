@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include <bch/shape_set.hpp>
+
+#include "layout/hierarchy/discs.hpp"
+#include "layout/shape_set/animated_tree.hpp"
+#include "tests/support/complaint.hpp"
+#include "tests/support/moving_bodies.hpp"
+#include "tests/support/scenes.hpp"
+
+// Animated shapes: their discs at a time, the trees over them, and what is refused.
+
+namespace bch {
+namespace {
+
+using test::Random;
+
+AnimatedDiscs moving(std::vector<AnimatedChunk> chunks, bool loops = false) {
+  return {std::move(chunks), loops};
+}
+
+/// From 1 s to 3 s a disc goes from (0, 0) to (2, 4) and doubles; from there to 4 s two discs stand.
+std::vector<AnimatedChunk> two_chunks() {
+  return {{{1, 3}, 1, {{0, 0, 1}, {2, 4, 2}}, {}},
+          {{3, 4}, 2, {{5, 0, 1}, {6, 0, 1}, {5, 0, 1}, {6, 0, 1}}, {1, 2}}};
+}
+
+TEST(AnimatedShape, HasItsDiscsAtEveryTime) {
+  const AnimatedShape once(moving(two_chunks())), loop(moving(two_chunks(), true));
+  const std::vector<Disc> first = {{0, 0, 1}}, half = {{1, 2, 1.5f}}, last = {{5, 0, 1}, {6, 0, 1}};
+  EXPECT_EQ(once.begin(), 1);
+  EXPECT_EQ(once.end(), 4);
+  EXPECT_FALSE(once.loops());
+  EXPECT_NEAR(once.reach(), 7, 1e-9);
+  EXPECT_EQ(once.discs(-5), first);
+  EXPECT_EQ(once.discs(2), half);
+  EXPECT_EQ(once.discs(3.5), last);
+  EXPECT_EQ(once.discs(9), last);
+  EXPECT_TRUE(loop.loops());
+  for (const double round : {-30.0, -3.0, 0.0, 3.0, 300.0}) {
+    EXPECT_EQ(loop.discs(2 + round), half) << round;
+    EXPECT_EQ(loop.discs(3.5 + round), last) << round;
+  }
+  EXPECT_GT(once.bytes(), 4 * sizeof(Disc));
+}
+
+/// Calls at(node, disc) for every disc and the nodes above it.
+void for_each_held(const detail::AnimatedTreeChunk& chunk,
+                   const std::function<void(std::uint32_t, std::uint32_t)>& at) {
+  std::vector<std::uint32_t> above(chunk.nodes(), 0);
+  for (std::uint32_t i = 0; i < chunk.nodes(); ++i)
+    if (chunk.second_child[i] != 0) above[i + 1] = above[chunk.second_child[i]] = i;
+  for (const std::uint32_t leaf : chunk.leaf_of_disc) {
+    EXPECT_EQ(chunk.second_child[leaf], 0u);
+    for (std::uint32_t node = leaf; node != 0; node = above[node]) at(above[node], leaf);
+  }
+}
+
+TEST(AnimatedShape, NodesHoldTheirDiscsAtEveryTime) {
+  Random random(3111);
+  for (std::uint32_t i = 0; i < test::samples(40); ++i) {
+    const AnimatedShape shape(i % 4 == 0 ? test::loose_discs(random, 1 + i)
+                                         : test::ringed_body(random, 2, 8 + i));
+    for (const detail::AnimatedTreeChunk& chunk : shape.tree().chunks) {
+      EXPECT_EQ(chunk.nodes(), 2 * chunk.leaf_of_disc.size() - 1);
+      for (int k = 0; k < 30; ++k) {
+        const std::size_t key = random.below(static_cast<std::uint32_t>(chunk.times.size() - 1));
+        const double share = random.below(8) == 0 ? random.below(2) : random.uniform(0, 1);
+        const Disc *const from = chunk.key(key), *const to = chunk.key(key + 1);
+        const auto at = [&](std::uint32_t node, float Disc::*part) {
+          return std::lerp(double{from[node].*part}, double{to[node].*part}, share);
+        };
+        for_each_held(chunk, [&](std::uint32_t node, std::uint32_t disc) {
+          const double away =
+              std::hypot(at(node, &Disc::x) - at(disc, &Disc::x), at(node, &Disc::y) - at(disc, &Disc::y));
+          EXPECT_LE(away + at(disc, &Disc::radius), at(node, &Disc::radius) + 1e-14);
+        });
+      }
+    }
+  }
+}
+
+/// Loose discs keep their order, by which queries number them; nodes are hardly larger than the smallest discs.
+TEST(AnimatedShape, TreesAreTight) {
+  Random random(3112);
+  const AnimatedShape loose(test::loose_discs(random, 50));
+  const std::vector<std::uint32_t>& leaves = loose.tree().chunks[0].leaf_of_disc;
+  EXPECT_TRUE(std::is_sorted(leaves.begin(), leaves.end()));
+  for (int i = 0; i < 4; ++i) {
+    const AnimatedDiscs body = test::ringed_body(random, 1, 32);
+    const AnimatedShape shape(body);
+    const detail::AnimatedTreeChunk& chunk = shape.tree().chunks[0];
+    for (const std::size_t key : {std::size_t{0}, chunk.times.size() - 1}) {
+      const std::span<const Disc> discs = std::span(body.chunks[0].keys).subspan(key * 32, 32);
+      EXPECT_LT(chunk.key(key)[0].radius, 1.01f * detail::disc_hierarchy(discs).nodes[0].disc.radius);
+    }
+  }
+}
+
+TEST(AnimatedShape, RefusesWhatDoesNotMove) {
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  const auto said = [](AnimatedDiscs discs) { return test::complaint([&] { AnimatedShape shape(discs); }); };
+  const auto changed = [&](const std::function<void(std::vector<AnimatedChunk>&)>& change) {
+    std::vector<AnimatedChunk> chunks = two_chunks();
+    change(chunks);
+    return said(moving(std::move(chunks)));
+  };
+  EXPECT_EQ(said(moving(two_chunks())), "accepted");
+  EXPECT_EQ(said({}), "animated shape: no chunks");
+  EXPECT_EQ(changed([](auto& c) { c[0].times = {1}; }), "animated shape: chunk 0: fewer than two keys");
+  EXPECT_EQ(changed([](auto& c) {
+              c[0].times = {3, 3};
+            }),
+            "animated shape: chunk 0: a key at 3 s after one at 3 s");
+  EXPECT_EQ(changed([&](auto& c) {
+              c[0].times = {1, HUGE_VAL};
+            }),
+            "animated shape: chunk 0: a key at inf s, which is not within +-1e6");
+  EXPECT_EQ(changed([](auto& c) {
+              c[1].times = {3.5, 4};
+            }),
+            "animated shape: chunk 1: it begins at 3.5 s, where the one before ends at 3 s");
+  EXPECT_EQ(changed([](auto& c) { c[0].disc_count = 0, c[0].keys.clear(); }),
+            "animated shape: chunk 0: 0 discs, not 1 to 4096");
+  EXPECT_EQ(changed([](auto& c) { c[0].keys.pop_back(); }),
+            "animated shape: chunk 0: 1 discs at 2 keys, not 1 at each");
+  EXPECT_EQ(changed([&](auto& c) { c[0].keys[1].y = nan; }),
+            "animated shape: chunk 0: disc 0 at key 1, of 2 m at (2, nan) m");
+  EXPECT_EQ(changed([&](auto& c) { c[0].keys[0].radius = -1; }),
+            "animated shape: chunk 0: disc 0 at key 0, of -1 m at (0, 0) m");
+  EXPECT_EQ(changed([](auto& c) {
+              c[1].ring_ends = {2, 2};
+            }),
+            "animated shape: chunk 1: a ring's end at 2 after 2");
+  EXPECT_EQ(changed([](auto& c) { c[1].ring_ends = {1}; }), "animated shape: chunk 1: rings of 1 discs of 2");
+  EXPECT_EQ(changed([](auto& c) { c[1].ring_ends = {2}, c[1].keys[2].x = 8.1f; }),
+            "animated shape: chunk 1: disc 0 at key 1 does not overlap disc 1, the next one of its ring");
+  EXPECT_NE(changed([](auto& c) { c[0].keys[0].radius = 2e6f; }), "accepted");
+}
+
+}  // namespace
+}  // namespace bch

@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include "tests/support/moving_bodies.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace bch::test {
+namespace {
+
+/// Makes the discs of a key so large that each overlaps the next one of its ring.
+void overlap_next(std::vector<Disc>& discs) {
+  const std::vector<Disc> before = discs;
+  for (std::size_t i = 0; i < discs.size(); ++i)
+    for (const std::size_t other : {(i + 1) % discs.size(), (i + discs.size() - 1) % discs.size()})
+      discs[i].radius = std::max(
+          discs[i].radius, 0.51f * std::hypot(before[i].x - before[other].x, before[i].y - before[other].y));
+}
+
+struct WorldDisc {
+  double x, y, radius;
+};
+
+struct Placed {
+  std::vector<WorldDisc> discs;
+  std::vector<std::uint32_t> ring_ends;
+};
+
+PathKey pose_at(const std::vector<PathKey>& path, double time) {
+  if (time <= path.front().time) return path.front();
+  for (std::size_t k = 1; k < path.size(); ++k)
+    if (time <= path[k].time) {
+      const double share = (time - path[k - 1].time) / (path[k].time - path[k - 1].time);
+      return {time, std::lerp(path[k - 1].x, path[k].x, share), std::lerp(path[k - 1].y, path[k].y, share),
+              std::lerp(path[k - 1].heading, path[k].heading, share)};
+    }
+  return path.back();
+}
+
+Placed placed_at(const MotionCase& motion, double time) {
+  const auto& chunks = motion.discs.chunks;
+  const double begin = chunks.front().times.front(), end = chunks.back().times.back();
+  double seconds = time - motion.clip_begin;
+  if (motion.discs.loops) seconds -= std::floor(seconds / (end - begin)) * (end - begin);
+  seconds = std::clamp(seconds + begin, begin, end);
+  std::size_t k = 0;
+  while (k + 1 < chunks.size() && seconds > chunks[k].times.back()) ++k;
+  const PathKey pose = pose_at(motion.path, time);
+  const double c = std::cos(pose.heading), s = std::sin(pose.heading);
+  Placed placed{{}, chunks[k].ring_ends};
+  const AnimatedChunk& chunk = chunks[k];
+  std::size_t key = 0;
+  while (key + 2 < chunk.times.size() && seconds > chunk.times[key + 1]) ++key;
+  const double share = (seconds - chunk.times[key]) / (chunk.times[key + 1] - chunk.times[key]);
+  for (std::uint32_t i = 0; i < chunk.disc_count; ++i) {
+    const Disc &from = chunk.keys[key * chunk.disc_count + i],
+               &to = chunk.keys[(key + 1) * chunk.disc_count + i];
+    const double x = std::lerp(double{from.x}, double{to.x}, share),
+                 y = std::lerp(double{from.y}, double{to.y}, share);
+    placed.discs.push_back({pose.x + c * x - s * y, pose.y + s * x + c * y,
+                            std::lerp(double{from.radius}, double{to.radius}, share)});
+  }
+  return placed;
+}
+
+/// By angles, where the library counts crossings.
+bool goes_round(const Placed& body, const WorldDisc& point) {
+  double angle = 0;
+  std::size_t begin = 0;
+  for (const std::uint32_t end : body.ring_ends) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const WorldDisc &from = body.discs[i], &to = body.discs[i + 1 < end ? i + 1 : begin];
+      const double ax = from.x - point.x, ay = from.y - point.y, bx = to.x - point.x, by = to.y - point.y;
+      angle += std::atan2(ax * by - ay * bx, ax * bx + ay * by);
+    }
+    begin = end;
+  }
+  return std::abs(angle) > std::numbers::pi;
+}
+
+}  // namespace
+
+AnimatedDiscs ringed_body(Random& random, std::uint32_t chunks, std::uint32_t discs) {
+  AnimatedDiscs body;
+  body.loops = random.below(2) == 0;
+  double time = random.uniform(-1, 1);
+  const double wide = random.uniform(0.15, 0.3), deep = random.uniform(0.1, 0.2), pace = random.uniform(4, 9);
+  for (std::uint32_t c = 0; c < chunks; ++c) {
+    AnimatedChunk chunk;
+    chunk.disc_count = discs + 4 * c;
+    const std::uint32_t keys = 4 + random.below(8);
+    for (std::uint32_t k = 0; k < keys; ++k) {
+      if (k > 0) time += random.uniform(0.02, 0.2);
+      chunk.times.push_back(time);
+      std::vector<Disc> ring;
+      for (std::uint32_t i = 0; i < chunk.disc_count; ++i) {
+        const double angle = 2 * std::numbers::pi * i / chunk.disc_count;
+        const double swing = 0.15 * std::sin(pace * time) * std::pow(std::sin(angle), 3);
+        ring.push_back({static_cast<float>(deep * std::cos(angle) + swing),
+                        static_cast<float>(wide * std::sin(angle)),
+                        static_cast<float>(random.uniform(0.001, 0.02))});
+      }
+      overlap_next(ring);
+      chunk.keys.insert(chunk.keys.end(), ring.begin(), ring.end());
+    }
+    chunk.ring_ends = {chunk.disc_count};
+    body.chunks.push_back(std::move(chunk));
+  }
+  return body;
+}
+
+AnimatedDiscs loose_discs(Random& random, std::uint32_t discs) {
+  AnimatedDiscs body;
+  body.loops = random.below(2) == 0;
+  AnimatedChunk chunk;
+  chunk.disc_count = discs;
+  double time = 0;
+  for (int k = 0; k < 6; ++k) {
+    chunk.times.push_back(time);
+    time += random.uniform(0.05, 0.3);
+    for (std::uint32_t i = 0; i < discs; ++i)
+      chunk.keys.push_back({static_cast<float>(random.uniform(-0.3, 0.3)),
+                            static_cast<float>(random.uniform(-0.3, 0.3)),
+                            static_cast<float>(random.below(4) == 0 ? 0 : random.uniform(0, 0.1))});
+  }
+  body.chunks.push_back(std::move(chunk));
+  return body;
+}
+
+AnimatedDiscs still_disc(float radius, float x, float y) {
+  return {{{{0, 1}, 1, {{x, y, radius}, {x, y, radius}}, {}}}, false};
+}
+
+MotionCase random_motion(Random& random) {
+  AnimatedDiscs body = random.below(4) == 0 ? loose_discs(random, 1 + random.below(6))
+                                            : ringed_body(random, 1 + random.below(3), 12 + random.below(20));
+  std::vector<PathKey> path;
+  const std::uint32_t keys = 1 + random.below(8);
+  const double angle = random.uniform(-4, 4), speed = random.uniform(0.3, 2),
+               aside = random.uniform(-0.6, 0.6);
+  double time = random.uniform(-2, -1), heading = random.uniform(-10, 10);
+  for (std::uint32_t k = 0; k < keys; ++k) {
+    const double along = speed * time + random.uniform(-0.2, 0.2), across = aside + random.uniform(-0.1, 0.1);
+    path.push_back({time, along * std::cos(angle) - across * std::sin(angle),
+                    along * std::sin(angle) + across * std::cos(angle), heading});
+    time += random.uniform(0.1, 1.5);
+    heading += random.uniform(-1, 1) * (random.below(6) == 0 ? 20 : 1);
+  }
+  return {std::move(body), std::move(path), random.uniform(-3, 3)};
+}
+
+Meeting meeting_at(const MotionCase& a, const MotionCase& b, double seconds) {
+  const PathKey at_a = pose_at(a.path, seconds), at_b = pose_at(b.path, seconds);
+  const double apart = std::hypot(at_a.x - at_b.x, at_a.y - at_b.y) - a.shape.reach() - b.shape.reach();
+  if (apart > 0.1) return {apart, false};
+  const Placed placed_a = placed_at(a, seconds), placed_b = placed_at(b, seconds);
+  double gap = std::numeric_limits<double>::infinity();
+  for (const WorldDisc& i : placed_a.discs)
+    for (const WorldDisc& j : placed_b.discs) {
+      const double x = i.x - j.x, y = i.y - j.y, far = gap + i.radius + j.radius;
+      if (x * x + y * y < far * std::abs(far)) gap = std::sqrt(x * x + y * y) - i.radius - j.radius;
+    }
+  // Where no discs overlap a ring is inside as a whole or not at all.
+  bool nested = false;
+  const auto look_inside = [&](const Placed& body, const Placed& of) {
+    for (const std::uint32_t end : of.ring_ends) nested |= goes_round(body, of.discs[end - 1]);
+    for (std::size_t i = 0; i < of.discs.size() && of.ring_ends.empty(); ++i)
+      nested |= goes_round(body, of.discs[i]);
+  };
+  if (gap > 0 && apart < 0) look_inside(placed_a, placed_b), look_inside(placed_b, placed_a);
+  return {gap, nested};
+}
+
+}  // namespace bch::test

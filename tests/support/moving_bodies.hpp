@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <vector>
+
+#include <bch/shape_set.hpp>
+#include <bch/time_of_impact.hpp>
+
+#include "tests/support/scenes.hpp"
+
+// Bodies that move, and motions of theirs, with a definition of contact that samples.
+
+namespace bch::test {
+
+/// Returns a body whose rings go round a body that swings its limbs: chunks with different discs, at uneven keys.
+AnimatedDiscs ringed_body(Random& random, std::uint32_t chunks = 2, std::uint32_t discs = 24);
+
+/// Returns discs that move each for itself, without rings.
+AnimatedDiscs loose_discs(Random& random, std::uint32_t discs = 5);
+
+/// Returns one disc that stands still for a second.
+AnimatedDiscs still_disc(float radius, float x = 0, float y = 0);
+
+/// A motion that owns what it is made of.
+struct MotionCase {
+  AnimatedDiscs discs;
+  AnimatedShape shape;
+  std::vector<PathKey> path;
+  double clip_begin;
+
+  MotionCase(AnimatedDiscs moving, std::vector<PathKey> keys, double begin = 0)
+      : discs(std::move(moving)), shape(discs), path(std::move(keys)), clip_begin(begin) {}
+  Motion motion() const { return {&shape, path, clip_begin}; }
+};
+
+/// Returns a motion of a random body that comes past the origin in a few seconds.
+MotionCase random_motion(Random& random);
+
+/// What two solids have to do with each other at a time, by all pairs of discs and by winding numbers: the gap of the nearest discs, and
+/// whether one is inside the other.
+struct Meeting {
+  double gap;
+  bool nested;
+  bool overlap() const { return gap <= 0 || nested; }
+};
+Meeting meeting_at(const MotionCase& a, const MotionCase& b, double seconds);
+
+}  // namespace bch::test
