@@ -87,6 +87,7 @@ class Recording final : public TrajectoryReader {
     of_frame = frames_[next_++];
     return true;
   }
+  std::string place_of(std::uint64_t row) const override { return fmt::format("row {}", row); }
 
  private:
   TrajectoryInfo info_;

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <tuple>
 
@@ -20,9 +21,10 @@ namespace {
 
 constexpr std::uint32_t directions = 32;
 constexpr double near_distance = 1.2, density_distance = 1;  ///< metres
-constexpr double crowded = 4;        ///< people per square metre: from there on they turn their shoulders
-constexpr double beside = 0.6;       ///< metres: for somebody who is so near at a side
-constexpr double farthest_step = 6;  ///< metres, of two people together; beyond, it is a jump and no way
+constexpr double crowded = 4;   ///< people per square metre: from there on they turn their shoulders
+constexpr double beside = 0.6;  ///< metres: for somebody who is so near at a side
+constexpr double farthest_step =
+    6;  ///< metres, of one or of two people together; beyond, it is a jump and no way
 /// Metres: nobody passes through a body, an arm included, who moves by less than that.
 constexpr double thinnest = 0.05;
 constexpr double pi = std::numbers::pi;
@@ -78,15 +80,21 @@ double FrameRun::square_distance(Pair pair) const {
   return square(x[pair.first] - x[pair.second]) + square(y[pair.first] - y[pair.second]);
 }
 
+/// Returns the square of a person's way to the next frame: infinite where he is not there, or jumps.
+double FrameRun::square_step(std::size_t person) const {
+  constexpr double infinite = std::numeric_limits<double>::infinity();
+  const auto x = own(block_->x()), y = own(block_->y());
+  const std::size_t next = own(block_->next_of())[person];
+  if (next == FrameBlock::nobody) return infinite;
+  const double step = square(block_->x()[next] - x[person]) + square(block_->y()[next] - y[person]);
+  return step > square(farthest_step) ? infinite : step;
+}
+
 /// Returns the longest way of a person to the next frame, metres.
 double FrameRun::longest_step() const {
-  const auto x = block_->x(), y = block_->y();
   double longest = 0;
-  for (std::size_t i = begin_; i < end_; ++i) {
-    const std::size_t next = block_->next_of()[i];
-    if (next == FrameBlock::nobody) continue;
-    longest = std::max(longest, square(x[next] - x[i]) + square(y[next] - y[i]));
-  }
+  for (std::size_t i = 0; i < size(); ++i)
+    if (const double step = square_step(i); std::isfinite(step)) longest = std::max(longest, step);
   return std::sqrt(longest);
 }
 
@@ -219,8 +227,8 @@ void FrameRun::ask_between(const ShapeSet& set, const Agents& all, const Agents&
   std::vector<Pair> moving, later;
   std::vector<double> x, y;
   for (const Pair pair : apart_) {
+    if (!std::isfinite(square_step(pair.first)) || !std::isfinite(square_step(pair.second))) continue;
     const std::uint32_t first = next_of[pair.first], second = next_of[pair.second];
-    if (first == FrameBlock::nobody || second == FrameBlock::nobody) continue;
     const Walker *from = block_->people().data() + begin_, *to = block_->people().data();
     const double dx = to[first].x - from[pair.first].x - to[second].x + from[pair.second].x,
                  dy = to[first].y - from[pair.first].y - to[second].y + from[pair.second].y;

@@ -44,6 +44,7 @@ class FrameRun {
     return of_block.subspan(begin_, size());
   }
   Agents agents(std::span<const std::uint32_t> shapes, std::size_t end) const;
+  double square_step(std::size_t person) const;
   double longest_step() const;
   double square_distance(Pair pair) const;
   CheckedPair checked(Pair pair) const;

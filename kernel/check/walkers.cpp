@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
+#include <utility>
 
 #include <bch/default_characters.hpp>
 
@@ -14,6 +16,8 @@ namespace bch::detail {
 namespace {
 
 constexpr double smoothing = 0.4;  ///< seconds before and after
+constexpr double jump = 100;       ///< metres
+constexpr double fastest = 20;     ///< metres a second, a jump aside
 constexpr double standing = 0.15;  ///< metres a second: who is slower has no direction
 
 Random random_of(std::int64_t id) {
@@ -42,6 +46,18 @@ WalkerReader::WalkerReader(TrajectoryReader& reader, FrameInterval wanted, doubl
       wanted_(wanted),
       facing_(facing) {}
 
+/// Nobody moves so far so fast: ids were mixed up, or places.
+void WalkerReader::require_no_jump(const Place& from, const TrackedPerson& to, std::int64_t frame) const {
+  const double way = std::hypot(to.x - from.x, to.y - from.y);
+  const double seconds = static_cast<double>(frame - from.frame) / fps_;
+  if (way < jump || way < fastest * seconds) return;
+  std::ostringstream text;
+  text << reader_.place_of(to.row) << ": person " << to.id << " jumps by " << way << " m, from (" << from.x
+       << ", " << from.y << ") in frame " << from.frame << " to (" << to.x << ", " << to.y << ") in frame "
+       << frame;
+  throw TrajectoryError(std::move(text).str());
+}
+
 bool WalkerReader::read_one() {
   Frame next;
   if (at_end_ || !reader_.next(next.frame, next.people)) {
@@ -50,6 +66,7 @@ bool WalkerReader::read_one() {
   }
   for (const TrackedPerson& person : next.people) {
     Track& track = tracks_[person.id];
+    if (!track.places.empty()) require_no_jump(track.places.back(), person, next.frame);
     track.places.push_back({next.frame, person.x, person.y});
     next.tracks.push_back(&track);
   }

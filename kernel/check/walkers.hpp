@@ -47,6 +47,7 @@ struct FrameInterval {
 /// or from the next ones where there are none so near, headings from the file or from the
 /// way of a person who walks, held while he stands, and strides that go on with the distance. Memory grows with the people, and with those of
 /// the frames within 0.4 s.
+/// Errors:  throws TrajectoryError on what the reader rejects, and on a person who is 100 m away a moment later.
 class WalkerReader {
  public:
   /// `reader` has to live as long as this.
@@ -79,6 +80,7 @@ class WalkerReader {
   };
 
   bool read_one();
+  void require_no_jump(const Place& from, const TrackedPerson& to, std::int64_t frame) const;
   bool walk_on(WalkerFrame& frame);
   Walker walk(const TrackedPerson& person, Track& track, std::int64_t frame) const;
   void face_the_crowd(WalkerFrame& frame, const std::vector<Track*>& tracks) const;

@@ -166,7 +166,8 @@ bool FrameReader::next(std::int64_t& frame, std::vector<TrackedPerson>& people) 
   check_frame(frame);
   people.reserve(frame_rows_.size());
   for (const Row& row : frame_rows_)
-    people.push_back({row.id, row.x, row.y, row.heading, row.stature, row.motion, row.clip_seconds});
+    people.push_back(
+        {row.id, row.x, row.y, row.heading, row.stature, row.motion, row.clip_seconds, row.number});
   return true;
 }
 

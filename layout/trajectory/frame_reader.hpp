@@ -25,6 +25,7 @@ class FrameReader final : public TrajectoryReader {
 
   const TrajectoryInfo& info() const override { return info_; }
   bool next(std::int64_t& frame, std::vector<TrackedPerson>& people) override;
+  std::string place_of(std::uint64_t row) const override { return source_->places().at(row); }
 
  private:
   std::unique_ptr<RowSource> source_;

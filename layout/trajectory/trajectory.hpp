@@ -39,6 +39,7 @@ struct TrackedPerson {
   float stature;  ///< the person's height in metres, from 1 to 2.5; NaN where the file does not say
   std::uint32_t motion = no_motion;                              ///< index into TrajectoryInfo::motions
   float clip_seconds = std::numeric_limits<float>::quiet_NaN();  ///< of the motion's clip, likewise
+  std::uint64_t row = 0;  ///< the number of his line or row in the file
 };
 
 /// What the caller of open_trajectory() knows better than the file.
@@ -78,6 +79,9 @@ class TrajectoryReader {
   /// Returns: whether there was one.
   /// Errors:  throws TrajectoryError.
   virtual bool next(std::int64_t& frame, std::vector<TrackedPerson>& people) = 0;
+
+  /// Names the file and one of its rows, as messages begin.
+  virtual std::string place_of(std::uint64_t row) const = 0;
 };
 
 /// Opens a recording, whose format is told by its content: JuPedSim's SQLite (versions 1 to 3), PeTrack's and Juelich's text,

@@ -195,6 +195,10 @@ TEST(Cli, CheckRefusesWhatItCannotRead) {
   expect_failure(bch({"check", twice, "--html", page}), 3, {"twice.txt", "1"});
   EXPECT_FALSE(std::filesystem::exists(page));
   expect_failure(bch({"check", twice, "--events", twice}), 2, {"--events"});
+  const std::string jumps = folder.write("jumps.csv", "frame,id,x,y\n0,1,0,0\n1,1,0.1,0\n2,1,100.1,0\n");
+  expect_failure(bch({"check", jumps, "--fps", "25", "--html", page}), 3,
+                 {"jumps.csv:4", "person 1 jumps by 100 m", "frame 2"});
+  EXPECT_FALSE(std::filesystem::exists(page));
 }
 
 }  // namespace

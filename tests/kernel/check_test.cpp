@@ -46,6 +46,7 @@ class MadeUp : public TrajectoryReader {
     ++next_;
     return true;
   }
+  std::string place_of(std::uint64_t row) const override { return "made up: row " + std::to_string(row); }
 
  private:
   TrajectoryInfo info_;
@@ -102,6 +103,22 @@ TEST(Walkers, OfFewFramesHaveASpeedToo) {
   for (const WalkerFrame& frame : walkers_of(recording)) {
     EXPECT_NEAR(frame.people[0].speed, 1.2, 1e-9) << frame.frame;
     EXPECT_FALSE(frame.people[0].is_guessed);
+  }
+}
+
+TEST(Walkers, DoNotJumpAHundredMetres) {
+  MadeUp recording(10);
+  recording.add(0, {4, 0, 0, unknown, unknown});
+  recording.add(100, {4, 99, 0, unknown, unknown});
+  EXPECT_EQ(walkers_of(recording).size(), 2u);
+  recording.add(110, {4, 300, 0, unknown, unknown, TrackedPerson::no_motion, unknown, 7});
+  try {
+    walkers_of(recording);
+    ADD_FAILURE();
+  } catch (const TrajectoryError& error) {
+    EXPECT_STREQ(
+        error.what(),
+        "made up: row 7: person 4 jumps by 201 m, from (99, 0) in frame 100 to (300, 0) in frame 110");
   }
 }
 
