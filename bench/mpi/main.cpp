@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 #include <malloc.h>
+#include <signal.h>
 
 #include <algorithm>
 #include <functional>
@@ -72,6 +73,7 @@ int run_rank(const Session& session, int argc, char** argv) {
 
 int main(int argc, char** argv) {
   mallopt(M_MMAP_THRESHOLD, 1 << 20);  // arrays that outgrow their place leave no holes
+  signal(SIGXFSZ, SIG_IGN);            // a file beyond a limit is an error of write(), like a full disk
   return run_main("bch_mpi", [&] {
     const Session session(argc, argv);
     bool is_agreed = false;

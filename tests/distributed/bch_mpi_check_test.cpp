@@ -3,7 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <filesystem>
+#include <map>
 #include <sstream>
 #include <string>
 
@@ -18,6 +20,16 @@ namespace {
 namespace fs = std::filesystem;
 using test::Arguments;
 using test::Ending;
+
+/// People who walk up and down, so many that a part of a hundred frames takes a tenth of a second.
+std::string walking_people() {
+  std::ostringstream text;
+  text << "# framerate: 10\n# id frame x/m y/m z/m\n";
+  for (int k = 0; k < 1200; ++k)
+    for (int id = 0; id < 12; ++id)
+      text << id << " " << k << " " << 5 * std::sin(0.02 * k + id) << " " << 0.4 * id << " 1.75\n";
+  return text.str();
+}
 
 /// Two people who walk through each other, and two who stand in each other.
 std::string meeting_people() {
@@ -87,6 +99,51 @@ TEST_F(BchMpiCheck, FaultsOfOneRankEndAllWithOneLineAndKeepParts) {
   expect_one_line(run(check("2", recording(), {"--frames", "/dev/full"})), 3, "rank 0: /dev/full");
   EXPECT_FALSE(fs::exists(json));
   EXPECT_EQ(run(check("2", recording())).code, 0);
+}
+
+/// The commands of two ranks: of rank 1 a shell that runs `before`, and becomes it.
+Arguments with_shell(const Arguments& command, const std::string& before) {
+  Arguments both{"-n", "1"};
+  both.insert(both.end(), command.begin() + 2, command.end());
+  for (const char* const word : {":", "-n", "1", "sh", "-c"}) both.emplace_back(word);
+  both.push_back(before + "\nexec \"$@\"");
+  both.emplace_back("sh");
+  both.insert(both.end(), command.begin() + 2, command.end());
+  return both;
+}
+
+TEST_F(BchMpiCheck, AKilledRankEndsAllAndPartsAreNotDoneAgain) {
+  const std::string file = folder.write("walking.txt", walking_people()),
+                    expected_json = folder.file("one.json");
+  const Arguments command = check("2", file, {"--parts", "12"});
+  const std::string first_done = (fs::path(parts) / "part-2-of-12.manifest.json").string();
+  const Ending killed =
+      run(with_shell(command, "(until [ -e '" + first_done + "' ]; do sleep 0.01; done; kill -9 $$) &"));
+  EXPECT_NE(killed.code, 0);
+  EXPECT_NE(killed.err.find("rank 1"), std::string::npos) << killed.err;
+  EXPECT_NE(killed.err.find("signal 9"), std::string::npos) << killed.err;
+  EXPECT_EQ(killed.out, "");
+  EXPECT_FALSE(fs::exists(json));
+
+  std::map<fs::path, fs::file_time_type> done;
+  for (const fs::directory_entry& entry : fs::directory_iterator(parts))
+    if (entry.path().string().ends_with(".manifest.json")) done[entry.path()] = entry.last_write_time();
+  EXPECT_GE(done.size(), 1u);
+  EXPECT_LT(done.size(), 12u);
+  const Ending resumed = run(command), expected = test::bch({"check", file, "--json", expected_json});
+  EXPECT_EQ(resumed.code, 0) << resumed.err;
+  EXPECT_EQ(resumed.out, expected.out);
+  EXPECT_EQ(test::read_text(json), test::read_text(expected_json));
+  for (const auto& [manifest, written] : done) EXPECT_EQ(fs::last_write_time(manifest), written) << manifest;
+}
+
+TEST_F(BchMpiCheck, AFullDiskOfOneRankEndsAllWithOneLine) {
+  Arguments command = with_shell(check("2", recording()), "ulimit -f 0");
+  command.insert(command.begin(), {"--mca", "btl", "self,tcp"});  // whose memory is not shared by a file
+  expect_one_line(run(command), 3, "rank 1: " + (fs::path(parts) / "part-2-of-2").string());
+  EXPECT_TRUE(fs::exists(fs::path(parts) / "part-1-of-2.manifest.json"));
+  EXPECT_FALSE(fs::exists(fs::path(parts) / "part-2-of-2.manifest.json"));
+  EXPECT_FALSE(fs::exists(json));
 }
 
 }  // namespace

@@ -117,5 +117,14 @@ TEST(FailingRank, ThatIsKilledEndsAll) {
   EXPECT_NE(ending.err.find("signal 9"), std::string::npos) << ending.err;
 }
 
+TEST(FailingRank, ThatInitialisesMpiForNoThreadsIsRefusedWithALine) {
+  const Ending ending = run({"-n", "1", BCH_FAILING_RANK, "without_threads"});
+  EXPECT_EQ(ending.code, 7) << ending.err;
+  const std::string line =
+      "failing_rank: MPI provides MPI_THREAD_SINGLE, and MPI_THREAD_FUNNELED is needed: "
+      "threads of TBB compute beside it\n";
+  EXPECT_TRUE(ending.err.starts_with(line)) << ending.err;
+}
+
 }  // namespace
 }  // namespace bch

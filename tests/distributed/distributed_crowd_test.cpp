@@ -9,10 +9,13 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <new>
+#include <stdexcept>
 #include <vector>
 
 #include <bch/broad_phase.hpp>
 
+#include "kernel/distributed/agreement.hpp"
 #include "kernel/distributed/session.hpp"
 #include "tests/distributed/world.hpp"
 #include "tests/support/complaint.hpp"
@@ -232,6 +235,20 @@ TEST_F(Distributed, WhatIsWrongOnOneRankIsAnErrorOnAll) {
   EXPECT_EQ(complaint_about({.id = 17, .shape = 24}), last + "shape is 24, not one of the set");
   EXPECT_EQ(complaint_about({.id = 17, .level = 3}), last + "level is 3, not one of the set");
   EXPECT_EQ(complaint_about({.z = nan, .id = 17}), "accepted");
+}
+
+TEST(Agreement, WhateverARankThrowsAllThrow) {
+  const auto complaint_about = [](const auto& thrown) {
+    return complaint_of_ranks([&] {
+      detail::agree(MPI_COMM_WORLD, [&] {
+        if (rank() == ranks() - 1) throw thrown;
+      });
+    });
+  };
+  const std::string last = "rank " + std::to_string(ranks() - 1) + ": ";
+  EXPECT_EQ(complaint_about(std::bad_alloc()), last + "not enough memory");
+  EXPECT_EQ(complaint_about(std::length_error("too long")), last + "too long");
+  EXPECT_EQ(complaint_about(17), last + "an exception of no known type");
 }
 
 TEST_F(Distributed, WhatMakesNoSenseIsAnError) {

@@ -11,7 +11,7 @@
 #include "kernel/distributed/session.hpp"
 
 // A simulator of which rank 1 fails in the third step: by an exception of its own, of which the library knows nothing, or by SIGKILL. The
-// others are in update() then, and wait for it.
+// others are in update() then, and wait for it. Or one that initialises MPI for no threads.
 
 namespace {
 
@@ -24,9 +24,23 @@ void step(DistributedCrowd& crowd, bool fails, const std::string& how) {
   crowd.collide_all();
 }
 
+int without_threads() {
+  int provided, code = 0;
+  MPI_Init_thread(nullptr, nullptr, MPI_THREAD_SINGLE, &provided);
+  try {
+    DistributedCrowd(MPI_COMM_WORLD, ShapeSet(std::vector<Shape>{}), {});
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "failing_rank: %s\n", error.what());
+    code = 7;
+  }
+  MPI_Finalize();
+  return code;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
+  if (argv[1] == std::string("without_threads")) return without_threads();
   const detail::Session session(argc, argv);
   const std::vector<Disc> discs{{0, 0, 0.3f}};
   const ShapeSet set(std::vector<Shape>{shape_from_discs(discs)});

@@ -48,7 +48,7 @@ struct DistributedCrowdOptions {
   double cell = 0;  ///< metres: the side of the squares that ranks own; 0: four times the largest radius
   double imbalance =
       1.04;  ///< the most that a rank has to do over the mean, beyond which the crowd is cut anew
-  /// As how many pairs an agent counts there: 0 balances pairs, about 1.3 time; of characters, who are posed anew, about POSED.
+  /// As how many pairs an agent counts there: 0 balances pairs, about 1.3 time; of characters, who are posed anew, about 600.
   double agent_pairs = 0;
   bool heights = false;  ///< whether z counts; the set has to know the heights of bodies then
 };
