@@ -4,14 +4,13 @@
 #include "kernel/crowd/neighbour_rows.hpp"
 
 #include <algorithm>
-#include <atomic>
 
 namespace bch::detail {
 namespace {
 
-/// Returns: what was there before.
+/// Returns: what was there before. By the compiler, because std::atomic_ref is missing in libc++ before version 19.
 std::uint64_t add(std::uint64_t& count, std::uint64_t more) noexcept {
-  return std::atomic_ref(count).fetch_add(more, std::memory_order_relaxed);
+  return __atomic_fetch_add(&count, more, __ATOMIC_RELAXED);
 }
 
 }  // namespace

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cctype>
-#include <charconv>
 #include <cmath>
 #include <stdexcept>
 #include <string>
@@ -11,6 +10,7 @@
 
 #include <bch/obstacles.hpp>
 
+#include "layout/base/decimal.hpp"
 #include "layout/base/rounding.hpp"
 
 namespace bch {
@@ -165,7 +165,8 @@ class WktReader {
     const std::size_t begin = at_;
     if (text_.substr(at_).starts_with('+') && !text_.substr(at_).starts_with("+-")) ++at_;
     double value = 0;
-    const auto [end, error] = std::from_chars(text_.data() + at_, text_.data() + text_.size(), value);
+    const auto [end, error] =
+        detail::double_from_chars(text_.data() + at_, text_.data() + text_.size(), value);
     if (error == std::errc::invalid_argument || (end != text_.data() + text_.size() && is_of_token(*end)))
       reject_at(begin, "a number");
     if (error != std::errc() || !(std::abs(value) <= detail::rounding::largest_position))

@@ -7,6 +7,7 @@
 #include <bit>
 #include <limits>
 #include <stdexcept>
+#include <string>
 
 #include "layout/base/rounding.hpp"
 

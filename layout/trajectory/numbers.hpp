@@ -9,6 +9,8 @@
 #include <optional>
 #include <string_view>
 
+#include "layout/base/decimal.hpp"
+
 // Private to the readers of recordings: numbers of text files.
 
 namespace bch::detail::trajectory {
@@ -17,7 +19,7 @@ namespace bch::detail::trajectory {
 inline std::optional<double> number_from(std::string_view text) {
   if (text.starts_with('+') && !text.starts_with("+-")) text.remove_prefix(1);
   double value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  const auto [end, error] = double_from_chars(text.data(), text.data() + text.size(), value);
   if (end != text.data() + text.size() || error == std::errc::invalid_argument) return std::nullopt;
   if (error != std::errc()) value = INFINITY;  // or closer to 0 than any double, which nobody writes
   return value;

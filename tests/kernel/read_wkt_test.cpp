@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <charconv>
+#include <cmath>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -10,6 +12,7 @@
 #include <bch/hierarchy.hpp>
 #include <bch/obstacles.hpp>
 
+#include "layout/base/decimal.hpp"
 #include "tests/support/complaint.hpp"
 #include "tests/support/scenes.hpp"
 
@@ -128,6 +131,57 @@ TEST(ReadWkt, SurvivesDamage) {
   }
   EXPECT_GT(accepted, 0u);
   EXPECT_LT(accepted, test::samples(10'000));
+}
+
+/// What stands in where the standard library cannot read floating point.
+TEST(Decimals, AreReadAsTheStandardLibraryDoes) {
+  std::vector<std::string> texts = {"",
+                                    "-",
+                                    ".",
+                                    "-.",
+                                    "+1",
+                                    " 1",
+                                    "1.",
+                                    ".5",
+                                    "-.5e1",
+                                    "1e",
+                                    "1e+",
+                                    "1e-x",
+                                    "0x1p3",
+                                    "inf",
+                                    "-INF",
+                                    "Infinit",
+                                    "infinityx",
+                                    "nan",
+                                    "-nan",
+                                    "1e309",
+                                    "-1e999",
+                                    "1e-999",
+                                    "4e-320",
+                                    "1,5",
+                                    "1e5.5",
+                                    "1 2",
+                                    "--1",
+                                    "-+1",
+                                    "1.5E-3",
+                                    "00012.50",
+                                    "9007199254740993",
+                                    "e5"};
+  test::Random random(5);
+  for (int i = 0; i < 2'000; ++i) {
+    std::string& text = texts.emplace_back();
+    for (std::uint32_t k = 1 + random.below(12); k > 0; --k) text += "0123456789.-+eE"[random.below(15)];
+  }
+  for (const std::string& text : texts) {
+    const char *const begin = text.data(), *const end = begin + text.size();
+    double value = 7, expected = 7;
+    const auto read = detail::decimal_from_chars(begin, end, value);
+    const auto standard = std::from_chars(begin, end, expected);
+    EXPECT_EQ(read.ec, standard.ec) << text;
+    EXPECT_EQ(read.ptr, standard.ptr) << text;
+    EXPECT_TRUE(value == expected || (std::isnan(value) && std::isnan(expected))) << text;
+    EXPECT_EQ(std::signbit(value), std::signbit(expected)) << text;
+  }
 }
 
 }  // namespace
