@@ -3,11 +3,17 @@
 
 #pragma once
 
+#include <cfloat>
+
 namespace bch::baselines {
 
 /// IEEE binary128, 113 bits: sums and products of a few doubles come out exact or off by 2^-112 of the result. Slow;
 /// for the truth about what float and double decide. Only the compiler's own arithmetic, no library.
+#if LDBL_MANT_DIG == 113  // as on ARM
+using Quad = long double;
+#else
 __extension__ using Quad = __float128;
+#endif
 
 /// Correct to 2^-110. Precondition: value >= 0.
 Quad square_root(Quad value) noexcept;

@@ -25,11 +25,14 @@ class Random {
   std::uint64_t state_;
 };
 
-/// Returns how many cases of the same kind a test of `cases` looks at: an eighth with sanitizers. These check
-/// the code, which is the same for all cases, and take ten times as long; the other builds count answers.
+/// Returns how many cases of the same kind a test of `cases` looks at: an eighth with sanitizers, a tenth in an
+/// emulator. These check the code, which is the same for all cases, and take ten times as long; the other builds
+/// count answers.
 constexpr std::uint32_t samples(std::uint32_t cases) {
 #ifdef BCH_SANITIZED
   return (cases + 7) / 8;
+#elif defined(BCH_EMULATED)
+  return (cases + 9) / 10;
 #else
   return cases;
 #endif
