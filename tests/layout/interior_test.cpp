@@ -289,6 +289,27 @@ TEST(DiscCoverage, ChoosesWhatAddsMost) {
   }
 }
 
+/// What no integer holds, or is not a number, becomes a cell of the raster before it is converted, on every processor.
+TEST(DiscCoverage, DrawsDiscsThatNoIntegerHolds) {
+  struct Drawn {
+    float x, radius;
+    std::int32_t cells;
+  };
+  constexpr float infinity = HUGE_VALF;
+  constexpr int rows = detail::DiscCoverage::cells;
+  for (const detail::InteriorImplementation& implementation : detail::interior_implementations()) {
+    if (!implementation.supported()) continue;
+    for (const auto& [x, radius, cells] :
+         {Drawn{16, 1e15f, rows * rows}, Drawn{16, infinity, rows * rows}, Drawn{3e38f, 1, 0},
+          Drawn{-3e38f, 1, 0}, Drawn{infinity, 1, 0}, Drawn{-infinity, infinity, 0},
+          Drawn{infinity, infinity, rows * rows}}) {
+      std::uint32_t bits[rows];
+      EXPECT_EQ(implementation.loops.draw(x, 16, radius, bits), cells) << implementation.name << x << radius;
+      for (const std::uint32_t row : bits) EXPECT_EQ(row, cells == 0 ? 0u : ~0u) << implementation.name << x;
+    }
+  }
+}
+
 TEST(Interior, ExtremesAreTheFarthestPoints) {
   test::Random random(3);
   const Outline outline = test::star(random, 40, 0.2, 0.5);

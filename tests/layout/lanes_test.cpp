@@ -102,6 +102,20 @@ TEST(Lanes, HaveRootsAndQuotientsAsOneLaneHasThem) {
   }
 }
 
+/// Bounds that use them leave three quarters of `rough`.
+TEST(Lanes, HaveRoughRootsWithinTheirError) {
+  test::Random random(3);
+  for (int i = 0; i < 1000; ++i) {
+    const double x = std::ldexp(random.uniform(1, 2), static_cast<int>(random.below(252)) - 126);
+    const Float v(static_cast<float>(x));
+    const double root = std::sqrt(static_cast<double>(BaseLanes::lane(v, 0)));
+    for (const Float found : {BaseLanes::rough_root(v), PlainLanes::rough_root(v)})
+      EXPECT_LE(std::abs(static_cast<double>(BaseLanes::lane(found, 0)) - root),
+                0.75 * static_cast<double>(BaseLanes::rough) * root)
+          << x;
+  }
+}
+
 /// The least integer can be converted, and halves go to the even one.
 TEST(Lanes, AreConvertedToIntegersWithinTheirRange) {
   const Float v = BaseLanes::of<float>(-0x1p31f, 2.5f, 3.5f, -2.5f);
