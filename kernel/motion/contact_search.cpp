@@ -11,6 +11,7 @@ namespace bch::detail {
 namespace {
 
 constexpr double time_rounding = 0x1p-27, position_rounding = 0x1p-48, root_rounding = 0x1p-20;
+constexpr double unsure_share = 0.5;
 
 /// The way of one body relative to another between two times.
 struct RelativeWay {
@@ -89,7 +90,7 @@ double ContactSearch::first(const MotionFacts& a, const MotionFacts& b, double f
     const auto [enter, leave] = way.times_within(reaches + slack_);
     if (enter <= 1) {
       const double length = until - time, last = leave < 1 ? time + leave * length : end;
-      const double found = first_near(std::min(time + enter * length, last), last, to);
+      const double found = first_near(std::min(time + enter * length, last), last, to, window_levels - 1);
       if (found <= to) return found;
       time = end;
     } else {
@@ -101,37 +102,45 @@ double ContactSearch::first(const MotionFacts& a, const MotionFacts& b, double f
   return never;
 }
 
-/// Where both paths go straight on and the bodies are within reach: from key to key of the clips.
-double ContactSearch::first_near(double from, double end, double to) {
+/// Where both paths go straight on and the bodies are within reach: from window to window of the clips' keys.
+double ContactSearch::first_near(double from, double end, double to, unsigned level) {
   for (double time = from; time <= to;) {
-    const double until = std::min({a_->clip_end(time), b_->clip_end(time), end});
-    const double found = first_between(time, std::isfinite(until) ? until : time + 1);
+    a_->clip_end(time), b_->clip_end(time);
+    if (nested_where_a_chunk_begins(time)) return time;
+    const double until = std::min({a_->window_end(level), b_->window_end(level), end});
+    const double found = first_between(time, std::isfinite(until) ? until : time + 1, to, level);
     if (found < never || until >= end) return found;
     time = until;
   }
   return never;
 }
 
-double ContactSearch::first_between(double from, double end) {
-  const PathKey a = a_->pose(from), b = b_->pose(from), a_end = a_->pose(end), b_end = b_->pose(end);
-  nodes_a_.place(*a_, reach_a_, {from, a.x - b.x, a.y - b.y, a.heading},
-                 {end, a_end.x - b_end.x, a_end.y - b_end.y, a_end.heading});
-  nodes_b_.place(*b_, reach_b_, {from, 0, 0, b.heading}, {end, 0, 0, b_end.heading});
+/// Windows of more than a key tell where there is no contact, and from when on there may be one.
+double ContactSearch::first_between(double from, double end, double to, unsigned level) {
+  place(from, end, level);
   const double bend = nodes_a_.bend() + nodes_b_.bend();
   room_ = bend + slack_;
-  if (nested_at_begin()) return from;
-  const double found = first_of_nodes();
+  const double found = first_of_nodes(level);
   if (found == never) return never;
   const double time = std::min(from + found * (end - from), end), half = time + (end - time) / 2;
+  if (level > 0) return first_near(time, end, to, level - 1);
   if (2 * bend <= tolerance_ || !(time < half && half < end)) return time;
-  const double sooner = first_between(time, half);
-  return sooner < never ? sooner : first_between(half, end);
+  const double sooner = first_between(time, half, to, 0);
+  return sooner < never ? sooner : first_between(half, end, to, 0);
 }
 
-bool ContactSearch::nested_at_begin() {
+void ContactSearch::place(double from, double end, unsigned level) {
+  const PathKey a = a_->pose(from), b = b_->pose(from), a_end = a_->pose(end), b_end = b_->pose(end);
+  nodes_a_.place(*a_, level, reach_a_, {from, a.x - b.x, a.y - b.y, a.heading},
+                 {end, a_end.x - b_end.x, a_end.y - b_end.y, a_end.heading});
+  nodes_b_.place(*b_, level, reach_b_, {from, 0, 0, b.heading}, {end, 0, 0, b_end.heading});
+}
+
+bool ContactSearch::nested_where_a_chunk_begins(double time) {
   const std::uint32_t begun = a_->chunks_begun() + b_->chunks_begun();
-  return std::exchange(looked_inside_, begun) != begun &&
-         (holds(nodes_a_, nodes_b_) || holds(nodes_b_, nodes_a_));
+  if (std::exchange(looked_inside_, begun) == begun) return false;
+  place(time, time, 0);
+  return holds(nodes_a_, nodes_b_) || holds(nodes_b_, nodes_a_);
 }
 
 void ContactSearch::open(std::uint32_t i, std::uint32_t j, double last) {
@@ -139,28 +148,36 @@ void ContactSearch::open(std::uint32_t i, std::uint32_t j, double last) {
   if (time <= last) open_.push_back({i, j, time});
 }
 
-/// Of two children the one that may touch sooner is looked at first.
-double ContactSearch::first_of_nodes() {
-  const std::uint32_t *const second_a = nodes_a_.chunk().second_child.data(), *const second_b =
-                                                                                  nodes_b_.chunk()
-                                                                                      .second_child.data();
+/// Returns whether two nodes may only touch because of what the keys of their windows depart from straight ways.
+bool ContactSearch::is_unsure(std::uint32_t i, std::uint32_t j) {
+  const double radii = nodes_a_[i].radius + nodes_b_[j].radius;
+  return nodes_a_.spare(i) + nodes_b_.spare(j) + room_ > unsure_share * radii;
+}
+
+/// Of two children the one that may touch sooner is looked at first. In windows of more than a key it is enough to know when the roots touch.
+double ContactSearch::first_of_nodes(unsigned level) {
+  const std::uint32_t *const child_a = nodes_a_.chunk().first_child.data(), *const child_b =
+                                                                                nodes_b_.chunk()
+                                                                                    .first_child.data();
   double first = never, last = 1;
   open_.clear();
   open(0, 0, last);
+  const double of_roots = open_.empty() ? never : open_[0].time;
   while (!open_.empty()) {
     const auto [i, j, time] = open_.back();
     open_.pop_back();
     if (time >= first) continue;
-    const bool leaf_a = second_a[i] == 0, leaf_b = second_b[j] == 0;
+    const bool leaf_a = child_a[i] == 0, leaf_b = child_b[j] == 0;
+    if (level > 0 && ((leaf_a && leaf_b) || is_unsure(i, j))) return of_roots;
     if (leaf_a && leaf_b) {
       first = last = time;
       continue;
     }
     const std::size_t before = open_.size();
     if (leaf_b || (!leaf_a && nodes_a_[i].radius >= nodes_b_[j].radius)) {
-      open(i + 1, j, last), open(second_a[i], j, last);
+      open(child_a[i], j, last), open(child_a[i] + 1, j, last);
     } else {
-      open(i, j + 1, last), open(i, second_b[j], last);
+      open(i, child_b[j], last), open(i, child_b[j] + 1, last);
     }
     if (open_.size() == before + 2 && open_[before].time < open_[before + 1].time)
       std::swap(open_[before], open_[before + 1]);

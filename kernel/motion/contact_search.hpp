@@ -42,14 +42,16 @@ class ContactSearch {
   double first(const MotionFacts& a, const MotionFacts& b, double from, double to);
 
  private:
-  double first_near(double from, double end, double to);
-  double first_between(double from, double end);
-  double first_of_nodes();
+  double first_near(double from, double end, double to, unsigned level);
+  double first_between(double from, double end, double to, unsigned level);
+  double first_of_nodes(unsigned level);
+  void place(double from, double end, unsigned level);
+  bool is_unsure(std::uint32_t i, std::uint32_t j);
   double first_touch(std::uint32_t i, std::uint32_t j, double last) noexcept {
     return first_overlap(nodes_a_[i], nodes_b_[j], room_, last);
   }
   void open(std::uint32_t i, std::uint32_t j, double last);
-  bool nested_at_begin();
+  bool nested_where_a_chunk_begins(double time);
 
   struct Open {
     std::uint32_t i, j;

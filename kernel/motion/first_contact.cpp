@@ -51,17 +51,19 @@ void require_valid(const char* query, const Motion& motion, std::size_t index) {
   if (motion.path.empty()) reject("a path without keys");
   for (std::size_t k = 0; k < motion.path.size(); ++k) {
     const auto& [time, x, y, heading] = motion.path[k];
-    const std::string key = "key " + std::to_string(k) + " of its path";
-    if (!is_time(time)) reject(key + " at " + shortest(time) + " s, not within +-1e6");
+    const auto reject_key = [&](const std::string& why) {
+      reject("key " + std::to_string(k) + " of its path" + why);
+    };
+    if (!is_time(time)) reject_key(" at " + shortest(time) + " s, not within +-1e6");
     if (!(std::abs(x) <= rounding::largest_position && std::abs(y) <= rounding::largest_position))
-      reject(key + " at (" + shortest(x) + ", " + shortest(y) + ") m, not within +-1e9");
+      reject_key(" at (" + shortest(x) + ", " + shortest(y) + ") m, not within +-1e9");
     if (!(std::abs(heading) <= rounding::largest_heading))
-      reject(key + " with a heading of " + shortest(heading) + " rad, not within +-1e9");
+      reject_key(" with a heading of " + shortest(heading) + " rad, not within +-1e9");
     if (k == 0) continue;
     if (!(motion.path[k - 1].time < time))
-      reject(key + " at " + shortest(time) + " s after one at " + shortest(motion.path[k - 1].time) + " s");
+      reject_key(" at " + shortest(time) + " s after one at " + shortest(motion.path[k - 1].time) + " s");
     if (!(std::abs(heading - motion.path[k - 1].heading) <= largest_turn))
-      reject(key + " turns by more than 1000 rad, to " + shortest(heading));
+      reject_key(" turns by more than 1000 rad, to " + shortest(heading));
   }
 }
 

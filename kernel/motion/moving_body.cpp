@@ -48,7 +48,7 @@ double MovingBody::clip_end(double time) noexcept {
   return clip_end_;
 }
 
-/// Before its beginning and after its end a clip stands still: at the first or last key, in place().
+/// Before its beginning and after its end a clip stands still: at the first or last key, in share().
 void MovingBody::find_key(double time) noexcept {
   const double begin = tree().begin(), length = tree().end() - begin;
   shift_ = facts_->clip_begin - begin;
@@ -77,9 +77,15 @@ void MovingBody::next_key() noexcept {
   clip_end_ = time_of(key_ + 1);
 }
 
-KeyPlace MovingBody::place(double time) const noexcept {
-  const double from = time_of(key_), to = time_of(key_ + 1);
-  return {chunk_, key_, std::clamp((time - from) / (to - from), 0.0, 1.0)};
+double MovingBody::window_end(unsigned level) const noexcept {
+  const bool moves = clip_end_ == time_of(key_ + 1);
+  return moves ? time_of(window(level).second) : clip_end_;
+}
+
+double MovingBody::share(double time, unsigned level) const noexcept {
+  const auto [first, last] = window(level);
+  const double from = time_of(first), to = time_of(last);
+  return std::clamp((time - from) / (to - from), 0.0, 1.0);
 }
 
 }  // namespace bch::detail

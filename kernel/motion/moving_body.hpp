@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <utility>
 
 #include <bch/time_of_impact.hpp>
 
@@ -38,8 +39,13 @@ class MovingBody {
 
   /// Returns where the body is until path_end().
   PathKey pose(double time) const noexcept;
-  /// Returns where a time until clip_end() is among the keys.
-  KeyPlace place(double time) const noexcept;
+  /// Returns until when the window of keys goes on in which it is now.
+  double window_end(unsigned level) const noexcept;
+  /// Returns the first and the last key of that window, and which share of the time between has gone by at a time within it.
+  std::pair<std::size_t, std::size_t> window(unsigned level) const noexcept {
+    return {chunk().window_begin(key_, level), chunk().window_end(key_, level)};
+  }
+  double share(double time, unsigned level) const noexcept;
   const AnimatedTreeChunk& chunk() const noexcept { return tree().chunks[chunk_]; }
   /// Counts the chunks that began. Discs of one have nothing to do with those of another.
   std::uint32_t chunks_begun() const noexcept { return chunks_begun_; }

@@ -14,8 +14,8 @@
 
 namespace bch::detail {
 
-/// The nodes of a moving body over an interval within which its path goes straight on, it turns evenly, and its discs move straight on from
-/// key to key: each as a disc that moves straight on from where it is in the beginning to where it is in the end. What
+/// The nodes of a moving body over an interval within which its path goes straight on, it turns evenly, and its discs move straight on
+/// through a window of keys: each as a disc that moves straight on from where it is in the beginning to where it is in the end. What
 /// turning makes of that is at most bend() away from it.
 ///
 /// Derivation: a centre is p(s) = R(h + turn s) (c + way s), 0 <= s <= 1, beside the straight way of the body. Its second derivative
@@ -23,15 +23,18 @@ namespace bch::detail {
 /// A curve is at most an eighth of that away from the straight line between its ends, at equal s.
 class PlacedNodes {
  public:
-  /// Places a body, relative to a point that moves straight on, in an interval before the ends of its path and clip.
-  void place(const MovingBody& body, double reach, const PathKey& from, const PathKey& to) {
-    const KeyPlace first = body.place(from.time), last = body.place(to.time);
-    chunk_ = &body.chunk(), first_ = chunk_->key(first.key), last_ = chunk_->key(first.key + 1);
-    share_ = first.share, share_at_end_ = last.share;
+  /// Places a body, relative to a point that moves straight on, in an interval before the ends of its path and of its window of keys.
+  void place(const MovingBody& body, unsigned level, double reach, const PathKey& from, const PathKey& to) {
+    const auto [first, last] = body.window(level);
+    chunk_ = &body.chunk(), first_ = chunk_->key(first), last_ = chunk_->key(last);
+    const KeyWindows& windows = chunk_->windows[level];
+    const std::size_t window = first / window_length(level);
+    spares_ = level == 0 ? nullptr : windows.spares.data() + window * chunk_->nodes();
+    share_ = body.share(from.time, level), share_at_end_ = body.share(to.time, level);
     turn_ = rotation(from.heading), turn_at_end_ = rotation(to.heading);
     x_ = from.x, y_ = from.y, x_at_end_ = to.x, y_at_end_ = to.y;
     const double turn = std::abs(to.heading - from.heading),
-                 way = double{chunk_->steps[first.key]} * (share_at_end_ - share_);
+                 way = double{windows.steps[window]} * (share_at_end_ - share_);
     bend_ = (turn * turn * reach + 2 * turn * way) / 8;
     if (discs_.size() < chunk_->nodes())
       discs_.resize(chunk_->nodes()), placed_in_.resize(chunk_->nodes(), 0);
@@ -45,9 +48,12 @@ class PlacedNodes {
     if (placed_in_[node] != interval_) {
       placed_in_[node] = interval_;
       discs_[node] = placed(first_[node], last_[node]);
+      discs_[node].radius += spare(node);
     }
     return discs_[node];
   }
+  /// Returns what of a node's radius is there for the keys between.
+  double spare(std::uint32_t node) const noexcept { return spares_ == nullptr ? 0 : double{spares_[node]}; }
 
  private:
   MovingDisc placed(const Disc& first, const Disc& last) const noexcept {
@@ -68,6 +74,7 @@ class PlacedNodes {
 
   const AnimatedTreeChunk* chunk_ = nullptr;
   const Disc *first_ = nullptr, *last_ = nullptr;  ///< the keys' nodes
+  const float* spares_ = nullptr;                  ///< or none
   double share_ = 0, share_at_end_ = 0;
   Rotation turn_, turn_at_end_;
   double x_ = 0, y_ = 0, x_at_end_ = 0, y_at_end_ = 0;

@@ -165,11 +165,13 @@ double AnimatedShape::reach() const noexcept {
 
 std::size_t AnimatedShape::bytes() const noexcept {
   std::size_t bytes = sizeof(AnimatedTree);
-  for (const AnimatedTreeChunk& chunk : tree_->chunks)
+  for (const AnimatedTreeChunk& chunk : tree_->chunks) {
     bytes += sizeof(chunk) + chunk.times.size() * sizeof(double) + chunk.keys.size() * sizeof(Disc) +
-             chunk.steps.size() * sizeof(float) +
-             (chunk.second_child.size() + chunk.leaf_of_disc.size() + chunk.ring_ends.size()) *
+             (chunk.first_child.size() + chunk.leaf_of_disc.size() + chunk.ring_ends.size()) *
                  sizeof(std::uint32_t);
+    for (const KeyWindows& windows : chunk.windows)
+      bytes += (windows.steps.size() + windows.spares.size()) * sizeof(float);
+  }
   return bytes;
 }
 

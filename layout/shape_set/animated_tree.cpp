@@ -17,6 +17,10 @@ double length(double x, double y) noexcept {
   return std::sqrt(x * x + y * y);
 }
 
+double distance(const Disc& a, const Disc& b) noexcept {
+  return length(double{a.x} - double{b.x}, double{a.y} - double{b.y});
+}
+
 struct Box {
   double low_x = HUGE_VAL, low_y = HUGE_VAL, high_x = -HUGE_VAL, high_y = -HUGE_VAL;
 
@@ -48,10 +52,11 @@ class Builder {
   AnimatedTreeChunk build() {
     std::vector<std::uint32_t> all(chunk_.disc_count);
     std::iota(all.begin(), all.end(), 0u);
-    by_node_.reserve((2 * all.size() - 1) * chunk_.times.size());
-    add_node(all);
-    transpose();
-    find_steps();
+    tree_.first_child.push_back(0);
+    std::vector<Open> open = {{0, std::move(all)}};
+    while (!open.empty()) open = divide(open);
+    place_discs();
+    for (unsigned level = 0; level < window_levels; ++level) find_windows(level);
     return std::move(tree_);
   }
 
@@ -62,18 +67,30 @@ class Builder {
     return chunk_.keys[key * chunk_.disc_count + i];
   }
 
-  void add_node(std::span<const std::uint32_t> discs) {
-    const std::size_t node = tree_.second_child.size();
-    tree_.second_child.push_back(0);
-    for (std::size_t key = 0; key < chunk_.times.size(); ++key) by_node_.push_back(disc_about(key, discs));
-    if (discs.size() == 1) {
-      tree_.leaf_of_disc[discs[0]] = static_cast<std::uint32_t>(node);
-      return;
+  /// A node, and the discs that it holds.
+  struct Open {
+    std::uint32_t node;
+    std::vector<std::uint32_t> discs;
+  };
+
+  /// Keeps what the nodes of a level hold, and returns those of the next one.
+  std::vector<Open> divide(std::vector<Open>& level) {
+    std::vector<Open> below;
+    for (Open& open : level) {
+      if (open.discs.size() == 1) {
+        tree_.leaf_of_disc[open.discs[0]] = open.node;
+      } else {
+        const Split split = best_split(open.discs);
+        const auto middle = split.order.begin() + static_cast<std::ptrdiff_t>(split.first);
+        const auto child = static_cast<std::uint32_t>(tree_.first_child.size());
+        tree_.first_child[open.node] = child;
+        tree_.first_child.resize(child + 2, 0);
+        below.push_back({child, {split.order.begin(), middle}});
+        below.push_back({child + 1, {middle, split.order.end()}});
+      }
+      held_.push_back(std::move(open.discs));
     }
-    const Split split = best_split(discs);
-    add_node(std::span(split.order).first(split.first));
-    tree_.second_child[node] = static_cast<std::uint32_t>(tree_.second_child.size());
-    add_node(std::span(split.order).subspan(split.first));
+    return below;
   }
 
   /// Returns a small disc that holds discs: its centre goes from the middle of their box towards the farthest one, by less and less
@@ -90,9 +107,9 @@ class Builder {
       const Disc* farthest = nullptr;
       for (const std::uint32_t i : discs) {
         const Disc& each = disc(key, i);
-        const double distance = length(double{each.x} - double{centre.x}, double{each.y} - double{centre.y});
-        if (distance + double{each.radius} <= radius && farthest != nullptr) continue;
-        radius = distance + double{each.radius}, away = distance, farthest = &each;
+        const double to_centre = distance(each, centre), to_edge = to_centre + double{each.radius};
+        if (to_edge <= radius && farthest != nullptr) continue;
+        radius = to_edge, away = to_centre, farthest = &each;
       }
       if (radius < least) least = radius, best = centre;
       if (away == 0) break;
@@ -137,30 +154,45 @@ class Builder {
     if (*least < best.cost) best = {std::move(order), static_cast<std::size_t>(least - cost.begin()), *least};
   }
 
-  /// From the keys of node after node to the nodes of key after key.
-  void transpose() {
-    const std::size_t nodes = tree_.nodes(), keys = chunk_.times.size();
-    tree_.keys.resize(nodes * keys);
-    for (std::size_t node = 0; node < nodes; ++node)
-      for (std::size_t key = 0; key < keys; ++key)
-        tree_.keys[key * nodes + node] = by_node_[node * keys + key];
+  void place_discs() {
+    tree_.keys.reserve(held_.size() * chunk_.times.size());
+    for (std::size_t key = 0; key < chunk_.times.size(); ++key)
+      for (const std::vector<std::uint32_t>& discs : held_) tree_.keys.push_back(disc_about(key, discs));
   }
 
-  void find_steps() {
-    for (std::size_t key = 0; key + 1 < chunk_.times.size(); ++key) {
+  void find_windows(unsigned level) {
+    KeyWindows& windows = tree_.windows[level];
+    for (std::size_t key = 0; key + 1 < chunk_.times.size(); key += window_length(level)) {
+      const std::size_t end = tree_.window_end(key, level);
+      const Disc *const from = tree_.key(key), *const to = tree_.key(end);
       double step = 0;
-      const Disc *from = tree_.key(key), *to = tree_.key(key + 1);
-      for (std::size_t i = 0; i < tree_.nodes(); ++i)
-        step =
-            std::max(step, length(double{to[i].x} - double{from[i].x}, double{to[i].y} - double{from[i].y}));
-      tree_.steps.push_back(rounding::round_up(step * (1 + 0x1p-48)));
+      for (std::size_t i = 0; i < tree_.nodes(); ++i) {
+        step = std::max(step, distance(from[i], to[i]));
+        if (level > 0) windows.spares.push_back(spare(i, key, end));
+      }
+      windows.steps.push_back(rounding::round_up(step * (1 + 0x1p-48)));
     }
+  }
+
+  /// Returns by how much a node is outside of the disc that goes straight on from one key to another, at the keys between. That is convex
+  /// from key to key, and so no more there.
+  float spare(std::size_t node, std::size_t key, std::size_t end) const {
+    const Disc &from = tree_.key(key)[node], &to = tree_.key(end)[node];
+    double spare = 0;
+    for (std::size_t k = key + 1; k < end; ++k) {
+      const double share = (tree_.times[k] - tree_.times[key]) / (tree_.times[end] - tree_.times[key]);
+      const auto blend = [=](float a, float b) { return double{a} + (double{b} - double{a}) * share; };
+      const Disc& disc = tree_.key(k)[node];
+      const double away = length(double{disc.x} - blend(from.x, to.x), double{disc.y} - blend(from.y, to.y));
+      spare = std::max(spare, away + double{disc.radius} - blend(from.radius, to.radius));
+    }
+    return rounding::round_up(spare * (1 + 0x1p-40));
   }
 
   const AnimatedChunk& chunk_;
   AnimatedTreeChunk tree_;
   std::vector<std::size_t> sampled_keys_;
-  std::vector<Disc> by_node_;
+  std::vector<std::vector<std::uint32_t>> held_;  ///< per node: its discs
 };
 
 }  // namespace

@@ -3,6 +3,8 @@
 
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -11,19 +13,38 @@
 
 namespace bch::detail {
 
-/// The tree over the moving discs of a chunk: a binary tree in depth-first order, whose nodes are moving discs with the same keys. A node
+/// Windows of keys, over each of which a node is a disc again that moves straight on, from where it is in the beginning to where it is in
+/// the end, and is larger by what the keys between depart from that. Windows go on for a key at level 0, for four at level 1.
+struct KeyWindows {
+  std::vector<float> steps;   ///< per window: the farthest that a centre comes, metres
+  std::vector<float> spares;  ///< nodes of each window: what their radii are larger by; none at level 0
+};
+constexpr unsigned window_levels = 2;
+/// Returns how many keys a window goes on.
+constexpr std::size_t window_length(unsigned level) noexcept {
+  return std::size_t{1} << (2 * level);
+}
+
+/// The tree over the moving discs of a chunk: a binary tree, level by level, whose nodes are moving discs with the same keys. A node
 /// holds its discs at every key, and so at all times between: the distance of two centres that move straight on is convex, and so
 /// is that and the radius of the disc within, while the radius of the disc around is linear.
 struct AnimatedTreeChunk {
   std::vector<double> times;
   std::vector<Disc> keys;                   ///< nodes at each key, key by key
-  std::vector<std::uint32_t> second_child;  ///< per node; 0: a leaf. The first child is the next node
+  std::vector<std::uint32_t> first_child;   ///< per node; 0: a leaf. The second child is the next node
   std::vector<std::uint32_t> leaf_of_disc;  ///< per disc in the order in which they were given: its node
   std::vector<std::uint32_t> ring_ends;
-  std::vector<float> steps;  ///< per key but the last: the farthest that a centre moves to the next, metres
+  std::array<KeyWindows, window_levels> windows;
 
-  std::size_t nodes() const noexcept { return second_child.size(); }
+  std::size_t nodes() const noexcept { return first_child.size(); }
   const Disc* key(std::size_t k) const noexcept { return keys.data() + k * nodes(); }
+  /// Returns the first key of the window that goes on from a key, and the last one.
+  std::size_t window_begin(std::size_t key, unsigned level) const noexcept {
+    return key & ~(window_length(level) - 1);
+  }
+  std::size_t window_end(std::size_t key, unsigned level) const noexcept {
+    return std::min(window_begin(key, level) + window_length(level), times.size() - 1);
+  }
 };
 
 /// An animated shape as queries read it.
