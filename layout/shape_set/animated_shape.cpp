@@ -109,6 +109,56 @@ Disc between(const Disc& from, const Disc& to, double share) {
           static_cast<float>(blend(from.radius, to.radius))};
 }
 
+/// A chunk at a time.
+struct ChunkAt {
+  const AnimatedTreeChunk& chunk;
+  KeyPlace place;
+
+  ChunkAt(const AnimatedTree& tree, double seconds)
+      : chunk(tree.chunks[key_place(tree, time_in_clip(tree, seconds)).chunk]),
+        place(key_place(tree, time_in_clip(tree, seconds))) {}
+  Disc node(std::uint32_t i) const {
+    return between(chunk.key(place.key)[i], chunk.key(place.key + 1)[i], place.share);
+  }
+};
+
+/// Adds a node and all below it in depth-first order. Nodes hold the discs with room to spare, as those of shape_from_discs() do, and for the
+/// rounding of both their centres.
+void add_nodes(const ChunkAt& at, std::uint32_t node, Hierarchy& hierarchy) {
+  constexpr double of_leaves = rounding::query_margin,
+                   of_others = of_leaves + rounding::held_room + 8 * rounding::unit_roundoff;
+  const std::uint32_t child = at.chunk.first_child[node];
+  const std::size_t index = hierarchy.nodes.size();
+  Disc disc = at.node(node);
+  const double margin = (child == 0 ? of_leaves : of_others) * hierarchy.reach;
+  disc.radius = rounding::round_up(double{disc.radius} + margin);
+  hierarchy.nodes.push_back({disc});
+  if (child == 0) return;
+  add_nodes(at, child, hierarchy);
+  hierarchy.nodes[index].second_child = static_cast<std::uint32_t>(hierarchy.nodes.size());
+  add_nodes(at, child + 1, hierarchy);
+}
+
+/// Returns the polygons of the rings' centres, counter-clockwise.
+Outline outline_of(const ChunkAt& at) {
+  Outline outline;
+  std::size_t begin = 0;
+  for (const std::uint32_t end : at.chunk.ring_ends) {
+    double twice_area = 0;
+    for (std::size_t i = begin; i < end; ++i) {
+      const Disc disc = at.node(at.chunk.leaf_of_disc[i]),
+                 next = at.node(at.chunk.leaf_of_disc[i + 1 < end ? i + 1 : begin]);
+      outline.points.push_back({disc.x, disc.y});
+      twice_area += double{disc.x} * double{next.y} - double{next.x} * double{disc.y};
+    }
+    if (twice_area < 0)
+      std::reverse(outline.points.begin() + static_cast<std::ptrdiff_t>(begin), outline.points.end());
+    outline.contour_begin.push_back(end);
+    begin = end;
+  }
+  return outline;
+}
+
 double reach_of(const AnimatedDiscs& discs) {
   double reach = 0;
   for (const AnimatedChunk& chunk : discs.chunks)
@@ -176,12 +226,20 @@ std::size_t AnimatedShape::bytes() const noexcept {
 }
 
 std::vector<Disc> AnimatedShape::discs(double seconds) const {
-  const KeyPlace place = key_place(*tree_, time_in_clip(*tree_, seconds));
-  const AnimatedTreeChunk& chunk = tree_->chunks[place.chunk];
+  const ChunkAt at(*tree_, seconds);
   std::vector<Disc> discs;
-  for (const std::uint32_t leaf : chunk.leaf_of_disc)
-    discs.push_back(between(chunk.key(place.key)[leaf], chunk.key(place.key + 1)[leaf], place.share));
+  for (const std::uint32_t leaf : at.chunk.leaf_of_disc) discs.push_back(at.node(leaf));
   return discs;
+}
+
+Shape AnimatedShape::shape(double seconds) const {
+  const ChunkAt at(*tree_, seconds);
+  Shape shape;
+  shape.hierarchy.reach = tree_->reach;
+  shape.hierarchy.nodes.reserve(at.chunk.nodes());
+  add_nodes(at, 0, shape.hierarchy);
+  shape.outline = outline_of(at);
+  return shape;
 }
 
 }  // namespace bch

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include <bch/collide.hpp>
 #include <bch/shape_set.hpp>
 
 #include "layout/hierarchy/discs.hpp"
@@ -102,6 +103,52 @@ TEST(AnimatedShape, TreesAreTight) {
       EXPECT_LT(chunk.key(key)[0].radius, 1.01f * detail::disc_hierarchy(discs).nodes[0].disc.radius);
     }
   }
+}
+
+/// Queries of a body's shape at a time answer as its discs and rings do.
+TEST(AnimatedShape, IsAShapeAtEveryTime) {
+  Random random(3113);
+  int hits = 0, nested = 0;
+  for (std::uint32_t i = 0; i < test::samples(2000); ++i) {
+    const bool ringed = i % 3 != 0;
+    const auto body = [&](bool small) {
+      const auto key =
+          PathKey{0, random.uniform(-0.3, 0.3), random.uniform(-0.3, 0.3), random.uniform(-4, 4)};
+      AnimatedDiscs discs = ringed ? test::ringed_body(random) : test::loose_discs(random);
+      for (AnimatedChunk& chunk : discs.chunks)
+        for (Disc& disc : chunk.keys)
+          if (small) disc = {disc.x * 0.1f, disc.y * 0.1f, disc.radius * 0.1f};
+      return test::MotionCase{std::move(discs), {key}, random.uniform(-1, 1)};
+    };
+    const test::MotionCase a = body(false), b = body(i % 2 == 0);
+    const double time = random.uniform(-3, 3);
+    const auto shape_of = [&](const test::MotionCase& of) {
+      return of.shape.shape(time - of.clip_begin + of.shape.begin());
+    };
+    ShapeSetPlan plan;
+    plan.outlines = ringed;
+    const ShapeSet set({{shape_of(a), shape_of(b)}}, plan);
+    const std::vector<std::uint32_t> shape = {0, 1};
+    const std::vector<double> x = {a.path[0].x, b.path[0].x}, y = {a.path[0].y, b.path[0].y},
+                              heading = {a.path[0].heading, b.path[0].heading};
+    std::vector<std::uint8_t> hit(1);
+    collide(set, {shape, x, y, heading}, std::vector<Pair>{{0, 1}}, hit,
+            {.semantics = ringed ? Semantics::solid : Semantics::boundary});
+    const test::Meeting meeting = test::meeting_at(a, b, time);
+    if (meeting.overlap()) {
+      EXPECT_EQ(hit[0], 1) << i;
+    }
+    if (hit[0] == 1) {
+      EXPECT_TRUE(meeting.nested || meeting.gap <= 1e-5) << i << ": " << meeting.gap;
+    }
+    hits += hit[0], nested += meeting.nested;
+  }
+  EXPECT_GT(hits, static_cast<int>(test::samples(400)));
+  EXPECT_GT(nested, static_cast<int>(test::samples(40)));
+  const AnimatedShape loose(test::loose_discs(random, 50));
+  const std::vector<Disc> discs = loose.discs(0.1), numbered = ShapeSet({{loose.shape(0.1)}}).discs(0, 0);
+  ASSERT_EQ(numbered.size(), discs.size());
+  for (std::size_t i = 0; i < discs.size(); ++i) EXPECT_EQ(numbered[i].x, discs[i].x);
 }
 
 TEST(AnimatedShape, RefusesWhatDoesNotMove) {

@@ -101,6 +101,11 @@ class AnimatedShape {
   std::size_t bytes() const noexcept;
   /// Returns the discs at a time, in the order in which they were given.
   std::vector<Disc> discs(double seconds) const;
+  /// Returns the body at a time as a shape, whose leaves are these discs and whose outline is the rings. A set takes it, and a
+  /// PreparedShape for a DynamicShapeSet, so that every query answers at every time after one call for each body and time. Discs
+  /// without rings stay in the order in which they were given; others are numbered as leaves of the tree.
+  /// Cost:    a few us for 200 discs, less than making it flat.
+  Shape shape(double seconds) const;
 
   /// For the library's own parts, which alone know the type.
   const detail::AnimatedTree& tree() const noexcept { return *tree_; }
