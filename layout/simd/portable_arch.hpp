@@ -197,6 +197,24 @@ inline bool any(batch_bool<T, A> const& v, requires_arch<portable>) noexcept {
   return set;
 }
 
+// Never called: xsimd's functions name them, and no processor that it does not know declares any.
+template <class A, class T>
+batch<T, A> rsqrt(batch<T, A> const&, requires_arch<portable>) noexcept;
+template <class A, class T>
+batch<T, A> sadd(batch<T, A> const&, batch<T, A> const&, requires_arch<portable>) noexcept;
+template <class A, class T>
+batch<T, A> ssub(batch<T, A> const&, batch<T, A> const&, requires_arch<portable>) noexcept;
+template <class A, class T>
+batch<T, A> bitwise_andnot(batch<T, A> const&, batch<T, A> const&, requires_arch<portable>) noexcept;
+template <class A, class T>
+batch<T, A> bitwise_xor(batch<T, A> const&, batch<T, A> const&, requires_arch<portable>) noexcept;
+template <class A, class T>
+batch<T, A> haddp(batch<T, A> const*, requires_arch<portable>) noexcept;
+template <class A, class T>
+batch<T, A> bool_cast(batch_bool<T, A> const&, requires_arch<portable>) noexcept;
+template <class A, class T>
+bool all(batch_bool<T, A> const&, requires_arch<portable>) noexcept;
+
 template <class A, class T>
 inline batch<T, A> bitwise_lshift(batch<T, A> const& v, std::int32_t bits, requires_arch<portable>) noexcept {
   return v.data << bits;
