@@ -78,7 +78,8 @@ struct TimeInterval {
 void first_contact(std::span<const Motion> motions, std::span<const Pair> pairs, const TimeInterval& interval,
                    std::span<double> times, double tolerance = 0.005);
 
-/// Returns until when a motion has contact with none of others: the least of what first_contact() says of it and each of them.
+/// Returns until when a motion has contact with none of others: the least of what first_contact() says of it, with the lower index, and
+/// each of them.
 /// Cost:    pairs behind one that touches early are looked at until then alone.
 /// Errors:  as first_contact(); the motion itself is named as the one behind the others.
 /// Threads: one; several may ask at once.
