@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include <bch/outline_builder.hpp>
+#include <bch/pose_shape.hpp>
+
+#include "layout/animation/cover_check.hpp"
+#include "layout/animation/disc_ring.hpp"
+#include "layout/base/shortest.hpp"
+#include "layout/character/skinning.hpp"
+
+namespace bch {
+namespace detail {
+namespace {
+
+constexpr float longest_chunk = 0.1334f, shortest_chunk = 0.017f;  ///< seconds
+constexpr std::uint32_t keys_of_chunk = 3;
+constexpr double points_of_disc = 4;  ///< of a contour
+
+/// Returns which vertices are on an outline.
+std::vector<std::uint32_t> vertices_on(const Outline& outline, std::span<const Vec2> vertices) {
+  const auto less = [](const Vec2& a, const Vec2& b) { return a.x != b.x ? a.x < b.x : a.y < b.y; };
+  const auto snapped = [step = outline.grid_step](float x) { return std::round(x / step) * step; };
+  std::vector<Vec2> points = outline.points;
+  std::sort(points.begin(), points.end(), less);
+  std::vector<std::uint32_t> found;
+  for (std::uint32_t v = 0; v < vertices.size(); ++v)
+    if (std::binary_search(points.begin(), points.end(), Vec2{snapped(vertices[v].x), snapped(vertices[v].y)},
+                           less))
+      found.push_back(v);
+  return found;
+}
+
+/// Returns how deep a point lies inside an outline; less than 0 outside.
+double depth_in(const Outline& outline, const PlanePoint& p) {
+  double nearest = std::numeric_limits<double>::infinity();
+  bool inside = false;
+  for (std::size_t c = 0; c < outline.contours(); ++c) {
+    const std::span<const Vec2> contour = outline.contour(c);
+    for (std::size_t i = 0; i < contour.size(); ++i) {
+      const PlanePoint a = plane_point(contour[i]),
+                       b = plane_point(contour[i + 1 < contour.size() ? i + 1 : 0]);
+      const PlanePoint edge = b - a, to = p - a;
+      const double square = squared_length(edge);
+      const double share = square > 0 ? std::clamp(dot(to, edge) / square, 0.0, 1.0) : 0;
+      nearest = std::min(nearest, squared_length(to - share * edge));
+      if ((a.y > p.y) != (b.y > p.y)) inside ^= to.x < edge.x * (to.y / edge.y);
+    }
+  }
+  return inside ? std::sqrt(nearest) : -std::sqrt(nearest);
+}
+
+/// Makes the chunks of one clip.
+class ClipAnimator {
+ public:
+  ClipAnimator(const Character& character, std::uint32_t clip, const AnimateOptions& options)
+      : check_(character, clip, double{options.spacing}),
+        clip_(clip),
+        options_(options),
+        end_(character.clips[clip].seconds),
+        skinner_(character),
+        builder_(character.triangles, character.vertices.size(), character.vertices) {}
+
+  AnimatedDiscs run();
+
+ private:
+  void pose(float seconds, std::vector<Vec2>& vertices);
+  KeyContour contour_at(float seconds, float next);
+  AnimatedChunk ring(float from, float to);
+  double excess(const AnimatedChunk& chunk, std::size_t key, float share);
+  bool is_tight(const AnimatedChunk& chunk, const AnimatedChunk& ring);
+  void add_chunks(float from, float to, std::vector<AnimatedChunk>& chunks);
+  bool loops();
+
+  CoverCheck check_;  ///< the first, because it looks whether there is such a clip
+  std::uint32_t clip_;
+  AnimateOptions options_;
+  float end_;
+  Skinner skinner_;
+  OutlineBuilder builder_;
+  Outline outline_;
+  std::vector<Vec2> now_, later_;
+};
+
+void ClipAnimator::pose(float seconds, std::vector<Vec2>& vertices) {
+  const std::span<const Vec2> posed = skinner_.ground_pose({clip_, seconds});
+  vertices.assign(posed.begin(), posed.end());
+}
+
+KeyContour ClipAnimator::contour_at(float seconds, float next) {
+  pose(seconds, now_);
+  pose(next, later_);
+  builder_.build(now_, outline_);
+  KeyContour key = {double{seconds}, follow(outline_, double{options_.spacing} / points_of_disc), {}, {}};
+  for (const std::uint32_t v : vertices_on(outline_, now_)) {
+    key.here.push_back(now_[v]);
+    key.next.push_back(later_[v]);
+  }
+  return key;
+}
+
+AnimatedChunk ClipAnimator::ring(float from, float to) {
+  std::vector<KeyContour> keys;
+  const auto time = [&](std::uint32_t i) {
+    const double share = std::min(1.0, static_cast<double>(i) / (keys_of_chunk - 1));
+    return static_cast<float>(double{from} + (double{to} - double{from}) * share);
+  };
+  for (std::uint32_t i = 0; i < keys_of_chunk; ++i) keys.push_back(contour_at(time(i), time(i + 1)));
+  return ring_along(keys, options_);
+}
+
+/// Returns how far a disc reaches out of the outline at a time at most; `share` is that of the time from a key to the next one.
+double ClipAnimator::excess(const AnimatedChunk& chunk, std::size_t key, float share) {
+  const double from = chunk.times[key], seconds = chunk.times[key + 1] - from;
+  pose(static_cast<float>(from + seconds * double{share}), now_);
+  builder_.build(now_, outline_);
+  double most = 0;
+  for (std::size_t i = 0; i < chunk.disc_count; ++i) {
+    const Disc &a = chunk.keys[key * chunk.disc_count + i], &b = chunk.keys[(key + 1) * chunk.disc_count + i];
+    const auto between = [&](float x, float y) { return double{x + (y - x) * share}; };
+    const double depth = depth_in(outline_, {between(a.x, b.x), between(a.y, b.y)});
+    most = std::max(most, between(a.radius, b.radius) - depth);
+  }
+  return most;
+}
+
+/// Returns whether discs, half-way between two keys, reach out by no more than the error farther than the ring did at these keys.
+bool ClipAnimator::is_tight(const AnimatedChunk& chunk, const AnimatedChunk& ring) {
+  for (std::size_t key = 0; key + 1 < chunk.times.size(); ++key) {
+    const double at_keys = std::max(excess(ring, key, 0), excess(ring, key, 1));
+    if (excess(chunk, key, 0.5f) > at_keys + double{options_.error}) return false;
+  }
+  return true;
+}
+
+/// Rounds radii up, so that 16 bits hold each number of the discs.
+void round_radii(AnimatedChunk& chunk) {
+  float reach = 0;
+  for (const Disc& disc : chunk.keys)
+    reach = std::max({reach, std::abs(disc.x), std::abs(disc.y), disc.radius});
+  const double step = step_of(double{reach});
+  for (Disc& disc : chunk.keys)
+    disc.radius = static_cast<float>(std::ceil(double{disc.radius} / step) * step);
+}
+
+/// Appends a chunk, or those of the halves of its time where it is not tight.
+void ClipAnimator::add_chunks(float from, float to, std::vector<AnimatedChunk>& chunks) {
+  const AnimatedChunk made_for_keys = ring(from, to);
+  AnimatedChunk chunk = made_for_keys;
+  check_.hold(chunk);
+  if (to - from <= 2 * shortest_chunk || is_tight(chunk, made_for_keys)) {
+    round_radii(chunk);
+    return chunks.push_back(std::move(chunk));
+  }
+  const float between = from + (to - from) / 2;
+  add_chunks(from, between, chunks);
+  add_chunks(between, to, chunks);
+}
+
+/// Returns whether every vertex is at the clip's end where it was at its beginning, to a 1000th of the spacing.
+bool ClipAnimator::loops() {
+  pose(0, now_);
+  pose(end_, later_);
+  for (std::size_t v = 0; v < now_.size(); ++v)
+    if (length(plane_point(now_[v]) - plane_point(later_[v])) > 0.001 * double{options_.spacing})
+      return false;
+  return true;
+}
+
+AnimatedDiscs ClipAnimator::run() {
+  AnimatedDiscs result;
+  const double chunks = std::ceil(double{end_} / double{longest_chunk});
+  float from = 0;
+  for (double i = 1; i <= chunks; ++i) {
+    const float to = i == chunks ? end_ : static_cast<float>(double{end_} * (i / chunks));
+    add_chunks(from, to, result.chunks);
+    from = to;
+  }
+  result.loops = loops();
+  return result;
+}
+
+void require(float value, const char* what) {
+  if (!(value > 0 && value <= 1e6f))
+    throw std::invalid_argument(std::string("animated discs: ") + what + " of " + shortest(value) + " m");
+}
+
+}  // namespace
+}  // namespace detail
+
+AnimatedDiscs animate(const Character& character, std::uint32_t clip, const AnimateOptions& options) {
+  detail::require(options.spacing, "a spacing");
+  detail::require(options.inset, "an inset");
+  detail::require(options.error, "an error");
+  return detail::ClipAnimator(character, clip, options).run();
+}
+
+}  // namespace bch

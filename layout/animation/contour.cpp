@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include "layout/animation/contour.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <stdexcept>
+
+namespace bch::detail {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// Appends a contour to a way, by a bridge between the points that are nearest to each other.
+void append(std::span<const Vec2> contour, std::vector<PlanePoint>& way) {
+  if (way.empty()) {
+    for (const Vec2& p : contour) way.push_back(plane_point(p));
+    return;
+  }
+  std::size_t from = 0, to = 0;
+  double nearest = infinity;
+  for (std::size_t i = 0; i < way.size(); ++i)
+    for (std::size_t j = 0; j < contour.size(); ++j)
+      if (const double square = squared_length(way[i] - plane_point(contour[j])); square < nearest) {
+        nearest = square;
+        from = i;
+        to = j;
+      }
+  std::vector<PlanePoint> detour;
+  for (std::size_t j = 0; j <= contour.size(); ++j)
+    detour.push_back(plane_point(contour[(to + j) % contour.size()]));
+  detour.push_back(way[from]);
+  way.insert(way.begin() + static_cast<std::ptrdiff_t>(from) + 1, detour.begin(), detour.end());
+}
+
+void set_directions(EvenContour& way) {
+  constexpr std::size_t reach = 2;
+  const std::size_t count = way.points.size();
+  const double straight = 2 * static_cast<double>(reach) * way.step;
+  way.inward.reserve(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    const PlanePoint along = way.points[(i + reach) % count] - way.points[(i + count - reach) % count];
+    way.inward.push_back({-along.y / straight, along.x / straight});
+  }
+}
+
+/// The table of dynamic time warping: both rows and columns begin at the pair that fits best, and end there, once round.
+class Warping {
+ public:
+  Warping(std::span<const ExpectedPoint> points, const EvenContour& way, double turn_cost)
+      : points_(points), way_(way), turn_square_(turn_cost * turn_cost) {
+    double best = infinity;
+    for (std::size_t i = 0; i < points.size(); ++i)
+      for (std::size_t j = 0; j < way.points.size(); ++j)
+        if (const double c = cost_of(i, j); c < best) {
+          best = c;
+          first_ = i;
+          start_ = j;
+        }
+  }
+
+  void fill();
+  std::vector<std::size_t> places() const;
+
+ private:
+  /// Where the cheapest way to a pair comes from: the pair before in both, or in one.
+  enum class From : std::uint8_t { both, points, way };
+
+  double cost_of(std::size_t i, std::size_t j) const {
+    return squared_length(points_[i].position - way_.points[j]) +
+           turn_square_ * squared_length(points_[i].inward - way_.inward[j]);
+  }
+  double cost(std::size_t row, std::size_t column) const {
+    return cost_of((first_ + row) % points_.size(), (start_ + column) % way_.points.size());
+  }
+  std::size_t columns() const { return way_.points.size() + 1; }
+
+  std::span<const ExpectedPoint> points_;
+  const EvenContour& way_;
+  double turn_square_;
+  std::size_t first_ = 0, start_ = 0;
+  std::vector<From> from_;
+};
+
+void Warping::fill() {
+  std::vector<double> row(columns()), above(columns());
+  from_.resize((points_.size() + 1) * columns());
+  for (std::size_t i = 0; i <= points_.size(); ++i) {
+    std::swap(row, above);
+    for (std::size_t j = 0; j < columns(); ++j) {
+      double least = i + j == 0 ? 0 : infinity;
+      From& from = from_[i * columns() + j];
+      const auto take = [&](double sum, From where) {
+        if (sum >= least) return;
+        least = sum;
+        from = where;
+      };
+      if (i > 0 && j > 0) take(above[j - 1], From::both);
+      if (i > 0) take(above[j], From::points);
+      if (j > 0) take(row[j - 1], From::way);
+      row[j] = least + cost(i, j);
+    }
+  }
+}
+
+/// Returns, of the places that each point got, the one that fits best.
+std::vector<std::size_t> Warping::places() const {
+  const std::size_t count = points_.size(), size = way_.points.size();
+  std::vector<std::size_t> found(count);
+  std::vector<double> least(count, infinity);
+  for (std::size_t i = count, j = size; i + j > 0;) {
+    const From from = from_[i * columns() + j];
+    if (from != From::way) --i;
+    if (from != From::points) --j;
+    if (i == count || cost(i, j) >= least[i]) continue;
+    least[i] = cost(i, j);
+    found[i] = j;
+  }
+  found[0] = 0;
+  std::vector<std::size_t> result(count);
+  for (std::size_t i = 0; i < count; ++i)
+    result[i] = start_ + found[(i + count - first_) % count] + (i >= first_ ? size : 0);
+  const std::size_t rounds = result[0] / size * size;
+  for (std::size_t& place : result) place -= rounds;
+  return result;
+}
+
+}  // namespace
+
+EvenContour follow(const Outline& outline, double step) {
+  constexpr double most_points = 0x1p16;
+  std::vector<PlanePoint> corners;
+  for (std::size_t c = 0; c < outline.contours(); ++c) append(outline.contour(c), corners);
+  const auto edge = [&](std::size_t i) { return corners[(i + 1) % corners.size()] - corners[i]; };
+  double whole = 0;
+  for (std::size_t i = 0; i < corners.size(); ++i) whole += length(edge(i));
+  const double wanted = std::max(8.0, std::ceil(whole / step));
+  if (wanted > most_points) throw std::length_error("animated discs: an outline is too long for the spacing");
+  const auto count = static_cast<std::size_t>(wanted);
+  EvenContour way;
+  way.step = whole / wanted;
+  const auto next = [&] { return static_cast<double>(way.points.size()) * way.step; };
+  double gone = 0;
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const double size = length(edge(i));
+    while (way.points.size() < count && next() < gone + size)
+      way.points.push_back(corners[i] + ((next() - gone) / size) * edge(i));
+    gone += size;
+  }
+  way.points.resize(count, corners[0]);
+  set_directions(way);
+  return way;
+}
+
+std::vector<std::size_t> match_in_order(std::span<const ExpectedPoint> points, const EvenContour& way,
+                                        double turn_cost) {
+  Warping warping(points, way, turn_cost);
+  warping.fill();
+  return warping.places();
+}
+
+}  // namespace bch::detail

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include <bch/outline.hpp>
+
+#include "layout/animation/plane_point.hpp"
+
+namespace bch::detail {
+
+/// A closed way round an outline, counter-clockwise, by points at even distances: round one contour after the other, there and back
+/// along the shortest bridges between them. It cuts corners by less than its step.
+struct EvenContour {
+  std::vector<PlanePoint> points;
+  /// Per point, a vector to the left of the way: of length 1 where it is straight, shorter in bends, 0 where it turns back.
+  std::vector<PlanePoint> inward;
+  double step = 0;  ///< metres of way from a point to the next
+};
+
+/// Makes the way round an outline, its points at most `step` apart.
+/// Errors:  throws std::length_error beyond 2^16 points.
+EvenContour follow(const Outline& outline, double step);
+
+/// A point of a contour, and where it is expected on another one.
+struct ExpectedPoint {
+  PlanePoint position, inward;
+};
+
+/// Finds where points that stand round one contour, in order, are on another one: by dynamic time warping, that is, each point of either gets
+/// one of the other or more, in order, at the least sum of squared distances; a difference of directions by 1 counts as `turn_cost` metres.
+/// Returns: for each point the index of one of the contour's, ascending from the first, and beyond its size once round.
+std::vector<std::size_t> match_in_order(std::span<const ExpectedPoint> points, const EvenContour& way,
+                                        double turn_cost);
+
+}  // namespace bch::detail

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include <bch/geometry.hpp>
+
+namespace bch::detail {
+
+/// A point or a vector of the ground plane in double, metres.
+struct PlanePoint {
+  double x = 0, y = 0;
+
+  friend PlanePoint operator+(const PlanePoint& a, const PlanePoint& b) { return {a.x + b.x, a.y + b.y}; }
+  friend PlanePoint operator-(const PlanePoint& a, const PlanePoint& b) { return {a.x - b.x, a.y - b.y}; }
+  friend PlanePoint operator*(double factor, const PlanePoint& p) { return {factor * p.x, factor * p.y}; }
+};
+
+inline PlanePoint plane_point(const Vec2& p) {
+  return {double{p.x}, double{p.y}};
+}
+inline double dot(const PlanePoint& a, const PlanePoint& b) {
+  return a.x * b.x + a.y * b.y;
+}
+inline double squared_length(const PlanePoint& v) {
+  return dot(v, v);
+}
+inline double length(const PlanePoint& v) {
+  return std::sqrt(squared_length(v));
+}
+inline PlanePoint lower(const PlanePoint& a, const PlanePoint& b) {
+  return {std::min(a.x, b.x), std::min(a.y, b.y)};
+}
+inline PlanePoint upper(const PlanePoint& a, const PlanePoint& b) {
+  return {std::max(a.x, b.x), std::max(a.y, b.y)};
+}
+
+}  // namespace bch::detail

@@ -1,0 +1,253 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include <bch/outline_builder.hpp>
+#include <bch/pose_shape.hpp>
+
+#include "layout/character/skinning.hpp"
+#include "tests/support/character_shapes.hpp"
+#include "tests/support/complaint.hpp"
+#include "tests/support/scenes.hpp"
+#include "tests/support/test_characters.hpp"
+
+// Moving discs of clips: they hold the exact outline at any time, stay close to it, and are as animate() says.
+
+namespace bch {
+namespace {
+
+using test::Random;
+
+/// The character with the first part of its first clip, which is shorter with sanitizers.
+Character with_short_clip(Character character, float seconds) {
+  character.clips.resize(1);
+  character.clips[0].seconds = seconds * static_cast<float>(test::samples(8)) / 8;
+  return character;
+}
+
+/// Discs at a time, and the ends of their rings.
+struct Cover {
+  std::vector<Disc> discs;
+  std::vector<std::uint32_t> ring_ends;
+};
+
+Cover cover_at(const AnimatedDiscs& animated, double seconds) {
+  std::size_t c = 0, key = 0;
+  while (animated.chunks[c].times.back() < seconds) ++c;
+  const AnimatedChunk& chunk = animated.chunks[c];
+  while (chunk.times[key + 1] < seconds) ++key;
+  const double share = (seconds - chunk.times[key]) / (chunk.times[key + 1] - chunk.times[key]);
+  const auto mix = [share](float a, float b) {
+    return static_cast<float>(double{a} + (double{b} - double{a}) * share);
+  };
+  Cover cover = {{}, chunk.ring_ends};
+  for (std::size_t i = 0; i < chunk.disc_count; ++i) {
+    const Disc &a = chunk.keys[key * chunk.disc_count + i], &b = chunk.keys[(key + 1) * chunk.disc_count + i];
+    cover.discs.push_back({mix(a.x, b.x), mix(a.y, b.y), mix(a.radius, b.radius)});
+  }
+  return cover;
+}
+
+double cross(const Disc& from, const Disc& to, const Vec2& p) {
+  return (double{to.x} - double{from.x}) * (double{p.y} - double{from.y}) -
+         (double{to.y} - double{from.y}) * (double{p.x} - double{from.x});
+}
+
+bool holds(const Cover& cover, const Vec2& p) {
+  for (const Disc& disc : cover.discs) {
+    const double x = double{p.x} - double{disc.x}, y = double{p.y} - double{disc.y};
+    if (std::sqrt(x * x + y * y) <= double{disc.radius}) return true;
+  }
+  int turns = 0;
+  std::uint32_t begin = 0;
+  for (const std::uint32_t end : cover.ring_ends) {
+    for (std::uint32_t i = begin; i < end; ++i) {
+      const Disc &a = cover.discs[i], &b = cover.discs[i + 1 < end ? i + 1 : begin];
+      if ((a.y > p.y) != (b.y > p.y) && (cross(a, b, p) > 0) == (b.y > a.y)) turns += b.y > a.y ? 1 : -1;
+    }
+    begin = end;
+  }
+  return turns != 0;
+}
+
+/// Counts the vertices and the points of the outline's segments, some millimetres apart, that a cover does not hold.
+std::size_t left_out(const Cover& cover, std::span<const Vec2> vertices, const Outline& outline) {
+  const auto out = [&](const Vec2& p) { return !holds(cover, p); };
+  std::size_t count = static_cast<std::size_t>(std::count_if(vertices.begin(), vertices.end(), out));
+  for (std::size_t c = 0; c < outline.contours(); ++c) {
+    const auto contour = outline.contour(c);
+    for (std::size_t i = 0; i < contour.size(); ++i) {
+      const Vec2 &a = contour[i], &b = contour[(i + 1) % contour.size()];
+      const float parts = std::ceil(std::max(std::abs(a.x - b.x), std::abs(a.y - b.y)) / 0.004f);
+      for (float part = 0; part < parts; ++part)
+        count += out({a.x + (b.x - a.x) * (part / parts), a.y + (b.y - a.y) * (part / parts)});
+    }
+  }
+  return count;
+}
+
+/// Returns the largest coordinate of a cover in a direction, less that of what it covers.
+double excess_in(const Cover& cover, std::span<const Vec2> vertices, double x, double y) {
+  double of_discs = -1e9, of_vertices = -1e9;
+  for (const Disc& disc : cover.discs)
+    of_discs = std::max(of_discs, x * double{disc.x} + y * double{disc.y} + double{disc.radius});
+  for (const Vec2& p : vertices) of_vertices = std::max(of_vertices, x * double{p.x} + y * double{p.y});
+  return of_discs - of_vertices;
+}
+
+void expect_as_said(const AnimatedDiscs& animated, float seconds) {
+  ASSERT_FALSE(animated.chunks.empty());
+  EXPECT_EQ(animated.chunks.front().times.front(), 0.0);
+  EXPECT_EQ(animated.chunks.back().times.back(), double{seconds});
+  double before = 0;
+  for (const AnimatedChunk& chunk : animated.chunks) {
+    EXPECT_EQ(chunk.times.front(), before);
+    before = chunk.times.back();
+    EXPECT_TRUE(std::is_sorted(chunk.times.begin(), chunk.times.end()));
+    ASSERT_EQ(chunk.keys.size(), chunk.times.size() * chunk.disc_count);
+    ASSERT_EQ(chunk.ring_ends, std::vector<std::uint32_t>{chunk.disc_count});
+    float reach = 0;
+    for (const Disc& disc : chunk.keys)
+      reach = std::max({reach, std::abs(disc.x), std::abs(disc.y), disc.radius});
+    const double step = std::exp2(std::ceil(std::log2(double{reach})) - 15);
+    for (std::size_t i = 0; i < chunk.keys.size(); ++i) {
+      const Disc& disc = chunk.keys[i];
+      const Disc& next = chunk.keys[(i + 1) % chunk.disc_count != 0 ? i + 1 : i + 1 - chunk.disc_count];
+      EXPECT_LT(std::hypot(disc.x - next.x, disc.y - next.y), disc.radius + next.radius);
+      for (const float number : {disc.x, disc.y, disc.radius})
+        EXPECT_EQ(std::remainder(double{number}, step), 0.0) << number;
+    }
+  }
+}
+
+/// Looks at random times. Half of them are in the first 16th of a clip, where they are close to each other.
+void expect_held(const Character& character, std::uint32_t times, double most_excess) {
+  const AnimatedDiscs animated = animate(character, 0);
+  const float end = character.clips[0].seconds;
+  expect_as_said(animated, end);
+  detail::Skinner skinner(character);
+  OutlineBuilder builder(character.triangles, character.vertices.size());
+  Outline outline;
+  Random random(31);
+  double sum = 0;
+  for (std::uint32_t i = 0; i < times; ++i) {
+    const auto seconds = static_cast<float>(random.uniform(0, double{end} / (i % 2 == 0 ? 1 : 16)));
+    const std::span<const Vec2> vertices = skinner.ground_pose({0, seconds});
+    builder.build(vertices, outline);
+    const Cover cover = cover_at(animated, double{seconds});
+    ASSERT_EQ(left_out(cover, vertices, outline), 0u) << character.name << " at " << seconds << " s";
+    const double turn = random.uniform(0, 2 * std::numbers::pi);
+    const double excess = excess_in(cover, vertices, std::cos(turn), std::sin(turn));
+    EXPECT_LT(excess, 4 * most_excess) << character.name << " at " << seconds << " s";
+    sum += excess;
+  }
+  EXPECT_LT(sum / times, most_excess) << character.name;
+}
+
+TEST(Animate, HoldsCharactersAtEveryTime) {
+  for (const Character& character : test::default_characters())
+    expect_held(with_short_clip(character, 0.8f), test::samples(800), 0.005);
+}
+
+TEST(Animate, HoldsRealCharacters) {
+  const auto data = test::test_data();
+  if (!data) GTEST_SKIP() << "BCH_TEST_DATA is not set";
+  for (const Character& character : test::real_characters(*data))
+    expect_held(with_short_clip(character, 0.12f), test::samples(200), 0.006);
+}
+
+/// A body of bars, each 0.4 m times 0.06 m, on joints of their own that turn from and to an angle about x and back, once a second.
+struct Bar {
+  float x, from, to;
+};
+Character bars(const std::vector<Bar>& of) {
+  Character body;
+  body.name = "bars";
+  body.joints = {{"root", -1, {}}};
+  body.root_joint = 0;
+  body.influence_begin = {0};
+  body.clips = {{"swing", 1, {}}};
+  for (const Bar& bar : of) {
+    const auto first = static_cast<std::uint32_t>(body.vertices.size());
+    const auto joint = static_cast<std::uint32_t>(body.joints.size());
+    body.bones.push_back({joint, {}});
+    for (const Vec3& corner : {Vec3{0, -0.03f, 0}, {0.4f, -0.03f, 0}, {0.4f, 0.03f, 0}, {0, 0.03f, 0}}) {
+      body.vertices.push_back(corner);
+      body.influences.push_back({joint - 1, 1});
+      body.influence_begin.push_back(static_cast<std::uint32_t>(body.influences.size()));
+    }
+    body.triangles.push_back({first, first + 1, first + 2});
+    body.triangles.push_back({first, first + 2, first + 3});
+    Joint arm = {"arm " + std::to_string(joint), 0, {}};
+    arm.rest.rows[0][3] = bar.x;
+    body.joints.push_back(arm);
+    const auto turned = [](float angle) {
+      return Quaternion{0, 0, std::sin(angle / 2), std::cos(angle / 2)};
+    };
+    Channel channel;
+    channel.joint = joint;
+    channel.rotations = {{0, turned(bar.from)}, {0.5f, turned(bar.to)}, {1, turned(bar.from)}};
+    body.clips[0].channels.push_back(channel);
+  }
+  validate(body);
+  return body;
+}
+
+TEST(Animate, FollowsArcsBetweenDistantKeys) {
+  expect_held(bars({{0, 0, 2}}), test::samples(4000), 0.004);
+}
+
+TEST(Animate, HoldsPartsThatComeOutFromUnderOthersAndPartsApart) {
+  // Discs go ahead of a part that comes out, so that less is promised of how close they are.
+  expect_held(bars({{0, 0, 0}, {0, 0, 1.5f}, {0, 0, -1}}), test::samples(2000), 0.02);
+  expect_held(bars({{0.1f, 0, 1}, {-0.9f, 0, 1}}), test::samples(1000), 0.02);
+}
+
+TEST(Animate, KnowsLoops) {
+  Character body = bars({{0, 0, 1}});
+  EXPECT_TRUE(animate(body, 0).loops);
+  body.clips[0].seconds = 0.75f;
+  EXPECT_FALSE(animate(body, 0).loops);
+}
+
+TEST(Animate, FollowsItsOptions) {
+  const Character body = bars({{0, 0, 1}});
+  const AnimatedDiscs coarse = animate(body, 0, {.spacing = 0.05f});
+  EXPECT_LT(coarse.chunks[0].disc_count, animate(body, 0).chunks[0].disc_count);
+  EXPECT_THROW(animate(body, 0, {.spacing = 1e-5f}), std::length_error);
+}
+
+TEST(Animate, RefusesWhatItCannotHold) {
+  using test::complaint;
+  const Character body = bars({{0, 0, 1}});
+  const auto message = [](const Character& of, std::uint32_t clip = 0, const AnimateOptions& options = {}) {
+    return complaint([&] { animate(of, clip, options); });
+  };
+  EXPECT_EQ(message(body, 1), "character 'bars': no clip 1");
+  EXPECT_EQ(message(body, 0, {.spacing = 0}), "animated discs: a spacing of 0 m");
+  EXPECT_EQ(message(body, 0, {.inset = std::nanf("")}), "animated discs: an inset of nan m");
+  EXPECT_EQ(message(body, 0, {.error = -1}), "animated discs: an error of -1 m");
+  const std::string uneven = "character 'bars': clip 'swing' has channels that are not linear between keys";
+  Character other = body;
+  other.clips[0].channels[0].rotation_curve.interpolation = Interpolation::step;
+  EXPECT_EQ(message(other), uneven);
+  other = body;
+  other.clips[0].channels[0].rotations[1].time = 0;
+  EXPECT_EQ(message(other), uneven);
+  other = body;
+  other.root_joint = -1;
+  EXPECT_EQ(message(other), "character 'bars': an animated shape needs a root joint");
+  other = body;
+  other.clips[0].seconds = 0;
+  EXPECT_EQ(message(other), "character 'bars': clip 'swing' takes no time");
+}
+
+}  // namespace
+}  // namespace bch
