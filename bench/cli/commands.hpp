@@ -16,6 +16,7 @@ std::function<void()> add_check_command(CLI::App& program);
 std::function<void()> add_crowd_command(CLI::App& program);
 std::function<void()> add_inspect_command(CLI::App& program);
 std::function<void()> add_merge_command(CLI::App& program);
+std::function<void()> add_place_command(CLI::App& program);
 std::function<void()> add_query_command(CLI::App& program);
 std::function<void()> add_report_command(CLI::App& program);
 std::function<void()> add_stability_command(CLI::App& program);

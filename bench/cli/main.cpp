@@ -34,10 +34,11 @@ int run(int argc, char** argv) {
   program.require_subcommand(1);
   program.get_formatter()->column_width(24);
   const std::pair<const char*, std::function<void()>> commands[] = {
-      {"bake", add_bake_command(program)},     {"check", add_check_command(program)},
-      {"crowd", add_crowd_command(program)},   {"inspect", add_inspect_command(program)},
-      {"merge", add_merge_command(program)},   {"query", add_query_command(program)},
-      {"report", add_report_command(program)}, {"stability", add_stability_command(program)},
+      {"bake", add_bake_command(program)},           {"check", add_check_command(program)},
+      {"crowd", add_crowd_command(program)},         {"inspect", add_inspect_command(program)},
+      {"merge", add_merge_command(program)},         {"place", add_place_command(program)},
+      {"query", add_query_command(program)},         {"report", add_report_command(program)},
+      {"stability", add_stability_command(program)},
   };
   const std::string word = argc > 1 ? argv[1] : "-";
   if (word[0] != '-' && std::ranges::none_of(commands, [&](const auto& one) { return one.first == word; }))

@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include <fmt/format.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <bch/pose_shape.hpp>
+
+#include "bench/base/exit_codes.hpp"
+#include "bench/base/output.hpp"
+#include "bench/base/stopwatch.hpp"
+#include "bench/base/text.hpp"
+#include "bench/characters/characters.hpp"
+#include "bench/cli/commands.hpp"
+#include "bench/cli/options.hpp"
+#include "bench/cli/place_report.hpp"
+#include "kernel/check/walker_cast.hpp"
+
+namespace bch::cli {
+namespace {
+
+/// Returns how fast a clip of a character goes, 0 where it does not walk straight on.
+double speed_of(const detail::CastMember& member, std::uint32_t clip) {
+  const bool walks = std::ranges::find(member.walks, clip) != member.walks.end();
+  return walks ? member.clips[clip].speed : 0;
+}
+
+/// Characters without a walk stand where they are.
+detail::CastMember member_of(const LoadedCharacter& loaded) {
+  try {
+    return detail::cast_member(loaded.character, file_name(loaded));
+  } catch (const std::invalid_argument&) {
+    detail::CastMember member{};
+    member.name = file_name(loaded);
+    member.character = loaded.character;
+    return member;
+  }
+}
+
+/// A clip that was asked for, of a character that has it.
+struct WantedClip {
+  std::uint32_t member, clip;
+};
+
+std::vector<WantedClip> wanted_clips(const PlaceOptions& options,
+                                     std::span<const detail::CastMember> members) {
+  std::vector<WantedClip> wanted;
+  for (const std::string& name : options.clip_names) {
+    const std::size_t before = wanted.size();
+    for (std::uint32_t i = 0; i < members.size(); ++i) {
+      const auto& clips = members[i].character.clips;
+      const auto clip = std::ranges::find(clips, name, &Clip::name);
+      if (clip != clips.end()) wanted.push_back({i, static_cast<std::uint32_t>(clip - clips.begin())});
+    }
+    if (wanted.size() == before)
+      throw InputError(fmt::format("--clip: no character has a clip named '{}'", name));
+  }
+  return wanted;
+}
+
+bench::PlacedClip placed_clip(const PlaceOptions& options, const detail::CastMember& member,
+                              std::uint32_t clip) {
+  const Clip& played = member.character.clips[clip];
+  try {
+    const AnimatedDiscs discs = animate(member.character, clip);
+    return {member.name,
+            played.name,
+            options.speed.value_or(speed_of(member, clip)),
+            static_cast<double>(played.seconds),
+            member.height,
+            AnimatedShape(discs),
+            AnimatedShape(bench::cylinder_of(discs))};
+  } catch (const std::invalid_argument& error) {
+    throw InputError(fmt::format("{}, clip {}: {}", member.name, played.name, error.what()));
+  }
+}
+
+/// Builds the bodies of all clips, each by a task of its own.
+std::vector<bench::PlacedClip> clips_of(const PlaceOptions& options) {
+  std::vector<detail::CastMember> members;
+  for (const LoadedCharacter& loaded : load_characters(options.characters, {}))
+    members.push_back(member_of(loaded));
+  const std::vector<WantedClip> wanted = wanted_clips(options, members);
+  std::vector<std::optional<bench::PlacedClip>> built(wanted.size());
+  tbb::parallel_for(std::size_t{0}, wanted.size(), [&](std::size_t i) {
+    built[i].emplace(placed_clip(options, members[wanted[i].member], wanted[i].clip));
+  });
+  std::vector<bench::PlacedClip> clips;
+  for (std::optional<bench::PlacedClip>& clip : built) clips.push_back(std::move(*clip));
+  return clips;
+}
+
+void run_place(const PlaceOptions& options) {
+  require_outputs({{"--csv", options.csv}, {"--json", options.json}}, options.characters);
+  PlaceRun run{options, {}, 0, {}};
+  const bench::Stopwatch watch(2);
+  run.clips = clips_of(options);
+  run.build_seconds = watch.nanoseconds() * 1e-9;
+  for (const bench::Spacing spacing : spacings) {
+    const bench::Stopwatch search(2);
+    try {
+      run.placements.push_back({bench::place(run.clips, spacing, options.placing), 0});
+    } catch (const std::invalid_argument& error) {
+      throw InputError(error.what());
+    }
+    run.placements.back().seconds = search.nanoseconds() * 1e-9;
+  }
+  if (!options.csv.empty()) write_file(options.csv, csv_report(run));
+  write_json(options.json, json_report(run));
+  write_standard_output(text_report(run));
+}
+
+}  // namespace
+
+std::function<void()> add_place_command(CLI::App& program) {
+  const auto options = std::make_shared<PlaceOptions>();
+  CLI::App& command =
+      *program.add_subcommand("place", "Fill an area with people in motion who never touch each other");
+  command.footer(
+      "People walk along arcs inside the area, from random places, at random times of their clips. Where a "
+      "clip\n"
+      "does not walk, they stand. Candidates who would touch somebody, at any time, are left out. The table "
+      "compares\n"
+      "this with the cylinders of poses, and with discs of 0.25 m along whole paths, as people are often "
+      "placed.\n"
+      "Example: bch place --clip walk --seconds 5 --csv placed.csv");
+  command
+      .add_option("--character", options->characters,
+                  std::string(character_help) + " (repeatable) [male, female]")
+      ->type_name("FILE")
+      ->allow_extra_args(false);
+  command.add_option("--clip", options->clip_names, "People play the clip of this name (repeatable) [walk]")
+      ->type_name("NAME")
+      ->allow_extra_args(false);
+  command
+      .add_option("--speed", options->speed,
+                  "Everybody's, metres a second [as the clip walks, 0 if it does not]")
+      ->type_name("M/S")
+      ->check(number_between(0, 20));
+  command.add_option("--width", options->placing.width, "Of the area [10 m]")
+      ->type_name("METRES")
+      ->check(number_between(1, 1000));
+  command.add_option("--depth", options->placing.depth, "Of the area [10 m]")
+      ->type_name("METRES")
+      ->check(number_between(1, 1000));
+  command.add_option("--seconds", options->placing.seconds, "How long people are on their way [10 s]")
+      ->type_name("SECONDS")
+      ->check(number_between(0.1, 600));
+  command
+      .add_option("--tries", options->placing.tries,
+                  "So many candidates in a row that have no room end the search [500]")
+      ->type_name("N")
+      ->check(whole_between(1, 1'000'000));
+  add_seed_option(command, options->placing.seed, "places, ways and times");
+  command.add_option("--fps", options->fps, "Rows a second of --csv [30]")
+      ->type_name("N")
+      ->check(number_between(1, 1000));
+  command.add_option("--csv", options->csv, "Write where everybody is, for bch check")->type_name("FILE");
+  command.add_option("--json", options->json, "Write the table and everybody's path")->type_name("FILE");
+  return [options] { run_place(*options); };
+}
+
+}  // namespace bch::cli

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include "bench/cli/place_report.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <iterator>
+
+#include "bench/base/text.hpp"
+
+namespace bch::cli {
+namespace {
+
+constexpr std::array names{"bodies", "cylinders", "paths"};
+constexpr std::array texts{"bodies, at every time", "cylinders of poses, at every time",
+                           "discs of 0.25 m along whole paths"};
+
+double per_square_metre(const PlaceRun& run, const TimedPlacement& timed) {
+  const bench::PlacingOptions& area = run.options.placing;
+  return static_cast<double>(timed.placement.people.size()) / (area.width * area.depth);
+}
+
+nlohmann::ordered_json json_of(const PlaceRun& run, const bench::PlacedPerson& person) {
+  const bench::PlacedClip& clip = run.clips[person.clip];
+  auto path = nlohmann::ordered_json::array();
+  for (const PathKey& key : person.path) path.push_back({key.time, key.x, key.y, key.heading});
+  return {
+      {"character", clip.character}, {"clip", clip.name}, {"clip_begin", person.clip_begin}, {"path", path}};
+}
+
+/// The time in a clip that goes round.
+double clip_time(const bench::PlacedClip& clip, const bench::PlacedPerson& person, double time) {
+  const double since = time - person.clip_begin;
+  return clip.body.loops() ? std::fmod(since, clip.seconds) : std::min(since, clip.seconds);
+}
+
+/// A name as a field of CSV.
+std::string field(const std::string& name) {
+  if (name.find_first_of(",\"\n") == std::string::npos) return name;
+  std::string quoted = "\"";
+  for (const char c : name) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return quoted + '"';
+}
+
+}  // namespace
+
+std::string text_report(const PlaceRun& run) {
+  const bench::PlacingOptions& area = run.options.placing;
+  std::string out = fmt::format("area        {:g} m x {:g} m, {:g} s, seed {}\n", area.width, area.depth,
+                                area.seconds, area.seed);
+  for (const bench::PlacedClip& clip : run.clips)
+    out += fmt::format("clip        {}, {}: {:.2f} m/s, {:.0f} kB\n", printable_line(clip.character),
+                       printable_line(clip.name), clip.speed, static_cast<double>(clip.body.bytes()) / 1e3);
+  out += fmt::format("build       {:.1f} s for {}\n\n", run.build_seconds, counted(run.clips.size(), "clip"));
+  out += fmt::format("{:<36} {:>6} {:>8} {:>10} {:>8}\n", "kept apart", "people", "per m2", "candidates",
+                     "seconds");
+  for (std::size_t k = 0; k < run.placements.size(); ++k) {
+    const TimedPlacement& timed = run.placements[k];
+    out += fmt::format("{:<36} {:>6} {:>8.2f} {:>10} {:>8.2f}\n", texts[k], timed.placement.people.size(),
+                       per_square_metre(run, timed), timed.placement.candidates, timed.seconds);
+  }
+  return out;
+}
+
+nlohmann::ordered_json json_report(const PlaceRun& run) {
+  const bench::PlacingOptions& area = run.options.placing;
+  nlohmann::ordered_json json{{"width", area.width},     {"depth", area.depth},
+                              {"seconds", area.seconds}, {"seed", area.seed},
+                              {"tries", area.tries},     {"build_seconds", run.build_seconds}};
+  for (std::size_t k = 0; k < run.placements.size(); ++k) {
+    const TimedPlacement& timed = run.placements[k];
+    auto people = nlohmann::ordered_json::array();
+    for (const bench::PlacedPerson& person : timed.placement.people) people.push_back(json_of(run, person));
+    json["placements"].push_back({{"kept_apart", names[k]},
+                                  {"people", timed.placement.people.size()},
+                                  {"people_per_square_metre", per_square_metre(run, timed)},
+                                  {"candidates", timed.placement.candidates},
+                                  {"search_seconds", timed.seconds},
+                                  {"placed", people}});
+  }
+  return json;
+}
+
+std::string csv_report(const PlaceRun& run) {
+  std::string out = "id,time,x,y,stature,heading,character,clip,clip_time\n";
+  const auto& people = run.placements.front().placement.people;
+  const auto frames = static_cast<std::uint64_t>(run.options.placing.seconds * run.options.fps);
+  for (std::uint64_t frame = 0; frame <= frames; ++frame) {
+    const double time = static_cast<double>(frame) / run.options.fps;
+    for (std::size_t id = 0; id < people.size(); ++id) {
+      const bench::PlacedClip& clip = run.clips[people[id].clip];
+      const PathKey key = bench::at(people[id].path, time);
+      fmt::format_to(std::back_inserter(out), "{},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f},{},{},{:.6f}\n", id + 1,
+                     time, key.x, key.y, clip.stature, key.heading, field(clip.character), field(clip.name),
+                     clip_time(clip, people[id], time));
+    }
+  }
+  return out;
+}
+
+}  // namespace bch::cli

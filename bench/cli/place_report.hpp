@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <array>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bench/placing/placing.hpp"
+
+namespace bch::cli {
+
+/// What `bch place` is asked for.
+struct PlaceOptions {
+  std::vector<std::string> characters{"default:male", "default:female"};
+  std::vector<std::string> clip_names{"walk"};
+  bench::PlacingOptions placing;
+  std::optional<double> speed;  ///< none: that of the clip
+  double fps = 30;
+  std::string csv, json;
+};
+
+/// The ways to keep people apart that are compared, in the order of rows.
+inline constexpr std::array spacings{bench::Spacing::bodies, bench::Spacing::cylinders,
+                                     bench::Spacing::paths};
+
+/// A filled area, and what it took.
+struct TimedPlacement {
+  bench::Placement placement;
+  double seconds;
+};
+
+/// Everything that a run of `bch place` knows in the end.
+struct PlaceRun {
+  const PlaceOptions& options;
+  std::vector<bench::PlacedClip> clips;
+  double build_seconds;                    ///< of the moving bodies
+  std::vector<TimedPlacement> placements;  ///< as `spacings`
+};
+
+std::string text_report(const PlaceRun& run);
+nlohmann::ordered_json json_report(const PlaceRun& run);
+/// Writes the people whose bodies are kept apart as a recording: id, time, x, y, stature, heading, character, clip,
+/// clip_time.
+std::string csv_report(const PlaceRun& run);
+
+}  // namespace bch::cli

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <bch/shape_set.hpp>
+#include <bch/time_of_impact.hpp>
+
+namespace bch::bench {
+
+/// A clip that people play on their way: the body as it moves, seen from above, and its pose's cylinder.
+struct PlacedClip {
+  std::string character, name;
+  double speed;    ///< metres a second along +x; 0 where the clip does not walk straight on
+  double seconds;  ///< of the clip
+  double stature;  ///< metres, as the character walks; 0 where it does not
+  AnimatedShape body;
+  AnimatedShape cylinder;  ///< about the agent's position, as large as the pose at each time asks
+};
+
+/// Returns the cylinder about the agent's position that holds moving discs at each time.
+AnimatedDiscs cylinder_of(const AnimatedDiscs& discs);
+
+/// What two people must keep apart.
+enum class Spacing {
+  bodies,     ///< moving bodies, at every time
+  cylinders,  ///< the cylinders of their poses, at every time
+  paths,      ///< discs of `path_radius` along their whole paths, whenever they are there
+};
+/// The radius of the discs that are put along paths today, metres.
+constexpr double path_radius = 0.25;
+
+/// What is filled, and with what.
+struct PlacingOptions {
+  double width = 10, depth = 10;  ///< metres
+  double seconds = 10;            ///< how long everybody is on his way
+  std::uint32_t tries = 500;      ///< so many candidates in a row that have no room end the search
+  std::uint64_t seed = 1;
+};
+
+/// Somebody who has room: an arc from inside the area to inside the area, at the clip's speed.
+struct PlacedPerson {
+  std::uint32_t clip;
+  double clip_begin;  ///< the time at which the clip is at its beginning, at most 0
+  std::vector<PathKey> path;
+};
+
+/// The people who found room.
+struct Placement {
+  std::vector<PlacedPerson> people;
+  std::uint64_t candidates = 0;  ///< who were tried
+};
+
+/// Fills an area by rejection sampling: candidates of random clips, phases and arcs come in, the same ones for every spacing, and who
+/// has contact with nobody stays.
+/// Errors:  throws std::invalid_argument where no arc of a clip fits into the area.
+Placement place(std::span<const PlacedClip> clips, Spacing spacing, const PlacingOptions& options);
+
+/// Returns where a person is at a time: between two keys as Motion says.
+PathKey at(std::span<const PathKey> path, double seconds);
+
+}  // namespace bch::bench

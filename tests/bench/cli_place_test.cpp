@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include <bch/broad_phase.hpp>
+#include <bch/collide.hpp>
+#include <bch/default_characters.hpp>
+#include <bch/pose_shape.hpp>
+
+#include "kernel/check/walker_cast.hpp"
+#include "tests/support/bch_run.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+// `bch place`.
+
+namespace bch::test {
+namespace {
+
+/// The people of a moment in the recording that is written.
+struct Moment {
+  std::vector<double> x, y, heading;
+  std::vector<std::string> character;
+  std::vector<float> clip_time;
+};
+
+std::map<std::string, Moment> moments_of(const std::string& csv) {
+  std::map<std::string, Moment> moments;
+  std::istringstream rows(csv);
+  std::string row;
+  std::getline(rows, row);
+  EXPECT_EQ(row, "id,time,x,y,stature,heading,character,clip,clip_time");
+  while (std::getline(rows, row)) {
+    std::vector<std::string> fields;
+    std::istringstream stream(row);
+    for (std::string field; std::getline(stream, field, ',');) fields.push_back(field);
+    EXPECT_EQ(fields.at(7), "idle think");
+    Moment& moment = moments[fields[1]];
+    moment.x.push_back(std::stod(fields[2]));
+    moment.y.push_back(std::stod(fields[3]));
+    moment.heading.push_back(std::stod(fields[5]));
+    moment.character.push_back(fields[6]);
+    moment.clip_time.push_back(std::stof(fields[8]));
+  }
+  return moments;
+}
+
+/// The characters, as people have them.
+struct Bodies {
+  std::map<std::string, Character> characters{
+      {"default:male", detail::cast_member(default_male(), "").character},
+      {"default:female", detail::cast_member(default_female(), "").character}};
+  std::map<std::string, PoseShaper> shapers;
+
+  Bodies() {
+    for (const auto& [name, character] : characters) shapers.emplace(name, PoseShaper(character));
+  }
+
+  /// Counts who collides with whom by the outlines of poses that are made for this very time.
+  std::size_t collisions(const Moment& moment) {
+    std::vector<Shape> shapes;
+    std::vector<std::uint32_t> shape;
+    for (std::size_t i = 0; i < moment.x.size(); ++i) {
+      const Character& character = characters.at(moment.character[i]);
+      const auto clip =
+          std::ranges::find(character.clips, "idle think", &Clip::name) - character.clips.begin();
+      shapes.push_back(
+          shapers.at(moment.character[i]).shape({static_cast<std::uint32_t>(clip), moment.clip_time[i]}));
+      shape.push_back(static_cast<std::uint32_t>(i));
+    }
+    const ShapeSet set(shapes);
+    const Agents agents{shape, moment.x, moment.y, moment.heading};
+    const std::vector<Pair> pairs = candidate_pairs(set, agents);
+    std::vector<std::uint8_t> hits(pairs.size());
+    collide(set, agents, pairs, hits, {.semantics = Semantics::solid, .leaves = Leaves::segments});
+    return static_cast<std::size_t>(std::ranges::count(hits, 1));
+  }
+};
+
+TEST(CliPlace, NobodyTouchesAnybodyAtAnyTime) {
+  const TemporaryFolder folder;
+  const std::string csv = folder.file("placed.csv"), json = folder.file("placed.json");
+  const Ending run =
+      bch({"place", "--clip", "idle think", "--speed", "1.2", "--seconds", "2", "--tries", "100", "--width",
+           "6", "--depth", "5", "--fps", "20", "--csv", csv, "--json", json});
+  ASSERT_EQ(run.code, 0) << run.err;
+  const auto placements = read_json(json)["placements"];
+  ASSERT_EQ(placements.size(), 3u);
+  const std::size_t bodies = placements[0]["people"], cylinders = placements[1]["people"],
+                    paths = placements[2]["people"];
+  EXPECT_GT(bodies, cylinders);
+  EXPECT_GT(bodies, 2 * paths);
+  const auto moments = moments_of(read_text(csv));
+  ASSERT_EQ(moments.size(), 41u);
+  Bodies bodies_posed;
+  std::size_t near = 0;
+  for (const auto& [time, moment] : moments) {
+    ASSERT_EQ(moment.x.size(), bodies);
+    EXPECT_EQ(bodies_posed.collisions(moment), 0u) << time << " s";
+    for (std::size_t i = 1; i < bodies; ++i)
+      near += std::hypot(moment.x[i] - moment.x[0], moment.y[i] - moment.y[0]) < 0.8;
+  }
+  EXPECT_GT(near, 0u) << "nobody is near anybody, so that nothing was tested";
+}
+
+TEST(CliPlace, GivesTheSamePeopleForASeed) {
+  const auto people = [](const std::string& seed) {
+    const TemporaryFolder folder;
+    const std::string csv = folder.file("placed.csv");
+    EXPECT_EQ(bch({"place", "--character", "default:male", "--clip", "idle think", "--seconds", "1",
+                   "--tries", "5", "--fps", "1", "--csv", csv, "--seed", seed})
+                  .code,
+              0);
+    return read_text(csv);
+  };
+  const std::string once = people("7");
+  EXPECT_EQ(once, people("7"));
+  EXPECT_NE(once, people("8"));
+}
+
+TEST(CliPlace, RefusesWhatHasNoRoomAndClipsThatAreNotThere) {
+  expect_failure(bch({"place", "--clip", "fly"}), 3, {"--clip", "fly"});
+  expect_failure(bch({"place", "--character", "default:male", "--clip", "idle think", "--speed", "9",
+                      "--width", "1", "--depth", "1"}),
+                 3, {"idle think", "does not fit"});
+}
+
+}  // namespace
+}  // namespace bch::test
