@@ -15,14 +15,15 @@
 namespace bch::cli {
 namespace {
 
-constexpr double width = 1100, margin = 20;
-constexpr double view_top = 76, view_width = width - 2 * margin, view_height = 620;
+constexpr double picture_width = 1100, margin = 20;
+constexpr double view_top = 76, view_width = picture_width - 2 * margin, view_height = 620;
 constexpr double legend_height = 84;
-constexpr double height = view_top + view_height + legend_height;
+constexpr double picture_height = view_top + view_height + legend_height;
 /// Agents with their middle in the window, about. A crowd of hardly more is drawn whole.
 constexpr double window_agents = 48, whole_crowd = 60;
 
-constexpr const char* css = R"(text { font-family: "DejaVu Sans", Verdana, Arial, sans-serif; fill: #1c2733 }
+constexpr const char* style =
+    R"(text { font-family: "DejaVu Sans", Verdana, Arial, sans-serif; fill: #1c2733 }
 .title { font-size: 21px; font-weight: bold }
 .caption { font-size: 14px; fill: #4a5866 }
 .key { font-size: 14px }
@@ -274,7 +275,7 @@ void draw_legend(Svg& svg, const CrowdPicture& picture, const Window& window) {
   draw_key(svg, picture, is_free, 635, "free: not even single", "cylinders overlap");
   svg.close_group();
 
-  const double right = width - margin, left = right - window.scale();
+  const double right = picture_width - margin, left = right - window.scale();
   const double y = view_top + view_height + 34;
   svg.open_group("scale");
   svg.open_group({}, "scale");
@@ -296,7 +297,7 @@ std::string draw_crowd(const CrowdPicture& picture) {
       "{} agents, {:g} per m²: {} of {} single-cylinder collisions cleared ({:.1f} %)",
       grouped(picture.crowd.size()), picture.density, grouped(drawn.cleared), grouped(single), 100 * share);
   const Scene scene(picture);
-  Svg svg(width, height, title, css);
+  Svg svg(picture_width, picture_height, title, style);
   svg.text({margin, 36}, "title", title);
   svg.text({margin, 60}, "caption", caption_of(picture, scene.window));
   svg.rectangle({margin, view_top}, view_width, view_height, "view");

@@ -44,7 +44,7 @@ void solve_by_welzl(const detail::DiscSets& sets) noexcept {
 }
 
 const detail::DiscImplementation& by_welzl() {
-  static const detail::DiscImplementation row{"welzl", []() noexcept { return true; }, solve_by_welzl};
+  static const detail::DiscImplementation row{{"welzl", []() noexcept { return true; }}, solve_by_welzl};
   return row;
 }
 

@@ -12,24 +12,10 @@
 #include "layout/base/rounding.hpp"
 #include "layout/base/shortest.hpp"
 #include "layout/hierarchy/builder.hpp"
+#include "layout/hierarchy/disc_box.hpp"
 
 namespace bch::detail {
 namespace {
-
-double length(double x, double y) noexcept {
-  return std::sqrt(x * x + y * y);
-}
-
-struct Box {
-  double low_x = HUGE_VAL, low_y = HUGE_VAL, high_x = -HUGE_VAL, high_y = -HUGE_VAL;
-
-  void add(const Disc& disc) noexcept {
-    const double x = disc.x, y = disc.y, r = disc.radius;
-    low_x = std::min(low_x, x - r), high_x = std::max(high_x, x + r);
-    low_y = std::min(low_y, y - r), high_y = std::max(high_y, y + r);
-  }
-  double size() const noexcept { return length(high_x - low_x, high_y - low_y); }
-};
 
 /// Returns the radius about (x, y) that holds discs.
 double radius_about(double x, double y, std::span<const Disc> discs) noexcept {
@@ -53,7 +39,7 @@ double least_at(double low, double high, Of of) noexcept {
 Disc smallest_disc(std::span<const Disc> discs, double margin) {
   Disc disc = discs[0];
   if (discs.size() > 1) {
-    Box box;
+    DiscBox box;
     for (const Disc& each : discs) box.add(each);
     const auto best_y = [&](double x) {
       return least_at(box.low_y, box.high_y, [&](double y) { return radius_about(x, y, discs); });
@@ -69,7 +55,7 @@ Disc smallest_disc(std::span<const Disc> discs, double margin) {
 /// Returns how many of the discs go to the first child, so that the larger half is as small as can be.
 std::size_t best_split(std::span<const Disc> discs) {
   std::vector<double> of_rest(discs.size());
-  Box rest, first;
+  DiscBox rest, first;
   for (std::size_t i = discs.size(); i-- > 1;) rest.add(discs[i]), of_rest[i] = rest.size();
   std::size_t best = 1;
   double least = HUGE_VAL;

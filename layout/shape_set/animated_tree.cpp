@@ -9,28 +9,14 @@
 #include <span>
 
 #include "layout/base/rounding.hpp"
+#include "layout/hierarchy/disc_box.hpp"
 
 namespace bch::detail {
 namespace {
 
-double length(double x, double y) noexcept {
-  return std::sqrt(x * x + y * y);
-}
-
 double distance(const Disc& a, const Disc& b) noexcept {
   return length(double{a.x} - double{b.x}, double{a.y} - double{b.y});
 }
-
-struct Box {
-  double low_x = HUGE_VAL, low_y = HUGE_VAL, high_x = -HUGE_VAL, high_y = -HUGE_VAL;
-
-  void add(const Disc& disc) noexcept {
-    const double x = disc.x, y = disc.y, r = disc.radius;
-    low_x = std::min(low_x, x - r), high_x = std::max(high_x, x + r);
-    low_y = std::min(low_y, y - r), high_y = std::max(high_y, y + r);
-  }
-  double size() const noexcept { return length(high_x - low_x, high_y - low_y); }
-};
 
 /// Where a range of discs falls into two, and what that costs: the sizes of both parts, times their discs.
 struct Split {
@@ -97,7 +83,7 @@ class Builder {
   /// (Badoiu, Clarkson 2003).
   Disc disc_about(std::size_t key, std::span<const std::uint32_t> discs) const {
     if (discs.size() == 1) return disc(key, discs[0]);
-    Box box;
+    DiscBox box;
     for (const std::uint32_t i : discs) box.add(disc(key, i));
     double x = (box.low_x + box.high_x) / 2, y = (box.low_y + box.high_y) / 2, least = HUGE_VAL;
     Disc best;
@@ -143,7 +129,7 @@ class Builder {
     const std::size_t count = order.size();
     std::vector<double> cost(count, 0.0);  // of a split before each
     for (const std::size_t key : sampled_keys_) {
-      Box first, rest;
+      DiscBox first, rest;
       for (std::size_t i = 1; i < count; ++i) {
         first.add(disc(key, order[i - 1])), rest.add(disc(key, order[count - i]));
         cost[i] += first.size() * static_cast<double>(i);
