@@ -120,6 +120,7 @@ std::vector<double> insets(const EvenContour& way, const std::vector<double>& pl
                            const AnimateOptions& options) {
   const double spacing = double{options.spacing};
   std::vector<double> inset;
+  inset.reserve(places.size());
   for (const double place : places)
     inset.push_back(inset_at(at(way.points, place), at(way.inward, place), way, double{options.inset},
                              unevenness * spacing));
