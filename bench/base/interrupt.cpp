@@ -43,8 +43,9 @@ void remove_unfinished() {
   if (const Unfinished* const file = unfinished.load()) unlinkat(file->folder, file->name, 0);
 }
 
-/// Removes the file under construction, writes the words and leaves. Only calls that signal handlers may make.
-[[noreturn]] void leave_saying(int code, std::string_view words) {
+/// Removes the file under construction, writes the words and leaves. Only calls that signal handlers may make: before one that does not
+/// return, an address sanitizer would ask for the bounds of the stack, under a lock that the interrupted thread may hold.
+[[noreturn, gnu::no_sanitize_address]] void leave_saying(int code, std::string_view words) {
   remove_unfinished();
   // A progress bar ends without a new line; elsewhere the message stands alone.
   [[maybe_unused]] ssize_t written = isatty(STDERR_FILENO) == 1 ? write(STDERR_FILENO, "\n", 1) : 0;
@@ -54,7 +55,7 @@ void remove_unfinished() {
 
 /// Leaves from here instead of setting a flag: an import or a batch may be far from the next place that would
 /// look at one.
-extern "C" void leave(int signal) {
+extern "C" [[gnu::no_sanitize_address]] void leave(int signal) {
   leave_saying(exit_signal + signal, "bch: interrupted\n");
 }
 
