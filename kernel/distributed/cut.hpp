@@ -20,7 +20,7 @@ struct Weight {
   std::uint64_t key, weight;
 };
 
-/// Where the curve is cut: each rank owns the squares from its first key to the next rank's.
+/// A division of the curve among ranks: each rank owns the squares from its first key to the next rank's.
 class Cut {
  public:
   /// `firsts`: of all ranks but rank 0, ascending.

@@ -16,7 +16,7 @@ namespace bch::detail {
 /// How MPI sends an agent: the fields that are needed, without what lies between them.
 class AgentType {
  public:
-  /// Whether z and the pose are among them.
+  /// Describes an agent to MPI, with or without z and the pose.
   AgentType(bool heights, bool poses);
   ~AgentType();
   AgentType(const AgentType&) = delete;

@@ -33,7 +33,7 @@ struct CrowdAgent {
   std::uint32_t id = 0;     ///< its own in the whole crowd, whichever rank owns it
   std::uint32_t shape = 0;  ///< index into the ShapeSet or the characters, the same on every rank
   std::uint8_t level = 0;   ///< index into the depths of the set or the plan
-  PoseTime pose = {};       ///< of a character; with a ShapeSet nobody looks at it, and it does not travel
+  PoseTime pose = {};       ///< of a character; unused, and not sent, where agents have shapes of a ShapeSet
 };
 
 /// Two agents by their ids, first < second, and how far apart they are.
@@ -48,7 +48,8 @@ struct DistributedCrowdOptions {
   double cell = 0;  ///< metres: the side of the squares that ranks own; 0: four times the largest radius
   double imbalance =
       1.04;  ///< the most that a rank has to do over the mean, beyond which the crowd is cut anew
-  /// As how many pairs an agent counts there: 0 balances pairs, about 1.3 time; of characters, who are posed anew, about 600.
+  /// The work of an agent beside its pairs, in pairs: 0 balances pairs, about 1.3 balances time; about 600 for characters, who are posed
+  /// anew.
   double agent_pairs = 0;
   bool heights = false;  ///< whether z counts; the set has to know the heights of bodies then
 };
