@@ -1,5 +1,5 @@
 # Cross compilation for ARM on Debian, whose arm64 libraries stand beside those of x86-64; programs run emulated, on one
-# processor: threads of TBB that wait for each other there do not end.
+# processor: on several, the test of 32 threads takes longer than anybody waited.
 set(CMAKE_SYSTEM_NAME Linux)
 set(CMAKE_SYSTEM_PROCESSOR aarch64)
 set(CMAKE_C_COMPILER aarch64-linux-gnu-gcc)

@@ -27,8 +27,7 @@ namespace {
 
 /// Returns how fast a clip of a character goes, 0 where it does not walk straight on.
 double speed_of(const detail::CastMember& member, std::uint32_t clip) {
-  const bool walks = std::ranges::find(member.walks, clip) != member.walks.end();
-  return walks ? member.clips[clip].speed : 0;
+  return clip < member.clips.size() ? member.clips[clip].speed : 0;
 }
 
 /// Characters without a walk stand where they are.

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <iterator>
 
+#include "bench/base/csv_input.hpp"
 #include "bench/base/text.hpp"
 
 namespace bch::cli {
@@ -34,14 +35,6 @@ nlohmann::ordered_json json_of(const PlaceRun& run, const bench::PlacedPerson& p
 double clip_time(const bench::PlacedClip& clip, const bench::PlacedPerson& person, double time) {
   const double since = time - person.clip_begin;
   return clip.body.loops() ? std::fmod(since, clip.seconds) : std::min(since, clip.seconds);
-}
-
-/// A name as a field of CSV.
-std::string field(const std::string& name) {
-  if (name.find_first_of(",\"\n") == std::string::npos) return name;
-  std::string quoted = "\"";
-  for (const char c : name) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return quoted + '"';
 }
 
 }  // namespace
@@ -93,8 +86,8 @@ std::string csv_report(const PlaceRun& run) {
       const bench::PlacedClip& clip = run.clips[people[id].clip];
       const PathKey key = bench::at(people[id].path, time);
       fmt::format_to(std::back_inserter(out), "{},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f},{},{},{:.6f}\n", id + 1,
-                     time, key.x, key.y, clip.stature, key.heading, field(clip.character), field(clip.name),
-                     clip_time(clip, people[id], time));
+                     time, key.x, key.y, clip.stature, key.heading, csv_field(clip.character),
+                     csv_field(clip.name), clip_time(clip, people[id], time));
     }
   }
   return out;

@@ -9,43 +9,35 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "kernel/motion/path.hpp"
+#include "layout/base/plane_point.hpp"
 #include "layout/base/random.hpp"
 
 namespace bch::bench {
 namespace {
 
+using detail::PlanePoint;
+
 constexpr double key_step = 0.25;   // seconds between two keys of a path
 constexpr double fastest_turn = 1;  // radians a second
 constexpr int most_arcs = 10'000;   // drawn for a candidate until one stays inside
 
-struct Point {
-  double x, y;
-};
-
-double squared_distance(const Point& p, const Point& a, const Point& b) {
-  const double x = b.x - a.x, y = b.y - a.y, length = x * x + y * y;
-  const double along = (p.x - a.x) * x + (p.y - a.y) * y;
-  const double share = length > 0 ? std::clamp(along / length, 0.0, 1.0) : 0;
-  const double dx = a.x + share * x - p.x, dy = a.y + share * y - p.y;
-  return dx * dx + dy * dy;
-}
-
-double side_of(const Point& p, const Point& a, const Point& b) {
+double side_of(const PlanePoint& p, const PlanePoint& a, const PlanePoint& b) {
   return (b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x);
 }
 
-bool cross(const Point& a, const Point& b, const Point& c, const Point& d) {
+bool cross(const PlanePoint& a, const PlanePoint& b, const PlanePoint& c, const PlanePoint& d) {
   return side_of(c, a, b) * side_of(d, a, b) < 0 && side_of(a, c, d) * side_of(b, c, d) < 0;
 }
 
 /// Returns whether discs along two paths are apart.
 bool paths_are_apart(std::span<const PathKey> first, std::span<const PathKey> second) {
-  const auto point = [](const PathKey& key) { return Point{key.x, key.y}; };
+  const auto point = [](const PathKey& key) { return PlanePoint{key.x, key.y}; };
   constexpr double least = 4 * path_radius * path_radius;
   for (std::size_t i = 1; i < first.size(); ++i) {
-    const Point a = point(first[i - 1]), b = point(first[i]);
+    const PlanePoint a = point(first[i - 1]), b = point(first[i]);
     for (std::size_t k = 1; k < second.size(); ++k) {
-      const Point c = point(second[k - 1]), d = point(second[k]);
+      const PlanePoint c = point(second[k - 1]), d = point(second[k]);
       if (cross(a, b, c, d) || squared_distance(a, c, d) < least || squared_distance(b, c, d) < least ||
           squared_distance(c, a, b) < least || squared_distance(d, a, b) < least)
         return false;
@@ -173,10 +165,7 @@ PathKey at(std::span<const PathKey> path, double seconds) {
   const auto next = std::ranges::find_if(path, [&](const PathKey& key) { return key.time >= seconds; });
   if (next == path.begin()) return path.front();
   if (next == path.end()) return path.back();
-  const PathKey &from = *(next - 1), &to = *next;
-  const double share = (seconds - from.time) / (to.time - from.time);
-  const auto between = [&](double a, double b) { return a + share * (b - a); };
-  return {seconds, between(from.x, to.x), between(from.y, to.y), between(from.heading, to.heading)};
+  return detail::between_keys(*(next - 1), *next, seconds);
 }
 
 }  // namespace bch::bench

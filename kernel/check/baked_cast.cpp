@@ -70,9 +70,7 @@ void take_speeds(CastMember& member, const std::string& file, std::span<const Cl
     throw std::invalid_argument(file +
                                 ": does not say how fast people walk in its clips: --clip-speed has to, as " +
                                 "walk=1.3; those of " + member.name + " are " + all);
-  std::stable_sort(member.walks.begin(), member.walks.end(), [&](std::uint32_t a, std::uint32_t b) {
-    return member.clips[a].speed < member.clips[b].speed;
-  });
+  sort_walks(member);
   member.assumptions.push_back(use_of(member, told));
 }
 

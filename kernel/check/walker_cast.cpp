@@ -127,6 +127,12 @@ std::vector<std::string> assumptions_of(const CastMember& member, std::size_t le
 
 }  // namespace
 
+void sort_walks(CastMember& member) {
+  std::stable_sort(member.walks.begin(), member.walks.end(), [&](std::uint32_t a, std::uint32_t b) {
+    return member.clips[a].speed < member.clips[b].speed;
+  });
+}
+
 CastMember cast_member(Character character, const std::string& name) {
   CastMember member{name, std::move(character), 0, {}, {}, {}, {}};
   Skinner skinner(member.character);
@@ -150,9 +156,7 @@ CastMember cast_member(Character character, const std::string& name) {
   if (member.walks.empty())
     throw std::invalid_argument(name + ": none of its clips walks straight on, as people in recordings do");
   member.height = movements[member.walks[0]].height;
-  std::stable_sort(member.walks.begin(), member.walks.end(), [&](std::uint32_t a, std::uint32_t b) {
-    return member.clips[a].speed < member.clips[b].speed;
-  });
+  sort_walks(member);
   turn(member.character.to_ground, x / length, -y / length, 1);
   member.assumptions =
       assumptions_of(member, member.character.clips.size() - member.walks.size() - member.idles.size());

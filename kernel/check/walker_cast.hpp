@@ -50,6 +50,9 @@ struct CastMember {
 /// Errors:  throws std::invalid_argument, naming the character, where no clip is a walk.
 CastMember cast_member(Character character, const std::string& name);
 
+/// Sorts the walks of a member by ascending speed.
+void sort_walks(CastMember& member);
+
 /// The characters of one's own in a recording, and a view of them, which they outlive.
 using Cast = std::vector<CastMember>;
 using CastView = std::span<const CastMember>;

@@ -48,9 +48,10 @@ WalkerReader::WalkerReader(TrajectoryReader& reader, FrameInterval wanted, doubl
 
 /// Nobody moves so far so fast: ids were mixed up, or places.
 void WalkerReader::require_no_jump(const Place& from, const TrackedPerson& to, std::int64_t frame) const {
-  const double way = std::hypot(to.x - from.x, to.y - from.y);
-  const double seconds = static_cast<double>(frame - from.frame) / fps_;
-  if (way < jump || way < fastest * seconds) return;
+  const double x = to.x - from.x, y = to.y - from.y, square = x * x + y * y;
+  if (square < jump * jump) return;
+  const double way = std::sqrt(square), seconds = static_cast<double>(frame - from.frame) / fps_;
+  if (way < fastest * seconds) return;
   std::ostringstream text;
   text << reader_.place_of(to.row) << ": person " << to.id << " jumps by " << way << " m, from (" << from.x
        << ", " << from.y << ") in frame " << from.frame << " to (" << to.x << ", " << to.y << ") in frame "

@@ -20,7 +20,7 @@ constexpr std::uint32_t no_node = 0xffffffff;
 struct NearestFeatures {
   float distance;  ///< metres
   bool are_segments;
-  /// Where the discs stand among ShapeSetView::nodes, 0 in a set of roots alone; or the points where the segments begin; or no_node.
+  /// The places of the discs among ShapeSetView::nodes, 0 in a set of roots alone; or the points where the segments begin; or no_node.
   std::uint32_t a, b;
   // Of discs:
   float x, y;          ///< from A's centre to B's, in A's frame

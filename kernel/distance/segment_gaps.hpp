@@ -13,7 +13,7 @@
 
 namespace bch::detail {
 
-/// Where the shapes of two agents are, and the margin of both, metres; see rounding.hpp, V.
+/// The placement of two agents' shapes, and the margin of both, metres; see rounding.hpp, V.
 struct PlacedSegments {
   Transform b_in_a;
   double margin;

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <utility>
 
+#include "layout/base/ring_edges.hpp"
+
 namespace bch::detail {
 namespace {
 
@@ -38,19 +40,12 @@ struct RelativeWay {
 int winding(PlacedNodes& nodes, double x, double y) {
   const AnimatedTreeChunk& chunk = nodes.chunk();
   int winding = 0;
-  std::size_t begin = 0;
-  for (const std::uint32_t end : chunk.ring_ends) {
-    const MovingDisc* from = &nodes[chunk.leaf_of_disc[end - 1]];
-    for (std::size_t i = begin; i < end; ++i) {
-      const MovingDisc* const to = &nodes[chunk.leaf_of_disc[i]];
-      if ((from->y <= y) != (to->y <= y)) {
-        const double side = (to->x - from->x) * (y - from->y) - (x - from->x) * (to->y - from->y);
-        if ((side > 0) == (to->y > y)) winding += to->y > y ? 1 : -1;
-      }
-      from = to;
-    }
-    begin = end;
-  }
+  for_each_ring_edge(chunk.ring_ends, [&](std::uint32_t i, std::uint32_t next) {
+    const MovingDisc &from = nodes[chunk.leaf_of_disc[i]], &to = nodes[chunk.leaf_of_disc[next]];
+    if ((from.y <= y) == (to.y <= y)) return;
+    const double side = (to.x - from.x) * (y - from.y) - (x - from.x) * (to.y - from.y);
+    if ((side > 0) == (to.y > y)) winding += to.y > y ? 1 : -1;
+  });
   return winding;
 }
 

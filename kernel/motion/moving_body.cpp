@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kernel/motion/path.hpp"
+
 namespace bch::detail {
 
 MotionFacts::MotionFacts(const Motion& motion)
@@ -32,10 +34,7 @@ PathKey MovingBody::pose(double time) const noexcept {
   const auto& path = facts_->path;
   if (next_on_path_ == 0) return path.front();
   if (next_on_path_ == path.size()) return path.back();
-  const PathKey &from = path[next_on_path_ - 1], &to = path[next_on_path_];
-  const double share = std::min((time - from.time) / (to.time - from.time), 1.0);
-  const auto blend = [=](double a, double b) { return a + (b - a) * share; };
-  return {time, blend(from.x, to.x), blend(from.y, to.y), blend(from.heading, to.heading)};
+  return between_keys(path[next_on_path_ - 1], path[next_on_path_], time);
 }
 
 double MovingBody::clip_end(double time) noexcept {

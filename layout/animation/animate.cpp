@@ -48,11 +48,8 @@ double depth_in(const Outline& outline, const PlanePoint& p) {
     for (std::size_t i = 0; i < contour.size(); ++i) {
       const PlanePoint a = plane_point(contour[i]),
                        b = plane_point(contour[i + 1 < contour.size() ? i + 1 : 0]);
-      const PlanePoint edge = b - a, to = p - a;
-      const double square = squared_length(edge);
-      const double share = square > 0 ? std::clamp(dot(to, edge) / square, 0.0, 1.0) : 0;
-      nearest = std::min(nearest, squared_length(to - share * edge));
-      if ((a.y > p.y) != (b.y > p.y)) inside ^= to.x < edge.x * (to.y / edge.y);
+      nearest = std::min(nearest, squared_distance(p, a, b));
+      if ((a.y > p.y) != (b.y > p.y)) inside ^= p.x - a.x < (b.x - a.x) * ((p.y - a.y) / (b.y - a.y));
     }
   }
   return inside ? std::sqrt(nearest) : -std::sqrt(nearest);
@@ -134,9 +131,11 @@ double ClipAnimator::excess(const AnimatedChunk& chunk, std::size_t key, float s
 
 /// Returns whether discs, half-way between two keys, reach out by no more than the error farther than the ring did at these keys.
 bool ClipAnimator::is_tight(const AnimatedChunk& chunk, const AnimatedChunk& ring) {
+  double at_key = excess(ring, 0, 0);
   for (std::size_t key = 0; key + 1 < chunk.times.size(); ++key) {
-    const double at_keys = std::max(excess(ring, key, 0), excess(ring, key, 1));
-    if (excess(chunk, key, 0.5f) > at_keys + double{options_.error}) return false;
+    const double before = at_key;
+    at_key = excess(ring, key, 1);
+    if (excess(chunk, key, 0.5f) > std::max(before, at_key) + double{options_.error}) return false;
   }
   return true;
 }

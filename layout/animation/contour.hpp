@@ -9,7 +9,7 @@
 
 #include <bch/outline.hpp>
 
-#include "layout/animation/plane_point.hpp"
+#include "layout/base/plane_point.hpp"
 
 namespace bch::detail {
 

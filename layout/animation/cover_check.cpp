@@ -7,6 +7,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "layout/base/ring_edges.hpp"
+
 namespace bch::detail {
 namespace {
 
@@ -112,15 +114,12 @@ bool CoverCheck::is_calm(const AnimatedChunk& chunk) const {
   for (std::size_t v = 0; v < pose_a_.size(); ++v)
     square = std::max(square, squared_length(pose_b_[v] - pose_a_[v]));
   const double way = std::sqrt(square) + 4 * bend_;
-  std::uint32_t begin = 0;
-  for (const std::uint32_t end : chunk.ring_ends) {
-    for (std::uint32_t i = begin; i < end; ++i) {
-      const MovingDisc &disc = discs_[i], &next = discs_[i + 1 < end ? i + 1 : begin];
-      if (way + std::max(way_of(disc), way_of(next)) > overlap(disc, next)) return false;
-    }
-    begin = end;
-  }
-  return true;
+  bool calm = true;
+  for_each_ring_edge(chunk.ring_ends, [&](std::uint32_t i, std::uint32_t next) {
+    const MovingDisc &one = discs_[i], &other = discs_[next];
+    calm &= way + std::max(way_of(one), way_of(other)) <= overlap(one, other);
+  });
+  return calm;
 }
 
 void CoverCheck::hold_window(AnimatedChunk& chunk, std::size_t key) {

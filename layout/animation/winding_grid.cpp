@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "layout/base/ring_edges.hpp"
+
 namespace bch::detail {
 namespace {
 
@@ -27,15 +29,10 @@ void WindingGrid::set(std::span<const PlanePoint> corners, std::span<const std::
   rows_ = static_cast<std::int64_t>(row(high.y)) + 2;
   turns_.assign(static_cast<std::size_t>((columns_ + 1) * (rows_ + 1)), 0);
   met_.assign(turns_.size(), 0);
-  std::uint32_t begin = 0;
-  for (const std::uint32_t end : ends) {
-    for (std::uint32_t i = begin; i < end; ++i) {
-      const PlanePoint& to = corners[i + 1 < end ? i + 1 : begin];
-      add_crossings(corners[i], to);
-      mark_cells(corners[i], to);
-    }
-    begin = end;
-  }
+  for_each_ring_edge(ends, [&](std::uint32_t i, std::uint32_t next) {
+    add_crossings(corners[i], corners[next]);
+    mark_cells(corners[i], corners[next]);
+  });
   for (std::int64_t r = 0; r < rows_; ++r) {
     std::int32_t turns = 0, outer = 0;
     for (std::int64_t c = 0; c < columns_; ++c) {

@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "layout/animation/plane_point.hpp"
+#include "layout/base/plane_point.hpp"
 
 namespace bch::detail {
 

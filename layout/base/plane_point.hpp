@@ -31,6 +31,13 @@ inline double squared_length(const PlanePoint& v) {
 inline double length(const PlanePoint& v) {
   return std::sqrt(squared_length(v));
 }
+/// Returns the squared distance of a point from a segment.
+inline double squared_distance(const PlanePoint& p, const PlanePoint& a, const PlanePoint& b) {
+  const PlanePoint edge = b - a, to = p - a;
+  const double square = squared_length(edge);
+  const double share = square > 0 ? std::clamp(dot(to, edge) / square, 0.0, 1.0) : 0;
+  return squared_length(to - share * edge);
+}
 inline PlanePoint lower(const PlanePoint& a, const PlanePoint& b) {
   return {std::min(a.x, b.x), std::min(a.y, b.y)};
 }

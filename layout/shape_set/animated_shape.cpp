@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "layout/base/ring_edges.hpp"
 #include "layout/base/rounding.hpp"
 #include "layout/base/shortest.hpp"
 #include "layout/hierarchy/builder.hpp"
@@ -80,13 +81,10 @@ class ChunkCheck {
           discs[i].radius < 0)
         reject(name(i) + ", of " + shortest(discs[i].radius) + " m at (" + shortest(discs[i].x) + ", " +
                shortest(discs[i].y) + ") m");
-    std::uint32_t begin = 0;
-    for (const std::uint32_t end : chunk_.ring_ends) {
-      for (std::uint32_t i = begin; i < end; ++i)
-        if (const std::uint32_t next = i + 1 < end ? i + 1 : begin; !overlap(discs[i], discs[next]))
-          reject(name(i) + " does not overlap disc " + std::to_string(next) + ", the next one of its ring");
-      begin = end;
-    }
+    for_each_ring_edge(chunk_.ring_ends, [&](std::uint32_t i, std::uint32_t next) {
+      if (!overlap(discs[i], discs[next]))
+        reject(name(i) + " does not overlap disc " + std::to_string(next) + ", the next one of its ring");
+    });
   }
 
   static bool overlap(const Disc& a, const Disc& b) {
@@ -115,8 +113,8 @@ struct ChunkAt {
   KeyPlace place;
 
   ChunkAt(const AnimatedTree& tree, double seconds)
-      : chunk(tree.chunks[key_place(tree, time_in_clip(tree, seconds)).chunk]),
-        place(key_place(tree, time_in_clip(tree, seconds))) {}
+      : ChunkAt(tree, key_place(tree, time_in_clip(tree, seconds))) {}
+  ChunkAt(const AnimatedTree& tree, const KeyPlace& at) : chunk(tree.chunks[at.chunk]), place(at) {}
   Disc node(std::uint32_t i) const {
     return between(chunk.key(place.key)[i], chunk.key(place.key + 1)[i], place.share);
   }

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <algorithm>
+
+#include <bch/time_of_impact.hpp>
+
+namespace bch::detail {
+
+/// Returns where a motion is at a time from one key of its path to the next.
+inline PathKey between_keys(const PathKey& from, const PathKey& to, double time) noexcept {
+  const double share = std::min((time - from.time) / (to.time - from.time), 1.0);
+  const auto blend = [=](double a, double b) { return a + (b - a) * share; };
+  return {time, blend(from.x, to.x), blend(from.y, to.y), blend(from.heading, to.heading)};
+}
+
+}  // namespace bch::detail
