@@ -9,15 +9,13 @@
 namespace bch::baselines {
 namespace {
 
-using Node = CutTrees::Node;
-
 /// Appends what a hierarchy has below a node, down to a depth.
 void add(const Hierarchy& hierarchy, const std::vector<float>& bounds, std::uint32_t node,
          std::uint32_t depth, CutTrees::Tree& tree) {
   const HierarchyNode& at = hierarchy.nodes[node];
   if (depth == 0 || at.is_leaf()) {
     const auto index = static_cast<std::uint32_t>(tree.discs.size());
-    tree.nodes.push_back({at.disc.x, at.disc.y, at.disc.radius, Node::is_leaf + index});
+    tree.nodes.push_back({at.disc.x, at.disc.y, at.disc.radius, CutTrees::Node::is_leaf + index});
     tree.discs.push_back(at.disc);
     return;
   }

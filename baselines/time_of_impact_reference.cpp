@@ -15,13 +15,13 @@ namespace {
 constexpr float never = std::numeric_limits<float>::infinity();
 
 /// A's way relative to B, in A's frame.
-struct Way {
+struct RelativeWay {
   float x, y;
 };
 
 /// Returns the time at which two discs of the cuts touch; kernel/distance/time_of_impact_measure.hpp derives
 /// the formula.
-float contact(const Step& at, Way way) noexcept {
+float contact(const Step& at, RelativeWay way) noexcept {
   const double x = at.x, y = at.y, vx = way.x, vy = way.y, sum = at.radius_sum;
   const double square = x * x + y * y;
   if (square <= sum * sum * (1 + 0x1p-22)) return 0;
@@ -37,7 +37,7 @@ float contact(const Step& at, Way way) noexcept {
 
 /// A time before which nothing below two discs touches, or never: by how far the moving disc's front has to
 /// go, and by how near it comes until `most`.
-float earliest(const Step& at, Way way, float slack, float most) noexcept {
+float earliest(const Step& at, RelativeWay way, float slack, float most) noexcept {
   const double x = at.x, y = at.y, vx = way.x, vy = way.y;
   const double radius =
       static_cast<double>(at.radius_sum) + static_cast<double>(slack) + 0x1p-17 * (std::abs(x) + std::abs(y));
@@ -60,7 +60,7 @@ float TimeOfImpactReference::query(const Agents& agents, Pair pair, double x, do
   const double sign = pair.first <= pair.second ? 1 : -1;
   const auto dx = static_cast<float>(sign * x), dy = static_cast<float>(sign * y);
   if (dx == 0 && dy == 0) return any_hit(cuts_, agents, pair) ? 0 : never;
-  const Way way{heading.cosine * dx + heading.sine * dy, heading.cosine * dy - heading.sine * dx};
+  const RelativeWay way{heading.cosine * dx + heading.sine * dy, heading.cosine * dy - heading.sine * dx};
   float soonest = never;
   if (method == Method::brute_force) {
     for (const Disc& p : a.discs)

@@ -12,7 +12,7 @@
 namespace bch::cli {
 namespace {
 
-struct Character {
+struct Utf8Character {
   std::uint32_t value = 0;
   std::size_t bytes = 0;  ///< 0: the text does not begin with a character
 };
@@ -30,7 +30,7 @@ std::size_t length_of(std::uint32_t first) {
 }
 
 /// The character in UTF-8 that a text, which is not empty, begins with.
-Character first_character(std::string_view text) {
+Utf8Character first_character(std::string_view text) {
   constexpr std::uint32_t least[] = {0, 0, 0x80, 0x800, 0x10000};  // of so many bytes
   const std::uint32_t first = byte_at(text, 0);
   const std::size_t length = length_of(first);

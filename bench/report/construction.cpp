@@ -110,7 +110,7 @@ void add_stages(Run& run, Table& table) {
   }
 }
 
-void run_experiment(Run& run) {
+void run_construction(Run& run) {
   Table table({"structure", "made from", "median (us)", "lower quartile (us)", "upper quartile (us)", "poses",
                "nodes a shape", "height"});
   add_structures(run, table);
@@ -141,7 +141,7 @@ const Experiment construction_experiment{
     "Construction time",
     20,
     false,
-    run_experiment,
+    run_construction,
     {{"outline and hierarchy",
       [](const Results& results, std::string_view) { return brief(hierarchy_us(results)); }},
      {"full mesh over hierarchy",

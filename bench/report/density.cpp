@@ -54,7 +54,7 @@ std::vector<Row> rows_of(Run& run) {
   return rows;
 }
 
-void run_experiment(Run& run) {
+void run_density(Run& run) {
   const std::vector<Row> rows = rows_of(run);
   const std::size_t packings = run.sizes().packings;
   // Characters without clips have one pose, which then never changes.
@@ -86,6 +86,6 @@ void run_experiment(Run& run) {
 
 }  // namespace
 
-const Experiment density_experiment{"density", "Crowd density", 240, false, run_experiment};
+const Experiment density_experiment{"density", "Crowd density", 240, false, run_density};
 
 }  // namespace bch::report

@@ -76,7 +76,7 @@ void add_series(const Run& run, const Series& series, const Cost& colliding, con
                        critical_depth(means), means.back().mean});
 }
 
-void run_experiment(Run& run) {
+void run_depth(Run& run) {
   std::vector<ShapeSet> sets;
   for (const std::uint32_t depth : depths()) sets.emplace_back(run.scene().shapes(), ShapeSetPlan{{depth}});
   const std::vector<double> nodes = nodes_to_depths(run.scene().shapes());
@@ -113,6 +113,6 @@ void run_experiment(Run& run) {
 
 }  // namespace
 
-const Experiment depth_experiment{"depth", "Depth", 45, true, run_experiment};
+const Experiment depth_experiment{"depth", "Depth", 45, true, run_depth};
 
 }  // namespace bch::report

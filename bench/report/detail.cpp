@@ -106,7 +106,7 @@ std::vector<Outcome> walk_and_test(Run& run, std::span<const Detail> details, do
   return outcomes;
 }
 
-void run_experiment(Run& run) {
+void run_detail(Run& run) {
   const std::span<const Shape> shapes = run.scene().shapes();
   const ShapeSet cuts(shapes, {std::vector<std::uint32_t>(std::begin(depths), std::end(depths))});
   const ShapeSet fixed_set(with_fixed_cylinders(shapes, 0.25f), {{0}});
@@ -137,6 +137,6 @@ void run_experiment(Run& run) {
 
 }  // namespace
 
-const Experiment detail_experiment{"detail", "Detail by density", 30, false, run_experiment};
+const Experiment detail_experiment{"detail", "Detail by density", 30, false, run_detail};
 
 }  // namespace bch::report

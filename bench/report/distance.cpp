@@ -102,7 +102,7 @@ void add(const Run& run, const Row& row, std::span<const double> places, std::sp
     out.cases.add({row.contestant, i, places[i], distances[i]});
 }
 
-void run_experiment(Run& run) {
+void run_distance(Run& run) {
   const SlideCases cases(run.scene().shapes(), run.sizes().cases, run.seed());
   const std::vector<Group> groups = groups_of(run, cases);
   const ShapeSet leaves(run.scene().shapes()), roots(run.scene().shapes(), {{0}});
@@ -174,7 +174,7 @@ const Experiment distance_experiment{
     "Distance at detection",
     40,
     true,
-    run_experiment,
+    run_distance,
     {{"distance of", words_of},
      {"distance of discs over boxes",
       [](const Results& results, std::string_view) { return discs_over_boxes(results, "mean (cm)"); }},

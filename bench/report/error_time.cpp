@@ -208,7 +208,7 @@ Table table_of(Run& run, const Points& points) {
   return table;
 }
 
-void run_experiment(Run& run) {
+void run_error_time(Run& run) {
   Points points;
   const bool full = run.sizes().poses >= full_sizes.poses;
   for (const double threshold : full ? std::vector{0.01, 0.005, 0.02, 0.04} : std::vector{0.01, 0.04})
@@ -250,6 +250,6 @@ std::string ends_of_front(const Results& results, std::string_view) {
 
 const Experiment error_time_experiment{
     "error_time", "Error against run time", 250,
-    true,         run_experiment,           {{"ends of the front", ends_of_front}}};
+    true,         run_error_time,           {{"ends of the front", ends_of_front}}};
 
 }  // namespace bch::report

@@ -76,7 +76,7 @@ class Detailed {
   double tree_microseconds_ = 0;
 };
 
-void run_experiment(Run& run) {
+void run_mesh_detail(Run& run) {
   Table table({"triangles", "structure", "build (us)", "colliding (ns/pair)", "colliding (25 %)",
                "colliding (75 %)", "near miss (ns/pair)", "near miss (25 %)", "near miss (75 %)",
                "nodes a shape", "height", "colliding, node tests", "near miss, node tests"});
@@ -104,6 +104,6 @@ void run_experiment(Run& run) {
 
 }  // namespace
 
-const Experiment mesh_detail_experiment{"mesh_detail", "Mesh detail", 60, false, run_experiment};
+const Experiment mesh_detail_experiment{"mesh_detail", "Mesh detail", 60, false, run_mesh_detail};
 
 }  // namespace bch::report

@@ -113,7 +113,7 @@ Table time_kernels(Run& run) {
   return table;
 }
 
-void run_experiment(Run& run) {
+void run_query_time(Run& run) {
   run.write("query_time", time_structures(run));
   run.write("query_time_kernel", time_kernels(run));
 }
@@ -129,6 +129,6 @@ std::string faster_repeated(const Results& results, std::string_view structure) 
 }  // namespace
 
 const Experiment query_time_experiment{"query_time", "Query time",   110,
-                                       false,        run_experiment, {{"faster repeated", faster_repeated}}};
+                                       false,        run_query_time, {{"faster repeated", faster_repeated}}};
 
 }  // namespace bch::report

@@ -63,7 +63,7 @@ void add_character(Run& run, const cli::LoadedCharacter& loaded, Table& table) {
   add("OBB outline", cases.contacts(*baselines::kind("obb_contour").build(posed.bodies, {}), all_depths));
 }
 
-void run_experiment(Run& run) {
+void run_real(Run& run) {
   if (run.real_characters().empty()) return;
   Table table({"character", "triangles", "poses", "structure", "mean (cm)", "mean (95 % low)",
                "mean (95 % high)", "median (cm)", "standard deviation (cm)", "cases", "never detected"});
@@ -89,7 +89,6 @@ std::string range_of(const Results& results, std::string_view structure) {
 
 }  // namespace
 
-const Experiment real_experiment{"real", "Real characters", 90,
-                                 true,   run_experiment,    {{"range of", range_of}}};
+const Experiment real_experiment{"real", "Real characters", 90, true, run_real, {{"range of", range_of}}};
 
 }  // namespace bch::report

@@ -255,7 +255,7 @@ void add_fixed(const Source& source, const Outcome& outcome, Tables& tables) {
   }
 }
 
-void run_experiment(Run& run) {
+void run_recordings(Run& run) {
   const std::vector<Source> recorded = wanted(run);
   if (recorded.empty()) return;
   const std::vector<Bodies> compared = bodies();
@@ -311,7 +311,7 @@ const Experiment recordings_experiment{"recordings",
                                        "Recorded people",
                                        40,
                                        false,
-                                       run_experiment,
+                                       run_recordings,
                                        {{"neighbours in overlap", overlapping},
                                         {"hidden neighbours", hidden},
                                         {"time of neighbours", time_of_pair}}};

@@ -73,7 +73,7 @@ void add_stiff(Run& run) {
   run.write("stiff_touch", touch);
 }
 
-void run_experiment(Run& run) {
+void run_stability(Run& run) {
   add_rows(run);
   run.done(0.5);
   add_stiff(run);
@@ -92,7 +92,7 @@ const Experiment stability_experiment{
     "Stability",
     200,
     false,
-    run_experiment,
+    run_stability,
     {{"most of", [](const Results& results,
                     std::string_view column) { return brief(most(results("stability"), column)); }},
      {"energy created",

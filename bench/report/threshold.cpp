@@ -45,7 +45,7 @@ std::array<MeanTests, 2> tests_of(Run& run, const Variant& variant) {
   return {subject.tests(run.scene().workload("colliding")), subject.tests(run.scene().workload("near_miss"))};
 }
 
-void run_experiment(Run& run) {
+void run_threshold(Run& run) {
   const SlideCases cases(run.scene().shapes(), run.sizes().cases, run.seed());
   Table table({"threshold (cm)", "nodes a shape", "height", "bytes a shape", "hierarchy (us)",
                "hierarchy (25 %)", "hierarchy (75 %)", "colliding (ns/pair)", "colliding (25 %)",
@@ -77,6 +77,6 @@ void run_experiment(Run& run) {
 
 }  // namespace
 
-const Experiment threshold_experiment{"threshold", "Threshold", 25, true, run_experiment};
+const Experiment threshold_experiment{"threshold", "Threshold", 25, true, run_threshold};
 
 }  // namespace bch::report

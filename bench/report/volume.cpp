@@ -93,7 +93,7 @@ void add_slabs(Run& run, const std::string& character, std::span<const Shape> wh
              quartiles(normalised).median, exact.deviation, none, none, none, none});
 }
 
-void run_experiment(Run& run) {
+void run_volume(Run& run) {
   measure_paper_volumes(run);
   Table table({"character", "structure", "normalised volume", "95 % low", "95 % high", "median",
                "standard deviation", "discs alone, exact", "deviation of that",
@@ -120,8 +120,8 @@ void run_experiment(Run& run) {
 
 }  // namespace
 
-const Experiment volume_experiment{
-    "volume", "Represented volume", 30,
-    false,    run_experiment,       {{"volumes beside the paper's", paper_volume_findings}}};
+const Experiment volume_experiment{"volume",   "Represented volume",
+                                   30,         false,
+                                   run_volume, {{"volumes beside the paper's", paper_volume_findings}}};
 
 }  // namespace bch::report

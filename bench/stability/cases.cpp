@@ -90,7 +90,7 @@ auto about(double heading) {
 
 Setups rotation_setups() {
   Setups setups;
-  constexpr double pi = std::numbers::pi;
+  using std::numbers::pi;
   for (const double heading :
        {1e-20, 1e-10, 1e-7, 1e-3, 1.0, pi / 2, pi, 1e3, 1e6, 1e9, 1.1e9, infinity, not_a_number}) {
     StabilitySetup& setup = setups.emplace_back(named(heading));

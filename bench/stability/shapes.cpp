@@ -16,11 +16,7 @@ namespace {
 
 using detail::Random;
 
-constexpr double pi = std::numbers::pi;
-
-double between(Random& random, double low, double high) {
-  return low + random.uniform(high - low);
-}
+using std::numbers::pi;
 
 Vec2 point(double x, double y) {
   return {static_cast<float>(x), static_cast<float>(y)};
@@ -46,10 +42,10 @@ double grid_step(std::span<const Vec2> points) {
 /// A needle has two corners a millionth of its length apart; folded triangles share an edge and lie on each other.
 std::vector<Vec2> soup(Random& random, Soup kind) {
   std::vector<Vec2> corners;
-  const auto place = [&] { return point(between(random, -0.3, 0.3), between(random, -0.3, 0.3)); };
+  const auto place = [&] { return point(random.between(-0.3, 0.3), random.between(-0.3, 0.3)); };
   for (int i = 0; i < 6; ++i) {
     const Vec2 a = place(), b = place(), c = place();
-    const float t = static_cast<float>(between(random, -0.5, 1.5));
+    const float t = static_cast<float>(random.between(-0.5, 1.5));
     switch (kind) {
       case Soup::collinear:
         corners.insert(corners.end(), {a, b, {a.x + t * (b.x - a.x), a.y + t * (b.y - a.y)}});
@@ -111,8 +107,8 @@ std::vector<Vec2> ring(Random& random, std::uint32_t corners, double inner, doub
                        double slenderness) {
   std::vector<Vec2> points;
   for (std::uint32_t i = 0; i < corners; ++i) {
-    const double angle = 2 * pi * (i + between(random, -0.4, 0.4)) / corners,
-                 radius = between(random, inner, outer);
+    const double angle = 2 * pi * (i + random.between(-0.4, 0.4)) / corners,
+                 radius = random.between(inner, outer);
     points.push_back(point(x + radius * std::cos(angle), y + radius * std::sin(angle) / slenderness));
   }
   return points;
@@ -126,7 +122,7 @@ std::vector<Specimen> usual_specimens(Random& random, double reach) {
     specimens.push_back(contour_specimen(std::move(points), threshold * reach));
   };
   for (int i = 0; i < 4; ++i) {
-    const double x = between(random, -1, 1), y = between(random, -1, 1);
+    const double x = random.between(-1, 1), y = random.between(-1, 1);
     add(ring(random, 3, 0.1, 0.4), 0.1);
     add(ring(random, 24, 0.2, 0.4), 0.1);
     add(ring(random, 12, 0.1, 0.3, x, y), 0.1);
@@ -150,7 +146,7 @@ std::vector<Specimen> prism_specimens(Random& random) {
   std::vector<Specimen> specimens = usual_specimens(random, 1);
   for (Specimen& prism : specimens) {
     const double bottom = random.uniform(1);
-    prism.shape.heights = {static_cast<float>(bottom), static_cast<float>(bottom + between(random, 1, 2))};
+    prism.shape.heights = {static_cast<float>(bottom), static_cast<float>(bottom + random.between(1, 2))};
   }
   return specimens;
 }

@@ -18,14 +18,10 @@ namespace {
 
 using detail::Random;
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 constexpr DepthMeasure measures[] = {DepthMeasure::penetration, DepthMeasure::discs, DepthMeasure::centres};
 constexpr double tried_steps[] = {2e-3,  3e-3,  4e-3,  6e-3,  8e-3,  10e-3, 12e-3, 16e-3,
                                   20e-3, 24e-3, 28e-3, 32e-3, 36e-3, 40e-3, 48e-3};
-
-double between(Random& random, double low, double high) {
-  return low + random.uniform(high - low);
-}
 
 /// What is tried of a scene: its agents, where they want to go, and when it ends.
 struct Scenario {
@@ -71,7 +67,7 @@ Scenario make(StiffScene scene, DepthMeasure measure, std::uint8_t level, const 
       person({0.5, -0.02}, pi - 0.2, {-1, 0});
       break;
     case StiffScene::row:
-      for (int i = 0; i < 20; ++i) person({-0.6 - 0.8 * i, 0}, between(random, -0.3, 0.3), {1, 0});
+      for (int i = 0; i < 20; ++i) person({-0.6 - 0.8 * i, 0}, random.between(-0.3, 0.3), {1, 0});
       made.world.add_wall({0.2, 0}, pi / 2);
       for (const double x : {-5.0, -15.0})
         for (const double y : {-0.7, 0.7}) made.world.add_wall({x, y}, 0);
@@ -79,7 +75,7 @@ Scenario make(StiffScene scene, DepthMeasure measure, std::uint8_t level, const 
       break;
     case StiffScene::door:
       for (std::uint32_t i = 0; i < options.people; ++i)
-        person({-0.8 - 0.9 * (i / 14), 0.9 * (i % 14) - 5.85}, between(random, -0.5, 0.5), {1, 0});
+        person({-0.8 - 0.9 * (i / 14), 0.9 * (i % 14) - 5.85}, random.between(-0.5, 0.5), {1, 0});
       made.world.add_wall({0.2, 5.6}, pi / 2);
       made.world.add_wall({0.2, -5.6}, pi / 2);
   }
@@ -148,7 +144,7 @@ struct Bounce {
 Bounce bounce(DepthMeasure measure, std::uint8_t level, Random& random) {
   constexpr double step = 1e-3, half_speed = 0.5;
   StiffWorld world(measure, true);
-  const double aside = between(random, -0.15, 0.15);
+  const double aside = random.between(-0.15, 0.15);
   for (const double side : {-1.0, 1.0}) {
     const double heading = random.uniform(2 * pi);
     world.add_person(random.below(people_shapes), level, {0.7 * side, -aside * side}, heading,
@@ -189,7 +185,7 @@ void slide(SlideRow& row, std::uint8_t level, Random& random) {
   const std::uint32_t shape[] = {random.below(people_shapes), random.below(people_shapes)};
   const std::uint8_t levels[] = {level, level};
   const double heading[] = {random.uniform(2 * pi), random.uniform(2 * pi)};
-  const double angle = random.uniform(2 * pi), away = between(random, 0.1, 0.5);
+  const double angle = random.uniform(2 * pi), away = random.between(0.1, 0.5);
   const double along_x = std::cos(angle), along_y = std::sin(angle);
   Depths depths(row.measure);
   Penetration last{-1, 0, 0};

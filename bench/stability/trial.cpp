@@ -77,7 +77,7 @@ QuadVector shift(const PlacedSpecimen& a, const PlacedSpecimen& b) {
 /// The interval where two discs, and all above them, overlap as b moves along a direction: from `begin` to
 /// `end`, metres, if that is not less. Discs i and j are those that separate there. `along` and `across` are
 /// the components of the line of their centres along the direction and to its left.
-struct Overlap {
+struct OverlapInterval {
   double begin, end;
   std::size_t i, j;
   double along, across;
@@ -86,23 +86,23 @@ struct Overlap {
   bool some() const { return begin <= end; }
 };
 
-Overlap common(const Overlap& one, const Overlap& other) {
-  Overlap both = other.end < one.end ? other : one;
+OverlapInterval common(const OverlapInterval& one, const OverlapInterval& other) {
+  OverlapInterval both = other.end < one.end ? other : one;
   both.begin = std::max(one.begin, other.begin);
   return both;
 }
 
-bool ends_later(const Overlap& one, const Overlap& other) {
+bool ends_later(const OverlapInterval& one, const OverlapInterval& other) {
   return one.some() && (!other.some() || one.end > other.end);
 }
 
 /// The last two of the cuts to overlap as b moves along (x, y). Where they do is said from a's agent to b's.
-Overlap last_overlap(const ExactCut& cut_a, const ExactCut& cut_b, double x, double y) {
+OverlapInterval last_overlap(const ExactCut& cut_a, const ExactCut& cut_b, double x, double y) {
   const auto a = in_double(cut_a), b = in_double(cut_b);
   // The line goes through where the centres of two discs of the cuts are one point, so that some discs overlap on it.
   const DoubleDisc &p = a[cut_a.cut[0]], &q = b[cut_b.cut[0]];
   const double from_x = p.x - q.x, from_y = p.y - q.y;
-  const auto overlap = [&](std::size_t i, std::size_t j) -> Overlap {
+  const auto overlap = [&](std::size_t i, std::size_t j) -> OverlapInterval {
     const double dx = a[i].x - b[j].x - from_x, dy = a[i].y - b[j].y - from_y,
                  radii = a[i].radius + b[j].radius;
     const double across = y * dx - x * dy;  // of b's centre from a's
@@ -111,7 +111,7 @@ Overlap last_overlap(const ExactCut& cut_a, const ExactCut& cut_b, double x, dou
     const double along = std::sqrt(square), middle = dx * x + dy * y;
     return {middle - along, middle + along, i, j, along / radii, across / radii};
   };
-  Overlap last = PairsWithAbove<Overlap>(cut_a, cut_b, overlap, common).least(ends_later);
+  OverlapInterval last = PairsWithAbove<OverlapInterval>(cut_a, cut_b, overlap, common).least(ends_later);
   const double start = from_x * x + from_y * y;
   last.begin += start, last.end += start;
   return last;
@@ -259,9 +259,9 @@ Trial::Trial(const PlacedSpecimen& first, const PlacedSpecimen& second)
     : a(first), b(second), cuts_a_(posed(first)), cuts_b_(posed(second)) {}
 
 void Trial::put_discs_in_contact(double x, double y, const std::function<double(double)>& gap) {
-  Overlap last = last_overlap(cuts_a_[0], cuts_b_[0], x, y);
+  OverlapInterval last = last_overlap(cuts_a_[0], cuts_b_[0], x, y);
   for (std::size_t part = 1; part < cuts_a_.size(); ++part) {
-    Overlap next = last_overlap(cuts_a_[part], cuts_b_[part], x, y);
+    OverlapInterval next = last_overlap(cuts_a_[part], cuts_b_[part], x, y);
     next.part = part;
     if (ends_later(next, last)) last = next;
   }

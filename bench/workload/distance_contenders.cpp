@@ -104,15 +104,16 @@ Contender time_of_impact_reference(Scene& scene, const Workload& workload) {
                  [&] { return wrong_times_of_impact(scene, workload, *times); });
 }
 
-constexpr TimedQuery queries[] = {{"clearance", clearance_kernel, clearance_reference},
-                                  {"exact_clearance", exact_clearance_kernel, nullptr},
-                                  {"within", within_kernel, within_reference},
-                                  {"time_of_impact", time_of_impact_kernel, time_of_impact_reference}};
+constexpr TimedQuery timed_distances[] = {
+    {"clearance", clearance_kernel, clearance_reference},
+    {"exact_clearance", exact_clearance_kernel, nullptr},
+    {"within", within_kernel, within_reference},
+    {"time_of_impact", time_of_impact_kernel, time_of_impact_reference}};
 
 }  // namespace
 
 std::span<const TimedQuery> distance_queries() {
-  return queries;
+  return timed_distances;
 }
 
 Contender fcl_distance_contender(Scene& scene, const Workload& workload, bool walls) {

@@ -131,14 +131,14 @@ Contender collide_all_kernel(Scene& scene, const Workload& workload, const Imple
   return {call, workload.pairs.size()};
 }
 
-constexpr TimedQuery queries[] = {{"contacts", contacts_kernel, contacts_reference},
-                                  {"penetration", penetration_kernel, penetration_reference},
-                                  {"collide_all", collide_all_kernel, nullptr}};
+constexpr TimedQuery timed_responses[] = {{"contacts", contacts_kernel, contacts_reference},
+                                          {"penetration", penetration_kernel, penetration_reference},
+                                          {"collide_all", collide_all_kernel, nullptr}};
 
 }  // namespace
 
 std::span<const TimedQuery> response_queries() {
-  return queries;
+  return timed_responses;
 }
 
 }  // namespace bch::bench

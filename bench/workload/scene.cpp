@@ -15,7 +15,7 @@
 namespace bch::bench {
 namespace {
 
-constexpr double threshold = 0.01;  ///< metres
+constexpr double scene_threshold = 0.01;  ///< metres
 constexpr std::uint32_t paper_cases = 500;
 constexpr std::uint64_t colliding_seed = 31, near_miss_seed = 32, no_hit_seed = 33;
 
@@ -44,14 +44,15 @@ const std::vector<ShapeSource>& Scene::sources() {
 }
 
 const std::vector<Shape>& Scene::shapes() {
-  if (shapes_.empty()) shapes_ = cli::build_shapes(characters(), sources(), threshold).shapes;
+  if (shapes_.empty()) shapes_ = cli::build_shapes(characters(), sources(), scene_threshold).shapes;
   return shapes_;
 }
 
 const std::vector<Shape>& Scene::shapes_in_slabs(std::uint32_t slabs) {
   std::vector<Shape>& shapes = shapes_in_slabs_[slabs];
   if (shapes.empty())
-    shapes = cli::build_shapes(characters(), sources(), threshold, {.slices = standing_slices(slabs)}).shapes;
+    shapes = cli::build_shapes(characters(), sources(), scene_threshold, {.slices = standing_slices(slabs)})
+                 .shapes;
   return shapes;
 }
 

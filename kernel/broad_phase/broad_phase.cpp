@@ -27,12 +27,12 @@ using namespace detail;
 
 namespace {
 
-constexpr std::size_t grain = 2048;        ///< agents a task
+constexpr std::size_t agents_a_task = 2048;
 constexpr std::size_t block_discs = 1024;  ///< whose pairs a task finds
 
 CrowdBounds bounds(const ShapeSetView& shapes, const Agents& agents, double margin) {
   return reduce_ranges(
-      agents.size(), grain, CrowdBounds(),
+      agents.size(), agents_a_task, CrowdBounds(),
       [&](std::size_t begin, std::size_t end, CrowdBounds all) {
         all.add(detail::bounds(shapes, agents, margin, begin, end));
         return all;
@@ -78,14 +78,14 @@ struct BroadPhase::State {
 void BroadPhase::State::sort_discs(const CrowdGrid& grid, const ShapeSetView& shapes, const Agents& agents,
                                    double margin) {
   placed.resize(agents.size());
-  for_ranges(agents.size(), grain, [&](std::size_t begin, std::size_t end) {
+  for_ranges(agents.size(), agents_a_task, [&](std::size_t begin, std::size_t end) {
     grid.place(shapes, agents, margin, begin, end, placed.data());
   });
   const std::uint32_t classes = grid.class_count();
   radix_sort.sort(placed, static_cast<unsigned>(std::bit_width(grid.end_cell(classes - 1))),
                   [](const GridDisc& disc) { return disc.cell; });
   discs.resize(agents.size());
-  for_ranges(agents.size(), grain, [&](std::size_t begin, std::size_t end) {
+  for_ranges(agents.size(), agents_a_task, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) discs.set(i, placed[i]);
   });
   class_begin[0] = 0;

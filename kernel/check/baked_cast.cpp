@@ -11,7 +11,7 @@
 namespace bch::detail {
 namespace {
 
-constexpr std::size_t most_poses = 65'535, most_clips = 65'535;
+constexpr std::size_t most_poses = 65'535, most_baked_clips = 65'535;
 
 using ClipPoses = std::map<std::uint32_t, std::vector<BakedPose>>;  // by the clip's name
 
@@ -111,7 +111,7 @@ Cast baked_cast(const BakedShapes& baked, const std::string& file, std::span<con
     CastMember& member = cast.emplace_back(CastMember{names[character], {}, 0, {}, {}, {}, {}});
     for (auto& [clip, poses] : clips)
       member.clips.push_back(clip_of(clip == ShapeOrigin::rest_pose ? "rest pose" : names[clip], poses));
-    const bool fits = member.clips.size() <= most_clips &&
+    const bool fits = member.clips.size() <= most_baked_clips &&
                       std::all_of(member.clips.begin(), member.clips.end(),
                                   [](const CastClip& clip) { return clip.baked.size() <= most_poses; });
     if (!fits)

@@ -27,7 +27,7 @@ constexpr double farthest_step =
     6;  ///< metres, of one or of two people together; beyond, it is a jump and no way
 /// Metres: nobody passes through a body, an arm included, who moves by less than that.
 constexpr double thinnest = 0.05;
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 const ShapeSet& near_discs() {
   static const ShapeSet discs = [] {

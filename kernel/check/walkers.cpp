@@ -15,10 +15,10 @@
 namespace bch::detail {
 namespace {
 
-constexpr double smoothing = 0.4;  ///< seconds before and after
-constexpr double jump = 100;       ///< metres
-constexpr double fastest = 20;     ///< metres a second, a jump aside
-constexpr double standing = 0.15;  ///< metres a second: who is slower has no direction
+constexpr double smoothing = 0.4;           ///< seconds before and after
+constexpr double jump = 100;                ///< metres
+constexpr double fastest = 20;              ///< metres a second, a jump aside
+constexpr double slowest_direction = 0.15;  ///< metres a second: who is slower has no direction
 
 Random random_of(std::int64_t id) {
   return Random(0x9e3779b97f4a7c15u ^ static_cast<std::uint64_t>(id));
@@ -87,7 +87,7 @@ Walker WalkerReader::walk(const TrackedPerson& person, Track& track, std::int64_
   const double dx = last->x - first.x, dy = last->y - first.y;
   const double speed = seconds > 0 ? std::sqrt(dx * dx + dy * dy) / seconds : 0;
 
-  const bool told = !std::isnan(person.heading), moves = speed > standing;
+  const bool told = !std::isnan(person.heading), moves = speed > slowest_direction;
   if (told || moves) {
     track.heading = told ? static_cast<double>(person.heading) : std::atan2(dy, dx);
     track.has_heading = true;

@@ -22,7 +22,7 @@ using namespace detail;
 
 namespace {
 
-constexpr std::size_t grain = 256;  ///< pairs a task; each may have thousands of contacts
+constexpr std::size_t contact_grain = 256;  ///< pairs a task; each may have thousands of contacts
 
 /// Bodies of eight discs or less have so many floats of nodes, beside padding at the end of all; and one thread answers so many of their
 /// pairs before others would have begun.
@@ -59,13 +59,13 @@ struct ContactFinder::State {
 void ContactFinder::State::find(const Implementation& implementation, const Arguments& arguments,
                                 std::size_t pairs, std::vector<std::uint64_t>& begins) {
   begins.resize(pairs + 1);
-  for_ranges(pairs, grain, [&](std::size_t begin, std::size_t end) {
+  for_ranges(pairs, contact_grain, [&](std::size_t begin, std::size_t end) {
     implementation.kernels->count_contacts(arguments, begin, end, begins.data());
   });
   begins[pairs] = 0;
   std::exclusive_scan(begins.begin(), begins.end(), begins.begin(), std::uint64_t{0});
   contacts.resize(begins[pairs]);
-  for_ranges(pairs, grain, [&](std::size_t begin, std::size_t end) {
+  for_ranges(pairs, contact_grain, [&](std::size_t begin, std::size_t end) {
     implementation.kernels->fill_contacts(arguments, begin, end, begins.data(), contacts.data());
   });
 }
@@ -79,7 +79,7 @@ void ContactFinder::State::find_of_parts(const Implementation& implementation, c
   Arguments arguments = arguments_for(parts, part_agents, items.pairs());
   arguments.exact_leaves = whole.exact_leaves;
   find(implementation, arguments, items.size(), item_offsets);
-  for_ranges(pairs.size(), grain, [&](std::size_t begin, std::size_t end) {
+  for_ranges(pairs.size(), contact_grain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       for (std::size_t k = items.begin(i); k < items.begin(i + 1); ++k)
         for (std::uint64_t c = item_offsets[k]; c < item_offsets[k + 1]; ++c) {

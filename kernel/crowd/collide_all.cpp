@@ -17,7 +17,7 @@ using namespace detail;
 
 namespace {
 
-constexpr std::size_t grain = 4096;  ///< pairs or agents a task
+constexpr std::size_t crowd_grain = 4096;  ///< pairs or agents a task
 
 }  // namespace
 
@@ -44,11 +44,13 @@ Rows<std::uint32_t> CrowdCollider::State::collide_all(const ShapeSet& shapes, co
 
   begin.assign(agents.size() + 1, 0);
   NeighbourRows rows{pairs, hits, begin, {}};
-  for_ranges(pairs.size(), grain, [&](std::size_t first, std::size_t last) { rows.count(first, last); });
+  for_ranges(pairs.size(), crowd_grain,
+             [&](std::size_t first, std::size_t last) { rows.count(first, last); });
   neighbours.resize(rows.place());
   rows.neighbours = neighbours;
-  for_ranges(pairs.size(), grain, [&](std::size_t first, std::size_t last) { rows.fill(first, last); });
-  for_ranges(agents.size(), grain, [&](std::size_t first, std::size_t last) { rows.sort(first, last); });
+  for_ranges(pairs.size(), crowd_grain, [&](std::size_t first, std::size_t last) { rows.fill(first, last); });
+  for_ranges(agents.size(), crowd_grain,
+             [&](std::size_t first, std::size_t last) { rows.sort(first, last); });
   return {begin, neighbours};
 }
 

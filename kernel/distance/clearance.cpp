@@ -25,8 +25,6 @@ using namespace detail;
 
 namespace {
 
-constexpr std::size_t grain = ApartPairs::capacity;
-
 /// Writes the answers of a range of pairs.
 class RangeAnswers {
  public:
@@ -39,7 +37,7 @@ class RangeAnswers {
         pairs_(pairs),
         answers_(answers) {}
 
-  /// At most `grain` pairs.
+  /// At most `ApartPairs::capacity` pairs.
   void write() {
     // A set of roots alone is as quickly searched. Segments are measured only of pairs that do not collide.
     if (arguments_.enough == 0 && shapes_.trees != nullptr) {
@@ -54,7 +52,7 @@ class RangeAnswers {
  private:
   /// Not inlined, so that what it keeps on the stack is not there beside the other kernel.
   [[gnu::noinline]] void search_shapes() noexcept {
-    NearestFeatures nearest[grain];
+    NearestFeatures nearest[ApartPairs::capacity];
     arguments_.in.pairs = open_.pairs().data();
     arguments_.nearest = nearest;
     implementation_.kernels->clearance(arguments_, 0, open_.size());
@@ -149,7 +147,7 @@ void clearance(const ShapeSet& shapes, const Agents& agents, std::span<const Pai
   const auto part = [](auto span, std::size_t begin, std::size_t size) {
     return span.empty() ? span : span.subspan(begin, size);
   };
-  for_pair_ranges(pairs.size(), grain, [&](std::size_t begin, std::size_t size) {
+  for_pair_ranges(pairs.size(), ApartPairs::capacity, [&](std::size_t begin, std::size_t size) {
     const ClearanceAnswers its_answers{part(answers.distance, begin, size),
                                        part(answers.direction, begin, size), part(answers.discs, begin, size),
                                        part(answers.points, begin, size)};

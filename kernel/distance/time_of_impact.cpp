@@ -21,8 +21,6 @@ using namespace detail;
 
 namespace {
 
-constexpr std::size_t grain = ApartPairs::capacity;
-
 /// Bodies in slabs or at different heights meet where their first parts do.
 void find_first(const Implementation& implementation, const TimeOfImpactArguments& whole,
                 const Agents& agents, std::span<const Pair> pairs, const float* way_x, const float* way_y,
@@ -50,7 +48,7 @@ void answer(const Implementation& implementation, TimeOfImpactArguments argument
             std::span<const Pair> pairs, const double* x, const double* y, float* times) {
   ApartPairs open;
   open.take_apart(implementation, arguments.in, pairs);
-  float way_x[grain], way_y[grain], found[grain];
+  float way_x[ApartPairs::capacity], way_y[ApartPairs::capacity], found[ApartPairs::capacity];
   for (std::size_t k = 0; k < open.size(); ++k) {
     const std::size_t i = open.index(k);
     const auto [first, second] = pairs[i];
@@ -79,7 +77,7 @@ void time_of_impact(const ShapeSet& shapes, const Agents& agents, std::span<cons
 
   TimeOfImpactArguments arguments{arguments_for(view, agents, {}), nullptr, nullptr, nullptr};
   arguments.in.solid = view.slab_parts != nullptr;
-  for_pair_ranges(pairs.size(), grain, [&](std::size_t begin, std::size_t size) {
+  for_pair_ranges(pairs.size(), ApartPairs::capacity, [&](std::size_t begin, std::size_t size) {
     answer(implementation, arguments, agents, pairs.subspan(begin, size), displacements.x.data() + begin,
            displacements.y.data() + begin, times.data() + begin);
   });

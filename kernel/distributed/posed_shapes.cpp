@@ -13,7 +13,7 @@ namespace bch::detail {
 namespace {
 
 constexpr std::uint32_t samples = 16;  ///< poses of a character
-constexpr std::size_t grain = 256;     ///< shapes a task
+constexpr std::size_t shapes_a_task = 256;
 
 }  // namespace
 
@@ -41,7 +41,7 @@ void PosedShapes::add(std::span<const CrowdAgent> agents) {
 
 std::vector<double> PosedShapes::radii(std::span<const CrowdAgent> agents) const {
   std::vector<double> of_agent(agents.size()), of_character(characters_.size(), 0);
-  for_ranges(agents.size(), grain, [&](std::size_t begin, std::size_t end) {
+  for_ranges(agents.size(), shapes_a_task, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i)
       of_agent[i] = set_->bounding_radius(static_cast<std::uint32_t>(i));
   });

@@ -27,7 +27,7 @@ using namespace detail;
 namespace {
 
 constexpr std::uint32_t most_axes = most_directions / 2;
-constexpr std::size_t grain = 128;  ///< pairs a task, up to 10 us each
+constexpr std::size_t penetration_grain = 128;  ///< pairs a task, up to 10 us each
 
 /// Rounding, in the notation of layout/base/rounding.hpp, all as lengths. An axis, in double within 1e-9 of a unit vector,
 /// is turned into the agent's frame and rounded to float there: 0.75 u. An extent along it is off by 0.75 u P for that,
@@ -182,7 +182,7 @@ void penetration_along(const ShapeSet& shapes, const Agents& agents, std::span<c
   const Query query = checked_query(shapes, agents, pairs, out, options);
   require_directions(directions, pairs.size());
   const bool of_parts = asks_parts(query.shapes, agents);
-  for_pair_ranges(pairs.size(), grain, [&](std::size_t begin, std::size_t size) {
+  for_pair_ranges(pairs.size(), penetration_grain, [&](std::size_t begin, std::size_t size) {
     Axes axis;
     Extents a, b;
     axis.count = 1;
@@ -210,7 +210,7 @@ void penetration(const ShapeSet& shapes, const Agents& agents, std::span<const P
   const Query query = checked_query(shapes, agents, pairs, out, options);
   const Axes axes = spread_axes(directions);
   const bool of_parts = asks_parts(query.shapes, agents);
-  for_pair_ranges(pairs.size(), grain, [&](std::size_t begin, std::size_t size) {
+  for_pair_ranges(pairs.size(), penetration_grain, [&](std::size_t begin, std::size_t size) {
     Extents a, b;
     std::size_t measured = agents.size();
     for (std::size_t i = begin; i < begin + size; ++i) {

@@ -12,21 +12,21 @@ namespace {
 
 constexpr std::size_t cache_line = 64, large_page = std::size_t{2} << 20;
 
-std::align_val_t alignment(std::size_t bytes) {
+std::align_val_t alignment_of(std::size_t bytes) {
   return std::align_val_t{bytes < large_page ? cache_line : large_page};
 }
 
 }  // namespace
 
 void* allocate_aligned(std::size_t bytes) {
-  void* const memory = ::operator new(bytes, alignment(bytes));
+  void* const memory = ::operator new(bytes, alignment_of(bytes));
   // Advice: without large pages it only takes longer.
   if (bytes >= large_page) madvise(memory, bytes, MADV_HUGEPAGE);
   return memory;
 }
 
 void free_aligned(void* memory, std::size_t bytes) noexcept {
-  ::operator delete(memory, alignment(bytes));
+  ::operator delete(memory, alignment_of(bytes));
 }
 
 }  // namespace bch::detail

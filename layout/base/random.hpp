@@ -22,6 +22,8 @@ class Random {
 
   /// Draws a real number from [0, bound).
   double uniform(double bound) { return static_cast<double>(next() >> 11) * 0x1p-53 * bound; }
+  /// Draws a real number from [low, high).
+  double between(double low, double high) { return low + uniform(high - low); }
 
   /// Draws an integer from [0, bound).
   std::uint32_t below(std::uint32_t bound) {

@@ -18,8 +18,6 @@
 namespace bch::detail {
 namespace {
 
-using Contour = std::span<const Vec2>;
-
 /// The dilation in cells of the coverage's raster. The raster holds the contour's longer side with the
 /// dilation on either side.
 constexpr float dilation = DiscCoverage::cells / 12.0f;
@@ -51,7 +49,7 @@ bool is_inside(double winding) {
   return static_cast<int>(winding) % 2 != 0;
 }
 
-void set_extremes(const InteriorLoops& loops, Contour contour, Interior& result) {
+void set_extremes(const InteriorLoops& loops, std::span<const Vec2> contour, Interior& result) {
   static const Lines lines;
   alignas(64) std::array<double, extreme_directions> farthest;
   loops.find_extremes(contour.data(), contour.size(),

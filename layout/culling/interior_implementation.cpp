@@ -9,16 +9,16 @@ extern const InteriorLoops interior_avx2, interior_base;
 
 namespace {
 
-const InteriorImplementation table[] = {BCH_ON_X86({avx2, interior_avx2}, ){base, interior_base}};
+const InteriorImplementation interior_table[] = {BCH_ON_X86({avx2, interior_avx2}, ){base, interior_base}};
 
 }  // namespace
 
 std::span<const InteriorImplementation> interior_implementations() noexcept {
-  return table;
+  return interior_table;
 }
 
 const InteriorImplementation& best_interior_implementation() noexcept {
-  static const InteriorImplementation& best = first_supported(table);
+  static const InteriorImplementation& best = first_supported(interior_table);
   return best;
 }
 

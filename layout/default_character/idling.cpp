@@ -11,8 +11,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double pi = std::numbers::pi;
-constexpr double degree = pi / 180;
+using std::numbers::pi;
 
 /// A slow wander between -1 and 1 that does not repeat within a clip.
 double wander(double seconds, double period, double offset) {

@@ -46,7 +46,7 @@ class Soles {
   std::vector<std::uint32_t> vertices_;
 };
 
-double lowest(const std::vector<Vector3d>& points) {
+double lowest_height(const std::vector<Vector3d>& points) {
   double low = points.front().z();
   for (const Vector3d& p : points) low = std::min(low, p.z());
   return low;
@@ -56,8 +56,8 @@ double lowest(const std::vector<Vector3d>& points) {
 /// falls off within millimetres of height, so that the load passes smoothly from foot to foot.
 Vector3d way_over_ground(const std::vector<Vector3d>& before, const std::vector<Vector3d>& after) {
   const double softness = 0.006;
-  const double low_before = lowest(before);
-  const double low_after = lowest(after);
+  const double low_before = lowest_height(before);
+  const double low_after = lowest_height(after);
   Vector3d way = Vector3d::Zero();
   double total = 0;
   for (std::size_t i = 0; i < before.size(); ++i) {
@@ -83,7 +83,7 @@ std::vector<HumanPose> grounded(const Soles& soles, int count, Travel travel, co
       before = points;
     }
     pose.pelvis += travelled;
-    pose.pelvis.z() -= lowest(points);
+    pose.pelvis.z() -= lowest_height(points);
     poses.push_back(pose);
   }
   return poses;

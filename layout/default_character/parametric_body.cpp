@@ -14,7 +14,7 @@ using enum BodyJoint;
 using Eigen::Vector3d;
 using Loop = BodySurface::Loop;
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 constexpr std::size_t trunk_columns = 11;  // of the left half, both ends on the plane y = 0
 constexpr std::size_t leg_corners = 14;    // the trunk's columns and three corners of the crotch
 constexpr std::size_t arm_corners = 12;    // the corners of the arm's hole: 4 by 2 quads

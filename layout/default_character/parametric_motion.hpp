@@ -3,9 +3,13 @@
 
 #pragma once
 
+#include <numbers>
+
 #include "layout/default_character/motion_clip.hpp"
 
 namespace bch::detail {
+
+constexpr double degree = std::numbers::pi / 180;
 
 /// How a person moves, beside the lengths of the bones. Angles in radians, lengths in metres.
 struct Manner {

@@ -12,8 +12,6 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double degree = std::numbers::pi / 180;
-
 /// The place of a foot: the ankle's point on the ground and the foot's direction.
 struct Footing {
   Vector3d at = Vector3d::Zero();

@@ -13,8 +13,7 @@ namespace {
 using Eigen::Quaterniond;
 using Eigen::Vector3d;
 
-constexpr double pi = std::numbers::pi;
-constexpr double degree = pi / 180;
+using std::numbers::pi;
 constexpr double ball = 0.13;  ///< metres from the ankle to the ball of the foot, about which the heel rises
 constexpr double heel = 0.05;  ///< and to the heel, about which the toes rise
 constexpr double natural_step = 0.415;  ///< of the stature

@@ -10,8 +10,7 @@
 namespace bch::detail {
 namespace {
 
-constexpr double pi = std::numbers::pi;
-constexpr double degree = pi / 180;
+using std::numbers::pi;
 
 /// An angle over one stride, from heel contact to the next heel contact of the same foot, at every 5 %.
 using Curve = std::array<double, 20>;

@@ -12,15 +12,15 @@ void solve_discs_avx2(const DiscSets&) noexcept;
 
 namespace {
 
-constexpr DiscImplementation table[] = {BCH_ON_X86({avx2, solve_discs_avx2}, ){base, solve_discs_base}};
+constexpr DiscImplementation disc_table[] = {BCH_ON_X86({avx2, solve_discs_avx2}, ){base, solve_discs_base}};
 
 }  // namespace
 
 std::span<const DiscImplementation> disc_implementations() noexcept {
-  return table;
+  return disc_table;
 }
 
-EnclosingDiscs::EnclosingDiscs() : EnclosingDiscs(first_supported(table)) {}
+EnclosingDiscs::EnclosingDiscs() : EnclosingDiscs(first_supported(disc_table)) {}
 
 EnclosingDiscs::EnclosingDiscs(const DiscImplementation& implementation) : implementation_(&implementation) {}
 

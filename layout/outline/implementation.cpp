@@ -14,7 +14,7 @@ void test_near_avx2(const SegmentSearch&, const SearchedWay&, std::size_t) noexc
 
 namespace {
 
-constexpr OutlineImplementation table[] = {
+constexpr OutlineImplementation outline_table[] = {
     BCH_ON_X86({avx2, find_sides_avx2, find_near_avx2, test_near_avx2}, ){base, find_sides_base,
                                                                           find_near_base, test_near_base},
 };
@@ -22,11 +22,11 @@ constexpr OutlineImplementation table[] = {
 }  // namespace
 
 std::span<const OutlineImplementation> outline_implementations() noexcept {
-  return table;
+  return outline_table;
 }
 
 const OutlineImplementation& best_outline_implementation() noexcept {
-  static const OutlineImplementation& best = first_supported(table);
+  static const OutlineImplementation& best = first_supported(outline_table);
   return best;
 }
 

@@ -33,17 +33,17 @@ void require(std::span<const double> x, std::span<const double> y, double radius
 }
 
 /// Agents by the rows of a grid and, within a row, by x, so that neighbours are runs of three rows.
-struct Place {
+struct StandingPlace {
   double row, x, y;
 
-  bool operator<(const Place& other) const { return std::tie(row, x) < std::tie(other.row, other.x); }
+  bool operator<(const StandingPlace& other) const { return std::tie(row, x) < std::tie(other.row, other.x); }
 };
 
-std::size_t count_within(const std::vector<Place>& places, double x, double y, double radius) {
+std::size_t count_within(const std::vector<StandingPlace>& places, double x, double y, double radius) {
   std::size_t count = 0;
   for (int side = -1; side <= 1; ++side) {
     const double row = std::floor(y / radius) + side;
-    auto at = std::lower_bound(places.begin(), places.end(), Place{row, x - radius, 0});
+    auto at = std::lower_bound(places.begin(), places.end(), StandingPlace{row, x - radius, 0});
     for (; at != places.end() && at->row == row && at->x <= x + radius; ++at)
       count += (at->x - x) * (at->x - x) + (at->y - y) * (at->y - y) <= radius * radius ? 1 : 0;
   }
@@ -54,7 +54,7 @@ std::size_t count_within(const std::vector<Place>& places, double x, double y, d
 
 std::vector<double> local_densities(std::span<const double> x, std::span<const double> y, double radius) {
   require(x, y, radius);
-  std::vector<Place> places;
+  std::vector<StandingPlace> places;
   for (std::size_t i = 0; i < x.size(); ++i) places.push_back({std::floor(y[i] / radius), x[i], y[i]});
   std::sort(places.begin(), places.end());
   std::vector<double> densities;

@@ -15,7 +15,7 @@ namespace bch::detail {
 namespace {
 
 /// Discs that may be read beyond a run's.
-constexpr std::size_t padding = 16;
+constexpr std::size_t spare_lanes = 16;
 
 constexpr Bvh8::Block empty_block = [] {
   Bvh8::Block block{};
@@ -29,7 +29,7 @@ void Flattener::begin(const Hierarchy& hierarchy) {
   hierarchy_ = &hierarchy;
   const std::size_t count = hierarchy.nodes.size();
   for (auto* array : {&position_, &parent_}) array->resize(count);
-  for (auto* array : {&x_, &y_, &radius_}) array->resize(std::max(array->size(), count + padding));
+  for (auto* array : {&x_, &y_, &radius_}) array->resize(std::max(array->size(), count + spare_lanes));
 }
 
 void Flattener::cut(std::uint32_t depth) {

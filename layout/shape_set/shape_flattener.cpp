@@ -18,8 +18,6 @@
 namespace bch::detail {
 namespace {
 
-constexpr float infinity = std::numeric_limits<float>::infinity();
-
 /// Checks the primitives of a hierarchy over the segments of an outline, as far as exact leaves use them.
 void require_segments(const Shape& shape) {
   const Outline& outline = shape.outline;
@@ -123,7 +121,7 @@ void ShapeFlattener::add_levels(const Shape& shape, FlatShape& flat) {
 /// A shape without an outline has no inscribed discs: padding, which overlaps nothing.
 void ShapeFlattener::add_interior(const Shape& shape, FlatShape& flat) {
   flat.interior = {};
-  flat.interior.x.fill(infinity);
+  flat.interior.x.fill(std::numeric_limits<float>::infinity());
   if (shape.outline.contours() > 0) flat.interior = interiors_.build(shape.outline, shape.hierarchy.reach);
   flat.profile = profile(shape.outline, flat.interior, shape.hierarchy.reach);
   for (Sector& sector : flat.profile.sectors) sector.shallow_outer = 0;

@@ -17,7 +17,7 @@ using namespace detail;
 namespace {
 
 /// So many shapes say how large the others are.
-constexpr std::size_t sample = 64;
+constexpr std::size_t measured_shapes = 64;
 
 /// Returns those of a set's arrays that a set of roots alone has.
 ShapeArrays roots_of(const ShapeArrays& all) {
@@ -106,7 +106,7 @@ void ShapeSetBuilder::go_back(const BuilderEnd& to) noexcept {
 
 /// What throws leaves the end as it was.
 void ShapeSetBuilder::State::add(const FlatBody& flat) {
-  if (end.shapes == sample && expected_shapes > sample) reserve();
+  if (end.shapes == measured_shapes && expected_shapes > measured_shapes) reserve();
   storage.resize(plan, end.shapes + 1, end.parts + flat.part_count);
   ShapeExtent behind_all = end.extent;
   for (std::size_t k = 0; k < flat.part_count; ++k) {
@@ -125,10 +125,10 @@ void ShapeSetBuilder::State::add(const FlatBody& flat) {
 /// Makes room for all shapes, estimated from those so far, and a quarter. Room that is never written to takes
 /// no memory.
 void ShapeSetBuilder::State::reserve() {
-  const std::size_t times = (expected_shapes * 5 / 4 + sample - 1) / sample;
+  const std::size_t times = (expected_shapes * 5 / 4 + measured_shapes - 1) / measured_shapes;
   ShapeExtent all = end.extent;
   for_each_part([=](std::size_t& part) { part *= times; }, all);
-  storage.reserve(plan, expected_shapes * end.parts / sample, all);
+  storage.reserve(plan, expected_shapes * end.parts / measured_shapes, all);
 }
 
 /// Every array gets shorter, so that what is added next finds zeros between shapes as behind those that stay.

@@ -20,7 +20,6 @@
 namespace bch::detail::verification {
 namespace {
 
-constexpr float infinity = std::numeric_limits<float>::infinity();
 constexpr std::uint32_t no_level = Finding::no_level;
 
 struct Point {

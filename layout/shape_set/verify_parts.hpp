@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -18,6 +19,8 @@
 
 /// The parts of verify(), and what they share.
 namespace bch::detail::verification {
+
+constexpr float infinity = std::numeric_limits<float>::infinity();
 
 /// A part of a set that is verified, and the list that takes the findings.
 struct Look {

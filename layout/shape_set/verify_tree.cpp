@@ -14,8 +14,6 @@
 namespace bch::detail::verification {
 namespace {
 
-constexpr float infinity = std::numeric_limits<float>::infinity();
-
 /// The radius that a disc's centre needs to hold another.
 double needed(const Disc& disc, const Disc& held) {
   return distance(disc, held) + static_cast<double>(held.radius);

@@ -19,7 +19,7 @@ constexpr std::int64_t newest_version = 3;
 constexpr std::int64_t least_bytes_a_row = 8;
 
 enum Column : int { frame, id, pos_x, pos_y, ori_x, ori_y };
-constexpr const char* column_names[] = {"frame", "id", "pos_x", "pos_y", "ori_x", "ori_y"};
+constexpr const char* jupedsim_columns[] = {"frame", "id", "pos_x", "pos_y", "ori_x", "ori_y"};
 
 class JuPedSim final : public RowSource {
  public:
@@ -30,8 +30,8 @@ class JuPedSim final : public RowSource {
     read_geometry();
     const std::string table = "trajectory_data";
     for (const int column : {frame, id, pos_x, pos_y})
-      if (!database_.has_column(table, column_names[column]))
-        places_.reject("table trajectory_data has no column " + std::string(column_names[column]));
+      if (!database_.has_column(table, jupedsim_columns[column]))
+        places_.reject("table trajectory_data has no column " + std::string(jupedsim_columns[column]));
     has_orientation_ = database_.has_column(table, "ori_x") && database_.has_column(table, "ori_y");
     most_rows_ = static_cast<std::uint64_t>(database_.bytes() / least_bytes_a_row);
     // In the order of the file, whatever indices there are.
@@ -127,7 +127,8 @@ class JuPedSim final : public RowSource {
   }
 
   [[noreturn]] void reject(const SqliteStatement& row, Column column, const std::string& reason) const {
-    places_.reject(number_, std::string(column_names[column]) + " " + shown(row.text(column)) + " " + reason);
+    places_.reject(number_,
+                   std::string(jupedsim_columns[column]) + " " + shown(row.text(column)) + " " + reason);
   }
   [[noreturn]] void reject(Column column, const std::string& reason) const { reject(*rows_, column, reason); }
 

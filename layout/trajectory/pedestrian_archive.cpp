@@ -27,7 +27,7 @@ namespace {
 
 constexpr std::size_t most_geometry = std::size_t{1} << 24;
 constexpr std::uint64_t most_compression = 1032;  // of deflate
-constexpr std::size_t batch_rows = 4096;
+constexpr std::size_t archive_rows = 4096;
 
 enum Answer : std::uint64_t { is_recording = 1, is_error = 2 };
 
@@ -45,9 +45,9 @@ std::span<const char> bytes_of(const Value& value) {
 }
 
 void send_rows(const Hdf5Recording& file, std::uint64_t rows, int to) {
-  std::vector<ArchiveRow> batch(batch_rows);
+  std::vector<ArchiveRow> batch(archive_rows);
   for (std::uint64_t first = 0; first < rows;) {
-    const std::size_t count = std::min<std::uint64_t>(batch_rows, rows - first);
+    const std::size_t count = std::min<std::uint64_t>(archive_rows, rows - first);
     const std::span<ArchiveRow> part(batch.data(), count);
     file.read(first, part);
     write_or_exit(to, {reinterpret_cast<const char*>(part.data()), part.size_bytes()});
@@ -97,9 +97,9 @@ class PedestrianArchive final : public RowSource {
   }
 
   std::size_t read(std::span<Row> rows) override {
-    const std::size_t count =
-        static_cast<std::size_t>(std::min<std::uint64_t>({rows.size(), batch_rows, header_.rows - number_}));
-    ArchiveRow batch[batch_rows];
+    const std::size_t count = static_cast<std::size_t>(
+        std::min<std::uint64_t>({rows.size(), archive_rows, header_.rows - number_}));
+    ArchiveRow batch[archive_rows];
     receive({reinterpret_cast<char*>(batch), count * sizeof(ArchiveRow)});
     for (std::size_t i = 0; i < count; ++i) rows[i] = row(batch[i]);
     return count;
