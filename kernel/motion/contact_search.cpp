@@ -149,11 +149,9 @@ bool ContactSearch::is_unsure(std::uint32_t i, std::uint32_t j) {
   return nodes_a_.spare(i) + nodes_b_.spare(j) + room_ > unsure_share * radii;
 }
 
-/// Of two children the one that may touch sooner is looked at first. In windows of more than a key it is enough to know when the roots touch.
+/// What may touch sooner is looked at first. In windows of more than a key it is enough to know when the roots touch.
 double ContactSearch::first_of_nodes(unsigned level) {
-  const std::uint32_t *const child_a = nodes_a_.chunk().first_child.data(), *const child_b =
-                                                                                nodes_b_.chunk()
-                                                                                    .first_child.data();
+  const AnimatedTreeChunk &a = nodes_a_.chunk(), &b = nodes_b_.chunk();
   double first = never, last = 1;
   open_.clear();
   open(0, 0, last);
@@ -162,20 +160,19 @@ double ContactSearch::first_of_nodes(unsigned level) {
     const auto [i, j, time] = open_.back();
     open_.pop_back();
     if (time >= first) continue;
-    const bool leaf_a = child_a[i] == 0, leaf_b = child_b[j] == 0;
+    const bool leaf_a = a.is_leaf(i), leaf_b = b.is_leaf(j);
     if (level > 0 && ((leaf_a && leaf_b) || is_unsure(i, j))) return of_roots;
     if (leaf_a && leaf_b) {
       first = last = time;
       continue;
     }
     const std::size_t before = open_.size();
-    if (leaf_b || (!leaf_a && nodes_a_[i].radius >= nodes_b_[j].radius)) {
-      open(child_a[i], j, last), open(child_a[i] + 1, j, last);
-    } else {
-      open(i, child_b[j], last), open(i, child_b[j] + 1, last);
-    }
-    if (open_.size() == before + 2 && open_[before].time < open_[before + 1].time)
-      std::swap(open_[before], open_[before + 1]);
+    const bool divide_a = leaf_b || (!leaf_a && nodes_a_[i].radius >= nodes_b_[j].radius);
+    const NodeRange children = divide_a ? a.children(i) : b.children(j);
+    for (std::uint32_t child = children.begin; child < children.end; ++child)
+      divide_a ? open(child, j, last) : open(i, child, last);
+    std::sort(open_.begin() + static_cast<std::ptrdiff_t>(before), open_.end(),
+              [](const Open& x, const Open& y) { return x.time > y.time; });
   }
   return first;
 }

@@ -47,18 +47,22 @@ class PlacedNodes {
   const MovingDisc& operator[](std::uint32_t node) noexcept {
     if (placed_in_[node] != interval_) {
       placed_in_[node] = interval_;
-      discs_[node] = placed(first_[node], last_[node]);
+      discs_[node] = placed(node);
       discs_[node].radius += spare(node);
     }
     return discs_[node];
   }
   /// Returns what of a node's radius is there for the keys between.
-  double spare(std::uint32_t node) const noexcept { return spares_ == nullptr ? 0 : double{spares_[node]}; }
+  double spare(std::uint32_t node) const noexcept {
+    return spares_ == nullptr ? 0 : spares_[node] * (steps_of_spare * chunk_->step);
+  }
 
  private:
-  MovingDisc placed(const Disc& first, const Disc& last) const noexcept {
-    const double x = first.x, y = first.y, r = first.radius;
-    const double way_x = double{last.x} - x, way_y = double{last.y} - y, growth = double{last.radius} - r;
+  MovingDisc placed(std::uint32_t node) const noexcept {
+    const double step = chunk_->step, x = first_.x[node] * step, y = first_.y[node] * step,
+                 r = first_.radius[node] * step;
+    const double way_x = last_.x[node] * step - x, way_y = last_.y[node] * step - y,
+                 growth = last_.radius[node] * step - r;
     const double from_x = x + way_x * share_, from_y = y + way_y * share_, radius = r + growth * share_;
     const double to_x = x + way_x * share_at_end_, to_y = y + way_y * share_at_end_;
     MovingDisc disc{x_ + (turn_.cosine * from_x - turn_.sine * from_y),
@@ -73,8 +77,8 @@ class PlacedNodes {
   }
 
   const AnimatedTreeChunk* chunk_ = nullptr;
-  const Disc *first_ = nullptr, *last_ = nullptr;  ///< the keys' nodes
-  const float* spares_ = nullptr;                  ///< or none
+  NodesAtKey first_{}, last_{};
+  const std::uint16_t* spares_ = nullptr;  ///< or none
   double share_ = 0, share_at_end_ = 0;
   Rotation turn_, turn_at_end_;
   double x_ = 0, y_ = 0, x_at_end_ = 0, y_at_end_ = 0;

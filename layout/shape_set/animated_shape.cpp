@@ -116,26 +116,61 @@ struct ChunkAt {
       : ChunkAt(tree, key_place(tree, time_in_clip(tree, seconds))) {}
   ChunkAt(const AnimatedTree& tree, const KeyPlace& at) : chunk(tree.chunks[at.chunk]), place(at) {}
   Disc node(std::uint32_t i) const {
-    return between(chunk.key(place.key)[i], chunk.key(place.key + 1)[i], place.share);
+    return between(chunk.disc(place.key, i), chunk.disc(place.key + 1, i), place.share);
   }
 };
 
-/// Adds a node and all below it in depth-first order. Nodes hold the discs with room to spare, as those of shape_from_discs() do, and for the
-/// rounding of both their centres.
-void add_nodes(const ChunkAt& at, std::uint32_t node, Hierarchy& hierarchy) {
-  constexpr double of_leaves = rounding::query_margin,
-                   of_others = of_leaves + rounding::held_room + 8 * rounding::unit_roundoff;
-  const std::uint32_t child = at.chunk.first_child[node];
-  const std::size_t index = hierarchy.nodes.size();
-  Disc disc = at.node(node);
-  const double margin = (child == 0 ? of_leaves : of_others) * hierarchy.reach;
-  disc.radius = rounding::round_up(double{disc.radius} + margin);
-  hierarchy.nodes.push_back({disc});
-  if (child == 0) return;
-  add_nodes(at, child, hierarchy);
-  hierarchy.nodes[index].second_child = static_cast<std::uint32_t>(hierarchy.nodes.size());
-  add_nodes(at, child + 1, hierarchy);
+/// Returns a disc that holds two, but for what floats round.
+Disc disc_around(const Disc& a, const Disc& b) {
+  const double x = double{b.x} - double{a.x}, y = double{b.y} - double{a.y}, apart = std::sqrt(x * x + y * y);
+  const double radius = (apart + double{a.radius} + double{b.radius}) / 2;
+  if (radius <= double{a.radius}) return a;
+  if (radius <= double{b.radius}) return b;
+  const double share = (radius - double{a.radius}) / apart;
+  return {static_cast<float>(double{a.x} + x * share), static_cast<float>(double{a.y} + y * share),
+          rounding::round_up(radius)};
 }
+
+/// Adds the tree of a chunk at a time as a binary one, in depth-first order: children are halved. Nodes hold the discs with room to spare, as
+/// those of shape_from_discs() do, and for the rounding of both their centres, and of those that halve them.
+class BinaryTree {
+ public:
+  BinaryTree(const ChunkAt& at, Hierarchy& hierarchy) : at_(at), hierarchy_(hierarchy) {}
+
+  void add_root() { add_node(0); }
+
+ private:
+  /// Returns: the disc without room.
+  Disc add_node(std::uint32_t node) {
+    if (at_.chunk.is_leaf(node))
+      return hierarchy_.nodes.push_back({with_room(at_.node(node), of_leaves)}), at_.node(node);
+    return add_range(at_.chunk.children(node));
+  }
+
+  Disc add_range(const NodeRange& nodes) {
+    if (nodes.end - nodes.begin == 1) return add_node(nodes.begin);
+    const std::uint32_t middle = nodes.begin + (nodes.end - nodes.begin) / 2;
+    const std::size_t index = hierarchy_.nodes.size();
+    hierarchy_.nodes.emplace_back();
+    const Disc first = add_range({nodes.begin, middle});
+    hierarchy_.nodes[index].second_child = static_cast<std::uint32_t>(hierarchy_.nodes.size());
+    const Disc both = disc_around(first, add_range({middle, nodes.end}));
+    hierarchy_.nodes[index].disc = with_room(both, of_others);
+    return both;
+  }
+
+  Disc with_room(Disc disc, double margin) const {
+    disc.radius = rounding::round_up(double{disc.radius} + margin * hierarchy_.reach);
+    return disc;
+  }
+
+  /// The discs between a leaf and the root, up to 12 of them, each round by three roundings of at most the reach.
+  static constexpr double of_leaves = rounding::query_margin,
+                          of_others = of_leaves + rounding::held_room + 48 * rounding::unit_roundoff;
+
+  const ChunkAt& at_;
+  Hierarchy& hierarchy_;
+};
 
 /// Returns the polygons of the rings' centres, counter-clockwise.
 Outline outline_of(const ChunkAt& at) {
@@ -157,26 +192,19 @@ Outline outline_of(const ChunkAt& at) {
   return outline;
 }
 
-double reach_of(const AnimatedDiscs& discs) {
-  double reach = 0;
-  for (const AnimatedChunk& chunk : discs.chunks)
-    for (const auto& [x, y, radius] : chunk.keys)
-      reach = std::max(reach, std::sqrt(double{x} * double{x} + double{y} * double{y}) + double{radius});
-  return reach * (1 + 0x1p-48);
-}
-
-/// Returns the most that a centre moves in a second, and a radius grows.
-double speed_of(const AnimatedDiscs& discs) {
-  double speed = 0;
-  for (const AnimatedChunk& chunk : discs.chunks)
-    for (std::size_t i = chunk.disc_count; i < chunk.keys.size(); ++i) {
-      const std::size_t key = i / chunk.disc_count;
-      const Disc &from = chunk.keys[i - chunk.disc_count], &to = chunk.keys[i];
-      const double way = std::abs(double{to.x} - double{from.x}) + std::abs(double{to.y} - double{from.y}) +
-                         std::abs(double{to.radius} - double{from.radius});
-      speed = std::max(speed, way / (chunk.times[key] - chunk.times[key - 1]));
+/// Finds the reach of a chunk's discs, and their speed.
+void measure(const AnimatedTreeChunk& chunk, AnimatedTree& tree) {
+  for (std::size_t key = 0; key < chunk.times.size(); ++key)
+    for (const std::uint32_t leaf : chunk.leaf_of_disc) {
+      const Disc disc = chunk.disc(key, leaf);
+      const double x = disc.x, y = disc.y, radius = disc.radius;
+      tree.reach = std::max(tree.reach, (std::sqrt(x * x + y * y) + radius) * (1 + 0x1p-48));
+      if (key == 0) continue;
+      const Disc before = chunk.disc(key - 1, leaf);
+      const double way = std::abs(x - double{before.x}) + std::abs(y - double{before.y}) +
+                         std::abs(radius - double{before.radius});
+      tree.speed = std::max(tree.speed, way / (chunk.times[key] - chunk.times[key - 1]));
     }
-  return speed;
 }
 
 }  // namespace
@@ -185,10 +213,12 @@ AnimatedShape::AnimatedShape(const AnimatedDiscs& discs) : tree_(std::make_uniqu
   if (discs.chunks.empty()) throw std::invalid_argument("animated shape: no chunks");
   for (std::size_t i = 0; i < discs.chunks.size(); ++i) ChunkCheck(discs, i).check();
   tree_->loops = discs.loops;
-  tree_->reach = reach_of(discs);
+  tree_->chunks.reserve(discs.chunks.size());
+  for (const AnimatedChunk& chunk : discs.chunks) {
+    tree_->chunks.push_back(animated_tree_chunk(chunk));
+    measure(tree_->chunks.back(), *tree_);
+  }
   require_reach(tree_->reach);
-  tree_->speed = speed_of(discs);
-  for (const AnimatedChunk& chunk : discs.chunks) tree_->chunks.push_back(animated_tree_chunk(chunk));
 }
 
 AnimatedShape::AnimatedShape(AnimatedShape&&) noexcept = default;
@@ -214,11 +244,12 @@ double AnimatedShape::reach() const noexcept {
 std::size_t AnimatedShape::bytes() const noexcept {
   std::size_t bytes = sizeof(AnimatedTree);
   for (const AnimatedTreeChunk& chunk : tree_->chunks) {
-    bytes += sizeof(chunk) + chunk.times.size() * sizeof(double) + chunk.keys.size() * sizeof(Disc) +
-             (chunk.first_child.size() + chunk.leaf_of_disc.size() + chunk.ring_ends.size()) *
-                 sizeof(std::uint32_t);
+    bytes +=
+        sizeof(chunk) + chunk.times.size() * sizeof(double) + chunk.ring_ends.size() * sizeof(std::uint32_t);
+    bytes +=
+        (chunk.numbers.size() + chunk.child_begin.size() + chunk.leaf_of_disc.size()) * sizeof(std::uint16_t);
     for (const KeyWindows& windows : chunk.windows)
-      bytes += (windows.steps.size() + windows.spares.size()) * sizeof(float);
+      bytes += windows.steps.size() * sizeof(float) + windows.spares.size() * sizeof(std::uint16_t);
   }
   return bytes;
 }
@@ -234,8 +265,8 @@ Shape AnimatedShape::shape(double seconds) const {
   const ChunkAt at(*tree_, seconds);
   Shape shape;
   shape.hierarchy.reach = tree_->reach;
-  shape.hierarchy.nodes.reserve(at.chunk.nodes());
-  add_nodes(at, 0, shape.hierarchy);
+  shape.hierarchy.nodes.reserve(2 * at.chunk.leaf_of_disc.size());
+  BinaryTree(at, shape.hierarchy).add_root();
   shape.outline = outline_of(at);
   return shape;
 }

@@ -18,6 +18,27 @@ double distance(const Disc& a, const Disc& b) noexcept {
   return length(double{a.x} - double{b.x}, double{a.y} - double{b.y});
 }
 
+/// Returns the least power of two in which a tree over the discs of a chunk has numbers of 16 bits: the box of all discs is at most 92000
+/// steps wide, so that the disc about it has a radius below 65100 of them.
+double step_for(const AnimatedChunk& chunk) {
+  double centre = 0, edge = 0;
+  for (const Disc& disc : chunk.keys) {
+    const double largest = double{std::max(std::abs(disc.x), std::abs(disc.y))};
+    centre = std::max(centre, largest), edge = std::max(edge, largest + double{disc.radius});
+  }
+  int exponent = 0;
+  const bool is_power = std::frexp(std::max({centre / 32767, edge / 46000, 0x1p-60}), &exponent) == 0.5;
+  return std::ldexp(1.0, is_power ? exponent - 1 : exponent);
+}
+
+/// Returns a disc in steps, each number an integer, that holds a disc.
+Disc rounded(const Disc& disc, double step) {
+  const double x = std::round(double{disc.x} / step), y = std::round(double{disc.y} / step);
+  const double away = length(double{disc.x} / step - x, double{disc.y} / step - y);
+  return {static_cast<float>(x), static_cast<float>(y),
+          static_cast<float>(std::ceil((double{disc.radius} / step + away) * (away > 0 ? 1 + 0x1p-48 : 1)))};
+}
+
 /// Where a range of discs falls into two, and what that costs: the sizes of both parts, times their discs.
 struct Split {
   std::vector<std::uint32_t> order;
@@ -25,12 +46,20 @@ struct Split {
   double cost = HUGE_VAL;
 };
 
+std::size_t quotient_up(std::size_t number, std::size_t divisor) {
+  return (number + divisor - 1) / divisor;
+}
+
+/// In steps.
 class Builder {
  public:
   explicit Builder(const AnimatedChunk& chunk) : chunk_(chunk) {
     tree_.times = chunk.times;
+    tree_.step = step_for(chunk);
     tree_.ring_ends = chunk.ring_ends;
     tree_.leaf_of_disc.resize(chunk.disc_count);
+    discs_.reserve(chunk.keys.size());
+    for (const Disc& disc : chunk.keys) discs_.push_back(rounded(disc, tree_.step));
     const std::size_t keys = chunk.times.size(), looked_at = std::min<std::size_t>(keys, most_keys);
     for (std::size_t i = 0; i < looked_at; ++i) sampled_keys_.push_back(i * (keys - 1) / (looked_at - 1));
   }
@@ -38,45 +67,61 @@ class Builder {
   AnimatedTreeChunk build() {
     std::vector<std::uint32_t> all(chunk_.disc_count);
     std::iota(all.begin(), all.end(), 0u);
-    tree_.first_child.push_back(0);
-    std::vector<Open> open = {{0, std::move(all)}};
-    while (!open.empty()) open = divide(open);
+    std::size_t most = 1;  // below a node of the level
+    while (most < all.size()) most *= animated_width;
+    std::vector<std::vector<std::uint32_t>> level = {std::move(all)};
+    for (; most > 1; most /= animated_width) level = divide(std::move(level), most / animated_width);
+    for (const std::vector<std::uint32_t>& leaf : level) {
+      tree_.leaf_of_disc[leaf[0]] = static_cast<std::uint16_t>(held_.size());
+      held_.push_back(leaf);
+    }
+    tree_.child_begin.push_back(static_cast<std::uint16_t>(held_.size()));
     place_discs();
-    for (unsigned level = 0; level < window_levels; ++level) find_windows(level);
+    for (unsigned at = 0; at < window_levels; ++at) find_windows(at);
     return std::move(tree_);
   }
 
  private:
   static constexpr std::size_t most_keys = 8;  ///< that a split looks at
 
-  const Disc& disc(std::size_t key, std::uint32_t i) const {
-    return chunk_.keys[key * chunk_.disc_count + i];
-  }
+  const Disc& disc(std::size_t key, std::uint32_t i) const { return discs_[key * chunk_.disc_count + i]; }
 
-  /// A node, and the discs that it holds.
-  struct Open {
-    std::uint32_t node;
-    std::vector<std::uint32_t> discs;
-  };
-
-  /// Keeps what the nodes of a level hold, and returns those of the next one.
-  std::vector<Open> divide(std::vector<Open>& level) {
-    std::vector<Open> below;
-    for (Open& open : level) {
-      if (open.discs.size() == 1) {
-        tree_.leaf_of_disc[open.discs[0]] = open.node;
-      } else {
-        const Split split = best_split(open.discs);
-        const auto middle = split.order.begin() + static_cast<std::ptrdiff_t>(split.first);
-        const auto child = static_cast<std::uint32_t>(tree_.first_child.size());
-        tree_.first_child[open.node] = child;
-        tree_.first_child.resize(child + 2, 0);
-        below.push_back({child, {split.order.begin(), middle}});
-        below.push_back({child + 1, {middle, split.order.end()}});
-      }
-      held_.push_back(std::move(open.discs));
+  /// Keeps what the nodes of a level hold, and returns those of the next one, each of which holds so many discs at most.
+  std::vector<std::vector<std::uint32_t>> divide(std::vector<std::vector<std::uint32_t>> level,
+                                                 std::size_t most) {
+    std::vector<std::vector<std::uint32_t>> below;
+    const std::size_t end = held_.size() + level.size();
+    for (std::vector<std::uint32_t>& discs : level) {
+      tree_.child_begin.push_back(static_cast<std::uint16_t>(end + below.size()));
+      held_.push_back(discs);
+      const std::size_t parts = parts_of(discs.size(), most);
+      divide_into(parts, most, std::move(discs), below);
     }
     return below;
+  }
+
+  /// Returns into how many children a node falls: about as many as those below it do.
+  static std::size_t parts_of(std::size_t discs, std::size_t most) {
+    constexpr std::size_t discs_of_last = 7;  // a child left free, where they fall apart unevenly
+    std::size_t parts = 1;
+    if (most == 1) return discs;
+    if (most == animated_width)
+      return std::min<std::size_t>(quotient_up(discs, discs_of_last), animated_width);
+    while (parts * parts * discs_of_last < discs) ++parts;
+    return std::clamp<std::size_t>(parts, quotient_up(discs, most), animated_width);
+  }
+
+  void divide_into(std::size_t parts, std::size_t most, std::vector<std::uint32_t> discs,
+                   std::vector<std::vector<std::uint32_t>>& below) const {
+    if (parts == 1 || discs.size() == 1) return below.push_back(std::move(discs));
+    const Split split = best_split(discs, parts, most);
+    const std::size_t count = split.order.size(), first = split.first;
+    const std::size_t parts_of_first =
+        std::clamp((parts * first + count / 2) / count, std::max<std::size_t>(1, quotient_up(first, most)),
+                   parts - quotient_up(count - first, most));
+    const auto middle = split.order.begin() + static_cast<std::ptrdiff_t>(first);
+    divide_into(parts_of_first, most, {split.order.begin(), middle}, below);
+    divide_into(parts - parts_of_first, most, {middle, split.order.end()}, below);
   }
 
   /// Returns a small disc that holds discs: its centre goes from the middle of their box towards the farthest one, by less and less
@@ -88,7 +133,7 @@ class Builder {
     double x = (box.low_x + box.high_x) / 2, y = (box.low_y + box.high_y) / 2, least = HUGE_VAL;
     Disc best;
     for (int step = 4; step < 16; ++step) {
-      const Disc centre{static_cast<float>(x), static_cast<float>(y), 0};
+      const Disc centre{static_cast<float>(std::round(x)), static_cast<float>(std::round(y)), 0};
       double radius = 0, away = 0;
       const Disc* farthest = nullptr;
       for (const std::uint32_t i : discs) {
@@ -103,14 +148,14 @@ class Builder {
       const double share = radius / away / step;
       x += (double{farthest->x} - x) * share, y += (double{farthest->y} - y) * share;
     }
-    best.radius = rounding::round_up(least * (1 + 0x1p-48));
+    best.radius = static_cast<float>(std::ceil(least * (1 + 0x1p-48)));
     return best;
   }
 
   /// Discs without rings stay in their order, by which queries number them. Others may be sorted along an axis.
-  Split best_split(std::span<const std::uint32_t> discs) const {
+  Split best_split(std::span<const std::uint32_t> discs, std::size_t parts, std::size_t most) const {
     Split best;
-    try_order({discs.begin(), discs.end()}, best);
+    try_order({discs.begin(), discs.end()}, parts, most, best);
     if (chunk_.ring_ends.empty()) return best;
     for (float Disc::*const axis : {&Disc::x, &Disc::y}) {
       std::vector<std::uint32_t> order(discs.begin(), discs.end());
@@ -120,12 +165,13 @@ class Builder {
       std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
         return along[a] != along[b] ? along[a] < along[b] : a < b;
       });
-      try_order(std::move(order), best);
+      try_order(std::move(order), parts, most, best);
     }
     return best;
   }
 
-  void try_order(std::vector<std::uint32_t> order, Split& best) const {
+  /// Each part of a split must have room in some of the nodes that there will be.
+  void try_order(std::vector<std::uint32_t> order, std::size_t parts, std::size_t most, Split& best) const {
     const std::size_t count = order.size();
     std::vector<double> cost(count, 0.0);  // of a split before each
     for (const std::size_t key : sampled_keys_) {
@@ -136,47 +182,58 @@ class Builder {
         cost[count - i] += rest.size() * static_cast<double>(i);
       }
     }
-    const auto least = std::min_element(cost.begin() + 1, cost.end());
-    if (*least < best.cost) best = {std::move(order), static_cast<std::size_t>(least - cost.begin()), *least};
+    std::size_t least = 0;
+    for (std::size_t i = 1; i < count; ++i)
+      if (quotient_up(i, most) + quotient_up(count - i, most) <= parts &&
+          (least == 0 || cost[i] < cost[least]))
+        least = i;
+    if (cost[least] < best.cost) best = {std::move(order), least, cost[least]};
   }
 
   void place_discs() {
-    tree_.keys.reserve(held_.size() * chunk_.times.size());
-    for (std::size_t key = 0; key < chunk_.times.size(); ++key)
-      for (const std::vector<std::uint32_t>& discs : held_) tree_.keys.push_back(disc_about(key, discs));
+    const std::size_t keys = chunk_.times.size(), nodes = held_.size();
+    tree_.numbers.resize(3 * keys * nodes + animated_width);
+    for (std::size_t key = 0; key < keys; ++key)
+      for (std::size_t i = 0; i < nodes; ++i) {
+        const Disc disc = disc_about(key, held_[i]);
+        std::uint16_t* const x = tree_.numbers.data() + 3 * key * nodes + i;
+        x[0] = static_cast<std::uint16_t>(static_cast<std::int16_t>(disc.x));
+        x[nodes] = static_cast<std::uint16_t>(static_cast<std::int16_t>(disc.y));
+        x[2 * nodes] = static_cast<std::uint16_t>(disc.radius);
+      }
   }
 
   void find_windows(unsigned level) {
     KeyWindows& windows = tree_.windows[level];
     for (std::size_t key = 0; key + 1 < chunk_.times.size(); key += window_length(level)) {
       const std::size_t end = tree_.window_end(key, level);
-      const Disc *const from = tree_.key(key), *const to = tree_.key(end);
       double step = 0;
-      for (std::size_t i = 0; i < tree_.nodes(); ++i) {
-        step = std::max(step, distance(from[i], to[i]));
+      for (std::uint32_t i = 0; i < tree_.nodes(); ++i) {
+        step = std::max(step, distance(tree_.disc(key, i), tree_.disc(end, i)));
         if (level > 0) windows.spares.push_back(spare(i, key, end));
       }
       windows.steps.push_back(rounding::round_up(step * (1 + 0x1p-48)));
     }
   }
 
-  /// Returns by how much a node is outside of the disc that goes straight on from one key to another, at the keys between. That is convex
-  /// from key to key, and so no more there.
-  float spare(std::size_t node, std::size_t key, std::size_t end) const {
-    const Disc &from = tree_.key(key)[node], &to = tree_.key(end)[node];
+  /// Returns by how much a node is outside of the disc that goes straight on from one key to another, at the keys between. That is
+  /// convex from key to key, and so no more there.
+  std::uint16_t spare(std::uint32_t node, std::size_t key, std::size_t end) const {
+    const Disc from = tree_.disc(key, node), to = tree_.disc(end, node);
     double spare = 0;
     for (std::size_t k = key + 1; k < end; ++k) {
       const double share = (tree_.times[k] - tree_.times[key]) / (tree_.times[end] - tree_.times[key]);
       const auto blend = [=](float a, float b) { return double{a} + (double{b} - double{a}) * share; };
-      const Disc& disc = tree_.key(k)[node];
+      const Disc disc = tree_.disc(k, node);
       const double away = length(double{disc.x} - blend(from.x, to.x), double{disc.y} - blend(from.y, to.y));
       spare = std::max(spare, away + double{disc.radius} - blend(from.radius, to.radius));
     }
-    return rounding::round_up(spare * (1 + 0x1p-40));
+    return static_cast<std::uint16_t>(std::ceil(spare * (1 + 0x1p-40) / (tree_.step * steps_of_spare)));
   }
 
   const AnimatedChunk& chunk_;
   AnimatedTreeChunk tree_;
+  std::vector<Disc> discs_;  ///< those of the keys
   std::vector<std::size_t> sampled_keys_;
   std::vector<std::vector<std::uint32_t>> held_;  ///< per node: its discs
 };

@@ -13,31 +13,67 @@
 
 namespace bch::detail {
 
+constexpr std::uint32_t animated_width = 8;  ///< the most children of a node
+
 /// Windows of keys, over each of which a node is a disc again that moves straight on, from where it is in the beginning to where it is in
 /// the end, and is larger by what the keys between depart from that. Windows go on for a key at level 0, for four at level 1.
 struct KeyWindows {
-  std::vector<float> steps;   ///< per window: the farthest that a centre comes, metres
-  std::vector<float> spares;  ///< nodes of each window: what their radii are larger by; none at level 0
+  std::vector<float> steps;  ///< per window: the farthest that a centre comes, metres
+  std::vector<std::uint16_t>
+      spares;  ///< nodes of each window: what their radii are larger by, in steps of spares; none at level 0
 };
+constexpr double steps_of_spare = 4;  ///< of the chunk, so that any spare has 16 bits
 constexpr unsigned window_levels = 2;
 /// Returns how many keys a window goes on.
 constexpr std::size_t window_length(unsigned level) noexcept {
   return std::size_t{1} << (2 * level);
 }
 
-/// The tree over the moving discs of a chunk: a binary tree, level by level, whose nodes are moving discs with the same keys. A node
-/// holds its discs at every key, and so at all times between: the distance of two centres that move straight on is convex, and so
-/// is that and the radius of the disc within, while the radius of the disc around is linear.
+/// The nodes of a chunk at a key, in the chunk's steps. Eight may be read from each on, beyond the last one, too.
+struct NodesAtKey {
+  const std::int16_t *x, *y;
+  const std::uint16_t* radius;
+};
+
+/// Nodes that follow each other, from one to before another.
+struct NodeRange {
+  std::uint32_t begin, end;
+};
+
+/// The tree over the moving discs of a chunk, whose nodes are moving discs with the same keys. A node holds its discs at every key,
+/// and so at all times between: the distance of two centres that move straight on is convex, and so is that and the radius
+/// of the disc within, while the radius of the disc around is linear.
+///
+/// Nodes stand level by level, so that the children of one, up to eight, follow each other, and those of the next one follow them. All leaves
+/// are on the last level, behind all other nodes. Their numbers are of 16 bits, times a step.
 struct AnimatedTreeChunk {
   std::vector<double> times;
-  std::vector<Disc> keys;                   ///< nodes at each key, key by key
-  std::vector<std::uint32_t> first_child;   ///< per node; 0: a leaf. The second child is the next node
-  std::vector<std::uint32_t> leaf_of_disc;  ///< per disc in the order in which they were given: its node
+  double step = 0;                     ///< a power of two, metres
+  std::vector<std::uint16_t> numbers;  ///< at each key all x, all y and all radii, then `animated_width` more
+  std::vector<std::uint16_t>
+      child_begin;  ///< per node above the leaves: its first child; and the number of nodes
+  std::vector<std::uint16_t> leaf_of_disc;  ///< per disc in the order in which they were given: its node
   std::vector<std::uint32_t> ring_ends;
   std::array<KeyWindows, window_levels> windows;
 
-  std::size_t nodes() const noexcept { return first_child.size(); }
-  const Disc* key(std::size_t k) const noexcept { return keys.data() + k * nodes(); }
+  std::uint32_t nodes() const noexcept { return child_begin.back(); }
+  std::uint32_t first_leaf() const noexcept { return static_cast<std::uint32_t>(child_begin.size() - 1); }
+  bool is_leaf(std::uint32_t node) const noexcept { return node >= first_leaf(); }
+  /// Returns the children of a node that is no leaf.
+  NodeRange children(std::uint32_t node) const noexcept { return {child_begin[node], child_begin[node + 1]}; }
+
+  NodesAtKey key(std::size_t k) const noexcept {
+    const std::uint16_t* const x = numbers.data() + k * 3 * nodes();
+    const auto as_signed = [](const std::uint16_t* at) { return reinterpret_cast<const std::int16_t*>(at); };
+    return {as_signed(x), as_signed(x + nodes()), x + 2 * nodes()};
+  }
+  /// Returns a node at a key, exactly.
+  Disc disc(std::size_t k, std::uint32_t node) const noexcept {
+    const NodesAtKey at = key(k);
+    const auto metres = [this](int number) { return static_cast<float>(number * step); };
+    return {metres(at.x[node]), metres(at.y[node]), metres(at.radius[node])};
+  }
+
   /// Returns the first key of the window that goes on from a key, and the last one.
   std::size_t window_begin(std::size_t key, unsigned level) const noexcept {
     return key & ~(window_length(level) - 1);
@@ -70,7 +106,13 @@ KeyPlace key_place(const AnimatedTree& tree, double seconds) noexcept;
 /// Returns the time of a clip that loops, or not, at which it looks as it does at any `seconds`.
 double time_in_clip(const AnimatedTree& tree, double seconds) noexcept;
 
-/// Builds the tree over a chunk that is valid.
+/// Builds the tree over a chunk that is valid. Its discs are rounded to the step, outward; those whose numbers are of 16 bits as they are keep
+/// them, where no radius is more than two fifths of the largest coordinate.
+///
+/// Derivation: a centre goes to the nearest multiple, at most sqrt(1/2) steps away, and the radius up to the next multiple of itself and
+/// that way, so that the new disc holds the old one, and reaches out of it by less than 2 sqrt(1/2) + 1 < 2.42 steps. Rings hold what they
+/// did: where an edge moves from old centres to new ones, the discs about the centres between, larger by the way so far, hold it,
+/// because the old ones overlap, and are in the new ones. A step is 2^-14 of the reach at most.
 AnimatedTreeChunk animated_tree_chunk(const AnimatedChunk& chunk);
 
 }  // namespace bch::detail

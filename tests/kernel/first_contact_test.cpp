@@ -52,9 +52,9 @@ AnimatedDiscs ring(double size, std::uint32_t count) {
   AnimatedChunk chunk{{0, 1}, count, {}, {count}};
   for (std::uint32_t i = 0; i < 2 * count; ++i) {
     const double angle = 2 * 3.14159265358979 * i / count;
-    chunk.keys.push_back({static_cast<float>(size * std::cos(angle)),
-                          static_cast<float>(size * std::sin(angle)),
-                          static_cast<float>(1.1 * size * std::sin(3.15 / count))});
+    const auto even = [](double value) { return static_cast<float>(std::round(value * 4096) / 4096); };
+    chunk.keys.push_back({even(size * std::cos(angle)), even(size * std::sin(angle)),
+                          even(1.1 * size * std::sin(3.15 / count))});
   }
   return {{chunk}, false};
 }
@@ -87,11 +87,11 @@ TEST(FirstContact, IsNeverLaterThanAnySampleAndEarlyByTheToleranceAtMost) {
   EXPECT_GT(nested, 0);
 }
 
-/// Discs of 0.2 m and 0.3 m that come together at 2 m a second from 10 m apart, and pass at a distance aside.
+/// Discs of 3/16 m and 5/16 m that come together at 2 m a second from 10 m apart, and pass at a distance aside.
 TEST(FirstContact, OfTwoDiscsIsThatOfTheFormula) {
-  const MotionCase stands = disc_on(0.2f, {{0, 0, 0, 1}});
+  const MotionCase stands = disc_on(0.1875f, {{0, 0, 0, 1}});
   for (const double aside : {0.0, 0.3, 0.49, 0.499999}) {
-    const MotionCase comes = disc_on(0.3f, {{0, -10, aside, 0}, {10, 10, aside, 0}});
+    const MotionCase comes = disc_on(0.3125f, {{0, -10, aside, 0}, {10, 10, aside, 0}});
     const double expected = 5 - std::sqrt(0.25 - aside * aside) / 2;
     EXPECT_NEAR(contact_of(stands, comes, {0, 10}), expected, aside < 0.49 ? 2e-6 : 1e-3) << aside;
     EXPECT_LE(contact_of(stands, comes, {0, 10}), expected) << aside;
@@ -99,15 +99,15 @@ TEST(FirstContact, OfTwoDiscsIsThatOfTheFormula) {
     EXPECT_EQ(contact_of(stands, comes, {5, 10}), 5);
     EXPECT_EQ(contact_of(stands, comes, {5.3, 10}), never);
   }
-  EXPECT_EQ(contact_of(stands, disc_on(0.3f, {{0, -10, 0.6, 0}, {10, 10, 0.6, 0}}), {0, 10}), never);
+  EXPECT_EQ(contact_of(stands, disc_on(0.3125f, {{0, -10, 0.6, 0}, {10, 10, 0.6, 0}}), {0, 10}), never);
 }
 
 /// A disc 1 m away from the agent goes round as the agent turns by 20 rad in 10 s, and meets one that stands there.
 TEST(FirstContact, FollowsWhatTurns) {
-  const MotionCase turns{still_disc(0.1f, 1, 0), {{0, 0, 0, 0}, {10, 0, 0, 20}}};
+  const MotionCase turns{still_disc(0.0625f, 1, 0), {{0, 0, 0, 0}, {10, 0, 0, 20}}};
   for (const double angle : {0.5, 2.0, 6.0}) {
-    const MotionCase stands = disc_on(0.1f, {{0, std::cos(angle), std::sin(angle), 0}});
-    const double expected = (angle - 2 * std::asin(0.1)) / 2;
+    const MotionCase stands = disc_on(0.0625f, {{0, std::cos(angle), std::sin(angle), 0}});
+    const double expected = (angle - 2 * std::asin(0.0625)) / 2;
     for (const double tolerance : {0.1, 0.005, 1e-5}) {
       const double found = contact_of(turns, stands, {0, 10}, tolerance);
       EXPECT_LE(found, expected) << angle;
@@ -119,8 +119,9 @@ TEST(FirstContact, FollowsWhatTurns) {
 TEST(FirstContact, SeesWhoIsInsideFromTheBeginningAndWhoComesThroughTheRing) {
   const MotionCase around{ring(1, 40), {{0, 3, 4, 0}}};
   EXPECT_EQ(contact_of(around, disc_on(0.1f, {{0, 3, 4, 0}}), {0.25, 1}), 0.25);
-  const double edge = 4 - 1.1 * std::sin(3.15 / 40) - 0.1;  // of two metres on the way to the middle
-  const double found = contact_of(around, disc_on(0.1f, {{0, 8, 4, 0}, {5, 3, 4, 0}}), {0, 5});
+  const double edge =
+      4 - double{around.discs.chunks[0].keys[0].radius} - 0.125;  // of two metres on the way to the middle
+  const double found = contact_of(around, disc_on(0.125f, {{0, 8, 4, 0}, {5, 3, 4, 0}}), {0, 5});
   EXPECT_NEAR(found, edge, 1e-5);
   AnimatedDiscs without = ring(1, 40);
   without.chunks[0].ring_ends.clear();

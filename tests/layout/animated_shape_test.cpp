@@ -59,27 +59,46 @@ TEST(AnimatedShape, HasItsDiscsAtEveryTime) {
 void for_each_held(const detail::AnimatedTreeChunk& chunk,
                    const std::function<void(std::uint32_t, std::uint32_t)>& at) {
   std::vector<std::uint32_t> above(chunk.nodes(), 0);
-  for (std::uint32_t i = 0; i < chunk.nodes(); ++i)
-    if (const std::uint32_t child = chunk.first_child[i]; child != 0) above[child] = above[child + 1] = i;
+  for (std::uint32_t i = 0; i < chunk.first_leaf(); ++i)
+    for (std::uint32_t child = chunk.children(i).begin; child < chunk.children(i).end; ++child)
+      above[child] = i;
   for (const std::uint32_t leaf : chunk.leaf_of_disc) {
-    EXPECT_EQ(chunk.first_child[leaf], 0u);
+    EXPECT_TRUE(chunk.is_leaf(leaf));
     for (std::uint32_t node = leaf; node != 0; node = above[node]) at(above[node], leaf);
   }
 }
 
+/// Expects that a chunk's nodes stand as AnimatedTreeChunk says, and are few.
+void expect_tree(const detail::AnimatedTreeChunk& chunk) {
+  std::vector<std::uint32_t> leaves(chunk.leaf_of_disc.begin(), chunk.leaf_of_disc.end());
+  std::sort(leaves.begin(), leaves.end());
+  EXPECT_EQ(chunk.first_leaf() + leaves.size(), chunk.nodes());
+  for (std::uint32_t i = 0; i < leaves.size(); ++i) EXPECT_EQ(leaves[i], chunk.first_leaf() + i);
+  std::uint32_t next = 1;
+  for (std::uint32_t i = 0; i < chunk.first_leaf(); ++i) {
+    const detail::NodeRange children = chunk.children(i);
+    EXPECT_EQ(children.begin, next);
+    EXPECT_GE(children.end, children.begin + 1);
+    EXPECT_LE(children.end, children.begin + detail::animated_width);
+    next = children.end;
+  }
+  EXPECT_EQ(next, chunk.nodes());
+  EXPECT_LE(chunk.first_leaf(), 4 + leaves.size() / 4);
+}
+
 TEST(AnimatedShape, NodesHoldTheirDiscsAtEveryTime) {
   Random random(3111);
-  for (std::uint32_t i = 0; i < test::samples(40); ++i) {
-    const AnimatedShape shape(i % 4 == 0 ? test::loose_discs(random, 1 + i)
+  for (std::uint32_t i = 0; i < test::samples(80); ++i) {
+    const AnimatedShape shape(i % 4 == 0 ? test::loose_discs(random, i % 8 == 0 ? 1 + 13 * i : 1 + i)
                                          : test::ringed_body(random, 2, 8 + i));
     for (const detail::AnimatedTreeChunk& chunk : shape.tree().chunks) {
-      EXPECT_EQ(chunk.nodes(), 2 * chunk.leaf_of_disc.size() - 1);
+      expect_tree(chunk);
       for (int k = 0; k < 30; ++k) {
         const std::size_t key = random.below(static_cast<std::uint32_t>(chunk.times.size() - 1));
         const double share = random.below(8) == 0 ? random.below(2) : random.uniform(0, 1);
-        const Disc *const from = chunk.key(key), *const to = chunk.key(key + 1);
         const auto at = [&](std::uint32_t node, float Disc::*part) {
-          return std::lerp(double{from[node].*part}, double{to[node].*part}, share);
+          return std::lerp(double{chunk.disc(key, node).*part}, double{chunk.disc(key + 1, node).*part},
+                           share);
         };
         for_each_held(chunk, [&](std::uint32_t node, std::uint32_t disc) {
           const double away =
@@ -91,6 +110,54 @@ TEST(AnimatedShape, NodesHoldTheirDiscsAtEveryTime) {
   }
 }
 
+/// 4096 discs fill a tree without a gap.
+TEST(AnimatedShape, HasRoomForAllDiscsThatAreAllowed) {
+  Random random(3114);
+  for (const std::uint32_t discs : {7u, 8u, 9u, 57u, 64u, 65u, 512u, 513u, 4095u, 4096u})
+    expect_tree(AnimatedShape(test::loose_discs(random, discs)).tree().chunks[0]);
+}
+
+/// Discs of numbers of 16 bits are kept, others held by ones that reach out by less than 1.5e-4 of the reach.
+TEST(AnimatedShape, RoundsDiscsOutward) {
+  Random random(3115);
+  int kept = 0, moved = 0;
+  for (std::uint32_t i = 0; i < test::samples(2000); ++i) {
+    const double size = std::exp(random.uniform(-12, 12));
+    std::vector<Disc> discs(2 * (1 + random.below(4)));
+    for (Disc& disc : discs)
+      disc = {static_cast<float>(random.uniform(-size, size)),
+              static_cast<float>(random.uniform(-size, size)),
+              static_cast<float>(random.uniform(0, random.below(3) == 0 ? 2 * size : 0.4 * size))};
+    const auto count = static_cast<std::uint32_t>(discs.size() / 2);
+    const AnimatedShape shape(moving({{{0, 1}, count, discs, {}}}));
+    double reach = 0;
+    for (const Disc& disc : discs)
+      reach = std::max(reach, std::hypot(double{disc.x}, double{disc.y}) + double{disc.radius});
+    std::vector<Disc> rounded = shape.discs(0);
+    const std::vector<Disc> last = shape.discs(1);
+    rounded.insert(rounded.end(), last.begin(), last.end());
+    for (std::size_t k = 0; k < discs.size(); ++k) {
+      const double away =
+          std::hypot(double{rounded[k].x} - double{discs[k].x}, double{rounded[k].y} - double{discs[k].y});
+      const double room = double{rounded[k].radius} - double{discs[k].radius};
+      EXPECT_LE(away, room * (1 + 1e-12)) << i;
+      EXPECT_LT(away + room, 1.5e-4 * reach) << i;
+      moved += away > 0;
+    }
+    EXPECT_GE(shape.reach(), reach * (1 - 1e-12));
+    AnimatedChunk again{{0, 1}, count, rounded, {}};
+    const bool small = std::all_of(rounded.begin(), rounded.end(), [&](const Disc& disc) {
+      return double{disc.radius} <
+             0.4 * std::max(double{std::abs(rounded[0].x)}, double{std::abs(rounded[0].y)});
+    });
+    if (!small) continue;
+    ++kept;
+    EXPECT_EQ(AnimatedShape(moving({again})).discs(0), shape.discs(0));
+  }
+  EXPECT_GT(kept, static_cast<int>(test::samples(100)));
+  EXPECT_GT(moved, static_cast<int>(test::samples(1000)));
+}
+
 /// Nodes are hardly larger than the smallest discs.
 TEST(AnimatedShape, TreesAreTight) {
   Random random(3112);
@@ -100,7 +167,7 @@ TEST(AnimatedShape, TreesAreTight) {
     const detail::AnimatedTreeChunk& chunk = shape.tree().chunks[0];
     for (const std::size_t key : {std::size_t{0}, chunk.times.size() - 1}) {
       const std::span<const Disc> discs = std::span(body.chunks[0].keys).subspan(key * 32, 32);
-      EXPECT_LT(chunk.key(key)[0].radius, 1.01f * detail::disc_hierarchy(discs).nodes[0].disc.radius);
+      EXPECT_LT(chunk.disc(key, 0).radius, 1.01f * detail::disc_hierarchy(discs).nodes[0].disc.radius);
     }
   }
 }

@@ -11,13 +11,19 @@
 namespace bch::test {
 namespace {
 
+/// Returns numbers that an AnimatedShape of such bodies keeps as they are.
+float even(double value) {
+  return static_cast<float>(std::ceil(value * 0x1p16) * 0x1p-16);
+}
+
 /// Makes the discs of a key so large that each overlaps the next one of its ring.
 void overlap_next(std::vector<Disc>& discs) {
   const std::vector<Disc> before = discs;
   for (std::size_t i = 0; i < discs.size(); ++i)
     for (const std::size_t other : {(i + 1) % discs.size(), (i + discs.size() - 1) % discs.size()})
       discs[i].radius = std::max(
-          discs[i].radius, 0.51f * std::hypot(before[i].x - before[other].x, before[i].y - before[other].y));
+          discs[i].radius,
+          even(0.51 * double{std::hypot(before[i].x - before[other].x, before[i].y - before[other].y)}));
 }
 
 struct WorldDisc {
@@ -99,9 +105,8 @@ AnimatedDiscs ringed_body(Random& random, std::uint32_t chunks, std::uint32_t di
       for (std::uint32_t i = 0; i < chunk.disc_count; ++i) {
         const double angle = 2 * std::numbers::pi * i / chunk.disc_count;
         const double swing = 0.15 * std::sin(pace * time) * std::pow(std::sin(angle), 3);
-        ring.push_back({static_cast<float>(deep * std::cos(angle) + swing),
-                        static_cast<float>(wide * std::sin(angle)),
-                        static_cast<float>(random.uniform(0.001, 0.02))});
+        ring.push_back({even(deep * std::cos(angle) + swing), even(wide * std::sin(angle)),
+                        even(random.uniform(0.001, 0.02))});
       }
       overlap_next(ring);
       chunk.keys.insert(chunk.keys.end(), ring.begin(), ring.end());
@@ -122,9 +127,8 @@ AnimatedDiscs loose_discs(Random& random, std::uint32_t discs) {
     chunk.times.push_back(time);
     time += random.uniform(0.05, 0.3);
     for (std::uint32_t i = 0; i < discs; ++i)
-      chunk.keys.push_back({static_cast<float>(random.uniform(-0.3, 0.3)),
-                            static_cast<float>(random.uniform(-0.3, 0.3)),
-                            static_cast<float>(random.below(4) == 0 ? 0 : random.uniform(0, 0.1))});
+      chunk.keys.push_back({even(random.uniform(-0.3, 0.3)), even(random.uniform(-0.3, 0.3)),
+                            even(random.below(4) == 0 ? 0 : random.uniform(0, 0.1))});
   }
   body.chunks.push_back(std::move(chunk));
   return body;

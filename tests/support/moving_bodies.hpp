@@ -10,7 +10,8 @@
 
 #include "tests/support/scenes.hpp"
 
-// Bodies that move, and motions of theirs, with a definition of contact that samples.
+// Bodies that move, and motions of theirs, with a definition of contact that samples. Random bodies have discs that an AnimatedShape
+// keeps as they are.
 
 namespace bch::test {
 
