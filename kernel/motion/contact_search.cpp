@@ -4,16 +4,17 @@
 #include "kernel/motion/contact_search.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
+#include "kernel/motion/hull_separation.hpp"
 #include "layout/base/ring_edges.hpp"
 
 namespace bch::detail {
 namespace {
 
 constexpr double time_rounding = 0x1p-27, position_rounding = 0x1p-48, root_rounding = 0x1p-20;
-constexpr double unsure_share = 0.5;
 
 /// The way of one body relative to another between two times.
 struct RelativeWay {
@@ -36,37 +37,65 @@ struct RelativeWay {
   }
 };
 
-/// Returns how often the rings of a body go round a point in the beginning of the interval in which it is placed.
-int winding(PlacedNodes& nodes, double x, double y) {
-  const AnimatedTreeChunk& chunk = nodes.chunk();
-  int winding = 0;
-  for_each_ring_edge(chunk.ring_ends, [&](std::uint32_t i, std::uint32_t next) {
-    const MovingDisc &from = nodes[chunk.leaf_of_disc[i]], &to = nodes[chunk.leaf_of_disc[next]];
-    if ((from.y <= y) == (to.y <= y)) return;
-    const double side = (to.x - from.x) * (y - from.y) - (x - from.x) * (to.y - from.y);
-    if ((side > 0) == (to.y > y)) winding += to.y > y ? 1 : -1;
-  });
-  return winding;
-}
+/// A body at a time, in its own frame and in the steps of its chunk.
+class BodyAt {
+ public:
+  BodyAt(const MovingBody& body, double time)
+      : chunk_(body.chunk()),
+        from_(chunk_.key(body.key())),
+        to_(chunk_.key(body.key() + 1)),
+        share_(body.share(time)),
+        pose_(body.pose(time)),
+        turn_(rotation(pose_.heading)) {}
 
-/// Returns whether one body holds a ring of another in the beginning, or one of its discs where it has no rings.
-bool holds(PlacedNodes& around, PlacedNodes& inside) {
-  if (around.chunk().ring_ends.empty()) return false;
-  const AnimatedTreeChunk& chunk = inside.chunk();
-  const MovingDisc root = around[0];
-  const auto holds_disc = [&](std::uint32_t i) {
-    const MovingDisc& disc = inside[chunk.leaf_of_disc[i]];
-    const double x = disc.x - root.x, y = disc.y - root.y;
-    return x * x + y * y <= root.radius * root.radius && winding(around, disc.x, disc.y) != 0;
-  };
-  if (chunk.ring_ends.empty()) {
-    for (std::uint32_t i = 0; i < chunk.leaf_of_disc.size(); ++i)
+  /// Returns whether it holds a ring of another body, or one of its discs where that has no rings; no discs overlap.
+  bool holds(const BodyAt& other) const {
+    if (chunk_.ring_ends.empty()) return false;
+    const auto holds_disc = [&](std::uint32_t i) {
+      const PlanePoint p = seen(other, other.centre(other.chunk_.leaf_of_disc[i]));
+      return length(p - centre(0)) <= mix(from_.radius[0], to_.radius[0]) && winding(p) != 0;
+    };
+    const std::vector<std::uint32_t>& ends = other.chunk_.ring_ends;
+    if (!ends.empty())
+      return std::any_of(ends.begin(), ends.end(), [&](std::uint32_t end) { return holds_disc(end - 1); });
+    for (std::uint32_t i = 0; i < other.chunk_.leaf_of_disc.size(); ++i)
       if (holds_disc(i)) return true;
     return false;
   }
-  return std::any_of(chunk.ring_ends.begin(), chunk.ring_ends.end(),
-                     [&](std::uint32_t end) { return holds_disc(end - 1); });
-}
+
+ private:
+  double mix(double from, double to) const { return from + (to - from) * share_; }
+  PlanePoint centre(std::uint32_t node) const {
+    return {mix(from_.x[node], to_.x[node]), mix(from_.y[node], to_.y[node])};
+  }
+
+  /// Returns a point of another body as this one sees it.
+  PlanePoint seen(const BodyAt& other, const PlanePoint& p) const {
+    const double step = other.chunk_.step;
+    const double x = step * (other.turn_.cosine * p.x - other.turn_.sine * p.y) + (other.pose_.x - pose_.x),
+                 y = step * (other.turn_.sine * p.x + other.turn_.cosine * p.y) + (other.pose_.y - pose_.y);
+    return {(turn_.cosine * x + turn_.sine * y) / chunk_.step,
+            (turn_.cosine * y - turn_.sine * x) / chunk_.step};
+  }
+
+  /// Returns how often the rings go round a point.
+  int winding(const PlanePoint& p) const {
+    int winding = 0;
+    for_each_ring_edge(chunk_.ring_ends, [&](std::uint32_t i, std::uint32_t next) {
+      const PlanePoint from = centre(chunk_.leaf_of_disc[i]), to = centre(chunk_.leaf_of_disc[next]);
+      if ((from.y <= p.y) == (to.y <= p.y)) return;
+      const double side = (to.x - from.x) * (p.y - from.y) - (p.x - from.x) * (to.y - from.y);
+      if ((side > 0) == (to.y > p.y)) winding += to.y > p.y ? 1 : -1;
+    });
+    return winding;
+  }
+
+  const AnimatedTreeChunk& chunk_;
+  NodesAtKey from_, to_;
+  double share_;
+  PathKey pose_;
+  Rotation turn_;
+};
 
 }  // namespace
 
@@ -74,8 +103,7 @@ double ContactSearch::first(const MotionFacts& a, const MotionFacts& b, double f
   MovingBody body_a(a), body_b(b);
   a_ = &body_a, b_ = &body_b;
   looked_inside_ = 0;
-  reach_a_ = a.tree->reach, reach_b_ = b.tree->reach;
-  const double reaches = reach_a_ + reach_b_;
+  const double reaches = a.tree->reach + b.tree->reach;
   slack_ = time_rounding * (a.speed + b.speed) + position_rounding * (a.farthest + b.farthest) +
            root_rounding * reaches;
   for (double time = from; time <= to;) {
@@ -85,7 +113,8 @@ double ContactSearch::first(const MotionFacts& a, const MotionFacts& b, double f
     const auto [enter, leave] = way.times_within(reaches + slack_);
     if (enter <= 1) {
       const double length = until - time, last = leave < 1 ? time + leave * length : end;
-      const double found = first_near(std::min(time + enter * length, last), last, to, window_levels - 1);
+      const double found =
+          first_near(std::min(time + enter * length, last), last, to, AnimatedHulls::level_count);
       if (found <= to) return found;
       time = end;
     } else {
@@ -97,84 +126,106 @@ double ContactSearch::first(const MotionFacts& a, const MotionFacts& b, double f
   return never;
 }
 
-/// Where both paths go straight on and the bodies are within reach: from window to window of the clips' keys.
+/// Where both paths go straight on and the bodies are within reach: from window to window of their hulls; below these, from key to key.
 double ContactSearch::first_near(double from, double end, double to, unsigned level) {
   for (double time = from; time <= to;) {
-    a_->clip_end(time), b_->clip_end(time);
-    if (nested_where_a_chunk_begins(time)) return time;
-    const double until = std::min({a_->window_end(level), b_->window_end(level), end});
-    const double found = first_between(time, std::isfinite(until) ? until : time + 1, to, level);
+    const double clip_end = std::min(a_->clip_end(time), b_->clip_end(time));
+    double until = std::min(end, clip_end), found = never;
+    if (level > 0) until = std::min({end, a_->hull_end(level - 1), b_->hull_end(level - 1)});
+    const double last = std::isfinite(until) ? until : time + 1;
+    if (level == 0) {
+      if (nested_where_a_chunk_begins(time)) return time;
+      found = first_between(time, last);
+    } else if (!hulls_are_apart(time, last, level - 1)) {
+      found = first_near(time, until, to, level - 1);
+    }
     if (found < never || until >= end) return found;
     time = until;
   }
   return never;
 }
 
-/// Windows of more than a key tell where there is no contact, and from when on there may be one.
-double ContactSearch::first_between(double from, double end, double to, unsigned level) {
-  place(from, end, level);
-  const double bend = nodes_a_.bend() + nodes_b_.bend();
-  room_ = bend + slack_;
-  const double found = first_of_nodes(level);
-  if (found == never) return never;
-  const double time = std::min(from + found * (end - from), end), half = time + (end - time) / 2;
-  if (level > 0) return first_near(time, end, to, level - 1);
-  if (2 * bend <= tolerance_ || !(time < half && half < end)) return time;
-  const double sooner = first_between(time, half, to, 0);
-  return sooner < never ? sooner : first_between(half, end, to, 0);
+/// Looks along the line between the positions where they are nearest to each other. Along it their distance is linear in time.
+bool ContactSearch::hulls_are_apart(double from, double end, unsigned level) const {
+  const PathKey a = a_->pose(from), b = b_->pose(from), a_end = a_->pose(end), b_end = b_->pose(end);
+  const PlanePoint between{b.x - a.x, b.y - a.y}, at_end{b_end.x - a_end.x, b_end.y - a_end.y},
+      way = at_end - between;
+  const double square = squared_length(way);
+  const double nearest = square > 0 ? std::clamp(-dot(between, way) / square, 0.0, 1.0) : 0;
+  const PlanePoint line = between + nearest * way;
+  if (squared_length(line) == 0) return false;
+  const ReachAlong of_a(*a_, level, a, a_end, line), of_b(*b_, level, b, b_end, -1 * line);
+  const double more = of_a.more + of_b.more + slack_ * length(line);
+  return dot(between, line) > of_a.from + of_b.from + more && dot(at_end, line) > of_a.to + of_b.to + more;
 }
 
-void ContactSearch::place(double from, double end, unsigned level) {
+double ContactSearch::first_between(double from, double end) {
+  place(from, end);
+  const double bend = nodes_a_.bend() + nodes_b_.bend();
+  room_ = bend + slack_;
+  const double found = first_of_nodes();
+  if (found == never) return never;
+  const double time = std::min(from + found * (end - from), end), half = time + (end - time) / 2;
+  if (2 * bend <= tolerance_ || !(time < half && half < end)) return time;
+  const double sooner = first_between(time, half);
+  return sooner < never ? sooner : first_between(half, end);
+}
+
+void ContactSearch::place(double from, double end) {
   const PathKey a = a_->pose(from), b = b_->pose(from), a_end = a_->pose(end), b_end = b_->pose(end);
-  nodes_a_.place(*a_, level, reach_a_, {from, a.x - b.x, a.y - b.y, a.heading},
+  nodes_a_.place(*a_, {from, a.x - b.x, a.y - b.y, a.heading},
                  {end, a_end.x - b_end.x, a_end.y - b_end.y, a_end.heading});
-  nodes_b_.place(*b_, level, reach_b_, {from, 0, 0, b.heading}, {end, 0, 0, b_end.heading});
+  nodes_b_.place(*b_, {from, 0, 0, b.heading}, {end, 0, 0, b_end.heading});
 }
 
 bool ContactSearch::nested_where_a_chunk_begins(double time) {
   const std::uint32_t begun = a_->chunks_begun() + b_->chunks_begun();
-  if (std::exchange(looked_inside_, begun) == begun) return false;
-  place(time, time, 0);
-  return holds(nodes_a_, nodes_b_) || holds(nodes_b_, nodes_a_);
+  if (std::exchange(looked_inside_, begun) == begun || hulls_are_apart(time, time, 0)) return false;
+  const BodyAt a(*a_, time), b(*b_, time);
+  return a.holds(b) || b.holds(a);
 }
 
-void ContactSearch::open(std::uint32_t i, std::uint32_t j, double last) {
-  const double time = first_touch(i, j, last);
-  if (time <= last) open_.push_back({i, j, time});
-}
-
-/// Returns whether two nodes may only touch because of what the keys of their windows depart from straight ways.
-bool ContactSearch::is_unsure(std::uint32_t i, std::uint32_t j) {
-  const double radii = nodes_a_[i].radius + nodes_b_[j].radius;
-  return nodes_a_.spare(i) + nodes_b_.spare(j) + room_ > unsure_share * radii;
-}
-
-/// What may touch sooner is looked at first. In windows of more than a key it is enough to know when the roots touch.
-double ContactSearch::first_of_nodes(unsigned level) {
+/// What may touch sooner is looked at first.
+double ContactSearch::first_of_nodes() {
   const AnimatedTreeChunk &a = nodes_a_.chunk(), &b = nodes_b_.chunk();
   double first = never, last = 1;
   open_.clear();
-  open(0, 0, last);
-  const double of_roots = open_.empty() ? never : open_[0].time;
+  const double of_roots = first_overlap(nodes_a_[0], nodes_b_[0], room_, last);
+  if (of_roots <= last) open_.push_back({0, 0, of_roots});
   while (!open_.empty()) {
     const auto [i, j, time] = open_.back();
     open_.pop_back();
     if (time >= first) continue;
     const bool leaf_a = a.is_leaf(i), leaf_b = b.is_leaf(j);
-    if (level > 0 && ((leaf_a && leaf_b) || is_unsure(i, j))) return of_roots;
     if (leaf_a && leaf_b) {
       first = last = time;
-      continue;
+    } else if (leaf_b || (!leaf_a && nodes_a_.radius(i) >= nodes_b_.radius(j))) {
+      open_children(nodes_a_, i, nodes_b_[j], last, [j](std::uint32_t child, double at) {
+        return Open{child, j, at};
+      });
+    } else {
+      open_children(nodes_b_, j, nodes_a_[i], last, [i](std::uint32_t child, double at) {
+        return Open{i, child, at};
+      });
     }
-    const std::size_t before = open_.size();
-    const bool divide_a = leaf_b || (!leaf_a && nodes_a_[i].radius >= nodes_b_[j].radius);
-    const NodeRange children = divide_a ? a.children(i) : b.children(j);
-    for (std::uint32_t child = children.begin; child < children.end; ++child)
-      divide_a ? open(child, j, last) : open(i, child, last);
-    std::sort(open_.begin() + static_cast<std::ptrdiff_t>(before), open_.end(),
-              [](const Open& x, const Open& y) { return x.time > y.time; });
   }
   return first;
+}
+
+template <class Make>
+void ContactSearch::open_children(PlacedNodes& nodes, std::uint32_t node, const MovingDisc& other,
+                                  double last, Make make) {
+  const NodeRange children = nodes.divide(node);
+  const std::size_t before = open_.size();
+  std::array<double, animated_width> times;
+  nodes.first_overlaps(children.begin, other, room_, last, times);
+  for (std::uint32_t child = children.begin; child < children.end; ++child) {
+    const double time = times[child - children.begin];
+    if (!(time <= last)) continue;
+    open_.push_back(make(child, time));
+    for (std::size_t i = open_.size() - 1; i > before && open_[i - 1].time < time; --i)
+      std::swap(open_[i - 1], open_[i]);
+  }
 }
 
 }  // namespace bch::detail

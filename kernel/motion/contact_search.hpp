@@ -13,11 +13,12 @@ namespace bch::detail {
 
 /// Finds the first contacts of two motions, pair after pair, and keeps its memory meanwhile.
 ///
-/// Time is cut where a path or a clip has a key. Between two keys of the paths bodies come as near as their reaches for an
-/// interval at most, which a square root tells; there alone the clips' keys are gone through. From key to key every disc moves straight on but
-/// for what turning bends, so that the first time at which two nodes may touch is a root, too, and the trees are descended where
-/// there is one before the earliest contact of leaves so far. What bends more than half the tolerance is halved in time, but only where
-/// a contact is found.
+/// Time is cut where a path has a key. Between two keys of the paths bodies come as near as their reaches for an interval at most, which a
+/// square root tells; there alone the clips are gone through, from window to window of their hulls: where these are apart along a line
+/// there is no contact, and else shorter windows are looked at, in the end those between two keys of the clips. From key to key every disc moves
+/// straight on but for what turning bends, so that the first time at which two nodes may touch is a root, too, and the trees are
+/// descended where there is one before the earliest contact of leaves so far. What bends more than half the tolerance is halved in time,
+/// but only where a contact is found.
 ///
 /// Never late: discs are enlarged by what their ways may bend, and by `slack_`, which holds what double rounds:
 ///
@@ -25,7 +26,7 @@ namespace bch::detail {
 ///                 fewer than 16 roundings of at most 4e6 s
 ///     (position)  2^-48 of the coordinates: blends of two keys, and their difference
 ///     (turn)      4e-10 of the reaches: rotation()
-///     (root)      2^-20 of the reaches, which is more than all but (time) and (position): a computed root is that of a polynomial
+///     (root)      2^-20 of the reaches, which is more than all but (time) and (position), and than sums along a line: a computed root is that of a polynomial
 ///                 whose coefficients are off by 2^-50 of (6 reaches)^2 at most, because nothing is placed that is farther away than
 ///                 the reaches. The square of what discs are enlarged by is 32 times as much, so that it is no later than
 ///                 where the discs themselves touch.
@@ -43,14 +44,12 @@ class ContactSearch {
 
  private:
   double first_near(double from, double end, double to, unsigned level);
-  double first_between(double from, double end, double to, unsigned level);
-  double first_of_nodes(unsigned level);
-  void place(double from, double end, unsigned level);
-  bool is_unsure(std::uint32_t i, std::uint32_t j);
-  double first_touch(std::uint32_t i, std::uint32_t j, double last) noexcept {
-    return first_overlap(nodes_a_[i], nodes_b_[j], room_, last);
-  }
-  void open(std::uint32_t i, std::uint32_t j, double last);
+  bool hulls_are_apart(double from, double end, unsigned level) const;
+  double first_between(double from, double end);
+  double first_of_nodes();
+  void place(double from, double end);
+  template <class Make>
+  void open_children(PlacedNodes& nodes, std::uint32_t node, const MovingDisc& other, double last, Make make);
   bool nested_where_a_chunk_begins(double time);
 
   struct Open {
@@ -59,7 +58,7 @@ class ContactSearch {
   };
 
   double tolerance_;
-  double reach_a_ = 0, reach_b_ = 0, slack_ = 0;
+  double slack_ = 0;
   double room_ = 0;  ///< what two discs are enlarged by in an interval
   MovingBody* a_ = nullptr;
   MovingBody* b_ = nullptr;

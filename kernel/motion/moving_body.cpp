@@ -32,16 +32,21 @@ double MovingBody::path_end(double time) noexcept {
 
 PathKey MovingBody::pose(double time) const noexcept {
   const auto& path = facts_->path;
-  if (next_on_path_ == 0) return path.front();
-  if (next_on_path_ == path.size()) return path.back();
+  const auto standing = [time](const PathKey& key) { return PathKey{time, key.x, key.y, key.heading}; };
+  if (next_on_path_ == 0) return standing(path.front());
+  if (next_on_path_ == path.size()) return standing(path.back());
   return between_keys(path[next_on_path_ - 1], path[next_on_path_], time);
 }
 
 double MovingBody::clip_end(double time) noexcept {
-  constexpr int steps_before_search = 4;
+  constexpr int chunks_before_search = 4;
   if (clip_end_ > time) return clip_end_;
   if (chunks_begun_ == 0) find_key(time);
-  for (int i = 0; i < steps_before_search && clip_end_ <= time; ++i) next_key();
+  for (int i = 0; i < chunks_before_search && clip_end_ <= time; ++i) {
+    const bool is_over = chunk().times.back() + shift_ <= time && clip_end_ != time_of(0);
+    if (is_over) key_ = chunk().times.size() - 2;
+    next_key();
+  }
   if (clip_end_ <= time) find_key(time);
   while (clip_end_ <= time) next_key();  // by what rounding may leave
   return clip_end_;
@@ -76,14 +81,20 @@ void MovingBody::next_key() noexcept {
   clip_end_ = time_of(key_ + 1);
 }
 
-double MovingBody::window_end(unsigned level) const noexcept {
-  const bool moves = clip_end_ == time_of(key_ + 1);
-  return moves ? time_of(window(level).second) : clip_end_;
+double MovingBody::share(double time) const noexcept {
+  const double from = time_of(key_), to = time_of(key_ + 1);
+  return std::clamp((time - from) / (to - from), 0.0, 1.0);
 }
 
-double MovingBody::share(double time, unsigned level) const noexcept {
-  const auto [first, last] = window(level);
-  const double from = time_of(first), to = time_of(last);
+double MovingBody::hull_end(unsigned level) const noexcept {
+  const bool moves = clip_end_ == time_of(key_ + 1);
+  return moves ? tree().chunks[last_chunk_of_hull(level)].times.back() + shift_ : clip_end_;
+}
+
+double MovingBody::hull_share(double time, unsigned level) const noexcept {
+  const auto& chunks = tree().chunks;
+  const double from = chunks[chunk_ >> level << level].times.front() + shift_,
+               to = chunks[last_chunk_of_hull(level)].times.back() + shift_;
   return std::clamp((time - from) / (to - from), 0.0, 1.0);
 }
 

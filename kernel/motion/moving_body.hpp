@@ -3,10 +3,10 @@
 
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
-#include <utility>
 
 #include <bch/time_of_impact.hpp>
 
@@ -39,19 +39,24 @@ class MovingBody {
 
   /// Returns where the body is until path_end().
   PathKey pose(double time) const noexcept;
-  /// Returns until when the window of keys goes on in which it is now.
-  double window_end(unsigned level) const noexcept;
-  /// Returns the first and the last key of that window, and which share of the time between has gone by at a time within it.
-  std::pair<std::size_t, std::size_t> window(unsigned level) const noexcept {
-    return {chunk().window_begin(key_, level), chunk().window_end(key_, level)};
+  /// Returns the keys between which it is now: the first one, and which share of the time to the next has gone by at a time.
+  std::size_t key() const noexcept { return key_; }
+  double share(double time) const noexcept;
+  /// Returns its hull through the window of chunks in which it is now, until when that goes on, and which share of it has gone by at a time.
+  const HullWindow& hull(unsigned level) const noexcept {
+    return tree().hulls.levels[level][chunk_ >> level];
   }
-  double share(double time, unsigned level) const noexcept;
+  double hull_end(unsigned level) const noexcept;
+  double hull_share(double time, unsigned level) const noexcept;
+  const AnimatedTree& tree() const noexcept { return *facts_->tree; }
   const AnimatedTreeChunk& chunk() const noexcept { return tree().chunks[chunk_]; }
   /// Counts the chunks that began. Discs of one have nothing to do with those of another.
   std::uint32_t chunks_begun() const noexcept { return chunks_begun_; }
 
  private:
-  const AnimatedTree& tree() const noexcept { return *facts_->tree; }
+  std::size_t last_chunk_of_hull(unsigned level) const noexcept {
+    return std::min(((chunk_ >> level) + 1) << level, tree().chunks.size()) - 1;
+  }
   void find_key(double time) noexcept;
   void next_key() noexcept;
   double time_of(std::size_t key) const noexcept { return chunk().times[key] + shift_; }

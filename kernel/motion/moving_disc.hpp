@@ -24,17 +24,19 @@ constexpr double never = std::numeric_limits<double>::infinity();
 inline double first_overlap(const MovingDisc& one, const MovingDisc& other, double room,
                             double last) noexcept {
   const double x = one.x - other.x, y = one.y - other.y, r = one.radius + other.radius + room;
-  const double c = x * x + y * y - r * r;
-  if (c <= 0) return 0;
   const double way_x = one.way_x - other.way_x, way_y = one.way_y - other.way_y,
                growth = one.growth + other.growth;
+  const double c = x * x + y * y - r * r;
   const double a = way_x * way_x + way_y * way_y - growth * growth;
   const double b = x * way_x + y * way_y - r * growth;
-  if (b >= 0 && a >= 0) return never;
   const double square = b * b - a * c;
-  if (square < 0) return never;
-  const double divisor = std::sqrt(square) - b;
-  return c <= last * divisor ? c / divisor : never;
+  const double divisor = std::sqrt(square > 0 ? square : 0) - b;
+  // Choices of numbers alone, so that loops over discs are vectorised.
+  double time = c / divisor;
+  time = c <= last * divisor ? time : never;
+  time = square < 0 ? never : time;
+  time = (a < b ? a : b) < 0 ? time : never;
+  return c <= 0 ? 0 : time;
 }
 
 }  // namespace bch::detail

@@ -219,6 +219,7 @@ AnimatedShape::AnimatedShape(const AnimatedDiscs& discs) : tree_(std::make_uniqu
     measure(tree_->chunks.back(), *tree_);
   }
   require_reach(tree_->reach);
+  tree_->hulls = animated_hulls(tree_->chunks, tree_->reach);
 }
 
 AnimatedShape::AnimatedShape(AnimatedShape&&) noexcept = default;
@@ -248,9 +249,8 @@ std::size_t AnimatedShape::bytes() const noexcept {
         sizeof(chunk) + chunk.times.size() * sizeof(double) + chunk.ring_ends.size() * sizeof(std::uint32_t);
     bytes +=
         (chunk.numbers.size() + chunk.child_begin.size() + chunk.leaf_of_disc.size()) * sizeof(std::uint16_t);
-    for (const KeyWindows& windows : chunk.windows)
-      bytes += windows.steps.size() * sizeof(float) + windows.spares.size() * sizeof(std::uint16_t);
   }
+  for (const std::vector<HullWindow>& level : tree_->hulls.levels) bytes += level.size() * sizeof(HullWindow);
   return bytes;
 }
 

@@ -77,7 +77,7 @@ class Builder {
     }
     tree_.child_begin.push_back(static_cast<std::uint16_t>(held_.size()));
     place_discs();
-    for (unsigned at = 0; at < window_levels; ++at) find_windows(at);
+    find_speed();
     return std::move(tree_);
   }
 
@@ -203,32 +203,13 @@ class Builder {
       }
   }
 
-  void find_windows(unsigned level) {
-    KeyWindows& windows = tree_.windows[level];
-    for (std::size_t key = 0; key + 1 < chunk_.times.size(); key += window_length(level)) {
-      const std::size_t end = tree_.window_end(key, level);
-      double step = 0;
+  void find_speed() {
+    for (std::size_t key = 1; key < chunk_.times.size(); ++key)
       for (std::uint32_t i = 0; i < tree_.nodes(); ++i) {
-        step = std::max(step, distance(tree_.disc(key, i), tree_.disc(end, i)));
-        if (level > 0) windows.spares.push_back(spare(i, key, end));
+        const double way = distance(tree_.disc(key - 1, i), tree_.disc(key, i));
+        tree_.speed = std::max(
+            tree_.speed, rounding::round_up(way * (1 + 0x1p-40) / (tree_.times[key] - tree_.times[key - 1])));
       }
-      windows.steps.push_back(rounding::round_up(step * (1 + 0x1p-48)));
-    }
-  }
-
-  /// Returns by how much a node is outside of the disc that goes straight on from one key to another, at the keys between. That is
-  /// convex from key to key, and so no more there.
-  std::uint16_t spare(std::uint32_t node, std::size_t key, std::size_t end) const {
-    const Disc from = tree_.disc(key, node), to = tree_.disc(end, node);
-    double spare = 0;
-    for (std::size_t k = key + 1; k < end; ++k) {
-      const double share = (tree_.times[k] - tree_.times[key]) / (tree_.times[end] - tree_.times[key]);
-      const auto blend = [=](float a, float b) { return double{a} + (double{b} - double{a}) * share; };
-      const Disc disc = tree_.disc(k, node);
-      const double away = length(double{disc.x} - blend(from.x, to.x), double{disc.y} - blend(from.y, to.y));
-      spare = std::max(spare, away + double{disc.radius} - blend(from.radius, to.radius));
-    }
-    return static_cast<std::uint16_t>(std::ceil(spare * (1 + 0x1p-40) / (tree_.step * steps_of_spare)));
   }
 
   const AnimatedChunk& chunk_;
@@ -246,12 +227,13 @@ AnimatedTreeChunk animated_tree_chunk(const AnimatedChunk& chunk) {
 
 KeyPlace key_place(const AnimatedTree& tree, double seconds) noexcept {
   const auto& chunks = tree.chunks;
-  std::size_t chunk = chunks.size() - 1;
-  while (chunk > 0 && seconds < chunks[chunk].times.front()) --chunk;
-  const std::vector<double>& times = chunks[chunk].times;
+  const auto begun = [&](const AnimatedTreeChunk& chunk) { return chunk.times.front() <= seconds; };
+  const auto next = std::partition_point(chunks.begin() + 1, chunks.end(), begun);
+  const std::vector<double>& times = next[-1].times;
   const auto after = std::upper_bound(times.begin() + 1, times.end() - 1, seconds);
   const double from = after[-1], to = *after;
-  return {chunk, static_cast<std::size_t>(after - times.begin() - 1),
+  return {static_cast<std::size_t>(next - chunks.begin() - 1),
+          static_cast<std::size_t>(after - times.begin() - 1),
           std::clamp((seconds - from) / (to - from), 0.0, 1.0)};
 }
 

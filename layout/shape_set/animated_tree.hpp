@@ -3,31 +3,17 @@
 
 #pragma once
 
-#include <algorithm>
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
 
 #include <bch/shape_set.hpp>
 
+#include "layout/shape_set/animated_hulls.hpp"
+
 namespace bch::detail {
 
 constexpr std::uint32_t animated_width = 8;  ///< the most children of a node
-
-/// Windows of keys, over each of which a node is a disc again that moves straight on, from where it is in the beginning to where it is in
-/// the end, and is larger by what the keys between depart from that. Windows go on for a key at level 0, for four at level 1.
-struct KeyWindows {
-  std::vector<float> steps;  ///< per window: the farthest that a centre comes, metres
-  std::vector<std::uint16_t>
-      spares;  ///< nodes of each window: what their radii are larger by, in steps of spares; none at level 0
-};
-constexpr double steps_of_spare = 4;  ///< of the chunk, so that any spare has 16 bits
-constexpr unsigned window_levels = 2;
-/// Returns how many keys a window goes on.
-constexpr std::size_t window_length(unsigned level) noexcept {
-  return std::size_t{1} << (2 * level);
-}
 
 /// The nodes of a chunk at a key, in the chunk's steps. Eight may be read from each on, beyond the last one, too.
 struct NodesAtKey {
@@ -54,7 +40,7 @@ struct AnimatedTreeChunk {
       child_begin;  ///< per node above the leaves: its first child; and the number of nodes
   std::vector<std::uint16_t> leaf_of_disc;  ///< per disc in the order in which they were given: its node
   std::vector<std::uint32_t> ring_ends;
-  std::array<KeyWindows, window_levels> windows;
+  float speed = 0;  ///< the most that a node's centre moves in a second, metres
 
   std::uint32_t nodes() const noexcept { return child_begin.back(); }
   std::uint32_t first_leaf() const noexcept { return static_cast<std::uint32_t>(child_begin.size() - 1); }
@@ -73,19 +59,12 @@ struct AnimatedTreeChunk {
     const auto metres = [this](int number) { return static_cast<float>(number * step); };
     return {metres(at.x[node]), metres(at.y[node]), metres(at.radius[node])};
   }
-
-  /// Returns the first key of the window that goes on from a key, and the last one.
-  std::size_t window_begin(std::size_t key, unsigned level) const noexcept {
-    return key & ~(window_length(level) - 1);
-  }
-  std::size_t window_end(std::size_t key, unsigned level) const noexcept {
-    return std::min(window_begin(key, level) + window_length(level), times.size() - 1);
-  }
 };
 
 /// An animated shape as queries read it.
 struct AnimatedTree {
   std::vector<AnimatedTreeChunk> chunks;
+  AnimatedHulls hulls;
   bool loops = false;
   double reach = 0;  ///< metres
   double speed = 0;  ///< the most that a centre moves in a second, and a radius grows, metres

@@ -158,6 +158,37 @@ TEST(AnimatedShape, RoundsDiscsOutward) {
   EXPECT_GT(moved, static_cast<int>(test::samples(1000)));
 }
 
+/// A hull's extents, in any direction and at any time of its window, are those of the discs at least, and in the mean hardly more.
+TEST(AnimatedShape, HullsHoldDiscsThroughTheirWindows) {
+  Random random(3116);
+  double more = 0;
+  const std::uint32_t bodies = test::samples(100);
+  for (std::uint32_t i = 0; i < bodies; ++i) {
+    const AnimatedShape shape(i % 4 == 0 ? test::loose_discs(random) : test::ringed_body(random, 1 + i % 11));
+    const detail::AnimatedTree& tree = shape.tree();
+    for (unsigned level = 0; level < detail::AnimatedHulls::level_count; ++level) {
+      const std::size_t width = std::size_t{1} << level, chunks = tree.chunks.size();
+      ASSERT_EQ(tree.hulls.levels[level].size(), (chunks + width - 1) / width);
+      for (std::size_t window = 0; window * width < chunks; ++window) {
+        const double begin = tree.chunks[window * width].times.front(),
+                     end = tree.chunks[std::min((window + 1) * width, chunks) - 1].times.back();
+        const double share = random.uniform(0, 1), angle = random.uniform(-4, 4);
+        const detail::PlanePoint d{std::cos(angle), std::sin(angle)};
+        const detail::HullDirection direction(d);
+        const detail::HullWindow& hull = tree.hulls.levels[level][window];
+        const double reached =
+            tree.hulls.step * std::lerp(direction.extent(hull.from), direction.extent(hull.to), share);
+        double of_discs = -1;
+        for (const Disc& disc : shape.discs(std::lerp(begin, end, share)))
+          of_discs = std::max(of_discs, d.x * double{disc.x} + d.y * double{disc.y} + double{disc.radius});
+        EXPECT_GE(reached, of_discs - 1e-7);
+        if (level == 0) more += (reached - of_discs) / static_cast<double>(bodies * chunks);
+      }
+    }
+  }
+  EXPECT_LT(more, 0.1);
+}
+
 /// Nodes are hardly larger than the smallest discs.
 TEST(AnimatedShape, TreesAreTight) {
   Random random(3112);

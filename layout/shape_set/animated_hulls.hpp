@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "layout/base/plane_point.hpp"
+
+namespace bch::detail {
+
+struct AnimatedTreeChunk;
+
+constexpr std::uint32_t hull_directions = 32;
+
+/// How far a body reaches in each of the directions, in steps.
+using HullExtents = std::array<std::int16_t, hull_directions>;
+
+/// How far a body reaches through a window of time: at every time of it by no more than what lies evenly between these two.
+struct HullWindow {
+  HullExtents from, to;
+};
+
+/// The hulls of a body through windows of time, of one chunk each at level 0, and of two windows of the level below at the next ones.
+struct AnimatedHulls {
+  static constexpr unsigned level_count = 4;
+
+  double step = 0;  ///< metres
+  std::array<std::vector<HullWindow>, level_count> levels;
+};
+
+/// Returns a direction by its number. Their ends lie evenly on the border of the square from -1 to 1, so that those of others lie
+/// between two of them, evenly, too.
+constexpr PlanePoint hull_direction(std::uint32_t k) noexcept {
+  constexpr std::uint32_t of_side = hull_directions / 4;
+  const double along = 2.0 * (k % of_side) / of_side - 1;
+  switch (k / of_side) {
+    case 0:
+      return {1, along};
+    case 1:
+      return {-along, 1};
+    case 2:
+      return {-1, -along};
+    default:
+      return {along, -1};
+  }
+}
+
+/// A direction between two of those: `size` times (1 - share) of `first` and share of `second`.
+struct HullDirection {
+  std::uint32_t first, second;
+  double share, size;
+
+  /// Takes a vector that is not 0.
+  explicit HullDirection(const PlanePoint& d) noexcept {
+    constexpr std::uint32_t of_side = hull_directions / 4;
+    const bool along_x = std::abs(d.x) >= std::abs(d.y);
+    const double longer = along_x ? d.x : d.y, slope = along_x ? d.y / d.x : -d.x / d.y;
+    const double place = (slope + 1) * (of_side / 2.0);
+    const auto whole = static_cast<std::uint32_t>(place);
+    first = (whole + (along_x ? 0 : of_side) + (longer > 0 ? 0 : 2 * of_side)) % hull_directions;
+    second = (first + 1) % hull_directions;
+    share = place - whole;
+    size = std::abs(longer);
+  }
+
+  /// Returns how far a body reaches in this direction, times its length, at most: a body reaches no farther in the sum of two directions than
+  /// the sum of how far it does in each.
+  double extent(const HullExtents& extents) const noexcept {
+    const double a = extents[first], b = extents[second];
+    return size * (a + (b - a) * share);
+  }
+};
+
+/// Finds the hulls of chunks that follow each other.
+AnimatedHulls animated_hulls(const std::vector<AnimatedTreeChunk>& chunks, double reach);
+
+}  // namespace bch::detail
