@@ -63,11 +63,11 @@ std::vector<WantedClip> wanted_clips(const PlaceOptions& options,
   return wanted;
 }
 
-bench::PlacedClip placed_clip(const PlaceOptions& options, const detail::CastMember& member,
-                              std::uint32_t clip) {
+bench::PlacedClip placed_clip(const PlaceOptions& options, const AnimateOptions& how,
+                              const detail::CastMember& member, std::uint32_t clip) {
   const Clip& played = member.character.clips[clip];
   try {
-    const AnimatedDiscs discs = animate(member.character, clip);
+    const AnimatedDiscs discs = animate(member.character, clip, how);
     return {member.name,
             played.name,
             options.speed.value_or(speed_of(member, clip)),
@@ -86,9 +86,11 @@ std::vector<bench::PlacedClip> clips_of(const PlaceOptions& options) {
   for (const LoadedCharacter& loaded : load_characters(options.characters, {}))
     members.push_back(member_of(loaded));
   const std::vector<WantedClip> wanted = wanted_clips(options, members);
+  AnimateOptions how;
+  how.slices = options.shapes.planes();
   std::vector<std::optional<bench::PlacedClip>> built(wanted.size());
   tbb::parallel_for(std::size_t{0}, wanted.size(), [&](std::size_t i) {
-    built[i].emplace(placed_clip(options, members[wanted[i].member], wanted[i].clip));
+    built[i].emplace(placed_clip(options, how, members[wanted[i].member], wanted[i].clip));
   });
   std::vector<bench::PlacedClip> clips;
   for (std::optional<bench::PlacedClip>& clip : built) clips.push_back(std::move(*clip));
@@ -142,6 +144,10 @@ std::function<void()> add_place_command(CLI::App& program) {
                   "Everybody's, metres a second [as the clip walks, 0 if it does not]")
       ->type_name("M/S")
       ->check(number_between(0, 20));
+  command
+      .add_option("--slices", options->shapes.slices,
+                  "Cut bodies at these heights, metres: an arm above a foot is no contact [whole bodies]")
+      ->type_name("LIST");
   command.add_option("--width", options->placing.width, "Of the area [10 m]")
       ->type_name("METRES")
       ->check(number_between(1, 1000));

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "bench/cli/options.hpp"
 #include "bench/placing/placing.hpp"
 
 namespace bch::cli {
@@ -17,6 +18,7 @@ namespace bch::cli {
 struct PlaceOptions {
   std::vector<std::string> characters{"default:male", "default:female"};
   std::vector<std::string> clip_names{"walk"};
+  ShapeOptions shapes;  ///< of which slices alone are asked for
   bench::PlacingOptions placing;
   std::optional<double> speed;  ///< none: that of the clip
   double fps = 30;

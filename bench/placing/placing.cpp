@@ -128,10 +128,12 @@ class Crowd {
 }  // namespace
 
 AnimatedDiscs cylinder_of(const AnimatedDiscs& discs) {
-  AnimatedDiscs cylinder{{}, discs.loops};
+  AnimatedDiscs cylinder{{}, discs.loops, discs.slices, {}, discs.heights};
+  for (const AnimatedDiscs& slab : discs.slabs) cylinder.slabs.push_back(cylinder_of(slab));
   for (const AnimatedChunk& chunk : discs.chunks) {
     AnimatedChunk& one = cylinder.chunks.emplace_back();
     one.times = chunk.times;
+    if (chunk.disc_count == 0) continue;
     one.disc_count = 1;
     for (std::size_t key = 0; key < chunk.times.size(); ++key) {
       double radius = 0;

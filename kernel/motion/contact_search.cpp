@@ -133,7 +133,9 @@ double ContactSearch::first_near(double from, double end, double to, unsigned le
     double until = std::min(end, clip_end), found = never;
     if (level > 0) until = std::min({end, a_->hull_end(level - 1), b_->hull_end(level - 1)});
     const double last = std::isfinite(until) ? until : time + 1;
-    if (level == 0) {
+    if (a_->chunk().nodes() == 0 || b_->chunk().nodes() == 0) {
+      until = std::min(end, clip_end);
+    } else if (level == 0) {
       if (nested_where_a_chunk_begins(time)) return time;
       found = first_between(time, last);
     } else if (!hulls_are_apart(time, last, level - 1)) {

@@ -10,8 +10,8 @@
 
 namespace bch::detail {
 
-MotionFacts::MotionFacts(const Motion& motion)
-    : tree(&motion.shape->tree()), path(motion.path), clip_begin(motion.clip_begin) {
+MotionFacts::MotionFacts(const Motion& motion, const AnimatedShape& body)
+    : tree(&body.tree()), path(motion.path), clip_begin(motion.clip_begin) {
   double turning = 0;
   for (std::size_t k = 0; k < path.size(); ++k) {
     farthest = std::max({farthest, std::abs(path[k].x), std::abs(path[k].y)});

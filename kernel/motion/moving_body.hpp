@@ -14,7 +14,7 @@
 
 namespace bch::detail {
 
-/// What a search wants to know of a motion beforehand.
+/// What a search wants to know of a motion beforehand, or of a slab of its body.
 struct MotionFacts {
   const AnimatedTree* tree;
   std::span<const PathKey> path;
@@ -23,8 +23,8 @@ struct MotionFacts {
   double speed = 0;       ///< of any of its discs' centres, and a radius
   double farthest = 0;    ///< the largest coordinate of a key
 
-  /// Takes a motion that is valid.
-  explicit MotionFacts(const Motion& motion);
+  /// Takes a motion that is valid, and its shape or a slab of that.
+  MotionFacts(const Motion& motion, const AnimatedShape& body);
 };
 
 /// A motion at times that ascend: which keys of its path and of its clip a time lies between.

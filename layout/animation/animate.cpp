@@ -2,8 +2,10 @@
 // Copyright (c) 2026 the bch authors
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <span>
 #include <stdexcept>
 #include <string>
@@ -14,6 +16,8 @@
 
 #include "layout/animation/cover_check.hpp"
 #include "layout/animation/disc_ring.hpp"
+#include "layout/animation/slab_triangles.hpp"
+#include "layout/base/planes.hpp"
 #include "layout/base/shortest.hpp"
 #include "layout/character/skinning.hpp"
 
@@ -21,9 +25,11 @@ namespace bch {
 namespace detail {
 namespace {
 
-constexpr float longest_chunk = 0.1334f, shortest_chunk = 0.017f;  ///< seconds
+// These are seconds. What comes into a slab in a chunk's time is held throughout it.
+constexpr float longest_chunk = 0.1334f, longest_of_slab = 0.0667f, shortest_chunk = 0.017f;
 constexpr std::uint32_t keys_of_chunk = 3;
 constexpr double points_of_disc = 4;  ///< of a contour
+constexpr double piece_edge = 0.5;    ///< of pieces that reach out of a slab, as a share of the spacing
 
 /// Returns which vertices are on an outline.
 std::vector<std::uint32_t> vertices_on(const Outline& outline, std::span<const Vec2> vertices) {
@@ -55,20 +61,26 @@ double depth_in(const Outline& outline, const PlanePoint& p) {
   return inside ? std::sqrt(nearest) : -std::sqrt(nearest);
 }
 
-/// Makes the chunks of one clip.
+/// Makes the chunks of one clip, of the whole body or of a slab.
 class ClipAnimator {
  public:
   ClipAnimator(const Character& character, std::uint32_t clip, const AnimateOptions& options)
       : check_(character, clip, double{options.spacing}),
+        character_(character),
         clip_(clip),
         options_(options),
         end_(character.clips[clip].seconds),
         skinner_(character),
-        builder_(character.triangles, character.vertices.size(), character.vertices) {}
+        slab_triangles_(character, clip, piece_edge * double{options.spacing}),
+        mesh_{character.triangles, {}} {
+    prepare_builder();
+  }
 
   AnimatedDiscs run();
 
  private:
+  void prepare_builder();
+  std::vector<AnimatedChunk> chunks();
   void pose(float seconds, std::vector<Vec2>& vertices);
   KeyContour contour_at(float seconds, float next);
   AnimatedChunk ring(float from, float to);
@@ -78,11 +90,15 @@ class ClipAnimator {
   bool loops();
 
   CoverCheck check_;  ///< the first, because it looks whether there is such a clip
+  const Character& character_;
   std::uint32_t clip_;
   AnimateOptions options_;
   float end_;
   Skinner skinner_;
-  OutlineBuilder builder_;
+  SlabTriangles slab_triangles_;
+  std::optional<Heights> slab_;  ///< none: the whole body
+  MovingMesh mesh_;              ///< of the chunk
+  std::optional<OutlineBuilder> builder_;
   Outline outline_;
   std::vector<Vec2> now_, later_;
 };
@@ -90,12 +106,19 @@ class ClipAnimator {
 void ClipAnimator::pose(float seconds, std::vector<Vec2>& vertices) {
   const std::span<const Vec2> posed = skinner_.ground_pose({clip_, seconds});
   vertices.assign(posed.begin(), posed.end());
+  mesh_.append_middles(vertices);
+}
+
+void ClipAnimator::prepare_builder() {
+  std::vector<Vec3> bind = character_.vertices;
+  mesh_.append_middles(bind);
+  builder_.emplace(mesh_.triangles, bind.size(), bind);
 }
 
 KeyContour ClipAnimator::contour_at(float seconds, float next) {
   pose(seconds, now_);
   pose(next, later_);
-  builder_.build(now_, outline_);
+  builder_->build(now_, outline_);
   KeyContour key = {double{seconds}, follow(outline_, double{options_.spacing} / points_of_disc), {}, {}};
   for (const std::uint32_t v : vertices_on(outline_, now_)) {
     key.here.push_back(now_[v]);
@@ -118,7 +141,7 @@ AnimatedChunk ClipAnimator::ring(float from, float to) {
 double ClipAnimator::excess(const AnimatedChunk& chunk, std::size_t key, float share) {
   const double from = chunk.times[key], seconds = chunk.times[key + 1] - from;
   pose(static_cast<float>(from + seconds * double{share}), now_);
-  builder_.build(now_, outline_);
+  builder_->build(now_, outline_);
   double most = 0;
   for (std::size_t i = 0; i < chunk.disc_count; ++i) {
     const Disc &a = chunk.keys[key * chunk.disc_count + i], &b = chunk.keys[(key + 1) * chunk.disc_count + i];
@@ -152,9 +175,15 @@ void round_radii(AnimatedChunk& chunk) {
 
 /// Appends a chunk, or those of the halves of its time where it is not tight.
 void ClipAnimator::add_chunks(float from, float to, std::vector<AnimatedChunk>& chunks) {
+  if (slab_) {
+    slab_triangles_.look(from, to);
+    mesh_ = slab_triangles_.in(*slab_);
+    if (mesh_.triangles.empty()) return chunks.push_back({{double{from}, double{to}}, 0, {}, {}});
+    prepare_builder();
+  }
   const AnimatedChunk made_for_keys = ring(from, to);
   AnimatedChunk chunk = made_for_keys;
-  check_.hold(chunk);
+  check_.hold(chunk, mesh_);
   if (to - from <= 2 * shortest_chunk || is_tight(chunk, made_for_keys)) {
     round_radii(chunk);
     return chunks.push_back(std::move(chunk));
@@ -174,16 +203,32 @@ bool ClipAnimator::loops() {
   return true;
 }
 
-AnimatedDiscs ClipAnimator::run() {
-  AnimatedDiscs result;
-  const double chunks = std::ceil(double{end_} / double{longest_chunk});
+std::vector<AnimatedChunk> ClipAnimator::chunks() {
+  std::vector<AnimatedChunk> result;
+  const double count = std::ceil(double{end_} / double{slab_ ? longest_of_slab : longest_chunk});
   float from = 0;
-  for (double i = 1; i <= chunks; ++i) {
-    const float to = i == chunks ? end_ : static_cast<float>(double{end_} * (i / chunks));
-    add_chunks(from, to, result.chunks);
+  for (double i = 1; i <= count; ++i) {
+    const float to = i == count ? end_ : static_cast<float>(double{end_} * (i / count));
+    add_chunks(from, to, result);
     from = to;
   }
+  return result;
+}
+
+AnimatedDiscs ClipAnimator::run() {
+  AnimatedDiscs result;
   result.loops = loops();
+  if (options_.slices.empty()) {
+    result.chunks = chunks();
+    return result;
+  }
+  result.slices = options_.slices;
+  slab_triangles_.look(0, end_);
+  result.heights = slab_triangles_.heights();
+  for (std::size_t i = 0; i <= options_.slices.size(); ++i) {
+    slab_ = heights_of_slab({}, options_.slices, i);
+    result.slabs.emplace_back().chunks = chunks();
+  }
   return result;
 }
 
@@ -199,6 +244,7 @@ AnimatedDiscs animate(const Character& character, std::uint32_t clip, const Anim
   detail::require(options.spacing, "a spacing");
   detail::require(options.inset, "an inset");
   detail::require(options.error, "an error");
+  detail::require_planes(options.slices);
   return detail::ClipAnimator(character, clip, options).run();
 }
 

@@ -139,6 +139,7 @@ double MotionBounds::acceleration(float from) {
     joints_[j].origin = {};
     joints_[j].below_root = true;
   }
+  root_acceleration_ = root.acceleration;
   double most = 0;
   for (std::size_t v = 0; v < c.vertices.size(); ++v) {
     double sum = 0;

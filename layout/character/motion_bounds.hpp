@@ -33,6 +33,8 @@ class MotionBounds {
 
   /// Returns the largest acceleration of a vertex between `from` and the next key time, metres per second squared.
   double acceleration(float from);
+  /// Returns that of a vertex's height, which the frame does not move with.
+  double height_acceleration(float from) { return acceleration(from) + root_acceleration_; }
 
  private:
   struct JointMotion {
@@ -48,7 +50,8 @@ class MotionBounds {
   std::vector<double> rest_norm_;  ///< of the joints' linear parts; the ground's last
   std::vector<float> key_times_;
   std::vector<JointMotion> joints_;
-  std::vector<double> arm_;  ///< per influence: the vertex's distance from the joint's origin
+  double root_acceleration_ = 0;  ///< of the root joint, at the time that was asked for last
+  std::vector<double> arm_;       ///< per influence: the vertex's distance from the joint's origin
 };
 
 }  // namespace bch::detail

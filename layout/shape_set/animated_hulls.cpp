@@ -21,7 +21,7 @@ struct HullKey {
 
 HullKey hull_key(const AnimatedTreeChunk& chunk, std::size_t key) {
   HullKey hull{chunk.times[key], {}};
-  hull.extents.fill(-HUGE_VAL);
+  hull.extents.fill(chunk.nodes() > 0 ? -HUGE_VAL : 0);  // any number bounds how far nothing reaches
   for (std::uint32_t k = 0; k < hull_directions; ++k) {
     const PlanePoint d = hull_direction(k);
     const double size = length(d);

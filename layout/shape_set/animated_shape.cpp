@@ -5,13 +5,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
-#include <string>
+#include <utility>
 
-#include "layout/base/ring_edges.hpp"
 #include "layout/base/rounding.hpp"
-#include "layout/base/shortest.hpp"
 #include "layout/hierarchy/builder.hpp"
+#include "layout/shape_set/animated_checks.hpp"
 #include "layout/shape_set/animated_tree.hpp"
 
 namespace bch {
@@ -19,86 +17,6 @@ namespace bch {
 using namespace detail;
 
 namespace {
-
-constexpr std::uint32_t most_discs = 4096;
-constexpr double largest_time = 1e6;  ///< seconds
-/// How far apart consecutive discs of a ring may be that overlap, times their coordinates: they may have been rounded to float.
-constexpr double ring_rounding = 0x1p-21;
-
-/// Checks a chunk, and says of what it complains.
-class ChunkCheck {
- public:
-  ChunkCheck(const AnimatedDiscs& discs, std::size_t chunk)
-      : all_(discs.chunks), chunk_(discs.chunks[chunk]), index_(chunk) {}
-
-  void check() const {
-    check_times();
-    check_counts();
-    for (std::size_t key = 0; key < chunk_.times.size(); ++key) check_key(key);
-  }
-
- private:
-  [[noreturn]] void reject(const std::string& why) const {
-    throw std::invalid_argument("animated shape: chunk " + std::to_string(index_) + ": " + why);
-  }
-
-  void check_times() const {
-    const std::vector<double>& times = chunk_.times;
-    if (times.size() < 2) reject("fewer than two keys");
-    for (std::size_t k = 0; k < times.size(); ++k) {
-      if (!(std::abs(times[k]) <= largest_time))
-        reject("a key at " + shortest(times[k]) + " s, which is not within +-1e6");
-      if (k > 0 && !(times[k - 1] < times[k]))
-        reject("a key at " + shortest(times[k]) + " s after one at " + shortest(times[k - 1]) + " s");
-    }
-    if (index_ > 0 && all_[index_ - 1].times.back() != times.front())
-      reject("it begins at " + shortest(times.front()) + " s, where the one before ends at " +
-             shortest(all_[index_ - 1].times.back()) + " s");
-  }
-
-  void check_counts() const {
-    if (chunk_.disc_count == 0 || chunk_.disc_count > most_discs)
-      reject(std::to_string(chunk_.disc_count) + " discs, not 1 to " + std::to_string(most_discs));
-    if (chunk_.keys.size() != chunk_.times.size() * chunk_.disc_count)
-      reject(std::to_string(chunk_.keys.size()) + " discs at " + std::to_string(chunk_.times.size()) +
-             " keys, not " + std::to_string(chunk_.disc_count) + " at each");
-    std::uint32_t end = 0;
-    for (const std::uint32_t next : chunk_.ring_ends) {
-      if (next <= end) reject("a ring's end at " + std::to_string(next) + " after " + std::to_string(end));
-      end = next;
-    }
-    if (!chunk_.ring_ends.empty() && end != chunk_.disc_count)
-      reject("rings of " + std::to_string(end) + " discs of " + std::to_string(chunk_.disc_count));
-  }
-
-  void check_key(std::size_t key) const {
-    const Disc* const discs = chunk_.keys.data() + key * chunk_.disc_count;
-    const auto name = [&](std::uint32_t i) {
-      return "disc " + std::to_string(i) + " at key " + std::to_string(key);
-    };
-    for (std::uint32_t i = 0; i < chunk_.disc_count; ++i)
-      if (!std::isfinite(discs[i].x) || !std::isfinite(discs[i].y) || !std::isfinite(discs[i].radius) ||
-          discs[i].radius < 0)
-        reject(name(i) + ", of " + shortest(discs[i].radius) + " m at (" + shortest(discs[i].x) + ", " +
-               shortest(discs[i].y) + ") m");
-    for_each_ring_edge(chunk_.ring_ends, [&](std::uint32_t i, std::uint32_t next) {
-      if (!overlap(discs[i], discs[next]))
-        reject(name(i) + " does not overlap disc " + std::to_string(next) + ", the next one of its ring");
-    });
-  }
-
-  static bool overlap(const Disc& a, const Disc& b) {
-    const double x = double{a.x} - double{b.x}, y = double{a.y} - double{b.y},
-                 radii = double{a.radius} + double{b.radius};
-    const float farthest = std::max({std::abs(a.x), std::abs(a.y), std::abs(b.x), std::abs(b.y)});
-    const double spare = ring_rounding * double{farthest};
-    return x * x + y * y <= (radii + spare) * (radii + spare);
-  }
-
-  const std::vector<AnimatedChunk>& all_;
-  const AnimatedChunk& chunk_;
-  std::size_t index_;
-};
 
 /// Returns a disc of the line between two.
 Disc between(const Disc& from, const Disc& to, double share) {
@@ -207,35 +125,70 @@ void measure(const AnimatedTreeChunk& chunk, AnimatedTree& tree) {
     }
 }
 
-}  // namespace
-
-AnimatedShape::AnimatedShape(const AnimatedDiscs& discs) : tree_(std::make_unique<AnimatedTree>()) {
-  if (discs.chunks.empty()) throw std::invalid_argument("animated shape: no chunks");
-  for (std::size_t i = 0; i < discs.chunks.size(); ++i) ChunkCheck(discs, i).check();
-  tree_->loops = discs.loops;
-  tree_->chunks.reserve(discs.chunks.size());
-  for (const AnimatedChunk& chunk : discs.chunks) {
-    tree_->chunks.push_back(animated_tree_chunk(chunk));
-    measure(tree_->chunks.back(), *tree_);
-  }
-  require_reach(tree_->reach);
-  tree_->hulls = animated_hulls(tree_->chunks, tree_->reach);
+/// A chunk without discs, of a slab, has no nodes.
+AnimatedTreeChunk tree_chunk(const AnimatedChunk& chunk) {
+  if (chunk.disc_count > 0) return animated_tree_chunk(chunk);
+  AnimatedTreeChunk empty;
+  empty.times = chunk.times;
+  empty.child_begin = {0};
+  return empty;
 }
 
+std::unique_ptr<AnimatedTree> tree_of(std::span<const AnimatedChunk> chunks, bool loops) {
+  auto tree = std::make_unique<AnimatedTree>();
+  tree->loops = loops;
+  tree->chunks.reserve(chunks.size());
+  bool is_empty = true;
+  for (const AnimatedChunk& chunk : chunks) {
+    tree->chunks.push_back(tree_chunk(chunk));
+    measure(tree->chunks.back(), *tree);
+    is_empty &= chunk.disc_count == 0;
+  }
+  if (!is_empty) require_reach(tree->reach);
+  tree->hulls = animated_hulls(tree->chunks, tree->reach);
+  return tree;
+}
+
+Shape shape_of(const ChunkAt& at, double reach) {
+  Shape shape;
+  if (at.chunk.nodes() == 0) return shape;
+  shape.hierarchy.reach = reach;
+  shape.hierarchy.nodes.reserve(2 * at.chunk.leaf_of_disc.size());
+  BinaryTree(at, shape.hierarchy).add_root();
+  shape.outline = outline_of(at);
+  return shape;
+}
+
+}  // namespace
+
+AnimatedShape::AnimatedShape(const AnimatedDiscs& discs) : slices_(discs.slices), heights_(discs.heights) {
+  require_valid(discs);
+  tree_ = tree_of(discs.chunks, discs.loops);
+  for (const AnimatedDiscs& slab : discs.slabs) {
+    slabs_.push_back(AnimatedShape(tree_of(slab.chunks, discs.loops)));
+    tree_->reach = std::max(tree_->reach, slabs_.back().reach());
+  }
+}
+
+AnimatedShape::AnimatedShape(std::unique_ptr<AnimatedTree> tree) : tree_(std::move(tree)) {}
 AnimatedShape::AnimatedShape(AnimatedShape&&) noexcept = default;
 AnimatedShape& AnimatedShape::operator=(AnimatedShape&&) noexcept = default;
 AnimatedShape::~AnimatedShape() = default;
 
 double AnimatedShape::begin() const noexcept {
-  return tree_->begin();
+  return slabs_.empty() ? tree_->begin() : slabs_[0].begin();
 }
 
 double AnimatedShape::end() const noexcept {
-  return tree_->end();
+  return slabs_.empty() ? tree_->end() : slabs_[0].end();
 }
 
 bool AnimatedShape::loops() const noexcept {
   return tree_->loops;
+}
+
+std::span<const AnimatedShape> AnimatedShape::slabs() const noexcept {
+  return slabs_;
 }
 
 double AnimatedShape::reach() const noexcept {
@@ -243,7 +196,8 @@ double AnimatedShape::reach() const noexcept {
 }
 
 std::size_t AnimatedShape::bytes() const noexcept {
-  std::size_t bytes = sizeof(AnimatedTree);
+  std::size_t bytes = sizeof(AnimatedTree) + slices_.size() * sizeof(float);
+  for (const AnimatedShape& slab : slabs_) bytes += sizeof(slab) + slab.bytes();
   for (const AnimatedTreeChunk& chunk : tree_->chunks) {
     bytes +=
         sizeof(chunk) + chunk.times.size() * sizeof(double) + chunk.ring_ends.size() * sizeof(std::uint32_t);
@@ -255,19 +209,21 @@ std::size_t AnimatedShape::bytes() const noexcept {
 }
 
 std::vector<Disc> AnimatedShape::discs(double seconds) const {
-  const ChunkAt at(*tree_, seconds);
   std::vector<Disc> discs;
-  for (const std::uint32_t leaf : at.chunk.leaf_of_disc) discs.push_back(at.node(leaf));
+  const auto add = [&](const AnimatedShape& body) {
+    const ChunkAt at(*body.tree_, seconds);
+    for (const std::uint32_t leaf : at.chunk.leaf_of_disc) discs.push_back(at.node(leaf));
+  };
+  if (slabs_.empty()) add(*this);
+  for (const AnimatedShape& slab : slabs_) add(slab);
   return discs;
 }
 
 Shape AnimatedShape::shape(double seconds) const {
-  const ChunkAt at(*tree_, seconds);
   Shape shape;
-  shape.hierarchy.reach = tree_->reach;
-  shape.hierarchy.nodes.reserve(2 * at.chunk.leaf_of_disc.size());
-  BinaryTree(at, shape.hierarchy).add_root();
-  shape.outline = outline_of(at);
+  if (slabs_.empty()) shape = shape_of(ChunkAt(*tree_, seconds), tree_->reach);
+  for (const AnimatedShape& slab : slabs_) shape.slabs.push_back(slab.shape(seconds));
+  shape.heights = heights_;
   return shape;
 }
 

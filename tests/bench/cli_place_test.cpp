@@ -57,9 +57,11 @@ struct Bodies {
       {"default:male", detail::cast_member(default_male(), "").character},
       {"default:female", detail::cast_member(default_female(), "").character}};
   std::map<std::string, PoseShaper> shapers;
+  ShapeSetPlan plan;
 
-  Bodies() {
-    for (const auto& [name, character] : characters) shapers.emplace(name, PoseShaper(character));
+  explicit Bodies(const std::vector<float>& slices = {}) {
+    plan.slices = slices;
+    for (const auto& [name, character] : characters) shapers.emplace(name, PoseShaper(character, plan));
   }
 
   /// Counts who collides with whom by the outlines of poses that are made for this very time.
@@ -74,7 +76,7 @@ struct Bodies {
           shapers.at(moment.character[i]).shape({static_cast<std::uint32_t>(clip), moment.clip_time[i]}));
       shape.push_back(static_cast<std::uint32_t>(i));
     }
-    const ShapeSet set(shapes);
+    const ShapeSet set(shapes, plan);
     const Agents agents{shape, moment.x, moment.y, moment.heading};
     const std::vector<Pair> pairs = candidate_pairs(set, agents);
     std::vector<std::uint8_t> hits(pairs.size());
@@ -109,6 +111,22 @@ TEST(CliPlace, NobodyTouchesAnybodyAtAnyTime) {
   EXPECT_GT(near, 0u) << "nobody is near anybody, so that nothing was tested";
 }
 
+TEST(CliPlace, NobodyTouchesAnybodyAtAnyHeight) {
+  const TemporaryFolder folder;
+  const std::string csv = folder.file("placed.csv");
+  const Ending run =
+      bch({"place", "--character", "default:male", "--clip", "idle think", "--seconds", "1", "--tries", "150",
+           "--width", "3", "--depth", "3", "--fps", "5", "--slices", "0.5,1.1", "--csv", csv});
+  ASSERT_EQ(run.code, 0) << run.err;
+  Bodies cut({0.5f, 1.1f}), whole;
+  std::size_t above_each_other = 0;
+  for (const auto& [time, moment] : moments_of(read_text(csv))) {
+    EXPECT_EQ(cut.collisions(moment), 0u) << time << " s";
+    above_each_other += whole.collisions(moment);
+  }
+  EXPECT_GT(above_each_other, 0u) << "nobody is above anybody, so that nothing was tested";
+}
+
 TEST(CliPlace, GivesTheSamePeopleForASeed) {
   const auto people = [](const std::string& seed) {
     const TemporaryFolder folder;
@@ -126,6 +144,7 @@ TEST(CliPlace, GivesTheSamePeopleForASeed) {
 
 TEST(CliPlace, RefusesWhatHasNoRoomAndClipsThatAreNotThere) {
   expect_failure(bch({"place", "--clip", "fly"}), 3, {"--clip", "fly"});
+  expect_failure(bch({"place", "--slices", "1,0.5"}), 2, {"--slices", "does not ascend"});
   expect_failure(bch({"place", "--character", "default:male", "--clip", "idle think", "--speed", "9",
                       "--width", "1", "--depth", "1"}),
                  3, {"idle think", "does not fit"});

@@ -13,6 +13,7 @@
 #include <bch/pose_shape.hpp>
 
 #include "layout/character/skinning.hpp"
+#include "tests/support/animated_cover.hpp"
 #include "tests/support/character_shapes.hpp"
 #include "tests/support/complaint.hpp"
 #include "tests/support/scenes.hpp"
@@ -23,6 +24,10 @@
 namespace bch {
 namespace {
 
+using test::Cover;
+using test::cover_at;
+using test::excess_in;
+using test::left_out;
 using test::Random;
 
 /// The character with the first part of its first clip, which is shorter with sanitizers.
@@ -30,76 +35,6 @@ Character with_short_clip(Character character, float seconds) {
   character.clips.resize(1);
   character.clips[0].seconds = seconds * static_cast<float>(test::samples(8)) / 8;
   return character;
-}
-
-/// Discs at a time, and the ends of their rings.
-struct Cover {
-  std::vector<Disc> discs;
-  std::vector<std::uint32_t> ring_ends;
-};
-
-Cover cover_at(const AnimatedDiscs& animated, double seconds) {
-  std::size_t c = 0, key = 0;
-  while (animated.chunks[c].times.back() < seconds) ++c;
-  const AnimatedChunk& chunk = animated.chunks[c];
-  while (chunk.times[key + 1] < seconds) ++key;
-  const double share = (seconds - chunk.times[key]) / (chunk.times[key + 1] - chunk.times[key]);
-  const auto mix = [share](float a, float b) {
-    return static_cast<float>(double{a} + (double{b} - double{a}) * share);
-  };
-  Cover cover = {{}, chunk.ring_ends};
-  for (std::size_t i = 0; i < chunk.disc_count; ++i) {
-    const Disc &a = chunk.keys[key * chunk.disc_count + i], &b = chunk.keys[(key + 1) * chunk.disc_count + i];
-    cover.discs.push_back({mix(a.x, b.x), mix(a.y, b.y), mix(a.radius, b.radius)});
-  }
-  return cover;
-}
-
-double cross(const Disc& from, const Disc& to, const Vec2& p) {
-  return (double{to.x} - double{from.x}) * (double{p.y} - double{from.y}) -
-         (double{to.y} - double{from.y}) * (double{p.x} - double{from.x});
-}
-
-bool holds(const Cover& cover, const Vec2& p) {
-  for (const Disc& disc : cover.discs) {
-    const double x = double{p.x} - double{disc.x}, y = double{p.y} - double{disc.y};
-    if (std::sqrt(x * x + y * y) <= double{disc.radius}) return true;
-  }
-  int turns = 0;
-  std::uint32_t begin = 0;
-  for (const std::uint32_t end : cover.ring_ends) {
-    for (std::uint32_t i = begin; i < end; ++i) {
-      const Disc &a = cover.discs[i], &b = cover.discs[i + 1 < end ? i + 1 : begin];
-      if ((a.y > p.y) != (b.y > p.y) && (cross(a, b, p) > 0) == (b.y > a.y)) turns += b.y > a.y ? 1 : -1;
-    }
-    begin = end;
-  }
-  return turns != 0;
-}
-
-/// Counts the vertices and the points of the outline's segments, some millimetres apart, that a cover does not hold.
-std::size_t left_out(const Cover& cover, std::span<const Vec2> vertices, const Outline& outline) {
-  const auto out = [&](const Vec2& p) { return !holds(cover, p); };
-  std::size_t count = static_cast<std::size_t>(std::count_if(vertices.begin(), vertices.end(), out));
-  for (std::size_t c = 0; c < outline.contours(); ++c) {
-    const auto contour = outline.contour(c);
-    for (std::size_t i = 0; i < contour.size(); ++i) {
-      const Vec2 &a = contour[i], &b = contour[(i + 1) % contour.size()];
-      const float parts = std::ceil(std::max(std::abs(a.x - b.x), std::abs(a.y - b.y)) / 0.004f);
-      for (float part = 0; part < parts; ++part)
-        count += out({a.x + (b.x - a.x) * (part / parts), a.y + (b.y - a.y) * (part / parts)});
-    }
-  }
-  return count;
-}
-
-/// Returns the largest coordinate of a cover in a direction, less that of what it covers.
-double excess_in(const Cover& cover, std::span<const Vec2> vertices, double x, double y) {
-  double of_discs = -1e9, of_vertices = -1e9;
-  for (const Disc& disc : cover.discs)
-    of_discs = std::max(of_discs, x * double{disc.x} + y * double{disc.y} + double{disc.radius});
-  for (const Vec2& p : vertices) of_vertices = std::max(of_vertices, x * double{p.x} + y * double{p.y});
-  return of_discs - of_vertices;
 }
 
 void expect_as_said(const AnimatedDiscs& animated, float seconds) {

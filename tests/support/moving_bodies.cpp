@@ -46,8 +46,13 @@ PathKey pose_at(const std::vector<PathKey>& path, double time) {
   return path.back();
 }
 
-Placed placed_at(const MotionCase& motion, double time) {
-  const auto& chunks = motion.discs.chunks;
+/// Returns a slab, of as many as another body may have; what is whole is the same in every slab.
+const AnimatedDiscs& slab_of(const AnimatedDiscs& body, std::size_t slab) {
+  return body.slabs.empty() ? body : body.slabs[slab];
+}
+
+Placed placed_at(const MotionCase& motion, std::size_t slab, double time) {
+  const auto& chunks = slab_of(motion.discs, slab).chunks;
   const double begin = chunks.front().times.front(), end = chunks.back().times.back();
   double seconds = time - motion.clip_begin;
   if (motion.discs.loops) seconds -= std::floor(seconds / (end - begin)) * (end - begin);
@@ -87,6 +92,26 @@ bool goes_round(const Placed& body, const WorldDisc& point) {
   return std::abs(angle) > std::numbers::pi;
 }
 
+Meeting meeting_in_slab(const MotionCase& a, const MotionCase& b, std::size_t slab, double seconds,
+                        bool is_near) {
+  const Placed placed_a = placed_at(a, slab, seconds), placed_b = placed_at(b, slab, seconds);
+  double gap = std::numeric_limits<double>::infinity();
+  for (const WorldDisc& i : placed_a.discs)
+    for (const WorldDisc& j : placed_b.discs) {
+      const double x = i.x - j.x, y = i.y - j.y, far = gap + i.radius + j.radius;
+      if (x * x + y * y < far * std::abs(far)) gap = std::sqrt(x * x + y * y) - i.radius - j.radius;
+    }
+  // Where no discs overlap a ring is inside as a whole or not at all.
+  bool nested = false;
+  const auto look_inside = [&](const Placed& body, const Placed& of) {
+    for (const std::uint32_t end : of.ring_ends) nested |= goes_round(body, of.discs[end - 1]);
+    for (std::size_t i = 0; i < of.discs.size() && of.ring_ends.empty(); ++i)
+      nested |= goes_round(body, of.discs[i]);
+  };
+  if (gap > 0 && is_near) look_inside(placed_a, placed_b), look_inside(placed_b, placed_a);
+  return {gap, nested};
+}
+
 }  // namespace
 
 AnimatedDiscs ringed_body(Random& random, std::uint32_t chunks, std::uint32_t discs) {
@@ -117,6 +142,24 @@ AnimatedDiscs ringed_body(Random& random, std::uint32_t chunks, std::uint32_t di
   return body;
 }
 
+AnimatedDiscs sliced_body(Random& random, std::span<const float> slices) {
+  AnimatedDiscs body;
+  body.loops = random.below(2) == 0;
+  body.slices.assign(slices.begin(), slices.end());
+  for (std::size_t i = 0; i <= slices.size(); ++i) {
+    AnimatedDiscs slab = ringed_body(random, 2 + random.below(3), 10);
+    const double begin = slab.chunks.front().times.front(), end = slab.chunks.back().times.back();
+    const float across = even(random.uniform(-0.2, 0.2));
+    for (AnimatedChunk& chunk : slab.chunks) {
+      for (double& time : chunk.times) time = (time - begin) / (end - begin);
+      for (Disc& disc : chunk.keys) disc.y += across;
+      if (i > 0 && random.below(3) == 0) chunk = {chunk.times, 0, {}, {}};
+    }
+    body.slabs.emplace_back().chunks = std::move(slab.chunks);
+  }
+  return body;
+}
+
 AnimatedDiscs loose_discs(Random& random, std::uint32_t discs) {
   AnimatedDiscs body;
   body.loops = random.below(2) == 0;
@@ -139,8 +182,12 @@ AnimatedDiscs still_disc(float radius, float x, float y) {
 }
 
 MotionCase random_motion(Random& random) {
-  AnimatedDiscs body = random.below(4) == 0 ? loose_discs(random, 1 + random.below(6))
-                                            : ringed_body(random, 1 + random.below(3), 12 + random.below(20));
+  return random_motion(random, random.below(4) == 0
+                                   ? loose_discs(random, 1 + random.below(6))
+                                   : ringed_body(random, 1 + random.below(3), 12 + random.below(20)));
+}
+
+MotionCase random_motion(Random& random, AnimatedDiscs body) {
   std::vector<PathKey> path;
   const std::uint32_t keys = 1 + random.below(8);
   const double angle = random.uniform(-4, 4), speed = random.uniform(0.3, 2),
@@ -160,22 +207,13 @@ Meeting meeting_at(const MotionCase& a, const MotionCase& b, double seconds) {
   const PathKey at_a = pose_at(a.path, seconds), at_b = pose_at(b.path, seconds);
   const double apart = std::hypot(at_a.x - at_b.x, at_a.y - at_b.y) - a.shape.reach() - b.shape.reach();
   if (apart > 0.1) return {apart, false};
-  const Placed placed_a = placed_at(a, seconds), placed_b = placed_at(b, seconds);
-  double gap = std::numeric_limits<double>::infinity();
-  for (const WorldDisc& i : placed_a.discs)
-    for (const WorldDisc& j : placed_b.discs) {
-      const double x = i.x - j.x, y = i.y - j.y, far = gap + i.radius + j.radius;
-      if (x * x + y * y < far * std::abs(far)) gap = std::sqrt(x * x + y * y) - i.radius - j.radius;
-    }
-  // Where no discs overlap a ring is inside as a whole or not at all.
-  bool nested = false;
-  const auto look_inside = [&](const Placed& body, const Placed& of) {
-    for (const std::uint32_t end : of.ring_ends) nested |= goes_round(body, of.discs[end - 1]);
-    for (std::size_t i = 0; i < of.discs.size() && of.ring_ends.empty(); ++i)
-      nested |= goes_round(body, of.discs[i]);
-  };
-  if (gap > 0 && apart < 0) look_inside(placed_a, placed_b), look_inside(placed_b, placed_a);
-  return {gap, nested};
+  Meeting first{std::numeric_limits<double>::infinity(), false};
+  for (std::size_t slab = 0; slab == 0 || slab < std::max(a.discs.slabs.size(), b.discs.slabs.size());
+       ++slab) {
+    const Meeting meeting = meeting_in_slab(a, b, slab, seconds, apart < 0);
+    first = {std::min(first.gap, meeting.gap), first.nested || meeting.nested};
+  }
+  return first;
 }
 
 }  // namespace bch::test

@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include <bch/shape_set.hpp>
@@ -17,6 +18,9 @@ namespace bch::test {
 
 /// Returns a body whose rings go round a body that swings its limbs: chunks with different discs, at uneven keys.
 AnimatedDiscs ringed_body(Random& random, std::uint32_t chunks = 2, std::uint32_t discs = 24);
+
+/// Returns a body of slabs, each with rings of its own, that lasts a second. All but the lowest slab are empty for some of its chunks.
+AnimatedDiscs sliced_body(Random& random, std::span<const float> slices);
 
 /// Returns discs that move each for itself, without rings.
 AnimatedDiscs loose_discs(Random& random, std::uint32_t discs = 5);
@@ -38,9 +42,11 @@ struct MotionCase {
 
 /// Returns a motion of a random body that comes past the origin in a few seconds.
 MotionCase random_motion(Random& random);
+/// Likewise of a given body.
+MotionCase random_motion(Random& random, AnimatedDiscs body);
 
 /// What two solids have to do with each other at a time, by all pairs of discs and by winding numbers: the gap of the nearest discs, and
-/// whether one is inside the other.
+/// whether one is inside the other; of bodies that are cut in any of their slabs.
 struct Meeting {
   double gap;
   bool nested;

@@ -58,14 +58,17 @@ struct AnimateOptions {
       0.04f;  ///< of centres behind the outline, at most: the more, the less discs stand out between neighbours
   float error =
       0.005f;  ///< by which discs may stand out more between two keys than at these, unless keys are 9 ms apart
+  std::vector<float> slices =
+      {};  ///< planes that cut the body into slabs, as in ShapeSetPlan; none: discs are of the whole body
 };
 
 /// Makes moving discs of a character's clip that hold all of its triangles at every real time of the clip: the proof is beside
-/// layout/animation/cover_check.hpp. Each number of a chunk is one of 16 bits times a power of two.
-/// Cost:    about as long as the clip for people of 2 850 triangles with 30 keys a second, and more for more keys.
+/// layout/animation/cover_check.hpp. Each number of a chunk is one of 16 bits times a power of two. With slices those of each slab
+/// hold all triangles that reach into it at some time of the chunk, as wholes, which PoseShaper cuts.
+/// Cost:    about as long as the clip for people of 2 850 triangles with 30 keys a second, and more for more keys and slabs.
 /// Errors:  throws std::invalid_argument on a clip that is not there or takes no time, on one with channels that jump, step or are
-///          cubic, on a character without a root joint and on options that are not above 0; std::length_error beyond 4096
-///          discs a chunk; std::domain_error as PoseShaper::shape() does.
+///          cubic, on a character without a root joint, on options that are not above 0 and on slices that validate(ShapeSetPlan)
+///          rejects; std::length_error beyond 4096 discs a chunk; std::domain_error as PoseShaper::shape() does.
 AnimatedDiscs animate(const Character& character, std::uint32_t clip, const AnimateOptions& options = {});
 
 }  // namespace bch

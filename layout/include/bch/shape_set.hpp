@@ -70,15 +70,22 @@ struct AnimatedChunk {
       ring_ends;  ///< the end of each ring among the discs, ascending; the last is disc_count. None: discs alone
 };
 
-/// A clip as moving discs: chunks that follow one another in time, each beginning when the one before it ends.
+/// A clip as moving discs: chunks that follow one another in time, each beginning when the one before it ends. A body that is cut
+/// has its discs in its slabs instead.
 struct AnimatedDiscs {
   std::vector<AnimatedChunk> chunks;  ///< from the clip's beginning to its end
   bool loops = false;                 ///< whether the clip's last pose is its first one
+  std::vector<float> slices = {};     ///< planes that cut the body, as in ShapeSetPlan; none: it is whole
+  /// Of a body that is cut: one more than planes, with chunks alone, from and to the same times. One without discs for a time has a
+  /// chunk of none.
+  std::vector<AnimatedDiscs> slabs = {};
+  Heights heights = {};  ///< of the whole body at all times; by default it takes part at every height
 };
 
 /// A body that moves by itself, seen from above: a clip of a character, or moving discs of one's own. Its solid at a time is its discs,
 /// and what the polygons of its rings' centres go round. Discs stand in a tree whose nodes are discs that move as these do, and hold
 /// them at every time. Where a chunk ends and the next one begins the discs of both count. Times before its beginning and after its end are these, or, where it loops, those of another round.
+/// A body that is cut is one such solid for each slab.
 /// Numbers are kept in 16 bits: discs of animate() as they are, others rounded outward, so that they hold the given ones and reach
 /// out of them by less than 0.15 mm per metre of the reach. One that was moved from can only be assigned to or destroyed.
 class AnimatedShape {
@@ -89,6 +96,8 @@ class AnimatedShape {
   ///          within +-1e6 s, do not ascend or leave a gap; on none or more than 4096 discs, or another number of them than in
   ///          the keys; naming the disc and key, on one that is not finite or of a radius below 0, or that does not overlap the next
   ///          one of its ring; on rings that do not ascend or end before or after the last disc, and on a reach outside 1e-6 to 1e6 m.
+  ///          Of a body that is cut, naming the slab too; on slices that validate(ShapeSetPlan) rejects, on another number of slabs, on
+  ///          chunks beside them, on slabs of slabs or that begin or end at different times, and where none has discs.
   explicit AnimatedShape(const AnimatedDiscs& discs);
   AnimatedShape(AnimatedShape&&) noexcept;
   AnimatedShape& operator=(AnimatedShape&&) noexcept;
@@ -97,22 +106,34 @@ class AnimatedShape {
   double begin() const noexcept;  ///< seconds of the clip
   double end() const noexcept;
   bool loops() const noexcept;
+  /// Returns the planes that cut the body, none where it is whole.
+  std::span<const float> slices() const noexcept { return slices_; }
+  /// Returns the heights of the whole body at all times.
+  const Heights& heights() const noexcept { return heights_; }
+  /// Returns the slabs of a body that is cut, each as a body of its own; none where it is whole.
+  std::span<const AnimatedShape> slabs() const noexcept;
   /// Returns the radius about the agent's position that holds all discs at every time, metres.
   double reach() const noexcept;
   std::size_t bytes() const noexcept;
-  /// Returns the discs at a time, as they are kept, in the order in which they were given.
+  /// Returns the discs at a time, as they are kept, in the order in which they were given, slab after slab.
   std::vector<Disc> discs(double seconds) const;
   /// Returns the body at a time as a shape, whose leaves are these discs and whose outline is the rings. A set takes it, and a
   /// PreparedShape for a DynamicShapeSet, so that every query answers at every time after one call for each body and time. Discs
-  /// without rings stay in the order in which they were given; others are numbered as leaves of the tree.
+  /// without rings stay in the order in which they were given; others are numbered as leaves of the tree. A body that is cut gives
+  /// a shape of slabs, for sets of the same slices.
   /// Cost:    a few us for 200 discs, less than making it flat.
   Shape shape(double seconds) const;
 
-  /// For the library's own parts, which alone know the type.
+  /// For the library's own parts, which alone know the type: the tree of a body that is whole, or of a slab.
   const detail::AnimatedTree& tree() const noexcept { return *tree_; }
 
  private:
-  std::unique_ptr<detail::AnimatedTree> tree_;
+  explicit AnimatedShape(std::unique_ptr<detail::AnimatedTree> tree);
+
+  std::unique_ptr<detail::AnimatedTree> tree_;  ///< without chunks where there are slabs
+  std::vector<float> slices_;
+  std::vector<AnimatedShape> slabs_;
+  Heights heights_;
 };
 
 /// What makes two leaves meet.
@@ -136,7 +157,7 @@ struct ShapeSetPlan {
   bool culling = true;
   /// Cut bodies into slabs at these planes, metres above the ground that an agent stands on, ascending, at most 63; none: bodies are
   /// whole. Two agents then collide where they do in some slab, in solid semantics, so an arm above a foot is no collision. Every
-  /// shape has either the slabs that PoseShaper makes of these planes, or none: it is then the same at all of its heights.
+  /// shape has either the slabs that PoseShaper and AnimatedShape make of these planes, or none: it is then the same at all of its heights.
   /// Slices need outlines.
   std::vector<float> slices = {};
   /// Keep the heights of bodies, which agents at different heights need; see Agents::z. Slices have them anyway.

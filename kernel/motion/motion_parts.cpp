@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include "kernel/motion/motion_parts.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "layout/base/planes.hpp"
+#include "layout/base/rounding.hpp"
+#include "layout/base/shortest.hpp"
+
+namespace bch::detail {
+namespace {
+
+constexpr double largest_time = 1e6, largest_turn = 1e3, least_tolerance = 1e-6;
+
+bool is_time(double seconds) {
+  return std::abs(seconds) <= largest_time;
+}
+
+void require_valid(const char* query, const Motion& motion, std::size_t index) {
+  const auto reject = [&](const std::string& why) {
+    detail::reject(query, "motion " + std::to_string(index) + ": " + why);
+  };
+  if (motion.shape == nullptr) reject("no shape");
+  if (!is_time(motion.clip_begin))
+    reject("its clip begins at " + shortest(motion.clip_begin) + " s, not within +-1e6");
+  if (motion.path.empty()) reject("a path without keys");
+  for (std::size_t k = 0; k < motion.path.size(); ++k) {
+    const auto& [time, x, y, heading] = motion.path[k];
+    const auto reject_key = [&](const std::string& why) {
+      reject("key " + std::to_string(k) + " of its path" + why);
+    };
+    if (!is_time(time)) reject_key(" at " + shortest(time) + " s, not within +-1e6");
+    if (!(std::abs(x) <= rounding::largest_position && std::abs(y) <= rounding::largest_position))
+      reject_key(" at (" + shortest(x) + ", " + shortest(y) + ") m, not within +-1e9");
+    if (!(std::abs(heading) <= rounding::largest_heading))
+      reject_key(" with a heading of " + shortest(heading) + " rad, not within +-1e9");
+    if (k == 0) continue;
+    if (!(motion.path[k - 1].time < time))
+      reject_key(" at " + shortest(time) + " s after one at " + shortest(motion.path[k - 1].time) + " s");
+    if (!(std::abs(heading - motion.path[k - 1].heading) <= largest_turn))
+      reject_key(" turns by more than 1000 rad, to " + shortest(heading));
+  }
+}
+
+}  // namespace
+
+void reject(const char* query, const std::string& why) {
+  throw std::invalid_argument(std::string(query) + ": " + why);
+}
+
+void require_valid(const char* query, const TimeInterval& interval, double tolerance) {
+  if (!is_time(interval.from) || !is_time(interval.to) || interval.from > interval.to)
+    reject(query, "from " + shortest(interval.from) + " s to " + shortest(interval.to) +
+                      " s is no interval within +-1e6 s");
+  if (!(tolerance >= least_tolerance && std::isfinite(tolerance)))
+    reject(query, "a tolerance of " + shortest(tolerance) + " m, not 1e-6 or more");
+}
+
+MotionParts::MotionParts(const char* query, std::span<const Motion> motions, std::size_t named_from)
+    : motions_(motions) {
+  for (std::size_t i = 0; i < motions.size(); ++i) {
+    require_valid(query, motions[i], named_from + i);
+    const AnimatedShape& shape = *motions[i].shape;
+    if (shape.slabs().empty()) facts_.emplace_back(motions[i], shape);
+    for (const AnimatedShape& slab : shape.slabs()) facts_.emplace_back(motions[i], slab);
+    begin_.push_back(facts_.size());
+  }
+}
+
+const MotionFacts* MotionParts::slab(std::size_t motion, std::span<const float> slices,
+                                     std::size_t slab) const {
+  const MotionFacts* const first = facts_.data() + begin_[motion];
+  if (begin_[motion + 1] - begin_[motion] > 1) return first + slab;
+  const Heights within = heights_of_slab(motions_[motion].shape->heights(), slices, slab);
+  return slices.empty() || within.bottom <= within.top ? first : nullptr;
+}
+
+bool MotionParts::are_cut_alike(std::size_t motion, const MotionParts& others, std::size_t other) const {
+  const std::span<const float> one = slices(motion), two = others.slices(other);
+  return one.empty() || two.empty() || std::equal(one.begin(), one.end(), two.begin(), two.end());
+}
+
+}  // namespace bch::detail

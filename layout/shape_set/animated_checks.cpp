@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include "layout/shape_set/animated_checks.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+#include "layout/base/planes.hpp"
+#include "layout/base/ring_edges.hpp"
+#include "layout/base/shortest.hpp"
+
+namespace bch::detail {
+namespace {
+
+constexpr std::uint32_t most_discs = 4096;
+constexpr double largest_time = 1e6;  ///< seconds
+/// How far apart consecutive discs of a ring may be that overlap, times their coordinates: they may have been rounded to float.
+constexpr double ring_rounding = 0x1p-21;
+
+[[noreturn]] void reject(const std::string& what) {
+  throw std::invalid_argument("animated shape: " + what);
+}
+
+/// Checks a chunk, and says of what it complains.
+class ChunkCheck {
+ public:
+  ChunkCheck(const AnimatedDiscs& discs, std::size_t chunk, const std::string& of, bool may_be_empty)
+      : all_(discs.chunks),
+        chunk_(discs.chunks[chunk]),
+        index_(chunk),
+        of_(of),
+        may_be_empty_(may_be_empty) {}
+
+  void check() const {
+    check_times();
+    check_counts();
+    for (std::size_t key = 0; key < chunk_.times.size(); ++key) check_key(key);
+  }
+
+ private:
+  [[noreturn]] void reject(const std::string& why) const {
+    detail::reject(of_ + "chunk " + std::to_string(index_) + ": " + why);
+  }
+
+  void check_times() const {
+    const std::vector<double>& times = chunk_.times;
+    if (times.size() < 2) reject("fewer than two keys");
+    for (std::size_t k = 0; k < times.size(); ++k) {
+      if (!(std::abs(times[k]) <= largest_time))
+        reject("a key at " + shortest(times[k]) + " s, which is not within +-1e6");
+      if (k > 0 && !(times[k - 1] < times[k]))
+        reject("a key at " + shortest(times[k]) + " s after one at " + shortest(times[k - 1]) + " s");
+    }
+    if (index_ > 0 && all_[index_ - 1].times.back() != times.front())
+      reject("it begins at " + shortest(times.front()) + " s, where the one before ends at " +
+             shortest(all_[index_ - 1].times.back()) + " s");
+  }
+
+  void check_counts() const {
+    if ((chunk_.disc_count == 0 && !may_be_empty_) || chunk_.disc_count > most_discs)
+      reject(std::to_string(chunk_.disc_count) + " discs, not 1 to " + std::to_string(most_discs));
+    if (chunk_.keys.size() != chunk_.times.size() * chunk_.disc_count)
+      reject(std::to_string(chunk_.keys.size()) + " discs at " + std::to_string(chunk_.times.size()) +
+             " keys, not " + std::to_string(chunk_.disc_count) + " at each");
+    std::uint32_t end = 0;
+    for (const std::uint32_t next : chunk_.ring_ends) {
+      if (next <= end) reject("a ring's end at " + std::to_string(next) + " after " + std::to_string(end));
+      end = next;
+    }
+    if (!chunk_.ring_ends.empty() && end != chunk_.disc_count)
+      reject("rings of " + std::to_string(end) + " discs of " + std::to_string(chunk_.disc_count));
+  }
+
+  void check_key(std::size_t key) const {
+    const Disc* const discs = chunk_.keys.data() + key * chunk_.disc_count;
+    const auto name = [&](std::uint32_t i) {
+      return "disc " + std::to_string(i) + " at key " + std::to_string(key);
+    };
+    for (std::uint32_t i = 0; i < chunk_.disc_count; ++i)
+      if (!std::isfinite(discs[i].x) || !std::isfinite(discs[i].y) || !std::isfinite(discs[i].radius) ||
+          discs[i].radius < 0)
+        reject(name(i) + ", of " + shortest(discs[i].radius) + " m at (" + shortest(discs[i].x) + ", " +
+               shortest(discs[i].y) + ") m");
+    for_each_ring_edge(chunk_.ring_ends, [&](std::uint32_t i, std::uint32_t next) {
+      if (!overlap(discs[i], discs[next]))
+        reject(name(i) + " does not overlap disc " + std::to_string(next) + ", the next one of its ring");
+    });
+  }
+
+  static bool overlap(const Disc& a, const Disc& b) {
+    const double x = double{a.x} - double{b.x}, y = double{a.y} - double{b.y},
+                 radii = double{a.radius} + double{b.radius};
+    const float farthest = std::max({std::abs(a.x), std::abs(a.y), std::abs(b.x), std::abs(b.y)});
+    const double spare = ring_rounding * double{farthest};
+    return x * x + y * y <= (radii + spare) * (radii + spare);
+  }
+
+  const std::vector<AnimatedChunk>& all_;
+  const AnimatedChunk& chunk_;
+  std::size_t index_;
+  const std::string& of_;  ///< which slab
+  bool may_be_empty_;
+};
+
+void require_chunks(const AnimatedDiscs& discs, const std::string& of, bool may_be_empty) {
+  if (discs.chunks.empty()) reject(of + "no chunks");
+  for (std::size_t i = 0; i < discs.chunks.size(); ++i) ChunkCheck(discs, i, of, may_be_empty).check();
+}
+
+bool has_discs(const AnimatedDiscs& slab) {
+  return std::any_of(slab.chunks.begin(), slab.chunks.end(),
+                     [](const AnimatedChunk& chunk) { return chunk.disc_count > 0; });
+}
+
+void require_slabs(const AnimatedDiscs& discs) {
+  require_planes(discs.slices);
+  if (!discs.chunks.empty()) reject("chunks beside slabs");
+  if (discs.slabs.size() != discs.slices.size() + 1)
+    reject(std::to_string(discs.slabs.size()) + " slabs for " + std::to_string(discs.slices.size()) +
+           " planes");
+  for (std::size_t i = 0; i < discs.slabs.size(); ++i) {
+    const AnimatedDiscs &slab = discs.slabs[i], &first = discs.slabs[0];
+    const std::string name = "slab " + std::to_string(i) + ": ";
+    if (!slab.slabs.empty() || !slab.slices.empty()) reject(name + "slabs of a slab");
+    require_chunks(slab, name, true);
+    if (slab.chunks.front().times.front() != first.chunks.front().times.front() ||
+        slab.chunks.back().times.back() != first.chunks.back().times.back())
+      reject(name + "it begins or ends at another time than slab 0");
+  }
+  if (std::none_of(discs.slabs.begin(), discs.slabs.end(), has_discs)) reject("all slabs are empty");
+}
+
+}  // namespace
+
+void require_valid(const AnimatedDiscs& discs) {
+  if (!(discs.heights.bottom <= discs.heights.top))
+    reject("heights from " + shortest(discs.heights.bottom) + " to " + shortest(discs.heights.top) + " m");
+  discs.slabs.empty() && discs.slices.empty() ? require_chunks(discs, "", false) : require_slabs(discs);
+}
+
+}  // namespace bch::detail

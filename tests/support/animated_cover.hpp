@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <bch/shape_set.hpp>
+
+// What moving discs cover at a time, and what they leave out.
+
+namespace bch::test {
+
+/// Discs at a time, and the ends of their rings.
+struct Cover {
+  std::vector<Disc> discs;
+  std::vector<std::uint32_t> ring_ends;
+};
+
+/// Returns the cover of a body, or of a slab, at a time of the clip.
+Cover cover_at(const AnimatedDiscs& animated, double seconds);
+
+/// Counts the vertices and the points of the outline's segments, some millimetres apart, that a cover does not hold.
+std::size_t left_out(const Cover& cover, std::span<const Vec2> vertices, const Outline& outline);
+
+/// Returns the largest coordinate of a cover in a direction, less that of what it covers.
+double excess_in(const Cover& cover, std::span<const Vec2> vertices, double x, double y);
+
+}  // namespace bch::test
