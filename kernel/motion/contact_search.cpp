@@ -8,13 +8,11 @@
 #include <cmath>
 #include <utility>
 
+#include "kernel/motion/body_at.hpp"
 #include "kernel/motion/hull_separation.hpp"
-#include "layout/base/ring_edges.hpp"
 
 namespace bch::detail {
 namespace {
-
-constexpr double time_rounding = 0x1p-27, position_rounding = 0x1p-48, root_rounding = 0x1p-20;
 
 /// The way of one body relative to another between two times.
 struct RelativeWay {
@@ -35,66 +33,6 @@ struct RelativeWay {
     const double root = std::sqrt(std::max(square, 0.0));
     return {c > 0 ? c / (root - b) : 0, std::min((root - b) / a, 1.0)};
   }
-};
-
-/// A body at a time, in its own frame and in the steps of its chunk.
-class BodyAt {
- public:
-  BodyAt(const MovingBody& body, double time)
-      : chunk_(body.chunk()),
-        from_(chunk_.key(body.key())),
-        to_(chunk_.key(body.key() + 1)),
-        share_(body.share(time)),
-        pose_(body.pose(time)),
-        turn_(rotation(pose_.heading)) {}
-
-  /// Returns whether it holds a ring of another body, or one of its discs where that has no rings; no discs overlap.
-  bool holds(const BodyAt& other) const {
-    if (chunk_.ring_ends.empty()) return false;
-    const auto holds_disc = [&](std::uint32_t i) {
-      const PlanePoint p = seen(other, other.centre(other.chunk_.leaf_of_disc[i]));
-      return length(p - centre(0)) <= mix(from_.radius[0], to_.radius[0]) && winding(p) != 0;
-    };
-    const std::vector<std::uint32_t>& ends = other.chunk_.ring_ends;
-    if (!ends.empty())
-      return std::any_of(ends.begin(), ends.end(), [&](std::uint32_t end) { return holds_disc(end - 1); });
-    for (std::uint32_t i = 0; i < other.chunk_.leaf_of_disc.size(); ++i)
-      if (holds_disc(i)) return true;
-    return false;
-  }
-
- private:
-  double mix(double from, double to) const { return from + (to - from) * share_; }
-  PlanePoint centre(std::uint32_t node) const {
-    return {mix(from_.x[node], to_.x[node]), mix(from_.y[node], to_.y[node])};
-  }
-
-  /// Returns a point of another body as this one sees it.
-  PlanePoint seen(const BodyAt& other, const PlanePoint& p) const {
-    const double step = other.chunk_.step;
-    const double x = step * (other.turn_.cosine * p.x - other.turn_.sine * p.y) + (other.pose_.x - pose_.x),
-                 y = step * (other.turn_.sine * p.x + other.turn_.cosine * p.y) + (other.pose_.y - pose_.y);
-    return {(turn_.cosine * x + turn_.sine * y) / chunk_.step,
-            (turn_.cosine * y - turn_.sine * x) / chunk_.step};
-  }
-
-  /// Returns how often the rings go round a point.
-  int winding(const PlanePoint& p) const {
-    int winding = 0;
-    for_each_ring_edge(chunk_.ring_ends, [&](std::uint32_t i, std::uint32_t next) {
-      const PlanePoint from = centre(chunk_.leaf_of_disc[i]), to = centre(chunk_.leaf_of_disc[next]);
-      if ((from.y <= p.y) == (to.y <= p.y)) return;
-      const double side = (to.x - from.x) * (p.y - from.y) - (p.x - from.x) * (to.y - from.y);
-      if ((side > 0) == (to.y > p.y)) winding += to.y > p.y ? 1 : -1;
-    });
-    return winding;
-  }
-
-  const AnimatedTreeChunk& chunk_;
-  NodesAtKey from_, to_;
-  double share_;
-  PathKey pose_;
-  Rotation turn_;
 };
 
 }  // namespace
@@ -162,15 +100,12 @@ bool ContactSearch::hulls_are_apart(double from, double end, unsigned level) con
 }
 
 double ContactSearch::first_between(double from, double end) {
-  place(from, end);
-  const double bend = nodes_a_.bend() + nodes_b_.bend();
-  room_ = bend + slack_;
-  const double found = first_of_nodes();
-  if (found == never) return never;
-  const double time = std::min(from + found * (end - from), end), half = time + (end - time) / 2;
-  if (2 * bend <= tolerance_ || !(time < half && half < end)) return time;
-  const double sooner = first_between(time, half);
-  return sooner < never ? sooner : first_between(half, end);
+  return first_halving(from, end, tolerance_, [&](double begin, double last) {
+    place(begin, last);
+    const double bend = nodes_a_.bend() + nodes_b_.bend();
+    room_ = bend + slack_;
+    return std::pair(first_of_nodes(), bend);
+  });
 }
 
 void ContactSearch::place(double from, double end) {

@@ -29,6 +29,9 @@ class MotionParts {
   MotionParts(const char* query, std::span<const Motion> motions, std::size_t named_from = 0);
 
   std::size_t size() const noexcept { return motions_.size(); }
+  std::span<const MotionFacts> operator[](std::size_t motion) const noexcept {
+    return std::span(facts_).subspan(begin_[motion], begin_[motion + 1] - begin_[motion]);
+  }
   std::span<const float> slices(std::size_t motion) const noexcept {
     return motions_[motion].shape->slices();
   }

@@ -14,6 +14,9 @@
 
 namespace bch::detail {
 
+/// What positions are off by, for each metre a second, metre of a coordinate, and metre of the reaches; see ContactSearch.
+constexpr double time_rounding = 0x1p-27, position_rounding = 0x1p-48, root_rounding = 0x1p-20;
+
 /// What a search wants to know of a motion beforehand, or of a slab of its body.
 struct MotionFacts {
   const AnimatedTree* tree;

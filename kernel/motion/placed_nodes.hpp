@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "kernel/motion/moving_body.hpp"
@@ -115,5 +116,17 @@ class PlacedNodes {
   std::vector<std::uint32_t> placed_in_;      ///< per node with children: the interval that these are of
   std::uint32_t interval_ = 0;
 };
+
+/// Finds a first contact in an interval of time, and halves what is behind it until turning bends less than half the tolerance.
+/// first_straight(from, end): the share of an interval at which there is one, or never, and what turning bends.
+template <class FirstStraight>
+double first_halving(double from, double end, double tolerance, const FirstStraight& first_straight) {
+  const auto [found, bend] = first_straight(from, end);
+  if (found == never) return never;
+  const double time = std::min(from + found * (end - from), end), half = time + (end - time) / 2;
+  if (2 * bend <= tolerance || !(time < half && half < end)) return time;
+  const double sooner = first_halving(time, half, tolerance, first_straight);
+  return sooner < never ? sooner : first_halving(half, end, tolerance, first_straight);
+}
 
 }  // namespace bch::detail

@@ -26,15 +26,6 @@ void overlap_next(std::vector<Disc>& discs) {
           even(0.51 * double{std::hypot(before[i].x - before[other].x, before[i].y - before[other].y)}));
 }
 
-struct WorldDisc {
-  double x, y, radius;
-};
-
-struct Placed {
-  std::vector<WorldDisc> discs;
-  std::vector<std::uint32_t> ring_ends;
-};
-
 PathKey pose_at(const std::vector<PathKey>& path, double time) {
   if (time <= path.front().time) return path.front();
   for (std::size_t k = 1; k < path.size(); ++k)
@@ -51,7 +42,29 @@ const AnimatedDiscs& slab_of(const AnimatedDiscs& body, std::size_t slab) {
   return body.slabs.empty() ? body : body.slabs[slab];
 }
 
-Placed placed_at(const MotionCase& motion, std::size_t slab, double time) {
+Meeting meeting_in_slab(const MotionCase& a, const MotionCase& b, std::size_t slab, double seconds,
+                        bool is_near) {
+  const PlacedBody placed_a = placed_at(a, slab, seconds), placed_b = placed_at(b, slab, seconds);
+  double gap = std::numeric_limits<double>::infinity();
+  for (const WorldDisc& i : placed_a.discs)
+    for (const WorldDisc& j : placed_b.discs) {
+      const double x = i.x - j.x, y = i.y - j.y, far = gap + i.radius + j.radius;
+      if (x * x + y * y < far * std::abs(far)) gap = std::sqrt(x * x + y * y) - i.radius - j.radius;
+    }
+  // Where no discs overlap a ring is inside as a whole or not at all.
+  bool nested = false;
+  const auto look_inside = [&](const PlacedBody& body, const PlacedBody& of) {
+    for (const std::uint32_t end : of.ring_ends) nested |= goes_round(body, of.discs[end - 1]);
+    for (std::size_t i = 0; i < of.discs.size() && of.ring_ends.empty(); ++i)
+      nested |= goes_round(body, of.discs[i]);
+  };
+  if (gap > 0 && is_near) look_inside(placed_a, placed_b), look_inside(placed_b, placed_a);
+  return {gap, nested};
+}
+
+}  // namespace
+
+PlacedBody placed_at(const MotionCase& motion, std::size_t slab, double time) {
   const auto& chunks = slab_of(motion.discs, slab).chunks;
   const double begin = chunks.front().times.front(), end = chunks.back().times.back();
   double seconds = time - motion.clip_begin;
@@ -61,7 +74,7 @@ Placed placed_at(const MotionCase& motion, std::size_t slab, double time) {
   while (k + 1 < chunks.size() && seconds > chunks[k].times.back()) ++k;
   const PathKey pose = pose_at(motion.path, time);
   const double c = std::cos(pose.heading), s = std::sin(pose.heading);
-  Placed placed{{}, chunks[k].ring_ends};
+  PlacedBody placed{{}, chunks[k].ring_ends};
   const AnimatedChunk& chunk = chunks[k];
   std::size_t key = 0;
   while (key + 2 < chunk.times.size() && seconds > chunk.times[key + 1]) ++key;
@@ -77,8 +90,7 @@ Placed placed_at(const MotionCase& motion, std::size_t slab, double time) {
   return placed;
 }
 
-/// By angles, where the library counts crossings.
-bool goes_round(const Placed& body, const WorldDisc& point) {
+bool goes_round(const PlacedBody& body, const WorldDisc& point) {
   double angle = 0;
   std::size_t begin = 0;
   for (const std::uint32_t end : body.ring_ends) {
@@ -91,28 +103,6 @@ bool goes_round(const Placed& body, const WorldDisc& point) {
   }
   return std::abs(angle) > std::numbers::pi;
 }
-
-Meeting meeting_in_slab(const MotionCase& a, const MotionCase& b, std::size_t slab, double seconds,
-                        bool is_near) {
-  const Placed placed_a = placed_at(a, slab, seconds), placed_b = placed_at(b, slab, seconds);
-  double gap = std::numeric_limits<double>::infinity();
-  for (const WorldDisc& i : placed_a.discs)
-    for (const WorldDisc& j : placed_b.discs) {
-      const double x = i.x - j.x, y = i.y - j.y, far = gap + i.radius + j.radius;
-      if (x * x + y * y < far * std::abs(far)) gap = std::sqrt(x * x + y * y) - i.radius - j.radius;
-    }
-  // Where no discs overlap a ring is inside as a whole or not at all.
-  bool nested = false;
-  const auto look_inside = [&](const Placed& body, const Placed& of) {
-    for (const std::uint32_t end : of.ring_ends) nested |= goes_round(body, of.discs[end - 1]);
-    for (std::size_t i = 0; i < of.discs.size() && of.ring_ends.empty(); ++i)
-      nested |= goes_round(body, of.discs[i]);
-  };
-  if (gap > 0 && is_near) look_inside(placed_a, placed_b), look_inside(placed_b, placed_a);
-  return {gap, nested};
-}
-
-}  // namespace
 
 AnimatedDiscs ringed_body(Random& random, std::uint32_t chunks, std::uint32_t discs) {
   AnimatedDiscs body;

@@ -3,6 +3,8 @@
 
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -44,6 +46,19 @@ struct MotionCase {
 MotionCase random_motion(Random& random);
 /// Likewise of a given body.
 MotionCase random_motion(Random& random, AnimatedDiscs body);
+
+struct WorldDisc {
+  double x, y, radius;
+};
+/// The solid of a body, or of a slab of it, in the world.
+struct PlacedBody {
+  std::vector<WorldDisc> discs;
+  std::vector<std::uint32_t> ring_ends;
+};
+/// Returns where the solid of a motion is at a time; what is whole is the same in every slab.
+PlacedBody placed_at(const MotionCase& motion, std::size_t slab, double time);
+/// Returns whether rings go round the centre of a disc: by angles, where the library counts crossings.
+bool goes_round(const PlacedBody& body, const WorldDisc& point);
 
 /// What two solids have to do with each other at a time, by all pairs of discs and by winding numbers: the gap of the nearest discs, and
 /// whether one is inside the other; of bodies that are cut in any of their slabs.

@@ -132,4 +132,23 @@ void penetration(const ShapeSet& shapes, const Agents& agents, const ObstacleSet
 void time_of_impact(const ShapeSet& shapes, const Agents& agents, const Displacements& displacements,
                     const ObstacleSet& obstacles, std::span<float> times, const QueryOptions& options = {});
 
+/// Finds when each motion first touches an obstacle: the earliest time of an interval at which its solid has a point in common with one, infinity
+/// where it has none. That of a body in slabs is the first of any slab.
+///
+/// The time is never later than the first contact. At that time the solid is at most the tolerance away, and 4 um for each metre of its
+/// reach and what double rounds, as between two motions; of the distance to the ends of a segment 1e-14. The same bits on every processor, for
+/// any number of threads and any split of the batch; a later end of the interval changes no time.
+///
+/// Units:   as first_contact() of pairs.
+/// Sizes:   as many times as motions.
+/// Errors:  throws std::invalid_argument, before anything is written, as first_contact() of pairs.
+void first_contact(std::span<const Motion> motions, const ObstacleSet& obstacles,
+                   const TimeInterval& interval, std::span<double> times, double tolerance = 0.005);
+
+/// Returns until when a motion has contact with none of others and with no obstacle: the least of what first_contact() says of both.
+/// Errors:  as free_until() without obstacles.
+/// Threads: one; several may ask at once.
+double free_until(const Motion& motion, std::span<const Motion> others, const ObstacleSet& obstacles,
+                  const TimeInterval& interval, double tolerance = 0.005);
+
 }  // namespace bch

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include <algorithm>
+
+#include <bch/obstacles.hpp>
+
+#include "kernel/motion/motion_parts.hpp"
+#include "kernel/motion/obstacle_search.hpp"
+#include "kernel/runtime/floating_point_state.hpp"
+#include "kernel/runtime/pair_validation.hpp"
+#include "kernel/runtime/task_ranges.hpp"
+
+namespace bch {
+
+using namespace detail;
+
+void first_contact(std::span<const Motion> motions, const ObstacleSet& obstacles,
+                   const TimeInterval& interval, std::span<double> times, double tolerance) {
+  constexpr const char* query = "first_contact";
+  constexpr std::size_t grain = 16;
+  const FloatingPointStateGuard floats;
+  require_as_many({query, "motion", motions.size()}, times.size(), "times");
+  require_valid(query, interval, tolerance);
+  const MotionParts parts(query, motions);
+  const Implementation& implementation = chosen({}, query);
+  for_ranges(motions.size(), grain, [&](std::size_t begin, std::size_t end) {
+    ObstacleSearch search(implementation, obstacles.view(), tolerance);
+    for (std::size_t i = begin; i < end; ++i) {
+      double first = never;
+      for (const MotionFacts& slab : parts[i])
+        first = std::min(first, search.first(slab, motions[i].shape->reach(), interval.from,
+                                             std::min(first, interval.to)));
+      times[i] = first;
+    }
+  });
+}
+
+double free_until(const Motion& motion, std::span<const Motion> others, const ObstacleSet& obstacles,
+                  const TimeInterval& interval, double tolerance) {
+  const double first = free_until(motion, others, interval, tolerance);
+  double of_obstacles = never;
+  first_contact({&motion, 1}, obstacles, {interval.from, std::min(first, interval.to)}, {&of_obstacles, 1},
+                tolerance);
+  return std::min(first, of_obstacles);
+}
+
+}  // namespace bch

@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include "kernel/motion/obstacle_search.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "kernel/motion/body_at.hpp"
+
+namespace bch::detail {
+
+double ObstacleSearch::first(const MotionFacts& motion, double reach, double from, double to) {
+  MovingBody body(motion);
+  body_ = &body;
+  looked_inside_ = 0;
+  reach_ = reach;
+  slack_ = time_rounding * motion.speed + position_rounding * motion.farthest + root_rounding * 2 * reach;
+  for (double time = from; time <= to;) {
+    const double end = body_->path_end(time), found = first_on_way(time, end, to);
+    if (found <= to) return found;
+    time = end;
+  }
+  return never;
+}
+
+/// Where the path goes straight on: halves ways that are long, but not where nothing is near.
+double ObstacleSearch::first_on_way(double from, double end, double to) {
+  if (from > to || !look_about(from, end)) return never;
+  const double half = from + (end - from) / 2;
+  const PathKey a = body_->pose(from), b = body_->pose(end);
+  const double x = b.x - a.x, y = b.y - a.y;
+  if (x * x + y * y <= 4 * reach_ * reach_ || !(from < half && half < end)) return first_near(from, end, to);
+  const double sooner = first_on_way(from, half, to);
+  return sooner < never ? sooner : first_on_way(half, end, to);
+}
+
+/// Finds what is near on a way. Returns: whether something is.
+bool ObstacleSearch::look_about(double from, double end) {
+  const PathKey a = body_->pose(from), b = body_->pose(end);
+  const std::span<const LocalSegment> found =
+      near_.find({a.x, a.y, {1, 0}}, {0, 0}, reach_ + slack_, {b.x - a.x, b.y - a.y});
+  found_.clear();
+  for (const LocalSegment& segment : found) found_.push_back(near_.obstacles().segments[segment.slot]);
+  return !found_.empty() || is_in_area(a.x, a.y);
+}
+
+bool ObstacleSearch::is_in_area(double x, double y) {
+  const ObstaclePlace place{x, y, {1, 0}};
+  for (const std::uint32_t slot : near_.areas_about(place, {0, 0}))
+    if (near_.holds(slot, place, {0, 0})) return true;
+  return false;
+}
+
+/// From key to key of the clip.
+double ObstacleSearch::first_near(double from, double end, double to) {
+  for (double time = from; time <= to;) {
+    const double until = std::min(body_->clip_end(time), end);
+    if (body_->chunk().nodes() > 0) {
+      if (nested_where_a_chunk_begins(time)) return time;
+      const double found = first_between(time, std::isfinite(until) ? until : time + 1);
+      if (found < never) return found;
+    }
+    if (until >= end) return never;
+    time = until;
+  }
+  return never;
+}
+
+double ObstacleSearch::first_between(double from, double end) {
+  return first_halving(from, end, tolerance_, [&](double begin, double last) {
+    place(begin, last);
+    room_ = nodes_.bend() + slack_;
+    return std::pair(first_of_nodes(), nodes_.bend());
+  });
+}
+
+void ObstacleSearch::place(double from, double end) {
+  const PathKey a = body_->pose(from), b = body_->pose(end);
+  nodes_.place(*body_, {from, 0, 0, a.heading}, {end, b.x - a.x, b.y - a.y, b.heading});
+  segments_.clear();
+  for (const WorldSegment& s : found_) {
+    const double x = s.ax - a.x, y = s.ay - a.y;
+    const double slack = position_rounding * (std::abs(x) + std::abs(y) + s.length);
+    segments_.push_back({x, y, s.bx - a.x, s.by - a.y, s.x, s.y, s.length, slack});
+  }
+}
+
+bool ObstacleSearch::nested_where_a_chunk_begins(double time) {
+  const std::uint32_t begun = body_->chunks_begun();
+  if (std::exchange(looked_inside_, begun) == begun) return false;
+  const PathKey pose = body_->pose(time);
+  const BodyAt body(*body_, time);
+  return body.any_part([&](const PlanePoint& p) { return is_in_area(pose.x + p.x, pose.y + p.y); }) ||
+         std::any_of(found_.begin(), found_.end(), [&](const WorldSegment& segment) {
+           return near_.obstacles().begins_path[segment.number] != 0 &&
+                  body.goes_round({segment.ax - pose.x, segment.ay - pose.y});
+         });
+}
+
+void ObstacleSearch::open(std::uint32_t node, std::uint32_t segment, double last) {
+  const StillSegment& still = segments_[segment];
+  const double time = first_overlap(nodes_[node], still, room_ + still.slack, last);
+  if (time <= last) open_.push_back({node, segment, time});
+}
+
+/// What may touch sooner is looked at first.
+double ObstacleSearch::first_of_nodes() {
+  double first = never, last = 1;
+  open_.clear();
+  for (std::uint32_t i = 0; i < segments_.size(); ++i) open(0, i, last);
+  std::size_t sorted = 0;
+  while (!open_.empty()) {
+    std::sort(open_.begin() + static_cast<std::ptrdiff_t>(sorted), open_.end(),
+              [](const Open& x, const Open& y) { return x.time > y.time; });
+    const auto [node, segment, time] = open_.back();
+    open_.pop_back();
+    sorted = open_.size();
+    if (time >= first) continue;
+    if (nodes_.chunk().is_leaf(node)) {
+      first = last = time;
+      continue;
+    }
+    const NodeRange children = nodes_.divide(node);
+    for (std::uint32_t child = children.begin; child < children.end; ++child) open(child, segment, last);
+  }
+  return first;
+}
+
+}  // namespace bch::detail

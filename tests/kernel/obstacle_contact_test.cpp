@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include <bch/obstacles.hpp>
+
+#include "tests/support/complaint.hpp"
+#include "tests/support/moving_bodies.hpp"
+#include "tests/support/obstacle_scenes.hpp"
+
+// The first contact of a motion with obstacles, against its solid sampled densely and compared with every segment.
+
+namespace bch {
+namespace {
+
+using baselines::ReferenceObstacle;
+using test::MotionCase;
+using test::ObstacleScene;
+using test::PlacedBody;
+using test::Random;
+using test::still_disc;
+
+constexpr double never = std::numeric_limits<double>::infinity();
+
+double contact_of(const MotionCase& motion, const ObstacleSet& obstacles, const TimeInterval& interval,
+                  double tolerance = 0.005) {
+  double time = 0;
+  first_contact(std::vector<Motion>{motion.motion()}, obstacles, interval, {&time, 1}, tolerance);
+  return time;
+}
+
+double distance(const test::WorldDisc& disc, const std::array<double, 4>& segment) {
+  const auto& [ax, ay, bx, by] = segment;
+  const double x = bx - ax, y = by - ay, square = x * x + y * y;
+  const double along = square > 0 ? ((disc.x - ax) * x + (disc.y - ay) * y) / square : 0;
+  const double share = std::clamp(along, 0.0, 1.0);
+  return std::hypot(disc.x - ax - share * x, disc.y - ay - share * y);
+}
+
+bool holds(const ReferenceObstacle& area, const test::WorldDisc& point) {
+  bool inside = false;
+  for (const auto& [ax, ay, bx, by] : area.segments)
+    if ((ay > point.y) != (by > point.y)) inside ^= point.x - ax < (bx - ax) * ((point.y - ay) / (by - ay));
+  return inside;
+}
+
+/// What a body at a time has to do with obstacles: the gap of the nearest disc and segment, and whether an area holds a disc's centre or
+/// rings go round a point where a path begins.
+test::Meeting meeting_at(const MotionCase& motion, const ObstacleScene& scene, double time) {
+  test::Meeting meeting{never, false};
+  for (std::size_t slab = 0; slab == 0 || slab < motion.discs.slabs.size(); ++slab) {
+    const PlacedBody body = test::placed_at(motion, slab, time);
+    for (const ReferenceObstacle& obstacle : scene.reference) {
+      for (const test::WorldDisc& disc : body.discs) {
+        for (const auto& segment : obstacle.segments)
+          meeting.gap = std::min(meeting.gap, distance(disc, segment) - disc.radius);
+        meeting.nested |= obstacle.is_area && holds(obstacle, disc);
+      }
+    }
+    for (std::size_t p = 0; p + 1 < scene.path_offsets.size(); ++p) {
+      const std::size_t first = scene.path_offsets[p];
+      meeting.nested |=
+          !body.ring_ends.empty() && test::goes_round(body, {scene.x[first], scene.y[first], 0});
+    }
+  }
+  return meeting;
+}
+
+TEST(ObstacleContact, IsNeverLaterThanAnySampleAndEarlyByTheToleranceAtMost) {
+  Random random(3171);
+  const std::vector<float> planes = {0.4f, 1.1f};
+  int contacts = 0, passes = 0, nested = 0;
+  for (std::uint32_t i = 0; i < test::samples(300); ++i) {
+    const MotionCase motion = i % 3 == 0 ? test::random_motion(random, test::sliced_body(random, planes))
+                                         : test::random_motion(random);
+    ObstacleScene scene = test::obstacle_scene(random, 1 + random.below(2), 1.5);
+    const double where = random.uniform(-0.2, 0.2), x = motion.path[0].x + where, y = motion.path[0].y;
+    if (i % 8 == 0) scene.add_path({{x, y}}, false), scene.end_obstacle(false);
+    if (i % 8 == 1)
+      scene.add_path({{x - 1, y - 1}, {x + 1, y - 1}, {x + 1, y + 1}, {x - 1, y + 1}}, true),
+          scene.end_obstacle(true);
+    const ObstacleSet obstacles = scene.set();
+    const double tolerance = std::exp(random.uniform(-9, -3)), from = random.uniform(-2, 0.5), to = 3,
+                 found = contact_of(motion, obstacles, {from, to}, tolerance);
+    for (double time = from; time < std::min(found, to); time += 0.002)
+      ASSERT_FALSE(meeting_at(motion, scene, time).overlap()) << i << ": at " << time << ", found " << found;
+    ++(found < never ? contacts : passes);
+    if (found == never) continue;
+    EXPECT_EQ(contact_of(motion, obstacles, {from, 30}, tolerance), found) << i;
+    for (int k = 1; k <= 50 && found - 1e-5 * k >= from; ++k)
+      ASSERT_FALSE(meeting_at(motion, scene, found - 1e-5 * k).overlap()) << i << ": " << k;
+    const test::Meeting meeting = meeting_at(motion, scene, found),
+                        behind = meeting_at(motion, scene, found + 1e-9);
+    nested += std::min(meeting.gap, behind.gap) > tolerance;
+    EXPECT_TRUE(meeting.nested || behind.nested || std::min(meeting.gap, behind.gap) <= tolerance + 2e-5)
+        << i << ": gaps of " << meeting.gap << " and " << behind.gap << " at " << found;
+  }
+  EXPECT_GT(contacts, static_cast<int>(test::samples(120)));
+  EXPECT_GT(passes, static_cast<int>(test::samples(40)));
+  EXPECT_GT(nested, 0);
+}
+
+ObstacleScene scene_of(const std::vector<ObstacleScene::Point>& path, bool is_area) {
+  ObstacleScene scene;
+  scene.add_path(path, is_area);
+  scene.end_obstacle(is_area);
+  return scene;
+}
+
+/// A disc of 3/16 m comes along x at 1.5 m a second from 30 m away, also from far away and past the end of a wall.
+TEST(ObstacleContact, OfADiscIsThatOfTheFormula) {
+  constexpr double radius = 0.1875;
+  for (const double far : {0.0, 1e7}) {
+    const MotionCase comes{still_disc(0.1875f), {{0, far - 30, far, 0}, {40, far + 30, far, 0}}};
+    const double rounding = far == 0 ? 2e-6 : 2e-5;
+    const auto expect = [&](const ObstacleScene& scene, double expected) {
+      const double found = contact_of(comes, scene.set(), {0, 40});
+      EXPECT_LE(found, expected);
+      EXPECT_NEAR(found, expected, rounding);
+      EXPECT_EQ(contact_of(comes, scene.set(), {0, expected - 0.01}), never);
+      EXPECT_EQ(contact_of(comes, scene.set(), {expected + 0.01, expected + 0.02}), expected + 0.01);
+    };
+    expect(scene_of({{far, far - 5}, {far, far + 5}}, false), (30 - radius) / 1.5);
+    expect(scene_of({{far - 5, far - 10}, {far + 5, far + 10}}, false),
+           (30 - radius * std::sqrt(1.25)) / 1.5);
+    expect(scene_of({{far, far + 0.1}, {far + 9, far + 0.1}}, false),
+           (30 - std::sqrt(radius * radius - 0.01)) / 1.5);
+    expect(scene_of({{far, far + 0.1}}, false), (30 - std::sqrt(radius * radius - 0.01)) / 1.5);
+    EXPECT_EQ(contact_of(comes, scene_of({{far, far + 0.2}, {far, far + 9}}, false).set(), {0, 40}), never);
+    // Inside a large area, and beside one that begins where another one would end by the even-odd rule.
+    const ObstacleScene area = scene_of(
+        {{far - 1000, far - 50}, {far + 1000, far - 50}, {far + 1000, far + 50}, {far - 1000, far + 50}},
+        true);
+    EXPECT_EQ(contact_of(comes, area.set(), {3, 40}), 3);
+    const ObstacleScene beside = scene_of(
+        {{far - 1000, far + 1}, {far + 1000, far + 1}, {far + 1000, far + 50}, {far - 1000, far + 50}}, true);
+    EXPECT_EQ(contact_of(comes, beside.set(), {3, 40}), never);
+  }
+}
+
+/// A slab that is empty while its body goes through a wall, and in an area from then on.
+TEST(ObstacleContact, SeesWhoIsInsideWhereAChunkBegins) {
+  const auto at = [](double begin, double end, float x) {
+    return AnimatedChunk{{begin, end}, 1, {{x, 0, 0.125f}, {x, 0, 0.125f}}, {}};
+  };
+  AnimatedDiscs jumps;
+  jumps.chunks = {at(0, 1, -1), at(1, 2, 1)};
+  const MotionCase over{jumps, {{0, 0, 0, 0}}};
+  const ObstacleScene area = scene_of({{0, -9}, {9, -9}, {9, 9}, {0, 9}}, true);
+  EXPECT_EQ(contact_of(over, area.set(), {0, 2}), 1);
+  EXPECT_EQ(contact_of(over, area.set(), {0, 0.5}), never);
+  AnimatedDiscs slabs;
+  slabs.slices = {1};
+  slabs.slabs.resize(2);
+  slabs.slabs[0].chunks = {at(0, 1, -1), {{1, 2}, 0, {}, {}}};
+  slabs.slabs[1].chunks = {{{0, 1}, 0, {}, {}}, at(1, 2, 0)};
+  const MotionCase vanishes{slabs, {{0, 0.5, 0, 0}}};
+  EXPECT_EQ(contact_of(vanishes, area.set(), {0, 2}), 1);
+}
+
+TEST(ObstacleContact, IsThatOfBothWithOthersAndRefusesWhatIsNoMotion) {
+  const MotionCase comes{still_disc(0.125f), {{0, 0, 0, 0}, {10, 10, 0, 0}}},
+      stands{still_disc(0.125f), {{0, 5, 0, 0}}};
+  const ObstacleScene near = scene_of({{4, -1}, {4, 1}}, false), far = scene_of({{8, -1}, {8, 1}}, false);
+  const std::vector<Motion> others = {stands.motion()};
+  EXPECT_NEAR(free_until(comes.motion(), others, near.set(), {0, 10}), 3.875, 1e-5);
+  EXPECT_NEAR(free_until(comes.motion(), others, far.set(), {0, 10}), 4.75, 1e-5);
+  EXPECT_NEAR(free_until(comes.motion(), {}, far.set(), {0, 10}), 7.875, 1e-5);
+  EXPECT_EQ(free_until(comes.motion(), {}, far.set(), {0, 7}), never);
+  std::vector<double> times(1);
+  EXPECT_EQ(test::complaint([&] {
+              first_contact(std::vector<Motion>{{nullptr, comes.path, 0}}, near.set(), {0, 1}, times);
+            }),
+            "first_contact: motion 0: no shape");
+  EXPECT_NE(test::complaint([&] { first_contact({}, near.set(), {0, 1}, times); }), "accepted");
+}
+
+}  // namespace
+}  // namespace bch
