@@ -111,13 +111,28 @@ TEST(Layers, LibrariesStayInTheirRooms) {
   expect_no_include("baselines", "assimp/|xsimd/|oneapi/tbb|tbb/");
 }
 
-TEST(Layers, OneFileNamesInstructions) {
-  const std::regex instruction(R"(\b_mm\d*_|[a-z]mmintrin\.h)"), exempt("simd/x86|floating_point_state");
-  for (const char* const top : {"layout", "kernel"})
-    for (const auto& [file, includes] : includes_below(top))
-      if (!std::regex_search(file.string(), exempt)) {
-        EXPECT_FALSE(std::regex_search(read(file), instruction)) << file;
-      }
+TEST(Layers, FewFilesKnowTheProcessor) {
+  const std::regex instruction(R"(\b_mm\d*_|[a-z]mmintrin\.h|\bv[a-z]+q_[fsu]\d+\b|arm_neon\.h|\basm\b)");
+  const auto has_any = [](const std::string& text, const std::vector<std::string>& words) {
+    return std::ranges::any_of(words, [&](const auto& word) { return text.find(word) != std::string::npos; });
+  };
+  const std::regex may_name_instructions("^layout/(simd/(x86|neon_arch)|base/floating_point_register)");
+  const std::regex may_ask("^layout/(simd|base)/|^kernel/isa/");
+  std::size_t found = 0;
+  for (const char* const top : {"layout", "kernel", "baselines"})
+    for (const auto& [path, includes] : includes_below(top)) {
+      const std::string file = fs::relative(path, BCH_SOURCE).string(), text = read(path);
+      const bool names_instructions =
+          has_any(text, {"_mm", "q_", "mmintrin", "arm_neon", "asm"}) && std::regex_search(text, instruction);
+      const bool asks =
+          has_any(text, {"__x86_64", "__i386", "__amd64", "__aarch64", "__arm", "__riscv", "_M_X64", "_M_ARM",
+                         "__SSE", "__AVX", "__ARM", "__builtin_cpu_", "__builtin_ia32_", "BCH_X86",
+                         "BCH_NEON", "BCH_PORTABLE", "BCH_SCALAR"});
+      EXPECT_FALSE(names_instructions && !std::regex_search(file, may_name_instructions)) << file;
+      EXPECT_FALSE(asks && !std::regex_search(file, may_ask)) << file;
+      found += names_instructions + asks;
+    }
+  EXPECT_GE(found, 6u);
 }
 
 /// Folders include each other one way only: what is left when those that need no others are taken away, again and again, is a
@@ -240,7 +255,7 @@ TEST(PublicSurface, IsAllThatIsInTheNamespace) {
 /// Code that could be shared with other objects: weak symbols that are not data.
 std::set<std::string> weak_code(const fs::path& object) {
   std::set<std::string> symbols;
-  std::istringstream lines(output_of("nm --defined-only '" + object.string() + "'"));
+  std::istringstream lines(output_of("" BCH_NM " --defined-only '" + object.string() + "'"));
   for (std::string address, type, name; lines >> address >> type >> name;)
     if (type == "W" || type == "w" || type == "u" || type == "i") symbols.insert(name);
   return symbols;
@@ -291,7 +306,7 @@ TEST(Objects, TheLibraryExportsTheFunctionsOfItsHeader) {
   for (std::size_t at = 0; (at = header.find("\nBCH_API ", at)) != std::string::npos; ++at) ++marks;
   EXPECT_EQ(declared.size(), marks);
   EXPECT_GT(declared.size(), 50u);
-  std::istringstream lines(output_of("nm -D --defined-only '" BCH_C_LIBRARY "'"));
+  std::istringstream lines(output_of("" BCH_NM " -D --defined-only '" BCH_C_LIBRARY "'"));
   for (std::string address, type, name; lines >> address >> type >> name;) {
     EXPECT_EQ(type, "T") << name;
     exported.insert(name);
