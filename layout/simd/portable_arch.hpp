@@ -187,6 +187,16 @@ inline batch_bool<T, A> bitwise_or(batch_bool<T, A> const& a, batch_bool<T, A> c
   return a.data | b.data;
 }
 template <class A, class T>
+inline batch_bool<T, A> bitwise_xor(batch_bool<T, A> const& a, batch_bool<T, A> const& b,
+                                    requires_arch<portable>) noexcept {
+  return a.data ^ b.data;
+}
+template <class A, class T>
+inline batch<T, A> bitwise_or(batch<T, A> const& a, batch<T, A> const& b, requires_arch<portable>) noexcept {
+  using bits = typename batch_bool<T, A>::register_type;
+  return (typename batch<T, A>::register_type)((bits)a.data | (bits)b.data);
+}
+template <class A, class T>
 inline batch_bool<T, A> bitwise_not(batch_bool<T, A> const& v, requires_arch<portable>) noexcept {
   return ~v.data;
 }

@@ -64,6 +64,18 @@ TEST(Lanes, AreTheSameWithInstructionsOfTheirOwn) {
   }
 }
 
+TEST(Lanes, JoinTheirBits) {
+  for (const auto& [a, b] : pairs()) {
+    const auto bits_a = bits_of(a), bits_b = bits_of(b);
+    EXPECT_EQ(bits_of(a | b), (std::array{bits_a[0] | bits_b[0], bits_a[1] | bits_b[1]}));
+    const auto less = a < b, more = b <= a;
+    const std::uint32_t bits_less = BaseLanes::bits(less), bits_more = BaseLanes::bits(more);
+    EXPECT_EQ(BaseLanes::bits(less ^ more), bits_less ^ bits_more);
+    EXPECT_EQ(BaseLanes::bits(less | more), bits_less | bits_more);
+    EXPECT_EQ(BaseLanes::bits(less & !more), bits_less & ~bits_more);
+  }
+}
+
 /// As x86 has it, with NaN and with zeros of both signs; other processors have other instructions.
 TEST(Lanes, HaveTheSecondAsMinimumAndMaximumWhereNeitherIsLess) {
   for (const auto& [a, b] : pairs()) {
