@@ -16,8 +16,10 @@
 
 struct bch_trajectory {
   std::unique_ptr<bch::detail::TrajectoryReader> reader;
-  std::string assumptions;  ///< a line each
-  std::int64_t frame = 0;   ///< of the people who wait
+  std::string assumptions;                ///< a line each
+  std::vector<bch_named_motion> motions;  ///< whose texts are the reader's
+  bool is_read = false;                   ///< some of it
+  std::int64_t frame = 0;                 ///< of the people who wait
   std::vector<bch::detail::TrackedPerson> waiting = {};
 };
 
@@ -44,18 +46,30 @@ std::unique_ptr<bch_trajectory> open(const char* path, const bch_trajectory_opti
   trajectory->reader = open_trajectory(path, options);
   for (const std::string& line : trajectory->reader->info().assumptions)
     trajectory->assumptions += line + "\n";
+  for (const NamedMotion& motion : trajectory->reader->info().motions)
+    trajectory->motions.push_back({motion.character.c_str(), motion.clip.c_str()});
   return trajectory;
 }
 
+bch_tracked_person tracked(std::int64_t frame, const TrackedPerson& person) {
+  return {frame, person.id, person.x, person.y, person.heading, person.stature};
+}
+
+bch_moving_person moving(std::int64_t frame, const TrackedPerson& person) {
+  return {tracked(frame, person), person.motion, person.clip_seconds};
+}
+
 /// Writes whole frames as long as they fit.
-std::size_t read(bch_trajectory& trajectory, std::span<bch_tracked_person> to) {
+template <class Person>
+std::size_t read(bch_trajectory& trajectory, std::span<Person> to,
+                 Person (*made)(std::int64_t frame, const TrackedPerson& person)) {
+  trajectory.is_read = true;
   std::size_t count = 0;
   while (true) {
     if (trajectory.waiting.empty() && !trajectory.reader->next(trajectory.frame, trajectory.waiting))
       return count;
     if (count + trajectory.waiting.size() > to.size()) break;
-    for (const TrackedPerson& person : trajectory.waiting)
-      to[count++] = {trajectory.frame, person.id, person.x, person.y, person.heading, person.stature};
+    for (const TrackedPerson& person : trajectory.waiting) to[count++] = made(trajectory.frame, person);
     trajectory.waiting.clear();
   }
   if (count == 0)
@@ -151,7 +165,7 @@ Cast cast_of(const bch_check_options& options) {
 }
 
 std::unique_ptr<bch_check> run_check(bch_trajectory& trajectory, const bch_check_options& given) {
-  if (!trajectory.waiting.empty())
+  if (trajectory.is_read)
     throw Failure(BCH_INVALID_ARGUMENT, "trajectory has been read from; open it again");
   CheckOptions options;
   const auto slices = array_of(given.slices, given.slice_count, "options->slices");
@@ -176,6 +190,7 @@ std::unique_ptr<bch_check> run_check(bch_trajectory& trajectory, const bch_check
   for (const CastMember& member : cast)
     for (const std::string& line : member.assumptions) made->assumptions += line + "\n";
   const TrajectoryInfo& info = trajectory.reader->info();
+  trajectory.is_read = true;
   on_threads(given.threads, [&] {
     const CheckSummary summary =
         check(*trajectory.reader, options, [&](const CheckedFrame& frame, const ShapeSet&) {
@@ -228,7 +243,24 @@ bch_status bch_trajectory_read(bch_trajectory* trajectory, bch_tracked_person* p
                                size_t* count) {
   return guarded([&] {
     required(count, "count");
-    *count = read(object_of(trajectory, "trajectory"), array_of(people, capacity, "people"));
+    *count = read(object_of(trajectory, "trajectory"), array_of(people, capacity, "people"), tracked);
+  });
+}
+
+bch_status bch_trajectory_get_motions(const bch_trajectory* trajectory, const bch_named_motion** motions,
+                                      size_t* count) {
+  return guarded([&] {
+    const auto& all = object_of(trajectory, "trajectory").motions;
+    required(motions, "motions"), required(count, "count");
+    *motions = all.data(), *count = all.size();
+  });
+}
+
+bch_status bch_trajectory_read_moving(bch_trajectory* trajectory, bch_moving_person* people, size_t capacity,
+                                      size_t* count) {
+  return guarded([&] {
+    required(count, "count");
+    *count = read(object_of(trajectory, "trajectory"), array_of(people, capacity, "people"), moving);
   });
 }
 

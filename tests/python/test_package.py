@@ -284,8 +284,27 @@ class Recordings(unittest.TestCase):
         self.assertEqual(trajectory.rows["id"][:4].tolist(), [5, 7, 5, 7])
         self.assertAlmostEqual(trajectory.rows["x"][1], -2.4)
         self.assertTrue(np.isnan(trajectory.rows["heading"]).all())
+        self.assertEqual((trajectory.motions, set(trajectory.rows["motion"])), ([], {-1}))
+        self.assertTrue((trajectory.character == "").all() and np.isnan(trajectory.rows["clip_time"]).all())
         with self.assertRaises(FileNotFoundError):
             bch.read_trajectory("/nowhere.txt")
+
+    def test_reading_what_rows_name(self):
+        path = Path(self.folder.name) / "named.csv"
+        path.write_text("frame,id,x,y,character,clip,clip_time\n0,1,0,0,man,walk,0.25\n0,2,5,0,,,\n1,1,0.1,0,man,,\n1,2,5,0,,idle,\n")
+        trajectory = bch.read_trajectory(path, fps=10, unit=1)
+        self.assertEqual(trajectory.motions, [("man", "walk"), ("man", ""), ("", "idle")])
+        self.assertEqual(trajectory.rows["motion"].tolist(), [0, -1, 1, 2])
+        self.assertEqual(trajectory.character.tolist(), ["man", "", "man", ""])
+        self.assertEqual(trajectory.clip.tolist(), ["walk", "", "", "idle"])
+        np.testing.assert_array_equal(trajectory.rows["clip_time"], np.array([0.25, np.nan, np.nan, np.nan], np.float32))
+        try:
+            import pandas  # noqa: F401
+        except ImportError:
+            return
+        table = bch.dataframe(trajectory)
+        self.assertEqual(table["clip"].tolist(), ["walk", "", "", "idle"])
+        self.assertNotIn("motion", table.columns)
 
     def test_checking(self):
         found = bch.check(self.path, unit=1, max_distance=0.5)

@@ -58,7 +58,19 @@ from ._queries import (
     time_of_impact,
     within,
 )
-from ._recordings import NEAR, OVERLAP, PASS, TRACKED, WALL, Check, Trajectory, check, dataframe, read_trajectory
+from ._recordings import (
+    NEAR,
+    OVERLAP,
+    PASS,
+    TRACKED,
+    WALL,
+    Check,
+    NamedMotion,
+    Trajectory,
+    check,
+    dataframe,
+    read_trajectory,
+)
 from ._scenes import ScenePlan, best_slices, plan_scene
 from ._shapes import (
     ALL_DEPTHS,
@@ -106,6 +118,7 @@ __all__ = [
     "Joint",
     "Motion",
     "NEAR",
+    "NamedMotion",
     "Nearest",
     "OVERLAP",
     "Obstacles",

@@ -213,6 +213,10 @@ class ShapeSetInfo(_Sized):
     ]
 
 
+class NamedMotion(ctypes.Structure):
+    _fields_ = [("character", c_char_p), ("clip", c_char_p)]
+
+
 class ShapeOrigin(ctypes.Structure):
     _fields_ = [("character", c_char_p), ("clip", c_char_p), ("seconds", c_float)]
 
@@ -424,7 +428,8 @@ _functions = {
     "obstacles_time_of_impact": "ppppppp",
     "trajectory_open": "spp",
     "trajectory_get_info": "pp",
-    "trajectory_read": "ppnp",
+    "trajectory_get_motions": "ppp",
+    "trajectory_read_moving": "ppnp",
     "trajectory_free": "p",
     "check_run": "ppp",
     "check_get_summary": "pp",

@@ -20,8 +20,10 @@ from ._progress import Watched
 from ._queries import Leaves, _leaves, _one_of
 from ._shapes import ALL_DEPTHS, Character, Path, ShapeSet
 
-#: A person in a frame: metres and radians, NaN where the file does not say.
-TRACKED = np.dtype([("frame", i8), ("id", i8), ("x", f8), ("y", f8), ("heading", f4), ("stature", f4)])
+#: A person in a frame: metres, radians and seconds, NaN where the file does not say; `motion` is an index into `Trajectory.motions`, or -1.
+TRACKED = np.dtype(
+    [("frame", i8), ("id", i8), ("x", f8), ("y", f8), ("heading", f4), ("stature", f4), ("motion", i4), ("clip_time", f4)]
+)
 #: The kinds of pairs and events of a check.
 NEAR, OVERLAP, PASS, WALL = 0, 1, 2, 3
 _FRAME = np.dtype(
@@ -38,11 +40,11 @@ _EVENT = np.dtype(
 )
 
 
-def dataframe(records: Records) -> Any:
-    """Return a structured array as a dataframe of pandas, where that is installed: a column for each field."""
-    import pandas
+class NamedMotion(NamedTuple):
+    """The body that rows of a recording name, and the clip that it plays; one of the two may be empty."""
 
-    return pandas.DataFrame({name: records[name] for name in records.dtype.names or () if name != "_"})
+    character: str
+    clip: str
 
 
 class Trajectory(NamedTuple):
@@ -53,6 +55,33 @@ class Trajectory(NamedTuple):
     format: str  #: such as "JuPedSim SQLite, version 2"
     geometry: str  #: the walkable area as well-known text, or empty
     assumptions: List[str]  #: what the file does not say, and what was taken for it
+    motions: List[NamedMotion]  #: all that rows name, in the order of the file
+
+    @property
+    def character(self) -> "np.ndarray[Any, Any]":
+        """(n,) The character that each row names, or an empty text."""
+        return self._names("character")
+
+    @property
+    def clip(self) -> "np.ndarray[Any, Any]":
+        """(n,) The clip that each row names, or an empty text."""
+        return self._names("clip")
+
+    def _names(self, of: str) -> "np.ndarray[Any, Any]":
+        return np.array([getattr(motion, of) for motion in self.motions] + [""])[self.rows["motion"]]
+
+
+def dataframe(records: Union[Records, Trajectory]) -> Any:
+    """Return a structured array as a dataframe of pandas, where that is installed: a column for each field.
+
+    Of a `Trajectory`, the columns `character` and `clip` hold names in place of `motion`.
+    """
+    import pandas
+
+    if not isinstance(records, Trajectory):
+        return pandas.DataFrame({name: records[name] for name in records.dtype.names or () if name != "_"})
+    rows = dataframe(records.rows).drop(columns="motion")
+    return rows.assign(character=records.character, clip=records.clip)
 
 
 def _open(path: Path, fps: Optional[float], unit: Optional[float], columns: Optional[str]) -> Handle:
@@ -66,6 +95,13 @@ def _info(handle: Handle) -> _library.TrajectoryInfo:
     info = _library.TrajectoryInfo()
     _check(lib.bch_trajectory_get_info(handle.pointer, byref(info)))
     return info
+
+
+def _motions(handle: Handle) -> List[NamedMotion]:
+    pointer, count = ctypes.POINTER(_library.NamedMotion)(), ctypes.c_size_t()
+    _check(lib.bch_trajectory_get_motions(handle.pointer, byref(pointer), byref(count)))
+    found = pointer[: count.value]
+    return [NamedMotion(one.character.decode(errors="replace"), one.clip.decode(errors="replace")) for one in found]
 
 
 def read_trajectory(
@@ -90,12 +126,13 @@ def read_trajectory(
     done = 0
     while done < len(rows):
         rest = rows[done:]
-        _check(lib.bch_trajectory_read(handle.pointer, address(rest), len(rest), byref(count)))
+        _check(lib.bch_trajectory_read_moving(handle.pointer, address(rest), len(rest), byref(count)))
         if count.value == 0:
             break
         done += count.value
     lines = info.assumptions.decode(errors="replace").splitlines()
-    return Trajectory(rows[:done], info.fps, info.format.decode(), info.geometry.decode(errors="replace"), lines)
+    geometry = info.geometry.decode(errors="replace")
+    return Trajectory(rows[:done], info.fps, info.format.decode(), geometry, lines, _motions(handle))
 
 
 class Check(NamedTuple):

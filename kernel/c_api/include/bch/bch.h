@@ -678,6 +678,25 @@ typedef struct bch_tracked_person {
 /** Reads the people of the next frames, as many whole frames as fit; none at the end. */
 BCH_API bch_status bch_trajectory_read(bch_trajectory* trajectory, bch_tracked_person* people, size_t capacity,
                                        size_t* count);
+/** The body that rows of a recording name, and the clip that it plays; one of the two may be empty. */
+typedef struct bch_named_motion {
+  const char* character;
+  const char* clip;
+} bch_named_motion;
+/** Tells all motions that rows name, in the order of the file. They live as long as the trajectory. */
+BCH_API bch_status bch_trajectory_get_motions(const bch_trajectory* trajectory, const bch_named_motion** motions,
+                                              size_t* count);
+/** Stands for the motion of a row that names neither a body nor a clip. */
+#define BCH_NO_MOTION 0xffffffffu
+/** A person in a frame, and the motion that his row names. */
+typedef struct bch_moving_person {
+  bch_tracked_person person;
+  uint32_t motion;    /**< index into those of bch_trajectory_get_motions(), or BCH_NO_MOTION */
+  float clip_seconds; /**< the time in the motion's clip; NaN where the file does not say */
+} bch_moving_person;
+/** Reads people like bch_trajectory_read(), with the motions that their rows name. */
+BCH_API bch_status bch_trajectory_read_moving(bch_trajectory* trajectory, bch_moving_person* people, size_t capacity,
+                                              size_t* count);
 /** Frees a recording. */
 BCH_API bch_status bch_trajectory_free(bch_trajectory* trajectory);
 
