@@ -3,6 +3,7 @@
 
 """Manners of the package: errors, sets and characters, interrupts, memory, documentation."""
 
+import ctypes
 import gc
 import inspect
 import os
@@ -298,6 +299,13 @@ class Recordings(unittest.TestCase):
         self.assertEqual(trajectory.character.tolist(), ["man", "", "man", ""])
         self.assertEqual(trajectory.clip.tolist(), ["walk", "", "", "idle"])
         np.testing.assert_array_equal(trajectory.rows["clip_time"], np.array([0.25, np.nan, np.nan, np.nan], np.float32))
+        from bch import _library, _recordings
+
+        handle = _recordings._open(path, 10, 1, None)
+        rows, count = np.empty(4, bch.TRACKED), ctypes.c_size_t()
+        _library.check(_library.lib.bch_trajectory_read_moving(handle.pointer, rows.ctypes.data, 4, ctypes.byref(count)))
+        with self.assertRaisesRegex(ValueError, "has been read from"):
+            _library.Handle("check", "run", handle.pointer, ctypes.byref(_library.CheckOptions()))
         try:
             import pandas  # noqa: F401
         except ImportError:
