@@ -6,10 +6,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <tuple>
 #include <utility>
 
 #include "layout/base/heading.hpp"
+#include "layout/format/shape_set_view.hpp"
 
 namespace bch::baselines {
 namespace {
@@ -30,10 +32,13 @@ struct Line {
   }
 
   Point2 local(double at_x, double at_y) const { return {x * at_x + y * at_y, x * at_y - y * at_x - offset}; }
-  double square_distance(const Disc& disc) const {
-    const Point2 at = local(disc.x, disc.y);
+  double square_distance(const Disc& disc) const { return square_distance(local(disc.x, disc.y)); }
+  double square_distance(Point2 at) const {
     const double beyond = std::max(std::max(from - at.x, at.x - to), 0.0);
     return at.y * at.y + beyond * beyond;
+  }
+  double gap(const Disc& disc) const {
+    return std::sqrt(square_distance(disc)) - (static_cast<double>(disc.radius) + slack);
   }
   bool touches(const Disc& disc) const {
     const double limit = static_cast<double>(disc.radius) + slack;
@@ -68,15 +73,20 @@ double square_distance(Point2 p, Point2 a, Point2 b) {
   return dx * dx + dy * dy;
 }
 
-/// Returns whether a segment of an outline comes within a margin of a line.
-bool meet(const std::array<Point2, 2>& ends, const Line& line, double margin) {
+/// Returns the square of the distance of a segment of an outline from a line, 0 where they cross.
+double square_distance(const std::array<Point2, 2>& ends, const Line& line) {
   const Point2 p = line.local(ends[0].x, ends[0].y), q = line.local(ends[1].x, ends[1].y);
   const Point2 a{line.from, 0}, b{line.to, 0};
   const auto side = [&](Point2 end) { return (q.x - p.x) * (end.y - p.y) - (q.y - p.y) * (end.x - p.x); };
-  if ((p.y > 0) != (q.y > 0) && (side(a) > 0) != (side(b) > 0)) return true;
+  if ((p.y > 0) != (q.y > 0) && (side(a) > 0) != (side(b) > 0)) return 0;
+  return std::min(
+      {line.square_distance(p), line.square_distance(q), square_distance(a, p, q), square_distance(b, p, q)});
+}
+
+/// Returns whether a segment of an outline comes within a margin of a line.
+bool meet(const std::array<Point2, 2>& ends, const Line& line, double margin) {
   const double limit = margin + line.slack;
-  return std::min({square_distance(p, a, b), square_distance(q, a, b), square_distance(a, p, q),
-                   square_distance(b, p, q)}) <= limit * limit;
+  return square_distance(ends, line) <= limit * limit;
 }
 
 }  // namespace
@@ -112,20 +122,68 @@ bool ObstacleReference::collides(const Agents& agents, std::uint32_t agent,
 
 ObstacleReference::Gap ObstacleReference::gap(const Agents& agents, std::uint32_t agent,
                                               std::span<const ReferenceObstacle> obstacles) const {
-  Gap least{std::numeric_limits<double>::infinity(), 0xffffffff, 0xffffffff};
+  Gap least{std::numeric_limits<double>::infinity(), none, none};
   const std::span<const Disc> discs = cuts_.of(agents, agent);
   std::uint32_t first = 0;
   for (const ReferenceObstacle& obstacle : obstacles) {
     for (const Line& line : lines_of(agents, agent, obstacle)) {
       for (std::uint32_t i = 0; i < discs.size(); ++i) {
-        const double gap =
-            std::sqrt(line.square_distance(discs[i])) - (static_cast<double>(discs[i].radius) + line.slack);
+        const double gap = line.gap(discs[i]);
         if (std::tie(gap, i, first) < std::tie(least.gap, least.disc, least.segment)) least = {gap, i, first};
       }
       ++first;
     }
   }
   return least;
+}
+
+ObstacleReference::Gap ObstacleReference::outline_gap(const Agents& agents, std::uint32_t agent,
+                                                      std::span<const ReferenceObstacle> obstacles) const {
+  if (!segments_.decide(agents, {agent, agent})) return gap(agents, agent, obstacles);
+  const CutList& list = cuts_.list(agents, agent);
+  const Shape& shape = shapes_[agents.shape[agent]];
+  const double margin = LeafSegments::margin_of(shape);
+  Gap least{std::numeric_limits<double>::infinity(), none, none};
+  const auto take = [&](const Gap& gap) {
+    if (std::tie(gap.gap, gap.of_outline, gap.disc, gap.segment) <
+        std::tie(least.gap, least.of_outline, least.disc, least.segment))
+      least = gap;
+  };
+  std::map<std::uint32_t, std::array<Point2, 2>> segments;
+  std::vector<std::uint32_t> coarse;  // leaves of which discs decide
+  for (std::uint32_t i = 0; i < list.discs.size(); ++i) {
+    const auto [begin, end] = shape.hierarchy.primitive_ranges[list.nodes[i]];
+    if (end - begin > detail::most_leaf_segments) {
+      coarse.push_back(i);
+      continue;
+    }
+    for (std::uint32_t k = begin; k < end; ++k) {
+      const std::uint32_t number = shape.hierarchy.source[k];
+      segments.emplace(number, LeafSegments::segment(shape.outline, number));
+    }
+  }
+  std::uint32_t first = 0;
+  for (const ReferenceObstacle& obstacle : obstacles) {
+    for (const Line& line : lines_of(agents, agent, obstacle)) {
+      for (const auto& [number, ends] : segments)
+        take({std::max(std::sqrt(square_distance(ends, line)) - (margin + line.slack), 0.0), 0, first,
+              number});
+      for (const std::uint32_t i : coarse) take({std::max(line.gap(list.discs[i]), 0.0), i, first});
+      ++first;
+    }
+  }
+  return least;
+}
+
+bool ObstacleReference::holds_the_outline(const Agents& agents, std::uint32_t agent,
+                                          const ReferenceObstacle& obstacle) const {
+  if (!segments_.decide(agents, {agent, agent})) return holds_a_centre(agents, agent, obstacle);
+  const Shape& shape = shapes_[agents.shape[agent]];
+  const detail::Rotation turn = detail::rotation(agents.heading[agent]);
+  return std::any_of(shape.outline.points.begin(), shape.outline.points.end(), [&](Vec2 point) {
+    return encloses(obstacle, agents, agent, turn, static_cast<double>(point.x),
+                    static_cast<double>(point.y));
+  });
 }
 
 bool ObstacleReference::holds_a_centre(const Agents& agents, std::uint32_t agent,

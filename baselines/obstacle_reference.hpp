@@ -35,11 +35,19 @@ class ObstacleReference {
   struct Gap {
     double gap;
     std::uint32_t disc, segment;
+    std::uint32_t of_outline =
+        none;  ///< in place of a disc: the number of the nearest segment of the outline
   };
+  static constexpr std::uint32_t none = 0xffffffff;
   Gap gap(const Agents& agents, std::uint32_t agent, std::span<const ReferenceObstacle> obstacles) const;
+  /// The same of an agent's outline where segments decide: of equal ones its first segment, any before discs of leaves with too many.
+  Gap outline_gap(const Agents& agents, std::uint32_t agent,
+                  std::span<const ReferenceObstacle> obstacles) const;
 
   /// Returns whether an area holds the centre of a disc of the cut.
   bool holds_a_centre(const Agents& agents, std::uint32_t agent, const ReferenceObstacle& obstacle) const;
+  /// The same of the agent's outline where segments decide.
+  bool holds_the_outline(const Agents& agents, std::uint32_t agent, const ReferenceObstacle& obstacle) const;
 
  private:
   std::span<const Shape> shapes_;

@@ -196,11 +196,10 @@ std::string query_baked(const QueryCommandOptions& options) {
 /// Requires that --leaves concerns the question.
 void require_leaves_of(const CLI::App& command, const QueryCommandOptions& options) {
   if (options.what == "clearance") {
-    if (!options.obstacles.empty())
-      require_absent(command, {"--leaves"}, "obstacles are measured from discs");
     if (options.overlap != "zero") require_absent(command, {"--leaves"}, "--overlap deepest is about discs");
   } else if (std::isfinite(options.max_distance)) {
-    require_absent(command, {"--leaves"}, "--what within is about discs");
+    if (options.obstacles.empty())
+      require_absent(command, {"--leaves"}, "--what within is about discs, but for --obstacles");
   } else if (options.what != "collide" && options.what != "contacts" && !options.all_pairs) {
     require_absent(command, {"--leaves"},
                    "belongs to --what collide, --what contacts, --what clearance and --all-pairs");
@@ -291,8 +290,9 @@ std::function<void()> add_query_command(CLI::App& program) {
       "discs\n"
       "of the cuts, and so does clearance without --leaves segments: discs cover more than outlines, so "
       "agents\n"
-      "0 m apart need not collide. --semantics is for collide, within and --all-pairs without "
-      "--max-distance.\n"
+      "0 m apart need not collide. With --obstacles --leaves segments is for within, too. --semantics is "
+      "for\n"
+      "collide, within and --all-pairs without --max-distance.\n"
       "With --obstacles each line is about an agent and the obstacles: id,... instead of first,second,...\n"
       "Example: bch query default:female agents.csv pairs.csv > answers.csv");
   command.add_option("SHAPES", options->character, character_or_baked_help)->type_name("")->required();

@@ -34,6 +34,25 @@ double nearest_share(Vector way, Vector to_point) {
 
 }  // namespace
 
+std::uint32_t leaf_that_holds(const ShapeSetView& shapes, std::size_t root, std::uint32_t point, double x,
+                              double y) {
+  const Tree& tree = shapes.trees[root];
+  const LeafSegments<BaseLanes> leaves{shapes.leaf_segments};
+  std::uint32_t found = no_node;
+  double least = std::numeric_limits<double>::infinity();
+  for (std::uint32_t number = 0; number < tree.count; ++number) {
+    const auto list = leaves.segments(tree, tree.discs + number);
+    bool holds = false;
+    for (std::uint32_t i = 0; i < list.count; ++i) holds = holds || list.point(i) == point;
+    if (!holds) continue;
+    const float* const disc = shapes.nodes + tree.discs + number;
+    const double dx = x - double{disc[0]}, dy = y - double{disc[tree.stride]};
+    const double gap = std::sqrt(dx * dx + dy * dy) - double{disc[2 * std::size_t{tree.stride}]};
+    if (gap < least) least = gap, found = number;
+  }
+  return found;
+}
+
 FoundFeatures::Disc FoundFeatures::disc(std::uint32_t agent, std::uint32_t place) const noexcept {
   const Root& alone = shapes_.roots[root(agent)];
   if (shapes_.trees == nullptr) return {double{alone.x}, double{alone.y}, double{alone.radius}};
@@ -111,27 +130,13 @@ NearestPoints FoundFeatures::points() const {
   return {end(first, nearest_.a, unit), end(second, nearest_.b, {-unit.x, -unit.y})};
 }
 
-std::uint32_t FoundFeatures::leaf(std::uint32_t agent, std::uint32_t point, Vector at) const {
-  const Tree& tree = shapes_.trees[root(agent)];
-  const LeafSegments<BaseLanes> leaves{shapes_.leaf_segments};
-  std::uint32_t found = no_node;
-  double least = std::numeric_limits<double>::infinity();
-  for (std::uint32_t number = 0; number < tree.count; ++number) {
-    const auto list = leaves.segments(tree, tree.discs + number);
-    bool holds = false;
-    for (std::uint32_t i = 0; i < list.count; ++i) holds = holds || list.point(i) == point;
-    if (!holds) continue;
-    const auto [x, y, radius] = disc(agent, tree.discs + number);
-    const double gap = std::sqrt((at.x - x) * (at.x - x) + (at.y - y) * (at.y - y)) - radius;
-    if (gap < least) least = gap, found = number;
-  }
-  return found;
-}
-
 DiscPair FoundFeatures::numbers() const {
   const auto [first, second] = pair_;
   if (nearest_.are_segments) {
     const Segments of = segments();
+    const auto leaf = [this](std::uint32_t agent, std::uint32_t point, Vector at) {
+      return leaf_that_holds(shapes_, root(agent), point, at.x, at.y);
+    };
     return {leaf(first, nearest_.a, of.a.nearest()), leaf(second, nearest_.b, of.b.nearest())};
   }
   const auto number = [&](std::uint32_t agent, std::uint32_t place) {

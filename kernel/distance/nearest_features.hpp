@@ -13,6 +13,11 @@
 
 namespace bch::detail {
 
+/// Returns the number of the leaf of a tree, `root`, that holds a segment of an outline, named by the point where it begins: the one whose disc is
+/// nearest to (x, y), of equally near ones the first.
+std::uint32_t leaf_that_holds(const ShapeSetView& shapes, std::size_t root, std::uint32_t point, double x,
+                              double y);
+
 /// What a kernel found of two agents, and all outputs of it. What is computed here is so in double, where squares do not underflow, and from
 /// the positions themselves.
 class FoundFeatures {
@@ -59,7 +64,6 @@ class FoundFeatures {
   Vector along(double sign) const;
   Segment segment(std::uint32_t point) const noexcept;
   Segments segments() const;
-  std::uint32_t leaf(std::uint32_t agent, std::uint32_t point, Vector at) const;
   Vec2 end(std::uint32_t agent, std::uint32_t place, Vector unit) const;
 
   const ShapeSetView& shapes_;

@@ -141,10 +141,10 @@ bool BodyQuery::has_segment_of(std::uint32_t obstacle) noexcept {
                      [&](const LocalSegment& segment) { return segment.obstacle == obstacle; });
 }
 
-std::uint32_t BodyQuery::area_that_holds(const PlacedPart& part) {
+std::uint32_t BodyQuery::area_that_holds(const PlacedPart& part, bool exact_leaves) {
   std::uint32_t area = no_obstacle;
   near_.any_obstacle([&](std::span<const LocalSegment> segments, std::uint32_t obstacle) {
-    if (near_.obstacles().is_area[obstacle] == 0 || !area_holds(part, segments, obstacle, false))
+    if (near_.obstacles().is_area[obstacle] == 0 || !area_holds(part, segments, obstacle, exact_leaves))
       return false;
     area = obstacle;
     return true;

@@ -90,9 +90,9 @@ class BodyQuery {
     if (!stop) visit_areas_beyond(part, found);
   }
 
-  /// Returns an area that holds a disc of a part clear of its segments, or no_obstacle. Precondition: near() found all segments
-  /// within the root's disc.
-  std::uint32_t area_that_holds(const PlacedPart& part);
+  /// Returns an area that holds a disc of a part clear of its segments, with exact leaves something of its outline, or no_obstacle.
+  /// Precondition: near() found all segments within the root's disc.
+  std::uint32_t area_that_holds(const PlacedPart& part, bool exact_leaves);
   /// Returns whether the outline of a part holds where a path begins, which it does not touch.
   bool outline_holds(const PlacedPart& part, std::span<const LocalSegment> segments) const noexcept;
 

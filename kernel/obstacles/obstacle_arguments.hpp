@@ -19,14 +19,26 @@ struct ObstacleArguments {
   bool exact_leaves;  ///< where the tree has segments, these decide
 };
 
-/// The smallest gap found so far. An equal gap replaces it if its disc, then its segment, has a lower number.
-struct ObstacleGap {
-  double gap;                   ///< metres
-  std::uint32_t disc;           ///< of the part's cut
-  std::uint32_t number;         ///< of the segment
-  const LocalSegment* segment;  ///< null: there is none up to the gap that stood here
-};
+constexpr std::uint32_t no_disc = 0xffffffff, no_point = 0xffffffff;
 
-constexpr std::uint32_t no_disc = 0xffffffff;
+/// The smallest gap found so far. Of equal gaps the outline's segment with the lower number counts, any of them before discs, then the disc with
+/// the lower number, then the obstacle's segment.
+struct ObstacleGap {
+  double gap;            ///< metres
+  std::uint32_t point;   ///< where the outline's segment begins, of ShapeSetView::points; no_point: of a disc
+  std::uint32_t disc;    ///< of the part's cut; of an outline 0
+  std::uint32_t number;  ///< of the obstacle's segment
+  const LocalSegment* segment;  ///< null: there is none up to the gap that stood here
+
+  /// Takes a gap that comes before this one. Returns: whether it does. (Inlined for certain, so that instruction sets share no function.)
+  [[gnu::always_inline]] bool improve(const ObstacleGap& other) noexcept {
+    const bool is_first = other.point != point ? other.point < point
+                          : other.disc != disc ? other.disc < disc
+                                               : other.number < number;
+    if (!(other.gap < gap || (other.gap == gap && is_first))) return false;
+    *this = other;
+    return true;
+  }
+};
 
 }  // namespace bch::detail

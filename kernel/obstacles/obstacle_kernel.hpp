@@ -6,11 +6,12 @@
 #include <cstdint>
 
 #include "kernel/obstacles/obstacle_arguments.hpp"
+#include "kernel/obstacles/outline_segment.hpp"
 #include "kernel/obstacles/part_tree.hpp"
 #include "kernel/simd/ancestor_test.hpp"
 #include "kernel/simd/leaf_segments.hpp"
-#include "kernel/simd/segment_test.hpp"
 #include "kernel/simd/tree_nodes.hpp"
+#include "layout/base/rounding.hpp"
 #include "layout/simd/lanes.hpp"
 
 namespace bch::detail {
@@ -27,7 +28,7 @@ class ObstacleKernel {
   /// exact leaves decide.
   bool touches() noexcept {
     if (in_.shapes->inscribed != nullptr && any_goes_in()) return true;
-    const bool exact = in_.exact_leaves && tree_.segments != no_segments;
+    const bool exact = is_exact();
     std::uint32_t open = 0;
     nodes_open_[open++] = tree_.top;
     while (open != 0) {
@@ -47,8 +48,11 @@ class ObstacleKernel {
     return false;
   }
 
-  /// Finds the least gap between a disc of the cut and a segment. The search ends at one of at most `enough`. The segment that is
-  /// nearest to the root comes first: few others improve on it.
+  /// Finds the least gap between a disc of the cut and a segment, or between the outline and a segment where exact leaves decide. The
+  /// search ends at one of at most `enough`. The segment that is nearest to the root comes first: few others improve on it.
+  ///
+  /// Gaps of discs bound those of outlines: some leaf holds the nearest point of an outline, and its radius was enlarged by the same grid steps
+  /// as the margin of exact leaves, and by query_margin, which is more than that margin and what halving moves. So its gap is below that of the outline.
   void find_gap(double enough, ObstacleGap& best) noexcept {
     std::uint32_t first = 0;
     double least = __builtin_inf();
@@ -63,6 +67,10 @@ class ObstacleKernel {
 
  private:
   using Double = typename Simd::Double;
+  // What is said of find_gap(): a disc has more room than outlines have margin, and halving takes.
+  static_assert(rounding::query_margin >=
+                rounding::segment_margin +
+                    (rounding::terms::halving + 2 * rounding::terms::higher) * rounding::unit_roundoff);
   /// A step leaves seven brothers behind at most.
   static constexpr std::uint32_t most_open = 7 * most_wide_levels + 1;
 
@@ -130,60 +138,23 @@ class ObstacleKernel {
     }
   }
 
+  /// Returns whether segments of the outline decide, where leaves have them.
+  bool is_exact() const noexcept { return in_.exact_leaves && tree_.segments != no_segments; }
+  double margin() const noexcept { return in_.shapes->segment_margin[in_.root / in_.shapes->level_count]; }
+
   Meeting outline_meets(std::uint32_t disc) const noexcept {
     const LeafSegments<Simd> leaves{in_.shapes->leaf_segments};
     const auto list = leaves.segments(tree_, disc);
     if (list.count == 0) return Meeting::near;
-    const double margin = in_.shapes->segment_margin[in_.root / in_.shapes->level_count];
     Meeting most = Meeting::none;
     for (std::uint32_t i = 0; i < list.count && most != Meeting::sure; ++i) {
       const Vec2* const point = in_.shapes->points + list.point(i);
       for (std::uint32_t k = 0; k < in_.count; ++k) {
-        const Meeting meeting = meet(point[0], point[1], in_.segments[k], margin);
+        const Meeting meeting = OutlineSegment<Simd>(point, in_.segments[k]).meet(margin());
         most = meeting > most ? meeting : most;
       }
     }
     return most;
-  }
-
-  struct Point {
-    double x, y;
-  };
-  static double square_distance(Point p, Point from, Point to) noexcept {
-    const double x = to.x - from.x, y = to.y - from.y, px = p.x - from.x, py = p.y - from.y;
-    const double square = x * x + y * y;
-    double share = square > 0 ? (px * x + py * y) / square : 0;
-    share = share < 0 ? 0 : share > 1 ? 1 : share;
-    const double dx = px - share * x, dy = py - share * y;
-    return dx * dx + dy * dy;
-  }
-
-  /// Segments meet where they cross, or an end of one is within a margin of the other: where rounding hides a crossing, an end is
-  /// next to the other segment. A crossing is sure where all ends are beyond the other's line by the margin, beside which errors of double
-  /// are nothing.
-  static Meeting meet(const Vec2& first, const Vec2& second, const LocalSegment& segment,
-                      double margin) noexcept {
-    const Point p{segment.along(double{first.x}, double{first.y}),
-                  segment.across(double{first.x}, double{first.y})},
-        q{segment.along(double{second.x}, double{second.y}),
-          segment.across(double{second.x}, double{second.y})};
-    const double limit = margin + segment.slack;
-    // Most are farther than that on one side.
-    if ((p.y > limit && q.y > limit) || (p.y < -limit && q.y < -limit)) return Meeting::none;
-    const Point from{segment.from, 0}, to{segment.to, 0};
-    const double x = q.x - p.x, y = q.y - p.y;
-    const double side_from = x * (from.y - p.y) - y * (from.x - p.x),
-                 side_to = x * (to.y - p.y) - y * (to.x - p.x);
-    if ((p.y > 0) != (q.y > 0) && (side_from > 0) != (side_to > 0)) {
-      const double beyond = limit * (__builtin_fabs(x) + __builtin_fabs(y));
-      const bool sure = __builtin_fabs(p.y) > limit && __builtin_fabs(q.y) > limit &&
-                        __builtin_fabs(side_from) > beyond && __builtin_fabs(side_to) > beyond;
-      return sure ? Meeting::sure : Meeting::near;
-    }
-    const double square = limit * limit;
-    const bool near = square_distance(p, from, to) <= square || square_distance(q, from, to) <= square ||
-                      square_distance(from, p, q) <= square || square_distance(to, p, q) <= square;
-    return near ? Meeting::near : Meeting::none;
   }
 
   /// A block, and the bounds of what is below its nodes.
@@ -271,15 +242,31 @@ class ObstacleKernel {
       Simd::store(gap + k, value);
       near |= Simd::bits(value <= Double(best.gap)) << k;
     }
-    const std::uint32_t first = (node & ~leaf_window) - tree_.discs;
+    const std::uint32_t first = node & ~leaf_window;
     bool improved = false;
     for (; near != 0; near &= near - 1) {
       const auto lane = static_cast<unsigned>(__builtin_ctz(near));
-      const std::uint32_t disc = first + lane;
-      const bool before = disc != best.disc ? disc < best.disc : segment.number < best.number;
-      if (!(gap[lane] < best.gap || (gap[lane] == best.gap && before))) continue;
-      best = {gap[lane], disc, segment.number, &segment};
-      improved = true;
+      if (is_exact())
+        improved |= gap[lane] <= best.gap && take_outline(segment, first + lane, gap[lane], best);
+      else
+        improved |= best.improve({gap[lane], no_point, first + lane - tree_.discs, segment.number, &segment});
+    }
+    return improved;
+  }
+
+  /// Takes what improves on the best of the segments in a leaf, `disc`, or of its disc where these are too many.
+  [[gnu::noinline]] bool take_outline(const LocalSegment& segment, std::uint32_t disc, double gap_of_disc,
+                                      ObstacleGap& best) const noexcept {
+    const auto list = LeafSegments<Simd>{in_.shapes->leaf_segments}.segments(tree_, disc);
+    if (list.count == 0)
+      return best.improve(
+          {gap_of_disc < 0 ? 0 : gap_of_disc, no_point, disc - tree_.discs, segment.number, &segment});
+    bool improved = false;
+    for (std::uint32_t i = 0; i < list.count; ++i) {
+      const std::uint32_t point = list.point(i);
+      const OutlineSegment<Simd> outline(in_.shapes->points + point, segment);
+      if (outline.is_beside((best.gap + margin() + segment.slack) * (1 + 0x1p-40))) continue;
+      improved |= best.improve({outline.gap(margin()), point, 0, segment.number, &segment});
     }
     return improved;
   }

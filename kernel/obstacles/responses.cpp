@@ -70,7 +70,7 @@ class WaysOut {
       return false;
     });
     if (is_any_touched) return farthest;
-    const std::uint32_t area = body_.area_that_holds(part_);
+    const std::uint32_t area = body_.area_that_holds(part_, false);
     const LocalSegment* const nearest = area == no_obstacle ? nullptr : nearest_of(area);
     return nearest == nullptr ? farthest : over(*nearest, everywhere);
   }
@@ -250,7 +250,7 @@ void find_time(const PlacedPart& part, const LocalSegment& segment, Vector way, 
 double impact(BodyQuery& body, const PlacedPart& part, Vector way_in_world) {
   const Vec2 centre = part.centre();
   body.near_part(part);
-  if (body.area_that_holds(part) != no_obstacle) return 0;
+  if (body.area_that_holds(part, false) != no_obstacle) return 0;
   const bool is_solid = part.shapes.slab_parts != nullptr;
   if (is_solid && body.outline_holds(part, body.near().found())) return 0;
   const Vector way = part.place.turned_back(way_in_world.x, way_in_world.y);

@@ -284,6 +284,17 @@ TEST_F(QueryWhat, ObstaclesInPlaceOfPairs) {
   EXPECT_EQ(apart[1], (std::vector<std::string>{"b", "0", "0", "0"}));
   EXPECT_EQ(rows("within", "id,hit", {"--obstacles", walls, "--max-distance", "0.06"}),
             (Rows{{"a", "1"}, {"b", "1"}, {"c", "1"}, {"d", "0"}}));
+  // From outlines, a's distance is the one that the scene gives; from discs it is less.
+  const Rows outlines = rows("clearance", "id,distance,x,y", {"--obstacles", walls, "--leaves", "segments"});
+  EXPECT_NEAR(number(outlines[0][1]), 0.05, 1e-5);
+  EXPECT_GT(number(outlines[0][1]), number(apart[0][1]));
+  EXPECT_EQ(outlines[1], apart[1]);
+  const double between = 0.5 * (number(outlines[0][1]) + number(apart[0][1]));
+  for (const char* leaves : {"discs", "segments"})
+    EXPECT_EQ(
+        rows("within", "id,hit",
+             {"--obstacles", walls, "--max-distance", std::to_string(between), "--leaves", leaves})[0][1],
+        std::string(leaves) == "discs" ? "1" : "0");
   const Rows times = rows("time-of-impact", "id,time", against);
   EXPECT_NEAR(number(times[0][1]), 0.05 / 0.15, 0.15);
   EXPECT_EQ(times[1][1], "0");

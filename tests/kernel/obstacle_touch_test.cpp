@@ -68,8 +68,19 @@ double distance_of(const std::vector<QuadVector>& points, const Outline& outline
   return least;
 }
 
+/// Returns whether a placed outline meets a wall.
+bool meets(const std::vector<QuadVector>& points, const Outline& outline, QuadVector a, QuadVector b) {
+  for (std::size_t contour = 0; contour < outline.contours(); ++contour) {
+    const std::size_t begin = outline.contour_begin[contour], end = outline.contour_begin[contour + 1];
+    for (std::size_t i = begin; i < end; ++i)
+      if (cross(a, b, points[i], points[i + 1 == end ? begin : i + 1])) return true;
+  }
+  return false;
+}
+
 /// A vertex of an outline next to a wall, within the last bits: where 113-bit arithmetic says that outline and wall meet, the answer
-/// is a hit at every level; where they are farther apart than the price, exact leaves say that they do not.
+/// is a hit at every level; where they are farther apart than the price, exact leaves say that they do not. A clearance of outlines is never
+/// larger than their distance, and below it by no more than the price.
 TEST_F(Obstacles, NeverMissWhatTouches) {
   std::size_t touching = 0, apart = 0;
   for (std::uint32_t k = 0; k < test::samples(200'000); ++k) {
@@ -102,31 +113,112 @@ TEST_F(Obstacles, NeverMissWhatTouches) {
     const std::vector<std::uint64_t> paths = {0, 2};
     std::vector<std::uint8_t> hits(4);
     collide(set, crowd.agents(), ObstacleSet({x, y, paths}), hits);
-    bool meet = false;
+    std::vector<float> apart_by(4);
+    clearance(set, crowd.agents(), ObstacleSet({x, y, paths}), {.distance = apart_by},
+              {.distance_leaves = Leaves::segments});
     const QuadVector a{Quad{x[0]}, Quad{y[0]}}, b{Quad{x[1]}, Quad{y[1]}};
-    for (std::size_t contour = 0; contour < shape.outline.contours(); ++contour) {
-      const std::size_t begin = shape.outline.contour_begin[contour],
-                        end = shape.outline.contour_begin[contour + 1];
-      for (std::size_t i = begin; i < end && !meet; ++i) {
-        meet = cross(a, b, points[i], points[i + 1 == end ? begin : i + 1]);
-      }
-    }
-    if (meet) {
+    if (meets(points, shape.outline, a, b)) {
       ASSERT_EQ(hits, std::vector<std::uint8_t>(4, 1)) << k;
+      ASSERT_EQ(apart_by, std::vector<float>(4, 0)) << k;
       ++touching;
     } else {
       const double far_end =
           std::abs(x[0] - px) + std::abs(x[1] - px) + std::abs(y[0] - py) + std::abs(y[1] - py);
       const double price = 1.01 * baselines::LeafSegments::margin_of(shape) + 1e-14 * far_end;
-      ASSERT_TRUE(hits.back() == 0 || shape.hierarchy.nodes.size() == 1 ||
-                  distance_of(points, shape.outline, a, b) <= price)
-          << k;
+      const bool has_segments = shape.hierarchy.nodes.size() > 1;
+      const double distance = distance_of(points, shape.outline, a, b), measured = double{apart_by.back()};
+      ASSERT_TRUE(hits.back() == 0 || !has_segments || distance <= price) << k;
+      ASSERT_LE(measured, distance) << k;
+      ASSERT_TRUE(!has_segments || distance - measured <= price + 1.2e-7 * distance) << k;
+      ASSERT_TRUE(hits.back() == 0 || measured == 0) << k;
       apart += hits.back() == 0;
     }
     for (std::size_t level = 1; level < 4; ++level) ASSERT_LE(hits[level], hits[level - 1]) << k;
   }
   EXPECT_GT(touching, test::samples(50'000));
   EXPECT_GT(apart, test::samples(5'000));
+}
+
+/// The distance of an outline from a wall anywhere, next to it and as far as a city, is that of the two, but for the price.
+TEST_F(Obstacles, AreAsFarAsOutlinesAre) {
+  std::size_t apart = 0;
+  for (std::uint32_t k = 0; k < test::samples(20'000); ++k) {
+    const std::uint32_t number = random.below(static_cast<std::uint32_t>(shapes.size()));
+    const Shape& shape = shapes[number];
+    const double heading = random.uniform(-4, 4), far = std::pow(10, random.uniform(-3, 5)),
+                 at = random.uniform(-4, 4), length = std::pow(10, random.uniform(-3, 7)),
+                 turn = random.uniform(-4, 4);
+    const double from_x = far * std::cos(at), from_y = far * std::sin(at);
+    const std::vector<double> x = {from_x, from_x + length * std::cos(turn)},
+                              y = {from_y, from_y + length * std::sin(turn)};
+    const std::vector<std::uint64_t> paths = {0, 2};
+    Crowd crowd;
+    crowd.add({number, 0, 0, heading, 3});
+    std::vector<float> measured(1);
+    clearance(set, crowd.agents(), ObstacleSet({x, y, paths}), {.distance = measured},
+              {.distance_leaves = Leaves::segments});
+    const QuadVector way = baselines::quad_rotation(heading), a{Quad{x[0]}, Quad{y[0]}},
+                     b{Quad{x[1]}, Quad{y[1]}};
+    std::vector<QuadVector> points;
+    for (const Vec2& point : shape.outline.points)
+      points.push_back(turned(way, {Quad{static_cast<double>(point.x)}, Quad{static_cast<double>(point.y)}}));
+    if (meets(points, shape.outline, a, b)) {
+      ASSERT_EQ(measured[0], 0) << k;
+      continue;
+    }
+    ++apart;
+    const double distance = distance_of(points, shape.outline, a, b), below = distance - double{measured[0]};
+    ASSERT_GE(below, 0) << k;
+    if (shape.hierarchy.nodes.size() == 1) continue;
+    const double margin = baselines::LeafSegments::margin_of(shape);
+    ASSERT_LE(below, 1.01 * margin + 1.2e-7 * distance + 4e-15 * (2 * far + 2 * length)) << k;
+  }
+  EXPECT_GT(apart, test::samples(10'000));
+}
+
+/// Where a wall is as near to several segments of an outline, and several walls to one, the first ones count.
+TEST_F(Obstacles, OfEquallyNearOnesTheFirstCounts) {
+  const Shape square = test::contour_shape(test::polygon({{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}));
+  const ShapeSet squares({&square, 1});
+  Crowd crowd;
+  crowd.add({0, 0, 0, 0, 0});
+  // Walls beside all four sides, each a metre away; the one above twice.
+  const std::vector<double> x = {-3, 3, -3, 3, 2, 2, -2, -2, -3, 3}, y = {2, 2, 2, 2, -3, 3, -3, 3, -2, -2};
+  const std::vector<std::uint64_t> paths = {0, 2, 4, 6, 8, 10};
+  for (const Implementation& each : implementations()) {
+    if (!each.supported()) continue;
+    float distance = 0;
+    DiscPair discs{};
+    NearestPoints points{};
+    clearance(squares, crowd.agents(), ObstacleSet({x, y, paths}),
+              {.distance = {&distance, 1}, .discs = {&discs, 1}, .points = {&points, 1}},
+              {.implementation = &each, .distance_leaves = Leaves::segments});
+    EXPECT_NEAR(distance, 1, 3e-6) << each.name;
+    // The first side of the square leads along y = -1, and its end is as near to the third wall as all of it to the last one.
+    EXPECT_EQ(discs.second, 2u) << each.name;
+    EXPECT_EQ(points.first, (Vec2{1, -1})) << each.name;
+    EXPECT_EQ(points.second, (Vec2{2, -1})) << each.name;
+  }
+}
+
+/// Leaves of too many segments are measured as discs, beside others of the same set.
+TEST_F(Obstacles, OfLeavesWithTooManySegments) {
+  const std::vector<Shape> stars = {test::contour_shape(test::star(random, 20'000, 0.3, 0.31), 0.05f),
+                                    test::contour_shape(test::star(random, 40, 0.2, 0.4))};
+  const ShapeSet set_of_stars(stars);
+  const baselines::ObstacleReference reference(stars, {}, Leaves::segments);
+  const std::vector<double> x = {-3, 3}, y = {0.5, 0.6};
+  const std::vector<std::uint64_t> paths = {0, 2};
+  const std::vector<baselines::ReferenceObstacle> walls = {{{{-3, 0.5, 3, 0.6}}, false}};
+  const Crowd crowd = test::crowd_about(random, set_of_stars, 20, 1);
+  std::vector<float> distances(20);
+  clearance(set_of_stars, crowd.agents(), ObstacleSet({x, y, paths}), {.distance = distances},
+            {.distance_leaves = Leaves::segments});
+  for (std::uint32_t i = 0; i < distances.size(); ++i) {
+    const double gap = reference.outline_gap(crowd.agents(), i, walls).gap;
+    EXPECT_LE(double{distances[i]}, std::max(gap, 0.0)) << i;
+    EXPECT_NEAR(double{distances[i]}, std::max(gap, 0.0), 1.2e-7) << i;
+  }
 }
 
 /// The pole of a lamp within an outline is seen in solid semantics alone; a post in a ring's hole never.

@@ -107,13 +107,43 @@ void expect_nearest(const ShapeSet& set, const Agents& agents, std::uint32_t age
   EXPECT_NEAR(double{points.first.y}, double{centre.y} + double{disc.radius} * double{direction.y}, near);
 }
 
+/// Returns how far a point of an agent's frame is from a segment of its outline.
+double distance_from(const Outline& outline, std::uint32_t number, double x, double y) {
+  const auto [from, to] = baselines::LeafSegments::segment(outline, number);
+  const double ux = to.x - from.x, uy = to.y - from.y, square = ux * ux + uy * uy;
+  const double share = std::clamp(((x - from.x) * ux + (y - from.y) * uy) / square, 0.0, 1.0);
+  return std::hypot(x - from.x - share * ux, y - from.y - share * uy);
+}
+
+/// The points of a distance of an outline are on the segments that brute force names, as far apart as the distance says, in its direction; and the
+/// named leaf holds the one.
+void expect_nearest_outline(const Shape& shape, const Agents& agents, std::uint32_t agent,
+                            const ObstacleReference::Gap& gap, float distance, const DiscPair& named,
+                            Vec2 direction, const NearestPoints& points) {
+  constexpr double near = 1e-5;
+  const double c = std::cos(agents.heading[agent]), s = std::sin(agents.heading[agent]);
+  const double px = points.first.x, py = points.first.y, x = c * px + s * py, y = c * py - s * px;
+  EXPECT_LE(distance_from(shape.outline, gap.of_outline, x, y), near);
+  const double to_x = double{points.second.x} - px, to_y = double{points.second.y} - py;
+  EXPECT_NEAR(std::hypot(to_x, to_y), double{distance}, near);
+  EXPECT_NEAR(double{direction.x} * double{distance}, to_x, near);
+  EXPECT_NEAR(double{direction.y} * double{distance}, to_y, near);
+  EXPECT_EQ(named.second, gap.segment);
+  const std::uint32_t leaf = cut(shape.hierarchy, all_depths)[named.first];
+  const Disc disc = shape.hierarchy.nodes[leaf].disc;
+  EXPECT_LE(std::hypot(x - double{disc.x}, y - double{disc.y}), double{disc.radius} + near);
+  const auto [begin, end] = shape.hierarchy.primitive_ranges[leaf];
+  EXPECT_TRUE(std::any_of(shape.hierarchy.source.begin() + begin, shape.hierarchy.source.begin() + end,
+                          [&](std::uint32_t number) { return number == gap.of_outline; }));
+}
+
 /// Every answer about every agent of many scenes is that of brute force over all discs and segments, on every instruction set.
 void expect_brute_force(Random& random, std::span<const Shape> shapes, const ShapeSetPlan& plan,
                         std::uint32_t scenes) {
   const ShapeSet set(shapes, plan);
   const ObstacleReference with_segments(shapes, plan, Leaves::segments),
       with_discs(shapes, plan, Leaves::discs);
-  std::size_t hits = 0, held = 0, apart = 0;
+  std::size_t hits = 0, held = 0, apart = 0, of_outlines = 0;
   for (std::uint32_t k = 0; k < scenes; ++k) {
     const ObstacleScene scene = test::obstacle_scene(random, 24, 3);
     const ObstacleSet obstacles = scene.set();
@@ -126,31 +156,43 @@ void expect_brute_force(Random& random, std::span<const Shape> shapes, const Sha
     }
     const Leaves leaves = k % 2 == 0 ? Leaves::segments : Leaves::discs;
     const ObstacleReference& reference = k % 2 == 0 ? with_segments : with_discs;
-    const Answers best = all_answers(set, agents, obstacles, {.leaves = leaves}, distances, {dx, dy});
+    QueryOptions how{.leaves = leaves, .distance_leaves = leaves};
+    const Answers best = all_answers(set, agents, obstacles, how, distances, {dx, dy});
     for (const Implementation& each : implementations())
       if (k % 4 < 2 && each.supported()) {
-        EXPECT_EQ(all_answers(set, agents, obstacles, {.implementation = &each, .leaves = leaves}, distances,
-                              {dx, dy}),
-                  best)
-            << each.name;
+        how.implementation = &each;
+        EXPECT_EQ(all_answers(set, agents, obstacles, how, distances, {dx, dy}), best) << each.name;
       }
     for (std::uint32_t i = 0; i < agents.size(); ++i) {
       bool hit = false, is_held = false;
       for (const auto& obstacle : scene.reference) {
         hit = hit || reference.collides(agents, i, obstacle);
-        is_held = is_held || reference.holds_a_centre(agents, i, obstacle);
+        is_held = is_held || (leaves == Leaves::discs ? reference.holds_a_centre(agents, i, obstacle)
+                                                      : reference.holds_the_outline(agents, i, obstacle));
       }
-      const auto gap = reference.gap(agents, i, scene.reference);
+      const bool by_discs = leaves == Leaves::discs;
+      const auto gap = by_discs ? reference.gap(agents, i, scene.reference)
+                                : reference.outline_gap(agents, i, scene.reference);
       ASSERT_EQ(best.hits[i], hit) << "scene " << k << ", agent " << i;
       ASSERT_EQ(best.near[i], is_held || gap.gap <= distances[i]) << "scene " << k << ", agent " << i;
-      ASSERT_EQ(best.deepest[i], rounded_down(gap.gap)) << "scene " << k << ", agent " << i;
-      ASSERT_EQ(best.deepest_discs[i], (DiscPair{gap.disc, gap.segment}));
-      const bool zero = is_held || gap.gap <= 0;
+      if (by_discs) {
+        ASSERT_EQ(best.deepest[i], rounded_down(gap.gap)) << "scene " << k << ", agent " << i;
+        ASSERT_EQ(best.deepest_discs[i], (DiscPair{gap.disc, gap.segment}));
+      }
+      const bool zero = is_held || gap.gap <= 0, of_outline = gap.of_outline != ObstacleReference::none;
       ASSERT_EQ(best.distance[i], zero ? 0 : rounded_down(gap.gap)) << "scene " << k << ", agent " << i;
-      ASSERT_EQ(best.discs[i], zero ? no_discs : (DiscPair{gap.disc, gap.segment}));
+      ASSERT_TRUE(zero || best.deepest[i] <= best.distance[i]) << "scene " << k << ", agent " << i;
+      ASSERT_TRUE(!hit || zero || !of_outline) << "scene " << k << ", agent " << i;
+      if (zero || !of_outline) {
+        ASSERT_EQ(best.discs[i], zero ? no_discs : (DiscPair{gap.disc, gap.segment}));
+      }
       if (zero) {
         ASSERT_EQ(best.direction[i], Vec2{});
         ASSERT_EQ(best.points[i], NearestPoints{});
+      } else if (of_outline) {
+        expect_nearest_outline(shapes[agents.shape[i]], agents, i, gap, best.distance[i], best.discs[i],
+                               best.direction[i], best.points[i]);
+        ++of_outlines;
       } else if (i % 8 == 0) {
         expect_nearest(set, agents, i, scene, best.distance[i], best.discs[i], best.direction[i],
                        best.points[i]);
@@ -162,6 +204,7 @@ void expect_brute_force(Random& random, std::span<const Shape> shapes, const Sha
   EXPECT_GT(hits, all / 7);
   EXPECT_GT(held, all / 20);
   EXPECT_GT(apart, all / 7);
+  EXPECT_TRUE(!set.exact_leaves() || of_outlines > all / 50);
 }
 
 TEST_F(Obstacles, AreAsBruteForceSays) {
@@ -188,6 +231,9 @@ TEST_F(Obstacles, AnswerFarAwayAsAtTheOrigin) {
   std::vector<double> way(crowd.x.size());
   for (double& length : way) length = random.uniform(-1, 1);
   const Answers here = all_answers(set, crowd.agents(), scene.set(), {}, distances, {way, way});
+  const QueryOptions exact_distances{.distance_leaves = Leaves::segments};
+  const Answers outlines =
+      all_answers(set, crowd.agents(), scene.set(), exact_distances, distances, {way, way});
   for (const double far : {0x1p20, 0x1p27, 0x1.8p29}) {
     for (auto* values : {&scene.x, &crowd.x})
       for (double& value : *values) value += far;
@@ -196,6 +242,9 @@ TEST_F(Obstacles, AnswerFarAwayAsAtTheOrigin) {
     const oneapi::tbb::global_control threads(oneapi::tbb::global_control::max_allowed_parallelism, 4);
     oneapi::tbb::task_arena(4).execute([&] {
       EXPECT_EQ(all_answers(set, crowd.agents(), scene.set(), {}, distances, {way, way}), here) << far;
+      EXPECT_EQ(all_answers(set, crowd.agents(), scene.set(), exact_distances, distances, {way, way}),
+                outlines)
+          << far;
     });
     for (auto* values : {&scene.x, &crowd.x})
       for (double& value : *values) value -= far;
@@ -239,12 +288,13 @@ TEST_F(Obstacles, OfBodiesInSlabs) {
     for (const Shape& slab : body.slabs) add(slab);
   }
   const ShapeSet apart(parts, {.depths = plan.depths});
-  const QueryOptions solid{.semantics = Semantics::solid};
+  QueryOptions solid{.semantics = Semantics::solid};
   std::size_t hits = 0;
   for (std::uint32_t k = 0; k < test::samples(16); ++k) {
     const ObstacleScene scene = test::obstacle_scene(random, 16, 3);
     const ObstacleSet obstacles = scene.set();
     const Crowd crowd = test::crowd_about(random, whole, 500, 3);
+    solid.distance_leaves = k % 2 == 0 ? Leaves::discs : Leaves::segments;
     const std::vector<double> distances = distances_for(random, 500);
     std::vector<double> way(500);
     for (double& length : way) length = random.uniform(-1, 1);

@@ -31,6 +31,9 @@ void ask_all_of_obstacles(const ShapeSet& set, const Agents& agents, const Query
   collide(set, agents, obstacles, hits, options);
   within(set, agents, obstacles, way, hits, options);
   clearance(set, agents, obstacles, {values, directions, discs}, options);
+  QueryOptions of_outlines = options;
+  of_outlines.distance_leaves = Leaves::segments;
+  clearance(set, agents, obstacles, {values, directions, discs}, of_outlines);
   penetration(set, agents, obstacles, ways, options);
   time_of_impact(set, agents, {way, way}, obstacles, values, options);
   CrowdCollider().collide_all(set, agents, obstacles, options);

@@ -98,9 +98,9 @@ void collide(const ShapeSet& shapes, const Agents& agents, const ObstacleSet& ob
              std::span<std::uint8_t> hits, const QueryOptions& options = {});
 
 /// Answers each agent: 1 where a disc of its cut comes as close to an obstacle as a distance, else 0; one distance for all
-/// agents, or one each. It is 1 where clearance() without a limit is at most the distance, but for rounding that to float; in
-/// solid semantics also where the agent's outline holds a whole path.
-/// Options: semantics, implementation.
+/// agents, or one each. It is 1 where clearance() with the same distance_leaves and no limit is at most the distance, but for rounding that to
+/// float; in solid semantics also where the agent's outline holds a whole path.
+/// Options: semantics, distance_leaves, implementation.
 void within(const ShapeSet& shapes, const Agents& agents, const ObstacleSet& obstacles,
             std::span<const double> distances, std::span<std::uint8_t> answers,
             const QueryOptions& options = {});
@@ -110,7 +110,14 @@ void within(const ShapeSet& shapes, const Agents& agents, const ObstacleSet& obs
 /// segment, of equal gaps the first disc and then the first segment. `points` are both from the agent's position.
 /// With Overlap::deepest the distance of a disc that a segment crosses is negative, and its direction is that to the segment's nearest point,
 /// (1, 0) where that is the disc's centre. An agent that an area holds clear of its segments is as far from those as they are.
-/// Options: max_distance, overlap, implementation.
+///
+/// With distance_leaves = Leaves::segments, where the agent has exact leaves, the distance is that of its outline: the least from a segment of it to
+/// one of the obstacle, 0 where they come within the margin of exact leaves or an area holds something of the outline. It is never larger than that of the
+/// outline as it was given, and below it by no more than 1.2 um per metre of reach, 0.12 um per metre of the distance and 4e-15 of
+/// the distance to the ends of the segment. The points are those of the two segments, and the disc is the leaf that holds the agent's. Of equal distances
+/// that with the first segment of the outline counts, then the first of the obstacle. A leaf of more than 127 segments is measured as a disc, after
+/// all segments. Where collide() says 1 in boundary semantics the distance is 0; where it is positive, collide() says 0 there.
+/// Options: max_distance, overlap, distance_leaves, implementation.
 void clearance(const ShapeSet& shapes, const Agents& agents, const ObstacleSet& obstacles,
                const ClearanceAnswers& answers, const QueryOptions& options = {});
 

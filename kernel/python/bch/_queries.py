@@ -237,6 +237,7 @@ def within(
     distance: Union[float, Float64],
     *,
     semantics: Semantics = "boundary",
+    leaves: Leaves = "discs",
     threads: int = 0,
     implementation: Optional[str] = None,
     out: Optional[Bool] = None,
@@ -252,6 +253,8 @@ def within(
     pairs : (n, 2) uint32, or Obstacles
     distance : float, or (n,) float64
         Metres; one for all, or one each.
+    leaves : {"discs", "segments"}
+        Of obstacles, as for `clearance`; the two agents of a pair are always measured between discs.
     semantics, threads, implementation, out
         As for `collide`.
 
@@ -261,7 +264,7 @@ def within(
     """
     set_at, agents_at, where, n = _asked(shapes, agents, pairs)
     answers = result(out, b1, (n,))
-    how, _ = options(semantics, "segments", "zero", math.inf, threads, implementation)
+    how, _ = options(semantics, "segments", "zero", math.inf, threads, implementation, leaves)
     near = np.array([distance], f8) if np.ndim(distance) == 0 else distance
     assert isinstance(near, np.ndarray)
     at = given(near, f8, (len(near),), "distance")

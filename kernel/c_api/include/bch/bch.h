@@ -444,9 +444,9 @@ enum {
 /** The options of all queries. Initialise them by BCH_QUERY_OPTIONS_INIT: zeros are not the defaults. Every query uses threads and
  * implementation, and ignores what is not listed here:
  * - bch_collide(), bch_obstacles_collide() and the crowd collider use semantics and leaves,
- * - bch_within() and bch_obstacles_within() semantics,
+ * - bch_within() and bch_obstacles_within() semantics, the second one distance_leaves, too,
  * - the contact finder leaves,
- * - bch_clearance() and bch_obstacles_clearance() max_distance and overlap, the first one distance_leaves, too. */
+ * - bch_clearance() and bch_obstacles_clearance() max_distance, overlap and distance_leaves. */
 typedef struct bch_query_options {
   uint32_t size;           /**< sizeof(bch_query_options) */
   int32_t semantics;       /**< BCH_BOUNDARY or BCH_SOLID; sets with slices are solid */

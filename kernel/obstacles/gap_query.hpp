@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include <bch/clearance.hpp>
+
+#include "kernel/obstacles/body_query.hpp"
+#include "layout/base/rounding.hpp"
+
+namespace bch::detail {
+
+/// The nearest obstacle of an agent's parts so far.
+struct NearestObstacle {
+  double gap;  ///< metres; of nothing found, the limit
+  /// What is nearest of the part: a segment of its outline by the point where it begins, or no_point and a disc of its cut.
+  std::uint32_t point = no_point, disc = 0;
+  std::uint32_t root = 0, first_disc = 0;  ///< of the part's level, and in the whole body
+  LocalSegment segment = {};
+  ObstaclePlace place = {};
+  bool is_found = false, is_near_enough = false;
+};
+
+/// Writes what is asked for of an agent's nearest obstacle.
+void put(const ShapeSetView& shapes, const ClearanceAnswers& answers, std::size_t i,
+         const NearestObstacle& nearest);
+
+/// The distances of agents from obstacles: what clearance() and within() share.
+class GapQuery {
+ public:
+  /// The margin to prepare agents with.
+  static double margin(double limit) noexcept { return std::min(limit, first_step); }
+
+  /// `exact_leaves`: outlines are measured where shapes have exact leaves, else discs.
+  GapQuery(const Implementation& implementation, const ShapeSetView& shapes, bool exact_leaves) noexcept
+      : implementation_(implementation), shapes_(shapes), exact_leaves_(exact_leaves) {}
+
+  /// What counts as near enough beside gaps.
+  struct Inside {
+    bool areas;     ///< an area that holds the agent
+    bool outlines;  ///< a path that the agent's outline holds
+  };
+
+  /// Finds the least gap of at most `limit`, metres. The search ends where one is at most `enough`, or what counts is inside.
+  NearestObstacle find(BodyQuery& body, std::uint32_t agent, double limit, double enough,
+                       Inside inside) const;
+
+ private:
+  static constexpr double first_step = 0.5;  ///< metres
+  /// No gap is larger.
+  static constexpr double farthest = 8 * rounding::largest_position;
+
+  void find_in(BodyQuery& body, const PlacedPart& part, double enough, NearestObstacle& nearest) const;
+  void search(const PlacedPart& part, std::span<const LocalSegment> segments, double enough,
+              ObstacleGap& best, NearestObstacle& nearest) const;
+
+  const Implementation& implementation_;
+  const ShapeSetView& shapes_;
+  const bool exact_leaves_;
+};
+
+}  // namespace bch::detail

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <bch/geometry.hpp>
+
+#include "kernel/obstacles/segment.hpp"
+#include "kernel/simd/segment_test.hpp"
+
+namespace bch::detail {
+
+/// A segment of an agent's outline beside one of an obstacle: whether they meet, and how far apart they are. All in double, in the coordinates
+/// along the obstacle's segment and across it. (`Simd` keeps instruction sets from sharing a function.)
+///
+/// With s the least distance of an end from the other segment, 0 where they cross, m the outline's margin of exact leaves and
+/// slack that of LocalSegment,
+///
+///     gap = max(0, s - (m + slack))
+///
+/// Never larger than the distance D of the outlines: the outline's points are as far off as rounding.hpp, V, says of one shape, which
+/// m holds, and the rest rounds as LocalSegment says. What s rounds itself, 2^-51 of it, is in the second half of slack and, as s is at most
+/// as long as the way to the segment's ends and the reach, in m. Below D by no more than m, twice slack, and the rounding to float.
+///
+/// Segments that meet are 0 m apart: they cross or s <= m + slack, by the same numbers.
+template <class Simd>
+class OutlineSegment {
+ public:
+  /// `ends`: two points of an agent's frame.
+  OutlineSegment(const Vec2* ends, const LocalSegment& segment) noexcept
+      : segment_(segment), p_(placed(ends[0], segment)), q_(placed(ends[1], segment)) {}
+
+  /// Returns whether both ends are farther than so much on one side of the obstacle's line, as most are.
+  bool is_beside(double distance) const noexcept {
+    return (p_.y > distance && q_.y > distance) || (p_.y < -distance && q_.y < -distance);
+  }
+
+  /// Segments meet where they cross, or an end of one is within a margin of the other: where rounding hides a crossing, an end is
+  /// next to the other segment. A crossing is sure where all ends are beyond the other's line by the margin, beside which errors of double
+  /// are nothing.
+  Meeting meet(double margin) const noexcept {
+    const double limit = margin + segment_.slack;
+    if (is_beside(limit)) return Meeting::none;
+    if (!cross()) return square_of_ends() <= limit * limit ? Meeting::near : Meeting::none;
+    const double beyond = limit * (__builtin_fabs(q_.x - p_.x) + __builtin_fabs(q_.y - p_.y));
+    const bool sure = __builtin_fabs(p_.y) > limit && __builtin_fabs(q_.y) > limit &&
+                      __builtin_fabs(side_of(segment_.from)) > beyond &&
+                      __builtin_fabs(side_of(segment_.to)) > beyond;
+    return sure ? Meeting::sure : Meeting::near;
+  }
+
+  /// Returns how far apart they are, metres.
+  double gap(double margin) const noexcept {
+    if (cross()) return 0;
+    const double gap = __builtin_sqrt(square_of_ends()) - (margin + segment_.slack);
+    return gap > 0 ? gap : 0;
+  }
+
+ private:
+  struct Point {
+    double x, y;  ///< along and across
+  };
+  static Point placed(Vec2 end, const LocalSegment& segment) noexcept {
+    const double x = end.x, y = end.y;
+    return {segment.along(x, y), segment.across(x, y)};
+  }
+
+  /// Returns the side of the outline's line on which a point of the obstacle's is.
+  double side_of(double along) const noexcept {
+    return (q_.x - p_.x) * -p_.y - (q_.y - p_.y) * (along - p_.x);
+  }
+  bool cross() const noexcept {
+    return (p_.y > 0) != (q_.y > 0) && (side_of(segment_.from) > 0) != (side_of(segment_.to) > 0);
+  }
+
+  double square_of_ends() const noexcept {
+    const double of_outline = least(square_from_obstacle(p_), square_from_obstacle(q_));
+    return least(of_outline, least(square_from_outline(segment_.from), square_from_outline(segment_.to)));
+  }
+  double square_from_obstacle(Point end) const noexcept {
+    const double before = segment_.from - end.x, behind = end.x - segment_.to;
+    const double beyond = before < behind ? behind : before;
+    return end.y * end.y + (beyond < 0 ? 0 : beyond * beyond);
+  }
+  double square_from_outline(double along) const noexcept {
+    const double x = q_.x - p_.x, y = q_.y - p_.y, to_x = along - p_.x, to_y = -p_.y;
+    const double square = x * x + y * y;
+    double share = square > 0 ? (to_x * x + to_y * y) / square : 0;
+    share = share < 0 ? 0 : share > 1 ? 1 : share;
+    const double dx = to_x - share * x, dy = to_y - share * y;
+    return dx * dx + dy * dy;
+  }
+  static double least(double a, double b) noexcept { return b < a ? b : a; }
+
+  const LocalSegment& segment_;
+  const Point p_, q_;
+};
+
+}  // namespace bch::detail
