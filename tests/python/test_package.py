@@ -116,6 +116,8 @@ class Errors(unittest.TestCase):
             self.agents.x = np.zeros(2)
         walls = bch.Obstacles.from_wkt("LINESTRING(0 0, 1 1)")
         self.expect(ValueError, ["directions are for pairs"], bch.penetration, self.shapes, self.agents, walls, 8)
+        exact = {"leaves": "segments"}
+        self.expect(ValueError, ["leaves are for obstacles"], bch.within, self.shapes, self.agents, self.pairs, 1, **exact)
 
     def test_bodies(self):
         builder = bch.ShapeSetBuilder()
@@ -241,6 +243,16 @@ class Sets(unittest.TestCase):
         with self.assertRaisesRegex(ValueError, "of 1 characters, and there are 2"):
             bch.bake([male, male], poses=[male.sample_poses(2)])
         self.assertEqual(len(bch.Obstacles(np.empty(0), np.empty(0), np.zeros(1, np.uint64))), 0)
+
+    def test_walls(self):
+        shapes, agents = squares(5)
+        wall = bch.Obstacles.from_wkt("LINESTRING(-9 0.7, 9 0.7)")
+        exact = bch.clearance(shapes, agents, wall, leaves="segments")
+        np.testing.assert_allclose(exact, 0.2, atol=1e-5)
+        self.assertTrue((bch.clearance(shapes, agents, wall) < exact).all())
+        for distance in (0.1999, 0.2001):
+            near = bch.within(shapes, agents, wall, distance, leaves="segments")
+            np.testing.assert_array_equal(near, exact <= distance)
 
     def test_copies(self):
         shapes, agents = squares(5)

@@ -263,6 +263,8 @@ def within(
     (n,) bool
     """
     set_at, agents_at, where, n = _asked(shapes, agents, pairs)
+    if leaves != "discs" and not isinstance(pairs, Obstacles):
+        raise ArgumentError("leaves are for obstacles; pairs are measured between discs")
     answers = result(out, b1, (n,))
     how, _ = options(semantics, "segments", "zero", math.inf, threads, implementation, leaves)
     near = np.array([distance], f8) if np.ndim(distance) == 0 else distance
