@@ -12,8 +12,8 @@
 namespace bch::detail {
 namespace {
 
-constexpr double wanted_bend = 0.001;                             ///< metres
-constexpr double shortest_window = 0.001, longest_window = 0.02;  ///< seconds
+constexpr double wanted_bend = 0.001;                                       ///< metres
+constexpr double shortest_slab_window = 0.001, longest_slab_window = 0.02;  ///< seconds
 /// What positions in float are off by, as a share of their size; see cover_check.cpp.
 constexpr double rounding_share = 4e-6;
 
@@ -41,7 +41,7 @@ void SlabTriangles::look(float from, float to) {
     const float limit = next == keys.end() ? to : std::min(to, *next);
     const double acceleration = bounds_.height_acceleration(begin), left = double{limit} - double{begin};
     const double even = std::sqrt(8 * wanted_bend / std::max(acceleration, 1e-9));
-    const double parts = std::ceil(left / std::clamp(even, shortest_window, longest_window));
+    const double parts = std::ceil(left / std::clamp(even, shortest_slab_window, longest_slab_window));
     const float after = static_cast<float>(double{begin} + left / parts);
     const float end = parts <= 1 || !(begin < after) ? limit : after;
     window_.assign(interval_.size(), nowhere);

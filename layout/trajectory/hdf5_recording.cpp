@@ -125,7 +125,7 @@ void check_type(hid_t type) {
     const Handle member(H5Tget_member_type(type, static_cast<unsigned>(index)), H5Tclose, "HDF5");
     const bool whole = name[1] != '\0';
     if (whole ? !is_plain_integer(member) : !is_plain_float(member))
-      reject("'" + std::string(name) + "' of 'trajectory' is not " +
+      reject(std::string("'") + name + "' of 'trajectory' is not " +
              (whole ? "an integer" : "a floating-point number"));
   }
 }
