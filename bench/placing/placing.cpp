@@ -68,16 +68,7 @@ class Candidates {
     const double x = random_.uniform(options_.width), y = random_.uniform(options_.depth);
     const double heading = random_.uniform(2 * std::numbers::pi);
     const double turn = speed > 0 ? random_.uniform(2 * fastest_turn) - fastest_turn : 0;
-    const auto steps = static_cast<int>(std::ceil(options_.seconds / key_step));
-    std::vector<PathKey> path{{0, x, y, heading}};
-    for (int k = 1; k <= steps; ++k) {
-      const PathKey& last = path.back();
-      const double time = options_.seconds * k / steps, middle = heading + turn * (last.time + time) / 2;
-      const double way = speed * (time - last.time);
-      path.push_back(
-          {time, last.x + way * std::cos(middle), last.y + way * std::sin(middle), heading + turn * time});
-    }
-    return path;
+    return bench::arc({0, x, y, heading}, speed, turn, options_.seconds);
   }
 
   bool is_inside(std::span<const PathKey> path) const {
@@ -126,6 +117,19 @@ class Crowd {
 };
 
 }  // namespace
+
+std::vector<PathKey> arc(const PathKey& begin, double speed, double turn, double seconds) {
+  const auto steps = static_cast<int>(std::ceil(seconds / key_step));
+  std::vector<PathKey> path{begin};
+  for (int k = 1; k <= steps; ++k) {
+    const PathKey& last = path.back();
+    const double time = seconds * k / steps, middle = begin.heading + turn * (last.time + time) / 2;
+    const double way = speed * (time - last.time);
+    path.push_back({time, last.x + way * std::cos(middle), last.y + way * std::sin(middle),
+                    begin.heading + turn * time});
+  }
+  return path;
+}
 
 AnimatedDiscs cylinder_of(const AnimatedDiscs& discs) {
   AnimatedDiscs cylinder{{}, discs.loops, discs.slices, {}, discs.heights};

@@ -61,6 +61,9 @@ struct Placement {
 /// Errors:  throws std::invalid_argument where no arc of a clip fits into the area.
 Placement place(std::span<const PlacedClip> clips, Spacing spacing, const PlacingOptions& options);
 
+/// Returns the keys, from time 0 on, of somebody who goes on at even speed and turns evenly, in metres and radians a second.
+std::vector<PathKey> arc(const PathKey& begin, double speed, double turn, double seconds);
+
 /// Returns where a person is at a time: between two keys as Motion says.
 PathKey at(std::span<const PathKey> path, double seconds);
 

@@ -36,6 +36,8 @@ std::vector<Table> crowd_tables(Suite& suite, Scene& scene);
 std::vector<Table> query_tables(Suite& suite, Scene& scene);
 /// obstacles/<query>: a crowd on a floor plan.
 std::vector<Table> obstacle_tables(Suite& suite, Scene& scene);
+/// motions/<first_contact|sampled>/<free|touching> and motions/bytes: people who walk, as animated shapes.
+std::vector<Table> motion_tables(Suite& suite, Scene& scene);
 /// bodies/<find_all|loop>: a crowd of bodies of discs.
 std::vector<Table> body_tables(Suite& suite);
 /// shapes/<count>: a crowd of so many different shapes, up to `most`.

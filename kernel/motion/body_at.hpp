@@ -64,8 +64,9 @@ class BodyAt {
   int winding(const PlanePoint& p) const {
     int winding = 0;
     for_each_ring_edge(chunk_.ring_ends, [&](std::uint32_t i, std::uint32_t next) {
-      const PlanePoint from = centre(chunk_.leaf_of_disc[i]), to = centre(chunk_.leaf_of_disc[next]);
-      if ((from.y <= p.y) == (to.y <= p.y)) return;
+      const std::uint32_t a = chunk_.leaf_of_disc[i], b = chunk_.leaf_of_disc[next];
+      if ((mix(from_.y[a], to_.y[a]) <= p.y) == (mix(from_.y[b], to_.y[b]) <= p.y)) return;
+      const PlanePoint from = centre(a), to = centre(b);
       const double side = (to.x - from.x) * (p.y - from.y) - (p.x - from.x) * (to.y - from.y);
       if ((side > 0) == (to.y > p.y)) winding += to.y > p.y ? 1 : -1;
     });

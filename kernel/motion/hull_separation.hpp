@@ -32,14 +32,14 @@ struct ReachAlong {
       return HullDirection(
           {r.cosine * direction.x + r.sine * direction.y, r.cosine * direction.y - r.sine * direction.x});
     };
-    const HullDirection first = seen(begin.heading);
-    const double of_first = first.extent(hull.from), growth = first.extent(hull.to) - of_first;
-    from = step * (of_first + growth * share);
-    to = step * (of_first + growth * share_at_end), more = 0;
+    const HullDirection::Extent first = seen(begin.heading).extent(hull);
+    const double growth = first.to - first.from;
+    from = step * (first.from + growth * share);
+    to = step * (first.from + growth * share_at_end), more = 0;
     if (turn == 0) return;
-    const HullDirection last = seen(end.heading);
-    const double of_last = last.extent(hull.from), growth_of_last = last.extent(hull.to) - of_last;
-    to = step * (of_last + growth_of_last * share_at_end);
+    const HullDirection::Extent last = seen(end.heading).extent(hull);
+    const double growth_of_last = last.to - last.from;
+    to = step * (last.from + growth_of_last * share_at_end);
     more = std::max(0.0, step * (growth - growth_of_last) * (share_at_end - share)) / 4 +
            turn * turn / 8 * body.tree().reach * length(direction);
   }

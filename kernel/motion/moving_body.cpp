@@ -88,13 +88,11 @@ double MovingBody::share(double time) const noexcept {
 
 double MovingBody::hull_end(unsigned level) const noexcept {
   const bool moves = clip_end_ == time_of(key_ + 1);
-  return moves ? tree().chunks[last_chunk_of_hull(level)].times.back() + shift_ : clip_end_;
+  return moves ? hull(level).end + shift_ : clip_end_;
 }
 
 double MovingBody::hull_share(double time, unsigned level) const noexcept {
-  const auto& chunks = tree().chunks;
-  const double from = chunks[chunk_ >> level << level].times.front() + shift_,
-               to = chunks[last_chunk_of_hull(level)].times.back() + shift_;
+  const double from = hull(level).begin + shift_, to = hull(level).end + shift_;
   return std::clamp((time - from) / (to - from), 0.0, 1.0);
 }
 

@@ -3,7 +3,6 @@
 
 #pragma once
 
-#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -57,9 +56,6 @@ class MovingBody {
   std::uint32_t chunks_begun() const noexcept { return chunks_begun_; }
 
  private:
-  std::size_t last_chunk_of_hull(unsigned level) const noexcept {
-    return std::min(((chunk_ >> level) + 1) << level, tree().chunks.size()) - 1;
-  }
   void find_key(double time) noexcept;
   void next_key() noexcept;
   double time_of(std::size_t key) const noexcept { return chunk().times[key] + shift_; }

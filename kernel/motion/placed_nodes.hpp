@@ -3,9 +3,7 @@
 
 #pragma once
 
-#include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstdint>
 #include <utility>
 #include <vector>
@@ -26,23 +24,7 @@ namespace bch::detail {
 class PlacedNodes {
  public:
   /// Places the root of a body, relative to a point that moves straight on, in an interval before the ends of its path and of its keys.
-  void place(const MovingBody& body, const PathKey& from, const PathKey& to) {
-    const std::size_t key = body.key();
-    chunk_ = &body.chunk(), first_ = chunk_->key(key), last_ = chunk_->key(key + 1);
-    share_ = body.share(from.time), share_at_end_ = body.share(to.time);
-    turn_ = rotation(from.heading), turn_at_end_ = rotation(to.heading);
-    x_ = from.x, y_ = from.y, x_at_end_ = to.x, y_at_end_ = to.y;
-    const double turn = std::abs(to.heading - from.heading),
-                 way = double{chunk_->speed} * (chunk_->times[key + 1] - chunk_->times[key]) *
-                       (share_at_end_ - share_);
-    bend_ = (turn * turn * body.tree().reach + 2 * turn * way) / 8;
-    const std::size_t room = chunk_->nodes() + animated_width;
-    if (discs_[0].size() < room)
-      for (std::vector<double>& numbers : discs_) numbers.resize(room);
-    if (placed_in_.size() < chunk_->first_leaf()) placed_in_.resize(chunk_->first_leaf(), 0);
-    if (++interval_ == 0) std::fill(placed_in_.begin(), placed_in_.end(), 0), interval_ = 1;
-    place_eight(0);
-  }
+  void place(const MovingBody& body, const PathKey& from, const PathKey& to);
 
   double bend() const noexcept { return bend_; }
   const AnimatedTreeChunk& chunk() const noexcept { return *chunk_; }
@@ -62,49 +44,11 @@ class PlacedNodes {
   }
   /// Finds the first times at which eight nodes and a disc are at most `room` apart, as first_overlap() does.
   void first_overlaps(std::uint32_t from, const MovingDisc& other, double room, double last,
-                      std::array<double, animated_width>& times) const noexcept {
-    const double *const x = discs_[0].data() + from, *const y = discs_[1].data() + from,
-                        *const radius = discs_[2].data() + from, *const way_x = discs_[3].data() + from,
-                        *const way_y = discs_[4].data() + from, *const growth = discs_[5].data() + from;
-    for (std::uint32_t lane = 0; lane < animated_width; ++lane)
-      times[lane] = first_overlap({x[lane], y[lane], radius[lane], way_x[lane], way_y[lane], growth[lane]},
-                                  other, room, last);
-  }
+                      std::array<double, animated_width>& times) const noexcept;
 
  private:
   /// Places eight nodes, as many of which as are children of one are asked for; what is behind them is there, or comes out the same.
-  void place_eight(std::uint32_t from) noexcept {
-    // Not members, which a compiler takes to change with what is written.
-    const double step = chunk_->step, share = share_, share_at_end = share_at_end_;
-    const double cosine = turn_.cosine, sine = turn_.sine, cosine_at_end = turn_at_end_.cosine,
-                 sine_at_end = turn_at_end_.sine;
-    const double body_x = x_, body_y = y_, body_x_at_end = x_at_end_, body_y_at_end = y_at_end_;
-    const auto in_metres = [step](const auto* numbers) {
-      std::array<double, animated_width> metres;
-      for (std::uint32_t lane = 0; lane < animated_width; ++lane)
-        metres[lane] = double{static_cast<float>(numbers[lane])} * step;  // by float, which is vectorised
-      return metres;
-    };
-    auto first_x = in_metres(first_.x + from), first_y = in_metres(first_.y + from),
-         first_radius = in_metres(first_.radius + from), last_x = in_metres(last_.x + from),
-         last_y = in_metres(last_.y + from), last_radius = in_metres(last_.radius + from);
-    std::array<std::array<double, animated_width>, 6> placed;
-    auto& [x, y, radius, way_x, way_y, growth] = placed;
-    for (std::uint32_t lane = 0; lane < animated_width; ++lane) {
-      const double dx = last_x[lane] - first_x[lane], dy = last_y[lane] - first_y[lane],
-                   growing = last_radius[lane] - first_radius[lane];
-      const double from_x = first_x[lane] + dx * share, from_y = first_y[lane] + dy * share;
-      const double to_x = first_x[lane] + dx * share_at_end, to_y = first_y[lane] + dy * share_at_end;
-      x[lane] = body_x + (cosine * from_x - sine * from_y);
-      y[lane] = body_y + (sine * from_x + cosine * from_y);
-      radius[lane] = first_radius[lane] + growing * share;
-      way_x[lane] = body_x_at_end + (cosine_at_end * to_x - sine_at_end * to_y) - x[lane];
-      way_y[lane] = body_y_at_end + (sine_at_end * to_x + cosine_at_end * to_y) - y[lane];
-      growth[lane] = growing * (share_at_end - share);
-    }
-    for (std::size_t part = 0; part < placed.size(); ++part)
-      std::copy(placed[part].begin(), placed[part].end(), discs_[part].begin() + from);
-  }
+  void place_eight(std::uint32_t from) noexcept;
 
   const AnimatedTreeChunk* chunk_ = nullptr;
   NodesAtKey first_{}, last_{};

@@ -155,6 +155,34 @@ EvenContour follow(const Outline& outline, double step) {
   return way;
 }
 
+std::vector<std::uint32_t> vertices_on(const Outline& outline, std::span<const Vec2> vertices) {
+  const auto less = [](const Vec2& a, const Vec2& b) { return a.x != b.x ? a.x < b.x : a.y < b.y; };
+  const auto snapped = [step = outline.grid_step](float x) { return std::round(x / step) * step; };
+  std::vector<Vec2> points = outline.points;
+  std::sort(points.begin(), points.end(), less);
+  std::vector<std::uint32_t> found;
+  for (std::uint32_t v = 0; v < vertices.size(); ++v)
+    if (std::binary_search(points.begin(), points.end(), Vec2{snapped(vertices[v].x), snapped(vertices[v].y)},
+                           less))
+      found.push_back(v);
+  return found;
+}
+
+double depth_in(const Outline& outline, const PlanePoint& p) {
+  double nearest = std::numeric_limits<double>::infinity();
+  bool inside = false;
+  for (std::size_t c = 0; c < outline.contours(); ++c) {
+    const std::span<const Vec2> contour = outline.contour(c);
+    for (std::size_t i = 0; i < contour.size(); ++i) {
+      const PlanePoint a = plane_point(contour[i]),
+                       b = plane_point(contour[i + 1 < contour.size() ? i + 1 : 0]);
+      nearest = std::min(nearest, squared_distance(p, a, b));
+      if ((a.y > p.y) != (b.y > p.y)) inside ^= p.x - a.x < (b.x - a.x) * ((p.y - a.y) / (b.y - a.y));
+    }
+  }
+  return inside ? std::sqrt(nearest) : -std::sqrt(nearest);
+}
+
 std::vector<std::size_t> match_in_order(std::span<const ExpectedPoint> points, const EvenContour& way,
                                         double turn_cost) {
   Warping warping(points, way, turn_cost);

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -25,6 +26,12 @@ struct EvenContour {
 /// Makes the way round an outline, its points at most `step` apart.
 /// Errors:  throws std::length_error beyond 2^16 points.
 EvenContour follow(const Outline& outline, double step);
+
+/// Returns which vertices are on an outline.
+std::vector<std::uint32_t> vertices_on(const Outline& outline, std::span<const Vec2> vertices);
+
+/// Returns how deep a point lies inside an outline; less than 0 outside.
+double depth_in(const Outline& outline, const PlanePoint& p);
 
 /// A point of a contour, and where it is expected on another one.
 struct ExpectedPoint {

@@ -37,8 +37,8 @@ HullKey hull_key(const AnimatedTreeChunk& chunk, std::size_t key) {
 /// Returns the hull through a window, whose ends are larger by what the keys between depart from the straight way. Between two keys the
 /// extent of discs that move straight on is convex.
 HullWindow window_of(std::span<const HullKey> keys, double step) {
-  HullWindow window;
   const double begin = keys.front().time, seconds = keys.back().time - begin;
+  HullWindow window{begin, keys.back().time, {}};
   for (std::uint32_t k = 0; k < hull_directions; ++k) {
     const double from = keys.front().extents[k], to = keys.back().extents[k];
     double spare = 0;
@@ -47,8 +47,7 @@ HullWindow window_of(std::span<const HullKey> keys, double step) {
     const auto in_steps = [&](double extent) {
       return static_cast<std::int16_t>(std::ceil((extent + spare) / step + 0x1p-20));
     };
-    window.from[k] = in_steps(from);
-    window.to[k] = in_steps(to);
+    window.extents[k] = {in_steps(from), in_steps(to)};
   }
   return window;
 }

@@ -17,12 +17,14 @@ struct AnimatedTreeChunk;
 
 constexpr std::uint32_t hull_directions = 32;
 
-/// How far a body reaches in each of the directions, in steps.
-using HullExtents = std::array<std::int16_t, hull_directions>;
-
-/// How far a body reaches through a window of time: at every time of it by no more than what lies evenly between these two.
+/// How far a body reaches through a window of time in each of the directions, in steps: at every time of it by no more than what lies evenly
+/// between both ends.
 struct HullWindow {
-  HullExtents from, to;
+  struct Extent {
+    std::int16_t from, to;
+  };
+  double begin, end;  ///< seconds of the clip
+  std::array<Extent, hull_directions> extents;
 };
 
 /// The hulls of a body through windows of time, of one chunk each at level 0, and of two windows of the level below at the next ones.
@@ -68,11 +70,14 @@ struct HullDirection {
     size = std::abs(longer);
   }
 
-  /// Returns how far a body reaches in this direction, times its length, at most: a body reaches no farther in the sum of two directions than
-  /// the sum of how far it does in each.
-  double extent(const HullExtents& extents) const noexcept {
-    const double a = extents[first], b = extents[second];
-    return size * (a + (b - a) * share);
+  /// How far a body reaches in this direction at both ends of a window, times its length.
+  struct Extent {
+    double from, to;
+  };
+  /// Returns that at most: a body reaches no farther in the sum of two directions than the sum of how far it does in each.
+  Extent extent(const HullWindow& hull) const noexcept {
+    const HullWindow::Extent a = hull.extents[first], b = hull.extents[second];
+    return {size * (a.from + (b.from - a.from) * share), size * (a.to + (b.to - a.to) * share)};
   }
 };
 

@@ -170,16 +170,15 @@ TEST(AnimatedShape, HullsHoldDiscsThroughTheirWindows) {
       const std::size_t width = std::size_t{1} << level, chunks = tree.chunks.size();
       ASSERT_EQ(tree.hulls.levels[level].size(), (chunks + width - 1) / width);
       for (std::size_t window = 0; window * width < chunks; ++window) {
-        const double begin = tree.chunks[window * width].times.front(),
-                     end = tree.chunks[std::min((window + 1) * width, chunks) - 1].times.back();
+        const detail::HullWindow& hull = tree.hulls.levels[level][window];
+        EXPECT_EQ(hull.begin, tree.chunks[window * width].times.front());
+        EXPECT_EQ(hull.end, tree.chunks[std::min((window + 1) * width, chunks) - 1].times.back());
         const double share = random.uniform(0, 1), angle = random.uniform(-4, 4);
         const detail::PlanePoint d{std::cos(angle), std::sin(angle)};
-        const detail::HullDirection direction(d);
-        const detail::HullWindow& hull = tree.hulls.levels[level][window];
-        const double reached =
-            tree.hulls.step * std::lerp(direction.extent(hull.from), direction.extent(hull.to), share);
+        const auto [from, to] = detail::HullDirection(d).extent(hull);
+        const double reached = tree.hulls.step * std::lerp(from, to, share);
         double of_discs = -1;
-        for (const Disc& disc : shape.discs(std::lerp(begin, end, share)))
+        for (const Disc& disc : shape.discs(std::lerp(hull.begin, hull.end, share)))
           of_discs = std::max(of_discs, d.x * double{disc.x} + d.y * double{disc.y} + double{disc.radius});
         EXPECT_GE(reached, of_discs - 1e-7);
         if (level == 0) more += (reached - of_discs) / static_cast<double>(bodies * chunks);

@@ -1,0 +1,254 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include "bench/workload/motions.hpp"
+
+#include <fmt/format.h>
+#include <oneapi/tbb/parallel_for.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <optional>
+#include <stdexcept>
+
+#include <bch/clearance.hpp>
+#include <bch/collide.hpp>
+#include <bch/pose_shape.hpp>
+
+#include "bench/placing/placing.hpp"
+#include "bench/workload/scene.hpp"
+#include "layout/base/random.hpp"
+#include "layout/shape_set/animated_tree.hpp"
+
+namespace bch::bench {
+namespace {
+
+constexpr double never = std::numeric_limits<double>::infinity();
+constexpr double near = 1;     // metres
+constexpr double room = 12;    // metres: the side of the square
+constexpr double speed = 1.3;  // metres a second
+constexpr double tolerance = 0.005, rounding = 1e-5;
+
+double distance(const PathKey& a, const PathKey& b) {
+  return std::hypot(a.x - b.x, a.y - b.y);
+}
+
+/// Returns whether two people come near each other, and begin farther apart.
+bool come_near(std::span<const PathKey> a, std::span<const PathKey> b) {
+  if (distance(a[0], b[0]) <= near) return false;
+  for (double time = 0; time <= MotionScene::seconds; time += 0.02)
+    if (distance(at(a, time), at(b, time)) <= near) return true;
+  return false;
+}
+
+/// Two bodies at a time, as agents of a set of their own.
+struct BothAt {
+  ShapeSet shapes;
+  std::vector<std::uint32_t> shape = {0, 1};
+  std::vector<double> x, y, heading;
+
+  BothAt(std::vector<Shape> both, const Motion& a, const Motion& b, double time) : shapes(both) {
+    for (const Motion* const each : {&a, &b}) {
+      const PathKey key = at(each->path, time);
+      x.push_back(key.x), y.push_back(key.y), heading.push_back(key.heading);
+    }
+  }
+  Agents agents() const { return {shape, x, y, heading}; }
+  double gap() const {
+    constexpr Pair both{0, 1};
+    float gap = 0;
+    clearance(shapes, agents(), {&both, 1}, {.distance = {&gap, 1}});
+    return double{gap};
+  }
+  bool outlines_meet() const {
+    constexpr Pair both{0, 1};
+    std::uint8_t hit = 0;
+    collide(shapes, agents(), {&both, 1}, {&hit, 1}, {.semantics = Semantics::solid});
+    return hit != 0;
+  }
+};
+
+/// Returns the body of a motion at a time.
+Shape body_at(const Motion& motion, double time) {
+  return motion.shape->shape(time - motion.clip_begin);
+}
+
+/// Calls look(time) at every millisecond before a time at which two bodies may meet.
+template <class Look>
+void for_each_millisecond(const Motion& a, const Motion& b, double until, Look look) {
+  const double reaches = a.shape->reach() + b.shape->reach();
+  for (int k = 0; k * 0.001 < std::min(until, MotionScene::seconds); ++k)
+    if (distance(at(a.path, k * 0.001), at(b.path, k * 0.001)) <= reaches) look(k * 0.001);
+}
+
+AnimatedClip animated_clip(const Character& character, std::uint32_t clip, double most_seconds) {
+  Character shorter = character;
+  float& seconds = shorter.clips[clip].seconds;
+  seconds = std::min(seconds, static_cast<float>(most_seconds));
+  AnimatedDiscs discs = animate(shorter, clip);
+  discs.loops = true;
+  return {&character, clip, double{seconds}, AnimatedShape(discs)};
+}
+
+}  // namespace
+
+std::vector<AnimatedClip> animated_clips(std::span<const cli::LoadedCharacter> characters,
+                                         std::string_view name, double most_seconds) {
+  const auto is_named = [&](const Clip& clip) { return clip.name == name; };
+  const bool all =
+      std::none_of(characters.begin(), characters.end(), [&](const cli::LoadedCharacter& loaded) {
+        return std::any_of(loaded.character.clips.begin(), loaded.character.clips.end(), is_named);
+      });
+  std::vector<std::pair<const Character*, std::uint32_t>> wanted;
+  for (const cli::LoadedCharacter& loaded : characters)
+    for (std::uint32_t clip = 0; clip < loaded.character.clips.size(); ++clip)
+      if (all || is_named(loaded.character.clips[clip])) wanted.emplace_back(&loaded.character, clip);
+  std::vector<std::optional<AnimatedClip>> made(wanted.size());
+  tbb::parallel_for(std::size_t{0}, wanted.size(), [&](std::size_t i) {
+    try {
+      made[i].emplace(animated_clip(*wanted[i].first, wanted[i].second, most_seconds));
+    } catch (const std::invalid_argument&) {
+      // Left out.
+    }
+  });
+  std::vector<AnimatedClip> clips;
+  for (std::optional<AnimatedClip>& clip : made)
+    if (clip) clips.push_back(std::move(*clip));
+  if (clips.empty()) throw std::runtime_error("no clip of which animate() makes a body");
+  return clips;
+}
+
+ShapeSet baked_poses(const AnimatedClip& clip, double per_second) {
+  PoseShaper shaper(*clip.character);
+  std::vector<Shape> poses;
+  for (double k = 0; k < std::floor(clip.seconds * per_second); ++k)
+    poses.push_back(shaper.shape({clip.clip, static_cast<float>(k / per_second)}));
+  return ShapeSet(poses, {.outlines = false, .culling = false});
+}
+
+MotionScene::MotionScene(std::span<const AnimatedClip> clips, std::uint32_t pairs, std::uint64_t seed)
+    : clips_(clips) {
+  detail::Random random(seed);
+  while (pairs_.size() < pairs) {
+    const PathKey begin{0, random.uniform(room), random.uniform(room), random.uniform(2 * std::numbers::pi)};
+    std::vector<PathKey> path = arc(begin, speed, random.uniform(1) - 0.5, seconds);
+    const auto index = static_cast<std::uint32_t>(paths_.size());
+    for (std::uint32_t other = 0; other < index && pairs_.size() < pairs; ++other)
+      if (come_near(path, paths_[other])) pairs_.push_back({other, index});
+    paths_.push_back(std::move(path));
+    clip_.push_back(random.below(static_cast<std::uint32_t>(clips.size())));
+    motions_.push_back({&clips[clip_.back()].shape, {}, -random.uniform(clips[clip_.back()].seconds)});
+  }
+  for (std::size_t i = 0; i < paths_.size(); ++i) motions_[i].path = paths_[i];
+  contacts_.resize(pairs_.size());
+  first_contact(motions_, pairs_, interval, contacts_, tolerance);
+}
+
+std::vector<Pair> MotionScene::pairs(bool touching) const {
+  std::vector<Pair> some;
+  for (std::size_t i = 0; i < pairs_.size(); ++i)
+    if ((contacts_[i] < never) == touching) some.push_back(pairs_[i]);
+  return some;
+}
+
+void MotionScene::check(std::uint32_t pairs) const {
+  tbb::parallel_for(std::size_t{0}, std::min<std::size_t>(pairs, pairs_.size()), [&](std::size_t i) {
+    const Motion &a = motions_[pairs_[i].first], &b = motions_[pairs_[i].second];
+    const auto gap_at = [&](double time) {
+      return BothAt({body_at(a, time), body_at(b, time)}, a, b, time).gap();
+    };
+    const auto require = [&](bool right, const char* what, double time) {
+      if (!right) throw std::runtime_error(fmt::format("first contact of pair {} {} {} s", i, what, time));
+    };
+    for_each_millisecond(a, b, contacts_[i],
+                         [&](double time) { require(gap_at(time) > 0, "is behind", time); });
+    if (contacts_[i] < never)
+      require(gap_at(contacts_[i]) <= tolerance + rounding, "is too early at", contacts_[i]);
+  });
+}
+
+std::size_t MotionScene::count_late() const {
+  std::atomic<std::size_t> late = 0;
+  tbb::parallel_for(std::size_t{0}, pairs_.size(), [&](std::size_t i) {
+    const Motion &a = motions_[pairs_[i].first], &b = motions_[pairs_[i].second];
+    const AnimatedClip &clip_a = clips_[clip_[pairs_[i].first]], &clip_b = clips_[clip_[pairs_[i].second]];
+    PoseShaper shaper_a(*clip_a.character), shaper_b(*clip_b.character);
+    bool is_late = false;
+    for_each_millisecond(a, b, contacts_[i], [&](double time) {
+      const auto pose = [&](PoseShaper& shaper, const AnimatedClip& clip, const Motion& motion) {
+        const double in_clip = detail::time_in_clip(clip.shape.tree(), time - motion.clip_begin);
+        return shaper.shape({clip.clip, static_cast<float>(in_clip)});
+      };
+      is_late = is_late ||
+                BothAt({pose(shaper_a, clip_a, a), pose(shaper_b, clip_b, b)}, a, b, time).outlines_meet();
+    });
+    late += is_late;
+  });
+  return late;
+}
+
+namespace {
+
+/// Returns all poses of all clips, as the animated bodies are at these times.
+ShapeSet poses_of(std::span<const AnimatedClip> clips, double per_second) {
+  std::vector<Shape> poses;
+  for (const AnimatedClip& clip : clips)
+    for (double k = 0; k <= std::floor(clip.seconds * per_second); ++k)
+      poses.push_back(clip.shape.shape(k / per_second));
+  return ShapeSet(poses);
+}
+
+}  // namespace
+
+SampledMotions::SampledMotions(const MotionScene& scene, double samples_per_second, double poses_per_second)
+    : samples_per_second_(samples_per_second),
+      samples_(static_cast<std::uint32_t>(MotionScene::seconds * samples_per_second) + 1),
+      poses_(poses_of(scene.clips(), poses_per_second)) {
+  std::vector<std::uint32_t> first_pose{0};
+  for (const AnimatedClip& clip : scene.clips())
+    first_pose.push_back(first_pose.back() + static_cast<std::uint32_t>(clip.seconds * poses_per_second) + 1);
+  for (std::uint32_t motion = 0; motion < scene.motions().size(); ++motion) {
+    const Motion& of = scene.motions()[motion];
+    const std::uint32_t first = first_pose[scene.clip(motion)],
+                        count = first_pose[scene.clip(motion) + 1] - first;
+    for (std::uint32_t k = 0; k < samples_; ++k) {
+      const double time = k / samples_per_second;
+      const PathKey key = at(of.path, time);
+      const AnimatedClip& clip = scene.clips()[scene.clip(motion)];
+      const double pose =
+          std::round(detail::time_in_clip(clip.shape.tree(), time - of.clip_begin) * poses_per_second);
+      shape_.push_back(first + std::min(static_cast<std::uint32_t>(pose), count - 1));
+      x_.push_back(key.x), y_.push_back(key.y), heading_.push_back(key.heading);
+    }
+  }
+}
+
+double SampledMotions::first_contact(const Pair& pair) const {
+  const auto batch = std::max(1u, static_cast<std::uint32_t>(samples_per_second_ / 10));
+  std::vector<Pair> pairs;
+  for (std::uint32_t k = 0; k < batch; ++k) pairs.push_back({k, batch + k});
+  // Agents that are together, because those between the ones of pairs are looked at, too.
+  std::vector<std::uint32_t> shape(2 * batch);
+  std::vector<double> x(2 * batch), y(2 * batch), heading(2 * batch);
+  Hits hits(batch);
+  for (std::uint32_t from = 0; from < samples_; from += batch) {
+    const std::uint32_t count = std::min(batch, samples_ - from);
+    const auto take = [&](const auto& all, auto& some) {
+      for (const std::uint32_t motion : {0u, 1u})
+        std::copy_n(all.begin() + (motion == 0 ? pair.first : pair.second) * samples_ + from, count,
+                    some.begin() + motion * batch);
+    };
+    take(shape_, shape), take(x_, x), take(y_, y), take(heading_, heading);
+    collide(poses_, {shape, x, y, heading}, std::span(pairs).first(count), std::span(hits).first(count),
+            disc_query);
+    const auto hit = std::find(hits.begin(), hits.begin() + count, 1);
+    if (hit != hits.begin() + count)
+      return (from + static_cast<double>(hit - hits.begin())) / samples_per_second_;
+  }
+  return never;
+}
+
+}  // namespace bch::bench

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <bch/time_of_impact.hpp>
+
+#include "bench/characters/characters.hpp"
+
+namespace bch::bench {
+
+/// A clip, or the first part of it, played over and over, as one body over all its times.
+struct AnimatedClip {
+  const Character* character;
+  std::uint32_t clip;
+  double seconds;
+  AnimatedShape shape;
+};
+
+/// Makes the bodies of the clips of a name, or of all where no character has one, on all threads. Clips of which animate() makes none are left
+/// out. The characters must outlive them.
+/// Errors:  throws std::runtime_error where none is left.
+std::vector<AnimatedClip> animated_clips(std::span<const cli::LoadedCharacter> characters,
+                                         std::string_view name, double most_seconds);
+
+/// Builds poses of a clip, so many a second, as sets hold them that answer by discs and without culling data.
+ShapeSet baked_poses(const AnimatedClip& clip, double per_second);
+
+/// Ten seconds of people who walk along arcs and play clips, and the pairs of them that come within a metre, having begun farther
+/// apart.
+class MotionScene {
+ public:
+  static constexpr double seconds = 10;
+  static constexpr TimeInterval interval{0, seconds};
+
+  /// The clips must outlive this.
+  MotionScene(std::span<const AnimatedClip> clips, std::uint32_t pairs, std::uint64_t seed);
+
+  std::span<const AnimatedClip> clips() const { return clips_; }
+  std::span<const Motion> motions() const { return motions_; }
+  /// Returns which clip a motion plays.
+  std::uint32_t clip(std::uint32_t motion) const { return clip_[motion]; }
+  /// Returns the pairs, and when each first touches: what first_contact() says.
+  std::span<const Pair> pairs() const { return pairs_; }
+  std::span<const double> contacts() const { return contacts_; }
+  /// Returns the pairs that touch, or those that do not.
+  std::vector<Pair> pairs(bool touching) const;
+
+  /// Compares first contacts with the bodies at every millisecond before, by collide(): the first so many pairs.
+  /// Errors:  throws std::runtime_error naming the pair, where one is later, or earlier by more than the tolerance.
+  void check(std::uint32_t pairs) const;
+  /// Returns how many of the pairs have outlines that meet at some millisecond before their first contact, of poses that are made for it.
+  std::size_t count_late() const;
+
+ private:
+  std::span<const AnimatedClip> clips_;
+  std::vector<std::vector<PathKey>> paths_;
+  std::vector<std::uint32_t> clip_;
+  std::vector<Motion> motions_;
+  std::vector<Pair> pairs_;
+  std::vector<double> contacts_;
+};
+
+/// The motions of a scene at even times, by the nearest of poses that are built beforehand: what is asked today.
+class SampledMotions {
+ public:
+  /// The scene must outlive this.
+  SampledMotions(const MotionScene& scene, double samples_per_second, double poses_per_second);
+
+  /// Returns the first sample at which two motions collide, or infinity. It asks collide() in batches of a tenth of a second.
+  double first_contact(const Pair& pair) const;
+
+ private:
+  double samples_per_second_;
+  std::uint32_t samples_;  ///< of a motion
+  ShapeSet poses_;
+  std::vector<std::uint32_t> shape_;
+  std::vector<double> x_, y_, heading_;  ///< motion by motion
+};
+
+}  // namespace bch::bench
