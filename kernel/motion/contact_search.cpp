@@ -130,19 +130,20 @@ double ContactSearch::first_of_nodes() {
   const double of_roots = first_overlap(nodes_a_[0], nodes_b_[0], room_, last);
   if (of_roots <= last) open_.push_back({0, 0, of_roots});
   while (!open_.empty()) {
-    const auto [i, j, time] = open_.back();
+    const Open at = open_.back();
+    const std::uint32_t i = at.i, j = at.j;
     open_.pop_back();
-    if (time >= first) continue;
+    if (at.time >= first) continue;
     const bool leaf_a = a.is_leaf(i), leaf_b = b.is_leaf(j);
     if (leaf_a && leaf_b) {
-      first = last = time;
+      first = last = at.time;
     } else if (leaf_b || (!leaf_a && nodes_a_.radius(i) >= nodes_b_.radius(j))) {
-      open_children(nodes_a_, i, nodes_b_[j], last, [j](std::uint32_t child, double at) {
-        return Open{child, j, at};
+      open_children(nodes_a_, i, nodes_b_[j], last, [j](std::uint32_t child, double time) {
+        return Open{child, j, time};
       });
     } else {
-      open_children(nodes_b_, j, nodes_a_[i], last, [i](std::uint32_t child, double at) {
-        return Open{i, child, at};
+      open_children(nodes_b_, j, nodes_a_[i], last, [i](std::uint32_t child, double time) {
+        return Open{i, child, time};
       });
     }
   }
