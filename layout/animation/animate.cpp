@@ -2,7 +2,6 @@
 // Copyright (c) 2026 the bch authors
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <optional>
 #include <span>
@@ -24,8 +23,10 @@ namespace bch {
 namespace detail {
 namespace {
 
-// These are seconds. What comes into a slab in a chunk's time is held throughout it.
-constexpr float longest_chunk = 0.1334f, longest_of_slab = 0.0667f, shortest_chunk = 0.017f;
+constexpr float longest_chunk = 0.1334f, shortest_chunk = 0.017f;  ///< seconds
+/// What comes into a slab in a chunk's time is held throughout it: where vertices do that rise by more, metres, chunks are shorter, seconds.
+constexpr double most_rise = 0.01;
+constexpr float longest_of_risers = 0.0667f;
 constexpr std::uint32_t keys_of_chunk = 3;
 constexpr double points_of_disc = 4;  ///< of a contour
 constexpr double piece_edge = 0.5;    ///< of pieces that reach out of a slab, as a share of the spacing
@@ -55,6 +56,7 @@ class ClipAnimator {
   AnimatedChunk ring(float from, float to);
   double excess(const AnimatedChunk& chunk, std::size_t key, float share);
   bool is_tight(const AnimatedChunk& chunk, const AnimatedChunk& ring);
+  void add_halves(float from, float to, std::vector<AnimatedChunk>& chunks);
   void add_chunks(float from, float to, std::vector<AnimatedChunk>& chunks);
   bool loops();
 
@@ -142,10 +144,19 @@ void round_radii(AnimatedChunk& chunk) {
     disc.radius = static_cast<float>(std::ceil(double{disc.radius} / step) * step);
 }
 
+/// Appends chunks of both halves of a time.
+void ClipAnimator::add_halves(float from, float to, std::vector<AnimatedChunk>& chunks) {
+  const float between = from + (to - from) / 2;
+  add_chunks(from, between, chunks);
+  add_chunks(between, to, chunks);
+}
+
 /// Appends a chunk, or those of the halves of its time where it is not tight.
 void ClipAnimator::add_chunks(float from, float to, std::vector<AnimatedChunk>& chunks) {
   if (slab_) {
     slab_triangles_.look(from, to);
+    if (to - from > longest_of_risers && slab_triangles_.most_rise(*slab_) > most_rise)
+      return add_halves(from, to, chunks);
     mesh_ = slab_triangles_.in(*slab_);
     if (mesh_.triangles.empty()) return chunks.push_back({{double{from}, double{to}}, 0, {}, {}});
     prepare_builder();
@@ -153,13 +164,9 @@ void ClipAnimator::add_chunks(float from, float to, std::vector<AnimatedChunk>& 
   const AnimatedChunk made_for_keys = ring(from, to);
   AnimatedChunk chunk = made_for_keys;
   check_.hold(chunk, mesh_);
-  if (to - from <= 2 * shortest_chunk || is_tight(chunk, made_for_keys)) {
-    round_radii(chunk);
-    return chunks.push_back(std::move(chunk));
-  }
-  const float between = from + (to - from) / 2;
-  add_chunks(from, between, chunks);
-  add_chunks(between, to, chunks);
+  if (to - from > 2 * shortest_chunk && !is_tight(chunk, made_for_keys)) return add_halves(from, to, chunks);
+  round_radii(chunk);
+  chunks.push_back(std::move(chunk));
 }
 
 /// Returns whether every vertex is at the clip's end where it was at its beginning, to a 1000th of the spacing.
@@ -174,7 +181,7 @@ bool ClipAnimator::loops() {
 
 std::vector<AnimatedChunk> ClipAnimator::chunks() {
   std::vector<AnimatedChunk> result;
-  const double count = std::ceil(double{end_} / double{slab_ ? longest_of_slab : longest_chunk});
+  const double count = std::ceil(double{end_} / double{longest_chunk});
   float from = 0;
   for (double i = 1; i <= count; ++i) {
     const float to = i == count ? end_ : static_cast<float>(double{end_} * (i / count));

@@ -106,6 +106,14 @@ void SlabTriangles::add_pieces(const Triangle& triangle, const Heights& slab, Mo
   }
 }
 
+double SlabTriangles::most_rise(const Heights& slab) const {
+  double most = 0;
+  for (const auto& [bottom, top] : interval_)
+    if ((bottom < slab.bottom && slab.bottom < top) || (bottom < slab.top && slab.top < top))
+      most = std::max(most, double{top} - double{bottom});
+  return most;
+}
+
 Heights SlabTriangles::heights() const {
   Heights all = nowhere;
   for (const Triangle& triangle : character_.triangles) all = united(all, heights_of(triangle));

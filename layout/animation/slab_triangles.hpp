@@ -50,6 +50,8 @@ class SlabTriangles {
   void look(float from, float to);
   /// Returns the triangles and pieces that reach into a slab at some time of the interval, or maybe do.
   MovingMesh in(const Heights& slab);
+  /// Returns the most that a vertex rises or sinks in the interval that leaves the slab or comes into it, metres.
+  double most_rise(const Heights& slab) const;
   /// Returns the heights that triangles take in the interval, rounded outward.
   Heights heights() const;
 
