@@ -281,14 +281,15 @@ TEST(Objects, NoCodeForWideRegistersCanReplaceOtherCode) {
 }
 
 TEST(Objects, NothingThatComputesAnAnswerFusesMultiplyAndAdd) {
-  const std::regex fused(R"(\bvfn?m(add|sub)|\tfn?m(add|sub|l[as])\b)");
-  const std::regex multiply(R"(\bvmulps|\tfmul\tv|\tmulps)");
+  // One of each kind of instruction, fused ones and multiplications; grep takes a tenth of the time of std::regex.
+  const std::string kinds =
+      R"(grep -oE '\bvfn?m(add|sub)|\bfn?m(add|sub|l[as])\b|\bv?mulps|\bfmul\b' | sort -u)";
   std::size_t multiplications = 0;
   for (const fs::path& object : objects()) {
-    const std::string code = output_of("" BCH_OBJDUMP " -d --no-show-raw-insn '" + object.string() + "'");
-    std::smatch match;
-    EXPECT_FALSE(std::regex_search(code, match, fused)) << object << ": " << match.str();
-    multiplications += std::regex_search(code, match, multiply);
+    std::istringstream found(
+        output_of("" BCH_OBJDUMP " -d --no-show-raw-insn '" + object.string() + "' | " + kinds));
+    for (std::string kind; std::getline(found, kind); ++multiplications)
+      EXPECT_NE(kind.find("mul"), std::string::npos) << object << ": " << kind;
   }
   EXPECT_GE(multiplications, 2u);  // the disassembly is really looked at
 }
