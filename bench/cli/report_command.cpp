@@ -21,6 +21,7 @@ struct ReportOptions {
   report::Options report;
   std::vector<std::string> characters;
   bool quick = false, page = false;
+  double radius = report::full_sizes.disc_radius;
 };
 
 std::vector<std::string> experiment_names() {
@@ -41,6 +42,7 @@ std::string quoted(const std::string& argument) {
 std::string command_of(const ReportOptions& options) {
   std::string text = "bch report --out " + quoted(options.report.folder.string());
   if (options.quick) text += " --quick";
+  if (options.radius != report::full_sizes.disc_radius) text += fmt::format(" --radius {}", options.radius);
   if (options.report.seed != 1) text += fmt::format(" --seed {}", options.report.seed);
   for (const std::string& file : options.characters) text += " --character " + quoted(file);
   for (const std::string& name : options.report.experiments) text += " --experiment " + name;
@@ -61,13 +63,15 @@ void require_report_outputs(const ReportOptions& options, const std::filesystem:
 void run_report(const CLI::App& command, ReportOptions& options) {
   const std::filesystem::path page = options.report.folder / "report.html";
   if (options.page) {
-    require_absent(command, {"--quick", "--seed", "--character", "--experiment"}, "--page measures nothing");
+    require_absent(command, {"--quick", "--seed", "--character", "--experiment", "--radius"},
+                   "--page measures nothing");
     report::make_page(options.report.folder);
   } else {
     make_folder(options.report.folder);
     if (!options.characters.empty()) options.report.characters = options.characters;
     require_report_outputs(options, page);
     if (options.quick) options.report.sizes = report::quick_sizes;
+    options.report.sizes.disc_radius = options.radius;
     options.report.command = command_of(options);
     if (const char* data = std::getenv("BCH_TEST_DATA"); data != nullptr && *data != '\0') {
       options.report.real_characters = std::filesystem::path(data) / "characters";
@@ -100,6 +104,11 @@ std::function<void()> add_report_command(CLI::App& program) {
       command, "--experiment", options->report.experiments,
       "Run this experiment alone, such as density; a wrong name lists all (repeatable) [all]", "NAME")
       .check(one_of(experiment_names()));
+  command
+      .add_option("--radius", options->radius,
+                  "Radius of the discs that simulators move, for the experiment simulated [0.2]")
+      ->type_name("M")
+      ->check(number_between(0.01, 2));
   add_seed_option(command, options->report.seed, "cases, packings and resamples");
   command.add_flag("--page", options->page, "Measure nothing: make the page again from the tables in DIR");
   return [options, &command] { run_report(command, *options); };

@@ -28,7 +28,7 @@ std::span<const Experiment> experiments() {
                                    distance_experiment,   real_experiment,         depth_experiment,
                                    volume_experiment,     threshold_experiment,    mesh_detail_experiment,
                                    density_experiment,    detail_experiment,       recordings_experiment,
-                                   stability_experiment};
+                                   simulated_experiment,  stability_experiment};
   return all;
 }
 

@@ -18,7 +18,7 @@
 
 namespace bch::report {
 
-/// How much is measured.
+/// How much is measured, and of discs of which radius.
 struct Sizes {
   std::uint32_t poses = 100;      ///< of a character
   std::uint32_t pairs = 20'000;   ///< of a workload
@@ -30,6 +30,7 @@ struct Sizes {
   std::uint32_t contacts = 400;    ///< that are near, of a row of the stability tables
   double pressed = 4;              ///< seconds of penalty forces
   std::uint64_t rows = 1'000'000;  ///< of a recording; longer ones are left out
+  double disc_radius = 0.2;        ///< metres, of the discs that simulators move
 };
 constexpr Sizes full_sizes;
 constexpr Sizes quick_sizes{20, 2'000, 2'000, 100, 3, 200, 2, 40, 1, 20'000};
@@ -96,6 +97,7 @@ std::span<const Experiment> experiments();
 
 extern const Experiment construction_experiment, query_time_experiment, distance_experiment, depth_experiment,
     volume_experiment, threshold_experiment, mesh_detail_experiment, error_time_experiment,
-    density_experiment, detail_experiment, real_experiment, recordings_experiment, stability_experiment;
+    density_experiment, detail_experiment, real_experiment, recordings_experiment, simulated_experiment,
+    stability_experiment;
 
 }  // namespace bch::report

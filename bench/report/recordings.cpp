@@ -15,11 +15,11 @@
 #include "bench/base/stopwatch.hpp"
 #include "bench/base/text.hpp"
 #include "bench/report/experiment.hpp"
+#include "bench/report/recorded_crowds.hpp"
 #include "bench/report/statistics.hpp"
-#include "bench/report/words.hpp"
 #include "kernel/check/check.hpp"
 
-// Bodies on recorded people, who never overlap, so that whatever does is a false alarm; and on simulated ones, who do.
+// Bodies on recorded people, who never overlap, so that whatever does is a false alarm; and beside them on simulated ones.
 
 namespace bch::report {
 namespace {
@@ -29,55 +29,13 @@ using detail::CheckedPerson;
 using detail::OverlapCount;
 using detail::OverlapCounts;
 
-constexpr double near = 1.2;              // metres, of pairs
-constexpr double simulator_radius = 0.2;  // metres, of many simulators' agents
-constexpr const char* of_people = "people";
 constexpr const char* all_recordings = "all of people";
-
-/// A recording of the test data, and what its file does not say.
-struct Source {
-  const char* file;
-  const char* made_by;
-  detail::TrajectoryOptions options = {};
-};
-
-std::vector<Source> sources() {
-  return {{"juelich_bottleneck_040_c_56_h.txt", of_people},
-          {"juelich_unidirectional_uo-050-180-180.txt", of_people, {.fps = 16, .unit = 0.01}},
-          {"data_archive_00_01a.h5", of_people},
-          {"single_file_n56_cam1.csv", of_people, {.fps = 25}},
-          {"jpscore_corner_traj.txt", "simulator"},
-          {"jupedsim_v2_demo.sqlite", "simulator"},
-          {"pathfinder.csv", "simulator"}};
-}
-
-/// How bodies are tested.
-struct Bodies {
-  const char* name;
-  std::uint32_t depth;
-  Leaves leaves;
-  std::vector<float> slices = {};
-};
-
-std::vector<Bodies> bodies() {
-  return {{"single cylinder of the pose", 0, Leaves::discs},
-          {"depth 3", 3, Leaves::discs},
-          {"depth 6", 6, Leaves::discs},
-          {"all depths", all_depths, Leaves::discs},
-          {"segments", all_depths, Leaves::segments},
-          {"4 slabs", all_depths, Leaves::segments, {0.4f, 0.85f, 1.05f}}};
-}
 
 /// Fixed cylinders of everybody, by their indices in detail::compared_discs.
 constexpr std::array<std::size_t, 2> fixed{1, 3};
 
 std::string fixed_name(std::size_t disc) {
   return fmt::format("fixed cylinder {:.2f} m", detail::compared_discs[disc]);
-}
-
-double square_distance(const CheckedPerson& a, const CheckedPerson& b) {
-  const double x = a.walker.x - b.walker.x, y = a.walker.y - b.walker.y;
-  return x * x + y * y;
 }
 
 /// Neighbours of some frames, whose test is timed where there are enough.
@@ -146,65 +104,25 @@ class TimedPairs {
   std::array<double, fixed.size()> cylinder_times_{};
 };
 
-/// The pairs of a frame in overlap whose centres are so far apart that discs of the simulators' radius are clear.
-std::uint64_t hidden_pairs(const CheckedFrame& frame) {
-  const auto of = [&](std::int64_t id) -> const CheckedPerson& {
-    return *std::lower_bound(
-        frame.people.begin(), frame.people.end(), id,
-        [](const CheckedPerson& person, std::int64_t wanted) { return person.walker.id < wanted; });
-  };
-  std::uint64_t count = 0;
-  for (const detail::CheckedPair& pair : frame.pairs) {
-    if (!pair.overlap || pair.is_wall) continue;
-    const double distance = square_distance(of(pair.first), of(pair.second));
-    count += distance > 4 * simulator_radius * simulator_radius && distance <= near * near;
-  }
-  return count;
-}
-
 /// What a kind of bodies says of a recording.
 struct Outcome {
   OverlapCount all;
   OverlapCounts by_density;
-  std::uint64_t hidden = 0;
-  double fps = 1, time = std::nan("");
+  double time = std::nan("");
   std::array<double, fixed.size()> cylinder_times{};
 };
 
-std::unique_ptr<detail::TrajectoryReader> open(const Run& run, const Source& source) {
-  return detail::open_trajectory(run.recordings() / source.file, source.options);
-}
-
-/// The recordings that are there and not too long.
-std::vector<Source> wanted(const Run& run) {
-  std::vector<Source> kept;
-  for (const Source& source : sources())
-    if (std::filesystem::exists(run.recordings() / source.file) &&
-        open(run, source)->info().rows <= run.sizes().rows)
-      kept.push_back(source);
-  return kept;
-}
-
 Outcome outcome_of(const Run& run, const Source& source, const Bodies& of) {
   const auto reader = open(run, source);
-  detail::CheckOptions options;
-  options.plan = {.depths = {of.depth}, .slices = of.slices};
-  options.leaves = of.leaves;
   Outcome outcome;
   TimedPairs timed(run.sizes(), reader->info().last_frame);
-  const detail::CheckSummary summary =
-      detail::check(*reader, options, [&](const CheckedFrame& frame, const ShapeSet& shapes) {
-        outcome.hidden += hidden_pairs(frame);
-        timed.add(frame, shapes, of.leaves);
-      });
+  const detail::CheckSummary summary = detail::check(
+      *reader, of.options(),
+      [&](const CheckedFrame& frame, const ShapeSet& shapes) { timed.add(frame, shapes, of.leaves); });
   outcome.all = summary.all, outcome.by_density = summary.by_density;
-  outcome.fps = reader->info().fps, outcome.time = timed.time();
+  outcome.time = timed.time();
   for (std::size_t k = 0; k < fixed.size(); ++k) outcome.cylinder_times[k] = timed.time_of_cylinder(k);
   return outcome;
-}
-
-double percent(std::uint64_t part, std::uint64_t whole) {
-  return whole == 0 ? std::nan("") : 100 * static_cast<double>(part) / static_cast<double>(whole);
 }
 
 /// Counts of one of the compared discs in the places of those of bodies.
@@ -216,11 +134,10 @@ OverlapCount of_disc(OverlapCount count, std::size_t disc) {
 /// The two tables of the experiment.
 class Tables {
  public:
-  void add(const Source& source, const std::string& structure, const OverlapCount& all, double fps,
-           double hidden, double time) {
-    summary_.add({source.file, source.made_by, structure, static_cast<double>(all.people) / fps,
+  void add(const Source& source, const std::string& structure, const OverlapCount& all, double time) {
+    summary_.add({source.file, std::string(source.made_by), structure, all.people,
                   percent(all.overlapping, all.people), all.near_pairs,
-                  percent(all.overlapping_pairs, all.near_pairs), hidden, time});
+                  percent(all.overlapping_pairs, all.near_pairs), time});
   }
   void add(const std::string& recording, const std::string& structure, const OverlapCounts& counts) {
     for (std::size_t k = 0; k < counts.size(); ++k)
@@ -235,9 +152,8 @@ class Tables {
   }
 
  private:
-  Table summary_{{"recording", "made by", "structure", "person-seconds", "in overlap (% of person-seconds)",
-                  "neighbours", "in overlap (% of neighbours)",
-                  "in overlap and clear as discs of 0.20 m (% of neighbours)", "ns/pair"}};
+  Table summary_{{"recording", "made by", "structure", "person-frames", "in overlap (% of person-frames)",
+                  "neighbours", "in overlap (% of neighbours)", "ns/pair"}};
   Table densities_{{"recording", "structure", "from people per m2", "person-frames",
                     "in overlap (% of person-frames)", "neighbours", "in overlap (% of neighbours)"}};
 };
@@ -249,16 +165,15 @@ OverlapCounts of_disc(OverlapCounts counts, std::size_t disc) {
 
 void add_fixed(const Source& source, const Outcome& outcome, Tables& tables) {
   for (std::size_t k = 0; k < fixed.size(); ++k) {
-    tables.add(source, fixed_name(fixed[k]), of_disc(outcome.all, fixed[k]), outcome.fps, std::nan(""),
-               outcome.cylinder_times[k]);
+    tables.add(source, fixed_name(fixed[k]), of_disc(outcome.all, fixed[k]), outcome.cylinder_times[k]);
     tables.add(source.file, fixed_name(fixed[k]), of_disc(outcome.by_density, fixed[k]));
   }
 }
 
 void run_recordings(Run& run) {
-  const std::vector<Source> recorded = wanted(run);
+  const std::vector<Source> recorded = wanted_sources(run);
   if (recorded.empty()) return;
-  const std::vector<Bodies> compared = bodies();
+  const std::vector<Bodies> compared = all_bodies();
   std::vector<OverlapCounts> together(compared.size());
   Tables tables;
   double done = 0;
@@ -266,10 +181,9 @@ void run_recordings(Run& run) {
     for (std::size_t i = 0; i < compared.size(); ++i) {
       const Outcome outcome = outcome_of(run, source, compared[i]);
       if (i == 0) add_fixed(source, outcome, tables);
-      tables.add(source, compared[i].name, outcome.all, outcome.fps,
-                 percent(outcome.hidden, outcome.all.near_pairs), outcome.time);
+      tables.add(source, compared[i].name, outcome.all, outcome.time);
       tables.add(source.file, compared[i].name, outcome.by_density);
-      for (std::size_t k = 0; k < together[i].size() && source.made_by == of_people; ++k)
+      for (std::size_t k = 0; k < together[i].size() && source.made_by == made_by_people; ++k)
         together[i][k] += outcome.by_density[k];
       run.done(++done / static_cast<double>(recorded.size() * compared.size()));
     }
@@ -279,41 +193,22 @@ void run_recordings(Run& run) {
   tables.write(run);
 }
 
-/// The least and the greatest share of all recordings that were made by "people" or a "simulator", in a column: "people: segments".
-std::string range_in(const Results& results, std::string_view of, std::string_view column) {
-  const Table& table = results("recordings");
-  const std::size_t colon = of.find(": ");
-  double least = std::numeric_limits<double>::infinity(), most = 0;
-  for (std::size_t i = 0; i < table.rows().size(); ++i) {
-    if (table.text(i, "made by") != of.substr(0, colon) || table.text(i, "structure") != of.substr(colon + 2))
-      continue;
-    least = std::min(least, table.number(i, column));
-    most = std::max(most, table.number(i, column));
-  }
-  return fmt::format("{} to {}", brief(least), brief(most));
-}
-
 std::string overlapping(const Results& results, std::string_view of) {
-  return range_in(results, of, "in overlap (% of neighbours)");
-}
-
-std::string hidden(const Results& results, std::string_view of) {
-  return range_in(results, of, "in overlap and clear as discs of 0.20 m (% of neighbours)");
+  return range_in(results("recordings"), of, "in overlap (% of neighbours)");
 }
 
 std::string time_of_pair(const Results& results, std::string_view of) {
-  return range_in(results, of, "ns/pair");
+  return range_in(results("recordings"), of, "ns/pair");
 }
 
 }  // namespace
 
-const Experiment recordings_experiment{"recordings",
-                                       "Recorded people",
-                                       40,
-                                       false,
-                                       run_recordings,
-                                       {{"neighbours in overlap", overlapping},
-                                        {"hidden neighbours", hidden},
-                                        {"time of neighbours", time_of_pair}}};
+const Experiment recordings_experiment{
+    "recordings",
+    "Recorded people",
+    40,
+    false,
+    run_recordings,
+    {{"neighbours in overlap", overlapping}, {"time of neighbours", time_of_pair}}};
 
 }  // namespace bch::report

@@ -61,6 +61,7 @@ Table facts_of(const Options& options) {
   table.add({"runs of what is timed", sizes.runs});
   table.add({"people who are packed", sizes.people});
   table.add({"packings", sizes.packings});
+  table.add({"radius of discs of simulators (m)", sizes.disc_radius});
   return table;
 }
 

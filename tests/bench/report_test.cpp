@@ -225,6 +225,45 @@ TEST(Report, RecordedPeopleOverlapLessTheTighterTheirBodies) {
   EXPECT_GT(table.number({{"structure", "fixed cylinder 0.40 m"}}, "in overlap (% of neighbours)"), before);
 }
 
+/// Discs of a radius above all bodies hide nothing, those of hardly any all.
+TEST(Report, SmallDiscsHideOverlapsOfBodies) {
+  const auto data = test::test_data();
+  if (!data) GTEST_SKIP() << "BCH_TEST_DATA is not set: no recordings to check";
+  const auto table_of = [&](double radius) {
+    const TemporaryFolder folder;
+    Options options;
+    options.folder = folder.path();
+    options.sizes = smallest;
+    options.sizes.rows = 3'000;
+    options.sizes.disc_radius = radius;
+    options.experiments = {"simulated"};
+    options.recordings = *data / "trajectories";
+    run_report(options);
+    expect_shows_table(test::read_text(folder.file("report.html")), folder, "simulated");
+    return read_table(folder.file("simulated.csv"));
+  };
+  const Table small = table_of(0.001), usual = table_of(0.2), large = table_of(0.6);
+  ASSERT_EQ(usual.rows().size(), 2u);  // a recording in two kinds of bodies
+  for (std::size_t i = 0; i < 2; ++i) {
+    SCOPED_TRACE(usual.text(i, "structure"));
+    const auto share = [i](const Table& table, const char* what) {
+      return table.number(i, std::string(what) + " (% of neighbours)");
+    };
+    const auto overlapping = [&](const Table& table) {
+      return share(table, "both overlap") + share(table, "bodies alone");
+    };
+    EXPECT_EQ(share(small, "both overlap"), 0);
+    EXPECT_EQ(share(small, "discs alone"), 0);
+    EXPECT_NEAR(overlapping(small), overlapping(usual), 1e-9);
+    EXPECT_NEAR(overlapping(large), overlapping(usual), 1e-9);
+    EXPECT_EQ(share(large, "bodies alone"), 0);
+    EXPECT_NEAR(share(large, "discs alone") + share(large, "both overlap"), 100, 1e-9);
+    EXPECT_GE(small.number(i, "deepest while discs are clear (cm)"),
+              usual.number(i, "deepest while discs are clear (cm)"));
+    EXPECT_EQ(large.number(i, "deepest while discs are clear (cm)"), 0);
+  }
+}
+
 TEST(Report, ExperimentsHaveNamesAndSectionsOfTheirOwn) {
   std::set<std::string_view> names;
   const TemporaryFolder folder;
