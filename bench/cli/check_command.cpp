@@ -62,20 +62,18 @@ std::function<void()> add_check_command(CLI::App& program) {
   CLI::App& command =
       *program.add_subcommand("check", "Put bodies on a recorded or simulated crowd: who runs into whom");
   command.footer(
-      "Reads JuPedSim's SQLite, PeTrack and Juelich text, the Pedestrian Dynamics Data Archive's HDF5, "
-      "Pathfinder's CSV,\n"
-      "TrajNet++ and ETH/UCY, and plain CSV with columns id, frame or time, x, y; by their content. What a "
-      "file does not\n"
-      "say is asked for by an option, and what was assumed is printed.\n"
-      "On every row stands a pedestrian of the person's height, in the stride of his speed, under his head. "
-      "Two people\n"
-      "overlap where their outlines do, or, with --slices, where they do at the same height.\n"
-      "Exit code 1 where more than --fail-above of the person-seconds are in overlap, else 0 whatever is "
-      "found.\n"
+      "Reads JuPedSim's SQLite, PeTrack and Juelich text, the Pedestrian Dynamics Data Archive's HDF5,\n"
+      "Pathfinder's CSV, TrajNet++, ETH/UCY, and plain CSV with columns id, frame or time, x, y. The\n"
+      "content tells the format, not the name. If a file lacks the frame rate or the unit of length,\n"
+      "the program asks for that option. It prints every assumption.\n"
+      "Each row becomes a pedestrian of the person's height, in the stride of his speed, under his head.\n"
+      "Two people overlap if their outlines do, seen from above; with --slices, if they do at the same\n"
+      "height. The exit code is 1 if overlaps exceed --fail-above, else 0 whatever is found.\n"
       "Example: bch check trajectories.sqlite --slices 0.4,0.85,1.05 --events events.csv");
   options->input.add_to(command);
   add_outputs_to(command, options->outputs);
-  command.add_option("--html", options->html, "Write a page that plays the recording, without a network")
+  command
+      .add_option("--html", options->html, "Write a web page that plays the recording; it needs no network")
       ->type_name("FILE.html");
   options->part.add_to(command);
   add_threads_option(command, options->threads);

@@ -134,25 +134,27 @@ std::vector<std::string> CheckInput::files() const {
 }
 
 void CheckInput::add_to(CLI::App& command) {
-  command.add_option("FILE", file, "Trajectories")->type_name("")->required();
-  command.add_option("--fps", fps, "Frames a second, where the file does not say")
+  command.add_option("FILE", file, "The recording to check")->type_name("")->required();
+  command.add_option("--fps", fps, "Frames per second, instead of those that the file states")
       ->type_name("N")
       ->check(number_between(1e-3, 1e4));
   command
-      .add_option("--columns", columns, "Of text and CSV without a header: their names, such as frame,id,x,y")
+      .add_option("--columns", columns,
+                  "Names of the columns of text or CSV in order, such as frame,id,x,y, instead of its header")
       ->type_name("NAMES");
   command
-      .add_option("--unit", unit, "Of lengths, where the file does not say: m, cm, mm, or how many metres")
+      .add_option("--unit", unit, "Unit of lengths, instead of the file's: m, cm, mm, or a number of metres")
       ->type_name("UNIT");
-  command.add_option("--walls", walls, "The floor to walk on, in well-known text, instead of the file's own")
+  command.add_option("--walls", walls, "Walkable area as well-known text (WKT), instead of the file's own")
       ->type_name("FILE.wkt");
   add_bodies_to(command);
-  command.add_option("--depth", depth, "Depth of the bodies' hierarchies: 0, 1, 2 ... or all [all]")
+  command
+      .add_option("--depth", depth, "Test the discs of this depth, 0, 1, 2 ..., or the whole tree: all [all]")
       ->type_name("N");
   add_leaves_option(command, leaves, 2);
   command
       .add_option("--max-distance", max_distance,
-                  "Metres: --pairs also has gaps up to that [0: overlaps alone]")
+                  "Also write pairs whose gap is at most M metres to --pairs [0: overlaps only]")
       ->type_name("M")
       ->check(number_between(0, 10));
 }
@@ -162,7 +164,7 @@ void CheckInput::add_bodies_to(CLI::App& command) {
       command
           .add_option(
               "--character", characters,
-              "People have these bodies, by their ids or as rows name them (repeatable), or one baked set")
+              "Bodies, given to people by id or as rows name them (repeatable), or one baked set [built-in]")
           ->type_name("FILE")
           ->allow_extra_args(false);
   command
@@ -172,15 +174,17 @@ void CheckInput::add_bodies_to(CLI::App& command) {
       ->allow_extra_args(false)
       ->needs(character);
   command
-      .add_option("--slices", shapes.slices, "Cut bodies at these heights, metres, into slabs [whole bodies]")
+      .add_option("--slices", shapes.slices,
+                  "Cut bodies into slabs at these heights, in metres; slabs of one height collide [uncut]")
       ->type_name("H,H...");
   command
       .add_option("--clip-speed", clip_speeds,
-                  "Of a baked set: how fast people walk in a clip, 0 where they stand (repeatable)")
+                  "For a baked set: walking speed in a clip, 0 where people stand (repeatable)")
       ->type_name("CLIP=M/S")
       ->allow_extra_args(false)
       ->needs(character);
-  command.add_option("--facing", facing, "Of a baked set: where people face, counter-clockwise from +x [0]")
+  command
+      .add_option("--facing", facing, "For a baked set: where its people face, counter-clockwise from +x [0]")
       ->type_name("DEGREES")
       ->check(number_between(-360, 360))
       ->needs(character);
@@ -189,17 +193,21 @@ void CheckInput::add_bodies_to(CLI::App& command) {
 void add_outputs_to(CLI::App& command, CheckOutputs& outputs) {
   command
       .add_option("--events", outputs.events,
-                  "Write a line for each overlap: who, from when to when, how deep")
+                  "Write a line for each event, an overlap over time: who, from, to, how deep")
       ->type_name("FILE.csv");
-  command.add_option("--frames", outputs.frames, "Write a line for each frame: people, density, overlaps")
+  command
+      .add_option("--frames", outputs.frames,
+                  "Write a line for each frame: number of people, density, overlaps")
       ->type_name("FILE.csv");
-  command.add_option("--pairs", outputs.pairs, "Write a line for each pair of a frame that overlaps")
+  command
+      .add_option("--pairs", outputs.pairs,
+                  "Write a line for each overlapping pair of each frame: depth and direction")
       ->type_name("FILE.csv");
   command.add_option("--json", outputs.json, "Write the summary and all events as JSON")
       ->type_name("FILE.json");
   command
       .add_option("--fail-above", outputs.fail_above,
-                  "Percent of person-seconds in overlap from which on the check fails")
+                  "Exit with code 1 if more than P percent of person-seconds are in overlap [never]")
       ->type_name("P")
       ->check(number_between(0, 100));
 }

@@ -68,28 +68,28 @@ std::string facts(const CheckedRecording& recording, const CheckSummary& summary
   return text;
 }
 
-std::string count_line(const std::string& name, const OverlapCount& count, double fps) {
-  std::string text = fmt::format("{:>9} {:>11.1f} {:>8.2f} %", name, static_cast<double>(count.people) / fps,
+std::string count_line(const std::string& name, const OverlapCount& count) {
+  std::string text = fmt::format("{:>9} {:>13} {:>8.2f} %", name, grouped(count.people),
                                  percent(count.overlapping, count.people));
   for (const std::uint64_t disc : count.discs)
     text += fmt::format(" {:>8.2f} %", percent(disc, count.people));
   return text + "\n";
 }
 
-std::string density_table(const CheckSummary& summary, double fps) {
+std::string density_table(const CheckSummary& summary) {
   std::string text = fmt::format(
-      "\nShare of person-seconds in overlap, by people per square metre; beside it what discs would say:\n"
-      "{:>9} {:>11} {:>10}",
-      "density", "person-s", "bodies");
+      "\nShare of person-frames in overlap, by people per square metre; beside it what discs would say:\n"
+      "{:>9} {:>13} {:>10}",
+      "density", "person-frames", "bodies");
   for (const double radius : compared_discs) text += fmt::format(" {:>10}", fmt::format("{:.2f} m", radius));
   text += "\n";
   for (std::size_t k = 0; k < density_classes.size(); ++k) {
     const bool last = k + 1 == density_classes.size();
     const std::string name = last ? fmt::format("{:g}-", density_classes[k])
                                   : fmt::format("{:g}-{:g}", density_classes[k], density_classes[k + 1]);
-    if (summary.by_density[k].people > 0) text += count_line(name, summary.by_density[k], fps);
+    if (summary.by_density[k].people > 0) text += count_line(name, summary.by_density[k]);
   }
-  return text + count_line("all", summary.all, fps);
+  return text + count_line("all", summary.all);
 }
 
 std::string worst_table(const CheckSummary& summary, double fps) {
@@ -270,7 +270,7 @@ std::string check_text(const CheckedRecording& recording, const CheckSummary& su
   if (recording.walls)
     text += line("walls", fmt::format("{:.2f} % of person-seconds in one",
                                       percent(summary.all.in_walls, summary.all.people)));
-  return text + density_table(summary, fps) + worst_table(summary, fps);
+  return text + density_table(summary) + worst_table(summary, fps);
 }
 
 void write_check_json(const std::string& file, const CheckedRecording& recording,

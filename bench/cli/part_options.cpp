@@ -22,7 +22,7 @@ void PartOptions::add_to(CLI::App& command) {
       ->type_name("I/N");
   command
       .add_option("--into", folder,
-                  "Of --part: the folder for parts; a part that is whole there is not done again")
+                  "Folder for the files of --part; a part that is there already is not done again")
       ->type_name("DIR");
 }
 
