@@ -106,7 +106,7 @@ void add_row(Table& table, const Source& source, const Bodies& bodies, double ra
              100 * comparison.deepest()});
 }
 
-void run_experiment(Run& run) {
+void run_simulated(Run& run) {
   const std::vector<Source> sources = wanted_sources(run);
   if (sources.empty()) return;
   Table table = empty_table();
@@ -141,7 +141,7 @@ const Experiment simulated_experiment{"simulated",
                                       "Simulated people",
                                       10,
                                       false,
-                                      run_experiment,
+                                      run_simulated,
                                       {{"hidden neighbours", hidden},
                                        {"neighbours of discs alone", alone},
                                        {"radius of simulated people", radius}}};
