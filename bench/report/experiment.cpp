@@ -27,8 +27,8 @@ std::span<const Experiment> experiments() {
   static const Experiment all[] = {error_time_experiment, construction_experiment, query_time_experiment,
                                    distance_experiment,   real_experiment,         depth_experiment,
                                    volume_experiment,     threshold_experiment,    mesh_detail_experiment,
-                                   density_experiment,    detail_experiment,       recordings_experiment,
-                                   simulated_experiment,  stability_experiment};
+                                   density_experiment,    detail_experiment,       motions_experiment,
+                                   recordings_experiment, simulated_experiment,    stability_experiment};
   return all;
 }
 

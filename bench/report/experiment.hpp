@@ -97,7 +97,7 @@ std::span<const Experiment> experiments();
 
 extern const Experiment construction_experiment, query_time_experiment, distance_experiment, depth_experiment,
     volume_experiment, threshold_experiment, mesh_detail_experiment, error_time_experiment,
-    density_experiment, detail_experiment, real_experiment, recordings_experiment, simulated_experiment,
-    stability_experiment;
+    density_experiment, detail_experiment, motions_experiment, real_experiment, recordings_experiment,
+    simulated_experiment, stability_experiment;
 
 }  // namespace bch::report

@@ -99,7 +99,8 @@ void run_report(const Options& options) {
                       .sizes = {options.sizes.pairs, options.sizes.agents}});
   // First, as a bad file should neither cost minutes nor leave files, and an import wants a process without threads.
   scene.characters();
-  const bool has_real = !options.real_characters.empty() && wants(options, real_experiment);
+  const bool has_real = !options.real_characters.empty() &&
+                        (wants(options, real_experiment) || wants(options, motions_experiment));
   const auto real =
       has_real ? load_real_characters(options.real_characters) : std::vector<cli::LoadedCharacter>();
   cli::make_folder(options.folder);

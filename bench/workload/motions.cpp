@@ -140,7 +140,9 @@ MotionScene::MotionScene(std::span<const AnimatedClip> clips, std::uint32_t pair
       if (come_near(path, paths_[other])) pairs_.push_back({other, index});
     paths_.push_back(std::move(path));
     clip_.push_back(random.below(static_cast<std::uint32_t>(clips.size())));
-    motions_.push_back({&clips[clip_.back()].shape, {}, -random.uniform(clips[clip_.back()].seconds)});
+    // Times of the clip are those of samples, too, of which there are a thousand a second.
+    const double phase = std::floor(1000 * random.uniform(clips[clip_.back()].seconds)) / 1000;
+    motions_.push_back({&clips[clip_.back()].shape, {}, -phase});
   }
   for (std::size_t i = 0; i < paths_.size(); ++i) motions_[i].path = paths_[i];
   contacts_.resize(pairs_.size());
