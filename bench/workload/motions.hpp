@@ -23,8 +23,8 @@ struct AnimatedClip {
   AnimatedShape shape;
 };
 
-/// Makes the bodies of the clips of a name, or of all where no character has one, on all threads. Clips of which animate() makes none are left
-/// out. The characters must outlive them.
+/// Makes the bodies of the clips of a name, or of all where no character has one, on all threads. Clips of which animate() makes none are
+/// left out. The characters must outlive them.
 /// Errors:  throws std::runtime_error where none is left.
 std::vector<AnimatedClip> animated_clips(std::span<const cli::LoadedCharacter> characters,
                                          std::string_view name, double most_seconds);

@@ -15,8 +15,8 @@ namespace bch::detail {
 ///
 /// Time is cut where a path has a key. Between two keys of the paths bodies come as near as their reaches for an interval at most, which a
 /// square root tells; there alone the clips are gone through, from window to window of their hulls: where these are apart along a line
-/// there is no contact, and else shorter windows are looked at, in the end those between two keys of the clips. From key to key every disc moves
-/// straight on but for what turning bends, so that the first time at which two nodes may touch is a root, too, and the trees are
+/// there is no contact, and else shorter windows are looked at, in the end those between two keys of the clips. From key to key every disc
+/// moves straight on but for what turning bends, so that the first time at which two nodes may touch is a root, too, and the trees are
 /// descended where there is one before the earliest contact of leaves so far. What bends more than half the tolerance is halved in time,
 /// but only where a contact is found.
 ///
@@ -26,9 +26,10 @@ namespace bch::detail {
 ///                 fewer than 16 roundings of at most 4e6 s
 ///     (position)  2^-48 of the coordinates: blends of two keys, and their difference
 ///     (turn)      4e-10 of the reaches: rotation()
-///     (root)      2^-20 of the reaches, which is more than all but (time) and (position), and than sums along a line: a computed root is that of a polynomial
-///                 whose coefficients are off by 2^-50 of (6 reaches)^2 at most, because nothing is placed that is farther away than
-///                 the reaches. The square of what discs are enlarged by is 32 times as much, so that it is no later than
+///     (root)      2^-20 of the reaches, which is more than all but (time) and (position), and than sums along a line: a
+///                 computed root is that of a polynomial whose coefficients are off by 2^-50 of (6 reaches)^2 at most, because
+///                 nothing is placed that is farther away than the reaches. The square of what discs are enlarged by is 32
+///                 times as much, so that it is no later than
 ///                 where the discs themselves touch.
 ///
 /// At the time that is found, two discs are at most twice as far apart as both were enlarged.

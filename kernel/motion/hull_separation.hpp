@@ -16,8 +16,9 @@ namespace bch::detail {
 ///
 /// Derivation: in the body's frame it reaches E(d, s) in direction d at a share s of the interval, at most, linear in s. It turns from
 /// R0 to R1, and a vector turned at s is at most turn^2 / 8 of its length away from (1 - s) of what it is turned by R0 and s of
-/// what by R1. So it reaches (1 - s) E(d0, s) + s E(d1, s) + turn^2 / 8 reach, where d0 and d1 are the direction as the body sees it at both
-/// ends. The first two are s (1 - s) (E(d0, 1) - E(d0, 0) - E(d1, 1) + E(d1, 0)) more than what lies evenly between E(d0, 0) and E(d1, 1).
+/// what by R1. So it reaches (1 - s) E(d0, s) + s E(d1, s) + turn^2 / 8 reach, where d0 and d1 are the direction as the body sees it at
+/// both ends. The first two are s (1 - s) (E(d0, 1) - E(d0, 0) - E(d1, 1) + E(d1, 0)) more than what lies evenly between E(d0, 0) and
+/// E(d1, 1).
 struct ReachAlong {
   double from, to, more;
 

@@ -44,7 +44,7 @@ class MovingBody {
   /// Returns the keys between which it is now: the first one, and which share of the time to the next has gone by at a time.
   std::size_t key() const noexcept { return key_; }
   double share(double time) const noexcept;
-  /// Returns its hull through the window of chunks in which it is now, until when that goes on, and which share of it has gone by at a time.
+  /// Returns its hull through the window of chunks in which it is now, until when that goes on, and its share that has gone by.
   const HullWindow& hull(unsigned level) const noexcept {
     return tree().hulls.levels[level][chunk_ >> level];
   }

@@ -17,8 +17,8 @@ struct AnimatedTreeChunk;
 
 constexpr std::uint32_t hull_directions = 32;
 
-/// How far a body reaches through a window of time in each of the directions, in steps: at every time of it by no more than what lies evenly
-/// between both ends.
+/// How far a body reaches through a window of time in each of the directions, in steps: at every time of it by no more than what lies
+/// evenly between both ends.
 struct HullWindow {
   struct Extent {
     std::int16_t from, to;

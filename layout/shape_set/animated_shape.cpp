@@ -49,8 +49,8 @@ Disc disc_around(const Disc& a, const Disc& b) {
           rounding::round_up(radius)};
 }
 
-/// Adds the tree of a chunk at a time as a binary one, in depth-first order: children are halved. Nodes hold the discs with room to spare, as
-/// those of shape_from_discs() do, and for the rounding of both their centres, and of those that halve them.
+/// Adds the tree of a chunk at a time as a binary one, in depth-first order: children are halved. Nodes hold the discs with room to spare,
+/// as those of shape_from_discs() do, and for the rounding of both their centres, and of those that halve them.
 class BinaryTree {
  public:
   BinaryTree(const ChunkAt& at, Hierarchy& hierarchy) : at_(at), hierarchy_(hierarchy) {}

@@ -30,8 +30,8 @@ struct NodeRange {
 /// and so at all times between: the distance of two centres that move straight on is convex, and so is that and the radius
 /// of the disc within, while the radius of the disc around is linear.
 ///
-/// Nodes stand level by level, so that the children of one, up to eight, follow each other, and those of the next one follow them. All leaves
-/// are on the last level, behind all other nodes. Their numbers are of 16 bits, times a step.
+/// Nodes stand level by level, so that the children of one, up to eight, follow each other, and those of the next one follow them. All
+/// leaves are on the last level, behind all other nodes. Their numbers are of 16 bits, times a step.
 struct AnimatedTreeChunk {
   std::vector<double> times;
   double step = 0;                     ///< a power of two, metres
@@ -85,8 +85,8 @@ KeyPlace key_place(const AnimatedTree& tree, double seconds) noexcept;
 /// Returns the time of a clip that loops, or not, at which it looks as it does at any `seconds`.
 double time_in_clip(const AnimatedTree& tree, double seconds) noexcept;
 
-/// Builds the tree over a chunk that is valid. Its discs are rounded to the step, outward; those whose numbers are of 16 bits as they are keep
-/// them, where no radius is more than two fifths of the largest coordinate.
+/// Builds the tree over a chunk that is valid. Its discs are rounded to the step, outward; those whose numbers are of 16 bits as they are
+/// keep them, where no radius is more than two fifths of the largest coordinate.
 ///
 /// Derivation: a centre goes to the nearest multiple, at most sqrt(1/2) steps away, and the radius up to the next multiple of itself and
 /// that way, so that the new disc holds the old one, and reaches out of it by less than 2 sqrt(1/2) + 1 < 2.42 steps. Rings hold what they
