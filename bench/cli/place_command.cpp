@@ -16,6 +16,7 @@
 #include "bench/base/output.hpp"
 #include "bench/base/stopwatch.hpp"
 #include "bench/base/text.hpp"
+#include "bench/base/wkt_input.hpp"
 #include "bench/characters/characters.hpp"
 #include "bench/cli/commands.hpp"
 #include "bench/cli/options.hpp"
@@ -98,15 +99,23 @@ std::vector<bench::PlacedClip> clips_of(const PlaceOptions& options) {
 }
 
 void run_place(const PlaceOptions& options) {
-  require_outputs({{"--csv", options.csv}, {"--json", options.json}}, options.characters);
+  std::vector<std::string> inputs = options.characters;
+  if (!options.obstacles.empty()) inputs.push_back(options.obstacles);
+  require_outputs({{"--csv", options.csv}, {"--json", options.json}}, inputs);
   PlaceRun run{options, {}, 0, {}};
+  bench::PlacingOptions placing = options.placing;
+  std::optional<ObstacleSet> obstacles;
+  if (!options.obstacles.empty()) {
+    obstacles = read_obstacles(options.obstacles, Polygons::solid);
+    placing.obstacles = &*obstacles;
+  }
   const bench::Stopwatch watch(2);
   run.clips = clips_of(options);
   run.build_seconds = watch.nanoseconds() * 1e-9;
   for (const bench::Spacing spacing : spacings) {
     const bench::Stopwatch search(2);
     try {
-      run.placements.push_back({bench::place(run.clips, spacing, options.placing), 0});
+      run.placements.push_back({bench::place(run.clips, spacing, placing), 0});
     } catch (const std::invalid_argument& error) {
       throw InputError(error.what());
     }
@@ -148,6 +157,10 @@ std::function<void()> add_place_command(CLI::App& program) {
       .add_option("--slices", options->shapes.slices,
                   "Cut bodies at these heights, metres: an arm above a foot is no contact [whole bodies]")
       ->type_name("LIST");
+  command
+      .add_option("--obstacles", options->obstacles,
+                  "Keep people out of these walls and polygons, in well-known text")
+      ->type_name("FILE.wkt");
   command.add_option("--width", options->placing.width, "Of the area [10 m]")
       ->type_name("METRES")
       ->check(number_between(1, 1000));

@@ -23,6 +23,7 @@ struct PlaceOptions {
   std::optional<double> speed;  ///< none: that of the clip
   double fps = 30;
   std::string csv, json;
+  std::string obstacles;  ///< a file of well-known text; empty: none
 };
 
 /// The ways to keep people apart that are compared, in the order of rows.

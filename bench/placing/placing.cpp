@@ -86,9 +86,14 @@ class Candidates {
 class Crowd {
  public:
   Crowd(std::span<const PlacedClip> clips, Spacing spacing, const PlacingOptions& options)
-      : clips_(clips), spacing_(spacing), interval_{0, options.seconds} {}
+      : clips_(clips),
+        spacing_(spacing),
+        interval_{0, options.seconds},
+        obstacles_(options.obstacles),
+        path_disc_({{{{0, 1}, 1, {path_disc, path_disc}, {}}}}) {}
 
   bool has_room(const PlacedPerson& person) const {
+    if (obstacles_ != nullptr && !is_clear(person)) return false;
     if (spacing_ != Spacing::paths)
       return free_until(motion_of(person), motions_, interval_) == std::numeric_limits<double>::infinity();
     return std::ranges::all_of(
@@ -104,14 +109,28 @@ class Crowd {
   std::vector<PlacedPerson> people() && { return std::move(people_); }
 
  private:
+  static constexpr Disc path_disc{0, 0, static_cast<float>(path_radius)};
+
   Motion motion_of(const PlacedPerson& person) const {
     const PlacedClip& clip = clips_[person.clip];
-    return {spacing_ == Spacing::cylinders ? &clip.cylinder : &clip.body, person.path, person.clip_begin};
+    const AnimatedShape& shape = spacing_ == Spacing::paths       ? path_disc_
+                                 : spacing_ == Spacing::cylinders ? clip.cylinder
+                                                                  : clip.body;
+    return {&shape, person.path, person.clip_begin};
+  }
+
+  bool is_clear(const PlacedPerson& person) const {
+    const Motion motion = motion_of(person);
+    double time = 0;
+    first_contact({&motion, 1}, *obstacles_, interval_, {&time, 1});
+    return time == std::numeric_limits<double>::infinity();
   }
 
   std::span<const PlacedClip> clips_;
   Spacing spacing_;
   TimeInterval interval_;
+  const ObstacleSet* obstacles_;
+  AnimatedShape path_disc_;
   std::vector<PlacedPerson> people_;
   std::vector<Motion> motions_;
 };

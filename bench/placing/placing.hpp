@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include <bch/obstacles.hpp>
 #include <bch/shape_set.hpp>
 #include <bch/time_of_impact.hpp>
 
@@ -41,6 +42,7 @@ struct PlacingOptions {
   double seconds = 10;            ///< how long everybody is on his way
   std::uint32_t tries = 500;      ///< so many candidates in a row that have no room end the search
   std::uint64_t seed = 1;
+  const ObstacleSet* obstacles = nullptr;  ///< where people must not go; or none
 };
 
 /// Somebody who has room: an arc from inside the area to inside the area, at the clip's speed.
@@ -57,7 +59,7 @@ struct Placement {
 };
 
 /// Fills an area by rejection sampling: candidates of random clips, phases and arcs come in, the same ones for every spacing, and who
-/// has contact with nobody stays.
+/// has contact with nobody and no obstacle stays.
 /// Errors:  throws std::invalid_argument where no arc of a clip fits into the area.
 Placement place(std::span<const PlacedClip> clips, Spacing spacing, const PlacingOptions& options);
 

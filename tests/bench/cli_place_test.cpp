@@ -127,6 +127,27 @@ TEST(CliPlace, NobodyTouchesAnybodyAtAnyHeight) {
   EXPECT_GT(above_each_other, 0u) << "nobody is above anybody, so that nothing was tested";
 }
 
+/// A wall through the middle, and a room's worth of furniture.
+TEST(CliPlace, NobodyTouchesWalls) {
+  const TemporaryFolder folder;
+  const std::string csv = folder.file("placed.csv"),
+                    walls = folder.write("walls.wkt", "LINESTRING(2 -1, 2 4) POLYGON((3 0, 4 0, 4 4, 3 4))");
+  const Ending run =
+      bch({"place", "--character", "default:male", "--clip",  "idle think", "--seconds", "1", "--speed",
+           "0.5",   "--tries",     "150",          "--width", "4",          "--depth",   "3", "--fps",
+           "5",     "--obstacles", walls,          "--csv",   csv});
+  ASSERT_EQ(run.code, 0) << run.err;
+  std::size_t left = 0, right = 0;
+  for (const auto& [time, moment] : moments_of(read_text(csv)))
+    for (const double x : moment.x) {
+      EXPECT_TRUE(x < 1.9 || (x > 2.1 && x < 2.9)) << x << " m at " << time << " s";
+      ++(x < 2 ? left : right);
+    }
+  EXPECT_GT(left, 0u);
+  EXPECT_GT(right, 0u);
+  expect_failure(bch({"place", "--obstacles", folder.file("none.wkt").string()}), 3, {"none.wkt"});
+}
+
 TEST(CliPlace, GivesTheSamePeopleForASeed) {
   const auto people = [](const std::string& seed) {
     const TemporaryFolder folder;
