@@ -30,13 +30,6 @@ using test::still_disc;
 
 constexpr double never = std::numeric_limits<double>::infinity();
 
-double contact_of(const MotionCase& motion, const ObstacleSet& obstacles, const TimeInterval& interval,
-                  double tolerance = 0.005) {
-  double time = 0;
-  first_contact(std::vector<Motion>{motion.motion()}, obstacles, interval, {&time, 1}, tolerance);
-  return time;
-}
-
 double distance(const test::WorldDisc& disc, const std::array<double, 4>& segment) {
   const auto& [ax, ay, bx, by] = segment;
   const double x = bx - ax, y = by - ay, square = x * x + y * y;
@@ -50,6 +43,13 @@ bool holds(const ReferenceObstacle& area, const test::WorldDisc& point) {
   for (const auto& [ax, ay, bx, by] : area.segments)
     if ((ay > point.y) != (by > point.y)) inside ^= point.x - ax < (bx - ax) * ((point.y - ay) / (by - ay));
   return inside;
+}
+
+double contact_of(const MotionCase& motion, const ObstacleSet& obstacles, const TimeInterval& interval,
+                  double tolerance = 0.005) {
+  double time = 0;
+  first_contact(std::vector<Motion>{motion.motion()}, obstacles, interval, {&time, 1}, tolerance);
+  return time;
 }
 
 /// What a body at a time has to do with obstacles: the gap of the nearest disc and segment, and whether an area holds a disc's centre or
