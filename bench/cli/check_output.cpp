@@ -247,13 +247,14 @@ std::string event_line(const OverlapEvent& event, double fps) {
 }
 
 std::string bodies_text(const CheckedRecording& recording) {
-  const bool exact = recording.depth == all_depths && recording.leaves == Leaves::segments;
+  const char* const leaves =
+      recording.leaves == Leaves::segments ? "their outlines" : "discs of their leaves";
   return fmt::format(
       "{}, {}, {}",
       recording.characters == 0 ? std::string("built-in pedestrians")
                                 : counted(recording.characters, "character"),
       recording.slabs == 1 ? "whole" : fmt::format("cut into {} slabs", recording.slabs),
-      exact ? "their outlines" : fmt::format("discs of depth {}", depth_name(recording.depth)));
+      recording.depth == all_depths ? leaves : fmt::format("discs of depth {}", depth_name(recording.depth)));
 }
 
 double percent_in_overlap(const CheckSummary& summary) {

@@ -82,7 +82,9 @@ TEST(Cli, CheckAsksAtADepth) {
     const Ending run =
         bch({"check", file, "--depth", depth, "--leaves", "discs", "--json", json, "--html", page});
     EXPECT_EQ(run.code, 0) << run.err;
-    EXPECT_NE(run.out.find(fmt::format("whole, discs of depth {}", depth)), std::string::npos) << run.out;
+    const std::string discs = depth == std::string("all") ? "their leaves" : fmt::format("depth {}", depth);
+    EXPECT_NE(run.out.find("whole, discs of " + discs + ", "), std::string::npos) << run.out;
+    EXPECT_NE(read_text(page).find("whole, discs of " + discs), std::string::npos);
     EXPECT_EQ(read_json(json)["depth"], depth);
     overlapping.push_back(read_json(json)["all"]["overlapping"]);
   }

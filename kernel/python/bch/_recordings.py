@@ -68,7 +68,9 @@ class Trajectory(NamedTuple):
         return self._names("clip")
 
     def _names(self, of: str) -> "np.ndarray[Any, Any]":
-        return np.array([getattr(motion, of) for motion in self.motions] + [""])[self.rows["motion"]]
+        names: "np.ndarray[Any, Any]" = np.array([getattr(motion, of) for motion in self.motions] + [""])
+        named: "np.ndarray[Any, Any]" = names[self.rows["motion"]]
+        return named
 
 
 def dataframe(records: Union[Records, Trajectory]) -> Any:
