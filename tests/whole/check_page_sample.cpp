@@ -247,6 +247,7 @@ nlohmann::json expected_events(const std::vector<cli::PageEvent>& events) {
     list.push_back({{"first", event.first},
                     {"second", event.second},
                     {"wall", event.is_wall},
+                    {"lasts", event.to - event.from + 1 / fps},  // every frame stands for its time
                     {"worst", event.worst},
                     {"depth", event.depth},
                     {"x", event.at.x},

@@ -176,6 +176,8 @@ class Page(unittest.TestCase):
         self.assertEqual(self.find("#event-list [aria-current=true] .pair").text, f"{worst['first']} and {worst['second']}")
         depth = self.find("#event-list [aria-current=true] .depth").text
         self.assertAlmostEqual(float(depth.removesuffix(" cm")), 100 * worst["depth"], delta=0.051)
+        lasts = self.find("#event-list [aria-current=true] .when").text.split(" for ")[1]
+        self.assertAlmostEqual(float(lasts.removesuffix(" s")), worst["lasts"], delta=0.0051 if worst["lasts"] < 9.9 else 0.051)
         self.js("bchPage.jumpToEvent(arguments[0])", len(events) - 1)
         self.assertAlmostEqual(self.js("bchPage.time()"), events[-1]["worst"], places=5)
 

@@ -42,7 +42,7 @@ function eventRow(event) {
   button.type = "button";
   button.dataset.index = event.index;
   button.append(part("span", "pair", pairText(event)), part("span", "depth", depthText(event.depth)),
-    part("span", "when", "from " + clockText(event.from) + " for " + lastsText(event.to - event.from)), depthBar(event));
+    part("span", "when", "from " + clockText(event.from) + " for " + lastsText(event.to - event.from + 1 / meta.fps)), depthBar(event));
   button.addEventListener("click", () => jumpToEvent(event.index));
   item.append(button);
   return item;
