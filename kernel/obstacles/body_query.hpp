@@ -17,7 +17,7 @@ namespace bch::detail {
 /// A part of an agent's body.
 struct PlacedPart {
   const ShapeSetView& shapes;
-  const ObstaclePlace& place;
+  ObstaclePlace place;
   std::uint32_t shape, part, level;
   std::size_t number;  ///< among the parts that were prepared
 
@@ -44,17 +44,19 @@ class BodyQuery {
   /// Asks for the obstacles about many agents at once, begin .. end: those within a margin of their parts' outer discs, which
   /// near_part() then returns.
   void prepare(std::uint32_t begin, std::uint32_t end, double margin) {
-    queries_.clear(), first_query_.clear();
+    queries_.clear(), parts_.clear(), first_part_.clear();
     begin_ = begin;
     for (std::uint32_t agent = begin; agent < end; ++agent) {
-      first_query_.push_back(queries_.size());
+      first_part_.push_back(parts_.size());
       const ObstaclePlace place{agents_.x[agent], agents_.y[agent], rotation(agents_.heading[agent])};
       const std::uint32_t shape = agents_.shape[agent], level = level_of(agent);
       bch::detail::visit_parts(shapes_, shape, [&](std::uint32_t part, std::uint32_t) {
-        const PlacedPart placed{shapes_, place, shape, part, level, 0};
+        const PlacedPart placed{shapes_, place, shape, part, level, parts_.size()};
         queries_.push_back({place, placed.centre(), placed.outer_radius() + margin});
+        parts_.push_back(placed);
       });
     }
+    first_part_.push_back(parts_.size());
     near_.prepare(queries_);
   }
 
@@ -63,13 +65,9 @@ class BodyQuery {
 
   /// Calls visit(part) for every part of the body of an agent that was prepared.
   template <class Visit>
-  void visit_parts(std::uint32_t agent, Visit visit) {
-    std::size_t number = first_query_[agent - begin_];
-    const std::uint32_t shape = agents_.shape[agent], level = level_of(agent);
-    bch::detail::visit_parts(shapes_, shape, [&](std::uint32_t part, std::uint32_t) {
-      visit(PlacedPart{shapes_, queries_[number].place, shape, part, level, number});
-      ++number;
-    });
+  void visit_parts(std::uint32_t agent, const Visit& visit) {
+    const std::size_t end = first_part_[agent - begin_ + 1];
+    for (std::size_t i = first_part_[agent - begin_]; i < end; ++i) visit(parts_[i]);
   }
 
   /// The meaning of collide().
@@ -78,7 +76,7 @@ class BodyQuery {
   };
   /// Calls found(obstacle) for obstacles that a part collides with, each once, until it returns false.
   template <class Found>
-  void visit_hits(const PlacedPart& part, Meaning meaning, Found found) {
+  void visit_hits(const PlacedPart& part, Meaning meaning, const Found& found) {
     near_part(part);
     const bool stop = near_.any_obstacle([&](std::span<const LocalSegment> segments, std::uint32_t obstacle) {
       const bool hit = touches(part, segments, meaning.exact_leaves) ||
@@ -109,7 +107,7 @@ class BodyQuery {
 
   /// Calls found(obstacle) for the areas that hold a part and have no segment next to it, until it returns false.
   template <class Found>
-  bool visit_areas_beyond(const PlacedPart& part, Found found) {
+  bool visit_areas_beyond(const PlacedPart& part, const Found& found) {
     if (2 * double{part.root().radius} > near_.obstacles().widest_area) return false;
     for (const std::uint32_t slot : near_.areas_about(part.place, part.centre())) {
       const std::uint32_t area = near_.obstacles().areas[slot];
@@ -123,9 +121,10 @@ class BodyQuery {
   const ShapeSetView& shapes_;
   const Agents& agents_;
   NearSegments near_;
-  std::vector<NearQuery> queries_;
-  std::vector<std::size_t> first_query_;  ///< by agent
-  std::uint32_t begin_ = 0;               ///< the first agent that was prepared
+  std::vector<NearQuery> queries_;  ///< by part
+  std::vector<PlacedPart> parts_;
+  std::vector<std::size_t> first_part_;  ///< by agent, and one past the last
+  std::uint32_t begin_ = 0;              ///< the first agent that was prepared
 };
 
 }  // namespace bch::detail

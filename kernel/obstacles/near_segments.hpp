@@ -60,7 +60,7 @@ class NearSegments {
 
   /// Calls visit(segments) for every obstacle of those that were found, until it returns true. Returns: whether it did.
   template <class Visit>
-  bool any_obstacle(Visit visit) {
+  bool any_obstacle(const Visit& visit) {
     for (std::size_t begin = 0, end; begin < found_.size(); begin = end) {
       const std::uint32_t obstacle = found_[begin].obstacle;
       for (end = begin + 1; end < found_.size() && found_[end].obstacle == obstacle;) ++end;

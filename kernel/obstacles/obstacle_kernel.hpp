@@ -22,13 +22,16 @@ template <class Simd>
 class ObstacleKernel {
  public:
   explicit ObstacleKernel(const ObstacleArguments& in) noexcept
-      : in_(in), part_(*in.shapes, in.root), nodes_(part_.nodes), tree_(part_.tree) {}
+      : in_(in),
+        part_(*in.shapes, in.root),
+        nodes_(part_.nodes),
+        tree_(part_.tree),
+        exact_(in.exact_leaves && tree_.segments != no_segments) {}
 
   /// Returns whether a disc of the cut and all nodes above it touch the segments, and the outline in that disc does where
   /// exact leaves decide.
   bool touches() noexcept {
     if (in_.shapes->inscribed != nullptr && any_goes_in()) return true;
-    const bool exact = is_exact();
     std::uint32_t open = 0;
     nodes_open_[open++] = tree_.top;
     while (open != 0) {
@@ -40,7 +43,7 @@ class ObstacleKernel {
           nodes_open_[open++] = TreeNodes<Simd>::child(nodes_, node, lane);
         } else {
           const std::uint32_t disc = (node & ~leaf_window) + lane;
-          const Meeting meeting = exact ? outline_meets(disc) : Meeting::near;
+          const Meeting meeting = exact_ ? outline_meets(disc) : Meeting::near;
           if (meeting == Meeting::sure || (meeting == Meeting::near && ancestors_touch(disc))) return true;
         }
       }
@@ -138,8 +141,6 @@ class ObstacleKernel {
     }
   }
 
-  /// Returns whether segments of the outline decide, where leaves have them.
-  bool is_exact() const noexcept { return in_.exact_leaves && tree_.segments != no_segments; }
   double margin() const noexcept { return in_.shapes->segment_margin[in_.root / in_.shapes->level_count]; }
 
   Meeting outline_meets(std::uint32_t disc) const noexcept {
@@ -189,10 +190,10 @@ class ObstacleKernel {
     std::uint32_t node = tree_.top;
     for (;;) {
       if (node >= leaf_window) {
-        if (take(segment, node, best)) limit = limit_of(segment, best);
+        if (take(segment, node, limit, best)) limit = limit_of(segment, best);
         if (is_enough(enough, best)) return;
       } else {
-        bound(segment, node, *top++);
+        top += bound(segment, node, limit, *top);
       }
       for (;; --top) {
         if (top == frames_) return;
@@ -206,19 +207,31 @@ class ObstacleKernel {
     }
   }
 
-  void bound(const LocalSegment& segment, std::uint32_t node, Frame& frame) const noexcept {
+  /// Bounds what is below the nodes of a block. Returns: whether any may be within the limit; mostly none is, which squares tell sooner.
+  bool bound(const LocalSegment& segment, std::uint32_t node, double limit, Frame& frame) const noexcept {
     const Discs discs = TreeNodes<Simd>::outer_discs(nodes_, node, tree_.stride);
-    frame.node = node, frame.open = 0;
-    for (unsigned k = 0; k < block_width; k += Simd::doubles) {
-      const Double gap = gaps(segment, discs, k);
-      Simd::store(frame.bound + k, gap);
-      frame.open |= Simd::bits(gap < Double(__builtin_inf())) << k;  // not padding
-    }
+    alignas(64) double square[block_width];
+    frame.node = node, frame.open = near(segment, discs, limit, square);
+    if (frame.open == 0) return false;
+    for (unsigned k = 0; k < block_width; k += Simd::doubles)
+      Simd::store(frame.bound + k, gaps(segment, discs, k, square));
+    return true;
   }
 
-  static Double gaps(const LocalSegment& segment, Discs discs, unsigned k) noexcept {
-    return xsimd::sqrt(square_distance(segment, Simd::wide(discs.x + k), Simd::wide(discs.y() + k))) -
-           (Simd::wide(discs.radius() + k) + Double(segment.slack));
+  /// Returns which discs may have a gap of at most a limit from the segment, and the squares of their centres' distances; no padding.
+  static std::uint32_t near(const LocalSegment& segment, Discs discs, double limit, double* square) noexcept {
+    std::uint32_t bits = 0;
+    for (unsigned k = 0; k < block_width; k += Simd::doubles) {
+      const Double each = square_distance(segment, Simd::wide(discs.x + k), Simd::wide(discs.y() + k)),
+                   reach = Simd::wide(discs.radius() + k) + Double(limit + segment.slack);
+      Simd::store(square + k, each);
+      bits |= Simd::bits((each <= reach * reach) & (Double(0.0) <= reach)) << k;
+    }
+    return bits;
+  }
+
+  static Double gaps(const LocalSegment& segment, Discs discs, unsigned k, const double* square) noexcept {
+    return xsimd::sqrt(Simd::load(square + k)) - (Simd::wide(discs.radius() + k) + Double(segment.slack));
   }
 
   /// The open lane with the least bound.
@@ -233,20 +246,18 @@ class ObstacleKernel {
   }
 
   /// Takes what improves on the best from a leaf window. Returns: whether anything does.
-  bool take(const LocalSegment& segment, std::uint32_t node, ObstacleGap& best) const noexcept {
+  bool take(const LocalSegment& segment, std::uint32_t node, double limit, ObstacleGap& best) const noexcept {
     const Discs discs = TreeNodes<Simd>::discs(nodes_, node, tree_.stride);
-    alignas(64) double gap[block_width];
-    std::uint32_t near = 0;
-    for (unsigned k = 0; k < block_width; k += Simd::doubles) {
-      const Double value = gaps(segment, discs, k);
-      Simd::store(gap + k, value);
-      near |= Simd::bits(value <= Double(best.gap)) << k;
-    }
+    alignas(64) double square[block_width], gap[block_width];
+    std::uint32_t left = near(segment, discs, limit, square);
+    if (left == 0) return false;
+    for (unsigned k = 0; k < block_width; k += Simd::doubles)
+      Simd::store(gap + k, gaps(segment, discs, k, square));
     const std::uint32_t first = node & ~leaf_window;
     bool improved = false;
-    for (; near != 0; near &= near - 1) {
-      const auto lane = static_cast<unsigned>(__builtin_ctz(near));
-      if (is_exact())
+    for (; left != 0; left &= left - 1) {
+      const auto lane = static_cast<unsigned>(__builtin_ctz(left));
+      if (exact_)
         improved |= gap[lane] <= best.gap && take_outline(segment, first + lane, gap[lane], best);
       else
         improved |= best.improve({gap[lane], no_point, first + lane - tree_.discs, segment.number, &segment});
@@ -275,6 +286,7 @@ class ObstacleKernel {
   const PartTree<Simd> part_;
   const float* const nodes_;
   const Tree& tree_;
+  const bool exact_;  ///< segments of the outline decide where leaves have them
   std::uint32_t nodes_open_[most_open];
   Frame frames_[most_wide_levels];
 };

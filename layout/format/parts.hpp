@@ -19,7 +19,7 @@ namespace bch::detail {
 
 /// Calls visit(part, slab) for each part of a shape once, with the lowest slab that has it.
 template <class Visit>
-void visit_parts(const ShapeSetView& shapes, std::uint32_t shape, Visit visit) {
+void visit_parts(const ShapeSetView& shapes, std::uint32_t shape, const Visit& visit) {
   std::uint32_t last = no_part;
   for (std::uint32_t slab = 0; slab < shapes.slab_count; ++slab) {
     const std::uint32_t part = part_of(shapes, shape, slab);
