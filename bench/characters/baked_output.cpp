@@ -8,7 +8,6 @@
 #include <optional>
 #include <string_view>
 
-#include "bench/characters/baking.hpp"
 #include "layout/baked/format.hpp"
 #include "layout/baked/image.hpp"
 
@@ -63,7 +62,7 @@ void BakedOutput::finish(const BakedShapes& baked) {
   // A set of which every cut turned out to be a single disc has let its trees go.
   if (ahead_ > shapes.nodes.size_bytes()) file_.clear(), ahead_ = 0;
   std::optional<detail::BakedImage> image;
-  tbb::parallel_invoke([&] { image.emplace(baked.set, baked.origins); },
+  tbb::parallel_invoke([&] { image.emplace(baked.set, baked.origins, baked.clips); },
                        [&] {
                          if (file_.is_regular()) write_arrays(shapes);
                        });
@@ -76,11 +75,13 @@ void BakedOutput::finish(const BakedShapes& baked) {
 
 BakedShapes bake_file(const std::string& file, std::span<const LoadedCharacter> characters,
                       std::span<const ShapeSource> sources, double threshold, const ShapeSetPlan& plan,
-                      const CostLimits& limits) {
+                      const CostLimits& limits, std::span<const ClipOf> animated) {
   BakedOutput output(file, sources.size(), plan);
   const auto write_ahead = [&](std::span<const float> nodes) { output.write_ahead(nodes); };
+  AnimateOptions how;
+  how.slices = plan.slices;
   BakedShapes baked{bake_shapes(characters, sources, threshold, plan, write_ahead, limits),
-                    origins_of(characters, sources, threshold)};
+                    origins_of(characters, sources, threshold), bake_clips(characters, animated, how)};
   output.finish(baked);
   return baked;
 }

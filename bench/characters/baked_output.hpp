@@ -11,6 +11,7 @@
 #include <bch/baked.hpp>
 
 #include "bench/base/output_file.hpp"
+#include "bench/characters/baking.hpp"
 #include "bench/characters/shape_table.hpp"
 
 namespace bch::cli {
@@ -39,9 +40,9 @@ class BakedOutput {
   std::size_t ahead_ = 0;  ///< bytes of nodes that are written
 };
 
-/// Writes the results of bake_shapes() and origins_of() into a file.
+/// Writes the results of bake_shapes(), origins_of() and, of clips that are to be moving discs as well, bake_clips() into a file.
 BakedShapes bake_file(const std::string& file, std::span<const LoadedCharacter> characters,
                       std::span<const ShapeSource> sources, double threshold, const ShapeSetPlan& plan,
-                      const CostLimits& limits = {});
+                      const CostLimits& limits = {}, std::span<const ClipOf> animated = {});
 
 }  // namespace bch::cli

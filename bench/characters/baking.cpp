@@ -4,10 +4,14 @@
 #include "bench/characters/baking.hpp"
 
 #include <oneapi/tbb/enumerable_thread_specific.h>
+#include <oneapi/tbb/parallel_for.h>
 
+#include <cmath>
+#include <stdexcept>
 #include <utility>
 #include <vector>
 
+#include <bch/pose_shape.hpp>
 #include <bch/shape_set_builder.hpp>
 
 #include "bench/base/progress.hpp"
@@ -30,6 +34,40 @@ ShapeSet bake_shapes(std::span<const LoadedCharacter> characters, std::span<cons
         progress.advance();
       });
   return std::move(builder).finish();
+}
+
+AnimatedDiscs animate_clip(const Character& character, const std::string& name, std::uint32_t clip,
+                           const AnimateOptions& how) {
+  try {
+    return animate(character, clip, how);
+  } catch (const std::invalid_argument& error) {
+    throw InputError(fmt::format("{}, clip {}: {}", name, character.clips[clip].name, error.what()));
+  }
+}
+
+std::size_t shapes_in_time(double seconds) {
+  constexpr double a_second = 8;  // which takes up to 4 s, and a shape has 1 s
+  return static_cast<std::size_t>(std::ceil(a_second * std::min(seconds, 1e6)));
+}
+
+std::vector<BakedClip> bake_clips(std::span<const LoadedCharacter> characters, std::span<const ClipOf> clips,
+                                  const AnimateOptions& how) {
+  std::vector<std::uint32_t> first_name;
+  std::uint32_t names = 0;
+  for (const LoadedCharacter& each : characters) {
+    first_name.push_back(names);
+    names += 1 + static_cast<std::uint32_t>(each.character.clips.size());
+  }
+  std::vector<BakedClip> baked(clips.size());
+  Progress progress("animating clips", clips.size());
+  tbb::parallel_for(std::size_t{0}, clips.size(), [&](std::size_t i) {
+    const auto& [character, clip] = clips[i];
+    const std::uint32_t name = first_name[character];
+    const LoadedCharacter& from = characters[character];
+    baked[i] = {name, name + 1 + clip, animate_clip(from.character, file_name(from), clip, how)};
+    progress.advance();
+  });
+  return baked;
 }
 
 ShapeOrigins origins_of(std::span<const LoadedCharacter> characters, std::span<const ShapeSource> sources,

@@ -3,12 +3,19 @@
 
 #pragma once
 
+#include <fmt/format.h>
+
+#include <cstdint>
 #include <functional>
 #include <span>
+#include <string>
+#include <vector>
 
 #include <bch/baked.hpp>
+#include <bch/pose_shape.hpp>
 #include <bch/shape_set.hpp>
 
+#include "bench/base/exit_codes.hpp"
 #include "bench/characters/shape_table.hpp"
 
 namespace bch::cli {
@@ -21,6 +28,42 @@ ShapeSet bake_shapes(std::span<const LoadedCharacter> characters, std::span<cons
                      double threshold, const ShapeSetPlan& plan,
                      const std::function<void(std::span<const float> nodes)>& added = {},
                      const CostLimits& limits = {});
+
+/// A clip of one of several characters, by their indices.
+struct ClipOf {
+  std::uint32_t character, clip;
+};
+
+/// Finds the clips of given names, or "all", in the order of the names: `characters` have a Character of that name.
+/// Errors:  throws InputError on a name that no character's clip has, naming the option that it was given to.
+template <class Holder>
+std::vector<ClipOf> find_clips(std::span<const std::string> names, std::span<const Holder> characters,
+                               const char* option) {
+  std::vector<ClipOf> found;
+  for (const std::string& name : names) {
+    const std::size_t before = found.size();
+    for (std::uint32_t i = 0; i < characters.size(); ++i) {
+      const std::vector<Clip>& clips = characters[i].character.clips;
+      for (std::uint32_t clip = 0; clip < clips.size(); ++clip)
+        if (name == "all" || name == clips[clip].name) found.push_back({i, clip});
+    }
+    if (found.size() == before)
+      throw InputError(fmt::format("{}: no character has a clip named '{}'", option, name));
+  }
+  return found;
+}
+
+/// Makes moving discs of a clip; errors call its character `name`.
+/// Errors:  throws InputError where animate() refuses the clip.
+AnimatedDiscs animate_clip(const Character& character, const std::string& name, std::uint32_t clip,
+                           const AnimateOptions& how = {});
+
+/// Returns how many shapes may cost as much as moving discs of so many seconds of clips; limits know no others.
+std::size_t shapes_in_time(double seconds);
+
+/// Makes moving discs of clips in parallel, with a progress bar, as a baked file has them beside origins_of().
+std::vector<BakedClip> bake_clips(std::span<const LoadedCharacter> characters, std::span<const ClipOf> clips,
+                                  const AnimateOptions& how);
 
 /// Returns what a baked file says about the origins of its shapes. Characters go by their sources' file
 /// names.

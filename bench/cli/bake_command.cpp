@@ -26,7 +26,15 @@ struct BakeOptions {
   ShapeOptions shapes;
   AnswerOptions answer;
   bool heights = false;
+  std::vector<std::string> animated;  ///< names of clips
 };
+
+double seconds_of(std::span<const LoadedCharacter> characters, std::span<const ClipOf> clips) {
+  double seconds = 0;
+  for (const auto& [character, clip] : clips)
+    seconds += static_cast<double>(characters[character].character.clips[clip].seconds);
+  return seconds;
+}
 
 void run_bake(const BakeOptions& options) {
   if (!is_baked(options.output))
@@ -41,9 +49,11 @@ void run_bake(const BakeOptions& options) {
   const Threads threads(options.answer.threads);
   const auto sources = options.rate > 0 ? list_shapes_at_rate(characters, options.rate)
                                         : list_shapes(characters, options.shapes.poses);
-  const CostGuard guard(limits, characters, sources.size());
+  const auto animated = find_clips<LoadedCharacter>(options.animated, characters, "--animated");
+  const CostGuard guard(limits, characters,
+                        sources.size() + shapes_in_time(seconds_of(characters, animated)));
   const BakedShapes baked =
-      bake_file(options.output, characters, sources, options.shapes.threshold, plan, limits);
+      bake_file(options.output, characters, sources, options.shapes.threshold, plan, limits, animated);
   std::string notes;
   for (const LoadedCharacter& character : characters) notes += notes_text(character);
   write_standard_output(text_of(options.output, baked) + notes);
@@ -70,6 +80,11 @@ std::function<void()> add_bake_command(CLI::App& program) {
       ->excludes("--poses");
   command.add_flag("--heights", options->heights,
                    "Keep the heights of bodies, for agents with a z; --slices do so anyway");
+  command
+      .add_option("--animated", options->animated,
+                  "Keep the clip of this name, or all, as moving discs for every time, too (repeatable)")
+      ->type_name("CLIP")
+      ->allow_extra_args(false);
   options->answer.add_levels_to(command);
   return [options] { run_bake(*options); };
 }

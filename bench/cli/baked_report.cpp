@@ -11,6 +11,7 @@
 
 #include "bench/base/exit_codes.hpp"
 #include "bench/base/text.hpp"
+#include "bench/cli/animated_report.hpp"
 #include "layout/format/parts.hpp"
 #include "layout/format/shape_arrays.hpp"
 
@@ -79,6 +80,10 @@ BakedShapes load_baked_for(const std::string& file, const AnswerOptions& answer)
   return baked;
 }
 
+std::string clip_name(const ShapeOrigins& origins, const BakedClip& clip) {
+  return clip.clip == ShapeOrigin::rest_pose ? std::string() : origins.names[clip.clip];
+}
+
 std::uint32_t disc_count(const ShapeSet& set, std::uint32_t shape, std::uint32_t level) {
   return set.slab_begin(shape, level).back();
 }
@@ -104,6 +109,9 @@ std::string text_of(const std::string& file, const BakedShapes& baked) {
     if (!std::exchange(seen[origin.character], true))
       line("character",
            baked.origins.names[origin.character] + ": " + clips_text(baked.origins, origin.character));
+  for (const BakedClip& clip : baked.clips)
+    line("animated", fmt::format("{}: {} ({})", baked.origins.names[clip.character],
+                                 clip_name(baked.origins, clip), text_of(facts_of(clip.discs))));
   return out;
 }
 
@@ -116,7 +124,8 @@ std::string verified_text(const ShapeSet& set) {
 }
 
 std::string table_text(const BakedShapes& baked) {
-  const auto& [set, origins] = baked;
+  const ShapeSet& set = baked.set;
+  const ShapeOrigins& origins = baked.origins;
   std::size_t widest = 9;  // "rest pose"
   for (const std::string& name : origins.names) widest = std::max(widest, printable_line(name).size());
   std::string out = fmt::format("\n{:>6}  {:<{}}  {:<{}}  {:>9}  {:>8}  {:>6}\n", "shape", "character",
@@ -130,7 +139,7 @@ std::string table_text(const BakedShapes& baked) {
 }
 
 Json json_of(const std::string& file, const BakedShapes& baked) {
-  const auto& [set, origins] = baked;
+  const auto& [set, origins, clips] = baked;
   Json json{{"source", file}, {"shape_count", set.shape_count()}, {"bytes", set.bytes()}};
   for (const std::uint32_t depth : set.depths()) json["depths"].push_back(depth_name(depth));
   json["threshold_m"] = shortest(static_cast<float>(origins.threshold));
@@ -149,6 +158,12 @@ Json json_of(const std::string& file, const BakedShapes& baked) {
                               {"seconds", rest ? Json(nullptr) : Json(shortest(origin.seconds))},
                               {"root_radius_m", shortest(root_radius(set, s))},
                               {"discs", disc_count(set, s, set.level_count() - 1)}});
+  }
+  json["animated"] = Json::array();
+  for (const BakedClip& clip : clips) {
+    Json& row = json["animated"].emplace_back(
+        Json{{"character", origins.names[clip.character]}, {"clip", clip_name(origins, clip)}});
+    row.update(json_of(facts_of(clip.discs)));
   }
   return json;
 }

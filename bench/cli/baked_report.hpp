@@ -29,6 +29,9 @@ std::string table_text(const BakedShapes& baked);
 /// Describes a baked file and its shapes as JSON.
 nlohmann::ordered_json json_of(const std::string& file, const BakedShapes& baked);
 
+/// Returns the name of a clip of a baked file; empty where it has none.
+std::string clip_name(const ShapeOrigins& origins, const BakedClip& clip);
+
 /// Returns the number of discs of a shape's cut.
 std::uint32_t disc_count(const ShapeSet& set, std::uint32_t shape, std::uint32_t level);
 

@@ -11,7 +11,9 @@
 #include "bench/base/output.hpp"
 #include "bench/base/text.hpp"
 #include "bench/base/threads.hpp"
+#include "bench/characters/baking.hpp"
 #include "bench/characters/cost_guard.hpp"
+#include "bench/cli/animated_report.hpp"
 #include "bench/cli/baked_report.hpp"
 #include "bench/cli/commands.hpp"
 #include "bench/cli/inspection.hpp"
@@ -20,6 +22,8 @@
 namespace bch::cli {
 namespace {
 
+using Json = nlohmann::ordered_json;
+
 struct InspectOptions {
   std::string character;
   ShapeOptions shapes;
@@ -27,7 +31,7 @@ struct InspectOptions {
   std::optional<std::string> clip;
   std::optional<double> time;
   std::uint32_t threads = 0;
-  bool verify = false;
+  bool verify = false, animated = false;
   std::string json, svg;
 
   bool names_a_shape() const { return shape || clip; }
@@ -37,6 +41,7 @@ void require_consistent(const InspectOptions& options) {
   if (options.clip.has_value() != options.time.has_value())
     throw UsageError("--clip and --time belong together");
   if (options.shape && options.clip) throw UsageError("--shape and --clip: name a shape by one of them");
+  if (options.animated && !options.clip) throw UsageError("--animated: which clip? Add --clip and --time");
   if (!options.svg.empty() && !options.names_a_shape())
     throw UsageError("--svg: which shape? Add --shape, or --clip and --time");
   require_outputs({{"--json", options.json}, {"--svg", options.svg}},
@@ -80,6 +85,24 @@ void inspect_shape(const InspectOptions& options, const LoadedCharacter& from, c
   write_standard_output(text_of(from) + text_of(from, facts));
 }
 
+void show(const InspectOptions& options, const std::string& head, const Json& head_json,
+          const AnimatedView& view) {
+  write_json(options.json, {head_json, {"animated", json_of(view)}});
+  if (!options.svg.empty()) write_file(options.svg, draw_animated(view));
+  write_standard_output(head + text_of(view));
+}
+
+/// Shows a clip of a character as moving discs.
+void inspect_animated(const InspectOptions& options, const LoadedCharacter& from, const ShapeSource& source) {
+  const CostLimits& limits = options.shapes.limits;
+  const Clip& clip = from.character.clips[source.at.clip];
+  const CostGuard guard(limits, {&from, 1}, shapes_in_time(static_cast<double>(clip.seconds)));
+  const BuiltShapes built = build_shapes({&from, 1}, {&source, 1}, options.shapes.threshold, {}, limits);
+  const AnimatedDiscs discs = animate_clip(from.character, from.source, source.at.clip);
+  show(options, text_of(from), {"character", json_of(from)},
+       {from.character.name, clip.name, discs, *options.time, &built.shapes.front().outline});
+}
+
 void inspect_table(const InspectOptions& options, const LoadedCharacter& from,
                    std::span<const ShapeSource> sources) {
   const CostLimits& limits = options.shapes.limits;
@@ -107,18 +130,43 @@ void inspect_baked(const InspectOptions& options) {
                         table_text(baked));
 }
 
+/// Shows a clip that a baked file has as moving discs.
+void inspect_baked_clip(const InspectOptions& options) {
+  const BakedShapes baked = open_baked(options.character);
+  if (options.verify) require_verified(options.character, baked.set);
+  for (const BakedClip& clip : baked.clips) {
+    if (clip_name(baked.origins, clip) != *options.clip) continue;
+    if (!clip.discs.slabs.empty())
+      throw InputError(fmt::format("{}: clip '{}' is cut into slabs; moving discs of whole bodies can be shown",
+                                   options.character, *options.clip));
+    const auto& [times, end] = std::pair(clip.discs.chunks.front().times, clip.discs.chunks.back().times);
+    if (!(*options.time >= times.front() && *options.time <= end.back()))
+      throw InputError(fmt::format("{}: clip '{}' is from {} to {} s and has no time {} s", options.character,
+                                   *options.clip, times.front(), end.back(), *options.time));
+    return show(options, text_of(options.character, baked), {"source", options.character},
+                {baked.origins.names[clip.character], *options.clip, clip.discs, *options.time, nullptr});
+  }
+  throw InputError(fmt::format("{}: has no clip '{}' as moving discs; bch bake --animated keeps clips so",
+                               options.character, *options.clip));
+}
+
 void run_inspect(const CLI::App& command, const InspectOptions& options) {
   require_consistent(options);
   if (is_baked(options.character)) {
     require_unsettled(command, options.character);
-    require_absent(command, {"--shape", "--clip", "--svg"}, "a baked file has no hierarchies to show");
+    if (options.animated) return inspect_baked_clip(options);
+    require_absent(command, {"--shape", "--clip", "--svg"},
+                   "a baked file has no hierarchies to show; --animated shows its moving discs");
     return inspect_baked(options);
   }
   require_absent(command, {"--verify"}, "only a baked file can be verified");
+  if (options.animated) require_absent(command, {"--slices"}, "moving discs are of whole bodies");
   const LoadedCharacter from = load_character(options.character, options.shapes.import_options());
   const Threads threads(options.threads);
   const auto sources = list_shapes({&from, 1}, options.shapes.poses);
-  if (options.clip)
+  if (options.animated)
+    inspect_animated(options, from, at_time(from, *options.clip, *options.time));
+  else if (options.clip)
     inspect_shape(options, from, at_time(from, *options.clip, *options.time));
   else if (options.shape)
     inspect_shape(options, from, at_index(from, sources, *options.shape));
@@ -141,6 +189,8 @@ std::function<void()> add_inspect_command(CLI::App& program) {
   command.add_option("--time", options->time, "Seconds from the start of --clip")
       ->type_name("SECONDS")
       ->check(number_between(0, 1e9));
+  command.add_flag("--animated", options->animated,
+                   "Show the clip as discs that move, at --time and from key to key; of a baked file, too");
   options->shapes.add_to(command);
   add_threads_option(command, options->threads);
   command.add_flag(

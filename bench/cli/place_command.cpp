@@ -10,13 +10,12 @@
 #include <string>
 #include <vector>
 
-#include <bch/pose_shape.hpp>
-
 #include "bench/base/exit_codes.hpp"
 #include "bench/base/output.hpp"
 #include "bench/base/stopwatch.hpp"
 #include "bench/base/text.hpp"
 #include "bench/base/wkt_input.hpp"
+#include "bench/characters/baking.hpp"
 #include "bench/characters/characters.hpp"
 #include "bench/cli/commands.hpp"
 #include "bench/cli/options.hpp"
@@ -43,42 +42,17 @@ detail::CastMember member_of(const LoadedCharacter& loaded) {
   }
 }
 
-/// A clip that was asked for, of a character that has it.
-struct WantedClip {
-  std::uint32_t member, clip;
-};
-
-std::vector<WantedClip> wanted_clips(const PlaceOptions& options,
-                                     std::span<const detail::CastMember> members) {
-  std::vector<WantedClip> wanted;
-  for (const std::string& name : options.clip_names) {
-    const std::size_t before = wanted.size();
-    for (std::uint32_t i = 0; i < members.size(); ++i) {
-      const auto& clips = members[i].character.clips;
-      const auto clip = std::ranges::find(clips, name, &Clip::name);
-      if (clip != clips.end()) wanted.push_back({i, static_cast<std::uint32_t>(clip - clips.begin())});
-    }
-    if (wanted.size() == before)
-      throw InputError(fmt::format("--clip: no character has a clip named '{}'", name));
-  }
-  return wanted;
-}
-
 bench::PlacedClip placed_clip(const PlaceOptions& options, const AnimateOptions& how,
                               const detail::CastMember& member, std::uint32_t clip) {
   const Clip& played = member.character.clips[clip];
-  try {
-    const AnimatedDiscs discs = animate(member.character, clip, how);
-    return {member.name,
-            played.name,
-            options.speed.value_or(speed_of(member, clip)),
-            static_cast<double>(played.seconds),
-            member.height,
-            AnimatedShape(discs),
-            AnimatedShape(bench::cylinder_of(discs))};
-  } catch (const std::invalid_argument& error) {
-    throw InputError(fmt::format("{}, clip {}: {}", member.name, played.name, error.what()));
-  }
+  const AnimatedDiscs discs = animate_clip(member.character, member.name, clip, how);
+  return {member.name,
+          played.name,
+          options.speed.value_or(speed_of(member, clip)),
+          static_cast<double>(played.seconds),
+          member.height,
+          AnimatedShape(discs),
+          AnimatedShape(bench::cylinder_of(discs))};
 }
 
 /// Builds the bodies of all clips, each by a task of its own.
@@ -86,12 +60,12 @@ std::vector<bench::PlacedClip> clips_of(const PlaceOptions& options) {
   std::vector<detail::CastMember> members;
   for (const LoadedCharacter& loaded : load_characters(options.characters, {}))
     members.push_back(member_of(loaded));
-  const std::vector<WantedClip> wanted = wanted_clips(options, members);
+  const std::vector<ClipOf> wanted = find_clips<detail::CastMember>(options.clip_names, members, "--clip");
   AnimateOptions how;
   how.slices = options.shapes.planes();
   std::vector<std::optional<bench::PlacedClip>> built(wanted.size());
   tbb::parallel_for(std::size_t{0}, wanted.size(), [&](std::size_t i) {
-    built[i].emplace(placed_clip(options, how, members[wanted[i].member], wanted[i].clip));
+    built[i].emplace(placed_clip(options, how, members[wanted[i].character], wanted[i].clip));
   });
   std::vector<bench::PlacedClip> clips;
   for (std::optional<bench::PlacedClip>& clip : built) clips.push_back(std::move(*clip));

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "layout/baked/checksum.hpp"
+#include "layout/baked/clips.hpp"
 #include "layout/baked/file_bytes.hpp"
 #include "layout/baked/format.hpp"
 #include "layout/baked/validation.hpp"
@@ -174,7 +175,14 @@ BakedShapes load_baked(const std::filesystem::path& file, FileAccess access) {
 BakedShapes load_baked(std::span<const std::byte> bytes, const std::string& name,
                        std::shared_ptr<const void> memory) {
   const baked::Arrays arrays = Reader(bytes, name).read();
-  return {ShapeSet(arrays.shapes, std::move(memory)), origins_of(arrays)};
+  ShapeOrigins origins = origins_of(arrays);
+  std::vector<BakedClip> clips;
+  try {
+    clips = baked::unpack(arrays.clips, origins.names.size());
+  } catch (const std::invalid_argument& error) {
+    reject(name, error.what());
+  }
+  return {ShapeSet(arrays.shapes, std::move(memory)), std::move(origins), std::move(clips)};
 }
 
 }  // namespace bch

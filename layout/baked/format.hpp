@@ -6,6 +6,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <span>
 
 #include <bch/baked.hpp>
@@ -53,6 +54,17 @@
 ///     origins         ShapeOrigin S or 0  what each shape shows
 ///     name_begin      u32         N + 1   name n is bytes [n] to [n + 1] of names
 ///     names           u8          any     UTF-8
+///     clips           ClipRecord  A       moving discs, see below
+///     clip_planes     f32         any     metres, those of the clips that cut the body, one clip behind the other; so are the next six
+///     slab_chunks     u32         any     chunks of each slab, of one more than planes
+///     chunks          ChunkRecord any
+///     key_times       f64         any     seconds, ascending in a chunk
+///     ring_ends       u32         any     of a chunk's rings among its discs
+///     disc_steps      i16         any     x, y and radius of the discs at each key, times the chunk's power of two
+///     disc_floats     f32         any     the same of chunks whose numbers are no such, metres
+///
+/// Clips. Each clip takes its number of planes, and one more of slab_chunks; each of these so many chunks. Each chunk takes its number of key times and ring ends, and three numbers a disc and key from disc_steps or, where its step
+/// says so, disc_floats. Nothing is left. validate(AnimatedDiscs) lists what is checked of them.
 ///
 /// Slices. Where there are planes, S is the number of parts. Shape s has in slab j the part slab_parts[s * J + j], where J is the number
 /// of planes and 1, or nothing, 2^32 - 1. Parts are numbered in the order in which they are named first; slabs of one shape that
@@ -85,7 +97,7 @@ namespace bch::detail::baked {
 constexpr std::array<std::uint8_t, 8> magic{0x89, 'B', 'C', 'H', '\r', '\n', 0x1a, '\n'};
 constexpr std::uint32_t byte_order = 0x01020304;
 constexpr std::uint32_t other_byte_order = 0x04030201;
-constexpr std::uint32_t version = 5;
+constexpr std::uint32_t version = 6;
 constexpr std::size_t alignment = 64;
 
 struct FileHeader {
@@ -122,6 +134,14 @@ enum class Section : std::uint32_t {
   origins,
   name_begin,
   names,
+  clips,
+  clip_planes,
+  slab_chunks,
+  chunks,
+  key_times,
+  ring_ends,
+  disc_steps,
+  disc_floats,
   count,
 };
 constexpr std::uint32_t section_count = static_cast<std::uint32_t>(Section::count);
@@ -145,6 +165,34 @@ struct Preamble {
 };
 static_assert(sizeof(Preamble) == sizeof(FileHeader) + section_count * sizeof(SectionEntry));
 
+/// A clip; names by their index, that of the clip 2^32 - 1 where it has none.
+struct ClipRecord {
+  std::uint32_t character, clip;
+  std::uint32_t loops;  ///< 0 or 1
+  std::uint32_t planes;
+  Heights heights;
+};
+
+/// A chunk of a clip.
+struct ChunkRecord {
+  std::uint32_t keys, discs, rings;
+  std::int32_t step;  ///< numbers are in disc_steps, times 2^step; or float_step
+};
+constexpr std::int32_t float_step = std::numeric_limits<std::int32_t>::max();
+constexpr std::int32_t least_step = -149, largest_step = 20;  ///< of steps that can be
+
+/// The sections of clips.
+struct ClipArrays {
+  std::span<const ClipRecord> clips;
+  std::span<const float> clip_planes;
+  std::span<const std::uint32_t> slab_chunks;
+  std::span<const ChunkRecord> chunks;
+  std::span<const double> key_times;
+  std::span<const std::uint32_t> ring_ends;
+  std::span<const std::int16_t> disc_steps;
+  std::span<const float> disc_floats;
+};
+
 /// All sections of a file.
 struct Arrays {
   ShapeArrays shapes;
@@ -152,6 +200,7 @@ struct Arrays {
   std::span<const ShapeOrigin> origins;
   std::span<const std::uint32_t> name_begin;
   std::span<const char> names;
+  ClipArrays clips = {};
 };
 
 /// Calls visit(Section, name, span) for every section, in order.
@@ -164,6 +213,14 @@ void for_each_section(Arrays& arrays, Visit visit) {
   visit_next("origins", arrays.origins);
   visit_next("name_begin", arrays.name_begin);
   visit_next("names", arrays.names);
+  visit_next("clips", arrays.clips.clips);
+  visit_next("clip_planes", arrays.clips.clip_planes);
+  visit_next("slab_chunks", arrays.clips.slab_chunks);
+  visit_next("chunks", arrays.clips.chunks);
+  visit_next("key_times", arrays.clips.key_times);
+  visit_next("ring_ends", arrays.clips.ring_ends);
+  visit_next("disc_steps", arrays.clips.disc_steps);
+  visit_next("disc_floats", arrays.clips.disc_floats);
 }
 
 /// Returns how many zeros follow a section of this size, in bytes.

@@ -11,10 +11,10 @@
 
 namespace bch::detail {
 
-BakedImage::BakedImage(const ShapeSet& set, const ShapeOrigins& origins)
-    : settings_{origins.threshold}, origins_(origins.origins) {
+BakedImage::BakedImage(const ShapeSet& set, const ShapeOrigins& origins, std::span<const BakedClip> clips)
+    : settings_{origins.threshold}, origins_(origins.origins), clips_(clips, origins.names.size()) {
   add_names(origins.names);
-  arrays_ = {set.arrays(), {&settings_, 1}, origins_, name_begin_, names_};
+  arrays_ = {set.arrays(), {&settings_, 1}, origins_, name_begin_, names_, clips_.arrays()};
   baked::validate(arrays_);
   lay_out();
 }

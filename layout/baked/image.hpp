@@ -10,6 +10,7 @@
 #include <bch/baked.hpp>
 #include <bch/shape_set.hpp>
 
+#include "layout/baked/clips.hpp"
 #include "layout/baked/format.hpp"
 #include "layout/base/aligned_vector.hpp"
 
@@ -20,8 +21,8 @@ class BakedImage {
  public:
   /// The set has to outlive this.
   /// Errors:  throws std::invalid_argument where load_baked() would refuse the file: a set out of the domain of
-  ///          validate(ShapeArrays), origins of another number of shapes or with names that are not there.
-  BakedImage(const ShapeSet& set, const ShapeOrigins& origins);
+  ///          validate(ShapeArrays), origins of another number of shapes, names that are not there, bad clips.
+  BakedImage(const ShapeSet& set, const ShapeOrigins& origins, std::span<const BakedClip> clips = {});
   BakedImage(const BakedImage&) = delete;
   BakedImage& operator=(const BakedImage&) = delete;
 
@@ -38,6 +39,7 @@ class BakedImage {
   std::vector<ShapeOrigin> origins_;
   std::vector<std::uint32_t> name_begin_;
   std::vector<char> names_;
+  baked::PackedClips clips_;
   baked::Arrays arrays_;
   std::vector<std::span<const std::byte>> parts_;
 };

@@ -37,8 +37,9 @@ class TemporaryFile {
 
 }  // namespace
 
-void save_baked(const fs::path& file, const ShapeSet& set, const ShapeOrigins& origins) {
-  const detail::BakedImage image(set, origins);
+void save_baked(const fs::path& file, const ShapeSet& set, const ShapeOrigins& origins,
+                std::span<const BakedClip> clips) {
+  const detail::BakedImage image(set, origins, clips);
   const TemporaryFile temporary(file);
   const auto require = [&](bool good) {
     if (!good) throw BakedFileError(file.string() + ": " + std::strerror(errno));

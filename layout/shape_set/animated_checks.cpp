@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include "layout/shape_set/animated_checks.hpp"
+#include <bch/shape_set.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -133,12 +133,31 @@ void require_slabs(const AnimatedDiscs& discs) {
   if (std::none_of(discs.slabs.begin(), discs.slabs.end(), has_discs)) reject("all slabs are empty");
 }
 
-}  // namespace
-
-void require_valid(const AnimatedDiscs& discs) {
-  if (!(discs.heights.bottom <= discs.heights.top))
-    reject("heights from " + shortest(discs.heights.bottom) + " to " + shortest(discs.heights.top) + " m");
-  discs.slabs.empty() && discs.slices.empty() ? require_chunks(discs, "", false) : require_slabs(discs);
+/// Rejects discs that reach too little or too far, where there are some.
+void require_reach_of(const AnimatedDiscs& discs) {
+  double reach = 0;
+  for (const AnimatedChunk& chunk : discs.chunks)
+    for (const auto& [x, y, radius] : chunk.keys)
+      reach = std::max(reach, length(double{x}, double{y}) + double{radius});
+  if (has_discs(discs)) require_reach(reach);
 }
 
+}  // namespace
 }  // namespace bch::detail
+
+namespace bch {
+
+using namespace detail;
+
+void validate(const AnimatedDiscs& discs) {
+  if (!(discs.heights.bottom <= discs.heights.top))
+    reject("heights from " + shortest(discs.heights.bottom) + " to " + shortest(discs.heights.top) + " m");
+  if (discs.slabs.empty() && discs.slices.empty())
+    require_chunks(discs, "", false);
+  else
+    require_slabs(discs);
+  require_reach_of(discs);
+  for (const AnimatedDiscs& slab : discs.slabs) require_reach_of(slab);
+}
+
+}  // namespace bch

@@ -9,7 +9,6 @@
 
 #include "layout/base/rounding.hpp"
 #include "layout/hierarchy/builder.hpp"
-#include "layout/shape_set/animated_checks.hpp"
 #include "layout/shape_set/animated_tree.hpp"
 
 namespace bch {
@@ -90,9 +89,10 @@ class BinaryTree {
   Hierarchy& hierarchy_;
 };
 
-/// Returns the polygons of the rings' centres, counter-clockwise.
-Outline outline_of(const ChunkAt& at) {
-  Outline outline;
+/// Makes the polygons of the rings' centres, counter-clockwise.
+void make_outline(const ChunkAt& at, Outline& outline) {
+  outline.points.clear();
+  outline.contour_begin.assign(1, 0);
   std::size_t begin = 0;
   for (const std::uint32_t end : at.chunk.ring_ends) {
     double twice_area = 0;
@@ -107,7 +107,6 @@ Outline outline_of(const ChunkAt& at) {
     outline.contour_begin.push_back(end);
     begin = end;
   }
-  return outline;
 }
 
 /// Finds the reach of a chunk's discs, and their speed.
@@ -149,20 +148,20 @@ std::unique_ptr<AnimatedTree> tree_of(std::span<const AnimatedChunk> chunks, boo
   return tree;
 }
 
-Shape shape_of(const ChunkAt& at, double reach) {
-  Shape shape;
-  if (at.chunk.nodes() == 0) return shape;
-  shape.hierarchy.reach = reach;
+void make_shape(const ChunkAt& at, double reach, Shape& shape) {
+  shape.outline.points.clear(), shape.outline.contour_begin.assign(1, 0);
+  shape.hierarchy.nodes.clear();
+  shape.hierarchy.reach = at.chunk.nodes() > 0 ? reach : 0;
+  if (at.chunk.nodes() == 0) return;
   shape.hierarchy.nodes.reserve(2 * at.chunk.leaf_of_disc.size());
   BinaryTree(at, shape.hierarchy).add_root();
-  shape.outline = outline_of(at);
-  return shape;
+  make_outline(at, shape.outline);
 }
 
 }  // namespace
 
 AnimatedShape::AnimatedShape(const AnimatedDiscs& discs) : slices_(discs.slices), heights_(discs.heights) {
-  require_valid(discs);
+  validate(discs);
   tree_ = tree_of(discs.chunks, discs.loops);
   for (const AnimatedDiscs& slab : discs.slabs) {
     slabs_.push_back(AnimatedShape(tree_of(slab.chunks, discs.loops)));
@@ -220,11 +219,16 @@ std::vector<Disc> AnimatedShape::discs(double seconds) const {
 }
 
 Shape AnimatedShape::shape(double seconds) const {
-  Shape shape;
-  if (slabs_.empty()) shape = shape_of(ChunkAt(*tree_, seconds), tree_->reach);
-  for (const AnimatedShape& slab : slabs_) shape.slabs.push_back(slab.shape(seconds));
+  Shape made;
+  shape(seconds, made);
+  return made;
+}
+
+void AnimatedShape::shape(double seconds, Shape& shape) const {
   shape.heights = heights_;
-  return shape;
+  shape.slabs.resize(slabs_.size());
+  for (std::size_t i = 0; i < slabs_.size(); ++i) slabs_[i].shape(seconds, shape.slabs[i]);
+  if (slabs_.empty()) make_shape(ChunkAt(*tree_, seconds), tree_->reach, shape);
 }
 
 }  // namespace bch

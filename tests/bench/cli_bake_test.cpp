@@ -4,6 +4,9 @@
 #include <gtest/gtest.h>
 #include <signal.h>
 
+#include <algorithm>
+#include <fstream>
+#include <iterator>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
@@ -152,11 +155,11 @@ TEST(Cli, BadBakedFilesGiveThreeAndOneLine) {
   std::string flipped = text;
   flipped[text.size() / 2] ^= 4;
   std::string newer = text;
-  newer[12] = 6;
+  newer[12] = 7;
   const std::pair<std::string, const char*> cases[] = {{"", "too few"},
                                                        {text.substr(0, 3000), "3000"},
                                                        {flipped, "wrong checksum"},
-                                                       {newer, "version 6"},
+                                                       {newer, "version 7"},
                                                        {std::string(5000, 'x'), "not a baked file"}};
   const std::string agents = folder.write("agents.csv", four_agents);
   for (const auto& [content, word] : cases) {
@@ -190,6 +193,69 @@ TEST(Cli, BakedFilesAreKnownByTheirEnding) {
   const std::string upper = folder.file("P.BCH");
   ASSERT_EQ(bch({"bake", "default:male", "--poses", "1", "-o", upper}).code, 0);
   EXPECT_NE(bch({"inspect", upper}).out.find("baked shapes"), std::string::npos);
+}
+
+TEST(Cli, BakedFilesKeepClipsAsMovingDiscs) {
+  const TemporaryFolder folder;
+  const std::string baked = folder.file("p.bch"), plain = folder.file("q.bch"), json = folder.file("p.json"),
+                    svg = folder.file("p.svg");
+  const Arguments few{"--poses", "3"};
+  const Ending bake = bch({"bake", "default:male", "--animated", "idle think", "-o", baked}, few);
+  ASSERT_EQ(bake.code, 0) << bake.err;
+  EXPECT_NE(bake.out.find("  animated  default:male: idle think (6.00 s, loops, "), std::string::npos)
+      << bake.out;
+  EXPECT_EQ(bch({"inspect", baked, "--verify", "--json", json}).code, 0);
+  const auto clips = read_json(json)["animated"];
+  ASSERT_EQ(clips.size(), 1u);
+  EXPECT_EQ(clips[0]["character"], "default:male");
+  EXPECT_EQ(clips[0]["clip"], "idle think");
+  EXPECT_GT(clips[0]["chunks"], 40);
+  // The poses are those of a file without clips.
+  ASSERT_EQ(bch({"bake", "default:male", "-o", plain}, few).code, 0);
+  const Arguments all{"--all-pairs"};
+  const std::string agents = folder.write("agents.csv", mixed_agents(5, 3, 1));
+  EXPECT_EQ(bch({"query", baked, agents}, all).out, bch({"query", plain, agents}, all).out);
+  // What the file has is what is made of the character.
+  const Arguments at{"--animated", "--clip", "idle think", "--time", "0.4", "--json", json, "--svg", svg};
+  const Ending shown = bch({"inspect", baked}, at);
+  ASSERT_EQ(shown.code, 0) << shown.err;
+  EXPECT_NE(shown.out.find("idle think as moving discs"), std::string::npos) << shown.out;
+  const auto from_file = read_json(json)["animated"];
+  ASSERT_EQ(bch({"inspect", "default:male"}, at).code, 0);
+  EXPECT_EQ(read_json(json)["animated"], from_file);
+  EXPECT_GT(from_file["at"]["discs"].size(), 50u);
+  std::ifstream picture(svg);
+  const std::string drawn{std::istreambuf_iterator<char>(picture), {}};
+  EXPECT_GT(std::count(drawn.begin(), drawn.end(), 'z'), 5);
+  EXPECT_NE(drawn.find("class=\"outline\""), std::string::npos);
+  EXPECT_EQ(drawn.find("nan"), std::string::npos);
+}
+
+TEST(Cli, BakedClipsAreCutAsTheShapesAre) {
+  const TemporaryFolder folder;
+  const std::string baked = folder.file("p.bch");
+  const Ending bake =
+      bch({"bake", "default:male", "--animated", "idle think", "-o", baked}, {"--poses", "1", "--slices", "1"});
+  ASSERT_EQ(bake.code, 0) << bake.err;
+  EXPECT_NE(bake.out.find("idle think (6.00 s, loops, 2 slabs, "), std::string::npos) << bake.out;
+  expect_failure(bch({"inspect", baked, "--animated", "--clip", "idle think", "--time", "0"}), 3,
+                 {baked, "idle think", "slabs"});
+}
+
+TEST(Cli, ClipsThatCannotBeMovingDiscsAreNamed) {
+  const TemporaryFolder folder;
+  const std::string baked = folder.file("p.bch"), obj = folder.write("box.obj", box);
+  expect_failure(bch({"bake", "default:male", "--animated", "wlak", "-o", baked}), 3, {"--animated", "wlak"});
+  expect_failure(bch({"bake", obj, "--animated", "all", "-o", baked}, as_metres), 3, {"--animated", "all"});
+  EXPECT_FALSE(std::filesystem::exists(baked));
+  ASSERT_EQ(bch({"bake", "default:male", "--poses", "1", "-o", baked}).code, 0);
+  expect_failure(bch({"inspect", baked, "--animated", "--clip", "walk", "--time", "0"}), 3,
+                 {baked, "walk", "bch bake --animated"});
+  expect_failure(bch({"inspect", baked, "--clip", "walk", "--time", "0"}), 2, {"--animated"});
+  expect_failure(bch({"inspect", "default:male", "--animated"}), 2, {"--animated", "--clip"});
+  expect_failure(
+      bch({"inspect", "default:male", "--animated", "--clip", "walk", "--time", "0"}, {"--slices", "1"}), 2,
+      {"--slices", "whole"});
 }
 
 TEST(Cli, BakedFilesAreNoCharacters) {

@@ -55,6 +55,19 @@ void query(const ShapeSet& set, const Implementation& implementation) {
   verify(set);
 }
 
+/// Looks at clips that are not too long for that.
+void play(std::span<const BakedClip> clips) {
+  for (const auto& [character, clip, discs] : clips) {
+    std::size_t numbers = 0;
+    for (const AnimatedChunk& chunk : discs.chunks) numbers += chunk.keys.size();
+    if (numbers > 2000) continue;
+    const AnimatedShape shape(discs);
+    const double end = shape.end();
+    for (const double seconds : {shape.begin(), shape.begin() / 2 + end / 2, end, end + 0.3})
+      ShapeSet({{shape.shape(seconds)}}, {});
+  }
+}
+
 }  // namespace
 }  // namespace bch::fuzz
 
@@ -71,6 +84,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const auto all = implementations();
     const Implementation& implementation = all[mode / 2 % all.size()];
     if (implementation.supported()) fuzz::query(baked.set, implementation);
+    fuzz::play(baked.clips);
   } catch (const BakedFileError&) {
   }
   return 0;

@@ -44,7 +44,7 @@ void add_images(Folder folder) {
                                 {.depths = {0}, .slices = {0.4f}}};
   for (const ShapeSetPlan& plan : plans)
     for (const char mode : {'\0', '\1', '\3', '\5', '\7'})
-      folder.add(mode + BakedBytes(ShapeSet(shapes, plan), origins_of(shapes.size())).text());
+      folder.add(mode + BakedBytes(ShapeSet(shapes, plan), origins_of(shapes.size()), few_clips()).text());
 }
 
 /// How many shapes and levels there are, whether agents move, the length of their table, both tables.

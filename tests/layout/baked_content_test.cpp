@@ -27,7 +27,8 @@ constexpr float infinity = std::numeric_limits<float>::infinity();
 constexpr float nan = std::numeric_limits<float>::quiet_NaN();
 
 BakedBytes sound_bytes() {
-  return BakedBytes(ShapeSet(few_shapes(), {.depths = {0, 3, all_depths}, .outlines = true}), origins_of(3));
+  return BakedBytes(ShapeSet(few_shapes(), {.depths = {0, 3, all_depths}, .outlines = true}), origins_of(3),
+                    few_clips());
 }
 
 struct Crime {
@@ -132,6 +133,27 @@ std::vector<Crime> crimes() {
        [](BakedBytes& b) { b.section<ShapeOrigin>(Section::origins)[1].character = 4; }},
       {"origins 2: clip", [](BakedBytes& b) { b.section<ShapeOrigin>(Section::origins)[2].clip = 4; }},
       {"origins 0: time", [](BakedBytes& b) { b.section<ShapeOrigin>(Section::origins)[0].seconds = nan; }},
+      {"clips 1: character has name 5", word(Section::clips, 6, 5)},
+      {"clips 0: clip has name 4", word(Section::clips, 1, 4)},
+      {"clips 1: it loops 2 times", word(Section::clips, 8, 2)},
+      {"clips 0: 4 of chunks, which has 3 left", word(Section::slab_chunks, 0, 4)},
+      {"clips 1: 4294967295 of chunks, which has 1 left", word(Section::slab_chunks, 1, ~0u)},
+      {"clips 1: animated shape: no chunks", word(Section::slab_chunks, 1, 0)},
+      {"clips 1: 3 of clip_planes, which has 0 left", word(Section::clips, 9, 3)},
+      {"clips 0: animated shape: heights from nan", floats(Section::clips, 4, nan)},
+      {"chunks 0: 4294967295 of key_times, which has 7 left", word(Section::chunks, 0, ~0u)},
+      {"chunks 1: 9 of ring_ends, which has 2 left", word(Section::chunks, 6, 9)},
+      {"chunks 0: 900 of disc_steps, which has 39 left", word(Section::chunks, 1, 100)},
+      {"chunks 2: step 2^-150", word(Section::chunks, 11, static_cast<std::uint32_t>(-150))},
+      {"chunks 2: step 2^21", word(Section::chunks, 11, 21)},
+      {"chunks 0: 27 of disc_floats, which has 6 left", word(Section::chunks, 3, 0x7fffffff)},
+      {"chunk 0: a key at 0 s after one at 1 s",
+       [](BakedBytes& b) { b.section<double>(Section::key_times)[1] = 0; }},
+      {"clips 0: animated shape: chunk 1: a ring's end at 0 after 0", word(Section::ring_ends, 1, 0)},
+      {"disc 0 at key 0 does not overlap disc 1",
+       [](BakedBytes& b) { b.section<std::int16_t>(Section::disc_steps)[3] = 30000; }},
+      {"of -0.125 m", [](BakedBytes& b) { b.section<std::int16_t>(Section::disc_steps)[2] = -1; }},
+      {"clips 1: animated shape: chunk 0: disc 0 at key 1", floats(Section::disc_floats, 4, nan)},
       {"name_begin 2", word(Section::name_begin, 2, 1)},
       {"name_begin 4", word(Section::name_begin, 4, 1000)},
   };
@@ -160,6 +182,25 @@ TEST(BakedContent, DamageIsCalledDamage) {
     EXPECT_TRUE(error.starts_with("file: section ") && error.ends_with(": wrong checksum"))
         << i << ": " << error;
   }
+}
+
+/// What no clip names is refused, too: a file says one thing only.
+TEST(BakedContent, ClipsLeaveNothing) {
+  std::vector<BakedClip> clips = few_clips();
+  const ShapeSet set(few_shapes(), {});
+  const auto without = [&](Section section, std::uint32_t at, std::uint32_t value) {
+    BakedBytes bytes(set, origins_of(3), clips);
+    bytes.section<std::uint32_t>(section).data()[at] = value;
+    bytes.seal();
+    return bytes.error();
+  };
+  EXPECT_EQ(without(Section::slab_chunks, 0, 1), "file: chunks 2: belongs to no clip");
+  clips.resize(1);
+  EXPECT_EQ(without(Section::chunks, 4, 2), "");
+  clips[0].discs.chunks[1].ring_ends.clear();
+  EXPECT_EQ(without(Section::chunks, 5, 1), "file: disc_steps 33: belongs to no clip");
+  clips[0].discs.chunks[0].ring_ends.clear();
+  EXPECT_EQ(without(Section::chunks, 1, 2), "file: disc_steps 30: belongs to no clip");
 }
 
 TEST(BakedContent, TestsATreeOfSeveralBlocks) {
@@ -296,7 +337,7 @@ TEST(BakedContent, AnythingThatLoadsCanBeQueried) {
   int loaded = 0, refused = 0;
   for (std::uint32_t i = 0; i < samples(4'000); ++i) {
     BakedBytes bytes = sound[i % sound.size()];
-    const auto section = static_cast<Section>(random.below(static_cast<std::uint32_t>(Section::names)));
+    const auto section = static_cast<Section>(random.below(static_cast<std::uint32_t>(Section::count)));
     const auto content = bytes.section<std::uint32_t>(section);
     const std::size_t size = content.size() * bytes.entry(section).element_size / 4;
     if (size == 0) continue;
@@ -316,6 +357,8 @@ TEST(BakedContent, AnythingThatLoadsCanBeQueried) {
       const BakedShapes shapes = bytes.load();
       ++loaded;
       query(shapes.set, random.next());
+      for (const BakedClip& clip : shapes.clips)
+        AnimatedShape(clip.discs).shape(clip.discs.chunks[0].times[1]);
     } catch (const BakedFileError&) {
       ++refused;
     }

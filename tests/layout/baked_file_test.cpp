@@ -8,6 +8,7 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <limits>
 #include <new>
 
@@ -104,6 +105,49 @@ TEST(BakedFile, ComesBackAsItWas) {
       }
 }
 
+TEST(BakedFile, HasItsClips) {
+  const ShapeSet set(few_shapes(), full_plan);
+  const std::vector<BakedClip> clips = few_clips();
+  BakedBytes bytes(set, origins_of(3), clips);
+  EXPECT_EQ(bytes.load().clips, clips);
+  // The first one's numbers are multiples of 1/8, the second one's are of nothing below 2^15.
+  EXPECT_EQ(bytes.entry(Section::disc_steps).count, 3 * 9 + 3 * 4u);
+  EXPECT_EQ(bytes.entry(Section::disc_floats).count, 3 * 2u);
+  const auto chunks = bytes.section<detail::baked::ChunkRecord>(Section::chunks);
+  EXPECT_EQ(chunks[0].step, -3);
+  EXPECT_EQ(chunks[1].step, 0);
+  EXPECT_EQ(chunks[2].step, detail::baked::float_step);
+  EXPECT_EQ(BakedBytes(set, origins_of(3)).load().clips.size(), 0u);
+}
+
+/// Numbers at the ends of 16 bits, and one bit beyond.
+TEST(BakedFile, ClipsAreStoredExactly) {
+  const ShapeSet set(few_shapes(), full_plan);
+  for (const float step : {0x1p-30f, 0x1p-15f, 1.0f, 0x1p3f})
+    for (const float most : {32767.0f, 32769.0f}) {
+      const AnimatedChunk chunk{{0, 1}, 1, {{most * step, -most * step, step}, {0, 0, step}}, {}};
+      if (most * step * 3 > 1e6f || most * step < 1e-5f) continue;
+      BakedBytes bytes(set, origins_of(3), std::vector<BakedClip>{{0, 1, {{chunk}, false}}});
+      EXPECT_EQ(bytes.load().clips[0].discs.chunks[0], chunk) << most << " x " << step;
+      EXPECT_EQ(bytes.entry(Section::disc_floats).count == 0, most < 0x1p15f) << most << " x " << step;
+    }
+}
+
+TEST(BakedFile, HasClipsThatAreCut) {
+  const ShapeSet set(few_shapes(), full_plan);
+  const AnimatedChunk low{{0, 2}, 1, {{0, 0, 1}, {1, 0, 1}}, {}}, nothing{{0, 1}, 0, {}, {}},
+      high{{1, 2}, 1, {{0, 0, 0.5f}, {0, 1, 0.5f}}, {}};
+  std::vector<BakedClip> clips = few_clips();
+  clips.push_back({0, 1, {{}, true, {0.5f}, {{{low}}, {{nothing, high}}}, {0, 2}}});
+  clips.push_back(clips[0]);
+  BakedBytes bytes(set, origins_of(3), clips);
+  EXPECT_EQ(bytes.load().clips, clips);
+  bytes.section<std::uint32_t>(Section::slab_chunks)[3] = 1;
+  bytes.seal();
+  EXPECT_EQ(bytes.error(),
+            "file: clips 2: animated shape: slab 1: it begins or ends at another time than slab 0");
+}
+
 TEST(BakedFile, MayHaveNoShapesAndNoOrigins) {
   const ShapeSet none(std::span<const Shape>{}, full_plan);
   EXPECT_EQ(BakedBytes(none, {}).load().set.shape_count(), 0u);
@@ -126,11 +170,21 @@ TEST(BakedFile, ImageRefusesWhatNobodyCouldLoad) {
   ShapeOrigins origins = origins_of(3);
   origins.names.resize(1);
   EXPECT_THROW(detail::BakedImage(set, origins), std::invalid_argument);
+  const auto refusal = [&](const std::function<void(BakedClip&)>& change) {
+    std::vector<BakedClip> clips = few_clips();
+    change(clips[1]);
+    return complaint([&] { detail::BakedImage(set, origins_of(3), clips); });
+  };
+  EXPECT_EQ(refusal([](BakedClip&) {}), "accepted");
+  EXPECT_EQ(refusal([](BakedClip& clip) { clip.character = 4; }), "clips 1: character has name 4");
+  EXPECT_EQ(refusal([](BakedClip& clip) { clip.clip = 4; }), "clips 1: clip has name 4");
+  EXPECT_EQ(refusal([](BakedClip& clip) { clip.discs.chunks[0].times[1] = 0; }),
+            "clips 1: animated shape: chunk 0: a key at 0 s after one at 0 s");
 }
 
 class SpoiledFile : public testing::Test {
  protected:
-  BakedBytes bytes{ShapeSet(few_shapes(), full_plan), origins_of(3)};
+  BakedBytes bytes{ShapeSet(few_shapes(), full_plan), origins_of(3), few_clips()};
 
   void expect_error(const std::string& words) {
     const std::string error = bytes.error();
@@ -303,8 +357,8 @@ TEST_F(SpoiledFile, SizesBeyondAllMemory) {
   constexpr std::uint64_t huge = std::uint64_t{4} << 40;
   const auto text = folder.write("text.bch", std::string(4096, 'x')),
              longer = folder.write("longer.bch", bytes.text());
-  detail::baked::SectionEntry& names = bytes.entry(Section::names);
-  names.count = huge - names.offset;
+  detail::baked::SectionEntry& last = bytes.entry(Section::disc_floats);
+  last.count = (huge - last.offset) / last.element_size;
   bytes.preamble().header.file_size = huge;
   bytes.seal_header();
   const auto honest = folder.write("honest.bch", bytes.text());
@@ -346,11 +400,12 @@ TEST(SaveBaked, WritesTheBytesOfTheSetInPlaceOfAnotherFile) {
   std::ofstream(file) << "something else";
   const ShapeSet set(few_shapes(), full_plan);
   const ShapeOrigins origins = origins_of(set.shape_count());
-  save_baked(file, set, origins);
-  EXPECT_EQ(text_of_file(file), BakedBytes(set, origins).text());
+  save_baked(file, set, origins, few_clips());
+  EXPECT_EQ(text_of_file(file), BakedBytes(set, origins, few_clips()).text());
   EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 1);
   const BakedShapes loaded = load_baked(file, FileAccess::map);
   EXPECT_EQ(loaded.origins, origins);
+  EXPECT_EQ(loaded.clips, few_clips());
   expect_same(loaded.set.arrays(), set.arrays());
 }
 

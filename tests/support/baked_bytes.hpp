@@ -17,11 +17,13 @@ namespace bch::test {
 /// Returns a few shapes with blocks, windows, single discs, several contours.
 std::vector<Shape> few_shapes();
 ShapeOrigins origins_of(std::size_t shapes);
+/// Returns clips of its names: one of numbers of 16 bits, which loops, and one of other numbers and without a name.
+std::vector<BakedClip> few_clips();
 
 /// A baked file in memory, for tests that corrupt it.
 class BakedBytes {
  public:
-  BakedBytes(const ShapeSet& set, const ShapeOrigins& origins);
+  BakedBytes(const ShapeSet& set, const ShapeOrigins& origins, std::span<const BakedClip> clips = {});
 
   std::size_t size() const { return bytes_.size(); }
   std::byte& operator[](std::size_t i) { return bytes_[i]; }

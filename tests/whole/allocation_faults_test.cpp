@@ -242,14 +242,16 @@ TEST_F(AllocationFaults, DynamicSet) {
 }
 
 TEST_F(AllocationFaults, Image) {
-  EXPECT_GT(fail_each([&] { detail::BakedImage(set, test::origins_of(shapes.size())); }), 5u);
+  EXPECT_GT(fail_each([&] { detail::BakedImage(set, test::origins_of(shapes.size()), test::few_clips()); }),
+            9u);
 }
 
 TEST_F(AllocationFaults, Load) {
   const TemporaryFolder folder;
-  const auto file = folder.write("a.bch", test::BakedBytes(set, test::origins_of(shapes.size())).text());
+  const auto file =
+      folder.write("a.bch", test::BakedBytes(set, test::origins_of(shapes.size()), test::few_clips()).text());
   for (const FileAccess access : {FileAccess::read, FileAccess::map})
-    EXPECT_GT(fail_each([&] { load_baked(file, access); }), 3u);
+    EXPECT_GT(fail_each([&] { load_baked(file, access); }), 9u);
 }
 
 TEST_F(AllocationFaults, Pairs) {

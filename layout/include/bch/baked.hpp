@@ -26,6 +26,14 @@ struct ShapeOrigin {
   friend bool operator==(const ShapeOrigin&, const ShapeOrigin&) = default;
 };
 
+/// A clip of a character as moving discs, or moving discs of one's own; names by their index in ShapeOrigins.
+struct BakedClip {
+  std::uint32_t character = 0;
+  std::uint32_t clip = ShapeOrigin::rest_pose;  ///< without a name by default
+  AnimatedDiscs discs;                          ///< what an AnimatedShape is made of
+  friend bool operator==(const BakedClip&, const BakedClip&) = default;
+};
+
 /// The characters, clips and times that the shapes of a set come from. Queries do not use them.
 struct ShapeOrigins {
   double threshold = 0;              ///< of all hierarchies, metres; see contour_hierarchy()
@@ -41,10 +49,11 @@ class BakedFileError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// What a baked file holds: a set, and what its shapes show.
+/// What a baked file holds: a set, what its shapes show, and clips as moving discs.
 struct BakedShapes {
   ShapeSet set;
   ShapeOrigins origins;
+  std::vector<BakedClip> clips = {};
 };
 
 /// How load_baked() accesses the bytes of a file.
@@ -53,7 +62,7 @@ enum class FileAccess {
   map,   ///< maps them without a copy: for files that no process writes to or shortens while the set lives
 };
 
-/// Loads a set from a baked file. The set views the file's bytes; nothing is parsed. Checksums and content are checked first,
+/// Loads a set from a baked file. The set views the file's bytes; nothing of it is parsed, and clips are copied. Checksums and content are checked first,
 /// so even a malicious file can give wrong answers at worst.
 /// Mapping: while the set lives, no process may write to a mapped file or make it shorter: bytes that were checked would change,
 ///          and reading those that are gone ends the process by SIGBUS. To replace the file (write another, rename it over
@@ -67,11 +76,13 @@ BakedShapes load_baked(const std::filesystem::path& file, FileAccess access = Fi
 BakedShapes load_baked(std::span<const std::byte> bytes, const std::string& name,
                        std::shared_ptr<const void> memory);
 
-/// Writes a set as a baked file: under a temporary name beside it, and renames that over `file` once it is whole. The same set
-/// gives the same bytes.
+/// Writes a set, and clips, as a baked file: under a temporary name beside it, and renames that over `file` once it is whole. The
+/// same set and clips give the same bytes. A clip takes 6 bytes a disc and key where numbers are of 16 bits times a power of two, as
+/// those of animate() are, else 12.
 /// Errors:  throws BakedFileError where the file cannot be written, and leaves none; std::invalid_argument where load_baked()
 ///          would refuse it: a set() of a DynamicShapeSet of which a shape was replaced, origins of another number of
-///          shapes or with names that are not there.
-void save_baked(const std::filesystem::path& file, const ShapeSet& set, const ShapeOrigins& origins = {});
+///          shapes, origins or clips with names that are not there, and clips that validate() refuses.
+void save_baked(const std::filesystem::path& file, const ShapeSet& set, const ShapeOrigins& origins = {},
+                std::span<const BakedClip> clips = {});
 
 }  // namespace bch

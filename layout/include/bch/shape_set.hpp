@@ -68,6 +68,7 @@ struct AnimatedChunk {
   std::vector<Disc> keys;        ///< times.size() * disc_count, key by key; in the shape's frame, metres
   std::vector<std::uint32_t>
       ring_ends;  ///< the end of each ring among the discs, ascending; the last is disc_count. None: discs alone
+  friend bool operator==(const AnimatedChunk&, const AnimatedChunk&) = default;
 };
 
 /// A clip as moving discs: chunks that follow one another in time, each beginning when the one before it ends. A body that is cut
@@ -80,7 +81,17 @@ struct AnimatedDiscs {
   /// chunk of none.
   std::vector<AnimatedDiscs> slabs = {};
   Heights heights = {};  ///< of the whole body at all times; by default it takes part at every height
+  friend bool operator==(const AnimatedDiscs&, const AnimatedDiscs&) = default;
 };
+
+/// Checks moving discs.
+/// Errors:  throws std::invalid_argument, naming the chunk, on none, on fewer than two keys, on times that are not finite, not
+///          within +-1e6 s, do not ascend or leave a gap; on none or more than 4096 discs, or another number of them than in
+///          the keys; naming the disc and key, on one that is not finite or of a radius below 0, or that does not overlap the next
+///          one of its ring; on rings that do not ascend or end before or after the last disc, and on a reach outside 1e-6 to 1e6 m.
+///          Of a body that is cut, naming the slab too; on slices that validate(ShapeSetPlan) rejects, on another number of slabs, on
+///          chunks beside them, on slabs of slabs or that begin or end at different times, and where none has discs.
+void validate(const AnimatedDiscs& discs);
 
 /// A body that moves by itself, seen from above: a clip of a character, or moving discs of one's own. Its solid at a time is its discs,
 /// and what the polygons of its rings' centres go round. Discs stand in a tree whose nodes are discs that move as these do, and hold
@@ -92,12 +103,7 @@ class AnimatedShape {
  public:
   /// Checks moving discs and builds the tree over them.
   /// Cost:    1 ms for 200 discs at 10 keys.
-  /// Errors:  throws std::invalid_argument, naming the chunk, on none, on fewer than two keys, on times that are not finite, not
-  ///          within +-1e6 s, do not ascend or leave a gap; on none or more than 4096 discs, or another number of them than in
-  ///          the keys; naming the disc and key, on one that is not finite or of a radius below 0, or that does not overlap the next
-  ///          one of its ring; on rings that do not ascend or end before or after the last disc, and on a reach outside 1e-6 to 1e6 m.
-  ///          Of a body that is cut, naming the slab too; on slices that validate(ShapeSetPlan) rejects, on another number of slabs, on
-  ///          chunks beside them, on slabs of slabs or that begin or end at different times, and where none has discs.
+  /// Errors:  throws std::invalid_argument as validate() does.
   explicit AnimatedShape(const AnimatedDiscs& discs);
   AnimatedShape(AnimatedShape&&) noexcept;
   AnimatedShape& operator=(AnimatedShape&&) noexcept;
@@ -123,6 +129,8 @@ class AnimatedShape {
   /// a shape of slabs, for sets of the same slices.
   /// Cost:    a few us for 200 discs, less than making it flat.
   Shape shape(double seconds) const;
+  /// Makes that shape in place of another one of this kind, whose memory it keeps.
+  void shape(double seconds, Shape& shape) const;
 
   /// For the library's own parts, which alone know the type: the tree of a body that is whole, or of a slab.
   const detail::AnimatedTree& tree() const noexcept { return *tree_; }

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include "bench/cli/animated_report.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <span>
+
+#include "bench/base/text.hpp"
+#include "layout/baked/clips.hpp"
+
+namespace bch::cli {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// Returns how many bytes a baked file has of a clip.
+std::size_t baked_bytes(const AnimatedDiscs& discs) {
+  const BakedClip clip{0, ShapeOrigin::rest_pose, discs};
+  const detail::baked::PackedClips packed({&clip, 1}, 1);
+  const detail::baked::ClipArrays arrays = packed.arrays();
+  return arrays.clips.size_bytes() + arrays.clip_planes.size_bytes() + arrays.slab_chunks.size_bytes() +
+         arrays.chunks.size_bytes() + arrays.key_times.size_bytes() + arrays.ring_ends.size_bytes() +
+         arrays.disc_steps.size_bytes() + arrays.disc_floats.size_bytes();
+}
+
+Json discs_json(const std::vector<Disc>& discs) {
+  Json json = Json::array();
+  for (const Disc& disc : discs) json.push_back({shortest(disc.x), shortest(disc.y), shortest(disc.radius)});
+  return json;
+}
+
+}  // namespace
+
+AnimatedFacts facts_of(const AnimatedDiscs& discs) {
+  const std::span<const AnimatedDiscs> parts =
+      discs.slabs.empty() ? std::span(&discs, 1) : std::span(discs.slabs);
+  const std::vector<AnimatedChunk>& chunks = parts.front().chunks;
+  AnimatedFacts facts;
+  facts.seconds = chunks.back().times.back() - chunks.front().times.front();
+  facts.loops = discs.loops;
+  facts.slabs = discs.slabs.size();
+  facts.fewest = chunks.front().disc_count;
+  std::size_t all = 0;
+  for (const AnimatedDiscs& part : parts) {
+    facts.chunks += part.chunks.size();
+    for (const AnimatedChunk& chunk : part.chunks) {
+      const std::size_t count = chunk.disc_count;
+      facts.keys += chunk.times.size();
+      facts.fewest = std::min(facts.fewest, count), facts.most = std::max(facts.most, count);
+      all += count;
+    }
+  }
+  facts.mean = static_cast<double>(all) / static_cast<double>(facts.chunks);
+  facts.bytes = baked_bytes(discs);
+  return facts;
+}
+
+std::string text_of(const AnimatedFacts& facts) {
+  const std::string discs = facts.fewest == facts.most
+                                ? counted(facts.most, "disc")
+                                : fmt::format("{} to {} discs", facts.fewest, facts.most);
+  return fmt::format("{:.2f} s{}{}, {}, {}, {:.1f} kB", facts.seconds, facts.loops ? ", loops" : "",
+                     facts.slabs > 0 ? ", " + counted(facts.slabs, "slab") : "",
+                     counted(facts.chunks, "chunk"), discs, static_cast<double>(facts.bytes) / 1e3);
+}
+
+Json json_of(const AnimatedFacts& facts) {
+  return {{"seconds", facts.seconds}, {"loops", facts.loops},     {"slabs", facts.slabs},
+          {"chunks", facts.chunks},   {"keys", facts.keys},       {"fewest_discs", facts.fewest},
+          {"most_discs", facts.most}, {"mean_discs", facts.mean}, {"bytes", facts.bytes}};
+}
+
+const AnimatedChunk& chunk_at(const AnimatedDiscs& discs, double seconds) {
+  std::size_t i = discs.chunks.size() - 1;
+  while (i > 0 && seconds < discs.chunks[i].times.front()) --i;
+  return discs.chunks[i];
+}
+
+std::string text_of(const AnimatedView& view) {
+  const AnimatedFacts facts = facts_of(view.discs);
+  std::string out = fmt::format("\n{} as moving discs\n", printable_line(view.clip));
+  const auto line = [&](const char* what, const std::string& text) {
+    out += fmt::format("  {:<10}{}\n", what, text);
+  };
+  line("clip", fmt::format("{:.2f} s, {}", facts.seconds, facts.loops ? "loops" : "does not loop"));
+  line("keys", fmt::format("{} in {}", grouped(facts.keys), counted(facts.chunks, "chunk")));
+  line("discs", fmt::format("{} to {} a chunk, {:.1f} in the mean", facts.fewest, facts.most, facts.mean));
+  line("baked", fmt::format("{:.1f} kB, {:.1f} kB a second", static_cast<double>(facts.bytes) / 1e3,
+                            static_cast<double>(facts.bytes) / 1e3 / facts.seconds));
+  const AnimatedChunk& chunk = chunk_at(view.discs, view.seconds);
+  line(fmt::format("{:.2f} s", view.seconds).c_str(),
+       fmt::format("{} in {}, keys at {:.3f} s", counted(chunk.disc_count, "disc"),
+                   chunk.ring_ends.empty() ? "no ring" : counted(chunk.ring_ends.size(), "ring"),
+                   fmt::join(chunk.times, ", ")));
+  return out;
+}
+
+Json json_of(const AnimatedView& view) {
+  Json json{{"clip", view.clip}};
+  json.update(json_of(facts_of(view.discs)));
+  for (const AnimatedChunk& chunk : view.discs.chunks) json["key_times"].push_back(chunk.times);
+  const AnimatedChunk& chunk = chunk_at(view.discs, view.seconds);
+  json["at"] = {{"seconds", view.seconds},
+                {"ring_ends", chunk.ring_ends},
+                {"discs", discs_json(AnimatedShape(view.discs).discs(view.seconds))}};
+  return json;
+}
+
+}  // namespace bch::cli
