@@ -29,9 +29,10 @@ constexpr const char* footer =
     "them).\n"
     "PASS and \"needs\" compare a number with the project's goal for it.\n"
     "Example: bch_ratios --table kernel --table leaves";
-constexpr const char* tables[] = {"kernel",    "leaves",       "peers",   "calls",  "crowd",  "distances",
-                                  "responses", "obstacles",    "motions", "bodies", "shapes", "plans",
-                                  "slices",    "construction", "growth",  "load",   "checks", "paper"};
+constexpr const char* tables[] = {"kernel",    "leaves",    "peers",     "calls",        "crowd",
+                                  "distances", "responses", "obstacles", "motions",      "bodies",
+                                  "shapes",    "plans",     "slices",    "construction", "growth",
+                                  "load",      "moments",   "checks",    "paper"};
 
 struct Options {
   SceneOptions scene;
@@ -52,7 +53,7 @@ std::vector<Table> add_all(Suite& suite, Scene& scene, const Options& options) {
         query_tables(suite, scene), obstacle_tables(suite, scene), motion_tables(suite, scene),
         body_tables(suite), shape_count_tables(suite, scene, options.most_shapes), plan_tables(suite, scene),
         slice_tables(suite, scene), build_tables(suite, scene), load_tables(suite, scene),
-        check_tables(suite, scene)})
+        moment_tables(suite, scene), check_tables(suite, scene)})
     all.insert(all.end(), some.begin(), some.end());
   std::vector<Table> wanted;
   for (const char* name : tables)

@@ -53,6 +53,8 @@ std::vector<Table> build_tables(Suite& suite, Scene& scene);
 std::vector<Table> load_tables(Suite& suite, Scene& scene);
 /// check/<crowd>/<frames>[/threads:<n>]: whole recordings, in memory.
 std::vector<Table> check_tables(Suite& suite, Scene& scene);
+/// moments/<poses|shown|grid|own>: a crowd of animated shapes at times of a walk.
+std::vector<Table> moment_tables(Suite& suite, Scene& scene);
 
 /// Returns the name of a benchmark of collide().
 std::string collide_name(std::string_view workload, const QueryOptions& query,

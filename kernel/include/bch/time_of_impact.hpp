@@ -3,6 +3,8 @@
 
 #pragma once
 
+#include <cstdint>
+#include <memory>
 #include <span>
 
 #include <bch/query.hpp>
@@ -41,6 +43,42 @@ struct Displacements {
 void time_of_impact(const ShapeSet& shapes, const Agents& agents, std::span<const Pair> pairs,
                     const Displacements& displacements, std::span<float> times,
                     const QueryOptions& options = {});
+
+/// The shapes of bodies that move by themselves, at the times that agents show them, for all queries. A moment, that is, a body at a
+/// time of its clip, is made once for all agents that show it, and stays as long as its place is not needed for another one. Moments
+/// are cheap where agents share them, on a grid of times for instance. Keeps its memory: where calls have shown as many moments and
+/// bodies have been as large before, a call allocates nothing. One that was moved from can only be assigned to or destroyed.
+///
+///     MomentSet moments(bodies);
+///     moments.show(body, seconds, shape);                      // agents' bodies and times, and the shapes that they get
+///     collide(moments.set(), {shape, x, y, heading}, pairs, hits);
+class MomentSet {
+ public:
+  /// Takes bodies, which have to outlive this, and the plan of set().
+  /// Errors:  throws std::invalid_argument on none, on a null pointer, naming it, and on a bad plan.
+  explicit MomentSet(std::span<const AnimatedShape* const> bodies, const ShapeSetPlan& plan = {});
+  MomentSet(MomentSet&&) noexcept;
+  MomentSet& operator=(MomentSet&&) noexcept;
+  ~MomentSet();
+
+  /// Makes each moment that agents show and that is not there yet, in parallel, and writes the shape of each agent: Agents::shape for
+  /// set(). It shows what AnimatedShape::shape() is at these seconds.
+  /// Units:   seconds of the clip, within +-1e6, as AnimatedShape::shape() has them.
+  /// Sizes:   as many seconds, and shapes, as bodies, which are indices into those of the constructor.
+  /// Errors:  throws std::invalid_argument, before anything is written, on sizes that differ and, naming the agent, on an index out of
+  ///          range or a time that is not within these units.
+  /// Threads: runs in the caller's TBB arena. For one thread at a time, while no query runs.
+  /// Cost:    about 25 us for each new moment of 140 discs, and 20 ns for each agent.
+  void show(std::span<const std::uint32_t> bodies, std::span<const double> seconds,
+            std::span<std::uint32_t> shapes);
+
+  /// Returns the set that the written shapes are of; void after the next show().
+  const ShapeSet& set() const noexcept;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
 
 /// Where a motion is at a time. Between two keys it goes straight on and turns evenly: by the difference of their headings, the long way
 /// round, too.
