@@ -4,6 +4,7 @@
 #include <oneapi/tbb/enumerable_thread_specific.h>
 
 #include <array>
+#include <cmath>
 #include <optional>
 
 #include <bch/shape_set_builder.hpp>
@@ -15,6 +16,7 @@
 #include "kernel/c_api/posing.hpp"
 #include "kernel/c_api/work.hpp"
 #include "kernel/runtime/ordered_build.hpp"
+#include "layout/base/shortest.hpp"
 #include "layout/shape_set/builder_end.hpp"
 
 struct bch_shape_set_builder {
@@ -331,6 +333,17 @@ bch_status bch_shape_set_builder_add_mesh(bch_shape_set_builder* handle, const b
                                              array_of(triangles, 3 * triangle_count, "triangles"));
     PoseShaper shaper(mesh, builder.plan, builder.threshold);
     add_without_pose(builder, "mesh", shaper.shape({}));
+  });
+}
+
+bch_status bch_shape_set_builder_add_moment(bch_shape_set_builder* handle, const bch_animated_shape* shape,
+                                            double seconds) {
+  return guarded([&] {
+    bch_shape_set_builder& builder = object_of(handle, "builder");
+    const bch_animated_shape& of = object_of(shape, "shape");
+    if (!std::isfinite(seconds))
+      throw Failure(BCH_INVALID_ARGUMENT, "seconds is " + detail::shortest(seconds));
+    add_without_pose(builder, "moment", of.shape.shape(seconds));
   });
 }
 

@@ -56,6 +56,12 @@ constexpr std::string_view kind_of(const bch_scene_plan*) {
 constexpr std::string_view kind_of(const bch_obstacles*) {
   return "bch_obstacles";
 }
+constexpr std::string_view kind_of(const bch_animated_shape*) {
+  return "bch_animated_shape";
+}
+constexpr std::string_view kind_of(const bch_moment_set*) {
+  return "bch_moment_set";
+}
 
 /// Returns the object of a handle.
 /// Errors:  throws Failure naming the argument, on NULL and on what is no living object of this kind.

@@ -38,6 +38,13 @@ struct bch_shape_set {
   const std::vector<float> slices;
 };
 
+struct bch_animated_shape {
+  explicit bch_animated_shape(bch::AnimatedDiscs of) : discs(std::move(of)), shape(discs) {}
+
+  const bch::AnimatedDiscs discs;  ///< for sets that are saved with them
+  const bch::AnimatedShape shape;
+};
+
 struct bch_pose_shaper {
   bch_pose_shaper(const bch_character& of, const bch::ShapeSetPlan& plan, float threshold)
       : character(of.character), name(of.name), shaper(*character, plan, threshold) {}

@@ -64,7 +64,8 @@ bch_status bch_shape_set_load(const char* path, int32_t access, bch_shape_set** 
 bch_status bch_shape_set_save(const bch_shape_set* handle, const char* path) {
   return guarded([&] {
     const bch_shape_set& set = object_of(handle, "set");
-    save_baked(&required(path, "path"), set.set, set.own ? set.own->origins : ShapeOrigins{});
+    required(path, "path");
+    set.own ? save_baked(path, set.set, set.own->origins, set.own->clips) : save_baked(path, set.set);
   });
 }
 

@@ -269,6 +269,62 @@ class Sets(unittest.TestCase):
         with self.assertRaisesRegex(ValueError, "stature"):
             bch.default_pedestrian("male", 5.0)
 
+    def test_motions(self):
+        # A disc of 0.2 m that swings from 0 to 0.5 m and back, and another one that stands.
+        swing = bch.AnimatedShape([0, 1, 2], [[[0, 0, 0.2]], [[0.5, 0, 0.2]], [[0, 0, 0.2]]], loops=True)
+        still = bch.AnimatedShape([0, 1], [[[0, 0, 0.2], [0.1, 0, 0.2]]] * 2, [2])
+        self.assertEqual((swing.begin, swing.end, swing.loops, swing.key_count), (0, 2, True, 3))
+        self.assertAlmostEqual(float(swing.discs(4.5)["x"][0]), 0.25, 6)
+        self.assertEqual(len(still.discs(7)), 2)
+        movers = [bch.Mover(swing, [(0, 0, 0, 0)]), bch.Mover(still, [(0, 3, 0, 0), (3, 0, 0, 0)], clip_begin=0.3)]
+        # They touch in the second round, when 0.5 (t - 2) + 0.2 = 3 - t - 0.2.
+        pairs = np.array([[0, 1], [1, 0]], np.uint32)
+        times = bch.first_contact(movers, pairs, (0, 10), tolerance=1e-4)
+        self.assertEqual(times[0], times[1])
+        self.assertTrue(2.4 - 1e-3 < times[0] <= 2.4 + 1e-9, times)
+        self.assertEqual(bch.free_until(movers[0], movers[1:], (0, 10), tolerance=1e-4), times[0])
+        self.assertEqual(bch.free_until(movers[0], [], (0, 10)), np.inf)
+        out = np.empty(2)
+        self.assertIs(bch.first_contact(movers, pairs, (0, 1), out=out), out)
+        self.assertTrue(np.isinf(out).all())
+        with self.assertRaises(bch.ArgumentError):
+            bch.first_contact(movers, pairs, (1, 0))
+        with self.assertRaises(bch.ArrayError):
+            bch.first_contact([swing], pairs, (0, 1))
+        with self.assertRaises(bch.ArrayError):
+            bch.AnimatedShape([0, 1], [[0, 0, 0.2]])
+        with self.assertRaisesRegex(bch.ArgumentError, "chunk 0: a key at 0 s after one at 1 s"):
+            bch.AnimatedShape([1, 0], [[[0, 0, 0.2]]] * 2)
+
+    def test_moments(self):
+        swing = bch.AnimatedShape([0, 1, 2], [[[0, 0, 0.2]], [[0.5, 0, 0.2]], [[0, 0, 0.2]]], loops=True)
+        moments = bch.MomentSet([swing])
+        body, seconds = np.zeros(3, np.uint32), np.array([0.0, 1.0, 2.0])
+        shape = moments.show(body, seconds)
+        self.assertEqual(shape[0], shape[2])
+        agents = bch.Agents(shape, np.array([0.0, 0.45, 3.0]), np.zeros(3), np.array([0.0, np.pi, 0.0]))
+        pairs = np.array([[0, 1], [0, 2]], np.uint32)
+        self.assertEqual(bch.collide(moments.shapes, agents, pairs).tolist(), [True, False])
+        seconds[:] = 0
+        self.assertIs(moments.show(body, seconds, out=shape, threads=1), shape)
+        self.assertEqual(bch.collide(moments.shapes, agents, pairs).tolist(), [False, False])
+
+    def test_clips_of_sets(self):
+        walker = bch.default_pedestrian(stature=1.7)
+        clip = bch.animate(walker, 40, spacing=0.1)
+        self.assertTrue(1.9 < clip.end < 2.1 and clip.reach < 0.7, clip)
+        shapes, _ = squares()
+        shapes.keep_clip(clip, "walker", walker.clips[40].name)
+        shapes.keep_clip(clip, "nobody")
+        with tempfile.TemporaryDirectory() as folder:
+            shapes.save(Path(folder) / "a.bch")
+            kept = bch.ShapeSet.load(Path(folder) / "a.bch").clips
+        self.assertEqual([(each.character, each.clip) for each in kept], [("walker", walker.clips[40].name), ("nobody", None)])
+        self.assertEqual(kept[0].shape.discs(0.4).tolist(), clip.discs(0.4).tolist())
+        builder = bch.ShapeSetBuilder()
+        builder.add_moment(clip, 0.4)
+        self.assertEqual(len(builder.finish().discs(0)), len(clip.discs(0.4)))
+
     def test_densities(self):
         x = np.array([0.0, 1.0, 50.0])
         np.testing.assert_allclose(bch.local_densities(x, np.zeros(3)), np.array([2, 2, 1]) / (4 * np.pi))

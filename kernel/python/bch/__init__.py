@@ -21,6 +21,7 @@ what is wanted. Every query runs without the interpreter's lock, so that Python 
 """
 
 from . import plot
+from ._animated import AnimatedShape
 from ._arrays import DISC, PENETRATION, POSE, SOURCE
 from ._characters import Bone, Channel, Curve, Joint, Motion, make_character
 from ._crowds import (
@@ -45,6 +46,7 @@ from ._library import (
     implementations,
     lib as _lib,
 )
+from ._motions import MomentSet, Mover, animate, first_contact, free_until
 from ._obstacles import Obstacles
 from ._queries import (
     Agents,
@@ -78,6 +80,7 @@ from ._shapes import (
     Character,
     Clip,
     DynamicShapeSet,
+    KeptClip,
     Origin,
     Plan,
     PoseShaper,
@@ -98,6 +101,7 @@ __version__: str = _lib.bch_version().decode()
 __all__ = [
     "ALL_DEPTHS",
     "Agents",
+    "AnimatedShape",
     "ArgumentError",
     "ArrayError",
     "Bone",
@@ -116,7 +120,10 @@ __all__ = [
     "FileError",
     "FileMissing",
     "Joint",
+    "KeptClip",
+    "MomentSet",
     "Motion",
+    "Mover",
     "NEAR",
     "NamedMotion",
     "Nearest",
@@ -141,6 +148,7 @@ __all__ = [
     "TRACKED",
     "Trajectory",
     "WALL",
+    "animate",
     "bake",
     "best_slices",
     "candidate_pairs",
@@ -155,6 +163,8 @@ __all__ = [
     "default_male",
     "default_pedestrian",
     "depth_at_density",
+    "first_contact",
+    "free_until",
     "implementations",
     "import_character",
     "local_densities",

@@ -290,6 +290,41 @@ class ObstacleArrays(_Sized):
     ]
 
 
+class AnimateOptions(_Sized):
+    _fields_ = [("size", c_uint32), ("spacing", c_float), ("inset", c_float), ("error", c_float)]
+
+
+class AnimatedArrays(_Sized):
+    _fields_ = [
+        ("size", c_uint32),
+        ("loops", c_int32),
+        ("key_counts", c_void_p),
+        ("disc_counts", c_void_p),
+        ("ring_counts", c_void_p),
+        ("chunk_count", c_size_t),
+        ("times", c_void_p),
+        ("discs", c_void_p),
+        ("ring_ends", c_void_p),
+    ]
+
+
+class AnimatedShapeInfo(_Sized):
+    _fields_ = [
+        ("size", c_uint32),
+        ("loops", c_int32),
+        ("begin", c_double),
+        ("end", c_double),
+        ("reach", c_double),
+        ("bytes", c_uint64),
+        ("chunks", c_uint64),
+        ("keys", c_uint64),
+    ]
+
+
+class Motion(ctypes.Structure):
+    _fields_ = [("shape", c_void_p), ("path", c_void_p), ("path_count", c_size_t), ("clip_begin", c_double)]
+
+
 class TrajectoryOptions(_Sized):
     _fields_ = [("size", c_uint32), ("fps", c_double), ("unit", c_double), ("columns", c_char_p)]
 
@@ -426,6 +461,21 @@ _functions = {
     "obstacles_clearance": "ppppp",
     "obstacles_penetration": "ppppp",
     "obstacles_time_of_impact": "ppppppp",
+    "animated_shape_animate": "pupp",
+    "animated_shape_create": "pp",
+    "animated_shape_get_info": "pp",
+    "animated_shape_get_discs": "pdpnp",
+    "animated_shape_free": "p",
+    "shape_set_builder_add_moment": "ppd",
+    "shape_set_add_clip": "ppss",
+    "shape_set_get_clip_count": "pp",
+    "shape_set_get_clip": "pnppp",
+    "moment_set_create": "pnpp",
+    "moment_set_show": "pppnpp",
+    "moment_set_get_shapes": "pp",
+    "moment_set_free": "p",
+    "first_contact": "pnpndddup",
+    "free_until": "ppndddp",
     "trajectory_open": "spp",
     "trajectory_get_info": "pp",
     "trajectory_get_motions": "ppp",

@@ -14,6 +14,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _library
+from ._animated import AnimatedShape
 from ._arrays import (
     DISC,
     POSE,
@@ -313,6 +314,14 @@ class Origin(NamedTuple):
     seconds: float
 
 
+class KeptClip(NamedTuple):
+    """A body that moves by itself and that a set keeps, with its names."""
+
+    character: str
+    clip: Optional[str]
+    shape: AnimatedShape
+
+
 class ShapeSet:
     """Shapes of bodies, ready to be queried. Any number of threads may query one at once.
 
@@ -433,6 +442,24 @@ class ShapeSet:
         check(lib.bch_shape_set_get_origin(self._pointer, shape, byref(origin)))
         character, clip = (None if name is None else name.decode() for name in (origin.character, origin.clip))
         return Origin(character, clip, origin.seconds)
+
+    def keep_clip(self, shape: AnimatedShape, character: str, clip: Optional[str] = None) -> None:
+        """Keep a body that moves by itself, under names; `save` writes it beside the shapes."""
+        name = None if clip is None else encoded(clip, "clip")
+        check(lib.bch_shape_set_add_clip(self._pointer, shape._pointer, encoded(character, "character"), name))
+
+    @property
+    def clips(self) -> List[KeptClip]:
+        """The bodies that move by themselves with which the set was loaded, or that `keep_clip` added."""
+        count = c_size_t()
+        check(lib.bch_shape_set_get_clip_count(self._pointer, byref(count)))
+        return [self._clip(i) for i in range(count.value)]
+
+    def _clip(self, i: int) -> KeptClip:
+        names = c_char_p(), c_char_p()
+        handle = Handle("shape_set", "get_clip", self._pointer, i, *map(byref, names), free="animated_shape")
+        character, clip = (None if name.value is None else name.value.decode(errors="replace") for name in names)
+        return KeptClip(character or "", clip, AnimatedShape._of(handle))
 
     def __reduce__(self) -> Any:
         raise TypeError("a bch.ShapeSet cannot be pickled; save() it, and load() the file elsewhere, which maps it")
@@ -580,6 +607,11 @@ class ShapeSetBuilder:
                     self._pointer, address(points), len(points), address(corners), len(corners)
                 )
             )
+
+    def add_moment(self, shape: AnimatedShape, seconds: float) -> None:
+        """Add a body that moves by itself as it is at a time of its clip."""
+        with self._exclusive:
+            check(lib.bch_shape_set_builder_add_moment(self._pointer, shape._pointer, seconds))
 
     def finish(self) -> ShapeSet:
         """Return the set of all that was added. The builder is then empty."""

@@ -634,6 +634,108 @@ BCH_API bch_status bch_obstacles_time_of_impact(const bch_shape_set* set, const 
                                                 const bch_obstacles* obstacles, const double* x, const double* y,
                                                 const bch_query_options* options, float* times);
 
+/* Motions ----------------------------------------------------------------------------------------------------------- */
+
+/** A body that moves by itself: discs whose centres and radii go straight on from key to key, and what their rings go round. It has
+ * a shape at every time. Times before its beginning and after its end are these or, where it loops, those of another round. */
+typedef struct bch_animated_shape bch_animated_shape;
+
+/** How close the discs of a clip are to the body, metres. */
+typedef struct bch_animate_options {
+  uint32_t size; /**< sizeof(bch_animate_options) */
+  float spacing; /**< of discs along the outline, at most, at keys */
+  float inset;   /**< of centres behind the outline, at most */
+  float error;   /**< by which discs may stand out more between two keys than at these */
+} bch_animate_options;
+#define BCH_ANIMATE_OPTIONS_INIT \
+  { sizeof(bch_animate_options), 0.025f, 0.04f, 0.005f }
+/** Makes moving discs of a clip that hold the character at every real time of it. A second of a clip takes about a second. */
+BCH_API bch_status bch_animated_shape_animate(const bch_character* character, uint32_t clip,
+                                              const bch_animate_options* options, bch_animated_shape** shape);
+
+/** Moving discs in arrays of the caller: chunks that follow one another in time, each with discs of its own. */
+typedef struct bch_animated_arrays {
+  uint32_t size;             /**< sizeof(bch_animated_arrays) */
+  int32_t loops;             /**< not 0: the last pose is the first one */
+  const uint32_t* key_counts; /**< of each chunk, like the next two */
+  const uint32_t* disc_counts;
+  const uint32_t* ring_counts; /**< NULL: discs without rings */
+  size_t chunk_count;
+  const double* times;       /**< of the keys of all chunks, seconds; a chunk begins when the one before it ends */
+  const bch_disc* discs;     /**< of the chunks, key by key */
+  const uint32_t* ring_ends; /**< of each chunk's rings among its discs, ascending */
+} bch_animated_arrays;
+#define BCH_ANIMATED_ARRAYS_INIT \
+  { sizeof(bch_animated_arrays), 0, NULL, NULL, NULL, 0, NULL, NULL, NULL }
+/** Makes a body of moving discs. */
+BCH_API bch_status bch_animated_shape_create(const bch_animated_arrays* arrays, bch_animated_shape** shape);
+
+/** The times and sizes of a body that moves by itself. */
+typedef struct bch_animated_shape_info {
+  uint32_t size; /**< sizeof(bch_animated_shape_info) */
+  int32_t loops;
+  double begin, end; /**< seconds of the clip */
+  double reach;      /**< the radius that holds all discs at every time, metres */
+  uint64_t bytes;
+  uint64_t chunks;
+  uint64_t keys; /**< of all chunks */
+} bch_animated_shape_info;
+#define BCH_ANIMATED_SHAPE_INFO_INIT \
+  { sizeof(bch_animated_shape_info), 0, 0, 0, 0, 0, 0, 0 }
+/** Tells the times and sizes of a body. */
+BCH_API bch_status bch_animated_shape_get_info(const bch_animated_shape* shape, bch_animated_shape_info* info);
+/** Tells the discs at a time. Writes at most `capacity`, and how many there are to `count`. */
+BCH_API bch_status bch_animated_shape_get_discs(const bch_animated_shape* shape, double seconds, bch_disc* discs,
+                                                size_t capacity, size_t* count);
+/** Frees a body. */
+BCH_API bch_status bch_animated_shape_free(bch_animated_shape* shape);
+/** Adds the shape of a body at a time to a set. */
+BCH_API bch_status bch_shape_set_builder_add_moment(bch_shape_set_builder* builder, const bch_animated_shape* shape,
+                                                    double seconds);
+
+/** Keeps a body in a set, to be saved with it. `clip` may be NULL: it then has no name. */
+BCH_API bch_status bch_shape_set_add_clip(bch_shape_set* set, const bch_animated_shape* shape, const char* character,
+                                          const char* clip);
+/** Tells how many bodies that move by themselves a set has, which was loaded with them or to which they were added. */
+BCH_API bch_status bch_shape_set_get_clip_count(const bch_shape_set* set, size_t* count);
+/** Tells the names of one of these bodies, which live as long as the set, and makes it; each of the last three may be NULL. */
+BCH_API bch_status bch_shape_set_get_clip(const bch_shape_set* set, size_t i, const char** character,
+                                          const char** clip, bch_animated_shape** shape);
+
+/** The shapes of bodies that move by themselves, at the times that agents show them, for all queries. */
+typedef struct bch_moment_set bch_moment_set;
+/** Makes a set of moments of bodies, which have to live as long. It keeps its memory from call to call. */
+BCH_API bch_status bch_moment_set_create(const bch_animated_shape* const* bodies, size_t count, const bch_plan* plan,
+                                         bch_moment_set** set);
+/** Makes each moment that agents show, once: agent i shows body[i] at seconds[i] and gets shapes[i] for bch_agents. No query may run
+ * meanwhile. Of `work` only the number of threads counts. */
+BCH_API bch_status bch_moment_set_show(bch_moment_set* set, const uint32_t* body, const double* seconds, size_t count,
+                                       const bch_work* work, uint32_t* shapes);
+/** Lends the shapes that were shown last for queries, until the next bch_moment_set_show(). They belong to the moments and are not freed. */
+BCH_API bch_status bch_moment_set_get_shapes(bch_moment_set* set, const bch_shape_set** shapes);
+/** Frees moments, and the set that they lent. */
+BCH_API bch_status bch_moment_set_free(bch_moment_set* set);
+
+/** Where a motion is at a time. It goes straight on and turns evenly to the next key. */
+typedef struct bch_path_key {
+  double time, x, y, heading; /**< seconds, metres, radians */
+} bch_path_key;
+/** An agent who goes along a path and plays a clip; before the first key and after the last one it stands there. */
+typedef struct bch_motion {
+  const bch_animated_shape* shape;
+  const bch_path_key* path; /**< at least one key, ascending */
+  size_t path_count;
+  double clip_begin; /**< the time at which the clip is at its beginning, seconds */
+} bch_motion;
+/** Finds when the two motions of each pair first touch, from `from` to `to` seconds, both included, or infinity: never late, and early by
+ * no more than it takes them to come closer by `tolerance` metres, 0.005 for instance. `threads` 0: one for each processor. */
+BCH_API bch_status bch_first_contact(const bch_motion* motions, size_t motion_count, const bch_pair* pairs,
+                                     size_t count, double from, double to, double tolerance, uint32_t threads,
+                                     double* times);
+/** Finds until when a motion touches none of others: the least of what bch_first_contact() says of it and each of them. */
+BCH_API bch_status bch_free_until(const bch_motion* motion, const bch_motion* others, size_t count, double from,
+                                  double to, double tolerance, double* time);
+
 /* Recordings -------------------------------------------------------------------------------------------------------- */
 
 /** A recording of people: their places, frame by frame. */

@@ -1,0 +1,91 @@
+# SPDX-License-Identifier: MIT
+# Copyright (c) 2026 the bch authors
+
+"""Bodies that move by themselves, each as one shape over all times."""
+
+from __future__ import annotations
+
+import ctypes
+from ctypes import byref, c_size_t
+from typing import Sequence
+
+import numpy as np
+import numpy.typing as npt
+
+from . import _library
+from ._arrays import DISC, Records, address, bounded, f4, f8, u4
+from ._library import ArrayError, Handle, check, lib
+
+
+class AnimatedShape:
+    """A body that moves by itself, as discs whose centres and radii go straight on from key to key. `animate` makes one of a clip.
+
+    What it holds at a time is its discs, and what the polygons of its rings' centres go round. Times before its beginning and after
+    its end are these or, where it loops, those of another round.
+
+    Parameters
+    ----------
+    times : (k,) numbers
+        Of the keys, at least two, seconds, ascending.
+    discs : (k, n, 3) numbers
+        x, y and radius of each disc at each key, metres, about the agent's position.
+    ring_ends : sequence of int
+        The end of each ring among the discs, ascending, the last one n; none: discs alone. Consecutive discs of a ring overlap.
+    loops : bool
+        The last pose is the first one.
+    """
+
+    __slots__ = ("_handle", "_pointer", "loops", "begin", "end", "reach", "nbytes", "chunk_count", "key_count")
+
+    def __init__(
+        self, times: npt.ArrayLike, discs: npt.ArrayLike, ring_ends: Sequence[int] = (), *, loops: bool = False
+    ) -> None:
+        keys = np.ascontiguousarray(times, f8)
+        all_discs = np.ascontiguousarray(discs, f4)
+        if keys.ndim != 1 or all_discs.ndim != 3 or all_discs.shape[::2] != (len(keys), 3):
+            raise ArrayError(f"discs have shape {all_discs.shape} at times of shape {keys.shape}; wanted are (k, n, 3) at (k,)")
+        ends = np.array([bounded(end, "a ring's end", 0, 2**32 - 1) for end in ring_ends], u4)
+        counts = np.array([len(keys), all_discs.shape[1], len(ends)], u4)
+        arrays = _library.AnimatedArrays(
+            loops=loops,
+            key_counts=address(counts),
+            disc_counts=address(counts[1:]),
+            ring_counts=address(counts[2:]),
+            chunk_count=1,
+            times=address(keys),
+            discs=address(all_discs),
+            ring_ends=address(ends),
+        )
+        self._take(Handle("animated_shape", "create", ctypes.addressof(arrays)))
+
+    @classmethod
+    def _of(cls, handle: Handle) -> AnimatedShape:
+        made = cls.__new__(cls)
+        made._take(handle)
+        return made
+
+    def _take(self, handle: Handle) -> None:
+        self._handle = handle
+        self._pointer: int = handle.pointer
+        info = _library.AnimatedShapeInfo()
+        check(lib.bch_animated_shape_get_info(self._pointer, byref(info)))
+        self.loops = bool(info.loops)
+        self.begin, self.end, self.reach = float(info.begin), float(info.end), float(info.reach)
+        self.nbytes, self.chunk_count, self.key_count = int(info.bytes), int(info.chunks), int(info.keys)
+
+    def discs(self, seconds: float) -> Records:
+        """Return the discs at a time of the clip.
+
+        Returns
+        -------
+        (n,) DISC
+            Records of x, y and radius, metres.
+        """
+        count = c_size_t()
+        check(lib.bch_animated_shape_get_discs(self._pointer, seconds, None, 0, byref(count)))
+        discs = np.empty(count.value, DISC)
+        check(lib.bch_animated_shape_get_discs(self._pointer, seconds, address(discs), len(discs), byref(count)))
+        return discs
+
+    def __repr__(self) -> str:
+        return f"<bch.AnimatedShape from {self.begin:g} to {self.end:g} s{', loops' if self.loops else ''}: {self.key_count} keys>"

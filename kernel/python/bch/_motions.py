@@ -1,0 +1,197 @@
+# SPDX-License-Identifier: MIT
+# Copyright (c) 2026 the bch authors
+
+"""Clips as moving discs, agents who show them at any time, and when two agents in motion first touch."""
+
+from __future__ import annotations
+
+from ctypes import byref, c_double, c_void_p
+from typing import Any, Optional, Sequence, Tuple
+
+import numpy.typing as npt
+
+from . import _library
+from ._animated import AnimatedShape
+from ._arrays import Float64, UInt32, address, bounded, f8, given, index, result, table, u4
+from ._library import ArgumentError, ArrayError, Exclusive, Handle, check, lib
+from ._shapes import Character, Plan, ShapeSet, _CPlan
+
+
+def animate(
+    character: Character, clip: int, *, spacing: float = 0.025, inset: float = 0.04, error: float = 0.005
+) -> AnimatedShape:
+    """Make moving discs of a clip that hold the character at every real time of it. A second of a clip takes about a second.
+
+    Parameters
+    ----------
+    character : Character
+    clip : int
+        By its place in `Character.clips`.
+    spacing : float
+        Of discs along the outline, at most, at keys, metres.
+    inset : float
+        Of their centres behind the outline, at most, metres.
+    error : float
+        By which discs may stand out more between two keys than at these, metres.
+    """
+    number = index(clip, "clip", len(character.clips))
+    options = _library.AnimateOptions(spacing=spacing, inset=inset, error=error)
+    return AnimatedShape._of(Handle("animated_shape", "animate", character._pointer, number, byref(options)))
+
+
+class MomentSet:
+    """The shapes of bodies that move by themselves, at the times that agents show them, for all queries.
+
+    Each moment, a body at a time of its clip, is made once for all agents that show it. Moments are cheap where agents share them, on
+    a grid of times for instance.
+
+    Parameters
+    ----------
+    bodies : sequence of AnimatedShape
+    plan : Plan
+    """
+
+    __slots__ = ("_handle", "_pointer", "_bodies", "_exclusive")
+
+    def __init__(self, bodies: Sequence[AnimatedShape], plan: Plan = Plan()) -> None:
+        c_plan = _CPlan(plan)
+        self._bodies = list(bodies)
+        pointers = (c_void_p * len(self._bodies))(*[body._pointer for body in self._bodies])
+        self._exclusive = Exclusive("MomentSet")
+        self._handle = Handle("moment_set", "create", pointers, len(pointers), c_plan._pointer)
+        self._pointer: int = self._handle.pointer
+
+    def show(self, body: UInt32, seconds: Float64, *, out: Optional[UInt32] = None, threads: int = 0) -> UInt32:
+        """Make the moments that agents show. No query may run meanwhile, and sets from `shapes` before are void.
+
+        Parameters
+        ----------
+        body : (n,) uint32
+            Which of the bodies each agent shows.
+        seconds : (n,) float64
+            The time of the clip that it shows.
+        out : (n,) uint32, optional
+            Where to write the result.
+        threads : int
+            0: all processors.
+
+        Returns
+        -------
+        (n,) uint32
+            The shape of each agent, in `shapes`, for `Agents`.
+        """
+        which = given(body, u4, (None,), "body")
+        times = given(seconds, f8, (len(body),), "seconds")
+        made = result(out, u4, (len(body),))
+        work = _library.Work(threads=bounded(threads, "threads", 0, 1024))
+        with self._exclusive:
+            check(lib.bch_moment_set_show(self._pointer, which, times, len(body), byref(work), address(made)))
+        return made
+
+    @property
+    def shapes(self) -> ShapeSet:
+        """The shapes that were shown last, for queries."""
+        lent = c_void_p()
+        check(lib.bch_moment_set_get_shapes(self._pointer, byref(lent)))
+        return ShapeSet(lent.value or 0, self._handle)
+
+
+class Mover:
+    """An agent who goes along a path and plays a clip.
+
+    Parameters
+    ----------
+    shape : AnimatedShape
+    path : (k, 4) numbers
+        Keys of time, x, y and heading, ascending; seconds, metres, radians. Between two the agent goes straight on and turns evenly;
+        before the first one and after the last one it stands there.
+    clip_begin : float
+        The time at which the clip is at its beginning.
+    """
+
+    __slots__ = ("shape", "path", "clip_begin")
+
+    def __init__(self, shape: AnimatedShape, path: npt.ArrayLike, clip_begin: float = 0.0) -> None:
+        self.shape, self.clip_begin = shape, float(clip_begin)
+        self.path = table(path, f8, 4, "path")
+
+    def _struct(self) -> _library.Motion:
+        return _library.Motion(
+            shape=self.shape._pointer, path=address(self.path), path_count=len(self.path), clip_begin=self.clip_begin
+        )
+
+
+def _structs(movers: Sequence[Mover]) -> Any:
+    for mover in movers:
+        if not isinstance(mover, Mover):
+            raise ArrayError(f"a {type(mover).__name__} in place of a bch.Mover")
+    return (_library.Motion * len(movers))(*[mover._struct() for mover in movers])
+
+
+def _interval(interval: Tuple[float, float]) -> Tuple[float, float]:
+    begin, end = interval
+    if not begin <= end:
+        raise ArgumentError(f"interval is from {begin} to {end} s")
+    return float(begin), float(end)
+
+
+def first_contact(
+    movers: Sequence[Mover],
+    pairs: UInt32,
+    interval: Tuple[float, float],
+    *,
+    tolerance: float = 0.005,
+    out: Optional[Float64] = None,
+    threads: int = 0,
+) -> Float64:
+    """Find when the two movers of each pair first touch.
+
+    Parameters
+    ----------
+    movers : sequence of Mover
+    pairs : (m, 2) uint32
+        Two movers by their places.
+    interval : (begin, end)
+        Times that are looked at, seconds, both included.
+    tolerance : float
+        The answer is never late, and early by no more than it takes two to come closer by so much, metres.
+    out : (m,) float64, optional
+        Where to write the result.
+    threads : int
+        0: all processors.
+
+    Returns
+    -------
+    (m,) float64
+        Seconds; infinity where they do not touch.
+    """
+    movers = list(movers)
+    structs, (begin, end) = _structs(movers), _interval(interval)
+    asked, count = given(pairs, u4, (None, 2), "pairs"), len(pairs)
+    times = result(out, f8, (count,))
+    threads = bounded(threads, "threads", 0, 1024)
+    check(
+        lib.bch_first_contact(
+            structs, len(structs), asked, count, begin, end, tolerance, threads, address(times)
+        )
+    )
+    return times
+
+
+def free_until(
+    mover: Mover, others: Sequence[Mover], interval: Tuple[float, float], *, tolerance: float = 0.005
+) -> float:
+    """Return until when a mover touches none of others, seconds; infinity: it never does.
+
+    Parameters
+    ----------
+    mover : Mover
+    others : sequence of Mover
+    interval, tolerance
+        As for `first_contact`, which this is the least of.
+    """
+    others = list(others)
+    own, structs, (begin, end) = _structs([mover]), _structs(others), _interval(interval)
+    time = c_double()
+    check(lib.bch_free_until(own, structs, len(structs), begin, end, tolerance, byref(time)))
+    return time.value

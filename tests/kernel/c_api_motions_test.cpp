@@ -1,0 +1,262 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include <bch/collide.hpp>
+#include <bch/default_characters.hpp>
+#include <bch/pose_shape.hpp>
+#include <bch/time_of_impact.hpp>
+
+#include "tests/support/baked_bytes.hpp"
+#include "tests/support/c_api.hpp"
+#include "tests/support/moving_bodies.hpp"
+
+// Bodies that move by themselves, by the C interface: they and their answers are those of the C++ library.
+
+namespace bch {
+namespace {
+
+using test::expect_ok;
+using test::made;
+using test::MotionCase;
+
+using OwnedAnimated = test::Owned<bch_animated_shape, bch_animated_shape_free>;
+using OwnedMoments = test::Owned<bch_moment_set, bch_moment_set_free>;
+
+/// Moving discs in arrays, as callers have them.
+struct Arrays {
+  std::vector<std::uint32_t> keys, discs, rings, ends;
+  std::vector<double> times;
+  std::vector<Disc> all;
+  bch_animated_arrays arrays = BCH_ANIMATED_ARRAYS_INIT;
+
+  explicit Arrays(const AnimatedDiscs& of) {
+    for (const AnimatedChunk& chunk : of.chunks) {
+      keys.push_back(static_cast<std::uint32_t>(chunk.times.size()));
+      discs.push_back(chunk.disc_count);
+      rings.push_back(static_cast<std::uint32_t>(chunk.ring_ends.size()));
+      times.insert(times.end(), chunk.times.begin(), chunk.times.end());
+      all.insert(all.end(), chunk.keys.begin(), chunk.keys.end());
+      ends.insert(ends.end(), chunk.ring_ends.begin(), chunk.ring_ends.end());
+    }
+    arrays.loops = of.loops;
+    arrays.key_counts = keys.data(), arrays.disc_counts = discs.data(), arrays.ring_counts = rings.data();
+    arrays.chunk_count = keys.size();
+    arrays.times = times.data(), arrays.discs = reinterpret_cast<const bch_disc*>(all.data());
+    arrays.ring_ends = ends.data();
+  }
+  OwnedAnimated shape() const {
+    return made<OwnedAnimated>(
+        [&](bch_animated_shape** to) { return bch_animated_shape_create(&arrays, to); });
+  }
+};
+
+std::vector<Disc> discs_of(const bch_animated_shape* shape, double seconds) {
+  std::size_t count = 0;
+  expect_ok(bch_animated_shape_get_discs(shape, seconds, nullptr, 0, &count));
+  std::vector<Disc> discs(count);
+  expect_ok(
+      bch_animated_shape_get_discs(shape, seconds, reinterpret_cast<bch_disc*>(discs.data()), count, &count));
+  return discs;
+}
+
+TEST(CApiMotions, BodiesAreTheirArrays) {
+  test::Random random(3141);
+  for (int i = 0; i < 20; ++i) {
+    const AnimatedDiscs discs = i % 3 == 0 ? test::loose_discs(random) : test::ringed_body(random, 1 + i % 2);
+    const AnimatedShape expected(discs);
+    const OwnedAnimated shape = Arrays(discs).shape();
+    bch_animated_shape_info info = BCH_ANIMATED_SHAPE_INFO_INIT;
+    expect_ok(bch_animated_shape_get_info(shape.get(), &info));
+    EXPECT_EQ(info.loops != 0, expected.loops());
+    EXPECT_EQ(info.begin, expected.begin());
+    EXPECT_EQ(info.end, expected.end());
+    EXPECT_EQ(info.reach, expected.reach());
+    EXPECT_EQ(info.bytes, expected.bytes());
+    EXPECT_EQ(info.chunks, discs.chunks.size());
+    for (const double seconds : {-1.0, 0.2, expected.end(), 7.0})
+      EXPECT_EQ(discs_of(shape.get(), seconds), expected.discs(seconds));
+  }
+}
+
+TEST(CApiMotions, ClipsAreAnimated) {
+  constexpr std::uint32_t clip = 40;
+  const Character character = default_pedestrian(Sex::female, 1.7);
+  const AnimatedDiscs discs = animate(character, clip, {.spacing = 0.05f});
+  const auto of = made<test::OwnedCharacter>(
+      [](bch_character** to) { return bch_character_pedestrian(BCH_PEDESTRIAN_FEMALE, 1.7, 0, to); });
+  bch_animate_options options = BCH_ANIMATE_OPTIONS_INIT;
+  options.spacing = 0.05f;
+  const auto shape = made<OwnedAnimated>(
+      [&](bch_animated_shape** to) { return bch_animated_shape_animate(of.get(), clip, &options, to); });
+  for (const double seconds : {0.0, 0.31, 1.0})
+    EXPECT_EQ(discs_of(shape.get(), seconds), AnimatedShape(discs).discs(seconds));
+  bch_animated_shape* none = nullptr;
+  EXPECT_EQ(bch_animated_shape_animate(of.get(), 9999, nullptr, &none), BCH_OUT_OF_RANGE);
+  options.error = 0;
+  EXPECT_EQ(bch_animated_shape_animate(of.get(), clip, &options, &none), BCH_INVALID_ARGUMENT);
+  EXPECT_EQ(none, nullptr);
+}
+
+TEST(CApiMotions, SetsKeepThem) {
+  const TemporaryFolder folder;
+  const std::string file = folder.file("people.bch");
+  const std::vector<BakedClip> clips = test::few_clips();
+  const auto set = test::c_set(ShapeSet(test::few_shapes()));
+  std::size_t count = 9;
+  expect_ok(bch_shape_set_get_clip_count(set.get(), &count));
+  EXPECT_EQ(count, 0u);
+  expect_ok(bch_shape_set_add_clip(set.get(), Arrays(clips[0].discs).shape().get(), "man.glb", "walk"));
+  expect_ok(bch_shape_set_add_clip(set.get(), Arrays(clips[1].discs).shape().get(), "own", nullptr));
+  expect_ok(bch_shape_set_save(set.get(), file.c_str()));
+  const BakedShapes baked = load_baked(file);
+  ASSERT_EQ(baked.clips.size(), 2u);
+  for (std::size_t i = 0; i < 2; ++i) EXPECT_EQ(baked.clips[i].discs, clips[i].discs);
+  EXPECT_EQ(baked.clips[1].clip, ShapeOrigin::rest_pose);
+  const auto loaded = made<test::OwnedSet>(
+      [&](bch_shape_set** to) { return bch_shape_set_load(file.c_str(), BCH_READ, to); });
+  expect_ok(bch_shape_set_get_clip_count(loaded.get(), &count));
+  EXPECT_EQ(count, 2u);
+  const char *character = nullptr, *clip = nullptr;
+  const auto shape = made<OwnedAnimated>([&](bch_animated_shape** to) {
+    return bch_shape_set_get_clip(loaded.get(), 0, &character, &clip, to);
+  });
+  EXPECT_STREQ(character, "man.glb");
+  EXPECT_STREQ(clip, "walk");
+  EXPECT_EQ(discs_of(shape.get(), 2), AnimatedShape(clips[0].discs).discs(2));
+  expect_ok(bch_shape_set_get_clip(loaded.get(), 1, &character, &clip, nullptr));
+  EXPECT_STREQ(character, "own");
+  EXPECT_EQ(clip, nullptr);
+  EXPECT_EQ(bch_shape_set_get_clip(loaded.get(), 2, nullptr, nullptr, nullptr), BCH_OUT_OF_RANGE);
+}
+
+TEST(CApiMotions, MomentsAnswerEveryQuery) {
+  test::Random random(3142);
+  std::vector<AnimatedShape> bodies;
+  std::vector<OwnedAnimated> c_bodies;
+  std::vector<const bch_animated_shape*> pointers;
+  for (int i = 0; i < 3; ++i) {
+    const AnimatedDiscs discs = test::ringed_body(random);
+    bodies.emplace_back(discs), c_bodies.push_back(Arrays(discs).shape());
+    pointers.push_back(c_bodies.back().get());
+  }
+  const auto moments = made<OwnedMoments>([&](bch_moment_set** to) {
+    return bch_moment_set_create(pointers.data(), pointers.size(), nullptr, to);
+  });
+  const std::vector<std::uint32_t> body = {0, 1, 2, 1, 0};
+  const std::vector<double> seconds = {0.1, 0.5, -2, 0.5, 0.2}, x = {0, 0.3, 0.35, 9, 10},
+                            y = {0, 0.1, 0.2, 0, 0}, heading = {0, 1, 2, 3, 4};
+  std::vector<std::uint32_t> shape(body.size());
+  bch_work work = BCH_WORK_INIT;
+  work.threads = 2;
+  expect_ok(
+      bch_moment_set_show(moments.get(), body.data(), seconds.data(), body.size(), &work, shape.data()));
+  EXPECT_EQ(shape[1], shape[3]);
+  const bch_shape_set* shapes = nullptr;
+  expect_ok(bch_moment_set_get_shapes(moments.get(), &shapes));
+  bch_agents agents = BCH_AGENTS_INIT;
+  agents.shape = shape.data(), agents.x = x.data(), agents.y = y.data(), agents.heading = heading.data();
+  agents.count = body.size();
+  const std::vector<bch_pair> pairs = {{0, 1}, {1, 2}, {0, 2}, {3, 4}};
+  std::vector<std::uint8_t> hits(pairs.size()), expected(pairs.size());
+  expect_ok(bch_collide(shapes, &agents, pairs.data(), pairs.size(), nullptr, hits.data()));
+  std::vector<const AnimatedShape*> all;
+  for (const AnimatedShape& each : bodies) all.push_back(&each);
+  MomentSet own(all);
+  std::vector<std::uint32_t> own_shape(body.size());
+  own.show(body, seconds, own_shape);
+  const std::vector<Pair> own_pairs = {{0, 1}, {1, 2}, {0, 2}, {3, 4}};
+  collide(own.set(), {own_shape, x, y, heading}, own_pairs, expected);
+  EXPECT_EQ(hits, expected);
+  EXPECT_EQ(std::count(hits.begin(), hits.end(), 0) % 4 == 0, false);
+  // A set that was lent is void after the next call, and never freed by the caller.
+  EXPECT_EQ(bch_shape_set_free(const_cast<bch_shape_set*>(shapes)), BCH_INVALID_ARGUMENT);
+  expect_ok(
+      bch_moment_set_show(moments.get(), body.data(), seconds.data(), body.size(), nullptr, shape.data()));
+  EXPECT_EQ(bch_collide(shapes, &agents, pairs.data(), pairs.size(), nullptr, hits.data()),
+            BCH_INVALID_ARGUMENT);
+  // The builder adds the same shape.
+  const auto builder = made<test::OwnedBuilder>(
+      [](bch_shape_set_builder** to) { return bch_shape_set_builder_create(nullptr, to); });
+  expect_ok(bch_shape_set_builder_add_moment(builder.get(), pointers[1], 0.5));
+  const auto one = made<test::OwnedSet>(
+      [&](bch_shape_set** to) { return bch_shape_set_builder_finish(builder.get(), to); });
+  float radius = 0;
+  expect_ok(bch_shape_set_get_radius(one.get(), 0, &radius));
+  EXPECT_EQ(radius, own.set().bounding_radius(own_shape[1]));
+  EXPECT_EQ(bch_shape_set_builder_add_moment(builder.get(), pointers[1], NAN), BCH_INVALID_ARGUMENT);
+}
+
+bch_motion c_motion(const MotionCase& of, const bch_animated_shape* shape) {
+  static_assert(sizeof(bch_path_key) == sizeof(PathKey));
+  return {shape, reinterpret_cast<const bch_path_key*>(of.path.data()), of.path.size(), of.clip_begin};
+}
+
+TEST(CApiMotions, TouchWhenTheyDo) {
+  test::Random random(3143);
+  std::vector<MotionCase> cases;
+  std::vector<OwnedAnimated> shapes;
+  for (int i = 0; i < 24; ++i) cases.push_back(test::random_motion(random));
+  std::vector<bch_motion> motions;
+  std::vector<Motion> own;
+  for (const MotionCase& each : cases) {
+    shapes.push_back(Arrays(each.discs).shape());
+    motions.push_back(c_motion(each, shapes.back().get()));
+    own.push_back(each.motion());
+  }
+  std::vector<Pair> pairs;
+  for (std::uint32_t i = 0; i < cases.size(); ++i)
+    for (std::uint32_t j = 0; j < i; ++j) pairs.push_back({i, j});
+  std::vector<double> times(pairs.size()), expected(pairs.size());
+  first_contact(own, pairs, {-1, 3}, expected, 0.01);
+  expect_ok(bch_first_contact(motions.data(), motions.size(), test::c_pairs(pairs), pairs.size(), -1, 3, 0.01,
+                              2, times.data()));
+  EXPECT_EQ(times, expected);
+  EXPECT_GT(std::count_if(times.begin(), times.end(), [](double t) { return t < 3; }), 20);
+  double free = 0;
+  expect_ok(bch_free_until(motions.data(), motions.data() + 1, motions.size() - 1, -1, 3, 0.01, &free));
+  EXPECT_EQ(free, free_until(own[0], std::span(own).subspan(1), {-1, 3}, 0.01));
+}
+
+TEST(CApiMotions, NameWhatIsWrong) {
+  const auto said = [](bch_status status) {
+    EXPECT_EQ(status, BCH_INVALID_ARGUMENT);
+    return std::string(bch_last_error());
+  };
+  const AnimatedDiscs disc = test::still_disc(0.2f);
+  const OwnedAnimated shape = Arrays(disc).shape();
+  bch_animated_shape* none = nullptr;
+  Arrays bad(disc);
+  bad.all[1].radius = -1;
+  EXPECT_EQ(said(bch_animated_shape_create(&bad.arrays, &none)),
+            "animated shape: chunk 0: disc 0 at key 1, of -1 m at (0, 0) m");
+  bad.arrays.times = nullptr;
+  EXPECT_EQ(said(bch_animated_shape_create(&bad.arrays, &none)), "arrays->times is NULL");
+  EXPECT_EQ(none, nullptr);
+  const bch_path_key key = {0, 0, 0, 0};
+  bch_motion motions[] = {{shape.get(), &key, 1, 0}, {shape.get(), &key, 0, 0}};
+  const bch_pair pair = {0, 1};
+  double time = 77;
+  EXPECT_EQ(said(bch_first_contact(motions, 2, &pair, 1, 0, 1, 0.005, 0, &time)),
+            "first_contact: motion 1: a path without keys");
+  motions[1].shape = nullptr;
+  EXPECT_EQ(said(bch_first_contact(motions, 2, &pair, 1, 0, 1, 0.005, 0, &time)), "motions[1].shape is NULL");
+  EXPECT_EQ(said(bch_free_until(nullptr, motions, 1, 0, 1, 0.005, &time)), "motion is NULL");
+  EXPECT_EQ(said(bch_free_until(motions, motions, 1, 1, 0, 0.005, &time)),
+            "free_until: from 1 s to 0 s is no interval within +-1e6 s");
+  EXPECT_EQ(time, 77);
+  const bch_animated_shape* const bodies[] = {shape.get(), nullptr};
+  bch_moment_set* moments = nullptr;
+  EXPECT_EQ(said(bch_moment_set_create(bodies, 2, nullptr, &moments)), "a body of bodies is NULL");
+  EXPECT_EQ(said(bch_moment_set_create(bodies, 0, nullptr, &moments)), "moments: no bodies");
+  EXPECT_EQ(moments, nullptr);
+}
+
+}  // namespace
+}  // namespace bch
