@@ -163,12 +163,12 @@ TEST_F(Moments, KeepTheirMemory) {
   Random random(3124);
   MomentSet moments(bodies);
   tbb::task_arena(1).execute([&] {
-    Players players(random, 300, static_cast<std::uint32_t>(bodies.size()));
+    Players players(random, 100, static_cast<std::uint32_t>(bodies.size()));
     const auto show = [&] {
       for (double& seconds : players.seconds) seconds += 0.013;
       moments.show(players.body, players.seconds, players.shape);
     };
-    for (int i = 0; i < 400; ++i) show();
+    for (int i = 0; i < 150; ++i) show();
     const std::size_t before = test::allocation_count();
     for (int i = 0; i < 20; ++i) show();
     EXPECT_EQ(test::allocation_count() - before, 0u);
