@@ -29,7 +29,7 @@ using namespace detail;
 namespace {
 
 constexpr const char* query = "moments";
-constexpr std::size_t grain = 8;      ///< moments a task
+constexpr std::size_t moments_a_task = 8;
 constexpr double largest_time = 1e6;  ///< seconds
 
 /// What a thread makes shapes with.
@@ -45,14 +45,25 @@ struct Workshop {
   PreparedShape prepared;
 };
 
-/// Returns the moment with the most discs.
+/// Returns a body that is whole, or its slabs.
+std::span<const AnimatedShape> parts_of(const AnimatedShape& body) {
+  return body.slabs().empty() ? std::span(&body, 1) : body.slabs();
+}
+
+/// Returns the moment with the most discs, of bodies that are cut as far as chunks of their first slabs tell.
 Moment largest_moment(std::span<const AnimatedShape* const> bodies) {
   Moment largest;
   std::size_t most = 0;
-  for (std::uint32_t i = 0; i < bodies.size(); ++i)
-    for (const auto& chunk : bodies[i]->tree().chunks)
-      if (chunk.nodes() > most)
-        most = chunk.nodes(), largest = {i, std::midpoint(chunk.times.front(), chunk.times.back())};
+  for (std::uint32_t i = 0; i < bodies.size(); ++i) {
+    const std::span<const AnimatedShape> parts = parts_of(*bodies[i]);
+    for (const AnimatedTreeChunk& chunk : parts[0].tree().chunks) {
+      const double seconds = std::midpoint(chunk.times.front(), chunk.times.back());
+      std::size_t nodes = 0;
+      for (const AnimatedShape& part : parts)
+        nodes += part.tree().chunks[key_place(part.tree(), seconds).chunk].nodes();
+      if (nodes > most) most = nodes, largest = {i, seconds};
+    }
+  }
   return largest;
 }
 
@@ -104,7 +115,7 @@ void MomentSet::State::require_valid(std::span<const std::uint32_t> body, std::s
 }
 
 Moment MomentSet::State::moment(std::uint32_t body, double seconds) const {
-  const AnimatedTree& tree = bodies[body]->tree();
+  const AnimatedTree& tree = parts_of(*bodies[body])[0].tree();
   return {body, std::clamp(time_in_clip(tree, seconds), tree.begin(), tree.end()) + 0.0};
 }
 
@@ -157,7 +168,7 @@ void MomentSet::State::make() {
     const auto& [body, seconds] = moments[places + i];
     return workshops.local().make(*bodies[body], seconds, given[i]);
   };
-  for_ranges(given.size(), grain, [&](std::size_t begin, std::size_t end) {
+  for_ranges(given.size(), moments_a_task, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) outgrown[i] = !set.try_replace(given[i], made(i));
   });
   for (std::size_t i = 0; i < given.size(); ++i)
@@ -170,6 +181,10 @@ MomentSet::MomentSet(std::span<const AnimatedShape* const> bodies, const ShapeSe
   for (std::size_t i = 0; i < bodies.size(); ++i)
     if (bodies[i] == nullptr)
       throw std::invalid_argument(std::string(query) + ": body " + std::to_string(i) + " is missing");
+  for (std::size_t i = 0; i < bodies.size(); ++i)
+    if (!bodies[i]->slices().empty() && !std::ranges::equal(bodies[i]->slices(), plan.slices))
+      throw std::invalid_argument(std::string(query) + ": body " + std::to_string(i) +
+                                  " is cut at other planes");
   state_ = std::make_unique<State>(bodies, plan);
 }
 MomentSet::MomentSet(MomentSet&&) noexcept = default;

@@ -67,6 +67,35 @@ std::vector<float> distances(const ShapeSet& set, const Agents& agents, std::spa
   return found;
 }
 
+/// Bodies that are cut beside one that is whole.
+TEST_F(Moments, OfSlabsAnswerAsTheShapesOfTheirTimes) {
+  Random random(3128);
+  const ShapeSetPlan plan{.slices = {0.5f, 1}};
+  shapes.resize(1);
+  for (int i = 0; i < 3; ++i) shapes.emplace_back(test::sliced_body(random, plan.slices));
+  bodies.clear();
+  for (const AnimatedShape& shape : shapes) bodies.push_back(&shape);
+  EXPECT_EQ(test::complaint([&] { MomentSet whole(bodies); }), "moments: body 1 is cut at other planes");
+  MomentSet moments(bodies, plan);
+  std::size_t hits = 0;
+  for (const std::uint32_t count : {20u, 60u, 60u}) {
+    Players players(random, count, static_cast<std::uint32_t>(bodies.size()));
+    moments.show(players.body, players.seconds, players.shape);
+    std::vector<Shape> each;
+    for (std::size_t i = 0; i < count; ++i) each.push_back(shapes[players.body[i]].shape(players.seconds[i]));
+    const ShapeSet set(each, plan);
+    std::vector<std::uint32_t> own(count);
+    for (std::uint32_t i = 0; i < count; ++i) own[i] = i;
+    const std::vector<Pair> pairs = candidate_pairs(moments.set(), players.agents());
+    std::vector<std::uint8_t> found(pairs.size()), expected(pairs.size());
+    collide(moments.set(), players.agents(), pairs, found);
+    collide(set, {own, players.x, players.y, players.heading}, pairs, expected);
+    EXPECT_EQ(found, expected);
+    hits += static_cast<std::size_t>(std::count(found.begin(), found.end(), 1));
+  }
+  EXPECT_GT(hits, 10u);
+}
+
 /// Answers are those of a set that has the shape of each agent, however many there are from call to call.
 TEST_F(Moments, AnswerAsTheShapesOfTheirTimes) {
   Random random(3122);

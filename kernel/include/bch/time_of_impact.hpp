@@ -55,7 +55,8 @@ void time_of_impact(const ShapeSet& shapes, const Agents& agents, std::span<cons
 class MomentSet {
  public:
   /// Takes bodies, which have to outlive this, and the plan of set().
-  /// Errors:  throws std::invalid_argument on none, on a null pointer, naming it, and on a bad plan.
+  /// Errors:  throws std::invalid_argument on none, naming it on a null pointer and on a body that is cut at other planes than the plan's, and on
+  ///          a bad plan.
   explicit MomentSet(std::span<const AnimatedShape* const> bodies, const ShapeSetPlan& plan = {});
   MomentSet(MomentSet&&) noexcept;
   MomentSet& operator=(MomentSet&&) noexcept;
