@@ -101,7 +101,8 @@ struct TimeInterval {
 };
 
 /// Finds when two motions first touch: the earliest time of an interval at which their solids overlap (see AnimatedShape), infinity where
-/// they do not. Paths, turning and discs are as they are at every real time, not sampled.
+/// they do not. Paths, turning and discs are as they are at every real time, not sampled. Bodies in slabs touch when the first of their slabs do;
+/// one that is whole is in every slab that its heights reach.
 ///
 /// The time is never later than the first contact. At that time the solids are at most the tolerance apart, and 2 um for each metre of
 /// both reaches and what double rounds of positions and times, below 1e-14 of these (of times at the greatest speed). So it is early
@@ -112,7 +113,7 @@ struct TimeInterval {
 /// Sizes:   as many times as pairs, which name motions by index. A motion may be paired with itself.
 /// Errors:  throws std::invalid_argument, before anything is written, on sizes that differ, an index out of range, an interval that ends
 ///          before it begins or is not within these units, a tolerance below 1e-6 m, and, naming the motion and key, on a shape or a path that is
-///          missing, keys that do not ascend or are not within these units.
+///          missing, keys that do not ascend or are not within these units; naming the pair, on bodies that are cut at different planes.
 /// Threads: runs in the caller's TBB arena. Allocates for the motions and for each task.
 void first_contact(std::span<const Motion> motions, std::span<const Pair> pairs, const TimeInterval& interval,
                    std::span<double> times, double tolerance = 0.005);
