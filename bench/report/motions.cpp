@@ -10,6 +10,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <stdexcept>
 
 #include <bch/pose_shape.hpp>
 
@@ -166,13 +167,20 @@ void add_slides(Run& run, std::span<const AnimatedClip> clips) {
   const SlideCases cases(built, run.sizes().cases, run.seed());
   const auto distances = baselines::fcl_mesh_distances(bodies);
   Table table({"body", "mean (cm)", "mean (95 % low)", "mean (95 % high)", "cases", "never detected"});
-  const auto add = [&](const char* what, std::span<const Shape> shapes) {
-    const std::vector<double> found = known(cases.distances(*distances, cases.contacts(ShapeSet(shapes))));
+  const auto add = [&](const char* what, const std::vector<double>& places) {
+    const std::vector<double> found = known(cases.distances(*distances, places));
     const Estimate mean = estimate(found, run.seed());
     table.add({what, mean.mean, mean.low, mean.high, cases.size(), cases.size() - found.size()});
   };
-  add("shape built for the time", built);
-  add("animated shape", animated);
+  const ShapeSet built_set(built);
+  const std::vector<double> outlines = cases.contacts(built_set, Leaves::segments),
+                            moving = cases.contacts(ShapeSet(animated));
+  for (std::size_t i = 0; i < cases.size(); ++i)
+    if (!std::isnan(outlines[i]) && !(moving[i] <= outlines[i]))
+      throw std::logic_error(fmt::format("motions: case {} touches later than its outlines", i));
+  add("outlines of the time", outlines);
+  add("shape built for the time", cases.contacts(built_set));
+  add("animated shape", moving);
   run.write("motions_slide", table);
 }
 
