@@ -47,10 +47,15 @@ struct Floor {
     });
   }
   /// Returns whether a distance of an agent is what brute force says.
-  bool is_right(std::uint32_t agent, double limit, float distance) const {
-    double expected = reference.gap(crowd.agents(), agent, plan.reference).gap;
+  bool is_right(std::uint32_t agent, double limit, Leaves leaves, float distance) const {
+    const bool exact = leaves == Leaves::segments;
+    double expected = (exact ? reference.outline_gap(crowd.agents(), agent, plan.reference)
+                             : reference.gap(crowd.agents(), agent, plan.reference))
+                          .gap;
     for (const auto& obstacle : plan.reference)
-      if (reference.holds_a_centre(crowd.agents(), agent, obstacle)) expected = 0;
+      if (exact ? reference.holds_the_outline(crowd.agents(), agent, obstacle)
+                : reference.holds_a_centre(crowd.agents(), agent, obstacle))
+        expected = 0;
     expected = expected > limit ? infinity : std::max(expected, 0.0);
     return expected == infinity ? std::isinf(distance)
                                 : std::abs(static_cast<double>(distance) - expected) <= 1e-6 * (1 + expected);
@@ -71,15 +76,16 @@ Contender collide_contender(const std::shared_ptr<Floor>& floor) {
   return {call, hits->size(), {{"hits", count / static_cast<double>(hits->size())}}};
 }
 
-Contender clearance_contender(const std::shared_ptr<Floor>& floor, double limit) {
+Contender clearance_contender(const std::shared_ptr<Floor>& floor, double limit,
+                              Leaves leaves = Leaves::discs) {
   const auto answers = std::make_shared<Clearances>(floor->crowd.size());
-  const auto call = [floor, answers, limit] {
+  const auto call = [floor, answers, limit, leaves] {
     clearance(floor->scene.set(), floor->crowd.agents(), floor->obstacles, answers->spans(),
-              {.max_distance = limit});
+              {.max_distance = limit, .distance_leaves = leaves});
   };
   call();
   for (std::uint32_t i = 0; i < floor->checked(); ++i)
-    floor->require(floor->is_right(i, limit, answers->distance[i]), i);
+    floor->require(floor->is_right(i, limit, leaves, answers->distance[i]), i);
   return {call, answers->distance.size()};
 }
 
@@ -119,6 +125,7 @@ void print_obstacles(const Results& results) {
   };
   print("collide", own, most_collide);
   print("clearance within 0.5 m", results.at("obstacles/clearance"), most_clearance);
+  print("the same of outlines", results.at("obstacles/clearance_exact"), 0);
   print("clearance without a limit", results.at("obstacles/clearance_unlimited"), most_clearance);
   const double loop = results.at("obstacles/loop").nanoseconds;
   fmt::print("  {:28}{:8.0f} ns an agent, {:.0f} x collide's   {}\n", "a loop over all segments", loop,
@@ -131,6 +138,8 @@ std::vector<Table> obstacle_tables(Suite& suite, Scene& scene) {
   const Shared<Floor> floor([&scene] { return std::make_shared<Floor>(scene); });
   suite.add("obstacles/collide", [floor] { return collide_contender(floor.get()); });
   suite.add("obstacles/clearance", [floor] { return clearance_contender(floor.get(), clearance_limit); });
+  suite.add("obstacles/clearance_exact",
+            [floor] { return clearance_contender(floor.get(), clearance_limit, Leaves::segments); });
   suite.add("obstacles/clearance_unlimited", [floor] { return clearance_contender(floor.get(), infinity); });
   suite.add("obstacles/loop", [floor] { return loop_contender(floor.get()); });
   return {{"obstacles", "^obstacles/", print_obstacles}};
