@@ -10,14 +10,12 @@
 #include <stdexcept>
 #include <string>
 
+#include "layout/baked/validation.hpp"
+
 namespace bch::detail::baked {
 namespace {
 
 constexpr std::size_t numbers_of_disc = 3;
-
-[[noreturn]] void reject(const char* section, std::size_t place, const std::string& what) {
-  throw std::invalid_argument(std::string(section) + " " + std::to_string(place) + ": " + what);
-}
 
 /// Checks a clip, by its index.
 void require_clip(std::size_t index, const BakedClip& clip, std::size_t names) {

@@ -11,11 +11,12 @@
 #include "layout/format/shape_validation.hpp"
 
 namespace bch::detail::baked {
-namespace {
 
-[[noreturn]] void reject(const char* section, std::size_t place, const std::string& what) {
+void reject(const char* section, std::size_t place, const std::string& what) {
   throw std::invalid_argument(std::string(section) + " " + std::to_string(place) + ": " + what);
 }
+
+namespace {
 
 void require_settings(std::span<const Settings> settings) {
   if (settings.size() != 1)

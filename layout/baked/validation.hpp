@@ -5,10 +5,15 @@
 
 #include <cstddef>
 #include <functional>
+#include <string>
 
 #include "layout/baked/format.hpp"
 
 namespace bch::detail::baked {
+
+/// Says what is wrong at a place of a section.
+/// Errors:  throws std::invalid_argument.
+[[noreturn]] void reject(const char* section, std::size_t place, const std::string& what);
 
 /// Checks the content of all sections: validate(ShapeArrays), and that every shape's origin has its names.
 /// `before_nodes`: as there.
