@@ -52,7 +52,7 @@ std::span<const AnimatedShape> parts_of(const AnimatedShape& body) {
 
 /// Returns the moment with the most discs, of bodies that are cut as far as chunks of their first slabs tell.
 Moment largest_moment(std::span<const AnimatedShape* const> bodies) {
-  Moment largest;
+  Moment largest{0, bodies[0]->begin()};
   std::size_t most = 0;
   for (std::uint32_t i = 0; i < bodies.size(); ++i) {
     const std::span<const AnimatedShape> parts = parts_of(*bodies[i]);
@@ -115,8 +115,10 @@ void MomentSet::State::require_valid(std::span<const std::uint32_t> body, std::s
 }
 
 Moment MomentSet::State::moment(std::uint32_t body, double seconds) const {
-  const AnimatedTree& tree = parts_of(*bodies[body])[0].tree();
-  return {body, std::clamp(time_in_clip(tree, seconds), tree.begin(), tree.end()) + 0.0};
+  const AnimatedShape& of = *bodies[body];
+  const double begin = of.begin(), length = of.end() - begin;
+  if (of.loops()) seconds -= std::floor((seconds - begin) / length) * length;
+  return {body, std::clamp(seconds, begin, of.end()) + 0.0};
 }
 
 /// Writes the place of each agent's moment in the list, behind the places where it is new.
