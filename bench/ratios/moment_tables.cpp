@@ -183,7 +183,7 @@ void print_moments(const Results& results) {
   const auto row = [&](const char* name, const char* what) {
     const Timing& timing = results.at(name);
     const double times = timing.nanoseconds / poses;
-    fmt::print("  {}{:9.1f}   {:.2f} x   {:.0f} moments   {}\n", what, timing.nanoseconds, times,
+    fmt::print("  {}{:9.1f}   {:.2f} x   {:.0f} places   {}\n", what, timing.nanoseconds, times,
                timing.counters.at("moments"), verdict_at_most(times, most_times));
   };
   row("moments/shown", "moments, without showing them ");

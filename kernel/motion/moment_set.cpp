@@ -70,9 +70,10 @@ Moment largest_moment(std::span<const AnimatedShape* const> bodies) {
 }  // namespace
 
 struct MomentSet::State {
-  State(std::span<const AnimatedShape* const> of, const ShapeSetPlan& with)
+  State(std::span<const AnimatedShape* const> of, const ShapeSetPlan& with, std::size_t least)
       : bodies(of.begin(), of.end()),
         plan(with),
+        kept(least),
         set(ShapeSetBuilder(plan).finish()),
         workshops([this] { return Workshop(plan); }) {}
 
@@ -87,6 +88,7 @@ struct MomentSet::State {
 
   std::vector<const AnimatedShape*> bodies;
   ShapeSetPlan plan;
+  std::size_t kept;
   DynamicShapeSet set;
   tbb::enumerable_thread_specific<Workshop> workshops;
   std::size_t places = 0;            ///< shapes of the set
@@ -151,7 +153,7 @@ bool MomentSet::State::give_places() {
 void MomentSet::State::grow() {
   const std::size_t needed =
       moments.size() - static_cast<std::size_t>(std::count(shown.begin(), shown.end(), 0));
-  const std::size_t room = std::max(needed, places + places / 2);
+  const std::size_t room = std::max({needed, places + places / 2, kept});
   const Moment largest = largest_moment(bodies);
   ShapeSetBuilder builder(plan, room);
   const PreparedShape& prepared = workshops.local().make(*bodies[largest.body], largest.seconds, 0);
@@ -178,7 +180,8 @@ void MomentSet::State::make() {
   for (std::size_t i = 0; i < given.size(); ++i) moments[given[i]] = moments[places + i];
 }
 
-MomentSet::MomentSet(std::span<const AnimatedShape* const> bodies, const ShapeSetPlan& plan) {
+MomentSet::MomentSet(std::span<const AnimatedShape* const> bodies, const ShapeSetPlan& plan,
+                     std::size_t kept) {
   if (bodies.empty()) throw std::invalid_argument(std::string(query) + ": no bodies");
   for (std::size_t i = 0; i < bodies.size(); ++i)
     if (bodies[i] == nullptr)
@@ -187,7 +190,7 @@ MomentSet::MomentSet(std::span<const AnimatedShape* const> bodies, const ShapeSe
     if (!bodies[i]->slices().empty() && !std::ranges::equal(bodies[i]->slices(), plan.slices))
       throw std::invalid_argument(std::string(query) + ": body " + std::to_string(i) +
                                   " is cut at other planes");
-  state_ = std::make_unique<State>(bodies, plan);
+  state_ = std::make_unique<State>(bodies, plan, kept);
 }
 MomentSet::MomentSet(MomentSet&&) noexcept = default;
 MomentSet& MomentSet::operator=(MomentSet&&) noexcept = default;

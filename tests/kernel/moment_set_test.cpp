@@ -101,7 +101,7 @@ TEST_F(Moments, AnswerAsTheShapesOfTheirTimes) {
   Random random(3122);
   for (const bool culling : {false, true}) {
     const ShapeSetPlan plan{.depths = {0, 3, all_depths}, .culling = culling};
-    MomentSet moments(bodies, plan);
+    MomentSet moments(bodies, plan, 1);
     int hits = 0;
     for (const std::uint32_t count : {40u, 7u, 90u, 300u, 120u, 300u}) {
       Players players(random, count, static_cast<std::uint32_t>(bodies.size()));
@@ -129,7 +129,7 @@ TEST_F(Moments, AnswerAsTheShapesOfTheirTimes) {
 }
 
 TEST_F(Moments, AreMadeOnce) {
-  MomentSet moments(bodies);
+  MomentSet moments(bodies, {}, 1);
   const double length = shapes[0].end() - shapes[0].begin(), at = shapes[0].begin() + 0.25 * length;
   // The same time, beyond the ends of a clip, in another round.
   const std::vector<std::uint32_t> body = {0, 1, 0, 0, 1, 2, 2, 0};
@@ -149,6 +149,19 @@ TEST_F(Moments, AreMadeOnce) {
   const std::vector<double> later(body.size(), at + 0.3 * length);
   moments.show(body, later, again);
   EXPECT_EQ(moments.set().shape_count(), 5u);
+}
+
+TEST_F(Moments, AreKeptForLaterCalls) {
+  MomentSet moments(bodies, {}, 9);
+  const std::vector<std::uint32_t> body = {0, 1, 2};
+  const std::vector<double> early = {0.1, 0.1, 0.1}, late = {0.2, 0.2, 0.2};
+  std::vector<std::uint32_t> first(3), second(3), again(3);
+  moments.show(body, early, first);
+  moments.show(body, late, second);
+  moments.show(body, early, again);
+  EXPECT_EQ(again, first);
+  EXPECT_EQ(moments.set().shape_count(), 9u);
+  EXPECT_NE(second, first);
 }
 
 TEST_F(Moments, LoopsAreTheSameInEachRound) {
@@ -190,7 +203,7 @@ TEST_F(Moments, AreTheSameForAnyNumberOfThreads) {
 
 TEST_F(Moments, KeepTheirMemory) {
   Random random(3124);
-  MomentSet moments(bodies);
+  MomentSet moments(bodies, {}, 1);
   tbb::task_arena(1).execute([&] {
     Players players(random, 100, static_cast<std::uint32_t>(bodies.size()));
     const auto show = [&] {
@@ -214,7 +227,7 @@ TEST_F(Moments, OutliveAFailedAllocation) {
   const std::vector<float> distance = distances(expected.set(), players.agents(), pairs);
   std::size_t failed = 1;
   for (std::size_t after = 0; failed > 0; after += 7) {
-    MomentSet moments(bodies);
+    MomentSet moments(bodies, {}, 1);
     test::fail_allocations(test::Failing::one, after);
     try {
       moments.show(players.body, players.seconds, players.shape);

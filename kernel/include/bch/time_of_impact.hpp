@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -54,10 +55,12 @@ void time_of_impact(const ShapeSet& shapes, const Agents& agents, std::span<cons
 ///     collide(moments.set(), {shape, x, y, heading}, pairs, hits);
 class MomentSet {
  public:
-  /// Takes bodies, which have to outlive this, and the plan of set().
-  /// Errors:  throws std::invalid_argument on none, naming it on a null pointer and on a body that is cut at other planes than the plan's, and on
-  ///          a bad plan.
-  explicit MomentSet(std::span<const AnimatedShape* const> bodies, const ShapeSetPlan& plan = {});
+  /// Takes bodies, which have to outlive this, and the plan of set(), which has places for `kept` moments, or for as many as a call shows:
+  /// those of before are found again.
+  /// Errors:  throws std::invalid_argument on none, naming it on a null pointer and on a body that is cut at other planes than the
+  ///          plan's, and on a bad plan.
+  explicit MomentSet(std::span<const AnimatedShape* const> bodies, const ShapeSetPlan& plan = {},
+                     std::size_t kept = 1000);
   MomentSet(MomentSet&&) noexcept;
   MomentSet& operator=(MomentSet&&) noexcept;
   ~MomentSet();
