@@ -137,8 +137,9 @@ void inspect_baked_clip(const InspectOptions& options) {
   for (const BakedClip& clip : baked.clips) {
     if (clip_name(baked.origins, clip) != *options.clip) continue;
     if (!clip.discs.slabs.empty())
-      throw InputError(fmt::format("{}: clip '{}' is cut into slabs; moving discs of whole bodies can be shown",
-                                   options.character, *options.clip));
+      throw InputError(
+          fmt::format("{}: clip '{}' is cut into slabs; moving discs of whole bodies can be shown",
+                      options.character, *options.clip));
     const auto& [times, end] = std::pair(clip.discs.chunks.front().times, clip.discs.chunks.back().times);
     if (!(*options.time >= times.front() && *options.time <= end.back()))
       throw InputError(fmt::format("{}: clip '{}' is from {} to {} s and has no time {} s", options.character,

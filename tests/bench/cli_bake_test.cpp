@@ -233,8 +233,8 @@ TEST(Cli, BakedFilesKeepClipsAsMovingDiscs) {
 TEST(Cli, BakedClipsAreCutAsTheShapesAre) {
   const TemporaryFolder folder;
   const std::string baked = folder.file("p.bch");
-  const Ending bake =
-      bch({"bake", "default:male", "--animated", "idle think", "-o", baked}, {"--poses", "1", "--slices", "1"});
+  const Ending bake = bch({"bake", "default:male", "--animated", "idle think", "-o", baked},
+                          {"--poses", "1", "--slices", "1"});
   ASSERT_EQ(bake.code, 0) << bake.err;
   EXPECT_NE(bake.out.find("idle think (6.00 s, loops, 2 slabs, "), std::string::npos) << bake.out;
   expect_failure(bch({"inspect", baked, "--animated", "--clip", "idle think", "--time", "0"}), 3,
