@@ -1,5 +1,5 @@
 # Cross compilation for ARM on Debian, whose arm64 libraries stand beside those of x86-64; programs run emulated,
-# some fifteen times as long: where a test seems to hang, as all batches of bodies in slabs on 32 threads, its threads compute.
+# some fifteen times as long: all batches of bodies on 32 threads take minutes, in which a test seems to hang.
 set(CMAKE_SYSTEM_NAME Linux)
 set(CMAKE_SYSTEM_PROCESSOR aarch64)
 set(CMAKE_C_COMPILER aarch64-linux-gnu-gcc)
