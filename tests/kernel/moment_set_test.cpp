@@ -71,7 +71,7 @@ std::vector<float> distances(const ShapeSet& set, const Agents& agents, std::spa
 TEST_F(Moments, OfSlabsAnswerAsTheShapesOfTheirTimes) {
   Random random(3128);
   const ShapeSetPlan plan{.slices = {0.5f, 1}};
-  shapes.resize(1);
+  shapes.erase(shapes.begin() + 1, shapes.end());
   for (int i = 0; i < 3; ++i) shapes.emplace_back(test::sliced_body(random, plan.slices));
   bodies.clear();
   for (const AnimatedShape& shape : shapes) bodies.push_back(&shape);
