@@ -11,6 +11,8 @@
 #include "layout/base/planes.hpp"
 #include "layout/base/ring_edges.hpp"
 #include "layout/base/shortest.hpp"
+#include "layout/hierarchy/builder.hpp"
+#include "layout/hierarchy/disc_box.hpp"
 
 namespace bch::detail {
 namespace {
