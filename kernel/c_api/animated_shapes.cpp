@@ -90,9 +90,9 @@ bch_status bch_animated_shape_animate(const bch_character* character, uint32_t c
     check_index(clip, of.clips.size(), "clip");
     const bch_animate_options given =
         sized<bch_animate_options>(options, BCH_ANIMATE_OPTIONS_INIT, "options");
-    hand_out(
-        std::make_unique<bch_animated_shape>(animate(of, clip, {given.spacing, given.inset, given.error})),
-        shape);
+    const auto slices = array_of(given.slices, given.slice_count, "options->slices");
+    const AnimateOptions how{given.spacing, given.inset, given.error, {slices.begin(), slices.end()}};
+    hand_out(std::make_unique<bch_animated_shape>(animate(of, clip, how)), shape);
   });
 }
 
@@ -112,8 +112,13 @@ bch_status bch_animated_shape_get_info(const bch_animated_shape* handle, bch_ani
     all.end = shape.end();
     all.reach = shape.reach();
     all.bytes = shape.bytes();
-    all.chunks = discs.chunks.size();
-    for (const AnimatedChunk& chunk : discs.chunks) all.keys += chunk.times.size();
+    all.slabs = discs.slabs.size();
+    const auto count = [&](const std::vector<AnimatedChunk>& chunks) {
+      all.chunks += chunks.size();
+      for (const AnimatedChunk& chunk : chunks) all.keys += chunk.times.size();
+    };
+    count(discs.chunks);
+    for (const AnimatedDiscs& slab : discs.slabs) count(slab.chunks);
     fill(info, all, "info");
   });
 }

@@ -3,11 +3,13 @@
 
 #include <optional>
 
+#include <bch/obstacles.hpp>
 #include <bch/time_of_impact.hpp>
 
 #include "kernel/c_api/arguments.hpp"
 #include "kernel/c_api/calls.hpp"
 #include "kernel/c_api/objects.hpp"
+#include "kernel/c_api/obstacles.hpp"
 
 struct bch_moment_set {
   bch_moment_set(std::span<const bch::AnimatedShape* const> bodies, const bch::ShapeSetPlan& plan)
@@ -100,6 +102,18 @@ bch_status bch_first_contact(const bch_motion* motions, size_t motion_count, con
     const auto answers = array_of(times, count, "times");
     all_or_none(answers, [&](std::span<double> into) {
       on_threads(threads, [&] { first_contact(all, asked, {from, to}, into, tolerance); });
+    });
+  });
+}
+
+bch_status bch_obstacles_first_contact(const bch_motion* motions, size_t motion_count,
+                                       const bch_obstacles* obstacles, double from, double to,
+                                       double tolerance, uint32_t threads, double* times) {
+  return guarded([&] {
+    const std::vector<Motion> all = motions_of(motions, motion_count, "motions");
+    const ObstacleSet& walls = object_of(obstacles, "obstacles").set;
+    all_or_none(array_of(times, motion_count, "times"), [&](std::span<double> into) {
+      on_threads(threads, [&] { first_contact(all, walls, {from, to}, into, tolerance); });
     });
   });
 }

@@ -10,6 +10,7 @@
 
 #include <bch/collide.hpp>
 #include <bch/default_characters.hpp>
+#include <bch/obstacles.hpp>
 #include <bch/pose_shape.hpp>
 #include <bch/time_of_impact.hpp>
 
@@ -97,6 +98,16 @@ TEST(CApiMotions, ClipsAreAnimated) {
       [&](bch_animated_shape** to) { return bch_animated_shape_animate(of.get(), clip, &options, to); });
   for (const double seconds : {0.0, 0.31, 1.0})
     EXPECT_EQ(discs_of(shape.get(), seconds), AnimatedShape(discs).discs(seconds));
+  const float planes[] = {0.4f, 1};
+  options.slices = planes, options.slice_count = 2;
+  const auto cut = made<OwnedAnimated>(
+      [&](bch_animated_shape** to) { return bch_animated_shape_animate(of.get(), clip, &options, to); });
+  const AnimatedShape expected(animate(character, clip, {.spacing = 0.05f, .slices = {0.4f, 1}}));
+  EXPECT_EQ(discs_of(cut.get(), 0.31), expected.discs(0.31));
+  bch_animated_shape_info info = BCH_ANIMATED_SHAPE_INFO_INIT;
+  expect_ok(bch_animated_shape_get_info(cut.get(), &info));
+  EXPECT_EQ(info.slabs, 3u);
+  EXPECT_GE(info.chunks, 3u);
   bch_animated_shape* none = nullptr;
   EXPECT_EQ(bch_animated_shape_animate(of.get(), 9999, nullptr, &none), BCH_OUT_OF_RANGE);
   options.error = 0;
@@ -222,6 +233,15 @@ TEST(CApiMotions, TouchWhenTheyDo) {
   double free = 0;
   expect_ok(bch_free_until(motions.data(), motions.data() + 1, motions.size() - 1, -1, 3, 0.01, &free));
   EXPECT_EQ(free, free_until(own[0], std::span(own).subspan(1), {-1, 3}, 0.01));
+  constexpr const char* text = "POLYGON((0 0, 1 0, 1 1, 0 1))";
+  const auto walls =
+      made<test::OwnedObstacles>([&](bch_obstacles** to) { return bch_obstacles_from_wkt(text, 0, to); });
+  times.assign(own.size(), 0), expected.assign(own.size(), 0);
+  first_contact(own, obstacles_from_wkt(text), {-1, 3}, expected, 0.01);
+  expect_ok(
+      bch_obstacles_first_contact(motions.data(), motions.size(), walls.get(), -1, 3, 0.01, 2, times.data()));
+  EXPECT_EQ(times, expected);
+  EXPECT_GT(std::count_if(times.begin(), times.end(), [](double t) { return t < 3; }), 5);
 }
 
 TEST(CApiMotions, NameWhatIsWrong) {

@@ -291,7 +291,14 @@ class ObstacleArrays(_Sized):
 
 
 class AnimateOptions(_Sized):
-    _fields_ = [("size", c_uint32), ("spacing", c_float), ("inset", c_float), ("error", c_float)]
+    _fields_ = [
+        ("size", c_uint32),
+        ("spacing", c_float),
+        ("inset", c_float),
+        ("error", c_float),
+        ("slices", c_void_p),
+        ("slice_count", c_size_t),
+    ]
 
 
 class AnimatedArrays(_Sized):
@@ -318,6 +325,7 @@ class AnimatedShapeInfo(_Sized):
         ("bytes", c_uint64),
         ("chunks", c_uint64),
         ("keys", c_uint64),
+        ("slabs", c_uint64),
     ]
 
 
@@ -475,6 +483,7 @@ _functions = {
     "moment_set_get_shapes": "pp",
     "moment_set_free": "p",
     "first_contact": "pnpndddup",
+    "obstacles_first_contact": "pnpdddup",
     "free_until": "ppndddp",
     "trajectory_open": "spp",
     "trajectory_get_info": "pp",

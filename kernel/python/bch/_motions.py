@@ -6,19 +6,27 @@
 from __future__ import annotations
 
 from ctypes import byref, c_double, c_void_p
-from typing import Any, Optional, Sequence, Tuple
+from typing import Any, Optional, Sequence, Tuple, Union
 
+import numpy as np
 import numpy.typing as npt
 
 from . import _library
 from ._animated import AnimatedShape
-from ._arrays import Float64, UInt32, address, bounded, f8, given, index, result, table, u4
+from ._arrays import Float64, UInt32, address, bounded, f4, f8, given, index, result, table, u4
 from ._library import ArgumentError, ArrayError, Exclusive, Handle, check, lib
+from ._obstacles import Obstacles
 from ._shapes import Character, Plan, ShapeSet, _CPlan
 
 
 def animate(
-    character: Character, clip: int, *, spacing: float = 0.025, inset: float = 0.04, error: float = 0.005
+    character: Character,
+    clip: int,
+    *,
+    spacing: float = 0.025,
+    inset: float = 0.04,
+    error: float = 0.005,
+    slices: Sequence[float] = (),
 ) -> AnimatedShape:
     """Make moving discs of a clip that hold the character at every real time of it. A second of a clip takes about a second.
 
@@ -33,9 +41,14 @@ def animate(
         Of their centres behind the outline, at most, metres.
     error : float
         By which discs may stand out more between two keys than at these, metres.
+    slices : sequence of float
+        Heights of planes that cut the body into slabs, as in `Plan`.
     """
     number = index(clip, "clip", len(character.clips))
-    options = _library.AnimateOptions(spacing=spacing, inset=inset, error=error)
+    planes = np.ascontiguousarray(slices, f4)
+    options = _library.AnimateOptions(
+        spacing=spacing, inset=inset, error=error, slices=address(planes), slice_count=len(planes)
+    )
     return AnimatedShape._of(Handle("animated_shape", "animate", character._pointer, number, byref(options)))
 
 
@@ -137,20 +150,20 @@ def _interval(interval: Tuple[float, float]) -> Tuple[float, float]:
 
 def first_contact(
     movers: Sequence[Mover],
-    pairs: UInt32,
+    pairs: Union[UInt32, Obstacles],
     interval: Tuple[float, float],
     *,
     tolerance: float = 0.005,
     out: Optional[Float64] = None,
     threads: int = 0,
 ) -> Float64:
-    """Find when the two movers of each pair first touch.
+    """Find when the two movers of each pair first touch, or each mover an obstacle.
 
     Parameters
     ----------
     movers : sequence of Mover
-    pairs : (m, 2) uint32
-        Two movers by their places.
+    pairs : (m, 2) uint32, or Obstacles
+        Two movers by their places; with obstacles, every mover is asked when it touches one.
     interval : (begin, end)
         Times that are looked at, seconds, both included.
     tolerance : float
@@ -167,9 +180,17 @@ def first_contact(
     """
     movers = list(movers)
     structs, (begin, end) = _structs(movers), _interval(interval)
+    threads = bounded(threads, "threads", 0, 1024)
+    if isinstance(pairs, Obstacles):
+        times = result(out, f8, (len(movers),))
+        check(
+            lib.bch_obstacles_first_contact(
+                structs, len(structs), pairs._pointer, begin, end, tolerance, threads, address(times)
+            )
+        )
+        return times
     asked, count = given(pairs, u4, (None, 2), "pairs"), len(pairs)
     times = result(out, f8, (count,))
-    threads = bounded(threads, "threads", 0, 1024)
     check(
         lib.bch_first_contact(
             structs, len(structs), asked, count, begin, end, tolerance, threads, address(times)

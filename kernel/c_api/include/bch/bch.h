@@ -646,9 +646,11 @@ typedef struct bch_animate_options {
   float spacing; /**< of discs along the outline, at most, at keys */
   float inset;   /**< of centres behind the outline, at most */
   float error;   /**< by which discs may stand out more between two keys than at these */
+  const float* slices; /**< heights of planes that cut the body into slabs, ascending, at most 63; none: it is whole */
+  size_t slice_count;
 } bch_animate_options;
 #define BCH_ANIMATE_OPTIONS_INIT \
-  { sizeof(bch_animate_options), 0.025f, 0.04f, 0.005f }
+  { sizeof(bch_animate_options), 0.025f, 0.04f, 0.005f, NULL, 0 }
 /** Makes moving discs of a clip that hold the character at every real time of it. A second of a clip takes about a second. */
 BCH_API bch_status bch_animated_shape_animate(const bch_character* character, uint32_t clip,
                                               const bch_animate_options* options, bch_animated_shape** shape);
@@ -677,14 +679,15 @@ typedef struct bch_animated_shape_info {
   double begin, end; /**< seconds of the clip */
   double reach;      /**< the radius that holds all discs at every time, metres */
   uint64_t bytes;
-  uint64_t chunks;
-  uint64_t keys; /**< of all chunks */
+  uint64_t chunks; /**< of all slabs */
+  uint64_t keys;   /**< of all chunks */
+  uint64_t slabs;  /**< 0: the body is whole */
 } bch_animated_shape_info;
 #define BCH_ANIMATED_SHAPE_INFO_INIT \
-  { sizeof(bch_animated_shape_info), 0, 0, 0, 0, 0, 0, 0 }
+  { sizeof(bch_animated_shape_info), 0, 0, 0, 0, 0, 0, 0, 0 }
 /** Tells the times and sizes of a body. */
 BCH_API bch_status bch_animated_shape_get_info(const bch_animated_shape* shape, bch_animated_shape_info* info);
-/** Tells the discs at a time. Writes at most `capacity`, and how many there are to `count`. */
+/** Tells the discs at a time, slab after slab. Writes at most `capacity`, and how many there are to `count`. */
 BCH_API bch_status bch_animated_shape_get_discs(const bch_animated_shape* shape, double seconds, bch_disc* discs,
                                                 size_t capacity, size_t* count);
 /** Frees a body. */
@@ -732,6 +735,10 @@ typedef struct bch_motion {
 BCH_API bch_status bch_first_contact(const bch_motion* motions, size_t motion_count, const bch_pair* pairs,
                                      size_t count, double from, double to, double tolerance, uint32_t threads,
                                      double* times);
+/** Finds when each motion first touches an obstacle, as bch_first_contact() does of pairs. */
+BCH_API bch_status bch_obstacles_first_contact(const bch_motion* motions, size_t motion_count,
+                                               const bch_obstacles* obstacles, double from, double to, double tolerance,
+                                               uint32_t threads, double* times);
 /** Finds until when a motion touches none of others: the least of what bch_first_contact() says of it and each of them. */
 BCH_API bch_status bch_free_until(const bch_motion* motion, const bch_motion* others, size_t count, double from,
                                   double to, double tolerance, double* time);
