@@ -117,10 +117,8 @@ void MomentSet::State::require_valid(std::span<const std::uint32_t> body, std::s
 }
 
 Moment MomentSet::State::moment(std::uint32_t body, double seconds) const {
-  const AnimatedShape& of = *bodies[body];
-  const double begin = of.begin(), length = of.end() - begin;
-  if (of.loops()) seconds -= std::floor((seconds - begin) / length) * length;
-  return {body, std::clamp(seconds, begin, of.end()) + 0.0};
+  const AnimatedTree& tree = parts_of(*bodies[body])[0].tree();
+  return {body, std::clamp(time_in_clip(tree, seconds), tree.begin(), tree.end()) + 0.0};
 }
 
 /// Writes the place of each agent's moment in the list, behind the places where it is new.
