@@ -40,13 +40,13 @@ class ObstacleReference {
   };
   static constexpr std::uint32_t none = 0xffffffff;
   Gap gap(const Agents& agents, std::uint32_t agent, std::span<const ReferenceObstacle> obstacles) const;
-  /// The same of an agent's outline where segments decide: of equal ones its first segment, any before discs of leaves with too many.
+  /// Returns that of an agent's outline where segments decide: of equal ones its first segment, any before discs of leaves with too many.
   Gap outline_gap(const Agents& agents, std::uint32_t agent,
                   std::span<const ReferenceObstacle> obstacles) const;
 
   /// Returns whether an area holds the centre of a disc of the cut.
   bool holds_a_centre(const Agents& agents, std::uint32_t agent, const ReferenceObstacle& obstacle) const;
-  /// The same of the agent's outline where segments decide.
+  /// Returns whether an area holds something of the agent's outline where segments decide.
   bool holds_the_outline(const Agents& agents, std::uint32_t agent, const ReferenceObstacle& obstacle) const;
 
  private:

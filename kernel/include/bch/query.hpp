@@ -72,7 +72,7 @@ struct QueryOptions {
   /// infinite distance and nothing else. The smaller the limit, the sooner they are rejected.
   double max_distance = std::numeric_limits<double>::infinity();
   Overlap overlap = Overlap::zero;  ///< of clearance()
-  /// Whether clearance(), and within() of obstacles, measure from discs, or from segments of the outlines where shapes have exact leaves.
+  /// Says whether clearance(), and within() of obstacles, measure from discs, or from segments of the outlines where shapes have exact leaves.
   /// Segments give the distance of the outlines, discs up to 3 cm less in about a seventh of the time of pairs. Overlap::deepest always
   /// measures discs.
   Leaves distance_leaves = Leaves::discs;

@@ -84,8 +84,8 @@ class MomentSet {
   std::unique_ptr<State> state_;
 };
 
-/// Where a motion is at a time. Between two keys it goes straight on and turns evenly: by the difference of their headings, the long way
-/// round, too.
+/// A key of a path says where a motion is at a time. Between two keys it goes straight on and turns evenly: by the difference of their
+/// headings, the long way round, too.
 struct PathKey {
   double time, x, y, heading;  ///< seconds, metres in the world, radians
 };
