@@ -16,7 +16,8 @@ namespace {
 
 constexpr std::uint64_t motion_seed = 31;
 constexpr std::uint32_t pairs = 400, checked_pairs = 40;
-constexpr double clip_seconds = 12, samples_per_second = 1000, poses_per_second = 120;
+constexpr double seconds_of_pose = 0.12, least_seconds = 1;  // of clips: fewer poses, less to build
+constexpr double samples_per_second = 1000, poses_per_second = 120;
 constexpr double most_bytes = 0.6, most_free = 20, most_touching = 30, needed_over_sampling = 20;
 constexpr double tolerance = 0.005;
 
@@ -27,7 +28,7 @@ struct Walkers {
   SampledMotions sampled;
 
   explicit Walkers(Scene& of)
-      : clips(animated_clips(of.characters(), "walk", clip_seconds)),
+      : clips(animated_clips(of.characters(), "walk", std::max(least_seconds, seconds_of_pose * of.poses()))),
         scene(clips, pairs, motion_seed),
         sampled(scene, samples_per_second, poses_per_second) {
     scene.check(checked_pairs);
