@@ -108,7 +108,7 @@ TEST_F(ClearanceDifferential, ManyShapesAnswerLikeOneOfEach) {
 /// Many gaps that are equal: copies of one disc set, unturned, at places on a grid.
 TEST_F(ClearanceDifferential, OfEqualGapsTheFirstCounts) {
   PairScene scene;
-  for (std::uint32_t i = 0; i < 10'000; ++i) {
+  for (std::uint32_t i = 0; i < test::samples(10'000); ++i) {
     const std::uint32_t shape = random.below(static_cast<std::uint32_t>(shapes.size()));
     const double quarter = 1.5707963267948966 * random.below(4);
     const auto at = [&] { return 0.25 * (static_cast<int>(random.below(9)) - 4); };
@@ -194,8 +194,9 @@ TEST_F(ClearanceDifferential, AgreesWithCollide) {
 TEST_F(ClearanceDifferential, BoundsTheDistanceOfTheOutlines) {
   std::vector<Shape> whole = shapes;
   const ShapeSet finest(whole);
-  std::vector<PairScene> scenes = {random_scene(random, finest, 700), random_scene(random, finest, 500),
-                                   random_scene(random, finest, 300), random_scene(random, finest, 300)};
+  std::vector<PairScene> scenes;
+  for (const std::uint32_t pairs : {700, 500, 300, 300})
+    scenes.push_back(random_scene(random, finest, test::samples(pairs)));
   for (std::size_t i = 1; i < scenes[1].crowd.x.size(); i += 2)
     scenes[1].crowd.x[i] += random.uniform(-100, 100);
   make_tangent(random, scenes[2], [&](const Agents& agents, Pair pair) {
@@ -229,7 +230,7 @@ TEST_F(ClearanceDifferential, BoundsTheDistanceOfTheOutlines) {
           << i;
     }
   }
-  EXPECT_GT(apart, 500u);
+  EXPECT_GT(apart, test::samples(500));
 }
 
 /// Tip against tip nothing but the margins is between the answer and the outlines, at any distance.
@@ -239,7 +240,7 @@ TEST(Clearance, OfTipsIsTheDistanceOfTheOutlinesLessTheMargin) {
   Random random(11);
   test::PairScene scene;
   std::vector<long double> exact;
-  for (std::uint32_t i = 0; i < 4'000; ++i) {
+  for (std::uint32_t i = 0; i < test::samples(4'000); ++i) {
     const double angle = random.uniform(-4, 4), length = 0.8 + std::pow(10, random.uniform(-6, 3));
     const double x = random.uniform(-50, 50), y = random.uniform(-50, 50);
     scene.crowd.add({0, x, y, angle, 0});

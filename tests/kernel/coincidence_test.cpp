@@ -54,7 +54,7 @@ TEST_P(Coincidence, OfPositionsOfShapesWithoutAnOutline) {
   for (int i = 0; i < 30; ++i) shapes.push_back(projection_beside_its_origin(random));
   const ShapeSet set(shapes);
   test::PairScene scene;
-  for (std::uint32_t i = 0; i < 3'000; ++i) {
+  for (std::uint32_t i = 0; i < test::samples(3'000); ++i) {
     const double heading = random.uniform(-3, 3);
     scene.crowd.add({random.below(30), 5, 7, heading, 0});
     scene.crowd.add({random.below(30), 5, 7, i % 4 == 0 ? heading : random.uniform(-3, 3), 0});
@@ -106,7 +106,7 @@ TEST_P(Coincidence, OfPositions) {
   const ShapeSet plain(shapes, {{2, all_depths}, true, false});
   test::Random random(303);
   test::PairScene scene;
-  for (std::uint32_t i = 0; i < 4'000; ++i) {
+  for (std::uint32_t i = 0; i < test::samples(4'000); ++i) {
     const auto level = [&] { return static_cast<std::uint8_t>(random.below(2)); };
     const double heading = random.uniform(-3, 3);
     scene.crowd.add({random.below(40), -3, 4, heading, level()});

@@ -170,7 +170,7 @@ TEST(ExactLeavesOfWalls, SeeTheGapBetweenWallsInOneLine) {
   const std::vector<Shape> shapes = {test::contour_shape(test::polygon({{0, 0}, {1, 0}}), 0.3f)};
   const ShapeSet set(shapes);
   Random random(2404);
-  for (int i = 0; i < 20'000; ++i) {
+  for (std::uint32_t i = 0; i < test::samples(20'000); ++i) {
     const double heading = random.uniform(-4, 4), c = std::cos(heading), s = std::sin(heading);
     const double gap = random.below(2) == 0 ? 1e-5 : -1e-5;
     const std::vector<std::uint32_t> shape = {0, 0};

@@ -135,11 +135,11 @@ TEST_F(SeparatingAxisTest, NoOutlinesMeetAfterwards) {
                              shapes[agents.shape[pair.second]].outline,
                              baselines::exact_placement(agents, pair.first, pair.second));
   };
-  PairScene tangent = random_scene(random, set, 400);
+  PairScene tangent = random_scene(random, set, test::samples(400));
   make_tangent(random, tangent,
                [&](const Agents& agents, Pair pair) { return outlines(agents, pair).cross(); });
   std::size_t met = 0;
-  for (const PairScene& before : {tangent, random_scene(random, set, 1'000)}) {
+  for (const PairScene& before : {tangent, random_scene(random, set, test::samples(1'000))}) {
     const PairScene after = moved(before, best_of(8, set, before));
     for (const Pair pair : before.pairs) {
       const baselines::Oracle then = outlines(before.crowd.agents(), pair),
@@ -148,7 +148,7 @@ TEST_F(SeparatingAxisTest, NoOutlinesMeetAfterwards) {
       ASSERT_FALSE(now.cross() || now.nested());
     }
   }
-  EXPECT_GT(met, 300u);
+  EXPECT_GT(met, test::samples(300));
 }
 
 /// Along paths of many steps, large and small, on which agents shift and turn, through each other and apart: no depth

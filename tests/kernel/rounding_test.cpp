@@ -147,7 +147,7 @@ Tallies attack(std::uint64_t pairs) {
 /// 10^6 pairs, or as many as the environment says; the preset nightly asks for 10^8.
 std::uint64_t pairs_to_try() {
   const char* const wanted = std::getenv("BCH_TANGENT_PAIRS");
-  return wanted ? std::strtoull(wanted, nullptr, 10) : 1'000'000;
+  return wanted ? std::strtoull(wanted, nullptr, 10) : test::samples(1'000'000);
 }
 
 TEST(RoundingBound, NearTangentPairsAgainstExactArithmetic) {
@@ -178,7 +178,7 @@ TEST(RoundingBound, TheSamePairsBreakABareTest) {
   const test::TangentShapes shapes(1968, 2000, 8000);
   Random random(1969);
   Tally tally;
-  for (int i = 0; i < 500'000; ++i) count_bare(tally, near_tangent(random, shapes));
+  for (std::uint32_t i = 0; i < test::samples(500'000); ++i) count_bare(tally, near_tangent(random, shapes));
   std::printf(
       "bare float test: %.1f %% of %llu meeting pairs missed, overlaps of up to %.1f u per metre of reach\n",
       100.0 * static_cast<double>(tally.bare_misses) / static_cast<double>(tally.meeting),
@@ -234,7 +234,7 @@ TEST(RoundingBound, EveryStepStaysBelowItsOwnBound) {
   const test::TangentShapes shapes(1970, 500, 2000);
   Random random(1971);
   Steps steps;
-  for (int i = 0; i < 100'000; ++i) {
+  for (std::uint32_t i = 0; i < test::samples(100'000); ++i) {
     steps.pair(near_tangent(random, shapes));
   }
   const char* const names[] = {"heading", "turn", "arm", "shift", "centre", "distance"};

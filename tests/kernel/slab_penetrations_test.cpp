@@ -37,7 +37,7 @@ INSTANTIATE_TEST_SUITE_P(Eight, SlabPenetrations, testing::Values(test::eight_sl
 INSTANTIATE_TEST_SUITE_P(Whole, SlabPenetrations, testing::Values(std::vector<float>{}));
 
 TEST_P(SlabPenetrations, DepthsAreTheLargestOfParts) {
-  for (const MovingScene& scene : scenes(3'000)) {
+  for (const MovingScene& scene : scenes(test::samples(3'000))) {
     std::vector<test::PartReferences::Depth> expected;
     for (std::size_t i = 0; i < scene.pairs.size(); ++i)
       expected.push_back(reference.depth(scene.crowd.agents(), scene.pairs[i], scene.along[i]));
@@ -64,7 +64,7 @@ TEST_P(SlabPenetrations, TheBestDepthIsTheLeastOfDirections) {
   }
   // Directions are rounded to float here.
   constexpr double rounding = 4e-6;
-  for (const MovingScene& scene : scenes(1'000)) {
+  for (const MovingScene& scene : scenes(test::samples(1'000))) {
     const std::vector<Penetration> best = test::best_of(directions, set, scene);
     expect_of_all(
         scene,
@@ -90,7 +90,8 @@ TEST_P(SlabPenetrations, TheBestDepthIsTheLeastOfDirections) {
 TEST_P(SlabPenetrations, NothingOverlapsAfterTheDepth) {
   for (const bool raised : {false, true})
     for (const bool tangent : {false, true}) {
-      const MovingScene before = tangent ? tangent_scene(3'000, raised) : scene_of(10'000, raised);
+      const MovingScene before =
+          tangent ? tangent_scene(test::samples(3'000), raised) : scene_of(10'000, raised);
       EXPECT_GT(hits(before), before.pairs.size() / 20);
       for (const auto& by : {test::best_of(directions, set, before), test::along(before.along, set, before)})
         for (const double further : {0.0, 1e-3, 0.1}) {

@@ -203,7 +203,8 @@ TEST_F(TimeOfImpactDifferential, BatchesThreadsAndOrder) {
 /// Never later than the outlines' contact; before it discs do not overlap, and at it they do, but for rounding.
 TEST_F(TimeOfImpactDifferential, IsNotLaterThanTheContactOfTheOutlines) {
   const ShapeSet finest(shapes);
-  std::vector<Motion> motions = {approaching(1'000, 1), approaching(500, 20), approaching(500, 1)};
+  std::vector<Motion> motions = {approaching(test::samples(1'000), 1), approaching(test::samples(500), 20),
+                                 approaching(test::samples(500), 1)};
   test::move_away(motions[2], 1e7, -8e8);
   std::size_t contacts = 0;
   for (Motion& motion : motions) {
@@ -224,7 +225,7 @@ TEST_F(TimeOfImpactDifferential, IsNotLaterThanTheContactOfTheOutlines) {
       }
     }
   }
-  EXPECT_GT(contacts, 300u);
+  EXPECT_GT(contacts, test::samples(300));
 }
 
 /// Tip against tip nothing but the margins is between the answer and the outlines, at any distance.
@@ -234,7 +235,7 @@ TEST(TimeOfImpact, OfTipsIsThatOfTheOutlinesLessTheMargin) {
   Random random(12);
   Motion motion;
   std::vector<long double> exact, margin;
-  for (std::uint32_t i = 0; i < 4'000; ++i) {
+  for (std::uint32_t i = 0; i < test::samples(4'000); ++i) {
     const double angle = random.uniform(-4, 4), length = 0.8 + std::pow(10, random.uniform(-6, 3));
     const double x = random.uniform(-50, 50), y = random.uniform(-50, 50), way = random.uniform(0.5, 2);
     motion.crowd.add({0, x, y, angle, 0});
@@ -257,7 +258,7 @@ TEST(TimeOfImpact, OfTipsIsThatOfTheOutlinesLessTheMargin) {
     EXPECT_LE(all[i], exact[i]) << i;
     EXPECT_GE(all[i], exact[i] - margin[i]) << i;
   }
-  EXPECT_GT(contacts, 1'000u);
+  EXPECT_GT(contacts, test::samples(1'000));
 }
 
 TEST_F(TimeOfImpactDifferential, IsWhenDiscsTouch) {

@@ -180,7 +180,7 @@ TEST_P(Within, AgreesWithClearanceButForItsMargin) {
 }
 
 TEST_P(Within, AnswersAreOnesWhereOutlinesAreAsClose) {
-  const PairScene scene = scene_of(600);
+  const PairScene scene = scene_of(test::samples(600));
   const Agents agents = scene.crowd.agents();
   std::vector<double> distances;
   for (const auto& [a, b] : scene.pairs) {
