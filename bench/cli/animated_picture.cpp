@@ -18,7 +18,7 @@ constexpr double margin = 20, gap = 16, head = 80, large = 452, fill = 0.94;
 constexpr std::size_t times = 6;  ///< that small panels show
 constexpr double small = (2 * large + gap - (times - 1) * gap) / times;
 constexpr double width = 2 * margin + 2 * large + gap;
-constexpr double label = 30, bars = 90, below = 36;
+constexpr double label = 30, row = large + label + 8, bars = 90, tick = 6, below = 36;
 constexpr std::size_t most_key_colours = 5;
 
 constexpr const char* css =
@@ -41,25 +41,26 @@ constexpr const char* css =
 .now { fill: none; stroke: #1c2733; stroke-width: 2 }
 )";
 
-/// What panels show of the ground: all discs of chunks.
+/// What panels show of the ground.
 struct Frame {
-  double x, y, extent;  ///< the middle, and how far it is from side to side, metres
+  double left = 1e30, right = -1e30, low = 1e30, high = -1e30;  ///< metres
 
-  explicit Frame(std::span<const AnimatedChunk> chunks) {
-    double left = 1e30, right = -1e30, low = 1e30, high = -1e30;
-    for (const AnimatedChunk& chunk : chunks)
-      for (const Disc& disc : chunk.keys) {
-        const double at_x = static_cast<double>(disc.x), at_y = static_cast<double>(disc.y);
-        const double r = static_cast<double>(disc.radius);
-        left = std::min(left, at_x - r), right = std::max(right, at_x + r);
-        low = std::min(low, at_y - r), high = std::max(high, at_y + r);
-      }
-    x = (left + right) / 2, y = (low + high) / 2, extent = std::max(right - left, high - low);
+  void add(const AnimatedChunk& chunk) {
+    for (const Disc& disc : chunk.keys) {
+      const double x = static_cast<double>(disc.x), y = static_cast<double>(disc.y);
+      const double r = static_cast<double>(disc.radius);
+      left = std::min(left, x - r), right = std::max(right, x + r);
+      low = std::min(low, y - r), high = std::max(high, y + r);
+    }
   }
 
   Placement placement(Pixel corner, double side) const {
-    const double scale = fill * side / extent;
-    return {{corner.x + side / 2 - scale * x, corner.y + side / 2 + scale * y}, 1, 0, scale};
+    const double scale = fill * side / std::max(right - left, high - low);
+    return {
+        {corner.x + side / 2 - scale * (left + right) / 2, corner.y + side / 2 + scale * (low + high) / 2},
+        1,
+        0,
+        scale};
   }
 };
 
@@ -68,57 +69,59 @@ struct Drawing {
   const AnimatedView& view;
   Svg& svg;
   const AnimatedShape shape;
-  const AnimatedChunk& chunk;  ///< that of the view's time
+  const std::vector<AnimatedPart> parts;
+  Frame at_time, at_all_times;
 
   Drawing(const AnimatedView& what, Svg& on)
-      : view(what), svg(on), shape(what.discs), chunk(chunk_at(what.discs, what.seconds)) {}
+      : view(what), svg(on), shape(what.discs), parts(parts_of(what, shape)) {
+    for (const AnimatedPart& part : parts) {
+      at_time.add(part.chunk);
+      for (const AnimatedChunk& chunk : part.discs.chunks) at_all_times.add(chunk);
+    }
+  }
 };
 
-void draw_discs_at(const Drawing& drawing, const Placement& placement, double seconds) {
+void draw_discs_at(Svg& svg, const AnimatedShape& shape, const Placement& placement, double seconds) {
   std::vector<PixelDisc> discs;
-  for (const Disc& disc : drawing.shape.discs(seconds)) discs.push_back(placed(placement, disc));
-  draw_discs(drawing.svg, discs);
+  for (const Disc& disc : shape.discs(seconds)) discs.push_back(placed(placement, disc));
+  draw_discs(svg, discs);
 }
 
-void draw_ring(const Drawing& drawing, const Placement& placement, double seconds, std::string_view classes) {
-  const Outline rings = drawing.shape.shape(seconds).outline;
+void draw_ring(Svg& svg, const AnimatedShape& shape, const Placement& placement, double seconds,
+               std::string_view classes) {
+  const Outline rings = shape.shape(seconds).outline;
   if (rings.contours() == 0) return;
-  drawing.svg.open_group({}, classes);
-  draw_outline(drawing.svg, placement, rings);
-  drawing.svg.close_group();
+  svg.open_group({}, classes);
+  draw_outline(svg, placement, rings);
+  svg.close_group();
 }
 
-void draw_moment(const Drawing& drawing, Pixel corner) {
+void draw_moment(const Drawing& drawing, const AnimatedPart& part, Pixel corner) {
   Svg& svg = drawing.svg;
-  const AnimatedChunk& chunk = drawing.chunk;
-  const Placement placement = Frame({&chunk, 1}).placement(corner, large);
+  const double seconds = drawing.view.seconds;
+  const Placement placement = drawing.at_time.placement(corner, large);
   svg.rectangle(corner, large, large, "panel");
-  svg.open_group("moment");
-  if (drawing.view.outline != nullptr) {
+  if (part.outline != nullptr) {
     svg.open_group({}, "outline");
-    draw_outline(svg, placement, *drawing.view.outline);
+    draw_outline(svg, placement, *part.outline);
     svg.close_group();
   }
   svg.open_group({}, "discs");
-  draw_discs_at(drawing, placement, drawing.view.seconds);
+  draw_discs_at(svg, part.shape, placement, seconds);
   svg.close_group();
-  draw_ring(drawing, placement, drawing.view.seconds, "ring");
-  svg.close_group();
+  draw_ring(svg, part.shape, placement, seconds, "ring");
   svg.text({corner.x + large / 2, corner.y + large + 20}, "label",
-           fmt::format("{:.3f} s: {}, {} (dashed){}", drawing.view.seconds, counted(chunk.disc_count, "disc"),
-                       chunk.ring_ends.empty() ? "no ring" : counted(chunk.ring_ends.size(), "ring"),
-                       drawing.view.outline != nullptr ? ", and the body" : ""));
+           fmt::format("{}{:.3f} s: {}{}{}", part.heights.empty() ? "" : part.heights + ", ", seconds,
+                       text_of(part.chunk), part.chunk.ring_ends.empty() ? "" : " (dashed)",
+                       part.outline != nullptr ? ", and the body" : ""));
 }
 
 /// The rings of the chunk at its keys, and the way of each centre between them.
-void draw_ways(const Drawing& drawing, Pixel corner) {
+void draw_ways(const Drawing& drawing, const AnimatedPart& part, Pixel corner) {
   Svg& svg = drawing.svg;
-  const AnimatedChunk& chunk = drawing.chunk;
-  const Placement placement = Frame({&chunk, 1}).placement(corner, large);
-  const AnimatedDiscs alone{{chunk}, false};
-  const AnimatedShape shape(alone);
+  const AnimatedChunk& chunk = part.chunk;
+  const Placement placement = drawing.at_time.placement(corner, large);
   svg.rectangle(corner, large, large, "panel");
-  svg.open_group("ways");
   svg.open_group({}, "ways");
   const auto centre = [&](std::size_t key, std::size_t disc) {
     const Disc& at = chunk.keys[key * chunk.disc_count + disc];
@@ -128,12 +131,12 @@ void draw_ways(const Drawing& drawing, Pixel corner) {
     for (std::size_t disc = 0; disc < chunk.disc_count; ++disc)
       svg.line(centre(key - 1, disc), centre(key, disc));
   svg.close_group();
-  for (std::size_t key = 0; key < std::min(chunk.times.size(), most_key_colours); ++key) {
-    svg.open_group({}, fmt::format("key{}", key));
-    draw_outline(svg, placement, shape.shape(chunk.times[key]).outline);
-    svg.close_group();
+  if (chunk.disc_count > 0) {
+    const AnimatedDiscs alone{{chunk}, false};
+    const AnimatedShape shape(alone);
+    for (std::size_t key = 0; key < std::min(chunk.times.size(), most_key_colours); ++key)
+      draw_ring(svg, shape, placement, chunk.times[key], fmt::format("key{}", key));
   }
-  svg.close_group();
   svg.text({corner.x + large / 2, corner.y + large + 20}, "label",
            fmt::format("keys at {:.3f} s: rings, and ways of the discs", fmt::join(chunk.times, ", ")));
 }
@@ -144,39 +147,49 @@ void draw_times(const Drawing& drawing, double top) {
   for (std::size_t i = 0; i < times; ++i) {
     const double at = begin + seconds * (static_cast<double>(i) + 0.5) / times;
     const Pixel corner{margin + static_cast<double>(i) * (small + gap), top};
-    const Placement placement = Frame(drawing.view.discs.chunks).placement(corner, small);
+    const Placement placement = drawing.at_all_times.placement(corner, small);
     drawing.svg.rectangle(corner, small, small, "panel");
     drawing.svg.open_group({}, "cover");
-    draw_discs_at(drawing, placement, at);
+    draw_discs_at(drawing.svg, drawing.shape, placement, at);
     drawing.svg.close_group();
-    draw_ring(drawing, placement, at, "cover");
+    for (const AnimatedPart& part : drawing.parts) draw_ring(drawing.svg, part.shape, placement, at, "cover");
     drawing.svg.text({corner.x + small / 2, corner.y + small + 20}, "label", fmt::format("{:.2f} s", at));
   }
 }
 
-/// A bar for each chunk, as high as it has discs, and its keys.
-void draw_timeline(const Drawing& drawing, double top) {
+/// A bar for each chunk of a part, as high as it has discs, and its keys.
+void draw_chunks(const Drawing& drawing, const AnimatedPart& part, double scale, double bottom, double high) {
   Svg& svg = drawing.svg;
-  const double begin = drawing.shape.begin(), seconds = drawing.shape.end() - begin, bottom = top + bars;
   const double most = static_cast<double>(facts_of(drawing.view.discs).most);
-  const auto at = [&](double time) { return margin + (time - begin) / seconds * (width - 2 * margin); };
-  svg.open_group("timeline");
-  for (const AnimatedChunk& chunk : drawing.view.discs.chunks) {
-    const double high = bars * static_cast<double>(chunk.disc_count) / most;
-    svg.rectangle({at(chunk.times.front()), bottom - high}, at(chunk.times.back()) - at(chunk.times.front()),
-                  high, &chunk == &drawing.chunk ? "here" : "bar");
+  const auto at = [&](double time) { return margin + (time - drawing.shape.begin()) * scale; };
+  for (const AnimatedChunk& chunk : part.discs.chunks) {
+    const double tall = high * static_cast<double>(chunk.disc_count) / most, left = at(chunk.times.front());
+    svg.rectangle({left, bottom - tall}, at(chunk.times.back()) - left, tall,
+                  &chunk == &part.chunk ? "here" : "bar");
   }
   svg.open_group({}, "keys");
-  for (const AnimatedChunk& chunk : drawing.view.discs.chunks)
-    for (const double time : chunk.times) svg.line({at(time), bottom}, {at(time), bottom + 6});
+  for (const AnimatedChunk& chunk : part.discs.chunks)
+    for (const double time : chunk.times) svg.line({at(time), bottom}, {at(time), bottom + tick});
   svg.close_group();
+}
+
+/// The chunks of all parts along the time.
+void draw_timeline(const Drawing& drawing, double top) {
+  Svg& svg = drawing.svg;
+  const double begin = drawing.shape.begin(), seconds = drawing.shape.end() - begin;
+  const double scale = (width - 2 * margin) / seconds, now = margin + (drawing.view.seconds - begin) * scale;
+  const double high = bars / static_cast<double>(drawing.parts.size());
+  svg.open_group("timeline");
+  for (std::size_t i = 0; i < drawing.parts.size(); ++i)
+    draw_chunks(drawing, drawing.parts[i], scale, top + static_cast<double>(i + 1) * high, high - tick - 2);
   svg.open_group({}, "now");
-  svg.line({at(drawing.view.seconds), top - 6}, {at(drawing.view.seconds), bottom + 6});
+  svg.line({now, top - 6}, {now, top + bars + tick});
   svg.close_group();
   for (std::size_t i = 0; i <= 4; ++i) {
     const double time = begin + seconds * static_cast<double>(i) / 4;
     const double inset = i == 0 ? 18 : i == 4 ? -18 : 0;
-    svg.text({at(time) + inset, bottom + 22}, "tick", fmt::format("{:.2f} s", time));
+    svg.text({margin + (time - begin) * scale + inset, top + bars + 22}, "tick",
+             fmt::format("{:.2f} s", time));
   }
   svg.close_group();
 }
@@ -184,17 +197,21 @@ void draw_timeline(const Drawing& drawing, double top) {
 }  // namespace
 
 std::string draw_animated(const AnimatedView& view) {
-  constexpr double second_row = head + large + label + 8, third_row = second_row + small + label + 14;
+  const std::size_t parts = std::max<std::size_t>(view.discs.slabs.size(), 1);
+  const double second = head + static_cast<double>(parts) * row, third = second + small + label + 14;
   const std::string title = fmt::format("{}, {} as moving discs", view.character, view.clip);
-  Svg svg(width, third_row + bars + below, title, css);
+  Svg svg(width, third + bars + below, title, css);
   const Drawing drawing(view, svg);
   svg.text({margin, 38}, "title", title);
   svg.text({margin, 62}, "caption",
            text_of(facts_of(view.discs)) + ". At the bottom: how many discs each chunk has, and its keys.");
-  draw_moment(drawing, {margin, head});
-  draw_ways(drawing, {margin + large + gap, head});
-  draw_times(drawing, second_row);
-  draw_timeline(drawing, third_row);
+  for (std::size_t i = 0; i < parts; ++i) {
+    const double top = head + static_cast<double>(i) * row;
+    draw_moment(drawing, drawing.parts[i], {margin, top});
+    draw_ways(drawing, drawing.parts[i], {margin + large + gap, top});
+  }
+  draw_times(drawing, second);
+  draw_timeline(drawing, third);
   return std::move(svg).finish();
 }
 

@@ -9,7 +9,9 @@
 #include <span>
 
 #include "bench/base/text.hpp"
+#include "bench/cli/inspection.hpp"
 #include "layout/baked/clips.hpp"
+#include "layout/base/planes.hpp"
 
 namespace bch::cli {
 namespace {
@@ -26,6 +28,17 @@ std::size_t baked_bytes(const AnimatedDiscs& discs) {
          arrays.disc_steps.size_bytes() + arrays.disc_floats.size_bytes();
 }
 
+/// Returns the slabs, from the ground up, or the whole body.
+std::span<const AnimatedDiscs> slabs_or_whole(const AnimatedDiscs& discs) {
+  return discs.slabs.empty() ? std::span(&discs, 1) : std::span(discs.slabs);
+}
+
+const AnimatedChunk& chunk_at(const AnimatedDiscs& discs, double seconds) {
+  std::size_t i = discs.chunks.size() - 1;
+  while (i > 0 && seconds < discs.chunks[i].times.front()) --i;
+  return discs.chunks[i];
+}
+
 Json discs_json(const std::vector<Disc>& discs) {
   Json json = Json::array();
   for (const Disc& disc : discs) json.push_back({shortest(disc.x), shortest(disc.y), shortest(disc.radius)});
@@ -35,8 +48,7 @@ Json discs_json(const std::vector<Disc>& discs) {
 }  // namespace
 
 AnimatedFacts facts_of(const AnimatedDiscs& discs) {
-  const std::span<const AnimatedDiscs> parts =
-      discs.slabs.empty() ? std::span(&discs, 1) : std::span(discs.slabs);
+  const std::span<const AnimatedDiscs> parts = slabs_or_whole(discs);
   const std::vector<AnimatedChunk>& chunks = parts.front().chunks;
   AnimatedFacts facts;
   facts.seconds = chunks.back().times.back() - chunks.front().times.front();
@@ -73,10 +85,25 @@ Json json_of(const AnimatedFacts& facts) {
           {"most_discs", facts.most}, {"mean_discs", facts.mean}, {"bytes", facts.bytes}};
 }
 
-const AnimatedChunk& chunk_at(const AnimatedDiscs& discs, double seconds) {
-  std::size_t i = discs.chunks.size() - 1;
-  while (i > 0 && seconds < discs.chunks[i].times.front()) --i;
-  return discs.chunks[i];
+std::vector<AnimatedPart> parts_of(const AnimatedView& view, const AnimatedShape& shape) {
+  const AnimatedDiscs& all = view.discs;
+  if (all.slabs.empty())
+    return {
+        {all, shape, chunk_at(all, view.seconds), view.body != nullptr ? &view.body->outline : nullptr, {}}};
+  std::vector<AnimatedPart> parts;
+  for (std::size_t i = all.slabs.size(); i-- > 0;) {
+    const Heights heights = detail::heights_of_slab(all.heights, all.slices, i);
+    parts.push_back({all.slabs[i], shape.slabs()[i], chunk_at(all.slabs[i], view.seconds),
+                     view.body != nullptr ? &view.body->slabs[i].outline : nullptr,
+                     heights.bottom <= heights.top ? text_of(heights) : fmt::format("slab {}", i)});
+  }
+  return parts;
+}
+
+std::string text_of(const AnimatedChunk& chunk) {
+  if (chunk.disc_count == 0) return "nothing";
+  return fmt::format("{} in {}", counted(chunk.disc_count, "disc"),
+                     chunk.ring_ends.empty() ? "no ring" : counted(chunk.ring_ends.size(), "ring"));
 }
 
 std::string text_of(const AnimatedView& view) {
@@ -90,22 +117,34 @@ std::string text_of(const AnimatedView& view) {
   line("discs", fmt::format("{} to {} a chunk, {:.1f} in the mean", facts.fewest, facts.most, facts.mean));
   line("baked", fmt::format("{:.1f} kB, {:.1f} kB a second", static_cast<double>(facts.bytes) / 1e3,
                             static_cast<double>(facts.bytes) / 1e3 / facts.seconds));
-  const AnimatedChunk& chunk = chunk_at(view.discs, view.seconds);
-  line(fmt::format("{:.2f} s", view.seconds).c_str(),
-       fmt::format("{} in {}, keys at {:.3f} s", counted(chunk.disc_count, "disc"),
-                   chunk.ring_ends.empty() ? "no ring" : counted(chunk.ring_ends.size(), "ring"),
-                   fmt::join(chunk.times, ", ")));
+  const AnimatedShape shape(view.discs);
+  std::string time = fmt::format("{:.2f} s", view.seconds);
+  for (const AnimatedPart& part : parts_of(view, shape)) {
+    line(time.c_str(), fmt::format("{}{}, keys at {:.3f} s", part.heights.empty() ? "" : part.heights + ": ",
+                                   text_of(part.chunk), fmt::join(part.chunk.times, ", ")));
+    time.clear();
+  }
   return out;
 }
 
 Json json_of(const AnimatedView& view) {
+  const AnimatedShape shape(view.discs);
+  Json parts = Json::array();
+  for (const AnimatedPart& part : parts_of(view, shape)) {
+    Json json = Json::object();
+    if (!part.heights.empty()) json["heights"] = part.heights;
+    for (const AnimatedChunk& chunk : part.discs.chunks) json["key_times"].push_back(chunk.times);
+    json["at"] = {{"seconds", view.seconds},
+                  {"ring_ends", part.chunk.ring_ends},
+                  {"discs", discs_json(part.shape.discs(view.seconds))}};
+    parts.push_back(std::move(json));
+  }
   Json json{{"clip", view.clip}};
   json.update(json_of(facts_of(view.discs)));
-  for (const AnimatedChunk& chunk : view.discs.chunks) json["key_times"].push_back(chunk.times);
-  const AnimatedChunk& chunk = chunk_at(view.discs, view.seconds);
-  json["at"] = {{"seconds", view.seconds},
-                {"ring_ends", chunk.ring_ends},
-                {"discs", discs_json(AnimatedShape(view.discs).discs(view.seconds))}};
+  if (view.discs.slabs.empty())
+    json.update(parts.front());
+  else
+    json["parts"] = std::move(parts);
   return json;
 }
 

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <vector>
 
 #include <bch/shape_set.hpp>
 
@@ -28,22 +29,34 @@ AnimatedFacts facts_of(const AnimatedDiscs& discs);
 std::string text_of(const AnimatedFacts& facts);
 nlohmann::ordered_json json_of(const AnimatedFacts& facts);
 
-/// A clip of a whole body as moving discs, looked at at a time.
+/// A clip as moving discs, looked at at a time.
 struct AnimatedView {
   std::string character, clip;
   const AnimatedDiscs& discs;
   double seconds;
-  const Outline* outline;  ///< of the pose at that time; null: unknown
+  const Shape* body;  ///< of the pose at that time, cut as the discs are; null: unknown
 };
 
-/// Returns the part of the clip that holds a time.
-const AnimatedChunk& chunk_at(const AnimatedDiscs& discs, double seconds);
+/// A slab of a clip at the time of a view, or a body that is whole.
+struct AnimatedPart {
+  const AnimatedDiscs& discs;
+  const AnimatedShape& shape;
+  const AnimatedChunk& chunk;  ///< that of the time
+  const Outline* outline;      ///< of the pose; null: unknown
+  std::string
+      heights;  ///< of the slab, "0.40 to 1.00 m", "slab 3" where nothing is; empty: the body is whole
+};
+
+/// Returns the slabs of a clip, the highest first, as bodies stand, or the whole body. `shape` is that of the view's discs.
+std::vector<AnimatedPart> parts_of(const AnimatedView& view, const AnimatedShape& shape);
+/// Returns "112 discs in 2 rings".
+std::string text_of(const AnimatedChunk& chunk);
 
 std::string text_of(const AnimatedView& view);
 nlohmann::ordered_json json_of(const AnimatedView& view);
 
-/// Draws the discs at the time on the body's outline; from key to key, the rings and the ways of the discs; what they cover at times
-/// all over the clip; and the keys and discs of its chunks along the time.
+/// Draws, slab by slab, the discs at the time on the body's outline and, from key to key, the rings and the ways of the discs; what they
+/// cover at times all over the clip; and the keys and discs of its chunks along the time.
 std::string draw_animated(const AnimatedView& view);
 
 }  // namespace bch::cli

@@ -97,10 +97,12 @@ void inspect_animated(const InspectOptions& options, const LoadedCharacter& from
   const CostLimits& limits = options.shapes.limits;
   const Clip& clip = from.character.clips[source.at.clip];
   const CostGuard guard(limits, {&from, 1}, shapes_in_time(static_cast<double>(clip.seconds)));
-  const BuiltShapes built = build_shapes({&from, 1}, {&source, 1}, options.shapes.threshold, {}, limits);
-  const AnimatedDiscs discs = animate_clip(from.character, from.source, source.at.clip);
+  const std::vector<float> planes = options.shapes.planes();
+  const BuiltShapes built =
+      build_shapes({&from, 1}, {&source, 1}, options.shapes.threshold, {.slices = planes}, limits);
+  const AnimatedDiscs discs = animate_clip(from.character, from.source, source.at.clip, {.slices = planes});
   show(options, text_of(from), {"character", json_of(from)},
-       {from.character.name, clip.name, discs, *options.time, &built.shapes.front().outline});
+       {from.character.name, clip.name, discs, *options.time, &built.shapes.front()});
 }
 
 void inspect_table(const InspectOptions& options, const LoadedCharacter& from,
@@ -136,14 +138,12 @@ void inspect_baked_clip(const InspectOptions& options) {
   if (options.verify) require_verified(options.character, baked.set);
   for (const BakedClip& clip : baked.clips) {
     if (clip_name(baked.origins, clip) != *options.clip) continue;
-    if (!clip.discs.slabs.empty())
-      throw InputError(
-          fmt::format("{}: clip '{}' is cut into slabs; moving discs of whole bodies can be shown",
-                      options.character, *options.clip));
-    const auto& [times, end] = std::pair(clip.discs.chunks.front().times, clip.discs.chunks.back().times);
-    if (!(*options.time >= times.front() && *options.time <= end.back()))
+    const std::vector<AnimatedChunk>& chunks =
+        (clip.discs.slabs.empty() ? clip.discs : clip.discs.slabs[0]).chunks;
+    const double begin = chunks.front().times.front(), end = chunks.back().times.back();
+    if (!(*options.time >= begin && *options.time <= end))
       throw InputError(fmt::format("{}: clip '{}' is from {} to {} s and has no time {} s", options.character,
-                                   *options.clip, times.front(), end.back(), *options.time));
+                                   *options.clip, begin, end, *options.time));
     return show(options, text_of(options.character, baked), {"source", options.character},
                 {baked.origins.names[clip.character], *options.clip, clip.discs, *options.time, nullptr});
   }
@@ -161,7 +161,6 @@ void run_inspect(const CLI::App& command, const InspectOptions& options) {
     return inspect_baked(options);
   }
   require_absent(command, {"--verify"}, "only a baked file can be verified");
-  if (options.animated) require_absent(command, {"--slices"}, "moving discs are of whole bodies");
   const LoadedCharacter from = load_character(options.character, options.shapes.import_options());
   const Threads threads(options.threads);
   const auto sources = list_shapes({&from, 1}, options.shapes.poses);
@@ -190,8 +189,9 @@ std::function<void()> add_inspect_command(CLI::App& program) {
   command.add_option("--time", options->time, "Seconds from the start of --clip")
       ->type_name("SECONDS")
       ->check(number_between(0, 1e9));
-  command.add_flag("--animated", options->animated,
-                   "Show the clip as discs that move, at --time and from key to key; of a baked file, too");
+  command.add_flag(
+      "--animated", options->animated,
+      "Show the clip as discs that move, at --time and from key to key, slab by slab; of a baked file, too");
   options->shapes.add_to(command);
   add_threads_option(command, options->threads);
   command.add_flag(
