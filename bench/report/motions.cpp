@@ -19,6 +19,7 @@
 #include "bench/report/slide.hpp"
 #include "bench/report/statistics.hpp"
 #include "bench/report/words.hpp"
+#include "bench/workload/outline_contacts.hpp"
 #include "layout/animation/contour.hpp"
 #include "layout/base/random.hpp"
 #include "layout/character/skinning.hpp"
@@ -33,12 +34,15 @@ using bench::AnimatedClip;
 constexpr double never = std::numeric_limits<double>::infinity();
 constexpr double rates[] = {10, 30, 120};
 constexpr double sample_rates[] = {30, 120, 1000};
-constexpr std::uint32_t most_poses = 40;
+constexpr std::uint32_t most_poses = 40, pairs_beside_outlines = 10'000;
 constexpr double millimetres = 1000;
 
-/// How long the parts of clips are, seconds: all clips of characters, of those from elsewhere, and a walk.
+/// How long the parts of clips are, seconds: all clips of the scene, those of characters from elsewhere, and a walk.
 double clip_seconds(const Run& run) {
-  return 0.03 * run.sizes().poses;
+  return 0.015 * run.sizes().poses;
+}
+double real_clip_seconds(const Run& run) {
+  return std::max(0.125, clip_seconds(run) / 4);
 }
 double walk_seconds(const Run& run) {
   return 0.12 * run.sizes().poses;
@@ -184,18 +188,21 @@ void add_slides(Run& run, std::span<const AnimatedClip> clips) {
   run.write("motions_slide", table);
 }
 
-/// Compares with the outlines of poses at every millisecond before.
+/// Compares with the outlines of poses at every millisecond.
 void add_lateness(const Run& run, std::span<const AnimatedClip> clips, const std::string& characters,
                   Table& table) {
-  const bench::MotionScene scene(clips, run.sizes().cases, run.seed());
-  table.add({characters, clips.size(), scene.pairs().size(), scene.pairs(true).size(), scene.count_late()});
+  const bench::MotionScene scene(clips, pairs_beside_outlines, run.seed());
+  const bench::OutlineContacts outlines = bench::outline_contacts(scene);
+  table.add({characters, clips.size(), scene.pairs().size(), scene.pairs(true).size(), outlines.compared,
+             outlines.meeting, 1000 * outlines.ahead, outlines.late, 1000 * outlines.latest});
 }
 
 void run_motions(Run& run) {
   Table storage({"characters", "clips as", "clips", "seconds", "kB a second", "over poses at 30 a second",
                  "discs outside of the outline, mean (mm)", "99 % (mm)", "most (mm)",
                  "outline outside of the cover, most (mm)"});
-  Table late({"characters", "clips", "pairs", "contacts", "later than a sample of the outlines"});
+  Table late({"characters", "clips", "pairs", "contacts", "outlines compared", "outlines meet",
+              "contact ahead of that, mean (ms)", "later than a sample of the outlines", "by at most (ms)"});
   const auto add = [&](std::span<const AnimatedClip> clips, const std::string& characters) {
     add_storage(run, clips, characters, storage);
     add_lateness(run, clips, characters, late);
@@ -207,13 +214,13 @@ void run_motions(Run& run) {
   add_slides(run, clips);
   run.done(0.6);
   if (!run.real_characters().empty())
-    add(bench::animated_clips(run.real_characters(), "", clip_seconds(run) / 3), "real");
+    add(bench::animated_clips(run.real_characters(), "", real_clip_seconds(run)), "real");
+  run.write("motions_storage", storage);
+  run.write("motions_late", late);
   run.done(0.8);
   const std::vector<AnimatedClip> walks =
       bench::animated_clips(run.scene().characters(), "walk", walk_seconds(run));
   add_contacts(run, bench::MotionScene(walks, run.sizes().cases, run.seed()));
-  run.write("motions_storage", storage);
-  run.write("motions_late", late);
 }
 
 /// Of the clips of the scene as something, over poses at 30 a second.

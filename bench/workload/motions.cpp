@@ -7,7 +7,6 @@
 #include <oneapi/tbb/parallel_for.h>
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -63,12 +62,6 @@ struct BothAt {
     clearance(shapes, agents(), {&both, 1}, {.distance = {&gap, 1}});
     return double{gap};
   }
-  bool outlines_meet() const {
-    constexpr Pair both{0, 1};
-    std::uint8_t hit = 0;
-    collide(shapes, agents(), {&both, 1}, {&hit, 1}, {.semantics = Semantics::solid});
-    return hit != 0;
-  }
 };
 
 /// Returns the body of a motion at a time.
@@ -87,7 +80,8 @@ void for_each_millisecond(const Motion& a, const Motion& b, double until, Look l
 AnimatedClip animated_clip(const Character& character, std::uint32_t clip, double most_seconds) {
   Character shorter = character;
   float& seconds = shorter.clips[clip].seconds;
-  seconds = std::min(seconds, static_cast<float>(most_seconds));
+  // Whole milliseconds that floats hold, so that those of a clip that goes round are those of its first round.
+  seconds = std::floor(8 * std::min(seconds, static_cast<float>(most_seconds))) / 8;
   AnimatedDiscs discs = animate(shorter, clip);
   discs.loops = true;
   return {&character, clip, double{seconds}, AnimatedShape(discs)};
@@ -171,26 +165,6 @@ void MotionScene::check(std::uint32_t pairs) const {
     if (contacts_[i] < never)
       require(gap_at(contacts_[i]) <= tolerance + rounding, "is too early at", contacts_[i]);
   });
-}
-
-std::size_t MotionScene::count_late() const {
-  std::atomic<std::size_t> late = 0;
-  tbb::parallel_for(std::size_t{0}, pairs_.size(), [&](std::size_t i) {
-    const Motion &a = motions_[pairs_[i].first], &b = motions_[pairs_[i].second];
-    const AnimatedClip &clip_a = clips_[clip_[pairs_[i].first]], &clip_b = clips_[clip_[pairs_[i].second]];
-    PoseShaper shaper_a(*clip_a.character), shaper_b(*clip_b.character);
-    bool is_late = false;
-    for_each_millisecond(a, b, contacts_[i], [&](double time) {
-      const auto pose = [&](PoseShaper& shaper, const AnimatedClip& clip, const Motion& motion) {
-        const double in_clip = detail::time_in_clip(clip.shape.tree(), time - motion.clip_begin);
-        return shaper.shape({clip.clip, static_cast<float>(in_clip)});
-      };
-      is_late = is_late ||
-                BothAt({pose(shaper_a, clip_a, a), pose(shaper_b, clip_b, b)}, a, b, time).outlines_meet();
-    });
-    late += is_late;
-  });
-  return late;
 }
 
 namespace {

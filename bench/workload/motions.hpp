@@ -15,7 +15,7 @@
 
 namespace bch::bench {
 
-/// A clip, or the first part of it, played over and over, as one body over all its times.
+/// A clip, or the first part of it, an eighth of a second or some, played over and over, as one body over all its times.
 struct AnimatedClip {
   const Character* character;
   std::uint32_t clip;
@@ -23,8 +23,8 @@ struct AnimatedClip {
   AnimatedShape shape;
 };
 
-/// Makes the bodies of the clips of a name, or of all where no character has one, on all threads. Clips of which animate() makes none are
-/// left out. The characters must outlive them.
+/// Makes the bodies of the clips of a name, or of all where no character has one, on all threads. Clips of which animate() makes none, and
+/// those of less than an eighth of a second, are left out. The characters must outlive them.
 /// Errors:  throws std::runtime_error where none is left.
 std::vector<AnimatedClip> animated_clips(std::span<const cli::LoadedCharacter> characters,
                                          std::string_view name, double most_seconds);
@@ -55,8 +55,6 @@ class MotionScene {
   /// Compares first contacts with the bodies at every millisecond before, by collide(): the first so many pairs.
   /// Errors:  throws std::runtime_error naming the pair, where one is later, or earlier by more than the tolerance.
   void check(std::uint32_t pairs) const;
-  /// Returns how many of the pairs have outlines that meet at some millisecond before their first contact, of poses that are made for it.
-  std::size_t count_late() const;
 
  private:
   std::span<const AnimatedClip> clips_;
