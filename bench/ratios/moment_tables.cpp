@@ -108,9 +108,9 @@ class WalkingCrowd {
 /// What is done in a frame.
 enum class Asked { poses, shown, grid, own };
 
-/// Culling data does not pay for a moment that one agent shows in one frame.
+/// Culling data does not pay for a moment that one agent shows in one frame; outlines are not asked for.
 ShapeSetPlan plan_for(Asked asked) {
-  return {.culling = asked != Asked::own};
+  return {.outlines = asked != Asked::own, .culling = asked != Asked::own};
 }
 
 /// A crowd, whose next frame each call asks about.

@@ -21,6 +21,7 @@
 #include "kernel/runtime/task_ranges.hpp"
 #include "layout/base/shortest.hpp"
 #include "layout/shape_set/animated_tree.hpp"
+#include "layout/shape_set/moment_flattener.hpp"
 
 namespace bch {
 
@@ -31,19 +32,6 @@ namespace {
 constexpr const char* query = "moments";
 constexpr std::size_t moments_a_task = 8;
 constexpr double largest_time = 1e6;  ///< seconds
-
-/// What a thread makes shapes with.
-struct Workshop {
-  explicit Workshop(const ShapeSetPlan& plan) : prepared(plan) {}
-  const PreparedShape& make(const AnimatedShape& body, double seconds, std::uint32_t index) {
-    body.shape(seconds, shape);
-    prepared.prepare(shape, index);
-    return prepared;
-  }
-
-  Shape shape;
-  PreparedShape prepared;
-};
 
 /// Returns a body that is whole, or its slabs.
 std::span<const AnimatedShape> parts_of(const AnimatedShape& body) {
@@ -71,11 +59,9 @@ Moment largest_moment(std::span<const AnimatedShape* const> bodies) {
 
 struct MomentSet::State {
   State(std::span<const AnimatedShape* const> of, const ShapeSetPlan& with, std::size_t least)
-      : bodies(of.begin(), of.end()),
-        plan(with),
-        kept(least),
-        set(ShapeSetBuilder(plan).finish()),
-        workshops([this] { return Workshop(plan); }) {}
+      : plan(with), kept(least), set(ShapeSetBuilder(plan).finish()), flattener(of, plan), memories([this] {
+          return MomentFlattener::Memory(plan);
+        }) {}
 
   void require_valid(std::span<const std::uint32_t> body, std::span<const double> seconds,
                      std::size_t shapes) const;
@@ -86,11 +72,15 @@ struct MomentSet::State {
   void grow();
   void make();
 
-  std::vector<const AnimatedShape*> bodies;
+  const PreparedShape& flatten(const Moment& moment, std::uint32_t place) {
+    return flattener.flatten(moment.body, moment.seconds, place, memories.local());
+  }
+
   ShapeSetPlan plan;
   std::size_t kept;
   DynamicShapeSet set;
-  tbb::enumerable_thread_specific<Workshop> workshops;
+  MomentFlattener flattener;
+  tbb::enumerable_thread_specific<MomentFlattener::Memory> memories;
   std::size_t places = 0;            ///< shapes of the set
   std::size_t oldest = 0;            ///< the place to give next
   std::vector<Moment> moments;       ///< that of each place; in show(), then those that are new
@@ -109,15 +99,15 @@ void MomentSet::State::require_valid(std::span<const std::uint32_t> body, std::s
     throw std::invalid_argument(std::string(query) + ": agent " + std::to_string(agent) + ": " + why);
   };
   for (std::size_t i = 0; i < body.size(); ++i) {
-    if (body[i] >= bodies.size())
-      reject(i, "body " + std::to_string(body[i]) + " of " + std::to_string(bodies.size()));
+    if (const std::size_t bodies = flattener.bodies().size(); body[i] >= bodies)
+      reject(i, "body " + std::to_string(body[i]) + " of " + std::to_string(bodies));
     if (!(std::abs(seconds[i]) <= largest_time))
       reject(i, "at " + shortest(seconds[i]) + " s, not within +-1e6");
   }
 }
 
 Moment MomentSet::State::moment(std::uint32_t body, double seconds) const {
-  const AnimatedTree& tree = parts_of(*bodies[body])[0].tree();
+  const AnimatedTree& tree = parts_of(*flattener.bodies()[body])[0].tree();
   return {body, std::clamp(time_in_clip(tree, seconds), tree.begin(), tree.end()) + 0.0};
 }
 
@@ -152,9 +142,8 @@ void MomentSet::State::grow() {
   const std::size_t needed =
       moments.size() - static_cast<std::size_t>(std::count(shown.begin(), shown.end(), 0));
   const std::size_t room = std::max({needed, places + places / 2, kept});
-  const Moment largest = largest_moment(bodies);
   ShapeSetBuilder builder(plan, room);
-  const PreparedShape& prepared = workshops.local().make(*bodies[largest.body], largest.seconds, 0);
+  const PreparedShape& prepared = flatten(largest_moment(flattener.bodies()), 0);
   for (std::size_t i = 0; i < room; ++i) builder.add(prepared);
   DynamicShapeSet larger(std::move(builder).finish());
   moments.assign(room, {});
@@ -167,8 +156,7 @@ void MomentSet::State::make() {
   for (const std::uint32_t place : given) moments[place].body = Moment::nobody;
   outgrown.assign(given.size(), 0);
   const auto made = [&](std::size_t i) -> const PreparedShape& {
-    const auto& [body, seconds] = moments[places + i];
-    return workshops.local().make(*bodies[body], seconds, given[i]);
+    return flatten(moments[places + i], given[i]);
   };
   for_ranges(given.size(), moments_a_task, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) outgrown[i] = !set.try_replace(given[i], made(i));

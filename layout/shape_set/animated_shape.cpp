@@ -17,13 +17,6 @@ using namespace detail;
 
 namespace {
 
-/// Returns a disc of the line between two.
-Disc between(const Disc& from, const Disc& to, double share) {
-  const auto blend = [=](float a, float b) { return double{a} + (double{b} - double{a}) * share; };
-  return {static_cast<float>(blend(from.x, to.x)), static_cast<float>(blend(from.y, to.y)),
-          static_cast<float>(blend(from.radius, to.radius))};
-}
-
 /// A chunk at a time.
 struct ChunkAt {
   const AnimatedTreeChunk& chunk;
@@ -32,9 +25,7 @@ struct ChunkAt {
   ChunkAt(const AnimatedTree& tree, double seconds)
       : ChunkAt(tree, key_place(tree, time_in_clip(tree, seconds))) {}
   ChunkAt(const AnimatedTree& tree, const KeyPlace& at) : chunk(tree.chunks[at.chunk]), place(at) {}
-  Disc node(std::uint32_t i) const {
-    return between(chunk.disc(place.key, i), chunk.disc(place.key + 1, i), place.share);
-  }
+  Disc node(std::uint32_t i) const { return chunk.disc(place, i); }
 };
 
 /// Returns a disc that holds two, but for what floats round.
@@ -60,7 +51,7 @@ class BinaryTree {
   /// Returns: the disc without room.
   Disc add_node(std::uint32_t node) {
     if (at_.chunk.is_leaf(node))
-      return hierarchy_.nodes.push_back({with_room(at_.node(node), of_leaves)}), at_.node(node);
+      return hierarchy_.nodes.push_back({with_room(at_.node(node), room_of_leaves)}), at_.node(node);
     return add_range(at_.chunk.children(node));
   }
 
@@ -72,7 +63,7 @@ class BinaryTree {
     const Disc first = add_range({nodes.begin, middle});
     hierarchy_.nodes[index].second_child = static_cast<std::uint32_t>(hierarchy_.nodes.size());
     const Disc both = disc_around(first, add_range({middle, nodes.end}));
-    hierarchy_.nodes[index].disc = with_room(both, of_others);
+    hierarchy_.nodes[index].disc = with_room(both, room_of_nodes);
     return both;
   }
 
@@ -81,33 +72,9 @@ class BinaryTree {
     return disc;
   }
 
-  /// The discs between a leaf and the root, up to 12 of them, each round by three roundings of at most the reach.
-  static constexpr double of_leaves = rounding::query_margin,
-                          of_others = of_leaves + rounding::held_room + 48 * rounding::unit_roundoff;
-
   const ChunkAt& at_;
   Hierarchy& hierarchy_;
 };
-
-/// Makes the polygons of the rings' centres, counter-clockwise.
-void make_outline(const ChunkAt& at, Outline& outline) {
-  outline.points.clear();
-  outline.contour_begin.assign(1, 0);
-  std::size_t begin = 0;
-  for (const std::uint32_t end : at.chunk.ring_ends) {
-    double twice_area = 0;
-    for (std::size_t i = begin; i < end; ++i) {
-      const Disc disc = at.node(at.chunk.leaf_of_disc[i]),
-                 next = at.node(at.chunk.leaf_of_disc[i + 1 < end ? i + 1 : begin]);
-      outline.points.push_back({disc.x, disc.y});
-      twice_area += double{disc.x} * double{next.y} - double{next.x} * double{disc.y};
-    }
-    if (twice_area < 0)
-      std::reverse(outline.points.begin() + static_cast<std::ptrdiff_t>(begin), outline.points.end());
-    outline.contour_begin.push_back(end);
-    begin = end;
-  }
-}
 
 /// Finds the reach of a chunk's discs, and their speed.
 void measure(const AnimatedTreeChunk& chunk, AnimatedTree& tree) {
@@ -155,7 +122,7 @@ void make_shape(const ChunkAt& at, double reach, Shape& shape) {
   if (at.chunk.nodes() == 0) return;
   shape.hierarchy.nodes.reserve(2 * at.chunk.leaf_of_disc.size());
   BinaryTree(at, shape.hierarchy).add_root();
-  make_outline(at, shape.outline);
+  take_outline(at.chunk, at.place, shape.outline);
 }
 
 }  // namespace

@@ -237,6 +237,25 @@ KeyPlace key_place(const AnimatedTree& tree, double seconds) noexcept {
           std::clamp((seconds - from) / (to - from), 0.0, 1.0)};
 }
 
+void take_outline(const AnimatedTreeChunk& chunk, const KeyPlace& at, Outline& outline) {
+  outline.points.clear();
+  outline.contour_begin.assign(1, 0);
+  std::size_t begin = 0;
+  for (const std::uint32_t end : chunk.ring_ends) {
+    double twice_area = 0;
+    for (std::size_t i = begin; i < end; ++i) {
+      const Disc disc = chunk.disc(at, chunk.leaf_of_disc[i]),
+                 next = chunk.disc(at, chunk.leaf_of_disc[i + 1 < end ? i + 1 : begin]);
+      outline.points.push_back({disc.x, disc.y});
+      twice_area += double{disc.x} * double{next.y} - double{next.x} * double{disc.y};
+    }
+    if (twice_area < 0)
+      std::reverse(outline.points.begin() + static_cast<std::ptrdiff_t>(begin), outline.points.end());
+    outline.contour_begin.push_back(end);
+    begin = end;
+  }
+}
+
 double time_in_clip(const AnimatedTree& tree, double seconds) noexcept {
   const double begin = tree.begin(), length = tree.end() - begin;
   if (!tree.loops) return seconds;

@@ -9,11 +9,18 @@
 
 #include <bch/shape_set.hpp>
 
+#include "layout/base/rounding.hpp"
 #include "layout/shape_set/animated_hulls.hpp"
 
 namespace bch::detail {
 
 constexpr std::uint32_t animated_width = 8;  ///< the most children of a node
+
+/// Added to the radii of leaves at a time, and to those of nodes, times the reach: nodes have room to spare about the leaves below, also for
+/// what rounding both moves. That is at most 8 u of nodes that are rounded once, and, of those that are made of two others, three roundings
+/// each of up to 12 nodes between a leaf and the root.
+constexpr double room_of_leaves = rounding::query_margin,
+                 room_of_nodes = room_of_leaves + rounding::held_room + 48 * rounding::unit_roundoff;
 
 /// The nodes of a chunk at a key, in the chunk's steps. Eight may be read from each on, beyond the last one, too.
 struct NodesAtKey {
@@ -24,6 +31,12 @@ struct NodesAtKey {
 /// Nodes that follow each other, from one to before another.
 struct NodeRange {
   std::uint32_t begin, end;
+};
+
+/// A time of a clip by its place among the keys: discs are (1 - share) of those at a key and share of those at the next one.
+struct KeyPlace {
+  std::size_t chunk, key;
+  double share;  ///< from 0 to 1
 };
 
 /// The tree over the moving discs of a chunk, whose nodes are moving discs with the same keys. A node holds its discs at every key,
@@ -59,6 +72,14 @@ struct AnimatedTreeChunk {
     const auto metres = [this](int number) { return static_cast<float>(number * step); };
     return {metres(at.x[node]), metres(at.y[node]), metres(at.radius[node])};
   }
+  /// Returns a node at a time.
+  Disc disc(const KeyPlace& at, std::uint32_t node) const noexcept {
+    const Disc from = disc(at.key, node), to = disc(at.key + 1, node);
+    const auto blend = [&](float a, float b) {
+      return static_cast<float>(double{a} + (double{b} - double{a}) * at.share);
+    };
+    return {blend(from.x, to.x), blend(from.y, to.y), blend(from.radius, to.radius)};
+  }
 };
 
 /// An animated shape as queries read it.
@@ -73,17 +94,14 @@ struct AnimatedTree {
   double end() const noexcept { return chunks.back().times.back(); }
 };
 
-/// A time of a clip by its place among the keys: discs are (1 - share) of those at a key and share of those at the next one.
-struct KeyPlace {
-  std::size_t chunk, key;
-  double share;  ///< from 0 to 1
-};
-
 /// Returns the place of a time of a clip from its beginning to its end, clamped to these.
 KeyPlace key_place(const AnimatedTree& tree, double seconds) noexcept;
 
 /// Returns the time of a clip that loops, or not, at which it looks as it does at any `seconds`.
 double time_in_clip(const AnimatedTree& tree, double seconds) noexcept;
+
+/// Makes the polygons of the centres of a chunk's rings at a time, counter-clockwise.
+void take_outline(const AnimatedTreeChunk& chunk, const KeyPlace& at, Outline& outline);
 
 /// Builds the tree over a chunk that is valid. Its discs are rounded to the step, outward; those whose numbers are of 16 bits as they are
 /// keep them, where no radius is more than two fifths of the largest coordinate.

@@ -49,6 +49,9 @@ class ShapeFlattener {
   /// Errors:  throws std::invalid_argument as ShapeSet does, naming the shape by `index`.
   void flatten(const Shape& shape, std::size_t index, FlatBody& flat);
 
+  /// Makes the outline of a shape flat, but for what leaves hold of it.
+  static void add_outline(const Shape& shape, FlatShape& flat);
+
  private:
   void flatten_slabs(const Shape& shape, FlatBody& flat);
   void flatten(const Shape& shape, FlatShape& flat);
@@ -58,7 +61,6 @@ class ShapeFlattener {
   void add_levels(const Shape& shape, FlatShape& flat);
   void add_interior(const Shape& shape, FlatShape& flat);
   void add_culling(std::size_t level, FlatShape& flat) const;
-  static void add_outline(const Shape& shape, FlatShape& flat);
   void add_segments(const Hierarchy& hierarchy, FlatShape& flat);
 
   ShapeSetPlan plan_;

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <numeric>
 #include <set>
 #include <string>
 #include <vector>
@@ -15,7 +16,11 @@
 #include <bch/broad_phase.hpp>
 #include <bch/clearance.hpp>
 #include <bch/collide.hpp>
+#include <bch/contacts.hpp>
+#include <bch/obstacles.hpp>
+#include <bch/penetration.hpp>
 #include <bch/time_of_impact.hpp>
+#include <bch/verify.hpp>
 
 #include "tests/support/allocation_count.hpp"
 #include "tests/support/complaint.hpp"
@@ -125,6 +130,79 @@ TEST_F(Moments, AnswerAsTheShapesOfTheirTimes) {
       EXPECT_EQ(distances(moments.set(), players.agents(), pairs), distances(set, expected_agents, pairs));
     }
     EXPECT_GT(hits, 100);
+  }
+}
+
+/// Everything that a query can tell of pairs and of agents near obstacles, at the level of all depths.
+struct AllAnswers {
+  std::vector<std::uint8_t> hits, near, solid, at_walls;
+  std::vector<float> distance, time, to_walls;
+  std::vector<Penetration> depth;
+  std::vector<DiscPair> contacts;
+  std::vector<std::uint64_t> offsets;
+  friend bool operator==(const AllAnswers&, const AllAnswers&) = default;
+
+  AllAnswers(const ShapeSet& set, const Agents& agents, std::span<const Pair> pairs, const ObstacleSet& walls)
+      : hits(pairs.size()),
+        near(pairs.size()),
+        solid(set.solid() ? pairs.size() : 0),
+        at_walls(agents.shape.size()),
+        distance(distances(set, agents, pairs)),
+        time(pairs.size()),
+        to_walls(agents.shape.size()),
+        depth(pairs.size()) {
+    collide(set, agents, pairs, hits);
+    if (set.solid()) collide(set, agents, pairs, solid, {.semantics = Semantics::solid});
+    const double within_metres[] = {0.125};
+    within(set, agents, pairs, within_metres, near);
+    const std::vector<double> way(pairs.size(), 0.5), back(pairs.size(), -0.25);
+    time_of_impact(set, agents, pairs, {way, back}, time);
+    penetration(set, agents, pairs, 8, depth);
+    ContactFinder finder;
+    const Rows<DiscPair> found = finder.find(set, agents, pairs);
+    contacts.assign(found.values.begin(), found.values.end());
+    offsets.assign(found.offsets.begin(), found.offsets.end());
+    collide(set, agents, walls, at_walls);
+    clearance(set, agents, walls, {to_walls, {}, {}, {}});
+  }
+};
+
+/// The level of all depths alone, without culling data, is there but for its discs.
+TEST_F(Moments, OfLeavesAloneAnswerEveryQueryAsTheShapesOfTheirTimes) {
+  Random random(3129);
+  shapes.emplace_back(test::loose_discs(random, 1));
+  for (const std::uint32_t discs : {3u, 8u, 9u, 200u}) shapes.emplace_back(test::loose_discs(random, discs));
+  shapes.emplace_back(test::ringed_body(random, 2, 700));
+  bodies.clear();
+  for (const AnimatedShape& shape : shapes) bodies.push_back(&shape);
+  const ObstacleSet walls = obstacles_from_wkt("LINESTRING (0 0, 4 5, 3 6) POLYGON ((6 6, 7 6, 7 7, 6 6))");
+  for (const bool outlines : {false, true}) {
+    const ShapeSetPlan plan{.outlines = outlines, .culling = false, .heights = true};
+    MomentSet moments(bodies, plan, 1);
+    for (const std::uint32_t count : {60u, 250u, 90u}) {
+      Players players(random, count, static_cast<std::uint32_t>(bodies.size()));
+      moments.show(players.body, players.seconds, players.shape);
+      std::vector<Shape> each;
+      for (std::size_t i = 0; i < count; ++i)
+        each.push_back(shapes[players.body[i]].shape(players.seconds[i]));
+      const ShapeSet set(each, plan);
+      std::vector<std::uint32_t> own(count);
+      std::iota(own.begin(), own.end(), 0u);
+      for (std::uint32_t i = 0; i < count; ++i) {
+        const std::vector<Disc> discs = moments.set().discs(players.shape[i], 0);
+        EXPECT_EQ(discs, set.discs(i, 0));
+      }
+      const Agents expected_agents{own, players.x, players.y, players.heading};
+      const std::vector<Pair> pairs = candidate_pairs(set, expected_agents, 1);
+      const AllAnswers found(moments.set(), players.agents(), pairs, walls),
+          expected(set, expected_agents, pairs, walls);
+      EXPECT_TRUE(found == expected);
+      EXPECT_GT(std::count(found.hits.begin(), found.hits.end(), 1), 20);
+      EXPECT_GT(std::count(found.at_walls.begin(), found.at_walls.end(), 1), 0);
+      EXPECT_GT(std::ssize(found.contacts), 100);
+      for (const Finding& finding : verify(moments.set(), 1000))
+        EXPECT_EQ(finding.what.find("does not hold the discs"), std::string::npos) << text_of(finding);
+    }
   }
 }
 

@@ -66,13 +66,15 @@ class MomentSet {
   ~MomentSet();
 
   /// Makes each moment that agents show and that is not there yet, in parallel, and writes the shape of each agent: Agents::shape for
-  /// set(). It shows what AnimatedShape::shape() is at these seconds.
+  /// set(). It shows what AnimatedShape::shape() is at these seconds: every query answers the same. (Candidate pairs are those of the root
+  /// discs, which may be others.)
   /// Units:   seconds of the clip, within +-1e6, as AnimatedShape::shape() has them.
   /// Sizes:   as many seconds, and shapes, as bodies, which are indices into those of the constructor.
   /// Errors:  throws std::invalid_argument, before anything is written, on sizes that differ and, naming the agent, on an index out of
   ///          range or a time that is not within these units.
   /// Threads: runs in the caller's TBB arena. For one thread at a time, while no query runs.
-  /// Cost:    30 us for each new moment of 125 discs, 11 us without culling data, and 10 ns for each agent.
+  /// Cost:    30 us for each new moment of 125 discs, 2 us where the plan has the level of all depths alone, without culling data, outlines
+  ///          and slices; and 10 ns for each agent.
   void show(std::span<const std::uint32_t> bodies, std::span<const double> seconds,
             std::span<std::uint32_t> shapes);
 
