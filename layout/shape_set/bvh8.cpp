@@ -17,6 +17,12 @@ namespace {
 /// Discs that may be read beyond a run's.
 constexpr std::size_t spare_lanes = 16;
 
+constexpr Bvh8::Block empty_block = [] {
+  Bvh8::Block block{};
+  for (float& x : block.discs.x) x = std::numeric_limits<float>::infinity();
+  return block;
+}();
+
 }  // namespace
 
 void Flattener::begin(const Hierarchy& hierarchy) {

@@ -5,7 +5,6 @@
 
 #include <array>
 #include <cstdint>
-#include <limits>
 #include <vector>
 
 #include <bch/hierarchy.hpp>
@@ -40,12 +39,6 @@ struct Bvh8 {
 
   bool is_single() const { return count == 1; }
 };
-
-constexpr Bvh8::Block empty_block = [] {
-  Bvh8::Block block{};
-  for (float& x : block.discs.x) x = std::numeric_limits<float>::infinity();
-  return block;
-}();
 
 /// Collapses the binary tree above a cut: a block's groups come from expanding descendants of its node, those of many
 /// and large discs first, until there are eight groups or nothing to expand. What fits into a window becomes one.

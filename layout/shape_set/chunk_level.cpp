@@ -10,15 +10,16 @@
 namespace bch::detail {
 namespace {
 
-/// Writes numbers of nodes on their way from a key to the next one, rounded as AnimatedTreeChunk::disc() does.
+/// Writes numbers of nodes on their way from a key to the next one, rounded as AnimatedTreeChunk::disc() does: a step is a power of two, so
+/// that each product with it is exact. (Integers of 32 bits on the way, because no loop of a compiler goes from 16 bits to 64.)
 template <class Number>
-void blend(const Number* from, const Number* to, std::size_t count, double share, double step,
-           std::vector<float>& last, std::vector<float>& out) {
-  float *const a = out.data(), *const b = last.data();
-  for (std::size_t i = 0; i < count; ++i)  // first, because no loop of a compiler goes from 16 bits to 64
-    a[i] = static_cast<float>(from[i]), b[i] = static_cast<float>(to[i]);
-  for (std::size_t i = 0; i < count; ++i)
-    a[i] = static_cast<float>((double{a[i]} + (double{b[i]} - double{a[i]}) * share) * step);
+void blend(const Number* from, const Number* to, std::size_t count, double share, double step, float* out) {
+  const double share_of_steps = share * step;
+  for (std::size_t i = 0; i < count; ++i) {
+    const int first = from[i], way = int{to[i]} - first;
+    out[i] =
+        static_cast<float>(static_cast<double>(first) * step + static_cast<double>(way) * share_of_steps);
+  }
 }
 
 /// Adds room as rounding::round_up() rounds. What is left of the sum keeps its sign as a float, so that compilers vectorise this.
@@ -41,11 +42,8 @@ void take_leaves(const std::vector<float>& nodes, std::uint32_t first, std::uint
 }  // namespace
 
 ChunkLevel::ChunkLevel(const AnimatedTreeChunk& chunk) : chunk_(chunk), root_(below_only_children(0)) {
-  inner_.resize(std::max(leaves() - 1, 1u));
-  if (chunk_.is_leaf(root_))
-    inner_[0] = {root_, above_cut_disc};
-  else
-    add_inner(root_, number(chunk_.children(root_)));
+  inner_.resize(leaves() - 1);
+  if (!chunk_.is_leaf(root_)) add_inner(root_, number(chunk_.children(root_)));
   if (leaves() > block_width) add_blocks();
 }
 
@@ -90,14 +88,15 @@ void ChunkLevel::add_blocks() {
   std::vector<std::uint32_t> of_blocks = {root_};
   for (std::size_t i = 0; i < of_blocks.size(); ++i) {
     Block& block = blocks_.emplace_back();
+    block.disc.fill(chunk_.nodes());
     const NodeRange children = chunk_.children(of_blocks[i]);
-    for (std::uint32_t child = children.begin; child < children.end; ++child, ++block.count) {
+    for (std::uint32_t k = 0, child = children.begin; child < children.end; ++child, ++k) {
       const std::uint32_t node = below_only_children(child), first = leaves_before(node);
-      block.disc[block.count] = node;
-      block.node[block.count] = chunk_.is_leaf(node) ? leaf_window + first : number(chunk_.children(node));
+      block.disc[k] = node;
+      block.node[k] = chunk_.is_leaf(node) ? leaf_window + first : number(chunk_.children(node));
       const bool is_window = leaves_to(node) - first <= block_width;
-      block.child[block.count] = is_window ? leaf_window + std::min(first, leaves() - block_width)
-                                           : static_cast<std::uint32_t>(of_blocks.size());
+      block.child[k] = is_window ? leaf_window + std::min(first, leaves() - block_width)
+                                 : static_cast<std::uint32_t>(of_blocks.size());
       if (!is_window) of_blocks.push_back(node);
     }
   }
@@ -105,14 +104,17 @@ void ChunkLevel::add_blocks() {
 
 void ChunkLevel::place_nodes(const KeyPlace& at, double reach, PlacedChunk& nodes) const {
   const std::uint32_t count = chunk_.nodes(), first_leaf = chunk_.first_leaf();
-  for (std::vector<float>* const numbers : {&nodes.x, &nodes.y, &nodes.radius, &nodes.last})
-    numbers->resize(count);
+  for (std::vector<float>* const numbers : {&nodes.x, &nodes.y, &nodes.radius}) numbers->resize(count + 1);
   const NodesAtKey from = chunk_.key(at.key), to = chunk_.key(at.key + 1);
-  blend(from.x, to.x, count, at.share, chunk_.step, nodes.last, nodes.x);
-  blend(from.y, to.y, count, at.share, chunk_.step, nodes.last, nodes.y);
-  blend(from.radius, to.radius, count, at.share, chunk_.step, nodes.last, nodes.radius);
+  blend(from.x, to.x, count, at.share, chunk_.step, nodes.x.data());
+  blend(from.y, to.y, count, at.share, chunk_.step, nodes.y.data());
+  blend(from.radius, to.radius, count, at.share, chunk_.step, nodes.radius.data());
   add_room(nodes.radius.data(), first_leaf, room_of_nodes * reach);
   add_room(nodes.radius.data() + first_leaf, count - first_leaf, room_of_leaves * reach);
+  nodes.x.back() = std::numeric_limits<float>::infinity(), nodes.y.back() = nodes.radius.back() = 0;
+  nodes.above_leaves.clear();
+  for (std::uint32_t i = 0; i < first_leaf; ++i)
+    nodes.above_leaves.push_back({nodes.x[i], nodes.y[i], nodes.radius[i], 0});
 }
 
 void ChunkLevel::place(const KeyPlace& at, double reach, PlacedChunk& nodes, Bvh8& level) const {
@@ -126,21 +128,34 @@ void ChunkLevel::place(const KeyPlace& at, double reach, PlacedChunk& nodes, Bvh
   take_leaves(nodes.x, first, level.count, std::numeric_limits<float>::infinity(), level.x);
   take_leaves(nodes.y, first, level.count, 0, level.y);
   take_leaves(nodes.radius, first, level.count, 0, level.radius);
+  place_inner(nodes, level);
+  place_blocks(nodes, level);
+}
+
+void ChunkLevel::place_inner(const PlacedChunk& nodes, Bvh8& level) const {
   level.inner.resize(level.count);
-  level.inner.back() = {};
-  for (std::size_t i = 0; i < inner_.size(); ++i) {
-    const auto [disc, link] = inner_[i];
-    level.inner[i] = {nodes.x[disc], nodes.y[disc], nodes.radius[disc], link};
+  const auto& [x, y, radius] = level.root;
+  level.inner.back() = level.is_single() ? InnerNode{x, y, radius, above_cut_disc} : InnerNode{};
+  const InnerNode* const above_leaves = nodes.above_leaves.data();
+  InnerNode* out = level.inner.data();
+  for (const auto& [disc, link] : inner_) {
+    *out = above_leaves[disc];
+    out++->link = link;
   }
+}
+
+void ChunkLevel::place_blocks(const PlacedChunk& nodes, Bvh8& level) const {
   level.blocks.resize(blocks_.size());
   for (std::size_t i = 0; i < blocks_.size(); ++i) {
     const Block& from = blocks_[i];
-    Bvh8::Block& block = level.blocks[i] = empty_block;
-    for (std::uint32_t k = 0; k < from.count; ++k) {
-      block.discs.x[k] = nodes.x[from.disc[k]], block.discs.y[k] = nodes.y[from.disc[k]];
-      block.outer[k] = block.discs.radius[k] = nodes.radius[from.disc[k]];
-      block.child[k] = from.child[k], block.node[k] = from.node[k];
+    Bvh8::Block& block = level.blocks[i];
+    for (std::uint32_t k = 0; k < block_width; ++k) {
+      const std::uint32_t disc = from.disc[k];
+      block.discs.x[k] = nodes.x[disc], block.discs.y[k] = nodes.y[disc];
+      block.outer[k] = block.discs.radius[k] = nodes.radius[disc];
     }
+    std::copy(from.child.begin(), from.child.end(), block.child);
+    std::copy(from.node.begin(), from.node.end(), block.node);
   }
 }
 

@@ -14,8 +14,8 @@ namespace bch::detail {
 
 /// The discs of a chunk's nodes at a time.
 struct PlacedChunk {
-  std::vector<float> x, y, radius;
-  std::vector<float> last;  ///< one of these numbers at the next key
+  std::vector<float> x, y, radius;      ///< and padding
+  std::vector<InnerNode> above_leaves;  ///< the first ones again, without links
 };
 
 /// The level of all depths of a chunk, of which time changes nothing but the discs. Its blocks are nodes of the chunk's tree, and each node
@@ -35,9 +35,8 @@ class ChunkLevel {
   struct Inner {
     std::uint32_t disc, link;
   };
-  /// The parts of a block: nodes of the chunk whose discs they have, and the other names of Bvh8::Block.
+  /// The parts of a block: nodes of the chunk whose discs they have, or the padding behind these, and the other names of Bvh8::Block.
   struct Block {
-    std::uint32_t count = 0;
     std::array<std::uint32_t, block_width> disc{}, child{}, node{};
   };
 
@@ -50,6 +49,8 @@ class ChunkLevel {
   void add_inner(const NodeRange& nodes, std::uint32_t of, std::uint32_t above);
   void add_blocks();
   void place_nodes(const KeyPlace& at, double reach, PlacedChunk& nodes) const;
+  void place_inner(const PlacedChunk& nodes, Bvh8& level) const;
+  void place_blocks(const PlacedChunk& nodes, Bvh8& level) const;
 
   const AnimatedTreeChunk& chunk_;
   std::uint32_t root_;
