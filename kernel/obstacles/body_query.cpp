@@ -4,6 +4,7 @@
 #include "kernel/obstacles/body_query.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "kernel/collide/containment.hpp"
 #include "kernel/obstacles/part_tree.hpp"
@@ -16,6 +17,12 @@ namespace bch::detail {
 namespace {
 
 using Vector = ObstaclePlace::Vector;
+
+/// Returns how far to look for what is nearest to a body: not at all farther than it is, if that is known well enough.
+double first_look(DistanceBounds nearest) noexcept {
+  constexpr double least_look = 0.5, step = 0.05;  // metres
+  return std::max(step, std::min(nearest.most, std::max(least_look, 2 * nearest.least)));
+}
 
 bool is_touched(std::span<const LocalSegment> segments, float x, float y, float radius) noexcept {
   return any_touches(segments.data(), segments.size(), double{x}, double{y}, double{radius});
@@ -84,6 +91,44 @@ bool leaf_is_held(const ShapeSetView& shapes, const PartTree<void>& own, std::ui
 }
 
 }  // namespace
+
+void BodyQuery::prepare(std::uint32_t begin, std::uint32_t end, double limit, Look look) {
+  choose_parts(begin, end, limit, look);
+  queries_.clear(), parts_.clear();
+  ObstaclePlace place{};
+  for (std::size_t i = 0; i < chosen_count_; ++i) {
+    const auto [agent, part, looked] = chosen_[i];
+    if (i == 0 || agent != chosen_[i - 1].agent)
+      place = {agents_.x[agent], agents_.y[agent], rotation(agents_.heading[agent])};
+    parts_.push_back({shapes_, place, agents_.shape[agent], part, level_of(agent), looked, i});
+    queries_.push_back({place, parts_.back().centre(), parts_.back().outer_radius() + looked});
+  }
+  near_.prepare(queries_);
+}
+
+/// The distance of an agent's position tells which parts can be left out: those that have no segment near them, and are too large for an area to hold
+/// them. There is no branch that depends on the answer, so that the next agents' numbers are on their way.
+void BodyQuery::choose_parts(std::uint32_t begin, std::uint32_t end, double limit, Look look) {
+  begin_ = begin;
+  first_part_.resize(end - begin + std::size_t{1});
+  chosen_.resize((end - begin) * std::size_t{shapes_.slab_count} + 1);
+  std::size_t count = 0;
+  for (std::uint32_t agent = begin; agent < end; ++agent) {
+    first_part_[agent - begin] = count;
+    const DistanceBounds nearest = near_.obstacles().distance_grid.bounds(agents_.x[agent], agents_.y[agent]);
+    const double looked = look == Look::touching ? 0 : std::min(limit, first_look(nearest));
+    const std::uint32_t level = level_of(agent);
+    bch::detail::visit_parts(shapes_, agents_.shape[agent], [&](std::uint32_t part, std::uint32_t) {
+      const std::uint32_t index = part * shapes_.level_count + level;
+      const Root& root = shapes_.roots[index];
+      const double to_centre = std::abs(double{root.x}) + std::abs(double{root.y});
+      const bool is_far = to_centre + outer_radius(shapes_, index) + limit < nearest.least;
+      chosen_[count] = {agent, part, looked};
+      count += !(is_far & is_too_large_for_areas(root));
+    });
+  }
+  first_part_.back() = chosen_count_ = count;
+}
 
 bool BodyQuery::touches(const PlacedPart& part, std::span<const LocalSegment> segments,
                         bool exact_leaves) const noexcept {

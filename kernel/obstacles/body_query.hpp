@@ -14,23 +14,29 @@
 
 namespace bch::detail {
 
+/// Returns the radius about a root's centre that holds all discs of the cut.
+inline double outer_radius(const ShapeSetView& shapes, std::uint32_t root) noexcept {
+  return double{shapes.trees == nullptr ? shapes.roots[root].radius : shapes.trees[root].outer};
+}
+
 /// A part of an agent's body.
 struct PlacedPart {
   const ShapeSetView& shapes;
   ObstaclePlace place;
   std::uint32_t shape, part, level;
+  double looked;       ///< metres from its outer disc, within which segments were looked for
   std::size_t number;  ///< among the parts that were prepared
 
   std::uint32_t root_index() const noexcept { return part * shapes.level_count + level; }
   const Root& root() const noexcept { return shapes.roots[root_index()]; }
   Vec2 centre() const noexcept { return {root().x, root().y}; }
-  /// Returns the radius about the centre that holds all discs of the cut.
-  double outer_radius() const noexcept {
-    return double{shapes.trees == nullptr ? root().radius : shapes.trees[root_index()].outer};
-  }
+  double outer_radius() const noexcept { return bch::detail::outer_radius(shapes, root_index()); }
 };
 
 constexpr std::uint32_t no_obstacle = 0xffffffff;
+
+/// Which segments are looked for at first: those that touch a part, or those that the nearest one is among.
+enum class Look { touching, nearest };
 
 /// The stages that answer an agent's queries against obstacles; it keeps its memory from agent to agent.
 class BodyQuery {
@@ -41,29 +47,14 @@ class BodyQuery {
 
   NearSegments& near() noexcept { return near_; }
 
-  /// Asks for the obstacles about many agents at once, begin .. end: those within a margin of their parts' outer discs, which
-  /// near_part() then returns.
-  void prepare(std::uint32_t begin, std::uint32_t end, double margin) {
-    queries_.clear(), parts_.clear(), first_part_.clear();
-    begin_ = begin;
-    for (std::uint32_t agent = begin; agent < end; ++agent) {
-      first_part_.push_back(parts_.size());
-      const ObstaclePlace place{agents_.x[agent], agents_.y[agent], rotation(agents_.heading[agent])};
-      const std::uint32_t shape = agents_.shape[agent], level = level_of(agent);
-      bch::detail::visit_parts(shapes_, shape, [&](std::uint32_t part, std::uint32_t) {
-        const PlacedPart placed{shapes_, place, shape, part, level, parts_.size()};
-        queries_.push_back({place, placed.centre(), placed.outer_radius() + margin});
-        parts_.push_back(placed);
-      });
-    }
-    first_part_.push_back(parts_.size());
-    near_.prepare(queries_);
-  }
+  /// Asks for the obstacles about many agents at once, begin .. end: those that touch their parts' outer discs, or to measure a distance those that are
+  /// as near as the nearest one. near_part() then returns them. Parts from which all obstacles are farther than a limit are left out.
+  void prepare(std::uint32_t begin, std::uint32_t end, double limit, Look look);
 
-  /// Returns the segments within the margin of prepare() of a part's outer disc.
+  /// Returns the segments that prepare() looked for about a part.
   std::span<LocalSegment> near_part(const PlacedPart& part) { return near_.take(part.number); }
 
-  /// Calls visit(part) for every part of the body of an agent that was prepared.
+  /// Calls visit(part) for every part of the body of an agent that was prepared and not left out.
   template <class Visit>
   void visit_parts(std::uint32_t agent, const Visit& visit) {
     const std::size_t end = first_part_[agent - begin_ + 1];
@@ -95,6 +86,7 @@ class BodyQuery {
   bool outline_holds(const PlacedPart& part, std::span<const LocalSegment> segments) const noexcept;
 
  private:
+  void choose_parts(std::uint32_t begin, std::uint32_t end, double limit, Look look);
   std::uint32_t level_of(std::uint32_t agent) const noexcept {
     return agents_.level.empty() ? shapes_.level_count - 1 : agents_.level[agent];
   }
@@ -105,10 +97,13 @@ class BodyQuery {
   bool area_holds(const PlacedPart& part, std::span<const LocalSegment> segments, std::uint32_t obstacle,
                   bool exact_leaves);
 
+  bool is_too_large_for_areas(const Root& root) const noexcept {
+    return 2 * double{root.radius} > near_.obstacles().widest_area;
+  }
   /// Calls found(obstacle) for the areas that hold a part and have no segment next to it, until it returns false.
   template <class Found>
   bool visit_areas_beyond(const PlacedPart& part, const Found& found) {
-    if (2 * double{part.root().radius} > near_.obstacles().widest_area) return false;
+    if (is_too_large_for_areas(part.root())) return false;
     for (const std::uint32_t slot : near_.areas_about(part.place, part.centre())) {
       const std::uint32_t area = near_.obstacles().areas[slot];
       if (!has_segment_of(area) && near_.holds(slot, part.place, part.centre()) && !found(area)) return true;
@@ -121,6 +116,13 @@ class BodyQuery {
   const ShapeSetView& shapes_;
   const Agents& agents_;
   NearSegments near_;
+  /// A part that was not left out, and how far it looks.
+  struct Chosen {
+    std::uint32_t agent, part;
+    double looked;
+  };
+  std::vector<Chosen> chosen_;
+  std::size_t chosen_count_ = 0;
   std::vector<NearQuery> queries_;  ///< by part
   std::vector<PlacedPart> parts_;
   std::vector<std::size_t> first_part_;  ///< by agent, and one past the last

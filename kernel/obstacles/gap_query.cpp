@@ -103,7 +103,7 @@ void GapQuery::find_in(BodyQuery& body, const PlacedPart& part, double enough,
   const std::uint32_t first = nearest.is_found ? 0 : no_disc;
   ObstacleGap best{nearest.gap, first, first, first, nullptr};
   std::span<const LocalSegment> segments = body.near_part(part);
-  for (double seen = margin(nearest.gap);;) {
+  for (double seen = part.looked;;) {
     search(part, segments, enough, best, nearest);
     if (nearest.gap <= seen || (nearest.is_found && nearest.gap <= enough)) return;
     seen = nearest.is_found ? nearest.gap : std::min(2 * seen, nearest.gap);

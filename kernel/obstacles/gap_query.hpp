@@ -33,9 +33,6 @@ void put(const ShapeSetView& shapes, const ClearanceAnswers& answers, std::size_
 /// The distances of agents from obstacles: what clearance() and within() share.
 class GapQuery {
  public:
-  /// The margin to prepare agents with.
-  static double margin(double limit) noexcept { return std::min(limit, first_step); }
-
   /// `exact_leaves`: outlines are measured where shapes have exact leaves, else discs.
   GapQuery(const Implementation& implementation, const ShapeSetView& shapes, bool exact_leaves) noexcept
       : implementation_(implementation), shapes_(shapes), exact_leaves_(exact_leaves) {}
@@ -51,7 +48,6 @@ class GapQuery {
                        Inside inside) const;
 
  private:
-  static constexpr double first_step = 0.5;  ///< metres
   /// No gap is larger.
   static constexpr double farthest = 8 * rounding::largest_position;
 

@@ -24,7 +24,7 @@ Rows<std::uint32_t> ObstacleRows::find(const ShapeSet& shapes, const Agents& age
       std::vector<std::uint32_t>& found = blocks_[block];
       found.clear();
       const std::size_t end = std::min((block + 1) * agents_per_task, agents.size());
-      for_prepared(body, block * agents_per_task, end, 0, [&](std::uint32_t agent) {
+      for_prepared(body, block * agents_per_task, end, 0, Look::touching, [&](std::uint32_t agent) {
         const auto begin = static_cast<std::ptrdiff_t>(found.size());
         body.visit_parts(agent, [&](const PlacedPart& part) {
           body.visit_hits(part, meaning,

@@ -11,6 +11,7 @@
 #include <bch/obstacles.hpp>
 
 #include "kernel/obstacles/box_tree_memory.hpp"
+#include "kernel/obstacles/distance_grid_memory.hpp"
 #include "kernel/obstacles/segment.hpp"
 #include "kernel/runtime/floating_point_state.hpp"
 #include "layout/base/rounding.hpp"
@@ -112,11 +113,13 @@ struct ObstacleSet::State {
   std::vector<std::uint32_t> areas;  ///< in the order of the tree of areas, after it is made
   std::vector<Box> area_boxes;
   BoxTreeMemory segment_tree, area_tree;
-  std::vector<WorldSegment> ends;
+  std::vector<WorldSegment> ends;  ///< by slot
+  DistanceGridMemory distance_grid;
   ObstacleView view;
 
  private:
   static std::vector<Box> boxes_of(const Segments& segments);
+  static std::vector<WorldSegment> in_order(const Segments& segments, const BoxTreeMemory& tree);
   /// Finds the areas that have segments, and returns their boxes.
   std::vector<Box> find_areas(const Segments& segments);
 };
@@ -126,6 +129,13 @@ std::vector<Box> ObstacleSet::State::boxes_of(const Segments& segments) {
   boxes.reserve(segments.ends.size());
   for (const WorldSegment& segment : segments.ends) boxes.push_back(box_of(segment));
   return boxes;
+}
+
+std::vector<WorldSegment> ObstacleSet::State::in_order(const Segments& segments, const BoxTreeMemory& tree) {
+  std::vector<WorldSegment> ends;
+  ends.reserve(tree.order.size());
+  for (const std::uint32_t number : tree.order) ends.push_back(segments.ends[number]);
+  return ends;
 }
 
 std::vector<Box> ObstacleSet::State::find_areas(const Segments& segments) {
@@ -142,9 +152,12 @@ std::vector<Box> ObstacleSet::State::find_areas(const Segments& segments) {
 }
 
 ObstacleSet::State::State(Segments&& segments, std::vector<std::uint8_t>&& is_area_of)
-    : is_area(std::move(is_area_of)), segment_tree(boxes_of(segments)), area_tree(find_areas(segments)) {
+    : is_area(std::move(is_area_of)),
+      segment_tree(boxes_of(segments)),
+      area_tree(find_areas(segments)),
+      ends(in_order(segments, segment_tree)),
+      distance_grid(segment_tree.view, ends) {
   for (const WorldSegment& segment : segments.ends) obstacle_of.push_back(segment.obstacle);
-  for (const std::uint32_t number : segment_tree.order) ends.push_back(segments.ends[number]);
   std::vector<std::uint32_t> sorted_areas;
   std::vector<Box> sorted_boxes;
   for (const std::uint32_t i : area_tree.order)
@@ -157,6 +170,7 @@ ObstacleSet::State::State(Segments&& segments, std::vector<std::uint8_t>&& is_ar
     widest = std::max(widest, std::min(box.high_x - box.low_x, box.high_y - box.low_y));
   view = {.segment_tree = segment_tree.view,
           .area_tree = area_tree.view,
+          .distance_grid = distance_grid.view,
           .segments = ends.data(),
           .is_area = is_area.data(),
           .begins_path = begins_path.data(),

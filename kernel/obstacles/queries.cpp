@@ -29,13 +29,14 @@ void collide(const ShapeSet& shapes, const Agents& agents, const ObstacleSet& ob
   const BodyQuery::Meaning meaning = meaning_of(shapes, options);
   const Implementation& implementation = chosen(options, "collide");
   validate(shapes, agents);
-  for_agents(implementation, shapes, agents, obstacles, 0, [&](BodyQuery& body, std::uint32_t agent) {
-    bool hit = false;
-    body.visit_parts(agent, [&](const PlacedPart& part) {
-      if (!hit) body.visit_hits(part, meaning, [&](std::uint32_t) { return hit = true, false; });
-    });
-    hits[agent] = hit;
-  });
+  for_agents(implementation, shapes, agents, obstacles, 0, Look::touching,
+             [&](BodyQuery& body, std::uint32_t agent) {
+               bool hit = false;
+               body.visit_parts(agent, [&](const PlacedPart& part) {
+                 if (!hit) body.visit_hits(part, meaning, [&](std::uint32_t) { return hit = true, false; });
+               });
+               hits[agent] = hit;
+             });
 }
 
 void within(const ShapeSet& shapes, const Agents& agents, const ObstacleSet& obstacles,
@@ -50,7 +51,7 @@ void within(const ShapeSet& shapes, const Agents& agents, const ObstacleSet& obs
   validate(shapes, agents);
   const GapQuery query(implementation, shapes.view(), exact);
   const double most = distances.empty() ? 0 : *std::max_element(distances.begin(), distances.end());
-  for_agents(implementation, shapes, agents, obstacles, GapQuery::margin(most),
+  for_agents(implementation, shapes, agents, obstacles, most, Look::nearest,
              [&](BodyQuery& body, std::uint32_t agent) {
                const double distance = distances[distances.size() == 1 ? 0 : agent];
                const NearestObstacle nearest = query.find(body, agent, distance, distance, {true, solid});
@@ -70,7 +71,7 @@ void clearance(const ShapeSet& shapes, const Agents& agents, const ObstacleSet& 
   // How deep discs overlap is asked of discs.
   const GapQuery query(implementation, shapes.view(), exact && zero);
   for_agents(
-      implementation, shapes, agents, obstacles, GapQuery::margin(options.max_distance),
+      implementation, shapes, agents, obstacles, options.max_distance, Look::nearest,
       [&](BodyQuery& body, std::uint32_t agent) {
         const NearestObstacle nearest = query.find(body, agent, options.max_distance, enough, {zero, false});
         if (nearest.is_near_enough) return put_alone(answers, agent, 0);

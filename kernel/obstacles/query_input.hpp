@@ -23,13 +23,14 @@ BodyQuery::Meaning meaning_of(const ShapeSet& shapes, const QueryOptions& option
 /// Agents that are prepared together: enough to hide the latency of the tree of boxes, few enough for a near cache.
 constexpr std::size_t agents_together = 64;
 
-/// Calls answer(agent) for agents begin .. end, for which a body's query is prepared with a margin, metres.
+/// Calls answer(agent) for agents begin .. end, for which a body's query is prepared; those without parts have no obstacle within a limit, metres.
 template <class Answer>
-void for_prepared(BodyQuery& body, std::size_t begin, std::size_t end, double margin, Answer answer) {
+void for_prepared(BodyQuery& body, std::size_t begin, std::size_t end, double limit, Look look,
+                  Answer answer) {
   for (std::size_t first = begin; first < end; first += agents_together) {
     const auto from = static_cast<std::uint32_t>(first),
                to = static_cast<std::uint32_t>(std::min(first + agents_together, end));
-    body.prepare(from, to, margin);
+    body.prepare(from, to, limit, look);
     for (std::uint32_t agent = from; agent < to; ++agent) answer(agent);
   }
 }
@@ -37,10 +38,10 @@ void for_prepared(BodyQuery& body, std::size_t begin, std::size_t end, double ma
 /// Calls answer(body, agent) for all agents, in tasks.
 template <class Answer>
 void for_agents(const Implementation& implementation, const ShapeSet& shapes, const Agents& agents,
-                const ObstacleSet& obstacles, double margin, Answer answer) {
+                const ObstacleSet& obstacles, double limit, Look look, Answer answer) {
   for_ranges(agents.size(), agents_per_task, [&](std::size_t begin, std::size_t end) {
     BodyQuery body(implementation, shapes.view(), agents, obstacles.view());
-    for_prepared(body, begin, end, margin, [&](std::uint32_t agent) { answer(body, agent); });
+    for_prepared(body, begin, end, limit, look, [&](std::uint32_t agent) { answer(body, agent); });
   });
 }
 

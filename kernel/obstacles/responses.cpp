@@ -268,15 +268,16 @@ void penetration(const ShapeSet& shapes, const Agents& agents, const ObstacleSet
   require_as_many({"penetration", "agent", agents.size()}, out.size(), "answers");
   const Implementation& implementation = chosen(options, "penetration");
   validate(shapes, agents);
-  for_agents(implementation, shapes, agents, obstacles, 0, [&](BodyQuery& body, std::uint32_t agent) {
-    WayOut farthest;
-    body.visit_parts(agent, [&](const PlacedPart& part) {
-      const WayOut way = WaysOut(body, part).farthest();
-      if (way.depth > farthest.depth) farthest = way;
-    });
-    const auto [depth, direction] = farthest;
-    out[agent] = {depth > 0 ? rounding::round_up(depth) : 0.0f, direction.x, direction.y};
-  });
+  for_agents(implementation, shapes, agents, obstacles, 0, Look::touching,
+             [&](BodyQuery& body, std::uint32_t agent) {
+               WayOut farthest;
+               body.visit_parts(agent, [&](const PlacedPart& part) {
+                 const WayOut way = WaysOut(body, part).farthest();
+                 if (way.depth > farthest.depth) farthest = way;
+               });
+               const auto [depth, direction] = farthest;
+               out[agent] = {depth > 0 ? rounding::round_up(depth) : 0.0f, direction.x, direction.y};
+             });
 }
 
 void time_of_impact(const ShapeSet& shapes, const Agents& agents, const Displacements& displacements,
@@ -285,13 +286,17 @@ void time_of_impact(const ShapeSet& shapes, const Agents& agents, const Displace
   require_valid({"time_of_impact", "agent", agents.size()}, displacements, times.size());
   const Implementation& implementation = chosen(options, "time_of_impact");
   validate(shapes, agents);
-  for_agents(implementation, shapes, agents, obstacles, 0, [&](BodyQuery& body, std::uint32_t agent) {
-    double best = infinity;
-    body.visit_parts(agent, [&](const PlacedPart& part) {
-      best = std::min(best, impact(body, part, {displacements.x[agent], displacements.y[agent]}));
-    });
-    times[agent] = rounding::round_down(best);
-  });
+  double farthest = 0;
+  for (std::size_t i = 0; i < agents.size(); ++i)
+    farthest = std::max(farthest, std::abs(displacements.x[i]) + std::abs(displacements.y[i]));
+  for_agents(implementation, shapes, agents, obstacles, farthest, Look::touching,
+             [&](BodyQuery& body, std::uint32_t agent) {
+               double best = infinity;
+               body.visit_parts(agent, [&](const PlacedPart& part) {
+                 best = std::min(best, impact(body, part, {displacements.x[agent], displacements.y[agent]}));
+               });
+               times[agent] = rounding::round_down(best);
+             });
 }
 
 }  // namespace bch

@@ -7,6 +7,7 @@
 #include <cstdint>
 
 #include "kernel/obstacles/box_tree.hpp"
+#include "kernel/obstacles/distance_grid.hpp"
 
 namespace bch::detail {
 
@@ -68,6 +69,7 @@ struct WorldSegment {
 /// All of an ObstacleSet. A slot is a segment's place in the tree, a number that in the caller's arrays.
 struct ObstacleView {
   BoxTreeView segment_tree, area_tree;  ///< of the boxes of segments and of areas
+  DistanceGridView distance_grid;       ///< of the segments
   const WorldSegment* segments;         ///< by slot
   const std::uint8_t* is_area;          ///< by obstacle
   const std::uint8_t* begins_path;      ///< by number

@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include "kernel/obstacles/distance_grid.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include "kernel/obstacles/distance_grid_memory.hpp"
+#include "kernel/runtime/task_ranges.hpp"
+
+namespace bch::detail {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double huge = 1e30;  // metres
+constexpr double cells_per_segment = 4, least_cells = 256;
+/// Cells are measured by squares of so many a side, because their nearest segments are few and soon found together.
+constexpr std::size_t cells_together = 4;
+
+double square_of(const WorldSegment& segment, double x, double y) noexcept {
+  const double dx = x - segment.ax, dy = y - segment.ay;
+  const double along = dx * segment.x + dy * segment.y, across = dx * segment.y - dy * segment.x;
+  const double beyond = std::max(std::max(-along, along - segment.length), 0.0);
+  return across * across + beyond * beyond;
+}
+
+/// Finds the segments one of which is the nearest one of any point in a disc, by the tree of their boxes.
+class NearestSegments {
+ public:
+  NearestSegments(const BoxTreeView& tree, const std::vector<WorldSegment>& segments) noexcept
+      : tree_(tree), segments_(segments) {}
+
+  /// Looks about a disc. Returns: whether it was done; segments that cross each other all over take too long.
+  bool look(double x, double y, double radius) {
+    x_ = x, y_ = y, twice_radius_ = 2 * radius, blocks_ = 0;
+    found_.clear();
+    nearest_ = first_bound();
+    look_into(tree_.levels - 1, 0);
+    if (is_too_much()) return false;
+    const auto last = std::remove_if(found_.begin(), found_.end(), [this](std::uint32_t slot) {
+      return !is_near(square_of(segments_[slot], x_, y_));
+    });
+    found_.erase(last, found_.end());
+    return true;
+  }
+
+  double distance(double x, double y) const noexcept {
+    double least = infinity;
+    for (const std::uint32_t slot : found_) least = std::min(least, square_of(segments_[slot], x, y));
+    return std::sqrt(least);
+  }
+
+ private:
+  bool is_too_much() const noexcept { return blocks_ > 100 || found_.size() > 200; }
+
+  /// The nearest one of a point in the disc is at most twice the radius farther from the centre than the nearest one there.
+  bool is_near(double square) const noexcept {
+    const double most = nearest_ + twice_radius_;
+    return square <= most * most;
+  }
+
+  /// The squares of the distances of a block's boxes from the centre.
+  struct Squares {
+    double of[8];
+  };
+  Squares squares(std::uint32_t level, std::uint32_t block) const noexcept {
+    const BoxBlock& boxes = tree_.blocks[tree_.level_begin[level] + block];
+    Squares square;
+    for (unsigned i = 0; i < 8; ++i) {
+      const double dx = std::max(std::max(boxes.low_x[i] - x_, x_ - boxes.high_x[i]), 0.0),
+                   dy = std::max(std::max(boxes.low_y[i] - y_, y_ - boxes.high_y[i]), 0.0);
+      square.of[i] = dx * dx + dy * dy;
+    }
+    return square;
+  }
+
+  /// Returns the distance of one that is probably near: down the tree, the nearest box of each block.
+  double first_bound() const noexcept {
+    std::uint32_t place = 0;
+    for (std::uint32_t level = tree_.levels; level-- > 0;) {
+      const Squares square = squares(level, place);
+      place = 8 * place + static_cast<std::uint32_t>(std::min_element(square.of, square.of + 8) - square.of);
+    }
+    return std::sqrt(square_of(segments_[place], x_, y_));
+  }
+
+  void look_into(std::uint32_t level, std::uint32_t block) {
+    ++blocks_;
+    const Squares square = squares(level, block);
+    for (unsigned i = 0; i < 8 && !is_too_much(); ++i) {
+      if (!is_near(square.of[i])) continue;
+      if (level > 0)
+        look_into(level - 1, 8 * block + i);
+      else
+        take(8 * block + i);
+    }
+  }
+
+  void take(std::uint32_t slot) {
+    const double square = square_of(segments_[slot], x_, y_);
+    if (!is_near(square)) return;
+    found_.push_back(slot);
+    nearest_ = std::min(nearest_, std::sqrt(square));
+  }
+
+  const BoxTreeView& tree_;
+  const std::vector<WorldSegment>& segments_;
+  double x_ = 0, y_ = 0, twice_radius_ = 0, nearest_ = 0;
+  std::uint32_t blocks_ = 0;
+  std::vector<std::uint32_t> found_;
+};
+
+Box box_of_all(const BoxTreeView& tree) {
+  const BoxBlock& top = tree.blocks[tree.level_begin[tree.levels - 1]];
+  return {*std::min_element(top.low_x, top.low_x + 8), *std::min_element(top.low_y, top.low_y + 8),
+          *std::max_element(top.high_x, top.high_x + 8), *std::max_element(top.high_y, top.high_y + 8)};
+}
+
+/// Measures squares of cells from left to right.
+void measure_rows(const DistanceGridView& view, std::uint8_t* steps, std::size_t row, std::size_t rows,
+                  NearestSegments& near) {
+  constexpr double middle = (cells_together - 1) / 2.0, most = DistanceGridView::far;
+  const double radius = middle * std::sqrt(2.0) * view.side * (1 + 0x1p-20) + view.rounding;
+  const auto x = [&](double column) { return view.x + column * view.side; };
+  const auto y = [&](double at) { return view.y + at * view.side; };
+  for (std::size_t column = 0; column < view.columns; column += cells_together) {
+    const bool is_done =
+        near.look(x(static_cast<double>(column) + middle), y(static_cast<double>(row) + middle), radius);
+    for (std::size_t r = row; r < std::min(row + cells_together, rows); ++r)
+      for (std::size_t c = column; c < std::min(column + cells_together, view.columns); ++c) {
+        const double distance =
+            is_done ? near.distance(x(static_cast<double>(c)), y(static_cast<double>(r))) : 0;
+        steps[r * view.columns + c] = static_cast<std::uint8_t>(std::min(distance / view.step, most));
+      }
+  }
+}
+
+}  // namespace
+
+DistanceGridMemory::DistanceGridMemory(const BoxTreeView& tree, const std::vector<WorldSegment>& segments) {
+  if (segments.empty()) {
+    steps.assign(1, DistanceGridView::far);
+    view = {0, 0, huge, 1 / huge, huge, 0, 0, 1, steps.data(), 0};
+    return;
+  }
+  const Box all = box_of_all(tree);
+  const double width = all.high_x - all.low_x, height = all.high_y - all.low_y;
+  const double cells = cells_per_segment * static_cast<double>(segments.size()) + least_cells;
+  view.side = std::max({std::sqrt(width * height / cells), std::max(width, height) / cells, 1e-6});
+  view.per_metre = 1 / view.side, view.step = view.side / DistanceGridView::steps_a_side;
+  view.x = all.low_x + view.side / 2, view.y = all.low_y + view.side / 2;
+  view.last_column = std::floor(width * view.per_metre), view.last_row = std::floor(height * view.per_metre);
+  view.columns = static_cast<std::size_t>(view.last_column) + 1;
+  view.rounding = 0x1p-46 * (std::abs(all.low_x) + std::abs(all.low_y) + width + height);
+  const std::size_t rows = static_cast<std::size_t>(view.last_row) + 1;
+  steps.resize(view.columns * rows);
+  constexpr std::size_t grain = 16;
+  for_ranges((rows + cells_together - 1) / cells_together, grain, [&](std::size_t begin, std::size_t end) {
+    NearestSegments near(tree, segments);
+    for (std::size_t i = begin; i < end; ++i)
+      measure_rows(view, steps.data(), i * cells_together, rows, near);
+  });
+  view.steps = steps.data();
+}
+
+}  // namespace bch::detail

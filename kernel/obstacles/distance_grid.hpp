@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+
+namespace bch::detail {
+
+/// How far a point is from the nearest segment at least, and at most, metres.
+struct DistanceBounds {
+  double least, most;
+};
+
+/// The distances of the centres of square cells from the nearest segment, in steps of a cell's side. A point that is `way` from a centre is at
+/// most so much nearer to a segment or farther from it, in a cell or outside of all, so one number tells which agents have nothing near them, and how
+/// far others have to look. A byte each, so that they stay in near caches.
+struct DistanceGridView {
+  static constexpr double steps_a_side = 16;
+  static constexpr std::uint8_t far = 255;  ///< as many steps or more
+
+  double x, y;             ///< metres: the centre of the first cell
+  double side, per_metre;  ///< of a cell, and 1 / side
+  double step;             ///< metres
+  double last_column, last_row;
+  std::size_t columns;
+  const std::uint8_t* steps;  ///< by row and column, rounded down; 0 where too many boxes overlap to tell
+  double rounding;  ///< metres: more than the largest coordinates lose in a bound, and segments have slack
+
+  /// Precondition: both are finite.
+  [[gnu::always_inline]] DistanceBounds bounds(double at_x, double at_y) const noexcept {
+    const double column = nearest_of((at_x - x) * per_metre, last_column),
+                 row = nearest_of((at_y - y) * per_metre, last_row);
+    const double dx = at_x - (x + column * side), dy = at_y - (y + row * side);
+    const double way = std::sqrt(dx * dx + dy * dy);
+    const std::size_t cell = static_cast<std::size_t>(row) * columns + static_cast<std::size_t>(column);
+    const double from_centre = step * steps[cell];
+    const double off = rounding + 0x1p-20 * (from_centre + way) + 0x1p-47 * (std::abs(at_x) + std::abs(at_y));
+    const double most = steps[cell] == far ? __builtin_inf() : from_centre + step;
+    return {from_centre - way - off, most + way + off};
+  }
+
+ private:
+  /// The nearest whole number from 0 to `last`.
+  [[gnu::always_inline]] static double nearest_of(double v, double last) noexcept {
+    v = v < 0 ? 0 : v;
+    v = v > last ? last : v;
+    return static_cast<double>(static_cast<std::int64_t>(v + 0.5));
+  }
+};
+
+}  // namespace bch::detail
