@@ -260,14 +260,20 @@ TEST_F(Moments, LoopsAreTheSameInEachRound) {
   EXPECT_EQ(x_of(shape[3]), 0.0f);
 }
 
-TEST_F(Moments, AreTheSameForAnyNumberOfThreads) {
+class MomentsOfPlans : public Moments, public testing::WithParamInterface<ShapeSetPlan> {};
+
+INSTANTIATE_TEST_SUITE_P(Plans, MomentsOfPlans,
+                         testing::Values(ShapeSetPlan{}, ShapeSetPlan{.outlines = false, .culling = false}),
+                         [](const auto& plan) { return plan.param.culling ? "Whole" : "LeavesAlone"; });
+
+TEST_P(MomentsOfPlans, AreTheSameForAnyNumberOfThreads) {
   Random random(3123);
   Players players(random, 400, static_cast<std::uint32_t>(bodies.size()));
   std::vector<std::vector<std::uint32_t>> shape;
   std::vector<std::vector<std::uint8_t>> hits;
   for (const int threads : {1, 2, 5}) {
     tbb::task_arena(threads).execute([&] {
-      MomentSet moments(bodies);
+      MomentSet moments(bodies, GetParam());
       moments.show(players.body, players.seconds, players.shape);
       const std::vector<Pair> pairs = candidate_pairs(moments.set(), players.agents());
       hits.emplace_back(pairs.size());
@@ -279,9 +285,9 @@ TEST_F(Moments, AreTheSameForAnyNumberOfThreads) {
   }
 }
 
-TEST_F(Moments, KeepTheirMemory) {
+TEST_P(MomentsOfPlans, KeepTheirMemory) {
   Random random(3124);
-  MomentSet moments(bodies, {}, 1);
+  MomentSet moments(bodies, GetParam(), 1);
   tbb::task_arena(1).execute([&] {
     Players players(random, 100, static_cast<std::uint32_t>(bodies.size()));
     const auto show = [&] {
@@ -296,16 +302,16 @@ TEST_F(Moments, KeepTheirMemory) {
 }
 
 /// Where memory runs out, the next call makes what is missing.
-TEST_F(Moments, OutliveAFailedAllocation) {
+TEST_P(MomentsOfPlans, OutliveAFailedAllocation) {
   Random random(3125);
   Players players(random, 60, static_cast<std::uint32_t>(bodies.size()));
-  MomentSet expected(bodies);
+  MomentSet expected(bodies, GetParam());
   expected.show(players.body, players.seconds, players.shape);
   const std::vector<Pair> pairs = candidate_pairs(expected.set(), players.agents());
   const std::vector<float> distance = distances(expected.set(), players.agents(), pairs);
   std::size_t failed = 1;
   for (std::size_t after = 0; failed > 0; after += 7) {
-    MomentSet moments(bodies, {}, 1);
+    MomentSet moments(bodies, GetParam(), 1);
     test::fail_allocations(test::Failing::one, after);
     try {
       moments.show(players.body, players.seconds, players.shape);
