@@ -191,7 +191,7 @@ std::function<void()> add_inspect_command(CLI::App& program) {
       ->check(number_between(0, 1e9));
   command.add_flag(
       "--animated", options->animated,
-      "Show the clip as discs that move, at --time and from key to key, slab by slab; of a baked file, too");
+      "Show the clip as moving discs, at --time and from key to key, slab by slab; of a baked file, too");
   options->shapes.add_to(command);
   add_threads_option(command, options->threads);
   command.add_flag(

@@ -34,18 +34,18 @@ using bench::AnimatedClip;
 constexpr double never = std::numeric_limits<double>::infinity();
 constexpr double rates[] = {10, 30, 120};
 constexpr double sample_rates[] = {30, 120, 1000};
-constexpr std::uint32_t most_poses = 40, pairs_beside_outlines = 10'000;
+constexpr std::uint32_t most_poses = 40;
 constexpr double millimetres = 1000;
 
 /// How long the parts of clips are, seconds: all clips of the scene, those of characters from elsewhere, and a walk.
 double clip_seconds(const Run& run) {
-  return 0.015 * run.sizes().poses;
+  return std::max(bench::least_clip_seconds, 0.015 * run.sizes().poses);
 }
 double real_clip_seconds(const Run& run) {
-  return std::max(0.125, clip_seconds(run) / 4);
+  return std::max(bench::least_clip_seconds, clip_seconds(run) / 4);
 }
 double walk_seconds(const Run& run) {
-  return 0.12 * run.sizes().poses;
+  return std::max(bench::least_clip_seconds, 0.12 * run.sizes().poses);
 }
 
 /// How far discs stand out of the outline at a time, and the outline out of them, metres.
@@ -191,7 +191,7 @@ void add_slides(Run& run, std::span<const AnimatedClip> clips) {
 /// Compares with the outlines of poses at every millisecond.
 void add_lateness(const Run& run, std::span<const AnimatedClip> clips, const std::string& characters,
                   Table& table) {
-  const bench::MotionScene scene(clips, pairs_beside_outlines, run.seed());
+  const bench::MotionScene scene(clips, std::min(10'000u, 500 * run.sizes().poses), run.seed());
   const bench::OutlineContacts outlines = bench::outline_contacts(scene);
   table.add({characters, clips.size(), scene.pairs().size(), scene.pairs(true).size(), outlines.compared,
              outlines.meeting, 1000 * outlines.ahead, outlines.late, 1000 * outlines.latest});

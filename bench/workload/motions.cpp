@@ -80,8 +80,8 @@ void for_each_millisecond(const Motion& a, const Motion& b, double until, Look l
 AnimatedClip animated_clip(const Character& character, std::uint32_t clip, double most_seconds) {
   Character shorter = character;
   float& seconds = shorter.clips[clip].seconds;
-  // Whole milliseconds that floats hold, so that those of a clip that goes round are those of its first round.
-  seconds = std::floor(8 * std::min(seconds, static_cast<float>(most_seconds))) / 8;
+  constexpr auto least = static_cast<float>(least_clip_seconds);
+  seconds = least * std::floor(std::min(seconds, static_cast<float>(most_seconds)) / least);
   AnimatedDiscs discs = animate(shorter, clip);
   discs.loops = true;
   return {&character, clip, double{seconds}, AnimatedShape(discs)};

@@ -15,7 +15,10 @@
 
 namespace bch::bench {
 
-/// A clip, or the first part of it, an eighth of a second or some, played over and over, as one body over all its times.
+/// Parts of clips are multiples of this: whole milliseconds that floats hold, so that those of a part that goes round are those of its first round.
+constexpr double least_clip_seconds = 0.125;
+
+/// A clip, or the first part of it, played over and over, as one body over all its times.
 struct AnimatedClip {
   const Character* character;
   std::uint32_t clip;
@@ -24,7 +27,7 @@ struct AnimatedClip {
 };
 
 /// Makes the bodies of the clips of a name, or of all where no character has one, on all threads. Clips of which animate() makes none, and
-/// those of less than an eighth of a second, are left out. The characters must outlive them.
+/// shorter ones than least_clip_seconds, are left out. The characters must outlive them.
 /// Errors:  throws std::runtime_error where none is left.
 std::vector<AnimatedClip> animated_clips(std::span<const cli::LoadedCharacter> characters,
                                          std::string_view name, double most_seconds);
