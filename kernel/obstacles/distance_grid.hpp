@@ -47,7 +47,8 @@ struct DistanceGridView {
   [[gnu::always_inline]] static double nearest_of(double v, double last) noexcept {
     v = v < 0 ? 0 : v;
     v = v > last ? last : v;
-    return static_cast<double>(static_cast<std::int64_t>(v + 0.5));
+    const double half_more = v + 0.5;
+    return static_cast<double>(static_cast<std::int64_t>(half_more));
   }
 };
 

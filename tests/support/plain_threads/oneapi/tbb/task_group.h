@@ -5,7 +5,7 @@
 
 namespace tbb {
 
-struct task_group_context {
+struct task_group_context {  // NOLINT(readability-identifier-naming): TBB's name
   enum Kind { isolated };
   explicit task_group_context(Kind) {}
 };
