@@ -78,6 +78,9 @@ TEST(DistanceGrid, BoundsHoldOnALine) {
     scene.add_path({{x, 2}, {x + 0.3, 2}}, false), scene.end_obstacle(false);
   }
   mean_width(scene, random, 0, 2, 60);
+  const ObstacleSet set = scene.set();
+  for (const auto& obstacle : scene.reference)
+    EXPECT_LT(set.view().distance_grid.bounds(obstacle.segments[0][0], 2).most, 0.5);
 }
 
 TEST(DistanceGrid, OfAPost) {

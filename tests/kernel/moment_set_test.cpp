@@ -66,6 +66,25 @@ struct Players {
   Agents agents() const { return {shape, x, y, heading}; }
 };
 
+/// A set that has the shape of each agent at its time, and agents who show these.
+struct OwnShapes {
+  OwnShapes(std::span<const AnimatedShape> bodies, const Players& players, const ShapeSetPlan& plan)
+      : set(shapes_of(bodies, players), plan), own(players.body.size()) {
+    std::iota(own.begin(), own.end(), 0u);
+    agents = {own, players.x, players.y, players.heading};
+  }
+  static std::vector<Shape> shapes_of(std::span<const AnimatedShape> bodies, const Players& players) {
+    std::vector<Shape> each;
+    for (std::size_t i = 0; i < players.body.size(); ++i)
+      each.push_back(bodies[players.body[i]].shape(players.seconds[i]));
+    return each;
+  }
+
+  ShapeSet set;
+  std::vector<std::uint32_t> own;
+  Agents agents;
+};
+
 std::vector<float> distances(const ShapeSet& set, const Agents& agents, std::span<const Pair> pairs) {
   std::vector<float> found(pairs.size());
   clearance(set, agents, pairs, {found, {}, {}, {}});
@@ -86,15 +105,11 @@ TEST_F(Moments, OfSlabsAnswerAsTheShapesOfTheirTimes) {
   for (const std::uint32_t count : {20u, 60u, 60u}) {
     Players players(random, count, static_cast<std::uint32_t>(bodies.size()));
     moments.show(players.body, players.seconds, players.shape);
-    std::vector<Shape> each;
-    for (std::size_t i = 0; i < count; ++i) each.push_back(shapes[players.body[i]].shape(players.seconds[i]));
-    const ShapeSet set(each, plan);
-    std::vector<std::uint32_t> own(count);
-    for (std::uint32_t i = 0; i < count; ++i) own[i] = i;
+    const OwnShapes expect(shapes, players, plan);
     const std::vector<Pair> pairs = candidate_pairs(moments.set(), players.agents());
     std::vector<std::uint8_t> found(pairs.size()), expected(pairs.size());
     collide(moments.set(), players.agents(), pairs, found);
-    collide(set, {own, players.x, players.y, players.heading}, pairs, expected);
+    collide(expect.set, expect.agents, pairs, expected);
     EXPECT_EQ(found, expected);
     hits += static_cast<std::size_t>(std::count(found.begin(), found.end(), 1));
   }
@@ -111,23 +126,18 @@ TEST_F(Moments, AnswerAsTheShapesOfTheirTimes) {
     for (const std::uint32_t count : {40u, 7u, 90u, 300u, 120u, 300u}) {
       Players players(random, count, static_cast<std::uint32_t>(bodies.size()));
       moments.show(players.body, players.seconds, players.shape);
-      std::vector<Shape> each;
-      for (std::size_t i = 0; i < count; ++i)
-        each.push_back(shapes[players.body[i]].shape(players.seconds[i]));
-      const ShapeSet set(each, plan);
-      std::vector<std::uint32_t> own(count);
-      for (std::uint32_t i = 0; i < count; ++i) own[i] = i;
-      const Agents expected_agents{own, players.x, players.y, players.heading};
+      const OwnShapes expect(shapes, players, plan);
       const std::vector<Pair> pairs = candidate_pairs(moments.set(), players.agents());
-      EXPECT_EQ(pairs, candidate_pairs(set, expected_agents));
+      EXPECT_EQ(pairs, candidate_pairs(expect.set, expect.agents));
       for (const Semantics semantics : {Semantics::boundary, Semantics::solid}) {
         std::vector<std::uint8_t> found(pairs.size()), expected(pairs.size());
         collide(moments.set(), players.agents(), pairs, found, {.semantics = semantics});
-        collide(set, expected_agents, pairs, expected, {.semantics = semantics});
+        collide(expect.set, expect.agents, pairs, expected, {.semantics = semantics});
         EXPECT_EQ(found, expected);
         hits += static_cast<int>(std::count(found.begin(), found.end(), 1));
       }
-      EXPECT_EQ(distances(moments.set(), players.agents(), pairs), distances(set, expected_agents, pairs));
+      EXPECT_EQ(distances(moments.set(), players.agents(), pairs),
+                distances(expect.set, expect.agents, pairs));
     }
     EXPECT_GT(hits, 100);
   }
@@ -182,20 +192,14 @@ TEST_F(Moments, OfLeavesAloneAnswerEveryQueryAsTheShapesOfTheirTimes) {
     for (const std::uint32_t count : {60u, 250u, 90u}) {
       Players players(random, count, static_cast<std::uint32_t>(bodies.size()));
       moments.show(players.body, players.seconds, players.shape);
-      std::vector<Shape> each;
-      for (std::size_t i = 0; i < count; ++i)
-        each.push_back(shapes[players.body[i]].shape(players.seconds[i]));
-      const ShapeSet set(each, plan);
-      std::vector<std::uint32_t> own(count);
-      std::iota(own.begin(), own.end(), 0u);
+      const OwnShapes expect(shapes, players, plan);
       for (std::uint32_t i = 0; i < count; ++i) {
         const std::vector<Disc> discs = moments.set().discs(players.shape[i], 0);
-        EXPECT_EQ(discs, set.discs(i, 0));
+        EXPECT_EQ(discs, expect.set.discs(i, 0));
       }
-      const Agents expected_agents{own, players.x, players.y, players.heading};
-      const std::vector<Pair> pairs = candidate_pairs(set, expected_agents, 1);
+      const std::vector<Pair> pairs = candidate_pairs(expect.set, expect.agents, 1);
       const AllAnswers found(moments.set(), players.agents(), pairs, walls),
-          expected(set, expected_agents, pairs, walls);
+          expected(expect.set, expect.agents, pairs, walls);
       EXPECT_TRUE(found == expected);
       EXPECT_GT(std::count(found.hits.begin(), found.hits.end(), 1), 20);
       EXPECT_GT(std::count(found.at_walls.begin(), found.at_walls.end(), 1), 0);
@@ -260,11 +264,14 @@ TEST_F(Moments, LoopsAreTheSameInEachRound) {
   EXPECT_EQ(x_of(shape[3]), 0.0f);
 }
 
-class MomentsOfPlans : public Moments, public testing::WithParamInterface<ShapeSetPlan> {};
+/// With culling data and outlines, or leaves alone, which are made another way.
+class MomentsOfPlans : public Moments, public testing::WithParamInterface<bool> {
+ protected:
+  const ShapeSetPlan plan{.outlines = GetParam(), .culling = GetParam()};
+};
 
-INSTANTIATE_TEST_SUITE_P(Plans, MomentsOfPlans,
-                         testing::Values(ShapeSetPlan{}, ShapeSetPlan{.outlines = false, .culling = false}),
-                         [](const auto& plan) { return plan.param.culling ? "Whole" : "LeavesAlone"; });
+INSTANTIATE_TEST_SUITE_P(Plans, MomentsOfPlans, testing::Bool(),
+                         [](const auto& whole) { return whole.param ? "Whole" : "LeavesAlone"; });
 
 TEST_P(MomentsOfPlans, AreTheSameForAnyNumberOfThreads) {
   Random random(3123);
@@ -273,7 +280,7 @@ TEST_P(MomentsOfPlans, AreTheSameForAnyNumberOfThreads) {
   std::vector<std::vector<std::uint8_t>> hits;
   for (const int threads : {1, 2, 5}) {
     tbb::task_arena(threads).execute([&] {
-      MomentSet moments(bodies, GetParam());
+      MomentSet moments(bodies, plan);
       moments.show(players.body, players.seconds, players.shape);
       const std::vector<Pair> pairs = candidate_pairs(moments.set(), players.agents());
       hits.emplace_back(pairs.size());
@@ -287,7 +294,7 @@ TEST_P(MomentsOfPlans, AreTheSameForAnyNumberOfThreads) {
 
 TEST_P(MomentsOfPlans, KeepTheirMemory) {
   Random random(3124);
-  MomentSet moments(bodies, GetParam(), 1);
+  MomentSet moments(bodies, plan, 1);
   tbb::task_arena(1).execute([&] {
     Players players(random, 100, static_cast<std::uint32_t>(bodies.size()));
     const auto show = [&] {
@@ -305,13 +312,13 @@ TEST_P(MomentsOfPlans, KeepTheirMemory) {
 TEST_P(MomentsOfPlans, OutliveAFailedAllocation) {
   Random random(3125);
   Players players(random, 60, static_cast<std::uint32_t>(bodies.size()));
-  MomentSet expected(bodies, GetParam());
+  MomentSet expected(bodies, plan);
   expected.show(players.body, players.seconds, players.shape);
   const std::vector<Pair> pairs = candidate_pairs(expected.set(), players.agents());
   const std::vector<float> distance = distances(expected.set(), players.agents(), pairs);
   std::size_t failed = 1;
   for (std::size_t after = 0; failed > 0; after += 7) {
-    MomentSet moments(bodies, GetParam(), 1);
+    MomentSet moments(bodies, plan, 1);
     test::fail_allocations(test::Failing::one, after);
     try {
       moments.show(players.body, players.seconds, players.shape);
