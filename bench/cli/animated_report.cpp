@@ -28,11 +28,6 @@ std::size_t baked_bytes(const AnimatedDiscs& discs) {
          arrays.disc_steps.size_bytes() + arrays.disc_floats.size_bytes();
 }
 
-/// Returns the slabs, from the ground up, or the whole body.
-std::span<const AnimatedDiscs> slabs_or_whole(const AnimatedDiscs& discs) {
-  return discs.slabs.empty() ? std::span(&discs, 1) : std::span(discs.slabs);
-}
-
 const AnimatedChunk& chunk_at(const AnimatedDiscs& discs, double seconds) {
   std::size_t i = discs.chunks.size() - 1;
   while (i > 0 && seconds < discs.chunks[i].times.front()) --i;
@@ -46,6 +41,10 @@ Json discs_json(const std::vector<Disc>& discs) {
 }
 
 }  // namespace
+
+std::span<const AnimatedDiscs> slabs_or_whole(const AnimatedDiscs& discs) {
+  return discs.slabs.empty() ? std::span(&discs, 1) : std::span(discs.slabs);
+}
 
 AnimatedFacts facts_of(const AnimatedDiscs& discs) {
   const std::span<const AnimatedDiscs> parts = slabs_or_whole(discs);

@@ -5,12 +5,16 @@
 
 #include <cstddef>
 #include <nlohmann/json.hpp>
+#include <span>
 #include <string>
 #include <vector>
 
 #include <bch/shape_set.hpp>
 
 namespace bch::cli {
+
+/// Returns the slabs of a clip, from the ground up, or the whole body.
+std::span<const AnimatedDiscs> slabs_or_whole(const AnimatedDiscs& discs);
 
 /// Properties of a clip as moving discs.
 struct AnimatedFacts {
@@ -43,8 +47,7 @@ struct AnimatedPart {
   const AnimatedShape& shape;
   const AnimatedChunk& chunk;  ///< that of the time
   const Outline* outline;      ///< of the pose; null: unknown
-  std::string
-      heights;  ///< of the slab, "0.40 to 1.00 m", "slab 3" where nothing is; empty: the body is whole
+  std::string heights;         ///< "0.40 to 1.00 m", "slab 3" where nothing is; empty: the body is whole
 };
 
 /// Returns the slabs of a clip, the highest first, as bodies stand, or the whole body. `shape` is that of the view's discs.

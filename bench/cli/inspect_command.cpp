@@ -138,8 +138,7 @@ void inspect_baked_clip(const InspectOptions& options) {
   if (options.verify) require_verified(options.character, baked.set);
   for (const BakedClip& clip : baked.clips) {
     if (clip_name(baked.origins, clip) != *options.clip) continue;
-    const std::vector<AnimatedChunk>& chunks =
-        (clip.discs.slabs.empty() ? clip.discs : clip.discs.slabs[0]).chunks;
+    const std::vector<AnimatedChunk>& chunks = slabs_or_whole(clip.discs).front().chunks;
     const double begin = chunks.front().times.front(), end = chunks.back().times.back();
     if (!(*options.time >= begin && *options.time <= end))
       throw InputError(fmt::format("{}: clip '{}' is from {} to {} s and has no time {} s", options.character,

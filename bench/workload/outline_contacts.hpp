@@ -10,7 +10,7 @@
 
 namespace bch::bench {
 
-/// Where the outlines of the pairs of a scene first meet, beside their first contacts. Outlines are looked at a thousand times a
+/// Tells when the outlines of the pairs of a scene first meet, beside their first contacts. Outlines are looked at a thousand times a
 /// second, each that of a pose made for the very time, and meet where they cross or one holds a part of the other, by exact tests.
 struct OutlineContacts {
   std::uint64_t compared = 0;  ///< pairs of outlines, whose circles overlap
