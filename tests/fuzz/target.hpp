@@ -9,8 +9,7 @@
 
 #include "tests/fuzz/bytes.hpp"
 
-// What libFuzzer calls, and replay.cpp with the inputs that are kept. A fault ends the program: a failed expectation of
-// GoogleTest, too.
+// What libFuzzer calls. A fault ends the program: a failed expectation of GoogleTest, too.
 
 extern "C" int LLVMFuzzerInitialize(int* argc, char*** argv);
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);

@@ -2,8 +2,8 @@
 # Usage: cmake -DSOURCE=... -DWORK=... -DCOMPILER=... -DFLAGS=... -P kernel_alone_test.cmake
 include(${CMAKE_CURRENT_LIST_DIR}/run.cmake)
 
-# Without optimisation: what is looked at is headers and libraries.
-set(settings -G Ninja -DCMAKE_BUILD_TYPE=Debug "-DCMAKE_CXX_FLAGS=${FLAGS}" -DCMAKE_CXX_COMPILER=${COMPILER}
+# Without optimisation and in chunks: what is looked at is headers and libraries.
+set(settings -G Ninja -DCMAKE_BUILD_TYPE=Debug -DCMAKE_UNITY_BUILD=ON "-DCMAKE_CXX_FLAGS=${FLAGS}" -DCMAKE_CXX_COMPILER=${COMPILER}
   -DCMAKE_PREFIX_PATH=${WORK}/prefix)
 set(alone -DBCH_XXHASH_INCLUDE_DIR=/nonexistent)
 foreach(component BAKED CHARACTERS IMPORT TRAJECTORIES MPI BASELINES BENCH TESTS)
