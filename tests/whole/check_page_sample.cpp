@@ -241,6 +241,26 @@ nlohmann::json expected_frame(const cli::PageFrame& frame) {
   return {{"frame", frame.frame}, {"seconds", frame.seconds}, {"people", people}};
 }
 
+/// The contours of everybody in a frame, in the coordinates of the recording.
+nlohmann::json expected_outlines(const Recording& recording, const cli::PageFrame& frame) {
+  nlohmann::json all = nlohmann::json::array();
+  for (const cli::PagePerson& person : frame.people) {
+    const auto heading = static_cast<double>(person.heading);
+    const double cosine = std::cos(heading), sine = std::sin(heading);
+    nlohmann::json contours = nlohmann::json::array();
+    for (const auto& contour : recording.drawn(person.shape).contours) {
+      nlohmann::json points = nlohmann::json::array();
+      for (const Vec2 point : contour) {
+        const auto x = static_cast<double>(point.x), y = static_cast<double>(point.y);
+        points.push_back({person.at.x + cosine * x - sine * y, person.at.y + sine * x + cosine * y});
+      }
+      contours.push_back(points);
+    }
+    all.push_back(contours);
+  }
+  return all;
+}
+
 nlohmann::json expected_events(const std::vector<cli::PageEvent>& events) {
   nlohmann::json list = nlohmann::json::array();
   for (const cli::PageEvent& event : events)
@@ -288,16 +308,19 @@ void write_sample(int argc, char** argv) {
                argc > 7 ? argv[7] : "corridor <b>& pillar</b></script><script>throw 1</script>"),
       [&](std::uint32_t shape) { return recording.drawn(shape); },
       number(argc, argv, 6, cli::CheckPage::default_most_bytes));
-  nlohmann::json frames = nlohmann::json::array();
+  nlohmann::json frames = nlohmann::json::array(), outlines;
   for (std::uint32_t i = 0; i < count; ++i) {
     const Checked checked = recording.frame(i / fps);
     const cli::PageFrame frame{500 + i, i / fps, checked.people, checked.overlaps};
     page.add_frame(frame);
     if (people <= 100) frames.push_back(expected_frame(frame));
+    if (people <= 100 && i == count / 2) outlines = expected_outlines(recording, frame);
   }
   const auto& events = recording.events().done();
   write(argv[1], std::move(page).finish(events));
-  write(argv[2], nlohmann::json{{"frames", frames}, {"events", expected_events(events)}}.dump());
+  write(
+      argv[2],
+      nlohmann::json{{"frames", frames}, {"outlines", outlines}, {"events", expected_events(events)}}.dump());
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 """Looks at the page of a checked recording in a browser: python3 check_page_test.py SAMPLE FOLDER, where SAMPLE is the
 program that writes a page and what it should show. Says SKIPPED where there is no selenium or no browser."""
 
+import itertools
 import json
 import os
 import pathlib
@@ -33,6 +34,20 @@ def skip_reason():
     if shutil.which("chromium") is None or shutil.which("chromedriver") is None:
         return "there is no chromium or no chromedriver"
     return None
+
+
+def distance(point, begin, end):
+    """Of a point from a segment, all complex."""
+    along = ((point - begin) / (end - begin)).real if end != begin else 0
+    return abs(point - begin - min(max(along, 0), 1) * (end - begin))
+
+
+def depth(point, contours):
+    """How deep a point is in the area of contours, negative outside."""
+    sides = [side for contour in contours for side in zip(contour, contour[1:] + contour[:1])]
+    crossed = sum((a.imag > point.imag) != (b.imag > point.imag)
+                  and point.real < a.real + (point.imag - a.imag) * (b.real - a.real) / (b.imag - a.imag) for a, b in sides)
+    return min(distance(point, *side) for side in sides) * (1 if crossed % 2 else -1)
 
 
 def browser(folder):
@@ -145,6 +160,8 @@ class Page(unittest.TestCase):
         self.find("#play").click()
         self.wait(lambda: self.js("bchPage.time()") > 0.4, "time does not advance")
         self.wait(lambda: self.js("bchPage.frameRate()") > 5, "no frames are drawn")
+        before = self.drawn()
+        self.wait(lambda: self.drawn() != before, "people do not move")
         self.find("#play").click()
         stopped = self.js("bchPage.time()")
         time.sleep(0.1)
@@ -162,6 +179,32 @@ class Page(unittest.TestCase):
         self.assertNotEqual(first, self.drawn())
         self.js("bchPage.seek(0)")
         self.assertEqual(first, self.drawn())
+
+    def test_draws_the_outlines_at_every_zoom(self):
+        frame = self.expected["frames"][len(self.expected["frames"]) // 2]
+        outlines = [[[complex(*point) for point in contour] for contour in person] for person in self.expected["outlines"]]
+        places = [complex(x, y) for _, x, y, _, _ in frame["people"]]
+        self.js("bchPage.seek(arguments[0])", frame["seconds"])
+        width, height = self.js("[document.getElementById('crowd').width, document.getElementById('crowd').height]")
+        middle = min(places, key=lambda place: abs(place - sum(places) / len(places)))
+        for scale in 24, 40, 100, 300:
+            self.js("bchPage.setView(...arguments)", middle.real, middle.imag, scale)
+            self.drawn()
+            pixels, inside = [], []
+            step = 7 if scale < 50 else 23
+            for x, y in itertools.product(range(5, width, step), range(7, height, step)):
+                point = middle + complex(x + 0.5 - width / 2, height / 2 - y - 0.5) / scale
+                near = [depth(point, contours) * scale for contours, place in zip(outlines, places) if abs(place - point) < 1]
+                if all(not -3.2 < d < 1.5 for d in near):  # rims, and what outlines leave out
+                    pixels.append([x, y])
+                    inside.append(any(d > 0 for d in near))
+            opaque = self.browser.execute_script("""
+                const copy = new OffscreenCanvas(arguments[1], arguments[2]).getContext("2d", {willReadFrequently: true});
+                copy.drawImage(document.getElementById("crowd"), 0, 0);
+                const {data, width} = copy.getImageData(0, 0, arguments[1], arguments[2]);
+                return arguments[0].map(([x, y]) => data[4 * (y * width + x) + 3] > 127);""", pixels, width, height)
+            self.assertEqual([pixel for pixel, *answers in zip(pixels, opaque, inside) if answers[0] != answers[1]], [], scale)
+            self.assertGreater(sum(inside), 10, scale)
 
     def test_jumps_to_the_worst_event(self):
         events = self.expected["events"]

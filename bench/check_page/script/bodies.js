@@ -1,8 +1,9 @@
-// What shapes look like: paths in metres, x to the right and y up, made when they are first drawn.
+// What shapes look like on the stage: outlines with as many points as its scale shows, and discs.
 
 const shapes = {contours: block("contours-begin"), points: block("points-begin"), xy: block("points"),
   discsBegin: block("discs-begin"), discs: block("discs")};
 shapes.count = shapes.contours.length - 1;
+const hasDiscs = shapes.discs.length > 0;
 
 /** The distance of the farthest point from the person's place, for each shape. */
 shapes.radius = Float32Array.from({length: shapes.count}, (_, shape) => {
@@ -16,104 +17,84 @@ shapes.radius = Float32Array.from({length: shapes.count}, (_, shape) => {
 shapes.typicalRadius = shapes.count > 0 ? shapes.radius.slice().sort()[shapes.count >> 1] : 0.4;
 const sizeOf = (shape) => 2 * (shapes.radius[shape] < 2 * shapes.typicalRadius ? shapes.typicalRadius : shapes.radius[shape]);
 
-/** The points of a contour in metres, the first one once more at the end. */
-function closedContour(contour) {
-  const points = [];
-  for (let i = shapes.points[contour]; i < shapes.points[contour + 1]; ++i)
-    points.push([shapes.xy[2 * i] / 1000, shapes.xy[2 * i + 1] / 1000]);
-  if (points.length > 0) points.push(points[0]);
-  return points;
-}
+/** By how many millimetres outlines without a point and those between its neighbours that go before it would miss it (Douglas and
+ * Peucker): 0 as long as nobody knows, endless where a contour begins. */
+const missed = new Float32Array(shapes.xy.length / 2);
 
-function distanceFromSegment([px, py], [ax, ay], [bx, by]) {
-  const dx = bx - ax, dy = by - ay, length2 = dx * dx + dy * dy;
-  const along = length2 > 0 ? Math.min(Math.max(((px - ax) * dx + (py - ay) * dy) / length2, 0), 1) : 0;
-  return Math.hypot(px - ax - along * dx, py - ay - along * dy);
-}
-
-/** Adds to `kept` the points after the first one that describe a line within a tolerance (Douglas and Peucker). */
-function simplify(points, first, last, tolerance, kept) {
-  let farthest = tolerance, at = -1;
+/** Ranks the points between two others of a contour, whose end is its beginning again; none above `most`, what came before. */
+function rank(contour, first, last, most) {
+  const {points, xy} = shapes, to = last === points[contour + 1] ? points[contour] : last;
+  const ax = xy[2 * first], ay = xy[2 * first + 1], dx = xy[2 * to] - ax, dy = xy[2 * to + 1] - ay;
+  const length2 = dx * dx + dy * dy;
+  let farthest = -1, at = first;
   for (let i = first + 1; i < last; ++i) {
-    const distance = distanceFromSegment(points[i], points[first], points[last]);
-    if (distance > farthest) [farthest, at] = [distance, i];
+    const px = xy[2 * i] - ax, py = xy[2 * i + 1] - ay;
+    const along = length2 > 0 ? Math.min(Math.max((px * dx + py * dy) / length2, 0), 1) : 0;
+    const distance2 = (px - along * dx) ** 2 + (py - along * dy) ** 2;
+    if (distance2 > farthest) { farthest = distance2; at = i; }
   }
-  if (at < 0) {
-    kept.push(points[last]);
-    return;
-  }
-  simplify(points, first, at, tolerance, kept);
-  simplify(points, at, last, tolerance, kept);
+  if (at === first) return;
+  missed[at] = Math.min(Math.sqrt(farthest), most);
+  rank(contour, first, at, missed[at]);
+  rank(contour, at, last, missed[at]);
 }
 
-/** The contours of a shape with the points that it takes within a tolerance. */
-function simplifiedContours(shape, tolerance) {
-  const contours = [];
+/** Points of the latest contour on the stage, x and y by turns, and where their insets are. */
+const corners = [], insets = [];
+
+const outlineError = 0.7;  // pixels
+
+/** Takes the points that a contour of the person in a row needs, and returns how many numbers these are. */
+function takeCorners(contour, row) {
+  const {points, xy} = shapes, begin = points[contour], end = points[contour + 1];
+  if (missed[begin] === 0) rank(contour, begin, end, missed[begin] = Infinity);
+  const heading = headingOf(row), pixels = view.scale / 1000, x = screenX(placeX(row)), y = screenY(placeY(row));
+  const cosine = Math.cos(heading) * pixels, sine = Math.sin(heading) * pixels;
+  let count = 0;
+  for (let i = begin; i < end; ++i) {
+    if (missed[i] * pixels <= outlineError) continue;
+    corners[count++] = x + cosine * xy[2 * i] - sine * xy[2 * i + 1];
+    corners[count++] = y - sine * xy[2 * i] - cosine * xy[2 * i + 1];
+  }
+  return count;
+}
+
+/** Moves the sides between corners inwards by so many pixels; corners by twice that at most. */
+function moveInwards(count, distance) {
+  let ax = 0, ay = 0;  // what is inwards of the side before
+  for (let i = -2; i < count; i += 2) {
+    const at = i < 0 ? count - 2 : i, next = i + 2 < count ? i + 2 : 0;
+    const dx = corners[next] - corners[at], dy = corners[next + 1] - corners[at + 1], length = Math.sqrt(dx * dx + dy * dy) || 1;
+    const bx = dy / length, by = -dx / length, part = distance / Math.max(1 + ax * bx + ay * by, 0.5);
+    insets[at] = corners[at] + (ax + bx) * part;
+    insets[at + 1] = corners[at + 1] + (ay + by) * part;
+    ax = bx;
+    ay = by;
+  }
+  return insets;
+}
+
+/** Begins a path with the outlines of the person in a row, moved inwards by so many pixels. */
+function traceBody(context, row, inwards = 0) {
+  const shape = people.shape[row];
+  context.beginPath();
   for (let contour = shapes.contours[shape]; contour < shapes.contours[shape + 1]; ++contour) {
-    const points = closedContour(contour), kept = [];
-    if (points.length < 4) continue;
-    simplify(points, 0, points.length - 1, tolerance, kept);
-    if (kept.length >= 3) contours.push(kept);
+    const count = takeCorners(contour, row), points = inwards === 0 ? corners : moveInwards(count, inwards);
+    if (count < 6) continue;
+    context.moveTo(points[0], points[1]);
+    for (let i = 2; i < count; i += 2) context.lineTo(points[i], points[i + 1]);
+    context.closePath();
   }
-  return contours;
 }
 
-function pathOf(contours) {
-  const path = new Path2D();
-  for (const points of contours) {
-    path.moveTo(...points[0]);
-    for (const point of points.slice(1)) path.lineTo(...point);
-    path.closePath();
+/** Begins a path with the discs of the person in a row. */
+function traceDiscs(context, row) {
+  const {discsBegin, discs} = shapes, shape = people.shape[row], heading = headingOf(row), pixels = view.scale / 1000;
+  const cosine = Math.cos(heading) * pixels, sine = Math.sin(heading) * pixels;
+  context.beginPath();
+  for (let i = 3 * discsBegin[shape]; i < 3 * discsBegin[shape + 1]; i += 3) {
+    const x = screenX(placeX(row)) + cosine * discs[i] - sine * discs[i + 1], radius = discs[i + 2] * pixels;
+    context.moveTo(x + radius, screenY(placeY(row)) - sine * discs[i] - cosine * discs[i + 1]);
+    context.arc(x, screenY(placeY(row)) - sine * discs[i] - cosine * discs[i + 1], radius, 0, 2 * Math.PI);
   }
-  return path;
 }
-
-/** Moves the sides of a contour, which is counter-clockwise, inwards; corners by twice that at most. */
-function inset(points, distance) {
-  const normals = points.map(([ax, ay], i) => {
-    const [bx, by] = points[(i + 1) % points.length], length = Math.hypot(bx - ax, by - ay) || 1;
-    return [(ay - by) / length, (bx - ax) / length];
-  });
-  return points.map(([x, y], i) => {
-    const [ax, ay] = normals[(i + points.length - 1) % points.length], [bx, by] = normals[i];
-    const part = distance / Math.max(1 + ax * bx + ay * by, 0.5);
-    return [x + (ax + bx) * part, y + (ay + by) * part];
-  });
-}
-
-function discPath(shape) {
-  const path = new Path2D();
-  for (let i = shapes.discsBegin[shape]; i < shapes.discsBegin[shape + 1]; ++i) {
-    const x = shapes.discs[3 * i] / 1000, y = shapes.discs[3 * i + 1] / 1000, r = shapes.discs[3 * i + 2] / 1000;
-    path.moveTo(x + r, y);
-    path.arc(x, y, r, 0, 2 * Math.PI);
-  }
-  return path;
-}
-
-/** Makes paths once for each shape. */
-function cached(make) {
-  const paths = new Array(shapes.count);
-  return (shape) => paths[shape] ??= make(shape);
-}
-
-const discsOf = cached(discPath);
-const hasDiscs = shapes.discs.length > 0;
-
-// Outlines have details for 2^0, 2^1, ... pixels a metre, and all points from 2^9 on.
-const finestDetail = 9, outlineError = 0.7, rimWidth = 2.4;  // pixels, about
-const detailOf = (scale) => Math.min(Math.max(Math.floor(Math.log2(scale)), 0), finestDetail);
-const pixelAt = (detail) => 2 ** -(detail + 0.5);
-const toleranceAt = (detail) => detail === finestDetail ? 0 : outlineError * pixelAt(detail);
-
-const outlinePaths = Array.from({length: finestDetail + 1}, (_, detail) =>
-  cached((shape) => pathOf(simplifiedContours(shape, toleranceAt(detail)))));
-const insetPaths = (pixels) => Array.from({length: finestDetail + 1}, (_, detail) =>
-  cached((shape) => pathOf(simplifiedContours(shape, toleranceAt(detail))
-    .map((points) => inset(points, pixels * pixelAt(detail))))));
-const innerPaths = insetPaths(rimWidth), boldPaths = insetPaths(-0.5 * rimWidth);
-
-/** The paths of shapes with as much detail as so many pixels a metre show, what a rim leaves of them, and larger ones. */
-const bodyPaths = (scale) => outlinePaths[detailOf(scale)];
-const withoutRim = (scale) => innerPaths[detailOf(scale)];
-const boldBodies = (scale) => boldPaths[detailOf(scale)];

@@ -2,6 +2,7 @@
 
 const crowdContext = element("crowd").getContext("2d");
 const dotBelow = 12;      // pixels: smaller people are dots
+const thinLine = 1;       // pixels: strokes of 1.05 take five times as long, and so does 1 in a scaled frame
 const outlinedFrom = 40;  // pixels: smaller bodies have no outline unless they overlap
 
 /** Rows of the current frame that the view shows, by how they are drawn; filled anew for each frame. */
@@ -21,104 +22,86 @@ function sortRows() {
   }
 }
 
-function drawDots(context, rows, radius) {
+function drawRing(context, x, y, radius) {
   context.beginPath();
+  context.arc(x, y, radius, 0, 2 * Math.PI);
+  context.stroke();
+}
+
+function drawDots(context, rows, radius, colour, ring) {
+  context.fillStyle = context.strokeStyle = colour;
   for (const row of rows) {
     const x = screenX(placeX(row)), y = screenY(placeY(row));
-    context.moveTo(x + radius, y);
+    context.beginPath();
     context.arc(x, y, radius, 0, 2 * Math.PI);
+    context.fill();
+    if (ring) drawRing(context, x, y, ring);
   }
 }
 
 function drawSmallPeople(context) {
   const radius = Math.max(1.5, 0.2 * view.scale);
-  drawDots(context, drawn.dots, radius);
-  context.fillStyle = colours["body-line"];
-  context.fill();
-  drawDots(context, drawn.hitDots, radius + 1);
-  context.fillStyle = colours.hit;
-  context.fill();
-  drawDots(context, drawn.hitDots, radius + 3);
-  context.strokeStyle = colours.hit;
-  context.lineWidth = 1.2;
-  context.stroke();
+  context.lineWidth = thinLine;
+  drawDots(context, drawn.dots, radius, colours["body-line"]);
+  drawDots(context, drawn.hitDots, radius + 1, colours.hit, radius + 3);
 }
-
-/** Turns the context into the frame of the person in a row. */
-function enter(context, row) {
-  const heading = headingOf(row), scale = view.scale * view.ratio;
-  const cosine = Math.cos(heading) * scale, sine = Math.sin(heading) * scale;
-  context.setTransform(cosine, -sine, -sine, -cosine, screenX(placeX(row)) * view.ratio,
-    screenY(placeY(row)) * view.ratio);
-}
-
-const leave = (context) => context.setTransform(view.ratio, 0, 0, view.ratio, 0, 0);
 
 function drawBodies(context) {
-  const paths = bodyPaths(view.scale), isOutlined = 2 * shapes.typicalRadius * view.scale >= outlinedFrom;
+  const isOutlined = 2 * shapes.typicalRadius * view.scale >= outlinedFrom;
   context.fillStyle = colours[isOutlined ? "body" : "body-small"];
   context.strokeStyle = colours["body-line"];
-  context.lineWidth = 1 / view.scale;
+  context.lineWidth = thinLine;
   for (const row of drawn.bodies) {
-    const path = paths(people.shape[row]);
-    enter(context, row);
-    context.fill(path);
-    if (isOutlined) context.stroke(path);
+    traceBody(context, row);
+    context.fill();
+    if (isOutlined) context.stroke();
   }
 }
 
 const rimFrom = 32, strokedFrom = 128;  // pixels a metre
+const rimWidth = () => Math.min(Math.max(0.03 * view.scale, 1.7), 3.2);
 
-/** People in each other, as large as they are seen well: bold bodies; two areas, one in the other; a thick stroke. The first two
- * take half the time of strokes, and dense crowds are drawn so. */
-function drawHits(context) {
-  if (view.scale < rimFrom) return fillAll(context, drawn.hits, boldBodies(view.scale), colours.hit);
-  if (view.scale < strokedFrom) return drawRims(context);
-  const paths = bodyPaths(view.scale);
-  context.fillStyle = colours["hit-fill"];
-  context.strokeStyle = colours.hit;
-  context.lineWidth = 3.2 / view.scale;
-  for (const row of drawn.hits) {
-    enter(context, row);
-    context.fill(paths(people.shape[row]));
-    context.stroke(paths(people.shape[row]));
-  }
-}
-
-function fillAll(context, rows, paths, colour) {
-  context.fillStyle = colour;
+/** Bodies in one colour, a bit larger than they are. */
+function drawBold(context, rows) {
+  context.fillStyle = colours.hit;
   for (const row of rows) {
-    enter(context, row);
-    context.fill(paths(people.shape[row]));
+    traceBody(context, row, -1.2);
+    context.fill();
   }
 }
 
-function drawRims(context) {
-  const paths = bodyPaths(view.scale), insides = withoutRim(view.scale);
-  for (const row of drawn.hits) {
-    enter(context, row);
+/** Two areas, one in the other, which take half the time of strokes. */
+function drawRims(context, rows) {
+  const inwards = rimWidth();
+  for (const row of rows) {
+    traceBody(context, row);
     context.fillStyle = colours.hit;
-    context.fill(paths(people.shape[row]));
+    context.fill();
+    traceBody(context, row, inwards);
     context.fillStyle = colours["hit-fill"];
-    context.fill(insides(people.shape[row]));
+    context.fill();
   }
 }
 
-/** People in walls alone: a dashed rim. */
-function drawWallHits(context) {
-  if (view.scale < rimFrom) return fillAll(context, drawn.wallHits, boldBodies(view.scale), colours.hit);
-  const paths = bodyPaths(view.scale);
+function drawStroked(context, rows, dash) {
   context.fillStyle = colours["hit-fill"];
   context.strokeStyle = colours.hit;
-  context.lineWidth = Math.min(Math.max(view.scale * 0.03, 1.8), 3.2) / view.scale;
-  context.setLineDash([5 / view.scale, 4 / view.scale]);
-  for (const row of drawn.wallHits) {
-    const path = paths(people.shape[row]);
-    enter(context, row);
-    context.fill(path);
-    context.stroke(path);
+  context.lineWidth = rimWidth();
+  context.setLineDash(dash);
+  for (const row of rows) {
+    traceBody(context, row);
+    context.fill();
+    context.stroke();
   }
   context.setLineDash([]);
+}
+
+/** People in walls alone have a dashed rim, people in each other a whole one, by areas as long as a dense crowd is in view. */
+function drawHits(context) {
+  if (view.scale < rimFrom) return drawBold(context, [...drawn.wallHits, ...drawn.hits]);
+  drawStroked(context, drawn.wallHits, [5, 4]);
+  if (view.scale < strokedFrom) drawRims(context, drawn.hits);
+  else drawStroked(context, drawn.hits, []);
 }
 
 /** Small triangles that point to where bodies are heading, all in one path. */
@@ -137,13 +120,13 @@ function drawHeadings(context, rows, colour) {
 }
 
 function drawDiscs(context) {
-  context.lineWidth = 1 / view.scale;
+  context.lineWidth = thinLine;
   context.globalAlpha = 0.7;
   for (const [rows, colour] of [[drawn.bodies, "body-line"], [drawn.hits, "hit"], [drawn.wallHits, "hit"]]) {
     context.strokeStyle = colours[colour];
     for (const row of rows) {
-      enter(context, row);
-      context.stroke(discsOf(people.shape[row]));
+      traceDiscs(context, row);
+      context.stroke();
     }
   }
   context.globalAlpha = 1;
@@ -174,54 +157,46 @@ function drawTrail(context) {
   context.globalAlpha = 1;
 }
 
-function drawRing(context, x, y, radius, width) {
-  context.beginPath();
-  context.arc(screenX(x), screenY(y), radius, 0, 2 * Math.PI);
-  context.strokeStyle = colours.accent;
-  context.lineWidth = width;
-  context.stroke();
-}
-
 /** Traces the two of an event, and where it is deepest. */
 function drawEvent(context) {
   const {whos, x, y} = selection.event;
   context.strokeStyle = colours.accent;
+  context.lineWidth = 2.2;
   for (const row of whos.map((who) => rowOf(player.frame, who))) {
     if (row < 0) continue;
-    enter(context, row);
-    context.lineWidth = 2.2 / view.scale;
-    context.stroke(bodyPaths(view.scale)(people.shape[row]));
+    traceBody(context, row);
+    context.stroke();
   }
-  leave(context);
+  context.lineWidth = 1.2;
   context.setLineDash([3, 4]);
-  drawRing(context, x, y, Math.max(14, 0.75 * view.scale), 1.2);
+  drawRing(context, screenX(x), screenY(y), Math.max(14, 0.75 * view.scale));
   context.setLineDash([]);
 }
 
 /** Rings around the selected person and the one under the pointer. */
 function drawRings(context) {
+  context.strokeStyle = colours.accent;
   for (const [who, width] of [[selection.hovered, 1.2], [selection.who, 2]]) {
     const row = who < 0 ? -1 : rowOf(player.frame, who);
     if (row < 0) continue;
-    drawRing(context, placeX(row), placeY(row),
-      Math.max(8, (shapes.radius[people.shape[row]] + 0.06) * view.scale), width);
+    context.lineWidth = width;
+    drawRing(context, screenX(placeX(row)), screenY(placeY(row)),
+      Math.max(8, (shapes.radius[people.shape[row]] + 0.06) * view.scale));
   }
 }
 
 function drawCrowd() {
   const context = crowdContext;
-  leave(context);
+  context.setTransform(view.ratio, 0, 0, view.ratio, 0, 0);
+  context.lineJoin = view.scale < 100 ? "bevel" : "round";  // round ones take twice the time
   context.clearRect(0, 0, view.width, view.height);
   if (frames.count === 0) return;
   sortRows();
   drawTrail(context);
   drawSmallPeople(context);
-  context.lineJoin = view.scale < 100 ? "bevel" : "round";  // round ones take twice the time
   drawBodies(context);
-  drawWallHits(context);
   drawHits(context);
   if (player.discs) drawDiscs(context);
-  leave(context);
   if (view.scale >= 50) {
     drawHeadings(context, drawn.bodies, colours["body-line"]);
     drawHeadings(context, drawn.hits, colours.hit);

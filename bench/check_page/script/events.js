@@ -71,6 +71,7 @@ function markEvent() {
 function forgetEvent() {
   selection.event = null;
   markEvent();
+  requestDraw();
 }
 
 /** Shows an event, by its place in the program's list, where it is deepest. */

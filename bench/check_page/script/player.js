@@ -1,15 +1,20 @@
 // Time: which frame is shown, and the loop that draws.
 
-const player = {time: frames.start, frame: 0, playing: false, speed: 1, discs: false, last: 0, told: 0, waiting: false};
+const player = {time: frames.start, frame: 0, playing: false, speed: 1, discs: false, last: 0, told: 0, waiting: false, stale: true};
 const ticks = [];  // times of the latest animation frames while playing
 
 function draw() {
   if (view.changed) drawGround();
-  view.changed = false;
+  view.changed = player.stale = false;
   drawCrowd();
 }
 
 function requestDraw() {
+  player.stale = true;
+  requestTick();
+}
+
+function requestTick() {
   if (player.waiting) return;
   player.waiting = true;
   requestAnimationFrame(tick);
@@ -18,8 +23,8 @@ function requestDraw() {
 function tick(now) {
   player.waiting = false;
   if (player.playing) advance(now);
-  draw();
-  if (player.playing) requestDraw();
+  if (player.stale) draw();  // not what is there already: recordings have fewer frames a second than screens
+  if (player.playing) requestTick();
 }
 
 function advance(now) {
@@ -37,6 +42,7 @@ function showTime(seconds) {
   player.time = Math.min(Math.max(seconds, frames.start), frames.end);
   const frame = frameAt(player.time), isNew = frame !== player.frame;
   player.frame = frame;
+  player.stale ||= isNew;
   if (isNew && selection.following) keepInMiddle();
   showPosition();
   if (!player.playing || player.last - player.told > textEvery) tell();
