@@ -14,6 +14,7 @@
 
 #include "layout/animation/cover_check.hpp"
 #include "layout/animation/disc_ring.hpp"
+#include "layout/animation/parts_apart.hpp"
 #include "layout/animation/slab_triangles.hpp"
 #include "layout/base/planes.hpp"
 #include "layout/base/shortest.hpp"
@@ -52,10 +53,12 @@ class ClipAnimator {
   void prepare_builder();
   std::vector<AnimatedChunk> chunks();
   void pose(float seconds, std::vector<Vec2>& vertices);
-  KeyContour contour_at(float seconds, float next);
-  AnimatedChunk ring(float from, float to);
+  KeyContour contour_of(const Outline& outline, const KeyPose& key, const KeyPose& next);
+  void add_parts(const Triangles& triangles, std::span<const KeyPose> keys,
+                 std::vector<std::vector<KeyContour>>& parts);
+  AnimatedChunk rings(float from, float to);
   double excess(const AnimatedChunk& chunk, std::size_t key, float share);
-  bool is_tight(const AnimatedChunk& chunk, const AnimatedChunk& ring);
+  bool is_tight(const AnimatedChunk& chunk, const AnimatedChunk& rings);
   void add_halves(float from, float to, std::vector<AnimatedChunk>& chunks);
   void add_chunks(float from, float to, std::vector<AnimatedChunk>& chunks);
   bool loops();
@@ -69,6 +72,7 @@ class ClipAnimator {
   SlabTriangles slab_triangles_;
   std::optional<Heights> slab_;  ///< none: the whole body
   MovingMesh mesh_;              ///< of the chunk
+  std::vector<Vec3> bind_;       ///< the mesh's vertices in the bind pose
   std::optional<OutlineBuilder> builder_;
   Outline outline_;
   std::vector<Vec2> now_, later_;
@@ -81,31 +85,45 @@ void ClipAnimator::pose(float seconds, std::vector<Vec2>& vertices) {
 }
 
 void ClipAnimator::prepare_builder() {
-  std::vector<Vec3> bind = character_.vertices;
-  mesh_.append_middles(bind);
-  builder_.emplace(mesh_.triangles, bind.size(), bind);
+  bind_ = character_.vertices;
+  mesh_.append_middles(bind_);
+  builder_.emplace(mesh_.triangles, bind_.size(), bind_);
 }
 
-KeyContour ClipAnimator::contour_at(float seconds, float next) {
-  pose(seconds, now_);
-  pose(next, later_);
-  builder_->build(now_, outline_);
-  KeyContour key = {double{seconds}, follow(outline_, double{options_.spacing} / points_of_disc), {}, {}};
-  for (const std::uint32_t v : vertices_on(outline_, now_)) {
-    key.here.push_back(now_[v]);
-    key.next.push_back(later_[v]);
+KeyContour ClipAnimator::contour_of(const Outline& outline, const KeyPose& key, const KeyPose& next) {
+  const double step = double{options_.spacing} / points_of_disc;
+  KeyContour contour = {double{key.seconds}, follow(longest_contour(outline), step), {}, {}};
+  for (const std::uint32_t v : vertices_on(outline, key.vertices)) {
+    contour.here.push_back(key.vertices[v]);
+    contour.next.push_back(next.vertices[v]);
   }
-  return key;
+  return contour;
 }
 
-AnimatedChunk ClipAnimator::ring(float from, float to) {
-  std::vector<KeyContour> keys;
-  const auto time = [&](std::uint32_t i) {
-    const double share = std::min(1.0, static_cast<double>(i) / (keys_of_chunk - 1));
-    return static_cast<float>(double{from} + (double{to} - double{from}) * share);
-  };
-  for (std::uint32_t i = 0; i < keys_of_chunk; ++i) keys.push_back(contour_at(time(i), time(i + 1)));
-  return ring_along(keys, options_);
+/// Appends the contours of triangles at the keys, where they are one part, or those of their parts.
+void ClipAnimator::add_parts(const Triangles& triangles, std::span<const KeyPose> keys,
+                             std::vector<std::vector<KeyContour>>& parts) {
+  OutlineBuilder builder(triangles, bind_.size(), bind_);
+  std::vector<Outline> outlines(keys.size());
+  for (std::size_t k = 0; k < keys.size(); ++k) builder.build(keys[k].vertices, outlines[k]);
+  const std::vector<Triangles> apart = parts_apart(triangles, keys, outlines);
+  for (const Triangles& part : apart) add_parts(part, keys, parts);
+  if (!apart.empty()) return;
+  parts.emplace_back();
+  for (std::size_t k = 0; k < keys.size(); ++k)
+    parts.back().push_back(contour_of(outlines[k], keys[k], keys[std::min(k + 1, keys.size() - 1)]));
+}
+
+AnimatedChunk ClipAnimator::rings(float from, float to) {
+  std::vector<KeyPose> keys(keys_of_chunk);
+  for (std::size_t k = 0; k < keys.size(); ++k) {
+    const double share = static_cast<double>(k) / (keys_of_chunk - 1);
+    keys[k].seconds = static_cast<float>(double{from} + (double{to} - double{from}) * share);
+    pose(keys[k].seconds, keys[k].vertices);
+  }
+  std::vector<std::vector<KeyContour>> parts;
+  add_parts(mesh_.triangles, keys, parts);
+  return rings_along(parts, options_);
 }
 
 /// Returns how far a disc reaches out of the outline at a time at most; `share` is that of the time from a key to the next one.
@@ -123,12 +141,12 @@ double ClipAnimator::excess(const AnimatedChunk& chunk, std::size_t key, float s
   return most;
 }
 
-/// Returns whether discs, half-way between two keys, reach out by no more than the error farther than the ring did at these keys.
-bool ClipAnimator::is_tight(const AnimatedChunk& chunk, const AnimatedChunk& ring) {
-  double at_key = excess(ring, 0, 0);
+/// Returns whether discs, half-way between two keys, reach out by no more than the error farther than the rings did at these keys.
+bool ClipAnimator::is_tight(const AnimatedChunk& chunk, const AnimatedChunk& rings) {
+  double at_key = excess(rings, 0, 0);
   for (std::size_t key = 0; key + 1 < chunk.times.size(); ++key) {
     const double before = at_key;
-    at_key = excess(ring, key, 1);
+    at_key = excess(rings, key, 1);
     if (excess(chunk, key, 0.5f) > std::max(before, at_key) + double{options_.error}) return false;
   }
   return true;
@@ -161,7 +179,7 @@ void ClipAnimator::add_chunks(float from, float to, std::vector<AnimatedChunk>& 
     if (mesh_.triangles.empty()) return chunks.push_back({{double{from}, double{to}}, 0, {}, {}});
     prepare_builder();
   }
-  const AnimatedChunk made_for_keys = ring(from, to);
+  const AnimatedChunk made_for_keys = rings(from, to);
   AnimatedChunk chunk = made_for_keys;
   check_.hold(chunk, mesh_);
   if (to - from > 2 * shortest_chunk && !is_tight(chunk, made_for_keys)) return add_halves(from, to, chunks);

@@ -14,26 +14,18 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// Appends a contour to a way, by a bridge between the points that are nearest to each other.
-void append(std::span<const Vec2> contour, std::vector<PlanePoint>& way) {
-  if (way.empty()) {
-    for (const Vec2& p : contour) way.push_back(plane_point(p));
-    return;
-  }
-  std::size_t from = 0, to = 0;
-  double nearest = infinity;
-  for (std::size_t i = 0; i < way.size(); ++i)
-    for (std::size_t j = 0; j < contour.size(); ++j)
-      if (const double square = squared_length(way[i] - plane_point(contour[j])); square < nearest) {
-        nearest = square;
-        from = i;
-        to = j;
-      }
-  std::vector<PlanePoint> detour;
-  for (std::size_t j = 0; j <= contour.size(); ++j)
-    detour.push_back(plane_point(contour[(to + j) % contour.size()]));
-  detour.push_back(way[from]);
-  way.insert(way.begin() + static_cast<std::ptrdiff_t>(from) + 1, detour.begin(), detour.end());
+/// Calls visit(from, to) for each segment.
+template <class Visit>
+void for_each_segment(std::span<const Vec2> contour, Visit visit) {
+  for (std::size_t i = 0; i < contour.size(); ++i)
+    visit(plane_point(contour[i]), plane_point(contour[i + 1 < contour.size() ? i + 1 : 0]));
+}
+
+double length_of(std::span<const Vec2> contour) {
+  double whole = 0;
+  for_each_segment(contour,
+                   [&](const PlanePoint& from, const PlanePoint& to) { whole += length(to - from); });
+  return whole;
 }
 
 void set_directions(EvenContour& way) {
@@ -130,27 +122,29 @@ std::vector<std::size_t> Warping::places() const {
 
 }  // namespace
 
-EvenContour follow(const Outline& outline, double step) {
+std::span<const Vec2> longest_contour(const Outline& outline) {
+  std::size_t longest = 0;
+  for (std::size_t c = 1; c < outline.contours(); ++c)
+    if (length_of(outline.contour(c)) > length_of(outline.contour(longest))) longest = c;
+  return outline.contour(longest);
+}
+
+EvenContour follow(std::span<const Vec2> contour, double step) {
   constexpr double most_points = 0x1p16;
-  std::vector<PlanePoint> corners;
-  for (std::size_t c = 0; c < outline.contours(); ++c) append(outline.contour(c), corners);
-  const auto edge = [&](std::size_t i) { return corners[(i + 1) % corners.size()] - corners[i]; };
-  double whole = 0;
-  for (std::size_t i = 0; i < corners.size(); ++i) whole += length(edge(i));
-  const double wanted = std::max(8.0, std::ceil(whole / step));
+  const double whole = length_of(contour), wanted = std::max(8.0, std::ceil(whole / step));
   if (wanted > most_points) throw std::length_error("animated discs: an outline is too long for the spacing");
   const auto count = static_cast<std::size_t>(wanted);
   EvenContour way;
   way.step = whole / wanted;
-  const auto next = [&] { return static_cast<double>(way.points.size()) * way.step; };
   double gone = 0;
-  for (std::size_t i = 0; i < corners.size(); ++i) {
-    const double size = length(edge(i));
+  for_each_segment(contour, [&](const PlanePoint& from, const PlanePoint& to) {
+    const auto next = [&] { return static_cast<double>(way.points.size()) * way.step; };
+    const double size = length(to - from);
     while (way.points.size() < count && next() < gone + size)
-      way.points.push_back(corners[i] + ((next() - gone) / size) * edge(i));
+      way.points.push_back(from + ((next() - gone) / size) * (to - from));
     gone += size;
-  }
-  way.points.resize(count, corners[0]);
+  });
+  way.points.resize(count, plane_point(contour[0]));
   set_directions(way);
   return way;
 }
@@ -168,19 +162,21 @@ std::vector<std::uint32_t> vertices_on(const Outline& outline, std::span<const V
   return found;
 }
 
-double depth_in(const Outline& outline, const PlanePoint& p) {
-  double nearest = std::numeric_limits<double>::infinity();
+double depth_in(std::span<const Vec2> contour, const PlanePoint& p) {
+  double nearest = infinity;
   bool inside = false;
-  for (std::size_t c = 0; c < outline.contours(); ++c) {
-    const std::span<const Vec2> contour = outline.contour(c);
-    for (std::size_t i = 0; i < contour.size(); ++i) {
-      const PlanePoint a = plane_point(contour[i]),
-                       b = plane_point(contour[i + 1 < contour.size() ? i + 1 : 0]);
-      nearest = std::min(nearest, squared_distance(p, a, b));
-      if ((a.y > p.y) != (b.y > p.y)) inside ^= p.x - a.x < (b.x - a.x) * ((p.y - a.y) / (b.y - a.y));
-    }
-  }
+  for_each_segment(contour, [&](const PlanePoint& a, const PlanePoint& b) {
+    nearest = std::min(nearest, squared_distance(p, a, b));
+    if ((a.y > p.y) != (b.y > p.y)) inside ^= p.x - a.x < (b.x - a.x) * ((p.y - a.y) / (b.y - a.y));
+  });
   return inside ? std::sqrt(nearest) : -std::sqrt(nearest);
+}
+
+double depth_in(const Outline& outline, const PlanePoint& p) {
+  double deepest = -infinity;
+  for (std::size_t c = 0; c < outline.contours(); ++c)
+    deepest = std::max(deepest, depth_in(outline.contour(c), p));
+  return deepest;
 }
 
 std::vector<std::size_t> match_in_order(std::span<const ExpectedPoint> points, const EvenContour& way,

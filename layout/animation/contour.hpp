@@ -14,8 +14,7 @@
 
 namespace bch::detail {
 
-/// A closed way round an outline, counter-clockwise, by points at even distances: round one contour after the other, there and back
-/// along the shortest bridges between them. It cuts corners by less than its step.
+/// A closed way round a contour, counter-clockwise, by points at even distances. It cuts corners by less than its step.
 struct EvenContour {
   std::vector<PlanePoint> points;
   /// Per point, a vector to the left of the way: of length 1 where it is straight, shorter in bends, 0 where it turns back.
@@ -23,14 +22,18 @@ struct EvenContour {
   double step = 0;  ///< metres of way from a point to the next
 };
 
-/// Makes the way round an outline, its points at most `step` apart.
+std::span<const Vec2> longest_contour(const Outline& outline);
+
+/// Makes the way round a contour, its points at most `step` apart.
 /// Errors:  throws std::length_error beyond 2^16 points.
-EvenContour follow(const Outline& outline, double step);
+EvenContour follow(std::span<const Vec2> contour, double step);
 
 /// Returns which vertices are on an outline.
 std::vector<std::uint32_t> vertices_on(const Outline& outline, std::span<const Vec2> vertices);
 
-/// Returns how deep a point lies inside an outline; less than 0 outside.
+/// Returns how deep a point lies inside a contour; less than 0 outside.
+double depth_in(std::span<const Vec2> contour, const PlanePoint& p);
+/// Returns how deep a point lies inside the contour of an outline where it is deepest; less than 0 outside of all.
 double depth_in(const Outline& outline, const PlanePoint& p);
 
 /// A point of a contour, and where it is expected on another one.

@@ -173,19 +173,23 @@ double step_of(double reach) {
   return std::ldexp(1.0, exponent - 15);
 }
 
-AnimatedChunk ring_along(std::span<const KeyContour> keys, const AnimateOptions& options) {
+AnimatedChunk rings_along(std::span<const std::vector<KeyContour>> parts, const AnimateOptions& options) {
   constexpr std::size_t most_discs = 4096;
-  const Places places = places_of_discs(keys, double{options.spacing});
-  if (places[0].size() > most_discs) throw std::length_error("animated discs: more than 4096");
-  double reach = 0;
-  for (const KeyContour& key : keys)
-    for (const PlanePoint& p : key.way.points) reach = std::max({reach, std::abs(p.x), std::abs(p.y)});
   AnimatedChunk chunk;
-  chunk.disc_count = static_cast<std::uint32_t>(places[0].size());
-  chunk.ring_ends = {chunk.disc_count};
-  for (std::size_t k = 0; k < keys.size(); ++k) {
-    chunk.times.push_back(keys[k].time);
-    append_discs(keys[k].way, places[k], options, step_of(reach), chunk.keys);
+  std::vector<Places> places;
+  double reach = 0;
+  for (const std::vector<KeyContour>& keys : parts) {
+    places.push_back(places_of_discs(keys, double{options.spacing}));
+    chunk.disc_count += static_cast<std::uint32_t>(places.back()[0].size());
+    chunk.ring_ends.push_back(chunk.disc_count);
+    for (const KeyContour& key : keys)
+      for (const PlanePoint& p : key.way.points) reach = std::max({reach, std::abs(p.x), std::abs(p.y)});
+  }
+  if (chunk.disc_count > most_discs) throw std::length_error("animated discs: more than 4096");
+  for (std::size_t k = 0; k < parts[0].size(); ++k) {
+    chunk.times.push_back(parts[0][k].time);
+    for (std::size_t i = 0; i < parts.size(); ++i)
+      append_discs(parts[i][k].way, places[i][k], options, step_of(reach), chunk.keys);
   }
   return chunk;
 }

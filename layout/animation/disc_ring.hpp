@@ -19,15 +19,15 @@ struct KeyContour {
   std::vector<Vec2> here, next;  ///< vertices on the contour, and the same ones at the next key
 };
 
-/// Makes a ring of discs that follow a contour from key to key: it looks for good places, and whether the discs hold a body between
-/// the keys is for CoverCheck.
+/// Makes rings of discs, one for each part of a body, that follow its contour from key to key: it looks for good places, and whether the
+/// discs hold a body between the keys is for CoverCheck.
 ///
 /// The discs of the first key lie evenly on its contour. Each is expected where the nearest vertex of the contour takes it, and
 /// match_in_order() finds its place on the next one. Where neighbours come farther apart than the spacing, because a part of the
 /// body comes out from under another, more discs are put between them at all keys. Then the centres go behind the contour by the
 /// inset, but where the body is narrow: discs that touch the contour from inside stand out little between their neighbours.
 /// Errors:  throws std::length_error beyond 4096 discs.
-AnimatedChunk ring_along(std::span<const KeyContour> keys, const AnimateOptions& options);
+AnimatedChunk rings_along(std::span<const std::vector<KeyContour>> parts, const AnimateOptions& options);
 
 /// Returns the power of two that coordinates up to a reach are rounded to: each is it times a number of 16 bits.
 double step_of(double reach);

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include <bch/default_characters.hpp>
 #include <bch/outline_builder.hpp>
 #include <bch/pose_shape.hpp>
 
@@ -76,6 +77,29 @@ TEST(AnimateSlabs, HoldCharactersCutAtAnyHeights) {
                high = static_cast<float>(random.uniform(0.8, 1.4));
     const Seen seen = expect_slabs_held(character, {low, high}, test::samples(200), random);
     EXPECT_LT(seen.mean_excess, 0.02) << character.name << " cut at " << low << " and " << high;
+  }
+}
+
+/// Below the knees legs are apart, and from there to the waist hands are: where discs lie between them, some reach out by 15 cm.
+TEST(AnimateSlabs, GiveFeetAndHandsRingsOfTheirOwn) {
+  Character character = default_male();
+  std::erase_if(character.clips, [](const Clip& clip) { return clip.name != "walk"; });
+  ASSERT_EQ(character.clips.size(), 1u);
+  character.clips[0].seconds = 0.15f * static_cast<float>(test::samples(8));
+  AnimateOptions options;
+  options.slices = {0.4f, 1};
+  const AnimatedDiscs animated = animate(character, 0, options);
+  for (const AnimatedChunk& chunk : animated.slabs[0].chunks) EXPECT_EQ(chunk.ring_ends.size(), 2u);
+  detail::Skinner skinner(character);
+  OutlineBuilder builder(character.triangles, character.vertices.size());
+  std::vector<Outline> slabs(3);
+  Random random(3154);
+  for (std::uint32_t i = 0; i < test::samples(100); ++i) {
+    const auto seconds = static_cast<float>(random.uniform(0, double{character.clips[0].seconds}));
+    builder.build(skinner.pose({0, seconds}), options.slices, slabs);
+    for (std::size_t s = 0; s < slabs.size(); ++s)
+      EXPECT_LT(test::most_out(test::cover_at(animated.slabs[s], double{seconds}), slabs[s]), 0.04)
+          << "slab " << s << " at " << seconds << " s";
   }
 }
 

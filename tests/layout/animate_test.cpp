@@ -12,6 +12,8 @@
 #include <bch/outline_builder.hpp>
 #include <bch/pose_shape.hpp>
 
+#include "layout/animation/contour.hpp"
+#include "layout/base/ring_edges.hpp"
 #include "layout/character/skinning.hpp"
 #include "tests/support/animated_cover.hpp"
 #include "tests/support/character_shapes.hpp"
@@ -47,18 +49,21 @@ void expect_as_said(const AnimatedDiscs& animated, float seconds) {
     before = chunk.times.back();
     EXPECT_TRUE(std::is_sorted(chunk.times.begin(), chunk.times.end()));
     ASSERT_EQ(chunk.keys.size(), chunk.times.size() * chunk.disc_count);
-    ASSERT_EQ(chunk.ring_ends, std::vector<std::uint32_t>{chunk.disc_count});
+    ASSERT_FALSE(chunk.ring_ends.empty());
+    ASSERT_EQ(chunk.ring_ends.back(), chunk.disc_count);
     float reach = 0;
     for (const Disc& disc : chunk.keys)
       reach = std::max({reach, std::abs(disc.x), std::abs(disc.y), disc.radius});
     const double step = std::exp2(std::ceil(std::log2(double{reach})) - 15);
-    for (std::size_t i = 0; i < chunk.keys.size(); ++i) {
-      const Disc& disc = chunk.keys[i];
-      const Disc& next = chunk.keys[(i + 1) % chunk.disc_count != 0 ? i + 1 : i + 1 - chunk.disc_count];
-      EXPECT_LT(std::hypot(disc.x - next.x, disc.y - next.y), disc.radius + next.radius);
+    for (const Disc& disc : chunk.keys)
       for (const float number : {disc.x, disc.y, disc.radius})
         EXPECT_EQ(std::remainder(double{number}, step), 0.0) << number;
-    }
+    for (std::size_t key = 0; key < chunk.times.size(); ++key)
+      detail::for_each_ring_edge(chunk.ring_ends, [&](std::uint32_t i, std::uint32_t after) {
+        const Disc& disc = chunk.keys[key * chunk.disc_count + i];
+        const Disc& next = chunk.keys[key * chunk.disc_count + after];
+        EXPECT_LT(std::hypot(disc.x - next.x, disc.y - next.y), disc.radius + next.radius);
+      });
   }
 }
 
@@ -143,6 +148,29 @@ TEST(Animate, HoldsPartsThatComeOutFromUnderOthersAndPartsApart) {
   // Discs go ahead of a part that comes out, so that less is promised of how close they are.
   expect_held(bars({{0, 0, 0}, {0, 0, 1.5f}, {0, 0, -1}}), test::samples(2000), 0.02);
   expect_held(bars({{0.1f, 0, 1}, {-0.9f, 0, 1}}), test::samples(1000), 0.02);
+}
+
+/// Returns the most that a disc reaches out of the body at random times, and expects two rings in each chunk.
+double most_out_of_two_parts(const Character& character) {
+  const AnimatedDiscs animated = animate(character, 0);
+  for (const AnimatedChunk& chunk : animated.chunks) EXPECT_EQ(chunk.ring_ends.size(), 2u);
+  detail::Skinner skinner(character);
+  OutlineBuilder builder(character.triangles, character.vertices.size());
+  Outline outline;
+  Random random(312);
+  double most = 0;
+  for (std::uint32_t i = 0; i < test::samples(200); ++i) {
+    const auto seconds = static_cast<float>(random.uniform(0, 1));
+    builder.build(skinner.ground_pose({0, seconds}), outline);
+    most = std::max(most, test::most_out(cover_at(animated, double{seconds}), outline));
+  }
+  return most;
+}
+
+TEST(Animate, GivesPartsRingsOfTheirOwn) {
+  // Two bars side by side; and two of which one's tip sweeps over the other's, so that they are one contour for a while.
+  EXPECT_LT(most_out_of_two_parts(bars({{0.1f, 0, 1}, {-0.9f, 0, 1}})), 0.02);
+  EXPECT_LT(most_out_of_two_parts(bars({{0, 0, 0}, {0.75f, 2.5f, 3.8f}})), 0.02);
 }
 
 TEST(Animate, KnowsLoops) {

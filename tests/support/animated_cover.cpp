@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "layout/animation/contour.hpp"
+
 namespace bch::test {
 namespace {
 
@@ -63,6 +65,13 @@ std::size_t left_out(const Cover& cover, std::span<const Vec2> vertices, const O
     }
   }
   return count;
+}
+
+double most_out(const Cover& cover, const Outline& outline) {
+  double most = -1e9;
+  for (const Disc& disc : cover.discs)
+    most = std::max(most, double{disc.radius} - detail::depth_in(outline, {double{disc.x}, double{disc.y}}));
+  return most;
 }
 
 double excess_in(const Cover& cover, std::span<const Vec2> vertices, double x, double y) {

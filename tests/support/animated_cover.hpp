@@ -26,6 +26,9 @@ Cover cover_at(const AnimatedDiscs& animated, double seconds);
 /// Counts the vertices and the points of the outline's segments, some millimetres apart, that a cover does not hold.
 std::size_t left_out(const Cover& cover, std::span<const Vec2> vertices, const Outline& outline);
 
+/// Returns how far a disc of a cover reaches out of an outline at most.
+double most_out(const Cover& cover, const Outline& outline);
+
 /// Returns the largest coordinate of a cover in a direction, less that of what it covers.
 double excess_in(const Cover& cover, std::span<const Vec2> vertices, double x, double y);
 
