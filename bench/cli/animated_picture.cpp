@@ -25,7 +25,7 @@ constexpr const char* css =
     R"(text { font-family: "DejaVu Sans", Verdana, Arial, sans-serif; fill: #1c2733 }
 .title { font-size: 21px; font-weight: bold }
 .caption { font-size: 14px; fill: #4a5866 }
-.label { font-size: 14px; text-anchor: middle }
+.label { font-size: 13px; text-anchor: middle }
 .tick { font-size: 12px; text-anchor: middle; fill: #4a5866 }
 .panel { fill: #f7f9fa; stroke: #d3dae0 }
 .outline { fill: #a9bccb; stroke: #3f566b; stroke-width: 1.1; stroke-linejoin: round }
@@ -113,7 +113,7 @@ void draw_moment(const Drawing& drawing, const AnimatedPart& part, Pixel corner)
   svg.text({corner.x + large / 2, corner.y + large + 20}, "label",
            fmt::format("{}{:.3f} s: {}{}{}", part.heights.empty() ? "" : part.heights + ", ", seconds,
                        text_of(part.chunk), part.chunk.ring_ends.empty() ? "" : " (dashed)",
-                       part.outline != nullptr ? ", and the body" : ""));
+                       part.outline != nullptr ? " on the body" : ""));
 }
 
 /// The rings of the chunk at its keys, and the way of each centre between them.
