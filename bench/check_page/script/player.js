@@ -44,15 +44,15 @@ function showTime(seconds) {
   player.frame = frame;
   player.stale ||= isNew;
   if (isNew && selection.following) keepInMiddle();
-  showPosition();
-  if (!player.playing || player.last - player.told > textEvery) tell();
+  if (!player.playing || player.last - player.told > tellEvery) tell();
 }
 
-const textEvery = 100;  // milliseconds: nobody reads faster, and texts take time
+const tellEvery = 100;  // milliseconds: nobody reads faster, and whatever changes beside the crowd takes a sixth of a frame
 
-/** Writes what the current frame has. */
+/** Shows the time, and what the current frame has. */
 function tell() {
   player.told = player.last;
+  showPosition();
   showClock();
   showNow();
   showCard();
