@@ -22,7 +22,7 @@ from selenium.webdriver.chrome.options import Options
 from selenium.webdriver.chrome.service import Service
 
 FRAMES = 250
-SECONDS = 4
+SECONDS = 2
 WINDOWS = {"wide": (1400, 900), "narrow": (390, 844)}
 
 
