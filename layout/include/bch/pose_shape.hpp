@@ -63,8 +63,9 @@ struct AnimateOptions {
 };
 
 /// Makes moving discs of a character's clip that hold all of its triangles at every real time of the clip: the proof is beside
-/// layout/animation/cover_check.hpp. Each number of a chunk is one of 16 bits times a power of two. With slices those of each slab
-/// hold all triangles that reach into it at some time of the chunk, as wholes, which PoseShaper cuts.
+/// layout/animation/cover_check.hpp. Parts of the body that are apart have rings of their own. Each number of a chunk is one of 16 bits
+/// times a power of two. With slices those of each slab hold all triangles that reach into it at some time of the chunk, as wholes,
+/// which PoseShaper cuts.
 /// Cost:    about as long as the clip for people of 2 850 triangles with 30 keys a second, and more for more keys and slabs.
 /// Errors:  throws std::invalid_argument on a clip that is not there or takes no time, on one with channels that jump, step or are
 ///          cubic, on a character without a root joint, on options that are not above 0 and on slices that validate(ShapeSetPlan)
