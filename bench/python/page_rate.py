@@ -56,8 +56,8 @@ def open_page(driver, page, window, theme):
 
 
 def rate(driver):
-    """Frames that are drawn, a second, while the page plays twice as fast, so that each shows another moment of the recording."""
-    driver.execute_script("bchPage.seek(0); bchPage.setSpeed(2); bchPage.play()")
+    """Frames a second while the page plays 62 moments of the recording a second, so that each frame of a screen draws another one."""
+    driver.execute_script("bchPage.seek(0); bchPage.setSpeed(2.5); bchPage.play()")
     time.sleep(SECONDS)
     drawn = driver.execute_script("const rate = bchPage.frameRate(); bchPage.pause(); return rate")
     return drawn

@@ -54,7 +54,7 @@ class ClipAnimator {
   std::vector<AnimatedChunk> chunks();
   void pose(float seconds, std::vector<Vec2>& vertices);
   KeyContour contour_of(const Outline& outline, const KeyPose& key, const KeyPose& next);
-  void add_parts(const Triangles& triangles, std::span<const KeyPose> keys,
+  void add_parts(OutlineBuilder& builder, const TriangleList& triangles, std::span<const KeyPose> keys,
                  std::vector<std::vector<KeyContour>>& parts);
   AnimatedChunk rings(float from, float to);
   double excess(const AnimatedChunk& chunk, std::size_t key, float share);
@@ -100,14 +100,16 @@ KeyContour ClipAnimator::contour_of(const Outline& outline, const KeyPose& key, 
   return contour;
 }
 
-/// Appends the contours of triangles at the keys, where they are one part, or those of their parts.
-void ClipAnimator::add_parts(const Triangles& triangles, std::span<const KeyPose> keys,
-                             std::vector<std::vector<KeyContour>>& parts) {
-  OutlineBuilder builder(triangles, bind_.size(), bind_);
+/// Appends the contours of triangles at the keys, where they are one part, or those of their parts. `builder`: of these triangles.
+void ClipAnimator::add_parts(OutlineBuilder& builder, const TriangleList& triangles,
+                             std::span<const KeyPose> keys, std::vector<std::vector<KeyContour>>& parts) {
   std::vector<Outline> outlines(keys.size());
   for (std::size_t k = 0; k < keys.size(); ++k) builder.build(keys[k].vertices, outlines[k]);
-  const std::vector<Triangles> apart = parts_apart(triangles, keys, outlines);
-  for (const Triangles& part : apart) add_parts(part, keys, parts);
+  const std::vector<TriangleList> apart = parts_apart(triangles, keys, outlines);
+  for (const TriangleList& part : apart) {
+    OutlineBuilder of_part(part, bind_.size(), bind_);
+    add_parts(of_part, part, keys, parts);
+  }
   if (!apart.empty()) return;
   parts.emplace_back();
   for (std::size_t k = 0; k < keys.size(); ++k)
@@ -122,7 +124,7 @@ AnimatedChunk ClipAnimator::rings(float from, float to) {
     pose(keys[k].seconds, keys[k].vertices);
   }
   std::vector<std::vector<KeyContour>> parts;
-  add_parts(mesh_.triangles, keys, parts);
+  add_parts(*builder_, mesh_.triangles, keys, parts);
   return rings_along(parts, options_);
 }
 

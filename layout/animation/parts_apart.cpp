@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "layout/animation/contour.hpp"
+#include "layout/base/rounding.hpp"
 
 namespace bch::detail {
 namespace {
@@ -18,10 +19,10 @@ namespace {
 /// The corners of a triangle at a key.
 using Corners = std::array<Vec2, 3>;
 
-/// Returns whether a triangle is too small for an outline of its own, which has to reach 1 um away from the origin, and whose grid is
+/// Returns whether a triangle is too small for an outline of its own, which has to have a reach, and whose grid is
 /// no coarser than that of an outline it is in.
 bool is_point(const Corners& corners, double grid_step) {
-  constexpr double least = 4e-6;  // metres
+  constexpr double least = 4 * rounding::smallest_reach;
   const auto extent = [&](float Vec2::*axis) {
     const auto [low, high] = std::minmax({corners[0].*axis, corners[1].*axis, corners[2].*axis});
     return double{high} - double{low};
@@ -46,11 +47,11 @@ std::size_t contour_round(const Corners& corners, const Outline& outline) {
 
 }  // namespace
 
-std::vector<Triangles> parts_apart(const Triangles& triangles, std::span<const KeyPose> keys,
-                                   std::span<const Outline> outlines) {
+std::vector<TriangleList> parts_apart(const TriangleList& triangles, std::span<const KeyPose> keys,
+                                      std::span<const Outline> outlines) {
   const auto is_one = [](const Outline& outline) { return outline.contours() == 1; };
   if (std::all_of(outlines.begin(), outlines.end(), is_one)) return {};
-  std::map<std::vector<std::size_t>, Triangles> by_contours;
+  std::map<std::vector<std::size_t>, TriangleList> by_contours;
   std::vector<std::size_t> contours;
   for (const auto& [a, b, c] : triangles) {
     contours.clear();
@@ -62,7 +63,7 @@ std::vector<Triangles> parts_apart(const Triangles& triangles, std::span<const K
     }
     if (contours.size() == keys.size()) by_contours[contours].push_back({a, b, c});
   }
-  std::vector<Triangles> parts;
+  std::vector<TriangleList> parts;
   if (by_contours.size() > 1)
     for (auto& [of, part] : by_contours) parts.push_back(std::move(part));
   return parts;

@@ -12,7 +12,7 @@
 
 namespace bch::detail {
 
-using Triangles = std::vector<std::array<std::uint32_t, 3>>;
+using TriangleList = std::vector<std::array<std::uint32_t, 3>>;
 
 /// A body's vertices at the time of a key.
 struct KeyPose {
@@ -24,7 +24,7 @@ struct KeyPose {
 /// So parts are the same at all keys, whatever contours do: those of feet that pass each other are one for a while, and feet still two parts.
 /// A triangle that is a point at some key belongs to no part.
 /// `outlines`: of the triangles, at each key. Returns: none where all triangles are one part.
-std::vector<Triangles> parts_apart(const Triangles& triangles, std::span<const KeyPose> keys,
-                                   std::span<const Outline> outlines);
+std::vector<TriangleList> parts_apart(const TriangleList& triangles, std::span<const KeyPose> keys,
+                                      std::span<const Outline> outlines);
 
 }  // namespace bch::detail

@@ -39,17 +39,22 @@ function rank(contour, first, last, most) {
   rank(contour, at, last, missed[at]);
 }
 
+/** Where the person in a row stands on the stage, and how his shape is turned there, in pixels a millimetre. */
+function standOf(row) {
+  const heading = headingOf(row), pixels = view.scale / 1000;
+  return {x: screenX(placeX(row)), y: screenY(placeY(row)), cosine: Math.cos(heading) * pixels, sine: Math.sin(heading) * pixels};
+}
+
 /** Points of the latest contour on the stage, x and y by turns, and where their insets are. */
 const corners = [], insets = [];
 
 const outlineError = 0.7;  // pixels
 
-/** Takes the points that a contour of the person in a row needs, and returns how many numbers these are. */
-function takeCorners(contour, row) {
+/** Takes the points that a contour needs where its person stands, and returns how many numbers these are. */
+function takeCorners(contour, {x, y, cosine, sine}) {
   const {points, xy} = shapes, begin = points[contour], end = points[contour + 1];
   if (missed[begin] === 0) rank(contour, begin, end, missed[begin] = Infinity);
-  const heading = headingOf(row), pixels = view.scale / 1000, x = screenX(placeX(row)), y = screenY(placeY(row));
-  const cosine = Math.cos(heading) * pixels, sine = Math.sin(heading) * pixels;
+  const pixels = view.scale / 1000;
   let count = 0;
   for (let i = begin; i < end; ++i) {
     if (missed[i] * pixels <= outlineError) continue;
@@ -76,10 +81,10 @@ function moveInwards(count, distance) {
 
 /** Begins a path with the outlines of the person in a row, moved inwards by so many pixels. */
 function traceBody(context, row, inwards = 0) {
-  const shape = people.shape[row];
+  const shape = people.shape[row], stand = standOf(row);
   context.beginPath();
   for (let contour = shapes.contours[shape]; contour < shapes.contours[shape + 1]; ++contour) {
-    const count = takeCorners(contour, row), points = inwards === 0 ? corners : moveInwards(count, inwards);
+    const count = takeCorners(contour, stand), points = inwards === 0 ? corners : moveInwards(count, inwards);
     if (count < 6) continue;
     context.moveTo(points[0], points[1]);
     for (let i = 2; i < count; i += 2) context.lineTo(points[i], points[i + 1]);
@@ -89,12 +94,12 @@ function traceBody(context, row, inwards = 0) {
 
 /** Begins a path with the discs of the person in a row. */
 function traceDiscs(context, row) {
-  const {discsBegin, discs} = shapes, shape = people.shape[row], heading = headingOf(row), pixels = view.scale / 1000;
-  const cosine = Math.cos(heading) * pixels, sine = Math.sin(heading) * pixels;
+  const {discsBegin, discs} = shapes, shape = people.shape[row], {x, y, cosine, sine} = standOf(row);
   context.beginPath();
   for (let i = 3 * discsBegin[shape]; i < 3 * discsBegin[shape + 1]; i += 3) {
-    const x = screenX(placeX(row)) + cosine * discs[i] - sine * discs[i + 1], radius = discs[i + 2] * pixels;
-    context.moveTo(x + radius, screenY(placeY(row)) - sine * discs[i] - cosine * discs[i + 1]);
-    context.arc(x, screenY(placeY(row)) - sine * discs[i] - cosine * discs[i + 1], radius, 0, 2 * Math.PI);
+    const centreX = x + cosine * discs[i] - sine * discs[i + 1], centreY = y - sine * discs[i] - cosine * discs[i + 1];
+    const radius = discs[i + 2] * view.scale / 1000;
+    context.moveTo(centreX + radius, centreY);
+    context.arc(centreX, centreY, radius, 0, 2 * Math.PI);
   }
 }
