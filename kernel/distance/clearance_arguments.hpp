@@ -23,8 +23,8 @@ struct NearestFeatures {
   /// The places of the discs among ShapeSetView::nodes, 0 in a set of roots alone; or the points where the segments begin; or no_node.
   std::uint32_t a, b;
   // Of discs:
-  float x, y;          ///< from A's centre to B's, in A's frame
-  float cosine, sine;  ///< of A's heading
+  float x, y;          ///< way from A's centre to B's, in A's frame
+  float cosine, sine;  ///< A's heading
 };
 
 /// The input and output of a clearance kernel. These are plain pointers for the reason that Arguments states.

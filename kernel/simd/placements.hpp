@@ -60,7 +60,7 @@ class Placements {
   }
   /// Sets the gaps of two shapes, of the pair with that index in the batch.
   void set_gaps(std::uint32_t k, const Arguments& in, std::size_t pair) noexcept {
-    // Of roots alone there is nothing to bound.
+    // A set of roots alone has no reaches and nothing to bound.
     const float* const reach = in.shapes->reach;
     const auto [leaf, bound] =
         gaps<Simd>(in.gaps[pair], reach == nullptr ? 0 : reach[shape_a[k]] + reach[shape_b[k]]);

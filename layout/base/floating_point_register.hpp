@@ -3,7 +3,7 @@
 
 #pragma once
 
-// Of the processor itself, also where BCH_SCALAR leaves its vectors alone.
+// The processor decides here, also where BCH_SCALAR leaves its vectors alone.
 #if defined(__x86_64__)
 #include <xmmintrin.h>
 #elif !defined(__aarch64__)

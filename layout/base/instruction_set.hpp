@@ -26,7 +26,7 @@ constexpr InstructionSet scalar{"scalar", everywhere};
 constexpr InstructionSet avx512{"avx512", []() noexcept { return __builtin_cpu_supports("avx512f") != 0; }};
 constexpr InstructionSet avx2{"avx2", []() noexcept { return __builtin_cpu_supports("avx2") != 0; }};
 constexpr InstructionSet sse2{"sse2", everywhere};
-/// Of BaseLanes: what every processor of this kind has.
+/// The set of BaseLanes, which every processor of this kind has.
 constexpr InstructionSet base = sse2;
 #elif BCH_NEON
 constexpr InstructionSet neon{"neon", everywhere};

@@ -71,7 +71,7 @@ struct AnyLanes {
     return gather(p, index, std::make_index_sequence<Batch<T>::size>());
   }
 
-  /// Of each group of four lanes these: 0 to 3 of the first, 4 to 7 of the second.
+  /// Picks these of each group of four lanes: 0 to 3 from the first, 4 to 7 from the second.
   template <unsigned... which>
   static Float shuffle(Float first, Float second) noexcept {
     return [=]<std::size_t... lane>(std::index_sequence<lane...>) {
@@ -83,7 +83,7 @@ struct AnyLanes {
     }
     (std::make_index_sequence<width>());
   }
-  /// Of each group of four lanes, in turn: the first ones of all four, the second ones ...
+  /// Transposes each group of four lanes: the first ones of all four registers, then the second ones ...
   static void transpose(const Float (&from)[4], Float (&to)[4]) noexcept {
     const Float low01 = shuffle<0, 4, 1, 5>(from[0], from[1]), low23 = shuffle<0, 4, 1, 5>(from[2], from[3]),
                 high01 = shuffle<2, 6, 3, 7>(from[0], from[1]),

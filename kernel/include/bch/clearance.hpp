@@ -53,7 +53,7 @@ struct ClearanceAnswers {
 /// and of D. The discs of the cuts alone count, not the nodes above them, so that a distance is one of two
 /// discs. Where collide() says 1 in boundary semantics, the distance is at most 0; where the distance is
 /// positive, it says 0 there. It may say 0 where discs overlap and nodes above them or the
-/// segments of exact leaves do not: a distance of 0 is no collision yet. The same bits on every processor,
+/// segments of exact leaves do not: a distance of 0 is no collision yet. Results are the same bits on every processor,
 /// for any number of threads and any split of the batch; exchanging the agents of a pair exchanges the discs
 /// and negates the direction. Of gaps that are equal, the one with the first disc of the agent with the lower
 /// index counts, then that with the first disc of the other.
@@ -78,7 +78,7 @@ void clearance(const ShapeSet& shapes, const Agents& agents, std::span<const Pai
 ///
 /// The answer is 1 wherever clearance() returns a finite distance of at most the given one, and wherever outlines are as close.
 /// Where the answer is 1 in boundary semantics, clearance() is at most the distance asked
-/// for, plus 1.4 um per metre of that and of the radii of their largest discs. The same bits on every processor, for any number
+/// for, plus 1.4 um per metre of that and of the radii of their largest discs. Results are the same bits on every processor, for any number
 /// of threads and any split of the batch, and for either order of a pair.
 ///
 /// Options: semantics, implementation.

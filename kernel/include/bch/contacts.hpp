@@ -33,7 +33,7 @@ struct CrowdContacts {
 ///
 /// For bodies of discs (shape_from_discs()) these are all overlaps of their discs: the contacts of a mechanical crowd model.
 ///
-/// Keeps its memory from call to call. One that was moved from can only be assigned to or destroyed.
+/// It keeps its memory from call to call. One that was moved from can only be assigned to or destroyed.
 class ContactFinder {
  public:
   ContactFinder();

@@ -64,7 +64,7 @@ class ObstacleSet {
   /// Errors:  throws std::out_of_range on an index out of range.
   std::uint32_t obstacle_of(std::uint32_t segment) const;
 
-  /// For the library's own parts, which alone know this type.
+  /// Returns what the library's own parts read; they alone know the type.
   const detail::ObstacleView& view() const noexcept;
 
  private:
@@ -143,7 +143,7 @@ void time_of_impact(const ShapeSet& shapes, const Agents& agents, const Displace
 /// where it has none. That of a body in slabs is the first of any slab.
 ///
 /// The time is never later than the first contact. At that time the solid is at most the tolerance away, and 4 um for each metre of its
-/// reach and what double rounds, as between two motions; of the distance to the ends of a segment 1e-14. The same bits on every processor, for
+/// reach and what double rounds, as between two motions; of the distance to the ends of a segment 1e-14. Times are the same bits on every processor, for
 /// any number of threads and any split of the batch; a later end of the interval changes no time.
 ///
 /// Units:   as first_contact() of pairs.

@@ -27,7 +27,7 @@ struct Displacements {
 /// also where the agents move apart. A displacement that is zero as a float gives 0 only where collide() with
 /// Leaves::discs and boundary semantics answers 1, and infinity otherwise. The time is never later than the
 /// outlines' first contact. At that time the outlines are at most the leaf discs' sizes and 4 um per metre of way and of
-/// the two shapes' reach apart. So it may be early, or finite where the outlines only pass each other within that distance. The same bits on
+/// the two shapes' reach apart. So it may be early, or finite where the outlines only pass each other within that distance. Times are the same bits on
 /// every processor, for any number of threads and any split of the batch, and for exchanged agents with the
 /// displacement negated. Solid semantics would add nothing: an agent that is inside has crossed the outline
 /// before, unless it starts there.
@@ -111,7 +111,7 @@ struct TimeInterval {
 ///
 /// The time is never later than the first contact. At that time the solids are at most the tolerance apart, and 2 um for each metre of
 /// both reaches and what double rounds of positions and times, below 1e-14 of these (of times at the greatest speed). So it is early
-/// by at most the tolerance over the speed at which they come together, and finite where they only pass by that closely. The same bits on
+/// by at most the tolerance over the speed at which they come together, and finite where they only pass by that closely. Times are the same bits on
 /// every processor, for any number of threads, any split of the batch and exchanged motions; a later end of the interval changes no time.
 ///
 /// Units:   seconds within +-1e6, metres within +-1e9, headings within +-1e9 rad, a turn of at most 1e3 rad from key to key.

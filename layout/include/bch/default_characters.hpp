@@ -14,7 +14,7 @@ namespace bch {
 /// in for the two characters of the paper's table 1 and were tuned to its statistics: the smallest disc around a pose seen
 /// from above has a mean radius of 0.42 m (man) and 0.34 m (woman) and a deviation of about 0.05 m.
 ///
-/// Units:   metres, z up, facing +x at rest. The same bits at each call. Takes about ten milliseconds.
+/// Units:   metres, z up, facing +x at rest. Each call takes about ten milliseconds and returns the same bits.
 ///
 /// Source:  body and motion after published measures (see layout/default_character: body_shape.hpp, walking.cpp, stepping.cpp,
 ///          idling.cpp); the paper is Stuvel et al., "Hierarchical structures for collision checking between

@@ -77,8 +77,8 @@ struct AnimatedDiscs {
   std::vector<AnimatedChunk> chunks;  ///< from the clip's beginning to its end
   bool loops = false;                 ///< whether the clip's last pose is its first one
   std::vector<float> slices = {};     ///< planes that cut the body, as in ShapeSetPlan; none: it is whole
-  /// Of a body that is cut: one more than planes, with chunks alone, from and to the same times. One without discs for a time has a
-  /// chunk of none.
+  /// The slabs of a body that is cut: one more than planes, with chunks alone, from and to the same times. One without discs for a time
+  /// has a chunk of none.
   std::vector<AnimatedDiscs> slabs = {};
   Heights heights = {};  ///< of the whole body at all times; by default it takes part at every height
   friend bool operator==(const AnimatedDiscs&, const AnimatedDiscs&) = default;
@@ -132,7 +132,7 @@ class AnimatedShape {
   /// Makes that shape in place of another one of this kind, whose memory it keeps.
   void shape(double seconds, Shape& shape) const;
 
-  /// For the library's own parts, which alone know the type: the tree of a body that is whole, or of a slab.
+  /// Returns the tree of a body that is whole, or of a slab, for the library's own parts, which alone know the type.
   const detail::AnimatedTree& tree() const noexcept { return *tree_; }
 
  private:

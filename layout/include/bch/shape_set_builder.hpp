@@ -32,7 +32,7 @@ class PreparedShape {
   /// Errors:  throws std::invalid_argument as ShapeSet does, naming the shape by `index`; prepare another then.
   void prepare(const Shape& shape, std::size_t index);
 
-  /// For the library's own parts, which alone know this type.
+  /// Returns what the library's own parts read and write; they alone know the type.
   detail::FlatBody& flat() noexcept;
   const detail::FlatBody& flat() const noexcept;
 
@@ -60,7 +60,7 @@ class ShapeSetBuilder {
   /// Returns the set of the shapes that were added. Where memory runs out they stay.
   ShapeSet finish() &&;
 
-  /// For the library's own parts: the nodes of the shapes so far, as the set is going to have them, none for roots alone. Valid
+  /// Returns the nodes of the shapes so far, as the set is going to have them, none for roots alone. For the library's own parts; valid
   /// until the next call of another function.
   std::span<const float> nodes() const noexcept;
   /// Returns the present end of the set, for go_back().
