@@ -11,7 +11,6 @@
 
 #include "kernel/c_api/arguments.hpp"
 #include "kernel/c_api/objects.hpp"
-#include "kernel/c_api/outlines.hpp"
 #include "kernel/c_api/own_characters.hpp"
 #include "kernel/c_api/posing.hpp"
 #include "kernel/c_api/work.hpp"
@@ -194,45 +193,6 @@ std::vector<std::vector<Vec2>> polygons_of(const bch_vec2* corners, const uint64
 
 using namespace bch;
 using namespace bch::c_api;
-
-bch_status bch_pose_shaper_create(const bch_character* character, const bch_plan* plan,
-                                  bch_pose_shaper** shaper) {
-  return guarded([&] {
-    required(shaper, "shaper");
-    hand_out(std::make_unique<bch_pose_shaper>(object_of(character, "character"), plan_of(plan),
-                                               threshold_of(plan)),
-             shaper);
-  });
-}
-
-bch_status bch_pose_shaper_make(bch_pose_shaper* handle, bch_pose pose, int32_t whole) {
-  return guarded([&] {
-    bch_pose_shaper& shaper = object_of(handle, "shaper");
-    shaper.made = nullptr;
-    shaper.at = {pose.clip, pose.seconds};
-    shaper.made = &shaper.shaper.shape(shaper.at, whole != 0);
-  });
-}
-
-bch_status bch_pose_shaper_get_outline(const bch_pose_shaper* handle, uint32_t slab, bch_outline* outline) {
-  return guarded([&] {
-    const Shape& shape = made_by(object_of(handle, "shaper"));
-    if (slab != BCH_ALL_SLABS && slab > 0 && slab >= shape.slabs.size())
-      throw Failure(BCH_OUT_OF_RANGE, "slab is " + std::to_string(slab));
-    OutlineWriter to(outline);
-    const auto add = [&](const Outline& one) {
-      for (std::size_t i = 0; i < one.contours(); ++i) to.add(one.contour(i));
-    };
-    if (shape.slabs.empty()) add(shape.outline);
-    for (std::size_t i = 0; i < shape.slabs.size(); ++i)
-      if (slab == BCH_ALL_SLABS || slab == i) add(shape.slabs[i].outline);
-    to.finish();
-  });
-}
-
-bch_status bch_pose_shaper_free(bch_pose_shaper* shaper) {
-  return free_object(shaper, "shaper");
-}
 
 bch_status bch_shape_set_builder_create(const bch_plan* plan, bch_shape_set_builder** builder) {
   return guarded([&] {
