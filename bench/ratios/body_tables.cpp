@@ -18,8 +18,8 @@ namespace bch::bench {
 namespace {
 
 constexpr std::uint32_t bodies = 150;
-constexpr double density = 5;  ///< a square metre
-constexpr double most_microseconds = 10, needed_over_loop = 20;
+constexpr double pressed_density = 5;  ///< a square metre
+constexpr double most_step_us = 10, needed_over_loop = 20;
 
 /// Five discs across a body: the trunk, the shoulders and the arms.
 constexpr Disc five_discs[] = {
@@ -34,7 +34,7 @@ struct Touch {
 /// A crowd for a mechanical model, whose bodies are of discs.
 struct Bodies {
   ShapeSet set{std::vector<Shape>(1, shape_from_discs(five_discs))};
-  cli::Crowd crowd = cli::place_crowd(bodies, density, 1, crowd_seed);
+  cli::Crowd crowd = cli::place_crowd(bodies, pressed_density, 1, crowd_seed);
   ContactFinder finder;
   std::vector<Vec2> centres;
   std::vector<Touch> touches;
@@ -92,8 +92,8 @@ void print_bodies(const Results& results) {
   };
   const double step = microseconds(own);
   fmt::print("contacts of {} bodies of five discs, {:g} a square metre: {:.0f} contacts\n", own.items,
-             density, own.counters.at("contacts"));
-  fmt::print("  {:32}{:8.1f} us a step   {}\n", "find_all()", step, verdict_at_most(step, most_microseconds));
+             pressed_density, own.counters.at("contacts"));
+  fmt::print("  {:32}{:8.1f} us a step   {}\n", "find_all()", step, verdict_at_most(step, most_step_us));
   fmt::print("  {:32}{:8.1f} us, {:.1f} x   {}\n", "a loop over all pairs and discs", microseconds(loop),
              loop.nanoseconds / own.nanoseconds,
              verdict(loop.nanoseconds / own.nanoseconds, needed_over_loop));

@@ -17,7 +17,7 @@
 namespace bch::bench {
 namespace {
 
-constexpr double most_microseconds = 45, most_with_base = 90, times_welzl = 3, times_clipper = 1000;
+constexpr double most_build_us = 45, most_with_base = 90, times_welzl = 3, times_clipper = 1000;
 constexpr std::size_t clipper_poses = 3;  ///< it takes tens of milliseconds for one
 
 /// A character, and the stages of its construction.
@@ -86,7 +86,7 @@ void print_construction(const Character& character, const std::string& name, con
   for (const BuildImplementation& set : implementations) {
     fmt::print("  {:10}", set.name);
     print_times(results, with(set));
-    const double most = set.name == base_implementation() ? most_with_base : most_microseconds;
+    const double most = set.name == base_implementation() ? most_with_base : most_build_us;
     fmt::print("   pose: {}; all: {}\n", verdict_at_most(microseconds(results, with(set), "pose"), most),
                verdict_at_most(microseconds(results, with(set), "all"), most));
   }

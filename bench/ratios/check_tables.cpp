@@ -20,7 +20,7 @@ namespace {
 using namespace detail;
 
 constexpr std::uint32_t most_people = 5000;
-constexpr double density = 3, fps = 25;
+constexpr double walkers_density = 3, fps = 25;
 constexpr std::size_t few_frames = 400, many_frames = 800, checked_frames = 4;
 constexpr int threads = 2;
 constexpr double needed_millions = 2;  ///< person-frames a second
@@ -35,7 +35,7 @@ double drawn(std::uint32_t person, std::uint32_t what, double bound) {
 
 /// A lattice of people who sway, and walk on in waves: slower where they are pushed together.
 Position in_waves(std::uint32_t people, std::uint32_t person, double seconds) {
-  const double spacing = 1 / std::sqrt(density * std::sqrt(0.75));
+  const double spacing = 1 / std::sqrt(walkers_density * std::sqrt(0.75));
   const auto columns = static_cast<std::uint32_t>(std::ceil(std::sqrt(people)));
   const std::uint32_t row = person / columns, column = person % columns;
   const double x = spacing * (column + 0.5 * (row % 2)), y = spacing * std::sqrt(0.75) * row;
@@ -48,7 +48,7 @@ Position in_waves(std::uint32_t people, std::uint32_t person, double seconds) {
 
 /// People who walk through each other, and turn round at the sides of a square.
 Position at_random(std::uint32_t people, std::uint32_t person, double seconds) {
-  const double side = std::sqrt(people / density);
+  const double side = std::sqrt(people / walkers_density);
   const double way = (0.2 + drawn(person, 0, 1.4)) * seconds, angle = drawn(person, 1, 6.28);
   const auto fold = [side](double at) { return side - std::abs(std::fmod(std::abs(at), 2 * side) - side); };
   return {fold(drawn(person, 2, side) + way * std::cos(angle)),
@@ -119,7 +119,7 @@ void require_same(Recording& recording) {
         fmt::format("check: {} pairs within 1.2 m where a loop finds {}", summary.all.near_pairs, near));
 }
 
-std::string name_of(const Crowd& crowd, std::size_t frames) {
+std::string check_name(const Crowd& crowd, std::size_t frames) {
   return with_threads(fmt::format("check/{}/{}", crowd.name, frames), threads);
 }
 
@@ -127,10 +127,10 @@ void print_checks(const Results& results, std::uint32_t people) {
   fmt::print(
       "checks of {} people, {:g} a square metre, whole bodies, reading aside, million person-frames a "
       "second\n",
-      people, density);
+      people, walkers_density);
   for (const Crowd& crowd : crowds)
     for (const std::size_t frames : {few_frames, many_frames}) {
-      const Timing& timing = results.at(name_of(crowd, frames));
+      const Timing& timing = results.at(check_name(crowd, frames));
       const double millions = 1e3 / timing.nanoseconds;
       fmt::print("  {:20}{} frames, {:.0f} % in overlap, {:5.0f} poses built: {:.2f}   {}\n", crowd.words,
                  frames, timing.counters.at("percent"), timing.counters.at("poses"), millions,
@@ -146,7 +146,7 @@ std::vector<Table> check_tables(Suite& suite, Scene& scene) {
     const Shared<Recording> shared([&crowd, people] { return std::make_shared<Recording>(crowd, people); });
     for (const std::size_t frames : {few_frames, many_frames})
       suite.add(
-          name_of(crowd, frames),
+          check_name(crowd, frames),
           [shared, frames]() -> Contender {
             const std::shared_ptr<Recording> recording = shared.get();
             require_same(*recording);

@@ -22,7 +22,7 @@
 namespace bch::bench {
 namespace {
 
-constexpr double threshold = 0.01;  ///< metres
+constexpr double baked_threshold = 0.01;  ///< metres
 
 /// A file of its own for each object, which goes with it.
 class TemporaryFile {
@@ -43,7 +43,7 @@ class TemporaryFile {
 };
 
 detail::FileBytes bake(Scene& scene, const std::string& file) {
-  cli::bake_file(file, scene.characters(), scene.sources(), threshold, {});
+  cli::bake_file(file, scene.characters(), scene.sources(), baked_threshold, {});
   return detail::map_file(file);
 }
 
@@ -71,16 +71,16 @@ constexpr Part parts[] = {
      [](const Loaded& from) { benchmark::DoNotOptimize(detail::baked::checksum(from.bytes.bytes)); }},
     {"validation_alone", [](const Loaded& from) { validate(from.baked.set.arrays()); }}};
 
-std::string name_of(const Part& part) {
+std::string load_name(const Part& part) {
   return fmt::format("load/{}", part.name);
 }
 
 void print_load(const Results& results) {
-  const auto& counters = results.at(name_of(parts[0])).counters;
+  const auto& counters = results.at(load_name(parts[0])).counters;
   fmt::print("loading a baked file of {:.0f} shapes, {:.1f} MB, us\n", counters.at("shapes"),
              counters.at("bytes") / 1e6);
   for (const Part& part : parts)
-    fmt::print("  {:18}{:8.1f}\n", part.name, results.at(name_of(part)).nanoseconds / 1000);
+    fmt::print("  {:18}{:8.1f}\n", part.name, results.at(load_name(part)).nanoseconds / 1000);
 }
 
 }  // namespace
@@ -88,7 +88,7 @@ void print_load(const Results& results) {
 std::vector<Table> load_tables(Suite& suite, Scene& scene) {
   const Shared<Loaded> loaded([&scene] { return std::make_shared<Loaded>(scene); });
   for (const Part& part : parts)
-    suite.add(name_of(part), [loaded, load = part.load]() -> Contender {
+    suite.add(load_name(part), [loaded, load = part.load]() -> Contender {
       const auto kept = loaded.get();
       return {[kept, load] { load(*kept); },
               1,

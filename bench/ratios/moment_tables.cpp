@@ -25,7 +25,7 @@ namespace {
 constexpr double rate = 120;                   ///< times a second of the grid
 constexpr std::uint32_t steps_of_a_frame = 4;  ///< on the grid: 30 frames a second
 constexpr double walking_speed = 1.2;          ///< metres a second
-constexpr double most_times = 2;
+constexpr double most_over_poses = 2;
 
 /// A walking person as poses on a grid of times and as moving discs.
 struct Walker {
@@ -184,7 +184,7 @@ void print_moments(const Results& results) {
     const Timing& timing = results.at(name);
     const double times = timing.nanoseconds / poses;
     fmt::print("  {}{:9.1f}   {:.2f} x   {:.0f} places   {}\n", what, timing.nanoseconds, times,
-               timing.counters.at("moments"), verdict_at_most(times, most_times));
+               timing.counters.at("moments"), verdict_at_most(times, most_over_poses));
   };
   row("moments/shown", "moments, without showing them ");
   row("moments/grid", "times on the grid             ");

@@ -45,7 +45,7 @@ struct Walkers {
   }
 };
 
-std::string name_of(bool touching) {
+std::string contact_name(bool touching) {
   return touching ? "touching" : "free";
 }
 
@@ -70,7 +70,7 @@ Contender sampled_contender(const std::shared_ptr<Walkers>& walkers, bool touchi
                                    [&](double time) { return (time <= MotionScene::seconds) == touching; });
   if (static_cast<double>(right) < 0.9 * static_cast<double>(asked->size()))
     throw std::runtime_error(
-        fmt::format("sampling finds {} of {} pairs {}", right, asked->size(), name_of(touching)));
+        fmt::format("sampling finds {} of {} pairs {}", right, asked->size(), contact_name(touching)));
   return {call, asked->size()};
 }
 
@@ -96,10 +96,10 @@ void print_motions(const Results& results) {
   }
   fmt::print("first contact of 10 s motions that come within a metre, one thread\n");
   for (const bool touching : {false, true}) {
-    const Timing& own = results.at("motions/first_contact/" + name_of(touching));
+    const Timing& own = results.at("motions/first_contact/" + contact_name(touching));
     const double taken = own.nanoseconds / 1000,
-                 sampled = results.at("motions/sampled/" + name_of(touching)).nanoseconds / 1000;
-    fmt::print("  {:8}, {:3} pairs {:6.1f} us   {}\n", name_of(touching), own.items, taken,
+                 sampled = results.at("motions/sampled/" + contact_name(touching)).nanoseconds / 1000;
+    fmt::print("  {:8}, {:3} pairs {:6.1f} us   {}\n", contact_name(touching), own.items, taken,
                verdict_at_most(taken, touching ? most_touching : most_free));
     fmt::print("    sampled at {:g} a second {:6.1f} us, {:.1f} x   {}\n", samples_per_second, sampled,
                sampled / taken, verdict(sampled / taken, needed_over_sampling));
@@ -112,9 +112,9 @@ std::vector<Table> motion_tables(Suite& suite, Scene& scene) {
   const Shared<Walkers> walkers([&scene] { return std::make_shared<Walkers>(scene); });
   suite.add("motions/bytes", [walkers] { return bytes_contender(walkers.get()); });
   for (const bool touching : {false, true}) {
-    suite.add("motions/first_contact/" + name_of(touching),
+    suite.add("motions/first_contact/" + contact_name(touching),
               [walkers, touching] { return contact_contender(walkers.get(), touching); });
-    suite.add("motions/sampled/" + name_of(touching),
+    suite.add("motions/sampled/" + contact_name(touching),
               [walkers, touching] { return sampled_contender(walkers.get(), touching); });
   }
   return {{"motions", "^motions/", print_motions}};

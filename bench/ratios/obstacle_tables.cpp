@@ -20,7 +20,7 @@ namespace bch::bench {
 namespace {
 
 constexpr std::uint64_t plan_seed = 35;
-constexpr double density = 1;  ///< agents, and segments, per square metre
+constexpr double wall_density = 1;  ///< agents, and segments, per square metre
 constexpr double most_collide = 60, most_clearance = 200, needed_over_brute_force = 500;
 constexpr std::uint32_t checked_agents = 100;  ///< by brute force over everything
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -35,7 +35,7 @@ struct Floor {
 
   explicit Floor(Scene& in)
       : scene(in),
-        crowd(cli::place_crowd(in.agents(), density, in.set().shape_count(), crowd_seed)),
+        crowd(cli::place_crowd(in.agents(), wall_density, in.set().shape_count(), crowd_seed)),
         plan(floor_plan(in.agents(), crowd.side, plan_seed)),
         obstacles(plan.set()),
         reference(in.shapes(), {}, Leaves::segments) {}

@@ -18,8 +18,6 @@
 namespace bch::bench {
 namespace {
 
-constexpr float threshold = 0.01f;  ///< metres
-
 std::function<std::uint32_t(double)> always(std::uint32_t depth) {
   return [depth](double) { return depth; };
 }
@@ -29,13 +27,13 @@ std::uint32_t by_distance(double metres) {
   return metres < 5 ? all_depths : metres < 10 ? 6 : metres < 20 ? 3 : 0;
 }
 
-struct Row {
+struct PlanRow {
   const char* name;
   SceneUse use;
 };
 
-const std::vector<Row>& rows() {
-  static const std::vector<Row> all = {
+const std::vector<PlanRow>& plan_rows() {
+  static const std::vector<PlanRow> all = {
       {"single cylinder", {.depth = always(0)}},
       {"depth 3", {.depth = always(3)}},
       {"depth 6", {.depth = always(6)}},
@@ -52,7 +50,7 @@ const std::vector<Row>& rows() {
 /// The scene's crowd, as a plan for it has it.
 class Planned {
  public:
-  Planned(Scene& scene, const Row& row)
+  Planned(Scene& scene, const PlanRow& row)
       : workload_(scene.workload("crowd")),
         query_{row.use.solid ? Semantics::solid : Semantics::boundary, nullptr, row.use.leaves} {
     const cli::Crowd& crowd = workload_.crowd;
@@ -62,7 +60,7 @@ class Planned {
                         std::hypot(crowd.x[i] - 0.5 * crowd.side, crowd.y[i] - 0.5 * crowd.side)});
     plan_ = plan_scene(agents, row.use);
     for (const cli::LoadedCharacter& character : scene.characters())
-      shapers_.emplace_back(character.character, plan_.set, threshold);
+      shapers_.emplace_back(character.character, plan_.set, leaf_threshold);
     prepared_.emplace(plan_.set);
     set_.emplace(build());
     hits_.resize(workload_.pairs.size());
@@ -106,7 +104,7 @@ class Planned {
   Hits hits_;
 };
 
-std::string name_of(std::size_t row, std::string_view what) {
+std::string plan_name(std::size_t row, std::string_view what) {
   return fmt::format("plans/{}/{}", row, what);
 }
 
@@ -114,24 +112,24 @@ void print_plans(const Results& results) {
   fmt::print(
       "\n| plan of a scene: a crowd, one thread | bytes per shape | us to bake a shape | ns per pair "
       "|\n|---|---|---|---|\n");
-  for (std::size_t i = 0; i < rows().size(); ++i) {
-    const Timing &bake = results.at(name_of(i, "bake")), &query = results.at(name_of(i, "query"));
-    fmt::print("| {} | {:.0f} | {:.1f} | {:.1f} |\n", rows()[i].name, bake.counters.at("bytes_per_shape"),
-               bake.nanoseconds / 1e3, query.nanoseconds);
+  for (std::size_t i = 0; i < plan_rows().size(); ++i) {
+    const Timing &bake = results.at(plan_name(i, "bake")), &query = results.at(plan_name(i, "query"));
+    fmt::print("| {} | {:.0f} | {:.1f} | {:.1f} |\n", plan_rows()[i].name,
+               bake.counters.at("bytes_per_shape"), bake.nanoseconds / 1e3, query.nanoseconds);
   }
 }
 
 }  // namespace
 
 std::vector<Table> plan_tables(Suite& suite, Scene& scene) {
-  for (std::size_t i = 0; i < rows().size(); ++i) {
-    const Shared<Planned> plan([&scene, i] { return std::make_shared<Planned>(scene, rows()[i]); });
-    suite.add(name_of(i, "bake"), [plan]() -> Contender {
+  for (std::size_t i = 0; i < plan_rows().size(); ++i) {
+    const Shared<Planned> plan([&scene, i] { return std::make_shared<Planned>(scene, plan_rows()[i]); });
+    suite.add(plan_name(i, "bake"), [plan]() -> Contender {
       return {[kept = plan.get()] { kept->build(); },
               plan.get()->shapes(),
               {{"bytes_per_shape", plan.get()->bytes_per_shape()}}};
     });
-    suite.add(name_of(i, "query"), [plan]() -> Contender {
+    suite.add(plan_name(i, "query"), [plan]() -> Contender {
       return {[kept = plan.get()] { kept->answer(); }, plan.get()->pairs()};
     });
   }

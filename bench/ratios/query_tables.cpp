@@ -12,7 +12,7 @@ namespace {
 
 constexpr double needed_over_fcl = 150;
 
-std::string name_of(std::string_view query, std::string_view workload, std::string_view implementation) {
+std::string query_name(std::string_view query, std::string_view workload, std::string_view implementation) {
   return fmt::format("{}/{}/{}", query, workload, implementation);
 }
 
@@ -27,7 +27,8 @@ const Timing& collide_in(std::string_view workload, const Results& results) {
 /// `most`: what is asked for, or 0.
 void print_over_collide(const Results& results, std::string_view query, std::string_view workload,
                         const std::string& title, double most) {
-  const Timing &collide = collide_in(workload, results), &own = results.at(name_of(query, workload, best()));
+  const Timing &collide = collide_in(workload, results),
+               &own = results.at(query_name(query, workload, best()));
   const double times = own.nanoseconds / collide.nanoseconds;
   fmt::print("{}, {}, {}: {} pairs, {:.1f} ns over collide's {:.1f}: {:.2f} x   {}\n", title, workload,
              best(), cli::grouped(own.items), own.nanoseconds, collide.nanoseconds, times,
@@ -42,12 +43,12 @@ struct Bars {
 void print_distance(const Results& results, std::string_view query, const std::string& title,
                     const Bars& bars) {
   print_over_collide(results, query, "crowd", title, bars.most_times_collide);
-  const Timing& scalar = results.at(name_of(query, "near_miss", "reference"));
+  const Timing& scalar = results.at(query_name(query, "near_miss", "reference"));
   fmt::print("{}, near_miss: {} pairs; scalar search {:.1f} ns\n", title, cli::grouped(scalar.items),
              scalar.nanoseconds);
   for (const Implementation& one : implementations()) {
     if (!one.supported()) continue;
-    const double taken = results.at(name_of(query, "near_miss", one.name)).nanoseconds;
+    const double taken = results.at(query_name(query, "near_miss", one.name)).nanoseconds;
     const double ratio = scalar.nanoseconds / taken;
     fmt::print(
         "  {:8}{:6.1f} ns{:7.1f} x   {}\n", one.name, taken, ratio,
@@ -58,13 +59,13 @@ void print_distance(const Results& results, std::string_view query, const std::s
 void print_over_fcl(const Results& results) {
   if (!has_kind("fcl_obb_contour"))
     return fmt::print("clearance over FCL's distance of outlines: not in this build\n");
-  const double of_discs = results.at(name_of("clearance", "near_miss", best())).nanoseconds;
-  const double exact = results.at(name_of("exact_clearance", "near_miss", best())).nanoseconds;
+  const double of_discs = results.at(query_name("clearance", "near_miss", best())).nanoseconds;
+  const double exact = results.at(query_name("exact_clearance", "near_miss", best())).nanoseconds;
   fmt::print(
       "clearance over FCL's distance of outlines, near_miss, {}: discs {:.1f} ns, exact leaves {:.1f} ns\n",
       best(), of_discs, exact);
   const auto print = [&](std::string_view title, std::string_view implementation, double needed) {
-    const double taken = results.at(name_of("clearance", "near_miss", implementation)).nanoseconds;
+    const double taken = results.at(query_name("clearance", "near_miss", implementation)).nanoseconds;
     fmt::print("  {:28}{:8.1f} ns{:7.1f} x{:7.1f} x   {}\n", title, taken, taken / of_discs, taken / exact,
                needed > 0 ? verdict(taken / of_discs, needed) : "");
   };
@@ -87,11 +88,11 @@ void print_responses(const Results& results) {
   const Timing& collide = collide_in("crowd", results);
   fmt::print("response, crowd, {}: {} pairs\n", best(), cli::grouped(collide.items));
   for (const TimedQuery& query : response_queries()) {
-    const double own = results.at(name_of(query.name, "crowd", best())).nanoseconds;
+    const double own = results.at(query_name(query.name, "crowd", best())).nanoseconds;
     fmt::print("  {:12}{:7.1f} ns over collide's {:.1f}: {:.2f} x", query.name, own, collide.nanoseconds,
                own / collide.nanoseconds);
     if (query.reference != nullptr) {
-      const double brute_force = results.at(name_of(query.name, "crowd", "reference")).nanoseconds;
+      const double brute_force = results.at(query_name(query.name, "crowd", "reference")).nanoseconds;
       fmt::print("; brute force {:.0f} ns: {:.1f} x as long", brute_force, brute_force / own);
     }
     fmt::print("\n");
@@ -103,13 +104,13 @@ void add_query(Suite& suite, Scene& scene, const TimedQuery& query, std::string_
     for (const int threads : thread_counts())
       if (implementation.supported())
         suite.add(
-            with_threads(name_of(query.name, workload, implementation.name), threads),
+            with_threads(query_name(query.name, workload, implementation.name), threads),
             [&scene, &query, workload, &implementation] {
               return query.kernel(scene, scene.workload(workload), implementation);
             },
             threads);
   if (query.reference != nullptr)
-    suite.add(name_of(query.name, workload, "reference"),
+    suite.add(query_name(query.name, workload, "reference"),
               [&scene, &query, workload] { return query.reference(scene, scene.workload(workload)); });
 }
 
@@ -124,7 +125,7 @@ std::vector<Table> query_tables(Suite& suite, Scene& scene) {
       if (workload == "crowd" || query.reference != nullptr) add_query(suite, scene, query, workload);
   if (has_kind("fcl_obb_contour"))
     for (const bool walls : {true, false})
-      suite.add(name_of("clearance", "near_miss", walls ? "fcl_walls" : "fcl_segments"), [&scene, walls] {
+      suite.add(query_name("clearance", "near_miss", walls ? "fcl_walls" : "fcl_segments"), [&scene, walls] {
         return fcl_distance_contender(scene, scene.workload("near_miss"), walls);
       });
   const std::string collide = fmt::format("^{}$", collide_name("crowd", disc_query, best()));

@@ -12,6 +12,8 @@
 
 namespace bch::bench {
 
+constexpr float leaf_threshold = 0.01f;  ///< metres, of the hierarchies that tables build
+
 /// Judges a ratio: "PASS", or by how much it misses what it needs: "needs 20: 19 % short".
 std::string verdict(double ratio, double needed);
 /// Judges a value that must not exceed `most`: "PASS", or "at most 1.5: 8 % over".

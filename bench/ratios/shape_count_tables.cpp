@@ -15,15 +15,14 @@
 namespace bch::bench {
 namespace {
 
-constexpr std::uint32_t few = 200;
+constexpr std::uint32_t few_shapes = 200;
 constexpr std::uint32_t agents = 10'000;  ///< of the crowd workload
-constexpr float threshold = 0.01f;        ///< metres
 
-struct Row {
+struct CountRow {
   std::uint32_t shapes;
-  double most_times;  ///< a pair's time over that of few shapes
+  double most_times;  ///< a pair's time over that of few_shapes shapes
 };
-constexpr Row rows[] = {{5'000, 1.8}, {50'000, 3}};
+constexpr CountRow count_rows[] = {{5'000, 1.8}, {50'000, 3}};
 
 /// Copies of the scene's outlines, each stretched a little along x and y, on the grid: as different in memory as
 /// further poses would be.
@@ -38,7 +37,7 @@ std::vector<Shape> stretched(std::span<const Shape> shapes, std::uint32_t count)
     for (Vec2& p : outline.points)
       p = {static_cast<float>(std::round(x * static_cast<double>(p.x) / step) * step),
            static_cast<float>(std::round(y * static_cast<double>(p.y) / step) * step)};
-    builder.contour(outline, threshold, SplitRule::centroid, copies[i].hierarchy);
+    builder.contour(outline, leaf_threshold, SplitRule::centroid, copies[i].hierarchy);
   }
   return copies;
 }
@@ -57,29 +56,30 @@ Contender among_shapes(Scene& scene, std::uint32_t count) {
   return {call, hits->size(), {{"bytes_per_shape", static_cast<double>(set->bytes()) / set->shape_count()}}};
 }
 
-std::string name_of(std::uint32_t shapes) {
+std::string shapes_name(std::uint32_t shapes) {
   return fmt::format("shapes/{}", shapes);
 }
 
 void print_shape_counts(const Results& results) {
-  const double of_few = results.at(name_of(few)).nanoseconds;
-  for (const Row& row : rows) {
-    const auto found = results.find(name_of(row.shapes));
+  const double of_few = results.at(shapes_name(few_shapes)).nanoseconds;
+  for (const CountRow& row : count_rows) {
+    const auto found = results.find(shapes_name(row.shapes));
     if (found == results.end()) continue;
     const auto& [of_many, pairs, counters] = found->second;
     fmt::print(
         "a pair among {} shapes over {}: crowd, {} pairs, {:.0f} bytes a shape: {:.1f} ns over {:.1f}: "
         "{:.2f} x   {}\n",
-        cli::grouped(row.shapes), few, cli::grouped(pairs), counters.at("bytes_per_shape"), of_many, of_few,
-        of_many / of_few, verdict_at_most(of_many / of_few, row.most_times));
+        cli::grouped(row.shapes), few_shapes, cli::grouped(pairs), counters.at("bytes_per_shape"), of_many,
+        of_few, of_many / of_few, verdict_at_most(of_many / of_few, row.most_times));
   }
 }
 
 }  // namespace
 
 std::vector<Table> shape_count_tables(Suite& suite, Scene& scene, std::uint32_t most) {
-  for (const std::uint32_t shapes : {few, rows[0].shapes, rows[1].shapes})
-    if (shapes <= most) suite.add(name_of(shapes), [&scene, shapes] { return among_shapes(scene, shapes); });
+  for (const std::uint32_t shapes : {few_shapes, count_rows[0].shapes, count_rows[1].shapes})
+    if (shapes <= most)
+      suite.add(shapes_name(shapes), [&scene, shapes] { return among_shapes(scene, shapes); });
   return {{"shapes", "^shapes/", print_shape_counts}};
 }
 

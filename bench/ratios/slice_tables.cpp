@@ -19,17 +19,16 @@
 namespace bch::bench {
 namespace {
 
-constexpr float threshold = 0.01f;  ///< metres
 constexpr std::array workloads = {std::string_view("crowd"), std::string_view("near_miss"),
                                   std::string_view("colliding")};
 
 /// What a number of slabs may cost, times the whole body: time in a crowd with discs and with segments, time to build; and bytes.
-struct Row {
+struct SliceRow {
   std::uint32_t slabs;
   double discs, segments, build;
   double bytes;  ///< 0: nothing is asked of the row
 };
-constexpr Row rows[] = {
+constexpr SliceRow slice_rows[] = {
     {1, 0, 0, 0, 0},           {2, 0, 0, 0, 0}, {3, 2.0, 2.4, 2.2, 15 * 1024}, {4, 2.8, 3.3, 2.8, 19 * 1024},
     {8, 5, 6, 4.5, 36 * 1024},
 };
@@ -37,9 +36,9 @@ constexpr Row rows[] = {
 /// The scene's poses in slabs.
 class Sliced {
  public:
-  Sliced(Scene& scene, const Row& row) : scene_(scene), row_(row) {
+  Sliced(Scene& scene, const SliceRow& row) : scene_(scene), row_(row) {
     for (const cli::LoadedCharacter& character : scene.characters())
-      shapers_.emplace_back(character.character, plan(), threshold);
+      shapers_.emplace_back(character.character, plan(), leaf_threshold);
     prepared_.emplace(plan());
     set_.emplace(build());
   }
@@ -80,7 +79,7 @@ class Sliced {
 
  private:
   Scene& scene_;
-  const Row& row_;
+  const SliceRow& row_;
   std::vector<PoseShaper> shapers_;
   std::optional<PreparedShape> prepared_;
   std::optional<ShapeSet> set_;
@@ -99,8 +98,8 @@ void print_slices(const Results& results) {
   for (const std::string_view workload : workloads) fmt::print(" {} |", workload);
   fmt::print(
       " hits in the crowd | us to build a shape | bytes of a shape |\n|---|---|---|---|---|---|---|\n");
-  for (std::size_t i = 0; i < std::size(rows); ++i) {
-    fmt::print("| {} |", rows[i].slabs);
+  for (std::size_t i = 0; i < std::size(slice_rows); ++i) {
+    fmt::print("| {} |", slice_rows[i].slabs);
     for (const std::string_view workload : workloads)
       fmt::print(" {:.1f} / {:.1f} |", results.at(query_name(i, workload, Leaves::discs)).nanoseconds,
                  results.at(query_name(i, workload, Leaves::segments)).nanoseconds);
@@ -112,8 +111,8 @@ void print_slices(const Results& results) {
   const auto times_whole = [&](const std::string& name, const std::string& of_whole) {
     return results.at(name).nanoseconds / results.at(of_whole).nanoseconds;
   };
-  for (std::size_t i = 0; i < std::size(rows); ++i) {
-    const Row& row = rows[i];
+  for (std::size_t i = 0; i < std::size(slice_rows); ++i) {
+    const SliceRow& row = slice_rows[i];
     if (row.bytes == 0) continue;
     fmt::print("{} slabs over the whole body:\n", row.slabs);
     for (const Leaves leaves : {Leaves::discs, Leaves::segments}) {
@@ -131,8 +130,8 @@ void print_slices(const Results& results) {
 }  // namespace
 
 std::vector<Table> slice_tables(Suite& suite, Scene& scene) {
-  for (std::size_t i = 0; i < std::size(rows); ++i) {
-    const Shared<Sliced> sliced([&scene, i] { return std::make_shared<Sliced>(scene, rows[i]); });
+  for (std::size_t i = 0; i < std::size(slice_rows); ++i) {
+    const Shared<Sliced> sliced([&scene, i] { return std::make_shared<Sliced>(scene, slice_rows[i]); });
     for (const std::string_view workload : workloads)
       for (const Leaves leaves : {Leaves::discs, Leaves::segments})
         suite.add(query_name(i, workload, leaves), [sliced, &scene, workload, leaves]() -> Contender {

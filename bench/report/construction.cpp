@@ -121,20 +121,20 @@ void run_construction(Run& run) {
   run.write("construction_stages", stages);
 }
 
-double structure_us(const Results& results, std::string_view structure) {
-  return results("construction").number({{"structure", structure}}, "median (us)");
-}
-
-double stage_us(const Results& results, std::string_view stage) {
-  return results("construction_stages").number({{"stage", stage}}, "median (us)");
-}
-
 /// From posed vertices on.
 double hierarchy_us(const Results& results) {
   return stage_us(results, "outline") + stage_us(results, "hierarchy");
 }
 
 }  // namespace
+
+double build_us(const Results& results, std::string_view structure) {
+  return results("construction").number({{"structure", structure}}, "median (us)");
+}
+
+double stage_us(const Results& results, std::string_view stage) {
+  return results("construction_stages").number({{"stage", stage}}, "median (us)");
+}
 
 const Experiment construction_experiment{
     "construction",
@@ -146,11 +146,11 @@ const Experiment construction_experiment{
       [](const Results& results, std::string_view) { return brief(hierarchy_us(results)); }},
      {"full mesh over hierarchy",
       [](const Results& results, std::string_view) {
-        return brief(structure_us(results, "OBB full mesh") / hierarchy_us(results));
+        return brief(build_us(results, "OBB full mesh") / hierarchy_us(results));
       }},
      {"boxes with their outline",
       [](const Results& results, std::string_view) {
-        return brief(structure_us(results, "OBB outline") + stage_us(results, "outline"));
+        return brief(build_us(results, "OBB outline") + stage_us(results, "outline"));
       }},
      {"poses in a frame",
       [](const Results& results, std::string_view) { return brief(1e6 / 60 / stage_us(results, "all")); }}}};

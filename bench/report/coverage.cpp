@@ -17,15 +17,15 @@ namespace bch::report {
 namespace {
 
 /// Pixels first <= i < last of a row.
-using Run = std::pair<std::int64_t, std::int64_t>;
+using PixelRun = std::pair<std::int64_t, std::int64_t>;
 
 /// The pixels whose centres are in [low, high].
-Run pixels_between(double low, double high) {
+PixelRun pixels_between(double low, double high) {
   return {static_cast<std::int64_t>(std::ceil(low / pixel - 0.5)),
           static_cast<std::int64_t>(std::floor(high / pixel - 0.5)) + 1};
 }
 
-void add_discs(std::span<const Disc> discs, double y, std::vector<Run>& runs) {
+void add_discs(std::span<const Disc> discs, double y, std::vector<PixelRun>& runs) {
   for (const Disc& disc : discs) {
     const double away = static_cast<double>(disc.y) - y, r = static_cast<double>(disc.radius);
     const double square = r * r - away * away;
@@ -36,7 +36,8 @@ void add_discs(std::span<const Disc> discs, double y, std::vector<Run>& runs) {
 }
 
 /// Between every other crossing: contours neither nest nor cross.
-void add_outline(const Outline& outline, double y, std::vector<double>& crossings, std::vector<Run>& runs) {
+void add_crossings(const Outline& outline, double y, std::vector<double>& crossings,
+                   std::vector<PixelRun>& runs) {
   crossings.clear();
   for (std::size_t c = 0; c < outline.contours(); ++c) {
     const auto points = outline.contour(c);
@@ -53,7 +54,7 @@ void add_outline(const Outline& outline, double y, std::vector<double>& crossing
 }
 
 /// Pixels in some run; sorts them.
-std::int64_t count(std::vector<Run>& runs) {
+std::int64_t count(std::vector<PixelRun>& runs) {
   std::sort(runs.begin(), runs.end());
   std::int64_t sum = 0, seen_to = std::numeric_limits<std::int64_t>::min();
   for (const auto& [first, last] : runs) {
@@ -63,14 +64,14 @@ std::int64_t count(std::vector<Run>& runs) {
   return sum;
 }
 
-Run rows_of(const Outline& outline, std::span<const Disc> discs) {
+PixelRun rows_of(const Outline& outline, std::span<const Disc> discs) {
   double low = std::numeric_limits<double>::infinity(), high = -low;
   const auto include = [&](double y, double radius) {
     low = std::min(low, y - radius), high = std::max(high, y + radius);
   };
   for (const Vec2& point : outline.points) include(static_cast<double>(point.y), 0);
   for (const Disc& disc : discs) include(static_cast<double>(disc.y), static_cast<double>(disc.radius));
-  return low <= high ? pixels_between(low, high) : Run{0, 0};
+  return low <= high ? pixels_between(low, high) : PixelRun{0, 0};
 }
 
 }  // namespace
@@ -78,13 +79,13 @@ Run rows_of(const Outline& outline, std::span<const Disc> discs) {
 Coverage rasterise(const Outline& outline, std::span<const Disc> discs) {
   std::int64_t of_discs = 0, of_both = 0, of_outline = 0;
   std::vector<double> crossings;
-  std::vector<Run> runs, inside;
+  std::vector<PixelRun> runs, inside;
   const auto [first, last] = rows_of(outline, discs);
   for (std::int64_t row = first; row < last; ++row) {
     const double y = (static_cast<double>(row) + 0.5) * pixel;
     runs.clear(), inside.clear();
     add_discs(discs, y, runs);
-    add_outline(outline, y, crossings, inside);
+    add_crossings(outline, y, crossings, inside);
     of_discs += count(runs);
     of_outline += count(inside);
     runs.insert(runs.end(), inside.begin(), inside.end());

@@ -17,7 +17,7 @@
 namespace bch::report {
 namespace {
 
-struct Row {
+struct PackingRow {
   std::string name;
   ShapeSet set;
   Freedom freedom = Freedom::places;
@@ -31,13 +31,13 @@ std::string_view name_of(Freedom freedom) {
                                         : "headings and poses";
 }
 
-std::uint32_t people_of(const Row& row, const Sizes& sizes) {
+std::uint32_t people_of(const PackingRow& row, const Sizes& sizes) {
   return row.freedom == Freedom::places ? sizes.people : std::min(sizes.people, most_free_people);
 }
 
-std::vector<Row> rows_of(Run& run) {
+std::vector<PackingRow> rows_of(Run& run) {
   const std::span<const Shape> shapes = run.scene().shapes();
-  std::vector<Row> rows;
+  std::vector<PackingRow> rows;
   rows.push_back({"single cylinder", ShapeSet(shapes, {{0}, true})});
   for (const float radius : {0.25f, 0.4f}) {
     rows.push_back({fmt::format("fixed cylinder {:.2f} m", radius),
@@ -55,7 +55,7 @@ std::vector<Row> rows_of(Run& run) {
 }
 
 void run_density(Run& run) {
-  const std::vector<Row> rows = rows_of(run);
+  const std::vector<PackingRow> rows = rows_of(run);
   const std::size_t packings = run.sizes().packings;
   // Characters without clips have one pose, which then never changes.
   const std::uint32_t characters = static_cast<std::uint32_t>(run.scene().characters().size()),
@@ -66,7 +66,7 @@ void run_density(Run& run) {
   tbb::parallel_for(
       std::size_t{0}, densities.size(),
       [&](std::size_t i) {
-        const Row& row = rows[i / packings];
+        const PackingRow& row = rows[i / packings];
         densities[i] = densest_packing(row.set, people_of(row, run.sizes()), run.seed() + i % packings,
                                        row.freedom, free_poses);
         run.done(static_cast<double>(++done) / static_cast<double>(densities.size()));

@@ -14,7 +14,7 @@ constexpr std::uint32_t deepest = 12;
 constexpr double paper_critical_depth = 9, critical = 1.01;
 constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
 
-std::vector<std::uint32_t> depths() {
+std::vector<std::uint32_t> every_depth() {
   std::vector<std::uint32_t> list;
   for (std::uint32_t depth = 0; depth <= deepest; ++depth) list.push_back(depth);
   list.push_back(all_depths);
@@ -24,7 +24,7 @@ std::vector<std::uint32_t> depths() {
 /// A structure that can be asked at every depth.
 struct Series {
   std::string name;
-  std::vector<Subject> at;         ///< in the order of depths()
+  std::vector<Subject> at;         ///< in the order of every_depth()
   std::vector<double> nodes = {};  ///< of a shape, down to that depth, where they are known
   std::vector<std::vector<double>> distances = {};
 };
@@ -32,7 +32,7 @@ struct Series {
 /// Nodes of a shape down to each depth, on average.
 std::vector<double> nodes_to_depths(std::span<const Shape> shapes) {
   std::vector<double> nodes;
-  for (const std::uint32_t depth : depths()) {
+  for (const std::uint32_t depth : every_depth()) {
     double sum = 0;  // a binary tree of so many leaves
     for (const Shape& shape : shapes) sum += 2 * static_cast<double>(cut(shape.hierarchy, depth).size()) - 1;
     nodes.push_back(sum / static_cast<double>(shapes.size()));
@@ -44,7 +44,7 @@ std::vector<double> nodes_to_depths(std::span<const Shape> shapes) {
 std::string critical_depth(const std::vector<Estimate>& means) {
   std::size_t first = means.size() - 1;
   while (first > 0 && means[first - 1].mean <= critical * means.back().mean) --first;
-  return cli::depth_name(depths()[first]);
+  return cli::depth_name(every_depth()[first]);
 }
 
 /// What a series costs on the pairs of a workload, at every depth.
@@ -67,7 +67,7 @@ void add_series(const Run& run, const Series& series, const Cost& colliding, con
     const std::vector<double> found = known(series.distances[i]);
     const Estimate& mean = means.emplace_back(estimate(found, run.seed()));
     const Quartiles spread = quartiles(found);
-    table.add({series.name, cli::depth_name(depths()[i]), mean.mean, mean.low, mean.high, spread.low,
+    table.add({series.name, cli::depth_name(every_depth()[i]), mean.mean, mean.low, mean.high, spread.low,
                spread.median, spread.high, colliding.times[i].median, colliding.times[i].low,
                colliding.times[i].high, colliding.tests[i].nodes, near.times[i].median, near.times[i].low,
                near.times[i].high, near.tests[i].nodes, series.nodes.empty() ? not_known : series.nodes[i]});
@@ -78,7 +78,8 @@ void add_series(const Run& run, const Series& series, const Cost& colliding, con
 
 void run_depth(Run& run) {
   std::vector<ShapeSet> sets;
-  for (const std::uint32_t depth : depths()) sets.emplace_back(run.scene().shapes(), ShapeSetPlan{{depth}});
+  for (const std::uint32_t depth : every_depth())
+    sets.emplace_back(run.scene().shapes(), ShapeSetPlan{{depth}});
   const std::vector<double> nodes = nodes_to_depths(run.scene().shapes());
   std::vector<Series> all = {{std::string(kernel_name), {}, nodes},
                              {"OBB outline", {}},
@@ -86,7 +87,7 @@ void run_depth(Run& run) {
                              {"BCH outline", {}, nodes}};
   for (const ShapeSet& set : sets) all[0].at.push_back(subject_of(set));
   for (std::size_t k = 1; k < all.size(); ++k)
-    for (const std::uint32_t depth : depths())
+    for (const std::uint32_t depth : every_depth())
       all[k].at.push_back(subject_of(run.contestants().structure(all[k].name), depth));
 
   const SlideCases cases(run.scene().shapes(), run.sizes().cases, run.seed());

@@ -19,7 +19,7 @@ namespace bch::report {
 namespace {
 
 constexpr double densities[] = {0.5, 1, 2, 3, 4, 5, 6};  // people per square metre
-constexpr std::uint32_t depths[] = {0, 3, 6, all_depths};
+constexpr std::uint32_t compared_depths[] = {0, 3, 6, all_depths};
 constexpr double speed = 1.3, frames_per_second = 10;  // metres a second
 constexpr int frames = 50;
 
@@ -38,8 +38,9 @@ std::vector<std::uint8_t> same_level(const cli::Crowd& crowd) {
 std::vector<std::uint8_t> levels_by_density(const cli::Crowd& crowd) {
   std::vector<std::uint8_t> levels;
   for (const double density : local_densities(crowd.x, crowd.y)) {
-    const auto* const depth = std::find(std::begin(depths), std::end(depths), depth_at_density(density));
-    levels.push_back(static_cast<std::uint8_t>(depth - std::begin(depths)));
+    const auto* const depth =
+        std::find(std::begin(compared_depths), std::end(compared_depths), depth_at_density(density));
+    levels.push_back(static_cast<std::uint8_t>(depth - std::begin(compared_depths)));
   }
   return levels;
 }
@@ -50,7 +51,7 @@ struct Stop {
   bool is_true = false;
 };
 
-struct Outcome {
+struct StopCounts {
   std::size_t false_stops = 0, true_stops = 0, missed = 0, colliding = 0;
   std::vector<double> tests, counting;  ///< nanoseconds of a frame
   std::map<std::pair<std::uint32_t, std::uint32_t>, Stop> stops;
@@ -79,11 +80,11 @@ void walk(cli::Crowd& crowd) {
   }
 }
 
-std::vector<Outcome> walk_and_test(Run& run, std::span<const Detail> details, double density) {
+std::vector<StopCounts> walk_and_test(Run& run, std::span<const Detail> details, double density) {
   const baselines::Structure& meshes = run.contestants().structure("OBB full mesh");
   bench::Workload workload{
       "walking", cli::place_crowd(run.sizes().people, density, meshes.shape_count(), run.seed()), {}};
-  std::vector<Outcome> outcomes(details.size());
+  std::vector<StopCounts> outcomes(details.size());
   bench::Hits truth, hits;
   for (int frame = 0; frame < frames; ++frame, walk(workload.crowd)) {
     const std::vector<std::uint8_t> roots = same_level<0>(workload.crowd);
@@ -101,14 +102,15 @@ std::vector<Outcome> walk_and_test(Run& run, std::span<const Detail> details, do
         outcomes[k].add(workload.pairs[i], frame, hits[i] != 0, truth[i] != 0);
     }
   }
-  for (Outcome& outcome : outcomes)
+  for (StopCounts& outcome : outcomes)
     for (const auto& [pair, stop] : outcome.stops) outcome.finish(stop);
   return outcomes;
 }
 
 void run_detail(Run& run) {
   const std::span<const Shape> shapes = run.scene().shapes();
-  const ShapeSet cuts(shapes, {std::vector<std::uint32_t>(std::begin(depths), std::end(depths))});
+  const ShapeSet cuts(shapes,
+                      {std::vector<std::uint32_t>(std::begin(compared_depths), std::end(compared_depths))});
   const ShapeSet fixed_set(with_fixed_cylinders(shapes, 0.25f), {{0}});
   const Detail details[] = {
       {"single cylinder", &cuts, same_level<0>}, {"depth 3", &cuts, same_level<1>},
@@ -119,10 +121,10 @@ void run_detail(Run& run) {
                "lower quartile (ns)", "upper quartile (ns)", "levels of a frame (ns a person)"});
   double done = 0;
   for (const double density : densities) {
-    const std::vector<Outcome> outcomes = walk_and_test(run, details, density);
+    const std::vector<StopCounts> outcomes = walk_and_test(run, details, density);
     const double people = run.sizes().people, seconds = frames / frames_per_second;
     for (std::size_t k = 0; k < outcomes.size(); ++k) {
-      const Outcome& outcome = outcomes[k];
+      const StopCounts& outcome = outcomes[k];
       const Quartiles frame = quartiles(outcome.tests);
       // Both of a pair stop.
       table.add({density, details[k].name, 2 * static_cast<double>(outcome.false_stops) / people / seconds,

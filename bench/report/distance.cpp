@@ -18,16 +18,15 @@ namespace bch::report {
 namespace {
 
 /// The paper's means in centimetres.
-struct Row {
+struct DistanceRow {
   std::string_view contestant;
   double paper;
   bool in_groups = false;  ///< also for each kind of clips and couple of people
 };
-constexpr double not_told = std::numeric_limits<double>::quiet_NaN();
-constexpr Row rows[] = {
-    {"single cylinder", 20, true},       {"BCH outline", 5, true},    {exact_leaves_name, not_told},
-    {"BCH outline by centre", not_told}, {"BCH projected", not_told}, {"OBB outline", 4, true},
-    {"OBB projected", not_told},         {"OBB full mesh", 0},
+constexpr DistanceRow rows[] = {
+    {"single cylinder", 20, true},         {"BCH outline", 5, true},      {exact_leaves_name, empty_cell},
+    {"BCH outline by centre", empty_cell}, {"BCH projected", empty_cell}, {"OBB outline", 4, true},
+    {"OBB projected", empty_cell},         {"OBB full mesh", 0},
 };
 
 /// Where people in slabs are detected.
@@ -37,7 +36,7 @@ std::vector<double> contacts_in_slabs(Run& run, const SlideCases& cases, std::ui
 }
 
 /// What is common to all rows of a table.
-struct Tables {
+struct DistanceTables {
   Table summary{{"structure", "paper (cm)", "mean (cm)", "mean (95 % low)", "mean (95 % high)", "median (cm)",
                  "standard deviation (cm)", "lower quartile (cm)", "upper quartile (cm)", "cases",
                  "never detected"}};
@@ -77,7 +76,7 @@ std::vector<Group> groups_of(Run& run, const SlideCases& cases) {
   return {kinds, people};
 }
 
-void add_groups(const Run& run, const Row& row, std::span<const Group> groups,
+void add_groups(const Run& run, const DistanceRow& row, std::span<const Group> groups,
                 std::span<const double> distances, Table& table) {
   for (const Group& group : groups) {
     std::map<std::string, std::vector<double>> parts;
@@ -91,8 +90,8 @@ void add_groups(const Run& run, const Row& row, std::span<const Group> groups,
   }
 }
 
-void add(const Run& run, const Row& row, std::span<const double> places, std::span<const double> distances,
-         Tables& out) {
+void add(const Run& run, const DistanceRow& row, std::span<const double> places,
+         std::span<const double> distances, DistanceTables& out) {
   const std::vector<double> found = known(distances);
   const Estimate mean = estimate(found, run.seed());
   const Quartiles spread = quartiles(found);
@@ -106,9 +105,9 @@ void run_distance(Run& run) {
   const SlideCases cases(run.scene().shapes(), run.sizes().cases, run.seed());
   const std::vector<Group> groups = groups_of(run, cases);
   const ShapeSet leaves(run.scene().shapes()), roots(run.scene().shapes(), {{0}});
-  Tables out;
+  DistanceTables out;
   double done = 0;
-  for (const Row& row : rows) {
+  for (const DistanceRow& row : rows) {
     // The hierarchies that the kernel takes are slid in one query, others step by step.
     const std::vector<double> places =
         row.contestant == "BCH outline"       ? cases.contacts(leaves)
@@ -125,7 +124,7 @@ void run_distance(Run& run) {
     for (const Leaves how : {Leaves::discs, Leaves::segments}) {
       const std::vector<double> places = contacts_in_slabs(run, cases, slabs, how);
       const std::string name = slabs_name(slabs, how);
-      add(run, {name, not_told}, places, cases.distances(*run.distances(), places), out);
+      add(run, {name, empty_cell}, places, cases.distances(*run.distances(), places), out);
     }
     run.done(++done / static_cast<double>(std::size(rows) + std::size(compared_slabs)));
   }

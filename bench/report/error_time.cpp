@@ -52,7 +52,7 @@ std::vector<std::uint32_t> depths_of(const Run& run, std::uint32_t first) {
 }
 
 /// What points are asked.
-constexpr std::string_view workloads[] = {"crowd", "near_miss", "colliding"};
+constexpr std::string_view timed_workloads[] = {"crowd", "near_miss", "colliding"};
 
 /// Checks what the scalar reference does not know: solid semantics and exact leaves.
 void require_right(const Subject& kernel, const QueryOptions& query, std::span<const Shape> shapes,
@@ -83,7 +83,7 @@ void add_kernel(Run& run, double threshold, Points& points) {
         if (segments && depth != all_depths) continue;
         const QueryOptions query{semantics, nullptr, leaves};
         const Subject fast = subject_of(set, query);
-        for (const std::string_view name : workloads) {
+        for (const std::string_view name : timed_workloads) {
           const bench::Workload& workload = run.scene().workload(name);
           solid || segments ? require_right(fast, query, shapes, depth, workload)
                             : require_same(fast, slow, workload);
@@ -105,7 +105,7 @@ void add_slabs(Run& run, Points& points) {
     for (const Leaves leaves : {Leaves::discs, Leaves::segments}) {
       const Subject subject = subject_of(set, {.semantics = Semantics::solid, .leaves = leaves});
       const baselines::SlabBodies reference(shapes, plan, leaves);
-      for (const std::string_view name : workloads) {
+      for (const std::string_view name : timed_workloads) {
         const bench::Workload& workload = run.scene().workload(name);
         const bench::Hits hits = answers(subject, workload);
         for (std::size_t i = 0; i < hits.size(); ++i)
@@ -134,7 +134,7 @@ void add_others(Run& run, Points& points) {
     const bool discs = contestant.kind == "single" || contestant.kind == "fixed";
     for (const std::uint32_t depth :
          contestant.has_depth ? depths_of(run, 0) : std::vector{discs ? 0 : all_depths}) {
-      for (const std::string_view name : workloads)
+      for (const std::string_view name : timed_workloads)
         run.contestants().require_right(contestant, run.scene().workload(name), depth);
       points.all.push_back({std::string(contestant.name), depth, none, "boundary",
                             contestant.kind.starts_with("fcl") ? "double"

@@ -35,6 +35,9 @@ struct Sizes {
 constexpr Sizes full_sizes;
 constexpr Sizes quick_sizes{20, 2'000, 2'000, 100, 3, 200, 2, 40, 1, 20'000};
 
+/// Poses of a character of which an experiment keeps distances of meshes, which takes up to a hundred megabytes.
+constexpr std::uint32_t most_mesh_poses = 40;
+
 /// The context of an experiment: what it runs on and where its tables go.
 class Run {
  public:
@@ -76,6 +79,10 @@ class Run {
 
 /// The tables of an experiment, as they were read back.
 using Results = std::function<const Table&(std::string_view name)>;
+
+/// Return medians of the experiment `construction`, microseconds: of building a structure, and of one stage of the library's own.
+double build_us(const Results& results, std::string_view structure);
+double stage_us(const Results& results, std::string_view stage);
 
 /// A number or words of the page that are no cell of a table: {{NAME}} or {{NAME: OF}} in page.html.
 struct Computed {

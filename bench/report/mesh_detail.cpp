@@ -16,7 +16,6 @@ namespace bch::report {
 namespace {
 
 constexpr std::size_t few_triangles = 716;  // a quarter of the man's
-constexpr std::uint32_t most_poses = 40;    // memory: tens of megabytes a hundred bodies
 
 struct Measured {
   double build_tree = 0, build_hierarchy = 0;  // microseconds a pose
@@ -85,7 +84,7 @@ void run_mesh_detail(Run& run) {
                                   bench::with_relief(man, 2)};
   double done = 0;
   for (const Character& character : characters) {
-    const Detailed detailed(character, std::min(run.sizes().poses, most_poses));
+    const Detailed detailed(character, std::min(run.sizes().poses, most_mesh_poses));
     const Measured measured = detailed.measure(run.sizes().pairs / 4, run.sizes().runs);
     constexpr MeanTests not_counted[2];
     const auto add = [&](std::string_view name, double build, const Quartiles(&taken)[2],

@@ -29,14 +29,6 @@ double missed(const Results& results, std::string_view structure) {
   return 100 - query(results, structure, "hits (%)", "colliding");
 }
 
-double build_us(const Results& results, std::string_view structure) {
-  return results("construction").number({{"structure", structure}}, "median (us)");
-}
-
-double stage_us(const Results& results, std::string_view stage) {
-  return results("construction_stages").number({{"stage", stage}}, "median (us)");
-}
-
 double distance(const Results& results, std::string_view structure) {
   return results("distance").number({{"structure", structure}}, "mean (cm)");
 }

@@ -27,7 +27,6 @@ constexpr const char* radius_name = "cylinder radius (m)";
 constexpr const char* cylinder_name = "cylinder / mesh volume";
 constexpr const char* leaves_name = "BCH / mesh volume";
 constexpr const char* mesh_name = "mesh volume (m3)";
-constexpr double not_told = std::numeric_limits<double>::quiet_NaN();
 
 /// A row of the paper's table 1, or what its text says of the mesh volume.
 struct PaperRow {
@@ -37,9 +36,9 @@ struct PaperRow {
 };
 constexpr PaperRow paper_rows[] = {
     {true, radius_name, 0.34, 0.31, 0.05},  {true, cylinder_name, 11.09, 9.50, 3.55},
-    {true, leaves_name, 4.61, 4.27, 0.76},  {true, mesh_name, not_told, not_told, 0.01},
+    {true, leaves_name, 4.61, 4.27, 0.76},  {true, mesh_name, empty_cell, empty_cell, 0.01},
     {false, radius_name, 0.42, 0.40, 0.05}, {false, cylinder_name, 7.70, 6.99, 1.75},
-    {false, leaves_name, 3.57, 3.34, 0.51}, {false, mesh_name, not_told, not_told, 0.01},
+    {false, leaves_name, 3.57, 3.34, 0.51}, {false, mesh_name, empty_cell, empty_cell, 0.01},
 };
 
 /// The page takes the built-in man and woman for the paper's two, and the bulky man for its man once more.
@@ -47,7 +46,7 @@ PaperRow paper_row(const std::string& source, std::string_view quantity) {
   for (const PaperRow& row : paper_rows)
     if (row.quantity == quantity && (row.of_woman ? source == woman : source == man || source == bulky_man))
       return row;
-  return {false, quantity, not_told, not_told, not_told};
+  return {false, quantity, empty_cell, empty_cell, empty_cell};
 }
 
 /// The volumes of one character, an entry a pose.
@@ -66,7 +65,7 @@ Volumes volumes_of(const Character& character, std::span<const ShapeSource> pose
     auto& points = from_above.emplace_back();
     for (const Vec3& p : positions) points.push_back({p.x, p.y});
     volumes.radius.push_back(static_cast<double>(detail::smallest_enclosing_disc(points).radius));
-    volumes.mesh.push_back(closed ? enclosed_volume(positions, character.triangles) : not_told);
+    volumes.mesh.push_back(closed ? enclosed_volume(positions, character.triangles) : empty_cell);
   }
   volumes.leaves.resize(poses.size());
   tbb::parallel_for(std::size_t{0}, from_above.size(), [&](std::size_t i) {
@@ -76,8 +75,8 @@ Volumes volumes_of(const Character& character, std::span<const ShapeSource> pose
   return volumes;
 }
 
-void add_character(Run& run, const cli::LoadedCharacter& loaded, std::span<const ShapeSource> poses,
-                   Table& table) {
+void add_paper_rows(Run& run, const cli::LoadedCharacter& loaded, std::span<const ShapeSource> poses,
+                    Table& table) {
   Volumes volumes = volumes_of(loaded.character, poses);
   const double mesh = estimate(volumes.mesh, run.seed()).mean;
   const double height_per_mesh = static_cast<double>(loaded.report.height) / mesh;
@@ -108,7 +107,7 @@ void measure_paper_volumes(Run& run) {
     std::vector<ShapeSource> poses;
     std::copy_if(run.scene().sources().begin(), run.scene().sources().end(), std::back_inserter(poses),
                  [&](const ShapeSource& source) { return source.character == c; });
-    add_character(run, characters[c], poses, table);
+    add_paper_rows(run, characters[c], poses, table);
   }
   const auto is = [&](const char* source) {
     return std::any_of(characters.begin(), characters.end(),
@@ -116,7 +115,7 @@ void measure_paper_volumes(Run& run) {
   };
   if (is(man) && !is(bulky_man)) {
     const std::vector<cli::LoadedCharacter> bulky = {cli::load_character(bulky_man, {})};
-    add_character(run, bulky[0], cli::list_random_shapes(bulky, run.sizes().poses, run.seed()), table);
+    add_paper_rows(run, bulky[0], cli::list_random_shapes(bulky, run.sizes().poses, run.seed()), table);
   }
   run.write("volume_paper", table);
 }

@@ -18,8 +18,7 @@
 namespace bch::report {
 namespace {
 
-constexpr double threshold = 0.01;        // metres
-constexpr std::uint32_t most_poses = 40;  // memory: a hundred megabytes of distances of meshes
+constexpr double threshold = 0.01;  // metres
 
 /// A character's poses as all structures take them.
 struct Posed {
@@ -40,8 +39,8 @@ Posed pose(const cli::LoadedCharacter& loaded, std::uint32_t poses, std::uint64_
   return posed;
 }
 
-void add_character(Run& run, const cli::LoadedCharacter& loaded, Table& table) {
-  const Posed posed = pose(loaded, std::min(run.sizes().poses, most_poses), run.seed());
+void add_real_rows(Run& run, const cli::LoadedCharacter& loaded, Table& table) {
+  const Posed posed = pose(loaded, std::min(run.sizes().poses, most_mesh_poses), run.seed());
   const SlideCases cases(posed.shapes, run.sizes().cases, run.seed());
   const auto distances = baselines::fcl_mesh_distances(posed.bodies);
   const auto add = [&](const std::string& structure, const std::vector<double>& places) {
@@ -54,7 +53,7 @@ void add_character(Run& run, const cli::LoadedCharacter& loaded, Table& table) {
   for (const std::uint32_t depth : {0u, 3u, 6u, all_depths})
     add(cut_name(depth), cases.contacts(ShapeSet(posed.shapes, {{depth}})));
   const std::vector<ShapeSource> sources =
-      cli::list_random_shapes({&loaded, 1}, std::min(run.sizes().poses, most_poses), run.seed());
+      cli::list_random_shapes({&loaded, 1}, std::min(run.sizes().poses, most_mesh_poses), run.seed());
   for (const std::uint32_t slabs : {3u, 8u}) {
     const ShapeSetPlan plan{.slices = standing_slices(slabs)};
     const ShapeSet set(cli::build_shapes({&loaded, 1}, sources, threshold, plan).shapes, plan);
@@ -69,7 +68,7 @@ void run_real(Run& run) {
                "mean (95 % high)", "median (cm)", "standard deviation (cm)", "cases", "never detected"});
   double done = 0;
   for (const cli::LoadedCharacter& character : run.real_characters()) {
-    add_character(run, character, table);
+    add_real_rows(run, character, table);
     run.done(++done / static_cast<double>(run.real_characters().size()));
   }
   run.write("real", table);

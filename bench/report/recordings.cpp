@@ -105,16 +105,16 @@ class TimedPairs {
 };
 
 /// What a kind of bodies says of a recording.
-struct Outcome {
+struct BodyOverlaps {
   OverlapCount all;
   OverlapCounts by_density;
   double time = std::nan("");
   std::array<double, fixed.size()> cylinder_times{};
 };
 
-Outcome outcome_of(const Run& run, const Source& source, const Bodies& of) {
+BodyOverlaps outcome_of(const Run& run, const Source& source, const Bodies& of) {
   const auto reader = open(run, source);
-  Outcome outcome;
+  BodyOverlaps outcome;
   TimedPairs timed(run.sizes(), reader->info().last_frame);
   const detail::CheckSummary summary = detail::check(
       *reader, of.options(),
@@ -132,7 +132,7 @@ OverlapCount of_disc(OverlapCount count, std::size_t disc) {
 }
 
 /// The two tables of the experiment.
-class Tables {
+class RecordingTables {
  public:
   void add(const Source& source, const std::string& structure, const OverlapCount& all, double time) {
     summary_.add({source.file, std::string(source.made_by), structure, all.people,
@@ -163,7 +163,7 @@ OverlapCounts of_disc(OverlapCounts counts, std::size_t disc) {
   return counts;
 }
 
-void add_fixed(const Source& source, const Outcome& outcome, Tables& tables) {
+void add_fixed(const Source& source, const BodyOverlaps& outcome, RecordingTables& tables) {
   for (std::size_t k = 0; k < fixed.size(); ++k) {
     tables.add(source, fixed_name(fixed[k]), of_disc(outcome.all, fixed[k]), outcome.cylinder_times[k]);
     tables.add(source.file, fixed_name(fixed[k]), of_disc(outcome.by_density, fixed[k]));
@@ -175,11 +175,11 @@ void run_recordings(Run& run) {
   if (recorded.empty()) return;
   const std::vector<Bodies> compared = all_bodies();
   std::vector<OverlapCounts> together(compared.size());
-  Tables tables;
+  RecordingTables tables;
   double done = 0;
   for (const Source& source : recorded)
     for (std::size_t i = 0; i < compared.size(); ++i) {
-      const Outcome outcome = outcome_of(run, source, compared[i]);
+      const BodyOverlaps outcome = outcome_of(run, source, compared[i]);
       if (i == 0) add_fixed(source, outcome, tables);
       tables.add(source, compared[i].name, outcome.all, outcome.time);
       tables.add(source.file, compared[i].name, outcome.by_density);

@@ -19,7 +19,7 @@ namespace {
 constexpr double step = 0.001, resolution = 1e-6;  // metres
 constexpr double most_beside = 0.5;                // metres, of the paper
 constexpr int most_draws = 100;
-constexpr double never = std::numeric_limits<double>::quiet_NaN();
+constexpr double not_detected = std::numeric_limits<double>::quiet_NaN();
 
 /// A pair of agents that stands anywhere on the way.
 struct PairOfCase {
@@ -76,7 +76,7 @@ std::vector<double> SlideCases::contacts(const ShapeSet& set, Leaves leaves) con
   for (std::size_t i = 0; i < size(); ++i) x[i] = -2 * from_[i];
   std::vector<float> times(size());
   time_of_impact(set, agents(), pairs_, {x, y}, times);
-  std::vector<double> places(size(), never);
+  std::vector<double> places(size(), not_detected);
   tbb::parallel_for(std::size_t{0}, size(), [&](std::size_t i) {
     if (std::isinf(times[i])) return;
     // No pair collides before discs touch.
@@ -108,7 +108,7 @@ double SlideCases::contact(std::size_t of, double first_step, Meet meet) const {
   const auto meet_at = [&](double place) { return meet(pair.at(place)); };
   for (double k = first_step;; ++k) {
     double place = from_[of] + k * step, apart = place - step;
-    if (place >= -from_[of]) return never;
+    if (place >= -from_[of]) return not_detected;
     if (!meet_at(place)) continue;
     while (place - apart > resolution)
       (meet_at(0.5 * (apart + place)) ? place : apart) = 0.5 * (apart + place);
@@ -118,7 +118,7 @@ double SlideCases::contact(std::size_t of, double first_step, Meet meet) const {
 
 std::vector<double> SlideCases::distances(const baselines::PairDistances& bodies,
                                           std::span<const double> places) const {
-  std::vector<double> centimetres(size(), never);
+  std::vector<double> centimetres(size(), not_detected);
   tbb::parallel_for(std::size_t{0}, size(), [&](std::size_t i) {
     if (std::isnan(places[i])) return;
     PairOfCase pair(agents(), pairs_[i]);

@@ -6,6 +6,7 @@
 #include <concepts>
 #include <filesystem>
 #include <initializer_list>
+#include <limits>
 #include <nlohmann/json_fwd.hpp>
 #include <span>
 #include <string>
@@ -25,6 +26,8 @@ struct Cell {
   template <std::integral Integer>
   Cell(Integer number) : text(std::to_string(number)) {}
 };
+
+constexpr double empty_cell = std::numeric_limits<double>::quiet_NaN();
 
 /// The content of a CSV file: the only way from an experiment to the page. Columns of numbers name their
 /// unit.

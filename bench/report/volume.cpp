@@ -22,7 +22,7 @@
 namespace bch::report {
 namespace {
 
-constexpr std::uint32_t depths[] = {0, 3, 6, 9, all_depths};
+constexpr std::uint32_t volume_depths[] = {0, 3, 6, 9, all_depths};
 
 struct Areas {
   double discs, filled, outline;  ///< rasterised, square metres
@@ -71,8 +71,8 @@ void add_outline(Run& run, const std::string& character, std::span<const Shape> 
 }
 
 /// Adds the volumes of slabs, each as high as it is: those of their outlines, which exact leaves represent.
-void add_slabs(Run& run, const std::string& character, std::span<const Shape> whole, std::size_t begin,
-               std::uint32_t slabs, Table& table) {
+void add_volume_of_slabs(Run& run, const std::string& character, std::span<const Shape> whole,
+                         std::size_t begin, std::uint32_t slabs, Table& table) {
   const std::vector<float> planes = standing_slices(slabs);
   std::vector<double> normalised;
   for (std::size_t i = 0; i < whole.size(); ++i) {
@@ -106,11 +106,11 @@ void run_volume(Run& run) {
     std::uint32_t end = begin;
     while (end < shapes.size() && run.scene().sources()[end].character == c) ++end;
     const auto of_one = shapes.subspan(begin, end - begin);
-    for (const std::uint32_t depth : depths)
+    for (const std::uint32_t depth : volume_depths)
       add_depth(run, cli::file_name(character), of_one, depth, table, poses);
     add_outline(run, cli::file_name(character), of_one, table);
     for (const std::uint32_t slabs : compared_slabs)
-      add_slabs(run, cli::file_name(character), of_one, begin, slabs, table);
+      add_volume_of_slabs(run, cli::file_name(character), of_one, begin, slabs, table);
     begin = end;
     run.done(static_cast<double>(c + 1) / static_cast<double>(run.scene().characters().size()));
   }
