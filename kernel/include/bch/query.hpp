@@ -18,8 +18,8 @@ struct Kernels;
 
 namespace bch {
 
-// What all queries share. A query over pairs writes one result per pair into spans of the caller, and allocates nothing. Where a
-// pair or an agent can have many results, an object finds them and keeps them in its memory until its next call.
+// What all queries share. A query over pairs writes one result per pair into spans of the caller, and allocates nothing unless its
+// header says so. Where a pair or an agent can have many results, an object finds them and keeps them in its memory until its next call.
 //
 // Threads: any number of queries may read one ShapeSet at once; nothing may replace its shapes meanwhile. The work runs in the
 //          caller's TBB arena: call from tbb::task_arena(n).execute() for n threads. Each thread needs 320 KiB of stack.
