@@ -3,7 +3,7 @@
 
 #pragma once
 
-// All of the library, as far as it is installed: each component brings its headers.
+// Includes all headers of the installed components.
 
 #include <bch/agents.hpp>
 #include <bch/dynamic_shape_set.hpp>

@@ -12,7 +12,7 @@
 
 namespace bch {
 
-/// Finds the pairs that a query has to test, and keeps its memory from call to call. One that was moved from
+/// Finds the pairs that a query has to test, and keeps its memory from call to call. An object that was moved from
 /// can only be assigned to or destroyed.
 class BroadPhase {
  public:
@@ -21,22 +21,21 @@ class BroadPhase {
   BroadPhase& operator=(BroadPhase&&) noexcept;
   ~BroadPhase();
 
-  /// Returns every pair of agents whose root discs, at the agents' levels, overlap or come within a margin
-  /// of each other: once each, first < second. So it has every pair that collide() answers with 1, and every
-  /// pair for which clearance() returns at most the margin. For time_of_impact() the margin is twice the
-  /// longest way of an agent. The only other pairs are those whose root discs miss the margin by a few
-  /// millionths of the margin, of their radii and of their shapes' reach, or by 2^-26 of the crowd's largest
-  /// radius.
+  /// Returns every pair of agents whose root discs, at the agents' levels, overlap or come within a margin of each other.
+  /// Each pair is returned once, with first < second. The result contains every pair that collide() answers with 1, and every
+  /// pair for which clearance() returns at most the margin. For time_of_impact() the margin has to be twice the longest
+  /// way of an agent. The only other pairs are those whose root discs miss the margin by a few millionths of the margin, of
+  /// their radii and of their shapes' reach, or by 2^-26 of the crowd's largest radius.
   /// Units:   metres; the margin is from 0 to 2e9.
-  /// Order:   by place, along the rows of a grid: agents of neighbouring pairs are then mostly in cache. The
+  /// Order:   by place, along the rows of a grid, so agents of neighbouring pairs are mostly in cache. The order is the
   ///          same for any number of threads.
-  /// Grid:    radii within a factor of four share a grid, others have grids of their own: a few large agents
+  /// Grid:    radii within a factor of four share a grid; other radii have grids of their own, so a few large agents
   ///          do not slow down many small ones. A cell is no smaller than 2^-30 of the crowd's extent.
-  /// Memory:  the pairs are valid until the next call. 72 bytes an agent and up to 24 a pair are kept; a call
+  /// Memory:  the pairs are valid until the next call. The object keeps 72 bytes an agent and up to 24 a pair; a call
   ///          like an earlier one allocates nothing.
-  /// Errors:  throws std::invalid_argument like validate(shapes, agents), and on another margin.
-  /// Threads: runs in the caller's TBB arena; one call at a time. While it waits for its tasks the calling
-  ///          thread takes no others, so that an object for each of TBB's threads is enough.
+  /// Errors:  throws std::invalid_argument like validate(shapes, agents), and on a margin outside these limits.
+  /// Threads: runs in the caller's TBB arena; one call at a time. While the calling thread waits for the tasks of the call, it
+  ///          takes no other tasks, so one object for each of TBB's threads is enough.
   std::span<const Pair> find(const ShapeSet& shapes, const Agents& agents, double margin = 0);
 
  private:
@@ -44,7 +43,7 @@ class BroadPhase {
   std::unique_ptr<State> state_;
 };
 
-/// Returns the pairs of BroadPhase::find() in a vector of their own, for single calls.
+/// Returns the pairs of BroadPhase::find() in a new vector, for single calls.
 std::vector<Pair> candidate_pairs(const ShapeSet& shapes, const Agents& agents, double margin = 0);
 
 }  // namespace bch

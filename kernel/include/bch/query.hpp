@@ -18,75 +18,76 @@ struct Kernels;
 
 namespace bch {
 
-// What all queries share. A query over pairs writes one result per pair into spans of the caller, and allocates nothing unless its
-// header says so. Where a pair or an agent can have many results, an object finds them and keeps them in its memory until its next call.
+// The rules that all queries share. A query over pairs writes one result per pair into spans of the caller, and allocates nothing
+// unless its header says so. Where a pair or an agent can have many results, an object finds them and keeps them in its memory until
+// its next call.
 //
 // Threads: any number of queries may read one ShapeSet at once; nothing may replace its shapes meanwhile. The work runs in the
 //          caller's TBB arena: call from tbb::task_arena(n).execute() for n threads. Each thread needs 320 KiB of stack.
 //          While a query waits for its tasks, TBB may run other tasks on the thread, so hold no lock.
 
-/// The definition of a collision of two agents at their levels, independent of how trees are traversed.
+/// Selects the definition of a collision of two agents at their levels, independent of how trees are traversed.
 enum class Semantics {
-  /// Outlines cross or touch, as far as discs tell: some disc of one's cut overlaps some disc of the other's, and every node
-  /// above the one (itself included) overlaps every node above the other. Discs are the smallest around their primitives;
-  /// touching counts. A point that two outlines have in common lies in all of them, so this is the tightest answer
-  /// that discs can give, and a deeper cut never adds a collision. With exact leaves (Leaves::segments, at the level
-  /// of all depths) two leaves count only where segments of theirs meet, too.
+  /// Counts agents as colliding where their outlines cross or touch, as far as discs tell: some disc of one's cut overlaps some disc of
+  /// the other's, and every node above the one disc (itself included) overlaps every node above the other. Touching counts. Discs are
+  /// the smallest around their primitives. A point that two outlines have in common lies in all of these discs, so this is the tightest
+  /// answer that discs can give, and a deeper cut never adds a collision. With exact leaves (Leaves::segments, at the level of all
+  /// depths) two leaves count only where their segments meet, too.
   boundary,
-  solid,  ///< also where a contour of one outline lies inside the other outline
+  solid,  ///< also counts agents of which one's contour lies inside the other's outline
 };
 
-/// One compilation of the queries for an instruction set. All give the same bits.
+/// Describes one compilation of the queries for an instruction set. All implementations give the same bits.
 struct Implementation {
   const char* name;              ///< "avx512", "avx2", "sse2", "neon" or "scalar"
-  bool (*supported)() noexcept;  ///< whether this processor and its operating system run it
+  bool (*supported)() noexcept;  ///< returns whether this processor and its operating system run it
   const detail::Kernels* kernels;
 };
 
 /// Returns all implementations that were compiled, the best first; the last one runs everywhere.
 std::span<const Implementation> implementations() noexcept;
 
-/// Returns the first implementation that this processor supports, or the one that the environment variable BCH_ISA names, which is
-/// read once.
+/// Returns the first implementation that this processor supports, unless the environment variable BCH_ISA names another one.
+/// BCH_ISA is read once.
 /// Errors:  throws std::invalid_argument if BCH_ISA names an unknown or unsupported one.
 const Implementation& best_implementation();
 
 /// Returns an implementation by its name.
-/// Errors:  throws std::invalid_argument on an unknown name, naming the known ones, or one that this processor does not run.
+/// Errors:  throws std::invalid_argument on an unknown name, naming the known ones, or on one that this processor does not run.
 const Implementation& implementation(std::string_view name);
 
-/// The answer of clearance() for pairs whose discs overlap.
+/// Selects what clearance() returns for pairs whose discs overlap.
 enum class Overlap {
-  zero,  ///< a distance of 0, without a direction or discs: such pairs cost hardly more than in collide()
-  deepest,  ///< the deepest overlap of two discs, below 0, and its direction: a depth for forces where cuts are coarse
+  zero,     ///< a distance of 0, without a direction or discs: such pairs cost hardly more than in collide()
+  deepest,  ///< the deepest overlap of two discs, as a negative distance, and its direction: a depth for forces where cuts are coarse
 };
 
-/// The options of all queries. Each query's comment names those that it uses; it ignores the others.
+/// Holds the options of all queries. Each query's comment names the options that it uses; it ignores the others.
 struct QueryOptions {
   Semantics semantics =
       Semantics::boundary;  ///< of collide(), CrowdCollider and within(); sets with slices are solid
-  /// One of implementations(); null: best_implementation(), which may throw where BCH_ISA is set.
+  /// One of implementations(). Null selects best_implementation(), which may throw where BCH_ISA is set.
   const Implementation* implementation = nullptr;
   Leaves leaves = Leaves::segments;  ///< of collide(), CrowdCollider and ContactFinder
   /// The largest distance of interest of clearance(), metres, not negative; may be infinite. Pairs farther apart get an
   /// infinite distance and nothing else. The smaller the limit, the sooner they are rejected.
   double max_distance = std::numeric_limits<double>::infinity();
   Overlap overlap = Overlap::zero;  ///< of clearance()
-  /// Says whether clearance(), and within() of obstacles, measure from discs, or from segments of the outlines where shapes have exact leaves.
-  /// Segments give the distance of the outlines, discs up to 3 cm less in about a seventh of the time of pairs. Overlap::deepest always
-  /// measures discs.
+  /// What clearance(), and within() of obstacles, measure from: discs, or, where shapes have exact leaves, segments of the outlines.
+  /// Segments give the distance of the outlines. Discs give up to 3 cm less, in about a seventh of the time of pairs.
+  /// Overlap::deepest always measures discs.
   Leaves distance_leaves = Leaves::discs;
 };
 
-/// Two discs by their numbers in the cuts of a pair's agents, in the order of ShapeSet::discs() and cut().
+/// Names two discs by their numbers in the cuts of a pair's agents, in the order of ShapeSet::discs() and cut().
 struct DiscPair {
-  std::uint32_t first;   ///< of the pair's first agent
-  std::uint32_t second;  ///< of its second
+  std::uint32_t first;   ///< a disc of the pair's first agent
+  std::uint32_t second;  ///< a disc of its second agent
   friend bool operator==(const DiscPair&, const DiscPair&) = default;
 };
 
-/// Rows of different lengths in one array (CSR): row i is values[offsets[i]] .. values[offsets[i + 1]]. It views the memory of
-/// the object that returned it.
+/// Views rows of different lengths in one array (CSR): row i is values[offsets[i]] .. values[offsets[i + 1]]. The memory belongs to
+/// the object that returned the rows.
 template <class Value>
 struct Rows {
   std::span<const std::uint64_t> offsets;  ///< one more than rows
@@ -98,7 +99,7 @@ struct Rows {
   }
 };
 
-/// Checks the agents of a query, with the errors of collide(): sizes, shapes, levels, positions, headings.
+/// Checks the agents of a query, and throws the errors of collide() on bad sizes, shapes, levels, positions or headings.
 void validate(const ShapeSet& shapes, const Agents& agents);
 
 }  // namespace bch
