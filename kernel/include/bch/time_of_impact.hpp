@@ -12,73 +12,74 @@
 
 namespace bch {
 
-/// The displacement of the first agent of each pair relative to the second: its own displacement less the
+/// Holds the displacement of the first agent of each pair relative to the second: its own displacement minus the
 /// other's. Neither agent turns.
 /// Units:   metres in the world; each within +-1e9.
 struct Displacements {
   std::span<const double> x, y;
 };
 
-/// Finds when the two agents of each pair first touch while they move without turning: the least t in [0, 1] at which
-/// discs of their cuts touch when the first agent has moved by t times its displacement, or infinity.
+/// Finds when the two agents of each pair first touch while they move without turning. The time is the least t in [0, 1] at which
+/// discs of their cuts touch when the first agent has moved by t times its displacement, or infinity if there is none.
 ///
-/// The discs of the cuts alone count, not the nodes above them: whether these overlap changes on the way, and
+/// Only the discs of the cuts count, not the nodes above them, because whether nodes overlap changes on the way, and
 /// a time has to be no later than the outlines' contact. The time is 0 where discs of the cuts overlap already,
 /// also where the agents move apart. A displacement that is zero as a float gives 0 only where collide() with
-/// Leaves::discs and boundary semantics answers 1, and infinity otherwise. The time is never later than the
-/// outlines' first contact. At that time the outlines are at most the leaf discs' sizes and 4 um per metre of way and of
-/// the two shapes' reach apart. So it may be early, or finite where the outlines only pass each other within that distance. Times are the same bits on
-/// every processor, for any number of threads and any split of the batch, and for exchanged agents with the
-/// displacement negated. Solid semantics would add nothing: an agent that is inside has crossed the outline
+/// Leaves::discs and boundary semantics answers 1, and infinity otherwise.
+///
+/// The time is never later than the outlines' first contact. At that time the outlines are at most the leaf discs' sizes and 4 um per
+/// metre of way and of the two shapes' reach apart. So the time may be early, or finite where the outlines only pass each other within
+/// that distance. Times are the same bits on every processor, for any number of threads and any split of the batch, and for exchanged
+/// agents with the displacement negated. Solid semantics would add nothing: an agent that is inside another has crossed its outline
 /// before, unless it starts there.
 ///
-/// Bodies in slabs, or at different heights, touch when the first parts do that may meet; and at 0 where bodies in slabs collide
-/// now, in solid semantics with Leaves::discs.
+/// Bodies in slabs, or at different heights, touch when the first two parts touch that may meet. Bodies in slabs that collide now, in
+/// solid semantics with Leaves::discs, touch at 0.
 ///
 /// Options: implementation.
 /// Sizes:   as many displacements in x, in y, and times as pairs. An agent may be paired with itself (0).
 /// Errors:  throws std::invalid_argument, before anything is written, as collide() does, and on a
 ///          displacement that is not finite or beyond the limits.
-/// Threads: runs in the caller's TBB arena. Allocates nothing, but for bodies in slabs or at different heights.
+/// Threads: runs in the caller's TBB arena. Allocates nothing, except for bodies in slabs or at different heights.
 /// Source:  the slide of the paper's experiment, which the paper makes in small steps.
 void time_of_impact(const ShapeSet& shapes, const Agents& agents, std::span<const Pair> pairs,
                     const Displacements& displacements, std::span<float> times,
                     const QueryOptions& options = {});
 
-/// The shapes of bodies that move by themselves, at the times that agents show them, for all queries. A moment, that is, a body at a
-/// time of its clip, is made once for all agents that show it, and stays as long as its place is not needed for another one. Moments
-/// are cheap where agents share them, on a grid of times for instance. Keeps its memory: where calls have shown as many moments and
-/// bodies have been as large before, a call allocates nothing. One that was moved from can only be assigned to or destroyed.
+/// Makes and keeps the shapes of moving bodies at the times at which agents show them, for all queries. A moment is a body at a time of
+/// its clip. It is made once for all agents that show it, and is kept until its place is needed for another moment. Moments are cheap
+/// where agents share them, for instance on a grid of times. The object keeps its memory: a call allocates nothing if earlier calls have
+/// shown as many moments and bodies were as large. An object that was moved from can only be assigned to or destroyed.
 ///
 ///     MomentSet moments(bodies);
 ///     moments.show(body, seconds, shape);                      // agents' bodies and times, and the shapes that they get
 ///     collide(moments.set(), {shape, x, y, heading}, pairs, hits);
 class MomentSet {
  public:
-  /// Takes bodies, which have to outlive this, and the plan of set(), which has places for `kept` moments, or for as many as a call shows:
-  /// those of before are found again.
-  /// Errors:  throws std::invalid_argument on none, naming it on a null pointer and on a body that is cut at other planes than the
-  ///          plan's, and on a bad plan.
+  /// Takes the bodies and the plan of set(). The bodies have to outlive this object. The set has places for `kept` moments, or for as
+  /// many as a call shows if these are more; moments of earlier calls are found again.
+  /// Errors:  throws std::invalid_argument on no bodies and on a bad plan, and, naming the body, on a null pointer and on a body that is
+  ///          cut at other planes than the plan's.
   explicit MomentSet(std::span<const AnimatedShape* const> bodies, const ShapeSetPlan& plan = {},
                      std::size_t kept = 1000);
   MomentSet(MomentSet&&) noexcept;
   MomentSet& operator=(MomentSet&&) noexcept;
   ~MomentSet();
 
-  /// Makes each moment that agents show and that is not there yet, in parallel, and writes the shape of each agent: Agents::shape for
-  /// set(). It shows what AnimatedShape::shape() is at these seconds: every query answers the same. (Candidate pairs are those of the root
-  /// discs, which may be others.)
-  /// Units:   seconds of the clip, within +-1e6, as AnimatedShape::shape() has them.
+  /// Makes each moment that agents show and that does not exist yet, in parallel, and writes the shape of each agent: Agents::shape for
+  /// set(). Every query answers as for AnimatedShape::shape() at these seconds. (Candidate pairs are those of the root discs, which may
+  /// differ.)
+  /// Units:   seconds of the clip, within +-1e6, as for AnimatedShape::shape().
   /// Sizes:   as many seconds, and shapes, as bodies, which are indices into those of the constructor.
   /// Errors:  throws std::invalid_argument, before anything is written, on sizes that differ and, naming the agent, on an index out of
   ///          range or a time that is not within these units.
-  /// Threads: runs in the caller's TBB arena. For one thread at a time, while no query runs.
-  /// Cost:    30 us for each new moment of 125 discs, 2 us where the plan has the level of all depths alone, without culling data, outlines
-  ///          and slices; and 10 ns for each agent.
+  /// Threads: runs in the caller's TBB arena. Only one thread may call it at a time, while no query runs.
+  /// Cost:    30 us for each new moment of 125 discs, or 2 us where the plan has the level of all depths alone, without culling data,
+  ///          outlines and slices; and 10 ns for each agent.
   void show(std::span<const std::uint32_t> bodies, std::span<const double> seconds,
             std::span<std::uint32_t> shapes);
 
-  /// Returns the set that the written shapes are of; void after the next show().
+  /// Returns the set that the written shapes belong to; the reference is valid until the next show().
   const ShapeSet& set() const noexcept;
 
  private:
@@ -86,48 +87,51 @@ class MomentSet {
   std::unique_ptr<State> state_;
 };
 
-/// A key of a path says where a motion is at a time. Between two keys it goes straight on and turns evenly: by the difference of their
-/// headings, the long way round, too.
+/// Places a motion at a time: a key of its path. Between two keys the motion goes straight on and turns evenly, by the difference of their
+/// headings, even if that is the long way round.
 struct PathKey {
-  double time, x, y, heading;  ///< seconds, metres in the world, radians
+  double time, x, y, heading;  ///< seconds; metres in the world; radians
 };
 
-/// An agent who goes along a path and plays a clip. Before the first key of the path, and after the last one, the agent stands there.
+/// Describes an agent who goes along a path and plays a clip. Before the first key of the path, and after the last one, the agent stands
+/// at that key.
 struct Motion {
   const AnimatedShape* shape;
   std::span<const PathKey> path;  ///< at least one key, ascending
   double clip_begin =
-      0;  ///< the time at which the clip is at its beginning; one that does not loop stands still before and after it
+      0;  ///< the time at which the clip begins; a clip that does not loop stands still before its beginning and after its end
 };
 
-/// Times that motions are looked at, both included.
+/// Limits the times at which motions are examined; both ends are included.
 struct TimeInterval {
   double from, to;
 };
 
-/// Finds when two motions first touch: the earliest time of an interval at which their solids overlap (see AnimatedShape), infinity where
-/// they do not. Paths, turning and discs are as they are at every real time, not sampled. Bodies in slabs touch when the first of their slabs do;
-/// one that is whole is in every slab that its heights reach.
+/// Finds when the two motions of each pair first touch: the earliest time of an interval at which their solids overlap (see
+/// AnimatedShape), or infinity if there is none. Paths, turning and discs are taken at every real time, not sampled. Bodies in slabs
+/// touch when the first of their slabs do; a body that is whole is in every slab that its heights reach.
 ///
-/// The time is never later than the first contact. At that time the solids are at most the tolerance apart, and 2 um for each metre of
-/// both reaches and what double rounds of positions and times, below 1e-14 of these (of times at the greatest speed). So it is early
-/// by at most the tolerance over the speed at which they come together, and finite where they only pass by that closely. Times are the same bits on
-/// every processor, for any number of threads, any split of the batch and exchanged motions; a later end of the interval changes no time.
+/// The time is never later than the first contact. At that time the solids are apart by at most the tolerance, 2 um for each metre of
+/// both reaches, and the rounding of positions and times in double, below 1e-14 of these (of times at the greatest speed). So the time is
+/// early by at most the tolerance over the speed at which the solids come together, and it is finite where they only pass each other that
+/// closely. Times are the same bits on every processor, for any number of threads, any split of the batch and exchanged motions. A later
+/// end of the interval changes no time.
 ///
 /// Units:   seconds within +-1e6, metres within +-1e9, headings within +-1e9 rad, a turn of at most 1e3 rad from key to key.
 /// Sizes:   as many times as pairs, which name motions by index. A motion may be paired with itself.
 /// Errors:  throws std::invalid_argument, before anything is written, on sizes that differ, an index out of range, an interval that ends
-///          before it begins or is not within these units, a tolerance below 1e-6 m, and, naming the motion and key, on a shape or a path that is
-///          missing, keys that do not ascend or are not within these units; naming the pair, on bodies that are cut at different planes.
+///          before it begins or is not within these units, a tolerance below 1e-6 m; naming the motion and key, on a shape or a path that
+///          is missing, keys that do not ascend or are not within these units; naming the pair, on bodies that are cut at different
+///          planes.
 /// Threads: runs in the caller's TBB arena. Allocates for the motions and for each task.
 void first_contact(std::span<const Motion> motions, std::span<const Pair> pairs, const TimeInterval& interval,
                    std::span<double> times, double tolerance = 0.005);
 
-/// Returns until when a motion has contact with none of others: the least of what first_contact() says of it, with the lower index, and
-/// each of them.
-/// Cost:    pairs behind one that touches early are looked at until then alone.
-/// Errors:  as first_contact(); the motion itself is named as the one behind the others.
-/// Threads: one; several may ask at once.
+/// Returns the time until which a motion touches none of the others: the least time that first_contact() finds for it and each of
+/// them, with the motion as the one with the lower index. It is infinity if there is no contact.
+/// Cost:    after an early contact, the other motions are examined only until then.
+/// Errors:  as first_contact(); messages number the motion itself after the others.
+/// Threads: uses one thread; several threads may call it at once.
 double free_until(const Motion& motion, std::span<const Motion> others, const TimeInterval& interval,
                   double tolerance = 0.005);
 
