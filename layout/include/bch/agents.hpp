@@ -9,15 +9,15 @@
 
 namespace bch {
 
-/// Two agents by index. Collisions do not depend on their order; other queries report about the first.
+/// Names two agents by index. Collisions do not depend on their order; other queries report about the first.
 struct Pair {
   std::uint32_t first;
   std::uint32_t second;
   friend bool operator==(const Pair&, const Pair&) = default;
 };
 
-/// A crowd as a simulator holds it: one entry an agent in each span; nothing is copied.
-/// A heading turns a shape about its agent's position. At 0 the built-in characters face +x, and those of files stand as
+/// Views a crowd as a simulator holds it: one entry per agent in each span; nothing is copied.
+/// A heading turns a shape about its agent's position. At a heading of 0 the built-in characters face +x, and those of files stand as
 /// import.hpp says. A turn of the root within a clip is part of the shape, not of the heading.
 /// Units:   metres and radians, counter-clockwise, on the ground plane; |x|, |y|, |z| <= 1e9 m and |heading| <=
 ///          1e9 rad.
@@ -27,9 +27,9 @@ struct Agents {
   std::span<const double> y;
   std::span<const double> heading;
   std::span<const std::uint8_t> level = {};  ///< index into the set's depths; empty: the last level for all
-  /// Heights of the grounds that agents stand on: floors, steps, a stage. Empty: one ground for all. Agents with a z meet only
-  /// where their heights do, which the set has to know (ShapeSetPlan::heights, slices). In sets with slices, agents at one height
-  /// are compared slab by slab, agents at two heights in all pairs of slabs whose heights meet: slabs of half a metre are then
+  /// The heights of the grounds that agents stand on: floors, steps, a stage. Empty: one ground for all. Agents with a z meet only
+  /// where their heights meet, and the set has to know these heights (ShapeSetPlan::heights, slices). In sets with slices, agents at one
+  /// height are compared slab by slab, agents at two heights in all pairs of slabs whose heights meet: slabs of half a metre are then
   /// as coarse as those of half as many planes.
   std::span<const double> z = {};
 

@@ -12,39 +12,39 @@
 
 namespace bch {
 
-/// A node of the skeleton. A parent stands before its children.
+/// Describes a node of the skeleton. Parents precede their children.
 struct Joint {
   std::string name;
   std::int32_t parent = -1;  ///< -1: a root
   Affine3 rest;              ///< the transform in the parent's frame, where a clip does not move the joint
 };
 
-/// A value at a time in seconds.
+/// Holds a value at a time, which is in seconds.
 template <class Value>
 struct Key {
   float time;
   Value value;
 };
 
-/// How values between two keys are computed: linear blends them (rotations spherically), step keeps the earlier
+/// Selects how values between two keys are computed: linear blends them (rotations spherically), step keeps the earlier
 /// one, cubic is a Hermite spline through the keys with the curve's tangents.
 enum class Interpolation : std::uint8_t { linear, step, cubic };
 
-/// The derivatives of a value at a key, per second: `in` just before the key, `out` just after it.
+/// Holds the derivatives of a value at a key, per second: `in` just before the key, `out` just after it.
 template <class Value>
 struct Tangents {
   Value in, out;
 };
 
-/// The interpolation of one part of a channel between its keys. Only cubic has tangents, one pair a key.
+/// Describes the interpolation of one part of a channel between its keys. Only cubic has tangents, one pair per key.
 template <class Value>
 struct Curve {
   Interpolation interpolation = Interpolation::linear;
   std::vector<Tangents<Value>> tangents;
 };
 
-/// The motion of one joint relative to its parent; keys in order of time. An empty list leaves
-/// that part of the joint's rest transform as it is.
+/// Describes the motion of one joint relative to its parent, with keys in order of time. A part without keys stays as it is in the
+/// joint's rest transform.
 struct Channel {
   std::uint32_t joint = 0;
   std::vector<Key<Vec3>> positions;
@@ -55,26 +55,26 @@ struct Channel {
   Curve<Vec3> scale_curve;
 };
 
-/// A motion of a character, from time 0 on.
+/// Describes a motion of a character, from time 0 on.
 struct Clip {
   std::string name;
   float seconds = 0;
-  std::vector<Channel> channels;  ///< at most one a joint
+  std::vector<Channel> channels;  ///< at most one per joint
 };
 
-/// A bone, which moves vertices: a joint, and the map from a mesh's own frame into that joint's frame at rest.
+/// Describes a bone, which moves vertices: a joint, and the map from a mesh's own frame into that joint's frame at rest.
 struct Bone {
   std::uint32_t joint = 0;
   Affine3 inverse_bind;
 };
 
-/// The share of one bone in the position of a vertex (linear blend skinning).
+/// Holds the share of one bone in the position of a vertex (linear blend skinning).
 struct Influence {
   std::uint32_t bone;
   float weight;
 };
 
-/// Everything about a character that does not depend on the pose: one mesh, a skeleton, clips.
+/// Holds everything about a character that does not depend on the pose: one mesh, a skeleton, clips.
 /// The meshes of a file are concatenated; a mesh that is only attached to a node follows one bone of
 /// weight 1.
 struct Character {
@@ -86,25 +86,25 @@ struct Character {
   std::vector<Influence> influences;           ///< weights of a vertex are positive and sum to 1
   std::vector<std::array<std::uint32_t, 3>> triangles;
   std::vector<Clip> clips;
-  Affine3 to_ground;  ///< file frame -> metres, z up
-  /// The joint whose point on the ground is a shape's origin; -1 for a mesh without skeleton, where it is the
+  Affine3 to_ground;  ///< maps the file's frame to metres, z up
+  /// The joint whose point on the ground is a shape's origin. -1 for a mesh without skeleton, whose origin is the
   /// middle of the bounding rectangle.
   std::int32_t root_joint = -1;
 };
 
-/// Checks every promise above: indices, order of joints and keys, finite values, unit quaternions, tangents, weights.
+/// Checks all that the types above promise: indices, order of joints and keys, finite values, unit quaternions, tangents, weights.
 /// Errors:  throws std::invalid_argument naming the character, the place and the value.
 void validate(const Character& character);
 
-/// A pose of a character: a time in one of its clips, or the rest pose.
+/// Names a pose of a character: a time in one of its clips, or the rest pose.
 struct PoseTime {
   static constexpr std::uint32_t rest = 0xffffffff;
   std::uint32_t clip = rest;
   float seconds = 0;
 };
 
-/// Returns `count` poses spread evenly over the character's clips laid end to end, each in the middle of its share;
-/// the same for the same arguments everywhere. A character without clips has one pose, the rest pose.
+/// Returns `count` poses spread evenly over the character's clips laid end to end, each in the middle of its share. The same arguments
+/// give the same poses everywhere. A character without clips has one pose, the rest pose.
 std::vector<PoseTime> sample_poses(const Character& character, std::uint32_t count);
 
 }  // namespace bch

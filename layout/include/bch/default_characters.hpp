@@ -22,23 +22,23 @@ namespace bch {
 Character default_male();
 /// Returns the built-in woman; see default_male().
 Character default_female();
-/// Returns a bulky man: like default_male(), but with the volume that the means of the paper's table 1 imply of its man,
+/// Returns a bulky man. He is like default_male(), but with the volume that the means of the paper's table 1 imply for its man,
 /// about 0.137 m3.
 Character default_bulky_male();
 
-/// Whose body a pedestrian has.
+/// Selects the sex of a pedestrian's body.
 enum class Sex { female, male };
 
-/// The number of speeds at which pedestrians walk, from 0 to 2.19 m/s.
+/// Gives the number of speeds at which pedestrians walk, from 0 to 2.19 m/s.
 constexpr std::uint32_t pedestrian_speeds = 74;
-/// The step of these speeds, metres a second: clip k of a pedestrian walks at k steps.
+/// Gives the step of these speeds, metres per second: clip k of a pedestrian walks at k steps.
 constexpr double pedestrian_speed_step = 0.03;
 
-/// Returns a pedestrian for recorded and simulated crowds: the built-in man or woman of a stature, who walks at every speed, keeps his
-/// arms close, and stands under his head, which is what cameras track. Each clip has the stride at one speed, which begins with the left
-/// heel's contact. Steps are taken at 1.3 Hz when people shuffle and at 0.5 Hz more for every metre a second: about 2 Hz and 0.7 m at
-/// 1.4 m/s, and a step length that goes to 0 with the speed. `shoulders`: how far they are turned against the way, counter-clockwise, as people do who
-/// pass each other closely.
+/// Returns a pedestrian for recorded and simulated crowds: the built-in man or woman of a given stature. The pedestrian walks at every
+/// speed, keeps the arms close, and stands under the head, which is what cameras track. Each clip has the stride at one speed, which
+/// begins with the left heel's contact. Steps are taken at 1.3 Hz when people shuffle and at 0.5 Hz more for every metre per second:
+/// about 2 Hz and 0.7 m at 1.4 m/s. The step length goes to 0 with the speed. `shoulders` is the angle of the shoulders to the
+/// walking direction, counter-clockwise: people turn them when they pass each other closely.
 /// Units:   metres, radians; a stature from 0.8 to 2.4, a turn from -1 to 1.
 /// Source:  A. Pachi, T. Ji, "Frequency and velocity of people walking", The Structural Engineer 83, 2005 (2.0 Hz at 1.4 m/s, steps of
 ///          0.75 m of men and 0.67 m of women); A. Jelic, C. Appert-Rolland, S. Lemercier, J. Pettre, "Properties of pedestrians
@@ -47,7 +47,7 @@ constexpr double pedestrian_speed_step = 0.03;
 /// Errors:  throws std::invalid_argument on another stature or turn.
 Character default_pedestrian(Sex sex, double stature, double shoulders = 0);
 
-/// Returns the strides, of two steps each, that a pedestrian takes in a second.
+/// Returns the number of strides, of two steps each, that a pedestrian takes in a second.
 double pedestrian_strides_per_second(double metres_per_second);
 
 }  // namespace bch

@@ -7,14 +7,14 @@
 
 namespace bch {
 
-/// A point or vector of the ground plane, metres.
+/// Represents a point or vector of the ground plane, in metres.
 struct Vec2 {
   float x = 0;
   float y = 0;
   friend bool operator==(const Vec2&, const Vec2&) = default;
 };
 
-/// A point or vector of space, metres; z is up.
+/// Represents a point or vector of space, in metres; z is up.
 struct Vec3 {
   float x = 0;
   float y = 0;
@@ -22,7 +22,7 @@ struct Vec3 {
   friend bool operator==(const Vec3&, const Vec3&) = default;
 };
 
-/// A rotation as a unit quaternion, or the derivative of one.
+/// Represents a rotation as a unit quaternion, or the derivative of one.
 struct Quaternion {
   float x = 0;
   float y = 0;
@@ -31,14 +31,14 @@ struct Quaternion {
   friend bool operator==(const Quaternion&, const Quaternion&) = default;
 };
 
-/// An affine map takes a point to rows * (x, y, z, 1): each row is one of the linear part and its share of the
+/// Maps a point affinely to rows * (x, y, z, 1): each row is one of the linear part and its share of the
 /// translation.
 struct Affine3 {
   float rows[3][4] = {{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}};
   friend bool operator==(const Affine3&, const Affine3&) = default;
 };
 
-/// A closed disc on the ground: a vertical cylinder of infinite height seen from above.
+/// Represents a closed disc on the ground: a vertical cylinder of infinite height seen from above.
 struct Disc {
   float x = 0;
   float y = 0;
@@ -46,7 +46,7 @@ struct Disc {
   friend bool operator==(const Disc&, const Disc&) = default;
 };
 
-/// The heights that a body or a part of one takes, metres above the ground that its agent stands on. By default all.
+/// Holds the range of heights of a body or of a part of one, metres above the ground that its agent stands on; all heights by default.
 struct Heights {
   float bottom = -std::numeric_limits<float>::infinity();
   float top = std::numeric_limits<float>::infinity();

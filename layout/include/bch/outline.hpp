@@ -11,19 +11,19 @@
 
 namespace bch {
 
-/// The outline of what a character covers when seen from above: closed contours, counter-clockwise. OutlineBuilder's do
-/// not contain each other (holes are left out), and cross themselves by a rounding to the grid at most. A whisker, the
+/// Holds the outline of what a character covers when seen from above: closed contours, counter-clockwise. Contours of OutlineBuilder
+/// do not contain each other (holes are left out), and cross themselves by at most a rounding to the grid. A whisker, the
 /// trace of a triangle seen edge-on, is a contour (or part of one) that goes there and back.
 ///
-/// Outlines from elsewhere may have contours that touch, cross, overlap or contain themselves or each other. Boundary semantics
+/// Other outlines may have contours that touch, cross, overlap or contain themselves or each other. Boundary semantics
 /// tests every segment. For solid semantics a point is inside where some contour winds round it an odd number of times.
 /// Clockwise contours are refused: they stand for holes, which are to be left out.
 struct Outline {
   std::vector<Vec2> points;  ///< metres, in the shape's frame; taken as they are, on a grid or not
   std::vector<std::uint32_t> contour_begin = {0};  ///< contours + 1 offsets into points
-  /// The step of the grid that points were rounded to before, metres; 0 if they were not. At most the reach. Discs are
-  /// larger by 1.5 of it, so that they hold what was there before the rounding. OutlineBuilder's is a power of two, and its
-  /// coordinates are multiples below 2^23, which floats hold exactly.
+  /// The step of the grid to which points were rounded before, metres; 0 if they were not. It is at most the reach. Discs are
+  /// enlarged by 1.5 steps, so that they enclose the points as they were before the rounding. The step of OutlineBuilder is a power of
+  /// two, and its coordinates are multiples below 2^23, which floats hold exactly.
   float grid_step = 0;
 
   std::size_t contours() const { return contour_begin.size() - 1; }
@@ -32,19 +32,19 @@ struct Outline {
   }
 };
 
-/// Returns the area inside the contours, square metres; where contours overlap, the sum of theirs.
+/// Returns the area inside the contours, square metres. Where contours overlap, it is the sum of their areas.
 double area(const Outline& outline);
 
-/// Makes an outline of footprints: polygons on the ground, for bodies that come from no mesh. They are closed from the last corner
-/// to the first; the first one repeated at the end, and any corner right behind its equal, counts once. Either way round
-/// is fine. They may touch, cross and overlap, as Outline says.
+/// Makes an outline of footprints: polygons on the ground, for bodies that come from no mesh. Polygons are closed from the last corner
+/// to the first. A repetition of the first corner at the end, and any corner equal to the one before it, does not count again. Either
+/// orientation is allowed. Polygons may touch, cross and overlap, as Outline says.
 /// Units:   metres, in the shape's frame: the agent's position is (0, 0), and its heading turns the shape about that.
-/// Errors:  throws std::invalid_argument, naming the polygon, on none, on one of fewer than three corners or without area, on a
+/// Errors:  throws std::invalid_argument, naming the polygon, on no polygons, on one of fewer than three corners or without area, on a
 ///          corner that is not finite, and on a reach outside 1e-6 to 1e6 m.
 Outline outline_from_polygons(std::span<const std::vector<Vec2>> polygons);
 
 /// Checks the promises that hierarchies and shape sets rely on: at least one contour, offsets in order, finite points, reach
-/// from 1e-6 to 1e6 m, no clockwise contour (of more area than rounding to the grid explains). All else that
+/// from 1e-6 to 1e6 m, no clockwise contour (of more area than rounding to the grid explains). Everything else that
 /// Outline allows needs no check.
 /// Cost:    linear.
 /// Returns: the reach of its points.
