@@ -17,40 +17,40 @@
 
 namespace bch {
 
-/// The error of a file that cannot be imported. The message is one line: the file, a colon, the reason.
+/// Reports a file that cannot be imported. The message is one line: the file, a colon, the reason.
 class ImportError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-/// The axis of a file's frame that points up.
+/// Selects the axis of a file's frame that points up.
 enum class UpAxis : std::uint8_t { x, y, z };
 
-/// The options of import_character(): what to take instead of what the file says, and limits. Collada counts as metres for
+/// Holds the options of import_character(): values that override those of the file, and limits. Collada counts as metres for
 /// `scale`, because assimp applies a Collada file's own unit.
-/// Up becomes z and nothing else turns: in a file that is y up, x stays and z becomes -y. So a character that faces +z there, as
-/// in glTF, faces -y at heading 0 and walks along its heading less a quarter turn.
+/// The up axis becomes z and nothing else turns: in a file that is y up, x stays and z becomes -y. So a character that faces +z
+/// there, as in glTF, faces -y at heading 0 and walks along its heading less a quarter turn.
 struct ImportOptions {
-  std::optional<UpAxis> up;                       ///< instead of what the file says or what is guessed
+  std::optional<UpAxis> up;                       ///< in place of what the file says or what is guessed
   std::optional<float> scale;                     ///< metres per unit of the file, likewise
-  std::vector<std::filesystem::path> clip_files;  ///< whose clips follow those of the file, in this order
-  bool force_clips = false;  ///< takes clips that belong to another skeleton, with a note; `--force-clips`
-  std::size_t most_triangles = 0x7fffffff;  ///< those of each instance of a mesh count; more are refused
+  std::vector<std::filesystem::path> clip_files;  ///< files whose clips follow the file's own, in this order
+  bool force_clips = false;  ///< also takes clips of another skeleton, with a note; `--force-clips`
+  std::size_t most_triangles = 0x7fffffff;  ///< more are refused; those of each instance of a mesh count
 };
 
-/// The part of a clip that was imported.
+/// Describes the part of a clip that was imported.
 struct ClipReport {
   std::string name;
   float seconds = 0;
-  std::size_t channels = 0;          ///< that move a joint of the character
-  std::size_t channels_in_file = 0;  ///< the rest moves cameras, helpers, joints that carry nothing
+  std::size_t channels = 0;          ///< channels that move a joint of the character
+  std::size_t channels_in_file = 0;  ///< all; the rest moves cameras, helpers, joints that carry nothing
 };
 
-/// The report of import_character(): what a file had, and what became of it.
+/// Reports on an import by import_character(): what the file had, and what became of it.
 struct ImportReport {
   std::string format;        ///< what read the file
   std::size_t meshes = 0;    ///< instances that brought triangles
-  std::size_t vertices = 0;  ///< different in position or influences
+  std::size_t vertices = 0;  ///< vertices that differ in position or influences
   std::size_t triangles = 0;
   std::size_t dropped_faces = 0;     ///< points, lines, faces that name a vertex that is not there
   std::size_t dropped_vertices = 0;  ///< used by no triangle
@@ -60,55 +60,55 @@ struct ImportReport {
   std::vector<std::string> notes;  ///< a sentence for every conversion, guess and repair
 };
 
-/// A character, and the report on its import.
+/// Holds a character, and the report on its import.
 struct ImportedCharacter {
   Character character;
   ImportReport report;
 };
 
-/// Reads a character from a file: glTF 2 itself, and by assimp FBX, Collada, MD5, IQM, OBJ, PLY and STL, and clips of these
-/// and of BVH. Of IQM, assimp reads the rest pose alone.
+/// Reads a character from a file. glTF 2 is read directly; assimp reads FBX, Collada, MD5, IQM, OBJ, PLY and STL. Clips come from files
+/// of these formats and from BVH. Of IQM, assimp reads only the rest pose.
 /// Files:   up to 1 GiB. A file may name others that lie in the same folder, such as a glTF file's buffer; no
-///          further one is read, wherever a link or a path leads.
-/// Meshes:  all of the scene, instances included. Polygons are cut into triangles; vertices equal in position
-///          and influences become one; weights, each from 0 to 1 (1.001 for rounding), are normalised, and any
+///          further file is read, wherever a link or a path leads.
+/// Meshes:  all of the scene, instances included. Polygons are cut into triangles. Vertices equal in position
+///          and influences become one. Weights, each from 0 to 1 (1.001 for rounding), are normalised, and any
 ///          number of them is kept. A vertex without weights in a mesh with bones takes those of the nearest
 ///          vertex that has some.
 /// Frame:   to_ground leads to metres, z up, and never mirrors. Where neither file nor format tells the unit
 ///          or the up axis, they are guessed from the rest pose, and a note says so.
-/// glTF:    the default scene. Required extensions are refused by name but for KHR_mesh_quantization,
+/// glTF:    the default scene. Required extensions are refused by name, except KHR_mesh_quantization,
 ///          KHR_draco_mesh_compression and those of materials, textures and lights. Morph targets with weights
 ///          other than 0 are refused.
 /// Joints:  the nodes that carry vertices, and the nodes above them. root_joint is the joint with which clips
 ///          walk, in most skeletons the hips; -1 without bones.
-/// Clips:   those of other files are matched by joint name, any namespace ("mixamorig:") aside. They give the
-///          rotations of all joints they know, and the position of the topmost, scaled by the ratio of the
+/// Clips:   those of other files are matched by joint name, without any namespace ("mixamorig:"). They give the
+///          rotations of all joints that they know, and the position of the topmost, scaled by the ratio of the
 ///          skeletons' bone lengths, whatever their units; other joints keep the character's own lengths.
 ///          A clip of another skeleton is refused unless force_clips is set. The skeleton counts as another if
 ///          it shares no bone with the character's (two joints, one the parent of the other, by name), if less
 ///          than half of the clip's channels move the character and its file has less than half of the
 ///          character's joints, or if its bones point in other directions. A note names each clip of
 ///          another file in which a pose reaches farther than 1.5 times the rest pose.
-/// Returns: a character that validate() accepts; the same for the same files.
+/// Returns: a character that validate() accepts; the same files give the same character.
 /// Errors:  throws ImportError.
 ImportedCharacter import_character(const std::filesystem::path& file, const ImportOptions& options = {});
 
-/// The limits of import_in_child().
+/// Holds the limits of import_in_child().
 struct ImportLimits {
   std::chrono::milliseconds time{60'000};
-  /// Bytes of address space beyond what this process has when the import begins. Builds with sanitizers, which need
+  /// The bytes of address space beyond what this process has when the import begins. Builds with sanitizers, which need
   /// far more, set no such limit.
   std::size_t memory = std::size_t{2} << 30;
   std::function<bool()> go_on =
-      {};  ///< asked twenty times a second by the caller's thread; false ends the import
+      {};  ///< called twenty times a second on the caller's thread; returning false ends the import
 };
 
-/// Imports a character from an untrusted file, as import_character() does: assimp crashes on some malformed ones. A child process
-/// reads the file within limits and returns the character; no code of assimp runs in this process.
-/// Errors:  throws ImportError, also on a file that crashes or exhausts the child; std::runtime_error where there can be no
-///          child.
-/// Threads: the child is a fork with the caller's thread alone. A lock that another thread holds at that moment stays locked in it,
-///          except the C library's own, and the import may then run into its time limit.
+/// Imports a character from an untrusted file, as import_character() does, in a child process: assimp crashes on some malformed files.
+/// The child reads the file within limits and returns the character; no code of assimp runs in this process.
+/// Errors:  throws ImportError, also on a file that crashes or exhausts the child; std::runtime_error where no child can be
+///          created.
+/// Threads: the child is a fork with only the caller's thread. A lock that another thread holds at that moment stays locked in the
+///          child, except the C library's own, and the import may then run into its time limit.
 ImportedCharacter import_in_child(const std::filesystem::path& file, const ImportOptions& options = {},
                                   const ImportLimits& limits = {});
 

@@ -21,12 +21,12 @@ namespace bch {
 /// of its triangles, seen from above.
 ///
 /// Vertices are snapped to a grid of 2^-23 of the power of two above the reach (0.12 um for a person). On the
-/// grid the result is exact, but for points where edges cross: each is rounded to the nearest grid point.
+/// grid the result is exact, except for points where edges cross: each is rounded to the nearest grid point.
 /// Every vertex of a triangle is inside the outline or within 1.5 grid steps of it. Triangles may be open,
-/// non-manifold, duplicated, degenerate. Holes are left out, also where they are closed by mere contact. A
-/// triangle without area is a whisker, walked there and back; one that is a point is left out.
+/// non-manifold, duplicated or degenerate. Holes are left out, also where they are closed by mere contact. A
+/// triangle without area is a whisker, traversed there and back; a triangle that is a point is left out.
 ///
-/// The result depends on the union alone, not on how it is made of triangles: a contour begins at its
+/// The result depends only on the union, not on how it is made of triangles: a contour begins at its
 /// lexicographically smallest vertex before rounding, no corner is straight, and contours are in the order of
 /// where they begin.
 class OutlineBuilder {
@@ -51,19 +51,19 @@ class OutlineBuilder {
   /// Writes the outline of positions with heights, which may have any value.
   void build(std::span<const Vec3> positions, Outline& outline);
 
-  /// Writes the outlines of the slabs that horizontal planes cut a pose into: below the first plane, between neighbouring ones,
-  /// and above the last. Triangles are cut. An empty slab gets an outline without contours, one that reaches less than 1e-6 m
-  /// from the origin a square of 4 um. A point that two meshes share lies within 1.5 grid steps of both outlines of one slab,
+  /// Writes the outlines of the slabs into which horizontal planes cut a pose: below the first plane, between neighbouring planes,
+  /// and above the last. Triangles are cut. An empty slab gets an outline without contours. A slab that reaches less than 1e-6 m
+  /// from the origin gets a square of 4 um. A point that two meshes share lies within 1.5 grid steps of both outlines of one slab,
   /// wherever the planes are, because a plane is half a float step above its number.
   /// Sizes:   slabs.size() == planes.size() + 1.
   /// Units:   metres above the ground, ascending; at most 63 planes.
   /// Returns: the heights of all vertices that triangles use.
-  /// Errors:  as the others; and on planes that are not finite or do not ascend, or a height that is not finite.
+  /// Errors:  as the other overloads; also on planes that are not finite or do not ascend, or a height that is not finite.
   Heights build(std::span<const Vec3> positions, std::span<const float> planes, std::span<Outline> slabs);
 
-  // For the library's own parts, which alone know this type.
+  // Only for the library itself, which alone knows this type.
 
-  /// Uses a given implementation instead of the best. This processor has to support it.
+  /// Uses a given implementation instead of the best one. This processor has to support it.
   OutlineBuilder(std::span<const std::array<std::uint32_t, 3>> triangles, std::size_t vertices,
                  std::span<const Vec3> bind_pose, const detail::OutlineImplementation& implementation);
 
@@ -72,8 +72,8 @@ class OutlineBuilder {
   std::unique_ptr<State> state_;
 };
 
-/// Finds the outline of triangles that are seen once. OutlineBuilder says what an outline is, and finds those of one
-/// mesh in many poses much faster.
+/// Finds the outline of triangles that are used once. OutlineBuilder says what an outline is, and is much faster for one
+/// mesh in many poses.
 /// Sizes:   triangle indices are below positions.size(); vertices that no triangle uses do not count.
 /// Errors:  throws std::invalid_argument on no triangles, an index out of range, a coordinate that is not
 ///          finite, or a reach outside 1e-6 to 1e6 m.

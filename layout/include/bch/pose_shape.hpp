@@ -12,13 +12,13 @@
 
 namespace bch {
 
-/// Makes shapes of one character in pose after pose: poses the mesh, finds the outline of the union of its triangles, and builds
-/// the contour hierarchy that splits at the centroid. Keeps its memory: a pose allocates nothing once the largest shape has been
-/// made. One thread may use it at a time, and one that was moved from can only be assigned to or destroyed.
+/// Makes shapes of one character in pose after pose: it poses the mesh, finds the outline of the union of its triangles, and builds
+/// the contour hierarchy that splits at the centroid. It keeps its memory: a pose allocates nothing once the largest shape has been
+/// made. Only one thread may use an object at a time, and one that was moved from can only be assigned to or destroyed.
 class PoseShaper {
  public:
-  /// Prepares the mesh of a character, which must outlive this and must be valid (see validate()). Shapes are made for sets of a
-  /// plan: hierarchies end at its deepest cut, and its slices cut the body. A plan of depth 0 alone needs no outlines: the
+  /// Prepares the mesh of a character, which must outlive this object and must be valid (see validate()). Shapes are made for sets of
+  /// a plan: hierarchies end at its deepest cut, and its slices cut the body. A plan of depth 0 alone needs no outlines: the
   /// outermost vertices give its discs in a third of the time. `threshold`, in metres, is the radius below which a disc is
   /// not divided.
   /// Errors:  throws std::invalid_argument on a bad plan.
@@ -27,23 +27,23 @@ class PoseShaper {
   PoseShaper& operator=(PoseShaper&&) noexcept;
   ~PoseShaper();
 
-  /// Sets the most nodes of a hierarchy, 2^22 unless told: shapes of more throw std::length_error.
+  /// Sets the largest number of nodes of a hierarchy, 2^22 by default. Shapes of more nodes throw std::length_error.
   void limit_nodes(std::size_t most);
 
-  /// Makes the shape of a pose: at a time of a clip, keys interpolated as the channels' curves say, times clamped to the first
-  /// and last key. The root's way over the ground is removed from the shape; its turn stays in it.
-  /// Returns: the shape down to the deepest depth, until the next call; with primitives where that is all_depths, because exact
-  ///          leaves need them. With slices its slabs alone, each with outline and hierarchy; with these or the plan's
-  ///          heights, those of the body.
-  /// Errors:  throws std::invalid_argument on a clip or a time that is not there and as OutlineBuilder and contour_hierarchy()
+  /// Makes the shape of a pose at a time of a clip. Keys are interpolated as the channels' curves say, and times are clamped to the
+  /// first and last key. The root's way over the ground is removed from the shape; its turn stays in it.
+  /// Returns: the shape down to the deepest depth, valid until the next call. It has primitives where that depth is all_depths, because
+  ///          exact leaves need them. With slices it has only its slabs, each with outline and hierarchy. With slices, or with the
+  ///          plan's heights, it also has the heights of the body.
+  /// Errors:  throws std::invalid_argument on a clip or a time that does not exist and as OutlineBuilder and contour_hierarchy()
   ///          do, std::domain_error on a position that is not finite. The shape made before is lost.
-  /// `whole`: does not cut the body, whatever the plan's slices; it is then one part at all of its heights.
+  /// `whole`: does not cut the body, whatever the plan's slices; the body is then one part at all of its heights.
   const Shape& shape(PoseTime at, bool whole = false);
 
-  /// Makes the outlines of a pose, the first step of shape(), for callers that need outlines alone or time each step. Does nothing
+  /// Makes the outlines of a pose, the first step of shape(), for callers that need only outlines or time each step. It does nothing
   /// for a plan of depth 0 alone.
   const Shape& make_outlines(PoseTime at, bool whole = false);
-  /// Makes the hierarchies over the outlines made last, the second step of shape().
+  /// Makes the hierarchies over the last outlines, the second step of shape().
   const Shape& make_hierarchies();
 
  private:
@@ -51,23 +51,23 @@ class PoseShaper {
   std::unique_ptr<State> state_;
 };
 
-/// How close the discs of animate() are to a body, metres. The defaults are for people.
+/// Holds the options of animate(), which say how close its discs are to a body, in metres. The defaults are for people.
 struct AnimateOptions {
-  float spacing = 0.025f;  ///< of discs along the outline, at most, at keys
+  float spacing = 0.025f;  ///< the largest distance of discs along the outline, at keys
   float inset =
-      0.04f;  ///< of centres behind the outline, at most: the more, the less discs stand out between neighbours
+      0.04f;  ///< the largest distance of centres behind the outline: the more, the less discs protrude between neighbours
   float error =
-      0.005f;  ///< by which discs may stand out more between two keys than at these, unless keys are 9 ms apart
+      0.005f;  ///< by how much more discs may protrude between two keys than at these, unless keys are 9 ms apart
   std::vector<float> slices =
       {};  ///< planes that cut the body into slabs, as in ShapeSetPlan; none: discs are of the whole body
 };
 
-/// Makes moving discs of a character's clip that hold all of its triangles at every real time of the clip: the proof is beside
+/// Makes moving discs of a character's clip that hold all of its triangles at every real time of the clip. The proof is in
 /// layout/animation/cover_check.hpp. Parts of the body that are apart have rings of their own. Each number of a chunk is one of 16 bits
-/// times a power of two. With slices those of each slab hold all triangles that reach into it at some time of the chunk, as wholes,
-/// which PoseShaper cuts.
+/// times a power of two. With slices the discs of each slab hold all triangles that reach into the slab at some time of the chunk, as
+/// wholes, whereas PoseShaper cuts them.
 /// Cost:    about as long as the clip for people of 2 850 triangles with 30 keys a second, and more for more keys and slabs.
-/// Errors:  throws std::invalid_argument on a clip that is not there or takes no time, on one with channels that jump, step or are
+/// Errors:  throws std::invalid_argument on a clip that does not exist or takes no time, on one with channels that jump, step or are
 ///          cubic, on a character without a root joint, on options that are not above 0 and on slices that validate(ShapeSetPlan)
 ///          rejects; std::length_error beyond 4096 discs a chunk; std::domain_error as PoseShaper::shape() does.
 AnimatedDiscs animate(const Character& character, std::uint32_t clip, const AnimateOptions& options = {});

@@ -14,27 +14,27 @@
 
 namespace bch {
 
-/// The character and pose of a shape that a scene needs.
+/// Names the character and pose of a shape that a scene needs.
 struct ShapeSource {
-  std::uint32_t character = 0;  ///< index in a list that the scene has
+  std::uint32_t character = 0;  ///< index in the scene's list of characters
   PoseTime at;
   bool whole = false;  ///< not cut, in a set with slices: PoseShaper::shape(at, true)
 };
 
-/// An agent of a scene to plan.
+/// Describes an agent of a scene to plan.
 struct SceneAgent {
   ShapeSource shows;
   double distance = 0;  ///< metres, from the viewer
-  double density = 0;   ///< people per square metre around the agent: local_densities() tells it
+  double density = 0;   ///< people per square metre around the agent, as from local_densities()
 };
 
-/// The number of pairs of a shape from which culling data pays: the time to build it over the time that it saves a pair
+/// Gives the number of pairs per shape from which culling data pays: the time to build it over the time that it saves per pair
 /// of a crowd, measured by `bch_ratios --table plans`.
 constexpr double pairs_for_culling = 500;
 
-/// The queries and levels of detail that a scene is planned for.
+/// Describes the queries and levels of detail that a scene is planned for.
 struct SceneUse {
-  /// Queries use the solid semantics, too.
+  /// Whether queries also use solid semantics.
   bool solid = false;
   /// What decides at the leaves of the level of all depths, if there is one.
   Leaves leaves = Leaves::segments;
@@ -43,46 +43,46 @@ struct SceneUse {
   /// Level of detail: the cut depth by the density around agents, for example depth_at_density(). If both
   /// functions give a depth, the coarser counts.
   std::function<std::uint32_t(double people_per_square_metre)> density_depth = {};
-  /// Planes that cut the bodies of agents who are near, for example standing_slices(3); none: bodies are whole.
+  /// The planes that cut the bodies of agents who are near, for example standing_slices(3); none: bodies are whole.
   std::vector<float> slices = {};
-  /// Level of detail: agents from this distance on, metres, are whole bodies, which cost and clear less.
+  /// Level of detail: agents from this distance on, metres, are whole bodies, which cost less and clear less.
   double whole_from = std::numeric_limits<double>::infinity();
-  /// Agents stand at different heights; see Agents::z.
+  /// Whether agents stand at different heights; see Agents::z.
   bool heights = false;
-  /// Times within a clip are rounded down to multiples of this step, in seconds, so that agents share shapes; 0: agents share
+  /// The step to whose multiples times within a clip are rounded down, in seconds, so that agents share shapes; 0: agents share
   /// only equal poses.
   float pose_step = 0;
-  /// The expected number of pairs that a shape is in before it is replaced; few where shapes live for one frame. From
+  /// The expected number of pairs of a shape before it is replaced, which is small where shapes live for one frame. From
   /// pairs_for_culling on, shapes get culling data.
   double pairs_per_shape = std::numeric_limits<double>::infinity();
 };
 
-/// The shapes to build for a scene, each once, and the shape and level of each agent.
+/// Lists the shapes to build for a scene, each once, and the shape and level of each agent.
 struct ScenePlan {
   ShapeSetPlan set;
   std::vector<ShapeSource> shapes;         ///< in the order in which agents first show them
-  std::vector<std::uint32_t> agent_shape;  ///< one an agent: Agents::shape
-  std::vector<std::uint8_t> agent_level;   ///< one an agent: Agents::level
+  std::vector<std::uint32_t> agent_shape;  ///< one per agent: Agents::shape
+  std::vector<std::uint8_t> agent_level;   ///< one per agent: Agents::level
 };
 
-/// Returns the cut depth that a density needs, by measurement (`bch report --experiment detail`): the coarsest one whose false
-/// collisions stop a walking person at most once a second; all_depths where no depth does.
+/// Returns the cut depth that a density needs, by measurement (`bch report --experiment detail`). It is the coarsest one whose false
+/// collisions stop a walking person at most once a second, or all_depths where no depth does.
 std::uint32_t depth_at_density(double people_per_square_metre);
 
-/// Returns planes that clear most false collisions of standing people about 1.75 m tall, metres, for 1, 2, 3, 4 or 8 slabs, by
-/// measurement (`bch_ratios --table slices`, `bch report --experiment error_time`); best_slices() finds those of other bodies.
+/// Returns planes that clear most false collisions of standing people about 1.75 m tall, metres, for 1, 2, 3, 4 or 8 slabs. They were
+/// measured (`bch_ratios --table slices`, `bch report --experiment error_time`); best_slices() finds planes for other bodies.
 /// Errors:  throws std::invalid_argument on another number.
 std::vector<float> standing_slices(std::uint32_t slabs);
 
-/// Plans which shapes a scene needs, each once, at which depths and with what beside.
+/// Plans which shapes a scene needs, each once, at which depths and with which further data.
 /// Errors:  throws std::invalid_argument on a distance or density that is negative or not finite, naming the agent, a time that is
 ///          not finite, a pose step that is negative or not finite, a number of pairs that is negative or NaN, a
 ///          distance of whole bodies that is negative or NaN, slices that a plan may not have, and on more than 255 different depths.
 ScenePlan plan_scene(std::span<const SceneAgent> agents, const SceneUse& use = {});
 
 /// Measures the density around each agent, in people per square metre: the number of agents within `radius`, itself included,
-/// over the area of that circle. It is lower at the edge of a crowd.
-/// Sizes:   x.size() == y.size(); one number an agent.
+/// over the area of that circle. The density is lower at the edge of a crowd.
+/// Sizes:   x.size() == y.size(); one number per agent.
 /// Units:   metres. Takes time n log n beside the neighbours it counts.
 /// Errors:  throws std::invalid_argument on sizes that differ, a position that is not finite or beyond 1e9 m, naming the
 ///          agent, and a radius that is not positive and finite.
