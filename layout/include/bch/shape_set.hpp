@@ -21,8 +21,8 @@ struct ShapeSetView;
 
 namespace bch {
 
-/// A body seen from above: a pose of a character, a footprint, a cylinder. The outline may be empty. Discs then decide at the leaves,
-/// and a set of such shapes has no solid semantics, unless each shape is a single disc.
+/// Represents a body seen from above: a pose of a character, a footprint, a cylinder. The outline may be empty. Discs then decide at the
+/// leaves, and a set of such shapes has no solid semantics, unless each shape is a single disc.
 struct Shape {
   Outline outline;
   Hierarchy hierarchy;
@@ -32,20 +32,20 @@ struct Shape {
 };
 
 /// Makes a shape of given discs, such as the three to fifty of a body in mechanical crowd models. The discs are enlarged
-/// by the rounding margin alone, and queries number them as they are given. The shape has no outline. Neighbouring discs
-/// should follow each other: nodes of the hierarchy group them in that order.
+/// only by the rounding margin, and queries number them as they are given. The shape has no outline. Neighbouring discs
+/// should follow each other, because nodes of the hierarchy group them in that order.
 /// Cost:    6 ms for 50 discs.
-/// Errors:  throws std::invalid_argument on none or more than 4096, on a disc that is not finite or without a radius, naming it, or
+/// Errors:  throws std::invalid_argument on no discs or more than 4096, on a disc that is not finite or without a radius, naming it, or
 ///          on a reach outside 1e-6 to 1e6 m.
 Shape shape_from_discs(std::span<const Disc> discs);
 
 /// Makes a shape of given polygons, a wheelchair's for instance, as outline_from_polygons() takes them. Its exact leaves
 /// are the polygons themselves.
 /// Units:   metres; the threshold is that of contour_hierarchy().
-/// Errors:  throws std::invalid_argument as these two do.
+/// Errors:  throws std::invalid_argument as outline_from_polygons() and contour_hierarchy() do.
 Shape shape_from_polygons(std::span<const std::vector<Vec2>> polygons, float threshold = 0.01f);
 
-/// The points within a radius of a segment of the ground plane, metres, in the shape's frame.
+/// Represents the points within a radius of a segment of the ground plane, metres, in the shape's frame.
 struct Capsule {
   Vec2 a, b;
   float radius;
@@ -53,52 +53,55 @@ struct Capsule {
 
 /// Makes a shape of given capsules, such as the limbs of a body. The outline encloses each capsule in a polygon that is nowhere
 /// farther from it than a tolerance.
-/// Units:   metres; the tolerance is more than 2^-20 of the capsules' reach, the threshold that of contour_hierarchy().
-/// Errors:  throws std::invalid_argument on none, on a capsule without a radius or beyond 1e6 m, naming it, on a tolerance that is not
-///          positive or too small, and as shape_from_polygons().
+/// Units:   metres; the tolerance is more than 2^-20 of the capsules' reach, the threshold is that of contour_hierarchy().
+/// Errors:  throws std::invalid_argument on no capsules, on a capsule without a radius or beyond 1e6 m, naming it, on a tolerance that is
+///          not positive or too small, and as shape_from_polygons().
 Shape shape_from_capsules(std::span<const Capsule> capsules, float tolerance = 0.001f,
                           float threshold = 0.01f);
 
-/// Discs that move through a part of a clip: rings of them lie along the outline, and each goes straight on from key to key, its
-/// centre and its radius linear in time. What they hold at a time is the discs and what the polygons of the rings' centres go
-/// round. Consecutive discs of a ring, the last and the first too, overlap at every key, and so at all times between.
+/// Describes discs that move through a part of a clip. Rings of discs lie along the outline, and each disc goes straight on from key to
+/// key: its centre and its radius are linear in time. At any time the chunk covers its discs, and what the polygons of the rings'
+/// centres enclose. Consecutive discs of a ring, the last and the first too, overlap at every key, and so at all times between.
 struct AnimatedChunk {
   std::vector<double> times;     ///< of the keys, at least two, ascending; seconds of the clip
-  std::uint32_t disc_count = 0;  ///< discs at each key
+  std::uint32_t disc_count = 0;  ///< the number of discs at each key
   std::vector<Disc> keys;        ///< times.size() * disc_count, key by key; in the shape's frame, metres
   std::vector<std::uint32_t>
       ring_ends;  ///< the end of each ring among the discs, ascending; the last is disc_count. None: discs alone
   friend bool operator==(const AnimatedChunk&, const AnimatedChunk&) = default;
 };
 
-/// A clip as moving discs: chunks that follow one another in time, each beginning when the one before it ends. A body that is cut
-/// has its discs in its slabs instead.
+/// Describes a clip as moving discs: chunks that follow one another in time, each beginning when the one before it ends. A body that is
+/// cut has its discs in its slabs instead.
 struct AnimatedDiscs {
   std::vector<AnimatedChunk> chunks;  ///< from the clip's beginning to its end
   bool loops = false;                 ///< whether the clip's last pose is its first one
   std::vector<float> slices = {};     ///< planes that cut the body, as in ShapeSetPlan; none: it is whole
-  /// The slabs of a body that is cut: one more than planes, with chunks alone, from and to the same times. One without discs for a time
-  /// has a chunk of none.
+  /// The slabs of a body that is cut: one more than planes, with only chunks, from and to the same times. A slab without discs for a
+  /// time has a chunk of no discs.
   std::vector<AnimatedDiscs> slabs = {};
   Heights heights = {};  ///< of the whole body at all times; by default it takes part at every height
   friend bool operator==(const AnimatedDiscs&, const AnimatedDiscs&) = default;
 };
 
-/// Checks moving discs.
-/// Errors:  throws std::invalid_argument, naming the chunk, on none, on fewer than two keys, on times that are not finite, not
-///          within +-1e6 s, do not ascend or leave a gap; on none or more than 4096 discs, or another number of them than in
+/// Checks that moving discs are well-formed, as AnimatedShape needs them.
+/// Errors:  throws std::invalid_argument, naming the chunk, on no chunks, on fewer than two keys, on times that are not finite, not
+///          within +-1e6 s, do not ascend or leave a gap; on no discs or more than 4096, or another number of them than in
 ///          the keys; naming the disc and key, on one that is not finite or of a radius below 0, or that does not overlap the next
 ///          one of its ring; on rings that do not ascend or end before or after the last disc, and on a reach outside 1e-6 to 1e6 m.
 ///          Of a body that is cut, naming the slab too; on slices that validate(ShapeSetPlan) rejects, on another number of slabs, on
-///          chunks beside them, on slabs of slabs or that begin or end at different times, and where none has discs.
+///          chunks beside them, on slabs of slabs or that begin or end at different times, and where no slab has discs.
 void validate(const AnimatedDiscs& discs);
 
-/// A body that moves by itself, seen from above: a clip of a character, or moving discs of one's own. Its solid at a time is its discs,
-/// and what the polygons of its rings' centres go round. Discs stand in a tree whose nodes are discs that move as these do, and hold
-/// them at every time. Where a chunk ends and the next one begins the discs of both count. Times before its beginning and after its end are these, or, where it loops, those of another round.
-/// A body that is cut is one such solid for each slab.
-/// Numbers are kept in 16 bits: discs of animate() as they are, others rounded outward, so that they hold the given ones and reach
-/// out of them by less than 0.15 mm per metre of the reach. One that was moved from can only be assigned to or destroyed.
+/// Represents a body that moves by itself, seen from above: a clip of a character, or other moving discs. Its solid at a time is its
+/// discs, and what the polygons of its rings' centres enclose. A body that is cut is one such solid for each slab.
+///
+/// The discs are in a tree whose nodes are discs that move as these do, and hold them at every time. Where a chunk ends and the next one
+/// begins, the discs of both count. Times before the beginning and after the end are clamped to these; if the clip loops, they wrap around
+/// instead.
+///
+/// Numbers are kept in 16 bits. Discs of animate() are kept exactly; other discs are rounded outward, so that they hold the given ones
+/// and reach out of them by less than 0.15 mm per metre of the reach. An object that was moved from can only be assigned to or destroyed.
 class AnimatedShape {
  public:
   /// Checks moving discs and builds the tree over them.
@@ -112,7 +115,7 @@ class AnimatedShape {
   double begin() const noexcept;  ///< seconds of the clip
   double end() const noexcept;
   bool loops() const noexcept;
-  /// Returns the planes that cut the body, none where it is whole.
+  /// Returns the planes that cut the body; none where it is whole.
   std::span<const float> slices() const noexcept { return slices_; }
   /// Returns the heights of the whole body at all times.
   const Heights& heights() const noexcept { return heights_; }
@@ -123,16 +126,16 @@ class AnimatedShape {
   std::size_t bytes() const noexcept;
   /// Returns the discs at a time, as they are kept, in the order in which they were given, slab after slab.
   std::vector<Disc> discs(double seconds) const;
-  /// Returns the body at a time as a shape, whose leaves are these discs and whose outline is the rings. A set takes it, and a
-  /// PreparedShape for a DynamicShapeSet, so that every query answers at every time after one call for each body and time. Discs
+  /// Returns the body at a time as a shape, whose leaves are its discs and whose outline is the rings. A set takes the shape, and so does
+  /// a PreparedShape for a DynamicShapeSet, so that every query answers at every time after one call for each body and time. Discs
   /// without rings stay in the order in which they were given; others are numbered as leaves of the tree. A body that is cut gives
   /// a shape of slabs, for sets of the same slices.
   /// Cost:    a few us for 200 discs, less than making it flat.
   Shape shape(double seconds) const;
-  /// Makes that shape in place of another one of this kind, whose memory it keeps.
+  /// Makes that shape in place of another shape of this kind, whose memory it keeps.
   void shape(double seconds, Shape& shape) const;
 
-  /// Returns the tree of a body that is whole, or of a slab, for the library's own parts, which alone know the type.
+  /// Returns the tree of a body that is whole, or of a slab. Only the library itself knows its type.
   const detail::AnimatedTree& tree() const noexcept { return *tree_; }
 
  private:
@@ -144,47 +147,47 @@ class AnimatedShape {
   Heights heights_;
 };
 
-/// What makes two leaves meet.
+/// Selects what makes two leaves meet.
 enum class Leaves {
   discs,  ///< their discs overlap
-  /// Exact leaves: besides, segments of the outlines in them come within the rounding margin of each other,
+  /// Exact leaves: additionally, segments of the outlines in them come within the rounding margin of each other,
   /// 1.7 um per metre of the reaches. This applies to agents at the level of all depths whose shapes have segments there.
   /// Otherwise, and for leaves of more than 127 segments, discs decide.
   segments,
 };
 
-/// What a scene will use of its shapes; nothing else is built or stored.
+/// Describes what a scene will use of its shapes; nothing else is built or stored.
 struct ShapeSetPlan {
   /// The levels of detail: cut depths, ascending. Level k of every shape is its cut at depths[k].
   std::vector<std::uint32_t> depths = {all_depths};
-  /// Keep the outlines, which solid semantics and exact leaves need. Exact leaves exist at the level of all depths, for shapes
+  /// Whether to keep the outlines, which solid semantics and exact leaves need. Exact leaves exist at the level of all depths, for shapes
   /// whose cut is more than one disc and whose hierarchy has its primitives.
   bool outlines = true;
-  /// Keep culling data, which lets queries skip most traversals: supports and, of shapes with an outline, inscribed discs.
+  /// Whether to keep culling data, which lets queries skip most traversals: supports and, of shapes with an outline, inscribed discs.
   /// It changes no answer, and does not pay for a set that answers few queries.
   bool culling = true;
-  /// Cut bodies into slabs at these planes, metres above the ground that an agent stands on, ascending, at most 63; none: bodies are
+  /// The planes that cut bodies into slabs, metres above the ground that an agent stands on, ascending, at most 63; none: bodies are
   /// whole. Two agents then collide where they do in some slab, in solid semantics, so an arm above a foot is no collision. Every
-  /// shape has either the slabs that PoseShaper and AnimatedShape make of these planes, or none: it is then the same at all of its heights.
-  /// Slices need outlines.
+  /// shape has either the slabs that PoseShaper and AnimatedShape make of these planes, or none: it is then the same at all of its
+  /// heights. Slices need outlines.
   std::vector<float> slices = {};
-  /// Keep the heights of bodies, which agents at different heights need; see Agents::z. Slices have them anyway.
+  /// Whether to keep the heights of bodies, which agents at different heights need; see Agents::z. Slices have them anyway.
   bool heights = false;
   friend bool operator==(const ShapeSetPlan&, const ShapeSetPlan&) = default;
 };
 
-/// Checks a plan.
+/// Checks that a plan is one that ShapeSet takes.
 /// Errors:  throws std::invalid_argument on a plan without depths, with more than 255, or with depths out of order; on more than
 ///          63 slices, on slices that do not ascend or are beyond 1e6 m, and on slices without outlines, unless depth 0 is alone.
 void validate(const ShapeSetPlan& plan);
 
-/// The flat form of many shapes for batch queries: structure of arrays, aligned to cache lines, immutable. One that was
+/// Holds the flat form of many shapes for batch queries: structure of arrays, aligned to cache lines, immutable. An object that was
 /// moved from can only be assigned to or destroyed.
 class ShapeSet {
  public:
   /// Makes shapes flat, each at all depths of a plan, and copies what it needs of them.
-  /// Errors:  throws std::invalid_argument on a plan that validate() rejects and, naming the shape, on a hierarchy that
-  ///          validate() rejects, or on an outline that is there and that the plan uses; std::length_error beyond
+  /// Errors:  throws std::invalid_argument on a plan that validate() rejects and, naming the shape, on a hierarchy, or on a
+  ///          non-empty outline that the plan uses, if validate() rejects it; std::length_error beyond
   ///          2^31 numbers in nodes.
   explicit ShapeSet(std::span<const Shape> shapes, const ShapeSetPlan& plan = {});
   ShapeSet(ShapeSet&&) noexcept;
@@ -196,23 +199,23 @@ class ShapeSet {
   std::span<const std::uint32_t> depths() const noexcept;
   std::span<const float> slices() const noexcept;
   std::uint32_t slab_count() const noexcept { return static_cast<std::uint32_t>(slices().size() + 1); }
-  /// Returns whether agents may have a z: the heights of bodies are kept.
+  /// Returns whether the heights of bodies are kept, so that agents may have a z.
   bool has_heights() const noexcept;
-  /// Returns whether solid semantics can be asked: every shape has its outline here, or every cut is a single disc.
+  /// Returns whether queries can use solid semantics: every shape has its outline here, or every cut is a single disc.
   bool solid() const noexcept;
   /// Returns whether some level of some shape has exact leaves.
   bool exact_leaves() const noexcept;
   /// Returns whether every cut is a single disc: there are roots and nothing else.
   bool roots_only() const noexcept;
-  /// Returns the plan of what is stored: of roots alone no more than the depths.
+  /// Returns the plan of what is stored. Of sets with only roots it has no more than the depths.
   ShapeSetPlan plan() const;
   std::size_t bytes() const noexcept;
 
-  /// Returns the discs of a shape's cut, in the order in which queries number them: slab after slab, those of a body that is not
-  /// cut once.
+  /// Returns the discs of a shape's cut, in the order in which queries number them: slab after slab, with those of a body that is not
+  /// cut only once.
   /// Errors:  throws std::out_of_range on an index out of range.
   std::vector<Disc> discs(std::uint32_t shape, std::uint32_t level) const;
-  /// Returns the offsets of slabs in discs(): slab j has those from [j] to [j + 1]. A body that is not cut has its discs in its
+  /// Returns the offsets of slabs in discs(): slab j has the discs from [j] to [j + 1]. A body that is not cut has its discs in its
   /// first slab.
   std::vector<std::uint32_t> slab_begin(std::uint32_t shape, std::uint32_t level) const;
   /// Returns the radius about an agent's position that holds all discs of its shape, at every level and heading, metres.
@@ -220,7 +223,7 @@ class ShapeSet {
   /// Errors:  throws std::out_of_range on an index out of range.
   float bounding_radius(std::uint32_t shape) const;
 
-  // For the library's own parts, which alone know these types.
+  // Only for the library itself, which alone knows these types.
 
   /// Views arrays that live as long as `memory`, a mapped file for instance.
   /// Precondition: validate(arrays) does not throw.

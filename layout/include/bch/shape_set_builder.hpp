@@ -16,8 +16,8 @@ struct FlatBody;
 
 namespace bch {
 
-/// A shape in its flat form, ready to be added to a set. Preparing shapes is nearly all the work of making a set; an object keeps
-/// its memory for the next shape. One thread may use it at a time, and one that was moved from can only be assigned to or
+/// Holds a shape in its flat form, ready to be added to a set. Preparing shapes is nearly all the work of making a set; an object keeps
+/// its memory for the next shape. Only one thread may use it at a time, and an object that was moved from can only be assigned to or
 /// destroyed.
 class PreparedShape {
  public:
@@ -28,11 +28,11 @@ class PreparedShape {
   PreparedShape& operator=(PreparedShape&&) noexcept;
   ~PreparedShape();
 
-  /// Makes a shape flat, in place of the one before.
-  /// Errors:  throws std::invalid_argument as ShapeSet does, naming the shape by `index`; prepare another then.
+  /// Makes a shape flat, in place of the previous one.
+  /// Errors:  throws std::invalid_argument as ShapeSet does, naming the shape by `index`; then prepare another shape.
   void prepare(const Shape& shape, std::size_t index);
 
-  /// Returns what the library's own parts read and write; they alone know the type.
+  /// Returns the internal representation, whose type only the library itself knows.
   detail::FlatBody& flat() noexcept;
   const detail::FlatBody& flat() const noexcept;
 
@@ -41,8 +41,8 @@ class PreparedShape {
   std::unique_ptr<State> state_;
 };
 
-/// Builds a set shape by shape, without all shapes in memory: the same set, byte for byte, as ShapeSet makes of all at once.
-/// One that was moved from can only be assigned to or destroyed.
+/// Builds a set shape by shape, without all shapes in memory. The set is the same, byte for byte, as ShapeSet makes of all at once.
+/// An object that was moved from can only be assigned to or destroyed.
 class ShapeSetBuilder {
  public:
   /// Begins an empty set of a plan. `expected_shapes` is an estimate for which memory is reserved; any number may be added.
@@ -53,15 +53,15 @@ class ShapeSetBuilder {
   ~ShapeSetBuilder();
 
   /// Adds a shape that was prepared with the same plan.
-  /// Errors:  throws std::length_error beyond 2^31 numbers in nodes or 2^32 roots. What was added before is then as it was.
+  /// Errors:  throws std::length_error beyond 2^31 numbers in nodes or 2^32 roots. Shapes that were added before are then unchanged.
   void add(const PreparedShape& shape);
   /// Returns the set of the shapes so far. It can be queried until the next call of another function; more shapes may follow.
   const ShapeSet& set();
-  /// Returns the set of the shapes that were added. Where memory runs out they stay.
+  /// Returns the set of the shapes that were added. Where memory runs out, the shapes stay in the builder.
   ShapeSet finish() &&;
 
-  /// Returns the nodes of the shapes so far, as the set is going to have them, none for roots alone. For the library's own parts; valid
-  /// until the next call of another function.
+  /// Returns the nodes of the shapes so far, as the set is going to have them, or none for sets of only roots. Only for the library
+  /// itself; valid until the next call of another function.
   std::span<const float> nodes() const noexcept;
   /// Returns the present end of the set, for go_back().
   detail::BuilderEnd end() const noexcept;

@@ -12,27 +12,27 @@
 
 namespace bch {
 
-/// A stored value that contradicts the rest of its set.
+/// Describes a stored value that contradicts the rest of its set.
 struct Finding {
   static constexpr std::uint32_t no_level = 0xffffffff, whole = 0xffffffff;
 
   std::uint32_t shape;
-  std::uint32_t slab;   ///< the first one with what was found; `whole` where bodies are
+  std::uint32_t slab;   ///< the first slab with this finding; `whole` where bodies are whole
   std::uint32_t level;  ///< or no_level, where the array has none
-  const char* array;    ///< its name, as findings and errors of loading have it
-  std::string what;     ///< the value, its place, and what the rest asks for
+  const char* array;    ///< the name of the array, as findings and errors of loading have it
+  std::string what;     ///< the value, its place, and what the rest requires
 };
 
 /// Returns a finding as one line: "shape 3, level 1: nodes: ...".
 std::string text_of(const Finding& finding);
 
-/// Checks that a set gives right answers: recomputes from discs and outlines all else that it stores, and compares. (Loading
-/// checks only that queries are safe.)
+/// Checks that a set gives right answers: it recomputes from discs and outlines everything else that the set stores, and compares.
+/// (Loading checks only that queries are safe.)
 ///
 /// - The discs of a node and of its child could be the smallest ones around a set of points and around a part of it. Every
 ///   disc of the cut is found: it lies below the block nodes that lead to it, and their outer radii cover it and no more.
 /// - A level has at most as many discs as its depth allows and no fewer than the level before. Each of its discs belongs to
-///   one of the level before, and could be the smallest disc around a part of that one's points.
+///   one of the level before, and could be the smallest disc around a part of that disc's points.
 /// - Reaches, supports and the outer ends of profiles are those of the discs. The supports of a body in slabs
 ///   are not below those of its parts.
 /// - If outlines are stored, every level's discs cover them; the leaves that name a segment cover it, and
@@ -40,7 +40,7 @@ std::string text_of(const Finding& finding);
 ///   the largest contour; extremes are its farthest points; profiles are those of the outline. If they are
 ///   not stored, inscribed discs, extremes and profiles are only checked not to stick out of the discs.
 ///
-/// These facts do not follow from a set and are not checked: that discs and outlines are those of a
+/// The following facts do not follow from a set and are not checked: that discs and outlines are those of a
 /// character; that a disc is the smallest; and, without outlines, that no discs are missing.
 ///
 /// Returns: at most `most` findings, shape after shape; none for a set that this library made.

@@ -3,22 +3,22 @@
 
 #pragma once
 
-/// The version of these headers. Until 1.0, a change of the public surface raises the minor number; CHANGELOG.md lists the
+/// Gives the version of these headers. Until 1.0, a change of the public surface raises the minor number; CHANGELOG.md lists the
 /// changes. The build reads the numbers from here.
 #define BCH_VERSION_MAJOR 0
 #define BCH_VERSION_MINOR 3
 #define BCH_VERSION_PATCH 0
 
-/// All that the library declares for its users.
+/// Holds all that the library declares for its users.
 namespace bch {
 
-/// A version of the library.
+/// Represents a version of the library.
 struct Version {
   int major, minor, patch;
   friend bool operator==(const Version&, const Version&) = default;
 };
 
-/// The version of these headers.
+/// Gives the version of these headers.
 constexpr Version header_version{BCH_VERSION_MAJOR, BCH_VERSION_MINOR, BCH_VERSION_PATCH};
 
 /// Returns the version of the library that the program is linked to.
