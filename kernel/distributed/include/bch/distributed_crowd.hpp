@@ -19,44 +19,43 @@
 
 namespace bch {
 
-/// An error on one rank, on which all ranks agreed: each throws it with the same message, which names the rank.
+/// Reports an error on one rank, on which all ranks agreed. Each rank throws it with the same message, which names the failed rank.
 class RankError : public std::runtime_error {
  public:
   RankError(int failed, const std::string& message) : std::runtime_error(message), rank(failed) {}
-  const int rank;  ///< where it happened; the lowest of several
+  const int rank;  ///< the rank on which the error happened; the lowest of several
 };
 
-/// An agent of a crowd that several processes share.
+/// Describes an agent of a crowd that several processes share.
 /// Units:   those of Agents.
 struct CrowdAgent {
   double x = 0, y = 0, z = 0, heading = 0;
-  std::uint32_t id = 0;     ///< its own in the whole crowd, whichever rank owns it
+  std::uint32_t id = 0;     ///< unique in the whole crowd, whichever rank owns the agent
   std::uint32_t shape = 0;  ///< index into the ShapeSet or the characters, the same on every rank
   std::uint8_t level = 0;   ///< index into the depths of the set or the plan
   PoseTime pose = {};       ///< of a character; unused, and not sent, where agents have shapes of a ShapeSet
 };
 
-/// Two agents by their ids, first < second, and how far apart they are.
+/// Names two agents by their ids, first < second, and tells how far apart they are.
 struct CrowdDistance {
   std::uint32_t first, second;
   float metres;
   friend bool operator==(const CrowdDistance&, const CrowdDistance&) = default;
 };
 
-/// How a crowd is divided among ranks.
+/// Holds the options of how a crowd is divided among ranks.
 struct DistributedCrowdOptions {
   double cell = 0;  ///< metres: the side of the squares that ranks own; 0: four times the largest radius
-  double imbalance =
-      1.04;  ///< the most that a rank has to do over the mean, beyond which the crowd is cut anew
-  /// The work of an agent beside its pairs, in pairs: 0 balances pairs, about 1.3 balances time; about 600 for characters, who are posed
-  /// anew.
+  double imbalance = 1.04;  ///< the most work of a rank over the mean, beyond which the crowd is cut anew
+  /// The work of an agent beside its pairs, in pairs: 0 balances pairs, about 1.3 balances time, and about 600 balances characters, who
+  /// are posed anew.
   double agent_pairs = 0;
   bool heights = false;  ///< whether z counts; the set has to know the heights of bodies then
 };
 
-/// What a rank did in the last update() and the last query, to judge scale by.
+/// Tells what a rank did in the last update() and the last query, to judge scaling by.
 struct CrowdCounters {
-  std::uint64_t agents = 0;           ///< that it owns
+  std::uint64_t agents = 0;           ///< agents that it owns
   std::uint64_t halo = 0;             ///< copies of others' agents that it was sent
   std::uint64_t pairs = 0;            ///< candidates that it answered
   std::uint64_t poses = 0;            ///< shapes of poses that it made, copies' too
@@ -64,16 +63,16 @@ struct CrowdCounters {
   std::uint64_t migration_bytes = 0;  ///< sent
   std::uint64_t halo_bytes = 0;       ///< sent
   std::uint32_t neighbours = 0;       ///< ranks with which it exchanges halos
-  std::uint32_t cuts = 0;             ///< how often the crowd was cut, since it was made
-  double imbalance = 1;  ///< the most that a rank did in the last query over the mean, as update() saw it
+  std::uint32_t cuts = 0;             ///< how often the crowd was cut since it was made
+  double imbalance = 1;  ///< the most work of a rank in the last query over the mean, as update() saw it
   double cut_seconds = 0, migration_seconds = 0, halo_seconds = 0;  ///< of update()
   double poses_seconds = 0;                                         ///< of update(), where poses are made
   double pairs_seconds = 0, answer_seconds = 0;                     ///< of the query: broad phase, kernel
 };
 
-/// A crowd on all ranks of a communicator. Each agent belongs to one rank: that of the square of the ground on which it
-/// stands. Squares follow each other along a Hilbert curve, and a rank owns those between two cuts of it, which are placed so that
-/// all ranks answer as many pairs.
+/// Holds a crowd on all ranks of a communicator. Each agent belongs to one rank: the owner of the square of the ground on which it
+/// stands. Squares follow each other along a Hilbert curve, and a rank owns those between two cuts of the curve. The cuts are placed so
+/// that all ranks answer the same number of pairs.
 ///
 ///     bch::DistributedCrowd crowd(MPI_COMM_WORLD, shapes, agents);  // any agents on any rank
 ///     for (;;) {
@@ -82,17 +81,17 @@ struct CrowdCounters {
 ///       for (bch::CrowdAgent& agent : crowd.agents()) ...           // moves
 ///     }
 ///
-/// The answer is that of one process which has all agents in the order of their ids, bit by bit: the pairs of all ranks together are
-/// those of CrowdCollider, each on one rank, the owner of the lower id. It is the same for any number of ranks and threads, and wherever
-/// the crowd is cut.
+/// The answer is that of one process which has all agents in the order of their ids, bit by bit. The pairs of all ranks together are
+/// those of CrowdCollider; each is on one rank, the owner of the lower id. The answer is the same for any number of ranks and threads, and
+/// wherever the crowd is cut.
 ///
-/// Agents have shapes of a set, or are characters that are posed anew in every step. Then update() makes the shapes of poses on each
-/// rank that needs them, so that no shape ever travels: character, clip and time do, 12 bytes.
+/// Agents have shapes of a set, or are characters that are posed anew in every step. For characters, update() makes the shapes of poses on
+/// each rank that needs them. So no shape ever travels, only its character, clip and time, 12 bytes.
 ///
-/// All calls but agents(), halo() and counters() are collective: each rank makes them, in the same order, with the same options.
-/// Errors:  where a rank throws, for bad input or want of memory, all throw RankError with its message. The crowd can then only
+/// All calls except agents(), halo() and counters() are collective: each rank makes them, in the same order, with the same options.
+/// Errors:  where a rank throws, for bad input or want of memory, all ranks throw RankError with its message. The crowd can then only
 ///          be destroyed. Where a rank ends or does not make the call, MPI ends the others or they wait, as with MPI's own calls.
-/// Threads: runs in the caller's TBB arena; MPI is called from the calling thread alone, and has to be initialised for
+/// Threads: runs in the caller's TBB arena. MPI is called only from the calling thread, and has to be initialised for
 ///          MPI_THREAD_FUNNELED at least. Two threads must not use one crowd at once.
 class DistributedCrowd {
  public:
@@ -101,30 +100,30 @@ class DistributedCrowd {
   /// Errors:  as all calls; std::runtime_error where MPI was not initialised for threads.
   DistributedCrowd(MPI_Comm comm, const ShapeSet& shapes, std::vector<CrowdAgent> agents,
                    const DistributedCrowdOptions& options = {});
-  /// Takes agents who are characters, each in a pose of its own, likewise; their `shape` is an index into the characters. Poses
-  /// become shapes as by PoseShaper and ShapeSet with this plan.
+  /// Takes agents who are characters, each in its own pose; their `shape` is an index into the characters. Each agent is known by one
+  /// rank. Poses become shapes as by PoseShaper and ShapeSet with this plan.
   /// Lifetime: the characters outlive the crowd. They and the plan are the same on every rank.
-  /// Errors:  besides, on a character or plan that is not valid.
+  /// Errors:  as the other constructor; also on a character or plan that is not valid.
   DistributedCrowd(MPI_Comm comm, std::span<const Character> characters, const ShapeSetPlan& plan,
                    std::vector<CrowdAgent> agents, const DistributedCrowdOptions& options = {});
   DistributedCrowd(DistributedCrowd&&) noexcept;
   DistributedCrowd& operator=(DistributedCrowd&&) noexcept;
   ~DistributedCrowd();
 
-  /// Returns the agents of this rank, which a simulator moves, adds and takes away as it likes; update() comes after, and puts them in
+  /// Returns the agents of this rank, which a simulator moves, adds and removes as it likes. Call update() afterwards; it puts them in
   /// the order of their ids.
   std::vector<CrowdAgent>& agents() noexcept;
-  /// Returns copies of other ranks' agents that come as near to this rank's squares as its agents may reach, as they were in the last
-  /// update().
+  /// Returns copies of other ranks' agents, as they were in the last update(). They are the agents that come as near to this rank's
+  /// squares as its agents may reach.
   std::span<const CrowdAgent> halo() const noexcept;
 
-  /// Brings every agent to its owner and copies to those who need them. Cuts the crowd anew where the last query's pairs are
-  /// unbalanced.
-  /// Units:   metres; the margin is how far apart agents may be that clearances() is asked about, from 0 to 1e6, the same on all ranks.
-  /// Errors:  names the agent, by its id, and the value that is not one of an agent.
+  /// Brings every agent to its owner, and copies of it to the ranks that need them. It cuts the crowd anew if the pairs of the last query
+  /// were unbalanced.
+  /// Units:   metres; the margin is the largest distance that clearances() will be asked for, from 0 to 1e6, the same on all ranks.
+  /// Errors:  names the agent, by its id, and the value that an agent must not have.
   void update(double margin = 0);
 
-  /// Returns the pairs of ids that collide, first < second, of which this rank owns the first; as of the last update().
+  /// Returns the pairs of ids that collide, first < second, as of the last update(). This rank owns the first agent of each.
   /// Options: those of collide().
   /// Memory:  the answer is valid until the next call of a query.
   std::span<const Pair> collide_all(const QueryOptions& options = {});
