@@ -9,13 +9,13 @@
 #include <stdint.h>
 
 /** @file
- * The C interface of bch, in C99, for programs of other compilers and languages. It offers what the C++ headers do; these
- * say more about each answer.
+ * Declares the C interface of bch, in C99, for programs of other compilers and languages. It offers what the C++ headers offer; their
+ * comments say more about each answer.
  *
  * Results:  every function that can fail returns a bch_status and writes its results through its last arguments. Unless it
  *           returns BCH_OK, nothing has been written, and bch_last_error() says what is wrong.
  * Handles:  an object is a pointer that a function creates and that the free function of its kind frees; freeing NULL does
- *           nothing. A function that gets a pointer which is no living object of that kind returns BCH_INVALID_ARGUMENT. An
+ *           nothing. A function returns BCH_INVALID_ARGUMENT for a pointer which is no living object of the right kind. An
  *           object that lent a pointer has to live as long as that pointer is used.
  * Structs:  those that begin with `size` may grow at their end in later versions: initialise them by the macro of their
  *           name, which fills in the size and the defaults. NULL in place of options means the defaults.
@@ -40,7 +40,7 @@ extern "C" {
 
 /* Basics ------------------------------------------------------------------------------------------------------------ */
 
-/** The version of this binary interface. Programs that were built with one version run with every library that has the same. */
+/** Gives the version of this binary interface. A program that was built with one version runs with every library of the same version. */
 #define BCH_ABI_VERSION 1
 
 /** Returns the version of the binary interface of the library that is loaded. */
@@ -48,51 +48,52 @@ BCH_API uint32_t bch_abi_version(void);
 /** Returns the version of the library that is loaded, such as "0.3.0". */
 BCH_API const char* bch_version(void);
 
-/** The status that a function returns. */
+/** Tells whether a function succeeded, and if not, why. Functions return it. */
 typedef int32_t bch_status;
 enum {
   BCH_OK = 0,
   BCH_INVALID_ARGUMENT = 1, /**< an argument that makes no sense; the message names it, an index and the value */
   BCH_OUT_OF_RANGE = 2,     /**< an index argument beyond what there is; one within an array is BCH_INVALID_ARGUMENT */
-  BCH_TOO_LARGE = 3,        /**< more than the library's limits hold */
+  BCH_TOO_LARGE = 3,        /**< more than the library's limits allow */
   BCH_NO_MEMORY = 4,
   BCH_FILE_NOT_FOUND = 5,
   BCH_BAD_FILE = 6,  /**< a file that cannot be read, trusted or written */
-  BCH_CANCELLED = 7, /**< a callback asked for it */
+  BCH_CANCELLED = 7, /**< a callback cancelled the function */
   BCH_INTERNAL = 8   /**< a fault of the library */
 };
-/** Returns the name of a status, "BCH_OK" for instance; that of an unknown one is "unknown". */
+/** Returns the name of a status, "BCH_OK" for instance, or "unknown" for an unknown one. */
 BCH_API const char* bch_status_name(bch_status status);
-/** Returns what was wrong in the calling thread's last call that failed, as one line; empty where none has. The text stays until the next one. */
+/** Returns what was wrong in the calling thread's last call that failed, as one line; empty if no call has failed. The text stays until
+ * the next failure. */
 BCH_API const char* bch_last_error(void);
 
-/** A point or vector of the ground plane. */
+/** Represents a point or vector of the ground plane. */
 typedef struct bch_vec2 {
   float x, y;
 } bch_vec2;
-/** A point of space; z is up. */
+/** Represents a point of space; z is up. */
 typedef struct bch_vec3 {
   float x, y, z;
 } bch_vec3;
-/** A disc on the ground. */
+/** Represents a disc on the ground. */
 typedef struct bch_disc {
   float x, y, radius;
 } bch_disc;
-/** The points within a radius of a segment of the ground plane. */
+/** Represents the points within a radius of a segment of the ground plane. */
 typedef struct bch_capsule {
   bch_vec2 a, b;
   float radius;
 } bch_capsule;
-/** The heights that a body takes above the ground that its agent stands on. */
+/** Holds the range of heights of a body, above the ground that its agent stands on. */
 typedef struct bch_heights {
   float bottom, top;
 } bch_heights;
 
-/** A callback for progress, called on the caller's thread while a function works: `done` of `total` parts are ready; a total of 0 is
- * unknown. Returning anything but 0 cancels the function, which then returns BCH_CANCELLED. */
+/** Receives the progress of a function, on the caller's thread while the function works: `done` of `total` parts are ready; a total of 0
+ * is unknown. Returning anything but 0 cancels the function, which then returns BCH_CANCELLED. */
 typedef int32_t (*bch_progress)(void* user, uint64_t done, uint64_t total);
 
-/** How functions that take long do their work: on how many threads, and with which callback. */
+/** Says how functions that take long do their work: on how many threads, and with which callback. */
 typedef struct bch_work {
   uint32_t size;         /**< sizeof(bch_work) */
   uint32_t threads;      /**< 0: one for each processor */
@@ -104,28 +105,28 @@ typedef struct bch_work {
 
 /* Characters -------------------------------------------------------------------------------------------------------- */
 
-/** A character: a mesh, a skeleton and clips. */
+/** Holds a character: a mesh, a skeleton and clips. */
 typedef struct bch_character bch_character;
 
-/** The built-in characters. */
+/** Names the built-in characters. */
 enum { BCH_MALE = 0, BCH_FEMALE = 1, BCH_BULKY_MALE = 2 };
 /** Makes a built-in character, who needs no file. */
 BCH_API bch_status bch_character_default(int32_t which, bch_character** character);
 
-/** The sexes of pedestrians. */
+/** Names the sexes of pedestrians. */
 enum { BCH_PEDESTRIAN_FEMALE = 0, BCH_PEDESTRIAN_MALE = 1 };
-/** Makes a pedestrian of a stature in metres, for recorded and simulated crowds: clip k is one stride at k * BCH_PEDESTRIAN_SPEED_STEP, in
- * metres a second, from 0 to 2.19. The shape stands under the head. `shoulders` are turned against the way, radians. */
+/** Makes a pedestrian of a stature in metres, for recorded and simulated crowds. Clip k is one stride at k * BCH_PEDESTRIAN_SPEED_STEP, in
+ * metres per second, from 0 to 2.19. The shape stands under the head. `shoulders` is their angle to the walking direction, radians. */
 BCH_API bch_status bch_character_pedestrian(int32_t sex, double stature, double shoulders, bch_character** character);
 #define BCH_PEDESTRIAN_SPEED_STEP 0.03
-/** Returns the strides, of two steps each, that a pedestrian takes in a second. */
+/** Returns the number of strides, of two steps each, that a pedestrian takes in a second. */
 BCH_API double bch_pedestrian_strides_per_second(double metres_per_second);
 
-/** An affine map takes a point to rows * (x, y, z, 1): each row is one of the linear part and its share of the translation. */
+/** Maps a point affinely to rows * (x, y, z, 1): each row is one of the linear part and its share of the translation. */
 typedef struct bch_affine3 {
   float rows[3][4];
 } bch_affine3;
-/** The share of a bone in the position of a vertex. */
+/** Holds the share of a bone in the position of a vertex. */
 typedef struct bch_influence {
   uint32_t bone;
   float weight; /**< positive; those of a vertex sum to 1 */
@@ -135,31 +136,31 @@ enum {
   BCH_STEP = 1,   /**< keeps the earlier key */
   BCH_CUBIC = 2   /**< a Hermite spline with tangents; rotations are normalised after they are blended */
 };
-/** How a part of a joint's transform moves: keys in order of time. Without keys that part stays as it is at rest. */
+/** Describes how a part of a joint's transform moves: keys in order of time. Without keys that part stays as it is at rest. */
 typedef struct bch_curve {
   const float* times;  /**< seconds from the start of the clip */
-  const float* values; /**< a key after the other: x, y, z, and w of rotations, which are unit quaternions */
-  const float* tangents; /**< of cubic curves alone: of each key that before it and that behind it, per second, as values are */
+  const float* values; /**< one key after the other: x, y, z, and w of rotations, which are unit quaternions */
+  const float* tangents; /**< only of cubic curves: those before and after each key, per second, like values */
   size_t count;          /**< of keys */
   int32_t interpolation; /**< BCH_LINEAR, BCH_STEP or BCH_CUBIC */
 } bch_curve;
-/** The motion of one joint relative to its parent. */
+/** Describes the motion of one joint relative to its parent. */
 typedef struct bch_channel {
   uint32_t joint;
   bch_curve positions, rotations, scales;
 } bch_channel;
-/** A motion of a character. */
+/** Describes a motion of a character. */
 typedef struct bch_clip {
   const char* name; /**< or NULL */
   float seconds;
-  const bch_channel* channels; /**< at most one a joint */
+  const bch_channel* channels; /**< at most one per joint */
   size_t channel_count;
 } bch_clip;
-/** A character in arrays of the caller. Joints are the nodes of the skeleton; bones are what moves vertices: a joint each, and the map from
- * the vertices' frame into that joint's frame at rest. Without joints it is a mesh that stands still, about the agent's position. */
+/** Describes a character in arrays of the caller. Joints are the nodes of the skeleton. Bones move vertices: each has a joint, and the map
+ * from the vertices' frame into that joint's frame at rest. Without joints it is a mesh that stands still, about the agent's position. */
 typedef struct bch_character_arrays {
   uint32_t size;      /**< sizeof(bch_character_arrays) */
-  int32_t root_joint; /**< whose point on the ground is a shape's origin; -1: the middle of the mesh's bounding rectangle */
+  int32_t root_joint; /**< the joint whose point on the ground is a shape's origin; -1: the middle of the mesh's bounding rectangle */
   const char* name;   /**< or NULL */
   const bch_vec3* vertices;
   size_t vertex_count;
@@ -176,14 +177,14 @@ typedef struct bch_character_arrays {
   const bch_influence* influences;
   const bch_clip* clips;
   size_t clip_count;
-  const bch_affine3* to_ground; /**< from the joints' frame to metres, z up; NULL: that is theirs */
+  const bch_affine3* to_ground; /**< from the joints' frame to metres, z up; NULL: the joints' frame is in metres, z up */
 } bch_character_arrays;
 #define BCH_CHARACTER_ARRAYS_INIT \
   { sizeof(bch_character_arrays), -1, NULL, NULL, 0, NULL, 0, NULL, NULL, NULL, 0, NULL, NULL, 0, NULL, NULL, NULL, 0, NULL }
-/** Makes a character of arrays, which are copied. */
+/** Makes a character from arrays, which are copied. */
 BCH_API bch_status bch_character_create(const bch_character_arrays* arrays, bch_character** character);
 
-/** The options of an import: what to take instead of what the file says, and limits. */
+/** Holds the options of an import: values that override those of the file, and limits. */
 typedef struct bch_import_options {
   uint32_t size;                 /**< sizeof(bch_import_options) */
   int32_t up;                    /**< the axis that points up, 0, 1 or 2 for x, y or z; -1: what the file says, or a guess */
@@ -194,22 +195,22 @@ typedef struct bch_import_options {
   uint64_t most_triangles; /**< files of more are refused */
   double seconds;          /**< the longest time that reading may take */
   uint64_t memory;         /**< bytes that reading may take */
-  bch_progress progress;   /**< or NULL; hears of no parts, and can cancel */
+  bch_progress progress;   /**< or NULL; called with 0 of 0 parts, and can cancel */
   void* user;              /**< for progress */
 } bch_import_options;
 #define BCH_IMPORT_OPTIONS_INIT \
   { sizeof(bch_import_options), -1, 0, 0, NULL, 0, 0x7fffffff, 60, (uint64_t)2 << 30, NULL, NULL }
-/** Reads a character from a file (glTF 2, FBX, Collada, MD5, IQM, OBJ, PLY, STL), in a child process and within limits, so a
- * malformed file cannot harm this process. */
+/** Reads a character from a file (glTF 2, FBX, Collada, MD5, IQM, OBJ, PLY, STL). It does so in a child process and within limits, so
+ * that a malformed file cannot harm this process. */
 BCH_API bch_status bch_character_import(const char* path, const bch_import_options* options,
                                         bch_character** character);
 
-/** The sizes, names and notes of a character. */
+/** Holds the sizes, names and notes of a character. */
 typedef struct bch_character_info {
   uint32_t size;    /**< sizeof(bch_character_info) */
   uint32_t joints;
   uint32_t clips;
-  float height;     /**< of the rest pose, metres; 0 for the built-in ones, who tell none */
+  float height;     /**< of the rest pose, metres; 0 for the built-in ones, which have none */
   uint64_t vertices;
   uint64_t triangles;
   const char* name;  /**< lives as long as the character, like the next */
@@ -217,13 +218,13 @@ typedef struct bch_character_info {
 } bch_character_info;
 #define BCH_CHARACTER_INFO_INIT \
   { sizeof(bch_character_info), 0, 0, 0, 0, 0, NULL, NULL }
-/** Tells the sizes, names and notes of a character. */
+/** Gets the sizes, names and notes of a character. */
 BCH_API bch_status bch_character_get_info(const bch_character* character, bch_character_info* info);
-/** Tells the name and the length of a clip; either may be NULL. The name lives as long as the character. */
+/** Gets the name and the length of a clip; either may be NULL. The name lives as long as the character. */
 BCH_API bch_status bch_character_get_clip(const bch_character* character, uint32_t clip, const char** name,
                                           float* seconds);
 
-/** A pose of a character: a time in one of its clips. */
+/** Names a pose of a character: a time in one of its clips. */
 typedef struct bch_pose {
   uint32_t clip; /**< or BCH_REST_POSE */
   float seconds; /**< from the start of the clip */
@@ -231,22 +232,22 @@ typedef struct bch_pose {
 #define BCH_REST_POSE 0xffffffffu
 /** Writes `count` poses spread evenly over all clips; those of a character without clips are the rest pose. */
 BCH_API bch_status bch_character_sample_poses(const bch_character* character, uint32_t count, bch_pose* poses);
-/** Frees a character. Shapers that were made of it stay valid. */
+/** Frees a character. Shapers that were made from it stay valid. */
 BCH_API bch_status bch_character_free(bch_character* character);
 
 /* Sets of shapes ---------------------------------------------------------------------------------------------------- */
 
-/** Shapes of bodies, ready to be queried. */
+/** Holds shapes of bodies, ready to be queried. */
 typedef struct bch_shape_set bch_shape_set;
 
-/** The depth of a level that has all discs of a shape. */
+/** Stands for the depth of a level that has all discs of a shape. */
 #define BCH_ALL_DEPTHS 0xffffffffu
 
-/** What a scene will use of its shapes; nothing else is built or stored. */
+/** Describes what a scene will use of its shapes; nothing else is built or stored. */
 typedef struct bch_plan {
   uint32_t size;          /**< sizeof(bch_plan) */
   int32_t outlines;       /**< not 0: keep outlines, for solid semantics and exact leaves */
-  int32_t culling;        /**< not 0: keep what lets queries skip most of their work; changes no answer */
+  int32_t culling;        /**< not 0: keep data that lets queries skip most of their work; changes no answer */
   int32_t heights;        /**< not 0: keep the heights of bodies, for agents at different heights */
   const uint32_t* depths; /**< levels of detail, ascending; NULL: BCH_ALL_DEPTHS alone */
   size_t depth_count;
@@ -257,7 +258,7 @@ typedef struct bch_plan {
 #define BCH_PLAN_INIT \
   { sizeof(bch_plan), 1, 1, 0, NULL, 0, NULL, 0, 0.01f }
 
-/** How the bytes of a file are accessed. */
+/** Selects how the bytes of a file are accessed. */
 enum {
   BCH_READ = 0, /**< copied into memory: safe whatever happens to the file afterwards */
   BCH_MAP = 1   /**< mapped without a copy: for files that no process writes to or shortens while the set lives */
@@ -267,65 +268,65 @@ BCH_API bch_status bch_shape_set_load(const char* path, int32_t access, bch_shap
 /** Writes a set as a baked file, whole or not at all. */
 BCH_API bch_status bch_shape_set_save(const bch_shape_set* set, const char* path);
 
-/** The sizes and levels of a set, and what can be asked of it. */
+/** Holds the sizes and levels of a set, and tells what it can be queried for. */
 typedef struct bch_shape_set_info {
   uint32_t size; /**< sizeof(bch_shape_set_info) */
   uint32_t shapes;
   uint32_t levels;
   uint32_t slabs;       /**< 1: bodies are whole */
-  int32_t has_heights;  /**< agents may have a z */
-  int32_t solid;        /**< solid semantics can be asked */
-  int32_t exact_leaves; /**< some level of some shape has them */
+  int32_t has_heights;  /**< not 0: agents may have a z */
+  int32_t solid;        /**< not 0: queries may use solid semantics */
+  int32_t exact_leaves; /**< not 0: some level of some shape has them */
   uint64_t bytes;
-  const uint32_t* depths; /**< one a level; lives as long as the set, like the next */
+  const uint32_t* depths; /**< one per level; lives as long as the set, like the next */
   const float* slices;    /**< slabs - 1 planes */
 } bch_shape_set_info;
 #define BCH_SHAPE_SET_INFO_INIT \
   { sizeof(bch_shape_set_info), 0, 0, 0, 0, 0, 0, 0, NULL, NULL }
-/** Tells the sizes and levels of a set, and what can be asked of it. */
+/** Gets the sizes and levels of a set, and what it can be queried for. */
 BCH_API bch_status bch_shape_set_get_info(const bch_shape_set* set, bch_shape_set_info* info);
 
-/** The character and pose that a shape was made from. */
+/** Names the character and pose that a shape was made from. */
 typedef struct bch_shape_origin {
   const char* character; /**< lives as long as the set, like the next; NULL where the set does not know */
   const char* clip;      /**< NULL: the rest pose */
   float seconds;         /**< from the start of the clip */
 } bch_shape_origin;
-/** Tells where a shape comes from. */
+/** Gets the character and pose that a shape was made from. */
 BCH_API bch_status bch_shape_set_get_origin(const bch_shape_set* set, uint32_t shape, bch_shape_origin* origin);
-/** Tells the radius about an agent's position that holds all of its shape at every level and heading. */
+/** Gets the radius about an agent's position that holds all of its shape at every level and heading. */
 BCH_API bch_status bch_shape_set_get_radius(const bch_shape_set* set, uint32_t shape, float* radius);
-/** Tells the discs of a shape at a level, in the order in which queries number them. Writes at most `capacity`, and how many there
- * are to `count`. */
+/** Gets the discs of a shape at a level, in the order in which queries number them. Writes at most `capacity` discs, and the number of
+ * all to `count`. */
 BCH_API bch_status bch_shape_set_get_discs(const bch_shape_set* set, uint32_t shape, uint32_t level,
                                            bch_disc* discs, size_t capacity, size_t* count);
-/** Tells where the discs of each slab begin among those of bch_shape_set_get_discs(): slabs + 1 numbers. */
+/** Gets where the discs of each slab begin among those of bch_shape_set_get_discs(): slabs + 1 numbers. */
 BCH_API bch_status bch_shape_set_get_slab_offsets(const bch_shape_set* set, uint32_t shape, uint32_t level,
                                                   uint32_t* offsets);
 
-/** Closed contours: contour i has points offsets[i] to offsets[i + 1]. */
+/** Holds closed contours: contour i has points offsets[i] to offsets[i + 1]. */
 typedef struct bch_outline {
   uint32_t size; /**< sizeof(bch_outline) */
   bch_vec2* points;
   size_t point_capacity;
   uint64_t* offsets;
   size_t offset_capacity;
-  size_t point_count;  /**< how many there are, whatever the capacity */
+  size_t point_count;  /**< the number of all points, whatever the capacity */
   size_t offset_count; /**< contours + 1 */
 } bch_outline;
 #define BCH_OUTLINE_INIT \
   { sizeof(bch_outline), NULL, 0, NULL, 0, 0, 0 }
-/** In place of a slab: all of them. */
+/** Stands for all slabs in place of one. */
 #define BCH_ALL_SLABS 0xffffffffu
-/** Tells the outline of a shape, in one of its slabs or, for BCH_ALL_SLABS, of all of them. Writes as many points and offsets as fit, and
- * how many there are. A set without outlines has none. */
+/** Gets the outline of a shape, in one of its slabs or, for BCH_ALL_SLABS, of all of them. Writes as many points and offsets as fit, and
+ * the numbers of all. A set without outlines has no outline. */
 BCH_API bch_status bch_shape_set_get_outline(const bch_shape_set* set, uint32_t shape, uint32_t slab,
                                              bch_outline* outline);
 
-/** A callback that gets one line for each finding. */
+/** Receives one line for each finding. */
 typedef void (*bch_finding)(void* user, const char* line);
-/** Recomputes from discs and outlines all else that a set stores, and compares: for files from elsewhere. Calls `finding`, which
- * may be NULL, for at most `most` differences, and tells how many these were. */
+/** Checks a set from an untrusted file: recomputes from discs and outlines everything else that it stores, and compares. Calls `finding`,
+ * which may be NULL, for at most `most` differences, and writes the number of these to `count`. */
 BCH_API bch_status bch_shape_set_verify(const bch_shape_set* set, size_t most, bch_finding finding, void* user,
                                         size_t* count);
 /** Frees a set. */
@@ -335,12 +336,12 @@ BCH_API bch_status bch_shape_set_free(bch_shape_set* set);
 
 /** Makes shapes of one character in pose after pose. */
 typedef struct bch_pose_shaper bch_pose_shaper;
-/** Makes a shaper of a character for sets of a plan. */
+/** Makes a shaper of a character, for sets of a plan. */
 BCH_API bch_status bch_pose_shaper_create(const bch_character* character, const bch_plan* plan,
                                           bch_pose_shaper** shaper);
-/** Makes the shape of a pose, in place of the one before. `whole`, if not 0, does not cut it, whatever the plan's slices. */
+/** Makes the shape of a pose, in place of the previous one. `whole`, if not 0, leaves the body uncut, whatever the plan's slices. */
 BCH_API bch_status bch_pose_shaper_make(bch_pose_shaper* shaper, bch_pose pose, int32_t whole);
-/** Tells the outline of the shape that was made last; see bch_shape_set_get_outline(). */
+/** Gets the outline of the shape that was made last; see bch_shape_set_get_outline(). */
 BCH_API bch_status bch_pose_shaper_get_outline(const bch_pose_shaper* shaper, uint32_t slab, bch_outline* outline);
 /** Frees a shaper. */
 BCH_API bch_status bch_pose_shaper_free(bch_pose_shaper* shaper);
@@ -350,14 +351,14 @@ typedef struct bch_shape_set_builder bch_shape_set_builder;
 /** Begins a set of a plan. */
 BCH_API bch_status bch_shape_set_builder_create(const bch_plan* plan, bch_shape_set_builder** builder);
 /** Adds the shapes of a character's poses, which many threads make. After an error or a cancellation none of them has been added, and
- * those that were before are still there. */
+ * shapes that were added before are still there. */
 BCH_API bch_status bch_shape_set_builder_add_poses(bch_shape_set_builder* builder, const bch_character* character,
                                                    const bch_pose* poses, size_t count, const bch_work* work);
-/** The character and pose that a shape shows. */
+/** Names the character and pose that a shape shows. */
 typedef struct bch_shape_source {
   uint32_t character; /**< index in a list of characters */
   bch_pose at;
-  int32_t whole; /**< not 0: it is not cut, whatever the plan's slices */
+  int32_t whole; /**< not 0: the body is not cut, whatever the plan's slices */
 } bch_shape_source;
 /** Adds the shapes of poses of several characters, as bch_shape_set_builder_add_poses() does of one. */
 BCH_API bch_status bch_shape_set_builder_add_sources(bch_shape_set_builder* builder,
@@ -366,8 +367,8 @@ BCH_API bch_status bch_shape_set_builder_add_sources(bch_shape_set_builder* buil
                                                      size_t count, const bch_work* work);
 /** Adds the shape that a shaper made last. */
 BCH_API bch_status bch_shape_set_builder_add_shape(bch_shape_set_builder* builder, const bch_pose_shaper* shaper);
-/** Adds a body of polygons: polygon i has corners offsets[i] to offsets[i + 1], in the agent's frame, either way round. `heights` may be
- * NULL: it then takes part at every height, as for the next functions. */
+/** Adds a body of polygons: polygon i has corners offsets[i] to offsets[i + 1], in the agent's frame, in either orientation. If `heights`
+ * is NULL, the body takes part at every height, as for the next functions. */
 BCH_API bch_status bch_shape_set_builder_add_polygons(bch_shape_set_builder* builder, const bch_vec2* corners,
                                                       const uint64_t* offsets, size_t polygons,
                                                       const bch_heights* heights);
@@ -380,28 +381,29 @@ BCH_API bch_status bch_shape_set_builder_add_discs(bch_shape_set_builder* builde
 /** Adds a cylinder about the agent's position. */
 BCH_API bch_status bch_shape_set_builder_add_cylinder(bch_shape_set_builder* builder, float radius,
                                                       const bch_heights* heights);
-/** Adds a mesh, z up, as it is: three indices of positions a triangle. Slices cut it. */
+/** Adds a mesh, z up, as it is, with three indices of positions per triangle. Slices cut it. */
 BCH_API bch_status bch_shape_set_builder_add_mesh(bch_shape_set_builder* builder, const bch_vec3* positions,
                                                   size_t position_count, const uint32_t* triangles,
                                                   size_t triangle_count);
 /** Makes the set of all shapes that were added. The builder is then empty and can build another set of its plan; after an error it
- * is as it was. */
+ * is unchanged. */
 BCH_API bch_status bch_shape_set_builder_finish(bch_shape_set_builder* builder, bch_shape_set** set);
 /** Frees a builder. */
 BCH_API bch_status bch_shape_set_builder_free(bch_shape_set_builder* builder);
 
-/** A set whose shapes are replaced while it lives, for characters whose poses are new in every frame. */
+/** Holds a set whose shapes are replaced while it lives, for characters whose poses are new in every frame. */
 typedef struct bch_dynamic_shape_set bch_dynamic_shape_set;
 /** Copies a set into one whose shapes can be replaced. */
 BCH_API bch_status bch_dynamic_shape_set_create(const bch_shape_set* start, bch_dynamic_shape_set** set);
-/** Lends the present shapes for queries. The set belongs to the dynamic one and is not freed; no query may run while shapes are replaced. */
+/** Lends the present shapes for queries. The set belongs to the dynamic one and is not freed; no query may run while shapes are
+ * replaced. */
 BCH_API bch_status bch_dynamic_shape_set_get_shapes(const bch_dynamic_shape_set* set,
                                                     const bch_shape_set** shapes);
 /** Replaces a shape by the one that a shaper of the set's plan made last. */
 BCH_API bch_status bch_dynamic_shape_set_replace(bch_dynamic_shape_set* set, uint32_t shape,
                                                  const bch_pose_shaper* shaper);
-/** Replaces many shapes by poses of a character, which many threads make: shapes[i], each named once, by poses[i]. `threshold` is that of bch_plan. After an
- * error or a cancellation some shapes are new, and others as they were. */
+/** Replaces many shapes by poses of a character, which many threads make: shapes[i], each named once, by poses[i]. `threshold` is that of
+ * bch_plan. After an error or a cancellation some shapes are new, and others are unchanged. */
 BCH_API bch_status bch_dynamic_shape_set_replace_poses(bch_dynamic_shape_set* set, const bch_character* character,
                                                        const uint32_t* shapes, const bch_pose* poses, size_t count,
                                                        float threshold, const bch_work* work);
@@ -410,7 +412,7 @@ BCH_API bch_status bch_dynamic_shape_set_free(bch_dynamic_shape_set* set);
 
 /* Queries of pairs -------------------------------------------------------------------------------------------------- */
 
-/** A crowd in arrays of the caller, one entry an agent in each. */
+/** Holds a crowd in arrays of the caller, with one entry per agent in each. */
 typedef struct bch_agents {
   uint32_t size;         /**< sizeof(bch_agents) */
   const uint32_t* shape; /**< index into the set */
@@ -424,14 +426,14 @@ typedef struct bch_agents {
 #define BCH_AGENTS_INIT \
   { sizeof(bch_agents), NULL, NULL, NULL, NULL, NULL, NULL, 0 }
 
-/** Two agents by index. */
+/** Names two agents by index. */
 typedef struct bch_pair {
   uint32_t first, second;
 } bch_pair;
 
 enum {
   BCH_BOUNDARY = 0, /**< agents collide where outlines cross or touch */
-  BCH_SOLID = 1     /**< and where one outline is inside the other */
+  BCH_SOLID = 1     /**< and also where one outline is inside the other */
 };
 enum {
   BCH_DISCS = 0,   /**< leaves meet where their discs overlap */
@@ -441,12 +443,12 @@ enum {
   BCH_OVERLAP_ZERO = 0,   /**< the clearance of overlapping agents is 0 */
   BCH_OVERLAP_DEEPEST = 1 /**< it is negative, the deepest overlap of two discs */
 };
-/** The options of all queries. Initialise them by BCH_QUERY_OPTIONS_INIT: zeros are not the defaults. Every query uses threads and
- * implementation, and ignores what is not listed here:
- * - bch_collide(), bch_obstacles_collide() and the crowd collider use semantics and leaves,
- * - bch_within() and bch_obstacles_within() semantics, the second one distance_leaves, too,
- * - the contact finder leaves,
- * - bch_clearance() and bch_obstacles_clearance() max_distance, overlap and distance_leaves. */
+/** Holds the options of all queries. Initialise them by BCH_QUERY_OPTIONS_INIT: zeros are not the defaults. Every query uses `threads` and
+ * `implementation`. Queries use the other options as follows, and ignore what is not listed:
+ * - bch_collide(), bch_obstacles_collide() and the crowd collider: `semantics` and `leaves`,
+ * - bch_within() and bch_obstacles_within(): `semantics`, and the second one also `distance_leaves`,
+ * - the contact finder: `leaves`,
+ * - bch_clearance() and bch_obstacles_clearance(): `max_distance`, `overlap` and `distance_leaves`. */
 typedef struct bch_query_options {
   uint32_t size;           /**< sizeof(bch_query_options) */
   int32_t semantics;       /**< BCH_BOUNDARY or BCH_SOLID; sets with slices are solid */
@@ -462,7 +464,7 @@ typedef struct bch_query_options {
     sizeof(bch_query_options), BCH_BOUNDARY, BCH_SEGMENTS, BCH_DISCS, BCH_OVERLAP_ZERO, 0, (double)INFINITY, NULL \
   }
 
-/** Returns the name of the i-th implementation, the best first: "avx512", "avx2", "sse2", "scalar"; NULL beyond the last. */
+/** Returns the name of the i-th implementation, the best first, such as "avx512", "avx2", "sse2" and "scalar"; NULL beyond the last. */
 BCH_API const char* bch_implementation_name(uint32_t i);
 /** Returns whether this processor runs the i-th implementation: 1 or 0. */
 BCH_API int32_t bch_implementation_supported(uint32_t i);
@@ -470,29 +472,29 @@ BCH_API int32_t bch_implementation_supported(uint32_t i);
 /** Checks the agents of a query, with the errors of bch_collide(). */
 BCH_API bch_status bch_validate_agents(const bch_shape_set* set, const bch_agents* agents);
 
-/** Answers for each pair whether its agents collide: 1 or 0 in `hits`, one a pair. */
+/** Tests whether the agents of each pair collide, and writes 1 or 0 to `hits`, one per pair. */
 BCH_API bch_status bch_collide(const bch_shape_set* set, const bch_agents* agents, const bch_pair* pairs,
                                size_t count, const bch_query_options* options, uint8_t* hits);
-/** Answers for each pair whether its agents come as close as a distance: 1 or 0 in `answers`. There is one distance for all pairs, or
- * one each. */
+/** Tests whether the agents of each pair come within a distance of each other, and writes 1 or 0 to `answers`. There is one distance for
+ * all pairs, or one each. */
 BCH_API bch_status bch_within(const bch_shape_set* set, const bch_agents* agents, const bch_pair* pairs,
                               size_t count, const double* distances, size_t distance_count,
                               const bch_query_options* options, uint8_t* answers);
 
-/** Two discs by their numbers in the cuts of a pair's agents. */
+/** Names two discs by their numbers in the cuts of a pair's agents. */
 typedef struct bch_disc_pair {
   uint32_t first, second;
 } bch_disc_pair;
-/** In place of a disc's number: none. */
+/** Stands for no disc in place of a disc's number. */
 #define BCH_NO_DISC 0xffffffffu
-/** The nearest points of two agents, each from its agent's position in the world's axes. */
+/** Holds the nearest points of two agents, each relative to its agent's position, in the world's axes. */
 typedef struct bch_nearest_points {
   bch_vec2 first, second;
 } bch_nearest_points;
-/** The output arrays of bch_clearance(), one entry a pair. Those that are NULL are not computed. */
+/** Holds the output arrays of bch_clearance(), with one entry per pair. Arrays that are NULL are not computed. */
 typedef struct bch_clearance_out {
   uint32_t size;              /**< sizeof(bch_clearance_out) */
-  float* distance;            /**< metres; infinite beyond the largest distance. Not NULL */
+  float* distance;            /**< metres; infinite beyond max_distance; required, not NULL */
   bch_vec2* direction;        /**< from the first agent's nearest point to the second's; (0, 0) where there is none */
   bch_disc_pair* discs;       /**< the nearest discs, or leaves; BCH_NO_DISC where there are none */
   bch_nearest_points* points; /**< the nearest points; (0, 0) where there are none */
@@ -503,22 +505,22 @@ typedef struct bch_clearance_out {
 BCH_API bch_status bch_clearance(const bch_shape_set* set, const bch_agents* agents, const bch_pair* pairs,
                                  size_t count, const bch_query_options* options, const bch_clearance_out* out);
 
-/** How far the first agent of a pair has to move to be free of the second, and in which direction, as a unit vector. */
+/** Tells how far the first agent of a pair has to move to be free of the second, and in which direction, as a unit vector. */
 typedef struct bch_penetration_depth {
   float depth;  /**< metres */
   float unused; /**< padding */
-  double x, y;  /**< where the first agent moves, a unit vector */
+  double x, y;  /**< the direction in which the first agent moves, a unit vector */
 } bch_penetration_depth;
-/** Measures how far the first agent of each pair has to move to be free, along the best of `directions` evenly spread ones: an even
- * number from 2 to 256; 16 to 32 are usual. */
+/** Measures how far the first agent of each pair has to move to be free, along the best of `directions` evenly spread directions. Their
+ * number is even and from 2 to 256; 16 to 32 are usual. */
 BCH_API bch_status bch_penetration(const bch_shape_set* set, const bch_agents* agents, const bch_pair* pairs,
                                    size_t count, uint32_t directions, const bch_query_options* options,
                                    bch_penetration_depth* depths);
-/** Measures how far the first agent of each pair has to move along a direction of its own, of any length. */
+/** Measures how far the first agent of each pair has to move to be free along a given direction, which may have any length. */
 BCH_API bch_status bch_penetration_along(const bch_shape_set* set, const bch_agents* agents, const bch_pair* pairs,
                                          size_t count, const bch_vec2* directions,
                                          const bch_query_options* options, bch_penetration_depth* depths);
-/** Finds when the agents of each pair first touch while the first moves by (x, y) relative to the second: from 0 to 1, or
+/** Finds when the agents of each pair first touch while the first moves by (x, y) relative to the second: a time from 0 to 1, or
  * infinity. */
 BCH_API bch_status bch_time_of_impact(const bch_shape_set* set, const bch_agents* agents, const bch_pair* pairs,
                                       size_t count, const double* x, const double* y,
@@ -530,30 +532,30 @@ BCH_API bch_status bch_time_of_impact(const bch_shape_set* set, const bch_agents
 typedef struct bch_broad_phase bch_broad_phase;
 /** Makes a broad phase, which keeps its memory from call to call. */
 BCH_API bch_status bch_broad_phase_create(bch_broad_phase** broad_phase);
-/** Finds every pair of agents whose root discs overlap or come within a margin: once each, first < second. The pairs stay until the next
- * call. */
+/** Finds every pair of agents whose root discs overlap or come within a margin. Each pair is returned once, with first < second. The pairs
+ * stay until the next call. */
 BCH_API bch_status bch_broad_phase_find(bch_broad_phase* broad_phase, const bch_shape_set* set,
                                         const bch_agents* agents, double margin, const bch_query_options* options,
                                         const bch_pair** pairs, size_t* count);
 /** Frees a broad phase and its pairs. */
 BCH_API bch_status bch_broad_phase_free(bch_broad_phase* broad_phase);
 
-/** Obstacles that do not move. */
+/** Holds obstacles that do not move. */
 typedef struct bch_obstacles bch_obstacles;
 
-/** Rows of numbers in one array: row i is values[offsets[i]] to values[offsets[i + 1]]. */
+/** Views rows of numbers in one array: row i is values[offsets[i]] to values[offsets[i + 1]]. */
 typedef struct bch_index_rows {
   size_t rows;
   const uint64_t* offsets;
   const uint32_t* values;
 } bch_index_rows;
 
-/** Finds who of a crowd collides with whom. */
+/** Finds which agents of a crowd collide with each other. */
 typedef struct bch_crowd_collider bch_crowd_collider;
 /** Makes a collider, which keeps its memory from call to call. */
 BCH_API bch_status bch_crowd_collider_create(bch_crowd_collider** collider);
-/** Finds the colliding neighbours of every agent, a row an agent, ascending, and, with obstacles, which of those it collides with. `obstacles` and
- * `touched` are NULL, or neither is. The rows stay until the next call. */
+/** Finds the colliding neighbours of every agent, one row per agent, ascending, and the obstacles that it collides with, likewise.
+ * `obstacles` and `touched` are either both NULL or both not NULL. The rows stay until the next call. */
 BCH_API bch_status bch_crowd_collider_collide_all(bch_crowd_collider* collider, const bch_shape_set* set,
                                                   const bch_agents* agents, const bch_obstacles* obstacles,
                                                   const bch_query_options* options, bch_index_rows* neighbours,
@@ -561,22 +563,22 @@ BCH_API bch_status bch_crowd_collider_collide_all(bch_crowd_collider* collider, 
 /** Frees a collider and its rows. */
 BCH_API bch_status bch_crowd_collider_free(bch_crowd_collider* collider);
 
-/** Rows of pairs of discs, a row a pair of agents. */
+/** Views rows of pairs of discs, one row per pair of agents. */
 typedef struct bch_contact_rows {
   size_t rows;
-  const bch_pair* pairs; /**< one a row */
+  const bch_pair* pairs; /**< one per row */
   const uint64_t* offsets;
   const bch_disc_pair* values;
 } bch_contact_rows;
-/** Finds all discs of two agents that touch. */
+/** Finds all pairs of discs of two agents that touch. */
 typedef struct bch_contact_finder bch_contact_finder;
 /** Makes a finder, which keeps its memory from call to call. */
 BCH_API bch_status bch_contact_finder_create(bch_contact_finder** finder);
-/** Finds the contacts of given pairs, a row a pair. The rows stay until the next call, `pairs` are those given. */
+/** Finds the contacts of given pairs, one row per pair. The rows stay until the next call; their `pairs` are the given ones. */
 BCH_API bch_status bch_contact_finder_find(bch_contact_finder* finder, const bch_shape_set* set,
                                            const bch_agents* agents, const bch_pair* pairs, size_t count,
                                            const bch_query_options* options, bch_contact_rows* contacts);
-/** Finds the contacts of a whole crowd: a row for each pair of agents whose root discs overlap. The rows and pairs stay until the next
+/** Finds the contacts of a whole crowd: one row for each pair of agents whose root discs overlap. The rows and pairs stay until the next
  * call. */
 BCH_API bch_status bch_contact_finder_find_all(bch_contact_finder* finder, const bch_shape_set* set,
                                                const bch_agents* agents, const bch_query_options* options,
@@ -586,42 +588,43 @@ BCH_API bch_status bch_contact_finder_free(bch_contact_finder* finder);
 
 /* Obstacles --------------------------------------------------------------------------------------------------------- */
 
-/** Obstacles in arrays: paths of points, and obstacles of paths, each by where it begins. */
+/** Holds obstacles in arrays: paths made of points, and obstacles made of paths, as offsets. */
 typedef struct bch_obstacle_arrays {
   uint32_t size;   /**< sizeof(bch_obstacle_arrays) */
   const double* x; /**< the points of all paths */
   const double* y;
   const uint64_t* path_offsets; /**< path p has points [p] to [p + 1] */
   size_t path_count;
-  const uint64_t* obstacle_offsets; /**< obstacle o has paths [o] to [o + 1]; NULL: one each */
-  size_t obstacle_count;            /**< without offsets as many as paths */
-  const uint8_t* is_area;           /**< 1: the obstacle's rings enclose it; NULL: none is an area */
+  const uint64_t* obstacle_offsets; /**< obstacle o has paths [o] to [o + 1]; NULL: one path each */
+  size_t obstacle_count;            /**< without offsets the number of paths */
+  const uint8_t* is_area;           /**< 1: the obstacle's rings enclose it; NULL: no obstacle is an area */
 } bch_obstacle_arrays;
 #define BCH_OBSTACLE_ARRAYS_INIT \
   { sizeof(bch_obstacle_arrays), NULL, NULL, NULL, 0, NULL, 0, NULL }
-/** Makes obstacles of arrays. */
+/** Makes obstacles from arrays. */
 BCH_API bch_status bch_obstacles_create(const bch_obstacle_arrays* arrays, bch_obstacles** obstacles);
-/** Makes obstacles of well-known text. `walkable`, if not 0: polygons are the floor, and their rings are walls. */
+/** Makes obstacles from well-known text. If `walkable` is not 0, polygons are the floor, and their rings are walls. */
 BCH_API bch_status bch_obstacles_from_wkt(const char* text, int32_t walkable, bch_obstacles** obstacles);
-/** Tells how many obstacles and segments there are. Either may be NULL. */
+/** Gets the numbers of obstacles and segments. Either may be NULL. */
 BCH_API bch_status bch_obstacles_get_counts(const bch_obstacles* obstacles, uint32_t* obstacle_count,
                                             uint32_t* segment_count);
-/** Tells the obstacle that a segment belongs to. */
+/** Gets the obstacle that a segment belongs to. */
 BCH_API bch_status bch_obstacles_get_owner(const bch_obstacles* obstacles, uint32_t segment, uint32_t* obstacle);
 /** Frees obstacles. */
 BCH_API bch_status bch_obstacles_free(bch_obstacles* obstacles);
 
 /* Each of these answers every agent as the query of pairs with the same name answers a pair. */
 
-/** Answers for each agent whether it collides with an obstacle. */
+/** Tests whether each agent collides with an obstacle, and writes 1 or 0 to `hits`. */
 BCH_API bch_status bch_obstacles_collide(const bch_shape_set* set, const bch_agents* agents,
                                          const bch_obstacles* obstacles, const bch_query_options* options,
                                          uint8_t* hits);
-/** Answers for each agent whether an obstacle is as near as a distance; one distance for all agents, or one each. */
+/** Tests whether an obstacle is within a distance of each agent, and writes 1 or 0 to `answers`. There is one distance for all agents, or
+ * one each. */
 BCH_API bch_status bch_obstacles_within(const bch_shape_set* set, const bch_agents* agents,
                                         const bch_obstacles* obstacles, const double* distances,
                                         size_t distance_count, const bch_query_options* options, uint8_t* answers);
-/** Measures how far each agent is from the nearest obstacle; `discs` has the agent's disc and the obstacle's segment. */
+/** Measures how far each agent is from the nearest obstacle. `discs` has the agent's disc and the obstacle's segment. */
 BCH_API bch_status bch_obstacles_clearance(const bch_shape_set* set, const bch_agents* agents,
                                            const bch_obstacles* obstacles, const bch_query_options* options,
                                            const bch_clearance_out* out);
@@ -629,23 +632,24 @@ BCH_API bch_status bch_obstacles_clearance(const bch_shape_set* set, const bch_a
 BCH_API bch_status bch_obstacles_penetration(const bch_shape_set* set, const bch_agents* agents,
                                              const bch_obstacles* obstacles, const bch_query_options* options,
                                              bch_penetration_depth* depths);
-/** Finds when each agent first touches an obstacle while it moves by (x, y): from 0 to 1, or infinity. */
+/** Finds when each agent first touches an obstacle while it moves by (x, y): a time from 0 to 1, or infinity. */
 BCH_API bch_status bch_obstacles_time_of_impact(const bch_shape_set* set, const bch_agents* agents,
                                                 const bch_obstacles* obstacles, const double* x, const double* y,
                                                 const bch_query_options* options, float* times);
 
 /* Motions ----------------------------------------------------------------------------------------------------------- */
 
-/** A body that moves by itself: discs whose centres and radii go straight on from key to key, and what their rings go round. It has
- * a shape at every time. Times before its beginning and after its end are these or, where it loops, those of another round. */
+/** Represents a body that moves by itself: discs whose centres and radii are linear in time from key to key, and what their rings enclose.
+ * It has a shape at every time. Times before the beginning and after the end are clamped to these; if the clip loops, they wrap around
+ * instead. */
 typedef struct bch_animated_shape bch_animated_shape;
 
-/** How close the discs of a clip are to the body, metres. */
+/** Says how close the discs of a clip are to the body, metres. */
 typedef struct bch_animate_options {
   uint32_t size; /**< sizeof(bch_animate_options) */
-  float spacing; /**< of discs along the outline, at most, at keys */
-  float inset;   /**< of centres behind the outline, at most */
-  float error;   /**< by which discs may stand out more between two keys than at these */
+  float spacing; /**< the largest distance of discs along the outline, at keys */
+  float inset;   /**< the largest distance of centres behind the outline */
+  float error;   /**< by how much more discs may protrude between two keys than at these */
   const float* slices; /**< heights of planes that cut the body into slabs, ascending, at most 63; none: it is whole */
   size_t slice_count;
 } bch_animate_options;
@@ -655,11 +659,11 @@ typedef struct bch_animate_options {
 BCH_API bch_status bch_animated_shape_animate(const bch_character* character, uint32_t clip,
                                               const bch_animate_options* options, bch_animated_shape** shape);
 
-/** Moving discs in arrays of the caller: chunks that follow one another in time, each with discs of its own. */
+/** Holds moving discs in arrays of the caller: chunks that follow one another in time, each with discs of its own. */
 typedef struct bch_animated_arrays {
   uint32_t size;             /**< sizeof(bch_animated_arrays) */
   int32_t loops;             /**< not 0: the last pose is the first one */
-  const uint32_t* key_counts; /**< of each chunk, like the next two */
+  const uint32_t* key_counts; /**< one per chunk, like the next two */
   const uint32_t* disc_counts;
   const uint32_t* ring_counts; /**< NULL: discs without rings */
   size_t chunk_count;
@@ -669,10 +673,10 @@ typedef struct bch_animated_arrays {
 } bch_animated_arrays;
 #define BCH_ANIMATED_ARRAYS_INIT \
   { sizeof(bch_animated_arrays), 0, NULL, NULL, NULL, 0, NULL, NULL, NULL }
-/** Makes a body of moving discs. */
+/** Makes a body from moving discs. */
 BCH_API bch_status bch_animated_shape_create(const bch_animated_arrays* arrays, bch_animated_shape** shape);
 
-/** The times and sizes of a body that moves by itself. */
+/** Holds the times and sizes of a body that moves by itself. */
 typedef struct bch_animated_shape_info {
   uint32_t size; /**< sizeof(bch_animated_shape_info) */
   int32_t loops;
@@ -685,9 +689,9 @@ typedef struct bch_animated_shape_info {
 } bch_animated_shape_info;
 #define BCH_ANIMATED_SHAPE_INFO_INIT \
   { sizeof(bch_animated_shape_info), 0, 0, 0, 0, 0, 0, 0, 0 }
-/** Tells the times and sizes of a body. */
+/** Gets the times and sizes of a body. */
 BCH_API bch_status bch_animated_shape_get_info(const bch_animated_shape* shape, bch_animated_shape_info* info);
-/** Tells the discs at a time, slab after slab. Writes at most `capacity`, and how many there are to `count`. */
+/** Gets the discs at a time, slab after slab. Writes at most `capacity` discs, and the number of all to `count`. */
 BCH_API bch_status bch_animated_shape_get_discs(const bch_animated_shape* shape, double seconds, bch_disc* discs,
                                                 size_t capacity, size_t* count);
 /** Frees a body. */
@@ -696,87 +700,89 @@ BCH_API bch_status bch_animated_shape_free(bch_animated_shape* shape);
 BCH_API bch_status bch_shape_set_builder_add_moment(bch_shape_set_builder* builder, const bch_animated_shape* shape,
                                                     double seconds);
 
-/** Keeps a body in a set, to be saved with it. `clip` may be NULL: it then has no name. */
+/** Keeps a body in a set, to be saved with it. If `clip` is NULL, the body has no clip name. */
 BCH_API bch_status bch_shape_set_add_clip(bch_shape_set* set, const bch_animated_shape* shape, const char* character,
                                           const char* clip);
-/** Tells how many bodies that move by themselves a set has, which was loaded with them or to which they were added. */
+/** Gets the number of bodies that move by themselves in a set: those that were loaded with it and those that were added to it. */
 BCH_API bch_status bch_shape_set_get_clip_count(const bch_shape_set* set, size_t* count);
-/** Tells the names of one of these bodies, which live as long as the set, and makes it; each of the last three may be NULL. */
+/** Gets the names of one of these bodies, which live as long as the set, and makes the body; each of the last three may be NULL. */
 BCH_API bch_status bch_shape_set_get_clip(const bch_shape_set* set, size_t i, const char** character,
                                           const char** clip, bch_animated_shape** shape);
 
-/** The shapes of bodies that move by themselves, at the times that agents show them, for all queries. */
+/** Makes and keeps the shapes of bodies that move by themselves at the times at which agents show them, for all queries. */
 typedef struct bch_moment_set bch_moment_set;
-/** Makes a set of moments of bodies, which have to live as long. It keeps its memory from call to call. */
+/** Makes a set of moments of bodies, which have to live as long as the set. It keeps its memory from call to call. */
 BCH_API bch_status bch_moment_set_create(const bch_animated_shape* const* bodies, size_t count, const bch_plan* plan,
                                          bch_moment_set** set);
 /** Makes each moment that agents show, once: agent i shows body[i] at seconds[i] and gets shapes[i] for bch_agents. No query may run
- * meanwhile. Of `work` only the number of threads counts. */
+ * meanwhile. Of `work` only the number of threads is used. */
 BCH_API bch_status bch_moment_set_show(bch_moment_set* set, const uint32_t* body, const double* seconds, size_t count,
                                        const bch_work* work, uint32_t* shapes);
-/** Lends the shapes that were shown last for queries, until the next bch_moment_set_show(). They belong to the moments and are not freed. */
+/** Lends the shapes that were shown last for queries, until the next bch_moment_set_show(). They belong to the moments and are not
+ * freed. */
 BCH_API bch_status bch_moment_set_get_shapes(bch_moment_set* set, const bch_shape_set** shapes);
 /** Frees moments, and the set that they lent. */
 BCH_API bch_status bch_moment_set_free(bch_moment_set* set);
 
-/** Where a motion is at a time. It goes straight on and turns evenly to the next key. */
+/** Places a motion at a time: a key of its path. To the next key the motion goes straight on and turns evenly. */
 typedef struct bch_path_key {
   double time, x, y, heading; /**< seconds, metres, radians */
 } bch_path_key;
-/** An agent who goes along a path and plays a clip; before the first key and after the last one it stands there. */
+/** Describes an agent who goes along a path and plays a clip. Before the first key and after the last one the agent stands at that key. */
 typedef struct bch_motion {
   const bch_animated_shape* shape;
   const bch_path_key* path; /**< at least one key, ascending */
   size_t path_count;
-  double clip_begin; /**< the time at which the clip is at its beginning, seconds */
+  double clip_begin; /**< the time at which the clip begins, seconds */
 } bch_motion;
-/** Finds when the two motions of each pair first touch, from `from` to `to` seconds, both included, or infinity: never late, and early by
- * no more than it takes them to come closer by `tolerance` metres, 0.005 for instance. `threads` 0: one for each processor. */
+/** Finds when the two motions of each pair first touch, from `from` to `to` seconds, both included, or infinity. The time is never late,
+ * and early by no more than it takes the motions to come closer by `tolerance` metres, 0.005 for instance. `threads` 0: one for each
+ * processor. */
 BCH_API bch_status bch_first_contact(const bch_motion* motions, size_t motion_count, const bch_pair* pairs,
                                      size_t count, double from, double to, double tolerance, uint32_t threads,
                                      double* times);
-/** Finds when each motion first touches an obstacle, as bch_first_contact() does of pairs. */
+/** Finds when each motion first touches an obstacle, as bch_first_contact() does for pairs. */
 BCH_API bch_status bch_obstacles_first_contact(const bch_motion* motions, size_t motion_count,
                                                const bch_obstacles* obstacles, double from, double to, double tolerance,
                                                uint32_t threads, double* times);
-/** Finds until when a motion touches none of others: the least of what bch_first_contact() says of it and each of them. */
+/** Finds until when a motion touches none of the others: the least time that bch_first_contact() finds for it and each of them. */
 BCH_API bch_status bch_free_until(const bch_motion* motion, const bch_motion* others, size_t count, double from,
                                   double to, double tolerance, double* time);
 
 /* Recordings -------------------------------------------------------------------------------------------------------- */
 
-/** A recording of people: their places, frame by frame. */
+/** Reads a recording of people: their positions, frame by frame. */
 typedef struct bch_trajectory bch_trajectory;
-/** What the caller knows better than the file. */
+/** Holds values that override those of the file. */
 typedef struct bch_trajectory_options {
   uint32_t size;       /**< sizeof(bch_trajectory_options) */
   double fps;          /**< frames a second; 0: what the file says */
   double unit;         /**< metres for a unit of the file; 0: what the file says */
-  const char* columns; /**< of text and CSV: their names in order, as "frame,id,x,y"; NULL: what the file says */
+  const char* columns; /**< of text and CSV: the names of their columns in order, as "frame,id,x,y"; NULL: what the file says */
 } bch_trajectory_options;
 #define BCH_TRAJECTORY_OPTIONS_INIT \
   { sizeof(bch_trajectory_options), 0, 0, NULL }
-/** Opens a recording: JuPedSim's SQLite, PeTrack's and Juelich's text, the Pedestrian Dynamics Data Archive's HDF5, Pathfinder's CSV,
- * TrajNet++ and ETH/UCY, CSV with a header, told by its content. */
+/** Opens a recording, whose format is recognised by its content: JuPedSim's SQLite, PeTrack's and Juelich's text, the Pedestrian Dynamics
+ * Data Archive's HDF5, Pathfinder's CSV, TrajNet++ and ETH/UCY, CSV with a header. */
 BCH_API bch_status bch_trajectory_open(const char* path, const bch_trajectory_options* options,
                                        bch_trajectory** trajectory);
-/** What a recording is. */
+/** Holds the format, size and assumptions of a recording. */
 typedef struct bch_trajectory_info {
   uint32_t size; /**< sizeof(bch_trajectory_info) */
   double fps;    /**< frames a second */
   uint64_t rows;
-  uint64_t people; /**< different ids; 0 where they are too many to be counted */
+  uint64_t people; /**< the number of different ids; 0 where they are too many to be counted */
   int64_t first_frame;
   int64_t last_frame;
   const char* format;      /**< such as "JuPedSim SQLite, version 2"; lives as long as the trajectory, like the next */
   const char* geometry;    /**< the walkable area as well-known text, or empty */
-  const char* assumptions; /**< a line for each thing that the file does not say, and what was taken for it */
+  const char* assumptions; /**< a line for each thing that the file does not say, and what was assumed for it */
 } bch_trajectory_info;
 #define BCH_TRAJECTORY_INFO_INIT \
   { sizeof(bch_trajectory_info), 0, 0, 0, 0, 0, NULL, NULL, NULL }
-/** Tells what a recording is. */
+/** Gets the format, size and assumptions of a recording. */
 BCH_API bch_status bch_trajectory_get_info(const bch_trajectory* trajectory, bch_trajectory_info* info);
-/** A person in a frame. */
+/** Describes a person in a frame. */
 typedef struct bch_tracked_person {
   int64_t frame;
   int64_t id;
@@ -784,20 +790,20 @@ typedef struct bch_tracked_person {
   float heading; /**< radians; NaN where the file does not say */
   float stature; /**< the person's height, metres; NaN where the file does not say */
 } bch_tracked_person;
-/** Reads the people of the next frames, as many whole frames as fit; none at the end. */
+/** Reads the people of the next frames, as many whole frames as fit. At the end it reads none. */
 BCH_API bch_status bch_trajectory_read(bch_trajectory* trajectory, bch_tracked_person* people, size_t capacity,
                                        size_t* count);
-/** The body that rows of a recording name, and the clip that it plays; one of the two may be empty. */
+/** Names the body that rows of a recording name, and the clip that it plays; one of the two may be empty. */
 typedef struct bch_named_motion {
   const char* character;
   const char* clip;
 } bch_named_motion;
-/** Tells all motions that rows name, in the order of the file. They live as long as the trajectory. */
+/** Gets all motions that rows name, in the order of the file. They live as long as the trajectory. */
 BCH_API bch_status bch_trajectory_get_motions(const bch_trajectory* trajectory, const bch_named_motion** motions,
                                               size_t* count);
 /** Stands for the motion of a row that names neither a body nor a clip. */
 #define BCH_NO_MOTION 0xffffffffu
-/** A person in a frame, and the motion that his row names. */
+/** Describes a person in a frame, and the motion that the person's row names. */
 typedef struct bch_moving_person {
   bch_tracked_person person;
   uint32_t motion;    /**< index into those of bch_trajectory_get_motions(), or BCH_NO_MOTION */
@@ -809,38 +815,38 @@ BCH_API bch_status bch_trajectory_read_moving(bch_trajectory* trajectory, bch_mo
 /** Frees a recording. */
 BCH_API bch_status bch_trajectory_free(bch_trajectory* trajectory);
 
-/** A check of a recording: who runs into whom. */
+/** Holds the results of a check of a recording: who runs into whom. */
 typedef struct bch_check bch_check;
-/** How fast people walk in the clips of a name. */
+/** Says how fast people walk in the clips of a name. */
 typedef struct bch_clip_speed {
   const char* clip;
-  double speed; /**< metres a second; 0: they stand */
+  double speed; /**< metres per second; 0: they stand */
 } bch_clip_speed;
-/** What a check is asked. */
+/** Holds the options of a check. */
 typedef struct bch_check_options {
   uint32_t size;              /**< sizeof(bch_check_options) */
   uint32_t threads;           /**< 0: one for each processor */
   const float* slices;        /**< heights of planes that cut bodies into slabs, metres */
   size_t slice_count;         /**< 0: bodies are whole */
-  double max_distance;        /**< gaps up to that are told, metres; 0: overlaps alone */
+  double max_distance;        /**< gaps up to this distance are reported, metres; 0: only overlaps */
   const bch_obstacles* walls; /**< NULL: those of the recording */
-  int32_t without_walls;      /**< not 0: none are asked about */
+  int32_t without_walls;      /**< not 0: walls are not checked */
   bch_progress progress;      /**< or NULL */
   void* user;                 /**< for progress */
-  uint32_t depth;             /**< of the bodies' hierarchies */
+  uint32_t depth;             /**< the depth of the bodies' hierarchies */
   int32_t leaves;             /**< BCH_SEGMENTS or BCH_DISCS: what decides at BCH_ALL_DEPTHS */
-  const bch_character* const* characters; /**< whose bodies people have, by their ids; each has a clip that walks straight on */
+  const bch_character* const* characters; /**< the bodies that people have, by their ids; each has a clip that walks straight on */
   size_t character_count;                 /**< 0: built-in pedestrians */
-  const bch_shape_set* baked; /**< or NULL: a set that was loaded or baked, whose shapes people have, at its last level; no characters then */
+  const bch_shape_set* baked; /**< or NULL: a loaded or baked set, whose shapes people have, at its last level; no characters then */
   const bch_clip_speed* clip_speeds; /**< of the baked set, which does not say how fast people walk in its clips */
   size_t clip_speed_count;
-  double facing; /**< of the baked set: where people face, radians from +x */
+  double facing; /**< of the baked set: the direction that people face, radians from +x */
 } bch_check_options;
 #define BCH_CHECK_OPTIONS_INIT \
   { sizeof(bch_check_options), 0, NULL, 0, 0, NULL, 0, NULL, NULL, BCH_ALL_DEPTHS, BCH_SEGMENTS, NULL, 0, NULL, NULL, 0, 0 }
 /** Puts a walking person on every row of a recording that has not been read from, and finds who runs into whom. */
 BCH_API bch_status bch_check_run(bch_trajectory* trajectory, const bch_check_options* options, bch_check** check);
-/** What there is to tell of a whole recording. */
+/** Holds the summary of a whole recording. */
 typedef struct bch_check_summary {
   uint32_t size;   /**< sizeof(bch_check_summary) */
   uint32_t shapes; /**< different poses */
@@ -848,27 +854,27 @@ typedef struct bch_check_summary {
   uint64_t frames;
   uint64_t people;
   uint64_t person_frames;
-  uint64_t overlapping;            /**< person-frames in overlap with somebody */
-  uint64_t in_walls;               /**< and with a wall */
+  uint64_t overlapping;            /**< person-frames that overlap somebody */
+  uint64_t in_walls;               /**< person-frames that overlap a wall */
   uint64_t guessed_headings;       /**< person-frames whose heading is that of before */
   uint64_t near_pairs;             /**< pairs of a frame within 1.2 m */
-  uint64_t overlapping_near_pairs; /**< and those of them that overlap */
+  uint64_t overlapping_near_pairs; /**< those of these pairs that overlap */
 } bch_check_summary;
 #define BCH_CHECK_SUMMARY_INIT \
   { sizeof(bch_check_summary), 0, 0, 0, 0, 0, 0, 0, 0, 0, 0 }
-/** Tells the summary. */
+/** Gets the summary of a check. */
 BCH_API bch_status bch_check_get_summary(const bch_check* check, bch_check_summary* summary);
-/** Tells what was taken for what the recording does not say, and what was found out about characters: a line each. The text lives as long
- * as the check. */
+/** Gets what was assumed for what the recording does not say, and what was found out about characters, one line each. The text lives as
+ * long as the check. */
 BCH_API bch_status bch_check_get_assumptions(const bch_check* check, const char** assumptions);
 
 enum {
   BCH_CHECK_NEAR = 0,    /**< two people within the largest distance */
-  BCH_CHECK_OVERLAP = 1, /**< who overlap */
-  BCH_CHECK_PASS = 2,    /**< who do between this frame and the next, and in neither */
+  BCH_CHECK_OVERLAP = 1, /**< two people who overlap */
+  BCH_CHECK_PASS = 2,    /**< two people who overlap between this frame and the next, and in neither */
   BCH_CHECK_WALL = 3     /**< a person and a wall */
 };
-/** A frame of a check. */
+/** Describes a frame of a check. */
 typedef struct bch_check_frame {
   int64_t frame;
   double seconds;
@@ -876,52 +882,52 @@ typedef struct bch_check_frame {
   float density; /**< the mean of people per square metre within a metre of each */
   float unused;
 } bch_check_frame;
-/** Two people of a frame, or a person and a wall. */
+/** Describes two people of a frame, or a person and a wall. */
 typedef struct bch_check_pair {
   int64_t frame;
   int64_t first, second; /**< ids; `second` is the number of a wall */
   float depth;           /**< how far the first has to move to be free, metres */
   float gap;             /**< how far they are apart, metres */
-  float x, y;            /**< where the first has to move */
+  float x, y;            /**< the direction in which the first has to move */
   int32_t kind;          /**< BCH_CHECK_OVERLAP ... */
   int32_t unused;
 } bch_check_pair;
-/** Two people who overlap in frames one after the other. */
+/** Describes two people, or a person and a wall, who overlap in consecutive frames. */
 typedef struct bch_check_event {
   int64_t first, second;   /**< ids */
-  int64_t from, to, worst; /**< frames; in the last they overlap the deepest */
-  double x, y;             /**< where the first is then, metres */
-  float depth;             /**< how deep they then overlap, metres */
+  int64_t from, to, worst; /**< the first and the last frame, and the one in which they overlap the deepest */
+  double x, y;             /**< where the first is in that frame, metres */
+  float depth;             /**< how deep they overlap in that frame, metres */
   uint32_t frames;
   int32_t kind; /**< BCH_CHECK_OVERLAP, BCH_CHECK_PASS or BCH_CHECK_WALL */
   int32_t unused;
 } bch_check_event;
-/** Tells all frames; they live as long as the check, like the next. */
+/** Gets all frames; they live as long as the check, like the next. */
 BCH_API bch_status bch_check_get_frames(const bch_check* check, const bch_check_frame** frames, size_t* count);
-/** Tells all pairs, frame after frame. */
+/** Gets all pairs, frame after frame. */
 BCH_API bch_status bch_check_get_pairs(const bch_check* check, const bch_check_pair** pairs, size_t* count);
-/** Tells all events, by their first frames. */
+/** Gets all events, ordered by their first frames. */
 BCH_API bch_status bch_check_get_events(const bch_check* check, const bch_check_event** events, size_t* count);
 /** Frees a check. */
 BCH_API bch_status bch_check_free(bch_check* check);
 
 /* Scenes ------------------------------------------------------------------------------------------------------------ */
 
-/** Measures the density around each agent, people per square metre: the agents within a radius, over the area of that circle. */
+/** Measures the density around each agent in people per square metre: the agents within a radius, over the area of that circle. */
 BCH_API bch_status bch_local_densities(const double* x, const double* y, size_t count, double radius,
                                        double* densities);
-/** Tells the coarsest cut depth whose false collisions stop a walking person at most once a second at a density. */
+/** Finds the coarsest cut depth whose false collisions stop a walking person at most once a second at a density. */
 BCH_API bch_status bch_depth_at_density(double people_per_square_metre, uint32_t* depth);
-/** Tells planes that clear most false collisions of standing people, for 1, 2, 3, 4 or 8 slabs: writes slabs - 1 of them. */
+/** Writes planes that clear most false collisions of standing people, for 1, 2, 3, 4 or 8 slabs: slabs - 1 planes. */
 BCH_API bch_status bch_standing_slices(uint32_t slabs, float* slices);
-/** Chooses, among `planes`, those that clear most false collisions of given bodies when they cut them into so many slabs. Body i is
- * characters[i] in poses[i]; a hundred bodies and planes 5 cm apart are enough. Writes slabs - 1 of the planes, ascending, or all
- * where there are no more, and how many to `slice_count`. */
+/** Chooses, among `planes`, those that clear the most false collisions of given bodies when they cut the bodies into `slabs` slabs. Body i
+ * is characters[i] in poses[i]; a hundred bodies and planes 5 cm apart are enough. Writes slabs - 1 of the planes, ascending, or all
+ * where there are no more, and the number of written planes to `slice_count`. */
 BCH_API bch_status bch_best_slices(const bch_character* const* characters, const bch_pose* poses, size_t count,
                                    const float* planes, size_t plane_count, uint32_t slabs, float* slices,
                                    size_t* slice_count);
 
-/** The agents of a scene that is planned, one entry an agent in each array. */
+/** Describes the agents of a scene to plan, with one entry per agent in each array. */
 typedef struct bch_scene_agents {
   uint32_t size;             /**< sizeof(bch_scene_agents) */
   const uint32_t* character; /**< index in a list of characters; NULL: all are the first */
@@ -932,31 +938,31 @@ typedef struct bch_scene_agents {
 } bch_scene_agents;
 #define BCH_SCENE_AGENTS_INIT \
   { sizeof(bch_scene_agents), NULL, NULL, NULL, NULL, 0 }
-/** The queries and levels of detail that a scene is planned for. */
+/** Describes the queries and levels of detail that a scene is planned for. */
 typedef struct bch_scene_use {
   uint32_t size;       /**< sizeof(bch_scene_use) */
-  int32_t solid;       /**< not 0: queries use solid semantics, too */
+  int32_t solid;       /**< not 0: queries also use solid semantics */
   int32_t leaves;      /**< BCH_SEGMENTS or BCH_DISCS at the level of all depths */
   int32_t heights;     /**< not 0: agents stand at different heights */
   const float* slices; /**< planes that cut the bodies of agents who are near */
   size_t slice_count;
   double whole_from;      /**< agents from this distance on are whole bodies, metres */
   double pairs_per_shape; /**< expected pairs of a shape before it is replaced; few where shapes live for one frame */
-  float pose_step; /**< times are rounded down to multiples of it, in seconds, so that agents share shapes; 0: they are not */
+  float pose_step; /**< the step to whose multiples times are rounded down, seconds, so that agents share shapes; 0: they are not */
 } bch_scene_use;
 #define BCH_SCENE_USE_INIT \
   { sizeof(bch_scene_use), 0, BCH_SEGMENTS, 0, NULL, 0, (double)INFINITY, (double)INFINITY, 0 }
-/** The shapes to build for a scene, each once, and the shape and level of each agent. */
+/** Lists the shapes to build for a scene, each once, and the shape and level of each agent. */
 typedef struct bch_scene_plan bch_scene_plan;
-/** Plans which shapes a scene needs, at which depths and with what beside. */
+/** Plans which shapes a scene needs, at which depths and with which further data. */
 BCH_API bch_status bch_scene_plan_create(const bch_scene_agents* agents, const bch_scene_use* use,
                                          bch_scene_plan** plan);
-/** Tells the plan of the set to build; its arrays live as long as the scene plan, like the next. */
+/** Gets the plan of the set to build; its arrays live as long as the scene plan, like the next. */
 BCH_API bch_status bch_scene_plan_get_set(const bch_scene_plan* plan, bch_plan* set);
-/** Tells the shapes to build, for bch_shape_set_builder_add_sources(). */
+/** Gets the shapes to build, for bch_shape_set_builder_add_sources(). */
 BCH_API bch_status bch_scene_plan_get_shapes(const bch_scene_plan* plan, const bch_shape_source** shapes,
                                              size_t* count);
-/** Tells the shape and the level of each agent, for bch_agents. */
+/** Gets the shape and the level of each agent, for bch_agents. */
 BCH_API bch_status bch_scene_plan_get_agents(const bch_scene_plan* plan, const uint32_t** shape,
                                              const uint8_t** level, size_t* count);
 /** Frees a plan. */
