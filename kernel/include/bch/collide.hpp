@@ -79,8 +79,8 @@ class CrowdCollider {
 
 /// Chooses, among `planes`, those that clear the most false collisions of given bodies when they cut the bodies into `slabs` slabs.
 /// The sample is random pairs of bodies in each other's reach which collide as seen from above, but in no slab between
-/// neighbouring planes. Chosen planes clear a pair if there is a chosen plane between each two of its overlapping slabs. The search is
-/// greedy: it adds one plane after the other, then chooses each anew until no exchange clears more.
+/// neighbouring planes. Chosen planes clear a pair if there is a chosen plane between each two of its overlapping slabs. The search
+/// is greedy: it adds one plane after the other, then chooses each anew until no exchange clears more.
 /// Sizes:   each body has one slab more than there are planes: PoseShaper makes them with ShapeSetPlan::slices = planes, 5 cm apart
 ///          for instance; a hundred poses are enough.
 /// Returns: slabs - 1 of the planes, ascending; all of them where there are no more. The same arguments give the same result.

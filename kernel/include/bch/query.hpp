@@ -66,14 +66,14 @@ enum class Overlap {
 struct QueryOptions {
   Semantics semantics =
       Semantics::boundary;  ///< of collide(), CrowdCollider and within(); sets with slices are solid
-  /// One of implementations(). Null selects best_implementation(), which may throw where BCH_ISA is set.
+  /// Selects one of implementations(); null selects best_implementation(), which may throw where BCH_ISA is set.
   const Implementation* implementation = nullptr;
   Leaves leaves = Leaves::segments;  ///< of collide(), CrowdCollider and ContactFinder
-  /// The largest distance of interest of clearance(), metres, not negative; may be infinite. Pairs farther apart get an
+  /// Limits the distances of interest of clearance(), metres, not negative; may be infinite. Pairs farther apart get an
   /// infinite distance and nothing else. The smaller the limit, the sooner they are rejected.
   double max_distance = std::numeric_limits<double>::infinity();
   Overlap overlap = Overlap::zero;  ///< of clearance()
-  /// What clearance(), and within() of obstacles, measure from: discs, or, where shapes have exact leaves, segments of the outlines.
+  /// Selects what clearance(), and within() of obstacles, measure from: discs or, where shapes have exact leaves, segments of the outlines.
   /// Segments give the distance of the outlines. Discs give up to 3 cm less, in about a seventh of the time of pairs.
   /// Overlap::deepest always measures discs.
   Leaves distance_leaves = Leaves::discs;

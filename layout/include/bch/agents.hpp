@@ -27,7 +27,7 @@ struct Agents {
   std::span<const double> y;
   std::span<const double> heading;
   std::span<const std::uint8_t> level = {};  ///< index into the set's depths; empty: the last level for all
-  /// The heights of the grounds that agents stand on: floors, steps, a stage. Empty: one ground for all. Agents with a z meet only
+  /// Gives the heights of the grounds that agents stand on: floors, steps, a stage. Empty: one ground for all. Agents with a z meet only
   /// where their heights meet, and the set has to know these heights (ShapeSetPlan::heights, slices). In sets with slices, agents at one
   /// height are compared slab by slab, agents at two heights in all pairs of slabs whose heights meet: slabs of half a metre are then
   /// as coarse as those of half as many planes.

@@ -87,7 +87,7 @@ struct Character {
   std::vector<std::array<std::uint32_t, 3>> triangles;
   std::vector<Clip> clips;
   Affine3 to_ground;  ///< maps the file's frame to metres, z up
-  /// The joint whose point on the ground is a shape's origin. -1 for a mesh without skeleton, whose origin is the
+  /// Selects the joint whose point on the ground is a shape's origin; -1 for a mesh without skeleton, whose origin is the
   /// middle of the bounding rectangle.
   std::int32_t root_joint = -1;
 };

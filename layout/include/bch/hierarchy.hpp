@@ -24,7 +24,7 @@ struct Primitive {
 /// Represents a node of the binary tree. Nodes are in depth-first order: the first child of an inner node is the next
 /// node.
 struct HierarchyNode {
-  /// The smallest disc that encloses the node's primitives, enlarged only by what rounding needs. It need not enclose
+  /// Encloses the node's primitives: it is the smallest such disc, enlarged only by what rounding needs. It need not enclose
   /// the discs of the nodes below.
   Disc disc;
   std::uint32_t second_child = 0;  ///< 0: a leaf

@@ -96,7 +96,7 @@ ImportedCharacter import_character(const std::filesystem::path& file, const Impo
 /// Holds the limits of import_in_child().
 struct ImportLimits {
   std::chrono::milliseconds time{60'000};
-  /// The bytes of address space beyond what this process has when the import begins. Builds with sanitizers, which need
+  /// Limits the bytes of address space beyond what this process has when the import begins. Builds with sanitizers, which need
   /// far more, set no such limit.
   std::size_t memory = std::size_t{2} << 30;
   std::function<bool()> go_on =

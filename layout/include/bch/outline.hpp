@@ -21,7 +21,7 @@ namespace bch {
 struct Outline {
   std::vector<Vec2> points;  ///< metres, in the shape's frame; taken as they are, on a grid or not
   std::vector<std::uint32_t> contour_begin = {0};  ///< contours + 1 offsets into points
-  /// The step of the grid to which points were rounded before, metres; 0 if they were not. It is at most the reach. Discs are
+  /// Gives the step of the grid to which points were rounded before, metres; 0 if they were not. It is at most the reach. Discs are
   /// enlarged by 1.5 steps, so that they enclose the points as they were before the rounding. The step of OutlineBuilder is a power of
   /// two, and its coordinates are multiples below 2^23, which floats hold exactly.
   float grid_step = 0;

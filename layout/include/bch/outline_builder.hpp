@@ -61,7 +61,7 @@ class OutlineBuilder {
   /// Errors:  as the other overloads; also on planes that are not finite or do not ascend, or a height that is not finite.
   Heights build(std::span<const Vec3> positions, std::span<const float> planes, std::span<Outline> slabs);
 
-  // Only for the library itself, which alone knows this type.
+  // For the library's own parts, which alone know this type.
 
   /// Uses a given implementation instead of the best one. This processor has to support it.
   OutlineBuilder(std::span<const std::array<std::uint32_t, 3>> triangles, std::size_t vertices,

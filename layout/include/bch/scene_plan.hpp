@@ -34,25 +34,25 @@ constexpr double pairs_for_culling = 500;
 
 /// Describes the queries and levels of detail that a scene is planned for.
 struct SceneUse {
-  /// Whether queries also use solid semantics.
+  /// Says whether queries also use solid semantics.
   bool solid = false;
-  /// What decides at the leaves of the level of all depths, if there is one.
+  /// Selects what decides at the leaves of the level of all depths, if there is one.
   Leaves leaves = Leaves::segments;
-  /// Level of detail: the cut depth of agents at a distance, all_depths where it does not matter. None: all_depths.
+  /// Gives the cut depth of agents at a distance, for level of detail; all_depths where it does not matter. None: all_depths.
   std::function<std::uint32_t(double metres)> depth = {};
-  /// Level of detail: the cut depth by the density around agents, for example depth_at_density(). If both
+  /// Gives the cut depth by the density around agents, for level of detail, for example depth_at_density(). If both
   /// functions give a depth, the coarser counts.
   std::function<std::uint32_t(double people_per_square_metre)> density_depth = {};
-  /// The planes that cut the bodies of agents who are near, for example standing_slices(3); none: bodies are whole.
+  /// Lists the planes that cut the bodies of agents who are near, for example standing_slices(3); none: bodies are whole.
   std::vector<float> slices = {};
-  /// Level of detail: agents from this distance on, metres, are whole bodies, which cost less and clear less.
+  /// Gives the distance, metres, from which on agents are whole bodies, for level of detail: these cost less and clear less.
   double whole_from = std::numeric_limits<double>::infinity();
-  /// Whether agents stand at different heights; see Agents::z.
+  /// Says whether agents stand at different heights; see Agents::z.
   bool heights = false;
-  /// The step to whose multiples times within a clip are rounded down, in seconds, so that agents share shapes; 0: agents share
+  /// Gives the step, in seconds, to whose multiples times within a clip are rounded down, so that agents share shapes; 0: agents share
   /// only equal poses.
   float pose_step = 0;
-  /// The expected number of pairs of a shape before it is replaced, which is small where shapes live for one frame. From
+  /// Gives the expected number of pairs of a shape before it is replaced; few where shapes live for one frame. From
   /// pairs_for_culling on, shapes get culling data.
   double pairs_per_shape = std::numeric_limits<double>::infinity();
 };

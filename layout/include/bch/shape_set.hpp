@@ -59,8 +59,8 @@ struct Capsule {
 Shape shape_from_capsules(std::span<const Capsule> capsules, float tolerance = 0.001f,
                           float threshold = 0.01f);
 
-/// Describes discs that move through a part of a clip. Rings of discs lie along the outline, and each disc goes straight on from key to
-/// key: its centre and its radius are linear in time. At any time the chunk covers its discs, and what the polygons of the rings'
+/// Describes discs that move through a part of a clip. Rings of discs lie along the outline, and each disc goes straight on from key
+/// to key: its centre and its radius are linear in time. At any time the chunk covers its discs, and what the polygons of the rings'
 /// centres enclose. Consecutive discs of a ring, the last and the first too, overlap at every key, and so at all times between.
 struct AnimatedChunk {
   std::vector<double> times;     ///< of the keys, at least two, ascending; seconds of the clip
@@ -77,7 +77,7 @@ struct AnimatedDiscs {
   std::vector<AnimatedChunk> chunks;  ///< from the clip's beginning to its end
   bool loops = false;                 ///< whether the clip's last pose is its first one
   std::vector<float> slices = {};     ///< planes that cut the body, as in ShapeSetPlan; none: it is whole
-  /// The slabs of a body that is cut: one more than planes, with only chunks, from and to the same times. A slab without discs for a
+  /// Holds the slabs of a body that is cut: one more than planes, with only chunks, from and to the same times. A slab without discs for a
   /// time has a chunk of no discs.
   std::vector<AnimatedDiscs> slabs = {};
   Heights heights = {};  ///< of the whole body at all times; by default it takes part at every height
@@ -150,28 +150,28 @@ class AnimatedShape {
 /// Selects what makes two leaves meet.
 enum class Leaves {
   discs,  ///< their discs overlap
-  /// Exact leaves: additionally, segments of the outlines in them come within the rounding margin of each other,
-  /// 1.7 um per metre of the reaches. This applies to agents at the level of all depths whose shapes have segments there.
+  /// Their discs overlap, and segments of the outlines in them come within the rounding margin of each other,
+  /// 1.7 um per metre of the reaches (exact leaves). This applies to agents at the level of all depths whose shapes have segments there.
   /// Otherwise, and for leaves of more than 127 segments, discs decide.
   segments,
 };
 
 /// Describes what a scene will use of its shapes; nothing else is built or stored.
 struct ShapeSetPlan {
-  /// The levels of detail: cut depths, ascending. Level k of every shape is its cut at depths[k].
+  /// Lists the levels of detail: cut depths, ascending. Level k of every shape is its cut at depths[k].
   std::vector<std::uint32_t> depths = {all_depths};
-  /// Whether to keep the outlines, which solid semantics and exact leaves need. Exact leaves exist at the level of all depths, for shapes
-  /// whose cut is more than one disc and whose hierarchy has its primitives.
+  /// Says whether to keep the outlines, which solid semantics and exact leaves need. Exact leaves exist at the level of all depths, for
+  /// shapes whose cut is more than one disc and whose hierarchy has its primitives.
   bool outlines = true;
-  /// Whether to keep culling data, which lets queries skip most traversals: supports and, of shapes with an outline, inscribed discs.
-  /// It changes no answer, and does not pay for a set that answers few queries.
+  /// Says whether to keep culling data, which lets queries skip most traversals: supports and, of shapes with an outline, inscribed
+  /// discs. It changes no answer, and does not pay for a set that answers few queries.
   bool culling = true;
-  /// The planes that cut bodies into slabs, metres above the ground that an agent stands on, ascending, at most 63; none: bodies are
+  /// Lists the planes that cut bodies into slabs, metres above an agent's ground, ascending, at most 63; none: bodies are
   /// whole. Two agents then collide where they do in some slab, in solid semantics, so an arm above a foot is no collision. Every
   /// shape has either the slabs that PoseShaper and AnimatedShape make of these planes, or none: it is then the same at all of its
   /// heights. Slices need outlines.
   std::vector<float> slices = {};
-  /// Whether to keep the heights of bodies, which agents at different heights need; see Agents::z. Slices have them anyway.
+  /// Says whether to keep the heights of bodies, which agents at different heights need; see Agents::z. Slices have them anyway.
   bool heights = false;
   friend bool operator==(const ShapeSetPlan&, const ShapeSetPlan&) = default;
 };
@@ -223,7 +223,7 @@ class ShapeSet {
   /// Errors:  throws std::out_of_range on an index out of range.
   float bounding_radius(std::uint32_t shape) const;
 
-  // Only for the library itself, which alone knows these types.
+  // For the library's own parts, which alone know these types.
 
   /// Views arrays that live as long as `memory`, a mapped file for instance.
   /// Precondition: validate(arrays) does not throw.

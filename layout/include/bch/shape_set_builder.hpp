@@ -60,8 +60,8 @@ class ShapeSetBuilder {
   /// Returns the set of the shapes that were added. Where memory runs out, the shapes stay in the builder.
   ShapeSet finish() &&;
 
-  /// Returns the nodes of the shapes so far, as the set is going to have them, or none for sets of only roots. Only for the library
-  /// itself; valid until the next call of another function.
+  /// Returns the nodes of the shapes so far, as the set is going to have them, or none for sets of only roots. For the library's own
+  /// parts; valid until the next call of another function.
   std::span<const float> nodes() const noexcept;
   /// Returns the present end of the set, for go_back().
   detail::BuilderEnd end() const noexcept;

@@ -47,8 +47,8 @@ struct CrowdDistance {
 struct DistributedCrowdOptions {
   double cell = 0;  ///< metres: the side of the squares that ranks own; 0: four times the largest radius
   double imbalance = 1.04;  ///< the most work of a rank over the mean, beyond which the crowd is cut anew
-  /// The work of an agent beside its pairs, in pairs: 0 balances pairs, about 1.3 balances time, and about 600 balances characters, who
-  /// are posed anew.
+  /// Gives the work of an agent beside its pairs, in pairs: 0 balances pairs, about 1.3 balances time, and about 600 balances
+  /// characters, who are posed anew.
   double agent_pairs = 0;
   bool heights = false;  ///< whether z counts; the set has to know the heights of bodies then
 };
