@@ -66,7 +66,7 @@ class CrowdGrid {
   /// Returns the difference from a cell to the one above it. The cells beside a cell have the numbers next to
   /// its own.
   std::uint64_t stride(std::uint32_t size_class) const noexcept { return classes_[size_class].stride; }
-  /// The cell of a coarser class, or of the same, that a cell is a part of.
+  /// Returns the cell of a coarser class, or of the same, that a cell is a part of.
   std::uint64_t coarser(std::uint64_t cell, std::uint32_t from, std::uint32_t to) const noexcept;
 
  private:

@@ -43,7 +43,7 @@ class SortedDiscs {
     agent_[i] = disc.agent;
   }
 
-  /// The first of discs begin .. end whose cell is not below `from`; else end.
+  /// Returns the first of discs begin .. end whose cell is not below `from`; else end.
   std::size_t first_from(std::uint64_t from, std::size_t begin, std::size_t end) const noexcept {
     const std::uint64_t* const cells = cell_.data();
     return static_cast<std::size_t>(std::lower_bound(cells + begin, cells + end, from) - cells);

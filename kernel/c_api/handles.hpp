@@ -91,7 +91,7 @@ void take_back(Object* handle, const char* argument) {
   delete handle;
 }
 
-/// The function of the C interface that frees an object.
+/// Frees an object, as the functions of the C interface do that free one.
 template <class Object>
 bch_status free_object(Object* handle, const char* argument) noexcept {
   return guarded([&] { take_back(handle, argument); });

@@ -33,7 +33,7 @@ class FrameBlock {
   /// Returns whether the recording ends with this block.
   bool read(WalkerReader& reader, std::size_t people, const FrameBlock& before);
 
-  /// The people as agents.
+  /// Returns the people as agents.
   std::span<const double> x() const noexcept { return x_; }
   std::span<const double> y() const noexcept { return y_; }
   std::span<const double> heading() const noexcept { return heading_; }

@@ -257,7 +257,7 @@ class OverlapTraversal {
     size_ = left;
   }
 
-  /// The nodes below the first open hit of two, or anything where none is, and the hits that stay open.
+  /// Returns the nodes below the first open hit of two, or anything where none is, and the hits that stay open.
   [[gnu::always_inline]] static Frame first_below(const float* nodes, const Frame& at) noexcept {
     std::uint64_t rest = at.open & (at.open - 1);
     const auto bit = static_cast<unsigned>(__builtin_ctzll(at.open | std::uint64_t{1} << 63));

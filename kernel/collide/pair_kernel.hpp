@@ -58,7 +58,7 @@ class PairKernel {
         profiles_(shapes_, at_, arguments.prefetch_shapes),
         walk_(shapes_, arguments) {}
 
-  /// The pairs that answer_placed() is about.
+  /// Returns the pairs that answer_placed() is about.
   Placements<Simd>& placements() noexcept { return at_; }
   /// Answers pairs that somebody else placed. Codes from `begin` on are written by the end of finish().
   void answer_placed(std::size_t begin) noexcept {

@@ -73,14 +73,14 @@ class BestFirstTraversal {
         [&](unsigned k, Float x, Float y, Float r) { Simd::store(frame.bound + k, measure.bound(x, y, r)); });
   }
 
-  /// The children below the least bound, unless that is above `best`. Of a frame of which nothing was taken.
+  /// Takes the children below the least bound, unless that is above `best`, of a frame of which nothing was taken.
   bool take_least(NodePairBounds& frame, float best, std::uint32_t& a, std::uint32_t& b) const noexcept {
     const float least = least_value<Simd>(frame.bound);
     take(frame, first_within<Simd>(frame.bound, least), a, b);
     return least <= best;
   }
 
-  /// The children below the least bound of those that were not taken, unless that is above `best`. Mostly it
+  /// Takes the children below the least bound of those that were not taken, unless that is above `best`. Mostly it
   /// is, which is known sooner than which is the least; else there are few.
   bool take_next(NodePairBounds& frame, float best, std::uint32_t& a, std::uint32_t& b) const noexcept {
     std::uint64_t left = all_within<Simd>(frame.bound, best) & frame.open;

@@ -144,7 +144,7 @@ class NearestSearch {
     if (improving(step) != 0) meet(step);
   }
 
-  /// The bits of the pairs of discs that may improve on the best.
+  /// Returns the bits of the pairs of discs that may improve on the best.
   [[gnu::always_inline]] std::uint64_t improving(const Step& step) const noexcept {
     const Searched& pair = pairs_[step.pair];
     std::uint64_t bits = 0;

@@ -43,7 +43,7 @@ struct DistanceGridView {
   }
 
  private:
-  /// The nearest whole number from 0 to `last`.
+  /// Returns the nearest whole number from 0 to `last`.
   [[gnu::always_inline]] static double nearest_of(double v, double last) noexcept {
     v = v < 0 ? 0 : v;
     v = v > last ? last : v;

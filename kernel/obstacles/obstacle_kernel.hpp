@@ -234,7 +234,7 @@ class ObstacleKernel {
     return xsimd::sqrt(Simd::load(square + k)) - (Simd::wide(discs.radius() + k) + Double(segment.slack));
   }
 
-  /// The open lane with the least bound.
+  /// Returns the open lane with the least bound.
   static unsigned least(const Frame& frame) noexcept {
     std::uint32_t left = frame.open;
     unsigned found = 0;

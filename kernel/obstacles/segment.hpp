@@ -33,7 +33,7 @@ struct LocalSegment {
   [[gnu::always_inline]] Real across(Real at_x, Real at_y) const noexcept {
     return Real(x) * at_y - Real(y) * at_x - Real(offset);
   }
-  /// The square of the distance from a point; a lane's in ObstacleKernel takes the same operations.
+  /// Returns the square of the distance from a point; a lane's in ObstacleKernel takes the same operations.
   [[gnu::always_inline]] double square_distance(double at_x, double at_y) const noexcept {
     const double at = along(at_x, at_y), aside = across(at_x, at_y);
     const double before = from - at, behind = at - to;

@@ -122,7 +122,7 @@ float least_value(const float* values) noexcept {
   return Simd::least(least);
 }
 
-/// The pairs whose values are at most so much.
+/// Returns the pairs whose values are at most so much.
 template <class Simd>
 std::uint64_t all_within(const float* values, float most) noexcept {
   using Float = typename Simd::Float;
@@ -133,7 +133,7 @@ std::uint64_t all_within(const float* values, float most) noexcept {
   return bits;
 }
 
-/// The first of them. Precondition: there is one.
+/// Returns the first of these pairs. Precondition: there is one.
 template <class Simd>
 unsigned first_within(const float* values, float most) noexcept {
   return static_cast<unsigned>(__builtin_ctzll(all_within<Simd>(values, most)));

@@ -49,7 +49,7 @@ class Placements {
   /// Returns A's heading.
   UnitVector heading(std::uint32_t pair) const noexcept { return {cosine_[pair], sine_[pair]}; }
 
-  /// The size, filled up to whole registers of floats.
+  /// Returns the size, filled up to whole registers of floats.
   std::uint32_t whole_registers() const noexcept {
     return (size + Simd::width - 1) / Simd::width * Simd::width;
   }

@@ -131,7 +131,7 @@ class SegmentBatch {
     size_ = 0;
   }
 
-  /// What was collected at place k: its owner, and the points where the segments begin.
+  /// Returns what was collected at place k: its owner, and the points where the segments begin.
   std::uint32_t owner(std::uint32_t k) const noexcept { return owner_[k]; }
   std::uint32_t segment_a(std::uint32_t k) const noexcept { return segment_a_[k]; }
   std::uint32_t segment_b(std::uint32_t k) const noexcept { return segment_b_[k]; }

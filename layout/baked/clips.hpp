@@ -22,7 +22,7 @@ class PackedClips {
   ///          std::length_error beyond 2^32 keys or chunks.
   PackedClips(std::span<const BakedClip> clips, std::size_t names);
 
-  /// The sections, as long as this lives.
+  /// Returns the sections, as long as this lives.
   ClipArrays arrays() const noexcept {
     return {clips_, clip_planes_, slab_chunks_, chunks_, key_times_, ring_ends_, disc_steps_, disc_floats_};
   }

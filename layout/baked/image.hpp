@@ -26,7 +26,7 @@ class BakedImage {
   BakedImage(const BakedImage&) = delete;
   BakedImage& operator=(const BakedImage&) = delete;
 
-  /// The file's parts, to be written one after the other: the preamble, then the sections, and after each of
+  /// Returns the file's parts, to be written one after the other: the preamble, then the sections, and after each of
   /// them its zeros.
   std::span<const std::span<const std::byte>> parts() const noexcept { return parts_; }
 

@@ -17,12 +17,12 @@ struct UnitVector {
   float sine = 0;
 };
 
-/// Rotation by a heading in radians, counter-clockwise, |heading| <= rounding::largest_heading; each part is
+/// Returns the rotation by a heading in radians, counter-clockwise, |heading| <= rounding::largest_heading; each part is
 /// within 2e-10 of the exact one. The bits are the same on every processor: only plain operations are used,
 /// where libm picks a variant by processor.
 Rotation rotation(double heading) noexcept;
 
-/// The rotation rounded to float: each part is within 2^-25 (1 + 2^-7) of the exact one.
+/// Returns the rotation rounded to float: each part is within 2^-25 (1 + 2^-7) of the exact one.
 UnitVector unit_vector(double heading) noexcept;
 
 /// The constants and the order of operations that rotation() and the SIMD kernels share. Reduction to

@@ -17,10 +17,10 @@ constexpr std::size_t most_planes = 63;
 /// Errors:  throws std::invalid_argument, naming the plane.
 void require_planes(std::span<const float> planes);
 
-/// The height of a plane, between the float that names it and the next one, so that no vertex lies in it.
+/// Returns the height of a plane, between the float that names it and the next one, so that no vertex lies in it.
 double height_of(float plane);
 
-/// What of a body's heights lies in a slab: slab j is below plane j and above the one before. Rounded outward; above its top where
+/// Returns what of a body's heights lies in a slab: slab j is below plane j and above the one before. Rounded outward; above its top where
 /// nothing does.
 Heights heights_of_slab(Heights body, std::span<const float> planes, std::size_t slab);
 

@@ -7,7 +7,7 @@
 
 namespace bch::detail {
 
-/// A number for a message, in the fewest digits that tell it from all others of its type: one just beyond a limit does not
+/// Returns a number for a message, in the fewest digits that tell it from all others of its type: one just beyond a limit does not
 /// read as the limit.
 std::string shortest(double value);
 std::string shortest(float value);

@@ -21,7 +21,7 @@ struct AffineRows {
   }
 };
 
-/// The map that applies b first, then a.
+/// Returns the map that applies b first, then a.
 inline AffineRows operator*(const AffineRows& a, const AffineRows& b) {
   using Simd = BaseLanes;
   AffineRows result;

@@ -29,7 +29,7 @@ class VertexBlend {
 
   explicit VertexBlend(const Character& character);
 
-  /// The bones that move a vertex, in order.
+  /// Returns the bones that move a vertex, in order.
   std::span<const std::uint32_t> bones() const { return bones_; }
 
   /// Writes where every vertex goes. maps[i] is that of bones()[i].

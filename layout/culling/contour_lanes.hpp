@@ -43,12 +43,12 @@ class ContourLanes {
   std::uint32_t sector(std::size_t i) const noexcept {
     return static_cast<std::uint32_t>(static_cast<std::int32_t>(sector_[i])) % profile_sectors;
   }
-  /// A lower bound of the distance from the nearest line between sectors.
+  /// Returns a lower bound of the distance from the nearest line between sectors.
   double aside(std::size_t i) const noexcept { return aside_[i]; }
 
   // These functions describe segment i.
 
-  /// The point where the segment's line comes nearest to the centre, as a share of the way to its end.
+  /// Returns the point where the segment's line comes nearest to the centre, as a share of the way to its end.
   double foot(std::size_t i) const noexcept { return foot_[i]; }
   double square_distance(std::size_t i) const noexcept { return square_distance_[i]; }
   bool turns_left(std::size_t i) const noexcept { return turn_[i] >= 0; }

@@ -24,7 +24,7 @@ struct DiscRun {
 template <class Simd>
 class CutLanes {
  public:
-  /// The radius of the disc about a centre that holds a run, to 5 units in the last place.
+  /// Returns the radius of the disc about a centre that holds a run, to 5 units in the last place.
   static float radius(const DiscRun& run, Vec2 centre) noexcept {
     const Batch centre_x(centre.x), centre_y(centre.y);
     Batch most(0.0f);

@@ -18,7 +18,7 @@ class DiscCoverage {
 
   /// Begins anew with these discs to choose from, in units of a cell.
   void offer(const InteriorLoops& loops, const CandidateDiscs& discs, float dilation);
-  /// The best of the discs that are left; they have to be one at least. It is covered and gone from then on.
+  /// Returns the best of the discs that are left; they have to be one at least. It is covered and gone from then on.
   std::uint32_t choose();
 
  private:

@@ -60,10 +60,10 @@ struct InteriorImplementation : InstructionSet {
   const InteriorLoops& loops;
 };
 
-/// All that were compiled, the best first; the last one runs everywhere.
+/// Returns all implementations that were compiled, the best first; the last one runs everywhere.
 std::span<const InteriorImplementation> interior_implementations() noexcept;
 
-/// The best that this processor supports.
+/// Returns the best implementation that this processor supports.
 const InteriorImplementation& best_interior_implementation() noexcept;
 
 }  // namespace bch::detail

@@ -114,7 +114,7 @@ class InteriorLanes {
     return cells[0];
   }
 
-  /// How many bits are set and not covered. Written for vectors: baseline x86-64 has no instruction that counts.
+  /// Returns how many bits are set and not covered. Written for vectors: baseline x86-64 has no instruction that counts.
   static std::int32_t count_new(const std::uint32_t* rows, const std::uint32_t* covered) noexcept {
     std::uint32_t sum = 0;
     for (std::size_t j = 0; j < raster_rows; ++j) {

@@ -13,7 +13,7 @@
 
 namespace bch::detail {
 
-/// The extents of a shape along lines from a centre, sector by sector. One lookup in each of two shapes along
+/// Returns the extents of a shape along lines from a centre, sector by sector. One lookup in each of two shapes along
 /// the line of their centres, D apart, decides most pairs:
 ///
 ///     inner_A + inner_B >= D     a point between the centres belongs to both areas

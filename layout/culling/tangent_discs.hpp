@@ -35,7 +35,7 @@ class ContourSamples {
   /// distance between them is positive.
   void take(std::span<const float> x, std::span<const float> y);
 
-  /// Every other sample, with the normal of its edge.
+  /// Returns every other sample, with the normal of its edge.
   const Touches& touches() const { return touches_; }
   /// Finds for each touch the largest disc that touches there and holds neither a sample nor one of the
   /// corners given: a disc of the medial axis, up to the spacing. On the outer side of a whisker discs lie

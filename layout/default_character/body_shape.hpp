@@ -62,7 +62,7 @@ struct BodyShape {
 inline constexpr std::size_t arm_hole_bottom = 8, arm_hole_top = 10;
 inline constexpr std::size_t arm_hole_front = 3, arm_hole_back = 7;
 
-/// A man of 1.88 m, a woman of 1.74 m, and a bulky man as tall as the first.
+/// Returns a man of 1.88 m, a woman of 1.74 m, and a bulky man as tall as the first.
 /// Source:  lengths of segments are the fractions of the stature by R. Drillis, R. Contini, "Body segment
 ///          parameters", NYU TR 1166.03, 1966, as reprinted in D. A. Winter, "Biomechanics and Motor Control
 ///          of Human Movement". Breadths and depths are drawn by hand, of the size that C. C. Gordon et al.,

@@ -35,10 +35,10 @@ struct ArmPose {
 
 ArmPose blend(const ArmPose& a, const ArmPose& b, double t);
 
-/// An arm that swings in the walking direction, by its angles in radians.
+/// Returns an arm that swings in the walking direction, by its angles in radians.
 ArmPose swinging_arm(double flexion, double elbow, double abduction);
 
-/// The arm that brings its wrist to a point and its elbow towards `pole`. `wrist`: in the frame of the body
+/// Returns the arm that brings its wrist to a point and its elbow towards `pole`. `wrist`: in the frame of the body
 /// at rest, on the left side; a point out of reach is approached. The chest's turns carry the point along.
 ArmPose reaching_arm(const JointPositions& joints, const Eigen::Vector3d& wrist, const Eigen::Vector3d& pole);
 

@@ -8,7 +8,7 @@
 
 namespace bch::detail {
 
-/// The skin of a body at rest: one closed surface, lofted through the sections of trunk, limbs and feet;
+/// Returns the skin of a body at rest: one closed surface, lofted through the sections of trunk, limbs and feet;
 /// hands have four fingers and a thumb.
 /// Units:   metres, z up, facing +x, soles at z = 0, the crown at the stature.
 BodySurface parametric_body(const BodyShape& shape);

@@ -46,7 +46,7 @@ Motion side_stepping(const Manner& manner, double direction);
 enum class Idle { shift, look_around, akimbo, arms_crossed, phone, wave, talk, think };
 Motion idling(const Manner& manner, Idle kind);
 
-/// A natural stance for arms, common to all standing motions.
+/// Returns a natural stance for arms, common to all standing motions.
 ArmPose hanging_arm(const Manner& manner);
 
 /// 0 before `begin`, 1 after `end`, and a smooth way between.

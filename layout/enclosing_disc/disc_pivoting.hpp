@@ -30,7 +30,7 @@ inline Basis basis(Point a, Point b) {
   return {{a, b, b}, 2, {0.5 * (a.x + b.x), 0.5 * (a.y + b.y)}, 0.25 * square_distance(a, b)};
 }
 
-/// The longest side's disc unless the triangle is acute.
+/// Returns the longest side's disc unless the triangle is acute.
 inline Basis basis(Point a, Point b, Point c) {
   const double ab = square_distance(a, b), bc = square_distance(b, c), ca = square_distance(c, a);
   if (ab >= bc + ca) return basis(a, b);
@@ -42,7 +42,7 @@ inline Basis basis(Point a, Point b, Point c) {
   return {{a, b, c}, 3, {a.x + offset.x, a.y + offset.y}, offset.x * offset.x + offset.y * offset.y};
 }
 
-/// The smallest disc over q, which is outside, and what stays on the boundary: both points of a pair; of
+/// Returns the smallest disc over q, which is outside, and what stays on the boundary: both points of a pair; of
 /// three the one farthest from q, and that beyond the diameter through it.
 inline Basis pivot(const Basis& old, Point q) {
   const auto& p = old.points;
@@ -56,7 +56,7 @@ inline Basis pivot(const Basis& old, Point q) {
   return basis(q, p[far], is_left(q) != is_left(p[next]) ? p[next] : p[last]);
 }
 
-/// The centre of the smallest enclosing disc. farthest(p) gives the point of the set farthest from p.
+/// Returns the centre of the smallest enclosing disc. farthest(p) gives the point of the set farthest from p.
 /// Source:  J. Elzinga, D. W. Hearn, "Geometrical solutions for some minimax location problems",
 ///          Transportation Science 6, 1972.
 template <class Farthest>

@@ -16,7 +16,7 @@ struct EnclosingDisc {
   double radius = 0;
 };
 
-/// The smallest disc that holds the points, up to the rounding of its centre to float: every point is within
+/// Returns the smallest disc that holds the points, up to the rounding of its centre to float: every point is within
 /// `radius` of `centre`.
 /// Shapes:  at least one point; any order, duplicates and collinear points allowed.
 /// Source:  see disc_pivoting.hpp; for many sets at once, see enclosing_discs.hpp.

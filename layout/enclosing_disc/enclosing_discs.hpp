@@ -18,7 +18,7 @@ struct DiscImplementation : InstructionSet {
   void (*solve)(const DiscSets& sets) noexcept;
 };
 
-/// All that were compiled, the best first; the last one runs everywhere.
+/// Returns all implementations that were compiled, the best first; the last one runs everywhere.
 std::span<const DiscImplementation> disc_implementations() noexcept;
 
 /// The smallest enclosing discs of many sets at once, solved side by side. Keeps its memory.

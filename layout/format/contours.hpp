@@ -9,14 +9,14 @@
 
 namespace bch::detail {
 
-/// The largest distance of a point from the origin, at least.
+/// Returns at least the largest distance of a point from the origin.
 double reach(std::span<const Vec2> points);
 
-/// The contour with the largest area, the first of several.
+/// Returns the contour with the largest area, the first of several.
 /// Precondition: there is one.
 std::span<const Vec2> largest_contour(const Outline& outline);
 
-/// Twice the area inside a contour, square metres; negative where it is clockwise.
+/// Returns twice the area inside a contour, square metres; negative where it is clockwise.
 double twice_area(std::span<const Vec2> contour);
 
 }  // namespace bch::detail

@@ -16,7 +16,7 @@ namespace bch::detail {
 void add_leaf(std::span<const std::uint32_t> segments, std::size_t leaf, std::size_t leaves,
               std::vector<std::uint32_t>& words);
 
-/// The segments that a leaf's word names; none where there are too many of them.
+/// Returns the segments that a leaf's word names; none where there are too many of them.
 std::vector<std::uint32_t> segments_of(std::span<const std::uint32_t> words, std::size_t leaf);
 
 /// Words and lists of so many leaves: those that begin with `words`.

@@ -47,7 +47,7 @@ struct Precondition {
   void (*check_level)(const ShapeArrays&, LevelNodes&);  ///< the same; null: see the one before
 };
 
-/// All that validate() checks, in that order: every check may rely on the ones before it.
+/// Returns all that validate() checks, in that order: every check may rely on the ones before it.
 std::span<const Precondition> shape_preconditions() noexcept;
 
 }  // namespace bch::detail

@@ -79,7 +79,7 @@ struct Tree {
   /// layout/base/rounding.hpp, VIII.
   std::uint32_t nodes_hold_discs = 0;
 
-  /// Number of the first inner node: the number of floats from `nodes` on, by four. (Inlined for certain, so that
+  /// Returns the number of the first inner node: the number of floats from `nodes` on, by four. (Inlined for certain, so that
   /// instruction sets share no function.)
   [[gnu::always_inline]] std::uint32_t first_inner() const noexcept {
     return (discs + 3 * stride + inner_floats - 1) / inner_floats;

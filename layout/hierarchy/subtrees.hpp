@@ -15,7 +15,7 @@ namespace bch::detail {
 /// for the nearest discs of the binary tree may prune by. A leaf's is its disc's.
 std::vector<float> bounding_radii(const Hierarchy& hierarchy);
 
-/// One past the last node of the subtree under each node.
+/// Returns one past the last node of the subtree under each node.
 std::vector<std::uint32_t> subtree_ends(std::span<const HierarchyNode> nodes);
 
 }  // namespace bch::detail

@@ -21,7 +21,7 @@ struct ClipMatch {
   double alignment = 1;           ///< mean cosine between the bones that both have and the clip moves
 };
 
-/// The reason why the clip belongs to another skeleton, with some of the names; empty where it belongs to this one.
+/// Returns the reason why the clip belongs to another skeleton, with some of the names; empty where it belongs to this one.
 /// It does where the character has no bones or shares one with the file, where at least half of the clip's channels
 /// move the character or the file has at least half of the character's joints, and where bones point the same way.
 std::string mismatch(const ClipMatch& match);

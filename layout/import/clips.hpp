@@ -24,7 +24,7 @@ struct SourceClip {
   std::vector<SourceChannel> channels;
 };
 
-/// The animations of a file with times in seconds from 0, in order; quaternions of norm 1.
+/// Returns the animations of a file with times in seconds from 0, in order; quaternions of norm 1.
 std::vector<SourceClip> read_clips(const SceneFile& file, std::vector<std::string>& notes);
 
 /// Adds the character's own clips: channels belong to the joints of their name.
@@ -43,7 +43,7 @@ std::vector<Eigen::Vector3d> hull_of_positions(const Channel& channel);
 /// rest pose does, seen from above.
 void note_far_poses(const Character& character, std::size_t first_clip, ImportReport& report);
 
-/// The joint whose point on the ground is a shape's origin: see the source.
+/// Returns the joint whose point on the ground is a shape's origin: see the source.
 std::int32_t find_root_joint(const Character& character, const std::vector<bool>& bone_is_skin);
 
 }  // namespace bch::detail::importing

@@ -24,10 +24,10 @@ class DracoMesh {
   DracoMesh(GltfFile& file, const JsonValue& extension);
   ~DracoMesh();
 
-  /// The three corners of every triangle.
+  /// Returns the three corners of every triangle.
   std::vector<std::uint32_t> corners() const;
 
-  /// The numbers of an attribute, vertex by vertex; integers are normalised where the accessor says so.
+  /// Returns the numbers of an attribute, vertex by vertex; integers are normalised where the accessor says so.
   /// Errors:  throws ImportError if there is no such attribute, or its values are no such numbers.
   template <class Number>
   std::vector<Number> attribute(const char* name, std::size_t components, bool normalised) const;

@@ -51,16 +51,16 @@ class GltfFile {
 
   const std::filesystem::path& path() const { return path_; }
   JsonValue root() const { return {path_, *json_}; }
-  /// The element of a top-level array, such as "accessors", whose index stands at `index`.
+  /// Returns the element of a top-level array, such as "accessors", whose index stands at `index`.
   JsonValue named_by(const JsonValue& index, const char* array) const;
 
-  /// The bytes of a buffer view.
+  /// Returns the bytes of a buffer view.
   std::string_view bytes_of(const JsonValue& view);
 
-  /// The numbers of an accessor, element by element: of any component type, integers normalised where it says so,
+  /// Returns the numbers of an accessor, element by element: of any component type, integers normalised where it says so,
   /// sparse or not. `type` is what the accessor has to be, such as "VEC3".
   std::vector<float> floats(const JsonValue& accessor, const char* type);
-  /// The unsigned integers of an accessor, element by element.
+  /// Returns the unsigned integers of an accessor, element by element.
   std::vector<std::uint32_t> indices(const JsonValue& accessor, const char* type);
 
  private:

@@ -23,7 +23,7 @@ struct GltfReader {
 /// Longest name of a node or mesh: assimp's strings have an end, and what is added to a name must be before it.
 constexpr std::size_t longest_name = 900;
 
-/// The numbers of an array of that length.
+/// Returns the numbers of an array of that length.
 template <std::size_t size>
 std::array<float, size> numbers_of(const JsonValue& list) {
   if (list.size() != size) list.reject("has not " + std::to_string(size) + " numbers");

@@ -22,7 +22,7 @@ class JsonValue {
 
   explicit operator bool() const { return value_ != nullptr; }
 
-  /// The member of that name: absent if this has none or is absent itself.
+  /// Returns the member of that name: absent if this has none or is absent itself.
   JsonValue operator[](const char* member) const;
   /// Errors:  throws ImportError if the array has no such element.
   JsonValue operator[](std::size_t index) const;

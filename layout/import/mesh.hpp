@@ -29,7 +29,7 @@ class BoneTable {
 
 using InfluenceLists = std::vector<std::vector<Influence>>;
 
-/// Normalised influences of every vertex of a mesh with bones, in order of bone.
+/// Returns normalised influences of every vertex of a mesh with bones, in order of bone.
 /// Errors:  throws ImportError on bones, indices and weights that make no sense, and if all weights are zero.
 InfluenceLists read_influences(const SceneFile& file, const NodeList& nodes, const aiMesh& mesh,
                                const std::string& mesh_name, BoneTable& bones, ImportReport& report);

@@ -54,7 +54,7 @@ struct SceneFile {
   [[noreturn]] void reject(const std::string& reason) const { importing::reject(path, reason); }
 };
 
-/// All of import_character() but reading the file.
+/// Does all of import_character() except reading the file.
 /// Errors:  throws ImportError, and what validate() and the skinning throw.
 ImportedCharacter character_of(const SceneFile& file, const ImportOptions& options);
 
@@ -74,7 +74,7 @@ void note_if_shared(const NodeList& nodes, const std::string& name, ImportReport
 /// Errors:  throws ImportError naming `what` if the matrix is not finite or not affine.
 Affine3 read_matrix(const SceneFile& file, const aiMatrix4x4& matrix, const std::string& what);
 
-/// Every joint's transform at rest into the frame of the file.
+/// Returns every joint's transform at rest into the frame of the file.
 std::vector<Eigen::Affine3d> rest_to_file(const std::vector<Joint>& joints);
 
 }  // namespace bch::detail::importing

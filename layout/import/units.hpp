@@ -29,7 +29,7 @@ struct DeclaredFrame {
 
 DeclaredFrame declared_frame(const SceneFile& file);
 
-/// The rotation that brings a direction to z; never a mirroring.
+/// Returns the rotation that brings a direction to z; never a mirroring.
 Eigen::Matrix3f upright(Direction up);
 
 /// Sets the transform to the ground from the options, else from the declaration, else from the rest pose.

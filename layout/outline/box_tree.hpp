@@ -20,7 +20,7 @@ class BoxTree {
   /// The segments are followed by copies of the last one, up to a whole block.
   void assign(const Segment* segments, std::size_t count);
 
-  /// The segments' lexicographically smallest end: only blocks that reach the first column of cells have it.
+  /// Returns the segments' lexicographically smallest end: only blocks that reach the first column of cells have it.
   GridPoint first_end(const Segment* segments) const;
 
   /// Sets where the search finds the boxes, until the next assign().

@@ -72,11 +72,11 @@ struct Place {
   GridVector direction() const { return to - from; }
 };
 
-/// The sign of the place's x less `x`, and of its y less `y`.
+/// Returns the sign of the place's x less `x`, and of its y less `y`.
 int compare_x(const Place& place, std::int32_t x);
 int compare_y(const Place& place, std::int32_t y);
 
-/// The grid point next to a place, a half rounded up: the same from whichever lines the place is described.
+/// Returns the grid point next to a place, a half rounded up: the same from whichever lines the place is described.
 GridPoint rounded(const Place& place);
 
 }  // namespace bch::detail

@@ -18,10 +18,10 @@ struct OutlineImplementation : InstructionSet {
   void (*test_near)(const SegmentSearch& job, const SearchedWay& way, std::size_t count) noexcept;
 };
 
-/// All that were compiled, the best first; the last one runs everywhere.
+/// Returns all implementations that were compiled, the best first; the last one runs everywhere.
 std::span<const OutlineImplementation> outline_implementations() noexcept;
 
-/// The first that this processor supports.
+/// Returns the first implementation that this processor supports.
 const OutlineImplementation& best_outline_implementation() noexcept;
 
 }  // namespace bch::detail

@@ -45,14 +45,14 @@ class PlaneCuts {
   std::uint32_t slab(std::uint32_t vertex) const { return slab_[vertex]; }
   std::span<const std::uint32_t> cut_triangles() const { return cut_triangles_; }
   bool is_cut(std::uint32_t triangle) const { return first_node_[triangle] != not_cut; }
-  /// Which way a cut triangle's piece in a slab goes round. Precondition: it has one there.
+  /// Returns which way a cut triangle's piece in a slab goes round. Precondition: it has one there.
   std::uint8_t side(std::uint32_t triangle, std::uint32_t slab) const {
     return sides_[node(triangle, slab) - vertices_];
   }
   std::span<const Border> borders() const { return borders_; }
   Heights heights() const { return heights_; }  ///< of all vertices
 
-  /// The ends of an edge's piece in a slab, in the edge's direction. Precondition: it has one there.
+  /// Returns the ends of an edge's piece in a slab, in the edge's direction. Precondition: it has one there.
   std::array<GridPoint, 2> piece(std::uint32_t a, std::uint32_t b, std::uint32_t slab) const;
   bool same_place(std::uint32_t v, std::uint32_t w) const {
     return points_[v] == points_[w] && z_[v] == z_[w];

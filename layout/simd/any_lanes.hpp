@@ -46,7 +46,7 @@ struct AnyLanes {
   }
   static Float select(Mask mask, Float yes, Float no) noexcept { return xsimd::select(mask, yes, no); }
 
-  /// The first where it is less (or more) than the second, which alone may be NaN in the result.
+  /// Returns the first where it is less (or more) than the second, which alone may be NaN in the result.
   static Float min(Float first, Float second) noexcept { return select(first < second, first, second); }
   static Float max(Float first, Float second) noexcept { return select(second < first, first, second); }
 
@@ -59,13 +59,13 @@ struct AnyLanes {
   static T lane(Batch<T> v, unsigned i) noexcept {
     return v.data[i];
   }
-  /// A register of these lanes.
+  /// Returns a register of these lanes.
   template <class T, class... Lane>
   [[gnu::always_inline]] static Batch<T> of(Lane... lane) noexcept {
     typedef T Vector __attribute__((vector_size(sizeof(Batch<T>))));
     return Batch<T>((typename Batch<T>::register_type)Vector{lane...});
   }
-  /// What `p` has at each index, without a way through memory.
+  /// Returns what `p` has at each index, without a way through memory.
   template <class T>
   static Batch<T> gather(const T* p, const std::uint32_t* index) noexcept {
     return gather(p, index, std::make_index_sequence<Batch<T>::size>());
@@ -147,18 +147,18 @@ struct AnyLanes {
     for (std::size_t i = 0; i < Batch<T>::size; ++i) set |= std::uint32_t{lane[i]} << i;
     return set;
   }
-  /// How many bits are set, of the lowest 16.
+  /// Returns how many bits are set, of the lowest 16.
   static std::size_t count(std::uint32_t bits) noexcept {
     return static_cast<std::size_t>(__builtin_popcount(bits));
   }
-  /// The least lane.
+  /// Returns the least lane.
   static float least(Float values) noexcept {
     float result = lane(values, 0);
     for (unsigned i = 1; i < width; ++i) result = lane(values, i) < result ? lane(values, i) : result;
     return result;
   }
 
-  /// A register of floats from as many doubles, and back.
+  /// Returns a register of floats from as many doubles, and back.
   static Float rounded(const Double (&v)[2]) noexcept {
     float to[width];
     for (unsigned i = 0; i < width; ++i) to[i] = static_cast<float>(lane(v[i / doubles], i % doubles));
@@ -170,14 +170,14 @@ struct AnyLanes {
     to[0] = load(wide), to[1] = load(wide + doubles);
   }
 
-  /// A register of doubles from as many floats.
+  /// Returns a register of doubles from as many floats.
   static Double wide(const float* p) noexcept {
     double lane[doubles];
     for (unsigned i = 0; i < doubles; ++i) lane[i] = static_cast<double>(p[i]);
     return load(lane);
   }
 
-  /// The square root, for bounds: it is off by less than 3/4 of `rough`, relatively, for normal numbers, differently on
+  /// Returns the square root, for bounds: it is off by less than 3/4 of `rough`, relatively, for normal numbers, differently on
   /// every processor, and NaN for numbers below 0.
   static Float rough_root(Float x) noexcept {
     return xsimd::sqrt(x);

@@ -166,7 +166,7 @@ inline batch<T, A> select(batch_bool<T, A> const& where, batch<T, A> const& yes,
                           requires_arch<portable>) noexcept {
   return where.data ? yes.data : no.data;
 }
-/// The second where neither is less, as where one is NaN or both are 0.
+/// Returns the second where neither is less, as where one is NaN or both are 0.
 template <class A, class T>
 inline batch<T, A> min(batch<T, A> const& a, batch<T, A> const& b, requires_arch<portable>) noexcept {
   return a.data < b.data ? a.data : b.data;

@@ -29,7 +29,7 @@ std::vector<ColumnName> column_names(std::string_view line, char separator);
 
 Role role_of(std::string_view name);
 
-/// Whether there are names for all that a row needs.
+/// Returns whether there are names for all that a row needs.
 bool has_all_roles(std::span<const ColumnName> names);
 
 /// The columns of a table, and their units.

@@ -19,7 +19,7 @@ inline bool is_blank(char c) {
 std::string_view trimmed(std::string_view text);
 std::string lower_case(std::string_view text);
 
-/// What separates the fields of a line: a comma, else a semicolon, else blanks, which stands for tabs too.
+/// Returns what separates the fields of a line: a comma, else a semicolon, else blanks, which stands for tabs too.
 char separator_of(std::string_view line);
 
 /// Takes the fields of a line one by one. Of CSV, fields may be in quotes.
@@ -44,7 +44,7 @@ class Fields {
     return true;
   }
 
-  /// Whether the line ended in quotes, or with something behind them.
+  /// Returns whether the line ended in quotes, or with something behind them.
   bool is_broken() const { return broken_; }
 
  private:
@@ -56,7 +56,7 @@ class Fields {
   std::size_t quoted_end() const;
 };
 
-/// All fields of a line.
+/// Returns all fields of a line.
 std::vector<std::string_view> fields_of(std::string_view line, char separator);
 
 }  // namespace bch::detail::trajectory

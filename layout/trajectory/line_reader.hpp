@@ -26,9 +26,9 @@ class LineReader {
   /// Reads a line, which is there until the next is read.
   /// Returns: whether there was one.
   bool next(std::string_view& line);
-  /// The number of the line that was read last, from 1.
+  /// Returns the number of the line that was read last, from 1.
   std::uint64_t number() const { return number_; }
-  /// Whether a line end stands behind that line; it may lack at the end of the file.
+  /// Returns whether a line end stands behind that line; it may lack at the end of the file.
   bool has_end() const { return has_end_; }
   void rewind();
 

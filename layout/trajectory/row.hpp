@@ -46,7 +46,7 @@ struct Places {
 
   /// "line 12" or "row 12".
   std::string row(std::uint64_t number) const;
-  /// The file with that, as messages begin.
+  /// Returns the file with that row, as messages begin.
   std::string at(std::uint64_t number) const;
   [[noreturn]] void reject(const std::string& reason) const;
   [[noreturn]] void reject(std::uint64_t number, const std::string& reason) const;
@@ -99,7 +99,7 @@ inline bool is_coordinate(double metres) {
   return std::abs(metres) <= largest_coordinate;  // no NaN is
 }
 
-/// What is wrong with a coordinate that is none.
+/// Returns what is wrong with a coordinate that is none.
 std::string coordinate_fault(double metres);
 
 /// Counts what a third coordinate is: a person's height, or something else.

@@ -34,7 +34,7 @@ class SqliteStatement {
   int type(int column) const { return sqlite3_column_type(handle_.get(), column); }
   std::int64_t integer(int column) const { return sqlite3_column_int64(handle_.get(), column); }
   double real(int column) const { return sqlite3_column_double(handle_.get(), column); }
-  /// A value as text, as long as the row is there; empty for NULL.
+  /// Returns a value as text, as long as the row is there; empty for NULL.
   std::string_view text(int column) const;
 
  private:
@@ -55,12 +55,12 @@ class SqliteDatabase {
   const Places& places() const { return *places_; }
   sqlite3* get() const { return handle_.get(); }
 
-  /// Whether there is a table of that name.
+  /// Returns whether there is a table of that name.
   /// Errors:  also on a view or a virtual table of that name, and on tables that compute columns.
   bool has_table(const std::string& name) const;
-  /// Whether a table has a column.
+  /// Returns whether a table has a column.
   bool has_column(const std::string& table, std::string_view column) const;
-  /// The size of all of its pages.
+  /// Returns the size of all of its pages.
   std::int64_t bytes() const;
 
   /// Throws what SQLite says is wrong.

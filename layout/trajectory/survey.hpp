@@ -32,9 +32,9 @@ class StepCount {
  public:
   void add(std::int64_t step);
   bool empty() const { return counts_.empty(); }
-  /// The largest number that all steps are multiples of; 0 without steps.
+  /// Returns the largest number that all steps are multiples of; 0 without steps.
   std::int64_t divisor() const { return divisor_; }
-  /// The step that occurs most often among the first 4096 different ones, the smallest of several; 0 without steps.
+  /// Returns the step that occurs most often among the first 4096 different ones, the smallest of several; 0 without steps.
   std::int64_t most_common() const;
 
  private:
