@@ -14,7 +14,7 @@
 
 namespace bch::detail {
 
-/// The extent of the positions of some agents, and the sizes of their roots.
+/// Holds the extent of the positions of some agents, and the sizes of their roots.
 struct CrowdBounds {
   static constexpr double infinity = std::numeric_limits<double>::infinity();
 
@@ -30,7 +30,7 @@ struct CrowdBounds {
 CrowdBounds bounds(const ShapeSetView& shapes, const Agents& agents, double margin, std::size_t begin,
                    std::size_t end) noexcept;
 
-/// An agent's root disc in units of a grid. The centre is modulo 2^32: differences below 2^31 units are right
+/// Represents an agent's root disc in units of a grid. The centre is modulo 2^32: differences below 2^31 units are right
 /// as signed numbers, however large the world.
 struct GridDisc {
   std::uint64_t cell;

@@ -16,7 +16,7 @@
 
 namespace bch::detail {
 
-/// Discs of a grid in the order of their cells, array by array.
+/// Holds discs of a grid in the order of their cells, array by array.
 class SortedDiscs {
  public:
   /// Most runs of neighbours are short: wider registers would gain little.
@@ -77,7 +77,7 @@ class SortedDiscs {
   std::vector<std::uint32_t> agent_;
 };
 
-/// Pairs that a task found.
+/// Holds pairs that a task found.
 class PairList {
  public:
   std::span<const Pair> pairs() const noexcept { return {pairs_.data(), size_}; }

@@ -105,7 +105,7 @@ Agents agents_of(const bch_agents* agents);
 ShapeSetPlan plan_of(const bch_plan* plan);
 float threshold_of(const bch_plan* plan);
 
-/// The options of a call, and how many threads it asks for.
+/// Holds the options of a call, and how many threads it asks for.
 struct CallOptions {
   QueryOptions query;
   std::uint32_t threads;

@@ -14,7 +14,7 @@
 
 namespace bch::c_api {
 
-/// What every query is asked: a set, agents, options.
+/// Holds the arguments of every query: a set, agents, options.
 struct Call {
   Call(const bch_shape_set* set, const bch_agents* of, const bch_query_options* given)
       : shapes(object_of(set, "set").set), agents(agents_of(of)) {
@@ -38,7 +38,7 @@ struct Call {
   }
 };
 
-/// What a query of pairs is asked.
+/// Holds the arguments of a query of pairs.
 struct PairCall : Call {
   PairCall(const bch_shape_set* set, const bch_agents* of, const bch_pair* asked, std::size_t count,
            const bch_query_options* given)

@@ -10,7 +10,7 @@
 
 namespace bch::c_api {
 
-/// What a function of the C interface fails with.
+/// Reports what a function of the C interface fails with.
 class Failure : public std::runtime_error {
  public:
   Failure(bch_status what, const std::string& message) : std::runtime_error(message), status(what) {}

@@ -11,7 +11,7 @@
 
 namespace bch::c_api {
 
-/// The objects of the C interface that live. A pointer from outside is looked up before it is read, so that one that was
+/// Holds the objects of the C interface that live. A pointer from outside is looked up before it is read, so that one that was
 /// freed, or is of another kind, is an error.
 namespace registry {
 void add(const void* object, std::string_view kind);

@@ -24,7 +24,7 @@ struct bch_character {
   std::string notes = {};  ///< of the report, a line each
 };
 
-/// A set of its own, or one that a dynamic set lends.
+/// Holds a set of its own, or one that a dynamic set lends.
 struct bch_shape_set {
   explicit bch_shape_set(bch::BakedShapes baked)
       : own(std::make_unique<bch::BakedShapes>(std::move(baked))),

@@ -12,7 +12,7 @@
 
 namespace bch::c_api {
 
-/// Work of many parts: its threads, and what the caller hears of it.
+/// Describes work of many parts: its threads, and what the caller hears of it.
 class Work {
  public:
   Work(const bch_work* given, std::size_t total)

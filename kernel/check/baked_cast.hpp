@@ -12,7 +12,7 @@
 
 namespace bch::detail {
 
-/// How fast people walk in the clips of a name, metres a second; 0: they stand.
+/// Says how fast people walk in the clips of a name, metres a second; 0: they stand.
 struct ClipSpeed {
   std::string clip;
   double speed;

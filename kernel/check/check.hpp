@@ -22,7 +22,7 @@
 
 namespace bch::detail {
 
-/// What a check of a recording is asked.
+/// Holds the options of a check of a recording.
 struct CheckOptions {
   ShapeSetPlan plan = {};            ///< one level, of any depth; slices cut the bodies
   Leaves leaves = Leaves::segments;  ///< what decides who overlaps, where the level has all depths
@@ -39,7 +39,7 @@ struct CheckOptions {
       100'000;  ///< about so many, of many frames; the answers are the same for any number
 };
 
-/// Two people of a frame, or a person and a wall, who are near each other.
+/// Describes two people of a frame, or a person and a wall, who are near each other.
 struct CheckedPair {
   std::int64_t frame;
   std::int64_t first, second;  ///< ids; `second` is a wall's number where `is_wall`
@@ -51,7 +51,7 @@ struct CheckedPair {
   float x, y;  ///< where the first has to move
 };
 
-/// A person of a frame, as he was checked.
+/// Describes a person of a frame, as he was checked.
 struct CheckedPerson {
   Walker walker;
   std::uint32_t shape;  ///< in the set that is handed over with the frame
@@ -64,7 +64,7 @@ struct CheckedPerson {
 /// Recordings of more rows than that are checked with coarser poses, so that these are still few beside the rows.
 constexpr std::uint64_t coarse_from = 300'000;
 
-/// A frame that was checked.
+/// Describes a frame that was checked.
 struct CheckedFrame {
   std::int64_t frame;
   double seconds;  ///< from frame 0
@@ -87,7 +87,7 @@ struct OverlapCount {
 };
 using OverlapCounts = std::array<OverlapCount, density_classes.size()>;
 
-/// Two people who overlap in frames one after the other.
+/// Describes two people who overlap in frames one after the other.
 struct OverlapEvent {
   std::int64_t first, second;
   bool is_wall;
@@ -97,7 +97,7 @@ struct OverlapEvent {
   double x, y;  ///< where the first person then is, metres
 };
 
-/// What there is to tell of a recording, or of an interval of its frames: people are then those until its end.
+/// Summarises a recording, or an interval of its frames: people are then those until its end.
 struct CheckSummary {
   std::uint64_t frames = 0, people = 0, guessed = 0, passings = 0;
   std::int64_t first_frame = 0, last_frame = 0;

@@ -15,7 +15,7 @@
 
 namespace bch::detail {
 
-/// Some frames of a block, one behind the other, which one task checks: enough people for the batches of the kernel, few enough for a
+/// Holds some frames of a block, one behind the other, which one task checks: enough people for the batches of the kernel, few enough for a
 /// cache. Indices are of the people of these frames. Keeps its memory for the next ones.
 class FrameRun {
  public:

@@ -15,13 +15,13 @@
 
 namespace bch::detail {
 
-/// A shape of a baked set, and its time in the clip.
+/// Represents a shape of a baked set, and its time in the clip.
 struct BakedPose {
   float seconds;
   std::uint32_t shape;
 };
 
-/// A clip of a character.
+/// Represents a clip of a character.
 struct CastClip {
   std::string name;
   double seconds;        ///< from its beginning to where it begins again
@@ -30,8 +30,8 @@ struct CastClip {
   std::vector<BakedPose> baked = {};  ///< of a member of a baked set, by time: its phases
 };
 
-/// A character of one's own as the people of a recording have it: it walks along +x, but for those of a baked set, which have the
-/// size and the direction that they were baked with.
+/// Represents a character of one's own as the people of a recording have it: it walks along +x, but for those of a baked set, which have
+/// the size and the direction that they were baked with.
 struct CastMember {
   std::string name;
   Character character;               ///< empty where it is baked
@@ -53,14 +53,14 @@ CastMember cast_member(Character character, const std::string& name);
 /// Sorts the walks of a member by ascending speed.
 void sort_walks(CastMember& member);
 
-/// The characters of one's own in a recording, and a view of them, which they outlive.
+/// Holds the characters of one's own in a recording, and a view of them, which they outlive.
 using Cast = std::vector<CastMember>;
 using CastView = std::span<const CastMember>;
 
 /// Returns which of them a person has, by the id: the same in every run.
 std::uint32_t member_by_id(std::int64_t id, CastView cast);
 
-/// The body and the clip that rows of a recording name.
+/// Holds the body and the clip that rows of a recording name.
 struct CastMotion {
   std::optional<std::uint32_t> member;  ///< else one by the id
   std::vector<std::uint32_t> clips;     ///< of each member; empty: by the speed
@@ -72,7 +72,7 @@ struct CastMotion {
 ///          character and that one of them does not have.
 std::vector<CastMotion> cast_motions(std::span<const NamedMotion> named, CastView cast);
 
-/// A clip of a character, and a phase of it.
+/// Represents a clip of a character, and a phase of it.
 struct CastPose {
   std::uint32_t member;  ///< of the cast
   std::uint32_t clip;    ///< of the character

@@ -19,10 +19,10 @@
 
 namespace bch::detail {
 
-/// How a walker holds his shoulders.
+/// Says how a walker holds his shoulders.
 enum class Shoulders : std::uint8_t { straight, left, right };
 
-/// A walker's pose, of the finitely many that are built: statures in steps of 4 %, and speeds and
+/// Represents a walker's pose, of the finitely many that are built: statures in steps of 4 %, and speeds and
 /// phases so near each other that neither is off by what moves an outline by a centimetre.
 struct WalkerPose {
   static constexpr std::uint32_t built_in = 0xffff'ffff;

@@ -14,7 +14,7 @@
 
 namespace bch::detail {
 
-/// A person of a recording in a frame, and how he walks.
+/// Describes a person of a recording in a frame, and how he walks.
 struct Walker {
   std::int64_t id;
   double x, y;     ///< metres
@@ -31,7 +31,7 @@ struct Walker {
       std::numeric_limits<float>::quiet_NaN();  ///< of its clip; NaN where the file does not say
 };
 
-/// The people of a frame, by ascending id.
+/// Holds the people of a frame, by ascending id.
 struct WalkerFrame {
   std::int64_t frame = 0;
   std::vector<Walker> people;
@@ -66,7 +66,7 @@ class WalkerReader {
     std::int64_t frame;
     double x, y;
   };
-  /// What is known of a person: his last places, and how he walked last.
+  /// Holds what is known of a person: his last places, and how he walked last.
   struct Track {
     std::deque<Place> places;
     double heading = 0, phase = 0, way = 0, stature = 0;  ///< the latter where the file has none

@@ -17,7 +17,7 @@
 
 namespace bch::detail {
 
-/// The last stage of the pair kernel: traverses the trees of the pairs that no quicker stage decided, in
+/// Implements the last stage of the pair kernel: traverses the trees of the pairs that no quicker stage decided, in
 /// rounds. Each round tests one pair of blocks for every open pair, so that cache misses and latencies of
 /// many pairs overlap and no branch depends on an answer. Ancestors are tested only where leaves overlap.
 /// Most pairs end after a few rounds. The rest stay open until more pairs are added, because a round over
@@ -64,7 +64,7 @@ class OverlapTraversal {
 
   struct NoGaps {};
 
-  /// A pair being walked, with the two nodes to test next.
+  /// Represents a pair being walked, with the two nodes to test next.
   struct Open {
     Transform b_in_a;
     std::uint32_t a, b;
@@ -77,7 +77,7 @@ class OverlapTraversal {
     [[no_unique_address]] std::conditional_t<KnowsGaps<Simd>, Gaps, NoGaps> gaps;
   };
 
-  /// Two nodes whose discs overlap at the set bits (8 i + j: disc i of A, disc j of B), none of which was
+  /// Holds two nodes whose discs overlap at the set bits (8 i + j: disc i of A, disc j of B), none of which was
   /// followed yet.
   struct Frame {
     std::uint32_t a, b;

@@ -18,7 +18,7 @@
 
 namespace bch::detail {
 
-/// The pair query, written once. `Simd` is a Lanes<Arch> with bits(). Every float operation that decides an
+/// Implements the pair query, written once. `Simd` is a Lanes<Arch> with bits(). Every float operation that decides an
 /// answer is one of those listed in layout/base/rounding.hpp, or in Gaps, in that order, so that all instantiations and
 /// the scalar reference agree bit for bit; what only saves work is conservative.
 ///

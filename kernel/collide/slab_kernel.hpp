@@ -12,7 +12,7 @@
 
 namespace bch::detail {
 
-/// The pair query of bodies in slabs, and of bodies at different heights. A chunk of pairs is placed once; then each round
+/// Implements the pair query of bodies in slabs, and of bodies at different heights. A chunk of pairs is placed once; then each round
 /// takes the next pair of parts of every pair that has not collided yet through the stages of PairKernel, as if
 /// they were shapes. Those whose outlines may hold each other are looked at last.
 template <class Simd>
@@ -137,14 +137,14 @@ class SlabKernel {
     open_count_ = left;
   }
 
-  /// Two agents, and how the second lies in the first one's frame.
+  /// Holds two agents, and how the second lies in the first one's frame.
   struct Placed {
     Transform b_in_a;
     std::uint32_t agent_a, agent_b, shape_a, shape_b, level_a, level_b;
     std::uint32_t cursor;  ///< of SlabPairs
     double rise;           ///< metres from A's ground to B's
   };
-  /// Two parts of a pair.
+  /// Holds two parts of a pair.
   struct PartPair {
     std::uint16_t pair;
     std::uint32_t a, b;

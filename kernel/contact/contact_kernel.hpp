@@ -20,7 +20,7 @@
 
 namespace bch::detail {
 
-/// All pairs of cut discs that overlap with all their ancestors, and whose segments meet where these decide,
+/// Finds all pairs of cut discs that overlap with all their ancestors, and whose segments meet where these decide,
 /// one pair of agents after the other. Rows are discs of a pair's first agent, columns those of its second.
 /// Row windows are visited from left to right, each with the column nodes that the blocks above it left to
 /// it, so that contacts come in order but for the eight rows of a window, which are counted before they are
@@ -76,7 +76,7 @@ class ContactKernel {
     double margin;  ///< 0, or segments decide where leaves overlap: metres
   };
 
-  /// Nodes of the columns, from left to right.
+  /// Holds nodes of the columns, from left to right.
   struct Nodes {
     static constexpr std::uint32_t capacity = 32;
     std::uint32_t size = 0;

@@ -11,7 +11,7 @@
 
 namespace bch::detail {
 
-/// Pairs that were answered, and the rows that they become: of each agent, its partners in the pairs that hit. The
+/// Holds pairs that were answered, and the rows that they become: of each agent, its partners in the pairs that hit. The
 /// three passes below, one after the other; each may run at the same time on different ranges. In which order rows
 /// are filled depends on threads, what is in them does not, and sorting settles the rest.
 struct NeighbourRows {

@@ -13,7 +13,7 @@
 
 namespace bch::detail {
 
-/// The pairs of a task that a search for distances or times is left with, and where they are among those of the task.
+/// Holds the pairs of a task that a search for distances or times is left with, and where they are among those of the task.
 class ApartPairs {
  public:
   static constexpr std::size_t capacity = 1024;  ///< pairs of a task

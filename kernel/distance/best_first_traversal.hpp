@@ -13,14 +13,14 @@
 
 namespace bch::detail {
 
-/// Two nodes, not both windows, and the bounds of their pairs of discs.
+/// Holds two nodes, not both windows, and the bounds of their pairs of discs.
 struct NodePairBounds {
   alignas(64) float bound[block_pairs];
   std::uint64_t open;  ///< pairs that were not taken
   std::uint32_t a, b;
 };
 
-/// Branch and bound over two trees: the least value of all pairs of cut discs. `Measure` says what a value
+/// Finds by branch and bound over two trees the least value of all pairs of cut discs. `Measure` says what a value
 /// is:
 ///
 ///     Float bound(Float x, Float y, Float r)   of two discs as visit_disc_pairs() gives them, lane by lane:

@@ -16,7 +16,7 @@ constexpr float largest_limit = 1e10f;  ///< beyond the distance of any two agen
 
 constexpr std::uint32_t no_node = 0xffffffff;
 
-/// What is nearest to each other of two agents: two discs, or two segments of their outlines. The agent with the lower index is A.
+/// Holds what is nearest to each other of two agents: two discs, or two segments of their outlines. The agent with the lower index is A.
 struct NearestFeatures {
   float distance;  ///< metres
   bool are_segments;
@@ -27,7 +27,7 @@ struct NearestFeatures {
   float cosine, sine;  ///< A's heading
 };
 
-/// The input and output of a clearance kernel. These are plain pointers for the reason that Arguments states.
+/// Holds the input and output of a clearance kernel. These are plain pointers for the reason that Arguments states.
 struct ClearanceArguments {
   Arguments in;              ///< without codes; with exact_leaves, of which trees have segments
   float limit;               ///< distances above it are not looked for; below far_beyond

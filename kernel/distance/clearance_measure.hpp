@@ -13,7 +13,7 @@
 
 namespace bch::detail {
 
-/// The gap between two discs, in float:
+/// Measures the gap between two discs, in float:
 ///
 ///     v = sqrt(x^2 + y^2) * near - (r_A + r_B)            near = 1 - 2^-20
 ///
@@ -57,7 +57,7 @@ class ClearanceMeasure {
     look_within(nearest_);
   }
 
-  /// Discs by where they stand among the nodes, segments by where they begin among the points; or no_node.
+  /// Names discs by where they stand among the nodes, segments by where they begin among the points; or no_node.
   struct Nearest {
     float distance;
     bool are_discs;

@@ -18,8 +18,8 @@ namespace bch::detail {
 std::uint32_t leaf_that_holds(const ShapeSetView& shapes, std::size_t root, std::uint32_t point, double x,
                               double y);
 
-/// What a kernel found of two agents, and all outputs of it. What is computed here is so in double, where squares do not underflow, and from
-/// the positions themselves.
+/// Holds what a kernel found of two agents, and all outputs of it. What is computed here is so in double, where squares do not underflow,
+/// and from the positions themselves.
 class FoundFeatures {
  public:
   /// `pair`: the lower index first. Everything has to outlive this.
@@ -47,7 +47,7 @@ class FoundFeatures {
   struct Disc {
     double x, y, radius;
   };
-  /// A segment of an agent, in its frame, and the share of its length at which it is nearest to the other one.
+  /// Represents a segment of an agent, in its frame, and the share of its length at which it is nearest to the other one.
   struct Segment {
     Vector from, way;
     double share;

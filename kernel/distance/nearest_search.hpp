@@ -12,7 +12,7 @@
 
 namespace bch::detail {
 
-/// BestFirstTraversal for many pairs of agents side by side, so that latencies and cache misses of many
+/// Does what BestFirstTraversal does, for many pairs of agents side by side, so that latencies and cache misses of many
 /// overlap. Beside what that asks of a measure:
 ///
 ///     Mask may_improve(Float x, Float y, Float r)   false only where no disc below has a value up to best()
@@ -56,7 +56,7 @@ class NearestSearch {
   static constexpr std::uint32_t most_kept = 2;  ///< frames of a descent; deeper ones are walked at once
   static constexpr std::uint32_t list_capacity = 1024;
 
-  /// Two agents.
+  /// Holds two agents.
   struct Searched {
     Measure measure;
     Transform at;
@@ -64,7 +64,7 @@ class NearestSearch {
     std::uint32_t frames;
   };
 
-  /// Two nodes of such a pair.
+  /// Holds two nodes of such a pair.
   struct Step {
     std::uint32_t pair, a, b;
   };

@@ -13,13 +13,13 @@
 
 namespace bch::detail {
 
-/// The placement of two agents' shapes, and the margin of both, metres; see rounding.hpp, V.
+/// Holds the placement of two agents' shapes, and the margin of both, metres; see rounding.hpp, V.
 struct PlacedSegments {
   Transform b_in_a;
   double margin;
 };
 
-/// Exact leaves of clearance(): the gaps between segments that leaves hold, lane = pair of segments. In double, with B's ends as the
+/// Measures, for clearance(), the gaps between segments that exact leaves hold, lane = pair of segments. In double, with B's ends as the
 /// floats of the placement put them:
 ///
 ///     w = max(0, s * near - m)        near = 1 - 2^-21, then rounded to float

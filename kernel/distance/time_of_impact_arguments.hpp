@@ -7,7 +7,7 @@
 
 namespace bch::detail {
 
-/// The input and output of a time of impact kernel. These are plain pointers for the reason that Arguments
+/// Holds the input and output of a time of impact kernel. These are plain pointers for the reason that Arguments
 /// states. The agent of a pair with the lower index is A.
 struct TimeOfImpactArguments {
   Arguments in;        ///< without codes; pairs that do not collide now

@@ -15,7 +15,7 @@
 
 namespace bch::detail {
 
-/// The last stage of TimeOfImpactKernel: branch and bound over the trees of many pairs of agents, in rounds.
+/// Implements the last stage of TimeOfImpactKernel: branch and bound over the trees of many pairs of agents, in rounds.
 /// A round takes one step of every open pair, stage by stage, because a step of one pair is a chain of
 /// latencies, of which the processor looks ahead over few: bounds of two nodes' discs; the least of them;
 /// where that leads, the children below it or, of two windows, a time; and back to an earlier pair of nodes
@@ -62,7 +62,7 @@ class TimeOfImpactWalk {
   /// Every step descends on one side at least, and neither side has more levels than this.
   static constexpr std::uint32_t most_frames = 2 * most_wide_levels;
 
-  /// Two nodes and the bounds of their pairs of discs, far_beyond where they were followed.
+  /// Holds two nodes and the bounds of their pairs of discs, far_beyond where they were followed.
   struct Frame {
     alignas(64) float bound[block_pairs];
     std::uint32_t a, b;

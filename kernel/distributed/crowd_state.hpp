@@ -32,7 +32,7 @@ class Stopwatch {
   double begin_;
 };
 
-/// What a rank knows of a distributed crowd, and the steps of update() and of queries, which all ranks take together.
+/// Holds what a rank knows of a distributed crowd, and the steps of update() and of queries, which all ranks take together.
 struct CrowdState {
   CrowdState(MPI_Comm of, const ShapeSet& set, std::vector<CrowdAgent> mine,
              const DistributedCrowdOptions& how);

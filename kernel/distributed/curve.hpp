@@ -7,7 +7,7 @@
 
 namespace bch::detail {
 
-/// A square of the ground, by its place in rows and columns.
+/// Represents a square of the ground, by its place in rows and columns.
 struct Cell {
   std::int32_t x, y;
   friend bool operator==(Cell, Cell) = default;

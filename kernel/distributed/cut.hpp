@@ -15,12 +15,12 @@
 
 namespace bch::detail {
 
-/// What a place on the curve weighs: pairs, mostly.
+/// Holds what a place on the curve weighs: pairs, mostly.
 struct Weight {
   std::uint64_t key, weight;
 };
 
-/// A division of the curve among ranks: each rank owns the squares from its first key to the next rank's.
+/// Represents a division of the curve among ranks: each rank owns the squares from its first key to the next rank's.
 class Cut {
  public:
   /// `firsts`: of all ranks but rank 0, ascending.

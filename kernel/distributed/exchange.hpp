@@ -13,7 +13,7 @@
 
 namespace bch::detail {
 
-/// How MPI sends an agent: the fields that are needed, without what lies between them.
+/// Says how MPI sends an agent: the fields that are needed, without what lies between them.
 class AgentType {
  public:
   /// Describes an agent to MPI, with or without z and the pose.
@@ -30,7 +30,7 @@ class AgentType {
   MPI_Datatype type_;
 };
 
-/// A communicator of our own, so that nothing of the caller's is mixed with it.
+/// Represents a communicator of our own, so that nothing of the caller's is mixed with it.
 class OwnComm {
  public:
   explicit OwnComm(MPI_Comm of) { MPI_Comm_dup(of, &comm_); }
@@ -56,7 +56,7 @@ struct Outbox {
 void exchange_with_all(const OwnComm& comm, const AgentType& type, const Outbox& out,
                        std::vector<CrowdAgent>& in);
 
-/// The ranks that a rank exchanges halos with: where one sends to another, it gets from it, too, be it nothing.
+/// Holds the ranks that a rank exchanges halos with: where one sends to another, it gets from it, too, be it nothing.
 class NeighbourGraph {
  public:
   NeighbourGraph() = default;

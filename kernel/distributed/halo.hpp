@@ -35,13 +35,13 @@ class CellOwners {
   std::vector<Owner> table_;  ///< each square has one place, which it shares with others
 };
 
-/// An agent that another rank needs a copy of.
+/// Represents an agent that another rank needs a copy of.
 struct Copy {
   std::int32_t rank;
   std::uint32_t agent;
 };
 
-/// How far copies are needed, and of which squares.
+/// Says how far copies are needed, and of which squares.
 struct HaloReach {
   std::span<const double>
       of_shape;  ///< metres that an agent and any other may reach together, by the agent's shape

@@ -15,7 +15,7 @@
 
 namespace bch::detail {
 
-/// The shapes of a rank's agents and of the copies of others', one each, made of their poses on all threads. A set is built anew in
+/// Holds the shapes of a rank's agents and of the copies of others', one each, made of their poses on all threads. A set is built anew in
 /// the memory of the last one: how many agents a rank has changes from step to step.
 class PosedShapes {
  public:
@@ -36,7 +36,7 @@ class PosedShapes {
   std::span<const Character> characters() const { return characters_; }
 
  private:
-  /// What a thread makes shapes with: a shaper of each character that it came across.
+  /// Holds what a thread makes shapes with: a shaper of each character that it came across.
   using Shapers = std::vector<std::optional<PoseShaper>>;
 
   std::span<const Character> characters_;

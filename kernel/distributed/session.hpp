@@ -11,7 +11,7 @@ namespace bch::detail {
 /// Errors:  throws std::runtime_error with a line that says what there is.
 void require_threads(int provided);
 
-/// MPI from its initialisation to its end, for programs: one object, in main(). A program that ends without having come to
+/// Keeps MPI from its initialisation to its end, for programs: one object, in main(). A program that ends without having come to
 /// the end of its scope, by an error of one rank for instance, has to call abort().
 class Session {
  public:

@@ -16,7 +16,7 @@
 
 namespace bch::detail {
 
-/// All kernels compiled for the lanes of one instruction set. Each holds a
+/// Holds all kernels compiled for the lanes of one instruction set. Each holds a
 /// Simd::Guard, which cleans up on the way out. `Simd` has to be of an
 /// anonymous namespace, so that instruction sets share no function.
 template <class Simd>

@@ -14,7 +14,7 @@
 
 namespace bch::detail {
 
-/// A body at a time, in its own frame and in the steps of its chunk. Points of the world are seen from its position, metres.
+/// Represents a body at a time, in its own frame and in the steps of its chunk. Points of the world are seen from its position, metres.
 class BodyAt {
  public:
   BodyAt(const MovingBody& body, double time)

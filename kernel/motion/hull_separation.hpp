@@ -11,7 +11,7 @@
 
 namespace bch::detail {
 
-/// How far a body reaches in a direction of the world through an interval of time, from its position, times the direction's length: at
+/// Says how far a body reaches in a direction of the world through an interval of time, from its position, times the direction's length: at
 /// both ends, and by how much more than what lies evenly between these at most.
 ///
 /// Derivation: in the body's frame it reaches E(d, s) in direction d at a share s of the interval, at most, linear in s. It turns from

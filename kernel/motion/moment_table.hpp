@@ -10,7 +10,7 @@
 
 namespace bch::detail {
 
-/// A body at a time of its clip. Equal moments look the same.
+/// Represents a body at a time of its clip. Equal moments look the same.
 struct Moment {
   static constexpr std::uint32_t nobody = 0xffffffff;
 

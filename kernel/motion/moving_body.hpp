@@ -16,7 +16,7 @@ namespace bch::detail {
 /// What positions are off by, for each metre a second, metre of a coordinate, and metre of the reaches; see ContactSearch.
 constexpr double time_rounding = 0x1p-27, position_rounding = 0x1p-48, root_rounding = 0x1p-20;
 
-/// What a search wants to know of a motion beforehand, or of a slab of its body.
+/// Holds what a search wants to know of a motion beforehand, or of a slab of its body.
 struct MotionFacts {
   const AnimatedTree* tree;
   std::span<const PathKey> path;
@@ -29,7 +29,7 @@ struct MotionFacts {
   MotionFacts(const Motion& motion, const AnimatedShape& body);
 };
 
-/// A motion at times that ascend: which keys of its path and of its clip a time lies between.
+/// Represents a motion at times that ascend: which keys of its path and of its clip a time lies between.
 class MovingBody {
  public:
   explicit MovingBody(const MotionFacts& facts) : facts_(&facts) {}

@@ -8,7 +8,7 @@
 
 namespace bch::detail {
 
-/// A disc that moves straight on for a time from 0 to 1: where it begins, and how far it comes.
+/// Represents a disc that moves straight on for a time from 0 to 1: where it begins, and how far it comes.
 struct MovingDisc {
   double x, y, radius;
   double way_x, way_y, growth;

@@ -14,8 +14,8 @@
 
 namespace bch::detail {
 
-/// The nodes of a moving body over an interval within which its path goes straight on, it turns evenly, and its discs move straight on
-/// from key to key: each as a disc that moves straight on from where it is in the beginning to where it is in the end. What
+/// Holds the nodes of a moving body over an interval within which its path goes straight on, it turns evenly, and its discs move straight
+/// on from key to key: each as a disc that moves straight on from where it is in the beginning to where it is in the end. What
 /// turning makes of that is at most bend() away from it.
 ///
 /// Derivation: a centre is p(s) = R(h + turn s) (c + way s), 0 <= s <= 1, beside the straight way of the body. Its second derivative

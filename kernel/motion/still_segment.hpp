@@ -9,14 +9,15 @@
 
 namespace bch::detail {
 
-/// A segment that stands still: its ends, the unit vector from the one to the other, its length, and what its coordinates are off by.
+/// Represents a segment that stands still: its ends, the unit vector from the one to the other, its length, and what its coordinates are
+/// off by.
 struct StillSegment {
   double ax, ay, bx, by;
   double x, y, length;
   double slack;
 };
 
-/// The times of 0 to `last` at which all of some linear functions are not below 0.
+/// Holds the times of 0 to `last` at which all of some linear functions are not below 0.
 class TimesAbove {
  public:
   explicit TimesAbove(double last) noexcept : end_(last) {}

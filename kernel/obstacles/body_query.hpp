@@ -19,7 +19,7 @@ inline double outer_radius(const ShapeSetView& shapes, std::uint32_t root) noexc
   return double{shapes.trees == nullptr ? shapes.roots[root].radius : shapes.trees[root].outer};
 }
 
-/// A part of an agent's body.
+/// Represents a part of an agent's body.
 struct PlacedPart {
   const ShapeSetView& shapes;
   ObstaclePlace place;
@@ -35,10 +35,10 @@ struct PlacedPart {
 
 constexpr std::uint32_t no_obstacle = 0xffffffff;
 
-/// Which segments are looked for at first: those that touch a part, or those that the nearest one is among.
+/// Selects which segments are looked for at first: those that touch a part, or those that the nearest one is among.
 enum class Look { touching, nearest };
 
-/// The stages that answer an agent's queries against obstacles; it keeps its memory from agent to agent.
+/// Implements the stages that answer an agent's queries against obstacles; it keeps its memory from agent to agent.
 class BodyQuery {
  public:
   BodyQuery(const Implementation& implementation, const ShapeSetView& shapes, const Agents& agents,
@@ -61,7 +61,7 @@ class BodyQuery {
     for (std::size_t i = first_part_[agent - begin_]; i < end; ++i) visit(parts_[i]);
   }
 
-  /// The meaning of collide().
+  /// Holds the meaning of collide().
   struct Meaning {
     bool exact_leaves, solid;
   };
@@ -116,7 +116,7 @@ class BodyQuery {
   const ShapeSetView& shapes_;
   const Agents& agents_;
   NearSegments near_;
-  /// A part that was not left out, and how far it looks.
+  /// Represents a part that was not left out, and how far it looks.
   struct Chosen {
     std::uint32_t agent, part;
     double looked;

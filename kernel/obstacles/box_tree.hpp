@@ -14,7 +14,7 @@ struct BoxBlock {
 
 constexpr std::uint32_t most_box_levels = 11;  ///< 8^11 is 2^33 boxes
 
-/// A tree of boxes in the order of its leaves, eight children a node: child i of block b is block 8 b + i of the level below, of
+/// Represents a tree of boxes in the order of its leaves, eight children a node: child i of block b is block 8 b + i of the level below, of
 /// level 0 box 8 b + i of what the tree was made of.
 struct BoxTreeView {
   const BoxBlock* blocks;
@@ -22,12 +22,12 @@ struct BoxTreeView {
   std::uint32_t levels;  ///< 0: there are no boxes
 };
 
-/// A rectangle of the world, metres.
+/// Represents a rectangle of the world, metres.
 struct Box {
   double low_x, low_y, high_x, high_y;
 };
 
-/// A node of a tree, or one of its boxes, and the number of the query that asks about it.
+/// Represents a node of a tree, or one of its boxes, and the number of the query that asks about it.
 struct BoxHit {
   std::uint32_t query, place;
 };

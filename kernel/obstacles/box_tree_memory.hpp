@@ -12,7 +12,7 @@
 
 namespace bch::detail {
 
-/// A tree of boxes and its memory; it does not move.
+/// Represents a tree of boxes and its memory; it does not move.
 struct BoxTreeMemory {
   explicit BoxTreeMemory(std::span<const Box> boxes);
   BoxTreeMemory(const BoxTreeMemory&) = delete;

@@ -12,7 +12,7 @@
 
 namespace bch::detail {
 
-/// A grid of distances and its memory; it does not move.
+/// Represents a grid of distances and its memory; it does not move.
 struct DistanceGridMemory {
   /// `segments`: in the order of the tree of their boxes.
   DistanceGridMemory(const BoxTreeView& tree, const std::vector<WorldSegment>& segments);

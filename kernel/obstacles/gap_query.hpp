@@ -15,7 +15,7 @@
 
 namespace bch::detail {
 
-/// The nearest obstacle of an agent's parts so far.
+/// Holds the nearest obstacle of an agent's parts so far.
 struct NearestObstacle {
   double gap;  ///< metres; of nothing found, the limit
   /// What is nearest of the part: a segment of its outline by the point where it begins, or no_point and a disc of its cut.
@@ -30,14 +30,14 @@ struct NearestObstacle {
 void put(const ShapeSetView& shapes, const ClearanceAnswers& answers, std::size_t i,
          const NearestObstacle& nearest);
 
-/// The distances of agents from obstacles: what clearance() and within() share.
+/// Measures the distances of agents from obstacles: what clearance() and within() share.
 class GapQuery {
  public:
   /// `exact_leaves`: outlines are measured where shapes have exact leaves, else discs.
   GapQuery(const Implementation& implementation, const ShapeSetView& shapes, bool exact_leaves) noexcept
       : implementation_(implementation), shapes_(shapes), exact_leaves_(exact_leaves) {}
 
-  /// What counts as near enough beside gaps.
+  /// Selects what counts as near enough beside gaps.
   struct Inside {
     bool areas;     ///< an area that holds the agent
     bool outlines;  ///< a path that the agent's outline holds

@@ -15,7 +15,7 @@
 
 namespace bch::detail {
 
-/// The position of an agent, and how it is turned.
+/// Holds the position of an agent, and how it is turned.
 struct ObstaclePlace {
   double x, y;
   Rotation turn;
@@ -32,7 +32,7 @@ struct ObstaclePlace {
   }
 };
 
-/// A disc that is asked about, of an agent's frame.
+/// Represents a disc that is asked about, of an agent's frame.
 struct NearQuery {
   ObstaclePlace place;
   Vec2 centre;

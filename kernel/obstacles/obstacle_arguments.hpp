@@ -10,7 +10,7 @@
 
 namespace bch::detail {
 
-/// A part of an agent and segments of obstacles in that agent's frame.
+/// Represents a part of an agent and segments of obstacles in that agent's frame.
 struct ObstacleArguments {
   const ShapeSetView* shapes;
   std::uint32_t root;  ///< of the part's level
@@ -21,8 +21,8 @@ struct ObstacleArguments {
 
 constexpr std::uint32_t no_disc = 0xffffffff, no_point = 0xffffffff;
 
-/// The smallest gap found so far. Of equal gaps the outline's segment with the lower number counts, any of them before discs, then the disc with
-/// the lower number, then the obstacle's segment.
+/// Holds the smallest gap found so far. Of equal gaps the outline's segment with the lower number counts, any of them before discs, then
+/// the disc with the lower number, then the obstacle's segment.
 struct ObstacleGap {
   double gap;            ///< metres
   std::uint32_t point;   ///< where the outline's segment begins, of ShapeSetView::points; no_point: of a disc

@@ -16,8 +16,8 @@
 
 namespace bch::detail {
 
-/// The tree of a part of a body against segments of obstacles, in double; see LocalSegment. Eight discs are compared with a segment at a
-/// time.
+/// Tests the tree of a part of a body against segments of obstacles, in double; see LocalSegment. Eight discs are compared with a segment
+/// at a time.
 template <class Simd>
 class ObstacleKernel {
  public:
@@ -158,7 +158,7 @@ class ObstacleKernel {
     return most;
   }
 
-  /// A block, and the bounds of what is below its nodes.
+  /// Holds a block, and the bounds of what is below its nodes.
   struct Frame {
     alignas(64) double bound[block_width];
     std::uint32_t node, open;

@@ -10,8 +10,8 @@
 
 namespace bch::detail {
 
-/// A segment of an agent's outline beside one of an obstacle: whether they meet, and how far apart they are. All in double, in the coordinates
-/// along the obstacle's segment and across it. (`Simd` keeps instruction sets from sharing a function.)
+/// Compares a segment of an agent's outline with one of an obstacle: whether they meet, and how far apart they are. All in double, in the
+/// coordinates along the obstacle's segment and across it. (`Simd` keeps instruction sets from sharing a function.)
 ///
 /// With s the least distance of an end from the other segment, 0 where they cross, m the outline's margin of exact leaves and
 /// slack that of LocalSegment,

@@ -9,7 +9,7 @@
 
 namespace bch::detail {
 
-/// The tree of a part's level, also of a set of single discs, which stores none: a window of the one disc then stands for it.
+/// Holds the tree of a part's level, also of a set of single discs, which stores none: a window of the one disc then stands for it.
 /// (`Simd` keeps instruction sets from sharing a function.)
 template <class Simd>
 struct PartTree {

@@ -11,7 +11,7 @@
 
 namespace bch::detail {
 
-/// A segment of an obstacle in the frame of an agent, by its line: `along` it and `across` it are the coordinates of a point.
+/// Represents a segment of an obstacle in the frame of an agent, by its line: `along` it and `across` it are the coordinates of a point.
 ///
 /// Rounding, in the notation of layout/base/rounding.hpp. All is done in double, with headings that are within 3e-10 of the exact
 /// ones, which moves what is within the reach P of an agent by 0.006 u P: published radii have room for 16.5 u P of queries
@@ -58,7 +58,7 @@ struct LocalSegment {
 constexpr double slack_share = 0x1p-49;
 static_assert(slack_share >= 2 * 8 * 0x1p-53);
 
-/// A segment in the world: its ends, the unit vector from the one to the other, which is (1, 0) where they are the same, and its
+/// Represents a segment in the world: its ends, the unit vector from the one to the other, which is (1, 0) where they are the same, and its
 /// length, metres.
 struct WorldSegment {
   double ax, ay, bx, by;
@@ -66,7 +66,7 @@ struct WorldSegment {
   std::uint32_t number, obstacle;
 };
 
-/// All of an ObstacleSet. A slot is a segment's place in the tree, a number that in the caller's arrays.
+/// Holds all of an ObstacleSet. A slot is a segment's place in the tree, a number that in the caller's arrays.
 struct ObstacleView {
   BoxTreeView segment_tree, area_tree;  ///< of the boxes of segments and of areas
   DistanceGridView distance_grid;       ///< of the segments

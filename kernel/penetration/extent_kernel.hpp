@@ -10,7 +10,7 @@
 
 namespace bch::detail {
 
-/// The interval that discs take along axes: low = min(c . e - r), high = max(c . e + r), with c . e = x ex + y ey. Every
+/// Measures the interval that discs take along axes: low = min(c . e - r), high = max(c . e + r), with c . e = x ex + y ey. Every
 /// disc is one lane of one register or of two: smallest and largest do not mind.
 template <class Simd>
 class ExtentKernel {

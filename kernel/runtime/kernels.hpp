@@ -23,13 +23,13 @@ struct ObstacleArguments;
 struct ObstacleGap;
 struct TimeOfImpactArguments;
 
-/// The lowest agent of some, and the highest. Of none, the lowest is above the
+/// Holds the lowest agent of some, and the highest. Of none, the lowest is above the
 /// highest.
 struct AgentRange {
   std::uint32_t low, high;
 };
 
-/// The kernels of one instruction set.
+/// Holds the kernels of one instruction set.
 struct Kernels {
   unsigned width;  ///< floats side by side
   /// Returns whether agents begin .. end are valid, as collide() requires.

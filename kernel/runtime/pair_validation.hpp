@@ -22,7 +22,7 @@ constexpr std::size_t pairs_per_task = 2048;
 /// Errors:  throws std::invalid_argument naming the query where this processor does not run it.
 const Implementation& chosen(const QueryOptions& options, const char* query);
 
-/// What a query answers, and how many of them.
+/// Holds what a query answers, and how many of them.
 struct Asked {
   const char* query;
   const char* one;  ///< "pair" or "agent"

@@ -22,11 +22,11 @@ inline bool asks_parts(const ShapeSetView& shapes, const Agents& agents) noexcep
 /// Returns the same set with its parts as shapes.
 ShapeSetView parts_as_shapes(const ShapeSetView& shapes) noexcept;
 
-/// Pairs of parts as pairs of agents of a set whose shapes are parts, for kernels that know nothing of slabs. The items of a pair
+/// Holds pairs of parts as pairs of agents of a set whose shapes are parts, for kernels that know nothing of slabs. The items of a pair
 /// follow each other, each two parts once; of each the agent of the lower index is that of the pair.
 class PartItems {
  public:
-  /// An item's pair, and where its parts are: slabs, and the numbers of their first discs among those of their bodies.
+  /// Represents an item's pair, and where its parts are: slabs, and the numbers of their first discs among those of their bodies.
   struct Origin {
     std::uint32_t pair;
     std::uint32_t slab_a, slab_b;

@@ -12,7 +12,7 @@
 
 namespace bch::detail {
 
-/// Two trees, and how the second lies in the first one's frame.
+/// Holds two trees, and how the second lies in the first one's frame.
 struct PlacedTrees {
   const Transform& b_in_a;
   const Tree& a;
@@ -20,7 +20,7 @@ struct PlacedTrees {
   float reach;  ///< of the two shapes together
 };
 
-/// The numbers of inner nodes on the way from a cut disc up to the root, sixteen at a time. Where there are
+/// Holds the numbers of inner nodes on the way from a cut disc up to the root, sixteen at a time. Where there are
 /// fewer, the root stands for the rest. (`Simd` keeps instruction sets from sharing a function.)
 template <class Simd>
 struct AncestorPath {

@@ -16,7 +16,7 @@ struct ShapeSetView;
 /// Pairs that a kernel takes through its stages together.
 constexpr std::uint32_t chunk_size = 256;
 
-/// What a pair kernel reads and writes: plain pointers only, because every inline function that an ISA's
+/// Holds what a pair kernel reads and writes: plain pointers only, because every inline function that an ISA's
 /// object shares with other objects might be the copy that the linker keeps, compiled for a processor that is
 /// not there.
 struct Arguments {
@@ -37,7 +37,7 @@ struct Arguments {
   bool prefetch_agents = false, prefetch_shapes = false;
 };
 
-/// The result of a kernel for a pair.
+/// Tells the result of a kernel for a pair.
 enum Code : std::uint8_t {
   apart = 0,    ///< the cuts do not overlap, and neither outline holds the other, or that is not asked for
   overlap = 1,  ///< discs of the cuts overlap, or come within the distance of the pair

@@ -7,7 +7,7 @@
 
 namespace bch::detail {
 
-/// Some of a chunk's pairs. (`Simd` also keeps instruction sets from sharing a function.)
+/// Holds some of a chunk's pairs. (`Simd` also keeps instruction sets from sharing a function.)
 template <class Simd, std::uint32_t capacity>
 struct ChunkPairs {
   static constexpr std::uint32_t padding = 16;     ///< lanes of the widest register
@@ -40,7 +40,7 @@ struct ChunkPairs {
     rest.size = kept;
   }
 
-  /// The result of a test for a pair, bits.
+  /// Holds the result of a test for a pair, bits.
   struct Verdict {
     std::uint32_t leaves;    ///< this list
     std::uint32_t is_moved;  ///< of those that leave it, else forgotten

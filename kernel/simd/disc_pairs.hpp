@@ -19,7 +19,7 @@ std::uint32_t overlaps(Float bx, Float by, Float br, Float ax, Float ay, Float a
   return Simd::bits(x * x + y * y <= r * r);
 }
 
-/// The location of eight discs: their x, and the distance in floats to each y and radius. The functions are
+/// Holds the location of eight discs: their x, and the distance in floats to each y and radius. The functions are
 /// always inlined, so that instruction sets share no function.
 struct Discs {
   const float* x;
@@ -100,7 +100,7 @@ template <class Simd, unsigned count = block_width>
   return bits;
 }
 
-/// One of those pairs, by the same operations.
+/// Places one of those pairs by the same operations.
 struct PlacedPair {
   float x, y, r;
 };

@@ -7,7 +7,7 @@
 
 namespace bch::detail {
 
-/// The gaps between discs of a pair up to which within() says 1 and looks further.
+/// Holds the gaps between discs of a pair up to which within() says 1 and looks further.
 ///
 /// Notation of layout/base/rounding.hpp; d is the distance of the question, r = r_A + r_B, and of two leaf discs, alone,
 ///

@@ -15,7 +15,7 @@ template <class Simd>
 struct LeafSegments {
   const std::uint32_t* words;  ///< ShapeSetView::leaf_segments
 
-  /// The segments of a leaf, by the points where they begin.
+  /// Holds the segments of a leaf, by the points where they begin.
   struct List {
     std::uint32_t first, count;   ///< 0: more than 127, so that the disc decides
     const std::uint32_t* listed;  ///< counted from the first; null: they follow each other

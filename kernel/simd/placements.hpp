@@ -18,7 +18,7 @@
 
 namespace bch::detail {
 
-/// The placements of the agents of a chunk of pairs: B seen from A, side by side. This is the first stage of
+/// Computes the placements of the agents of a chunk of pairs: B seen from A, side by side. This is the first stage of
 /// the pair kernel.
 template <class Simd>
 class Placements {

@@ -16,7 +16,7 @@ namespace bch::detail {
 template <class Simd>
 class ProfileTest {
  public:
-  /// The answers for a register's pairs.
+  /// Holds the answers for a register's pairs.
   struct Answers {
     std::uint32_t apart = 0;     ///< a line separates the cuts, by more than the gap
     std::uint32_t meet = 0;      ///< areas of the largest contours meet, or are within the gap of each other

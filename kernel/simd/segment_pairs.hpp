@@ -13,7 +13,7 @@
 
 namespace bch::detail {
 
-/// Geometry of two segments in double, lane = pair: p of A, and q of B as the floats of a placement put it into A's frame. Every
+/// Holds the geometry of two segments in double, lane = pair: p of A, and q of B as the floats of a placement put it into A's frame. Every
 /// operation is of a fixed sequence, which baselines/ writes down again; layout/base/rounding.hpp, V, derives what they are off by.
 template <class Simd>
 struct SegmentPair {
@@ -22,7 +22,7 @@ struct SegmentPair {
 
   Point p0, p1, q0, q1;
 
-  /// The sides of the line of one segment on which the ends of another lie.
+  /// Holds the sides of the line of one segment on which the ends of another lie.
   struct Sides {
     Double high, low;  ///< of both ends, the larger and the smaller
     Double margin;     ///< what counts at least as the margin's distance from the line

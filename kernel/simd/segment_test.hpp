@@ -13,7 +13,7 @@
 
 namespace bch::detail {
 
-/// The relation of two segments.
+/// Tells the relation of two segments.
 enum class Meeting : std::uint8_t {
   none,
   near,  ///< they come within the margin of each other
@@ -27,7 +27,7 @@ double segment_margin(const ShapeSetView& shapes, std::uint32_t shape_a, std::ui
   return of_a + of_b;
 }
 
-/// Exact leaves: tests whether segments of leaves meet, lane = pair.
+/// Tests exact leaves: whether segments of leaves meet, lane = pair.
 /// Every operation is one in double of a fixed sequence, which baselines/ writes down again;
 /// layout/base/rounding.hpp, V, says why no two outlines that meet are missed.
 template <class Simd, class Placed>

@@ -5,7 +5,7 @@
 
 namespace bch::detail {
 
-/// A point, or a register of points.
+/// Represents a point, or a register of points.
 template <class Float>
 struct PointIn {
   Float x, y;

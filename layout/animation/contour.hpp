@@ -14,7 +14,7 @@
 
 namespace bch::detail {
 
-/// A closed way round a contour, counter-clockwise, by points at even distances. It cuts corners by less than its step.
+/// Represents a closed way round a contour, counter-clockwise, by points at even distances. It cuts corners by less than its step.
 struct EvenContour {
   std::vector<PlanePoint> points;
   /// Per point, a vector to the left of the way: of length 1 where it is straight, shorter in bends, 0 where it turns back.
@@ -36,7 +36,7 @@ double depth_in(std::span<const Vec2> contour, const PlanePoint& p);
 /// Returns how deep a point lies inside the contour of an outline where it is deepest; less than 0 outside of all.
 double depth_in(const Outline& outline, const PlanePoint& p);
 
-/// A point of a contour, and where it is expected on another one.
+/// Represents a point of a contour, and where it is expected on another one.
 struct ExpectedPoint {
   PlanePoint position, inward;
 };

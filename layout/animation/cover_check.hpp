@@ -44,7 +44,7 @@ class CoverCheck {
   void hold(AnimatedChunk& chunk, const MovingMesh& mesh);
 
  private:
-  /// A point that moves evenly through a window.
+  /// Represents a point that moves evenly through a window.
   struct Moving {
     PlanePoint a, b;
   };

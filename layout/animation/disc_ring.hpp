@@ -12,7 +12,7 @@
 
 namespace bch::detail {
 
-/// A contour at the time of a key, and how vertices on it move.
+/// Represents a contour at the time of a key, and how vertices on it move.
 struct KeyContour {
   double time = 0;
   EvenContour way;

@@ -14,7 +14,7 @@ namespace bch::detail {
 
 using TriangleList = std::vector<std::array<std::uint32_t, 3>>;
 
-/// A body's vertices at the time of a key.
+/// Represents a body's vertices at the time of a key.
 struct KeyPose {
   float seconds = 0;
   std::vector<Vec2> vertices;

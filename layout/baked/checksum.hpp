@@ -17,13 +17,13 @@ namespace bch::detail::baked {
 std::uint64_t checksum(Preamble preamble);
 std::uint64_t checksum(std::span<const std::byte> section_with_zeros);
 
-/// What a stream has left, up to its end.
+/// Holds what a stream has left, up to its end.
 struct StreamChecksum {
   std::uint64_t bytes, checksum;
 };
 StreamChecksum checksum(std::istream& stream);
 
-/// A section's checksum, 64 bits of XXH3, computed piece by piece. The code that reads a piece next finds it
+/// Computes a section's checksum, 64 bits of XXH3, piece by piece. The code that reads a piece next finds it
 /// in a near cache, and a large section is read from memory once.
 class SectionChecksum {
  public:

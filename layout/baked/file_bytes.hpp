@@ -12,7 +12,7 @@
 
 namespace bch::detail {
 
-/// A file's bytes, from a cache line on, as long as `memory` lives.
+/// Represents a file's bytes, from a cache line on, as long as `memory` lives.
 struct FileBytes {
   std::span<const std::byte> bytes;
   std::shared_ptr<const void> memory;

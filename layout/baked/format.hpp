@@ -13,7 +13,7 @@
 
 #include "layout/format/shape_arrays.hpp"
 
-/// The baked file: a shape set as it lies in memory.
+/// Describes the baked file: a shape set as it lies in memory.
 ///
 /// Numbers have the byte order and the representation of the machine that wrote the file: IEEE 754 floats, two's
 /// complement, no padding inside records. A file is
@@ -165,7 +165,7 @@ struct Preamble {
 };
 static_assert(sizeof(Preamble) == sizeof(FileHeader) + section_count * sizeof(SectionEntry));
 
-/// A clip; names by their index, that of the clip 2^32 - 1 where it has none.
+/// Represents a clip; names by their index, that of the clip 2^32 - 1 where it has none.
 struct ClipRecord {
   std::uint32_t character, clip;
   std::uint32_t loops;  ///< 0 or 1
@@ -173,7 +173,7 @@ struct ClipRecord {
   Heights heights;
 };
 
-/// A chunk of a clip.
+/// Represents a chunk of a clip.
 struct ChunkRecord {
   std::uint32_t keys, discs, rings;
   std::int32_t step;  ///< numbers are in disc_steps, times 2^step; or float_step
@@ -181,7 +181,7 @@ struct ChunkRecord {
 constexpr std::int32_t float_step = std::numeric_limits<std::int32_t>::max();
 constexpr std::int32_t least_step = -149, largest_step = 20;  ///< of steps that can be
 
-/// The sections of clips.
+/// Holds the sections of clips.
 struct ClipArrays {
   std::span<const ClipRecord> clips;
   std::span<const float> clip_planes;
@@ -193,7 +193,7 @@ struct ClipArrays {
   std::span<const float> disc_floats;
 };
 
-/// All sections of a file.
+/// Holds all sections of a file.
 struct Arrays {
   ShapeArrays shapes;
   std::span<const Settings> settings;

@@ -16,7 +16,7 @@
 
 namespace bch::detail {
 
-/// A set as the bytes of a baked file (format.hpp), without a copy of its arrays.
+/// Represents a set as the bytes of a baked file (format.hpp), without a copy of its arrays.
 class BakedImage {
  public:
   /// The set has to outlive this.

@@ -13,7 +13,7 @@
 
 namespace bch::detail {
 
-/// What a child process may take, and when it ends.
+/// Holds what a child process may take, and when it ends.
 struct ChildLimits {
   std::chrono::milliseconds cpu_time{60'000};
   /// Bytes of address space beyond what this process has when the child begins. Builds with sanitizers, which need
@@ -22,7 +22,7 @@ struct ChildLimits {
   bool ends_with_thread = false;  ///< with the one that made it, too
 };
 
-/// A child process that reads what is not trusted, and says through a pipe what it found. It writes to nothing else, and is ended and
+/// Runs a child process that reads what is not trusted, and says through a pipe what it found. It writes to nothing else, and is ended and
 /// waited for at the latest when this goes.
 /// Errors:  throws std::runtime_error where there can be no child.
 /// Threads: the child has the caller's thread alone. A lock of a library other than the C library that another thread holds at that

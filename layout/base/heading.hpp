@@ -5,13 +5,13 @@
 
 namespace bch::detail {
 
-/// Cosine and sine of a heading.
+/// Holds cosine and sine of a heading.
 struct Rotation {
   double cosine = 1;
   double sine = 0;
 };
 
-/// A rotation's cosine and sine in float, as queries use them.
+/// Represents a rotation's cosine and sine in float, as queries use them.
 struct UnitVector {
   float cosine = 1;
   float sine = 0;
@@ -25,7 +25,7 @@ Rotation rotation(double heading) noexcept;
 /// Returns the rotation rounded to float: each part is within 2^-25 (1 + 2^-7) of the exact one.
 UnitVector unit_vector(double heading) noexcept;
 
-/// The constants and the order of operations that rotation() and the SIMD kernels share. Reduction to
+/// Holds the constants and the order of operations that rotation() and the SIMD kernels share. Reduction to
 /// [-pi/4, pi/4] after Cody and Waite: pi/2 in parts of 23 bits, whose products with a quadrant number below
 /// 2^30 are exact. Then Taylor's polynomials; the first term left out is below 7e-12 for the sine and 2e-10
 /// for the cosine.

@@ -10,7 +10,7 @@
 
 namespace bch::detail {
 
-/// What some code was compiled for.
+/// Says what some code was compiled for.
 struct InstructionSet {
   const char* name;
   bool (*supported)() noexcept;  ///< whether this processor and its operating system run it

@@ -10,7 +10,7 @@
 
 namespace bch::detail {
 
-/// A point or a vector of the ground plane in double, metres.
+/// Represents a point or a vector of the ground plane in double, metres.
 struct PlanePoint {
   double x = 0, y = 0;
 

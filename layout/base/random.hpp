@@ -7,7 +7,7 @@
 
 namespace bch::detail {
 
-/// splitmix64 (Steele, Lea, Flood 2014): the same numbers everywhere for a seed, where the distributions of
+/// Implements splitmix64 (Steele, Lea, Flood 2014): the same numbers everywhere for a seed, where the distributions of
 /// the standard library differ between vendors.
 class Random {
  public:

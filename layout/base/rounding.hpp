@@ -149,7 +149,7 @@ namespace bch::detail::rounding {
 
 constexpr double unit_roundoff = 0x1p-24;
 
-/// The terms of the derivation above, in units of unit_roundoff.
+/// Holds the terms of the derivation above, in units of unit_roundoff.
 namespace terms {
 
 constexpr double root_2 = 1.41421357;  // rounded up

@@ -9,7 +9,7 @@
 
 namespace bch::detail {
 
-/// An affine map, row by row: three of its linear part, each with what it adds. Joints are placed one after the
+/// Represents an affine map, row by row: three of its linear part, each with what it adds. Joints are placed one after the
 /// other, so that a product's latency counts: this one is a third of Eigen's.
 struct AffineRows {
   alignas(16) double row[3][4] = {{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}};

@@ -9,7 +9,7 @@
 
 namespace bch::detail {
 
-/// What the norm of a quantity that changes in time and those of its first and second derivatives are at most.
+/// Bounds the norm of a quantity that changes in time, and those of its first and second derivatives.
 struct MotionBound {
   double value = 0, speed = 0, acceleration = 0;
 };

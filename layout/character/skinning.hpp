@@ -36,7 +36,7 @@ class Skinner {
   const Character& character() const noexcept { return *character_; }
 
  private:
-  /// A joint relative to its parent where no clip moves it, and its linear part's factors.
+  /// Represents a joint relative to its parent where no clip moves it, and its linear part's factors.
   struct Rest {
     AffineRows whole, rotation, scaling;
   };

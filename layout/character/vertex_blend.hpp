@@ -17,12 +17,12 @@
 
 namespace bch::detail {
 
-/// A mesh that its bones move: each vertex goes to the mean of where they take it, weighted. What does not depend
+/// Represents a mesh that its bones move: each vertex goes to the mean of where they take it, weighted. What does not depend
 /// on the pose is done once: a vertex is multiplied by its weights, so that every bone adds one product, and
 /// vertices of equally many bones stand together, so that how many is no surprise.
 class VertexBlend {
  public:
-  /// One of a map's three, or a vertex and 1.
+  /// Represents one of a map's three, or a vertex and 1.
   struct alignas(16) Row {
     float at[4];
   };
@@ -39,7 +39,7 @@ class VertexBlend {
   std::optional<std::uint32_t> blend(std::span<const AffineRows> maps, std::span<Vec2> positions);
 
  private:
-  /// Vertices that so many bones move, up to `end` of the order.
+  /// Holds vertices that so many bones move, up to `end` of the order.
   struct Run {
     std::uint32_t bones, end;
   };

@@ -11,7 +11,7 @@
 
 namespace bch::detail {
 
-/// A contour's distances from points, and its winding numbers about them.
+/// Represents a contour's distances from points, and its winding numbers about them.
 struct ContourDepths {
   alignas(64) std::array<double, most_touches> distance;
   /// How often the contour goes round the point, counter-clockwise: 1 inside. Without meaning on the contour.

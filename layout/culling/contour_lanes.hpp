@@ -15,7 +15,7 @@
 
 namespace bch::detail {
 
-/// Some of a contour's segments, seen from a centre, with what can be computed of them without a branch.
+/// Holds some of a contour's segments, seen from a centre, with what can be computed of them without a branch.
 template <class Simd>
 class ContourLanes {
  public:

@@ -14,7 +14,7 @@
 
 namespace bch::detail {
 
-/// Discs side by side; whole registers may be read from `count` - 1 on.
+/// Holds discs side by side; whole registers may be read from `count` - 1 on.
 struct DiscRun {
   const float *x, *y, *radius;
   std::uint32_t count;

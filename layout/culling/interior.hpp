@@ -17,7 +17,7 @@
 
 namespace bch::detail {
 
-/// The data by which a query accepts a pair without a traversal of its trees. All of it belongs to the
+/// Holds the data by which a query accepts a pair without a traversal of its trees. All of it belongs to the
 /// outline's largest contour.
 ///
 /// The contours' areas meet where a disc inside one contour overlaps a disc inside another. Then either the
@@ -60,7 +60,7 @@ class InteriorBuilder {
 
  private:
   using Contour = std::span<const Vec2>;
-  /// A map from metres to cells of the raster: (metres - x) / cell.
+  /// Represents a map from metres to cells of the raster: (metres - x) / cell.
   struct Frame {
     double x, y, cell;
   };

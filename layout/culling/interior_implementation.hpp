@@ -13,14 +13,14 @@
 
 namespace bch::detail {
 
-/// What the loops behind interior.hpp work on: plain pointers, because nothing of the standard library may be
+/// Holds what the loops behind interior.hpp work on: plain pointers, because nothing of the standard library may be
 /// compiled for wide registers.
 struct ContourPoints {
   const float *x, *y;
   std::size_t count;
 };
 
-/// Points that each have a lane: whole registers are read and written, of which only the first `count` lanes
+/// Holds points that each have a lane: whole registers are read and written, of which only the first `count` lanes
 /// matter. Their arrays have room for most_touches.
 struct PointLanes {
   const float *x, *y;
@@ -41,7 +41,7 @@ struct LineLanes {
 /// A raster's words, each a row and a bit for each of its cells.
 constexpr std::uint32_t raster_rows = 32;
 
-/// One compilation of interior_lanes.hpp, which says what the loops do.
+/// Represents one compilation of interior_lanes.hpp, which says what the loops do.
 struct InteriorLoops {
   void (*keep_out)(const ContourPoints& points, const TouchLanes& touches, float* half_curvature) noexcept;
   void (*measure)(const Vec2* contour, std::size_t count, const PointLanes& from, double* square,

@@ -11,7 +11,7 @@
 
 namespace bch::detail {
 
-/// The loops that take most of the time of interior.hpp: over the points of a contour, with whatever is asked about it
+/// Implements the loops that take most of the time of interior.hpp: over the points of a contour, with whatever is asked about it
 /// side by side in lanes, and over the rows of a raster. No float is summed across lanes, so that every instruction
 /// set gives the same bits. What belongs to an edge is computed once.
 template <class Simd>
@@ -135,7 +135,7 @@ class InteriorLanes {
   /// a tangent disc.
   static constexpr float blur = 0x1p-16f;
 
-  /// The first cell of every row whose centre is not before a coordinate, and its bit. The coordinate has
+  /// Holds the first cell of every row whose centre is not before a coordinate, and its bit. The coordinate has
   /// half a cell added to it. Beyond the last cell there is no bit. The bit is made as a power of two in
   /// float, because not every instruction set can shift lanes by lanes; negative, so that the largest, 2^31,
   /// can be converted.

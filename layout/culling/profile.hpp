@@ -30,7 +30,7 @@ namespace bch::detail {
 ///          that of the shape, metres.
 Profile profile(const Outline& outline, const Interior& interior, double reach);
 
-/// How far one disc or more of a cut, in arrays, extend from a profile's centre, sector by sector.
+/// Says how far one disc or more of a cut, in arrays, extend from a profile's centre, sector by sector.
 using Outer = std::array<float, profile_sectors>;
 Outer outer(const Profile& profile, const float* x, const float* y, const float* radius, std::uint32_t count,
             double reach);

@@ -13,7 +13,7 @@
 
 namespace bch::detail {
 
-/// Support heights, the largest extent of a set of discs along each of support_directions directions:
+/// Holds the support heights, the largest extent of a set of discs along each of support_directions directions:
 /// direction k is at angle k * 2 pi / support_directions. First all even directions, then all odd ones, each
 /// twice over, so that a turned set is an offset into the same array and half of the directions is one load.
 ///

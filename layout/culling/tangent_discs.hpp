@@ -21,13 +21,13 @@ struct Touches {
   std::uint32_t count = 0;
 };
 
-/// Discs as arrays, room for one a touch.
+/// Holds discs as arrays, room for one a touch.
 struct CandidateDiscs {
   alignas(64) std::array<float, most_touches> x{}, y{}, radius{};
   std::uint32_t count = 0;
 };
 
-/// Points equally spaced along a contour, however many corners it has: what stands for it where discs are
+/// Holds points equally spaced along a contour, however many corners it has: what stands for it where discs are
 /// found, which takes no more than estimates.
 class ContourSamples {
  public:

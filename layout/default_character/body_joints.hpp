@@ -10,7 +10,7 @@
 
 namespace bch::detail {
 
-/// The skeleton of a parametric body. A parent stands before its children; the joints of the right side
+/// Lists the skeleton of a parametric body. A parent stands before its children; the joints of the right side
 /// follow those of the left in the same order. Swing and twist of the long bones are separate joints (the
 /// shoulder swings and the upper arm, half-way down, twists), because linear blend skinning wrings a skin
 /// that takes a whole twist at one place.
@@ -55,7 +55,7 @@ constexpr std::uint32_t parent_index(std::uint32_t joint) {
   return joint_index(parents[right ? joint - side_joints : joint], right ? Side::right : Side::left);
 }
 
-/// The positions of the joints in the rest pose, in metres, z up, facing +x, the left side at positive y. No
+/// Holds the positions of the joints in the rest pose, in metres, z up, facing +x, the left side at positive y. No
 /// joint is turned at rest.
 using JointPositions = std::array<Eigen::Vector3d, body_joint_count>;
 

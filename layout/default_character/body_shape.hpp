@@ -10,7 +10,7 @@
 
 namespace bch::detail {
 
-/// A closed curve around trunk, neck or head, symmetric to the plane y = 0. Heights are fractions of the
+/// Represents a closed curve around trunk, neck or head, symmetric to the plane y = 0. Heights are fractions of the
 /// stature, lengths metres. The height runs from front over side to back, since a jaw or a collar is not
 /// level.
 struct TrunkSection {
@@ -22,7 +22,7 @@ struct TrunkSection {
   BodyJoint joint = BodyJoint::pelvis;
 };
 
-/// A closed curve around an arm or a leg, across its axis: four half axes in metres.
+/// Represents a closed curve around an arm or a leg, across its axis: four half axes in metres.
 struct LimbSection {
   double along;  ///< arm: metres from the shoulder; leg: height as a fraction of the stature
   double front, back, outer, inner;
@@ -32,14 +32,14 @@ struct LimbSection {
   double forward = 0;  ///< offset of the middle along +x
 };
 
-/// A closed curve around a foot, standing on it: from its point on the instep to its point on the sole.
+/// Represents a closed curve around a foot, standing on it: from its point on the instep to its point on the sole.
 struct FootSection {
   double top_x, top_z, sole_x, sole_z;
   double outer, inner;
   double toes;  ///< share of the toe joint
 };
 
-/// A bulge of the skin: vertices near `centre` move along `by`, falling off as a Gaussian.
+/// Represents a bulge of the skin: vertices near `centre` move along `by`, falling off as a Gaussian.
 struct Bulge {
   Eigen::Vector3d centre, by;  ///< on the left side; the right side mirrors it
   Eigen::Vector3d reach;       ///< standard deviations along x, y, z

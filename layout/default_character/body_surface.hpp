@@ -12,7 +12,7 @@
 
 namespace bch::detail {
 
-/// What a vertex follows before the weights are spread: `joint`, and for the part `mix` of it `next`.
+/// Holds what a vertex follows before the weights are spread: `joint`, and for the part `mix` of it `next`.
 struct SkinTag {
   std::uint32_t joint = 0;
   std::uint32_t next = 0;
@@ -20,7 +20,7 @@ struct SkinTag {
   double softness = 0;  ///< 0..1: how far smooth() may move it
 };
 
-/// A mesh of quads under construction; a face whose last two corners agree is a triangle. Corners run
+/// Represents a mesh of quads under construction; a face whose last two corners agree is a triangle. Corners run
 /// counter-clockwise seen from outside.
 struct BodySurface {
   using Loop = std::vector<std::uint32_t>;

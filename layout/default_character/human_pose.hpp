@@ -9,7 +9,7 @@
 
 namespace bch::detail {
 
-/// A pose of a parametric body: where the pelvis is, and how each joint is turned against its parent. No
+/// Represents a pose of a parametric body: where the pelvis is, and how each joint is turned against its parent. No
 /// joint is turned at rest, so a turn is written in the axes of the rest pose: x forwards, y to the left, z
 /// up.
 struct HumanPose {
@@ -24,7 +24,7 @@ Eigen::Quaterniond about_x(double angle);
 Eigen::Quaterniond about_y(double angle);
 Eigen::Quaterniond about_z(double angle);
 
-/// An arm as seen in the chest's axes, written for the left side; the right one mirrors it.
+/// Represents an arm as seen in the chest's axes, written for the left side; the right one mirrors it.
 struct ArmPose {
   Eigen::Vector3d upper{0, 0, -1};  ///< direction from shoulder to elbow
   Eigen::Vector3d fore{0, 0, -1};   ///< direction from elbow to wrist

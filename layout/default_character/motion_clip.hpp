@@ -12,10 +12,10 @@
 
 namespace bch::detail {
 
-/// A pose for each time in seconds.
+/// Gives a pose for each time in seconds.
 using Motion = std::function<HumanPose(double seconds)>;
 
-/// How the pelvis moves over the ground: as the motion says, or such that the foot that carries does not
+/// Selects how the pelvis moves over the ground: as the motion says, or such that the foot that carries does not
 /// slide.
 enum class Travel { authored, by_feet };
 

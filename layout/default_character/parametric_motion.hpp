@@ -11,7 +11,7 @@ namespace bch::detail {
 
 constexpr double degree = std::numbers::pi / 180;
 
-/// How a person moves, beside the lengths of the bones. Angles in radians, lengths in metres.
+/// Says how a person moves, beside the lengths of the bones. Angles in radians, lengths in metres.
 struct Manner {
   JointPositions joints;
   double stature;
@@ -31,7 +31,7 @@ struct Gait {
 
 Motion walking(const Manner& manner, const Gait& gait);
 
-/// Walking at a speed, from standing to a fast walk, by where the feet are: one on the ground stays where it is.
+/// Describes walking at a speed, from standing to a fast walk, by where the feet are: one on the ground stays where it is.
 struct Stride {
   double speed;  ///< metres a second
   double strides_per_second;

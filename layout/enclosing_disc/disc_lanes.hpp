@@ -11,7 +11,7 @@
 
 namespace bch::detail {
 
-/// Smallest enclosing discs of many point sets, one set a lane: disc_pivoting.hpp's algorithm without its
+/// Finds the smallest enclosing discs of many point sets, one set a lane: disc_pivoting.hpp's algorithm without its
 /// branches, which cannot be predicted. A lane's operations do not depend on the width nor on its neighbours,
 /// so that every instruction set gives the same bits.
 template <class Simd>
@@ -35,7 +35,7 @@ class DiscLanes {
   struct Point {
     Batch x, y;
   };
-  /// The points on the boundary, the second and third the same where there are two, and their disc.
+  /// Holds the points on the boundary, the second and third the same where there are two, and their disc.
   struct Basis {
     Point a, b, c;
     Point centre;
@@ -91,7 +91,7 @@ class DiscLanes {
     return basis(q, select(old.is_pair, old.a, far), select(old.is_pair, old.b, beyond));
   }
 
-  /// A block of as many sets as there are lanes, stored point after point. Sets with fewer points than others
+  /// Represents a block of as many sets as there are lanes, stored point after point. Sets with fewer points than others
   /// repeat their last.
   class Block {
    public:
@@ -165,7 +165,7 @@ class DiscLanes {
       Point point;
       Batch square;
     };
-    /// A lane's points.
+    /// Represents a lane's points.
     struct Column {
       const Vec2* first;
       std::size_t last;

@@ -9,7 +9,7 @@
 
 namespace bch::detail::pivoting {
 
-/// A point in the precision that pivoting works with.
+/// Represents a point in the precision that pivoting works with.
 struct Point {
   double x, y;
 };
@@ -18,7 +18,7 @@ inline double square_distance(Point a, Point b) {
   return (a.x - b.x) * (a.x - b.x) + (a.y - b.y) * (a.y - b.y);
 }
 
-/// The two or three points on the boundary, and the smallest disc that holds them.
+/// Holds the two or three points on the boundary, and the smallest disc that holds them.
 struct Basis {
   Point points[3];
   int size;

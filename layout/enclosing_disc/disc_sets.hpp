@@ -10,12 +10,12 @@
 
 namespace bch::detail {
 
-/// A run of points.
+/// Represents a run of points.
 struct PointRange {
   std::uint32_t begin, end;
 };
 
-/// A disc like EnclosingDisc, with the radius squared.
+/// Represents a disc like EnclosingDisc, with the radius squared.
 struct SolvedDisc {
   Vec2 centre;
   double square_radius;
@@ -28,7 +28,7 @@ constexpr double disc_slack = 1 + 1e-13;
 /// these.
 constexpr int most_disc_pivots = 100;
 
-/// What EnclosingDiscs asks of an instruction set: plain pointers, because nothing of the standard library
+/// Holds what EnclosingDiscs asks of an instruction set: plain pointers, because nothing of the standard library
 /// may be compiled for wide registers.
 struct DiscSets {
   const Vec2* points;

@@ -13,7 +13,7 @@
 
 namespace bch::detail {
 
-/// One compilation of the solver; all give the same bits.
+/// Represents one compilation of the solver; all give the same bits.
 struct DiscImplementation : InstructionSet {
   void (*solve)(const DiscSets& sets) noexcept;
 };
@@ -21,7 +21,7 @@ struct DiscImplementation : InstructionSet {
 /// Returns all implementations that were compiled, the best first; the last one runs everywhere.
 std::span<const DiscImplementation> disc_implementations() noexcept;
 
-/// The smallest enclosing discs of many sets at once, solved side by side. Keeps its memory.
+/// Finds the smallest enclosing discs of many sets at once, solved side by side. Keeps its memory.
 class EnclosingDiscs {
  public:
   /// Uses the best implementation that this processor supports.

@@ -9,7 +9,7 @@
 
 namespace bch::detail {
 
-/// The discs of one cut, in the order in which a set stores them: that of cut() for what a ShapeSet was made from. This
+/// Holds the discs of one cut, in the order in which a set stores them: that of cut() for what a ShapeSet was made from. This
 /// is what numbers a disc in an answer.
 struct CutDiscs {
   const float *x, *y, *radius;

@@ -13,7 +13,7 @@
 
 namespace bch::detail {
 
-/// The arrays of a shape set with their sizes, owned or not; ShapeSetView says what they hold. Each begins on
+/// Holds the arrays of a shape set with their sizes, owned or not; ShapeSetView says what they hold. Each begins on
 /// a cache line.
 struct ShapeArrays {
   std::span<const std::uint32_t> depths;  ///< cut depths, ascending: one a level, 1 to 255 of them

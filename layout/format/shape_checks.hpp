@@ -14,7 +14,7 @@
 #include "layout/format/shape_arrays.hpp"
 #include "layout/format/shape_preconditions.hpp"
 
-/// The checks behind shape_preconditions(), and what they share. Each throws std::invalid_argument that names the array,
+/// Contains the checks behind shape_preconditions(), and what they share. Each throws std::invalid_argument that names the array,
 /// the place in it and the value.
 namespace bch::detail::shape_checks {
 

@@ -12,7 +12,7 @@
 
 namespace bch::detail {
 
-/// The windows that a level's nodes name, lane by lane. As signed numbers names of windows are negative, the first the
+/// Holds the windows that a level's nodes name, lane by lane. As signed numbers names of windows are negative, the first the
 /// least, and those of blocks are not.
 struct NamedWindows {
   static constexpr std::int32_t none = 0;
@@ -20,7 +20,7 @@ struct NamedWindows {
   std::uint32_t count[block_width];
 };
 
-/// The places of the nodes of one level of one shape. Checks of a level run in the order of
+/// Holds the places of the nodes of one level of one shape. Checks of a level run in the order of
 /// shape_preconditions(); the first ones fill in what the later ones read.
 struct LevelNodes {
   std::size_t root;            ///< shape * level count + level
@@ -30,7 +30,7 @@ struct LevelNodes {
   std::uint64_t segments = 0;  ///< one past what leaf_segments say of the levels before
   NamedWindows windows{};
 
-  /// An inner node, by its place among them, and the disc of its first child.
+  /// Represents an inner node, by its place among them, and the disc of its first child.
   struct OpenNode {
     std::uint32_t node;
     Disc first_child;
@@ -38,7 +38,7 @@ struct LevelNodes {
   std::vector<OpenNode> open_nodes;  ///< of the check of inner nodes, kept from level to level
 };
 
-/// One thing that queries take for granted of the arrays of a set. Each is checked by one function: of the whole set, or
+/// Represents one thing that queries take for granted of the arrays of a set. Each is checked by one function: of the whole set, or
 /// of one level after the other.
 struct Precondition {
   const char* name;

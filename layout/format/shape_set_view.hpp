@@ -22,7 +22,7 @@ constexpr std::uint32_t support_stride = 2 * support_directions;
 constexpr std::uint32_t extreme_directions = support_directions / 2;
 constexpr std::uint32_t extreme_stride = 2 * extreme_directions;
 
-/// Eight discs side by side; what is left over is padding that overlaps nothing: infinitely far away. (A negative
+/// Holds eight discs side by side; what is left over is padding that overlaps nothing: infinitely far away. (A negative
 /// radius would hit, because the sum of radii is squared.)
 struct DiscBlock {
   float x[block_width], y[block_width], radius[block_width];
@@ -39,7 +39,7 @@ constexpr std::uint32_t block_outer = 4 * block_width;
 constexpr std::uint32_t block_nodes = 5 * block_width;
 constexpr std::uint32_t block_floats = 6 * block_width;
 
-/// A node above the cut of a level. These stand behind the cut's discs in the in-order sequence of the binary tree: number k
+/// Represents a node above the cut of a level. These stand behind the cut's discs in the in-order sequence of the binary tree: number k
 /// of a level is the node whose first child's last disc is disc k of the cut. Instead of such a node for the last disc there
 /// is padding; a cut that is one disc has that disc there, as its root.
 struct InnerNode {
@@ -52,7 +52,7 @@ constexpr std::uint32_t above_cut_disc = 0x80000000;
 constexpr std::uint32_t inner_floats = sizeof(InnerNode) / sizeof(float);
 static_assert(sizeof(InnerNode) == 16);
 
-/// The root of a level of a shape.
+/// Holds the root of a level of a shape.
 struct Root {
   float x, y, radius;
   std::uint32_t row;  ///< of its supports, or one of the next two
@@ -65,7 +65,7 @@ static_assert(sizeof(Root) == 16);
 /// The level has no exact leaves: it is not that of all depths or a single disc, or the shape has no outline.
 constexpr std::uint32_t no_segments = 0xffffffff;
 
-/// The places of a level's nodes: blocks, then the cut's discs, all x, all y and all radii, then its inner
+/// Holds the places of a level's nodes: blocks, then the cut's discs, all x, all y and all radii, then its inner
 /// nodes.
 struct Tree {
   std::uint32_t top;                     ///< node
@@ -96,7 +96,7 @@ constexpr unsigned leaf_count_shift = 24;
 constexpr std::uint32_t leaf_first_mask = (std::uint32_t{1} << leaf_count_shift) - 1;
 constexpr std::uint32_t most_leaf_segments = 127;
 
-/// Farthest points of a contour; see interior.hpp.
+/// Holds farthest points of a contour; see interior.hpp.
 struct Extremes {
   float x[extreme_stride], y[extreme_stride];
 };
@@ -111,7 +111,7 @@ struct Sector {
   float shallow_outer;  ///< like outer, of all levels that are more than a disc and not the deepest
 };
 
-/// A shape along lines from a centre: a record, and then as large a record for each sector.
+/// Represents a shape along lines from a centre: a record, and then as large a record for each sector.
 struct Profile {
   float x, y;  ///< the centre
   float unused[2];
@@ -119,7 +119,7 @@ struct Profile {
 };
 static_assert(sizeof(Profile) == (1 + profile_sectors) * sizeof(Sector) && sizeof(Sector) == 16);
 
-/// A closed polygon of an outline.
+/// Represents a closed polygon of an outline.
 struct Contour {
   Disc disc;  ///< the smallest enclosing one
   std::uint32_t begin,
@@ -127,7 +127,7 @@ struct Contour {
 };
 static_assert(sizeof(Contour) == 20);
 
-/// The contours of a shape.
+/// Holds the contours of a shape.
 struct ContourRange {
   std::uint32_t begin, end;
 };
@@ -135,7 +135,7 @@ struct ContourRange {
 /// A slab in which a body has nothing.
 constexpr std::uint32_t no_part = 0xffffffff;
 
-/// The nodes of all shapes and levels as plain pointers: what kernels read. Valid while the set lives. A shape is one part, or in a
+/// Holds the nodes of all shapes and levels as plain pointers: what kernels read. Valid while the set lives. A shape is one part, or in a
 /// sliced set as many as it has slabs that are not empty and differ: slab_parts names them, slab after slab. What is said to be
 /// per shape below is per part then.
 /// Roots:   index shape * level_count + level.

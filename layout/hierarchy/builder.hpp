@@ -47,7 +47,7 @@ class HierarchyBuilder {
   void add_primitives(Hierarchy& hierarchy) const;
 
  private:
-  /// A node still to be made: a range of the order. Its items are listed there, or, of a second child, in the scratch.
+  /// Represents a node still to be made: a range of the order. Its items are listed there, or, of a second child, in the scratch.
   struct Open {
     std::uint32_t begin, end;
     std::uint32_t* list;
@@ -58,13 +58,13 @@ class HierarchyBuilder {
 
     ItemList items() const { return {list, end - begin}; }
   };
-  /// What remains of a segment on its way down: the half from a node's centre to this end.
+  /// Holds what remains of a segment on its way down: the half from a node's centre to this end.
   struct Half {
     std::uint32_t node;
     std::uint32_t below;
     Vec2 end;
   };
-  /// A node of several items, whose disc is solved once the order of all items is final.
+  /// Represents a node of several items, whose disc is solved once the order of all items is final.
   struct Unsolved {
     std::uint32_t node;
     std::uint32_t begin, end;  ///< of the order

@@ -14,7 +14,7 @@ inline double length(double x, double y) noexcept {
   return std::sqrt(x * x + y * y);
 }
 
-/// The smallest box with sides along the axes that holds discs.
+/// Holds the smallest box with sides along the axes that holds discs.
 struct DiscBox {
   double low_x = HUGE_VAL, low_y = HUGE_VAL, high_x = -HUGE_VAL, high_y = -HUGE_VAL;
 

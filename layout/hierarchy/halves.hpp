@@ -13,7 +13,7 @@
 
 namespace bch::detail {
 
-/// Lone segments that are halved evenly: all pieces have been halved equally often. The nodes of such a
+/// Holds lone segments that are halved evenly: all pieces have been halved equally often. The nodes of such a
 /// segment are known from its length. So they are counted while the tree grows and written later, in one loop
 /// for all segments with the same number of halvings. In the order of segments that number could not be
 /// predicted, which costs more than the halving.

@@ -11,7 +11,7 @@
 
 namespace bch::detail {
 
-/// Radii of published discs from the squares of the smallest: enlarged by a margin and rounded up.
+/// Computes the radii of published discs from the squares of the smallest: enlarged by a margin and rounded up.
 class OutwardRadii {
  public:
   /// Takes the margin that is added to radii, in metres.

@@ -11,7 +11,7 @@
 
 namespace bch::detail {
 
-/// The box and centroid of a node's items.
+/// Holds the box and centroid of a node's items.
 struct SplitMeasure {
   float box[4], sums[4];  ///< as a SplitItem's
 

@@ -15,13 +15,13 @@
 
 namespace bch::detail {
 
-/// What a primitive, a segment or a triangle, counts for while nodes are divided. Axis 0 is x, 1 is y.
+/// Holds what a primitive, a segment or a triangle, counts for while nodes are divided. Axis 0 is x, 1 is y.
 struct alignas(32) SplitItem {
   float box[4];   ///< low x, low y, -high x, -high y: one minimum grows it
   float sums[4];  ///< what it adds to its node's: moments in x and y, weight, 0
 };
 
-/// The primitives of a shape, array by array; there is room for more than `count`. In float: which side of a plane an
+/// Holds the primitives of a shape, array by array; there is room for more than `count`. In float: which side of a plane an
 /// primitive falls on is a choice, not a claim, and every processor rounds it alike.
 struct SplitItems {
   std::size_t count = 0;

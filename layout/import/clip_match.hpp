@@ -11,7 +11,7 @@
 
 namespace bch::detail::importing {
 
-/// What the skeletons of a character and of a clip's file have in common.
+/// Holds what the skeletons of a character and of a clip's file have in common.
 struct ClipMatch {
   std::vector<std::string> matched, unmatched;  ///< the nodes of the clip's channels
   std::size_t joints = 0;                       ///< of the character

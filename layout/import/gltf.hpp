@@ -18,7 +18,7 @@
 
 namespace bch::detail::importing {
 
-/// How the parts of a channel are interpolated, which assimp's type does not hold. Of a cubic part the keys come in
+/// Says how the parts of a channel are interpolated, which assimp's type does not hold. Of a cubic part the keys come in
 /// threes of the same time: tangent before the key, value, tangent behind it.
 struct ChannelInterpolation {
   Interpolation positions = Interpolation::linear;
@@ -31,7 +31,7 @@ struct SceneDeleter {
   void operator()(aiScene* scene) const;
 };
 
-/// The default scene of a glTF file. Names of nodes are unique: a repeated one has the node's index added.
+/// Holds the default scene of a glTF file. Names of nodes are unique: a repeated one has the node's index added.
 struct GltfScene {
   std::unique_ptr<aiScene, SceneDeleter> scene;
   std::unordered_map<const aiNodeAnim*, ChannelInterpolation> interpolations;  ///< of all channels

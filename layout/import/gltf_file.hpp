@@ -28,7 +28,7 @@ constexpr std::size_t most_values = std::size_t{1} << 28;
 /// Returns whether a file is glTF, judged by its beginning or its extension.
 bool is_gltf(const std::filesystem::path& file);
 
-/// The bytes of an element's first component and the way to the next element.
+/// Holds the bytes of an element's first component and the way to the next element.
 struct Elements {
   const char* bytes = nullptr;
   std::size_t stride = 0;
@@ -39,7 +39,7 @@ std::size_t components_of(std::string_view type);
 
 struct Decoder;
 
-/// The JSON of a .gltf or .glb file and the buffers that it names, which are read when they are needed.
+/// Holds the JSON of a .gltf or .glb file and the buffers that it names, which are read when they are needed.
 /// Errors:  all functions throw ImportError, which names the place in the JSON.
 class GltfFile {
  public:

@@ -12,7 +12,7 @@
 
 namespace bch::detail::importing {
 
-/// A glTF file while it becomes a scene.
+/// Holds a glTF file while it becomes a scene.
 struct GltfReader {
   GltfFile file;
   GltfScene result;

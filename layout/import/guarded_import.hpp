@@ -10,7 +10,7 @@
 
 namespace bch::detail {
 
-/// A file that the child process could not read to its end, or of which it handed over what is no character.
+/// Reports a file that the child process could not read to its end, or of which it handed over what is no character.
 class ImportStopped : public ImportError {
  public:
   using ImportError::ImportError;

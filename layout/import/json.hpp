@@ -12,7 +12,7 @@
 
 namespace bch::detail::importing {
 
-/// A value of a JSON document and its place there, such as "accessors[3].count". It may be absent. The document and the
+/// Represents a value of a JSON document and its place there, such as "accessors[3].count". It may be absent. The document and the
 /// file's path must outlive it. Every function but the two operators of absent values throws ImportError, naming file and
 /// place, on a value of another type.
 class JsonValue {

@@ -15,7 +15,7 @@
 
 namespace bch::detail::importing {
 
-/// The bones of a character under construction. Meshes that share a skeleton bring the same bones again.
+/// Holds the bones of a character under construction. Meshes that share a skeleton bring the same bones again.
 class BoneTable {
  public:
   explicit BoneTable(std::vector<Bone>& bones) : bones_(&bones) {}

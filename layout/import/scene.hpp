@@ -58,7 +58,7 @@ struct SceneFile {
 /// Errors:  throws ImportError, and what validate() and the skinning throw.
 ImportedCharacter character_of(const SceneFile& file, const ImportOptions& options);
 
-/// The nodes of a scene, parents first.
+/// Holds the nodes of a scene, parents first.
 struct NodeList {
   std::vector<Joint> joints;
   std::vector<const aiNode*> nodes;

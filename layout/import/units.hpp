@@ -13,13 +13,13 @@
 
 namespace bch::detail::importing {
 
-/// An axis of the file's frame, or its opposite.
+/// Represents an axis of the file's frame, or its opposite.
 struct Direction {
   UpAxis axis = UpAxis::y;
   bool opposite = false;
 };
 
-/// What a format or a file declares about itself.
+/// Holds what a format or a file declares about itself.
 struct DeclaredFrame {
   std::optional<Direction> up;
   std::optional<Direction> told_up;  ///< what the file declares, where the reader has turned that to `up`

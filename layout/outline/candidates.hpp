@@ -17,7 +17,7 @@
 
 namespace bch::detail {
 
-/// Segments that may be part of an outline, found through the boxes around them. Each belongs to an island: a connected part
+/// Holds segments that may be part of an outline, found through the boxes around them. Each belongs to an island: a connected part
 /// of the union, which no contour crosses.
 class CandidateList {
  public:
@@ -49,7 +49,7 @@ class CandidateList {
   BoxTree boxes_;
 };
 
-/// The edges of a pose that may be part of its outline. A point inside an edge with triangles on both sides is
+/// Holds the edges of a pose that may be part of its outline. A point inside an edge with triangles on both sides is
 /// inside the union, so only edges whose triangles all lie on one side remain (a triangle seen edge-on, or nearly,
 /// lies on none); any further piece of the union may be among them without harm.
 class OutlineCandidates {

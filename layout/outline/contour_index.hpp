@@ -12,7 +12,7 @@
 
 namespace bch::detail {
 
-/// An index over contours by their boxes, which finds those that may cover a point. Where contours can begin has to be
+/// Represents an index over contours by their boxes, which finds those that may cover a point. Where contours can begin has to be
 /// known beforehand: a binary tree over these places takes in a contour, and finds those about a point, in time
 /// logarithmic in their number as long as few boxes overlap. Keeps its memory.
 class ContourIndex {

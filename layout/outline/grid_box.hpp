@@ -11,7 +11,7 @@
 
 namespace bch::detail {
 
-/// A rectangle on the grid, its sides included.
+/// Represents a rectangle on the grid, its sides included.
 struct GridBox {
   GridPoint low, high;
 

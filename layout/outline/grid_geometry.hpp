@@ -5,7 +5,7 @@
 
 #include <cstdint>
 
-/// Exact predicates over points of the outline's grid.
+/// Contains exact predicates over points of the outline's grid.
 ///
 /// Bounds. Coordinates are at most 2^23 in magnitude, so those of a difference of points are at most 2^24, and
 /// a cross or dot product of two differences at most 2 * 2^48 = 2^49: far from the limits of int64, and exact
@@ -45,7 +45,7 @@ inline bool same_direction(GridVector a, GridVector b) {
   return cross(a, b) == 0 && dot(a, b) > 0;
 }
 
-/// Part of the way along a segment: numerator / denominator in 0 to 1, denominator > 0.
+/// Holds part of the way along a segment: numerator / denominator in 0 to 1, denominator > 0.
 struct Fraction {
   std::int64_t numerator = 0, denominator = 1;
   double value = 0;  ///< the quotient, correctly rounded
@@ -64,7 +64,7 @@ inline int compare(const Fraction& a, const Fraction& b) {
   return (left > right) - (left < right);
 }
 
-/// A place on a line between grid points.
+/// Represents a place on a line between grid points.
 struct Place {
   GridPoint from, to;
   Fraction at;

@@ -10,7 +10,7 @@
 
 namespace bch::detail {
 
-/// One compilation of lanes.hpp, which says what the functions do; all give the same bits.
+/// Represents one compilation of lanes.hpp, which says what the functions do; all give the same bits.
 struct OutlineImplementation : InstructionSet {
   void (*find_sides)(const std::uint32_t* corners, std::size_t count, const GridPoint* points,
                      std::uint8_t* sides) noexcept;

@@ -11,7 +11,7 @@
 
 namespace bch::detail {
 
-/// The two loops of an outline that take most of its time, several triangles or segments a register.
+/// Implements the two loops of an outline that take most of its time, several triangles or segments a register.
 /// What an outline is made of is exact (grid_geometry.hpp), so that every instruction set gives the same bits; the
 /// quotient is rounded correctly on each.
 template <class Simd>
@@ -83,7 +83,7 @@ class OutlineLanes {
     std::uint64_t crossing, ending;
   };
 
-  /// The box of the way in every lane.
+  /// Holds the box of the way in every lane.
   struct Box {
     Cells min_x, min_y, max_x, max_y;
 
@@ -140,7 +140,7 @@ class OutlineLanes {
     return end + count;
   }
 
-  /// The way in every lane.
+  /// Holds the way in every lane.
   struct Line {
     Doubles from_x, from_y, to_x, to_y, way_x, way_y, at;
 

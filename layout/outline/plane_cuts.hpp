@@ -30,7 +30,7 @@ class PlaneCuts {
  public:
   static constexpr std::uint32_t not_cut = 0x80000000;
 
-  /// A part of a piece's border that is no edge of the mesh: along a plane, or within a piece that is seen edge-on.
+  /// Represents a part of a piece's border that is no edge of the mesh: along a plane, or within a piece that is seen edge-on.
   struct Border {
     GridPoint a, b;
     std::uint32_t slab, node;

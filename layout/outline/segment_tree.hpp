@@ -13,12 +13,12 @@
 
 namespace bch::detail {
 
-/// A point between points of the grid, in steps.
+/// Represents a point between points of the grid, in steps.
 struct GridPlace {
   double x, y;
 };
 
-/// A binary tree over segments, for so many of them that BoxTree's two levels would be slow. A node has a box and a
+/// Represents a binary tree over segments, for so many of them that BoxTree's two levels would be slow. A node has a box and a
 /// slab around its segments, the latter along its longest segment: parallel segments close to each other are long and
 /// thin, whatever their direction.
 class SegmentTree {

@@ -12,10 +12,10 @@
 
 namespace bch::detail {
 
-/// What a mesh's connectivity says about outlines in every pose. Vertices are numbered anew, in the order of
+/// Holds what a mesh's connectivity says about outlines in every pose. Vertices are numbered anew, in the order of
 /// their old numbers and without those that no triangle uses.
 struct OutlineTopology {
-  /// An edge of two triangles that use it in opposite directions, and in an array beside it these triangles: a pose
+  /// Represents an edge of two triangles that use it in opposite directions, and in an array beside it these triangles: a pose
   /// reads all of the latter and few of the former.
   struct ManifoldEdge {
     std::uint32_t a, b;
@@ -23,7 +23,7 @@ struct OutlineTopology {
   struct EdgeTriangles {
     std::uint32_t first, second;
   };
-  /// One triangle's use of any other edge.
+  /// Represents one triangle's use of any other edge.
   struct EdgeUse {
     std::uint32_t a, b;
     std::uint32_t triangle;

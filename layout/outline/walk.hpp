@@ -13,7 +13,7 @@
 
 namespace bch::detail {
 
-/// A straight piece of a contour: it begins at `begin` and goes on in the direction of begin.to, until where
+/// Represents a straight piece of a contour: it begins at `begin` and goes on in the direction of begin.to, until where
 /// the contour's next stretch begins.
 struct Stretch {
   Place begin;

@@ -12,7 +12,7 @@
 
 namespace bch::detail {
 
-/// The contours of a pose, to be asked whether one of them covers a point. Keeps its memory.
+/// Holds the contours of a pose, to be asked whether one of them covers a point. Keeps its memory.
 class ContourCovers {
  public:
   void clear();

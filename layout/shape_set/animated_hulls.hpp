@@ -17,7 +17,7 @@ struct AnimatedTreeChunk;
 
 constexpr std::uint32_t hull_directions = 32;
 
-/// How far a body reaches through a window of time in each of the directions, in steps: at every time of it by no more than what lies
+/// Says how far a body reaches through a window of time in each of the directions, in steps: at every time of it by no more than what lies
 /// evenly between both ends.
 struct HullWindow {
   struct Extent {
@@ -27,7 +27,7 @@ struct HullWindow {
   std::array<Extent, hull_directions> extents;
 };
 
-/// The hulls of a body through windows of time, of one chunk each at level 0, and of two windows of the level below at the next ones.
+/// Holds the hulls of a body through windows of time, of one chunk each at level 0, and of two windows of the level below at the next ones.
 struct AnimatedHulls {
   static constexpr unsigned level_count = 4;
 
@@ -52,7 +52,7 @@ constexpr PlanePoint hull_direction(std::uint32_t k) noexcept {
   }
 }
 
-/// A direction between two of those: `size` times (1 - share) of `first` and share of `second`.
+/// Represents a direction between two of those: `size` times (1 - share) of `first` and share of `second`.
 struct HullDirection {
   std::uint32_t first, second;
   double share, size;
@@ -70,7 +70,7 @@ struct HullDirection {
     size = std::abs(longer);
   }
 
-  /// How far a body reaches in this direction at both ends of a window, times its length.
+  /// Says how far a body reaches in this direction at both ends of a window, times its length.
   struct Extent {
     double from, to;
   };

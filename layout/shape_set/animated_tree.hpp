@@ -22,24 +22,24 @@ constexpr std::uint32_t animated_width = 8;  ///< the most children of a node
 constexpr double room_of_leaves = rounding::query_margin,
                  room_of_nodes = room_of_leaves + rounding::held_room + 48 * rounding::unit_roundoff;
 
-/// The nodes of a chunk at a key, in the chunk's steps. Eight may be read from each on, beyond the last one, too.
+/// Holds the nodes of a chunk at a key, in the chunk's steps. Eight may be read from each on, beyond the last one, too.
 struct NodesAtKey {
   const std::int16_t *x, *y;
   const std::uint16_t* radius;
 };
 
-/// Nodes that follow each other, from one to before another.
+/// Holds nodes that follow each other, from one to before another.
 struct NodeRange {
   std::uint32_t begin, end;
 };
 
-/// A time of a clip by its place among the keys: discs are (1 - share) of those at a key and share of those at the next one.
+/// Represents a time of a clip by its place among the keys: discs are (1 - share) of those at a key and share of those at the next one.
 struct KeyPlace {
   std::size_t chunk, key;
   double share;  ///< from 0 to 1
 };
 
-/// The tree over the moving discs of a chunk, whose nodes are moving discs with the same keys. A node holds its discs at every key,
+/// Holds the tree over the moving discs of a chunk, whose nodes are moving discs with the same keys. A node holds its discs at every key,
 /// and so at all times between: the distance of two centres that move straight on is convex, and so is that and the radius
 /// of the disc within, while the radius of the disc around is linear.
 ///
@@ -82,7 +82,7 @@ struct AnimatedTreeChunk {
   }
 };
 
-/// An animated shape as queries read it.
+/// Represents an animated shape as queries read it.
 struct AnimatedTree {
   std::vector<AnimatedTreeChunk> chunks;
   AnimatedHulls hulls;

@@ -9,7 +9,7 @@
 
 namespace bch::detail {
 
-/// Where a set that is being built ends: how many shapes and parts there are, and where the next one begins.
+/// Holds where a set that is being built ends: how many shapes and parts there are, and where the next one begins.
 struct BuilderEnd {
   std::size_t shapes = 0, parts = 0;
   ShapeExtent extent{.rows = first_row};

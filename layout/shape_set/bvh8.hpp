@@ -15,10 +15,10 @@
 
 namespace bch::detail {
 
-/// One cut of a hierarchy as a tree of blocks over the cut's discs, with all nodes above the cut. Every disc is the
+/// Represents one cut of a hierarchy as a tree of blocks over the cut's discs, with all nodes above the cut. Every disc is the
 /// hierarchy's own, the smallest of what its node holds: pruning by it is part of the answer's definition.
 struct Bvh8 {
-  /// Up to eight groups of cut discs side by side; what is left over is padding. `child`: a block of this tree, or
+  /// Holds up to eight groups of cut discs side by side; what is left over is padding. `child`: a block of this tree, or
   /// leaf_window + the index of the first of eight discs, which hold the group and, where it has fewer, some of
   /// its neighbours: harmless, because every disc of the cut may be tested at any time. `outer`: radii about the same
   /// centres that hold the groups' discs. `node`: an index of `inner`, or leaf_window + that of a cut disc.
@@ -58,7 +58,7 @@ class Flattener {
   Outer outer(const Profile& profile) const;
 
  private:
-  /// A run of the cut's discs, and a node of the hierarchy that is above all of them.
+  /// Represents a run of the cut's discs, and a node of the hierarchy that is above all of them.
   struct Group {
     std::uint32_t begin, end;  ///< in the list of cut discs
     std::uint32_t node;        ///< with subtree grouping, above no others
@@ -67,13 +67,13 @@ class Flattener {
     std::uint32_t size() const { return end - begin; }
   };
   static bool is_window(const Group& group) { return group.size() <= block_width; }
-  /// What becomes one block.
+  /// Holds what becomes one block.
   struct Parts {
     std::array<Group, block_width> group;
     std::array<double, block_width> worth;  ///< of expanding each; subtree grouping only
     std::uint32_t count = 0;
   };
-  /// A node whose part of the cut is to be found so many levels below, or sooner.
+  /// Represents a node whose part of the cut is to be found so many levels below, or sooner.
   struct Open {
     std::uint32_t node, left;
   };

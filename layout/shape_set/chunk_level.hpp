@@ -12,16 +12,16 @@
 
 namespace bch::detail {
 
-/// The discs of a chunk's nodes at a time.
+/// Holds the discs of a chunk's nodes at a time.
 struct PlacedChunk {
   std::vector<float> x, y, radius;      ///< and padding
   std::vector<InnerNode> above_leaves;  ///< the first ones again, without links
 };
 
-/// The level of all depths of a chunk, of which time changes nothing but the discs. Its blocks are nodes of the chunk's tree, and each node
-/// of the binary tree that halves their children has the disc of the one whose children it holds. These discs hold those below them with
-/// room to spare, as those of AnimatedShape::shape() do, and the discs of the cut are the same, bit for bit: every query at this level
-/// answers as it does of that shape.
+/// Holds the level of all depths of a chunk, of which time changes nothing but the discs. Its blocks are nodes of the chunk's tree, and
+/// each node of the binary tree that halves their children has the disc of the one whose children it holds. These discs hold those below
+/// them with room to spare, as those of AnimatedShape::shape() do, and the discs of the cut are the same, bit for bit: every query at this
+/// level answers as it does of that shape.
 class ChunkLevel {
  public:
   /// Takes a chunk that is not empty, and stays where it is.
@@ -31,11 +31,11 @@ class ChunkLevel {
   void place(const KeyPlace& at, double reach, PlacedChunk& nodes, Bvh8& level) const;
 
  private:
-  /// A node of the binary tree: the node of the chunk whose disc it has, and its link.
+  /// Represents a node of the binary tree: the node of the chunk whose disc it has, and its link.
   struct Inner {
     std::uint32_t disc, link;
   };
-  /// The parts of a block: nodes of the chunk whose discs they have, or the padding behind these, and the other names of Bvh8::Block.
+  /// Holds the parts of a block: nodes of the chunk whose discs they have, or the padding behind these, and the other names of Bvh8::Block.
   struct Block {
     std::array<std::uint32_t, block_width> disc{}, child{}, node{};
   };

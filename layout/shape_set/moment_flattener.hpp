@@ -17,7 +17,7 @@ namespace bch::detail {
 /// all but the discs is there from the beginning, and takes about as much memory as two keys of each chunk do.
 class MomentFlattener {
  public:
-  /// What a thread works with.
+  /// Holds what a thread works with.
   struct Memory {
     explicit Memory(const ShapeSetPlan& plan) : prepared(plan) {}
     Shape shape;

@@ -14,7 +14,7 @@
 
 namespace bch::detail {
 
-/// All that a set stores of a part of a shape, before it has a place there.
+/// Holds all that a set stores of a part of a shape, before it has a place there.
 struct FlatShape {
   double reach = 0;
   std::vector<Bvh8> levels;  ///< one a depth
@@ -29,7 +29,7 @@ struct FlatShape {
       leaf_segments;  ///< of the last level, if that has exact leaves; see shape_set_view.hpp
 };
 
-/// The flat form of a shape: its only part, or those of its slabs.
+/// Holds the flat form of a shape: its only part, or those of its slabs.
 struct FlatBody {
   ShapeSetPlan plan;
   std::vector<FlatShape> parts;  ///< the first part_count; more keep their memory

@@ -12,7 +12,7 @@
 
 namespace bch::detail {
 
-/// The extents of the parts of a shape that have no fixed size: how many elements, or where the first one is.
+/// Holds the extents of the parts of a shape that have no fixed size: how many elements, or where the first one is.
 struct ShapeExtent {
   std::size_t nodes = 0;  ///< floats; a shape begins at a multiple of 16, a cache line
   std::size_t rows = 0;   ///< of supports
@@ -39,7 +39,7 @@ constexpr std::size_t next_line(std::size_t floats) {
   return (floats + 15) / 16 * 16;
 }
 
-/// The arrays of a set, owned.
+/// Holds the arrays of a set, owned.
 struct ShapeStorage {
   AlignedVector<std::uint32_t> depths;
   AlignedVector<Root> roots;

@@ -17,12 +17,12 @@
 #include "layout/format/cut_discs.hpp"
 #include "layout/format/shape_arrays.hpp"
 
-/// The parts of verify(), and what they share.
+/// Contains the parts of verify(), and what they share.
 namespace bch::detail::verification {
 
 constexpr float infinity = std::numeric_limits<float>::infinity();
 
-/// A part of a set that is verified, and the list that takes the findings.
+/// Represents a part of a set that is verified, and the list that takes the findings.
 struct Look {
   const ShapeSet& set;
   std::vector<Finding>& findings;

@@ -18,7 +18,7 @@ constexpr std::uint64_t numbers_of_set[] = {
     0x3, 0x3'0000, 0x3'0001, 0x3'0001'0000, 0x3'0002, 0x3'0002'0000, 0x3'0002'0001, 0x3'0002'0001'0000};
 constexpr std::uint64_t counts_of_set = 0x4332'3221'3221'2110;
 
-/// The vocabulary of SIMD, for any instruction set that xsimd knows: its batches with its functions (+, max, sqrt ...)
+/// Provides the vocabulary of SIMD, for any instruction set that xsimd knows: its batches with its functions (+, max, sqrt ...)
 /// and what stands here because xsimd 8.1 has no name for it. x86.hpp replaces what x86-64 has instructions for.
 /// `Own`: the type that derives from this. One of a file's anonymous namespace keeps other files from sharing what was
 /// compiled for that file's registers.

@@ -11,7 +11,7 @@
 
 namespace bch::detail {
 
-/// One lane: plain float and double.
+/// Selects one lane: plain float and double.
 struct Scalar {};
 
 template <class Own>
@@ -53,7 +53,7 @@ struct Lanes<Scalar, Own> {
   }
 };
 
-/// The lanes of registers that every processor has.
+/// Holds the lanes of registers that every processor has.
 struct BaseLanes : Lanes<BaseArch, BaseLanes> {};
 
 /// Calls each(k) for k below a count of whole registers, so that the compiler sees how many a register has

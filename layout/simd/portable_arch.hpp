@@ -42,7 +42,7 @@ struct simd_register<T, bch::detail::PortableArch> {
 template <class T>
 struct has_simd_register<T, bch::detail::PortableArch> : std::is_arithmetic<T> {};
 
-/// All bits of a lane that is set, as comparisons give them.
+/// Holds all bits of a lane that is set, as comparisons give them.
 template <class T>
 struct portable_mask {
   using lanes = typename simd_register<T, bch::detail::PortableArch>::register_type;

@@ -9,7 +9,7 @@
 
 namespace bch::detail {
 
-/// The one place that names instructions of x86-64. What they do is said in AnyLanes, and tests/layout/lanes_test.cpp
+/// Is the one place that names instructions of x86-64. What they do is said in AnyLanes, and tests/layout/lanes_test.cpp
 /// compares them with that.
 template <class Own>
 struct Lanes<xsimd::sse2, Own> : AnyLanes<xsimd::sse2, Own> {

@@ -19,7 +19,7 @@ namespace bch::detail::trajectory {
 
 enum class Role : std::uint8_t { none, id, frame, time, x, y, height, heading, character, clip, clip_time };
 
-/// The name of a column, in small letters, and its unit, as in "x/cm", "x [cm]" or "x(cm)".
+/// Holds the name of a column, in small letters, and its unit, as in "x/cm", "x [cm]" or "x(cm)".
 struct ColumnName {
   std::string name, unit;
 };
@@ -32,7 +32,7 @@ Role role_of(std::string_view name);
 /// Returns whether there are names for all that a row needs.
 bool has_all_roles(std::span<const ColumnName> names);
 
-/// The columns of a table, and their units.
+/// Holds the columns of a table, and their units.
 struct Columns {
   std::vector<Role> roles;         ///< of each column
   std::vector<std::string> names;  ///< likewise, for messages

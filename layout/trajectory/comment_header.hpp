@@ -14,7 +14,7 @@
 
 namespace bch::detail::trajectory {
 
-/// What comments say: "# framerate: 25 fps", "# id frame x/m y/m z/m", "#X,Y,Z: the agents coordinates (in metres)".
+/// Holds what comments say: "# framerate: 25 fps", "# id frame x/m y/m z/m", "#X,Y,Z: the agents coordinates (in metres)".
 struct CommentHeader {
   bool any = false;
   std::optional<double> fps;

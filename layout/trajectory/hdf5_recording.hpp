@@ -13,14 +13,14 @@
 
 namespace bch::detail::trajectory {
 
-/// A row of the dataset.
+/// Represents a row of the dataset.
 struct ArchiveRow {
   std::int64_t id, frame;
   double x, y, z;
 };
 
-/// A file of the Pedestrian Dynamics Data Archive: a dataset "trajectory" of (id, frame, x, y, z) with an attribute "fps", and an
-/// attribute "wkt_geometry" of the file.
+/// Represents a file of the Pedestrian Dynamics Data Archive: a dataset "trajectory" of (id, frame, x, y, z) with an attribute "fps", and
+/// an attribute "wkt_geometry" of the file.
 /// Errors:  all functions throw std::runtime_error with the reason, but on files that crash or exhaust the process.
 class Hdf5Recording {
  public:

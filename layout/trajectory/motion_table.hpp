@@ -15,7 +15,7 @@
 
 namespace bch::detail::trajectory {
 
-/// The different pairs of a character and a clip that the rows of a file name, so that each row has a number in their place.
+/// Holds the different pairs of a character and a clip that the rows of a file name, so that each row has a number in their place.
 class MotionTable {
  public:
   /// Returns the number of a row's pair, no_motion where both names are empty.

@@ -26,7 +26,7 @@ constexpr double shortest_person = 1, tallest_person = 2.5;    // metres
 constexpr double largest_fps = 10'000;
 constexpr float unknown = std::numeric_limits<float>::quiet_NaN();
 
-/// A person at a time, as it stands in a file.
+/// Represents a person at a time, as it stands in a file.
 struct Row {
   std::int64_t key = 0;  ///< a frame's number, or microseconds
   std::int64_t id = 0;
@@ -52,14 +52,14 @@ struct Places {
   [[noreturn]] void reject(std::uint64_t number, const std::string& reason) const;
 };
 
-/// How the keys of rows become times.
+/// Selects how the keys of rows become times.
 enum class Clock : std::uint8_t {
   frames,     ///< frames, of which the file says how many there are a second, or the caller has to
   times,      ///< microseconds
   row_steps,  ///< frames, of which the file says how many steps between a person's rows there are a second
 };
 
-/// What a file says about all of its rows.
+/// Holds what a file says about all of its rows.
 struct Recording {
   std::string format;
   std::string geometry;
@@ -69,7 +69,7 @@ struct Recording {
   std::vector<NamedMotion> motions;
 };
 
-/// Rows in an order of their own.
+/// Holds rows in an order of their own.
 class RowStream {
  public:
   RowStream() = default;
@@ -86,7 +86,7 @@ class RowStream {
   virtual void rewind() = 0;
 };
 
-/// The rows of a file in the order of the file, checked one by one.
+/// Holds the rows of a file in the order of the file, checked one by one.
 class RowSource : public RowStream {
  public:
   virtual const Places& places() const = 0;

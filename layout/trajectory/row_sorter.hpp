@@ -14,7 +14,7 @@
 
 namespace bch::detail::trajectory {
 
-/// A file without a name in the folder for temporary files.
+/// Represents a file without a name in the folder for temporary files.
 class TemporaryFile {
  public:
   /// Errors:  all functions throw TrajectoryError, naming the folder.
@@ -33,7 +33,7 @@ class TemporaryFile {
   [[noreturn]] static void fail(const char* what);
 };
 
-/// Rows by key, then id, then number. They are sorted piece by piece, and the pieces merged.
+/// Holds rows by key, then id, then number. They are sorted piece by piece, and the pieces merged.
 class RowSorter {
  public:
   /// Keeps rows of that many bytes in memory, at least 16 rows.

@@ -18,7 +18,7 @@ namespace bch::detail::trajectory {
 
 class SqliteDatabase;
 
-/// A query and its current row.
+/// Represents a query and its current row.
 class SqliteStatement {
  public:
   SqliteStatement(const SqliteDatabase& database, const std::string& sql);
@@ -45,7 +45,7 @@ class SqliteStatement {
   std::unique_ptr<sqlite3_stmt, Finalize> handle_;
 };
 
-/// A database that is only read: within limits, without triggers, views, extensions or other files, in one transaction, so that
+/// Represents a database that is only read: within limits, without triggers, views, extensions or other files, in one transaction, so that
 /// all queries see the same.
 /// Errors:  all functions throw TrajectoryError.
 class SqliteDatabase {

@@ -27,7 +27,7 @@ class IdCount {
   bool too_many_ = false;
 };
 
-/// The steps from one key to the next that differs, of rows in order.
+/// Holds the steps from one key to the next that differs, of rows in order.
 class StepCount {
  public:
   void add(std::int64_t step);
@@ -42,7 +42,7 @@ class StepCount {
   std::int64_t divisor_ = 0;
 };
 
-/// What is counted of rows.
+/// Holds what is counted of rows.
 struct Survey {
   std::uint64_t rows = 0;
   std::int64_t first = 0, last = 0;  ///< keys

@@ -16,20 +16,20 @@
 
 namespace bch::detail {
 
-/// A recording that cannot be read. The message is one line: the file, the row or line where there is one, the reason with
+/// Reports a recording that cannot be read. The message is one line: the file, the row or line where there is one, the reason with
 /// the value.
 class TrajectoryError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-/// The body that a row of a file names for its person, and the clip that it plays; one of the two may be empty.
+/// Holds the body that a row of a file names for its person, and the clip that it plays; one of the two may be empty.
 struct NamedMotion {
   std::string character, clip;
   std::string place;  ///< where it stands first, for messages: the file and the line
 };
 
-/// A person in a frame of a recording.
+/// Describes a person in a frame of a recording.
 struct TrackedPerson {
   static constexpr std::uint32_t no_motion = 0xffff'ffff;
 
@@ -42,7 +42,7 @@ struct TrackedPerson {
   std::uint64_t row = 0;  ///< the number of his line or row in the file
 };
 
-/// What the caller of open_trajectory() knows better than the file.
+/// Holds values that override those of the file, for open_trajectory().
 struct TrajectoryOptions {
   std::optional<double> fps = {};           ///< frame numbers a second, instead of what the file says
   std::optional<double> unit = {};          ///< metres for a unit of the file, likewise
@@ -52,7 +52,7 @@ struct TrajectoryOptions {
   std::chrono::milliseconds patience{30'000};
 };
 
-/// What a recording is, known before its first frame is read.
+/// Holds what a recording is, known before its first frame is read.
 struct TrajectoryInfo {
   std::string format;    ///< such as "JuPedSim SQLite, version 2"
   double fps = 0;        ///< frame numbers a second: a frame's time is its number / fps
