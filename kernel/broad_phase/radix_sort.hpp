@@ -39,7 +39,7 @@ class RadixSort {
   static constexpr unsigned most_digit_bits = 11;  ///< a block's places stay in a first-level cache
   static constexpr std::size_t least_block = 2048, most_blocks = 64;
 
-  /// Two passes over blocks of values: how many have which digit, and, with that known, to their places.
+  /// Makes two passes over blocks of values: how many have which digit, and, with that known, to their places.
   template <class Digit>
   void move_by_digit(const std::vector<Value>& values, std::size_t digits, Digit digit) {
     const std::size_t size = values.size();

@@ -91,7 +91,7 @@ class PairList {
         pairs_.begin());
   }
 
-  /// The pairs of disc i with those of begin .. end that it overlaps.
+  /// Adds the pairs of disc i with those of begin .. end that it overlaps.
   void add_overlapping(const SortedDiscs& discs, std::size_t i, std::size_t begin, std::size_t end) {
     const std::size_t most = size_ + (end - begin) + SortedDiscs::width;
     if (most > pairs_.size()) pairs_.resize(2 * most);

@@ -19,7 +19,7 @@ namespace bch::detail {
 /// cache. Indices are of the people of these frames. Keeps its memory for the next ones.
 class FrameRun {
  public:
-  /// `options` and `motions`, those that rows name, have to live as long as this.
+  /// Takes `options` and `motions`, those that rows name, which have to live as long as this.
   FrameRun(const CheckOptions& options, std::span<const CastMotion> motions)
       : options_(options), motions_(motions) {}
 

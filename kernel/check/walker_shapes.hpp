@@ -52,7 +52,7 @@ class WalkerShapes {
   /// Kept from one call of find() to the next: some 23 000 shapes of whole bodies.
   static constexpr std::size_t most_bytes = std::size_t{256} << 20;
 
-  /// `baked`: the shapes of a cast that is baked, which live as long as this, or nullptr.
+  /// Takes the plan and the cast. `baked`: the shapes of a cast that is baked, which live as long as this, or nullptr.
   WalkerShapes(const ShapeSetPlan& plan, CastView cast, const ShapeSet* baked = nullptr);
   ~WalkerShapes();
 

@@ -50,7 +50,7 @@ struct FrameInterval {
 /// Errors:  throws TrajectoryError on what the reader rejects, and on a person who is 100 m away a moment later.
 class WalkerReader {
  public:
-  /// `reader` has to live as long as this.
+  /// Takes `reader`, which has to live as long as this.
   /// `facing`: where shapes face that are not turned, radians.
   explicit WalkerReader(TrajectoryReader& reader, FrameInterval wanted = {}, double facing = 0);
 

@@ -33,7 +33,7 @@ class OverlapTraversal {
         exact_leaves_(arguments.exact_leaves),
         segments_(shapes, open_) {}
 
-  /// `pair` is where the answer goes in codes, `miss` what it is unless a walk finds an overlap.
+  /// Adds a pair: `pair` is where its answer goes in codes, `miss` what it is unless a walk finds an overlap.
   /// `reach`: of the two shapes together. `margin`: of their segments, 0 where discs decide. `gaps` are looked at where
   /// KnowsGaps.
   void add(std::size_t pair, std::uint8_t miss, const Transform& b_in_a, std::uint32_t root_a,
@@ -84,7 +84,7 @@ class OverlapTraversal {
     std::uint64_t open;
   };
 
-  /// One test for every open pair, then one step for every pair: apart, because the processor looks ahead
+  /// Makes one test for every open pair, then one step for every pair: apart, because the processor looks ahead
   /// over a few of either, but hardly over one of both. All in one function, because rounds over a lone pair
   /// are so short that calls count. `noipa`, because GCC 12 takes such functions for ones without effects
   /// when their parameters are changed a little, and drops the calls.
@@ -187,7 +187,7 @@ class OverlapTraversal {
     return left;
   }
 
-  /// One hit of every pair after the other, until one stays or none is left. Paths are looked up side by
+  /// Verifies one hit of every pair after the other, until one stays or none is left. Paths are looked up side by
   /// side, because each step waits for the one before.
   void verify_hits(std::uint16_t* which, std::uint32_t count) noexcept {
     const float* const nodes = shapes_.nodes;

@@ -106,7 +106,7 @@ class PairKernel {
     return {0, 0};
   }
 
-  /// Root disc against root disc, lane = pair. Where both cuts are single discs, that is the answer.
+  /// Tests root disc against root disc, lane = pair. Where both cuts are single discs, that is the answer.
   void test_roots() noexcept {
     axis_test_.use_rows(row_a_, row_b_);
     for (std::uint32_t k = 0; k < at_.whole_registers(); k += Simd::width) {

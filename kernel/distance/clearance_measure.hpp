@@ -42,7 +42,7 @@ class ClearanceMeasure {
 
   using Segments = SegmentGaps<Simd, ClearanceMeasure>;
 
-  /// `reach` is S, metres. A gap at or below `enough` ends the search; nothing is nearer.
+  /// Takes the limit and the reach: `reach` is S, metres. A gap at or below `enough` ends the search; nothing is nearer.
   ClearanceMeasure(float limit, float enough, float reach) noexcept
       : enough_(enough), slack_(slack_per_reach * reach) {
     look_within({limit, false, no_node, no_node});

@@ -22,7 +22,7 @@ std::uint32_t leaf_that_holds(const ShapeSetView& shapes, std::size_t root, std:
 /// and from the positions themselves.
 class FoundFeatures {
  public:
-  /// `pair`: the lower index first. Everything has to outlive this.
+  /// Takes the pair, the lower index first. Everything has to outlive this.
   FoundFeatures(const ShapeSetView& shapes, const Agents& agents, Pair pair,
                 const NearestFeatures& nearest) noexcept
       : shapes_(shapes), agents_(agents), pair_(pair), nearest_(nearest) {}

@@ -30,7 +30,7 @@ class NearestSearch {
   std::uint32_t size() const noexcept { return size_; }
   const Measure& measure(std::uint32_t pair) const noexcept { return pairs_[pair].measure; }
 
-  /// There has to be room.
+  /// Adds a pair, for which there has to be room.
   void add(const Transform& b_in_a, const Tree& a, const Tree& b, const Measure& measure) noexcept {
     steps_[size_] = {size_, a.top, b.top};
     pairs_[size_] = {measure, b_in_a, a.stride, b.stride, 0};
@@ -109,7 +109,7 @@ class NearestSearch {
                  all_within<Simd>(frame.bound, pairs_[pair].measure.best()) & frame.open);
   }
 
-  /// The children of two nodes at the set bits.
+  /// Adds the children of two nodes at the set bits.
   void add_children(const Step& step, std::uint64_t bits) noexcept {
     // A window is tested as a whole: once with each child of the other.
     if (step.a >= leaf_window) bits = fold(bits, 8) & first_row_of_pairs;

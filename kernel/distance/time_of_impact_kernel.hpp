@@ -59,7 +59,7 @@ class TimeOfImpactKernel {
     }
   }
 
-  /// Into A's frame.
+  /// Turns the ways into A's frame.
   void turn_ways(const float* x, const float* y) noexcept {
     for (std::uint32_t k = 0; k < at_.size; ++k) {
       const auto [cosine, sine] = at_.heading(k);

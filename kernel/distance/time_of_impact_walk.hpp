@@ -28,7 +28,7 @@ class TimeOfImpactWalk {
 
   TimeOfImpactWalk(const float* nodes, float* times) noexcept : nodes_(nodes), times_(times) {}
 
-  /// A pair whose time goes to times[pair]. Where there is no room, walks until there is.
+  /// Adds a pair whose time goes to times[pair]. Where there is no room, walks until there is.
   void add(std::size_t pair, const Transform& b_in_a, const Tree& a, const Tree& b,
            const Measure& measure) noexcept {
     // Few at a time, so that rounds stay long.

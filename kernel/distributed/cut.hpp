@@ -23,7 +23,7 @@ struct Weight {
 /// Represents a division of the curve among ranks: each rank owns the squares from its first key to the next rank's.
 class Cut {
  public:
-  /// `firsts`: of all ranks but rank 0, ascending.
+  /// Takes the first keys of all ranks but rank 0, ascending.
   explicit Cut(std::vector<std::uint64_t> firsts = {}) : firsts_(std::move(firsts)) {}
 
   int owner(std::uint64_t key) const {

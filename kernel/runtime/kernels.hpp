@@ -61,7 +61,7 @@ struct Kernels {
   /// contacts[offsets[i + 1]].
   void (*fill_contacts)(const Arguments& arguments, std::size_t begin, std::size_t end,
                         const std::uint64_t* offsets, DiscPair* contacts) noexcept;
-  /// The interval that discs take along each of so many axes: of c . axis - r
+  /// Measures the interval that discs take along each of so many axes: of c . axis - r
   /// the least, of c . axis + r the largest.
   void (*extents)(const CutDiscs& discs, const float* axis_x, const float* axis_y, std::uint32_t axes,
                   float* low, float* high) noexcept;

@@ -170,7 +170,7 @@ class Placements {
       if constexpr (check) sum_[part] = sum_[part] + xsimd::abs(value);
     }
 
-    /// Half of what is valid, to make up for rounding; not a number is beyond.
+    /// Returns half of what is valid, to make up for rounding; not a number is beyond.
     std::uint32_t within() const noexcept {
       static_assert(rounding::largest_position == rounding::largest_heading);
       return Simd::bits(Simd::rounded(sum_) <= Float(static_cast<float>(0.5 * rounding::largest_position)));
@@ -180,7 +180,7 @@ class Placements {
     Double sum_[parts] = {};
   };
 
-  /// layout/base/heading.cpp, in lanes.
+  /// Does what layout/base/heading.cpp does, in lanes.
   template <bool check>
   [[gnu::always_inline]] static UnitVectors unit_vectors(const double* heading, const std::uint32_t* agent,
                                                          Magnitudes<check>& magnitudes) noexcept {

@@ -27,9 +27,9 @@ struct SegmentPair {
     Double high, low;  ///< of both ends, the larger and the smaller
     Double margin;     ///< what counts at least as the margin's distance from the line
 
-    /// Above 0 where both ends are farther than the margin on one side.
+    /// Returns a value above 0 where both ends are farther than the margin on one side.
     Double beside() const noexcept { return xsimd::max(low, Double(0.0) - high) - margin; }
-    /// Above 0 where the ends are surely on different sides.
+    /// Returns a value above 0 where the ends are surely on different sides.
     Double across() const noexcept {
       return xsimd::min(high, Double(0.0) - low) - Double(rounding::sure_share) * margin;
     }

@@ -59,7 +59,7 @@ class SegmentTest : private SegmentBatch<Simd, Placed> {
   using Batch::parts, Batch::capacity;
   using typename Batch::Pair;
 
-  /// Two numbers a pair, which say by being above 0 that a line separates the segments, and that they surely
+  /// Computes two numbers a pair, which say by being above 0 that a line separates the segments, and that they surely
   /// cross.
   /// Returns: bits of the pairs of which the first number may not be.
   std::uint32_t test(std::uint32_t k) noexcept {

@@ -35,7 +35,7 @@ namespace bch::detail {
 /// Other pieces are divided, and the smallest ones enlarge a disc.
 class CoverCheck {
  public:
-  /// The character must outlive this. `spacing` is that of the discs: what is small is small beside it.
+  /// Takes a character, which must outlive this. `spacing` is that of the discs: what is small is small beside it.
   /// Errors:  throws std::invalid_argument as MotionBounds does.
   CoverCheck(const Character& character, std::uint32_t clip, double spacing);
 

@@ -42,7 +42,8 @@ struct MovingMesh {
 /// in the slab as wholes are halved where they are longest, and pieces left out, down to small ones.
 class SlabTriangles {
  public:
-  /// The character must outlive this. Edges of pieces that are not halved are shorter than `least_edge`, metres, in the bind pose.
+  /// Takes a character, which must outlive this. Edges of pieces that are not halved are shorter than `least_edge`, metres, in the bind
+  /// pose.
   /// Errors:  throws std::invalid_argument as MotionBounds does.
   SlabTriangles(const Character& character, std::uint32_t clip, double least_edge);
 

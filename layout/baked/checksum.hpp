@@ -27,7 +27,7 @@ StreamChecksum checksum(std::istream& stream);
 /// in a near cache, and a large section is read from memory once.
 class SectionChecksum {
  public:
-  /// The section has to outlive this.
+  /// Takes a section, which has to outlive this.
   explicit SectionChecksum(std::span<const std::byte> section);
   ~SectionChecksum();
 

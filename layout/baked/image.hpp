@@ -19,7 +19,7 @@ namespace bch::detail {
 /// Represents a set as the bytes of a baked file (format.hpp), without a copy of its arrays.
 class BakedImage {
  public:
-  /// The set has to outlive this.
+  /// Takes a set, which has to outlive this.
   /// Errors:  throws std::invalid_argument where load_baked() would refuse the file: a set out of the domain of
   ///          validate(ShapeArrays), origins of another number of shapes, names that are not there, bad clips.
   BakedImage(const ShapeSet& set, const ShapeOrigins& origins, std::span<const BakedClip> clips = {});

@@ -7,11 +7,11 @@
 
 namespace bch::detail {
 
-/// Memory from a cache line on. As much as a large page or more begins on one, and the system is asked for large pages:
+/// Returns memory from a cache line on. As much as a large page or more begins on one, and the system is asked for large pages:
 /// with small ones, finding out where the shapes of a large set lie costs as much as fetching them.
 /// Errors:  throws std::bad_alloc.
 void* allocate_aligned(std::size_t bytes);
-/// `bytes`: as many as were asked for.
+/// Frees memory of allocate_aligned(). `bytes`: as many as were asked for.
 void free_aligned(void* memory, std::size_t bytes) noexcept;
 
 }  // namespace bch::detail

@@ -168,7 +168,7 @@ static_assert(position >= 1 + heading + rotation);
 constexpr double query_error = 23;
 static_assert(query_error >= arm + 2 * position + (2 + 1) * sum + apart + square + radii, "(1)");
 
-/// sqrt(x^2 + y^2) <= limit.
+/// Returns whether sqrt(x^2 + y^2) <= limit.
 constexpr bool length_within(double x, double y, double limit) {
   return x * x + y * y <= limit * limit;
 }
@@ -177,7 +177,7 @@ constexpr double by_radii = position + sum + apart + square + radii;  // D <= r_
 static_assert(length_within(arm + position + 2 * sum, by_radii, contact_error), "(1'), of B");
 static_assert(length_within(position + sum, by_radii, contact_error), "(1'), of A");
 
-/// Bounds for the error of the largest coordinate after k halvings: by induction, and by trying.
+/// Returns a bound for the error of the largest coordinate after k halvings: by induction, and by trying.
 constexpr double halved(int k) {
   return (2 * k + 1) / 3.0;
 }

@@ -23,7 +23,7 @@ struct MotionBound {
 /// the joint's frame, to L q + t, and weights that sum to 1 take the mean.
 class MotionBounds {
  public:
-  /// The character must outlive this and be valid.
+  /// Takes a character, which must outlive this and be valid.
   /// Errors:  throws std::invalid_argument on a clip that is not there, on channels that step, jump or are cubic, and on a character without
   ///          a root joint: their vertices need not move so.
   MotionBounds(const Character& character, std::uint32_t clip);

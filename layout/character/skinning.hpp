@@ -17,10 +17,10 @@ namespace bch::detail {
 /// Poses one character again and again without allocating after the first time.
 class Skinner {
  public:
-  /// The character must outlive this and must be valid (see validate()).
+  /// Takes a character, which must outlive this and must be valid (see validate()).
   explicit Skinner(const Character& character);
 
-  /// Linear blend skinning at a time of a clip, keys interpolated as the channels' curves say, times clamped to
+  /// Poses the mesh by linear blend skinning at a time of a clip, keys interpolated as the channels' curves say, times clamped to
   /// the first and last key.
   /// Returns: one position a vertex, in metres, z up, relative to the root joint's point on the ground: a
   ///          clip that walks away leaves its shape where it is, while its yaw stays. Valid until the next

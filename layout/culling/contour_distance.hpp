@@ -26,7 +26,7 @@ void measure_depths(const InteriorLoops& loops, std::span<const Vec2> contour, c
 void estimate_depths(const InteriorLoops& loops, const ContourPoints& contour, const CandidateDiscs& discs,
                      ContourDepths& depths);
 
-/// The point of a contour nearest to each disc's centre, and the unit vector from there to the centre; both
+/// Finds the point of a contour nearest to each disc's centre, and the unit vector from there to the centre; both
 /// in float, and the vector is 0 for a centre on the contour.
 void nearest_touches(const InteriorLoops& loops, const ContourPoints& contour, const CandidateDiscs& discs,
                      Touches& touches);

@@ -21,7 +21,7 @@ class ContourLanes {
  public:
   static constexpr std::size_t most = 64;
 
-  /// Those that end in these points, one or more and at most so many; the first begins in `begin`.
+  /// Takes the segments that end in these points, one or more and at most so many; the first begins in `begin`.
   ContourLanes(Vec2 begin, std::span<const Vec2> ends, double centre_x, double centre_y) noexcept
       : count_(ends.size()) {
     const auto put = [&](std::size_t i, Vec2 point) {

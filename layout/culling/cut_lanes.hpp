@@ -35,7 +35,7 @@ class CutLanes {
     return -Simd::least(-most);
   }
 
-  /// The run's extents along support_directions directions, to 6 units in the last place of its reach. Those of the
+  /// Writes the run's extents along support_directions directions, to 6 units in the last place of its reach. Those of the
   /// first quadrant are given; the others are these turned by a quarter, a half and three quarters, so that they
   /// share products.
   static void heights(const DiscRun& run, const float* cosine, const float* sine, float* height) noexcept {

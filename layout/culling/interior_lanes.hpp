@@ -32,7 +32,7 @@ class InteriorLanes {
     for (; k < touches.count; k += width) keep_out_of<1>(points, touches, k, half_curvature);
   }
 
-  /// The squared distance of the nearest edge, and four times how often the contour goes round each point.
+  /// Measures the squared distance of the nearest edge, and four times how often the contour goes round each point.
   static void measure(const Vec2* contour, std::size_t count, const PointLanes& from, double* square,
                       double* turns) noexcept {
     measure_from<double>(
@@ -52,7 +52,7 @@ class InteriorLanes {
         from, square, turns);
   }
 
-  /// The squared distance of the nearest edge, and at which point that edge ends; of several the first.
+  /// Finds the squared distance of the nearest edge, and at which point that edge ends; of several the first.
   static void find_nearest(const ContourPoints& contour, const PointLanes& from, float* square,
                            std::int32_t* edge) noexcept {
     for (std::uint32_t k = 0; k < from.count; k += width) {

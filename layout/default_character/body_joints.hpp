@@ -39,13 +39,13 @@ inline constexpr std::uint32_t body_joint_count = midline_joints + 2 * side_join
 
 enum class Side : std::uint32_t { left, right };
 
-/// Index of a joint among all of a body; the side is ignored on the midline.
+/// Returns the index of a joint among all of a body; the side is ignored on the midline.
 constexpr std::uint32_t joint_index(BodyJoint joint, Side side = Side::left) {
   const auto index = static_cast<std::uint32_t>(joint);
   return index < midline_joints || side == Side::left ? index : index + side_joints;
 }
 
-/// Index of a joint's parent; the pelvis, joint 0, has none and must not be asked for.
+/// Returns the index of a joint's parent; the pelvis, joint 0, has none and must not be asked for.
 constexpr std::uint32_t parent_index(std::uint32_t joint) {
   using enum BodyJoint;
   constexpr std::array<BodyJoint, midline_joints + side_joints> parents{

@@ -50,7 +50,7 @@ struct LegAngles {
   double hip, knee, ankle, toes, abduction;
 };
 
-/// The thigh is turned in the axes of `heading`, so that lists and turns of the pelvis do not move the legs.
+/// Turns the joints of a leg; the thigh is turned in the axes of `heading`, so that lists and turns of the pelvis do not move the legs.
 void set_leg(HumanPose& pose, Side side, const LegAngles& angles, const Eigen::Quaterniond& heading);
 
 /// Sets the height of the pelvis such that the leg which has to reach farthest is nearly straight. `ankles`:
@@ -62,7 +62,7 @@ void settle(HumanPose& pose, const JointPositions& joints, const std::array<Eige
 void plant_foot(HumanPose& pose, const JointPositions& joints, Side side, const Eigen::Vector3d& ankle,
                 const Eigen::Quaterniond& foot);
 
-/// Joint to ground.
+/// Returns the transform from each joint to the ground.
 std::array<Eigen::Affine3d, body_joint_count> place(const HumanPose& pose, const JointPositions& joints);
 
 }  // namespace bch::detail

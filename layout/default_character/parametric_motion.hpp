@@ -49,7 +49,7 @@ Motion idling(const Manner& manner, Idle kind);
 /// Returns a natural stance for arms, common to all standing motions.
 ArmPose hanging_arm(const Manner& manner);
 
-/// 0 before `begin`, 1 after `end`, and a smooth way between.
+/// Returns 0 before `begin`, 1 after `end`, and a smooth way between.
 double ease(double begin, double end, double t);
 
 }  // namespace bch::detail

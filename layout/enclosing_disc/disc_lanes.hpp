@@ -199,7 +199,7 @@ class DiscLanes {
         });
     }
 
-    /// Which set is in a lane; the last one is also in those that are left over.
+    /// Returns which set is in a lane; the last one is also in those that are left over.
     std::size_t set(std::size_t lane) const { return begin_ + lane < end_ ? begin_ + lane : end_ - 1; }
 
     Point point(std::size_t k) const {
@@ -211,7 +211,7 @@ class DiscLanes {
       best.square = xsimd::max(best.square, square);
     }
 
-    /// One of each set's points.
+    /// Returns one of each set's points.
     Point start() const {
       Farthest first{point(0), Batch(0.0)};
       if (is_shared_) share(first);

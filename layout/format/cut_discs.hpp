@@ -16,10 +16,10 @@ struct CutDiscs {
   std::uint32_t count;  ///< at least one
 };
 
-/// `root`: shape * level_count + level. Valid while the set lives.
+/// Returns the discs of a cut, of `root` = shape * level_count + level. Valid while the set lives.
 CutDiscs cut_discs(const ShapeSetView& shapes, std::uint32_t root) noexcept;
 
-/// Where, among a set's nodes, the first cut disc below a node stands.
+/// Returns where, among a set's nodes, the first cut disc below a node stands.
 std::uint32_t first_disc(const float* nodes, std::uint32_t node) noexcept;
 
 }  // namespace bch::detail

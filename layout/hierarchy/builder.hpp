@@ -25,7 +25,7 @@ class HierarchyBuilder {
   /// Uses a given implementation of the discs, which this processor has to support.
   explicit HierarchyBuilder(const DiscImplementation& implementation) : solver_(implementation) {}
 
-  /// The most nodes of a hierarchy, 2^22 unless told: more throw std::length_error.
+  /// Sets the largest number of nodes of a hierarchy, 2^22 by default: more throw std::length_error.
   void limit_nodes(std::size_t most) noexcept { most_nodes_ = most; }
 
   /// Builds the hierarchy that contour_hierarchy() documents, without primitives. After an exception the
@@ -33,7 +33,7 @@ class HierarchyBuilder {
   void contour(const Outline& outline, float threshold, SplitRule rule, Hierarchy& hierarchy,
                std::uint32_t deepest = all_depths);
 
-  /// The root of contour() alone, for an outline with these points on its convex hull and no others there
+  /// Makes the root of contour() alone, for an outline with these points on its convex hull and no others there
   /// that decide the disc around it or its reach. After an exception the hierarchy has no nodes.
   /// Errors:  throws std::invalid_argument on no points or a reach outside rounding.hpp's domain.
   void root(std::span<const Vec2> points, float grid_step, Hierarchy& hierarchy);

@@ -25,7 +25,7 @@ class EvenHalves {
 
   /// Pieces longer than `longest` are halved, in a shape of a certain reach, both metres.
   void begin(double longest, double reach);
-  /// How often segments of four lengths, rounded to float, are halved: `uneven` where that is too often, or rounding
+  /// Writes how often segments of four lengths, rounded to float, are halved: `uneven` where that is too often, or rounding
   /// may decide.
   void write_halvings(const float* lengths, std::uint8_t* halvings) const;
   /// Leaves room for a segment's nodes. `source`: its index.

@@ -23,7 +23,7 @@ struct SplitMeasure {
 /// Names items by index, so that dividing them moves four bytes each.
 using ItemList = std::span<const std::uint32_t>;
 
-/// One pass, the sums in order. At least one item.
+/// Measures items in one pass, the sums in order. There is at least one item.
 SplitMeasure measure(const SplitItems& items, ItemList list);
 
 /// Divides a node's items, two at least, so that those before a plane come first and both sides keep their

@@ -32,7 +32,7 @@ struct SplitItems {
 
   /// Starts anew, with room for so many.
   void begin(std::size_t most);
-  /// A closed contour's segments, four at a time.
+  /// Adds a closed contour's segments, four at a time.
   void add_contour(std::span<const Vec2> points, const EvenHalves& halves);
   void add_triangle(const Primitive& triangle);
 

@@ -11,7 +11,7 @@
 
 namespace bch::detail {
 
-/// Per node the least radius about its disc's centre that holds the discs of all nodes below, rounded up: what a search
+/// Returns per node the least radius about its disc's centre that holds the discs of all nodes below, rounded up: what a search
 /// for the nearest discs of the binary tree may prune by. A leaf's is its disc's.
 std::vector<float> bounding_radii(const Hierarchy& hierarchy);
 

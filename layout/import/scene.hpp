@@ -25,12 +25,12 @@ namespace bch::detail::importing {
 /// Numbers beyond this are taken for damage: their squares leave float's range soon after.
 constexpr float largest_number = 1e15f;
 
-/// Control characters become blanks, so that a message stays one line whatever a file contains.
+/// Returns a text whose control characters are replaced by blanks, so that a message stays one line whatever a file contains.
 std::string one_line(const std::string& text);
 
 [[noreturn]] void reject(const std::filesystem::path& file, const std::string& reason);
 
-/// "1 face", "2 faces".
+/// Returns a number with its noun: "1 face", "2 faces".
 std::string count(std::size_t number, const std::string& noun, const std::string& plural = "");
 
 std::string to_string(const aiString& text);

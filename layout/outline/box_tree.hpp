@@ -14,7 +14,7 @@ namespace bch::detail {
 /// blocks: neighbours should be near each other.
 class BoxTree {
  public:
-  /// Room for that many segments, so that assign() allocates nothing.
+  /// Reserves room for that many segments, so that assign() allocates nothing.
   void reserve(std::size_t segments);
 
   /// The segments are followed by copies of the last one, up to a whole block.

@@ -17,7 +17,7 @@ namespace bch::detail {
 /// logarithmic in their number as long as few boxes overlap. Keeps its memory.
 class ContourIndex {
  public:
-  /// Room for so many places, so that begin() allocates nothing.
+  /// Reserves room for so many places, so that begin() allocates nothing.
   void reserve(std::size_t places);
 
   /// Forgets all contours. Contours added from now on begin in these places.

@@ -56,7 +56,7 @@ struct Fraction {
   Fraction(std::int64_t n, std::int64_t d, double quotient) : numerator(n), denominator(d), value(quotient) {}
 };
 
-/// -1, 0 or 1 for a < b, a == b, a > b. Correct rounding is monotonic: quotients that differ are in the order of
+/// Returns -1, 0 or 1 for a < b, a == b, a > b. Correct rounding is monotonic: quotients that differ are in the order of
 /// the fractions; only equal ones need the exact products.
 inline int compare(const Fraction& a, const Fraction& b) {
   if (a.value != b.value) return a.value < b.value ? -1 : 1;

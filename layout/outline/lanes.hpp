@@ -17,7 +17,7 @@ namespace bch::detail {
 template <class Simd>
 class OutlineLanes {
  public:
-  /// Which way the corners of triangles go round: bit 0 for counter-clockwise, bit 1 for clockwise, none where
+  /// Finds which way the corners of triangles go round: bit 0 for counter-clockwise, bit 1 for clockwise, none where
   /// they are on a line, or so close to one that it is left open. `count` is a multiple of triangles_together.
   /// A turn's two terms are products of differences, which floats hold, rounded to floats. Rounding keeps order, so the
   /// larger one is; where they are then equal, it is left open. Exact products take as long, because the loads decide.

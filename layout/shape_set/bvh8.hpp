@@ -49,7 +49,7 @@ Bvh8 bvh8(const Hierarchy& hierarchy, std::uint32_t depth);
 /// seen the largest, it allocates nothing. One thread may use it at a time.
 class Flattener {
  public:
-  /// The hierarchy has to live until the next call.
+  /// Takes a hierarchy, which has to live until the next call.
   void begin(const Hierarchy& hierarchy);
   /// Makes a cut the current one and collapses the tree above it.
   void flatten(std::uint32_t depth, Bvh8& tree);

@@ -60,7 +60,7 @@ struct ShapeStorage {
 
   ShapeArrays arrays() const;
 
-  /// Room for so many parts of such an extent, of which nothing is written yet.
+  /// Reserves room for so many parts of such an extent, of which nothing is written yet.
   void reserve(const ShapeSetPlan& plan, std::size_t parts, const ShapeExtent& extent);
   /// Makes the arrays with elements of a fixed size large enough for so many shapes and parts, as far as the plan has them.
   void resize(const ShapeSetPlan& plan, std::size_t shapes, std::size_t parts);

@@ -50,11 +50,11 @@ struct AnyLanes {
   static Float min(Float first, Float second) noexcept { return select(first < second, first, second); }
   static Float max(Float first, Float second) noexcept { return select(second < first, first, second); }
 
-  /// NaN in the lanes that are set, and 0 in those that are not; the other lanes stay.
+  /// Returns NaN in the lanes that are set, and 0 in those that are not; the other lanes stay.
   static Float hide(Mask mask, Float v) noexcept { return select(mask, Float(__builtin_nanf("")), v); }
   static Float keep(Mask mask, Float v) noexcept { return select(mask, v, Float(0.0f)); }
 
-  /// One lane of floats or doubles.
+  /// Returns one lane of floats or doubles.
   template <class T>
   static T lane(Batch<T> v, unsigned i) noexcept {
     return v.data[i];
@@ -92,7 +92,7 @@ struct AnyLanes {
     to[2] = shuffle<0, 1, 4, 5>(high01, high23), to[3] = shuffle<2, 3, 6, 7>(high01, high23);
   }
 
-  /// The first and the second ones of pairs of floats (or of what has their size), lane = pair: at(lane) points to one.
+  /// Loads the first and the second ones of pairs of floats (or of what has their size), lane = pair: at(lane) points to one.
   template <class At>
   static void load_pairs(At at, Float& first, Float& second) noexcept {
     const auto half = [&]<std::size_t... i>(std::size_t from, std::index_sequence<i...>) {
@@ -102,7 +102,7 @@ struct AnyLanes {
                 high = half(2, std::make_index_sequence<doubles>());
     first = shuffle<0, 2, 4, 6>(low, high), second = shuffle<1, 3, 5, 7>(low, high);
   }
-  /// The same, as doubles.
+  /// Loads the same, as doubles.
   template <class At>
   static void load_pairs(At at, Double (&to)[2]) noexcept {
     static_assert(doubles == 2);
@@ -110,12 +110,12 @@ struct AnyLanes {
     Own::widened(shuffle<0, 2, 1, 3>(both, both), to);
   }
 
-  /// Four floats for each group of four lanes: those where at(group) points.
+  /// Returns four floats for each group of four lanes: those where at(group) points.
   template <class At>
   [[gnu::always_inline]] static Float fours(At at) noexcept {
     return load(at(0));
   }
-  /// Field after field of records of four floats, lane = record. They are picked from a table, each by an index of
+  /// Loads field after field of records of four floats, lane = record. They are picked from a table, each by an index of
   /// strides from its beginning.
   template <std::size_t stride>
   [[gnu::always_inline]] static void load_records(const float* table, const std::uint32_t* index,
@@ -127,7 +127,7 @@ struct AnyLanes {
     transpose(record, field);
   }
 
-  /// The same of records of four integers, as doubles.
+  /// Loads the same of records of four integers, as doubles.
   template <std::size_t stride>
   static void load_integers(const std::int32_t* table, const std::uint32_t* index,
                             Double (&field)[4]) noexcept {
@@ -184,7 +184,7 @@ struct AnyLanes {
   }
   static constexpr float rough = 0x1p-23f;
 
-  /// first + i for every set bit i, in order; a register's lanes of numbers may be written.
+  /// Writes first + i for every set bit i, in order; a register's lanes of numbers may be written.
   /// Returns: how many.
   static std::uint32_t write_set(std::uint32_t bits, std::uint32_t first, std::uint16_t* to) noexcept {
     std::uint32_t count = 0;

@@ -64,7 +64,7 @@ template <class Simd, class Each>
     for (std::uint32_t lane = 0; lane < Simd::width; ++lane) each(k + lane);
 }
 
-/// sqrt(x), x >= 0, nearly: as Simd's rough_root(), of what is less than the least normal number that of
+/// Returns sqrt(x), x >= 0, nearly: as Simd's rough_root(), of what is less than the least normal number that of
 /// this.
 template <class Simd>
 typename Simd::Float rough_root(typename Simd::Float x) noexcept {

@@ -36,7 +36,7 @@ struct Row {
   std::uint64_t number = 0;                         ///< of its line or row in the file, from 1
 };
 
-/// Text from a file for a message: in quotes, without control characters, not long.
+/// Returns text from a file for a message: in quotes, without control characters, not long.
 std::string shown(std::string_view text);
 
 /// Names the rows of a file, for messages.
@@ -44,7 +44,7 @@ struct Places {
   std::filesystem::path file;
   bool has_lines = false;  ///< rows are lines of text
 
-  /// "line 12" or "row 12".
+  /// Returns "line 12" or "row 12".
   std::string row(std::uint64_t number) const;
   /// Returns the file with that row, as messages begin.
   std::string at(std::uint64_t number) const;
@@ -80,7 +80,7 @@ class RowStream {
   /// Fills the front of a span.
   /// Returns: how many rows were read; 0 at the end.
   virtual std::size_t read(std::span<Row> rows) = 0;
-  /// Like read(), of which the keys and ids alone are wanted, and the rest may be left out unchecked.
+  /// Reads like read(), of which the keys and ids alone are wanted, and the rest may be left out unchecked.
   virtual std::size_t read_keys(std::span<Row> rows) { return read(rows); }
   /// Goes back before the first row.
   virtual void rewind() = 0;

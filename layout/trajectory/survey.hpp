@@ -18,7 +18,7 @@ namespace bch::detail::trajectory {
 class IdCount {
  public:
   void add(std::int64_t id);
-  /// 0 where there were more.
+  /// Returns the number of ids; 0 where there were more.
   std::uint64_t count() const { return too_many_ ? 0 : ids_.size(); }
 
  private:
