@@ -25,9 +25,8 @@ struct ClearanceAnswers {
   std::span<float> distance;  ///< metres; infinite beyond max_distance
   std::span<Vec2> direction =
       {};  ///< unit vectors; (0, 0) beyond max_distance, and with Overlap::zero where discs overlap
-  std::span<DiscPair> discs = {};  ///< the nearest discs; no_discs for the same pairs
-  std::span<NearestPoints> points =
-      {};  ///< the nearest points of these discs, or of segments; (0, 0) for the same pairs
+  std::span<DiscPair> discs = {};        ///< the nearest discs; no_discs for the same pairs
+  std::span<NearestPoints> points = {};  ///< points of these discs, or of segments; (0, 0) for the same pairs
 };
 
 /// Measures how far apart the two agents of each pair are: the least gap between a disc of one's cut and a disc of the other's, or 0

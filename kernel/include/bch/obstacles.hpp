@@ -27,9 +27,8 @@ struct ObstacleArrays {
   std::span<const double> x, y;                 ///< the points of all paths
   std::span<const std::uint64_t> path_offsets;  ///< path p has points [p] .. [p + 1]; one more than paths
   std::span<const std::uint64_t> obstacle_offsets =
-      {};  ///< obstacle o has paths [o] .. [o + 1]; empty: one path each
-  std::span<const std::uint8_t> is_area =
-      {};  ///< per obstacle, see ObstacleSet; empty: no obstacle is an area
+      {};                                      ///< obstacle o has paths [o] .. [o + 1]; empty: one path each
+  std::span<const std::uint8_t> is_area = {};  ///< per obstacle, see ObstacleSet; empty: no areas
 };
 
 /// Selects the meaning of polygons in a file.
@@ -91,9 +90,10 @@ ObstacleSet obstacles_from_wkt(std::string_view text, Polygons polygons = Polygo
 // Threads: run in the caller's TBB arena.
 // Memory:  in proportion to the segments that are near 64 agents, for each task.
 
-/// Tests whether each agent collides with an obstacle, touching included, and writes 1 for a hit and 0 otherwise. In a hit a disc of the
-/// agent's cut overlaps the obstacle, and so does every node above that disc. With exact leaves the outline in that disc does, too. An
-/// agent inside an area always collides. In solid semantics an agent also collides where its outline holds a whole path of an obstacle.
+/// Tests whether each agent collides with an obstacle, touching included, and writes 1 for a hit and 0 otherwise. An agent
+/// collides where a disc of its cut overlaps the obstacle, and so does every node above that disc. With exact leaves the outline in that
+/// disc has to overlap it, too. An agent inside an area always collides. In solid semantics an agent also collides where its outline holds
+/// a whole path of an obstacle.
 /// Options: semantics, leaves, implementation.
 void collide(const ShapeSet& shapes, const Agents& agents, const ObstacleSet& obstacles,
              std::span<std::uint8_t> hits, const QueryOptions& options = {});
@@ -113,8 +113,8 @@ void within(const ShapeSet& shapes, const Agents& agents, const ObstacleSet& obs
 /// position.
 ///
 /// With Overlap::deepest the distance of a disc that a segment crosses is negative. Its direction is that to the segment's nearest point,
-/// or (1, 0) where that point is the disc's centre. The distance of an agent that is inside an area and touches none of its segments is
-/// the distance to the segments.
+/// or (1, 0) where that point is the disc's centre. An agent that is inside an area and touches none of its segments then has its distance
+/// to these segments.
 ///
 /// With distance_leaves = Leaves::segments, where the agent has exact leaves, the distance is that of its outline: the least from a
 /// segment of it to one of the obstacle, and 0 where they come within the margin of exact leaves or an area holds something of the
