@@ -64,7 +64,8 @@ class ObstacleSet {
   /// Errors:  throws std::out_of_range on an index out of range.
   std::uint32_t obstacle_of(std::uint32_t segment) const;
 
-  /// Returns the internal representation, whose type only the library itself knows.
+  // For the library's own parts, which alone know these types.
+  /// Returns the arrays that queries read.
   const detail::ObstacleView& view() const noexcept;
 
  private:

@@ -135,7 +135,8 @@ class AnimatedShape {
   /// Makes that shape in place of another shape of this kind, whose memory it keeps.
   void shape(double seconds, Shape& shape) const;
 
-  /// Returns the tree of a body that is whole, or of a slab. Only the library itself knows its type.
+  // For the library's own parts, which alone know these types.
+  /// Returns the tree of a body that is whole, or of a slab.
   const detail::AnimatedTree& tree() const noexcept { return *tree_; }
 
  private:

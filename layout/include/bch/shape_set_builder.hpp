@@ -32,7 +32,8 @@ class PreparedShape {
   /// Errors:  throws std::invalid_argument as ShapeSet does, naming the shape by `index`; then prepare another shape.
   void prepare(const Shape& shape, std::size_t index);
 
-  /// Returns the internal representation, whose type only the library itself knows.
+  // For the library's own parts, which alone know these types.
+  /// Returns the arrays that builders and sets copy.
   detail::FlatBody& flat() noexcept;
   const detail::FlatBody& flat() const noexcept;
 
@@ -60,8 +61,9 @@ class ShapeSetBuilder {
   /// Returns the set of the shapes that were added. Where memory runs out, the shapes stay in the builder.
   ShapeSet finish() &&;
 
-  /// Returns the nodes of the shapes so far, as the set is going to have them, or none for sets of only roots. For the library's own
-  /// parts; valid until the next call of another function.
+  // For the library's own parts, which alone know these types.
+  /// Returns the nodes of the shapes so far, as the set is going to have them, or none for sets of only roots. They are
+  /// valid until the next call of another function.
   std::span<const float> nodes() const noexcept;
   /// Returns the present end of the set, for go_back().
   detail::BuilderEnd end() const noexcept;
