@@ -10,7 +10,7 @@
 
 namespace bch {
 
-/// Holds the contacts of a crowd: one row, which may be empty, for each pair of agents whose root discs overlap.
+/// Holds the contacts of a crowd: one row, which may be empty, for each pair that BroadPhase::find() finds.
 struct CrowdContacts {
   std::span<const Pair> pairs;  ///< first < second, in the order of BroadPhase::find()
   Rows<DiscPair> contacts;      ///< as ContactFinder::find() returns them for these pairs

@@ -13,7 +13,7 @@
 namespace bch {
 
 /// Holds the displacement of the first agent of each pair relative to the second: its own displacement minus the
-/// other's. Neither agent turns.
+/// other's. Beside obstacles there is one for each agent, in the world. No agent turns.
 /// Units:   metres in the world; each within +-1e9.
 struct Displacements {
   std::span<const double> x, y;

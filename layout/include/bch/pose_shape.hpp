@@ -40,8 +40,8 @@ class PoseShaper {
   /// `whole`: does not cut the body, whatever the plan's slices; the body is then one part at all of its heights.
   const Shape& shape(PoseTime at, bool whole = false);
 
-  /// Makes the outlines of a pose, the first step of shape(), for callers that need only outlines or time each step. It does nothing
-  /// for a plan of depth 0 alone.
+  /// Makes the outlines of a pose, the first step of shape(), for callers that need only outlines or time each step. It makes
+  /// none for a plan of depth 0 alone without slices and heights.
   const Shape& make_outlines(PoseTime at, bool whole = false);
   /// Makes the hierarchies over the last outlines, the second step of shape().
   const Shape& make_hierarchies();

@@ -90,7 +90,7 @@ struct AnimatedDiscs {
 ///          the keys; naming the disc and key, on one that is not finite or of a radius below 0, or that does not overlap the next
 ///          one of its ring; on rings that do not ascend or end before or after the last disc, and on a reach outside 1e-6 to 1e6 m.
 ///          Of a body that is cut, naming the slab too; on slices that validate(ShapeSetPlan) rejects, on another number of slabs, on
-///          chunks beside them, on slabs of slabs or that begin or end at different times, and where no slab has discs.
+///          heights of which the bottom is above the top or NaN, on chunks beside them, on slabs of slabs or that begin or end at different times, and where no slab has discs.
 void validate(const AnimatedDiscs& discs);
 
 /// Represents a body that moves by itself, seen from above: a clip of a character, or other moving discs. Its solid at a time is its

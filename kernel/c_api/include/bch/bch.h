@@ -790,7 +790,8 @@ typedef struct bch_tracked_person {
   float heading; /**< radians; NaN where the file does not say */
   float stature; /**< the person's height, metres; NaN where the file does not say */
 } bch_tracked_person;
-/** Reads the people of the next frames, as many whole frames as fit. At the end it reads none. */
+/** Reads the people of the next frames, as many whole frames as fit; a frame that is larger than `capacity` is an invalid argument.
+ * At the end it reads none. */
 BCH_API bch_status bch_trajectory_read(bch_trajectory* trajectory, bch_tracked_person* people, size_t capacity,
                                        size_t* count);
 /** Names the body that rows of a recording name, and the clip that it plays; one of the two may be empty. */

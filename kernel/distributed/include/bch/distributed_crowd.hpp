@@ -45,7 +45,8 @@ struct CrowdDistance {
 
 /// Holds the options of how a crowd is divided among ranks.
 struct DistributedCrowdOptions {
-  double cell = 0;  ///< metres: the side of the squares that ranks own; 0: four times the largest radius
+  /// The side of the squares that ranks own, metres, at least 1; 0: four times the largest radius.
+  double cell = 0;
   double imbalance = 1.04;  ///< the most work of a rank over the mean, beyond which the crowd is cut anew
   /// Gives the work of an agent beside its pairs, in pairs: 0 balances pairs, about 1.3 balances time, and about 600 balances
   /// characters, who are posed anew.
@@ -119,7 +120,8 @@ class DistributedCrowd {
 
   /// Brings every agent to its owner, and copies of it to the ranks that need them. It cuts the crowd anew if the pairs of the last query
   /// were unbalanced.
-  /// Units:   metres; the margin is the largest distance that clearances() will be asked for, from 0 to 1e6, the same on all ranks.
+  /// Units:   metres; the margin is the largest distance that clearances() will be asked for, the same on all ranks. It is not negative,
+  ///          and with two of the largest radii at most 16 squares.
   /// Errors:  names the agent, by its id, and the value that an agent must not have.
   void update(double margin = 0);
 
