@@ -34,7 +34,8 @@ FNR == 1 {
     link = names[i] ~ /^BCH/ || split(surface, parts, " " names[i] " ") > 2 ? names[i] : "\\ref bch::" names[i] " \"" names[i] "\""
     declared = declared (i > 1 ? ", " : "") link
   }
-  $0 = "/** \\file */ /** \\addtogroup " folder (folder == "kernel" ? " kernel: queries" : " layout: shapes")
+  title["kernel"] = "kernel: queries"; title["layout"] = "layout: shapes"; title["distributed"] = "distributed: crowds on many processes"
+  $0 = "/** \\file */ /** \\addtogroup " folder " " title[folder]
 }
 FNR == 2 { $0 = "*/ /** \\addtogroup " module " bch/" name }
 FNR == 3 { $0 = "\\ingroup " folder }
