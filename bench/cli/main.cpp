@@ -17,15 +17,18 @@ namespace {
 using namespace bch::cli;
 
 constexpr const char* description =
-    "Collision checking between virtual characters in crowds by bounding cylinder hierarchies.\n"
-    "Lengths are in metres, headings in radians, counter-clockwise; the ground plane is x-y.";
+    "Checks collisions between virtual characters in crowds, by bounding cylinder hierarchies.\n"
+    "Lengths are in metres. Headings are in radians, counter-clockwise. The ground plane is x-y.";
 constexpr const char* footer =
     "Data goes to standard output, messages to standard error.\n"
-    "Exit codes: 0 success; 1 a check that fails (check --fail-above); 2 usage; 3 a file that cannot be "
-    "read, believed\n"
-    "            or written; 4 internal error;\n"
-    "            128 + N ended by signal N (129 hang-up, 130 interrupt, 143 termination).\n"
-    "No half-written file stays behind.";
+    "Exit codes:\n"
+    "  0        success\n"
+    "  1        a check failed (check --fail-above)\n"
+    "  2        wrong usage\n"
+    "  3        a file cannot be read or written, or is not valid\n"
+    "  4        internal error\n"
+    "  128 + N  ended by signal N (129 hang-up, 130 interrupt, 143 termination)\n"
+    "No incomplete output file is left behind.";
 
 int run(int argc, char** argv) {
   CLI::App program(description, "bch");

@@ -23,11 +23,11 @@ using namespace bch::cli;
 using bch::detail::Session;
 
 constexpr const char* description =
-    "Queries of crowds on many processes, started by MPI: mpirun -n 4 bch_mpi crowd people.bch\n"
-    "Lengths are in metres, headings in radians, counter-clockwise; the ground plane is x-y.";
+    "Queries crowds on many processes, started by MPI: mpirun -n 4 bch_mpi crowd people.bch\n"
+    "Lengths are in metres. Headings are in radians, counter-clockwise. The ground plane is x-y.";
 constexpr const char* footer =
-    "Rank 0 writes all output. Where one rank fails, all end with one message that names it.\n"
-    "Exit codes are those of bch.";
+    "Rank 0 writes all output. If one rank fails, all ranks end, with one message that names it.\n"
+    "The exit codes are those of bch.";
 
 int run_command(const Session& session, int argc, char** argv) {
   CLI::App program(description, "bch_mpi");
