@@ -64,25 +64,26 @@ void run_bake(const BakeOptions& options) {
 std::function<void()> add_bake_command(CLI::App& program) {
   const auto options = std::make_shared<BakeOptions>();
   CLI::App& command = *program.add_subcommand(
-      "bake", "Build shapes and write them into a file, which the other commands load");
+      "bake", "Build shapes and write them to a baked file, which the other commands load");
   command.footer(
-      "query, crowd and inspect take the file in place of a character; it holds only what queries need.\n"
-      "With --semantics boundary --leaves discs it holds no outlines, and is about a quarter smaller.\n"
+      "query, crowd, inspect and check take the baked file in place of a character. It holds only what "
+      "queries need.\n"
+      "With --semantics boundary --leaves discs it holds no outlines and is about a quarter smaller.\n"
       "Example: bch bake man.glb woman.glb --rate 30 --depths 0,all -o people.bch");
   command.add_option("FILE", options->characters, character_help)->type_name("")->required();
-  command.add_option("-o,--output", options->output, "The file to write, NAME.bch")
+  command.add_option("-o,--output", options->output, "Baked file to write, NAME.bch")
       ->type_name("FILE")
       ->required();
   options->shapes.add_to(command);
-  command.add_option("--rate", options->rate, "Instead of --poses: N poses for each second of every clip")
+  command.add_option("--rate", options->rate, "N poses per second of every clip, instead of --poses")
       ->type_name("N")
       ->check(number_between(1e-3, 1e4))
       ->excludes("--poses");
   command.add_flag("--heights", options->heights,
-                   "Keep the heights of bodies, for agents with a z; --slices do so anyway");
+                   "Keep the heights of bodies, which agents with a z need; --slices always keeps them");
   command
       .add_option("--animated", options->animated,
-                  "Keep the clip of this name, or all, as moving discs for every time, too (repeatable)")
+                  "Also keep the clip of this name, or all, as moving discs for every time (repeatable)")
       ->type_name("CLIP")
       ->allow_extra_args(false);
   options->answer.add_levels_to(command);

@@ -112,11 +112,12 @@ std::function<void()> add_crowd_command(CLI::App& program) {
   CLI::App& command =
       *program.add_subcommand("crowd", "Place a random crowd and count its collisions at each depth");
   command.footer(
-      "For each depth, prints the pairs that collide, and the share of the cylinders' collisions that it "
-      "clears.\n"
-      "Shapes are drawn evenly from the poses of all characters: a character with fewer poses appears less.\n"
+      "For each depth, prints the number of colliding pairs and the share of the cylinders' collisions that "
+      "it clears.\n"
+      "Shapes are drawn evenly from the poses of all characters, so a character with fewer poses appears "
+      "less often.\n"
       "Example: bch crowd --agents 2000 --density 1 --svg crowd.svg");
-  command.add_option("--agents", options->agents, "How many agents [10000]")
+  command.add_option("--agents", options->agents, "Number of agents [10000]")
       ->type_name("N")
       ->check(whole_between(1, 10'000'000));
   command.add_option("--density", options->density, "Agents per square metre [3]")
@@ -133,7 +134,7 @@ std::function<void()> add_crowd_command(CLI::App& program) {
   command.add_option("--svg", options->svg, "Draw the middle of the crowd from above")->type_name("FILE");
   command
       .add_option("--svg-depth", options->svg_depth,
-                  "Of --svg: draw the discs of this depth, one of --depths [6, else the last]")
+                  "Depth of the discs that --svg draws, one of --depths [6, else the last]")
       ->type_name("DEPTH");
   return [options, &command] { run_crowd(command, *options); };
 }

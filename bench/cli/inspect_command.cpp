@@ -180,23 +180,25 @@ std::function<void()> add_inspect_command(CLI::App& program) {
   CLI::App& command = *program.add_subcommand("inspect", "Show a character or baked file and its shapes");
   command.footer(
       "Reads glTF 2, FBX, Collada, MD5, IQM, OBJ, PLY and STL, and clips of these and of BVH.\n"
-      "A file is refused if reading it crashes or takes more than 2 GiB or 60 s.\n"
+      "A file is rejected if reading it crashes or takes more than 2 GiB or 60 s.\n"
       "Example: bch inspect default:male --clip walk --time 1.5 --svg walk.svg");
   command.add_option("FILE", options->character, character_or_baked_help)->type_name("")->required();
   command.add_option("--shape", options->shape, "Show this shape of the table in detail")->type_name("INDEX");
-  command.add_option("--clip", options->clip, "Show this clip, at --time, in detail")->type_name("NAME");
+  command.add_option("--clip", options->clip, "Show this clip at --time in detail")->type_name("NAME");
   command.add_option("--time", options->time, "Seconds from the start of --clip")
       ->type_name("SECONDS")
       ->check(number_between(0, 1e9));
   command.add_flag(
       "--animated", options->animated,
-      "Show the clip as moving discs, at --time and from key to key, slab by slab; of a baked file, too");
+      "Show the clip as moving discs, at --time and from key to key, slab by slab; also of a baked file");
   options->shapes.add_to(command);
   add_threads_option(command, options->threads);
   command.add_flag(
       "--verify", options->verify,
-      "Recompute what a baked file stores besides its discs and outlines, and name what differs");
-  command.add_option("--json", options->json, "Write the same as JSON, with all points of a shape's outline")
+      "Recompute what a baked file stores besides its discs and outlines, and report differences");
+  command
+      .add_option("--json", options->json,
+                  "Write the same data as JSON, with all points of a shape's outline")
       ->type_name("FILE");
   command.add_option("--svg", options->svg, "Draw the shape: a panel for each depth of its hierarchy")
       ->type_name("FILE");

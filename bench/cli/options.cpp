@@ -70,13 +70,13 @@ void require_unsettled(const CLI::App& command, const std::string& baked_file) {
 }
 
 void add_seed_option(CLI::App& command, std::uint64_t& seed, const std::string& what) {
-  command.add_option("--seed", seed, "Chooses " + what + " [1]")
+  command.add_option("--seed", seed, "Random seed for " + what + " [1]")
       ->type_name("N")
       ->check(whole_between(0, std::numeric_limits<std::uint64_t>::max()));
 }
 
 void add_threads_option(CLI::App& command, std::uint32_t& threads) {
-  command.add_option("--threads", threads, "Threads [all that the machine has]")
+  command.add_option("--threads", threads, "Number of threads [all that the machine has]")
       ->type_name("N")
       ->check(whole_between(1, 1024));
 }
@@ -94,24 +94,24 @@ std::uint32_t parse_depth(const std::string& option, const std::string& text) {
 void ShapeOptions::add_to(CLI::App& command) {
   CLI::Option& clips_option = add_repeatable_option(
       command, "--clips", clips, "Add the clips of this file, matched by bone name (repeatable)", "FILE");
-  command.add_flag("--force-clips", force_clips, "Take clips that belong to another skeleton, too")
+  command.add_flag("--force-clips", force_clips, "Also accept clips that belong to another skeleton")
       ->needs(&clips_option);
-  command.add_option("--up", up, "Up axis of the file [what the file says or looks like]")
+  command.add_option("--up", up, "Up axis of the file [as the file states, else a guess]")
       ->type_name("x|y|z")
       ->check(one_of({"x", "y", "z"}));
-  command.add_option("--scale", scale, "Metres per unit of the file [what the file says or looks like]")
+  command.add_option("--scale", scale, "Metres per unit of the file [as the file states, else a guess]")
       ->type_name("METRES")
       ->check(number_between(1e-9, 1e9));
-  command.add_option("--poses", poses, "Poses of a character, spread evenly over its clips [100]")
+  command.add_option("--poses", poses, "Poses per character, spread evenly over its clips [100]")
       ->type_name("N")
       ->check(whole_between(1, 1'000'000));
-  command.add_option("--threshold", threshold, "A node with a smaller radius is not divided [0.01 m]")
+  command.add_option("--threshold", threshold, "Nodes with a smaller radius are not divided [0.01 m]")
       ->type_name("METRES")
       ->check(number_between(1e-4, 100));
   command
       .add_option(
           "--slices", slices,
-          "Cut bodies at these heights, metres, such as 0.4,1: an arm above a foot is no collision [whole]")
+          "Cut bodies at heights in metres, such as 0.4,1: an arm above a foot is no collision [whole]")
       ->type_name("LIST");
   add_limits_to(command);
 }
@@ -149,13 +149,13 @@ void ShapeOptions::add_limits_to(CLI::App& command) {
   const auto add_count = [&](const char* name, std::size_t& value, const char* what) {
     add(name, value, "N", fmt::format("{} [{}]", what, value), whole_between(1, 1'000'000'000));
   };
-  add_count("--max-triangles", limits.triangles, "Triangles of a file, counted for each instance of a mesh");
-  add_count("--max-contours", limits.contours, "Contours of the outline of a pose");
-  add_count("--max-nodes", limits.nodes, "Nodes of the hierarchy of a pose");
-  add("--max-seconds", limits.seconds, "SECONDS", "Time to build and write shapes [60 s, and 1 s a shape]",
+  add_count("--max-triangles", limits.triangles, "Triangles of a file, counted once per instance of a mesh");
+  add_count("--max-contours", limits.contours, "Contours in the outline of a pose");
+  add_count("--max-nodes", limits.nodes, "Nodes in the hierarchy of a pose");
+  add("--max-seconds", limits.seconds, "SECONDS", "Time to build and write shapes [60 s plus 1 s per shape]",
       number_between(1e-3, 1e9));
   add("--max-memory", limits.memory, "GIB",
-      "Memory while shapes are built and written [4 GiB, and 1 MiB a shape]", number_between(1e-3, 1e6));
+      "Memory while shapes are built and written [4 GiB plus 1 MiB per shape]", number_between(1e-3, 1e6));
 }
 
 ImportOptions ShapeOptions::import_options() const {
@@ -175,11 +175,10 @@ std::vector<std::string> ShapeOptions::inputs(std::vector<std::string> files) co
 
 void add_leaves_option(CLI::App& command, std::string& leaves, int centimetres) {
   command
-      .add_option(
-          "--leaves", leaves,
-          fmt::format("At depth all, test segments of the outlines, or discs, which hit up to {} cm earlier "
-                      "[segments]",
-                      centimetres))
+      .add_option("--leaves", leaves,
+                  fmt::format("Test at depth all: segments of the outlines, or discs, which hit up to {} cm "
+                              "earlier [segments]",
+                              centimetres))
       ->type_name("NAME")
       ->check(one_of({"segments", "discs"}));
 }
@@ -190,7 +189,7 @@ void AnswerOptions::add_levels_to(CLI::App& command) {
   command
       .add_option(
           "--semantics", semantics,
-          "Collide where outlines cross: boundary; or also where one contains the other: solid [boundary]")
+          "boundary: outlines collide where they cross; solid: also where one contains the other [boundary]")
       ->type_name("NAME")
       ->check(one_of({"boundary", "solid"}));
   add_leaves_option(command, leaves, 1);
@@ -202,7 +201,9 @@ void AnswerOptions::add_to(CLI::App& command) {
   std::vector<std::string_view> names;
   for (const Implementation& each : implementations()) names.push_back(each.name);
   command
-      .add_option("--isa", isa, fmt::format("Kernel: {} [the best that runs here]", fmt::join(names, ", ")))
+      .add_option(
+          "--isa", isa,
+          fmt::format("Instruction set of the kernel: {} [the best that runs here]", fmt::join(names, ", ")))
       ->type_name("NAME");
 }
 

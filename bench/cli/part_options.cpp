@@ -18,11 +18,11 @@ constexpr std::array without_answers{"--part",   "--into",   "--parts", "--threa
 }  // namespace
 
 void PartOptions::add_to(CLI::App& command) {
-  command.add_option("--part", part, "Do only part I of N, such as 1/8; bch merge joins all parts")
+  command.add_option("--part", part, "Do only part I of N, such as 1/8; bch merge joins the parts")
       ->type_name("I/N");
   command
       .add_option("--into", folder,
-                  "Folder for the files of --part; a part that is there already is not done again")
+                  "Folder for the files of --part; a complete part of the same run is skipped")
       ->type_name("DIR");
 }
 
