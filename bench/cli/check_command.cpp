@@ -59,16 +59,17 @@ void run_check(const CLI::App& command, const CheckCommandOptions& options) {
 
 std::function<void()> add_check_command(CLI::App& program) {
   const auto options = std::make_shared<CheckCommandOptions>();
-  CLI::App& command =
-      *program.add_subcommand("check", "Put bodies on a recorded or simulated crowd: who runs into whom");
+  CLI::App& command = *program.add_subcommand(
+      "check", "Put bodies on a recorded or simulated crowd, and find who runs into whom");
   command.footer(
       "Reads JuPedSim's SQLite, PeTrack and Juelich text, the Pedestrian Dynamics Data Archive's HDF5,\n"
       "Pathfinder's CSV, TrajNet++, ETH/UCY, and plain CSV with columns id, frame or time, x, y. The\n"
-      "content tells the format, not the name. If a file lacks the frame rate or the unit of length,\n"
-      "the program asks for that option. It prints every assumption.\n"
-      "Each row becomes a pedestrian of the person's height, in the stride of his speed, under his head.\n"
-      "Two people overlap if their outlines do, seen from above; with --slices, if they do at the same\n"
-      "height. The exit code is 1 if overlaps exceed --fail-above, else 0 whatever is found.\n"
+      "format is recognized by the content of the file, not by its name. If the file does not state the\n"
+      "frame rate or the unit of length, the program asks for --fps or --unit. It prints every assumption.\n"
+      "Each row becomes a pedestrian of the person's stature, in the stride that belongs to the person's\n"
+      "speed, with the head above the recorded position.\n"
+      "Two people overlap if their outlines overlap, seen from above; with --slices, if they overlap at the\n"
+      "same height. The exit code is 1 if overlaps exceed --fail-above, and else 0, whatever is found.\n"
       "Example: bch check trajectories.sqlite --slices 0.4,0.85,1.05 --events events.csv");
   options->input.add_to(command);
   add_outputs_to(command, options->outputs);

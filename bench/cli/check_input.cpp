@@ -134,27 +134,28 @@ std::vector<std::string> CheckInput::files() const {
 }
 
 void CheckInput::add_to(CLI::App& command) {
-  command.add_option("FILE", file, "The recording to check")->type_name("")->required();
-  command.add_option("--fps", fps, "Frames per second, instead of those that the file states")
+  command.add_option("FILE", file, "Recording to check")->type_name("")->required();
+  command.add_option("--fps", fps, "Frames per second, instead of the rate that the file states")
       ->type_name("N")
       ->check(number_between(1e-3, 1e4));
   command
       .add_option("--columns", columns,
-                  "Names of the columns of text or CSV in order, such as frame,id,x,y, instead of its header")
+                  "Column names of text or CSV, in order, such as frame,id,x,y, instead of its header")
       ->type_name("NAMES");
   command
-      .add_option("--unit", unit, "Unit of lengths, instead of the file's: m, cm, mm, or a number of metres")
+      .add_option("--unit", unit, "Unit of length, instead of the file's: m, cm, mm, or a number of metres")
       ->type_name("UNIT");
   command.add_option("--walls", walls, "Walkable area as well-known text (WKT), instead of the file's own")
       ->type_name("FILE.wkt");
   add_bodies_to(command);
   command
-      .add_option("--depth", depth, "Test the discs of this depth, 0, 1, 2 ..., or the whole tree: all [all]")
+      .add_option("--depth", depth,
+                  "Depth of the discs to test: 0, 1, 2 ..., or all for the whole tree [all]")
       ->type_name("N");
   add_leaves_option(command, leaves, 2);
   command
       .add_option("--max-distance", max_distance,
-                  "Also write pairs whose gap is at most M metres to --pairs [0: overlaps only]")
+                  "Also write to --pairs the pairs with a gap of at most M metres [0: overlaps only]")
       ->type_name("M")
       ->check(number_between(0, 10));
 }
@@ -164,7 +165,7 @@ void CheckInput::add_bodies_to(CLI::App& command) {
       command
           .add_option(
               "--character", characters,
-              "Bodies, given to people by id or as rows name them (repeatable), or one baked set [built-in]")
+              "Bodies, assigned by id or as the rows name them (repeatable), or one baked set [built-in]")
           ->type_name("FILE")
           ->allow_extra_args(false);
   command
@@ -174,8 +175,9 @@ void CheckInput::add_bodies_to(CLI::App& command) {
       ->allow_extra_args(false)
       ->needs(character);
   command
-      .add_option("--slices", shapes.slices,
-                  "Cut bodies into slabs at these heights, in metres; slabs of one height collide [uncut]")
+      .add_option(
+          "--slices", shapes.slices,
+          "Cut bodies into slabs at these heights, in metres; slabs collide only at the same height [uncut]")
       ->type_name("H,H...");
   command
       .add_option("--clip-speed", clip_speeds,
@@ -184,7 +186,8 @@ void CheckInput::add_bodies_to(CLI::App& command) {
       ->allow_extra_args(false)
       ->needs(character);
   command
-      .add_option("--facing", facing, "For a baked set: where its people face, counter-clockwise from +x [0]")
+      .add_option("--facing", facing,
+                  "For a baked set: direction that its people face, counter-clockwise from +x [0]")
       ->type_name("DEGREES")
       ->check(number_between(-360, 360))
       ->needs(character);
@@ -193,15 +196,14 @@ void CheckInput::add_bodies_to(CLI::App& command) {
 void add_outputs_to(CLI::App& command, CheckOutputs& outputs) {
   command
       .add_option("--events", outputs.events,
-                  "Write a line for each event, an overlap over time: who, from, to, how deep")
+                  "Write one line per event, an overlap over time: who, from when, to when, how deep")
       ->type_name("FILE.csv");
   command
-      .add_option("--frames", outputs.frames,
-                  "Write a line for each frame: number of people, density, overlaps")
+      .add_option("--frames", outputs.frames, "Write one line per frame: number of people, density, overlaps")
       ->type_name("FILE.csv");
   command
       .add_option("--pairs", outputs.pairs,
-                  "Write a line for each overlapping pair of each frame: depth and direction")
+                  "Write one line per overlapping pair of each frame: depth and direction")
       ->type_name("FILE.csv");
   command.add_option("--json", outputs.json, "Write the summary and all events as JSON")
       ->type_name("FILE.json");

@@ -34,13 +34,12 @@ std::function<void()> add_merge_command(CLI::App& program) {
   CLI::App& command =
       *program.add_subcommand("merge", "Join the parts that check --part or query --part wrote");
   command.footer(
-      "Writes the bytes that one run would write. All parts have to be there, whole, and of the same run: "
-      "the "
-      "same files,\n"
-      "options and version. A page (check --html) is not made in parts.\n"
+      "Writes the same bytes as a single run. All parts have to be there, complete, and of the same run, "
+      "with the same\n"
+      "files, options and version. A page (check --html) cannot be made in parts.\n"
       "Example: seq 8 | xargs -P 4 -I{} bch check long.sqlite --part {}/8 --into parts && bch merge parts "
       "--json check.json");
-  command.add_option("PARTS", options->parts, "The folder of the parts, or their manifests")
+  command.add_option("PARTS", options->parts, "Folder of the parts, or their manifests")
       ->type_name("")
       ->required();
   add_outputs_to(command, options->outputs);

@@ -107,53 +107,53 @@ std::function<void()> add_place_command(CLI::App& program) {
   CLI::App& command =
       *program.add_subcommand("place", "Fill an area with people in motion who never touch each other");
   command.footer(
-      "People walk along arcs inside the area, from random places, at random times of their clips. Where a "
-      "clip\n"
-      "does not walk, they stand. Candidates who would touch somebody, at any time, are left out. The table "
-      "compares\n"
-      "this with the cylinders of poses, and with discs of 0.25 m along whole paths, as people are often "
-      "placed.\n"
+      "People walk along arcs inside the area, from random positions and at random times of their clips. If "
+      "a clip\n"
+      "does not walk, they stand. A candidate who would touch anybody at any time is left out. The table "
+      "compares this\n"
+      "with the cylinders of poses, and with discs of 0.25 m along whole paths, as people are often placed.\n"
       "Example: bch place --clip walk --seconds 5 --csv placed.csv");
   command
       .add_option("--character", options->characters,
                   std::string(character_help) + " (repeatable) [male, female]")
       ->type_name("FILE")
       ->allow_extra_args(false);
-  command.add_option("--clip", options->clip_names, "People play the clip of this name (repeatable) [walk]")
+  command.add_option("--clip", options->clip_names, "Name of a clip that people play (repeatable) [walk]")
       ->type_name("NAME")
       ->allow_extra_args(false);
   command
       .add_option("--speed", options->speed,
-                  "Everybody's, metres a second [as the clip walks, 0 if it does not]")
+                  "Speed of everybody, metres per second [that of the clip, 0 if it does not walk]")
       ->type_name("M/S")
       ->check(number_between(0, 20));
   command
       .add_option("--slices", options->shapes.slices,
-                  "Cut bodies at these heights, metres: an arm above a foot is no contact [whole bodies]")
+                  "Cut bodies at these heights, in metres: an arm above a foot is no contact [whole bodies]")
       ->type_name("LIST");
   command
       .add_option("--obstacles", options->obstacles,
                   "Keep people out of these walls and polygons, in well-known text")
       ->type_name("FILE.wkt");
-  command.add_option("--width", options->placing.width, "Of the area [10 m]")
+  command.add_option("--width", options->placing.width, "Width of the area [10 m]")
       ->type_name("METRES")
       ->check(number_between(1, 1000));
-  command.add_option("--depth", options->placing.depth, "Of the area [10 m]")
+  command.add_option("--depth", options->placing.depth, "Depth of the area [10 m]")
       ->type_name("METRES")
       ->check(number_between(1, 1000));
-  command.add_option("--seconds", options->placing.seconds, "How long people are on their way [10 s]")
+  command.add_option("--seconds", options->placing.seconds, "Time for which people move [10 s]")
       ->type_name("SECONDS")
       ->check(number_between(0.1, 600));
   command
       .add_option("--tries", options->placing.tries,
-                  "So many candidates in a row that have no room end the search [500]")
+                  "End the search after N candidates in a row that have no room [500]")
       ->type_name("N")
       ->check(whole_between(1, 1'000'000));
-  add_seed_option(command, options->placing.seed, "places, ways and times");
-  command.add_option("--fps", options->fps, "Rows a second of --csv [30]")
+  add_seed_option(command, options->placing.seed, "positions, paths and times");
+  command.add_option("--fps", options->fps, "Rows of --csv per second [30]")
       ->type_name("N")
       ->check(number_between(1, 1000));
-  command.add_option("--csv", options->csv, "Write where everybody is, for bch check")->type_name("FILE");
+  command.add_option("--csv", options->csv, "Write where everybody is at each time, for bch check")
+      ->type_name("FILE");
   command.add_option("--json", options->json, "Write the table and everybody's path")->type_name("FILE");
   return [options] { run_place(*options); };
 }
