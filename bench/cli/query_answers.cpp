@@ -136,23 +136,24 @@ constexpr QueryKind kinds[] = {
     {"collide", "hit", "1 where the agents collide, else 0", collide_rows},
     {"clearance", "distance,x,y",
      "the least gap between their discs or, with --leaves segments,\n"
-     "                 their outlines, metres, and the unit vector from the first to the second; 0,0,0 "
+     "                 their outlines, in metres, and the unit vector from the first to the second; 0,0,0 "
      "where\n"
-     "                 they overlap, unless --overlap deepest; inf,0,0 beyond --max-distance",
+     "                 they overlap, unless --overlap deepest is given; inf,0,0 beyond --max-distance",
      clearance_rows},
     {"within", "hit", "1 where the agents come within --max-distance of each other, else 0", within_rows},
     {"time-of-impact", "time",
-     "from 0 to 1, when the agents touch first while each moves by its dx\n"
-     "                 and dy; inf: they do not",
+     "when the agents first touch while each moves by its dx,dy, from 0 at\n"
+     "                 the start to 1 at the end; inf where they do not touch",
      time_of_impact_rows, true},
     {"contacts", "first_disc,second_disc",
-     "a line for each two discs that overlap, by their\n"
-     "                 numbers in the agents' cuts, from 0 on, depth first",
+     "one line for each two discs that overlap, by their\n"
+     "                 numbers in the agents' cuts, counted from 0, depth first",
      contact_rows, false, false},
     {"penetration", "depth,x,y",
-     "how far, in metres, and where to, as a unit vector, the first agent\n"
-     "                 has to move until a line separates the two, 0 where one does; with --direction,\n"
-     "                 until all of it lies beyond the second, which may be far where they are apart",
+     "how far (metres) and in which direction (unit vector) the first agent\n"
+     "                 has to move until a line separates the two; 0 where a line already does. With "
+     "--direction:\n"
+     "                 until all of it lies beyond the second, which may be far where the two are apart",
      penetration_rows},
 };
 

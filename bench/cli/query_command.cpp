@@ -270,74 +270,76 @@ void run_query(const CLI::App& command, const QueryCommandOptions& options) {
 
 std::function<void()> add_query_command(CLI::App& program) {
   const auto options = std::make_shared<QueryCommandOptions>();
-  CLI::App& command = *program.add_subcommand("query", "Answer pairs of agents from CSV files, as CSV");
+  CLI::App& command =
+      *program.add_subcommand("query", "Answer queries about pairs of agents from CSV files, as CSV");
   command.footer(
       "Columns of AGENTS.csv:\n"
       "  id             any text\n"
-      "  shape          the number that bch inspect prints, with the same --poses\n"
+      "  shape          the number that bch inspect prints with the same --poses\n"
       "  x,y            position, metres\n"
-      "  heading        radians; at 0 a built-in character faces +x, and one of a file stands as in the "
-      "file,\n"
-      "                 where a y-up file's +z becomes -y. People who face +z in a y-up file (as in glTF), "
-      "or\n"
-      "                 -y in a z-up one, have the direction in which they walk plus pi/2\n"
-      "  level          an index into --depths [the last]\n"
+      "  heading        radians. At 0 a built-in character faces +x, and a character of a file stands as in "
+      "the file;\n"
+      "                 +z of a y-up file becomes -y. For people who face +z in a y-up file (as in glTF), or "
+      "-y in\n"
+      "                 a z-up file, the heading is the direction in which they walk plus pi/2\n"
+      "  level          index into --depths [the last]\n"
       "  z              height of the ground, metres; a baked file has to keep heights (bake --heights)\n"
-      "  dx,dy          how far the agent moves, metres, without turning; for time-of-impact\n"
-      "Output of --what, a line for each line of PAIRS.csv in its order, unless said otherwise:\n" +
+      "  dx,dy          displacement of the agent, metres, without turning; for time-of-impact\n"
+      "Output of --what: one line per line of PAIRS.csv, in the same order, unless stated otherwise:\n" +
       query_help() +
-      "collide and contacts test what --leaves names. within, time-of-impact and penetration look at the "
-      "discs\n"
-      "of the cuts, and so does clearance without --leaves segments: discs cover more than outlines, so "
+      "collide and contacts test what --leaves names. within, time-of-impact and penetration use the discs "
+      "of the\n"
+      "cuts, and so does clearance unless --leaves segments is given. Discs cover more than outlines, so "
       "agents\n"
-      "0 m apart need not collide. With --obstacles --leaves segments is for within, too. --semantics is "
-      "for\n"
-      "collide, within and --all-pairs without --max-distance.\n"
-      "With --obstacles each line is about an agent and the obstacles: id,... instead of first,second,...\n"
+      "at a distance of 0 m need not collide. With --obstacles, --leaves segments applies to within, too.\n"
+      "--semantics applies to collide, to within, and to --all-pairs without --max-distance.\n"
+      "With --obstacles, each line is about one agent and the obstacles: id,... instead of first,second,...\n"
       "Example: bch query default:female agents.csv pairs.csv > answers.csv");
   command.add_option("SHAPES", options->character, character_or_baked_help)->type_name("")->required();
   command.add_option("AGENTS.csv", options->agents, "Columns id,shape,x,y,heading[,z][,level][,dx,dy]")
       ->type_name("")
       ->required();
   command.add_option("PAIRS.csv", options->pairs, "Columns first,second: ids of agents")->type_name("");
-  command.add_flag(
-      "--all-pairs", options->all_pairs,
-      "Instead of PAIRS.csv: all pairs that collide or, of clearance, come within --max-distance");
+  command.add_flag("--all-pairs", options->all_pairs,
+                   "Instead of PAIRS.csv: all pairs that collide or, with --max-distance, come within it");
   command
-      .add_option("--obstacles", options->obstacles,
-                  "Instead of PAIRS.csv: ask all agents about these walls and polygons, in well-known text")
+      .add_option(
+          "--obstacles", options->obstacles,
+          "Instead of PAIRS.csv: test all agents against these walls and polygons, in well-known text")
       ->type_name("FILE.wkt");
   command.add_flag("--walkable", options->walkable,
-                   "The polygons of --obstacles are floors to walk on: their borders are walls");
+                   "Polygons of --obstacles are floors to walk on, and their borders are walls");
   std::vector<std::string> names;
   for (const QueryKind& kind : query_kinds()) names.emplace_back(kind.name);
   command
       .add_option("--what", options->what,
-                  fmt::format("The question: {} [{}]", fmt::join(names, ", "), names.front()))
+                  fmt::format("Query: {} [{}]", fmt::join(names, ", "), names.front()))
       ->type_name("NAME")
       ->check(one_of(names, {{"separation", "penetration"}, {"contact-time", "time-of-impact"}}));
   command
       .add_option("--directions", options->directions,
-                  "Of penetration: try N evenly spread directions, an even number, and take the best [16]")
+                  "For penetration: try N evenly spread directions, N even, and take the best [16]")
       ->type_name("N")
       ->check(whole_between(2, most_directions));
   command
       .add_option("--direction", options->direction,
-                  "Of penetration: move along this direction instead, of any length")
+                  "For penetration: move along this vector, of any length, instead")
       ->type_name("X,Y");
   command
-      .add_option("--max-distance", options->max_distance,
-                  "Metres: of within the distance; of clearance the limit, beyond which it is inf [no limit]")
+      .add_option(
+          "--max-distance", options->max_distance,
+          "Metres; for within: the distance; for clearance: the limit beyond which it is inf [no limit]")
       ->type_name("M")
       ->check(number_between(0, 2 * detail::rounding::largest_position));
   command
       .add_option(
           "--overlap", options->overlap,
-          "Of clearance, where discs overlap: zero, or deepest: the deepest overlap of two, below 0 [zero]")
+          "For clearance where discs overlap: zero, or deepest: the deepest overlap of two, below 0 [zero]")
       ->type_name("NAME")
       ->check(one_of({"zero", "deepest"}));
-  command.add_flag("--points", options->points,
-                   "Of clearance: also the nearest points, from the positions of their agents, metres");
+  command.add_flag(
+      "--points", options->points,
+      "For clearance: also write the nearest points, relative to the positions of their agents, metres");
   options->part.add_to(command);
   options->shapes.add_to(command);
   options->answer.add_to(command);
