@@ -87,12 +87,13 @@ void run_report(const CLI::App& command, ReportOptions& options) {
 std::function<void()> add_report_command(CLI::App& program) {
   const auto options = std::make_shared<ReportOptions>();
   CLI::App& command =
-      *program.add_subcommand("report", "Run the paper's experiments, and write a page about them");
+      *program.add_subcommand("report", "Run the paper's experiments, and write a page of the results");
   command.footer(
       "Writes DIR/report.html, one page with all charts and tables, and the tables as CSV and JSON files.\n"
-      "Charts need gnuplot. Real characters are those in $BCH_TEST_DATA/characters, recordings of people\n"
-      "those in $BCH_TEST_DATA/trajectories, if it is set.\n"
-      "All experiments take about 15 minutes on two cores, 2 with --quick.\n"
+      "Charts need gnuplot. If BCH_TEST_DATA is set, real characters are read from "
+      "$BCH_TEST_DATA/characters,\n"
+      "and recordings of people from $BCH_TEST_DATA/trajectories.\n"
+      "All experiments take about 15 minutes on two cores, or 2 minutes with --quick.\n"
       "Example: bch report --out report --quick");
   command.add_option("--out", options->report.folder, "Folder for the page and its tables")
       ->type_name("DIR")
@@ -102,15 +103,15 @@ std::function<void()> add_report_command(CLI::App& program) {
                         std::string(character_help) + " (repeatable) [male, female]", "FILE");
   add_repeatable_option(
       command, "--experiment", options->report.experiments,
-      "Run this experiment alone, such as density; a wrong name lists all (repeatable) [all]", "NAME")
+      "Run only this experiment, such as density (repeatable); a wrong name lists all names [all]", "NAME")
       .check(one_of(experiment_names()));
   command
       .add_option("--radius", options->radius,
-                  "Radius of the discs that simulators move, for the experiment simulated [0.2]")
+                  "For the experiment simulated: radius of the discs that simulators move [0.2]")
       ->type_name("M")
       ->check(number_between(0.01, 2));
   add_seed_option(command, options->report.seed, "cases, packings and resamples");
-  command.add_flag("--page", options->page, "Measure nothing: make the page again from the tables in DIR");
+  command.add_flag("--page", options->page, "Measure nothing; make the page again from the tables in DIR");
   return [options, &command] { run_report(command, *options); };
 }
 

@@ -113,26 +113,26 @@ std::function<void()> add_stability_command(CLI::App& program) {
   CLI::App& command =
       *program.add_subcommand("stability", "Judge collision tests on hard cases by exact arithmetic");
   command.footer(
-      "Compares bch and plain tests in float and double with exact arithmetic, on pairs of agents that "
-      "nearly\n"
-      "touch: half of the gaps are within 64 units in the last place of a float, half of all magnitudes. "
-      "Plain\n"
-      "tests take discs in world coordinates. Fails if bch misses a collision or a hit has more than the gap "
-      "that\n"
-      "its documentation allows. With --stiff instead: depths as springs of penalty forces, their largest "
-      "stable\n"
-      "time step and the energy that they create.\n"
+      "Compares bch, and plain tests in float and double, with exact arithmetic, on pairs of agents that "
+      "nearly touch.\n"
+      "Half of the gaps are within 64 units in the last place of a float, and half are of all magnitudes. "
+      "Plain tests\n"
+      "take discs in world coordinates. The command fails if bch misses a collision, or reports a hit whose "
+      "gap is\n"
+      "larger than its documentation allows. With --stiff it measures depths as springs of penalty forces "
+      "instead:\n"
+      "their largest stable time step, and the energy that they create.\n"
       "Example: bch stability --out stability");
-  command.add_option("--pairs", options->pairs, "Pairs for each row of the table [2000]")
+  command.add_option("--pairs", options->pairs, "Pairs per row of the table [2000]")
       ->type_name("N")
       ->check(whole_between(20, 10'000'000));
-  command.add_flag("--quick", options->quick, "200 pairs for each row; fewer runs of --stiff");
+  command.add_flag("--quick", options->quick, "200 pairs per row, and fewer runs of --stiff");
   command.add_flag("--stiff", options->stiff, "Drive agents into each other instead; takes minutes");
   add_seed_option(command, options->seed, "shapes and placements");
   add_threads_option(command, options->threads);
   command.add_option("--csv", options->csv, "Write the table as CSV")->type_name("FILE");
   command.add_option("--json", options->json, "Write the table as JSON")->type_name("FILE");
-  command.add_option("--out", options->out, "Write CSV into this folder, and pictures by gnuplot")
+  command.add_option("--out", options->out, "Write CSV, and pictures by gnuplot, into this folder")
       ->type_name("DIR");
   return [options, &command] { run_stability(command, *options); };
 }
