@@ -59,15 +59,16 @@ void print_row(std::span<const Character> characters, std::uint32_t agents, std:
 
 int run(int argc, char** argv) {
   CLI::App program(
-      "Measures a crowd whose characters are all posed anew in every frame: poses, outlines, trees, broad "
+      "Measures a crowd whose characters all get a new pose in every frame: poses, outlines, trees, broad "
       "phase, queries.",
       "bch_live_crowd");
   Options options;
-  program.add_option("--agents", options.agents, "Agents (repeatable) [300, 1000]")
+  program.add_option("--agents", options.agents, "Number of agents (repeatable) [300, 1000]")
       ->check(CLI::Range(1u, 1'000'000u));
-  program.add_option("--frames", options.frames, "Frames; each time is their median [200]")
+  program
+      .add_option("--frames", options.frames, "Number of frames; each time is the median of all frames [200]")
       ->check(CLI::Range(1u, 1'000'000u));
-  program.add_option("--threads", options.threads, "Threads [all]")->check(CLI::Range(1u, 1024u));
+  program.add_option("--threads", options.threads, "Number of threads [all]")->check(CLI::Range(1u, 1024u));
   cli::add_repeatable_option(program, "--character", options.characters,
                              std::string(cli::character_help) + " (repeatable) [male, female]", "FILE");
   if (!cli::parse_command_line(program, argc, argv)) return cli::exit_success;

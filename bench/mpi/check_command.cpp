@@ -63,22 +63,22 @@ void check_on_ranks(const CLI::App& command, const CheckRanksOptions& options, M
 std::function<void()> add_check_command(CLI::App& program, MPI_Comm comm) {
   const auto options = std::make_shared<CheckRanksOptions>();
   CLI::App& command = *program.add_subcommand(
-      "check", "Check a recording as bch check does, its parts divided among the ranks");
+      "check", "Check a recording as bch check does, with its parts divided among the ranks");
   command.footer(
-      "Writes the bytes that bch check writes. Parts stay in the folder, and those that are there, whole and "
-      "of "
-      "the same\n"
-      "run, are not done again; bch check --part makes the same ones.\n"
+      "Writes the same bytes as bch check. Parts stay in the folder. A complete part of the same run that is "
+      "already there\n"
+      "is skipped. bch check --part makes the same parts.\n"
       "Example: mpirun -n 16 bch_mpi check long.sqlite --into parts --parts 64 --json check.json");
   options->input.add_to(command);
   add_outputs_to(command, options->outputs);
-  command.add_option("--into", options->folder, "The folder of parts, which all ranks see")
+  command.add_option("--into", options->folder, "Folder of the parts, which all ranks have to see")
       ->type_name("DIR")
       ->required();
-  command.add_option("--parts", options->parts, "Parts in all, which ranks take in turn [as many as ranks]")
+  command
+      .add_option("--parts", options->parts, "Number of parts, which ranks take in turn [as many as ranks]")
       ->type_name("N")
       ->check(whole_between(1, 1'000'000));
-  command.add_option("--threads", options->threads, "Threads of a rank [1]")
+  command.add_option("--threads", options->threads, "Threads per rank [1]")
       ->type_name("N")
       ->check(whole_between(1, 1024));
   return [options, &command, comm] { check_on_ranks(command, *options, comm); };

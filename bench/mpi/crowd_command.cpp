@@ -183,36 +183,38 @@ void run(const WalkOptions& options, MPI_Comm comm) {
 std::function<void()> add_crowd_command(CLI::App& program, MPI_Comm comm) {
   const auto options = std::make_shared<WalkOptions>();
   CLI::App& command = *program.add_subcommand(
-      "crowd", "Walk a crowd that is divided among the ranks, and report the work and time of each");
-  command.add_option("file", options->file, "Shapes, baked by bch bake; every rank maps them")
+      "crowd", "Walk a crowd that is divided among the ranks, and report the work and time of each rank");
+  command.add_option("file", options->file, "Baked file of shapes (bch bake); every rank maps it")
       ->type_name("FILE")
       ->required();
-  command.add_option("--agents", options->agents, "Agents in all [100000]")
+  command.add_option("--agents", options->agents, "Total number of agents [100000]")
       ->type_name("N")
       ->check(whole_between(1, 4'000'000'000));
-  command.add_option("--kind", options->kind, "uniform, spot (a dense place), stadium or street [uniform]")
+  command
+      .add_option("--kind", options->kind,
+                  "Kind of crowd: uniform, spot (a dense place), stadium or street [uniform]")
       ->type_name("NAME")
       ->check(one_of(scenery_kinds));
-  command.add_option("--density", options->density, "Agents a square metre [3]")
+  command.add_option("--density", options->density, "Agents per square metre [3]")
       ->type_name("D")
       ->check(number_between(1e-6, 1e3));
-  command.add_option("--steps", options->steps, "Steps that are measured [10]")
+  command.add_option("--steps", options->steps, "Number of measured steps [10]")
       ->type_name("N")
       ->check(whole_between(1, 1'000'000));
   command
       .add_option("--imbalance", options->imbalance,
-                  "Divide the crowd anew where a rank has more than R times the mean of pairs [1.04]")
+                  "Divide the crowd anew if a rank has more than R times the mean number of pairs [1.04]")
       ->type_name("R")
       ->check(number_between(1, 1e6));
   command
       .add_option("--agent-pairs", options->agent_pairs,
-                  "Weight of an agent in pairs when work is balanced; 1.3 balances time [0]")
+                  "Weight of an agent, in pairs, when work is balanced; 1.3 balances time [0]")
       ->type_name("N")
       ->check(number_between(0, 1000));
-  command.add_option("--threads", options->threads, "Threads of a rank [1]")
+  command.add_option("--threads", options->threads, "Threads per rank [1]")
       ->type_name("N")
       ->check(whole_between(1, 1024));
-  command.add_flag("--plain", options->is_plain, "Answer by CrowdCollider in one process, for comparison");
+  command.add_flag("--plain", options->is_plain, "Use CrowdCollider in one process instead, for comparison");
   command.add_option("--json", options->json, "Write the report as JSON")->type_name("FILE");
   return [options, comm] { run(*options, comm); };
 }

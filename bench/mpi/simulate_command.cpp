@@ -94,11 +94,11 @@ void add_model_options(CLI::App& command, SimulationOptions& options) {
         ->type_name(type)
         ->check(number_between(low, 1e9));
   };
-  add("--agent-pairs", options.agent_pairs, "N", "Weight of an agent in pairs when work is balanced");
-  add("--agent-ns", options.agent_ns, "NS", "Time of an agent beside its pairs, nanoseconds");
-  add("--pair-ns", options.pair_ns, "NS", "Time of a pair, nanoseconds");
-  add("--latency-us", options.microseconds, "US", "Time of a message, microseconds");
-  add("--gigabits", options.gigabits, "G", "Bandwidth of a rank, gigabits a second", 1e-3);
+  add("--agent-pairs", options.agent_pairs, "N", "Weight of an agent, in pairs, when work is balanced");
+  add("--agent-ns", options.agent_ns, "NS", "Time per agent, without its pairs, nanoseconds");
+  add("--pair-ns", options.pair_ns, "NS", "Time per pair, nanoseconds");
+  add("--latency-us", options.microseconds, "US", "Time per message, microseconds");
+  add("--gigabits", options.gigabits, "G", "Bandwidth of a rank, gigabits per second", 1e-3);
 }
 
 }  // namespace
@@ -108,20 +108,22 @@ std::function<void()> add_simulate_command(CLI::App& program, MPI_Comm comm) {
   CLI::App& command = *program.add_subcommand(
       "simulate",
       "Predict imbalance, halos and traffic of a crowd of any size, on one process, without queries");
-  command.add_option("file", options->file, "Shapes, baked by bch bake: their radii count")
+  command.add_option("file", options->file, "Baked file of shapes (bch bake), whose radii are used")
       ->type_name("FILE")
       ->required();
-  command.add_option("--agents", options->agents, "Agents in all [100000000]")
+  command.add_option("--agents", options->agents, "Total number of agents [100000000]")
       ->type_name("N")
       ->check(whole_between(1, 4'000'000'000));
-  command.add_option("--ranks", options->ranks, "Ranks [256]")
+  command.add_option("--ranks", options->ranks, "Number of ranks [256]")
       ->type_name("N")
       ->check(whole_between(1, 1'000'000));
-  command.add_option("--kinds", options->kinds, "uniform, spot, stadium, street [uniform,stadium,street]")
+  command
+      .add_option("--kinds", options->kinds,
+                  "Kinds of crowds: uniform, spot, stadium, street [uniform,stadium,street]")
       ->type_name("LIST")
       ->delimiter(',')
       ->check(one_of(scenery_kinds));
-  command.add_option("--density", options->density, "Agents a square metre [3]")
+  command.add_option("--density", options->density, "Agents per square metre [3]")
       ->type_name("D")
       ->check(number_between(1e-6, 1e3));
   add_model_options(command, *options);

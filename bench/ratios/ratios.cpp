@@ -21,11 +21,11 @@ namespace {
 constexpr const char* description =
     "Measures the kernel against the scalar reference, and prints tables of times and ratios. The rows of a "
     "table\n"
-    "take turns, so that ratios hold on a busy machine, too. Every answer is checked before it is timed.";
+    "are timed in turns, so ratios hold on a busy machine, too. Every answer is checked before it is timed.";
 constexpr const char* footer =
     "Any option of Google Benchmark, such as --benchmark_filter=<regex> or --benchmark_format=json, replaces "
     "the\n"
-    "tables by that library's own report, which has more benchmarks (--benchmark_list_tests=true names "
+    "tables with that library's own report, which has more benchmarks (--benchmark_list_tests=true names "
     "them).\n"
     "PASS and \"needs\" compare a number with the project's goal for it.\n"
     "Example: bch_ratios --table kernel --table leaves";
@@ -100,23 +100,24 @@ bool initialize(char* program, const Options& options, std::vector<std::string> 
 void add_options(CLI::App& program, Options& options) {
   cli::add_repeatable_option(program, "--character", options.scene.characters,
                              std::string(cli::character_help) + " (repeatable) [male, female]", "FILE");
-  program.add_option("--poses", options.scene.poses, "Poses of a character [100]")
+  program.add_option("--poses", options.scene.poses, "Poses per character [100]")
       ->type_name("N")
       ->check(CLI::Range(1u, 100'000u));
-  program.add_option("--pairs", options.scene.sizes.pairs, "Pairs of each workload but the crowd [20000]")
+  program
+      .add_option("--pairs", options.scene.sizes.pairs, "Pairs per workload, except for the crowd [20000]")
       ->type_name("N")
       ->check(CLI::Range(1u, 10'000'000u));
-  program.add_option("--agents", options.scene.sizes.agents, "Agents of the crowd [10000]")
+  program.add_option("--agents", options.scene.sizes.agents, "Agents in the crowd [10000]")
       ->type_name("N")
       ->check(CLI::Range(2u, 1'000'000u));
-  program.add_option("--runs", options.runs, "Runs; each time is their median [9]")
+  program.add_option("--runs", options.runs, "Number of runs; each time is the median of all runs [9]")
       ->type_name("N")
       ->check(CLI::Range(1u, 1000u));
   program
       .add_option("--shapes", options.most_shapes,
-                  "Of --table shapes: leave out rows with more shapes than N [50000]")
+                  "For --table shapes: leave out rows with more than N shapes [50000]")
       ->type_name("N");
-  cli::add_repeatable_option(program, "--table", options.tables, "Print this table alone (repeatable) [all]",
+  cli::add_repeatable_option(program, "--table", options.tables, "Print only this table (repeatable) [all]",
                              "NAME")
       .check(CLI::IsMember(std::vector<std::string>(std::begin(tables), std::end(tables))));
 }
