@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 # Copyright (c) 2026 the bch authors
 
-"""Queries of whole crowds: candidates, collisions, contacts."""
+"""Queries about whole crowds: candidate pairs, collisions, contacts."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ from ._shapes import ShapeSet
 class Rows:
     """Rows of different lengths in one array: row i is values[offsets[i]:offsets[i + 1]].
 
-    `len(rows)` is their number, `rows[i]` a row, and iterating gives one after the other.
+    `len(rows)` is the number of rows, `rows[i]` is one row, and iteration yields the rows in order.
 
     Attributes
     ----------
@@ -61,7 +61,7 @@ def _rows(found: Any, shape: Tuple[int, ...] = ()) -> Rows:
 
 
 class BroadPhase:
-    """Finds pairs of agents that may collide. It keeps its memory from call to call; each thread needs one of its own."""
+    """Finds pairs of agents that may collide. An object keeps its memory from call to call, so each thread needs its own."""
 
     __slots__ = ("_handle", "_exclusive")
 
@@ -69,7 +69,7 @@ class BroadPhase:
         self._handle, self._exclusive = Handle("broad_phase", "create"), Exclusive("BroadPhase")
 
     def find(self, shapes: ShapeSet, agents: Agents, margin: float = 0.0, *, threads: int = 0) -> UInt32:
-        """Find the pairs as `candidate_pairs` does."""
+        """Find pairs as the function `candidate_pairs` does."""
         set_at, agents_at = pointers(shapes, agents)
         how, _ = options(threads=threads)
         pairs, count = ctypes.c_void_p(), ctypes.c_size_t()
@@ -82,7 +82,7 @@ class BroadPhase:
 def candidate_pairs(shapes: ShapeSet, agents: Agents, margin: float = 0.0, *, threads: int = 0) -> UInt32:
     """Find every pair of agents that may collide or come within a margin of each other.
 
-    No pair is missing that `collide` answers with True, or that has a `clearance` of at most the margin.
+    The result contains every pair for which `collide` returns True, and every pair with a `clearance` of at most the margin.
 
     Parameters
     ----------
@@ -91,18 +91,18 @@ def candidate_pairs(shapes: ShapeSet, agents: Agents, margin: float = 0.0, *, th
     margin : float
         Metres.
     threads : int
-        0: all processors.
+        Number of threads; 0: all processors.
 
     Returns
     -------
     (n, 2) uint32
-        Each pair once, the lower index first, in an order by place.
+        Each pair once, the lower index first, ordered by position.
     """
     return BroadPhase().find(shapes, agents, margin, threads=threads)
 
 
 class CrowdCollider:
-    """Finds who of a crowd collides with whom. It keeps its memory from call to call; each thread needs one of its own."""
+    """Finds who collides with whom in a crowd. An object keeps its memory from call to call, so each thread needs its own."""
 
     __slots__ = ("_handle", "_exclusive")
 
@@ -146,7 +146,7 @@ class CrowdCollider:
         threads: int = 0,
         implementation: Optional[str] = None,
     ) -> Union[Rows, Tuple[Rows, Rows]]:
-        """Find who collides with whom as the function `collide_all` does."""
+        """Find the colliding neighbours of every agent as the function `collide_all` does."""
         set_at, agents_at = pointers(shapes, agents)
         how, _ = options(semantics, leaves, "zero", math.inf, threads, implementation)
         found, touched = _library.IndexRows(), _library.IndexRows()
@@ -204,28 +204,30 @@ def collide_all(
     shapes : ShapeSet
     agents : Agents
     obstacles : Obstacles, optional
-        Also find which of these each agent collides with.
+        Also find the obstacles that each agent collides with.
     semantics, leaves, threads, implementation
         As for `collide`.
 
     Returns
     -------
     Rows, or (Rows, Rows) with obstacles
-        A row an agent: the indices of those whom it collides with, ascending; and of the obstacles.
+        One row per agent: the indices of the agents that it collides with, ascending. With obstacles, the second Rows has the
+        indices of the obstacles that it collides with.
     """
     how = {"semantics": semantics, "leaves": leaves, "threads": threads, "implementation": implementation}
     return CrowdCollider().collide_all(shapes, agents, obstacles, **how)  # type: ignore[call-overload,no-any-return]
 
 
 class Contacts:
-    """The discs of two agents that touch, a row for each pair of agents.
+    """Pairs of discs that make two agents touch: one row per pair of agents.
 
     Attributes
     ----------
     pairs : (n, 2) uint32
-        Agents.
+        The pairs of agents.
     discs : Rows
-        For each of these pairs rows of a disc of each, as `ShapeSet.discs` numbers them.
+        One row per pair of agents, of (m, 2) indices: a disc of the first agent and a disc of the second, as `ShapeSet.discs`
+        numbers them.
     """
 
     __slots__ = ("pairs", "discs")
@@ -241,7 +243,7 @@ class Contacts:
 
 
 class ContactFinder:
-    """Finds all discs of two agents that touch. It keeps its memory from call to call; each thread needs one of its own."""
+    """Finds all discs of two agents that touch. An object keeps its memory from call to call, so each thread needs its own."""
 
     __slots__ = ("_handle", "_exclusive")
 
@@ -258,7 +260,7 @@ class ContactFinder:
         threads: int = 0,
         implementation: Optional[str] = None,
     ) -> Contacts:
-        """Find the contacts as `contacts` does."""
+        """Find contacts as the function `contacts` does."""
         set_at, agents_at = pointers(shapes, agents)
         how, _ = options("boundary", leaves, "zero", math.inf, threads, implementation)
         found = _library.ContactRows()

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 # Copyright (c) 2026 the bch authors
 
-"""Walls, pillars, furniture: obstacles that do not move."""
+"""Obstacles that do not move: walls, pillars, furniture."""
 
 from __future__ import annotations
 
@@ -16,8 +16,8 @@ from ._library import Handle, check, lib
 class Obstacles:
     """Obstacles that do not move; queries take them in place of pairs.
 
-    A line is one or more open polylines. An area is one or more rings, which close themselves, and what they enclose by the
-    even-odd rule: holes are further rings.
+    A line is one or more open polylines. An area is one or more rings, which close themselves, and the points that they enclose by
+    the even-odd rule. Holes are further rings.
 
     Parameters
     ----------
@@ -26,9 +26,9 @@ class Obstacles:
     path_offsets : (p + 1,) uint64
         Path i has points path_offsets[i] to path_offsets[i + 1].
     obstacle_offsets : (o + 1,) uint64, optional
-        Obstacle i has paths obstacle_offsets[i] to obstacle_offsets[i + 1]; by default one each.
+        Obstacle i has paths obstacle_offsets[i] to obstacle_offsets[i + 1]; by default each path is an obstacle.
     is_area : (o,) uint8, optional
-        1 for areas; by default all are lines.
+        1 for areas, 0 for lines; by default all are lines.
     """
 
     __slots__ = ("_handle", "_pointer")
@@ -59,14 +59,15 @@ class Obstacles:
 
     @classmethod
     def from_wkt(cls, text: Any, walkable: bool = False) -> Obstacles:
-        """Read obstacles from well-known text, or from what has some, such as a shapely geometry.
+        """Read obstacles from well-known text, or from an object that has it, such as a shapely geometry.
 
         Parameters
         ----------
         text : str, or an object with an attribute `wkt`
-            POLYGON, MULTIPOLYGON, LINESTRING, MULTILINESTRING, GEOMETRYCOLLECTION, any number of them.
+            Any number of POLYGON, MULTIPOLYGON, LINESTRING, MULTILINESTRING and GEOMETRYCOLLECTION.
         walkable : bool
-            Polygons are the floor that agents walk on, and their rings are walls, lines that have no inside; else they are solid.
+            If True, polygons are the floor that agents walk on, and their rings are walls: lines, without an inside. If False, polygons
+            are solid.
         """
         made = cls.__new__(cls)
         made._take(Handle("obstacles", "from_wkt", encoded(getattr(text, "wkt", text), "text"), int(walkable)))

@@ -38,9 +38,9 @@ from ._shapes import ShapeSet
 
 
 class Agents:
-    """A crowd as a simulation holds it: one entry an agent in each array.
+    """A crowd as a simulation holds it: one entry per agent in each array.
 
-    The arrays are viewed, not copied: what is written into them later, as in `agents.x[:] += dx`, is seen by the next query.
+    The arrays are viewed, not copied. The next query sees what is written into them later, as in `agents.x[:] += dx`.
 
     Parameters
     ----------
@@ -49,12 +49,12 @@ class Agents:
     x, y : (n,) float64
         Positions, metres, within 1e9 m.
     heading : (n,) float64
-        Angles by which shapes are turned about their positions, radians, counter-clockwise. The built-in characters face +x
-        at 0; those of files stand as their files say.
+        Angles by which shapes are turned about their positions, radians, counter-clockwise. At 0 the built-in characters face
+        +x, and those of files stand as in their files.
     level : (n,) uint8, optional
-        Index into the set's depths; by default the last level for all.
+        Index into the set's depths; by default every agent uses the last level.
     z : (n,) float64, optional
-        Heights of the grounds that agents stand on, metres; by default one ground for all.
+        Heights of the grounds that agents stand on, metres; by default all stand on one ground.
     """
 
     __slots__ = ("_arrays", "_struct", "_pointer")
@@ -101,7 +101,7 @@ class Agents:
 
     @property
     def heading(self) -> Float64:
-        """Angles by which shapes are turned, (n,) float64, radians."""
+        """Angles by which shapes are turned, (n,) float64, radians, counter-clockwise."""
         return self._arrays[3]
 
     @property
@@ -111,7 +111,7 @@ class Agents:
 
     @property
     def z(self) -> Optional[Float64]:
-        """Heights of the grounds, (n,) float64, metres, or None."""
+        """Heights of the grounds that agents stand on, (n,) float64, metres, or None."""
         return self._arrays[5]
 
     def __len__(self) -> int:
@@ -161,12 +161,12 @@ def options(
     return ctypes.addressof(struct), struct
 
 
-#: What queries are asked about: (n, 2) uint32 indices of agents, or obstacles.
+#: What a query is about: (n, 2) uint32 indices of agents, or obstacles.
 Pairs = Union[UInt32, Obstacles]
 
 
 def pointers(shapes: ShapeSet, agents: Agents) -> Tuple[int, int]:
-    """Return the addresses of a set and of agents, for which nothing else may stand."""
+    """Return the addresses of a set and of agents, or raise an error if an argument is something else."""
     if not isinstance(shapes, ShapeSet):
         hint = "; ask about its .shapes" if hasattr(shapes, "shapes") else ""
         raise ArrayError(f"shapes is a {type(shapes).__name__}; wanted is a bch.ShapeSet{hint}")
@@ -176,7 +176,7 @@ def pointers(shapes: ShapeSet, agents: Agents) -> Tuple[int, int]:
 
 
 def _asked(shapes: ShapeSet, agents: Agents, pairs: Pairs) -> Tuple[int, int, int, int]:
-    """Return the addresses of what is asked, and the number of answers."""
+    """Return the addresses of the arguments of a query, and the number of its answers."""
     set_at, agents_at = pointers(shapes, agents)
     if isinstance(pairs, Obstacles):
         return set_at, agents_at, pairs._pointer, len(agents)
@@ -194,27 +194,27 @@ def collide(
     implementation: Optional[str] = None,
     out: Optional[Bool] = None,
 ) -> Bool:
-    """Answer whether the two agents of each pair collide, touching included.
+    """Test whether the two agents of each pair collide, touching included.
 
-    A collision is never missed: agents whose outlines meet collide at every level. Bodies in slabs collide where two of their
-    slabs do.
+    A collision is never missed: agents whose outlines meet collide at every level. Bodies in slabs collide if two of their slabs
+    do.
 
     Parameters
     ----------
     shapes : ShapeSet
     agents : Agents
     pairs : (n, 2) uint32, or Obstacles
-        Indices of agents; with obstacles, every agent is asked whether it collides with one.
+        Indices of agents; with obstacles, every agent is tested against all of them.
     semantics : {"boundary", "solid"}
-        "solid" also counts an agent that is wholly inside another one's outline.
+        With "solid", an agent that is wholly inside another one's outline collides, too.
     leaves : {"segments", "discs"}
-        What decides at the level of all depths: segments of the outlines, or discs about them.
+        What decides at the level of all depths: segments of the outlines, or discs that cover them.
     threads : int
-        0: all processors. The answer is the same for any number.
+        Number of threads; 0: all processors. The answer is the same for any number.
     implementation : str, optional
-        One of `implementations()`; the answer is the same for all.
+        One of `implementations()`. The answer is the same for all.
     out : (n,) bool, optional
-        Where the answers go, instead of into a new array.
+        Array for the answers, instead of a new one.
 
     Returns
     -------
@@ -242,9 +242,9 @@ def within(
     implementation: Optional[str] = None,
     out: Optional[Bool] = None,
 ) -> Bool:
-    """Answer whether the two agents of each pair come as close as a distance, in about the time of `collide`.
+    """Test whether the two agents of each pair come within a distance of each other, in about the time of `collide`.
 
-    Distances are those of the discs at the agents' levels, so never larger than the outlines'.
+    Distances are measured between the discs at the agents' levels, so they are never larger than those of the outlines.
 
     Parameters
     ----------
@@ -252,9 +252,9 @@ def within(
     agents : Agents
     pairs : (n, 2) uint32, or Obstacles
     distance : float, or (n,) float64
-        Metres; one for all, or one each.
+        Metres; one for all pairs, or one for each.
     leaves : {"discs", "segments"}
-        Of obstacles, as for `clearance`; the two agents of a pair are always measured between discs.
+        For obstacles, as for `clearance`. Distances between agents are always those of discs.
     semantics, threads, implementation, out
         As for `collide`.
 
@@ -279,12 +279,12 @@ def within(
 
 
 class Nearest(NamedTuple):
-    """What `nearest` tells of each pair."""
+    """The result of `nearest`, with one entry per pair."""
 
     distance: Float32  #: (n,), metres; infinite beyond the largest distance
     direction: Float32  #: (n, 2), unit vectors from the first agent to the second
-    discs: UInt32  #: (n, 2), the nearest discs of each; with obstacles, a disc and a segment; 0xffffffff: none
-    points: Float32  #: (n, 2, 2), the nearest points of each, from its own agent's position
+    discs: UInt32  #: (n, 2), the nearest disc of each agent; with obstacles, a disc and a segment; 0xffffffff: none
+    points: Float32  #: (n, 2, 2), the nearest point of each agent, relative to its own position, metres
 
 
 def _measure(
@@ -325,8 +325,8 @@ def clearance(
 ) -> Float32:
     """Measure how far apart the two agents of each pair are.
 
-    The distance is never larger than that of the outlines, and 0 where they cross or touch. An agent wholly inside another is as far
-    from him as the outlines are: `collide` with semantics="solid" tells that.
+    The distance is never larger than that of the outlines, and 0 where they cross or touch. If an agent is wholly inside another,
+    the distance is still that of the outlines; `collide` with semantics="solid" detects this case.
 
     Parameters
     ----------
@@ -334,12 +334,12 @@ def clearance(
     agents : Agents
     pairs : (n, 2) uint32, or Obstacles
     max_distance : float
-        Metres. Pairs farther apart get infinity; the smaller the limit, the faster.
+        Metres. Pairs farther apart get infinity. Smaller limits are faster.
     leaves : {"discs", "segments"}
-        "discs": up to 3 cm less than the outlines' distance. "segments": the outlines' distance itself, in about seven
-        times the time, between shapes that have outlines, at the level of all depths.
+        With "discs", the distance is up to 3 cm less than that of the outlines. With "segments", it is that of the outlines
+        themselves, in about seven times the time, for shapes that have outlines, at the level of all depths.
     overlap : {"zero", "deepest"}
-        "deepest": where discs overlap, the deepest overlap of two, below 0.
+        The distance where discs overlap: 0, or with "deepest" the deepest overlap of two discs, as a negative number.
     threads, implementation
         As for `collide`.
     out : (n,) float32, optional
@@ -368,20 +368,20 @@ def nearest(
     implementation: Optional[str] = None,
     out: Optional[Nearest] = None,
 ) -> Nearest:
-    """Find the nearest points of the two agents of each pair: distances as `clearance` measures them, and where they are.
+    """Find the nearest points of the two agents of each pair, and their distance as `clearance` measures it.
 
     Parameters
     ----------
     shapes, agents, pairs, max_distance, leaves, overlap, threads, implementation
         As for `clearance`.
     out : Nearest, optional
-        Arrays of the types and shapes that a result has.
+        Arrays of the dtypes and shapes of a result, instead of new ones.
 
     Returns
     -------
     Nearest
-        Directions and points are 0, and discs 0xffffffff, where there are none: beyond `max_distance`, and where agents
-        overlap unless `overlap` is "deepest".
+        Where there are no nearest points, directions and points are 0 and discs 0xffffffff: beyond `max_distance`, and where
+        agents overlap unless `overlap` is "deepest".
     """
     n = _asked(shapes, agents, pairs)[3]
     found = Nearest(
@@ -407,17 +407,17 @@ def penetration(
 ) -> Records:
     """Measure how far the first agent of each pair has to move to be free of the second, and in which direction.
 
-    Ask about pairs that collide: the depth may be positive where nothing overlaps yet and one reaches around the other.
+    Use it for pairs that collide. The depth may be positive where nothing overlaps yet, if one agent reaches around the other.
 
     Parameters
     ----------
     shapes : ShapeSet
     agents : Agents
     pairs : (n, 2) uint32, or Obstacles
-        With obstacles, how far each agent has to move to leave the one that it is deepest in.
+        With obstacles, the depth is how far each agent has to move to leave the one that it is deepest in.
     directions : int, or (n, 2) float32
-        The number of evenly spread directions of which the best counts, even, from 2 to 256; or a direction for each
-        pair. Not for obstacles.
+        The number of evenly spread directions to try, an even number from 2 to 256, of which the best one counts; or one
+        direction per pair. Not for obstacles.
     threads, implementation
         As for `collide`.
     out : (n,) PENETRATION, optional
@@ -425,7 +425,7 @@ def penetration(
     Returns
     -------
     (n,) PENETRATION
-        Records of depth, x and y: metres, and a unit vector.
+        Records of depth, in metres, and of x and y, a unit vector.
     """
     set_at, agents_at, where, n = _asked(shapes, agents, pairs)
     depths = result(out, PENETRATION, (n,))
@@ -457,7 +457,8 @@ def time_of_impact(
 ) -> Float32:
     """Find when the two agents of each pair first touch while they move without turning.
 
-    The time is never later than the outlines' first contact. Inside another's outline there is none until outlines meet.
+    The time is never later than the first contact of the outlines. An agent inside another one's outline touches it only when the
+    outlines meet.
 
     Parameters
     ----------
@@ -465,7 +466,7 @@ def time_of_impact(
     agents : Agents
     pairs : (n, 2) uint32, or Obstacles
     dx, dy : (n,) float64
-        The way of the first agent of each pair relative to the second, or of each agent among obstacles, metres.
+        The displacement of the first agent of each pair relative to the second, or of each agent among obstacles, metres.
     threads, implementation
         As for `collide`.
     out : (n,) float32, optional
@@ -473,7 +474,7 @@ def time_of_impact(
     Returns
     -------
     (n,) float32
-        The share of the way, from 0 to 1, after which they touch; infinity where they do not.
+        The fraction of the displacement, from 0 to 1, after which they touch; infinity where they do not touch.
     """
     set_at, agents_at, where, n = _asked(shapes, agents, pairs)
     times = result(out, f4, (n,))
@@ -487,7 +488,7 @@ def time_of_impact(
 
 
 def local_densities(x: Float64, y: Float64, radius: float = 2.0) -> Float64:
-    """Measure how dense a crowd is around each agent: the people within a radius, himself among them, over its circle's area.
+    """Measure the density around each agent: the number of people within a radius, itself included, over the area of that circle.
 
     Parameters
     ----------
