@@ -18,21 +18,22 @@ from ._library import ArrayError, Handle, check, lib
 
 
 class AnimatedShape:
-    """A body that moves by itself, as discs whose centres and radii go straight on from key to key. `animate` makes one of a clip.
+    """A body that moves by itself: discs whose centres and radii are linear in time between keys. `animate` makes one of a clip.
 
-    What it holds at a time is its discs, and what the polygons of its rings' centres go round. Times before its beginning and after
-    its end are these or, where it loops, those of another round.
+    At any time the body covers its discs, and what the polygons of its rings' centres enclose. Times before its beginning and after
+    its end are clamped to these; if it loops, they wrap around instead.
 
     Parameters
     ----------
     times : (k,) numbers
-        Of the keys, at least two, seconds, ascending.
+        Times of the keys, seconds, ascending; at least two.
     discs : (k, n, 3) numbers
-        x, y and radius of each disc at each key, metres, about the agent's position.
+        x, y and radius of each disc at each key, metres, relative to the agent's position.
     ring_ends : sequence of int
-        The end of each ring among the discs, ascending, the last one n; none: discs alone. Consecutive discs of a ring overlap.
+        The end of each ring among the discs, ascending; the last one is n. None: there are discs alone. Consecutive discs of a
+        ring have to overlap.
     loops : bool
-        The last pose is the first one.
+        Whether the last pose is the first one.
     """
 
     __slots__ = ("_handle", "_pointer", "loops", "begin", "end", "reach", "nbytes", "chunk_count", "key_count", "slab_count")
@@ -75,7 +76,7 @@ class AnimatedShape:
         self.slab_count = int(info.slabs)
 
     def discs(self, seconds: float) -> Records:
-        """Return the discs at a time of the clip.
+        """Return the discs at a time of the clip, in seconds.
 
         Returns
         -------

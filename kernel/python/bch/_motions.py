@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 # Copyright (c) 2026 the bch authors
 
-"""Clips as moving discs, agents who show them at any time, and when two agents in motion first touch."""
+"""Clips as moving discs, sets of them at given times, and the first contact of agents in motion."""
 
 from __future__ import annotations
 
@@ -28,19 +28,19 @@ def animate(
     error: float = 0.005,
     slices: Sequence[float] = (),
 ) -> AnimatedShape:
-    """Make moving discs of a clip that hold the character at every real time of it. A second of a clip takes about a second.
+    """Make moving discs that cover the character at every real time of a clip. A second of a clip takes about a second.
 
     Parameters
     ----------
     character : Character
     clip : int
-        By its place in `Character.clips`.
+        Index in `Character.clips`.
     spacing : float
-        Of discs along the outline, at most, at keys, metres.
+        The largest distance of discs along the outline, at keys, metres.
     inset : float
-        Of their centres behind the outline, at most, metres.
+        The largest distance of the discs' centres behind the outline, metres.
     error : float
-        By which discs may stand out more between two keys than at these, metres.
+        How much more discs may protrude between two keys than at the keys, metres.
     slices : sequence of float
         Heights of planes that cut the body into slabs, as in `Plan`.
     """
@@ -53,10 +53,10 @@ def animate(
 
 
 class MomentSet:
-    """The shapes of bodies that move by themselves, at the times that agents show them, for all queries.
+    """A set of shapes of bodies that move by themselves, at the times at which agents show them, for all queries.
 
-    Each moment, a body at a time of its clip, is made once for all agents that show it. Moments are cheap where agents share them, on
-    a grid of times for instance.
+    A moment is a body at a time of its clip. Each moment is made once for all agents that show it, so moments cost little if agents
+    share them, for instance on a grid of times.
 
     Parameters
     ----------
@@ -75,23 +75,23 @@ class MomentSet:
         self._pointer: int = self._handle.pointer
 
     def show(self, body: UInt32, seconds: Float64, *, out: Optional[UInt32] = None, threads: int = 0) -> UInt32:
-        """Make the moments that agents show. No query may run meanwhile, and sets from `shapes` before are void.
+        """Make the moments that agents show. No query may run meanwhile, and sets that `shapes` returned before become invalid.
 
         Parameters
         ----------
         body : (n,) uint32
-            Which of the bodies each agent shows.
+            The index of the body that each agent shows.
         seconds : (n,) float64
-            The time of the clip that it shows.
+            The time of the clip that each agent shows.
         out : (n,) uint32, optional
             Where to write the result.
         threads : int
-            0: all processors.
+            Number of threads; 0: all processors.
 
         Returns
         -------
         (n,) uint32
-            The shape of each agent, in `shapes`, for `Agents`.
+            The index of each agent's shape in `shapes`, for `Agents`.
         """
         which = given(body, u4, (None,), "body")
         times = given(seconds, f8, (len(body),), "seconds")
@@ -103,23 +103,23 @@ class MomentSet:
 
     @property
     def shapes(self) -> ShapeSet:
-        """The shapes that were shown last, for queries."""
+        """The set of shapes that `show` made last, for queries."""
         lent = c_void_p()
         check(lib.bch_moment_set_get_shapes(self._pointer, byref(lent)))
         return ShapeSet(lent.value or 0, self._handle)
 
 
 class Mover:
-    """An agent who goes along a path and plays a clip.
+    """An agent that moves along a path and plays a clip.
 
     Parameters
     ----------
     shape : AnimatedShape
     path : (k, 4) numbers
-        Keys of time, x, y and heading, ascending; seconds, metres, radians. Between two the agent goes straight on and turns evenly;
-        before the first one and after the last one it stands there.
+        Keys of time, x, y and heading, in seconds, metres and radians, with ascending times. Between two keys the agent moves straight
+        and turns evenly. Before the first key and after the last one it stands there.
     clip_begin : float
-        The time at which the clip is at its beginning.
+        The time at which the clip begins, seconds.
     """
 
     __slots__ = ("shape", "path", "clip_begin")
@@ -163,20 +163,20 @@ def first_contact(
     ----------
     movers : sequence of Mover
     pairs : (m, 2) uint32, or Obstacles
-        Two movers by their places; with obstacles, every mover is asked when it touches one.
+        Indices of movers; with obstacles, every mover is tested against all of them.
     interval : (begin, end)
-        Times that are looked at, seconds, both included.
+        The interval of time to search, seconds, both ends included.
     tolerance : float
-        The answer is never late, and early by no more than it takes two to come closer by so much, metres.
+        Metres. The answer is never late, and early by at most the time in which the two come closer by this distance.
     out : (m,) float64, optional
         Where to write the result.
     threads : int
-        0: all processors.
+        Number of threads; 0: all processors.
 
     Returns
     -------
     (m,) float64
-        Seconds; infinity where they do not touch.
+        Time of the first contact, seconds; infinity where there is none.
     """
     movers = list(movers)
     structs, (begin, end) = _structs(movers), _interval(interval)
@@ -202,14 +202,14 @@ def first_contact(
 def free_until(
     mover: Mover, others: Sequence[Mover], interval: Tuple[float, float], *, tolerance: float = 0.005
 ) -> float:
-    """Return until when a mover touches none of others, seconds; infinity: it never does.
+    """Return the time until which a mover touches none of others, seconds; infinity if it never touches one.
 
     Parameters
     ----------
     mover : Mover
     others : sequence of Mover
     interval, tolerance
-        As for `first_contact`, which this is the least of.
+        As for `first_contact`. The result is the least time that it finds for the mover and each of the others.
     """
     others = list(others)
     own, structs, (begin, end) = _structs([mover]), _structs(others), _interval(interval)

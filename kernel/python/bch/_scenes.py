@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 # Copyright (c) 2026 the bch authors
 
-"""What to build for a scene, and where to cut bodies."""
+"""Plans of the shapes to build for a scene, and of the heights at which to cut bodies."""
 
 from __future__ import annotations
 
@@ -19,18 +19,18 @@ from ._shapes import Character, Plan, ShapeSet, ShapeSetBuilder, _as_poses, _poi
 
 
 class ScenePlan:
-    """What to build for a scene, each shape once, and what its agents ask for. `plan_scene` makes one.
+    """The shapes to build for a scene, each once, and the shape and level of each agent. `plan_scene` makes one.
 
     Attributes
     ----------
     plan : Plan
         The plan of the set.
     sources : (s,) SOURCE
-        The shapes, for `ShapeSetBuilder.add_sources`.
+        The shapes to build, for `ShapeSetBuilder.add_sources`.
     shape : (n,) uint32
         The shape of each agent, for `Agents`.
     level : (n,) uint8
-        The level of each agent.
+        The level of each agent, for `Agents`.
     """
 
     __slots__ = ("plan", "sources", "shape", "level")
@@ -52,16 +52,16 @@ class ScenePlan:
         self.level: UInt8 = copied(second.value, u1, (count.value,))
 
     def build(self, characters: Sequence[Character], *, threads: int = 0, progress: bool = False) -> ShapeSet:
-        """Make the set of the planned shapes.
+        """Build the set of the planned shapes.
 
         Parameters
         ----------
         characters : sequence of Character
-            Those that `plan_scene` was told by their places.
+            The list whose indices were given to `plan_scene`.
         threads : int
-            0: all processors.
+            Number of threads; 0: all processors.
         progress : bool
-            Show a bar, on a terminal.
+            Show a progress bar on a terminal.
         """
         builder = ShapeSetBuilder(self.plan)
         builder.add_sources(characters, self.sources, threads=threads, progress=progress)
@@ -85,32 +85,32 @@ def plan_scene(
     pose_step: float = 0.0,
     pairs_per_shape: float = math.inf,
 ) -> ScenePlan:
-    """Plan which shapes the agents of a scene need, each once, at which depths and with what beside.
+    """Plan which shapes the agents of a scene need, each once, at which depths and with which further data.
 
     Parameters
     ----------
     poses : (n,) POSE, or a sequence of (clip, seconds)
-        One an agent.
+        One pose per agent.
     character : (n,) uint32, optional
-        Each agent's character, by its place in a list; by default the first.
+        The index of each agent's character in a list of characters; by default the first one.
     distance : (n,) float64, optional
-        From the viewer, metres.
+        Distance of each agent from the viewer, metres.
     depth : (n,) uint32, optional
-        Level of detail: the cut depth that each agent needs, as `depth_at_density` tells; by default ALL_DEPTHS.
+        Level of detail: the cut depth that each agent needs, such as `depth_at_density` returns; by default ALL_DEPTHS.
     solid : bool
-        Queries use solid semantics, too.
+        Whether queries also use solid semantics.
     leaves : {"segments", "discs"}
         What decides at the leaves of the level of all depths.
     slices : sequence of float
-        Planes that cut the bodies of agents who are near, such as `standing_slices(3)`, metres.
+        Heights of planes that cut the bodies of near agents, metres, such as `standing_slices(3)`.
     whole_from : float
-        Agents from this distance on are whole bodies, metres.
+        The distance from which on agents are whole bodies, metres.
     heights : bool
-        Agents stand at different heights.
+        Whether agents stand at different heights.
     pose_step : float
-        Seconds, to whose multiples times are rounded down, so that agents share shapes; 0: they are not.
+        Seconds. Times are rounded down to multiples of this step, so that agents share shapes; 0: times are not rounded.
     pairs_per_shape : float
-        About how many pairs a shape will be in before it is given up; few where each lives for one frame.
+        The expected number of pairs of a shape before it is replaced; a small number if each shape lives for one frame.
     """
     if leaves not in ("discs", "segments"):
         raise ArgumentError(f"leaves is {leaves!r}; it is 'segments' or 'discs'")
@@ -144,21 +144,22 @@ def best_slices(
     *,
     poses: int = 50,
 ) -> List[float]:
-    """Choose the planes of so many slabs that clear most false collisions of a crowd of given bodies.
+    """Choose the planes that clear most false collisions in a crowd of given bodies, for a given number of slabs.
 
     Parameters
     ----------
     characters : Character, or a sequence of them
     planes : (p,) array
-        What to choose among: heights in metres, ascending, 5 cm apart for instance.
+        The planes to choose from: heights in metres, ascending, for instance 5 cm apart.
     slabs : int
+        The number of slabs.
     poses : int
-        How many poses of each character to look at; a hundred in all tell enough.
+        Poses per character to look at; a hundred poses in all are enough.
 
     Returns
     -------
     list of float
-        slabs - 1 heights, metres, for `Plan.slices`; all planes where there are no more.
+        slabs - 1 heights, metres, for `Plan.slices`; all planes if there are no more than that.
     """
     people = [characters] if isinstance(characters, Character) else list(characters)
     each = [character.sample_poses(poses) for character in people]
