@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 # Copyright (c) 2026 the bch authors
 
-"""Characters of arrays of one's own."""
+"""Characters from arrays of the caller."""
 
 from __future__ import annotations
 
@@ -25,28 +25,28 @@ class Joint(NamedTuple):
     """A node of a skeleton."""
 
     name: str = ""
-    parent: int = -1  #: the place of an earlier joint; -1: none
-    rest: Optional[npt.ArrayLike] = None  #: (3, 4) or (4, 4), in the parent's frame; None: it is not moved
+    parent: int = -1  #: the index of an earlier joint; -1: none
+    rest: Optional[npt.ArrayLike] = None  #: (3, 4) or (4, 4), in the parent's frame; None: the identity
 
 
 class Bone(NamedTuple):
-    """What moves vertices: a joint, and the map from the vertices' frame into that joint's frame at rest."""
+    """A bone, which moves vertices: a joint, and the map from the vertices' frame to that joint's frame at rest."""
 
     joint: int
     inverse_bind: Optional[npt.ArrayLike] = None  #: (3, 4) or (4, 4); None: vertices are in the joint's frame
 
 
 class Curve(NamedTuple):
-    """How a part of a joint's transform moves: keys in order of time."""
+    """The motion of one part of a joint's transform: keys in order of time."""
 
     times: npt.ArrayLike  #: (k,) seconds from the start of the motion
-    values: npt.ArrayLike  #: (k, 3), or of rotations (k, 4) unit quaternions x, y, z, w
+    values: npt.ArrayLike  #: (k, 3); for rotations (k, 4), unit quaternions x, y, z, w
     interpolation: str = "linear"  #: or "step", or "cubic", a Hermite spline
-    tangents: Optional[npt.ArrayLike] = None  #: of cubic ones: (k, 2, 3) or (k, 2, 4), before and behind each key, per second
+    tangents: Optional[npt.ArrayLike] = None  #: for "cubic": (k, 2, 3) or (k, 2, 4), before and after each key, per second
 
 
 class Channel(NamedTuple):
-    """The motion of one joint relative to its parent. A part that is None stays as it is at rest."""
+    """The motion of one joint relative to its parent. A part that is None stays at rest."""
 
     joint: int
     positions: Optional[Curve] = None
@@ -55,15 +55,15 @@ class Channel(NamedTuple):
 
 
 class Motion(NamedTuple):
-    """A clip of a character that is made of arrays."""
+    """A clip of a character that is made from arrays."""
 
     name: str
     seconds: float
-    channels: Sequence[Channel] = ()  #: at most one a joint
+    channels: Sequence[Channel] = ()  #: at most one per joint
 
 
 class _Arrays:
-    """What a call views: it keeps converted arrays alive."""
+    """Keeps converted arrays alive while a call views them."""
 
     def __init__(self) -> None:
         self._kept: List[Any] = []
@@ -73,7 +73,7 @@ class _Arrays:
         return address(array)
 
     def maps(self, maps: Sequence[Optional[npt.ArrayLike]], name: str) -> int:
-        """Return where affine maps are, of which None is the identity."""
+        """Return the address of affine maps. None is the identity."""
         rows = np.empty((len(maps), 3, 4), f4)
         for i, each in enumerate(maps):
             found = np.eye(4) if each is None else np.asarray(each)
@@ -120,7 +120,7 @@ class _Arrays:
         return _library.Clip(encoded(motion.name, "a name"), motion.seconds, channels, len(channels))
 
     def influences(self, bones: npt.ArrayLike, weights: npt.ArrayLike, vertices: int, to: Any) -> None:
-        """Name the influences of vertices; weights of 0 are none."""
+        """Set the influences of vertices. A weight of 0 is no influence."""
         weight = np.asarray(weights)
         columns = weight.shape[1] if weight.ndim == 2 else 1
         weight, bone = table(weights, f4, columns, "weights"), table(bones, u4, columns, "vertex_bones")
@@ -147,26 +147,26 @@ def make_character(
     root_joint: int = -1,
     to_ground: Optional[npt.ArrayLike] = None,
 ) -> Character:
-    """Make a character of a mesh, a skeleton, weights and motions in arrays, which are copied.
+    """Make a character from a mesh, a skeleton, weights and motions in arrays, which are copied.
 
     Parameters
     ----------
     vertices : (n, 3) array
-        Positions, metres and z up unless `to_ground` says otherwise.
+        Positions, in metres with z up, unless `to_ground` says otherwise.
     triangles : (t, 3) array
         Indices of vertices.
     name : str
     joints : sequence of Joint
-        The skeleton, parents first; without one the mesh stands still, about the agent's position.
+        The skeleton, parents first. Without joints the mesh does not move, and stands about the agent's position.
     bones : sequence of Bone
-        What moves vertices.
+        The bones that move vertices.
     vertex_bones, weights : (n, k) arrays, optional
-        The bones that each vertex follows, and how much; those of a vertex sum to 1, and weights of 0 are none. By default all
-        follow the first bone.
+        The bones that each vertex follows, and their weights. The weights of a vertex sum to 1, and a weight of 0 is no influence.
+        By default all vertices follow the first bone.
     motions : sequence of Motion
         The character's clips.
     root_joint : int
-        The joint whose point on the ground is a shape's origin; -1: the middle of the mesh's bounding rectangle.
+        The joint whose position on the ground is the origin of a shape; -1: the middle of the mesh's bounding rectangle.
     to_ground : (3, 4) or (4, 4) array, optional
         The map from the joints' frame to metres, z up.
     """

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 # Copyright (c) 2026 the bch authors
 
-"""Recordings of people, and checks of them: who runs into whom."""
+"""Recordings of people, and checks of who runs into whom."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ from ._progress import Watched
 from ._queries import Leaves, _leaves, _one_of
 from ._shapes import ALL_DEPTHS, Character, Path, ShapeSet
 
-#: A person in a frame: metres, radians and seconds, NaN where the file does not say; `motion` is an index into `Trajectory.motions`, or -1.
+#: A person in a frame, in metres, radians and seconds; NaN where the file has no value. `motion` indexes `Trajectory.motions`, or is -1.
 TRACKED = np.dtype(
     [("frame", i8), ("id", i8), ("x", f8), ("y", f8), ("heading", f4), ("stature", f4), ("motion", i4), ("clip_time", f4)]
 )
@@ -41,7 +41,7 @@ _EVENT = np.dtype(
 
 
 class NamedMotion(NamedTuple):
-    """The body that rows of a recording name, and the clip that it plays; one of the two may be empty."""
+    """A body that rows of a recording name, and the clip that it plays. One of the two may be empty."""
 
     character: str
     clip: str
@@ -50,21 +50,21 @@ class NamedMotion(NamedTuple):
 class Trajectory(NamedTuple):
     """A recording of people."""
 
-    rows: Records  #: (n,) TRACKED, frame after frame, in each by ascending id
-    fps: float  #: frames a second
+    rows: Records  #: (n,) TRACKED, frame by frame, and by ascending id within a frame
+    fps: float  #: frames per second
     format: str  #: such as "JuPedSim SQLite, version 2"
     geometry: str  #: the walkable area as well-known text, or empty
-    assumptions: List[str]  #: what the file does not say, and what was taken for it
-    motions: List[NamedMotion]  #: all that rows name, in the order of the file
+    assumptions: List[str]  #: what the file does not say, and what is assumed instead
+    motions: List[NamedMotion]  #: all motions that rows name, in the order of the file
 
     @property
     def character(self) -> "np.ndarray[Any, Any]":
-        """(n,) The character that each row names, or an empty text."""
+        """The character that each row names, or an empty text, (n,)."""
         return self._names("character")
 
     @property
     def clip(self) -> "np.ndarray[Any, Any]":
-        """(n,) The clip that each row names, or an empty text."""
+        """The clip that each row names, or an empty text, (n,)."""
         return self._names("clip")
 
     def _names(self, of: str) -> "np.ndarray[Any, Any]":
@@ -74,9 +74,9 @@ class Trajectory(NamedTuple):
 
 
 def dataframe(records: Union[Records, Trajectory]) -> Any:
-    """Return a structured array as a dataframe of pandas, where that is installed: a column for each field.
+    """Return a structured array as a pandas dataframe, with one column per field. It needs pandas.
 
-    Of a `Trajectory`, the columns `character` and `clip` hold names in place of `motion`.
+    For a `Trajectory`, the columns `character` and `clip` hold names in place of `motion`.
     """
     import pandas
 
@@ -115,11 +115,11 @@ def read_trajectory(
     ----------
     path : path
     fps : float, optional
-        Frames a second, instead of what the file says.
+        Frames per second, instead of the rate that the file states.
     unit : float, optional
-        Metres for a unit of the file, instead of what it says: 0.01 for centimetres.
+        Metres per unit of the file, instead of what it states; 0.01 for centimetres.
     columns : str, optional
-        The columns of text and CSV in order, as "frame,id,x,y".
+        Column names of text or CSV, in order, such as "frame,id,x,y".
     """
     handle = _open(path, fps, unit, columns)
     info = _info(handle)
@@ -138,13 +138,13 @@ def read_trajectory(
 
 
 class Check(NamedTuple):
-    """Who runs into whom in a recording. Ids are those of the file, depths and places metres."""
+    """The result of `check`: who runs into whom in a recording. Ids are those of the file; depths and positions are in metres."""
 
-    events: Records  #: first, second, from, to, worst (frames), x, y, depth, frames, kind: overlaps of frames in a row
+    events: Records  #: first, second, from, to, worst (frames), x, y, depth, frames, kind: overlaps in successive frames
     frames: Records  #: frame, seconds, people, overlapping, overlapping_pairs, in_walls, density
     pairs: Records  #: frame, first, second, depth, gap, x, y, kind: who is near whom
-    summary: Dict[str, Any]  #: of the whole recording: person_frames, overlapping, near_pairs ...
-    assumptions: List[str]  #: what the file does not say, and what was found out about characters
+    summary: Dict[str, Any]  #: counts of the whole recording: person_frames, overlapping, near_pairs ...
+    assumptions: List[str]  #: what is assumed where the file does not say, and what was found about the characters
 
 
 def _records(get: Any, handle: Handle, dtype: "np.dtype[Any]") -> Records:
@@ -170,35 +170,35 @@ def check(
     threads: int = 0,
     progress: bool = False,
 ) -> Check:
-    """Put a walking person on every row of a recording, and find who runs into whom. Ctrl-C ends it.
+    """Put a walking person on every row of a recording, and find who runs into whom. Ctrl-C interrupts it.
 
     Parameters
     ----------
     path : path
     characters : sequence of Character, or ShapeSet
-        Whose bodies people have, by their ids, or as rows name them, and scaled to their statures; by default built-in pedestrians.
-        Each has a clip that walks straight on, and should have one that stands. Or a set that was loaded or baked: people then have
-        its shapes, at its last level and as large as they are, and `slices` and `depth` have no effect.
+        The bodies of the people, assigned by id or as rows name them, and scaled to the people's statures; by default built-in
+        pedestrians. Each character needs a clip that walks straight on, and should have one that stands. Alternatively a set that
+        was loaded or baked. People then have its shapes, at its last level and unscaled, and `slices` and `depth` have no effect.
     clip_speeds : mapping of str to float
-        Of a baked set: how fast people walk in the clips of a name, metres a second; 0: they stand.
+        For a baked set: the walking speed in the clips of each name, metres per second; 0 where people stand.
     facing : float
-        Of a baked set: where people face, radians counter-clockwise from +x.
+        For a baked set: the direction that people face, radians, counter-clockwise from +x.
     slices : sequence of float
-        Heights of planes that cut bodies into slabs, metres, as `standing_slices` gives; by default bodies are whole.
+        Heights of planes that cut bodies into slabs, metres, such as `standing_slices` returns; by default bodies are whole.
     depth : int
-        Of the bodies' hierarchies: 0 is a disc for each body, ALL_DEPTHS the body itself.
+        Depth in the bodies' hierarchies: 0 is one disc per body, ALL_DEPTHS the body itself.
     leaves : {"segments", "discs"}
-        What decides at all depths: segments of the outlines, or discs about them.
+        What decides at ALL_DEPTHS: segments of the outlines, or discs that cover them.
     max_distance : float
-        Also tell gaps up to that, metres.
+        Also report pairs with gaps up to this distance, metres.
     walls : Obstacles, optional
-        Instead of the geometry of the recording.
+        Walls to use instead of the geometry of the recording.
     fps, unit, columns
         As for `read_trajectory`.
     threads : int
-        0: all processors. The answer is the same for any number.
+        Number of threads; 0: all processors. The answer is the same for any number.
     progress : bool
-        Show a bar, on a terminal.
+        Show a progress bar on a terminal.
 
     Returns
     -------

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 # Copyright (c) 2026 the bch authors
 
-"""Characters, and the sets of shapes that queries are asked about."""
+"""Characters, and the sets of shapes that queries take."""
 
 from __future__ import annotations
 
@@ -40,24 +40,24 @@ from ._progress import Watched
 Path = Union[str, "os.PathLike[str]"]
 #: The depth of a level that has all discs of a shape.
 ALL_DEPTHS = 0xFFFFFFFF
-#: The clip of a pose that is none.
+#: The clip of the rest pose, which belongs to no clip.
 REST_POSE = 0xFFFFFFFF
 _ALL_SLABS = 0xFFFFFFFF
 
 
 class Plan(NamedTuple):
-    """What a scene will use of its shapes; nothing else is built or stored."""
+    """The data of its shapes that a scene will use; nothing else is built or stored."""
 
     depths: Sequence[int] = (ALL_DEPTHS,)  #: levels of detail, ascending: cut depths of the hierarchies
     slices: Sequence[float] = ()  #: heights of planes that cut bodies into slabs, metres, ascending
     outlines: bool = True  #: keep outlines, for solid semantics and exact leaves
-    culling: bool = True  #: keep what lets queries skip most of their work; changes no answer
+    culling: bool = True  #: keep culling data, which lets queries skip most of their work; changes no answer
     heights: bool = False  #: keep the heights of bodies, for agents at different heights
     threshold: float = 0.01  #: the radius below which discs are not divided, metres
 
 
 class _CPlan:
-    """A plan as the library takes it, with the arrays that it names."""
+    """A plan as the library takes it, with the arrays that it points to."""
 
     def __init__(self, plan: Plan) -> None:
         self.depths = np.array([bounded(depth, "a depth", 0, ALL_DEPTHS) for depth in plan.depths], u4)
@@ -76,7 +76,7 @@ class _CPlan:
 
 
 def standing_slices(slabs: int) -> List[float]:
-    """Return planes that clear most false collisions of standing people, for 1, 2, 3, 4 or 8 slabs.
+    """Return the planes that clear most false collisions of standing people, for 1, 2, 3, 4 or 8 slabs.
 
     Returns
     -------
@@ -93,7 +93,7 @@ def depth_at_density(people_per_square_metre: float) -> int: ...
 @overload
 def depth_at_density(people_per_square_metre: Float64) -> UInt32: ...
 def depth_at_density(people_per_square_metre: Union[float, Float64]) -> Union[int, UInt32]:
-    """Return the cut depth that a density asks for, people per square metre; of an array those of all."""
+    """Return the cut depth that a density needs, in people per square metre; for an array, one depth per entry."""
     if isinstance(people_per_square_metre, np.ndarray):
         return np.array([depth_at_density(float(density)) for density in people_per_square_metre], u4)
     if not 0 <= people_per_square_metre < float("inf"):
@@ -121,7 +121,7 @@ class Clip(NamedTuple):
 
 
 class Character:
-    """A mesh, a skeleton and clips. `default_male`, `default_female` and `import_character` make one."""
+    """A character: a mesh, a skeleton and clips. `default_male`, `default_female` and `import_character` make one."""
 
     __slots__ = ("_handle", "_pointer", "name", "notes", "joints", "vertices", "triangles", "height", "clips")
 
@@ -142,7 +142,7 @@ class Character:
         return Clip((name.value or b"").decode(errors="replace"), seconds.value)
 
     def sample_poses(self, count: int) -> Records:
-        """Return so many poses, spread evenly over all clips.
+        """Return `count` poses, spread evenly over all clips.
 
         Returns
         -------
@@ -177,10 +177,10 @@ def default_bulky_male() -> Character:
 
 
 def default_pedestrian(sex: str = "male", stature: float = 1.75, shoulders: float = 0.0) -> Character:
-    """Make a pedestrian for recorded and simulated crowds: the built-in man or woman of a stature.
+    """Make a pedestrian for recorded and simulated crowds: the built-in man or woman, scaled to a stature.
 
-    Clip k is one stride at 0.03 k m/s, from 0 to 2.19 m/s, which begins with the left heel's contact. Arms are kept close, and
-    the shape stands under the head, which is what cameras track.
+    Clip k is one stride at a speed of 0.03 k m/s, from 0 to 2.19 m/s, and begins when the left heel touches the ground. The arms are
+    kept close to the body. The origin of the shape is under the head, because cameras track heads.
 
     Parameters
     ----------
@@ -188,7 +188,7 @@ def default_pedestrian(sex: str = "male", stature: float = 1.75, shoulders: floa
     stature : float
         Metres, from 0.8 to 2.4.
     shoulders : float
-        How far the shoulders are turned against the way, radians, counter-clockwise.
+        How far the shoulders are turned from the direction of motion, radians, counter-clockwise.
     """
     if sex not in ("female", "male"):
         raise ArgumentError(f"sex is {sex!r}; it is 'female' or 'male'")
@@ -196,7 +196,7 @@ def default_pedestrian(sex: str = "male", stature: float = 1.75, shoulders: floa
 
 
 def pedestrian_strides_per_second(speed: float) -> float:
-    """Return the strides, of two steps each, that a pedestrian takes in a second at a speed in m/s."""
+    """Return the number of strides per second, of two steps each, of a pedestrian at a speed in m/s."""
     return float(lib.bch_pedestrian_strides_per_second(speed))
 
 
@@ -213,7 +213,7 @@ def import_character(
 ) -> Character:
     """Read a character from a file: glTF 2, FBX, Collada, MD5, IQM, OBJ, PLY or STL.
 
-    A child process reads the file, within limits, so that a malformed one cannot harm this one. Ctrl-C ends it.
+    A child process reads the file, within limits, so a malformed file cannot harm the calling process. Ctrl-C interrupts it.
 
     Parameters
     ----------
@@ -221,13 +221,13 @@ def import_character(
     up : {"x", "y", "z"}, optional
         The axis that points up, instead of what the file says.
     scale : float
-        Metres for a unit of the file; 0: what the file says, or a guess. The character's `notes` tell.
+        Metres per unit of the file; 0: what the file says, or a guess. The character's `notes` say which.
     clip_files : sequence of paths
         Files whose clips follow those of the character's own file.
     force_clips : bool
-        Take clips that belong to another skeleton.
+        Accept clips that belong to another skeleton, too.
     max_triangles, timeout, memory_limit
-        Limits of what reading may take; seconds, and bytes.
+        Limits of reading: number of triangles, seconds, bytes.
     """
     files = (c_char_p * len(clip_files))(*[encoded(file, "a clip file") for file in clip_files])
     if up not in (None, "x", "y", "z"):
@@ -265,13 +265,13 @@ def _slab(slab: Optional[int], count: int) -> int:
 
 
 class PoseShaper:
-    """Makes the outlines of a character in pose after pose.
+    """Makes the outlines of a character, one pose at a time.
 
     Parameters
     ----------
     character : Character
     plan : Plan
-        Its slices cut the body.
+        A plan whose slices cut the body.
     """
 
     __slots__ = ("_handle", "_pointer", "_clips", "_slabs", "_exclusive")
@@ -291,11 +291,11 @@ class PoseShaper:
         Parameters
         ----------
         clip : int
-            A clip by its place in `Character.clips`, or REST_POSE.
+            Index in `Character.clips`, or REST_POSE.
         seconds : float
-            The time from the start of the clip.
+            Time from the start of the clip.
         slab : int, optional
-            One of the slabs between the plan's slices; by default all of them.
+            Index of one of the slabs between the plan's slices, from the lowest; by default all of them.
         whole : bool
             Do not cut the body.
         """
@@ -307,7 +307,7 @@ class PoseShaper:
 
 
 class Origin(NamedTuple):
-    """Which character, clip and time a shape was made from; None where a set does not know, or for the rest pose."""
+    """The character, clip and time that a shape was made from; None where a set does not know, or for the rest pose."""
 
     character: Optional[str]
     clip: Optional[str]
@@ -315,7 +315,7 @@ class Origin(NamedTuple):
 
 
 class KeptClip(NamedTuple):
-    """A body that moves by itself and that a set keeps, with its names."""
+    """A body that moves by itself, which a set keeps with its names."""
 
     character: str
     clip: Optional[str]
@@ -323,9 +323,9 @@ class KeptClip(NamedTuple):
 
 
 class ShapeSet:
-    """Shapes of bodies, ready to be queried. Any number of threads may query one at once.
+    """A set of shapes of bodies, ready for queries. Any number of threads may query a set at once.
 
-    `ShapeSet.load` maps a baked file, `bake` makes one of characters, and `ShapeSetBuilder` one of bodies of your own.
+    `ShapeSet.load` maps a baked file, `bake` makes a set from characters, and `ShapeSetBuilder` makes one from bodies of your own.
     """
 
     __slots__ = ("_owner", "_pointer", "shape_count", "depths", "slices", "has_heights", "solid", "exact_leaves", "nbytes")
@@ -349,8 +349,8 @@ class ShapeSet:
         ----------
         path : path
         mapped : bool
-            Map the file instead of reading it: no copy, and no process may write to it or shorten it while the set lives (that
-            would end this one). To replace it by another one is fine.
+            Map the file instead of reading it. This makes no copy. No process may then write to the file or shorten it while the set
+            lives: that would end the calling process. Replacing it by another file is fine.
         """
         handle = Handle("shape_set", "load", encoded(path, "path"), int(mapped))
         return cls(handle.pointer, handle)
@@ -363,14 +363,14 @@ class ShapeSet:
         heights: Optional[Sequence[Tuple[float, float]]] = None,
         plan: Plan = Plan(),
     ) -> ShapeSet:
-        """Make a set of footprints.
+        """Make a set from footprints.
 
         Parameters
         ----------
         bodies : sequence of sequences of (k, 2) arrays
-            The polygons of each body, metres, about the agent's position; either way round.
+            The polygons of each body, metres, relative to the agent's position, in either orientation.
         heights : sequence of (bottom, top), optional
-            The heights that each body takes, metres; by default all.
+            The range of heights that each body occupies, metres; by default all heights.
         plan : Plan
         """
         builder = ShapeSetBuilder(plan)
@@ -379,7 +379,7 @@ class ShapeSet:
         return builder.finish()
 
     def save(self, path: Path) -> None:
-        """Write the set as a baked file, whole or not at all."""
+        """Write the set as a baked file. The file is written completely or not at all."""
         check(lib.bch_shape_set_save(self._pointer, encoded(path, "path")))
 
     def __len__(self) -> int:
@@ -397,7 +397,7 @@ class ShapeSet:
         ----------
         shape : int
         level : int
-            Index into `depths`; negative ones count from the end.
+            Index into `depths`; negative indices count from the end.
 
         Returns
         -------
@@ -419,7 +419,7 @@ class ShapeSet:
         ----------
         shape : int
         slab : int, optional
-            One of the slabs; by default all of them.
+            Index of one of the slabs, from the lowest; by default all of them.
 
         Returns
         -------
@@ -429,14 +429,14 @@ class ShapeSet:
         return _contours(lib.bch_shape_set_get_outline, self._pointer, shape, _slab(slab, self.slab_count))
 
     def radius(self, shape: int) -> float:
-        """Return the radius about an agent's position that holds all of its shape at every heading, metres."""
+        """Return the radius, in metres, of the disc about an agent's position that covers its shape at every heading."""
         radius = c_float()
         shape = index(shape, "shape", self.shape_count)
         check(lib.bch_shape_set_get_radius(self._pointer, shape, byref(radius)))
         return radius.value
 
     def origin(self, shape: int) -> Origin:
-        """Return which character, clip and time a shape was made from."""
+        """Return the character, clip and time that a shape was made from."""
         origin = _library.ShapeOrigin()
         shape = index(shape, "shape", self.shape_count)
         check(lib.bch_shape_set_get_origin(self._pointer, shape, byref(origin)))
@@ -444,13 +444,13 @@ class ShapeSet:
         return Origin(character, clip, origin.seconds)
 
     def keep_clip(self, shape: AnimatedShape, character: str, clip: Optional[str] = None) -> None:
-        """Keep a body that moves by itself, under names; `save` writes it beside the shapes."""
+        """Keep a body that moves by itself, with its names. `save` writes it beside the shapes."""
         name = None if clip is None else encoded(clip, "clip")
         check(lib.bch_shape_set_add_clip(self._pointer, shape._pointer, encoded(character, "character"), name))
 
     @property
     def clips(self) -> List[KeptClip]:
-        """The bodies that move by themselves with which the set was loaded, or that `keep_clip` added."""
+        """The bodies that move by themselves: those of the loaded file, and those that `keep_clip` added."""
         count = c_size_t()
         check(lib.bch_shape_set_get_clip_count(self._pointer, byref(count)))
         return [self._clip(i) for i in range(count.value)]
@@ -465,12 +465,12 @@ class ShapeSet:
         raise TypeError("a bch.ShapeSet cannot be pickled; save() it, and load() the file elsewhere, which maps it")
 
     def verify(self, most: int = 100) -> List[str]:
-        """Check that what is stored of the shapes follows from their discs and outlines, for files from elsewhere.
+        """Check that all stored data of the shapes follow from their discs and outlines, for files from elsewhere.
 
         Returns
         -------
         list of str
-            A line for each finding, at most so many; none for sets that the library made.
+            One line per finding, at most `most`; none for sets that the library made.
         """
         lines: List[str] = []
         callback = _library.Finding(lambda _, line: lines.append(line.decode(errors="replace")))
@@ -486,7 +486,7 @@ class ShapeSet:
 class ShapeSetBuilder:
     """Builds a set body by body. Shapes are numbered in the order in which they are added.
 
-    Bodies of your own may take a range of heights, (bottom, top) in metres, where the plan keeps heights or has slices; by default they
+    If the plan keeps heights or has slices, bodies of your own may have a range of heights, (bottom, top) in metres. By default they
     take part at every height.
 
     Parameters
@@ -512,16 +512,16 @@ class ShapeSetBuilder:
         return byref(_library.Heights(bottom, top))
 
     def add_poses(self, character: Character, poses: Any, *, threads: int = 0, progress: bool = False) -> None:
-        """Add the shapes of a character's poses, which all processors make. Ctrl-C ends it, and none of them is added.
+        """Add the shapes of a character's poses, which all processors make. Ctrl-C interrupts it, and then none is added.
 
         Parameters
         ----------
         character : Character
         poses : (n,) POSE, or a sequence of (clip, seconds)
         threads : int
-            0: all processors.
+            Number of threads; 0: all processors.
         progress : bool
-            Show a bar, on a terminal.
+            Show a progress bar on a terminal.
         """
         array = _as_poses(poses)
         with self._exclusive, Watched(f"baking {character.name}", progress) as watched:
@@ -535,17 +535,17 @@ class ShapeSetBuilder:
     def add_sources(
         self, characters: Sequence[Character], sources: Records, *, threads: int = 0, progress: bool = False
     ) -> None:
-        """Add the shapes of poses of several characters, as `plan_scene` tells them. Ctrl-C ends it, and none of them is added.
+        """Add the shapes of poses of several characters, as `plan_scene` lists them. Ctrl-C interrupts it, and then none is added.
 
         Parameters
         ----------
         characters : sequence of Character
         sources : (n,) SOURCE
-            Records of character, clip, seconds and whole; a character by its place in `characters`.
+            Records of character, clip, seconds and whole. A character is an index in `characters`.
         threads : int
-            0: all processors.
+            Number of threads; 0: all processors.
         progress : bool
-            Show a bar, on a terminal.
+            Show a progress bar on a terminal.
         """
         which = given(sources, SOURCE, (None,), "sources")
         pointers = _pointers(characters)
@@ -560,7 +560,7 @@ class ShapeSetBuilder:
     def add_polygons(
         self, polygons: Sequence[npt.ArrayLike], *, heights: Optional[Tuple[float, float]] = None
     ) -> None:
-        """Add a body of polygons: (k, 2) corners in metres, about the agent's position, either way round."""
+        """Add a body of polygons: (k, 2) corners in metres, relative to the agent's position, in either orientation."""
         corners = [table(polygon, f4, 2, "a polygon") for polygon in polygons]
         offsets = np.zeros(len(corners) + 1, u8)
         offsets[1:] = np.cumsum([len(each) for each in corners])
@@ -575,7 +575,7 @@ class ShapeSetBuilder:
     def add_capsules(
         self, capsules: npt.ArrayLike, *, tolerance: float = 0.001, heights: Optional[Tuple[float, float]] = None
     ) -> None:
-        """Add a body of capsules: (k, 5) numbers, x and y of one end, of the other, and a radius, metres."""
+        """Add a body of capsules: (k, 5) numbers, x and y of one end, x and y of the other, and the radius, in metres."""
         array = table(capsules, f4, 5, "capsules")
         with self._exclusive:
             check(
@@ -585,7 +585,7 @@ class ShapeSetBuilder:
             )
 
     def add_discs(self, discs: npt.ArrayLike, *, heights: Optional[Tuple[float, float]] = None) -> None:
-        """Add a body of discs: (k, 3) numbers, x, y and radius in metres, or (k,) DISC. Queries number them as they are given."""
+        """Add a body of discs: (k, 3) numbers, x, y and radius in metres, or (k,) DISC. Queries number the discs in this order."""
         given_discs = np.asarray(discs)
         if given_discs.dtype == DISC:
             given_discs = np.stack([given_discs[name] for name in ("x", "y", "radius")], axis=-1)
@@ -594,12 +594,12 @@ class ShapeSetBuilder:
             check(lib.bch_shape_set_builder_add_discs(self._pointer, address(array), len(array), self._heights(heights)))
 
     def add_cylinder(self, radius: float, *, heights: Optional[Tuple[float, float]] = None) -> None:
-        """Add a cylinder about the agent's position, of a radius in metres."""
+        """Add a cylinder about the agent's position, with a radius in metres."""
         with self._exclusive:
             check(lib.bch_shape_set_builder_add_cylinder(self._pointer, radius, self._heights(heights)))
 
     def add_mesh(self, positions: npt.ArrayLike, triangles: npt.ArrayLike) -> None:
-        """Add a mesh as it is: (n, 3) positions in metres, z up, and (t, 3) indices of them. Slices cut it."""
+        """Add a mesh as it is: (n, 3) positions in metres, z up, and (t, 3) indices of them. The plan's slices cut it."""
         points, corners = table(positions, f4, 3, "positions"), table(triangles, u4, 3, "triangles")
         with self._exclusive:
             check(
@@ -609,12 +609,12 @@ class ShapeSetBuilder:
             )
 
     def add_moment(self, shape: AnimatedShape, seconds: float) -> None:
-        """Add a body that moves by itself as it is at a time of its clip."""
+        """Add a body that moves by itself, as it is at a time of its clip, in seconds."""
         with self._exclusive:
             check(lib.bch_shape_set_builder_add_moment(self._pointer, shape._pointer, seconds))
 
     def finish(self) -> ShapeSet:
-        """Return the set of all that was added. The builder is then empty."""
+        """Return the set of all bodies that were added. The builder is then empty."""
         with self._exclusive:
             handle = Handle("shape_set_builder", "finish", self._pointer, free="shape_set")
         return ShapeSet(handle.pointer, handle)
@@ -631,26 +631,26 @@ def bake(
 ) -> ShapeSet:
     """Make a set of characters in many poses, and write it as a baked file.
 
-    Ctrl-C ends it and leaves no file.
+    Ctrl-C interrupts it and leaves no file.
 
     Parameters
     ----------
     characters : Character, or a sequence of them
     poses : int, or poses
-        So many poses of each, spread evenly over its clips; or an (n,) POSE array or a sequence of (clip, seconds), and for several
-        characters a sequence of those, one each.
+        The number of poses per character, spread evenly over its clips; or the poses themselves, an (n,) POSE array or a sequence of
+        (clip, seconds). For several characters: a sequence of such arrays or sequences, one per character.
     plan : Plan
     path : path, optional
         Where to write the set.
     threads : int
-        0: all processors. The bytes are the same for any number.
+        Number of threads; 0: all processors. The bytes are the same for any number.
     progress : bool
-        Show a bar, on a terminal.
+        Show a progress bar on a terminal.
 
     Returns
     -------
     ShapeSet
-        The shapes of one character after the other.
+        A set with the shapes of one character after the other.
     """
     alone = isinstance(characters, Character)
     people: List[Character] = [characters] if isinstance(characters, Character) else list(characters)
@@ -675,7 +675,7 @@ class DynamicShapeSet:
     Parameters
     ----------
     start : ShapeSet
-        What it has to begin with, and its plan.
+        The set whose shapes and plan it begins with.
     """
 
     __slots__ = ("_handle", "_pointer", "_exclusive", "shapes")
@@ -686,7 +686,7 @@ class DynamicShapeSet:
         self._pointer: int = self._handle.pointer
         lent = ctypes.c_void_p()
         check(lib.bch_dynamic_shape_set_get_shapes(self._pointer, byref(lent)))
-        #: The present shapes, for queries.
+        #: The current shapes, for queries.
         self.shapes = ShapeSet(lent.value or 0, self._handle)
 
     def replace(
@@ -704,12 +704,12 @@ class DynamicShapeSet:
         ----------
         character : Character
         shapes : (n,) uint32
-            Which shapes, each once.
+            Indices of the shapes to replace, each once.
         poses : (n,) POSE, or a sequence of (clip, seconds)
         threshold : float
             The radius below which discs are not divided, metres.
         threads : int
-            0: all processors.
+            Number of threads; 0: all processors.
         """
         array = _as_poses(poses)
         which = given(shapes, u4, (len(array),), "shapes")
