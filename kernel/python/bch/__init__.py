@@ -16,8 +16,8 @@ Make or load a set of shapes, describe a crowd by arrays, and ask:
 >>> hit = bch.collide(people, crowd, pairs)
 >>> gap = bch.clearance(people, crowd, pairs, max_distance=0.5)
 
-Lengths are metres and angles radians. Arrays pass without a copy where their type and layout fit; otherwise an error says
-what is wanted. Every query runs without the interpreter's lock, so that Python threads run at the same time.
+Lengths are in metres and angles in radians. Queries take arrays without a copy if their dtype and layout fit, and otherwise
+raise an error that says what is wanted. Every query releases the interpreter's lock, so Python threads run at the same time.
 """
 
 from . import plot

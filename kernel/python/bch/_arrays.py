@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 # Copyright (c) 2026 the bch authors
 
-"""What goes into the library and comes out of it: arrays by their addresses, and dtypes of what they hold."""
+"""Arrays that go into the library and come out of it, by their addresses, and the dtypes of their entries."""
 
 import ctypes
 import operator
@@ -30,9 +30,9 @@ f4, f8, b1 = np.dtype(np.float32), np.dtype(np.float64), np.dtype(np.bool_)
 DISC = np.dtype([("x", f4), ("y", f4), ("radius", f4)])
 #: A time in a clip of a character; clip 0xffffffff is the rest pose.
 POSE = np.dtype([("clip", u4), ("seconds", f4)])
-#: Which character, by its place in a list, in which pose a shape shows; `whole`, if not 0: no slices cut it.
+#: The character, by its index in a list, and the pose that a shape shows. If `whole` is not 0, no slices cut the shape.
 SOURCE = np.dtype([("character", u4), ("clip", u4), ("seconds", f4), ("whole", i4)])
-#: How far the first agent of a pair has to move, metres, and in which direction, a unit vector.
+#: How far the first agent of a pair has to move, metres, and the direction of the move, a unit vector.
 PENETRATION = np.dtype({"names": ["depth", "x", "y"], "formats": [f4, f8, f8], "offsets": [0, 8, 16], "itemsize": 24})
 
 
@@ -61,7 +61,7 @@ def _dtype_words(dtype: np.dtype[Any]) -> str:
 
 
 def fits(array: Any, dtype: np.dtype[Any], shape: Shape) -> bool:
-    """Return whether an array can pass without a copy."""
+    """Return whether the library can take an array without a copy."""
     if not isinstance(array, np.ndarray) or array.dtype != dtype or isinstance(array, np.ma.MaskedArray):
         return False
     if not (array.flags.c_contiguous and array.flags.aligned):
@@ -91,7 +91,7 @@ def result(out: Optional[npt.NDArray[Any]], dtype: np.dtype[Any], shape: Tuple[i
 
 
 def index(value: Any, name: str, end: int) -> int:
-    """Return a whole number from 0 to below an end, or raise an error that names it."""
+    """Return a whole number from 0 to below `end`, or raise an error that names it."""
     number = operator.index(value)
     if not 0 <= number < end:
         raise RangeError(f"{name} is {number}, not from 0 to {end - 1}")
@@ -107,7 +107,7 @@ def bounded(value: Any, name: str, low: int, high: int) -> int:
 
 
 def table(values: Any, dtype: np.dtype[Any], columns: int, name: str) -> npt.NDArray[Any]:
-    """Return rows of so many numbers as an array, for calls that take lists and convert."""
+    """Return rows of `columns` numbers as an array, for calls that take lists and convert them."""
     array = np.asarray(values)
     whole = dtype.kind == "u"
     if array.ndim != 2 or array.shape[1] != columns or array.dtype.kind not in ("iu" if whole else "iuf"):

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 # Copyright (c) 2026 the bch authors
 
-"""The shared library: its structs, its functions, its errors."""
+"""The shared library: its structs, functions and errors."""
 
 import ctypes
 import os
@@ -14,35 +14,35 @@ ABI_VERSION = 1
 
 
 class Error(Exception):
-    """What a call of the library fails with. The message names the argument, an index and the value."""
+    """An error of the library. The message names the argument, an index and the value."""
 
 
 class ArgumentError(Error, ValueError):
-    """An argument that makes no sense."""
+    """An argument with an invalid value."""
 
 
 class ArrayError(Error, TypeError):
-    """An array of another type, shape or layout than a call takes, or something else in place of an object."""
+    """An array with a dtype, shape or layout that a call does not take, or an object of the wrong type."""
 
 
 class RangeError(Error, IndexError):
-    """An index beyond what there is."""
+    """An index out of range."""
 
 
 class SizeError(Error, OverflowError):
-    """More than the library's limits hold."""
+    """A size beyond the limits of the library."""
 
 
 class OutOfMemory(Error, MemoryError):
-    """Memory that there is not."""
+    """Not enough memory."""
 
 
 class FileMissing(Error, FileNotFoundError):
-    """A file that is not there."""
+    """A file that does not exist."""
 
 
 class FileError(Error, OSError):
-    """A file that cannot be read, believed or written."""
+    """A file that cannot be read or written, or is not valid."""
 
 
 OK, CANCELLED = 0, 7

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 # Copyright (c) 2026 the bch authors
 
-"""Progress of work that takes a while, on a terminal, and its end by Ctrl-C."""
+"""Progress bars of long work on a terminal, and its interruption by Ctrl-C."""
 
 from __future__ import annotations
 
@@ -16,10 +16,10 @@ from ._library import CANCELLED, check
 
 
 class Watched:
-    """A call that Ctrl-C ends, with a bar on standard error.
+    """A call that Ctrl-C interrupts, with a progress bar on standard error.
 
-    The library calls back on the thread of the caller, where Python handles signals. Nothing may be raised there: an interrupt is
-    remembered, ends the work, and is raised when the library has returned.
+    The library calls back on the caller's thread, where Python handles signals. No exception may be raised there. So an interrupt is
+    stored, ends the work, and is raised when the library has returned.
     """
 
     def __init__(self, what: str, shown: bool) -> None:
@@ -30,7 +30,7 @@ class Watched:
         self._before: Any = None
 
     def run(self, status: int) -> None:
-        """Raise what ended the work, an error or an interrupt."""
+        """Raise the error or the interrupt that ended the work, if any."""
         self._close()
         if status == CANCELLED:
             raise KeyboardInterrupt
@@ -71,7 +71,7 @@ class Watched:
 
 
 class _Bar:
-    """A bar where tqdm is not installed."""
+    """A progress bar for use where tqdm is not installed."""
 
     def __init__(self, what: str, total: int) -> None:
         self.n, self._what, self._total = 0, what, total

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 # Copyright (c) 2026 the bch authors
 
-"""Pictures of crowds with matplotlib, where that is installed."""
+"""Pictures of crowds, drawn with matplotlib, which has to be installed."""
 
 from __future__ import annotations
 
@@ -33,18 +33,18 @@ def crowd(
     discs: Optional[int] = None,
     numbers: bool = False,
 ) -> None:
-    """Draw agents seen from above: outlines, filled in red where an agent collides, else in blue.
+    """Draw agents seen from above: outlines, filled red for agents that collide and blue for the others.
 
     Parameters
     ----------
     ax : matplotlib axes
     shapes : ShapeSet
-        With outlines; a shape without one is drawn by its discs.
+        Shapes with outlines; a shape without one is drawn as its discs.
     agents : Agents
     hits : (agents,) bool, optional
-        Who is drawn in red; by default whoever collides with somebody.
+        The agents to draw in red; by default all that collide with another one.
     discs : int, optional
-        Also draw the discs of this level, an index into `ShapeSet.depths`.
+        Level whose discs are drawn, too, an index into `ShapeSet.depths`.
     numbers : bool
         Write each agent's index at its position.
     """
