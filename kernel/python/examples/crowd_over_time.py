@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 # Copyright (c) 2026 the bch authors
 
-"""A crowd over time: two groups walk through each other; when and where do they collide? Writes crowd_over_time.png."""
+"""A crowd over time: two groups walk through each other. When and where do people collide? Writes crowd_over_time.png."""
 
 import bch
 import matplotlib.pyplot as plt
@@ -24,7 +24,7 @@ y = 1.3 * (row - 2) + np.where(east, 0.2, -0.2) + random.uniform(-0.1, 0.1, n)
 heading = np.where(east, 0.0, np.pi)
 phase = random.uniform(0, phases, n)
 shape = np.zeros(n, np.uint32)
-crowd = bch.Agents(shape, x, y, heading)  # views: what changes below is what is asked about
+crowd = bch.Agents(shape, x, y, heading)  # views the arrays, so queries see the changes below
 
 collider = bch.CrowdCollider()
 times = np.arange(0, 12, step)

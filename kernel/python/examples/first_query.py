@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 # Copyright (c) 2026 the bch authors
 
-"""First query: a crowd, who of it collides, and a picture of it. Writes first_query.png."""
+"""First query: a crowd, the people in it who collide, and a picture of them. Writes first_query.png."""
 
 import bch
 import matplotlib.pyplot as plt

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 # Copyright (c) 2026 the bch authors
 
-"""Own character file to baked set. Usage: own_character.py FILE. Writes own_character.bch and own_character.png."""
+"""From a character file of your own to a baked set. Usage: own_character.py FILE. Writes own_character.bch and own_character.png."""
 
 import sys
 
@@ -15,7 +15,7 @@ for note in character.notes:
     print(f"  {note}")
 
 baked = bch.bake(character, poses=12, path="own_character.bch", progress=True)
-shapes = bch.ShapeSet.load("own_character.bch")  # in another program, at once
+shapes = bch.ShapeSet.load("own_character.bch")  # loads at once, also in another program
 assert len(shapes) == len(baked)
 
 column, row = np.divmod(np.arange(len(shapes)), 3)

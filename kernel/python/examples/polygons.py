@@ -7,7 +7,7 @@ import bch
 import matplotlib.pyplot as plt
 import numpy as np
 
-# A person with arms held out, cut above the knees, and footprints with the heights that they take.
+# A person with arms held out, cut above the knees, and footprints with the heights that they occupy.
 plan = bch.Plan(slices=(0.7,))
 woman = bch.default_female()
 builder = bch.ShapeSetBuilder(plan)

@@ -23,7 +23,7 @@ wanted = np.array([1.2, 0.0])
 
 
 def forces():
-    """What moves people, newtons, after Helbing and Molnar 1995, with distances between outlines' discs."""
+    """Return the forces on people, in newtons, after Helbing and Molnar 1995, with distances between the outlines' discs."""
     force = mass * (wanted - velocity) / relaxation
     pairs = bch.candidate_pairs(people, crowd, margin=4 * reach)
     near = bch.nearest(people, crowd, pairs, max_distance=4 * reach, overlap="deepest")
@@ -42,7 +42,7 @@ for _ in range(500):
     velocity *= np.minimum(1, 2.0 / np.maximum(speed, 1e-9))[:, None]
     x += velocity[:, 0] * step
     y += velocity[:, 1] * step
-    leave = bch.penetration(people, crowd, corridor)  # nobody stays in a wall
+    leave = bch.penetration(people, crowd, corridor)  # moves people out of walls
     x += leave["depth"] * leave["x"]
     y += leave["depth"] * leave["y"]
     heading[:] = np.arctan2(velocity[:, 1], velocity[:, 0])
