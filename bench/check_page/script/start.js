@@ -4,7 +4,7 @@ const ordinal = (number) => number + ({1: "st", 2: "nd", 3: "rd"}[number % 100 >
 
 function summary() {
   const parts = [counted(new Set(people.who).size, "person", "people"), clockText(frames.end - frames.start)];
-  if (meta.fps > 0) parts.push(Number(meta.fps.toFixed(2)) + " frames a second");
+  if (meta.fps > 0) parts.push(Number(meta.fps.toFixed(2)) + " frames per second");
   parts.push(counted(meta.frames, "frame", "frames"));
   if (meta.step > 1) parts.push("every " + ordinal(meta.step) + " frame shown");
   return parts.join(" · ");

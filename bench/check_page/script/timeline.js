@@ -66,7 +66,7 @@ function drawTimeline() {
   const width = timeline.clientWidth, height = timeline.clientHeight;
   canvas.width = Math.round(width * ratio);
   canvas.height = Math.round(height * ratio);
-  const context = canvas.getContext("2d"), label = "People overlapping, at most " + grouped(mostOverlapping);
+  const context = canvas.getContext("2d"), label = "Number of overlapping people, at most " + grouped(mostOverlapping);
   context.setTransform(ratio, 0, 0, ratio, 0, 0);
   drawBars(context, width, height);
   drawTimes(context, width, height);
