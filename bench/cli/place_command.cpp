@@ -134,10 +134,10 @@ std::function<void()> add_place_command(CLI::App& program) {
       .add_option("--obstacles", options->obstacles,
                   "Keep people out of these walls and polygons, in well-known text")
       ->type_name("FILE.wkt");
-  command.add_option("--width", options->placing.width, "Width of the area [10 m]")
+  command.add_option("--width", options->placing.width, "Width of the area, along x [10 m]")
       ->type_name("METRES")
       ->check(number_between(1, 1000));
-  command.add_option("--depth", options->placing.depth, "Depth of the area [10 m]")
+  command.add_option("--depth", options->placing.depth, "Depth of the area, along y [10 m]")
       ->type_name("METRES")
       ->check(number_between(1, 1000));
   command.add_option("--seconds", options->placing.seconds, "Time for which people move [10 s]")
