@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <functional>
 #include <string>
+#include <string_view>
 #include <utility>
+#include <vector>
 
 #include "bench/base/command_line.hpp"
 #include "bench/base/exit_codes.hpp"
@@ -23,7 +27,7 @@ constexpr const char* footer =
     "Data goes to standard output, messages to standard error.\n"
     "Exit codes:\n"
     "  0        success\n"
-    "  1        a check failed (check --fail-above)\n"
+    "  1        a check failed (--fail-above of check and merge)\n"
     "  2        wrong usage\n"
     "  3        a file cannot be read or written, or is not valid\n"
     "  4        internal error\n"
@@ -43,10 +47,11 @@ int run(int argc, char** argv) {
       {"query", add_query_command(program)},         {"report", add_report_command(program)},
       {"stability", add_stability_command(program)},
   };
+  std::vector<std::string_view> names;
+  for (const auto& command : commands) names.emplace_back(command.first);
   const std::string word = argc > 1 ? argv[1] : "-";
-  if (word[0] != '-' && std::ranges::none_of(commands, [&](const auto& one) { return one.first == word; }))
-    throw UsageError("no command '" + word +
-                     "' (bake, check, crowd, inspect, merge, query, report, stability)");
+  if (word[0] != '-' && std::ranges::find(names, word) == names.end())
+    throw UsageError(fmt::format("no command '{}' ({})", word, fmt::join(names, ", ")));
   if (!parse_command_line(program, argc, argv)) return exit_success;
   for (const auto& [name, command] : commands)
     if (program.got_subcommand(name)) command();
