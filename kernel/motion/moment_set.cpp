@@ -173,7 +173,8 @@ MomentSet::MomentSet(std::span<const AnimatedShape* const> bodies, const ShapeSe
     if (bodies[i] == nullptr)
       throw std::invalid_argument(std::string(query) + ": body " + std::to_string(i) + " is missing");
   for (std::size_t i = 0; i < bodies.size(); ++i)
-    if (!bodies[i]->slices().empty() && !std::ranges::equal(bodies[i]->slices(), plan.slices))
+    if (const std::span<const float> cut = bodies[i]->slices();
+        !cut.empty() && !std::equal(cut.begin(), cut.end(), plan.slices.begin(), plan.slices.end()))
       throw std::invalid_argument(std::string(query) + ": body " + std::to_string(i) +
                                   " is cut at other planes");
   state_ = std::make_unique<State>(bodies, plan, kept);
