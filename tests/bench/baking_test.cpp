@@ -125,7 +125,7 @@ TEST_P(Baking, FilesOfATaskThatThrowsAreAsTheyWere) {
   EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 1);
 }
 
-INSTANTIATE_TEST_SUITE_P(Threads, Baking, testing::Values(1, 2, 4));
+INSTANTIATE_TEST_SUITE_P(Threads, Baking, testing::Values(1, 2, 4), testing::PrintToStringParamName());
 
 }  // namespace
 }  // namespace bch::cli

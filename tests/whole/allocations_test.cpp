@@ -121,7 +121,7 @@ TEST_P(Allocations, DistancesAndTimesNeedNone) {
   EXPECT_EQ(count([&] { within(set, crowd.agents(), pairs, way, hits); }), 0u);
 }
 
-INSTANTIATE_TEST_SUITE_P(Threads, Allocations, testing::Values(1, 2, 4));
+INSTANTIATE_TEST_SUITE_P(Threads, Allocations, testing::Values(1, 2, 4), testing::PrintToStringParamName());
 
 }  // namespace
 }  // namespace bch

@@ -115,7 +115,8 @@ TEST_P(CApiAllocations, ObjectsKeepTheirMemory) {
             0u);
 }
 
-INSTANTIATE_TEST_SUITE_P(Threads, CApiAllocations, testing::Values(0, 1, 2, 4));
+INSTANTIATE_TEST_SUITE_P(Threads, CApiAllocations, testing::Values(0, 1, 2, 4),
+                         testing::PrintToStringParamName());
 
 }  // namespace
 }  // namespace bch
