@@ -147,8 +147,9 @@ TEST_F(SegmentClearance, OfExchangedAgentsIsExchanged) {
 }
 
 TEST_F(SegmentClearance, OfManyShapesAndInPartsIsTheSame) {
-  PairScene scene = random_scene(random, set, 10'000);
+  PairScene scene = random_scene(random, set, 12'000);
   refine(scene);
+  ASSERT_GE(scene.pairs.size(), 62u + 1025u);
   const Found whole = find(set, scene, {.max_distance = 0.5});
   for (const std::size_t size : {0, 1, 3, 17, 255, 1025}) {
     PairScene part{scene.crowd, {scene.pairs.begin() + 62, scene.pairs.begin() + 62 + size}};
