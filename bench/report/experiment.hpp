@@ -35,8 +35,10 @@ struct Sizes {
 constexpr Sizes full_sizes;
 constexpr Sizes quick_sizes{20, 2'000, 2'000, 100, 3, 200, 2, 40, 1, 20'000};
 
-/// Poses of a character of which an experiment keeps distances of meshes, which takes up to a hundred megabytes.
-constexpr std::uint32_t most_mesh_poses = 40;
+/// Limits the poses of a character in experiments that take up to a hundred megabytes, or long, for these.
+constexpr std::uint32_t most_costly_poses = 40;
+
+constexpr double millimetres = 1000;  ///< of a metre
 
 /// The context of an experiment: what it runs on and where its tables go.
 class Run {

@@ -84,7 +84,7 @@ void run_mesh_detail(Run& run) {
                                   bench::with_relief(man, 2)};
   double done = 0;
   for (const Character& character : characters) {
-    const Detailed detailed(character, std::min(run.sizes().poses, most_mesh_poses));
+    const Detailed detailed(character, std::min(run.sizes().poses, most_costly_poses));
     const Measured measured = detailed.measure(run.sizes().pairs / 4, run.sizes().runs);
     constexpr MeanTests not_counted[2];
     const auto add = [&](std::string_view name, double build, const Quartiles(&taken)[2],

@@ -34,7 +34,6 @@ using bench::AnimatedClip;
 constexpr double never = std::numeric_limits<double>::infinity();
 constexpr double rates[] = {10, 30, 120};
 constexpr double sample_rates[] = {30, 120, 1000};
-constexpr double millimetres_a_metre = 1000;
 
 /// How long the parts of clips are, seconds: all clips of the scene, those of characters from elsewhere, and a walk.
 double clip_seconds(const Run& run) {
@@ -70,16 +69,15 @@ struct CoverErrors {
   /// Returns the value in millimetres below which a share of those of `outside` are.
   double outside_at(double share) {
     std::sort(outside.begin(), outside.end());
-    return millimetres_a_metre *
-           outside[static_cast<std::size_t>(share * static_cast<double>(outside.size() - 1))];
+    return millimetres * outside[static_cast<std::size_t>(share * static_cast<double>(outside.size() - 1))];
   }
   double mean_outside() const {
     double sum = 0;
     for (const double each : outside) sum += each;
-    return millimetres_a_metre * sum / static_cast<double>(outside.size());
+    return millimetres * sum / static_cast<double>(outside.size());
   }
   double most_uncovered() const {
-    return millimetres_a_metre * *std::max_element(uncovered.begin(), uncovered.end());
+    return millimetres * *std::max_element(uncovered.begin(), uncovered.end());
   }
 };
 
@@ -158,7 +156,7 @@ void add_slides(Run& run, std::span<const AnimatedClip> clips) {
   detail::Random random(run.seed());
   std::vector<Shape> built, animated;
   std::vector<baselines::Body> bodies;
-  for (std::uint32_t i = 0; i < std::min(run.sizes().poses, most_mesh_poses); ++i) {
+  for (std::uint32_t i = 0; i < std::min(run.sizes().poses, most_costly_poses); ++i) {
     const AnimatedClip& clip = clips[random.below(static_cast<std::uint32_t>(clips.size()))];
     const auto time = static_cast<float>(random.uniform(clip.seconds));
     PoseShaper shaper(*clip.character);

@@ -40,7 +40,7 @@ Posed pose(const cli::LoadedCharacter& loaded, std::uint32_t poses, std::uint64_
 }
 
 void add_real_rows(Run& run, const cli::LoadedCharacter& loaded, Table& table) {
-  const Posed posed = pose(loaded, std::min(run.sizes().poses, most_mesh_poses), run.seed());
+  const Posed posed = pose(loaded, std::min(run.sizes().poses, most_costly_poses), run.seed());
   const SlideCases cases(posed.shapes, run.sizes().cases, run.seed());
   const auto distances = baselines::fcl_mesh_distances(posed.bodies);
   const auto add = [&](const std::string& structure, const std::vector<double>& places) {
@@ -53,7 +53,7 @@ void add_real_rows(Run& run, const cli::LoadedCharacter& loaded, Table& table) {
   for (const std::uint32_t depth : {0u, 3u, 6u, all_depths})
     add(cut_name(depth), cases.contacts(ShapeSet(posed.shapes, {{depth}})));
   const std::vector<ShapeSource> sources =
-      cli::list_random_shapes({&loaded, 1}, std::min(run.sizes().poses, most_mesh_poses), run.seed());
+      cli::list_random_shapes({&loaded, 1}, std::min(run.sizes().poses, most_costly_poses), run.seed());
   for (const std::uint32_t slabs : {3u, 8u}) {
     const ShapeSetPlan plan{.slices = standing_slices(slabs)};
     const ShapeSet set(cli::build_shapes({&loaded, 1}, sources, threshold, plan).shapes, plan);

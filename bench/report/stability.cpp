@@ -16,7 +16,7 @@
 namespace bch::report {
 namespace {
 
-constexpr double millimetres = 1000, milliseconds = 1000;
+constexpr double milliseconds = 1000;
 
 double micrometres(const bench::Errors& errors) {
   return 1e6 * bench::largest_error(errors);

@@ -22,7 +22,7 @@ struct NearestFeatures {
   bool are_segments;
   /// The places of the discs among ShapeSetView::nodes, 0 in a set of roots alone; or the points where the segments begin; or no_node.
   std::uint32_t a, b;
-  // Of discs:
+  // Discs alone have the following.
   float x, y;          ///< way from A's centre to B's, in A's frame
   float cosine, sine;  ///< A's heading
 };

@@ -149,12 +149,14 @@ TEST_F(SegmentClearance, OfExchangedAgentsIsExchanged) {
 TEST_F(SegmentClearance, OfManyShapesAndInPartsIsTheSame) {
   PairScene scene = random_scene(random, set, 12'000);
   refine(scene);
-  ASSERT_GE(scene.pairs.size(), 62u + 1025u);
+  constexpr std::uint32_t first = 62, most = 1025;
+  ASSERT_GE(scene.pairs.size(), first + most);
   const Found whole = find(set, scene, {.max_distance = 0.5});
-  for (const std::size_t size : {0, 1, 3, 17, 255, 1025}) {
-    PairScene part{scene.crowd, {scene.pairs.begin() + 62, scene.pairs.begin() + 62 + size}};
+  for (const std::uint32_t size : {0u, 1u, 3u, 17u, 255u, most}) {
+    const auto begin = scene.pairs.begin() + first;
+    PairScene part{scene.crowd, {begin, begin + size}};
     const Found found = find(set, part, {.max_distance = 0.5});
-    for (std::size_t i = 0; i < size; ++i) EXPECT_TRUE(found.same(i, whole, 62 + i)) << size;
+    for (std::size_t i = 0; i < size; ++i) EXPECT_TRUE(found.same(i, whole, first + i)) << size;
   }
   const ShapeSet large(test::repeated(shapes), test::four_levels);
   for (std::size_t i = 0; i < scene.crowd.shape.size(); ++i)

@@ -85,12 +85,13 @@ struct AnimatedDiscs {
 };
 
 /// Checks that moving discs are well-formed, as AnimatedShape needs them.
-/// Errors:  throws std::invalid_argument, naming the chunk, on no chunks, on fewer than two keys, on times that are not finite, not
-///          within +-1e6 s, do not ascend or leave a gap; on no discs or more than 4096, or another number of them than in
-///          the keys; naming the disc and key, on one that is not finite or of a radius below 0, or that does not overlap the next
-///          one of its ring; on rings that do not ascend or end before or after the last disc, and on a reach outside 1e-6 to 1e6 m.
-///          Of a body that is cut, naming the slab too; on slices that validate(ShapeSetPlan) rejects, on another number of slabs, on
-///          heights of which the bottom is above the top or NaN, on chunks beside them, on slabs of slabs or that begin or end at different times, and where no slab has discs.
+/// Errors:  throws std::invalid_argument on heights of which the bottom is above the top or NaN; naming the chunk, on no chunks,
+///          on fewer than two keys, on times that are not finite, not within +-1e6 s, do not ascend or leave a gap; on no discs or
+///          more than 4096, or another number of them than in the keys; naming the disc and key, on one that is not finite or of a
+///          radius below 0, or that does not overlap the next one of its ring; on rings that do not ascend or end before or after
+///          the last disc, and on a reach outside 1e-6 to 1e6 m. Of a body that is cut, naming the slab too; on slices that
+///          validate(ShapeSetPlan) rejects, on another number of slabs, on chunks beside them, on slabs of slabs or that begin or
+///          end at different times, and where no slab has discs.
 void validate(const AnimatedDiscs& discs);
 
 /// Represents a body that moves by itself, seen from above: a clip of a character, or other moving discs. Its solid at a time is its
