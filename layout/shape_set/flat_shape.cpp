@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <bit>
 #include <cstdint>
+#include <cstring>
 #include <vector>
 
 #include "layout/format/cut_discs.hpp"
@@ -53,8 +54,9 @@ Bvh8 bvh8_of(const Root& root, const Tree& level, const float* nodes) {
   in = nodes + std::size_t{first_inner} * inner_floats;
   tree.inner.resize(level.count);
   for (InnerNode& inner : tree.inner) {
-    read(&inner.x, 3);
-    inner.link = std::bit_cast<std::uint32_t>(*in++) - first_inner;
+    std::memcpy(&inner, in, sizeof inner);
+    in += inner_floats;
+    inner.link -= first_inner;
   }
   return tree;
 }

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cstring>
 #include <limits>
 #include <stdexcept>
 #include <string>
@@ -156,21 +157,23 @@ void ShapeStorage::put_level(std::size_t root, const Bvh8& tree, std::size_t nod
   const std::uint32_t first_inner = trees[root].first_inner();
   float* out = nodes.data() + node;
   for (const Bvh8::Block& block : tree.blocks) {
-    for (const float* field : {block.discs.x, block.discs.y, block.discs.radius})
-      out = std::copy_n(field, block_width, out);
-    out = std::transform(block.child, block.child + block_width, out,
-                         [&](std::uint32_t child) { return std::bit_cast<float>(name(child)); });
-    out = std::copy_n(block.outer, block_width, out);
-    out = std::transform(block.node, block.node + block_width, out, [&](std::uint32_t of_block) {
-      return std::bit_cast<float>(of_block < leaf_window ? of_block + first_inner : name(of_block));
-    });
+    std::memcpy(out, &block.discs, sizeof block.discs);
+    std::memcpy(out + block_outer, block.outer, sizeof block.outer);
+    for (std::uint32_t k = 0; k < block_width; ++k) {
+      const std::uint32_t of_block = block.node[k];
+      out[block_names + k] = std::bit_cast<float>(name(block.child[k]));
+      out[block_nodes + k] =
+          std::bit_cast<float>(of_block < leaf_window ? of_block + first_inner : name(of_block));
+    }
+    out += block_floats;
   }
   for (const std::vector<float>* field : {&tree.x, &tree.y, &tree.radius})
     out = std::copy(field->begin(), field->end(), out);
   out = std::fill_n(out, nodes.data() + inner_begin(tree, first_disc) - out, 0.0f);
-  for (const InnerNode& inner : tree.inner) {
-    out = std::copy_n(&inner.x, 3, out);
-    *out++ = std::bit_cast<float>(inner.link + first_inner);
+  for (InnerNode inner : tree.inner) {
+    inner.link += first_inner;
+    std::memcpy(out, &inner, sizeof inner);
+    out += inner_floats;
   }
 }
 
