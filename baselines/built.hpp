@@ -16,7 +16,7 @@
 
 namespace bch::baselines {
 
-/// The interface over models of one type. A Model answers
+/// Implements the interface over models of one type. A Model answers
 ///   static bool meet(const Model& a, const Model& b, const Agents&, Pair, max_depth, Counts)
 /// where a belongs to the agent of the smaller index, and tells its bytes().
 template <class Model>

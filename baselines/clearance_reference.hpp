@@ -12,7 +12,7 @@
 
 namespace bch::baselines {
 
-/// The answer of clearance() for a pair.
+/// Holds the answer of clearance() for a pair.
 struct Clearance {
   float distance;  ///< metres; infinite beyond the limit, and the rest is as clearance() says
   Vec2 direction;
@@ -22,7 +22,8 @@ struct Clearance {
 /// Returns what clearance() says with Overlap::zero of a pair that has such an answer.
 Clearance at_least_zero(const Clearance& clearance);
 
-/// Clearances with Overlap::deepest, pair by pair and disc by disc, written apart from the kernel, which has to give the same bits.
+/// Computes clearances with Overlap::deepest, pair by pair and disc by disc. It is written apart from the kernel, which has to give
+/// the same bits.
 class ClearanceReference {
  public:
   ClearanceReference(std::span<const Shape> shapes, const ShapeSetPlan& plan) : trees_(shapes, plan) {}

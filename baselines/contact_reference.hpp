@@ -12,9 +12,9 @@
 
 namespace bch::baselines {
 
-/// Scalar contacts of a pair: the discs of the first agent's cut that overlap one of the second's, as do all discs above
-/// them, and where `segments` decide these meet. Every disc against every disc, in that order; so there are none exactly
-/// where the two do not collide.
+/// Returns the contacts of a pair by testing every disc against every disc, in that order. A contact is a disc of the
+/// first agent's cut and one of the second's that overlap, as do all discs above them; where `segments` decide, these
+/// meet, too. So there are none exactly where the two do not collide.
 std::vector<std::pair<std::uint32_t, std::uint32_t>> contacts(const CutLists& cuts, const Agents& agents,
                                                               Pair pair,
                                                               const LeafSegments* segments = nullptr);

@@ -7,7 +7,7 @@
 
 namespace bch::baselines {
 
-/// What a query did, for counters.
+/// Counts what a query did.
 struct TestCounts {
   std::uint64_t nodes = 0;      ///< pairs of discs, boxes or other volumes tested on the way down
   std::uint64_t leaves = 0;     ///< pairs of triangles or segments tested

@@ -14,7 +14,7 @@
 
 namespace bch::baselines {
 
-/// The discs of one cut, in the order of cut(), each with all discs above it.
+/// Holds the discs of one cut, in the order of cut(), each with all discs above it.
 struct CutList {
   std::vector<Disc> discs;
   std::vector<std::uint32_t> nodes;  ///< per disc: that of the hierarchy
@@ -26,11 +26,12 @@ struct CutList {
   }
 };
 
-/// The answer by its definition: some disc of one cut overlaps one of the other, and so do all discs above
-/// them. `place` is that of B's agent, seen from A's.
+/// Returns the answer by its definition: whether some disc of one cut overlaps one of the other, and so do
+/// all discs above them. `place` is that of B's agent, seen from A's.
 bool any_hit(const FloatPlacement& place, const CutList& a, const CutList& b);
 
-/// The discs of every cut that a plan names: what references that look at all pairs of discs start from.
+/// Holds the discs of every cut that a plan names: what references that look at all pairs of discs start
+/// from.
 class CutLists {
  public:
   CutLists(std::span<const Shape> shapes, const ShapeSetPlan& plan);

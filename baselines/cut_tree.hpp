@@ -15,11 +15,11 @@
 
 namespace bch::baselines {
 
-/// The cuts of shapes as binary trees of their own, level by level as in a ShapeSet: what the scalar
-/// references of the queries about distances and times search.
+/// Holds the cuts of shapes as binary trees of their own, level by level as in a ShapeSet. The scalar
+/// references of the queries about distances and times search them.
 class CutTrees {
  public:
-  /// A node, 16 bytes. Inner ones have the radius that holds all discs below.
+  /// Represents a node, 16 bytes. Inner ones have the radius that holds all discs below.
   struct Node {
     float x, y, radius;
     std::uint32_t
@@ -44,7 +44,8 @@ class CutTrees {
   std::vector<Tree> trees_;  ///< shape * level_count_ + level
 };
 
-/// The step from a disc of A to one of B, in A's frame, computed as layout/base/rounding.hpp lists it.
+/// Returns the step from a disc of A to one of B, in A's frame, computed as layout/base/rounding.hpp lists
+/// it.
 struct Step {
   float x, y, radius_sum;
 };

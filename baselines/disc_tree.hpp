@@ -16,7 +16,8 @@
 
 namespace bch::baselines {
 
-/// The float test of two discs, operation by operation as layout/base/rounding.hpp lists it.
+/// Returns whether two discs overlap by the float test, operation by operation as layout/base/rounding.hpp
+/// lists it.
 inline bool discs_overlap(const FloatPlacement& place, const Disc& a, const Disc& b) noexcept {
   const float x = place.x + (place.cosine * b.x - place.sine * b.y) - a.x;
   const float y = place.y + (place.sine * b.x + place.cosine * b.y) - a.y;
@@ -35,13 +36,13 @@ inline bool all_overlap(const FloatPlacement& place, std::span<const Disc> path_
   return true;
 }
 
-/// The next node on the way down from a node to one below it, which their order tells.
+/// Returns the next node on the way down from a node to one below it, which their order tells.
 template <class Node>
 std::uint32_t towards(const Node* nodes, std::uint32_t from, std::uint32_t below) noexcept {
   return below < nodes[from].second_child ? from + 1 : nodes[from].second_child;
 }
 
-/// The discs on the way from a node up to the root, both included.
+/// Returns the discs on the way from a node up to the root, both included.
 inline std::vector<Disc> path_to(const HierarchyNode* nodes, std::uint32_t node) {
   std::vector<Disc> path;
   for (std::uint32_t at = 0; at != node; at = towards(nodes, at, node)) path.push_back(nodes[at].disc);
@@ -50,7 +51,7 @@ inline std::vector<Disc> path_to(const HierarchyNode* nodes, std::uint32_t node)
   return path;
 }
 
-/// The cut of a hierarchy at a depth, as a traversal walks it.
+/// Represents the cut of a hierarchy at a depth, as a traversal sees it.
 struct DiscTree {
   const HierarchyNode* nodes;
   std::uint32_t depth;   ///< nodes at this depth count as leaves

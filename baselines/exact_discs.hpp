@@ -12,7 +12,7 @@
 
 namespace bch::baselines {
 
-/// A disc as it is before anything is rounded outward.
+/// Represents a disc as it is before anything is rounded outward.
 struct ExactDisc {
   QuadVector centre;
   Quad radius = 0;
@@ -21,13 +21,13 @@ struct ExactDisc {
   ExactDisc posed(QuadVector rotation) const noexcept { return {turned(rotation, centre), radius}; }
 };
 
-/// The tight disc of a node: about the stored centre, which is exact, through the farthest point of what it
-/// holds. What the library promises of it: where a disc of one agent's cut and all discs above have a point
-/// in common with a disc of the other's and all above that, each with each, the answer is a hit.
+/// Returns the tight disc of a node: about the stored centre, which is exact, through the farthest point of
+/// what it holds. What the library promises of it: where a disc of one agent's cut and all discs above have a
+/// point in common with a disc of the other's and all above that, each with each, the answer is a hit.
 /// Errors:  throws std::out_of_range where the hierarchy has no primitives.
 ExactDisc tight_disc(const Hierarchy& hierarchy, std::uint32_t node);
 
-/// The tight discs of a cut and of all nodes above it, in depth-first order: the root is the first.
+/// Holds the tight discs of a cut and of all nodes above it, in depth-first order: the root is the first.
 struct ExactCut {
   std::vector<ExactDisc> discs;
   std::vector<std::uint32_t>

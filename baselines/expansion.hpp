@@ -7,8 +7,8 @@
 
 namespace bch::baselines {
 
-/// A real number as the exact sum of doubles that do not overlap, the smallest first, none of them zero.
-/// Exact while nothing overflows or underflows. Slow; for what a filter cannot decide.
+/// Represents a real number as the exact sum of doubles that do not overlap, the smallest first, none of them
+/// zero. Exact while nothing overflows or underflows. Slow; for what a filter cannot decide.
 /// Source: J. R. Shewchuk, "Adaptive precision floating-point arithmetic and fast robust geometric
 /// predicates", Discrete & Computational Geometry 18, 1997: theorem 7 (sum of two doubles), theorems 17 and
 /// 18 (their product, after Dekker and Veltkamp), theorem 10 (growing an expansion).
@@ -16,7 +16,7 @@ class Expansion {
  public:
   Expansion() = default;
 
-  /// a - b
+  /// Returns a - b exactly.
   static Expansion difference(double a, double b) noexcept {
     Expansion result;
     result.add(a);

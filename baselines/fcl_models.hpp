@@ -22,7 +22,7 @@
 
 namespace bch::baselines {
 
-/// The second agent, seen from the one with the lower index.
+/// Returns the placement of the second agent, seen from the one with the lower index.
 inline fcl::Transform3d fcl_transform(const Agents& agents, Pair pair) {
   const Placement at = placement(agents, pair);
   fcl::Transform3d there = fcl::Transform3d::Identity();
@@ -47,7 +47,7 @@ std::shared_ptr<fcl::BVHModel<Volume>> fcl_mesh(const std::vector<fcl::Vector3d>
   return mesh;
 }
 
-/// A body's triangles in space.
+/// Holds a body's triangles in space.
 template <class Volume>
 std::shared_ptr<fcl::BVHModel<Volume>> fcl_triangles(const Body& body) {
   triangle_facets(body.positions, body.triangles);  // for its complaints
@@ -58,7 +58,7 @@ std::shared_ptr<fcl::BVHModel<Volume>> fcl_triangles(const Body& body) {
   return fcl_mesh<Volume>(vertices, triangles);
 }
 
-/// What stands on each segment, 1 m high. Both meet exactly where segments do, and are as far apart.
+/// Selects what stands on each segment, 1 m high. Both meet exactly where segments do, and are as far apart.
 enum class Upright {
   wall,      ///< two triangles
   triangle,  ///< half of the wall, which is enough

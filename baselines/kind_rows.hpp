@@ -8,7 +8,7 @@
 
 #include "baselines/structure.hpp"
 
-/// The builders behind the rows of kinds().
+/// Declares the builders behind the rows of kinds().
 namespace bch::baselines {
 
 using Build = std::unique_ptr<Structure>(std::span<const Body> bodies, const BuildOptions& options);
@@ -16,7 +16,7 @@ using Build = std::unique_ptr<Structure>(std::span<const Body> bodies, const Bui
 Build build_reference, build_paper_descent, build_single, build_fixed, build_bch_projected;
 Build build_obb_full, build_obb_contour, build_obb_contour_2d, build_obb_projected;
 
-/// The rows of the Flexible Collision Library; none where the build did not find it.
+/// Returns the rows of the Flexible Collision Library; none where the build did not find it.
 std::span<const Kind> fcl_kinds();
 
 }  // namespace bch::baselines

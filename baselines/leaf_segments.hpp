@@ -23,11 +23,11 @@ bool segments_meet(std::array<Point2, 2> p, std::array<Point2, 2> q, double marg
 /// Returns how far apart two segments are, metres, less the margin and what kernel/distance/segment_gaps.hpp takes off; not below 0.
 float segment_gap(std::array<Point2, 2> p, std::array<Point2, 2> q, double margin) noexcept;
 
-/// Exact leaves, straight from outlines and hierarchies. The class finds which segments the leaves of shapes
-/// hold, and whether those of two leaves meet.
+/// Represents exact leaves, straight from outlines and hierarchies. The class finds which segments the leaves
+/// of shapes hold, and whether those of two leaves meet.
 class LeafSegments {
  public:
-  /// Shapes and levels as in a ShapeSet. The shapes must outlive this.
+  /// Takes shapes and a plan as a ShapeSet does. The shapes must outlive this.
   LeafSegments(std::span<const Shape> shapes, const ShapeSetPlan& plan, Leaves leaves);
 
   /// Returns whether segments decide if leaves of a pair of agents overlap.

@@ -8,11 +8,11 @@
 #include "baselines/obb_tree.hpp"
 #include "baselines/placement.hpp"
 
-/// The separating-axis test of two oriented boxes: six face normals, then nine products of edges, each with
-/// an early exit (Gottschalk, Lin, Manocha 1996, section 5). Rows of the relative rotation are computed when
-/// an axis first needs them. Edges that are nearly parallel have a product that is nearly zero and means
-/// nothing; `parallel` is added to the absolute values of the rotation, so that such an axis never separates
-/// (C. Ericson, "Real-time collision detection", 2005, section 4.4.1).
+/// Implements the separating-axis test of two oriented boxes: six face normals, then nine products of edges,
+/// each with an early exit (Gottschalk, Lin, Manocha 1996, section 5). Rows of the relative rotation are
+/// computed when an axis first needs them. Edges that are nearly parallel have a product that is nearly zero
+/// and means nothing; `parallel` is added to the absolute values of the rotation, so that such an axis never
+/// separates (C. Ericson, "Real-time collision detection", 2005, section 4.4.1).
 ///
 /// Why a test in float never misses. u = 2^-24, P the reaches, S = P_A + P_B, and p a point of both shapes
 /// for the exact tests, so that the relative position t has |t| <= S. Let boxes be tight but for the margin.
@@ -35,7 +35,7 @@ namespace bch::baselines {
 
 constexpr float parallel = 0x1p-18f;
 
-/// A box of the second shape in the first shape's frame.
+/// Represents a box of the second shape in the first shape's frame.
 struct PlacedBox {
   float axis[3][3];
   float centre[3];
@@ -62,7 +62,7 @@ inline float dot3(const float* a, const float* b) noexcept {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-/// False only if the boxes have no point in common.
+/// Returns false only if the boxes have no point in common.
 inline bool boxes_overlap(const ObbNode& a, const PlacedBox& b) noexcept {
   const float d[3] = {b.centre[0] - a.centre[0], b.centre[1] - a.centre[1], b.centre[2] - a.centre[2]};
   const float *e = a.half, *f = b.half;

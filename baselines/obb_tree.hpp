@@ -13,11 +13,11 @@
 
 namespace bch::baselines {
 
-/// What a tree of oriented boxes holds: a triangle, or a segment (c equals b).
+/// Represents what a tree of oriented boxes holds: a triangle, or a segment (c equals b).
 using Facet = std::array<Eigen::Vector3f, 3>;
 
-/// An oriented box in its shape's frame, one cache line. A tree's nodes stand in depth-first order: the first
-/// child of an inner node is the next node.
+/// Represents an oriented box in its shape's frame, one cache line. A tree's nodes stand in depth-first
+/// order: the first child of an inner node is the next node.
 ///
 /// The box holds the points p with |axis[k] . (p - centre)| <= half[k], for the stored axes, whose rounding
 /// leaves them orthonormal up to 2^-24. `half` is larger than what its facets need by box_margin of the
@@ -35,8 +35,8 @@ struct ObbNode {
 };
 static_assert(sizeof(ObbNode) == 64);
 
-/// A tree of oriented boxes after S. Gottschalk, M. C. Lin, D. Manocha, "OBBTree: a hierarchical structure
-/// for rapid interference detection", SIGGRAPH 1996.
+/// Represents a tree of oriented boxes after S. Gottschalk, M. C. Lin, D. Manocha, "OBBTree: a hierarchical
+/// structure for rapid interference detection", SIGGRAPH 1996.
 /// Boxes: aligned with the eigenvectors of the covariance of the facets' area (of segments: their length).
 ///        The paper prefers the area of the facets' convex hull, which interior facets cannot tilt; a walking
 ///        person's surface is nearly its hull at the scales where boxes are large, and deeper down patches
@@ -52,11 +52,13 @@ struct ObbTree {
   std::size_t bytes() const { return nodes.size() * sizeof(ObbNode) + facets.size() * sizeof(Facet); }
 };
 
-/// Errors: throws std::invalid_argument on no facets, a coordinate that is not finite, a reach (distance from
-/// the origin, in space) outside the limits of rounding.hpp; std::length_error beyond 2^22 facets.
+/// Builds a tree over facets. Errors: throws std::invalid_argument on no facets, a coordinate that is not
+/// finite, a reach (distance from the origin, in space) outside the limits of rounding.hpp; std::length_error
+/// beyond 2^22 facets.
 ObbTree build_obb_tree(std::vector<Facet> facets);
 
-/// Facets of triangles. Errors: throws std::invalid_argument on no triangles or an index out of range.
+/// Returns the facets of triangles. Errors: throws std::invalid_argument on no triangles or an index out of
+/// range.
 std::vector<Facet> triangle_facets(std::span<const Vec3> positions,
                                    std::span<const std::array<std::uint32_t, 3>> triangles);
 

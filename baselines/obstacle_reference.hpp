@@ -16,22 +16,24 @@
 
 namespace bch::baselines {
 
-/// An obstacle as a list of segments, ax, ay, bx and by each, and whether these enclose what belongs to it.
+/// Represents an obstacle as a list of segments, ax, ay, bx and by each, and whether these enclose what
+/// belongs to it.
 struct ReferenceObstacle {
   std::vector<std::array<double, 4>> segments;
   bool is_area = false;
 };
 
-/// Brute force over all discs and all segments, by the definitions in <bch/obstacles.hpp>.
+/// Answers queries by brute force over all discs and all segments, by the definitions in <bch/obstacles.hpp>.
 class ObstacleReference {
  public:
-  /// Shapes and levels as in a ShapeSet. The shapes must outlive this.
+  /// Takes shapes and a plan as a ShapeSet does. The shapes must outlive this.
   ObstacleReference(std::span<const Shape> shapes, const ShapeSetPlan& plan, Leaves leaves)
       : shapes_(shapes), cuts_(shapes, plan), segments_(shapes, plan, leaves) {}
 
   bool collides(const Agents& agents, std::uint32_t agent, const ReferenceObstacle& obstacle) const;
 
-  /// The least gap; of equal ones the first disc, then the first segment, numbered through all obstacles.
+  /// Holds the least gap, and of equal ones that of the first disc, then of the first segment, numbered
+  /// through all obstacles.
   struct Gap {
     double gap;
     std::uint32_t disc, segment;

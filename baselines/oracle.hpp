@@ -11,31 +11,32 @@
 
 namespace bch::baselines {
 
-/// The placement of agent b in the frame of agent a, in x87 extended precision with 64 bits of mantissa. It
-/// is off by less than 1e-17 of the distances involved, while the kernels' slack is 1e-6 of them.
+/// Holds the placement of agent b in the frame of agent a, in x87 extended precision with 64 bits of
+/// mantissa. It is off by less than 1e-17 of the distances involved, while the kernels' slack is 1e-6 of
+/// them.
 struct ExactPlacement {
   long double cosine, sine, x, y;
 };
 
 ExactPlacement exact_placement(const Agents& agents, std::uint32_t a, std::uint32_t b);
 
-/// The true relation of two outlines, independent of discs: every segment against every segment, in long
-/// double.
+/// Finds the true relation of two outlines, independent of discs: it compares every segment with every
+/// segment, in long double.
 class Oracle {
  public:
   Oracle(const Outline& a, const Outline& b, const ExactPlacement& b_in_a);
 
-  /// The outlines have a point in common.
+  /// Returns whether the outlines have a point in common.
   bool cross() const;
 
-  /// A contour of one lies inside the other. For outlines that do not cross.
+  /// Returns whether a contour of one lies inside the other. The outlines must not cross.
   bool nested() const;
 
-  /// The least t in [0, 1] at which the outlines have a point in common if a has moved by t (x, y), in its
-  /// own frame; or infinity. Every corner on its way against every segment.
+  /// Returns the least t in [0, 1] at which the outlines have a point in common if a has moved by t (x, y),
+  /// in its own frame; or infinity. Every corner on its way against every segment.
   long double time_of_impact(long double x, long double y) const;
 
-  /// Smallest distance between points of the outlines, metres; 0 where they cross.
+  /// Returns the smallest distance between points of the outlines, metres; 0 where they cross.
   long double distance() const;
 
  private:

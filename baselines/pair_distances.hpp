@@ -12,7 +12,7 @@
 
 namespace bch::baselines {
 
-/// Distances by somebody else's library: a peer of clearance(), and what errors are measured by. Any number
+/// Measures distances by another library: a peer of clearance(), and what errors are measured by. Any number
 /// of threads may ask.
 class PairDistances {
  public:
@@ -21,8 +21,8 @@ class PairDistances {
   virtual double query(const Agents& agents, Pair pair) const = 0;
 };
 
-/// FCL's distance of trees of oriented boxes and swept spheres over the outlines as walls, or as one upright
-/// triangle a segment, or over the triangles in space; null in a build without FCL.
+/// Return FCL's distances over the outlines as walls, over one upright triangle a segment, or over the
+/// triangles in space, by trees of oriented boxes and swept spheres; null in a build without FCL.
 /// Errors:  throw std::invalid_argument on an outline that validate() rejects, on triangles that a Structure
 ///          would.
 std::unique_ptr<PairDistances> fcl_outline_distances(std::span<const Body> bodies);

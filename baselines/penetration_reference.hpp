@@ -7,7 +7,7 @@
 
 namespace bch::baselines {
 
-/// How far a pair's first agent has to move, and where to.
+/// Holds how far a pair's first agent has to move, and where to.
 struct Way {
   float depth;
   double x, y;
@@ -19,8 +19,8 @@ struct Way {
 /// result is the largest such way over all pairs of discs.
 Way penetration_along(const CutLists& cuts, const Agents& agents, Pair pair, Vec2 direction);
 
-/// The shortest way among k directions evenly spread from the x axis on; in a tie the first of 0, k / 2, 1, k
-/// / 2 + 1 ... for the agent of the lower index.
+/// Returns the shortest way among k directions evenly spread from the x axis on; in a tie the first of 0, k /
+/// 2, 1, k / 2 + 1 ... for the agent of the lower index.
 Way penetration(const CutLists& cuts, const Agents& agents, Pair pair, std::uint32_t k);
 
 }  // namespace bch::baselines

@@ -7,15 +7,16 @@
 
 namespace bch::baselines {
 
-/// IEEE binary128, 113 bits: sums and products of a few doubles come out exact or off by 2^-112 of the result. Slow;
-/// for the truth about what float and double decide. Only the compiler's own arithmetic, no library.
+/// Represents IEEE binary128, which has 113 bits: sums and products of a few doubles are exact or off by 2^-112 of
+/// the result. It is slow, and tells the truth about what float and double decide. It is the compiler's own
+/// arithmetic, without a library.
 #if LDBL_MANT_DIG == 113  // as on ARM
 using Quad = long double;
 #else
 __extension__ using Quad = __float128;
 #endif
 
-/// Correct to 2^-110. Precondition: value >= 0.
+/// Returns a square root, correct to 2^-110. Precondition: value >= 0.
 Quad square_root(Quad value) noexcept;
 
 struct QuadVector {
@@ -29,14 +30,14 @@ inline Quad square(QuadVector v) noexcept {
   return v.x * v.x + v.y * v.y;
 }
 
-/// Cosine and sine of an angle, |angle| <= 1e9 rad, each correct to 2^-105.
+/// Returns the cosine and sine of an angle, |angle| <= 1e9 rad, each correct to 2^-105.
 QuadVector quad_rotation(double angle) noexcept;
 
-/// v turned by a rotation.
+/// Returns v turned by a rotation.
 inline QuadVector turned(QuadVector rotation, QuadVector v) noexcept {
   return {rotation.x * v.x - rotation.y * v.y, rotation.y * v.x + rotation.x * v.y};
 }
-/// v turned back by it.
+/// Returns v turned back by a rotation.
 inline QuadVector turned_back(QuadVector rotation, QuadVector v) noexcept {
   return {rotation.x * v.x + rotation.y * v.y, rotation.x * v.y - rotation.y * v.x};
 }

@@ -14,9 +14,9 @@
 
 namespace bch::baselines {
 
-/// An oriented rectangle on the ground: ObbNode without the vertical. Axes are (cosine, sine) and its left
-/// normal; the margin in `half` is the same, and the derivation in obb_overlap.hpp covers the test of four
-/// axes, which are face normals all.
+/// Represents an oriented rectangle on the ground: ObbNode without the vertical. Axes are (cosine, sine) and
+/// its left normal; the margin in `half` is the same, and the derivation in obb_overlap.hpp covers the test
+/// of four axes, which are face normals all.
 struct RectangleNode {
   float cosine, sine;
   float centre[2];
@@ -28,8 +28,8 @@ struct RectangleNode {
 };
 static_assert(sizeof(RectangleNode) == 28);
 
-/// The tree of boxes over an outline, seen from above: box for box the same tree, so that a comparison with
-/// it shows what two dimensions are worth in the tests alone.
+/// Represents the tree of boxes over an outline, seen from above: box for box the same tree, so that a
+/// comparison with it shows what two dimensions are worth in the tests alone.
 struct RectangleTree {
   struct Segment {
     Vec2 a, b;
@@ -44,7 +44,7 @@ struct RectangleTree {
   std::size_t bytes() const { return nodes.size() * sizeof(RectangleNode) + facets.size() * sizeof(Segment); }
 };
 
-/// A rectangle of the second shape in the first shape's frame.
+/// Represents a rectangle of the second shape in the first shape's frame.
 struct PlacedRectangle {
   float cosine, sine;
   float centre[2];
@@ -60,7 +60,7 @@ inline PlacedRectangle place(const Placement& placement, const RectangleNode& bo
           {box.half[0], box.half[1]}};
 }
 
-/// False only if the rectangles have no point in common.
+/// Returns false only if the rectangles have no point in common.
 inline bool boxes_overlap(const RectangleNode& a, const PlacedRectangle& b) noexcept {
   constexpr float rotation_error = 0x1p-18f;  // `parallel` of obb_overlap.hpp
   const float dx = b.centre[0] - a.centre[0], dy = b.centre[1] - a.centre[1];

@@ -21,12 +21,12 @@ enum class Method {
   depth_first,  ///< the paper's descent into the larger disc, which verifies what it finds
 };
 
-/// Scalar answers to the questions of the batch kernel, straight from the binary hierarchies: one pair at a
-/// time, one disc test at a time, in float with the operations that layout/base/rounding.hpp lists. Slow,
-/// obvious, and written apart from the kernel, which has to give the same bits.
+/// Answers the questions of the batch kernel straight from the binary hierarchies: one pair at a time, one
+/// disc test at a time, in float with the operations that layout/base/rounding.hpp lists. Slow, obvious, and
+/// written apart from the kernel, which has to give the same bits.
 class Reference {
  public:
-  /// Shapes and levels as in ShapeSet. The shapes must outlive this.
+  /// Takes shapes and a plan as a ShapeSet does. The shapes must outlive this.
   Reference(std::span<const Shape> shapes, const ShapeSetPlan& plan, Leaves leaves = Leaves::segments);
 
   /// Returns whether discs of the cuts of agents a and b overlap with all their ancestors; with exact leaves,

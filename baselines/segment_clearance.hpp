@@ -16,13 +16,15 @@
 
 namespace bch::baselines {
 
-/// The distances of clearance() with exact leaves, all segments against all: written apart from the kernel, which has to give the same bits.
+/// Computes the distances of clearance() with exact leaves, all segments against all. It is written apart from the kernel, which has to give
+/// the same bits.
 class SegmentClearance {
  public:
-  /// Shapes and levels as in a ShapeSet. The shapes must outlive this.
+  /// Takes shapes and a plan as a ShapeSet does. The shapes must outlive this.
   SegmentClearance(std::span<const Shape> shapes, const ShapeSetPlan& plan);
 
-  /// Two segments by their numbers in the outlines, that of the agent with the lower index first; of discs none.
+  /// Names two segments by their numbers in the outlines, that of the agent with the lower index first; of discs
+  /// none.
   struct Nearest {
     float distance;  ///< metres
     std::uint32_t a, b;
@@ -35,7 +37,7 @@ class SegmentClearance {
   std::optional<float> distance(const Agents& agents, Pair pair, double max_distance) const;
 
  private:
-  /// What the leaves of a shape hold.
+  /// Holds what the leaves of a shape hold.
   struct Leaves {
     std::vector<std::uint32_t> segments;  ///< of all leaves that do not have too many
     std::vector<std::uint32_t> coarse;    ///< leaves that have

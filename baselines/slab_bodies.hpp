@@ -15,14 +15,14 @@
 
 namespace bch::baselines {
 
-/// Bodies in slabs, or whole ones at different heights, pair by pair of parts: what the batch queries answer of them, straight from
-/// the definition.
+/// Answers queries about bodies in slabs, or whole ones at different heights, pair by pair of parts, straight from the definition.
 class SlabBodies {
  public:
-  /// Shapes and plan as of ShapeSet; an empty list of slices means whole bodies.
+  /// Takes shapes and a plan as a ShapeSet does; an empty list of slices means whole bodies.
   SlabBodies(std::span<const Shape> shapes, const ShapeSetPlan& plan, Leaves leaves = Leaves::segments);
 
-  /// Two agents as parts of theirs: the pair (0, 1) of a crowd of two, in the order of the pair that was asked about.
+  /// Represents two agents by a part of each: the pair (0, 1) of a crowd of two, in the order of the pair that was
+  /// asked about.
   struct PartPair {
     std::uint32_t shape[2];  ///< parts
     std::uint32_t slab[2];

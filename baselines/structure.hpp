@@ -16,19 +16,19 @@
 
 #include "baselines/counts.hpp"
 
-/// One interface over all structures that answer "do these two collide?", for benchmarks, experiments and
-/// tests to walk: build a kind over bodies, then ask it about the very agents and pairs that bch::collide()
-/// takes.
+/// Declares one interface over all structures that answer "do these two collide?", for benchmarks,
+/// experiments and tests: build a kind over bodies, then ask it about the very agents and pairs that
+/// bch::collide() takes.
 namespace bch::baselines {
 
-/// A character in a pose, in every form that some structure is built from.
+/// Holds a character in a pose, in every form that some structure is built from.
 struct Body {
   std::vector<Vec3> positions;                          ///< as Skinner::pose() gives them
   std::vector<std::array<std::uint32_t, 3>> triangles;  ///< the character's
   Shape shape;                                          ///< outline and contour hierarchy
 };
 
-/// What a structure answers exactly at all depths, touching included.
+/// Selects what a structure answers exactly at all depths, touching included.
 enum class Truth : std::uint8_t {
   none,        ///< an approximation of its own
   mesh,        ///< the triangles have a point in common, in space
@@ -41,7 +41,7 @@ struct BuildOptions {
   bool projected_triangles = true;  ///< the kind "bch_projected" tests triangles; else leaf discs alone
 };
 
-/// Many shapes in one structure. Immutable: any number of threads may ask.
+/// Represents many shapes in one search structure. It is immutable, so any number of threads may ask it.
 /// Agents:  agents.shape indexes the bodies it was built from; agents.level is not read, as every query says
 ///          how deep it goes.
 /// Depth:   a node at depth max_depth counts as a leaf, and there the overlap of the volumes is the answer:
@@ -58,13 +58,13 @@ class Structure {
   void query(const Agents& agents, std::span<const Pair> pairs, std::span<std::uint8_t> hits,
              std::uint32_t max_depth = all_depths) const;
 
-  /// One pair, unchecked: what the other form promises to check is a precondition.
+  /// Returns the answer for one pair, unchecked: what the other form promises to check is a precondition.
   virtual bool query(const Agents& agents, Pair pair, std::uint32_t max_depth = all_depths) const = 0;
 
-  /// The same, adding to the counts.
+  /// Returns the same, and adds to the counts.
   virtual bool query(const Agents& agents, Pair pair, std::uint32_t max_depth, TestCounts& counts) const = 0;
 
-  /// Memory of one shape: nodes and what leaves hold.
+  /// Returns the memory of one shape: nodes and what leaves hold.
   virtual std::size_t bytes(std::uint32_t shape) const = 0;
 
   virtual std::uint32_t shape_count() const = 0;
@@ -80,13 +80,13 @@ struct Kind {
   Truth exact;                 ///< what the answer at all depths equals
   bool never_misses_outlines;  ///< at every depth, true wherever the outlines have a point in common
   bool has_depth;              ///< max_depth is looked at
-  /// Errors: throws std::invalid_argument naming the body and the value: no triangles, an index out of range,
-  /// a coordinate that is not finite or beyond the limits of rounding.hpp, an outline or hierarchy without
-  /// points or nodes where the kind needs one; a radius that is not positive.
+  /// Builds the structure over bodies. Errors: throws std::invalid_argument naming the body and the value: no
+  /// triangles, an index out of range, a coordinate that is not finite or beyond the limits of rounding.hpp,
+  /// an outline or hierarchy without points or nodes where the kind needs one; a radius that is not positive.
   std::unique_ptr<Structure> (*build)(std::span<const Body> bodies, const BuildOptions& options);
 };
 
-/// Every kind that this build has, in the order of reports:
+/// Returns every kind that this build has, in the order of reports:
 ///   reference        the paper's contour hierarchy and descent, scalar, whose hits are verified; boundary semantics
 ///   paper_descent    the same as the paper has it: the first leaf discs that it finds are the answer
 ///   single           the root disc of each contour hierarchy
@@ -101,7 +101,7 @@ struct Kind {
 ///                    walls, or as one upright triangle a segment; only where the build found FCL
 std::span<const Kind> kinds();
 
-/// Errors: throws std::invalid_argument naming the kinds that there are.
+/// Returns the kind of a name. Errors: throws std::invalid_argument naming the kinds that there are.
 const Kind& kind(std::string_view name);
 
 }  // namespace bch::baselines

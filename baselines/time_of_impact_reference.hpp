@@ -12,8 +12,8 @@
 
 namespace bch::baselines {
 
-/// Times of impact pair by pair and disc by disc, written apart from the kernel, which has to give the same
-/// bits.
+/// Computes times of impact pair by pair and disc by disc. It is written apart from the kernel, which has to
+/// give the same bits.
 class TimeOfImpactReference {
  public:
   TimeOfImpactReference(std::span<const Shape> shapes, const ShapeSetPlan& plan)

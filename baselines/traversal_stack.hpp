@@ -10,8 +10,8 @@
 
 namespace bch::baselines {
 
-/// Room that a traversal needs for a moment: on the caller's own stack, except for trees of absurd heights. Not
-/// initialised, which a query of one pair would notice.
+/// Provides room that a traversal needs for a moment, on the caller's own stack except for trees of absurd
+/// heights. It is not initialised, because a query of one pair would notice the time.
 template <class T>
 class Scratch {
  public:
@@ -30,14 +30,14 @@ class Scratch {
   std::vector<T> heap_;
 };
 
-/// A pair of nodes to visit.
+/// Represents a pair of nodes to visit.
 struct NodePair {
   std::uint32_t a, b;
   std::uint32_t depth_a, depth_b;
 };
 
-/// A depth-first traversal of two trees leaves one pair on the stack for each edge of the two ways down, so
-/// the sum of the trees' heights is enough.
+/// Holds the pairs that a depth-first traversal of two trees has left to visit: one for each edge of the two
+/// ways down, so the sum of the trees' heights is enough.
 class TraversalStack {
  public:
   explicit TraversalStack(std::size_t capacity) : room_(capacity) {}

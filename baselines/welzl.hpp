@@ -13,8 +13,8 @@
 
 namespace bch::bench {
 
-/// The textbook's smallest enclosing disc, for comparison of answers and times: expected linear time, by
-/// adding points in random order.
+/// Finds smallest enclosing discs as the textbook does, for comparison of answers and times: expected linear
+/// time, by adding points in random order.
 /// Source:  E. Welzl, "Smallest enclosing disks (balls and ellipsoids)", 1991; as in de Berg, Cheong, van
 ///          Kreveld, Overmars, "Computational geometry", 4.7.
 class Welzl {

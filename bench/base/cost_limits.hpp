@@ -8,9 +8,9 @@
 
 namespace bch::cli {
 
-/// What a character file may cost once it has been read: while its shapes are built and written. No real character
-/// comes near the defaults. Whatever goes beyond a limit is refused by one line that names the limit and the option that
-/// raises it.
+/// Limits what a character file may cost once it has been read, while its shapes are built and written. No real
+/// character comes near the defaults. Whatever goes beyond a limit is refused by one line that names the limit and the
+/// option that raises it.
 struct CostLimits {
   std::size_t triangles = 4'000'000;         ///< of a file, those of each instance of a mesh
   std::size_t contours = 1'000'000;          ///< of the outline of a pose
@@ -19,7 +19,7 @@ struct CostLimits {
   double seconds = 0;                        ///< for all shapes; 0: 60, and 1 more for each shape
   double memory = 0;                         ///< GiB of the program; 0: 4, and 1/1024 more for each shape
 
-  /// The two limits that depend on how many shapes were asked for.
+  /// Return the two limits that depend on how many shapes were asked for.
   double seconds_for(std::size_t shapes) const;
   double memory_for(std::size_t shapes) const;
 };

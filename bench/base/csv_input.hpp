@@ -12,7 +12,7 @@
 
 namespace bch::cli {
 
-/// Agents as AGENTS.csv lists them.
+/// Holds agents as AGENTS.csv lists them.
 struct AgentTable {
   std::vector<std::string> id;
   std::unordered_map<std::string, std::uint32_t> index_of;

@@ -19,25 +19,25 @@ enum ExitCode : int {
   exit_signal = 128,   ///< plus the signal's number: 130 for an interrupt
 };
 
-/// An error in the command line, which leads to exit_usage. The message is one line.
+/// Reports an error in the command line, which leads to exit_usage. The message is one line.
 class UsageError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-/// A check that failed, which leads to exit_failed. The message is one line.
+/// Reports a check that failed, which leads to exit_failed. The message is one line.
 class CheckFailed : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-/// An error in a file, which leads to exit_bad_input. The message is one line that names the file.
+/// Reports an error in a file, which leads to exit_bad_input. The message is one line that names the file.
 class InputError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-/// The errors of several bad files, which lead to exit_bad_input: a line for each file.
+/// Reports the errors of several bad files, which lead to exit_bad_input: a line for each file.
 class InputErrors : public std::runtime_error {
  public:
   explicit InputErrors(std::vector<std::string> each)

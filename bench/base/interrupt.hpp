@@ -19,13 +19,13 @@ void clean_up_on_signals();
 /// to standard error, and leaves with that code.
 [[noreturn]] void leave_at_once(int code, const std::string& line);
 
-/// The file that such a signal removes during this object's lifetime: a name in an open folder. Of several,
-/// it is the last one.
+/// Names the file that such a signal removes during this object's lifetime: a name in an open folder. Of
+/// several such files, a signal removes the last one.
 class RemovedOnSignal {
  public:
   static constexpr std::size_t longest_name = 31;
 
-  /// Errors:  throws std::length_error on a longer name.
+  /// Takes an open folder and a name. Errors: throws std::length_error on a longer name.
   RemovedOnSignal(int folder, std::string_view name);
   ~RemovedOnSignal();
   RemovedOnSignal(const RemovedOnSignal&) = delete;

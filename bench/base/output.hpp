@@ -31,7 +31,7 @@ void write_json(const std::string& file, const nlohmann::ordered_json& json);
 /// exists.
 void make_folder(const std::string& folder);
 
-/// An option that names a file to write, empty where it was not given.
+/// Represents an option that names a file to write, empty where it was not given.
 struct OutputOption {
   std::string name;
   std::string file;

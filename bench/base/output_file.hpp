@@ -12,7 +12,7 @@
 
 namespace bch::cli {
 
-/// A file descriptor that is closed with its owner.
+/// Owns a file descriptor that is closed with its owner.
 struct Descriptor {
   int number = -1;
 
@@ -22,10 +22,10 @@ struct Descriptor {
   Descriptor& operator=(const Descriptor&) = delete;
 };
 
-/// A file that gets its name once it is complete. It grows beside the file that has the name now, under a
-/// random name that an attacker cannot predict, and replaces that file in commit(). Without commit(), the
-/// destructor or a signal removes it. The new file has the permissions of the one it replaces. Where the name
-/// is a symbolic link, the file that it leads to is replaced. Devices and pipes are written to directly.
+/// Represents a file that gets its name once it is complete. It grows beside the file that has the name now,
+/// under a random name that an attacker cannot predict, and replaces that file in commit(). Without commit(),
+/// the destructor or a signal removes it. The new file has the permissions of the one it replaces. Where the
+/// name is a symbolic link, the file that it leads to is replaced. Devices and pipes are written to directly.
 /// Several files may be open at a time, but a signal removes only the last one.
 /// Errors of all: throw InputError naming the file and the reason.
 class OutputFile {

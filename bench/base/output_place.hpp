@@ -12,8 +12,8 @@
 
 namespace bch::cli {
 
-/// A file as the system knows it, whatever its names are: device and inode. A file that does not exist yet is known by
-/// its folder, and by its name there.
+/// Identifies a file as the system knows it, whatever its names are: device and inode. A file that does not exist yet
+/// is known by its folder, and by its name there.
 struct FileIdentity {
   dev_t device;
   ino_t inode;
@@ -28,7 +28,7 @@ struct FileIdentity {
 std::optional<FileIdentity> identity_of(const std::filesystem::path& file);
 std::optional<FileIdentity> identity_of(int descriptor);
 
-/// The place where the bytes of an output go.
+/// Represents the place where the bytes of an output go.
 struct OutputPlace {
   std::filesystem::path path;        ///< behind all symbolic links; as the user wrote it for a device
   std::optional<struct stat> there;  ///< what has the name now

@@ -12,7 +12,7 @@
 
 namespace bch::cli {
 
-/// A transformation from a shape's own frame to the picture.
+/// Holds a transformation from a shape's own frame to the picture.
 struct Placement {
   Pixel origin;
   double cosine = 1;

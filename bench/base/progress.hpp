@@ -11,8 +11,8 @@
 
 namespace bch::cli {
 
-/// A progress bar on standard error for work of more than a second, with the rate and the time left at that
-/// rate. It is shown on a terminal only, and removed when the work ends.
+/// Shows a progress bar on standard error for work of more than a second, with the rate and the time left at
+/// that rate. It is shown on a terminal only, and removed when the work ends.
 class Progress {
  public:
   Progress(std::string what, std::size_t total);

@@ -9,13 +9,13 @@
 
 namespace bch::cli {
 
-/// A point of the picture: pixels, y down.
+/// Represents a point of the picture: pixels, y down.
 struct Pixel {
   double x = 0;
   double y = 0;
 };
 
-/// An SVG picture under construction. Coordinates are written with one decimal.
+/// Represents an SVG picture under construction. Coordinates are written with one decimal.
 class Svg {
  public:
   /// Begins a picture with a white ground; `css` says what classes look like, `title` is what screen readers

@@ -16,9 +16,9 @@
 
 namespace bch::cli {
 
-/// A baked file, most of which is written while its set is built. This is possible because the offset of the
-/// nodes is known, and the nodes of shapes that are there will not change. The time for the rest at the end
-/// does not depend on the number of threads.
+/// Writes a baked file, most of which is written while its set is built. This is possible because the offset
+/// of the nodes is known, and the nodes of shapes that are there will not change. The time for the rest at
+/// the end does not depend on the number of threads.
 class BakedOutput {
  public:
   /// Opens a file for a set of so many shapes and levels.

@@ -29,7 +29,7 @@ ShapeSet bake_shapes(std::span<const LoadedCharacter> characters, std::span<cons
                      const std::function<void(std::span<const float> nodes)>& added = {},
                      const CostLimits& limits = {});
 
-/// A clip of one of several characters, by their indices.
+/// Names a clip of one of several characters, by their indices.
 struct ClipOf {
   std::uint32_t character, clip;
 };

@@ -10,7 +10,7 @@
 
 namespace bch::cli {
 
-/// Agents spread over a square, [0, side) in x and y.
+/// Represents agents spread over a square, [0, side) in x and y.
 struct Crowd {
   double side = 0;  ///< metres
   std::vector<std::uint32_t> shape;

@@ -44,7 +44,7 @@ struct ShapeTiming {
 /// it is first asked for it. Not for two threads at a time. The characters must outlive it.
 class ShapeMaker {
  public:
-  /// `plan` as of PoseShaper.
+  /// Takes the characters. `plan` is as of PoseShaper.
   ShapeMaker(std::span<const LoadedCharacter> characters, double threshold, const ShapeSetPlan& plan = {},
              const CostLimits& limits = {});
 

@@ -18,13 +18,14 @@
 
 namespace bch::cli {
 
-/// A point of the ground in the recording's coordinates, metres, which floats may be too coarse for.
+/// Represents a point of the ground in the recording's coordinates, metres, which floats may be too coarse
+/// for.
 struct PagePoint {
   double x = 0;
   double y = 0;
 };
 
-/// A person in a frame.
+/// Represents a person in a frame.
 struct PagePerson {
   std::int64_t id = 0;      ///< that of the recording, unique in a frame
   std::uint32_t shape = 0;  ///< any number that the source of shapes knows
@@ -35,7 +36,7 @@ struct PagePerson {
   bool in_wall = false;
 };
 
-/// Two people who overlap, or a person and a wall.
+/// Represents two people who overlap, or a person and a wall.
 struct PageOverlap {
   std::int64_t first = 0;
   std::int64_t second =
@@ -50,7 +51,7 @@ struct PageFrame {
   std::span<const PageOverlap> overlaps;
 };
 
-/// An overlap from its first frame to its last.
+/// Represents an overlap from its first frame to its last.
 struct PageEvent {
   std::int64_t first = 0;
   std::int64_t second = 0;
@@ -60,7 +61,8 @@ struct PageEvent {
   PagePoint at;                        ///< where it is deepest
 };
 
-/// What a person looks like in a pose: metres, in the frame of the shape, whose origin is the person's place.
+/// Holds what a person looks like in a pose: metres, in the frame of the shape, whose origin is the person's
+/// place.
 struct PageShape {
   std::string name;
   std::vector<std::vector<Vec2>> contours;
@@ -70,8 +72,8 @@ struct PageShape {
 /// Tells what a shape looks like, once for each number.
 using PageShapeSource = std::function<PageShape(std::uint32_t shape)>;
 
-/// What is known of a recording before its first frame. Texts come from files that may be anybody's: the page shows
-/// them, whatever they are.
+/// Holds what is known of a recording before its first frame. Texts come from files that may be anybody's: the page
+/// shows them, whatever they are.
 struct PageFacts {
   std::string title;
   double fps = 0;  ///< frames of the recording per second; 0 where it has no rate

@@ -29,8 +29,8 @@ class Numbering {
   std::vector<Key> keys_;
 };
 
-/// The frames of a recording that its page keeps: one of every step(), from the first on. What they hold is rounded:
-/// places to millimetres, headings to 1/65536 of a turn, speeds to millimetres per second.
+/// Holds the frames of a recording that its page keeps: one of every step(), from the first on. What they hold is
+/// rounded: places to millimetres, headings to 1/65536 of a turn, speeds to millimetres per second.
 class KeptFrames {
  public:
   /// Keeps a frame, or counts it alone if it lies between two steps.
@@ -44,12 +44,12 @@ class KeptFrames {
   std::uint64_t seen() const { return seen_; }  ///< frames that were added
   std::size_t size() const { return numbers_.size(); }
 
-  /// Ids of the frames that are kept: these hold the places in this table.
+  /// Returns the ids of the frames that are kept: these hold the places in this table.
   const std::vector<std::int64_t>& ids() const { return ids_.keys(); }
-  /// Shapes of all frames that ever were kept.
+  /// Returns the shapes of all frames that ever were kept.
   const std::vector<std::uint32_t>& shapes() const { return shapes_.keys(); }
 
-  /// The corner of the least coordinates, which places are relative to.
+  /// Returns the corner of the least coordinates, which places are relative to.
   PagePoint corner() const;
 
   /// Returns about how many characters blocks() takes.
@@ -58,7 +58,7 @@ class KeptFrames {
   std::string blocks() const;
 
  private:
-  /// Millimetres from origin_, which is the first place of all, rounded to metres.
+  /// Holds millimetres from origin_, which is the first place of all, rounded to metres.
   struct Place {
     std::int32_t x, y;
   };

@@ -10,8 +10,8 @@
 
 namespace bch::cli {
 
-/// How many people overlap over time, for a timeline: the most of each of a few thousand equal stretches of frames,
-/// which become longer as frames are added.
+/// Counts how many people overlap over time, for a timeline. It keeps the most of each of a few thousand equal
+/// stretches of frames, which become longer as frames are added.
 class OverlapSeries {
  public:
   static constexpr std::size_t most_stretches = 4096;  // even

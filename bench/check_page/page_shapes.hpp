@@ -11,7 +11,7 @@
 
 namespace bch::cli {
 
-/// A point of an outline: millimetres in the shape's frame.
+/// Represents a point of an outline: millimetres in the shape's frame.
 struct ShapePoint {
   std::int16_t x = 0;
   std::int16_t y = 0;
@@ -26,7 +26,7 @@ inline constexpr double outline_tolerance = 2.5;
 ///          digitized line or its caricature", Cartographica 10, 1973.
 std::vector<ShapePoint> simplified(const std::vector<Vec2>& contour);
 
-/// The shapes of a page, in the order in which they were added.
+/// Holds the shapes of a page, in the order in which they were added.
 class PageShapes {
  public:
   void add(const PageShape& shape);

@@ -16,7 +16,7 @@ namespace bch::cli {
 /// Returns the slabs of a clip, from the ground up, or the whole body.
 std::span<const AnimatedDiscs> slabs_or_whole(const AnimatedDiscs& discs);
 
-/// Properties of a clip as moving discs.
+/// Holds properties of a clip as moving discs.
 struct AnimatedFacts {
   double seconds = 0;
   bool loops = false;
@@ -33,7 +33,7 @@ AnimatedFacts facts_of(const AnimatedDiscs& discs);
 std::string text_of(const AnimatedFacts& facts);
 nlohmann::ordered_json json_of(const AnimatedFacts& facts);
 
-/// A clip as moving discs, looked at at a time.
+/// Represents a clip as moving discs, seen at a time.
 struct AnimatedView {
   std::string character, clip;
   const AnimatedDiscs& discs;
@@ -41,7 +41,7 @@ struct AnimatedView {
   const Shape* body;  ///< of the pose at that time, cut as the discs are; null: unknown
 };
 
-/// A slab of a clip at the time of a view, or a body that is whole.
+/// Represents a slab of a clip at the time of a view, or a body that is whole.
 struct AnimatedPart {
   const AnimatedDiscs& discs;
   const AnimatedShape& shape;

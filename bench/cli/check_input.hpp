@@ -18,7 +18,7 @@
 
 namespace bch::cli {
 
-/// What is checked, and how: all that the answers depend on.
+/// Holds what is checked, and how: all that the answers depend on.
 struct CheckInput {
   std::string file, walls, unit, columns;
   double fps = 0;  ///< 0: what the file says
@@ -39,7 +39,7 @@ struct CheckInput {
 /// Adds the options of where answers go.
 void add_outputs_to(CLI::App& command, CheckOutputs& outputs);
 
-/// A recording that is open, with its walls and the characters that people have.
+/// Represents a recording that is open, with its walls and the characters that people have.
 struct OpenedCheck {
   std::optional<BakedShapes> baked;
   detail::Cast cast;
@@ -47,7 +47,7 @@ struct OpenedCheck {
   std::optional<ObstacleSet> walls;
   CheckedRecording recording;
 
-  /// Errors:  throws UsageError, InputError, TrajectoryError.
+  /// Opens the recording. Errors: throws UsageError, InputError, TrajectoryError.
   explicit OpenedCheck(const CheckInput& input);
   /// Returns what to ask detail::check(); as long as this lives.
   detail::CheckOptions options(const CheckInput& input) const;

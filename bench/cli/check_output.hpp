@@ -13,7 +13,7 @@
 
 namespace bch::cli {
 
-/// A table that is written line by line while a recording is checked; without a name it is none.
+/// Writes a table line by line while a recording is checked; without a name, it writes nothing.
 class StreamedTable {
  public:
   StreamedTable(const std::string& file, const char* columns);
@@ -26,7 +26,7 @@ class StreamedTable {
   std::string waiting_;
 };
 
-/// What is known of a checked recording besides the answers.
+/// Holds what is known of a checked recording besides the answers.
 struct CheckedRecording {
   std::string file;
   detail::TrajectoryInfo info;
@@ -42,7 +42,7 @@ constexpr const char* frame_columns = "frame,seconds,people,density,overlapping,
 constexpr const char* pair_columns = "frame,seconds,first,second,kind,depth,gap,x,y\n";
 constexpr const char* event_columns = "first,second,kind,from,to,frames,worst,depth,x,y\n";
 
-/// The files that the answers of a check go to; an empty name is none.
+/// Names the files that the answers of a check go to; an empty name is none.
 struct CheckOutputs {
   std::string events, frames, pairs, json;
   double fail_above = 100;  ///< percent of person-seconds
@@ -50,7 +50,7 @@ struct CheckOutputs {
   std::vector<OutputOption> files() const;
 };
 
-/// The tables of a check.
+/// Represents the tables of a check.
 struct CheckTables {
   StreamedTable frames, pairs, events;
   std::string json;

@@ -12,7 +12,7 @@
 
 namespace bch::cli {
 
-/// The answers for all pairs at one level of detail.
+/// Holds the answers for all pairs at one level of detail.
 struct LevelAnswers {
   std::uint32_t depth = 0;
   double discs = 0;  ///< of a shape, mean

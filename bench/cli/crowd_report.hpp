@@ -23,7 +23,7 @@ struct CrowdOptions {
   std::string svg_depth;
 };
 
-/// Everything that a run of `bch crowd` knows in the end.
+/// Holds everything that a run of `bch crowd` knows in the end.
 struct CrowdRun {
   const CrowdOptions& options;
   std::span<const LoadedCharacter> characters;  ///< none: the shapes were baked

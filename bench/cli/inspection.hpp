@@ -12,7 +12,7 @@
 
 namespace bch::cli {
 
-/// Properties of a hierarchy's cut at one depth.
+/// Holds properties of a hierarchy's cut at one depth.
 struct DepthFacts {
   std::uint32_t depth = 0;
   std::size_t discs = 0;
@@ -20,17 +20,17 @@ struct DepthFacts {
   double area = 0;         ///< of the union of the discs, square metres
 };
 
-/// Properties of one slab of a body.
+/// Holds properties of one slab of a body.
 struct SlabFacts {
   Heights heights;  ///< metres
   std::size_t contours = 0, nodes = 0, leaves = 0;
   double outline_area = 0, disc_area = 0;  ///< square metres; of the leaves' union
 };
 
-/// "0.40 to 1.00 m".
+/// Returns heights as a text such as "0.40 to 1.00 m".
 std::string text_of(const Heights& heights);
 
-/// One shape in detail.
+/// Describes one shape in detail.
 struct ShapeFacts {
   std::optional<std::uint32_t> index;  ///< in the table; none for a free choice of time
   ShapeSource source;
@@ -40,7 +40,7 @@ struct ShapeFacts {
   std::vector<SlabFacts> slabs;    ///< of bodies that are cut
 };
 
-/// `planes`: those that cut the body.
+/// Returns the facts of a shape. `planes`: those that cut the body.
 ShapeFacts examine(const Shape& shape, const ShapeSource& source, std::optional<std::uint32_t> index,
                    std::span<const float> planes);
 

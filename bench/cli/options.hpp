@@ -17,7 +17,8 @@
 
 namespace bch::cli {
 
-/// Options that choose the poses of characters and their hierarchies: the same ones in every command.
+/// Holds the options that choose the poses of characters and their hierarchies: the same ones in every
+/// command.
 struct ShapeOptions {
   std::vector<std::string> clips;
   bool force_clips = false;
@@ -39,7 +40,7 @@ struct ShapeOptions {
   void add_limits_to(CLI::App& command);
 };
 
-/// Options that choose how pairs are answered.
+/// Holds the options that choose how pairs are answered.
 struct AnswerOptions {
   std::string depths = "0,3,6,all";
   std::string semantics = "boundary";

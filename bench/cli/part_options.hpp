@@ -11,7 +11,7 @@
 
 namespace bch::cli {
 
-/// The options of a command that does a part of its work.
+/// Holds the options of a command that does a part of its work.
 struct PartOptions {
   std::string part, folder;
 

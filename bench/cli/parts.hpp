@@ -11,7 +11,7 @@
 
 namespace bch::cli {
 
-/// One of the parts in which a run is done, 1 to `count`.
+/// Represents one of the parts in which a run is done, 1 to `count`.
 struct Part {
   std::uint32_t number = 1, count = 1;
 
@@ -33,8 +33,8 @@ nlohmann::ordered_json identity_of_file(const std::string& file, const std::stri
 nlohmann::ordered_json run_of(const std::string& command, const nlohmann::ordered_json& options,
                               const std::vector<std::string>& inputs);
 
-/// A part of a run in a folder: its files, and a manifest that says what was run and which bytes these have. The manifest is
-/// written last, so that a part that has one is whole.
+/// Represents a part of a run in a folder: its files, and a manifest that says what was run and which bytes these have. The
+/// manifest is written last, so that a part that has one is whole.
 /// Errors of all: throw InputError.
 class PartFiles {
  public:
@@ -58,7 +58,7 @@ class PartFiles {
   Part part_;
 };
 
-/// Parts that make a run.
+/// Holds the parts that make a run.
 struct WholeRun {
   nlohmann::ordered_json run;
   std::vector<PartFiles> parts;    ///< in their order

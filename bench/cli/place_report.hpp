@@ -14,7 +14,7 @@
 
 namespace bch::cli {
 
-/// What `bch place` is asked for.
+/// Holds what `bch place` is asked for.
 struct PlaceOptions {
   std::vector<std::string> characters{"default:male", "default:female"};
   std::vector<std::string> clip_names{"walk"};
@@ -30,13 +30,13 @@ struct PlaceOptions {
 inline constexpr std::array spacings{bench::Spacing::bodies, bench::Spacing::cylinders,
                                      bench::Spacing::paths};
 
-/// A filled area, and what it took.
+/// Holds a filled area, and what it took.
 struct TimedPlacement {
   bench::Placement placement;
   double seconds;
 };
 
-/// Everything that a run of `bch place` knows in the end.
+/// Holds everything that a run of `bch place` knows in the end.
 struct PlaceRun {
   const PlaceOptions& options;
   std::vector<bench::PlacedClip> clips;

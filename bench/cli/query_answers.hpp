@@ -15,7 +15,7 @@
 
 namespace bch::cli {
 
-/// The input of a query.
+/// Holds the input of a query.
 struct QueryInput {
   const ShapeSet& set;
   const AgentTable& table;
@@ -29,12 +29,12 @@ struct QueryInput {
   std::size_t size() const { return obstacles == nullptr ? pairs.size() : table.id.size(); }
 };
 
-/// One of the questions that --what names.
+/// Represents one of the questions that --what names.
 struct QueryKind {
   const char* name;
   const char* columns;  ///< beside first,second
   const char* help;     ///< what they are, in the words of --help
-  /// The answer as CSV, without the header, in the order of the pairs or agents.
+  /// Returns the answer as CSV, without the header, in the order of the pairs or agents.
   std::string (*rows)(const QueryInput& input);
   bool moving = false;       ///< asks how agents move
   bool of_obstacles = true;  ///< can be asked about obstacles

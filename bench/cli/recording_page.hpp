@@ -11,7 +11,7 @@
 
 namespace bch::cli {
 
-/// The page of a recording, which is filled while that is checked.
+/// Represents the page of a recording, which is filled while that is checked.
 class RecordingPage {
  public:
   explicit RecordingPage(const CheckedRecording& recording);

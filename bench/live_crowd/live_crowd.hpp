@@ -18,18 +18,18 @@
 
 namespace bch::bench {
 
-/// Seconds of a frame's parts, wall clock.
+/// Holds the seconds of a frame's parts, wall clock.
 struct FrameTime {
   double shapes = 0, pairs = 0, answers = 0;
 };
 
-/// A crowd in which every character is posed anew in every frame: an example of how a simulator that does so uses the
-/// library. Each agent has a shape of its own, which is skinned, outlined, divided and put into the set's arrays while
-/// other threads do so with others.
+/// Represents a crowd in which every character is posed anew in every frame: an example of how a simulator that does
+/// so uses the library. Each agent has a shape of its own, which is skinned, outlined, divided and put into the set's
+/// arrays while other threads do so with others.
 class LiveCrowd {
  public:
-  /// Agents walk straight on, at one a square metre, in clips chosen at random, to a cut depth. The characters
-  /// must outlive this.
+  /// Makes a crowd whose agents walk straight on, at one a square metre, in clips chosen at random, to a cut
+  /// depth. The characters must outlive this.
   LiveCrowd(std::span<const Character> characters, std::uint32_t agents, std::uint32_t depth);
 
   /// Computes the next frame, `seconds` later. Runs in the caller's TBB arena.
@@ -42,7 +42,7 @@ class LiveCrowd {
   std::vector<std::uint8_t> hits_of_a_new_set() const;
 
  private:
-  /// Memory that a thread keeps from shape to shape.
+  /// Holds memory that a thread keeps from shape to shape.
   struct Workshop {
     std::vector<PoseShaper> shapers;
     PreparedShape prepared;

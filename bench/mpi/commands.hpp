@@ -10,13 +10,16 @@
 
 namespace bch::cli {
 
-/// A check of a recording in parts, which ranks take in turn. Returns what runs the command.
+/// Adds the command that checks a recording in parts, which ranks take in turn. Returns what runs the
+/// command.
 std::function<void()> add_check_command(CLI::App& program, MPI_Comm comm);
 
-/// A crowd that walks on all ranks, and what each of them did. Returns what runs the command.
+/// Adds the command that lets a crowd walk on all ranks, and tells what each of them did. Returns what runs
+/// the command.
 std::function<void()> add_crowd_command(CLI::App& program, MPI_Comm comm);
 
-/// How a crowd of any size would be cut, by counting alone; on rank 0. Returns what runs the command.
+/// Adds the command that tells how a crowd of any size would be cut, by counting alone, on rank 0. Returns
+/// what runs the command.
 std::function<void()> add_simulate_command(CLI::App& program, MPI_Comm comm);
 
 }  // namespace bch::cli

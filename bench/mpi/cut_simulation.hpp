@@ -13,14 +13,14 @@
 
 namespace bch::cli {
 
-/// What a rank of a simulated crowd would have to do in a step.
+/// Holds what a rank of a simulated crowd would have to do in a step.
 struct SimulatedRank {
   double agents = 0, pairs = 0;
   std::uint64_t halo = 0, sent = 0, migrants = 0;  ///< copies that come and go, agents that leave
   std::set<int> neighbours;
 };
 
-/// The bodies of a crowd, as far as the cut is concerned.
+/// Represents the bodies of a crowd, as far as the cut is concerned.
 struct SimulatedBodies {
   double reach;  ///< the largest radius about an agent's position, metres
   double disc;   ///< the mean radius of the discs that make pairs

@@ -13,7 +13,7 @@
 
 namespace bch::cli {
 
-/// What a rank did in some steps: means of one, or the most.
+/// Holds what a rank did in some steps: means of one, or the most.
 struct RankReport {
   double agents = 0, halo = 0, pairs = 0, arrived = 0, sent_bytes = 0, neighbours = 0;
   double cut_seconds = 0, migration_seconds = 0, halo_seconds = 0, pairs_seconds = 0, answer_seconds = 0;
@@ -23,7 +23,7 @@ struct RankReport {
   void add(const CrowdCounters& step, double steps);
 };
 
-/// What the crowd did in these steps.
+/// Holds what the crowd did in these steps.
 struct CrowdReport {
   std::vector<RankReport> ranks;
   double steps = 0,

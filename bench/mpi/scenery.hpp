@@ -18,7 +18,7 @@ extern const std::vector<std::string> scenery_kinds;
 /// Places the agents of a crowd. Each agent is drawn by its number alone, so that a rank needs no other's.
 class Scenery {
  public:
-  /// Units:   agents a square metre.
+  /// Takes a kind, the number of agents, and their density per square metre.
   Scenery(const std::string& kind, std::uint64_t agents, double density);
 
   /// Returns an agent, with a shape of so many; its level is 0.
@@ -29,7 +29,7 @@ class Scenery {
   double half_side() const;
 
  private:
-  /// A part of the crowd that is equally dense in an area.
+  /// Represents a part of the crowd that is equally dense in an area.
   struct Layer {
     double share, area;
     double half_side;           ///< of a square, of which streets take a tenth

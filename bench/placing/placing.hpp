@@ -14,7 +14,8 @@
 
 namespace bch::bench {
 
-/// A clip that people play on their way: the body as it moves, seen from above, and its pose's cylinder.
+/// Represents a clip that people play on their way: the body as it moves, seen from above, and its pose's
+/// cylinder.
 struct PlacedClip {
   std::string character, name;
   double speed;    ///< metres a second along +x; 0 where the clip does not walk straight on
@@ -27,16 +28,16 @@ struct PlacedClip {
 /// Returns the cylinder about the agent's position that holds moving discs at each time, those of each slab if there are slabs.
 AnimatedDiscs cylinder_of(const AnimatedDiscs& discs);
 
-/// What two people must keep apart.
+/// Selects what two people must keep apart.
 enum class Spacing {
   bodies,     ///< moving bodies, at every time
   cylinders,  ///< the cylinders of their poses, at every time
   paths,      ///< discs of `path_radius` along their whole paths, whenever they are there
 };
-/// The radius of the discs that are put along paths today, metres.
+/// The radius, in metres, of the discs that are put along whole paths for comparison.
 constexpr double path_radius = 0.25;
 
-/// What is filled, and with what.
+/// Holds what is filled, and with what.
 struct PlacingOptions {
   double width = 10, depth = 10;  ///< metres
   double seconds = 10;            ///< how long everybody is on his way
@@ -45,14 +46,14 @@ struct PlacingOptions {
   const ObstacleSet* obstacles = nullptr;  ///< where people must not go; or none
 };
 
-/// Somebody who has room: an arc from inside the area to inside the area, at the clip's speed.
+/// Represents a person who has room: an arc from inside the area to inside the area, at the clip's speed.
 struct PlacedPerson {
   std::uint32_t clip;
   double clip_begin;  ///< the time at which the clip is at its beginning, at most 0
   std::vector<PathKey> path;
 };
 
-/// The people who found room.
+/// Holds the people who found room.
 struct Placement {
   std::vector<PlacedPerson> people;
   std::uint64_t candidates = 0;  ///< who were tried

@@ -19,43 +19,46 @@ std::string verdict(double ratio, double needed);
 /// Judges a value that must not exceed `most`: "PASS", or "at most 1.5: 8 % over".
 std::string verdict_at_most(double value, double most);
 
-/// Part of what is printed: benchmarks that are timed together, and what is told of them.
+/// Represents a part of what is printed: benchmarks that are timed together, and what is told of them.
 struct Table {
   std::string name;
   std::string benchmarks;  ///< a regular expression of their names
   std::function<void(const Results&)> print;
 };
 
-/// Each of these functions adds benchmarks and returns the tables of them. The scene must outlive the suite.
+/// The following functions add benchmarks and return the tables of them. The scene must outlive the suite.
 
-/// collide/<workload>/<semantics>/<leaves>/<instruction set>[/threads:<n>], collide/<workload>/boundary/<kind>.
+/// Adds the benchmarks `collide/<workload>/<semantics>/<leaves>/<instruction set>[/threads:<n>]` and
+/// `collide/<workload>/boundary/<kind>`: collide(), and structures of others.
 std::vector<Table> collide_tables(Suite& suite, Scene& scene);
-/// threads/<n>, batches/<size>: one query of many pairs, and queries of a few.
+/// Adds the benchmarks `threads/<n>` and `batches/<size>`: one query of many pairs, and queries of a few.
 std::vector<Table> call_tables(Suite& suite, Scene& scene);
-/// crowd/<agents>/<what>: pairs and answers of whole crowds.
+/// Adds the benchmarks `crowd/<agents>/<what>`: pairs and answers of whole crowds.
 std::vector<Table> crowd_tables(Suite& suite, Scene& scene);
-/// <query>/<workload>/<instruction set|reference>[/threads:<n>]: the queries beside collide().
+/// Adds the benchmarks `<query>/<workload>/<instruction set|reference>[/threads:<n>]`: the queries beside
+/// collide().
 std::vector<Table> query_tables(Suite& suite, Scene& scene);
-/// obstacles/<query>: a crowd on a floor plan.
+/// Adds the benchmarks `obstacles/<query>`: a crowd on a floor plan.
 std::vector<Table> obstacle_tables(Suite& suite, Scene& scene);
-/// motions/<first_contact|sampled>/<free|touching> and motions/bytes: people who walk, as animated shapes.
+/// Adds the benchmarks `motions/<first_contact|sampled>/<free|touching>` and `motions/bytes`: people who
+/// walk, as animated shapes.
 std::vector<Table> motion_tables(Suite& suite, Scene& scene);
-/// bodies/<find_all|loop>: a crowd of bodies of discs.
+/// Adds the benchmarks `bodies/<find_all|loop>`: a crowd of bodies of discs.
 std::vector<Table> body_tables(Suite& suite);
-/// shapes/<count>: a crowd of so many different shapes, up to `most`.
+/// Adds the benchmarks `shapes/<count>`: a crowd of so many different shapes, up to `most`.
 std::vector<Table> shape_count_tables(Suite& suite, Scene& scene, std::uint32_t most);
-/// plans/<row>/<bake|query>.
+/// Adds the benchmarks `plans/<row>/<bake|query>`: sets by different plans.
 std::vector<Table> plan_tables(Suite& suite, Scene& scene);
-/// slices/<row>/<workload>/<leaves> and slices/<row>/build.
+/// Adds the benchmarks `slices/<row>/<workload>/<leaves>` and `slices/<row>/build`: bodies in slabs.
 std::vector<Table> slice_tables(Suite& suite, Scene& scene);
-/// construction/<character>/<instruction set>/<stage> of the characters, and growth/<triangles>/<stage> of
-/// the built-in man with fewer and with more triangles.
+/// Adds the benchmarks `construction/<character>/<instruction set>/<stage>` of the characters, and
+/// `growth/<triangles>/<stage>` of the built-in man with fewer and with more triangles.
 std::vector<Table> build_tables(Suite& suite, Scene& scene);
-/// load/<part>: a baked file of the scene's poses, in the file cache.
+/// Adds the benchmarks `load/<part>`: a baked file of the scene's poses, in the file cache.
 std::vector<Table> load_tables(Suite& suite, Scene& scene);
-/// check/<crowd>/<frames>[/threads:<n>]: whole recordings, in memory.
+/// Adds the benchmarks `check/<crowd>/<frames>[/threads:<n>]`: whole recordings, in memory.
 std::vector<Table> check_tables(Suite& suite, Scene& scene);
-/// moments/<poses|shown|grid|own>: a crowd of animated shapes at times of a walk.
+/// Adds the benchmarks `moments/<poses|shown|grid|own>`: a crowd of animated shapes at times of a walk.
 std::vector<Table> moment_tables(Suite& suite, Scene& scene);
 
 /// Returns the name of a benchmark of collide().

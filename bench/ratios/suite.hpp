@@ -12,7 +12,7 @@
 
 namespace bch::bench {
 
-/// What a benchmark took, and what its contender tells besides.
+/// Holds what a benchmark took, and what its contender tells besides.
 struct Timing {
   double nanoseconds;  ///< of an item: the median over the repetitions
   std::size_t items;
@@ -20,7 +20,7 @@ struct Timing {
 };
 using Results = std::map<std::string, Timing, std::less<>>;
 
-/// Google Benchmark's registry, with benchmarks whose answers are checked before they are timed.
+/// Represents Google Benchmark's registry, with benchmarks whose answers are checked before they are timed.
 class Suite {
  public:
   /// Adds a benchmark. Its contender is made, which checks it, when it is first run; wrong answers are an error
@@ -45,7 +45,8 @@ class Suite {
   std::string wrong_;
 };
 
-/// Something that several contenders need: made when it is first asked for, and kept as long as any of them is.
+/// Shares a value among several contenders: it is made when it is first needed, and kept as long as any of
+/// them.
 template <class Value>
 class Shared {
  public:

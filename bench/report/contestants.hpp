@@ -15,7 +15,7 @@
 
 namespace bch::report {
 
-/// A structure by the name that tables have for it.
+/// Represents a structure by the name that tables have for it.
 struct Contestant {
   std::string_view name;  ///< "OBB outline"
   std::string_view kind;  ///< of baselines::kinds()
@@ -28,7 +28,7 @@ struct Contestant {
 /// Returns the paper's structures, then others; those of FCL only where the build has it.
 std::vector<Contestant> contestants();
 
-/// Structures over all bodies of a scene, each made when it is first asked for.
+/// Holds structures over all bodies of a scene, each made when it is first asked for.
 class Contestants {
  public:
   explicit Contestants(bench::Scene& scene) : scene_(scene) {}

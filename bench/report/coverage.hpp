@@ -17,7 +17,7 @@ namespace bch::report {
 /// 6.
 constexpr double pixel = 0.0004;  // metres
 
-/// Areas in square metres, by counting the pixels whose centres are covered.
+/// Holds areas in square metres, by counting the pixels whose centres are covered.
 struct Coverage {
   double discs = 0;    ///< by some disc
   double filled = 0;   ///< by some disc or the inside of the outline

@@ -13,7 +13,7 @@ namespace bch::report {
 /// Returns page.html.
 std::string_view page_template();
 
-/// A gnuplot script, NAME.gp.
+/// Holds a gnuplot script, NAME.gp.
 struct ChartScript {
   std::string_view name, text;
 };

@@ -18,7 +18,7 @@
 
 namespace bch::report {
 
-/// How much is measured, and of discs of which radius.
+/// Holds how much is measured, and of discs of which radius.
 struct Sizes {
   std::uint32_t poses = 100;      ///< of a character
   std::uint32_t pairs = 20'000;   ///< of a workload
@@ -40,7 +40,7 @@ constexpr std::uint32_t most_costly_poses = 40;
 
 constexpr double millimetres = 1000;  ///< of a metre
 
-/// The context of an experiment: what it runs on and where its tables go.
+/// Represents the context of an experiment: what it runs on and where its tables go.
 class Run {
  public:
   using Write = std::function<void(const std::string& name, const Table& table)>;
@@ -79,14 +79,15 @@ class Run {
   Done done_;
 };
 
-/// The tables of an experiment, as they were read back.
+/// Returns a table of an experiment, as it was read back.
 using Results = std::function<const Table&(std::string_view name)>;
 
 /// Return medians of the experiment `construction`, microseconds: of building a structure, and of one stage of the library's own.
 double build_us(const Results& results, std::string_view structure);
 double stage_us(const Results& results, std::string_view stage);
 
-/// A number or words of the page that are no cell of a table: {{NAME}} or {{NAME: OF}} in page.html.
+/// Represents a number or words of the page that are no cell of a table: {{NAME}} or {{NAME: OF}} in
+/// page.html.
 struct Computed {
   std::string_view name;
   std::string (*text)(const Results& results, std::string_view of);  ///< in HTML

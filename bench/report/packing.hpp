@@ -9,7 +9,7 @@
 
 namespace bch::report {
 
-/// What people in a crush may change beside their places.
+/// Selects what people in a crush may change beside their places.
 enum class Freedom : std::uint8_t {
   places,    ///< nothing else
   headings,  ///< they turn, a few degrees a step, where that leaves less overlap

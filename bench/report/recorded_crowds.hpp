@@ -19,7 +19,7 @@ namespace bch::report {
 constexpr double near = 1.2;  ///< metres, of neighbours
 constexpr std::string_view made_by_people = "people";
 
-/// A recording of the test data, and what its file does not say.
+/// Represents a recording of the test data, and what its file does not say.
 struct Source {
   const char* file;
   std::string_view made_by;  ///< people or a simulator
@@ -30,7 +30,7 @@ struct Source {
 std::vector<Source> wanted_sources(const Run& run);
 std::unique_ptr<detail::TrajectoryReader> open(const Run& run, const Source& source);
 
-/// How bodies are tested.
+/// Selects how bodies are tested.
 struct Bodies {
   const char* name;
   std::uint32_t depth;

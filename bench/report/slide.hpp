@@ -16,10 +16,11 @@
 
 namespace bch::report {
 
-/// The cases of the paper's experiment on errors. In each case, two people stand apart, turned at random. The
-/// first one slides along the x axis past the second, on a line up to half a metre beside the other, until a
-/// collision is detected; then the distance between the two meshes is measured. A case is drawn again where
-/// the leaf discs over the outlines do not meet on the way, so that in every case the two collide.
+/// Represents the cases of the paper's experiment on errors. In each case, two people stand apart, turned at
+/// random. The first one slides along the x axis past the second, on a line up to half a metre beside the
+/// other, until a collision is detected; then the distance between the two meshes is measured. A case is
+/// drawn again where the leaf discs over the outlines do not meet on the way, so that in every case the two
+/// collide.
 class SlideCases {
  public:
   /// Draws the cases, which are the same for the same shapes and seed everywhere.
@@ -42,7 +43,7 @@ class SlideCases {
 
  private:
   void draw(detail::Random& random, std::size_t of);
-  /// `meet`: whether the two of some agents do; not before so many steps.
+  /// Slides until `meet` says that the two of some agents do, but not before so many steps.
   template <class Meet>
   double contact(std::size_t of, double first_step, Meet meet) const;
 

@@ -10,7 +10,7 @@
 
 namespace bch::report {
 
-/// The quartiles of times, and of other values whose distribution is skewed.
+/// Holds the quartiles of times, and of other values whose distribution is skewed.
 struct Quartiles {
   double low, median, high;
 };
@@ -19,7 +19,7 @@ struct Quartiles {
 /// way; NaN of no values.
 Quartiles quartiles(std::vector<double> values);
 
-/// A mean, the standard deviation of the values, and the mean's 95 % confidence interval.
+/// Holds a mean, the standard deviation of the values, and the mean's 95 % confidence interval.
 struct Estimate {
   double mean, deviation, low, high;
 };

@@ -31,13 +31,13 @@ constexpr std::string_view leaf_discs_name =
 /// Returns the name of a cut of the outline's hierarchy: "single cylinder", "BCH outline to depth 3".
 std::string cut_name(std::uint32_t depth);
 
-/// The mean number of tests that a traversal makes of a pair; NaN where it is not counted.
+/// Holds the mean number of tests that a traversal makes of a pair; NaN where it is not counted.
 struct MeanTests {
   double nodes = std::numeric_limits<double>::quiet_NaN();   ///< of two discs or boxes
   double leaves = std::numeric_limits<double>::quiet_NaN();  ///< of two triangles or segments
 };
 
-/// Anything that answers pairs: a structure down to some depth, or a kernel over a set.
+/// Represents anything that answers pairs: a structure down to some depth, or a kernel over a set.
 struct Subject {
   std::function<void(const bench::Workload&, bench::Hits&)> answer;
   std::function<std::vector<double>(const SlideCases&)> contacts;

@@ -15,7 +15,7 @@
 
 namespace bch::report {
 
-/// A text, or a number in as many digits as tell it from every other double; NaN is an empty cell.
+/// Holds a text, or a number in as many digits as tell it from every other double; NaN is an empty cell.
 struct Cell {
   std::string text;
 
@@ -29,11 +29,11 @@ struct Cell {
 
 constexpr double empty_cell = std::numeric_limits<double>::quiet_NaN();
 
-/// The content of a CSV file: the only way from an experiment to the page. Columns of numbers name their
-/// unit.
+/// Holds the content of a CSV file: the only way from an experiment to the page. Columns of numbers name
+/// their unit.
 class Table {
  public:
-  /// `name` is what errors call the table.
+  /// Makes an empty table. `name` is what errors call it.
   explicit Table(std::vector<std::string> columns, std::string name = "the table")
       : columns_(std::move(columns)), name_(std::move(name)) {}
 
@@ -49,7 +49,7 @@ class Table {
   const std::string& text(std::size_t row, std::string_view column) const;
   /// Returns a number; NaN for an empty cell.
   double number(std::size_t row, std::string_view column) const;
-  /// The first row that has these texts in these columns.
+  /// Selects the first row that has these texts in these columns.
   struct Where {
     std::string_view column, text;
   };

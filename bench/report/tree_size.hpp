@@ -10,7 +10,7 @@
 
 namespace bch::report {
 
-/// The mean size of trees over shapes; NaN of a structure whose tree is not accessible.
+/// Holds the mean size of trees over shapes; NaN of a structure whose tree is not accessible.
 struct TreeSize {
   double nodes = std::numeric_limits<double>::quiet_NaN();
   double height =

@@ -17,7 +17,7 @@ enum class Placing {
   apart,       ///< as far as the setup says
 };
 
-/// How the pairs of a row are made.
+/// Selects how the pairs of a row are made.
 struct StabilitySetup {
   std::string value;
   double conditioning = 0;

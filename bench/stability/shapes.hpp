@@ -13,13 +13,13 @@
 
 namespace bch::bench {
 
-/// What a shape is at some heights: one of its slabs, or the whole of it.
+/// Holds what a shape is at some heights: one of its slabs, or the whole of it.
 struct SpecimenPart {
   baselines::ExactCut discs;  ///< of its leaves and all nodes above
   Outline geometry;           ///< what must be covered: its outline, or the triangles it was made from
 };
 
-/// A shape with the exact discs and the geometry of its parts.
+/// Holds a shape with the exact discs and the geometry of its parts.
 struct Specimen {
   Shape shape;
   std::vector<SpecimenPart> parts;  ///< one a slab, or one

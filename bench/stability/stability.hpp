@@ -8,7 +8,8 @@
 #include <string>
 #include <vector>
 
-/// How often a test of discs is wrong on hard cases, judged by exact arithmetic (baselines/quad.hpp).
+/// Measures how often a test of discs is wrong on hard cases, judged by exact arithmetic
+/// (baselines/quad.hpp).
 ///
 /// The truth is the definition of a collision (Semantics) for tight discs: whether two discs of the cuts, one of each agent,
 /// have a point in common, and every disc above the one has one with every disc above the other. Three tests answer it: the
@@ -17,7 +18,7 @@
 /// touch, whether collide() answers a hit wherever outlines meet.
 namespace bch::bench {
 
-/// The errors of one test.
+/// Counts the errors of one test.
 struct Errors {
   std::uint64_t misses = 0;           ///< discs collide, the answer is 0
   std::uint64_t false_positives = 0;  ///< they do not, the answer is 1
@@ -28,7 +29,7 @@ struct Errors {
   double miss_per_reach = 0, gap_per_reach = 0;
 };
 
-/// The results for one value of what a family varies.
+/// Holds the results for one value of what a family varies.
 struct StabilityRow {
   std::string family, value;
   double conditioning = 0;  ///< the value as a number

@@ -21,7 +21,7 @@ constexpr double mass = 80, stiffness = 1.2e5, friction = 2.4e5;  // kg, kg/s^2,
 constexpr double wanted_speed = 1, relaxation = 0.5;              // m/s, s
 }  // namespace stiff
 
-/// The source of depth and direction.
+/// Selects the source of depth and direction.
 enum class DepthMeasure {
   penetration,  ///< penetration(), the best of 32 directions, of pairs that collide
   discs,        ///< clearance() below 0: the two discs of the cuts that overlap deepest, along their centres
@@ -44,7 +44,8 @@ struct StiffRow {
   double jitter = 0;  ///< m/s, root mean square at rest, with a step of 1 ms; the door: no rest
 };
 
-/// The results for two agents that fly into each other at 1 m/s, without drive and friction, and apart again.
+/// Holds the results for two agents that fly into each other at 1 m/s, without drive and friction, and apart
+/// again.
 struct BounceRow {
   std::string depth;
   DepthMeasure measure;
@@ -53,7 +54,7 @@ struct BounceRow {
   double energy = 0, most_energy = 0;   ///< created, parts of what was there: mean of the size, largest
 };
 
-/// The results for two agents that slide over each other by small steps.
+/// Holds the results for two agents that slide over each other by small steps.
 struct SlideRow {
   std::string depth;
   DepthMeasure measure;

@@ -48,7 +48,7 @@ class Depths {
   std::vector<float> distance_;
 };
 
-/// Agents and the forces that move them.
+/// Simulates agents and the forces that move them.
 class StiffWorld {
  public:
   explicit StiffWorld(DepthMeasure measure, bool free = false) : depths_(measure), free_(free) {}

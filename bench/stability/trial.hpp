@@ -15,7 +15,7 @@ struct PlacedSpecimen {
   double z = 0;
 };
 
-/// Two agents with the exact answers about them, and the answers of simple tests.
+/// Represents two agents with the exact answers about them, and the answers of simple tests.
 class Trial {
  public:
   Trial(const PlacedSpecimen& a, const PlacedSpecimen& b);

@@ -20,7 +20,7 @@
 
 namespace bch::bench {
 
-/// The compilations of all stages that one instruction set would choose.
+/// Selects the compilations of all stages that one instruction set would choose.
 struct BuildImplementation {
   std::string_view name;
   const detail::OutlineImplementation* outline;
@@ -33,8 +33,8 @@ std::vector<BuildImplementation> build_implementations();
 /// Returns the implementation that builders choose by themselves.
 BuildImplementation chosen_build_implementation();
 
-/// A character's way from poses to all that a set stores of shapes, stage by stage: each is made from what the one
-/// before it made of the same pose, with memory that is used again. What is made first is compared:
+/// Runs the way of a character from poses to all that a set stores of shapes, stage by stage: each is made from
+/// what the one before it made of the same pose, with memory that is used again. What is made first is compared:
 ///   outline, hierarchy, interior   by another instruction set, where the processor has two: the same bits
 ///   hierarchy_welzl                its nodes are hierarchy's, and its discs within 1 um
 ///   levels                         the discs of the deepest one are those of cut(); what is above them is not compared
@@ -42,7 +42,7 @@ BuildImplementation chosen_build_implementation();
 /// Skinning, profiles and supports are not compared: tests look at them.
 class BuildStages {
  public:
-  /// The character must outlive this.
+  /// Takes a character, which must outlive this.
   /// Errors: throws std::runtime_error where a stage makes something else than what it is compared with.
   BuildStages(const Character& character, std::uint32_t poses, const BuildImplementation& implementation);
 
@@ -106,7 +106,7 @@ constexpr BuildStage build_stages[] = {
     {"pose", &BuildStages::pose},           {"all", &BuildStages::all},
 };
 
-/// The built-in man with fewer triangles and with more, from 1 000 to beyond 100 000.
+/// Holds the built-in man with fewer triangles and with more, from 1 000 to beyond 100 000.
 class MenInDetail {
  public:
   MenInDetail();

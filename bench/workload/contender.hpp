@@ -13,7 +13,7 @@
 
 namespace bch::bench {
 
-/// Something to be timed, whose answers were compared.
+/// Represents something to be timed, whose answers were compared.
 struct Contender {
   std::function<void()> call;
   std::size_t items = 1;                        ///< of a call: pairs, agents or poses
@@ -26,7 +26,7 @@ Contender kernel_contender(Scene& scene, const Workload& workload, const QueryOp
                            const Implementation& implementation);
 Contender structure_contender(Scene& scene, const Workload& workload, std::string_view kind);
 
-/// A question beside collide(), of all of a workload's pairs or its agents.
+/// Represents a question beside collide(), of all of a workload's pairs or its agents.
 /// Errors of both: throw std::runtime_error on wrong answers.
 struct TimedQuery {
   const char* name;

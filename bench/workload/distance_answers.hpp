@@ -20,7 +20,7 @@ constexpr double personal_space = 0.1;   ///< metres, that within() asks for
 constexpr double walking_speed = 1.3;    ///< metres a second, along the heading
 constexpr double walking_time = 0.5;     ///< seconds
 
-/// Clearances with their directions.
+/// Holds clearances with their directions.
 struct Clearances {
   std::vector<float> distance;
   std::vector<Vec2> direction;
@@ -29,7 +29,7 @@ struct Clearances {
   ClearanceAnswers spans() { return {distance, direction}; }
 };
 
-/// The relative motion of the agents of each pair when all walk.
+/// Holds the relative motion of the agents of each pair when all walk.
 struct Ways {
   std::vector<double> x, y;
 
@@ -37,7 +37,7 @@ struct Ways {
   Displacements displacements() const { return {x, y}; }
 };
 
-/// The functions below say where answers differ from brute force over all discs, on every pair; empty:
+/// The functions below return where answers differ from brute force over all discs, on every pair; empty:
 /// nowhere.
 std::string wrong_clearances(Scene& scene, const Workload& workload, const Clearances& answers);
 /// Checks clearances of exact leaves: all of them against those of discs, and one in 64 against brute force over all segments.

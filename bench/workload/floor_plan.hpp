@@ -12,7 +12,8 @@
 
 namespace bch::bench {
 
-/// Walls of rooms and pillars in a square as a crowd stands in, for the queries against obstacles, and the same for brute force.
+/// Holds walls of rooms and pillars in a square as a crowd stands in, for the queries against obstacles, and the same for brute
+/// force.
 struct FloorPlan {
   std::vector<double> x, y;
   std::vector<std::uint64_t> path_offsets{0};

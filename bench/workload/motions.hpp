@@ -18,7 +18,7 @@ namespace bch::bench {
 /// Parts of clips are multiples of this: whole milliseconds that floats hold, so that those of a part that goes round are those of its first round.
 constexpr double least_clip_seconds = 0.125;
 
-/// A clip, or the first part of it, played over and over, as one body over all its times.
+/// Represents a clip, or the first part of it, played over and over, as one body over all its times.
 struct AnimatedClip {
   const Character* character;
   std::uint32_t clip;
@@ -35,14 +35,14 @@ std::vector<AnimatedClip> animated_clips(std::span<const cli::LoadedCharacter> c
 /// Builds poses of a clip, so many a second, as sets hold them that answer by discs and without culling data.
 ShapeSet baked_poses(const AnimatedClip& clip, double per_second);
 
-/// Ten seconds of people who walk along arcs and play clips, and the pairs of them that come within a metre, having begun farther
-/// apart.
+/// Represents ten seconds of people who walk along arcs and play clips, and the pairs of them that come within a metre, having
+/// begun farther apart.
 class MotionScene {
  public:
   static constexpr double seconds = 10;
   static constexpr TimeInterval interval{0, seconds};
 
-  /// The clips must outlive this.
+  /// Takes clips, which must outlive this.
   MotionScene(std::span<const AnimatedClip> clips, std::uint32_t pairs, std::uint64_t seed);
 
   std::span<const AnimatedClip> clips() const { return clips_; }
@@ -68,10 +68,11 @@ class MotionScene {
   std::vector<double> contacts_;
 };
 
-/// The motions of a scene at even times, by the nearest of poses that are built beforehand: what is asked today.
+/// Samples the motions of a scene at even times, by the nearest of poses that are built beforehand: what is
+/// asked without first_contact().
 class SampledMotions {
  public:
-  /// The scene must outlive this.
+  /// Takes a scene, which must outlive this.
   SampledMotions(const MotionScene& scene, double samples_per_second, double poses_per_second);
 
   /// Returns the first sample at which two motions collide, or infinity. It asks collide() in batches of a tenth of a second.

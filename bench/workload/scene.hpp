@@ -35,8 +35,9 @@ struct SceneOptions {
   WorkloadSizes sizes;
 };
 
-/// Everything that benchmarks measure on, each made when it is first asked for and kept: a benchmark that the
-/// filter leaves out costs nothing. Shapes are contour hierarchies with a threshold of 1 cm. For one thread.
+/// Holds everything that benchmarks measure on. Each thing is made when it is first asked for and kept, so a
+/// benchmark that the filter leaves out costs nothing. Shapes are contour hierarchies with a threshold of 1
+/// cm. For one thread.
 class Scene {
  public:
   explicit Scene(SceneOptions options);

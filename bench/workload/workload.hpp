@@ -18,7 +18,7 @@ namespace bch::bench {
 
 using Hits = std::vector<std::uint8_t>;
 
-/// Agents, and the pairs of them that a benchmark asks for.
+/// Holds agents, and the pairs of them that a benchmark asks for.
 struct Workload {
   std::string name;
   cli::Crowd crowd;

@@ -39,10 +39,10 @@ struct GridDisc {
   std::uint32_t agent;
 };
 
-/// Square cells over a crowd, in numbered rows, once for every class of sizes: class c has a quarter of the
-/// cell width of class c - 1, and the smallest such cells that a disc of the class fits in. Where discs
-/// overlap, one's centre is in the other's cell or in one of the eight about it, in the grid of the larger
-/// one.
+/// Represents square cells over a crowd, in numbered rows, once for every class of sizes: class c has a
+/// quarter of the cell width of class c - 1, and the smallest such cells that a disc of the class fits in.
+/// Where discs overlap, one's centre is in the other's cell or in one of the eight about it, in the grid of
+/// the larger one.
 ///
 /// Rounding. A unit is 2^-29 of class 0's cell. With E the crowd's extent, a centre relative to the crowd's
 /// corner is off by less than 2^-50 E from rounding and by sqrt(2) units from dropping their fractions; the
@@ -70,7 +70,8 @@ class CrowdGrid {
   std::uint64_t coarser(std::uint64_t cell, std::uint32_t from, std::uint32_t to) const noexcept;
 
  private:
-  /// There are empty cells about every row and class, so that no cell has another row's beside it.
+  /// Holds the cells of a class of sizes. There are empty cells about every row and class, so that no cell
+  /// has another row's beside it.
   struct Class {
     double most_radius;                ///< metres
     std::uint64_t first, stride, end;  ///< cells

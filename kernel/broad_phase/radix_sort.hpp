@@ -19,7 +19,7 @@ namespace bch::detail {
 template <class Value>
 class RadixSort {
  public:
-  /// Precondition: key(value) < 2^bits for every value. May exchange the vector's memory for its own.
+  /// Sorts values by their keys, which are below 2^bits. May exchange the vector's memory for its own.
   template <class Key>
   void sort(std::vector<Value>& values, unsigned bits, Key key) {
     const unsigned passes = (bits + most_digit_bits - 1) / most_digit_bits;

@@ -19,7 +19,7 @@ namespace bch::detail {
 /// Holds discs of a grid in the order of their cells, array by array.
 class SortedDiscs {
  public:
-  /// Most runs of neighbours are short: wider registers would gain little.
+  /// Selects the narrowest registers: most runs of neighbours are short, so wider ones would gain little.
   using Simd = BaseLanes;
   static constexpr std::size_t width = Simd::width;
 

@@ -58,8 +58,8 @@ inline ClearanceAnswers clearance_answers(const bch_clearance_out* given, std::s
   return answers;
 }
 
-/// Answers of a query that needs memory on its way: they are kept here until all are there, so that nothing has been written for
-/// the caller where memory runs out.
+/// Holds the answers of a query that needs memory on its way until all are there, so that nothing has been written for the
+/// caller where memory runs out.
 template <class Value>
 class Kept {
  public:

@@ -76,7 +76,7 @@ struct CheckedFrame {
 constexpr std::array<double, 4> compared_discs{0.2, 0.25, 0.3, 0.4};
 constexpr std::array<double, 6> density_classes{0, 1, 2, 3, 4, 6};
 
-/// Person-frames, and how many of them overlap.
+/// Counts person-frames, and how many of them overlap.
 struct OverlapCount {
   std::uint64_t people = 0, guessed = 0, overlapping = 0, in_walls = 0;
   std::array<std::uint64_t, compared_discs.size()> discs{};

@@ -14,7 +14,7 @@
 
 namespace bch::detail {
 
-/// Frames one behind the other that are checked at once. The last one is there for what happens between it and the one before.
+/// Holds consecutive frames that are checked at once. The last one is there for what happens between it and the one before.
 class FrameBlock {
  public:
   /// Stands for nobody.

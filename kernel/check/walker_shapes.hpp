@@ -35,8 +35,9 @@ struct WalkerPose {
   std::uint32_t phase;
   float seconds;  ///< of the clip
 
-  /// `coarse`: multiplies the steps of speed and phase, and the exponent of that of stature: 1 or 3. `cast`: whose
-  /// bodies people have; where it is empty, pedestrians'. `motions`: those that rows name. Those of the cast do not turn their shoulders.
+  /// Rounds a person to a pose. `coarse`, 1 or 3, multiplies the steps of speed and phase, and the exponent of the step of stature.
+  /// `cast` are the characters whose bodies people have, or the pedestrians' where it is empty; members of a cast do not turn their
+  /// shoulders. `motions` are those that rows name.
   WalkerPose(const Walker& walker, Shoulders shoulders, std::uint32_t coarse = 1, CastView cast = {},
              std::span<const CastMotion> motions = {});
   std::uint64_t key() const noexcept;
@@ -45,8 +46,8 @@ struct WalkerPose {
   PoseTime at() const noexcept;
 };
 
-/// The shapes of people in the poses that were asked for, built on all threads and kept for the next time. Where they become many,
-/// all are given up, and those that are asked for again are built again.
+/// Keeps the shapes of people in poses. New ones are built on all threads and kept for the next frames. Where they need too much
+/// memory, all are dropped, and those that are needed again are built again.
 class WalkerShapes {
  public:
   /// Kept from one call of find() to the next: some 23 000 shapes of whole bodies.

@@ -37,7 +37,7 @@ struct WalkerFrame {
   std::vector<Walker> people;
 };
 
-/// Frames whose numbers are in [from, to).
+/// Represents the frames whose numbers are in [from, to).
 struct FrameInterval {
   std::int64_t from = std::numeric_limits<std::int64_t>::min();
   std::int64_t to = std::numeric_limits<std::int64_t>::max();

@@ -49,7 +49,7 @@ class OverlapTraversal {
     codes_[pair] = miss;
   }
 
-  /// Rounds, until at most so many pairs are open.
+  /// Runs rounds until at most so many pairs are open.
   void run(std::uint32_t enough) noexcept {
     if (size_ > enough) rounds(enough);
   }

@@ -69,7 +69,8 @@ class PairKernel {
 
  private:
   using Float = typename Simd::Float;
-  /// The room for open traversals: a chunk, and besides as many unfinished pairs as fit on the stack.
+  /// The most traversals that are open at once: those of a chunk, and as many unfinished pairs besides as fit
+  /// on the stack.
   static constexpr std::uint32_t open_walks = chunk_size + chunk_size * 7 / 8;
   using List = ChunkPairs<Simd, chunk_size>;
 
@@ -139,7 +140,7 @@ class PairKernel {
     return (row_a_[k] | row_b_[k]) == single_disc;
   }
 
-  /// A set of single discs is done by now.
+  /// Returns whether a pair of the chunk is undecided. In a set of single discs none is by now.
   bool any_open() const noexcept {
     std::uint32_t any = 0;
     for (std::uint32_t k = 0; k < at_.whole_registers(); k += Simd::width) any |= open_bits_[k / Simd::width];
@@ -257,7 +258,7 @@ class PairKernel {
   SeparatingAxisTest<Simd> axis_test_;
   ProfileTest<Simd> profiles_;
   alignas(64) std::uint32_t row_a_[chunk_size], row_b_[chunk_size];  ///< supports; set by test_roots()
-  /// A register's pairs each.
+  /// One word for each register of pairs: a bit for each of its pairs.
   std::uint32_t open_bits_[chunk_size / Simd::width], may_nest_[chunk_size / Simd::width];
   List open_, near_, separated_, met_;
   OverlapTraversal<Simd, open_walks> walk_;

@@ -97,7 +97,7 @@ class ContactKernel {
     }
   }
 
-  /// The lower index is A; see Placements.
+  /// Looks at one pair of agents, of which the lower index is A; see Placements.
   void look_at(std::size_t begin, std::uint32_t k) noexcept {
     const Pair pair = in_.pairs[begin + k];
     swapped_ = pair.second < pair.first;
@@ -113,7 +113,7 @@ class ContactKernel {
     first_row_ = rows_.discs, first_column_ = columns_.discs;
   }
 
-  /// Windows of our own, because the set has none.
+  /// Looks at a pair of single discs in windows of its own, because the set has none.
   void look_at_single_discs(const Root& row_disc, const Root& column_disc) noexcept {
     for (DiscBlock& single : singles_)
       for (unsigned i = 0; i < block_width; ++i)
@@ -165,7 +165,7 @@ class ContactKernel {
     return lanes < block_width ? (std::uint64_t{1} << (lanes * block_width)) - 1 : ~std::uint64_t{0};
   }
 
-  /// The children of column nodes that disc i of a row block overlaps; a window stays itself.
+  /// Collects the children of the column nodes that disc i of a row block overlaps. A window stays itself.
   /// Returns: whether there is room for them.
   bool children_of_hits(const Nodes& columns, const std::uint64_t* hits, unsigned i,
                         Nodes& below) const noexcept {
@@ -227,6 +227,7 @@ class ContactKernel {
     return out;
   }
 
+  /// Places the overlaps of a row node with the windows of columns, disc by disc.
   /// Returns: one past the last that was placed.
   DiscPair* place_rows(std::uint32_t rows, std::uint64_t mask, const Nodes& columns,
                        DiscPair* out) const noexcept {
@@ -257,7 +258,8 @@ class ContactKernel {
     return out;
   }
 
-  /// Bit 8 i + j: disc i of a node of the rows, disc j of one of the columns.
+  /// Returns which discs of two nodes overlap: bit 8 i + j is that of disc i of the rows' node and disc j of
+  /// the columns' node.
   std::uint64_t overlaps_of(std::uint32_t rows, std::uint32_t columns) const noexcept {
     const Discs of_rows = TreeNodes<Simd>::discs(nodes_, rows, rows_.stride),
                 of_columns = TreeNodes<Simd>::discs(nodes_, columns, columns_.stride);

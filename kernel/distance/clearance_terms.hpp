@@ -5,8 +5,9 @@
 
 #include "layout/base/rounding.hpp"
 
-/// Errors of a clearance, in units of u: the sums that kernel/distance/clearance_measure.hpp derives.
-/// `of_reach` counts in S, the reaches of both shapes, `of_distance` in D, the distance of the exact centres.
+/// Holds the errors of a clearance, in units of u: the sums that kernel/distance/clearance_measure.hpp
+/// derives. `of_reach` counts in S, the reaches of both shapes, `of_distance` in D, the distance of the exact
+/// centres.
 namespace bch::detail::clearance_terms {
 
 namespace r = rounding::terms;

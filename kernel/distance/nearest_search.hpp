@@ -139,7 +139,8 @@ class NearestSearch {
     }
   }
 
-  /// Few windows improve on the best, and those at once, which spares many of the next ones.
+  /// Measures a window's discs only if one may improve on the best; few do. An improvement spares many of the
+  /// next windows.
   void take_window(const Step& step) noexcept {
     if (improving(step) != 0) meet(step);
   }

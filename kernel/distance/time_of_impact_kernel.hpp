@@ -81,10 +81,10 @@ class TimeOfImpactKernel {
       });
   }
 
-  /// Discs touch by the measure at 16 u D more than by collide()'s test, D <= S + |t|. Beside what supports
-  /// have room for, in layout/base/rounding.hpp, the way's product with a direction is off by 3 u |v|, the
-  /// differences by 2 u (|t| + |v|), and |t| may be 2 S + |v|: 30 u S + 18 u |t| + 11 u |v|. Only
-  /// the proof needs it: supports have room for more than tests have found.
+  /// Returns the slack of supports on the way. Discs touch by the measure at 16 u D more than by collide()'s
+  /// test, D <= S + |t|. Beside what supports have room for, in layout/base/rounding.hpp, the way's product
+  /// with a direction is off by 3 u |v|, the differences by 2 u (|t| + |v|), and |t| may be 2 S + |v|: 30 u S
+  /// + 18 u |t| + 11 u |v|. Only the proof needs it: supports have room for more than tests have found.
   float slack(std::uint32_t pair) const noexcept {
     constexpr float share = 0x1p-18f;
     static_assert(double{share} >= 30 * rounding::unit_roundoff, "the most of the three");
@@ -96,8 +96,8 @@ class TimeOfImpactKernel {
     return shapes_.reach[at_.shape_a[pair]] + shapes_.reach[at_.shape_b[pair]];
   }
 
-  /// No centre of one shape's disc is farther from one of the other's: each is within 1.42 times its shape's
-  /// reach, as half of a box about others is.
+  /// Returns a bound that no distance between centres of the two shapes' discs exceeds: each is within 1.42
+  /// times its shape's reach, as half of a box about others is.
   float farthest(std::uint32_t pair) const noexcept {
     return 2 * reach(pair) + __builtin_fabsf(at_.tx[pair]) + __builtin_fabsf(at_.ty[pair]);
   }

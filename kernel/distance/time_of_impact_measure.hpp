@@ -12,7 +12,8 @@
 
 namespace bch::detail {
 
-/// Errors of a time of impact and of its bounds, in units of u: the sums that TimeOfImpactMeasure derives.
+/// Holds the errors of a time of impact and of its bounds, in units of u: the sums that TimeOfImpactMeasure
+/// derives.
 namespace time_of_impact_terms {
 
 namespace r = rounding::terms;
@@ -86,7 +87,7 @@ class TimeOfImpactMeasure {
   using Float = typename Simd::Float;
 
   TimeOfImpactMeasure() = default;
-  /// v, and F in metres.
+  /// Takes v, and F in metres.
   TimeOfImpactMeasure(float x, float y, float farthest) noexcept
       : x_(x), y_(y), slack_(slack_per_length * farthest), time_(__builtin_inff()) {
     const float square = x * x + y * y, length = __builtin_sqrtf(square);

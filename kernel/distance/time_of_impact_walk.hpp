@@ -41,7 +41,7 @@ class TimeOfImpactWalk {
     fresh_.add_if(true, slot);
   }
 
-  /// Rounds, until at most so many pairs are open.
+  /// Runs rounds until at most so many pairs are open.
   void run(std::uint32_t enough) noexcept {
     while (fresh_.size + returning_.size > enough) {
       bound();
@@ -101,7 +101,7 @@ class TimeOfImpactWalk {
     }
   }
 
-  /// Fresh pairs are then those that descend.
+  /// Sorts the open pairs by their next step. Fresh pairs are then those that descend.
   void choose() noexcept {
     Slots below;
     windows_.size = missed_.size = 0;

@@ -23,7 +23,7 @@ class AgentType {
   AgentType& operator=(const AgentType&) = delete;
 
   MPI_Datatype get() const { return type_; }
-  /// Bytes that travel.
+  /// Returns the number of bytes that travel.
   std::size_t bytes() const;
 
  private:

@@ -19,7 +19,7 @@ struct CrowdColumns {
   std::vector<double> x, y, z, heading;
   std::vector<std::uint8_t> level, is_own;
 
-  /// Precondition: both in the order of their ids.
+  /// Takes a rank's agents and the copies of others, both in the order of their ids.
   void assign(std::span<const CrowdAgent> own, std::span<const CrowdAgent> copies, bool heights);
   /// Gives each agent a shape of its own: first those of the rank's agents, then those of the copies, in the order of their ids.
   void number_shapes(std::size_t own);

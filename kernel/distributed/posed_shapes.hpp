@@ -19,7 +19,7 @@ namespace bch::detail {
 /// the memory of the last one: how many agents a rank has changes from step to step.
 class PosedShapes {
  public:
-  /// Precondition: the characters outlive this, and are valid.
+  /// Takes valid characters, which must outlive this.
   /// Errors:  throws std::invalid_argument on a bad plan.
   PosedShapes(std::span<const Character> characters, const ShapeSetPlan& plan);
 

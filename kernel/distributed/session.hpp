@@ -15,6 +15,7 @@ void require_threads(int provided);
 /// the end of its scope, by an error of one rank for instance, has to call abort().
 class Session {
  public:
+  /// Starts MPI.
   /// Errors:  throws std::runtime_error where MPI does not support the threads that the library needs.
   Session(int& argc, char**& argv);
   ~Session();

@@ -22,9 +22,11 @@ namespace bch::detail {
 template <class Simd>
 struct Row {
   using Guard [[maybe_unused]] = typename Simd::Guard;
-  /// Bodies in slabs have stages of their own, so that what they call does not decide what is inlined for whole bodies.
+  /// Names the stages of bodies in slabs, which are compiled apart, so that what they call does not decide what is
+  /// inlined for whole bodies.
   struct ForSlabs : Simd {};
-  /// Questions about distances have theirs, so that collide() does not pay for what only these need.
+  /// Names the stages of questions about distances, which are compiled apart, so that collide() does not pay
+  /// for what only these need.
   struct WithGaps : Simd {
     static constexpr bool knows_gaps = true;
   };

@@ -21,7 +21,7 @@ namespace bch::detail {
 /// Errors:  throws std::invalid_argument.
 void require_valid(const char* query, const TimeInterval& interval, double tolerance);
 
-/// Motions as searches read them: slab by slab those whose bodies are cut, others once.
+/// Holds motions as searches read them: slab by slab those whose bodies are cut, others once.
 class MotionParts {
  public:
   /// Checks motions, which are named in errors by the index that the first one has and those behind it.

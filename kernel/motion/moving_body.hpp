@@ -36,7 +36,7 @@ class MovingBody {
 
   /// Goes on to a time, and returns until when the path goes straight on and turns evenly from there: after that time, or infinite.
   double path_end(double time) noexcept;
-  /// Returns, likewise, until when discs move straight on.
+  /// Returns until when discs move straight on.
   double clip_end(double time) noexcept;
 
   /// Returns where the body is until path_end().

@@ -7,7 +7,8 @@
 
 namespace bch::detail {
 
-/// Boxes that hold the eight nodes below one; what is left over is padding that overlaps nothing: from infinity to -infinity.
+/// Holds boxes around the eight nodes below one; what is left over is padding that overlaps nothing: from infinity to
+/// -infinity.
 struct BoxBlock {
   double low_x[8], low_y[8], high_x[8], high_y[8];
 };

@@ -29,7 +29,7 @@ struct DistanceGridView {
   const std::uint8_t* steps;  ///< by row and column, rounded down; 0 where too many boxes overlap to tell
   double rounding;  ///< metres: more than the largest coordinates lose in a bound, and segments have slack
 
-  /// Precondition: both are finite.
+  /// Returns bounds of the distance of a point, whose coordinates are finite, from the nearest segment.
   [[gnu::always_inline]] DistanceBounds bounds(double at_x, double at_y) const noexcept {
     const double column = nearest_of((at_x - x) * per_metre, last_column),
                  row = nearest_of((at_y - y) * per_metre, last_row);

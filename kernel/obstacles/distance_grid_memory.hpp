@@ -14,7 +14,7 @@ namespace bch::detail {
 
 /// Represents a grid of distances and its memory; it does not move.
 struct DistanceGridMemory {
-  /// `segments`: in the order of the tree of their boxes.
+  /// Measures the grid of segments, which are in the order of the tree of their boxes.
   DistanceGridMemory(const BoxTreeView& tree, const std::vector<WorldSegment>& segments);
   DistanceGridMemory(const DistanceGridMemory&) = delete;
 

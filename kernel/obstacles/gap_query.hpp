@@ -33,7 +33,7 @@ void put(const ShapeSetView& shapes, const ClearanceAnswers& answers, std::size_
 /// Measures the distances of agents from obstacles: what clearance() and within() share.
 class GapQuery {
  public:
-  /// `exact_leaves`: outlines are measured where shapes have exact leaves, else discs.
+  /// Takes what is measured. With `exact_leaves` that is outlines where shapes have exact leaves, else discs.
   GapQuery(const Implementation& implementation, const ShapeSetView& shapes, bool exact_leaves) noexcept
       : implementation_(implementation), shapes_(shapes), exact_leaves_(exact_leaves) {}
 

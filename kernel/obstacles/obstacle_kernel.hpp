@@ -74,7 +74,7 @@ class ObstacleKernel {
   static_assert(rounding::query_margin >=
                 rounding::segment_margin +
                     (rounding::terms::halving + 2 * rounding::terms::higher) * rounding::unit_roundoff);
-  /// A step leaves seven brothers behind at most.
+  /// The most nodes that wait: a step leaves at most seven siblings behind.
   static constexpr std::uint32_t most_open = 7 * most_wide_levels + 1;
 
   static Double square_distance(const LocalSegment& segment, Double x, Double y) noexcept {
@@ -124,7 +124,7 @@ class ObstacleKernel {
     return bits;
   }
 
-  /// `disc`: its place among the nodes.
+  /// Returns whether all nodes above a cut disc touch the segment. `disc` is its place among the nodes.
   bool ancestors_touch(std::uint32_t disc) const noexcept {
     if (tree_.count == 1) return true;
     AncestorPath<Simd> path;

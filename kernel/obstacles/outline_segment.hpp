@@ -26,7 +26,7 @@ namespace bch::detail {
 template <class Simd>
 class OutlineSegment {
  public:
-  /// `ends`: two points of an agent's frame.
+  /// Places a segment of an outline, whose ends are points of the agent's frame.
   OutlineSegment(const Vec2* ends, const LocalSegment& segment) noexcept
       : segment_(segment), p_(placed(ends[0], segment)), q_(placed(ends[1], segment)) {}
 
@@ -35,9 +35,9 @@ class OutlineSegment {
     return (p_.y > distance && q_.y > distance) || (p_.y < -distance && q_.y < -distance);
   }
 
-  /// Segments meet where they cross, or an end of one is within a margin of the other: where rounding hides a crossing, an end is
-  /// next to the other segment. A crossing is sure where all ends are beyond the other's line by the margin, beside which errors of double
-  /// are nothing.
+  /// Returns how two segments meet. They meet where they cross, or an end of one is within a margin of the other: where rounding hides a
+  /// crossing, an end is next to the other segment. A crossing is sure where all ends are beyond the other's line by the margin, beside
+  /// which errors of double are nothing.
   Meeting meet(double margin) const noexcept {
     const double limit = margin + segment_.slack;
     if (is_beside(limit)) return Meeting::none;

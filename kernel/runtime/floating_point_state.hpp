@@ -5,10 +5,10 @@
 
 namespace bch::detail {
 
-/// While it lives, its thread computes as IEEE 754 has it by default: rounding to nearest, denormal numbers kept, no
-/// traps. Then whatever the thread had is back. Callers may have set another state, and a task may run in a thread
-/// that was left in one, so a query holds one of these, and each of its tasks another; that is where answers get their
-/// bits, and the bounds of layout/base/rounding.hpp hold only here.
+/// Sets the floating-point state of its thread to the default of IEEE 754 during its lifetime: rounding to nearest,
+/// denormal numbers kept, no traps. Its destructor restores the thread's own state. Callers may have set another
+/// state, and a task may run in a thread that was left in one, so a query holds one of these, and each of its tasks
+/// another; that is where answers get their bits, and the bounds of layout/base/rounding.hpp hold only here.
 class FloatingPointStateGuard {
  public:
   FloatingPointStateGuard() noexcept;

@@ -27,7 +27,8 @@ struct AncestorPath {
   static constexpr std::uint32_t length = 16;
   std::uint32_t node[length];
 
-  /// `disc`: the cut disc's place among `nodes`. Of the path only the first node is known then.
+  /// Begins the path above a cut disc, whose place among `nodes` is `disc`. Only the first node of the path
+  /// is known then.
   void begin(const float* nodes, const Tree& tree, std::uint32_t disc) noexcept {
     const std::uint32_t beside = tree.first_inner() + (disc - tree.discs);
     // The disc is the first child of that node, or the second child of the one before.
@@ -60,7 +61,7 @@ struct AncestorPath {
 template <class Simd>
 class AncestorTest {
  public:
-  /// The discs by their places among `nodes`; `above_a` and `above_b` are their paths.
+  /// Takes two discs by their places among `nodes`; `above_a` and `above_b` are their paths.
   AncestorTest(const float* nodes, const PlacedTrees& trees, std::uint32_t disc_a, std::uint32_t disc_b,
                const AncestorPath<Simd>& above_a, const AncestorPath<Simd>& above_b) noexcept
       : nodes_(nodes), trees_(trees), above_a_(above_a), above_b_(above_b) {

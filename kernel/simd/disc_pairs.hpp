@@ -12,7 +12,7 @@
 
 namespace bch::detail {
 
-/// Bits of the lanes in which discs a and b overlap, touching included.
+/// Returns the bits of the lanes in which discs a and b overlap, touching included.
 template <class Simd, class Float = typename Simd::Float>
 std::uint32_t overlaps(Float bx, Float by, Float br, Float ax, Float ay, Float ar) noexcept {
   const Float x = bx - ax, y = by - ay, r = ar + br;

@@ -100,7 +100,7 @@ class Placements {
 
   // With `check`, what these return tells whether the next one may read what this one names.
 
-  /// The lower index is A, so that the order within a pair does not matter.
+  /// Reads the agents of each pair. The lower index is A, so that the order within a pair does not matter.
   template <bool check>
   bool name_agents(const Arguments& in, std::size_t begin) noexcept {
     const Pair* const __restrict pairs = in.pairs + begin;
@@ -118,7 +118,8 @@ class Placements {
     return beyond == 0;
   }
 
-  /// `prefetch`: also asks for all that turn() needs of agents.
+  /// Finds the root of each agent's shape at its level. With `prefetch`, it also prefetches all that turn()
+  /// needs of agents.
   template <bool prefetch, bool check>
   bool find_roots(const Arguments& in) noexcept {
     // What this writes might be these pointers, for all the compiler knows of `in`.
@@ -162,7 +163,7 @@ class Placements {
     Float cosine, sine;
   };
 
-  /// Magnitudes of all that was read for a lane's pair, summed up where `check` asks for it.
+  /// Sums up the magnitudes of all that was read for a lane's pair, if `check` is set.
   template <bool check>
   class Magnitudes {
    public:
@@ -227,7 +228,7 @@ class Placements {
     return Simd::rounded(between);
   }
 
-  /// B's rotation and position in A's frame.
+  /// Computes B's rotation and position in A's frame.
   template <bool check>
   bool turn(const Arguments& in) noexcept {
     constexpr std::uint32_t all = (std::uint32_t{1} << Simd::width) - 1;

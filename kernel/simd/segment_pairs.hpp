@@ -71,7 +71,7 @@ struct SegmentPair {
 template <class Simd, class Placed>
 class SegmentBatch {
  public:
-  /// `placed`: what add() names by index.
+  /// Takes the placements that add() names by index.
   SegmentBatch(const ShapeSetView& shapes, const Placed* placed) noexcept
       : leaves_{shapes.leaf_segments}, points_(shapes.points), placed_(placed) {}
 

@@ -103,7 +103,8 @@ class SeparatingAxisTest {
     return parted != 0;
   }
 
-  /// Each shape's largest contour has a point beyond the other's supports, so neither lies inside the other.
+  /// Returns whether each shape's largest contour has a point beyond the other's supports, so neither lies
+  /// inside the other.
   std::uint32_t contours_stick_out(std::uint32_t pair) const noexcept {
     const float c = at_.c[pair], s = at_.s[pair], tx = at_.tx[pair], ty = at_.ty[pair];
     const std::uint32_t a = at_.shape_a[pair], b = at_.shape_b[pair];
@@ -127,7 +128,7 @@ class SeparatingAxisTest {
     return rows_ + std::size_t{row} * support_stride;
   }
 
-  /// Supports of A along its even or odd directions, and of B on either side of the opposite ones.
+  /// Names the supports of A along its even or odd directions, and of B on either side of the opposite ones.
   struct Rows {
     const float *a, *below, *above;
   };

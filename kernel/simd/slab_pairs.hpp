@@ -21,7 +21,7 @@ class SlabPairs {
     std::uint32_t slab_a, slab_b;
   };
 
-  /// `rise`: metres from the ground of A to that of B.
+  /// Takes two shapes. `rise` is the height of B's ground above A's, metres.
   SlabPairs(const ShapeSetView& shapes, std::uint32_t shape_a, std::uint32_t shape_b, double rise) noexcept
       : shapes_(shapes), shape_a_(shape_a), shape_b_(shape_b), rise_(rise) {}
 
@@ -53,7 +53,8 @@ class SlabPairs {
     return rise_ == 0 ? a && b : a || b;
   }
 
-  /// Heights that touch meet. The slack is for the rounding of the sums: heights are within 1e6 m or infinite.
+  /// Returns whether the heights of two parts meet, touching included. The slack is for the rounding of the
+  /// sums: heights are within 1e6 m or infinite.
   bool heights_meet(const Parts& parts) const noexcept {
     if (shapes_.heights == nullptr) return true;
     const Heights a = shapes_.heights[parts.a], b = shapes_.heights[parts.b];

@@ -14,10 +14,11 @@ namespace bch::detail {
 /// function.)
 template <class Simd>
 struct TreeNodes {
-  /// Masks, not conditions: GCC makes branches of those, and no processor can predict which nodes are leaves.
+  /// Returns a mask, all ones if the node is a leaf. GCC would compile a condition to a branch, and no
+  /// processor can predict which nodes are leaves.
   static std::uint32_t all_if_leaf(std::uint32_t node) noexcept { return -(node / leaf_window); }
 
-  /// `stride`: that of the node's tree.
+  /// Returns the discs of a node. `stride` is that of the node's tree.
   static Discs discs(const float* nodes, std::uint32_t node, std::uint32_t stride) noexcept {
     const std::size_t to_y = block_width + (all_if_leaf(node) & (stride - block_width));
     return {nodes + (node & ~leaf_window), to_y, 2 * to_y};

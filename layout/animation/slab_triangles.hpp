@@ -16,7 +16,8 @@
 
 namespace bch::detail {
 
-/// Triangles of a body, or pieces of these: corners beyond its vertices are the middles of two, of vertices or middles before.
+/// Holds the triangles of a body, or pieces of these: corners beyond its vertices are the middles of two, of vertices or
+/// middles before.
 struct MovingMesh {
   std::vector<std::array<std::uint32_t, 3>> triangles;
   std::vector<std::array<std::uint32_t, 2>> middles;

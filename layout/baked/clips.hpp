@@ -14,7 +14,7 @@
 
 namespace bch::detail::baked {
 
-/// Clips as the sections of a baked file.
+/// Represents clips as the sections of a baked file.
 class PackedClips {
  public:
   /// Packs clips, which name some of so many names.

@@ -13,7 +13,7 @@
 
 namespace bch::detail {
 
-/// Holds what a child process may take, and when it ends.
+/// Limits what a child process may use, and for how long it lives.
 struct ChildLimits {
   std::chrono::milliseconds cpu_time{60'000};
   /// Bytes of address space beyond what this process has when the child begins. Builds with sanitizers, which need
@@ -40,7 +40,7 @@ class ChildProcess {
   std::optional<std::size_t> read(std::span<char> bytes, std::chrono::milliseconds patience) const;
 
   /// Waits for its end.
-  /// Returns: its status; 0 where the program lets nobody see it, by ignoring SIGCHLD.
+  /// Returns: its status; 0 where the program ignores SIGCHLD, which hides the status.
   int wait();
 
  private:

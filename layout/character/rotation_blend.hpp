@@ -7,8 +7,9 @@
 
 namespace bch::detail {
 
-/// Returns the rotation a share t of the shorter way from a to b, at constant speed; 0 <= t <= 1. By multiplications and
-/// square roots alone, so that it is the same everywhere: the trigonometry of a maths library is not.
+/// Returns the rotation at a share t, from 0 to 1, of the shorter way from a to b, which is passed at constant speed. It
+/// is computed by multiplications and square roots alone, so it has the same bits everywhere, unlike the trigonometry of
+/// a maths library.
 /// Returns: a unit quaternion, to 1e-9.
 Eigen::Quaterniond slerp(const Quaternion& a, const Quaternion& b, float t);
 

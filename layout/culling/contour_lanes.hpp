@@ -68,8 +68,9 @@ class ContourLanes {
   static Batch load(const Array& of, std::size_t i) noexcept { return Simd::load(&of[i]); }
   static void store(Array& to, std::size_t i, const Batch& value) noexcept { Simd::store(&to[i], value); }
 
-  /// A sector takes an equal share of |y| / (|x| + |y|). From the line at one end, which is at most `quadrant` long in
-  /// those terms, a point is that share times (|x| + |y|) over its length away.
+  /// Finds the sectors that a stretch of the contour passes through. A sector takes an equal share of |y| / (|x| +
+  /// |y|). From the line at one end, which is at most `quadrant` long in those terms, a point is that share times (|x|
+  /// + |y|) over its length away.
   void find_sectors(std::size_t i) noexcept {
     constexpr double quadrant = 0.25 * profile_sectors;
     const Batch x = load(x_, i), y = load(y_, i), zero(0.0);

@@ -20,7 +20,7 @@ struct DiscRun {
   std::uint32_t count;
 };
 
-/// Loops over a cut's discs.
+/// Provides loops over a cut's discs.
 template <class Simd>
 class CutLanes {
  public:

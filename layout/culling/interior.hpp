@@ -52,6 +52,7 @@ class InteriorBuilder {
   /// Uses the given loops, which this processor has to support.
   explicit InteriorBuilder(const InteriorImplementation& implementation);
 
+  /// Finds the inscribed discs and the extreme points of an outline.
   /// Shapes:  validate(outline) does not throw; contours are counter-clockwise. `reach` is that of the shape,
   ///          metres. Where no disc fits that is larger than the rounding there is none; slivers some 60
   ///          times as long as wide may have fewer than fit.

@@ -55,7 +55,7 @@ struct InteriorLoops {
   std::int32_t (*count_new)(const std::uint32_t* rows, const std::uint32_t* covered) noexcept;
 };
 
-/// All give the same bits.
+/// Represents one compilation of the loops for an instruction set. All give the same bits.
 struct InteriorImplementation : InstructionSet {
   const InteriorLoops& loops;
 };

@@ -197,7 +197,8 @@ class InteriorLanes {
     for (std::size_t p = 0; p < parts; ++p) Simd::store(half_curvature + first + p * width, curvature[p]);
   }
 
-  /// corner(i): the coordinates of point i of the contour's n.
+  /// Measures a contour from points, one per lane. corner(i) returns the coordinates of point i of the
+  /// contour's n.
   template <class Real, class Corner>
   static void measure_from(std::size_t n, Corner corner, const PointLanes& from, Real* square, Real* turns) {
     using Batch = typename Simd::template Batch<Real>;

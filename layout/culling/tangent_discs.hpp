@@ -31,8 +31,8 @@ struct CandidateDiscs {
 /// found, which takes no more than estimates.
 class ContourSamples {
  public:
-  /// Corners as arrays, counter-clockwise, in any unit that makes the contour about 27 wide. At least one
-  /// distance between them is positive.
+  /// Takes the corners of the contour as arrays, counter-clockwise, in any unit that makes the contour about
+  /// 27 wide. At least one distance between them is positive.
   void take(std::span<const float> x, std::span<const float> y);
 
   /// Returns every other sample, with the normal of its edge.

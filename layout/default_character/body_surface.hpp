@@ -32,8 +32,8 @@ struct BodySurface {
 
   std::uint32_t add(const Eigen::Vector3d& position, const SkinTag& tag);
 
-  /// Quads between two loops of one length, where a loop's direction crossed with the way from `from` to `to`
-  /// points outwards. An open strip has no quad between the last and the first corner; the quads that
+  /// Adds quads between two loops of one length, where a loop's direction crossed with the way from `from` to
+  /// `to` points outwards. An open strip has no quad between the last and the first corner; the quads that
   /// start at the corners `skip_begin` to `skip_end` - 1 are left out.
   void strip(const Loop& from, const Loop& to, bool closed, std::size_t skip_begin = 0,
              std::size_t skip_end = 0);
@@ -53,7 +53,7 @@ BodySurface mirrored(const BodySurface& left);
 /// Source:  G. Taubin, "A signal processing approach to fair surface design", SIGGRAPH 1995.
 void smooth(BodySurface& surface, int rounds);
 
-/// Neighbours of each vertex along the edges of the faces, in ascending order.
+/// Returns the neighbours of each vertex along the edges of the faces, in ascending order.
 std::vector<std::vector<std::uint32_t>> neighbours(const BodySurface& surface);
 
 /// Cuts each quad along its shorter diagonal.

@@ -44,8 +44,8 @@ ArmPose reaching_arm(const JointPositions& joints, const Eigen::Vector3d& wrist,
 
 void set_arm(HumanPose& pose, const JointPositions& joints, Side side, const ArmPose& arm);
 
-/// Angles of a leg, radians, in the direction of walking: flexion of hip and knee, the ankle's dorsiflexion,
-/// the toes' extension, and the thigh's abduction.
+/// Holds the angles of a leg, radians, in the direction of walking: flexion of hip and knee, the ankle's
+/// dorsiflexion, the toes' extension, and the thigh's abduction.
 struct LegAngles {
   double hip, knee, ankle, toes, abduction;
 };

@@ -39,7 +39,7 @@ struct Stride {
 };
 Motion striding(const Manner& manner, const Stride& stride);
 
-/// Steps about the own axis; `direction` is 1 to the left, -1 to the right.
+/// Returns a motion of steps about the own axis; `direction` is 1 to the left, -1 to the right.
 Motion turning(const Manner& manner, double direction);
 Motion side_stepping(const Manner& manner, double direction);
 

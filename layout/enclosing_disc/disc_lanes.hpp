@@ -95,7 +95,8 @@ class DiscLanes {
   /// repeat their last.
   class Block {
    public:
-    /// `is_shared`: the last two lanes share the largest set, which often has twice the points of the next.
+    /// Loads the sets of a block, one per lane. With `is_shared` the last two lanes share the largest set,
+    /// which often has twice the points of the next.
     Block(const DiscSets& job, std::size_t begin, std::size_t end, bool is_shared = false)
         : job_(job), begin_(begin), end_(end), is_shared_(is_shared) {
       Column columns[width];
@@ -109,7 +110,8 @@ class DiscLanes {
       fill(columns);
     }
 
-    /// Up to three points, or four. A smallest disc is that of two or three of the points, and the largest of theirs.
+    /// Solves sets of up to four points. A smallest disc is that of two or three of the points, and the largest of
+    /// theirs.
     void solve_small() const {
       const auto at = [&](std::size_t k) { return point(k < count_ ? k : count_ - 1); };
       const Point a = at(0), b = at(1), c = at(2), d = at(3);
@@ -131,8 +133,9 @@ class DiscLanes {
       store(centre, largest);
     }
 
-    /// Farthest points are those from the centre as a float, so that the last look at them gives the radius too. Which
-    /// of two is the farthest may then be decided by rounding; whether one is outside is asked of the exact disc.
+    /// Solves sets of more than four points, by pivoting. Farthest points are those from the centre as a float, so
+    /// that the last look at them gives the radius too. Which of two is the farthest may then be decided by rounding;
+    /// whether one is outside is asked of the exact disc.
     void solve_large() const {
       const Point a = farthest(start()).point, b = farthest(a).point;
       const Batch ab = square_distance(a, b);
@@ -254,7 +257,7 @@ class DiscLanes {
       return scaled - (scaled - value);
     }
 
-    /// The centre's coordinates are floats.
+    /// Stores the discs. The centre's coordinates are floats.
     void store(const Point& centre, const Batch& square_radius) const {
       alignas(64) double x[width], y[width], square[width];
       centre.x.store_aligned(x);

@@ -21,11 +21,11 @@ struct SolvedDisc {
   double square_radius;
 };
 
-/// Beyond this share a point counts as outside: tighter than the rounding of a circumcentre would pivot in a
-/// circle.
+/// The share of a square radius beyond which a point counts as outside. If it were closer to 1 than the
+/// rounding of a circumcentre, pivoting would never end.
 constexpr double disc_slack = 1 + 1e-13;
-/// Each pivot enlarges the disc; ten suffice in practice. The last scan makes the answer safe even after
-/// these.
+/// The most pivots of a disc. Each enlarges it, and ten suffice in practice. The last scan makes the answer
+/// safe even after these.
 constexpr int most_disc_pivots = 100;
 
 /// Holds what EnclosingDiscs asks of an instruction set: plain pointers, because nothing of the standard library

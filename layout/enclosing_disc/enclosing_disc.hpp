@@ -9,8 +9,8 @@
 
 namespace bch::detail {
 
-/// The centre is a float, as it will be stored; the radius belongs to that very centre and is exact but for
-/// the rounding of double.
+/// Represents the smallest disc around points. The centre is a float, as it will be stored; the radius
+/// belongs to that very centre and is exact but for the rounding of double.
 struct EnclosingDisc {
   Vec2 centre;
   double radius = 0;

@@ -19,7 +19,7 @@ void add_leaf(std::span<const std::uint32_t> segments, std::size_t leaf, std::si
 /// Returns the segments that a leaf's word names; none where there are too many of them.
 std::vector<std::uint32_t> segments_of(std::span<const std::uint32_t> words, std::size_t leaf);
 
-/// Words and lists of so many leaves: those that begin with `words`.
+/// Returns the size of the words and lists of so many leaves, which begin with `words`.
 std::size_t leaf_segments_size(std::span<const std::uint32_t> words, std::size_t leaves);
 
 }  // namespace bch::detail

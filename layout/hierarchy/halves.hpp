@@ -23,7 +23,8 @@ class EvenHalves {
   static constexpr int uneven = most_halvings + 1;
   static constexpr std::uint32_t nodes(int halvings) { return (2u << halvings) - 1; }
 
-  /// Pieces longer than `longest` are halved, in a shape of a certain reach, both metres.
+  /// Sets the length of pieces beyond which they are halved, `longest`, in a shape of a certain reach, both
+  /// metres.
   void begin(double longest, double reach);
   /// Writes how often segments of four lengths, rounded to float, are halved: `uneven` where that is too often, or rounding
   /// may decide.

@@ -35,8 +35,8 @@ void add_own_clips(const SceneFile& file, const NodeList& nodes, Character& char
 void add_clips_of(const std::filesystem::path& clip_file, const ImportOptions& options, Direction up,
                   Character& character, ImportReport& report);
 
-/// Positions between which a channel's positions stay: its keys, and of a cubic part the inner control points of each
-/// segment as a Bezier curve.
+/// Returns positions between which a channel's positions stay: its keys, and of a cubic part the inner control points
+/// of each segment as a Bezier curve.
 std::vector<Eigen::Vector3d> hull_of_positions(const Channel& channel);
 
 /// Adds a note for every clip from `first_clip` on in which a pose reaches farther from its origin than 1.5 times the

@@ -39,6 +39,7 @@ struct GltfScene {
   std::string posed_morphs;  ///< says where morph targets have weights other than 0; empty: nowhere
 };
 
+/// Reads a glTF file.
 /// Errors:  throws ImportError.
 GltfScene read_gltf(const std::filesystem::path& file);
 

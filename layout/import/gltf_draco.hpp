@@ -19,7 +19,7 @@ namespace bch::detail::importing {
 
 class DracoMesh {
  public:
-  /// `extension` is the primitive's KHR_draco_mesh_compression.
+  /// Decodes a mesh. `extension` is the primitive's KHR_draco_mesh_compression.
   /// Errors:  throws ImportError on bytes that are no mesh.
   DracoMesh(GltfFile& file, const JsonValue& extension);
   ~DracoMesh();

@@ -43,6 +43,7 @@ struct Decoder;
 /// Errors:  all functions throw ImportError, which names the place in the JSON.
 class GltfFile {
  public:
+  /// Opens a glTF file.
   /// Errors:  throws ImportError on what is no glTF 2, and on extensions that the file requires and that are not read.
   explicit GltfFile(const std::filesystem::path& file);
   ~GltfFile();

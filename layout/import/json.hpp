@@ -24,6 +24,7 @@ class JsonValue {
 
   /// Returns the member of that name: absent if this has none or is absent itself.
   JsonValue operator[](const char* member) const;
+  /// Returns an element of an array.
   /// Errors:  throws ImportError if the array has no such element.
   JsonValue operator[](std::size_t index) const;
 

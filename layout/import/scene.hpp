@@ -43,6 +43,7 @@ struct SceneFile {
   std::string format;
   std::size_t most_triangles = ImportOptions().most_triangles;
 
+  /// Reads the scene of a file.
   /// Errors:  throws ImportError if the file cannot be read as a scene with a root node.
   SceneFile(const std::filesystem::path& file, const ImportOptions& options);
   /// Takes a scene that the caller owns, as if a reader of this name had found it in the file.
@@ -68,9 +69,10 @@ struct NodeList {
 
 NodeList read_nodes(const SceneFile& file);
 
-/// Bones and clips know their node by its name alone: says so once if several nodes have this one.
+/// Notes, once, that several nodes have this name. Bones and clips know their node by its name alone.
 void note_if_shared(const NodeList& nodes, const std::string& name, ImportReport& report);
 
+/// Returns a matrix of the file as an affine map.
 /// Errors:  throws ImportError naming `what` if the matrix is not finite or not affine.
 Affine3 read_matrix(const SceneFile& file, const aiMatrix4x4& matrix, const std::string& what);
 

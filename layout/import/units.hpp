@@ -41,6 +41,7 @@ Direction settle_frame(const SceneFile& file, const DeclaredFrame& declared, con
 /// Returns for every joint how many metres one unit of its position keys is, at rest.
 std::vector<double> metres_above(const Character& character);
 
+/// Checks the size of poses.
 /// Errors:  throws ImportError if a pose leaves the range of 1000 km or is not finite.
 void check_poses(const SceneFile& file, const Character& character);
 

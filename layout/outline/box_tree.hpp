@@ -10,14 +10,14 @@
 
 namespace bch::detail {
 
-/// Boxes around segments, 16 to a block, and around blocks, 16 to a group. The order of the segments makes the
-/// blocks: neighbours should be near each other.
+/// Holds the boxes around segments, 16 to a block, and around blocks, 16 to a group. The order of the segments
+/// makes the blocks: neighbours should be near each other.
 class BoxTree {
  public:
   /// Reserves room for that many segments, so that assign() allocates nothing.
   void reserve(std::size_t segments);
 
-  /// The segments are followed by copies of the last one, up to a whole block.
+  /// Builds the boxes of segments, which are followed by copies of the last one, up to a whole block.
   void assign(const Segment* segments, std::size_t count);
 
   /// Returns the segments' lexicographically smallest end: only blocks that reach the first column of cells have it.

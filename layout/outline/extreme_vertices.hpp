@@ -21,6 +21,7 @@ namespace bch::detail {
 /// there, both within the grid's share of a disc's margin.
 class ExtremeVertices {
  public:
+  /// Takes the triangles of all poses.
   /// Shapes:  triangle indices are below `vertices`, and there is a triangle.
   ExtremeVertices(std::span<const std::array<std::uint32_t, 3>> triangles, std::size_t vertices);
 

@@ -16,7 +16,7 @@ namespace bch::detail {
 
 __extension__ using Wide = __int128;
 
-/// Steps of the grid.
+/// Represents a point of the grid, in its steps.
 struct GridPoint {
   std::int32_t x = 0, y = 0;
   friend bool operator==(GridPoint, GridPoint) = default;

@@ -90,7 +90,7 @@ class OutlineLanes {
     explicit Box(const SearchedWay& way) noexcept
         : min_x(way.min_x), min_y(way.min_y), max_x(way.max_x), max_y(way.max_y) {}
 
-    /// Bits of a block's boxes that it meets.
+    /// Returns the bits of a block's boxes that it meets.
     std::uint32_t meets(const BoxBlock& block) const noexcept {
       std::uint32_t apart = 0;
       for (std::size_t i = 0; i < boxes_per_block; i += Cells::size)

@@ -15,10 +15,10 @@
 
 namespace bch::detail {
 
-/// Which way round a triangle or a piece of one goes, seen from above; 0: it is seen edge-on, or nearly.
+/// The way round which a triangle or a piece of one goes, seen from above; 0: it is seen edge-on, or nearly.
 constexpr std::uint8_t counter_clockwise = 1, clockwise = 2;
 
-/// How horizontal planes cut the triangles of a pose into slabs: slab j lies below plane j and above the one before.
+/// Cuts the triangles of a pose into slabs by horizontal planes: slab j lies below plane j and above the one before.
 ///
 /// A plane lies half a float step above the number that names it. So no vertex lies in it, and a point that two meshes
 /// share lies in the same slab of both: inside it, or in the plane and then on cut edges of both. No case is degenerate.

@@ -8,8 +8,8 @@
 
 #include "layout/outline/grid_geometry.hpp"
 
-/// What the outline's walk asks of an instruction set: plain pointers, because nothing of the standard library
-/// may be compiled for wide registers.
+/// Declares what the outline's walk asks of an instruction set: plain pointers, because nothing of the
+/// standard library may be compiled for wide registers.
 namespace bch::detail {
 
 struct Segment {

@@ -23,7 +23,8 @@ struct GridPlace {
 /// thin, whatever their direction.
 class SegmentTree {
  public:
-  /// The segments must live and stay as they are until the last find(). Neighbours should be near each other.
+  /// Builds the tree over segments, which must stay as they are until the last find(). Neighbours should be
+  /// near each other.
   void assign(std::span<const Segment> segments);
 
   /// Writes the numbers of segments that may come within a step of the way between two places, all that do, in

@@ -44,10 +44,10 @@ struct OutlineTopology {
   std::vector<std::uint32_t> island_vertex;  ///< one vertex of each island
 };
 
-/// Vertices at the same bind position count as the same for the edges (a texture's seam does not separate a
-/// skin), and edges are put in an order that keeps neighbours in the bind pose together. What is built does
-/// not depend on either: a pose may separate such vertices. An empty bind pose means that nothing is known
-/// about it.
+/// Returns the topology of triangles. Vertices at the same bind position count as the same for the edges (a
+/// texture's seam does not separate a skin), and edges are put in an order that keeps neighbours in the bind
+/// pose together. What is built does not depend on either: a pose may separate such vertices. An empty bind
+/// pose means that nothing is known about it.
 /// Errors:  throws std::invalid_argument on no triangles, an index out of range, or a bind pose that has not
 ///          `vertices` positions or one that is not finite where a triangle uses it.
 OutlineTopology outline_topology(std::span<const std::array<std::uint32_t, 3>> triangles,

@@ -43,9 +43,11 @@ struct FlatBody {
 /// here. One thread may use it at a time.
 class ShapeFlattener {
  public:
+  /// Takes the plan of the set.
   /// Errors:  throws std::invalid_argument on a bad plan.
   explicit ShapeFlattener(const ShapeSetPlan& plan);
 
+  /// Writes a shape as flat arrays.
   /// Errors:  throws std::invalid_argument as ShapeSet does, naming the shape by `index`.
   void flatten(const Shape& shape, std::size_t index, FlatBody& flat);
 

@@ -138,7 +138,7 @@ struct AnyLanes {
     }
   }
 
-  /// Bits of the lanes that are set.
+  /// Returns the bits of the lanes that are set.
   template <class T>
   static std::uint32_t bits(xsimd::batch_bool<T, Arch> mask) noexcept {
     bool lane[Batch<T>::size];
@@ -213,7 +213,7 @@ struct AnyLanes {
     return load(eight + part * width);
   }
 
-  /// A pair of floats, or of what has their size: their eight bytes.
+  /// Represents a pair of floats, or of what has their size: their eight bytes.
   typedef double Pair __attribute__((may_alias, aligned(4)));
   static double pair(const void* p) noexcept {
     return *static_cast<const Pair*>(p);
@@ -231,7 +231,7 @@ struct AnyLanes {
   }
 };
 
-/// AnyLanes, or those of the instruction set.
+/// Provides AnyLanes, or the lanes of the instruction set.
 template <class Arch, class Own>
 struct Lanes : AnyLanes<Arch, Own> {};
 

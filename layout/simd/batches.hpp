@@ -17,7 +17,7 @@
 
 namespace bch::detail {
 
-/// What every processor of this kind has.
+/// Selects what every processor of this kind has.
 #if BCH_X86
 using BaseArch = xsimd::sse2;
 #elif BCH_NEON

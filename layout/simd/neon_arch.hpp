@@ -14,9 +14,9 @@ class batch;
 
 namespace bch::detail {
 
-/// NEON with the minimum and maximum of other processors: the second where neither is less, as where one is NaN or both
-/// are 0. NEON's instructions give NaN, and tell the zeros apart. Roots and quotients of floats are rounded as IEEE 754 says:
-/// those of xsimd 8.1 are estimates, off in the last bit.
+/// Represents NEON with the minimum and maximum of other processors: the second where neither is less, as where one is NaN or
+/// both are 0. NEON's instructions give NaN, and tell the zeros apart. Roots and quotients of floats are rounded as IEEE 754
+/// says: those of xsimd 8.1 are estimates, off in the last bit.
 struct NeonArch : xsimd::neon64 {};
 
 }  // namespace bch::detail
@@ -32,7 +32,7 @@ struct get_bool_simd_register<T, bch::detail::NeonArch> : detail::neon_bool_simd
 
 namespace kernel {
 
-/// xsimd 8.1 has it of neon64 alone.
+/// Returns a value in all lanes, which xsimd 8.1 has for neon64 alone.
 template <class A, class T>
 inline batch<T, A> broadcast(T value, requires_arch<bch::detail::NeonArch>) noexcept {
   typename batch<T, A>::register_type all;

@@ -18,8 +18,8 @@ class batch_bool;
 
 namespace bch::detail {
 
-/// Registers of 16 bytes for processors that xsimd does not know, as GCC's and Clang's vectors: the compiler makes of them
-/// what the processor has.
+/// Represents registers of 16 bytes for processors that xsimd does not know, as GCC's and Clang's vectors: the compiler
+/// makes of them what the processor has.
 struct PortableArch : xsimd::generic {
   static constexpr bool supported() noexcept { return true; }
   static constexpr bool available() noexcept { return true; }

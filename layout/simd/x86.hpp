@@ -9,8 +9,8 @@
 
 namespace bch::detail {
 
-/// Is the one place that names instructions of x86-64. What they do is said in AnyLanes, and tests/layout/lanes_test.cpp
-/// compares them with that.
+/// Provides the lanes of SSE2. This header alone names instructions of x86-64. AnyLanes says what each operation does,
+/// and tests/layout/lanes_test.cpp compares them with that.
 template <class Own>
 struct Lanes<xsimd::sse2, Own> : AnyLanes<xsimd::sse2, Own> {
   using typename AnyLanes<xsimd::sse2, Own>::Float;
@@ -71,7 +71,7 @@ struct Lanes<xsimd::sse2, Own> : AnyLanes<xsimd::sse2, Own> {
 };
 
 #if XSIMD_WITH_AVX2
-/// Two rows of four fit into one register.
+/// Provides the lanes of AVX2. Two rows of four fit into one register.
 template <class Own>
 struct Lanes<xsimd::avx2, Own> : AnyLanes<xsimd::avx2, Own> {
   using Base = AnyLanes<xsimd::avx2, Own>;
@@ -151,14 +151,15 @@ struct Lanes<xsimd::avx2, Own> : AnyLanes<xsimd::avx2, Own> {
 #endif
 
 #if XSIMD_WITH_AVX512F
-/// Several rows of a block's outer product fit into one register: two of eight, four of four.
+/// Provides the lanes of AVX-512. Several rows of a block's outer product fit into one register: two of
+/// eight, four of four.
 template <class Own>
 struct Lanes<xsimd::avx512f, Own> : AnyLanes<xsimd::avx512f, Own> {
   using Base = AnyLanes<xsimd::avx512f, Own>;
   using typename Base::Double;
   using typename Base::Float;
 
-  /// As that of AVX2.
+  /// Clears the upper halves of the registers at the end, as that of AVX2 does.
   struct Guard {
     ~Guard() { _mm256_zeroupper(); }
   };

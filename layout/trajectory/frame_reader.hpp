@@ -20,6 +20,7 @@ struct Survey;
 /// Reads the rows of a file as frames: as they stand where they are in order, else sorted.
 class FrameReader final : public TrajectoryReader {
  public:
+  /// Takes a source of rows and reads it once.
   /// Errors:  throws TrajectoryError on what is wrong with any row alone, and without a frame rate.
   FrameReader(std::unique_ptr<RowSource> source, const TrajectoryOptions& options);
 

@@ -17,6 +17,7 @@ namespace bch::detail::trajectory {
 /// Represents a file without a name in the folder for temporary files.
 class TemporaryFile {
  public:
+  /// Creates a file without a name in the folder for temporary files.
   /// Errors:  all functions throw TrajectoryError, naming the folder.
   TemporaryFile();
   ~TemporaryFile();
