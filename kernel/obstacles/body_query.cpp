@@ -94,7 +94,8 @@ bool leaf_is_held(const ShapeSetView& shapes, const PartTree<void>& own, std::ui
 
 void BodyQuery::prepare(std::uint32_t begin, std::uint32_t end, double limit, Look look) {
   choose_parts(begin, end, limit, look);
-  queries_.clear(), parts_.clear();
+  queries_.clear(), parts_.clear(), standing_.clear();
+  const bool by_height = near_.obstacles().heights != nullptr && shapes_.heights != nullptr;
   ObstaclePlace place{};
   for (std::size_t i = 0; i < chosen_count_; ++i) {
     const auto [agent, part, looked] = chosen_[i];
@@ -102,8 +103,9 @@ void BodyQuery::prepare(std::uint32_t begin, std::uint32_t end, double limit, Lo
       place = {agents_.x[agent], agents_.y[agent], rotation(agents_.heading[agent])};
     parts_.push_back({shapes_, place, agents_.shape[agent], part, level_of(agent), looked, i});
     queries_.push_back({place, parts_.back().centre(), parts_.back().outer_radius() + looked});
+    if (by_height) standing_.push_back({shapes_.heights[part], agents_.z.empty() ? 0 : agents_.z[agent]});
   }
-  near_.prepare(queries_);
+  near_.prepare(queries_, standing_);
 }
 
 /// The distance of an agent's position tells which parts can be left out: those that have no segment near them, and are too large for an area to hold

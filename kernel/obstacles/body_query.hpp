@@ -123,7 +123,8 @@ class BodyQuery {
   };
   std::vector<Chosen> chosen_;
   std::size_t chosen_count_ = 0;
-  std::vector<NearQuery> queries_;  ///< by part
+  std::vector<NearQuery> queries_;      ///< by part
+  std::vector<StandingPart> standing_;  ///< the same, where obstacles and bodies have heights
   std::vector<PlacedPart> parts_;
   std::vector<std::size_t> first_part_;  ///< by agent, and one past the last
   std::uint32_t begin_ = 0;              ///< the first agent that was prepared

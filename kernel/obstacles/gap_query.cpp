@@ -105,7 +105,8 @@ void GapQuery::find_in(BodyQuery& body, const PlacedPart& part, double enough,
   std::span<const LocalSegment> segments = body.near_part(part);
   for (double seen = part.looked;;) {
     search(part, segments, enough, best, nearest);
-    if (nearest.gap <= seen || (nearest.is_found && nearest.gap <= enough)) return;
+    if (nearest.gap <= seen || (nearest.is_found && nearest.gap <= enough) || body.near().found_all())
+      return;
     seen = nearest.is_found ? nearest.gap : std::min(2 * seen, nearest.gap);
     segments = body.near().find(part.place, part.centre(), outer + seen);
   }

@@ -89,20 +89,22 @@ std::span<const std::uint32_t> NearSegments::query(const BoxTreeView& tree, cons
 std::span<LocalSegment> NearSegments::find(const ObstaclePlace& place, Vec2 centre, double distance,
                                            Vector way) {
   boxes_.assign(1, box_about(place, centre, distance, way));
-  const std::uint32_t size = descend(obstacles_.segment_tree);
+  const std::uint32_t looked = descend(obstacles_.segment_tree), size = keep_level(looked, part_);
   if (memory_.size() <= size) memory_.resize(std::size_t{size} + 1);
   const bool moves = way.x != 0 || way.y != 0;
   std::size_t count = 0;
   for (std::uint32_t k = 0; k < size; ++k)
     count += is_near(place, centre, distance, obstacles_.segments, hits_[k].place, memory_[count]) | moves;
+  found_all_ = looked == obstacles_.segment_count && count == size;
   return sorted(std::span(memory_).first(count));
 }
 
-void NearSegments::prepare(std::span<const NearQuery> queries) {
+void NearSegments::prepare(std::span<const NearQuery> queries, std::span<const StandingPart> parts) {
+  parts_ = parts, part_ = {};
   boxes_.clear();
   for (const NearQuery& query : queries)
     boxes_.push_back(box_about(query.place, query.centre, query.distance, {0, 0}));
-  const std::uint32_t size = descend(obstacles_.segment_tree);
+  const std::uint32_t size = keep_level(descend(obstacles_.segment_tree), parts);
   if (prepared_.size() <= size) prepared_.resize(std::size_t{size} + 1);
   prepared_end_.assign(queries.size() + 1, 0);
   std::uint32_t count = 0;
@@ -117,8 +119,21 @@ void NearSegments::prepare(std::span<const NearQuery> queries) {
 }
 
 std::span<LocalSegment> NearSegments::take(std::size_t query) {
+  if (!parts_.empty()) part_ = parts_.subspan(query, 1);
+  found_all_ = false;
   const std::uint32_t begin = prepared_end_[query];
   return sorted(std::span(prepared_).subspan(begin, prepared_end_[query + 1] - begin));
+}
+
+std::uint32_t NearSegments::keep_level(std::uint32_t size, std::span<const StandingPart> parts) noexcept {
+  if (parts.empty()) return size;
+  std::uint32_t kept = 0;
+  for (std::uint32_t k = 0; k < size; ++k) {
+    const BoxHit hit = hits_[k];
+    hits_[kept] = hit;
+    kept += is_level(obstacles_.segments[hit.place].obstacle, parts[hit.query]);
+  }
+  return kept;
 }
 
 std::span<LocalSegment> NearSegments::sorted(std::span<LocalSegment> segments) {
@@ -131,8 +146,12 @@ std::span<LocalSegment> NearSegments::sorted(std::span<LocalSegment> segments) {
 std::span<const std::uint32_t> NearSegments::areas_about(const ObstaclePlace& place, Vec2 point) {
   const auto [x, y] = place.turned(point.x, point.y);
   const double wide = rounding_of(place);
-  return query(obstacles_.area_tree,
-               {place.x + x - wide, place.y + y - wide, place.x + x + wide, place.y + y + wide}, areas_);
+  query(obstacles_.area_tree,
+        {place.x + x - wide, place.y + y - wide, place.x + x + wide, place.y + y + wide}, areas_);
+  if (!part_.empty())
+    std::erase_if(areas_,
+                  [&](std::uint32_t slot) { return !is_level(obstacles_.areas[slot], part_.front()); });
+  return areas_;
 }
 
 bool NearSegments::holds(std::uint32_t area_slot, const ObstaclePlace& place, Vec2 point) {

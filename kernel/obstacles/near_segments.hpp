@@ -11,6 +11,7 @@
 #include <bch/query.hpp>
 
 #include "kernel/obstacles/obstacle_arguments.hpp"
+#include "kernel/simd/heights_meet.hpp"
 #include "layout/base/heading.hpp"
 
 namespace bch::detail {
@@ -39,6 +40,12 @@ struct NearQuery {
   double distance;
 };
 
+/// Represents the heights of a part of an agent, and the ground that the agent stands on, metres.
+struct StandingPart {
+  Heights heights;
+  double ground;
+};
+
 /// Finds the segments and areas of obstacles that are near a disc, and keeps its memory from one to the next.
 class NearSegments {
  public:
@@ -47,9 +54,10 @@ class NearSegments {
 
   const ObstacleView& obstacles() const noexcept { return obstacles_; }
 
-  /// Finds the segments within each of many discs, for take().
-  void prepare(std::span<const NearQuery> queries);
-  /// Returns what find() finds for one of the queries of prepare().
+  /// Finds the segments within each of many discs, for take(). `parts` has the part that each query is about, where heights count; it must
+  /// outlive the queries. Empty: obstacles of all heights are near.
+  void prepare(std::span<const NearQuery> queries, std::span<const StandingPart> parts);
+  /// Returns what find() finds for one of the queries of prepare(). From here on, obstacles that are above or below its part are left out.
   std::span<LocalSegment> take(std::size_t query);
 
   /// Finds all segments within a distance of a point of the agent's frame, as long as that moves by `way` (in the world); in the order of their
@@ -57,6 +65,8 @@ class NearSegments {
   std::span<LocalSegment> find(const ObstaclePlace& place, Vec2 centre, double distance,
                                ObstaclePlace::Vector way = {0, 0});
   std::span<LocalSegment> found() const noexcept { return found_; }
+  /// Returns whether find() found all segments of the set, but for those above and below: none is farther away.
+  bool found_all() const noexcept { return found_all_; }
 
   /// Calls visit(segments) for every obstacle of those that were found, until it returns true. Returns: whether it did.
   template <class Visit>
@@ -80,6 +90,12 @@ class NearSegments {
   /// Finds those that overlap one box.
   std::span<const std::uint32_t> query(const BoxTreeView& tree, const Box& box,
                                        std::vector<std::uint32_t>& slots);
+  /// Leaves out segments of obstacles that are above or below the query's part. Returns: how many of hits_ are left.
+  std::uint32_t keep_level(std::uint32_t size, std::span<const StandingPart> parts) noexcept;
+  bool is_level(std::uint32_t obstacle, const StandingPart& part) const noexcept {
+    const auto [bottom, top] = obstacles_.heights[obstacle];
+    return heights_meet(bottom, top, part.heights, part.ground);
+  }
   /// Sorts the segments that were found by their numbers.
   std::span<LocalSegment> sorted(std::span<LocalSegment> segments);
 
@@ -91,6 +107,9 @@ class NearSegments {
   std::vector<LocalSegment> memory_, prepared_;  ///< of find() and of prepare()
   std::vector<std::uint32_t> prepared_end_;      ///< where those of the queries before one end
   std::span<LocalSegment> found_;
+  std::span<const StandingPart> parts_;  ///< of prepare()
+  std::span<const StandingPart> part_;   ///< that of the query that was taken; empty: heights do not count
+  bool found_all_ = false;
 };
 
 /// Returns whether the way from one point to another crosses a segment, all in one frame. A vertex on the line of the way belongs to one side of it, for both of

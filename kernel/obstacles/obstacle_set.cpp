@@ -37,6 +37,29 @@ void require_offsets(std::span<const std::uint64_t> offsets, std::size_t values,
              std::to_string(offsets[i - 1]));
 }
 
+/// Returns the heights of an obstacle; those of an empty span are infinite.
+WorldHeights heights_of(const ObstacleArrays& in, std::size_t obstacle) {
+  constexpr double infinite = std::numeric_limits<double>::infinity();
+  return {in.bottom.empty() ? -infinite : in.bottom[obstacle], in.top.empty() ? infinite : in.top[obstacle]};
+}
+
+void require_heights(const ObstacleArrays& in, std::size_t obstacles) {
+  const auto require_as_many = [&](std::span<const double> heights, const char* name) {
+    if (!heights.empty() && heights.size() != obstacles)
+      reject(std::to_string(obstacles) + " obstacles but " + std::to_string(heights.size()) + " values of " +
+             name);
+  };
+  require_as_many(in.bottom, "bottom");
+  require_as_many(in.top, "top");
+  if (in.bottom.empty() && in.top.empty()) return;
+  for (std::size_t i = 0; i < obstacles; ++i) {
+    const auto [bottom, top] = heights_of(in, i);
+    if (!(bottom <= top))
+      reject("obstacle " + std::to_string(i) + ": heights from " + shortest(bottom) + " to " + shortest(top) +
+             " m");
+  }
+}
+
 void require_valid(const ObstacleArrays& in) {
   if (in.x.size() != in.y.size())
     reject(std::to_string(in.x.size()) + " values of x but " + std::to_string(in.y.size()) + " of y");
@@ -47,6 +70,7 @@ void require_valid(const ObstacleArrays& in) {
   if (!in.is_area.empty() && in.is_area.size() != obstacles)
     reject(std::to_string(obstacles) + " obstacles but " + std::to_string(in.is_area.size()) +
            " values of is_area");
+  require_heights(in, obstacles);
   const auto good = [](double length) { return std::abs(length) <= rounding::largest_position; };
   for (std::size_t i = 0; i < in.x.size(); ++i)
     if (!good(in.x[i]) || !good(in.y[i]))
@@ -105,9 +129,10 @@ struct Segments {
 }  // namespace
 
 struct ObstacleSet::State {
-  State(Segments&& segments, std::vector<std::uint8_t>&& areas);
+  State(Segments&& segments, std::vector<std::uint8_t>&& areas, std::vector<WorldHeights>&& heights);
 
   std::vector<std::uint8_t> begins_path, is_area;
+  std::vector<WorldHeights> heights;  ///< by obstacle; empty: all are infinite
   std::vector<std::int16_t> outside;
   std::vector<std::uint32_t> obstacle_of;
   std::vector<std::uint32_t> areas;  ///< in the order of the tree of areas, after it is made
@@ -151,8 +176,10 @@ std::vector<Box> ObstacleSet::State::find_areas(const Segments& segments) {
   return area_boxes;
 }
 
-ObstacleSet::State::State(Segments&& segments, std::vector<std::uint8_t>&& is_area_of)
+ObstacleSet::State::State(Segments&& segments, std::vector<std::uint8_t>&& is_area_of,
+                          std::vector<WorldHeights>&& heights_of_all)
     : is_area(std::move(is_area_of)),
+      heights(std::move(heights_of_all)),
       segment_tree(boxes_of(segments)),
       area_tree(find_areas(segments)),
       ends(in_order(segments, segment_tree)),
@@ -173,6 +200,7 @@ ObstacleSet::State::State(Segments&& segments, std::vector<std::uint8_t>&& is_ar
           .distance_grid = distance_grid.view,
           .segments = ends.data(),
           .is_area = is_area.data(),
+          .heights = heights.empty() ? nullptr : heights.data(),
           .begins_path = begins_path.data(),
           .outside = outside.data(),
           .widest_area = widest,
@@ -201,7 +229,10 @@ ObstacleSet::ObstacleSet(const ObstacleArrays& in) {
                         segments.ends.size() != first_segment);
     }
   }
-  state_ = std::make_unique<State>(std::move(segments), std::move(is_area));
+  std::vector<WorldHeights> heights;
+  if (!in.bottom.empty() || !in.top.empty())
+    for (std::size_t o = 0; o < is_area.size(); ++o) heights.push_back(heights_of(in, o));
+  state_ = std::make_unique<State>(std::move(segments), std::move(is_area), std::move(heights));
 }
 
 ObstacleSet::ObstacleSet(ObstacleSet&&) noexcept = default;

@@ -66,12 +66,18 @@ struct WorldSegment {
   std::uint32_t number, obstacle;
 };
 
+/// Holds the range of heights of an obstacle in the world, metres.
+struct WorldHeights {
+  double bottom, top;
+};
+
 /// Holds all of an ObstacleSet. A slot is a segment's place in the tree, a number that in the caller's arrays.
 struct ObstacleView {
   BoxTreeView segment_tree, area_tree;  ///< of the boxes of segments and of areas
   DistanceGridView distance_grid;       ///< of the segments
   const WorldSegment* segments;         ///< by slot
   const std::uint8_t* is_area;          ///< by obstacle
+  const WorldHeights* heights;          ///< by obstacle; null: all heights
   const std::uint8_t* begins_path;      ///< by number
   const std::int16_t*
       outside;         ///< by number: the side of it that is outside of its area, 1 the left one; 0 of a line

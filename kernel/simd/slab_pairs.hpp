@@ -5,6 +5,7 @@
 
 #include <cstdint>
 
+#include "kernel/simd/heights_meet.hpp"
 #include "layout/format/parts.hpp"
 #include "layout/format/shape_set_view.hpp"
 
@@ -53,14 +54,11 @@ class SlabPairs {
     return rise_ == 0 ? a && b : a || b;
   }
 
-  /// Returns whether the heights of two parts meet, touching included. The slack is for the rounding of the
-  /// sums: heights are within 1e6 m or infinite.
+  /// Returns whether the heights of two parts meet, touching included.
   bool heights_meet(const Parts& parts) const noexcept {
     if (shapes_.heights == nullptr) return true;
-    const Heights a = shapes_.heights[parts.a], b = shapes_.heights[parts.b];
-    const double slack = 1e-9 + 0x1p-50 * __builtin_fabs(rise_);
-    return double{a.bottom} <= double{b.top} + rise_ + slack &&
-           double{b.bottom} + rise_ <= double{a.top} + slack;
+    const Heights& a = shapes_.heights[parts.a];
+    return detail::heights_meet(double{a.bottom}, double{a.top}, shapes_.heights[parts.b], rise_);
   }
 
   const ShapeSetView& shapes_;

@@ -146,6 +146,12 @@ TEST_F(Obstacles, RejectWhatIsWrong) {
   EXPECT_EQ(why({x, y, back}), "obstacles: path offsets: 1 after 2");
   EXPECT_EQ(why({x, y, paths, paths}), "obstacles: obstacle offsets do not lead from 0 to 1 paths");
   EXPECT_EQ(why({x, y, paths, one, two}), "obstacles: 1 obstacles but 2 values of is_area");
+  const std::vector<double> high = {2}, low = {1}, none = {std::nan("")};
+  EXPECT_EQ(why({x, y, paths, {}, {}, x}), "obstacles: 1 obstacles but 2 values of bottom");
+  EXPECT_EQ(why({x, y, paths, {}, {}, {}, x}), "obstacles: 1 obstacles but 2 values of top");
+  EXPECT_EQ(why({x, y, paths, {}, {}, high, low}), "obstacles: obstacle 0: heights from 2 to 1 m");
+  EXPECT_EQ(why({x, y, paths, {}, {}, none}), "obstacles: obstacle 0: heights from nan to inf m");
+  EXPECT_EQ(why({x, y, paths, {}, {}, {}, none}), "obstacles: obstacle 0: heights from -inf to nan m");
   EXPECT_EQ(why({bad, y, paths}), "obstacles: point 1: (nan, 1) m is not within +-1e9");
   EXPECT_EQ(why({x, far, paths}), "obstacles: point 1: (1, 2e+09) m is not within +-1e9");
   const ObstacleSet wall({x, y, paths});

@@ -20,6 +20,7 @@ struct ObstacleScene {
   std::vector<double> x, y;
   std::vector<std::uint64_t> path_offsets{0}, obstacle_offsets{0};
   std::vector<std::uint8_t> is_area;
+  std::vector<double> bottom, top;  ///< by obstacle; empty: infinite
   std::vector<baselines::ReferenceObstacle> reference;
 
   struct Point {
@@ -27,7 +28,7 @@ struct ObstacleScene {
   };
   void add_path(const std::vector<Point>& points, bool is_ring);
   void end_obstacle(bool area);
-  ObstacleSet set() const { return ObstacleSet({x, y, path_offsets, obstacle_offsets, is_area}); }
+  ObstacleSet set() const { return ObstacleSet({x, y, path_offsets, obstacle_offsets, is_area, bottom, top}); }
 
  private:
   baselines::ReferenceObstacle open_;

@@ -22,13 +22,14 @@ namespace bch {
 
 /// Holds obstacles in arrays of the caller: points, paths made of points, and obstacles made of paths, as offsets (CSR). A path of one
 /// point is a post; a path without points is ignored.
-/// Units:   metres in the world; |x|, |y| <= 1e9.
+/// Units:   metres in the world, heights in that of Agents::z; |x|, |y| <= 1e9, heights are numbers or infinite.
 struct ObstacleArrays {
   std::span<const double> x, y;                 ///< the points of all paths
   std::span<const std::uint64_t> path_offsets;  ///< path p has points [p] .. [p + 1]; one more than paths
   std::span<const std::uint64_t> obstacle_offsets =
       {};                                      ///< obstacle o has paths [o] .. [o + 1]; empty: one path each
   std::span<const std::uint8_t> is_area = {};  ///< per obstacle, see ObstacleSet; empty: no areas
+  std::span<const double> bottom = {}, top = {};  ///< per obstacle, heights; empty: infinite
 };
 
 /// Selects the meaning of polygons in a file.
@@ -37,7 +38,8 @@ enum class Polygons {
   walkable,  ///< each polygon is the floor that agents walk on: its rings are walls, as lines
 };
 
-/// Holds obstacles that do not move: walls, pillars, furniture. Each is a set of points of the ground, of infinite height.
+/// Holds obstacles that do not move: walls, pillars, furniture. Each is a set of points of the ground. It may have heights, as barriers,
+/// lintels and the walls of one floor have; else its height is infinite.
 ///
 /// - A line is one or more open polylines.
 /// - An area is one or more rings, which close themselves, and the points that they enclose by the even-odd rule. The first ring is the
@@ -51,8 +53,8 @@ class ObstacleSet {
   /// Copies the obstacles, sorts their segments into a tree of boxes, and fills a grid with the distances to them.
   /// Cost:    2 s for 10^6 segments, and 125 bytes for each. Runs in the caller's TBB arena.
   /// Errors:  throws std::invalid_argument on sizes that differ, on offsets that descend or lead out of their array, and, naming it, on a
-  ///          point that is not finite or beyond the limits; std::length_error beyond 2^31 points, paths
-  ///          and obstacles.
+  ///          point that is not finite or beyond the limits, or on an obstacle whose bottom is not at most its top; std::length_error
+  ///          beyond 2^31 points, paths and obstacles.
   explicit ObstacleSet(const ObstacleArrays& obstacles);
   ObstacleSet(ObstacleSet&&) noexcept;
   ObstacleSet& operator=(ObstacleSet&&) noexcept;
@@ -84,7 +86,12 @@ ObstacleSet obstacles_from_wkt(std::string_view text, Polygons polygons = Polygo
 // traversal, gives the same bits on every processor and for any number of threads, never misses a contact, and answers far from the
 // origin as at it. A disc overlaps an obstacle where its centre is at most its radius away from it; distances are computed in double. A
 // false positive has a gap of at most the sizes of discs, 4 um per metre of an agent's reach, and 1e-14 of the distance to the ends of a
-// segment. A body in slabs meets an obstacle where some part of it does. An agent's height does not matter.
+// segment. A body in slabs meets an obstacle where some part of it does.
+//
+// A slab or a whole body is compared only with obstacles whose heights meet its own, as between agents with a z: touching counts, and
+// heights are widened by their rounding. For such a part there are no other obstacles, neither their segments nor their areas. Its
+// heights are metres above the agent's z, or above 0 if agents have none. Sets keep them with ShapeSetPlan::heights or slices; a body
+// without heights is infinite, and meets obstacles at all heights.
 //
 // Sizes:   one answer per agent.
 // Errors:  throw std::invalid_argument, before anything is written, as validate(shapes, agents) and the query of pairs.
@@ -151,7 +158,8 @@ void time_of_impact(const ShapeSet& shapes, const Agents& agents, const Displace
                     const ObstacleSet& obstacles, std::span<float> times, const QueryOptions& options = {});
 
 /// Finds when each motion first touches an obstacle: the earliest time of an interval at which its solid has a point in common with one,
-/// or infinity if there is none. The time of a body in slabs is the first of any slab.
+/// or infinity if there is none. The time of a body in slabs is the first of any slab. Motions have no z: obstacles count as if their
+/// heights were infinite.
 ///
 /// The time is never later than the first contact. At that time the solid is away from the obstacle by at most the tolerance, 4 um for each
 /// metre of its reach, 1e-14 of the distance to the ends of a segment, and the rounding in double, as between two motions. Times are the

@@ -1,0 +1,301 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <bch/collide.hpp>
+#include <bch/obstacles.hpp>
+
+#include "baselines/obstacle_reference.hpp"
+#include "layout/base/planes.hpp"
+#include "tests/support/obstacle_scenes.hpp"
+#include "tests/support/scenes.hpp"
+#include "tests/support/slab_scenes.hpp"
+
+// Obstacles with heights, against the definition: each part of a body, as a shape of its own without heights, and the obstacles whose
+// heights meet the part's, in a set of their own.
+
+namespace bch {
+namespace {
+
+using baselines::ObstacleReference;
+using test::Crowd;
+using test::ObstacleScene;
+using test::Random;
+
+constexpr double unlimited = std::numeric_limits<double>::infinity();
+
+/// Gives obstacles heights about those of agents: some reach the ground or the sky, some are planes at whole multiples of a quarter.
+void raise(Random& random, ObstacleScene& scene) {
+  for (std::size_t i = 0; i < scene.is_area.size(); ++i) {
+    const double bottom = random.below(2) == 0 ? random.uniform(4, 8) : 4 + 0.25 * random.below(16);
+    scene.bottom.push_back(random.below(4) == 0 ? -unlimited : bottom);
+    scene.top.push_back(random.below(4) == 0 ? unlimited : bottom + 0.5 * random.below(3));
+  }
+}
+
+/// The parts of bodies as shapes of their own.
+struct PartShapes {
+  struct Part {
+    std::uint32_t shape;
+    Heights heights;
+  };
+  std::vector<Shape> shapes;
+  std::vector<std::vector<Part>> of_body;
+
+  PartShapes(const std::vector<Shape>& bodies, const ShapeSetPlan& plan) {
+    for (const Shape& body : bodies) {
+      of_body.emplace_back();
+      if (body.slabs.empty()) add(body, body.heights);
+      for (std::size_t slab = 0; slab < body.slabs.size(); ++slab)
+        add(body.slabs[slab], detail::heights_of_slab(body.heights, plan.slices, slab));
+    }
+  }
+
+ private:
+  void add(const Shape& part, Heights heights) {
+    if (part.hierarchy.nodes.empty()) return;
+    of_body.back().push_back({static_cast<std::uint32_t>(shapes.size()), heights});
+    shapes.push_back({part.outline, part.hierarchy});
+  }
+};
+
+/// Obstacles of a scene that are level with a part, without heights.
+struct LevelObstacles {
+  LevelObstacles(const ObstacleScene& scene, const std::vector<bool>& kept) {
+    std::uint32_t number = 0;
+    std::vector<std::uint64_t> obstacle_offsets{0}, path_offsets{0};
+    std::vector<std::uint8_t> is_area;
+    std::vector<double> x, y;
+    for (std::size_t o = 0; o < scene.is_area.size(); ++o) {
+      const std::size_t segments = scene.reference[o].segments.size();
+      for (std::size_t k = 0; k < segments; ++k, ++number)
+        if (kept[o]) numbers.push_back(number);
+      if (!kept[o]) continue;
+      obstacles.push_back(static_cast<std::uint32_t>(o)), reference.push_back(scene.reference[o]);
+      for (std::size_t p = scene.obstacle_offsets[o]; p < scene.obstacle_offsets[o + 1]; ++p) {
+        for (std::size_t i = scene.path_offsets[p]; i < scene.path_offsets[p + 1]; ++i)
+          x.push_back(scene.x[i]), y.push_back(scene.y[i]);
+        path_offsets.push_back(x.size());
+      }
+      obstacle_offsets.push_back(path_offsets.size() - 1), is_area.push_back(scene.is_area[o]);
+    }
+    set = std::make_unique<ObstacleSet>(ObstacleArrays{x, y, path_offsets, obstacle_offsets, is_area});
+  }
+
+  std::unique_ptr<ObstacleSet> set;
+  std::vector<std::uint32_t> numbers, obstacles;  ///< in the whole scene, of its segments and obstacles
+  std::vector<baselines::ReferenceObstacle> reference;
+};
+
+/// What all queries say of an agent.
+struct AllAnswers {
+  std::uint8_t hit, near;
+  float distance, deepest, time;
+  DiscPair discs;
+  Penetration way_out;
+};
+
+/// What an agent is asked: how near is near, and its way, the same in x and y.
+struct Question {
+  QueryOptions options;
+  std::vector<double> distances, way;
+};
+
+std::vector<AllAnswers> ask(const ShapeSet& set, const Agents& agents, const ObstacleSet& obstacles,
+                            const Question& question) {
+  const std::size_t n = agents.size();
+  std::vector<std::uint8_t> hits(n), near(n);
+  std::vector<float> distance(n), deepest(n), time(n);
+  std::vector<DiscPair> discs(n);
+  std::vector<Penetration> ways(n);
+  QueryOptions options = question.options;
+  collide(set, agents, obstacles, hits, options);
+  within(set, agents, obstacles, question.distances, near, options);
+  clearance(set, agents, obstacles, {.distance = distance}, options);
+  options.overlap = Overlap::deepest;
+  clearance(set, agents, obstacles, {.distance = deepest, .discs = discs}, options);
+  penetration(set, agents, obstacles, ways, options);
+  time_of_impact(set, agents, {question.way, question.way}, obstacles, time, options);
+  std::vector<AllAnswers> all;
+  for (std::size_t i = 0; i < n; ++i)
+    all.push_back({hits[i], near[i], distance[i], deepest[i], time[i], discs[i], ways[i]});
+  return all;
+}
+
+/// The parameter lists the slices; none makes whole bodies.
+class ObstaclesWithHeights : public testing::TestWithParam<std::vector<float>> {
+ protected:
+  /// Joins what the parts of an agent say of the obstacles level with them. `touched`: those that it collides with.
+  AllAnswers joined(const Crowd& crowd, std::uint32_t agent, const ObstacleScene& scene,
+                    const Question& question, std::vector<std::uint32_t>& touched) {
+    AllAnswers all{0, 0, never, never, never, {}, {}};
+    std::uint32_t discs_before = 0;
+    for (const PartShapes::Part& part : parts.of_body[crowd.shape[agent]]) {
+      const LevelObstacles level = level_with(scene, part.heights, crowd.z[agent]);
+      Crowd one;
+      one.add({part.shape, crowd.x[agent], crowd.y[agent], crowd.heading[agent], crowd.level[agent]});
+      const AllAnswers of = of_part(
+          one.agents(), level,
+          {question.options, {question.distances[agent]}, std::vector<double>(1, question.way[agent])});
+      const CrowdCollisions rows = collider.collide_all(apart, one.agents(), *level.set, question.options);
+      for (const std::uint32_t obstacle : rows.obstacles[0]) touched.push_back(level.obstacles[obstacle]);
+      if (of.deepest < all.deepest)
+        all.discs = {discs_before + of.discs.first, level.numbers[of.discs.second]};
+      all.hit |= of.hit, all.near |= of.near;
+      all.distance = std::min(all.distance, of.distance), all.deepest = std::min(all.deepest, of.deepest);
+      all.time = std::min(all.time, of.time);
+      if (of.way_out.depth > all.way_out.depth) all.way_out = of.way_out;
+      discs_before += static_cast<std::uint32_t>(apart.discs(part.shape, crowd.level[agent]).size());
+    }
+    std::sort(touched.begin(), touched.end());
+    touched.erase(std::unique(touched.begin(), touched.end()), touched.end());
+    return all;
+  }
+
+  bool is_sliced() const { return !GetParam().empty(); }
+
+  static constexpr float never = std::numeric_limits<float>::infinity();
+  Random random{3011};
+  ShapeSetPlan plan = plan_of(GetParam());
+  std::vector<Shape> bodies = test::bodies(random, plan);
+  ShapeSet set{bodies, plan};
+
+ private:
+  static ShapeSetPlan plan_of(const std::vector<float>& slices) {
+    ShapeSetPlan plan = test::levels_of(slices);
+    plan.heights = true;
+    return plan;
+  }
+
+  AllAnswers of_part(const Agents& part, const LevelObstacles& level, const Question& question) {
+    AllAnswers of = ask(apart, part, *level.set, question).front();
+    const auto is_hit = [&](const auto& obstacle) { return reference.collides(part, 0, obstacle); };
+    const bool crosses = std::any_of(level.reference.begin(), level.reference.end(), is_hit);
+    // Bodies in slabs are solid, also where time is concerned.
+    if (is_sliced() && of.hit != 0 && !crosses) of.time = 0;
+    EXPECT_TRUE(of.hit == crosses || (is_sliced() && of.hit != 0));
+    return of;
+  }
+
+  /// In long double, with the slack of the definition.
+  static LevelObstacles level_with(const ObstacleScene& scene, Heights part, double z) {
+    std::vector<bool> kept;
+    const long double slack = 1e-9L + std::abs(z) * 0x1p-50L;
+    for (std::size_t o = 0; o < scene.is_area.size(); ++o)
+      kept.push_back(scene.bottom[o] <= static_cast<long double>(part.top) + z + slack &&
+                     static_cast<long double>(part.bottom) + z <= scene.top[o] + slack);
+    return {scene, kept};
+  }
+
+  PartShapes parts{bodies, plan};
+  ShapeSet apart{parts.shapes, {.depths = plan.depths}};
+  ObstacleReference reference{parts.shapes, {.depths = plan.depths}, Leaves::segments};
+  CrowdCollider collider;
+};
+
+TEST_P(ObstaclesWithHeights, AreAsPartsSayOfThoseLevelWithThem) {
+  constexpr std::uint32_t agents = 100;
+  std::size_t hits = 0, passed = 0;
+  for (std::uint32_t k = 0; k < test::samples(24); ++k) {
+    ObstacleScene scene = test::obstacle_scene(random, 12, 3);
+    const ObstacleSet endless = scene.set();
+    raise(random, scene);
+    const ObstacleSet obstacles = scene.set();
+    Crowd crowd = test::crowd_about(random, set, agents, 3);
+    Question question;
+    question.options.semantics = is_sliced() ? Semantics::solid : Semantics::boundary;
+    question.options.distance_leaves = k % 2 == 0 ? Leaves::discs : Leaves::segments;
+    for (std::uint32_t i = 0; i < agents; ++i) {
+      crowd.z.push_back(random.below(3) == 0 ? 5 : random.uniform(3, 8));
+      question.distances.push_back(random.below(8) == 0 ? 0 : random.uniform(0, 1));
+      question.way.push_back(random.uniform(-1, 1));
+    }
+    const std::vector<AllAnswers> found = ask(set, crowd.agents(), obstacles, question),
+                                  of_all = ask(set, crowd.agents(), endless, question);
+    CrowdCollider whole;
+    const CrowdCollisions rows = whole.collide_all(set, crowd.agents(), obstacles, question.options);
+    for (std::uint32_t i = 0; i < agents; ++i) {
+      std::vector<std::uint32_t> touched;
+      const AllAnswers expected = joined(crowd, i, scene, question, touched);
+      ASSERT_EQ(found[i].hit, expected.hit) << k << ", agent " << i;
+      ASSERT_EQ(found[i].near, expected.near) << k << ", agent " << i;
+      ASSERT_EQ(found[i].distance, expected.distance) << k << ", agent " << i;
+      ASSERT_EQ(found[i].deepest, expected.deepest) << k << ", agent " << i;
+      if (expected.deepest < never) {
+        ASSERT_EQ(found[i].discs, expected.discs) << k << ", agent " << i;
+      }
+      ASSERT_EQ(found[i].time, expected.time) << k << ", agent " << i;
+      ASSERT_EQ(found[i].way_out, expected.way_out) << k << ", agent " << i;
+      ASSERT_EQ(std::vector<std::uint32_t>(rows.obstacles[i].begin(), rows.obstacles[i].end()), touched);
+      hits += expected.hit;
+      passed += of_all[i].hit != 0 && expected.hit == 0;
+    }
+  }
+  EXPECT_GT(hits, test::samples(150));
+  EXPECT_GT(passed, test::samples(150));
+}
+
+INSTANTIATE_TEST_SUITE_P(Slices, ObstaclesWithHeights,
+                         testing::Values(std::vector<float>{}, test::three_slabs, test::eight_slabs),
+                         [](const auto& slices) { return "planes_" + std::to_string(slices.param.size()); });
+
+/// A box of a metre and a half beside a wall, on the ground and above it.
+class BoxAtAWall : public testing::Test {
+ protected:
+  static ShapeSet box(bool heights) {
+    Shape shape = test::synthetic_shapes(3012, 1).front();
+    shape.heights = {0, 1.5f};
+    return ShapeSet(std::vector<Shape>{shape}, {.heights = heights});
+  }
+
+  /// Asks for a collision with an area from `bottom` to `top` that holds the agent.
+  static bool hits(const ShapeSet& set, const std::vector<double>& z, double bottom, double top) {
+    const std::vector<double> x = {-50, 50, 50, -50}, y = {-50, -50, 50, 50};
+    const std::vector<std::uint64_t> paths = {0, 4};
+    const std::vector<std::uint8_t> area = {1};
+    const std::vector<double> bottoms = {bottom}, tops = {top};
+    const ObstacleSet obstacles({x, y, paths, {}, area, bottoms, tops});
+    Crowd crowd;
+    crowd.add({0, 1, 2, 0.5, 0});
+    crowd.z = z;
+    std::uint8_t hit = 0;
+    collide(set, crowd.agents(), obstacles, {&hit, 1});
+    float time = 0;
+    const std::vector<double> still = {0};
+    time_of_impact(set, crowd.agents(), {still, still}, obstacles, {&time, 1});
+    EXPECT_EQ(time == 0, hit != 0);
+    return hit != 0;
+  }
+};
+
+TEST_F(BoxAtAWall, MeetsWhatTouchesItsHeights) {
+  const ShapeSet set = box(true);
+  EXPECT_TRUE(hits(set, {}, 1.5, 3));
+  EXPECT_FALSE(hits(set, {}, 1.5 + 1e-8, 3));
+  EXPECT_TRUE(hits(set, {10}, 11.5, 13));
+  EXPECT_FALSE(hits(set, {10}, 11.5 + 1e-8, 13));
+  EXPECT_TRUE(hits(set, {10}, 2, 10));
+  EXPECT_FALSE(hits(set, {10}, 2, 10 - 1e-8));
+  EXPECT_FALSE(hits(set, {500}, -unlimited, 3));
+  EXPECT_TRUE(hits(set, {500}, 3, unlimited));
+  EXPECT_TRUE(hits(set, {500}, -unlimited, unlimited));
+  // As between agents, what is rounded far above counts as touching.
+  EXPECT_TRUE(hits(set, {1e9}, 1e9 + 1.5 + 5e-7, unlimited));
+  EXPECT_FALSE(hits(set, {1e9}, 1e9 + 1.5 + 2e-6, unlimited));
+}
+
+TEST_F(BoxAtAWall, WithoutHeightsMeetsWallsOfAllHeights) {
+  EXPECT_TRUE(hits(box(false), {}, 500, 501));
+}
+
+}  // namespace
+}  // namespace bch
