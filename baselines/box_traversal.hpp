@@ -10,7 +10,7 @@
 
 namespace bch::baselines {
 
-/// Represents a tree of boxes or rectangles, as a traversal walks it.
+/// Represents a tree of boxes or rectangles, as a traversal sees it.
 template <class Node>
 struct BoxHierarchy {
   const Node* nodes;

@@ -33,7 +33,7 @@ class OverlapTraversal {
         exact_leaves_(arguments.exact_leaves),
         segments_(shapes, open_) {}
 
-  /// Adds a pair: `pair` is where its answer goes in codes, `miss` what it is unless a walk finds an overlap.
+  /// Adds a pair: `pair` is where its answer goes in codes, `miss` what it is unless a traversal finds an overlap.
   /// `reach`: of the two shapes together. `margin`: of their segments, 0 where discs decide. `gaps` are looked at where
   /// KnowsGaps.
   void add(std::size_t pair, std::uint8_t miss, const Transform& b_in_a, std::uint32_t root_a,
@@ -64,7 +64,7 @@ class OverlapTraversal {
 
   struct NoGaps {};
 
-  /// Represents a pair being walked, with the two nodes to test next.
+  /// Represents a pair whose trees are being traversed, with the two nodes to test next.
   struct Open {
     Transform b_in_a;
     std::uint32_t a, b;

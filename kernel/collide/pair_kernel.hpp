@@ -24,7 +24,7 @@ namespace bch::detail {
 ///
 /// Pairs are answered in chunks, stage by stage, and each stage leaves fewer of them open: place B in A's
 /// frame; decide by profiles along the line of the centres, and tell which of the rest will probably collide;
-/// separate the others by their supports; accept pairs whose inscribed discs overlap; walk the trees of what
+/// separate the others by their supports; accept pairs whose inscribed discs overlap; traverse the trees of what
 /// is left.
 template <class Simd>
 class PairKernel {
@@ -36,9 +36,9 @@ class PairKernel {
       kernel.at_.place(arguments, begin, end);
       if constexpr (KnowsGaps<Simd>) kernel.at_.set_all_gaps(arguments, begin);
       kernel.answer_chunk(begin);
-      kernel.walk_.run(open_walks - chunk_size);
+      kernel.traversal_.run(open_traversals - chunk_size);
     }
-    kernel.walk_.run(0);
+    kernel.traversal_.run(0);
   }
 
   /// Answers `count` pairs, at most a chunk, unless they may be invalid; see Kernels.
@@ -46,7 +46,7 @@ class PairKernel {
     PairKernel kernel(arguments);
     if (!kernel.at_.place_if_valid(arguments, count)) return false;
     kernel.answer_chunk(0);
-    kernel.walk_.run(0);
+    kernel.traversal_.run(0);
     return true;
   }
 
@@ -56,22 +56,22 @@ class PairKernel {
         miss_(arguments.solid ? may_contain : apart),
         axis_test_(shapes_, at_),
         profiles_(shapes_, at_, arguments.prefetch_shapes),
-        walk_(shapes_, arguments) {}
+        traversal_(shapes_, arguments) {}
 
   /// Returns the pairs that answer_placed() is about.
   Placements<Simd>& placements() noexcept { return at_; }
   /// Answers pairs that somebody else placed. Codes from `begin` on are written by the end of finish().
   void answer_placed(std::size_t begin) noexcept {
     answer_chunk(begin);
-    walk_.run(open_walks - chunk_size);
+    traversal_.run(open_traversals - chunk_size);
   }
-  void finish() noexcept { walk_.run(0); }
+  void finish() noexcept { traversal_.run(0); }
 
  private:
   using Float = typename Simd::Float;
   /// The most traversals that are open at once: those of a chunk, and as many unfinished pairs besides as fit
   /// on the stack.
-  static constexpr std::uint32_t open_walks = chunk_size + chunk_size * 7 / 8;
+  static constexpr std::uint32_t open_traversals = chunk_size + chunk_size * 7 / 8;
   using List = ChunkPairs<Simd, chunk_size>;
 
   /// Answers the pairs that were placed.
@@ -91,9 +91,9 @@ class PairKernel {
       take_culling();
     for (std::uint32_t k = 0; k < open_.size; ++k) {
       const std::uint32_t pair = open_.pair[k];
-      walk_.add(begin + pair, miss(pair), at_.transform(pair), at_.root_a[pair], at_.root_b[pair],
-                shapes_.reach[at_.shape_a[pair]] + shapes_.reach[at_.shape_b[pair]], segment_margin(pair),
-                gaps_of(pair));
+      traversal_.add(begin + pair, miss(pair), at_.transform(pair), at_.root_a[pair], at_.root_b[pair],
+                     shapes_.reach[at_.shape_a[pair]] + shapes_.reach[at_.shape_b[pair]],
+                     segment_margin(pair), gaps_of(pair));
     }
   }
 
@@ -152,7 +152,7 @@ class PairKernel {
       open_.add_if(open_bits_[k / Simd::width] >> k % Simd::width & 1, k);
   }
 
-  /// Leaves the pairs open that only a walk can decide. Those that are not separated have the code for it by
+  /// Leaves the pairs open that only a traversal can decide. Those that are not separated have the code for it by
   /// now.
   [[gnu::noinline]] void take_culling() noexcept {
     compare_profiles();
@@ -261,7 +261,7 @@ class PairKernel {
   /// One word for each register of pairs: a bit for each of its pairs.
   std::uint32_t open_bits_[chunk_size / Simd::width], may_nest_[chunk_size / Simd::width];
   List open_, near_, separated_, met_;
-  OverlapTraversal<Simd, open_walks> walk_;
+  OverlapTraversal<Simd, open_traversals> traversal_;
 };
 
 }  // namespace bch::detail

@@ -30,7 +30,7 @@ namespace bch::detail {
 /// own rows count: up to where the next window begins; but the last eight, where windows are moved back, are
 /// taken together at the end. A column counts in the first visited window that shows it.
 ///
-/// Blocks prune as in the pair kernel's walk, and hits of leaves are verified as there.
+/// Blocks prune as in the pair kernel's traversal, and hits of leaves are verified as there.
 template <class Simd>
 class ContactKernel {
  public:

@@ -18,7 +18,7 @@
 namespace bch::detail {
 
 /// Finds the nearest discs of every pair, or with exact leaves the nearest segments. Chunk by chunk: places B in A's frame, bounds the gap by the root discs,
-/// one pair a lane, and walks the trees of the pairs that may be within the limit.
+/// one pair a lane, and traverses the trees of the pairs that may be within the limit.
 template <class Simd>
 class ClearanceKernel {
  public:

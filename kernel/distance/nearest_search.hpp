@@ -25,7 +25,7 @@ class NearestSearch {
  public:
   static constexpr std::uint32_t capacity = 32;
 
-  explicit NearestSearch(const float* nodes) noexcept : walk_(nodes) {}
+  explicit NearestSearch(const float* nodes) noexcept : traversal_(nodes) {}
 
   std::uint32_t size() const noexcept { return size_; }
   const Measure& measure(std::uint32_t pair) const noexcept { return pairs_[pair].measure; }
@@ -53,7 +53,7 @@ class NearestSearch {
  private:
   using Float = typename Simd::Float;
   using Frame = NodePairBounds;
-  static constexpr std::uint32_t most_kept = 2;  ///< frames of a descent; deeper ones are walked at once
+  static constexpr std::uint32_t most_kept = 2;  ///< frames of a descent; deeper ones are traversed at once
   static constexpr std::uint32_t list_capacity = 1024;
 
   /// Holds two agents.
@@ -85,10 +85,10 @@ class NearestSearch {
         if ((step.a & step.b) >= leaf_window) {
           meet(step);
         } else if (depth == most_kept) {
-          walk_.run(pair.at, step.a, step.b, pair.stride_a, pair.stride_b, pair.measure);
+          traversal_.run(pair.at, step.a, step.b, pair.stride_a, pair.stride_b, pair.measure);
         } else {
-          walk_.bound(pair.at, step.a, step.b, pair.stride_a, pair.stride_b, pair.measure,
-                      frames_[step.pair][depth]);
+          traversal_.bound(pair.at, step.a, step.b, pair.stride_a, pair.stride_b, pair.measure,
+                           frames_[step.pair][depth]);
           pair.frames = depth + 1;
           steps_[left++] = step;
         }
@@ -97,8 +97,8 @@ class NearestSearch {
       for (std::uint32_t k = 0; k < left; ++k) {
         const std::uint32_t pair = steps_[k].pair;
         steps_[open].pair = pair;
-        open += walk_.take_least(frames_[pair][depth], pairs_[pair].measure.best(), steps_[open].a,
-                                 steps_[open].b);
+        open += traversal_.take_least(frames_[pair][depth], pairs_[pair].measure.best(), steps_[open].a,
+                                      steps_[open].b);
       }
     }
   }
@@ -116,13 +116,14 @@ class NearestSearch {
     if (step.b >= leaf_window) bits = fold(bits, 1) & first_column_of_pairs;
     for (; bits != 0; bits &= bits - 1) {
       const auto k = static_cast<unsigned>(__builtin_ctzll(bits));
-      const Step child{step.pair, walk_.child(step.a, k / block_width), walk_.child(step.b, k % block_width)};
+      const Step child{step.pair, traversal_.child(step.a, k / block_width),
+                       traversal_.child(step.b, k % block_width)};
       if ((child.a & child.b) >= leaf_window)
         take_window(child);
       else if (inner_.size < list_capacity)
         inner_.step[inner_.size++] = child;
       else
-        walk(child);
+        traverse(child);
     }
   }
 
@@ -149,8 +150,8 @@ class NearestSearch {
   [[gnu::always_inline]] std::uint64_t improving(const Step& step) const noexcept {
     const Searched& pair = pairs_[step.pair];
     std::uint64_t bits = 0;
-    visit_disc_pairs<Simd>(pair.at, walk_.outer_discs(step.a, pair.stride_a),
-                           walk_.outer_discs(step.b, pair.stride_b),
+    visit_disc_pairs<Simd>(pair.at, traversal_.outer_discs(step.a, pair.stride_a),
+                           traversal_.outer_discs(step.b, pair.stride_b),
                            [&](unsigned k, Float x, Float y, Float r) {
                              bits |= std::uint64_t{Simd::bits(pair.measure.may_improve(x, y, r))} << k;
                            });
@@ -159,12 +160,12 @@ class NearestSearch {
 
   void meet(const Step& step) noexcept {
     Searched& pair = pairs_[step.pair];
-    walk_.meet(pair.at, step.a, step.b, pair.stride_a, pair.stride_b, pair.measure);
+    traversal_.meet(pair.at, step.a, step.b, pair.stride_a, pair.stride_b, pair.measure);
   }
 
-  void walk(const Step& step) noexcept {
+  void traverse(const Step& step) noexcept {
     Searched& pair = pairs_[step.pair];
-    walk_.run(pair.at, step.a, step.b, pair.stride_a, pair.stride_b, pair.measure);
+    traversal_.run(pair.at, step.a, step.b, pair.stride_a, pair.stride_b, pair.measure);
   }
 
   std::uint32_t size_ = 0;
@@ -172,7 +173,7 @@ class NearestSearch {
   Searched pairs_[capacity];
   Frame frames_[capacity][most_kept];
   List inner_;
-  BestFirstTraversal<Simd, Measure> walk_;
+  BestFirstTraversal<Simd, Measure> traversal_;
 };
 
 }  // namespace bch::detail

@@ -8,7 +8,7 @@
 
 #include "kernel/distance/time_of_impact_arguments.hpp"
 #include "kernel/distance/time_of_impact_measure.hpp"
-#include "kernel/distance/time_of_impact_walk.hpp"
+#include "kernel/distance/time_of_impact_traversal.hpp"
 #include "kernel/simd/chunk_pairs.hpp"
 #include "kernel/simd/placements.hpp"
 #include "kernel/simd/separating_axis_test.hpp"
@@ -25,7 +25,7 @@ class TimeOfImpactKernel {
     static_assert(sizeof(TimeOfImpactKernel) <= 256 * 1024, "what query.hpp promises, and room for calls");
     TimeOfImpactKernel kernel(arguments);
     for (; begin < end; begin += chunk_size) kernel.answer_chunk(begin, end);
-    kernel.walk_.run(0);
+    kernel.traversal_.run(0);
   }
 
  private:
@@ -35,7 +35,7 @@ class TimeOfImpactKernel {
       : arguments_(arguments),
         shapes_(*arguments.in.shapes),
         axis_test_(shapes_, at_),
-        walk_(shapes_.nodes, arguments.time) {}
+        traversal_(shapes_.nodes, arguments.time) {}
 
   void answer_chunk(std::size_t begin, std::size_t end) noexcept {
     at_.place(arguments_.in, begin, end);
@@ -54,8 +54,8 @@ class TimeOfImpactKernel {
     if (shapes_.support != nullptr && open_.size != 0) part_by_supports();
     for (std::uint32_t k = 0; k < open_.size; ++k) {
       const std::uint32_t pair = open_.pair[k];
-      walk_.add(begin + pair, at_.transform(pair), shapes_.trees[at_.root_a[pair]],
-                shapes_.trees[at_.root_b[pair]], Measure(x_[pair], y_[pair], farthest(pair)));
+      traversal_.add(begin + pair, at_.transform(pair), shapes_.trees[at_.root_a[pair]],
+                     shapes_.trees[at_.root_b[pair]], Measure(x_[pair], y_[pair], farthest(pair)));
     }
   }
 
@@ -119,7 +119,7 @@ class TimeOfImpactKernel {
   SeparatingAxisTest<Simd> axis_test_;
   std::uint32_t row_a_[chunk_size], row_b_[chunk_size];  ///< of the supports, where they are not in order
   ChunkPairs<Simd, chunk_size> open_;
-  TimeOfImpactWalk<Simd> walk_;
+  TimeOfImpactTraversal<Simd> traversal_;
 };
 
 }  // namespace bch::detail

@@ -72,14 +72,14 @@ class SeparatingAxisTest {
 
   /// Returns whether a line across one of A's even directions, or of its odd ones, separates the pair.
   std::uint32_t apart(std::uint32_t pair, unsigned odd) const noexcept {
-    std::uint32_t parted = 0;
+    std::uint32_t separated = 0;
     Float gap(0.0f);
     if constexpr (KnowsGaps<Simd>) gap = Float(at_.bound_gap[pair]);
     look_along(pair, odd, [&](unsigned, Float distance, Float reach) {
       if constexpr (KnowsGaps<Simd>) reach = reach + gap;
-      parted |= Simd::bits(reach < distance);
+      separated |= Simd::bits(reach < distance);
     });
-    return parted != 0;
+    return separated != 0;
   }
 
   /// Prefetches what apart() will read.
@@ -95,12 +95,12 @@ class SeparatingAxisTest {
   /// Returns whether a line separates the pair all the while that A moves by (x, y), with `slack` to spare.
   std::uint32_t apart_on_the_way(std::uint32_t pair, unsigned odd, float x, float y,
                                  float slack) const noexcept {
-    std::uint32_t parted = 0;
+    std::uint32_t separated = 0;
     look_along(pair, odd, [&](unsigned k, Float distance, Float reach) {
       const Float way = xsimd::max(along(x, y, odd, k), Float(0.0f));
-      parted |= Simd::bits(reach < distance - way - Float(slack));
+      separated |= Simd::bits(reach < distance - way - Float(slack));
     });
-    return parted != 0;
+    return separated != 0;
   }
 
   /// Returns whether each shape's largest contour has a point beyond the other's supports, so neither lies

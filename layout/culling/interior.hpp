@@ -44,7 +44,7 @@ struct Interior {
 /// discs that overlap. Discs exchanged until none fits other such pairs better reach 97 % and 98 %. Without
 /// dilation it is 84 % and 91 %; from 0.075 to 0.15 of the width flat within 0.3 %. 4 discs decide 79 % and
 /// 86 %, 12 decide 98 % and 99 %, 16 decide 99 % and 99.5 %; more than 8 take further tests of 8 x 8 on every
-/// open pair, which cost more than the walks that they save (0.7 ns a pair for a percent).
+/// open pair, which cost more than the traversals that they save (0.7 ns a pair for a percent).
 class InteriorBuilder {
  public:
   /// Uses the best loops that this processor supports.

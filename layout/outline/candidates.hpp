@@ -9,10 +9,10 @@
 #include <span>
 #include <vector>
 
-#include "layout/outline/box_tree.hpp"
 #include "layout/outline/grid_geometry.hpp"
 #include "layout/outline/implementation.hpp"
 #include "layout/outline/plane_cuts.hpp"
+#include "layout/outline/segment_boxes.hpp"
 #include "layout/outline/topology.hpp"
 
 namespace bch::detail {
@@ -39,14 +39,14 @@ class CandidateList {
   std::span<std::uint32_t> islands() { return {islands_.data(), count_}; }  ///< of each segment
   std::uint32_t island(std::size_t segment) const { return islands_[segment]; }
   std::span<const GridPoint> island_points() const { return island_points_; }
-  const BoxTree& boxes() const { return boxes_; }
+  const SegmentBoxes& boxes() const { return boxes_; }
 
  private:
   std::vector<Segment> segments_;  ///< and room for a block more, as in the next
   std::vector<std::uint32_t> islands_;
   std::vector<GridPoint> island_points_;
   std::size_t count_ = 0;
-  BoxTree boxes_;
+  SegmentBoxes boxes_;
 };
 
 /// Holds the edges of a pose that may be part of its outline. A point inside an edge with triangles on both sides is

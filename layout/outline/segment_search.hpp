@@ -32,7 +32,7 @@ constexpr std::size_t triangles_together = 8;
 /// At most so many groups are searched together: the bits of their boxes fit a word.
 constexpr std::size_t groups_in_a_word = 4;
 
-/// Holds two levels of boxes (BoxTree), the candidates that they are around, and room for what is found.
+/// Holds two levels of boxes (SegmentBoxes), the candidates that they are around, and room for what is found.
 struct SegmentSearch {
   const BoxBlock* blocks;  ///< around segments
   const BoxBlock* groups;  ///< around blocks; empty ones follow up to a multiple of groups_in_a_word

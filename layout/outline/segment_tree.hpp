@@ -18,7 +18,7 @@ struct GridPlace {
   double x, y;
 };
 
-/// Represents a binary tree over segments, for so many of them that BoxTree's two levels would be slow. A node has a box and a
+/// Represents a binary tree over segments, for so many of them that SegmentBoxes's two levels would be slow. A node has a box and a
 /// slab around its segments, the latter along its longest segment: parallel segments close to each other are long and
 /// thin, whatever their direction.
 class SegmentTree {

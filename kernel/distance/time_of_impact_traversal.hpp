@@ -21,14 +21,14 @@ namespace bch::detail {
 /// where that leads, the children below it or, of two windows, a time; and back to an earlier pair of nodes
 /// where nothing is left to find. Hardly any branch depends on an answer.
 template <class Simd>
-class TimeOfImpactWalk {
+class TimeOfImpactTraversal {
  public:
   using Measure = TimeOfImpactMeasure<Simd>;
   static constexpr std::uint32_t capacity = 32;
 
-  TimeOfImpactWalk(const float* nodes, float* times) noexcept : nodes_(nodes), times_(times) {}
+  TimeOfImpactTraversal(const float* nodes, float* times) noexcept : nodes_(nodes), times_(times) {}
 
-  /// Adds a pair whose time goes to times[pair]. Where there is no room, walks until there is.
+  /// Adds a pair whose time goes to times[pair]. Where there is no room, runs rounds until there is.
   void add(std::size_t pair, const Transform& b_in_a, const Tree& a, const Tree& b,
            const Measure& measure) noexcept {
     // Few at a time, so that rounds stay long.

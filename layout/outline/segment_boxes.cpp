@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include "layout/outline/box_tree.hpp"
+#include "layout/outline/segment_boxes.hpp"
 
 #include <algorithm>
 #include <limits>
@@ -53,13 +53,13 @@ std::size_t divided(std::size_t count, std::size_t by) {
 
 }  // namespace
 
-void BoxTree::reserve(std::size_t segments) {
+void SegmentBoxes::reserve(std::size_t segments) {
   const std::size_t blocks = divided(segments, boxes_per_block);
   blocks_.reserve(blocks);
   groups_.reserve(divided(blocks, boxes_per_block) + groups_in_a_word);
 }
 
-void BoxTree::assign(const Segment* segments, std::size_t count) {
+void SegmentBoxes::assign(const Segment* segments, std::size_t count) {
   const std::size_t blocks = divided(count, boxes_per_block);
   blocks_.resize(blocks);
   for (std::size_t b = 0; b < blocks; ++b) set(blocks_[b], segments + boxes_per_block * b);
@@ -70,7 +70,7 @@ void BoxTree::assign(const Segment* segments, std::size_t count) {
   clear_from(blocks, groups_);
 }
 
-GridPoint BoxTree::first_end(const Segment* segments) const {
+GridPoint SegmentBoxes::first_end(const Segment* segments) const {
   std::int16_t column = highest;
   for (const BoxBlock& group : groups_) column = std::min(column, around(group).min_x);
   GridPoint first{std::numeric_limits<std::int32_t>::max(), 0};
@@ -83,7 +83,7 @@ GridPoint BoxTree::first_end(const Segment* segments) const {
   return first;
 }
 
-void BoxTree::describe(SegmentSearch& search) const {
+void SegmentBoxes::describe(SegmentSearch& search) const {
   search.blocks = blocks_.data();
   search.groups = groups_.data();
   search.group_count = divided(blocks_.size(), boxes_per_block);

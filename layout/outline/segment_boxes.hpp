@@ -12,7 +12,7 @@ namespace bch::detail {
 
 /// Holds the boxes around segments, 16 to a block, and around blocks, 16 to a group. The order of the segments
 /// makes the blocks: neighbours should be near each other.
-class BoxTree {
+class SegmentBoxes {
  public:
   /// Reserves room for that many segments, so that assign() allocates nothing.
   void reserve(std::size_t segments);
