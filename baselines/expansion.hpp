@@ -69,7 +69,8 @@ class Expansion {
     return {high, x - high};
   }
 
-  /// Six products of three differences: 6 x 2 x (2 x (2 x 2 x 2)), and one while adding.
+  /// The most doubles of a sum: those of six products of three differences, 6 x 2 x (2 x (2 x 2 x 2)), and
+  /// one while adding.
   static constexpr int capacity = 193;
   int count_ = 0;
   double terms_[capacity];

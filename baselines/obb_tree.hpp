@@ -62,7 +62,7 @@ ObbTree build_obb_tree(std::vector<Facet> facets);
 std::vector<Facet> triangle_facets(std::span<const Vec3> positions,
                                    std::span<const std::array<std::uint32_t, 3>> triangles);
 
-/// Half-extents are enlarged by this times the shape's reach; derived in obb_overlap.hpp.
+/// The margin of half-extents, times the shape's reach; derived in obb_overlap.hpp.
 constexpr double box_margin = 0x1p-17;
 
 }  // namespace bch::baselines

@@ -61,7 +61,8 @@ struct CheckedPerson {
   bool in_wall;
 };
 
-/// Recordings of more rows than that are checked with coarser poses, so that these are still few beside the rows.
+/// The number of rows from which on a recording is checked with coarser poses, so that these are still few beside
+/// the rows.
 constexpr std::uint64_t coarse_from = 300'000;
 
 /// Describes a frame that was checked.

@@ -50,7 +50,7 @@ struct WalkerPose {
 /// memory, all are dropped, and those that are needed again are built again.
 class WalkerShapes {
  public:
-  /// Kept from one call of find() to the next: some 23 000 shapes of whole bodies.
+  /// The most bytes that are kept from one call of find() to the next: some 23 000 shapes of whole bodies.
   static constexpr std::size_t most_bytes = std::size_t{256} << 20;
 
   /// Takes the plan and the cast. `baked`: the shapes of a cast that is baked, which live as long as this, or nullptr.

@@ -59,7 +59,8 @@ class OverlapTraversal {
   /// Tests that nodes are asked for ahead, with `prefetch`.
   static constexpr std::uint32_t tests_ahead = 6;
   static constexpr std::uint32_t verified_together = 32;
-  /// Every test descends on one side at least, and neither side has more levels than this.
+  /// The most frames of a pair: every test descends on one side at least, and no tree has more than
+  /// most_wide_levels levels.
   static constexpr std::uint32_t most_frames = 2 * most_wide_levels;
 
   struct NoGaps {};

@@ -105,7 +105,8 @@ class BestFirstTraversal {
 
  private:
   using Float = typename Simd::Float;
-  /// Every step descends on one side at least, and neither side has more levels than this.
+  /// The most frames of a pair: every step descends on one side at least, and no tree has more than
+  /// most_wide_levels levels.
   static constexpr std::uint32_t most_frames = 2 * most_wide_levels;
 
   void take(NodePairBounds& frame, unsigned k, std::uint32_t& a, std::uint32_t& b) const noexcept {

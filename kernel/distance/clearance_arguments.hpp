@@ -9,7 +9,7 @@
 
 namespace bch::detail {
 
-/// Beyond every length, squared length and time that a kernel computes of valid agents.
+/// A number beyond every length, squared length and time that a kernel computes of valid agents.
 constexpr float far_beyond = 0x1p66f;
 
 constexpr float largest_limit = 1e10f;  ///< beyond the distance of any two agents

@@ -59,7 +59,8 @@ class TimeOfImpactTraversal {
   using Double = typename Simd::Double;
   using Nodes = TreeNodes<Simd>;
   using Slots = ChunkPairs<Simd, capacity>;
-  /// Every step descends on one side at least, and neither side has more levels than this.
+  /// The most frames of a pair: every step descends on one side at least, and no tree has more than
+  /// most_wide_levels levels.
   static constexpr std::uint32_t most_frames = 2 * most_wide_levels;
 
   /// Holds two nodes and the bounds of their pairs of discs, far_beyond where they were followed.

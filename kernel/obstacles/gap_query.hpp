@@ -48,7 +48,7 @@ class GapQuery {
                        Inside inside) const;
 
  private:
-  /// No gap is larger.
+  /// The largest gap that there can be, metres.
   static constexpr double farthest = 8 * rounding::largest_position;
 
   void find_in(BodyQuery& body, const PlacedPart& part, double enough, NearestObstacle& nearest) const;

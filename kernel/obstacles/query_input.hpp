@@ -20,7 +20,8 @@ constexpr std::size_t agents_per_task = 256;
 /// Returns what collide() means with these options. Errors: throws std::invalid_argument as collide().
 BodyQuery::Meaning meaning_of(const ShapeSet& shapes, const QueryOptions& options);
 
-/// Agents that are prepared together: enough to hide the latency of the tree of boxes, few enough for a near cache.
+/// The number of agents that are prepared together: enough to hide the latency of the tree of boxes, few enough for
+/// a near cache.
 constexpr std::size_t agents_together = 64;
 
 /// Calls answer(agent) for agents begin .. end, for which a body's query is prepared; those without parts have no obstacle within a limit, metres.

@@ -14,8 +14,8 @@
 
 namespace bch::detail {
 
-/// Pairs a task of a query: enough to hide its cost, few enough to balance two pairs of cores over a small
-/// crowd.
+/// The number of pairs in a task of a query: enough to hide its cost, few enough to balance two pairs of
+/// cores over a small crowd.
 constexpr std::size_t pairs_per_task = 2048;
 
 /// Returns the implementation that the options name, or the best one.

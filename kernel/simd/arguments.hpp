@@ -13,7 +13,7 @@ namespace bch::detail {
 
 struct ShapeSetView;
 
-/// Pairs that a kernel takes through its stages together.
+/// The number of pairs that a kernel takes through its stages together.
 constexpr std::uint32_t chunk_size = 256;
 
 /// Holds what a pair kernel reads and writes: plain pointers only, because every inline function that an ISA's

@@ -177,7 +177,7 @@ class SeparatingAxisTest {
   /// Cosines of D, 2 D, ...
   static constexpr float c1 = 0.98078528f, c2 = 0.92387953f, c3 = 0.83146961f, c4 = 0.70710678f,
                          c5 = 0.55557023f, c6 = 0.38268343f, c7 = 0.19509032f;
-  /// Even directions, odd directions.
+  /// The unit vectors of the even directions, then of the odd ones.
   alignas(64) static constexpr float direction_x[2][support_directions / 2] = {
       {1, c2, c4, c6, 0, -c6, -c4, -c2, -1, -c2, -c4, -c6, 0, c6, c4, c2},
       {c1, c3, c5, c7, -c7, -c5, -c3, -c1, -c1, -c3, -c5, -c7, c7, c5, c3, c1}};

@@ -33,7 +33,7 @@ namespace heading_constants {
 
 constexpr double two_over_pi = 0.63661977236758134308;
 constexpr double half_pi[] = {0x1.921fb4p+0, 0x1.4442dp-24, 0x1.846988p-48, 0x1.8cc51701b839ap-72};
-/// Adding and subtracting this rounds to the nearest integer.
+/// A number that rounds to the nearest integer what it is added to and then subtracted from.
 constexpr double round_to_integer = 0x1.8p52;
 constexpr double sine[] = {-1.0 / 39916800, 1.0 / 362880, -1.0 / 5040, 1.0 / 120, -1.0 / 6};
 constexpr double cosine[] = {-1.0 / 3628800, 1.0 / 40320, -1.0 / 720, 1.0 / 24, -1.0 / 2};

@@ -204,19 +204,20 @@ static_assert(support_error >= support_place + 2 * 2 * support_weight + support_
 
 }  // namespace terms
 
-/// Added to every published radius, times the shape's reach: (1'), halving, higher orders.
+/// The margin that is added to every published radius, times the shape's reach: (1'), halving, higher orders.
 constexpr double query_margin = 25.5 * unit_roundoff;
 static_assert(query_margin >= (terms::contact_error + terms::halving + terms::higher) * unit_roundoff);
 
-/// Added to every support, times the shape's reach.
+/// The margin that is added to every support, times the shape's reach.
 constexpr double support_margin = 320 * unit_roundoff;
 static_assert(support_margin >=
               (terms::support_error + terms::query_error + terms::support_float) * unit_roundoff);
 
-/// How near two segments are that meet: this times the sum of the shapes' reaches, beside the grid steps of both.
+/// The distance within which two segments meet: this times the sum of the shapes' reaches, beside the grid steps
+/// of both.
 constexpr double segment_margin = 13 * unit_roundoff;
 static_assert(segment_margin >= (terms::segment_place + terms::higher) * unit_roundoff);
-/// What of the margin all ends have to be beyond the other's line, so that a crossing is sure.
+/// The share of the margin by which all ends have to be beyond the other's line, so that a crossing is sure.
 constexpr double sure_share = 0.7;
 static_assert(terms::root_2 * sure_share < 1);
 static_assert(sure_share * segment_margin >= (terms::segment_place + terms::higher) * unit_roundoff);
@@ -225,7 +226,8 @@ static_assert(sure_share * segment_margin >= (terms::segment_place + terms::high
 constexpr double held_room = 47 * unit_roundoff;
 static_assert(held_room >= 2 * (terms::query_error + 8 * terms::higher) * unit_roundoff);
 
-/// Snapping moves a vertex by sqrt(1/2) grid steps, and rounding a crossing to the grid by as much again.
+/// The grid steps by which an outline is off: snapping moves a vertex by sqrt(1/2) of one, and rounding a
+/// crossing to the grid by as much again.
 constexpr double outline_grid_steps = 1.5;
 static_assert(outline_grid_steps >= 2 * (terms::root_2 / 2));
 

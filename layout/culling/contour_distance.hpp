@@ -14,7 +14,8 @@ namespace bch::detail {
 /// Represents a contour's distances from points, and its winding numbers about them.
 struct ContourDepths {
   alignas(64) std::array<double, most_touches> distance;
-  /// How often the contour goes round the point, counter-clockwise: 1 inside. Without meaning on the contour.
+  /// The number of times that the contour goes round the point, counter-clockwise: 1 inside. It has no
+  /// meaning on the contour.
   alignas(64) std::array<double, most_touches> winding;
 };
 

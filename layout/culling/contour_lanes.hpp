@@ -62,7 +62,7 @@ class ContourLanes {
   /// Elements that fill up whole registers, also for the ends of segments.
   static constexpr std::size_t padding = Batch::size;
   using Array = std::array<double, most + 1 + padding>;
-  /// Added to what is divided by, which may be 0 where what is divided is.
+  /// A number that is added to divisors, which may be 0 where the dividend is.
   static constexpr double not_zero = 1e-200;
 
   static Batch load(const Array& of, std::size_t i) noexcept { return Simd::load(&of[i]); }

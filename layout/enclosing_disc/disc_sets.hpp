@@ -40,7 +40,7 @@ struct DiscSets {
   SolvedDisc* discs;
 };
 
-/// The widest registers' lanes.
+/// The number of lanes of the widest registers.
 constexpr std::size_t disc_set_lanes = 4;
 
 }  // namespace bch::detail

@@ -9,9 +9,9 @@
 
 namespace bch::detail {
 
-/// Discs of a block.
+/// The number of discs of a block.
 constexpr std::uint32_t block_width = 8;
-/// Longest way, in blocks, from a root block to a leaf; what kernels size their stacks by.
+/// The longest way, in blocks, from a root block to a leaf. Kernels size their stacks by it.
 constexpr std::uint32_t most_wide_levels = 10;
 
 /// Directions of supports, and the floats that a set's supports take; see supports.hpp.

@@ -13,7 +13,7 @@
 
 namespace bch::detail::importing {
 
-/// Bytes of the largest file that is opened.
+/// The bytes of the largest file that is opened.
 constexpr std::uintmax_t largest_file = std::uintmax_t{1} << 30;
 
 /// Lets assimp read the given file and those that lie beside it, in the same folder: a buffer, a clip of the

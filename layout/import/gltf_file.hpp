@@ -21,8 +21,8 @@ namespace bch::detail::importing {
 
 constexpr std::size_t largest_index = 0xfffffffe;
 constexpr std::size_t largest_offset = largest_file;
-/// Numbers that all accessors of a file may hold together. Accessors may share bytes or have none, so that the size of
-/// the file does not bound them.
+/// The most numbers that all accessors of a file may hold together. Accessors may share bytes or have none, so that
+/// the size of the file does not bound them.
 constexpr std::size_t most_values = std::size_t{1} << 28;
 
 /// Returns whether a file is glTF, judged by its beginning or its extension.

@@ -20,7 +20,8 @@ struct GltfReader {
   std::vector<aiNode*> nodes;      ///< likewise; null for those that are not of the scene
 };
 
-/// Longest name of a node or mesh: assimp's strings have an end, and what is added to a name must be before it.
+/// The longest name of a node or mesh: assimp's strings have an end, and what is added to a name must be before
+/// it.
 constexpr std::size_t longest_name = 900;
 
 /// Returns the numbers of an array of that length.

@@ -22,7 +22,8 @@
 
 namespace bch::detail::importing {
 
-/// Numbers beyond this are taken for damage: their squares leave float's range soon after.
+/// The largest number that is not taken for damage: the squares of larger ones leave float's range soon
+/// after.
 constexpr float largest_number = 1e15f;
 
 /// Returns a text whose control characters are replaced by blanks, so that a message stays one line whatever a file contains.

@@ -43,9 +43,10 @@ class ContourIndex {
   }
 
  private:
-  /// A node's children are at twice its number and the next one.
+  /// The number of the root. A node's children are at twice its number and the next one.
   static constexpr std::size_t root = 1;
-  /// A tree has fewer levels than a number has bits, and waits for one node of each, and for both of the last.
+  /// The most nodes that wait: one of each level and both of the last. A tree has fewer levels than a number
+  /// has bits.
   static constexpr std::size_t most_open = 65;
 
   struct Place {

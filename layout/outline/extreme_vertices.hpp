@@ -40,7 +40,7 @@ class ExtremeVertices {
 
   std::vector<std::uint32_t> used_;
   std::vector<GridPoint> grid_;  ///< up to whole blocks filled with the last vertex
-  /// Squares of the vertices' distances, in steps of the grid.
+  /// The squares of the vertices' distances, in steps of the grid.
   std::vector<float> from_origin_, from_middle_;
   std::vector<Vec2> points_;
   double step_ = 0;

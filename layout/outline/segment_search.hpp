@@ -29,7 +29,7 @@ struct alignas(64) BoxBlock {
 /// Lists of triangles are filled up to a multiple of that.
 constexpr std::size_t triangles_together = 8;
 
-/// At most so many groups are searched together: the bits of their boxes fit a word.
+/// The most groups that are searched together: the bits of their boxes fit a word.
 constexpr std::size_t groups_in_a_word = 4;
 
 /// Holds two levels of boxes (SegmentBoxes), the candidates that they are around, and room for what is found.

@@ -11,8 +11,9 @@
 
 namespace bch::detail {
 
-/// Table over the sets of four bits: the numbers of the bits that are set, 16 bits each from the lowest, and
-/// how many there are. (It is not a member, because members of a template would be data that objects share.)
+/// A table over the sets of four bits: the numbers of the bits that are set, 16 bits each from the lowest,
+/// and how many there are. (It is not a member, because members of a template would be data that objects
+/// share.)
 constexpr std::uint64_t numbers_of_set[] = {
     0x0, 0x0,      0x1,      0x1'0000,      0x2,      0x2'0000,      0x2'0001,      0x2'0001'0000,
     0x3, 0x3'0000, 0x3'0001, 0x3'0001'0000, 0x3'0002, 0x3'0002'0000, 0x3'0002'0001, 0x3'0002'0001'0000};
