@@ -189,8 +189,10 @@ void ClipAnimator::add_chunks(float from, float to, std::vector<AnimatedChunk>& 
   chunks.push_back(std::move(chunk));
 }
 
-/// Returns whether every vertex is at the clip's end where it was at its beginning, to a 1000th of the spacing.
+/// Returns whether every vertex is at the clip's end where it was at its beginning, to a 1000th of the spacing. A clip that is shorter than
+/// any chunk is no loop.
 bool ClipAnimator::loops() {
+  if (end_ < shortest_chunk) return false;
   pose(0, now_);
   pose(end_, later_);
   for (std::size_t v = 0; v < now_.size(); ++v)

@@ -13,6 +13,7 @@
 #include "layout/base/shortest.hpp"
 #include "layout/hierarchy/builder.hpp"
 #include "layout/hierarchy/disc_box.hpp"
+#include "layout/shape_set/animated_tree.hpp"
 
 namespace bch::detail {
 namespace {
@@ -135,6 +136,14 @@ void require_slabs(const AnimatedDiscs& discs) {
   if (std::none_of(discs.slabs.begin(), discs.slabs.end(), has_discs)) reject("all slabs are empty");
 }
 
+/// Rejects loops of next to no time.
+void require_length_of_loop(const AnimatedDiscs& discs) {
+  const std::vector<AnimatedChunk>& chunks = discs.slabs.empty() ? discs.chunks : discs.slabs[0].chunks;
+  const double length = chunks.back().times.back() - chunks.front().times.front();
+  if (discs.loops && length < shortest_loop)
+    reject("a loop of " + shortest(length) + " s, which is shorter than 0.001 s");
+}
+
 /// Rejects discs that reach too little or too far, where there are some.
 void require_reach_of(const AnimatedDiscs& discs) {
   double reach = 0;
@@ -158,6 +167,7 @@ void validate(const AnimatedDiscs& discs) {
     require_chunks(discs, "", false);
   else
     require_slabs(discs);
+  require_length_of_loop(discs);
   require_reach_of(discs);
   for (const AnimatedDiscs& slab : discs.slabs) require_reach_of(slab);
 }

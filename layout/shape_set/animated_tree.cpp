@@ -257,9 +257,8 @@ void take_outline(const AnimatedTreeChunk& chunk, const KeyPlace& at, Outline& o
 }
 
 double time_in_clip(const AnimatedTree& tree, double seconds) noexcept {
-  const double begin = tree.begin(), length = tree.end() - begin;
   if (!tree.loops) return seconds;
-  return seconds - std::floor((seconds - begin) / length) * length;
+  return seconds - std::floor((seconds - tree.begin()) / tree.length()) * tree.length();
 }
 
 }  // namespace bch::detail

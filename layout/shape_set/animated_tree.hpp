@@ -16,6 +16,10 @@ namespace bch::detail {
 
 constexpr std::uint32_t animated_width = 8;  ///< the most children of a node
 
+/// The time that a loop takes at least, seconds. Sums of times of up to 1e6 s are off by less than a millionth of it, so that rounds follow
+/// each other also then.
+constexpr double shortest_loop = 0.001;
+
 /// Added to the radii of leaves at a time, and to those of nodes, times the reach: nodes have room to spare about the leaves below, also for
 /// what rounding both moves. That is at most 8 u of nodes that are rounded once, and, of those that are made of two others, three roundings
 /// each of up to 12 nodes between a leaf and the root.
@@ -92,6 +96,7 @@ struct AnimatedTree {
 
   double begin() const noexcept { return chunks.front().times.front(); }
   double end() const noexcept { return chunks.back().times.back(); }
+  double length() const noexcept { return end() - begin(); }
 };
 
 /// Returns the place of a time of a clip from its beginning to its end, clamped to these.

@@ -178,6 +178,8 @@ TEST(Animate, KnowsLoops) {
   EXPECT_TRUE(animate(body, 0).loops);
   body.clips[0].seconds = 0.75f;
   EXPECT_FALSE(animate(body, 0).loops);
+  body.clips[0].seconds = 1e-7f;  // at whose end it is where it was
+  EXPECT_NO_THROW(validate(animate(body, 0)));
 }
 
 TEST(Animate, FollowsItsOptions) {

@@ -289,5 +289,26 @@ TEST(AnimatedShape, RefusesWhatDoesNotMove) {
   EXPECT_NE(changed([](auto& c) { c[0].keys[0].radius = 2e6f; }), "accepted");
 }
 
+TEST(AnimatedShape, RefusesLoopsOfNextToNoTime) {
+  const auto said = [](double begin, double end, bool loops, bool cut = false) {
+    AnimatedDiscs discs = test::still_disc(0.25f);
+    discs.chunks[0].times = {begin, end};
+    if (cut) {
+      discs.slices = {1};
+      discs.slabs = {test::still_disc(0.25f), test::still_disc(0.25f)};
+      for (AnimatedDiscs& slab : discs.slabs) slab.chunks[0].times = {begin, end};
+      discs.chunks.clear();
+    }
+    discs.loops = loops;
+    return test::complaint([&] { validate(discs); });
+  };
+  EXPECT_EQ(said(0, 1e-12, true), "animated shape: a loop of 1e-12 s, which is shorter than 0.001 s");
+  EXPECT_EQ(said(0, 1e-12, true, true), "animated shape: a loop of 1e-12 s, which is shorter than 0.001 s");
+  EXPECT_EQ(said(0, 1e-300, false), "accepted");
+  EXPECT_EQ(said(0, 0.001, true), "accepted");
+  EXPECT_EQ(said(0, 0.001, true, true), "accepted");
+  EXPECT_NE(said(-1e6, -1e6 + 0.0005, true), "accepted");
+}
+
 }  // namespace
 }  // namespace bch

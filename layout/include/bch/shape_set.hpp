@@ -75,7 +75,7 @@ struct AnimatedChunk {
 /// cut has its discs in its slabs instead.
 struct AnimatedDiscs {
   std::vector<AnimatedChunk> chunks;  ///< from the clip's beginning to its end
-  bool loops = false;                 ///< whether the clip's last pose is its first one
+  bool loops = false;                 ///< whether the clip's last pose is its first one; a loop takes 1 ms or more
   std::vector<float> slices = {};     ///< planes that cut the body, as in ShapeSetPlan; none: it is whole
   /// Holds the slabs of a body that is cut: one more than planes, with only chunks, from and to the same times. A slab without discs for a
   /// time has a chunk of no discs.
@@ -89,9 +89,9 @@ struct AnimatedDiscs {
 ///          on fewer than two keys, on times that are not finite, not within +-1e6 s, do not ascend or leave a gap; on no discs or
 ///          more than 4096, or another number of them than in the keys; naming the disc and key, on one that is not finite or of a
 ///          radius below 0, or that does not overlap the next one of its ring; on rings that do not ascend or end before or after
-///          the last disc, and on a reach outside 1e-6 to 1e6 m. Of a body that is cut, naming the slab too; on slices that
-///          validate(ShapeSetPlan) rejects, on another number of slabs, on chunks beside them, on slabs of slabs or that begin or
-///          end at different times, and where no slab has discs.
+///          the last disc, on a loop of less than 1 ms, and on a reach outside 1e-6 to 1e6 m. Of a body that is cut, naming the slab
+///          too; on slices that validate(ShapeSetPlan) rejects, on another number of slabs, on chunks beside them, on slabs of slabs
+///          or that begin or end at different times, and where no slab has discs.
 void validate(const AnimatedDiscs& discs);
 
 /// Represents a body that moves by itself, seen from above: a clip of a character, or other moving discs. Its solid at a time is its
