@@ -216,13 +216,13 @@ std::vector<AnimatedChunk> ClipAnimator::chunks() {
 AnimatedDiscs ClipAnimator::run() {
   AnimatedDiscs result;
   result.loops = loops();
+  slab_triangles_.look(0, end_);
+  result.heights = slab_triangles_.heights();
   if (options_.slices.empty()) {
     result.chunks = chunks();
     return result;
   }
   result.slices = options_.slices;
-  slab_triangles_.look(0, end_);
-  result.heights = slab_triangles_.heights();
   for (std::size_t i = 0; i <= options_.slices.size(); ++i) {
     slab_ = heights_of_slab({}, options_.slices, i);
     result.slabs.emplace_back().chunks = chunks();

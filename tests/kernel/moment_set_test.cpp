@@ -19,6 +19,7 @@
 #include <bch/contacts.hpp>
 #include <bch/obstacles.hpp>
 #include <bch/penetration.hpp>
+#include <bch/pose_shape.hpp>
 #include <bch/time_of_impact.hpp>
 #include <bch/verify.hpp>
 
@@ -26,6 +27,7 @@
 #include "tests/support/complaint.hpp"
 #include "tests/support/moving_bodies.hpp"
 #include "tests/support/scenes.hpp"
+#include "tests/support/test_characters.hpp"
 
 // Agents who show bodies that move by themselves, each at a time of its own.
 
@@ -262,6 +264,26 @@ TEST_F(Moments, LoopsAreTheSameInEachRound) {
   const auto x_of = [&](std::uint32_t which) { return moments.set().discs(which, 0).front().x; };
   EXPECT_EQ(x_of(shape[0]), 0.25f);
   EXPECT_EQ(x_of(shape[3]), 0.0f);
+}
+
+/// A character's clip has heights, as its poses do.
+TEST_F(Moments, OnOtherFloorsDoNotMeet) {
+  Character man = test::default_characters()[0];
+  man.clips.resize(1);
+  man.clips[0].seconds = 0.1f;
+  const AnimatedShape whole(animate(man, 0));
+  const AnimatedShape* const only[] = {&whole};
+  MomentSet moments(only, {.heights = true});
+  const std::vector<std::uint32_t> body = {0, 0};
+  const std::vector<double> seconds = {0.05, 0.07}, x = {0, 0.1}, y = {0, 0}, heading = {0, 0};
+  std::vector<std::uint32_t> shape(2);
+  moments.show(body, seconds, shape);
+  for (const double floor : {0.0, 1.0, 3.0, -3.0}) {
+    const std::vector<double> z = {0, floor};
+    std::uint8_t hit = 7;
+    collide(moments.set(), Agents{shape, x, y, heading, {}, z}, std::vector<Pair>{{0, 1}}, {&hit, 1});
+    EXPECT_EQ(hit, std::abs(floor) < 2) << floor;
+  }
 }
 
 /// With culling data and outlines, or leaves alone, which are made another way.

@@ -158,6 +158,21 @@ TEST(AnimateSlabs, KnowHowHighABodyComes) {
   }
 }
 
+/// Also of a body that is whole, and over the top of an arm's way.
+TEST(AnimateSlabs, HaveTheHeightsOfTheWholeClip) {
+  const Character body = swinging_bar(1, 3);
+  const Heights whole = animate(body, 0).heights;
+  detail::Skinner skinner(body);
+  float low = 1e9f, high = -1e9f;
+  for (float share = 0; share <= 1; share += 1.0f / 1024)
+    for (const Vec3& p : skinner.pose({0, share})) low = std::min(low, p.z), high = std::max(high, p.z);
+  EXPECT_LE(whole.bottom, low);
+  EXPECT_GE(whole.top, high);
+  EXPECT_GT(whole.bottom, low - 0.01f);
+  EXPECT_LT(whole.top, high + 0.01f);
+  EXPECT_EQ(animate(body, 0, {.slices = {0.4f}}).heights, whole);
+}
+
 TEST(AnimateSlabs, RefusePlanesThatDoNotAscend) {
   AnimateOptions options;
   options.slices = {1, 0.5f};
