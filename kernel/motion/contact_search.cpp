@@ -26,8 +26,8 @@ struct RelativeWay {
   /// Returns between which times, of 0 to 1, the distance is at most a radius; never, where there is none.
   std::pair<double, double> times_within(double radius) const noexcept {
     const double a = way_x * way_x + way_y * way_y, b = x * way_x + y * way_y,
-                 c = x * x + y * y - radius * radius;
-    const double square = b * b - a * c;
+                 c = x * x + y * y - radius * radius, across = x * way_y - y * way_x;
+    const double square = a * radius * radius - across * across;  // b^2 - a c, exact enough on long ways, too
     if (c > 0 && (b >= 0 || square < 0)) return {never, never};
     if (!(a > 0)) return {0, 1};
     const double root = std::sqrt(std::max(square, 0.0));
@@ -42,11 +42,11 @@ double ContactSearch::first(const MotionFacts& a, const MotionFacts& b, double f
   a_ = &body_a, b_ = &body_b;
   looked_inside_ = 0;
   const double reaches = a.tree->reach + b.tree->reach;
-  slack_ = time_rounding * (a.speed + b.speed) + position_rounding * (a.farthest + b.farthest) +
-           root_rounding * reaches;
+  const double slack_of_places = position_rounding * (a.farthest + b.farthest) + root_rounding * reaches;
   for (double time = from; time <= to;) {
     const double end = std::min(a_->path_end(time), b_->path_end(time));
     const double until = std::isfinite(end) ? end : to + 1;
+    slack_ = slack_of_places + (a_->time_slack(time) + b_->time_slack(time));
     const RelativeWay way(a_->pose(time), b_->pose(time), a_->pose(until), b_->pose(until));
     const auto [enter, leave] = way.times_within(reaches + slack_);
     if (enter <= 1) {
@@ -58,7 +58,8 @@ double ContactSearch::first(const MotionFacts& a, const MotionFacts& b, double f
     } else {
       // Farther apart, and that for as long as both take at their greatest speed.
       const double gap = way.distance() - reaches - slack_, speed = a.path_speed + b.path_speed;
-      time = std::max(end, gap > 0 && speed > 0 ? time + gap / speed * (1 - root_rounding) : end);
+      const bool waits = gap > 0 && speed > 0;
+      time = std::max(end, waits ? std::nextafter(time + gap / speed * (1 - root_rounding), time) : end);
     }
   }
   return never;

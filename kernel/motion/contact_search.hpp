@@ -22,8 +22,12 @@ namespace bch::detail {
 ///
 /// Never late: discs are enlarged by what their ways may bend, and by `slack_`, which holds what double rounds:
 ///
-///     (time)      2^-27 s at the greatest speed of any disc: a time of the motion becomes one of the clip and a share of an interval by
-///                 fewer than 16 roundings of at most 4e6 s
+///     (time)      2^-48 of the times at the greatest speed of any disc between two keys of the path: a time of the motion becomes one
+///                 of the clip and shares of intervals, and these a time, by fewer than 32 roundings. No number there is larger than
+///                 the largest time between the keys, twice that at which the clip begins and three times the clip's own ones:
+///                 a round is moved by (begin of the clip) - (own begin) + n (length), where n (length) is no more than a
+///                 length beyond the time since the clip began. Keys of the path are exact, so that no speed counts beyond them, and
+///                 no more than the way between them; nor does a disc move by more than twice the reach
 ///     (position)  2^-48 of the coordinates: blends of two keys, and their difference
 ///     (turn)      4e-10 of the reaches: rotation()
 ///     (root)      2^-20 of the reaches, which is more than all but (time) and (position), and than sums along a line: a

@@ -9,25 +9,46 @@
 #include "kernel/motion/path.hpp"
 
 namespace bch::detail {
+namespace {
+
+/// Returns the share of the time between two others that has gone by; none where these are the same, as rounding may make them.
+double share_between(double from, double to, double time) noexcept {
+  return from < to ? std::clamp((time - from) / (to - from), 0.0, 1.0) : 0;
+}
+
+}  // namespace
 
 MotionFacts::MotionFacts(const Motion& motion, const AnimatedShape& body)
     : tree(&body.tree()), path(motion.path), clip_begin(motion.clip_begin) {
-  double turning = 0;
   for (std::size_t k = 0; k < path.size(); ++k) {
     farthest = std::max({farthest, std::abs(path[k].x), std::abs(path[k].y)});
     if (k == 0) continue;
     const PathKey &from = path[k - 1], &to = path[k];
     const double x = to.x - from.x, y = to.y - from.y, seconds = to.time - from.time;
     path_speed = std::max(path_speed, std::sqrt(x * x + y * y) / seconds);
-    turning = std::max(turning, std::abs(to.heading - from.heading) / seconds);
   }
-  speed = path_speed + tree->speed + turning * tree->reach;
 }
 
 double MovingBody::path_end(double time) noexcept {
   const auto& path = facts_->path;
   while (next_on_path_ < path.size() && path[next_on_path_].time <= time) ++next_on_path_;
   return next_on_path_ < path.size() ? path[next_on_path_].time : std::numeric_limits<double>::infinity();
+}
+
+double MovingBody::time_slack(double time) const noexcept {
+  constexpr double largest_time = 1e6 + 1;
+  const auto& path = facts_->path;
+  const bool is_before = next_on_path_ == 0, goes = !is_before && next_on_path_ < path.size();
+  const double end = is_before || goes ? path[next_on_path_].time : largest_time,
+               latest = std::max(std::abs(goes ? path[next_on_path_ - 1].time : time), std::abs(end)),
+               of_clip = std::max(std::abs(tree().begin()), std::abs(tree().end()));
+  const double rounding = time_rounding * (latest + 2 * std::abs(facts_->clip_begin) + 3 * of_clip),
+               of_discs = std::min(2 * tree().reach, rounding * tree().speed);
+  if (!goes) return of_discs;
+  const PathKey &from = path[next_on_path_ - 1], &to = path[next_on_path_];
+  const double x = to.x - from.x, y = to.y - from.y, turn = std::abs(to.heading - from.heading);
+  const double share = std::min(1.0, rounding / (to.time - from.time));
+  return of_discs + share * (std::sqrt(x * x + y * y) + turn * tree().reach);
 }
 
 PathKey MovingBody::pose(double time) const noexcept {
@@ -43,7 +64,7 @@ double MovingBody::clip_end(double time) noexcept {
   if (clip_end_ > time) return clip_end_;
   if (chunks_begun_ == 0) find_key(time);
   for (int i = 0; i < chunks_before_search && clip_end_ <= time; ++i) {
-    const bool is_over = chunk().times.back() + shift_ <= time && clip_end_ != time_of(0);
+    const bool is_over = !waits_ && chunk().times.back() + shift_ <= time;
     if (is_over) key_ = chunk().times.size() - 2;
     next_key();
   }
@@ -54,26 +75,25 @@ double MovingBody::clip_end(double time) noexcept {
 
 /// Before its beginning and after its end a clip stands still: at the first or last key, in share().
 void MovingBody::find_key(double time) noexcept {
-  const double begin = tree().begin(), length = tree().end() - begin;
-  shift_ = facts_->clip_begin - begin;
-  if (tree().loops) shift_ += std::floor((time - facts_->clip_begin) / length) * length;
+  begin_round(tree().loops ? std::floor((time - facts_->clip_begin) / tree().length()) : 0);
   const KeyPlace place = key_place(tree(), time - shift_);
   chunk_ = place.chunk, key_ = place.key;
   ++chunks_begun_;
   const bool is_over = !tree().loops && time - shift_ >= tree().end();
-  clip_end_ = is_over ? std::numeric_limits<double>::infinity() : time_of(key_ + 1);
-  if (!tree().loops && time - shift_ < begin) clip_end_ = time_of(0);
+  waits_ = !tree().loops && time - shift_ < tree().begin();
+  clip_end_ = is_over ? std::numeric_limits<double>::infinity() : time_of(waits_ ? 0 : key_ + 1);
 }
 
 void MovingBody::next_key() noexcept {
-  if (clip_end_ == time_of(0)) {
-    // A clip that had not begun.
+  if (waits_) {
+    waits_ = false;
   } else if (key_ + 2 < chunk().times.size()) {
     ++key_;
   } else if (chunk_ + 1 < tree().chunks.size()) {
     ++chunk_, key_ = 0, ++chunks_begun_;
   } else if (tree().loops) {
-    shift_ += tree().end() - tree().begin(), chunk_ = 0, key_ = 0, ++chunks_begun_;
+    begin_round(round_ + 1);
+    chunk_ = 0, key_ = 0, ++chunks_begun_;
   } else {
     clip_end_ = std::numeric_limits<double>::infinity();
     return;
@@ -81,19 +101,23 @@ void MovingBody::next_key() noexcept {
   clip_end_ = time_of(key_ + 1);
 }
 
+/// Rounding of one round is not handed on to the next.
+void MovingBody::begin_round(double round) noexcept {
+  round_ = round;
+  shift_ = facts_->clip_begin - tree().begin() + round * tree().length();
+}
+
 double MovingBody::share(double time) const noexcept {
-  const double from = time_of(key_), to = time_of(key_ + 1);
-  return std::clamp((time - from) / (to - from), 0.0, 1.0);
+  return share_between(time_of(key_), time_of(key_ + 1), time);
 }
 
 double MovingBody::hull_end(unsigned level) const noexcept {
-  const bool moves = clip_end_ == time_of(key_ + 1);
+  const bool moves = !waits_ && std::isfinite(clip_end_);
   return moves ? hull(level).end + shift_ : clip_end_;
 }
 
 double MovingBody::hull_share(double time, unsigned level) const noexcept {
-  const double from = hull(level).begin + shift_, to = hull(level).end + shift_;
-  return std::clamp((time - from) / (to - from), 0.0, 1.0);
+  return share_between(hull(level).begin + shift_, hull(level).end + shift_, time);
 }
 
 }  // namespace bch::detail

@@ -13,8 +13,8 @@
 
 namespace bch::detail {
 
-/// What positions are off by, for each metre a second, metre of a coordinate, and metre of the reaches; see ContactSearch.
-constexpr double time_rounding = 0x1p-27, position_rounding = 0x1p-48, root_rounding = 0x1p-20;
+/// What positions are off by, for each metre a second and second, metre of a coordinate, and metre of the reaches; see ContactSearch.
+constexpr double time_rounding = 0x1p-48, position_rounding = 0x1p-48, root_rounding = 0x1p-20;
 
 /// Holds what a search wants to know of a motion beforehand, or of a slab of its body.
 struct MotionFacts {
@@ -22,7 +22,6 @@ struct MotionFacts {
   std::span<const PathKey> path;
   double clip_begin;
   double path_speed = 0;  ///< the most in a second, metres
-  double speed = 0;       ///< of any of its discs' centres, and a radius
   double farthest = 0;    ///< the largest coordinate of a key
 
   /// Takes a motion that is valid, and its shape or a slab of that.
@@ -39,6 +38,8 @@ class MovingBody {
   /// Returns until when discs move straight on.
   double clip_end(double time) noexcept;
 
+  /// Returns by how much rounding of times moves a disc until path_end(), at most, from the time on for which that was called.
+  double time_slack(double time) const noexcept;
   /// Returns where the body is until path_end().
   PathKey pose(double time) const noexcept;
   /// Returns the keys between which it is now: the first one, and which share of the time to the next has gone by at a time.
@@ -58,12 +59,15 @@ class MovingBody {
  private:
   void find_key(double time) noexcept;
   void next_key() noexcept;
+  void begin_round(double round) noexcept;
   double time_of(std::size_t key) const noexcept { return chunk().times[key] + shift_; }
 
   const MotionFacts* facts_;
   std::size_t next_on_path_ = 0;  ///< the first key of the path after the time
   std::size_t chunk_ = 0, key_ = 0;
-  double shift_ = 0;  ///< of the clip's times to those of the motion
+  double round_ = 0;    ///< of a clip that loops
+  double shift_ = 0;    ///< of the clip's times to those of the motion
+  bool waits_ = false;  ///< for its beginning, until which it stands
   double clip_end_ = -std::numeric_limits<double>::infinity();
   std::uint32_t chunks_begun_ = 0;
 };

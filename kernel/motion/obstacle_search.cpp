@@ -16,9 +16,10 @@ double ObstacleSearch::first(const MotionFacts& motion, double reach, double fro
   body_ = &body;
   looked_inside_ = 0;
   reach_ = reach;
-  slack_ = time_rounding * motion.speed + position_rounding * motion.farthest + root_rounding * 2 * reach;
   for (double time = from; time <= to;) {
-    const double end = body_->path_end(time), found = first_on_way(time, end, to);
+    const double end = body_->path_end(time);
+    slack_ = body_->time_slack(time) + position_rounding * motion.farthest + root_rounding * 2 * reach;
+    const double found = first_on_way(time, end, to);
     if (found <= to) return found;
     time = end;
   }

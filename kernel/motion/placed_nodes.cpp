@@ -16,10 +16,10 @@ void PlacedNodes::place(const MovingBody& body, const PathKey& from, const PathK
   share_ = body.share(from.time), share_at_end_ = body.share(to.time);
   turn_ = rotation(from.heading), turn_at_end_ = rotation(to.heading);
   x_ = from.x, y_ = from.y, x_at_end_ = to.x, y_at_end_ = to.y;
-  const double turn = std::abs(to.heading - from.heading),
-               way = double{chunk_->speed} * (chunk_->times[key + 1] - chunk_->times[key]) *
-                     (share_at_end_ - share_);
-  bend_ = (turn * turn * body.tree().reach + 2 * turn * way) / 8;
+  const double turn = std::abs(to.heading - from.heading), reach = body.tree().reach,
+               seconds = chunk_->times[key + 1] - chunk_->times[key],
+               way = std::min(2 * reach, double{chunk_->speed} * seconds * (share_at_end_ - share_));
+  bend_ = (turn * turn * reach + 2 * turn * way) / 8;
   const std::size_t room = chunk_->nodes() + animated_width;
   if (discs_[0].size() < room)
     for (std::vector<double>& numbers : discs_) numbers.resize(room);

@@ -142,6 +142,90 @@ TEST(FirstContact, SeesWhoIsInsideWhereAChunkBegins) {
   EXPECT_EQ(contact_of(around, inside, {1.5, 20}), 2);  // the round before
 }
 
+/// Returns a clip whose disc goes 1 m along x at an even speed.
+AnimatedDiscs disc_along_x(std::vector<double> times, bool loops) {
+  AnimatedChunk chunk{std::move(times), 1, {}, {}};
+  const double begin = chunk.times.front(), seconds = chunk.times.back() - begin;
+  for (const double time : chunk.times)
+    chunk.keys.push_back({static_cast<float>(std::round((time - begin) / seconds * 8192) / 8192), 0, 0.25f});
+  return {{chunk}, loops};
+}
+
+/// Two bodies stay within reach through many rounds, and touch when 0.7 of a later one have gone by.
+TEST(FirstContact, KeepsTheTimeOfALoopThroughManyRounds) {
+  for (const double length : {0.1, 0.3, 1.1}) {
+    const double rounds = test::samples(300'000), after = rounds * length;
+    const MotionCase plays{disc_along_x({0, length}, true), {{0, 0, 0, 0}}};
+    const MotionCase comes =
+        disc_on(0.25f, {{0, 1.2, 0.6, 0}, {after, 1.2, 0.6, 0}, {after + 0.1 * length, 1.2, 0, 0}});
+    const double found = contact_of(plays, comes, {0, after + length}, 1e-6), expected = after + 0.7 * length;
+    EXPECT_LE(found, expected) << length;
+    EXPECT_GE(found, expected - 1e-5) << length;
+  }
+}
+
+/// At the largest times too, where a double of a time is off by 1e-10 s: the shortest loops, and keys that are nearer to each other.
+TEST(FirstContact, GoesOnThroughTheShortestTimes) {
+  const MotionCase beside = disc_on(0.25f, {{0, 0.5, 0.75, 0}});
+  for (const double begin : {-1e6, 0.1, 1e6}) {
+    const MotionCase loops{disc_along_x({0, 0.001}, true), {{0, 0, 0, 0}}, begin};
+    for (const double from : {-1e6, 1e5, 1e6 - 0.01})
+      EXPECT_EQ(contact_of(loops, beside, {from, from + 0.01}), never);
+  }
+  for (const std::vector<double>& times : {std::vector<double>{0, 1e-12},
+                                           {0, 1e-12, 1},
+                                           {0, 1, 1 + 1e-12},
+                                           {0, 1e-300},
+                                           {0, 1e-12, 2e-12, 3e-12, 1}}) {
+    const MotionCase once{disc_along_x(times, false), {{0, 0, 0, 0}}, 1e5};
+    const MotionCase ahead = disc_on(0.25f, {{0, 1.25, 0, 0}});
+    for (const double from : {1e5 - 1, 1e5, 1e5 + 1}) {
+      const bool jumps = times.back() < 1;  // and may be anywhere, as far as rounding tells
+      const double found = contact_of(once, ahead, {from, from + 2}),
+                   expected = std::max(from, 1e5 + 0.75 * times.back());
+      EXPECT_LE(found, expected);
+      EXPECT_GE(found, jumps ? from : expected - 0.006);
+      if (!jumps) {
+        EXPECT_EQ(contact_of(once, beside, {from, from + 2}), never);
+      }
+    }
+  }
+}
+
+/// What a jump of 100 m is off by, by rounding, does not count before and after it.
+TEST(FirstContact, OfAJumpIsOnItsWay) {
+  const MotionCase stands = disc_on(0.25f, {{0, 0, 0, 0}});
+  for (const double seconds : {1e-3, 1e-6, 1e-9}) {
+    const double back = 5 + seconds;
+    const MotionCase leaves = disc_on(0.25f, {{0, 0.6, 0, 0}, {5, 0.6, 0, 0}, {back, 100, 0, 0}});
+    EXPECT_EQ(contact_of(stands, leaves, {0, 10}), never) << seconds;
+    const MotionCase comes = disc_on(0.25f, {{0, 99.6, 0, 0}, {5, 99.6, 0, 0}, {back, -0.4, 0, 0}});
+    const double expected = 5 + (back - 5) * 0.991, found = contact_of(stands, comes, {0, 10}, 1e-6);
+    EXPECT_LE(found, expected + 1e-15) << seconds;
+    EXPECT_GE(found, expected - 1e-3 * seconds) << seconds;
+    const MotionCase turns{test::still_disc(0.25f, 1, 0),
+                           {{0, 0, 0, 2}, {5, 0, 0, 2}, {back, 0, 0, 2 + 20 * 3.14159265358979}}};
+    const MotionCase beside = disc_on(0.25f, {{0, std::cos(2) * 1.6, std::sin(2) * 1.6, 0}});
+    EXPECT_EQ(contact_of(turns, beside, {0, 10}), never) << seconds;
+  }
+}
+
+/// Bodies that pass each other on ways of up to 2e9 m, at a distance aside that is just below that of a contact, or above.
+TEST(FirstContact, IsFoundOnLongWays) {
+  Random random(3104);
+  const MotionCase stands = disc_on(0.25f, {{0, 0, 0, 0}});
+  for (std::uint32_t i = 0; i < test::samples(400); ++i) {
+    const double half = std::exp(random.uniform(0, 20.7)), angle = random.uniform(-4, 4), c = std::cos(angle),
+                 s = std::sin(angle), aside = i % 2 == 0 ? 0.4999 : 0.52;
+    const auto key = [&](double time, double along) {
+      return PathKey{time, along * c - aside * s, along * s + aside * c, 0};
+    };
+    const double found = contact_of(stands, disc_on(0.25f, {key(0, -half), key(2, half)}), {0, 2});
+    EXPECT_EQ(found < never, i % 2 == 0) << half;
+    EXPECT_LE(std::min(found, 1.0), 1) << half;
+  }
+}
+
 TEST(FirstContact, TellsTheSameToAnyThreadsSplitOrderAndLaterEnd) {
   Random random(3102);
   std::vector<MotionCase> cases;

@@ -115,6 +115,21 @@ ObstacleScene scene_of(const std::vector<ObstacleScene::Point>& path, bool is_ar
   return scene;
 }
 
+/// A disc stands 0.1 m beside a wall, and jumps away or through it.
+TEST(ObstacleContact, OfAJumpIsOnItsWay) {
+  const ObstacleScene wall = scene_of({{-0.35, -5}, {-0.35, 5}}, false);
+  for (const double seconds : {1e-3, 1e-6, 1e-9}) {
+    const double back = 5 + seconds;
+    const auto to = [&](double x) {
+      return MotionCase{still_disc(0.25f), {{0, 0, 0, 0}, {5, 0, 0, 0}, {back, x, 0, 0}}};
+    };
+    EXPECT_EQ(contact_of(to(100), wall.set(), {0, 10}), never) << seconds;
+    const double found = contact_of(to(-100), wall.set(), {0, 10});
+    EXPECT_GE(found, 5) << seconds;
+    EXPECT_LE(found, back) << seconds;
+  }
+}
+
 /// A disc of 3/16 m comes along x at 1.5 m a second from 30 m away, also from far away and past the end of a wall.
 TEST(ObstacleContact, OfADiscIsThatOfTheFormula) {
   constexpr double radius = 0.1875;

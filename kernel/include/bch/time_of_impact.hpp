@@ -109,13 +109,16 @@ struct TimeInterval {
 
 /// Finds when the two motions of each pair first touch: the earliest time of an interval at which their solids overlap (see
 /// AnimatedShape), or infinity if there is none. Paths, turning and discs are taken at every real time, not sampled. Bodies in slabs
-/// touch when the first of their slabs do; a body that is whole is in every slab that its heights reach.
+/// touch when the first of their slabs do; a body that is whole is in every slab that its heights reach. Motions have no z: all are on one
+/// ground. For people on different floors, ask about those of each floor.
 ///
 /// The time is never later than the first contact. At that time the solids are apart by at most the tolerance, 2 um for each metre of
-/// both reaches, and the rounding of positions and times in double, below 1e-14 of these (of times at the greatest speed). So the time is
-/// early by at most the tolerance over the speed at which the solids come together, and it is finite where they only pass each other that
-/// closely. Times are the same bits on every processor, for any number of threads, any split of the batch and exchanged motions. A later
-/// end of the interval changes no time.
+/// both reaches, and the rounding of positions and times in double, below 1e-14 of these. That of times counts at the speed of the path
+/// between the two keys and the greatest one of the clip's discs; times are those of these keys (behind the last one, 1e6 s), twice
+/// clip_begin and three times the clip's own. The tolerance is one of distance, not of time: the time is early by at most the tolerance
+/// over the speed at which the solids come together. By default that is 5 ms at 1 m a second, and a quarter of a second at 0.02 m a
+/// second. The time is finite where the solids only pass each other that closely. Times are the same bits on every processor, for any
+/// number of threads, any split of the batch and exchanged motions. A later end of the interval changes no time.
 ///
 /// Units:   seconds within +-1e6, metres within +-1e9, headings within +-1e9 rad, a turn of at most 1e3 rad from key to key.
 /// Sizes:   as many times as pairs, which name motions by index. A motion may be paired with itself.
@@ -124,6 +127,7 @@ struct TimeInterval {
 ///          is missing, keys that do not ascend or are not within these units; naming the pair, on bodies that are cut at different
 ///          planes.
 /// Threads: runs in the caller's TBB arena. Allocates for the motions and for each task.
+/// Cost:    grows with the keys of the paths and, while two bodies are within reach of each other, with the rounds of clips that loop.
 void first_contact(std::span<const Motion> motions, std::span<const Pair> pairs, const TimeInterval& interval,
                    std::span<double> times, double tolerance = 0.005);
 
