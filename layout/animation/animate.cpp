@@ -224,7 +224,9 @@ AnimatedDiscs ClipAnimator::run() {
   }
   result.slices = options_.slices;
   for (std::size_t i = 0; i <= options_.slices.size(); ++i) {
-    slab_ = heights_of_slab({}, options_.slices, i);
+    // Bounds of a part of the clip may reach slabs that those of the whole clip, which hold the body, do not.
+    slab_ = heights_of_slab(result.heights, options_.slices, i);
+    if (slab_->bottom <= slab_->top) slab_ = heights_of_slab({}, options_.slices, i);
     result.slabs.emplace_back().chunks = chunks();
   }
   return result;

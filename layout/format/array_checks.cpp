@@ -138,6 +138,14 @@ void slab_parts(const ShapeArrays& a) {
 void heights(const ShapeArrays& a) {
   require_all("heights", a.heights, "no heights",
               [](const Heights& heights) { return heights.bottom <= heights.top; });
+  if (a.slices.empty()) return;
+  for (std::size_t i = 0; i < a.slab_parts.size(); ++i) {
+    const std::uint32_t part = a.slab_parts[i];
+    const std::size_t slab = i % a.slab_count();
+    if (part == no_part) continue;
+    const Heights within = heights_of_slab(a.heights[part], a.slices, slab);
+    if (!(within.bottom <= within.top)) reject("heights", part, "none in slab " + std::to_string(slab));
+  }
 }
 
 /// Rows of supports are numbered in the order of shapes, whose deepest levels have them.

@@ -129,6 +129,10 @@ void require_slabs(const AnimatedDiscs& discs) {
     const std::string name = "slab " + std::to_string(i) + ": ";
     if (!slab.slabs.empty() || !slab.slices.empty()) reject(name + "slabs of a slab");
     require_chunks(slab, name, true);
+    if (const Heights within = heights_of_slab(discs.heights, discs.slices, i);
+        has_discs(slab) && !(within.bottom <= within.top))
+      reject(name + "it has discs, and the body's heights, from " + shortest(discs.heights.bottom) + " to " +
+             shortest(discs.heights.top) + " m, do not reach it");
     if (slab.chunks.front().times.front() != first.chunks.front().times.front() ||
         slab.chunks.back().times.back() != first.chunks.back().times.back())
       reject(name + "it begins or ends at another time than slab 0");

@@ -40,6 +40,14 @@ void require_segments(const Shape& shape) {
                                   std::to_string(outline.points.size()));
 }
 
+/// Checks that a body's heights reach a slab of it that is not empty: `within` is what of them lies there.
+void require_met(std::size_t slab, Heights body, Heights within) {
+  if (within.bottom <= within.top) return;
+  throw std::invalid_argument("slab " + std::to_string(slab) +
+                              " is not empty, and the body's heights, from " + shortest(body.bottom) +
+                              " to " + shortest(body.top) + " m, do not reach it");
+}
+
 }  // namespace
 
 ShapeFlattener::ShapeFlattener(const ShapeSetPlan& plan) : plan_(plan) {
@@ -72,7 +80,10 @@ void ShapeFlattener::flatten_slabs(const Shape& shape, FlatBody& flat) {
     const Heights within = heights_of_slab(shape.heights, plan_.slices, i);
     const bool has_part =
         shape.slabs.empty() ? within.bottom <= within.top : !shape.slabs[i].hierarchy.nodes.empty();
-    if (has_part && !shape.slabs.empty()) add_part(shape.slabs[i], within, flat);
+    if (has_part && !shape.slabs.empty()) {
+      require_met(i, shape.heights, within);
+      add_part(shape.slabs[i], within, flat);
+    }
     flat.slab_parts.push_back(has_part ? static_cast<std::uint32_t>(flat.part_count - 1) : no_part);
   }
   if (flat.part_count == 0) throw std::invalid_argument("slices: all slabs are empty");

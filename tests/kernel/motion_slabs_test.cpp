@@ -144,6 +144,11 @@ TEST(MotionSlabs, AreRefusedWhereTheyAreNoBody) {
   EXPECT_EQ(said_of(good), "accepted");
   EXPECT_EQ(said_of(discs_in({false, false, false})), "animated shape: all slabs are empty");
   AnimatedDiscs bad = good;
+  bad.heights = {0, 1.05f};
+  EXPECT_EQ(
+      said_of(bad),
+      "animated shape: slab 2: it has discs, and the body's heights, from 0 to 1.05 m, do not reach it");
+  bad = good;
   bad.slabs.pop_back();
   EXPECT_EQ(said_of(bad), "animated shape: 2 slabs for 2 planes");
   bad = good;

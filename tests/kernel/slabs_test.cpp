@@ -270,6 +270,14 @@ TEST(Slices, RejectsWhatIsWrong) {
   std::vector<Shape> upside_down = {cut_shapes.back()};
   upside_down[0].heights = {1, 0};
   EXPECT_EQ(complaint({.slices = {1}}, upside_down), "shape set: shape 0: heights: from 1 to 0 m");
+  std::vector<Shape> low(2);  // what is in a slab was compared with nothing
+  for (Shape& body : low)
+    body.slabs = {{}, {}, test::contour_shape(test::polygon({{0, 0}, {1, 0}, {0, 1}}), 0.1f)};
+  EXPECT_EQ(complaint({.slices = {0.4f, 1}}, low), "accepted");
+  low[1].heights = {0, 0.2f};
+  EXPECT_EQ(
+      complaint({.slices = {0.4f, 1}}, low),
+      "shape set: shape 1: slab 2 is not empty, and the body's heights, from 0 to 0.2 m, do not reach it");
 
   const ShapeSet flat(std::vector<Shape>{cut_shapes.back()}), cut(cut_shapes, levels_of(three_slabs));
   PairScene scene;

@@ -134,6 +134,21 @@ TEST(AnimateSlabs, AreEmptyWhereTheBodyIsNot) {
             test::samples(100));
 }
 
+/// Bounds of parts of the clip may reach above those of the whole clip, where a set would refuse discs.
+TEST(AnimateSlabs, AreEmptyBeyondTheHeightsOfTheBody) {
+  const Character body = swinging_bar(1, 3);
+  AnimateOptions options;
+  options.slices = {1};
+  const Heights heights = animate(body, 0, options).heights;
+  for (const auto& [plane, slab] : {std::pair(heights.top, 1), {std::nextafter(heights.bottom, -9.0f), 0}}) {
+    options.slices = {plane};
+    const AnimatedDiscs animated = animate(body, 0, options);
+    EXPECT_NO_THROW(validate(animated));
+    for (const AnimatedChunk& chunk : animated.slabs[static_cast<std::size_t>(slab)].chunks)
+      EXPECT_EQ(chunk.disc_count, 0u) << "slab " << slab;
+  }
+}
+
 /// Over the top of an arm's way, where the ends of a window are lower than its middle.
 TEST(AnimateSlabs, KnowHowHighABodyComes) {
   const Character body = swinging_bar(1, 3);

@@ -189,6 +189,11 @@ const std::vector<Damage>& all_damage() {
          a = Arrays({.heights = true});
          a.own.heights[1] = {2, 1};
        }},
+      {"heights",  // of a part in all slabs, in the highest of which it is
+       [](Arrays& a) {
+         a = Arrays({.slices = {0.4f, 1}});
+         a.own.heights[1] = {2, 3};
+       }},
       {"rows", [](Arrays& a) { a.own.roots[Arrays::finest].row += 1; }},
       {"rows", [](Arrays& a) { a.own.support.resize(a.own.support.size() + detail::support_stride); }},
       {"single depth",  // what made DynamicShapeSet copy roots without their trees
@@ -295,8 +300,9 @@ const std::vector<Damage>& all_damage() {
 }
 
 /// What the other checks read without looking: where one of these does not hold they must not run.
-const std::set<std::string> relied_upon = {"depths", "sizes", "shape contours", "contours", "order of levels",
-                                           "blocks", "room",  "windows",        "numbers"};
+const std::set<std::string> relied_upon = {"depths",   "sizes",           "slab parts", "shape contours",
+                                           "contours", "order of levels", "blocks",     "room",
+                                           "windows",  "numbers"};
 
 /// Runs the checks as validate() does, but for one. Returns: the name of the one that refuses; empty where none does.
 std::string refused_by(const detail::ShapeArrays& arrays, const std::string& without,

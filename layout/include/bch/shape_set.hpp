@@ -27,8 +27,8 @@ struct Shape {
   Outline outline;
   Hierarchy hierarchy;
   Heights heights = {};  ///< of the whole body; by default it takes part at every height
-  std::vector<Shape> slabs =
-      {};  ///< of a body cut by a plan's slices: one a slab, default-made where it is empty
+  /// Holds the slabs of a body cut by a plan's slices: one a slab, default-made where it is empty. The heights reach all others.
+  std::vector<Shape> slabs = {};
 };
 
 /// Makes a shape of given discs, such as the three to fifty of a body in mechanical crowd models. The discs are enlarged
@@ -91,7 +91,7 @@ struct AnimatedDiscs {
 ///          radius below 0, or that does not overlap the next one of its ring; on rings that do not ascend or end before or after
 ///          the last disc, on a loop of less than 1 ms, and on a reach outside 1e-6 to 1e6 m. Of a body that is cut, naming the slab
 ///          too; on slices that validate(ShapeSetPlan) rejects, on another number of slabs, on chunks beside them, on slabs of slabs
-///          or that begin or end at different times, and where no slab has discs.
+///          or that begin or end at different times, where no slab has discs, and where one has that the heights do not reach.
 void validate(const AnimatedDiscs& discs);
 
 /// Represents a body that moves by itself, seen from above: a clip of a character, or other moving discs. Its solid at a time is its
@@ -189,8 +189,9 @@ class ShapeSet {
  public:
   /// Makes shapes flat, each at all depths of a plan, and copies what it needs of them.
   /// Errors:  throws std::invalid_argument on a plan that validate() rejects and, naming the shape, on a hierarchy, or on a
-  ///          non-empty outline that the plan uses, if validate() rejects it; std::length_error beyond
-  ///          2^31 numbers in nodes.
+  ///          non-empty outline that the plan uses, if validate() rejects it; with slices, on another number of slabs than
+  ///          these make, on slabs that are all empty, and on one that is not and that the body's heights do not reach;
+  ///          std::length_error beyond 2^31 numbers in nodes.
   explicit ShapeSet(std::span<const Shape> shapes, const ShapeSetPlan& plan = {});
   ShapeSet(ShapeSet&&) noexcept;
   ShapeSet& operator=(ShapeSet&&) noexcept;
