@@ -112,6 +112,8 @@ void ShapeFlattener::flatten(const Shape& shape, FlatShape& flat) {
 void ShapeFlattener::require(const Shape& shape) const {
   validate(shape.hierarchy);
   if (plan_.outlines) require_segments(shape);
+  if (!plan_.slices.empty() && plan_.depths.back() > 0 && shape.outline.contours() == 0)
+    throw std::invalid_argument("slices: it has no outline, which slabs need, unless depth 0 is alone");
   if (shape.outline.contours() > 0 && (plan_.outlines || has_culling())) validate(shape.outline);
 }
 

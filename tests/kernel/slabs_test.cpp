@@ -278,6 +278,11 @@ TEST(Slices, RejectsWhatIsWrong) {
   EXPECT_EQ(
       complaint({.slices = {0.4f, 1}}, low),
       "shape set: shape 1: slab 2 is not empty, and the body's heights, from 0 to 0.2 m, do not reach it");
+  const Disc disc{0, 0, 0.2f};
+  const std::vector<Shape> of_discs = {cut_shapes[0], shape_from_discs({&disc, 1})};
+  EXPECT_EQ(complaint(levels_of(three_slabs), of_discs),
+            "shape set: shape 1: slices: it has no outline, which slabs need, unless depth 0 is alone");
+  EXPECT_EQ(complaint({.depths = {0}, .slices = three_slabs}, of_discs), "accepted");
 
   const ShapeSet flat(std::vector<Shape>{cut_shapes.back()}), cut(cut_shapes, levels_of(three_slabs));
   PairScene scene;

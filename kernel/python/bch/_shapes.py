@@ -585,7 +585,10 @@ class ShapeSetBuilder:
             )
 
     def add_discs(self, discs: npt.ArrayLike, *, heights: Optional[Tuple[float, float]] = None) -> None:
-        """Add a body of discs: (k, 3) numbers, x, y and radius in metres, or (k,) DISC. Queries number the discs in this order."""
+        """Add a body of discs: (k, 3) numbers, x, y and radius in metres, or (k,) DISC. Queries number the discs in this order.
+
+        Discs have no outline, which plans with slices need, unless depth 0 is alone; capsules have one.
+        """
         given_discs = np.asarray(discs)
         if given_discs.dtype == DISC:
             given_discs = np.stack([given_discs[name] for name in ("x", "y", "radius")], axis=-1)
@@ -594,7 +597,7 @@ class ShapeSetBuilder:
             check(lib.bch_shape_set_builder_add_discs(self._pointer, address(array), len(array), self._heights(heights)))
 
     def add_cylinder(self, radius: float, *, heights: Optional[Tuple[float, float]] = None) -> None:
-        """Add a cylinder about the agent's position, with a radius in metres."""
+        """Add a cylinder about the agent's position, with a radius in metres. Plans with slices refuse it, as they do discs."""
         with self._exclusive:
             check(lib.bch_shape_set_builder_add_cylinder(self._pointer, radius, self._heights(heights)))
 

@@ -33,7 +33,8 @@ struct Shape {
 
 /// Makes a shape of given discs, such as the three to fifty of a body in mechanical crowd models. The discs are enlarged
 /// only by the rounding margin, and queries number them as they are given. The shape has no outline. Neighbouring discs
-/// should follow each other, because nodes of the hierarchy group them in that order.
+/// should follow each other, because nodes of the hierarchy group them in that order. Sets with slices need outlines, so they do not take
+/// this shape, unless they have depth 0 alone; shape_from_capsules() makes circles that have outlines.
 /// Cost:    6 ms for 50 discs.
 /// Errors:  throws std::invalid_argument on no discs or more than 4096, on a disc that is not finite or without a radius, naming it, or
 ///          on a reach outside 1e-6 to 1e6 m.
@@ -171,7 +172,7 @@ struct ShapeSetPlan {
   /// Lists the planes that cut bodies into slabs, metres above an agent's ground, ascending, at most 63; none: bodies are
   /// whole. Two agents then collide where they do in some slab, in solid semantics, so an arm above a foot is no collision. Every
   /// shape has either the slabs that PoseShaper and AnimatedShape make of these planes, or none: it is then the same at all of its
-  /// heights. Slices need outlines.
+  /// heights. Slices need outlines of all shapes, unless depth 0 is alone.
   std::vector<float> slices = {};
   /// Says whether to keep the heights of bodies, which agents at different heights need; see Agents::z. Slices have them anyway.
   bool heights = false;
@@ -191,7 +192,7 @@ class ShapeSet {
   /// Errors:  throws std::invalid_argument on a plan that validate() rejects and, naming the shape, on a hierarchy, or on a
   ///          non-empty outline that the plan uses, if validate() rejects it; with slices, on another number of slabs than
   ///          these make, on slabs that are all empty, and on one that is not and that the body's heights do not reach;
-  ///          std::length_error beyond 2^31 numbers in nodes.
+  ///          on a shape or slab without an outline, unless depth 0 is alone; std::length_error beyond 2^31 numbers in nodes.
   explicit ShapeSet(std::span<const Shape> shapes, const ShapeSetPlan& plan = {});
   ShapeSet(ShapeSet&&) noexcept;
   ShapeSet& operator=(ShapeSet&&) noexcept;

@@ -375,7 +375,8 @@ BCH_API bch_status bch_shape_set_builder_add_polygons(bch_shape_set_builder* bui
 /** Adds a body of capsules, whose outline is nowhere farther from them than a tolerance. */
 BCH_API bch_status bch_shape_set_builder_add_capsules(bch_shape_set_builder* builder, const bch_capsule* capsules,
                                                       size_t count, float tolerance, const bch_heights* heights);
-/** Adds a body of discs, which queries number as they are given. */
+/** Adds a body of discs, which queries number as they are given. It has no outline, so it fits no plan with slices, unless depth 0 is
+ * alone; the same is true of a cylinder. Capsules have outlines. */
 BCH_API bch_status bch_shape_set_builder_add_discs(bch_shape_set_builder* builder, const bch_disc* discs,
                                                    size_t count, const bch_heights* heights);
 /** Adds a cylinder about the agent's position. */
