@@ -3,11 +3,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <numbers>
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include <bch/collide.hpp>
 
@@ -51,6 +54,15 @@ void choose(std::span<const Spans> pairs, std::size_t planes, std::size_t place,
     if (const std::size_t clears = cleared(pairs, chosen); clears > most) most = clears, best = plane;
   }
   chosen[place] = best;
+}
+
+/// Takes out planes without which the others clear as much.
+void remove_idle(std::span<const Spans> pairs, std::vector<std::uint32_t>& chosen) {
+  for (std::size_t i = chosen.size(); i-- > 0;) {
+    std::vector<std::uint32_t> others = chosen;
+    others.erase(others.begin() + static_cast<std::ptrdiff_t>(i));
+    if (cleared(pairs, others) == cleared(pairs, chosen)) chosen = std::move(others);
+  }
 }
 
 /// Bodies slab by slab, each slab as a shape of its own.
@@ -144,11 +156,11 @@ std::vector<float> best_slices(std::span<const Shape> bodies, std::span<const fl
     before = now;
     for (std::size_t place = 0; place < chosen.size(); ++place) choose(pairs, planes.size(), place, chosen);
   }
+  remove_idle(pairs, chosen);
   std::sort(chosen.begin(), chosen.end());
   std::vector<float> best;
   best.reserve(chosen.size());
   for (const std::uint32_t plane : chosen) best.push_back(planes[plane]);
-  best.erase(std::unique(best.begin(), best.end()), best.end());
   return best;
 }
 

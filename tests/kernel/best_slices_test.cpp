@@ -84,6 +84,26 @@ TEST(BestSlices, AreAllOfFewPlanes) {
   EXPECT_TRUE(best_slices(shapes, planes, 1).empty());
 }
 
+/// No plane clears pairs of pillars, and one plane clears all pairs of a low body and a high one.
+TEST(BestSlices, LeaveOutPlanesThatClearNothingMore) {
+  const std::vector<float> planes = every(0.2f, 2);
+  const Shape box =
+      test::contour_shape(test::polygon({{-0.5f, -0.5f}, {0.5f, -0.5f}, {0.5f, 0.5f}, {-0.5f, 0.5f}}));
+  std::vector<Shape> pillars(3), halves(2);
+  for (Shape& pillar : pillars) pillar.slabs.assign(planes.size() + 1, box);
+  for (std::size_t i = 0; i < halves.size(); ++i) {
+    halves[i].slabs.resize(planes.size() + 1);
+    halves[i].slabs[i == 0 ? 1 : 5] = box;
+  }
+  for (const std::uint32_t slabs : {2u, 3u, 4u}) {
+    EXPECT_TRUE(best_slices(pillars, planes, slabs).empty()) << slabs;
+    const std::vector<float> best = best_slices(halves, planes, slabs);
+    ASSERT_EQ(best.size(), 1u) << slabs;
+    EXPECT_GE(best[0], planes[1]);
+    EXPECT_LE(best[0], planes[4]);
+  }
+}
+
 TEST(BestSlices, RejectsWhatIsWrong) {
   const std::vector<float> planes = {0.4f, 1.0f};
   const std::vector<Shape> shapes = people({0.4f}, 2);

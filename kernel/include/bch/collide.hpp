@@ -83,7 +83,8 @@ class CrowdCollider {
 /// is greedy: it adds one plane after the other, then chooses each anew until no exchange clears more.
 /// Sizes:   each body has one slab more than there are planes: PoseShaper makes them with ShapeSetPlan::slices = planes, 5 cm apart
 ///          for instance; a hundred poses are enough.
-/// Returns: slabs - 1 of the planes, ascending; all of them where there are no more. The same arguments give the same result.
+/// Returns: at most slabs - 1 of the planes, ascending: those that clear nothing more than the others are left out, because fewer slabs
+///          cost less; all planes where there are no more than slabs - 1. The same arguments give the same result.
 /// Errors:  throws std::invalid_argument on no bodies, on no slabs, on a body with another number of slabs, and as ShapeSet does.
 std::vector<float> best_slices(std::span<const Shape> bodies, std::span<const float> planes,
                                std::uint32_t slabs);

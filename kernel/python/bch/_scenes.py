@@ -159,7 +159,8 @@ def best_slices(
     Returns
     -------
     list of float
-        slabs - 1 heights, metres, for `Plan.slices`; all planes if there are no more than that.
+        At most slabs - 1 heights, metres, for `Plan.slices`, without planes that clear nothing more than the others; all planes if
+            there are no more than slabs - 1.
     """
     people = [characters] if isinstance(characters, Character) else list(characters)
     each = [character.sample_poses(poses) for character in people]

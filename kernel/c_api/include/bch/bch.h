@@ -923,8 +923,9 @@ BCH_API bch_status bch_depth_at_density(double people_per_square_metre, uint32_t
 /** Writes planes that clear most false collisions of standing people, for 1, 2, 3, 4 or 8 slabs: slabs - 1 planes. */
 BCH_API bch_status bch_standing_slices(uint32_t slabs, float* slices);
 /** Chooses, among `planes`, those that clear the most false collisions of given bodies when they cut the bodies into `slabs` slabs. Body i
- * is characters[i] in poses[i]; a hundred bodies and planes 5 cm apart are enough. Writes slabs - 1 of the planes, ascending, or all
- * where there are no more, and the number of written planes to `slice_count`. */
+ * is characters[i] in poses[i]; a hundred bodies and planes 5 cm apart are enough. Writes at most slabs - 1 of the planes, ascending,
+ * without those that clear nothing more than the others, or all where there are no more than slabs - 1, and the number of written
+ * planes to `slice_count`. */
 BCH_API bch_status bch_best_slices(const bch_character* const* characters, const bch_pose* poses, size_t count,
                                    const float* planes, size_t plane_count, uint32_t slabs, float* slices,
                                    size_t* slice_count);
