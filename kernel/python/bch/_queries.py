@@ -54,7 +54,8 @@ class Agents:
     level : (n,) uint8, optional
         Index into the set's depths; by default every agent uses the last level.
     z : (n,) float64, optional
-        Heights of the grounds that agents stand on, metres; by default all stand on one ground.
+        Heights of the grounds that agents stand on, metres; by default all stand on one ground. With slices, round them until people on
+            one floor have equal z: any difference makes neighbouring slabs meet.
     """
 
     __slots__ = ("_arrays", "_struct", "_pointer")

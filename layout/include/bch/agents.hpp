@@ -27,10 +27,11 @@ struct Agents {
   std::span<const double> y;
   std::span<const double> heading;
   std::span<const std::uint8_t> level = {};  ///< index into the set's depths; empty: the last level for all
-  /// Gives the heights of the grounds that agents stand on: floors, steps, a stage. Empty: one ground for all. Agents with a z meet only
-  /// where their heights meet, and the set has to know these heights (ShapeSetPlan::heights, slices). In sets with slices, agents at one
-  /// height are compared slab by slab, agents at two heights in all pairs of slabs whose heights meet: slabs of half a metre are then
-  /// as coarse as those of half as many planes.
+  /// Gives the heights of the grounds that agents stand on: floors, steps, a stage. Empty: one ground for all, and in sets without slices
+  /// bodies are then compared whatever their heights. Agents with a z meet only where their heights meet, and the set has to know these
+  /// heights (ShapeSetPlan::heights, slices). In sets with slices, agents of equal z are compared slab by slab, others in all pairs of
+  /// slabs whose heights meet: slabs of half a metre are then as coarse as those of half as many planes. Even a difference of 1e-12 m
+  /// makes neighbouring slabs meet at their common plane, so round z: people on one floor should have equal z.
   std::span<const double> z = {};
 
   std::size_t size() const noexcept { return shape.size(); }
