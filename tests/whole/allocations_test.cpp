@@ -121,6 +121,30 @@ TEST_P(Allocations, DistancesAndTimesNeedNone) {
   EXPECT_EQ(count([&] { within(set, crowd.agents(), pairs, way, hits); }), 0u);
 }
 
+/// On one ground, and at different heights.
+TEST_P(Allocations, BodiesInSlabsNeedNoneEither) {
+  const std::vector<Shape> parts = test::synthetic_shapes(51, 16);
+  std::vector<Shape> bodies(parts.size());
+  for (std::size_t i = 0; i < bodies.size(); ++i) bodies[i].slabs = {parts[i], parts[(i + 1) % 16], {}};
+  const ShapeSet cut(bodies, {.depths = {0, 3, all_depths}, .slices = {0.4f, 1}});
+  const std::vector<Pair> pairs = some_pairs();
+  const std::vector<double> distance(pairs.size(), 0.5);
+  std::vector<std::uint8_t> hits(pairs.size());
+  std::vector<Penetration> ways(pairs.size());
+  CrowdCollider collider;
+  ContactFinder finder;
+  for (const double step : {0.0, 0.3}) {
+    crowd.z.clear();
+    for (std::size_t i = 0; i < crowd.x.size() && step > 0; ++i)
+      crowd.z.push_back(step * static_cast<double>(i % 4));
+    EXPECT_EQ(count([&] { collide(cut, crowd.agents(), pairs, hits); }), 0u);
+    EXPECT_EQ(count([&] { within(cut, crowd.agents(), pairs, distance, hits); }), 0u);
+    EXPECT_EQ(count([&] { penetration(cut, crowd.agents(), pairs, 16, ways); }), 0u);
+    EXPECT_EQ(count([&] { collider.collide_all(cut, crowd.agents()); }), 0u);
+    EXPECT_EQ(count([&] { finder.find(cut, crowd.agents(), pairs); }), 0u);
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Threads, Allocations, testing::Values(1, 2, 4), testing::PrintToStringParamName());
 
 }  // namespace
