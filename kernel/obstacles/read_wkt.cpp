@@ -33,14 +33,46 @@ struct ReadObstacles {
   }
 };
 
-/// Reads geometries by recursive descent. The grammar is that of OGC's simple features, and Z, M and ZM behind a name: further
-/// coordinates, which do not matter here.
+/// Returns text in which every byte that is no printable character of ASCII is escaped, as \xe2: what() ends at a zero byte.
+std::string with_escapes(std::string_view text) {
+  constexpr const char* hex = "0123456789abcdef";
+  std::string out;
+  for (const char c : text) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (c >= ' ' && c <= '~')
+      out += c;
+    else
+      out.append("\\x").append({hex[byte / 16], hex[byte % 16]});
+  }
+  return out;
+}
+
+/// Returns whether a decimal number that is beyond doubles, as 1e-400, is closer to 0 than they can be, not too large for them.
+bool is_beyond_zero(std::string_view number) noexcept {
+  const std::size_t size = std::min(number.find_first_of("eE"), number.size());
+  const std::string_view digits = number.substr(0, size);
+  double exponent = 0;
+  if (size != number.size())
+    detail::double_from_chars(number.data() + size + 1, number.data() + number.size(), exponent);
+  const auto point = static_cast<double>(std::min(digits.find('.'), size)),
+             first = static_cast<double>(digits.find_first_of("123456789"));
+  return point - first + exponent < 0;
+}
+
+/// Reads geometries by recursive descent. The grammar is that of OGC's simple features, and what programs add: Z, M and ZM at the end of a
+/// name or behind it, SRID=4326; before a geometry, and a byte order mark of UTF-8 before all.
 class WktReader {
  public:
-  WktReader(std::string_view text, bool walkable) : text_(text), walkable_(walkable) {}
+  WktReader(std::string_view text, bool walkable) : text_(text), walkable_(walkable) {
+    constexpr std::string_view mark = "\xef\xbb\xbf";
+    if (text_.starts_with(mark)) text_.remove_prefix(mark.size());
+  }
 
   ReadObstacles read() {
-    for (skip_space(); at_ < text_.size(); skip_space()) geometry(0);
+    for (skip_space(); at_ < text_.size(); skip_space()) {
+      skip_reference_system();
+      geometry(0);
+    }
     return std::move(read_);
   }
 
@@ -57,12 +89,17 @@ class WktReader {
     const std::size_t column = at - (before.rfind('\n') + 1) + 1;  // npos + 1 is 0
     std::size_t end = at;
     while (end < text_.size() && end < at + 20 && is_of_token(text_[end])) ++end;
-    const std::string found = at == text_.size()
-                                  ? "the end of the text"
-                                  : "'" + std::string(text_.substr(at, std::max(end, at + 1) - at)) + "'";
+    if (end == at && at < text_.size()) do
+        ++end;
+      while (end < text_.size() && continues_character(text_[end]));
+    const std::string found =
+        end == at ? "the end of the text" : "'" + with_escapes(text_.substr(at, end - at)) + "'";
     throw std::invalid_argument("WKT: line " + std::to_string(line) + ", column " + std::to_string(column) +
                                 ": expected " + expected + ", found " + found);
   }
+
+  /// Returns whether a byte is one of a character of UTF-8, but not its first.
+  static bool continues_character(char c) { return (static_cast<unsigned char>(c) & 0xc0) == 0x80; }
 
   static bool is_of_token(char c) {
     return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '.' || c == '-' || c == '+' || c == '_';
@@ -105,11 +142,35 @@ class WktReader {
     if (!take(')')) reject("',' or ')'");
   }
 
+  /// Skips what extended WKT begins with, as SRID=4326;.
+  void skip_reference_system() {
+    if (!take("SRID")) return;
+    if (!take('=')) reject("'='");
+    skip_space();
+    const std::size_t begin = at_;
+    while (at_ < text_.size() && text_[at_] >= '0' && text_[at_] <= '9') ++at_;
+    if (at_ == begin) reject("a number");
+    if (!take(';')) reject("';'");
+  }
+
+  /// Reads the name of a kind, and how many coordinates its points have: PolygonZM or Polygon ZM. (No kind ends with Z or M.)
+  std::string kind() {
+    std::string name = word();
+    coordinates_ = 2;
+    for (const std::string_view more : {"ZM", "Z", "M"}) {
+      const bool is_suffix = name.ends_with(more);
+      if (!is_suffix && !take(more)) continue;
+      if (is_suffix) name.resize(name.size() - more.size());
+      coordinates_ += static_cast<int>(more.size());
+      break;
+    }
+    return name;
+  }
+
   void geometry(int depth) {
     skip_space();
     const std::size_t begin = at_;
-    const std::string name = word();
-    coordinates_ = take("ZM") ? 4 : take("Z") || take("M") ? 3 : 2;
+    const std::string name = kind();
     if (name == "POLYGON") {
       polygon();
     } else if (name == "MULTIPOLYGON") {
@@ -169,9 +230,11 @@ class WktReader {
         detail::double_from_chars(text_.data() + at_, text_.data() + text_.size(), value);
     if (error == std::errc::invalid_argument || (end != text_.data() + text_.size() && is_of_token(*end)))
       reject_at(begin, "a number");
-    if (error != std::errc() || !(std::abs(value) <= detail::rounding::largest_position))
-      reject_at(begin, "a number within +-1e9");
-    at_ = static_cast<std::size_t>(end - text_.data());
+    const auto size = static_cast<std::size_t>(end - text_.data()) - at_;
+    if (error == std::errc::result_out_of_range)
+      value = is_beyond_zero(text_.substr(at_, size)) ? 0 : HUGE_VAL;
+    if (!(std::abs(value) <= detail::rounding::largest_position)) reject_at(begin, "a number within +-1e9");
+    at_ += size;
     return value;
   }
 

@@ -63,6 +63,30 @@ TEST(ReadWkt, TakesEveryKind) {
   EXPECT_TRUE(collides_at(set, 70.5, 1));
 }
 
+TEST(ReadWkt, TakesWhatProgramsWrite) {
+  const ObstacleSet set = obstacles_from_wkt(
+      "\xef\xbb\xbfSRID=4326;PolygonZ ((0 0 7, 4 0 7, 4 4 7, 0 0 7))\n"
+      "srid = 31467 ; MultiLineStringZM ((10 0 7 8, 11 0 7 8), (20 0 7 8, 21 0 7 8))\n"
+      "LINESTRINGM(30 0 7, 31 0 7)multipolygonz(((40 0 7, 41 0 7, 41 1 7)))\n"
+      "GeometryCollectionZ (PolygonZM EMPTY, LineString Z (50 0 7, 51 0 7), LineString (60 0, 61 0))");
+  EXPECT_EQ(obstacles_of(set), (std::vector<std::uint32_t>{0, 0, 0, 1, 2, 3, 4, 4, 4, 5, 6}));
+  for (const double x : {3.5, 10.5, 20.5, 30.5, 40.5, 50.5, 60.5}) EXPECT_TRUE(collides_at(set, x, 0)) << x;
+  EXPECT_EQ(obstacles_from_wkt("\xef\xbb\xbf").obstacle_count(), 0u);
+}
+
+TEST(ReadWkt, TakesNumbersThatVanishAsZero) {
+  const std::string zeros(400, '0');
+  const ObstacleSet set =
+      obstacles_from_wkt("LINESTRING(1e-400 -4E-999, 1 0)LINESTRING(2 0." + zeros + "1,3 -0." + zeros +
+                         "1e5)LINESTRING(0." + zeros + "4e401 0,4 1)");
+  EXPECT_EQ(set.segment_count(), 3u);
+  EXPECT_TRUE(collides_at(set, 0, 0));
+  EXPECT_TRUE(collides_at(set, 2.5, 0));
+  EXPECT_TRUE(collides_at(set, 4, 0.5));
+  EXPECT_EQ(complaint_about("LINESTRING(1" + zeros + "e-1 0, 1 1)"),
+            "WKT: line 1, column 12: expected a number within +-1e9, found '10000000000000000000'");
+}
+
 TEST(ReadWkt, TakesPolygonsAsFloors) {
   const std::string text = "POLYGON((0 0, 4 0, 4 4, 0 4, 0 0), (1 1, 3 1, 3 3, 1 3))";
   const ObstacleSet walls = obstacles_from_wkt(text, Polygons::walkable);
@@ -107,6 +131,26 @@ TEST(ReadWkt, NamesThePlaceOfAnError) {
             "WKT: line 1, column 17: expected a number within +-1e9, found '2e9'");
   EXPECT_EQ(complaint_about("GEOMETRYCOLLECTION(LINESTRING(0 0, 1 1); LINESTRING(0 0, 1 1))"),
             "WKT: line 1, column 40: expected ',' or ')', found ';'");
+  EXPECT_EQ(complaint_about("\xef\xbb\xbfLINESTRING(0 0; 1 1)"),
+            "WKT: line 1, column 15: expected ',' or ')', found ';'");
+  EXPECT_EQ(complaint_about("SRID=;LINESTRING(0 0, 1 1)"),
+            "WKT: line 1, column 6: expected a number, found ';'");
+  EXPECT_EQ(complaint_about("SRID=4x;"), "WKT: line 1, column 7: expected ';', found 'x'");
+  EXPECT_EQ(complaint_about("SRID;"), "WKT: line 1, column 5: expected '=', found ';'");
+  EXPECT_EQ(complaint_about("PolygonZ M((0 0 0))"),
+            "WKT: line 1, column 10: expected '(' before rings, or EMPTY, found 'M'");
+  EXPECT_EQ(complaint_about("PolygonMZ((0 0 0))").substr(0, 37), "WKT: line 1, column 1: expected POLYG");
+  // Bytes that what() ends at, that a terminal obeys, and of a character: a minus of typesetters.
+  EXPECT_EQ(complaint_about(std::string("LINESTRING(0 \0 1)", 17)),
+            "WKT: line 1, column 14: expected a number, found '\\x00'");
+  EXPECT_EQ(complaint_about("LINESTRING(0 \x1b[1m)"),
+            "WKT: line 1, column 14: expected a number, found '\\x1b'");
+  EXPECT_EQ(complaint_about("LINESTRING(0 \xe2\x88\x92"
+                            "5)"),
+            "WKT: line 1, column 14: expected a number, found '\\xe2\\x88\\x92'");
+  EXPECT_EQ(complaint_about("LINESTRING(0 0) \xc3"),
+            "WKT: line 1, column 17: expected POLYGON, MULTIPOLYGON, LINESTRING, MULTILINESTRING or "
+            "GEOMETRYCOLLECTION, found '\\xc3'");
   std::string deep;
   for (int i = 0; i < 101; ++i) deep += "GEOMETRYCOLLECTION(";
   EXPECT_EQ(complaint_about(deep),

@@ -77,9 +77,10 @@ class ObstacleSet {
 
 /// Reads obstacles from well-known text, as JuPedSim and geographic information systems write it. The text is any number of POLYGON,
 /// MULTIPOLYGON, LINESTRING, MULTILINESTRING and GEOMETRYCOLLECTION, one after the other. Each line and each solid polygon is one
-/// obstacle; of walkable polygons each ring is one. Empty geometries give no obstacle.
+/// obstacle; of walkable polygons each ring is one. Empty geometries give no obstacle. The numbers of Z, M and ZM, with or without a space
+/// before these, are read and ignored, and so are the reference system of extended text (SRID=4326;) and a byte order mark.
 /// Errors:  throws std::invalid_argument on malformed text, with the line and column, what stands there and what was
-///          expected; and as ObstacleSet does.
+///          expected; and as ObstacleSet does. Columns count bytes. Bytes that cannot be printed are escaped, as \xe2.
 ObstacleSet obstacles_from_wkt(std::string_view text, Polygons polygons = Polygons::solid);
 
 // Queries of agents against obstacles. Each answers every agent as the query of the same name answers every pair: it is defined without a
