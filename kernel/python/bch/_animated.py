@@ -33,7 +33,7 @@ class AnimatedShape:
         The end of each ring among the discs, ascending; the last one is n. None: there are discs alone. Consecutive discs of a
         ring have to overlap.
     loops : bool
-        Whether the last pose is the first one.
+        Whether the last pose is the first one. A loop takes 1 ms or more.
     """
 
     __slots__ = ("_handle", "_pointer", "loops", "begin", "end", "reach", "nbytes", "chunk_count", "key_count", "slab_count")

@@ -663,7 +663,7 @@ BCH_API bch_status bch_animated_shape_animate(const bch_character* character, ui
 /** Holds moving discs in arrays of the caller: chunks that follow one another in time, each with discs of its own. */
 typedef struct bch_animated_arrays {
   uint32_t size;             /**< sizeof(bch_animated_arrays) */
-  int32_t loops;             /**< not 0: the last pose is the first one */
+  int32_t loops;             /**< not 0: the last pose is the first one, 1 ms later or more */
   const uint32_t* key_counts; /**< one per chunk, like the next two */
   const uint32_t* disc_counts;
   const uint32_t* ring_counts; /**< NULL: discs without rings */
