@@ -62,5 +62,15 @@ TEST(BakedFile, HasClipsThatAreCut) {
             "file: clips 2: animated shape: slab 1: it begins or ends at another time than slab 0");
 }
 
+TEST(BakedFile, HasNoLoopsOfNextToNoTime) {
+  const ShapeSet set(few_shapes(), full_plan);
+  const AnimatedChunk chunk{{0, 1e-12}, 1, {{0, 0, 1}, {0, 0, 1}}, {}};
+  BakedBytes bytes(set, origins_of(3), std::vector<BakedClip>{{0, 1, {{chunk}, false}}});
+  EXPECT_EQ(bytes.load().clips[0].discs.chunks[0], chunk);
+  bytes.section<detail::baked::ClipRecord>(Section::clips)[0].loops = 1;
+  bytes.seal();
+  EXPECT_EQ(bytes.error(), "file: clips 0: animated shape: a loop of 1e-12 s, which is shorter than 0.001 s");
+}
+
 }  // namespace
 }  // namespace bch::test
