@@ -75,6 +75,7 @@ class Errors(unittest.TestCase):
         self.expect(ValueError, ["9"], collide)
         self.expect(IndexError, ["7"], self.shapes.discs, 7)
         self.expect(IndexError, ["7"], self.shapes.outline, 7)
+        self.expect(IndexError, ["7"], self.shapes.slab_begin, 7)
         self.expect(ValueError, ["directions is 300"], bch.penetration, self.shapes, self.agents, self.pairs, 300)
         self.expect(IndexError, ["shape is 4294967296"], self.shapes.discs, 2**32)
         self.expect(IndexError, ["slab is -1"], self.shapes.outline, 0, -1)
@@ -216,6 +217,18 @@ class Sets(unittest.TestCase):
         poses = female.sample_poses(8)
         outline = bch.PoseShaper(female).outline(int(poses[2]["clip"]), float(poses[2]["seconds"]))
         np.testing.assert_array_equal(outline[0], bch.bake(female, poses=poses[2:3]).outline(0)[0])
+
+    def test_slabs_of_discs(self):
+        made = bch.bake(bch.default_male(), poses=2, plan=bch.Plan(depths=(0, bch.ALL_DEPTHS), slices=bch.standing_slices(3)))
+        np.testing.assert_array_equal(made.slab_begin(1, 0), [0, 1, 2, 3])
+        begin = made.slab_begin(0)
+        self.assertEqual((len(begin), begin[0], begin[-1]), (4, 0, len(made.discs(0))))
+        self.assertTrue((np.diff(begin.astype(int)) > 1).all())
+        agents = bch.Agents(np.zeros(2, np.uint32), np.array([0, 0.05]), np.zeros(2), np.zeros(2))
+        touching = bch.contacts(made, agents, np.array([[0, 1]], np.uint32)).discs[0]
+        slabs = np.searchsorted(begin, touching, "right") - 1
+        np.testing.assert_array_equal(slabs[:, 0], slabs[:, 1])
+        self.assertEqual(set(slabs[:, 0].tolist()), {0, 1, 2})
 
     def test_replacing(self):
         male = bch.default_male()

@@ -29,7 +29,8 @@ struct CrowdContacts {
 /// The contacts are the same bits on every processor, for any number of threads. A pair in the other order
 /// has the same contacts with their two discs exchanged, sorted in that order.
 ///
-/// Bodies in slabs have the contacts of all slabs that may meet; ShapeSet::slab_begin() tells the slab of a disc.
+/// Bodies in slabs have the contacts of all slabs that may meet; ShapeSet::slab_begin() tells the slab of a disc. Slabs are always solid,
+/// so the row is also empty where bodies collide only because one is wholly inside the other's outline in a slab.
 ///
 /// For bodies of discs (shape_from_discs()) the contacts are all overlaps of their discs, as in mechanical crowd models.
 ///

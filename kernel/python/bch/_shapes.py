@@ -404,13 +404,37 @@ class ShapeSet:
         (n,) DISC
             Records of x, y and radius, metres.
         """
-        shape = index(shape, "shape", self.shape_count)
-        number = index(level + len(self.depths) if level < 0 else level, "level", len(self.depths))
+        shape, number = self._place(shape, level)
         count = c_size_t()
         check(lib.bch_shape_set_get_discs(self._pointer, shape, number, None, 0, byref(count)))
         discs = np.empty(count.value, DISC)
         check(lib.bch_shape_set_get_discs(self._pointer, shape, number, address(discs), len(discs), byref(count)))
         return discs
+
+    def slab_begin(self, shape: int, level: int = -1) -> UInt32:
+        """Return where the discs of each slab begin among those of `discs`: slab j has the discs from [j] to [j + 1].
+
+        So `np.searchsorted(set.slab_begin(shape), disc, "right") - 1` is the slab of a disc that `contacts` names. A body that is not
+        cut has its discs in the first slab that it reaches.
+
+        Parameters
+        ----------
+        shape : int
+        level : int
+            Index into `depths`; negative indices count from the end.
+
+        Returns
+        -------
+        (slab_count + 1,) uint32
+        """
+        shape, number = self._place(shape, level)
+        begin = np.empty(self.slab_count + 1, u4)
+        check(lib.bch_shape_set_get_slab_offsets(self._pointer, shape, number, address(begin)))
+        return begin
+
+    def _place(self, shape: int, level: int) -> Tuple[int, int]:
+        number = level + len(self.depths) if level < 0 else level
+        return index(shape, "shape", self.shape_count), index(number, "level", len(self.depths))
 
     def outline(self, shape: int, slab: Optional[int] = None) -> List[Float32]:
         """Return the outline of a shape: closed contours, counter-clockwise, of points in metres.
