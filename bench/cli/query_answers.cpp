@@ -57,13 +57,26 @@ std::string collide_rows(const QueryInput& input) {
   return hit_rows(input, hits);
 }
 
+/// Returns the slab of a disc of an agent.
+std::size_t slab_of(const QueryInput& input, std::uint32_t agent, std::uint32_t disc) {
+  const AgentTable& table = input.table;
+  const std::uint32_t level = table.level.empty() ? input.set.level_count() - 1 : table.level[agent];
+  const std::vector<std::uint32_t> begin = input.set.slab_begin(table.shape[agent], level);
+  return static_cast<std::size_t>(std::upper_bound(begin.begin(), begin.end(), disc) - begin.begin()) - 1;
+}
+
 std::string contact_rows(const QueryInput& input) {
   ContactFinder finder;
   const Rows<DiscPair> rows = finder.find(input.set, input.table.agents(), input.pairs, input.options);
   std::string out;
   for (std::size_t i = 0; i < input.pairs.size(); ++i)
-    for (const DiscPair& contact : rows[i])
-      out += fmt::format("{},{},{}\n", ids(input, i), contact.first, contact.second);
+    for (const auto& [first, second] : rows[i]) {
+      out += fmt::format("{},{},{}", ids(input, i), first, second);
+      if (!input.set.slices().empty())
+        out += fmt::format(",{},{}", slab_of(input, input.pairs[i].first, first),
+                           slab_of(input, input.pairs[i].second, second));
+      out += "\n";
+    }
   return out;
 }
 
@@ -147,7 +160,9 @@ constexpr QueryKind kinds[] = {
      time_of_impact_rows, true},
     {"contacts", "first_disc,second_disc",
      "one line for each two discs that overlap, by their\n"
-     "                 numbers in the agents' cuts, counted from 0, depth first",
+     "                 numbers in the agents' cuts, counted from 0, depth first; of bodies in slabs also\n"
+     "                 first_slab,second_slab, counted from the ground; whole bodies are in their lowest "
+     "slab",
      contact_rows, false, false},
     {"penetration", "depth,x,y",
      "how far (metres) and in which direction (unit vector) the first agent\n"

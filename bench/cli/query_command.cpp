@@ -157,7 +157,9 @@ std::string answer(const QueryCommandOptions& options, const ShapeSet& set, Ques
                                                 : colliding_pairs(set, table.agents(), how);
   const QueryKind& kind = query_kind(options.what);
   return fmt::format("{},{}{}\n", subject_columns(obstacles), kind.columns,
-                     options.points ? point_columns : "") +
+                     options.points                                        ? point_columns
+                     : options.what == "contacts" && !set.slices().empty() ? slab_columns
+                                                                           : "") +
          kind.rows({set, table, pairs, how, options.directions, options.only_direction(), options.points,
                     obstacles});
 }

@@ -4,7 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
+#include <set>
 #include <sstream>
+#include <string>
 
 #include "tests/support/bch_run.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -56,6 +58,33 @@ TEST(Cli, SlicesClearCollisions) {
   EXPECT_LT(three, whole);
   EXPECT_LT(eight, three);
   EXPECT_GT(eight, whole / 3);
+}
+
+TEST(Cli, ContactsNameTheirSlabs) {
+  const TemporaryFolder folder;
+  const std::string agents = folder.write("agents.csv", "id,shape,x,y,heading\n0,0,0,0,0\n1,1,0.1,0.1,1\n"),
+                    raised = folder.write("raised.csv",
+                                          "id,shape,x,y,z,heading\n0,0,0,0,0,0\n1,1,0.1,0.1,0.5,1\n");
+  const auto contacts = [](const std::string& of, const Arguments& more) {
+    const Ending run =
+        bch({"query", "default:male", of, "--poses", "3", "--all-pairs", "--what", "contacts"}, more);
+    EXPECT_EQ(run.code, 0) << run.err;
+    return run.out;
+  };
+  EXPECT_TRUE(contacts(agents, {}).starts_with("first,second,first_disc,second_disc\n"));
+  const Arguments slices{"--slices", "0.4,1"};
+  const auto slabs_of = [&](const std::string& of) {
+    std::istringstream rows(contacts(of, slices));
+    std::string row;
+    EXPECT_TRUE(std::getline(rows, row));
+    EXPECT_EQ(row, "first,second,first_disc,second_disc,first_slab,second_slab");
+    std::set<std::string> slabs;
+    while (std::getline(rows, row)) slabs.insert(row.substr(row.rfind(',', row.rfind(',') - 1) + 1));
+    return slabs;
+  };
+  EXPECT_EQ(slabs_of(agents), (std::set<std::string>{"0,0", "1,1", "2,2"}));
+  EXPECT_TRUE(slabs_of(raised).contains("1,0"));
+  EXPECT_FALSE(slabs_of(raised).contains("0,1"));
 }
 
 TEST(Cli, SlabsAreDrawn) {
