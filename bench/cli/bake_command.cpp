@@ -68,7 +68,8 @@ std::function<void()> add_bake_command(CLI::App& program) {
   command.footer(
       "query, crowd, inspect and check take the baked file in place of a character. It holds only what "
       "queries need.\n"
-      "With --semantics boundary --leaves discs it holds no outlines and is about a quarter smaller.\n"
+      "With --semantics boundary --leaves discs and no --slices it holds no outlines and is about a quarter "
+      "smaller.\n"
       "Example: bch bake man.glb woman.glb --rate 30 --depths 0,all -o people.bch");
   command.add_option("FILE", options->characters, character_help)->type_name("")->required();
   command.add_option("-o,--output", options->output, "Baked file to write, NAME.bch")

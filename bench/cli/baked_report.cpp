@@ -54,10 +54,6 @@ float root_radius(const ShapeSet& set, std::uint32_t shape) {
   return largest;
 }
 
-std::string slices_text(const ShapeSet& set) {
-  return fmt::format("{} slabs, cut at {} m", set.slab_count(), fmt::join(set.slices(), ", "));
-}
-
 }  // namespace
 
 BakedShapes open_baked(const std::string& file) {
@@ -86,6 +82,16 @@ std::string clip_name(const ShapeOrigins& origins, const BakedClip& clip) {
 
 std::uint32_t disc_count(const ShapeSet& set, std::uint32_t shape, std::uint32_t level) {
   return set.slab_begin(shape, level).back();
+}
+
+std::string slices_text(const ShapeSet& set) {
+  return fmt::format("{} slabs, cut at {} m", set.slab_count(), fmt::join(set.slices(), ", "));
+}
+
+Json slices_json(const ShapeSet& set) {
+  Json planes = Json::array();
+  for (const float plane : set.slices()) planes.push_back(shortest(plane));
+  return planes;
 }
 
 std::string text_of(const std::string& file, const BakedShapes& baked) {
@@ -143,8 +149,7 @@ Json json_of(const std::string& file, const BakedShapes& baked) {
   Json json{{"source", file}, {"shape_count", set.shape_count()}, {"bytes", set.bytes()}};
   for (const std::uint32_t depth : set.depths()) json["depths"].push_back(depth_name(depth));
   json["threshold_m"] = shortest(static_cast<float>(origins.threshold));
-  json["slices_m"] = Json::array();
-  for (const float plane : set.slices()) json["slices_m"].push_back(shortest(plane));
+  json["slices_m"] = slices_json(set);
   json["heights"] = set.has_heights();
   json["solid"] = set.solid();
   json["exact_leaves"] = set.exact_leaves();

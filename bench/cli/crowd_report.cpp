@@ -8,12 +8,18 @@
 #include <algorithm>
 
 #include "bench/base/text.hpp"
+#include "bench/cli/baked_report.hpp"
 
 namespace bch::cli {
 namespace {
 
 std::string leaves_text(const CrowdRun& run) {
   return run.set.exact_leaves() && run.options.answer.leaves != "discs" ? "segments" : "discs";
+}
+
+/// Those that answered: slabs are always solid.
+std::string semantics_text(const CrowdRun& run) {
+  return run.set.slices().empty() ? run.options.answer.semantics : "solid";
 }
 
 std::string time_text(double seconds) {
@@ -44,6 +50,7 @@ std::string facts(const CrowdRun& run) {
          line("shapes", fmt::format("{} in contour hierarchies down to {:g} mm, {:.1f} kB each",
                                     counted(run.set.shape_count(), "pose"), run.threshold * 1e3,
                                     bytes_per_shape(run) / 1e3)) +
+         (run.set.slices().empty() ? std::string() : line("slices", slices_text(run.set))) +
          (baked ? std::string()
                 : line("build", fmt::format("{} a shape and thread: outline {}, hierarchy {}",
                                             time_text(outline + hierarchy), time_text(outline),
@@ -52,9 +59,8 @@ std::string facts(const CrowdRun& run) {
               fmt::format("{} on {:.1f} m x {:.1f} m, {:g} per m2, seed {}", grouped(run.crowd.size()),
                           run.crowd.side, run.crowd.side, run.options.density, run.options.seed)) +
          line("candidates", fmt::format("{} that can collide", counted(run.answers.pairs.size(), "pair"))) +
-         line("kernel",
-              fmt::format("{}, {}, {} semantics, leaves {}", run.implementation,
-                          counted(run.threads, "thread"), run.options.answer.semantics, leaves_text(run)));
+         line("kernel", fmt::format("{}, {}, {} semantics, leaves {}", run.implementation,
+                                    counted(run.threads, "thread"), semantics_text(run), leaves_text(run)));
 }
 
 std::string level_table(const CrowdRun& run) {
@@ -90,7 +96,8 @@ nlohmann::ordered_json options_json(const CrowdRun& run) {
   json["density_per_m2"] = o.density;
   json["seed"] = o.seed;
   if (!run.characters.empty()) json["depths"] = o.answer.depths;
-  json["semantics"] = o.answer.semantics;
+  if (!run.set.slices().empty()) json["slices_m"] = slices_json(run.set);
+  json["semantics"] = semantics_text(run);
   json["leaves"] = leaves_text(run);
   return json;
 }

@@ -200,7 +200,9 @@ std::function<void()> add_inspect_command(CLI::App& program) {
       .add_option("--json", options->json,
                   "Write the same data as JSON, with all points of a shape's outline")
       ->type_name("FILE");
-  command.add_option("--svg", options->svg, "Draw the shape: a panel for each depth of its hierarchy")
+  command
+      .add_option("--svg", options->svg,
+                  "Draw the shape: a panel for each depth of its hierarchy or, with --slices, for each slab")
       ->type_name("FILE");
   CostLimits& limits = options->shapes.limits;
   command

@@ -187,9 +187,9 @@ void AnswerOptions::add_levels_to(CLI::App& command) {
   command.add_option("--depths", depths, "Levels of detail: cut depths, ascending [0,3,6,all]")
       ->type_name("LIST");
   command
-      .add_option(
-          "--semantics", semantics,
-          "boundary: outlines collide where they cross; solid: also where one contains the other [boundary]")
+      .add_option("--semantics", semantics,
+                  "boundary: outlines that cross collide; solid: also one in another, as always in slabs "
+                  "[boundary]")
       ->type_name("NAME")
       ->check(one_of({"boundary", "solid"}));
   add_leaves_option(command, leaves, 1);

@@ -51,6 +51,11 @@ TEST(Cli, SlicesClearCollisions) {
     const Ending run =
         bch({"crowd", "--agents", "300", "--poses", "5", "--depths", "all", "--json", json}, more);
     EXPECT_EQ(run.code, 0) << run.err;
+    const auto said = read_json(json)["options"];
+    EXPECT_EQ(said["semantics"], more.empty() ? "boundary" : "solid");
+    EXPECT_EQ(said.contains("slices_m"), !more.empty());
+    EXPECT_EQ(run.out.find(" solid semantics") != std::string::npos, !more.empty()) << run.out;
+    EXPECT_EQ(run.out.find(" slabs, cut at ") != std::string::npos, !more.empty()) << run.out;
     return read_json(json)["levels"].back()["hits"].get<std::size_t>();
   };
   const std::size_t whole = hits({}), three = hits({"--slices", "0.4,1"}),
@@ -58,6 +63,14 @@ TEST(Cli, SlicesClearCollisions) {
   EXPECT_LT(three, whole);
   EXPECT_LT(eight, three);
   EXPECT_GT(eight, whole / 3);
+}
+
+/// A run can be repeated from its JSON.
+TEST(Cli, ACrowdNamesItsSlices) {
+  const TemporaryFolder folder;
+  const std::string json = folder.file("crowd.json");
+  ASSERT_EQ(bch({"crowd", "--agents", "50", "--poses", "2", "--slices", "0.4,1", "--json", json}).code, 0);
+  EXPECT_EQ(read_json(json)["options"]["slices_m"].dump(), "[0.4,1.0]");
 }
 
 TEST(Cli, ContactsNameTheirSlabs) {
