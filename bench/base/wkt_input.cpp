@@ -16,7 +16,7 @@
 
 namespace bch::cli {
 
-ObstacleSet read_obstacles(const std::string& name, Polygons polygons) {
+ObstacleSet read_obstacles(const std::string& name, Polygons polygons, std::pair<double, double> heights) {
   const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(name.c_str(), "re"), std::fclose);
   if (!file) throw InputError(fmt::format("{}: cannot be opened: {}", name, std::strerror(errno)));
   std::string text;
@@ -25,7 +25,7 @@ ObstacleSet read_obstacles(const std::string& name, Polygons polygons) {
   if (std::ferror(file.get()) != 0)
     throw InputError(fmt::format("{}: cannot be read: {}", name, std::strerror(errno)));
   try {
-    return obstacles_from_wkt(text, polygons);
+    return obstacles_from_wkt(text, polygons, heights.first, heights.second);
   } catch (const std::invalid_argument& error) {
     throw InputError(name + ": " + printable_line(error.what()));
   }

@@ -16,7 +16,6 @@
 
 #include "bench/base/csv_input.hpp"
 #include "bench/base/exit_codes.hpp"
-#include "bench/base/number.hpp"
 #include "bench/base/output.hpp"
 #include "bench/base/threads.hpp"
 #include "bench/base/wkt_input.hpp"
@@ -27,40 +26,11 @@
 #include "bench/cli/options.hpp"
 #include "bench/cli/part_options.hpp"
 #include "bench/cli/query_answers.hpp"
+#include "bench/cli/query_options.hpp"
 #include "layout/base/rounding.hpp"
 
 namespace bch::cli {
 namespace {
-
-struct QueryCommandOptions {
-  std::string character, agents, pairs, obstacles;
-  bool all_pairs = false, walkable = false;
-  std::string what = query_kinds().front().name;
-  std::uint32_t directions = 16;
-  std::string direction;  ///< empty: the best of many
-  double max_distance = HUGE_VAL;
-  std::string overlap = "zero";
-  bool points = false;
-  PartOptions part;
-  std::optional<Part> only;  ///< of pairs, or of agents by obstacles
-  ShapeOptions shapes;
-  AnswerOptions answer;
-
-  /// Errors:  throws UsageError.
-  std::optional<Vec2> only_direction() const;
-};
-
-std::optional<Vec2> QueryCommandOptions::only_direction() const {
-  if (direction.empty()) return std::nullopt;
-  const std::size_t comma = direction.find(',');
-  const auto value = [](const std::string& text) { return parse_number(text).value_or(HUGE_VAL); };
-  const auto x = static_cast<float>(value(direction.substr(0, comma)));
-  const auto y =
-      static_cast<float>(comma == std::string::npos ? HUGE_VAL : value(direction.substr(comma + 1)));
-  if (!std::isfinite(x) || !std::isfinite(y) || (x == 0 && y == 0))
-    throw UsageError(fmt::format("--direction: '{}' is not X,Y with a length", direction));
-  return Vec2{x, y};
-}
 
 /// Renumbers the agents' shapes to those in use. Returns: where these come from; no other is built.
 std::vector<ShapeSource> keep_used(std::span<const ShapeSource> sources, AgentTable& table) {
@@ -137,7 +107,8 @@ Question read_question(const QueryCommandOptions& options, std::size_t shapes, s
                     {}};
   if (!options.obstacles.empty())
     question.obstacles =
-        read_obstacles(options.obstacles, options.walkable ? Polygons::walkable : Polygons::solid);
+        read_obstacles(options.obstacles, options.walkable ? Polygons::walkable : Polygons::solid,
+                       options.heights_of_obstacles());
   else if (!options.all_pairs)
     question.pairs = read_pairs(options.pairs, question.table);
   if (options.only) keep_only(question, *options.only);
@@ -177,7 +148,7 @@ std::string query_character(const QueryCommandOptions& options) {
   const auto used = keep_used(sources, question.table);
   std::optional<CostGuard> guard(std::in_place, limits, std::span(&from, 1), used.size());
   ShapeSetPlan plan = plan_for(options.shapes, options.answer, depths);
-  plan.heights = !question.table.z.empty();
+  plan.heights = options.compares_heights(question.table);
   const BuiltShapes built = build_shapes({&from, 1}, used, options.shapes.threshold, plan, limits);
   const ShapeSet set(built.shapes, plan);
   guard.reset();
@@ -187,10 +158,9 @@ std::string query_character(const QueryCommandOptions& options) {
 std::string query_baked(const QueryCommandOptions& options) {
   const BakedShapes baked = load_baked_for(options.character, options.answer);
   Question question = read_question(options, baked.set.shape_count(), baked.set.level_count());
-  if (!question.table.z.empty() && !baked.set.has_heights())
-    throw InputError(
-        options.character +
-        ": was baked without heights, which agents with a z need; bake it with --heights or --slices");
+  if (options.compares_heights(question.table) && !baked.set.has_heights())
+    throw InputError(options.character + ": was baked without heights, which agents with a z and " +
+                     "--obstacle-heights need; bake it with --heights or --slices");
   const Threads threads(options.answer.threads);
   return answer(options, baked.set, question);
 }
@@ -235,7 +205,7 @@ void run_query(const CLI::App& command, const QueryCommandOptions& options) {
   if (named != 1)
     throw UsageError(named > 1 ? "PAIRS.csv, --all-pairs and --obstacles: name one of them"
                                : "PAIRS.csv, --all-pairs or --obstacles is missing");
-  if (!of_obstacles) require_absent(command, {"--walkable"}, "belongs to --obstacles");
+  if (!of_obstacles) require_absent(command, {"--walkable", "--obstacle-heights"}, "belongs to --obstacles");
   if (of_obstacles) {
     require_absent(command, {"--directions", "--direction"}, "obstacles have directions of their own");
     if (!query_kind(options.what).of_obstacles)
@@ -260,7 +230,7 @@ void run_query(const CLI::App& command, const QueryCommandOptions& options) {
   if (!options.direction.empty()) require_absent(command, {"--directions"}, "--direction names the only one");
   if (options.directions % 2 != 0)
     throw UsageError(fmt::format("--directions: '{}' is odd", options.directions));
-  options.only_direction();
+  options.only_direction(), options.heights_of_obstacles();
   const std::vector<std::string> inputs =
       options.shapes.inputs({options.character, options.agents, options.pairs, options.obstacles});
   require_outputs({}, inputs);
@@ -311,6 +281,10 @@ std::function<void()> add_query_command(CLI::App& program) {
       ->type_name("FILE.wkt");
   command.add_flag("--walkable", options->walkable,
                    "Polygons of --obstacles are floors to walk on, and their borders are walls");
+  command
+      .add_option("--obstacle-heights", options->obstacle_heights,
+                  "Heights of all --obstacles, metres, as agents' z; bodies above or below pass [infinite]")
+      ->type_name("BOTTOM,TOP");
   std::vector<std::string> names;
   for (const QueryKind& kind : query_kinds()) names.emplace_back(kind.name);
   command

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -247,12 +248,16 @@ class WktReader {
 
 }  // namespace
 
-ObstacleSet obstacles_from_wkt(std::string_view text, Polygons polygons) {
+ObstacleSet obstacles_from_wkt(std::string_view text, Polygons polygons, double bottom, double top) {
   if (polygons != Polygons::solid && polygons != Polygons::walkable)
     throw std::invalid_argument("obstacles: no polygons are " + std::to_string(static_cast<int>(polygons)) +
                                 ", only solid (0) and walkable (1)");
   const ReadObstacles read = WktReader(text, polygons == Polygons::walkable).read();
-  return ObstacleSet({read.x, read.y, read.path_offsets, read.obstacle_offsets, read.is_area});
+  ObstacleArrays arrays{read.x, read.y, read.path_offsets, read.obstacle_offsets, read.is_area};
+  constexpr double infinite = std::numeric_limits<double>::infinity();
+  const std::vector<double> bottoms(read.is_area.size(), bottom), tops(read.is_area.size(), top);
+  if (!(bottom == -infinite && top == infinite)) arrays.bottom = bottoms, arrays.top = tops;
+  return ObstacleSet(arrays);
 }
 
 }  // namespace bch

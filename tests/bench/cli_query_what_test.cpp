@@ -309,6 +309,28 @@ TEST_F(QueryWhat, ObstaclesInPlaceOfPairs) {
             (Rows{{"a", "0"}, {"b", "1"}, {"c", "1"}, {"d", "0"}}));
 }
 
+TEST_F(QueryWhat, ObstaclesWithHeights) {
+  const std::string walls = folder.write("walls.wkt", "LINESTRING(-1 0, 1 0)");
+  const auto hits = [&](const std::string& heights) {
+    const Rows all = rows("collide", "id,hit", {"--obstacles", walls, "--obstacle-heights=" + heights});
+    return all.empty() ? "" : all.front()[1];
+  };
+  EXPECT_EQ(hits("0,2"), "1");
+  EXPECT_EQ(hits("1.7,9"), "1");
+  EXPECT_EQ(hits("1.9,9"), "0");
+  EXPECT_EQ(hits("-inf,-1"), "0");
+  EXPECT_EQ(hits("-inf,inf"), "1");
+  // In slabs, too, and where agents stand somewhere else.
+  EXPECT_EQ(rows("clearance", "id,distance,x,y",
+                 {"--obstacles", walls, "--obstacle-heights", "1.9,3", "--slices", "1"})
+                .front()[1],
+            "inf");
+  const std::string high = folder.write("high.csv", "id,shape,x,y,heading,z\na,0,0,0,0,1\nb,0,0,0,0,4\n");
+  const Ending ending = run_program(BCH_PROGRAM, {"query", shapes, high, "--up", "y", "--scale", "1",
+                                                  "--obstacles", walls, "--obstacle-heights", "2,3"});
+  EXPECT_EQ(ending.out, "id,hit\na,1\nb,0\n") << ending.err;
+}
+
 TEST_F(QueryWhat, ObstaclesThatAreNone) {
   const std::string bad = folder.write("bad.wkt", "LINESTRING(0 0,\n 1)");
   const Ending ending = run("collide", {"--obstacles", bad});
@@ -317,6 +339,12 @@ TEST_F(QueryWhat, ObstaclesThatAreNone) {
   EXPECT_EQ(run("collide", {"--obstacles", (folder.path() / "absent.wkt").string()}).code, 3);
   expect_usage_error({"--obstacles", bad}, "name one of them");
   expect_usage_error({"--walkable"}, "belongs to --obstacles");
+  expect_usage_error({"--obstacle-heights", "0,1"}, "belongs to --obstacles");
+  for (const char* heights : {"2", "2,1", "0,nan", ",", "low,high"}) {
+    const Ending wrong = run("collide", {"--obstacles", bad, "--obstacle-heights", heights});
+    EXPECT_EQ(wrong.code, 2) << heights;
+    EXPECT_NE(wrong.err.find("--obstacle-heights"), std::string::npos) << wrong.err;
+  }
   EXPECT_EQ(run("contacts", {"--obstacles", bad}).code, 2);
   EXPECT_EQ(run("penetration", {"--obstacles", bad, "--directions", "4"}).code, 2);
   EXPECT_EQ(run("collide", {}).code, 2);

@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <span>
 #include <string_view>
@@ -77,11 +78,14 @@ class ObstacleSet {
 
 /// Reads obstacles from well-known text, as JuPedSim and geographic information systems write it. The text is any number of POLYGON,
 /// MULTIPOLYGON, LINESTRING, MULTILINESTRING and GEOMETRYCOLLECTION, one after the other. Each line and each solid polygon is one
-/// obstacle; of walkable polygons each ring is one. Empty geometries give no obstacle. The numbers of Z, M and ZM, with or without a space
-/// before these, are read and ignored, and so are the reference system of extended text (SRID=4326;) and a byte order mark.
+/// obstacle; of walkable polygons each ring is one. Empty geometries give no obstacle. All obstacles reach from `bottom` to `top`. The
+/// numbers of Z, M and ZM, with or without a space before these, are read and ignored, and so are the reference system of extended text
+/// (SRID=4326;) and a byte order mark.
 /// Errors:  throws std::invalid_argument on malformed text, with the line and column, what stands there and what was
 ///          expected; and as ObstacleSet does. Columns count bytes. Bytes that cannot be printed are escaped, as \xe2.
-ObstacleSet obstacles_from_wkt(std::string_view text, Polygons polygons = Polygons::solid);
+ObstacleSet obstacles_from_wkt(std::string_view text, Polygons polygons = Polygons::solid,
+                               double bottom = -std::numeric_limits<double>::infinity(),
+                               double top = std::numeric_limits<double>::infinity());
 
 // Queries of agents against obstacles. Each answers every agent as the query of the same name answers every pair: it is defined without a
 // traversal, gives the same bits on every processor and for any number of threads, never misses a contact, and answers far from the
@@ -159,8 +163,8 @@ void time_of_impact(const ShapeSet& shapes, const Agents& agents, const Displace
                     const ObstacleSet& obstacles, std::span<float> times, const QueryOptions& options = {});
 
 /// Finds when each motion first touches an obstacle: the earliest time of an interval at which its solid has a point in common with one,
-/// or infinity if there is none. The time of a body in slabs is the first of any slab. Motions have no z: obstacles count as if their
-/// heights were infinite.
+/// or infinity if there is none. The time of a body in slabs is the first of any slab. Motions have no z: obstacles count at all
+/// heights.
 ///
 /// The time is never later than the first contact. At that time the solid is away from the obstacle by at most the tolerance, 4 um for each
 /// metre of its reach, 1e-14 of the distance to the ends of a segment, and the rounding in double, as between two motions. Times are the
