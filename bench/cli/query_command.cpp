@@ -3,16 +3,13 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <optional>
 #include <unordered_map>
 
-#include <bch/broad_phase.hpp>
-#include <bch/clearance.hpp>
-#include <bch/collide.hpp>
 #include <bch/penetration.hpp>
+#include <bch/query.hpp>
 
 #include "bench/base/csv_input.hpp"
 #include "bench/base/exit_codes.hpp"
@@ -27,6 +24,7 @@
 #include "bench/cli/part_options.hpp"
 #include "bench/cli/query_answers.hpp"
 #include "bench/cli/query_options.hpp"
+#include "bench/cli/query_pairs.hpp"
 #include "layout/base/rounding.hpp"
 
 namespace bch::cli {
@@ -42,34 +40,6 @@ std::vector<ShapeSource> keep_used(std::span<const ShapeSource> sources, AgentTa
     shape = entry->second;
   }
   return used;
-}
-
-/// All pairs that are within so many metres of each other, in the order of the agents' lines.
-std::vector<Pair> near_pairs(const ShapeSet& set, const AgentTable& table, const QueryOptions& options) {
-  const Agents agents = table.agents();
-  std::vector<Pair> pairs = candidate_pairs(set, agents, options.max_distance);
-  std::sort(pairs.begin(), pairs.end(),
-            [](Pair a, Pair b) { return a.first != b.first ? a.first < b.first : a.second < b.second; });
-  std::vector<float> distance(pairs.size());
-  clearance(set, agents, pairs, {distance}, options);
-  std::size_t kept = 0;
-  for (std::size_t i = 0; i < pairs.size(); ++i) {
-    pairs[kept] = pairs[i];
-    kept += std::isfinite(distance[i]);
-  }
-  pairs.resize(kept);
-  return pairs;
-}
-
-/// All pairs that collide, in the same order.
-std::vector<Pair> colliding_pairs(const ShapeSet& set, const Agents& agents, const QueryOptions& options) {
-  CrowdCollider collider;
-  const Rows<std::uint32_t> rows = collider.collide_all(set, agents, options);
-  std::vector<Pair> pairs;
-  for (std::uint32_t i = 0; i < agents.size(); ++i)
-    for (const std::uint32_t j : rows[i])
-      if (i < j) pairs.push_back({i, j});
-  return pairs;
 }
 
 /// What there is to answer.
@@ -124,7 +94,7 @@ std::string answer(const QueryCommandOptions& options, const ShapeSet& set, Ques
   how.overlap = options.overlap == "zero" ? Overlap::zero : Overlap::deepest;
   how.distance_leaves = options.answer.leaves == "segments" ? Leaves::segments : Leaves::discs;
   if (options.all_pairs)
-    pairs = std::isfinite(options.max_distance) ? near_pairs(set, table, how)
+    pairs = std::isfinite(options.max_distance) ? near_pairs(set, table, options.what, how)
                                                 : colliding_pairs(set, table.agents(), how);
   const QueryKind& kind = query_kind(options.what);
   return fmt::format("{},{}{}\n", subject_columns(obstacles), kind.columns,
@@ -265,7 +235,8 @@ std::function<void()> add_query_command(CLI::App& program) {
       "agents\n"
       "at a distance of 0 m need not collide. With --obstacles, --leaves segments applies to within, too.\n"
       "--semantics applies to collide, to within, and to --all-pairs without --max-distance.\n"
-      "With --obstacles, each line is about one agent and the obstacles: id,... instead of first,second,...\n"
+      "With --obstacles, each line is about one agent and the obstacles: id,... instead of "
+      "first,second,...\n"
       "Example: bch query default:female agents.csv pairs.csv > answers.csv");
   command.add_option("SHAPES", options->character, character_or_baked_help)->type_name("")->required();
   command.add_option("AGENTS.csv", options->agents, "Columns id,shape,x,y,heading[,z][,level][,dx,dy]")

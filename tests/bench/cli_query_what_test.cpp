@@ -8,7 +8,9 @@
 #include <set>
 #include <sstream>
 
+#include <bch/baked.hpp>
 #include <bch/query.hpp>
+#include <bch/shape_set.hpp>
 
 #include "tests/support/program_run.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -214,6 +216,30 @@ TEST_F(QueryWhat, WithinSaysWhoIsAsNear) {
   EXPECT_EQ(rows("within", header, {pairs, "--max-distance", "0"}), rows("collide", header, {pairs}));
   EXPECT_EQ(rows("within", header, {"--all-pairs", "--max-distance", "0.5", "--semantics", "solid"}).size(),
             3u);
+}
+
+TEST_F(QueryWhat, AllPairsWithinADistanceHoldThoseThatNest) {
+  const auto square = [](float half) {
+    const std::vector<std::vector<Vec2>> rings = {
+        {{-half, -half}, {half, -half}, {half, half}, {-half, half}}};
+    return shape_from_polygons(rings);
+  };
+  const std::string nest = (folder.path() / "nest.bch").string();
+  save_baked(nest, ShapeSet(std::vector<Shape>{square(1), square(0.1f)}));
+  const std::string inside = folder.write("inside.csv", "id,shape,x,y,heading\na,0,0,0,0\nb,1,0.1,0,0\n");
+  const std::string one = folder.write("one.csv", "first,second\na,b\n");
+  for (const char* semantics : {"solid", "boundary"}) {
+    const auto ask = [&](const std::string& pairs_of) {
+      const Ending ending = run_program(BCH_PROGRAM, {"query", nest, inside, pairs_of, "--what", "within",
+                                                      "--max-distance", "0.3", "--semantics", semantics});
+      EXPECT_EQ(ending.code, 0) << ending.err;
+      return ending.out;
+    };
+    const std::string header = "first,second,hit\n";
+    const bool nested = std::string(semantics) == "solid";
+    EXPECT_EQ(ask(one), header + (nested ? "a,b,1\n" : "a,b,0\n"));
+    EXPECT_EQ(ask("--all-pairs"), header + (nested ? "a,b,1\n" : ""));
+  }
 }
 
 TEST_F(QueryWhat, EveryKernelWritesTheSame) {
