@@ -151,7 +151,8 @@ constexpr QueryKind kinds[] = {
      "the least gap between their discs or, with --leaves segments,\n"
      "                 their outlines, in metres, and the unit vector from the first to the second; 0,0,0 "
      "where\n"
-     "                 they overlap, unless --overlap deepest is given; inf,0,0 beyond --max-distance",
+     "                 they overlap, unless --overlap deepest is given; inf,0,0 beyond --max-distance.\n"
+     "                 --points adds first_x,first_y,second_x,second_y",
      clearance_rows},
     {"within", "hit", "1 where the agents come within --max-distance of each other, else 0", within_rows},
     {"time-of-impact", "time",

@@ -236,7 +236,9 @@ std::function<void()> add_query_command(CLI::App& program) {
       "at a distance of 0 m need not collide. With --obstacles, --leaves segments applies to within, too.\n"
       "--semantics applies to collide, to within, and to --all-pairs without --max-distance.\n"
       "With --obstacles, each line is about one agent and the obstacles: id,... instead of "
-      "first,second,...\n"
+      "first,second,...;\n"
+      "contacts cannot be asked. FILE.wkt may have POLYGON, MULTIPOLYGON, LINESTRING, MULTILINESTRING and\n"
+      "GEOMETRYCOLLECTION; Z and M are ignored.\n"
       "Example: bch query default:female agents.csv pairs.csv > answers.csv");
   command.add_option("SHAPES", options->character, character_or_baked_help)->type_name("")->required();
   command.add_option("AGENTS.csv", options->agents, "Columns id,shape,x,y,heading[,z][,level][,dx,dy]")
@@ -290,6 +292,9 @@ std::function<void()> add_query_command(CLI::App& program) {
   options->part.add_to(command);
   options->shapes.add_to(command);
   options->answer.add_to(command);
+  command.get_option("--leaves")
+      ->description(
+          "Depth all: segments of outlines, or discs, up to 1 cm early [segments; clearance, within: discs]");
   return [options, &command] { run_query(command, *options); };
 }
 

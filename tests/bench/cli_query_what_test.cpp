@@ -290,7 +290,9 @@ TEST_F(QueryWhat, WrongWordsGiveTwo) {
 TEST_F(QueryWhat, HelpNamesEveryColumn) {
   const Ending help = run_program(BCH_PROGRAM, {"query", "--help"});
   for (const char* columns : {"first,second,hit", "first,second,distance,x,y", "first,second,time",
-                              "first,second,first_disc,second_disc", "first,second,depth,x,y", "[,dx,dy]"})
+                              "first,second,first_disc,second_disc", "first,second,depth,x,y", "[,dx,dy]",
+                              "first_x,first_y,second_x,second_y", "[segments; clearance, within: discs]",
+                              "contacts cannot be asked", "MULTILINESTRING"})
     EXPECT_NE(help.out.find(columns), std::string::npos) << columns;
   std::istringstream lines(help.out);
   for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 120u) << line;
