@@ -41,7 +41,7 @@ double ObstacleSearch::first_on_way(double from, double end, double to) {
 bool ObstacleSearch::look_about(double from, double end) {
   const PathKey a = body_->pose(from), b = body_->pose(end);
   const std::span<const LocalSegment> found =
-      near_.find({a.x, a.y, {1, 0}}, {0, 0}, reach_ + slack_, {b.x - a.x, b.y - a.y});
+      near_.find_on_way({a.x, a.y, {1, 0}}, {0, 0}, reach_ + slack_, {b.x - a.x, b.y - a.y});
   found_.clear();
   for (const LocalSegment& segment : found) found_.push_back(near_.obstacles().segments[segment.slot]);
   return !found_.empty() || is_in_area(a.x, a.y);

@@ -18,9 +18,11 @@ namespace {
 
 using Vector = ObstaclePlace::Vector;
 
-/// Returns how far to look for what is nearest to a body: not at all farther than it is, if that is known well enough.
+/// Returns how far to look for what is nearest to a body: not at all farther than it is, if that is known well enough. What is far is
+/// searched for one by one.
 double first_look(DistanceBounds nearest) noexcept {
   constexpr double least_look = 0.5, step = 0.05;  // metres
+  if (std::isinf(nearest.most)) return step;
   return std::max(step, std::min(nearest.most, std::max(least_look, 2 * nearest.least)));
 }
 

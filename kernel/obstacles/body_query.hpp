@@ -33,8 +33,6 @@ struct PlacedPart {
   double outer_radius() const noexcept { return bch::detail::outer_radius(shapes, root_index()); }
 };
 
-constexpr std::uint32_t no_obstacle = 0xffffffff;
-
 /// Selects which segments are looked for at first: those that touch a part, or those that the nearest one is among.
 enum class Look { touching, nearest };
 

@@ -3,7 +3,9 @@
 
 #include "kernel/obstacles/gap_query.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "kernel/distance/nearest_features.hpp"
 #include "kernel/runtime/kernels.hpp"
@@ -87,29 +89,37 @@ NearestObstacle GapQuery::find(BodyQuery& body, std::uint32_t agent, double limi
   NearestObstacle nearest{.gap = std::min(limit, farthest)};
   body.visit_parts(agent, [&](const PlacedPart& part) {
     if (nearest.is_near_enough) return;
-    find_in(body, part, enough, nearest);
+    // What parts before have comes first where gaps are equal.
+    const std::uint32_t first = nearest.is_found ? 0 : no_disc;
+    ObstacleGap best{nearest.gap, first, first, first, nullptr};
+    const std::span<const LocalSegment> segments = body.near_part(part);
+    search(part, segments, enough, best, nearest);
     nearest.is_near_enough = (nearest.is_found && nearest.gap <= enough) ||
                              (inside.areas && body.area_that_holds(part, exact_leaves_) != no_obstacle) ||
-                             (inside.outlines && body.outline_holds(part, body.near().found()));
+                             (inside.outlines && body.outline_holds(part, segments));
+    if (nearest.is_near_enough || nearest.gap <= part.looked) return;
+    search_outward(body, part, enough, best, nearest);
+    nearest.is_near_enough = nearest.is_found && nearest.gap <= enough;
   });
   return nearest;
 }
 
-/// Where the limit is large the search goes outward, until no segment that was not looked at can be nearer than what was found.
-void GapQuery::find_in(BodyQuery& body, const PlacedPart& part, double enough,
-                       NearestObstacle& nearest) const {
+/// Looks at the segment that is nearest to the part's centre first: its gap, which is at most twice the outer radius larger than the least
+/// one can be, leaves few others to look at.
+void GapQuery::search_outward(BodyQuery& body, const PlacedPart& part, double enough, ObstacleGap& best,
+                              NearestObstacle& nearest) const {
   const double outer = part.outer_radius();
-  // What parts before have comes first where gaps are equal.
-  const std::uint32_t first = nearest.is_found ? 0 : no_disc;
-  ObstacleGap best{nearest.gap, first, first, first, nullptr};
-  std::span<const LocalSegment> segments = body.near_part(part);
-  for (double seen = part.looked;;) {
-    search(part, segments, enough, best, nearest);
-    if (nearest.gap <= seen || (nearest.is_found && nearest.gap <= enough) || body.near().found_all())
-      return;
-    seen = nearest.is_found ? nearest.gap : std::min(2 * seen, nearest.gap);
-    segments = body.near().find(part.place, part.centre(), outer + seen);
+  double seen = part.looked;
+  const auto look = [&](double distance) {
+    seen = distance;
+    search(part, body.near().find(part.place, part.centre(), outer + distance), enough, best, nearest);
+  };
+  if (!nearest.is_found && 2 * seen < nearest.gap) {
+    const double bound = body.near().nearest_distance(part.place, part.centre()) - outer;
+    if (bound == std::numeric_limits<double>::infinity()) return;
+    if (bound > seen) look(std::min(bound, nearest.gap));
   }
+  if (nearest.gap > seen && !(nearest.is_found && nearest.gap <= enough)) look(nearest.gap);
 }
 
 /// Searches segments for what comes before the best of the part.

@@ -51,7 +51,9 @@ class GapQuery {
   /// The largest gap that there can be, metres.
   static constexpr double farthest = 8 * rounding::largest_position;
 
-  void find_in(BodyQuery& body, const PlacedPart& part, double enough, NearestObstacle& nearest) const;
+  /// Finds what is nearer than the best of a part beyond the distance at which prepare() looked.
+  void search_outward(BodyQuery& body, const PlacedPart& part, double enough, ObstacleGap& best,
+                      NearestObstacle& nearest) const;
   void search(const PlacedPart& part, std::span<const LocalSegment> segments, double enough,
               ObstacleGap& best, NearestObstacle& nearest) const;
 

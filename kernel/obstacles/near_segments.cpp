@@ -39,12 +39,35 @@ bool is_near(const ObstaclePlace& place, Vec2 centre, double distance, const Wor
   return to.touches(double{centre.x}, double{centre.y}, distance);
 }
 
-/// Returns a box about a disc on its way, enlarged by what is rounded, and by what slack adds to the distance.
+/// Returns the square of the distance of a point from a segment; not exact, and without slack.
+double square_distance(const WorldSegment& segment, Vector from) noexcept {
+  const double dx = from.x - segment.ax, dy = from.y - segment.ay;
+  const double along = dx * segment.x + dy * segment.y, across = dx * segment.y - dy * segment.x;
+  const double beyond = std::max(std::max(-along, along - segment.length), 0.0);
+  return across * across + beyond * beyond;
+}
+
+/// Returns the square of the distance of a point from a box of a block; infinity: of padding.
+double square_distance(const BoxBlock& block, unsigned i, Vector from) noexcept {
+  const double dx = std::max(std::max(block.low_x[i] - from.x, from.x - block.high_x[i]), 0.0),
+               dy = std::max(std::max(block.low_y[i] - from.y, from.y - block.high_y[i]), 0.0);
+  return dx * dx + dy * dy;
+}
+
+/// Returns how far boxes of segments may be that are within a distance: it is enlarged by what is rounded, and by what slack adds.
+double distance_of_boxes(const ObstaclePlace& place, double distance) noexcept {
+  return distance * (1 + 8 * slack_share) + rounding_of(place);
+}
+
+Vector in_world(const ObstaclePlace& place, Vec2 point) noexcept {
+  const auto [x, y] = place.turned(double{point.x}, double{point.y});
+  return {place.x + x, place.y + y};
+}
+
+/// Returns a box about a disc on its way.
 Box box_about(const ObstaclePlace& place, Vec2 centre, double distance, Vector way) noexcept {
-  const auto [dx, dy] = place.turned(double{centre.x}, double{centre.y});
-  const double x = place.x + dx, y = place.y + dy;
-  const double wide =
-      distance * (1 + 8 * slack_share) + rounding_of(place) + 0x1p-50 * (std::abs(way.x) + std::abs(way.y));
+  const auto [x, y] = in_world(place, centre);
+  const double wide = distance_of_boxes(place, distance) + 0x1p-50 * (std::abs(way.x) + std::abs(way.y));
   return {x + std::min(way.x, 0.0) - wide, y + std::min(way.y, 0.0) - wide, x + std::max(way.x, 0.0) + wide,
           y + std::max(way.y, 0.0) + wide};
 }
@@ -86,16 +109,61 @@ std::span<const std::uint32_t> NearSegments::query(const BoxTreeView& tree, cons
   return slots;
 }
 
-std::span<LocalSegment> NearSegments::find(const ObstaclePlace& place, Vec2 centre, double distance,
-                                           Vector way) {
+std::span<LocalSegment> NearSegments::find_on_way(const ObstaclePlace& place, Vec2 centre, double distance,
+                                                  Vector way) {
   boxes_.assign(1, box_about(place, centre, distance, way));
-  const std::uint32_t looked = descend(obstacles_.segment_tree), size = keep_level(looked, part_);
+  const std::uint32_t size = keep_level(descend(obstacles_.segment_tree), part_);
   if (memory_.size() <= size) memory_.resize(std::size_t{size} + 1);
   const bool moves = way.x != 0 || way.y != 0;
   std::size_t count = 0;
   for (std::uint32_t k = 0; k < size; ++k)
     count += is_near(place, centre, distance, obstacles_.segments, hits_[k].place, memory_[count]) | moves;
-  found_all_ = looked == obstacles_.segment_count && count == size;
+  return sorted(std::span(memory_).first(count));
+}
+
+template <class Take>
+void NearSegments::visit_near(Vector from, const double& limit, const Take& take) {
+  const BoxTreeView& tree = obstacles_.segment_tree;
+  open_.clear();
+  if (tree.levels != 0) open_.push_back({0, tree.levels - 1, 0});
+  while (!open_.empty() && open_.front().square < limit) {
+    const auto [of_block, level, block] = open_.front();
+    std::pop_heap(open_.begin(), open_.end());
+    open_.pop_back();
+    const BoxBlock& boxes = tree.blocks[tree.level_begin[level] + block];
+    for (std::uint32_t i = 0; i < 8; ++i) {
+      const double square = square_distance(boxes, i, from);
+      if (!(square < limit)) continue;
+      const std::uint32_t below = 8 * block + i;
+      if (level > 0) {
+        open_.push_back({square, level - 1, below});
+        std::push_heap(open_.begin(), open_.end());
+      } else if (part_.empty() || is_level(obstacles_.segments[below].obstacle, part_.front())) {
+        take(below);
+      }
+    }
+  }
+}
+
+double NearSegments::nearest_distance(const ObstaclePlace& place, Vec2 centre, std::uint32_t obstacle) {
+  const Vector from = in_world(place, centre);
+  double least = std::numeric_limits<double>::infinity();
+  visit_near(from, least, [&](std::uint32_t slot) {
+    const WorldSegment& segment = obstacles_.segments[slot];
+    if (obstacle == no_obstacle || segment.obstacle == obstacle)
+      least = std::min(least, square_distance(segment, from));
+  });
+  // Much more than what is rounded, and much less than what others are farther away.
+  return std::sqrt(least) * (1 + 0x1p-40) + 0x1p-46 * (std::abs(from.x) + std::abs(from.y));
+}
+
+std::span<LocalSegment> NearSegments::find(const ObstaclePlace& place, Vec2 centre, double distance) {
+  const double most = distance_of_boxes(place, distance) * (1 + 0x1p-40), limit = most * most;
+  std::size_t count = 0;
+  visit_near(in_world(place, centre), limit, [&](std::uint32_t slot) {
+    if (memory_.size() <= count) memory_.resize(2 * count + 8);
+    count += is_near(place, centre, distance, obstacles_.segments, slot, memory_[count]);
+  });
   return sorted(std::span(memory_).first(count));
 }
 
@@ -120,7 +188,6 @@ void NearSegments::prepare(std::span<const NearQuery> queries, std::span<const S
 
 std::span<LocalSegment> NearSegments::take(std::size_t query) {
   if (!parts_.empty()) part_ = parts_.subspan(query, 1);
-  found_all_ = false;
   const std::uint32_t begin = prepared_end_[query];
   return sorted(std::span(prepared_).subspan(begin, prepared_end_[query + 1] - begin));
 }

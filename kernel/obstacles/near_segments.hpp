@@ -33,6 +33,8 @@ struct ObstaclePlace {
   }
 };
 
+constexpr std::uint32_t no_obstacle = 0xffffffff;
+
 /// Represents a disc that is asked about, of an agent's frame.
 struct NearQuery {
   ObstaclePlace place;
@@ -60,13 +62,17 @@ class NearSegments {
   /// Returns what find() finds for one of the queries of prepare(). From here on, obstacles that are above or below its part are left out.
   std::span<LocalSegment> take(std::size_t query);
 
-  /// Finds all segments within a distance of a point of the agent's frame, as long as that moves by `way` (in the world); in the order of their
-  /// numbers, so that those of an obstacle follow each other.
-  std::span<LocalSegment> find(const ObstaclePlace& place, Vec2 centre, double distance,
-                               ObstaclePlace::Vector way = {0, 0});
+  /// Finds all segments within a distance of a point of the agent's frame, in the order of their numbers, so that those of an obstacle
+  /// follow each other.
+  std::span<LocalSegment> find(const ObstaclePlace& place, Vec2 centre, double distance);
+  /// Finds at least those within a distance of a point that moves by `way` (in the world), in the same order.
+  std::span<LocalSegment> find_on_way(const ObstaclePlace& place, Vec2 centre, double distance,
+                                      ObstaclePlace::Vector way);
   std::span<LocalSegment> found() const noexcept { return found_; }
-  /// Returns whether find() found all segments of the set, but for those above and below: none is farther away.
-  bool found_all() const noexcept { return found_all_; }
+
+  /// Returns a distance from a point of the agent's frame within which find() finds the nearest segment, of one obstacle or of all, and
+  /// hardly any other; infinity: there is none.
+  double nearest_distance(const ObstaclePlace& place, Vec2 centre, std::uint32_t obstacle = no_obstacle);
 
   /// Calls visit(segments) for every obstacle of those that were found, until it returns true. Returns: whether it did.
   template <class Visit>
@@ -99,17 +105,27 @@ class NearSegments {
   /// Sorts the segments that were found by their numbers.
   std::span<LocalSegment> sorted(std::span<LocalSegment> segments);
 
+  /// Calls take(slot) for segments whose boxes have a square distance from a point below a limit, which may sink; those of near blocks first.
+  template <class Take>
+  void visit_near(ObstaclePlace::Vector from, const double& limit, const Take& take);
+  /// Represents a block of the tree whose box has this square distance from a point.
+  struct OpenBlock {
+    double square;
+    std::uint32_t level, block;
+    bool operator<(const OpenBlock& other) const noexcept { return square > other.square; }
+  };
+
   const Implementation& implementation_;
   const ObstacleView& obstacles_;
   std::vector<std::uint32_t> slots_, areas_;
   std::vector<Box> boxes_;
   std::vector<BoxHit> hits_, next_;
+  std::vector<OpenBlock> open_;                  ///< a heap: the nearest first
   std::vector<LocalSegment> memory_, prepared_;  ///< of find() and of prepare()
   std::vector<std::uint32_t> prepared_end_;      ///< where those of the queries before one end
   std::span<LocalSegment> found_;
   std::span<const StandingPart> parts_;  ///< of prepare()
   std::span<const StandingPart> part_;   ///< that of the query that was taken; empty: heights do not count
-  bool found_all_ = false;
 };
 
 /// Returns whether the way from one point to another crosses a segment, all in one frame. A vertex on the line of the way belongs to one side of it, for both of

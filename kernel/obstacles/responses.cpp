@@ -175,7 +175,7 @@ class WaysOut {
     const Vec2 centre = part_.centre();
     const LocalSegment* nearest = nullptr;
     double least = infinity;
-    for (double distance = std::max(least_step, part_.outer_radius());
+    for (double distance = std::max(least_step, body_.near().nearest_distance(part_.place, centre, area));
          nearest == nullptr && distance < farthest; distance *= 4)
       for (const LocalSegment& segment : body_.near().find(part_.place, centre, distance)) {
         const double square = segment.square_distance(double{centre.x}, double{centre.y});
@@ -255,7 +255,8 @@ double impact(BodyQuery& body, const PlacedPart& part, Vector way_in_world) {
   if (is_solid && body.outline_holds(part, body.near().found())) return 0;
   const Vector way = part.place.turned_back(way_in_world.x, way_in_world.y);
   double best = infinity;
-  for (const LocalSegment& segment : body.near().find(part.place, centre, part.outer_radius(), way_in_world))
+  for (const LocalSegment& segment :
+       body.near().find_on_way(part.place, centre, part.outer_radius(), way_in_world))
     find_time(part, segment, way, best);
   return best;
 }

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <vector>
+
+#include <bch/obstacles.hpp>
+
+#include "kernel/obstacles/gap_query.hpp"
+#include "tests/support/obstacle_scenes.hpp"
+#include "tests/support/scenes.hpp"
+
+// Agents in a large hall: its wall has many segments, and all are far.
+
+namespace bch {
+namespace {
+
+using baselines::ObstacleReference;
+using test::Crowd;
+using test::ObstacleScene;
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+class ObstacleHall : public test::ObstacleTest {
+ protected:
+  /// A ring of so many segments, whose radius swings by a share of it.
+  static ObstacleScene hall(double radius, std::uint32_t segments, double share, bool is_area) {
+    ObstacleScene scene;
+    std::vector<ObstacleScene::Point> points;
+    for (std::uint32_t i = 0; i < segments; ++i) {
+      const double angle = 2 * std::numbers::pi * i / segments,
+                   r = radius * (1 + share * std::cos(37 * angle));
+      points.push_back({r * std::cos(angle), r * std::sin(angle)});
+    }
+    scene.add_path(points, true);
+    scene.end_obstacle(is_area);
+    return scene;
+  }
+};
+
+float rounded_down_to_float(double value) {
+  const float nearest = static_cast<float>(value);
+  return static_cast<double>(nearest) > value ? std::nextafter(nearest, -HUGE_VALF) : nearest;
+}
+
+/// Far from the wall, next to it and beyond, distances are those of brute force over all segments.
+TEST_F(ObstacleHall, IsAsFarAsBruteForceSays) {
+  const ObstacleReference reference(shapes, {.depths = {0, 3, 6, all_depths}}, Leaves::discs);
+  for (const bool is_area : {false, true})
+    for (const double share : {0.0, 0.02}) {
+      const ObstacleScene scene = hall(200, 2'000, share, is_area);
+      const ObstacleSet obstacles = scene.set();
+      Crowd crowd = test::crowd_about(random, set, test::samples(120), 210);
+      crowd.add({0, 0, 0, 0, 3}), crowd.add({1, 1e6, -1e6, 0, 2});
+      const Agents agents = crowd.agents();
+      std::vector<float> distance(agents.size()), deepest(agents.size()), limited(agents.size());
+      std::vector<DiscPair> discs(agents.size());
+      clearance(set, agents, obstacles, {.distance = distance});
+      clearance(set, agents, obstacles, {.distance = deepest, .discs = discs}, {.overlap = Overlap::deepest});
+      clearance(set, agents, obstacles, {.distance = limited}, {.max_distance = 50});
+      for (std::uint32_t i = 0; i < agents.size(); ++i) {
+        const auto gap = reference.gap(agents, i, scene.reference);
+        ASSERT_EQ(deepest[i], rounded_down_to_float(gap.gap)) << i;
+        ASSERT_EQ(discs[i], (DiscPair{gap.disc, gap.segment})) << i;
+        const bool is_held = reference.holds_a_centre(agents, i, scene.reference[0]);
+        const float expected = is_held ? 0 : std::max(deepest[i], 0.0f);
+        ASSERT_EQ(distance[i], expected) << i;
+        ASSERT_EQ(limited[i], is_held || gap.gap <= 50 ? expected : HUGE_VALF) << i;
+      }
+    }
+}
+
+/// An agent deep in an area leaves it over the nearest segment.
+TEST_F(ObstacleHall, IsLeftOverTheNearestSegment) {
+  const ObstacleScene scene = hall(200, 2'000, 0, true);
+  const ObstacleSet obstacles = scene.set();
+  Crowd crowd = test::crowd_about(random, set, test::samples(200), 130);
+  std::vector<Penetration> ways(crowd.x.size());
+  std::vector<std::uint8_t> hits(crowd.x.size());
+  penetration(set, crowd.agents(), obstacles, ways);
+  for (std::size_t i = 0; i < ways.size(); ++i) {
+    const double from_centre = std::hypot(crowd.x[i], crowd.y[i]),
+                 reach = 2 * double{set.bounding_radius(crowd.shape[i])};
+    EXPECT_NEAR(double{ways[i].depth}, 200 - from_centre, reach);
+    crowd.x[i] += double{ways[i].depth} * ways[i].x, crowd.y[i] += double{ways[i].depth} * ways[i].y;
+  }
+  collide(set, crowd.agents(), obstacles, hits, {.leaves = Leaves::discs});
+  EXPECT_EQ(hits, std::vector<std::uint8_t>(hits.size(), 0));
+}
+
+/// A search looks at the segments that may be the nearest, and hardly any others; inside an area it does not look for them.
+TEST_F(ObstacleHall, TakesNoMoreThanItsNearestSegments) {
+  constexpr std::uint32_t segments = 10'000;
+  for (const bool is_area : {false, true}) {
+    const ObstacleSet obstacles = hall(1'000, segments, 0.01, is_area).set();
+    for (const double at : {0.0, 500.0, 700.0, 840.0, 940.0}) {
+      const Crowd crowd = test::crowd_about(random, set, 20, 20, at);
+      const Agents agents = crowd.agents();
+      const detail::ShapeSetView shapes_view = set.view();
+      detail::BodyQuery body(best_implementation(), shapes_view, agents, obstacles.view());
+      const detail::GapQuery query(best_implementation(), shapes_view, false);
+      body.prepare(0, 20, infinity, detail::Look::nearest);
+      std::size_t looked_at = 0;
+      for (std::uint32_t i = 0; i < 20; ++i) {
+        const auto nearest = query.find(body, i, infinity, 0, {true, false});
+        EXPECT_EQ(nearest.is_near_enough, is_area);
+        looked_at = std::max(looked_at, body.near().found().size());
+      }
+      EXPECT_LE(looked_at, segments / 50) << at;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace bch
