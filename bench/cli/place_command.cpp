@@ -42,9 +42,13 @@ detail::CastMember member_of(const LoadedCharacter& loaded) {
   }
 }
 
-bench::PlacedClip placed_clip(const PlaceOptions& options, const AnimateOptions& how,
-                              const detail::CastMember& member, std::uint32_t clip) {
+/// A clip that is too short is played over and over.
+bench::PlacedClip placed_clip(const PlaceOptions& options, const detail::CastMember& member,
+                              std::uint32_t clip) {
   const Clip& played = member.character.clips[clip];
+  AnimateOptions how;
+  how.slices = options.shapes.planes();
+  if (double{played.seconds} < options.placing.seconds) how.loops = true;
   const AnimatedDiscs discs = animate_clip(member.character, member.name, clip, how);
   return {member.name,
           played.name,
@@ -61,11 +65,9 @@ std::vector<bench::PlacedClip> clips_of(const PlaceOptions& options) {
   for (const LoadedCharacter& loaded : load_characters(options.characters, {}))
     members.push_back(member_of(loaded));
   const std::vector<ClipOf> wanted = find_clips<detail::CastMember>(options.clip_names, members, "--clip");
-  AnimateOptions how;
-  how.slices = options.shapes.planes();
   std::vector<std::optional<bench::PlacedClip>> built(wanted.size());
   tbb::parallel_for(std::size_t{0}, wanted.size(), [&](std::size_t i) {
-    built[i].emplace(placed_clip(options, how, members[wanted[i].character], wanted[i].clip));
+    built[i].emplace(placed_clip(options, members[wanted[i].character], wanted[i].clip));
   });
   std::vector<bench::PlacedClip> clips;
   for (std::optional<bench::PlacedClip>& clip : built) clips.push_back(std::move(*clip));
@@ -107,11 +109,11 @@ std::function<void()> add_place_command(CLI::App& program) {
   CLI::App& command =
       *program.add_subcommand("place", "Fill an area with people in motion who never touch each other");
   command.footer(
-      "People walk along arcs inside the area, from random positions and at random times of their clips. If "
-      "a clip\n"
-      "does not walk, they stand. A candidate who would touch anybody at any time is left out. The table "
-      "compares this\n"
-      "with the cylinders of poses, and with discs of 0.25 m along whole paths, as people are often placed.\n"
+      "People walk along arcs inside the area, from random positions and at random times of their clips.\n"
+      "If a clip does not walk, they stand. A clip that is shorter than --seconds is played over and over,\n"
+      "its end followed by its beginning. A candidate who would touch anybody at any time is left out.\n"
+      "The table compares this with the cylinders of poses, and with discs of 0.25 m along whole paths, as\n"
+      "people are often placed.\n"
       "Example: bch place --clip walk --seconds 5 --csv placed.csv");
   command
       .add_option("--character", options->characters,

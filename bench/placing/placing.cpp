@@ -54,7 +54,7 @@ class Candidates {
 
   PlacedPerson next() {
     const std::uint32_t clip = random_.below(static_cast<std::uint32_t>(clips_.size()));
-    const double begin = -random_.uniform(clips_[clip].seconds);
+    const double begin = 0 - random_.uniform(latest(clips_[clip]));
     for (int i = 0; i < most_arcs; ++i) {
       std::vector<PathKey> path = arc(clips_[clip].speed);
       if (is_inside(path)) return {clip, begin, std::move(path)};
@@ -64,6 +64,11 @@ class Candidates {
   }
 
  private:
+  /// Returns the latest time of a clip with which it may begin here: one that ends has to last until everybody stops.
+  double latest(const PlacedClip& clip) const {
+    return clip.body.loops() ? clip.seconds : std::max(0.0, clip.seconds - options_.seconds);
+  }
+
   std::vector<PathKey> arc(double speed) {
     const double x = random_.uniform(options_.width), y = random_.uniform(options_.depth);
     const double heading = random_.uniform(2 * std::numbers::pi);

@@ -82,9 +82,7 @@ AnimatedClip animated_clip(const Character& character, std::uint32_t clip, doubl
   float& seconds = shorter.clips[clip].seconds;
   constexpr auto least = static_cast<float>(least_clip_seconds);
   seconds = least * std::floor(std::min(seconds, static_cast<float>(most_seconds)) / least);
-  AnimatedDiscs discs = animate(shorter, clip);
-  discs.loops = true;
-  return {&character, clip, double{seconds}, AnimatedShape(discs)};
+  return {&character, clip, double{seconds}, AnimatedShape(animate(shorter, clip, {.loops = true}))};
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <string>
 
 #include <bch/baked.hpp>
 #include <bch/pose_shape.hpp>
@@ -91,7 +92,10 @@ bch_status bch_animated_shape_animate(const bch_character* character, uint32_t c
     const bch_animate_options given =
         sized<bch_animate_options>(options, BCH_ANIMATE_OPTIONS_INIT, "options");
     const auto slices = array_of(given.slices, given.slice_count, "options->slices");
-    const AnimateOptions how{given.spacing, given.inset, given.error, {slices.begin(), slices.end()}};
+    AnimateOptions how{given.spacing, given.inset, given.error, {slices.begin(), slices.end()}};
+    if (given.loops < -1 || given.loops > 1)
+      throw Failure(BCH_INVALID_ARGUMENT, "options->loops is " + std::to_string(given.loops));
+    if (given.loops >= 0) how.loops = given.loops == 1;
     hand_out(std::make_unique<bch_animated_shape>(animate(of, clip, how)), shape);
   });
 }

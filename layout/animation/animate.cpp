@@ -215,7 +215,7 @@ std::vector<AnimatedChunk> ClipAnimator::chunks() {
 
 AnimatedDiscs ClipAnimator::run() {
   AnimatedDiscs result;
-  result.loops = loops();
+  result.loops = options_.loops ? *options_.loops : loops();
   slab_triangles_.look(0, end_);
   result.heights = slab_triangles_.heights();
   if (options_.slices.empty()) {

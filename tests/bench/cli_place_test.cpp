@@ -148,6 +148,36 @@ TEST(CliPlace, NobodyTouchesWalls) {
   expect_failure(bch({"place", "--obstacles", folder.file("none.wkt").string()}), 3, {"none.wkt"});
 }
 
+/// The clip takes 6 s. Who moves for less does not come to its end; who moves for longer begins it again, and touches nobody then.
+TEST(CliPlace, NobodyStopsWhileHeMovesOn) {
+  constexpr double fps = 10;
+  for (const double seconds : {4.0, 8.0}) {
+    const TemporaryFolder folder;
+    const std::string csv = folder.file("placed.csv");
+    const Ending run = bch({"place", "--character", "default:male", "--clip", "idle think", "--speed", "0.3",
+                            "--tries", "50", "--width", "4", "--depth", "4", "--fps", std::to_string(fps),
+                            "--seconds", std::to_string(seconds), "--csv", csv});
+    ASSERT_EQ(run.code, 0) << run.err;
+    Bodies bodies;
+    std::vector<float> before;
+    std::size_t begun_again = 0;
+    const auto moments = moments_of(read_text(csv));
+    ASSERT_EQ(moments.size(), static_cast<std::size_t>(seconds * fps) + 1);
+    for (const auto& [time, moment] : moments) {
+      for (std::size_t i = 0; i < before.size(); ++i) {
+        const bool again = moment.clip_time.at(i) < before[i];
+        EXPECT_NEAR(double{moment.clip_time[i]} + (again ? 6 : 0), double{before[i]} + 1 / fps, 1e-5)
+            << time << " s";
+        begun_again += again;
+      }
+      before = moment.clip_time;
+      EXPECT_EQ(bodies.collisions(moment), 0u) << time << " s";
+    }
+    EXPECT_GT(before.size(), 3u);
+    EXPECT_TRUE(seconds < 6 ? begun_again == 0 : begun_again >= before.size()) << begun_again;
+  }
+}
+
 TEST(CliPlace, GivesTheSamePeopleForASeed) {
   const auto people = [](const std::string& seed) {
     const TemporaryFolder folder;

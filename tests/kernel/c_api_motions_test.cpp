@@ -110,6 +110,15 @@ TEST(CApiMotions, ClipsAreAnimated) {
   EXPECT_GE(info.chunks, 3u);
   bch_animated_shape* none = nullptr;
   EXPECT_EQ(bch_animated_shape_animate(of.get(), 9999, nullptr, &none), BCH_OUT_OF_RANGE);
+  options.loops = 2;
+  EXPECT_EQ(bch_animated_shape_animate(of.get(), clip, &options, &none), BCH_INVALID_ARGUMENT);
+  for (const bool loops : {false, true}) {
+    options.loops = loops;
+    const auto told = made<OwnedAnimated>(
+        [&](bch_animated_shape** to) { return bch_animated_shape_animate(of.get(), clip, &options, to); });
+    expect_ok(bch_animated_shape_get_info(told.get(), &info));
+    EXPECT_EQ(info.loops, loops);
+  }
   options.error = 0;
   EXPECT_EQ(bch_animated_shape_animate(of.get(), clip, &options, &none), BCH_INVALID_ARGUMENT);
   EXPECT_EQ(none, nullptr);

@@ -178,6 +178,15 @@ TEST(Animate, KnowsLoops) {
   EXPECT_TRUE(animate(body, 0).loops);
   body.clips[0].seconds = 0.75f;
   EXPECT_FALSE(animate(body, 0).loops);
+  // A clip whose ends differ, played over and over: at its end the body jumps to where it begins.
+  const AnimatedDiscs forced = animate(body, 0, {.loops = true});
+  const AnimatedShape jumping(forced);
+  EXPECT_TRUE(jumping.loops());
+  EXPECT_EQ(jumping.discs(0.75), jumping.discs(0));
+  EXPECT_EQ(jumping.discs(0.75 + 0.25), jumping.discs(0.25));
+  EXPECT_NE(jumping.discs(std::nextafter(0.75, 0.0)), jumping.discs(0));
+  body.clips[0].seconds = 1;
+  EXPECT_FALSE(animate(body, 0, {.loops = false}).loops);
   body.clips[0].seconds = 1e-7f;  // at whose end it is where it was
   EXPECT_NO_THROW(validate(animate(body, 0)));
 }

@@ -332,6 +332,8 @@ class Sets(unittest.TestCase):
         self.assertEqual(clip.slab_count, 0)
         cut = bch.animate(walker, 40, spacing=0.1, slices=[1.0])
         self.assertEqual((cut.slab_count, cut.end), (2, clip.end))
+        for loops in (False, True):
+            self.assertEqual(bch.animate(walker, 40, spacing=0.1, loops=loops).loops, loops)
         shapes, _ = squares()
         shapes.keep_clip(clip, "walker", walker.clips[40].name)
         shapes.keep_clip(clip, "nobody")

@@ -21,7 +21,7 @@ class AnimatedShape:
     """A body that moves by itself: discs whose centres and radii are linear in time between keys. `animate` makes one of a clip.
 
     At any time the body covers its discs, and what the polygons of its rings' centres enclose. Times before its beginning and after
-    its end are clamped to these; if it loops, they wrap around instead.
+    its end are clamped to these; if it loops, they wrap around instead: its end is followed by its beginning at once.
 
     Parameters
     ----------
@@ -33,7 +33,7 @@ class AnimatedShape:
         The end of each ring among the discs, ascending; the last one is n. None: there are discs alone. Consecutive discs of a
         ring have to overlap.
     loops : bool
-        Whether the last pose is the first one. A loop takes 1 ms or more.
+        Whether the body moves so over and over. A loop takes 1 ms or more.
     """
 
     __slots__ = ("_handle", "_pointer", "loops", "begin", "end", "reach", "nbytes", "chunk_count", "key_count", "slab_count")

@@ -298,6 +298,7 @@ class AnimateOptions(_Sized):
         ("error", c_float),
         ("slices", c_void_p),
         ("slice_count", c_size_t),
+        ("loops", c_int32),
     ]
 
 

@@ -27,6 +27,7 @@ def animate(
     inset: float = 0.04,
     error: float = 0.005,
     slices: Sequence[float] = (),
+    loops: Optional[bool] = None,
 ) -> AnimatedShape:
     """Make moving discs that cover the character at every real time of a clip. A second of a clip takes about a second.
 
@@ -43,11 +44,18 @@ def animate(
         How much more discs may protrude between two keys than at the keys, metres.
     slices : sequence of float
         Heights of planes that cut the body into slabs, as in `Plan`.
+    loops : bool, optional
+        Whether the clip is played over and over, its end followed by its beginning at once. None: if its last pose is its first one.
     """
     number = index(clip, "clip", len(character.clips))
     planes = np.ascontiguousarray(slices, f4)
     options = _library.AnimateOptions(
-        spacing=spacing, inset=inset, error=error, slices=address(planes), slice_count=len(planes)
+        spacing=spacing,
+        inset=inset,
+        error=error,
+        slices=address(planes),
+        slice_count=len(planes),
+        loops=-1 if loops is None else bool(loops),
     )
     return AnimatedShape._of(Handle("animated_shape", "animate", character._pointer, number, byref(options)))
 

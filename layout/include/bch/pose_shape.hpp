@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 
 #include <bch/character.hpp>
 #include <bch/shape_set.hpp>
@@ -60,6 +61,8 @@ struct AnimateOptions {
       0.005f;  ///< by how much more discs may protrude between two keys than at these, unless keys are 9 ms apart
   std::vector<float> slices =
       {};  ///< planes that cut the body into slabs, as in ShapeSetPlan; none: discs are of the whole body
+  std::optional<bool> loops =
+      {};  ///< AnimatedDiscs::loops; none: whether the clip's last pose is its first one, to a 1000th of the spacing
 };
 
 /// Makes moving discs of a character's clip that hold all of its triangles at every real time of the clip. The proof is in

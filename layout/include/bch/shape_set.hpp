@@ -76,7 +76,7 @@ struct AnimatedChunk {
 /// cut has its discs in its slabs instead.
 struct AnimatedDiscs {
   std::vector<AnimatedChunk> chunks;  ///< from the clip's beginning to its end
-  bool loops = false;                 ///< whether the clip's last pose is its first one; a loop takes 1 ms or more
+  bool loops = false;                 ///< whether the clip is played over and over; a loop takes 1 ms or more
   std::vector<float> slices = {};     ///< planes that cut the body, as in ShapeSetPlan; none: it is whole
   /// Holds the slabs of a body that is cut: one more than planes, with only chunks, from and to the same times. A slab without discs for a
   /// time has a chunk of no discs.
@@ -100,7 +100,7 @@ void validate(const AnimatedDiscs& discs);
 ///
 /// The discs are in a tree whose nodes are discs that move as these do, and hold them at every time. Where a chunk ends and the next one
 /// begins, the discs of both count. Times before the beginning and after the end are clamped to these; if the clip loops, they wrap around
-/// instead.
+/// instead: its end is followed by its beginning at once, even where the body is not there what it was at the end.
 ///
 /// Numbers are kept in 16 bits. Discs of animate() are kept exactly; other discs are rounded outward, so that they hold the given ones
 /// and reach out of them by less than 0.15 mm per metre of the reach. An object that was moved from can only be assigned to or destroyed.

@@ -642,7 +642,7 @@ BCH_API bch_status bch_obstacles_time_of_impact(const bch_shape_set* set, const 
 
 /** Represents a body that moves by itself: discs whose centres and radii are linear in time from key to key, and what their rings enclose.
  * It has a shape at every time. Times before the beginning and after the end are clamped to these; if the clip loops, they wrap around
- * instead. */
+ * instead: its end is followed by its beginning at once. */
 typedef struct bch_animated_shape bch_animated_shape;
 
 /** Says how close the discs of a clip are to the body, metres. */
@@ -653,9 +653,10 @@ typedef struct bch_animate_options {
   float error;   /**< by how much more discs may protrude between two keys than at these */
   const float* slices; /**< heights of planes that cut the body into slabs, ascending, at most 63; none: it is whole */
   size_t slice_count;
+  int32_t loops; /**< 1: the clip is played over and over; 0: it ends; -1: over and over if its last pose is its first one */
 } bch_animate_options;
 #define BCH_ANIMATE_OPTIONS_INIT \
-  { sizeof(bch_animate_options), 0.025f, 0.04f, 0.005f, NULL, 0 }
+  { sizeof(bch_animate_options), 0.025f, 0.04f, 0.005f, NULL, 0, -1 }
 /** Makes moving discs of a clip that hold the character at every real time of it. A second of a clip takes about a second. */
 BCH_API bch_status bch_animated_shape_animate(const bch_character* character, uint32_t clip,
                                               const bch_animate_options* options, bch_animated_shape** shape);
@@ -663,7 +664,7 @@ BCH_API bch_status bch_animated_shape_animate(const bch_character* character, ui
 /** Holds moving discs in arrays of the caller: chunks that follow one another in time, each with discs of its own. */
 typedef struct bch_animated_arrays {
   uint32_t size;             /**< sizeof(bch_animated_arrays) */
-  int32_t loops;             /**< not 0: the last pose is the first one, 1 ms later or more */
+  int32_t loops;             /**< not 0: the clip is played over and over; it takes 1 ms or more */
   const uint32_t* key_counts; /**< one per chunk, like the next two */
   const uint32_t* disc_counts;
   const uint32_t* ring_counts; /**< NULL: discs without rings */
