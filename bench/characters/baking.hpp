@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <functional>
 #include <span>
@@ -32,23 +33,26 @@ ShapeSet bake_shapes(std::span<const LoadedCharacter> characters, std::span<cons
 /// Names a clip of one of several characters, by their indices.
 struct ClipOf {
   std::uint32_t character, clip;
+  friend bool operator==(const ClipOf&, const ClipOf&) = default;
 };
 
-/// Finds the clips of given names, or "all", in the order of the names: `characters` have a Character of that name.
+/// Finds the clips of given names, or "all", in the order of the names, each once: `characters` have a Character of that name.
 /// Errors:  throws InputError on a name that no character's clip has, naming the option that it was given to.
 template <class Holder>
 std::vector<ClipOf> find_clips(std::span<const std::string> names, std::span<const Holder> characters,
                                const char* option) {
   std::vector<ClipOf> found;
   for (const std::string& name : names) {
-    const std::size_t before = found.size();
+    bool is_there = false;
     for (std::uint32_t i = 0; i < characters.size(); ++i) {
       const std::vector<Clip>& clips = characters[i].character.clips;
-      for (std::uint32_t clip = 0; clip < clips.size(); ++clip)
-        if (name == "all" || name == clips[clip].name) found.push_back({i, clip});
+      for (std::uint32_t clip = 0; clip < clips.size(); ++clip) {
+        if (name != "all" && name != clips[clip].name) continue;
+        is_there = true;
+        if (std::ranges::find(found, ClipOf{i, clip}) == found.end()) found.push_back({i, clip});
+      }
     }
-    if (found.size() == before)
-      throw InputError(fmt::format("{}: no character has a clip named '{}'", option, name));
+    if (!is_there) throw InputError(fmt::format("{}: no character has a clip named '{}'", option, name));
   }
   return found;
 }

@@ -79,9 +79,9 @@ nlohmann::ordered_json json_report(const PlaceRun& run) {
 std::string csv_report(const PlaceRun& run) {
   std::string out = "id,time,x,y,stature,heading,character,clip,clip_time\n";
   const auto& people = run.placements.front().placement.people;
-  const auto frames = static_cast<std::uint64_t>(run.options.placing.seconds * run.options.fps);
-  for (std::uint64_t frame = 0; frame <= frames; ++frame) {
-    const double time = static_cast<double>(frame) / run.options.fps;
+  const auto time_of = [&](std::uint64_t frame) { return static_cast<double>(frame) / run.options.fps; };
+  for (std::uint64_t frame = 0; time_of(frame) <= run.options.placing.seconds; ++frame) {
+    const double time = time_of(frame);
     for (std::size_t id = 0; id < people.size(); ++id) {
       const bench::PlacedClip& clip = run.clips[people[id].clip];
       const PathKey key = bench::at(people[id].path, time);

@@ -200,7 +200,9 @@ TEST(Cli, BakedFilesKeepClipsAsMovingDiscs) {
   const std::string baked = folder.file("p.bch"), plain = folder.file("q.bch"), json = folder.file("p.json"),
                     svg = folder.file("p.svg");
   const Arguments few{"--poses", "3"};
-  const Ending bake = bch({"bake", "default:male", "--animated", "idle think", "-o", baked}, few);
+  // A clip that is named twice is kept once.
+  const Ending bake =
+      bch({"bake", "default:male", "--animated", "idle think", "--animated", "idle think", "-o", baked}, few);
   ASSERT_EQ(bake.code, 0) << bake.err;
   EXPECT_NE(bake.out.find("  animated  default:male: idle think (6.00 s, "), std::string::npos) << bake.out;
   EXPECT_EQ(bch({"inspect", baked, "--verify", "--json", json}).code, 0);

@@ -178,6 +178,19 @@ TEST(CliPlace, NobodyStopsWhileHeMovesOn) {
   }
 }
 
+/// The last frame is at 0.29 s, though 0.29 * 100 is below 29; and a clip that is named twice is built once.
+TEST(CliPlace, WritesTheLastFrameAndTakesEachClipOnce) {
+  const TemporaryFolder folder;
+  const std::string csv = folder.file("placed.csv");
+  const Ending run = bch({"place", "--character", "default:male", "--clip", "idle think", "--clip",
+                          "idle think", "--seconds", "0.29", "--fps", "100", "--tries", "3", "--csv", csv});
+  ASSERT_EQ(run.code, 0) << run.err;
+  const auto moments = moments_of(read_text(csv));
+  EXPECT_EQ(moments.size(), 30u);
+  EXPECT_EQ(moments.rbegin()->first, "0.290000");
+  EXPECT_NE(run.out.find("for 1 clip\n"), std::string::npos) << run.out;
+}
+
 TEST(CliPlace, GivesTheSamePeopleForASeed) {
   const auto people = [](const std::string& seed) {
     const TemporaryFolder folder;
