@@ -18,6 +18,7 @@
 #include "bench/characters/baking.hpp"
 #include "bench/characters/characters.hpp"
 #include "bench/cli/commands.hpp"
+#include "bench/cli/given_paths.hpp"
 #include "bench/cli/options.hpp"
 #include "bench/cli/place_report.hpp"
 #include "kernel/check/walker_cast.hpp"
@@ -76,10 +77,17 @@ std::vector<bench::PlacedClip> clips_of(const PlaceOptions& options) {
 
 void run_place(const PlaceOptions& options) {
   std::vector<std::string> inputs = options.characters;
-  if (!options.obstacles.empty()) inputs.push_back(options.obstacles);
+  for (const std::string& file : {options.obstacles, options.paths})
+    if (!file.empty()) inputs.push_back(file);
   require_outputs({{"--csv", options.csv}, {"--json", options.json}}, inputs);
-  PlaceRun run{options, {}, 0, {}};
-  bench::PlacingOptions placing = options.placing;
+  PlaceRun run{options, options.placing, {}, {}, 0, {}};
+  bench::PlacingOptions& placing = run.area;
+  GivenPaths given;
+  if (!options.paths.empty()) {
+    given = read_paths(options.paths, placing.seconds);
+    placing.paths = given.paths, placing.width = given.width, placing.depth = given.depth;
+    run.assumptions = given.assumptions;
+  }
   std::optional<ObstacleSet> obstacles;
   if (!options.obstacles.empty()) {
     obstacles = read_obstacles(options.obstacles, Polygons::solid);
@@ -114,6 +122,8 @@ std::function<void()> add_place_command(CLI::App& program) {
       "its end followed by its beginning. A candidate who would touch anybody at any time is left out.\n"
       "The table compares this with the cylinders of poses, and with discs of 0.25 m along whole paths, as\n"
       "people are often placed.\n"
+      "With --paths each person of a recording is a candidate once, in random order, on his way from time 0\n"
+      "on. A person whose way ends before --seconds stands there. The area is the rectangle of these ways.\n"
       "Example: bch place --clip walk --seconds 5 --csv placed.csv");
   command
       .add_option("--character", options->characters,
@@ -123,11 +133,12 @@ std::function<void()> add_place_command(CLI::App& program) {
   command.add_option("--clip", options->clip_names, "Name of a clip that people play (repeatable) [walk]")
       ->type_name("NAME")
       ->allow_extra_args(false);
-  command
-      .add_option("--speed", options->speed,
-                  "Speed of everybody, metres per second [that of the clip, 0 if it does not walk]")
-      ->type_name("M/S")
-      ->check(number_between(0, 20));
+  CLI::Option* const speed =
+      command
+          .add_option("--speed", options->speed,
+                      "Speed of everybody, metres per second [that of the clip, 0 if it does not walk]")
+          ->type_name("M/S")
+          ->check(number_between(0, 20));
   command
       .add_option("--slices", options->shapes.slices,
                   "Cut bodies at these heights, in metres: an arm above a foot is no contact [whole bodies]")
@@ -136,12 +147,21 @@ std::function<void()> add_place_command(CLI::App& program) {
       .add_option("--obstacles", options->obstacles,
                   "Keep people out of these walls and polygons, in well-known text")
       ->type_name("FILE.wkt");
+  CLI::Option* const paths =
+      command
+          .add_option(
+              "--paths", options->paths,
+              "Recording, such as CSV with id,time,x,y[,heading], whose ways people take [random arcs]")
+          ->type_name("FILE");
+  paths->excludes(speed);
   command.add_option("--width", options->placing.width, "Width of the area, along x [10 m]")
       ->type_name("METRES")
-      ->check(number_between(1, 1000));
+      ->check(number_between(1, 1000))
+      ->excludes(paths);
   command.add_option("--depth", options->placing.depth, "Depth of the area, along y [10 m]")
       ->type_name("METRES")
-      ->check(number_between(1, 1000));
+      ->check(number_between(1, 1000))
+      ->excludes(paths);
   command.add_option("--seconds", options->placing.seconds, "Time for which people move [10 s]")
       ->type_name("SECONDS")
       ->check(number_between(0.1, 600));

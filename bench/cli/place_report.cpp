@@ -19,7 +19,7 @@ constexpr std::array texts{"bodies, at every time", "cylinders of poses, at ever
                            "discs of 0.25 m along whole paths"};
 
 double per_square_metre(const PlaceRun& run, const TimedPlacement& timed) {
-  const bench::PlacingOptions& area = run.options.placing;
+  const bench::PlacingOptions& area = run.area;
   return static_cast<double>(timed.placement.people.size()) / (area.width * area.depth);
 }
 
@@ -27,8 +27,11 @@ nlohmann::ordered_json json_of(const PlaceRun& run, const bench::PlacedPerson& p
   const bench::PlacedClip& clip = run.clips[person.clip];
   auto path = nlohmann::ordered_json::array();
   for (const PathKey& key : person.path) path.push_back({key.time, key.x, key.y, key.heading});
-  return {
-      {"character", clip.character}, {"clip", clip.name}, {"clip_begin", person.clip_begin}, {"path", path}};
+  return {{"id", person.id},
+          {"character", clip.character},
+          {"clip", clip.name},
+          {"clip_begin", person.clip_begin},
+          {"path", path}};
 }
 
 /// The time in a clip that goes round.
@@ -40,9 +43,13 @@ double clip_time(const bench::PlacedClip& clip, const bench::PlacedPerson& perso
 }  // namespace
 
 std::string text_report(const PlaceRun& run) {
-  const bench::PlacingOptions& area = run.options.placing;
+  const bench::PlacingOptions& area = run.area;
   std::string out = fmt::format("area        {:g} m x {:g} m, {:g} s, seed {}\n", area.width, area.depth,
                                 area.seconds, area.seed);
+  if (!area.paths.empty())
+    out += fmt::format("paths       {} of {}\n", area.paths.size(), printable_line(run.options.paths));
+  for (const std::string& assumption : run.assumptions)
+    out += fmt::format("            {}\n", printable_line(assumption));
   for (const bench::PlacedClip& clip : run.clips)
     out += fmt::format("clip        {}, {}: {:.2f} m/s, {:.0f} kB\n", printable_line(clip.character),
                        printable_line(clip.name), clip.speed, static_cast<double>(clip.body.bytes()) / 1e3);
@@ -58,7 +65,7 @@ std::string text_report(const PlaceRun& run) {
 }
 
 nlohmann::ordered_json json_report(const PlaceRun& run) {
-  const bench::PlacingOptions& area = run.options.placing;
+  const bench::PlacingOptions& area = run.area;
   nlohmann::ordered_json json{{"width", area.width},     {"depth", area.depth},
                               {"seconds", area.seconds}, {"seed", area.seed},
                               {"tries", area.tries},     {"build_seconds", run.build_seconds}};
@@ -80,14 +87,14 @@ std::string csv_report(const PlaceRun& run) {
   std::string out = "id,time,x,y,stature,heading,character,clip,clip_time\n";
   const auto& people = run.placements.front().placement.people;
   const auto time_of = [&](std::uint64_t frame) { return static_cast<double>(frame) / run.options.fps; };
-  for (std::uint64_t frame = 0; time_of(frame) <= run.options.placing.seconds; ++frame) {
+  for (std::uint64_t frame = 0; time_of(frame) <= run.area.seconds; ++frame) {
     const double time = time_of(frame);
-    for (std::size_t id = 0; id < people.size(); ++id) {
-      const bench::PlacedClip& clip = run.clips[people[id].clip];
-      const PathKey key = bench::at(people[id].path, time);
-      fmt::format_to(std::back_inserter(out), "{},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f},{},{},{:.6f}\n", id + 1,
-                     time, key.x, key.y, clip.stature, key.heading, csv_field(clip.character),
-                     csv_field(clip.name), clip_time(clip, people[id], time));
+    for (const bench::PlacedPerson& person : people) {
+      const bench::PlacedClip& clip = run.clips[person.clip];
+      const PathKey key = bench::at(person.path, time);
+      fmt::format_to(std::back_inserter(out), "{},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f},{},{},{:.6f}\n",
+                     person.id, time, key.x, key.y, clip.stature, key.heading, csv_field(clip.character),
+                     csv_field(clip.name), clip_time(clip, person, time));
     }
   }
   return out;

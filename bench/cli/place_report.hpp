@@ -24,6 +24,7 @@ struct PlaceOptions {
   double fps = 30;
   std::string csv, json;
   std::string obstacles;  ///< a file of well-known text; empty: none
+  std::string paths;      ///< a recording; empty: arcs
 };
 
 /// The ways to keep people apart that are compared, in the order of rows.
@@ -39,6 +40,8 @@ struct TimedPlacement {
 /// Holds everything that a run of `bch place` knows in the end.
 struct PlaceRun {
   const PlaceOptions& options;
+  bench::PlacingOptions area;            ///< what is filled
+  std::vector<std::string> assumptions;  ///< of what the file of paths does not say
   std::vector<bench::PlacedClip> clips;
   double build_seconds;                    ///< of the moving bodies
   std::vector<TimedPlacement> placements;  ///< as `spacings`

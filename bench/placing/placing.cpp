@@ -7,7 +7,9 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <optional>
 #include <stdexcept>
+#include <utility>
 
 #include "kernel/motion/path.hpp"
 #include "layout/base/plane_point.hpp"
@@ -50,20 +52,37 @@ bool paths_are_apart(std::span<const PathKey> first, std::span<const PathKey> se
 class Candidates {
  public:
   Candidates(std::span<const PlacedClip> clips, const PlacingOptions& options)
-      : clips_(clips), options_(options), random_(options.seed) {}
+      : clips_(clips), options_(options), random_(options.seed) {
+    for (const GivenPath& path : options.paths) {
+      left_.push_back(&path);
+      std::swap(left_.back(), left_[random_.below(static_cast<std::uint32_t>(left_.size()))]);
+    }
+  }
 
-  PlacedPerson next() {
+  /// Returns none where all given paths were tried.
+  std::optional<PlacedPerson> next() {
+    if (!options_.paths.empty() && left_.empty()) return std::nullopt;
     const std::uint32_t clip = random_.below(static_cast<std::uint32_t>(clips_.size()));
     const double begin = 0 - random_.uniform(latest(clips_[clip]));
+    if (!left_.empty()) {
+      const GivenPath& path = *left_.back();
+      left_.pop_back();
+      return PlacedPerson{path.id, clip, begin, path.keys};
+    }
+    ++drawn_;
+    return PlacedPerson{drawn_, clip, begin, arc_inside(clip)};
+  }
+
+ private:
+  std::vector<PathKey> arc_inside(std::uint32_t clip) {
     for (int i = 0; i < most_arcs; ++i) {
       std::vector<PathKey> path = arc(clips_[clip].speed);
-      if (is_inside(path)) return {clip, begin, std::move(path)};
+      if (is_inside(path)) return path;
     }
     throw std::invalid_argument(clips_[clip].character + ", clip " + clips_[clip].name +
                                 ": its way does not fit into the area");
   }
 
- private:
   /// Returns the latest time of a clip with which it may begin here: one that ends has to last until everybody stops.
   double latest(const PlacedClip& clip) const {
     return clip.body.loops() ? clip.seconds : std::max(0.0, clip.seconds - options_.seconds);
@@ -85,6 +104,8 @@ class Candidates {
   std::span<const PlacedClip> clips_;
   const PlacingOptions& options_;
   detail::Random random_;
+  std::vector<const GivenPath*> left_;  ///< those that were not tried, the next one last
+  std::int64_t drawn_ = 0;
 };
 
 /// The people who have room by now.
@@ -182,10 +203,11 @@ Placement place(std::span<const PlacedClip> clips, Spacing spacing, const Placin
   Crowd crowd(clips, spacing, options);
   Placement placement;
   for (std::uint32_t refused = 0; refused < options.tries; ++placement.candidates) {
-    PlacedPerson person = candidates.next();
-    const bool has_room = crowd.has_room(person);
+    std::optional<PlacedPerson> person = candidates.next();
+    if (!person) break;
+    const bool has_room = crowd.has_room(*person);
     refused = has_room ? 0 : refused + 1;
-    if (has_room) crowd.add(std::move(person));
+    if (has_room) crowd.add(std::move(*person));
   }
   placement.people = std::move(crowd).people();
   return placement;

@@ -37,6 +37,12 @@ enum class Spacing {
 /// The radius, in metres, of the discs that are put along whole paths for comparison.
 constexpr double path_radius = 0.25;
 
+/// Holds the keys of a path that is given, at least two; they begin at time 0.
+struct GivenPath {
+  std::int64_t id;
+  std::vector<PathKey> keys;
+};
+
 /// Holds what is filled, and with what.
 struct PlacingOptions {
   double width = 10, depth = 10;  ///< metres
@@ -44,10 +50,12 @@ struct PlacingOptions {
   std::uint32_t tries = 500;      ///< so many candidates in a row that have no room end the search
   std::uint64_t seed = 1;
   const ObstacleSet* obstacles = nullptr;  ///< where people must not go; or none
+  std::span<const GivenPath> paths = {};   ///< of which each is tried once at most; none: arcs are drawn
 };
 
-/// Represents a person who has room: an arc from inside the area to inside the area, at the clip's speed.
+/// Represents a person who has room: on a given path, or on an arc from inside the area to inside the area, at the clip's speed.
 struct PlacedPerson {
+  std::int64_t id;  ///< of the given path, or which candidate it was
   std::uint32_t clip;
   double clip_begin;  ///< the time at which the clip is at its beginning, at most 0
   std::vector<PathKey> path;
@@ -59,7 +67,7 @@ struct Placement {
   std::uint64_t candidates = 0;  ///< who were tried
 };
 
-/// Fills an area by rejection sampling: candidates of random clips, phases and arcs come in, the same ones for every spacing, and who
+/// Fills an area by rejection sampling: candidates of random clips, phases and paths come in, the same ones for every spacing, and who
 /// has contact with nobody and no obstacle stays.
 /// Errors:  throws std::invalid_argument where no arc of a clip fits into the area.
 Placement place(std::span<const PlacedClip> clips, Spacing spacing, const PlacingOptions& options);

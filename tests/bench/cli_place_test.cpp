@@ -3,10 +3,14 @@
 
 #include <gtest/gtest.h>
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <numbers>
 #include <sstream>
 
 #include <bch/broad_phase.hpp>
@@ -189,6 +193,59 @@ TEST(CliPlace, WritesTheLastFrameAndTakesEachClipOnce) {
   EXPECT_EQ(moments.size(), 30u);
   EXPECT_EQ(moments.rbegin()->first, "0.290000");
   EXPECT_NE(run.out.find("for 1 clip\n"), std::string::npos) << run.out;
+}
+
+/// The first two meet at (1, 0). The third comes to their ways when they have gone on, and the fourth stands.
+TEST(CliPlace, TakesGivenPathsAtTheirOwnTimes) {
+  const TemporaryFolder folder;
+  std::string rows = "id,time,x,y,heading\n4,7,6,6,1.5\n";
+  for (int k = 0; k <= 4; ++k) {
+    const double time = 0.5 * k;
+    rows += fmt::format("1,{},{},0,0\n2,{},1,{},\n3,{},1,{},\n", time, time, 3 + time, 1 - time, 10 + time,
+                        4 - 1.85 * time);
+  }
+  const std::string given = folder.write("paths.csv", rows), csv = folder.file("placed.csv"),
+                    json = folder.file("placed.json");
+  const Ending run = bch({"place", "--character", "default:male", "--clip", "idle think", "--paths", given,
+                          "--seconds", "2", "--fps", "2", "--csv", csv, "--json", json});
+  ASSERT_EQ(run.code, 0) << run.err;
+  const auto report = read_json(json);
+  EXPECT_EQ(report["width"], 6);
+  EXPECT_EQ(report["depth"], 7);
+  const std::size_t people[] = {3, 3, 2};
+  for (std::size_t k = 0; k < 3; ++k) {
+    EXPECT_EQ(report["placements"][k]["candidates"], 4);
+    EXPECT_EQ(report["placements"][k]["people"], people[k]) << k;
+  }
+  std::size_t rows_of_third = 0, rows_of_fourth = 0;
+  std::istringstream placed(read_text(csv));
+  for (std::string row; std::getline(placed, row);) {
+    double time = 0, x = 0, y = 0, stature = 0, heading = 0;
+    int id = 0;
+    if (std::sscanf(row.c_str(), "%d,%lf,%lf,%lf,%lf,%lf", &id, &time, &x, &y, &stature, &heading) != 6)
+      continue;
+    if (id == 3) {
+      EXPECT_NEAR(x, 1, 1e-6);
+      EXPECT_NEAR(y, 4 - 1.85 * time, 1e-6);
+      EXPECT_NEAR(heading, -std::numbers::pi / 2, 1e-6);
+      ++rows_of_third;
+    } else if (id == 4) {
+      EXPECT_EQ(row.find(",6.000000,6.000000,"), 10u) << row;
+      EXPECT_NEAR(heading, 1.5, 1e-6);
+      ++rows_of_fourth;
+    }
+  }
+  EXPECT_EQ(rows_of_third, 5u);
+  EXPECT_EQ(rows_of_fourth, 5u);
+}
+
+TEST(CliPlace, RefusesPathsThatCannotBeRead) {
+  const TemporaryFolder folder;
+  const std::string bad = folder.write("paths.csv", "id,time,x,y\n1,0,0,0\n1,1,far,0\n");
+  expect_failure(bch({"place", "--paths", bad}), 3, {"paths.csv:3: x 'far' is not a number"});
+  expect_failure(bch({"place", "--paths", folder.file("none.csv").string()}), 3, {"none.csv"});
+  expect_failure(bch({"place", "--paths", bad, "--width", "5"}), 2, {"--paths", "--width"});
+  expect_failure(bch({"place", "--paths", bad, "--speed", "1"}), 2, {"--paths", "--speed"});
 }
 
 TEST(CliPlace, GivesTheSamePeopleForASeed) {
