@@ -27,6 +27,8 @@ ObstacleArrays arrays_of(const bch_obstacle_arrays* given) {
     all.obstacle_offsets = offsets_of(arrays.obstacle_offsets, obstacles, "arrays->obstacle_offsets");
   }
   if (arrays.is_area != nullptr) all.is_area = array_of(arrays.is_area, obstacles, "arrays->is_area");
+  if (arrays.bottom != nullptr) all.bottom = array_of(arrays.bottom, obstacles, "arrays->bottom");
+  if (arrays.top != nullptr) all.top = array_of(arrays.top, obstacles, "arrays->top");
   return all;
 }
 

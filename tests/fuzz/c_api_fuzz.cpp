@@ -509,11 +509,12 @@ void make_crowd_objects(Program& by) {
 // Obstacles and scenes.
 
 void make_obstacles(Program& by) {
-  double x[most], y[most];
+  double x[most], y[most], bottom[most], top[most];
   std::uint64_t paths[most + 1], obstacles[most + 1];
   std::uint8_t areas[most];
   for (std::uint32_t i = 0; i < most; ++i)
-    x[i] = by.number<double>(), y[i] = by.number<double>(), areas[i] = by.bytes.take<std::uint8_t>();
+    x[i] = by.number<double>(), y[i] = by.number<double>(), areas[i] = by.bytes.take<std::uint8_t>(),
+    bottom[i] = by.number<double>(), top[i] = by.number<double>();
   const std::uint32_t path_count = by.bytes.below(6), obstacle_count = by.bytes.below(4);
   by.fill_offsets(paths, path_count, most);
   by.fill_offsets(obstacles, obstacle_count, path_count);
@@ -526,7 +527,9 @@ void make_obstacles(Program& by) {
                   by.chance(64) ? SIZE_MAX : path_count,
                   own_offsets ? obstacles : nullptr,
                   by.chance(64) ? SIZE_MAX : obstacle_count,
-                  by.chance(2) ? areas : nullptr};
+                  by.chance(2) ? areas : nullptr,
+                  by.chance(4) ? bottom : nullptr,
+                  by.chance(4) ? top : nullptr};
   const bch_obstacle_arrays* const of = by.array(by.sized(arrays));
   by.make<bch_obstacles>([&](bch_obstacles** to) { return bch_obstacles_create(of, to); });
 }

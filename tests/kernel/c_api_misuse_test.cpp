@@ -253,6 +253,11 @@ TEST_F(CApiMisuse, Offsets) {
   expect_error(bch_obstacles_create(&arrays, &obstacles), BCH_INVALID_ARGUMENT,
                "arrays->obstacle_offsets has");
   arrays.obstacle_offsets = nullptr;
+  const double up = 2, down = 1;
+  arrays.bottom = &up, arrays.top = &down;
+  expect_error(bch_obstacles_create(&arrays, &obstacles), BCH_INVALID_ARGUMENT,
+               "obstacles: obstacle 0: heights from 2 to 1 m");
+  arrays.top = nullptr;
   expect_ok(bch_obstacles_create(&arrays, &obstacles));
   std::uint32_t owner = 9;
   expect_error(bch_obstacles_get_owner(obstacles, 77, &owner), BCH_OUT_OF_RANGE, "segment is 77 of 2");

@@ -231,11 +231,13 @@ TEST_P(CApi, AnswersAboutObstaclesAreThoseOfTheLibrary) {
   const std::vector<double> points_x = {-9, 9, -1, 1, 1, -1}, points_y = {0, 1, -1, -1, 1, 1};
   const std::vector<std::uint64_t> paths = {0, 2, 6}, obstacles = {0, 1, 2};
   const std::vector<std::uint8_t> areas = {0, 1};
-  const ObstacleSet walls({points_x, points_y, paths, obstacles, areas});
+  const std::vector<double> bottom = {-HUGE_VAL, 0.5}, top = {0.25, 2};
+  const ObstacleSet walls({points_x, points_y, paths, obstacles, areas, bottom, top});
   bch_obstacle_arrays arrays = BCH_OBSTACLE_ARRAYS_INIT;
   arrays.x = points_x.data(), arrays.y = points_y.data(), arrays.path_offsets = paths.data(),
   arrays.path_count = 2;
   arrays.obstacle_offsets = obstacles.data(), arrays.obstacle_count = 2, arrays.is_area = areas.data();
+  arrays.bottom = bottom.data(), arrays.top = top.data();
   const auto c_walls =
       made<test::OwnedObstacles>([&](bch_obstacles** to) { return bch_obstacles_create(&arrays, to); });
   std::uint32_t count = 0, segments = 0, owner = 9;

@@ -599,9 +599,11 @@ typedef struct bch_obstacle_arrays {
   const uint64_t* obstacle_offsets; /**< obstacle o has paths [o] to [o + 1]; NULL: one path each */
   size_t obstacle_count;            /**< without offsets the number of paths */
   const uint8_t* is_area;           /**< 1: the obstacle's rings enclose it; NULL: no obstacle is an area */
+  const double* bottom;             /**< per obstacle, metres; may be infinite; NULL: all are */
+  const double* top;                /**< likewise; bodies with heights meet only obstacles whose heights meet theirs */
 } bch_obstacle_arrays;
 #define BCH_OBSTACLE_ARRAYS_INIT \
-  { sizeof(bch_obstacle_arrays), NULL, NULL, NULL, 0, NULL, 0, NULL }
+  { sizeof(bch_obstacle_arrays), NULL, NULL, NULL, 0, NULL, 0, NULL, NULL, NULL }
 /** Makes obstacles from arrays. */
 BCH_API bch_status bch_obstacles_create(const bch_obstacle_arrays* arrays, bch_obstacles** obstacles);
 /** Makes obstacles from well-known text. If `walkable` is not 0, polygons are the floor, and their rings are walls. */
@@ -743,7 +745,8 @@ typedef struct bch_motion {
 BCH_API bch_status bch_first_contact(const bch_motion* motions, size_t motion_count, const bch_pair* pairs,
                                      size_t count, double from, double to, double tolerance, uint32_t threads,
                                      double* times);
-/** Finds when each motion first touches an obstacle, as bch_first_contact() does for pairs. */
+/** Finds when each motion first touches an obstacle, as bch_first_contact() does for pairs. Motions have no z: obstacles count at all
+ * heights. */
 BCH_API bch_status bch_obstacles_first_contact(const bch_motion* motions, size_t motion_count,
                                                const bch_obstacles* obstacles, double from, double to, double tolerance,
                                                uint32_t threads, double* times);
