@@ -199,6 +199,19 @@ class Sets(unittest.TestCase):
         self.assertTrue(bch.collide(shapes, agents, pairs)[0])
         self.assertFalse(bch.collide(shapes, above, pairs)[0])
 
+    def test_obstacles_with_heights(self):
+        box = bch.ShapeSet.from_polygons([[[(0, 0), (1, 0), (1, 1), (0, 1)]]], plan=bch.Plan(heights=True), heights=[(0.0, 1.5)])
+        shape, x, y = np.zeros(3, np.uint32), np.zeros(3), np.zeros(3)
+        agents = bch.Agents(shape, x, y, np.zeros(3), z=np.array([0.0, 2, 9]))
+        points = np.array([0.5, 0.5, 2, 2]), np.array([-1.0, 2, -1, 2])
+        walls = bch.Obstacles(*points, np.array([0, 2, 4], np.uint64), heights=np.array([(1.0, 3.0), (-np.inf, np.inf)]))
+        np.testing.assert_array_equal(bch.collide(box, agents, walls), [1, 1, 0])
+        np.testing.assert_allclose(bch.clearance(box, agents, walls, leaves="segments"), [0, 0, 1], atol=1e-5)
+        with self.assertRaisesRegex(bch.ArrayError, "heights is .*float64 with shape \\(2, 2\\)"):
+            bch.Obstacles(*points, np.array([0, 2, 4], np.uint64), heights=np.zeros(2))
+        with self.assertRaisesRegex(ValueError, "obstacle 1: heights from 3 to 2 m"):
+            bch.Obstacles(*points, np.array([0, 2, 4], np.uint64), heights=np.array([(0.0, 1), (3, 2)]))
+
     def test_baking(self):
         female = bch.default_female()
         self.assertEqual(female.clips[0].name, "walk")

@@ -287,6 +287,8 @@ class ObstacleArrays(_Sized):
         ("obstacle_offsets", c_void_p),
         ("obstacle_count", c_size_t),
         ("is_area", c_void_p),
+        ("bottom", c_void_p),
+        ("top", c_void_p),
     ]
 
 

@@ -171,7 +171,7 @@ def first_contact(
     ----------
     movers : sequence of Mover
     pairs : (m, 2) uint32, or Obstacles
-        Indices of movers; with obstacles, every mover is tested against all of them.
+        Indices of movers; with obstacles, every mover is tested against all of them, whatever their heights.
     interval : (begin, end)
         The interval of time to search, seconds, both ends included.
     tolerance : float

@@ -8,6 +8,8 @@ from __future__ import annotations
 import ctypes
 from typing import Any, Optional, Tuple
 
+import numpy as np
+
 from . import _library
 from ._arrays import Float64, UInt8, UInt64, encoded, f8, given, index, u1, u8
 from ._library import Handle, check, lib
@@ -29,6 +31,9 @@ class Obstacles:
         Obstacle i has paths obstacle_offsets[i] to obstacle_offsets[i + 1]; by default each path is an obstacle.
     is_area : (o,) uint8, optional
         1 for areas, 0 for lines; by default all are lines.
+    heights : (o, 2) float64, optional
+        The bottom and the top of each obstacle, metres in the world, as agents' z; they may be infinite, and by default all are. Slabs
+        and bodies with heights meet only obstacles whose heights meet theirs. Bodies without heights meet all obstacles.
     """
 
     __slots__ = ("_handle", "_pointer")
@@ -40,10 +45,15 @@ class Obstacles:
         path_offsets: UInt64,
         obstacle_offsets: Optional[UInt64] = None,
         is_area: Optional[UInt8] = None,
+        heights: Optional[Float64] = None,
     ) -> None:
         paths = len(path_offsets) - 1
         obstacles = paths if obstacle_offsets is None else len(obstacle_offsets) - 1
         n = int(path_offsets[-1]) if paths >= 0 else 0
+        columns = None
+        if heights is not None:
+            given(heights, f8, (obstacles, 2), "heights")
+            columns = np.ascontiguousarray(heights.T)
         arrays = _library.ObstacleArrays(
             x=given(x, f8, (n,), "x"),
             y=given(y, f8, (n,), "y"),
@@ -54,6 +64,8 @@ class Obstacles:
             else given(obstacle_offsets, u8, (None,), "obstacle_offsets"),
             obstacle_count=max(obstacles, 0),
             is_area=None if is_area is None else given(is_area, u1, (obstacles,), "is_area"),
+            bottom=None if columns is None else columns[0].ctypes.data,
+            top=None if columns is None else columns[1].ctypes.data,
         )
         self._take(Handle("obstacles", "create", ctypes.addressof(arrays)))
 
