@@ -28,7 +28,9 @@ struct ObstacleScene {
   };
   void add_path(const std::vector<Point>& points, bool is_ring);
   void end_obstacle(bool area);
-  ObstacleSet set() const { return ObstacleSet({x, y, path_offsets, obstacle_offsets, is_area, bottom, top}); }
+  ObstacleSet set() const {
+    return ObstacleSet({x, y, path_offsets, obstacle_offsets, is_area, bottom, top});
+  }
 
  private:
   baselines::ReferenceObstacle open_;
