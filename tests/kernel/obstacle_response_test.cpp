@@ -54,7 +54,7 @@ TEST_F(Obstacles, AreLeftAcrossRealSides) {
 /// An agent that has moved by its penetration is free of the segment; where there is one wall, it does not collide any more.
 TEST_F(Obstacles, AreLeftByMovingOut) {
   std::size_t moved = 0;
-  for (std::uint32_t k = 0; k < test::samples(20'000); ++k) {
+  for (std::uint32_t k = 0; k < test::samples(200'000); ++k) {
     const bool is_pillar = k % 2 == 0;
     ObstacleScene scene;
     const double angle = random.uniform(-4, 4), c = std::cos(angle), s = std::sin(angle);
@@ -89,13 +89,13 @@ TEST_F(Obstacles, AreLeftByMovingOut) {
     ASSERT_EQ(way[0].depth, 0) << k;
     ++moved;
   }
-  EXPECT_GT(moved, test::samples(3'000));
+  EXPECT_GT(moved, test::samples(30'000));
 }
 
 /// Before the time of impact nothing touches, and then something does.
 TEST_F(Obstacles, AreTouchedInTime) {
   std::size_t touched = 0, passed = 0;
-  for (std::uint32_t k = 0; k < test::samples(100); ++k) {
+  for (std::uint32_t k = 0; k < test::samples(1'000); ++k) {
     const ObstacleScene scene = test::obstacle_scene(random, 12, 3);
     const ObstacleSet obstacles = scene.set();
     Crowd crowd = test::crowd_about(random, set, 200, 4);
@@ -131,8 +131,8 @@ TEST_F(Obstacles, AreTouchedInTime) {
       touched += time[i] > 0;
     }
   }
-  EXPECT_GT(touched, test::samples(1'000));
-  EXPECT_GT(passed, test::samples(1'000));
+  EXPECT_GT(touched, test::samples(10'000));
+  EXPECT_GT(passed, test::samples(10'000));
 }
 
 TEST_F(Obstacles, RejectWhatIsWrong) {

@@ -104,7 +104,7 @@ TEST(ShapeFromDiscs, QueriesAreThoseOfAllPairsOfDiscs) {
   std::vector<Shape> shapes;
   for (const std::vector<Disc>& body : bodies) shapes.push_back(shape_from_discs(body));
   const ShapeSet set(shapes);
-  test::PairScene scene = random_scene(random, set, 4'000);
+  test::PairScene scene = random_scene(random, set, 200'000);
   const Agents agents = scene.crowd.agents();
   std::vector<std::uint8_t> hits(scene.pairs.size());
   std::vector<float> distance(scene.pairs.size());
@@ -153,7 +153,7 @@ TEST(ShapeFromDiscs, QueriesAreThoseOfAllPairsOfDiscs) {
 
 /// Answers the pairs of a scene at each of three levels.
 std::vector<std::vector<std::uint8_t>> hits_at_levels(Random& random, const ShapeSet& set) {
-  test::PairScene scene = random_scene(random, set, 4'000);
+  test::PairScene scene = random_scene(random, set, 200'000);
   std::vector<std::vector<std::uint8_t>> hits;
   for (std::uint8_t level = 0; level < 3; ++level) {
     for (std::uint8_t& each : scene.crowd.level) each = level;
@@ -253,7 +253,7 @@ TEST(ShapeFromCapsules, CollideAsTheyDo) {
     shapes.push_back(shape_from_capsules(body, tolerance));
   }
   const ShapeSet set(shapes);
-  test::PairScene scene = random_scene(random, set, 4'000);
+  test::PairScene scene = random_scene(random, set, 200'000);
   const Agents agents = scene.crowd.agents();
   std::vector<std::uint8_t> hits(scene.pairs.size());
   collide(set, agents, scene.pairs, hits, {.semantics = Semantics::solid});
@@ -292,8 +292,8 @@ TEST(ShapeFromCapsules, CollideAsTheyDo) {
       ++apart;
     }
   }
-  EXPECT_GT(colliding, test::samples(500));
-  EXPECT_GT(apart, test::samples(500));
+  EXPECT_GT(colliding, test::samples(25'000));
+  EXPECT_GT(apart, test::samples(25'000));
 }
 
 /// Polygons, capsules, discs and a set of people's shapes are asked about each other at every level.

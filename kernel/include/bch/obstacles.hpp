@@ -82,7 +82,7 @@ class ObstacleSet {
 /// numbers of Z, M and ZM, with or without a space before these, are read and ignored, and so are the reference system of extended text
 /// (SRID=4326;) and a byte order mark.
 /// Errors:  throws std::invalid_argument on malformed text, with the line and column, what stands there and what was
-///          expected; and as ObstacleSet does. Columns count bytes. Bytes that cannot be printed are escaped, as \xe2.
+///          expected; and as ObstacleSet does. Columns count bytes. Bytes that cannot be printed are escaped, in hexadecimal.
 ObstacleSet obstacles_from_wkt(std::string_view text, Polygons polygons = Polygons::solid,
                                double bottom = -std::numeric_limits<double>::infinity(),
                                double top = std::numeric_limits<double>::infinity());
