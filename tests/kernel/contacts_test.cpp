@@ -117,8 +117,8 @@ TEST_F(Contacts, OfBodiesOfDiscs) {
     const std::uint32_t levels = set.level_count();
     for (std::uint32_t i = 0; i < shapes.size(); ++i)
       EXPECT_EQ(set.arrays().trees[i * levels + levels - 1].nodes_hold_discs, 1u) << i;
-    expect_brute_force(random_scene(random, set, 50'000), "bodies of discs");
-    expect_brute_force(tangent_scene(50'000), "bodies of discs, near tangent");
+    expect_brute_force(random_scene(random, set, 25'000), "bodies of discs");
+    expect_brute_force(tangent_scene(25'000), "bodies of discs, near tangent");
     // Few pairs of light shapes are answered in one pass.
     expect_brute_force(random_scene(random, set, 1'500), "few");
   }
