@@ -580,7 +580,8 @@ void ask_scene(Program& by) {
   bch_implementation_supported(by.bytes.take<std::uint32_t>());
 }
 
-/// Something of each kind, so that calls have something to ask. The first byte says how the set is made.
+/// Something of each kind, so that calls have something to ask. The first byte says how the set is made; with slices it has no bodies
+/// without outlines.
 void begin(Program& by) {
   const std::uint8_t bits = by.bytes.take<std::uint8_t>();
   const std::uint32_t depths[] = {0, 2, BCH_ALL_DEPTHS};
@@ -594,8 +595,8 @@ void begin(Program& by) {
   const bch_vec3 corners[] = {{-0.5f, 0, 0}, {0.5f, 0.25f, 0}, {0, -0.5f, 1}, {0.25f, 0.25f, 1}};
   const std::uint32_t triangles[] = {0, 1, 2, 1, 2, 3};
   const bool fine = bch_shape_set_builder_add_mesh(builder, corners, 4, triangles, 2) == BCH_OK &&
-                    (bits & 4 || bch_shape_set_builder_add_discs(builder, discs, 3, nullptr) == BCH_OK) &&
-                    bch_shape_set_builder_add_cylinder(builder, 0.25f, nullptr) == BCH_OK;
+                    (bits & 6 || bch_shape_set_builder_add_discs(builder, discs, 3, nullptr) == BCH_OK) &&
+                    (bits & 2 || bch_shape_set_builder_add_cylinder(builder, 0.25f, nullptr) == BCH_OK);
   require(fine, "bodies can be added");
   auto* const set = by.begin_with<bch_shape_set>(
       [&](bch_shape_set** to) { return bch_shape_set_builder_finish(builder, to); });
