@@ -19,7 +19,7 @@ struct CostLimits {
   double seconds = 0;                        ///< for all shapes; 0: 60, and 1 more for each shape
   double memory = 0;                         ///< GiB of the program; 0: 4, and 1/1024 more for each shape
 
-  /// Return the two limits that depend on how many shapes were asked for.
+  /// Returns the two limits that depend on how many shapes were asked for.
   double seconds_for(std::size_t shapes) const;
   double memory_for(std::size_t shapes) const;
 };
