@@ -14,6 +14,7 @@
 #include "kernel/simd/placements.hpp"
 #include "kernel/simd/segment_test.hpp"
 #include "kernel/simd/tree_nodes.hpp"
+#include "layout/base/rounding.hpp"
 #include "layout/format/cut_discs.hpp"
 #include "layout/format/shape_set_view.hpp"
 #include "layout/simd/lanes.hpp"
@@ -106,8 +107,11 @@ class ContactKernel {
     const std::uint32_t columns = swapped_ ? at_.root_a[k] : at_.root_b[k];
     if (shapes_.trees == nullptr) return look_at_single_discs(shapes_.roots[rows], shapes_.roots[columns]);
     nodes_ = shapes_.nodes;
-    reach_ = shapes_.reach[at_.shape_a[k]] + shapes_.reach[at_.shape_b[k]];
+    const float reach_a = shapes_.reach[at_.shape_a[k]], reach_b = shapes_.reach[at_.shape_b[k]];
+    reach_ = reach_a + reach_b;
     rows_ = shapes_.trees[rows], columns_ = shapes_.trees[columns];
+    held_ = (rows_.nodes_hold_discs & columns_.nodes_hold_discs) != 0 &&
+            reach_ <= float{rounding::held_reaches} * (reach_a < reach_b ? reach_a : reach_b);
     const bool exact = in_.exact_leaves && rows_.segments != no_segments && columns_.segments != no_segments;
     placed_.margin = exact ? segment_margin<Simd>(shapes_, at_.shape_a[k], at_.shape_b[k]) : 0;
     first_row_ = rows_.discs, first_column_ = columns_.discs;
@@ -268,11 +272,10 @@ class ContactKernel {
   }
 
   /// Returns the hits of two leaf windows that their ancestors confirm. Where every cut is a single disc,
-  /// there is nothing above them, and nodes that hold their discs have nothing to say.
+  /// there is nothing above them, and nodes that hold their discs with enough room overlap wherever these do.
   std::uint64_t verified(std::uint32_t rows, std::uint32_t columns, std::uint64_t hits) const noexcept {
     if (shapes_.trees == nullptr) return hits;
-    const bool held = (rows_.nodes_hold_discs & columns_.nodes_hold_discs) != 0;
-    if (held && placed_.margin == 0) return hits;
+    if (held_ && placed_.margin == 0) return hits;
     std::uint64_t verified = 0;
     for (; hits != 0; hits &= hits - 1) {
       const auto bit = static_cast<unsigned>(__builtin_ctzll(hits));
@@ -329,6 +332,7 @@ class ContactKernel {
   bool swapped_;  ///< the first agent is B
   Placed placed_;
   float reach_;  ///< of both shapes
+  bool held_;    ///< nodes of either hold their discs with room enough for the other's reach
   const float* nodes_;
   Tree rows_, columns_;
   std::uint32_t first_row_, first_column_;  ///< where their discs begin

@@ -143,8 +143,10 @@
 /// grid is that of the whole mesh, so that the prices above hold with the reaches of whole bodies.
 ///
 /// VIII. Nodes that hold the discs below them, as those of bodies made of discs do, overlap wherever the discs do, if there is room to
-/// spare, (held_room). The float test accepts discs with D <= r_A + r_B + (query_error) S. With R >= |C - c| + r + room, the nodes are at most
-/// R_A + R_B - room_A - room_B + (query_error) S apart, and the test accepts what is at most R_A + R_B - (query_error) S apart.
+/// spare, (held_room). The float test accepts discs with D <= r_A + r_B + (query_error) S. With R >= |C - c| + r + room, a node of A and a
+/// disc of B are at most R_A + r_B - room_A + (query_error) S apart, and the test accepts what is at most R_A + r_B - (query_error) S apart. So
+/// the room of either shape has to be 2 (query_error) S; that of two nodes adds up. Rooms are shares of their own shape's reach: they are
+/// enough where S is at most (held_reaches) times the lesser reach.
 namespace bch::detail::rounding {
 
 constexpr double unit_roundoff = 0x1p-24;
@@ -222,9 +224,11 @@ constexpr double sure_share = 0.7;
 static_assert(terms::root_2 * sure_share < 1);
 static_assert(sure_share * segment_margin >= (terms::segment_place + terms::higher) * unit_roundoff);
 
-/// The room of nodes about the discs that they hold, times the shape's reach: twice (query_error), and what checking it rounds.
-constexpr double held_room = 47 * unit_roundoff;
-static_assert(held_room >= 2 * (terms::query_error + 8 * terms::higher) * unit_roundoff);
+/// The room of nodes about the discs that they hold, times the shape's reach, is enough for pairs whose reaches together are at most
+/// this times the lesser one: twice (query_error) of both, and what checking it rounds.
+constexpr double held_reaches = 3;
+constexpr double held_room = 47 * held_reaches * unit_roundoff;
+static_assert(held_room >= held_reaches * 2 * (terms::query_error + 8 * terms::higher) * unit_roundoff);
 
 /// The grid steps by which an outline is off: snapping moves a vertex by sqrt(1/2) of one, and rounding a
 /// crossing to the grid by as much again.

@@ -29,6 +29,9 @@ namespace {
 
 using test::Random;
 
+/// How much larger than the smallest disc a node may be, times the reach.
+constexpr double room_of_nodes = detail::rounding::query_margin + detail::rounding::held_room + 1e-6;
+
 std::vector<Disc> random_discs(Random& random, std::uint32_t count, double size = 0.5) {
   std::vector<Disc> discs;
   for (std::uint32_t i = 0; i < count; ++i)
@@ -80,21 +83,20 @@ TEST(ShapeFromDiscs, NodesAreTheSmallestDiscs) {
     for (int i = 0; i < 200; ++i) {
       const double root_x = root.x, root_y = root.y, away = 0.3 * std::exp(random.uniform(-8, 0)),
                    angle = random.uniform(-4, 4);
-      EXPECT_LE(root.radius,
-                radius_about(root_x + away * std::cos(angle), root_y + away * std::sin(angle)) +
-                    (detail::rounding::query_margin + detail::rounding::held_room + 1e-6) * hierarchy.reach)
+      EXPECT_LE(root.radius, radius_about(root_x + away * std::cos(angle), root_y + away * std::sin(angle)) +
+                                 room_of_nodes * hierarchy.reach)
           << k;
     }
   }
   const Hierarchy two = detail::disc_hierarchy(std::vector<Disc>{{-1, 0, 0.5f}, {1, 0, 0.25f}});
   EXPECT_NEAR(two.nodes[0].disc.x, -0.125, 1e-6);
-  EXPECT_NEAR(two.nodes[0].disc.radius, 1.375, 1e-5);
+  EXPECT_NEAR(two.nodes[0].disc.radius, 1.375, room_of_nodes * two.reach);
 }
 
 TEST(ShapeFromDiscs, OneOfManyHoldsAllOthers) {
   const Hierarchy hierarchy =
       detail::disc_hierarchy(std::vector<Disc>{{0.1f, 0, 0.01f}, {0, 0, 1}, {0, 0.2f, 0.1f}});
-  EXPECT_NEAR(hierarchy.nodes[0].disc.radius, 1, 1e-5);
+  EXPECT_NEAR(hierarchy.nodes[0].disc.radius, 1, room_of_nodes * hierarchy.reach);
 }
 
 TEST(ShapeFromDiscs, QueriesAreThoseOfAllPairsOfDiscs) {
