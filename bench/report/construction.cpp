@@ -1,11 +1,16 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
+#include <utility>
+
 #include <bch/outline_builder.hpp>
+#include <bch/scene_plan.hpp>
+#include <bch/shape_set_builder.hpp>
 
 #include "bench/base/stopwatch.hpp"
 #include "bench/report/experiment.hpp"
 #include "bench/report/statistics.hpp"
+#include "bench/report/subject.hpp"
 #include "bench/report/tree_size.hpp"
 #include "bench/report/words.hpp"
 #include "bench/workload/build_stages.hpp"
@@ -94,6 +99,56 @@ void add_structures(Run& run, Table& table) {
           tree_size(contestant, bodies));
 }
 
+/// Makes flat shapes of a character's posed vertices, whole or in slabs: all that a set stores of a pose.
+class FlatShapes {
+ public:
+  FlatShapes(const Character& character, std::uint32_t slabs)
+      : plan_{.slices = standing_slices(slabs)},
+        outline_builder_(character.triangles, character.vertices.size(), character.vertices),
+        outlines_(slabs),
+        prepared_(plan_) {
+    if (slabs > 1) shape_.slabs.resize(slabs);
+  }
+
+  void build(std::span<const Vec3> positions) {
+    shape_.heights = outline_builder_.build(positions, plan_.slices, outlines_);
+    const std::span<Shape> parts = shape_.slabs.empty() ? std::span(&shape_, 1) : std::span(shape_.slabs);
+    for (std::size_t i = 0; i < parts.size(); ++i) make_part(outlines_[i], parts[i]);
+    prepared_.prepare(shape_, 0);
+  }
+
+ private:
+  void make_part(Outline& outline, Shape& part) {
+    std::swap(outline, part.outline);
+    if (part.outline.contours() == 0) return part.hierarchy.nodes.clear();
+    hierarchy_builder_.contour(part.outline, 0.01f, SplitRule::centroid, part.hierarchy);
+    hierarchy_builder_.add_primitives(part.hierarchy);
+  }
+
+  ShapeSetPlan plan_;
+  OutlineBuilder outline_builder_;
+  detail::HierarchyBuilder hierarchy_builder_;
+  std::vector<Outline> outlines_;
+  Shape shape_;
+  PreparedShape prepared_;
+};
+
+/// Adds a whole body and bodies in slabs, each all the way from vertices to a flat shape.
+void add_flat_shapes(Run& run, Table& table) {
+  const auto& bodies = run.scene().bodies();
+  const auto add_row = [&](std::string_view name, std::uint32_t slabs, std::span<const Shape> shapes) {
+    std::vector<FlatShapes> characters;
+    for (const auto& loaded : run.scene().characters()) characters.emplace_back(loaded.character, slabs);
+    const auto build = [&](std::size_t i) {
+      characters[run.scene().sources()[i].character].build(bodies[i].positions);
+    };
+    add(table, name, "vertices", time_each(bodies.size(), build), tree_size(shapes));
+  };
+  add_row("BCH whole body", 1, run.scene().shapes());
+  for (const std::uint32_t slabs : compared_slabs)
+    add_row(slabs_name(slabs, Leaves::segments), slabs, run.scene().shapes_in_slabs(slabs));
+}
+
 /// Adds the stages of construction, over all characters.
 void add_stages(Run& run, Table& table) {
   std::vector<bench::BuildStages> characters;
@@ -114,6 +169,7 @@ void run_construction(Run& run) {
   Table table({"structure", "made from", "median (us)", "lower quartile (us)", "upper quartile (us)", "poses",
                "nodes a shape", "height"});
   add_structures(run, table);
+  add_flat_shapes(run, table);
   run.write("construction", table);
   run.done(0.8);
   Table stages({"stage", "made from", "median (us)", "lower quartile (us)", "upper quartile (us)", "poses"});

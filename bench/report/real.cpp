@@ -22,17 +22,18 @@ constexpr double threshold = 0.01;  // metres
 
 /// A character's poses as all structures take them.
 struct Posed {
+  std::vector<ShapeSource> sources;
   std::vector<Shape> shapes;
   std::vector<baselines::Body> bodies;
 };
 
 Posed pose(const cli::LoadedCharacter& loaded, std::uint32_t poses, std::uint64_t seed) {
   const std::span<const cli::LoadedCharacter> one(&loaded, 1);
-  const std::vector<ShapeSource> sources = cli::list_random_shapes(one, poses, seed);
-  Posed posed{cli::build_shapes(one, sources, threshold).shapes, {}};
+  Posed posed{cli::list_random_shapes(one, poses, seed), {}, {}};
+  posed.shapes = cli::build_shapes(one, posed.sources, threshold).shapes;
   detail::Skinner skinner(loaded.character);
-  for (std::size_t i = 0; i < sources.size(); ++i) {
-    const auto positions = skinner.pose(sources[i].at);
+  for (std::size_t i = 0; i < posed.sources.size(); ++i) {
+    const auto positions = skinner.pose(posed.sources[i].at);
     posed.bodies.push_back(
         {{positions.begin(), positions.end()}, loaded.character.triangles, posed.shapes[i]});
   }
@@ -52,12 +53,11 @@ void add_real_rows(Run& run, const cli::LoadedCharacter& loaded, Table& table) {
   };
   for (const std::uint32_t depth : {0u, 3u, 6u, all_depths})
     add(cut_name(depth), cases.contacts(ShapeSet(posed.shapes, {{depth}})));
-  const std::vector<ShapeSource> sources =
-      cli::list_random_shapes({&loaded, 1}, std::min(run.sizes().poses, most_costly_poses), run.seed());
-  for (const std::uint32_t slabs : {3u, 8u}) {
+  for (const std::uint32_t slabs : compared_slabs) {
     const ShapeSetPlan plan{.slices = standing_slices(slabs)};
-    const ShapeSet set(cli::build_shapes({&loaded, 1}, sources, threshold, plan).shapes, plan);
-    add(slabs_name(slabs, Leaves::segments), cases.contacts(set, Leaves::segments));
+    const ShapeSet set(cli::build_shapes({&loaded, 1}, posed.sources, threshold, plan).shapes, plan);
+    for (const Leaves leaves : {Leaves::discs, Leaves::segments})
+      add(slabs_name(slabs, leaves), cases.contacts(set, leaves));
   }
   add("OBB outline", cases.contacts(*baselines::kind("obb_contour").build(posed.bodies, {}), all_depths));
 }
@@ -88,6 +88,6 @@ std::string range_of(const Results& results, std::string_view structure) {
 
 }  // namespace
 
-const Experiment real_experiment{"real", "Real characters", 90, true, run_real, {{"range of", range_of}}};
+const Experiment real_experiment{"real", "Real characters", 140, true, run_real, {{"range of", range_of}}};
 
 }  // namespace bch::report

@@ -3,6 +3,8 @@
 
 #include "bench/report/tree_size.hpp"
 
+#include <algorithm>
+
 #include "baselines/obb_tree.hpp"
 
 namespace bch::report {
@@ -21,6 +23,15 @@ TreeSize mean_of(const Items& items, Size size) {
 
 TreeSize size_of(const Hierarchy& hierarchy) {
   return {static_cast<double>(hierarchy.nodes.size()), static_cast<double>(height(hierarchy))};
+}
+
+TreeSize size_of(const Shape& shape) {
+  TreeSize size = size_of(shape.hierarchy);
+  for (const Shape& slab : shape.slabs) {
+    const TreeSize part = size_of(slab.hierarchy);
+    size = {size.nodes + part.nodes, std::max(size.height, part.height)};
+  }
+  return size;
 }
 
 TreeSize size_of(const baselines::ObbTree& tree) {
@@ -61,13 +72,13 @@ std::vector<baselines::Facet> facets_of(std::string_view kind, const baselines::
 }  // namespace
 
 TreeSize tree_size(std::span<const Shape> shapes) {
-  return mean_of(shapes, [](const Shape& shape) { return size_of(shape.hierarchy); });
+  return mean_of(shapes, [](const Shape& shape) { return size_of(shape); });
 }
 
 TreeSize tree_size(const Contestant& contestant, std::span<const baselines::Body> bodies) {
   const std::string_view kind = contestant.kind;
   if (kind == "single" || kind == "fixed") return {1, 0};
-  const auto own = [](const baselines::Body& body) { return size_of(body.shape.hierarchy); };
+  const auto own = [](const baselines::Body& body) { return size_of(body.shape); };
   if (contestant.centre) return mean_of(with_hierarchies(bodies, 0.01f, SplitRule::centre), own);
   if (kind == "reference") return mean_of(bodies, own);
   if (kind == "bch_projected")

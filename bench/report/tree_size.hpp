@@ -17,7 +17,8 @@ struct TreeSize {
       std::numeric_limits<double>::quiet_NaN();  ///< edges on the longest way from the root to a leaf
 };
 
-TreeSize tree_size(std::span<const Shape> shapes);  ///< of their hierarchies
+/// Returns the size of hierarchies: for bodies in slabs, the nodes of all slabs and the largest height.
+TreeSize tree_size(std::span<const Shape> shapes);
 TreeSize tree_size(const Contestant& contestant, std::span<const baselines::Body> bodies);
 
 }  // namespace bch::report

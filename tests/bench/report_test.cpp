@@ -6,11 +6,13 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <iterator>
 #include <nlohmann/json.hpp>
 #include <numbers>
 #include <set>
 
 #include "bench/base/exit_codes.hpp"
+#include "bench/report/subject.hpp"
 #include "tests/support/character_shapes.hpp"
 #include "tests/support/program_run.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -136,6 +138,24 @@ void expect_paper_times_beside_its_protocol_alone(const Table& times) {
   EXPECT_EQ(told, 3u);
 }
 
+/// Each slab has a hierarchy of its own, so that more slabs have more nodes and take longer.
+void expect_slabs_are_built_for_their_price(const Table& construction) {
+  const auto of = [&](const std::string& structure, const char* column) {
+    return construction.number({{"structure", structure}}, column);
+  };
+  const std::string whole = "BCH whole body";
+  EXPECT_EQ(of(whole, "nodes a shape"), of("BCH outline", "nodes a shape"));
+  EXPECT_GT(of(whole, "median (us)"), of("BCH outline", "median (us)"));  // the outline is made, too
+  double nodes = of(whole, "nodes a shape");
+  for (const std::uint32_t slabs : compared_slabs) {
+    const std::string name = slabs_name(slabs, Leaves::segments);
+    EXPECT_GT(of(name, "nodes a shape"), nodes) << name;
+    EXPECT_EQ(construction.text(construction.row({{"structure", name}}), "made from"), "vertices");
+    nodes = of(name, "nodes a shape");
+  }
+  EXPECT_GT(of(slabs_name(8, Leaves::segments), "median (us)"), of(whole, "median (us)"));
+}
+
 TEST(Report, PageShowsTablesAndTablesAreTheSameAgain) {
   const TemporaryFolder first, second;
   run_into(first);
@@ -143,6 +163,7 @@ TEST(Report, PageShowsTablesAndTablesAreTheSameAgain) {
   expect_page_shows_tables(first);
   expect_same_but_times(first, second);
   expect_paper_times_beside_its_protocol_alone(read_table(first.file("query_time.csv")));
+  expect_slabs_are_built_for_their_price(read_table(first.file("construction.csv")));
   const auto json = nlohmann::json::parse(test::read_text(first.file("volume.json")));
   EXPECT_EQ(json["run"]["seed"], "1");
   EXPECT_EQ(json["run"]["command"], "bch report --out \"here\" & there");
@@ -187,16 +208,22 @@ TEST(Report, RealCharactersAreMeasured) {
   run_report(options);
   expect_shows_table(test::read_text(folder.file("report.html")), folder, "real");
   const Table real = read_table(folder.file("real.csv"));
-  constexpr std::size_t rows = 7;  // of a character
+  constexpr std::size_t rows = 5 + 2 * std::size(compared_slabs);  // of a character
   ASSERT_GE(real.rows().size(), 5 * rows);
   for (std::size_t i = 0; i < real.rows().size(); i += rows) {
     SCOPED_TRACE(real.text(i, "character"));
     EXPECT_EQ(real.text(i, "structure"), "single cylinder");
-    const double single = real.number(i, "mean (cm)"), leaves = real.number(i + 3, "mean (cm)"),
-                 in_slabs = real.number(i + 5, "mean (cm)"), exact = real.number(i + 6, "mean (cm)");
+    const auto mean = [&, name = real.text(i, "character")](std::string_view structure) {
+      return real.number({{"character", name}, {"structure", structure}}, "mean (cm)");
+    };
+    const double single = mean("single cylinder"), leaves = mean("BCH outline to depth all");
     EXPECT_LT(leaves, single);
-    EXPECT_LT(exact, single);
-    EXPECT_LE(in_slabs, leaves);
+    EXPECT_LT(mean("OBB outline"), single);
+    for (const std::uint32_t slabs : compared_slabs) {
+      const double discs = mean(slabs_name(slabs, Leaves::discs));
+      EXPECT_LE(discs, leaves) << slabs;
+      EXPECT_LE(mean(slabs_name(slabs, Leaves::segments)), discs) << slabs;
+    }
   }
 }
 
