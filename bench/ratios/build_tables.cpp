@@ -22,7 +22,7 @@ constexpr std::size_t clipper_poses = 3;  ///< it takes tens of milliseconds for
 
 /// A character, and the stages of its construction.
 struct Built {
-  Built(const Character& made, std::uint32_t poses, const BuildImplementation& implementation)
+  Built(const Character& made, std::uint32_t poses, const detail::BuildImplementation& implementation)
       : character(made), stages(character, poses, implementation) {}
 
   const Character character;
@@ -76,14 +76,16 @@ Contender clipper_contender(const Shared<Built>& built) {
 }
 
 void print_construction(const Character& character, const std::string& name, const Results& results) {
-  const std::vector<BuildImplementation> implementations = build_implementations();
-  const auto with = [&](const BuildImplementation& set) { return fmt::format("{}/{}", name, set.name); };
-  const std::string best = with(implementations[0]);
+  const auto with = [&](const detail::BuildImplementation& set) {
+    return fmt::format("{}/{}", name, set.name);
+  };
+  const std::string best = with(detail::best_build_implementation());
   fmt::print("construction, {}: {} triangles, {} poses in turn, us a pose\n", character.name,
              cli::grouped(character.triangles.size()), results.at(best + "/all").items);
   print_header("");
   fmt::print("\n");
-  for (const BuildImplementation& set : implementations) {
+  for (const detail::BuildImplementation& set : detail::build_implementations()) {
+    if (!set.supported()) continue;
     fmt::print("  {:10}", set.name);
     print_times(results, with(set));
     const double most = set.name == base_implementation() ? most_with_base : most_build_us;
@@ -121,11 +123,12 @@ void print_growth(const MenInDetail& men, const Results& results) {
 /// Adds the stages of a character by every instruction set. Returns: how to print them.
 std::function<void(const Results&)> add_character(Suite& suite, const Character& character,
                                                   const std::string& name, std::uint32_t poses) {
-  for (const BuildImplementation& set : build_implementations()) {
+  for (const detail::BuildImplementation& set : detail::build_implementations()) {
+    if (!set.supported()) continue;
     const Shared<Built> built(
-        [&character, poses, set] { return std::make_shared<Built>(character, poses, set); });
+        [&character, poses, &set] { return std::make_shared<Built>(character, poses, set); });
     add_stages(suite, fmt::format("{}/{}", name, set.name), built);
-    if (has_clipper && set.name == build_implementations()[0].name)
+    if (has_clipper && &set == &detail::best_build_implementation())
       suite.add(name + "/clipper", [built] { return clipper_contender(built); });
   }
   return [&character, name](const Results& results) { print_construction(character, name, results); };
@@ -143,7 +146,7 @@ std::vector<Table> build_tables(Suite& suite, Scene& scene) {
     add_stages(suite, fmt::format("growth/{}", men->triangles(i)),
                Shared<Built>([men, i, most = scene.poses()] {
                  return std::make_shared<Built>(men->make(i), std::min(most, men->poses(i)),
-                                                chosen_build_implementation());
+                                                detail::best_build_implementation());
                }));
   return {{"construction", "^construction/",
            [print](const Results& results) {

@@ -153,7 +153,7 @@ void add_flat_shapes(Run& run, Table& table) {
 void add_stages(Run& run, Table& table) {
   std::vector<bench::BuildStages> characters;
   for (const auto& loaded : run.scene().characters())
-    characters.emplace_back(loaded.character, run.sizes().poses, bench::chosen_build_implementation());
+    characters.emplace_back(loaded.character, run.sizes().poses, bch::detail::best_build_implementation());
   for (const bench::BuildStage& stage : bench::build_stages) {
     if (stage.build == &bench::BuildStages::hierarchy_welzl) continue;  // a peer, not a stage of ours
     std::vector<double> all;

@@ -13,7 +13,6 @@
 
 #include "baselines/welzl.hpp"
 #include "bench/workload/mesh_detail.hpp"
-#include "layout/outline/implementation.hpp"
 
 namespace bch::bench {
 namespace {
@@ -43,17 +42,11 @@ void solve_by_welzl(const detail::DiscSets& sets) noexcept {
   }
 }
 
-const detail::DiscImplementation& by_welzl() {
-  static const detail::DiscImplementation row{{"welzl", []() noexcept { return true; }}, solve_by_welzl};
+const detail::BuildImplementation& by_welzl() {
+  static const detail::BuildLoops& best = detail::best_build_implementation().loops;
+  static const detail::BuildLoops loops{solve_by_welzl, best.outline, best.interior};
+  static const detail::BuildImplementation row{{"welzl", detail::everywhere}, loops};
   return row;
-}
-
-/// The row of a name, or else the best: not every stage is compiled for every set.
-template <class Rows>
-const auto* row_for(const Rows& rows, std::string_view name) {
-  const auto named =
-      std::find_if(rows.begin(), rows.end(), [&](const auto& row) { return row.name == name; });
-  return named != rows.end() ? &*named : &rows.front();
 }
 
 void require(bool right, std::string_view stage, std::size_t pose) {
@@ -92,10 +85,10 @@ bool holds_cut(const detail::Bvh8& tree, const Hierarchy& hierarchy, std::uint32
   return true;
 }
 
-/// Another instruction set's, where the processor has two.
-BuildImplementation other_than(const BuildImplementation& implementation) {
-  const std::vector<BuildImplementation> all = build_implementations();
-  return all.back().name == implementation.name ? all.front() : all.back();
+/// Returns another instruction set's, where the processor has two.
+const detail::BuildImplementation& other_than(const detail::BuildImplementation& implementation) {
+  const detail::BuildImplementation& last = detail::build_implementations().back();
+  return &last == &implementation ? detail::best_build_implementation() : last;
 }
 
 }  // namespace
@@ -105,41 +98,24 @@ struct BuildStages::Others {
   detail::HierarchyBuilder hierarchy;
   detail::InteriorBuilder interior;
 
-  Others(const Character& character, const BuildImplementation& implementation)
-      : outline(character.triangles, character.vertices.size(), character.vertices, *implementation.outline),
-        hierarchy(*implementation.discs),
-        interior(*implementation.interior) {}
+  Others(const Character& character, const detail::BuildImplementation& implementation)
+      : outline(character.triangles, character.vertices.size(), character.vertices, implementation),
+        hierarchy(implementation),
+        interior(implementation) {}
 };
 
-std::vector<BuildImplementation> build_implementations() {
-  std::vector<BuildImplementation> all;
-  for (const detail::DiscImplementation& discs : detail::disc_implementations())
-    if (discs.supported())
-      all.push_back({discs.name, row_for(detail::outline_implementations(), discs.name), &discs,
-                     row_for(detail::interior_implementations(), discs.name)});
-  return all;
-}
-
-BuildImplementation chosen_build_implementation() {
-  const std::vector<BuildImplementation> all = build_implementations();
-  return *std::find_if(all.begin(), all.end(), [](const BuildImplementation& row) {
-    return row.interior == &detail::best_interior_implementation();
-  });
-}
-
 BuildStages::BuildStages(const Character& character, std::uint32_t poses,
-                         const BuildImplementation& implementation)
+                         const detail::BuildImplementation& implementation)
     : character_(character),
       times_(sample_poses(character, poses)),
       positions_(times_.size()),
       outlines_(times_.size()),
       hierarchies_(times_.size()),
       skinner_(character),
-      outline_builder_(character.triangles, character.vertices.size(), character.vertices,
-                       *implementation.outline),
-      hierarchy_builder_(*implementation.discs),
+      outline_builder_(character.triangles, character.vertices.size(), character.vertices, implementation),
+      hierarchy_builder_(implementation),
       welzl_builder_(by_welzl()),
-      interior_builder_(*implementation.interior) {
+      interior_builder_(implementation) {
   Others others(character, other_than(implementation));
   for (std::size_t pose = 0; pose < times_.size(); ++pose) make_and_check(pose, others);
 }

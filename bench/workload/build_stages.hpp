@@ -6,11 +6,11 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
-#include <string_view>
 #include <vector>
 
 #include <bch/outline_builder.hpp>
 
+#include "layout/base/build_implementation.hpp"
 #include "layout/character/skinning.hpp"
 #include "layout/culling/interior.hpp"
 #include "layout/culling/profile.hpp"
@@ -19,19 +19,6 @@
 #include "layout/shape_set/bvh8.hpp"
 
 namespace bch::bench {
-
-/// Selects the compilations of all stages that one instruction set would choose.
-struct BuildImplementation {
-  std::string_view name;
-  const detail::OutlineImplementation* outline;
-  const detail::DiscImplementation* discs;
-  const detail::InteriorImplementation* interior;
-};
-
-/// Returns the implementations that run here, the best first.
-std::vector<BuildImplementation> build_implementations();
-/// Returns the implementation that builders choose by themselves.
-BuildImplementation chosen_build_implementation();
 
 /// Runs the way of a character from poses to all that a set stores of shapes, stage by stage: each is made from
 /// what the one before it made of the same pose, with memory that is used again. What is made first is compared:
@@ -44,7 +31,8 @@ class BuildStages {
  public:
   /// Takes a character, which must outlive this.
   /// Errors: throws std::runtime_error where a stage makes something else than what it is compared with.
-  BuildStages(const Character& character, std::uint32_t poses, const BuildImplementation& implementation);
+  BuildStages(const Character& character, std::uint32_t poses,
+              const detail::BuildImplementation& implementation);
 
   std::size_t poses() const { return times_.size(); }
   std::span<const Vec2> positions_of(std::size_t pose) const { return positions_[pose]; }

@@ -6,7 +6,7 @@
 #include <array>
 #include <span>
 
-#include "layout/culling/interior_implementation.hpp"
+#include "layout/culling/interior_loops.hpp"
 #include "layout/culling/tangent_discs.hpp"
 
 namespace bch::detail {

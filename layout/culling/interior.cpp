@@ -63,10 +63,10 @@ void set_extremes(const InteriorLoops& loops, std::span<const Vec2> contour, Int
 
 }  // namespace
 
-InteriorBuilder::InteriorBuilder() : InteriorBuilder(best_interior_implementation()) {}
+InteriorBuilder::InteriorBuilder() : InteriorBuilder(best_build_implementation()) {}
 
-InteriorBuilder::InteriorBuilder(const InteriorImplementation& implementation)
-    : loops_(&implementation.loops) {}
+InteriorBuilder::InteriorBuilder(const BuildImplementation& implementation)
+    : loops_(&implementation.loops.interior) {}
 
 InteriorBuilder::Frame InteriorBuilder::frame(Contour contour) {
   Vec2 low = contour[0], high = contour[0];

@@ -10,6 +10,7 @@
 
 #include <bch/outline.hpp>
 
+#include "layout/base/build_implementation.hpp"
 #include "layout/culling/contour_distance.hpp"
 #include "layout/culling/disc_coverage.hpp"
 #include "layout/culling/tangent_discs.hpp"
@@ -50,7 +51,7 @@ class InteriorBuilder {
   /// Uses the best loops that this processor supports.
   InteriorBuilder();
   /// Uses the given loops, which this processor has to support.
-  explicit InteriorBuilder(const InteriorImplementation& implementation);
+  explicit InteriorBuilder(const BuildImplementation& implementation);
 
   /// Finds the inscribed discs and the extreme points of an outline.
   /// Shapes:  validate(outline) does not throw; contours are counter-clockwise. `reach` is that of the shape,

@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "layout/culling/interior_implementation.hpp"
+#include "layout/culling/interior_loops.hpp"
 #include "layout/simd/lanes.hpp"
 
 namespace bch::detail {
@@ -17,10 +17,6 @@ namespace bch::detail {
 template <class Simd>
 class InteriorLanes {
  public:
-  static constexpr InteriorLoops loops() {
-    return {keep_out, measure, estimate, find_nearest, find_extremes, draw, count_new};
-  }
-
   /// Raises the half curvature of each touch's disc until no point is inside: a disc that touches at q with the
   /// centre q + r n holds a point q + w unless 2 r (n w) <= w^2.
   static void keep_out(const ContourPoints& points, const TouchLanes& touches,
@@ -126,6 +122,9 @@ class InteriorLanes {
     }
     return static_cast<std::int32_t>((sum & 0xffff) + (sum >> 16));
   }
+
+  static constexpr InteriorLoops loops{keep_out,      measure, estimate, find_nearest,
+                                       find_extremes, draw,    count_new};
 
  private:
   using Floats = typename Simd::Float;

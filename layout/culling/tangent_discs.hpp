@@ -10,7 +10,7 @@
 
 #include <bch/geometry.hpp>
 
-#include "layout/culling/interior_implementation.hpp"
+#include "layout/culling/interior_loops.hpp"
 
 namespace bch::detail {
 

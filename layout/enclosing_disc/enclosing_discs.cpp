@@ -7,23 +7,6 @@
 
 namespace bch::detail {
 
-void solve_discs_base(const DiscSets&) noexcept;
-void solve_discs_avx2(const DiscSets&) noexcept;
-
-namespace {
-
-constexpr DiscImplementation disc_table[] = {BCH_ON_X86({avx2, solve_discs_avx2}, ){base, solve_discs_base}};
-
-}  // namespace
-
-std::span<const DiscImplementation> disc_implementations() noexcept {
-  return disc_table;
-}
-
-EnclosingDiscs::EnclosingDiscs() : EnclosingDiscs(first_supported(disc_table)) {}
-
-EnclosingDiscs::EnclosingDiscs(const DiscImplementation& implementation) : implementation_(&implementation) {}
-
 /// Solves the sets in the order of their sizes, so that lanes have little to wait for.
 void EnclosingDiscs::solve(std::span<const Vec2> points, std::span<const PointRange> sets,
                            std::span<SolvedDisc> discs) {
@@ -36,7 +19,7 @@ void EnclosingDiscs::solve(std::span<const Vec2> points, std::span<const PointRa
   order_.resize(sets.size());
   for (std::uint32_t i = 0; i < sets.size(); ++i) order_[offset_[sets[i].end - sets[i].begin]++] = i;
   scratch_.resize(std::max(scratch_.size(), 2 * std::size_t{largest + 1} * disc_set_lanes));
-  implementation_->solve(
+  loops_->solve_discs(
       {points.data(), sets.data(), order_.data(), small_count, sets.size(), scratch_.data(), discs.data()});
 }
 

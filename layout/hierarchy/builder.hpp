@@ -23,7 +23,7 @@ class HierarchyBuilder {
  public:
   HierarchyBuilder() = default;
   /// Uses a given implementation of the discs, which this processor has to support.
-  explicit HierarchyBuilder(const DiscImplementation& implementation) : solver_(implementation) {}
+  explicit HierarchyBuilder(const BuildImplementation& implementation) : solver_(implementation) {}
 
   /// Sets the largest number of nodes of a hierarchy, 2^22 by default: more throw std::length_error.
   void limit_nodes(std::size_t most) noexcept { most_nodes_ = most; }

@@ -10,12 +10,12 @@
 #include <string>
 #include <vector>
 
+#include "layout/base/build_implementation.hpp"
 #include "layout/base/planes.hpp"
 #include "layout/base/rounding.hpp"
 #include "layout/outline/candidates.hpp"
 #include "layout/outline/contour_index.hpp"
 #include "layout/outline/grid_snap.hpp"
-#include "layout/outline/implementation.hpp"
 #include "layout/outline/topology.hpp"
 #include "layout/outline/walk.hpp"
 #include "layout/outline/winding.hpp"
@@ -57,12 +57,12 @@ void keep_reach(Outline& slab) {
 /// What is known of the mesh, and the scratch of a pose.
 struct OutlineBuilder::State {
   State(std::span<const std::array<std::uint32_t, 3>> triangles, std::size_t vertex_count,
-        std::span<const Vec3> bind_pose, const OutlineImplementation& implementation)
+        std::span<const Vec3> bind_pose, const BuildImplementation& implementation)
       : vertices(vertex_count),
         topology(outline_topology(triangles, vertex_count, bind_pose)),
         points(topology.used.size()),
-        candidates(topology, implementation),
-        walk(implementation) {
+        candidates(topology, implementation.loops.outline),
+        walk(implementation.loops.outline) {
     const std::size_t islands = topology.island_vertex.size();
     leftmost.reserve(islands), outside.reserve(islands), places.reserve(islands);
     later.reserve(islands);
@@ -223,10 +223,10 @@ void OutlineBuilder::State::write(double step, Outline& outline) const {
 
 OutlineBuilder::OutlineBuilder(std::span<const std::array<std::uint32_t, 3>> triangles, std::size_t vertices,
                                std::span<const Vec3> bind_pose)
-    : OutlineBuilder(triangles, vertices, bind_pose, best_outline_implementation()) {}
+    : OutlineBuilder(triangles, vertices, bind_pose, best_build_implementation()) {}
 
 OutlineBuilder::OutlineBuilder(std::span<const std::array<std::uint32_t, 3>> triangles, std::size_t vertices,
-                               std::span<const Vec3> bind_pose, const OutlineImplementation& implementation)
+                               std::span<const Vec3> bind_pose, const BuildImplementation& implementation)
     : state_(std::make_unique<State>(triangles, vertices, bind_pose, implementation)) {}
 
 OutlineBuilder::OutlineBuilder(OutlineBuilder&&) noexcept = default;

@@ -67,17 +67,14 @@ void CandidateList::finish(std::span<const GridPoint> island_points) {
   boxes_.assign(segments_.data(), count_);
 }
 
-OutlineCandidates::OutlineCandidates(const OutlineTopology& topology,
-                                     const OutlineImplementation& implementation)
-    : implementation_(&implementation),
-      triangles_(topology.triangles),
-      chosen_(topology.manifold.size() + 1) {
+OutlineCandidates::OutlineCandidates(const OutlineTopology& topology, const OutlineLoops& loops)
+    : loops_(&loops), triangles_(topology.triangles), chosen_(topology.manifold.size() + 1) {
   while (triangles_.size() % triangles_together != 0) triangles_.push_back({0, 0, 0});
   sides_.resize(triangles_.size());
 }
 
 void OutlineCandidates::find_sides(std::span<const GridPoint> points) {
-  implementation_->find_sides(triangles_.data()->data(), triangles_.size(), points.data(), sides_.data());
+  loops_->find_sides(triangles_.data()->data(), triangles_.size(), points.data(), sides_.data());
 }
 
 std::span<const std::uint32_t> OutlineCandidates::choose(const OutlineTopology& topology) {

@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "layout/outline/grid_geometry.hpp"
-#include "layout/outline/implementation.hpp"
 #include "layout/outline/plane_cuts.hpp"
 #include "layout/outline/segment_boxes.hpp"
+#include "layout/outline/segment_search.hpp"
 #include "layout/outline/topology.hpp"
 
 namespace bch::detail {
@@ -54,7 +54,7 @@ class CandidateList {
 /// lies on none); any further piece of the union may be among them without harm.
 class OutlineCandidates {
  public:
-  OutlineCandidates(const OutlineTopology& topology, const OutlineImplementation& implementation);
+  OutlineCandidates(const OutlineTopology& topology, const OutlineLoops& loops);
 
   /// Finds those of the pose in which vertex i is at points[i]. Allocates nothing.
   void find(const OutlineTopology& topology, std::span<const GridPoint> points, CandidateList& list);
@@ -75,7 +75,7 @@ class OutlineCandidates {
                 PlaneCuts& cuts, std::span<CandidateList> slabs) const;
   void add_uses(EdgeUses uses, PlaneCuts& cuts, std::span<CandidateList> slabs) const;
 
-  const OutlineImplementation* implementation_;
+  const OutlineLoops* loops_;
   std::vector<std::array<std::uint32_t, 3>> triangles_;  ///< and points that fill them up
   std::vector<std::uint8_t> sides_;                      ///< of each triangle; 0 of one that is cut
   std::vector<std::uint32_t> chosen_;                    ///< manifold edges

@@ -72,6 +72,8 @@ class OutlineLanes {
     }
   }
 
+  static constexpr OutlineLoops loops{find_sides, find_near, test_near};
+
  private:
   using Floats = typename Simd::Float;
   using Doubles = typename Simd::Double;

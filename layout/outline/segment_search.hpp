@@ -52,4 +52,12 @@ struct SearchedWay {
   std::int16_t min_x, min_y, max_x, max_y;
 };
 
+/// Represents one compilation of lanes.hpp, which says what the functions do.
+struct OutlineLoops {
+  void (*find_sides)(const std::uint32_t* corners, std::size_t count, const GridPoint* points,
+                     std::uint8_t* sides) noexcept;
+  std::size_t (*find_near)(const SegmentSearch& job, const SearchedWay& way) noexcept;
+  void (*test_near)(const SegmentSearch& job, const SearchedWay& way, std::size_t count) noexcept;
+};
+
 }  // namespace bch::detail

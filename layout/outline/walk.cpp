@@ -87,18 +87,18 @@ void OutlineWalk::walk(GridPoint start, std::vector<Stretch>& contour) {
 /// Looks at the candidates near the way from a place to the end of its line.
 void OutlineWalk::find_near(const Place& here, GridPoint rounded_here) {
   const GridPoint from = rounded_here, to = here.to;
-  near_count_ = implementation_->find_near(
-      search_,
-      {here.from.x, here.from.y, to.x, to.y, here.at.value, cell(std::min(from.x - 1, to.x)),
-       cell(std::min(from.y - 1, to.y)), cell(std::max(from.x + 1, to.x)), cell(std::max(from.y + 1, to.y))});
+  near_count_ =
+      loops_->find_near(search_, {here.from.x, here.from.y, to.x, to.y, here.at.value,
+                                  cell(std::min(from.x - 1, to.x)), cell(std::min(from.y - 1, to.y)),
+                                  cell(std::max(from.x + 1, to.x)), cell(std::max(from.y + 1, to.y))});
 }
 
 /// Finds the candidates near the part of the line between two shares of it, through the tree.
 void OutlineWalk::find_near_piece(const Place& here, double begin, double end) {
   near_count_ = tree_.find(place_on(here, begin), place_on(here, end), near_.data());
   std::fill_n(near_.begin() + static_cast<std::ptrdiff_t>(near_count_), boxes_per_block, 0u);
-  implementation_->test_near(
-      search_, {here.from.x, here.from.y, here.to.x, here.to.y, here.at.value, 0, 0, 0, 0}, near_count_);
+  loops_->test_near(search_, {here.from.x, here.from.y, here.to.x, here.to.y, here.at.value, 0, 0, 0, 0},
+                    near_count_);
 }
 
 /// take_first_crossing() piece by piece, longer and longer ones: where candidates are many, most are beyond the first

@@ -31,7 +31,7 @@ struct Stretch {
 /// candidates cut each other, so the first piece must come again, and it is the first that comes again.
 class OutlineWalk {
  public:
-  explicit OutlineWalk(const OutlineImplementation& implementation) : implementation_(&implementation) {}
+  explicit OutlineWalk(const OutlineLoops& loops) : loops_(&loops) {}
 
   /// Walks along these candidates from now on, which must not change before the last walk().
   void begin(const CandidateList& candidates);
@@ -54,7 +54,7 @@ class OutlineWalk {
   void take_first_direction(const Place& here, Stretch& next);
   void touch(std::uint32_t segment);
 
-  const OutlineImplementation* implementation_;
+  const OutlineLoops* loops_;
   const CandidateList* candidates_ = nullptr;
   std::vector<std::uint32_t> near_;
   std::vector<double> side_a_, side_b_, along_, at_;

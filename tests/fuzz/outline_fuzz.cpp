@@ -9,7 +9,7 @@
 
 #include <bch/outline_builder.hpp>
 
-#include "layout/outline/implementation.hpp"
+#include "layout/base/build_implementation.hpp"
 #include "tests/fuzz/target.hpp"
 #include "tests/support/outline_checks.hpp"
 #include "tests/support/outline_soups.hpp"
@@ -58,7 +58,7 @@ std::vector<std::array<std::uint32_t, 3>> without_points(const test::Soup& soup,
 void check(const test::Soup& soup) {
   const Outline outline = union_outline(soup.positions, soup.triangles);
   validate(outline);
-  for (const detail::OutlineImplementation& implementation : detail::outline_implementations()) {
+  for (const detail::BuildImplementation& implementation : detail::build_implementations()) {
     if (!implementation.supported()) continue;
     Outline other;
     OutlineBuilder builder(soup.triangles, soup.positions.size(), soup.positions, implementation);

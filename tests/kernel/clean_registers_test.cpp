@@ -17,10 +17,9 @@
 #include <bch/penetration.hpp>
 #include <bch/time_of_impact.hpp>
 
+#include "layout/base/build_implementation.hpp"
 #include "layout/culling/interior.hpp"
-#include "layout/culling/interior_implementation.hpp"
 #include "layout/hierarchy/builder.hpp"
-#include "layout/outline/implementation.hpp"
 #include "tests/support/scenes.hpp"
 
 // Whoever leaves something in the upper halves of the registers makes all SSE code after him slow, up to five times.
@@ -92,22 +91,16 @@ TEST_F(CleanRegisters, AfterQueries) {
 TEST_F(CleanRegisters, AfterConstruction) {
   const Character character = default_male();
   Outline outline;
-  for (const detail::OutlineImplementation& row : detail::outline_implementations()) {
+  for (const detail::BuildImplementation& row : detail::build_implementations()) {
     if (!row.supported()) continue;
     OutlineBuilder builder(character.triangles, character.vertices.size(), character.vertices, row);
     expect_clean(std::string("outline, ") + row.name, [&] { builder.build(character.vertices, outline); });
-  }
-  for (const detail::DiscImplementation& row : detail::disc_implementations()) {
-    if (!row.supported()) continue;
-    detail::HierarchyBuilder builder(row);
+    detail::HierarchyBuilder hierarchy_builder(row);
     Hierarchy hierarchy;
     expect_clean(std::string("discs, ") + row.name,
-                 [&] { builder.contour(outline, 0.01f, SplitRule::centroid, hierarchy); });
-  }
-  for (const detail::InteriorImplementation& row : detail::interior_implementations()) {
-    if (!row.supported()) continue;
-    detail::InteriorBuilder builder(row);
-    expect_clean(std::string("interior, ") + row.name, [&] { builder.build(outline, 1.0); });
+                 [&] { hierarchy_builder.contour(outline, 0.01f, SplitRule::centroid, hierarchy); });
+    detail::InteriorBuilder interior_builder(row);
+    expect_clean(std::string("interior, ") + row.name, [&] { interior_builder.build(outline, 1.0); });
   }
 }
 

@@ -143,8 +143,8 @@ TEST(EnclosingDiscs, AreTheSameBitsOnEveryInstructionSet) {
   test::Random random(4);
   const PointSets sets = random_sets(random, 1);
   std::vector<detail::SolvedDisc> expected(sets.ranges.size());
-  detail::EnclosingDiscs(detail::disc_implementations().back()).solve(sets.points, sets.ranges, expected);
-  for (const detail::DiscImplementation& implementation : detail::disc_implementations()) {
+  detail::EnclosingDiscs(detail::build_implementations().back()).solve(sets.points, sets.ranges, expected);
+  for (const detail::BuildImplementation& implementation : detail::build_implementations()) {
     if (!implementation.supported()) continue;
     std::vector<detail::SolvedDisc> discs(sets.ranges.size());
     detail::EnclosingDiscs(implementation).solve(sets.points, sets.ranges, discs);

@@ -226,8 +226,8 @@ TEST(Interior, EveryInstructionSetGivesTheSameBits) {
        {polygon({{0, 0}, {1, 0}, {1, 1}, {5, 6}, {1, 1}, {0, 1}, {-4, 0.5f}, {0, 1}}),
         polygon({{0, 0}, {1, 0}}), polygon({{1, 1}})})
     shapes.emplace_back().outline = outline;
-  detail::InteriorBuilder plain(detail::interior_implementations().back());
-  for (const detail::InteriorImplementation& implementation : detail::interior_implementations()) {
+  detail::InteriorBuilder plain(detail::build_implementations().back());
+  for (const detail::BuildImplementation& implementation : detail::build_implementations()) {
     if (!implementation.supported()) continue;
     detail::InteriorBuilder builder(implementation);
     for (const Shape& shape : shapes) {
@@ -283,9 +283,9 @@ void expect_best_choices(const detail::InteriorLoops& loops) {
 }
 
 TEST(DiscCoverage, ChoosesWhatAddsMost) {
-  for (const detail::InteriorImplementation& implementation : detail::interior_implementations()) {
+  for (const detail::BuildImplementation& implementation : detail::build_implementations()) {
     SCOPED_TRACE(implementation.name);
-    if (implementation.supported()) expect_best_choices(implementation.loops);
+    if (implementation.supported()) expect_best_choices(implementation.loops.interior);
   }
 }
 
@@ -297,14 +297,15 @@ TEST(DiscCoverage, DrawsDiscsThatNoIntegerHolds) {
   };
   constexpr float infinity = HUGE_VALF;
   constexpr int rows = detail::DiscCoverage::cells;
-  for (const detail::InteriorImplementation& implementation : detail::interior_implementations()) {
+  for (const detail::BuildImplementation& implementation : detail::build_implementations()) {
     if (!implementation.supported()) continue;
     for (const auto& [x, radius, cells] :
          {Drawn{16, 1e15f, rows * rows}, Drawn{16, infinity, rows * rows}, Drawn{3e38f, 1, 0},
           Drawn{-3e38f, 1, 0}, Drawn{infinity, 1, 0}, Drawn{-infinity, infinity, 0},
           Drawn{infinity, infinity, rows * rows}}) {
       std::uint32_t bits[rows];
-      EXPECT_EQ(implementation.loops.draw(x, 16, radius, bits), cells) << implementation.name << x << radius;
+      EXPECT_EQ(implementation.loops.interior.draw(x, 16, radius, bits), cells)
+          << implementation.name << x << radius;
       for (const std::uint32_t row : bits) EXPECT_EQ(row, cells == 0 ? 0u : ~0u) << implementation.name << x;
     }
   }

@@ -9,8 +9,8 @@
 #include <bch/default_characters.hpp>
 #include <bch/outline_builder.hpp>
 
+#include "layout/base/build_implementation.hpp"
 #include "layout/character/skinning.hpp"
-#include "layout/outline/implementation.hpp"
 #include "tests/support/outline_arrangement.hpp"
 #include "tests/support/outline_soups.hpp"
 
@@ -21,9 +21,9 @@ namespace {
 
 using test::Soup;
 
-std::vector<const detail::OutlineImplementation*> supported_implementations() {
-  std::vector<const detail::OutlineImplementation*> supported;
-  for (const detail::OutlineImplementation& row : detail::outline_implementations())
+std::vector<const detail::BuildImplementation*> supported_implementations() {
+  std::vector<const detail::BuildImplementation*> supported;
+  for (const detail::BuildImplementation& row : detail::build_implementations())
     if (row.supported()) supported.push_back(&row);
   return supported;
 }
@@ -74,7 +74,7 @@ TEST(OutlineBuilder, SliversHaveTheOutlineOfTheirArrangement) {
   Outline outline;
   for (int i = 0; i < 3000; ++i) {
     const Soup slivers = soup_of_slivers(random);
-    for (const detail::OutlineImplementation* row : supported_implementations()) {
+    for (const detail::BuildImplementation* row : supported_implementations()) {
       OutlineBuilder(slivers.triangles, slivers.positions.size(), slivers.positions, *row)
           .build(slivers.positions, outline);
       ASSERT_EQ(outline.grid_step, 0x1p-23f);
@@ -86,7 +86,7 @@ TEST(OutlineBuilder, SliversHaveTheOutlineOfTheirArrangement) {
 
 /// More candidates than any word of bits holds, all of them at one point: tip after tip, and the centre between.
 TEST(OutlineBuilder, AStarIsWalkedTipByTip) {
-  for (const detail::OutlineImplementation* row : supported_implementations())
+  for (const detail::BuildImplementation* row : supported_implementations())
     for (const std::size_t tips : {3, 16, 17, 63, 64, 65, 300, 1100, 5000}) {
       Soup star{{{0, 0, 0}}, {}};
       for (std::uint32_t i = 0; i < tips; ++i) {
@@ -114,7 +114,7 @@ TEST(OutlineBuilder, GivesTheSameBitsOnEveryInstructionSet) {
   for (const Character& character : {default_male(), default_female()}) {
     detail::Skinner skinner(character);
     std::vector<OutlineBuilder> builders;
-    for (const detail::OutlineImplementation* row : implementations)
+    for (const detail::BuildImplementation* row : implementations)
       builders.emplace_back(character.triangles, character.vertices.size(), character.vertices, *row);
     for (const PoseTime& time : sample_poses(character, 50)) {
       const auto positions = skinner.pose(time);

@@ -5,7 +5,7 @@
 
 #include <bch/outline_builder.hpp>
 
-#include "layout/outline/implementation.hpp"
+#include "layout/base/build_implementation.hpp"
 #include "tests/support/allocation_count.hpp"
 #include "tests/support/island_soups.hpp"
 #include "tests/support/outline_arrangement.hpp"
@@ -112,7 +112,7 @@ TEST(OutlineIslands, CountsOneContourOfAChain) {
 TEST(OutlineIslands, EqualsItselfOnEveryInstructionSet) {
   const Soup soup = test::separate_triangles(20'000);
   const Outline expected = build(soup);
-  for (const detail::OutlineImplementation& row : detail::outline_implementations()) {
+  for (const detail::BuildImplementation& row : detail::build_implementations()) {
     if (!row.supported()) continue;
     Outline outline;
     OutlineBuilder(soup.triangles, soup.positions.size(), soup.positions, row).build(soup.positions, outline);

@@ -12,7 +12,7 @@
 #include <bch/outline.hpp>
 
 namespace bch::detail {
-struct OutlineImplementation;
+struct BuildImplementation;
 }
 
 namespace bch {
@@ -65,7 +65,7 @@ class OutlineBuilder {
 
   /// Uses a given implementation instead of the best one. This processor has to support it.
   OutlineBuilder(std::span<const std::array<std::uint32_t, 3>> triangles, std::size_t vertices,
-                 std::span<const Vec3> bind_pose, const detail::OutlineImplementation& implementation);
+                 std::span<const Vec3> bind_pose, const detail::BuildImplementation& implementation);
 
  private:
   struct State;

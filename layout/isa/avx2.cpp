@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include "layout/enclosing_disc/disc_lanes.hpp"
+#include "layout/isa/build_loops.hpp"
 
 namespace bch::detail {
 namespace {
@@ -10,8 +10,7 @@ struct Avx2Lanes : Lanes<xsimd::avx2, Avx2Lanes> {};
 
 }  // namespace
 
-void solve_discs_avx2(const DiscSets& sets) noexcept {
-  DiscLanes<Avx2Lanes>::solve(sets);
-}
+extern const BuildLoops avx2_loops;
+constinit const BuildLoops avx2_loops = build_loops<Avx2Lanes>;
 
 }  // namespace bch::detail

@@ -5,11 +5,8 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <span>
 
 #include <bch/geometry.hpp>
-
-#include "layout/base/instruction_set.hpp"
 
 namespace bch::detail {
 
@@ -54,16 +51,5 @@ struct InteriorLoops {
   std::int32_t (*draw)(float x, float y, float radius, std::uint32_t* rows) noexcept;
   std::int32_t (*count_new)(const std::uint32_t* rows, const std::uint32_t* covered) noexcept;
 };
-
-/// Represents one compilation of the loops for an instruction set. All give the same bits.
-struct InteriorImplementation : InstructionSet {
-  const InteriorLoops& loops;
-};
-
-/// Returns all implementations that were compiled, the best first; the last one runs everywhere.
-std::span<const InteriorImplementation> interior_implementations() noexcept;
-
-/// Returns the best implementation that this processor supports.
-const InteriorImplementation& best_interior_implementation() noexcept;
 
 }  // namespace bch::detail

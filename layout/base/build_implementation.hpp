@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <span>
+
+#include "layout/base/instruction_set.hpp"
+
+namespace bch::detail {
+
+struct DiscSets;
+struct OutlineLoops;
+struct InteriorLoops;
+
+/// Holds the loops of construction, compiled for one instruction set. All sets give the same bits.
+struct BuildLoops {
+  void (*solve_discs)(const DiscSets& sets) noexcept;
+  const OutlineLoops& outline;
+  const InteriorLoops& interior;
+};
+
+/// Represents a row of the table of instruction sets that construction is compiled for.
+struct BuildImplementation : InstructionSet {
+  const BuildLoops& loops;
+};
+
+/// Returns all implementations that were compiled, the best first; the last one runs everywhere.
+std::span<const BuildImplementation> build_implementations() noexcept;
+
+/// Returns the first implementation that this processor supports.
+const BuildImplementation& best_build_implementation() noexcept;
+
+}  // namespace bch::detail
