@@ -77,7 +77,7 @@ class Answers {
     });
   }
 
-  void check(PairScene& scene, std::uint64_t seed) {
+  void expect_in_order(PairScene& scene, std::uint64_t seed) {
     const std::size_t count = scene.pairs.size();
     std::vector<std::uint8_t> crossing(count), before(count, 1), hits(count), met(count);
     outlines->query(scene.crowd.agents(), scene.pairs, crossing);
@@ -133,19 +133,19 @@ class Answers {
 TEST(Answer, OfSyntheticShapes) {
   Answers answers(synthetic_bodies(2401, 40));
   PairScene random = test::placements(2402, answers.bodies, test::samples(8'000));
-  answers.check(random, 2402);
+  ASSERT_NO_FATAL_FAILURE(answers.expect_in_order(random, 2402));
   PairScene tangent = test::placements(2403, answers.bodies, test::samples(8'000));
   answers.bring_to_contact(2404, tangent);
-  answers.check(tangent, 2403);
+  ASSERT_NO_FATAL_FAILURE(answers.expect_in_order(tangent, 2403));
 }
 
 TEST(Answer, OfDefaultCharacters) {
   Answers answers(test::posed_bodies(test::default_characters(), 8));
   PairScene random = test::placements(2411, answers.bodies, 3'000);
-  answers.check(random, 2411);
+  ASSERT_NO_FATAL_FAILURE(answers.expect_in_order(random, 2411));
   PairScene tangent = test::placements(2412, answers.bodies, 3'000);
   answers.bring_to_contact(2413, tangent);
-  answers.check(tangent, 2412);
+  ASSERT_NO_FATAL_FAILURE(answers.expect_in_order(tangent, 2412));
 }
 
 TEST(Answer, OfRealCharacters) {
@@ -153,10 +153,10 @@ TEST(Answer, OfRealCharacters) {
   if (!data) GTEST_SKIP() << "BCH_TEST_DATA is not set: no real characters to test with";
   Answers answers(test::posed_bodies(test::real_characters(*data), 6));
   PairScene random = test::placements(2421, answers.bodies, 3'000);
-  answers.check(random, 2421);
+  ASSERT_NO_FATAL_FAILURE(answers.expect_in_order(random, 2421));
   PairScene tangent = test::placements(2422, answers.bodies, 3'000);
   answers.bring_to_contact(2423, tangent);
-  answers.check(tangent, 2422);
+  ASSERT_NO_FATAL_FAILURE(answers.expect_in_order(tangent, 2422));
 }
 
 bool operator==(const TestCounts& a, const TestCounts& b) {
