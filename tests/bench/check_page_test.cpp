@@ -8,21 +8,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <limits>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <numbers>
 #include <set>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
-#include "bench/check_page/embedding.hpp"
-#include "bench/check_page/overlap_series.hpp"
-#include "bench/check_page/page_shapes.hpp"
-#include "bench/check_page/rounded.hpp"
 #include "layout/base/random.hpp"
+#include "tests/support/page_blocks.hpp"
 
 // What a page holds is what was put in, whatever it is, and it is no larger than asked.
 
@@ -30,64 +25,7 @@ namespace bch::cli {
 namespace {
 
 using Json = nlohmann::json;
-
-std::vector<std::uint8_t> decoded(const std::string& text) {
-  constexpr std::string_view digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::vector<std::uint8_t> bytes;
-  std::uint32_t bits = 0, count = 0;
-  for (const char c : text) {
-    if (c == '=') break;
-    const std::size_t digit = digits.find(c);
-    if (digit == std::string_view::npos) throw std::runtime_error("not base64");
-    bits = bits << 6 | static_cast<std::uint32_t>(digit);
-    count += 6;
-    if (count < 8) continue;
-    count -= 8;
-    bytes.push_back(static_cast<std::uint8_t>(bits >> count));
-  }
-  return bytes;
-}
-
-template <class Number>
-std::vector<double> numbers(const std::vector<std::uint8_t>& bytes) {
-  EXPECT_EQ(bytes.size() % sizeof(Number), 0u);
-  std::vector<Number> values(bytes.size() / sizeof(Number));
-  if (!values.empty()) std::memcpy(values.data(), bytes.data(), bytes.size());
-  return {values.begin(), values.end()};
-}
-
-/// The blocks of a page, as its scripts read them.
-class Blocks {
- public:
-  explicit Blocks(const std::string& html) : html_(html) {}
-
-  std::string type(const std::string& name) const { return between("data-type=\"", "\"", at(name)); }
-  std::vector<double> operator()(const std::string& name) const {
-    const auto bytes = decoded(between(">", "</script>", at(name)));
-    const std::string kind = type(name);
-    if (kind == "u8") return numbers<std::uint8_t>(bytes);
-    if (kind == "i16") return numbers<std::int16_t>(bytes);
-    if (kind == "u16") return numbers<std::uint16_t>(bytes);
-    if (kind == "i32") return numbers<std::int32_t>(bytes);
-    if (kind == "u32") return numbers<std::uint32_t>(bytes);
-    if (kind == "f64") return numbers<double>(bytes);
-    throw std::runtime_error(kind);
-  }
-  Json meta() const { return Json::parse(between(">", "</script>", at("meta"))); }
-
- private:
-  std::size_t at(const std::string& name) const {
-    const std::size_t place = html_.find("id=\"data-" + name + "\"");
-    if (place == std::string::npos) throw std::runtime_error("no block " + name);
-    return place;
-  }
-  std::string between(const std::string& before, const std::string& after, std::size_t from) const {
-    const std::size_t begin = html_.find(before, from) + before.size();
-    return html_.substr(begin, html_.find(after, begin) - begin);
-  }
-
-  const std::string& html_;
-};
+using test::Blocks;
 
 PageShape square(std::uint32_t shape) {
   return {fmt::format("shape {}", shape),
@@ -374,86 +312,6 @@ TEST(CheckPage, HoldsWallsAndShapes) {
             (std::vector<double>{200, 200, -200, 200, -200, -200, 200, -200}));
   const auto discs = blocks("discs");
   EXPECT_EQ(std::vector<double>(discs.begin(), discs.begin() + 3), (std::vector<double>{10, -20, 250}));
-}
-
-TEST(Base64, IsThatOfTheStandard) {
-  const auto of = [](const std::string& text) { return base64(std::as_bytes(std::span(text))); };
-  const std::vector<std::pair<std::string, std::string>> pairs{{"", ""},
-                                                               {"f", "Zg=="},
-                                                               {"fo", "Zm8="},
-                                                               {"foo", "Zm9v"},
-                                                               {"foob", "Zm9vYg=="},
-                                                               {"fooba", "Zm9vYmE="},
-                                                               {"foobar", "Zm9vYmFy"},
-                                                               {"\xfb\xff", "+/8="}};
-  for (const auto& pair : pairs) EXPECT_EQ(of(pair.first), pair.second);
-}
-
-TEST(ScriptJson, HasNoMarkup) {
-  const nlohmann::ordered_json json{{"<a>", "&amp; </script>"}, {"bytes", "\xff"}};
-  const std::string text = script_json(json);
-  EXPECT_EQ(text.find_first_of("<>&"), std::string::npos);
-  EXPECT_EQ(Json::parse(text)["<a>"], "&amp; </script>");
-  EXPECT_EQ(Json::parse(text)["bytes"], "\xef\xbf\xbd");
-}
-
-TEST(Rounded, StaysInItsRange) {
-  EXPECT_EQ(rounded<std::int16_t>(-0.5), -1);
-  EXPECT_EQ(rounded<std::int16_t>(1e300), 32767);
-  EXPECT_EQ(rounded<std::int16_t>(-40'000), -32768);
-  EXPECT_EQ(rounded<std::uint16_t>(-3), 0);
-  EXPECT_EQ(rounded<std::uint16_t>(65'534.6), 65'535);
-  EXPECT_EQ(rounded<std::int32_t>(std::numeric_limits<double>::quiet_NaN()), 0);
-  EXPECT_EQ(rounded<std::int32_t>(std::numeric_limits<double>::infinity()), 2147483647);
-}
-
-double distance_to(const std::vector<ShapePoint>& polygon, Vec2 point) {
-  double least = std::numeric_limits<double>::infinity();
-  const double x = 1000 * static_cast<double>(point.x), y = 1000 * static_cast<double>(point.y);
-  for (std::size_t i = 0; i < polygon.size(); ++i) {
-    const ShapePoint a = polygon[i], b = polygon[(i + 1) % polygon.size()];
-    const double dx = b.x - a.x, dy = b.y - a.y, length2 = dx * dx + dy * dy;
-    const double along = length2 > 0 ? std::clamp(((x - a.x) * dx + (y - a.y) * dy) / length2, 0.0, 1.0) : 0;
-    least = std::min(least, std::hypot(x - a.x - along * dx, y - a.y - along * dy));
-  }
-  return least;
-}
-
-TEST(Simplified, StaysWithinItsTolerance) {
-  detail::Random random(3);
-  for (int contour = 0; contour < 50; ++contour) {
-    std::vector<Vec2> points;
-    const double lobes = 2 + random.below(5), swing = random.uniform(0.3);
-    for (int i = 0; i < 400; ++i) {
-      const double turn = 2 * std::numbers::pi * i / 400, radius = 0.4 + swing * std::sin(lobes * turn);
-      points.push_back(
-          {static_cast<float>(radius * std::cos(turn)), static_cast<float>(radius * std::sin(turn))});
-    }
-    const auto kept = simplified(points);
-    EXPECT_LT(kept.size(), 200u);
-    for (const Vec2 point : points) EXPECT_LE(distance_to(kept, point), outline_tolerance);
-  }
-}
-
-TEST(Simplified, TakesWhatIsHardlyAContour) {
-  EXPECT_TRUE(simplified({}).empty());
-  EXPECT_EQ(simplified({{1, 2}}), (std::vector<ShapePoint>{{1000, 2000}}));
-  EXPECT_EQ(simplified({{0, 0}, {0, 0}, {0, 0}}).size(), 1u);
-  // A whisker goes there and back.
-  EXPECT_EQ(simplified({{0, 0}, {0.5f, 0}, {1, 0}, {0.5f, 0}}), (std::vector<ShapePoint>{{0, 0}, {1000, 0}}));
-}
-
-TEST(OverlapSeries, KeepsTheMostOfEachStretch) {
-  OverlapSeries series;
-  const std::uint32_t frames = 3 * OverlapSeries::most_stretches;
-  for (std::uint32_t i = 0; i < frames; ++i) series.add(i, i == 7001 ? 9 : 1, 20);
-  const std::string html = series.blocks();
-  const auto seconds = Blocks(html)("series-seconds"), overlapping = Blocks(html)("series-overlapping");
-  ASSERT_EQ(seconds.size(), frames / 4);
-  for (std::size_t i = 0; i < seconds.size(); ++i) {
-    EXPECT_EQ(seconds[i], 4.0 * static_cast<double>(i));
-    EXPECT_EQ(overlapping[i], i == 7001 / 4 ? 9 : 1);
-  }
 }
 
 }  // namespace

@@ -4,78 +4,24 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cstdlib>
+#include <cmath>
 #include <set>
 #include <sstream>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include <bch/baked.hpp>
 #include <bch/query.hpp>
 #include <bch/shape_set.hpp>
 
 #include "tests/support/program_run.hpp"
-#include "tests/support/temporary_folder.hpp"
+#include "tests/support/query_what.hpp"
 
 // bch query --what: each question from the command line.
 
 namespace bch::test {
 namespace {
-
-using Arguments = std::vector<std::string>;
-
-/// A person-sized box, 0.5 m x 0.3 m on the ground, y up.
-constexpr const char* box =
-    "v -0.25 0 -0.15\nv 0.25 0 -0.15\nv 0.25 0 0.15\nv -0.25 0 0.15\n"
-    "v -0.25 1.8 -0.15\nv 0.25 1.8 -0.15\nv 0.25 1.8 0.15\nv -0.25 1.8 0.15\n"
-    "f 1 2 3 4\nf 8 7 6 5\nf 1 5 6 2\nf 2 6 7 3\nf 3 7 8 4\nf 4 8 5 1\n";
-
-using Rows = std::vector<std::vector<std::string>>;
-
-class QueryWhat : public testing::Test {
- protected:
-  Ending run(const std::string& what, const Arguments& more) const {
-    Arguments arguments{"query", shapes, agents, "--up", "y", "--scale", "1", "--what", what};
-    arguments.insert(arguments.end(), more.begin(), more.end());
-    return run_program(BCH_PROGRAM, arguments);
-  }
-
-  /// Without the header, which has to be as said.
-  Rows rows(const std::string& what, const std::string& header, const Arguments& more) const {
-    const Ending ending = run(what, more);
-    EXPECT_EQ(ending.code, 0) << ending.err;
-    EXPECT_EQ(ending.err, "");
-    std::istringstream lines(ending.out);
-    std::string line;
-    std::getline(lines, line);
-    EXPECT_EQ(line, header);
-    Rows all;
-    while (std::getline(lines, line)) {
-      std::istringstream fields(line);
-      for (all.emplace_back(); std::getline(fields, line, ',');) all.back().push_back(line);
-    }
-    return all;
-  }
-
-  void expect_usage_error(const Arguments& more, const std::string& word) const {
-    Arguments arguments{"query", shapes, agents, pairs};
-    arguments.insert(arguments.end(), more.begin(), more.end());
-    const Ending ending = run_program(BCH_PROGRAM, arguments);
-    EXPECT_EQ(ending.code, 2) << ending.err;
-    EXPECT_EQ(ending.out, "");
-    EXPECT_NE(ending.err.find(word), std::string::npos) << ending.err;
-  }
-
-  const TemporaryFolder folder;
-  const std::string shapes = folder.write("box.obj", box);
-  /// b overlaps a by 0.1 m, c stands 0.05 m beside a, d is far away. a and c approach by 0.2 m, d follows a.
-  const std::string agents = folder.write("agents.csv",
-                                          "id,shape,x,y,heading,dx,dy\na,0,0,0,0,0,0.15\nb,0,0.4,0,0,1,0\n"
-                                          "c,0,0,0.35,0,0,-0.05\nd,0,9,9,1,0,0.15\n");
-  const std::string pairs = folder.write("pairs.csv", "first,second\nb,a\na,c\na,d\n");
-};
-
-double number(const std::string& text) {
-  return std::strtod(text.c_str(), nullptr);
-}
 
 TEST_F(QueryWhat, CollideIsTheDefault) {
   const Rows hits = rows("collide", "first,second,hit", {pairs});
@@ -299,83 +245,4 @@ TEST_F(QueryWhat, HelpNamesEveryColumn) {
 }
 
 }  // namespace
-TEST_F(QueryWhat, ObstaclesInPlaceOfPairs) {
-  // b stands in a pillar, c on the wall that a walks to, 0.05 m before it; d is alone.
-  const std::string walls = folder.write(
-      "walls.wkt", "POLYGON((0.6 -0.1, 0.8 -0.1, 0.8 0.1, 0.6 0.1, 0.6 -0.1))\nLINESTRING(-1 0.2, 0 0.2)\n");
-  const Arguments against{"--obstacles", walls};
-  EXPECT_EQ(rows("collide", "id,hit", against), (Rows{{"a", "0"}, {"b", "1"}, {"c", "1"}, {"d", "0"}}));
-  const Rows apart = rows("clearance", "id,distance,x,y", against);
-  ASSERT_EQ(apart.size(), 4u);
-  EXPECT_NEAR(number(apart[0][1]), 0.05, 0.02);
-  EXPECT_NEAR(number(apart[0][3]), 1, 1e-6);
-  EXPECT_EQ(apart[1], (std::vector<std::string>{"b", "0", "0", "0"}));
-  EXPECT_EQ(rows("within", "id,hit", {"--obstacles", walls, "--max-distance", "0.06"}),
-            (Rows{{"a", "1"}, {"b", "1"}, {"c", "1"}, {"d", "0"}}));
-  // From outlines, a's distance is the one that the scene gives; from discs it is less.
-  const Rows outlines = rows("clearance", "id,distance,x,y", {"--obstacles", walls, "--leaves", "segments"});
-  EXPECT_NEAR(number(outlines[0][1]), 0.05, 1e-5);
-  EXPECT_GT(number(outlines[0][1]), number(apart[0][1]));
-  EXPECT_EQ(outlines[1], apart[1]);
-  const double between = 0.5 * (number(outlines[0][1]) + number(apart[0][1]));
-  for (const char* leaves : {"discs", "segments"})
-    EXPECT_EQ(
-        rows("within", "id,hit",
-             {"--obstacles", walls, "--max-distance", std::to_string(between), "--leaves", leaves})[0][1],
-        std::string(leaves) == "discs" ? "1" : "0");
-  const Rows times = rows("time-of-impact", "id,time", against);
-  EXPECT_NEAR(number(times[0][1]), 0.05 / 0.15, 0.15);
-  EXPECT_EQ(times[1][1], "0");
-  EXPECT_EQ(times[3][1], "inf");
-  const Rows ways = rows("penetration", "id,depth,x,y", against);
-  EXPECT_EQ(ways[0], (std::vector<std::string>{"a", "0", "0", "0"}));
-  EXPECT_NEAR(number(ways[1][1]), 0.05, 0.02);
-  EXPECT_EQ(ways[1][2], "-1");
-  EXPECT_EQ(ways[1][3], "0");
-  // On a floor the pillar's border is a wall.
-  EXPECT_EQ(rows("collide", "id,hit", {"--obstacles", walls, "--walkable"}),
-            (Rows{{"a", "0"}, {"b", "1"}, {"c", "1"}, {"d", "0"}}));
-}
-
-TEST_F(QueryWhat, ObstaclesWithHeights) {
-  const std::string walls = folder.write("walls.wkt", "LINESTRING(-1 0, 1 0)");
-  const auto hits = [&](const std::string& heights) {
-    const Rows all = rows("collide", "id,hit", {"--obstacles", walls, "--obstacle-heights=" + heights});
-    return all.empty() ? "" : all.front()[1];
-  };
-  EXPECT_EQ(hits("0,2"), "1");
-  EXPECT_EQ(hits("1.7,9"), "1");
-  EXPECT_EQ(hits("1.9,9"), "0");
-  EXPECT_EQ(hits("-inf,-1"), "0");
-  EXPECT_EQ(hits("-inf,inf"), "1");
-  // In slabs, too, and where agents stand somewhere else.
-  EXPECT_EQ(rows("clearance", "id,distance,x,y",
-                 {"--obstacles", walls, "--obstacle-heights", "1.9,3", "--slices", "1"})
-                .front()[1],
-            "inf");
-  const std::string high = folder.write("high.csv", "id,shape,x,y,heading,z\na,0,0,0,0,1\nb,0,0,0,0,4\n");
-  const Ending ending = run_program(BCH_PROGRAM, {"query", shapes, high, "--up", "y", "--scale", "1",
-                                                  "--obstacles", walls, "--obstacle-heights", "2,3"});
-  EXPECT_EQ(ending.out, "id,hit\na,1\nb,0\n") << ending.err;
-}
-
-TEST_F(QueryWhat, ObstaclesThatAreNone) {
-  const std::string bad = folder.write("bad.wkt", "LINESTRING(0 0,\n 1)");
-  const Ending ending = run("collide", {"--obstacles", bad});
-  EXPECT_EQ(ending.code, 3);
-  EXPECT_EQ(ending.err, "bch: " + bad + ": WKT: line 2, column 3: expected a number, found ')'\n");
-  EXPECT_EQ(run("collide", {"--obstacles", (folder.path() / "absent.wkt").string()}).code, 3);
-  expect_usage_error({"--obstacles", bad}, "name one of them");
-  expect_usage_error({"--walkable"}, "belongs to --obstacles");
-  expect_usage_error({"--obstacle-heights", "0,1"}, "belongs to --obstacles");
-  for (const char* heights : {"2", "2,1", "0,nan", ",", "low,high"}) {
-    const Ending wrong = run("collide", {"--obstacles", bad, "--obstacle-heights", heights});
-    EXPECT_EQ(wrong.code, 2) << heights;
-    EXPECT_NE(wrong.err.find("--obstacle-heights"), std::string::npos) << wrong.err;
-  }
-  EXPECT_EQ(run("contacts", {"--obstacles", bad}).code, 2);
-  EXPECT_EQ(run("penetration", {"--obstacles", bad, "--directions", "4"}).code, 2);
-  EXPECT_EQ(run("collide", {}).code, 2);
-}
-
 }  // namespace bch::test

@@ -15,50 +15,23 @@
 #include <bch/obstacles.hpp>
 
 #include "baselines/obstacle_reference.hpp"
+#include "tests/support/obstacle_answers.hpp"
 #include "tests/support/obstacle_scenes.hpp"
 #include "tests/support/scenes.hpp"
-#include "tests/support/slab_scenes.hpp"
 
 namespace bch {
 namespace {
 
 using baselines::ObstacleReference;
+using Answers = test::ObstacleAnswers;
+using test::all_answers;
 using test::Crowd;
+using test::distances_for;
 using test::ObstacleScene;
 using test::Random;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 const ShapeSetPlan four_levels{.depths = {0, 3, 6, all_depths}};
-
-/// What all queries say of a scene.
-struct Answers {
-  std::vector<std::uint8_t> hits, near;
-  std::vector<float> distance, deepest, time;
-  std::vector<Vec2> direction;
-  std::vector<DiscPair> discs, deepest_discs;
-  std::vector<NearestPoints> points;
-  std::vector<Penetration> ways;
-  friend bool operator==(const Answers&, const Answers&) = default;
-};
-
-Answers all_answers(const ShapeSet& set, const Agents& agents, const ObstacleSet& obstacles,
-                    const QueryOptions& options, std::span<const double> distances,
-                    const Displacements& displacements) {
-  const std::size_t n = agents.size();
-  Answers all{std::vector<std::uint8_t>(n), std::vector<std::uint8_t>(n), std::vector<float>(n),
-              std::vector<float>(n),        std::vector<float>(n),        std::vector<Vec2>(n),
-              std::vector<DiscPair>(n),     std::vector<DiscPair>(n),     std::vector<NearestPoints>(n),
-              std::vector<Penetration>(n)};
-  collide(set, agents, obstacles, all.hits, options);
-  within(set, agents, obstacles, distances, all.near, options);
-  QueryOptions how = options;
-  clearance(set, agents, obstacles, {all.distance, all.direction, all.discs, all.points}, how);
-  how.overlap = Overlap::deepest;
-  clearance(set, agents, obstacles, {.distance = all.deepest, .discs = all.deepest_discs}, how);
-  penetration(set, agents, obstacles, all.ways, options);
-  time_of_impact(set, agents, displacements, obstacles, all.time, options);
-  return all;
-}
 
 float rounded_down(double value) {
   const float nearest = static_cast<float>(value);
@@ -66,13 +39,6 @@ float rounded_down(double value) {
 }
 
 using Obstacles = test::ObstacleTest;
-
-std::vector<double> distances_for(Random& random, std::size_t count) {
-  std::vector<double> distances;
-  for (std::size_t i = 0; i < count; ++i)
-    distances.push_back(random.below(8) == 0 ? 0 : random.uniform(0, 1));
-  return distances;
-}
 
 /// Returns a vector of an agent's frame in the axes of the world.
 Vec2 turned(const Agents& agents, std::uint32_t agent, double x, double y) {
@@ -269,72 +235,6 @@ TEST_F(Obstacles, MayBeLong) {
     collide(discs, crowd.agents(), ObstacleSet({x, y, paths}), hits);
     EXPECT_EQ(hits, std::vector<std::uint8_t>(3, gap < 0)) << gap;
   }
-}
-/// A body in slabs collides where one of its parts does, as a shape of its own.
-TEST_F(Obstacles, OfBodiesInSlabs) {
-  const ShapeSetPlan plan = test::levels_of(test::three_slabs);
-  const std::vector<Shape> bodies = test::bodies(random, plan);
-  const ShapeSet whole(bodies, plan);
-  std::vector<Shape> parts;
-  std::vector<std::vector<std::uint32_t>> parts_of;
-  for (const Shape& body : bodies) {
-    auto& numbers = parts_of.emplace_back();
-    const auto add = [&](const Shape& part) {
-      if (part.hierarchy.nodes.empty()) return;
-      numbers.push_back(static_cast<std::uint32_t>(parts.size()));
-      parts.push_back({part.outline, part.hierarchy});
-    };
-    if (body.slabs.empty()) add(body);
-    for (const Shape& slab : body.slabs) add(slab);
-  }
-  const ShapeSet apart(parts, {.depths = plan.depths});
-  QueryOptions solid{.semantics = Semantics::solid};
-  std::size_t hits = 0;
-  for (std::uint32_t k = 0; k < test::samples(16); ++k) {
-    const ObstacleScene scene = test::obstacle_scene(random, 16, 3);
-    const ObstacleSet obstacles = scene.set();
-    const Crowd crowd = test::crowd_about(random, whole, 500, 3);
-    solid.distance_leaves = k % 2 == 0 ? Leaves::discs : Leaves::segments;
-    const std::vector<double> distances = distances_for(random, 500);
-    std::vector<double> way(500);
-    for (double& length : way) length = random.uniform(-1, 1);
-    const Answers of_whole = all_answers(whole, crowd.agents(), obstacles, solid, distances, {way, way});
-    for (std::uint32_t i = 0; i < 500; ++i) {
-      Crowd pieces;
-      for (const std::uint32_t part : parts_of[crowd.shape[i]])
-        pieces.add({part, crowd.x[i], crowd.y[i], crowd.heading[i], crowd.level[i]});
-      const std::vector<double> ways(pieces.x.size(), way[i]);
-      const Answers of_parts =
-          all_answers(apart, pieces.agents(), obstacles, solid, {&distances[i], 1}, {ways, ways});
-      const auto any = [](const auto& values) { return *std::max_element(values.begin(), values.end()); };
-      const auto least = [](const auto& values) { return *std::min_element(values.begin(), values.end()); };
-      ASSERT_EQ(of_whole.hits[i], any(of_parts.hits));
-      ASSERT_EQ(of_whole.near[i], any(of_parts.near));
-      ASSERT_EQ(of_whole.distance[i], least(of_parts.distance));
-      ASSERT_EQ(of_whole.deepest[i], least(of_parts.deepest));
-      // Bodies in slabs are solid, also where time is concerned.
-      std::vector<std::uint8_t> crossing(pieces.x.size());
-      collide(apart, pieces.agents(), obstacles, crossing);
-      float time = least(of_parts.time);
-      for (std::size_t p = 0; p < crossing.size(); ++p)
-        if (of_parts.hits[p] != 0 && crossing[p] == 0) time = 0;
-      ASSERT_EQ(of_whole.time[i], time);
-      float depth = 0;
-      for (const Penetration& way_out : of_parts.ways) depth = std::max(depth, way_out.depth);
-      ASSERT_EQ(of_whole.ways[i].depth, depth);
-      // The disc's number counts those of the parts before.
-      const auto nearest = std::find(of_parts.deepest.begin(), of_parts.deepest.end(), of_whole.deepest[i]) -
-                           of_parts.deepest.begin();
-      std::uint32_t before = 0;
-      for (std::ptrdiff_t p = 0; p < nearest; ++p)
-        before += static_cast<std::uint32_t>(
-            apart.discs(pieces.shape[static_cast<std::size_t>(p)], crowd.level[i]).size());
-      const auto& of_part = of_parts.deepest_discs[static_cast<std::size_t>(nearest)];
-      ASSERT_EQ(of_whole.deepest_discs[i], (DiscPair{before + of_part.first, of_part.second}));
-      hits += of_whole.hits[i];
-    }
-  }
-  EXPECT_GT(hits, test::samples(1'000));
 }
 
 /// The rows of the whole crowd are what pairs and single obstacles say.

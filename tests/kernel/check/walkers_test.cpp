@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include "kernel/check/walkers.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <numbers>
+#include <vector>
+
+#include <bch/default_characters.hpp>
+#include <bch/pose_shape.hpp>
+
+#include "kernel/check/walker_shapes.hpp"
+#include "tests/support/made_up_recording.hpp"
+
+// What is told of somebody who is tracked: speed, heading, stature, and the pose that stands for them.
+
+namespace bch::detail {
+namespace {
+
+using test::MadeUp;
+using test::unknown;
+
+std::vector<WalkerFrame> walkers_of(MadeUp& recording) {
+  recording.rewind();
+  WalkerReader reader(recording);
+  std::vector<WalkerFrame> all;
+  for (WalkerFrame frame; reader.next(frame);) all.push_back(frame);
+  return all;
+}
+
+TEST(Walkers, HaveTheirSpeedAndDirection) {
+  MadeUp recording(25);
+  recording.walk(3, 0, 0, 0.6, 0.8, 100);
+  const auto frames = walkers_of(recording);
+  ASSERT_EQ(frames.size(), 100u);
+  for (std::size_t k = 0; k < frames.size(); ++k) {
+    const Walker& walker = frames[k].people.at(0);
+    EXPECT_EQ(frames[k].frame, static_cast<std::int64_t>(k));
+    EXPECT_NEAR(walker.speed, 1, 1e-9);
+    EXPECT_NEAR(walker.heading, std::atan2(0.8, 0.6), 1e-9);
+    EXPECT_FALSE(walker.is_guessed);
+    EXPECT_FLOAT_EQ(static_cast<float>(walker.stature), 1.75f);
+    if (k == 0) continue;
+    const double step = walker.phase - frames[k - 1].people[0].phase;
+    EXPECT_NEAR(step - std::floor(step), pedestrian_strides_per_second(1) / 25, 1e-9);
+  }
+}
+
+TEST(Walkers, KeepTheirHeadingWhileTheyStand) {
+  MadeUp recording(25);
+  recording.walk(1, 0, 0, 0, 1, 50);
+  for (int k = 50; k < 100; ++k) recording.add(k, {1, 0, 1.96, unknown, unknown});
+  recording.walk(2, 5, 5, 0, 0, 100);  // never moves
+  std::size_t guessed = 0;
+  for (const WalkerFrame& frame : walkers_of(recording)) {
+    EXPECT_NEAR(frame.people[0].heading, std::numbers::pi / 2, 1e-9) << frame.frame;
+    EXPECT_NEAR(frame.people[1].heading, frame.frame < 50 ? std::numbers::pi / 2 : frame.people[1].heading,
+                1e-9);
+    EXPECT_TRUE(frame.people[1].is_guessed);
+    guessed += frame.people[0].is_guessed;
+  }
+  EXPECT_NEAR(static_cast<double>(guessed), 42, 3);  // from when half of the smoothing says that he stands
+}
+
+/// As recordings of simulators are that write a frame a second.
+TEST(Walkers, OfFewFramesHaveASpeedToo) {
+  MadeUp recording(40);
+  for (int k = 0; k < 10; ++k) recording.add(40 * k, {1, 1.2 * k, 0, unknown, unknown});
+  for (const WalkerFrame& frame : walkers_of(recording)) {
+    EXPECT_NEAR(frame.people[0].speed, 1.2, 1e-9) << frame.frame;
+    EXPECT_FALSE(frame.people[0].is_guessed);
+  }
+}
+
+TEST(Walkers, DoNotJumpAHundredMetres) {
+  MadeUp recording(10);
+  recording.add(0, {4, 0, 0, unknown, unknown});
+  recording.add(100, {4, 99, 0, unknown, unknown});
+  EXPECT_EQ(walkers_of(recording).size(), 2u);
+  recording.add(110, {4, 300, 0, unknown, unknown, TrackedPerson::no_motion, unknown, 7});
+  try {
+    walkers_of(recording);
+    ADD_FAILURE();
+  } catch (const TrajectoryError& error) {
+    EXPECT_STREQ(
+        error.what(),
+        "made up: row 7: person 4 jumps by 201 m, from (99, 0) in frame 100 to (300, 0) in frame 110");
+  }
+}
+
+TEST(Walkers, TakeHeadingsOfTheFile) {
+  MadeUp recording(10);
+  for (int k = 0; k < 20; ++k) recording.add(k, {1, 0.1 * k, 0, 1.5f, 1.6f});
+  for (const WalkerFrame& frame : walkers_of(recording)) {
+    EXPECT_FLOAT_EQ(static_cast<float>(frame.people[0].heading), 1.5f);
+    EXPECT_FALSE(frame.people[0].is_guessed);
+  }
+}
+
+TEST(Walkers, WithoutAStatureHaveOneByTheirIds) {
+  double women = 0, men = 0;
+  std::size_t count = 0;
+  for (std::int64_t id = 0; id < 4'000; ++id) {
+    const double stature = stature_by_id(id, is_female_by_id(id));
+    EXPECT_GT(stature, 1.3);
+    EXPECT_LT(stature, 2.2);
+    (is_female_by_id(id) ? women : men) += stature;
+    count += is_female_by_id(id);
+  }
+  EXPECT_NEAR(static_cast<double>(count), 2'000, 150);
+  EXPECT_NEAR(women / static_cast<double>(count), 1.66, 0.01);
+  EXPECT_NEAR(men / (4'000 - static_cast<double>(count)), 1.79, 0.01);
+}
+
+bool inside(const Outline& outline, Vec2 p) {
+  bool odd = false;
+  for (std::size_t k = 0; k < outline.contours(); ++k) {
+    const auto contour = outline.contour(k);
+    for (std::size_t i = 0; i < contour.size(); ++i) {
+      const Vec2 a = contour[i], b = contour[(i + 1) % contour.size()];
+      if ((a.y > p.y) != (b.y > p.y) && p.x < a.x + (b.x - a.x) * (p.y - a.y) / (b.y - a.y)) odd = !odd;
+    }
+  }
+  return odd;
+}
+
+double distance(Vec2 p, Vec2 from, Vec2 to) {
+  const double x = static_cast<double>(to.x - from.x), y = static_cast<double>(to.y - from.y),
+               px = static_cast<double>(p.x - from.x), py = static_cast<double>(p.y - from.y);
+  const double share = std::clamp((px * x + py * y) / std::max(x * x + y * y, 1e-12), 0.0, 1.0);
+  return std::hypot(px - share * x, py - share * y);
+}
+
+/// How far what one outline encloses sticks out of the other, metres. (Where an arm meets the body, what it goes round is suddenly inside:
+/// that is no movement.)
+double farthest(const Outline& a, const Outline& b) {
+  double most = 0;
+  for (const Vec2& p : a.points) {
+    if (inside(b, p)) continue;
+    double least = 1e9;
+    for (std::size_t k = 0; k < b.contours(); ++k) {
+      const auto contour = b.contour(k);
+      for (std::size_t i = 0; i < contour.size(); ++i)
+        least = std::min(least, distance(p, contour[i], contour[(i + 1) % contour.size()]));
+    }
+    most = std::max(most, least);
+  }
+  return most;
+}
+
+struct Farthest {
+  double by_phase = 0, by_speed = 0;
+};
+
+/// Of the pose that is built and that of a walker's own phase and speed, to either of which half a step is missing.
+Farthest farthest_poses(std::uint32_t coarse) {
+  Farthest all;
+  for (const bool is_female : {false, true}) {
+    const Character person = default_pedestrian(is_female ? Sex::female : Sex::male, 1.7);
+    PoseShaper shaper(person), other(person);
+    for (std::uint32_t clip = 0; clip + coarse < pedestrian_speeds; clip += 4 * coarse) {
+      Walker walker{1, 0, 0, 0, pedestrian_speed_step * clip, 0, 1.7, is_female, false};
+      const auto at = [&](std::uint32_t k) {
+        return PoseTime{
+            k, static_cast<float>(walker.phase / pedestrian_strides_per_second(pedestrian_speed_step * k))};
+      };
+      for (walker.phase = 0.003; walker.phase < 1; walker.phase += 0.09) {
+        const Outline own = shaper.shape(at(clip)).outline;
+        const Outline built = other.shape(WalkerPose(walker, Shoulders::straight, coarse).at()).outline;
+        all.by_phase = std::max({all.by_phase, farthest(built, own), farthest(own, built)});
+        const Outline faster = other.shape(at(clip + coarse)).outline;
+        all.by_speed = std::max({all.by_speed, farthest(own, faster) / 2, farthest(faster, own) / 2});
+      }
+    }
+  }
+  return all;
+}
+
+TEST(WalkerPoses, ChangeOutlinesByNoMoreThanACentimetre) {
+  for (const std::uint32_t coarse : {1u, 3u}) {
+    const auto [by_phase, by_speed] = farthest_poses(coarse);
+    EXPECT_LT(std::max(by_phase, by_speed), 0.01 * coarse);
+    EXPECT_GT(std::min(by_phase, by_speed), 0.001);
+    std::printf("phases change outlines by %.1f mm at most, speeds by %.1f mm\n", 1000 * by_phase,
+                1000 * by_speed);
+  }
+}
+
+}  // namespace
+}  // namespace bch::detail

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <cstring>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace bch::test {
+
+/// The bytes of a base64 text.
+inline std::vector<std::uint8_t> decoded(const std::string& text) {
+  constexpr std::string_view digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::vector<std::uint8_t> bytes;
+  std::uint32_t bits = 0, count = 0;
+  for (const char c : text) {
+    if (c == '=') break;
+    const std::size_t digit = digits.find(c);
+    if (digit == std::string_view::npos) throw std::runtime_error("not base64");
+    bits = bits << 6 | static_cast<std::uint32_t>(digit);
+    count += 6;
+    if (count < 8) continue;
+    count -= 8;
+    bytes.push_back(static_cast<std::uint8_t>(bits >> count));
+  }
+  return bytes;
+}
+
+/// The values of an array of one type.
+template <class Number>
+std::vector<double> numbers(const std::vector<std::uint8_t>& bytes) {
+  EXPECT_EQ(bytes.size() % sizeof(Number), 0u);
+  std::vector<Number> values(bytes.size() / sizeof(Number));
+  if (!values.empty()) std::memcpy(values.data(), bytes.data(), bytes.size());
+  return {values.begin(), values.end()};
+}
+
+/// The blocks of a page, as its scripts read them.
+class Blocks {
+ public:
+  explicit Blocks(const std::string& html) : html_(html) {}
+
+  std::string type(const std::string& name) const { return between("data-type=\"", "\"", at(name)); }
+  std::vector<double> operator()(const std::string& name) const {
+    const auto bytes = decoded(between(">", "</script>", at(name)));
+    const std::string kind = type(name);
+    if (kind == "u8") return numbers<std::uint8_t>(bytes);
+    if (kind == "i16") return numbers<std::int16_t>(bytes);
+    if (kind == "u16") return numbers<std::uint16_t>(bytes);
+    if (kind == "i32") return numbers<std::int32_t>(bytes);
+    if (kind == "u32") return numbers<std::uint32_t>(bytes);
+    if (kind == "f64") return numbers<double>(bytes);
+    throw std::runtime_error(kind);
+  }
+  nlohmann::json meta() const { return nlohmann::json::parse(between(">", "</script>", at("meta"))); }
+
+ private:
+  std::size_t at(const std::string& name) const {
+    const std::size_t place = html_.find("id=\"data-" + name + "\"");
+    if (place == std::string::npos) throw std::runtime_error("no block " + name);
+    return place;
+  }
+  std::string between(const std::string& before, const std::string& after, std::size_t from) const {
+    const std::size_t begin = html_.find(before, from) + before.size();
+    return html_.substr(begin, html_.find(after, begin) - begin);
+  }
+
+  const std::string& html_;
+};
+
+}  // namespace bch::test
