@@ -22,13 +22,6 @@ constexpr double cells_per_segment = 4, least_cells = 256;
 /// Cells are measured by squares of so many a side, because their nearest segments are few and soon found together.
 constexpr std::size_t cells_together = 4;
 
-double square_of(const WorldSegment& segment, double x, double y) noexcept {
-  const double dx = x - segment.ax, dy = y - segment.ay;
-  const double along = dx * segment.x + dy * segment.y, across = dx * segment.y - dy * segment.x;
-  const double beyond = std::max(std::max(-along, along - segment.length), 0.0);
-  return across * across + beyond * beyond;
-}
-
 /// Finds the segments one of which is the nearest one of any point in a disc, by the tree of their boxes.
 class NearestSegments {
  public:
@@ -43,7 +36,7 @@ class NearestSegments {
     look_into(tree_.levels - 1, 0);
     if (is_too_much()) return false;
     const auto last = std::remove_if(found_.begin(), found_.end(), [this](std::uint32_t slot) {
-      return !is_near(square_of(segments_[slot], x_, y_));
+      return !is_near(segments_[slot].square_distance(x_, y_));
     });
     found_.erase(last, found_.end());
     return true;
@@ -51,7 +44,7 @@ class NearestSegments {
 
   double distance(double x, double y) const noexcept {
     double least = infinity;
-    for (const std::uint32_t slot : found_) least = std::min(least, square_of(segments_[slot], x, y));
+    for (const std::uint32_t slot : found_) least = std::min(least, segments_[slot].square_distance(x, y));
     return std::sqrt(least);
   }
 
@@ -86,7 +79,7 @@ class NearestSegments {
       const Squares square = squares(level, place);
       place = 8 * place + static_cast<std::uint32_t>(std::min_element(square.of, square.of + 8) - square.of);
     }
-    return std::sqrt(square_of(segments_[place], x_, y_));
+    return std::sqrt(segments_[place].square_distance(x_, y_));
   }
 
   void look_into(std::uint32_t level, std::uint32_t block) {
@@ -102,7 +95,7 @@ class NearestSegments {
   }
 
   void take(std::uint32_t slot) {
-    const double square = square_of(segments_[slot], x_, y_);
+    const double square = segments_[slot].square_distance(x_, y_);
     if (!is_near(square)) return;
     found_.push_back(slot);
     nearest_ = std::min(nearest_, std::sqrt(square));

@@ -39,14 +39,6 @@ bool is_near(const ObstaclePlace& place, Vec2 centre, double distance, const Wor
   return to.touches(double{centre.x}, double{centre.y}, distance);
 }
 
-/// Returns the square of the distance of a point from a segment; not exact, and without slack.
-double square_distance(const WorldSegment& segment, Vector from) noexcept {
-  const double dx = from.x - segment.ax, dy = from.y - segment.ay;
-  const double along = dx * segment.x + dy * segment.y, across = dx * segment.y - dy * segment.x;
-  const double beyond = std::max(std::max(-along, along - segment.length), 0.0);
-  return across * across + beyond * beyond;
-}
-
 /// Returns the square of the distance of a point from a box of a block; infinity: of padding.
 double square_distance(const BoxBlock& block, unsigned i, Vector from) noexcept {
   const double dx = std::max(std::max(block.low_x[i] - from.x, from.x - block.high_x[i]), 0.0),
@@ -145,15 +137,16 @@ void NearSegments::visit_near(Vector from, const double& limit, const Take& take
   }
 }
 
-double NearSegments::nearest_distance(const ObstaclePlace& place, Vec2 centre, std::uint32_t obstacle) {
+double NearSegments::nearest_distance(const ObstaclePlace& place, Vec2 centre, std::uint32_t area) {
   const Vector from = in_world(place, centre);
   double least = std::numeric_limits<double>::infinity();
   visit_near(from, least, [&](std::uint32_t slot) {
     const WorldSegment& segment = obstacles_.segments[slot];
-    if (obstacle == no_obstacle || segment.obstacle == obstacle)
-      least = std::min(least, square_distance(segment, from));
+    if (area == no_obstacle || (segment.obstacle == area && segment.length > 0))
+      least = std::min(least, segment.square_distance(from.x, from.y));
   });
-  // Much more than what is rounded, and much less than what others are farther away.
+  // Much more than what is rounded, and much less than what others are farther away. Far ends of the segment round more, and find() adds
+  // their slack.
   return std::sqrt(least) * (1 + 0x1p-40) + 0x1p-46 * (std::abs(from.x) + std::abs(from.y));
 }
 

@@ -70,9 +70,9 @@ class NearSegments {
                                       ObstaclePlace::Vector way);
   std::span<LocalSegment> found() const noexcept { return found_; }
 
-  /// Returns a distance from a point of the agent's frame within which find() finds the nearest segment, of one obstacle or of all, and
-  /// hardly any other; infinity: there is none.
-  double nearest_distance(const ObstaclePlace& place, Vec2 centre, std::uint32_t obstacle = no_obstacle);
+  /// Returns a distance from a point of the agent's frame within which find() finds the nearest segment, and hardly any other: of all
+  /// segments, or of those of an area that have a length; infinity: there is none.
+  double nearest_distance(const ObstaclePlace& place, Vec2 centre, std::uint32_t area = no_obstacle);
 
   /// Calls visit(segments) for every obstacle of those that were found, until it returns true. Returns: whether it did.
   template <class Visit>

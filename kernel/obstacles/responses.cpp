@@ -171,17 +171,15 @@ class WaysOut {
 
   /// Returns the segment of an area that is the nearest to the part's centre. There is none where a set has numbers that are no lengths.
   const LocalSegment* nearest_of(std::uint32_t area) {
-    constexpr double least_step = 1e-3, farthest = 16 * rounding::largest_position;  // metres
     const Vec2 centre = part_.centre();
+    const double distance = body_.near().nearest_distance(part_.place, centre, area);
     const LocalSegment* nearest = nullptr;
     double least = infinity;
-    for (double distance = std::max(least_step, body_.near().nearest_distance(part_.place, centre, area));
-         nearest == nullptr && distance < farthest; distance *= 4)
-      for (const LocalSegment& segment : body_.near().find(part_.place, centre, distance)) {
-        const double square = segment.square_distance(double{centre.x}, double{centre.y});
-        if (segment.obstacle == area && has_length(segment) && square < least)
-          least = square, nearest = &segment;
-      }
+    for (const LocalSegment& segment : body_.near().find(part_.place, centre, distance)) {
+      const double square = segment.square_distance(double{centre.x}, double{centre.y});
+      if (segment.obstacle == area && in_world(segment).length > 0 && square < least)
+        least = square, nearest = &segment;
+    }
     return nearest;
   }
 

@@ -93,6 +93,25 @@ TEST_F(ObstacleHall, IsLeftOverTheNearestSegment) {
   EXPECT_EQ(hits, std::vector<std::uint8_t>(hits.size(), 0));
 }
 
+/// A point has no sides: who stands beside one that belongs to an area leaves the area over the nearest wall.
+TEST_F(ObstacleHall, IsNotLeftOverAPoint) {
+  const ObstacleSet room = hall(200, 4, 0, true).set();
+  const Crowd crowd = test::crowd_about(random, set, test::samples(80), 50);
+  std::vector<Penetration> expected(crowd.x.size()), ways(crowd.x.size());
+  penetration(set, crowd.agents(), room, expected);
+  for (std::size_t i = 0; i < ways.size(); ++i) {
+    ObstacleScene scene = hall(200, 4, 0, true);
+    scene.obstacle_offsets.pop_back(), scene.is_area.pop_back();
+    scene.add_path({{crowd.x[i] + 1.5 * double{set.bounding_radius(crowd.shape[i])}, crowd.y[i]}}, true);
+    scene.end_obstacle(true);
+    penetration(set, crowd.agents(), scene.set(), ways);
+    EXPECT_GT(ways[i].depth, 0);
+    EXPECT_EQ(ways[i].depth, expected[i].depth) << i;
+    EXPECT_EQ(ways[i].x, expected[i].x) << i;
+    EXPECT_EQ(ways[i].y, expected[i].y) << i;
+  }
+}
+
 /// A search looks at the segments that may be the nearest, and hardly any others; inside an area it does not look for them.
 TEST_F(ObstacleHall, TakesNoMoreThanItsNearestSegments) {
   constexpr std::uint32_t segments = 10'000;
