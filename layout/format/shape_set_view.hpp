@@ -146,6 +146,7 @@ struct ShapeSetView {
   std::uint32_t level_count;
   bool rows_in_order;  ///< root r has row first_row + r: one level, and no cut is a single disc
 
+  const std::uint32_t* depths;  ///< a level
   const Root* roots;
   const Tree* trees;   ///< like roots; this and the next null where every level is a single disc
   const float* nodes;  ///< of all levels; see Tree
@@ -164,6 +165,7 @@ struct ShapeSetView {
   const std::uint32_t* leaf_segments;  ///< words and lists, see Tree::segments; null where no tree has any
   const float* segment_margin;         ///< per shape, metres; see rounding.hpp, V; null without outlines
 
+  const float* slices;              ///< planes; null where bodies are whole
   const std::uint8_t* slab_order;   ///< slabs, from the one that decides most pairs on; null without slices
   const std::uint32_t* slab_parts;  ///< index shape * slab_count + slab, or no_part; null without slices
   const float*

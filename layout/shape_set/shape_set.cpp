@@ -80,30 +80,18 @@ std::array<std::uint8_t, most_planes + 1> slab_order(const ShapeArrays& arrays) 
 }
 
 ShapeSetView view_of(const ShapeArrays& arrays, const std::uint8_t* order) {
+  ShapeSetView view{};
+  view.shape_count = static_cast<std::uint32_t>(arrays.shape_count());
+  view.part_count = static_cast<std::uint32_t>(arrays.part_count());
+  view.slab_count = static_cast<std::uint32_t>(arrays.slab_count());
+  view.level_count = static_cast<std::uint32_t>(arrays.depths.size());
+  view.rows_in_order = rows_in_order(arrays.roots);
+  if (!arrays.slices.empty()) view.slab_order = order;
   // An empty section of a file has an address as well.
-  const auto or_null = [](const auto& array) { return array.empty() ? nullptr : array.data(); };
-  return {.shape_count = static_cast<std::uint32_t>(arrays.shape_count()),
-          .part_count = static_cast<std::uint32_t>(arrays.part_count()),
-          .slab_count = static_cast<std::uint32_t>(arrays.slab_count()),
-          .level_count = static_cast<std::uint32_t>(arrays.depths.size()),
-          .rows_in_order = rows_in_order(arrays.roots),
-          .roots = or_null(arrays.roots),
-          .trees = or_null(arrays.trees),
-          .nodes = or_null(arrays.nodes),
-          .reach = or_null(arrays.reach),
-          .support = or_null(arrays.support),
-          .inscribed = or_null(arrays.inscribed),
-          .extremes = or_null(arrays.extremes),
-          .profiles = or_null(arrays.profiles),
-          .shape_contours = or_null(arrays.shape_contours),
-          .contours = or_null(arrays.contours),
-          .points = or_null(arrays.points),
-          .leaf_segments = or_null(arrays.leaf_segments),
-          .segment_margin = or_null(arrays.segment_margin),
-          .slab_order = arrays.slices.empty() ? nullptr : order,
-          .slab_parts = or_null(arrays.slab_parts),
-          .hull_support = or_null(arrays.hull_support),
-          .heights = or_null(arrays.heights)};
+  for_each_array(
+      [](const char*, const auto& array, auto& data) { data = array.empty() ? nullptr : array.data(); },
+      arrays, view);
+  return view;
 }
 
 void require(bool is_there, const char* what, std::uint32_t index, std::uint32_t count) {
