@@ -41,8 +41,8 @@ struct GridDisc {
 
 /// Represents square cells over a crowd, in numbered rows, once for every class of sizes: class c has a
 /// quarter of the cell width of class c - 1, and the smallest such cells that a disc of the class fits in.
-/// Where discs overlap, one's centre is in the other's cell or in one of the eight about it, in the grid of
-/// the larger one.
+/// The centres of two discs that overlap are in one cell, or in neighbouring ones, of the grid of the larger
+/// disc.
 ///
 /// Rounding. A unit is 2^-29 of class 0's cell. With E the crowd's extent, a centre relative to the crowd's
 /// corner is off by less than 2^-50 E from rounding and by sqrt(2) units from dropping their fractions; the

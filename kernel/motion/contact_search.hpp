@@ -38,8 +38,9 @@ namespace bch::detail {
 ///
 /// At the time that is found, two discs are at most twice as far apart as both were enlarged.
 ///
-/// Where no discs overlap, what one body's rings go round holds another one's ring wholly or not at all. Whether it does can change
-/// only in the beginning and where a chunk begins, and is asked then; between, a ring would have to pass through the other one's discs.
+/// What one body's rings go round holds another one's ring wholly or not at all, as long as no discs overlap. Whether it does can
+/// change only in the beginning and where a chunk begins, and is asked then; between, a ring would have to pass through the other
+/// one's discs.
 class ContactSearch {
  public:
   explicit ContactSearch(double tolerance) : tolerance_(tolerance) {}

@@ -13,7 +13,7 @@
 
 namespace bch::detail {
 
-/// What positions are off by, for each metre a second and second, metre of a coordinate, and metre of the reaches; see ContactSearch.
+/// Bound the errors of positions for each metre a second and second, metre of a coordinate, and metre of the reaches; see ContactSearch.
 constexpr double time_rounding = 0x1p-48, position_rounding = 0x1p-48, root_rounding = 0x1p-20;
 
 /// Holds what a search wants to know of a motion beforehand, or of a slab of its body.

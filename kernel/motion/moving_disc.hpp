@@ -12,8 +12,6 @@ namespace bch::detail {
 struct MovingDisc {
   double x, y, radius;
   double way_x, way_y, growth;
-
-  double radius_at_end() const noexcept { return radius + growth; }
 };
 
 constexpr double never = std::numeric_limits<double>::infinity();

@@ -21,8 +21,9 @@ namespace bch::detail {
 /// farther than three reaches from where a stretch begins, and no end of a segment that it touches farther than another one. Coordinates of a segment
 /// that is long or far are off by 2^-48 of these at most: StillSegment::slack.
 ///
-/// Where no disc touches a segment, an area holds a ring wholly or not at all, and so do rings a path. Whether it does can change
-/// only in the beginning and where a chunk begins, and is asked then. Where no segment is within reach an area holds the body if it holds the body's position.
+/// An area holds a ring wholly or not at all, and so do rings a path, as long as no disc touches a segment. Whether it does can
+/// change only in the beginning and where a chunk begins, and is asked then. An area without a segment within reach holds the body
+/// if it holds the body's position.
 class ObstacleSearch {
  public:
   ObstacleSearch(const Implementation& implementation, const ObstacleView& obstacles,

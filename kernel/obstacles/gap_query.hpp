@@ -18,7 +18,7 @@ namespace bch::detail {
 /// Holds the nearest obstacle of an agent's parts so far.
 struct NearestObstacle {
   double gap;  ///< metres; of nothing found, the limit
-  /// What is nearest of the part: a segment of its outline by the point where it begins, or no_point and a disc of its cut.
+  /// Name what is nearest of the part: a segment of its outline by the point where it begins, or no_point and a disc of its cut.
   std::uint32_t point = no_point, disc = 0;
   std::uint32_t root = 0, first_disc = 0;  ///< of the part's level, and in the whole body
   LocalSegment segment = {};

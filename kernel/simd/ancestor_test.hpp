@@ -82,7 +82,7 @@ class AncestorTest {
  private:
   using Float = typename Simd::Float;
   static constexpr std::uint32_t length = AncestorPath<Simd>::length;
-  /// How far inside of all discs a point has to be, in both reaches: then every disc of A overlaps every one
+  /// Holds how far inside of all discs a point has to be, in both reaches: then every disc of A overlaps every one
   /// of B by twice that. The test of such a pair and these two compare the same floats. Each rounds a
   /// difference, squares and radii, which are at most both reaches.
   static constexpr double inside_margin = 16 * rounding::unit_roundoff;

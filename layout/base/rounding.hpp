@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <limits>
 
-/// How far discs are enlarged so that a query in float never misses what the exact outlines hit: the proof.
+/// Proves by how much discs have to be enlarged so that a query in float never misses what the exact outlines hit.
 /// tests/kernel/rounding_test.cpp measures every step and attacks the whole with exact arithmetic.
 ///
 /// Notation. u = 2^-24, the unit roundoff of float: fl(x op y) = (x op y)(1 + e), |e| <= u. A shape's *reach* P is the largest

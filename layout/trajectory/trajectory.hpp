@@ -48,7 +48,7 @@ struct TrajectoryOptions {
   std::optional<double> unit = {};          ///< metres for a unit of the file, likewise
   std::optional<std::string> columns = {};  ///< of text and CSV: their names in order, as "frame,id,x,y"
   std::size_t sort_memory = std::size_t{32} << 20;  ///< bytes of rows that are sorted at a time
-  /// How long to wait for the process that reads HDF5 while it says nothing.
+  /// Limits how long the process that reads HDF5 may say nothing.
   std::chrono::milliseconds patience{30'000};
 };
 

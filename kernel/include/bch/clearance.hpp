@@ -37,7 +37,7 @@ struct ClearanceAnswers {
 /// The points are those of the two discs that are nearest to each other, for contact responses. Along the direction they are as far
 /// apart as the distance, up to 4 um per metre of the two shapes' reach and of the distance.
 ///
-/// With Overlap::deepest the distance of overlapping agents is negative: the deepest overlap of two discs. The direction then leads
+/// The distance of overlapping agents is negative with Overlap::deepest: the deepest overlap of two discs. The direction then leads
 /// from one centre to the other or, where these coincide, is (1, 0) from the agent with the lower index to
 /// the other. The radii of the discs limit the depth, so with fine cuts penetration() says more.
 ///
@@ -54,9 +54,9 @@ struct ClearanceAnswers {
 /// of the two shapes' reach and of D. There, r are the radii of the nearest discs, and D = distance + r_A + r_B. Only the discs
 /// of the cuts count, not the nodes above them, so that a distance is always the distance of two discs.
 ///
-/// Where collide() answers 1 in boundary semantics, the distance is at most 0; where the distance is positive, collide() answers 0
-/// there. A distance of 0 does not imply a collision: collide() may answer 0 where discs overlap, but nodes above them or the
-/// segments of exact leaves do not.
+/// The distance is at most 0 where collide() answers 1 in boundary semantics, and collide() answers 0 where it is positive. A distance
+/// of 0 does not imply a collision: collide() may answer 0 where discs overlap, but nodes above them or the segments of exact leaves do
+/// not.
 ///
 /// Results are the same bits on every processor, for any number of threads and any split of the batch. Exchanging the agents of a pair
 /// exchanges the discs and negates the direction. Of gaps that are equal, the one with the first disc of the agent with the lower
@@ -83,8 +83,8 @@ void clearance(const ShapeSet& shapes, const Agents& agents, std::span<const Pai
 /// semantics, as in collide(), and distances are those of parts that may meet.
 ///
 /// The answer is 1 wherever clearance() returns a finite distance of at most the given one, and wherever outlines are as close.
-/// Where the answer is 1 in boundary semantics, clearance() is at most the given distance plus 1.4 um per metre of that distance and of
-/// the radii of the agents' largest discs. Results are the same bits on every processor, for any number of threads and any split of the
+/// clearance() is at most the given distance plus 1.4 um per metre of that distance and of the radii of the agents' largest discs where
+/// the answer is 1 in boundary semantics. Results are the same bits on every processor, for any number of threads and any split of the
 /// batch, and for either order of a pair.
 ///
 /// Options: semantics, implementation.

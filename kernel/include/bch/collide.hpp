@@ -25,7 +25,7 @@ class ObstacleSet;
 ///
 /// Bodies in slabs (ShapeSetPlan::slices) collide where two of their slabs do, always in solid semantics: a limb can lie inside a
 /// torso without their outlines crossing. Agents at different heights (Agents::z) collide where parts collide whose heights meet.
-/// In either case meshes that have a point in common are hits. The exception is lone triangles that are points on the grid of
+/// Meshes that have a point in common are hits in either case. The exception is lone triangles that are points on the grid of
 /// OutlineBuilder, because outlines leave them out.
 ///
 /// Options: semantics, leaves, implementation.

@@ -32,7 +32,7 @@ struct CrowdContacts {
 /// Bodies in slabs have the contacts of all slabs that may meet; ShapeSet::slab_begin() tells the slab of a disc. Slabs are always solid,
 /// so the row is also empty where bodies collide only because one is wholly inside the other's outline in a slab.
 ///
-/// For bodies of discs (shape_from_discs()) the contacts are all overlaps of their discs, as in mechanical crowd models.
+/// The contacts of bodies of discs (shape_from_discs()) are all overlaps of their discs, as in mechanical crowd models.
 ///
 /// The object keeps its memory from call to call. One that was moved from can only be assigned to or destroyed.
 class ContactFinder {

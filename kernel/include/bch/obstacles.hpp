@@ -125,7 +125,7 @@ void within(const ShapeSet& shapes, const Agents& agents, const ObstacleSet& obs
 /// number of the segment; of equal gaps the first disc counts, and then the first segment. `points` are both relative to the agent's
 /// position.
 ///
-/// With Overlap::deepest the distance of a disc that a segment crosses is negative. Its direction is that to the segment's nearest point,
+/// The distance of a disc that a segment crosses is negative with Overlap::deepest. Its direction is that to the segment's nearest point,
 /// or (1, 0) where that point is the disc's centre. An agent that is inside an area and touches none of its segments then has its distance
 /// to these segments.
 ///
