@@ -3,6 +3,8 @@
 
 #include "kernel/collide/containment.hpp"
 
+#include <algorithm>
+
 #include "kernel/simd/transform.hpp"
 #include "layout/base/heading.hpp"
 #include "layout/base/rounding.hpp"
@@ -22,7 +24,7 @@ Placement placement(const Arguments& in, std::uint32_t of, std::uint32_t to_agen
           to.cosine * dx + to.sine * dy, to.cosine * dy - to.sine * dx};
 }
 
-/// The slack of may_be_inside(), times both shapes' reaches, in the terms of layout/base/rounding.hpp. The
+/// The slack of one_may_be_inside(), times both shapes' reaches, in the terms of layout/base/rounding.hpp. The
 /// outer disc holds its contour whatever is rounded. The inner disc's centre is rounded to float, by u |c|,
 /// which makes d and r larger by as much, and r is rounded up: sqrt(d^2 + r^2) is too large by at most
 /// sqrt(2) u |c| + 2 u r, which is 2.45 u P, because |c|^2 + r^2 <= P^2. The headings are off by 3e-10 each,
@@ -31,37 +33,33 @@ Placement placement(const Arguments& in, std::uint32_t of, std::uint32_t to_agen
 /// Only the proof needs it: no test can see it made 0 for outlines that OutlineBuilder makes. Cuts that the
 /// float test keeps apart leave more than that between the contours, 3 u S: beside all that the test needs,
 /// published radii are enlarged by 1.5 grid steps, which are 2 u P or more.
+/// So the disc of the contour inside is smaller as published, too: 3 u S are more than it is too large.
 constexpr double inside_slack = 1e-6;
-constexpr double centre_and_radius = 2.45, placing = 0.04;  // in units of u
+constexpr double centre_and_radius = 2.45, placing = 0.04, between = 3;  // in units of u
 static_assert(rounding::terms::length_within(rounding::terms::root_2, 2, centre_and_radius));
 static_assert(inside_slack >= (centre_and_radius + placing) * rounding::unit_roundoff);
+static_assert(between > centre_and_radius);
 
 /// A contour inside another has the smaller enclosing disc, and more: the points that hold its disc in place
 /// do not fit into any half of it, so one of them is at least sqrt(d^2 + r^2) away from the other disc's
-/// centre.
-bool may_be_inside(const Disc& outer, const Disc& inner, Point inner_centre, double slack) {
-  const double x = inner_centre.x - static_cast<double>(outer.x),
-               y = inner_centre.y - static_cast<double>(outer.y);
-  const double r = inner.radius, limit = static_cast<double>(outer.radius) + slack;
+/// centre. `b_centre` is that of b, in a's frame.
+bool one_may_be_inside(const Disc& a, const Disc& b, Point b_centre, double slack) {
+  const double x = b_centre.x - static_cast<double>(a.x), y = b_centre.y - static_cast<double>(a.y);
+  const double r = std::min(a.radius, b.radius), limit = double{std::max(a.radius, b.radius)} + slack;
   return x * x + y * y + r * r <= limit * limit;
 }
 
-bool contains_contour_of(const ShapeSetView& shapes, std::uint32_t outer_part, std::uint32_t inner_part,
-                         const Placement& place) {
-  const double slack = inside_slack * (static_cast<double>(shapes.reach[outer_part]) +
-                                       static_cast<double>(shapes.reach[inner_part]));
-  const ContourRange outer = shapes.shape_contours[outer_part], inner = shapes.shape_contours[inner_part];
-  const auto placed = [&](float x, float y) { return place.apply(double{x}, double{y}); };
-  for (std::uint32_t i = inner.begin; i < inner.end; ++i) {
-    const Contour& within = shapes.contours[i];
-    const Vec2 first = shapes.points[within.begin];
-    const Point centre = placed(within.disc.x, within.disc.y);
-    for (std::uint32_t o = outer.begin; o < outer.end; ++o)
-      if (may_be_inside(shapes.contours[o].disc, within.disc, centre, slack) &&
-          contour_holds(shapes.points, shapes.contours[o], placed(first.x, first.y)))
-        return true;
-  }
-  return false;
+/// A contour of an agent's part.
+struct Owned {
+  std::uint32_t agent;
+  const Contour& contour;
+};
+
+bool holds(const Arguments& in, const Owned& outer, const Owned& inner) {
+  const Vec2* const points = in.shapes->points;
+  const Vec2 first = points[inner.contour.begin];
+  const Placement place = placement(in, inner.agent, outer.agent);
+  return contour_holds(points, outer.contour, place.apply(double{first.x}, double{first.y}));
 }
 
 }  // namespace
@@ -81,8 +79,21 @@ bool contour_holds(const Vec2* points, const Contour& contour, PointIn<double> p
 
 bool one_contains_other(const Arguments& in, std::uint32_t agent_a, std::uint32_t part_a,
                         std::uint32_t agent_b, std::uint32_t part_b) noexcept {
-  return contains_contour_of(*in.shapes, part_a, part_b, placement(in, agent_b, agent_a)) ||
-         contains_contour_of(*in.shapes, part_b, part_a, placement(in, agent_a, agent_b));
+  const ShapeSetView& shapes = *in.shapes;
+  const double slack = inside_slack * (double{shapes.reach[part_a]} + double{shapes.reach[part_b]});
+  const Placement b_in_a = placement(in, agent_b, agent_a);
+  const ContourRange of_a = shapes.shape_contours[part_a], of_b = shapes.shape_contours[part_b];
+  for (std::uint32_t j = of_b.begin; j < of_b.end; ++j) {
+    const Owned b{agent_b, shapes.contours[j]};
+    const Point centre = b_in_a.apply(double{b.contour.disc.x}, double{b.contour.disc.y});
+    for (std::uint32_t i = of_a.begin; i < of_a.end; ++i) {
+      const Owned a{agent_a, shapes.contours[i]};
+      if (!one_may_be_inside(a.contour.disc, b.contour.disc, centre, slack)) continue;
+      const bool is_b_larger = b.contour.disc.radius > a.contour.disc.radius;
+      if (is_b_larger ? holds(in, b, a) : holds(in, a, b)) return true;
+    }
+  }
+  return false;
 }
 
 }  // namespace bch::detail
