@@ -212,6 +212,17 @@ class Sets(unittest.TestCase):
         with self.assertRaisesRegex(ValueError, "obstacle 1: heights from 3 to 2 m"):
             bch.Obstacles(*points, np.array([0, 2, 4], np.uint64), heights=np.array([(0.0, 1), (3, 2)]))
 
+    def test_wkt_with_heights(self):
+        box = bch.ShapeSet.from_polygons([[[(0, 0), (1, 0), (1, 1), (0, 1)]]], plan=bch.Plan(heights=True), heights=[(0.0, 1.5)])
+        agents = bch.Agents(np.zeros(1, np.uint32), np.zeros(1), np.zeros(1), np.zeros(1))
+        wall = "LINESTRING(-1 0.5, 2 0.5)"
+        for heights, hit in (((1.0, 3.0), 1), ((1.6, 3.0), 0), ((-np.inf, -0.1), 0), ((-np.inf, np.inf), 1)):
+            walls = bch.Obstacles.from_wkt(wall, heights=heights)
+            self.assertEqual(bch.collide(box, agents, walls).tolist(), [hit], heights)
+        self.assertEqual(bch.collide(box, agents, bch.Obstacles.from_wkt(wall)).tolist(), [1])
+        with self.assertRaisesRegex(ValueError, "obstacle 0: heights from 3 to 2 m"):
+            bch.Obstacles.from_wkt(wall, heights=(3, 2))
+
     def test_baking(self):
         female = bch.default_female()
         self.assertEqual(female.clips[0].name, "walk")

@@ -463,7 +463,7 @@ _functions = {
     "contact_finder_find_all": "ppppp",
     "contact_finder_free": "p",
     "obstacles_create": "pp",
-    "obstacles_from_wkt": "sip",
+    "obstacles_from_wkt_at": "siddp",
     "obstacles_get_counts": "ppp",
     "obstacles_get_owner": "pup",
     "obstacles_free": "p",

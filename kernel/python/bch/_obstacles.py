@@ -6,6 +6,7 @@
 from __future__ import annotations
 
 import ctypes
+import math
 from typing import Any, Optional, Tuple
 
 import numpy as np
@@ -70,7 +71,9 @@ class Obstacles:
         self._take(Handle("obstacles", "create", ctypes.addressof(arrays)))
 
     @classmethod
-    def from_wkt(cls, text: Any, walkable: bool = False) -> Obstacles:
+    def from_wkt(
+        cls, text: Any, walkable: bool = False, heights: Tuple[float, float] = (-math.inf, math.inf)
+    ) -> Obstacles:
         """Read obstacles from well-known text, or from an object that has it, such as a shapely geometry.
 
         Parameters
@@ -80,9 +83,13 @@ class Obstacles:
         walkable : bool
             If True, polygons are the floor that agents walk on, and their rings are walls: lines, without an inside. If False, polygons
             are solid.
+        heights : (float, float)
+            The bottom and the top of all obstacles of the text, metres in the world; by default they are infinite.
         """
+        bottom, top = heights
         made = cls.__new__(cls)
-        made._take(Handle("obstacles", "from_wkt", encoded(getattr(text, "wkt", text), "text"), int(walkable)))
+        wkt = encoded(getattr(text, "wkt", text), "text")
+        made._take(Handle("obstacles", "from_wkt_at", wkt, int(walkable), bottom, top))
         return made
 
     def _take(self, handle: Handle) -> None:

@@ -70,6 +70,8 @@ TEST_F(CApiMisuse, PointersThatAreNull) {
   expect_error(bch_shape_set_load(nullptr, 0, nullptr), BCH_INVALID_ARGUMENT, "path is NULL");
   expect_error(bch_broad_phase_create(nullptr), BCH_INVALID_ARGUMENT, "broad_phase is NULL");
   expect_error(bch_obstacles_from_wkt(nullptr, 0, nullptr), BCH_INVALID_ARGUMENT, "is NULL");
+  expect_error(bch_obstacles_from_wkt_at("POINT", 0, 0, 1, nullptr), BCH_INVALID_ARGUMENT,
+               "obstacles is NULL");
   agents.heading = nullptr;
   expect_error(ask(), BCH_INVALID_ARGUMENT, "agents->heading is NULL");
   // Nothing to do is no mistake.
@@ -257,6 +259,8 @@ TEST_F(CApiMisuse, Offsets) {
   arrays.bottom = &up, arrays.top = &down;
   expect_error(bch_obstacles_create(&arrays, &obstacles), BCH_INVALID_ARGUMENT,
                "obstacles: obstacle 0: heights from 2 to 1 m");
+  expect_error(bch_obstacles_from_wkt_at("LINESTRING(0 0, 1 1)", 0, up, down, &obstacles),
+               BCH_INVALID_ARGUMENT, "obstacles: obstacle 0: heights from 2 to 1 m");
   arrays.top = nullptr;
   expect_ok(bch_obstacles_create(&arrays, &obstacles));
   std::uint32_t owner = 9;

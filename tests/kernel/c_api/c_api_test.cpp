@@ -254,6 +254,14 @@ TEST_P(CApi, AnswersAboutObstaclesAreThoseOfTheLibrary) {
   collide(set, agents, walls, hits, own);
   expect_ok(bch_obstacles_collide(c_set.get(), &of, c_walls.get(), &options, c_hits.data()));
   EXPECT_EQ(hits, c_hits);
+  const char* const text = "LINESTRING(-9 0, 9 1) POLYGON((-1 -1, 1 -1, 1 1, -1 1))";
+  for (const double from : {-HUGE_VAL, 0.5, 100.0}) {
+    const auto c_text_walls = made<test::OwnedObstacles>(
+        [&](bch_obstacles** to) { return bch_obstacles_from_wkt_at(text, 1, from, 101, to); });
+    collide(set, agents, obstacles_from_wkt(text, Polygons::walkable, from, 101), hits, own);
+    expect_ok(bch_obstacles_collide(c_set.get(), &of, c_text_walls.get(), &options, c_hits.data()));
+    EXPECT_EQ(hits, c_hits) << from;
+  }
   const std::vector<double> near(n, 0.25);
   within(set, agents, walls, near, hits, own);
   expect_ok(bch_obstacles_within(c_set.get(), &of, c_walls.get(), near.data(), n, &options, c_hits.data()));
