@@ -65,8 +65,8 @@ void check_size(const void* given, std::size_t known, const char* argument);
 /// Checks the size of a struct of an earlier version.
 /// Errors:  throws Failure naming the argument, where it ends inside a member, as no version's does.
 template <class Struct>
-void check_end(const Struct& known, std::uint32_t size, const char* argument) {
-  if (size < sizeof known && cuts_a_member(known, size)) reject_cut(size, argument);
+void check_end(std::uint32_t size, const char* argument) {
+  if (size < sizeof(Struct) && cuts_a_member<Struct>(size)) reject_cut(size, argument);
 }
 
 /// Reads a struct of the caller's version: what it does not have stays as in `defaults`, which NULL means as well.
@@ -74,7 +74,7 @@ template <class Struct>
 Struct sized(const Struct* given, Struct defaults, const char* argument) {
   if (given == nullptr) return defaults;
   check_size(given, sizeof(Struct), argument);
-  check_end(defaults, given->size, argument);
+  check_end<Struct>(given->size, argument);
   std::memcpy(&defaults, given, given->size < sizeof(Struct) ? given->size : sizeof(Struct));
   return defaults;
 }
@@ -83,7 +83,7 @@ Struct sized(const Struct* given, Struct defaults, const char* argument) {
 template <class Struct>
 void fill(Struct* to, Struct values, const char* argument) {
   check_size(&required(to, argument), SIZE_MAX, argument);
-  check_end(values, to->size, argument);
+  check_end<Struct>(to->size, argument);
   values.size = to->size;
   std::memcpy(to, &values, to->size < sizeof(Struct) ? to->size : sizeof(Struct));
 }
