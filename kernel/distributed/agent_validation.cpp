@@ -3,11 +3,11 @@
 
 #include "kernel/distributed/agent_validation.hpp"
 
-#include <cmath>
 #include <sstream>
 #include <stdexcept>
+#include <string>
 
-#include "layout/base/rounding.hpp"
+#include "kernel/runtime/validation.hpp"
 
 namespace bch::detail {
 namespace {
@@ -21,12 +21,8 @@ namespace {
 }  // namespace
 
 void require_valid(const CrowdAgent& agent, bool heights) {
-  constexpr double most = rounding::largest_position;
-  if (!(std::abs(agent.x) <= most)) reject(agent, "x", agent.x, "within 1e9 m");
-  if (!(std::abs(agent.y) <= most)) reject(agent, "y", agent.y, "within 1e9 m");
-  if (heights && !(std::abs(agent.z) <= most)) reject(agent, "z", agent.z, "within 1e9 m");
-  if (!(std::abs(agent.heading) <= rounding::largest_heading))
-    reject(agent, "heading", agent.heading, "within 1e9 rad");
+  const std::string why = misplacement(agent.x, agent.y, agent.heading, heights ? agent.z : 0);
+  if (!why.empty()) throw std::invalid_argument("agent " + std::to_string(agent.id) + ": " + why);
 }
 
 void require_valid(const CrowdAgent& agent, const ShapeSet& shapes) {

@@ -7,8 +7,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "kernel/runtime/validation.hpp"
 #include "layout/base/planes.hpp"
-#include "layout/base/rounding.hpp"
 #include "layout/base/shortest.hpp"
 
 namespace bch::detail {
@@ -34,10 +34,7 @@ void require_valid(const char* query, const Motion& motion, std::size_t index) {
       reject("key " + std::to_string(k) + " of its path" + why);
     };
     if (!is_time(time)) reject_key(" at " + shortest(time) + " s, not within +-1e6");
-    if (!(std::abs(x) <= rounding::largest_position && std::abs(y) <= rounding::largest_position))
-      reject_key(" at (" + shortest(x) + ", " + shortest(y) + ") m, not within +-1e9");
-    if (!(std::abs(heading) <= rounding::largest_heading))
-      reject_key(" with a heading of " + shortest(heading) + " rad, not within +-1e9");
+    if (const std::string why = misplacement(x, y, heading); !why.empty()) reject_key(": " + why);
     if (k == 0) continue;
     if (!(motion.path[k - 1].time < time))
       reject_key(" at " + shortest(time) + " s after one at " + shortest(motion.path[k - 1].time) + " s");

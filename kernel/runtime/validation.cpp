@@ -34,17 +34,22 @@ void require_heights(const ShapeSetView& shapes, const Agents& agents) {
     throw std::invalid_argument("agents: they have a z, and the set was planned without heights");
 }
 
+std::string misplacement(double x, double y, double heading, double z) {
+  const auto is_near = [](double metres) { return std::abs(metres) <= rounding::largest_position; };
+  if (!(std::abs(heading) <= rounding::largest_heading))
+    return "heading " + shortest(heading) + " rad is not within +-1e9";
+  if (!is_near(z)) return "z " + shortest(z) + " m is not within +-1e9";
+  if (is_near(x) && is_near(y)) return {};
+  return "position (" + shortest(x) + ", " + shortest(y) + ") m is not within +-1e9";
+}
+
 void reject(const ShapeSetView& shapes, const Agents& agents, std::size_t i) {
   const auto why = [&]() -> std::string {
     if (agents.shape[i] >= shapes.shape_count)
       return "shape " + std::to_string(agents.shape[i]) + " of " + std::to_string(shapes.shape_count);
     if (!agents.level.empty() && agents.level[i] >= shapes.level_count)
       return "level " + std::to_string(agents.level[i]) + " of " + std::to_string(shapes.level_count);
-    if (!(std::abs(agents.heading[i]) <= rounding::largest_heading))
-      return "heading " + shortest(agents.heading[i]) + " rad is not within +-1e9";
-    if (!agents.z.empty() && !(std::abs(agents.z[i]) <= rounding::largest_position))
-      return "z " + shortest(agents.z[i]) + " m is not within +-1e9";
-    return "position (" + shortest(agents.x[i]) + ", " + shortest(agents.y[i]) + ") m is not within +-1e9";
+    return misplacement(agents.x[i], agents.y[i], agents.heading[i], agents.z.empty() ? 0 : agents.z[i]);
   };
   throw std::invalid_argument("agent " + std::to_string(i) + ": " + why());
 }

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstddef>
+#include <string>
 
 #include <bch/agents.hpp>
 
@@ -16,6 +17,9 @@ void require_sizes(const Agents& agents);
 
 /// Requires of agents with a z that the set keeps the heights of bodies.
 void require_heights(const ShapeSetView& shapes, const Agents& agents);
+
+/// Returns what is wrong with where something is, in metres and radians; empty where AgentCheck passes it.
+std::string misplacement(double x, double y, double heading, double z = 0);
 
 /// Throws std::invalid_argument saying what is wrong with an agent that AgentCheck does not pass.
 [[noreturn]] void reject(const ShapeSetView& shapes, const Agents& agents, std::size_t i);

@@ -229,9 +229,9 @@ TEST_F(Distributed, WhatIsWrongOnOneRankIsAnErrorOnAll) {
     if (rank() == ranks() - 1) crowd.agents().push_back(agent);
     return complaint_of_ranks([&] { crowd.update(); });
   };
-  EXPECT_EQ(complaint_about({.x = nan, .id = 17}), last + "x is nan, not within 1e9 m");
-  EXPECT_EQ(complaint_about({.y = -2e9, .id = 17}), last + "y is -2e+09, not within 1e9 m");
-  EXPECT_EQ(complaint_about({.heading = nan, .id = 17}), last + "heading is nan, not within 1e9 rad");
+  EXPECT_EQ(complaint_about({.x = nan, .id = 17}), last + "position (nan, 0) m is not within +-1e9");
+  EXPECT_EQ(complaint_about({.y = -2e9, .id = 17}), last + "position (0, -2e+09) m is not within +-1e9");
+  EXPECT_EQ(complaint_about({.heading = nan, .id = 17}), last + "heading nan rad is not within +-1e9");
   EXPECT_EQ(complaint_about({.id = 17, .shape = 24}), last + "shape is 24, not one of the set");
   EXPECT_EQ(complaint_about({.id = 17, .level = 3}), last + "level is 3, not one of the set");
   EXPECT_EQ(complaint_about({.z = nan, .id = 17}), "accepted");

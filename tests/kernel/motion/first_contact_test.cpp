@@ -298,9 +298,9 @@ TEST(FirstContact, RefusesWhatIsNoMotion) {
   EXPECT_EQ(with_path({{nan, 0, 0, 0}}),
             "first_contact: motion 1: key 0 of its path at nan s, not within +-1e6");
   EXPECT_EQ(with_path({{0, 2e9, 0, 0}}),
-            "first_contact: motion 1: key 0 of its path at (2e+09, 0) m, not within +-1e9");
+            "first_contact: motion 1: key 0 of its path: position (2e+09, 0) m is not within +-1e9");
   EXPECT_EQ(with_path({{0, 0, 0, nan}}),
-            "first_contact: motion 1: key 0 of its path with a heading of nan rad, not within +-1e9");
+            "first_contact: motion 1: key 0 of its path: heading nan rad is not within +-1e9");
   EXPECT_EQ(with_path({{0, 0, 0, 0}, {1, 0, 0, 1001}}),
             "first_contact: motion 1: key 1 of its path turns by more than 1000 rad, to 1001");
   EXPECT_EQ(said_of(good.motion(), {1, 0}), "first_contact: from 1 s to 0 s is no interval within +-1e6 s");
