@@ -5,10 +5,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <map>
 #include <memory>
 #include <numbers>
+#include <string>
 #include <utility>
 
 #include "kernel/check/walkers.hpp"
@@ -48,10 +50,25 @@ void set_area(GivenPaths& given) {
   given.width = std::max(1.0, high.x - low.x), given.depth = std::max(1.0, high.y - low.y);
 }
 
+/// Opens a recording. What its message asks to be given by an option of `bch check` stands in the file here.
+std::unique_ptr<detail::TrajectoryReader> opened(const std::string& file) {
+  try {
+    return detail::open_trajectory(file);
+  } catch (const detail::TrajectoryError& error) {
+    const std::string message = error.what();
+    const std::size_t advice = message.find(": --");
+    if (advice == std::string::npos) throw;
+    throw detail::TrajectoryError(
+        message.substr(0, advice) +
+        ": --paths needs it in the file, such as CSV with the header id,time,x,y, in "
+        "seconds and metres");
+  }
+}
+
 }  // namespace
 
 GivenPaths read_paths(const std::string& file, double seconds) {
-  const std::unique_ptr<detail::TrajectoryReader> reader = detail::open_trajectory(file);
+  const std::unique_ptr<detail::TrajectoryReader> reader = opened(file);
   detail::WalkerReader walkers(*reader);
   std::map<std::int64_t, BegunPath> begun;
   for (detail::WalkerFrame frame; walkers.next(frame);) {

@@ -62,6 +62,12 @@ bench::PlacedClip placed_clip(const PlaceOptions& options, const detail::CastMem
 
 /// Builds the bodies of all clips, each by a task of its own.
 std::vector<bench::PlacedClip> clips_of(const PlaceOptions& options) {
+  for (const std::string& file : options.characters)
+    if (is_baked(file))
+      throw InputError(
+          file +
+          ": is a baked set, which does not tell how tall people are and how fast they walk in a "
+          "clip; give --character the characters that it was made of");
   std::vector<detail::CastMember> members;
   for (const LoadedCharacter& loaded : load_characters(options.characters, {}))
     members.push_back(member_of(loaded));
@@ -124,6 +130,8 @@ std::function<void()> add_place_command(CLI::App& program) {
       "people are often placed.\n"
       "With --paths each person of a recording is a candidate once, in random order, on his way from time 0\n"
       "on. A person whose way ends before --seconds stands there. The area is the rectangle of these ways.\n"
+      "The file has to tell its times, or its frame rate, and columns that are named or those of a known "
+      "format.\n"
       "Example: bch place --clip walk --seconds 5 --csv placed.csv");
   command
       .add_option("--character", options->characters,
