@@ -56,7 +56,7 @@ std::unique_ptr<detail::TrajectoryReader> opened(const std::string& file) {
     return detail::open_trajectory(file);
   } catch (const detail::TrajectoryError& error) {
     const std::string message = error.what();
-    const std::size_t advice = message.find(": --");
+    const std::size_t advice = message.rfind(": --");
     if (advice == std::string::npos) throw;
     throw detail::TrajectoryError(
         message.substr(0, advice) +

@@ -201,7 +201,12 @@ void read_obstacles(Program& by) {
   const std::string text = by.bytes.text();
   const char* const or_none = by.chance(64) ? nullptr : text.c_str();
   const std::int32_t walkable = static_cast<int>(by.bytes.below(2));
-  by.make<bch_obstacles>([&](bch_obstacles** to) { return bch_obstacles_from_wkt(or_none, walkable, to); });
+  const bool has_heights = by.chance(2);
+  const auto bottom = by.number<double>(), top = by.number<double>();
+  by.make<bch_obstacles>([&](bch_obstacles** to) {
+    return has_heights ? bch_obstacles_from_wkt_at(or_none, walkable, bottom, top, to)
+                       : bch_obstacles_from_wkt(or_none, walkable, to);
+  });
 }
 
 void ask_obstacles(Program& by) {

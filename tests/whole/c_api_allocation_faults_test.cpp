@@ -92,8 +92,8 @@ TEST_F(CApiAllocationFaults, Contacts) {
 
 TEST_F(CApiAllocationFaults, Obstacles) {
   const auto read = [](bch_obstacles** to) {
-    return bch_obstacles_from_wkt(
-        "LINESTRING(0 0, 5 5, 9 1) POLYGON((2 2, 4 2, 4 4, 2 4), (2.5 2.5, 3 2.5, 3 3))", 1, to);
+    return bch_obstacles_from_wkt_at(
+        "LINESTRING(0 0, 5 5, 9 1) POLYGON((2 2, 4 2, 4 4, 2 4), (2.5 2.5, 3 2.5, 3 3))", 1, -1, 3, to);
   };
   EXPECT_GT(fail_each_making(read, bch_obstacles_free), 10u);
   const double x[] = {0, 1, 1}, y[] = {0, 0, 1};
