@@ -106,8 +106,7 @@ struct BuildStages::Others {
 
 BuildStages::BuildStages(const Character& character, std::uint32_t poses,
                          const detail::BuildImplementation& implementation)
-    : character_(character),
-      times_(sample_poses(character, poses)),
+    : times_(sample_poses(character, poses)),
       positions_(times_.size()),
       outlines_(times_.size()),
       hierarchies_(times_.size()),

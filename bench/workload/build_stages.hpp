@@ -61,7 +61,6 @@ class BuildStages {
   void make_hierarchy(std::size_t pose);
   void flatten(const Hierarchy& hierarchy, bool culling);
 
-  const Character& character_;
   std::vector<PoseTime> times_;
   std::vector<std::vector<Vec2>> positions_;
   std::vector<Outline> outlines_;
