@@ -110,7 +110,8 @@ std::string shown_cell(const Results& results, std::string_view tag) {
 ///   {{table: NAME}}, {{chart: NAME}}        a whole table; the picture that NAME.gp draws
 ///   {{title: EXPERIMENT}}                   its title
 ///   {{NAME}}, {{NAME: OF}}                  what is Computed
-///   {{#NAME}} ... {{/NAME}}                 shown where there is a table, or gnuplot, of this name
+///   {{#NAME}} ... {{/NAME}}                 shown where there is a table, or gnuplot, of this name; with
+///                                           " | COLUMN=TEXT", where it has such a row
 ///   {{^NAME}} ... {{/NAME}}                 shown where there is none
 class Page {
  public:
@@ -136,7 +137,14 @@ class Page {
   }
 
  private:
-  bool has(std::string_view name) const { return name == "gnuplot" ? pictures_ : folder_.has(name); }
+  bool has(std::string_view name) const {
+    const std::size_t bar = name.find(" | "), equals = name.find('=');
+    if (bar == std::string_view::npos) return name == "gnuplot" ? pictures_ : folder_.has(name);
+    const Table& table = folder_(name.substr(0, bar));
+    const std::size_t column = table.column(name.substr(bar + 3, equals - bar - 3));
+    return std::any_of(table.rows().begin(), table.rows().end(),
+                       [&](const auto& row) { return row[column] == name.substr(equals + 1); });
+  }
 
   std::string value(std::string_view tag) {
     const Results results = [this](std::string_view name) -> const Table& { return folder_(name); };

@@ -2,18 +2,16 @@
 // Copyright (c) 2026 the bch authors
 
 #include "bench/report/paper_volume.hpp"
-#include "bench/base/disc_union_area.hpp"
 
-#include <fmt/format.h>
 #include <oneapi/tbb/parallel_for.h>
 
 #include <algorithm>
 #include <numbers>
 
+#include "bench/base/disc_union_area.hpp"
 #include "bench/report/coverage.hpp"
 #include "bench/report/mesh_volume.hpp"
 #include "bench/report/statistics.hpp"
-#include "bench/report/words.hpp"
 #include "layout/character/skinning.hpp"
 #include "layout/enclosing_disc/enclosing_disc.hpp"
 
@@ -24,8 +22,8 @@ constexpr const char* man = "default:male";
 constexpr const char* woman = "default:female";
 constexpr const char* bulky_man = "default:bulky";
 constexpr const char* radius_name = "cylinder radius (m)";
-constexpr const char* cylinder_name = "cylinder / mesh volume";
-constexpr const char* leaves_name = "BCH / mesh volume";
+constexpr const char* cylinder_name = "cylinder over mesh volume";
+constexpr const char* leaves_name = "BCH over mesh volume";
 constexpr const char* mesh_name = "mesh volume (m3)";
 
 /// A row of the paper's table 1, or what its text says of the mesh volume.
@@ -118,38 +116,6 @@ void measure_paper_volumes(Run& run) {
     add_paper_rows(run, bulky[0], cli::list_random_shapes(bulky, run.sizes().poses, run.seed()), table);
   }
   run.write("volume_paper", table);
-}
-
-std::string paper_volume_findings(const Results& results, std::string_view) {
-  const Table& table = results("volume_paper");
-  const auto of = [&](const std::string& character, std::string_view quantity, std::string_view column) {
-    return table.number({{"character", character}, {"quantity", quantity}}, column);
-  };
-  const auto both = [&](const std::string& character, std::string_view quantity, std::string_view column) {
-    return fmt::format("{} ({})", brief(of(character, quantity, column)),
-                       brief(of(character, quantity, fmt::format("paper ({})", column))));
-  };
-  std::string html = "<p>Ours, and the paper's in brackets.";
-  for (std::size_t i = 0; i < table.rows().size(); i += 4) {
-    const std::string& character = table.text(i, "character");
-    html += fmt::format(
-        " {}: the single cylinder's radius is {} m on average, its median {} m; it holds {} times the mesh's "
-        "volume, "
-        "the leaf discs {} times.",
-        escaped(character), both(character, radius_name, "mean"), both(character, radius_name, "median"),
-        both(character, cylinder_name, "mean"), both(character, leaves_name, "mean"));
-  }
-  html += "</p>";
-  if (table.text(table.rows().size() - 1, "character") != bulky_man) return html;
-  const auto above = [&](std::string_view quantity) {
-    return brief(100 * (of(bulky_man, quantity, "mean") / of(bulky_man, quantity, "paper (mean)") - 1));
-  };
-  return html + fmt::format(
-                    "<p>The built-in bodies were tuned to the means of the radius. The bulky man, of {} m3, "
-                    "tells what follows "
-                    "from radius and volume: his cylinder is {} % above the paper's mean and his leaf discs "
-                    "are {} %.</p>",
-                    brief(of(bulky_man, mesh_name, "mean")), above(cylinder_name), above(leaves_name));
 }
 
 }  // namespace bch::report

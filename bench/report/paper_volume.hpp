@@ -3,9 +3,6 @@
 
 #pragma once
 
-#include <string>
-#include <string_view>
-
 #include "bench/report/experiment.hpp"
 
 namespace bch::report {
@@ -13,8 +10,5 @@ namespace bch::report {
 /// Writes volume_paper.csv: figure 7 and table 1 of the paper, in its own terms, of the scene's characters and, where these
 /// have the built-in man, of the bulky one.
 void measure_paper_volumes(Run& run);
-
-/// Returns what that table says, in HTML: a text of Computed.
-std::string paper_volume_findings(const Results& results, std::string_view);
 
 }  // namespace bch::report

@@ -120,8 +120,6 @@ void run_volume(Run& run) {
 
 }  // namespace
 
-const Experiment volume_experiment{"volume",   "Represented volume",
-                                   30,         false,
-                                   run_volume, {{"volumes beside the paper's", paper_volume_findings}}};
+const Experiment volume_experiment{"volume", "Represented volume", 30, false, run_volume};
 
 }  // namespace bch::report

@@ -180,7 +180,7 @@ TEST(Report, PageShowsTablesAndTablesAreTheSameAgain) {
   first.write("volume_paper.csv", csv_of(changed));
   make_page(first.path());
   expect_page_shows_tables(first);
-  EXPECT_NE(test::read_text(first.file("report.html")).find("radius is 7.65 (0.42) m on average"),
+  EXPECT_NE(test::read_text(first.file("report.html")).find("radius is\n7.65\n(0.42) m on average"),
             std::string::npos);
 }
 
