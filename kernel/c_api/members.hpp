@@ -14,8 +14,11 @@ class MemberProbe {
 
   template <class Member>
   operator Member() {
-    const std::size_t begin = (end_ + alignof(Member) - 1) / alignof(Member) * alignof(Member);
-    end_ = begin + sizeof(Member);
+    struct Alone {
+      Member member;  // a pointer, too, whose own size is seldom what is meant
+    };
+    const std::size_t begin = (end_ + alignof(Alone) - 1) / alignof(Alone) * alignof(Alone);
+    end_ = begin + sizeof(Alone);
     is_cut_ |= begin < size_ && size_ < end_;
     return Member{};
   }
