@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstddef>
+#include <type_traits>
 
 namespace bch::c_api {
 
@@ -14,6 +15,7 @@ class MemberProbe {
 
   template <class Member>
   operator Member() {
+    static_assert(std::is_scalar_v<Member>);
     struct Alone {
       Member member;  // a pointer, too, whose own size is seldom what is meant
     };

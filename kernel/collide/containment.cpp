@@ -24,21 +24,28 @@ Placement placement(const Arguments& in, std::uint32_t of, std::uint32_t to_agen
           to.cosine * dx + to.sine * dy, to.cosine * dy - to.sine * dx};
 }
 
-/// The slack of one_may_be_inside(), times both shapes' reaches, in the terms of layout/base/rounding.hpp. The
+/// Bounds what one_may_be_inside() rounds, times both shapes' reaches, in the terms of layout/base/rounding.hpp. The
 /// outer disc holds its contour whatever is rounded. The inner disc's centre is rounded to float, by u |c|,
 /// which makes d and r larger by as much, and r is rounded up: sqrt(d^2 + r^2) is too large by at most
 /// sqrt(2) u |c| + 2 u r, which is 2.45 u P, because |c|^2 + r^2 <= P^2. The headings are off by 3e-10 each,
 /// and so is the place of what is at most 3 S away: 0.04 u S.
 ///
-/// Only the proof needs it: no test can see it made 0 for outlines that OutlineBuilder makes. Cuts that the
-/// float test keeps apart leave more than that between the contours, 3 u S: beside all that the test needs,
-/// published radii are enlarged by 1.5 grid steps, which are 2 u P or more.
-/// So the disc of the contour inside is smaller as published, too: 3 u S are more than it is too large.
+/// The contour inside has the smaller disc as published, too. A vertex that holds its disc in place is at least its
+/// radius away from the outer disc's centre. The ray from there through the vertex leaves the outer contour at most
+/// the outer radius away. Between the two is at least what keeps cuts apart: (query_margin) without (1'), of S, of
+/// which halving takes its part of the outer reach alone, because it moves no vertex; where leaves are exact,
+/// (segment_margin) without (segment_place). Either is more of the inner reach than the inner disc is too large, and
+/// so no test can see the slack made 0.
 constexpr double inside_slack = 1e-6;
-constexpr double centre_and_radius = 2.45, placing = 0.04, between = 3;  // in units of u
+constexpr double centre_and_radius = 2.45, placing = 0.04;  // in units of u
+constexpr double between_cuts =
+                     rounding::query_margin / rounding::unit_roundoff - rounding::terms::contact_error,
+                 between_segments =
+                     rounding::segment_margin / rounding::unit_roundoff - rounding::terms::segment_place;
 static_assert(rounding::terms::length_within(rounding::terms::root_2, 2, centre_and_radius));
 static_assert(inside_slack >= (centre_and_radius + placing) * rounding::unit_roundoff);
-static_assert(between > centre_and_radius);
+static_assert(between_cuts >= rounding::terms::halving && between_cuts > centre_and_radius);
+static_assert(between_segments > centre_and_radius);
 
 /// A contour inside another has the smaller enclosing disc, and more: the points that hold its disc in place
 /// do not fit into any half of it, so one of them is at least sqrt(d^2 + r^2) away from the other disc's
@@ -49,7 +56,7 @@ bool one_may_be_inside(const Disc& a, const Disc& b, Point b_centre, double slac
   return x * x + y * y + r * r <= limit * limit;
 }
 
-/// A contour of an agent's part.
+/// Names a contour of an agent's part.
 struct Owned {
   std::uint32_t agent;
   const Contour& contour;

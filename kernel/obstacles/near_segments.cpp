@@ -145,9 +145,11 @@ double NearSegments::nearest_distance(const ObstaclePlace& place, Vec2 centre, s
     if (area == no_obstacle || (segment.obstacle == area && segment.length > 0))
       least = std::min(least, segment.square_distance(from.x, from.y));
   });
-  // Much more than what is rounded, and much less than what others are farther away. Far ends of the segment round more, and find() adds
-  // their slack.
-  return std::sqrt(least) * (1 + 0x1p-40) + 0x1p-46 * (std::abs(from.x) + std::abs(from.y));
+  // Much more than what is rounded, and much less than what others are farther away; more than 0, within which find() finds nothing. Far
+  // ends of the segment round more, and find() adds their slack.
+  constexpr double least_distance = 1e-9;  // metres
+  return std::max(least_distance,
+                  std::sqrt(least) * (1 + 0x1p-40) + 0x1p-46 * (std::abs(from.x) + std::abs(from.y)));
 }
 
 std::span<LocalSegment> NearSegments::find(const ObstaclePlace& place, Vec2 centre, double distance) {

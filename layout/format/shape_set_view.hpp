@@ -75,8 +75,8 @@ struct Tree {
   float outer;                           ///< metres: the root's outer radius
   std::uint32_t segments = no_segments;  ///< where the words of the leaves are among leaf_segments, or that
   std::uint32_t points = 0;              ///< with segments: where the shape's points are
-  /// 1: every node above a cut disc holds it with room to spare, so that nodes overlap wherever their discs do; see
-  /// layout/base/rounding.hpp, VIII.
+  /// 1: every node above a cut disc holds it with room to spare, so that nodes of two such trees overlap wherever their discs do, unless
+  /// one shape is much larger; see layout/base/rounding.hpp, VIII.
   std::uint32_t nodes_hold_discs = 0;
 
   /// Returns the number of the first inner node: the number of floats from `nodes` on, by four. (Inlined for certain, so that

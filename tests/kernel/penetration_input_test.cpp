@@ -33,7 +33,7 @@ class TwoDiscs : public testing::Test {
   const ShapeSet set{shapes};
   PairScene scene;
 
-  /// Whether discs part along a direction by the least depth that is enough.
+  /// Returns whether discs part along a direction by the least depth that is enough.
   static testing::AssertionResult moves(const Penetration& found, double depth, double x, double y) {
     const double more = static_cast<double>(found.depth) - depth;
     if (more >= 0 && more <= 4e-6 * (1 + depth) && std::abs(found.x - x) <= 1e-9 &&

@@ -112,6 +112,24 @@ TEST_F(ObstacleHall, IsNotLeftOverAPoint) {
   }
 }
 
+/// The centre of a body in two parts may lie on the wall, which neither part touches.
+TEST_F(ObstacleHall, IsLeftAlsoFromTheWallItself) {
+  const std::vector<std::vector<Vec2>> feet = {
+      {{-0.5f, -0.125f}, {-0.25f, -0.125f}, {-0.25f, 0.125f}, {-0.5f, 0.125f}},
+      {{0.25f, -0.125f}, {0.5f, -0.125f}, {0.5f, 0.125f}, {0.25f, 0.125f}}};
+  const ShapeSet body({{shape_from_polygons(feet)}});
+  ObstacleScene scene;
+  scene.add_path({{-10, -10}, {-0.0625, -10}, {0, 0}, {0.0625, -10}, {10, -10}, {10, 10}, {-10, 10}}, true);
+  scene.end_obstacle(true);
+  const ObstacleSet area = scene.set();
+  Crowd crowd;
+  crowd.add({0, 0, 0, 0, 0}), crowd.add({0, 1e-9, 0, 0, 0});
+  std::vector<Penetration> ways(2);
+  penetration(body, crowd.agents(), area, ways);
+  EXPECT_GT(ways[1].depth, 0.25f);
+  EXPECT_NEAR(ways[0].depth, ways[1].depth, 1e-5);
+}
+
 /// A search looks at the segments that may be the nearest, and hardly any others; inside an area it does not look for them.
 TEST_F(ObstacleHall, TakesNoMoreThanItsNearestSegments) {
   constexpr std::uint32_t segments = 10'000;

@@ -608,7 +608,7 @@ typedef struct bch_obstacle_arrays {
 BCH_API bch_status bch_obstacles_create(const bch_obstacle_arrays* arrays, bch_obstacles** obstacles);
 /** Makes obstacles from well-known text. If `walkable` is not 0, polygons are the floor, and their rings are walls. */
 BCH_API bch_status bch_obstacles_from_wkt(const char* text, int32_t walkable, bch_obstacles** obstacles);
-/** Makes obstacles from well-known text, which all reach from `bottom` to `top`, metres; either may be infinite. */
+/** Makes obstacles from well-known text. All reach from `bottom` to `top`, in metres; either may be infinite. */
 BCH_API bch_status bch_obstacles_from_wkt_at(const char* text, int32_t walkable, double bottom, double top,
                                              bch_obstacles** obstacles);
 /** Gets the numbers of obstacles and segments. Either may be NULL. */
