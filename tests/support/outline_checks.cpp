@@ -29,18 +29,6 @@ double distance(Point p, Point a, Point b) {
   return std::hypot(p.x - a.x - t * dx, p.y - a.y - t * dy);
 }
 
-double distance_to(const Outline& outline, Point p) {
-  double smallest = HUGE_VAL;
-  for (std::size_t c = 0; c < outline.contours(); ++c) {
-    const auto contour = outline.contour(c);
-    for (std::size_t i = 0; i < contour.size(); ++i) {
-      const Vec2 a = contour[i], b = contour[(i + 1) % contour.size()];
-      smallest = std::min(smallest, distance(p, {a.x, a.y}, {b.x, b.y}));
-    }
-  }
-  return smallest;
-}
-
 /// The triangles as seen from above, with the raster rows that each one meets.
 class Samples {
  public:
@@ -136,11 +124,23 @@ bool inside(const Outline& outline, double x, double y) {
   return odd;
 }
 
+double distance_to(const Outline& outline, double x, double y) {
+  double smallest = HUGE_VAL;
+  for (std::size_t c = 0; c < outline.contours(); ++c) {
+    const auto contour = outline.contour(c);
+    for (std::size_t i = 0; i < contour.size(); ++i) {
+      const Vec2 a = contour[i], b = contour[(i + 1) % contour.size()];
+      smallest = std::min(smallest, distance({x, y}, {a.x, a.y}, {b.x, b.y}));
+    }
+  }
+  return smallest;
+}
+
 void expect_covers(const Outline& outline, Positions positions, Triangles triangles) {
   const double margin = 1.5 * static_cast<double>(outline.grid_step);
   const auto check = [&](Point p) {
     if (inside(outline, p.x, p.y)) return;
-    ASSERT_LE(distance_to(outline, p), margin) << p.x << ", " << p.y;
+    ASSERT_LE(distance_to(outline, p.x, p.y), margin) << p.x << ", " << p.y;
   };
   for (const auto& t : triangles)
     for (int k = 0; k < 3; ++k) {

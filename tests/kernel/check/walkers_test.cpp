@@ -16,6 +16,7 @@
 
 #include "kernel/check/walker_shapes.hpp"
 #include "tests/support/made_up_recording.hpp"
+#include "tests/support/outline_checks.hpp"
 
 // What is told of somebody who is tracked: speed, heading, stature, and the pose that stands for them.
 
@@ -117,38 +118,13 @@ TEST(Walkers, WithoutAStatureHaveOneByTheirIds) {
   EXPECT_NEAR(men / (4'000 - static_cast<double>(count)), 1.79, 0.01);
 }
 
-bool inside(const Outline& outline, Vec2 p) {
-  bool odd = false;
-  for (std::size_t k = 0; k < outline.contours(); ++k) {
-    const auto contour = outline.contour(k);
-    for (std::size_t i = 0; i < contour.size(); ++i) {
-      const Vec2 a = contour[i], b = contour[(i + 1) % contour.size()];
-      if ((a.y > p.y) != (b.y > p.y) && p.x < a.x + (b.x - a.x) * (p.y - a.y) / (b.y - a.y)) odd = !odd;
-    }
-  }
-  return odd;
-}
-
-double distance(Vec2 p, Vec2 from, Vec2 to) {
-  const double x = static_cast<double>(to.x - from.x), y = static_cast<double>(to.y - from.y),
-               px = static_cast<double>(p.x - from.x), py = static_cast<double>(p.y - from.y);
-  const double share = std::clamp((px * x + py * y) / std::max(x * x + y * y, 1e-12), 0.0, 1.0);
-  return std::hypot(px - share * x, py - share * y);
-}
-
-/// How far what one outline encloses sticks out of the other, metres. (Where an arm meets the body, what it goes round is suddenly inside:
+/// Returns how far what one outline encloses sticks out of the other, metres. (Where an arm meets the body, what it goes round is suddenly inside:
 /// that is no movement.)
 double farthest(const Outline& a, const Outline& b) {
   double most = 0;
   for (const Vec2& p : a.points) {
-    if (inside(b, p)) continue;
-    double least = 1e9;
-    for (std::size_t k = 0; k < b.contours(); ++k) {
-      const auto contour = b.contour(k);
-      for (std::size_t i = 0; i < contour.size(); ++i)
-        least = std::min(least, distance(p, contour[i], contour[(i + 1) % contour.size()]));
-    }
-    most = std::max(most, least);
+    const double x = p.x, y = p.y;
+    if (!test::inside(b, x, y)) most = std::max(most, test::distance_to(b, x, y));
   }
   return most;
 }

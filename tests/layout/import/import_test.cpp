@@ -51,6 +51,18 @@ float signed_volume(const Character& character) {
   return volume;
 }
 
+/// Expects two characters to show the same all through their clip of two seconds.
+void expect_same_poses(const Character& character, const Character& good) {
+  detail::Skinner skinner(character);
+  detail::Skinner expected(good);
+  for (const float time : {0.0f, 0.6f, 1.4f, 2.0f}) {
+    const auto pose = skinner.pose({0, time});
+    const auto wanted = expected.pose({0, time});
+    for (std::size_t v = 0; v < pose.size(); ++v)
+      EXPECT_LT((detail::to_eigen(pose[v]) - detail::to_eigen(wanted[v])).norm(), 1e-5f);
+  }
+}
+
 class Import : public testing::Test {
  protected:
   TemporaryFolder folder;
@@ -209,14 +221,7 @@ TEST_F(Import, RepairsTheOrderOfKeysAndTheNormOfRotations) {
   const auto [character, report] = import("odd.gltf", strip.text());
   EXPECT_TRUE(has_note(report, "2 lists of keys put in order")) << all_notes(report);
   EXPECT_TRUE(has_note(report, "3 rotations normalised")) << all_notes(report);
-  detail::Skinner skinner(character);
-  detail::Skinner expected(good);
-  for (const float time : {0.0f, 0.6f, 1.4f, 2.0f}) {
-    const auto pose = skinner.pose({0, time});
-    const auto wanted = expected.pose({0, time});
-    for (std::size_t v = 0; v < pose.size(); ++v)
-      EXPECT_LT((detail::to_eigen(pose[v]) - detail::to_eigen(wanted[v])).norm(), 1e-5f);
-  }
+  expect_same_poses(character, good);
 }
 
 TEST_F(Import, MovesAClipThatStartsBeforeZero) {
@@ -226,14 +231,7 @@ TEST_F(Import, MovesAClipThatStartsBeforeZero) {
   const auto [character, report] = import("early.gltf", strip.text());
   EXPECT_TRUE(has_note(report, "starts before time 0")) << all_notes(report);
   EXPECT_EQ(character.clips.at(0).seconds, 2.0f);
-  detail::Skinner skinner(character);
-  detail::Skinner expected(good);
-  for (const float time : {0.0f, 0.6f, 1.4f, 2.0f}) {
-    const auto pose = skinner.pose({0, time});
-    const auto wanted = expected.pose({0, time});
-    for (std::size_t v = 0; v < pose.size(); ++v)
-      EXPECT_LT((detail::to_eigen(pose[v]) - detail::to_eigen(wanted[v])).norm(), 1e-5f);
-  }
+  expect_same_poses(character, good);
 }
 
 TEST_F(Import, RootIsTheJointThatWalks) {
