@@ -68,6 +68,12 @@ std::string html_of(const Table& table, std::string_view name) {
   return html + "</tbody></table></div>\n";
 }
 
+/// Returns the condition that "COLUMN=TEXT" in a tag is.
+Table::Where where_of(std::string_view part) {
+  const std::size_t equals = part.find('=');
+  return {part.substr(0, equals), part.substr(equals + 1)};
+}
+
 /// The cell that a tag names: see Page.
 std::string cell(const Results& results, std::string_view tag) {
   std::vector<std::string_view> parts(1, tag);
@@ -78,8 +84,7 @@ std::string cell(const Results& results, std::string_view tag) {
   const Table& table = results(parts.front());
   std::vector<Table::Where> where;
   for (std::size_t i = 1; i + 1 < parts.size(); ++i) {
-    const std::size_t equals = parts[i].find('=');
-    const std::string_view column = parts[i].substr(0, equals), text = parts[i].substr(equals + 1);
+    const auto [column, text] = where_of(parts[i]);
     where.push_back({column, text == "first"  ? table.text(0, column)
                              : text == "last" ? table.text(table.rows().size() - 1, column)
                                               : text});
@@ -138,12 +143,11 @@ class Page {
 
  private:
   bool has(std::string_view name) const {
-    const std::size_t bar = name.find(" | "), equals = name.find('=');
+    const std::size_t bar = name.find(" | ");
     if (bar == std::string_view::npos) return name == "gnuplot" ? pictures_ : folder_.has(name);
     const Table& table = folder_(name.substr(0, bar));
-    const std::size_t column = table.column(name.substr(bar + 3, equals - bar - 3));
-    return std::any_of(table.rows().begin(), table.rows().end(),
-                       [&](const auto& row) { return row[column] == name.substr(equals + 1); });
+    const Table::Where where = where_of(name.substr(bar + 3));
+    return table.find({&where, 1}) < table.rows().size();
   }
 
   std::string value(std::string_view tag) {

@@ -74,12 +74,19 @@ double Table::number(std::size_t row, std::string_view name) const {
   return *value;
 }
 
-std::size_t Table::row(std::span<const Where> where) const {
-  for (std::size_t i = 0; i < rows_.size(); ++i) {
+std::size_t Table::find(std::span<const Where> where) const {
+  std::size_t i = 0;
+  for (; i < rows_.size(); ++i) {
     bool all = true;
     for (const Where& one : where) all = all && text(i, one.column) == one.text;
-    if (all) return i;
+    if (all) break;
   }
+  return i;
+}
+
+std::size_t Table::row(std::span<const Where> where) const {
+  const std::size_t found = find(where);
+  if (found < rows_.size()) return found;
   std::string wanted;
   for (const Where& one : where) wanted += fmt::format(" {} '{}'", one.column, one.text);
   throw std::out_of_range(name_ + " has no row with" + wanted);

@@ -54,6 +54,8 @@ class Table {
     std::string_view column, text;
   };
   std::size_t row(std::span<const Where> where) const;
+  /// Returns the number of that row; where there is none, how many rows there are.
+  std::size_t find(std::span<const Where> where) const;
   std::size_t row(std::initializer_list<Where> where) const { return row(std::span(where)); }
   double number(std::initializer_list<Where> where, std::string_view column) const {
     return number(row(where), column);
