@@ -3,6 +3,8 @@
 
 #pragma once
 
+#include "layout/base/plain_arithmetic.hpp"
+
 namespace bch::detail {
 
 /// Holds cosine and sine of a heading.

@@ -8,6 +8,8 @@
 #include <cstdint>
 #include <limits>
 
+#include "layout/base/plain_arithmetic.hpp"
+
 /// Proves by how much discs have to be enlarged so that a query in float never misses what the exact outlines hit.
 /// tests/kernel/rounding_test.cpp measures every step and attacks the whole with exact arithmetic.
 ///

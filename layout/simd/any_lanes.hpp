@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <utility>
 
+#include "layout/base/plain_arithmetic.hpp"
 #include "layout/simd/batches.hpp"
 
 namespace bch::detail {

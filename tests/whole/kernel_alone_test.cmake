@@ -1,10 +1,9 @@
-# Builds and installs SOURCE with every option off, where no package but TBB can be found, and a program against that.
-# Usage: cmake -DSOURCE=... -DWORK=... -DCOMPILER=... -DFLAGS=... -P kernel_alone_test.cmake
+# Builds SOURCE as a subproject with every option off, where no package but TBB can be found and by a parent whose flags break
+# arithmetic; installs it, and builds a program against that. The subproject's answers are those of the program ANSWERS.
+# Usage: cmake -DSOURCE=... -DWORK=... -DCOMPILER=... -DFLAGS=... -DANSWERS=... -P kernel_alone_test.cmake
 include(${CMAKE_CURRENT_LIST_DIR}/run.cmake)
 
-# Without optimisation and in chunks: what is looked at is headers and libraries.
-set(settings -G Ninja -DCMAKE_BUILD_TYPE=Debug -DCMAKE_UNITY_BUILD=ON "-DCMAKE_CXX_FLAGS=${FLAGS}" -DCMAKE_CXX_COMPILER=${COMPILER}
-  -DCMAKE_PREFIX_PATH=${WORK}/prefix)
+set(settings -G Ninja -DCMAKE_UNITY_BUILD=ON -DCMAKE_CXX_COMPILER=${COMPILER} -DCMAKE_PREFIX_PATH=${WORK}/prefix)
 set(alone -DBCH_XXHASH_INCLUDE_DIR=/nonexistent)
 foreach(component BAKED CHARACTERS IMPORT TRAJECTORIES MPI BASELINES BENCH TESTS)
   list(APPEND alone -DBCH_BUILD_${component}=OFF)
@@ -14,7 +13,8 @@ foreach(package Eigen3 PkgConfig fcl CLI11 nlohmann_json fmt benchmark GTest)
 endforeach()
 
 file(REMOVE_RECURSE ${WORK})
-run(${CMAKE_COMMAND} -S ${SOURCE} -B ${WORK}/bch ${settings} ${alone})
+run(${CMAKE_COMMAND} -S ${SOURCE}/tests/examples/subproject -B ${WORK}/bch -DBCH_SOURCE=${SOURCE} ${settings} ${alone}
+  "-DCMAKE_CXX_FLAGS=${FLAGS} -O1 -ffast-math -march=native")
 foreach(unused BCH_XXHASH_INCLUDE_DIR CMAKE_DISABLE_FIND_PACKAGE_Eigen3 CMAKE_DISABLE_FIND_PACKAGE_PkgConfig)
   if(NOT output MATCHES "were not used by the project:.*${unused}")  # as CMake warns
     message(FATAL_ERROR "something looked at ${unused}:\n${output}")
@@ -22,6 +22,15 @@ foreach(unused BCH_XXHASH_INCLUDE_DIR CMAKE_DISABLE_FIND_PACKAGE_Eigen3 CMAKE_DI
 endforeach()
 run(${CMAKE_COMMAND} --build ${WORK}/bch)
 run(${CMAKE_COMMAND} --install ${WORK}/bch --prefix ${WORK}/prefix)
+run(${ANSWERS})
+set(expected "${output}")
+run(${WORK}/bch/answers)
+if(NOT output STREQUAL expected)
+  message(FATAL_ERROR "the parent's flags change answers:\n${output}expected:\n${expected}")
+endif()
+
+# Where such flags are not undone, nothing compiles.
+run_wrong("needs IEEE arithmetic" ${COMPILER} -std=c++20 -Ofast -I${SOURCE} -fsyntax-only -x c++ ${SOURCE}/layout/base/rounding.hpp)
 
 # Every header that was read, whether or not a target asked for its folder.
 file(STRINGS ${WORK}/bch/CMakeCache.txt ninja REGEX "^CMAKE_MAKE_PROGRAM:")
