@@ -14,10 +14,10 @@
 namespace bch::cli {
 namespace {
 
-constexpr double margin = 20, gap = 16, head = 80, large = 452, fill = 0.94;
+constexpr double border = 20, gap = 16, head = 80, large = 452, fill = 0.94;
 constexpr std::size_t times = 6;  ///< that small panels show
 constexpr double small = (2 * large + gap - (times - 1) * gap) / times;
-constexpr double width = 2 * margin + 2 * large + gap;
+constexpr double width = 2 * border + 2 * large + gap;
 constexpr double label = 30, row = large + label + 8, bars = 90, tick = 6, below = 36;
 constexpr std::size_t most_key_colours = 5;
 
@@ -146,7 +146,7 @@ void draw_times(const Drawing& drawing, double top) {
   const double begin = drawing.shape.begin(), seconds = drawing.shape.end() - begin;
   for (std::size_t i = 0; i < times; ++i) {
     const double at = begin + seconds * (static_cast<double>(i) + 0.5) / times;
-    const Pixel corner{margin + static_cast<double>(i) * (small + gap), top};
+    const Pixel corner{border + static_cast<double>(i) * (small + gap), top};
     const Placement placement = drawing.at_all_times.placement(corner, small);
     drawing.svg.rectangle(corner, small, small, "panel");
     drawing.svg.open_group({}, "cover");
@@ -161,7 +161,7 @@ void draw_times(const Drawing& drawing, double top) {
 void draw_chunks(const Drawing& drawing, const AnimatedPart& part, double scale, double bottom, double high) {
   Svg& svg = drawing.svg;
   const double most = static_cast<double>(facts_of(drawing.view.discs).most);
-  const auto at = [&](double time) { return margin + (time - drawing.shape.begin()) * scale; };
+  const auto at = [&](double time) { return border + (time - drawing.shape.begin()) * scale; };
   for (const AnimatedChunk& chunk : part.discs.chunks) {
     const double tall = high * static_cast<double>(chunk.disc_count) / most, left = at(chunk.times.front());
     svg.rectangle({left, bottom - tall}, at(chunk.times.back()) - left, tall,
@@ -177,7 +177,7 @@ void draw_chunks(const Drawing& drawing, const AnimatedPart& part, double scale,
 void draw_timeline(const Drawing& drawing, double top) {
   Svg& svg = drawing.svg;
   const double begin = drawing.shape.begin(), seconds = drawing.shape.end() - begin;
-  const double scale = (width - 2 * margin) / seconds, now = margin + (drawing.view.seconds - begin) * scale;
+  const double scale = (width - 2 * border) / seconds, now = border + (drawing.view.seconds - begin) * scale;
   const double high = bars / static_cast<double>(drawing.parts.size());
   svg.open_group("timeline");
   for (std::size_t i = 0; i < drawing.parts.size(); ++i)
@@ -188,7 +188,7 @@ void draw_timeline(const Drawing& drawing, double top) {
   for (std::size_t i = 0; i <= 4; ++i) {
     const double time = begin + seconds * static_cast<double>(i) / 4;
     const double inset = i == 0 ? 18 : i == 4 ? -18 : 0;
-    svg.text({margin + (time - begin) * scale + inset, top + bars + 22}, "tick",
+    svg.text({border + (time - begin) * scale + inset, top + bars + 22}, "tick",
              fmt::format("{:.2f} s", time));
   }
   svg.close_group();
@@ -202,13 +202,13 @@ std::string draw_animated(const AnimatedView& view) {
   const std::string title = fmt::format("{}, {} as moving discs", view.character, view.clip);
   Svg svg(width, third + bars + below, title, css);
   const Drawing drawing(view, svg);
-  svg.text({margin, 38}, "title", title);
-  svg.text({margin, 62}, "caption",
+  svg.text({border, 38}, "title", title);
+  svg.text({border, 62}, "caption",
            text_of(facts_of(view.discs)) + ". At the bottom: how many discs each chunk has, and its keys.");
   for (std::size_t i = 0; i < parts; ++i) {
     const double top = head + static_cast<double>(i) * row;
-    draw_moment(drawing, drawing.parts[i], {margin, top});
-    draw_ways(drawing, drawing.parts[i], {margin + large + gap, top});
+    draw_moment(drawing, drawing.parts[i], {border, top});
+    draw_ways(drawing, drawing.parts[i], {border + large + gap, top});
   }
   draw_times(drawing, second);
   draw_timeline(drawing, third);
