@@ -207,26 +207,26 @@ class Suite {
 
 TEST(DefaultCharacters, RandomPlacements) {
   const auto characters = test::default_characters();
-  Suite(characters, 16).check_random(1996, 160'000);
+  Suite(characters, 16).check_random(1996, 40'000);
 }
 
 TEST(DefaultCharacters, TouchingPlacements) {
   const auto characters = test::default_characters();
-  Suite(characters, 16).check_touching(1997, 40'000);
+  Suite(characters, 16).check_touching(1997, 10'000);
 }
 
 TEST(RealCharacters, RandomPlacements) {
   const auto data = test::test_data();
   if (!data) GTEST_SKIP() << "BCH_TEST_DATA is not set: no real characters to test with";
   const auto characters = test::real_characters(*data);
-  Suite(characters, 10).check_random(2012, 60'000);
+  Suite(characters, 10).check_random(2012, 15'000);
 }
 
 TEST(RealCharacters, TouchingPlacements) {
   const auto data = test::test_data();
   if (!data) GTEST_SKIP() << "BCH_TEST_DATA is not set: no real characters to test with";
   const auto characters = test::real_characters(*data);
-  Suite(characters, 10).check_touching(2014, 15'000);
+  Suite(characters, 10).check_touching(2014, 4'000);
 }
 
 }  // namespace
