@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "bench/check_page/check_page.hpp"
+#include "layout/base/mixed_hash.hpp"
 
 namespace bch::cli {
 
@@ -25,7 +26,7 @@ class Numbering {
   const std::vector<Key>& keys() const { return keys_; }
 
  private:
-  std::unordered_map<Key, std::uint32_t> numbers_;
+  std::unordered_map<Key, std::uint32_t, detail::MixedHash> numbers_;
   std::vector<Key> keys_;
 };
 

@@ -25,6 +25,7 @@
 #include "bench/cli/query_answers.hpp"
 #include "bench/cli/query_options.hpp"
 #include "bench/cli/query_pairs.hpp"
+#include "layout/base/mixed_hash.hpp"
 #include "layout/base/rounding.hpp"
 
 namespace bch::cli {
@@ -33,7 +34,7 @@ namespace {
 /// Renumbers the agents' shapes to those in use. Returns: where these come from; no other is built.
 std::vector<ShapeSource> keep_used(std::span<const ShapeSource> sources, AgentTable& table) {
   std::vector<ShapeSource> used;
-  std::unordered_map<std::uint32_t, std::uint32_t> index_of;
+  std::unordered_map<std::uint32_t, std::uint32_t, detail::MixedHash> index_of;
   for (std::uint32_t& shape : table.shape) {
     const auto [entry, added] = index_of.emplace(shape, static_cast<std::uint32_t>(used.size()));
     if (added) used.push_back(sources[shape]);

@@ -16,6 +16,7 @@
 
 #include "kernel/check/walker_cast.hpp"
 #include "kernel/check/walkers.hpp"
+#include "layout/base/mixed_hash.hpp"
 
 namespace bch::detail {
 
@@ -80,8 +81,8 @@ class WalkerShapes {
   const ShapeSet* set_;  ///< the builder's, or those that are baked
   std::vector<WalkerPose> new_;
   std::uint32_t given_up_ = 0;
-  std::unordered_map<std::uint64_t, std::uint32_t> number_of_;
-  std::unordered_map<std::uint64_t, std::unique_ptr<Body>> bodies_;
+  std::unordered_map<std::uint64_t, std::uint32_t, MixedHash> number_of_;
+  std::unordered_map<std::uint64_t, std::unique_ptr<Body>, MixedHash> bodies_;
 };
 
 }  // namespace bch::detail

@@ -10,6 +10,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "layout/base/mixed_hash.hpp"
 #include "layout/trajectory/trajectory.hpp"
 
 namespace bch::detail {
@@ -92,7 +93,7 @@ class WalkerReader {
   const double facing_;
   bool at_end_ = false, is_behind_ = false;
   std::deque<Frame> ahead_;
-  std::unordered_map<std::int64_t, Track> tracks_;
+  std::unordered_map<std::int64_t, Track, MixedHash> tracks_;
 };
 
 /// Returns a stature for a person whose file has none, and whether the body is a woman's, both by the id: the same in every run.

@@ -5,6 +5,8 @@
 
 #include <cstdint>
 
+#include "layout/base/mixed_hash.hpp"
+
 namespace bch::detail {
 
 /// Implements splitmix64 (Steele, Lea, Flood 2014): the same numbers everywhere for a seed, where the distributions of
@@ -13,12 +15,7 @@ class Random {
  public:
   explicit Random(std::uint64_t seed) : state_(seed) {}
 
-  std::uint64_t next() {
-    std::uint64_t z = state_ += 0x9e3779b97f4a7c15u;
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-    return z ^ (z >> 31);
-  }
+  std::uint64_t next() { return mixed(state_ += 0x9e3779b97f4a7c15u); }
 
   /// Draws a real number from [0, bound).
   double uniform(double bound) { return static_cast<double>(next() >> 11) * 0x1p-53 * bound; }

@@ -12,6 +12,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "layout/base/mixed_hash.hpp"
 #include "layout/import/files.hpp"
 #include "layout/import/json.hpp"
 
@@ -70,7 +71,7 @@ class GltfFile {
   std::string bytes_;
   std::string_view binary_chunk_;
   std::unique_ptr<nlohmann::json> json_;
-  std::unordered_map<std::size_t, std::string> buffers_;
+  std::unordered_map<std::size_t, std::string, MixedHash> buffers_;
   std::size_t values_left_;
 
   std::string_view split_binary();

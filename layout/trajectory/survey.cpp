@@ -16,7 +16,7 @@ void IdCount::add(std::int64_t id) {
   ids_.insert(id);
   if (ids_.size() <= most) return;
   too_many_ = true;
-  std::unordered_set<std::int64_t>().swap(ids_);
+  ids_ = {};
 }
 
 void StepCount::add(std::int64_t step) {

@@ -8,6 +8,7 @@
 #include <optional>
 #include <unordered_set>
 
+#include "layout/base/mixed_hash.hpp"
 #include "layout/trajectory/row.hpp"
 
 // Private to the readers of recordings: what is learnt of all rows before frames are read.
@@ -22,7 +23,7 @@ class IdCount {
   std::uint64_t count() const { return too_many_ ? 0 : ids_.size(); }
 
  private:
-  std::unordered_set<std::int64_t> ids_;
+  std::unordered_set<std::int64_t, MixedHash> ids_;
   std::int64_t last_ = 0;
   bool too_many_ = false;
 };

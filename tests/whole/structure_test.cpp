@@ -111,6 +111,23 @@ TEST(Layers, LibrariesStayInTheirRooms) {
   expect_no_include("baselines", "assimp/|xsimd/|oneapi/tbb|tbb/");
 }
 
+/// Numbers that files name may be such that std::hash, which returns them as they are, puts all into one bucket.
+TEST(Layers, NumbersInHashTablesAreMixed) {
+  const std::regex table(
+      R"re(unordered_(map|set)<\s*(std::u?int|std::size_t|int\b|unsigned|long|Key\b)[^;]*;)re");
+  std::size_t found = 0;
+  for (const char* const top : {"layout", "kernel", "bench"})
+    for (const auto& [path, includes] : includes_below(top)) {
+      const std::string text = read(path);
+      for (auto match = std::sregex_iterator(text.begin(), text.end(), table);
+           match != std::sregex_iterator(); ++match) {
+        EXPECT_NE(match->str().find("MixedHash"), std::string::npos) << path << ": " << match->str();
+        ++found;
+      }
+    }
+  EXPECT_GT(found, 0u);
+}
+
 TEST(Layers, FewFilesKnowTheProcessor) {
   // An empty one is for the compiler: it names none.
   const std::regex instruction(
