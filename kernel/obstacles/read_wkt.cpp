@@ -48,18 +48,6 @@ std::string with_escapes(std::string_view text) {
   return out;
 }
 
-/// Returns whether a decimal number that is beyond doubles, as 1e-400, is closer to 0 than they can be, not too large for them.
-bool is_beyond_zero(std::string_view number) noexcept {
-  const std::size_t size = std::min(number.find_first_of("eE"), number.size());
-  const std::string_view digits = number.substr(0, size);
-  double exponent = 0;
-  if (size != number.size())
-    detail::double_from_chars(number.data() + size + 1, number.data() + number.size(), exponent);
-  const auto point = static_cast<double>(std::min(digits.find('.'), size)),
-             first = static_cast<double>(digits.find_first_of("123456789"));
-  return point - first + exponent < 0;
-}
-
 /// Reads geometries by recursive descent. The grammar is that of OGC's simple features, and what programs add: Z, M and ZM at the end of a
 /// name or behind it, SRID=4326; before a geometry, and a byte order mark of UTF-8 before all.
 class WktReader {
@@ -231,11 +219,9 @@ class WktReader {
         detail::double_from_chars(text_.data() + at_, text_.data() + text_.size(), value);
     if (error == std::errc::invalid_argument || (end != text_.data() + text_.size() && is_of_token(*end)))
       reject_at(begin, "a number");
-    const auto size = static_cast<std::size_t>(end - text_.data()) - at_;
-    if (error == std::errc::result_out_of_range)
-      value = is_beyond_zero(text_.substr(at_, size)) ? 0 : HUGE_VAL;
-    if (!(std::abs(value) <= detail::rounding::largest_position)) reject_at(begin, "a number within +-1e9");
-    at_ += size;
+    if (error != std::errc() || !(std::abs(value) <= detail::rounding::largest_position))
+      reject_at(begin, "a number within +-1e9");
+    at_ = static_cast<std::size_t>(end - text_.data());
     return value;
   }
 

@@ -47,13 +47,13 @@ bool begins_with(std::string_view text, std::string_view word) {
 std::from_chars_result decimal_from_chars(const char* begin, const char* end, double& value) {
   const std::string_view text(begin, static_cast<std::size_t>(end - begin));
   if (const std::size_t size = decimal_size(text); size != 0) {
-    const std::string number(text.substr(0, size)), digits = number.substr(0, number.find_first_of("eE"));
-    std::istringstream stream(number);
+    std::istringstream stream{std::string(text.substr(0, size))};
     stream.imbue(std::locale::classic());
     double read = 0;
     stream >> read;
-    const bool vanished = read == 0 && digits.find_first_of("123456789") != digits.npos;
-    if (stream.fail() || vanished) return {begin + size, std::errc::result_out_of_range};
+    const bool is_tiny =
+        std::abs(read) < 1;  // libc++ fails on numbers below the normal ones, too, and reads them
+    if (stream.fail() && !is_tiny) return {begin + size, std::errc::result_out_of_range};
     value = read;
     return {begin + size, std::errc()};
   }

@@ -21,7 +21,7 @@ inline std::optional<double> number_from(std::string_view text) {
   double value = 0;
   const auto [end, error] = double_from_chars(text.data(), text.data() + text.size(), value);
   if (end != text.data() + text.size() || error == std::errc::invalid_argument) return std::nullopt;
-  if (error != std::errc()) value = INFINITY;  // or closer to 0 than any double, which nobody writes
+  if (error != std::errc()) value = INFINITY;
   return value;
 }
 

@@ -76,10 +76,10 @@ TEST(ReadWkt, TakesWhatProgramsWrite) {
 
 TEST(ReadWkt, TakesNumbersThatVanishAsZero) {
   const std::string zeros(400, '0');
-  const ObstacleSet set =
-      obstacles_from_wkt("LINESTRING(1e-400 -4E-999, 1 0)LINESTRING(2 0." + zeros + "1,3 -0." + zeros +
-                         "1e5)LINESTRING(0." + zeros + "4e401 0,4 1)");
-  EXPECT_EQ(set.segment_count(), 3u);
+  const ObstacleSet set = obstacles_from_wkt(
+      "LINESTRING(1e-400 -4E-999, 1 0)LINESTRING(2 0." + zeros + "1,3 -0." + zeros + "1e5)LINESTRING(0." +
+      zeros + "4e401 0,4 1)LINESTRING(5e-" + std::string(400, '9') + " 0, 0 5)");
+  EXPECT_EQ(set.segment_count(), 4u);
   EXPECT_TRUE(collides_at(set, 0, 0));
   EXPECT_TRUE(collides_at(set, 2.5, 0));
   EXPECT_TRUE(collides_at(set, 4, 0.5));
@@ -220,7 +220,13 @@ TEST(Decimals, AreReadAsTheStandardLibraryDoes) {
     const char *const begin = text.data(), *const end = begin + text.size();
     double value = 7, expected = 7;
     const auto read = detail::decimal_from_chars(begin, end, value);
-    const auto standard = std::from_chars(begin, end, expected);
+    auto standard = std::from_chars(begin, end, expected);
+    if (standard.ec == std::errc::result_out_of_range &&
+        read.ec == std::errc()) {  // no double is as close to 0
+      EXPECT_EQ(std::abs(value), 0) << text;
+      EXPECT_NE(text.find("-", 1), std::string::npos) << text;
+      continue;
+    }
     EXPECT_EQ(read.ec, standard.ec) << text;
     EXPECT_EQ(read.ptr, standard.ptr) << text;
     EXPECT_TRUE(value == expected || (std::isnan(value) && std::isnan(expected))) << text;
