@@ -94,11 +94,15 @@ char closing(char opening) {
 /// Cuts a line at separators, but for those between brackets.
 std::vector<std::string_view> words_of(std::string_view line, char separator) {
   std::vector<std::string_view> words;
+  const std::size_t last_square = line.rfind(']'), last_round = line.rfind(')');
+  const auto closes = [&](std::size_t at) {
+    const std::size_t last = line[at] == '[' ? last_square : last_round;
+    return last != std::string_view::npos && last > at;
+  };
   std::size_t begin = 0;
   for (std::size_t at = 0; at <= line.size(); ++at) {
     if (at < line.size() && (line[at] == '[' || line[at] == '(')) {
-      const std::size_t end = line.find(closing(line[at]), at);
-      if (end != std::string_view::npos) at = end;
+      if (closes(at)) at = line.find(closing(line[at]), at);
     } else if (at == line.size() || separates(line[at], separator)) {
       const std::string_view word = trimmed(line.substr(begin, at - begin));
       const bool may_be_empty = separator != '#' && separator != ' ';

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <string>
+#include <utility>
 
 #include "layout/trajectory/fields.hpp"
 #include "layout/trajectory/numbers.hpp"
@@ -44,6 +45,10 @@ void CommentHeader::read(const Places& places, std::uint64_t line, std::string_v
   constexpr std::string_view rate = "framerate:";
   if (text.starts_with(rate) && !fps) fps = rate_in(places, line, std::string_view(text).substr(rate.size()));
   std::vector<ColumnName> found = column_names(text, '#');
+  if (const std::size_t label = text.find(':'); label != std::string::npos) {  // "columns: id, frame, x, y"
+    std::vector<ColumnName> behind = column_names(std::string_view(text).substr(label + 1), '#');
+    if (has_all_roles(behind)) found = std::move(behind);
+  }
   if (has_all_roles(found)) {
     names = std::move(found);
     names_line = line;

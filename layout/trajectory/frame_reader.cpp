@@ -41,6 +41,7 @@ FrameReader::FrameReader(std::unique_ptr<RowSource> source, const TrajectoryOpti
   info_.motions = std::move(recording.motions);
   info_.rows = found.rows;
   info_.people = found.ids.count();
+  if (recording.origin) settle_origin(*recording.origin, found);
   settle_rate(recording, found, options);
   info_.first_frame = frame_of(found.first);
   info_.last_frame = frame_of(found.last);
@@ -68,6 +69,14 @@ Survey FrameReader::survey(Clock clock, std::size_t sort_memory) {
     sorted_->rewind();
   }
   return found;
+}
+
+/// Lets frames count from the earliest time, whatever the order of rows.
+void FrameReader::settle_origin(double origin, const Survey& survey) {
+  key_origin_ = survey.first;
+  const auto earliest = static_cast<double>(std::llround(origin * microseconds) + survey.first);
+  info_.assumptions.push_back("Times and frames count from the earliest time, " +
+                              shortest(earliest / microseconds) + " s.");
 }
 
 void FrameReader::settle_rate(const Recording& recording, const Survey& survey,
@@ -106,7 +115,7 @@ double FrameReader::rate_of_times(const Survey& survey) {
 }
 
 std::int64_t FrameReader::frame_of(std::int64_t key) const {
-  return has_times_ ? std::llround(static_cast<double>(key) / microseconds * info_.fps) : key;
+  return has_times_ ? std::llround(static_cast<double>(key - key_origin_) / microseconds * info_.fps) : key;
 }
 
 /// Reads further rows, if there are any.

@@ -32,7 +32,8 @@ class FrameReader final : public TrajectoryReader {
   std::unique_ptr<RowSource> source_;
   std::unique_ptr<RowStream> sorted_;  ///< where the file is not in order
   TrajectoryInfo info_;
-  bool has_times_ = false;  ///< keys are microseconds
+  bool has_times_ = false;       ///< keys are microseconds
+  std::int64_t key_origin_ = 0;  ///< the key of frame 0
   std::vector<Row> batch_, frame_rows_;
   std::span<const Row> left_;  ///< of the batch
   std::uint64_t rows_read_ = 0;
@@ -40,6 +41,7 @@ class FrameReader final : public TrajectoryReader {
 
   RowStream& rows() { return sorted_ ? *sorted_ : static_cast<RowStream&>(*source_); }
   Survey survey(Clock clock, std::size_t sort_memory);
+  void settle_origin(double origin, const Survey& survey);
   void settle_rate(const Recording& recording, const Survey& survey, const TrajectoryOptions& options);
   double rate_of_times(const Survey& survey);
   std::int64_t frame_of(std::int64_t key) const;

@@ -22,7 +22,9 @@ namespace bch::detail::trajectory {
 constexpr double largest_coordinate = 1e8;                     // metres
 constexpr std::int64_t largest_frame = 1'000'000'000'000'000;  // also microseconds: 31 years
 constexpr double microseconds = 1e6;                           // a second
-constexpr double shortest_person = 1, tallest_person = 2.5;    // metres
+constexpr double largest_time = 1e9,
+                 largest_origin = 1e11;  // seconds, the second of the first time: 3000 years
+constexpr double shortest_person = 1, tallest_person = 2.5;  // metres
 constexpr double largest_fps = 10'000;
 constexpr float unknown = std::numeric_limits<float>::quiet_NaN();
 
@@ -65,7 +67,8 @@ struct Recording {
   std::string geometry;
   std::vector<std::string> assumptions;
   Clock clock = Clock::frames;
-  std::optional<double> rate;  ///< frames or steps a second
+  std::optional<double> rate;    ///< frames or steps a second
+  std::optional<double> origin;  ///< seconds in the file at key 0, where that is not 0
   std::vector<NamedMotion> motions;
 };
 

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "layout/base/rounding.hpp"
+#include "layout/base/shortest.hpp"
 #include "layout/trajectory/fields.hpp"
 #include "layout/trajectory/motion_table.hpp"
 #include "layout/trajectory/numbers.hpp"
@@ -30,6 +31,7 @@ class Table final : public RowSource {
     Recording all = layout_.recording;
     heights_.describe(all.assumptions);
     all.motions = motions_.all();
+    if (origin_ != 0) all.origin = origin_ * layout_.seconds;
     if (unended_ > 0)
       all.assumptions.push_back(
           "The last row, " + places_.row(unended_) +
@@ -60,6 +62,8 @@ class Table final : public RowSource {
   MotionTable motions_;
   std::string_view character_, clip_;  ///< of the row that is read
   std::uint64_t unended_ = 0;          ///< the number of the last row where no line end follows it
+  std::optional<double> first_time_;   ///< of the file, in its unit
+  double origin_ = 0;                  ///< likewise, the time whose key is 0
 
   [[noreturn]] void reject(const std::string& reason) const { places_.reject(lines_.number(), reason); }
   [[noreturn]] void reject(std::size_t column, std::string_view value, const std::string& reason) const {
@@ -141,11 +145,21 @@ class Table final : public RowSource {
     return metres;
   }
 
-  std::int64_t microseconds_of(std::size_t column, std::string_view field) const {
-    const double time = number(column, field) * layout_.seconds * microseconds;
-    if (!(std::abs(time) <= static_cast<double>(largest_frame)))
-      reject(column, field, std::isfinite(time) ? "is not within +-1e9 s" : "is not finite");
-    return std::llround(time);
+  /// Times far from 0, such as those since 1970, count from the first of the file: the double nearest to one differs from it by an
+  /// eighth of a microsecond at most, and the difference of two such is exact.
+  std::int64_t microseconds_of(std::size_t column, std::string_view field) {
+    const double time = number(column, field), seconds = time * layout_.seconds;
+    if (!std::isfinite(seconds)) reject(column, field, "is not finite");
+    if (std::abs(seconds) > largest_origin)
+      reject(column, field, "is not within +-1e11 s; the column's name may lack a unit, as in time/ms");
+    if (!first_time_) {
+      first_time_ = time;
+      if (std::abs(seconds) > largest_time) origin_ = time;
+    }
+    const double since_first = (time - *first_time_) * layout_.seconds;
+    if (std::abs(since_first) > largest_time && (origin_ != 0 || std::abs(seconds) > largest_time))
+      reject(column, field, "is not within +-1e9 s of the first time, " + shortest(*first_time_));
+    return std::llround((time - origin_) * layout_.seconds * microseconds);
   }
 
   /// A number that a row may lack.

@@ -5,40 +5,25 @@
 
 #include <algorithm>
 #include <numbers>
-#include <numeric>
+#include <span>
 #include <string>
 #include <utility>
 
 #include "layout/trajectory/comment_header.hpp"
 #include "layout/trajectory/fields.hpp"
+#include "layout/trajectory/first_rows.hpp"
 #include "layout/trajectory/numbers.hpp"
 
 namespace bch::detail::trajectory {
 namespace {
 
-constexpr std::string_view juelich_columns = "id frame x y z", eth_columns = "frame id x y";
+constexpr std::string_view juelich_columns = "id frame x y z", eth_columns = "frame id x y z";
 
 /// Whether the fields of a line could be a row of numbers, judged by its first.
 bool begins_with_number(std::string_view line, char separator) {
   std::string_view first;
   return Fields(line, separator).next(first) && number_from(first).has_value();
 }
-
-/// The steps between numbers of a column, by their greatest common divisor.
-class ColumnSteps {
- public:
-  void add(std::int64_t number) {
-    if (any_) divisor_ = std::gcd(divisor_, std::clamp<std::int64_t>(number, -most, most) - last_);
-    last_ = std::clamp<std::int64_t>(number, -most, most);
-    any_ = true;
-  }
-  std::int64_t divisor() const { return divisor_; }
-
- private:
-  static constexpr std::int64_t most = std::int64_t{1} << 53;
-  bool any_ = false;
-  std::int64_t last_ = 0, divisor_ = 0;
-};
 
 class LayoutFinder {
  public:
@@ -63,6 +48,7 @@ class LayoutFinder {
   CommentHeader comments_;
   TableLayout layout_;
   std::string_view line_;
+  FirstRows rows_;
   bool needs_unit_ = false;
 
   /// Goes to the first line that is no comment and not empty.
@@ -93,6 +79,7 @@ class LayoutFinder {
     layout_.has_all_columns = is_csv;
     const bool is_pathfinder = take_units(names);
     set_columns(names, line);
+    if (!is_csv && !options_.columns) say_if_names_differ(line, names.size());
     if (is_pathfinder) {
       layout_.recording.format = "Pathfinder CSV";
       for (Role& role : layout_.columns.roles)  // z is the floor's
@@ -110,6 +97,7 @@ class LayoutFinder {
     while (trimmed(below).empty());
     layout_.first_line = lines_.number();
     const std::vector<std::string_view> units = fields_of(below, layout_.separator);
+    rows_.add(lines_.number(), units);
     if (units.size() != names.size() || std::any_of(units.begin(), units.end(), [](std::string_view field) {
           return number_from(field).has_value();
         }))
@@ -123,51 +111,76 @@ class LayoutFinder {
   void without_header() {
     layout_.first_line = lines_.number();
     layout_.recording.rate = comments_.fps;
-    const std::size_t columns = fields_of(line_, layout_.separator).size();
+    read_first_rows();
     layout_.recording.format = comments_.any ? "PeTrack text" : "text without a header";
+    const bool are_named = options_.columns || !comments_.names.empty();
     std::vector<ColumnName> names = comments_.names;
     std::uint64_t line = comments_.names_line;
-    if (options_.columns || names.empty()) {
-      names = column_names(options_.columns ? std::string_view(*options_.columns) : default_columns(columns),
-                           '#');
+    if (options_.columns || !are_named) {
+      names = column_names(options_.columns ? std::string_view(*options_.columns) : columns_of_rows(), '#');
       line = layout_.first_line;
     }
-    if (names.size() > columns) names.resize(columns);
+    const std::size_t named = names.size(), columns = rows_.columns();
+    if (named > columns) names.resize(columns);
     set_columns(names, line);
-    const bool is_eth = !comments_.any && columns == 4 && layout_.columns.roles.front() == Role::frame;
+    if (!are_named)
+      layout_.recording.assumptions.push_back(
+          "Columns are taken for " + listed(names) +
+          ", which the file does not name: " + rows_.read_as(layout_.columns) + ".");
+    else if (!options_.columns)
+      say_if_names_differ(line, named);
+    const bool is_eth =
+        (!comments_.any || !are_named) && columns == 4 && layout_.columns.roles.front() == Role::frame;
     if (is_eth) layout_.recording.format = "ETH/UCY columns";
     needs_unit_ = !comments_.any && !is_eth;
   }
 
-  std::string_view default_columns(std::size_t columns) {
-    if (layout_.separator != ' ')
-      places_.reject(layout_.first_line,
-                     "has no header: --columns has to name the columns, such as id,frame,x,y");
-    if (columns != 4 || comments_.any) return juelich_columns;
-    return four_columns();
+  void read_first_rows() {
+    for (std::size_t row = 0; row < FirstRows::most; ++row) {
+      if (!is_comment(line_) && !trimmed(line_).empty())
+        rows_.add(lines_.number(), fields_of(line_, layout_.separator));
+      if (!lines_.next(line_)) return;
+    }
   }
 
-  /// Tells ids from frames by the steps of the first rows.
-  std::string_view four_columns() {
-    constexpr int most_rows = 4096;
-    ColumnSteps first, second;
-    for (int row = 0; row < most_rows; ++row) {
-      const std::vector<std::string_view> fields = fields_of(line_, layout_.separator);
-      const auto number = [&](std::size_t i) {
-        return i < fields.size() ? whole_number_from(fields[i]) : std::nullopt;
-      };
-      const std::optional<std::int64_t> one = number(0), other = number(1);
-      if (one && other) {
-        first.add(*one);
-        second.add(*other);
-      }
-      if (!lines_.next(line_)) break;
-    }
-    if (first.divisor() > 1 && second.divisor() == 1) return eth_columns;
-    if (first.divisor() == 1 && second.divisor() > 1) return juelich_columns;
-    places_.reject(
-        "has four columns without a header: --columns has to say whether they are frame,id,x,y or "
-        "id,frame,x,y");
+  static std::string listed(std::span<const ColumnName> names) {
+    std::string text;
+    for (const ColumnName& column : names) text += (text.empty() ? "" : ", ") + column.name;
+    return text;
+  }
+
+  void say_if_names_differ(std::uint64_t line, std::size_t named) {
+    if (named == rows_.columns()) return;
+    layout_.recording.assumptions.push_back(
+        "Line " + std::to_string(line) + " names " + std::to_string(named) + " columns and rows have " +
+        std::to_string(rows_.columns()) +
+        ", which are taken in that order: " + rows_.read_as(layout_.columns) + ".");
+  }
+
+  [[noreturn]] void ask_for_columns(const char* such_as) const {
+    places_.reject(layout_.first_line,
+                   "has " + std::to_string(rows_.columns()) +
+                       " columns without names: --columns has to name them in order, such as " + such_as +
+                       "; the first rows are " + rows_.shown());
+  }
+
+  /// Says what columns without names are, as far as rows show that. Ids are first where they do not and a comment has the frame rate:
+  /// such text is Juelich's.
+  std::string_view columns_of_rows() const {
+    const std::size_t columns = rows_.columns();
+    if (layout_.separator == ' ' && columns < 4) return juelich_columns;  // of which y lacks
+    const bool are_known = layout_.separator == ' ' && columns <= 5 && rows_.have_places();
+    if (!are_known) ask_for_columns("id,frame,x,y or frame,id,x,skip,y");
+    ColumnOrder order = rows_.order_by_ways();
+    if (order == ColumnOrder::unclear && columns == 4 && !comments_.fps) order = rows_.order_by_steps();
+    // Speeds are not known before unit and rate are, which are asked for then.
+    const double speed = options_.unit.value_or(0) * options_.fps.value_or(0);
+    const bool is_juelich = comments_.fps || (columns == 5 && rows_.may_be_one_person(speed));
+    if (order == ColumnOrder::unclear && is_juelich) order = ColumnOrder::id_first;
+    if (order == ColumnOrder::unclear || rows_.has_other_in_fifth(order))
+      ask_for_columns(columns == 4 ? "id,frame,x,y or frame,id,x,y"
+                                   : "id,frame,x,y,z or frame,id,x,y,z or frame,id,x,skip,y");
+    return order == ColumnOrder::id_first ? juelich_columns : eth_columns;
   }
 
   void settle_units() {

@@ -29,10 +29,9 @@ inline bool is_comment(std::string_view line) {
 }
 
 /// Reads the beginning of a text: PeTrack's and Juelich's, with comments or without a header; CSV with a header, Pathfinder's
-/// among it; ETH/UCY's columns. These have four columns without a header, where Juelich's may have four, too; they are told
-/// by the steps between different numbers in the first 4096 rows: frames of ETH/UCY, in the first column, have a common divisor above
-/// 1, as each tenth is there, and ids, in the second, have none; where it is the other way round, ids come first.
-/// Errors:  throws TrajectoryError on what is none of these, and where a unit is not known.
+/// among it; ETH/UCY's columns. Four or five columns without names are an id and a frame, in either order as FirstRows tells, then x, y
+/// and z; the recording's assumptions say so and show rows.
+/// Errors:  throws TrajectoryError on what is none of these, where a unit is not known, and on other columns without names.
 TableLayout table_layout(const Places& places, LineReader& lines, const TrajectoryOptions& options);
 
 }  // namespace bch::detail::trajectory

@@ -86,13 +86,20 @@ TEST_F(Trajectories, AreRefusedByOneLine) {
             "f:2: has more values than the header has columns, the next is '5'");
   EXPECT_EQ(complaint("id,frame,x,y\n1,2,3,\"4\n", rate),
             "f:2: a quote is not closed, or something follows it");
-  EXPECT_EQ(complaint("id,t,x,y\n1,2e9,3,4\n", rate), "f:2: t '2e9' is not within +-1e9 s");
+  EXPECT_EQ(complaint("id,t,x,y\n1,0,3,4\n1,2e9,3,4\n", rate),
+            "f:3: t '2e9' is not within +-1e9 s of the first time, 0");
+  EXPECT_EQ(complaint("id,t,x,y\n1,2e9,3,4\n1,0,3,4\n", rate),
+            "f:3: t '0' is not within +-1e9 s of the first time, 2e+09");
+  EXPECT_EQ(
+      complaint("id,t,x,y\n1,1351651211642,3,4\n", rate),
+      "f:2: t '1351651211642' is not within +-1e11 s; the column's name may lack a unit, as in time/ms");
   EXPECT_EQ(complaint("id,t,x,y\n1,nan,3,4\n", rate), "f:2: t 'nan' is not finite");
   EXPECT_EQ(complaint("id,frame,x,y,heading\n1,2,3,4,2e9\n", rate), "f:2: heading '2e9' is not within +-1e9");
   EXPECT_EQ(complaint("id,t,x,y\n1,1,3,4\n1,1.01,3,5\n", rate),
             "f:3: person 1 is at two places in frame 10, here at (3, 5), by line 2 at (3, 4)");
   EXPECT_EQ(complaint("1,2,3,4\n", rate),
-            "f:1: has no header: --columns has to name the columns, such as id,frame,x,y");
+            "f:1: has 4 columns without names: --columns has to name them in order, such as id,frame,x,y or "
+            "frame,id,x,skip,y; the first rows are '1 2 3 4'");
   EXPECT_EQ(complaint("1 2 3\n", rate), "f:1: has no column called 'y', only 'id, frame, x'");
   EXPECT_EQ(test::trajectory_complaint(folder.path()), folder.path().filename().string() + ": is not a file");
   EXPECT_EQ(test::trajectory_complaint(folder.file("none")),
