@@ -6,8 +6,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <fstream>
-#include <iterator>
 #include <numbers>
 
 #include "bench/base/exit_codes.hpp"
@@ -39,18 +37,16 @@ detail::TrajectoryOptions trajectory_options(const CheckInput& input) {
 }
 
 /// The floor to walk on, of an option's file or of the recording.
-std::string walls_text(const CheckInput& input, const detail::TrajectoryInfo& info) {
-  if (input.walls.empty()) return info.geometry;
-  std::ifstream stream(input.walls, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), {}};
+std::string floor_of(const CheckInput& input, const detail::TrajectoryInfo& info) {
+  return input.walls.empty() ? info.geometry : read_wkt(input.walls);
 }
 
-/// The walls of an option, or those of the recording.
-std::optional<ObstacleSet> walls_of(const CheckInput& input, const detail::TrajectoryInfo& info) {
-  if (!input.walls.empty()) return read_obstacles(input.walls, Polygons::walkable);
-  if (info.geometry.empty()) return std::nullopt;
+/// The walls about a floor, where there is one.
+std::optional<ObstacleSet> walls_of(const CheckInput& input, const std::string& floor) {
+  if (!input.walls.empty()) return obstacles_of(input.walls, floor, Polygons::walkable);
+  if (floor.empty()) return std::nullopt;
   try {
-    return obstacles_from_wkt(info.geometry, Polygons::walkable);
+    return obstacles_from_wkt(floor, Polygons::walkable);
   } catch (const std::invalid_argument& error) {
     throw InputError(input.file + ": its geometry: " + error.what());
   }
@@ -140,7 +136,7 @@ void CheckInput::add_to(CLI::App& command) {
       ->check(number_between(1e-3, 1e4));
   command
       .add_option("--columns", columns,
-                  "Column names of text or CSV, in order, such as frame,id,x,y, instead of its header")
+                  "Column names of text or CSV, in order, such as frame,id,x,skip,y, instead of its header")
       ->type_name("NAMES");
   command
       .add_option("--unit", unit, "Unit of length, instead of the file's: m, cm, mm, or a number of metres")
@@ -218,7 +214,8 @@ OpenedCheck::OpenedCheck(const CheckInput& input)
     : baked(baked_of(input)),
       cast(cast_of(input, baked)),
       reader(detail::open_trajectory(input.file, trajectory_options(input))),
-      walls(walls_of(input, reader->info())),
+      floor(floor_of(input, reader->info())),
+      walls(walls_of(input, floor)),
       recording{
           input.file,
           info_of(input, *reader, *this),
@@ -228,7 +225,7 @@ OpenedCheck::OpenedCheck(const CheckInput& input)
           static_cast<std::uint32_t>(cast.size()),
           baked.has_value(),
           walls.has_value(),
-          walls_text(input, reader->info())} {}
+          floor} {}
 
 detail::CheckOptions OpenedCheck::options(const CheckInput& input) const {
   detail::CheckOptions how;

@@ -44,6 +44,7 @@ struct OpenedCheck {
   std::optional<BakedShapes> baked;
   detail::Cast cast;
   std::unique_ptr<detail::TrajectoryReader> reader;
+  std::string floor;  ///< as WKT, or empty
   std::optional<ObstacleSet> walls;
   CheckedRecording recording;
 

@@ -184,12 +184,30 @@ TEST(Cli, CheckMeetsWalls) {
   EXPECT_NE(run.out.find("wall 0"), std::string::npos) << run.out;
 }
 
+/// Devices that never end are refused at their first bytes: without that, the test runs out of memory.
+TEST(Cli, WallsOfADeviceAreRefused) {
+  const TemporaryFolder folder;
+  const std::string file = folder.write("two.txt", two_who_meet());
+  expect_failure(bch({"check", file, "--walls", "/dev/zero"}), 3, {"/dev/zero", "line 1, column 1"});
+  expect_failure(bch({"place", "--obstacles", "/dev/zero"}), 3, {"/dev/zero", "line 1, column 1"});
+  expect_failure(bch({"check", "/dev/zero"}), 3, {"/dev/zero"});
+  expect_failure(bch({"check", file, "--character", "/dev/zero"}), 3, {"/dev/zero"});
+  expect_failure(bch({"merge", "/dev/zero"}), 3, {"/dev/zero"});
+}
+
 TEST(Cli, CheckRefusesWhatItCannotRead) {
   const TemporaryFolder folder;
   const std::string unknown = folder.write("no.txt", "1 0 10 20 180\n1 1 11 21 180\n");
   expect_failure(bch({"check", unknown}), 3, {"no.txt", "--unit", "--fps"});
   EXPECT_EQ(bch({"check", unknown, "--unit", "cm", "--fps", "16"}).code, 0);
   expect_failure(bch({"check", unknown, "--unit", "parsec", "--fps", "16"}), 2, {"--unit", "parsec"});
+  const std::string eth =
+      folder.write("obsmat.txt", "780 1 8.5 0 3.5 1.6 0 0.05\n786 1 8.75 0 3.6 1.6 0 0.05\n");
+  expect_failure(bch({"check", eth, "--unit", "m", "--fps", "15"}), 3,
+                 {"obsmat.txt:1", "--columns", "'780 1 8.5 0 3.5 1.6 0 0.05'"});
+  EXPECT_NE(bch({"check", eth, "--unit", "m", "--fps", "15", "--columns", "frame,id,x,skip,y"})
+                .out.find("1 in 2 frames"),
+            std::string::npos);
   expect_failure(bch({"check", folder.file("absent.txt")}), 3, {"absent.txt"});
   const std::string page = folder.file("check.html");
   const std::string twice =
