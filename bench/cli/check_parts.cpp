@@ -34,13 +34,25 @@ Json kept(const OverlapCount& count) {
           count.discs,  count.near_pairs, count.overlapping_pairs, count.disc_pairs};
 }
 
+/// Reads a whole number. The library would make one of 1.5 and of 1e308.
+template <class Whole>
+void take(const Json& json, Whole& whole) {
+  const bool fits = json.is_number_unsigned()
+                        ? std::in_range<Whole>(json.get<std::uint64_t>())
+                        : json.is_number_integer() && std::in_range<Whole>(json.get<std::int64_t>());
+  if (!fits) throw std::invalid_argument("no whole number");
+  json.get_to(whole);
+}
+
 OverlapCount count_of(const Json& json) {
   OverlapCount count;
-  json.at(0).get_to(count.people), json.at(1).get_to(count.guessed);
-  json.at(2).get_to(count.overlapping), json.at(3).get_to(count.in_walls);
-  json.at(4).get_to(count.discs);
-  json.at(5).get_to(count.near_pairs), json.at(6).get_to(count.overlapping_pairs);
-  json.at(7).get_to(count.disc_pairs);
+  take(json.at(0), count.people), take(json.at(1), count.guessed);
+  take(json.at(2), count.overlapping), take(json.at(3), count.in_walls);
+  take(json.at(5), count.near_pairs), take(json.at(6), count.overlapping_pairs);
+  for (std::size_t k = 0; k < count.discs.size(); ++k) {
+    take(json.at(4).at(k), count.discs[k]);
+    take(json.at(7).at(k), count.disc_pairs[k]);
+  }
   return count;
 }
 
@@ -94,13 +106,17 @@ Json kept(const CheckSummary& summary) {
 
 CheckSummary summary_of(const Json& json) {
   CheckSummary summary;
-  json.at("frames").get_to(summary.frames), json.at("people").get_to(summary.people);
-  json.at("guessed").get_to(summary.guessed), json.at("passings").get_to(summary.passings);
-  json.at("first_frame").get_to(summary.first_frame), json.at("last_frame").get_to(summary.last_frame);
+  take(json.at("frames"), summary.frames), take(json.at("people"), summary.people);
+  take(json.at("guessed"), summary.guessed), take(json.at("passings"), summary.passings);
+  take(json.at("first_frame"), summary.first_frame), take(json.at("last_frame"), summary.last_frame);
   summary.all = count_of(json.at("all"));
   for (std::size_t k = 0; k < summary.by_density.size(); ++k)
     summary.by_density[k] = count_of(json.at("by_density").at(k));
-  json.at("poses").get_to(summary.poses);
+  for (const Json& pose : json.at("poses")) {
+    std::uint64_t key = 0;
+    take(pose, key);
+    summary.poses.insert(key);
+  }
   return summary;
 }
 
@@ -119,17 +135,15 @@ Json kept(const CheckedRecording& recording) {
 }
 
 CheckedRecording recording_of(const Json& json) {
-  CheckedRecording recording{json.at("file"),
-                             {},
-                             json.at("slabs"),
-                             json.at("depth"),
-                             json.at("leaves"),
-                             json.at("characters"),
-                             json.at("baked"),
-                             json.at("walls"),
-                             {}};
-  json.at("format").get_to(recording.info.format), json.at("fps").get_to(recording.info.fps);
-  json.at("assumptions").get_to(recording.info.assumptions), json.at("rows").get_to(recording.info.rows);
+  CheckedRecording recording{};
+  int leaves = 0;
+  take(json.at("slabs"), recording.slabs), take(json.at("depth"), recording.depth);
+  take(json.at("leaves"), leaves), take(json.at("characters"), recording.characters);
+  recording.leaves = static_cast<Leaves>(leaves);
+  take(json.at("rows"), recording.info.rows);
+  json.at("file").get_to(recording.file), json.at("format").get_to(recording.info.format);
+  json.at("baked").get_to(recording.baked), json.at("walls").get_to(recording.walls);
+  json.at("fps").get_to(recording.info.fps), json.at("assumptions").get_to(recording.info.assumptions);
   return recording;
 }
 
@@ -154,17 +168,18 @@ struct KeptPart {
 };
 
 KeptPart read_kept(const PartFiles& part) {
-  const std::string file = part.file(summary_kind);
+  std::string file = part.file(summary_kind);
   try {
     std::ifstream stream(file, std::ios::binary);
     const Json kept = Json::parse(stream);
     KeptPart read{recording_of(kept.at("recording")), summary_of(kept.at("summary"))};
+    file = part.file(events_kind);
     read.summary.events = read_events(part);
     return read;
   } catch (const Json::exception&) {
     throw InputError(file + ": is damaged");
   } catch (const std::invalid_argument&) {
-    throw InputError(part.file(events_kind) + ": is damaged");
+    throw InputError(file + ": is damaged");
   }
 }
 

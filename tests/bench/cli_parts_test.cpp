@@ -11,9 +11,12 @@
 #include <chrono>
 #include <cstdlib>
 #include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <thread>
 
+#include "layout/baked/checksum.hpp"
 #include "tests/support/bch_run.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -181,6 +184,36 @@ TEST(CliParts, ThatDoNotMakeARunAreNamed) {
   expect({"part-1-of-4", "one of"});
   fs::remove(parts / "part-1-of-4.manifest.json");
   EXPECT_EQ(bch({"merge", parts, "--json", json, "--fail-above", "1"}).code, 1);
+}
+
+/// What a manifest says of a file.
+nlohmann::ordered_json identity_of(const fs::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  const auto [bytes, checksum] = detail::baked::checksum(stream);
+  return {{"file", file.filename().string()}, {"bytes", bytes}, {"xxh3", fmt::format("{:016x}", checksum)}};
+}
+
+/// Numbers that no count is, in a file whose manifest vouches for them.
+TEST(CliParts, HaveWholeNumbersForCounts) {
+  const TemporaryFolder folder;
+  const std::string file = folder.write("people.txt", crossing_people());
+  const fs::path parts = folder.file("parts");
+  do_parts({"check", file}, 1, parts);
+  const std::string name = "part-1-of-1.summary.json",
+                    manifest = read_text(parts / "part-1-of-1.manifest.json"),
+                    summary = read_text(parts / name);
+  for (const char* const member : {"rows", "slabs", "people", "first_frame"})
+    for (const char* const number : {"1e308", "1.5", "-1.0", "null", "18446744073709551616"}) {
+      std::string damaged = summary;
+      const std::size_t begin = damaged.find(':', damaged.find(fmt::format("\"{}\"", member))) + 1;
+      damaged.replace(begin, damaged.find_first_of(",}", begin) - begin, number);
+      folder.write("parts/" + name, damaged);
+      nlohmann::ordered_json vouching = nlohmann::ordered_json::parse(manifest);
+      for (auto& each : vouching["files"])
+        if (each["file"] == name) each = identity_of(parts / name);
+      folder.write("parts/part-1-of-1.manifest.json", vouching.dump());
+      expect_failure(bch({"merge", parts}), 3, {name, "is damaged"});
+    }
 }
 
 TEST(CliParts, OfWrongOptionsAreRefused) {
