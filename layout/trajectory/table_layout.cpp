@@ -19,12 +19,6 @@ namespace {
 
 constexpr std::string_view juelich_columns = "id frame x y z", eth_columns = "frame id x y z";
 
-/// Whether the fields of a line could be a row of numbers, judged by its first.
-bool begins_with_number(std::string_view line, char separator) {
-  std::string_view first;
-  return Fields(line, separator).next(first) && number_from(first).has_value();
-}
-
 class LayoutFinder {
  public:
   LayoutFinder(const Places& places, LineReader& lines, const TrajectoryOptions& options)
@@ -33,7 +27,7 @@ class LayoutFinder {
   TableLayout find() {
     skip_comments();
     layout_.separator = separator_of(line_);
-    if (begins_with_number(line_, layout_.separator))
+    if (is_row(line_))
       without_header();
     else
       with_header();
@@ -50,6 +44,19 @@ class LayoutFinder {
   std::string_view line_;
   FirstRows rows_;
   bool needs_unit_ = false;
+
+  /// Returns whether a line is a row, not a header: its first field is a number, or that of x where the columns are given.
+  bool is_row(std::string_view line) const {
+    std::size_t judged = 0;
+    if (options_.columns) {
+      const std::vector<ColumnName> names = column_names(*options_.columns, '#');
+      const auto x = std::find_if(names.begin(), names.end(),
+                                  [](const ColumnName& column) { return role_of(column.name) == Role::x; });
+      if (x != names.end()) judged = static_cast<std::size_t>(x - names.begin());
+    }
+    const std::vector<std::string_view> fields = fields_of(line, layout_.separator);
+    return judged < fields.size() && number_from(fields[judged]).has_value();
+  }
 
   /// Goes to the first line that is no comment and not empty.
   void skip_comments() {

@@ -162,6 +162,13 @@ TEST_F(Trajectories, MayHaveOtherNumbersOfNamesThanOfColumns) {
         "Line 2 names 4 columns and rows have 5, which are taken in that order: line 3 has id 1, frame 1, x "
         "0, y 2.");
   }
+  // Where columns are given, x tells whether there is a header.
+  EXPECT_EQ(
+      text_of(read("Biker,1,0,2,3\nBiker,1,1,2,3\n", {.fps = 5, .unit = 1, .columns = "label,id,frame,x,y"})),
+      "0 1 2 3 - -\n1 1 2 3 - -\n");
+  EXPECT_EQ(
+      text_of(read("a,b,c,d,e\nBiker,1,1,2,3\n", {.fps = 5, .unit = 1, .columns = "label,id,frame,x,y"})),
+      "1 1 2 3 - -\n");
   EXPECT_EQ(text_of(read("# framerate: 5\n# Columns: frame, id, x/m, y/m, z/m\n" + row)), "1 1 0 2 - -\n");
   EXPECT_EQ(
       complaint("# frame_number pedestrian_ID pos_x pos_z pos_y v_x v_z v_y\n" + walkers("fixoyvov"), options)
