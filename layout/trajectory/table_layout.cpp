@@ -101,7 +101,7 @@ class LayoutFinder {
     std::string_view below;
     do
       if (!lines_.next(below)) places_.reject("has no rows");
-    while (trimmed(below).empty());
+    while (trimmed(below).empty() || is_comment(below));
     layout_.first_line = lines_.number();
     const std::vector<std::string_view> units = fields_of(below, layout_.separator);
     rows_.add(lines_.number(), units);

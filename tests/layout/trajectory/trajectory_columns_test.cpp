@@ -162,6 +162,7 @@ TEST_F(Trajectories, MayHaveOtherNumbersOfNamesThanOfColumns) {
         "Line 2 names 4 columns and rows have 5, which are taken in that order: line 3 has id 1, frame 1, x "
         "0, y 2.");
   }
+  EXPECT_EQ(read("# framerate: 5\nid frame x/m y/m\n# a comment\n1 1 0 2\n").info.assumptions.size(), 0u);
   // Where columns are given, x tells whether there is a header.
   EXPECT_EQ(
       text_of(read("Biker,1,0,2,3\nBiker,1,1,2,3\n", {.fps = 5, .unit = 1, .columns = "label,id,frame,x,y"})),
