@@ -49,7 +49,8 @@ std::string with_escapes(std::string_view text) {
 }
 
 /// Reads geometries by recursive descent. The grammar is that of OGC's simple features, and what programs add: Z, M and ZM at the end of a
-/// name or behind it, SRID=4326; before a geometry, and a byte order mark of UTF-8 before all.
+/// name or behind it or, as PostGIS writes extended WKT, not named at all; SRID=4326; before a geometry, and a byte order mark of UTF-8
+/// before all.
 class WktReader {
  public:
   WktReader(std::string_view text, bool walkable) : text_(text), walkable_(walkable) {
@@ -142,15 +143,16 @@ class WktReader {
     if (!take(';')) reject("';'");
   }
 
-  /// Reads the name of a kind, and how many coordinates its points have: PolygonZM or Polygon ZM. (No kind ends with Z or M.)
+  /// Reads the name of a kind, and how many coordinates its points have: PolygonZM or Polygon ZM. (No kind ends with Z or M.) A name
+  /// without either leaves that to the first point.
   std::string kind() {
     std::string name = word();
-    coordinates_ = 2;
+    coordinates_ = 0;
     for (const std::string_view more : {"ZM", "Z", "M"}) {
       const bool is_suffix = name.ends_with(more);
       if (!is_suffix && !take(more)) continue;
       if (is_suffix) name.resize(name.size() - more.size());
-      coordinates_ += static_cast<int>(more.size());
+      coordinates_ = 2 + static_cast<int>(more.size());
       break;
     }
     return name;
@@ -204,12 +206,29 @@ class WktReader {
 
   void points() {
     list("points", [&] {
-      read_.x.push_back(number());
-      read_.y.push_back(number());
-      for (int i = 2; i < coordinates_; ++i) number();
+      read_.x.push_back(position());
+      read_.y.push_back(position());
+      int count = 2;
+      for (; coordinates_ == 0 ? count < 4 && has_more() : count < coordinates_; ++count) number();
+      coordinates_ = count;
     });
   }
 
+  /// Returns whether a point has another coordinate.
+  bool has_more() {
+    skip_space();
+    return at_ < text_.size() && is_of_token(text_[at_]);
+  }
+
+  double position() {
+    skip_space();
+    const std::size_t begin = at_;
+    const double value = number();
+    if (!(std::abs(value) <= detail::rounding::largest_position)) reject_at(begin, "a number within +-1e9");
+    return value;
+  }
+
+  /// Reads any number, as a height that is ignored may be: NaN, too.
   double number() {
     skip_space();
     const std::size_t begin = at_;
@@ -219,8 +238,7 @@ class WktReader {
         detail::double_from_chars(text_.data() + at_, text_.data() + text_.size(), value);
     if (error == std::errc::invalid_argument || (end != text_.data() + text_.size() && is_of_token(*end)))
       reject_at(begin, "a number");
-    if (error != std::errc() || !(std::abs(value) <= detail::rounding::largest_position))
-      reject_at(begin, "a number within +-1e9");
+    if (error == std::errc::result_out_of_range) value = HUGE_VAL;
     at_ = static_cast<std::size_t>(end - text_.data());
     return value;
   }
@@ -228,7 +246,7 @@ class WktReader {
   std::string_view text_;
   bool walkable_;
   std::size_t at_ = 0;
-  int coordinates_ = 2;
+  int coordinates_ = 0;  ///< of a point; 0: not known yet
   ReadObstacles read_;
 };
 

@@ -79,8 +79,8 @@ class ObstacleSet {
 /// Reads obstacles from well-known text, as JuPedSim and geographic information systems write it. The text is any number of POLYGON,
 /// MULTIPOLYGON, LINESTRING, MULTILINESTRING and GEOMETRYCOLLECTION, one after the other. Each line and each solid polygon is one
 /// obstacle; of walkable polygons each ring is one. Empty geometries give no obstacle. All obstacles reach from `bottom` to `top`. The
-/// numbers of Z, M and ZM, with or without a space before these, are read and ignored, and so are the reference system of extended text
-/// (SRID=4326;) and a byte order mark.
+/// numbers of Z, M and ZM, with or without a space before these, are read and ignored, NaN included. So are the reference system of
+/// extended text (SRID=4326;), its third and fourth coordinates, which it does not name, and a byte order mark.
 /// Errors:  throws std::invalid_argument on malformed text, with the line and column, what stands there and what was
 ///          expected; and as ObstacleSet does. Columns count bytes. Bytes that cannot be printed are escaped, in hexadecimal.
 ObstacleSet obstacles_from_wkt(std::string_view text, Polygons polygons = Polygons::solid,

@@ -74,6 +74,24 @@ TEST(ReadWkt, TakesWhatProgramsWrite) {
   EXPECT_EQ(obstacles_from_wkt("\xef\xbb\xbf").obstacle_count(), 0u);
 }
 
+TEST(ReadWkt, IgnoresCoordinatesBeyondTheSecond) {
+  const ObstacleSet set = obstacles_from_wkt(
+      "POLYGON Z((0 0 NaN, 4 0 nan, 4 4 -inf, 0 0 1e400))LINESTRING M(10 0 1e300, 11 0 2e9)"
+      "SRID=25832;POLYGON((20 0 7, 24 0 7, 24 4 7, 20 0 7), (21 1 NaN, 22 1 7, 22 1.5 7))LINESTRING(30 0 1 "
+      "2, 31 0 3 4)"
+      "GEOMETRYCOLLECTION(LINESTRING(40 0, 41 0), LINESTRING(50 0 7, 51 0 7))");
+  EXPECT_EQ(set.obstacle_count(), 6u);
+  for (const double x : {3.5, 10.5, 20.5, 30.5, 40.5, 50.5}) EXPECT_TRUE(collides_at(set, x, 0)) << x;
+  EXPECT_EQ(complaint_about("LINESTRING(0 0 7, 1 1)"),
+            "WKT: line 1, column 22: expected a number, found ')'");
+  EXPECT_EQ(complaint_about("LINESTRING(0 0, 1 1 7)"),
+            "WKT: line 1, column 21: expected ',' or ')', found '7'");
+  EXPECT_EQ(complaint_about("LINESTRING(0 0 1 2 3, 1 1 1 2 3)"),
+            "WKT: line 1, column 20: expected ',' or ')', found '3'");
+  EXPECT_EQ(complaint_about("LINESTRING(NaN 0 1, 1 1 1)"),
+            "WKT: line 1, column 12: expected a number within +-1e9, found 'NaN'");
+}
+
 TEST(ReadWkt, TakesNumbersThatVanishAsZero) {
   const std::string zeros(400, '0');
   const ObstacleSet set = obstacles_from_wkt(
