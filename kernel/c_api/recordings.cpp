@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
+#include <chrono>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <numbers>
 #include <span>
 
@@ -36,14 +38,48 @@ namespace {
 
 using namespace bch::detail;
 
-std::unique_ptr<bch_trajectory> open(const char* path, const bch_trajectory_options& given) {
+/// Asks the caller whether reading goes on, twenty times a second at most, as long as the recording is opened.
+class Opening {
+ public:
+  explicit Opening(const bch_trajectory_options& given) : given_(&given) {}
+
+  bool go_on() {
+    const auto now = std::chrono::steady_clock::now();
+    if (given_ == nullptr || given_->progress == nullptr || now < next_) return true;
+    next_ = now + std::chrono::milliseconds(50);
+    is_cancelled_ = is_cancelled_ || given_->progress(given_->user, 0, 0) != 0;
+    return !is_cancelled_;
+  }
+  void end() { given_ = nullptr; }
+  bool is_cancelled() const { return is_cancelled_; }
+
+ private:
+  const bch_trajectory_options* given_;
+  std::chrono::steady_clock::time_point next_{};
+  bool is_cancelled_ = false;
+};
+
+std::unique_ptr<TrajectoryReader> opened(const char* path, const bch_trajectory_options& given) {
   TrajectoryOptions options;
   if (given.fps != 0) options.fps = given.fps;
   if (given.unit != 0) options.unit = given.unit;
   if (given.columns != nullptr) options.columns = given.columns;
   require_file(path);
+  const auto opening = std::make_shared<Opening>(given);
+  options.go_on = [opening] { return opening->go_on(); };
+  try {
+    auto reader = open_trajectory(path, options);
+    opening->end();
+    return reader;
+  } catch (const TrajectoryError& error) {
+    if (opening->is_cancelled()) throw Failure(BCH_CANCELLED, error.what());
+    throw;
+  }
+}
+
+std::unique_ptr<bch_trajectory> open(const char* path, const bch_trajectory_options& given) {
   auto trajectory = std::make_unique<bch_trajectory>();
-  trajectory->reader = open_trajectory(path, options);
+  trajectory->reader = opened(path, given);
   for (const std::string& line : trajectory->reader->info().assumptions)
     trajectory->assumptions += line + "\n";
   for (const NamedMotion& motion : trajectory->reader->info().motions)

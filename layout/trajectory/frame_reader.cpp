@@ -32,7 +32,7 @@ FrameReader::FrameReader(std::unique_ptr<RowSource> source, const TrajectoryOpti
   has_times_ = before.clock == Clock::times;
   if (before.clock == Clock::frames && !before.rate && !options.fps)
     source_->places().reject("says no frame rate: --fps has to give the frame numbers a second");
-  const Survey found = survey(before.clock, options.sort_memory);
+  const Survey found = survey(before.clock, options);
   if (found.rows == 0) source_->places().reject("has no rows");
   Recording recording = source_->recording();
   info_.format = std::move(recording.format);
@@ -48,16 +48,20 @@ FrameReader::FrameReader(std::unique_ptr<RowSource> source, const TrajectoryOpti
 }
 
 /// Reads all rows, sorts them if need be, and goes back to the first.
-Survey FrameReader::survey(Clock clock, std::size_t sort_memory) {
+Survey FrameReader::survey(Clock clock, const TrajectoryOptions& options) {
+  const auto look = [&] {
+    if (options.go_on && !options.go_on()) source_->places().reject("reading it was cancelled");
+  };
   Survey found;
-  if (survey_ordered(*source_, found)) {
+  if (survey_ordered(*source_, found, look)) {
     source_->rewind();
     return found;
   }
   source_->rewind();
   found = {};
-  RowSorter sorter(sort_memory);
+  RowSorter sorter(options.sort_memory);
   while (const std::size_t count = source_->read(batch_)) {
+    look();
     const std::span<const Row> read(batch_.data(), count);
     if (clock == Clock::frames)
       for (const Row& row : read) found.add(row);
@@ -65,7 +69,7 @@ Survey FrameReader::survey(Clock clock, std::size_t sort_memory) {
   }
   sorted_ = std::move(sorter).finish();
   if (clock != Clock::frames) {  // whose steps in order matter
-    survey_ordered(*sorted_, found);
+    survey_ordered(*sorted_, found, look);
     sorted_->rewind();
   }
   return found;

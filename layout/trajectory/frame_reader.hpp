@@ -40,7 +40,7 @@ class FrameReader final : public TrajectoryReader {
   std::int64_t last_key_ = 0;
 
   RowStream& rows() { return sorted_ ? *sorted_ : static_cast<RowStream&>(*source_); }
-  Survey survey(Clock clock, std::size_t sort_memory);
+  Survey survey(Clock clock, const TrajectoryOptions& options);
   void settle_origin(double origin, const Survey& survey);
   void settle_rate(const Recording& recording, const Survey& survey, const TrajectoryOptions& options);
   double rate_of_times(const Survey& survey);

@@ -15,8 +15,6 @@ namespace bch::detail::trajectory {
 namespace {
 
 constexpr std::int64_t newest_version = 3;
-/// A row's cell takes no less, with its place in a page's list of cells.
-constexpr std::int64_t least_bytes_a_row = 8;
 
 enum Column : int { frame, id, pos_x, pos_y, ori_x, ori_y };
 constexpr const char* jupedsim_columns[] = {"frame", "id", "pos_x", "pos_y", "ori_x", "ori_y"};
@@ -24,7 +22,7 @@ constexpr const char* jupedsim_columns[] = {"frame", "id", "pos_x", "pos_y", "or
 class JuPedSim final : public RowSource {
  public:
   JuPedSim(const std::filesystem::path& file, const TrajectoryOptions& options)
-      : places_{file, false}, database_(places_), metres_(options.unit.value_or(1)) {
+      : places_{file, false}, database_(places_, options.go_on), metres_(options.unit.value_or(1)) {
     require_tables();
     read_metadata(options);
     read_geometry();
@@ -33,7 +31,6 @@ class JuPedSim final : public RowSource {
       if (!database_.has_column(table, jupedsim_columns[column]))
         places_.reject("table trajectory_data has no column " + std::string(jupedsim_columns[column]));
     has_orientation_ = database_.has_column(table, "ori_x") && database_.has_column(table, "ori_y");
-    most_rows_ = static_cast<std::uint64_t>(database_.bytes() / least_bytes_a_row);
     // In the order of the file, whatever indices there are.
     const std::string from = " FROM trajectory_data NOT INDEXED";
     keys_.emplace(database_, "SELECT frame, id" + from);
@@ -71,7 +68,7 @@ class JuPedSim final : public RowSource {
   std::optional<SqliteStatement> keys_, rows_;
   bool has_orientation_ = false, at_end_ = false;
   std::int64_t version_ = 0;
-  std::uint64_t number_ = 0, most_rows_ = 0;
+  std::uint64_t number_ = 0;
 
   void require_tables() {
     for (const char* const table : {"metadata", "trajectory_data"})
@@ -122,7 +119,7 @@ class JuPedSim final : public RowSource {
   bool step(SqliteStatement& statement) {
     if (at_end_) return false;
     at_end_ = !statement.step();
-    if (!at_end_ && ++number_ > most_rows_) places_.reject("is damaged: has more rows than fit into it");
+    number_ += !at_end_;
     return !at_end_;
   }
 

@@ -10,6 +10,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstring>
+#include <functional>
 #include <new>
 #include <optional>
 #include <stdexcept>
@@ -79,7 +80,7 @@ void send(const std::filesystem::path& path, int to) {
 class PedestrianArchive final : public RowSource {
  public:
   PedestrianArchive(const std::filesystem::path& file, const TrajectoryOptions& options)
-      : places_{file, false}, metres_(options.unit.value_or(1)), patience_(options.patience) {
+      : places_{file, false}, metres_(options.unit.value_or(1)), patience_(options.patience), go_on_(options.go_on) {
     begin();
     if (header_.fps != 0 && !options.fps) rate_ = checked_fps(places_, header_.fps, "the attribute 'fps'");
   }
@@ -113,6 +114,7 @@ class PedestrianArchive final : public RowSource {
   Places places_;
   double metres_;
   std::chrono::milliseconds patience_;
+  std::function<bool()> go_on_;
   std::optional<double> rate_;
   std::optional<ChildProcess> child_;
   Header header_;
@@ -146,6 +148,7 @@ class PedestrianArchive final : public RowSource {
       const std::optional<std::size_t> got =
           child_->read(bytes, std::min<std::chrono::milliseconds>(patience_, std::chrono::seconds(1)));
       if (got == std::size_t{0}) reject_end();
+      if (go_on_ && !go_on_()) places_.reject("reading it was cancelled");
       const auto now = std::chrono::steady_clock::now();
       if (got) {
         bytes = bytes.subspan(*got);

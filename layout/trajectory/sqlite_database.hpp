@@ -6,6 +6,7 @@
 #include <sqlite3.h>
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -46,11 +47,13 @@ class SqliteStatement {
 };
 
 /// Represents a database that is only read: within limits, without triggers, views, extensions or other files, in one transaction, so that
-/// all queries see the same.
-/// Errors:  all functions throw TrajectoryError.
+/// all queries see the same. No file is made or changed, but for the index of a log, where there is one.
+/// Errors:  all functions throw TrajectoryError, also where a go_on() that is not empty says no.
 class SqliteDatabase {
  public:
-  explicit SqliteDatabase(const Places& places);
+  SqliteDatabase(const Places& places, std::function<bool()> go_on);
+  SqliteDatabase(const SqliteDatabase&) = delete;
+  SqliteDatabase& operator=(const SqliteDatabase&) = delete;
 
   const Places& places() const { return *places_; }
   sqlite3* get() const { return handle_.get(); }
@@ -60,8 +63,6 @@ class SqliteDatabase {
   bool has_table(const std::string& name) const;
   /// Returns whether a table has a column.
   bool has_column(const std::string& table, std::string_view column) const;
-  /// Returns the size of all of its pages.
-  std::int64_t bytes() const;
 
   /// Throws what SQLite says is wrong.
   [[noreturn]] void fail() const;
@@ -71,10 +72,17 @@ class SqliteDatabase {
     void operator()(sqlite3* handle) const { sqlite3_close(handle); }
   };
   const Places* places_;
+  std::function<bool()> go_on_;
+  bool is_cancelled_ = false;
+  std::uint64_t page_size_ = 0, cost_ = 0, most_cost_ = 0;
+  std::shared_ptr<void> log_index_;  ///< which the handle uses
   std::unique_ptr<sqlite3, Close> handle_;
 
-  void restrict_it() const;
+  static int look(void* database);
+  void open();
+  void restrict_it();
   void run(const char* sql) const;
+  [[noreturn]] void reject_half_a_change() const;
 };
 
 }  // namespace bch::detail::trajectory

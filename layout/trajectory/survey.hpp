@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <optional>
 #include <unordered_set>
@@ -53,8 +54,8 @@ struct Survey {
   void add(const Row& row);
 };
 
-/// Counts rows until one has a smaller key than the row before.
+/// Counts rows until one has a smaller key than the row before, and calls `look`, which may throw, now and then.
 /// Returns: whether none has.
-bool survey_ordered(RowStream& rows, Survey& survey);
+bool survey_ordered(RowStream& rows, Survey& survey, const std::function<void()>& look);
 
 }  // namespace bch::detail::trajectory

@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -50,6 +51,8 @@ struct TrajectoryOptions {
   std::size_t sort_memory = std::size_t{32} << 20;  ///< bytes of rows that are sorted at a time
   /// Limits how long the process that reads HDF5 may say nothing.
   std::chrono::milliseconds patience{30'000};
+  /// Asked often while the file is opened and read, which ends with an error when it says no. Does not throw.
+  std::function<bool()> go_on = {};
 };
 
 /// Holds what a recording is, known before its first frame is read.
@@ -85,7 +88,7 @@ class TrajectoryReader {
 };
 
 /// Opens a recording, whose format is told by its content: JuPedSim's SQLite (versions 1 to 3), PeTrack's and Juelich's text,
-/// HDF5 of the Pedestrian Dynamics Data Archive, Pathfinder's CSV, CSV with a header, TrajNet++'s ndjson, ETH/UCY columns.
+/// HDF5 of the Pedestrian Dynamics Data Archive and of JuPedSim, Pathfinder's CSV, CSV with a header, TrajNet++'s ndjson, ETH/UCY columns.
 /// The file is read once to its end, to learn what info() says, and again for the frames. It is not trusted.
 /// Memory:  grows with the people of a frame and with options.sort_memory, not with the rows. Files whose frames are out of
 ///          order are sorted through a file without a name in the folder for temporary files, 56 bytes a row.

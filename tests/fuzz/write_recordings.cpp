@@ -30,6 +30,15 @@ void write_databases(const fs::path& folder) {
   file.version = "1";
   file.geometry = "CREATE TABLE geometry(wkt TEXT NOT NULL); INSERT INTO geometry VALUES('POLYGON EMPTY');";
   write_sqlite(folder / "seed2", small_pages + file.sql());
+  // Trees that are graphs.
+  file = {};
+  const std::string without_index = "DROP INDEX frame_id_idx;";
+  const char* const tables[] = {"frame_data", "trajectory_data", "sqlite_schema"};
+  for (int i = 0; i < 3; ++i) {
+    const fs::path seed = folder / ("seed" + std::to_string(3 + i));
+    write_sqlite(seed, "PRAGMA page_size=1024;" + file.sql() + without_index);
+    make_graph(seed, tables[i]);
+  }
 }
 
 void write_archives(const fs::path& folder) {

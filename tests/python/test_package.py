@@ -19,6 +19,7 @@ import time
 import tracemalloc
 import unittest
 from pathlib import Path
+from unittest import mock
 
 import bch
 import numpy as np
@@ -402,6 +403,13 @@ class Recordings(unittest.TestCase):
         self.assertTrue((trajectory.character == "").all() and np.isnan(trajectory.rows["clip_time"]).all())
         with self.assertRaises(FileNotFoundError):
             bch.read_trajectory("/nowhere.txt")
+
+    def test_reading_is_interrupted(self):
+        from bch import _progress
+
+        for read in (bch.read_trajectory, bch.check):
+            with mock.patch.object(_progress.Watched, "_advance", lambda *_: 1), self.assertRaises(KeyboardInterrupt):
+                read(self.path)
 
     def test_reading_what_rows_name(self):
         path = Path(self.folder.name) / "named.csv"

@@ -8,6 +8,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
+#include <iterator>
 #include <set>
 #include <stdexcept>
 
@@ -18,6 +20,54 @@ namespace {
 
 std::string number(float value) {
   return std::isnan(value) ? "-" : detail::shortest(value);
+}
+
+std::string bytes_of(const std::filesystem::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+std::uint32_t big_endian(const std::string& bytes, std::size_t at, std::size_t size) {
+  std::uint32_t value = 0;
+  for (std::size_t i = at; i < at + size; ++i) value = value << 8 | static_cast<unsigned char>(bytes[i]);
+  return value;
+}
+
+void put(std::string& bytes, std::size_t at, std::size_t size, std::size_t value) {
+  for (std::size_t i = at + size; i-- > at; value >>= 8) bytes[i] = static_cast<char>(value);
+}
+
+/// An inner page of a table's tree, whose children are all the same but for the first.
+std::string inner_page(std::size_t size, std::size_t first, std::size_t other, std::size_t children) {
+  std::string page(size, '\0');
+  page[0] = 5;
+  put(page, 3, 2, children);
+  put(page, 8, 4, other);
+  std::size_t cell = size;
+  for (std::size_t i = 0; i < children; ++i) {
+    cell -= 5;
+    put(page, cell, 4, i == 0 ? first : other);
+    page[cell + 4] = 1;  // a key
+    put(page, 12 + 2 * i, 2, cell);
+  }
+  put(page, 5, 2, cell);
+  return page;
+}
+
+/// Returns the page in which a table's tree begins.
+std::size_t root_of(const std::filesystem::path& file, const std::string& table) {
+  if (table == "sqlite_schema") return 1;
+  sqlite3* database = nullptr;
+  sqlite3_open(file.c_str(), &database);
+  const std::string sql = "SELECT rootpage FROM sqlite_schema WHERE name='" + table + "'";
+  sqlite3_stmt* row = nullptr;
+  sqlite3_prepare_v2(database, sql.c_str(), -1, &row, nullptr);
+  const bool found = sqlite3_step(row) == SQLITE_ROW;
+  const int root = sqlite3_column_int(row, 0);
+  sqlite3_finalize(row);
+  sqlite3_close(database);
+  if (!found) throw std::runtime_error("no table " + table);
+  return static_cast<std::size_t>(root);
 }
 
 }  // namespace
@@ -90,6 +140,30 @@ void write_sqlite(const std::filesystem::path& file, const std::string& sql) {
   const std::string reason = made ? "" : sqlite3_errmsg(database);
   sqlite3_close(database);
   if (!made) throw std::runtime_error(reason + ": " + sql);
+}
+
+void make_graph(const std::filesystem::path& file, const std::string& table) {
+  std::string bytes = bytes_of(file);
+  const std::size_t size = big_endian(bytes, 16, 2), root = root_of(file, table), head = root == 1 ? 100 : 0;
+  const std::string old = bytes.substr((root - 1) * size, size);
+  if (old[head] != 13) throw std::runtime_error(table + " has more than a page");
+  std::string leaf = old;  // whose cells stay where they are, below a head at 0
+  leaf.replace(0, 8, old, head, 8);
+  const std::size_t cells = 2 * big_endian(old, head + 3, 2);
+  leaf.replace(8, cells, old, head + 8, cells);
+  bytes += leaf;
+  const std::size_t first = bytes.size() / size;
+  std::size_t below = first;
+  for (int level = 0; level < 8; ++level) {
+    bytes += inner_page(size, below, below, 60);
+    below = bytes.size() / size;
+  }
+  const std::string top = inner_page(size, first, below, 1);
+  bytes.replace((root - 1) * size + head, 12 + 2, top, 0, 12 + 2);
+  bytes.replace(root * size - 5, 5, top, size - 5, 5);
+  put(bytes, 28, 4, bytes.size() / size);
+  put(bytes, 92, 4, big_endian(bytes, 24, 4));  // the number of pages is that of the last change
+  std::ofstream(file, std::ios::binary) << bytes;
 }
 
 }  // namespace bch::test

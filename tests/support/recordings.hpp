@@ -40,4 +40,7 @@ std::string trajectory_complaint(const std::filesystem::path& file,
 /// Makes a SQLite file by statements, in place of one that may be there.
 void write_sqlite(const std::filesystem::path& file, const std::string& sql);
 
+/// Changes a SQLite file so that the tree of a table that fits into a page, or of "sqlite_schema", has paths without number to that page.
+void make_graph(const std::filesystem::path& file, const std::string& table);
+
 }  // namespace bch::test

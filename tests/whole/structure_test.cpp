@@ -103,7 +103,7 @@ TEST(Layers, LibrariesStayInTheirRooms) {
                     "^(character|default_character|import)/.*cpp$|^character/(eigen|rotation_blend)|"
                     "^default_character/(body|human)_|^import/(scene|units)");
   expect_no_include("layout", "xxhash", "^baked/checksum");
-  expect_no_include("layout", "sqlite3", "^trajectory/sqlite_database");
+  expect_no_include("layout", "sqlite3", "^trajectory/sqlite_");
   expect_no_include("layout", "hdf5", "^trajectory/hdf5_recording");
   expect_no_include("layout", "layout/trajectory/", "^trajectory/");
   expect_no_include("kernel", "assimp/|Eigen/|polyclipping/");

@@ -337,7 +337,14 @@ class Motion(ctypes.Structure):
 
 
 class TrajectoryOptions(_Sized):
-    _fields_ = [("size", c_uint32), ("fps", c_double), ("unit", c_double), ("columns", c_char_p)]
+    _fields_ = [
+        ("size", c_uint32),
+        ("fps", c_double),
+        ("unit", c_double),
+        ("columns", c_char_p),
+        ("progress", Progress),
+        ("user", c_void_p),
+    ]
 
 
 class TrajectoryInfo(_Sized):

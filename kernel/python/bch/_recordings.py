@@ -38,6 +38,8 @@ _EVENT = np.dtype(
     [("first", i8), ("second", i8), ("from", i8), ("to", i8), ("worst", i8), ("x", f8), ("y", f8), ("depth", f4)]
     + [("frames", u4), ("kind", i4), ("_", i4)]
 )
+#: People whom a frame has at most.
+_MOST_PEOPLE = 1_000_000
 
 
 class NamedMotion(NamedTuple):
@@ -87,10 +89,14 @@ def dataframe(records: Union[Records, Trajectory]) -> Any:
 
 
 def _open(path: Path, fps: Optional[float], unit: Optional[float], columns: Optional[str]) -> Handle:
-    options = _library.TrajectoryOptions(
-        fps=fps or 0.0, unit=unit or 0.0, columns=None if columns is None else encoded(columns, "columns")
-    )
-    return Handle("trajectory", "open", encoded(path, "path"), byref(options))
+    with Watched("reading", False) as watched:
+        options = _library.TrajectoryOptions(
+            fps=fps or 0.0,
+            unit=unit or 0.0,
+            columns=None if columns is None else encoded(columns, "columns"),
+            progress=watched.callback,
+        )
+        return Handle("trajectory", "open", encoded(path, "path"), byref(options), checked=watched.run)
 
 
 def _info(handle: Handle) -> _library.TrajectoryInfo:
@@ -111,6 +117,8 @@ def read_trajectory(
 ) -> Trajectory:
     """Read a recording: JuPedSim, PeTrack, Pedestrian Dynamics Data Archive, Pathfinder, TrajNet++, ETH/UCY or CSV.
 
+    Ctrl-C interrupts it.
+
     Parameters
     ----------
     path : path
@@ -127,7 +135,7 @@ def read_trajectory(
     count = ctypes.c_size_t()
     done = 0
     while done < len(rows):
-        rest = rows[done:]
+        rest = rows[done : done + _MOST_PEOPLE]  # Ctrl-C gets through between the calls
         _check(lib.bch_trajectory_read_moving(handle.pointer, address(rest), len(rest), byref(count)))
         if count.value == 0:
             break

@@ -763,15 +763,17 @@ BCH_API bch_status bch_free_until(const bch_motion* motion, const bch_motion* ot
 typedef struct bch_trajectory bch_trajectory;
 /** Holds values that override those of the file. */
 typedef struct bch_trajectory_options {
-  uint32_t size;       /**< sizeof(bch_trajectory_options) */
-  double fps;          /**< frames a second; 0: what the file says */
-  double unit;         /**< metres for a unit of the file; 0: what the file says */
-  const char* columns; /**< of text and CSV: the names of their columns in order, as "frame,id,x,y"; NULL: what the file says */
+  uint32_t size;         /**< sizeof(bch_trajectory_options) */
+  double fps;            /**< frames a second; 0: what the file says */
+  double unit;           /**< metres for a unit of the file; 0: what the file says */
+  const char* columns;   /**< of text and CSV: the names of their columns in order, as "frame,id,x,y"; NULL: what the file says */
+  bch_progress progress; /**< or NULL; called with 0 of 0 parts while the recording is opened, and can cancel */
+  void* user;            /**< for progress */
 } bch_trajectory_options;
 #define BCH_TRAJECTORY_OPTIONS_INIT \
-  { sizeof(bch_trajectory_options), 0, 0, NULL }
-/** Opens a recording, whose format is recognised by its content: JuPedSim's SQLite, PeTrack's and Juelich's text, the Pedestrian Dynamics
- * Data Archive's HDF5, Pathfinder's CSV, TrajNet++ and ETH/UCY, CSV with a header. */
+  { sizeof(bch_trajectory_options), 0, 0, NULL, NULL, NULL }
+/** Opens a recording, whose format is recognised by its content: JuPedSim's SQLite and HDF5, PeTrack's and Juelich's text, the Pedestrian
+ * Dynamics Data Archive's HDF5, Pathfinder's CSV, TrajNet++ and ETH/UCY, CSV with a header. */
 BCH_API bch_status bch_trajectory_open(const char* path, const bch_trajectory_options* options,
                                        bch_trajectory** trajectory);
 /** Holds the format, size and assumptions of a recording. */
