@@ -97,23 +97,42 @@ class JuPedSim final : public RowSource {
 
   /// Takes the geometry of the first frame.
   void read_geometry() {
-    if (!database_.has_table("geometry")) {
-      recording_.assumptions.emplace_back("There are no walls: the file has no geometry.");
-      return;
-    }
+    if (!database_.has_table("geometry")) return say_that_there_is_none();
     const bool by_frame = version_ > 1 && database_.has_table("frame_data");
     std::string which = " ORDER BY rowid LIMIT 1";
     if (by_frame) which = " WHERE hash = (SELECT geometry_hash FROM frame_data ORDER BY frame LIMIT 1)";
     SqliteStatement geometry(database_, "SELECT wkt FROM geometry" + which);
-    if (geometry.step())
-      recording_.geometry = geometry.text(0);
-    else
-      recording_.assumptions.emplace_back("There are no walls: the file has no geometry.");
-    SqliteStatement count(database_, by_frame ? "SELECT count(DISTINCT geometry_hash) FROM frame_data"
-                                              : "SELECT count(DISTINCT wkt) FROM geometry");
-    if (count.step() && count.integer(0) > 1)
+    if (!geometry.step()) return take_the_only_geometry();
+    recording_.geometry = geometry.text(0);
+    const std::int64_t count =
+        number_of(by_frame ? "DISTINCT geometry_hash) FROM frame_data" : "DISTINCT wkt) FROM geometry");
+    if (count > 1)
       recording_.assumptions.push_back("The geometry of the first frame is that of all: the file has " +
-                                       std::to_string(count.integer(0)) + ", which differ.");
+                                       std::to_string(count) + ", which differ.");
+  }
+
+  /// For a file whose first frame names none that is there.
+  void take_the_only_geometry() {
+    const std::int64_t count = number_of("DISTINCT wkt) FROM geometry");
+    if (count == 0) return say_that_there_is_none();
+    if (count > 1) {
+      recording_.assumptions.push_back("There are no walls: the file has " + std::to_string(count) +
+                                       " geometries, and its first frame names none of them.");
+      return;
+    }
+    SqliteStatement geometry(database_, "SELECT wkt FROM geometry WHERE wkt IS NOT NULL LIMIT 1");
+    if (geometry.step()) recording_.geometry = geometry.text(0);
+    recording_.assumptions.emplace_back(
+        "The only geometry of the file is that of all frames, though the first frame does not name it.");
+  }
+
+  void say_that_there_is_none() {
+    recording_.assumptions.emplace_back("There are no walls: the file has no geometry.");
+  }
+
+  std::int64_t number_of(const std::string& what) const {
+    SqliteStatement count(database_, "SELECT count(" + what);
+    return count.step() ? count.integer(0) : 0;
   }
 
   bool step(SqliteStatement& statement) {

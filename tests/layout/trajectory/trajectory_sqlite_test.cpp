@@ -79,6 +79,29 @@ TEST_F(JuPedSimFiles, MayHaveSeveralGeometriesOrNone) {
   }
 }
 
+TEST_F(JuPedSimFiles, HaveTheirOnlyGeometryThoughNoFrameNamesIt) {
+  const std::string tables =
+      "CREATE TABLE geometry(hash INTEGER NOT NULL, wkt TEXT NOT NULL);"
+      "CREATE TABLE frame_data(frame INTEGER NOT NULL, geometry_hash INTEGER NOT NULL);";
+  const char* const only =
+      "The only geometry of the file is that of all frames, though the first frame does not name it.";
+  JuPedSimFile file;
+  for (const char* const frames : {"", "INSERT INTO frame_data VALUES(0,8);"}) {
+    file.geometry = tables + frames + "INSERT INTO geometry VALUES(5,'POLYGON EMPTY');";
+    const ReadRecording one = read(file);
+    EXPECT_EQ(one.info.geometry, "POLYGON EMPTY");
+    EXPECT_EQ(one.info.assumptions, std::vector<std::string>{only});
+    file.geometry += "INSERT INTO geometry VALUES(6,'POLYGON EMPTY');";
+    EXPECT_EQ(read(file).info.assumptions, std::vector<std::string>{only});
+    file.geometry += "INSERT INTO geometry VALUES(7,'POINT EMPTY');";
+    const ReadRecording two = read(file);
+    EXPECT_EQ(two.info.geometry, "");
+    EXPECT_EQ(two.info.assumptions,
+              std::vector<std::string>{
+                  "There are no walls: the file has 2 geometries, and its first frame names none of them."});
+  }
+}
+
 TEST_F(JuPedSimFiles, NameTheRowThatIsWrong) {
   const std::pair<const char*, const char*> cases[] = {
       {"(0,1,9e999,2,0,0)", "row 4: pos_x 'Inf' is not finite"},
